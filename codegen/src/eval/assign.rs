@@ -1,0 +1,135 @@
+//! Assignment to variables and their parts.
+
+use super::Evaluator;
+use super::expr::{lane, out_of_range};
+use super::value::{Eval, Exit, Value};
+use crate::diagnostic::{Diagnostic, Span};
+use crate::front::tree::{Expr, ExprKind};
+use crate::ir::{BinaryOp, NodeId, Op, Scalar, Type};
+
+/// A way from a variable to one of its parts.
+enum Step {
+    Field(String),
+    Index(Value),
+}
+
+impl Evaluator<'_> {
+    /// `place = value` or `place op= value`.
+    pub fn assign(&mut self, place: &Expr, op: Option<BinaryOp>, value: &Expr, span: Span) -> Eval {
+        let mut value = self.expr(value)?;
+        let mut path = Vec::new();
+        let name = self.place(place, &mut path)?;
+        if let Some(op) = op {
+            let mut old = self.variable(&name, place.span)?;
+            for step in &path {
+                old = match step {
+                    Step::Field(field) => self.field(&old, field, place.span)?,
+                    Step::Index(index) => self.element(&old, index, place.span)?,
+                };
+            }
+            value = self.binary(op, &old, &value, span)?;
+        }
+        self.name(&value, &name, span);
+        let old = self.variable(&name, place.span)?;
+        let new = self.replace(&old, &path, value, span)?;
+        if matches!(&new, Value::Node(id) if self.ty(*id).is_array()) {
+            self.name(&new, &name, span);
+        }
+        match self.scope.get_mut(&name) {
+            Some(slot) => *slot = new,
+            None => return Err(unknown(&name, place.span).into()),
+        }
+        Ok(Value::unit())
+    }
+
+    fn variable(&self, name: &str, span: Span) -> Eval {
+        self.scope.get(name).cloned().ok_or_else(|| unknown(name, span).into())
+    }
+
+    /// The variable that a place is part of, and the way to the part.
+    fn place(&mut self, place: &Expr, path: &mut Vec<Step>) -> Eval<String> {
+        match &place.kind {
+            ExprKind::Path(segments) if segments.len() == 1 => Ok(segments[0].clone()),
+            ExprKind::Field(base, field) => {
+                let name = self.place(base, path)?;
+                path.push(Step::Field(field.clone()));
+                Ok(name)
+            }
+            ExprKind::Index(base, index) => {
+                let name = self.place(base, path)?;
+                let index = self.expr(index)?;
+                path.push(Step::Index(index));
+                Ok(name)
+            }
+            _ => Err(Diagnostic::at(place.span, "this cannot be assigned to")
+                .label("not a variable")
+                .help("assign to a variable, a field or an element")
+                .into()),
+        }
+    }
+
+    /// `old` with the part at `path` replaced.
+    fn replace(&mut self, old: &Value, path: &[Step], new: Value, span: Span) -> Eval {
+        let Some((step, rest)) = path.split_first() else { return Ok(new) };
+        match (old, step) {
+            (Value::Struct { ty, fields }, Step::Field(name)) => {
+                let mut fields = fields.clone();
+                match fields.iter_mut().find(|(field, _)| field == name) {
+                    Some((_, slot)) => *slot = self.replace(&slot.clone(), rest, new, span)?,
+                    None => return Err(Diagnostic::at(span, format!("`{ty}` has no field `{name}`")).into()),
+                }
+                Ok(Value::Struct { ty: ty.clone(), fields })
+            }
+            (Value::Tuple(parts), Step::Field(name)) => {
+                let mut parts = parts.clone();
+                match name.parse::<usize>().ok().and_then(|k| parts.get_mut(k)) {
+                    Some(slot) => *slot = self.replace(&slot.clone(), rest, new, span)?,
+                    None => return Err(Diagnostic::at(span, format!("a tuple has no `.{name}`")).into()),
+                }
+                Ok(Value::Tuple(parts))
+            }
+            (Value::Array(elements), Step::Index(index)) if self.known_int(index).is_some() => {
+                let mut elements = elements.clone();
+                let (len, k) = (elements.len(), self.known_int(index).unwrap_or(-1));
+                match usize::try_from(k).ok().and_then(|k| elements.get_mut(k)) {
+                    Some(slot) => *slot = self.replace(&slot.clone(), rest, new, span)?,
+                    None => return Err(out_of_range(k, len, span).into()),
+                }
+                Ok(Value::Array(elements))
+            }
+            (Value::Array(_) | Value::Node(_), Step::Index(index)) => self.set_element(old, index, rest, new, span),
+            (Value::Node(id), Step::Field(name)) => self.set_lane(*id, name, &new, span),
+            (Value::Poison, _) => Err(Exit::Noted),
+            (other, _) => Err(Diagnostic::at(span, format!("{} has no such part", other.describe())).into()),
+        }
+    }
+
+    /// An element whose index is known at run time only.
+    fn set_element(&mut self, old: &Value, index: &Value, rest: &[Step], new: Value, span: Span) -> Eval {
+        let current = self.element(old, index, span)?;
+        let element = self.replace(&current, rest, new, span)?;
+        let array = self.array_node(old, span)?;
+        let index = self.index_node(index, span)?;
+        let (element, _) = self.same_type(&element, &current, span)?;
+        let ty = self.ty(array);
+        Ok(Value::Node(self.builder.add(Op::ArraySet, vec![array, index, element], ty)))
+    }
+
+    fn set_lane(&mut self, vector: NodeId, name: &str, new: &Value, span: Span) -> Eval {
+        let ty = self.ty(vector);
+        let part = Type::value(ty.kind().unwrap_or(Scalar::F32), 1);
+        let Some(changed) = lane(name).filter(|k| *k < ty.lanes() && ty.lanes() > 1) else {
+            return Err(Diagnostic::at(span, format!("a {ty} has no field `{name}`")).into());
+        };
+        let mut lanes = Vec::new();
+        for k in 0..ty.lanes() {
+            let old = self.builder.add(Op::Extract(k), vec![vector], part);
+            lanes.push(if k == changed { self.same_type(new, &Value::Node(old), span)?.0 } else { old });
+        }
+        Ok(Value::Node(self.builder.add(Op::Compose, lanes, ty)))
+    }
+}
+
+fn unknown(name: &str, span: Span) -> Diagnostic {
+    Diagnostic::at(span, format!("there is no variable `{name}`"))
+}

@@ -1,0 +1,196 @@
+//! Calls: the kernel's own functions, inlined, and the prelude's.
+
+use super::scope::Scope;
+use super::value::{Eval, Exit, Value};
+use super::{Evaluator, MAX_CALLS};
+use crate::diagnostic::{Diagnostic, Span};
+use crate::front::tree::Expr;
+use crate::ir::{NodeId, Op, Scalar, Type};
+
+impl Evaluator<'_> {
+    pub fn call(&mut self, path: &[String], args: &[Expr], span: Span) -> Eval {
+        let values = self.all(args)?;
+        if values.contains(&Value::Poison) {
+            return Err(Exit::Noted);
+        }
+        let last = path.last().map(String::as_str).unwrap_or_default();
+        let method = path.join("::");
+        if path.len() == 2 && self.library.functions.contains_key(&method) {
+            return self.inline(&method, values, span);
+        }
+        if self.library.functions.contains_key(last) {
+            return self.inline(last, values, span);
+        }
+        if let Some((kind, lanes)) = constructor(path) {
+            return self.compose(kind, lanes, &values, span);
+        }
+        match (path, values.as_slice()) {
+            ([.., ty, splat], [value]) if splat == "splat" => {
+                let Some((kind, lanes)) = vector_type(ty) else {
+                    return Err(Diagnostic::at(span, format!("`{ty}` is not a vector")).into());
+                };
+                let value = self.lane_node(value, kind, span)?;
+                Ok(Value::Node(self.splat(value, lanes)))
+            }
+            ([.., name], [Value::Str(tally), value]) if name == "tally" => self.tally(tally, value, span),
+            ([.., ty, name], [receiver, rest @ ..]) if ty == "f32" || vector_type(ty).is_some() => {
+                self.math(receiver, name, rest, span)
+            }
+            _ => Err(Diagnostic::at(span, format!("there is no function `{}`", path.join("::")))
+                .label("not found in the kernel's files")
+                .help("define it in one of the kernel's files, or use a function of the prelude")
+                .into()),
+        }
+    }
+
+    /// Evaluates a function's body with its parameters bound.
+    pub fn inline(&mut self, name: &str, args: Vec<Value>, span: Span) -> Eval {
+        let library = self.library;
+        let Some(function) = library.functions.get(name) else {
+            return Err(Diagnostic::at(span, format!("there is no function `{name}`")).into());
+        };
+        if args.len() != function.params.len() {
+            return Err(Diagnostic::at(span, format!("`{name}` takes {} arguments, not {}", function.params.len(), args.len())).into());
+        }
+        if self.calls.len() >= MAX_CALLS {
+            return Err(Diagnostic::at(span, format!("calls are nested more than {MAX_CALLS} deep, in `{name}`"))
+                .label("recursion that does not end?")
+                .help("let the recursion end by a condition that is known")
+                .into());
+        }
+        let outer = std::mem::take(&mut self.scope);
+        for ((param, _, _), value) in function.params.iter().zip(args) {
+            self.scope.bind(param, value);
+        }
+        self.calls.push(name.to_owned());
+        let result = self.block(&function.body);
+        self.calls.pop();
+        self.scope = outer;
+        match result {
+            Err(Exit::Return(value)) => Ok(value),
+            Err(Exit::Break | Exit::Continue) => Err(Diagnostic::at(function.span, "`break` or `continue` outside of a loop").into()),
+            other => other,
+        }
+    }
+
+    /// A vector from its lanes, or from shorter vectors and lanes.
+    fn compose(&mut self, kind: Scalar, lanes: u8, values: &[Value], span: Span) -> Eval {
+        let mut parts: Vec<NodeId> = Vec::new();
+        for value in values {
+            let id = self.lane_node(value, kind, span)?;
+            parts.extend(self.lanes(id));
+        }
+        if parts.len() != lanes as usize {
+            return Err(Diagnostic::at(span, format!("a vector of {lanes} lanes from {}", parts.len())).into());
+        }
+        Ok(Value::Node(self.builder.add(Op::Compose, parts, Type::value(kind, lanes))))
+    }
+
+    fn lane_node(&mut self, value: &Value, kind: Scalar, span: Span) -> Eval<NodeId> {
+        let id = match value {
+            Value::Int(n) => self.int_node(*n, kind, span)?,
+            other => self.node(other, span)?,
+        };
+        if self.ty(id).kind() == Some(kind) && !self.ty(id).is_array() {
+            return Ok(id);
+        }
+        Err(Diagnostic::at(span, format!("a {} where a {kind} is needed", self.ty(id))).help(format!("convert it with `as {kind}`")).into())
+    }
+
+    fn tally(&mut self, name: &str, value: &Value, span: Span) -> Eval {
+        let id = self.node(value, span)?;
+        let tallies = &mut self.builder.graph_mut().tallies;
+        let index = tallies.iter().position(|known| known == name).unwrap_or_else(|| {
+            tallies.push(name.to_owned());
+            tallies.len() - 1
+        });
+        let ty = self.ty(id);
+        Ok(Value::Node(self.builder.add(Op::Tally(index as u32), vec![id], ty)))
+    }
+
+    /// A variable, a constant or a variant.
+    pub fn path(&mut self, path: &[String], span: Span) -> Eval {
+        let last = path.last().map(String::as_str).unwrap_or_default();
+        if path.len() == 1
+            && let Some(value) = self.scope.get(last)
+        {
+            return match value {
+                Value::Poison => Err(Exit::Noted),
+                other => Ok(other.clone()),
+            };
+        }
+        if let [.., ty, variant] = path
+            && let Some(found) = self.library.enums.get(ty)
+        {
+            if found.variants.iter().any(|(name, _)| name == variant) {
+                return Ok(Value::Enum { ty: ty.clone(), variant: variant.clone() });
+            }
+            if !self.library.consts.contains_key(&path.join("::")) {
+                return Err(Diagnostic::at(span, format!("`{ty}` has no variant `{variant}`")).into());
+            }
+        }
+        let joined = path.join("::");
+        let name = if self.library.consts.contains_key(&joined) { joined.as_str() } else { last };
+        if let Some(value) = self.constant(name, span)? {
+            return Ok(value);
+        }
+        match self.known_constant(path) {
+            Some(value) => Ok(value),
+            None => Err(Diagnostic::at(span, format!("there is no `{}` here", path.join("::"))).label("not found").into()),
+        }
+    }
+
+    /// A constant of the kernel's files, evaluated once.
+    fn constant(&mut self, name: &str, span: Span) -> Eval<Option<Value>> {
+        if let Some(value) = self.consts.get(name) {
+            return Ok(Some(value.clone()));
+        }
+        let library = self.library;
+        let Some(constant) = library.consts.get(name) else { return Ok(None) };
+        if self.calls.len() >= MAX_CALLS {
+            return Err(Diagnostic::at(span, format!("the constant `{name}` needs itself")).into());
+        }
+        let outer = std::mem::replace(&mut self.scope, Scope::default());
+        self.calls.push(name.to_owned());
+        let value = self.expr(&constant.value);
+        self.calls.pop();
+        self.scope = outer;
+        let value = match (value?, &constant.ty) {
+            (Value::Int(n), crate::front::tree::Type::Name(ty, _)) if ty == "u32" => {
+                Value::Node(self.int_node(n, Scalar::U32, span)?)
+            }
+            (value, _) => value,
+        };
+        self.consts.insert(name.to_owned(), value.clone());
+        Ok(Some(value))
+    }
+}
+
+/// `vec3`, `Vec3::new`, ...
+fn constructor(path: &[String]) -> Option<(Scalar, u8)> {
+    match path {
+        [.., ty, new] if new == "new" => vector_type(ty),
+        [.., name] if name.chars().next().is_some_and(char::is_lowercase) => {
+            let mut upper = name.replacen("vec", "Vec", 1);
+            if let Some(rest) = upper.strip_prefix('i') {
+                upper = format!("I{rest}");
+            } else if let Some(rest) = upper.strip_prefix('u') {
+                upper = format!("U{rest}");
+            }
+            vector_type(&upper)
+        }
+        _ => None,
+    }
+}
+
+/// `Vec3`, `IVec2`, ...
+pub fn vector_type(name: &str) -> Option<(Scalar, u8)> {
+    let (kind, lanes) = match name.strip_prefix("Vec") {
+        Some(lanes) => (Scalar::F32, lanes),
+        None => match name.strip_prefix("IVec") {
+            Some(lanes) => (Scalar::I32, lanes),
+            None => (Scalar::U32, name.strip_prefix("UVec")?),
+        },
+    };
+    lanes.parse().ok().filter(|n| (2..=4).contains(n)).map(|n| (kind, n))
+}

@@ -1,0 +1,77 @@
+//! Constants of the standard library and of glam.
+
+use super::Evaluator;
+use super::call::vector_type;
+use super::value::Value;
+use crate::ir::{Scalar, Type};
+use std::f32::consts;
+
+impl Evaluator<'_> {
+    /// `PI`, `f32::MAX`, `Vec4::ZERO`, ...
+    pub fn known_constant(&mut self, path: &[String]) -> Option<Value> {
+        let (ty, name) = match path {
+            [.., ty, name] => (ty.as_str(), name.as_str()),
+            [name] => ("consts", name.as_str()),
+            [] => return None,
+        };
+        if let Some((kind, lanes)) = vector_type(ty) {
+            return self.vector_constant(kind, lanes, name);
+        }
+        let float = match (ty, name) {
+            ("consts", _) => named(name)?,
+            ("f32", "MAX") => f32::MAX,
+            ("f32", "MIN") => f32::MIN,
+            ("f32", "MIN_POSITIVE") => f32::MIN_POSITIVE,
+            ("f32", "EPSILON") => f32::EPSILON,
+            ("i32", "MAX") => return Some(Value::Int(i64::from(i32::MAX))),
+            ("i32", "MIN") => return Some(Value::Int(i64::from(i32::MIN))),
+            ("u32", "MAX") => return Some(Value::Node(self.builder.constant(Type::U32, [u32::MAX, 0, 0, 0]))),
+            _ => return None,
+        };
+        Some(Value::Node(self.builder.f32(float)))
+    }
+
+    fn vector_constant(&mut self, kind: Scalar, lanes: u8, name: &str) -> Option<Value> {
+        let one = match kind {
+            Scalar::F32 => 1.0f32.to_bits(),
+            _ => 1,
+        };
+        let mut bits = [0; 4];
+        let axis = match name {
+            "ZERO" => 0..0,
+            "ONE" => 0..lanes as usize,
+            "X" => 0..1,
+            "Y" => 1..2,
+            "Z" => 2..3,
+            "W" => 3..4,
+            _ => return None,
+        };
+        if axis.end > lanes as usize {
+            return None;
+        }
+        bits[axis].fill(one);
+        Some(Value::Node(self.builder.constant(Type::value(kind, lanes), bits)))
+    }
+}
+
+fn named(name: &str) -> Option<f32> {
+    Some(match name {
+        "PI" => consts::PI,
+        "TAU" => consts::TAU,
+        "E" => consts::E,
+        "LN_2" => consts::LN_2,
+        "LN_10" => consts::LN_10,
+        "LOG2_E" => consts::LOG2_E,
+        "LOG2_10" => consts::LOG2_10,
+        "SQRT_2" => consts::SQRT_2,
+        "FRAC_1_SQRT_2" => consts::FRAC_1_SQRT_2,
+        "FRAC_1_PI" => consts::FRAC_1_PI,
+        "FRAC_2_PI" => consts::FRAC_2_PI,
+        "FRAC_PI_2" => consts::FRAC_PI_2,
+        "FRAC_PI_3" => consts::FRAC_PI_3,
+        "FRAC_PI_4" => consts::FRAC_PI_4,
+        "FRAC_PI_6" => consts::FRAC_PI_6,
+        "FRAC_PI_8" => consts::FRAC_PI_8,
+        _ => return None,
+    })
+}

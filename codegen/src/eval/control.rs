@@ -1,0 +1,202 @@
+//! `if`, `match`, and joining what two sides did.
+
+use super::scope::Scope;
+use super::value::{Eval, Exit, Value};
+use super::{Evaluator, Unroll};
+use crate::diagnostic::{Diagnostic, Span};
+use crate::front::tree::{Arm, Block, Expr, Pattern};
+use crate::ir::{NodeId, Op, RegionId, Type};
+
+impl Evaluator<'_> {
+    pub fn if_(&mut self, condition: &Expr, then: &Block, otherwise: Option<&Expr>, span: Span) -> Eval {
+        let value = self.expr(condition)?;
+        let id = self.node(&value, condition.span)?;
+        if self.ty(id) != Type::BOOL {
+            return Err(Diagnostic::at(condition.span, "a condition must be a boolean").into());
+        }
+        match self.known_bool(id) {
+            Some(true) => self.block(then),
+            Some(false) => otherwise.map_or(Ok(Value::unit()), |e| self.expr(e)),
+            None => self.branch(id, then, otherwise, span),
+        }
+    }
+
+    /// A condition that is known at run time: both sides are evaluated, and what differs is selected, or a branch
+    /// is kept where loops are.
+    fn branch(&mut self, condition: NodeId, then: &Block, otherwise: Option<&Expr>, span: Span) -> Eval {
+        let keep = self.unroll == Unroll::None;
+        let before = self.scope.clone();
+        let first = keep.then(|| self.builder.open_region(&[]));
+        let left = self.side(span, |e| e.block(then));
+        let after_left = std::mem::replace(&mut self.scope, before);
+        if keep {
+            self.builder.close_region(Vec::new());
+        }
+        let second = keep.then(|| self.builder.open_region(&[]));
+        let right = self.side(span, |e| otherwise.map_or(Ok(Value::unit()), |o| e.expr(o)));
+        if keep {
+            self.builder.close_region(Vec::new());
+        }
+        let (left, right) = (left?, right?);
+        let regions = first.zip(second);
+        self.join(condition, regions, (after_left, left), right, span)
+    }
+
+    fn side(&mut self, span: Span, evaluate: impl FnOnce(&mut Self) -> Eval) -> Eval {
+        let mark = self.scope.enter();
+        let outcome = evaluate(self);
+        self.scope.leave(mark);
+        match outcome {
+            Err(Exit::Break | Exit::Continue | Exit::Return(_)) => {
+                Err(Diagnostic::at(span, "`break`, `continue` or `return` under a condition that is only known at run time")
+                    .label("not known now")
+                    .help("let both sides of the `if` give a value, and go on with that")
+                    .into())
+            }
+            other => other,
+        }
+    }
+
+    /// Joins the two sides: variables and values that differ are selected, or become the branch's results.
+    fn join(
+        &mut self,
+        condition: NodeId,
+        regions: Option<(RegionId, RegionId)>,
+        (left_scope, left): (Scope, Value),
+        right: Value,
+        span: Span,
+    ) -> Eval {
+        let mut pairs = vec![(None, left, right)];
+        for slot in 0..self.scope.len() {
+            let (a, b) = (left_scope.at(slot).1, self.scope.at(slot).1);
+            if a != b {
+                pairs.push((Some(slot), a.clone(), b.clone()));
+            }
+        }
+        let mut joined = Vec::new();
+        let (mut lefts, mut rights) = (Vec::new(), Vec::new());
+        for (slot, a, b) in pairs {
+            let (a, b) = self.agree(&a, &b, span)?;
+            let (mut from_a, mut from_b) = (Vec::new(), Vec::new());
+            Self::leaves(&a, &mut from_a);
+            Self::leaves(&b, &mut from_b);
+            joined.push((slot, a, from_a.len()));
+            lefts.extend(from_a);
+            rights.extend(from_b);
+        }
+        let nodes = self.merge_nodes(condition, regions, &lefts, &rights);
+        let mut nodes = nodes.into_iter();
+        let mut result = Value::unit();
+        for (slot, template, _) in joined {
+            let value = Self::with_leaves(&template, &mut nodes);
+            match slot {
+                None => result = value,
+                Some(slot) => {
+                    let name = self.scope.at(slot).0.to_owned();
+                    self.name(&value, &name, span);
+                    self.scope.set(slot, value);
+                }
+            }
+        }
+        Ok(result)
+    }
+
+    fn merge_nodes(
+        &mut self,
+        condition: NodeId,
+        regions: Option<(RegionId, RegionId)>,
+        lefts: &[NodeId],
+        rights: &[NodeId],
+    ) -> Vec<NodeId> {
+        let pairs = lefts.iter().zip(rights);
+        let Some((first, second)) = regions else {
+            return pairs
+                .map(|(a, b)| {
+                    let ty = self.ty(*a);
+                    self.builder.add(Op::Select, vec![condition, *a, *b], ty)
+                })
+                .collect();
+        };
+        // Only what differs leaves the branch.
+        let differing: Vec<(NodeId, NodeId)> = pairs.clone().filter(|(a, b)| a != b).map(|(a, b)| (*a, *b)).collect();
+        if differing.is_empty() {
+            return lefts.to_vec();
+        }
+        let graph = self.builder.graph_mut();
+        graph.regions[first.0 as usize].results = differing.iter().map(|(a, _)| *a).collect();
+        graph.regions[second.0 as usize].results = differing.iter().map(|(_, b)| *b).collect();
+        let node = self.builder.add(Op::If(first, second), vec![condition], Type::Results);
+        let mut k = 0;
+        let mut merged = Vec::new();
+        for (a, b) in lefts.iter().zip(rights) {
+            if a == b {
+                merged.push(*a);
+            } else {
+                let ty = self.ty(*a);
+                merged.push(self.builder.add(Op::Result(k), vec![node], ty));
+                k += 1;
+            }
+        }
+        merged
+    }
+
+    pub fn match_(&mut self, subject: &Expr, arms: &[Arm], span: Span) -> Eval {
+        let value = self.expr(subject)?;
+        for arm in arms {
+            let mark = self.scope.enter();
+            if self.matches(&arm.pattern, &value, span)? {
+                let result = self.expr(&arm.body);
+                self.scope.leave(mark);
+                return result;
+            }
+            self.scope.leave(mark);
+        }
+        Err(Diagnostic::at(span, format!("no arm of this `match` takes {}", value.describe())).help("add an arm for it, or `_`").into())
+    }
+
+    /// Whether a pattern takes a value; binds its names if so.
+    fn matches(&mut self, pattern: &Pattern, value: &Value, span: Span) -> Eval<bool> {
+        match pattern {
+            Pattern::Wild => Ok(true),
+            Pattern::Name(name, _) => {
+                self.scope.bind(name, value.clone());
+                Ok(true)
+            }
+            Pattern::Or(cases) => {
+                for case in cases {
+                    if self.matches(case, value, span)? {
+                        return Ok(true);
+                    }
+                }
+                Ok(false)
+            }
+            Pattern::Tuple(parts, _) => match value {
+                Value::Tuple(values) if values.len() == parts.len() => {
+                    for (part, value) in parts.iter().zip(values) {
+                        if !self.matches(part, value, span)? {
+                            return Ok(false);
+                        }
+                    }
+                    Ok(true)
+                }
+                other => Err(Diagnostic::at(span, format!("a tuple pattern on {}", other.describe())).into()),
+            },
+            Pattern::Value(expr) => {
+                let expected = self.expr(expr)?;
+                match (value, &expected) {
+                    (Value::Enum { .. }, Value::Enum { .. }) => Ok(*value == expected),
+                    _ => {
+                        let same = self.binary(crate::ir::BinaryOp::Eq, value, &expected, expr.span)?;
+                        let id = self.node(&same, expr.span)?;
+                        self.known_bool(id).ok_or_else(|| {
+                            Diagnostic::at(span, "`match` on a value that is only known at run time")
+                                .label("not known now")
+                                .help("use `if`, whose sides are then both computed")
+                                .into()
+                        })
+                    }
+                }
+            }
+        }
+    }
+}

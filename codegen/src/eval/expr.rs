@@ -1,0 +1,263 @@
+//! Expressions and blocks.
+
+use super::Evaluator;
+use super::value::{Eval, Exit, Range, Value};
+use crate::diagnostic::{Diagnostic, Span};
+use crate::front::tree::{Block, Expr, ExprKind, IntType, Pattern, Statement, Type as SourceType};
+use crate::ir::{BinaryOp, Op, Scalar, Type};
+
+impl Evaluator<'_> {
+    /// A block in a scope of its own. An error in one statement does not hide those in the next.
+    pub fn block(&mut self, block: &Block) -> Eval {
+        let mark = self.scope.enter();
+        let result = self.statements(block);
+        self.scope.leave(mark);
+        result
+    }
+
+    fn statements(&mut self, block: &Block) -> Eval {
+        let noted = self.errors.len();
+        for statement in &block.statements {
+            match statement {
+                Statement::Let(pattern, ty, init, span) => {
+                    self.step(*span)?;
+                    let value = match init {
+                        Some(init) => match self.expr(init).and_then(|v| self.ascribe(v, ty.as_ref(), init.span)) {
+                            Ok(value) => value,
+                            Err(exit @ (Exit::Error(_) | Exit::Noted)) => {
+                                self.note(exit);
+                                Value::Poison
+                            }
+                            Err(leave) => return Err(leave),
+                        },
+                        None => Value::Poison,
+                    };
+                    self.bind(pattern, value, *span)?;
+                }
+                Statement::Expr(expr) => match self.expr(expr) {
+                    Ok(_) => {}
+                    Err(exit @ (Exit::Error(_) | Exit::Noted)) => {
+                        self.note(exit);
+                    }
+                    Err(leave) => return Err(leave),
+                },
+                Statement::Const(constant) => {
+                    let value = self.expr(&constant.value)?;
+                    self.scope.bind(&constant.name, value);
+                }
+            }
+        }
+        if self.errors.len() > noted {
+            return Err(Exit::Noted);
+        }
+        block.value.as_ref().map_or(Ok(Value::unit()), |e| self.expr(e))
+    }
+
+    /// Gives a known integer the type that a `let` states.
+    fn ascribe(&mut self, value: Value, ty: Option<&SourceType>, span: Span) -> Eval {
+        match (&value, ty) {
+            (Value::Int(n), Some(SourceType::Name(name, _))) if name == "u32" => {
+                Ok(Value::Node(self.int_node(*n, Scalar::U32, span)?))
+            }
+            _ => Ok(value),
+        }
+    }
+
+    /// Binds the names of a pattern to the parts of a value.
+    pub fn bind(&mut self, pattern: &Pattern, value: Value, span: Span) -> Eval<()> {
+        match pattern {
+            Pattern::Wild => Ok(()),
+            Pattern::Name(name, at) => {
+                self.name(&value, name, *at);
+                self.scope.bind(name, value);
+                Ok(())
+            }
+            Pattern::Tuple(parts, at) => match value {
+                Value::Tuple(values) if values.len() == parts.len() => {
+                    parts.iter().zip(values).try_for_each(|(part, value)| self.bind(part, value, span))
+                }
+                Value::Poison => parts.iter().try_for_each(|part| self.bind(part, Value::Poison, span)),
+                other => {
+                    Err(Diagnostic::at(*at, format!("a pattern of {} parts for {}", parts.len(), other.describe())).into())
+                }
+            },
+            Pattern::Value(expr) => Err(Diagnostic::at(expr.span, "a `let` cannot compare").help("use `match`").into()),
+            Pattern::Or(_) => Err(Diagnostic::at(span, "a `let` cannot choose").help("use `match`").into()),
+        }
+    }
+
+    pub fn expr(&mut self, expr: &Expr) -> Eval {
+        self.step(expr.span)?;
+        let span = expr.span;
+        match &expr.kind {
+            ExprKind::Int(n, None | Some(IntType::I32)) => Ok(Value::Int(*n)),
+            ExprKind::Int(n, Some(IntType::U32)) => Ok(Value::Node(self.int_node(*n, Scalar::U32, span)?)),
+            ExprKind::Float(x) => Ok(Value::Node(self.builder.f32(*x))),
+            ExprKind::Bool(b) => Ok(Value::Node(self.builder.bool(*b))),
+            ExprKind::Str(text) => Ok(Value::Str(text.clone())),
+            ExprKind::Path(path) => self.path(path, span),
+            ExprKind::Unary(op, operand) => {
+                let value = self.expr(operand)?;
+                self.unary(*op, &value, span)
+            }
+            ExprKind::Binary(op, left, right) => {
+                let (left, right) = (self.expr(left)?, self.expr(right)?);
+                self.binary(*op, &left, &right, span)
+            }
+            ExprKind::Lazy(and, left, right) => self.lazy(*and, left, right, span),
+            ExprKind::Assign(place, op, value) => self.assign(place, *op, value, span),
+            ExprKind::Call(path, args) => self.call(path, args, span),
+            ExprKind::Method(receiver, name, args) => self.method(receiver, name, args, span),
+            ExprKind::Field(base, name) => {
+                let base = self.expr(base)?;
+                self.field(&base, name, span)
+            }
+            ExprKind::Index(base, index) => {
+                let (base, index) = (self.expr(base)?, self.expr(index)?);
+                self.element(&base, &index, span)
+            }
+            ExprKind::If(condition, then, otherwise) => self.if_(condition, then, otherwise.as_deref(), span),
+            ExprKind::Match(subject, arms) => self.match_(subject, arms, span),
+            ExprKind::Block(block) => self.block(block),
+            ExprKind::Tuple(parts) => Ok(Value::Tuple(self.all(parts)?)),
+            ExprKind::Array(parts) => Ok(Value::Array(self.all(parts)?)),
+            ExprKind::Repeat(value, len) => self.repeat(value, len),
+            ExprKind::Struct(name, fields, rest) => self.structure(name, fields, rest.as_deref(), span),
+            ExprKind::Cast(value, ty) => {
+                let value = self.expr(value)?;
+                self.cast(&value, ty, span)
+            }
+            ExprKind::Range(start, end, inclusive) => self.range(start, end, *inclusive, span),
+            ExprKind::For(pattern, over, body) => self.for_(pattern, over, body, span),
+            ExprKind::While(condition, body) => self.while_(condition, body, span),
+            ExprKind::Return(value) => {
+                let value = value.as_ref().map_or(Ok(Value::unit()), |e| self.expr(e))?;
+                Err(Exit::Return(value))
+            }
+            ExprKind::Break => Err(Exit::Break),
+            ExprKind::Continue => Err(Exit::Continue),
+        }
+    }
+
+    /// Values of several expressions.
+    pub fn all(&mut self, exprs: &[Expr]) -> Eval<Vec<Value>> {
+        exprs.iter().map(|e| self.expr(e)).collect()
+    }
+
+    fn repeat(&mut self, value: &Expr, len: &Expr) -> Eval {
+        let element = self.expr(value)?;
+        let count = self.expr(len)?;
+        match self.known_int(&count) {
+            Some(n @ 1..=65536) => Ok(Value::Array(vec![element; n as usize])),
+            Some(n) => Err(Diagnostic::at(len.span, format!("an array of {n} elements")).help("use 1 to 65536").into()),
+            None => Err(Diagnostic::at(len.span, "the length of an array must be known").label("not known now").into()),
+        }
+    }
+
+    fn structure(&mut self, name: &str, fields: &[(String, Expr)], rest: Option<&Expr>, span: Span) -> Eval {
+        let Some(definition) = self.library.structs.get(name) else {
+            return Err(Diagnostic::at(span, format!("there is no structure `{name}` in the kernel's files")).into());
+        };
+        let rest = rest.map(|e| self.expr(e)).transpose()?;
+        let mut given = Vec::new();
+        for (field, value) in fields {
+            given.push((field.clone(), self.expr(value)?));
+        }
+        let mut values = Vec::new();
+        for (field, _, _) in &definition.fields {
+            let value = match given.iter().find(|(name, _)| name == field) {
+                Some((_, value)) => value.clone(),
+                None => match &rest {
+                    Some(rest) => self.field(rest, field, span)?,
+                    None => return Err(Diagnostic::at(span, format!("`{name}` lacks its field `{field}`")).into()),
+                },
+            };
+            values.push((field.clone(), value));
+        }
+        Ok(Value::Struct { ty: name.to_owned(), fields: values })
+    }
+
+    fn range(&mut self, start: &Expr, end: &Expr, inclusive: bool, span: Span) -> Eval {
+        let (first, mut last) = (self.expr(start)?, self.expr(end)?);
+        if inclusive {
+            last = self.binary(BinaryOp::Add, &last, &Value::Int(1), span)?;
+        }
+        Ok(Value::Range(Range { start: Box::new(first), end: Box::new(last), reversed: false, step: 1 }))
+    }
+
+    /// `&&` and `||`.
+    fn lazy(&mut self, and: bool, left: &Expr, right: &Expr, span: Span) -> Eval {
+        let value = self.expr(left)?;
+        let left = self.node(&value, left.span)?;
+        match self.known_bool(left) {
+            Some(known) if known != and => Ok(Value::Node(left)),
+            Some(_) => self.expr(right),
+            None => {
+                let right = self.expr(right)?;
+                let op = if and { BinaryOp::And } else { BinaryOp::Or };
+                self.binary(op, &Value::Node(left), &right, span)
+            }
+        }
+    }
+
+    /// A field of a structure, a part of a tuple, or lanes of a vector.
+    pub fn field(&mut self, base: &Value, name: &str, span: Span) -> Eval {
+        match base {
+            Value::Struct { ty, fields } => match fields.iter().find(|(field, _)| field == name) {
+                Some((_, value)) => Ok(value.clone()),
+                None => Err(Diagnostic::at(span, format!("`{ty}` has no field `{name}`")).into()),
+            },
+            Value::Tuple(parts) => match name.parse::<usize>().ok().and_then(|k| parts.get(k)) {
+                Some(part) => Ok(part.clone()),
+                None => Err(Diagnostic::at(span, format!("a tuple of {} parts has no `.{name}`", parts.len())).into()),
+            },
+            Value::Node(id) => {
+                let ty = self.ty(*id);
+                match lane(name) {
+                    Some(k) if ty.lanes() > 1 && k < ty.lanes() && !ty.is_array() => {
+                        let part = Type::value(ty.kind().unwrap_or(Scalar::F32), 1);
+                        Ok(Value::Node(self.builder.add(Op::Extract(k), vec![*id], part)))
+                    }
+                    _ => Err(Diagnostic::at(span, format!("a {ty} has no field `{name}`")).into()),
+                }
+            }
+            Value::Poison => Err(Exit::Noted),
+            other => Err(Diagnostic::at(span, format!("{} has no field `{name}`", other.describe())).into()),
+        }
+    }
+
+    /// An element of an array.
+    pub fn element(&mut self, base: &Value, index: &Value, span: Span) -> Eval {
+        if let (Value::Array(elements), Some(k)) = (base, self.known_int(index)) {
+            return match usize::try_from(k).ok().and_then(|k| elements.get(k)) {
+                Some(element) => Ok(element.clone()),
+                None => Err(out_of_range(k, elements.len(), span).into()),
+            };
+        }
+        let index = self.index_node(index, span)?;
+        let array = self.array_node(base, span)?;
+        let ty = self.ty(array);
+        if let (Type::Array { len, .. }, Some(bits)) = (ty, self.builder.graph().constant(index))
+            && bits[0] >= len
+        {
+            return Err(out_of_range(i64::from(bits[0] as i32), len as usize, span).into());
+        }
+        Ok(Value::Node(self.builder.add(Op::ArrayGet, vec![array, index], ty.element())))
+    }
+}
+
+/// An index that is known to be wrong.
+pub fn out_of_range(index: i64, len: usize, span: Span) -> Diagnostic {
+    Diagnostic::at(span, format!("index {index} of an array of {len}")).label("out of range").help(format!("indices go from 0 to {}", len - 1))
+}
+
+/// Number of a lane by its name.
+pub fn lane(name: &str) -> Option<u8> {
+    match name {
+        "x" => Some(0),
+        "y" => Some(1),
+        "z" => Some(2),
+        "w" => Some(3),
+        _ => None,
+    }
+}

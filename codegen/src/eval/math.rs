@@ -1,0 +1,210 @@
+//! Functions of numbers and vectors, by the names that `f32` and glam give them.
+
+use super::Evaluator;
+use super::value::{Eval, Value};
+use crate::diagnostic::{Diagnostic, Span};
+use crate::ir::{BinaryOp, NodeId, Op, Scalar, Type, UnaryOp};
+
+/// What methods of numbers and vectors there are, for messages.
+pub const METHODS: &str = "abs, sqrt, recip, exp, exp2, ln, log2, powf, powi, sin, cos, tan, asin, acos, atan, atan2, floor, ceil, trunc, \
+    round_ties_even, min, max, clamp, dot, cross, length, length_squared, distance, distance_squared, normalize, lerp, \
+    extend, truncate, min_element, max_element, element_sum, as_vec2 .. as_uvec4";
+
+impl Evaluator<'_> {
+    /// A method of a number or vector.
+    pub fn math(&mut self, receiver: &Value, name: &str, args: &[Value], span: Span) -> Eval {
+        let x = self.node(receiver, span)?;
+        let result = match args {
+            [] => self.math_one(x, name, span)?,
+            [a] => self.math_two(receiver, x, name, a, span)?,
+            [a, b] if name == "clamp" => {
+                let (low, high) = (self.same_type(a, receiver, span)?.0, self.same_type(b, receiver, span)?.0);
+                let ty = self.ty(x);
+                Some(self.builder.add(Op::Clamp, vec![x, low, high], ty))
+            }
+            [to, amount] if name == "lerp" => {
+                // As glam computes it: self * (1 - s) + to * s.
+                let one = Value::Node(self.builder.f32(1.0));
+                let rest = self.binary(BinaryOp::Sub, &one, amount, span)?;
+                let from = self.binary(BinaryOp::Mul, receiver, &rest, span)?;
+                let to = self.binary(BinaryOp::Mul, to, amount, span)?;
+                return self.binary(BinaryOp::Add, &from, &to, span);
+            }
+            _ => None,
+        };
+        match result {
+            Some(id) => Ok(Value::Node(id)),
+            None => Err(Diagnostic::at(span, format!("there is no method `{name}` with {} arguments on {}", args.len(), self.ty(x)))
+                .label("not supported")
+                .help(format!("numbers and vectors have {METHODS}"))
+                .into()),
+        }
+    }
+
+    fn math_one(&mut self, x: NodeId, name: &str, span: Span) -> Eval<Option<NodeId>> {
+        let ty = self.ty(x);
+        if let Some(op) = unary(name) {
+            let fits = ty.is_float() || (name == "abs" && ty.kind() != Some(Scalar::Bool));
+            return Ok(fits.then(|| self.builder.add(Op::Unary(op), vec![x], ty)));
+        }
+        if let Some((kind, lanes)) = conversion(name) {
+            return Ok((ty.lanes() == lanes).then(|| self.convert(x, kind)));
+        }
+        if let Some(swizzled) = self.swizzle(x, name) {
+            return Ok(Some(swizzled));
+        }
+        let vector = ty.is_float() && ty.lanes() > 1;
+        Ok(match name {
+            "recip" if ty.is_float() => {
+                let one = self.builder.f32(1.0);
+                let one = self.splat(one, ty.lanes());
+                Some(self.builder.add(Op::Binary(BinaryOp::Div), vec![one, x], ty))
+            }
+            "length_squared" if vector => Some(self.dot(x, x)),
+            "length" if vector => Some(self.length(x)),
+            "normalize" if vector => {
+                // As glam computes it: the vector times the reciprocal of its length.
+                let length = self.length(x);
+                let one = self.builder.f32(1.0);
+                let scale = self.builder.add(Op::Binary(BinaryOp::Div), vec![one, length], Type::F32);
+                let scale = self.splat(scale, ty.lanes());
+                Some(self.builder.add(Op::Binary(BinaryOp::Mul), vec![x, scale], ty))
+            }
+            "min_element" | "max_element" | "element_sum" if ty.lanes() > 1 => {
+                let op = match name {
+                    "min_element" => BinaryOp::Min,
+                    "max_element" => BinaryOp::Max,
+                    _ => BinaryOp::Add,
+                };
+                let lanes = self.lanes(x);
+                let part = self.ty(lanes[0]);
+                let fold = |a: NodeId, b: &NodeId| self.builder.add(Op::Binary(op), vec![a, *b], part);
+                Some(lanes[1..].iter().fold(lanes[0], fold))
+            }
+            "truncate" if ty.lanes() > 2 => {
+                let lanes = self.lanes(x);
+                let shorter = Type::value(ty.kind().unwrap_or(Scalar::F32), ty.lanes() - 1);
+                Some(self.builder.add(Op::Compose, lanes[..lanes.len() - 1].to_vec(), shorter))
+            }
+            "round" => return Err(instead(span, "`round` rounds halves away from zero, and no shader does", "round_ties_even")),
+            "fract" => return Err(instead(span, "`fract` truncates in Rust and floors in shaders", "x - x.floor()")),
+            "signum" => return Err(instead(span, "`signum` of 0 is 1 in Rust and 0 in shaders", "if x < 0.0 { -1.0 } else { 1.0 }")),
+            _ => None,
+        })
+    }
+
+    fn math_two(&mut self, receiver: &Value, x: NodeId, name: &str, a: &Value, span: Span) -> Eval<Option<NodeId>> {
+        let ty = self.ty(x);
+        let float_vector = ty.is_float() && ty.lanes() > 1;
+        Ok(match name {
+            "min" | "max" => {
+                let op = if name == "min" { BinaryOp::Min } else { BinaryOp::Max };
+                return Ok(Some({
+                    let value = self.binary(op, receiver, a, span)?;
+                    self.node(&value, span)?
+                }));
+            }
+            "powf" | "atan2" if ty.is_float() => {
+                let op = if name == "powf" { BinaryOp::Pow } else { BinaryOp::Atan2 };
+                let (x, y) = self.same_type(receiver, a, span)?;
+                Some(self.builder.add(Op::Binary(op), vec![x, y], ty))
+            }
+            "powi" if ty.is_float() => match self.known_int(a) {
+                Some(n @ 1..=64) => {
+                    Some((1..n).fold(x, |power, _| self.builder.add(Op::Binary(BinaryOp::Mul), vec![power, x], ty)))
+                }
+                _ => return Err(Diagnostic::at(span, "`powi` needs a known power from 1 to 64").help("use `powf`").into()),
+            },
+            "dot" if float_vector => {
+                let (x, y) = self.same_type(receiver, a, span)?;
+                Some(self.dot(x, y))
+            }
+            "cross" if ty == Type::value(Scalar::F32, 3) => {
+                let (x, y) = self.same_type(receiver, a, span)?;
+                Some(self.builder.add(Op::Cross, vec![x, y], ty))
+            }
+            "distance" | "distance_squared" if float_vector => {
+                let between = self.binary(BinaryOp::Sub, receiver, a, span)?;
+                let between = self.node(&between, span)?;
+                Some(if name == "distance" { self.length(between) } else { self.dot(between, between) })
+            }
+            "extend" if (2..4).contains(&ty.lanes()) => {
+                let mut lanes = self.lanes(x);
+                let first = Value::Node(lanes[0]);
+                lanes.push(self.same_type(a, &first, span)?.0);
+                let longer = Type::value(ty.kind().unwrap_or(Scalar::F32), ty.lanes() + 1);
+                Some(self.builder.add(Op::Compose, lanes, longer))
+            }
+            _ => None,
+        })
+    }
+
+    fn dot(&mut self, a: NodeId, b: NodeId) -> NodeId {
+        self.builder.add(Op::Dot, vec![a, b], Type::F32)
+    }
+
+    fn length(&mut self, x: NodeId) -> NodeId {
+        let squared = self.dot(x, x);
+        self.builder.add(Op::Unary(UnaryOp::Sqrt), vec![squared], Type::F32)
+    }
+
+    /// The lanes of a vector as scalars.
+    pub fn lanes(&mut self, x: NodeId) -> Vec<NodeId> {
+        let ty = self.ty(x);
+        if ty.is_scalar() {
+            return vec![x];
+        }
+        let part = Type::value(ty.kind().unwrap_or(Scalar::F32), 1);
+        (0..ty.lanes()).map(|k| self.builder.add(Op::Extract(k), vec![x], part)).collect()
+    }
+
+    /// `v.xy()`, `v.zyx()`, ...
+    fn swizzle(&mut self, x: NodeId, name: &str) -> Option<NodeId> {
+        let ty = self.ty(x);
+        let lanes: Option<Vec<u8>> = name.split("").filter(|c| !c.is_empty()).map(super::expr::lane).collect();
+        let lanes = lanes.filter(|l| (2..=4).contains(&l.len()) && ty.lanes() > 1 && l.iter().all(|k| *k < ty.lanes()))?;
+        let part = Type::value(ty.kind()?, 1);
+        let parts = lanes.iter().map(|k| self.builder.add(Op::Extract(*k), vec![x], part)).collect();
+        Some(self.builder.add(Op::Compose, parts, Type::value(ty.kind()?, lanes.len() as u8)))
+    }
+}
+
+fn instead(span: Span, message: &str, write: &str) -> super::value::Exit {
+    Diagnostic::at(span, message).label("means two things").help(format!("write `{write}`")).into()
+}
+
+fn unary(name: &str) -> Option<UnaryOp> {
+    use UnaryOp::*;
+    Some(match name {
+        "abs" => Abs,
+        "floor" => Floor,
+        "ceil" => Ceil,
+        "trunc" => Trunc,
+        "round_ties_even" => Round,
+        "sqrt" => Sqrt,
+        "exp" => Exp,
+        "exp2" => Exp2,
+        "ln" => Log,
+        "log2" => Log2,
+        "sin" => Sin,
+        "cos" => Cos,
+        "tan" => Tan,
+        "asin" => Asin,
+        "acos" => Acos,
+        "atan" => Atan,
+        _ => return None,
+    })
+}
+
+/// `as_vec2` and its like.
+fn conversion(name: &str) -> Option<(Scalar, u8)> {
+    let rest = name.strip_prefix("as_")?;
+    let (kind, lanes) = match rest.strip_prefix("vec") {
+        Some(lanes) => (Scalar::F32, lanes),
+        None => match rest.strip_prefix("ivec") {
+            Some(lanes) => (Scalar::I32, lanes),
+            None => (Scalar::U32, rest.strip_prefix("uvec")?),
+        },
+    };
+    lanes.parse().ok().filter(|n| (2..=4).contains(n)).map(|n| (kind, n))
+}

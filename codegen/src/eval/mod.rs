@@ -1,0 +1,250 @@
+//! The partial evaluator: runs a kernel on values of which some are known now and others at run time.
+//!
+//! What is known is computed, as rustc's own code would compute it. What is not becomes a node of the graph.
+//! Loops are run, or kept as loops, as the [`Unroll`] policy says; calls are always inlined.
+
+mod assign;
+mod call;
+mod consts;
+mod control;
+mod entry;
+mod expr;
+mod loops;
+mod math;
+mod methods;
+mod operators;
+mod options;
+mod scope;
+mod shape;
+mod value;
+
+use crate::diagnostic::{Diagnostic, Errors, File, Span};
+use crate::front::Library;
+use crate::ir::{Builder, Counter, Graph, NodeId, Op, Origin, Scalar, Type};
+use crate::passes::Exact;
+use scope::Scope;
+use std::collections::{BTreeMap, HashMap};
+use std::sync::Arc;
+use value::{Eval, Exit, Value};
+
+pub use options::{OptionInfo, OptionKind, describe};
+
+/// What becomes of loops.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Unroll {
+    /// Every loop is run now: one basic block is left.
+    #[default]
+    Full,
+    /// Every loop that can be a loop at run time is kept: the baseline of unroll studies.
+    None,
+}
+
+impl Unroll {
+    /// `full` or `none`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Unroll::Full => "full",
+            Unroll::None => "none",
+        }
+    }
+}
+
+impl std::str::FromStr for Unroll {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        match text {
+            "full" => Ok(Unroll::Full),
+            "none" => Ok(Unroll::None),
+            _ => Err(format!("unknown unroll policy `{text}`: full or none")),
+        }
+    }
+}
+
+/// A kernel with its options decided.
+pub struct Evaluated {
+    /// What is left to compute.
+    pub graph: Graph,
+    /// Every option with its value.
+    pub options: BTreeMap<String, String>,
+    /// First paragraph of the kernel's documentation.
+    pub docs: String,
+}
+
+/// Evaluates the function `entry` with some options set, the others at their defaults.
+pub fn evaluate(
+    library: &Library,
+    files: &Arc<Vec<File>>,
+    entry: &str,
+    settings: &[(String, String)],
+    unroll: Unroll,
+) -> Result<Evaluated, Errors> {
+    let rules = Exact;
+    let mut builder = Builder::new(&rules);
+    builder.graph_mut().files = files.iter().map(|f| f.path.clone()).collect();
+    let mut evaluator = Evaluator {
+        library,
+        builder,
+        unroll,
+        scope: Scope::default(),
+        counters: Vec::new(),
+        calls: Vec::new(),
+        errors: Vec::new(),
+        consts: HashMap::new(),
+        sites: 0,
+        steps: 0,
+    };
+    let result = evaluator.kernel(entry, settings);
+    match result {
+        Ok((output, options, docs)) if evaluator.errors.is_empty() => {
+            Ok(Evaluated { graph: evaluator.builder.finish(output), options, docs })
+        }
+        Ok(_) | Err(Exit::Noted) => Err(Errors::new(evaluator.errors, files)),
+        Err(Exit::Error(last)) => {
+            evaluator.errors.push(*last);
+            Err(Errors::new(evaluator.errors, files))
+        }
+        Err(_) => Err(Errors::of(Diagnostic::new(format!("`{entry}` does not end with a value")))),
+    }
+}
+
+/// Operations after which a kernel is taken not to end.
+const MAX_STEPS: u64 = 20_000_000;
+
+/// Nodes after which a kernel is taken to be unrolled by mistake.
+const MAX_NODES: usize = 400_000;
+
+/// Depth of calls after which a recursion is taken not to end.
+const MAX_CALLS: usize = 200;
+
+struct Evaluator<'a> {
+    library: &'a Library,
+    builder: Builder<'a>,
+    unroll: Unroll,
+    scope: Scope,
+    /// Counters of the unrolled loops around.
+    counters: Vec<Counter>,
+    /// Functions being evaluated, innermost last.
+    calls: Vec<String>,
+    errors: Vec<Diagnostic>,
+    /// Constants evaluated so far.
+    consts: HashMap<String, Value>,
+    /// Texture reads made so far.
+    sites: u32,
+    steps: u64,
+}
+
+impl Evaluator<'_> {
+    /// Counts a step of work, so that nothing runs for ever.
+    fn step(&mut self, span: Span) -> Eval<()> {
+        self.steps += 1;
+        if self.steps > MAX_STEPS || self.builder.graph().nodes.len() > MAX_NODES {
+            let what = if self.steps > MAX_STEPS {
+                format!("evaluation takes more than {MAX_STEPS} steps")
+            } else {
+                format!("the kernel unrolls to more than {MAX_NODES} operations")
+            };
+            return Err(Diagnostic::at(span, what)
+                .label("reached here")
+                .help("run loops over fewer values, or keep them with the unroll policy `none`")
+                .into());
+        }
+        Ok(())
+    }
+
+    /// Notes an error; one that is noted already is not noted again.
+    fn note(&mut self, exit: Exit) -> Exit {
+        match exit {
+            Exit::Error(diagnostic) => {
+                if !self.errors.contains(&diagnostic) {
+                    self.errors.push(*diagnostic);
+                }
+                Exit::Noted
+            }
+            other => other,
+        }
+    }
+
+    /// Gives nodes the name of the variable that they are assigned to.
+    fn name(&mut self, value: &Value, name: &str, span: Span) {
+        match value {
+            Value::Node(id) => self.name_node(*id, name, span),
+            Value::Struct { fields, .. } => {
+                for (field, value) in fields {
+                    self.name(value, &format!("{name}_{field}"), span);
+                }
+            }
+            Value::Tuple(parts) | Value::Array(parts) => {
+                for (k, part) in parts.iter().enumerate() {
+                    self.name(part, &format!("{name}_{k}"), span);
+                }
+            }
+            _ => {}
+        }
+    }
+
+    fn name_node(&mut self, id: NodeId, name: &str, span: Span) {
+        if matches!(
+            self.builder.graph().node(id).op,
+            Op::Const(_) | Op::Pixel | Op::FrameSize | Op::Uniform(_) | Op::Param(..) | Op::MakeArray
+        ) {
+            return;
+        }
+        let counters = self.counters.clone();
+        let origin = Origin { name: name.to_owned(), file: span.file, line: span.line, counters };
+        self.builder.set_origin(id, &origin);
+    }
+
+    fn ty(&self, id: NodeId) -> Type {
+        self.builder.graph().ty(id)
+    }
+
+    /// A boolean that is known.
+    fn known_bool(&self, id: NodeId) -> Option<bool> {
+        self.builder.graph().constant(id).map(|bits| bits[0] != 0)
+    }
+
+    /// An integer that is known, of whichever type.
+    fn known_int(&self, value: &Value) -> Option<i64> {
+        match value {
+            Value::Int(n) => Some(*n),
+            Value::Node(id) => {
+                let bits = self.builder.graph().constant(*id)?[0];
+                match self.ty(*id) {
+                    Type::I32 => Some(i64::from(bits as i32)),
+                    Type::U32 => Some(i64::from(bits)),
+                    _ => None,
+                }
+            }
+            _ => None,
+        }
+    }
+
+    /// A value as a node; integers become `i32`.
+    fn node(&mut self, value: &Value, span: Span) -> Eval<NodeId> {
+        match value {
+            Value::Node(id) => Ok(*id),
+            Value::Int(n) => self.int_node(*n, Scalar::I32, span),
+            Value::Poison => Err(Exit::Noted),
+            other => Err(Diagnostic::at(span, format!("{} where a number is needed", other.describe())).into()),
+        }
+    }
+
+    /// A known integer as a node of a kind.
+    fn int_node(&mut self, n: i64, kind: Scalar, span: Span) -> Eval<NodeId> {
+        let bits = match kind {
+            Scalar::I32 => i32::try_from(n).ok().map(|n| n as u32),
+            Scalar::U32 => u32::try_from(n).ok(),
+            Scalar::F32 | Scalar::Bool => {
+                return Err(Diagnostic::at(span, format!("the integer {n} where a {kind} is needed"))
+                    .label("an integer")
+                    .help(format!("write `{n}.0`, or convert with `as f32`"))
+                    .into());
+            }
+        };
+        match bits {
+            Some(bits) => Ok(self.builder.constant(Type::scalar(kind), [bits, 0, 0, 0])),
+            None => Err(Diagnostic::at(span, format!("{n} does not fit into {kind}")).into()),
+        }
+    }
+}

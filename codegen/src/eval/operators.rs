@@ -1,0 +1,200 @@
+//! Operators and conversions.
+
+use super::Evaluator;
+use super::value::{Eval, Exit, Value};
+use crate::diagnostic::{Diagnostic, Span};
+use crate::front::tree::Type as SourceType;
+use crate::ir::{BinaryOp, NodeId, Op, Scalar, Type, UnaryOp};
+
+impl Evaluator<'_> {
+    pub fn unary(&mut self, op: UnaryOp, value: &Value, span: Span) -> Eval {
+        if let (UnaryOp::Neg, Value::Int(n)) = (op, value) {
+            return Ok(Value::Int(-n));
+        }
+        let id = self.node(value, span)?;
+        let ty = self.ty(id);
+        let op = match (op, ty.kind()) {
+            (UnaryOp::Not, Some(Scalar::I32 | Scalar::U32)) => UnaryOp::BitNot,
+            (UnaryOp::Not, Some(Scalar::Bool)) | (UnaryOp::Neg, Some(Scalar::F32 | Scalar::I32)) => op,
+            _ => return Err(Diagnostic::at(span, format!("this operator does not take a {ty}")).into()),
+        };
+        Ok(Value::Node(self.builder.add(Op::Unary(op), vec![id], ty)))
+    }
+
+    pub fn binary(&mut self, op: BinaryOp, left: &Value, right: &Value, span: Span) -> Eval {
+        match (left, right) {
+            (Value::Int(a), Value::Int(b)) => return self.integers(op, *a, *b, span),
+            (Value::Enum { ty, variant }, Value::Enum { ty: other, variant: second }) if ty == other => {
+                return match op {
+                    BinaryOp::Eq => Ok(Value::Node(self.builder.bool(variant == second))),
+                    BinaryOp::Ne => Ok(Value::Node(self.builder.bool(variant != second))),
+                    _ => Err(Diagnostic::at(span, "variants can be compared with `==` and `!=` only").into()),
+                };
+            }
+            _ => {}
+        }
+        let (a, b) = match op {
+            // A shift's count may be of another integer type.
+            BinaryOp::Shl | BinaryOp::Shr => (self.node(left, span)?, self.shift_count(left, right, span)?),
+            _ => self.same_type(left, right, span)?,
+        };
+        let ty = self.ty(a);
+        let kind = ty.kind().unwrap_or(Scalar::Bool);
+        let fits = match op {
+            BinaryOp::And | BinaryOp::Or | BinaryOp::Xor => kind != Scalar::F32,
+            BinaryOp::Shl | BinaryOp::Shr => matches!(kind, Scalar::I32 | Scalar::U32),
+            BinaryOp::Eq | BinaryOp::Ne => true,
+            _ => kind != Scalar::Bool,
+        };
+        if !fits || ty.is_array() {
+            return Err(Diagnostic::at(span, format!("this operator does not take {ty}")).into());
+        }
+        if op.is_comparison() {
+            return self.comparison(op, a, b);
+        }
+        Ok(Value::Node(self.builder.add(Op::Binary(op), vec![a, b], ty)))
+    }
+
+    /// Rust compares vectors as wholes.
+    fn comparison(&mut self, op: BinaryOp, a: NodeId, b: NodeId) -> Eval {
+        let lanes = self.ty(a).lanes();
+        let each = self.builder.add(Op::Binary(op), vec![a, b], Type::value(Scalar::Bool, lanes));
+        if lanes == 1 {
+            return Ok(Value::Node(each));
+        }
+        let join = if op == BinaryOp::Ne { BinaryOp::Or } else { BinaryOp::And };
+        let mut all = self.builder.add(Op::Extract(0), vec![each], Type::BOOL);
+        for k in 1..lanes {
+            let next = self.builder.add(Op::Extract(k), vec![each], Type::BOOL);
+            all = self.builder.add(Op::Binary(join), vec![all, next], Type::BOOL);
+        }
+        Ok(Value::Node(all))
+    }
+
+    fn shift_count(&mut self, left: &Value, right: &Value, span: Span) -> Eval<NodeId> {
+        let value = self.node(left, span)?;
+        let ty = self.ty(value);
+        let count = self.node(right, span)?;
+        let count = self.convert(count, ty.kind().unwrap_or(Scalar::I32));
+        Ok(self.splat(count, ty.lanes()))
+    }
+
+    fn integers(&mut self, op: BinaryOp, a: i64, b: i64, span: Span) -> Eval {
+        use BinaryOp::*;
+        let known = match op {
+            Add => Some(a + b),
+            Sub => Some(a - b),
+            Mul => a.checked_mul(b),
+            Div if b != 0 => Some(a / b),
+            Rem if b != 0 => Some(a % b),
+            Div | Rem => return Err(Diagnostic::at(span, format!("{a} divided by zero")).into()),
+            Min => Some(a.min(b)),
+            Max => Some(a.max(b)),
+            And => Some(a & b),
+            Or => Some(a | b),
+            Xor => Some(a ^ b),
+            Shl if (0..32).contains(&b) => Some(a << b),
+            Shr if (0..32).contains(&b) => Some(a >> b),
+            Eq | Ne | Lt | Le | Gt | Ge => {
+                let holds = match op {
+                    Eq => a == b,
+                    Ne => a != b,
+                    Lt => a < b,
+                    Le => a <= b,
+                    Gt => a > b,
+                    _ => a >= b,
+                };
+                return Ok(Value::Node(self.builder.bool(holds)));
+            }
+            _ => None,
+        };
+        match known {
+            Some(n) if i32::try_from(n).is_ok() || u32::try_from(n).is_ok() => Ok(Value::Int(n)),
+            _ => Err(Diagnostic::at(span, "the result does not fit into 32 bits").help("use `as u32` on both sides to wrap").into()),
+        }
+    }
+
+    /// Both values as nodes of one type: integers take the other's type, scalars fill the other's lanes.
+    pub fn same_type(&mut self, left: &Value, right: &Value, span: Span) -> Eval<(NodeId, NodeId)> {
+        let (a, b) = match (left, right) {
+            (Value::Int(n), Value::Node(id)) => {
+                let kind = self.ty(*id).kind().unwrap_or(Scalar::I32);
+                (self.int_node(*n, kind, span)?, *id)
+            }
+            (Value::Node(id), Value::Int(n)) => {
+                let kind = self.ty(*id).kind().unwrap_or(Scalar::I32);
+                (*id, self.int_node(*n, kind, span)?)
+            }
+            _ => (self.node(left, span)?, self.node(right, span)?),
+        };
+        let (ta, tb) = (self.ty(a), self.ty(b));
+        if ta == tb {
+            return Ok((a, b));
+        }
+        if ta.kind() == tb.kind() && ta.is_scalar() && !tb.is_array() {
+            return Ok((self.splat(a, tb.lanes()), b));
+        }
+        if ta.kind() == tb.kind() && tb.is_scalar() && !ta.is_array() {
+            return Ok((a, self.splat(b, ta.lanes())));
+        }
+        Err(Diagnostic::at(span, format!("{ta} and {tb} do not go together"))
+            .label("two types")
+            .help("convert one of them, for example with `as f32` or `.as_vec2()`")
+            .into())
+    }
+
+    /// A scalar in each of `lanes` lanes.
+    pub fn splat(&mut self, id: NodeId, lanes: u8) -> NodeId {
+        if lanes == 1 || self.ty(id).lanes() > 1 {
+            return id;
+        }
+        let ty = Type::value(self.ty(id).kind().unwrap_or(Scalar::F32), lanes);
+        self.builder.add(Op::Splat, vec![id], ty)
+    }
+
+    /// A node's lanes converted to another kind.
+    pub fn convert(&mut self, id: NodeId, kind: Scalar) -> NodeId {
+        let ty = self.ty(id).with_scalar(kind);
+        self.builder.add(Op::Convert, vec![id], ty)
+    }
+
+    /// `value as type`.
+    pub fn cast(&mut self, value: &Value, ty: &SourceType, span: Span) -> Eval {
+        let SourceType::Name(name, _) = ty else {
+            return Err(Diagnostic::at(span, "a cast to something that is not a number").into());
+        };
+        let kind = match name.as_str() {
+            "f32" => Scalar::F32,
+            "i32" | "usize" | "isize" => Scalar::I32,
+            "u32" => Scalar::U32,
+            other => {
+                return Err(Diagnostic::at(span, format!("a cast to `{other}`")).label("not supported").help("cast to f32, i32, u32 or usize").into());
+            }
+        };
+        if let Value::Int(n) = value {
+            return match kind {
+                Scalar::I32 => Ok(Value::Int(*n)),
+                Scalar::F32 => Ok(Value::Node(self.builder.f32(*n as f32))),
+                _ => Ok(Value::Node(self.builder.constant(Type::U32, [*n as u32, 0, 0, 0]))),
+            };
+        }
+        if matches!(value, Value::Poison) {
+            return Err(Exit::Noted);
+        }
+        let id = self.node(value, span)?;
+        if !self.ty(id).is_scalar() {
+            return Err(Diagnostic::at(span, "a cast of something that is not one number").help("vectors convert with `.as_vec2()`, `.as_ivec3()`, ...").into());
+        }
+        Ok(Value::Node(self.convert(id, kind)))
+    }
+
+    /// An index or a loop's bound: an `i32` node.
+    pub fn index_node(&mut self, value: &Value, span: Span) -> Eval<NodeId> {
+        let id = self.node(value, span)?;
+        match self.ty(id) {
+            Type::I32 => Ok(id),
+            Type::U32 => Ok(self.convert(id, Scalar::I32)),
+            other => Err(Diagnostic::at(span, format!("an index must be an integer, not {other}")).into()),
+        }
+    }
+}

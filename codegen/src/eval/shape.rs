@@ -1,0 +1,133 @@
+//! Values as lists of nodes, for crossing the border of a kept loop or branch.
+
+use super::Evaluator;
+use super::value::{Eval, Value};
+use crate::diagnostic::{Diagnostic, Span};
+use crate::ir::{NodeId, Op, Scalar, Type};
+
+impl Evaluator<'_> {
+    /// The value with every integer a node and every array of numbers one node, as a kept loop needs it.
+    pub fn settle(&mut self, value: &Value, span: Span) -> Eval {
+        Ok(match value {
+            Value::Int(n) => Value::Node(self.int_node(*n, Scalar::I32, span)?),
+            Value::Struct { ty, fields } => {
+                let mut settled = Vec::new();
+                for (name, field) in fields {
+                    settled.push((name.clone(), self.settle(field, span)?));
+                }
+                Value::Struct { ty: ty.clone(), fields: settled }
+            }
+            Value::Tuple(parts) => {
+                let parts: Eval<Vec<Value>> = parts.iter().map(|p| self.settle(p, span)).collect();
+                Value::Tuple(parts?)
+            }
+            Value::Array(_) => Value::Node(self.array_node(value, span)?),
+            other => other.clone(),
+        })
+    }
+
+    /// An array as one node, so that it can be indexed at run time.
+    pub fn array_node(&mut self, value: &Value, span: Span) -> Eval<NodeId> {
+        let elements = match value {
+            Value::Node(id) if self.ty(*id).is_array() => return Ok(*id),
+            Value::Array(elements) if !elements.is_empty() => elements.clone(),
+            other => {
+                return Err(Diagnostic::at(span, format!("{} cannot be indexed", other.describe())).into());
+            }
+        };
+        let mut nodes = Vec::new();
+        for element in &elements {
+            match element {
+                Value::Int(_) | Value::Node(_) => nodes.push(self.node(element, span)?),
+                other => {
+                    return Err(Diagnostic::at(span, format!("an array of {} cannot be indexed at run time", other.describe()))
+                        .label("the index is not known now")
+                        .help("unroll the loop, or keep an array for each number in it")
+                        .into());
+                }
+            }
+        }
+        let element = self.ty(nodes[0]);
+        match element {
+            Type::Value { scalar, lanes } if nodes.iter().all(|n| self.ty(*n) == element) => {
+                let ty = Type::Array { scalar, lanes, len: nodes.len() as u32 };
+                Ok(self.builder.add(Op::MakeArray, nodes, ty))
+            }
+            _ => Err(Diagnostic::at(span, "an array of arrays, or of unlike elements, cannot be indexed at run time")
+                .help("unroll the loop, or use one flat array")
+                .into()),
+        }
+    }
+
+    /// The nodes that a settled value is made of, in order.
+    pub fn leaves(value: &Value, out: &mut Vec<NodeId>) {
+        match value {
+            Value::Node(id) => out.push(*id),
+            Value::Struct { fields, .. } => fields.iter().for_each(|(_, field)| Self::leaves(field, out)),
+            Value::Tuple(parts) | Value::Array(parts) => parts.iter().for_each(|part| Self::leaves(part, out)),
+            _ => {}
+        }
+    }
+
+    /// A value of the same shape made of other nodes.
+    pub fn with_leaves(value: &Value, nodes: &mut impl Iterator<Item = NodeId>) -> Value {
+        match value {
+            Value::Node(id) => Value::Node(nodes.next().unwrap_or(*id)),
+            Value::Struct { ty, fields } => {
+                let fields = fields.iter().map(|(name, field)| (name.clone(), Self::with_leaves(field, nodes)));
+                Value::Struct { ty: ty.clone(), fields: fields.collect() }
+            }
+            Value::Tuple(parts) => Value::Tuple(parts.iter().map(|p| Self::with_leaves(p, nodes)).collect()),
+            Value::Array(parts) => Value::Array(parts.iter().map(|p| Self::with_leaves(p, nodes)).collect()),
+            other => other.clone(),
+        }
+    }
+
+    /// Two values of one shape, integers given the type of the other side.
+    pub fn agree(&mut self, a: &Value, b: &Value, span: Span) -> Eval<(Value, Value)> {
+        Ok(match (a, b) {
+            _ if a == b => (a.clone(), b.clone()),
+            (Value::Int(_) | Value::Node(_), Value::Int(_) | Value::Node(_)) => {
+                let (a, b) = self.same_type(a, b, span)?;
+                (Value::Node(a), Value::Node(b))
+            }
+            (Value::Node(id), Value::Array(_)) if self.ty(*id).is_array() => {
+                (a.clone(), Value::Node(self.array_node(b, span)?))
+            }
+            (Value::Array(_), Value::Node(id)) if self.ty(*id).is_array() => {
+                (Value::Node(self.array_node(a, span)?), b.clone())
+            }
+            (Value::Struct { ty, fields: left }, Value::Struct { ty: other, fields: right }) if ty == other => {
+                let (mut l, mut r) = (Vec::new(), Vec::new());
+                for ((name, a), (_, b)) in left.iter().zip(right) {
+                    let (a, b) = self.agree(a, b, span)?;
+                    l.push((name.clone(), a));
+                    r.push((name.clone(), b));
+                }
+                (Value::Struct { ty: ty.clone(), fields: l }, Value::Struct { ty: ty.clone(), fields: r })
+            }
+            (Value::Tuple(left), Value::Tuple(right)) if left.len() == right.len() => {
+                let (l, r) = self.agree_all(left, right, span)?;
+                (Value::Tuple(l), Value::Tuple(r))
+            }
+            (Value::Array(left), Value::Array(right)) if left.len() == right.len() => {
+                let (l, r) = self.agree_all(left, right, span)?;
+                (Value::Array(l), Value::Array(r))
+            }
+            (Value::Poison, _) | (_, Value::Poison) => return Err(super::Exit::Noted),
+            _ => {
+                return Err(Diagnostic::at(
+                    span,
+                    format!("{} on one side and {} on the other of a condition that is only known at run time", a.describe(), b.describe()),
+                )
+                .help("let both sides give numbers, or make the condition depend on options and loop counters only")
+                .into());
+            }
+        })
+    }
+
+    fn agree_all(&mut self, left: &[Value], right: &[Value], span: Span) -> Eval<(Vec<Value>, Vec<Value>)> {
+        let pairs: Eval<Vec<_>> = left.iter().zip(right).map(|(a, b)| self.agree(a, b, span)).collect();
+        Ok(pairs?.into_iter().unzip())
+    }
+}

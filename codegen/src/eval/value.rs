@@ -1,0 +1,100 @@
+//! What a variable holds while a kernel is evaluated.
+
+use crate::diagnostic::Diagnostic;
+use crate::ir::NodeId;
+
+/// A value of the kernel language. What is known now is known exactly: numbers as constant nodes, all else by itself.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Value {
+    /// An integer that is known and takes the type that its use needs.
+    Int(i64),
+    /// A scalar or vector, or in a kept loop an array; known if the node is a constant.
+    Node(NodeId),
+    /// A variant of an enum.
+    Enum {
+        /// The enum.
+        ty: String,
+        /// The variant.
+        variant: String,
+    },
+    /// A structure.
+    Struct {
+        /// Its type.
+        ty: String,
+        /// Its fields in order.
+        fields: Vec<(String, Value)>,
+    },
+    /// A tuple; `()` is empty.
+    Tuple(Vec<Value>),
+    /// An array with known indices.
+    Array(Vec<Value>),
+    /// Counters from a first to one before an end, for a loop.
+    Range(Range),
+    /// A text: the name in `tally`.
+    Str(String),
+    /// A texture, by its index in the graph.
+    Texture(u32),
+    /// What an expression with an error gives; using it is no second error.
+    Poison,
+}
+
+/// What a `for` runs over.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Range {
+    /// First value: a known integer or an `i32` node.
+    pub start: Box<Value>,
+    /// One past the last.
+    pub end: Box<Value>,
+    /// Last to first.
+    pub reversed: bool,
+    /// Distance of values, at least 1.
+    pub step: i64,
+}
+
+impl Value {
+    /// `()`.
+    pub fn unit() -> Value {
+        Value::Tuple(Vec::new())
+    }
+
+    /// Its kind, for messages.
+    pub fn describe(&self) -> String {
+        match self {
+            Value::Int(_) => "an integer".to_owned(),
+            Value::Node(_) => "a number".to_owned(),
+            Value::Enum { ty, variant } => format!("`{ty}::{variant}`"),
+            Value::Struct { ty, .. } => format!("a `{ty}`"),
+            Value::Tuple(parts) if parts.is_empty() => "`()`".to_owned(),
+            Value::Tuple(_) => "a tuple".to_owned(),
+            Value::Array(_) => "an array".to_owned(),
+            Value::Range(_) => "a range".to_owned(),
+            Value::Str(_) => "a text".to_owned(),
+            Value::Texture(_) => "a texture".to_owned(),
+            Value::Poison => "an error".to_owned(),
+        }
+    }
+}
+
+/// How evaluation of an expression ends other than by its value.
+#[derive(Debug)]
+pub enum Exit {
+    /// With an error, not yet noted.
+    Error(Box<Diagnostic>),
+    /// With an error that has been noted.
+    Noted,
+    /// By `break`.
+    Break,
+    /// By `continue`.
+    Continue,
+    /// By `return`.
+    Return(Value),
+}
+
+impl From<Diagnostic> for Exit {
+    fn from(diagnostic: Diagnostic) -> Self {
+        Exit::Error(Box::new(diagnostic))
+    }
+}
+
+/// A value, or another way out.
+pub type Eval<T = Value> = Result<T, Exit>;

@@ -1,0 +1,338 @@
+//! Expressions and statements.
+
+use super::place;
+use super::tree::{Arm, Block, Const, Expr, ExprKind, IntType, Statement};
+use crate::diagnostic::{Diagnostic, Span};
+use crate::ir::{BinaryOp, UnaryOp};
+use syn::spanned::Spanned;
+
+/// How deep expressions may be nested.
+const DEPTH: u32 = 128;
+
+/// Lowers one item of one file, gathering errors.
+pub struct Lower {
+    file: u32,
+    /// What `Self` stands for.
+    self_type: Option<String>,
+    depth: u32,
+    /// Everything that was found wrong.
+    pub errors: Vec<Diagnostic>,
+}
+
+impl Lower {
+    /// For items of `file`, inside `impl self_type`.
+    pub fn new(file: u32, self_type: Option<String>) -> Self {
+        Lower { file, self_type, depth: 0, errors: Vec::new() }
+    }
+
+    /// The place of a token.
+    pub fn span(&self, span: proc_macro2::Span) -> Span {
+        place(self.file, span)
+    }
+
+    /// Notes that something is not part of the kernel language, and what to write instead.
+    pub fn unsupported(&mut self, span: proc_macro2::Span, what: &str, instead: &str) {
+        let span = self.span(span);
+        self.errors.push(
+            Diagnostic::at(span, format!("{what} is not part of the kernel language")).label("not supported").help(instead),
+        );
+    }
+
+    /// `Self` by its name.
+    pub fn self_name(&self, name: String) -> String {
+        match &self.self_type {
+            Some(ty) if name == "Self" => ty.clone(),
+            _ => name,
+        }
+    }
+
+    /// The last two segments of a path, without generic arguments.
+    pub fn segments(&mut self, path: &syn::Path) -> Vec<String> {
+        let names: Vec<String> = path.segments.iter().map(|s| self.self_name(s.ident.to_string())).collect();
+        names[names.len().saturating_sub(2)..].to_vec()
+    }
+
+    /// A path as an expression.
+    pub fn path_expr(&self, segments: Vec<String>, span: proc_macro2::Span) -> Expr {
+        Expr { kind: ExprKind::Path(segments), span: self.span(span) }
+    }
+
+    /// An expression; what is not supported becomes `()` and an error.
+    pub fn expr(&mut self, expr: &syn::Expr) -> Expr {
+        let span = self.span(expr.span());
+        if self.depth >= DEPTH {
+            self.errors.push(
+                Diagnostic::at(span, format!("expressions are nested more than {DEPTH} deep"))
+                    .label("too deep")
+                    .help("give parts of it a name with `let`"),
+            );
+            return Expr { kind: ExprKind::Tuple(Vec::new()), span };
+        }
+        self.depth += 1;
+        let kind = self.kind(expr);
+        self.depth -= 1;
+        Expr { kind, span }
+    }
+
+    fn boxed(&mut self, expr: &syn::Expr) -> Box<Expr> {
+        Box::new(self.expr(expr))
+    }
+
+    fn kind(&mut self, expr: &syn::Expr) -> ExprKind {
+        match expr {
+            syn::Expr::Paren(e) => self.kind(&e.expr),
+            syn::Expr::Group(e) => self.kind(&e.expr),
+            syn::Expr::Reference(e) => self.kind(&e.expr),
+            syn::Expr::Lit(e) => self.literal(&e.lit, e.span()).kind,
+            syn::Expr::Path(e) if e.qself.is_none() => ExprKind::Path(self.segments(&e.path)),
+            syn::Expr::Unary(e) => self.unary(e),
+            syn::Expr::Binary(e) => self.binary(e),
+            syn::Expr::Assign(e) => ExprKind::Assign(self.boxed(&e.left), None, self.boxed(&e.right)),
+            syn::Expr::Call(e) => self.call(e),
+            syn::Expr::MethodCall(e) => {
+                let receiver = self.boxed(&e.receiver);
+                ExprKind::Method(receiver, e.method.to_string(), e.args.iter().map(|a| self.expr(a)).collect())
+            }
+            syn::Expr::Field(e) => {
+                let name = match &e.member {
+                    syn::Member::Named(name) => name.to_string(),
+                    syn::Member::Unnamed(index) => index.index.to_string(),
+                };
+                ExprKind::Field(self.boxed(&e.base), name)
+            }
+            syn::Expr::Index(e) => ExprKind::Index(self.boxed(&e.expr), self.boxed(&e.index)),
+            syn::Expr::If(e) => {
+                let condition = self.boxed(&e.cond);
+                let then = self.block(&e.then_branch);
+                ExprKind::If(condition, then, e.else_branch.as_ref().map(|(_, other)| self.boxed(other)))
+            }
+            syn::Expr::Match(e) => self.match_(e),
+            syn::Expr::Block(e) if e.label.is_none() => ExprKind::Block(self.block(&e.block)),
+            syn::Expr::Tuple(e) => ExprKind::Tuple(e.elems.iter().map(|e| self.expr(e)).collect()),
+            syn::Expr::Array(e) => ExprKind::Array(e.elems.iter().map(|e| self.expr(e)).collect()),
+            syn::Expr::Repeat(e) => ExprKind::Repeat(self.boxed(&e.expr), self.boxed(&e.len)),
+            syn::Expr::Struct(e) => self.struct_(e),
+            syn::Expr::Cast(e) => ExprKind::Cast(self.boxed(&e.expr), self.ty(&e.ty)),
+            syn::Expr::Range(e) => self.range(e),
+            syn::Expr::ForLoop(e) if e.label.is_none() => {
+                let iterable = self.boxed(&e.expr);
+                ExprKind::For(self.pattern(&e.pat), iterable, self.block(&e.body))
+            }
+            syn::Expr::While(e) if e.label.is_none() => ExprKind::While(self.boxed(&e.cond), self.block(&e.body)),
+            syn::Expr::Return(e) => ExprKind::Return(e.expr.as_ref().map(|e| self.boxed(e))),
+            syn::Expr::Break(e) if e.label.is_none() && e.expr.is_none() => ExprKind::Break,
+            syn::Expr::Continue(e) if e.label.is_none() => ExprKind::Continue,
+            other => self.refused(other),
+        }
+    }
+
+    fn refused(&mut self, expr: &syn::Expr) -> ExprKind {
+        let (what, instead) = match expr {
+            syn::Expr::Closure(_) => ("a closure", "write a function and call it"),
+            syn::Expr::Loop(_) => ("`loop`", "use `for` over a range, or `while` with a condition that is known"),
+            syn::Expr::ForLoop(_) | syn::Expr::While(_) | syn::Expr::Break(_) | syn::Expr::Continue(_) | syn::Expr::Block(_) => {
+                ("a label", "put the inner loop into a function and `return` from it")
+            }
+            syn::Expr::Let(_) => ("`let` in a condition", "use `match`, or compare with `==`"),
+            syn::Expr::Macro(_) => ("a macro", "write out what it stands for"),
+            syn::Expr::Try(_) => ("`?`", "a kernel has no errors: compute a value for every pixel"),
+            syn::Expr::Unsafe(_) => ("`unsafe`", "use the prelude's textures and arrays"),
+            syn::Expr::Async(_) | syn::Expr::Await(_) => ("`async`", "a kernel computes its value at once"),
+            _ => ("this expression", "see the kernel language's documentation for what there is"),
+        };
+        self.unsupported(expr.span(), what, instead);
+        ExprKind::Tuple(Vec::new())
+    }
+
+    /// A literal.
+    pub fn literal(&mut self, lit: &syn::Lit, span: proc_macro2::Span) -> Expr {
+        let kind = match lit {
+            syn::Lit::Int(lit) if matches!(lit.suffix(), "f32") => self.float(lit.base10_digits(), span),
+            syn::Lit::Int(lit) => {
+                let ty = match lit.suffix() {
+                    "" => None,
+                    "i32" | "usize" | "isize" => Some(IntType::I32),
+                    "u32" => Some(IntType::U32),
+                    other => {
+                        self.unsupported(span, &format!("the integer type `{other}`"), "use i32, u32 or usize");
+                        None
+                    }
+                };
+                match lit.base10_parse::<u32>() {
+                    Ok(value) => ExprKind::Int(i64::from(value), ty),
+                    Err(_) => {
+                        self.unsupported(span, "an integer of more than 32 bits", "shaders have 32-bit integers");
+                        ExprKind::Int(0, ty)
+                    }
+                }
+            }
+            syn::Lit::Float(lit) if matches!(lit.suffix(), "" | "f32") => self.float(lit.base10_digits(), span),
+            syn::Lit::Float(lit) => {
+                self.unsupported(span, &format!("the type `{}`", lit.suffix()), "use f32");
+                ExprKind::Float(0.0)
+            }
+            syn::Lit::Bool(lit) => ExprKind::Bool(lit.value),
+            syn::Lit::Str(lit) => ExprKind::Str(lit.value()),
+            _ => {
+                self.unsupported(span, "this literal", "use numbers and booleans");
+                ExprKind::Tuple(Vec::new())
+            }
+        };
+        Expr { kind, span: self.span(span) }
+    }
+
+    fn float(&mut self, digits: &str, span: proc_macro2::Span) -> ExprKind {
+        match digits.parse::<f32>() {
+            Ok(value) if value.is_finite() => ExprKind::Float(value),
+            _ => {
+                self.unsupported(span, "a number beyond the range of f32", "keep it below 3.4e38");
+                ExprKind::Float(0.0)
+            }
+        }
+    }
+
+    fn unary(&mut self, e: &syn::ExprUnary) -> ExprKind {
+        match e.op {
+            syn::UnOp::Neg(_) => ExprKind::Unary(UnaryOp::Neg, self.boxed(&e.expr)),
+            syn::UnOp::Not(_) => ExprKind::Unary(UnaryOp::Not, self.boxed(&e.expr)),
+            syn::UnOp::Deref(_) => self.kind(&e.expr),
+            _ => {
+                self.unsupported(e.span(), "this operator", "use `-` or `!`");
+                ExprKind::Tuple(Vec::new())
+            }
+        }
+    }
+
+    fn binary(&mut self, e: &syn::ExprBinary) -> ExprKind {
+        use syn::BinOp as B;
+        let (left, right) = (self.boxed(&e.left), self.boxed(&e.right));
+        let plain = |op| ExprKind::Binary(op, left.clone(), right.clone());
+        let assign = |op| ExprKind::Assign(left.clone(), Some(op), right.clone());
+        match e.op {
+            B::Add(_) => plain(BinaryOp::Add),
+            B::Sub(_) => plain(BinaryOp::Sub),
+            B::Mul(_) => plain(BinaryOp::Mul),
+            B::Div(_) => plain(BinaryOp::Div),
+            B::Rem(_) => plain(BinaryOp::Rem),
+            B::BitXor(_) => plain(BinaryOp::Xor),
+            B::BitAnd(_) => plain(BinaryOp::And),
+            B::BitOr(_) => plain(BinaryOp::Or),
+            B::Shl(_) => plain(BinaryOp::Shl),
+            B::Shr(_) => plain(BinaryOp::Shr),
+            B::Eq(_) => plain(BinaryOp::Eq),
+            B::Ne(_) => plain(BinaryOp::Ne),
+            B::Lt(_) => plain(BinaryOp::Lt),
+            B::Le(_) => plain(BinaryOp::Le),
+            B::Gt(_) => plain(BinaryOp::Gt),
+            B::Ge(_) => plain(BinaryOp::Ge),
+            B::And(_) => ExprKind::Lazy(true, left, right),
+            B::Or(_) => ExprKind::Lazy(false, left, right),
+            B::AddAssign(_) => assign(BinaryOp::Add),
+            B::SubAssign(_) => assign(BinaryOp::Sub),
+            B::MulAssign(_) => assign(BinaryOp::Mul),
+            B::DivAssign(_) => assign(BinaryOp::Div),
+            B::RemAssign(_) => assign(BinaryOp::Rem),
+            B::BitXorAssign(_) => assign(BinaryOp::Xor),
+            B::BitAndAssign(_) => assign(BinaryOp::And),
+            B::BitOrAssign(_) => assign(BinaryOp::Or),
+            B::ShlAssign(_) => assign(BinaryOp::Shl),
+            B::ShrAssign(_) => assign(BinaryOp::Shr),
+            _ => {
+                self.unsupported(e.span(), "this operator", "use the operators of numbers and booleans");
+                ExprKind::Tuple(Vec::new())
+            }
+        }
+    }
+
+    fn call(&mut self, e: &syn::ExprCall) -> ExprKind {
+        let args = e.args.iter().map(|a| self.expr(a)).collect();
+        match &*e.func {
+            syn::Expr::Path(path) if path.qself.is_none() => ExprKind::Call(self.segments(&path.path), args),
+            other => {
+                self.unsupported(other.span(), "calling a value", "call functions by their names");
+                ExprKind::Tuple(Vec::new())
+            }
+        }
+    }
+
+    fn match_(&mut self, e: &syn::ExprMatch) -> ExprKind {
+        let subject = self.boxed(&e.expr);
+        let mut arms = Vec::new();
+        for arm in &e.arms {
+            if let syn::Pat::Guard(guard) = &arm.pat {
+                self.unsupported(guard.span(), "a guard", "use `if` in the arm");
+            } else {
+                arms.push(Arm { pattern: self.pattern(&arm.pat), body: self.expr(&arm.body) });
+            }
+        }
+        ExprKind::Match(subject, arms)
+    }
+
+    fn struct_(&mut self, e: &syn::ExprStruct) -> ExprKind {
+        let name = self.segments(&e.path).pop().unwrap_or_default();
+        let mut fields = Vec::new();
+        for field in &e.fields {
+            if let syn::Member::Named(name) = &field.member {
+                fields.push((name.to_string(), self.expr(&field.expr)));
+            }
+        }
+        ExprKind::Struct(name, fields, e.rest.as_ref().map(|rest| self.boxed(rest)))
+    }
+
+    fn range(&mut self, e: &syn::ExprRange) -> ExprKind {
+        match (&e.start, &e.end) {
+            (Some(start), Some(end)) => {
+                let inclusive = matches!(e.limits, syn::RangeLimits::Closed(_));
+                ExprKind::Range(self.boxed(start), self.boxed(end), inclusive)
+            }
+            _ => {
+                self.unsupported(e.span(), "a range without both ends", "write both: `0..n`");
+                ExprKind::Tuple(Vec::new())
+            }
+        }
+    }
+
+    /// A block.
+    pub fn block(&mut self, block: &syn::Block) -> Block {
+        let mut statements = Vec::new();
+        let mut value = None;
+        for (k, statement) in block.stmts.iter().enumerate() {
+            match statement {
+                syn::Stmt::Local(local) => statements.push(self.local(local)),
+                syn::Stmt::Expr(expr, None) if k + 1 == block.stmts.len() => value = Some(self.boxed(expr)),
+                syn::Stmt::Expr(expr, _) => statements.push(Statement::Expr(self.expr(expr))),
+                syn::Stmt::Item(syn::Item::Const(item)) => statements.push(Statement::Const(self.constant(item, None))),
+                syn::Stmt::Item(syn::Item::Use(_)) => {}
+                syn::Stmt::Item(item) => {
+                    self.unsupported(item.span(), "an item inside a function", "move it to the top of the file");
+                }
+                syn::Stmt::Macro(m) => self.unsupported(m.span(), "a macro", "write out what it stands for"),
+            }
+        }
+        Block { statements, value }
+    }
+
+    fn local(&mut self, local: &syn::Local) -> Statement {
+        let span = self.span(local.span());
+        let (pattern, ty) = match &local.pat {
+            syn::Pat::Type(typed) => (self.pattern(&typed.pat), Some(self.ty(&typed.ty))),
+            other => (self.pattern(other), None),
+        };
+        let init = local.init.as_ref().map(|init| {
+            if let Some((_, other)) = &init.diverge {
+                self.unsupported(other.span(), "`let ... else`", "use `if` or `match`");
+            }
+            self.expr(&init.expr)
+        });
+        Statement::Let(pattern, ty, init, span)
+    }
+
+    /// A constant, of a type if it is an associated one.
+    pub fn constant(&mut self, item: &syn::ItemConst, of: Option<&str>) -> Const {
+        let name = match of {
+            Some(ty) => format!("{ty}::{}", item.ident),
+            None => item.ident.to_string(),
+        };
+        Const { name, value: self.expr(&item.expr), ty: self.ty(&item.ty) }
+    }
+}

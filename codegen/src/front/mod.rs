@@ -1,0 +1,59 @@
+//! From Rust text to the tree of the supported subset. Knows nothing of targets.
+//!
+//! Every error of the files is reported, not the first. A function that the kernel does not reach may hold
+//! anything.
+
+mod expr;
+mod items;
+mod pattern;
+mod reach;
+mod scan;
+pub mod tree;
+
+use crate::diagnostic::{Diagnostic, Errors, File, Span};
+use std::sync::Arc;
+
+pub use scan::assigned;
+pub use tree::Library;
+
+/// Reads all files and lowers what `entry` reaches.
+pub fn parse(files: &Arc<Vec<File>>, entry: &str) -> Result<Library, Errors> {
+    let mut errors = Vec::new();
+    let mut syntax = Vec::new();
+    for (index, file) in files.iter().enumerate() {
+        match syn::parse_file(&file.text) {
+            Ok(parsed) => syntax.push((index as u32, parsed)),
+            Err(error) => errors.push(syntax_error(index as u32, &error)),
+        }
+    }
+    if !errors.is_empty() {
+        return Err(Errors::new(errors, files));
+    }
+    let mut items = items::Items::default();
+    for (file, parsed) in &syntax {
+        items.collect(*file, &parsed.items);
+    }
+    let library = items.lower(entry);
+    match library {
+        Ok(library) => Ok(library),
+        Err(found) => Err(Errors::new(found, files)),
+    }
+}
+
+fn syntax_error(file: u32, error: &syn::Error) -> Diagnostic {
+    let span = place(file, error.span());
+    Diagnostic::at(span, format!("not valid Rust: {error}")).label("the parser stopped here")
+}
+
+/// The place of a token.
+fn place(file: u32, span: proc_macro2::Span) -> Span {
+    let bytes = span.byte_range();
+    let start = span.start();
+    Span {
+        file,
+        start: bytes.start as u32,
+        end: bytes.end as u32,
+        line: start.line as u32,
+        column: start.column as u32 + 1,
+    }
+}

@@ -1,0 +1,136 @@
+//! What a piece of the tree may change or leave.
+
+use super::tree::{Block, Expr, ExprKind, Pattern, Statement};
+use std::collections::BTreeSet;
+
+/// What a loop's body does to what is around it.
+#[derive(Debug, Default)]
+pub struct Effects {
+    /// Variables that it assigns to, its own among them.
+    pub assigned: BTreeSet<String>,
+    /// Whether it may leave the loop other than by its end: `break`, `continue`, `return`.
+    pub leaves: bool,
+}
+
+/// Scans a loop's body.
+pub fn assigned(body: &Block) -> Effects {
+    let mut effects = Effects::default();
+    block(body, &mut effects, 0);
+    effects
+}
+
+fn block(b: &Block, out: &mut Effects, loops: u32) {
+    for statement in &b.statements {
+        match statement {
+            Statement::Let(_, _, init, _) => init.iter().for_each(|e| expr(e, out, loops)),
+            Statement::Expr(e) => expr(e, out, loops),
+            Statement::Const(_) => {}
+        }
+    }
+    b.value.iter().for_each(|e| expr(e, out, loops));
+}
+
+fn expr(e: &Expr, out: &mut Effects, loops: u32) {
+    match &e.kind {
+        ExprKind::Assign(place, _, value) => {
+            if let Some(name) = root(place) {
+                out.assigned.insert(name);
+            }
+            expr(place, out, loops);
+            expr(value, out, loops);
+        }
+        ExprKind::Return(value) => {
+            out.leaves = true;
+            value.iter().for_each(|e| expr(e, out, loops));
+        }
+        ExprKind::Break | ExprKind::Continue => out.leaves |= loops == 0,
+        ExprKind::For(_, over, body) => {
+            expr(over, out, loops);
+            block(body, out, loops + 1);
+        }
+        ExprKind::While(condition, body) => {
+            expr(condition, out, loops);
+            block(body, out, loops + 1);
+        }
+        ExprKind::If(condition, then, otherwise) => {
+            expr(condition, out, loops);
+            block(then, out, loops);
+            otherwise.iter().for_each(|e| expr(e, out, loops));
+        }
+        ExprKind::Block(b) => block(b, out, loops),
+        ExprKind::Match(subject, arms) => {
+            expr(subject, out, loops);
+            arms.iter().for_each(|arm| expr(&arm.body, out, loops));
+        }
+        _ => children(e).into_iter().for_each(|child| expr(child, out, loops)),
+    }
+}
+
+/// The variable that a place is a part of.
+pub fn root(place: &Expr) -> Option<String> {
+    match &place.kind {
+        ExprKind::Path(path) if path.len() == 1 => Some(path[0].clone()),
+        ExprKind::Field(base, _) | ExprKind::Index(base, _) => root(base),
+        _ => None,
+    }
+}
+
+/// Direct parts of an expression, blocks left out.
+pub fn children(e: &Expr) -> Vec<&Expr> {
+    match &e.kind {
+        ExprKind::Unary(_, a) | ExprKind::Field(a, _) | ExprKind::Cast(a, _) => vec![a],
+        ExprKind::Binary(_, a, b)
+        | ExprKind::Lazy(_, a, b)
+        | ExprKind::Index(a, b)
+        | ExprKind::Repeat(a, b)
+        | ExprKind::Range(a, b, _)
+        | ExprKind::Assign(a, _, b) => vec![a, b],
+        ExprKind::Call(_, args) | ExprKind::Tuple(args) | ExprKind::Array(args) => args.iter().collect(),
+        ExprKind::Method(receiver, _, args) => std::iter::once(&**receiver).chain(args).collect(),
+        ExprKind::Struct(_, fields, rest) => fields.iter().map(|(_, e)| e).chain(rest.as_deref()).collect(),
+        ExprKind::Return(value) => value.iter().map(|e| &**e).collect(),
+        ExprKind::If(condition, _, otherwise) => std::iter::once(&**condition).chain(otherwise.as_deref()).collect(),
+        ExprKind::Match(subject, arms) => std::iter::once(&**subject).chain(arms.iter().map(|a| &a.body)).collect(),
+        ExprKind::For(_, over, _) => vec![over],
+        ExprKind::While(condition, _) => vec![condition],
+        _ => Vec::new(),
+    }
+}
+
+/// Every name that a piece of the tree mentions: variables, functions, constants, types.
+pub fn mentioned(b: &Block, out: &mut BTreeSet<String>) {
+    for statement in &b.statements {
+        match statement {
+            Statement::Let(_, _, init, _) => init.iter().for_each(|e| mentioned_in(e, out)),
+            Statement::Expr(e) => mentioned_in(e, out),
+            Statement::Const(c) => mentioned_in(&c.value, out),
+        }
+    }
+    b.value.iter().for_each(|e| mentioned_in(e, out));
+}
+
+/// Every name that an expression mentions.
+pub fn mentioned_in(e: &Expr, out: &mut BTreeSet<String>) {
+    match &e.kind {
+        ExprKind::Path(path) | ExprKind::Call(path, _) => out.extend(path.iter().cloned()),
+        ExprKind::Method(_, name, _) => {
+            out.insert(name.clone());
+        }
+        ExprKind::Struct(name, ..) => {
+            out.insert(name.clone());
+        }
+        ExprKind::If(_, then, _) => mentioned(then, out),
+        ExprKind::For(_, _, body) | ExprKind::While(_, body) | ExprKind::Block(body) => mentioned(body, out),
+        ExprKind::Match(_, arms) => arms.iter().for_each(|arm| in_pattern(&arm.pattern, out)),
+        _ => {}
+    }
+    children(e).into_iter().for_each(|child| mentioned_in(child, out));
+}
+
+fn in_pattern(pattern: &Pattern, out: &mut BTreeSet<String>) {
+    match pattern {
+        Pattern::Value(e) => mentioned_in(e, out),
+        Pattern::Or(all) | Pattern::Tuple(all, _) => all.iter().for_each(|p| in_pattern(p, out)),
+        Pattern::Name(..) | Pattern::Wild => {}
+    }
+}

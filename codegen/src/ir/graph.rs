@@ -1,0 +1,260 @@
+//! The graph and its builder.
+
+use super::{Lanes, Op, Origin, Type};
+use std::collections::HashMap;
+
+/// Index of a node. A node's arguments have smaller indices.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct NodeId(pub u32);
+
+/// Index of a region.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct RegionId(pub u32);
+
+/// One operation.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct Node {
+    /// What it does.
+    pub op: Op,
+    /// With what.
+    pub args: Vec<NodeId>,
+    /// What comes out.
+    pub ty: Type,
+}
+
+/// The body of a kept loop or one side of a kept branch.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Region {
+    /// The region that it was written in; `None` for the body of the kernel, region 0.
+    pub parent: Option<RegionId>,
+    /// Counter and carried values, for a loop.
+    pub params: Vec<NodeId>,
+    /// Values that leave the region.
+    pub results: Vec<NodeId>,
+}
+
+/// A step in the nesting of regions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Event {
+    /// The region begins inside the innermost open one.
+    Open(RegionId),
+    /// The innermost open region ends.
+    Close(RegionId),
+}
+
+/// A texture that the kernel reads.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Texture {
+    /// Its name in the kernel.
+    pub name: String,
+    /// Components of a texel that the kernel uses, 1 to 4.
+    pub components: u8,
+    /// Whether it is a stack of layers.
+    pub layered: bool,
+}
+
+/// A value set at run time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Uniform {
+    /// Its name in the kernel.
+    pub name: String,
+    /// Scalar or vector.
+    pub ty: Type,
+    /// Value to use unless the host sets one.
+    pub default: Option<f64>,
+}
+
+/// A kernel as a graph of pure operations; see the module's text for what it means.
+#[derive(Clone, Debug, Default)]
+pub struct Graph {
+    /// In order of creation: arguments come before their users.
+    pub nodes: Vec<Node>,
+    /// Where each node comes from, by node.
+    pub origins: Vec<Option<Origin>>,
+    /// The region in which each node was first made, by node.
+    pub homes: Vec<RegionId>,
+    /// Region 0 is the body of the kernel.
+    pub regions: Vec<Region>,
+    /// When each region was opened and closed, by the number of nodes there were, in order.
+    pub events: Vec<(u32, Event)>,
+    /// Textures, by the index that `Op::Load` carries.
+    pub textures: Vec<Texture>,
+    /// Run-time parameters, by the index that `Op::Uniform` carries.
+    pub uniforms: Vec<Uniform>,
+    /// Names of tallies, by the index that `Op::Tally` carries.
+    pub tallies: Vec<String>,
+    /// Source files, by the index that origins carry.
+    pub files: Vec<String>,
+}
+
+impl Graph {
+    /// The body of the kernel.
+    pub const BODY: RegionId = RegionId(0);
+
+    /// A node.
+    pub fn node(&self, id: NodeId) -> &Node {
+        &self.nodes[id.0 as usize]
+    }
+
+    /// A node's type.
+    pub fn ty(&self, id: NodeId) -> Type {
+        self.node(id).ty
+    }
+
+    /// A region.
+    pub fn region(&self, id: RegionId) -> &Region {
+        &self.regions[id.0 as usize]
+    }
+
+    /// Where a node comes from.
+    pub fn origin(&self, id: NodeId) -> Option<&Origin> {
+        self.origins[id.0 as usize].as_ref()
+    }
+
+    /// The colour of the pixel, `vec4<f32>`: the kernel's one result.
+    pub fn output(&self) -> NodeId {
+        self.regions[0].results[0]
+    }
+
+    /// All nodes in order.
+    pub fn ids(&self) -> impl DoubleEndedIterator<Item = NodeId> + use<> {
+        (0..self.nodes.len() as u32).map(NodeId)
+    }
+
+    /// The bits of a constant.
+    pub fn constant(&self, id: NodeId) -> Option<Lanes> {
+        match self.node(id).op {
+            Op::Const(bits) => Some(bits),
+            _ => None,
+        }
+    }
+
+    /// The regions of a loop or branch.
+    pub fn regions_of(&self, id: NodeId) -> Vec<RegionId> {
+        match self.node(id).op {
+            Op::Loop(body) => vec![body],
+            Op::If(then, otherwise) => vec![then, otherwise],
+            _ => Vec::new(),
+        }
+    }
+}
+
+/// Simplifications applied as nodes are made.
+pub trait Rules {
+    /// A node that stands for `op` of `args`, or `None` to make it as it is. May make other nodes first.
+    fn simplify(&self, builder: &mut Builder<'_>, op: &Op, args: &[NodeId], ty: Type) -> Option<NodeId>;
+}
+
+/// No simplification.
+pub struct Unfolded;
+
+impl Rules for Unfolded {
+    fn simplify(&self, _: &mut Builder<'_>, _: &Op, _: &[NodeId], _: Type) -> Option<NodeId> {
+        None
+    }
+}
+
+/// Makes a graph node by node; equal nodes are made once.
+pub struct Builder<'r> {
+    graph: Graph,
+    known: HashMap<Node, NodeId>,
+    rules: &'r dyn Rules,
+    open: Vec<RegionId>,
+}
+
+impl<'r> Builder<'r> {
+    /// An empty graph whose body is open.
+    pub fn new(rules: &'r dyn Rules) -> Self {
+        let body = Region { parent: None, params: Vec::new(), results: Vec::new() };
+        let graph = Graph { regions: vec![body], ..Graph::default() };
+        Builder { graph, known: HashMap::new(), rules, open: vec![Graph::BODY] }
+    }
+
+    /// What is built so far.
+    pub fn graph(&self) -> &Graph {
+        &self.graph
+    }
+
+    /// The tables of textures, uniforms, tallies and files, to be filled by the caller.
+    pub fn graph_mut(&mut self) -> &mut Graph {
+        &mut self.graph
+    }
+
+    /// The node that computes `op` of `args`, simplified.
+    pub fn add(&mut self, op: Op, args: Vec<NodeId>, ty: Type) -> NodeId {
+        let rules = self.rules;
+        match rules.simplify(self, &op, &args, ty) {
+            Some(id) => id,
+            None => self.intern(op, args, ty),
+        }
+    }
+
+    /// The node that computes `op` of `args` exactly as stated.
+    pub fn intern(&mut self, op: Op, args: Vec<NodeId>, ty: Type) -> NodeId {
+        let node = Node { op, args, ty };
+        if let Some(&id) = self.known.get(&node) {
+            return id;
+        }
+        let id = NodeId(self.graph.nodes.len() as u32);
+        self.known.insert(node.clone(), id);
+        self.graph.nodes.push(node);
+        self.graph.origins.push(None);
+        self.graph.homes.push(*self.open.last().expect("the body is always open"));
+        id
+    }
+
+    /// A constant.
+    pub fn constant(&mut self, ty: Type, bits: Lanes) -> NodeId {
+        self.intern(Op::Const(bits), Vec::new(), ty)
+    }
+
+    /// A constant float.
+    pub fn f32(&mut self, value: f32) -> NodeId {
+        self.constant(Type::F32, [value.to_bits(), 0, 0, 0])
+    }
+
+    /// A constant signed integer.
+    pub fn i32(&mut self, value: i32) -> NodeId {
+        self.constant(Type::I32, [value as u32, 0, 0, 0])
+    }
+
+    /// A constant boolean.
+    pub fn bool(&mut self, value: bool) -> NodeId {
+        self.constant(Type::BOOL, [value as u32, 0, 0, 0])
+    }
+
+    /// Says where a node comes from; of a node with two origins, what both agree on is kept.
+    pub fn set_origin(&mut self, id: NodeId, origin: &Origin) {
+        match &mut self.graph.origins[id.0 as usize] {
+            Some(present) => present.merge(origin),
+            empty => *empty = Some(origin.clone()),
+        }
+    }
+
+    /// Opens a region inside the open one, with parameters of the given types.
+    pub fn open_region(&mut self, params: &[Type]) -> RegionId {
+        let id = RegionId(self.graph.regions.len() as u32);
+        let parent = self.open.last().copied();
+        self.graph.regions.push(Region { parent, params: Vec::new(), results: Vec::new() });
+        self.open.push(id);
+        self.graph.events.push((self.graph.nodes.len() as u32, Event::Open(id)));
+        let made = params.iter().enumerate().map(|(k, ty)| self.intern(Op::Param(id, k as u32), Vec::new(), *ty));
+        let made: Vec<_> = made.collect();
+        self.graph.regions[id.0 as usize].params = made;
+        id
+    }
+
+    /// Closes the innermost open region.
+    pub fn close_region(&mut self, results: Vec<NodeId>) {
+        let id = self.open.pop().expect("a region is open");
+        self.graph.events.push((self.graph.nodes.len() as u32, Event::Close(id)));
+        self.graph.regions[id.0 as usize].results = results;
+    }
+
+    /// Closes the body with its result.
+    pub fn finish(mut self, output: NodeId) -> Graph {
+        self.close_region(vec![output]);
+        assert!(self.open.is_empty(), "every region that was opened is closed");
+        self.graph
+    }
+}

@@ -1,0 +1,44 @@
+//! The intermediate representation: a graph of pure operations.
+//!
+//! # Semantics
+//!
+//! - A [`Graph`] computes one value, [`Graph::output`], for one output pixel. It has no side effects; what a
+//!   host stores, and where, is the shell's affair.
+//! - A node is a pure, total function of its arguments. It may be evaluated never, once or often, early or
+//!   late, with the same result. This holds for texture reads too: textures do not change during a dispatch,
+//!   and coordinates are clamped by nodes of their own.
+//! - Arithmetic is that of WGSL: `f32` rounds to nearest, ties to even, and is never contracted or reassociated
+//!   by a pass in exact mode; `i32` and `u32` wrap; a division by zero of integers gives the dividend and its
+//!   remainder 0; shifts use the count modulo 32.
+//! - Vectors have 2 to 4 lanes. Both sides of a binary operation have the same type: a scalar that meets a
+//!   vector is [`Op::Splat`] first.
+//! - Arrays are values: [`Op::ArraySet`] gives a new array and leaves the old one as it was. An index out of
+//!   range reads the last element and writes nothing.
+//! - A kept loop is one [`Op::Loop`] node with a [`Region`]. Its arguments are the first counter, the end (not
+//!   included) and the initial carried values; the region's parameters are the counter and the carried values,
+//!   and its results the carried values of the next iteration. A region may use any node that is computed
+//!   outside it. [`Op::Result`] reads the carried values after the last iteration.
+//! - A kept branch is one [`Op::If`] node with two regions without parameters.
+//! - Nodes belong to no region by themselves: where a node is evaluated follows from what it depends on and who
+//!   uses it, and is decided in one place, the schedule.
+//! - Equal nodes are one node (hash-consing). [`Op::Load`] carries the site of its call so that reads are only
+//!   shared by the pass that is there for it.
+//!
+//! A graph is not changed once built: a pass builds another.
+
+pub mod arith;
+mod graph;
+pub mod interp;
+mod op;
+mod origin;
+mod print;
+mod rebuild;
+mod types;
+pub mod verify;
+
+pub use graph::{Builder, Event, Graph, Node, NodeId, Region, RegionId, Rules, Texture, Uniform, Unfolded};
+pub use op::{BinaryOp, Op, UnaryOp};
+pub use origin::{Counter, Origin};
+pub use print::print;
+pub use rebuild::{Rebuild, rebuild};
+pub use types::{Lanes, Scalar, Type};

@@ -1,0 +1,188 @@
+//! Building a graph again, without what is not used: the frame of every pass.
+
+use super::{Builder, Event, Graph, NodeId, Op, RegionId, Rules};
+
+/// What a pass changes while the graph is built again.
+pub struct Rebuild<'a> {
+    /// Simplifications to apply.
+    pub rules: &'a dyn Rules,
+    /// Whether reads of the same texel become one.
+    pub share_loads: bool,
+}
+
+/// The same kernel built again: unused nodes and unused carried values vanish, the pass's rules apply.
+pub fn rebuild(old: &Graph, pass: &Rebuild<'_>) -> Graph {
+    let live = Liveness::of(old);
+    let mut builder = Builder::new(pass.rules);
+    copy_tables(old, builder.graph_mut());
+    let mut walk = Walk { old, live, builder, new_ids: vec![None; old.nodes.len()], new_regions: vec![None; old.regions.len()] };
+    walk.new_regions[0] = Some(Graph::BODY);
+    let mut events = old.events.iter().peekable();
+    for id in old.ids() {
+        while let Some((_, event)) = events.next_if(|(at, _)| *at <= id.0) {
+            walk.event(*event);
+        }
+        walk.node(id, pass.share_loads);
+    }
+    for (_, event) in events {
+        if *event != Event::Close(Graph::BODY) {
+            walk.event(*event);
+        }
+    }
+    let output = walk.new_id(old.output());
+    walk.builder.finish(output)
+}
+
+fn copy_tables(old: &Graph, new: &mut Graph) {
+    new.textures.clone_from(&old.textures);
+    new.uniforms.clone_from(&old.uniforms);
+    new.tallies.clone_from(&old.tallies);
+    new.files.clone_from(&old.files);
+}
+
+struct Walk<'g, 'r> {
+    old: &'g Graph,
+    live: Liveness,
+    builder: Builder<'r>,
+    new_ids: Vec<Option<NodeId>>,
+    new_regions: Vec<Option<RegionId>>,
+}
+
+impl Walk<'_, '_> {
+    fn new_id(&self, old: NodeId) -> NodeId {
+        self.new_ids[old.0 as usize].expect("arguments are built before their users")
+    }
+
+    fn event(&mut self, event: Event) {
+        match event {
+            Event::Open(region) if self.live.regions[region.0 as usize] => self.open(region),
+            Event::Close(region) if self.live.regions[region.0 as usize] => self.close(region),
+            _ => {}
+        }
+    }
+
+    fn open(&mut self, region: RegionId) {
+        let params = self.live.kept(region, &self.old.region(region).params, true);
+        let types: Vec<_> = params.iter().map(|p| self.old.ty(*p)).collect();
+        let new = self.builder.open_region(&types);
+        self.new_regions[region.0 as usize] = Some(new);
+        let made = self.builder.graph().region(new).params.clone();
+        for (old, new) in params.iter().zip(made) {
+            self.take_over(*old, new);
+        }
+    }
+
+    fn close(&mut self, region: RegionId) {
+        let results = self.live.kept(region, &self.old.region(region).results, false);
+        let results = results.iter().map(|r| self.new_id(*r)).collect();
+        self.builder.close_region(results);
+    }
+
+    fn node(&mut self, id: NodeId, share_loads: bool) {
+        if !self.live.nodes[id.0 as usize] || self.new_ids[id.0 as usize].is_some() {
+            return;
+        }
+        let node = self.old.node(id);
+        let region = |r: &RegionId| self.new_regions[r.0 as usize].expect("regions are opened before their owner is built");
+        let (op, args): (Op, Vec<NodeId>) = match &node.op {
+            Op::Loop(body) => {
+                let carried = self.live.kept(*body, &node.args[1..], true);
+                (Op::Loop(region(body)), [&node.args[..1], &carried].concat())
+            }
+            Op::If(then, otherwise) => (Op::If(region(then), region(otherwise)), node.args.clone()),
+            Op::Result(k) => {
+                let owner = self.old.node(node.args[0]);
+                let (Op::Loop(owner) | Op::If(owner, _)) = owner.op else {
+                    unreachable!("verified: a result is of a loop or branch")
+                };
+                let gone = self.live.results[owner.0 as usize][..*k as usize].iter().filter(|live| !**live).count();
+                (Op::Result(k - gone as u32), node.args.clone())
+            }
+            Op::Load { texture, .. } if share_loads => (Op::Load { texture: *texture, site: 0 }, node.args.clone()),
+            other => (other.clone(), node.args.clone()),
+        };
+        let args = args.iter().map(|a| self.new_id(*a)).collect();
+        let new = match op {
+            Op::Const(_) => self.builder.intern(op, args, node.ty),
+            _ => self.builder.add(op, args, node.ty),
+        };
+        self.take_over(id, new);
+    }
+
+    fn take_over(&mut self, old: NodeId, new: NodeId) {
+        self.new_ids[old.0 as usize] = Some(new);
+        if let Some(origin) = self.old.origin(old) {
+            self.builder.set_origin(new, origin);
+        }
+    }
+}
+
+/// What the output depends on.
+struct Liveness {
+    nodes: Vec<bool>,
+    regions: Vec<bool>,
+    /// By region, whether each of its results leaves it; the two sides of a branch agree.
+    results: Vec<Vec<bool>>,
+}
+
+impl Liveness {
+    fn of(graph: &Graph) -> Liveness {
+        let mut live = Liveness {
+            nodes: vec![false; graph.nodes.len()],
+            regions: vec![false; graph.regions.len()],
+            results: graph.regions.iter().map(|r| vec![false; r.results.len()]).collect(),
+        };
+        live.regions[0] = true;
+        let mut pending = vec![graph.output()];
+        while let Some(id) = pending.pop() {
+            if std::mem::replace(&mut live.nodes[id.0 as usize], true) {
+                continue;
+            }
+            let node = graph.node(id);
+            match node.op {
+                Op::Loop(region) => {
+                    live.regions[region.0 as usize] = true;
+                    pending.extend(&node.args[..2]);
+                }
+                Op::If(then, otherwise) => {
+                    live.regions[then.0 as usize] = true;
+                    live.regions[otherwise.0 as usize] = true;
+                    pending.push(node.args[0]);
+                }
+                Op::Result(k) => {
+                    pending.push(node.args[0]);
+                    live.leaves(graph, node.args[0], k as usize, &mut pending);
+                }
+                Op::Param(region, k) if k > 0 => {
+                    let owner = graph.ids().find(|id| graph.node(*id).op == Op::Loop(region));
+                    live.leaves(graph, owner.expect("a region with parameters is a loop's"), k as usize - 1, &mut pending);
+                }
+                _ => pending.extend(&node.args),
+            }
+        }
+        live
+    }
+
+    /// Result `k` of `owner` is used: so are what computes it and, in a loop, its first value.
+    fn leaves(&mut self, graph: &Graph, owner: NodeId, k: usize, pending: &mut Vec<NodeId>) {
+        for region in graph.regions_of(owner) {
+            if !std::mem::replace(&mut self.results[region.0 as usize][k], true) {
+                let entry = graph.region(region);
+                pending.push(entry.results[k]);
+                pending.extend(entry.params.get(k + 1));
+                if matches!(graph.node(owner).op, Op::Loop(_)) {
+                    pending.push(graph.node(owner).args[k + 2]);
+                }
+            }
+        }
+    }
+
+    /// Of values that stand beside a region's results, those whose result is used. With `counter` the first
+    /// stands beside none and is kept.
+    fn kept(&self, region: RegionId, values: &[NodeId], counter: bool) -> Vec<NodeId> {
+        let skip = usize::from(counter && !values.is_empty());
+        let used = self.results[region.0 as usize].iter();
+        let rest = values[skip..].iter().zip(used).filter(|(_, used)| **used).map(|(v, _)| *v);
+        values[..skip].iter().copied().chain(rest).collect()
+    }
+}

@@ -1,0 +1,133 @@
+//! Types of nodes.
+
+use std::fmt;
+
+/// The bits of a scalar or of up to four lanes of a vector; unused lanes are 0.
+pub type Lanes = [u32; 4];
+
+/// Kind of a lane.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Scalar {
+    /// 0 or 1.
+    Bool,
+    /// Two's complement, wrapping.
+    I32,
+    /// Wrapping.
+    U32,
+    /// IEEE 754 binary32.
+    F32,
+}
+
+/// Type of a node.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Type {
+    /// A scalar (`lanes` 1) or a vector of 2 to 4.
+    Value {
+        /// Kind of each lane.
+        scalar: Scalar,
+        /// 1 to 4.
+        lanes: u8,
+    },
+    /// A fixed number of scalars or vectors.
+    Array {
+        /// Kind of each lane of an element.
+        scalar: Scalar,
+        /// Lanes of an element, 1 to 4.
+        lanes: u8,
+        /// Number of elements, at least 1.
+        len: u32,
+    },
+    /// What a loop or a branch gives: read by `Op::Result`.
+    Results,
+}
+
+impl Type {
+    /// A scalar boolean.
+    pub const BOOL: Type = Type::scalar(Scalar::Bool);
+    /// A scalar signed integer.
+    pub const I32: Type = Type::scalar(Scalar::I32);
+    /// A scalar unsigned integer.
+    pub const U32: Type = Type::scalar(Scalar::U32);
+    /// A scalar float.
+    pub const F32: Type = Type::scalar(Scalar::F32);
+
+    /// A scalar.
+    pub const fn scalar(scalar: Scalar) -> Type {
+        Type::Value { scalar, lanes: 1 }
+    }
+
+    /// A scalar or vector.
+    pub const fn value(scalar: Scalar, lanes: u8) -> Type {
+        Type::Value { scalar, lanes }
+    }
+
+    /// Kind of the lanes; `None` for `Results`.
+    pub fn kind(self) -> Option<Scalar> {
+        match self {
+            Type::Value { scalar, .. } | Type::Array { scalar, .. } => Some(scalar),
+            Type::Results => None,
+        }
+    }
+
+    /// Lanes of a value or of an array's element; 0 for `Results`.
+    pub fn lanes(self) -> u8 {
+        match self {
+            Type::Value { lanes, .. } | Type::Array { lanes, .. } => lanes,
+            Type::Results => 0,
+        }
+    }
+
+    /// The same shape with lanes of another kind.
+    pub fn with_scalar(self, scalar: Scalar) -> Type {
+        match self {
+            Type::Value { lanes, .. } => Type::Value { scalar, lanes },
+            Type::Array { lanes, len, .. } => Type::Array { scalar, lanes, len },
+            Type::Results => Type::Results,
+        }
+    }
+
+    /// The element of an array; a value is its own element.
+    pub fn element(self) -> Type {
+        match self {
+            Type::Array { scalar, lanes, .. } => Type::Value { scalar, lanes },
+            other => other,
+        }
+    }
+
+    /// Whether this is an array.
+    pub fn is_array(self) -> bool {
+        matches!(self, Type::Array { .. })
+    }
+
+    /// Whether this is a single lane.
+    pub fn is_scalar(self) -> bool {
+        matches!(self, Type::Value { lanes: 1, .. })
+    }
+
+    /// Whether the lanes are floats.
+    pub fn is_float(self) -> bool {
+        self.kind() == Some(Scalar::F32)
+    }
+}
+
+impl fmt::Display for Scalar {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Scalar::Bool => "bool",
+            Scalar::I32 => "i32",
+            Scalar::U32 => "u32",
+            Scalar::F32 => "f32",
+        })
+    }
+}
+
+impl fmt::Display for Type {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Type::Value { scalar, lanes: 1 } => write!(f, "{scalar}"),
+            Type::Value { scalar, lanes } => write!(f, "vec{lanes}<{scalar}>"),
+            Type::Array { len, .. } => write!(f, "array<{}, {len}>", self.element()),
+            Type::Results => f.write_str("results"),
+        }
+    }
+}

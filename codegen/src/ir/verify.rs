@@ -1,0 +1,173 @@
+//! What must hold of every graph.
+//!
+//! 1. Arguments, and a region's results, are made before their users.
+//! 2. Every operation has as many arguments as it takes, of the types that it takes, and gives the type it says.
+//! 3. Indices of textures, uniforms, tallies and regions exist; the regions of a branch agree in their results, a
+//!    loop's carried values in number and type with its results.
+//! 4. A parameter is only used inside its region.
+//! 5. The kernel has one result, `vec4<f32>`.
+
+use super::{BinaryOp, Graph, NodeId, Op, RegionId, Scalar, Type};
+
+/// Checks a graph; the message names the node that breaks a rule.
+pub fn verify(graph: &Graph) -> Result<(), String> {
+    let outputs = &graph.regions.first().ok_or("no body")?.results;
+    if outputs.len() != 1 || graph.ty(outputs[0]) != Type::value(Scalar::F32, 4) {
+        return Err("the body must have one result, a vec4<f32>".to_owned());
+    }
+    for id in graph.ids() {
+        let node = graph.node(id);
+        if node.args.iter().any(|arg| *arg >= id) {
+            return Err(format!("%{}: an argument is made after its user", id.0));
+        }
+        check(graph, id).map_err(|why| format!("%{} ({:?} -> {}): {why}", id.0, node.op, node.ty))?;
+    }
+    scopes(graph)
+}
+
+fn check(graph: &Graph, id: NodeId) -> Result<(), String> {
+    let node = graph.node(id);
+    let types: Vec<Type> = node.args.iter().map(|a| graph.ty(*a)).collect();
+    let expect = |holds: bool, what: &str| if holds { Ok(()) } else { Err(format!("{what}, got {types:?}")) };
+    let count = |n: usize| expect(types.len() == n, "wrong number of arguments");
+    match &node.op {
+        Op::Const(_) | Op::Param(..) => count(0),
+        Op::Pixel | Op::FrameSize => {
+            count(0)?;
+            expect(node.ty == Type::value(Scalar::I32, 2), "a coordinate is a vec2<i32>")
+        }
+        Op::Uniform(k) => expect((*k as usize) < graph.uniforms.len(), "no such uniform"),
+        Op::Unary(_) | Op::Tally(_) => {
+            count(1)?;
+            expect(types[0] == node.ty, "type of argument and result differ")
+        }
+        Op::Binary(op) => {
+            count(2)?;
+            expect(types[0] == types[1], "both sides must have one type")?;
+            let ty = if op.is_comparison() { types[0].with_scalar(Scalar::Bool) } else { types[0] };
+            expect(node.ty == ty, "wrong result type")?;
+            let bits = matches!(op, BinaryOp::Shl | BinaryOp::Shr | BinaryOp::And | BinaryOp::Or | BinaryOp::Xor);
+            expect(!(bits && types[0].is_float()), "a bit operation on floats")
+        }
+        Op::Dot => {
+            count(2)?;
+            expect(types[0] == types[1] && types[0].is_float() && node.ty == Type::F32, "two float vectors to a float")
+        }
+        Op::Cross => {
+            count(2)?;
+            let vec3 = Type::value(Scalar::F32, 3);
+            expect(types[0] == vec3 && types[1] == vec3 && node.ty == vec3, "three vec3<f32>")
+        }
+        Op::Clamp => {
+            count(3)?;
+            expect(types.iter().all(|t| *t == node.ty), "all of one type")
+        }
+        Op::Select => {
+            count(3)?;
+            expect(types[0] == Type::BOOL && types[1] == node.ty && types[2] == node.ty, "a boolean and two alike")
+        }
+        Op::Splat => {
+            count(1)?;
+            expect(types[0].is_scalar() && types[0].kind() == node.ty.kind(), "a scalar of the vector's kind")
+        }
+        Op::Compose => {
+            count(node.ty.lanes() as usize)?;
+            expect(types.iter().all(|t| t.is_scalar() && t.kind() == node.ty.kind()), "a scalar for each lane")
+        }
+        Op::Extract(lane) => {
+            count(1)?;
+            expect(*lane < types[0].lanes() && node.ty.is_scalar() && node.ty.kind() == types[0].kind(), "a lane of a vector")
+        }
+        Op::Convert => {
+            count(1)?;
+            expect(types[0].lanes() == node.ty.lanes(), "as many lanes as before")
+        }
+        Op::Load { texture, .. } => {
+            let entry = graph.textures.get(*texture as usize).ok_or("no such texture")?;
+            count(1 + usize::from(entry.layered))?;
+            expect(types[0] == Type::value(Scalar::I32, 2), "a coordinate is a vec2<i32>")?;
+            expect(types.get(1).is_none_or(|t| *t == Type::I32), "a layer is an i32")?;
+            expect(node.ty == Type::value(Scalar::F32, entry.components), "a texel of the texture's components")
+        }
+        Op::MakeArray => {
+            let Type::Array { len, .. } = node.ty else { return Err("not an array".to_owned()) };
+            count(len as usize)?;
+            expect(types.iter().all(|t| *t == node.ty.element()), "elements of one type")
+        }
+        Op::ArrayGet => {
+            count(2)?;
+            expect(types[0].is_array() && types[1] == Type::I32 && node.ty == types[0].element(), "an array and an index")
+        }
+        Op::ArraySet => {
+            count(3)?;
+            let fits = types[0].is_array() && types[1] == Type::I32 && types[2] == types[0].element();
+            expect(fits && node.ty == types[0], "an array, an index and an element")
+        }
+        Op::Loop(body) => {
+            let body = region(graph, *body)?;
+            expect(types.len() >= 2 && types[0] == Type::I32 && types[1] == Type::I32, "bounds are i32")?;
+            let params: Vec<Type> = body.params.iter().skip(1).map(|p| graph.ty(*p)).collect();
+            let results: Vec<Type> = body.results.iter().map(|r| graph.ty(*r)).collect();
+            expect(params == types[2..] && results == types[2..], "carried values, parameters and results agree")
+        }
+        Op::If(then, otherwise) => {
+            count(1)?;
+            let sides = [region(graph, *then)?, region(graph, *otherwise)?];
+            let [a, b] = sides.map(|r| r.results.iter().map(|id| graph.ty(*id)).collect::<Vec<_>>());
+            expect(types[0] == Type::BOOL && a == b, "a boolean, and two sides with results alike")
+        }
+        Op::Result(k) => {
+            count(1)?;
+            let first = *graph.regions_of(node.args[0]).first().ok_or("not the result of a loop or branch")?;
+            let result = graph.region(first).results.get(*k as usize).ok_or("no such result")?;
+            expect(graph.ty(*result) == node.ty, "wrong type")
+        }
+    }
+}
+
+fn region(graph: &Graph, id: RegionId) -> Result<&super::Region, String> {
+    graph.regions.get(id.0 as usize).ok_or_else(|| "no such region".to_owned())
+}
+
+/// Rule 4: what depends on a parameter is used where the parameter is known.
+fn scopes(graph: &Graph) -> Result<(), String> {
+    let inside = |mut at: RegionId, outer: RegionId| loop {
+        if at == outer {
+            return true;
+        }
+        match graph.region(at).parent {
+            Some(parent) => at = parent,
+            None => return false,
+        }
+    };
+    let mut needs: Vec<RegionId> = Vec::with_capacity(graph.nodes.len());
+    for id in graph.ids() {
+        let node = graph.node(id);
+        let mut need = if let Op::Param(region, _) = node.op { region } else { Graph::BODY };
+        for arg in &node.args {
+            let other = needs[arg.0 as usize];
+            if inside(other, need) {
+                need = other;
+            } else if !inside(need, other) {
+                return Err(format!("%{}: uses parameters of two regions of which neither is in the other", id.0));
+            }
+        }
+        for region in graph.regions_of(id) {
+            let parent = graph.region(region).parent.unwrap_or(Graph::BODY);
+            for result in &graph.region(region).results {
+                if !inside(region, needs[result.0 as usize]) {
+                    return Err(format!("%{}: a result depends on a region outside", id.0));
+                }
+            }
+            if !inside(parent, need) {
+                return Err(format!("%{}: depends on a region that it is not in", id.0));
+            }
+            need = parent;
+        }
+        needs.push(need);
+    }
+    if needs[graph.output().0 as usize] != Graph::BODY {
+        return Err("the output depends on a region's parameter".to_owned());
+    }
+    Ok(())
+}

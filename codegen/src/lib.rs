@@ -1,0 +1,22 @@
+//! Partially evaluates Rust image filters into straight-line shaders.
+//!
+//! Path, text and options in; text out. No GPU, no file is touched outside [`config`] and [`files`].
+//!
+//! ```
+//! use straightline_codegen::{Kernel, Settings};
+//!
+//! let settings = Settings { options: vec![("pattern".into(), "ordered4".into())], ..Settings::default() };
+//! let sraa = Kernel::builtin("sraa")?.compile(&settings)?;
+//! assert_eq!(sraa.counts.basic_blocks, 1);
+//! # Ok::<(), straightline_codegen::diagnostic::Errors>(())
+//! ```
+
+pub mod diagnostic;
+mod eval;
+mod front;
+pub mod ir;
+pub mod passes;
+mod pipeline;
+
+pub use eval::{OptionInfo, OptionKind, Unroll};
+pub use pipeline::{Compiled, Kernel, Observer, Settings};

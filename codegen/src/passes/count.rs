@@ -1,0 +1,194 @@
+//! Static counts: what one invocation executes.
+
+use super::schedule::{Block, Schedule, Step};
+use crate::ir::{Graph, NodeId, Op, Scalar};
+use std::collections::BTreeMap;
+use straightline_manifest::Counts;
+
+/// The texture that a filter filters; its reads are counted apart.
+const FILTERED: &str = "color";
+
+/// Counts what one invocation executes. `statements` is known only once text is emitted and is left 0.
+pub fn count(graph: &Graph, schedule: &Schedule) -> Counts {
+    let run = Counter { graph }.block(&schedule.body);
+    let reads: BTreeMap<String, u32> = run.reads;
+    let colour_reads = reads.get(FILTERED).copied().unwrap_or(0);
+    Counts {
+        basic_blocks: basic_blocks(&schedule.body),
+        loops: loops(&schedule.body),
+        texture_reads: reads.values().sum::<u32>() - colour_reads,
+        colour_reads,
+        reads,
+        tallies: run.tallies,
+        transcendentals: run.transcendentals,
+        alu: run.alu,
+        statements: 0,
+        max_live: max_live(graph, schedule),
+    }
+}
+
+#[derive(Clone, Default)]
+struct Run {
+    reads: BTreeMap<String, u32>,
+    tallies: BTreeMap<String, u32>,
+    transcendentals: u32,
+    alu: u32,
+}
+
+impl Run {
+    fn add(&mut self, other: &Run, times: u32) {
+        for (name, n) in &other.reads {
+            *self.reads.entry(name.clone()).or_default() += n * times;
+        }
+        for (name, n) in &other.tallies {
+            *self.tallies.entry(name.clone()).or_default() += n * times;
+        }
+        self.transcendentals += other.transcendentals * times;
+        self.alu += other.alu * times;
+    }
+
+    /// Of two alternatives, the larger in each figure.
+    fn max(mut self, other: Run) -> Run {
+        for (name, n) in other.reads {
+            let slot = self.reads.entry(name).or_default();
+            *slot = n.max(*slot);
+        }
+        for (name, n) in other.tallies {
+            let slot = self.tallies.entry(name).or_default();
+            *slot = n.max(*slot);
+        }
+        self.transcendentals = self.transcendentals.max(other.transcendentals);
+        self.alu = self.alu.max(other.alu);
+        self
+    }
+}
+
+struct Counter<'g> {
+    graph: &'g Graph,
+}
+
+impl Counter<'_> {
+    fn block(&self, block: &Block) -> Run {
+        let mut run = Run::default();
+        for step in &block.steps {
+            match step {
+                Step::Eval(id) => self.node(*id, &mut run),
+                Step::Loop { node, body } => run.add(&self.block(body), trips(self.graph, *node).unwrap_or(1)),
+                Step::If { then, otherwise, .. } => run.add(&self.block(then).max(self.block(otherwise)), 1),
+            }
+        }
+        run
+    }
+
+    fn node(&self, id: NodeId, run: &mut Run) {
+        match &self.graph.node(id).op {
+            Op::Load { texture, .. } => {
+                *run.reads.entry(self.graph.textures[*texture as usize].name.clone()).or_default() += 1;
+            }
+            Op::Tally(name) => *run.tallies.entry(self.graph.tallies[*name as usize].clone()).or_default() += 1,
+            Op::Unary(op) if op.is_transcendental() => run.transcendentals += 1,
+            Op::Binary(crate::ir::BinaryOp::Pow | crate::ir::BinaryOp::Atan2) => run.transcendentals += 1,
+            Op::Unary(_) | Op::Binary(_) | Op::Dot | Op::Cross | Op::Clamp | Op::Select | Op::Convert => run.alu += 1,
+            _ => {}
+        }
+    }
+}
+
+/// How often a loop runs, where both bounds are known.
+pub(super) fn trips(graph: &Graph, node: NodeId) -> Option<u32> {
+    let bound = |arg: usize| graph.constant(graph.node(node).args[arg]).map(|bits| bits[0] as i32);
+    Some((i64::from(bound(1)?) - i64::from(bound(0)?)).max(0) as u32)
+}
+
+fn basic_blocks(block: &Block) -> u32 {
+    let inner = block.steps.iter().map(|step| match step {
+        Step::Eval(_) => 0,
+        // The test, the body, and what follows.
+        Step::Loop { body, .. } => 2 + basic_blocks(body),
+        Step::If { then, otherwise, .. } if otherwise.steps.is_empty() => 1 + basic_blocks(then),
+        Step::If { then, otherwise, .. } => 1 + basic_blocks(then) + basic_blocks(otherwise),
+    });
+    1 + inner.sum::<u32>()
+}
+
+fn loops(block: &Block) -> u32 {
+    let inner = block.steps.iter().map(|step| match step {
+        Step::Eval(_) => 0,
+        Step::Loop { body, .. } => 1 + loops(body),
+        Step::If { then, otherwise, .. } => loops(then) + loops(otherwise),
+    });
+    inner.sum()
+}
+
+/// Scalars alive at the widest point, constants left out. What a loop's body uses from outside is alive
+/// throughout the loop.
+fn max_live(graph: &Graph, schedule: &Schedule) -> u32 {
+    let mut order = Vec::new();
+    flatten(graph, &schedule.body, &mut order);
+    let mut last_use: Vec<usize> = vec![0; graph.nodes.len()];
+    for (at, entry) in order.iter().enumerate() {
+        for arg in &entry.reads {
+            last_use[arg.0 as usize] = last_use[arg.0 as usize].max(entry.until.unwrap_or(at));
+        }
+    }
+    last_use[graph.output().0 as usize] = order.len();
+    let mut ends: Vec<u32> = vec![0; order.len() + 1];
+    let (mut live, mut widest) = (0u32, 0u32);
+    for (at, entry) in order.iter().enumerate() {
+        if let Some(id) = entry.makes {
+            let size = width(graph, id);
+            if last_use[id.0 as usize] > at {
+                live += size;
+                ends[last_use[id.0 as usize]] += size;
+            }
+        }
+        widest = widest.max(live);
+        live -= ends[at];
+    }
+    widest
+}
+
+struct Entry {
+    makes: Option<NodeId>,
+    reads: Vec<NodeId>,
+    /// Values read in a loop live until its end.
+    until: Option<usize>,
+}
+
+fn flatten(graph: &Graph, block: &Block, order: &mut Vec<Entry>) {
+    for step in &block.steps {
+        match step {
+            Step::Eval(id) => {
+                order.push(Entry { makes: Some(*id), reads: graph.node(*id).args.clone(), until: None });
+            }
+            Step::Loop { node, body } => {
+                let from = order.len();
+                order.push(Entry { makes: None, reads: graph.node(*node).args.clone(), until: None });
+                flatten(graph, body, order);
+                let results = graph.regions_of(*node).iter().flat_map(|r| graph.region(*r).results.clone()).collect();
+                order.push(Entry { makes: Some(*node), reads: results, until: None });
+                let end = order.len() - 1;
+                for entry in &mut order[from..end] {
+                    entry.until = Some(end);
+                }
+            }
+            Step::If { node, then, otherwise } => {
+                order.push(Entry { makes: None, reads: graph.node(*node).args.clone(), until: None });
+                flatten(graph, then, order);
+                flatten(graph, otherwise, order);
+                let results = graph.regions_of(*node).iter().flat_map(|r| graph.region(*r).results.clone()).collect();
+                order.push(Entry { makes: Some(*node), reads: results, until: None });
+            }
+        }
+    }
+}
+
+fn width(graph: &Graph, id: NodeId) -> u32 {
+    let node = graph.node(id);
+    match (&node.op, node.ty) {
+        (Op::Const(_), _) => 0,
+        (_, crate::ir::Type::Array { lanes, len, .. }) => u32::from(lanes) * len,
+        (_, ty) if ty.kind() == Some(Scalar::Bool) => 1,
+        (_, ty) => u32::from(ty.lanes()),
+    }
+}

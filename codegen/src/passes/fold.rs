@@ -1,0 +1,161 @@
+//! Algebra: simplifications that change no bit of the result.
+//!
+//! Each rule rewrites towards fewer or simpler nodes and says why it is exact where that is not plain. What may
+//! change a rounding, a NaN or the sign of a zero has no place here.
+
+use super::ranges;
+use crate::ir::{BinaryOp, Builder, Graph, Lanes, NodeId, Op, Rules, Scalar, Type, UnaryOp, arith};
+
+/// The exact rules.
+pub struct Exact;
+
+impl Rules for Exact {
+    fn simplify(&self, b: &mut Builder<'_>, op: &Op, args: &[NodeId], ty: Type) -> Option<NodeId> {
+        constant(b, op, args, ty)
+            .or_else(|| shape(b, op, args, ty))
+            .or_else(|| array(b, op, args, ty))
+            .or_else(|| ranges::clamp(b, op, args, ty))
+            .or_else(|| algebra(b, op, args))
+    }
+}
+
+/// Known arguments: the result is known.
+fn constant(b: &mut Builder<'_>, op: &Op, args: &[NodeId], ty: Type) -> Option<NodeId> {
+    let operands: Option<Vec<Lanes>> = args.iter().map(|a| b.graph().constant(*a)).collect();
+    let first = args.last()?;
+    let operand = if matches!(op, Op::Select) { b.graph().ty(*first) } else { b.graph().ty(args[0]) };
+    if ty.is_array() {
+        return None;
+    }
+    let bits = arith::apply(op, operand, &operands?, ty)?;
+    Some(b.constant(ty, bits))
+}
+
+/// Vectors taken apart as they were put together; selections that are decided.
+fn shape(b: &mut Builder<'_>, op: &Op, args: &[NodeId], ty: Type) -> Option<NodeId> {
+    let node = |id: NodeId| b.graph().node(id);
+    match op {
+        Op::Extract(lane) => match &node(args[0]).op {
+            Op::Compose => Some(node(args[0]).args[*lane as usize]),
+            Op::Splat => Some(node(args[0]).args[0]),
+            Op::Const(bits) => {
+                let bits = [bits[*lane as usize], 0, 0, 0];
+                Some(b.constant(ty, bits))
+            }
+            _ => None,
+        },
+        Op::Compose => {
+            let first = node(args[0]);
+            let whole = *first.args.first()?;
+            let parts = args.iter().enumerate().all(|(k, part)| {
+                node(*part).op == Op::Extract(k as u8) && node(*part).args[0] == whole
+            });
+            (parts && b.graph().ty(whole) == ty).then_some(whole)
+        }
+        Op::Select if args[1] == args[2] => Some(args[1]),
+        Op::Select => b.graph().constant(args[0]).map(|c| if c[0] != 0 { args[1] } else { args[2] }),
+        Op::Convert if b.graph().ty(args[0]) == ty => Some(args[0]),
+        _ => None,
+    }
+}
+
+/// Elements read back at known indices.
+fn array(b: &mut Builder<'_>, op: &Op, args: &[NodeId], ty: Type) -> Option<NodeId> {
+    if *op != Op::ArrayGet {
+        return None;
+    }
+    let index = b.graph().constant(args[1])?[0];
+    let node = b.graph().node(args[0]).clone();
+    match node.op {
+        Op::MakeArray => Some(*node.args.get(index as usize).or(node.args.last())?),
+        Op::ArraySet => {
+            let written = b.graph().constant(node.args[1])?[0];
+            let Type::Array { len, .. } = node.ty else { return None };
+            if written >= len || index >= len {
+                None
+            } else if written == index {
+                Some(node.args[2])
+            } else {
+                Some(b.add(Op::ArrayGet, vec![node.args[0], args[1]], ty))
+            }
+        }
+        _ => None,
+    }
+}
+
+fn algebra(b: &mut Builder<'_>, op: &Op, args: &[NodeId]) -> Option<NodeId> {
+    let g = b.graph();
+    match op {
+        Op::Unary(UnaryOp::Neg) if g.node(args[0]).op == Op::Unary(UnaryOp::Neg) => Some(g.node(args[0]).args[0]),
+        Op::Unary(UnaryOp::Not) if g.node(args[0]).op == Op::Unary(UnaryOp::Not) => Some(g.node(args[0]).args[0]),
+        Op::Binary(op) => {
+            let (x, y) = (args[0], args[1]);
+            match g.ty(x).kind()? {
+                Scalar::F32 => float(g, *op, x, y),
+                Scalar::I32 | Scalar::U32 => integer(b, *op, x, y),
+                Scalar::Bool => boolean(g, *op, x, y),
+            }
+        }
+        _ => None,
+    }
+}
+
+fn float(g: &Graph, op: BinaryOp, x: NodeId, y: NodeId) -> Option<NodeId> {
+    let is = |id: NodeId, value: f32| all_lanes(g, id, value.to_bits());
+    match op {
+        // -0 + 0 is 0, so a zero may only go where the other side is never -0; x + -0 is x for every x.
+        BinaryOp::Add if is(y, -0.0) || (is(y, 0.0) && ranges::nonnegative(g, x)) => Some(x),
+        BinaryOp::Add if is(x, -0.0) || (is(x, 0.0) && ranges::nonnegative(g, y)) => Some(y),
+        BinaryOp::Sub if is(y, 0.0) => Some(x),
+        BinaryOp::Mul | BinaryOp::Div if is(y, 1.0) => Some(x),
+        BinaryOp::Mul if is(x, 1.0) => Some(y),
+        // The smaller of 0 and what is never negative; of 0 and a NaN it is 0 too.
+        BinaryOp::Min if is(x, 0.0) && ranges::nonnegative(g, y) => Some(x),
+        BinaryOp::Min if is(y, 0.0) && ranges::nonnegative(g, x) => Some(y),
+        BinaryOp::Min | BinaryOp::Max if x == y => Some(x),
+        _ => None,
+    }
+}
+
+fn integer(b: &mut Builder<'_>, op: BinaryOp, x: NodeId, y: NodeId) -> Option<NodeId> {
+    let g = b.graph();
+    let is = |id: NodeId, value: u32| all_lanes(g, id, value);
+    match op {
+        BinaryOp::Add | BinaryOp::Or | BinaryOp::Xor if is(x, 0) => Some(y),
+        BinaryOp::Add | BinaryOp::Sub | BinaryOp::Or | BinaryOp::Xor | BinaryOp::Shl | BinaryOp::Shr if is(y, 0) => Some(x),
+        BinaryOp::Mul | BinaryOp::Div if is(y, 1) => Some(x),
+        BinaryOp::Mul if is(x, 1) => Some(y),
+        BinaryOp::Mul | BinaryOp::And if is(x, 0) => Some(x),
+        BinaryOp::Mul | BinaryOp::And if is(y, 0) => Some(y),
+        BinaryOp::Min | BinaryOp::Max | BinaryOp::And | BinaryOp::Or if x == y => Some(x),
+        BinaryOp::Sub | BinaryOp::Xor if x == y => {
+            let ty = g.ty(x);
+            Some(b.constant(ty, [0; 4]))
+        }
+        BinaryOp::Eq | BinaryOp::Le | BinaryOp::Ge if x == y && g.ty(x).is_scalar() => Some(b.bool(true)),
+        BinaryOp::Ne | BinaryOp::Lt | BinaryOp::Gt if x == y && g.ty(x).is_scalar() => Some(b.bool(false)),
+        _ => None,
+    }
+}
+
+fn boolean(g: &Graph, op: BinaryOp, x: NodeId, y: NodeId) -> Option<NodeId> {
+    let is = |id: NodeId, value: u32| all_lanes(g, id, value);
+    match op {
+        BinaryOp::And if is(x, 1) => Some(y),
+        BinaryOp::And if is(y, 1) => Some(x),
+        BinaryOp::And if is(x, 0) => Some(x),
+        BinaryOp::And if is(y, 0) => Some(y),
+        BinaryOp::Or if is(x, 0) => Some(y),
+        BinaryOp::Or if is(y, 0) => Some(x),
+        BinaryOp::Or if is(x, 1) => Some(x),
+        BinaryOp::Or if is(y, 1) => Some(y),
+        BinaryOp::And | BinaryOp::Or if x == y => Some(x),
+        _ => None,
+    }
+}
+
+/// Whether `id` is a constant with `bits` in every lane.
+fn all_lanes(g: &Graph, id: NodeId, bits: u32) -> bool {
+    let lanes = g.ty(id).lanes() as usize;
+    g.constant(id).is_some_and(|c| c[..lanes].iter().all(|lane| *lane == bits))
+}

@@ -1,0 +1,24 @@
+//! Passes over the graph.
+//!
+//! A pass takes a graph and builds another. [`schedule`] alone decides order and place.
+
+mod count;
+mod fold;
+mod ranges;
+mod schedule;
+
+pub use count::count;
+pub use fold::Exact;
+pub use schedule::{Block, Schedule, Step, schedule};
+
+use crate::ir::{Graph, Rebuild, rebuild};
+
+/// Makes reads of the same texel one read, and with them all that is computed from them alike.
+pub fn share_loads(graph: &Graph) -> Graph {
+    rebuild(graph, &Rebuild { rules: &Exact, share_loads: true })
+}
+
+/// Drops what the result does not depend on, and applies the exact rules to what is left.
+pub fn clean(graph: &Graph) -> Graph {
+    rebuild(graph, &Rebuild { rules: &Exact, share_loads: false })
+}

@@ -1,0 +1,187 @@
+//! Where and in which order nodes are evaluated.
+//!
+//! A node goes as far out of loops as its arguments allow, and as far into branches as its uses allow (Click's
+//! global code motion). Within a block nodes keep the order in which they were made, which is the order of the
+//! source. Reads and writes of arrays stay where they were made, so that an array can be one variable that is
+//! changed in place.
+
+use crate::ir::{Graph, NodeId, Op, RegionId};
+
+/// An order of evaluation: every used node once, after its arguments.
+#[derive(Clone, Debug)]
+pub struct Schedule {
+    /// The body of the kernel.
+    pub body: Block,
+    /// How often each node's value is used, by node: as an argument or as a region's result.
+    pub uses: Vec<u32>,
+    /// The region that each node is evaluated in, by node; `None` if it is not used.
+    pub place: Vec<Option<RegionId>>,
+}
+
+/// Steps of one region, in order.
+#[derive(Clone, Debug, Default)]
+pub struct Block {
+    /// First to last.
+    pub steps: Vec<Step>,
+}
+
+/// One step of a block.
+#[derive(Clone, Debug)]
+pub enum Step {
+    /// Evaluate a node.
+    Eval(NodeId),
+    /// Run the loop that `node` stands for.
+    Loop {
+        /// The `Op::Loop` node.
+        node: NodeId,
+        /// Its body.
+        body: Block,
+    },
+    /// Run one side of the branch that `node` stands for.
+    If {
+        /// The `Op::If` node.
+        node: NodeId,
+        /// If the condition holds.
+        then: Block,
+        /// If it does not.
+        otherwise: Block,
+    },
+}
+
+/// Places and orders the nodes that the output depends on.
+pub fn schedule(graph: &Graph) -> Schedule {
+    let mut places = Places::new(graph);
+    places.run();
+    let mut steps: Vec<Vec<NodeId>> = vec![Vec::new(); graph.regions.len()];
+    for id in graph.ids() {
+        if let Some(region) = places.place[id.0 as usize]
+            && !matches!(graph.node(id).op, Op::Param(..))
+        {
+            steps[region.0 as usize].push(id);
+        }
+    }
+    let body = block(graph, &steps, Graph::BODY);
+    Schedule { body, uses: places.uses, place: places.place }
+}
+
+fn block(graph: &Graph, steps: &[Vec<NodeId>], region: RegionId) -> Block {
+    let step = |id: &NodeId| match graph.node(*id).op {
+        Op::Loop(body) => Step::Loop { node: *id, body: block(graph, steps, body) },
+        Op::If(then, otherwise) => {
+            Step::If { node: *id, then: block(graph, steps, then), otherwise: block(graph, steps, otherwise) }
+        }
+        _ => Step::Eval(*id),
+    };
+    Block { steps: steps[region.0 as usize].iter().map(step).collect() }
+}
+
+struct Places<'g> {
+    graph: &'g Graph,
+    /// Depth of nesting of each region, and of loops alone.
+    depth: Vec<u32>,
+    loops: Vec<u32>,
+    /// The region that owns a loop's or branch's regions is where it was written.
+    early: Vec<RegionId>,
+    place: Vec<Option<RegionId>>,
+    uses: Vec<u32>,
+}
+
+impl<'g> Places<'g> {
+    fn new(graph: &'g Graph) -> Self {
+        let mut depth = vec![0; graph.regions.len()];
+        let mut loops = vec![0; graph.regions.len()];
+        for (k, region) in graph.regions.iter().enumerate().skip(1) {
+            let parent = region.parent.unwrap_or(Graph::BODY).0 as usize;
+            depth[k] = depth[parent] + 1;
+            loops[k] = loops[parent] + u32::from(!region.params.is_empty());
+        }
+        let nodes = graph.nodes.len();
+        Places { graph, depth, loops, early: vec![Graph::BODY; nodes], place: vec![None; nodes], uses: vec![0; nodes] }
+    }
+
+    fn run(&mut self) {
+        for id in self.graph.ids() {
+            self.early[id.0 as usize] = self.earliest(id);
+        }
+        // Latest place: the common region of all uses. Users have larger ids, so one sweep down sees them first;
+        // a region's results are used at its end, seen when its owner is.
+        let mut late: Vec<Option<RegionId>> = vec![None; self.graph.nodes.len()];
+        late[self.graph.output().0 as usize] = Some(Graph::BODY);
+        self.uses[self.graph.output().0 as usize] += 1;
+        for id in self.graph.ids().rev() {
+            let Some(latest) = late[id.0 as usize] else { continue };
+            let here = self.choose(id, latest);
+            self.place[id.0 as usize] = Some(here);
+            for arg in &self.graph.node(id).args {
+                self.used(&mut late, *arg, here);
+            }
+            for region in self.graph.regions_of(id) {
+                for result in &self.graph.region(region).results {
+                    self.used(&mut late, *result, region);
+                }
+                for param in &self.graph.region(region).params {
+                    late[param.0 as usize] = Some(region);
+                }
+            }
+        }
+    }
+
+    fn used(&mut self, late: &mut [Option<RegionId>], id: NodeId, at: RegionId) {
+        self.uses[id.0 as usize] += 1;
+        let slot = &mut late[id.0 as usize];
+        *slot = Some(match *slot {
+            None => at,
+            Some(other) => self.common(other, at),
+        });
+    }
+
+    /// The region of the innermost parameter that a node depends on.
+    fn earliest(&self, id: NodeId) -> RegionId {
+        let node = self.graph.node(id);
+        if let Op::Param(region, _) = node.op {
+            return region;
+        }
+        if let Some(first) = self.graph.regions_of(id).first() {
+            return self.graph.region(*first).parent.unwrap_or(Graph::BODY);
+        }
+        let deepest = |a: RegionId, b: RegionId| if self.depth[b.0 as usize] > self.depth[a.0 as usize] { b } else { a };
+        node.args.iter().map(|arg| self.early[arg.0 as usize]).fold(Graph::BODY, deepest)
+    }
+
+    /// From the latest place outwards to the earliest: the innermost one with the fewest loops around it.
+    fn choose(&self, id: NodeId, latest: RegionId) -> RegionId {
+        let early = self.early[id.0 as usize];
+        let node = self.graph.node(id);
+        if !self.graph.regions_of(id).is_empty() || matches!(node.op, Op::Param(..)) {
+            return early;
+        }
+        if matches!(node.op, Op::Result(_)) {
+            return self.place_of_owner(node.args[0]);
+        }
+        if node.ty.is_array() || matches!(node.op, Op::ArrayGet) {
+            return self.common(self.graph.homes[id.0 as usize], latest);
+        }
+        let mut best = latest;
+        let mut at = latest;
+        while at != early {
+            let Some(parent) = self.graph.region(at).parent else { break };
+            at = parent;
+            if self.loops[at.0 as usize] < self.loops[best.0 as usize] {
+                best = at;
+            }
+        }
+        best
+    }
+
+    fn place_of_owner(&self, owner: NodeId) -> RegionId {
+        self.early[owner.0 as usize]
+    }
+
+    fn common(&self, mut a: RegionId, mut b: RegionId) -> RegionId {
+        while a != b {
+            let deeper = if self.depth[a.0 as usize] >= self.depth[b.0 as usize] { &mut a } else { &mut b };
+            *deeper = self.graph.region(*deeper).parent.unwrap_or(Graph::BODY);
+        }
+        a
+    }
+}

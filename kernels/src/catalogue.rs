@@ -1,0 +1,60 @@
+//! The built-in kernels, as source text for the generator.
+
+/// One built-in kernel.
+#[derive(Clone, Copy, Debug)]
+pub struct Entry {
+    /// Name on the command line and in `build.rs`, and of the kernel's function.
+    pub name: &'static str,
+    /// One line on what it does.
+    pub summary: &'static str,
+    /// Every file that the kernel is made of.
+    pub sources: &'static [SourceFile],
+    /// What its publication counts for a set of options, given as (option, value).
+    pub paper: fn(&dyn Fn(&str) -> Option<String>) -> Option<PaperCounts>,
+}
+
+/// A file of Rust text.
+#[derive(Clone, Copy, Debug)]
+pub struct SourceFile {
+    /// Path from the root of the workspace; only ever shown.
+    pub path: &'static str,
+    /// Contents.
+    pub text: &'static str,
+}
+
+/// A publication's own count of what its kernel does for each pixel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PaperCounts {
+    /// Times that the bilateral weight is computed.
+    pub weight_evaluations: u32,
+    /// Reads of the G-buffer.
+    pub texture_reads: u32,
+}
+
+macro_rules! source {
+    ($path:literal) => {
+        SourceFile { path: concat!("kernels/src/", $path), text: include_str!($path) }
+    };
+}
+
+/// Every built-in kernel.
+pub const CATALOGUE: &[Entry] = &[Entry {
+    name: "sraa",
+    summary: "Subpixel Reconstruction Antialiasing: 1x shading, subpixel geometry (Chajdas et al. 2011)",
+    sources: &[source!("sraa/mod.rs"), source!("sraa/pattern.rs"), source!("sraa/metric.rs")],
+    paper: sraa_paper,
+}];
+
+/// The built-in kernel called `name`.
+pub fn find(name: &str) -> Option<&'static Entry> {
+    CATALOGUE.iter().find(|entry| entry.name == name)
+}
+
+/// Section 3.5: "we read the G-buffers 58x per pixel (194 for 16x). The filter is evaluated 25 (81) times."
+fn sraa_paper(option: &dyn Fn(&str) -> Option<String>) -> Option<PaperCounts> {
+    match option("pattern")?.as_str() {
+        "ordered4" | "latin4" => Some(PaperCounts { weight_evaluations: 25, texture_reads: 58 }),
+        "ordered16" | "latin16" => Some(PaperCounts { weight_evaluations: 81, texture_reads: 194 }),
+        _ => None,
+    }
+}

@@ -1,0 +1,13 @@
+//! Image filters as ordinary Rust.
+//!
+//! Each kernel is a function that rustc compiles and that runs as it stands: the CPU reference. The generator
+//! reads the same text, found in [`CATALOGUE`], and evaluates its loops and branches away.
+
+mod catalogue;
+mod options;
+#[cfg(feature = "native")]
+pub mod prelude;
+#[cfg(feature = "native")]
+pub mod sraa;
+
+pub use catalogue::{CATALOGUE, Entry, PaperCounts, SourceFile, find};

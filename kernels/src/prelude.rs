@@ -1,0 +1,78 @@
+//! The vocabulary of a kernel.
+//!
+//! What a kernel may call besides its own functions: glam's vectors, `f32` mathematics, the textures below and
+//! [`tally`]. Each means the same natively as in the emitted shader. `options!` declares the choices that are
+//! made when a shader is generated.
+
+pub use glam::{IVec2, IVec3, IVec4, UVec2, Vec2, Vec3, Vec4, ivec2, ivec3, ivec4, uvec2, vec2, vec3, vec4};
+
+pub use crate::options;
+
+/// A single-sampled image with one texel for each pixel of the output. Bound as a `texture_2d<f32>`.
+///
+/// `T` is `f32`, `Vec2`, `Vec3` or `Vec4`: the components that the kernel uses.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Frame<T> {
+    size: UVec2,
+    texels: Vec<T>,
+}
+
+impl<T: Copy> Frame<T> {
+    /// An image of `size` texels from rows, top row first. Panics unless there is one texel for each pixel
+    /// and at least one of them.
+    pub fn new(size: UVec2, texels: Vec<T>) -> Self {
+        assert!(size.x > 0 && size.y > 0, "an image needs at least one texel");
+        assert_eq!(texels.len(), (size.x * size.y) as usize, "one texel for each of {size} pixels");
+        Frame { size, texels }
+    }
+
+    /// Width and height in texels.
+    pub fn size(&self) -> UVec2 {
+        self.size
+    }
+
+    /// All texels, row by row from the top.
+    pub fn texels(&self) -> &[T] {
+        &self.texels
+    }
+
+    /// The texel at `coord`, or the nearest one on the border if `coord` lies outside.
+    pub fn load(&self, coord: IVec2) -> T {
+        let inside = coord.clamp(IVec2::ZERO, self.size.as_ivec2() - 1);
+        self.texels[(inside.y as u32 * self.size.x + inside.x as u32) as usize]
+    }
+}
+
+/// A stack of [`Frame`]s, one for each geometry sample. Bound as a `texture_2d_array<f32>`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FrameLayers<T> {
+    layers: Vec<Frame<T>>,
+}
+
+impl<T: Copy> FrameLayers<T> {
+    /// A stack from its layers. Panics unless there is at least one and all have the same size.
+    pub fn new(layers: Vec<Frame<T>>) -> Self {
+        assert!(layers.windows(2).all(|pair| pair[0].size == pair[1].size), "layers of one size");
+        assert!(!layers.is_empty(), "a stack needs at least one layer");
+        FrameLayers { layers }
+    }
+
+    /// The layers, first to last.
+    pub fn layers(&self) -> &[Frame<T>] {
+        &self.layers
+    }
+
+    /// The texel of `layer` at `coord`, or the nearest one on the border if `coord` lies outside.
+    /// Panics if there is no such layer; a shader's manifest states how many it needs.
+    pub fn load(&self, coord: IVec2, layer: usize) -> T {
+        self.layers[layer].load(coord)
+    }
+}
+
+/// `value`, counted under `name` in the generator's reports. Does nothing else.
+///
+/// Only what is still computed after partial evaluation is counted: a tallied value that turned out to be
+/// known, unused or shared costs nothing and counts nothing.
+pub fn tally(_name: &str, value: f32) -> f32 {
+    value
+}

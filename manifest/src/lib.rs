@@ -1,0 +1,236 @@
+//! What an emitted shader needs and offers.
+//!
+//! The generator writes one manifest beside each shader; the runtime, or any other engine, reads it to
+//! bind the shader without looking inside. Fields are plain data and serialise to JSON.
+
+mod format;
+
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+pub use format::Format;
+
+/// Version of the manifest's layout. A reader refuses a manifest whose schema it does not know.
+pub const SCHEMA: u32 = 1;
+
+/// Everything a host must know to run one emitted shader.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Manifest {
+    /// Layout version, [`SCHEMA`].
+    pub schema: u32,
+    /// Name and version of the generator.
+    pub generator: String,
+    /// The kernel's name, as in `straightline list`.
+    pub kernel: String,
+    /// The pipeline stage that the shader is for.
+    pub stage: Stage,
+    /// How loops were treated: `full` or `none`.
+    pub unroll: String,
+    /// Name of the entry point, the same in every target that keeps names.
+    pub entry_point: String,
+    /// Invocations in a workgroup; compute only.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub workgroup_size: Option<[u32; 3]>,
+    /// Textures and uniform buffers that the shader reads, in binding order. What the options make
+    /// unnecessary is not listed.
+    pub bindings: Vec<Binding>,
+    /// Where the result goes.
+    pub output: Output,
+    /// Every option of the kernel with the value it was generated for; `uniform` for one that is set at run time.
+    pub options: BTreeMap<String, String>,
+    /// What one invocation executes.
+    pub counts: Counts,
+    /// File of each target that was written, by target name (`wgsl`, `glsl450`, `spirv`, `hlsl`, `msl`).
+    #[serde(default)]
+    pub files: BTreeMap<String, String>,
+}
+
+/// A pipeline stage.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Stage {
+    /// One invocation a pixel, result through a storage texture.
+    Compute,
+    /// One fragment a pixel, result at colour location 0. The host draws a triangle over the target.
+    Fragment,
+}
+
+impl Stage {
+    /// `compute` or `fragment`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Stage::Compute => "compute",
+            Stage::Fragment => "fragment",
+        }
+    }
+}
+
+/// One input resource.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Binding {
+    /// Bind group.
+    pub group: u32,
+    /// Binding number in the group.
+    pub binding: u32,
+    /// The name in the kernel's source; also the name in the shader.
+    pub name: String,
+    /// What must be bound.
+    #[serde(flatten)]
+    pub kind: BindingKind,
+}
+
+/// What must be bound at a [`Binding`].
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "type", rename_all = "kebab-case")]
+pub enum BindingKind {
+    /// A single-sampled float texture that is read texel by texel (never filtered), of the size of the output.
+    Texture {
+        /// `access` is always `read` for a texture.
+        access: Access,
+        /// 2-D, or 2-D array.
+        dimension: Dimension,
+        /// Components that the kernel uses, 1 to 4. Any float format with at least as many will do.
+        components: u8,
+        /// Layers that the shader can address; 1 for a plain 2-D texture.
+        layers: u32,
+    },
+    /// A uniform buffer.
+    Uniform {
+        /// Always `read`.
+        access: Access,
+        /// Size of the buffer in bytes, a multiple of 16.
+        size: u32,
+        /// The struct's fields in order of offset.
+        fields: Vec<UniformField>,
+    },
+}
+
+/// How a shader touches a resource.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Access {
+    /// Read only.
+    Read,
+    /// Write only.
+    Write,
+}
+
+/// Dimension of a texture view.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Dimension {
+    /// One 2-D image.
+    #[serde(rename = "2d")]
+    D2,
+    /// A stack of 2-D images.
+    #[serde(rename = "2d-array")]
+    D2Array,
+}
+
+/// A field of a uniform struct.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct UniformField {
+    /// Name in the kernel's source.
+    pub name: String,
+    /// Type as WGSL spells it: `f32`, `i32`, `u32`, `vec2f`, ...
+    #[serde(rename = "type")]
+    pub ty: String,
+    /// Byte offset from the start of the buffer.
+    pub offset: u32,
+    /// Size in bytes.
+    pub size: u32,
+    /// Value to use unless the caller sets one, where the kernel states it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub default: Option<f64>,
+}
+
+/// Where the result goes.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Output {
+    /// Name in the shader.
+    pub name: String,
+    /// Bind group; compute only.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub group: Option<u32>,
+    /// Binding number of the write-only storage texture; compute only.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub binding: Option<u32>,
+    /// Colour attachment location; fragment only.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub location: Option<u32>,
+    /// Always `write`.
+    pub access: Access,
+    /// Texel format of the storage texture. A fragment shader writes to a colour target of any float format,
+    /// and this is the one it was generated for.
+    pub format: Format,
+}
+
+/// What one invocation executes, counted on the generated graph. Loops count as often as they run; of the
+/// two sides of a branch the larger counts.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Counts {
+    /// Basic blocks of the body; 1 means straight-line code.
+    pub basic_blocks: u32,
+    /// Loops that were kept.
+    pub loops: u32,
+    /// Reads of geometry: every texture but the image being filtered.
+    pub texture_reads: u32,
+    /// Reads of the image being filtered, the texture named `color`.
+    pub colour_reads: u32,
+    /// Reads by texture name.
+    pub reads: BTreeMap<String, u32>,
+    /// Values that the kernel tallies by name, such as `weight_evaluations`.
+    pub tallies: BTreeMap<String, u32>,
+    /// Exponentials, logarithms, powers, roots and trigonometric calls.
+    pub transcendentals: u32,
+    /// All other arithmetic, comparison and selection operations, a vector operation counting once.
+    pub alu: u32,
+    /// Statements of the emitted body.
+    pub statements: u32,
+    /// Scalars alive at the widest point of the emitted order.
+    pub max_live: u32,
+}
+
+/// Why a text is not a manifest.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// Not JSON, or not of this shape.
+    #[error("not a shader manifest: {0}")]
+    Json(#[from] serde_json::Error),
+    /// Made by a generator of another time.
+    #[error("manifest schema {found}, but this reader knows schema {SCHEMA}: generate the shader again")]
+    Schema {
+        /// The schema that the manifest states.
+        found: u32,
+    },
+}
+
+impl Manifest {
+    /// Reads a manifest from JSON, refusing other schemas and unknown fields.
+    pub fn from_json(text: &str) -> Result<Self, Error> {
+        #[derive(Deserialize)]
+        struct Head {
+            schema: u32,
+        }
+        let head: Head = serde_json::from_str(text)?;
+        if head.schema != SCHEMA {
+            return Err(Error::Schema { found: head.schema });
+        }
+        Ok(serde_json::from_str(text)?)
+    }
+
+    /// The manifest as indented JSON that ends in a newline. Equal manifests give equal text.
+    pub fn to_json(&self) -> String {
+        let mut text = serde_json::to_string_pretty(self).expect("a manifest is plain data");
+        text.push('\n');
+        text
+    }
+
+    /// The binding called `name`.
+    pub fn binding(&self, name: &str) -> Option<&Binding> {
+        self.bindings.iter().find(|b| b.name == name)
+    }
+}

@@ -1,0 +1,111 @@
+//! Turns wgpu's two silent or fatal ways of failing into values: error scopes, and a lost device.
+
+use crate::Error;
+use std::future::Future;
+use std::pin::pin;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::task::{Context, Poll, Waker};
+
+/// Runs `work` and returns what wgpu complained about meanwhile, if it did.
+///
+/// Without a scope, wgpu hands errors to the device's handler, which by default panics; and the handler is the
+/// caller's. Scopes are kept for each thread, so other threads' errors do not end up here.
+pub(crate) fn scoped<T>(device: &wgpu::Device, work: impl FnOnce() -> T) -> Result<T, wgpu::Error> {
+    let memory = device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
+    let internal = device.push_error_scope(wgpu::ErrorFilter::Internal);
+    let validation = device.push_error_scope(wgpu::ErrorFilter::Validation);
+    let value = work();
+    // All are popped, innermost first, before the first error is returned.
+    let errors = [
+        at_once(validation.pop()),
+        at_once(internal.pop()),
+        at_once(memory.pop()),
+    ];
+    match errors.into_iter().flatten().next() {
+        Some(error) => Err(error),
+        None => Ok(value),
+    }
+}
+
+/// [`scoped`], with out-of-memory told apart from everything else, which `describe` makes an error of.
+pub(crate) fn guarded<T>(
+    device: &wgpu::Device,
+    doing: &str,
+    describe: impl FnOnce(String) -> Error,
+    work: impl FnOnce() -> T,
+) -> Result<T, Error> {
+    scoped(device, work).map_err(|error| match error {
+        wgpu::Error::OutOfMemory { .. } => Error::OutOfMemory {
+            doing: doing.to_owned(),
+        },
+        other => describe(other.to_string().trim().to_owned()),
+    })
+}
+
+/// The result of popping a scope. Native backends have it ready; where it is not, the error goes unseen rather
+/// than blocking a thread that must not block.
+fn at_once(future: impl Future<Output = Option<wgpu::Error>>) -> Option<wgpu::Error> {
+    match pin!(future).poll(&mut Context::from_waker(Waker::noop())) {
+        Poll::Ready(error) => error,
+        Poll::Pending => None,
+    }
+}
+
+/// Tells whether a device still works.
+///
+/// wgpu announces a lost device only to the callback of `set_device_lost_callback`, of which there is one and it
+/// belongs to the caller. Everything else keeps quiet: creating a resource on a lost device succeeds and yields a
+/// dead object. The exception is a request to map a buffer, whose own callback is refused at once. So this keeps
+/// four bytes to ask with; no command ever touches them, and the mapping is withdrawn before it happens.
+#[derive(Debug)]
+pub(crate) struct Pulse {
+    buffer: Mutex<wgpu::Buffer>,
+}
+
+impl Pulse {
+    /// A pulse of `device`, or [`Error::DeviceLost`] if it has none already.
+    pub(crate) fn new(device: &wgpu::Device, doing: &str) -> Result<Self, Error> {
+        let describe = |description| Error::DeviceLost {
+            doing: format!("{doing}: {description}"),
+        };
+        let buffer = guarded(device, doing, describe, || {
+            device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some("straightline pulse"),
+                size: wgpu::COPY_BUFFER_ALIGNMENT,
+                usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
+                mapped_at_creation: false,
+            })
+        })?;
+        let pulse = Pulse {
+            buffer: Mutex::new(buffer),
+        };
+        pulse.check(device, doing)?;
+        Ok(pulse)
+    }
+
+    /// [`Error::DeviceLost`] if `device` is lost or was destroyed.
+    pub(crate) fn check(&self, device: &wgpu::Device, doing: &str) -> Result<(), Error> {
+        // One question at a time: a second mapping of the same buffer would be refused for that alone.
+        let buffer = self.buffer.lock().unwrap_or_else(PoisonError::into_inner);
+        let refused = Arc::new(AtomicBool::new(false));
+        let answer = Arc::clone(&refused);
+        let outcome = scoped(device, || {
+            buffer.map_async(wgpu::MapMode::Read, .., move |result| {
+                if result.is_err() {
+                    answer.store(true, Ordering::Release);
+                }
+            });
+            // Read before unmapping, which itself refuses a mapping that is still waiting.
+            let lost = refused.load(Ordering::Acquire);
+            buffer.unmap();
+            lost
+        });
+        match outcome {
+            Ok(false) => Ok(()),
+            Ok(true) | Err(_) => Err(Error::DeviceLost {
+                doing: doing.to_owned(),
+            }),
+        }
+    }
+}

@@ -1,0 +1,62 @@
+//! Runs emitted shaders in the caller's own [`wgpu::Device`] and encoder.
+//!
+//! A [`Pass`] is made once, from a shader's WGSL text and the manifest that the generator wrote beside it. Recording
+//! it takes texture views by name and a target. Nothing here creates a device, submits, or owns a texture.
+//!
+//! ```no_run
+//! use straightline_runtime::{Error, Pass, Timer, wgpu};
+//!
+//! struct Antialiasing {
+//!     sraa: Pass,
+//! }
+//!
+//! impl Antialiasing {
+//!     // Usually `include_str!` of the two files that the generator wrote.
+//!     fn new(device: &wgpu::Device, manifest: &str, shader: &str) -> Result<Self, Error> {
+//!         Ok(Antialiasing { sraa: Pass::from_json(device, manifest, shader)? })
+//!     }
+//!
+//!     fn frame(
+//!         &self,
+//!         queue: &wgpu::Queue,
+//!         encoder: &mut wgpu::CommandEncoder,
+//!         [color, depth, normal]: [&wgpu::TextureView; 3],
+//!         target: &wgpu::TextureView,
+//!     ) -> Result<(), Error> {
+//!         self.sraa.write_uniform(queue, "tau", 300.0)?;
+//!         self.sraa.encode(encoder, &[("color", color), ("depth", depth), ("normal", normal)], target)
+//!     }
+//! }
+//! ```
+//!
+//! Every failure is an [`Error`] that names what is at fault and the way out: a wrong view, a shader that is not
+//! its manifest's, a lost device. Errors that wgpu raises meanwhile are caught in error scopes and do not reach the
+//! device's own handler; the device's callbacks are left alone.
+//!
+//! # What an emitted shader looks like
+//!
+//! - Compute: one invocation a pixel, in workgroups that tile the target; an invocation outside of it returns. The
+//!   result goes to a write-only storage texture.
+//! - Fragment: the module holds the fragment entry point only, with the result at location 0. This crate brings the
+//!   vertex shader of a triangle that covers the target.
+//! - Textures are `texture_2d<f32>` or `texture_2d_array<f32>` of the target's size, read texel by texel.
+//!   Values set at run time are members of a uniform struct.
+
+mod error;
+mod guard;
+mod inputs;
+mod layout;
+mod pass;
+mod plan;
+mod reflect;
+mod timer;
+mod uniforms;
+
+pub use error::{Error, Names, ViewProblem};
+pub use pass::{Pass, PassOptions};
+pub use straightline_manifest as manifest;
+pub use timer::{Span, Timer};
+pub use uniforms::{UniformType, UniformValue};
+
+/// The wgpu that this crate was built with, so that callers and generated code use the same one.
+pub use wgpu;

@@ -1,0 +1,395 @@
+//! The pass: one emitted shader, ready to be recorded into the caller's encoders.
+
+use crate::error::ViewProblem;
+use crate::guard::{Pulse, guarded, scoped};
+use crate::inputs::{arrange, check_inputs, check_target, needs_rehearsal, size};
+use crate::layout::{BoundGroup, Layout, texture_format};
+use crate::plan::{OutputPlan, Plan};
+use crate::timer::{Span, Timer};
+use crate::uniforms::{self, UniformBlock, UniformValue};
+use crate::{Error, reflect};
+use straightline_manifest::Manifest;
+use wgpu::{CommandEncoder, Device, Queue, TextureFormat, TextureView};
+
+/// Choices that the manifest leaves open.
+#[derive(Clone, Debug, Default)]
+#[non_exhaustive]
+pub struct PassOptions {
+    /// Format of the colour target of a fragment pass, where it is not the manifest's; a swap chain's, say.
+    /// For compute, the shader's text fixes the format, and another one here is an error.
+    pub target_format: Option<TextureFormat>,
+}
+
+impl PassOptions {
+    /// Draws to targets of `format`.
+    pub fn target_format(mut self, format: TextureFormat) -> Self {
+        self.target_format = Some(format);
+        self
+    }
+}
+
+/// One emitted shader on one device: pipeline, bind group layouts and uniform buffers.
+///
+/// Making one compiles the shader; keep it. Recording it with [`encode`](Self::encode) makes its bind groups anew,
+/// so views may change from frame to frame. A pass can be shared between threads.
+#[derive(Debug)]
+pub struct Pass {
+    device: Device,
+    plan: Plan,
+    layout: Layout,
+    pipeline: Pipeline,
+    uniforms: Vec<UniformBlock>,
+    format: TextureFormat,
+    max_workgroups: u32,
+    pulse: Pulse,
+}
+
+#[derive(Debug)]
+enum Pipeline {
+    Compute {
+        pipeline: wgpu::ComputePipeline,
+        workgroup: [u32; 3],
+    },
+    Render(wgpu::RenderPipeline),
+}
+
+impl Pass {
+    /// A pass of the shader `wgsl` that `manifest` describes, with default options.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::BadManifest`], [`Error::Mismatch`] and [`Error::Shader`] if the two are damaged or do not belong
+    /// together; [`Error::Limit`], [`Error::Pipeline`] and [`Error::OutOfMemory`] if the device cannot run the
+    /// shader; [`Error::DeviceLost`].
+    pub fn new(device: &Device, manifest: &Manifest, wgsl: &str) -> Result<Self, Error> {
+        Self::with_options(device, manifest, wgsl, &PassOptions::default())
+    }
+
+    /// [`new`](Self::new) for a manifest as it lies on disk.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`new`](Self::new), and [`Error::Manifest`] if `manifest_json` is not a manifest or of another schema.
+    pub fn from_json(device: &Device, manifest_json: &str, wgsl: &str) -> Result<Self, Error> {
+        Self::new(device, &Manifest::from_json(manifest_json)?, wgsl)
+    }
+
+    /// [`new`](Self::new) with options.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`new`](Self::new), and [`Error::TargetFormat`] if the shader cannot write the format asked for.
+    pub fn with_options(
+        device: &Device,
+        manifest: &Manifest,
+        wgsl: &str,
+        options: &PassOptions,
+    ) -> Result<Self, Error> {
+        let plan = Plan::new(manifest)?;
+        reflect::check(&plan, wgsl)?;
+        let format = check_format(device, &plan, options)?;
+        let doing = format!("making a pass of `{}`", plan.kernel);
+        let pulse = Pulse::new(device, &doing)?;
+        let layout = Layout::new(device, &plan)?;
+        let pipeline = Pipeline::new(device, &plan, &layout, wgsl, format)?;
+        let blocks = plan
+            .uniforms
+            .iter()
+            .map(|block| UniformBlock::new(device, &plan.kernel, block));
+        let uniforms = blocks.collect::<Result<Vec<_>, _>>()?;
+        // Lost meanwhile, everything above was made without complaint and is dead.
+        pulse.check(device, &doing)?;
+        let max_workgroups = device.limits().max_compute_workgroups_per_dimension;
+        Ok(Pass {
+            device: device.clone(),
+            plan,
+            layout,
+            pipeline,
+            uniforms,
+            format,
+            max_workgroups,
+            pulse,
+        })
+    }
+
+    /// The kernel's name.
+    pub fn kernel(&self) -> &str {
+        &self.plan.kernel
+    }
+
+    /// Names of the inputs that [`encode`](Self::encode) wants, in binding order.
+    pub fn inputs(&self) -> impl ExactSizeIterator<Item = &str> {
+        self.plan.textures.iter().map(|texture| texture.name.as_str())
+    }
+
+    /// The format that the target must have.
+    pub fn target_format(&self) -> TextureFormat {
+        self.format
+    }
+
+    /// Sets the uniform `name`, for all passes recorded into what `queue`, the device's own, submits next.
+    ///
+    /// Uniforms start from the manifest's defaults. As with any `write_buffer`, all encoders of one submission see
+    /// the value that was written last before it. Nothing is allocated here.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::UnknownUniform`], or [`Error::UniformType`] for a value of another type. A lost device shows when
+    /// the pass is encoded.
+    pub fn write_uniform(&self, queue: &Queue, name: &str, value: impl Into<UniformValue>) -> Result<(), Error> {
+        uniforms::write(&self.uniforms, &self.plan.kernel, queue, name, value.into())
+    }
+
+    /// Records the pass into `encoder`: reads `inputs`, given by name in any order, and writes every pixel of `target`.
+    ///
+    /// Each input is a single-sampled 2-D view, or 2-D array view with at least as many layers as the manifest says,
+    /// of a texture with [`TEXTURE_BINDING`](wgpu::TextureUsages::TEXTURE_BINDING) usage, the target's size, and a
+    /// float, normalised or depth format with at least the components that the kernel reads. (Of a combined
+    /// depth-stencil texture, give a view of the depth aspect.) The target has the format
+    /// [`target_format`](Self::target_format), and [`STORAGE_BINDING`](wgpu::TextureUsages::STORAGE_BINDING) usage
+    /// for compute or [`RENDER_ATTACHMENT`](wgpu::TextureUsages::RENDER_ATTACHMENT) for fragment.
+    ///
+    /// wgpu does not tell which mip level and layers a view shows. Give views of level 0 that begin at the layer that
+    /// the kernel calls 0: sizes and layers are checked on the texture.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::MissingInput`], [`Error::UnknownInput`] and [`Error::DuplicateInput`]; [`Error::Input`],
+    /// [`Error::Target`] and [`Error::Combination`] for unfit views; [`Error::UniformUnset`];
+    /// [`Error::DeviceLost`] and [`Error::OutOfMemory`]. Nothing has been recorded then.
+    pub fn encode(
+        &self,
+        encoder: &mut CommandEncoder,
+        inputs: &[(&str, &TextureView)],
+        target: &TextureView,
+    ) -> Result<(), Error> {
+        let groups = self.prepare(inputs, target)?;
+        self.record(encoder, &groups, target, None);
+        Ok(())
+    }
+
+    /// [`encode`](Self::encode), timed on the GPU as the next span of `timer`.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`encode`](Self::encode), and [`Error::TimerFull`]. No span is used up then.
+    pub fn encode_timed(
+        &self,
+        encoder: &mut CommandEncoder,
+        inputs: &[(&str, &TextureView)],
+        target: &TextureView,
+        timer: &mut Timer,
+    ) -> Result<(), Error> {
+        let groups = self.prepare(inputs, target)?;
+        let span = timer.span()?;
+        self.record(encoder, &groups, target, Some(&span));
+        Ok(())
+    }
+
+    /// Everything that can fail.
+    fn prepare(&self, inputs: &[(&str, &TextureView)], target: &TextureView) -> Result<Vec<BoundGroup>, Error> {
+        self.pulse
+            .check(&self.device, &format!("encoding `{}`", self.plan.kernel))?;
+        let views = arrange(&self.plan, inputs)?;
+        check_target(&self.plan, self.format, self.max_workgroups, target)?;
+        check_inputs(&self.plan, &views, target)?;
+        uniforms::check_set(&self.uniforms, &self.plan.kernel)?;
+        let groups = self
+            .layout
+            .bind(&self.device, &self.plan, &self.uniforms, &views, target)?;
+        if needs_rehearsal(&self.plan, &views, target) {
+            let shared = views.iter().any(|view| view.texture() == target.texture());
+            self.rehearse(&groups, target, shared)?;
+        }
+        Ok(groups)
+    }
+
+    /// Records into an encoder of its own and throws it away, to have wgpu's opinion before the caller's encoder
+    /// is touched. Inputs have been bound by now, so it is about the target, unless that is `shared` with an input.
+    fn rehearse(&self, groups: &[BoundGroup], target: &TextureView, shared: bool) -> Result<(), Error> {
+        let kernel = &self.plan.kernel;
+        let refused = |description| match shared {
+            true => Error::Combination {
+                kernel: kernel.clone(),
+                description,
+            },
+            false => Error::Target {
+                kernel: kernel.clone(),
+                problem: ViewProblem::Refused { description },
+            },
+        };
+        guarded(&self.device, &format!("encoding `{kernel}`"), refused, || {
+            let mut encoder = self
+                .device
+                .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+            self.record(&mut encoder, groups, target, None);
+            drop(encoder.finish());
+        })
+    }
+
+    fn record(&self, encoder: &mut CommandEncoder, groups: &[BoundGroup], target: &TextureView, span: Option<&Span>) {
+        let label = Some(self.plan.kernel.as_str());
+        match &self.pipeline {
+            Pipeline::Compute { pipeline, workgroup } => {
+                let timestamp_writes = span.map(Span::compute_writes);
+                let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+                    label,
+                    timestamp_writes,
+                });
+                pass.set_pipeline(pipeline);
+                for (index, group) in groups {
+                    pass.set_bind_group(*index, group, &[]);
+                }
+                let [width, height] = size(target.texture());
+                pass.dispatch_workgroups(width.div_ceil(workgroup[0]), height.div_ceil(workgroup[1]), 1);
+            }
+            Pipeline::Render(pipeline) => {
+                let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                    label,
+                    color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                        view: target,
+                        depth_slice: None,
+                        resolve_target: None,
+                        ops: wgpu::Operations {
+                            // Every pixel is overwritten; clearing spares tiled GPUs from loading the old ones.
+                            load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
+                            store: wgpu::StoreOp::Store,
+                        },
+                    })],
+                    depth_stencil_attachment: None,
+                    timestamp_writes: span.map(Span::render_writes),
+                    occlusion_query_set: None,
+                    multiview_mask: None,
+                });
+                pass.set_pipeline(pipeline);
+                for (index, group) in groups {
+                    pass.set_bind_group(*index, group, &[]);
+                }
+                pass.draw(0..3, 0..1);
+            }
+        }
+    }
+}
+
+impl Pipeline {
+    fn new(device: &Device, plan: &Plan, layout: &Layout, wgsl: &str, format: TextureFormat) -> Result<Self, Error> {
+        let kernel = &plan.kernel;
+        let label = Some(kernel.as_str());
+        let doing = format!("compiling `{kernel}`");
+        let shader = |description| Error::Shader {
+            kernel: kernel.clone(),
+            description,
+        };
+        let refused = |description| Error::Pipeline {
+            kernel: kernel.clone(),
+            description,
+        };
+
+        let source = wgpu::ShaderSource::Wgsl(wgsl.into());
+        let module = guarded(device, &doing, shader, || {
+            device.create_shader_module(wgpu::ShaderModuleDescriptor { label, source })
+        })?;
+        match plan.output {
+            OutputPlan::Storage { workgroup, .. } => {
+                let pipeline = guarded(device, &doing, refused, || {
+                    device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+                        label,
+                        layout: Some(&layout.pipeline),
+                        module: &module,
+                        entry_point: Some(&plan.entry_point),
+                        compilation_options: wgpu::PipelineCompilationOptions::default(),
+                        cache: None,
+                    })
+                })?;
+                Ok(Pipeline::Compute { pipeline, workgroup })
+            }
+            OutputPlan::Attachment { .. } => {
+                let pipeline = guarded(device, &doing, refused, || {
+                    let fullscreen = device.create_shader_module(wgpu::include_wgsl!("fullscreen.wgsl"));
+                    device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+                        label,
+                        layout: Some(&layout.pipeline),
+                        vertex: wgpu::VertexState {
+                            module: &fullscreen,
+                            entry_point: Some("fullscreen"),
+                            compilation_options: wgpu::PipelineCompilationOptions::default(),
+                            buffers: &[],
+                        },
+                        primitive: wgpu::PrimitiveState::default(),
+                        depth_stencil: None,
+                        multisample: wgpu::MultisampleState::default(),
+                        fragment: Some(wgpu::FragmentState {
+                            module: &module,
+                            entry_point: Some(&plan.entry_point),
+                            compilation_options: wgpu::PipelineCompilationOptions::default(),
+                            targets: &[Some(format.into())],
+                        }),
+                        multiview_mask: None,
+                        cache: None,
+                    })
+                })?;
+                Ok(Pipeline::Render(pipeline))
+            }
+        }
+    }
+}
+
+/// The format that the pipeline writes.
+fn check_format(device: &Device, plan: &Plan, options: &PassOptions) -> Result<TextureFormat, Error> {
+    let refuse = |format, reason| {
+        Err(Error::TargetFormat {
+            kernel: plan.kernel.clone(),
+            format,
+            reason,
+        })
+    };
+    match plan.output {
+        OutputPlan::Storage { format, .. } => {
+            let written = texture_format(format);
+            match options.target_format {
+                Some(asked) if asked != written => refuse(
+                    asked,
+                    format!("its compute shader writes {written:?}; generate it for another format, or as fragment"),
+                ),
+                _ => Ok(written),
+            }
+        }
+        OutputPlan::Attachment { format } => {
+            let format = options.target_format.unwrap_or_else(|| texture_format(format));
+            if !matches!(
+                format.sample_type(None, None),
+                Some(wgpu::TextureSampleType::Float { .. })
+            ) {
+                return refuse(
+                    format,
+                    "the result is a colour of floats; use a float or normalised format".to_owned(),
+                );
+            }
+            let missing = format.required_features() - device.features();
+            if !missing.is_empty() {
+                return refuse(
+                    format,
+                    format!("the device was created without the feature {missing:?}"),
+                );
+            }
+            let target = wgpu::TextureDescriptor {
+                label: None,
+                size: wgpu::Extent3d::default(),
+                mip_level_count: 1,
+                sample_count: 1,
+                dimension: wgpu::TextureDimension::D2,
+                format,
+                usage: wgpu::TextureUsages::RENDER_ATTACHMENT,
+                view_formats: &[],
+            };
+            // One texel tells better than any table what this adapter can draw to.
+            match scoped(device, || device.create_texture(&target)) {
+                Ok(_) => Ok(format),
+                Err(wgpu::Error::OutOfMemory { .. }) => Err(Error::OutOfMemory {
+                    doing: format!("making a pass of `{}`", plan.kernel),
+                }),
+                Err(error) => refuse(format, error.to_string().trim().to_owned()),
+            }
+        }
+    }
+}

@@ -1,0 +1,218 @@
+//! Compares a shader with its manifest.
+//!
+//! wgpu checks a shader against the layout it is given, which finds a binding that the manifest lacks. It does not
+//! find two textures that changed places, a uniform field that moved, or another workgroup size; each of those
+//! would run and give a wrong picture.
+
+use crate::Error;
+use crate::plan::{OutputPlan, Plan, TexturePlan, UniformPlan};
+use crate::uniforms::{Kind, UniformType};
+use straightline_manifest::{Dimension, Format};
+use wgpu::naga::{self, AddressSpace, GlobalVariable, ImageClass, Module, ScalarKind, ShaderStage, TypeInner};
+
+/// Parses `wgsl` and checks that it is the shader that `plan` describes.
+///
+/// wgpu parses the text once more when it makes the module, because a module handed over as naga IR has no text
+/// left to quote in its messages.
+pub(crate) fn check(plan: &Plan, wgsl: &str) -> Result<(), Error> {
+    let module = naga::front::wgsl::parse_str(wgsl).map_err(|error| Error::Shader {
+        kernel: plan.kernel.clone(),
+        description: error.emit_to_string(wgsl).trim().to_owned(),
+    })?;
+    let mismatch = |problem| Error::Mismatch {
+        kernel: plan.kernel.clone(),
+        problem,
+    };
+    entry_point(plan, &module).map_err(mismatch)?;
+    for texture in &plan.textures {
+        check_texture(&module, texture).map_err(mismatch)?;
+    }
+    for uniform in &plan.uniforms {
+        check_uniform(&module, uniform).map_err(mismatch)?;
+    }
+    if let OutputPlan::Storage {
+        name,
+        group,
+        binding,
+        format,
+        ..
+    } = &plan.output
+    {
+        check_storage(&module, name, *group, *binding, *format).map_err(mismatch)?;
+    }
+    nothing_else(plan, &module).map_err(mismatch)
+}
+
+fn entry_point(plan: &Plan, module: &Module) -> Result<(), String> {
+    let wanted = match plan.output {
+        OutputPlan::Storage { .. } => ShaderStage::Compute,
+        OutputPlan::Attachment { .. } => ShaderStage::Fragment,
+    };
+    let name = &plan.entry_point;
+    let Some(entry) = module.entry_points.iter().find(|entry| entry.name == *name) else {
+        let others: Vec<_> = module
+            .entry_points
+            .iter()
+            .map(|entry| format!("`{}`", entry.name))
+            .collect();
+        return Err(format!("it has no entry point `{name}`, only {}", list(&others)));
+    };
+    if entry.stage != wanted {
+        return Err(format!(
+            "entry point `{name}` is of stage {:?}, the manifest says {wanted:?}",
+            entry.stage
+        ));
+    }
+    match plan.output {
+        OutputPlan::Storage { workgroup, .. } if entry.workgroup_size != workgroup => Err(format!(
+            "its workgroup size is {:?}, the manifest says {workgroup:?}",
+            entry.workgroup_size
+        )),
+        _ => Ok(()),
+    }
+}
+
+/// The variable at a place, which must be called `name`.
+fn variable<'m>(module: &'m Module, name: &str, group: u32, binding: u32) -> Result<&'m GlobalVariable, String> {
+    let at_place = |v: &GlobalVariable| {
+        v.binding
+            .as_ref()
+            .is_some_and(|b| b.group == group && b.binding == binding)
+    };
+    let Some((_, variable)) = module.global_variables.iter().find(|(_, v)| at_place(v)) else {
+        return Err(format!(
+            "it has nothing at @group({group}) @binding({binding}), where `{name}` should be"
+        ));
+    };
+    match variable.name.as_deref() {
+        Some(found) if found == name => Ok(variable),
+        found => Err(format!(
+            "`{}` is at @group({group}) @binding({binding}), where `{name}` should be",
+            found.unwrap_or("<unnamed>")
+        )),
+    }
+}
+
+fn check_texture(module: &Module, plan: &TexturePlan) -> Result<(), String> {
+    let variable = variable(module, &plan.name, plan.group, plan.binding)?;
+    let wanted = TypeInner::Image {
+        dim: naga::ImageDimension::D2,
+        arrayed: plan.dimension == Dimension::D2Array,
+        class: ImageClass::Sampled {
+            kind: ScalarKind::Float,
+            multi: false,
+        },
+    };
+    if module.types[variable.ty].inner == wanted {
+        return Ok(());
+    }
+    let wanted = match plan.dimension {
+        Dimension::D2 => "texture_2d<f32>",
+        Dimension::D2Array => "texture_2d_array<f32>",
+    };
+    Err(format!("`{}` is not a `{wanted}`", plan.name))
+}
+
+fn check_storage(module: &Module, name: &str, group: u32, binding: u32, format: Format) -> Result<(), String> {
+    let variable = variable(module, name, group, binding)?;
+    let wanted = TypeInner::Image {
+        dim: naga::ImageDimension::D2,
+        arrayed: false,
+        class: ImageClass::Storage {
+            format: match format {
+                Format::Rgba8Unorm => naga::StorageFormat::Rgba8Unorm,
+                Format::Rgba16Float => naga::StorageFormat::Rgba16Float,
+                Format::Rgba32Float => naga::StorageFormat::Rgba32Float,
+            },
+            access: naga::StorageAccess::STORE,
+        },
+    };
+    if module.types[variable.ty].inner == wanted {
+        return Ok(());
+    }
+    Err(format!("`{name}` is not a `texture_storage_2d<{format}, write>`"))
+}
+
+fn check_uniform(module: &Module, plan: &UniformPlan) -> Result<(), String> {
+    let variable = variable(module, &plan.name, plan.group, plan.binding)?;
+    let name = &plan.name;
+    let TypeInner::Struct { members, span } = &module.types[variable.ty].inner else {
+        return Err(format!("`{name}` is not a struct"));
+    };
+    if variable.space != AddressSpace::Uniform {
+        return Err(format!("`{name}` is not a `var<uniform>`"));
+    }
+    if *span > plan.size {
+        return Err(format!("`{name}` takes {span} bytes, the manifest says {}", plan.size));
+    }
+    for field in &plan.fields {
+        let Some(member) = members.iter().find(|m| m.name.as_deref() == Some(&field.name)) else {
+            return Err(format!("`{name}` has no member `{}`", field.name));
+        };
+        if member.offset != field.offset {
+            let (found, wanted) = (member.offset, field.offset);
+            return Err(format!(
+                "`{name}.{}` lies at offset {found}, the manifest says {wanted}",
+                field.name
+            ));
+        }
+        if !is_type(&module.types[member.ty].inner, field.ty) {
+            return Err(format!("`{name}.{}` is not of type {}", field.name, field.ty));
+        }
+    }
+    match members
+        .iter()
+        .find(|m| plan.fields.iter().all(|f| m.name.as_deref() != Some(&f.name)))
+    {
+        None => Ok(()),
+        Some(member) => {
+            let member = member.name.as_deref().unwrap_or("<unnamed>");
+            Err(format!(
+                "`{name}` has a member `{member}` that the manifest does not list"
+            ))
+        }
+    }
+}
+
+fn is_type(inner: &TypeInner, ty: UniformType) -> bool {
+    let (components, scalar) = match *inner {
+        TypeInner::Scalar(scalar) => (1, scalar),
+        TypeInner::Vector { size, scalar } => (size as u8, scalar),
+        _ => return false,
+    };
+    let kind = match ty.kind() {
+        Kind::Float => ScalarKind::Float,
+        Kind::Sint => ScalarKind::Sint,
+        Kind::Uint => ScalarKind::Uint,
+    };
+    components == ty.components() && scalar.kind == kind && scalar.width == 4
+}
+
+/// Every resource of the shader is in the manifest.
+fn nothing_else(plan: &Plan, module: &Module) -> Result<(), String> {
+    let mut known: Vec<(u32, u32)> = plan.textures.iter().map(|t| (t.group, t.binding)).collect();
+    known.extend(plan.uniforms.iter().map(|u| (u.group, u.binding)));
+    if let OutputPlan::Storage { group, binding, .. } = &plan.output {
+        known.push((*group, *binding));
+    }
+    for (_, variable) in module.global_variables.iter() {
+        if let Some(place) = &variable.binding
+            && !known.contains(&(place.group, place.binding))
+        {
+            let name = variable.name.as_deref().unwrap_or("<unnamed>");
+            let (group, binding) = (place.group, place.binding);
+            return Err(format!(
+                "it uses `{name}` at @group({group}) @binding({binding}), which the manifest lacks"
+            ));
+        }
+    }
+    Ok(())
+}
+
+fn list(names: &[String]) -> String {
+    if names.is_empty() {
+        "none at all".to_owned()
+    } else {
+        names.join(", ")
+    }
+}

@@ -1,0 +1,245 @@
+//! Time on the GPU, from timestamp queries at the borders of passes.
+
+use crate::Error;
+use crate::guard::{Pulse, guarded};
+use std::collections::VecDeque;
+use std::sync::mpsc;
+use std::time::Duration;
+use wgpu::{CommandEncoder, Device, Queue};
+
+/// Bytes of one timestamp.
+const TICK: u64 = wgpu::QUERY_SIZE as u64;
+
+/// Measures spans of GPU time: of passes recorded with [`Pass::encode_timed`](crate::Pass::encode_timed), or of any
+/// pass that is given the writes of a [`Span`].
+///
+/// Record timed passes, call [`resolve`](Self::resolve) on the same encoder, submit it, then [`read`](Self::read).
+/// Several resolves may be under way at once; they are read in the same order.
+#[derive(Debug)]
+pub struct Timer {
+    device: Device,
+    queries: wgpu::QuerySet,
+    resolved: wgpu::Buffer,
+    capacity: u32,
+    /// Nanoseconds a tick.
+    period: f32,
+    used: u32,
+    batches: VecDeque<Batch>,
+    pulse: Pulse,
+}
+
+/// Timestamps on their way back.
+#[derive(Debug)]
+struct Batch {
+    spans: u32,
+    /// A buffer of its own, so that what was never submitted still reads as zeros. None if there are no spans.
+    readback: Option<wgpu::Buffer>,
+}
+
+/// Two timestamps that will be written where a pass begins and ends.
+#[derive(Debug)]
+pub struct Span<'t> {
+    queries: &'t wgpu::QuerySet,
+    begin: u32,
+}
+
+impl Span<'_> {
+    /// For [`wgpu::ComputePassDescriptor::timestamp_writes`].
+    pub fn compute_writes(&self) -> wgpu::ComputePassTimestampWrites<'_> {
+        wgpu::ComputePassTimestampWrites {
+            query_set: self.queries,
+            beginning_of_pass_write_index: Some(self.begin),
+            end_of_pass_write_index: Some(self.begin + 1),
+        }
+    }
+
+    /// For [`wgpu::RenderPassDescriptor::timestamp_writes`].
+    pub fn render_writes(&self) -> wgpu::RenderPassTimestampWrites<'_> {
+        wgpu::RenderPassTimestampWrites {
+            query_set: self.queries,
+            beginning_of_pass_write_index: Some(self.begin),
+            end_of_pass_write_index: Some(self.begin + 1),
+        }
+    }
+}
+
+impl Timer {
+    /// The most spans that a timer can hold.
+    pub const MAX_CAPACITY: u32 = wgpu::QUERY_SET_MAX_QUERIES / 2;
+
+    /// A timer for up to `capacity` spans between two calls of [`resolve`](Self::resolve).
+    ///
+    /// # Errors
+    ///
+    /// [`Error::MissingFeature`] unless `device` was created with [`wgpu::Features::TIMESTAMP_QUERY`];
+    /// [`Error::TimerCapacity`] for 0 or more than [`MAX_CAPACITY`](Self::MAX_CAPACITY); [`Error::TimerPeriod`];
+    /// [`Error::DeviceLost`] and [`Error::OutOfMemory`].
+    pub fn new(device: &Device, queue: &Queue, capacity: u32) -> Result<Self, Error> {
+        if !device.features().contains(wgpu::Features::TIMESTAMP_QUERY) {
+            return Err(Error::MissingFeature {
+                purpose: "a timer",
+                feature: "TIMESTAMP_QUERY",
+            });
+        }
+        if !(1..=Self::MAX_CAPACITY).contains(&capacity) {
+            return Err(Error::TimerCapacity {
+                asked: capacity,
+                max: Self::MAX_CAPACITY,
+            });
+        }
+        let period = queue.get_timestamp_period();
+        if !(period.is_finite() && period > 0.0) {
+            return Err(Error::TimerPeriod { period });
+        }
+        let doing = "making a timer";
+        let pulse = Pulse::new(device, doing)?;
+        let (queries, resolved) = guarded(device, doing, failed, || {
+            let queries = device.create_query_set(&wgpu::QuerySetDescriptor {
+                label: Some("straightline timer"),
+                ty: wgpu::QueryType::Timestamp,
+                count: 2 * capacity,
+            });
+            let resolved = device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some("straightline timer"),
+                size: 2 * TICK * u64::from(capacity),
+                usage: wgpu::BufferUsages::QUERY_RESOLVE | wgpu::BufferUsages::COPY_SRC,
+                mapped_at_creation: false,
+            });
+            (queries, resolved)
+        })?;
+        pulse.check(device, doing)?;
+        let batches = VecDeque::new();
+        Ok(Timer {
+            device: device.clone(),
+            queries,
+            resolved,
+            capacity,
+            period,
+            used: 0,
+            batches,
+            pulse,
+        })
+    }
+
+    /// The next span, for one pass. It must be recorded: a span that is taken and never written is an error to read.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::TimerFull`].
+    pub fn span(&mut self) -> Result<Span<'_>, Error> {
+        if self.used == self.capacity {
+            return Err(Error::TimerFull {
+                capacity: self.capacity,
+            });
+        }
+        let begin = 2 * self.used;
+        self.used += 1;
+        Ok(Span {
+            queries: &self.queries,
+            begin,
+        })
+    }
+
+    /// Records the collection of all spans since the last call into `encoder`, after the passes they time.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::DeviceLost`] and [`Error::OutOfMemory`]. Nothing has been recorded then, and the spans are kept.
+    pub fn resolve(&mut self, encoder: &mut CommandEncoder) -> Result<(), Error> {
+        let doing = "resolving a timer";
+        self.pulse.check(&self.device, doing)?;
+        let spans = self.used;
+        let readback = match spans {
+            0 => None,
+            _ => {
+                let size = 2 * TICK * u64::from(spans);
+                let buffer = guarded(&self.device, doing, failed, || {
+                    self.device.create_buffer(&wgpu::BufferDescriptor {
+                        label: Some("straightline timestamps"),
+                        size,
+                        usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
+                        mapped_at_creation: false,
+                    })
+                })?;
+                encoder.resolve_query_set(&self.queries, 0..2 * spans, &self.resolved, 0);
+                encoder.copy_buffer_to_buffer(&self.resolved, 0, &buffer, 0, size);
+                Some(buffer)
+            }
+        };
+        self.batches.push_back(Batch { spans, readback });
+        self.used = 0;
+        Ok(())
+    }
+
+    /// How long each span of the oldest unread [`resolve`](Self::resolve) took, in the order they were recorded.
+    /// Waits until the device has run them.
+    ///
+    /// A timestamp is as fine as the device makes it; a span too short for it is zero.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::TimerNotResolved`] if there is nothing to read; [`Error::TimerNotSubmitted`] if the encoder was not
+    /// submitted yet, after which reading can be tried again; [`Error::DeviceLost`]; [`Error::TimerRead`].
+    /// If the driver loses the device during the very wait, wgpu 30 panics in `Device::poll`.
+    pub fn read(&mut self) -> Result<Vec<Duration>, Error> {
+        let doing = "reading a timer";
+        self.pulse.check(&self.device, doing)?;
+        let Some(batch) = self.batches.front() else {
+            return Err(Error::TimerNotResolved);
+        };
+        let durations = match &batch.readback {
+            None => Vec::new(),
+            Some(buffer) => {
+                let ticks = self.fetch(buffer, batch.spans).inspect_err(|_| buffer.unmap())?;
+                buffer.unmap();
+                if ticks.contains(&[0, 0]) {
+                    return Err(Error::TimerNotSubmitted);
+                }
+                ticks
+                    .into_iter()
+                    .map(|[begin, end]| self.duration(end.saturating_sub(begin)))
+                    .collect()
+            }
+        };
+        self.batches.pop_front();
+        Ok(durations)
+    }
+
+    /// Begin and end of each span, in ticks. Leaves `buffer` mapped.
+    fn fetch(&self, buffer: &wgpu::Buffer, spans: u32) -> Result<Vec<[u64; 2]>, Error> {
+        let doing = "reading a timer";
+        let (sender, receiver) = mpsc::channel();
+        guarded(&self.device, doing, failed, || {
+            buffer.map_async(wgpu::MapMode::Read, .., move |result| {
+                // The receiver is gone only if waiting failed, and then nobody wants to know.
+                let _ = sender.send(result);
+            });
+        })?;
+        let polled = self.device.poll(wgpu::PollType::wait_indefinitely());
+        polled.map_err(|error| failed(error.to_string()))?;
+        match receiver.try_recv() {
+            Ok(Ok(())) => {}
+            Ok(Err(error)) => {
+                self.pulse.check(&self.device, doing)?;
+                return Err(failed(error.to_string()));
+            }
+            Err(_) => return Err(failed("the buffer was not mapped".to_owned())),
+        }
+        let bytes = buffer.get_mapped_range(..).map_err(|error| failed(error.to_string()))?;
+        let (words, _) = bytes.as_chunks::<8>();
+        let ticks: Vec<u64> = words.iter().map(|word| u64::from_le_bytes(*word)).collect();
+        let (pairs, _) = ticks.as_chunks::<2>();
+        debug_assert_eq!(pairs.len(), spans as usize);
+        Ok(pairs.to_vec())
+    }
+
+    fn duration(&self, ticks: u64) -> Duration {
+        let seconds = ticks as f64 * f64::from(self.period) * 1e-9;
+        // Out of range only for a nonsensical difference of centuries.
+        Duration::try_from_secs_f64(seconds).unwrap_or(Duration::MAX)
+    }
+}
+
+fn failed(description: String) -> Error {
+    Error::TimerRead { description }
+}

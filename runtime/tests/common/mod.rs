@@ -1,0 +1,265 @@
+//! A device, fixtures and pictures for the tests.
+#![allow(dead_code, reason = "each test file uses its part")]
+
+use straightline_runtime::wgpu;
+use wgpu::TextureFormat;
+
+/// The default adapter with a device that has `features` and `limits`.
+pub struct Gpu {
+    pub device: wgpu::Device,
+    pub queue: wgpu::Queue,
+}
+
+impl Gpu {
+    pub fn new() -> Self {
+        Self::with(wgpu::Features::empty(), wgpu::Limits::default())
+    }
+
+    pub fn with(required_features: wgpu::Features, required_limits: wgpu::Limits) -> Self {
+        let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
+        let adapter = pollster::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions::default()))
+            .unwrap_or_else(|error| {
+                panic!("these tests need a GPU adapter; without a GPU, install Debian's mesa-vulkan-drivers: {error}")
+            });
+        let descriptor = wgpu::DeviceDescriptor {
+            required_features,
+            required_limits,
+            ..Default::default()
+        };
+        let (device, queue) = pollster::block_on(adapter.request_device(&descriptor))
+            .unwrap_or_else(|error| panic!("the adapter {:?} gives no device: {error}", adapter.get_info()));
+        Gpu { device, queue }
+    }
+
+    pub fn texture(
+        &self,
+        size: [u32; 2],
+        layers: u32,
+        format: TextureFormat,
+        usage: wgpu::TextureUsages,
+    ) -> wgpu::Texture {
+        self.device.create_texture(&wgpu::TextureDescriptor {
+            label: None,
+            size: wgpu::Extent3d {
+                width: size[0],
+                height: size[1],
+                depth_or_array_layers: layers,
+            },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format,
+            usage,
+            view_formats: &[],
+        })
+    }
+
+    /// An `rgba32float` texture that holds `pixels`, layer after layer.
+    pub fn upload(&self, size: [u32; 2], layers: u32, pixels: &[[f32; 4]]) -> wgpu::Texture {
+        assert_eq!(pixels.len(), (size[0] * size[1] * layers) as usize);
+        let usage = wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST;
+        let texture = self.texture(size, layers, TextureFormat::Rgba32Float, usage);
+        let bytes: Vec<u8> = pixels.iter().flatten().flat_map(|v| v.to_le_bytes()).collect();
+        let layout = wgpu::TexelCopyBufferLayout {
+            offset: 0,
+            bytes_per_row: Some(size[0] * 16),
+            rows_per_image: Some(size[1]),
+        };
+        self.queue
+            .write_texture(texture.as_image_copy(), &bytes, layout, texture.size());
+        texture
+    }
+
+    /// A target of either stage that can be downloaded.
+    pub fn target(&self, size: [u32; 2]) -> wgpu::Texture {
+        let usage = wgpu::TextureUsages::STORAGE_BINDING
+            | wgpu::TextureUsages::RENDER_ATTACHMENT
+            | wgpu::TextureUsages::COPY_SRC
+            | wgpu::TextureUsages::TEXTURE_BINDING;
+        self.texture(size, 1, TextureFormat::Rgba32Float, usage)
+    }
+
+    pub fn encoder(&self) -> wgpu::CommandEncoder {
+        self.device
+            .create_command_encoder(&wgpu::CommandEncoderDescriptor::default())
+    }
+
+    pub fn submit(&self, encoder: wgpu::CommandEncoder) {
+        self.queue.submit([encoder.finish()]);
+    }
+
+    /// Bytes of level 0 and layer 0, row by row, without padding.
+    pub fn download_bytes(&self, texture: &wgpu::Texture) -> Vec<u8> {
+        let texel = texture.format().block_copy_size(None).expect("a colour format");
+        let row = texture.width() * texel;
+        let padded = row.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
+        let buffer = self.device.create_buffer(&wgpu::BufferDescriptor {
+            label: None,
+            size: u64::from(padded * texture.height()),
+            usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        });
+        let mut encoder = self.encoder();
+        let layout = wgpu::TexelCopyBufferLayout {
+            offset: 0,
+            bytes_per_row: Some(padded),
+            rows_per_image: None,
+        };
+        let size = wgpu::Extent3d {
+            width: texture.width(),
+            height: texture.height(),
+            depth_or_array_layers: 1,
+        };
+        encoder.copy_texture_to_buffer(
+            texture.as_image_copy(),
+            wgpu::TexelCopyBufferInfo {
+                buffer: &buffer,
+                layout,
+            },
+            size,
+        );
+        self.submit(encoder);
+        buffer.map_async(wgpu::MapMode::Read, .., |result| result.expect("a buffer to read"));
+        self.device
+            .poll(wgpu::PollType::wait_indefinitely())
+            .expect("the device to finish");
+        let mapped = buffer.get_mapped_range(..).expect("a mapped buffer");
+        mapped
+            .chunks(padded as usize)
+            .flat_map(|padded| padded[..row as usize].to_vec())
+            .collect()
+    }
+
+    /// Pixels of an `rgba32float` texture.
+    pub fn download(&self, texture: &wgpu::Texture) -> Vec<[f32; 4]> {
+        assert_eq!(texture.format(), TextureFormat::Rgba32Float);
+        let value = |bytes: &[u8]| f32::from_le_bytes(bytes.try_into().expect("four bytes"));
+        let pixel = |bytes: &[u8]| [0, 4, 8, 12].map(|i| value(&bytes[i..i + 4]));
+        self.download_bytes(texture).chunks_exact(16).map(pixel).collect()
+    }
+}
+
+pub fn view(texture: &wgpu::Texture) -> wgpu::TextureView {
+    texture.create_view(&wgpu::TextureViewDescriptor::default())
+}
+
+pub fn array_view(texture: &wgpu::Texture) -> wgpu::TextureView {
+    texture.create_view(&wgpu::TextureViewDescriptor {
+        dimension: Some(wgpu::TextureViewDimension::D2Array),
+        ..Default::default()
+    })
+}
+
+/// A picture in which every component of every pixel is different.
+pub fn ramp(size: [u32; 2], layers: u32) -> Vec<[f32; 4]> {
+    (0..size[0] * size[1] * layers)
+        .map(|i| [0, 1, 2, 3].map(|c| (4 * i + c) as f32 + 0.25))
+        .collect()
+}
+
+pub use straightline_runtime::manifest::Stage;
+pub const STAGES: [Stage; 2] = [Stage::Compute, Stage::Fragment];
+
+/// A small kernel as the generator would emit it: `declarations`, and an expression of `pixel` for the result.
+pub struct Fixture {
+    pub manifest: String,
+    pub wgsl: String,
+}
+
+/// What one emitted body consists of.
+pub struct Kernel<'k> {
+    pub name: &'k str,
+    /// JSON objects of the manifest's `bindings`.
+    pub bindings: &'k [&'k str],
+    /// WGSL declarations of the same.
+    pub declarations: &'k str,
+    /// WGSL expression of type `vec4f` that may use `pixel: vec2i`.
+    pub result: &'k str,
+}
+
+impl Kernel<'_> {
+    pub fn emit(&self, stage: Stage) -> Fixture {
+        let Kernel {
+            name,
+            bindings,
+            declarations,
+            result,
+        } = self;
+        let (output, workgroup, wgsl) = match stage {
+            Stage::Compute => (
+                r#"{"name": "output", "group": 0, "binding": 15, "access": "write", "format": "rgba32float"}"#,
+                r#""workgroup_size": [8, 8, 1],"#,
+                format!(
+                    "{declarations}
+                    @group(0) @binding(15) var output: texture_storage_2d<rgba32float, write>;
+                    @compute @workgroup_size(8, 8, 1)
+                    fn {name}(@builtin(global_invocation_id) id: vec3u) {{
+                        if any(id.xy >= textureDimensions(output)) {{ return; }}
+                        let pixel = vec2i(id.xy);
+                        textureStore(output, pixel, {result});
+                    }}"
+                ),
+            ),
+            Stage::Fragment => (
+                r#"{"name": "output", "location": 0, "access": "write", "format": "rgba32float"}"#,
+                "",
+                format!(
+                    "{declarations}
+                    @fragment
+                    fn {name}(@builtin(position) position: vec4f) -> @location(0) vec4f {{
+                        let pixel = vec2i(position.xy);
+                        return {result};
+                    }}"
+                ),
+            ),
+        };
+        let stage = stage.name();
+        let manifest = format!(
+            r#"{{"schema": 1, "generator": "by hand", "kernel": "{name}", "stage": "{stage}", "unroll": "full",
+                "entry_point": "{name}", {workgroup} "bindings": [{}], "output": {output}, "options": {{}},
+                "counts": {{"basic_blocks": 1, "loops": 0, "texture_reads": 0, "colour_reads": 1, "reads": {{}},
+                    "tallies": {{}}, "transcendentals": 0, "alu": 0, "statements": 1, "max_live": 4}}}}"#,
+            bindings.join(", ")
+        );
+        Fixture { manifest, wgsl }
+    }
+}
+
+pub const COLOR: &str = r#"{"group": 0, "binding": 0, "name": "color", "type": "texture", "access": "read",
+    "dimension": "2d", "components": 4, "layers": 1}"#;
+pub const DEPTH: &str = r#"{"group": 0, "binding": 1, "name": "depth", "type": "texture", "access": "read",
+    "dimension": "2d-array", "components": 1, "layers": 3}"#;
+/// In a group of its own, and not the next one.
+pub const PARAMS: &str = r#"{"group": 2, "binding": 4, "name": "params", "type": "uniform", "access": "read",
+    "size": 32, "fields": [
+        {"name": "offset", "type": "vec4f", "offset": 0, "size": 16},
+        {"name": "scale", "type": "f32", "offset": 16, "size": 4, "default": 2.0},
+        {"name": "steps", "type": "i32", "offset": 20, "size": 4, "default": -3}]}"#;
+
+/// `color`, unchanged.
+pub const COPY: Kernel = Kernel {
+    name: "copy",
+    bindings: &[COLOR],
+    declarations: "@group(0) @binding(0) var color: texture_2d<f32>;",
+    result: "textureLoad(color, pixel, 0)",
+};
+
+/// `color` with the three layers of `depth` in place of red, green and blue.
+pub const LAYERS: Kernel = Kernel {
+    name: "layers",
+    bindings: &[COLOR, DEPTH],
+    declarations: "@group(0) @binding(0) var color: texture_2d<f32>;
+        @group(0) @binding(1) var depth: texture_2d_array<f32>;",
+    result: "vec4f(textureLoad(depth, pixel, 0, 0).x, textureLoad(depth, pixel, 1, 0).x,
+        textureLoad(depth, pixel, 2, 0).x, textureLoad(color, pixel, 0).w)",
+};
+
+/// `color * scale + offset + steps`.
+pub const ADD: Kernel = Kernel {
+    name: "add",
+    bindings: &[COLOR, PARAMS],
+    declarations: "struct Params { offset: vec4f, scale: f32, steps: i32 }
+        @group(0) @binding(0) var color: texture_2d<f32>;
+        @group(2) @binding(4) var<uniform> params: Params;",
+    result: "textureLoad(color, pixel, 0) * params.scale + params.offset + f32(params.steps)",
+};

@@ -1,0 +1,258 @@
+//! Real dispatches: what comes out is what the shader says, pixel by pixel.
+
+mod common;
+
+use common::{ADD, COPY, Fixture, Gpu, Kernel, LAYERS, STAGES, Stage, array_view, ramp, view};
+use straightline_runtime::manifest::Manifest;
+use straightline_runtime::{Pass, PassOptions, wgpu};
+use wgpu::{TextureFormat, TextureUsages};
+
+const SIZES: [[u32; 2]; 6] = [[1, 1], [1, 7], [7, 1], [8, 8], [9, 16], [33, 17]];
+
+fn pass(gpu: &Gpu, kernel: &Kernel, stage: Stage) -> Pass {
+    let Fixture { manifest, wgsl } = kernel.emit(stage);
+    Pass::from_json(&gpu.device, &manifest, &wgsl).expect("a pass")
+}
+
+#[test]
+fn copies_every_pixel_of_any_size() {
+    let gpu = Gpu::new();
+    for stage in STAGES {
+        let pass = pass(&gpu, &COPY, stage);
+        for size in SIZES {
+            let color = gpu.upload(size, 1, &ramp(size, 1));
+            let target = gpu.target(size);
+            let mut encoder = gpu.encoder();
+            pass.encode(&mut encoder, &[("color", &view(&color))], &view(&target))
+                .expect("to encode");
+            gpu.submit(encoder);
+            assert_eq!(gpu.download(&target), ramp(size, 1), "{stage:?} {size:?}");
+        }
+    }
+}
+
+#[test]
+fn reads_layers_and_takes_inputs_in_any_order() {
+    let gpu = Gpu::new();
+    let size = [33, 17];
+    let (color, depth) = (gpu.upload(size, 1, &ramp(size, 1)), gpu.upload(size, 4, &ramp(size, 4)));
+    let count = (size[0] * size[1]) as usize;
+    let layers = ramp(size, 4);
+    let wanted: Vec<[f32; 4]> = (0..count)
+        .map(|i| {
+            [
+                layers[i][0],
+                layers[count + i][0],
+                layers[2 * count + i][0],
+                ramp(size, 1)[i][3],
+            ]
+        })
+        .collect();
+    for stage in STAGES {
+        let pass = pass(&gpu, &LAYERS, stage);
+        assert_eq!(pass.inputs().collect::<Vec<_>>(), ["color", "depth"]);
+        let target = gpu.target(size);
+        let mut encoder = gpu.encoder();
+        let inputs = [("depth", &array_view(&depth)), ("color", &view(&color))];
+        pass.encode(&mut encoder, &inputs, &view(&target)).expect("to encode");
+        gpu.submit(encoder);
+        assert_eq!(gpu.download(&target), wanted, "{stage:?}");
+    }
+}
+
+#[test]
+fn uniforms_start_from_defaults_and_keep_what_is_written() {
+    let gpu = Gpu::new();
+    let size = [5, 3];
+    let color = gpu.upload(size, 1, &ramp(size, 1));
+    for stage in STAGES {
+        let pass = pass(&gpu, &ADD, stage);
+        let run = || {
+            let target = gpu.target(size);
+            let mut encoder = gpu.encoder();
+            pass.encode(&mut encoder, &[("color", &view(&color))], &view(&target))
+                .expect("to encode");
+            gpu.submit(encoder);
+            gpu.download(&target)
+        };
+        let expect = |offset: [f32; 4], scale: f32, steps: f32| -> Vec<[f32; 4]> {
+            ramp(size, 1)
+                .iter()
+                .map(|p| [0, 1, 2, 3].map(|c| p[c] * scale + offset[c] + steps))
+                .collect()
+        };
+        pass.write_uniform(&gpu.queue, "offset", [1.0, 2.0, 3.0, 4.0])
+            .expect("a vec4f");
+        assert_eq!(run(), expect([1.0, 2.0, 3.0, 4.0], 2.0, -3.0), "{stage:?}, defaults");
+        pass.write_uniform(&gpu.queue, "scale", 0.5).expect("an f32");
+        pass.write_uniform(&gpu.queue, "steps", 10).expect("an i32");
+        assert_eq!(run(), expect([1.0, 2.0, 3.0, 4.0], 0.5, 10.0), "{stage:?}, written");
+    }
+}
+
+#[test]
+fn passes_chain_in_one_encoder() {
+    let gpu = Gpu::new();
+    let size = [19, 6];
+    let color = gpu.upload(size, 1, &ramp(size, 1));
+    for (first, second) in [(Stage::Compute, Stage::Fragment), (Stage::Fragment, Stage::Compute)] {
+        let (copy, add) = (pass(&gpu, &COPY, first), pass(&gpu, &ADD, second));
+        add.write_uniform(&gpu.queue, "offset", [0.0; 4]).expect("a vec4f");
+        let (middle, target) = (gpu.target(size), gpu.target(size));
+        let mut encoder = gpu.encoder();
+        copy.encode(&mut encoder, &[("color", &view(&color))], &view(&middle))
+            .expect("to encode");
+        add.encode(&mut encoder, &[("color", &view(&middle))], &view(&target))
+            .expect("to encode");
+        gpu.submit(encoder);
+        let wanted: Vec<[f32; 4]> = ramp(size, 1).iter().map(|p| p.map(|v| v * 2.0 - 3.0)).collect();
+        assert_eq!(gpu.download(&target), wanted, "{first:?} then {second:?}");
+    }
+}
+
+#[test]
+fn depth_buffers_are_read_in_place() {
+    let gpu = Gpu::new();
+    let size = [3, 5];
+    let kernel = Kernel {
+        name: "show",
+        bindings: &[
+            r#"{"group": 0, "binding": 1, "name": "depth", "type": "texture", "access": "read",
+            "dimension": "2d", "components": 1, "layers": 1}"#,
+        ],
+        declarations: "@group(0) @binding(1) var depth: texture_2d<f32>;",
+        result: "vec4f(textureLoad(depth, pixel, 0).x, 0.0, 0.0, 1.0)",
+    };
+    let usage = TextureUsages::RENDER_ATTACHMENT | TextureUsages::TEXTURE_BINDING;
+    for format in [TextureFormat::Depth32Float, TextureFormat::Depth24PlusStencil8] {
+        let depth = gpu.texture(size, 1, format, usage);
+        let only_depth = depth.create_view(&wgpu::TextureViewDescriptor {
+            aspect: wgpu::TextureAspect::DepthOnly,
+            ..Default::default()
+        });
+        for stage in STAGES {
+            let pass = pass(&gpu, &kernel, stage);
+            let target = gpu.target(size);
+            let mut encoder = gpu.encoder();
+            clear_depth(&mut encoder, &view(&depth), format, 0.25);
+            pass.encode(&mut encoder, &[("depth", &only_depth)], &view(&target))
+                .expect("to encode");
+            gpu.submit(encoder);
+            for [red, ..] in gpu.download(&target) {
+                assert!(
+                    (red - 0.25).abs() <= 1.0 / f32::from(u16::MAX),
+                    "{format:?} {stage:?}: {red}"
+                );
+            }
+        }
+    }
+}
+
+fn clear_depth(encoder: &mut wgpu::CommandEncoder, view: &wgpu::TextureView, format: TextureFormat, depth: f32) {
+    let store = wgpu::StoreOp::Store;
+    encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+        depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+            view,
+            depth_ops: Some(wgpu::Operations {
+                load: wgpu::LoadOp::Clear(depth),
+                store,
+            }),
+            stencil_ops: format.has_stencil_aspect().then_some(wgpu::Operations {
+                load: wgpu::LoadOp::Clear(0),
+                store,
+            }),
+        }),
+        ..Default::default()
+    });
+}
+
+#[test]
+fn fragment_draws_to_the_format_asked_for() {
+    let gpu = Gpu::new();
+    let Fixture { manifest, wgsl } = COPY.emit(Stage::Fragment);
+    let manifest = Manifest::from_json(&manifest).expect("a manifest");
+    let color = gpu.upload([2, 1], 1, &[[1.0, 0.0, 0.0, 1.0], [0.0, 1.0, 0.0, 1.0]]);
+    let usage = TextureUsages::RENDER_ATTACHMENT | TextureUsages::COPY_SRC;
+    for format in [TextureFormat::Bgra8Unorm, TextureFormat::Bgra8UnormSrgb] {
+        let options = PassOptions::default().target_format(format);
+        let pass = Pass::with_options(&gpu.device, &manifest, &wgsl, &options).expect("a pass");
+        assert_eq!(pass.target_format(), format);
+        // As with a swap chain: the texture is plain, the view has the pass's format.
+        let target = gpu.device.create_texture(&wgpu::TextureDescriptor {
+            label: None,
+            size: color.size(),
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format: TextureFormat::Bgra8Unorm,
+            usage,
+            view_formats: &[TextureFormat::Bgra8UnormSrgb],
+        });
+        let view_of = target.create_view(&wgpu::TextureViewDescriptor {
+            format: Some(format),
+            ..Default::default()
+        });
+        let mut encoder = gpu.encoder();
+        pass.encode(&mut encoder, &[("color", &view(&color))], &view_of)
+            .expect("to encode");
+        gpu.submit(encoder);
+        assert_eq!(
+            gpu.download_bytes(&target),
+            [0, 0, 255, 255, 0, 255, 0, 255],
+            "{format:?}"
+        );
+    }
+}
+
+#[test]
+fn a_layer_of_a_texture_is_a_target_and_another_an_input() {
+    let gpu = Gpu::new();
+    let size = [9, 4];
+    let layer = |texture: &wgpu::Texture, base_array_layer| {
+        texture.create_view(&wgpu::TextureViewDescriptor {
+            dimension: Some(wgpu::TextureViewDimension::D2),
+            base_array_layer,
+            array_layer_count: Some(1),
+            ..Default::default()
+        })
+    };
+    for stage in STAGES {
+        let copy = pass(&gpu, &COPY, stage);
+        let usage = TextureUsages::TEXTURE_BINDING
+            | TextureUsages::STORAGE_BINDING
+            | TextureUsages::RENDER_ATTACHMENT
+            | TextureUsages::COPY_SRC;
+        let stack = gpu.texture(size, 2, TextureFormat::Rgba32Float, usage);
+        let (color, target) = (gpu.upload(size, 1, &ramp(size, 1)), gpu.target(size));
+        let mut encoder = gpu.encoder();
+        copy.encode(&mut encoder, &[("color", &view(&color))], &layer(&stack, 1))
+            .expect("to encode");
+        copy.encode(&mut encoder, &[("color", &layer(&stack, 1))], &layer(&stack, 0))
+            .expect("to encode");
+        copy.encode(&mut encoder, &[("color", &layer(&stack, 0))], &view(&target))
+            .expect("to encode");
+        gpu.submit(encoder);
+        assert_eq!(gpu.download(&target), ramp(size, 1), "{stage:?}");
+    }
+}
+
+#[test]
+fn a_pass_is_shared_between_threads() {
+    let gpu = Gpu::new();
+    let size = [8, 8];
+    let copy = pass(&gpu, &COPY, Stage::Compute);
+    let color = view(&gpu.upload(size, 1, &ramp(size, 1)));
+    std::thread::scope(|scope| {
+        for _ in 0..4 {
+            scope.spawn(|| {
+                for _ in 0..50 {
+                    let target = gpu.target(size);
+                    let mut encoder = gpu.encoder();
+                    copy.encode(&mut encoder, &[("color", &color)], &view(&target))
+                        .expect("to encode");
+                    gpu.submit(encoder);
+                }
+            });
+        }
+    });
+}

@@ -1,0 +1,153 @@
+//! GPU timestamps.
+
+mod common;
+
+use common::{COPY, Fixture, Gpu, STAGES, Stage, ramp, view};
+use std::time::{Duration, Instant};
+use straightline_runtime::{Error, Pass, Timer, wgpu};
+
+fn timing_gpu() -> Gpu {
+    Gpu::with(wgpu::Features::TIMESTAMP_QUERY, wgpu::Limits::default())
+}
+
+fn pass(gpu: &Gpu, stage: Stage) -> Pass {
+    let Fixture { manifest, wgsl } = COPY.emit(stage);
+    Pass::from_json(&gpu.device, &manifest, &wgsl).expect("a pass")
+}
+
+#[test]
+fn spans_are_read_in_order_and_within_wall_time() {
+    let gpu = timing_gpu();
+    let mut timer = Timer::new(&gpu.device, &gpu.queue, 4).expect("a timer");
+    let (small, large) = ([1, 1], [1024, 1024]);
+    for stage in STAGES {
+        let pass = pass(&gpu, stage);
+        let start = Instant::now();
+        let mut encoder = gpu.encoder();
+        for size in [small, large] {
+            let color = gpu.upload(size, 1, &ramp(size, 1));
+            pass.encode_timed(
+                &mut encoder,
+                &[("color", &view(&color))],
+                &view(&gpu.target(size)),
+                &mut timer,
+            )
+            .expect("to encode");
+        }
+        timer.resolve(&mut encoder).expect("to resolve");
+        gpu.submit(encoder);
+        let spans = timer.read().expect("timestamps");
+        let wall = start.elapsed();
+        assert_eq!(spans.len(), 2);
+        assert!(
+            spans[0] < spans[1],
+            "{stage:?}: one pixel in {:?}, a million in {:?}",
+            spans[0],
+            spans[1]
+        );
+        assert!(
+            spans[1] > Duration::ZERO && spans.iter().sum::<Duration>() <= wall,
+            "{spans:?} in {wall:?}"
+        );
+    }
+}
+
+#[test]
+fn batches_are_kept_apart() {
+    let gpu = timing_gpu();
+    let mut timer = Timer::new(&gpu.device, &gpu.queue, 2).expect("a timer");
+    let pass = pass(&gpu, Stage::Compute);
+    let color = view(&gpu.upload([8, 8], 1, &ramp([8, 8], 1)));
+    let target = view(&gpu.target([8, 8]));
+    for count in [2, 1, 0] {
+        let mut encoder = gpu.encoder();
+        for _ in 0..count {
+            pass.encode_timed(&mut encoder, &[("color", &color)], &target, &mut timer)
+                .expect("to encode");
+        }
+        timer.resolve(&mut encoder).expect("to resolve");
+        gpu.submit(encoder);
+    }
+    for count in [2, 1, 0] {
+        assert_eq!(timer.read().expect("timestamps").len(), count);
+    }
+    assert!(matches!(timer.read(), Err(Error::TimerNotResolved)));
+}
+
+#[test]
+fn a_timer_needs_its_feature_and_a_sensible_capacity() {
+    let plain = Gpu::new();
+    let error = Timer::new(&plain.device, &plain.queue, 1).expect_err("no feature");
+    assert!(error.to_string().contains("TIMESTAMP_QUERY"), "{error}");
+    let gpu = timing_gpu();
+    for capacity in [0, Timer::MAX_CAPACITY + 1] {
+        let error = Timer::new(&gpu.device, &gpu.queue, capacity).expect_err("a bad capacity");
+        assert!(
+            matches!(error, Error::TimerCapacity { asked, .. } if asked == capacity),
+            "{error}"
+        );
+    }
+    Timer::new(&gpu.device, &gpu.queue, Timer::MAX_CAPACITY).expect("the largest timer");
+}
+
+#[test]
+fn a_full_timer_records_nothing() {
+    let gpu = timing_gpu();
+    let mut timer = Timer::new(&gpu.device, &gpu.queue, 1).expect("a timer");
+    let pass = pass(&gpu, Stage::Compute);
+    let color = view(&gpu.upload([4, 4], 1, &ramp([4, 4], 1)));
+    let target = gpu.target([4, 4]);
+    let mut encoder = gpu.encoder();
+    // A failed encode does not use up the span.
+    assert!(
+        pass.encode_timed(&mut encoder, &[], &view(&target), &mut timer)
+            .is_err()
+    );
+    pass.encode_timed(&mut encoder, &[("color", &color)], &view(&target), &mut timer)
+        .expect("to encode");
+    let other = gpu.target([4, 4]);
+    let error = pass
+        .encode_timed(&mut encoder, &[("color", &color)], &view(&other), &mut timer)
+        .expect_err("a full timer");
+    assert!(matches!(error, Error::TimerFull { capacity: 1 }), "{error}");
+    timer.resolve(&mut encoder).expect("to resolve");
+    gpu.submit(encoder);
+    assert_eq!(timer.read().expect("timestamps").len(), 1);
+    assert_eq!(gpu.download(&target), ramp([4, 4], 1));
+    assert_eq!(gpu.download(&other), [[0.0; 4]; 16]);
+}
+
+#[test]
+fn reading_too_early_is_an_error_and_can_be_tried_again() {
+    let gpu = timing_gpu();
+    let mut timer = Timer::new(&gpu.device, &gpu.queue, 1).expect("a timer");
+    assert!(matches!(timer.read(), Err(Error::TimerNotResolved)));
+    let pass = pass(&gpu, Stage::Fragment);
+    let color = view(&gpu.upload([4, 4], 1, &ramp([4, 4], 1)));
+    let mut encoder = gpu.encoder();
+    pass.encode_timed(
+        &mut encoder,
+        &[("color", &color)],
+        &view(&gpu.target([4, 4])),
+        &mut timer,
+    )
+    .expect("to encode");
+    timer.resolve(&mut encoder).expect("to resolve");
+    assert!(matches!(timer.read(), Err(Error::TimerNotSubmitted)));
+    gpu.submit(encoder);
+    assert_eq!(timer.read().expect("timestamps").len(), 1);
+}
+
+#[test]
+fn a_timer_of_a_lost_device_says_so() {
+    let gpu = timing_gpu();
+    let mut timer = Timer::new(&gpu.device, &gpu.queue, 1).expect("a timer");
+    let mut encoder = gpu.encoder();
+    gpu.device.destroy();
+    assert!(matches!(timer.resolve(&mut encoder), Err(Error::DeviceLost { .. })));
+    assert!(matches!(timer.read(), Err(Error::DeviceLost { .. })));
+    assert!(matches!(
+        Timer::new(&gpu.device, &gpu.queue, 1),
+        Err(Error::DeviceLost { .. })
+    ));
+}

@@ -1,0 +1,236 @@
+//! `capture.json`.
+
+use super::{Capture, CaptureError, DESCRIPTION, MAX_GEOMETRY_TEXELS, MAX_SAMPLES, layer_count};
+use crate::picture;
+use glam::{UVec2, Vec2};
+use serde::{Deserialize, Serialize};
+use std::path::Path;
+
+/// Version of the layout of `capture.json`. A reader refuses a capture whose schema it does not know.
+pub const SCHEMA: u32 = 1;
+
+/// The only encoding of depth so far.
+const LINEAR: &str = "linear";
+
+/// Anything that a renderer wants to say of its camera, as JSON.
+pub type Camera = serde_json::Value;
+
+/// Where in a pixel shading was sampled.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum ShadingSample {
+    /// At the geometry sample of this index: `{"sample": 0}`.
+    Sample(usize),
+    /// At the pixel's centre: `"centre"`. The geometry there is one more layer, the last.
+    Centre,
+}
+
+/// The contents of `capture.json`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Description {
+    schema: u32,
+    size: [u32; 2],
+    samples: Vec<[f32; 2]>,
+    shading: ShadingSample,
+    depth: String,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) camera: Option<Camera>,
+}
+
+impl Description {
+    /// The description of `capture`, which need not be valid.
+    pub(super) fn of(capture: &Capture) -> Self {
+        Description {
+            schema: SCHEMA,
+            size: capture.size.to_array(),
+            samples: capture.samples.iter().map(|sample| sample.to_array()).collect(),
+            shading: capture.shading,
+            depth: LINEAR.to_owned(),
+            camera: capture.camera.clone(),
+        }
+    }
+
+    /// Reads the text of the file `path`, which only errors need.
+    pub(super) fn parse(path: &Path, text: &str) -> Result<Self, CaptureError> {
+        #[derive(Deserialize)]
+        struct Head {
+            schema: u32,
+        }
+        let json = |source| CaptureError::Json {
+            path: path.to_owned(),
+            source,
+        };
+        let head: Head = serde_json::from_str(text).map_err(json)?;
+        if head.schema != SCHEMA {
+            return Err(CaptureError::Schema {
+                path: path.to_owned(),
+                found: head.schema,
+            });
+        }
+        let description: Description = serde_json::from_str(text).map_err(json)?;
+        description.check(path)?;
+        Ok(description)
+    }
+
+    /// The text of the file.
+    pub(super) fn to_json(&self) -> Result<String, serde_json::Error> {
+        Ok(serde_json::to_string_pretty(self)? + "\n")
+    }
+
+    pub(super) fn size(&self) -> UVec2 {
+        self.size.into()
+    }
+
+    pub(super) fn samples(&self) -> Vec<Vec2> {
+        self.samples.iter().map(|sample| (*sample).into()).collect()
+    }
+
+    pub(super) fn shading(&self) -> ShadingSample {
+        self.shading
+    }
+
+    /// Refuses what no capture can be, before anything is allocated for it.
+    pub(super) fn check(&self, path: &Path) -> Result<(), CaptureError> {
+        let value = |field: &'static str, problem: String| {
+            Err(CaptureError::Value {
+                path: path.to_owned(),
+                field,
+                problem,
+            })
+        };
+        if self.depth != LINEAR {
+            return Err(CaptureError::DepthEncoding {
+                path: path.to_owned(),
+                found: self.depth.clone(),
+            });
+        }
+        let count = self.samples.len();
+        if count == 0 || count > MAX_SAMPLES {
+            return value(
+                "samples",
+                format!("there are {count}, and there must be 1 to {MAX_SAMPLES}"),
+            );
+        }
+        for (index, sample) in self.samples.iter().enumerate() {
+            if !sample.iter().all(|axis| (-0.5..=0.5).contains(axis)) {
+                let [x, y] = sample;
+                let range = "-0.5 to 0.5 pixels from the pixel's centre";
+                return value(
+                    "samples",
+                    format!("sample {index} is at [{x}, {y}], and each axis must be {range}"),
+                );
+            }
+        }
+        if let ShadingSample::Sample(index) = self.shading
+            && index >= count
+        {
+            return value(
+                "shading",
+                format!("it names sample {index}, and there are 0 to {}", count - 1),
+            );
+        }
+        let size = self.size();
+        picture::check_size(path, size)?;
+        let texels = u64::from(size.x) * u64::from(size.y) * layer_count(count, self.shading) as u64;
+        if texels > MAX_GEOMETRY_TEXELS {
+            let layers = layer_count(count, self.shading);
+            let problem = format!(
+                "{}×{} with {layers} layers are over {MAX_GEOMETRY_TEXELS} texels",
+                size.x, size.y
+            );
+            return value("size", problem + ": capture a smaller picture or fewer samples");
+        }
+        Ok(())
+    }
+}
+
+/// Where errors say that sizes and counts are stated.
+pub(super) const STATED_BY: &str = DESCRIPTION;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const DOCUMENT: &str = include_str!("../../../docs/captures.md");
+
+    fn parse(text: &str) -> Result<Description, CaptureError> {
+        Description::parse(Path::new("there/capture.json"), text)
+    }
+
+    fn documented() -> &'static str {
+        let (_, rest) = DOCUMENT.split_once("```json\n").expect("an example");
+        rest.split_once("```").expect("its end").0
+    }
+
+    #[test]
+    fn the_documented_example_is_the_default_pattern() {
+        let description = parse(documented()).unwrap();
+        assert_eq!(description.size(), UVec2::new(1280, 720));
+        assert_eq!(description.shading(), ShadingSample::Centre);
+        let sixteenths: Vec<_> = description
+            .samples()
+            .iter()
+            .map(|sample| (*sample * 16.0).to_array())
+            .collect();
+        assert_eq!(sixteenths, [[-2.0, -6.0], [6.0, -2.0], [-6.0, 2.0], [2.0, 6.0]]);
+        assert!(description.camera.is_some());
+    }
+
+    #[test]
+    fn what_is_written_is_read() {
+        let mut description = parse(documented()).unwrap();
+        description.shading = ShadingSample::Sample(3);
+        let json = description.to_json().unwrap();
+        assert!(json.contains("\"sample\": 3"), "{json}");
+        assert_eq!(parse(&json).unwrap(), description);
+    }
+
+    /// The error for the documented example with `from` replaced by `to`.
+    fn broken(from: &str, to: &str) -> String {
+        assert!(documented().contains(from), "{from}");
+        parse(&documented().replace(from, to)).expect_err(to).to_string()
+    }
+
+    #[test]
+    fn bad_descriptions_are_refused_with_place_and_reason() {
+        for (from, to, reasons) in [
+            ("\"size\"", "size", &["line 3 column"][..]),
+            ("\"size\"", "\"sizes\"", &["unknown field `sizes`", "line 3 column"]),
+            ("\"schema\": 1,", "", &["missing field `schema`"]),
+            ("\"schema\": 1", "\"schema\": 7", &["schema 7", "schema 1"]),
+            ("[1280, 720]", "[1280, -1]", &["line 3 column"]),
+            ("[1280, 720]", "[0, 720]", &["0×720", "1 to 16384"]),
+            ("[1280, 720]", "[99999, 1]", &["99999×1", "1 to 16384"]),
+            (
+                "[1280, 720]",
+                "[16384, 16384]",
+                &["16384×16384", "67108864 pixels in all"],
+            ),
+            ("[1280, 720]", "[8192, 8192]", &["size", "5 layers", "smaller"]),
+            (
+                "[-0.125, -0.375]",
+                "[-0.125, -0.625]",
+                &["sample 0 is at [-0.125, -0.625]", "-0.5 to 0.5"],
+            ),
+            ("[-0.125, -0.375]", "[1e39, 0]", &["sample 0", "-0.5 to 0.5"]),
+            (
+                "[[-0.125, -0.375], [0.375, -0.125], [-0.375, 0.125], [0.125, 0.375]]",
+                "[]",
+                &["there are 0", "1 to 64"],
+            ),
+            ("\"centre\"", "{\"sample\": 4}", &["sample 4", "0 to 3"]),
+            ("\"centre\"", "\"corner\"", &["corner", "line 5 column"]),
+            ("\"linear\"", "\"reversed-z\"", &["`reversed-z`", "`linear`"]),
+        ] {
+            let message = broken(from, to);
+            assert!(
+                message.contains("there/capture.json") || message.contains("there\\capture.json"),
+                "{message}"
+            );
+            for reason in reasons {
+                assert!(message.contains(reason), "{to}: {message:?} lacks {reason:?}");
+            }
+        }
+    }
+}

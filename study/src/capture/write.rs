@@ -1,0 +1,177 @@
+//! Writing a capture, whole or not at all.
+
+use super::description::{Description, STATED_BY};
+use super::read::expected_layers;
+use super::{COLOR, Capture, CaptureError, DEPTH, DESCRIPTION, FILES, NORMAL, REFERENCE, layer_name};
+use crate::picture::exr::{self, Layer};
+use crate::picture::whole::{self, Scrap};
+use crate::picture::{self, PictureError};
+use glam::UVec2;
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+use straightline_kernels::prelude::{Frame, FrameLayers};
+
+impl Capture {
+    /// Writes the capture as folder `dir`, making the folders above it.
+    ///
+    /// The folder appears when it is complete; after an error it is as it was. A capture that is there already is
+    /// replaced; a folder with anything else in it is refused.
+    pub fn write(&self, dir: &Path) -> Result<(), CaptureError> {
+        let description = Description::of(self);
+        self.check(&description, dir)?;
+        // A link to a folder stays a link: what it points at is replaced.
+        let dir = &fs::canonicalize(dir).unwrap_or_else(|_| dir.to_owned());
+        refuse_occupied(dir)?;
+        let refused = |source| PictureError::Io {
+            action: "write",
+            path: dir.to_owned(),
+            source,
+        };
+        if let Some(parent) = dir.parent() {
+            fs::create_dir_all(parent).map_err(refused)?;
+        }
+        let scrap = Scrap(whole::beside(dir, "partial").map_err(refused)?);
+        fs::create_dir(&scrap.0).map_err(refused)?;
+        self.fill(&description, &scrap.0)?;
+        replace(&scrap.0, dir).map_err(refused)?;
+        Ok(())
+    }
+
+    /// Refuses what [`Capture::read`] would refuse.
+    fn check(&self, description: &Description, dir: &Path) -> Result<(), CaptureError> {
+        description.check(&dir.join(DESCRIPTION))?;
+        self.check_size(dir, COLOR, "its colour", self.color.size())?;
+        self.check_layers(dir, DEPTH, &self.depth)?;
+        if let Some(normal) = &self.normal {
+            self.check_layers(dir, NORMAL, normal)?;
+        }
+        if let Some(reference) = &self.reference {
+            self.check_size(dir, REFERENCE, "its colour", reference.size())?;
+        }
+        Ok(())
+    }
+
+    fn check_layers<T: Copy>(&self, dir: &Path, file: &str, stack: &FrameLayers<T>) -> Result<(), CaptureError> {
+        let (samples, count) = (self.samples.len(), self.layer_count());
+        if stack.layers().len() != count {
+            return Err(CaptureError::Layers {
+                path: dir.join(file),
+                problem: format!("there are {} layers", stack.layers().len()),
+                samples,
+                expected: expected_layers(samples, count),
+            });
+        }
+        self.check_size(dir, file, "each layer", stack.layers()[0].size())
+    }
+
+    fn check_size(&self, dir: &Path, file: &str, layer: &str, found: UVec2) -> Result<(), CaptureError> {
+        if found == self.size {
+            return Ok(());
+        }
+        Err(PictureError::Size {
+            path: dir.join(file),
+            layer: layer.to_owned(),
+            found,
+            expected: self.size,
+            expected_by: STATED_BY.to_owned(),
+        }
+        .into())
+    }
+
+    /// Writes every file into `dir`.
+    fn fill(&self, description: &Description, dir: &Path) -> Result<(), CaptureError> {
+        let path = dir.join(DESCRIPTION);
+        let json = description.to_json().map_err(|source| CaptureError::Json {
+            path: path.clone(),
+            source,
+        })?;
+        fs::write(&path, json).map_err(|source| PictureError::Io {
+            action: "write",
+            path,
+            source,
+        })?;
+        picture::write_exr(&dir.join(COLOR), &self.color)?;
+        self.write_layers(&dir.join(DEPTH), &self.depth, |depth| vec![("Z", plane(depth, |z| z))])?;
+        if let Some(normal) = &self.normal {
+            self.write_layers(&dir.join(NORMAL), normal, |normal| {
+                vec![
+                    ("X", plane(normal, |n| n.x)),
+                    ("Y", plane(normal, |n| n.y)),
+                    ("Z", plane(normal, |n| n.z)),
+                ]
+            })?;
+        }
+        if let Some(reference) = &self.reference {
+            picture::write_exr(&dir.join(REFERENCE), reference)?;
+        }
+        Ok(())
+    }
+
+    fn write_layers<T: Copy>(
+        &self,
+        path: &Path,
+        stack: &FrameLayers<T>,
+        channels: impl Fn(&Frame<T>) -> Vec<(&'static str, Vec<f32>)>,
+    ) -> Result<(), PictureError> {
+        let name = |index| layer_name(index, self.samples.len());
+        let layers = stack
+            .layers()
+            .iter()
+            .enumerate()
+            .map(|(index, frame)| Layer::new(name(index), channels(frame)));
+        exr::write(path, self.size, layers.collect())
+    }
+}
+
+fn plane<T: Copy>(frame: &Frame<T>, component: impl Fn(T) -> f32) -> Vec<f32> {
+    frame.texels().iter().map(|texel| component(*texel)).collect()
+}
+
+/// Refuses a folder with anything but a capture in it, and anything that is no folder.
+fn refuse_occupied(dir: &Path) -> Result<(), CaptureError> {
+    let refused = |source| PictureError::Io {
+        action: "write",
+        path: dir.to_owned(),
+        source,
+    };
+    let entries = match fs::read_dir(dir) {
+        Ok(entries) => entries,
+        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(()),
+        Err(error) => return Err(refused(error).into()),
+    };
+    let mut names = Vec::new();
+    for entry in entries {
+        names.push(entry.map_err(refused)?.file_name().to_string_lossy().into_owned());
+    }
+    let is_capture = names.iter().any(|name| name == DESCRIPTION);
+    match names
+        .into_iter()
+        .find(|name| !is_capture || !FILES.contains(&name.as_str()))
+    {
+        Some(entry) => Err(CaptureError::Occupied {
+            dir: dir.to_owned(),
+            entry,
+        }),
+        None => Ok(()),
+    }
+}
+
+/// Puts the folder `new` in the place of `dir`. If that fails, `dir` is what it was.
+fn replace(new: &Path, dir: &Path) -> io::Result<()> {
+    let old: Option<PathBuf> = if dir.exists() {
+        let old = whole::beside(dir, "replaced")?;
+        fs::rename(dir, &old)?;
+        Some(old)
+    } else {
+        None
+    };
+    match (fs::rename(new, dir), old) {
+        (Ok(()), old) => {
+            drop(old.map(Scrap));
+            Ok(())
+        }
+        (Err(error), Some(old)) => fs::rename(&old, dir).and(Err(error)),
+        (Err(error), None) => Err(error),
+    }
+}

@@ -1,0 +1,117 @@
+//! Why a picture could not be read or written.
+
+use glam::UVec2;
+use std::io;
+use std::path::PathBuf;
+
+/// Why a picture could not be read or written. Each names the file, and the layer where there is one.
+#[derive(Debug, thiserror::Error)]
+pub enum PictureError {
+    /// The operating system refused.
+    #[error("cannot {action} {}: {source}{}", .path.display(), advice(.source.kind()))]
+    Io {
+        /// What was attempted: `read`, `write`, ...
+        action: &'static str,
+        /// File or folder.
+        path: PathBuf,
+        /// The system's reason.
+        source: io::Error,
+    },
+    /// No format is known for the file's extension.
+    #[error("{}: the extension decides the format, and must be .{}", .path.display(), super::EXTENSIONS.join(" or ."))]
+    UnknownExtension {
+        /// The file.
+        path: PathBuf,
+    },
+    /// The contents are not, or no longer, those of a complete picture.
+    #[error("{} is damaged, cut short or not {format} ({problem}): write or copy it again", .path.display())]
+    Damaged {
+        /// The file.
+        path: PathBuf,
+        /// What it should be.
+        format: &'static str,
+        /// What the decoder met.
+        problem: String,
+    },
+    /// A sound file that is outside what can be used.
+    #[error("{} cannot be used: {problem}", .path.display())]
+    Unusable {
+        /// The file.
+        path: PathBuf,
+        /// What stands in the way, and what would do.
+        problem: String,
+    },
+    /// An EXR file lacks a layer.
+    #[error(
+        "{} has no layer `{layer}` (it has {found}): write an EXR part of that name with {channels}",
+        .path.display()
+    )]
+    MissingLayer {
+        /// The file.
+        path: PathBuf,
+        /// The layer that is not there.
+        layer: String,
+        /// Channels that it should have.
+        channels: String,
+        /// The layers that are there.
+        found: String,
+    },
+    /// An EXR layer lacks a channel.
+    #[error(
+        "{}: {layer} has no channel `{channel}` (the file has {found}): write it with {channels}",
+        .path.display()
+    )]
+    MissingChannel {
+        /// The file.
+        path: PathBuf,
+        /// The layer, in words.
+        layer: String,
+        /// The channel that is not there.
+        channel: String,
+        /// All channels that it should have.
+        channels: String,
+        /// The layers and channels that are there.
+        found: String,
+    },
+    /// An EXR file has no colour.
+    #[error(
+        "{} holds no colour: no layer has channels R, G and B (it has {found}); write those, and optionally A",
+        .path.display()
+    )]
+    NoColor {
+        /// The file.
+        path: PathBuf,
+        /// The layers and channels that are there.
+        found: String,
+    },
+    /// Two things that must be of one size are not.
+    #[error(
+        "{}: {layer} is {}×{} pixels, but {expected_by} says {}×{}: render all of them at one size",
+        .path.display(), .found.x, .found.y, .expected.x, .expected.y
+    )]
+    Size {
+        /// The file.
+        path: PathBuf,
+        /// The layer, in words.
+        layer: String,
+        /// Its size.
+        found: UVec2,
+        /// The size that it must have.
+        expected: UVec2,
+        /// Where that size is stated.
+        expected_by: String,
+    },
+}
+
+/// The way out of the commonest refusals.
+fn advice(kind: io::ErrorKind) -> &'static str {
+    match kind {
+        io::ErrorKind::NotFound => "; check the spelling, and that the folder exists",
+        io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem => {
+            "; choose a folder that you may write to"
+        }
+        io::ErrorKind::NotADirectory => "; a part of that path is a file, not a folder",
+        io::ErrorKind::StorageFull => "; free some space or choose another disk",
+        _ => "",
+    }
+}

@@ -1,0 +1,103 @@
+//! Single pictures: files, and what is shown beside one another.
+//!
+//! A picture is a `Frame<Vec4>` of linear RGB and alpha. [`write`] chooses the format by the file's extension:
+//! PNG for looking at (8 bits, sRGB) or EXR for measuring (32-bit floats, linear).
+
+mod error;
+pub(crate) mod exr;
+pub(crate) mod layout;
+mod png;
+pub mod srgb;
+pub(crate) mod whole;
+
+use glam::{UVec2, Vec4};
+use std::path::Path;
+use straightline_kernels::prelude::Frame;
+
+pub use error::PictureError;
+pub use layout::{detail, montage};
+
+/// Widest and tallest picture that is read or written, in pixels.
+pub const MAX_SIDE: u32 = 16_384;
+
+/// Most pixels of a picture that is read or written; 8K video has half as many.
+pub const MAX_PIXELS: u64 = 1 << 26;
+
+/// Extensions that [`read`] and [`write`] know.
+pub const EXTENSIONS: [&str; 2] = ["png", "exr"];
+
+enum Format {
+    Png,
+    Exr,
+}
+
+impl Format {
+    fn of(path: &Path) -> Result<Self, PictureError> {
+        let extension = path
+            .extension()
+            .and_then(|e| e.to_str())
+            .unwrap_or_default()
+            .to_ascii_lowercase();
+        match extension.as_str() {
+            "png" => Ok(Format::Png),
+            "exr" => Ok(Format::Exr),
+            _ => Err(PictureError::UnknownExtension { path: path.to_owned() }),
+        }
+    }
+}
+
+/// Writes a picture, as [`write_png`] or [`write_exr`] by the extension of `path`. A file of that name is
+/// replaced once the new one is complete; after an error it is as it was.
+pub fn write(path: &Path, frame: &Frame<Vec4>) -> Result<(), PictureError> {
+    match Format::of(path)? {
+        Format::Png => write_png(path, frame),
+        Format::Exr => write_exr(path, frame),
+    }
+}
+
+/// Writes linear colour as an 8-bit RGBA PNG in sRGB. Values are clamped to 0..=1 first; what is not a number
+/// becomes 0. Whole or not at all, as [`write`].
+pub fn write_png(path: &Path, frame: &Frame<Vec4>) -> Result<(), PictureError> {
+    check_size(path, frame.size())?;
+    whole::file(path, |file| png::encode(path, file, frame))
+}
+
+/// Writes linear colour as it is: an EXR file of 32-bit float channels R, G, B and A, compressed without loss.
+/// Whole or not at all, as [`write`].
+pub fn write_exr(path: &Path, frame: &Frame<Vec4>) -> Result<(), PictureError> {
+    exr::write(path, frame.size(), vec![exr::Layer::new("", color_channels(frame))])
+}
+
+/// Reads a PNG (8 or 16 bits, taken as sRGB) or EXR (16- or 32-bit floats, taken as linear) as linear colour,
+/// by the extension of `path`. Without an alpha channel alpha is 1.
+///
+/// An EXR file's colour is that of the first part with channels `R`, `G` and `B`, whose data window must be
+/// the display window.
+pub fn read(path: &Path) -> Result<Frame<Vec4>, PictureError> {
+    match Format::of(path)? {
+        Format::Png => png::decode(path),
+        Format::Exr => exr::read_color(path, None),
+    }
+}
+
+/// Channels of an image of colours.
+pub(crate) fn color_channels(frame: &Frame<Vec4>) -> Vec<(&'static str, Vec<f32>)> {
+    let plane = |axis: usize| frame.texels().iter().map(|texel| texel[axis]).collect();
+    vec![("R", plane(0)), ("G", plane(1)), ("B", plane(2)), ("A", plane(3))]
+}
+
+/// Refuses pictures of no or of absurd size before anything is allocated for them.
+pub(crate) fn check_size(path: &Path, size: UVec2) -> Result<(), PictureError> {
+    let pixels = u64::from(size.x) * u64::from(size.y);
+    if pixels == 0 || size.max_element() > MAX_SIDE || pixels > MAX_PIXELS {
+        let problem = format!(
+            "its size is {}×{}, and each side must be 1 to {MAX_SIDE} pixels, {MAX_PIXELS} pixels in all",
+            size.x, size.y
+        );
+        return Err(PictureError::Unusable {
+            path: path.to_owned(),
+            problem,
+        });
+    }
+    Ok(())
+}

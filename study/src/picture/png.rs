@@ -1,0 +1,71 @@
+//! PNG files, in sRGB.
+
+use super::{PictureError, check_size, srgb};
+use glam::{UVec2, Vec4};
+use image::codecs::png::{PngDecoder, PngEncoder};
+use image::{DynamicImage, ExtendedColorType, ImageDecoder, ImageEncoder, ImageError};
+use std::fs::File;
+use std::io::{self, BufReader, Write};
+use std::path::Path;
+use straightline_kernels::prelude::Frame;
+
+/// Writes `frame` to `file`, which errors call `path`.
+pub(super) fn encode(path: &Path, file: &mut impl Write, frame: &Frame<Vec4>) -> Result<(), PictureError> {
+    let bytes: Vec<u8> = frame.texels().iter().flat_map(|texel| to_srgb8(*texel)).collect();
+    let size = frame.size();
+    PngEncoder::new(file)
+        .write_image(&bytes, size.x, size.y, ExtendedColorType::Rgba8)
+        .map_err(|error| failure("write", path, error))
+}
+
+/// Reads a PNG file as linear colour.
+pub(super) fn decode(path: &Path) -> Result<Frame<Vec4>, PictureError> {
+    let file = File::open(path).map_err(|source| PictureError::Io {
+        action: "read",
+        path: path.to_owned(),
+        source,
+    })?;
+    let decoder = PngDecoder::new(BufReader::new(file)).map_err(|error| failure("read", path, error))?;
+    let size = UVec2::from(decoder.dimensions());
+    check_size(path, size)?;
+    let image = DynamicImage::from_decoder(decoder).map_err(|error| failure("read", path, error))?;
+    let texels = image
+        .into_rgba32f()
+        .pixels()
+        .map(|pixel| from_srgb(Vec4::from_array(pixel.0)))
+        .collect();
+    Ok(Frame::new(size, texels))
+}
+
+/// Clamped, with 0 for what is not a number. Alpha is linear.
+fn to_srgb8(texel: Vec4) -> [u8; 4] {
+    // A cast from float to integer saturates, and takes NaN to 0.
+    let byte = |value: f32| (value * 255.0).round() as u8;
+    let color = |light: f32| byte(srgb::encode(light.clamp(0.0, 1.0)));
+    [color(texel.x), color(texel.y), color(texel.z), byte(texel.w)]
+}
+
+fn from_srgb(texel: Vec4) -> Vec4 {
+    Vec4::new(
+        srgb::decode(texel.x),
+        srgb::decode(texel.y),
+        srgb::decode(texel.z),
+        texel.w,
+    )
+}
+
+fn failure(action: &'static str, path: &Path, error: ImageError) -> PictureError {
+    match error {
+        // A file that ends too early is a damaged one, not a system's refusal.
+        ImageError::IoError(source) if source.kind() != io::ErrorKind::UnexpectedEof => PictureError::Io {
+            action,
+            path: path.to_owned(),
+            source,
+        },
+        error => PictureError::Damaged {
+            path: path.to_owned(),
+            format: "PNG",
+            problem: error.to_string(),
+        },
+    }
+}

@@ -1,0 +1,40 @@
+//! The transfer function of sRGB (IEC 61966-2-1).
+
+/// Linear light of an sRGB value, both in 0..=1.
+pub fn decode(value: f32) -> f32 {
+    if value <= 0.040_45 {
+        value / 12.92
+    } else {
+        ((value + 0.055) / 1.055).powf(2.4)
+    }
+}
+
+/// sRGB value of linear light, both in 0..=1.
+pub fn encode(light: f32) -> f32 {
+    if light <= 0.003_130_8 {
+        light * 12.92
+    } else {
+        1.055 * light.powf(1.0 / 2.4) - 0.055
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn known_values() {
+        // Linear 0.18 (photographer's grey) is 118 of 255, sRGB 128 is 0.2158 of white.
+        assert_eq!((encode(0.18) * 255.0).round(), 118.0);
+        assert!((decode(128.0 / 255.0) - 0.215_86).abs() < 1e-5);
+        assert_eq!((encode(0.0), decode(0.0)), (0.0, 0.0));
+        assert!((encode(1.0) - 1.0).abs() < 1e-6 && (decode(1.0) - 1.0).abs() < 1e-6);
+    }
+
+    #[test]
+    fn every_byte_survives_the_round_trip() {
+        for byte in 0..=255u8 {
+            assert_eq!((encode(decode(f32::from(byte) / 255.0)) * 255.0).round() as u8, byte);
+        }
+    }
+}
