@@ -71,10 +71,6 @@ fn check_input(plan: &TexturePlan, texture: &Texture, target: &Texture) -> Resul
             target: target_size,
         });
     }
-    // Other mip levels or layers of the target's texture may be read.
-    if texture == target && texture.mip_level_count() == 1 && texture.depth_or_array_layers() == 1 {
-        return Err(ViewProblem::IsTarget);
-    }
     Ok(())
 }
 
@@ -111,7 +107,7 @@ pub(crate) fn check_target(
                 }
             }
             OutputPlan::Attachment { .. } => {
-                // A view may differ from its texture in the sRGB suffix alone; `needs_rehearsal` has wgpu look.
+                // A view may differ from its texture in the sRGB suffix alone; the rehearsal has wgpu look at it.
                 if found.remove_srgb_suffix() != format.remove_srgb_suffix() {
                     let remedy = "name the target's format with `PassOptions::target_format`";
                     return Err(ViewProblem::Format {
@@ -131,19 +127,25 @@ pub(crate) fn check_target(
     })
 }
 
-/// Whether the textures leave it open that wgpu would refuse the views when they are recorded, which it reports
-/// only when the caller finishes the encoder. Then the pass is first recorded into an encoder that is thrown away.
-pub(crate) fn needs_rehearsal(plan: &Plan, views: &[&TextureView], target: &TextureView) -> bool {
-    let texture = target.texture();
-    let parts = texture.mip_level_count() > 1 || texture.depth_or_array_layers() > 1;
-    let srgb = texture.format().add_srgb_suffix() != texture.format().remove_srgb_suffix();
-    let shared = views.iter().any(|view| view.texture() == texture);
-    shared || (matches!(plan.output, OutputPlan::Attachment { .. }) && (parts || srgb))
+/// The first input that is of the target's texture. Whether it shows the same part of it, only wgpu knows.
+///
+/// wgpu compares textures by number, and numbers begin anew with each instance; so this means something only for
+/// views that have been bound together.
+pub(crate) fn shared<'p>(plan: &'p Plan, views: &[&TextureView], target: &TextureView) -> Option<&'p TexturePlan> {
+    let mut pairs = plan.textures.iter().zip(views);
+    pairs
+        .find(|(_, view)| view.texture() == target.texture())
+        .map(|(texture, _)| texture)
 }
 
 /// Width and height in texels.
 pub(crate) fn size(texture: &Texture) -> [u32; 2] {
     [texture.width(), texture.height()]
+}
+
+/// Whether `texture` has neither further mip levels nor further layers.
+pub(crate) fn is_one_image(texture: &Texture) -> bool {
+    texture.mip_level_count() == 1 && texture.depth_or_array_layers() == 1
 }
 
 fn check_shape(needed: Dimension, texture: &Texture) -> Result<(), ViewProblem> {

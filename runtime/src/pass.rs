@@ -2,7 +2,7 @@
 
 use crate::error::ViewProblem;
 use crate::guard::{Pulse, guarded, scoped};
-use crate::inputs::{arrange, check_inputs, check_target, needs_rehearsal, size};
+use crate::inputs::{arrange, check_inputs, check_target, is_one_image, shared, size};
 use crate::layout::{BoundGroup, Layout, texture_format};
 use crate::plan::{OutputPlan, Plan};
 use crate::timer::{Span, Timer};
@@ -196,16 +196,28 @@ impl Pass {
         uniforms::check_set(&self.uniforms, &self.plan.kernel)?;
         let groups = self
             .layout
-            .bind(&self.device, &self.plan, &self.uniforms, &views, target)?;
-        if needs_rehearsal(&self.plan, &views, target) {
-            let shared = views.iter().any(|view| view.texture() == target.texture());
-            self.rehearse(&groups, target, shared)?;
-        }
-        Ok(groups)
+            .bind(&self.device, &self.plan, &self.uniforms, &views, target);
+        let shared = shared(&self.plan, &views, target);
+        let groups = groups.and_then(|groups| match (&self.pipeline, shared) {
+            // Binding has judged every view.
+            (Pipeline::Compute { .. }, None) => Ok(groups),
+            _ => self.rehearse(&groups, target, shared.is_some()).map(|()| groups),
+        });
+        groups.map_err(|error| match (error, shared) {
+            // A texture of one image has no other part to show.
+            (Error::Combination { kernel, .. }, Some(input)) if is_one_image(target.texture()) => Error::Input {
+                kernel,
+                name: input.name.clone(),
+                problem: ViewProblem::IsTarget,
+            },
+            (error, _) => error,
+        })
     }
 
-    /// Records into an encoder of its own and throws it away, to have wgpu's opinion before the caller's encoder
-    /// is touched. Inputs have been bound by now, so it is about the target, unless that is `shared` with an input.
+    /// Records into an encoder of its own and throws it away. What wgpu holds against a colour target, or against
+    /// reading and writing the same image, it says only when an encoder is finished; that must not be the caller's.
+    ///
+    /// Inputs have been bound by now, so the fault is the target's, unless that is `shared` with an input.
     fn rehearse(&self, groups: &[BoundGroup], target: &TextureView, shared: bool) -> Result<(), Error> {
         let kernel = &self.plan.kernel;
         let refused = |description| match shared {

@@ -93,7 +93,7 @@ fn inputs_of_the_wrong_shape() {
                 "depth",
             )
         };
-        let flat = view(&gpu.texture(SIZE, 3, TextureFormat::R32Float, READ).clone());
+        let depth = array_view(&gpu.texture(SIZE, 3, TextureFormat::R32Float, READ));
         // Made of a stack, the default view is an array; this one is not.
         let stack = gpu.texture(SIZE, 3, TextureFormat::R32Float, READ);
         let one = stack.create_view(&wgpu::TextureViewDescriptor {
@@ -123,7 +123,7 @@ fn inputs_of_the_wrong_shape() {
 
         let with_color = |color: &TextureView| {
             input_problem(
-                refuse(&gpu, &pass, &[("color", color), ("depth", &flat)], &target),
+                refuse(&gpu, &pass, &[("color", color), ("depth", &depth)], &target),
                 "color",
             )
         };
@@ -351,15 +351,20 @@ fn uniforms_that_are_unset_unknown_or_of_another_type() {
 }
 
 #[test]
-fn a_view_of_another_device() {
+fn views_of_another_device() {
     let (gpu, other) = (Gpu::new(), Gpu::new());
-    let pass = pass(&gpu, &COPY, Stage::Compute);
-    let color = view(&other.upload(SIZE, 1, &ramp(SIZE, 1)));
-    let problem = input_problem(
-        refuse(&gpu, &pass, &[("color", &color)], &view(&gpu.target(SIZE))),
-        "color",
+    let (color, foreign) = (
+        view(&gpu.upload(SIZE, 1, &ramp(SIZE, 1))),
+        view(&other.upload(SIZE, 1, &ramp(SIZE, 1))),
     );
-    assert!(matches!(problem, ViewProblem::Refused { .. }), "{problem}");
+    let (target, foreign_target) = (view(&gpu.target(SIZE)), view(&other.target(SIZE)));
+    for stage in STAGES {
+        let pass = pass(&gpu, &COPY, stage);
+        let problem = input_problem(refuse(&gpu, &pass, &[("color", &foreign)], &target), "color");
+        assert!(matches!(problem, ViewProblem::Refused { .. }), "{problem}");
+        let problem = target_problem(refuse(&gpu, &pass, &[("color", &color)], &foreign_target));
+        assert!(matches!(problem, ViewProblem::Refused { .. }), "{problem}");
+    }
 }
 
 #[test]

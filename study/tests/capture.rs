@@ -39,7 +39,7 @@ fn example(shading: ShadingSample) -> Capture {
         color: frame(SIZE, |i| vec4(i.sin(), i * 100.0, 1.0 / (i + 1.0), 1.0)),
         depth: FrameLayers::new(depth),
         normal: Some(FrameLayers::new(normal.collect())),
-        reference: Some(frame(SIZE, |i| Vec4::splat(i))),
+        reference: Some(frame(SIZE, Vec4::splat)),
     }
 }
 

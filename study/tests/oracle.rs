@@ -372,7 +372,7 @@ fn the_kernel_agrees_for_all_options() {
             let computed = kernel::sraa(&options, &gbuffer, &color, pixel).to_array();
             for (computed, exact) in computed.into_iter().zip(exact) {
                 let error = (f64::from(computed) - exact).abs();
-                assert!(error < 2.0e-4, "{params:?} at {pixel}: {computed} for {exact}");
+                assert!(error < 2.0e-6, "{params:?} at {pixel}: {computed} for {exact}");
             }
         }
         combinations += 1;

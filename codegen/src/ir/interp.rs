@@ -12,11 +12,47 @@ pub trait Texels: Sync {
     fn texel(&self, x: u32, y: u32, layer: u32) -> [f32; 4];
 }
 
+/// An image in memory.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Image {
+    size: [u32; 2],
+    layers: Vec<Vec<[f32; 4]>>,
+}
+
+impl Image {
+    /// An image of `size` texels from layers of rows; `None` unless there is a layer and each has all its texels.
+    pub fn new(size: [u32; 2], layers: Vec<Vec<[f32; 4]>>) -> Option<Image> {
+        let texels = size[0] as usize * size[1] as usize;
+        let whole = texels > 0 && !layers.is_empty() && layers.iter().all(|layer| layer.len() == texels);
+        whole.then_some(Image { size, layers })
+    }
+}
+
+impl Texels for Image {
+    fn extent(&self) -> [u32; 3] {
+        [self.size[0], self.size[1], self.layers.len() as u32]
+    }
+
+    fn texel(&self, x: u32, y: u32, layer: u32) -> [f32; 4] {
+        let layer = (layer as usize).min(self.layers.len() - 1);
+        self.layers[layer][(y * self.size[0] + x) as usize]
+    }
+}
+
 /// Why a graph cannot be run on the given inputs.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum InputError {
     /// No image was given for a texture that is read.
     Missing(String),
+    /// The image has fewer layers than the graph reads.
+    Layers {
+        /// The texture.
+        name: String,
+        /// Layers that it has.
+        found: u32,
+        /// Layers that are read.
+        needed: u32,
+    },
     /// The image has another size than the frame.
     Size {
         /// The texture.
@@ -32,6 +68,9 @@ impl fmt::Display for InputError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             InputError::Missing(name) => write!(f, "no image for the texture `{name}`"),
+            InputError::Layers { name, found, needed } => {
+                write!(f, "`{name}` has {found} layers but {needed} are read: one for each geometry sample")
+            }
             InputError::Size { name, found, frame } => write!(
                 f,
                 "`{name}` is {}x{} but the output is {}x{}: inputs have the output's size",
@@ -76,7 +115,11 @@ impl<'a> Interpreter<'a> {
             let given = textures.iter().find(|(name, _)| *name == texture.name).map(|(_, image)| *image);
             if read {
                 let image = given.ok_or_else(|| InputError::Missing(texture.name.clone()))?;
-                let [width, height, _] = image.extent();
+                let [width, height, found] = image.extent();
+                let needed = crate::passes::layers_read(graph, index as u32);
+                if found < needed {
+                    return Err(InputError::Layers { name: texture.name.clone(), found, needed });
+                }
                 if [width, height] != frame {
                     return Err(InputError::Size { name: texture.name.clone(), found: [width, height], frame });
                 }

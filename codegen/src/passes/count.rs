@@ -94,6 +94,29 @@ impl Counter<'_> {
     }
 }
 
+/// Layers of a texture that reads can reach: one more than the largest index that a read's layer is known to take,
+/// be it a constant or the counter of a loop with known bounds. A layer computed in another way counts as the first.
+pub fn layers_read(graph: &Graph, texture: u32) -> u32 {
+    let reads = graph.ids().filter(|id| matches!(graph.node(*id).op, Op::Load { texture: t, .. } if t == texture));
+    let layers = reads.map(|id| match graph.node(id).args.get(1) {
+        Some(layer) => largest(graph, *layer).map_or(1, |k| k.max(0) as u32 + 1),
+        None => 1,
+    });
+    layers.max().unwrap_or(1)
+}
+
+/// The largest value that an index can have, where that is plain.
+fn largest(graph: &Graph, id: NodeId) -> Option<i32> {
+    match graph.node(id).op {
+        Op::Const(bits) => Some(bits[0] as i32),
+        Op::Param(region, 0) => {
+            let owner = graph.ids().find(|id| graph.node(*id).op == Op::Loop(region))?;
+            graph.constant(graph.node(owner).args[1]).map(|bits| bits[0] as i32 - 1)
+        }
+        _ => None,
+    }
+}
+
 /// How often a loop runs, where both bounds are known.
 pub(super) fn trips(graph: &Graph, node: NodeId) -> Option<u32> {
     let bound = |arg: usize| graph.constant(graph.node(node).args[arg]).map(|bits| bits[0] as i32);

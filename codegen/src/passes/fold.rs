@@ -112,8 +112,23 @@ fn float(g: &Graph, op: BinaryOp, x: NodeId, y: NodeId) -> Option<NodeId> {
         // The smaller of 0 and what is never negative; of 0 and a NaN it is 0 too.
         BinaryOp::Min if is(x, 0.0) && ranges::nonnegative(g, y) => Some(x),
         BinaryOp::Min if is(y, 0.0) && ranges::nonnegative(g, x) => Some(y),
+        // A value that is bounded already; what `min` gave is no NaN.
+        BinaryOp::Min if bounded_by(g, y, x) => Some(y),
+        BinaryOp::Min if bounded_by(g, x, y) => Some(x),
         BinaryOp::Min | BinaryOp::Max if x == y => Some(x),
         _ => None,
+    }
+}
+
+/// Whether `id` is the smaller of something and the non-zero constant `bound`.
+fn bounded_by(g: &Graph, id: NodeId, bound: NodeId) -> bool {
+    let node = g.node(id);
+    match node.op {
+        Op::Tally(_) => bounded_by(g, node.args[0], bound),
+        Op::Binary(BinaryOp::Min) => {
+            node.args.contains(&bound) && g.constant(bound).is_some() && !all_lanes(g, bound, 0) && !all_lanes(g, bound, 1 << 31)
+        }
+        _ => false,
     }
 }
 

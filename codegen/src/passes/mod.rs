@@ -7,7 +7,7 @@ mod fold;
 mod ranges;
 mod schedule;
 
-pub use count::count;
+pub use count::{count, layers_read};
 pub use fold::Exact;
 pub use schedule::{Block, Schedule, Step, schedule};
 

@@ -71,7 +71,8 @@ pub fn sraa(cfg: &Sraa, gbuffer: &GBuffer, color: &Frame<Vec4>, pixel: IVec2) ->
                 let d = if is_itself(cfg, sample, tap) {
                     0.0
                 } else {
-                    distance(cfg, &centre, &gbuffer.surface(pixel + offset(tap), cfg.shaded_layer()))
+                    let shaded = gbuffer.surface(pixel + offset(tap), cfg.shaded_layer());
+                    distance(cfg, &centre, &shaded)
                 };
                 distances[tap] = d;
                 nearest = nearest.min(d);

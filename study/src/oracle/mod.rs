@@ -131,10 +131,7 @@ impl<'a> Definition<'a> {
     fn color(&self, pixel: [i32; 2]) -> [f64; 4] {
         let mut sum = [0.0; 4];
         for sample in 0..self.samples.len() {
-            let color = self.reconstruct(pixel, sample);
-            for axis in 0..4 {
-                sum[axis] += color[axis];
-            }
+            add(&mut sum, self.reconstruct(pixel, sample));
         }
         sum.map(|axis| axis / self.samples.len() as f64)
     }
@@ -156,9 +153,7 @@ impl<'a> Definition<'a> {
             // A bad colour spoils nothing that gives it no weight.
             if weight > 0.0 {
                 sum += weight;
-                for axis in 0..4 {
-                    color[axis] += weight * tap.color[axis];
-                }
+                add(&mut color, tap.color.map(|axis| weight * axis));
             }
         }
         color.map(|axis| axis / sum)
@@ -214,6 +209,12 @@ impl<'a> Definition<'a> {
     fn index(&self, pixel: [i32; 2]) -> usize {
         let (x, y) = (pixel[0].clamp(0, self.width - 1), pixel[1].clamp(0, self.height - 1));
         y as usize * self.width as usize + x as usize
+    }
+}
+
+fn add(sum: &mut [f64; 4], color: [f64; 4]) {
+    for (sum, axis) in sum.iter_mut().zip(color) {
+        *sum += axis;
     }
 }
 

@@ -6,11 +6,12 @@
 use super::{PictureError, check_size, whole};
 use ::exr::block::UncompressedBlock;
 use ::exr::block::reader::{ChunksReader, Reader};
+use ::exr::compression::Compression;
 use ::exr::error::{Error as ExrError, UnitResult};
 use ::exr::image::write::WritableImage;
-use ::exr::image::{AnyChannel, AnyChannels, Encoding, FlatSamples, Image};
+use ::exr::image::{AnyChannel, AnyChannels, Blocks, Encoding, FlatSamples, Image};
 use ::exr::math::Vec2 as ExrVec2;
-use ::exr::meta::attribute::{SampleType, Text};
+use ::exr::meta::attribute::{LineOrder, SampleType, Text};
 use ::exr::meta::header::{Header, ImageAttributes, LayerAttributes};
 use glam::{UVec2, Vec4};
 use half::f16;
@@ -18,6 +19,14 @@ use std::fs::File;
 use std::io::BufReader;
 use std::path::{Path, PathBuf};
 use straightline_kernels::prelude::Frame;
+
+/// Lossless, read by every program that reads EXR, and more than twice as fast as blocks of 16 lines for a sixth
+/// more bytes.
+const ENCODING: Encoding = Encoding {
+    compression: Compression::ZIP1,
+    blocks: Blocks::ScanLines,
+    line_order: LineOrder::Increasing,
+};
 
 /// A layer to be written.
 pub(crate) struct Layer {
@@ -44,7 +53,7 @@ impl Layer {
             .into_iter()
             .map(|(name, values)| AnyChannel::new(name, FlatSamples::F32(values)))
             .collect();
-        ::exr::image::Layer::new(size, attributes, Encoding::SMALL_LOSSLESS, AnyChannels::sort(channels))
+        ::exr::image::Layer::new(size, attributes, ENCODING, AnyChannels::sort(channels))
     }
 }
 

@@ -1,6 +1,6 @@
 //! Single pictures: files, and what is shown beside one another.
 //!
-//! A picture is a `Frame<Vec4>` of linear RGB and alpha. [`write`] chooses the format by the file's extension:
+//! A picture is a `Frame<Vec4>` of linear RGB and alpha. [`write()`] chooses the format by the file's extension:
 //! PNG for looking at (8 bits, sRGB) or EXR for measuring (32-bit floats, linear).
 
 mod error;
@@ -23,7 +23,7 @@ pub const MAX_SIDE: u32 = 16_384;
 /// Most pixels of a picture that is read or written; 8K video has half as many.
 pub const MAX_PIXELS: u64 = 1 << 26;
 
-/// Extensions that [`read`] and [`write`] know.
+/// Extensions that [`read`] and [`write()`] know.
 pub const EXTENSIONS: [&str; 2] = ["png", "exr"];
 
 enum Format {
@@ -56,14 +56,14 @@ pub fn write(path: &Path, frame: &Frame<Vec4>) -> Result<(), PictureError> {
 }
 
 /// Writes linear colour as an 8-bit RGBA PNG in sRGB. Values are clamped to 0..=1 first; what is not a number
-/// becomes 0. Whole or not at all, as [`write`].
+/// becomes 0. Whole or not at all, as [`write()`].
 pub fn write_png(path: &Path, frame: &Frame<Vec4>) -> Result<(), PictureError> {
     check_size(path, frame.size())?;
     whole::file(path, |file| png::encode(path, file, frame))
 }
 
 /// Writes linear colour as it is: an EXR file of 32-bit float channels R, G, B and A, compressed without loss.
-/// Whole or not at all, as [`write`].
+/// Whole or not at all, as [`write()`].
 pub fn write_exr(path: &Path, frame: &Frame<Vec4>) -> Result<(), PictureError> {
     exr::write(path, frame.size(), vec![exr::Layer::new("", color_channels(frame))])
 }
