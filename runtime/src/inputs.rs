@@ -128,9 +128,6 @@ pub(crate) fn check_target(
 }
 
 /// The first input that is of the target's texture. Whether it shows the same part of it, only wgpu knows.
-///
-/// wgpu compares textures by number, and numbers begin anew with each instance; so this means something only for
-/// views that have been bound together.
 pub(crate) fn shared<'p>(plan: &'p Plan, views: &[&TextureView], target: &TextureView) -> Option<&'p TexturePlan> {
     let mut pairs = plan.textures.iter().zip(views);
     pairs

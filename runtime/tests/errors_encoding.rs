@@ -352,7 +352,8 @@ fn uniforms_that_are_unset_unknown_or_of_another_type() {
 
 #[test]
 fn views_of_another_device() {
-    let (gpu, other) = (Gpu::new(), Gpu::new());
+    let gpu = Gpu::new();
+    let other = gpu.sibling();
     let (color, foreign) = (
         view(&gpu.upload(SIZE, 1, &ramp(SIZE, 1))),
         view(&other.upload(SIZE, 1, &ramp(SIZE, 1))),

@@ -18,36 +18,36 @@ fn pass(gpu: &Gpu, stage: Stage) -> Pass {
 #[test]
 fn spans_are_read_in_order_and_within_wall_time() {
     let gpu = timing_gpu();
-    let mut timer = Timer::new(&gpu.device, &gpu.queue, 4).expect("a timer");
-    let (small, large) = ([1, 1], [1024, 1024]);
+    let mut timer = Timer::new(&gpu.device, &gpu.queue, 2).expect("a timer");
+    let images =
+        [[1, 1], [1024, 1024]].map(|size| (view(&gpu.upload(size, 1, &ramp(size, 1))), view(&gpu.target(size))));
     for stage in STAGES {
         let pass = pass(&gpu, stage);
-        let start = Instant::now();
-        let mut encoder = gpu.encoder();
-        for size in [small, large] {
-            let color = gpu.upload(size, 1, &ramp(size, 1));
-            pass.encode_timed(
-                &mut encoder,
-                &[("color", &view(&color))],
-                &view(&gpu.target(size)),
-                &mut timer,
-            )
-            .expect("to encode");
+        // The least of several runs, because other processes may take the processor of a software driver.
+        let mut least = [Duration::MAX; 2];
+        for _ in 0..8 {
+            let start = Instant::now();
+            let mut encoder = gpu.encoder();
+            for (color, target) in &images {
+                pass.encode_timed(&mut encoder, &[("color", color)], target, &mut timer)
+                    .expect("to encode");
+            }
+            timer.resolve(&mut encoder).expect("to resolve");
+            gpu.submit(encoder);
+            let spans = timer.read().expect("timestamps");
+            let wall = start.elapsed();
+            assert_eq!(spans.len(), 2);
+            assert!(
+                spans[1] > Duration::ZERO && spans.iter().all(|span| *span <= wall),
+                "{spans:?} in {wall:?}"
+            );
+            least = [least[0].min(spans[0]), least[1].min(spans[1])];
         }
-        timer.resolve(&mut encoder).expect("to resolve");
-        gpu.submit(encoder);
-        let spans = timer.read().expect("timestamps");
-        let wall = start.elapsed();
-        assert_eq!(spans.len(), 2);
         assert!(
-            spans[0] < spans[1],
+            least[0] < least[1],
             "{stage:?}: one pixel in {:?}, a million in {:?}",
-            spans[0],
-            spans[1]
-        );
-        assert!(
-            spans[1] > Duration::ZERO && spans.iter().sum::<Duration>() <= wall,
-            "{spans:?} in {wall:?}"
+            least[0],
+            least[1]
         );
     }
 }
@@ -136,6 +136,26 @@ fn reading_too_early_is_an_error_and_can_be_tried_again() {
     assert!(matches!(timer.read(), Err(Error::TimerNotSubmitted)));
     gpu.submit(encoder);
     assert_eq!(timer.read().expect("timestamps").len(), 1);
+}
+
+#[test]
+fn a_span_that_was_not_used_is_not_read_as_a_time() {
+    let gpu = timing_gpu();
+    let mut timer = Timer::new(&gpu.device, &gpu.queue, 2).expect("a timer");
+    let pass = pass(&gpu, Stage::Compute);
+    let color = view(&gpu.upload([4, 4], 1, &ramp([4, 4], 1)));
+    let mut encoder = gpu.encoder();
+    pass.encode_timed(
+        &mut encoder,
+        &[("color", &color)],
+        &view(&gpu.target([4, 4])),
+        &mut timer,
+    )
+    .expect("to encode");
+    timer.span().expect("a span that nothing uses");
+    timer.resolve(&mut encoder).expect("to resolve");
+    gpu.submit(encoder);
+    assert!(matches!(timer.read(), Err(Error::TimerNotSubmitted)));
 }
 
 #[test]

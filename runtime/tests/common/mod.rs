@@ -6,6 +6,7 @@ use wgpu::TextureFormat;
 
 /// The default adapter with a device that has `features` and `limits`.
 pub struct Gpu {
+    adapter: wgpu::Adapter,
     pub device: wgpu::Device,
     pub queue: wgpu::Queue,
 }
@@ -21,6 +22,15 @@ impl Gpu {
             .unwrap_or_else(|error| {
                 panic!("these tests need a GPU adapter; without a GPU, install Debian's mesa-vulkan-drivers: {error}")
             });
+        Self::of(adapter, required_features, required_limits)
+    }
+
+    /// Another device of the same adapter. Of another instance, wgpu could not tell its views from this one's.
+    pub fn sibling(&self) -> Self {
+        Self::of(self.adapter.clone(), wgpu::Features::empty(), wgpu::Limits::default())
+    }
+
+    fn of(adapter: wgpu::Adapter, required_features: wgpu::Features, required_limits: wgpu::Limits) -> Self {
         let descriptor = wgpu::DeviceDescriptor {
             required_features,
             required_limits,
@@ -28,7 +38,7 @@ impl Gpu {
         };
         let (device, queue) = pollster::block_on(adapter.request_device(&descriptor))
             .unwrap_or_else(|error| panic!("the adapter {:?} gives no device: {error}", adapter.get_info()));
-        Gpu { device, queue }
+        Gpu { adapter, device, queue }
     }
 
     pub fn texture(
