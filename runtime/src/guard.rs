@@ -57,55 +57,82 @@ fn at_once(future: impl Future<Output = Option<wgpu::Error>>) -> Option<wgpu::Er
 /// wgpu announces a lost device only to the callback of `set_device_lost_callback`, of which there is one and it
 /// belongs to the caller. Everything else keeps quiet: creating a resource on a lost device succeeds and yields a
 /// dead object. The exception is a request to map a buffer, whose own callback is refused at once. So this keeps
-/// four bytes to ask with; no command ever touches them, and the mapping is withdrawn before it happens.
+/// four bytes to ask with; no command ever touches them, and the mapping is withdrawn again.
 #[derive(Debug)]
 pub(crate) struct Pulse {
     buffer: Mutex<wgpu::Buffer>,
 }
 
+/// How wgpu takes a request to map a buffer.
+enum Answer {
+    /// It will be mapped.
+    Accepted,
+    /// Refused without a word: the device is lost, which is checked before the state of the buffer.
+    Silent,
+    /// Refused with an error about the buffer.
+    Explained,
+}
+
 impl Pulse {
     /// A pulse of `device`, or [`Error::DeviceLost`] if it has none already.
     pub(crate) fn new(device: &wgpu::Device, doing: &str) -> Result<Self, Error> {
-        let describe = |description| Error::DeviceLost {
-            doing: format!("{doing}: {description}"),
+        let lost = || Error::DeviceLost {
+            doing: doing.to_owned(),
         };
-        let buffer = guarded(device, doing, describe, || {
-            device.create_buffer(&wgpu::BufferDescriptor {
-                label: Some("straightline pulse"),
-                size: wgpu::COPY_BUFFER_ALIGNMENT,
-                usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
-                mapped_at_creation: false,
-            })
-        })?;
-        let pulse = Pulse {
-            buffer: Mutex::new(buffer),
-        };
-        pulse.check(device, doing)?;
-        Ok(pulse)
+        let buffer = guarded(
+            device,
+            doing,
+            |_| lost(),
+            || {
+                device.create_buffer(&wgpu::BufferDescriptor {
+                    label: Some("straightline pulse"),
+                    size: wgpu::COPY_BUFFER_ALIGNMENT,
+                    usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
+                    mapped_at_creation: false,
+                })
+            },
+        )?;
+        match ask(device, &buffer) {
+            Answer::Accepted => Ok(Pulse {
+                buffer: Mutex::new(buffer),
+            }),
+            // Nobody else knows the buffer, so that anything against it means that it was born dead.
+            Answer::Silent | Answer::Explained => Err(lost()),
+        }
     }
 
     /// [`Error::DeviceLost`] if `device` is lost or was destroyed.
     pub(crate) fn check(&self, device: &wgpu::Device, doing: &str) -> Result<(), Error> {
-        // One question at a time: a second mapping of the same buffer would be refused for that alone.
+        // One question at a time, as wgpu answers for itself while it believes that the buffer is mapped.
         let buffer = self.buffer.lock().unwrap_or_else(PoisonError::into_inner);
-        let refused = Arc::new(AtomicBool::new(false));
-        let answer = Arc::clone(&refused);
-        let outcome = scoped(device, || {
-            buffer.map_async(wgpu::MapMode::Read, .., move |result| {
-                if result.is_err() {
-                    answer.store(true, Ordering::Release);
-                }
-            });
-            // Read before unmapping, which itself refuses a mapping that is still waiting.
-            let lost = refused.load(Ordering::Acquire);
-            buffer.unmap();
-            lost
-        });
-        match outcome {
-            Ok(false) => Ok(()),
-            Ok(true) | Err(_) => Err(Error::DeviceLost {
+        match ask(device, &buffer) {
+            // Explained: another thread's submission carried out an earlier mapping just when it was withdrawn.
+            Answer::Accepted | Answer::Explained => Ok(()),
+            Answer::Silent => Err(Error::DeviceLost {
                 doing: doing.to_owned(),
             }),
         }
+    }
+}
+
+/// Asks for a mapping and withdraws it.
+fn ask(device: &wgpu::Device, buffer: &wgpu::Buffer) -> Answer {
+    let refused = Arc::new(AtomicBool::new(false));
+    let answer = Arc::clone(&refused);
+    let request = scoped(device, || {
+        buffer.map_async(wgpu::MapMode::Read, .., move |result| {
+            if result.is_err() {
+                answer.store(true, Ordering::Release);
+            }
+        });
+        // Read before withdrawing, which itself refuses a mapping that is still waiting.
+        refused.load(Ordering::Acquire)
+    });
+    // There may be nothing to withdraw, which wgpu thinks an error.
+    let _ = scoped(device, || buffer.unmap());
+    match request {
+        Ok(false) => Answer::Accepted,
+        Ok(true) => Answer::Silent,
+        Err(_) => Answer::Explained,
     }
 }

@@ -47,6 +47,7 @@ mod guard;
 mod inputs;
 mod layout;
 mod pass;
+mod pipeline;
 mod plan;
 mod reflect;
 mod timer;

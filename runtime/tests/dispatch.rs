@@ -242,16 +242,19 @@ fn a_pass_is_shared_between_threads() {
     let size = [8, 8];
     let copy = pass(&gpu, &COPY, Stage::Compute);
     let color = view(&gpu.upload(size, 1, &ramp(size, 1)));
+    // Often enough that every interleaving of encoding with submitting and polling turns up.
     std::thread::scope(|scope| {
         for _ in 0..4 {
             scope.spawn(|| {
-                for _ in 0..50 {
-                    let target = gpu.target(size);
+                let target = gpu.target(size);
+                for _ in 0..500 {
                     let mut encoder = gpu.encoder();
                     copy.encode(&mut encoder, &[("color", &color)], &view(&target))
                         .expect("to encode");
                     gpu.submit(encoder);
+                    gpu.device.poll(wgpu::PollType::Poll).expect("to poll");
                 }
+                assert_eq!(gpu.download(&target), ramp(size, 1));
             });
         }
     });

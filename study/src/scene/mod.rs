@@ -1,1 +1,116 @@
-//! s
+//! What the testbed draws: triangles with materials, a sun, a sky and a camera.
+//!
+//! A [`Scene`] is plain data that every renderer reads alike. [`builtin()`] makes one without any file; [`load()`]
+//! reads a model. World space is right-handed with y up; lengths are in scene units.
+
+mod builtin;
+mod camera;
+mod error;
+mod load;
+mod mesh;
+
+use bytemuck::{Pod, Zeroable};
+use glam::Vec3;
+
+pub use builtin::builtin;
+pub use camera::Camera;
+pub use error::SceneError;
+pub use load::{EXTENSIONS, load};
+
+/// Linear depth where no geometry is seen.
+///
+/// Far beyond any geometry, yet finite: the difference of two sky depths is then 0, where that of two infinite ones
+/// is not a number. A scene's own geometry must lie nearer; [`Scene::check`] sees to that.
+pub const SKY_DEPTH: f32 = 1.0e6;
+
+/// Everything that a renderer needs to know. The camera sees triangles from either side.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scene {
+    /// Corners of the triangles.
+    pub vertices: Vec<Vertex>,
+    /// Three indices into `vertices` for each triangle, counter-clockwise seen from the side its normals point to.
+    pub triangles: Vec<[u32; 3]>,
+    /// The one light with a direction.
+    pub sun: Sun,
+    /// Background, and light from all around.
+    pub sky: Sky,
+    /// Where the scene is seen from.
+    pub camera: Camera,
+}
+
+/// One corner of a triangle. Renderers interpolate position, normal and colour across it.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct Vertex {
+    /// In world space.
+    pub position: [f32; 3],
+    /// Unit vector in world space.
+    pub normal: [f32; 3],
+    /// Linear RGB, the share of light reflected diffusely, each in 0..=1.
+    pub color: [f32; 3],
+    /// A [`Material`] as a number. All corners of a triangle have the same.
+    pub material: u32,
+}
+
+/// How a surface's colour varies beyond its vertices'.
+#[repr(u32)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Material {
+    /// Not at all.
+    Plain = 0,
+    /// By tiles of one unit with grooves between, laid out in the world's x and z.
+    Tiles = 1,
+}
+
+/// Light from one direction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sun {
+    /// Unit vector towards the sun, in world space.
+    pub direction: [f32; 3],
+    /// Linear RGB of a white surface that faces the sun and nothing else lights.
+    pub color: [f32; 3],
+}
+
+/// What is seen where there is no geometry, and the light that comes from there. Linear RGB.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sky {
+    /// Straight up.
+    pub zenith: [f32; 3],
+    /// At the horizon, and of the haze that distance fades to.
+    pub horizon: [f32; 3],
+    /// Light from below on a white surface.
+    pub ground: [f32; 3],
+    /// Share of the light that haze takes per scene unit, as a negative binary logarithm; 0 for clear air.
+    pub haze: f32,
+}
+
+impl Scene {
+    /// Refuses what no renderer could draw: a scene without triangles, indices out of range, numbers that are not
+    /// finite or beyond [`SKY_DEPTH`], and a camera that does not see.
+    ///
+    /// # Errors
+    ///
+    /// [`SceneError::Unusable`], which names the first such thing.
+    pub fn check(&self) -> Result<(), SceneError> {
+        let refuse = |problem: String| Err(SceneError::Unusable { problem });
+        if self.triangles.is_empty() {
+            return refuse("there are no triangles".to_owned());
+        }
+        let count = self.vertices.len();
+        let beyond = |triangle: &[u32; 3]| triangle.iter().any(|index| *index as usize >= count);
+        if let Some(at) = self.triangles.iter().position(beyond) {
+            let corners = self.triangles[at];
+            return refuse(format!("triangle {at} has corners {corners:?}, and there are {count} vertices"));
+        }
+        for (at, vertex) in self.vertices.iter().enumerate() {
+            let numbers = [vertex.position, vertex.normal, vertex.color];
+            if numbers.as_flattened().iter().any(|number| !number.is_finite()) {
+                return refuse(format!("vertex {at} has a number that is not finite: {vertex:?}"));
+            }
+            if Vec3::from(vertex.position).length() >= 0.5 * SKY_DEPTH {
+                return refuse(format!("vertex {at} is {:?}, as far away as the sky", vertex.position));
+            }
+        }
+        self.camera.check().or_else(refuse)
+    }
+}

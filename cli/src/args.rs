@@ -1,0 +1,239 @@
+//! The command line.
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use glam::UVec2;
+use std::path::PathBuf;
+use straightline_codegen::emit::Target;
+use straightline_codegen::{Settings, Unroll};
+use straightline_manifest::{Format, Stage};
+
+/// Image filters written once, as ordinary Rust with ordinary loops, emitted as straight-line shaders.
+///
+/// Without a command it runs `demo`: emits the default shaders, renders a scene, antialiases it, writes pictures and
+/// prints what each method costs and how close it comes.
+#[derive(Debug, Parser)]
+#[command(name = "straightline", version, max_term_width = 110)]
+pub struct Arguments {
+    #[command(subcommand)]
+    pub command: Option<Command>,
+}
+
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Show what it does: shaders, pictures and a table, in the folder `demo`
+    Demo(DemoArgs),
+    /// List the built-in kernels and their options
+    List(ListArgs),
+    /// Emit a kernel as WGSL, GLSL, SPIR-V, HLSL or MSL, with a manifest
+    Emit(EmitArgs),
+    /// Count what a kernel does for each pixel, without running it
+    Explain(ExplainArgs),
+    /// Antialias a captured frame
+    Resolve(ResolveArgs),
+    /// Render a scene or a model to a capture: the frame that `resolve` reads
+    Capture(CaptureArgs),
+    /// List the GPUs and drivers that wgpu sees, and what each can do
+    Adapters(AdaptersArgs),
+}
+
+/// Which kernel, with which options.
+#[derive(Debug, Clone, Args)]
+pub struct KernelArgs {
+    /// A built-in kernel (see `list`), FILE.rs, or FILE.rs::FUNCTION
+    pub kernel: String,
+    #[command(flatten)]
+    pub options: OptionArgs,
+}
+
+/// Options of a kernel.
+#[derive(Debug, Clone, Default, Args)]
+pub struct OptionArgs {
+    /// Set an option of the kernel; may be given several times. A number may be `uniform`: set at run time
+    #[arg(long = "set", value_name = "OPTION=VALUE", value_parser = pair)]
+    pub set: Vec<(String, String)>,
+    /// What becomes of loops: `full` runs them all now, `none` keeps them
+    #[arg(long, value_name = "POLICY", default_value = "full", value_parser = |s: &str| s.parse::<Unroll>())]
+    pub unroll: Unroll,
+}
+
+impl OptionArgs {
+    pub fn settings(&self) -> Settings {
+        Settings { options: self.set.clone(), unroll: self.unroll }
+    }
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum StageArg {
+    Compute,
+    Fragment,
+}
+
+impl From<StageArg> for Stage {
+    fn from(stage: StageArg) -> Stage {
+        match stage {
+            StageArg::Compute => Stage::Compute,
+            StageArg::Fragment => Stage::Fragment,
+        }
+    }
+}
+
+#[derive(Debug, Args)]
+pub struct ListArgs {
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+#[derive(Debug, Args)]
+pub struct EmitArgs {
+    #[command(flatten)]
+    pub kernel: KernelArgs,
+    /// Pipeline stage
+    #[arg(long, value_enum, default_value = "compute")]
+    pub stage: StageArg,
+    /// Languages to write, separated by commas: wgsl, glsl450, spirv, hlsl, msl
+    #[arg(long, value_name = "LANGUAGES", value_delimiter = ',', default_value = "wgsl", value_parser = |s: &str| s.parse::<Target>())]
+    pub target: Vec<Target>,
+    /// Texel format of the output: rgba8unorm, rgba16float or rgba32float
+    #[arg(long, value_name = "FORMAT", default_value = "rgba16float", value_parser = |s: &str| s.parse::<Format>())]
+    pub format: Format,
+    /// Folder to write to; made if it is not there
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
+    /// Name of the files, without extension; by default the kernel's
+    #[arg(long, value_name = "NAME")]
+    pub name: Option<String>,
+}
+
+#[derive(Debug, Args)]
+pub struct ExplainArgs {
+    #[command(flatten)]
+    pub kernel: KernelArgs,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+    /// Also print the graph after each stage of the pipeline
+    #[arg(long)]
+    pub dump: bool,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Executor {
+    /// The emitted shader, by wgpu
+    Gpu,
+    /// The same graph, interpreted
+    Cpu,
+}
+
+#[derive(Debug, Args)]
+pub struct ResolveArgs {
+    /// Folder of the captured frame (see docs/captures.md)
+    #[arg(long, value_name = "DIR")]
+    pub capture: PathBuf,
+    /// Picture to write: .png (8 bits, sRGB) or .exr (linear floats)
+    #[arg(long, value_name = "FILE")]
+    pub out: PathBuf,
+    #[command(flatten)]
+    pub options: OptionArgs,
+    /// What computes the pixels
+    #[arg(long, value_enum, default_value = "gpu")]
+    pub executor: Executor,
+    /// Pipeline stage, on the GPU
+    #[arg(long, value_enum, default_value = "compute")]
+    pub stage: StageArg,
+    /// Print the error against the capture's reference
+    #[arg(long)]
+    pub reference: bool,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+    #[command(flatten)]
+    pub adapter: AdapterArgs,
+}
+
+#[derive(Debug, Clone, Default, Args)]
+pub struct AdapterArgs {
+    /// Use the first adapter whose name or driver contains this (see `adapters`)
+    #[arg(long, value_name = "TEXT")]
+    pub adapter: Option<String>,
+}
+
+#[derive(Debug, Args)]
+pub struct CaptureArgs {
+    /// Model to render instead of the built-in scene: .gltf, .glb or .obj
+    #[arg(long, value_name = "FILE")]
+    pub mesh: Option<PathBuf>,
+    /// Width and height in pixels
+    #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = size)]
+    pub size: UVec2,
+    /// Where in a pixel geometry is sampled: ordered4, latin4, ordered16 or latin16
+    #[arg(long, value_name = "PATTERN", default_value = "latin4")]
+    pub pattern: String,
+    /// Where in a pixel shading is sampled: centre or sample0
+    #[arg(long, value_name = "WHERE", default_value = "centre")]
+    pub shading: String,
+    /// Also render the reference: this many shaded samples a pixel, 16 or 256
+    #[arg(long, value_name = "SAMPLES", value_parser = ["16", "256"])]
+    pub reference: Option<String>,
+    /// Folder to write
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
+    #[command(flatten)]
+    pub adapter: AdapterArgs,
+}
+
+#[derive(Debug, Args)]
+pub struct AdaptersArgs {
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+#[derive(Debug, Args)]
+pub struct DemoArgs {
+    /// Folder for shaders and pictures
+    #[arg(long, value_name = "DIR", default_value = "demo")]
+    pub out: PathBuf,
+    /// Width and height in pixels; by default 1280x720, or 640x360 where no GPU is
+    #[arg(long, value_name = "WxH", value_parser = size)]
+    pub size: Option<UVec2>,
+    /// Model to render instead of the built-in scene: .gltf, .glb or .obj
+    #[arg(long, value_name = "FILE")]
+    pub mesh: Option<PathBuf>,
+    /// Rounds of timing; each runs every shader once, in turn
+    #[arg(long, value_name = "N", default_value_t = 15, value_parser = clap::value_parser!(u32).range(1..=1000))]
+    pub rounds: u32,
+    /// Also print the table and the figures' circumstances as JSON, and nothing else
+    #[arg(long)]
+    pub json: bool,
+    #[command(flatten)]
+    pub adapter: AdapterArgs,
+}
+
+impl Default for DemoArgs {
+    fn default() -> Self {
+        DemoArgs {
+            out: PathBuf::from("demo"),
+            size: None,
+            mesh: None,
+            rounds: 15,
+            json: false,
+            adapter: AdapterArgs::default(),
+        }
+    }
+}
+
+fn pair(text: &str) -> Result<(String, String), String> {
+    match text.split_once('=') {
+        Some((name, value)) if !name.is_empty() && !value.is_empty() => Ok((name.to_owned(), value.to_owned())),
+        _ => Err(format!("`{text}` is not of the form OPTION=VALUE, such as pattern=ordered16")),
+    }
+}
+
+fn size(text: &str) -> Result<UVec2, String> {
+    let parse = |(w, h): (&str, &str)| Some(UVec2::new(w.parse().ok()?, h.parse().ok()?));
+    match text.split_once('x').and_then(parse) {
+        Some(size) if (1..=8192).contains(&size.x) && (1..=8192).contains(&size.y) => Ok(size),
+        _ => Err(format!("`{text}` is not a size such as 1280x720, from 1x1 to 8192x8192")),
+    }
+}

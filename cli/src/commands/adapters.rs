@@ -1,0 +1,53 @@
+//! `adapters`: what wgpu sees.
+
+use crate::args::AdaptersArgs;
+use crate::failure::Failure;
+use crate::gpu;
+use serde_json::json;
+use wgpu::{DownlevelFlags, Features, TextureFormat, TextureUsages};
+
+/// Prints every adapter and what it can do.
+pub fn run(args: &AdaptersArgs) -> Result<(), Failure> {
+    let adapters = gpu::adapters();
+    let described: Vec<_> = adapters.iter().map(describe).collect();
+    if args.json {
+        println!("{:#}", json!({ "adapters": described }));
+        return Ok(());
+    }
+    if described.is_empty() {
+        println!("no adapter: {}", gpu::INSTALL);
+    }
+    for adapter in &described {
+        println!("{}", adapter["name"].as_str().unwrap_or_default());
+        for key in ["type", "backend", "driver", "largest_texture", "compute", "timestamps", "f16", "subgroups", "float32_output"] {
+            println!("  {:<16} {}", key.replace('_', " "), plain(&adapter[key]));
+        }
+    }
+    Ok(())
+}
+
+fn plain(value: &serde_json::Value) -> String {
+    match value {
+        serde_json::Value::String(text) => text.clone(),
+        serde_json::Value::Bool(yes) => if *yes { "yes" } else { "no" }.to_owned(),
+        other => other.to_string(),
+    }
+}
+
+fn describe(adapter: &wgpu::Adapter) -> serde_json::Value {
+    let info = adapter.get_info();
+    let features = adapter.features();
+    let storage = adapter.get_texture_format_features(TextureFormat::Rgba32Float).allowed_usages;
+    json!({
+        "name": info.name,
+        "type": format!("{:?}", info.device_type),
+        "backend": info.backend.to_string(),
+        "driver": format!("{} {}", info.driver, info.driver_info).trim(),
+        "largest_texture": adapter.limits().max_texture_dimension_2d,
+        "compute": adapter.get_downlevel_capabilities().flags.contains(DownlevelFlags::COMPUTE_SHADERS),
+        "timestamps": features.contains(Features::TIMESTAMP_QUERY),
+        "f16": features.contains(Features::SHADER_F16),
+        "subgroups": features.contains(Features::SUBGROUP),
+        "float32_output": storage.contains(TextureUsages::STORAGE_BINDING),
+    })
+}

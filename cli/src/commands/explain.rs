@@ -1,0 +1,85 @@
+//! `explain`: what a kernel does for each pixel.
+
+use crate::args::ExplainArgs;
+use crate::failure::Failure;
+use crate::table;
+use serde_json::{Map, Value, json};
+use std::collections::BTreeSet;
+use straightline_codegen::{Compiled, Kernel};
+use straightline_kernels::PaperCounts;
+use straightline_manifest::{Counts, Format, Stage};
+
+/// Prints the counts of one kernel and option set.
+pub fn run(args: &ExplainArgs) -> Result<(), Failure> {
+    let kernel = Kernel::locate(&args.kernel.kernel)?;
+    let compiled = kernel.compile_observed(&args.kernel.options.settings(), &mut |stage, graph| {
+        if args.dump {
+            println!("== {stage}\n{}", straightline_codegen::ir::print(graph));
+        }
+    })?;
+    // Statements are those of the emitted text.
+    let emitted = compiled.emit(Stage::Compute, Format::default(), &BTreeSet::new()).map_err(Failure::of)?;
+    let counts = emitted.manifest.counts;
+    let paper = paper(&compiled);
+    if args.json {
+        println!("{:#}", to_json(&compiled, &counts, paper));
+    } else {
+        print(&compiled, &counts, paper);
+    }
+    Ok(())
+}
+
+fn paper(compiled: &Compiled) -> Option<PaperCounts> {
+    let entry = straightline_kernels::find(&compiled.kernel)?;
+    (entry.paper)(&|option| compiled.options.get(option).cloned())
+}
+
+fn to_json(compiled: &Compiled, counts: &Counts, paper: Option<PaperCounts>) -> Value {
+    let mut out = Map::new();
+    out.insert("kernel".into(), json!(compiled.kernel));
+    out.insert("unroll".into(), json!(compiled.unroll.name()));
+    out.insert("options".into(), json!(compiled.options));
+    if let Value::Object(figures) = json!(counts) {
+        for (name, figure) in figures {
+            // Tallies stand among the other figures under their own names.
+            match figure {
+                Value::Object(tallies) if name == "tallies" => out.extend(tallies),
+                other => {
+                    out.insert(name, other);
+                }
+            }
+        }
+    }
+    if let Some(paper) = paper {
+        out.insert("paper_weight_evaluations".into(), json!(paper.weight_evaluations));
+        out.insert("paper_texture_reads".into(), json!(paper.texture_reads));
+    }
+    Value::Object(out)
+}
+
+fn print(compiled: &Compiled, counts: &Counts, paper: Option<PaperCounts>) {
+    println!("{}: {}", compiled.kernel, compiled.summary);
+    let options: Vec<String> = compiled.options.iter().map(|(name, value)| format!("{name}={value}")).collect();
+    println!("  {} unroll={}\n", options.join(" "), compiled.unroll.name());
+    let mut rows = vec![
+        row("basic blocks", counts.basic_blocks, None),
+        row("loops", counts.loops, None),
+        row("texture reads", counts.texture_reads, paper.map(|p| p.texture_reads)),
+    ];
+    for (name, n) in &counts.reads {
+        rows.push(row(&format!("  of {name}{}", if name == "color" { ", counted apart" } else { "" }), *n, None));
+    }
+    for (name, n) in &counts.tallies {
+        let paper = paper.filter(|_| name == "weight_evaluations").map(|p| p.weight_evaluations);
+        rows.push(row(&name.replace('_', " "), *n, paper));
+    }
+    rows.push(row("transcendentals", counts.transcendentals, None));
+    rows.push(row("other arithmetic", counts.alu, None));
+    rows.push(row("statements", counts.statements, None));
+    rows.push(row("scalars alive at most", counts.max_live, None));
+    print!("{}", table::render(&["per pixel", "here", "paper"], &rows));
+}
+
+fn row(name: &str, n: u32, paper: Option<u32>) -> Vec<String> {
+    vec![name.to_owned(), n.to_string(), paper.map_or(String::new(), |p| p.to_string())]
+}

@@ -1,0 +1,60 @@
+//! `list`: the built-in kernels and their options.
+
+use crate::args::ListArgs;
+use crate::failure::Failure;
+use serde_json::json;
+use straightline_codegen::{Kernel, OptionInfo, OptionKind};
+use straightline_kernels::CATALOGUE;
+
+/// Prints every kernel with its options.
+pub fn run(args: &ListArgs) -> Result<(), Failure> {
+    let mut kernels = Vec::new();
+    for entry in CATALOGUE {
+        kernels.push((entry, Kernel::builtin(entry.name)?.options()?));
+    }
+    if args.json {
+        let list: Vec<_> = kernels
+            .iter()
+            .map(|(entry, options)| {
+                let options: Vec<_> = options.iter().map(option_json).collect();
+                json!({ "name": entry.name, "summary": entry.summary, "options": options })
+            })
+            .collect();
+        println!("{:#}", json!({ "kernels": list }));
+        return Ok(());
+    }
+    for (entry, options) in &kernels {
+        println!("{}\n  {}\n", entry.name, entry.summary);
+        for option in options {
+            print_option(option);
+        }
+    }
+    println!("Set an option with --set OPTION=VALUE. A kernel of your own: FILE.rs::FUNCTION in place of the name.");
+    Ok(())
+}
+
+fn print_option(option: &OptionInfo) {
+    println!("  {}: {}", option.name, option.docs);
+    match &option.kind {
+        OptionKind::Choice(values) => {
+            for (name, docs) in values {
+                let mark = if *name == option.default { " (default)" } else { "" };
+                println!("      {name}{mark}: {docs}");
+            }
+        }
+        OptionKind::Number { min, max, .. } => {
+            let bound = |b: &Option<f64>| b.map_or("any".to_owned(), |b| b.to_string());
+            println!("      {} to {}, or uniform (default {})", bound(min), bound(max), option.default);
+        }
+        OptionKind::Flag => println!("      true or false (default {})", option.default),
+    }
+}
+
+fn option_json(option: &OptionInfo) -> serde_json::Value {
+    let values = match &option.kind {
+        OptionKind::Choice(values) => json!(values.iter().map(|(name, docs)| json!({ "value": name, "docs": docs })).collect::<Vec<_>>()),
+        OptionKind::Number { integer, min, max } => json!({ "integer": integer, "min": min, "max": max, "uniform": true }),
+        OptionKind::Flag => json!(["true", "false"]),
+    };
+    json!({ "name": option.name, "docs": option.docs, "default": option.default, "values": values })
+}

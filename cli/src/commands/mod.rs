@@ -1,0 +1,9 @@
+//! One room a command.
+
+pub mod adapters;
+pub mod capture;
+pub mod demo;
+pub mod emit;
+pub mod explain;
+pub mod list;
+pub mod resolve;

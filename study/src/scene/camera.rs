@@ -1,0 +1,134 @@
+//! Where a scene is seen from.
+
+use super::SKY_DEPTH;
+use glam::camera::rh::{proj::directx::perspective_infinite_reverse, view::look_at_mat4};
+use glam::{Mat4, UVec2, Vec2, Vec3, vec2, vec3};
+use serde::{Deserialize, Serialize};
+
+/// A pinhole camera. View space is right-handed: x right, y up, z towards the viewer.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Camera {
+    /// The pinhole, in world space.
+    pub position: [f32; 3],
+    /// A point in the middle of the picture, in world space; not where the camera is.
+    pub target: [f32; 3],
+    /// A world-space vector that points upwards in the picture; not along the view direction.
+    pub up: [f32; 3],
+    /// Angle between the picture's upper and lower edge in radians, above 0 and below π.
+    pub vertical_fov: f32,
+    /// Linear depth before which nothing is drawn, in scene units, above 0.
+    pub near: f32,
+}
+
+impl Camera {
+    /// World space to view space: a rotation and a shift.
+    pub fn view(&self) -> Mat4 {
+        look_at_mat4(self.position.into(), self.target.into(), self.up.into())
+    }
+
+    /// View space to clip space of a picture of `size` pixels sampled `offset` pixels (x right, y down) from each
+    /// pixel's centre. z/w is 1 at `near` and falls to 0 at infinity; w is linear depth.
+    pub fn projection(&self, size: UVec2, offset: Vec2) -> Mat4 {
+        let aspect = size.x as f32 / size.y as f32;
+        // What lies right of the centre by `offset` must come to lie on it.
+        let shift = vec2(-offset.x, offset.y) * 2.0 / size.as_vec2();
+        Mat4::from_translation(shift.extend(0.0)) * perspective_infinite_reverse(self.vertical_fov, aspect, self.near)
+    }
+
+    /// Half the width and height of what is seen at linear depth 1, in scene units.
+    pub fn half_extent(&self, size: UVec2) -> Vec2 {
+        let tangent = (0.5 * self.vertical_fov).tan();
+        vec2(tangent * size.x as f32 / size.y as f32, tangent)
+    }
+
+    /// A camera that has the whole box from `min` to `max` in a picture at least as wide as it is high, and looks
+    /// down on its front (towards +z) from the right.
+    pub fn framing(min: Vec3, max: Vec3) -> Camera {
+        let vertical_fov = 35.0_f32.to_radians();
+        let centre = 0.5 * (min + max);
+        // A point has a picture too.
+        let radius = (0.5 * (max - min).length()).max(1.0e-3);
+        let distance = 1.05 * radius / (0.5 * vertical_fov).sin();
+        let position = centre + vec3(0.5, 0.35, 0.8).normalize() * distance;
+        Camera {
+            position: position.into(),
+            target: centre.into(),
+            up: [0.0, 1.0, 0.0],
+            vertical_fov,
+            near: 0.01 * radius,
+        }
+    }
+
+    /// What makes this camera useless, if anything does.
+    pub(super) fn check(&self) -> Result<(), String> {
+        let (position, target, up) = (
+            Vec3::from(self.position),
+            Vec3::from(self.target),
+            Vec3::from(self.up),
+        );
+        if !(position.length() < 0.5 * SKY_DEPTH && target.is_finite() && up.is_finite()) {
+            return Err(format!("the camera is not at a finite place, or as far away as the sky: {self:?}"));
+        }
+        if (target - position).cross(up).length_squared() <= 0.0 {
+            return Err("the camera's view direction is nothing, or its up vector points along it".to_owned());
+        }
+        if !(self.vertical_fov > 0.0 && self.vertical_fov < std::f32::consts::PI) {
+            return Err(format!("the camera's angle is {} radians, not above 0 and below π", self.vertical_fov));
+        }
+        if !(self.near > 0.0 && self.near < SKY_DEPTH) {
+            return Err(format!("the camera's near plane is at {}, not above 0 and below {SKY_DEPTH}", self.near));
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const CAMERA: Camera = Camera {
+        position: [1.0, 2.0, 3.0],
+        target: [1.0, 2.0, -7.0],
+        up: [0.0, 1.0, 0.0],
+        vertical_fov: 1.0,
+        near: 0.1,
+    };
+
+    #[test]
+    fn clip_w_is_linear_depth_and_offsets_move_the_samples() {
+        let size = UVec2::new(200, 100);
+        let clip = CAMERA.projection(size, Vec2::ZERO) * CAMERA.view() * vec3(1.5, 2.5, -1.0).extend(1.0);
+        assert!((clip.w - 4.0).abs() < 1.0e-5);
+        let moved = CAMERA.projection(size, vec2(1.0, 0.5)) * CAMERA.view() * vec3(1.5, 2.5, -1.0).extend(1.0);
+        // One pixel to the left of 200, half a pixel up of 100, in a range of 2.
+        assert!((moved.x / moved.w - (clip.x / clip.w - 0.01)).abs() < 1.0e-6);
+        assert!((moved.y / moved.w - (clip.y / clip.w + 0.01)).abs() < 1.0e-6);
+    }
+
+    #[test]
+    fn a_framed_box_is_inside_the_picture() {
+        let (min, max) = (vec3(-3.0, 0.0, 10.0), vec3(1.0, 9.0, 11.0));
+        let camera = Camera::framing(min, max);
+        assert_eq!(camera.check(), Ok(()));
+        let to_clip = camera.projection(UVec2::new(64, 64), Vec2::ZERO) * camera.view();
+        for corner in 0..8 {
+            let pick = |axis: usize| if corner >> axis & 1 == 0 { min[axis] } else { max[axis] };
+            let clip = to_clip * vec3(pick(0), pick(1), pick(2)).extend(1.0);
+            assert!(clip.w > camera.near && clip.x.abs() <= clip.w && clip.y.abs() <= clip.w, "{clip}");
+        }
+    }
+
+    #[test]
+    fn cameras_that_see_nothing_are_refused() {
+        let refused = |change: fn(&mut Camera)| {
+            let mut camera = CAMERA;
+            change(&mut camera);
+            camera.check().expect_err("a refusal")
+        };
+        assert!(refused(|camera| camera.target = camera.position).contains("direction"));
+        assert!(refused(|camera| camera.up = [0.0, 0.0, 1.0]).contains("up"));
+        assert!(refused(|camera| camera.vertical_fov = f32::NAN).contains("angle"));
+        assert!(refused(|camera| camera.near = 0.0).contains("near"));
+        assert!(refused(|camera| camera.position[1] = f32::INFINITY).contains("finite"));
+    }
+}
