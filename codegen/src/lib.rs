@@ -12,8 +12,10 @@
 //! ```
 
 pub mod diagnostic;
+pub mod emit;
 mod eval;
 mod front;
+pub mod files;
 pub mod ir;
 pub mod passes;
 mod pipeline;

@@ -1,14 +1,15 @@
 //! The stages from text to graph, in order.
 
 use crate::diagnostic::{Diagnostic, Errors, File};
+use crate::emit::{self, EmitError, Emitted, Target};
 use crate::eval::{self, OptionInfo, Unroll};
 use crate::front;
 use crate::ir::{Graph, verify};
 use crate::passes::{self, Schedule};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::sync::Arc;
-use straightline_manifest::Counts;
+use straightline_manifest::{Counts, Format, Stage};
 
 /// A kernel's source: its files and which function it is.
 #[derive(Clone, Debug)]
@@ -44,6 +45,13 @@ pub struct Compiled {
     pub schedule: Schedule,
     /// What one invocation executes; `statements` is 0 until it is emitted.
     pub counts: Counts,
+}
+
+impl Compiled {
+    /// The kernel as a shader for a stage, with its result in `format`, in every language asked for.
+    pub fn emit(&self, stage: Stage, format: Format, targets: &BTreeSet<Target>) -> Result<Emitted, EmitError> {
+        emit::emit(self, stage, format, targets)
+    }
 }
 
 /// A graph after a stage, for whoever looks on.

@@ -5,7 +5,7 @@ use super::{Evaluator, Unroll};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::front::assigned;
 use crate::front::tree::{Block, Expr, Pattern};
-use crate::ir::{BinaryOp, Counter, NodeId, Op, Type};
+use crate::ir::{BinaryOp, Counter, NodeId, Op, Origin, Type};
 
 impl Evaluator<'_> {
     pub fn for_(&mut self, pattern: &Pattern, over: &Expr, body: &Block, span: Span) -> Eval {
@@ -88,8 +88,14 @@ impl Evaluator<'_> {
         let params = self.builder.graph().region(region).params.clone();
         let mut inner = params[1..].iter().copied();
         for slot in &carried {
-            let value = Self::with_leaves(self.scope.at(*slot).1, &mut inner);
+            let (name, template) = self.scope.at(*slot);
+            let name = name.to_owned();
+            let value = Self::with_leaves(&template.clone(), &mut inner);
+            self.name_params(&value, &name, span);
             self.scope.set(*slot, value);
+        }
+        if let Pattern::Name(name, at) = pattern {
+            self.name_params(&Value::Node(params[0]), name, *at);
         }
         let (first, trips_end) = (start, self.trips(start, end, range));
         let counter = self.counter(params[0], first, range, end);
@@ -132,6 +138,16 @@ impl Evaluator<'_> {
             self.scope.set(*slot, value);
         }
         Ok(Value::unit())
+    }
+
+    /// Names a loop's parameters, which are variables in the text.
+    fn name_params(&mut self, value: &Value, name: &str, span: Span) {
+        let mut nodes = Vec::new();
+        Self::leaves(value, &mut nodes);
+        for id in nodes {
+            let origin = Origin { name: name.to_owned(), file: span.file, line: span.line, counters: self.counters.clone() };
+            self.builder.set_origin(id, &origin);
+        }
     }
 
     /// Bounds of the loop's own counter: the range itself if it goes up by one, else 0 to the number of values.

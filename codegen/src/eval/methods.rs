@@ -90,7 +90,9 @@ impl Evaluator<'_> {
         let one = self.builder.constant(pair, [1, 1, 0, 0]);
         let zero = self.builder.constant(pair, [0; 4]);
         let last = self.builder.add(Op::Binary(BinaryOp::Sub), vec![size, one], pair);
+        self.name(&Value::Node(last), "last", span);
         let inside = self.builder.add(Op::Clamp, vec![coord, zero, last], pair);
+        self.name(&Value::Node(inside), "texel", span);
         self.sites += 1;
         let components = self.builder.graph().textures[texture as usize].components;
         let args = std::iter::once(inside).chain(layer).collect();

@@ -61,22 +61,26 @@ impl Camera {
 
     /// What makes this camera useless, if anything does.
     pub(super) fn check(&self) -> Result<(), String> {
-        let (position, target, up) = (
-            Vec3::from(self.position),
-            Vec3::from(self.target),
-            Vec3::from(self.up),
-        );
+        let (position, target, up) = (Vec3::from(self.position), Vec3::from(self.target), Vec3::from(self.up));
         if !(position.length() < 0.5 * SKY_DEPTH && target.is_finite() && up.is_finite()) {
-            return Err(format!("the camera is not at a finite place, or as far away as the sky: {self:?}"));
+            return Err(format!(
+                "the camera is not at a finite place, or as far away as the sky: {self:?}"
+            ));
         }
         if (target - position).cross(up).length_squared() <= 0.0 {
             return Err("the camera's view direction is nothing, or its up vector points along it".to_owned());
         }
         if !(self.vertical_fov > 0.0 && self.vertical_fov < std::f32::consts::PI) {
-            return Err(format!("the camera's angle is {} radians, not above 0 and below π", self.vertical_fov));
+            return Err(format!(
+                "the camera's angle is {} radians, not above 0 and below π",
+                self.vertical_fov
+            ));
         }
         if !(self.near > 0.0 && self.near < SKY_DEPTH) {
-            return Err(format!("the camera's near plane is at {}, not above 0 and below {SKY_DEPTH}", self.near));
+            return Err(format!(
+                "the camera's near plane is at {}, not above 0 and below {SKY_DEPTH}",
+                self.near
+            ));
         }
         Ok(())
     }
@@ -114,7 +118,10 @@ mod tests {
         for corner in 0..8 {
             let pick = |axis: usize| if corner >> axis & 1 == 0 { min[axis] } else { max[axis] };
             let clip = to_clip * vec3(pick(0), pick(1), pick(2)).extend(1.0);
-            assert!(clip.w > camera.near && clip.x.abs() <= clip.w && clip.y.abs() <= clip.w, "{clip}");
+            assert!(
+                clip.w > camera.near && clip.x.abs() <= clip.w && clip.y.abs() <= clip.w,
+                "{clip}"
+            );
         }
     }
 

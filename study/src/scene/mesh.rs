@@ -137,7 +137,9 @@ mod tests {
     fn solids_are_closed_and_face_outwards() {
         let place = Affine3A::from_rotation_translation(Quat::from_rotation_y(0.7), vec3(3.0, -1.0, 2.0));
         let mut mesh = Mesh::default();
-        mesh.at(place, |mesh| mesh.block(vec3(-1.0, 0.0, 2.0), vec3(1.0, 3.0, 2.5), Vec3::ONE));
+        mesh.at(place, |mesh| {
+            mesh.block(vec3(-1.0, 0.0, 2.0), vec3(1.0, 3.0, 2.5), Vec3::ONE)
+        });
         assert!((volume(&mesh) - 3.0).abs() < 1.0e-4);
         check_normals(&mesh);
 

@@ -100,7 +100,9 @@ impl Scene {
         let beyond = |triangle: &[u32; 3]| triangle.iter().any(|index| *index as usize >= count);
         if let Some(at) = self.triangles.iter().position(beyond) {
             let corners = self.triangles[at];
-            return refuse(format!("triangle {at} has corners {corners:?}, and there are {count} vertices"));
+            return refuse(format!(
+                "triangle {at} has corners {corners:?}, and there are {count} vertices"
+            ));
         }
         for (at, vertex) in self.vertices.iter().enumerate() {
             let numbers = [vertex.position, vertex.normal, vertex.color];

@@ -1,0 +1,473 @@
+//! Statements of a kernel's body, in any dialect.
+
+use super::arrays::Webs;
+use super::dialect::Dialect;
+use super::error::EmitError;
+use super::names::Names;
+use super::plan::Plan;
+use super::resources::Resources;
+use super::text::Text;
+use crate::ir::{BinaryOp, Counter, NodeId, Op};
+use crate::passes::{Block, Step};
+use crate::pipeline::Compiled;
+
+/// Operators and calls that one expression may hold before part of it becomes a statement. Long chains also overflow
+/// the recursive parsers of shader compilers.
+const LONGEST: u32 = 7;
+
+/// The text of a body.
+pub struct Body {
+    /// Constant arrays, for module scope.
+    pub tables: Vec<String>,
+    /// Lines, indented by one level.
+    pub lines: Vec<String>,
+    /// The colour.
+    pub result: String,
+    /// Statements among the lines.
+    pub statements: u32,
+}
+
+/// Writes the body of a compiled kernel.
+pub fn body(compiled: &Compiled, resources: &Resources, entry: &str, dialect: &dyn Dialect) -> Result<Body, EmitError> {
+    let graph = &compiled.graph;
+    let mut writer = Writer {
+        compiled,
+        dialect,
+        plan: Plan::new(graph, &compiled.schedule),
+        names: Names::new(graph, resources, entry),
+        webs: Webs::new(graph),
+        texts: vec![None; graph.nodes.len()],
+        tables: Vec::new(),
+        lines: Vec::new(),
+        indent: 1,
+        group: Group::default(),
+        statements: 0,
+    };
+    writer.block(&compiled.schedule.body)?;
+    let result = writer.text(graph.output())?.code;
+    writer.flush();
+    Ok(Body { tables: writer.tables, lines: writer.lines, result, statements: writer.statements })
+}
+
+struct Writer<'a> {
+    compiled: &'a Compiled,
+    dialect: &'a dyn Dialect,
+    plan: Plan<'a>,
+    names: Names,
+    webs: Webs,
+    texts: Vec<Option<Text>>,
+    tables: Vec<String>,
+    lines: Vec<String>,
+    indent: usize,
+    group: Group,
+    statements: u32,
+}
+
+/// Statements of one place in the source, under one comment.
+#[derive(Default)]
+struct Group {
+    counters: Vec<Counter>,
+    place: Option<(u32, u32)>,
+    lines: Vec<String>,
+}
+
+impl Writer<'_> {
+    fn block(&mut self, block: &Block) -> Result<(), EmitError> {
+        for step in &block.steps {
+            match step {
+                Step::Eval(id) => self.eval(*id)?,
+                Step::Loop { node, body } => self.kept_loop(*node, body)?,
+                Step::If { node, then, otherwise } => self.kept_branch(*node, then, otherwise)?,
+            }
+        }
+        Ok(())
+    }
+
+    fn eval(&mut self, id: NodeId) -> Result<(), EmitError> {
+        let graph = &self.compiled.graph;
+        let node = graph.node(id);
+        match &node.op {
+            Op::Const(bits) => {
+                let text = if node.ty.is_array() { None } else { Some(self.dialect.constant(&self.compiled.kernel, node.ty, bits)?) };
+                self.texts[id.0 as usize] = text;
+                Ok(())
+            }
+            // Written where it is first copied or indexed.
+            Op::MakeArray | Op::Result(_) => Ok(()),
+            Op::ArraySet => self.array_set(id),
+            Op::ArrayGet => self.array_get(id),
+            _ => {
+                let text = self.expression(id)?;
+                let text = if self.plan.is_statement(id) || text.size > LONGEST { self.declare(id, &text) } else { text };
+                self.texts[id.0 as usize] = Some(text);
+                Ok(())
+            }
+        }
+    }
+
+    /// A statement that names a value.
+    fn declare(&mut self, id: NodeId, value: &Text) -> Text {
+        let graph = &self.compiled.graph;
+        let name = self.names.of(graph, id, self.plan.origin(id));
+        let line = self.dialect.immutable(&name, graph.ty(id), &value.code);
+        self.statement(id, line);
+        Text::name(name)
+    }
+
+    /// The text of a value that has been evaluated.
+    fn text(&mut self, id: NodeId) -> Result<Text, EmitError> {
+        if let Some(text) = &self.texts[id.0 as usize] {
+            return Ok(text.clone());
+        }
+        let node = self.compiled.graph.node(id);
+        match &node.op {
+            Op::MakeArray => {
+                let parts: Result<Vec<Text>, EmitError> = node.args.iter().map(|a| self.text(*a)).collect();
+                let parts = parts?;
+                Ok(self.dialect.construct(node.ty, &parts.iter().collect::<Vec<_>>()))
+            }
+            // Constants belong to no place and are written wherever they are used.
+            Op::Const(bits) => self.dialect.constant(&self.compiled.kernel, node.ty, bits),
+            _ if node.ty.is_array() => match self.webs.variable(id) {
+                Some(name) if self.webs.holds(id) => Ok(Text::name(name)),
+                _ => Err(self.stale(id)),
+            },
+            _ => unreachable!("verified and scheduled: arguments are evaluated before their users"),
+        }
+    }
+
+    fn stale(&self, id: NodeId) -> EmitError {
+        let array = self.plan.origin(id).map_or("an array", |o| o.name.as_str()).to_owned();
+        EmitError::ArrayVersions { kernel: self.compiled.kernel.clone(), array }
+    }
+
+    fn expression(&mut self, id: NodeId) -> Result<Text, EmitError> {
+        let node = self.compiled.graph.node(id);
+        let args: Result<Vec<Text>, EmitError> = node.args.iter().map(|a| self.text(*a)).collect();
+        let args = args?;
+        let operand = node.args.first().map_or(node.ty, |a| self.compiled.graph.ty(*a));
+        let d = self.dialect;
+        Ok(match &node.op {
+            Op::Pixel => Text::name("pixel"),
+            Op::FrameSize => Text::name("frame"),
+            Op::Uniform(k) => d.uniform(&self.compiled.graph.uniforms[*k as usize].name),
+            Op::Unary(op) => d.unary(*op, node.ty, &args[0]),
+            Op::Binary(op) => {
+                let [x, y] = [0, 1].map(|k| self.operand(*op, node.args[k], &args[k]));
+                // One side stays a vector, or the result would be a scalar.
+                let x = if self.is_splat(node.args[0]) && self.is_splat(node.args[1]) { args[0].clone() } else { x };
+                d.binary(*op, operand, &x, &y)
+            }
+            Op::Dot => Text::call("dot", &[&args[0], &args[1]]),
+            Op::Cross => Text::call("cross", &[&args[0], &args[1]]),
+            Op::Clamp => Text::call("clamp", &[&args[0], &args[1], &args[2]]),
+            Op::Select => d.select(&args[0], &args[1], &args[2]),
+            Op::Splat => Text { size: args[0].size, ..d.construct(node.ty, &[&args[0]]) },
+            Op::Compose => d.construct(node.ty, &args.iter().collect::<Vec<_>>()),
+            Op::Extract(lane) => Text::member(&args[0], &"xyzw"[*lane as usize..=*lane as usize]),
+            Op::Convert => d.convert(operand, node.ty, &args[0]),
+            Op::Load { texture, .. } => d.load(*texture, &args[0], args.get(1)),
+            Op::Tally(_) => args[0].clone(),
+            _ => unreachable!("handled where it has a statement of its own"),
+        })
+    }
+
+    /// An operand of arithmetic: a scalar stands for a vector of it.
+    fn operand(&mut self, op: BinaryOp, id: NodeId, text: &Text) -> Text {
+        let arithmetic = matches!(op, BinaryOp::Add | BinaryOp::Sub | BinaryOp::Mul | BinaryOp::Div);
+        let node = self.compiled.graph.node(id);
+        match node.op {
+            Op::Splat if arithmetic => self.texts[node.args[0].0 as usize].clone().unwrap_or_else(|| text.clone()),
+            _ => text.clone(),
+        }
+    }
+
+    fn is_splat(&self, id: NodeId) -> bool {
+        self.compiled.graph.node(id).op == Op::Splat
+    }
+
+    fn array_get(&mut self, id: NodeId) -> Result<(), EmitError> {
+        let graph = &self.compiled.graph;
+        let (array, index) = (graph.node(id).args[0], graph.node(id).args[1]);
+        if graph.node(array).op == Op::MakeArray && self.texts[array.0 as usize].is_none() {
+            let name = self.names.of(graph, array, self.plan.origin(array));
+            let literal = self.text(array)?;
+            if graph.node(array).args.iter().all(|a| graph.constant(*a).is_some()) {
+                self.tables.push(self.dialect.table(&name, graph.ty(array), &literal.code));
+                self.texts[array.0 as usize] = Some(Text::name(name));
+            } else {
+                let line = self.dialect.mutable(&name, graph.ty(array), Some(&literal.code));
+                self.statement(id, line);
+                // Known in this scope only: it is written again elsewhere.
+                let read = self.indexed(&Text::name(name), index)?;
+                let text = self.declare(id, &read);
+                self.texts[id.0 as usize] = Some(text);
+                return Ok(());
+            }
+        }
+        let base = self.text(array)?;
+        let read = self.indexed(&base, index)?;
+        let text = self.declare(id, &read);
+        self.texts[id.0 as usize] = Some(text);
+        Ok(())
+    }
+
+    fn indexed(&mut self, base: &Text, index: NodeId) -> Result<Text, EmitError> {
+        let index = self.text(index)?;
+        Ok(Text { code: format!("{}[{}]", base.code, index.code), size: 1 + index.size, ..base.clone() })
+    }
+
+    fn array_set(&mut self, id: NodeId) -> Result<(), EmitError> {
+        let args = self.compiled.graph.node(id).args.clone();
+        if self.webs.variable(id).is_none() {
+            self.open_web(id, args[0])?;
+        } else if self.compiled.graph.node(args[0]).op != Op::MakeArray && !self.webs.holds(args[0]) {
+            return Err(self.stale(args[0]));
+        }
+        let name = Text::name(self.webs.variable(id).unwrap_or_default());
+        let place = self.indexed(&name, args[1])?;
+        let value = self.text(args[2])?;
+        self.statement(id, format!("{} = {};", place.code, value.code));
+        self.webs.advance(id);
+        Ok(())
+    }
+
+    /// Declares the variable of a web with what it begins with.
+    fn open_web(&mut self, id: NodeId, begin: NodeId) -> Result<(), EmitError> {
+        let graph = &self.compiled.graph;
+        let value = self.text(begin)?;
+        let name = self.names.of(graph, id, self.plan.origin(id));
+        let line = self.dialect.mutable(&name, graph.ty(id), Some(&value.code));
+        self.statement(id, line);
+        self.webs.declare(id, name, begin);
+        Ok(())
+    }
+
+    /// Makes the web's variable hold `begin`, and takes it to be `version`.
+    fn enter_web(&mut self, version: NodeId, begin: NodeId) -> Result<(), EmitError> {
+        match self.webs.variable(version) {
+            None => self.open_web(version, begin)?,
+            Some(name) if self.compiled.graph.node(begin).op == Op::MakeArray => {
+                let name = name.to_owned();
+                let value = self.text(begin)?;
+                self.statement(version, format!("{name} = {};", value.code));
+            }
+            Some(_) if self.webs.holds(begin) => {}
+            Some(_) => return Err(self.stale(begin)),
+        }
+        self.webs.advance(version);
+        Ok(())
+    }
+
+    fn kept_loop(&mut self, node: NodeId, body: &Block) -> Result<(), EmitError> {
+        let graph = &self.compiled.graph;
+        let args = graph.node(node).args.clone();
+        let region = graph.region(graph.regions_of(node)[0]).clone();
+        for (param, init) in region.params[1..].iter().zip(&args[2..]) {
+            if graph.ty(*param).is_array() {
+                self.enter_web(*param, *init)?;
+            } else {
+                let value = self.text(*init)?;
+                let name = self.names.of(graph, *param, self.plan.origin(*param));
+                let line = self.dialect.mutable(&name, graph.ty(*param), Some(&value.code));
+                self.statement(*param, line);
+                self.texts[param.0 as usize] = Some(Text::name(name));
+            }
+        }
+        let counter = self.names.of(graph, region.params[0], self.plan.origin(region.params[0]));
+        let (start, end) = (self.text(args[0])?, self.text(args[1])?);
+        self.texts[region.params[0].0 as usize] = Some(Text::name(counter.as_str()));
+        self.line(self.dialect.loop_head(&counter, &start, &end));
+        self.statements += 1;
+        let scope = self.webs.snapshot();
+        self.indent += 1;
+        self.block(body)?;
+        self.assign_all(&region.params[1..], &region.results)?;
+        self.flush();
+        self.indent -= 1;
+        self.line("}".to_owned());
+        self.webs.leave(&scope);
+        self.results(node, &region.params[1..]);
+        Ok(())
+    }
+
+    /// Assigns the next iteration's values, all of them computed before any is changed.
+    fn assign_all(&mut self, params: &[NodeId], results: &[NodeId]) -> Result<(), EmitError> {
+        let graph = &self.compiled.graph;
+        let mut assignments = Vec::new();
+        for (param, result) in params.iter().zip(results) {
+            if param == result {
+                continue;
+            }
+            if graph.ty(*param).is_array() {
+                if graph.node(*result).op == Op::MakeArray {
+                    self.enter_web(*param, *result)?;
+                } else if !self.webs.holds(*result) {
+                    return Err(self.stale(*result));
+                }
+                continue;
+            }
+            let target = self.text(*param)?.code;
+            let mut value = self.text(*result)?;
+            // Another carried variable, or an expression that may read one, must be read before that changes.
+            if params.len() > 1 && (params.contains(result) || value.size > 0) {
+                let name = self.names.fresh(&format!("next_{target}"));
+                let line = self.dialect.immutable(&name, graph.ty(*result), &value.code);
+                self.statement(*result, line);
+                value = Text::name(name);
+            }
+            assignments.push((*param, format!("{target} = {};", value.code)));
+        }
+        for (param, line) in assignments {
+            self.statement(param, line);
+        }
+        Ok(())
+    }
+
+    /// After a loop or branch, results go by the variables that were carried or chosen.
+    fn results(&mut self, owner: NodeId, variables: &[NodeId]) {
+        let graph = &self.compiled.graph;
+        for id in graph.ids().skip(owner.0 as usize) {
+            let node = graph.node(id);
+            if let Op::Result(k) = node.op
+                && node.args[0] == owner
+                && let Some(variable) = variables.get(k as usize)
+            {
+                if node.ty.is_array() {
+                    self.webs.advance(id);
+                } else {
+                    self.texts[id.0 as usize] = self.texts[variable.0 as usize].clone();
+                }
+            }
+        }
+    }
+
+    fn kept_branch(&mut self, node: NodeId, then: &Block, otherwise: &Block) -> Result<(), EmitError> {
+        let graph = &self.compiled.graph;
+        let regions: Vec<_> = graph.regions_of(node).into_iter().map(|r| graph.region(r).clone()).collect();
+        let results: Vec<NodeId> = graph
+            .ids()
+            .skip(node.0 as usize)
+            .filter(|id| matches!(graph.node(*id).op, Op::Result(_)) && graph.node(*id).args[0] == node)
+            .collect();
+        // A side that does nothing leaves values that are known before: the variable begins with them.
+        let idle = otherwise.steps.is_empty();
+        for id in &results {
+            let Op::Result(k) = graph.node(*id).op else { continue };
+            let kept = regions[1].results[k as usize];
+            if graph.ty(*id).is_array() {
+                if self.webs.variable(*id).is_none() {
+                    self.open_web(*id, kept)?;
+                }
+                continue;
+            }
+            let begin = if idle { Some(self.text(kept)?.code) } else { None };
+            let name = self.names.of(graph, *id, self.plan.origin(*id));
+            let line = self.dialect.mutable(&name, graph.ty(*id), begin.as_deref());
+            self.statement(*id, line);
+            self.texts[id.0 as usize] = Some(Text::name(name));
+        }
+        let condition = self.text(graph.node(node).args[0])?;
+        self.line(self.dialect.if_head(&condition));
+        self.statements += 1;
+        let before = self.webs.snapshot();
+        self.side(then, &results, &regions[0].results, false)?;
+        if !idle || self.must_set_arrays(&results, &regions[1].results, &before) {
+            self.webs.restore(&before);
+            self.line("} else {".to_owned());
+            self.side(otherwise, &results, &regions[1].results, idle)?;
+        }
+        self.line("}".to_owned());
+        self.webs.leave(&before);
+        for id in results.iter().filter(|id| graph.ty(**id).is_array()) {
+            self.webs.advance(*id);
+        }
+        Ok(())
+    }
+
+    /// Whether the idle side of a branch still has to write a literal into an array.
+    fn must_set_arrays(&self, results: &[NodeId], values: &[NodeId], _: &impl Sized) -> bool {
+        let graph = &self.compiled.graph;
+        results.iter().any(|id| {
+            let Op::Result(k) = graph.node(*id).op else { return false };
+            let value = values[k as usize];
+            graph.ty(*id).is_array() && graph.node(value).op == Op::MakeArray && !self.webs.holds(value)
+        })
+    }
+
+    fn side(&mut self, block: &Block, results: &[NodeId], values: &[NodeId], arrays_only: bool) -> Result<(), EmitError> {
+        let graph = &self.compiled.graph;
+        self.indent += 1;
+        self.block(block)?;
+        for id in results {
+            let Op::Result(k) = graph.node(*id).op else { continue };
+            let value = values[k as usize];
+            if graph.ty(*id).is_array() {
+                self.enter_web(*id, value)?;
+            } else if !arrays_only {
+                let target = self.text(*id)?.code;
+                let value = self.text(value)?.code;
+                self.statement(*id, format!("{target} = {value};"));
+            }
+        }
+        self.flush();
+        self.indent -= 1;
+        Ok(())
+    }
+
+    /// A statement, under a comment with those of the same place.
+    fn statement(&mut self, id: NodeId, line: String) {
+        self.statements += 1;
+        if let Some(origin) = self.plan.origin(id)
+            && !origin.name.is_empty()
+        {
+            let agrees = origin.counters.iter().all(|c| {
+                self.group.counters.iter().find(|known| known.name == c.name).is_none_or(|known| known.value == c.value)
+            });
+            if !agrees {
+                self.flush();
+            }
+            for counter in &origin.counters {
+                if !self.group.counters.contains(counter) {
+                    self.group.counters.push(counter.clone());
+                }
+            }
+            self.group.place.get_or_insert((origin.file, origin.line));
+        }
+        let indent = "    ".repeat(self.indent);
+        self.group.lines.push(format!("{indent}{line}"));
+    }
+
+    /// A line that belongs to no group.
+    fn line(&mut self, line: String) {
+        self.flush();
+        let indent = "    ".repeat(self.indent);
+        self.lines.push(format!("{indent}{line}"));
+    }
+
+    /// Ends a group: its comment, then its statements.
+    fn flush(&mut self) {
+        let group = std::mem::take(&mut self.group);
+        if group.lines.is_empty() {
+            return;
+        }
+        let indent = "    ".repeat(self.indent);
+        let graph = &self.compiled.graph;
+        if let Some((file, line)) = group.place {
+            let mut counters = group.counters;
+            counters.sort_by_key(|c| self.compiled_order(c));
+            let values: Vec<String> = counters.iter().map(|c| format!("{} {}", c.name, c.value)).collect();
+            let file = graph.files.get(file as usize).map_or("", String::as_str);
+            let colon = if values.is_empty() { "" } else { ": " };
+            self.lines.push(format!("{indent}// {}{colon}{file}:{line}", values.join(", ")));
+        }
+        self.lines.extend(group.lines);
+    }
+
+    /// Outer counters first: the order in which any origin that has all of them lists them.
+    fn compiled_order(&self, counter: &Counter) -> usize {
+        let lists = self.compiled.graph.origins.iter().flatten();
+        lists.filter_map(|o| o.counters.iter().position(|c| c.name == counter.name)).max().unwrap_or(0)
+    }
+}
+

@@ -1,0 +1,58 @@
+//! Why a kernel cannot be emitted.
+
+/// Why a kernel cannot be emitted.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum EmitError {
+    /// A constant that no shading language can write.
+    #[error("`{kernel}` needs the constant {value}, which {target} cannot write: bound it with `min` or `max` in the kernel")]
+    Constant {
+        /// The kernel.
+        kernel: String,
+        /// The constant.
+        value: String,
+        /// The language.
+        target: &'static str,
+    },
+    /// The size of the frame is needed and nothing tells it.
+    #[error("`{kernel}` asks for the frame's size but reads no texture, so its fragment shader cannot know: emit it for compute")]
+    NoFrame {
+        /// The kernel.
+        kernel: String,
+    },
+    /// An array of a kept loop is used after it was changed.
+    #[error("`{kernel}` uses an old version of the array `{array}` after changing it in a kept loop: copy what is needed before, or unroll fully")]
+    ArrayVersions {
+        /// The kernel.
+        kernel: String,
+        /// The array.
+        array: String,
+    },
+    /// A validator refused the text: a mistake of the emitter's.
+    #[error("the {target} text of `{kernel}` is not valid; this is a mistake in Straightline, please report it:\n{message}")]
+    Invalid {
+        /// The kernel.
+        kernel: String,
+        /// The language.
+        target: &'static str,
+        /// What the validator says.
+        message: String,
+    },
+    /// naga cannot say it in this language.
+    #[error("`{kernel}` cannot be written in {target}: {message}")]
+    Translate {
+        /// The kernel.
+        kernel: String,
+        /// The language.
+        target: &'static str,
+        /// What naga says.
+        message: String,
+    },
+    /// A template did not render: a mistake of the emitter's.
+    #[error("the shell of `{kernel}` did not render; this is a mistake in Straightline, please report it: {message}")]
+    Shell {
+        /// The kernel.
+        kernel: String,
+        /// What tera says.
+        message: String,
+    },
+}

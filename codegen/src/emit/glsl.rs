@@ -1,0 +1,200 @@
+//! GLSL 4.50 for Vulkan, with separate textures.
+
+use super::dialect::{Dialect, float, integer, operator};
+use super::resources::Resources;
+use super::text::{Binds, Text};
+use crate::ir::{BinaryOp, Scalar, Type, UnaryOp};
+
+/// GLSL 4.50.
+pub struct Glsl<'a> {
+    /// The shader's bindings.
+    pub resources: &'a Resources,
+}
+
+impl Dialect for Glsl<'_> {
+    fn name(&self) -> &'static str {
+        "glsl450"
+    }
+
+    fn ty(&self, ty: Type) -> String {
+        match ty {
+            Type::Value { scalar, lanes: 1 } => match scalar {
+                Scalar::F32 => "float",
+                Scalar::I32 => "int",
+                Scalar::U32 => "uint",
+                Scalar::Bool => "bool",
+            }
+            .to_owned(),
+            Type::Value { scalar, lanes } => {
+                let kind = match scalar {
+                    Scalar::F32 => "",
+                    Scalar::I32 => "i",
+                    Scalar::U32 => "u",
+                    Scalar::Bool => "b",
+                };
+                format!("{kind}vec{lanes}")
+            }
+            Type::Array { len, .. } => format!("{}[{len}]", self.ty(ty.element())),
+            Type::Results => "void".to_owned(),
+        }
+    }
+
+    fn scalar(&self, kind: Scalar, bits: u32) -> Text {
+        match kind {
+            Scalar::F32 => float(bits),
+            Scalar::I32 if bits as i32 == i32::MIN => Text::name("(-2147483647 - 1)"),
+            Scalar::I32 => integer(i64::from(bits as i32), ""),
+            Scalar::U32 => integer(i64::from(bits), "u"),
+            Scalar::Bool => Text::name(if bits != 0 { "true" } else { "false" }),
+        }
+    }
+
+    fn immutable(&self, name: &str, ty: Type, value: &str) -> String {
+        self.mutable(name, ty, Some(value))
+    }
+
+    fn mutable(&self, name: &str, ty: Type, value: Option<&str>) -> String {
+        let element = self.ty(ty.element());
+        let extent = match ty {
+            Type::Array { len, .. } => format!("[{len}]"),
+            _ => String::new(),
+        };
+        match value {
+            Some(value) => format!("{element} {name}{extent} = {value};"),
+            None => format!("{element} {name}{extent};"),
+        }
+    }
+
+    fn table(&self, name: &str, ty: Type, value: &str) -> String {
+        format!("const {}", self.mutable(name, ty, Some(value)))
+    }
+
+    fn loop_head(&self, counter: &str, start: &Text, end: &Text) -> String {
+        format!("for (int {counter} = {}; {counter} < {}; {counter}++) {{", start.code, end.code)
+    }
+
+    fn if_head(&self, condition: &Text) -> String {
+        format!("if ({}) {{", condition.code)
+    }
+
+    fn load(&self, texture: u32, coord: &Text, layer: Option<&Text>) -> Text {
+        let texture = self.resources.texture(texture);
+        let kind = if texture.layered { "sampler2DArray" } else { "sampler2D" };
+        let name = Text::name(format!("{kind}({}, {})", texture.name, super::resources::SAMPLER));
+        let coord = match layer {
+            Some(layer) => Text::call("ivec3", &[coord, layer]),
+            None => coord.clone(),
+        };
+        let texel = Text::call("texelFetch", &[&name, &coord, &Text::name("0")]);
+        match texture.components {
+            4 => texel,
+            n => Text::member(&texel, &"xyzw"[..n as usize]),
+        }
+    }
+
+    fn unary(&self, op: UnaryOp, ty: Type, x: &Text) -> Text {
+        use UnaryOp::*;
+        let function = match op {
+            Neg => return Text::prefix("-", x),
+            Not if ty.lanes() > 1 => "not",
+            Not => return Text::prefix("!", x),
+            BitNot => return Text::prefix("~", x),
+            Abs => "abs",
+            Sign => "sign",
+            Floor => "floor",
+            Ceil => "ceil",
+            Round => "roundEven",
+            Trunc => "trunc",
+            Fract => "fract",
+            Sqrt => "sqrt",
+            InverseSqrt => "inversesqrt",
+            Exp => "exp",
+            Exp2 => "exp2",
+            Log => "log",
+            Log2 => "log2",
+            Sin => "sin",
+            Cos => "cos",
+            Tan => "tan",
+            Asin => "asin",
+            Acos => "acos",
+            Atan => "atan",
+        };
+        Text::call(function, &[x])
+    }
+
+    fn binary(&self, op: BinaryOp, ty: Type, x: &Text, y: &Text) -> Text {
+        use BinaryOp::*;
+        let kind = ty.kind().unwrap_or(Scalar::F32);
+        let vector = ty.lanes() > 1;
+        let function = match op {
+            Min => Some("min"),
+            Max => Some("max"),
+            Pow => Some("pow"),
+            Atan2 => Some("atan"),
+            Eq if vector => Some("equal"),
+            Ne if vector => Some("notEqual"),
+            Lt if vector => Some("lessThan"),
+            Le if vector => Some("lessThanEqual"),
+            Gt if vector => Some("greaterThan"),
+            Ge if vector => Some("greaterThanEqual"),
+            _ => None,
+        };
+        if let Some(function) = function {
+            return Text::call(function, &[x, y]);
+        }
+        match (op, kind) {
+            // GLSL's own `%` takes integers only, and its `mod` floors.
+            (Rem, Scalar::F32) => {
+                let quotient = Text::infix(x, "/", y, Binds::Product);
+                let whole = Text::call("trunc", &[&quotient]);
+                let back = Text::infix(y, "*", &whole, Binds::Product);
+                Text::infix(x, "-", &back, Binds::Sum)
+            }
+            // Division by zero gives the dividend and its remainder 0, as in WGSL; GLSL leaves it open.
+            (Div | Rem, Scalar::I32 | Scalar::U32) if y.code.parse::<i64>().is_err() && !vector => {
+                let zero = self.scalar(kind, 0);
+                let none = Text::infix(y, "==", &zero, Binds::Comparison);
+                let (op, binds) = operator(op, kind).unwrap_or(("/", Binds::Product));
+                let some = Text::infix(x, op, y, binds);
+                let fallback = if op == "/" { x.clone() } else { zero };
+                self.select(&none, &fallback, &some)
+            }
+            (Shl | Shr, _) => {
+                let counts = self.construct(ty, &[&self.scalar(kind, 31)]);
+                let count = Text::infix(y, "&", &counts, Binds::Mixed);
+                Text::infix(x, if op == Shl { "<<" } else { ">>" }, &count, Binds::Mixed)
+            }
+            _ => {
+                let (op, binds) = operator(op, kind).unwrap_or(("+", Binds::Sum));
+                Text::infix(x, op, y, binds)
+            }
+        }
+    }
+
+    fn select(&self, condition: &Text, yes: &Text, no: &Text) -> Text {
+        let wrap = |t: &Text| if t.binds <= Binds::Ternary { format!("({})", t.code) } else { t.code.clone() };
+        Text {
+            code: format!("({} ? {} : {})", wrap(condition), wrap(yes), wrap(no)),
+            binds: Binds::Primary,
+            size: 1 + condition.size + yes.size + no.size,
+        }
+    }
+
+    fn convert(&self, from: Type, to: Type, x: &Text) -> Text {
+        // WGSL saturates; GLSL leaves numbers out of range open.
+        let bounds = match (from.kind(), to.kind()) {
+            (Some(Scalar::F32), Some(Scalar::I32)) => Some(("-2147483648.0", "2147483520.0")),
+            (Some(Scalar::F32), Some(Scalar::U32)) => Some(("0.0", "4294967040.0")),
+            _ => None,
+        };
+        let x = match bounds {
+            Some((low, high)) => Text::call("clamp", &[x, &Text::name(low), &Text::name(high)]),
+            None => x.clone(),
+        };
+        Text::call(&self.ty(to), &[&x])
+    }
+
+    fn uniform(&self, name: &str) -> Text {
+        Text::name(format!("{}.{name}", super::resources::UNIFORMS))
+    }
+}

@@ -1,0 +1,89 @@
+//! Names of values: from the kernel's own variables and the counters of the loops that they were made in.
+
+use super::resources::{OUTPUT, Resources, SAMPLER, UNIFORMS};
+use crate::ir::{Counter, Graph, NodeId, Op, Origin, Type};
+use std::collections::{BTreeSet, HashMap, HashSet};
+
+/// Whether a word has a meaning of its own in WGSL or GLSL.
+pub fn is_reserved(word: &str) -> bool {
+    use naga::keywords::wgsl;
+    wgsl::RESERVED.contains(&word)
+        || wgsl::BUILTIN_IDENTIFIER_SET.contains(word)
+        || super::shell::GLSL_WORDS.contains(&word)
+        || word.starts_with("gl_")
+        || word.starts_with("__")
+}
+
+/// Gives out names, each once.
+pub struct Names {
+    taken: HashSet<String>,
+    /// Short forms of counters' names.
+    short: HashMap<String, String>,
+}
+
+impl Names {
+    /// Names of a graph's values, with those of the shader's bindings taken.
+    pub fn new(graph: &Graph, resources: &Resources, entry: &str) -> Names {
+        let mut taken: HashSet<String> = ["pixel", "frame", "id", "position", OUTPUT, SAMPLER, UNIFORMS, entry, "main"]
+            .map(str::to_owned)
+            .into();
+        taken.extend(resources.read.iter().map(|(k, ..)| resources.texture(*k).name.clone()));
+        let counters: BTreeSet<&str> =
+            graph.origins.iter().flatten().flat_map(|o| &o.counters).map(|c| c.name.as_str()).collect();
+        let initial = |name: &str| name.chars().next().unwrap_or('k');
+        let short = counters.iter().map(|name| {
+            let alone = counters.iter().filter(|other| initial(other) == initial(name)).count() == 1;
+            ((*name).to_owned(), if alone { initial(name).to_string() } else { (*name).to_owned() })
+        });
+        Names { taken, short: short.collect() }
+    }
+
+    /// A name for a node.
+    pub fn of(&mut self, graph: &Graph, id: NodeId, origin: Option<&Origin>) -> String {
+        match origin {
+            Some(origin) if !origin.name.is_empty() => {
+                let suffix: String = origin.counters.iter().map(|c| self.counter(c)).collect();
+                self.fresh(&format!("{}{suffix}", origin.name))
+            }
+            _ => self.fresh(&plain(graph, id)),
+        }
+    }
+
+    /// `_s2`, or `_jn1` for -1.
+    fn counter(&self, counter: &Counter) -> String {
+        let short = self.short.get(&counter.name).map_or(counter.name.as_str(), String::as_str);
+        let sign = if counter.value < 0 { "n" } else { "" };
+        format!("_{short}{sign}{}", counter.value.unsigned_abs())
+    }
+
+    /// `wanted`, or with a number if that is taken.
+    pub fn fresh(&mut self, wanted: &str) -> String {
+        let base: String = wanted.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' }).collect();
+        // GLSL keeps two underscores in a row for itself, naga a digit at the end of a name for its own suffixes.
+        let base = base.replace("__", "_");
+        let base = base.trim_start_matches('_');
+        let base = if base.is_empty() || base.starts_with(|c: char| c.is_ascii_digit()) { format!("v{base}") } else { base.to_owned() };
+        let mut name = if is_reserved(&base) { format!("{base}_value") } else { base.clone() };
+        let mut k = 2;
+        while !self.taken.insert(name.clone()) {
+            name = format!("{base}_{k}");
+            k += 1;
+        }
+        name
+    }
+}
+
+/// What a value without a variable is called.
+fn plain(graph: &Graph, id: NodeId) -> String {
+    let node = graph.node(id);
+    match &node.op {
+        Op::Load { texture, .. } => graph.textures[*texture as usize].name.clone() + "_texel",
+        Op::Binary(op) if op.is_comparison() => "holds".to_owned(),
+        Op::Dot => "dotted".to_owned(),
+        Op::Select | Op::Result(_) => "chosen".to_owned(),
+        Op::MakeArray => "table".to_owned(),
+        Op::Param(_, 0) => "k".to_owned(),
+        _ if node.ty == Type::value(crate::ir::Scalar::I32, 2) => "texel".to_owned(),
+        _ => "value".to_owned(),
+    }
+}

@@ -1,0 +1,98 @@
+//! Validation by naga, and the languages that naga writes.
+
+use super::error::EmitError;
+use super::resources::Resources;
+use naga::back::{hlsl, msl, spv};
+use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
+use straightline_manifest::Stage;
+
+/// A validated module.
+pub struct Module {
+    kernel: String,
+    module: naga::Module,
+    info: ModuleInfo,
+}
+
+impl Module {
+    /// Parses and validates WGSL.
+    pub fn parse_wgsl(kernel: &str, text: &str) -> Result<Module, EmitError> {
+        let invalid = |message| EmitError::Invalid { kernel: kernel.to_owned(), target: "wgsl", message };
+        let module = naga::front::wgsl::parse_str(text).map_err(|error| invalid(error.emit_to_string(text)))?;
+        let info = validate(&module).map_err(|error| invalid(error.emit_to_string(text)))?;
+        Ok(Module { kernel: kernel.to_owned(), module, info })
+    }
+
+    fn stage(resources: &Resources) -> naga::ShaderStage {
+        stage(resources.stage)
+    }
+
+    fn failed(&self, target: &'static str, message: impl ToString) -> EmitError {
+        EmitError::Translate { kernel: self.kernel.clone(), target, message: message.to_string() }
+    }
+
+    /// SPIR-V 1.3, little-endian words.
+    pub fn spirv(&self, resources: &Resources) -> Result<Vec<u8>, EmitError> {
+        let options = spv::Options { lang_version: (1, 3), flags: spv::WriterFlags::DEBUG, ..Default::default() };
+        let pipeline = spv::PipelineOptions {
+            shader_stage: Self::stage(resources),
+            entry_point: super::shell::entry_point(&self.kernel),
+        };
+        let words = spv::write_vec(&self.module, &self.info, &options, Some(&pipeline)).map_err(|e| self.failed("spirv", e))?;
+        Ok(words.into_iter().flat_map(u32::to_le_bytes).collect())
+    }
+
+    /// HLSL of shader model 5.1: group as space, binding as register.
+    pub fn hlsl(&self, _: &Resources) -> Result<String, EmitError> {
+        let mut text = String::new();
+        let (options, pipeline) = (hlsl::Options::default(), hlsl::PipelineOptions::default());
+        let mut writer = hlsl::Writer::new(&mut text, &options, &pipeline);
+        writer.write(&self.module, &self.info, None).map_err(|e| self.failed("hlsl", e))?;
+        Ok(text)
+    }
+
+    /// Metal: textures and buffers by their binding numbers.
+    pub fn msl(&self, resources: &Resources) -> Result<String, EmitError> {
+        let mut slots = msl::EntryPointResources::default();
+        let at = |binding| naga::ResourceBinding { group: 0, binding };
+        let textures = resources.read.iter().map(|(_, binding, _)| (*binding, false));
+        for (binding, mutable) in textures.chain(resources.output_binding().map(|b| (b, true))) {
+            let target = msl::BindTarget { texture: Some(binding as u8), mutable, ..Default::default() };
+            slots.resources.insert(at(binding), target);
+        }
+        if let Some(binding) = resources.uniform_binding() {
+            let target = msl::BindTarget { buffer: Some(binding as u8), ..Default::default() };
+            slots.resources.insert(at(binding), target);
+        }
+        let entry = super::shell::entry_point(&self.kernel);
+        let options = msl::Options {
+            lang_version: (2, 0),
+            per_entry_point_map: [(entry, slots)].into_iter().collect(),
+            fake_missing_bindings: false,
+            ..Default::default()
+        };
+        let pipeline = msl::PipelineOptions::default();
+        let (text, _) = msl::write_string(&self.module, &self.info, &options, &pipeline).map_err(|e| self.failed("msl", e))?;
+        Ok(text)
+    }
+}
+
+/// Parses and validates GLSL.
+pub fn check_glsl(kernel: &str, of: Stage, text: &str) -> Result<(), EmitError> {
+    let invalid = |message| EmitError::Invalid { kernel: kernel.to_owned(), target: "glsl450", message };
+    let options = naga::front::glsl::Options::from(stage(of));
+    let module =
+        naga::front::glsl::Frontend::default().parse(&options, text).map_err(|error| invalid(error.emit_to_string(text)))?;
+    validate(&module).map_err(|error| invalid(error.emit_to_string(text)))?;
+    Ok(())
+}
+
+fn stage(stage: Stage) -> naga::ShaderStage {
+    match stage {
+        Stage::Compute => naga::ShaderStage::Compute,
+        Stage::Fragment => naga::ShaderStage::Fragment,
+    }
+}
+
+fn validate(module: &naga::Module) -> Result<ModuleInfo, naga::WithSpan<naga::valid::ValidationError>> {
+    Validator::new(ValidationFlags::all(), Capabilities::empty()).validate(module)
+}

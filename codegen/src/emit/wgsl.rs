@@ -1,0 +1,146 @@
+//! WGSL.
+
+use super::dialect::{Dialect, float, integer, operator};
+use super::resources::Resources;
+use super::text::{Binds, Text};
+use crate::ir::{BinaryOp, Scalar, Type, UnaryOp};
+
+/// WGSL as WebGPU and wgpu read it.
+pub struct Wgsl<'a> {
+    /// The shader's bindings.
+    pub resources: &'a Resources,
+}
+
+impl Dialect for Wgsl<'_> {
+    fn name(&self) -> &'static str {
+        "wgsl"
+    }
+
+    fn ty(&self, ty: Type) -> String {
+        type_name(ty)
+    }
+
+    fn scalar(&self, kind: Scalar, bits: u32) -> Text {
+        match kind {
+            Scalar::F32 => float(bits),
+            Scalar::I32 if bits as i32 == i32::MIN => Text::name("i32(-2147483648)"),
+            Scalar::I32 => integer(i64::from(bits as i32), ""),
+            Scalar::U32 => integer(i64::from(bits), "u"),
+            Scalar::Bool => Text::name(if bits != 0 { "true" } else { "false" }),
+        }
+    }
+
+    fn immutable(&self, name: &str, _: Type, value: &str) -> String {
+        format!("let {name} = {value};")
+    }
+
+    fn mutable(&self, name: &str, ty: Type, value: Option<&str>) -> String {
+        match value {
+            Some(value) => format!("var {name} = {value};"),
+            None => format!("var {name}: {};", self.ty(ty)),
+        }
+    }
+
+    fn table(&self, name: &str, _: Type, value: &str) -> String {
+        format!("const {name} = {value};")
+    }
+
+    fn loop_head(&self, counter: &str, start: &Text, end: &Text) -> String {
+        format!("for (var {counter} = {}; {counter} < {}; {counter}++) {{", start.code, end.code)
+    }
+
+    fn if_head(&self, condition: &Text) -> String {
+        format!("if {} {{", condition.code)
+    }
+
+    fn load(&self, texture: u32, coord: &Text, layer: Option<&Text>) -> Text {
+        let texture = self.resources.texture(texture);
+        let name = Text::name(texture.name.as_str());
+        let level = Text::name("0");
+        let mut args = vec![&name, coord];
+        args.extend(layer);
+        args.push(&level);
+        let texel = Text::call("textureLoad", &args);
+        match texture.components {
+            4 => texel,
+            n => Text::member(&texel, &"xyzw"[..n as usize]),
+        }
+    }
+
+    fn unary(&self, op: UnaryOp, _: Type, x: &Text) -> Text {
+        use UnaryOp::*;
+        let function = match op {
+            Neg => return Text::prefix("-", x),
+            Not => return Text::prefix("!", x),
+            BitNot => return Text::prefix("~", x),
+            Abs => "abs",
+            Sign => "sign",
+            Floor => "floor",
+            Ceil => "ceil",
+            Round => "round",
+            Trunc => "trunc",
+            Fract => "fract",
+            Sqrt => "sqrt",
+            InverseSqrt => "inverseSqrt",
+            Exp => "exp",
+            Exp2 => "exp2",
+            Log => "log",
+            Log2 => "log2",
+            Sin => "sin",
+            Cos => "cos",
+            Tan => "tan",
+            Asin => "asin",
+            Acos => "acos",
+            Atan => "atan",
+        };
+        Text::call(function, &[x])
+    }
+
+    fn binary(&self, op: BinaryOp, ty: Type, x: &Text, y: &Text) -> Text {
+        let kind = ty.kind().unwrap_or(Scalar::F32);
+        if matches!(op, BinaryOp::Shl | BinaryOp::Shr) {
+            // WGSL shifts by unsigned counts, and makes a constant count of 32 or more an error.
+            let counts = ty.with_scalar(Scalar::U32);
+            let count = if kind == Scalar::U32 { y.clone() } else { Text::call(&self.ty(counts), &[y]) };
+            let mask = Text::call(&self.ty(counts), &[&Text::name("31u")]);
+            let count = Text::infix(&count, "&", &mask, Binds::Mixed);
+            let op = if op == BinaryOp::Shl { "<<" } else { ">>" };
+            return Text::infix(x, op, &count, Binds::Mixed);
+        }
+        match operator(op, kind) {
+            Some((op, binds)) => Text::infix(x, op, y, binds),
+            None => {
+                let function = match op {
+                    BinaryOp::Min => "min",
+                    BinaryOp::Max => "max",
+                    BinaryOp::Pow => "pow",
+                    _ => "atan2",
+                };
+                Text::call(function, &[x, y])
+            }
+        }
+    }
+
+    fn select(&self, condition: &Text, yes: &Text, no: &Text) -> Text {
+        Text::call("select", &[no, yes, condition])
+    }
+
+    fn convert(&self, _: Type, to: Type, x: &Text) -> Text {
+        Text::call(&self.ty(to), &[x])
+    }
+
+    fn uniform(&self, name: &str) -> Text {
+        Text::name(format!("{}.{name}", super::resources::UNIFORMS))
+    }
+}
+
+/// A type as WGSL spells it.
+pub fn type_name(ty: Type) -> String {
+    match ty {
+        Type::Value { scalar, lanes: 1 } => scalar.to_string(),
+        Type::Value { scalar: Scalar::Bool, lanes } => format!("vec{lanes}<bool>"),
+        Type::Value { scalar, lanes } => format!("vec{lanes}{}", &scalar.to_string()[..1]),
+        Type::Array { len, .. } => format!("array<{}, {len}>", type_name(ty.element())),
+        Type::Results => "void".to_owned(),
+    }
+}

@@ -1,0 +1,6 @@
+//! x
+use super::*;
+/// x
+pub fn builtin() -> Scene {
+    todo!()
+}

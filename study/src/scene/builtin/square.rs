@@ -1,0 +1,100 @@
+//! The ground, the fence, the trees and a faceted stone.
+
+use super::{noise, paint};
+use crate::scene::Material;
+use crate::scene::mesh::Mesh;
+use glam::{Affine3A, Vec3, vec3};
+use std::f32::consts::{PI, TAU};
+
+/// Half the side of the ground: far enough that haze has taken it.
+const REACH: f32 = 1500.0;
+
+pub(super) fn add(mesh: &mut Mesh) {
+    let corner = |x: f32, z: f32| vec3(x * REACH, 0.0, z * REACH);
+    let ground = [corner(-1.0, 1.0), corner(1.0, 1.0), corner(1.0, -1.0), corner(-1.0, -1.0)];
+    mesh.patch(&ground, vec3(0.46, 0.40, 0.33), Material::Tiles);
+    fence(mesh, vec3(-8.6, 0.0, 3.2), vec3(-10.5, 0.0, -46.0), 150);
+    fence(mesh, vec3(9.2, 0.0, -3.4), vec3(30.0, 0.0, -9.0), 90);
+    for (i, (x, z, height)) in
+        [(-6.9, -3.5, 4.6), (-7.7, -9.0, 5.6), (-7.9, -17.0, 5.2), (11.2, -9.0, 4.8), (17.5, -13.0, 5.4), (25.0, -15.0, 5.0)]
+            .into_iter()
+            .enumerate()
+    {
+        cypress(mesh, vec3(x, 0.0, z), height, i as u32);
+    }
+    let place = Affine3A::from_translation(vec3(-5.55, 0.0, 3.4));
+    mesh.at(place, monument);
+}
+
+/// Pickets with points and two rails, from one post to the other.
+fn fence(mesh: &mut Mesh, from: Vec3, to: Vec3, pickets: u32) {
+    let color = paint::TRIM * 0.8;
+    let along = (to - from).normalize();
+    let out = along.cross(Vec3::Y) * 0.02;
+    for height in [0.25, 0.85] {
+        let rise = Vec3::Y * height;
+        mesh.bar(from + rise - out, to + rise - out, 0.025, 4, color * 0.8);
+    }
+    for i in 0..=pickets {
+        let foot = from.lerp(to, i as f32 / pickets as f32);
+        let half = along * 0.045;
+        let plank = |y: f32| [foot - half - out, foot + half - out, foot + half + out, foot - half + out].map(|p| p + Vec3::Y * y);
+        mesh.hexahedron([plank(0.05), plank(0.95)], color);
+        let [a, b, c, d] = plank(0.95);
+        let tip = foot + Vec3::Y * 1.08;
+        for (p, q) in [(a, b), (b, c), (c, d), (d, a)] {
+            mesh.polygon(&[p, q, tip], color);
+        }
+    }
+}
+
+/// A slender tree of flat facets.
+fn cypress(mesh: &mut Mesh, foot: Vec3, height: f32, seed: u32) {
+    const RINGS: u32 = 9;
+    const SIDES: u32 = 9;
+    mesh.bar(foot, foot + Vec3::Y * 0.6, 0.09, 6, paint::TIMBER);
+    let point = |ring: u32, side: u32| {
+        let share = ring as f32 / RINGS as f32;
+        let side = side % SIDES;
+        let wobble = 0.8 + 0.4 * noise(seed * 997 + ring * SIDES + side);
+        let radius = height * 0.16 * (PI * share.powf(0.65)).sin().max(0.0).powf(0.8) * wobble;
+        let angle = TAU * (side as f32 + 0.5 * (ring % 2) as f32) / SIDES as f32;
+        foot + vec3(angle.cos() * radius, 0.35 + share * (height - 0.35), -angle.sin() * radius)
+    };
+    for ring in 0..RINGS {
+        for side in 0..SIDES {
+            let tint = 0.75 + 0.5 * noise(seed * 131 + ring * SIDES + side);
+            let color = vec3(0.045, 0.115, 0.035) * tint;
+            let (a, b) = (point(ring, side), point(ring, side + 1));
+            let (c, d) = (point(ring + 1, side + 1), point(ring + 1, side));
+            mesh.polygon(&[a, b, c], color);
+            mesh.polygon(&[a, c, d], color);
+        }
+    }
+}
+
+/// A stone of large facets, creases without a step in depth, on a pedestal that is smooth.
+fn monument(mesh: &mut Mesh) {
+    mesh.block(vec3(-0.75, 0.0, -0.75), vec3(0.75, 0.14, 0.75), paint::STONE);
+    mesh.block(vec3(-0.6, 0.14, -0.6), vec3(0.6, 0.28, 0.6), paint::STONE);
+    mesh.frustum([(vec3(0.0, 0.28, 0.0), 0.42), (vec3(0.0, 0.95, 0.0), 0.32)], 32, paint::TRIM, true);
+    mesh.frustum([(vec3(0.0, 0.95, 0.0), 0.46), (vec3(0.0, 1.05, 0.0), 0.46)], 32, paint::TRIM, true);
+    const SIDES: u32 = 11;
+    const RINGS: u32 = 6;
+    let point = |ring: u32, side: u32| {
+        let polar = PI * ring as f32 / RINGS as f32;
+        let angle = TAU * (side as f32 + 0.5 * ring as f32) / SIDES as f32;
+        let around = vec3(angle.cos(), 0.0, -angle.sin()) * polar.sin();
+        (around - Vec3::Y * polar.cos()) * 0.55 + Vec3::Y * 1.56
+    };
+    for ring in 0..RINGS {
+        for side in 0..SIDES {
+            let color = vec3(0.62, 0.60, 0.58);
+            let (a, b) = (point(ring, side), point(ring, side + 1));
+            let (c, d) = (point(ring + 1, side + 1), point(ring + 1, side));
+            // Rings are turned by half a side against each other: two triangles that meet in a crease.
+            mesh.polygon(&[a, b, d], color);
+            mesh.polygon(&[b, c, d], color);
+        }
+    }
+}

@@ -1,0 +1,161 @@
+//! From the parts of a file, checked, to one mesh of a known size and place.
+
+use super::MAX_TRIANGLES;
+use super::surface::{face_normal, flat_normals, smooth_normals};
+use crate::scene::{Material, Vertex};
+use glam::Vec3;
+
+/// A stretch of triangles as a file gives them, in the file's world space. Nothing of it is trusted.
+pub(super) struct Part {
+    /// What the file calls it, for messages.
+    pub name: String,
+    pub positions: Vec<Vec3>,
+    pub normals: Normals,
+    /// Linear; one for each position.
+    pub colors: Vec<Vec3>,
+    pub triangles: Vec<[u32; 3]>,
+}
+
+/// Where a part's normals come from.
+pub(super) enum Normals {
+    /// One for each position, of any length above 0.
+    Given(Vec<Vec3>),
+    /// Each face's own.
+    Flat,
+    /// The mean of the faces that meet in a point at a low angle.
+    Smooth,
+}
+
+/// A checked mesh around the origin.
+pub(super) struct Assembled {
+    pub vertices: Vec<Vertex>,
+    pub triangles: Vec<[u32; 3]>,
+}
+
+/// Diagonal of the finished bounding box.
+const DIAGONAL: f32 = 10.0;
+
+/// Joins `parts`, or says what is wrong with one of them.
+pub(super) fn assemble(parts: Vec<Part>) -> Result<Assembled, String> {
+    let mut mesh = Assembled {
+        vertices: Vec::new(),
+        triangles: Vec::new(),
+    };
+    for part in parts {
+        check(&part)?;
+        if mesh.triangles.len() + part.triangles.len() > MAX_TRIANGLES {
+            return Err(format!("there are more than {MAX_TRIANGLES} triangles"));
+        }
+        mesh.add(part);
+    }
+    mesh.centre()?;
+    Ok(mesh)
+}
+
+fn check(part: &Part) -> Result<(), String> {
+    let name = &part.name;
+    let count = part.positions.len();
+    if let Some(at) = part.positions.iter().position(|position| !position.is_finite()) {
+        return Err(format!(
+            "{name}: vertex {at} of {count} is at {}, which is nowhere",
+            part.positions[at]
+        ));
+    }
+    if let Some(at) = part.colors.iter().position(|color| !color.is_finite()) {
+        return Err(format!("{name}: vertex {at} has the colour {}", part.colors[at]));
+    }
+    let beyond = |triangle: &&[u32; 3]| triangle.iter().any(|index| *index as usize >= count);
+    if let Some(triangle) = part.triangles.iter().find(beyond) {
+        return Err(format!(
+            "{name}: a triangle has the corners {triangle:?}, and there are {count} vertices"
+        ));
+    }
+    match &part.normals {
+        Normals::Given(normals) if normals.len() != count => Err(format!(
+            "{name}: there are {} normals for {count} vertices",
+            normals.len()
+        )),
+        Normals::Given(normals) => match normals.iter().position(|normal| !normal.is_finite()) {
+            Some(at) => Err(format!("{name}: vertex {at} has the normal {}", normals[at])),
+            None => Ok(()),
+        },
+        Normals::Flat | Normals::Smooth => Ok(()),
+    }
+}
+
+impl Assembled {
+    /// Adds a checked part: corners with a normal each, wound to agree with them.
+    fn add(&mut self, part: Part) {
+        let corner = |triangle: [u32; 3]| triangle.map(|index| part.positions[index as usize]);
+        let visible = part
+            .triangles
+            .iter()
+            .filter(|triangle| face_normal(corner(**triangle)).is_some());
+        let triangles: Vec<[u32; 3]> = visible.copied().collect();
+        let normals = match &part.normals {
+            Normals::Given(normals) => {
+                let given = |index: u32| normals[index as usize].try_normalize();
+                let faces = flat_normals(&part.positions, &triangles);
+                let faces = triangles.iter().zip(faces);
+                faces
+                    .map(|(corners, face)| std::array::from_fn(|i| given(corners[i]).unwrap_or(face[i])))
+                    .collect()
+            }
+            Normals::Flat => flat_normals(&part.positions, &triangles),
+            Normals::Smooth => smooth_normals(&part.positions, &triangles),
+        };
+        let mut last: Vec<Option<(u32, Vec3)>> = vec![None; part.positions.len()];
+        for (triangle, normals) in triangles.into_iter().zip(normals) {
+            let mut indices = [0, 1, 2].map(|i: usize| {
+                // Corners with one normal stay one vertex, as long as they follow one another.
+                let slot = &mut last[triangle[i] as usize];
+                match *slot {
+                    Some((index, normal)) if normal == normals[i] => index,
+                    _ => {
+                        let index = self.vertices.len() as u32;
+                        *slot = Some((index, normals[i]));
+                        self.vertices.push(Vertex {
+                            position: part.positions[triangle[i] as usize].into(),
+                            normal: normals[i].into(),
+                            color: part.colors[triangle[i] as usize].clamp(Vec3::ZERO, Vec3::ONE).into(),
+                            material: Material::Plain as u32,
+                        });
+                        index
+                    }
+                }
+            });
+            let outside: Vec3 = normals.into_iter().sum();
+            if face_normal(corner(triangle)).is_some_and(|face| face.dot(outside) < 0.0) {
+                indices.swap(1, 2);
+            }
+            self.triangles.push(indices);
+        }
+    }
+
+    /// Lower and upper corner of the bounding box.
+    pub fn bounds(&self) -> [Vec3; 2] {
+        let positions = self.vertices.iter().map(|vertex| Vec3::from(vertex.position));
+        positions.fold([Vec3::INFINITY, Vec3::NEG_INFINITY], |[min, max], position| {
+            [min.min(position), max.max(position)]
+        })
+    }
+
+    /// Moves and scales everything to where it can be looked at.
+    fn centre(&mut self) -> Result<(), String> {
+        if self.vertices.is_empty() {
+            return Ok(());
+        }
+        // In double precision: the box of numbers that are finite need not have a finite size.
+        let [min, max] = self.bounds().map(|corner| corner.as_dvec3());
+        let (centre, diagonal) = (0.5 * (min + max), (max - min).length());
+        if diagonal <= 0.0 || diagonal > f64::from(f32::MAX) {
+            return Err(format!("the model's bounding box has a diagonal of {diagonal}"));
+        }
+        let scale = f64::from(DIAGONAL) / diagonal;
+        for vertex in &mut self.vertices {
+            let position = Vec3::from(vertex.position).as_dvec3();
+            vertex.position = ((position - centre) * scale).as_vec3().into();
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,243 @@
+//! glTF 2.0, as text or binary.
+
+use super::accessor::{floats, indices};
+use super::assemble::{Normals, Part};
+use super::texture::Texture;
+use super::{MAX_TRIANGLES, read_file};
+use crate::scene::SceneError;
+use glam::{Mat3, Mat4, Vec2, Vec3};
+use gltf::buffer::Data;
+use gltf::mesh::{Mode, Primitive};
+use gltf::{Document, Gltf, Semantic};
+use std::collections::{HashMap, HashSet};
+use std::path::Path;
+
+/// Every mesh of the default scene, in world space.
+pub(super) fn read(path: &Path) -> Result<Vec<Part>, SceneError> {
+    let bytes = read_file(path)?;
+    let parts = || {
+        let Gltf { document, blob } = Gltf::from_slice(&bytes).map_err(|error| error.to_string())?;
+        check_uris(&document)?;
+        let buffers = gltf::import_buffers(&document, path.parent(), blob).map_err(|error| error.to_string())?;
+        let model = Model {
+            base: path.parent(),
+            buffers: &buffers,
+            document: &document,
+        };
+        model.parts()
+    };
+    parts().map_err(|problem| SceneError::Malformed {
+        path: path.to_owned(),
+        problem,
+    })
+}
+
+/// Refuses names that are no text, which the `gltf` crate would stumble over.
+fn check_uris(document: &Document) -> Result<(), String> {
+    let buffers = document.buffers().filter_map(|buffer| match buffer.source() {
+        gltf::buffer::Source::Uri(uri) => Some(uri),
+        gltf::buffer::Source::Bin => None,
+    });
+    let images = document.images().filter_map(|image| match image.source() {
+        gltf::image::Source::Uri { uri, .. } => Some(uri),
+        gltf::image::Source::View { .. } => None,
+    });
+    match buffers.chain(images).find(|uri| !is_text(uri)) {
+        Some(uri) => Err(format!("the URI `{uri}` does not stand for UTF-8 text")),
+        None => Ok(()),
+    }
+}
+
+/// Whether `uri` is text once its percent escapes are resolved.
+fn is_text(uri: &str) -> bool {
+    let bytes = uri.as_bytes();
+    let mut decoded = Vec::with_capacity(bytes.len());
+    let mut at = 0;
+    while at < bytes.len() {
+        let digits = uri.get(at + 1..at + 3).filter(|_| bytes[at] == b'%');
+        match digits.and_then(|digits| u8::from_str_radix(digits, 16).ok()) {
+            Some(byte) => {
+                decoded.push(byte);
+                at += 3;
+            }
+            None => {
+                decoded.push(bytes[at]);
+                at += 1;
+            }
+        }
+    }
+    String::from_utf8(decoded).is_ok()
+}
+
+struct Model<'a> {
+    base: Option<&'a Path>,
+    buffers: &'a [Data],
+    document: &'a Document,
+}
+
+impl Model<'_> {
+    fn parts(&self) -> Result<Vec<Part>, String> {
+        let scene = self.document.default_scene().or_else(|| self.document.scenes().next());
+        let scene = scene.ok_or("it has no scene")?;
+        let mut parts = Vec::new();
+        let mut textures = HashMap::new();
+        let mut triangles = 0;
+        // A list rather than recursion: a file may nest its nodes as deeply, or in as vicious circles, as it likes.
+        let mut seen = HashSet::new();
+        let mut ahead: Vec<(gltf::Node, Mat4)> = scene.nodes().map(|node| (node, Mat4::IDENTITY)).collect();
+        while let Some((node, outer)) = ahead.pop() {
+            if !seen.insert(node.index()) {
+                return Err(format!("node {} has two parents, or is its own ancestor", node.index()));
+            }
+            let place = outer * Mat4::from_cols_array_2d(&node.transform().matrix());
+            for primitive in node.mesh().iter().flat_map(|mesh| mesh.primitives()) {
+                let mesh = node.mesh().map_or(0, |mesh| mesh.index());
+                let name = format!("mesh {mesh}, primitive {}", primitive.index());
+                let part = self.part(&name, &primitive, place, &mut textures);
+                let part = part.map_err(|problem| format!("{name}: {problem}"))?;
+                triangles += part.triangles.len();
+                if triangles > MAX_TRIANGLES {
+                    return Err(format!("there are more than {MAX_TRIANGLES} triangles"));
+                }
+                parts.push(part);
+            }
+            ahead.extend(node.children().map(|child| (child, place)));
+        }
+        Ok(parts)
+    }
+
+    fn part(
+        &self,
+        name: &str,
+        primitive: &Primitive,
+        place: Mat4,
+        textures: &mut HashMap<usize, Texture>,
+    ) -> Result<Part, String> {
+        let positions = primitive.get(&Semantic::Positions).ok_or("it has no positions")?;
+        let positions = vectors(&floats::<3>(&positions, self.buffers)?);
+        let normals = match primitive.get(&Semantic::Normals) {
+            Some(normals) => {
+                // Normals stay at right angles to surfaces, whatever the scale along each axis.
+                let rotate = cofactor(Mat3::from_mat4(place));
+                let normals = vectors(&floats::<3>(&normals, self.buffers)?);
+                Normals::Given(normals.into_iter().map(|normal| rotate * normal).collect())
+            }
+            None => Normals::Flat,
+        };
+        let corners = match primitive.indices() {
+            Some(accessor) => indices(&accessor, self.buffers)?,
+            None => (0..positions.len() as u32).collect(),
+        };
+        Ok(Part {
+            name: name.to_owned(),
+            colors: self.colors(primitive, positions.len(), textures)?,
+            positions: positions
+                .into_iter()
+                .map(|position| place.transform_point3(position))
+                .collect(),
+            normals,
+            triangles: triangles(primitive.mode(), &corners),
+        })
+    }
+
+    /// Linear colour of each of `count` vertices.
+    fn colors(
+        &self,
+        primitive: &Primitive,
+        count: usize,
+        textures: &mut HashMap<usize, Texture>,
+    ) -> Result<Vec<Vec3>, String> {
+        let material = primitive.material().pbr_metallic_roughness();
+        let [r, g, b, _] = material.base_color_factor();
+        let mut colors = vec![Vec3::new(r, g, b); count];
+        let mut tint = |tints: Vec<Vec3>| match tints.len() == count {
+            true => {
+                colors.iter_mut().zip(tints).for_each(|(color, tint)| *color *= tint);
+                Ok(())
+            }
+            false => Err(format!(
+                "{} colours or texture coordinates for {count} vertices",
+                tints.len()
+            )),
+        };
+        if let Some(accessor) = primitive.get(&Semantic::Colors(0)) {
+            tint(match accessor.dimensions() {
+                gltf::accessor::Dimensions::Vec4 => floats::<4>(&accessor, self.buffers)?
+                    .into_iter()
+                    .map(|[r, g, b, _]| Vec3::new(r, g, b))
+                    .collect(),
+                _ => vectors(&floats::<3>(&accessor, self.buffers)?),
+            })?;
+        }
+        if let Some(info) = material.base_color_texture()
+            && let Some(accessor) = primitive.get(&Semantic::TexCoords(info.tex_coord()))
+        {
+            let image = info.texture().source();
+            if !textures.contains_key(&image.index()) {
+                textures.insert(image.index(), self.texture(&image)?);
+            }
+            let texture = &textures[&image.index()];
+            let coordinates = floats::<2>(&accessor, self.buffers)?;
+            tint(coordinates.into_iter().map(|uv| texture.at(Vec2::from(uv))).collect())?;
+        }
+        Ok(colors)
+    }
+
+    fn texture(&self, image: &gltf::Image) -> Result<Texture, String> {
+        let bytes = || match image.source() {
+            gltf::image::Source::View { view, .. } => {
+                let bytes = self.buffers.get(view.buffer().index()).and_then(|buffer| {
+                    let end = view.offset().checked_add(view.length())?;
+                    buffer.get(view.offset()..end)
+                });
+                bytes
+                    .map(<[u8]>::to_vec)
+                    .ok_or_else(|| "reaches beyond its buffer".to_owned())
+            }
+            gltf::image::Source::Uri { uri, .. } => {
+                let source = gltf::buffer::Source::Uri(uri);
+                let data = Data::from_source(source, self.base).map_err(|error| format!("`{uri}`: {error}"))?;
+                Ok(data.0)
+            }
+        };
+        bytes()
+            .and_then(|bytes| Texture::decode(&bytes))
+            .map_err(|problem| format!("image {}: {problem}", image.index()))
+    }
+}
+
+fn vectors(arrays: &[[f32; 3]]) -> Vec<Vec3> {
+    arrays.iter().copied().map(Vec3::from).collect()
+}
+
+/// The inverse transpose times the determinant's magnitude: turns normals, and unlike it there is one even for
+/// flattened things.
+fn cofactor(matrix: Mat3) -> Mat3 {
+    let [x, y, z] = [matrix.x_axis, matrix.y_axis, matrix.z_axis];
+    let turned = Mat3::from_cols(y.cross(z), z.cross(x), x.cross(y));
+    if matrix.determinant() < 0.0 { -turned } else { turned }
+}
+
+/// Triangles of a primitive with these corners; none of points and lines.
+fn triangles(mode: Mode, corners: &[u32]) -> Vec<[u32; 3]> {
+    match mode {
+        Mode::Triangles => corners.chunks_exact(3).map(|c| [c[0], c[1], c[2]]).collect(),
+        Mode::TriangleStrip => {
+            let triples = corners.windows(3).enumerate();
+            triples
+                .map(|(i, c)| {
+                    if i % 2 == 0 {
+                        [c[0], c[1], c[2]]
+                    } else {
+                        [c[1], c[0], c[2]]
+                    }
+                })
+                .collect()
+        }
+        Mode::TriangleFan => {
+            let edges = corners.get(1..).unwrap_or_default().windows(2);
+            edges.map(|edge| [corners[0], edge[0], edge[1]]).collect()
+        }
+        Mode::Points | Mode::Lines | Mode::LineLoop | Mode::LineStrip => Vec::new(),
+    }
+}

@@ -1,0 +1,80 @@
+//! Reading models made elsewhere.
+
+mod accessor;
+mod assemble;
+mod gltf;
+mod obj;
+mod surface;
+mod texture;
+
+use super::{Camera, Scene, SceneError, Sky, Sun};
+use glam::Vec3;
+use std::path::Path;
+
+/// File name extensions that [`load()`] knows, in lower case.
+pub const EXTENSIONS: [&str; 3] = ["gltf", "glb", "obj"];
+
+/// Most triangles that are read from a file.
+pub const MAX_TRIANGLES: usize = 1 << 25;
+
+/// Reads a model, by the extension of `path`: glTF 2.0 (`gltf` with the files that it names, or `glb`) or Wavefront
+/// OBJ (with its material libraries). Upper or lower case.
+///
+/// - Every triangle of the default scene is read, at its node's place; skins, morph targets and animations are not
+///   applied, points and lines not drawn.
+/// - A vertex's colour is the base colour (`Kd` in OBJ, taken as linear) times the vertex's own, times the base
+///   colour texture (PNG or JPEG) read at the nearest texel. A texture's detail between vertices is thus lost, as
+///   is transparency.
+/// - Missing normals are made: the faces' own for glTF, as it asks, and for OBJ smoothed across edges of less than
+///   40°.
+/// - The model is moved and scaled so that its bounding box is centred on the origin and has a diagonal of 10
+///   units, so that steps between its surfaces are of the size that filters expect; and the camera has the whole
+///   box in a picture that is not higher than wide.
+///
+/// # Errors
+///
+/// [`SceneError`] names the file and what is wrong with it. Nothing in a file makes this panic.
+pub fn load(path: &Path) -> Result<Scene, SceneError> {
+    let extension = path.extension().and_then(|e| e.to_str()).unwrap_or_default();
+    let parts = match extension.to_ascii_lowercase().as_str() {
+        "gltf" | "glb" => gltf::read(path)?,
+        "obj" => obj::read(path)?,
+        _ => return Err(SceneError::UnknownExtension { path: path.to_owned() }),
+    };
+    let malformed = |problem| SceneError::Malformed {
+        path: path.to_owned(),
+        problem,
+    };
+    let mesh = assemble::assemble(parts).map_err(malformed)?;
+    if mesh.triangles.is_empty() {
+        return Err(SceneError::NoTriangles { path: path.to_owned() });
+    }
+    let bounds = mesh.bounds();
+    let scene = Scene {
+        vertices: mesh.vertices,
+        triangles: mesh.triangles,
+        sun: Sun {
+            direction: Vec3::new(0.35, 0.75, 0.55).normalize().into(),
+            color: [0.75, 0.71, 0.64],
+        },
+        sky: Sky {
+            zenith: [0.17, 0.29, 0.50],
+            horizon: [0.55, 0.64, 0.72],
+            ground: [0.16, 0.14, 0.12],
+            haze: 0.0,
+        },
+        camera: Camera::framing(bounds[0], bounds[1]),
+    };
+    scene.check()?;
+    Ok(scene)
+}
+
+fn read_file(path: &Path) -> Result<Vec<u8>, SceneError> {
+    std::fs::read(path).map_err(|source| SceneError::Io {
+        path: path.to_owned(),
+        source,
+    })
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,122 @@
+//! Wavefront OBJ with its material libraries.
+
+use super::assemble::{Normals, Part};
+use super::read_file;
+use super::texture::Texture;
+use crate::scene::SceneError;
+use glam::{Vec3, vec2, vec3};
+use std::cell::RefCell;
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+use tobj::{LoadError, Material, Mesh};
+
+/// What has no material, or a material without a colour: a light grey.
+const PLAIN: Vec3 = Vec3::splat(0.6);
+
+const OPTIONS: tobj::LoadOptions = tobj::LoadOptions {
+    single_index: true,
+    triangulate: true,
+    ignore_points: true,
+    ignore_lines: true,
+};
+
+/// Every object of the file.
+pub(super) fn read(path: &Path) -> Result<Vec<Part>, SceneError> {
+    let bytes = read_file(path)?;
+    let base = path.parent().unwrap_or(Path::new(""));
+    // The first library that cannot be read; the parser itself forgets which it was.
+    let failure = RefCell::new(None);
+    let library = |name: &Path| {
+        read_library(&base.join(name)).map_err(|(reason, error)| {
+            failure.borrow_mut().get_or_insert(error);
+            reason
+        })?
+    };
+    let mut rest = bytes.as_slice();
+    let loaded = tobj::load_obj_buf(&mut rest, &OPTIONS, library);
+    let (models, materials) = loaded.map_err(|error| {
+        let read = &bytes[..bytes.len() - rest.len()];
+        let line = read.iter().filter(|byte| **byte == b'\n').count();
+        SceneError::Malformed {
+            path: path.to_owned(),
+            problem: format!("in line {line}, or in an object that ends there: {error}"),
+        }
+    })?;
+    if let Some(error) = failure.into_inner() {
+        return Err(error);
+    }
+    // Any error here is the one just returned.
+    let materials = materials.unwrap_or_default();
+    let mut textures = HashMap::new();
+    let part = |model: tobj::Model| {
+        let material = model.mesh.material_id.and_then(|id| materials.get(id));
+        let colors = colors(&model.mesh, material, base, &mut textures)?;
+        Ok(part(model, colors))
+    };
+    models.into_iter().map(part).collect()
+}
+
+/// Reads a material library. Of an error, the second form is worth showing.
+fn read_library(path: &Path) -> Result<tobj::MTLLoadResult, (LoadError, SceneError)> {
+    let bytes = read_file(path).map_err(|error| (LoadError::OpenFileFailed, error))?;
+    match tobj::load_mtl_buf(&mut bytes.as_slice()) {
+        Ok(materials) => Ok(Ok(materials)),
+        Err(error) => {
+            let malformed = SceneError::Malformed {
+                path: path.to_owned(),
+                problem: error.to_string(),
+            };
+            Err((error, malformed))
+        }
+    }
+}
+
+fn part(model: tobj::Model, colors: Vec<Vec3>) -> Part {
+    let vectors = |numbers: &[f32]| -> Vec<Vec3> { numbers.chunks_exact(3).map(Vec3::from_slice).collect() };
+    let mesh = &model.mesh;
+    Part {
+        name: format!("object `{}`", model.name),
+        positions: vectors(&mesh.positions),
+        normals: match mesh.normals.as_slice() {
+            [] => Normals::Smooth,
+            normals => Normals::Given(vectors(normals)),
+        },
+        colors,
+        triangles: mesh.indices.chunks_exact(3).map(|c| [c[0], c[1], c[2]]).collect(),
+    }
+}
+
+/// Linear colour of each vertex.
+fn colors(
+    mesh: &Mesh,
+    material: Option<&Material>,
+    base: &Path,
+    textures: &mut HashMap<PathBuf, Texture>,
+) -> Result<Vec<Vec3>, SceneError> {
+    let count = mesh.positions.len() / 3;
+    let mut colors = vec![material.and_then(|m| m.diffuse).map_or(PLAIN, Vec3::from); count];
+    for (color, own) in colors.iter_mut().zip(mesh.vertex_color.chunks_exact(3)) {
+        // A vertex's own colour stands for itself, unless a material is there to be tinted.
+        let ground = if material.is_some() { *color } else { Vec3::ONE };
+        *color = ground * vec3(own[0], own[1], own[2]);
+    }
+    if let Some(name) = material.and_then(|m| m.diffuse_texture.as_ref())
+        && !mesh.texcoords.is_empty()
+    {
+        // Some exporters write the paths of the system that they run on.
+        let path = base.join(name.replace('\\', "/"));
+        if !textures.contains_key(&path) {
+            let texture = Texture::decode(&read_file(&path)?).map_err(|problem| SceneError::Malformed {
+                path: path.clone(),
+                problem,
+            })?;
+            textures.insert(path.clone(), texture);
+        }
+        let texture = &textures[&path];
+        // Here v points up.
+        for (color, uv) in colors.iter_mut().zip(mesh.texcoords.chunks_exact(2)) {
+            *color *= texture.at(vec2(uv[0], 1.0 - uv[1]));
+        }
+    }
+    Ok(colors)
+}
