@@ -6,6 +6,7 @@ mod cpu;
 mod failure;
 mod gpu;
 mod resolve;
+mod scene;
 mod table;
 mod timing;
 

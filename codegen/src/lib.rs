@@ -11,6 +11,8 @@
 //! # Ok::<(), straightline_codegen::diagnostic::Errors>(())
 //! ```
 
+pub mod config;
+pub mod default_set;
 pub mod diagnostic;
 pub mod emit;
 mod eval;
@@ -20,5 +22,7 @@ pub mod ir;
 pub mod passes;
 mod pipeline;
 
+pub use config::Config;
 pub use eval::{OptionInfo, OptionKind, Unroll};
+pub use straightline_manifest::{Format, Manifest, Stage};
 pub use pipeline::{Compiled, Kernel, Observer, Settings};

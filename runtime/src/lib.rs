@@ -61,3 +61,12 @@ pub use uniforms::{UniformType, UniformValue};
 
 /// The wgpu that this crate was built with, so that callers and generated code use the same one.
 pub use wgpu;
+
+/// Includes the modules that `straightline_codegen::Config::compile` wrote in this crate's `build.rs`: one for each
+/// shader, with its `Pass` and `Inputs`.
+#[macro_export]
+macro_rules! include_shaders {
+    () => {
+        include!(concat!(env!("OUT_DIR"), "/straightline.rs"));
+    };
+}

@@ -41,6 +41,7 @@ pub fn body(compiled: &Compiled, resources: &Resources, entry: &str, dialect: &d
         lines: Vec::new(),
         indent: 1,
         group: Group::default(),
+        commented: None,
         statements: 0,
     };
     writer.block(&compiled.schedule.body)?;
@@ -60,6 +61,8 @@ struct Writer<'a> {
     lines: Vec<String>,
     indent: usize,
     group: Group,
+    /// Place and outer counters of the last comment.
+    commented: Option<((u32, u32), Vec<Counter>)>,
     statements: u32,
 }
 
@@ -453,13 +456,20 @@ impl Writer<'_> {
         }
         let indent = "    ".repeat(self.indent);
         let graph = &self.compiled.graph;
-        if let Some((file, line)) = group.place {
-            let mut counters = group.counters;
-            counters.sort_by_key(|c| self.compiled_order(c));
+        let mut counters = group.counters;
+        counters.sort_by_key(|c| self.compiled_order(c));
+        // The same line for the next innermost counter speaks for itself: the names carry it.
+        let outer = counters[..counters.len().saturating_sub(1)].to_vec();
+        let place = group.place.map(|place| (place, outer));
+        let repeated = place.is_some() && place == self.commented;
+        if let Some(((file, line), _)) = &place
+            && !repeated
+        {
             let values: Vec<String> = counters.iter().map(|c| format!("{} {}", c.name, c.value)).collect();
-            let file = graph.files.get(file as usize).map_or("", String::as_str);
+            let file = graph.files.get(*file as usize).map_or("", String::as_str);
             let colon = if values.is_empty() { "" } else { ": " };
             self.lines.push(format!("{indent}// {}{colon}{file}:{line}", values.join(", ")));
+            self.commented = place;
         }
         self.lines.extend(group.lines);
     }

@@ -19,6 +19,14 @@ pub enum EmitError {
         /// The kernel.
         kernel: String,
     },
+    /// A binding whose name is a word of a shading language.
+    #[error("`{kernel}` calls an input `{name}`, which is a word of WGSL or GLSL: give the parameter another name")]
+    Reserved {
+        /// The kernel.
+        kernel: String,
+        /// The input.
+        name: String,
+    },
     /// An array of a kept loop is used after it was changed.
     #[error("`{kernel}` uses an old version of the array `{array}` after changing it in a kept loop: copy what is needed before, or unroll fully")]
     ArrayVersions {

@@ -24,7 +24,7 @@ use crate::pipeline::Compiled;
 use std::collections::{BTreeMap, BTreeSet};
 use straightline_manifest::{Format, Manifest, Stage};
 
-pub use bindings::bindings;
+pub use bindings::{Module, bindings};
 pub use error::EmitError;
 pub use target::Target;
 

@@ -49,6 +49,12 @@ impl Resources {
         let used = |k: u32| graph.ids().filter(live).any(|id| graph.node(id).op == Op::Uniform(k));
         let uniforms: Vec<&Uniform> =
             graph.uniforms.iter().enumerate().filter(|(k, _)| used(*k as u32)).map(|(_, u)| u).collect();
+        let textures_read = read.iter().map(|(k, ..)| &graph.textures[*k as usize].name);
+        let bound = textures_read.chain(uniforms.iter().map(|u| &u.name));
+        let own = [UNIFORMS, SAMPLER, OUTPUT, "frame", "pixel", "id", "position"];
+        if let Some(name) = bound.into_iter().find(|name| super::names::is_reserved(name) || own.contains(&name.as_str())) {
+            return Err(EmitError::Reserved { kernel: compiled.kernel.clone(), name: name.clone() });
+        }
         let (fields, uniform_size) = layout(&uniforms);
         let needs_frame = stage == Stage::Compute || graph.ids().filter(live).any(|id| graph.node(id).op == Op::FrameSize);
         if needs_frame && stage == Stage::Fragment && read.is_empty() {

@@ -33,22 +33,22 @@ pub struct Surface {
 impl GBuffer {
     /// The surface seen at `sample` of `pixel`.
     pub fn surface(&self, pixel: IVec2, sample: usize) -> Surface {
-        Surface { depth: self.depth.load(pixel, sample), normal: self.normal.load(pixel, sample) }
+        Surface { depth: self.depth.load(pixel, sample).min(FAR), normal: self.normal.load(pixel, sample) }
     }
 }
 
-/// More than any two surfaces that a weight can tell apart, and finite: the sky's infinite depth less itself is
-/// not a number, and so is the shift of an infinite difference.
+/// More than any depth, and than any difference that a weight can tell apart, and finite: the sky's infinite depth less
+/// itself is not a number, and neither is an infinite difference less itself.
 pub(super) const FAR: f32 = 1.0e30;
 
 /// How different two surfaces are: 0 for the same, 1 or more for unrelated ones.
 pub(super) fn distance(cfg: &Sraa, a: &Surface, b: &Surface) -> f32 {
     let depths = cfg.depth_scale * (a.depth - b.depth).abs();
-    let d = match cfg.metric {
+    let larger = match cfg.metric {
         Metric::DepthNormals => depths.max(normal_distance(a.normal, b.normal)),
         Metric::Depth => depths,
     };
-    tally("weight_evaluations", d.min(FAR))
+    tally("weight_evaluations", larger.min(FAR))
 }
 
 /// 1 - a·b of two unit vectors, as ½|a - b|²: the same number without the cancellation.

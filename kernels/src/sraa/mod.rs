@@ -102,7 +102,8 @@ pub fn sraa(cfg: &Sraa, gbuffer: &GBuffer, color: &Frame<Vec4>, pixel: IVec2) ->
     for tap in 0..TAPS {
         // A tap that no sample wants must not be read: 0 times an infinite colour is not 0.
         if weights[tap] != 0.0 {
-            result += weights[tap] * color.load(pixel + offset(tap));
+            let shaded = color.load(pixel + offset(tap));
+            result += weights[tap] * shaded;
         }
     }
     result

@@ -1,1 +1,99 @@
-//! r
+//! The deferred testbed: a scene's geometry and colour at any place of a pixel, on a GPU or on the CPU.
+//!
+//! Both renderers rasterise depth, normal, colour and material to a G-buffer (paper §3.4: the projection is shifted
+//! by the sample's offset), then shade from that alone. What they draw agrees but for pixels whose sample lies
+//! within a rounding of a triangle's edge.
+
+mod cpu;
+mod error;
+mod gpu;
+mod reference;
+mod shade;
+mod study;
+#[cfg(test)]
+mod tests;
+
+use crate::scene::Camera;
+use glam::{DVec4, UVec2, Vec2, Vec3, Vec4};
+use straightline_kernels::prelude::Frame;
+
+pub use cpu::CpuRenderer;
+pub use error::RenderError;
+pub use gpu::GpuRenderer;
+pub use reference::{MAX_SIDE, reference};
+pub use study::capture;
+
+/// Draws one scene at one size, sampled anywhere in a pixel.
+///
+/// An `offset` is in pixels from each pixel's centre, x to the right, y down. Usually each axis is in -0.5..=0.5; any
+/// finite offset works, and a whole number shifts the picture.
+pub trait Renderer {
+    /// Width and height of what is drawn, in pixels.
+    fn size(&self) -> UVec2;
+
+    /// What the scene is seen with.
+    fn camera(&self) -> Camera;
+
+    /// Geometry seen `offset` from each pixel's centre: linear depth along the view direction in scene units, and
+    /// the unit normal in world space, on the side that is seen. The sky is at [`SKY_DEPTH`](crate::scene::SKY_DEPTH)
+    /// and has the normal (0, 0, 1).
+    ///
+    /// # Errors
+    ///
+    /// [`RenderError::Offset`] if `offset` is not finite; what a GPU refuses.
+    fn geometry(&self, offset: Vec2) -> Result<(Frame<f32>, Frame<Vec3>), RenderError>;
+
+    /// Linear colour of each pixel shaded `offset` from its centre: RGB in 0..=1, alpha 1.
+    ///
+    /// # Errors
+    ///
+    /// As [`geometry`](Self::geometry).
+    fn shaded(&self, offset: Vec2) -> Result<Frame<Vec4>, RenderError>;
+
+    /// Mean of the pictures shaded at each of `offsets`. `progress` is called with the number of pictures done and
+    /// of all pictures, before the first and after each.
+    ///
+    /// # Errors
+    ///
+    /// As [`geometry`](Self::geometry), and [`RenderError::NoOffsets`] if there are none.
+    fn accumulate(
+        &self,
+        offsets: &[Vec2],
+        progress: &mut dyn FnMut(usize, usize),
+    ) -> Result<Frame<Vec4>, RenderError> {
+        check_offsets(offsets)?;
+        let mut sums = vec![DVec4::ZERO; self.size().element_product() as usize];
+        progress(0, offsets.len());
+        for (done, offset) in offsets.iter().enumerate() {
+            let frame = self.shaded(*offset)?;
+            for (sum, texel) in sums.iter_mut().zip(frame.texels()) {
+                *sum += texel.as_dvec4();
+            }
+            progress(done + 1, offsets.len());
+        }
+        let mean = |sum: DVec4| (sum / offsets.len() as f64).as_vec4();
+        Ok(Frame::new(self.size(), sums.into_iter().map(mean).collect()))
+    }
+}
+
+/// Refuses no offsets at all, and those that are not numbers.
+fn check_offsets(offsets: &[Vec2]) -> Result<(), RenderError> {
+    if offsets.is_empty() {
+        return Err(RenderError::NoOffsets);
+    }
+    match offsets.iter().find(|offset| !offset.is_finite()) {
+        Some(offset) => Err(RenderError::Offset { offset: *offset }),
+        None => Ok(()),
+    }
+}
+
+/// Refuses pictures of no or of absurd size.
+fn check_size(size: UVec2) -> Result<(), RenderError> {
+    use crate::picture::{MAX_PIXELS, MAX_SIDE};
+    let pixels = u64::from(size.x) * u64::from(size.y);
+    if pixels == 0 || size.max_element() > MAX_SIDE || pixels > MAX_PIXELS {
+        let limit = format!("each side must be 1 to {MAX_SIDE} pixels, {MAX_PIXELS} pixels in all");
+        return Err(RenderError::Size { size, limit });
+    }
+    Ok(())
+}

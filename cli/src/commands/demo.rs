@@ -1,0 +1,262 @@
+//! `demo`: what Straightline does, in one run.
+
+use crate::args::DemoArgs;
+use crate::cpu::Bound;
+use crate::failure::Failure;
+use crate::gpu::{self, Gpu};
+use crate::resolve::{Inputs, Uploaded, on_gpu, pass};
+use crate::timing::{Clock, Times, interleaved};
+use crate::{scene, table};
+use glam::{UVec2, Vec4};
+use serde::Serialize;
+use std::time::{Instant, SystemTime};
+use straightline_codegen::{Compiled, Kernel, Settings, Unroll, default_set, files};
+use straightline_kernels::prelude::Frame;
+use straightline_manifest::Stage;
+use straightline_study::capture::{Capture, ShadingSample};
+use straightline_study::oracle::{self, SraaInputs, SraaParams};
+use straightline_study::render::{self, Renderer};
+use straightline_study::{metrics, picture};
+
+/// One antialiased picture and what it took.
+struct Method {
+    name: &'static str,
+    pattern: &'static str,
+    unrolled: Compiled,
+    looped: Compiled,
+    capture: Capture,
+}
+
+/// A line of the table.
+#[derive(Clone, Debug, Serialize)]
+struct Row {
+    method: String,
+    texture_reads: Option<u32>,
+    weight_evaluations: Option<u32>,
+    looped: Option<Times>,
+    unrolled: Option<Times>,
+    ratio: Option<f64>,
+    psnr_db: f64,
+    largest_difference_to_f64: Option<f64>,
+}
+
+/// The table with its circumstances.
+#[derive(Debug, Serialize)]
+struct Record {
+    command: String,
+    date: String,
+    scene: String,
+    size: [u32; 2],
+    executor: String,
+    clock: Clock,
+    reference: String,
+    rows: Vec<Row>,
+}
+
+/// Emits, renders, antialiases, compares, writes and prints.
+pub fn run(args: &DemoArgs) -> Result<(), Failure> {
+    let gpu = Gpu::open(&args.adapter)?;
+    if gpu.is_none() {
+        eprintln!("No GPU adapter: the same graphs run on the CPU interpreter instead. For the shaders, {}.", gpu::INSTALL);
+    }
+    let size = args.size.unwrap_or(if gpu.is_some() { UVec2::new(1280, 720) } else { UVec2::new(640, 360) });
+    let shaders = default_set::files().map_err(Failure::of)?;
+    files::write_all(&args.out.join("shaders"), &shaders).map_err(Failure::of)?;
+
+    let world = scene::load(args.mesh.as_deref())?;
+    let renderer = scene::renderer(gpu.as_ref(), &world, size)?;
+    let methods = [method("SRAA 4", "latin4", renderer.as_ref())?, method("SRAA 16", "latin16", renderer.as_ref())?];
+    let x16 = supersampled(renderer.as_ref(), 4, "16x supersampling")?;
+    let x256 = supersampled(renderer.as_ref(), 16, "256x reference")?;
+
+    let mut rows = vec![plain("1x, no antialiasing", &methods[0].capture.color, &x256)];
+    let mut pictures = vec![("1x", methods[0].capture.color.clone())];
+    let mut clock = Clock::WallClock;
+    for method in &methods {
+        let (resolved, [looped, unrolled], measured) = match &gpu {
+            Some(gpu) => on_adapter(gpu, method, args.rounds)?,
+            None => on_interpreter(method)?,
+        };
+        clock = measured;
+        rows.push(measured_row(method, &resolved, looped, unrolled, &x256)?);
+        pictures.push((method.name, resolved));
+    }
+    rows.push(plain("16x supersampling", &x16, &x256));
+    pictures.push(("16x supersampled", x16));
+    write_pictures(args, &pictures, &x256)?;
+
+    let executor = gpu.as_ref().map_or("CPU interpreter".to_owned(), Gpu::describe);
+    let record = Record {
+        command: std::env::args().collect::<Vec<_>>().join(" "),
+        date: humantime::format_rfc3339_seconds(SystemTime::now()).to_string(),
+        scene: args.mesh.as_ref().map_or("built-in".to_owned(), |p| p.display().to_string()),
+        size: size.to_array(),
+        executor,
+        clock,
+        reference: "256x supersampling, PSNR over linear RGB clamped to 0..1".to_owned(),
+        rows,
+    };
+    print(args, &record)
+}
+
+fn method(name: &'static str, pattern: &'static str, renderer: &dyn Renderer) -> Result<Method, Failure> {
+    let compile = |unroll| {
+        let options = vec![("pattern".to_owned(), pattern.to_owned())];
+        Kernel::builtin("sraa").and_then(|kernel| kernel.compile(&Settings { options, unroll }))
+    };
+    let (_, samples) = scene::pattern(pattern)?;
+    let capture = render::capture(renderer, &samples, ShadingSample::Centre).map_err(Failure::of)?;
+    Ok(Method { name, pattern, unrolled: compile(Unroll::Full)?, looped: compile(Unroll::None)?, capture })
+}
+
+fn supersampled(renderer: &dyn Renderer, side: u32, what: &'static str) -> Result<Frame<Vec4>, Failure> {
+    let bar = scene::bar(what);
+    let frame = render::reference(renderer, side, &mut scene::advance(&bar)).map_err(Failure::of)?;
+    bar.finish_and_clear();
+    Ok(frame)
+}
+
+fn inputs(method: &Method) -> Inputs<'_> {
+    let capture = &method.capture;
+    Inputs { color: &capture.color, depth: &capture.depth, normal: capture.normal.as_ref() }
+}
+
+/// The picture, times looped and unrolled, and what they were taken with.
+type Measured = (Frame<Vec4>, [Times; 2], Clock);
+
+fn on_adapter(gpu: &Gpu, method: &Method, rounds: u32) -> Result<Measured, Failure> {
+    let inputs = inputs(method);
+    let passes = [pass(gpu, &method.looped, Stage::Compute)?, pass(gpu, &method.unrolled, Stage::Compute)?];
+    let uploaded = Uploaded::new(gpu, &inputs)?;
+    let bar = scene::bar("timing, in turn");
+    bar.set_length(u64::from(rounds));
+    let (times, clock) = interleaved(gpu, &[&passes[0], &passes[1]], &uploaded, rounds, |k| bar.set_position(u64::from(k)))?;
+    bar.finish_and_clear();
+    let resolved = on_gpu(gpu, &method.unrolled, Stage::Compute, &inputs)?;
+    Ok((resolved, [times[0], times[1]], clock))
+}
+
+/// Three rounds in turn: the interpreter is there to show the result, not to be raced.
+fn on_interpreter(method: &Method) -> Result<Measured, Failure> {
+    let bound = Bound::new(&inputs(method))?;
+    let mut times = [Vec::new(), Vec::new()];
+    let mut resolved = None;
+    let bar = scene::bar("interpreting, in turn");
+    bar.set_length(3);
+    for _ in 0..3 {
+        for (times, compiled) in times.iter_mut().zip([&method.looped, &method.unrolled]) {
+            let start = Instant::now();
+            resolved = Some(bound.run(compiled)?);
+            times.push(start.elapsed());
+        }
+        bar.inc(1);
+    }
+    bar.finish_and_clear();
+    match (resolved, Times::of(&times[0]), Times::of(&times[1])) {
+        (Some(resolved), Some(looped), Some(unrolled)) => Ok((resolved, [looped, unrolled], Clock::WallClock)),
+        _ => Err(Failure::of("nothing was interpreted")),
+    }
+}
+
+fn plain(method: &str, frame: &Frame<Vec4>, reference: &Frame<Vec4>) -> Row {
+    Row {
+        method: method.to_owned(),
+        texture_reads: None,
+        weight_evaluations: None,
+        looped: None,
+        unrolled: None,
+        ratio: None,
+        psnr_db: metrics::psnr(frame, reference),
+        largest_difference_to_f64: None,
+    }
+}
+
+fn measured_row(
+    method: &Method,
+    resolved: &Frame<Vec4>,
+    looped: Times,
+    unrolled: Times,
+    reference: &Frame<Vec4>,
+) -> Result<Row, Failure> {
+    let capture = &method.capture;
+    let counts = &method.unrolled.counts;
+    let mut params = SraaParams::default();
+    params.set("pattern", method.pattern).map_err(Failure::of)?;
+    let inputs = SraaInputs { color: &capture.color, depth: &capture.depth, normal: capture.normal.as_ref() };
+    let exact = oracle::sraa(&inputs, &params);
+    Ok(Row {
+        texture_reads: Some(counts.texture_reads + counts.colour_reads),
+        weight_evaluations: counts.tallies.get("weight_evaluations").copied(),
+        looped: Some(looped),
+        unrolled: Some(unrolled),
+        ratio: Some(looped.median_ms / unrolled.median_ms),
+        largest_difference_to_f64: Some(metrics::max_abs_difference_to(resolved, &exact)),
+        ..plain(method.name, resolved, reference)
+    })
+}
+
+fn write_pictures(args: &DemoArgs, pictures: &[(&str, Frame<Vec4>)], reference: &Frame<Vec4>) -> Result<(), Failure> {
+    let save = |name: &str, frame: &Frame<Vec4>| picture::write(&args.out.join(name), frame).map_err(Failure::of);
+    for (name, frame) in pictures {
+        save(&format!("{}.png", name.to_lowercase().replace(' ', "-")), frame)?;
+    }
+    save("256x-reference.png", reference)?;
+    let (corner, side, zoom) = busiest(&pictures[0].1, reference);
+    let details: Vec<(&str, Frame<Vec4>)> =
+        pictures.iter().map(|(name, frame)| (*name, picture::detail(frame, corner.x, corner.y, side.x, side.y, zoom))).collect();
+    let columns: Vec<(&str, &Frame<Vec4>)> = details.iter().map(|(name, frame)| (*name, frame)).collect();
+    save("detail.png", &picture::montage(&columns))
+}
+
+/// Where antialiasing has most to do: the window with the largest error of the plain picture, and how much to enlarge it.
+fn busiest(plain: &Frame<Vec4>, reference: &Frame<Vec4>) -> (UVec2, UVec2, u32) {
+    let size = plain.size();
+    let side = UVec2::splat(80).min(size);
+    let error = |p: UVec2| {
+        let k = (p.y * size.x + p.x) as usize;
+        let apart = plain.texels()[k] - reference.texels()[k];
+        apart.truncate().length_squared()
+    };
+    let sum = |corner: UVec2| -> f32 {
+        (0..side.y).flat_map(|y| (0..side.x).map(move |x| UVec2::new(x, y))).map(|p| error(corner + p)).sum()
+    };
+    let steps = |length: u32, window: u32| (0..=(length - window)).step_by(16);
+    let corners = steps(size.y, side.y).flat_map(|y| steps(size.x, side.x).map(move |x| UVec2::new(x, y)));
+    let best = corners.map(|c| (sum(c), c)).max_by(|a, b| a.0.total_cmp(&b.0));
+    (best.map_or(UVec2::ZERO, |(_, corner)| corner), side, 5)
+}
+
+fn print(args: &DemoArgs, record: &Record) -> Result<(), Failure> {
+    if args.json {
+        println!("{}", serde_json::to_string_pretty(record).map_err(Failure::of)?);
+        return Ok(());
+    }
+    let count = |n: Option<u32>| n.map_or(String::new(), |n| n.to_string());
+    let time = |t: Option<Times>| t.map_or(String::new(), |t| format!("{:.2} ms", t.median_ms));
+    let rows: Vec<Vec<String>> = record
+        .rows
+        .iter()
+        .map(|row| {
+            vec![
+                row.method.clone(),
+                count(row.texture_reads),
+                count(row.weight_evaluations),
+                time(row.looped),
+                time(row.unrolled),
+                row.ratio.map_or(String::new(), |r| format!("{r:.1}x")),
+                format!("{:.2} dB", row.psnr_db),
+                row.largest_difference_to_f64.map_or(String::new(), |d| format!("{d:.1e}")),
+            ]
+        })
+        .collect();
+    let headings = ["method", "reads", "weights", "looped", "unrolled", "ratio", "PSNR", "off f64 by"];
+    println!("{}", table::render(&headings, &rows));
+    let with = match record.clock {
+        Clock::GpuTimestamps => "GPU timestamps, shaders in turn",
+        Clock::WallClock => "wall clock, in turn",
+    };
+    println!("{}x{} on {}; medians by {with}.", record.size[0], record.size[1], record.executor);
+    println!("PSNR is against {}.", record.reference);
+    println!("Shaders, pictures and an enlarged detail are in {}.", args.out.display());
+    Ok(())
+}

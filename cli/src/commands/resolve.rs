@@ -1,0 +1,138 @@
+//! `resolve`: antialiases a captured frame.
+
+use crate::args::{Executor, OptionArgs, ResolveArgs};
+use crate::cpu::Bound;
+use crate::failure::Failure;
+use crate::gpu::Gpu;
+use crate::resolve::{Inputs, on_gpu};
+use crate::scene;
+use glam::{Vec2, Vec4};
+use serde_json::json;
+use straightline_codegen::{Compiled, Kernel};
+use straightline_kernels::prelude::Frame;
+use straightline_study::capture::{Capture, ShadingSample};
+use straightline_study::{metrics, picture};
+
+/// Reads a capture, resolves it with SRAA, writes the picture, prints errors if asked.
+pub fn run(args: &ResolveArgs) -> Result<(), Failure> {
+    check_extension(args)?;
+    let capture = Capture::read(&args.capture).map_err(Failure::of)?;
+    let settings = with_capture(&args.options, &capture)?;
+    let compiled = Kernel::builtin("sraa")?.compile(&settings.settings())?;
+    check_normals(&compiled, &capture)?;
+    let inputs = Inputs { color: &capture.color, depth: &capture.depth, normal: capture.normal.as_ref() };
+    let (resolved, by) = match args.executor {
+        Executor::Gpu => {
+            let gpu = Gpu::require(&args.adapter)?;
+            (on_gpu(&gpu, &compiled, args.stage.into(), &inputs)?, gpu.describe())
+        }
+        Executor::Cpu => (Bound::new(&inputs)?.run(&compiled)?, "CPU interpreter".to_owned()),
+    };
+    let errors = args.reference.then(|| errors(&capture, &resolved)).transpose()?;
+    picture::write(&args.out, &resolved).map_err(Failure::of)?;
+    report(args, &compiled, &by, &resolved, errors)
+}
+
+fn report(
+    args: &ResolveArgs,
+    compiled: &Compiled,
+    by: &str,
+    resolved: &Frame<Vec4>,
+    errors: Option<(f64, f64)>,
+) -> Result<(), Failure> {
+    let bad = metrics::non_finite(resolved);
+    if args.json {
+        let mut out = json!({
+            "out": args.out, "executor": by, "options": compiled.options,
+            "size": resolved.size().to_array(), "non_finite_pixels": bad,
+        });
+        if let Some((before, after)) = errors {
+            out["psnr_1x_db"] = json!(before);
+            out["psnr_db"] = json!(after);
+        }
+        println!("{out:#}");
+        return Ok(());
+    }
+    println!("{}", args.out.display());
+    if let Some((before, after)) = errors {
+        println!("PSNR against the reference: {after:.2} dB, and {before:.2} dB without antialiasing");
+    }
+    if bad > 0 {
+        println!("{bad} pixels are not finite");
+    }
+    Ok(())
+}
+
+/// PSNR of the capture's own colour, and of the resolved picture.
+fn errors(capture: &Capture, resolved: &Frame<Vec4>) -> Result<(f64, f64), Failure> {
+    let Some(reference) = &capture.reference else {
+        return Err(Failure::Failed(
+            "the capture has no reference.exr to compare with; capture with --reference 256, or leave --reference out".into(),
+        ));
+    };
+    Ok((metrics::psnr(&capture.color, reference), metrics::psnr(resolved, reference)))
+}
+
+/// The options asked for, with those that the capture decides: where it was sampled.
+fn with_capture(options: &OptionArgs, capture: &Capture) -> Result<OptionArgs, Failure> {
+    let near = |a: &Vec2, b: &Vec2| (*a - *b).abs().max_element() < 1.0e-4;
+    let same = |offsets: &[Vec2]| {
+        offsets.len() == capture.samples.len() && offsets.iter().zip(&capture.samples).all(|(a, b)| near(a, b))
+    };
+    let known = ["ordered4", "latin4", "ordered16", "latin16"];
+    let mut pattern = None;
+    for name in known {
+        if same(&scene::pattern(name)?.1) {
+            pattern = Some(name);
+        }
+    }
+    let Some(pattern) = pattern else {
+        return Err(Failure::Failed(format!(
+            "the capture's {} sample offsets are none of the patterns that SRAA is generated for ({})",
+            capture.samples.len(),
+            known.join(", ")
+        )));
+    };
+    let shading = match capture.shading {
+        ShadingSample::Centre => "centre",
+        ShadingSample::Sample(0) => "sample0",
+        ShadingSample::Sample(k) => {
+            return Err(Failure::Failed(format!(
+                "the capture was shaded at sample {k}; SRAA is generated for sample 0 or the pixel's centre: list that sample first"
+            )));
+        }
+    };
+    let mut options = options.clone();
+    for (name, decided) in [("pattern", pattern), ("shading", shading)] {
+        if let Some((_, asked)) = options.set.iter().find(|(n, v)| n == name && v != decided) {
+            return Err(Failure::Usage(format!("--set {name}={asked}, but the capture was sampled with {name}={decided}")));
+        }
+        options.set.push((name.to_owned(), decided.to_owned()));
+    }
+    if let Some((name, _)) = options.set.iter().find(|(_, value)| value == "uniform") {
+        return Err(Failure::Usage(format!("`{name}=uniform` leaves the value to a host; here give a number")));
+    }
+    Ok(options)
+}
+
+fn check_normals(compiled: &Compiled, capture: &Capture) -> Result<(), Failure> {
+    if compiled.counts.reads.contains_key("normal") && capture.normal.is_none() {
+        return Err(Failure::Failed(
+            "the capture has no normal.exr, which the metric depth-normals reads; use --set metric=depth".to_owned(),
+        ));
+    }
+    Ok(())
+}
+
+/// Refuses a picture that could not be written before any work is done.
+fn check_extension(args: &ResolveArgs) -> Result<(), Failure> {
+    let extension = args.out.extension().and_then(|e| e.to_str()).map(str::to_lowercase);
+    match extension {
+        Some(e) if picture::EXTENSIONS.contains(&e.as_str()) => Ok(()),
+        _ => Err(Failure::Usage(format!(
+            "`{}` is not a kind of picture that can be written: end it in .{}",
+            args.out.display(),
+            picture::EXTENSIONS.join(" or .")
+        ))),
+    }
+}

@@ -1,0 +1,67 @@
+//! Scenes and who draws them.
+
+use crate::failure::Failure;
+use crate::gpu::Gpu;
+use glam::{UVec2, Vec2};
+use indicatif::{ProgressBar, ProgressStyle};
+use std::path::Path;
+use straightline_kernels::sraa::Pattern;
+use straightline_study::capture::ShadingSample;
+use straightline_study::render::{CpuRenderer, GpuRenderer, Renderer};
+use straightline_study::scene::{self, Scene};
+
+/// The built-in scene, or a model.
+pub fn load(mesh: Option<&Path>) -> Result<Scene, Failure> {
+    match mesh {
+        Some(path) => scene::load(path).map_err(Failure::of),
+        None => Ok(scene::builtin()),
+    }
+}
+
+/// Draws on the GPU if there is one, else on the CPU.
+pub fn renderer(gpu: Option<&Gpu>, scene: &Scene, size: UVec2) -> Result<Box<dyn Renderer>, Failure> {
+    Ok(match gpu {
+        Some(gpu) => Box::new(GpuRenderer::new(&gpu.device, &gpu.queue, scene, size).map_err(Failure::of)?),
+        None => Box::new(CpuRenderer::new(scene, size).map_err(Failure::of)?),
+    })
+}
+
+/// A pattern by its name on the command line, with the offsets of its samples.
+pub fn pattern(name: &str) -> Result<(Pattern, Vec<Vec2>), Failure> {
+    let all = [
+        ("ordered4", Pattern::Ordered4),
+        ("latin4", Pattern::Latin4),
+        ("ordered16", Pattern::Ordered16),
+        ("latin16", Pattern::Latin16),
+    ];
+    match all.into_iter().find(|(known, _)| *known == name) {
+        Some((_, pattern)) => Ok((pattern, (0..pattern.len()).map(|k| pattern.offset(k)).collect())),
+        None => Err(Failure::Usage(format!(
+            "there is no pattern `{name}`; use one of ordered4, latin4, ordered16, latin16"
+        ))),
+    }
+}
+
+/// A shading sample by its name on the command line.
+pub fn shading(name: &str) -> Result<ShadingSample, Failure> {
+    match name {
+        "centre" => Ok(ShadingSample::Centre),
+        "sample0" => Ok(ShadingSample::Sample(0)),
+        _ => Err(Failure::Usage(format!("shading cannot be at `{name}`; use centre or sample0"))),
+    }
+}
+
+/// A bar on stderr for `what`, to be advanced as work is done.
+pub fn bar(what: &'static str) -> ProgressBar {
+    let style = ProgressStyle::with_template("{msg:<28} [{bar:30}] {pos}/{len}, {eta} left")
+        .unwrap_or_else(|_| ProgressStyle::default_bar());
+    ProgressBar::new(1).with_style(style).with_message(what)
+}
+
+/// A progress function for `bar`.
+pub fn advance(bar: &ProgressBar) -> impl FnMut(usize, usize) + '_ {
+    |done, total| {
+        bar.set_length(total as u64);
+        bar.set_position(done as u64);
+    }
+}

@@ -1,0 +1,243 @@
+//! For `build.rs`: kernels in, shaders and their Rust bindings out.
+//!
+//! ```no_run
+//! // build.rs
+//! fn main() -> Result<(), straightline_codegen::config::Error> {
+//!     straightline_codegen::Config::new()
+//!         .kernel("sraa", |k| k.set("pattern", "latin4").set("metric", "depth"))
+//!         .file("src/kernels/glow.rs")
+//!         .compile()
+//! }
+//! ```
+//!
+//! The crate then says `straightline_runtime::include_shaders!();` where it wants the modules.
+
+use crate::diagnostic::Errors;
+use crate::emit::{self, EmitError, Target};
+use crate::eval::Unroll;
+use crate::files::{self, WriteError};
+use crate::pipeline::{Compiled, Kernel, Settings};
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt;
+use std::path::{Path, PathBuf};
+use straightline_manifest::{Format, Manifest, Stage};
+
+/// Name of the file with the bindings.
+const BINDINGS: &str = "straightline.rs";
+
+/// Which shaders a crate wants.
+#[derive(Clone, Debug, Default)]
+pub struct Config {
+    kernels: Vec<KernelConfig>,
+    out_dir: Option<PathBuf>,
+}
+
+/// One shader: a kernel and how it is to be emitted.
+#[derive(Clone, Debug)]
+pub struct KernelConfig {
+    source: Source,
+    name: Option<String>,
+    settings: Settings,
+    stage: Stage,
+    format: Format,
+    targets: BTreeSet<Target>,
+}
+
+#[derive(Clone, Debug)]
+enum Source {
+    Builtin(String),
+    File(PathBuf, Option<String>),
+}
+
+impl KernelConfig {
+    fn new(source: Source) -> Self {
+        KernelConfig {
+            source,
+            name: None,
+            settings: Settings::default(),
+            stage: Stage::Compute,
+            format: Format::default(),
+            targets: BTreeSet::from([Target::Wgsl]),
+        }
+    }
+
+    /// Sets an option of the kernel; `uniform` makes a number one that is set at run time.
+    pub fn set(mut self, option: &str, value: impl fmt::Display) -> Self {
+        self.settings.options.push((option.to_owned(), value.to_string()));
+        self
+    }
+
+    /// What becomes of loops; by default all are unrolled.
+    pub fn unroll(mut self, unroll: Unroll) -> Self {
+        self.settings.unroll = unroll;
+        self
+    }
+
+    /// The pipeline stage; by default compute.
+    pub fn stage(mut self, stage: Stage) -> Self {
+        self.stage = stage;
+        self
+    }
+
+    /// Format of the output; by default `rgba16float`.
+    pub fn format(mut self, format: Format) -> Self {
+        self.format = format;
+        self
+    }
+
+    /// Name of the module and of the files; by default the kernel's. Variants of one kernel need names.
+    pub fn name(mut self, name: &str) -> Self {
+        self.name = Some(name.to_owned());
+        self
+    }
+
+    /// Of a file, the function that is the kernel; by default the one with the file's name.
+    pub fn function(mut self, function: &str) -> Self {
+        if let Source::File(_, chosen) = &mut self.source {
+            *chosen = Some(function.to_owned());
+        }
+        self
+    }
+
+    /// Also writes the shader in another language.
+    pub fn target(mut self, target: Target) -> Self {
+        self.targets.insert(target);
+        self
+    }
+
+    fn build(&self) -> Result<(String, Compiled, Manifest, BTreeMap<String, Vec<u8>>), Error> {
+        let kernel = match &self.source {
+            Source::Builtin(name) => Kernel::builtin(name),
+            Source::File(path, function) => Kernel::from_file(path, function.as_deref()),
+        };
+        let kernel = kernel.map_err(|e| Error::of(Problem::Kernel(e)))?;
+        let name = self.name.clone().unwrap_or_else(|| kernel.name().to_owned());
+        if syn::parse_str::<syn::Ident>(&name).is_err() {
+            return Err(Error::of(Problem::Name(name)));
+        }
+        let compiled = kernel.compile(&self.settings).map_err(|e| Error::of(Problem::Kernel(e)))?;
+        let emitted =
+            compiled.emit(self.stage, self.format, &self.targets).map_err(|e| Error::of(Problem::Emit(e)))?;
+        let files = emitted.named(&name);
+        Ok((name, compiled, emitted.manifest, files))
+    }
+}
+
+impl Config {
+    /// No shader yet.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// A built-in kernel.
+    pub fn kernel(mut self, name: &str, options: impl FnOnce(KernelConfig) -> KernelConfig) -> Self {
+        self.kernels.push(options(KernelConfig::new(Source::Builtin(name.to_owned()))));
+        self
+    }
+
+    /// A kernel of one's own: the function that has the file's name, with its options at their defaults.
+    pub fn file(self, path: impl AsRef<Path>) -> Self {
+        self.file_with(path, |k| k)
+    }
+
+    /// A kernel of one's own with options.
+    pub fn file_with(mut self, path: impl AsRef<Path>, options: impl FnOnce(KernelConfig) -> KernelConfig) -> Self {
+        let source = Source::File(path.as_ref().to_owned(), None);
+        self.kernels.push(options(KernelConfig::new(source)));
+        self
+    }
+
+    /// Where to write; by default cargo's `OUT_DIR`.
+    pub fn out_dir(mut self, folder: impl AsRef<Path>) -> Self {
+        self.out_dir = Some(folder.as_ref().to_owned());
+        self
+    }
+
+    /// Emits and writes everything, or nothing; tells cargo to come back when a kernel's file changes, and only then.
+    ///
+    /// # Errors
+    ///
+    /// Every error of every kernel at once; two shaders of one name; a folder that cannot be written.
+    pub fn compile(&self) -> Result<(), Error> {
+        for kernel in &self.kernels {
+            if let Source::File(path, _) = &kernel.source {
+                println!("cargo::rerun-if-changed={}", path.display());
+            }
+        }
+        // Without a line of its own cargo would come back for every change in the package.
+        println!("cargo::rerun-if-changed=build.rs");
+        let folder = match &self.out_dir {
+            Some(folder) => folder.clone(),
+            None => std::env::var_os("OUT_DIR").map(PathBuf::from).ok_or_else(|| Error::of(Problem::NoFolder))?,
+        };
+        let mut problems = Vec::new();
+        let mut built = Vec::new();
+        for kernel in &self.kernels {
+            match kernel.build() {
+                Ok(shader) => built.push(shader),
+                Err(error) => problems.extend(error.problems),
+            }
+        }
+        let mut all = BTreeMap::new();
+        for (name, _, _, files) in &built {
+            if all.contains_key(&format!("{name}.json")) {
+                problems.push(Problem::Twice(name.clone()));
+            }
+            all.extend(files.clone());
+        }
+        if !problems.is_empty() {
+            return Err(Error { problems });
+        }
+        let modules: Vec<emit::Module<'_>> =
+            built.iter().map(|(name, compiled, manifest, _)| emit::Module { name, compiled, manifest }).collect();
+        all.insert(BINDINGS.to_owned(), emit::bindings(&modules).into_bytes());
+        files::write_all(&folder, &all).map(|_| ()).map_err(|e| Error::of(Problem::Write(e)))
+    }
+}
+
+/// Everything that kept a build from its shaders.
+pub struct Error {
+    problems: Vec<Problem>,
+}
+
+/// One thing that is wrong.
+#[derive(Debug, thiserror::Error)]
+enum Problem {
+    #[error("{0}")]
+    Kernel(Errors),
+    #[error("{0}")]
+    Emit(EmitError),
+    #[error("{0}")]
+    Write(WriteError),
+    #[error("`{0}` cannot name a module: give the shader another name with `.name(\"...\")`")]
+    Name(String),
+    #[error("two shaders are called `{0}`: give one of them another name with `.name(\"...\")`")]
+    Twice(String),
+    #[error("OUT_DIR is not set: call this from build.rs, or say where to write with `.out_dir(...)`")]
+    NoFolder,
+}
+
+impl Error {
+    fn of(problem: Problem) -> Self {
+        Error { problems: vec![problem] }
+    }
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (k, problem) in self.problems.iter().enumerate() {
+            let gap = if k > 0 { "\n" } else { "" };
+            write!(f, "{gap}{problem}")?;
+        }
+        Ok(())
+    }
+}
+
+/// As `Display`: what `fn main() -> Result<...>` in a `build.rs` prints.
+impl fmt::Debug for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "\n{self}")
+    }
+}
+
+impl std::error::Error for Error {}

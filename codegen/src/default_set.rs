@@ -1,0 +1,70 @@
+//! The shaders that are emitted and checked in as `shaders-out/`: SRAA with its default options, for 4 and for 16
+//! samples, in both stages, and with its loops kept.
+
+use crate::diagnostic::Errors;
+use crate::emit::{EmitError, Target};
+use crate::eval::Unroll;
+use crate::pipeline::{Kernel, Settings};
+use std::collections::BTreeMap;
+use straightline_manifest::{Format, Stage};
+
+/// One shader of the set.
+#[derive(Clone, Debug)]
+pub struct Entry {
+    /// Name of its files, without extension.
+    pub stem: &'static str,
+    /// The built-in kernel.
+    pub kernel: &'static str,
+    /// Options that are not at their defaults.
+    pub options: &'static [(&'static str, &'static str)],
+    /// What becomes of loops.
+    pub unroll: Unroll,
+    /// Pipeline stage.
+    pub stage: Stage,
+}
+
+/// Why the set could not be made.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// A kernel is wrong.
+    #[error("{0}")]
+    Kernel(Errors),
+    /// A shader cannot be emitted.
+    #[error(transparent)]
+    Emit(#[from] EmitError),
+}
+
+const SAMPLES4: &[(&str, &str)] = &[("pattern", "latin4")];
+const SAMPLES16: &[(&str, &str)] = &[("pattern", "latin16")];
+
+/// Every shader of the set.
+pub const ENTRIES: &[Entry] = &[
+    entry("sraa4", SAMPLES4, Unroll::Full, Stage::Compute),
+    entry("sraa4-fragment", SAMPLES4, Unroll::Full, Stage::Fragment),
+    entry("sraa4-looped", SAMPLES4, Unroll::None, Stage::Compute),
+    entry("sraa16", SAMPLES16, Unroll::Full, Stage::Compute),
+    entry("sraa16-fragment", SAMPLES16, Unroll::Full, Stage::Fragment),
+    entry("sraa16-looped", SAMPLES16, Unroll::None, Stage::Compute),
+];
+
+const fn entry(
+    stem: &'static str,
+    options: &'static [(&'static str, &'static str)],
+    unroll: Unroll,
+    stage: Stage,
+) -> Entry {
+    Entry { stem, kernel: "sraa", options, unroll, stage }
+}
+
+/// Every file of the set by name: each shader in every language, and its manifest.
+pub fn files() -> Result<BTreeMap<String, Vec<u8>>, Error> {
+    let mut all = BTreeMap::new();
+    for entry in ENTRIES {
+        let options = entry.options.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned())).collect();
+        let settings = Settings { options, unroll: entry.unroll };
+        let compiled = Kernel::builtin(entry.kernel).and_then(|k| k.compile(&settings)).map_err(Error::Kernel)?;
+        let emitted = compiled.emit(entry.stage, Format::default(), &Target::ALL.into())?;
+        all.extend(emitted.named(entry.stem));
+    }
+    Ok(all)
+}

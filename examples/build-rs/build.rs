@@ -1,0 +1,8 @@
+//! Turns the kernels of this crate, and a built-in one, into shaders and the Rust that binds them.
+
+fn main() -> Result<(), straightline_codegen::config::Error> {
+    straightline_codegen::Config::new()
+        .kernel("sraa", |k| k.set("pattern", "latin4").set("metric", "depth"))
+        .file_with("src/kernels/glow.rs", |k| k.set("strength", "uniform"))
+        .compile()
+}

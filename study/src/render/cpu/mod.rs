@@ -1,0 +1,125 @@
+//! A software rasteriser, for machines without an adapter.
+
+mod clip;
+mod raster;
+
+use super::frame::{Lighting, Pass};
+use super::shade::{Surface, shade};
+use super::{RenderError, Renderer};
+use crate::scene::Scene;
+use clip::ScreenTriangle;
+use glam::{Mat3, UVec2, Vec2, Vec3, Vec4, uvec2};
+use raster::Visible;
+use rayon::prelude::*;
+use straightline_kernels::prelude::Frame;
+
+/// Widest and tallest picture, in pixels: beyond it, screen coordinates leave their 32 bits.
+const MAX_SIDE: u32 = 16_384;
+
+/// Rows that one task draws.
+const BAND: u32 = 16;
+
+/// Draws on the processor, on all threads of rayon's pool. Needs no device.
+#[derive(Clone, Debug)]
+pub struct CpuRenderer {
+    scene: Scene,
+    size: UVec2,
+    lighting: Lighting,
+}
+
+impl CpuRenderer {
+    /// A renderer of `scene` in pictures of `size` pixels.
+    ///
+    /// # Errors
+    ///
+    /// [`RenderError::Scene`] if [`Scene::check`] refuses it, [`RenderError::Size`] unless each side is 1 to 16384.
+    pub fn new(scene: &Scene, size: UVec2) -> Result<Self, RenderError> {
+        scene.check()?;
+        if size.min_element() == 0 || size.max_element() > MAX_SIDE {
+            return Err(RenderError::Size { size, most: MAX_SIDE });
+        }
+        Ok(CpuRenderer {
+            scene: scene.clone(),
+            size,
+            lighting: Lighting::new(scene, size),
+        })
+    }
+
+    /// Draws what is seen at `offset` from each pixel's centre, and makes of each pixel what `finish` says.
+    fn draw<T: Copy + Default + Send>(
+        &self,
+        offset: Vec2,
+        finish: impl Fn(&Pass, UVec2, &Surface) -> T + Sync,
+    ) -> Vec<T> {
+        let pass = Pass::new(&self.scene.camera, self.size, offset);
+        let triangles = self.project(&pass);
+        let bands = raster::bands(&triangles, self.size.y.div_ceil(BAND), BAND);
+        let width = self.size.x as usize;
+        let mut pixels = vec![T::default(); width * self.size.y as usize];
+        let rows = pixels.par_chunks_mut(width * BAND as usize).zip(bands).enumerate();
+        rows.for_each(|(band, (pixels, inside))| {
+            let top = band as u32 * BAND;
+            let band = uvec2(self.size.x, (pixels.len() / width) as u32);
+            let visible = Visible::draw(&triangles, &inside, top, band, self.size);
+            for (at, pixel) in pixels.iter_mut().enumerate() {
+                let place = uvec2((at % width) as u32, top + (at / width) as u32);
+                let surface = match visible.at(at) {
+                    Some(triangle) => self.surface(&pass, &triangles[triangle], place),
+                    None => Surface::SKY,
+                };
+                *pixel = finish(&pass, place, &surface);
+            }
+        });
+        pixels
+    }
+
+    /// Every triangle that may be seen, in order.
+    fn project(&self, pass: &Pass) -> Vec<ScreenTriangle> {
+        let corner = |vertex: &crate::scene::Vertex| pass.to_clip * Vec3::from(vertex.position).extend(1.0);
+        let corners: Vec<Vec4> = self.scene.vertices.par_iter().map(corner).collect();
+        let near = self.scene.camera.near;
+        let triangles = self.scene.triangles.par_iter().enumerate();
+        triangles
+            .flat_map_iter(|(source, triangle)| {
+                let corners = triangle.map(|index| corners[index as usize]);
+                clip::project(source as u32, corners, near, self.size)
+            })
+            .collect()
+    }
+
+    /// What is seen of `triangle` at `pixel`.
+    fn surface(&self, pass: &Pass, triangle: &ScreenTriangle, pixel: UVec2) -> Surface {
+        let shares = triangle.shares(pixel, self.size).as_vec3();
+        let corners = self.scene.triangles[triangle.source as usize].map(|i| &self.scene.vertices[i as usize]);
+        let mix = |[a, b, c]: [[f32; 3]; 3]| {
+            Vec3::from(a) * shares.x + Vec3::from(b) * shares.y + Vec3::from(c) * shares.z
+        };
+        let normal = Mat3::from_mat4(pass.to_view) * mix(corners.map(|vertex| vertex.normal));
+        let normal = normal.normalize_or(Vec3::Z);
+        Surface {
+            normal: if triangle.front { normal } else { -normal },
+            depth: shares.dot(triangle.depths),
+            color: mix(corners.map(|vertex| vertex.color)),
+            material: corners[0].material as f32,
+        }
+    }
+}
+
+impl Renderer for CpuRenderer {
+    fn size(&self) -> UVec2 {
+        self.size
+    }
+
+    fn geometry(&self, offset: Vec2) -> Result<(Frame<f32>, Frame<Vec3>), RenderError> {
+        let pixels = self.draw(offset, |_, _, surface| (surface.depth, surface.normal));
+        let (depth, normal) = pixels.into_iter().unzip();
+        Ok((Frame::new(self.size, depth), Frame::new(self.size, normal)))
+    }
+
+    fn shaded(&self, offset: Vec2) -> Result<Frame<Vec4>, RenderError> {
+        let pixels = self.draw(offset, |pass, pixel, surface| {
+            shade(&self.lighting, surface, pass.ray(&self.lighting, pixel)).extend(1.0)
+        });
+        Ok(Frame::new(self.size, pixels))
+    }
+}

@@ -1,0 +1,98 @@
+//! Rasterising and shading on a device of wgpu.
+
+mod guard;
+mod pipelines;
+mod read;
+mod resources;
+
+use super::frame::Pass;
+use super::{RenderError, Renderer};
+use crate::scene::{Camera, Scene};
+use glam::{UVec2, Vec2, Vec3, Vec4};
+use guard::guarded;
+use pipelines::Pipelines;
+use resources::{Resources, check_limits};
+use straightline_kernels::prelude::Frame;
+
+/// Draws on the caller's device, which needs no features beyond wgpu's default limits.
+#[derive(Debug)]
+pub struct GpuRenderer {
+    device: wgpu::Device,
+    queue: wgpu::Queue,
+    camera: Camera,
+    size: UVec2,
+    pipelines: Pipelines,
+    resources: Resources,
+}
+
+impl GpuRenderer {
+    /// A renderer of `scene` in pictures of `size` pixels on `device`, to which `queue` belongs. Uploads the scene.
+    ///
+    /// # Errors
+    ///
+    /// [`RenderError::Scene`] if [`Scene::check`] refuses it, [`RenderError::Size`] and [`RenderError::Limit`] if
+    /// picture or scene are beyond the device's limits, [`RenderError::Device`] if it runs out of memory or is lost.
+    pub fn new(device: &wgpu::Device, queue: &wgpu::Queue, scene: &Scene, size: UVec2) -> Result<Self, RenderError> {
+        scene.check()?;
+        check_limits(device, scene, size)?;
+        let pipelines = guarded(device, "compiling the renderer's shaders", || Pipelines::new(device))?;
+        let resources = guarded(device, "uploading the scene", || {
+            Resources::new(device, queue, &pipelines, scene, size)
+        })?;
+        Ok(GpuRenderer {
+            device: device.clone(),
+            queue: queue.clone(),
+            camera: scene.camera,
+            size,
+            pipelines,
+            resources,
+        })
+    }
+
+    /// Draws the G-buffer at `offset`, and what `more` records after it.
+    fn pass(&self, pass: Pass, more: impl FnOnce(&mut wgpu::CommandEncoder)) -> Result<(), RenderError> {
+        guarded(&self.device, "drawing", || {
+            self.queue
+                .write_buffer(&self.resources.pass, 0, bytemuck::bytes_of(&pass));
+            let mut encoder = self
+                .device
+                .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+            self.pipelines.draw(&mut encoder, &self.resources);
+            more(&mut encoder);
+            self.queue.submit([encoder.finish()]);
+        })
+    }
+}
+
+impl Renderer for GpuRenderer {
+    fn size(&self) -> UVec2 {
+        self.size
+    }
+
+    fn geometry(&self, offset: Vec2) -> Result<(Frame<f32>, Frame<Vec3>), RenderError> {
+        self.pass(Pass::new(&self.camera, self.size, offset), |_| {})?;
+        let texels = read::texture(&self.device, &self.queue, &self.resources.normal_depth)?;
+        let (depth, normal) = texels.iter().map(|texel| (texel.w, texel.truncate())).unzip();
+        Ok((Frame::new(self.size, depth), Frame::new(self.size, normal)))
+    }
+
+    fn shaded(&self, offset: Vec2) -> Result<Frame<Vec4>, RenderError> {
+        self.mean(&[offset])
+    }
+
+    /// Adds up on the device, in 32 bits, and reads back once.
+    fn mean(&self, offsets: &[Vec2]) -> Result<Frame<Vec4>, RenderError> {
+        for (i, offset) in offsets.iter().enumerate() {
+            let mut pass = Pass::new(&self.camera, self.size, *offset);
+            pass.keep = if i == 0 { 0.0 } else { 1.0 };
+            self.pass(pass, |encoder| self.pipelines.shade(encoder, &self.resources, self.size))?;
+        }
+        let mut texels = vec![Vec4::ZERO; (self.size.x * self.size.y) as usize];
+        if !offsets.is_empty() {
+            let sums = read::buffer(&self.device, &self.queue, &self.resources.colors)?;
+            let share = 1.0 / offsets.len() as f32;
+            texels.iter_mut().zip(sums).for_each(|(texel, sum)| *texel = sum * share);
+        }
+        Ok(Frame::new(self.size, texels))
+    }
+}

@@ -1,0 +1,80 @@
+// The colour of one point from what a G-buffer knows of it. Line by line the same as `shade.rs`.
+
+const SKY_DEPTH: f32 = 1.0e6;
+
+struct Lighting {
+    to_world: mat4x4f,
+    sun_direction: vec4f,
+    sun_color: vec4f,
+    up: vec4f,
+    zenith: vec4f,
+    horizon: vec4f,
+    ground: vec4f,
+    extent: vec4f,
+}
+
+struct Surface {
+    normal: vec3f,
+    depth: f32,
+    color: vec3f,
+    material: f32,
+}
+
+fn shade(lighting: Lighting, surface: Surface, ray: vec3f) -> vec3f {
+    let view = -normalize(ray);
+    if surface.depth >= SKY_DEPTH {
+        return clamp(sky(lighting, -view), vec3f(0.0), vec3f(1.0));
+    }
+    let normal = surface.normal;
+    var albedo = surface.color;
+    if surface.material > 0.5 {
+        let place = lighting.to_world * vec4f(ray * surface.depth, 1.0);
+        let footprint = surface.depth * lighting.extent.z / max(dot(normal, view), 0.05);
+        albedo *= tiles(place.xz, footprint);
+    }
+    let facing = max(dot(normal, lighting.sun_direction.xyz), 0.0);
+    let upwards = 0.5 + 0.5 * dot(normal, lighting.up.xyz);
+    let ambient = mix(lighting.ground.xyz, lighting.zenith.xyz, upwards);
+    let halfway = normalize(view + lighting.sun_direction.xyz);
+    let s1 = max(dot(normal, halfway), 0.0);
+    let s2 = s1 * s1;
+    let s4 = s2 * s2;
+    let s8 = s4 * s4;
+    let specular = 0.08 * s8 * s8 * facing;
+    let lit = albedo * (ambient + lighting.sun_color.xyz * facing) + lighting.sun_color.xyz * specular;
+    let clear = exp2(-lighting.sun_direction.w * surface.depth * length(ray));
+    return clamp(mix(lighting.horizon.xyz, lit, clear), vec3f(0.0), vec3f(1.0));
+}
+
+fn sky(lighting: Lighting, towards: vec3f) -> vec3f {
+    let height = clamp(dot(towards, lighting.up.xyz), 0.0, 1.0);
+    let thin = 1.0 - height;
+    return mix(lighting.zenith.xyz, lighting.horizon.xyz, thin * thin * thin);
+}
+
+fn tiles(place: vec2f, footprint: f32) -> f32 {
+    let checks = 0.5 + 0.5 * stripes(place.x, footprint) * stripes(place.y, footprint);
+    let groove = 1.0 - (1.0 - line(place.x, footprint)) * (1.0 - line(place.y, footprint));
+    return (0.62 + 0.38 * checks) * (1.0 - 0.55 * groove);
+}
+
+fn stripes(x: f32, width: f32) -> f32 {
+    let w = max(width, 1.0e-4);
+    return (triangle(x + 0.5 * w) - triangle(x - 0.5 * w)) / w;
+}
+
+fn triangle(x: f32) -> f32 {
+    let half = 0.5 * x;
+    return 1.0 - 2.0 * abs(half - floor(half) - 0.5);
+}
+
+fn line(x: f32, width: f32) -> f32 {
+    let w = max(width, 1.0e-4);
+    return (lines(x + 0.5 * w) - lines(x - 0.5 * w)) / w;
+}
+
+fn lines(x: f32) -> f32 {
+    let shifted = x + 0.03;
+    let whole = floor(shifted);
+    return 0.06 * whole + min(shifted - whole, 0.06);
+}
