@@ -1,0 +1,52 @@
+//! Every option set, stage and unroll policy emits in every language: naga validates each text on the way, and two
+//! other compilers read the GLSL and SPIR-V.
+
+mod common;
+
+use common::*;
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use straightline_codegen::emit::Target;
+use straightline_codegen::{Format, Stage, Unroll};
+
+#[test]
+fn all_options_emit_in_all_languages() {
+    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("every-option");
+    std::fs::create_dir_all(&folder).expect("a folder for shaders");
+    let targets: BTreeSet<Target> = Target::ALL.into();
+    let (mut glsl, mut spirv) = (Vec::new(), Vec::new());
+    for (k, (_, options)) in all_options().iter().enumerate() {
+        for unroll in [Unroll::Full, Unroll::None] {
+            let compiled = compile(options, unroll);
+            for stage in [Stage::Compute, Stage::Fragment] {
+                let emitted = compiled.emit(stage, Format::Rgba16Float, &targets).unwrap_or_else(|e| panic!("{options:?} {unroll:?}: {e}"));
+                assert_eq!(emitted.files.len(), targets.len());
+                let stem = format!("{k}-{}-{}", unroll.name(), stage.name());
+                for (name, contents) in emitted.named(&stem) {
+                    let path = folder.join(&name);
+                    if name.ends_with(".comp") || name.ends_with(".frag") {
+                        glsl.push(path.clone());
+                    } else if name.ends_with(".spv") {
+                        spirv.push(path.clone());
+                    } else {
+                        continue;
+                    }
+                    std::fs::write(&path, contents).expect("a shader is written");
+                }
+            }
+        }
+    }
+    assert_eq!((glsl.len(), spirv.len()), (256, 256));
+    run("glslangValidator", "glslang-tools", &["-V", "-o", "/dev/null"], &glsl, &folder);
+    run("spirv-val", "spirv-tools", &["--target-env", "vulkan1.1"], &spirv, &folder);
+}
+
+fn run(tool: &str, package: &str, arguments: &[&str], files: &[PathBuf], folder: &Path) {
+    for file in files {
+        let run = Command::new(tool).args(arguments).current_dir(folder).arg(file).output();
+        let run = run.unwrap_or_else(|e| panic!("cannot run {tool} ({e}): install Debian's {package}"));
+        let said = String::from_utf8_lossy(&run.stdout).into_owned() + &String::from_utf8_lossy(&run.stderr);
+        assert!(run.status.success(), "{tool} refuses {}:\n{said}", file.display());
+    }
+}
