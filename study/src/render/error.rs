@@ -11,22 +11,24 @@ pub enum RenderError {
     #[error(transparent)]
     Scene(#[from] SceneError),
     /// No picture of this size.
-    #[error("a picture of {}×{} pixels cannot be drawn: {limit}", size.x, size.y)]
+    #[error("a picture of {}x{} pixels cannot be drawn: each side must be 1 to {most} pixels", size.x, size.y)]
     Size {
         /// Width and height in pixels.
         size: UVec2,
-        /// What would do.
-        limit: String,
+        /// Longest side in pixels.
+        most: u32,
     },
-    /// A scene of more data than the device takes.
-    #[error("the scene has {bytes} bytes of {what}, and this device takes {limit}: choose a smaller model or the CPU")]
-    Scale {
-        /// Vertices or triangles.
+    /// More data than the device takes.
+    #[error("{needed} bytes are needed where this device takes {most} in its {what}: choose a smaller {smaller}")]
+    Limit {
+        /// Kind of memory.
         what: &'static str,
-        /// How many bytes they take.
-        bytes: u64,
-        /// How many the device takes.
-        limit: u64,
+        /// Bytes that the device takes.
+        most: u64,
+        /// Bytes that are needed.
+        needed: u64,
+        /// What to make smaller.
+        smaller: &'static str,
     },
     /// An offset that is not a place.
     #[error("a sample cannot be at ({}, {}): both must be finite numbers of pixels", offset.x, offset.y)]
@@ -34,7 +36,7 @@ pub enum RenderError {
         /// The offset from the pixel's centre.
         offset: Vec2,
     },
-    /// Nothing to take the mean of.
+    /// Nothing to sample.
     #[error("no sample offsets were given: at least one is needed")]
     NoOffsets,
     /// A shading sample that is not one of the geometry samples.
@@ -45,26 +47,12 @@ pub enum RenderError {
         /// How many samples there are.
         samples: usize,
     },
-    /// A reference of no or of too many samples.
-    #[error("a reference cannot have {side} samples along a pixel's side: choose 1 to {}", super::MAX_SIDE)]
-    Side {
-        /// Samples along one side.
-        side: u32,
-    },
-    /// The device has too little memory.
-    #[error("the GPU has too little memory to {doing} ({problem}): choose a smaller picture or the CPU")]
-    OutOfMemory {
-        /// What it was for.
+    /// The device has too little memory, does not do what it was asked, or is gone.
+    #[error("the GPU failed while {doing}: {description}")]
+    Device {
+        /// What it was doing.
         doing: &'static str,
-        /// What the device said.
-        problem: String,
-    },
-    /// The device does not do what it was asked, or is gone.
-    #[error("the GPU could not {doing}: {problem}")]
-    Gpu {
-        /// What it should do.
-        doing: &'static str,
-        /// What the device said.
-        problem: String,
+        /// What it said.
+        description: String,
     },
 }

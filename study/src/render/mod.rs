@@ -4,24 +4,23 @@
 //! by the sample's offset), then shade from that alone. What they draw agrees but for pixels whose sample lies
 //! within a rounding of a triangle's edge.
 
+mod captured;
 mod cpu;
 mod error;
+mod frame;
 mod gpu;
 mod reference;
 mod shade;
-mod study;
-#[cfg(test)]
-mod tests;
 
 use crate::scene::Camera;
-use glam::{DVec4, UVec2, Vec2, Vec3, Vec4};
+use glam::{UVec2, Vec2, Vec3, Vec4};
 use straightline_kernels::prelude::Frame;
 
+pub use captured::capture;
 pub use cpu::CpuRenderer;
 pub use error::RenderError;
 pub use gpu::GpuRenderer;
-pub use reference::{MAX_SIDE, reference};
-pub use study::capture;
+pub use reference::{grid, reference};
 
 /// Draws one scene at one size, sampled anywhere in a pixel.
 ///
@@ -35,12 +34,12 @@ pub trait Renderer {
     fn camera(&self) -> Camera;
 
     /// Geometry seen `offset` from each pixel's centre: linear depth along the view direction in scene units, and
-    /// the unit normal in world space, on the side that is seen. The sky is at [`SKY_DEPTH`](crate::scene::SKY_DEPTH)
+    /// the unit normal in view space, on the side that is seen. The sky is at [`SKY_DEPTH`](crate::scene::SKY_DEPTH)
     /// and has the normal (0, 0, 1).
     ///
     /// # Errors
     ///
-    /// [`RenderError::Offset`] if `offset` is not finite; what a GPU refuses.
+    /// [`RenderError::Offset`] if `offset` is not finite; [`RenderError::Device`].
     fn geometry(&self, offset: Vec2) -> Result<(Frame<f32>, Frame<Vec3>), RenderError>;
 
     /// Linear colour of each pixel shaded `offset` from its centre: RGB in 0..=1, alpha 1.
@@ -50,29 +49,14 @@ pub trait Renderer {
     /// As [`geometry`](Self::geometry).
     fn shaded(&self, offset: Vec2) -> Result<Frame<Vec4>, RenderError>;
 
-    /// Mean of the pictures shaded at each of `offsets`. `progress` is called with the number of pictures done and
-    /// of all pictures, before the first and after each.
+    /// Mean of the pictures shaded at each of `offsets`.
     ///
     /// # Errors
     ///
     /// As [`geometry`](Self::geometry), and [`RenderError::NoOffsets`] if there are none.
-    fn accumulate(
-        &self,
-        offsets: &[Vec2],
-        progress: &mut dyn FnMut(usize, usize),
-    ) -> Result<Frame<Vec4>, RenderError> {
+    fn mean(&self, offsets: &[Vec2]) -> Result<Frame<Vec4>, RenderError> {
         check_offsets(offsets)?;
-        let mut sums = vec![DVec4::ZERO; self.size().element_product() as usize];
-        progress(0, offsets.len());
-        for (done, offset) in offsets.iter().enumerate() {
-            let frame = self.shaded(*offset)?;
-            for (sum, texel) in sums.iter_mut().zip(frame.texels()) {
-                *sum += texel.as_dvec4();
-            }
-            progress(done + 1, offsets.len());
-        }
-        let mean = |sum: DVec4| (sum / offsets.len() as f64).as_vec4();
-        Ok(Frame::new(self.size(), sums.into_iter().map(mean).collect()))
+        reference::mean_of(self, offsets)
     }
 }
 
@@ -85,15 +69,4 @@ fn check_offsets(offsets: &[Vec2]) -> Result<(), RenderError> {
         Some(offset) => Err(RenderError::Offset { offset: *offset }),
         None => Ok(()),
     }
-}
-
-/// Refuses pictures of no or of absurd size.
-fn check_size(size: UVec2) -> Result<(), RenderError> {
-    use crate::picture::{MAX_PIXELS, MAX_SIDE};
-    let pixels = u64::from(size.x) * u64::from(size.y);
-    if pixels == 0 || size.max_element() > MAX_SIDE || pixels > MAX_PIXELS {
-        let limit = format!("each side must be 1 to {MAX_SIDE} pixels, {MAX_PIXELS} pixels in all");
-        return Err(RenderError::Size { size, limit });
-    }
-    Ok(())
 }

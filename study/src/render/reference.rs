@@ -15,24 +15,25 @@ pub fn grid(side: u32) -> Vec<Vec2> {
 ///
 /// # Errors
 ///
-/// Those of the renderer.
+/// [`RenderError::NoOffsets`] for a side of 0; those of the renderer.
 pub fn reference(
     renderer: &dyn Renderer,
     side: u32,
-    progress: &mut dyn FnMut(u32, u32),
+    progress: &mut dyn FnMut(usize, usize),
 ) -> Result<Frame<Vec4>, RenderError> {
     let offsets = grid(side);
+    super::check_offsets(&offsets)?;
     let size = renderer.size();
     let mut sums = vec![DVec4::ZERO; (size.x * size.y) as usize];
-    let mut done = 0;
+    let mut done = 0usize;
     // A row at a time: short sums lose nothing in a GPU's 32 bits, and the long one is kept here in 64.
     for row in offsets.chunks(side.max(1) as usize) {
         let mean = renderer.mean(row)?;
         for (sum, texel) in sums.iter_mut().zip(mean.texels()) {
             *sum += texel.as_dvec4() * row.len() as f64;
         }
-        done += row.len() as u32;
-        progress(done, side * side);
+        done += row.len();
+        progress(done, offsets.len());
     }
     Ok(divided(renderer, sums, offsets.len()))
 }

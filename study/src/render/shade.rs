@@ -1,149 +1,95 @@
-//! Shading at one point, in Rust. `gpu/shade.wgsl` says the same in WGSL, name by name and line by line.
+//! The colour of one point from what a G-buffer knows of it. `shade.wgsl` says the same line by line.
 
-use crate::scene::{Camera, Material, SKY_DEPTH, Scene};
-use bytemuck::{Pod, Zeroable};
-use glam::{Mat4, UVec2, Vec2, Vec3, vec2};
-
-/// What is the same for all pixels of one pass. The shaders' uniform buffer, in WGSL's layout.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Pod, Zeroable)]
-pub(super) struct View {
-    /// World space to clip space, with the pass's offset.
-    pub to_clip: Mat4,
-    pub eye: Vec3,
-    /// Side of a pixel at linear depth 1, in scene units.
-    pub pixel: f32,
-    /// Unit vector of linear depth.
-    pub forward: Vec3,
-    /// Share of the light that haze takes per scene unit, as a negative binary logarithm.
-    pub haze: f32,
-    /// From the picture's middle to its right and upper edge at linear depth 1.
-    pub right: Vec3,
-    /// 1 if colours are to be added to what is there, 0 if they are to replace it.
-    pub add: u32,
-    pub up: Vec3,
-    pub pad_up: u32,
-    pub sun_direction: Vec3,
-    pub pad_sun_direction: u32,
-    pub sun_color: Vec3,
-    pub pad_sun_color: u32,
-    pub zenith: Vec3,
-    pub pad_zenith: u32,
-    pub horizon: Vec3,
-    pub pad_horizon: u32,
-    pub ground: Vec3,
-    pub pad_ground: u32,
-    pub size: UVec2,
-    /// Where in a pixel it is sampled, from its centre, y down.
-    pub offset: Vec2,
-}
-
-impl View {
-    /// The view of a scene in a picture of `size` pixels, sampled at their centres.
-    pub fn new(scene: &Scene, size: UVec2) -> Self {
-        let camera = &scene.camera;
-        let to_view = camera.view();
-        let half = camera.half_extent(size);
-        View {
-            to_clip: camera.projection(size, Vec2::ZERO) * to_view,
-            eye: camera.position.into(),
-            pixel: 2.0 * half.y / size.y as f32,
-            forward: -to_view.row(2).truncate(),
-            haze: scene.sky.haze,
-            right: to_view.row(0).truncate() * half.x,
-            add: 0,
-            up: to_view.row(1).truncate() * half.y,
-            sun_direction: scene.sun.direction.into(),
-            sun_color: scene.sun.color.into(),
-            zenith: scene.sky.zenith.into(),
-            horizon: scene.sky.horizon.into(),
-            ground: scene.sky.ground.into(),
-            size,
-            offset: Vec2::ZERO,
-            ..Self::zeroed()
-        }
-    }
-
-    /// The same sampled at `offset`.
-    pub fn at(&self, camera: &Camera, offset: Vec2) -> Self {
-        View {
-            to_clip: camera.projection(self.size, offset) * camera.view(),
-            offset,
-            ..*self
-        }
-    }
-}
+use super::frame::Lighting;
+use crate::scene::SKY_DEPTH;
+use glam::{Vec2, Vec3, Vec4Swizzles, vec2};
 
 /// What one sample of the G-buffer holds.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Surface {
-    pub depth: f32,
+    /// Unit normal in view space.
     pub normal: Vec3,
+    pub depth: f32,
     pub color: Vec3,
-    pub material: u32,
+    /// A material's number.
+    pub material: f32,
 }
 
-/// Where there is no geometry.
-pub(super) const SKY: Surface = Surface {
-    depth: SKY_DEPTH,
-    normal: Vec3::Z,
-    color: Vec3::ZERO,
-    material: 0,
-};
+impl Surface {
+    /// Where there is no geometry.
+    pub const SKY: Surface = Surface {
+        normal: Vec3::Z,
+        depth: SKY_DEPTH,
+        color: Vec3::ZERO,
+        material: 0.0,
+    };
+}
 
-/// Share of a tile's side that its joint takes.
-const JOINT: f32 = 0.035;
-
-/// Linear colour of a surface sampled at `at`, in pixels from the picture's upper left corner.
-pub(super) fn shade(view: &View, surface: &Surface, at: Vec2) -> Vec3 {
-    let ndc = 2.0 * at / view.size.as_vec2() - 1.0;
-    let ray = view.forward + ndc.x * view.right - ndc.y * view.up;
-    let outwards = ray.normalize();
+/// Linear colour of a surface seen along `ray`, which has depth 1.
+pub(super) fn shade(lighting: &Lighting, surface: &Surface, ray: Vec3) -> Vec3 {
+    let view = -ray.normalize();
     if surface.depth >= SKY_DEPTH {
-        return sky(view, outwards);
+        return sky(lighting, -view).clamp(Vec3::ZERO, Vec3::ONE);
     }
     let normal = surface.normal;
     let mut albedo = surface.color;
-    if surface.material == Material::Tiles as u32 {
-        let slant = outwards.dot(normal).abs().max(1.0e-3);
-        albedo *= tiles(view.eye + ray * surface.depth, outwards, view.pixel * surface.depth, slant);
+    if surface.material > 0.5 {
+        let place = lighting.to_world * (ray * surface.depth).extend(1.0);
+        let footprint = surface.depth * lighting.extent.z / normal.dot(view).max(0.05);
+        albedo *= tiles(place.xz(), footprint);
     }
-    let around = 0.5 * (view.zenith + view.horizon);
-    let ambient = view.ground.lerp(around, 0.5 + 0.5 * normal.y);
-    let lit = normal.dot(view.sun_direction).max(0.0);
-    let halfway = (view.sun_direction - outwards).normalize();
-    let sharp = normal.dot(halfway).max(0.0).powi(32);
-    let color = albedo * (ambient + lit * view.sun_color) + 0.1 * lit * sharp * view.sun_color;
-    let clear = (-view.haze * surface.depth).exp2();
-    view.horizon.lerp(color, clear).clamp(Vec3::ZERO, Vec3::ONE)
+    let sun = lighting.sun_color.truncate();
+    let facing = normal.dot(lighting.sun_direction.truncate()).max(0.0);
+    let upwards = 0.5 + 0.5 * normal.dot(lighting.up.truncate());
+    let ambient = lighting.ground.truncate().lerp(lighting.zenith.truncate(), upwards);
+    let halfway = (view + lighting.sun_direction.truncate()).normalize();
+    let s1 = normal.dot(halfway).max(0.0);
+    let s2 = s1 * s1;
+    let s4 = s2 * s2;
+    let s8 = s4 * s4;
+    let specular = 0.08 * s8 * s8 * facing;
+    let lit = albedo * (ambient + sun * facing) + sun * specular;
+    let clear = (-lighting.sun_direction.w * surface.depth * ray.length()).exp2();
+    lighting.horizon.truncate().lerp(lit, clear).clamp(Vec3::ZERO, Vec3::ONE)
 }
 
 /// The sky in a direction.
-fn sky(view: &View, outwards: Vec3) -> Vec3 {
-    let height = outwards.y.clamp(0.0, 1.0).sqrt();
-    view.horizon.lerp(view.zenith, height).clamp(Vec3::ZERO, Vec3::ONE)
+fn sky(lighting: &Lighting, towards: Vec3) -> Vec3 {
+    let height = towards.dot(lighting.up.truncate()).clamp(0.0, 1.0);
+    let thin = 1.0 - height;
+    lighting.zenith.truncate().lerp(lighting.horizon.truncate(), thin * thin * thin)
 }
 
-/// Brightness of a floor of two kinds of tiles with dark joints, averaged over the footprint of a pixel, so that the
-/// floor has no aliasing of its own that no filter of edges could help.
-fn tiles(position: Vec3, outwards: Vec3, across: f32, slant: f32) -> f32 {
-    let p = vec2(position.x, position.z);
-    let along = vec2(outwards.x, outwards.z).abs();
-    let width = across * (1.0 + along * (1.0 / slant - 1.0));
-    let (low, high) = (p - 0.5 * width, p + 0.5 * width);
-    let joints = (joints_below(high) - joints_below(low)) / width;
-    let joint = 1.0 - (1.0 - joints.x) * (1.0 - joints.y);
-    let kinds = (kinds_below(high) - kinds_below(low)) / width;
-    (1.0 + 0.13 * kinds.x * kinds.y) * (1.0 - 0.6 * joint)
+/// Brightness of a floor of two kinds of tiles with grooves between, averaged over the footprint of a pixel, so that
+/// the floor has no aliasing of its own that no filter of edges could help.
+fn tiles(place: Vec2, footprint: f32) -> f32 {
+    let both = vec2(stripes(place.x, footprint), stripes(place.y, footprint));
+    let checks = 0.5 + 0.5 * both.x * both.y;
+    let groove = 1.0 - (1.0 - line(place.x, footprint)) * (1.0 - line(place.y, footprint));
+    (0.62 + 0.38 * checks) * (1.0 - 0.55 * groove)
 }
 
-/// Integral from 0 of a function that is 1 in joints and 0 else.
-fn joints_below(p: Vec2) -> Vec2 {
-    JOINT * p.floor() + (p - p.floor()).min(Vec2::splat(JOINT))
+/// Mean of alternating stripes, 1 and -1, over a width.
+fn stripes(x: f32, width: f32) -> f32 {
+    let w = width.max(1.0e-4);
+    (triangle(x + 0.5 * w) - triangle(x - 0.5 * w)) / w
 }
 
-/// Integral from 0 of a function that is 1 and -1 on alternate tiles.
-fn kinds_below(p: Vec2) -> Vec2 {
-    let pair = 0.5 * p;
-    1.0 - (2.0 * (pair - pair.floor()) - 1.0).abs()
+/// Integral of the stripes.
+fn triangle(x: f32) -> f32 {
+    let half = 0.5 * x;
+    1.0 - 2.0 * (half - half.floor() - 0.5).abs()
+}
+
+/// Mean of the grooves' share over a width.
+fn line(x: f32, width: f32) -> f32 {
+    let w = width.max(1.0e-4);
+    (lines(x + 0.5 * w) - lines(x - 0.5 * w)) / w
+}
+
+/// Integral of the grooves.
+fn lines(x: f32) -> f32 {
+    let shifted = x + 0.03;
+    let whole = shifted.floor();
+    0.06 * whole + (shifted - whole).min(0.06)
 }

@@ -6,7 +6,7 @@ mod raster;
 use super::frame::{Lighting, Pass};
 use super::shade::{Surface, shade};
 use super::{RenderError, Renderer};
-use crate::scene::Scene;
+use crate::scene::{Camera, Scene};
 use clip::ScreenTriangle;
 use glam::{Mat3, UVec2, Vec2, Vec3, Vec4, uvec2};
 use raster::Visible;
@@ -110,13 +110,19 @@ impl Renderer for CpuRenderer {
         self.size
     }
 
+    fn camera(&self) -> Camera {
+        self.scene.camera
+    }
+
     fn geometry(&self, offset: Vec2) -> Result<(Frame<f32>, Frame<Vec3>), RenderError> {
+        super::check_offsets(&[offset])?;
         let pixels = self.draw(offset, |_, _, surface| (surface.depth, surface.normal));
         let (depth, normal) = pixels.into_iter().unzip();
         Ok((Frame::new(self.size, depth), Frame::new(self.size, normal)))
     }
 
     fn shaded(&self, offset: Vec2) -> Result<Frame<Vec4>, RenderError> {
+        super::check_offsets(&[offset])?;
         let pixels = self.draw(offset, |pass, pixel, surface| {
             shade(&self.lighting, surface, pass.ray(&self.lighting, pixel)).extend(1.0)
         });

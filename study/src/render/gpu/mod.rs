@@ -6,7 +6,7 @@ mod read;
 mod resources;
 
 use super::frame::Pass;
-use super::{RenderError, Renderer};
+use super::{RenderError, Renderer, check_offsets};
 use crate::scene::{Camera, Scene};
 use glam::{UVec2, Vec2, Vec3, Vec4};
 use guard::guarded;
@@ -69,7 +69,12 @@ impl Renderer for GpuRenderer {
         self.size
     }
 
+    fn camera(&self) -> Camera {
+        self.camera
+    }
+
     fn geometry(&self, offset: Vec2) -> Result<(Frame<f32>, Frame<Vec3>), RenderError> {
+        check_offsets(&[offset])?;
         self.pass(Pass::new(&self.camera, self.size, offset), |_| {})?;
         let texels = read::texture(&self.device, &self.queue, &self.resources.normal_depth)?;
         let (depth, normal) = texels.iter().map(|texel| (texel.w, texel.truncate())).unzip();
@@ -82,17 +87,14 @@ impl Renderer for GpuRenderer {
 
     /// Adds up on the device, in 32 bits, and reads back once.
     fn mean(&self, offsets: &[Vec2]) -> Result<Frame<Vec4>, RenderError> {
+        check_offsets(offsets)?;
         for (i, offset) in offsets.iter().enumerate() {
             let mut pass = Pass::new(&self.camera, self.size, *offset);
             pass.keep = if i == 0 { 0.0 } else { 1.0 };
             self.pass(pass, |encoder| self.pipelines.shade(encoder, &self.resources, self.size))?;
         }
-        let mut texels = vec![Vec4::ZERO; (self.size.x * self.size.y) as usize];
-        if !offsets.is_empty() {
-            let sums = read::buffer(&self.device, &self.queue, &self.resources.colors)?;
-            let share = 1.0 / offsets.len() as f32;
-            texels.iter_mut().zip(sums).for_each(|(texel, sum)| *texel = sum * share);
-        }
-        Ok(Frame::new(self.size, texels))
+        let sums = read::buffer(&self.device, &self.queue, &self.resources.colors)?;
+        let share = 1.0 / offsets.len() as f32;
+        Ok(Frame::new(self.size, sums.into_iter().map(|sum| sum * share).collect()))
     }
 }

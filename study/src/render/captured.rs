@@ -38,7 +38,7 @@ pub fn capture(renderer: &dyn Renderer, samples: &[Vec2], shading: ShadingSample
         size: renderer.size(),
         samples: samples.to_vec(),
         shading,
-        camera: Some(renderer.camera()),
+        camera: serde_json::to_value(renderer.camera()).ok(),
         color: renderer.shaded(shaded)?,
         depth: FrameLayers::new(depth),
         normal: Some(FrameLayers::new(normal)),

@@ -1,0 +1,139 @@
+//! Broken input on the command line: one clear error, an exit status that says whose fault it is, no partial file.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+/// The command line's binary, built beside the tests.
+fn straightline(arguments: &[&str]) -> Output {
+    let mut target = std::env::current_exe().expect("a test runs from a file");
+    target.pop();
+    if target.ends_with("deps") {
+        target.pop();
+    }
+    let binary = target.join(format!("straightline{}", std::env::consts::EXE_SUFFIX));
+    assert!(binary.exists(), "{} is not built: run `cargo test --workspace`", binary.display());
+    Command::new(binary).args(arguments).output().expect("the binary runs")
+}
+
+fn fails(arguments: &[&str], status: i32, says: &[&str]) {
+    let output = straightline(arguments);
+    let error = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(status), "{arguments:?} said: {error}");
+    for text in says {
+        assert!(error.contains(text), "{arguments:?} does not say `{text}` but:\n{error}");
+    }
+    assert!(!error.contains("panicked"), "{error}");
+}
+
+fn scratch(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(&folder).expect("a scratch folder");
+    folder
+}
+
+fn write(folder: &Path, name: &str, text: &str) -> String {
+    let path = folder.join(name);
+    std::fs::write(&path, text).expect("a file is written");
+    path.display().to_string()
+}
+
+fn is_empty(folder: &Path) -> bool {
+    !folder.exists() || std::fs::read_dir(folder).expect("a folder").next().is_none()
+}
+
+#[test]
+fn a_syntax_error_is_shown_with_its_place() {
+    let folder = scratch("syntax");
+    let kernel = write(&folder, "broken.rs", "use straightline_kernels::prelude::*;\npub fn broken(pixel: IVec2) -> Vec4 {\n    let x = ;\n}\n");
+    let out = folder.join("out");
+    fails(&["emit", &kernel, "--out", out.to_str().unwrap()], 1, &["broken.rs:3:13", "not valid Rust"]);
+    assert!(is_empty(&out));
+}
+
+#[test]
+fn every_unsupported_construct_is_named_with_the_way_out() {
+    let folder = scratch("unsupported");
+    let text = "pub fn k(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {\n    let f = |x: f32| x;\n    loop { break; }\n    color.load(pixel)\n}\n";
+    let kernel = write(&folder, "k.rs", text);
+    let says = ["k.rs:2:13", "a closure", "write a function", "k.rs:3:5", "`loop`", "use `for`"];
+    fails(&["emit", &kernel, "--out", folder.join("out").to_str().unwrap()], 1, &says);
+    assert!(is_empty(&folder.join("out")));
+}
+
+#[test]
+fn errors_of_evaluation_have_their_place_too() {
+    let folder = scratch("evaluation");
+    let text = "pub fn k(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {\n    let a = [1.0, 2.0];\n    let b = a[2];\n    let c = color.lod(pixel);\n    Vec4::splat(b) + c\n}\n";
+    let kernel = write(&folder, "k.rs", text);
+    fails(&["explain", &kernel], 1, &["k.rs:3:13", "index 2 of an array of 2", "k.rs:4:13", "no method `lod`"]);
+}
+
+#[test]
+fn unknown_names_and_values_are_bad_use() {
+    fails(&["explain", "sraaa"], 2, &["no kernel `sraaa`", "sraa"]);
+    fails(&["explain", "sraa", "--set", "pattrn=latin4"], 2, &["no option `pattrn`", "pattern"]);
+    fails(&["explain", "sraa", "--set", "pattern=latin5"], 2, &["latin5", "latin16"]);
+    fails(&["explain", "sraa", "--set", "tau=-1"], 2, &["`-1`", "0 to 1000000"]);
+    fails(&["explain", "sraa", "--set", "tau=many"], 2, &["`many`"]);
+    fails(&["explain", "sraa", "--set", "tau"], 2, &["OPTION=VALUE"]);
+    fails(&["emit", "sraa", "--target", "cg", "--out", "nowhere"], 2, &["cg", "glsl450"]);
+    fails(&["no-such-command"], 2, &["no-such-command"]);
+}
+
+#[test]
+fn a_folder_that_cannot_be_written_is_named() {
+    let folder = scratch("unwritable");
+    // A file where the folder should be: refused to everyone, root included.
+    let blocked = write(&folder, "blocked", "");
+    fails(&["emit", "sraa", "--out", &format!("{blocked}/shaders")], 1, &["blocked", "cannot write"]);
+    fails(&["demo", "--out", &format!("{blocked}/demo"), "--size", "16x16"], 1, &["blocked", "cannot write"]);
+}
+
+#[test]
+fn broken_captures_are_refused() {
+    let folder = scratch("captures");
+    let whole = folder.join("whole");
+    let made = straightline(&["capture", "--size", "32x18", "--out", whole.to_str().unwrap()]);
+    assert!(made.status.success(), "{}", String::from_utf8_lossy(&made.stderr));
+    let picture = folder.join("out.png");
+    let resolve = |capture: &Path, says: &[&str]| {
+        fails(&["resolve", "--capture", capture.to_str().unwrap(), "--out", picture.to_str().unwrap(), "--executor", "cpu"], 1, says);
+        assert!(!picture.exists(), "a picture was written from a broken capture");
+    };
+    let copy = |name: &str| {
+        let to = folder.join(name);
+        std::fs::create_dir_all(&to).expect("a folder");
+        for entry in std::fs::read_dir(&whole).expect("the capture") {
+            let path = entry.expect("an entry").path();
+            std::fs::copy(&path, to.join(path.file_name().unwrap())).expect("copied");
+        }
+        to
+    };
+
+    resolve(&folder.join("nothing"), &["nothing"]);
+
+    let truncated = copy("truncated");
+    let bytes = std::fs::read(truncated.join("depth.exr")).expect("depths");
+    std::fs::write(truncated.join("depth.exr"), &bytes[..bytes.len() / 2]).expect("cut");
+    resolve(&truncated, &["depth.exr"]);
+
+    // The depths of a capture with other layers, then of one of another size.
+    let other = folder.join("other");
+    let made = straightline(&["capture", "--size", "32x18", "--shading", "sample0", "--out", other.to_str().unwrap()]);
+    assert!(made.status.success());
+    let missing = copy("missing-layer");
+    std::fs::copy(other.join("depth.exr"), missing.join("depth.exr")).expect("copied");
+    resolve(&missing, &["depth.exr", "centre"]);
+
+    let larger = folder.join("larger");
+    let made = straightline(&["capture", "--size", "34x18", "--out", larger.to_str().unwrap()]);
+    assert!(made.status.success());
+    let mismatch = copy("mismatch");
+    std::fs::copy(larger.join("normal.exr"), mismatch.join("normal.exr")).expect("copied");
+    resolve(&mismatch, &["normal.exr", "34", "32"]);
+
+    let good = straightline(&["resolve", "--capture", whole.to_str().unwrap(), "--out", picture.to_str().unwrap(), "--executor", "cpu"]);
+    assert!(good.status.success(), "{}", String::from_utf8_lossy(&good.stderr));
+    assert!(picture.exists());
+}
