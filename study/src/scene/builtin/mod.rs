@@ -1,6 +1,54 @@
-//! x
-use super::*;
-/// x
+//! A scene of everything that edges are made of, in one picture: a tiled roof and its ridge, a stair with a railing of
+//! thin bars, wires from a pixel and a half down to a fifth of one, a grooved wall, a faceted stone, a picket fence and
+//! a tiled floor that recedes to the horizon.
+
+mod house;
+mod mast;
+mod square;
+mod stair;
+
+use super::mesh::Mesh;
+use super::{Camera, Scene, Sky, Sun};
+use glam::vec3;
+
+/// Linear reflectances.
+mod paint {
+    use glam::{Vec3, vec3};
+
+    pub const PLASTER: Vec3 = vec3(0.72, 0.58, 0.40);
+    pub const STONE: Vec3 = vec3(0.42, 0.40, 0.37);
+    pub const TRIM: Vec3 = vec3(0.80, 0.78, 0.74);
+    pub const TIMBER: Vec3 = vec3(0.16, 0.09, 0.05);
+    pub const IRON: Vec3 = vec3(0.035, 0.036, 0.04);
+    pub const GLASS: Vec3 = vec3(0.05, 0.09, 0.13);
+    pub const DOOR: Vec3 = vec3(0.10, 0.20, 0.17);
+}
+
+/// The scene. About 20 000 triangles; one unit is a metre.
 pub fn builtin() -> Scene {
-    todo!()
+    let mut mesh = Mesh::default();
+    house::add(&mut mesh);
+    stair::add(&mut mesh);
+    mast::add(&mut mesh);
+    square::add(&mut mesh);
+    Scene {
+        vertices: mesh.vertices,
+        triangles: mesh.triangles,
+        sun: Sun { direction: vec3(-0.50, 0.62, 0.61).normalize().into(), color: [0.86, 0.76, 0.60] },
+        sky: Sky { zenith: [0.20, 0.34, 0.60], horizon: [0.62, 0.70, 0.80], ground: [0.16, 0.14, 0.12], haze: 0.004 },
+        camera: Camera {
+            position: [2.6, 1.75, 11.4],
+            target: [2.0, 3.45, -3.0],
+            up: [0.0, 1.0, 0.0],
+            vertical_fov: 0.87,
+            near: 0.1,
+        },
+    }
+}
+
+/// A fixed number in 0..1 for each `seed`, without pattern (PCG's output permutation).
+fn noise(seed: u32) -> f32 {
+    let state = seed.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
+    let word = ((state >> ((state >> 28) + 4)) ^ state).wrapping_mul(277_803_737);
+    ((word >> 22) ^ word) as f32 / u32::MAX as f32
 }
