@@ -37,7 +37,7 @@ uint2 NagaRWDimensions2D(RWTexture2D<float4> tex)
     return ret.xy;
 }
 
-[numthreads(8, 8, 1)]
+[numthreads(256, 1, 1)]
 void sraa(uint3 id : SV_DispatchThreadID)
 {
     float weights[9] = Constructarray9_float_(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
@@ -92,7 +92,7 @@ void sraa(uint3 id : SV_DispatchThreadID)
             int _e46 = sample_value;
             bool holds = (_e46 == int(16));
             distances = Constructarray9_float_(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
-            nearest = 1e30;
+            nearest = 16.0;
             tap = int(0);
             uint2 loop_bound_1 = uint2(4294967295u, 4294967295u);
             bool loop_init_1 = true;
@@ -137,7 +137,7 @@ void sraa(uint3 id : SV_DispatchThreadID)
                             float depths = abs((centre_depth - shaded_depth));
                             float3 apart = (centre_normal - shaded_normal);
                             float larger = max(depths, (0.5 * dot(apart, apart)));
-                            d = min(larger, 1e30);
+                            d = min(larger, 16.0);
                         }
                         int _e134 = tap;
                         float _e136 = d;

@@ -81,7 +81,7 @@ kernel void sraa(
             int _e46 = sample_value;
             bool holds = _e46 == 16;
             distances = type_7 {{0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0}};
-            nearest = 1000000000000000000000000000000.0;
+            nearest = 16.0;
             tap = 0;
             uint2 loop_bound_1 = uint2(4294967295u);
             bool loop_init_1 = true;
@@ -126,7 +126,7 @@ kernel void sraa(
                             float depths = metal::abs(centre_depth - shaded_depth);
                             metal::float3 apart = centre_normal - shaded_normal;
                             float larger = metal::max(depths, 0.5 * metal::dot(apart, apart));
-                            d = metal::min(larger, 1000000000000000000000000000000.0);
+                            d = metal::min(larger, 16.0);
                         }
                         int _e134 = tap;
                         float _e136 = d;

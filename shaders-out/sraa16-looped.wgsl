@@ -11,7 +11,7 @@
 
 const table = array<vec2i, 16>(vec2i(1), vec2i(-1, -3), vec2i(-3, 2), vec2i(4, -1), vec2i(-5, -2), vec2i(2, 5), vec2i(5, 3), vec2i(3, -5), vec2i(-2, 6), vec2i(0, -7), vec2i(-4, -6), vec2i(-6, 4), vec2i(-8, 0), vec2i(7, -4), vec2i(6, 7), vec2i(-7, -8));
 
-@compute @workgroup_size(8, 8, 1)
+@compute @workgroup_size(256, 1, 1)
 fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let frame = vec2i(textureDimensions(destination));
     let pixel = vec2i(id.xy);
@@ -30,7 +30,7 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
         let value = vec2f(texel) / vec2f(16.0);
         let holds = sample_value == 16;
         var distances = array<f32, 9>(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
-        var nearest = 1e30;
+        var nearest = 16.0;
         for (var tap = 0; tap < 9; tap++) {
             // kernels/src/sraa/mod.rs:119
             let texel_2 = vec2i(tap % 3 - 1, tap / 3 - 1);
@@ -50,7 +50,7 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
                     let depths = abs(centre_depth - shaded_depth);
                     let apart = centre_normal - shaded_normal;
                     let larger = max(depths, 0.5 * dot(apart, apart));
-                    d = min(larger, 1e30);
+                    d = min(larger, 16.0);
                 }
                 // kernels/src/sraa/mod.rs:77
                 distances[tap] = d;

@@ -6,7 +6,7 @@
 // Per pixel: 1 basic block, 575 statements, 50 texture reads + 9 of colour, 60 weight evaluations, 60 transcendental calls.
 // GLSL names a texture together with a sampler even where it filters nothing: any sampler will do.
 
-layout(local_size_x = 8, local_size_y = 8, local_size_z = 1) in;
+layout(local_size_x = 256, local_size_y = 1, local_size_z = 1) in;
 
 layout(set = 0, binding = 0) uniform texture2DArray depth;
 layout(set = 0, binding = 1) uniform texture2DArray normal;
@@ -31,7 +31,7 @@ void main() {
     float depths_s0_t4 = abs(centre_depth_s0 - shaded_depth_t4);
     vec3 apart_s0_t4 = centre_normal_s0 - shaded_normal_t4;
     float larger_s0_t4 = max(depths_s0_t4, 0.5 * dot(apart_s0_t4, apart_s0_t4));
-    float d_s0_t4 = min(larger_s0_t4, 1e30);
+    float d_s0_t4 = min(larger_s0_t4, 16.0);
     ivec2 texel_t5 = min(pixel + ivec2(1, 0), last);
     float depth_texel_3 = texelFetch(sampler2DArray(depth, unfiltered), ivec3(texel_t5, 16), 0).x;
     float shaded_depth_t5 = min(depth_texel_3, 1e30);
@@ -39,7 +39,7 @@ void main() {
     float depths_s0_t5 = abs(centre_depth_s0 - shaded_depth_t5);
     vec3 apart_s0_t5 = centre_normal_s0 - shaded_normal_t5;
     float larger_s0_t5 = max(depths_s0_t5, 0.5 * dot(apart_s0_t5, apart_s0_t5));
-    float d_s0_t5 = min(larger_s0_t5, 1e30);
+    float d_s0_t5 = min(larger_s0_t5, 16.0);
     float nearest_s0_t5 = min(d_s0_t4, d_s0_t5);
     ivec2 texel_t7 = min(pixel + ivec2(0, 1), last);
     float depth_texel_4 = texelFetch(sampler2DArray(depth, unfiltered), ivec3(texel_t7, 16), 0).x;
@@ -48,7 +48,7 @@ void main() {
     float depths_s0_t7 = abs(centre_depth_s0 - shaded_depth_t7);
     vec3 apart_s0_t7 = centre_normal_s0 - shaded_normal_t7;
     float larger_s0_t7 = max(depths_s0_t7, 0.5 * dot(apart_s0_t7, apart_s0_t7));
-    float d_s0_t7 = min(larger_s0_t7, 1e30);
+    float d_s0_t7 = min(larger_s0_t7, 16.0);
     float nearest_s0_t7 = min(nearest_s0_t5, d_s0_t7);
     ivec2 texel_t8 = min(pixel + ivec2(1), last);
     float depth_texel_5 = texelFetch(sampler2DArray(depth, unfiltered), ivec3(texel_t8, 16), 0).x;
@@ -57,7 +57,7 @@ void main() {
     float depths_s0_t8 = abs(centre_depth_s0 - shaded_depth_t8);
     vec3 apart_s0_t8 = centre_normal_s0 - shaded_normal_t8;
     float larger_s0_t8 = max(depths_s0_t8, 0.5 * dot(apart_s0_t8, apart_s0_t8));
-    float d_s0_t8 = min(larger_s0_t8, 1e30);
+    float d_s0_t8 = min(larger_s0_t8, 16.0);
     float nearest_s0_t8 = min(nearest_s0_t7, d_s0_t8);
     // sample 0, tap 4: kernels/src/sraa/mod.rs:89
     float w_s0_t4 = 0.87890625 * exp2(-721.34753 * (d_s0_t4 - nearest_s0_t8));
@@ -84,7 +84,7 @@ void main() {
     float depths_s1_t0 = abs(centre_depth_s1 - shaded_depth_t0);
     vec3 apart_s1_t0 = centre_normal_s1 - shaded_normal_t0;
     float larger_s1_t0 = max(depths_s1_t0, 0.5 * dot(apart_s1_t0, apart_s1_t0));
-    float d_s1_t0 = min(larger_s1_t0, 1e30);
+    float d_s1_t0 = min(larger_s1_t0, 16.0);
     // sample 1, tap 1: kernels/src/sraa/metric.rs:36
     ivec2 texel_t1 = max(pixel + ivec2(0, -1), ivec2(0));
     float depth_texel_8 = texelFetch(sampler2DArray(depth, unfiltered), ivec3(texel_t1, 16), 0).x;
@@ -93,7 +93,7 @@ void main() {
     float depths_s1_t1 = abs(centre_depth_s1 - shaded_depth_t1);
     vec3 apart_s1_t1 = centre_normal_s1 - shaded_normal_t1;
     float larger_s1_t1 = max(depths_s1_t1, 0.5 * dot(apart_s1_t1, apart_s1_t1));
-    float d_s1_t1 = min(larger_s1_t1, 1e30);
+    float d_s1_t1 = min(larger_s1_t1, 16.0);
     float nearest_s1_t1 = min(d_s1_t0, d_s1_t1);
     ivec2 texel_t3 = max(pixel + ivec2(-1, 0), ivec2(0));
     float depth_texel_9 = texelFetch(sampler2DArray(depth, unfiltered), ivec3(texel_t3, 16), 0).x;
@@ -102,13 +102,13 @@ void main() {
     float depths_s1_t3 = abs(centre_depth_s1 - shaded_depth_t3);
     vec3 apart_s1_t3 = centre_normal_s1 - shaded_normal_t3;
     float larger_s1_t3 = max(depths_s1_t3, 0.5 * dot(apart_s1_t3, apart_s1_t3));
-    float d_s1_t3 = min(larger_s1_t3, 1e30);
+    float d_s1_t3 = min(larger_s1_t3, 16.0);
     float nearest_s1_t3 = min(nearest_s1_t1, d_s1_t3);
-    // sample 1, tap 4: kernels/src/sraa/metric.rs:46
+    // sample 1, tap 4: kernels/src/sraa/metric.rs:50
     float depths_s1_t4 = abs(centre_depth_s1 - shaded_depth_t4);
     vec3 apart_s1_t4 = centre_normal_s1 - shaded_normal_t4;
     float larger_s1_t4 = max(depths_s1_t4, 0.5 * dot(apart_s1_t4, apart_s1_t4));
-    float d_s1_t4 = min(larger_s1_t4, 1e30);
+    float d_s1_t4 = min(larger_s1_t4, 16.0);
     float nearest_s1_t4 = min(nearest_s1_t3, d_s1_t4);
     // sample 1, tap 0: kernels/src/sraa/mod.rs:89
     float w_s1_t0 = 0.01171875 * exp2(-721.34753 * (d_s1_t0 - nearest_s1_t4));
@@ -131,12 +131,12 @@ void main() {
     float depths_s2_t3 = abs(centre_depth_s2 - shaded_depth_t3);
     vec3 apart_s2_t3 = centre_normal_s2 - shaded_normal_t3;
     float larger_s2_t3 = max(depths_s2_t3, 0.5 * dot(apart_s2_t3, apart_s2_t3));
-    float d_s2_t3 = min(larger_s2_t3, 1e30);
-    // sample 2, tap 4: kernels/src/sraa/metric.rs:46
+    float d_s2_t3 = min(larger_s2_t3, 16.0);
+    // sample 2, tap 4: kernels/src/sraa/metric.rs:50
     float depths_s2_t4 = abs(centre_depth_s2 - shaded_depth_t4);
     vec3 apart_s2_t4 = centre_normal_s2 - shaded_normal_t4;
     float larger_s2_t4 = max(depths_s2_t4, 0.5 * dot(apart_s2_t4, apart_s2_t4));
-    float d_s2_t4 = min(larger_s2_t4, 1e30);
+    float d_s2_t4 = min(larger_s2_t4, 16.0);
     float nearest_s2_t4 = min(d_s2_t3, d_s2_t4);
     // sample 2, tap 6: kernels/src/sraa/metric.rs:36
     ivec2 texel_t6 = clamp(pixel + ivec2(-1, 1), ivec2(0), last);
@@ -146,13 +146,13 @@ void main() {
     float depths_s2_t6 = abs(centre_depth_s2 - shaded_depth_t6);
     vec3 apart_s2_t6 = centre_normal_s2 - shaded_normal_t6;
     float larger_s2_t6 = max(depths_s2_t6, 0.5 * dot(apart_s2_t6, apart_s2_t6));
-    float d_s2_t6 = min(larger_s2_t6, 1e30);
+    float d_s2_t6 = min(larger_s2_t6, 16.0);
     float nearest_s2_t6 = min(nearest_s2_t4, d_s2_t6);
-    // sample 2, tap 7: kernels/src/sraa/metric.rs:46
+    // sample 2, tap 7: kernels/src/sraa/metric.rs:50
     float depths_s2_t7 = abs(centre_depth_s2 - shaded_depth_t7);
     vec3 apart_s2_t7 = centre_normal_s2 - shaded_normal_t7;
     float larger_s2_t7 = max(depths_s2_t7, 0.5 * dot(apart_s2_t7, apart_s2_t7));
-    float d_s2_t7 = min(larger_s2_t7, 1e30);
+    float d_s2_t7 = min(larger_s2_t7, 16.0);
     float nearest_s2_t7 = min(nearest_s2_t6, d_s2_t7);
     // sample 2, tap 3: kernels/src/sraa/mod.rs:89
     float w_s2_t3 = 0.1640625 * exp2(-721.34753 * (d_s2_t3 - nearest_s2_t7));
@@ -175,7 +175,7 @@ void main() {
     float depths_s3_t1 = abs(centre_depth_s3 - shaded_depth_t1);
     vec3 apart_s3_t1 = centre_normal_s3 - shaded_normal_t1;
     float larger_s3_t1 = max(depths_s3_t1, 0.5 * dot(apart_s3_t1, apart_s3_t1));
-    float d_s3_t1 = min(larger_s3_t1, 1e30);
+    float d_s3_t1 = min(larger_s3_t1, 16.0);
     // sample 3, tap 2: kernels/src/sraa/metric.rs:36
     ivec2 texel_t2 = clamp(pixel + ivec2(1, -1), ivec2(0), last);
     float depth_texel_13 = texelFetch(sampler2DArray(depth, unfiltered), ivec3(texel_t2, 16), 0).x;
@@ -184,18 +184,18 @@ void main() {
     float depths_s3_t2 = abs(centre_depth_s3 - shaded_depth_t2);
     vec3 apart_s3_t2 = centre_normal_s3 - shaded_normal_t2;
     float larger_s3_t2 = max(depths_s3_t2, 0.5 * dot(apart_s3_t2, apart_s3_t2));
-    float d_s3_t2 = min(larger_s3_t2, 1e30);
+    float d_s3_t2 = min(larger_s3_t2, 16.0);
     float nearest_s3_t2 = min(d_s3_t1, d_s3_t2);
-    // sample 3, tap 4: kernels/src/sraa/metric.rs:46
+    // sample 3, tap 4: kernels/src/sraa/metric.rs:50
     float depths_s3_t4 = abs(centre_depth_s3 - shaded_depth_t4);
     vec3 apart_s3_t4 = centre_normal_s3 - shaded_normal_t4;
     float larger_s3_t4 = max(depths_s3_t4, 0.5 * dot(apart_s3_t4, apart_s3_t4));
-    float d_s3_t4 = min(larger_s3_t4, 1e30);
+    float d_s3_t4 = min(larger_s3_t4, 16.0);
     float nearest_s3_t4 = min(nearest_s3_t2, d_s3_t4);
     float depths_s3_t5 = abs(centre_depth_s3 - shaded_depth_t5);
     vec3 apart_s3_t5 = centre_normal_s3 - shaded_normal_t5;
     float larger_s3_t5 = max(depths_s3_t5, 0.5 * dot(apart_s3_t5, apart_s3_t5));
-    float d_s3_t5 = min(larger_s3_t5, 1e30);
+    float d_s3_t5 = min(larger_s3_t5, 16.0);
     float nearest_s3_t5 = min(nearest_s3_t4, d_s3_t5);
     // sample 3, tap 1: kernels/src/sraa/mod.rs:89
     float w_s3_t1 = 0.046875 * exp2(-721.34753 * (d_s3_t1 - nearest_s3_t5));
@@ -218,22 +218,22 @@ void main() {
     float depths_s4_t0 = abs(centre_depth_s4 - shaded_depth_t0);
     vec3 apart_s4_t0 = centre_normal_s4 - shaded_normal_t0;
     float larger_s4_t0 = max(depths_s4_t0, 0.5 * dot(apart_s4_t0, apart_s4_t0));
-    float d_s4_t0 = min(larger_s4_t0, 1e30);
-    // sample 4, tap 1: kernels/src/sraa/metric.rs:46
+    float d_s4_t0 = min(larger_s4_t0, 16.0);
+    // sample 4, tap 1: kernels/src/sraa/metric.rs:50
     float depths_s4_t1 = abs(centre_depth_s4 - shaded_depth_t1);
     vec3 apart_s4_t1 = centre_normal_s4 - shaded_normal_t1;
     float larger_s4_t1 = max(depths_s4_t1, 0.5 * dot(apart_s4_t1, apart_s4_t1));
-    float d_s4_t1 = min(larger_s4_t1, 1e30);
+    float d_s4_t1 = min(larger_s4_t1, 16.0);
     float nearest_s4_t1 = min(d_s4_t0, d_s4_t1);
     float depths_s4_t3 = abs(centre_depth_s4 - shaded_depth_t3);
     vec3 apart_s4_t3 = centre_normal_s4 - shaded_normal_t3;
     float larger_s4_t3 = max(depths_s4_t3, 0.5 * dot(apart_s4_t3, apart_s4_t3));
-    float d_s4_t3 = min(larger_s4_t3, 1e30);
+    float d_s4_t3 = min(larger_s4_t3, 16.0);
     float nearest_s4_t3 = min(nearest_s4_t1, d_s4_t3);
     float depths_s4_t4 = abs(centre_depth_s4 - shaded_depth_t4);
     vec3 apart_s4_t4 = centre_normal_s4 - shaded_normal_t4;
     float larger_s4_t4 = max(depths_s4_t4, 0.5 * dot(apart_s4_t4, apart_s4_t4));
-    float d_s4_t4 = min(larger_s4_t4, 1e30);
+    float d_s4_t4 = min(larger_s4_t4, 16.0);
     float nearest_s4_t4 = min(nearest_s4_t3, d_s4_t4);
     // sample 4, tap 0: kernels/src/sraa/mod.rs:89
     float w_s4_t0 = 0.0390625 * exp2(-721.34753 * (d_s4_t0 - nearest_s4_t4));
@@ -256,22 +256,22 @@ void main() {
     float depths_s5_t4 = abs(centre_depth_s5 - shaded_depth_t4);
     vec3 apart_s5_t4 = centre_normal_s5 - shaded_normal_t4;
     float larger_s5_t4 = max(depths_s5_t4, 0.5 * dot(apart_s5_t4, apart_s5_t4));
-    float d_s5_t4 = min(larger_s5_t4, 1e30);
-    // sample 5, tap 5: kernels/src/sraa/metric.rs:46
+    float d_s5_t4 = min(larger_s5_t4, 16.0);
+    // sample 5, tap 5: kernels/src/sraa/metric.rs:50
     float depths_s5_t5 = abs(centre_depth_s5 - shaded_depth_t5);
     vec3 apart_s5_t5 = centre_normal_s5 - shaded_normal_t5;
     float larger_s5_t5 = max(depths_s5_t5, 0.5 * dot(apart_s5_t5, apart_s5_t5));
-    float d_s5_t5 = min(larger_s5_t5, 1e30);
+    float d_s5_t5 = min(larger_s5_t5, 16.0);
     float nearest_s5_t5 = min(d_s5_t4, d_s5_t5);
     float depths_s5_t7 = abs(centre_depth_s5 - shaded_depth_t7);
     vec3 apart_s5_t7 = centre_normal_s5 - shaded_normal_t7;
     float larger_s5_t7 = max(depths_s5_t7, 0.5 * dot(apart_s5_t7, apart_s5_t7));
-    float d_s5_t7 = min(larger_s5_t7, 1e30);
+    float d_s5_t7 = min(larger_s5_t7, 16.0);
     float nearest_s5_t7 = min(nearest_s5_t5, d_s5_t7);
     float depths_s5_t8 = abs(centre_depth_s5 - shaded_depth_t8);
     vec3 apart_s5_t8 = centre_normal_s5 - shaded_normal_t8;
     float larger_s5_t8 = max(depths_s5_t8, 0.5 * dot(apart_s5_t8, apart_s5_t8));
-    float d_s5_t8 = min(larger_s5_t8, 1e30);
+    float d_s5_t8 = min(larger_s5_t8, 16.0);
     float nearest_s5_t8 = min(nearest_s5_t7, d_s5_t8);
     // sample 5, tap 4: kernels/src/sraa/mod.rs:89
     float w_s5_t4 = 0.6015625 * exp2(-721.34753 * (d_s5_t4 - nearest_s5_t8));
@@ -294,22 +294,22 @@ void main() {
     float depths_s6_t4 = abs(centre_depth_s6 - shaded_depth_t4);
     vec3 apart_s6_t4 = centre_normal_s6 - shaded_normal_t4;
     float larger_s6_t4 = max(depths_s6_t4, 0.5 * dot(apart_s6_t4, apart_s6_t4));
-    float d_s6_t4 = min(larger_s6_t4, 1e30);
-    // sample 6, tap 5: kernels/src/sraa/metric.rs:46
+    float d_s6_t4 = min(larger_s6_t4, 16.0);
+    // sample 6, tap 5: kernels/src/sraa/metric.rs:50
     float depths_s6_t5 = abs(centre_depth_s6 - shaded_depth_t5);
     vec3 apart_s6_t5 = centre_normal_s6 - shaded_normal_t5;
     float larger_s6_t5 = max(depths_s6_t5, 0.5 * dot(apart_s6_t5, apart_s6_t5));
-    float d_s6_t5 = min(larger_s6_t5, 1e30);
+    float d_s6_t5 = min(larger_s6_t5, 16.0);
     float nearest_s6_t5 = min(d_s6_t4, d_s6_t5);
     float depths_s6_t7 = abs(centre_depth_s6 - shaded_depth_t7);
     vec3 apart_s6_t7 = centre_normal_s6 - shaded_normal_t7;
     float larger_s6_t7 = max(depths_s6_t7, 0.5 * dot(apart_s6_t7, apart_s6_t7));
-    float d_s6_t7 = min(larger_s6_t7, 1e30);
+    float d_s6_t7 = min(larger_s6_t7, 16.0);
     float nearest_s6_t7 = min(nearest_s6_t5, d_s6_t7);
     float depths_s6_t8 = abs(centre_depth_s6 - shaded_depth_t8);
     vec3 apart_s6_t8 = centre_normal_s6 - shaded_normal_t8;
     float larger_s6_t8 = max(depths_s6_t8, 0.5 * dot(apart_s6_t8, apart_s6_t8));
-    float d_s6_t8 = min(larger_s6_t8, 1e30);
+    float d_s6_t8 = min(larger_s6_t8, 16.0);
     float nearest_s6_t8 = min(nearest_s6_t7, d_s6_t8);
     // sample 6, tap 4: kernels/src/sraa/mod.rs:89
     float w_s6_t4 = 0.55859375 * exp2(-721.34753 * (d_s6_t4 - nearest_s6_t8));
@@ -332,22 +332,22 @@ void main() {
     float depths_s7_t1 = abs(centre_depth_s7 - shaded_depth_t1);
     vec3 apart_s7_t1 = centre_normal_s7 - shaded_normal_t1;
     float larger_s7_t1 = max(depths_s7_t1, 0.5 * dot(apart_s7_t1, apart_s7_t1));
-    float d_s7_t1 = min(larger_s7_t1, 1e30);
-    // sample 7, tap 2: kernels/src/sraa/metric.rs:46
+    float d_s7_t1 = min(larger_s7_t1, 16.0);
+    // sample 7, tap 2: kernels/src/sraa/metric.rs:50
     float depths_s7_t2 = abs(centre_depth_s7 - shaded_depth_t2);
     vec3 apart_s7_t2 = centre_normal_s7 - shaded_normal_t2;
     float larger_s7_t2 = max(depths_s7_t2, 0.5 * dot(apart_s7_t2, apart_s7_t2));
-    float d_s7_t2 = min(larger_s7_t2, 1e30);
+    float d_s7_t2 = min(larger_s7_t2, 16.0);
     float nearest_s7_t2 = min(d_s7_t1, d_s7_t2);
     float depths_s7_t4 = abs(centre_depth_s7 - shaded_depth_t4);
     vec3 apart_s7_t4 = centre_normal_s7 - shaded_normal_t4;
     float larger_s7_t4 = max(depths_s7_t4, 0.5 * dot(apart_s7_t4, apart_s7_t4));
-    float d_s7_t4 = min(larger_s7_t4, 1e30);
+    float d_s7_t4 = min(larger_s7_t4, 16.0);
     float nearest_s7_t4 = min(nearest_s7_t2, d_s7_t4);
     float depths_s7_t5 = abs(centre_depth_s7 - shaded_depth_t5);
     vec3 apart_s7_t5 = centre_normal_s7 - shaded_normal_t5;
     float larger_s7_t5 = max(depths_s7_t5, 0.5 * dot(apart_s7_t5, apart_s7_t5));
-    float d_s7_t5 = min(larger_s7_t5, 1e30);
+    float d_s7_t5 = min(larger_s7_t5, 16.0);
     float nearest_s7_t5 = min(nearest_s7_t4, d_s7_t5);
     // sample 7, tap 1: kernels/src/sraa/mod.rs:89
     float w_s7_t1 = 0.25390625 * exp2(-721.34753 * (d_s7_t1 - nearest_s7_t5));
@@ -370,22 +370,22 @@ void main() {
     float depths_s8_t3 = abs(centre_depth_s8 - shaded_depth_t3);
     vec3 apart_s8_t3 = centre_normal_s8 - shaded_normal_t3;
     float larger_s8_t3 = max(depths_s8_t3, 0.5 * dot(apart_s8_t3, apart_s8_t3));
-    float d_s8_t3 = min(larger_s8_t3, 1e30);
-    // sample 8, tap 4: kernels/src/sraa/metric.rs:46
+    float d_s8_t3 = min(larger_s8_t3, 16.0);
+    // sample 8, tap 4: kernels/src/sraa/metric.rs:50
     float depths_s8_t4 = abs(centre_depth_s8 - shaded_depth_t4);
     vec3 apart_s8_t4 = centre_normal_s8 - shaded_normal_t4;
     float larger_s8_t4 = max(depths_s8_t4, 0.5 * dot(apart_s8_t4, apart_s8_t4));
-    float d_s8_t4 = min(larger_s8_t4, 1e30);
+    float d_s8_t4 = min(larger_s8_t4, 16.0);
     float nearest_s8_t4 = min(d_s8_t3, d_s8_t4);
     float depths_s8_t6 = abs(centre_depth_s8 - shaded_depth_t6);
     vec3 apart_s8_t6 = centre_normal_s8 - shaded_normal_t6;
     float larger_s8_t6 = max(depths_s8_t6, 0.5 * dot(apart_s8_t6, apart_s8_t6));
-    float d_s8_t6 = min(larger_s8_t6, 1e30);
+    float d_s8_t6 = min(larger_s8_t6, 16.0);
     float nearest_s8_t6 = min(nearest_s8_t4, d_s8_t6);
     float depths_s8_t7 = abs(centre_depth_s8 - shaded_depth_t7);
     vec3 apart_s8_t7 = centre_normal_s8 - shaded_normal_t7;
     float larger_s8_t7 = max(depths_s8_t7, 0.5 * dot(apart_s8_t7, apart_s8_t7));
-    float d_s8_t7 = min(larger_s8_t7, 1e30);
+    float d_s8_t7 = min(larger_s8_t7, 16.0);
     float nearest_s8_t7 = min(nearest_s8_t6, d_s8_t7);
     // sample 8, tap 3: kernels/src/sraa/mod.rs:89
     float w_s8_t3 = 0.078125 * exp2(-721.34753 * (d_s8_t3 - nearest_s8_t7));
@@ -408,12 +408,12 @@ void main() {
     float depths_s9_t1 = abs(centre_depth_s9 - shaded_depth_t1);
     vec3 apart_s9_t1 = centre_normal_s9 - shaded_normal_t1;
     float larger_s9_t1 = max(depths_s9_t1, 0.5 * dot(apart_s9_t1, apart_s9_t1));
-    float d_s9_t1 = min(larger_s9_t1, 1e30);
-    // sample 9, tap 4: kernels/src/sraa/metric.rs:46
+    float d_s9_t1 = min(larger_s9_t1, 16.0);
+    // sample 9, tap 4: kernels/src/sraa/metric.rs:50
     float depths_s9_t4 = abs(centre_depth_s9 - shaded_depth_t4);
     vec3 apart_s9_t4 = centre_normal_s9 - shaded_normal_t4;
     float larger_s9_t4 = max(depths_s9_t4, 0.5 * dot(apart_s9_t4, apart_s9_t4));
-    float d_s9_t4 = min(larger_s9_t4, 1e30);
+    float d_s9_t4 = min(larger_s9_t4, 16.0);
     float nearest_s9_t4 = min(d_s9_t1, d_s9_t4);
     // sample 9, tap 1: kernels/src/sraa/mod.rs:89
     float w_s9_t1 = 0.4375 * exp2(-721.34753 * (d_s9_t1 - nearest_s9_t4));
@@ -430,22 +430,22 @@ void main() {
     float depths_s10_t0 = abs(centre_depth_s10 - shaded_depth_t0);
     vec3 apart_s10_t0 = centre_normal_s10 - shaded_normal_t0;
     float larger_s10_t0 = max(depths_s10_t0, 0.5 * dot(apart_s10_t0, apart_s10_t0));
-    float d_s10_t0 = min(larger_s10_t0, 1e30);
-    // sample 10, tap 1: kernels/src/sraa/metric.rs:46
+    float d_s10_t0 = min(larger_s10_t0, 16.0);
+    // sample 10, tap 1: kernels/src/sraa/metric.rs:50
     float depths_s10_t1 = abs(centre_depth_s10 - shaded_depth_t1);
     vec3 apart_s10_t1 = centre_normal_s10 - shaded_normal_t1;
     float larger_s10_t1 = max(depths_s10_t1, 0.5 * dot(apart_s10_t1, apart_s10_t1));
-    float d_s10_t1 = min(larger_s10_t1, 1e30);
+    float d_s10_t1 = min(larger_s10_t1, 16.0);
     float nearest_s10_t1 = min(d_s10_t0, d_s10_t1);
     float depths_s10_t3 = abs(centre_depth_s10 - shaded_depth_t3);
     vec3 apart_s10_t3 = centre_normal_s10 - shaded_normal_t3;
     float larger_s10_t3 = max(depths_s10_t3, 0.5 * dot(apart_s10_t3, apart_s10_t3));
-    float d_s10_t3 = min(larger_s10_t3, 1e30);
+    float d_s10_t3 = min(larger_s10_t3, 16.0);
     float nearest_s10_t3 = min(nearest_s10_t1, d_s10_t3);
     float depths_s10_t4 = abs(centre_depth_s10 - shaded_depth_t4);
     vec3 apart_s10_t4 = centre_normal_s10 - shaded_normal_t4;
     float larger_s10_t4 = max(depths_s10_t4, 0.5 * dot(apart_s10_t4, apart_s10_t4));
-    float d_s10_t4 = min(larger_s10_t4, 1e30);
+    float d_s10_t4 = min(larger_s10_t4, 16.0);
     float nearest_s10_t4 = min(nearest_s10_t3, d_s10_t4);
     // sample 10, tap 0: kernels/src/sraa/mod.rs:89
     float w_s10_t0 = 0.09375 * exp2(-721.34753 * (d_s10_t0 - nearest_s10_t4));
@@ -468,22 +468,22 @@ void main() {
     float depths_s11_t3 = abs(centre_depth_s11 - shaded_depth_t3);
     vec3 apart_s11_t3 = centre_normal_s11 - shaded_normal_t3;
     float larger_s11_t3 = max(depths_s11_t3, 0.5 * dot(apart_s11_t3, apart_s11_t3));
-    float d_s11_t3 = min(larger_s11_t3, 1e30);
-    // sample 11, tap 4: kernels/src/sraa/metric.rs:46
+    float d_s11_t3 = min(larger_s11_t3, 16.0);
+    // sample 11, tap 4: kernels/src/sraa/metric.rs:50
     float depths_s11_t4 = abs(centre_depth_s11 - shaded_depth_t4);
     vec3 apart_s11_t4 = centre_normal_s11 - shaded_normal_t4;
     float larger_s11_t4 = max(depths_s11_t4, 0.5 * dot(apart_s11_t4, apart_s11_t4));
-    float d_s11_t4 = min(larger_s11_t4, 1e30);
+    float d_s11_t4 = min(larger_s11_t4, 16.0);
     float nearest_s11_t4 = min(d_s11_t3, d_s11_t4);
     float depths_s11_t6 = abs(centre_depth_s11 - shaded_depth_t6);
     vec3 apart_s11_t6 = centre_normal_s11 - shaded_normal_t6;
     float larger_s11_t6 = max(depths_s11_t6, 0.5 * dot(apart_s11_t6, apart_s11_t6));
-    float d_s11_t6 = min(larger_s11_t6, 1e30);
+    float d_s11_t6 = min(larger_s11_t6, 16.0);
     float nearest_s11_t6 = min(nearest_s11_t4, d_s11_t6);
     float depths_s11_t7 = abs(centre_depth_s11 - shaded_depth_t7);
     vec3 apart_s11_t7 = centre_normal_s11 - shaded_normal_t7;
     float larger_s11_t7 = max(depths_s11_t7, 0.5 * dot(apart_s11_t7, apart_s11_t7));
-    float d_s11_t7 = min(larger_s11_t7, 1e30);
+    float d_s11_t7 = min(larger_s11_t7, 16.0);
     float nearest_s11_t7 = min(nearest_s11_t6, d_s11_t7);
     // sample 11, tap 3: kernels/src/sraa/mod.rs:89
     float w_s11_t3 = 0.28125 * exp2(-721.34753 * (d_s11_t3 - nearest_s11_t7));
@@ -506,12 +506,12 @@ void main() {
     float depths_s12_t3 = abs(centre_depth_s12 - shaded_depth_t3);
     vec3 apart_s12_t3 = centre_normal_s12 - shaded_normal_t3;
     float larger_s12_t3 = max(depths_s12_t3, 0.5 * dot(apart_s12_t3, apart_s12_t3));
-    float d_s12_t3 = min(larger_s12_t3, 1e30);
-    // sample 12, tap 4: kernels/src/sraa/metric.rs:46
+    float d_s12_t3 = min(larger_s12_t3, 16.0);
+    // sample 12, tap 4: kernels/src/sraa/metric.rs:50
     float depths_s12_t4 = abs(centre_depth_s12 - shaded_depth_t4);
     vec3 apart_s12_t4 = centre_normal_s12 - shaded_normal_t4;
     float larger_s12_t4 = max(depths_s12_t4, 0.5 * dot(apart_s12_t4, apart_s12_t4));
-    float d_s12_t4 = min(larger_s12_t4, 1e30);
+    float d_s12_t4 = min(larger_s12_t4, 16.0);
     float nearest_s12_t4 = min(d_s12_t3, d_s12_t4);
     // sample 12, tap 3: kernels/src/sraa/mod.rs:89
     float w_s12_t3 = 0.5 * exp2(-721.34753 * (d_s12_t3 - nearest_s12_t4));
@@ -528,22 +528,22 @@ void main() {
     float depths_s13_t1 = abs(centre_depth_s13 - shaded_depth_t1);
     vec3 apart_s13_t1 = centre_normal_s13 - shaded_normal_t1;
     float larger_s13_t1 = max(depths_s13_t1, 0.5 * dot(apart_s13_t1, apart_s13_t1));
-    float d_s13_t1 = min(larger_s13_t1, 1e30);
-    // sample 13, tap 2: kernels/src/sraa/metric.rs:46
+    float d_s13_t1 = min(larger_s13_t1, 16.0);
+    // sample 13, tap 2: kernels/src/sraa/metric.rs:50
     float depths_s13_t2 = abs(centre_depth_s13 - shaded_depth_t2);
     vec3 apart_s13_t2 = centre_normal_s13 - shaded_normal_t2;
     float larger_s13_t2 = max(depths_s13_t2, 0.5 * dot(apart_s13_t2, apart_s13_t2));
-    float d_s13_t2 = min(larger_s13_t2, 1e30);
+    float d_s13_t2 = min(larger_s13_t2, 16.0);
     float nearest_s13_t2 = min(d_s13_t1, d_s13_t2);
     float depths_s13_t4 = abs(centre_depth_s13 - shaded_depth_t4);
     vec3 apart_s13_t4 = centre_normal_s13 - shaded_normal_t4;
     float larger_s13_t4 = max(depths_s13_t4, 0.5 * dot(apart_s13_t4, apart_s13_t4));
-    float d_s13_t4 = min(larger_s13_t4, 1e30);
+    float d_s13_t4 = min(larger_s13_t4, 16.0);
     float nearest_s13_t4 = min(nearest_s13_t2, d_s13_t4);
     float depths_s13_t5 = abs(centre_depth_s13 - shaded_depth_t5);
     vec3 apart_s13_t5 = centre_normal_s13 - shaded_normal_t5;
     float larger_s13_t5 = max(depths_s13_t5, 0.5 * dot(apart_s13_t5, apart_s13_t5));
-    float d_s13_t5 = min(larger_s13_t5, 1e30);
+    float d_s13_t5 = min(larger_s13_t5, 16.0);
     float nearest_s13_t5 = min(nearest_s13_t4, d_s13_t5);
     // sample 13, tap 1: kernels/src/sraa/mod.rs:89
     float w_s13_t1 = 0.140625 * exp2(-721.34753 * (d_s13_t1 - nearest_s13_t5));
@@ -566,22 +566,22 @@ void main() {
     float depths_s14_t4 = abs(centre_depth_s14 - shaded_depth_t4);
     vec3 apart_s14_t4 = centre_normal_s14 - shaded_normal_t4;
     float larger_s14_t4 = max(depths_s14_t4, 0.5 * dot(apart_s14_t4, apart_s14_t4));
-    float d_s14_t4 = min(larger_s14_t4, 1e30);
-    // sample 14, tap 5: kernels/src/sraa/metric.rs:46
+    float d_s14_t4 = min(larger_s14_t4, 16.0);
+    // sample 14, tap 5: kernels/src/sraa/metric.rs:50
     float depths_s14_t5 = abs(centre_depth_s14 - shaded_depth_t5);
     vec3 apart_s14_t5 = centre_normal_s14 - shaded_normal_t5;
     float larger_s14_t5 = max(depths_s14_t5, 0.5 * dot(apart_s14_t5, apart_s14_t5));
-    float d_s14_t5 = min(larger_s14_t5, 1e30);
+    float d_s14_t5 = min(larger_s14_t5, 16.0);
     float nearest_s14_t5 = min(d_s14_t4, d_s14_t5);
     float depths_s14_t7 = abs(centre_depth_s14 - shaded_depth_t7);
     vec3 apart_s14_t7 = centre_normal_s14 - shaded_normal_t7;
     float larger_s14_t7 = max(depths_s14_t7, 0.5 * dot(apart_s14_t7, apart_s14_t7));
-    float d_s14_t7 = min(larger_s14_t7, 1e30);
+    float d_s14_t7 = min(larger_s14_t7, 16.0);
     float nearest_s14_t7 = min(nearest_s14_t5, d_s14_t7);
     float depths_s14_t8 = abs(centre_depth_s14 - shaded_depth_t8);
     vec3 apart_s14_t8 = centre_normal_s14 - shaded_normal_t8;
     float larger_s14_t8 = max(depths_s14_t8, 0.5 * dot(apart_s14_t8, apart_s14_t8));
-    float d_s14_t8 = min(larger_s14_t8, 1e30);
+    float d_s14_t8 = min(larger_s14_t8, 16.0);
     float nearest_s14_t8 = min(nearest_s14_t7, d_s14_t8);
     // sample 14, tap 4: kernels/src/sraa/mod.rs:89
     float w_s14_t4 = 0.3515625 * exp2(-721.34753 * (d_s14_t4 - nearest_s14_t8));
@@ -604,22 +604,22 @@ void main() {
     float depths_s15_t0 = abs(centre_depth_s15 - shaded_depth_t0);
     vec3 apart_s15_t0 = centre_normal_s15 - shaded_normal_t0;
     float larger_s15_t0 = max(depths_s15_t0, 0.5 * dot(apart_s15_t0, apart_s15_t0));
-    float d_s15_t0 = min(larger_s15_t0, 1e30);
-    // sample 15, tap 1: kernels/src/sraa/metric.rs:46
+    float d_s15_t0 = min(larger_s15_t0, 16.0);
+    // sample 15, tap 1: kernels/src/sraa/metric.rs:50
     float depths_s15_t1 = abs(centre_depth_s15 - shaded_depth_t1);
     vec3 apart_s15_t1 = centre_normal_s15 - shaded_normal_t1;
     float larger_s15_t1 = max(depths_s15_t1, 0.5 * dot(apart_s15_t1, apart_s15_t1));
-    float d_s15_t1 = min(larger_s15_t1, 1e30);
+    float d_s15_t1 = min(larger_s15_t1, 16.0);
     float nearest_s15_t1 = min(d_s15_t0, d_s15_t1);
     float depths_s15_t3 = abs(centre_depth_s15 - shaded_depth_t3);
     vec3 apart_s15_t3 = centre_normal_s15 - shaded_normal_t3;
     float larger_s15_t3 = max(depths_s15_t3, 0.5 * dot(apart_s15_t3, apart_s15_t3));
-    float d_s15_t3 = min(larger_s15_t3, 1e30);
+    float d_s15_t3 = min(larger_s15_t3, 16.0);
     float nearest_s15_t3 = min(nearest_s15_t1, d_s15_t3);
     float depths_s15_t4 = abs(centre_depth_s15 - shaded_depth_t4);
     vec3 apart_s15_t4 = centre_normal_s15 - shaded_normal_t4;
     float larger_s15_t4 = max(depths_s15_t4, 0.5 * dot(apart_s15_t4, apart_s15_t4));
-    float d_s15_t4 = min(larger_s15_t4, 1e30);
+    float d_s15_t4 = min(larger_s15_t4, 16.0);
     float nearest_s15_t4 = min(nearest_s15_t3, d_s15_t4);
     // sample 15, tap 0: kernels/src/sraa/mod.rs:89
     float w_s15_t0 = 0.21875 * exp2(-721.34753 * (d_s15_t0 - nearest_s15_t4));

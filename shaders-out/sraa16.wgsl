@@ -9,7 +9,7 @@
 @group(0) @binding(2) var color: texture_2d<f32>;
 @group(0) @binding(3) var destination: texture_storage_2d<rgba16float, write>;
 
-@compute @workgroup_size(8, 8, 1)
+@compute @workgroup_size(256, 1, 1)
 fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let frame = vec2i(textureDimensions(destination));
     let pixel = vec2i(id.xy);
@@ -27,7 +27,7 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let depths_s0_t4 = abs(centre_depth_s0 - shaded_depth_t4);
     let apart_s0_t4 = centre_normal_s0 - shaded_normal_t4;
     let larger_s0_t4 = max(depths_s0_t4, 0.5 * dot(apart_s0_t4, apart_s0_t4));
-    let d_s0_t4 = min(larger_s0_t4, 1e30);
+    let d_s0_t4 = min(larger_s0_t4, 16.0);
     let texel_t5 = min(pixel + vec2i(1, 0), last);
     let depth_texel_3 = textureLoad(depth, texel_t5, 16, 0).x;
     let shaded_depth_t5 = min(depth_texel_3, 1e30);
@@ -35,7 +35,7 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let depths_s0_t5 = abs(centre_depth_s0 - shaded_depth_t5);
     let apart_s0_t5 = centre_normal_s0 - shaded_normal_t5;
     let larger_s0_t5 = max(depths_s0_t5, 0.5 * dot(apart_s0_t5, apart_s0_t5));
-    let d_s0_t5 = min(larger_s0_t5, 1e30);
+    let d_s0_t5 = min(larger_s0_t5, 16.0);
     let nearest_s0_t5 = min(d_s0_t4, d_s0_t5);
     let texel_t7 = min(pixel + vec2i(0, 1), last);
     let depth_texel_4 = textureLoad(depth, texel_t7, 16, 0).x;
@@ -44,7 +44,7 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let depths_s0_t7 = abs(centre_depth_s0 - shaded_depth_t7);
     let apart_s0_t7 = centre_normal_s0 - shaded_normal_t7;
     let larger_s0_t7 = max(depths_s0_t7, 0.5 * dot(apart_s0_t7, apart_s0_t7));
-    let d_s0_t7 = min(larger_s0_t7, 1e30);
+    let d_s0_t7 = min(larger_s0_t7, 16.0);
     let nearest_s0_t7 = min(nearest_s0_t5, d_s0_t7);
     let texel_t8 = min(pixel + vec2i(1), last);
     let depth_texel_5 = textureLoad(depth, texel_t8, 16, 0).x;
@@ -53,7 +53,7 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let depths_s0_t8 = abs(centre_depth_s0 - shaded_depth_t8);
     let apart_s0_t8 = centre_normal_s0 - shaded_normal_t8;
     let larger_s0_t8 = max(depths_s0_t8, 0.5 * dot(apart_s0_t8, apart_s0_t8));
-    let d_s0_t8 = min(larger_s0_t8, 1e30);
+    let d_s0_t8 = min(larger_s0_t8, 16.0);
     let nearest_s0_t8 = min(nearest_s0_t7, d_s0_t8);
     // sample 0, tap 4: kernels/src/sraa/mod.rs:89
     let w_s0_t4 = 0.87890625 * exp2(-721.34753 * (d_s0_t4 - nearest_s0_t8));
@@ -80,7 +80,7 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let depths_s1_t0 = abs(centre_depth_s1 - shaded_depth_t0);
     let apart_s1_t0 = centre_normal_s1 - shaded_normal_t0;
     let larger_s1_t0 = max(depths_s1_t0, 0.5 * dot(apart_s1_t0, apart_s1_t0));
-    let d_s1_t0 = min(larger_s1_t0, 1e30);
+    let d_s1_t0 = min(larger_s1_t0, 16.0);
     // sample 1, tap 1: kernels/src/sraa/metric.rs:36
     let texel_t1 = max(pixel + vec2i(0, -1), vec2i(0));
     let depth_texel_8 = textureLoad(depth, texel_t1, 16, 0).x;
@@ -89,7 +89,7 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let depths_s1_t1 = abs(centre_depth_s1 - shaded_depth_t1);
     let apart_s1_t1 = centre_normal_s1 - shaded_normal_t1;
     let larger_s1_t1 = max(depths_s1_t1, 0.5 * dot(apart_s1_t1, apart_s1_t1));
-    let d_s1_t1 = min(larger_s1_t1, 1e30);
+    let d_s1_t1 = min(larger_s1_t1, 16.0);
     let nearest_s1_t1 = min(d_s1_t0, d_s1_t1);
     let texel_t3 = max(pixel + vec2i(-1, 0), vec2i(0));
     let depth_texel_9 = textureLoad(depth, texel_t3, 16, 0).x;
@@ -98,13 +98,13 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let depths_s1_t3 = abs(centre_depth_s1 - shaded_depth_t3);
     let apart_s1_t3 = centre_normal_s1 - shaded_normal_t3;
     let larger_s1_t3 = max(depths_s1_t3, 0.5 * dot(apart_s1_t3, apart_s1_t3));
-    let d_s1_t3 = min(larger_s1_t3, 1e30);
+    let d_s1_t3 = min(larger_s1_t3, 16.0);
     let nearest_s1_t3 = min(nearest_s1_t1, d_s1_t3);
-    // sample 1, tap 4: kernels/src/sraa/metric.rs:46
+    // sample 1, tap 4: kernels/src/sraa/metric.rs:50
     let depths_s1_t4 = abs(centre_depth_s1 - shaded_depth_t4);
     let apart_s1_t4 = centre_normal_s1 - shaded_normal_t4;
     let larger_s1_t4 = max(depths_s1_t4, 0.5 * dot(apart_s1_t4, apart_s1_t4));
-    let d_s1_t4 = min(larger_s1_t4, 1e30);
+    let d_s1_t4 = min(larger_s1_t4, 16.0);
     let nearest_s1_t4 = min(nearest_s1_t3, d_s1_t4);
     // sample 1, tap 0: kernels/src/sraa/mod.rs:89
     let w_s1_t0 = 0.01171875 * exp2(-721.34753 * (d_s1_t0 - nearest_s1_t4));
@@ -127,12 +127,12 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let depths_s2_t3 = abs(centre_depth_s2 - shaded_depth_t3);
     let apart_s2_t3 = centre_normal_s2 - shaded_normal_t3;
     let larger_s2_t3 = max(depths_s2_t3, 0.5 * dot(apart_s2_t3, apart_s2_t3));
-    let d_s2_t3 = min(larger_s2_t3, 1e30);
-    // sample 2, tap 4: kernels/src/sraa/metric.rs:46
+    let d_s2_t3 = min(larger_s2_t3, 16.0);
+    // sample 2, tap 4: kernels/src/sraa/metric.rs:50
     let depths_s2_t4 = abs(centre_depth_s2 - shaded_depth_t4);
     let apart_s2_t4 = centre_normal_s2 - shaded_normal_t4;
     let larger_s2_t4 = max(depths_s2_t4, 0.5 * dot(apart_s2_t4, apart_s2_t4));
-    let d_s2_t4 = min(larger_s2_t4, 1e30);
+    let d_s2_t4 = min(larger_s2_t4, 16.0);
     let nearest_s2_t4 = min(d_s2_t3, d_s2_t4);
     // sample 2, tap 6: kernels/src/sraa/metric.rs:36
     let texel_t6 = clamp(pixel + vec2i(-1, 1), vec2i(0), last);
@@ -142,13 +142,13 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let depths_s2_t6 = abs(centre_depth_s2 - shaded_depth_t6);
     let apart_s2_t6 = centre_normal_s2 - shaded_normal_t6;
     let larger_s2_t6 = max(depths_s2_t6, 0.5 * dot(apart_s2_t6, apart_s2_t6));
-    let d_s2_t6 = min(larger_s2_t6, 1e30);
+    let d_s2_t6 = min(larger_s2_t6, 16.0);
     let nearest_s2_t6 = min(nearest_s2_t4, d_s2_t6);
-    // sample 2, tap 7: kernels/src/sraa/metric.rs:46
+    // sample 2, tap 7: kernels/src/sraa/metric.rs:50
     let depths_s2_t7 = abs(centre_depth_s2 - shaded_depth_t7);
     let apart_s2_t7 = centre_normal_s2 - shaded_normal_t7;
     let larger_s2_t7 = max(depths_s2_t7, 0.5 * dot(apart_s2_t7, apart_s2_t7));
-    let d_s2_t7 = min(larger_s2_t7, 1e30);
+    let d_s2_t7 = min(larger_s2_t7, 16.0);
     let nearest_s2_t7 = min(nearest_s2_t6, d_s2_t7);
     // sample 2, tap 3: kernels/src/sraa/mod.rs:89
     let w_s2_t3 = 0.1640625 * exp2(-721.34753 * (d_s2_t3 - nearest_s2_t7));
@@ -171,7 +171,7 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let depths_s3_t1 = abs(centre_depth_s3 - shaded_depth_t1);
     let apart_s3_t1 = centre_normal_s3 - shaded_normal_t1;
     let larger_s3_t1 = max(depths_s3_t1, 0.5 * dot(apart_s3_t1, apart_s3_t1));
-    let d_s3_t1 = min(larger_s3_t1, 1e30);
+    let d_s3_t1 = min(larger_s3_t1, 16.0);
     // sample 3, tap 2: kernels/src/sraa/metric.rs:36
     let texel_t2 = clamp(pixel + vec2i(1, -1), vec2i(0), last);
     let depth_texel_13 = textureLoad(depth, texel_t2, 16, 0).x;
@@ -180,18 +180,18 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let depths_s3_t2 = abs(centre_depth_s3 - shaded_depth_t2);
     let apart_s3_t2 = centre_normal_s3 - shaded_normal_t2;
     let larger_s3_t2 = max(depths_s3_t2, 0.5 * dot(apart_s3_t2, apart_s3_t2));
-    let d_s3_t2 = min(larger_s3_t2, 1e30);
+    let d_s3_t2 = min(larger_s3_t2, 16.0);
     let nearest_s3_t2 = min(d_s3_t1, d_s3_t2);
-    // sample 3, tap 4: kernels/src/sraa/metric.rs:46
+    // sample 3, tap 4: kernels/src/sraa/metric.rs:50
     let depths_s3_t4 = abs(centre_depth_s3 - shaded_depth_t4);
     let apart_s3_t4 = centre_normal_s3 - shaded_normal_t4;
     let larger_s3_t4 = max(depths_s3_t4, 0.5 * dot(apart_s3_t4, apart_s3_t4));
-    let d_s3_t4 = min(larger_s3_t4, 1e30);
+    let d_s3_t4 = min(larger_s3_t4, 16.0);
     let nearest_s3_t4 = min(nearest_s3_t2, d_s3_t4);
     let depths_s3_t5 = abs(centre_depth_s3 - shaded_depth_t5);
     let apart_s3_t5 = centre_normal_s3 - shaded_normal_t5;
     let larger_s3_t5 = max(depths_s3_t5, 0.5 * dot(apart_s3_t5, apart_s3_t5));
-    let d_s3_t5 = min(larger_s3_t5, 1e30);
+    let d_s3_t5 = min(larger_s3_t5, 16.0);
     let nearest_s3_t5 = min(nearest_s3_t4, d_s3_t5);
     // sample 3, tap 1: kernels/src/sraa/mod.rs:89
     let w_s3_t1 = 0.046875 * exp2(-721.34753 * (d_s3_t1 - nearest_s3_t5));
@@ -214,22 +214,22 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let depths_s4_t0 = abs(centre_depth_s4 - shaded_depth_t0);
     let apart_s4_t0 = centre_normal_s4 - shaded_normal_t0;
     let larger_s4_t0 = max(depths_s4_t0, 0.5 * dot(apart_s4_t0, apart_s4_t0));
-    let d_s4_t0 = min(larger_s4_t0, 1e30);
-    // sample 4, tap 1: kernels/src/sraa/metric.rs:46
+    let d_s4_t0 = min(larger_s4_t0, 16.0);
+    // sample 4, tap 1: kernels/src/sraa/metric.rs:50
     let depths_s4_t1 = abs(centre_depth_s4 - shaded_depth_t1);
     let apart_s4_t1 = centre_normal_s4 - shaded_normal_t1;
     let larger_s4_t1 = max(depths_s4_t1, 0.5 * dot(apart_s4_t1, apart_s4_t1));
-    let d_s4_t1 = min(larger_s4_t1, 1e30);
+    let d_s4_t1 = min(larger_s4_t1, 16.0);
     let nearest_s4_t1 = min(d_s4_t0, d_s4_t1);
     let depths_s4_t3 = abs(centre_depth_s4 - shaded_depth_t3);
     let apart_s4_t3 = centre_normal_s4 - shaded_normal_t3;
     let larger_s4_t3 = max(depths_s4_t3, 0.5 * dot(apart_s4_t3, apart_s4_t3));
-    let d_s4_t3 = min(larger_s4_t3, 1e30);
+    let d_s4_t3 = min(larger_s4_t3, 16.0);
     let nearest_s4_t3 = min(nearest_s4_t1, d_s4_t3);
     let depths_s4_t4 = abs(centre_depth_s4 - shaded_depth_t4);
     let apart_s4_t4 = centre_normal_s4 - shaded_normal_t4;
     let larger_s4_t4 = max(depths_s4_t4, 0.5 * dot(apart_s4_t4, apart_s4_t4));
-    let d_s4_t4 = min(larger_s4_t4, 1e30);
+    let d_s4_t4 = min(larger_s4_t4, 16.0);
     let nearest_s4_t4 = min(nearest_s4_t3, d_s4_t4);
     // sample 4, tap 0: kernels/src/sraa/mod.rs:89
     let w_s4_t0 = 0.0390625 * exp2(-721.34753 * (d_s4_t0 - nearest_s4_t4));
@@ -252,22 +252,22 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let depths_s5_t4 = abs(centre_depth_s5 - shaded_depth_t4);
     let apart_s5_t4 = centre_normal_s5 - shaded_normal_t4;
     let larger_s5_t4 = max(depths_s5_t4, 0.5 * dot(apart_s5_t4, apart_s5_t4));
-    let d_s5_t4 = min(larger_s5_t4, 1e30);
-    // sample 5, tap 5: kernels/src/sraa/metric.rs:46
+    let d_s5_t4 = min(larger_s5_t4, 16.0);
+    // sample 5, tap 5: kernels/src/sraa/metric.rs:50
     let depths_s5_t5 = abs(centre_depth_s5 - shaded_depth_t5);
     let apart_s5_t5 = centre_normal_s5 - shaded_normal_t5;
     let larger_s5_t5 = max(depths_s5_t5, 0.5 * dot(apart_s5_t5, apart_s5_t5));
-    let d_s5_t5 = min(larger_s5_t5, 1e30);
+    let d_s5_t5 = min(larger_s5_t5, 16.0);
     let nearest_s5_t5 = min(d_s5_t4, d_s5_t5);
     let depths_s5_t7 = abs(centre_depth_s5 - shaded_depth_t7);
     let apart_s5_t7 = centre_normal_s5 - shaded_normal_t7;
     let larger_s5_t7 = max(depths_s5_t7, 0.5 * dot(apart_s5_t7, apart_s5_t7));
-    let d_s5_t7 = min(larger_s5_t7, 1e30);
+    let d_s5_t7 = min(larger_s5_t7, 16.0);
     let nearest_s5_t7 = min(nearest_s5_t5, d_s5_t7);
     let depths_s5_t8 = abs(centre_depth_s5 - shaded_depth_t8);
     let apart_s5_t8 = centre_normal_s5 - shaded_normal_t8;
     let larger_s5_t8 = max(depths_s5_t8, 0.5 * dot(apart_s5_t8, apart_s5_t8));
-    let d_s5_t8 = min(larger_s5_t8, 1e30);
+    let d_s5_t8 = min(larger_s5_t8, 16.0);
     let nearest_s5_t8 = min(nearest_s5_t7, d_s5_t8);
     // sample 5, tap 4: kernels/src/sraa/mod.rs:89
     let w_s5_t4 = 0.6015625 * exp2(-721.34753 * (d_s5_t4 - nearest_s5_t8));
@@ -290,22 +290,22 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let depths_s6_t4 = abs(centre_depth_s6 - shaded_depth_t4);
     let apart_s6_t4 = centre_normal_s6 - shaded_normal_t4;
     let larger_s6_t4 = max(depths_s6_t4, 0.5 * dot(apart_s6_t4, apart_s6_t4));
-    let d_s6_t4 = min(larger_s6_t4, 1e30);
-    // sample 6, tap 5: kernels/src/sraa/metric.rs:46
+    let d_s6_t4 = min(larger_s6_t4, 16.0);
+    // sample 6, tap 5: kernels/src/sraa/metric.rs:50
     let depths_s6_t5 = abs(centre_depth_s6 - shaded_depth_t5);
     let apart_s6_t5 = centre_normal_s6 - shaded_normal_t5;
     let larger_s6_t5 = max(depths_s6_t5, 0.5 * dot(apart_s6_t5, apart_s6_t5));
-    let d_s6_t5 = min(larger_s6_t5, 1e30);
+    let d_s6_t5 = min(larger_s6_t5, 16.0);
     let nearest_s6_t5 = min(d_s6_t4, d_s6_t5);
     let depths_s6_t7 = abs(centre_depth_s6 - shaded_depth_t7);
     let apart_s6_t7 = centre_normal_s6 - shaded_normal_t7;
     let larger_s6_t7 = max(depths_s6_t7, 0.5 * dot(apart_s6_t7, apart_s6_t7));
-    let d_s6_t7 = min(larger_s6_t7, 1e30);
+    let d_s6_t7 = min(larger_s6_t7, 16.0);
     let nearest_s6_t7 = min(nearest_s6_t5, d_s6_t7);
     let depths_s6_t8 = abs(centre_depth_s6 - shaded_depth_t8);
     let apart_s6_t8 = centre_normal_s6 - shaded_normal_t8;
     let larger_s6_t8 = max(depths_s6_t8, 0.5 * dot(apart_s6_t8, apart_s6_t8));
-    let d_s6_t8 = min(larger_s6_t8, 1e30);
+    let d_s6_t8 = min(larger_s6_t8, 16.0);
     let nearest_s6_t8 = min(nearest_s6_t7, d_s6_t8);
     // sample 6, tap 4: kernels/src/sraa/mod.rs:89
     let w_s6_t4 = 0.55859375 * exp2(-721.34753 * (d_s6_t4 - nearest_s6_t8));
@@ -328,22 +328,22 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let depths_s7_t1 = abs(centre_depth_s7 - shaded_depth_t1);
     let apart_s7_t1 = centre_normal_s7 - shaded_normal_t1;
     let larger_s7_t1 = max(depths_s7_t1, 0.5 * dot(apart_s7_t1, apart_s7_t1));
-    let d_s7_t1 = min(larger_s7_t1, 1e30);
-    // sample 7, tap 2: kernels/src/sraa/metric.rs:46
+    let d_s7_t1 = min(larger_s7_t1, 16.0);
+    // sample 7, tap 2: kernels/src/sraa/metric.rs:50
     let depths_s7_t2 = abs(centre_depth_s7 - shaded_depth_t2);
     let apart_s7_t2 = centre_normal_s7 - shaded_normal_t2;
     let larger_s7_t2 = max(depths_s7_t2, 0.5 * dot(apart_s7_t2, apart_s7_t2));
-    let d_s7_t2 = min(larger_s7_t2, 1e30);
+    let d_s7_t2 = min(larger_s7_t2, 16.0);
     let nearest_s7_t2 = min(d_s7_t1, d_s7_t2);
     let depths_s7_t4 = abs(centre_depth_s7 - shaded_depth_t4);
     let apart_s7_t4 = centre_normal_s7 - shaded_normal_t4;
     let larger_s7_t4 = max(depths_s7_t4, 0.5 * dot(apart_s7_t4, apart_s7_t4));
-    let d_s7_t4 = min(larger_s7_t4, 1e30);
+    let d_s7_t4 = min(larger_s7_t4, 16.0);
     let nearest_s7_t4 = min(nearest_s7_t2, d_s7_t4);
     let depths_s7_t5 = abs(centre_depth_s7 - shaded_depth_t5);
     let apart_s7_t5 = centre_normal_s7 - shaded_normal_t5;
     let larger_s7_t5 = max(depths_s7_t5, 0.5 * dot(apart_s7_t5, apart_s7_t5));
-    let d_s7_t5 = min(larger_s7_t5, 1e30);
+    let d_s7_t5 = min(larger_s7_t5, 16.0);
     let nearest_s7_t5 = min(nearest_s7_t4, d_s7_t5);
     // sample 7, tap 1: kernels/src/sraa/mod.rs:89
     let w_s7_t1 = 0.25390625 * exp2(-721.34753 * (d_s7_t1 - nearest_s7_t5));
@@ -366,22 +366,22 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let depths_s8_t3 = abs(centre_depth_s8 - shaded_depth_t3);
     let apart_s8_t3 = centre_normal_s8 - shaded_normal_t3;
     let larger_s8_t3 = max(depths_s8_t3, 0.5 * dot(apart_s8_t3, apart_s8_t3));
-    let d_s8_t3 = min(larger_s8_t3, 1e30);
-    // sample 8, tap 4: kernels/src/sraa/metric.rs:46
+    let d_s8_t3 = min(larger_s8_t3, 16.0);
+    // sample 8, tap 4: kernels/src/sraa/metric.rs:50
     let depths_s8_t4 = abs(centre_depth_s8 - shaded_depth_t4);
     let apart_s8_t4 = centre_normal_s8 - shaded_normal_t4;
     let larger_s8_t4 = max(depths_s8_t4, 0.5 * dot(apart_s8_t4, apart_s8_t4));
-    let d_s8_t4 = min(larger_s8_t4, 1e30);
+    let d_s8_t4 = min(larger_s8_t4, 16.0);
     let nearest_s8_t4 = min(d_s8_t3, d_s8_t4);
     let depths_s8_t6 = abs(centre_depth_s8 - shaded_depth_t6);
     let apart_s8_t6 = centre_normal_s8 - shaded_normal_t6;
     let larger_s8_t6 = max(depths_s8_t6, 0.5 * dot(apart_s8_t6, apart_s8_t6));
-    let d_s8_t6 = min(larger_s8_t6, 1e30);
+    let d_s8_t6 = min(larger_s8_t6, 16.0);
     let nearest_s8_t6 = min(nearest_s8_t4, d_s8_t6);
     let depths_s8_t7 = abs(centre_depth_s8 - shaded_depth_t7);
     let apart_s8_t7 = centre_normal_s8 - shaded_normal_t7;
     let larger_s8_t7 = max(depths_s8_t7, 0.5 * dot(apart_s8_t7, apart_s8_t7));
-    let d_s8_t7 = min(larger_s8_t7, 1e30);
+    let d_s8_t7 = min(larger_s8_t7, 16.0);
     let nearest_s8_t7 = min(nearest_s8_t6, d_s8_t7);
     // sample 8, tap 3: kernels/src/sraa/mod.rs:89
     let w_s8_t3 = 0.078125 * exp2(-721.34753 * (d_s8_t3 - nearest_s8_t7));
@@ -404,12 +404,12 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let depths_s9_t1 = abs(centre_depth_s9 - shaded_depth_t1);
     let apart_s9_t1 = centre_normal_s9 - shaded_normal_t1;
     let larger_s9_t1 = max(depths_s9_t1, 0.5 * dot(apart_s9_t1, apart_s9_t1));
-    let d_s9_t1 = min(larger_s9_t1, 1e30);
-    // sample 9, tap 4: kernels/src/sraa/metric.rs:46
+    let d_s9_t1 = min(larger_s9_t1, 16.0);
+    // sample 9, tap 4: kernels/src/sraa/metric.rs:50
     let depths_s9_t4 = abs(centre_depth_s9 - shaded_depth_t4);
     let apart_s9_t4 = centre_normal_s9 - shaded_normal_t4;
     let larger_s9_t4 = max(depths_s9_t4, 0.5 * dot(apart_s9_t4, apart_s9_t4));
-    let d_s9_t4 = min(larger_s9_t4, 1e30);
+    let d_s9_t4 = min(larger_s9_t4, 16.0);
     let nearest_s9_t4 = min(d_s9_t1, d_s9_t4);
     // sample 9, tap 1: kernels/src/sraa/mod.rs:89
     let w_s9_t1 = 0.4375 * exp2(-721.34753 * (d_s9_t1 - nearest_s9_t4));
@@ -426,22 +426,22 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let depths_s10_t0 = abs(centre_depth_s10 - shaded_depth_t0);
     let apart_s10_t0 = centre_normal_s10 - shaded_normal_t0;
     let larger_s10_t0 = max(depths_s10_t0, 0.5 * dot(apart_s10_t0, apart_s10_t0));
-    let d_s10_t0 = min(larger_s10_t0, 1e30);
-    // sample 10, tap 1: kernels/src/sraa/metric.rs:46
+    let d_s10_t0 = min(larger_s10_t0, 16.0);
+    // sample 10, tap 1: kernels/src/sraa/metric.rs:50
     let depths_s10_t1 = abs(centre_depth_s10 - shaded_depth_t1);
     let apart_s10_t1 = centre_normal_s10 - shaded_normal_t1;
     let larger_s10_t1 = max(depths_s10_t1, 0.5 * dot(apart_s10_t1, apart_s10_t1));
-    let d_s10_t1 = min(larger_s10_t1, 1e30);
+    let d_s10_t1 = min(larger_s10_t1, 16.0);
     let nearest_s10_t1 = min(d_s10_t0, d_s10_t1);
     let depths_s10_t3 = abs(centre_depth_s10 - shaded_depth_t3);
     let apart_s10_t3 = centre_normal_s10 - shaded_normal_t3;
     let larger_s10_t3 = max(depths_s10_t3, 0.5 * dot(apart_s10_t3, apart_s10_t3));
-    let d_s10_t3 = min(larger_s10_t3, 1e30);
+    let d_s10_t3 = min(larger_s10_t3, 16.0);
     let nearest_s10_t3 = min(nearest_s10_t1, d_s10_t3);
     let depths_s10_t4 = abs(centre_depth_s10 - shaded_depth_t4);
     let apart_s10_t4 = centre_normal_s10 - shaded_normal_t4;
     let larger_s10_t4 = max(depths_s10_t4, 0.5 * dot(apart_s10_t4, apart_s10_t4));
-    let d_s10_t4 = min(larger_s10_t4, 1e30);
+    let d_s10_t4 = min(larger_s10_t4, 16.0);
     let nearest_s10_t4 = min(nearest_s10_t3, d_s10_t4);
     // sample 10, tap 0: kernels/src/sraa/mod.rs:89
     let w_s10_t0 = 0.09375 * exp2(-721.34753 * (d_s10_t0 - nearest_s10_t4));
@@ -464,22 +464,22 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let depths_s11_t3 = abs(centre_depth_s11 - shaded_depth_t3);
     let apart_s11_t3 = centre_normal_s11 - shaded_normal_t3;
     let larger_s11_t3 = max(depths_s11_t3, 0.5 * dot(apart_s11_t3, apart_s11_t3));
-    let d_s11_t3 = min(larger_s11_t3, 1e30);
-    // sample 11, tap 4: kernels/src/sraa/metric.rs:46
+    let d_s11_t3 = min(larger_s11_t3, 16.0);
+    // sample 11, tap 4: kernels/src/sraa/metric.rs:50
     let depths_s11_t4 = abs(centre_depth_s11 - shaded_depth_t4);
     let apart_s11_t4 = centre_normal_s11 - shaded_normal_t4;
     let larger_s11_t4 = max(depths_s11_t4, 0.5 * dot(apart_s11_t4, apart_s11_t4));
-    let d_s11_t4 = min(larger_s11_t4, 1e30);
+    let d_s11_t4 = min(larger_s11_t4, 16.0);
     let nearest_s11_t4 = min(d_s11_t3, d_s11_t4);
     let depths_s11_t6 = abs(centre_depth_s11 - shaded_depth_t6);
     let apart_s11_t6 = centre_normal_s11 - shaded_normal_t6;
     let larger_s11_t6 = max(depths_s11_t6, 0.5 * dot(apart_s11_t6, apart_s11_t6));
-    let d_s11_t6 = min(larger_s11_t6, 1e30);
+    let d_s11_t6 = min(larger_s11_t6, 16.0);
     let nearest_s11_t6 = min(nearest_s11_t4, d_s11_t6);
     let depths_s11_t7 = abs(centre_depth_s11 - shaded_depth_t7);
     let apart_s11_t7 = centre_normal_s11 - shaded_normal_t7;
     let larger_s11_t7 = max(depths_s11_t7, 0.5 * dot(apart_s11_t7, apart_s11_t7));
-    let d_s11_t7 = min(larger_s11_t7, 1e30);
+    let d_s11_t7 = min(larger_s11_t7, 16.0);
     let nearest_s11_t7 = min(nearest_s11_t6, d_s11_t7);
     // sample 11, tap 3: kernels/src/sraa/mod.rs:89
     let w_s11_t3 = 0.28125 * exp2(-721.34753 * (d_s11_t3 - nearest_s11_t7));
@@ -502,12 +502,12 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let depths_s12_t3 = abs(centre_depth_s12 - shaded_depth_t3);
     let apart_s12_t3 = centre_normal_s12 - shaded_normal_t3;
     let larger_s12_t3 = max(depths_s12_t3, 0.5 * dot(apart_s12_t3, apart_s12_t3));
-    let d_s12_t3 = min(larger_s12_t3, 1e30);
-    // sample 12, tap 4: kernels/src/sraa/metric.rs:46
+    let d_s12_t3 = min(larger_s12_t3, 16.0);
+    // sample 12, tap 4: kernels/src/sraa/metric.rs:50
     let depths_s12_t4 = abs(centre_depth_s12 - shaded_depth_t4);
     let apart_s12_t4 = centre_normal_s12 - shaded_normal_t4;
     let larger_s12_t4 = max(depths_s12_t4, 0.5 * dot(apart_s12_t4, apart_s12_t4));
-    let d_s12_t4 = min(larger_s12_t4, 1e30);
+    let d_s12_t4 = min(larger_s12_t4, 16.0);
     let nearest_s12_t4 = min(d_s12_t3, d_s12_t4);
     // sample 12, tap 3: kernels/src/sraa/mod.rs:89
     let w_s12_t3 = 0.5 * exp2(-721.34753 * (d_s12_t3 - nearest_s12_t4));
@@ -524,22 +524,22 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let depths_s13_t1 = abs(centre_depth_s13 - shaded_depth_t1);
     let apart_s13_t1 = centre_normal_s13 - shaded_normal_t1;
     let larger_s13_t1 = max(depths_s13_t1, 0.5 * dot(apart_s13_t1, apart_s13_t1));
-    let d_s13_t1 = min(larger_s13_t1, 1e30);
-    // sample 13, tap 2: kernels/src/sraa/metric.rs:46
+    let d_s13_t1 = min(larger_s13_t1, 16.0);
+    // sample 13, tap 2: kernels/src/sraa/metric.rs:50
     let depths_s13_t2 = abs(centre_depth_s13 - shaded_depth_t2);
     let apart_s13_t2 = centre_normal_s13 - shaded_normal_t2;
     let larger_s13_t2 = max(depths_s13_t2, 0.5 * dot(apart_s13_t2, apart_s13_t2));
-    let d_s13_t2 = min(larger_s13_t2, 1e30);
+    let d_s13_t2 = min(larger_s13_t2, 16.0);
     let nearest_s13_t2 = min(d_s13_t1, d_s13_t2);
     let depths_s13_t4 = abs(centre_depth_s13 - shaded_depth_t4);
     let apart_s13_t4 = centre_normal_s13 - shaded_normal_t4;
     let larger_s13_t4 = max(depths_s13_t4, 0.5 * dot(apart_s13_t4, apart_s13_t4));
-    let d_s13_t4 = min(larger_s13_t4, 1e30);
+    let d_s13_t4 = min(larger_s13_t4, 16.0);
     let nearest_s13_t4 = min(nearest_s13_t2, d_s13_t4);
     let depths_s13_t5 = abs(centre_depth_s13 - shaded_depth_t5);
     let apart_s13_t5 = centre_normal_s13 - shaded_normal_t5;
     let larger_s13_t5 = max(depths_s13_t5, 0.5 * dot(apart_s13_t5, apart_s13_t5));
-    let d_s13_t5 = min(larger_s13_t5, 1e30);
+    let d_s13_t5 = min(larger_s13_t5, 16.0);
     let nearest_s13_t5 = min(nearest_s13_t4, d_s13_t5);
     // sample 13, tap 1: kernels/src/sraa/mod.rs:89
     let w_s13_t1 = 0.140625 * exp2(-721.34753 * (d_s13_t1 - nearest_s13_t5));
@@ -562,22 +562,22 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let depths_s14_t4 = abs(centre_depth_s14 - shaded_depth_t4);
     let apart_s14_t4 = centre_normal_s14 - shaded_normal_t4;
     let larger_s14_t4 = max(depths_s14_t4, 0.5 * dot(apart_s14_t4, apart_s14_t4));
-    let d_s14_t4 = min(larger_s14_t4, 1e30);
-    // sample 14, tap 5: kernels/src/sraa/metric.rs:46
+    let d_s14_t4 = min(larger_s14_t4, 16.0);
+    // sample 14, tap 5: kernels/src/sraa/metric.rs:50
     let depths_s14_t5 = abs(centre_depth_s14 - shaded_depth_t5);
     let apart_s14_t5 = centre_normal_s14 - shaded_normal_t5;
     let larger_s14_t5 = max(depths_s14_t5, 0.5 * dot(apart_s14_t5, apart_s14_t5));
-    let d_s14_t5 = min(larger_s14_t5, 1e30);
+    let d_s14_t5 = min(larger_s14_t5, 16.0);
     let nearest_s14_t5 = min(d_s14_t4, d_s14_t5);
     let depths_s14_t7 = abs(centre_depth_s14 - shaded_depth_t7);
     let apart_s14_t7 = centre_normal_s14 - shaded_normal_t7;
     let larger_s14_t7 = max(depths_s14_t7, 0.5 * dot(apart_s14_t7, apart_s14_t7));
-    let d_s14_t7 = min(larger_s14_t7, 1e30);
+    let d_s14_t7 = min(larger_s14_t7, 16.0);
     let nearest_s14_t7 = min(nearest_s14_t5, d_s14_t7);
     let depths_s14_t8 = abs(centre_depth_s14 - shaded_depth_t8);
     let apart_s14_t8 = centre_normal_s14 - shaded_normal_t8;
     let larger_s14_t8 = max(depths_s14_t8, 0.5 * dot(apart_s14_t8, apart_s14_t8));
-    let d_s14_t8 = min(larger_s14_t8, 1e30);
+    let d_s14_t8 = min(larger_s14_t8, 16.0);
     let nearest_s14_t8 = min(nearest_s14_t7, d_s14_t8);
     // sample 14, tap 4: kernels/src/sraa/mod.rs:89
     let w_s14_t4 = 0.3515625 * exp2(-721.34753 * (d_s14_t4 - nearest_s14_t8));
@@ -600,22 +600,22 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let depths_s15_t0 = abs(centre_depth_s15 - shaded_depth_t0);
     let apart_s15_t0 = centre_normal_s15 - shaded_normal_t0;
     let larger_s15_t0 = max(depths_s15_t0, 0.5 * dot(apart_s15_t0, apart_s15_t0));
-    let d_s15_t0 = min(larger_s15_t0, 1e30);
-    // sample 15, tap 1: kernels/src/sraa/metric.rs:46
+    let d_s15_t0 = min(larger_s15_t0, 16.0);
+    // sample 15, tap 1: kernels/src/sraa/metric.rs:50
     let depths_s15_t1 = abs(centre_depth_s15 - shaded_depth_t1);
     let apart_s15_t1 = centre_normal_s15 - shaded_normal_t1;
     let larger_s15_t1 = max(depths_s15_t1, 0.5 * dot(apart_s15_t1, apart_s15_t1));
-    let d_s15_t1 = min(larger_s15_t1, 1e30);
+    let d_s15_t1 = min(larger_s15_t1, 16.0);
     let nearest_s15_t1 = min(d_s15_t0, d_s15_t1);
     let depths_s15_t3 = abs(centre_depth_s15 - shaded_depth_t3);
     let apart_s15_t3 = centre_normal_s15 - shaded_normal_t3;
     let larger_s15_t3 = max(depths_s15_t3, 0.5 * dot(apart_s15_t3, apart_s15_t3));
-    let d_s15_t3 = min(larger_s15_t3, 1e30);
+    let d_s15_t3 = min(larger_s15_t3, 16.0);
     let nearest_s15_t3 = min(nearest_s15_t1, d_s15_t3);
     let depths_s15_t4 = abs(centre_depth_s15 - shaded_depth_t4);
     let apart_s15_t4 = centre_normal_s15 - shaded_normal_t4;
     let larger_s15_t4 = max(depths_s15_t4, 0.5 * dot(apart_s15_t4, apart_s15_t4));
-    let d_s15_t4 = min(larger_s15_t4, 1e30);
+    let d_s15_t4 = min(larger_s15_t4, 16.0);
     let nearest_s15_t4 = min(nearest_s15_t3, d_s15_t4);
     // sample 15, tap 0: kernels/src/sraa/mod.rs:89
     let w_s15_t0 = 0.21875 * exp2(-721.34753 * (d_s15_t0 - nearest_s15_t4));

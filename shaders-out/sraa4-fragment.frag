@@ -27,7 +27,7 @@ void main() {
     float depths_s0_t0 = abs(centre_depth_s0 - shaded_depth_s0_t0);
     vec3 apart_s0_t0 = centre_normal_s0 - shaded_normal_s0_t0;
     float larger_s0_t0 = max(depths_s0_t0, 0.5 * dot(apart_s0_t0, apart_s0_t0));
-    float d_s0_t0 = min(larger_s0_t0, 1e30);
+    float d_s0_t0 = min(larger_s0_t0, 16.0);
     ivec2 texel_t1 = max(pixel + ivec2(0, -1), ivec2(0));
     float depth_texel_3 = texelFetch(sampler2DArray(depth, unfiltered), ivec3(texel_t1, 4), 0).x;
     float shaded_depth_t1 = min(depth_texel_3, 1e30);
@@ -35,7 +35,7 @@ void main() {
     float depths_s0_t1 = abs(centre_depth_s0 - shaded_depth_t1);
     vec3 apart_s0_t1 = centre_normal_s0 - shaded_normal_t1;
     float larger_s0_t1 = max(depths_s0_t1, 0.5 * dot(apart_s0_t1, apart_s0_t1));
-    float d_s0_t1 = min(larger_s0_t1, 1e30);
+    float d_s0_t1 = min(larger_s0_t1, 16.0);
     float nearest_s0_t1 = min(d_s0_t0, d_s0_t1);
     ivec2 texel_t3 = max(pixel + ivec2(-1, 0), ivec2(0));
     float depth_texel_4 = texelFetch(sampler2DArray(depth, unfiltered), ivec3(texel_t3, 4), 0).x;
@@ -44,7 +44,7 @@ void main() {
     float depths_s0_t3 = abs(centre_depth_s0 - shaded_depth_t3);
     vec3 apart_s0_t3 = centre_normal_s0 - shaded_normal_t3;
     float larger_s0_t3 = max(depths_s0_t3, 0.5 * dot(apart_s0_t3, apart_s0_t3));
-    float d_s0_t3 = min(larger_s0_t3, 1e30);
+    float d_s0_t3 = min(larger_s0_t3, 16.0);
     float nearest_s0_t3 = min(nearest_s0_t1, d_s0_t3);
     float depth_texel_5 = texelFetch(sampler2DArray(depth, unfiltered), ivec3(pixel, 4), 0).x;
     // sample 0, tap 4: kernels/src/sraa/mod.rs:74
@@ -53,7 +53,7 @@ void main() {
     float depths_s0_t4 = abs(centre_depth_s0 - shaded_depth_t4);
     vec3 apart_s0_t4 = centre_normal_s0 - shaded_normal_t4;
     float larger_s0_t4 = max(depths_s0_t4, 0.5 * dot(apart_s0_t4, apart_s0_t4));
-    float d_s0_t4 = min(larger_s0_t4, 1e30);
+    float d_s0_t4 = min(larger_s0_t4, 16.0);
     float nearest_s0_t4 = min(nearest_s0_t3, d_s0_t4);
     // sample 0, tap 0: kernels/src/sraa/mod.rs:89
     float w_s0_t0 = 0.046875 * exp2(-721.34753 * (d_s0_t0 - nearest_s0_t4));
@@ -76,7 +76,7 @@ void main() {
     float depths_s1_t1 = abs(centre_depth_s1 - shaded_depth_t1);
     vec3 apart_s1_t1 = centre_normal_s1 - shaded_normal_t1;
     float larger_s1_t1 = max(depths_s1_t1, 0.5 * dot(apart_s1_t1, apart_s1_t1));
-    float d_s1_t1 = min(larger_s1_t1, 1e30);
+    float d_s1_t1 = min(larger_s1_t1, 16.0);
     // sample 1, tap 2: kernels/src/sraa/metric.rs:36
     ivec2 texel_t2 = clamp(pixel + ivec2(1, -1), ivec2(0), last);
     float depth_texel_7 = texelFetch(sampler2DArray(depth, unfiltered), ivec3(texel_t2, 4), 0).x;
@@ -85,13 +85,13 @@ void main() {
     float depths_s1_t2 = abs(centre_depth_s1 - shaded_depth_s1_t2);
     vec3 apart_s1_t2 = centre_normal_s1 - shaded_normal_s1_t2;
     float larger_s1_t2 = max(depths_s1_t2, 0.5 * dot(apart_s1_t2, apart_s1_t2));
-    float d_s1_t2 = min(larger_s1_t2, 1e30);
+    float d_s1_t2 = min(larger_s1_t2, 16.0);
     float nearest_s1_t2 = min(d_s1_t1, d_s1_t2);
-    // sample 1, tap 4: kernels/src/sraa/metric.rs:46
+    // sample 1, tap 4: kernels/src/sraa/metric.rs:50
     float depths_s1_t4 = abs(centre_depth_s1 - shaded_depth_t4);
     vec3 apart_s1_t4 = centre_normal_s1 - shaded_normal_t4;
     float larger_s1_t4 = max(depths_s1_t4, 0.5 * dot(apart_s1_t4, apart_s1_t4));
-    float d_s1_t4 = min(larger_s1_t4, 1e30);
+    float d_s1_t4 = min(larger_s1_t4, 16.0);
     float nearest_s1_t4 = min(nearest_s1_t2, d_s1_t4);
     // sample 1, tap 5: kernels/src/sraa/metric.rs:36
     ivec2 texel_t5 = min(pixel + ivec2(1, 0), last);
@@ -101,7 +101,7 @@ void main() {
     float depths_s1_t5 = abs(centre_depth_s1 - shaded_depth_t5);
     vec3 apart_s1_t5 = centre_normal_s1 - shaded_normal_t5;
     float larger_s1_t5 = max(depths_s1_t5, 0.5 * dot(apart_s1_t5, apart_s1_t5));
-    float d_s1_t5 = min(larger_s1_t5, 1e30);
+    float d_s1_t5 = min(larger_s1_t5, 16.0);
     float nearest_s1_t5 = min(nearest_s1_t4, d_s1_t5);
     // sample 1, tap 1: kernels/src/sraa/mod.rs:89
     float w_s1_t1 = 0.078125 * exp2(-721.34753 * (d_s1_t1 - nearest_s1_t5));
@@ -124,12 +124,12 @@ void main() {
     float depths_s2_t3 = abs(centre_depth_s2 - shaded_depth_t3);
     vec3 apart_s2_t3 = centre_normal_s2 - shaded_normal_t3;
     float larger_s2_t3 = max(depths_s2_t3, 0.5 * dot(apart_s2_t3, apart_s2_t3));
-    float d_s2_t3 = min(larger_s2_t3, 1e30);
-    // sample 2, tap 4: kernels/src/sraa/metric.rs:46
+    float d_s2_t3 = min(larger_s2_t3, 16.0);
+    // sample 2, tap 4: kernels/src/sraa/metric.rs:50
     float depths_s2_t4 = abs(centre_depth_s2 - shaded_depth_t4);
     vec3 apart_s2_t4 = centre_normal_s2 - shaded_normal_t4;
     float larger_s2_t4 = max(depths_s2_t4, 0.5 * dot(apart_s2_t4, apart_s2_t4));
-    float d_s2_t4 = min(larger_s2_t4, 1e30);
+    float d_s2_t4 = min(larger_s2_t4, 16.0);
     float nearest_s2_t4 = min(d_s2_t3, d_s2_t4);
     // sample 2, tap 6: kernels/src/sraa/metric.rs:36
     ivec2 texel_t6 = clamp(pixel + ivec2(-1, 1), ivec2(0), last);
@@ -139,7 +139,7 @@ void main() {
     float depths_s2_t6 = abs(centre_depth_s2 - shaded_depth_s2_t6);
     vec3 apart_s2_t6 = centre_normal_s2 - shaded_normal_s2_t6;
     float larger_s2_t6 = max(depths_s2_t6, 0.5 * dot(apart_s2_t6, apart_s2_t6));
-    float d_s2_t6 = min(larger_s2_t6, 1e30);
+    float d_s2_t6 = min(larger_s2_t6, 16.0);
     float nearest_s2_t6 = min(nearest_s2_t4, d_s2_t6);
     ivec2 texel_t7 = min(pixel + ivec2(0, 1), last);
     float depth_texel_11 = texelFetch(sampler2DArray(depth, unfiltered), ivec3(texel_t7, 4), 0).x;
@@ -148,7 +148,7 @@ void main() {
     float depths_s2_t7 = abs(centre_depth_s2 - shaded_depth_t7);
     vec3 apart_s2_t7 = centre_normal_s2 - shaded_normal_t7;
     float larger_s2_t7 = max(depths_s2_t7, 0.5 * dot(apart_s2_t7, apart_s2_t7));
-    float d_s2_t7 = min(larger_s2_t7, 1e30);
+    float d_s2_t7 = min(larger_s2_t7, 16.0);
     float nearest_s2_t7 = min(nearest_s2_t6, d_s2_t7);
     // sample 2, tap 3: kernels/src/sraa/mod.rs:89
     float w_s2_t3 = 0.328125 * exp2(-721.34753 * (d_s2_t3 - nearest_s2_t7));
@@ -171,17 +171,17 @@ void main() {
     float depths_s3_t4 = abs(centre_depth_s3 - shaded_depth_t4);
     vec3 apart_s3_t4 = centre_normal_s3 - shaded_normal_t4;
     float larger_s3_t4 = max(depths_s3_t4, 0.5 * dot(apart_s3_t4, apart_s3_t4));
-    float d_s3_t4 = min(larger_s3_t4, 1e30);
-    // sample 3, tap 5: kernels/src/sraa/metric.rs:46
+    float d_s3_t4 = min(larger_s3_t4, 16.0);
+    // sample 3, tap 5: kernels/src/sraa/metric.rs:50
     float depths_s3_t5 = abs(centre_depth_s3 - shaded_depth_t5);
     vec3 apart_s3_t5 = centre_normal_s3 - shaded_normal_t5;
     float larger_s3_t5 = max(depths_s3_t5, 0.5 * dot(apart_s3_t5, apart_s3_t5));
-    float d_s3_t5 = min(larger_s3_t5, 1e30);
+    float d_s3_t5 = min(larger_s3_t5, 16.0);
     float nearest_s3_t5 = min(d_s3_t4, d_s3_t5);
     float depths_s3_t7 = abs(centre_depth_s3 - shaded_depth_t7);
     vec3 apart_s3_t7 = centre_normal_s3 - shaded_normal_t7;
     float larger_s3_t7 = max(depths_s3_t7, 0.5 * dot(apart_s3_t7, apart_s3_t7));
-    float d_s3_t7 = min(larger_s3_t7, 1e30);
+    float d_s3_t7 = min(larger_s3_t7, 16.0);
     float nearest_s3_t7 = min(nearest_s3_t5, d_s3_t7);
     // sample 3, tap 8: kernels/src/sraa/metric.rs:36
     ivec2 texel_t8 = min(pixel + ivec2(1), last);
@@ -191,7 +191,7 @@ void main() {
     float depths_s3_t8 = abs(centre_depth_s3 - shaded_depth_s3_t8);
     vec3 apart_s3_t8 = centre_normal_s3 - shaded_normal_s3_t8;
     float larger_s3_t8 = max(depths_s3_t8, 0.5 * dot(apart_s3_t8, apart_s3_t8));
-    float d_s3_t8 = min(larger_s3_t8, 1e30);
+    float d_s3_t8 = min(larger_s3_t8, 16.0);
     float nearest_s3_t8 = min(nearest_s3_t7, d_s3_t8);
     // sample 3, tap 4: kernels/src/sraa/mod.rs:89
     float w_s3_t4 = 0.546875 * exp2(-721.34753 * (d_s3_t4 - nearest_s3_t8));

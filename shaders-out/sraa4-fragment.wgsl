@@ -24,7 +24,7 @@ fn sraa(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let depths_s0_t0 = abs(centre_depth_s0 - shaded_depth_s0_t0);
     let apart_s0_t0 = centre_normal_s0 - shaded_normal_s0_t0;
     let larger_s0_t0 = max(depths_s0_t0, 0.5 * dot(apart_s0_t0, apart_s0_t0));
-    let d_s0_t0 = min(larger_s0_t0, 1e30);
+    let d_s0_t0 = min(larger_s0_t0, 16.0);
     let texel_t1 = max(pixel + vec2i(0, -1), vec2i(0));
     let depth_texel_3 = textureLoad(depth, texel_t1, 4, 0).x;
     let shaded_depth_t1 = min(depth_texel_3, 1e30);
@@ -32,7 +32,7 @@ fn sraa(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let depths_s0_t1 = abs(centre_depth_s0 - shaded_depth_t1);
     let apart_s0_t1 = centre_normal_s0 - shaded_normal_t1;
     let larger_s0_t1 = max(depths_s0_t1, 0.5 * dot(apart_s0_t1, apart_s0_t1));
-    let d_s0_t1 = min(larger_s0_t1, 1e30);
+    let d_s0_t1 = min(larger_s0_t1, 16.0);
     let nearest_s0_t1 = min(d_s0_t0, d_s0_t1);
     let texel_t3 = max(pixel + vec2i(-1, 0), vec2i(0));
     let depth_texel_4 = textureLoad(depth, texel_t3, 4, 0).x;
@@ -41,7 +41,7 @@ fn sraa(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let depths_s0_t3 = abs(centre_depth_s0 - shaded_depth_t3);
     let apart_s0_t3 = centre_normal_s0 - shaded_normal_t3;
     let larger_s0_t3 = max(depths_s0_t3, 0.5 * dot(apart_s0_t3, apart_s0_t3));
-    let d_s0_t3 = min(larger_s0_t3, 1e30);
+    let d_s0_t3 = min(larger_s0_t3, 16.0);
     let nearest_s0_t3 = min(nearest_s0_t1, d_s0_t3);
     let depth_texel_5 = textureLoad(depth, pixel, 4, 0).x;
     // sample 0, tap 4: kernels/src/sraa/mod.rs:74
@@ -50,7 +50,7 @@ fn sraa(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let depths_s0_t4 = abs(centre_depth_s0 - shaded_depth_t4);
     let apart_s0_t4 = centre_normal_s0 - shaded_normal_t4;
     let larger_s0_t4 = max(depths_s0_t4, 0.5 * dot(apart_s0_t4, apart_s0_t4));
-    let d_s0_t4 = min(larger_s0_t4, 1e30);
+    let d_s0_t4 = min(larger_s0_t4, 16.0);
     let nearest_s0_t4 = min(nearest_s0_t3, d_s0_t4);
     // sample 0, tap 0: kernels/src/sraa/mod.rs:89
     let w_s0_t0 = 0.046875 * exp2(-721.34753 * (d_s0_t0 - nearest_s0_t4));
@@ -73,7 +73,7 @@ fn sraa(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let depths_s1_t1 = abs(centre_depth_s1 - shaded_depth_t1);
     let apart_s1_t1 = centre_normal_s1 - shaded_normal_t1;
     let larger_s1_t1 = max(depths_s1_t1, 0.5 * dot(apart_s1_t1, apart_s1_t1));
-    let d_s1_t1 = min(larger_s1_t1, 1e30);
+    let d_s1_t1 = min(larger_s1_t1, 16.0);
     // sample 1, tap 2: kernels/src/sraa/metric.rs:36
     let texel_t2 = clamp(pixel + vec2i(1, -1), vec2i(0), last);
     let depth_texel_7 = textureLoad(depth, texel_t2, 4, 0).x;
@@ -82,13 +82,13 @@ fn sraa(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let depths_s1_t2 = abs(centre_depth_s1 - shaded_depth_s1_t2);
     let apart_s1_t2 = centre_normal_s1 - shaded_normal_s1_t2;
     let larger_s1_t2 = max(depths_s1_t2, 0.5 * dot(apart_s1_t2, apart_s1_t2));
-    let d_s1_t2 = min(larger_s1_t2, 1e30);
+    let d_s1_t2 = min(larger_s1_t2, 16.0);
     let nearest_s1_t2 = min(d_s1_t1, d_s1_t2);
-    // sample 1, tap 4: kernels/src/sraa/metric.rs:46
+    // sample 1, tap 4: kernels/src/sraa/metric.rs:50
     let depths_s1_t4 = abs(centre_depth_s1 - shaded_depth_t4);
     let apart_s1_t4 = centre_normal_s1 - shaded_normal_t4;
     let larger_s1_t4 = max(depths_s1_t4, 0.5 * dot(apart_s1_t4, apart_s1_t4));
-    let d_s1_t4 = min(larger_s1_t4, 1e30);
+    let d_s1_t4 = min(larger_s1_t4, 16.0);
     let nearest_s1_t4 = min(nearest_s1_t2, d_s1_t4);
     // sample 1, tap 5: kernels/src/sraa/metric.rs:36
     let texel_t5 = min(pixel + vec2i(1, 0), last);
@@ -98,7 +98,7 @@ fn sraa(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let depths_s1_t5 = abs(centre_depth_s1 - shaded_depth_t5);
     let apart_s1_t5 = centre_normal_s1 - shaded_normal_t5;
     let larger_s1_t5 = max(depths_s1_t5, 0.5 * dot(apart_s1_t5, apart_s1_t5));
-    let d_s1_t5 = min(larger_s1_t5, 1e30);
+    let d_s1_t5 = min(larger_s1_t5, 16.0);
     let nearest_s1_t5 = min(nearest_s1_t4, d_s1_t5);
     // sample 1, tap 1: kernels/src/sraa/mod.rs:89
     let w_s1_t1 = 0.078125 * exp2(-721.34753 * (d_s1_t1 - nearest_s1_t5));
@@ -121,12 +121,12 @@ fn sraa(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let depths_s2_t3 = abs(centre_depth_s2 - shaded_depth_t3);
     let apart_s2_t3 = centre_normal_s2 - shaded_normal_t3;
     let larger_s2_t3 = max(depths_s2_t3, 0.5 * dot(apart_s2_t3, apart_s2_t3));
-    let d_s2_t3 = min(larger_s2_t3, 1e30);
-    // sample 2, tap 4: kernels/src/sraa/metric.rs:46
+    let d_s2_t3 = min(larger_s2_t3, 16.0);
+    // sample 2, tap 4: kernels/src/sraa/metric.rs:50
     let depths_s2_t4 = abs(centre_depth_s2 - shaded_depth_t4);
     let apart_s2_t4 = centre_normal_s2 - shaded_normal_t4;
     let larger_s2_t4 = max(depths_s2_t4, 0.5 * dot(apart_s2_t4, apart_s2_t4));
-    let d_s2_t4 = min(larger_s2_t4, 1e30);
+    let d_s2_t4 = min(larger_s2_t4, 16.0);
     let nearest_s2_t4 = min(d_s2_t3, d_s2_t4);
     // sample 2, tap 6: kernels/src/sraa/metric.rs:36
     let texel_t6 = clamp(pixel + vec2i(-1, 1), vec2i(0), last);
@@ -136,7 +136,7 @@ fn sraa(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let depths_s2_t6 = abs(centre_depth_s2 - shaded_depth_s2_t6);
     let apart_s2_t6 = centre_normal_s2 - shaded_normal_s2_t6;
     let larger_s2_t6 = max(depths_s2_t6, 0.5 * dot(apart_s2_t6, apart_s2_t6));
-    let d_s2_t6 = min(larger_s2_t6, 1e30);
+    let d_s2_t6 = min(larger_s2_t6, 16.0);
     let nearest_s2_t6 = min(nearest_s2_t4, d_s2_t6);
     let texel_t7 = min(pixel + vec2i(0, 1), last);
     let depth_texel_11 = textureLoad(depth, texel_t7, 4, 0).x;
@@ -145,7 +145,7 @@ fn sraa(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let depths_s2_t7 = abs(centre_depth_s2 - shaded_depth_t7);
     let apart_s2_t7 = centre_normal_s2 - shaded_normal_t7;
     let larger_s2_t7 = max(depths_s2_t7, 0.5 * dot(apart_s2_t7, apart_s2_t7));
-    let d_s2_t7 = min(larger_s2_t7, 1e30);
+    let d_s2_t7 = min(larger_s2_t7, 16.0);
     let nearest_s2_t7 = min(nearest_s2_t6, d_s2_t7);
     // sample 2, tap 3: kernels/src/sraa/mod.rs:89
     let w_s2_t3 = 0.328125 * exp2(-721.34753 * (d_s2_t3 - nearest_s2_t7));
@@ -168,17 +168,17 @@ fn sraa(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let depths_s3_t4 = abs(centre_depth_s3 - shaded_depth_t4);
     let apart_s3_t4 = centre_normal_s3 - shaded_normal_t4;
     let larger_s3_t4 = max(depths_s3_t4, 0.5 * dot(apart_s3_t4, apart_s3_t4));
-    let d_s3_t4 = min(larger_s3_t4, 1e30);
-    // sample 3, tap 5: kernels/src/sraa/metric.rs:46
+    let d_s3_t4 = min(larger_s3_t4, 16.0);
+    // sample 3, tap 5: kernels/src/sraa/metric.rs:50
     let depths_s3_t5 = abs(centre_depth_s3 - shaded_depth_t5);
     let apart_s3_t5 = centre_normal_s3 - shaded_normal_t5;
     let larger_s3_t5 = max(depths_s3_t5, 0.5 * dot(apart_s3_t5, apart_s3_t5));
-    let d_s3_t5 = min(larger_s3_t5, 1e30);
+    let d_s3_t5 = min(larger_s3_t5, 16.0);
     let nearest_s3_t5 = min(d_s3_t4, d_s3_t5);
     let depths_s3_t7 = abs(centre_depth_s3 - shaded_depth_t7);
     let apart_s3_t7 = centre_normal_s3 - shaded_normal_t7;
     let larger_s3_t7 = max(depths_s3_t7, 0.5 * dot(apart_s3_t7, apart_s3_t7));
-    let d_s3_t7 = min(larger_s3_t7, 1e30);
+    let d_s3_t7 = min(larger_s3_t7, 16.0);
     let nearest_s3_t7 = min(nearest_s3_t5, d_s3_t7);
     // sample 3, tap 8: kernels/src/sraa/metric.rs:36
     let texel_t8 = min(pixel + vec2i(1), last);
@@ -188,7 +188,7 @@ fn sraa(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let depths_s3_t8 = abs(centre_depth_s3 - shaded_depth_s3_t8);
     let apart_s3_t8 = centre_normal_s3 - shaded_normal_s3_t8;
     let larger_s3_t8 = max(depths_s3_t8, 0.5 * dot(apart_s3_t8, apart_s3_t8));
-    let d_s3_t8 = min(larger_s3_t8, 1e30);
+    let d_s3_t8 = min(larger_s3_t8, 16.0);
     let nearest_s3_t8 = min(nearest_s3_t7, d_s3_t8);
     // sample 3, tap 4: kernels/src/sraa/mod.rs:89
     let w_s3_t4 = 0.546875 * exp2(-721.34753 * (d_s3_t4 - nearest_s3_t8));

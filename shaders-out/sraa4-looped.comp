@@ -6,7 +6,7 @@
 // Per pixel: 27 basic blocks, 64 statements, 80 texture reads + 9 of colour, 36 weight evaluations, 36 transcendental calls.
 // GLSL names a texture together with a sampler even where it filters nothing: any sampler will do.
 
-layout(local_size_x = 8, local_size_y = 8, local_size_z = 1) in;
+layout(local_size_x = 256, local_size_y = 1, local_size_z = 1) in;
 
 layout(set = 0, binding = 0) uniform texture2DArray depth;
 layout(set = 0, binding = 1) uniform texture2DArray normal;
@@ -34,7 +34,7 @@ void main() {
         vec2 value = vec2(texel) / vec2(16.0);
         bool holds = sample_value == 4;
         float distances[9] = float[9](0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
-        float nearest = 1e30;
+        float nearest = 16.0;
         for (int tap = 0; tap < 9; tap++) {
             // kernels/src/sraa/mod.rs:119
             ivec2 texel_2 = ivec2(tap % 3 - 1, tap / 3 - 1);
@@ -54,7 +54,7 @@ void main() {
                     float depths = abs(centre_depth - shaded_depth);
                     vec3 apart = centre_normal - shaded_normal;
                     float larger = max(depths, 0.5 * dot(apart, apart));
-                    d = min(larger, 1e30);
+                    d = min(larger, 16.0);
                 }
                 // kernels/src/sraa/mod.rs:77
                 distances[tap] = d;

@@ -6,7 +6,7 @@
 // Per pixel: 1 basic block, 199 statements, 26 texture reads + 9 of colour, 16 weight evaluations, 16 transcendental calls.
 // GLSL names a texture together with a sampler even where it filters nothing: any sampler will do.
 
-layout(local_size_x = 8, local_size_y = 8, local_size_z = 1) in;
+layout(local_size_x = 256, local_size_y = 1, local_size_z = 1) in;
 
 layout(set = 0, binding = 0) uniform texture2DArray depth;
 layout(set = 0, binding = 1) uniform texture2DArray normal;
@@ -32,7 +32,7 @@ void main() {
     float depths_s0_t0 = abs(centre_depth_s0 - shaded_depth_s0_t0);
     vec3 apart_s0_t0 = centre_normal_s0 - shaded_normal_s0_t0;
     float larger_s0_t0 = max(depths_s0_t0, 0.5 * dot(apart_s0_t0, apart_s0_t0));
-    float d_s0_t0 = min(larger_s0_t0, 1e30);
+    float d_s0_t0 = min(larger_s0_t0, 16.0);
     ivec2 texel_t1 = max(pixel + ivec2(0, -1), ivec2(0));
     float depth_texel_3 = texelFetch(sampler2DArray(depth, unfiltered), ivec3(texel_t1, 4), 0).x;
     float shaded_depth_t1 = min(depth_texel_3, 1e30);
@@ -40,7 +40,7 @@ void main() {
     float depths_s0_t1 = abs(centre_depth_s0 - shaded_depth_t1);
     vec3 apart_s0_t1 = centre_normal_s0 - shaded_normal_t1;
     float larger_s0_t1 = max(depths_s0_t1, 0.5 * dot(apart_s0_t1, apart_s0_t1));
-    float d_s0_t1 = min(larger_s0_t1, 1e30);
+    float d_s0_t1 = min(larger_s0_t1, 16.0);
     float nearest_s0_t1 = min(d_s0_t0, d_s0_t1);
     ivec2 texel_t3 = max(pixel + ivec2(-1, 0), ivec2(0));
     float depth_texel_4 = texelFetch(sampler2DArray(depth, unfiltered), ivec3(texel_t3, 4), 0).x;
@@ -49,7 +49,7 @@ void main() {
     float depths_s0_t3 = abs(centre_depth_s0 - shaded_depth_t3);
     vec3 apart_s0_t3 = centre_normal_s0 - shaded_normal_t3;
     float larger_s0_t3 = max(depths_s0_t3, 0.5 * dot(apart_s0_t3, apart_s0_t3));
-    float d_s0_t3 = min(larger_s0_t3, 1e30);
+    float d_s0_t3 = min(larger_s0_t3, 16.0);
     float nearest_s0_t3 = min(nearest_s0_t1, d_s0_t3);
     float depth_texel_5 = texelFetch(sampler2DArray(depth, unfiltered), ivec3(pixel, 4), 0).x;
     // sample 0, tap 4: kernels/src/sraa/mod.rs:74
@@ -58,7 +58,7 @@ void main() {
     float depths_s0_t4 = abs(centre_depth_s0 - shaded_depth_t4);
     vec3 apart_s0_t4 = centre_normal_s0 - shaded_normal_t4;
     float larger_s0_t4 = max(depths_s0_t4, 0.5 * dot(apart_s0_t4, apart_s0_t4));
-    float d_s0_t4 = min(larger_s0_t4, 1e30);
+    float d_s0_t4 = min(larger_s0_t4, 16.0);
     float nearest_s0_t4 = min(nearest_s0_t3, d_s0_t4);
     // sample 0, tap 0: kernels/src/sraa/mod.rs:89
     float w_s0_t0 = 0.046875 * exp2(-721.34753 * (d_s0_t0 - nearest_s0_t4));
@@ -81,7 +81,7 @@ void main() {
     float depths_s1_t1 = abs(centre_depth_s1 - shaded_depth_t1);
     vec3 apart_s1_t1 = centre_normal_s1 - shaded_normal_t1;
     float larger_s1_t1 = max(depths_s1_t1, 0.5 * dot(apart_s1_t1, apart_s1_t1));
-    float d_s1_t1 = min(larger_s1_t1, 1e30);
+    float d_s1_t1 = min(larger_s1_t1, 16.0);
     // sample 1, tap 2: kernels/src/sraa/metric.rs:36
     ivec2 texel_t2 = clamp(pixel + ivec2(1, -1), ivec2(0), last);
     float depth_texel_7 = texelFetch(sampler2DArray(depth, unfiltered), ivec3(texel_t2, 4), 0).x;
@@ -90,13 +90,13 @@ void main() {
     float depths_s1_t2 = abs(centre_depth_s1 - shaded_depth_s1_t2);
     vec3 apart_s1_t2 = centre_normal_s1 - shaded_normal_s1_t2;
     float larger_s1_t2 = max(depths_s1_t2, 0.5 * dot(apart_s1_t2, apart_s1_t2));
-    float d_s1_t2 = min(larger_s1_t2, 1e30);
+    float d_s1_t2 = min(larger_s1_t2, 16.0);
     float nearest_s1_t2 = min(d_s1_t1, d_s1_t2);
-    // sample 1, tap 4: kernels/src/sraa/metric.rs:46
+    // sample 1, tap 4: kernels/src/sraa/metric.rs:50
     float depths_s1_t4 = abs(centre_depth_s1 - shaded_depth_t4);
     vec3 apart_s1_t4 = centre_normal_s1 - shaded_normal_t4;
     float larger_s1_t4 = max(depths_s1_t4, 0.5 * dot(apart_s1_t4, apart_s1_t4));
-    float d_s1_t4 = min(larger_s1_t4, 1e30);
+    float d_s1_t4 = min(larger_s1_t4, 16.0);
     float nearest_s1_t4 = min(nearest_s1_t2, d_s1_t4);
     // sample 1, tap 5: kernels/src/sraa/metric.rs:36
     ivec2 texel_t5 = min(pixel + ivec2(1, 0), last);
@@ -106,7 +106,7 @@ void main() {
     float depths_s1_t5 = abs(centre_depth_s1 - shaded_depth_t5);
     vec3 apart_s1_t5 = centre_normal_s1 - shaded_normal_t5;
     float larger_s1_t5 = max(depths_s1_t5, 0.5 * dot(apart_s1_t5, apart_s1_t5));
-    float d_s1_t5 = min(larger_s1_t5, 1e30);
+    float d_s1_t5 = min(larger_s1_t5, 16.0);
     float nearest_s1_t5 = min(nearest_s1_t4, d_s1_t5);
     // sample 1, tap 1: kernels/src/sraa/mod.rs:89
     float w_s1_t1 = 0.078125 * exp2(-721.34753 * (d_s1_t1 - nearest_s1_t5));
@@ -129,12 +129,12 @@ void main() {
     float depths_s2_t3 = abs(centre_depth_s2 - shaded_depth_t3);
     vec3 apart_s2_t3 = centre_normal_s2 - shaded_normal_t3;
     float larger_s2_t3 = max(depths_s2_t3, 0.5 * dot(apart_s2_t3, apart_s2_t3));
-    float d_s2_t3 = min(larger_s2_t3, 1e30);
-    // sample 2, tap 4: kernels/src/sraa/metric.rs:46
+    float d_s2_t3 = min(larger_s2_t3, 16.0);
+    // sample 2, tap 4: kernels/src/sraa/metric.rs:50
     float depths_s2_t4 = abs(centre_depth_s2 - shaded_depth_t4);
     vec3 apart_s2_t4 = centre_normal_s2 - shaded_normal_t4;
     float larger_s2_t4 = max(depths_s2_t4, 0.5 * dot(apart_s2_t4, apart_s2_t4));
-    float d_s2_t4 = min(larger_s2_t4, 1e30);
+    float d_s2_t4 = min(larger_s2_t4, 16.0);
     float nearest_s2_t4 = min(d_s2_t3, d_s2_t4);
     // sample 2, tap 6: kernels/src/sraa/metric.rs:36
     ivec2 texel_t6 = clamp(pixel + ivec2(-1, 1), ivec2(0), last);
@@ -144,7 +144,7 @@ void main() {
     float depths_s2_t6 = abs(centre_depth_s2 - shaded_depth_s2_t6);
     vec3 apart_s2_t6 = centre_normal_s2 - shaded_normal_s2_t6;
     float larger_s2_t6 = max(depths_s2_t6, 0.5 * dot(apart_s2_t6, apart_s2_t6));
-    float d_s2_t6 = min(larger_s2_t6, 1e30);
+    float d_s2_t6 = min(larger_s2_t6, 16.0);
     float nearest_s2_t6 = min(nearest_s2_t4, d_s2_t6);
     ivec2 texel_t7 = min(pixel + ivec2(0, 1), last);
     float depth_texel_11 = texelFetch(sampler2DArray(depth, unfiltered), ivec3(texel_t7, 4), 0).x;
@@ -153,7 +153,7 @@ void main() {
     float depths_s2_t7 = abs(centre_depth_s2 - shaded_depth_t7);
     vec3 apart_s2_t7 = centre_normal_s2 - shaded_normal_t7;
     float larger_s2_t7 = max(depths_s2_t7, 0.5 * dot(apart_s2_t7, apart_s2_t7));
-    float d_s2_t7 = min(larger_s2_t7, 1e30);
+    float d_s2_t7 = min(larger_s2_t7, 16.0);
     float nearest_s2_t7 = min(nearest_s2_t6, d_s2_t7);
     // sample 2, tap 3: kernels/src/sraa/mod.rs:89
     float w_s2_t3 = 0.328125 * exp2(-721.34753 * (d_s2_t3 - nearest_s2_t7));
@@ -176,17 +176,17 @@ void main() {
     float depths_s3_t4 = abs(centre_depth_s3 - shaded_depth_t4);
     vec3 apart_s3_t4 = centre_normal_s3 - shaded_normal_t4;
     float larger_s3_t4 = max(depths_s3_t4, 0.5 * dot(apart_s3_t4, apart_s3_t4));
-    float d_s3_t4 = min(larger_s3_t4, 1e30);
-    // sample 3, tap 5: kernels/src/sraa/metric.rs:46
+    float d_s3_t4 = min(larger_s3_t4, 16.0);
+    // sample 3, tap 5: kernels/src/sraa/metric.rs:50
     float depths_s3_t5 = abs(centre_depth_s3 - shaded_depth_t5);
     vec3 apart_s3_t5 = centre_normal_s3 - shaded_normal_t5;
     float larger_s3_t5 = max(depths_s3_t5, 0.5 * dot(apart_s3_t5, apart_s3_t5));
-    float d_s3_t5 = min(larger_s3_t5, 1e30);
+    float d_s3_t5 = min(larger_s3_t5, 16.0);
     float nearest_s3_t5 = min(d_s3_t4, d_s3_t5);
     float depths_s3_t7 = abs(centre_depth_s3 - shaded_depth_t7);
     vec3 apart_s3_t7 = centre_normal_s3 - shaded_normal_t7;
     float larger_s3_t7 = max(depths_s3_t7, 0.5 * dot(apart_s3_t7, apart_s3_t7));
-    float d_s3_t7 = min(larger_s3_t7, 1e30);
+    float d_s3_t7 = min(larger_s3_t7, 16.0);
     float nearest_s3_t7 = min(nearest_s3_t5, d_s3_t7);
     // sample 3, tap 8: kernels/src/sraa/metric.rs:36
     ivec2 texel_t8 = min(pixel + ivec2(1), last);
@@ -196,7 +196,7 @@ void main() {
     float depths_s3_t8 = abs(centre_depth_s3 - shaded_depth_s3_t8);
     vec3 apart_s3_t8 = centre_normal_s3 - shaded_normal_s3_t8;
     float larger_s3_t8 = max(depths_s3_t8, 0.5 * dot(apart_s3_t8, apart_s3_t8));
-    float d_s3_t8 = min(larger_s3_t8, 1e30);
+    float d_s3_t8 = min(larger_s3_t8, 16.0);
     float nearest_s3_t8 = min(nearest_s3_t7, d_s3_t8);
     // sample 3, tap 4: kernels/src/sraa/mod.rs:89
     float w_s3_t4 = 0.546875 * exp2(-721.34753 * (d_s3_t4 - nearest_s3_t8));

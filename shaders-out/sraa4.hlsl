@@ -10,7 +10,7 @@ uint2 NagaRWDimensions2D(RWTexture2D<float4> tex)
     return ret.xy;
 }
 
-[numthreads(8, 8, 1)]
+[numthreads(256, 1, 1)]
 void sraa(uint3 id : SV_DispatchThreadID)
 {
     int2 frame = int2(NagaRWDimensions2D(destination));
@@ -33,7 +33,7 @@ void sraa(uint3 id : SV_DispatchThreadID)
     float depths_s0_t0_ = abs((centre_depth_s0_ - shaded_depth_s0_t0_));
     float3 apart_s0_t0_ = (centre_normal_s0_ - shaded_normal_s0_t0_);
     float larger_s0_t0_ = max(depths_s0_t0_, (0.5 * dot(apart_s0_t0_, apart_s0_t0_)));
-    float d_s0_t0_ = min(larger_s0_t0_, 1e30);
+    float d_s0_t0_ = min(larger_s0_t0_, 16.0);
     int2 texel_t1_ = max(asint(asuint(pixel) + asuint(int2(int(0), int(-1)))), (int(0)).xx);
     float4 _e60 = depth.Load(int4(texel_t1_, int(4), int(0)));
     float depth_texel_3_ = _e60.x;
@@ -43,7 +43,7 @@ void sraa(uint3 id : SV_DispatchThreadID)
     float depths_s0_t1_ = abs((centre_depth_s0_ - shaded_depth_t1_));
     float3 apart_s0_t1_ = (centre_normal_s0_ - shaded_normal_t1_);
     float larger_s0_t1_ = max(depths_s0_t1_, (0.5 * dot(apart_s0_t1_, apart_s0_t1_)));
-    float d_s0_t1_ = min(larger_s0_t1_, 1e30);
+    float d_s0_t1_ = min(larger_s0_t1_, 16.0);
     float nearest_s0_t1_ = min(d_s0_t0_, d_s0_t1_);
     int2 texel_t3_ = max(asint(asuint(pixel) + asuint(int2(int(-1), int(0)))), (int(0)).xx);
     float4 _e89 = depth.Load(int4(texel_t3_, int(4), int(0)));
@@ -54,7 +54,7 @@ void sraa(uint3 id : SV_DispatchThreadID)
     float depths_s0_t3_ = abs((centre_depth_s0_ - shaded_depth_t3_));
     float3 apart_s0_t3_ = (centre_normal_s0_ - shaded_normal_t3_);
     float larger_s0_t3_ = max(depths_s0_t3_, (0.5 * dot(apart_s0_t3_, apart_s0_t3_)));
-    float d_s0_t3_ = min(larger_s0_t3_, 1e30);
+    float d_s0_t3_ = min(larger_s0_t3_, 16.0);
     float nearest_s0_t3_ = min(nearest_s0_t1_, d_s0_t3_);
     float4 _e111 = depth.Load(int4(pixel, int(4), int(0)));
     float depth_texel_5_ = _e111.x;
@@ -64,7 +64,7 @@ void sraa(uint3 id : SV_DispatchThreadID)
     float depths_s0_t4_ = abs((centre_depth_s0_ - shaded_depth_t4_));
     float3 apart_s0_t4_ = (centre_normal_s0_ - shaded_normal_t4_);
     float larger_s0_t4_ = max(depths_s0_t4_, (0.5 * dot(apart_s0_t4_, apart_s0_t4_)));
-    float d_s0_t4_ = min(larger_s0_t4_, 1e30);
+    float d_s0_t4_ = min(larger_s0_t4_, 16.0);
     float nearest_s0_t4_ = min(nearest_s0_t3_, d_s0_t4_);
     float w_s0_t0_ = (0.046875 * exp2((-721.34753 * (d_s0_t0_ - nearest_s0_t4_))));
     float w_s0_t1_ = (0.328125 * exp2((-721.34753 * (d_s0_t1_ - nearest_s0_t4_))));
@@ -86,7 +86,7 @@ void sraa(uint3 id : SV_DispatchThreadID)
     float depths_s1_t1_ = abs((centre_depth_s1_ - shaded_depth_t1_));
     float3 apart_s1_t1_ = (centre_normal_s1_ - shaded_normal_t1_);
     float larger_s1_t1_ = max(depths_s1_t1_, (0.5 * dot(apart_s1_t1_, apart_s1_t1_)));
-    float d_s1_t1_ = min(larger_s1_t1_, 1e30);
+    float d_s1_t1_ = min(larger_s1_t1_, 16.0);
     int2 texel_t2_ = clamp(asint(asuint(pixel) + asuint(int2(int(1), int(-1)))), (int(0)).xx, last);
     float4 _e194 = depth.Load(int4(texel_t2_, int(4), int(0)));
     float depth_texel_7_ = _e194.x;
@@ -96,12 +96,12 @@ void sraa(uint3 id : SV_DispatchThreadID)
     float depths_s1_t2_ = abs((centre_depth_s1_ - shaded_depth_s1_t2_));
     float3 apart_s1_t2_ = (centre_normal_s1_ - shaded_normal_s1_t2_);
     float larger_s1_t2_ = max(depths_s1_t2_, (0.5 * dot(apart_s1_t2_, apart_s1_t2_)));
-    float d_s1_t2_ = min(larger_s1_t2_, 1e30);
+    float d_s1_t2_ = min(larger_s1_t2_, 16.0);
     float nearest_s1_t2_ = min(d_s1_t1_, d_s1_t2_);
     float depths_s1_t4_ = abs((centre_depth_s1_ - shaded_depth_t4_));
     float3 apart_s1_t4_ = (centre_normal_s1_ - shaded_normal_t4_);
     float larger_s1_t4_ = max(depths_s1_t4_, (0.5 * dot(apart_s1_t4_, apart_s1_t4_)));
-    float d_s1_t4_ = min(larger_s1_t4_, 1e30);
+    float d_s1_t4_ = min(larger_s1_t4_, 16.0);
     float nearest_s1_t4_ = min(nearest_s1_t2_, d_s1_t4_);
     int2 texel_t5_ = min(asint(asuint(pixel) + asuint(int2(int(1), int(0)))), last);
     float4 _e231 = depth.Load(int4(texel_t5_, int(4), int(0)));
@@ -112,7 +112,7 @@ void sraa(uint3 id : SV_DispatchThreadID)
     float depths_s1_t5_ = abs((centre_depth_s1_ - shaded_depth_t5_));
     float3 apart_s1_t5_ = (centre_normal_s1_ - shaded_normal_t5_);
     float larger_s1_t5_ = max(depths_s1_t5_, (0.5 * dot(apart_s1_t5_, apart_s1_t5_)));
-    float d_s1_t5_ = min(larger_s1_t5_, 1e30);
+    float d_s1_t5_ = min(larger_s1_t5_, 16.0);
     float nearest_s1_t5_ = min(nearest_s1_t4_, d_s1_t5_);
     float w_s1_t1_ = (0.078125 * exp2((-721.34753 * (d_s1_t1_ - nearest_s1_t5_))));
     float w_s1_t2_ = (0.046875 * exp2((-721.34753 * (d_s1_t2_ - nearest_s1_t5_))));
@@ -134,11 +134,11 @@ void sraa(uint3 id : SV_DispatchThreadID)
     float depths_s2_t3_ = abs((centre_depth_s2_ - shaded_depth_t3_));
     float3 apart_s2_t3_ = (centre_normal_s2_ - shaded_normal_t3_);
     float larger_s2_t3_ = max(depths_s2_t3_, (0.5 * dot(apart_s2_t3_, apart_s2_t3_)));
-    float d_s2_t3_ = min(larger_s2_t3_, 1e30);
+    float d_s2_t3_ = min(larger_s2_t3_, 16.0);
     float depths_s2_t4_ = abs((centre_depth_s2_ - shaded_depth_t4_));
     float3 apart_s2_t4_ = (centre_normal_s2_ - shaded_normal_t4_);
     float larger_s2_t4_ = max(depths_s2_t4_, (0.5 * dot(apart_s2_t4_, apart_s2_t4_)));
-    float d_s2_t4_ = min(larger_s2_t4_, 1e30);
+    float d_s2_t4_ = min(larger_s2_t4_, 16.0);
     float nearest_s2_t4_ = min(d_s2_t3_, d_s2_t4_);
     int2 texel_t6_ = clamp(asint(asuint(pixel) + asuint(int2(int(-1), int(1)))), (int(0)).xx, last);
     float4 _e326 = depth.Load(int4(texel_t6_, int(4), int(0)));
@@ -149,7 +149,7 @@ void sraa(uint3 id : SV_DispatchThreadID)
     float depths_s2_t6_ = abs((centre_depth_s2_ - shaded_depth_s2_t6_));
     float3 apart_s2_t6_ = (centre_normal_s2_ - shaded_normal_s2_t6_);
     float larger_s2_t6_ = max(depths_s2_t6_, (0.5 * dot(apart_s2_t6_, apart_s2_t6_)));
-    float d_s2_t6_ = min(larger_s2_t6_, 1e30);
+    float d_s2_t6_ = min(larger_s2_t6_, 16.0);
     float nearest_s2_t6_ = min(nearest_s2_t4_, d_s2_t6_);
     int2 texel_t7_ = min(asint(asuint(pixel) + asuint(int2(int(0), int(1)))), last);
     float4 _e353 = depth.Load(int4(texel_t7_, int(4), int(0)));
@@ -160,7 +160,7 @@ void sraa(uint3 id : SV_DispatchThreadID)
     float depths_s2_t7_ = abs((centre_depth_s2_ - shaded_depth_t7_));
     float3 apart_s2_t7_ = (centre_normal_s2_ - shaded_normal_t7_);
     float larger_s2_t7_ = max(depths_s2_t7_, (0.5 * dot(apart_s2_t7_, apart_s2_t7_)));
-    float d_s2_t7_ = min(larger_s2_t7_, 1e30);
+    float d_s2_t7_ = min(larger_s2_t7_, 16.0);
     float nearest_s2_t7_ = min(nearest_s2_t6_, d_s2_t7_);
     float w_s2_t3_ = (0.328125 * exp2((-721.34753 * (d_s2_t3_ - nearest_s2_t7_))));
     float w_s2_t4_ = (0.546875 * exp2((-721.34753 * (d_s2_t4_ - nearest_s2_t7_))));
@@ -182,16 +182,16 @@ void sraa(uint3 id : SV_DispatchThreadID)
     float depths_s3_t4_ = abs((centre_depth_s3_ - shaded_depth_t4_));
     float3 apart_s3_t4_ = (centre_normal_s3_ - shaded_normal_t4_);
     float larger_s3_t4_ = max(depths_s3_t4_, (0.5 * dot(apart_s3_t4_, apart_s3_t4_)));
-    float d_s3_t4_ = min(larger_s3_t4_, 1e30);
+    float d_s3_t4_ = min(larger_s3_t4_, 16.0);
     float depths_s3_t5_ = abs((centre_depth_s3_ - shaded_depth_t5_));
     float3 apart_s3_t5_ = (centre_normal_s3_ - shaded_normal_t5_);
     float larger_s3_t5_ = max(depths_s3_t5_, (0.5 * dot(apart_s3_t5_, apart_s3_t5_)));
-    float d_s3_t5_ = min(larger_s3_t5_, 1e30);
+    float d_s3_t5_ = min(larger_s3_t5_, 16.0);
     float nearest_s3_t5_ = min(d_s3_t4_, d_s3_t5_);
     float depths_s3_t7_ = abs((centre_depth_s3_ - shaded_depth_t7_));
     float3 apart_s3_t7_ = (centre_normal_s3_ - shaded_normal_t7_);
     float larger_s3_t7_ = max(depths_s3_t7_, (0.5 * dot(apart_s3_t7_, apart_s3_t7_)));
-    float d_s3_t7_ = min(larger_s3_t7_, 1e30);
+    float d_s3_t7_ = min(larger_s3_t7_, 16.0);
     float nearest_s3_t7_ = min(nearest_s3_t5_, d_s3_t7_);
     int2 texel_t8_ = min(asint(asuint(pixel) + asuint((int(1)).xx)), last);
     float4 _e455 = depth.Load(int4(texel_t8_, int(4), int(0)));
@@ -202,7 +202,7 @@ void sraa(uint3 id : SV_DispatchThreadID)
     float depths_s3_t8_ = abs((centre_depth_s3_ - shaded_depth_s3_t8_));
     float3 apart_s3_t8_ = (centre_normal_s3_ - shaded_normal_s3_t8_);
     float larger_s3_t8_ = max(depths_s3_t8_, (0.5 * dot(apart_s3_t8_, apart_s3_t8_)));
-    float d_s3_t8_ = min(larger_s3_t8_, 1e30);
+    float d_s3_t8_ = min(larger_s3_t8_, 16.0);
     float nearest_s3_t8_ = min(nearest_s3_t7_, d_s3_t8_);
     float w_s3_t4_ = (0.546875 * exp2((-721.34753 * (d_s3_t4_ - nearest_s3_t8_))));
     float w_s3_t5_ = (0.078125 * exp2((-721.34753 * (d_s3_t5_ - nearest_s3_t8_))));

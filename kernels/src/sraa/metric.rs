@@ -33,13 +33,17 @@ pub struct Surface {
 impl GBuffer {
     /// The surface seen at `sample` of `pixel`.
     pub fn surface(&self, pixel: IVec2, sample: usize) -> Surface {
-        Surface { depth: self.depth.load(pixel, sample).min(FAR), normal: self.normal.load(pixel, sample) }
+        Surface { depth: self.depth.load(pixel, sample).min(DEEPEST), normal: self.normal.load(pixel, sample) }
     }
 }
 
-/// More than any depth, and than any difference that a weight can tell apart, and finite: the sky's infinite depth less
-/// itself is not a number, and neither is an infinite difference less itself.
-pub(super) const FAR: f32 = 1.0e30;
+/// Differences from here on are alike: nothing that a weight could tell apart, whatever tau. The bound keeps a
+/// difference exact enough to be shifted by the smallest one: of two that are a million apart, f32 would lose all that
+/// the exponential needs.
+pub(super) const FAR: f32 = 16.0;
+
+/// More than any depth, and finite: the sky's infinite depth less itself is not a number.
+const DEEPEST: f32 = 1.0e30;
 
 /// How different two surfaces are: 0 for the same, 1 or more for unrelated ones.
 pub(super) fn distance(cfg: &Sraa, a: &Surface, b: &Surface) -> f32 {

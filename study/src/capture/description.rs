@@ -2,6 +2,7 @@
 
 use super::{Capture, CaptureError, DESCRIPTION, MAX_GEOMETRY_TEXELS, MAX_SAMPLES, layer_count};
 use crate::picture;
+use crate::scene::Camera;
 use glam::{UVec2, Vec2};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
@@ -11,9 +12,6 @@ pub const SCHEMA: u32 = 1;
 
 /// The only encoding of depth so far.
 const LINEAR: &str = "linear";
-
-/// Anything that a renderer wants to say of its camera, as JSON.
-pub type Camera = serde_json::Value;
 
 /// Where in a pixel shading was sampled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -47,7 +45,7 @@ impl Description {
             samples: capture.samples.iter().map(|sample| sample.to_array()).collect(),
             shading: capture.shading,
             depth: LINEAR.to_owned(),
-            camera: capture.camera.clone(),
+            camera: capture.camera,
         }
     }
 
@@ -221,6 +219,7 @@ mod tests {
             ),
             ("\"centre\"", "{\"sample\": 4}", &["sample 4", "0 to 3"]),
             ("\"centre\"", "\"corner\"", &["corner", "line 5 column"]),
+            ("\"near\"", "\"nearest\"", &["unknown field `nearest`", "line 9 column"]),
             ("\"linear\"", "\"reversed-z\"", &["`reversed-z`", "`linear`"]),
         ] {
             let message = broken(from, to);

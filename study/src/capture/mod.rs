@@ -9,10 +9,11 @@ mod error;
 mod read;
 mod write;
 
+use crate::scene::Camera;
 use glam::{UVec2, Vec2};
 use straightline_kernels::prelude::{Frame, FrameLayers, Vec3, Vec4};
 
-pub use description::{Camera, SCHEMA, ShadingSample};
+pub use description::{SCHEMA, ShadingSample};
 pub use error::CaptureError;
 
 /// Most geometry samples of a pixel.

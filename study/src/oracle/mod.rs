@@ -199,9 +199,9 @@ impl<'a> Definition<'a> {
             (Metric::DepthNormals, Some(normals)) => {
                 let normal =
                     |(texel, layer): (usize, usize)| normals.layers()[layer].texels()[texel].to_array().map(f64::from);
-                depths.max(half_squared_distance(normal(a), normal(b)))
+                depths.max(half_squared_distance(normal(a), normal(b))).min(FAR)
             }
-            _ => depths,
+            _ => depths.min(FAR),
         }
     }
 
@@ -226,6 +226,9 @@ fn apart(a: f64, b: f64, scale: f64) -> f64 {
         scale * (a - b).abs()
     }
 }
+
+/// Beyond it all differences are alike, by definition of the filter: surfaces are unrelated from 1 on.
+const FAR: f64 = 16.0;
 
 /// `exp(−rate·distance)`, where a rate or a distance of 0 gives 1 whatever the other is.
 fn decay(rate: f64, distance: f64) -> f64 {

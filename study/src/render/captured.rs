@@ -9,7 +9,7 @@ use straightline_kernels::prelude::FrameLayers;
 /// [`ShadingSample::Centre`], once more at the pixel's centre).
 ///
 /// `samples` are in pixels from the pixel's centre, y down. There is no reference in the capture;
-/// [`reference`](super::reference) makes one.
+/// [`reference`](super::reference()) makes one.
 ///
 /// # Errors
 ///
@@ -38,7 +38,7 @@ pub fn capture(renderer: &dyn Renderer, samples: &[Vec2], shading: ShadingSample
         size: renderer.size(),
         samples: samples.to_vec(),
         shading,
-        camera: serde_json::to_value(renderer.camera()).ok(),
+        camera: Some(renderer.camera()),
         color: renderer.shaded(shaded)?,
         depth: FrameLayers::new(depth),
         normal: Some(FrameLayers::new(normal)),

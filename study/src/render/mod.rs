@@ -11,6 +11,8 @@ mod frame;
 mod gpu;
 mod reference;
 mod shade;
+#[cfg(test)]
+mod tests;
 
 use crate::scene::Camera;
 use glam::{UVec2, Vec2, Vec3, Vec4};

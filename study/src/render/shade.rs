@@ -50,14 +50,21 @@ pub(super) fn shade(lighting: &Lighting, surface: &Surface, ray: Vec3) -> Vec3 {
     let specular = 0.08 * s8 * s8 * facing;
     let lit = albedo * (ambient + sun * facing) + sun * specular;
     let clear = (-lighting.sun_direction.w * surface.depth * ray.length()).exp2();
-    lighting.horizon.truncate().lerp(lit, clear).clamp(Vec3::ZERO, Vec3::ONE)
+    lighting
+        .horizon
+        .truncate()
+        .lerp(lit, clear)
+        .clamp(Vec3::ZERO, Vec3::ONE)
 }
 
 /// The sky in a direction.
 fn sky(lighting: &Lighting, towards: Vec3) -> Vec3 {
     let height = towards.dot(lighting.up.truncate()).clamp(0.0, 1.0);
     let thin = 1.0 - height;
-    lighting.zenith.truncate().lerp(lighting.horizon.truncate(), thin * thin * thin)
+    lighting
+        .zenith
+        .truncate()
+        .lerp(lighting.horizon.truncate(), thin * thin * thin)
 }
 
 /// Brightness of a floor of two kinds of tiles with grooves between, averaged over the footprint of a pixel, so that

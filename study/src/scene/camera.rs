@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 
 /// A pinhole camera. View space is right-handed: x right, y up, z towards the viewer.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Camera {
     /// The pinhole, in world space.
     pub position: [f32; 3],
@@ -45,13 +46,23 @@ impl Camera {
     /// down on its front (towards +z) from the right.
     pub fn framing(min: Vec3, max: Vec3) -> Camera {
         let vertical_fov = 35.0_f32.to_radians();
+        // How much of the picture the box may fill, so that it does not touch the edges.
+        let tangent = 0.95 * (0.5 * vertical_fov).tan();
         let centre = 0.5 * (min + max);
         // A point has a picture too.
         let radius = (0.5 * (max - min).length()).max(1.0e-3);
-        let distance = 1.05 * radius / (0.5 * vertical_fov).sin();
-        let position = centre + vec3(0.5, 0.35, 0.8).normalize() * distance;
+        let towards = vec3(0.5, 0.35, 0.8).normalize();
+        let right = Vec3::Y.cross(towards).normalize();
+        let up = towards.cross(right);
+        // Each corner must be far enough away for its height and its width.
+        let corners = (0..8).map(|i| {
+            let side = |axis: usize| if i >> axis & 1 == 0 { min[axis] } else { max[axis] };
+            vec3(side(0), side(1), side(2)) - centre
+        });
+        let distances = corners.map(|c| c.dot(towards) + c.dot(right).abs().max(c.dot(up).abs()) / tangent);
+        let distance = distances.fold(radius, f32::max);
         Camera {
-            position: position.into(),
+            position: (centre + towards * distance).into(),
             target: centre.into(),
             up: [0.0, 1.0, 0.0],
             vertical_fov,

@@ -86,7 +86,7 @@ pub struct Sky {
 
 impl Scene {
     /// Refuses what no renderer could draw: a scene without triangles, indices out of range, numbers that are not
-    /// finite or beyond [`SKY_DEPTH`], and a camera that does not see.
+    /// finite or beyond [`SKY_DEPTH`], normals that are not unit vectors, and a camera that does not see.
     ///
     /// # Errors
     ///
@@ -108,6 +108,12 @@ impl Scene {
             let numbers = [vertex.position, vertex.normal, vertex.color];
             if numbers.as_flattened().iter().any(|number| !number.is_finite()) {
                 return refuse(format!("vertex {at} has a number that is not finite: {vertex:?}"));
+            }
+            if (Vec3::from(vertex.normal).length() - 1.0).abs() > 1.0e-3 {
+                return refuse(format!(
+                    "vertex {at} has the normal {:?}, not a unit vector",
+                    vertex.normal
+                ));
             }
             if Vec3::from(vertex.position).length() >= 0.5 * SKY_DEPTH {
                 return refuse(format!("vertex {at} is {:?}, as far away as the sky", vertex.position));

@@ -36,7 +36,11 @@ impl ScreenTriangle {
         let shares = (self.to_shares * place(pixel.as_dvec2().to_array(), size)).max(DVec3::ZERO);
         let sum = shares.element_sum();
         // A pixel at a rounded corner may lie just outside.
-        if sum > 0.0 { shares / sum } else { DVec3::splat(1.0 / 3.0) }
+        if sum > 0.0 {
+            shares / sum
+        } else {
+            DVec3::splat(1.0 / 3.0)
+        }
     }
 
     /// The reciprocal of depth at the centre of pixel (0, y), and how it grows from pixel to pixel to the right.
@@ -89,7 +93,12 @@ pub(super) fn project(source: u32, corners: [Vec4; 3], near: f32, size: UVec2) -
         let step = |place: f32, side: u32| ((0.5 + 0.5 * place) * (side as f32 * STEPS as f32)).round() as i32;
         [step(corner.x / corner.w, size.x), step(-corner.y / corner.w, size.y)]
     };
-    for (i, found) in pieces.found.iter_mut().enumerate().take(polygon.count.saturating_sub(2)) {
+    for (i, found) in pieces
+        .found
+        .iter_mut()
+        .enumerate()
+        .take(polygon.count.saturating_sub(2))
+    {
         let piece = [0, i + 1, i + 2].map(|at| polygon.corners[at]);
         let [a, b, c] = piece.each_ref().map(screen);
         let area = doubled_area(a, b, c);

@@ -91,9 +91,8 @@ impl CpuRenderer {
     fn surface(&self, pass: &Pass, triangle: &ScreenTriangle, pixel: UVec2) -> Surface {
         let shares = triangle.shares(pixel, self.size).as_vec3();
         let corners = self.scene.triangles[triangle.source as usize].map(|i| &self.scene.vertices[i as usize]);
-        let mix = |[a, b, c]: [[f32; 3]; 3]| {
-            Vec3::from(a) * shares.x + Vec3::from(b) * shares.y + Vec3::from(c) * shares.z
-        };
+        let mix =
+            |[a, b, c]: [[f32; 3]; 3]| Vec3::from(a) * shares.x + Vec3::from(b) * shares.y + Vec3::from(c) * shares.z;
         let normal = Mat3::from_mat4(pass.to_view) * mix(corners.map(|vertex| vertex.normal));
         let normal = normal.normalize_or(Vec3::Z);
         Surface {

@@ -122,8 +122,19 @@ mod tests {
     fn triangles_around_a_point_cover_each_pixel_once() {
         let size = uvec2(33, 21);
         // Corners of the screen and beyond, and a hub at odd places, among them a pixel's very centre.
-        for hub in [vec4(0.1, 0.2, 0.1, 1.0), vec4(0.0, 0.0, 0.1, 1.0), vec4(-0.31, 0.77, 0.1, 1.0)] {
-            let rim = [(-1.5, -1.5), (1.0, -2.0), (30.0, 0.3), (1.1, 1.0), (-0.2, 40.0), (-1.0, 1.0)];
+        for hub in [
+            vec4(0.1, 0.2, 0.1, 1.0),
+            vec4(0.0, 0.0, 0.1, 1.0),
+            vec4(-0.31, 0.77, 0.1, 1.0),
+        ] {
+            let rim = [
+                (-1.5, -1.5),
+                (1.0, -2.0),
+                (30.0, 0.3),
+                (1.1, 1.0),
+                (-0.2, 40.0),
+                (-1.0, 1.0),
+            ];
             let rim = rim.map(|(x, y)| vec4(x, y, 0.1, 1.0));
             let mut sum = vec![0; 33 * 21];
             for i in 0..rim.len() {

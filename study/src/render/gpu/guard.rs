@@ -17,7 +17,11 @@ pub(super) fn guarded<T>(
     let internal = device.push_error_scope(wgpu::ErrorFilter::Internal);
     let validation = device.push_error_scope(wgpu::ErrorFilter::Validation);
     let value = work();
-    let errors = [at_once(validation.pop()), at_once(internal.pop()), at_once(memory.pop())];
+    let errors = [
+        at_once(validation.pop()),
+        at_once(internal.pop()),
+        at_once(memory.pop()),
+    ];
     match errors.into_iter().flatten().next() {
         Some(error) => Err(failed(doing, error)),
         None => Ok(value),

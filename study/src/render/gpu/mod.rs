@@ -91,7 +91,9 @@ impl Renderer for GpuRenderer {
         for (i, offset) in offsets.iter().enumerate() {
             let mut pass = Pass::new(&self.camera, self.size, *offset);
             pass.keep = if i == 0 { 0.0 } else { 1.0 };
-            self.pass(pass, |encoder| self.pipelines.shade(encoder, &self.resources, self.size))?;
+            self.pass(pass, |encoder| {
+                self.pipelines.shade(encoder, &self.resources, self.size)
+            })?;
         }
         let sums = read::buffer(&self.device, &self.queue, &self.resources.colors)?;
         let share = 1.0 / offsets.len() as f32;

@@ -63,13 +63,7 @@ pub(super) fn check_limits(device: &wgpu::Device, scene: &Scene, size: UVec2) ->
 }
 
 impl Resources {
-    pub fn new(
-        device: &wgpu::Device,
-        queue: &wgpu::Queue,
-        pipelines: &Pipelines,
-        scene: &Scene,
-        size: UVec2,
-    ) -> Self {
+    pub fn new(device: &wgpu::Device, queue: &wgpu::Queue, pipelines: &Pipelines, scene: &Scene, size: UVec2) -> Self {
         let filled = |usage: BufferUsages, bytes: &[u8]| {
             let buffer = empty(device, usage | BufferUsages::COPY_DST, bytes.len() as u64);
             queue.write_buffer(&buffer, 0, bytes);
@@ -78,7 +72,11 @@ impl Resources {
         let vertices = filled(BufferUsages::VERTEX, bytemuck::cast_slice(&scene.vertices));
         let indices = filled(BufferUsages::INDEX, bytemuck::cast_slice(&scene.triangles));
         let lighting = filled(BufferUsages::UNIFORM, bytemuck::bytes_of(&Lighting::new(scene, size)));
-        let pass = empty(device, BufferUsages::UNIFORM | BufferUsages::COPY_DST, size_of::<Pass>() as u64);
+        let pass = empty(
+            device,
+            BufferUsages::UNIFORM | BufferUsages::COPY_DST,
+            size_of::<Pass>() as u64,
+        );
         let pixels = u64::from(size.x) * u64::from(size.y);
         let colors = empty(
             device,

@@ -3,6 +3,7 @@
 use super::{noise, paint};
 use crate::scene::mesh::Mesh;
 use glam::{Affine3A, Vec3, vec3};
+use std::f32::consts::FRAC_PI_2;
 
 /// The walls' outside, seen from above: x to each side of 0, z of the front and of the back.
 const HALF_WIDTH: f32 = 4.0;
@@ -11,12 +12,15 @@ const BACK: f32 = -6.0;
 /// Height of the eaves and of the ridge, which runs along x in the middle.
 const EAVES: f32 = 3.9;
 const RIDGE: f32 = 6.1;
+/// Height of what the walls stand on.
+const PLINTH: f32 = 0.42;
+/// Lower edges of the windows in either gable wall: how far right of its middle, and how high.
+const GABLE_WINDOWS: [[f32; 2]; 4] = [[-1.3, 0.95], [1.3, 0.95], [-1.3, 2.55], [1.3, 2.55]];
 /// How far the roof reaches beyond the walls.
 const OVERHANG: f32 = 0.45;
 
 pub(super) fn add(mesh: &mut Mesh) {
     walls(mesh);
-    front(mesh);
     for (x, y) in [(-2.75, 0.95), (-0.55, 0.95), (-2.75, 2.55), (-0.55, 2.55), (1.9, 2.55)] {
         mesh.at(Affine3A::from_translation(vec3(x, y, FRONT)), window);
     }
@@ -25,53 +29,67 @@ pub(super) fn add(mesh: &mut Mesh) {
     chimney(mesh);
 }
 
-/// The core behind the front's courses, with its gables.
+/// The core behind the walls' stones, with the plinth and the gables.
 fn walls(mesh: &mut Mesh) {
-    let min = vec3(-HALF_WIDTH, 0.0, BACK);
-    mesh.block(min, vec3(HALF_WIDTH, EAVES, FRONT - 0.12), paint::PLASTER * 0.55);
-    let middle = 0.5 * (FRONT + BACK);
-    for (x, order) in [(-HALF_WIDTH, [0, 1, 2]), (HALF_WIDTH, [1, 0, 2])] {
-        let corners = [
-            vec3(x, EAVES, BACK),
-            vec3(x, EAVES, FRONT),
-            vec3(x, RIDGE - 0.1, middle),
-        ];
-        mesh.polygon(&order.map(|i| corners[i]), paint::PLASTER);
+    let inset = vec3(0.12, 0.0, 0.12);
+    let (min, max) = (vec3(-HALF_WIDTH, 0.0, BACK), vec3(HALF_WIDTH, EAVES, FRONT));
+    mesh.block(min + inset, max - inset, paint::PLASTER * 0.55);
+    let out = vec3(0.08, 0.0, 0.08);
+    mesh.block(min - out, vec3(max.x, PLINTH, max.z) + out, paint::STONE);
+    let windows = [-2.75, -0.55, 1.9].map(|x| [x, 2.55, 3.65]);
+    let lower = [[-2.75, 0.95, 2.05], [-0.55, 0.95, 2.05], [1.9, 0.0, 2.25]];
+    wall(mesh, HALF_WIDTH, &[windows, lower].concat());
+    let half = 0.5 * (FRONT - BACK);
+    for side in [-1.0, 1.0] {
+        let turn = Affine3A::from_rotation_y(side * FRAC_PI_2);
+        let place = Affine3A::from_translation(vec3(side * HALF_WIDTH, 0.0, -half)) * turn;
+        mesh.at(place, |mesh| {
+            wall(mesh, half, &GABLE_WINDOWS.map(|[x, y]| [x, y, y + 1.1]));
+            for [x, y] in GABLE_WINDOWS {
+                mesh.at(Affine3A::from_translation(vec3(x, y, 0.0)), window);
+            }
+            gable(mesh, half);
+        });
     }
-    // The plinth stands before everything.
-    mesh.block(
-        vec3(-HALF_WIDTH - 0.08, 0.0, BACK),
-        vec3(HALF_WIDTH + 0.08, 0.42, FRONT + 0.08),
-        paint::STONE,
-    );
 }
 
-/// The front: courses of plaster with grooves between, left open where the windows and the door are.
-fn front(mesh: &mut Mesh) {
+/// Boards from the eaves up to the slopes of the roof, with grooves between.
+fn gable(mesh: &mut Mesh, half: f32) {
+    const BOARDS: u32 = 20;
+    let width = 2.0 * half / BOARDS as f32;
+    let slope = |x: f32| RIDGE - 0.1 - (RIDGE - EAVES) * x.abs() / half;
+    for board in 0..BOARDS {
+        let left = -half + width * board as f32 + 0.015;
+        let right = left + width - 0.03;
+        let foot = [(left, 0.0), (right, 0.0), (right, -0.2), (left, -0.2)];
+        let lower = foot.map(|(x, z)| vec3(x, EAVES - 0.02, z));
+        let upper = foot.map(|(x, z)| vec3(x, slope(x), z));
+        mesh.hexahedron([lower, upper], paint::BOARD * (0.9 + 0.2 * noise(3000 + board)));
+    }
+    let edge = [
+        vec3(-half, EAVES, -0.06),
+        vec3(half, EAVES, -0.06),
+        vec3(0.0, RIDGE - 0.1, -0.06),
+    ];
+    mesh.polygon(&edge, paint::BOARD * 0.5);
+}
+
+/// A wall in the plane of z, `half` to both sides: courses of stones with grooves between, left open where
+/// `openings` are, each a metre wide: its middle, its lower and its upper edge.
+fn wall(mesh: &mut Mesh, half: f32, openings: &[[f32; 3]]) {
     const COURSE: f32 = 0.29;
     const GROOVE: f32 = 0.045;
-    let openings = [
-        (-2.75, 0.95, 2.05),
-        (-0.55, 0.95, 2.05),
-        (1.9, 0.0, 2.25),
-        (-2.75, 2.55, 3.65),
-        (-0.55, 2.55, 3.65),
-        (1.9, 2.55, 3.65),
-    ];
     let mut course = 0;
-    let mut y = 0.42;
+    let mut y = PLINTH;
     while y < EAVES - 0.05 {
         let top = (y + COURSE - GROOVE).min(EAVES);
         // Walk along the course, from opening to opening.
-        let mut open: Vec<(f32, f32)> = openings
-            .iter()
-            .filter(|(_, low, high)| *low < top && *high > y)
-            .map(|(x, _, _)| (x - 0.5, x + 0.5))
-            .collect();
-        open.sort_by(|a, b| a.0.total_cmp(&b.0));
-        open.push((HALF_WIDTH, HALF_WIDTH));
-        let mut from = -HALF_WIDTH;
-        for (left, right) in open {
+        let inside = openings.iter().filter(|[_, low, high]| *low < top && *high > y);
+        let mut open: Vec<[f32; 2]> = inside.map(|[x, _, _]| [x - 0.5, x + 0.5]).collect();
+        open.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        open.push([half, half]);
+        let mut from = -half;
+        for [left, right] in open {
             stones(mesh, course, [from, left], [y, top]);
             from = right;
         }
@@ -83,14 +101,14 @@ fn front(mesh: &mut Mesh) {
 /// Stones of one course between two openings.
 fn stones(mesh: &mut Mesh, course: u32, [from, to]: [f32; 2], [low, high]: [f32; 2]) {
     const LENGTH: f32 = 1.1;
-    let shift = if course % 2 == 0 { 0.0 } else { 0.5 * LENGTH };
+    let shift = if course.is_multiple_of(2) { 0.0 } else { 0.5 * LENGTH };
     let mut x = ((from - shift) / LENGTH).floor() * LENGTH + shift;
     while x < to {
         let (left, right) = (x.max(from), (x + LENGTH - 0.04).min(to));
         if right - left > 0.02 {
             let seed = course * 64 + (x + 16.0) as u32;
             let tint = paint::PLASTER * (0.92 + 0.14 * noise(seed));
-            mesh.block(vec3(left, low, FRONT - 0.2), vec3(right, high, FRONT), tint);
+            mesh.block(vec3(left, low, -0.2), vec3(right, high, 0.0), tint);
         }
         x += LENGTH;
     }
@@ -158,8 +176,17 @@ fn frame(mesh: &mut Mesh, [left, right]: [f32; 2], [low, high]: [f32; 2], width:
 /// A door 1.0 wide and 2.25 high with raised panels and a canopy on struts.
 fn door(mesh: &mut Mesh) {
     mesh.block(vec3(-0.5, 0.0, -0.15), vec3(0.5, 2.25, -0.08), paint::DOOR);
-    for (x, low, high) in [(-0.24, 0.2, 0.9), (0.24, 0.2, 0.9), (-0.24, 1.05, 2.1), (0.24, 1.05, 2.1)] {
-        mesh.block(vec3(x - 0.17, low, -0.1), vec3(x + 0.17, high, -0.045), paint::DOOR * 1.5);
+    for (x, low, high) in [
+        (-0.24, 0.2, 0.9),
+        (0.24, 0.2, 0.9),
+        (-0.24, 1.05, 2.1),
+        (0.24, 1.05, 2.1),
+    ] {
+        mesh.block(
+            vec3(x - 0.17, low, -0.1),
+            vec3(x + 0.17, high, -0.045),
+            paint::DOOR * 1.5,
+        );
     }
     frame(mesh, [-0.58, 0.58], [0.0, 2.31], 0.08, -0.0);
     let canopy = |rise: f32| {
@@ -193,14 +220,30 @@ fn roof(mesh: &mut Mesh) {
         // The gutter, and its pipe down the wall.
         let gutter = low + vec3(0.0, -0.05, 0.06 * side);
         let half = Vec3::X * (reach - 0.05);
-        mesh.frustum([(gutter - half, 0.055), (gutter + half, 0.055)], 10, paint::IRON * 2.0, true);
+        mesh.frustum(
+            [(gutter - half, 0.055), (gutter + half, 0.055)],
+            10,
+            paint::IRON * 2.0,
+            true,
+        );
         let pipe = vec3(HALF_WIDTH - 0.25, 0.0, edge + 0.06 * side);
-        mesh.bar(gutter + Vec3::X * (HALF_WIDTH - 0.25), pipe + Vec3::Y * 3.4, 0.03, 8, paint::IRON * 2.0);
+        mesh.bar(
+            gutter + Vec3::X * (HALF_WIDTH - 0.25),
+            pipe + Vec3::Y * 3.4,
+            0.03,
+            8,
+            paint::IRON * 2.0,
+        );
         mesh.bar(pipe + Vec3::Y * 3.4, pipe, 0.03, 8, paint::IRON * 2.0);
     }
     let ridge = vec3(0.0, RIDGE + 0.04, middle);
     let half = Vec3::X * (reach + 0.02);
-    mesh.frustum([(ridge - half, 0.11), (ridge + half, 0.11)], 6, vec3(0.36, 0.11, 0.06), false);
+    mesh.frustum(
+        [(ridge - half, 0.11), (ridge + half, 0.11)],
+        6,
+        vec3(0.36, 0.11, 0.06),
+        false,
+    );
 }
 
 /// One slope from its upper to its lower edge, `reach` to both sides: rows of tiles, each over the next lower one.
@@ -223,8 +266,16 @@ fn slope(mesh: &mut Mesh, top: Vec3, low: Vec3, reach: f32, side: f32) {
             let face = |point: Vec3, rise: f32| point + up * rise;
             let (a, b) = (face(to, 0.035), face(to, 0.085));
             let (c, d) = (face(from, -0.02), face(from, 0.03));
-            let lower = if side > 0.0 { [a + left, a + right, c + right, c + left] } else { [a + right, a + left, c + left, c + right] };
-            let upper = if side > 0.0 { [b + left, b + right, d + right, d + left] } else { [b + right, b + left, d + left, d + right] };
+            let lower = if side > 0.0 {
+                [a + left, a + right, c + right, c + left]
+            } else {
+                [a + right, a + left, c + left, c + right]
+            };
+            let upper = if side > 0.0 {
+                [b + left, b + right, d + right, d + left]
+            } else {
+                [b + right, b + left, d + left, d + right]
+            };
             mesh.hexahedron([lower, upper], color);
         }
     }
@@ -241,6 +292,11 @@ fn chimney(mesh: &mut Mesh) {
     mesh.block(vec3(-2.72, 5.0, -2.27), vec3(-2.08, 6.75, -1.73), color * 0.5);
     mesh.block(vec3(-2.85, 6.78, -2.4), vec3(-1.95, 6.9, -1.6), paint::STONE);
     for x in [-2.58, -2.22] {
-        mesh.frustum([(vec3(x, 6.9, -2.0), 0.13), (vec3(x, 7.25, -2.0), 0.10)], 12, color * 1.3, true);
+        mesh.frustum(
+            [(vec3(x, 6.9, -2.0), 0.13), (vec3(x, 7.25, -2.0), 0.10)],
+            12,
+            color * 1.3,
+            true,
+        );
     }
 }

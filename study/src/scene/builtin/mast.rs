@@ -5,7 +5,7 @@ use crate::scene::mesh::Mesh;
 use glam::{Vec3, vec3};
 
 /// Where the mast stands.
-const FOOT: Vec3 = vec3(14.5, 0.0, -19.0);
+const FOOT: Vec3 = vec3(22.5, 0.0, -17.0);
 const HEIGHT: f32 = 15.0;
 
 pub(super) fn add(mesh: &mut Mesh) {
@@ -16,11 +16,14 @@ pub(super) fn add(mesh: &mut Mesh) {
     }
     let tip = |height: f32, side: f32| FOOT + vec3(side, height, 0.0);
     // Across the sky to beyond the upper left, over the roof; each a little thinner.
-    for (i, (height, side)) in [(11.6, -1.9), (11.6, 1.9), (13.4, -1.4), (13.4, 1.4)].into_iter().enumerate() {
+    for (i, (height, side)) in [(11.6, -1.9), (11.6, 1.9), (13.4, -1.4), (13.4, 1.4)]
+        .into_iter()
+        .enumerate()
+    {
         let i = i as f32;
         let far = vec3(-15.0, 10.2 + 0.9 * i, -4.0 - 1.2 * i);
         wire(mesh, tip(height, side), far, 0.9, 0.009 - 0.002 * i);
-        let right = vec3(34.0, 10.0 + 0.8 * i, -17.0 - i);
+        let right = vec3(62.0, 10.0 + 0.8 * i, -15.0 - i);
         wire(mesh, tip(height, side), right, 0.7, 0.009);
     }
     // Service wires to the house, low before the wall and the roof.
@@ -28,8 +31,6 @@ pub(super) fn add(mesh: &mut Mesh) {
     wire(mesh, vec3(3.9, 3.55, 0.2), vec3(-3.9, 3.42, 0.2), 0.16, 0.0022);
     wire(mesh, vec3(-4.4, 3.95, 0.5), vec3(-9.5, 6.4, 3.0), 0.15, 0.003);
     wire(mesh, vec3(-4.4, 3.85, 0.5), vec3(-9.5, 6.1, 3.0), 0.15, 0.0016);
-    // A washing line from the house to the railing, and the aerial's stays.
-    wire(mesh, vec3(3.95, 2.6, 0.1), vec3(7.2, 2.7, -1.2), 0.12, 0.003);
     aerial(mesh, vec3(1.9, 6.1, -3.0));
 }
 

@@ -1,4 +1,4 @@
-//! The ground, the fence, the trees and a faceted stone.
+//! The ground, the hills, the fences, the trees and a faceted stone.
 
 use super::{noise, paint};
 use crate::scene::Material;
@@ -11,19 +11,57 @@ const REACH: f32 = 1500.0;
 
 pub(super) fn add(mesh: &mut Mesh) {
     let corner = |x: f32, z: f32| vec3(x * REACH, 0.0, z * REACH);
-    let ground = [corner(-1.0, 1.0), corner(1.0, 1.0), corner(1.0, -1.0), corner(-1.0, -1.0)];
-    mesh.patch(&ground, vec3(0.46, 0.40, 0.33), Material::Tiles);
+    let ground = [
+        corner(-1.0, 1.0),
+        corner(1.0, 1.0),
+        corner(1.0, -1.0),
+        corner(-1.0, -1.0),
+    ];
+    mesh.patch(&ground, vec3(0.60, 0.48, 0.36), Material::Tiles);
     fence(mesh, vec3(-8.6, 0.0, 3.2), vec3(-10.5, 0.0, -46.0), 150);
-    fence(mesh, vec3(9.2, 0.0, -3.4), vec3(30.0, 0.0, -9.0), 90);
-    for (i, (x, z, height)) in
-        [(-6.9, -3.5, 4.6), (-7.7, -9.0, 5.6), (-7.9, -17.0, 5.2), (11.2, -9.0, 4.8), (17.5, -13.0, 5.4), (25.0, -15.0, 5.0)]
-            .into_iter()
-            .enumerate()
+    hills(mesh);
+    fence(mesh, vec3(11.0, 0.0, -3.4), vec3(45.0, 0.0, -9.0), 150);
+    for (i, (x, z, height)) in [
+        (-6.9, -3.5, 4.6),
+        (-7.7, -9.0, 5.6),
+        (-7.9, -17.0, 5.2),
+        (11.2, -9.0, 4.8),
+        (17.5, -13.0, 5.4),
+        (25.0, -15.0, 5.0),
+    ]
+    .into_iter()
+    .enumerate()
     {
         cypress(mesh, vec3(x, 0.0, z), height, i as u32);
     }
-    let place = Affine3A::from_translation(vec3(-5.55, 0.0, 3.4));
+    let place = Affine3A::from_translation(vec3(-6.0, 0.0, 3.9));
     mesh.at(place, monument);
+}
+
+/// Two ranges around the far half of the horizon, in large facets.
+fn hills(mesh: &mut Mesh) {
+    const FACETS: u32 = 90;
+    for (range, (distance, height)) in [(900.0, 95.0), (620.0, 42.0)].into_iter().enumerate() {
+        let range = range as u32;
+        let point = |at: u32, row: u32| {
+            let seed = range * 1000 + row * 300 + at;
+            let angle = PI * (at as f32 + 0.5 * row as f32 + 0.4 * noise(seed)) / FACETS as f32;
+            let out = distance * (1.0 + 0.06 * row as f32 + 0.03 * noise(seed + 100));
+            // Long waves, and short ones on them.
+            let wave = 0.55 + 0.45 * (0.23 * at as f32 + 2.0 * range as f32).sin();
+            let rise = [0.0, 0.55, 1.0][row as usize] * height * (0.25 + 0.6 * wave + 0.3 * noise(seed + 200));
+            vec3(-angle.cos() * out, rise, -angle.sin() * out)
+        };
+        for row in 0..2 {
+            for at in 0..FACETS {
+                let color = vec3(0.20, 0.25, 0.13) * (0.85 + 0.3 * noise(at + 500 * row));
+                let (a, b) = (point(at, row), point(at + 1, row));
+                let (c, d) = (point(at + 1, row + 1), point(at, row + 1));
+                mesh.polygon(&[a, b, d], color);
+                mesh.polygon(&[b, c, d], color);
+            }
+        }
+    }
 }
 
 /// Pickets with points and two rails, from one post to the other.
@@ -38,7 +76,15 @@ fn fence(mesh: &mut Mesh, from: Vec3, to: Vec3, pickets: u32) {
     for i in 0..=pickets {
         let foot = from.lerp(to, i as f32 / pickets as f32);
         let half = along * 0.045;
-        let plank = |y: f32| [foot - half - out, foot + half - out, foot + half + out, foot - half + out].map(|p| p + Vec3::Y * y);
+        let plank = |y: f32| {
+            [
+                foot - half - out,
+                foot + half - out,
+                foot + half + out,
+                foot - half + out,
+            ]
+            .map(|p| p + Vec3::Y * y)
+        };
         mesh.hexahedron([plank(0.05), plank(0.95)], color);
         let [a, b, c, d] = plank(0.95);
         let tip = foot + Vec3::Y * 1.08;
@@ -59,7 +105,11 @@ fn cypress(mesh: &mut Mesh, foot: Vec3, height: f32, seed: u32) {
         let wobble = 0.8 + 0.4 * noise(seed * 997 + ring * SIDES + side);
         let radius = height * 0.16 * (PI * share.powf(0.65)).sin().max(0.0).powf(0.8) * wobble;
         let angle = TAU * (side as f32 + 0.5 * (ring % 2) as f32) / SIDES as f32;
-        foot + vec3(angle.cos() * radius, 0.35 + share * (height - 0.35), -angle.sin() * radius)
+        foot + vec3(
+            angle.cos() * radius,
+            0.35 + share * (height - 0.35),
+            -angle.sin() * radius,
+        )
     };
     for ring in 0..RINGS {
         for side in 0..SIDES {
@@ -77,8 +127,18 @@ fn cypress(mesh: &mut Mesh, foot: Vec3, height: f32, seed: u32) {
 fn monument(mesh: &mut Mesh) {
     mesh.block(vec3(-0.75, 0.0, -0.75), vec3(0.75, 0.14, 0.75), paint::STONE);
     mesh.block(vec3(-0.6, 0.14, -0.6), vec3(0.6, 0.28, 0.6), paint::STONE);
-    mesh.frustum([(vec3(0.0, 0.28, 0.0), 0.42), (vec3(0.0, 0.95, 0.0), 0.32)], 32, paint::TRIM, true);
-    mesh.frustum([(vec3(0.0, 0.95, 0.0), 0.46), (vec3(0.0, 1.05, 0.0), 0.46)], 32, paint::TRIM, true);
+    mesh.frustum(
+        [(vec3(0.0, 0.28, 0.0), 0.42), (vec3(0.0, 0.95, 0.0), 0.32)],
+        32,
+        paint::TRIM,
+        true,
+    );
+    mesh.frustum(
+        [(vec3(0.0, 0.95, 0.0), 0.46), (vec3(0.0, 1.05, 0.0), 0.46)],
+        32,
+        paint::TRIM,
+        true,
+    );
     const SIDES: u32 = 11;
     const RINGS: u32 = 6;
     let point = |ring: u32, side: u32| {

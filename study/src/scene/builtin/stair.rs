@@ -1,8 +1,9 @@
-//! The stair to the right of the house: a flight up to a landing, with a railing of thin bars.
+//! The stair to the right of the house: a flight up to a landing at its wall, with a railing of thin bars.
 
 use super::paint;
 use crate::scene::mesh::Mesh;
 use glam::{Affine3A, Vec3, vec3};
+use std::f32::consts::FRAC_PI_2;
 
 const STEPS: u32 = 11;
 const RISE: f32 = 0.17;
@@ -14,15 +15,24 @@ const DEPTH: f32 = 2.3;
 
 pub(super) fn add(mesh: &mut Mesh) {
     // The flight rises towards -z and ends at z = 0 of its own place; turned so that its side shows.
-    let place = Affine3A::from_translation(vec3(6.35, 0.0, -0.3)) * Affine3A::from_rotation_y(0.62);
+    let place = Affine3A::from_translation(vec3(6.35, 0.0, -0.25)) * Affine3A::from_rotation_y(FRAC_PI_2);
     mesh.at(place, |mesh| {
         flight(mesh);
         landing(mesh);
         for x in [0.06, WIDTH - 0.06] {
-            railing(mesh, vec3(x, RISE, STEPS as f32 * RUN - 0.12), vec3(x, LANDING, 0.05), STEPS * 2);
+            railing(
+                mesh,
+                vec3(x, RISE, STEPS as f32 * RUN - 0.12),
+                vec3(x, LANDING, 0.05),
+                STEPS * 2,
+            );
         }
-        railing(mesh, vec3(WIDTH - 0.06, LANDING, 0.0), vec3(WIDTH - 0.06, LANDING, -DEPTH), 16);
-        railing(mesh, vec3(0.06, LANDING, -DEPTH), vec3(WIDTH - 0.06, LANDING, -DEPTH), 11);
+        railing(
+            mesh,
+            vec3(WIDTH - 0.06, LANDING, 0.0),
+            vec3(WIDTH - 0.06, LANDING, -DEPTH),
+            16,
+        );
         railing(mesh, vec3(0.06, LANDING, 0.0), vec3(0.06, LANDING, -DEPTH), 16);
     });
 }
@@ -32,7 +42,11 @@ fn flight(mesh: &mut Mesh) {
     for step in 0..STEPS {
         let front = (STEPS - step) as f32 * RUN;
         let top = (step + 1) as f32 * RISE;
-        mesh.block(vec3(0.0, 0.0, front - RUN), vec3(WIDTH, top - 0.045, front), paint::STONE * 0.85);
+        mesh.block(
+            vec3(0.0, 0.0, front - RUN),
+            vec3(WIDTH, top - 0.045, front),
+            paint::STONE * 0.85,
+        );
         mesh.block(
             vec3(-0.04, top - 0.045, front - RUN),
             vec3(WIDTH + 0.04, top, front + 0.04),

@@ -9,6 +9,7 @@ use glam::{Mat3, Mat4, Vec2, Vec3};
 use gltf::buffer::Data;
 use gltf::mesh::{Mode, Primitive};
 use gltf::{Document, Gltf, Semantic};
+use std::collections::hash_map::Entry;
 use std::collections::{HashMap, HashSet};
 use std::path::Path;
 
@@ -173,10 +174,10 @@ impl Model<'_> {
             && let Some(accessor) = primitive.get(&Semantic::TexCoords(info.tex_coord()))
         {
             let image = info.texture().source();
-            if !textures.contains_key(&image.index()) {
-                textures.insert(image.index(), self.texture(&image)?);
-            }
-            let texture = &textures[&image.index()];
+            let texture = match textures.entry(image.index()) {
+                Entry::Occupied(texture) => texture.into_mut(),
+                Entry::Vacant(place) => place.insert(self.texture(&image)?),
+            };
             let coordinates = floats::<2>(&accessor, self.buffers)?;
             tint(coordinates.into_iter().map(|uv| texture.at(Vec2::from(uv))).collect())?;
         }

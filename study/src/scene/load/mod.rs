@@ -26,7 +26,7 @@ pub const MAX_TRIANGLES: usize = 1 << 25;
 ///   colour texture (PNG or JPEG) read at the nearest texel. A texture's detail between vertices is thus lost, as
 ///   is transparency.
 /// - Missing normals are made: the faces' own for glTF, as it asks, and for OBJ smoothed across edges of less than
-///   40°.
+///   55°.
 /// - The model is moved and scaled so that its bounding box is centred on the origin and has a diagonal of 10
 ///   units, so that steps between its surfaces are of the size that filters expect; and the camera has the whole
 ///   box in a picture that is not higher than wide.

@@ -7,6 +7,7 @@ use crate::scene::SceneError;
 use glam::{Vec3, vec2, vec3};
 use std::cell::RefCell;
 use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 use std::path::{Path, PathBuf};
 use tobj::{LoadError, Material, Mesh};
 
@@ -105,14 +106,18 @@ fn colors(
     {
         // Some exporters write the paths of the system that they run on.
         let path = base.join(name.replace('\\', "/"));
-        if !textures.contains_key(&path) {
-            let texture = Texture::decode(&read_file(&path)?).map_err(|problem| SceneError::Malformed {
-                path: path.clone(),
-                problem,
-            })?;
-            textures.insert(path.clone(), texture);
-        }
-        let texture = &textures[&path];
+        let texture = match textures.entry(path) {
+            Entry::Occupied(texture) => texture.into_mut(),
+            Entry::Vacant(place) => {
+                let decoded = Texture::decode(&read_file(place.key())?);
+                let malformed = |problem| SceneError::Malformed {
+                    path: place.key().clone(),
+                    problem,
+                };
+                let texture = decoded.map_err(malformed)?;
+                place.insert(texture)
+            }
+        };
         // Here v points up.
         for (color, uv) in colors.iter_mut().zip(mesh.texcoords.chunks_exact(2)) {
             *color *= texture.at(vec2(uv[0], 1.0 - uv[1]));

@@ -3,8 +3,8 @@
 use glam::{DVec3, Vec3};
 use std::collections::HashMap;
 
-/// Cosine of the angle between two faces below which they are taken for one rounded surface: 40°.
-const CREASE: f32 = 0.766;
+/// Cosine of the angle between two faces below which they are taken for one rounded surface: 55°.
+const CREASE: f32 = 0.574;
 
 /// Unit normal of a triangle, counter-clockwise seen from the side it points to; `None` without an area.
 pub(super) fn face_normal(corners: [Vec3; 3]) -> Option<Vec3> {

@@ -69,6 +69,23 @@ fn an_obj_is_triangulated_lit_and_framed() {
 }
 
 #[test]
+fn textures_are_read_at_vertices() {
+    let scratch = Scratch::new("texture");
+    // Red above blue.
+    let image = image::RgbImage::from_raw(1, 2, vec![255, 0, 0, 0, 0, 255]).expect("two pixels");
+    image.save(scratch.0.join("flag.png")).expect("a file for the test");
+    scratch.file("paint.mtl", "newmtl flag\nKd 1 1 1\nmap_Kd flag.png\n");
+    let text = "mtllib paint.mtl\nusemtl flag\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0.2\nvt 0 0.9\nf 1/1 2/1 3/2\n";
+    let path = scratch.file("flag.obj", text);
+    let colors: Vec<[f32; 3]> = load(&path).expect("a scene").vertices.iter().map(|v| v.color).collect();
+    let (red, blue) = ([1.0, 0.0, 0.0], [0.0, 0.0, 1.0]);
+    assert_eq!(colors, [blue, blue, red]);
+
+    scratch.file("flag.png", "no picture");
+    assert!(refusal(&path).contains("flag.png"), "{}", refusal(&path));
+}
+
+#[test]
 fn a_gltf_keeps_its_transforms_and_colours() {
     let scratch = Scratch::new("gltf");
     let scene = load(&triangle(&scratch, |text| text)).expect("a scene");

@@ -1,0 +1,277 @@
+//! Both renderers draw what geometry says, and the same.
+
+use super::*;
+use crate::scene::{Camera, Material, SKY_DEPTH, Scene, Vertex, builtin};
+use glam::{IVec2, ivec2, uvec2, vec2};
+
+fn gpu(scene: &Scene, size: UVec2) -> Result<GpuRenderer, RenderError> {
+    let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
+    let adapter =
+        pollster::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions::default())).unwrap_or_else(|error| {
+            panic!("this test needs a GPU adapter; without a GPU, install Debian's mesa-vulkan-drivers: {error}")
+        });
+    let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor::default()))
+        .unwrap_or_else(|error| panic!("the adapter {:?} gives no device: {error}", adapter.get_info()));
+    GpuRenderer::new(&device, &queue, scene, size)
+}
+
+fn both(scene: &Scene, size: UVec2) -> [Box<dyn Renderer>; 2] {
+    [
+        Box::new(CpuRenderer::new(scene, size).expect("a renderer")),
+        Box::new(gpu(scene, size).expect("a renderer")),
+    ]
+}
+
+/// A plane of `corners`, seen from (0, 1, 0) along -z.
+fn plane(corners: [[f32; 3]; 4], normal: [f32; 3]) -> Scene {
+    let corner = |position| Vertex {
+        position,
+        normal,
+        color: [0.5, 0.4, 0.3],
+        material: Material::Plain as u32,
+    };
+    Scene {
+        vertices: corners.map(corner).to_vec(),
+        triangles: vec![[0, 1, 2], [0, 2, 3]],
+        camera: Camera {
+            position: [0.0, 1.0, 0.0],
+            target: [0.0, 1.0, -1.0],
+            up: [0.0, 1.0, 0.0],
+            vertical_fov: 1.0,
+            near: 0.1,
+        },
+        ..builtin()
+    }
+}
+
+/// A floor from behind the camera to far ahead.
+fn floor() -> Scene {
+    let reach = 500.0;
+    let corners = [
+        [-reach, 0.0, reach],
+        [reach, 0.0, reach],
+        [reach, 0.0, -reach],
+        [-reach, 0.0, -reach],
+    ];
+    plane(corners, [0.0, 1.0, 0.0])
+}
+
+fn pixels(size: UVec2) -> impl Iterator<Item = IVec2> {
+    let size = size.as_ivec2();
+    (0..size.y).flat_map(move |y| (0..size.x).map(move |x| ivec2(x, y)))
+}
+
+#[test]
+fn depth_and_normal_are_those_of_the_plane() {
+    let size = uvec2(61, 37);
+    for renderer in both(&floor(), size) {
+        for offset in [Vec2::ZERO, vec2(-0.375, 0.125), vec2(0.5, -0.5)] {
+            let (depth, normal) = renderer.geometry(offset).expect("geometry");
+            for pixel in pixels(size) {
+                let y = pixel.y as f32 + 0.5 + offset.y;
+                // How far the sample's ray falls in one unit ahead, from the camera one unit above the floor.
+                let fall = (2.0 * y / size.y as f32 - 1.0) * 0.5_f32.tan();
+                let (z, n) = (depth.load(pixel), normal.load(pixel));
+                if fall * 450.0 > 1.0 {
+                    assert!(
+                        (z * fall - 1.0).abs() < 1.0e-4,
+                        "{pixel} {offset}: {z} for {}",
+                        1.0 / fall
+                    );
+                    assert!((n - Vec3::Y).length() < 1.0e-6, "{pixel}: {n}");
+                } else {
+                    assert_eq!((z, n), (SKY_DEPTH, Vec3::Z), "{pixel} {offset}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn both_sides_are_seen_with_normals_towards_the_viewer() {
+    let corners = [
+        [-9.0, -9.0, -4.0],
+        [9.0, -9.0, -4.0],
+        [9.0, 9.0, -4.0],
+        [-9.0, 9.0, -4.0],
+    ];
+    let front = plane(corners, [0.0, 0.0, 1.0]);
+    let mut back = front.clone();
+    back.vertices.iter_mut().for_each(|vertex| vertex.normal[2] = -1.0);
+    back.triangles.iter_mut().for_each(|triangle| triangle.swap(0, 1));
+    for scene in [front, back] {
+        for renderer in both(&scene, uvec2(5, 4)) {
+            let (depth, normal) = renderer.geometry(Vec2::ZERO).expect("geometry");
+            assert!(depth.texels().iter().all(|z| (z - 4.0).abs() < 1.0e-5), "{depth:?}");
+            assert!(
+                normal.texels().iter().all(|n| (*n - Vec3::Z).length() < 1.0e-6),
+                "{normal:?}"
+            );
+        }
+    }
+}
+
+/// Where two surfaces are too far apart for rounding: a sample close to an edge fell on its other side.
+fn differs(a: (f32, Vec3), b: (f32, Vec3)) -> bool {
+    (a.0 / b.0 - 1.0).abs() > 2.0e-3 || (a.1 - b.1).length() > 2.0e-3
+}
+
+#[test]
+fn the_cpu_and_the_gpu_draw_the_same() {
+    let size = uvec2(641, 359);
+    let [cpu, gpu] = both(&builtin(), size);
+    for offset in [Vec2::ZERO, vec2(0.375, -0.125)] {
+        let ((z0, n0), (z1, n1)) = (
+            cpu.geometry(offset).expect("geometry"),
+            gpu.geometry(offset).expect("geometry"),
+        );
+        let (c0, c1) = (
+            cpu.shaded(offset).expect("a picture"),
+            gpu.shaded(offset).expect("a picture"),
+        );
+        let apart = |pixel: IVec2| (c0.load(pixel) - c1.load(pixel)).abs().max_element();
+        let (edges, faces): (Vec<IVec2>, Vec<IVec2>) = pixels(size).partition(|pixel| {
+            // Of two stones beside each other only the colours differ.
+            differs((z0.load(*pixel), n0.load(*pixel)), (z1.load(*pixel), n1.load(*pixel))) || apart(*pixel) > 4.0e-3
+        });
+        // Rounding puts edges 1/256 pixel apart at most, and there are many of them in this scene.
+        let share = edges.len() as f64 / f64::from(size.element_product());
+        assert!(share < 3.0e-3, "{} pixels, {share}", edges.len());
+        let mean = faces.iter().map(|pixel| f64::from(apart(*pixel))).sum::<f64>() / faces.len() as f64;
+        assert!(mean < 2.0e-5, "colours differ by {mean} on average");
+    }
+}
+
+#[test]
+fn a_whole_offset_shifts_the_picture() {
+    let size = uvec2(160, 90);
+    for renderer in both(&builtin(), size) {
+        let (here, there) = (
+            renderer.geometry(Vec2::ZERO).expect("geometry"),
+            renderer.geometry(vec2(1.0, -2.0)).expect("geometry"),
+        );
+        let inside = pixels(size).filter(|pixel| pixel.x + 1 < 160 && pixel.y >= 2);
+        let moved = inside.filter(|pixel| {
+            let from = *pixel + ivec2(1, -2);
+            differs(
+                (there.0.load(*pixel), there.1.load(*pixel)),
+                (here.0.load(from), here.1.load(from)),
+            )
+        });
+        // Where an edge passes a sample within rounding, the shifted one may lie on the other side.
+        let moved = moved.count();
+        assert!(moved < 160 * 90 / 500, "{moved} pixels");
+    }
+}
+
+#[test]
+fn the_reference_of_a_constant_is_the_constant() {
+    let mut scene = floor();
+    (scene.sun.color, scene.sky.haze) = ([0.0; 3], 0.0);
+    let light = [0.2, 0.5, 0.7];
+    (scene.sky.zenith, scene.sky.horizon, scene.sky.ground) = (light, light, light);
+    for renderer in both(&scene, uvec2(16, 16)) {
+        let mut told = Vec::new();
+        let frame = reference(renderer.as_ref(), 4, &mut |done, total| told.push((done, total))).expect("a picture");
+        assert_eq!(told.last(), Some(&(16, 16)));
+        let sky = Vec4::new(0.2, 0.5, 0.7, 1.0);
+        let ground = Vec4::new(0.1, 0.2, 0.21, 1.0);
+        for x in 0..16 {
+            assert!(
+                (frame.load(ivec2(x, 0)) - sky).abs().max_element() < 1.0e-6,
+                "{}",
+                frame.load(ivec2(x, 0))
+            );
+            assert!(
+                (frame.load(ivec2(x, 15)) - ground).abs().max_element() < 1.0e-6,
+                "{}",
+                frame.load(ivec2(x, 15))
+            );
+        }
+    }
+}
+
+#[test]
+fn a_reference_is_the_mean_of_its_pictures() {
+    for renderer in both(&builtin(), uvec2(40, 30)) {
+        let mean = reference(renderer.as_ref(), 3, &mut |_, _| {}).expect("a picture");
+        let mut sums = vec![Vec4::ZERO; 40 * 30];
+        for offset in grid(3) {
+            assert!(offset.abs().max_element() < 0.5);
+            let one = renderer.shaded(offset).expect("a picture");
+            sums.iter_mut()
+                .zip(one.texels())
+                .for_each(|(sum, texel)| *sum += *texel / 9.0);
+        }
+        for (sum, texel) in sums.iter().zip(mean.texels()) {
+            assert!((*sum - *texel).abs().max_element() < 1.0e-6, "{sum} {texel}");
+        }
+    }
+}
+
+#[test]
+fn pictures_of_any_size() {
+    for size in [uvec2(1, 1), uvec2(1, 77), uvec2(301, 1), uvec2(65, 33)] {
+        for renderer in both(&builtin(), size) {
+            let (depth, normal) = renderer.geometry(Vec2::ZERO).expect("geometry");
+            let color = renderer.shaded(Vec2::ZERO).expect("a picture");
+            assert_eq!((depth.size(), normal.size(), color.size()), (size, size, size));
+            assert!(
+                color
+                    .texels()
+                    .iter()
+                    .all(|c| c.w == 1.0 && c.min_element() >= 0.0 && c.max_element() <= 1.0)
+            );
+            assert!(normal.texels().iter().all(|n| (n.length() - 1.0).abs() < 1.0e-5));
+            assert!(depth.texels().iter().all(|z| *z > 0.0 && *z <= SKY_DEPTH));
+        }
+    }
+}
+
+#[test]
+fn what_cannot_be_drawn_is_refused() {
+    let scene = builtin();
+    for size in [uvec2(0, 5), uvec2(5, 0), uvec2(1 << 20, 1)] {
+        assert!(matches!(CpuRenderer::new(&scene, size), Err(RenderError::Size { .. })));
+        assert!(matches!(gpu(&scene, size), Err(RenderError::Size { .. })));
+    }
+    type Spoil = fn(&mut Scene);
+    let spoilt: [(Spoil, &str); 5] = [
+        (|scene| scene.triangles.clear(), "no triangles"),
+        (|scene| scene.triangles[7][1] = u32::MAX, "triangle 7"),
+        (|scene| scene.vertices[3].position[0] = f32::NAN, "vertex 3"),
+        (|scene| scene.vertices[4].normal = [0.0; 3], "vertex 4"),
+        (|scene| scene.camera.near = 0.0, "near"),
+    ];
+    for (spoil, wanted) in spoilt {
+        let mut scene = builtin();
+        spoil(&mut scene);
+        let size = uvec2(4, 4);
+        let errors = [CpuRenderer::new(&scene, size).err(), gpu(&scene, size).err()];
+        for error in errors {
+            let message = error.expect("a refusal").to_string();
+            assert!(message.contains(wanted), "{message}");
+        }
+    }
+    for renderer in both(&scene, uvec2(4, 4)) {
+        let nowhere = vec2(f32::NAN, 0.0);
+        assert!(matches!(renderer.geometry(nowhere), Err(RenderError::Offset { .. })));
+        assert!(matches!(renderer.shaded(nowhere), Err(RenderError::Offset { .. })));
+        assert!(matches!(renderer.mean(&[]), Err(RenderError::NoOffsets)));
+        assert!(reference(renderer.as_ref(), 0, &mut |_, _| {}).is_err());
+    }
+}
+
+#[test]
+fn the_builtin_scene_has_wires_that_shading_samples_miss() {
+    let size = uvec2(1280, 720);
+    let renderer = CpuRenderer::new(&builtin(), size).expect("a renderer");
+    let centre = renderer.geometry(Vec2::ZERO).expect("geometry").0;
+    let sample = renderer.geometry(vec2(-0.125, -0.375)).expect("geometry").0;
+    let around: Vec<IVec2> = (0..9).map(|tap| ivec2(tap % 3 - 1, tap / 3 - 1)).collect();
+    let alone = pixels(size).filter(|pixel| {
+        let seen = sample.load(*pixel);
+        seen < 60.0 && around.iter().all(|tap| (centre.load(*pixel + *tap) - seen).abs() > 0.3)
+    });
+    assert!(alone.count() > 100);
+}
