@@ -15,7 +15,7 @@ layout(set = 0, binding = 3) uniform sampler unfiltered;
 void main() {
     ivec2 pixel = ivec2(floor(gl_FragCoord.xy));
     ivec2 frame = textureSize(sampler2DArray(depth, unfiltered), 0).xy;
-    // sample 0, tap 4: kernels/src/sraa/metric.rs:36
+    // sample 0, tap 4: kernels/src/sraa/metric.rs:37
     ivec2 last = frame - ivec2(1);
     float depth_texel = texelFetch(sampler2DArray(depth, unfiltered), ivec3(pixel, 0), 0).x;
     float centre_depth_s0 = min(depth_texel, 1e30);
@@ -80,7 +80,7 @@ void main() {
     vec3 apart_s1_t0 = centre_normal_s1 - shaded_normal_t0;
     float larger_s1_t0 = max(depths_s1_t0, 0.5 * dot(apart_s1_t0, apart_s1_t0));
     float d_s1_t0 = min(larger_s1_t0, 16.0);
-    // sample 1, tap 1: kernels/src/sraa/metric.rs:36
+    // sample 1, tap 1: kernels/src/sraa/metric.rs:37
     ivec2 texel_t1 = max(pixel + ivec2(0, -1), ivec2(0));
     float depth_texel_8 = texelFetch(sampler2DArray(depth, unfiltered), ivec3(texel_t1, 16), 0).x;
     float shaded_depth_t1 = min(depth_texel_8, 1e30);
@@ -99,7 +99,7 @@ void main() {
     float larger_s1_t3 = max(depths_s1_t3, 0.5 * dot(apart_s1_t3, apart_s1_t3));
     float d_s1_t3 = min(larger_s1_t3, 16.0);
     float nearest_s1_t3 = min(nearest_s1_t1, d_s1_t3);
-    // sample 1, tap 4: kernels/src/sraa/metric.rs:50
+    // sample 1, tap 4: kernels/src/sraa/metric.rs:53
     float depths_s1_t4 = abs(centre_depth_s1 - shaded_depth_t4);
     vec3 apart_s1_t4 = centre_normal_s1 - shaded_normal_t4;
     float larger_s1_t4 = max(depths_s1_t4, 0.5 * dot(apart_s1_t4, apart_s1_t4));
@@ -127,13 +127,13 @@ void main() {
     vec3 apart_s2_t3 = centre_normal_s2 - shaded_normal_t3;
     float larger_s2_t3 = max(depths_s2_t3, 0.5 * dot(apart_s2_t3, apart_s2_t3));
     float d_s2_t3 = min(larger_s2_t3, 16.0);
-    // sample 2, tap 4: kernels/src/sraa/metric.rs:50
+    // sample 2, tap 4: kernels/src/sraa/metric.rs:53
     float depths_s2_t4 = abs(centre_depth_s2 - shaded_depth_t4);
     vec3 apart_s2_t4 = centre_normal_s2 - shaded_normal_t4;
     float larger_s2_t4 = max(depths_s2_t4, 0.5 * dot(apart_s2_t4, apart_s2_t4));
     float d_s2_t4 = min(larger_s2_t4, 16.0);
     float nearest_s2_t4 = min(d_s2_t3, d_s2_t4);
-    // sample 2, tap 6: kernels/src/sraa/metric.rs:36
+    // sample 2, tap 6: kernels/src/sraa/metric.rs:37
     ivec2 texel_t6 = clamp(pixel + ivec2(-1, 1), ivec2(0), last);
     float depth_texel_11 = texelFetch(sampler2DArray(depth, unfiltered), ivec3(texel_t6, 16), 0).x;
     float shaded_depth_t6 = min(depth_texel_11, 1e30);
@@ -143,7 +143,7 @@ void main() {
     float larger_s2_t6 = max(depths_s2_t6, 0.5 * dot(apart_s2_t6, apart_s2_t6));
     float d_s2_t6 = min(larger_s2_t6, 16.0);
     float nearest_s2_t6 = min(nearest_s2_t4, d_s2_t6);
-    // sample 2, tap 7: kernels/src/sraa/metric.rs:50
+    // sample 2, tap 7: kernels/src/sraa/metric.rs:53
     float depths_s2_t7 = abs(centre_depth_s2 - shaded_depth_t7);
     vec3 apart_s2_t7 = centre_normal_s2 - shaded_normal_t7;
     float larger_s2_t7 = max(depths_s2_t7, 0.5 * dot(apart_s2_t7, apart_s2_t7));
@@ -171,7 +171,7 @@ void main() {
     vec3 apart_s3_t1 = centre_normal_s3 - shaded_normal_t1;
     float larger_s3_t1 = max(depths_s3_t1, 0.5 * dot(apart_s3_t1, apart_s3_t1));
     float d_s3_t1 = min(larger_s3_t1, 16.0);
-    // sample 3, tap 2: kernels/src/sraa/metric.rs:36
+    // sample 3, tap 2: kernels/src/sraa/metric.rs:37
     ivec2 texel_t2 = clamp(pixel + ivec2(1, -1), ivec2(0), last);
     float depth_texel_13 = texelFetch(sampler2DArray(depth, unfiltered), ivec3(texel_t2, 16), 0).x;
     float shaded_depth_t2 = min(depth_texel_13, 1e30);
@@ -181,7 +181,7 @@ void main() {
     float larger_s3_t2 = max(depths_s3_t2, 0.5 * dot(apart_s3_t2, apart_s3_t2));
     float d_s3_t2 = min(larger_s3_t2, 16.0);
     float nearest_s3_t2 = min(d_s3_t1, d_s3_t2);
-    // sample 3, tap 4: kernels/src/sraa/metric.rs:50
+    // sample 3, tap 4: kernels/src/sraa/metric.rs:53
     float depths_s3_t4 = abs(centre_depth_s3 - shaded_depth_t4);
     vec3 apart_s3_t4 = centre_normal_s3 - shaded_normal_t4;
     float larger_s3_t4 = max(depths_s3_t4, 0.5 * dot(apart_s3_t4, apart_s3_t4));
@@ -214,7 +214,7 @@ void main() {
     vec3 apart_s4_t0 = centre_normal_s4 - shaded_normal_t0;
     float larger_s4_t0 = max(depths_s4_t0, 0.5 * dot(apart_s4_t0, apart_s4_t0));
     float d_s4_t0 = min(larger_s4_t0, 16.0);
-    // sample 4, tap 1: kernels/src/sraa/metric.rs:50
+    // sample 4, tap 1: kernels/src/sraa/metric.rs:53
     float depths_s4_t1 = abs(centre_depth_s4 - shaded_depth_t1);
     vec3 apart_s4_t1 = centre_normal_s4 - shaded_normal_t1;
     float larger_s4_t1 = max(depths_s4_t1, 0.5 * dot(apart_s4_t1, apart_s4_t1));
@@ -252,7 +252,7 @@ void main() {
     vec3 apart_s5_t4 = centre_normal_s5 - shaded_normal_t4;
     float larger_s5_t4 = max(depths_s5_t4, 0.5 * dot(apart_s5_t4, apart_s5_t4));
     float d_s5_t4 = min(larger_s5_t4, 16.0);
-    // sample 5, tap 5: kernels/src/sraa/metric.rs:50
+    // sample 5, tap 5: kernels/src/sraa/metric.rs:53
     float depths_s5_t5 = abs(centre_depth_s5 - shaded_depth_t5);
     vec3 apart_s5_t5 = centre_normal_s5 - shaded_normal_t5;
     float larger_s5_t5 = max(depths_s5_t5, 0.5 * dot(apart_s5_t5, apart_s5_t5));
@@ -290,7 +290,7 @@ void main() {
     vec3 apart_s6_t4 = centre_normal_s6 - shaded_normal_t4;
     float larger_s6_t4 = max(depths_s6_t4, 0.5 * dot(apart_s6_t4, apart_s6_t4));
     float d_s6_t4 = min(larger_s6_t4, 16.0);
-    // sample 6, tap 5: kernels/src/sraa/metric.rs:50
+    // sample 6, tap 5: kernels/src/sraa/metric.rs:53
     float depths_s6_t5 = abs(centre_depth_s6 - shaded_depth_t5);
     vec3 apart_s6_t5 = centre_normal_s6 - shaded_normal_t5;
     float larger_s6_t5 = max(depths_s6_t5, 0.5 * dot(apart_s6_t5, apart_s6_t5));
@@ -328,7 +328,7 @@ void main() {
     vec3 apart_s7_t1 = centre_normal_s7 - shaded_normal_t1;
     float larger_s7_t1 = max(depths_s7_t1, 0.5 * dot(apart_s7_t1, apart_s7_t1));
     float d_s7_t1 = min(larger_s7_t1, 16.0);
-    // sample 7, tap 2: kernels/src/sraa/metric.rs:50
+    // sample 7, tap 2: kernels/src/sraa/metric.rs:53
     float depths_s7_t2 = abs(centre_depth_s7 - shaded_depth_t2);
     vec3 apart_s7_t2 = centre_normal_s7 - shaded_normal_t2;
     float larger_s7_t2 = max(depths_s7_t2, 0.5 * dot(apart_s7_t2, apart_s7_t2));
@@ -366,7 +366,7 @@ void main() {
     vec3 apart_s8_t3 = centre_normal_s8 - shaded_normal_t3;
     float larger_s8_t3 = max(depths_s8_t3, 0.5 * dot(apart_s8_t3, apart_s8_t3));
     float d_s8_t3 = min(larger_s8_t3, 16.0);
-    // sample 8, tap 4: kernels/src/sraa/metric.rs:50
+    // sample 8, tap 4: kernels/src/sraa/metric.rs:53
     float depths_s8_t4 = abs(centre_depth_s8 - shaded_depth_t4);
     vec3 apart_s8_t4 = centre_normal_s8 - shaded_normal_t4;
     float larger_s8_t4 = max(depths_s8_t4, 0.5 * dot(apart_s8_t4, apart_s8_t4));
@@ -404,7 +404,7 @@ void main() {
     vec3 apart_s9_t1 = centre_normal_s9 - shaded_normal_t1;
     float larger_s9_t1 = max(depths_s9_t1, 0.5 * dot(apart_s9_t1, apart_s9_t1));
     float d_s9_t1 = min(larger_s9_t1, 16.0);
-    // sample 9, tap 4: kernels/src/sraa/metric.rs:50
+    // sample 9, tap 4: kernels/src/sraa/metric.rs:53
     float depths_s9_t4 = abs(centre_depth_s9 - shaded_depth_t4);
     vec3 apart_s9_t4 = centre_normal_s9 - shaded_normal_t4;
     float larger_s9_t4 = max(depths_s9_t4, 0.5 * dot(apart_s9_t4, apart_s9_t4));
@@ -426,7 +426,7 @@ void main() {
     vec3 apart_s10_t0 = centre_normal_s10 - shaded_normal_t0;
     float larger_s10_t0 = max(depths_s10_t0, 0.5 * dot(apart_s10_t0, apart_s10_t0));
     float d_s10_t0 = min(larger_s10_t0, 16.0);
-    // sample 10, tap 1: kernels/src/sraa/metric.rs:50
+    // sample 10, tap 1: kernels/src/sraa/metric.rs:53
     float depths_s10_t1 = abs(centre_depth_s10 - shaded_depth_t1);
     vec3 apart_s10_t1 = centre_normal_s10 - shaded_normal_t1;
     float larger_s10_t1 = max(depths_s10_t1, 0.5 * dot(apart_s10_t1, apart_s10_t1));
@@ -464,7 +464,7 @@ void main() {
     vec3 apart_s11_t3 = centre_normal_s11 - shaded_normal_t3;
     float larger_s11_t3 = max(depths_s11_t3, 0.5 * dot(apart_s11_t3, apart_s11_t3));
     float d_s11_t3 = min(larger_s11_t3, 16.0);
-    // sample 11, tap 4: kernels/src/sraa/metric.rs:50
+    // sample 11, tap 4: kernels/src/sraa/metric.rs:53
     float depths_s11_t4 = abs(centre_depth_s11 - shaded_depth_t4);
     vec3 apart_s11_t4 = centre_normal_s11 - shaded_normal_t4;
     float larger_s11_t4 = max(depths_s11_t4, 0.5 * dot(apart_s11_t4, apart_s11_t4));
@@ -502,7 +502,7 @@ void main() {
     vec3 apart_s12_t3 = centre_normal_s12 - shaded_normal_t3;
     float larger_s12_t3 = max(depths_s12_t3, 0.5 * dot(apart_s12_t3, apart_s12_t3));
     float d_s12_t3 = min(larger_s12_t3, 16.0);
-    // sample 12, tap 4: kernels/src/sraa/metric.rs:50
+    // sample 12, tap 4: kernels/src/sraa/metric.rs:53
     float depths_s12_t4 = abs(centre_depth_s12 - shaded_depth_t4);
     vec3 apart_s12_t4 = centre_normal_s12 - shaded_normal_t4;
     float larger_s12_t4 = max(depths_s12_t4, 0.5 * dot(apart_s12_t4, apart_s12_t4));
@@ -524,7 +524,7 @@ void main() {
     vec3 apart_s13_t1 = centre_normal_s13 - shaded_normal_t1;
     float larger_s13_t1 = max(depths_s13_t1, 0.5 * dot(apart_s13_t1, apart_s13_t1));
     float d_s13_t1 = min(larger_s13_t1, 16.0);
-    // sample 13, tap 2: kernels/src/sraa/metric.rs:50
+    // sample 13, tap 2: kernels/src/sraa/metric.rs:53
     float depths_s13_t2 = abs(centre_depth_s13 - shaded_depth_t2);
     vec3 apart_s13_t2 = centre_normal_s13 - shaded_normal_t2;
     float larger_s13_t2 = max(depths_s13_t2, 0.5 * dot(apart_s13_t2, apart_s13_t2));
@@ -562,7 +562,7 @@ void main() {
     vec3 apart_s14_t4 = centre_normal_s14 - shaded_normal_t4;
     float larger_s14_t4 = max(depths_s14_t4, 0.5 * dot(apart_s14_t4, apart_s14_t4));
     float d_s14_t4 = min(larger_s14_t4, 16.0);
-    // sample 14, tap 5: kernels/src/sraa/metric.rs:50
+    // sample 14, tap 5: kernels/src/sraa/metric.rs:53
     float depths_s14_t5 = abs(centre_depth_s14 - shaded_depth_t5);
     vec3 apart_s14_t5 = centre_normal_s14 - shaded_normal_t5;
     float larger_s14_t5 = max(depths_s14_t5, 0.5 * dot(apart_s14_t5, apart_s14_t5));
@@ -600,7 +600,7 @@ void main() {
     vec3 apart_s15_t0 = centre_normal_s15 - shaded_normal_t0;
     float larger_s15_t0 = max(depths_s15_t0, 0.5 * dot(apart_s15_t0, apart_s15_t0));
     float d_s15_t0 = min(larger_s15_t0, 16.0);
-    // sample 15, tap 1: kernels/src/sraa/metric.rs:50
+    // sample 15, tap 1: kernels/src/sraa/metric.rs:53
     float depths_s15_t1 = abs(centre_depth_s15 - shaded_depth_t1);
     vec3 apart_s15_t1 = centre_normal_s15 - shaded_normal_t1;
     float larger_s15_t1 = max(depths_s15_t1, 0.5 * dot(apart_s15_t1, apart_s15_t1));

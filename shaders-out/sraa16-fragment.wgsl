@@ -12,7 +12,7 @@
 fn sraa(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let pixel = vec2i(floor(position.xy));
     let frame = vec2i(textureDimensions(depth));
-    // sample 0, tap 4: kernels/src/sraa/metric.rs:36
+    // sample 0, tap 4: kernels/src/sraa/metric.rs:37
     let last = frame - vec2i(1);
     let depth_texel = textureLoad(depth, pixel, 0, 0).x;
     let centre_depth_s0 = min(depth_texel, 1e30);
@@ -77,7 +77,7 @@ fn sraa(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let apart_s1_t0 = centre_normal_s1 - shaded_normal_t0;
     let larger_s1_t0 = max(depths_s1_t0, 0.5 * dot(apart_s1_t0, apart_s1_t0));
     let d_s1_t0 = min(larger_s1_t0, 16.0);
-    // sample 1, tap 1: kernels/src/sraa/metric.rs:36
+    // sample 1, tap 1: kernels/src/sraa/metric.rs:37
     let texel_t1 = max(pixel + vec2i(0, -1), vec2i(0));
     let depth_texel_8 = textureLoad(depth, texel_t1, 16, 0).x;
     let shaded_depth_t1 = min(depth_texel_8, 1e30);
@@ -96,7 +96,7 @@ fn sraa(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let larger_s1_t3 = max(depths_s1_t3, 0.5 * dot(apart_s1_t3, apart_s1_t3));
     let d_s1_t3 = min(larger_s1_t3, 16.0);
     let nearest_s1_t3 = min(nearest_s1_t1, d_s1_t3);
-    // sample 1, tap 4: kernels/src/sraa/metric.rs:50
+    // sample 1, tap 4: kernels/src/sraa/metric.rs:53
     let depths_s1_t4 = abs(centre_depth_s1 - shaded_depth_t4);
     let apart_s1_t4 = centre_normal_s1 - shaded_normal_t4;
     let larger_s1_t4 = max(depths_s1_t4, 0.5 * dot(apart_s1_t4, apart_s1_t4));
@@ -124,13 +124,13 @@ fn sraa(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let apart_s2_t3 = centre_normal_s2 - shaded_normal_t3;
     let larger_s2_t3 = max(depths_s2_t3, 0.5 * dot(apart_s2_t3, apart_s2_t3));
     let d_s2_t3 = min(larger_s2_t3, 16.0);
-    // sample 2, tap 4: kernels/src/sraa/metric.rs:50
+    // sample 2, tap 4: kernels/src/sraa/metric.rs:53
     let depths_s2_t4 = abs(centre_depth_s2 - shaded_depth_t4);
     let apart_s2_t4 = centre_normal_s2 - shaded_normal_t4;
     let larger_s2_t4 = max(depths_s2_t4, 0.5 * dot(apart_s2_t4, apart_s2_t4));
     let d_s2_t4 = min(larger_s2_t4, 16.0);
     let nearest_s2_t4 = min(d_s2_t3, d_s2_t4);
-    // sample 2, tap 6: kernels/src/sraa/metric.rs:36
+    // sample 2, tap 6: kernels/src/sraa/metric.rs:37
     let texel_t6 = clamp(pixel + vec2i(-1, 1), vec2i(0), last);
     let depth_texel_11 = textureLoad(depth, texel_t6, 16, 0).x;
     let shaded_depth_t6 = min(depth_texel_11, 1e30);
@@ -140,7 +140,7 @@ fn sraa(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let larger_s2_t6 = max(depths_s2_t6, 0.5 * dot(apart_s2_t6, apart_s2_t6));
     let d_s2_t6 = min(larger_s2_t6, 16.0);
     let nearest_s2_t6 = min(nearest_s2_t4, d_s2_t6);
-    // sample 2, tap 7: kernels/src/sraa/metric.rs:50
+    // sample 2, tap 7: kernels/src/sraa/metric.rs:53
     let depths_s2_t7 = abs(centre_depth_s2 - shaded_depth_t7);
     let apart_s2_t7 = centre_normal_s2 - shaded_normal_t7;
     let larger_s2_t7 = max(depths_s2_t7, 0.5 * dot(apart_s2_t7, apart_s2_t7));
@@ -168,7 +168,7 @@ fn sraa(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let apart_s3_t1 = centre_normal_s3 - shaded_normal_t1;
     let larger_s3_t1 = max(depths_s3_t1, 0.5 * dot(apart_s3_t1, apart_s3_t1));
     let d_s3_t1 = min(larger_s3_t1, 16.0);
-    // sample 3, tap 2: kernels/src/sraa/metric.rs:36
+    // sample 3, tap 2: kernels/src/sraa/metric.rs:37
     let texel_t2 = clamp(pixel + vec2i(1, -1), vec2i(0), last);
     let depth_texel_13 = textureLoad(depth, texel_t2, 16, 0).x;
     let shaded_depth_t2 = min(depth_texel_13, 1e30);
@@ -178,7 +178,7 @@ fn sraa(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let larger_s3_t2 = max(depths_s3_t2, 0.5 * dot(apart_s3_t2, apart_s3_t2));
     let d_s3_t2 = min(larger_s3_t2, 16.0);
     let nearest_s3_t2 = min(d_s3_t1, d_s3_t2);
-    // sample 3, tap 4: kernels/src/sraa/metric.rs:50
+    // sample 3, tap 4: kernels/src/sraa/metric.rs:53
     let depths_s3_t4 = abs(centre_depth_s3 - shaded_depth_t4);
     let apart_s3_t4 = centre_normal_s3 - shaded_normal_t4;
     let larger_s3_t4 = max(depths_s3_t4, 0.5 * dot(apart_s3_t4, apart_s3_t4));
@@ -211,7 +211,7 @@ fn sraa(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let apart_s4_t0 = centre_normal_s4 - shaded_normal_t0;
     let larger_s4_t0 = max(depths_s4_t0, 0.5 * dot(apart_s4_t0, apart_s4_t0));
     let d_s4_t0 = min(larger_s4_t0, 16.0);
-    // sample 4, tap 1: kernels/src/sraa/metric.rs:50
+    // sample 4, tap 1: kernels/src/sraa/metric.rs:53
     let depths_s4_t1 = abs(centre_depth_s4 - shaded_depth_t1);
     let apart_s4_t1 = centre_normal_s4 - shaded_normal_t1;
     let larger_s4_t1 = max(depths_s4_t1, 0.5 * dot(apart_s4_t1, apart_s4_t1));
@@ -249,7 +249,7 @@ fn sraa(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let apart_s5_t4 = centre_normal_s5 - shaded_normal_t4;
     let larger_s5_t4 = max(depths_s5_t4, 0.5 * dot(apart_s5_t4, apart_s5_t4));
     let d_s5_t4 = min(larger_s5_t4, 16.0);
-    // sample 5, tap 5: kernels/src/sraa/metric.rs:50
+    // sample 5, tap 5: kernels/src/sraa/metric.rs:53
     let depths_s5_t5 = abs(centre_depth_s5 - shaded_depth_t5);
     let apart_s5_t5 = centre_normal_s5 - shaded_normal_t5;
     let larger_s5_t5 = max(depths_s5_t5, 0.5 * dot(apart_s5_t5, apart_s5_t5));
@@ -287,7 +287,7 @@ fn sraa(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let apart_s6_t4 = centre_normal_s6 - shaded_normal_t4;
     let larger_s6_t4 = max(depths_s6_t4, 0.5 * dot(apart_s6_t4, apart_s6_t4));
     let d_s6_t4 = min(larger_s6_t4, 16.0);
-    // sample 6, tap 5: kernels/src/sraa/metric.rs:50
+    // sample 6, tap 5: kernels/src/sraa/metric.rs:53
     let depths_s6_t5 = abs(centre_depth_s6 - shaded_depth_t5);
     let apart_s6_t5 = centre_normal_s6 - shaded_normal_t5;
     let larger_s6_t5 = max(depths_s6_t5, 0.5 * dot(apart_s6_t5, apart_s6_t5));
@@ -325,7 +325,7 @@ fn sraa(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let apart_s7_t1 = centre_normal_s7 - shaded_normal_t1;
     let larger_s7_t1 = max(depths_s7_t1, 0.5 * dot(apart_s7_t1, apart_s7_t1));
     let d_s7_t1 = min(larger_s7_t1, 16.0);
-    // sample 7, tap 2: kernels/src/sraa/metric.rs:50
+    // sample 7, tap 2: kernels/src/sraa/metric.rs:53
     let depths_s7_t2 = abs(centre_depth_s7 - shaded_depth_t2);
     let apart_s7_t2 = centre_normal_s7 - shaded_normal_t2;
     let larger_s7_t2 = max(depths_s7_t2, 0.5 * dot(apart_s7_t2, apart_s7_t2));
@@ -363,7 +363,7 @@ fn sraa(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let apart_s8_t3 = centre_normal_s8 - shaded_normal_t3;
     let larger_s8_t3 = max(depths_s8_t3, 0.5 * dot(apart_s8_t3, apart_s8_t3));
     let d_s8_t3 = min(larger_s8_t3, 16.0);
-    // sample 8, tap 4: kernels/src/sraa/metric.rs:50
+    // sample 8, tap 4: kernels/src/sraa/metric.rs:53
     let depths_s8_t4 = abs(centre_depth_s8 - shaded_depth_t4);
     let apart_s8_t4 = centre_normal_s8 - shaded_normal_t4;
     let larger_s8_t4 = max(depths_s8_t4, 0.5 * dot(apart_s8_t4, apart_s8_t4));
@@ -401,7 +401,7 @@ fn sraa(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let apart_s9_t1 = centre_normal_s9 - shaded_normal_t1;
     let larger_s9_t1 = max(depths_s9_t1, 0.5 * dot(apart_s9_t1, apart_s9_t1));
     let d_s9_t1 = min(larger_s9_t1, 16.0);
-    // sample 9, tap 4: kernels/src/sraa/metric.rs:50
+    // sample 9, tap 4: kernels/src/sraa/metric.rs:53
     let depths_s9_t4 = abs(centre_depth_s9 - shaded_depth_t4);
     let apart_s9_t4 = centre_normal_s9 - shaded_normal_t4;
     let larger_s9_t4 = max(depths_s9_t4, 0.5 * dot(apart_s9_t4, apart_s9_t4));
@@ -423,7 +423,7 @@ fn sraa(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let apart_s10_t0 = centre_normal_s10 - shaded_normal_t0;
     let larger_s10_t0 = max(depths_s10_t0, 0.5 * dot(apart_s10_t0, apart_s10_t0));
     let d_s10_t0 = min(larger_s10_t0, 16.0);
-    // sample 10, tap 1: kernels/src/sraa/metric.rs:50
+    // sample 10, tap 1: kernels/src/sraa/metric.rs:53
     let depths_s10_t1 = abs(centre_depth_s10 - shaded_depth_t1);
     let apart_s10_t1 = centre_normal_s10 - shaded_normal_t1;
     let larger_s10_t1 = max(depths_s10_t1, 0.5 * dot(apart_s10_t1, apart_s10_t1));
@@ -461,7 +461,7 @@ fn sraa(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let apart_s11_t3 = centre_normal_s11 - shaded_normal_t3;
     let larger_s11_t3 = max(depths_s11_t3, 0.5 * dot(apart_s11_t3, apart_s11_t3));
     let d_s11_t3 = min(larger_s11_t3, 16.0);
-    // sample 11, tap 4: kernels/src/sraa/metric.rs:50
+    // sample 11, tap 4: kernels/src/sraa/metric.rs:53
     let depths_s11_t4 = abs(centre_depth_s11 - shaded_depth_t4);
     let apart_s11_t4 = centre_normal_s11 - shaded_normal_t4;
     let larger_s11_t4 = max(depths_s11_t4, 0.5 * dot(apart_s11_t4, apart_s11_t4));
@@ -499,7 +499,7 @@ fn sraa(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let apart_s12_t3 = centre_normal_s12 - shaded_normal_t3;
     let larger_s12_t3 = max(depths_s12_t3, 0.5 * dot(apart_s12_t3, apart_s12_t3));
     let d_s12_t3 = min(larger_s12_t3, 16.0);
-    // sample 12, tap 4: kernels/src/sraa/metric.rs:50
+    // sample 12, tap 4: kernels/src/sraa/metric.rs:53
     let depths_s12_t4 = abs(centre_depth_s12 - shaded_depth_t4);
     let apart_s12_t4 = centre_normal_s12 - shaded_normal_t4;
     let larger_s12_t4 = max(depths_s12_t4, 0.5 * dot(apart_s12_t4, apart_s12_t4));
@@ -521,7 +521,7 @@ fn sraa(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let apart_s13_t1 = centre_normal_s13 - shaded_normal_t1;
     let larger_s13_t1 = max(depths_s13_t1, 0.5 * dot(apart_s13_t1, apart_s13_t1));
     let d_s13_t1 = min(larger_s13_t1, 16.0);
-    // sample 13, tap 2: kernels/src/sraa/metric.rs:50
+    // sample 13, tap 2: kernels/src/sraa/metric.rs:53
     let depths_s13_t2 = abs(centre_depth_s13 - shaded_depth_t2);
     let apart_s13_t2 = centre_normal_s13 - shaded_normal_t2;
     let larger_s13_t2 = max(depths_s13_t2, 0.5 * dot(apart_s13_t2, apart_s13_t2));
@@ -559,7 +559,7 @@ fn sraa(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let apart_s14_t4 = centre_normal_s14 - shaded_normal_t4;
     let larger_s14_t4 = max(depths_s14_t4, 0.5 * dot(apart_s14_t4, apart_s14_t4));
     let d_s14_t4 = min(larger_s14_t4, 16.0);
-    // sample 14, tap 5: kernels/src/sraa/metric.rs:50
+    // sample 14, tap 5: kernels/src/sraa/metric.rs:53
     let depths_s14_t5 = abs(centre_depth_s14 - shaded_depth_t5);
     let apart_s14_t5 = centre_normal_s14 - shaded_normal_t5;
     let larger_s14_t5 = max(depths_s14_t5, 0.5 * dot(apart_s14_t5, apart_s14_t5));
@@ -597,7 +597,7 @@ fn sraa(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let apart_s15_t0 = centre_normal_s15 - shaded_normal_t0;
     let larger_s15_t0 = max(depths_s15_t0, 0.5 * dot(apart_s15_t0, apart_s15_t0));
     let d_s15_t0 = min(larger_s15_t0, 16.0);
-    // sample 15, tap 1: kernels/src/sraa/metric.rs:50
+    // sample 15, tap 1: kernels/src/sraa/metric.rs:53
     let depths_s15_t1 = abs(centre_depth_s15 - shaded_depth_t1);
     let apart_s15_t1 = centre_normal_s15 - shaded_normal_t1;
     let larger_s15_t1 = max(depths_s15_t1, 0.5 * dot(apart_s15_t1, apart_s15_t1));

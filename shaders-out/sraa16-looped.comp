@@ -22,7 +22,7 @@ void main() {
     if (pixel.x >= frame.x || pixel.y >= frame.y) {
         return;
     }
-    // kernels/src/sraa/metric.rs:36
+    // kernels/src/sraa/metric.rs:37
     ivec2 last = frame - ivec2(1);
     float weights[9] = float[9](0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
     for (int sample_value = 0; sample_value < 16; sample_value++) {
@@ -46,7 +46,7 @@ void main() {
                 if ((tap == 4) && holds) {
                     d = 0.0;
                 } else {
-                    // kernels/src/sraa/metric.rs:36
+                    // kernels/src/sraa/metric.rs:37
                     ivec2 texel_3 = clamp(pixel + texel_2, ivec2(0), last);
                     float depth_texel_2 = texelFetch(sampler2DArray(depth, unfiltered), ivec3(texel_3, 16), 0).x;
                     float shaded_depth = min(depth_texel_2, 1e30);

@@ -12,7 +12,7 @@
 fn sraa(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let pixel = vec2i(floor(position.xy));
     let frame = vec2i(textureDimensions(depth));
-    // sample 0, tap 0: kernels/src/sraa/metric.rs:36
+    // sample 0, tap 0: kernels/src/sraa/metric.rs:37
     let last = frame - vec2i(1);
     let depth_texel = textureLoad(depth, pixel, 0, 0).x;
     let centre_depth_s0 = min(depth_texel, 1e30);
@@ -74,7 +74,7 @@ fn sraa(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let apart_s1_t1 = centre_normal_s1 - shaded_normal_t1;
     let larger_s1_t1 = max(depths_s1_t1, 0.5 * dot(apart_s1_t1, apart_s1_t1));
     let d_s1_t1 = min(larger_s1_t1, 16.0);
-    // sample 1, tap 2: kernels/src/sraa/metric.rs:36
+    // sample 1, tap 2: kernels/src/sraa/metric.rs:37
     let texel_t2 = clamp(pixel + vec2i(1, -1), vec2i(0), last);
     let depth_texel_7 = textureLoad(depth, texel_t2, 4, 0).x;
     let shaded_depth_s1_t2 = min(depth_texel_7, 1e30);
@@ -84,13 +84,13 @@ fn sraa(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let larger_s1_t2 = max(depths_s1_t2, 0.5 * dot(apart_s1_t2, apart_s1_t2));
     let d_s1_t2 = min(larger_s1_t2, 16.0);
     let nearest_s1_t2 = min(d_s1_t1, d_s1_t2);
-    // sample 1, tap 4: kernels/src/sraa/metric.rs:50
+    // sample 1, tap 4: kernels/src/sraa/metric.rs:53
     let depths_s1_t4 = abs(centre_depth_s1 - shaded_depth_t4);
     let apart_s1_t4 = centre_normal_s1 - shaded_normal_t4;
     let larger_s1_t4 = max(depths_s1_t4, 0.5 * dot(apart_s1_t4, apart_s1_t4));
     let d_s1_t4 = min(larger_s1_t4, 16.0);
     let nearest_s1_t4 = min(nearest_s1_t2, d_s1_t4);
-    // sample 1, tap 5: kernels/src/sraa/metric.rs:36
+    // sample 1, tap 5: kernels/src/sraa/metric.rs:37
     let texel_t5 = min(pixel + vec2i(1, 0), last);
     let depth_texel_8 = textureLoad(depth, texel_t5, 4, 0).x;
     let shaded_depth_t5 = min(depth_texel_8, 1e30);
@@ -122,13 +122,13 @@ fn sraa(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let apart_s2_t3 = centre_normal_s2 - shaded_normal_t3;
     let larger_s2_t3 = max(depths_s2_t3, 0.5 * dot(apart_s2_t3, apart_s2_t3));
     let d_s2_t3 = min(larger_s2_t3, 16.0);
-    // sample 2, tap 4: kernels/src/sraa/metric.rs:50
+    // sample 2, tap 4: kernels/src/sraa/metric.rs:53
     let depths_s2_t4 = abs(centre_depth_s2 - shaded_depth_t4);
     let apart_s2_t4 = centre_normal_s2 - shaded_normal_t4;
     let larger_s2_t4 = max(depths_s2_t4, 0.5 * dot(apart_s2_t4, apart_s2_t4));
     let d_s2_t4 = min(larger_s2_t4, 16.0);
     let nearest_s2_t4 = min(d_s2_t3, d_s2_t4);
-    // sample 2, tap 6: kernels/src/sraa/metric.rs:36
+    // sample 2, tap 6: kernels/src/sraa/metric.rs:37
     let texel_t6 = clamp(pixel + vec2i(-1, 1), vec2i(0), last);
     let depth_texel_10 = textureLoad(depth, texel_t6, 4, 0).x;
     let shaded_depth_s2_t6 = min(depth_texel_10, 1e30);
@@ -169,7 +169,7 @@ fn sraa(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let apart_s3_t4 = centre_normal_s3 - shaded_normal_t4;
     let larger_s3_t4 = max(depths_s3_t4, 0.5 * dot(apart_s3_t4, apart_s3_t4));
     let d_s3_t4 = min(larger_s3_t4, 16.0);
-    // sample 3, tap 5: kernels/src/sraa/metric.rs:50
+    // sample 3, tap 5: kernels/src/sraa/metric.rs:53
     let depths_s3_t5 = abs(centre_depth_s3 - shaded_depth_t5);
     let apart_s3_t5 = centre_normal_s3 - shaded_normal_t5;
     let larger_s3_t5 = max(depths_s3_t5, 0.5 * dot(apart_s3_t5, apart_s3_t5));
@@ -180,7 +180,7 @@ fn sraa(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let larger_s3_t7 = max(depths_s3_t7, 0.5 * dot(apart_s3_t7, apart_s3_t7));
     let d_s3_t7 = min(larger_s3_t7, 16.0);
     let nearest_s3_t7 = min(nearest_s3_t5, d_s3_t7);
-    // sample 3, tap 8: kernels/src/sraa/metric.rs:36
+    // sample 3, tap 8: kernels/src/sraa/metric.rs:37
     let texel_t8 = min(pixel + vec2i(1), last);
     let depth_texel_13 = textureLoad(depth, texel_t8, 4, 0).x;
     let shaded_depth_s3_t8 = min(depth_texel_13, 1e30);

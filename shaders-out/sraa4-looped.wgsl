@@ -18,7 +18,7 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     if any(pixel >= frame) {
         return;
     }
-    // kernels/src/sraa/metric.rs:36
+    // kernels/src/sraa/metric.rs:37
     let last = frame - vec2i(1);
     var weights = array<f32, 9>(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
     for (var sample_value = 0; sample_value < 4; sample_value++) {
@@ -42,7 +42,7 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
                 if (tap == 4) && holds {
                     d = 0.0;
                 } else {
-                    // kernels/src/sraa/metric.rs:36
+                    // kernels/src/sraa/metric.rs:37
                     let texel_3 = clamp(pixel + texel_2, vec2i(0), last);
                     let depth_texel_2 = textureLoad(depth, texel_3, 4, 0).x;
                     let shaded_depth = min(depth_texel_2, 1e30);

@@ -20,7 +20,7 @@ void main() {
     if (pixel.x >= frame.x || pixel.y >= frame.y) {
         return;
     }
-    // sample 0, tap 0: kernels/src/sraa/metric.rs:36
+    // sample 0, tap 0: kernels/src/sraa/metric.rs:37
     ivec2 last = frame - ivec2(1);
     float depth_texel = texelFetch(sampler2DArray(depth, unfiltered), ivec3(pixel, 0), 0).x;
     float centre_depth_s0 = min(depth_texel, 1e30);
@@ -82,7 +82,7 @@ void main() {
     vec3 apart_s1_t1 = centre_normal_s1 - shaded_normal_t1;
     float larger_s1_t1 = max(depths_s1_t1, 0.5 * dot(apart_s1_t1, apart_s1_t1));
     float d_s1_t1 = min(larger_s1_t1, 16.0);
-    // sample 1, tap 2: kernels/src/sraa/metric.rs:36
+    // sample 1, tap 2: kernels/src/sraa/metric.rs:37
     ivec2 texel_t2 = clamp(pixel + ivec2(1, -1), ivec2(0), last);
     float depth_texel_7 = texelFetch(sampler2DArray(depth, unfiltered), ivec3(texel_t2, 4), 0).x;
     float shaded_depth_s1_t2 = min(depth_texel_7, 1e30);
@@ -92,13 +92,13 @@ void main() {
     float larger_s1_t2 = max(depths_s1_t2, 0.5 * dot(apart_s1_t2, apart_s1_t2));
     float d_s1_t2 = min(larger_s1_t2, 16.0);
     float nearest_s1_t2 = min(d_s1_t1, d_s1_t2);
-    // sample 1, tap 4: kernels/src/sraa/metric.rs:50
+    // sample 1, tap 4: kernels/src/sraa/metric.rs:53
     float depths_s1_t4 = abs(centre_depth_s1 - shaded_depth_t4);
     vec3 apart_s1_t4 = centre_normal_s1 - shaded_normal_t4;
     float larger_s1_t4 = max(depths_s1_t4, 0.5 * dot(apart_s1_t4, apart_s1_t4));
     float d_s1_t4 = min(larger_s1_t4, 16.0);
     float nearest_s1_t4 = min(nearest_s1_t2, d_s1_t4);
-    // sample 1, tap 5: kernels/src/sraa/metric.rs:36
+    // sample 1, tap 5: kernels/src/sraa/metric.rs:37
     ivec2 texel_t5 = min(pixel + ivec2(1, 0), last);
     float depth_texel_8 = texelFetch(sampler2DArray(depth, unfiltered), ivec3(texel_t5, 4), 0).x;
     float shaded_depth_t5 = min(depth_texel_8, 1e30);
@@ -130,13 +130,13 @@ void main() {
     vec3 apart_s2_t3 = centre_normal_s2 - shaded_normal_t3;
     float larger_s2_t3 = max(depths_s2_t3, 0.5 * dot(apart_s2_t3, apart_s2_t3));
     float d_s2_t3 = min(larger_s2_t3, 16.0);
-    // sample 2, tap 4: kernels/src/sraa/metric.rs:50
+    // sample 2, tap 4: kernels/src/sraa/metric.rs:53
     float depths_s2_t4 = abs(centre_depth_s2 - shaded_depth_t4);
     vec3 apart_s2_t4 = centre_normal_s2 - shaded_normal_t4;
     float larger_s2_t4 = max(depths_s2_t4, 0.5 * dot(apart_s2_t4, apart_s2_t4));
     float d_s2_t4 = min(larger_s2_t4, 16.0);
     float nearest_s2_t4 = min(d_s2_t3, d_s2_t4);
-    // sample 2, tap 6: kernels/src/sraa/metric.rs:36
+    // sample 2, tap 6: kernels/src/sraa/metric.rs:37
     ivec2 texel_t6 = clamp(pixel + ivec2(-1, 1), ivec2(0), last);
     float depth_texel_10 = texelFetch(sampler2DArray(depth, unfiltered), ivec3(texel_t6, 4), 0).x;
     float shaded_depth_s2_t6 = min(depth_texel_10, 1e30);
@@ -177,7 +177,7 @@ void main() {
     vec3 apart_s3_t4 = centre_normal_s3 - shaded_normal_t4;
     float larger_s3_t4 = max(depths_s3_t4, 0.5 * dot(apart_s3_t4, apart_s3_t4));
     float d_s3_t4 = min(larger_s3_t4, 16.0);
-    // sample 3, tap 5: kernels/src/sraa/metric.rs:50
+    // sample 3, tap 5: kernels/src/sraa/metric.rs:53
     float depths_s3_t5 = abs(centre_depth_s3 - shaded_depth_t5);
     vec3 apart_s3_t5 = centre_normal_s3 - shaded_normal_t5;
     float larger_s3_t5 = max(depths_s3_t5, 0.5 * dot(apart_s3_t5, apart_s3_t5));
@@ -188,7 +188,7 @@ void main() {
     float larger_s3_t7 = max(depths_s3_t7, 0.5 * dot(apart_s3_t7, apart_s3_t7));
     float d_s3_t7 = min(larger_s3_t7, 16.0);
     float nearest_s3_t7 = min(nearest_s3_t5, d_s3_t7);
-    // sample 3, tap 8: kernels/src/sraa/metric.rs:36
+    // sample 3, tap 8: kernels/src/sraa/metric.rs:37
     ivec2 texel_t8 = min(pixel + ivec2(1), last);
     float depth_texel_13 = texelFetch(sampler2DArray(depth, unfiltered), ivec3(texel_t8, 4), 0).x;
     float shaded_depth_s3_t8 = min(depth_texel_13, 1e30);

@@ -58,7 +58,10 @@ pub struct OptionArgs {
 
 impl OptionArgs {
     pub fn settings(&self) -> Settings {
-        Settings { options: self.set.clone(), unroll: self.unroll }
+        Settings {
+            options: self.set.clone(),
+            unroll: self.unroll,
+        }
     }
 }
 
@@ -226,7 +229,9 @@ impl Default for DemoArgs {
 fn pair(text: &str) -> Result<(String, String), String> {
     match text.split_once('=') {
         Some((name, value)) if !name.is_empty() && !value.is_empty() => Ok((name.to_owned(), value.to_owned())),
-        _ => Err(format!("`{text}` is not of the form OPTION=VALUE, such as pattern=ordered16")),
+        _ => Err(format!(
+            "`{text}` is not of the form OPTION=VALUE, such as pattern=ordered16"
+        )),
     }
 }
 
@@ -234,6 +239,8 @@ fn size(text: &str) -> Result<UVec2, String> {
     let parse = |(w, h): (&str, &str)| Some(UVec2::new(w.parse().ok()?, h.parse().ok()?));
     match text.split_once('x').and_then(parse) {
         Some(size) if (1..=8192).contains(&size.x) && (1..=8192).contains(&size.y) => Ok(size),
-        _ => Err(format!("`{text}` is not a size such as 1280x720, from 1x1 to 8192x8192")),
+        _ => Err(format!(
+            "`{text}` is not a size such as 1280x720, from 1x1 to 8192x8192"
+        )),
     }
 }

@@ -28,7 +28,8 @@ impl Bound {
         }
         let mut images = Vec::new();
         for (name, layers) in layers {
-            let image = Image::new(size, layers).ok_or_else(|| Failure::of(format!("`{name}` is not of the frame's size")))?;
+            let image =
+                Image::new(size, layers).ok_or_else(|| Failure::of(format!("`{name}` is not of the frame's size")))?;
             images.push((name, image));
         }
         Ok(Bound { images, size })
@@ -36,14 +37,23 @@ impl Bound {
 
     /// Every pixel of `compiled`.
     pub fn run(&self, compiled: &Compiled) -> Result<Frame<Vec4>, Failure> {
-        let bound: Vec<(&str, &dyn Texels)> = self.images.iter().map(|(name, image)| (*name, image as &dyn Texels)).collect();
+        let bound: Vec<(&str, &dyn Texels)> = self
+            .images
+            .iter()
+            .map(|(name, image)| (*name, image as &dyn Texels))
+            .collect();
         let interpreter =
             Interpreter::new(&compiled.graph, &compiled.schedule, self.size, &bound, &[]).map_err(Failure::of)?;
         let [width, height] = self.size;
         let row = |scratch: &mut _, y: u32| -> Vec<Vec4> {
-            (0..width).map(|x| Vec4::from_array(interpreter.pixel(x, y, scratch))).collect()
+            (0..width)
+                .map(|x| Vec4::from_array(interpreter.pixel(x, y, scratch)))
+                .collect()
         };
-        let rows: Vec<Vec<Vec4>> = (0..height).into_par_iter().map_init(|| interpreter.scratch(), row).collect();
+        let rows: Vec<Vec<Vec4>> = (0..height)
+            .into_par_iter()
+            .map_init(|| interpreter.scratch(), row)
+            .collect();
         Ok(Frame::new(inputs_size(self.size), rows.concat()))
     }
 }
@@ -53,5 +63,9 @@ fn inputs_size(size: [u32; 2]) -> glam::UVec2 {
 }
 
 fn stack<T: Copy>(layers: &FrameLayers<T>, texel: impl Fn(T) -> [f32; 4]) -> Vec<Vec<[f32; 4]>> {
-    layers.layers().iter().map(|layer| layer.texels().iter().map(|t| texel(*t)).collect()).collect()
+    layers
+        .layers()
+        .iter()
+        .map(|layer| layer.texels().iter().map(|t| texel(*t)).collect())
+        .collect()
 }

@@ -54,7 +54,11 @@ impl From<Errors> for Failure {
 /// Prints errors as rustc does, with the source.
 fn render(errors: &Errors) {
     let mut files = SimpleFiles::new();
-    let ids: Vec<usize> = errors.files.iter().map(|f| files.add(f.path.as_str(), f.text.as_str())).collect();
+    let ids: Vec<usize> = errors
+        .files
+        .iter()
+        .map(|f| files.add(f.path.as_str(), f.text.as_str()))
+        .collect();
     let mut out = termcolor::StandardStream::stderr(termcolor::ColorChoice::Auto);
     for error in &errors.diagnostics {
         let mut shown = Diagnostic::error().with_message(&error.message);

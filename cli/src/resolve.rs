@@ -31,19 +31,28 @@ impl Uploaded {
         if let Some(normal) = inputs.normal {
             views.push(("normal", gpu.normal(normal)?));
         }
-        Ok(Uploaded { views, size: inputs.color.size() })
+        Ok(Uploaded {
+            views,
+            size: inputs.color.size(),
+        })
     }
 
     /// Those images that a pass reads.
     pub fn for_pass(&self, pass: &Pass) -> Vec<(&str, &wgpu::TextureView)> {
         let wanted: BTreeSet<&str> = pass.inputs().collect();
-        self.views.iter().filter(|(name, _)| wanted.contains(name)).map(|(name, view)| (*name, view)).collect()
+        self.views
+            .iter()
+            .filter(|(name, _)| wanted.contains(name))
+            .map(|(name, view)| (*name, view))
+            .collect()
     }
 }
 
 /// The WGSL of a kernel, writing full floats so that its own error is not hidden by rounding.
 pub fn wgsl(compiled: &Compiled, stage: Stage) -> Result<(Emitted, String), Failure> {
-    let emitted = compiled.emit(stage, Format::Rgba32Float, &BTreeSet::from([Target::Wgsl])).map_err(Failure::of)?;
+    let emitted = compiled
+        .emit(stage, Format::Rgba32Float, &BTreeSet::from([Target::Wgsl]))
+        .map_err(Failure::of)?;
     let text = emitted.files.get(&Target::Wgsl).cloned().unwrap_or_default();
     let text = String::from_utf8(text).map_err(Failure::of)?;
     Ok((emitted, text))
@@ -61,8 +70,11 @@ pub fn on_gpu(gpu: &Gpu, compiled: &Compiled, stage: Stage, inputs: &Inputs<'_>)
     let uploaded = Uploaded::new(gpu, inputs)?;
     let target = gpu.target(uploaded.size, pass.target_format());
     let view = target.create_view(&wgpu::TextureViewDescriptor::default());
-    let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-    pass.encode(&mut encoder, &uploaded.for_pass(&pass), &view).map_err(Failure::of)?;
+    let mut encoder = gpu
+        .device
+        .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+    pass.encode(&mut encoder, &uploaded.for_pass(&pass), &view)
+        .map_err(Failure::of)?;
     gpu.queue.submit([encoder.finish()]);
     gpu.download(&target)
 }

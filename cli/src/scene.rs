@@ -35,7 +35,7 @@ pub fn pattern(name: &str) -> Result<(Pattern, Vec<Vec2>), Failure> {
         ("latin16", Pattern::Latin16),
     ];
     match all.into_iter().find(|(known, _)| *known == name) {
-        Some((_, pattern)) => Ok((pattern, (0..pattern.len()).map(|k| pattern.offset(k)).collect())),
+        Some((_, pattern)) => Ok((pattern, (0..pattern.samples()).map(|k| pattern.offset(k)).collect())),
         None => Err(Failure::Usage(format!(
             "there is no pattern `{name}`; use one of ordered4, latin4, ordered16, latin16"
         ))),
@@ -47,7 +47,9 @@ pub fn shading(name: &str) -> Result<ShadingSample, Failure> {
     match name {
         "centre" => Ok(ShadingSample::Centre),
         "sample0" => Ok(ShadingSample::Sample(0)),
-        _ => Err(Failure::Usage(format!("shading cannot be at `{name}`; use centre or sample0"))),
+        _ => Err(Failure::Usage(format!(
+            "shading cannot be at `{name}`; use centre or sample0"
+        ))),
     }
 }
 

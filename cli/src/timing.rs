@@ -27,8 +27,17 @@ impl Times {
         sorted.sort_by(f64::total_cmp);
         let (min, max) = (*sorted.first()?, *sorted.last()?);
         let middle = sorted.len() / 2;
-        let median = if sorted.len() % 2 == 1 { sorted[middle] } else { (sorted[middle - 1] + sorted[middle]) / 2.0 };
-        Some(Times { median_ms: median, min_ms: min, max_ms: max, rounds: sorted.len() })
+        let median = if sorted.len() % 2 == 1 {
+            sorted[middle]
+        } else {
+            (sorted[middle - 1] + sorted[middle]) / 2.0
+        };
+        Some(Times {
+            median_ms: median,
+            min_ms: min,
+            max_ms: max,
+            rounds: sorted.len(),
+        })
     }
 }
 
@@ -52,7 +61,10 @@ pub fn interleaved(
 ) -> Result<(Vec<Times>, Clock), Failure> {
     let views: Vec<wgpu::TextureView> = passes
         .iter()
-        .map(|pass| gpu.target(inputs.size, pass.target_format()).create_view(&wgpu::TextureViewDescriptor::default()))
+        .map(|pass| {
+            gpu.target(inputs.size, pass.target_format())
+                .create_view(&wgpu::TextureViewDescriptor::default())
+        })
         .collect();
     let mut timer = if gpu.timestamps {
         Some(Timer::new(&gpu.device, &gpu.queue, 1).map_err(Failure::of)?)
@@ -63,10 +75,13 @@ pub fn interleaved(
     for round in 0..=rounds {
         for (k, pass) in passes.iter().enumerate() {
             let bound = inputs.for_pass(pass);
-            let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+            let mut encoder = gpu
+                .device
+                .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
             let took = match &mut timer {
                 Some(timer) => {
-                    pass.encode_timed(&mut encoder, &bound, &views[k], timer).map_err(Failure::of)?;
+                    pass.encode_timed(&mut encoder, &bound, &views[k], timer)
+                        .map_err(Failure::of)?;
                     timer.resolve(&mut encoder).map_err(Failure::of)?;
                     gpu.queue.submit([encoder.finish()]);
                     timer.read().map_err(Failure::of)?.first().copied().unwrap_or_default()
@@ -85,7 +100,14 @@ pub fn interleaved(
         }
         tick(round);
     }
-    let clock = if timer.is_some() { Clock::GpuTimestamps } else { Clock::WallClock };
+    let clock = if timer.is_some() {
+        Clock::GpuTimestamps
+    } else {
+        Clock::WallClock
+    };
     let times: Option<Vec<Times>> = times.iter().map(|t| Times::of(t)).collect();
-    Ok((times.ok_or_else(|| Failure::Usage("at least one round is needed".to_owned()))?, clock))
+    Ok((
+        times.ok_or_else(|| Failure::Usage("at least one round is needed".to_owned()))?,
+        clock,
+    ))
 }

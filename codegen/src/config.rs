@@ -49,6 +49,24 @@ enum Source {
     File(PathBuf, Option<String>),
 }
 
+/// A shader that is ready to be written.
+struct Built {
+    name: String,
+    compiled: Compiled,
+    manifest: Manifest,
+    files: BTreeMap<String, Vec<u8>>,
+}
+
+impl Built {
+    fn module(&self) -> emit::Module<'_> {
+        emit::Module {
+            name: &self.name,
+            compiled: &self.compiled,
+            manifest: &self.manifest,
+        }
+    }
+}
+
 impl KernelConfig {
     fn new(source: Source) -> Self {
         KernelConfig {
@@ -105,7 +123,7 @@ impl KernelConfig {
         self
     }
 
-    fn build(&self) -> Result<(String, Compiled, Manifest, BTreeMap<String, Vec<u8>>), Error> {
+    fn build(&self) -> Result<Built, Error> {
         let kernel = match &self.source {
             Source::Builtin(name) => Kernel::builtin(name),
             Source::File(path, function) => Kernel::from_file(path, function.as_deref()),
@@ -115,11 +133,19 @@ impl KernelConfig {
         if syn::parse_str::<syn::Ident>(&name).is_err() {
             return Err(Error::of(Problem::Name(name)));
         }
-        let compiled = kernel.compile(&self.settings).map_err(|e| Error::of(Problem::Kernel(e)))?;
-        let emitted =
-            compiled.emit(self.stage, self.format, &self.targets).map_err(|e| Error::of(Problem::Emit(e)))?;
+        let compiled = kernel
+            .compile(&self.settings)
+            .map_err(|e| Error::of(Problem::Kernel(e)))?;
+        let emitted = compiled
+            .emit(self.stage, self.format, &self.targets)
+            .map_err(|e| Error::of(Problem::Emit(e)))?;
         let files = emitted.named(&name);
-        Ok((name, compiled, emitted.manifest, files))
+        Ok(Built {
+            name,
+            compiled,
+            manifest: emitted.manifest,
+            files,
+        })
     }
 }
 
@@ -131,7 +157,8 @@ impl Config {
 
     /// A built-in kernel.
     pub fn kernel(mut self, name: &str, options: impl FnOnce(KernelConfig) -> KernelConfig) -> Self {
-        self.kernels.push(options(KernelConfig::new(Source::Builtin(name.to_owned()))));
+        self.kernels
+            .push(options(KernelConfig::new(Source::Builtin(name.to_owned()))));
         self
     }
 
@@ -168,7 +195,9 @@ impl Config {
         println!("cargo::rerun-if-changed=build.rs");
         let folder = match &self.out_dir {
             Some(folder) => folder.clone(),
-            None => std::env::var_os("OUT_DIR").map(PathBuf::from).ok_or_else(|| Error::of(Problem::NoFolder))?,
+            None => std::env::var_os("OUT_DIR")
+                .map(PathBuf::from)
+                .ok_or_else(|| Error::of(Problem::NoFolder))?,
         };
         let mut problems = Vec::new();
         let mut built = Vec::new();
@@ -179,7 +208,7 @@ impl Config {
             }
         }
         let mut all = BTreeMap::new();
-        for (name, _, _, files) in &built {
+        for Built { name, files, .. } in &built {
             if all.contains_key(&format!("{name}.json")) {
                 problems.push(Problem::Twice(name.clone()));
             }
@@ -188,10 +217,11 @@ impl Config {
         if !problems.is_empty() {
             return Err(Error { problems });
         }
-        let modules: Vec<emit::Module<'_>> =
-            built.iter().map(|(name, compiled, manifest, _)| emit::Module { name, compiled, manifest }).collect();
+        let modules: Vec<emit::Module<'_>> = built.iter().map(Built::module).collect();
         all.insert(BINDINGS.to_owned(), emit::bindings(&modules).into_bytes());
-        files::write_all(&folder, &all).map(|_| ()).map_err(|e| Error::of(Problem::Write(e)))
+        files::write_all(&folder, &all)
+            .map(|_| ())
+            .map_err(|e| Error::of(Problem::Write(e)))
     }
 }
 
@@ -219,7 +249,9 @@ enum Problem {
 
 impl Error {
     fn of(problem: Problem) -> Self {
-        Error { problems: vec![problem] }
+        Error {
+            problems: vec![problem],
+        }
     }
 }
 

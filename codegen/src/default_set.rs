@@ -53,16 +53,31 @@ const fn entry(
     unroll: Unroll,
     stage: Stage,
 ) -> Entry {
-    Entry { stem, kernel: "sraa", options, unroll, stage }
+    Entry {
+        stem,
+        kernel: "sraa",
+        options,
+        unroll,
+        stage,
+    }
 }
 
 /// Every file of the set by name: each shader in every language, and its manifest.
 pub fn files() -> Result<BTreeMap<String, Vec<u8>>, Error> {
     let mut all = BTreeMap::new();
     for entry in ENTRIES {
-        let options = entry.options.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned())).collect();
-        let settings = Settings { options, unroll: entry.unroll };
-        let compiled = Kernel::builtin(entry.kernel).and_then(|k| k.compile(&settings)).map_err(Error::Kernel)?;
+        let options = entry
+            .options
+            .iter()
+            .map(|(name, value)| ((*name).to_owned(), (*value).to_owned()))
+            .collect();
+        let settings = Settings {
+            options,
+            unroll: entry.unroll,
+        };
+        let compiled = Kernel::builtin(entry.kernel)
+            .and_then(|k| k.compile(&settings))
+            .map_err(Error::Kernel)?;
         let emitted = compiled.emit(entry.stage, Format::default(), &Target::ALL.into())?;
         all.extend(emitted.named(entry.stem));
     }

@@ -43,12 +43,22 @@ pub struct Diagnostic {
 impl Diagnostic {
     /// An error at a place.
     pub fn at(span: Span, message: impl Into<String>) -> Self {
-        Diagnostic { message: message.into(), span: Some(span), label: String::new(), help: None }
+        Diagnostic {
+            message: message.into(),
+            span: Some(span),
+            label: String::new(),
+            help: None,
+        }
     }
 
     /// An error that is in no file: an option, say.
     pub fn new(message: impl Into<String>) -> Self {
-        Diagnostic { message: message.into(), span: None, label: String::new(), help: None }
+        Diagnostic {
+            message: message.into(),
+            span: None,
+            label: String::new(),
+            help: None,
+        }
     }
 
     /// With a few words at the place.
@@ -76,14 +86,20 @@ pub struct Errors {
 impl Errors {
     /// One error that is in no file.
     pub fn of(diagnostic: Diagnostic) -> Self {
-        Errors { diagnostics: vec![diagnostic], files: Arc::default() }
+        Errors {
+            diagnostics: vec![diagnostic],
+            files: Arc::default(),
+        }
     }
 
     /// Errors in `files`, sorted by place.
     pub fn new(mut diagnostics: Vec<Diagnostic>, files: &Arc<Vec<File>>) -> Self {
         diagnostics.sort_by_key(|d| d.span);
         diagnostics.dedup();
-        Errors { diagnostics, files: files.clone() }
+        Errors {
+            diagnostics,
+            files: files.clone(),
+        }
     }
 }
 

@@ -28,7 +28,10 @@ pub enum WriteError {
 /// Writes files by name into `folder`, which is made if it is not there. A file that already has its contents is left
 /// untouched, so that nothing built from it is built again. Gives the paths of all files.
 pub fn write_all(folder: &Path, files: &BTreeMap<String, Vec<u8>>) -> Result<Vec<PathBuf>, WriteError> {
-    std::fs::create_dir_all(folder).map_err(|source| WriteError::Folder { folder: folder.to_owned(), source })?;
+    std::fs::create_dir_all(folder).map_err(|source| WriteError::Folder {
+        folder: folder.to_owned(),
+        source,
+    })?;
     let mut staged = Staged::default();
     for (name, contents) in files {
         let path = folder.join(name);
@@ -44,7 +47,10 @@ pub fn write_all(folder: &Path, files: &BTreeMap<String, Vec<u8>>) -> Result<Vec
         std::fs::write(&beside, contents).map_err(|source| WriteError::File { file: path, source })?;
     }
     for (beside, path) in &staged.pairs {
-        std::fs::rename(beside, path).map_err(|source| WriteError::File { file: path.clone(), source })?;
+        std::fs::rename(beside, path).map_err(|source| WriteError::File {
+            file: path.clone(),
+            source,
+        })?;
     }
     Ok(files.keys().map(|name| folder.join(name)).collect())
 }

@@ -16,13 +16,13 @@ pub mod default_set;
 pub mod diagnostic;
 pub mod emit;
 mod eval;
-mod front;
 pub mod files;
+mod front;
 pub mod ir;
 pub mod passes;
 mod pipeline;
 
 pub use config::Config;
 pub use eval::{OptionInfo, OptionKind, Unroll};
-pub use straightline_manifest::{Format, Manifest, Stage};
 pub use pipeline::{Compiled, Kernel, Observer, Settings};
+pub use straightline_manifest::{Format, Manifest, Stage};

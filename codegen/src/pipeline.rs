@@ -63,25 +63,43 @@ impl Kernel {
         let Some(entry) = straightline_kernels::find(name) else {
             let known: Vec<&str> = straightline_kernels::CATALOGUE.iter().map(|e| e.name).collect();
             return Err(Errors::of(
-                Diagnostic::new(format!("there is no kernel `{name}`"))
-                    .help(format!("built in: {}; for one of your own give FILE.rs::FUNCTION", known.join(", "))),
+                Diagnostic::new(format!("there is no kernel `{name}`")).help(format!(
+                    "built in: {}; for one of your own give FILE.rs::FUNCTION",
+                    known.join(", ")
+                )),
             ));
         };
-        let files = entry.sources.iter().map(|s| File { path: s.path.to_owned(), text: s.text.to_owned() });
-        Ok(Kernel { name: name.to_owned(), summary: entry.summary.to_owned(), files: Arc::new(files.collect()) })
+        let files = entry.sources.iter().map(|s| File {
+            path: s.path.to_owned(),
+            text: s.text.to_owned(),
+        });
+        Ok(Kernel {
+            name: name.to_owned(),
+            summary: entry.summary.to_owned(),
+            files: Arc::new(files.collect()),
+        })
     }
 
     /// A kernel of one's own, from its text. `path` is only shown.
     pub fn from_text(path: &str, text: &str, function: &str) -> Kernel {
-        let file = File { path: path.to_owned(), text: text.to_owned() };
-        Kernel { name: function.to_owned(), summary: String::new(), files: Arc::new(vec![file]) }
+        let file = File {
+            path: path.to_owned(),
+            text: text.to_owned(),
+        };
+        Kernel {
+            name: function.to_owned(),
+            summary: String::new(),
+            files: Arc::new(vec![file]),
+        }
     }
 
     /// A kernel of one's own, from a file. Without `function` it is the one that has the file's name.
     pub fn from_file(path: &Path, function: Option<&str>) -> Result<Kernel, Errors> {
         let shown = path.display().to_string();
         let text = std::fs::read_to_string(path).map_err(|error| {
-            Errors::of(Diagnostic::new(format!("cannot read the kernel file `{shown}`: {error}")))
+            Errors::of(Diagnostic::new(format!(
+                "cannot read the kernel file `{shown}`: {error}"
+            )))
         })?;
         let stem = path.file_stem().and_then(|s| s.to_str()).unwrap_or("kernel");
         Ok(Kernel::from_text(&shown, &text, function.unwrap_or(stem)))
@@ -139,7 +157,11 @@ impl Kernel {
         let graph = stage("clean", passes::clean(&graph))?;
         let schedule = passes::schedule(&graph);
         let counts = passes::count(&graph, &schedule);
-        let summary = if self.summary.is_empty() { first_sentence(&evaluated.docs) } else { self.summary.clone() };
+        let summary = if self.summary.is_empty() {
+            first_sentence(&evaluated.docs)
+        } else {
+            self.summary.clone()
+        };
         Ok(Compiled {
             kernel: self.name.clone(),
             summary,
@@ -153,9 +175,10 @@ impl Kernel {
 }
 
 fn internal(stage: &str, why: &str) -> Errors {
-    Errors::of(Diagnostic::new(format!("the stage `{stage}` made a graph that breaks a rule: {why}")).help(
-        "this is a mistake in Straightline, not in the kernel: please report it with the kernel's source",
-    ))
+    Errors::of(
+        Diagnostic::new(format!("the stage `{stage}` made a graph that breaks a rule: {why}"))
+            .help("this is a mistake in Straightline, not in the kernel: please report it with the kernel's source"),
+    )
 }
 
 fn first_sentence(docs: &str) -> String {

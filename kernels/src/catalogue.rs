@@ -9,9 +9,12 @@ pub struct Entry {
     pub summary: &'static str,
     /// Every file that the kernel is made of.
     pub sources: &'static [SourceFile],
-    /// What its publication counts for a set of options, given as (option, value).
-    pub paper: fn(&dyn Fn(&str) -> Option<String>) -> Option<PaperCounts>,
+    /// What its publication counts, for the options that a function tells the values of.
+    pub paper: fn(&OptionValue<'_>) -> Option<PaperCounts>,
 }
+
+/// Tells an option's value by its name.
+pub type OptionValue<'a> = dyn Fn(&str) -> Option<String> + 'a;
 
 /// A file of Rust text.
 #[derive(Clone, Copy, Debug)]
@@ -33,7 +36,10 @@ pub struct PaperCounts {
 
 macro_rules! source {
     ($path:literal) => {
-        SourceFile { path: concat!("kernels/src/", $path), text: include_str!($path) }
+        SourceFile {
+            path: concat!("kernels/src/", $path),
+            text: include_str!($path),
+        }
     };
 }
 
@@ -41,7 +47,11 @@ macro_rules! source {
 pub const CATALOGUE: &[Entry] = &[Entry {
     name: "sraa",
     summary: "Subpixel Reconstruction Antialiasing: 1x shading, subpixel geometry (Chajdas et al. 2011)",
-    sources: &[source!("sraa/mod.rs"), source!("sraa/pattern.rs"), source!("sraa/metric.rs")],
+    sources: &[
+        source!("sraa/mod.rs"),
+        source!("sraa/pattern.rs"),
+        source!("sraa/metric.rs"),
+    ],
     paper: sraa_paper,
 }];
 
@@ -51,10 +61,16 @@ pub fn find(name: &str) -> Option<&'static Entry> {
 }
 
 /// Section 3.5: "we read the G-buffers 58x per pixel (194 for 16x). The filter is evaluated 25 (81) times."
-fn sraa_paper(option: &dyn Fn(&str) -> Option<String>) -> Option<PaperCounts> {
+fn sraa_paper(option: &OptionValue<'_>) -> Option<PaperCounts> {
     match option("pattern")?.as_str() {
-        "ordered4" | "latin4" => Some(PaperCounts { weight_evaluations: 25, texture_reads: 58 }),
-        "ordered16" | "latin16" => Some(PaperCounts { weight_evaluations: 81, texture_reads: 194 }),
+        "ordered4" | "latin4" => Some(PaperCounts {
+            weight_evaluations: 25,
+            texture_reads: 58,
+        }),
+        "ordered16" | "latin16" => Some(PaperCounts {
+            weight_evaluations: 81,
+            texture_reads: 194,
+        }),
         _ => None,
     }
 }

@@ -3,6 +3,9 @@
 //! Each kernel is a function that rustc compiles and that runs as it stands: the CPU reference. The generator
 //! reads the same text, found in [`CATALOGUE`], and evaluates its loops and branches away.
 
+// Kernels are written with counters, as the shaders are that are made of them.
+#![allow(clippy::needless_range_loop)]
+
 mod catalogue;
 mod options;
 #[cfg(feature = "native")]
@@ -10,4 +13,4 @@ pub mod prelude;
 #[cfg(feature = "native")]
 pub mod sraa;
 
-pub use catalogue::{CATALOGUE, Entry, PaperCounts, SourceFile, find};
+pub use catalogue::{CATALOGUE, Entry, OptionValue, PaperCounts, SourceFile, find};

@@ -22,7 +22,11 @@ impl<T: Copy> Frame<T> {
     /// and at least one of them.
     pub fn new(size: UVec2, texels: Vec<T>) -> Self {
         assert!(size.x > 0 && size.y > 0, "an image needs at least one texel");
-        assert_eq!(texels.len(), (size.x * size.y) as usize, "one texel for each of {size} pixels");
+        assert_eq!(
+            texels.len(),
+            (size.x * size.y) as usize,
+            "one texel for each of {size} pixels"
+        );
         Frame { size, texels }
     }
 
@@ -52,7 +56,10 @@ pub struct FrameLayers<T> {
 impl<T: Copy> FrameLayers<T> {
     /// A stack from its layers. Panics unless there is at least one and all have the same size.
     pub fn new(layers: Vec<Frame<T>>) -> Self {
-        assert!(layers.windows(2).all(|pair| pair[0].size == pair[1].size), "layers of one size");
+        assert!(
+            layers.windows(2).all(|pair| pair[0].size == pair[1].size),
+            "layers of one size"
+        );
         assert!(!layers.is_empty(), "a stack needs at least one layer");
         FrameLayers { layers }
     }

@@ -11,7 +11,11 @@ fn straightline(arguments: &[&str]) -> Output {
         target.pop();
     }
     let binary = target.join(format!("straightline{}", std::env::consts::EXE_SUFFIX));
-    assert!(binary.exists(), "{} is not built: run `cargo test --workspace`", binary.display());
+    assert!(
+        binary.exists(),
+        "{} is not built: run `cargo test --workspace`",
+        binary.display()
+    );
     Command::new(binary).args(arguments).output().expect("the binary runs")
 }
 
@@ -20,7 +24,10 @@ fn fails(arguments: &[&str], status: i32, says: &[&str]) {
     let error = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(status), "{arguments:?} said: {error}");
     for text in says {
-        assert!(error.contains(text), "{arguments:?} does not say `{text}` but:\n{error}");
+        assert!(
+            error.contains(text),
+            "{arguments:?} does not say `{text}` but:\n{error}"
+        );
     }
     assert!(!error.contains("panicked"), "{error}");
 }
@@ -45,9 +52,17 @@ fn is_empty(folder: &Path) -> bool {
 #[test]
 fn a_syntax_error_is_shown_with_its_place() {
     let folder = scratch("syntax");
-    let kernel = write(&folder, "broken.rs", "use straightline_kernels::prelude::*;\npub fn broken(pixel: IVec2) -> Vec4 {\n    let x = ;\n}\n");
+    let kernel = write(
+        &folder,
+        "broken.rs",
+        "use straightline_kernels::prelude::*;\npub fn broken(pixel: IVec2) -> Vec4 {\n    let x = ;\n}\n",
+    );
     let out = folder.join("out");
-    fails(&["emit", &kernel, "--out", out.to_str().unwrap()], 1, &["broken.rs:3:13", "not valid Rust"]);
+    fails(
+        &["emit", &kernel, "--out", out.to_str().unwrap()],
+        1,
+        &["broken.rs:3:13", "not valid Rust"],
+    );
     assert!(is_empty(&out));
 }
 
@@ -56,8 +71,19 @@ fn every_unsupported_construct_is_named_with_the_way_out() {
     let folder = scratch("unsupported");
     let text = "pub fn k(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {\n    let f = |x: f32| x;\n    loop { break; }\n    color.load(pixel)\n}\n";
     let kernel = write(&folder, "k.rs", text);
-    let says = ["k.rs:2:13", "a closure", "write a function", "k.rs:3:5", "`loop`", "use `for`"];
-    fails(&["emit", &kernel, "--out", folder.join("out").to_str().unwrap()], 1, &says);
+    let says = [
+        "k.rs:2:13",
+        "a closure",
+        "write a function",
+        "k.rs:3:5",
+        "`loop`",
+        "use `for`",
+    ];
+    fails(
+        &["emit", &kernel, "--out", folder.join("out").to_str().unwrap()],
+        1,
+        &says,
+    );
     assert!(is_empty(&folder.join("out")));
 }
 
@@ -66,18 +92,34 @@ fn errors_of_evaluation_have_their_place_too() {
     let folder = scratch("evaluation");
     let text = "pub fn k(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {\n    let a = [1.0, 2.0];\n    let b = a[2];\n    let c = color.lod(pixel);\n    Vec4::splat(b) + c\n}\n";
     let kernel = write(&folder, "k.rs", text);
-    fails(&["explain", &kernel], 1, &["k.rs:3:13", "index 2 of an array of 2", "k.rs:4:13", "no method `lod`"]);
+    fails(
+        &["explain", &kernel],
+        1,
+        &["k.rs:3:13", "index 2 of an array of 2", "k.rs:4:13", "no method `lod`"],
+    );
 }
 
 #[test]
 fn unknown_names_and_values_are_bad_use() {
     fails(&["explain", "sraaa"], 2, &["no kernel `sraaa`", "sraa"]);
-    fails(&["explain", "sraa", "--set", "pattrn=latin4"], 2, &["no option `pattrn`", "pattern"]);
-    fails(&["explain", "sraa", "--set", "pattern=latin5"], 2, &["latin5", "latin16"]);
+    fails(
+        &["explain", "sraa", "--set", "pattrn=latin4"],
+        2,
+        &["no option `pattrn`", "pattern"],
+    );
+    fails(
+        &["explain", "sraa", "--set", "pattern=latin5"],
+        2,
+        &["latin5", "latin16"],
+    );
     fails(&["explain", "sraa", "--set", "tau=-1"], 2, &["`-1`", "0 to 1000000"]);
     fails(&["explain", "sraa", "--set", "tau=many"], 2, &["`many`"]);
     fails(&["explain", "sraa", "--set", "tau"], 2, &["OPTION=VALUE"]);
-    fails(&["emit", "sraa", "--target", "cg", "--out", "nowhere"], 2, &["cg", "glsl450"]);
+    fails(
+        &["emit", "sraa", "--target", "cg", "--out", "nowhere"],
+        2,
+        &["cg", "glsl450"],
+    );
     fails(&["no-such-command"], 2, &["no-such-command"]);
 }
 
@@ -86,8 +128,16 @@ fn a_folder_that_cannot_be_written_is_named() {
     let folder = scratch("unwritable");
     // A file where the folder should be: refused to everyone, root included.
     let blocked = write(&folder, "blocked", "");
-    fails(&["emit", "sraa", "--out", &format!("{blocked}/shaders")], 1, &["blocked", "cannot write"]);
-    fails(&["demo", "--out", &format!("{blocked}/demo"), "--size", "16x16"], 1, &["blocked", "cannot write"]);
+    fails(
+        &["emit", "sraa", "--out", &format!("{blocked}/shaders")],
+        1,
+        &["blocked", "cannot write"],
+    );
+    fails(
+        &["demo", "--out", &format!("{blocked}/demo"), "--size", "16x16"],
+        1,
+        &["blocked", "cannot write"],
+    );
 }
 
 #[test]
@@ -98,7 +148,19 @@ fn broken_captures_are_refused() {
     assert!(made.status.success(), "{}", String::from_utf8_lossy(&made.stderr));
     let picture = folder.join("out.png");
     let resolve = |capture: &Path, says: &[&str]| {
-        fails(&["resolve", "--capture", capture.to_str().unwrap(), "--out", picture.to_str().unwrap(), "--executor", "cpu"], 1, says);
+        fails(
+            &[
+                "resolve",
+                "--capture",
+                capture.to_str().unwrap(),
+                "--out",
+                picture.to_str().unwrap(),
+                "--executor",
+                "cpu",
+            ],
+            1,
+            says,
+        );
         assert!(!picture.exists(), "a picture was written from a broken capture");
     };
     let copy = |name: &str| {
@@ -120,7 +182,15 @@ fn broken_captures_are_refused() {
 
     // The depths of a capture with other layers, then of one of another size.
     let other = folder.join("other");
-    let made = straightline(&["capture", "--size", "32x18", "--shading", "sample0", "--out", other.to_str().unwrap()]);
+    let made = straightline(&[
+        "capture",
+        "--size",
+        "32x18",
+        "--shading",
+        "sample0",
+        "--out",
+        other.to_str().unwrap(),
+    ]);
     assert!(made.status.success());
     let missing = copy("missing-layer");
     std::fs::copy(other.join("depth.exr"), missing.join("depth.exr")).expect("copied");
@@ -133,7 +203,15 @@ fn broken_captures_are_refused() {
     std::fs::copy(larger.join("normal.exr"), mismatch.join("normal.exr")).expect("copied");
     resolve(&mismatch, &["normal.exr", "34", "32"]);
 
-    let good = straightline(&["resolve", "--capture", whole.to_str().unwrap(), "--out", picture.to_str().unwrap(), "--executor", "cpu"]);
+    let good = straightline(&[
+        "resolve",
+        "--capture",
+        whole.to_str().unwrap(),
+        "--out",
+        picture.to_str().unwrap(),
+        "--executor",
+        "cpu",
+    ]);
     assert!(good.status.success(), "{}", String::from_utf8_lossy(&good.stderr));
     assert!(picture.exists());
 }

@@ -21,23 +21,41 @@ fn shaders_out_is_up_to_date() {
     let bless = "run STRAIGHTLINE_BLESS=1 cargo test -p straightline-tests --test drift";
     for (name, contents) in &expected {
         let present = std::fs::read(folder().join(name)).unwrap_or_default();
-        assert!(present == *contents, "shaders-out/{name} is not what the generator emits: {bless}");
+        assert!(
+            present == *contents,
+            "shaders-out/{name} is not what the generator emits: {bless}"
+        );
     }
     let names: BTreeSet<String> = expected.into_keys().collect();
     for entry in std::fs::read_dir(folder()).expect("shaders-out is there") {
-        let name = entry.expect("a folder entry").file_name().to_string_lossy().into_owned();
-        assert!(name == "README.md" || names.contains(&name), "shaders-out/{name} is emitted no more: delete it");
+        let name = entry
+            .expect("a folder entry")
+            .file_name()
+            .to_string_lossy()
+            .into_owned();
+        assert!(
+            name == "README.md" || names.contains(&name),
+            "shaders-out/{name} is emitted no more: delete it"
+        );
     }
 }
 
 #[test]
 fn emission_is_deterministic() {
-    assert!(default_set::files().expect("emitted") == default_set::files().expect("emitted"), "two runs differ");
+    assert!(
+        default_set::files().expect("emitted") == default_set::files().expect("emitted"),
+        "two runs differ"
+    );
 }
 
 #[test]
 fn glslang_accepts_the_glsl() {
-    check("glslangValidator", "glslang-tools", &["comp", "frag"], &["-V", "--quiet", "-o", "/dev/null"]);
+    check(
+        "glslangValidator",
+        "glslang-tools",
+        &["comp", "frag"],
+        &["-V", "--quiet", "-o", "/dev/null"],
+    );
 }
 
 #[test]

@@ -20,7 +20,9 @@ fn all_options_emit_in_all_languages() {
         for unroll in [Unroll::Full, Unroll::None] {
             let compiled = compile(options, unroll);
             for stage in [Stage::Compute, Stage::Fragment] {
-                let emitted = compiled.emit(stage, Format::Rgba16Float, &targets).unwrap_or_else(|e| panic!("{options:?} {unroll:?}: {e}"));
+                let emitted = compiled
+                    .emit(stage, Format::Rgba16Float, &targets)
+                    .unwrap_or_else(|e| panic!("{options:?} {unroll:?}: {e}"));
                 assert_eq!(emitted.files.len(), targets.len());
                 let stem = format!("{k}-{}-{}", unroll.name(), stage.name());
                 for (name, contents) in emitted.named(&stem) {
@@ -38,13 +40,29 @@ fn all_options_emit_in_all_languages() {
         }
     }
     assert_eq!((glsl.len(), spirv.len()), (256, 256));
-    run("glslangValidator", "glslang-tools", &["-V", "-o", "/dev/null"], &glsl, &folder);
-    run("spirv-val", "spirv-tools", &["--target-env", "vulkan1.1"], &spirv, &folder);
+    run(
+        "glslangValidator",
+        "glslang-tools",
+        &["-V", "-o", "/dev/null"],
+        &glsl,
+        &folder,
+    );
+    run(
+        "spirv-val",
+        "spirv-tools",
+        &["--target-env", "vulkan1.1"],
+        &spirv,
+        &folder,
+    );
 }
 
 fn run(tool: &str, package: &str, arguments: &[&str], files: &[PathBuf], folder: &Path) {
     for file in files {
-        let run = Command::new(tool).args(arguments).current_dir(folder).arg(file).output();
+        let run = Command::new(tool)
+            .args(arguments)
+            .current_dir(folder)
+            .arg(file)
+            .output();
         let run = run.unwrap_or_else(|e| panic!("cannot run {tool} ({e}): install Debian's {package}"));
         let said = String::from_utf8_lossy(&run.stdout).into_owned() + &String::from_utf8_lossy(&run.stderr);
         assert!(run.status.success(), "{tool} refuses {}:\n{said}", file.display());

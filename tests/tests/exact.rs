@@ -10,7 +10,9 @@ use straightline_kernels::sraa::{Sraa, sraa};
 fn native(cfg: &Sraa, inputs: &Inputs) -> Vec<[f32; 4]> {
     let size = inputs.size.as_ivec2();
     let pixels = (0..size.y).flat_map(|y| (0..size.x).map(move |x| ivec2(x, y)));
-    pixels.map(|pixel| sraa(cfg, &inputs.gbuffer, &inputs.color, pixel).to_array()).collect()
+    pixels
+        .map(|pixel| sraa(cfg, &inputs.gbuffer, &inputs.color, pixel).to_array())
+        .collect()
 }
 
 #[test]
@@ -38,7 +40,11 @@ fn smallest_frames_agree() {
 #[test]
 fn a_number_set_at_run_time_means_the_same() {
     let inputs = surfaces(uvec2(16, 16), 5, 3);
-    let cfg = Sraa { tau: 80.0, depth_scale: 3.0, ..Sraa::default() };
+    let cfg = Sraa {
+        tau: 80.0,
+        depth_scale: 3.0,
+        ..Sraa::default()
+    };
     let options = [("tau", "uniform"), ("depth-scale", "uniform")].map(|(k, v)| (k.to_owned(), v.to_owned()));
     let compiled = compile(&options, Unroll::Full);
     let given = interpret(&compiled, &inputs, &[("tau", 80.0), ("depth_scale", 3.0)]);
@@ -65,5 +71,9 @@ fn one_block_and_no_more_reads_than_distinct_texels() {
     assert_eq!(with("ordered16", "none"), (80, 48));
     assert_eq!(with("ordered4", "tent"), (8, 14));
     let depth_only = compile(&[("metric".to_owned(), "depth".to_owned())], Unroll::Full).counts;
-    assert!(!depth_only.reads.contains_key("normal"), "normals are read for depth alone: {:?}", depth_only.reads);
+    assert!(
+        !depth_only.reads.contains_key("normal"),
+        "normals are read for depth alone: {:?}",
+        depth_only.reads
+    );
 }

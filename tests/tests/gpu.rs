@@ -23,16 +23,23 @@ impl Gpu {
     fn new() -> Gpu {
         let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
         let adapter = pollster::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions::default()))
-            .unwrap_or_else(|e| panic!("this test needs a GPU adapter; without a GPU install Debian's mesa-vulkan-drivers: {e}"));
+            .unwrap_or_else(|e| {
+                panic!("this test needs a GPU adapter; without a GPU install Debian's mesa-vulkan-drivers: {e}")
+            });
         let device = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor::default()));
-        let (device, queue) = device.unwrap_or_else(|e| panic!("the adapter {} gives no device: {e}", adapter.get_info().name));
+        let (device, queue) =
+            device.unwrap_or_else(|e| panic!("the adapter {} gives no device: {e}", adapter.get_info().name));
         Gpu { device, queue }
     }
 
     fn texture(&self, size: UVec2, layers: u32, usage: TextureUsages) -> wgpu::Texture {
         self.device.create_texture(&wgpu::TextureDescriptor {
             label: None,
-            size: wgpu::Extent3d { width: size.x, height: size.y, depth_or_array_layers: layers },
+            size: wgpu::Extent3d {
+                width: size.x,
+                height: size.y,
+                depth_or_array_layers: layers,
+            },
             mip_level_count: 1,
             sample_count: 1,
             dimension: wgpu::TextureDimension::D2,
@@ -43,17 +50,39 @@ impl Gpu {
     }
 
     fn upload(&self, size: UVec2, layers: &[Vec<Vec4>], array: bool) -> wgpu::TextureView {
-        let texture = self.texture(size, layers.len() as u32, TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_DST);
-        let bytes: Vec<u8> = layers.iter().flatten().flat_map(|c| c.to_array()).flat_map(f32::to_le_bytes).collect();
-        let layout =
-            wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(size.x * 16), rows_per_image: Some(size.y) };
-        self.queue.write_texture(texture.as_image_copy(), &bytes, layout, texture.size());
-        let dimension = if array { wgpu::TextureViewDimension::D2Array } else { wgpu::TextureViewDimension::D2 };
-        texture.create_view(&wgpu::TextureViewDescriptor { dimension: Some(dimension), ..Default::default() })
+        let texture = self.texture(
+            size,
+            layers.len() as u32,
+            TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_DST,
+        );
+        let bytes: Vec<u8> = layers
+            .iter()
+            .flatten()
+            .flat_map(|c| c.to_array())
+            .flat_map(f32::to_le_bytes)
+            .collect();
+        let layout = wgpu::TexelCopyBufferLayout {
+            offset: 0,
+            bytes_per_row: Some(size.x * 16),
+            rows_per_image: Some(size.y),
+        };
+        self.queue
+            .write_texture(texture.as_image_copy(), &bytes, layout, texture.size());
+        let dimension = if array {
+            wgpu::TextureViewDimension::D2Array
+        } else {
+            wgpu::TextureViewDimension::D2
+        };
+        texture.create_view(&wgpu::TextureViewDescriptor {
+            dimension: Some(dimension),
+            ..Default::default()
+        })
     }
 
     fn run(&self, compiled: &Compiled, stage: Stage, inputs: &Inputs) -> Frame<Vec4> {
-        let emitted = compiled.emit(stage, Format::Rgba32Float, &BTreeSet::from([Target::Wgsl])).expect("emitted");
+        let emitted = compiled
+            .emit(stage, Format::Rgba32Float, &BTreeSet::from([Target::Wgsl]))
+            .expect("emitted");
         let wgsl = String::from_utf8(emitted.files[&Target::Wgsl].clone()).expect("text");
         let pass = Pass::new(&self.device, &emitted.manifest, &wgsl).unwrap_or_else(|e| panic!("{e}"));
         let depth: Vec<Vec<Vec4>> = layers(&inputs.gbuffer.depth, |d| vec4(d, 0.0, 0.0, 0.0));
@@ -61,15 +90,25 @@ impl Gpu {
         let all = [
             ("depth", self.upload(inputs.size, &depth, true)),
             ("normal", self.upload(inputs.size, &normal, true)),
-            ("color", self.upload(inputs.size, &[inputs.color.texels().to_vec()], false)),
+            (
+                "color",
+                self.upload(inputs.size, &[inputs.color.texels().to_vec()], false),
+            ),
         ];
         let wanted: Vec<&str> = pass.inputs().collect();
-        let bound: Vec<_> = all.iter().filter(|(n, _)| wanted.contains(n)).map(|(n, v)| (*n, v)).collect();
+        let bound: Vec<_> = all
+            .iter()
+            .filter(|(n, _)| wanted.contains(n))
+            .map(|(n, v)| (*n, v))
+            .collect();
         let usage = TextureUsages::STORAGE_BINDING | TextureUsages::RENDER_ATTACHMENT | TextureUsages::COPY_SRC;
         let target = self.texture(inputs.size, 1, usage);
-        let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        let mut encoder = self
+            .device
+            .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         let view = target.create_view(&wgpu::TextureViewDescriptor::default());
-        pass.encode(&mut encoder, &bound, &view).unwrap_or_else(|e| panic!("{e}"));
+        pass.encode(&mut encoder, &bound, &view)
+            .unwrap_or_else(|e| panic!("{e}"));
         self.queue.submit([encoder.finish()]);
         self.download(&target)
     }
@@ -83,25 +122,45 @@ impl Gpu {
             usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
             mapped_at_creation: false,
         });
-        let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        let layout = wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(row), rows_per_image: None };
-        let copy = wgpu::TexelCopyBufferInfo { buffer: &buffer, layout };
+        let mut encoder = self
+            .device
+            .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        let layout = wgpu::TexelCopyBufferLayout {
+            offset: 0,
+            bytes_per_row: Some(row),
+            rows_per_image: None,
+        };
+        let copy = wgpu::TexelCopyBufferInfo {
+            buffer: &buffer,
+            layout,
+        };
         encoder.copy_texture_to_buffer(texture.as_image_copy(), copy, texture.size());
         self.queue.submit([encoder.finish()]);
         buffer.map_async(wgpu::MapMode::Read, .., |_| {});
-        self.device.poll(wgpu::PollType::wait_indefinitely()).expect("the copy is done");
+        self.device
+            .poll(wgpu::PollType::wait_indefinitely())
+            .expect("the copy is done");
         let bytes = buffer.get_mapped_range(..).expect("mapped");
         let texel = |b: &[u8]| {
             let lane = |k: usize| f32::from_le_bytes([b[4 * k], b[4 * k + 1], b[4 * k + 2], b[4 * k + 3]]);
             vec4(lane(0), lane(1), lane(2), lane(3))
         };
         let lines = bytes.chunks_exact(row as usize);
-        Frame::new(size, lines.flat_map(|line| line[..size.x as usize * 16].chunks_exact(16).map(texel)).collect())
+        Frame::new(
+            size,
+            lines
+                .flat_map(|line| line[..size.x as usize * 16].chunks_exact(16).map(texel))
+                .collect(),
+        )
     }
 }
 
 fn layers<T: Copy>(stack: &FrameLayers<T>, texel: impl Fn(T) -> Vec4) -> Vec<Vec<Vec4>> {
-    stack.layers().iter().map(|l| l.texels().iter().map(|t| texel(*t)).collect()).collect()
+    stack
+        .layers()
+        .iter()
+        .map(|l| l.texels().iter().map(|t| texel(*t)).collect())
+        .collect()
 }
 
 fn exact(options: &[(String, String)], inputs: &Inputs) -> Vec<[f64; 4]> {
@@ -109,7 +168,11 @@ fn exact(options: &[(String, String)], inputs: &Inputs) -> Vec<[f64; 4]> {
     for (name, value) in options {
         params.set(name, value).unwrap_or_else(|e| panic!("{e}"));
     }
-    let inputs = SraaInputs { color: &inputs.color, depth: &inputs.gbuffer.depth, normal: Some(&inputs.gbuffer.normal) };
+    let inputs = SraaInputs {
+        color: &inputs.color,
+        depth: &inputs.gbuffer.depth,
+        normal: Some(&inputs.gbuffer.normal),
+    };
     oracle::sraa(&inputs, &params)
 }
 
@@ -119,7 +182,11 @@ fn difference(options: &[(String, String)], inputs: &Inputs, result: &Frame<Vec4
     for (name, value) in options {
         params.set(name, value).unwrap_or_else(|e| panic!("{e}"));
     }
-    let read = SraaInputs { color: &inputs.color, depth: &inputs.gbuffer.depth, normal: Some(&inputs.gbuffer.normal) };
+    let read = SraaInputs {
+        color: &inputs.color,
+        depth: &inputs.gbuffer.depth,
+        normal: Some(&inputs.gbuffer.normal),
+    };
     let paper = options.iter().any(|(_, v)| v == "paper");
     let lost = oracle::all_weights_underflow(&read, &params);
     let mut largest = 0.0f64;
@@ -141,7 +208,11 @@ fn all_options_match_the_brute_force() {
     let inputs = surfaces(uvec2(61, 47), 17, 5);
     let mut worst = (0.0, String::new());
     for (_, options) in all_options() {
-        for (stage, unroll) in [(Stage::Compute, Unroll::Full), (Stage::Fragment, Unroll::Full), (Stage::Compute, Unroll::None)] {
+        for (stage, unroll) in [
+            (Stage::Compute, Unroll::Full),
+            (Stage::Fragment, Unroll::Full),
+            (Stage::Compute, Unroll::None),
+        ] {
             let off = difference(&options, &inputs, &gpu.run(&compile(&options, unroll), stage, &inputs));
             let what = format!("{options:?} {stage:?} {unroll:?}");
             assert!(off <= BOUND, "off by {off:e}: {what}");
@@ -176,10 +247,21 @@ fn a_bad_colour_spreads_no_further_than_its_weight() {
     let layers = (0..5).map(|_| Frame::new(size, depth.clone())).collect();
     inputs.gbuffer.depth = FrameLayers::new(layers);
     inputs.gbuffer.normal = FrameLayers::new((0..5).map(|_| Frame::new(size, vec![Vec3::Z; 256])).collect());
-    let texels = (0..256).map(|k| if column(k) < 8 { Vec4::ONE } else { Vec4::splat(f32::INFINITY) }).collect();
+    let texels = (0..256)
+        .map(|k| {
+            if column(k) < 8 {
+                Vec4::ONE
+            } else {
+                Vec4::splat(f32::INFINITY)
+            }
+        })
+        .collect();
     inputs.color = Frame::new(size, texels);
     let result = gpu.run(&compile(&[], Unroll::Full), Stage::Compute, &inputs);
     for (k, texel) in result.texels().iter().enumerate().filter(|(k, _)| column(*k) < 8) {
-        assert!((*texel - Vec4::ONE).abs().max_element() < 1.0e-6, "pixel {k} is {texel}");
+        assert!(
+            (*texel - Vec4::ONE).abs().max_element() < 1.0e-6,
+            "pixel {k} is {texel}"
+        );
     }
 }

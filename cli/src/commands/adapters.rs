@@ -19,7 +19,17 @@ pub fn run(args: &AdaptersArgs) -> Result<(), Failure> {
     }
     for adapter in &described {
         println!("{}", adapter["name"].as_str().unwrap_or_default());
-        for key in ["type", "backend", "driver", "largest_texture", "compute", "timestamps", "f16", "subgroups", "float32_output"] {
+        for key in [
+            "type",
+            "backend",
+            "driver",
+            "largest_texture",
+            "compute",
+            "timestamps",
+            "f16",
+            "subgroups",
+            "float32_output",
+        ] {
             println!("  {:<16} {}", key.replace('_', " "), plain(&adapter[key]));
         }
     }
@@ -37,7 +47,9 @@ fn plain(value: &serde_json::Value) -> String {
 fn describe(adapter: &wgpu::Adapter) -> serde_json::Value {
     let info = adapter.get_info();
     let features = adapter.features();
-    let storage = adapter.get_texture_format_features(TextureFormat::Rgba32Float).allowed_usages;
+    let storage = adapter
+        .get_texture_format_features(TextureFormat::Rgba32Float)
+        .allowed_usages;
     json!({
         "name": info.name,
         "type": format!("{:?}", info.device_type),

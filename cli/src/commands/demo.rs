@@ -57,15 +57,25 @@ struct Record {
 pub fn run(args: &DemoArgs) -> Result<(), Failure> {
     let gpu = Gpu::open(&args.adapter)?;
     if gpu.is_none() {
-        eprintln!("No GPU adapter: the same graphs run on the CPU interpreter instead. For the shaders, {}.", gpu::INSTALL);
+        eprintln!(
+            "No GPU adapter: the same graphs run on the CPU interpreter instead. For the shaders, {}.",
+            gpu::INSTALL
+        );
     }
-    let size = args.size.unwrap_or(if gpu.is_some() { UVec2::new(1280, 720) } else { UVec2::new(640, 360) });
+    let size = args.size.unwrap_or(if gpu.is_some() {
+        UVec2::new(1280, 720)
+    } else {
+        UVec2::new(640, 360)
+    });
     let shaders = default_set::files().map_err(Failure::of)?;
     files::write_all(&args.out.join("shaders"), &shaders).map_err(Failure::of)?;
 
     let world = scene::load(args.mesh.as_deref())?;
     let renderer = scene::renderer(gpu.as_ref(), &world, size)?;
-    let methods = [method("SRAA 4", "latin4", renderer.as_ref())?, method("SRAA 16", "latin16", renderer.as_ref())?];
+    let methods = [
+        method("SRAA 4", "latin4", renderer.as_ref())?,
+        method("SRAA 16", "latin16", renderer.as_ref())?,
+    ];
     let x16 = supersampled(renderer.as_ref(), 4, "16x supersampling")?;
     let x256 = supersampled(renderer.as_ref(), 16, "256x reference")?;
 
@@ -89,7 +99,10 @@ pub fn run(args: &DemoArgs) -> Result<(), Failure> {
     let record = Record {
         command: std::env::args().collect::<Vec<_>>().join(" "),
         date: humantime::format_rfc3339_seconds(SystemTime::now()).to_string(),
-        scene: args.mesh.as_ref().map_or("built-in".to_owned(), |p| p.display().to_string()),
+        scene: args
+            .mesh
+            .as_ref()
+            .map_or("built-in".to_owned(), |p| p.display().to_string()),
         size: size.to_array(),
         executor,
         clock,
@@ -106,7 +119,13 @@ fn method(name: &'static str, pattern: &'static str, renderer: &dyn Renderer) ->
     };
     let (_, samples) = scene::pattern(pattern)?;
     let capture = render::capture(renderer, &samples, ShadingSample::Centre).map_err(Failure::of)?;
-    Ok(Method { name, pattern, unrolled: compile(Unroll::Full)?, looped: compile(Unroll::None)?, capture })
+    Ok(Method {
+        name,
+        pattern,
+        unrolled: compile(Unroll::Full)?,
+        looped: compile(Unroll::None)?,
+        capture,
+    })
 }
 
 fn supersampled(renderer: &dyn Renderer, side: u32, what: &'static str) -> Result<Frame<Vec4>, Failure> {
@@ -118,7 +137,11 @@ fn supersampled(renderer: &dyn Renderer, side: u32, what: &'static str) -> Resul
 
 fn inputs(method: &Method) -> Inputs<'_> {
     let capture = &method.capture;
-    Inputs { color: &capture.color, depth: &capture.depth, normal: capture.normal.as_ref() }
+    Inputs {
+        color: &capture.color,
+        depth: &capture.depth,
+        normal: capture.normal.as_ref(),
+    }
 }
 
 /// The picture, times looped and unrolled, and what they were taken with.
@@ -126,11 +149,16 @@ type Measured = (Frame<Vec4>, [Times; 2], Clock);
 
 fn on_adapter(gpu: &Gpu, method: &Method, rounds: u32) -> Result<Measured, Failure> {
     let inputs = inputs(method);
-    let passes = [pass(gpu, &method.looped, Stage::Compute)?, pass(gpu, &method.unrolled, Stage::Compute)?];
+    let passes = [
+        pass(gpu, &method.looped, Stage::Compute)?,
+        pass(gpu, &method.unrolled, Stage::Compute)?,
+    ];
     let uploaded = Uploaded::new(gpu, &inputs)?;
     let bar = scene::bar("timing, in turn");
     bar.set_length(u64::from(rounds));
-    let (times, clock) = interleaved(gpu, &[&passes[0], &passes[1]], &uploaded, rounds, |k| bar.set_position(u64::from(k)))?;
+    let (times, clock) = interleaved(gpu, &[&passes[0], &passes[1]], &uploaded, rounds, |k| {
+        bar.set_position(u64::from(k))
+    })?;
     bar.finish_and_clear();
     let resolved = on_gpu(gpu, &method.unrolled, Stage::Compute, &inputs)?;
     Ok((resolved, [times[0], times[1]], clock))
@@ -182,7 +210,11 @@ fn measured_row(
     let counts = &method.unrolled.counts;
     let mut params = SraaParams::default();
     params.set("pattern", method.pattern).map_err(Failure::of)?;
-    let inputs = SraaInputs { color: &capture.color, depth: &capture.depth, normal: capture.normal.as_ref() };
+    let inputs = SraaInputs {
+        color: &capture.color,
+        depth: &capture.depth,
+        normal: capture.normal.as_ref(),
+    };
     let exact = oracle::sraa(&inputs, &params);
     Ok(Row {
         texture_reads: Some(counts.texture_reads + counts.colour_reads),
@@ -202,8 +234,10 @@ fn write_pictures(args: &DemoArgs, pictures: &[(&str, Frame<Vec4>)], reference: 
     }
     save("256x-reference.png", reference)?;
     let (corner, side, zoom) = busiest(&pictures[0].1, reference);
-    let details: Vec<(&str, Frame<Vec4>)> =
-        pictures.iter().map(|(name, frame)| (*name, picture::detail(frame, corner.x, corner.y, side.x, side.y, zoom))).collect();
+    let details: Vec<(&str, Frame<Vec4>)> = pictures
+        .iter()
+        .map(|(name, frame)| (*name, picture::detail(frame, corner.x, corner.y, side.x, side.y, zoom)))
+        .collect();
     let columns: Vec<(&str, &Frame<Vec4>)> = details.iter().map(|(name, frame)| (*name, frame)).collect();
     save("detail.png", &picture::montage(&columns))
 }
@@ -218,7 +252,10 @@ fn busiest(plain: &Frame<Vec4>, reference: &Frame<Vec4>) -> (UVec2, UVec2, u32) 
         apart.truncate().length_squared()
     };
     let sum = |corner: UVec2| -> f32 {
-        (0..side.y).flat_map(|y| (0..side.x).map(move |x| UVec2::new(x, y))).map(|p| error(corner + p)).sum()
+        (0..side.y)
+            .flat_map(|y| (0..side.x).map(move |x| UVec2::new(x, y)))
+            .map(|p| error(corner + p))
+            .sum()
     };
     let steps = |length: u32, window: u32| (0..=(length - window)).step_by(16);
     let corners = steps(size.y, side.y).flat_map(|y| steps(size.x, side.x).map(move |x| UVec2::new(x, y)));
@@ -245,18 +282,34 @@ fn print(args: &DemoArgs, record: &Record) -> Result<(), Failure> {
                 time(row.unrolled),
                 row.ratio.map_or(String::new(), |r| format!("{r:.1}x")),
                 format!("{:.2} dB", row.psnr_db),
-                row.largest_difference_to_f64.map_or(String::new(), |d| format!("{d:.1e}")),
+                row.largest_difference_to_f64
+                    .map_or(String::new(), |d| format!("{d:.1e}")),
             ]
         })
         .collect();
-    let headings = ["method", "reads", "weights", "looped", "unrolled", "ratio", "PSNR", "off f64 by"];
+    let headings = [
+        "method",
+        "reads",
+        "weights",
+        "looped",
+        "unrolled",
+        "ratio",
+        "PSNR",
+        "off f64 by",
+    ];
     println!("{}", table::render(&headings, &rows));
     let with = match record.clock {
         Clock::GpuTimestamps => "GPU timestamps, shaders in turn",
         Clock::WallClock => "wall clock, in turn",
     };
-    println!("{}x{} on {}; medians by {with}.", record.size[0], record.size[1], record.executor);
+    println!(
+        "{}x{} on {}; medians by {with}.",
+        record.size[0], record.size[1], record.executor
+    );
     println!("PSNR is against {}.", record.reference);
-    println!("Shaders, pictures and an enlarged detail are in {}.", args.out.display());
+    println!(
+        "Shaders, pictures and an enlarged detail are in {}.",
+        args.out.display()
+    );
     Ok(())
 }

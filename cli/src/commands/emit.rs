@@ -11,10 +11,15 @@ pub fn run(args: &EmitArgs) -> Result<(), Failure> {
     let compiled = kernel.compile(&args.kernel.options.settings())?;
     let targets: BTreeSet<_> = args.target.iter().copied().collect();
     let name = args.name.as_deref().unwrap_or(&compiled.kernel);
-    if name.is_empty() || !name.chars().all(|c| c.is_ascii_alphanumeric() || "_-.".contains(c)) || name.starts_with('.') {
-        return Err(Failure::Usage(format!("`{name}` cannot name files: use letters, digits, `_`, `-` and `.`")));
+    if name.is_empty() || !name.chars().all(|c| c.is_ascii_alphanumeric() || "_-.".contains(c)) || name.starts_with('.')
+    {
+        return Err(Failure::Usage(format!(
+            "`{name}` cannot name files: use letters, digits, `_`, `-` and `.`"
+        )));
     }
-    let emitted = compiled.emit(args.stage.into(), args.format, &targets).map_err(Failure::of)?;
+    let emitted = compiled
+        .emit(args.stage.into(), args.format, &targets)
+        .map_err(Failure::of)?;
     let written = files::write_all(&args.out, &emitted.named(name)).map_err(Failure::of)?;
     for file in written {
         println!("{}", file.display());

@@ -18,7 +18,9 @@ pub fn run(args: &ExplainArgs) -> Result<(), Failure> {
         }
     })?;
     // Statements are those of the emitted text.
-    let emitted = compiled.emit(Stage::Compute, Format::default(), &BTreeSet::new()).map_err(Failure::of)?;
+    let emitted = compiled
+        .emit(Stage::Compute, Format::default(), &BTreeSet::new())
+        .map_err(Failure::of)?;
     let counts = emitted.manifest.counts;
     let paper = paper(&compiled);
     if args.json {
@@ -59,7 +61,11 @@ fn to_json(compiled: &Compiled, counts: &Counts, paper: Option<PaperCounts>) -> 
 
 fn print(compiled: &Compiled, counts: &Counts, paper: Option<PaperCounts>) {
     println!("{}: {}", compiled.kernel, compiled.summary);
-    let options: Vec<String> = compiled.options.iter().map(|(name, value)| format!("{name}={value}")).collect();
+    let options: Vec<String> = compiled
+        .options
+        .iter()
+        .map(|(name, value)| format!("{name}={value}"))
+        .collect();
     println!("  {} unroll={}\n", options.join(" "), compiled.unroll.name());
     let mut rows = vec![
         row("basic blocks", counts.basic_blocks, None),
@@ -67,10 +73,16 @@ fn print(compiled: &Compiled, counts: &Counts, paper: Option<PaperCounts>) {
         row("texture reads", counts.texture_reads, paper.map(|p| p.texture_reads)),
     ];
     for (name, n) in &counts.reads {
-        rows.push(row(&format!("  of {name}{}", if name == "color" { ", counted apart" } else { "" }), *n, None));
+        rows.push(row(
+            &format!("  of {name}{}", if name == "color" { ", counted apart" } else { "" }),
+            *n,
+            None,
+        ));
     }
     for (name, n) in &counts.tallies {
-        let paper = paper.filter(|_| name == "weight_evaluations").map(|p| p.weight_evaluations);
+        let paper = paper
+            .filter(|_| name == "weight_evaluations")
+            .map(|p| p.weight_evaluations);
         rows.push(row(&name.replace('_', " "), *n, paper));
     }
     rows.push(row("transcendentals", counts.transcendentals, None));
@@ -81,5 +93,9 @@ fn print(compiled: &Compiled, counts: &Counts, paper: Option<PaperCounts>) {
 }
 
 fn row(name: &str, n: u32, paper: Option<u32>) -> Vec<String> {
-    vec![name.to_owned(), n.to_string(), paper.map_or(String::new(), |p| p.to_string())]
+    vec![
+        name.to_owned(),
+        n.to_string(),
+        paper.map_or(String::new(), |p| p.to_string()),
+    ]
 }

@@ -44,7 +44,12 @@ fn print_option(option: &OptionInfo) {
         }
         OptionKind::Number { min, max, .. } => {
             let bound = |b: &Option<f64>| b.map_or("any".to_owned(), |b| b.to_string());
-            println!("      {} to {}, or uniform (default {})", bound(min), bound(max), option.default);
+            println!(
+                "      {} to {}, or uniform (default {})",
+                bound(min),
+                bound(max),
+                option.default
+            );
         }
         OptionKind::Flag => println!("      true or false (default {})", option.default),
     }
@@ -52,8 +57,15 @@ fn print_option(option: &OptionInfo) {
 
 fn option_json(option: &OptionInfo) -> serde_json::Value {
     let values = match &option.kind {
-        OptionKind::Choice(values) => json!(values.iter().map(|(name, docs)| json!({ "value": name, "docs": docs })).collect::<Vec<_>>()),
-        OptionKind::Number { integer, min, max } => json!({ "integer": integer, "min": min, "max": max, "uniform": true }),
+        OptionKind::Choice(values) => json!(
+            values
+                .iter()
+                .map(|(name, docs)| json!({ "value": name, "docs": docs }))
+                .collect::<Vec<_>>()
+        ),
+        OptionKind::Number { integer, min, max } => {
+            json!({ "integer": integer, "min": min, "max": max, "uniform": true })
+        }
         OptionKind::Flag => json!(["true", "false"]),
     };
     json!({ "name": option.name, "docs": option.docs, "default": option.default, "values": values })

@@ -20,7 +20,11 @@ pub fn run(args: &ResolveArgs) -> Result<(), Failure> {
     let settings = with_capture(&args.options, &capture)?;
     let compiled = Kernel::builtin("sraa")?.compile(&settings.settings())?;
     check_normals(&compiled, &capture)?;
-    let inputs = Inputs { color: &capture.color, depth: &capture.depth, normal: capture.normal.as_ref() };
+    let inputs = Inputs {
+        color: &capture.color,
+        depth: &capture.depth,
+        normal: capture.normal.as_ref(),
+    };
     let (resolved, by) = match args.executor {
         Executor::Gpu => {
             let gpu = Gpu::require(&args.adapter)?;
@@ -67,10 +71,14 @@ fn report(
 fn errors(capture: &Capture, resolved: &Frame<Vec4>) -> Result<(f64, f64), Failure> {
     let Some(reference) = &capture.reference else {
         return Err(Failure::Failed(
-            "the capture has no reference.exr to compare with; capture with --reference 256, or leave --reference out".into(),
+            "the capture has no reference.exr to compare with; capture with --reference 256, or leave --reference out"
+                .into(),
         ));
     };
-    Ok((metrics::psnr(&capture.color, reference), metrics::psnr(resolved, reference)))
+    Ok((
+        metrics::psnr(&capture.color, reference),
+        metrics::psnr(resolved, reference),
+    ))
 }
 
 /// The options asked for, with those that the capture decides: where it was sampled.
@@ -105,12 +113,16 @@ fn with_capture(options: &OptionArgs, capture: &Capture) -> Result<OptionArgs, F
     let mut options = options.clone();
     for (name, decided) in [("pattern", pattern), ("shading", shading)] {
         if let Some((_, asked)) = options.set.iter().find(|(n, v)| n == name && v != decided) {
-            return Err(Failure::Usage(format!("--set {name}={asked}, but the capture was sampled with {name}={decided}")));
+            return Err(Failure::Usage(format!(
+                "--set {name}={asked}, but the capture was sampled with {name}={decided}"
+            )));
         }
         options.set.push((name.to_owned(), decided.to_owned()));
     }
     if let Some((name, _)) = options.set.iter().find(|(_, value)| value == "uniform") {
-        return Err(Failure::Usage(format!("`{name}=uniform` leaves the value to a host; here give a number")));
+        return Err(Failure::Usage(format!(
+            "`{name}=uniform` leaves the value to a host; here give a number"
+        )));
     }
     Ok(options)
 }

@@ -27,14 +27,27 @@ pub fn bindings(modules: &[Module<'_>]) -> String {
 fn module(module: &Module<'_>) -> TokenStream {
     let name = format_ident!("{}", module.name);
     let (wgsl, json) = (format!("{}.wgsl", module.name), format!("{}.json", module.name));
-    let options: Vec<String> = module.compiled.options.iter().map(|(name, value)| format!("`{name}` {value}")).collect();
+    let options: Vec<String> = module
+        .compiled
+        .options
+        .iter()
+        .map(|(name, value)| format!("`{name}` {value}"))
+        .collect();
     let summary = if module.compiled.summary.is_empty() {
         format!("The kernel `{}`.", module.compiled.kernel)
     } else {
         format!("{}.", module.compiled.summary.trim_end_matches('.'))
     };
-    let generated = format!("Generated for {}, loops unrolled: {}.", options.join(", "), module.compiled.unroll.name());
-    let generated = if options.is_empty() { format!("Loops unrolled: {}.", module.compiled.unroll.name()) } else { generated };
+    let generated = format!(
+        "Generated for {}, loops unrolled: {}.",
+        options.join(", "),
+        module.compiled.unroll.name()
+    );
+    let generated = if options.is_empty() {
+        format!("Loops unrolled: {}.", module.compiled.unroll.name())
+    } else {
+        generated
+    };
     let textures: Vec<_> = module.manifest.bindings.iter().filter_map(texture).collect();
     let fields = textures.iter().map(|(field, docs)| {
         quote! { #[doc = #docs] pub #field: &'a straightline_runtime::wgpu::TextureView }
@@ -103,17 +116,30 @@ fn module(module: &Module<'_>) -> TokenStream {
 }
 
 fn texture(binding: &straightline_manifest::Binding) -> Option<(proc_macro2::Ident, String)> {
-    let BindingKind::Texture { components, layers, dimension, .. } = &binding.kind else { return None };
+    let BindingKind::Texture {
+        components,
+        layers,
+        dimension,
+        ..
+    } = &binding.kind
+    else {
+        return None;
+    };
     let shape = match dimension {
         straightline_manifest::Dimension::D2 => "A 2-D texture".to_owned(),
         straightline_manifest::Dimension::D2Array => format!("A 2-D array texture of at least {layers} layers"),
     };
     let plural = if *components == 1 { "component" } else { "components" };
-    Some((format_ident!("{}", binding.name), format!("{shape}, of a float format with at least {components} {plural}.")))
+    Some((
+        format_ident!("{}", binding.name),
+        format!("{shape}, of a float format with at least {components} {plural}."),
+    ))
 }
 
 fn setters(kind: &BindingKind) -> Vec<TokenStream> {
-    let BindingKind::Uniform { fields, .. } = kind else { return Vec::new() };
+    let BindingKind::Uniform { fields, .. } = kind else {
+        return Vec::new();
+    };
     let setter = |field: &straightline_manifest::UniformField| {
         let (setter, name) = (format_ident!("set_{}", field.name), &field.name);
         let ty = rust_type(&field.ty);

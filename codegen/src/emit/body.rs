@@ -47,7 +47,12 @@ pub fn body(compiled: &Compiled, resources: &Resources, entry: &str, dialect: &d
     writer.block(&compiled.schedule.body)?;
     let result = writer.text(graph.output())?.code;
     writer.flush();
-    Ok(Body { tables: writer.tables, lines: writer.lines, result, statements: writer.statements })
+    Ok(Body {
+        tables: writer.tables,
+        lines: writer.lines,
+        result,
+        statements: writer.statements,
+    })
 }
 
 struct Writer<'a> {
@@ -91,7 +96,11 @@ impl Writer<'_> {
         let node = graph.node(id);
         match &node.op {
             Op::Const(bits) => {
-                let text = if node.ty.is_array() { None } else { Some(self.dialect.constant(&self.compiled.kernel, node.ty, bits)?) };
+                let text = if node.ty.is_array() {
+                    None
+                } else {
+                    Some(self.dialect.constant(&self.compiled.kernel, node.ty, bits)?)
+                };
                 self.texts[id.0 as usize] = text;
                 Ok(())
             }
@@ -101,7 +110,11 @@ impl Writer<'_> {
             Op::ArrayGet => self.array_get(id),
             _ => {
                 let text = self.expression(id)?;
-                let text = if self.plan.is_statement(id) || text.size > LONGEST { self.declare(id, &text) } else { text };
+                let text = if self.plan.is_statement(id) || text.size > LONGEST {
+                    self.declare(id, &text)
+                } else {
+                    text
+                };
                 self.texts[id.0 as usize] = Some(text);
                 Ok(())
             }
@@ -141,7 +154,10 @@ impl Writer<'_> {
 
     fn stale(&self, id: NodeId) -> EmitError {
         let array = self.plan.origin(id).map_or("an array", |o| o.name.as_str()).to_owned();
-        EmitError::ArrayVersions { kernel: self.compiled.kernel.clone(), array }
+        EmitError::ArrayVersions {
+            kernel: self.compiled.kernel.clone(),
+            array,
+        }
     }
 
     fn expression(&mut self, id: NodeId) -> Result<Text, EmitError> {
@@ -158,14 +174,21 @@ impl Writer<'_> {
             Op::Binary(op) => {
                 let [x, y] = [0, 1].map(|k| self.operand(*op, node.args[k], &args[k]));
                 // One side stays a vector, or the result would be a scalar.
-                let x = if self.is_splat(node.args[0]) && self.is_splat(node.args[1]) { args[0].clone() } else { x };
+                let x = if self.is_splat(node.args[0]) && self.is_splat(node.args[1]) {
+                    args[0].clone()
+                } else {
+                    x
+                };
                 d.binary(*op, operand, &x, &y)
             }
             Op::Dot => Text::call("dot", &[&args[0], &args[1]]),
             Op::Cross => Text::call("cross", &[&args[0], &args[1]]),
             Op::Clamp => Text::call("clamp", &[&args[0], &args[1], &args[2]]),
             Op::Select => d.select(&args[0], &args[1], &args[2]),
-            Op::Splat => Text { size: args[0].size, ..d.construct(node.ty, &[&args[0]]) },
+            Op::Splat => Text {
+                size: args[0].size,
+                ..d.construct(node.ty, &[&args[0]])
+            },
             Op::Compose => d.construct(node.ty, &args.iter().collect::<Vec<_>>()),
             Op::Extract(lane) => Text::member(&args[0], &"xyzw"[*lane as usize..=*lane as usize]),
             Op::Convert => d.convert(operand, node.ty, &args[0]),
@@ -180,7 +203,9 @@ impl Writer<'_> {
         let arithmetic = matches!(op, BinaryOp::Add | BinaryOp::Sub | BinaryOp::Mul | BinaryOp::Div);
         let node = self.compiled.graph.node(id);
         match node.op {
-            Op::Splat if arithmetic => self.texts[node.args[0].0 as usize].clone().unwrap_or_else(|| text.clone()),
+            Op::Splat if arithmetic => self.texts[node.args[0].0 as usize]
+                .clone()
+                .unwrap_or_else(|| text.clone()),
             _ => text.clone(),
         }
     }
@@ -196,7 +221,8 @@ impl Writer<'_> {
             let name = self.names.of(graph, array, self.plan.origin(array));
             let literal = self.text(array)?;
             if graph.node(array).args.iter().all(|a| graph.constant(*a).is_some()) {
-                self.tables.push(self.dialect.table(&name, graph.ty(array), &literal.code));
+                self.tables
+                    .push(self.dialect.table(&name, graph.ty(array), &literal.code));
                 self.texts[array.0 as usize] = Some(Text::name(name));
             } else {
                 let line = self.dialect.mutable(&name, graph.ty(array), Some(&literal.code));
@@ -217,7 +243,11 @@ impl Writer<'_> {
 
     fn indexed(&mut self, base: &Text, index: NodeId) -> Result<Text, EmitError> {
         let index = self.text(index)?;
-        Ok(Text { code: format!("{}[{}]", base.code, index.code), size: 1 + index.size, ..base.clone() })
+        Ok(Text {
+            code: format!("{}[{}]", base.code, index.code),
+            size: 1 + index.size,
+            ..base.clone()
+        })
     }
 
     fn array_set(&mut self, id: NodeId) -> Result<(), EmitError> {
@@ -277,7 +307,9 @@ impl Writer<'_> {
                 self.texts[param.0 as usize] = Some(Text::name(name));
             }
         }
-        let counter = self.names.of(graph, region.params[0], self.plan.origin(region.params[0]));
+        let counter = self
+            .names
+            .of(graph, region.params[0], self.plan.origin(region.params[0]));
         let (start, end) = (self.text(args[0])?, self.text(args[1])?);
         self.texts[region.params[0].0 as usize] = Some(Text::name(counter.as_str()));
         self.line(self.dialect.loop_head(&counter, &start, &end));
@@ -347,7 +379,11 @@ impl Writer<'_> {
 
     fn kept_branch(&mut self, node: NodeId, then: &Block, otherwise: &Block) -> Result<(), EmitError> {
         let graph = &self.compiled.graph;
-        let regions: Vec<_> = graph.regions_of(node).into_iter().map(|r| graph.region(r).clone()).collect();
+        let regions: Vec<_> = graph
+            .regions_of(node)
+            .into_iter()
+            .map(|r| graph.region(r).clone())
+            .collect();
         let results: Vec<NodeId> = graph
             .ids()
             .skip(node.0 as usize)
@@ -392,13 +428,21 @@ impl Writer<'_> {
     fn must_set_arrays(&self, results: &[NodeId], values: &[NodeId], _: &impl Sized) -> bool {
         let graph = &self.compiled.graph;
         results.iter().any(|id| {
-            let Op::Result(k) = graph.node(*id).op else { return false };
+            let Op::Result(k) = graph.node(*id).op else {
+                return false;
+            };
             let value = values[k as usize];
             graph.ty(*id).is_array() && graph.node(value).op == Op::MakeArray && !self.webs.holds(value)
         })
     }
 
-    fn side(&mut self, block: &Block, results: &[NodeId], values: &[NodeId], arrays_only: bool) -> Result<(), EmitError> {
+    fn side(
+        &mut self,
+        block: &Block,
+        results: &[NodeId],
+        values: &[NodeId],
+        arrays_only: bool,
+    ) -> Result<(), EmitError> {
         let graph = &self.compiled.graph;
         self.indent += 1;
         self.block(block)?;
@@ -425,7 +469,11 @@ impl Writer<'_> {
             && !origin.name.is_empty()
         {
             let agrees = origin.counters.iter().all(|c| {
-                self.group.counters.iter().find(|known| known.name == c.name).is_none_or(|known| known.value == c.value)
+                self.group
+                    .counters
+                    .iter()
+                    .find(|known| known.name == c.name)
+                    .is_none_or(|known| known.value == c.value)
             });
             if !agrees {
                 self.flush();
@@ -468,7 +516,8 @@ impl Writer<'_> {
             let values: Vec<String> = counters.iter().map(|c| format!("{} {}", c.name, c.value)).collect();
             let file = graph.files.get(*file as usize).map_or("", String::as_str);
             let colon = if values.is_empty() { "" } else { ": " };
-            self.lines.push(format!("{indent}// {}{colon}{file}:{line}", values.join(", ")));
+            self.lines
+                .push(format!("{indent}// {}{colon}{file}:{line}", values.join(", ")));
             self.commented = place;
         }
         self.lines.extend(group.lines);
@@ -477,7 +526,9 @@ impl Writer<'_> {
     /// Outer counters first: the order in which any origin that has all of them lists them.
     fn compiled_order(&self, counter: &Counter) -> usize {
         let lists = self.compiled.graph.origins.iter().flatten();
-        lists.filter_map(|o| o.counters.iter().position(|c| c.name == counter.name)).max().unwrap_or(0)
+        lists
+            .filter_map(|o| o.counters.iter().position(|c| c.name == counter.name))
+            .max()
+            .unwrap_or(0)
     }
 }
-

@@ -47,7 +47,11 @@ pub trait Dialect {
         if kind == Scalar::F32
             && let Some(bad) = lanes.iter().map(|b| f32::from_bits(*b)).find(|x| !x.is_finite())
         {
-            return Err(EmitError::Constant { kernel: kernel.to_owned(), value: bad.to_string(), target: self.name() });
+            return Err(EmitError::Constant {
+                kernel: kernel.to_owned(),
+                value: bad.to_string(),
+                target: self.name(),
+            });
         }
         let parts: Vec<Text> = lanes.iter().map(|b| self.scalar(kind, *b)).collect();
         if parts.len() == 1 {
@@ -55,7 +59,10 @@ pub trait Dialect {
         }
         let same = lanes.iter().all(|b| *b == lanes[0]);
         let shown: Vec<&Text> = if same { vec![&parts[0]] } else { parts.iter().collect() };
-        Ok(Text { size: 0, ..self.construct(ty, &shown) })
+        Ok(Text {
+            size: 0,
+            ..self.construct(ty, &shown)
+        })
     }
 }
 
@@ -63,13 +70,29 @@ pub trait Dialect {
 pub fn float(bits: u32) -> Text {
     let x = f32::from_bits(bits);
     let code = format!("{x:?}");
-    Text { binds: if x.is_sign_negative() { super::text::Binds::Prefix } else { super::text::Binds::Primary }, code, size: 0 }
+    Text {
+        binds: if x.is_sign_negative() {
+            super::text::Binds::Prefix
+        } else {
+            super::text::Binds::Primary
+        },
+        code,
+        size: 0,
+    }
 }
 
 /// An integer literal with a suffix.
 pub fn integer(n: i64, suffix: &str) -> Text {
     let code = format!("{n}{suffix}");
-    Text { binds: if n < 0 { super::text::Binds::Prefix } else { super::text::Binds::Primary }, code, size: 0 }
+    Text {
+        binds: if n < 0 {
+            super::text::Binds::Prefix
+        } else {
+            super::text::Binds::Primary
+        },
+        code,
+        size: 0,
+    }
 }
 
 /// Binary operators that both languages write alike, and how tightly they bind.

@@ -4,7 +4,9 @@
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum EmitError {
     /// A constant that no shading language can write.
-    #[error("`{kernel}` needs the constant {value}, which {target} cannot write: bound it with `min` or `max` in the kernel")]
+    #[error(
+        "`{kernel}` needs the constant {value}, which {target} cannot write: bound it with `min` or `max` in the kernel"
+    )]
     Constant {
         /// The kernel.
         kernel: String,
@@ -14,7 +16,9 @@ pub enum EmitError {
         target: &'static str,
     },
     /// The size of the frame is needed and nothing tells it.
-    #[error("`{kernel}` asks for the frame's size but reads no texture, so its fragment shader cannot know: emit it for compute")]
+    #[error(
+        "`{kernel}` asks for the frame's size but reads no texture, so its fragment shader cannot know: emit it for compute"
+    )]
     NoFrame {
         /// The kernel.
         kernel: String,
@@ -28,7 +32,9 @@ pub enum EmitError {
         name: String,
     },
     /// An array of a kept loop is used after it was changed.
-    #[error("`{kernel}` uses an old version of the array `{array}` after changing it in a kept loop: copy what is needed before, or unroll fully")]
+    #[error(
+        "`{kernel}` uses an old version of the array `{array}` after changing it in a kept loop: copy what is needed before, or unroll fully"
+    )]
     ArrayVersions {
         /// The kernel.
         kernel: String,
@@ -36,7 +42,9 @@ pub enum EmitError {
         array: String,
     },
     /// A validator refused the text: a mistake of the emitter's.
-    #[error("the {target} text of `{kernel}` is not valid; this is a mistake in Straightline, please report it:\n{message}")]
+    #[error(
+        "the {target} text of `{kernel}` is not valid; this is a mistake in Straightline, please report it:\n{message}"
+    )]
     Invalid {
         /// The kernel.
         kernel: String,

@@ -70,7 +70,10 @@ impl Dialect for Glsl<'_> {
     }
 
     fn loop_head(&self, counter: &str, start: &Text, end: &Text) -> String {
-        format!("for (int {counter} = {}; {counter} < {}; {counter}++) {{", start.code, end.code)
+        format!(
+            "for (int {counter} = {}; {counter} < {}; {counter}++) {{",
+            start.code, end.code
+        )
     }
 
     fn if_head(&self, condition: &Text) -> String {
@@ -172,7 +175,13 @@ impl Dialect for Glsl<'_> {
     }
 
     fn select(&self, condition: &Text, yes: &Text, no: &Text) -> Text {
-        let wrap = |t: &Text| if t.binds <= Binds::Ternary { format!("({})", t.code) } else { t.code.clone() };
+        let wrap = |t: &Text| {
+            if t.binds <= Binds::Ternary {
+                format!("({})", t.code)
+            } else {
+                t.code.clone()
+            }
+        };
         Text {
             code: format!("({} ? {} : {})", wrap(condition), wrap(yes), wrap(no)),
             binds: Binds::Primary,

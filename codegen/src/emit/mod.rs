@@ -53,7 +53,12 @@ impl Emitted {
 }
 
 /// Emits a kernel for a stage, its result in `format`. Nothing is given out that naga does not validate.
-pub fn emit(compiled: &Compiled, stage: Stage, format: Format, targets: &BTreeSet<Target>) -> Result<Emitted, EmitError> {
+pub fn emit(
+    compiled: &Compiled,
+    stage: Stage,
+    format: Format,
+    targets: &BTreeSet<Target>,
+) -> Result<Emitted, EmitError> {
     let resources = resources::Resources::of(compiled, stage, format)?;
     let wgsl = shell::render(compiled, &resources, &wgsl::Wgsl { resources: &resources })?;
     let mut manifest = resources.manifest(compiled);

@@ -24,18 +24,35 @@ pub struct Names {
 impl Names {
     /// Names of a graph's values, with those of the shader's bindings taken.
     pub fn new(graph: &Graph, resources: &Resources, entry: &str) -> Names {
-        let mut taken: HashSet<String> = ["pixel", "frame", "id", "position", OUTPUT, SAMPLER, UNIFORMS, entry, "main"]
-            .map(str::to_owned)
-            .into();
+        let mut taken: HashSet<String> = [
+            "pixel", "frame", "id", "position", OUTPUT, SAMPLER, UNIFORMS, entry, "main",
+        ]
+        .map(str::to_owned)
+        .into();
         taken.extend(resources.read.iter().map(|(k, ..)| resources.texture(*k).name.clone()));
-        let counters: BTreeSet<&str> =
-            graph.origins.iter().flatten().flat_map(|o| &o.counters).map(|c| c.name.as_str()).collect();
+        let counters: BTreeSet<&str> = graph
+            .origins
+            .iter()
+            .flatten()
+            .flat_map(|o| &o.counters)
+            .map(|c| c.name.as_str())
+            .collect();
         let initial = |name: &str| name.chars().next().unwrap_or('k');
         let short = counters.iter().map(|name| {
             let alone = counters.iter().filter(|other| initial(other) == initial(name)).count() == 1;
-            ((*name).to_owned(), if alone { initial(name).to_string() } else { (*name).to_owned() })
+            (
+                (*name).to_owned(),
+                if alone {
+                    initial(name).to_string()
+                } else {
+                    (*name).to_owned()
+                },
+            )
         });
-        Names { taken, short: short.collect() }
+        Names {
+            taken,
+            short: short.collect(),
+        }
     }
 
     /// A name for a node.
@@ -51,19 +68,33 @@ impl Names {
 
     /// `_s2`, or `_jn1` for -1.
     fn counter(&self, counter: &Counter) -> String {
-        let short = self.short.get(&counter.name).map_or(counter.name.as_str(), String::as_str);
+        let short = self
+            .short
+            .get(&counter.name)
+            .map_or(counter.name.as_str(), String::as_str);
         let sign = if counter.value < 0 { "n" } else { "" };
         format!("_{short}{sign}{}", counter.value.unsigned_abs())
     }
 
     /// `wanted`, or with a number if that is taken.
     pub fn fresh(&mut self, wanted: &str) -> String {
-        let base: String = wanted.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' }).collect();
+        let base: String = wanted
+            .chars()
+            .map(|c| if c.is_ascii_alphanumeric() { c } else { '_' })
+            .collect();
         // GLSL keeps two underscores in a row for itself, naga a digit at the end of a name for its own suffixes.
         let base = base.replace("__", "_");
         let base = base.trim_start_matches('_');
-        let base = if base.is_empty() || base.starts_with(|c: char| c.is_ascii_digit()) { format!("v{base}") } else { base.to_owned() };
-        let mut name = if is_reserved(&base) { format!("{base}_value") } else { base.clone() };
+        let base = if base.is_empty() || base.starts_with(|c: char| c.is_ascii_digit()) {
+            format!("v{base}")
+        } else {
+            base.to_owned()
+        };
+        let mut name = if is_reserved(&base) {
+            format!("{base}_value")
+        } else {
+            base.clone()
+        };
         let mut k = 2;
         while !self.taken.insert(name.clone()) {
             name = format!("{base}_{k}");

@@ -23,7 +23,10 @@ impl<'a> Plan<'a> {
             crosses: vec![false; graph.nodes.len()],
             origins: graph.ids().map(|id| graph.origin(id)).collect(),
         };
-        let live: Vec<NodeId> = graph.ids().filter(|id| schedule.place[id.0 as usize].is_some()).collect();
+        let live: Vec<NodeId> = graph
+            .ids()
+            .filter(|id| schedule.place[id.0 as usize].is_some())
+            .collect();
         for id in &live {
             let here = schedule.place[id.0 as usize];
             for arg in &graph.node(*id).args {
@@ -36,7 +39,11 @@ impl<'a> Plan<'a> {
             }
         }
         // A tally is what it tallies: uses and name pass on to it, last to first so that chains do too.
-        for id in live.iter().rev().filter(|id| matches!(graph.node(**id).op, Op::Tally(_))) {
+        for id in live
+            .iter()
+            .rev()
+            .filter(|id| matches!(graph.node(**id).op, Op::Tally(_)))
+        {
             let (slot, arg) = (id.0 as usize, graph.node(*id).args[0].0 as usize);
             plan.uses[arg] = plan.uses[arg] - 1 + plan.uses[slot];
             plan.crosses[arg] |= plan.crosses[slot];
@@ -58,7 +65,13 @@ impl<'a> Plan<'a> {
     pub fn is_statement(&self, id: NodeId) -> bool {
         let node = self.graph.node(id);
         match node.op {
-            Op::Const(_) | Op::Pixel | Op::FrameSize | Op::Uniform(_) | Op::Param(..) | Op::Result(_) | Op::Tally(_) => false,
+            Op::Const(_)
+            | Op::Pixel
+            | Op::FrameSize
+            | Op::Uniform(_)
+            | Op::Param(..)
+            | Op::Result(_)
+            | Op::Tally(_) => false,
             Op::Loop(_) | Op::If(..) | Op::MakeArray | Op::ArraySet => false,
             Op::Load { .. } | Op::ArrayGet => true,
             Op::Extract(_) | Op::Splat if self.is_atom(node.args[0]) => false,

@@ -5,7 +5,9 @@ use super::layout::layout;
 use crate::ir::{NodeId, Op, Texture, Uniform};
 use crate::passes::layers_read;
 use crate::pipeline::Compiled;
-use straightline_manifest::{Access, Binding, BindingKind, Dimension, Format, Manifest, Output, SCHEMA, Stage, UniformField};
+use straightline_manifest::{
+    Access, Binding, BindingKind, Dimension, Format, Manifest, Output, SCHEMA, Stage, UniformField,
+};
 
 /// Name of the uniform buffer.
 pub const UNIFORMS: &str = "parameters";
@@ -40,7 +42,12 @@ impl Resources {
     pub fn of(compiled: &Compiled, stage: Stage, format: Format) -> Result<Resources, EmitError> {
         let graph = &compiled.graph;
         let live = |id: &NodeId| compiled.schedule.place[id.0 as usize].is_some();
-        let reads = |k: u32| graph.ids().filter(live).any(|id| matches!(graph.node(id).op, Op::Load { texture, .. } if texture == k));
+        let reads = |k: u32| {
+            graph
+                .ids()
+                .filter(live)
+                .any(|id| matches!(graph.node(id).op, Op::Load { texture, .. } if texture == k))
+        };
         let mut read = Vec::new();
         for k in 0..graph.textures.len() as u32 {
             if reads(k) {
@@ -48,20 +55,42 @@ impl Resources {
             }
         }
         let used = |k: u32| graph.ids().filter(live).any(|id| graph.node(id).op == Op::Uniform(k));
-        let uniforms: Vec<&Uniform> =
-            graph.uniforms.iter().enumerate().filter(|(k, _)| used(*k as u32)).map(|(_, u)| u).collect();
+        let uniforms: Vec<&Uniform> = graph
+            .uniforms
+            .iter()
+            .enumerate()
+            .filter(|(k, _)| used(*k as u32))
+            .map(|(_, u)| u)
+            .collect();
         let textures_read = read.iter().map(|(k, ..)| &graph.textures[*k as usize].name);
         let bound = textures_read.chain(uniforms.iter().map(|u| &u.name));
         let own = [UNIFORMS, SAMPLER, OUTPUT, "frame", "pixel", "id", "position"];
-        if let Some(name) = bound.into_iter().find(|name| super::names::is_reserved(name) || own.contains(&name.as_str())) {
-            return Err(EmitError::Reserved { kernel: compiled.kernel.clone(), name: name.clone() });
+        if let Some(name) = bound
+            .into_iter()
+            .find(|name| super::names::is_reserved(name) || own.contains(&name.as_str()))
+        {
+            return Err(EmitError::Reserved {
+                kernel: compiled.kernel.clone(),
+                name: name.clone(),
+            });
         }
         let (fields, uniform_size) = layout(&uniforms);
-        let needs_frame = stage == Stage::Compute || graph.ids().filter(live).any(|id| graph.node(id).op == Op::FrameSize);
+        let needs_frame =
+            stage == Stage::Compute || graph.ids().filter(live).any(|id| graph.node(id).op == Op::FrameSize);
         if needs_frame && stage == Stage::Fragment && read.is_empty() {
-            return Err(EmitError::NoFrame { kernel: compiled.kernel.clone() });
+            return Err(EmitError::NoFrame {
+                kernel: compiled.kernel.clone(),
+            });
         }
-        Ok(Resources { stage, format, textures: graph.textures.clone(), read, fields, uniform_size, needs_frame })
+        Ok(Resources {
+            stage,
+            format,
+            textures: graph.textures.clone(),
+            read,
+            fields,
+            uniform_size,
+            needs_frame,
+        })
     }
 
     /// A texture by its index in the graph.
@@ -90,7 +119,11 @@ impl Resources {
         let mut bindings = Vec::new();
         for (index, binding, layers) in &self.read {
             let texture = self.texture(*index);
-            let dimension = if texture.layered { Dimension::D2Array } else { Dimension::D2 };
+            let dimension = if texture.layered {
+                Dimension::D2Array
+            } else {
+                Dimension::D2
+            };
             bindings.push(Binding {
                 group: 0,
                 binding: *binding,
@@ -108,7 +141,11 @@ impl Resources {
                 group: 0,
                 binding,
                 name: UNIFORMS.to_owned(),
-                kind: BindingKind::Uniform { access: Access::Read, size: self.uniform_size, fields: self.fields.clone() },
+                kind: BindingKind::Uniform {
+                    access: Access::Read,
+                    size: self.uniform_size,
+                    fields: self.fields.clone(),
+                },
             });
         }
         let compute = self.stage == Stage::Compute;

@@ -33,13 +33,21 @@ pub struct Text {
 impl Text {
     /// A name or literal.
     pub fn name(code: impl Into<String>) -> Text {
-        Text { code: code.into(), binds: Binds::Primary, size: 0 }
+        Text {
+            code: code.into(),
+            binds: Binds::Primary,
+            size: 0,
+        }
     }
 
     /// A call of a function.
     pub fn call(function: &str, args: &[&Text]) -> Text {
         let list: Vec<&str> = args.iter().map(|a| a.code.as_str()).collect();
-        Text { code: format!("{function}({})", list.join(", ")), binds: Binds::Primary, size: size(args) }
+        Text {
+            code: format!("{function}({})", list.join(", ")),
+            binds: Binds::Primary,
+            size: size(args),
+        }
     }
 
     /// `left op right`.
@@ -47,19 +55,39 @@ impl Text {
         // Left to right as evaluated: a right side of the same strength keeps its parentheses, so that no rounding moves.
         let l = left.inside(binds, false);
         let r = right.inside(binds, true);
-        Text { code: format!("{l} {op} {r}"), binds, size: size(&[left, right]) }
+        Text {
+            code: format!("{l} {op} {r}"),
+            binds,
+            size: size(&[left, right]),
+        }
     }
 
     /// `op x`.
     pub fn prefix(op: &str, operand: &Text) -> Text {
-        let inner = if operand.binds < Binds::Primary { format!("({})", operand.code) } else { operand.code.clone() };
-        Text { code: format!("{op}{inner}"), binds: Binds::Prefix, size: size(&[operand]) }
+        let inner = if operand.binds < Binds::Primary {
+            format!("({})", operand.code)
+        } else {
+            operand.code.clone()
+        };
+        Text {
+            code: format!("{op}{inner}"),
+            binds: Binds::Prefix,
+            size: size(&[operand]),
+        }
     }
 
     /// `x.member`.
     pub fn member(base: &Text, member: &str) -> Text {
-        let inner = if base.binds < Binds::Primary { format!("({})", base.code) } else { base.code.clone() };
-        Text { code: format!("{inner}.{member}"), binds: Binds::Primary, size: base.size }
+        let inner = if base.binds < Binds::Primary {
+            format!("({})", base.code)
+        } else {
+            base.code.clone()
+        };
+        Text {
+            code: format!("{inner}.{member}"),
+            binds: Binds::Primary,
+            size: base.size,
+        }
     }
 
     /// The text as an operand of an operator that binds so.
@@ -67,7 +95,11 @@ impl Text {
         let loose = self.binds < outer || (right && self.binds == outer);
         let mixed = (outer == Binds::Mixed || self.binds == Binds::Mixed) && self.binds < Binds::Prefix;
         let compared = outer == Binds::Comparison && self.binds == Binds::Comparison;
-        if loose || mixed || compared { format!("({})", self.code) } else { self.code.clone() }
+        if loose || mixed || compared {
+            format!("({})", self.code)
+        } else {
+            self.code.clone()
+        }
     }
 }
 

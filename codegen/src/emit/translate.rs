@@ -16,10 +16,18 @@ pub struct Module {
 impl Module {
     /// Parses and validates WGSL.
     pub fn parse_wgsl(kernel: &str, text: &str) -> Result<Module, EmitError> {
-        let invalid = |message| EmitError::Invalid { kernel: kernel.to_owned(), target: "wgsl", message };
+        let invalid = |message| EmitError::Invalid {
+            kernel: kernel.to_owned(),
+            target: "wgsl",
+            message,
+        };
         let module = naga::front::wgsl::parse_str(text).map_err(|error| invalid(error.emit_to_string(text)))?;
-        let info = validate(&module).map_err(|error| invalid(error.emit_to_string(text)))?;
-        Ok(Module { kernel: kernel.to_owned(), module, info })
+        let info = validate(&module, text).map_err(invalid)?;
+        Ok(Module {
+            kernel: kernel.to_owned(),
+            module,
+            info,
+        })
     }
 
     fn stage(resources: &Resources) -> naga::ShaderStage {
@@ -27,17 +35,26 @@ impl Module {
     }
 
     fn failed(&self, target: &'static str, message: impl ToString) -> EmitError {
-        EmitError::Translate { kernel: self.kernel.clone(), target, message: message.to_string() }
+        EmitError::Translate {
+            kernel: self.kernel.clone(),
+            target,
+            message: message.to_string(),
+        }
     }
 
     /// SPIR-V 1.3, little-endian words.
     pub fn spirv(&self, resources: &Resources) -> Result<Vec<u8>, EmitError> {
-        let options = spv::Options { lang_version: (1, 3), flags: spv::WriterFlags::DEBUG, ..Default::default() };
+        let options = spv::Options {
+            lang_version: (1, 3),
+            flags: spv::WriterFlags::DEBUG,
+            ..Default::default()
+        };
         let pipeline = spv::PipelineOptions {
             shader_stage: Self::stage(resources),
             entry_point: super::shell::entry_point(&self.kernel),
         };
-        let words = spv::write_vec(&self.module, &self.info, &options, Some(&pipeline)).map_err(|e| self.failed("spirv", e))?;
+        let words =
+            spv::write_vec(&self.module, &self.info, &options, Some(&pipeline)).map_err(|e| self.failed("spirv", e))?;
         Ok(words.into_iter().flat_map(u32::to_le_bytes).collect())
     }
 
@@ -46,7 +63,9 @@ impl Module {
         let mut text = String::new();
         let (options, pipeline) = (hlsl::Options::default(), hlsl::PipelineOptions::default());
         let mut writer = hlsl::Writer::new(&mut text, &options, &pipeline);
-        writer.write(&self.module, &self.info, None).map_err(|e| self.failed("hlsl", e))?;
+        writer
+            .write(&self.module, &self.info, None)
+            .map_err(|e| self.failed("hlsl", e))?;
         Ok(text)
     }
 
@@ -56,11 +75,18 @@ impl Module {
         let at = |binding| naga::ResourceBinding { group: 0, binding };
         let textures = resources.read.iter().map(|(_, binding, _)| (*binding, false));
         for (binding, mutable) in textures.chain(resources.output_binding().map(|b| (b, true))) {
-            let target = msl::BindTarget { texture: Some(binding as u8), mutable, ..Default::default() };
+            let target = msl::BindTarget {
+                texture: Some(binding as u8),
+                mutable,
+                ..Default::default()
+            };
             slots.resources.insert(at(binding), target);
         }
         if let Some(binding) = resources.uniform_binding() {
-            let target = msl::BindTarget { buffer: Some(binding as u8), ..Default::default() };
+            let target = msl::BindTarget {
+                buffer: Some(binding as u8),
+                ..Default::default()
+            };
             slots.resources.insert(at(binding), target);
         }
         let entry = super::shell::entry_point(&self.kernel);
@@ -71,18 +97,24 @@ impl Module {
             ..Default::default()
         };
         let pipeline = msl::PipelineOptions::default();
-        let (text, _) = msl::write_string(&self.module, &self.info, &options, &pipeline).map_err(|e| self.failed("msl", e))?;
+        let (text, _) =
+            msl::write_string(&self.module, &self.info, &options, &pipeline).map_err(|e| self.failed("msl", e))?;
         Ok(text)
     }
 }
 
 /// Parses and validates GLSL.
 pub fn check_glsl(kernel: &str, of: Stage, text: &str) -> Result<(), EmitError> {
-    let invalid = |message| EmitError::Invalid { kernel: kernel.to_owned(), target: "glsl450", message };
+    let invalid = |message| EmitError::Invalid {
+        kernel: kernel.to_owned(),
+        target: "glsl450",
+        message,
+    };
     let options = naga::front::glsl::Options::from(stage(of));
-    let module =
-        naga::front::glsl::Frontend::default().parse(&options, text).map_err(|error| invalid(error.emit_to_string(text)))?;
-    validate(&module).map_err(|error| invalid(error.emit_to_string(text)))?;
+    let module = naga::front::glsl::Frontend::default()
+        .parse(&options, text)
+        .map_err(|error| invalid(error.emit_to_string(text)))?;
+    validate(&module, text).map_err(invalid)?;
     Ok(())
 }
 
@@ -93,6 +125,7 @@ fn stage(stage: Stage) -> naga::ShaderStage {
     }
 }
 
-fn validate(module: &naga::Module) -> Result<ModuleInfo, naga::WithSpan<naga::valid::ValidationError>> {
-    Validator::new(ValidationFlags::all(), Capabilities::empty()).validate(module)
+fn validate(module: &naga::Module, text: &str) -> Result<ModuleInfo, String> {
+    let mut validator = Validator::new(ValidationFlags::all(), Capabilities::empty());
+    validator.validate(module).map_err(|error| error.emit_to_string(text))
 }

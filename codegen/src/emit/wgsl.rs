@@ -46,7 +46,10 @@ impl Dialect for Wgsl<'_> {
     }
 
     fn loop_head(&self, counter: &str, start: &Text, end: &Text) -> String {
-        format!("for (var {counter} = {}; {counter} < {}; {counter}++) {{", start.code, end.code)
+        format!(
+            "for (var {counter} = {}; {counter} < {}; {counter}++) {{",
+            start.code, end.code
+        )
     }
 
     fn if_head(&self, condition: &Text) -> String {
@@ -101,7 +104,11 @@ impl Dialect for Wgsl<'_> {
         if matches!(op, BinaryOp::Shl | BinaryOp::Shr) {
             // WGSL shifts by unsigned counts, and makes a constant count of 32 or more an error.
             let counts = ty.with_scalar(Scalar::U32);
-            let count = if kind == Scalar::U32 { y.clone() } else { Text::call(&self.ty(counts), &[y]) };
+            let count = if kind == Scalar::U32 {
+                y.clone()
+            } else {
+                Text::call(&self.ty(counts), &[y])
+            };
             let mask = Text::call(&self.ty(counts), &[&Text::name("31u")]);
             let count = Text::infix(&count, "&", &mask, Binds::Mixed);
             let op = if op == BinaryOp::Shl { "<<" } else { ">>" };
@@ -138,7 +145,10 @@ impl Dialect for Wgsl<'_> {
 pub fn type_name(ty: Type) -> String {
     match ty {
         Type::Value { scalar, lanes: 1 } => scalar.to_string(),
-        Type::Value { scalar: Scalar::Bool, lanes } => format!("vec{lanes}<bool>"),
+        Type::Value {
+            scalar: Scalar::Bool,
+            lanes,
+        } => format!("vec{lanes}<bool>"),
         Type::Value { scalar, lanes } => format!("vec{lanes}{}", &scalar.to_string()[..1]),
         Type::Array { len, .. } => format!("array<{}, {len}>", type_name(ty.element())),
         Type::Results => "void".to_owned(),

@@ -70,7 +70,9 @@ impl Evaluator<'_> {
 
     /// `old` with the part at `path` replaced.
     fn replace(&mut self, old: &Value, path: &[Step], new: Value, span: Span) -> Eval {
-        let Some((step, rest)) = path.split_first() else { return Ok(new) };
+        let Some((step, rest)) = path.split_first() else {
+            return Ok(new);
+        };
         match (old, step) {
             (Value::Struct { ty, fields }, Step::Field(name)) => {
                 let mut fields = fields.clone();
@@ -112,7 +114,11 @@ impl Evaluator<'_> {
         let index = self.index_node(index, span)?;
         let (element, _) = self.same_type(&element, &current, span)?;
         let ty = self.ty(array);
-        Ok(Value::Node(self.builder.add(Op::ArraySet, vec![array, index, element], ty)))
+        Ok(Value::Node(self.builder.add(
+            Op::ArraySet,
+            vec![array, index, element],
+            ty,
+        )))
     }
 
     fn set_lane(&mut self, vector: NodeId, name: &str, new: &Value, span: Span) -> Eval {
@@ -124,7 +130,11 @@ impl Evaluator<'_> {
         let mut lanes = Vec::new();
         for k in 0..ty.lanes() {
             let old = self.builder.add(Op::Extract(k), vec![vector], part);
-            lanes.push(if k == changed { self.same_type(new, &Value::Node(old), span)?.0 } else { old });
+            lanes.push(if k == changed {
+                self.same_type(new, &Value::Node(old), span)?.0
+            } else {
+                old
+            });
         }
         Ok(Value::Node(self.builder.add(Op::Compose, lanes, ty)))
     }

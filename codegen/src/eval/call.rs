@@ -1,6 +1,5 @@
 //! Calls: the kernel's own functions, inlined, and the prelude's.
 
-use super::scope::Scope;
 use super::value::{Eval, Exit, Value};
 use super::{Evaluator, MAX_CALLS};
 use crate::diagnostic::{Diagnostic, Span};
@@ -36,10 +35,12 @@ impl Evaluator<'_> {
             ([.., ty, name], [receiver, rest @ ..]) if ty == "f32" || vector_type(ty).is_some() => {
                 self.math(receiver, name, rest, span)
             }
-            _ => Err(Diagnostic::at(span, format!("there is no function `{}`", path.join("::")))
-                .label("not found in the kernel's files")
-                .help("define it in one of the kernel's files, or use a function of the prelude")
-                .into()),
+            _ => Err(
+                Diagnostic::at(span, format!("there is no function `{}`", path.join("::")))
+                    .label("not found in the kernel's files")
+                    .help("define it in one of the kernel's files, or use a function of the prelude")
+                    .into(),
+            ),
         }
     }
 
@@ -50,13 +51,20 @@ impl Evaluator<'_> {
             return Err(Diagnostic::at(span, format!("there is no function `{name}`")).into());
         };
         if args.len() != function.params.len() {
-            return Err(Diagnostic::at(span, format!("`{name}` takes {} arguments, not {}", function.params.len(), args.len())).into());
+            return Err(Diagnostic::at(
+                span,
+                format!("`{name}` takes {} arguments, not {}", function.params.len(), args.len()),
+            )
+            .into());
         }
         if self.calls.len() >= MAX_CALLS {
-            return Err(Diagnostic::at(span, format!("calls are nested more than {MAX_CALLS} deep, in `{name}`"))
-                .label("recursion that does not end?")
-                .help("let the recursion end by a condition that is known")
-                .into());
+            return Err(Diagnostic::at(
+                span,
+                format!("calls are nested more than {MAX_CALLS} deep, in `{name}`"),
+            )
+            .label("recursion that does not end?")
+            .help("let the recursion end by a condition that is known")
+            .into());
         }
         let outer = std::mem::take(&mut self.scope);
         for ((param, _, _), value) in function.params.iter().zip(args) {
@@ -68,7 +76,9 @@ impl Evaluator<'_> {
         self.scope = outer;
         match result {
             Err(Exit::Return(value)) => Ok(value),
-            Err(Exit::Break | Exit::Continue) => Err(Diagnostic::at(function.span, "`break` or `continue` outside of a loop").into()),
+            Err(Exit::Break | Exit::Continue) => {
+                Err(Diagnostic::at(function.span, "`break` or `continue` outside of a loop").into())
+            }
             other => other,
         }
     }
@@ -83,7 +93,11 @@ impl Evaluator<'_> {
         if parts.len() != lanes as usize {
             return Err(Diagnostic::at(span, format!("a vector of {lanes} lanes from {}", parts.len())).into());
         }
-        Ok(Value::Node(self.builder.add(Op::Compose, parts, Type::value(kind, lanes))))
+        Ok(Value::Node(self.builder.add(
+            Op::Compose,
+            parts,
+            Type::value(kind, lanes),
+        )))
     }
 
     fn lane_node(&mut self, value: &Value, kind: Scalar, span: Span) -> Eval<NodeId> {
@@ -94,7 +108,11 @@ impl Evaluator<'_> {
         if self.ty(id).kind() == Some(kind) && !self.ty(id).is_array() {
             return Ok(id);
         }
-        Err(Diagnostic::at(span, format!("a {} where a {kind} is needed", self.ty(id))).help(format!("convert it with `as {kind}`")).into())
+        Err(
+            Diagnostic::at(span, format!("a {} where a {kind} is needed", self.ty(id)))
+                .help(format!("convert it with `as {kind}`"))
+                .into(),
+        )
     }
 
     fn tally(&mut self, name: &str, value: &Value, span: Span) -> Eval {
@@ -123,20 +141,29 @@ impl Evaluator<'_> {
             && let Some(found) = self.library.enums.get(ty)
         {
             if found.variants.iter().any(|(name, _)| name == variant) {
-                return Ok(Value::Enum { ty: ty.clone(), variant: variant.clone() });
+                return Ok(Value::Enum {
+                    ty: ty.clone(),
+                    variant: variant.clone(),
+                });
             }
             if !self.library.consts.contains_key(&path.join("::")) {
                 return Err(Diagnostic::at(span, format!("`{ty}` has no variant `{variant}`")).into());
             }
         }
         let joined = path.join("::");
-        let name = if self.library.consts.contains_key(&joined) { joined.as_str() } else { last };
+        let name = if self.library.consts.contains_key(&joined) {
+            joined.as_str()
+        } else {
+            last
+        };
         if let Some(value) = self.constant(name, span)? {
             return Ok(value);
         }
         match self.known_constant(path) {
             Some(value) => Ok(value),
-            None => Err(Diagnostic::at(span, format!("there is no `{}` here", path.join("::"))).label("not found").into()),
+            None => Err(Diagnostic::at(span, format!("there is no `{}` here", path.join("::")))
+                .label("not found")
+                .into()),
         }
     }
 
@@ -146,11 +173,13 @@ impl Evaluator<'_> {
             return Ok(Some(value.clone()));
         }
         let library = self.library;
-        let Some(constant) = library.consts.get(name) else { return Ok(None) };
+        let Some(constant) = library.consts.get(name) else {
+            return Ok(None);
+        };
         if self.calls.len() >= MAX_CALLS {
             return Err(Diagnostic::at(span, format!("the constant `{name}` needs itself")).into());
         }
-        let outer = std::mem::replace(&mut self.scope, Scope::default());
+        let outer = std::mem::take(&mut self.scope);
         self.calls.push(name.to_owned());
         let value = self.expr(&constant.value);
         self.calls.pop();

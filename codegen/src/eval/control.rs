@@ -47,12 +47,13 @@ impl Evaluator<'_> {
         let outcome = evaluate(self);
         self.scope.leave(mark);
         match outcome {
-            Err(Exit::Break | Exit::Continue | Exit::Return(_)) => {
-                Err(Diagnostic::at(span, "`break`, `continue` or `return` under a condition that is only known at run time")
-                    .label("not known now")
-                    .help("let both sides of the `if` give a value, and go on with that")
-                    .into())
-            }
+            Err(Exit::Break | Exit::Continue | Exit::Return(_)) => Err(Diagnostic::at(
+                span,
+                "`break`, `continue` or `return` under a condition that is only known at run time",
+            )
+            .label("not known now")
+            .help("let both sides of the `if` give a value, and go on with that")
+            .into()),
             other => other,
         }
     }
@@ -151,7 +152,11 @@ impl Evaluator<'_> {
             }
             self.scope.leave(mark);
         }
-        Err(Diagnostic::at(span, format!("no arm of this `match` takes {}", value.describe())).help("add an arm for it, or `_`").into())
+        Err(
+            Diagnostic::at(span, format!("no arm of this `match` takes {}", value.describe()))
+                .help("add an arm for it, or `_`")
+                .into(),
+        )
     }
 
     /// Whether a pattern takes a value; binds its names if so.

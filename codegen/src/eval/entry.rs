@@ -10,14 +10,25 @@ use std::collections::BTreeMap;
 
 impl Evaluator<'_> {
     /// Evaluates the kernel `entry`: its colour, the options chosen, its documentation.
-    pub fn kernel(&mut self, entry: &str, settings: &[(String, String)]) -> Eval<(NodeId, BTreeMap<String, String>, String)> {
+    pub fn kernel(
+        &mut self,
+        entry: &str,
+        settings: &[(String, String)],
+    ) -> Eval<(NodeId, BTreeMap<String, String>, String)> {
         let library = self.library;
         let Some(function) = library.functions.get(entry) else {
-            let mut names: Vec<&str> = library.functions.keys().filter(|n| !n.contains("::")).map(String::as_str).collect();
+            let mut names: Vec<&str> = library
+                .functions
+                .keys()
+                .filter(|n| !n.contains("::"))
+                .map(String::as_str)
+                .collect();
             names.sort_unstable();
-            return Err(Diagnostic::new(format!("there is no function `{entry}` in the kernel's files"))
-                .help(format!("there are {}", names.join(", ")))
-                .into());
+            return Err(
+                Diagnostic::new(format!("there is no function `{entry}` in the kernel's files"))
+                    .help(format!("there are {}", names.join(", ")))
+                    .into(),
+            );
         };
         let mut options = BTreeMap::new();
         let mut args = Vec::new();
@@ -27,7 +38,11 @@ impl Evaluator<'_> {
         for (name, _) in settings {
             if !options.contains_key(name) {
                 let known: Vec<&str> = options.keys().map(String::as_str).collect();
-                let help = if known.is_empty() { "it has no options".to_owned() } else { format!("its options are {}", known.join(", ")) };
+                let help = if known.is_empty() {
+                    "it has no options".to_owned()
+                } else {
+                    format!("its options are {}", known.join(", "))
+                };
                 let error = Diagnostic::new(format!("`{entry}` has no option `{name}`")).help(help);
                 self.note(error.into());
             }
@@ -38,10 +53,12 @@ impl Evaluator<'_> {
         let value = self.inline(entry, args, function.span)?;
         let output = self.node(&value, function.span)?;
         if self.ty(output) != Type::value(Scalar::F32, 4) {
-            return Err(Diagnostic::at(function.span, format!("a kernel gives a Vec4, not {}", self.ty(output)))
-                .label("the kernel")
-                .help("for a Vec3 write `.extend(1.0)`, for a number `Vec4::splat(x)`")
-                .into());
+            return Err(
+                Diagnostic::at(function.span, format!("a kernel gives a Vec4, not {}", self.ty(output)))
+                    .label("the kernel")
+                    .help("for a Vec3 write `.extend(1.0)`, for a number `Vec4::splat(x)`")
+                    .into(),
+            );
         }
         Ok((output, options, function.docs.clone()))
     }
@@ -54,11 +71,17 @@ impl Evaluator<'_> {
         settings: &[(String, String)],
         options: &mut BTreeMap<String, String>,
     ) -> Eval {
-        let SourceType::Name(type_name, args) = ty else { return Err(bad_parameter(name, span)) };
+        let SourceType::Name(type_name, args) = ty else {
+            return Err(bad_parameter(name, span));
+        };
         match type_name.as_str() {
             "Frame" | "FrameLayers" => return self.texture_parameter(name, type_name, args, span),
             "IVec2" if name == "pixel" => {
-                return Ok(Value::Node(self.builder.add(Op::Pixel, Vec::new(), Type::value(Scalar::I32, 2))));
+                return Ok(Value::Node(self.builder.add(
+                    Op::Pixel,
+                    Vec::new(),
+                    Type::value(Scalar::I32, 2),
+                )));
             }
             "f32" => return Ok(self.uniform(name, Type::F32, None)),
             "i32" => return Ok(self.uniform(name, Type::I32, None)),
@@ -72,7 +95,9 @@ impl Evaluator<'_> {
             return self.configure(type_name, settings, options);
         }
         let library = self.library;
-        let Some(structure) = library.structs.get(type_name) else { return Err(bad_parameter(name, span)) };
+        let Some(structure) = library.structs.get(type_name) else {
+            return Err(bad_parameter(name, span));
+        };
         let mut fields = Vec::new();
         for (field, ty, at) in &structure.fields {
             match ty {
@@ -86,25 +111,39 @@ impl Evaluator<'_> {
                 }
             }
         }
-        Ok(Value::Struct { ty: type_name.clone(), fields })
+        Ok(Value::Struct {
+            ty: type_name.clone(),
+            fields,
+        })
     }
 
     fn texture_parameter(&mut self, name: &str, ty: &str, args: &[SourceType], span: Span) -> Eval {
         let components = match args {
             [SourceType::Name(texel, _)] if texel == "f32" => Some(1),
-            [SourceType::Name(texel, _)] => vector_type(texel).filter(|(kind, _)| *kind == Scalar::F32).map(|(_, n)| n),
+            [SourceType::Name(texel, _)] => vector_type(texel)
+                .filter(|(kind, _)| *kind == Scalar::F32)
+                .map(|(_, n)| n),
             _ => None,
         };
         let Some(components) = components else {
-            return Err(Diagnostic::at(span, format!("the texture `{name}` has no texels that a shader can read"))
-                .help("texels are f32, Vec2, Vec3 or Vec4")
-                .into());
+            return Err(Diagnostic::at(
+                span,
+                format!("the texture `{name}` has no texels that a shader can read"),
+            )
+            .help("texels are f32, Vec2, Vec3 or Vec4")
+            .into());
         };
         let textures = &mut self.builder.graph_mut().textures;
         if textures.iter().any(|t| t.name == name) {
-            return Err(Diagnostic::at(span, format!("two textures are called `{name}`")).help("bindings go by name: rename one").into());
+            return Err(Diagnostic::at(span, format!("two textures are called `{name}`"))
+                .help("bindings go by name: rename one")
+                .into());
         }
-        textures.push(Texture { name: name.to_owned(), components, layered: ty == "FrameLayers" });
+        textures.push(Texture {
+            name: name.to_owned(),
+            components,
+            layered: ty == "FrameLayers",
+        });
         Ok(Value::Texture(textures.len() as u32 - 1))
     }
 }

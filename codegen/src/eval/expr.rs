@@ -73,15 +73,20 @@ impl Evaluator<'_> {
                 Ok(())
             }
             Pattern::Tuple(parts, at) => match value {
-                Value::Tuple(values) if values.len() == parts.len() => {
-                    parts.iter().zip(values).try_for_each(|(part, value)| self.bind(part, value, span))
-                }
+                Value::Tuple(values) if values.len() == parts.len() => parts
+                    .iter()
+                    .zip(values)
+                    .try_for_each(|(part, value)| self.bind(part, value, span)),
                 Value::Poison => parts.iter().try_for_each(|part| self.bind(part, Value::Poison, span)),
-                other => {
-                    Err(Diagnostic::at(*at, format!("a pattern of {} parts for {}", parts.len(), other.describe())).into())
-                }
+                other => Err(Diagnostic::at(
+                    *at,
+                    format!("a pattern of {} parts for {}", parts.len(), other.describe()),
+                )
+                .into()),
             },
-            Pattern::Value(expr) => Err(Diagnostic::at(expr.span, "a `let` cannot compare").help("use `match`").into()),
+            Pattern::Value(expr) => Err(Diagnostic::at(expr.span, "a `let` cannot compare")
+                .help("use `match`")
+                .into()),
             Pattern::Or(_) => Err(Diagnostic::at(span, "a `let` cannot choose").help("use `match`").into()),
         }
     }
@@ -149,8 +154,12 @@ impl Evaluator<'_> {
         let count = self.expr(len)?;
         match self.known_int(&count) {
             Some(n @ 1..=65536) => Ok(Value::Array(vec![element; n as usize])),
-            Some(n) => Err(Diagnostic::at(len.span, format!("an array of {n} elements")).help("use 1 to 65536").into()),
-            None => Err(Diagnostic::at(len.span, "the length of an array must be known").label("not known now").into()),
+            Some(n) => Err(Diagnostic::at(len.span, format!("an array of {n} elements"))
+                .help("use 1 to 65536")
+                .into()),
+            None => Err(Diagnostic::at(len.span, "the length of an array must be known")
+                .label("not known now")
+                .into()),
         }
     }
 
@@ -174,7 +183,10 @@ impl Evaluator<'_> {
             };
             values.push((field.clone(), value));
         }
-        Ok(Value::Struct { ty: name.to_owned(), fields: values })
+        Ok(Value::Struct {
+            ty: name.to_owned(),
+            fields: values,
+        })
     }
 
     fn range(&mut self, start: &Expr, end: &Expr, inclusive: bool, span: Span) -> Eval {
@@ -182,7 +194,12 @@ impl Evaluator<'_> {
         if inclusive {
             last = self.binary(BinaryOp::Add, &last, &Value::Int(1), span)?;
         }
-        Ok(Value::Range(Range { start: Box::new(first), end: Box::new(last), reversed: false, step: 1 }))
+        Ok(Value::Range(Range {
+            start: Box::new(first),
+            end: Box::new(last),
+            reversed: false,
+            step: 1,
+        }))
     }
 
     /// `&&` and `||`.
@@ -242,13 +259,19 @@ impl Evaluator<'_> {
         {
             return Err(out_of_range(i64::from(bits[0] as i32), len as usize, span).into());
         }
-        Ok(Value::Node(self.builder.add(Op::ArrayGet, vec![array, index], ty.element())))
+        Ok(Value::Node(self.builder.add(
+            Op::ArrayGet,
+            vec![array, index],
+            ty.element(),
+        )))
     }
 }
 
 /// An index that is known to be wrong.
 pub fn out_of_range(index: i64, len: usize, span: Span) -> Diagnostic {
-    Diagnostic::at(span, format!("index {index} of an array of {len}")).label("out of range").help(format!("indices go from 0 to {}", len - 1))
+    Diagnostic::at(span, format!("index {index} of an array of {len}"))
+        .label("out of range")
+        .help(format!("indices go from 0 to {}", len - 1))
 }
 
 /// Number of a lane by its name.

@@ -18,16 +18,21 @@ impl Evaluator<'_> {
                     Some((start, end)) if self.unroll == Unroll::Full || effects.leaves => {
                         self.unrolled(pattern, range_values(start, end, &range), body, span)
                     }
-                    None if effects.leaves => Err(Diagnostic::at(over.span, "a loop whose bounds are only known at run time cannot be left early")
-                        .label("not known now")
-                        .help("give the loop fixed bounds, or select what is computed in it")
-                        .into()),
+                    None if effects.leaves => Err(Diagnostic::at(
+                        over.span,
+                        "a loop whose bounds are only known at run time cannot be left early",
+                    )
+                    .label("not known now")
+                    .help("give the loop fixed bounds, or select what is computed in it")
+                    .into()),
                     _ => self.kept(pattern, &range, body, span),
                 }
             }
             Value::Array(elements) => self.unrolled(pattern, elements, body, span),
             Value::Node(id) if self.ty(id).is_array() => {
-                let Type::Array { len, .. } = self.ty(id) else { unreachable!("just matched") };
+                let Type::Array { len, .. } = self.ty(id) else {
+                    unreachable!("just matched")
+                };
                 let mut elements = Vec::new();
                 for k in 0..len {
                     elements.push(self.element(&items, &Value::Int(i64::from(k)), span)?);
@@ -35,9 +40,11 @@ impl Evaluator<'_> {
                 self.unrolled(pattern, elements, body, span)
             }
             Value::Poison => Err(Exit::Noted),
-            other => Err(Diagnostic::at(over.span, format!("`for` cannot run over {}", other.describe()))
-                .help("run over a range such as `0..n`, or over an array")
-                .into()),
+            other => Err(
+                Diagnostic::at(over.span, format!("`for` cannot run over {}", other.describe()))
+                    .help("run over a range such as `0..n`, or over an array")
+                    .into(),
+            ),
         }
     }
 
@@ -47,7 +54,10 @@ impl Evaluator<'_> {
             self.step(span)?;
             let mark = self.scope.enter();
             let counter = match (pattern, self.known_int(&item)) {
-                (Pattern::Name(name, _), Some(value)) => Some(Counter { name: name.clone(), value }),
+                (Pattern::Name(name, _), Some(value)) => Some(Counter {
+                    name: name.clone(),
+                    value,
+                }),
                 _ => None,
             };
             let counted = counter.is_some();
@@ -73,7 +83,11 @@ impl Evaluator<'_> {
     /// A loop of the graph: variables that the body assigns are carried from one iteration to the next.
     fn kept(&mut self, pattern: &Pattern, range: &Range, body: &Block, span: Span) -> Eval {
         let (start, end) = (self.index_node(&range.start, span)?, self.index_node(&range.end, span)?);
-        let carried: Vec<usize> = assigned(body).assigned.iter().filter_map(|name| self.scope.slot(name)).collect();
+        let carried: Vec<usize> = assigned(body)
+            .assigned
+            .iter()
+            .filter_map(|name| self.scope.slot(name))
+            .collect();
         let mut initial = Vec::new();
         let mut types = vec![Type::I32];
         for slot in &carried {
@@ -100,7 +114,9 @@ impl Evaluator<'_> {
         let (first, trips_end) = (start, self.trips(start, end, range));
         let counter = self.counter(params[0], first, range, end);
         let mark = self.scope.enter();
-        let outcome = self.bind(pattern, Value::Node(counter), span).and_then(|()| self.block(body));
+        let outcome = self
+            .bind(pattern, Value::Node(counter), span)
+            .and_then(|()| self.block(body));
         self.scope.leave(mark);
 
         let mut results = Vec::new();
@@ -113,13 +129,18 @@ impl Evaluator<'_> {
             }
         }
         let same = results.iter().map(|id| self.ty(*id)).eq(types[1..].iter().copied());
-        self.builder.close_region(if same { results.clone() } else { initial.clone() });
+        self.builder
+            .close_region(if same { results.clone() } else { initial.clone() });
         outcome?;
         if let Some(error) = changed {
             return Err(error);
         }
         if !same {
-            return Err(Diagnostic::at(span, "a variable changes its type in a loop that is kept").help("give it one type, or unroll the loop").into());
+            return Err(
+                Diagnostic::at(span, "a variable changes its type in a loop that is kept")
+                    .help("give it one type, or unroll the loop")
+                    .into(),
+            );
         }
 
         let (loop_start, loop_end) = trips_end;
@@ -145,7 +166,12 @@ impl Evaluator<'_> {
         let mut nodes = Vec::new();
         Self::leaves(value, &mut nodes);
         for id in nodes {
-            let origin = Origin { name: name.to_owned(), file: span.file, line: span.line, counters: self.counters.clone() };
+            let origin = Origin {
+                name: name.to_owned(),
+                file: span.file,
+                line: span.line,
+                counters: self.counters.clone(),
+            };
             self.builder.set_origin(id, &origin);
         }
     }
@@ -161,7 +187,9 @@ impl Evaluator<'_> {
             let up = self.builder.i32(range.step as i32 - 1);
             let step = self.builder.i32(range.step as i32);
             length = self.builder.add(Op::Binary(BinaryOp::Add), vec![length, up], Type::I32);
-            length = self.builder.add(Op::Binary(BinaryOp::Div), vec![length, step], Type::I32);
+            length = self
+                .builder
+                .add(Op::Binary(BinaryOp::Div), vec![length, step], Type::I32);
         }
         (zero, length)
     }
@@ -195,10 +223,12 @@ impl Evaluator<'_> {
                 Some(true) => {}
                 Some(false) => return Ok(Value::unit()),
                 None => {
-                    return Err(Diagnostic::at(condition.span, "the condition of `while` is only known at run time")
-                        .label("not known now")
-                        .help("use `for` with fixed bounds, and select what is computed in it")
-                        .into());
+                    return Err(
+                        Diagnostic::at(condition.span, "the condition of `while` is only known at run time")
+                            .label("not known now")
+                            .help("use `for` with fixed bounds, and select what is computed in it")
+                            .into(),
+                    );
                 }
             }
             match self.block(body) {
@@ -216,5 +246,9 @@ impl Evaluator<'_> {
 /// The values of a range with known ends, in the order of the loop.
 fn range_values(start: i64, end: i64, range: &Range) -> Vec<Value> {
     let values = (start..end).step_by(range.step.max(1) as usize).map(Value::Int);
-    if range.reversed { values.collect::<Vec<_>>().into_iter().rev().collect() } else { values.collect() }
+    if range.reversed {
+        values.collect::<Vec<_>>().into_iter().rev().collect()
+    } else {
+        values.collect()
+    }
 }

@@ -18,7 +18,10 @@ impl Evaluator<'_> {
             [] => self.math_one(x, name, span)?,
             [a] => self.math_two(receiver, x, name, a, span)?,
             [a, b] if name == "clamp" => {
-                let (low, high) = (self.same_type(a, receiver, span)?.0, self.same_type(b, receiver, span)?.0);
+                let (low, high) = (
+                    self.same_type(a, receiver, span)?.0,
+                    self.same_type(b, receiver, span)?.0,
+                );
                 let ty = self.ty(x);
                 Some(self.builder.add(Op::Clamp, vec![x, low, high], ty))
             }
@@ -34,10 +37,17 @@ impl Evaluator<'_> {
         };
         match result {
             Some(id) => Ok(Value::Node(id)),
-            None => Err(Diagnostic::at(span, format!("there is no method `{name}` with {} arguments on {}", args.len(), self.ty(x)))
-                .label("not supported")
-                .help(format!("numbers and vectors have {METHODS}"))
-                .into()),
+            None => Err(Diagnostic::at(
+                span,
+                format!(
+                    "there is no method `{name}` with {} arguments on {}",
+                    args.len(),
+                    self.ty(x)
+                ),
+            )
+            .label("not supported")
+            .help(format!("numbers and vectors have {METHODS}"))
+            .into()),
         }
     }
 
@@ -66,7 +76,9 @@ impl Evaluator<'_> {
                 // As glam computes it: the vector times the reciprocal of its length.
                 let length = self.length(x);
                 let one = self.builder.f32(1.0);
-                let scale = self.builder.add(Op::Binary(BinaryOp::Div), vec![one, length], Type::F32);
+                let scale = self
+                    .builder
+                    .add(Op::Binary(BinaryOp::Div), vec![one, length], Type::F32);
                 let scale = self.splat(scale, ty.lanes());
                 Some(self.builder.add(Op::Binary(BinaryOp::Mul), vec![x, scale], ty))
             }
@@ -84,11 +96,32 @@ impl Evaluator<'_> {
             "truncate" if ty.lanes() > 2 => {
                 let lanes = self.lanes(x);
                 let shorter = Type::value(ty.kind().unwrap_or(Scalar::F32), ty.lanes() - 1);
-                Some(self.builder.add(Op::Compose, lanes[..lanes.len() - 1].to_vec(), shorter))
+                Some(
+                    self.builder
+                        .add(Op::Compose, lanes[..lanes.len() - 1].to_vec(), shorter),
+                )
             }
-            "round" => return Err(instead(span, "`round` rounds halves away from zero, and no shader does", "round_ties_even")),
-            "fract" => return Err(instead(span, "`fract` truncates in Rust and floors in shaders", "x - x.floor()")),
-            "signum" => return Err(instead(span, "`signum` of 0 is 1 in Rust and 0 in shaders", "if x < 0.0 { -1.0 } else { 1.0 }")),
+            "round" => {
+                return Err(instead(
+                    span,
+                    "`round` rounds halves away from zero, and no shader does",
+                    "round_ties_even",
+                ));
+            }
+            "fract" => {
+                return Err(instead(
+                    span,
+                    "`fract` truncates in Rust and floors in shaders",
+                    "x - x.floor()",
+                ));
+            }
+            "signum" => {
+                return Err(instead(
+                    span,
+                    "`signum` of 0 is 1 in Rust and 0 in shaders",
+                    "if x < 0.0 { -1.0 } else { 1.0 }",
+                ));
+            }
             _ => None,
         })
     }
@@ -110,10 +143,14 @@ impl Evaluator<'_> {
                 Some(self.builder.add(Op::Binary(op), vec![x, y], ty))
             }
             "powi" if ty.is_float() => match self.known_int(a) {
-                Some(n @ 1..=64) => {
-                    Some((1..n).fold(x, |power, _| self.builder.add(Op::Binary(BinaryOp::Mul), vec![power, x], ty)))
+                Some(n @ 1..=64) => Some((1..n).fold(x, |power, _| {
+                    self.builder.add(Op::Binary(BinaryOp::Mul), vec![power, x], ty)
+                })),
+                _ => {
+                    return Err(Diagnostic::at(span, "`powi` needs a known power from 1 to 64")
+                        .help("use `powf`")
+                        .into());
                 }
-                _ => return Err(Diagnostic::at(span, "`powi` needs a known power from 1 to 64").help("use `powf`").into()),
             },
             "dot" if float_vector => {
                 let (x, y) = self.same_type(receiver, a, span)?;
@@ -126,7 +163,11 @@ impl Evaluator<'_> {
             "distance" | "distance_squared" if float_vector => {
                 let between = self.binary(BinaryOp::Sub, receiver, a, span)?;
                 let between = self.node(&between, span)?;
-                Some(if name == "distance" { self.length(between) } else { self.dot(between, between) })
+                Some(if name == "distance" {
+                    self.length(between)
+                } else {
+                    self.dot(between, between)
+                })
             }
             "extend" if (2..4).contains(&ty.lanes()) => {
                 let mut lanes = self.lanes(x);
@@ -155,22 +196,38 @@ impl Evaluator<'_> {
             return vec![x];
         }
         let part = Type::value(ty.kind().unwrap_or(Scalar::F32), 1);
-        (0..ty.lanes()).map(|k| self.builder.add(Op::Extract(k), vec![x], part)).collect()
+        (0..ty.lanes())
+            .map(|k| self.builder.add(Op::Extract(k), vec![x], part))
+            .collect()
     }
 
     /// `v.xy()`, `v.zyx()`, ...
     fn swizzle(&mut self, x: NodeId, name: &str) -> Option<NodeId> {
         let ty = self.ty(x);
-        let lanes: Option<Vec<u8>> = name.split("").filter(|c| !c.is_empty()).map(super::expr::lane).collect();
-        let lanes = lanes.filter(|l| (2..=4).contains(&l.len()) && ty.lanes() > 1 && l.iter().all(|k| *k < ty.lanes()))?;
+        let lanes: Option<Vec<u8>> = name
+            .split("")
+            .filter(|c| !c.is_empty())
+            .map(super::expr::lane)
+            .collect();
+        let lanes =
+            lanes.filter(|l| (2..=4).contains(&l.len()) && ty.lanes() > 1 && l.iter().all(|k| *k < ty.lanes()))?;
         let part = Type::value(ty.kind()?, 1);
-        let parts = lanes.iter().map(|k| self.builder.add(Op::Extract(*k), vec![x], part)).collect();
-        Some(self.builder.add(Op::Compose, parts, Type::value(ty.kind()?, lanes.len() as u8)))
+        let parts = lanes
+            .iter()
+            .map(|k| self.builder.add(Op::Extract(*k), vec![x], part))
+            .collect();
+        Some(
+            self.builder
+                .add(Op::Compose, parts, Type::value(ty.kind()?, lanes.len() as u8)),
+        )
     }
 }
 
 fn instead(span: Span, message: &str, write: &str) -> super::value::Exit {
-    Diagnostic::at(span, message).label("means two things").help(format!("write `{write}`")).into()
+    Diagnostic::at(span, message)
+        .label("means two things")
+        .help(format!("write `{write}`"))
+        .into()
 }
 
 fn unary(name: &str) -> Option<UnaryOp> {

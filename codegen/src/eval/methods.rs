@@ -35,18 +35,28 @@ impl Evaluator<'_> {
                         range.step = step;
                         Ok(Value::Range(range))
                     }
-                    _ => Err(Diagnostic::at(span, "`step_by` needs a known step of at least 1, and comes before `rev`").into()),
+                    _ => Err(Diagnostic::at(
+                        span,
+                        "`step_by` needs a known step of at least 1, and comes before `rev`",
+                    )
+                    .into()),
                 },
-                _ => Err(Diagnostic::at(span, format!("a range has no method `{name}`")).help("ranges have `rev` and `step_by`").into()),
+                _ => Err(Diagnostic::at(span, format!("a range has no method `{name}`"))
+                    .help("ranges have `rev` and `step_by`")
+                    .into()),
             },
             Value::Array(elements) => match (name, args.is_empty()) {
                 ("len", true) => Ok(Value::Int(elements.len() as i64)),
                 ("iter" | "into_iter" | "copied", true) => Ok(value.clone()),
-                _ => Err(Diagnostic::at(span, format!("an array has no method `{name}`")).help("arrays have `len` and `iter`").into()),
+                _ => Err(Diagnostic::at(span, format!("an array has no method `{name}`"))
+                    .help("arrays have `len` and `iter`")
+                    .into()),
             },
             Value::Node(id) if self.ty(*id).is_array() => match (self.ty(*id), name) {
                 (Type::Array { len, .. }, "len") => Ok(Value::Int(i64::from(len))),
-                _ => Err(Diagnostic::at(span, format!("an array has no method `{name}`")).help("arrays have `len` and `iter`").into()),
+                _ => Err(Diagnostic::at(span, format!("an array has no method `{name}`"))
+                    .help("arrays have `len` and `iter`")
+                    .into()),
             },
             Value::Int(n) => match (name, args.as_slice()) {
                 ("abs", []) => Ok(Value::Int(n.abs())),
@@ -72,10 +82,16 @@ impl Evaluator<'_> {
                 self.load(index, coord, Some(layer), span)
             }
             ("load", _) => {
-                let expected = if texture.layered { "a coordinate and a layer" } else { "a coordinate" };
+                let expected = if texture.layered {
+                    "a coordinate and a layer"
+                } else {
+                    "a coordinate"
+                };
                 Err(Diagnostic::at(span, format!("`load` of `{}` takes {expected}", texture.name)).into())
             }
-            _ => Err(Diagnostic::at(span, format!("a texture has no method `{name}`")).help("textures have `load` and `size`").into()),
+            _ => Err(Diagnostic::at(span, format!("a texture has no method `{name}`"))
+                .help("textures have `load` and `size`")
+                .into()),
         }
     }
 
@@ -84,7 +100,11 @@ impl Evaluator<'_> {
         let pair = Type::value(Scalar::I32, 2);
         let coord = self.node(coord, span)?;
         if self.ty(coord) != pair {
-            return Err(Diagnostic::at(span, format!("a texel's coordinate is an IVec2, not {}", self.ty(coord))).into());
+            return Err(Diagnostic::at(
+                span,
+                format!("a texel's coordinate is an IVec2, not {}", self.ty(coord)),
+            )
+            .into());
         }
         let size = self.builder.add(Op::FrameSize, Vec::new(), pair);
         let one = self.builder.constant(pair, [1, 1, 0, 0]);
@@ -96,7 +116,14 @@ impl Evaluator<'_> {
         self.sites += 1;
         let components = self.builder.graph().textures[texture as usize].components;
         let args = std::iter::once(inside).chain(layer).collect();
-        let op = Op::Load { texture, site: self.sites };
-        Ok(Value::Node(self.builder.add(op, args, Type::value(Scalar::F32, components))))
+        let op = Op::Load {
+            texture,
+            site: self.sites,
+        };
+        Ok(Value::Node(self.builder.add(
+            op,
+            args,
+            Type::value(Scalar::F32, components),
+        )))
     }
 }

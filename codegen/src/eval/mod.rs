@@ -96,15 +96,19 @@ pub fn evaluate(
     };
     let result = evaluator.kernel(entry, settings);
     match result {
-        Ok((output, options, docs)) if evaluator.errors.is_empty() => {
-            Ok(Evaluated { graph: evaluator.builder.finish(output), options, docs })
-        }
+        Ok((output, options, docs)) if evaluator.errors.is_empty() => Ok(Evaluated {
+            graph: evaluator.builder.finish(output),
+            options,
+            docs,
+        }),
         Ok(_) | Err(Exit::Noted) => Err(Errors::new(evaluator.errors, files)),
         Err(Exit::Error(last)) => {
             evaluator.errors.push(*last);
             Err(Errors::new(evaluator.errors, files))
         }
-        Err(_) => Err(Errors::of(Diagnostic::new(format!("`{entry}` does not end with a value")))),
+        Err(_) => Err(Errors::of(Diagnostic::new(format!(
+            "`{entry}` does not end with a value"
+        )))),
     }
 }
 
@@ -191,7 +195,12 @@ impl Evaluator<'_> {
             return;
         }
         let counters = self.counters.clone();
-        let origin = Origin { name: name.to_owned(), file: span.file, line: span.line, counters };
+        let origin = Origin {
+            name: name.to_owned(),
+            file: span.file,
+            line: span.line,
+            counters,
+        };
         self.builder.set_origin(id, &origin);
     }
 
@@ -236,10 +245,12 @@ impl Evaluator<'_> {
             Scalar::I32 => i32::try_from(n).ok().map(|n| n as u32),
             Scalar::U32 => u32::try_from(n).ok(),
             Scalar::F32 | Scalar::Bool => {
-                return Err(Diagnostic::at(span, format!("the integer {n} where a {kind} is needed"))
-                    .label("an integer")
-                    .help(format!("write `{n}.0`, or convert with `as f32`"))
-                    .into());
+                return Err(
+                    Diagnostic::at(span, format!("the integer {n} where a {kind} is needed"))
+                        .label("an integer")
+                        .help(format!("write `{n}.0`, or convert with `as f32`"))
+                        .into(),
+                );
             }
         };
         match bits {

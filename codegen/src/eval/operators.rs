@@ -24,7 +24,13 @@ impl Evaluator<'_> {
     pub fn binary(&mut self, op: BinaryOp, left: &Value, right: &Value, span: Span) -> Eval {
         match (left, right) {
             (Value::Int(a), Value::Int(b)) => return self.integers(op, *a, *b, span),
-            (Value::Enum { ty, variant }, Value::Enum { ty: other, variant: second }) if ty == other => {
+            (
+                Value::Enum { ty, variant },
+                Value::Enum {
+                    ty: other,
+                    variant: second,
+                },
+            ) if ty == other => {
                 return match op {
                     BinaryOp::Eq => Ok(Value::Node(self.builder.bool(variant == second))),
                     BinaryOp::Ne => Ok(Value::Node(self.builder.bool(variant != second))),
@@ -58,11 +64,17 @@ impl Evaluator<'_> {
     /// Rust compares vectors as wholes.
     fn comparison(&mut self, op: BinaryOp, a: NodeId, b: NodeId) -> Eval {
         let lanes = self.ty(a).lanes();
-        let each = self.builder.add(Op::Binary(op), vec![a, b], Type::value(Scalar::Bool, lanes));
+        let each = self
+            .builder
+            .add(Op::Binary(op), vec![a, b], Type::value(Scalar::Bool, lanes));
         if lanes == 1 {
             return Ok(Value::Node(each));
         }
-        let join = if op == BinaryOp::Ne { BinaryOp::Or } else { BinaryOp::And };
+        let join = if op == BinaryOp::Ne {
+            BinaryOp::Or
+        } else {
+            BinaryOp::And
+        };
         let mut all = self.builder.add(Op::Extract(0), vec![each], Type::BOOL);
         for k in 1..lanes {
             let next = self.builder.add(Op::Extract(k), vec![each], Type::BOOL);
@@ -110,7 +122,9 @@ impl Evaluator<'_> {
         };
         match known {
             Some(n) if i32::try_from(n).is_ok() || u32::try_from(n).is_ok() => Ok(Value::Int(n)),
-            _ => Err(Diagnostic::at(span, "the result does not fit into 32 bits").help("use `as u32` on both sides to wrap").into()),
+            _ => Err(Diagnostic::at(span, "the result does not fit into 32 bits")
+                .help("use `as u32` on both sides to wrap")
+                .into()),
         }
     }
 
@@ -168,7 +182,10 @@ impl Evaluator<'_> {
             "i32" | "usize" | "isize" => Scalar::I32,
             "u32" => Scalar::U32,
             other => {
-                return Err(Diagnostic::at(span, format!("a cast to `{other}`")).label("not supported").help("cast to f32, i32, u32 or usize").into());
+                return Err(Diagnostic::at(span, format!("a cast to `{other}`"))
+                    .label("not supported")
+                    .help("cast to f32, i32, u32 or usize")
+                    .into());
             }
         };
         if let Value::Int(n) = value {
@@ -183,7 +200,9 @@ impl Evaluator<'_> {
         }
         let id = self.node(value, span)?;
         if !self.ty(id).is_scalar() {
-            return Err(Diagnostic::at(span, "a cast of something that is not one number").help("vectors convert with `.as_vec2()`, `.as_ivec3()`, ...").into());
+            return Err(Diagnostic::at(span, "a cast of something that is not one number")
+                .help("vectors convert with `.as_vec2()`, `.as_ivec3()`, ...")
+                .into());
         }
         Ok(Value::Node(self.convert(id, kind)))
     }

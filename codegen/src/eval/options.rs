@@ -67,12 +67,20 @@ pub fn describe(library: &Library, files: &Arc<Vec<File>>, entry: &str) -> Resul
             }
         }
     }
-    if evaluator.errors.is_empty() { Ok(infos) } else { Err(Errors::new(evaluator.errors, files)) }
+    if evaluator.errors.is_empty() {
+        Ok(infos)
+    } else {
+        Err(Errors::new(evaluator.errors, files))
+    }
 }
 
 /// The options declared for `entry`, of whichever of its parameters is made of options.
 fn fields<'a>(library: &'a Library, entry: &str) -> Vec<&'a OptionField> {
-    let params = library.functions.get(entry).map(|f| f.params.as_slice()).unwrap_or_default();
+    let params = library
+        .functions
+        .get(entry)
+        .map(|f| f.params.as_slice())
+        .unwrap_or_default();
     let declared = params.iter().filter_map(|(_, ty, _)| match ty {
         SourceType::Name(name, _) => library.options.get(name),
         _ => None,
@@ -82,12 +90,21 @@ fn fields<'a>(library: &'a Library, entry: &str) -> Vec<&'a OptionField> {
 
 impl Evaluator<'_> {
     /// A structure of options with each field set or at its default.
-    pub fn configure(&mut self, ty: &str, settings: &[(String, String)], chosen: &mut BTreeMap<String, String>) -> Eval {
+    pub fn configure(
+        &mut self,
+        ty: &str,
+        settings: &[(String, String)],
+        chosen: &mut BTreeMap<String, String>,
+    ) -> Eval {
         let library = self.library;
         let mut values = Vec::new();
         for field in &library.options[ty] {
             let info = self.info(field)?;
-            let text = settings.iter().rev().find(|(name, _)| *name == info.name).map(|(_, value)| value.as_str());
+            let text = settings
+                .iter()
+                .rev()
+                .find(|(name, _)| *name == info.name)
+                .map(|(_, value)| value.as_str());
             let value = match text {
                 Some(text) => match self.parse(field, &info, text) {
                     Ok(value) => value,
@@ -101,12 +118,17 @@ impl Evaluator<'_> {
             chosen.insert(info.name.clone(), text.unwrap_or(&info.default).to_owned());
             values.push((field.name.clone(), value));
         }
-        Ok(Value::Struct { ty: ty.to_owned(), fields: values })
+        Ok(Value::Struct {
+            ty: ty.to_owned(),
+            fields: values,
+        })
     }
 
     fn info(&mut self, field: &OptionField) -> Eval<OptionInfo> {
         let default = self.expr(&field.default)?;
-        let SourceType::Name(ty, _) = &field.ty else { return Err(self.bad_type(field)) };
+        let SourceType::Name(ty, _) = &field.ty else {
+            return Err(self.bad_type(field));
+        };
         let (kind, default) = match (ty.as_str(), &default) {
             ("bool", Value::Node(id)) => {
                 let on = self.known_bool(*id).unwrap_or_default();
@@ -119,26 +141,46 @@ impl Evaluator<'_> {
                 (OptionKind::Number { integer, min, max }, shortest(number))
             }
             (_, Value::Enum { ty, variant }) => {
-                let variants = self.library.enums.get(ty).map(|e| e.variants.as_slice()).unwrap_or_default();
-                let choices = variants.iter().map(|(name, docs)| (kebab(name), docs.clone())).collect();
+                let variants = self
+                    .library
+                    .enums
+                    .get(ty)
+                    .map(|e| e.variants.as_slice())
+                    .unwrap_or_default();
+                let choices = variants
+                    .iter()
+                    .map(|(name, docs)| (kebab(name), docs.clone()))
+                    .collect();
                 (OptionKind::Choice(choices), kebab(variant))
             }
             _ => return Err(self.bad_type(field)),
         };
-        Ok(OptionInfo { name: field.name.replace('_', "-"), docs: field.docs.clone(), kind, default })
+        Ok(OptionInfo {
+            name: field.name.replace('_', "-"),
+            docs: field.docs.clone(),
+            kind,
+            default,
+        })
     }
 
     fn bad_type(&self, field: &OptionField) -> Exit {
-        Diagnostic::at(field.span, format!("the option `{}` is neither a number, a boolean nor an enum", field.name))
-            .help("options are f32, i32, u32, bool, or an enum of the kernel's files")
-            .into()
+        Diagnostic::at(
+            field.span,
+            format!("the option `{}` is neither a number, a boolean nor an enum", field.name),
+        )
+        .help("options are f32, i32, u32, bool, or an enum of the kernel's files")
+        .into()
     }
 
     /// Smallest and largest value of a number.
     fn limits(&mut self, field: &OptionField) -> Eval<(Option<f64>, Option<f64>)> {
-        let Some(range) = &field.range else { return Ok((None, None)) };
+        let Some(range) = &field.range else {
+            return Ok((None, None));
+        };
         let ExprKind::Range(low, high, true) = &range.kind else {
-            return Err(Diagnostic::at(range.span, "the range of an option includes both ends").help("write `[0.0..=1.0]`").into());
+            return Err(Diagnostic::at(range.span, "the range of an option includes both ends")
+                .help("write `[0.0..=1.0]`")
+                .into());
         };
         let (low, high) = (self.expr(low)?, self.expr(high)?);
         Ok((self.number(&low), self.number(&high)))
@@ -163,7 +205,9 @@ impl Evaluator<'_> {
     /// The value that `text` stands for.
     fn parse(&mut self, field: &OptionField, info: &OptionInfo, text: &str) -> Eval {
         let refuse = |allowed: String| -> Exit {
-            Diagnostic::new(format!("`{text}` is not a value of the option `{}`", info.name)).help(allowed).into()
+            Diagnostic::new(format!("`{text}` is not a value of the option `{}`", info.name))
+                .help(allowed)
+                .into()
         };
         match &info.kind {
             OptionKind::Flag => match text {
@@ -172,10 +216,20 @@ impl Evaluator<'_> {
                 _ => Err(refuse("use true or false".to_owned())),
             },
             OptionKind::Choice(choices) => {
-                let SourceType::Name(ty, _) = &field.ty else { return Err(self.bad_type(field)) };
-                let variants = self.library.enums.get(ty).map(|e| e.variants.as_slice()).unwrap_or_default();
+                let SourceType::Name(ty, _) = &field.ty else {
+                    return Err(self.bad_type(field));
+                };
+                let variants = self
+                    .library
+                    .enums
+                    .get(ty)
+                    .map(|e| e.variants.as_slice())
+                    .unwrap_or_default();
                 match variants.iter().find(|(name, _)| kebab(name) == text) {
-                    Some((variant, _)) => Ok(Value::Enum { ty: ty.clone(), variant: variant.clone() }),
+                    Some((variant, _)) => Ok(Value::Enum {
+                        ty: ty.clone(),
+                        variant: variant.clone(),
+                    }),
                     None => {
                         let names: Vec<&str> = choices.iter().map(|(name, _)| name.as_str()).collect();
                         Err(refuse(format!("use one of {}", names.join(", "))))
@@ -193,10 +247,15 @@ impl Evaluator<'_> {
                 }
                 let (low, high) = (min.unwrap_or(f64::NEG_INFINITY), max.unwrap_or(f64::INFINITY));
                 let allowed = match (min, max) {
-                    (Some(low), Some(high)) => format!("use a number from {low} to {high}, or `{UNIFORM}` to set it at run time"),
+                    (Some(low), Some(high)) => {
+                        format!("use a number from {low} to {high}, or `{UNIFORM}` to set it at run time")
+                    }
                     _ => format!("use a number, or `{UNIFORM}` to set it at run time"),
                 };
-                let number = text.parse::<f64>().ok().filter(|n| n.is_finite() && (!integer || n.fract() == 0.0));
+                let number = text
+                    .parse::<f64>()
+                    .ok()
+                    .filter(|n| n.is_finite() && (!integer || n.fract() == 0.0));
                 match number {
                     Some(n) if n >= low && n <= high && (n as f32).is_finite() => Ok(match kind {
                         Scalar::F32 => Value::Node(self.builder.f32(n as f32)),
@@ -212,7 +271,11 @@ impl Evaluator<'_> {
     /// A value that is set at run time.
     pub fn uniform(&mut self, name: &str, ty: Type, default: Option<f64>) -> Value {
         let uniforms = &mut self.builder.graph_mut().uniforms;
-        uniforms.push(Uniform { name: name.to_owned(), ty, default });
+        uniforms.push(Uniform {
+            name: name.to_owned(),
+            ty,
+            default,
+        });
         let index = uniforms.len() as u32 - 1;
         Value::Node(self.builder.add(Op::Uniform(index), Vec::new(), ty))
     }

@@ -15,7 +15,10 @@ impl Evaluator<'_> {
                 for (name, field) in fields {
                     settled.push((name.clone(), self.settle(field, span)?));
                 }
-                Value::Struct { ty: ty.clone(), fields: settled }
+                Value::Struct {
+                    ty: ty.clone(),
+                    fields: settled,
+                }
             }
             Value::Tuple(parts) => {
                 let parts: Eval<Vec<Value>> = parts.iter().map(|p| self.settle(p, span)).collect();
@@ -40,22 +43,32 @@ impl Evaluator<'_> {
             match element {
                 Value::Int(_) | Value::Node(_) => nodes.push(self.node(element, span)?),
                 other => {
-                    return Err(Diagnostic::at(span, format!("an array of {} cannot be indexed at run time", other.describe()))
-                        .label("the index is not known now")
-                        .help("unroll the loop, or keep an array for each number in it")
-                        .into());
+                    return Err(Diagnostic::at(
+                        span,
+                        format!("an array of {} cannot be indexed at run time", other.describe()),
+                    )
+                    .label("the index is not known now")
+                    .help("unroll the loop, or keep an array for each number in it")
+                    .into());
                 }
             }
         }
         let element = self.ty(nodes[0]);
         match element {
             Type::Value { scalar, lanes } if nodes.iter().all(|n| self.ty(*n) == element) => {
-                let ty = Type::Array { scalar, lanes, len: nodes.len() as u32 };
+                let ty = Type::Array {
+                    scalar,
+                    lanes,
+                    len: nodes.len() as u32,
+                };
                 Ok(self.builder.add(Op::MakeArray, nodes, ty))
             }
-            _ => Err(Diagnostic::at(span, "an array of arrays, or of unlike elements, cannot be indexed at run time")
-                .help("unroll the loop, or use one flat array")
-                .into()),
+            _ => Err(Diagnostic::at(
+                span,
+                "an array of arrays, or of unlike elements, cannot be indexed at run time",
+            )
+            .help("unroll the loop, or use one flat array")
+            .into()),
         }
     }
 
@@ -74,8 +87,13 @@ impl Evaluator<'_> {
         match value {
             Value::Node(id) => Value::Node(nodes.next().unwrap_or(*id)),
             Value::Struct { ty, fields } => {
-                let fields = fields.iter().map(|(name, field)| (name.clone(), Self::with_leaves(field, nodes)));
-                Value::Struct { ty: ty.clone(), fields: fields.collect() }
+                let fields = fields
+                    .iter()
+                    .map(|(name, field)| (name.clone(), Self::with_leaves(field, nodes)));
+                Value::Struct {
+                    ty: ty.clone(),
+                    fields: fields.collect(),
+                }
             }
             Value::Tuple(parts) => Value::Tuple(parts.iter().map(|p| Self::with_leaves(p, nodes)).collect()),
             Value::Array(parts) => Value::Array(parts.iter().map(|p| Self::with_leaves(p, nodes)).collect()),
@@ -97,14 +115,29 @@ impl Evaluator<'_> {
             (Value::Array(_), Value::Node(id)) if self.ty(*id).is_array() => {
                 (Value::Node(self.array_node(a, span)?), b.clone())
             }
-            (Value::Struct { ty, fields: left }, Value::Struct { ty: other, fields: right }) if ty == other => {
+            (
+                Value::Struct { ty, fields: left },
+                Value::Struct {
+                    ty: other,
+                    fields: right,
+                },
+            ) if ty == other => {
                 let (mut l, mut r) = (Vec::new(), Vec::new());
                 for ((name, a), (_, b)) in left.iter().zip(right) {
                     let (a, b) = self.agree(a, b, span)?;
                     l.push((name.clone(), a));
                     r.push((name.clone(), b));
                 }
-                (Value::Struct { ty: ty.clone(), fields: l }, Value::Struct { ty: ty.clone(), fields: r })
+                (
+                    Value::Struct {
+                        ty: ty.clone(),
+                        fields: l,
+                    },
+                    Value::Struct {
+                        ty: ty.clone(),
+                        fields: r,
+                    },
+                )
             }
             (Value::Tuple(left), Value::Tuple(right)) if left.len() == right.len() => {
                 let (l, r) = self.agree_all(left, right, span)?;
@@ -118,7 +151,11 @@ impl Evaluator<'_> {
             _ => {
                 return Err(Diagnostic::at(
                     span,
-                    format!("{} on one side and {} on the other of a condition that is only known at run time", a.describe(), b.describe()),
+                    format!(
+                        "{} on one side and {} on the other of a condition that is only known at run time",
+                        a.describe(),
+                        b.describe()
+                    ),
                 )
                 .help("let both sides give numbers, or make the condition depend on options and loop counters only")
                 .into());

@@ -22,7 +22,12 @@ pub struct Lower {
 impl Lower {
     /// For items of `file`, inside `impl self_type`.
     pub fn new(file: u32, self_type: Option<String>) -> Self {
-        Lower { file, self_type, depth: 0, errors: Vec::new() }
+        Lower {
+            file,
+            self_type,
+            depth: 0,
+            errors: Vec::new(),
+        }
     }
 
     /// The place of a token.
@@ -34,7 +39,9 @@ impl Lower {
     pub fn unsupported(&mut self, span: proc_macro2::Span, what: &str, instead: &str) {
         let span = self.span(span);
         self.errors.push(
-            Diagnostic::at(span, format!("{what} is not part of the kernel language")).label("not supported").help(instead),
+            Diagnostic::at(span, format!("{what} is not part of the kernel language"))
+                .label("not supported")
+                .help(instead),
         );
     }
 
@@ -48,13 +55,20 @@ impl Lower {
 
     /// The last two segments of a path, without generic arguments.
     pub fn segments(&mut self, path: &syn::Path) -> Vec<String> {
-        let names: Vec<String> = path.segments.iter().map(|s| self.self_name(s.ident.to_string())).collect();
+        let names: Vec<String> = path
+            .segments
+            .iter()
+            .map(|s| self.self_name(s.ident.to_string()))
+            .collect();
         names[names.len().saturating_sub(2)..].to_vec()
     }
 
     /// A path as an expression.
     pub fn path_expr(&self, segments: Vec<String>, span: proc_macro2::Span) -> Expr {
-        Expr { kind: ExprKind::Path(segments), span: self.span(span) }
+        Expr {
+            kind: ExprKind::Path(segments),
+            span: self.span(span),
+        }
     }
 
     /// An expression; what is not supported becomes `()` and an error.
@@ -66,7 +80,10 @@ impl Lower {
                     .label("too deep")
                     .help("give parts of it a name with `let`"),
             );
-            return Expr { kind: ExprKind::Tuple(Vec::new()), span };
+            return Expr {
+                kind: ExprKind::Tuple(Vec::new()),
+                span,
+            };
         }
         self.depth += 1;
         let kind = self.kind(expr);
@@ -91,7 +108,11 @@ impl Lower {
             syn::Expr::Call(e) => self.call(e),
             syn::Expr::MethodCall(e) => {
                 let receiver = self.boxed(&e.receiver);
-                ExprKind::Method(receiver, e.method.to_string(), e.args.iter().map(|a| self.expr(a)).collect())
+                ExprKind::Method(
+                    receiver,
+                    e.method.to_string(),
+                    e.args.iter().map(|a| self.expr(a)).collect(),
+                )
             }
             syn::Expr::Field(e) => {
                 let name = match &e.member {
@@ -104,7 +125,11 @@ impl Lower {
             syn::Expr::If(e) => {
                 let condition = self.boxed(&e.cond);
                 let then = self.block(&e.then_branch);
-                ExprKind::If(condition, then, e.else_branch.as_ref().map(|(_, other)| self.boxed(other)))
+                ExprKind::If(
+                    condition,
+                    then,
+                    e.else_branch.as_ref().map(|(_, other)| self.boxed(other)),
+                )
             }
             syn::Expr::Match(e) => self.match_(e),
             syn::Expr::Block(e) if e.label.is_none() => ExprKind::Block(self.block(&e.block)),
@@ -129,16 +154,24 @@ impl Lower {
     fn refused(&mut self, expr: &syn::Expr) -> ExprKind {
         let (what, instead) = match expr {
             syn::Expr::Closure(_) => ("a closure", "write a function and call it"),
-            syn::Expr::Loop(_) => ("`loop`", "use `for` over a range, or `while` with a condition that is known"),
-            syn::Expr::ForLoop(_) | syn::Expr::While(_) | syn::Expr::Break(_) | syn::Expr::Continue(_) | syn::Expr::Block(_) => {
-                ("a label", "put the inner loop into a function and `return` from it")
-            }
+            syn::Expr::Loop(_) => (
+                "`loop`",
+                "use `for` over a range, or `while` with a condition that is known",
+            ),
+            syn::Expr::ForLoop(_)
+            | syn::Expr::While(_)
+            | syn::Expr::Break(_)
+            | syn::Expr::Continue(_)
+            | syn::Expr::Block(_) => ("a label", "put the inner loop into a function and `return` from it"),
             syn::Expr::Let(_) => ("`let` in a condition", "use `match`, or compare with `==`"),
             syn::Expr::Macro(_) => ("a macro", "write out what it stands for"),
             syn::Expr::Try(_) => ("`?`", "a kernel has no errors: compute a value for every pixel"),
             syn::Expr::Unsafe(_) => ("`unsafe`", "use the prelude's textures and arrays"),
             syn::Expr::Async(_) | syn::Expr::Await(_) => ("`async`", "a kernel computes its value at once"),
-            _ => ("this expression", "see the kernel language's documentation for what there is"),
+            _ => (
+                "this expression",
+                "see the kernel language's documentation for what there is",
+            ),
         };
         self.unsupported(expr.span(), what, instead);
         ExprKind::Tuple(Vec::new())
@@ -178,7 +211,10 @@ impl Lower {
                 ExprKind::Tuple(Vec::new())
             }
         };
-        Expr { kind, span: self.span(span) }
+        Expr {
+            kind,
+            span: self.span(span),
+        }
     }
 
     fn float(&mut self, digits: &str, span: proc_macro2::Span) -> ExprKind {
@@ -262,7 +298,10 @@ impl Lower {
             if let syn::Pat::Guard(guard) = &arm.pat {
                 self.unsupported(guard.span(), "a guard", "use `if` in the arm");
             } else {
-                arms.push(Arm { pattern: self.pattern(&arm.pat), body: self.expr(&arm.body) });
+                arms.push(Arm {
+                    pattern: self.pattern(&arm.pat),
+                    body: self.expr(&arm.body),
+                });
             }
         }
         ExprKind::Match(subject, arms)
@@ -304,7 +343,11 @@ impl Lower {
                 syn::Stmt::Item(syn::Item::Const(item)) => statements.push(Statement::Const(self.constant(item, None))),
                 syn::Stmt::Item(syn::Item::Use(_)) => {}
                 syn::Stmt::Item(item) => {
-                    self.unsupported(item.span(), "an item inside a function", "move it to the top of the file");
+                    self.unsupported(
+                        item.span(),
+                        "an item inside a function",
+                        "move it to the top of the file",
+                    );
                 }
                 syn::Stmt::Macro(m) => self.unsupported(m.span(), "a macro", "write out what it stands for"),
             }
@@ -333,6 +376,10 @@ impl Lower {
             Some(ty) => format!("{ty}::{}", item.ident),
             None => item.ident.to_string(),
         };
-        Const { name, value: self.expr(&item.expr), ty: self.ty(&item.ty) }
+        Const {
+            name,
+            value: self.expr(&item.expr),
+            ty: self.ty(&item.ty),
+        }
     }
 }

@@ -26,7 +26,11 @@ impl Items {
                 syn::Item::Const(c) if !native_only(&c.attrs) => self.constant(file, c, None),
                 syn::Item::Struct(s) if !native_only(&s.attrs) => self.structure(file, s),
                 syn::Item::Enum(e) if !native_only(&e.attrs) => {
-                    let variants = e.variants.iter().map(|v| (v.ident.to_string(), docs(&v.attrs))).collect();
+                    let variants = e
+                        .variants
+                        .iter()
+                        .map(|v| (v.ident.to_string(), docs(&v.attrs)))
+                        .collect();
                     self.library.enums.insert(e.ident.to_string(), Enum { variants });
                 }
                 syn::Item::Impl(i) if !native_only(&i.attrs) && i.trait_.is_none() => self.implementation(file, i),
@@ -43,12 +47,23 @@ impl Items {
         }
     }
 
-    fn function(&mut self, file: u32, sig: &syn::Signature, body: &syn::Block, attrs: &[syn::Attribute], of: Option<&str>) {
+    fn function(
+        &mut self,
+        file: u32,
+        sig: &syn::Signature,
+        body: &syn::Block,
+        attrs: &[syn::Attribute],
+        of: Option<&str>,
+    ) {
         let mut lower = Lower::new(file, of.map(str::to_owned));
         let name = qualified(of, &sig.ident);
         let mut params = Vec::new();
         if let Some(generic) = sig.generics.type_params().next() {
-            lower.unsupported(generic.span(), "a generic function", "write it for the type that is used");
+            lower.unsupported(
+                generic.span(),
+                "a generic function",
+                "write it for the type that is used",
+            );
         }
         for input in &sig.inputs {
             match input {
@@ -75,7 +90,15 @@ impl Items {
         if self.library.functions.contains_key(&name) {
             self.duplicate(&lower, sig.ident.span(), &name);
         }
-        self.library.functions.insert(name.clone(), Function { docs: docs(attrs), params, body, span });
+        self.library.functions.insert(
+            name.clone(),
+            Function {
+                docs: docs(attrs),
+                params,
+                body,
+                span,
+            },
+        );
         self.errors.insert(name, lower.errors);
     }
 
@@ -101,7 +124,9 @@ impl Items {
 
     fn implementation(&mut self, file: u32, item: &syn::ItemImpl) {
         let mut lower = Lower::new(file, None);
-        let Type::Name(of, _) = lower.ty(&item.self_ty) else { return };
+        let Type::Name(of, _) = lower.ty(&item.self_ty) else {
+            return;
+        };
         for inner in &item.items {
             match inner {
                 syn::ImplItem::Fn(f) if !native_only(&f.attrs) => {
@@ -113,7 +138,9 @@ impl Items {
                     let value = lower.expr(&c.expr);
                     let ty = lower.ty(&c.ty);
                     self.errors.insert(name.clone(), lower.errors);
-                    self.library.consts.insert(name.clone(), super::tree::Const { name, value, ty });
+                    self.library
+                        .consts
+                        .insert(name.clone(), super::tree::Const { name, value, ty });
                 }
                 _ => {}
             }
@@ -151,9 +178,12 @@ impl Items {
 
     fn duplicate(&mut self, lower: &Lower, span: Span, name: &str) {
         self.duplicates.push(
-            Diagnostic::at(lower.span(span), format!("`{name}` is defined twice among the kernel's files"))
-                .label("second definition")
-                .help("modules are not told apart: give it another name"),
+            Diagnostic::at(
+                lower.span(span),
+                format!("`{name}` is defined twice among the kernel's files"),
+            )
+            .label("second definition")
+            .help("modules are not told apart: give it another name"),
         );
     }
 
@@ -164,7 +194,11 @@ impl Items {
         for name in &reached {
             errors.extend(self.errors.get(name).into_iter().flatten().cloned());
         }
-        if errors.is_empty() { Ok(self.library) } else { Err(errors) }
+        if errors.is_empty() {
+            Ok(self.library)
+        } else {
+            Err(errors)
+        }
     }
 }
 
@@ -189,7 +223,10 @@ fn docs(attrs: &[syn::Attribute]) -> String {
     for attr in attrs {
         if attr.path().is_ident("doc")
             && let syn::Meta::NameValue(pair) = &attr.meta
-            && let syn::Expr::Lit(syn::ExprLit { lit: syn::Lit::Str(text), .. }) = &pair.value
+            && let syn::Expr::Lit(syn::ExprLit {
+                lit: syn::Lit::Str(text),
+                ..
+            }) = &pair.value
         {
             lines.push(text.value().trim().to_owned());
         }
@@ -219,7 +256,10 @@ impl Parse for OptionsSyntax {
         let body;
         syn::braced!(body in input);
         let fields = body.parse_terminated(OptionSyntax::parse, syn::Token![,])?;
-        Ok(OptionsSyntax { name, fields: fields.into_iter().collect() })
+        Ok(OptionsSyntax {
+            name,
+            fields: fields.into_iter().collect(),
+        })
     }
 }
 
@@ -238,6 +278,12 @@ impl Parse for OptionSyntax {
             None
         };
         input.parse::<syn::Token![=]>()?;
-        Ok(OptionSyntax { attrs, name, ty, range, default: input.parse()? })
+        Ok(OptionSyntax {
+            attrs,
+            name,
+            ty,
+            range,
+            default: input.parse()?,
+        })
     }
 }

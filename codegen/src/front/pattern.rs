@@ -34,7 +34,11 @@ impl Lower {
                 Pattern::Value(Box::new(expr))
             }
             other => {
-                self.unsupported(other.span(), "this pattern", "match on enum variants, literals, `a | b` or `_`, and bind plain names or tuples of them");
+                self.unsupported(
+                    other.span(),
+                    "this pattern",
+                    "match on enum variants, literals, `a | b` or `_`, and bind plain names or tuples of them",
+                );
                 Pattern::Wild
             }
         }
@@ -63,7 +67,11 @@ impl Lower {
             }
             other => {
                 let text = other.to_token_stream().to_string();
-                self.unsupported(other.span(), &format!("the type `{text}`"), "use numbers, vectors, arrays, tuples, structures, enums and the prelude's textures");
+                self.unsupported(
+                    other.span(),
+                    &format!("the type `{text}`"),
+                    "use numbers, vectors, arrays, tuples, structures, enums and the prelude's textures",
+                );
                 Type::Tuple(Vec::new())
             }
         }

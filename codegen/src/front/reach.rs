@@ -25,7 +25,13 @@ pub fn reach(functions: &HashMap<String, Function>, consts: &HashMap<String, Con
             scan::mentioned_in(&constant.value, &mut names);
         }
         for mentioned in &names {
-            pending.extend(by_last.get(mentioned.as_str()).into_iter().flatten().map(|n| (*n).clone()));
+            pending.extend(
+                by_last
+                    .get(mentioned.as_str())
+                    .into_iter()
+                    .flatten()
+                    .map(|n| (*n).clone()),
+            );
         }
     }
     reached

@@ -90,7 +90,9 @@ pub fn children(e: &Expr) -> Vec<&Expr> {
         ExprKind::Struct(_, fields, rest) => fields.iter().map(|(_, e)| e).chain(rest.as_deref()).collect(),
         ExprKind::Return(value) => value.iter().map(|e| &**e).collect(),
         ExprKind::If(condition, _, otherwise) => std::iter::once(&**condition).chain(otherwise.as_deref()).collect(),
-        ExprKind::Match(subject, arms) => std::iter::once(&**subject).chain(arms.iter().map(|a| &a.body)).collect(),
+        ExprKind::Match(subject, arms) => std::iter::once(&**subject)
+            .chain(arms.iter().map(|a| &a.body))
+            .collect(),
         ExprKind::For(_, over, _) => vec![over],
         ExprKind::While(condition, _) => vec![condition],
         _ => Vec::new(),

@@ -165,9 +165,21 @@ pub struct Builder<'r> {
 impl<'r> Builder<'r> {
     /// An empty graph whose body is open.
     pub fn new(rules: &'r dyn Rules) -> Self {
-        let body = Region { parent: None, params: Vec::new(), results: Vec::new() };
-        let graph = Graph { regions: vec![body], ..Graph::default() };
-        Builder { graph, known: HashMap::new(), rules, open: vec![Graph::BODY] }
+        let body = Region {
+            parent: None,
+            params: Vec::new(),
+            results: Vec::new(),
+        };
+        let graph = Graph {
+            regions: vec![body],
+            ..Graph::default()
+        };
+        Builder {
+            graph,
+            known: HashMap::new(),
+            rules,
+            open: vec![Graph::BODY],
+        }
     }
 
     /// What is built so far.
@@ -199,7 +211,9 @@ impl<'r> Builder<'r> {
         self.known.insert(node.clone(), id);
         self.graph.nodes.push(node);
         self.graph.origins.push(None);
-        self.graph.homes.push(*self.open.last().expect("the body is always open"));
+        self.graph
+            .homes
+            .push(*self.open.last().expect("the body is always open"));
         id
     }
 
@@ -235,10 +249,17 @@ impl<'r> Builder<'r> {
     pub fn open_region(&mut self, params: &[Type]) -> RegionId {
         let id = RegionId(self.graph.regions.len() as u32);
         let parent = self.open.last().copied();
-        self.graph.regions.push(Region { parent, params: Vec::new(), results: Vec::new() });
+        self.graph.regions.push(Region {
+            parent,
+            params: Vec::new(),
+            results: Vec::new(),
+        });
         self.open.push(id);
         self.graph.events.push((self.graph.nodes.len() as u32, Event::Open(id)));
-        let made = params.iter().enumerate().map(|(k, ty)| self.intern(Op::Param(id, k as u32), Vec::new(), *ty));
+        let made = params
+            .iter()
+            .enumerate()
+            .map(|(k, ty)| self.intern(Op::Param(id, k as u32), Vec::new(), *ty));
         let made: Vec<_> = made.collect();
         self.graph.regions[id.0 as usize].params = made;
         id
@@ -247,7 +268,9 @@ impl<'r> Builder<'r> {
     /// Closes the innermost open region.
     pub fn close_region(&mut self, results: Vec<NodeId>) {
         let id = self.open.pop().expect("a region is open");
-        self.graph.events.push((self.graph.nodes.len() as u32, Event::Close(id)));
+        self.graph
+            .events
+            .push((self.graph.nodes.len() as u32, Event::Close(id)));
         self.graph.regions[id.0 as usize].results = results;
     }
 

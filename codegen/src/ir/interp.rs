@@ -69,7 +69,10 @@ impl fmt::Display for InputError {
         match self {
             InputError::Missing(name) => write!(f, "no image for the texture `{name}`"),
             InputError::Layers { name, found, needed } => {
-                write!(f, "`{name}` has {found} layers but {needed} are read: one for each geometry sample")
+                write!(
+                    f,
+                    "`{name}` has {found} layers but {needed} are read: one for each geometry sample"
+                )
             }
             InputError::Size { name, found, frame } => write!(
                 f,
@@ -112,25 +115,45 @@ impl<'a> Interpreter<'a> {
                 schedule.place[id.0 as usize].is_some()
                     && matches!(graph.node(id).op, Op::Load { texture, .. } if texture as usize == index)
             });
-            let given = textures.iter().find(|(name, _)| *name == texture.name).map(|(_, image)| *image);
+            let given = textures
+                .iter()
+                .find(|(name, _)| *name == texture.name)
+                .map(|(_, image)| *image);
             if read {
                 let image = given.ok_or_else(|| InputError::Missing(texture.name.clone()))?;
                 let [width, height, found] = image.extent();
                 let needed = crate::passes::layers_read(graph, index as u32);
                 if found < needed {
-                    return Err(InputError::Layers { name: texture.name.clone(), found, needed });
+                    return Err(InputError::Layers {
+                        name: texture.name.clone(),
+                        found,
+                        needed,
+                    });
                 }
                 if [width, height] != frame {
-                    return Err(InputError::Size { name: texture.name.clone(), found: [width, height], frame });
+                    return Err(InputError::Size {
+                        name: texture.name.clone(),
+                        found: [width, height],
+                        frame,
+                    });
                 }
             }
             bound.push(given);
         }
         let uniforms = graph.uniforms.iter().map(|uniform| {
-            let given = uniforms.iter().find(|(name, _)| *name == uniform.name).map(|(_, value)| *value);
+            let given = uniforms
+                .iter()
+                .find(|(name, _)| *name == uniform.name)
+                .map(|(_, value)| *value);
             uniform_bits(uniform.ty, given.or(uniform.default).unwrap_or(0.0))
         });
-        Ok(Interpreter { graph, schedule, frame, textures: bound, uniforms: uniforms.collect() })
+        Ok(Interpreter {
+            graph,
+            schedule,
+            frame,
+            textures: bound,
+            uniforms: uniforms.collect(),
+        })
     }
 
     /// Room for this graph's values.
@@ -141,7 +164,10 @@ impl<'a> Interpreter<'a> {
                 values[id.0 as usize] = bits;
             }
         }
-        Scratch { values, arrays: vec![Vec::new(); self.graph.nodes.len()] }
+        Scratch {
+            values,
+            arrays: vec![Vec::new(); self.graph.nodes.len()],
+        }
     }
 
     /// The colour of a pixel inside the frame.
@@ -158,7 +184,11 @@ impl<'a> Interpreter<'a> {
                 Step::If { node, then, otherwise } => {
                     let regions = self.graph.regions_of(*node);
                     let holds = s.values[self.graph.node(*node).args[0].0 as usize][0] != 0;
-                    let (side, region) = if holds { (then, regions[0]) } else { (otherwise, regions[1]) };
+                    let (side, region) = if holds {
+                        (then, regions[0])
+                    } else {
+                        (otherwise, regions[1])
+                    };
                     self.block(side, pixel, s);
                     let results = &self.graph.region(region).results;
                     let slot = node.0 as usize;
@@ -171,7 +201,10 @@ impl<'a> Interpreter<'a> {
     fn run_loop(&self, node: NodeId, body: &Block, pixel: [u32; 2], s: &mut Scratch) {
         let args = &self.graph.node(node).args;
         let region = self.graph.region(self.graph.regions_of(node)[0]);
-        let (start, end) = (s.values[args[0].0 as usize][0] as i32, s.values[args[1].0 as usize][0] as i32);
+        let (start, end) = (
+            s.values[args[0].0 as usize][0] as i32,
+            s.values[args[1].0 as usize][0] as i32,
+        );
         let mut carried: Vec<Vec<Lanes>> = args[2..].iter().map(|a| whole(self.graph, s, *a)).collect();
         for counter in start..end {
             s.values[region.params[0].0 as usize] = [counter as u32, 0, 0, 0];
@@ -251,7 +284,11 @@ fn size(ty: Type) -> usize {
 }
 
 fn whole(graph: &Graph, s: &Scratch, id: NodeId) -> Vec<Lanes> {
-    if graph.ty(id).is_array() { s.arrays[id.0 as usize].clone() } else { vec![s.values[id.0 as usize]] }
+    if graph.ty(id).is_array() {
+        s.arrays[id.0 as usize].clone()
+    } else {
+        vec![s.values[id.0 as usize]]
+    }
 }
 
 fn store(graph: &Graph, s: &mut Scratch, id: NodeId, value: Vec<Lanes>) {

@@ -36,7 +36,7 @@ mod rebuild;
 mod types;
 pub mod verify;
 
-pub use graph::{Builder, Event, Graph, Node, NodeId, Region, RegionId, Rules, Texture, Uniform, Unfolded};
+pub use graph::{Builder, Event, Graph, Node, NodeId, Region, RegionId, Rules, Texture, Unfolded, Uniform};
 pub use op::{BinaryOp, Op, UnaryOp};
 pub use origin::{Counter, Origin};
 pub use print::print;

@@ -132,6 +132,9 @@ impl UnaryOp {
     /// Whether hardware computes it in a special, slower unit.
     pub fn is_transcendental(self) -> bool {
         use UnaryOp::*;
-        matches!(self, Sqrt | InverseSqrt | Exp | Exp2 | Log | Log2 | Sin | Cos | Tan | Asin | Acos | Atan)
+        matches!(
+            self,
+            Sqrt | InverseSqrt | Exp | Exp2 | Log | Log2 | Sin | Cos | Tan | Asin | Acos | Atan
+        )
     }
 }

@@ -31,7 +31,12 @@ fn print_event(text: &mut String, graph: &Graph, depth: usize, event: &super::Ev
             depth + 1
         }
         super::Event::Close(region) => {
-            let results: Vec<_> = graph.region(*region).results.iter().map(|r| format!("%{}", r.0)).collect();
+            let results: Vec<_> = graph
+                .region(*region)
+                .results
+                .iter()
+                .map(|r| format!("%{}", r.0))
+                .collect();
             let _ = writeln!(text, "{}yield {}", "  ".repeat(depth), results.join(" "));
             if *region != Graph::BODY {
                 let _ = writeln!(text, "{}}}", "  ".repeat(depth.saturating_sub(1)));

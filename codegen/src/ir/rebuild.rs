@@ -15,7 +15,13 @@ pub fn rebuild(old: &Graph, pass: &Rebuild<'_>) -> Graph {
     let live = Liveness::of(old);
     let mut builder = Builder::new(pass.rules);
     copy_tables(old, builder.graph_mut());
-    let mut walk = Walk { old, live, builder, new_ids: vec![None; old.nodes.len()], new_regions: vec![None; old.regions.len()] };
+    let mut walk = Walk {
+        old,
+        live,
+        builder,
+        new_ids: vec![None; old.nodes.len()],
+        new_regions: vec![None; old.regions.len()],
+    };
     walk.new_regions[0] = Some(Graph::BODY);
     let mut events = old.events.iter().peekable();
     for id in old.ids() {
@@ -83,7 +89,8 @@ impl Walk<'_, '_> {
             return;
         }
         let node = self.old.node(id);
-        let region = |r: &RegionId| self.new_regions[r.0 as usize].expect("regions are opened before their owner is built");
+        let region =
+            |r: &RegionId| self.new_regions[r.0 as usize].expect("regions are opened before their owner is built");
         let (op, args): (Op, Vec<NodeId>) = match &node.op {
             Op::Loop(body) => {
                 let carried = self.live.kept(*body, &node.args[1..], true);
@@ -95,10 +102,19 @@ impl Walk<'_, '_> {
                 let (Op::Loop(owner) | Op::If(owner, _)) = owner.op else {
                     unreachable!("verified: a result is of a loop or branch")
                 };
-                let gone = self.live.results[owner.0 as usize][..*k as usize].iter().filter(|live| !**live).count();
+                let gone = self.live.results[owner.0 as usize][..*k as usize]
+                    .iter()
+                    .filter(|live| !**live)
+                    .count();
                 (Op::Result(k - gone as u32), node.args.clone())
             }
-            Op::Load { texture, .. } if share_loads => (Op::Load { texture: *texture, site: 0 }, node.args.clone()),
+            Op::Load { texture, .. } if share_loads => (
+                Op::Load {
+                    texture: *texture,
+                    site: 0,
+                },
+                node.args.clone(),
+            ),
             other => (other.clone(), node.args.clone()),
         };
         let args = args.iter().map(|a| self.new_id(*a)).collect();
@@ -155,7 +171,12 @@ impl Liveness {
                 }
                 Op::Param(region, k) if k > 0 => {
                     let owner = graph.ids().find(|id| graph.node(*id).op == Op::Loop(region));
-                    live.leaves(graph, owner.expect("a region with parameters is a loop's"), k as usize - 1, &mut pending);
+                    live.leaves(
+                        graph,
+                        owner.expect("a region with parameters is a loop's"),
+                        k as usize - 1,
+                        &mut pending,
+                    );
                 }
                 _ => pending.extend(&node.args),
             }
@@ -182,7 +203,11 @@ impl Liveness {
     fn kept(&self, region: RegionId, values: &[NodeId], counter: bool) -> Vec<NodeId> {
         let skip = usize::from(counter && !values.is_empty());
         let used = self.results[region.0 as usize].iter();
-        let rest = values[skip..].iter().zip(used).filter(|(_, used)| **used).map(|(v, _)| *v);
+        let rest = values[skip..]
+            .iter()
+            .zip(used)
+            .filter(|(_, used)| **used)
+            .map(|(v, _)| *v);
         values[..skip].iter().copied().chain(rest).collect()
     }
 }

@@ -28,7 +28,13 @@ pub fn verify(graph: &Graph) -> Result<(), String> {
 fn check(graph: &Graph, id: NodeId) -> Result<(), String> {
     let node = graph.node(id);
     let types: Vec<Type> = node.args.iter().map(|a| graph.ty(*a)).collect();
-    let expect = |holds: bool, what: &str| if holds { Ok(()) } else { Err(format!("{what}, got {types:?}")) };
+    let expect = |holds: bool, what: &str| {
+        if holds {
+            Ok(())
+        } else {
+            Err(format!("{what}, got {types:?}"))
+        }
+    };
     let count = |n: usize| expect(types.len() == n, "wrong number of arguments");
     match &node.op {
         Op::Const(_) | Op::Param(..) => count(0),
@@ -44,19 +50,32 @@ fn check(graph: &Graph, id: NodeId) -> Result<(), String> {
         Op::Binary(op) => {
             count(2)?;
             expect(types[0] == types[1], "both sides must have one type")?;
-            let ty = if op.is_comparison() { types[0].with_scalar(Scalar::Bool) } else { types[0] };
+            let ty = if op.is_comparison() {
+                types[0].with_scalar(Scalar::Bool)
+            } else {
+                types[0]
+            };
             expect(node.ty == ty, "wrong result type")?;
-            let bits = matches!(op, BinaryOp::Shl | BinaryOp::Shr | BinaryOp::And | BinaryOp::Or | BinaryOp::Xor);
+            let bits = matches!(
+                op,
+                BinaryOp::Shl | BinaryOp::Shr | BinaryOp::And | BinaryOp::Or | BinaryOp::Xor
+            );
             expect(!(bits && types[0].is_float()), "a bit operation on floats")
         }
         Op::Dot => {
             count(2)?;
-            expect(types[0] == types[1] && types[0].is_float() && node.ty == Type::F32, "two float vectors to a float")
+            expect(
+                types[0] == types[1] && types[0].is_float() && node.ty == Type::F32,
+                "two float vectors to a float",
+            )
         }
         Op::Cross => {
             count(2)?;
             let vec3 = Type::value(Scalar::F32, 3);
-            expect(types[0] == vec3 && types[1] == vec3 && node.ty == vec3, "three vec3<f32>")
+            expect(
+                types[0] == vec3 && types[1] == vec3 && node.ty == vec3,
+                "three vec3<f32>",
+            )
         }
         Op::Clamp => {
             count(3)?;
@@ -64,19 +83,31 @@ fn check(graph: &Graph, id: NodeId) -> Result<(), String> {
         }
         Op::Select => {
             count(3)?;
-            expect(types[0] == Type::BOOL && types[1] == node.ty && types[2] == node.ty, "a boolean and two alike")
+            expect(
+                types[0] == Type::BOOL && types[1] == node.ty && types[2] == node.ty,
+                "a boolean and two alike",
+            )
         }
         Op::Splat => {
             count(1)?;
-            expect(types[0].is_scalar() && types[0].kind() == node.ty.kind(), "a scalar of the vector's kind")
+            expect(
+                types[0].is_scalar() && types[0].kind() == node.ty.kind(),
+                "a scalar of the vector's kind",
+            )
         }
         Op::Compose => {
             count(node.ty.lanes() as usize)?;
-            expect(types.iter().all(|t| t.is_scalar() && t.kind() == node.ty.kind()), "a scalar for each lane")
+            expect(
+                types.iter().all(|t| t.is_scalar() && t.kind() == node.ty.kind()),
+                "a scalar for each lane",
+            )
         }
         Op::Extract(lane) => {
             count(1)?;
-            expect(*lane < types[0].lanes() && node.ty.is_scalar() && node.ty.kind() == types[0].kind(), "a lane of a vector")
+            expect(
+                *lane < types[0].lanes() && node.ty.is_scalar() && node.ty.kind() == types[0].kind(),
+                "a lane of a vector",
+            )
         }
         Op::Convert => {
             count(1)?;
@@ -87,16 +118,24 @@ fn check(graph: &Graph, id: NodeId) -> Result<(), String> {
             count(1 + usize::from(entry.layered))?;
             expect(types[0] == Type::value(Scalar::I32, 2), "a coordinate is a vec2<i32>")?;
             expect(types.get(1).is_none_or(|t| *t == Type::I32), "a layer is an i32")?;
-            expect(node.ty == Type::value(Scalar::F32, entry.components), "a texel of the texture's components")
+            expect(
+                node.ty == Type::value(Scalar::F32, entry.components),
+                "a texel of the texture's components",
+            )
         }
         Op::MakeArray => {
-            let Type::Array { len, .. } = node.ty else { return Err("not an array".to_owned()) };
+            let Type::Array { len, .. } = node.ty else {
+                return Err("not an array".to_owned());
+            };
             count(len as usize)?;
             expect(types.iter().all(|t| *t == node.ty.element()), "elements of one type")
         }
         Op::ArrayGet => {
             count(2)?;
-            expect(types[0].is_array() && types[1] == Type::I32 && node.ty == types[0].element(), "an array and an index")
+            expect(
+                types[0].is_array() && types[1] == Type::I32 && node.ty == types[0].element(),
+                "an array and an index",
+            )
         }
         Op::ArraySet => {
             count(3)?;
@@ -105,20 +144,32 @@ fn check(graph: &Graph, id: NodeId) -> Result<(), String> {
         }
         Op::Loop(body) => {
             let body = region(graph, *body)?;
-            expect(types.len() >= 2 && types[0] == Type::I32 && types[1] == Type::I32, "bounds are i32")?;
+            expect(
+                types.len() >= 2 && types[0] == Type::I32 && types[1] == Type::I32,
+                "bounds are i32",
+            )?;
             let params: Vec<Type> = body.params.iter().skip(1).map(|p| graph.ty(*p)).collect();
             let results: Vec<Type> = body.results.iter().map(|r| graph.ty(*r)).collect();
-            expect(params == types[2..] && results == types[2..], "carried values, parameters and results agree")
+            expect(
+                params == types[2..] && results == types[2..],
+                "carried values, parameters and results agree",
+            )
         }
         Op::If(then, otherwise) => {
             count(1)?;
             let sides = [region(graph, *then)?, region(graph, *otherwise)?];
             let [a, b] = sides.map(|r| r.results.iter().map(|id| graph.ty(*id)).collect::<Vec<_>>());
-            expect(types[0] == Type::BOOL && a == b, "a boolean, and two sides with results alike")
+            expect(
+                types[0] == Type::BOOL && a == b,
+                "a boolean, and two sides with results alike",
+            )
         }
         Op::Result(k) => {
             count(1)?;
-            let first = *graph.regions_of(node.args[0]).first().ok_or("not the result of a loop or branch")?;
+            let first = *graph
+                .regions_of(node.args[0])
+                .first()
+                .ok_or("not the result of a loop or branch")?;
             let result = graph.region(first).results.get(*k as usize).ok_or("no such result")?;
             expect(graph.ty(*result) == node.ty, "wrong type")
         }
@@ -126,7 +177,10 @@ fn check(graph: &Graph, id: NodeId) -> Result<(), String> {
 }
 
 fn region(graph: &Graph, id: RegionId) -> Result<&super::Region, String> {
-    graph.regions.get(id.0 as usize).ok_or_else(|| "no such region".to_owned())
+    graph
+        .regions
+        .get(id.0 as usize)
+        .ok_or_else(|| "no such region".to_owned())
 }
 
 /// Rule 4: what depends on a parameter is used where the parameter is known.
@@ -143,13 +197,20 @@ fn scopes(graph: &Graph) -> Result<(), String> {
     let mut needs: Vec<RegionId> = Vec::with_capacity(graph.nodes.len());
     for id in graph.ids() {
         let node = graph.node(id);
-        let mut need = if let Op::Param(region, _) = node.op { region } else { Graph::BODY };
+        let mut need = if let Op::Param(region, _) = node.op {
+            region
+        } else {
+            Graph::BODY
+        };
         for arg in &node.args {
             let other = needs[arg.0 as usize];
             if inside(other, need) {
                 need = other;
             } else if !inside(need, other) {
-                return Err(format!("%{}: uses parameters of two regions of which neither is in the other", id.0));
+                return Err(format!(
+                    "%{}: uses parameters of two regions of which neither is in the other",
+                    id.0
+                ));
             }
         }
         for region in graph.regions_of(id) {

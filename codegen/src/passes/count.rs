@@ -83,9 +83,15 @@ impl Counter<'_> {
     fn node(&self, id: NodeId, run: &mut Run) {
         match &self.graph.node(id).op {
             Op::Load { texture, .. } => {
-                *run.reads.entry(self.graph.textures[*texture as usize].name.clone()).or_default() += 1;
+                *run.reads
+                    .entry(self.graph.textures[*texture as usize].name.clone())
+                    .or_default() += 1;
             }
-            Op::Tally(name) => *run.tallies.entry(self.graph.tallies[*name as usize].clone()).or_default() += 1,
+            Op::Tally(name) => {
+                *run.tallies
+                    .entry(self.graph.tallies[*name as usize].clone())
+                    .or_default() += 1
+            }
             Op::Unary(op) if op.is_transcendental() => run.transcendentals += 1,
             Op::Binary(crate::ir::BinaryOp::Pow | crate::ir::BinaryOp::Atan2) => run.transcendentals += 1,
             Op::Unary(_) | Op::Binary(_) | Op::Dot | Op::Cross | Op::Clamp | Op::Select | Op::Convert => run.alu += 1,
@@ -97,7 +103,9 @@ impl Counter<'_> {
 /// Layers of a texture that reads can reach: one more than the largest index that a read's layer is known to take,
 /// be it a constant or the counter of a loop with known bounds. A layer computed in another way counts as the first.
 pub fn layers_read(graph: &Graph, texture: u32) -> u32 {
-    let reads = graph.ids().filter(|id| matches!(graph.node(*id).op, Op::Load { texture: t, .. } if t == texture));
+    let reads = graph
+        .ids()
+        .filter(|id| matches!(graph.node(*id).op, Op::Load { texture: t, .. } if t == texture));
     let layers = reads.map(|id| match graph.node(id).args.get(1) {
         Some(layer) => largest(graph, *layer).map_or(1, |k| k.max(0) as u32 + 1),
         None => 1,
@@ -182,25 +190,53 @@ fn flatten(graph: &Graph, block: &Block, order: &mut Vec<Entry>) {
     for step in &block.steps {
         match step {
             Step::Eval(id) => {
-                order.push(Entry { makes: Some(*id), reads: graph.node(*id).args.clone(), until: None });
+                order.push(Entry {
+                    makes: Some(*id),
+                    reads: graph.node(*id).args.clone(),
+                    until: None,
+                });
             }
             Step::Loop { node, body } => {
                 let from = order.len();
-                order.push(Entry { makes: None, reads: graph.node(*node).args.clone(), until: None });
+                order.push(Entry {
+                    makes: None,
+                    reads: graph.node(*node).args.clone(),
+                    until: None,
+                });
                 flatten(graph, body, order);
-                let results = graph.regions_of(*node).iter().flat_map(|r| graph.region(*r).results.clone()).collect();
-                order.push(Entry { makes: Some(*node), reads: results, until: None });
+                let results = graph
+                    .regions_of(*node)
+                    .iter()
+                    .flat_map(|r| graph.region(*r).results.clone())
+                    .collect();
+                order.push(Entry {
+                    makes: Some(*node),
+                    reads: results,
+                    until: None,
+                });
                 let end = order.len() - 1;
                 for entry in &mut order[from..end] {
                     entry.until = Some(end);
                 }
             }
             Step::If { node, then, otherwise } => {
-                order.push(Entry { makes: None, reads: graph.node(*node).args.clone(), until: None });
+                order.push(Entry {
+                    makes: None,
+                    reads: graph.node(*node).args.clone(),
+                    until: None,
+                });
                 flatten(graph, then, order);
                 flatten(graph, otherwise, order);
-                let results = graph.regions_of(*node).iter().flat_map(|r| graph.region(*r).results.clone()).collect();
-                order.push(Entry { makes: Some(*node), reads: results, until: None });
+                let results = graph
+                    .regions_of(*node)
+                    .iter()
+                    .flat_map(|r| graph.region(*r).results.clone())
+                    .collect();
+                order.push(Entry {
+                    makes: Some(*node),
+                    reads: results,
+                    until: None,
+                });
             }
         }
     }

@@ -23,7 +23,11 @@ impl Rules for Exact {
 fn constant(b: &mut Builder<'_>, op: &Op, args: &[NodeId], ty: Type) -> Option<NodeId> {
     let operands: Option<Vec<Lanes>> = args.iter().map(|a| b.graph().constant(*a)).collect();
     let first = args.last()?;
-    let operand = if matches!(op, Op::Select) { b.graph().ty(*first) } else { b.graph().ty(args[0]) };
+    let operand = if matches!(op, Op::Select) {
+        b.graph().ty(*first)
+    } else {
+        b.graph().ty(args[0])
+    };
     if ty.is_array() {
         return None;
     }
@@ -47,13 +51,17 @@ fn shape(b: &mut Builder<'_>, op: &Op, args: &[NodeId], ty: Type) -> Option<Node
         Op::Compose => {
             let first = node(args[0]);
             let whole = *first.args.first()?;
-            let parts = args.iter().enumerate().all(|(k, part)| {
-                node(*part).op == Op::Extract(k as u8) && node(*part).args[0] == whole
-            });
+            let parts = args
+                .iter()
+                .enumerate()
+                .all(|(k, part)| node(*part).op == Op::Extract(k as u8) && node(*part).args[0] == whole);
             (parts && b.graph().ty(whole) == ty).then_some(whole)
         }
         Op::Select if args[1] == args[2] => Some(args[1]),
-        Op::Select => b.graph().constant(args[0]).map(|c| if c[0] != 0 { args[1] } else { args[2] }),
+        Op::Select => b
+            .graph()
+            .constant(args[0])
+            .map(|c| if c[0] != 0 { args[1] } else { args[2] }),
         Op::Convert if b.graph().ty(args[0]) == ty => Some(args[0]),
         _ => None,
     }
@@ -126,7 +134,10 @@ fn bounded_by(g: &Graph, id: NodeId, bound: NodeId) -> bool {
     match node.op {
         Op::Tally(_) => bounded_by(g, node.args[0], bound),
         Op::Binary(BinaryOp::Min) => {
-            node.args.contains(&bound) && g.constant(bound).is_some() && !all_lanes(g, bound, 0) && !all_lanes(g, bound, 1 << 31)
+            node.args.contains(&bound)
+                && g.constant(bound).is_some()
+                && !all_lanes(g, bound, 0)
+                && !all_lanes(g, bound, 1 << 31)
         }
         _ => false,
     }
@@ -137,7 +148,9 @@ fn integer(b: &mut Builder<'_>, op: BinaryOp, x: NodeId, y: NodeId) -> Option<No
     let is = |id: NodeId, value: u32| all_lanes(g, id, value);
     match op {
         BinaryOp::Add | BinaryOp::Or | BinaryOp::Xor if is(x, 0) => Some(y),
-        BinaryOp::Add | BinaryOp::Sub | BinaryOp::Or | BinaryOp::Xor | BinaryOp::Shl | BinaryOp::Shr if is(y, 0) => Some(x),
+        BinaryOp::Add | BinaryOp::Sub | BinaryOp::Or | BinaryOp::Xor | BinaryOp::Shl | BinaryOp::Shr if is(y, 0) => {
+            Some(x)
+        }
         BinaryOp::Mul | BinaryOp::Div if is(y, 1) => Some(x),
         BinaryOp::Mul if is(x, 1) => Some(y),
         BinaryOp::Mul | BinaryOp::And if is(x, 0) => Some(x),
@@ -172,5 +185,6 @@ fn boolean(g: &Graph, op: BinaryOp, x: NodeId, y: NodeId) -> Option<NodeId> {
 /// Whether `id` is a constant with `bits` in every lane.
 fn all_lanes(g: &Graph, id: NodeId, bits: u32) -> bool {
     let lanes = g.ty(id).lanes() as usize;
-    g.constant(id).is_some_and(|c| c[..lanes].iter().all(|lane| *lane == bits))
+    g.constant(id)
+        .is_some_and(|c| c[..lanes].iter().all(|lane| *lane == bits))
 }

@@ -15,10 +15,22 @@ use crate::ir::{Graph, Rebuild, rebuild};
 
 /// Makes reads of the same texel one read, and with them all that is computed from them alike.
 pub fn share_loads(graph: &Graph) -> Graph {
-    rebuild(graph, &Rebuild { rules: &Exact, share_loads: true })
+    rebuild(
+        graph,
+        &Rebuild {
+            rules: &Exact,
+            share_loads: true,
+        },
+    )
 }
 
 /// Drops what the result does not depend on, and applies the exact rules to what is left.
 pub fn clean(graph: &Graph) -> Graph {
-    rebuild(graph, &Rebuild { rules: &Exact, share_loads: false })
+    rebuild(
+        graph,
+        &Rebuild {
+            rules: &Exact,
+            share_loads: false,
+        },
+    )
 }

@@ -25,7 +25,9 @@ fn at_depth(g: &Graph, id: NodeId, depth: u32) -> bool {
         Op::Unary(UnaryOp::Sqrt | UnaryOp::InverseSqrt) | Op::Tally(_) | Op::Splat | Op::Extract(_) => known(0),
         // A sum of such values is one; so is their product, their quotient, and the square of anything.
         Op::Binary(BinaryOp::Mul) if node.args[0] == node.args[1] => true,
-        Op::Binary(BinaryOp::Add | BinaryOp::Mul | BinaryOp::Div | BinaryOp::Min | BinaryOp::Max) => known(0) && known(1),
+        Op::Binary(BinaryOp::Add | BinaryOp::Mul | BinaryOp::Div | BinaryOp::Min | BinaryOp::Max) => {
+            known(0) && known(1)
+        }
         Op::Dot => node.args[0] == node.args[1],
         Op::Select => known(1) && known(2),
         Op::Compose => (0..node.args.len()).all(known),

@@ -61,18 +61,29 @@ pub fn schedule(graph: &Graph) -> Schedule {
         }
     }
     let body = block(graph, &steps, Graph::BODY);
-    Schedule { body, uses: places.uses, place: places.place }
+    Schedule {
+        body,
+        uses: places.uses,
+        place: places.place,
+    }
 }
 
 fn block(graph: &Graph, steps: &[Vec<NodeId>], region: RegionId) -> Block {
     let step = |id: &NodeId| match graph.node(*id).op {
-        Op::Loop(body) => Step::Loop { node: *id, body: block(graph, steps, body) },
-        Op::If(then, otherwise) => {
-            Step::If { node: *id, then: block(graph, steps, then), otherwise: block(graph, steps, otherwise) }
-        }
+        Op::Loop(body) => Step::Loop {
+            node: *id,
+            body: block(graph, steps, body),
+        },
+        Op::If(then, otherwise) => Step::If {
+            node: *id,
+            then: block(graph, steps, then),
+            otherwise: block(graph, steps, otherwise),
+        },
         _ => Step::Eval(*id),
     };
-    Block { steps: steps[region.0 as usize].iter().map(step).collect() }
+    Block {
+        steps: steps[region.0 as usize].iter().map(step).collect(),
+    }
 }
 
 struct Places<'g> {
@@ -96,7 +107,14 @@ impl<'g> Places<'g> {
             loops[k] = loops[parent] + u32::from(!region.params.is_empty());
         }
         let nodes = graph.nodes.len();
-        Places { graph, depth, loops, early: vec![Graph::BODY; nodes], place: vec![None; nodes], uses: vec![0; nodes] }
+        Places {
+            graph,
+            depth,
+            loops,
+            early: vec![Graph::BODY; nodes],
+            place: vec![None; nodes],
+            uses: vec![0; nodes],
+        }
     }
 
     fn run(&mut self) {
@@ -144,8 +162,17 @@ impl<'g> Places<'g> {
         if let Some(first) = self.graph.regions_of(id).first() {
             return self.graph.region(*first).parent.unwrap_or(Graph::BODY);
         }
-        let deepest = |a: RegionId, b: RegionId| if self.depth[b.0 as usize] > self.depth[a.0 as usize] { b } else { a };
-        node.args.iter().map(|arg| self.early[arg.0 as usize]).fold(Graph::BODY, deepest)
+        let deepest = |a: RegionId, b: RegionId| {
+            if self.depth[b.0 as usize] > self.depth[a.0 as usize] {
+                b
+            } else {
+                a
+            }
+        };
+        node.args
+            .iter()
+            .map(|arg| self.early[arg.0 as usize])
+            .fold(Graph::BODY, deepest)
     }
 
     /// From the latest place outwards to the earliest: the innermost one with the fewest loops around it.
@@ -164,7 +191,9 @@ impl<'g> Places<'g> {
         let mut best = latest;
         let mut at = latest;
         while at != early {
-            let Some(parent) = self.graph.region(at).parent else { break };
+            let Some(parent) = self.graph.region(at).parent else {
+                break;
+            };
             at = parent;
             if self.loops[at.0 as usize] < self.loops[best.0 as usize] {
                 best = at;
@@ -179,7 +208,11 @@ impl<'g> Places<'g> {
 
     fn common(&self, mut a: RegionId, mut b: RegionId) -> RegionId {
         while a != b {
-            let deeper = if self.depth[a.0 as usize] >= self.depth[b.0 as usize] { &mut a } else { &mut b };
+            let deeper = if self.depth[a.0 as usize] >= self.depth[b.0 as usize] {
+                &mut a
+            } else {
+                &mut b
+            };
             *deeper = self.graph.region(*deeper).parent.unwrap_or(Graph::BODY);
         }
         a

@@ -33,7 +33,10 @@ pub struct Surface {
 impl GBuffer {
     /// The surface seen at `sample` of `pixel`.
     pub fn surface(&self, pixel: IVec2, sample: usize) -> Surface {
-        Surface { depth: self.depth.load(pixel, sample).min(DEEPEST), normal: self.normal.load(pixel, sample) }
+        Surface {
+            depth: self.depth.load(pixel, sample).min(DEEPEST),
+            normal: self.normal.load(pixel, sample),
+        }
     }
 }
 

@@ -58,7 +58,7 @@ const TAPS: usize = 9;
 /// Antialiased colour of `pixel`: each geometry sample takes its colour from the shading samples around it,
 /// weighted by how close their surfaces are.
 pub fn sraa(cfg: &Sraa, gbuffer: &GBuffer, color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
-    let samples = cfg.pattern.len();
+    let samples = cfg.pattern.samples();
     let share = 1.0 / samples as f32;
     let steepness = cfg.tau * std::f32::consts::LOG2_E;
     let mut weights = [0.0; TAPS];

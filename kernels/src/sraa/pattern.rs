@@ -27,7 +27,7 @@ pub enum Shading {
 
 impl Pattern {
     /// Number of geometry samples in a pixel.
-    pub fn len(self) -> usize {
+    pub fn samples(self) -> usize {
         match self {
             Pattern::Ordered4 => 4,
             Pattern::Latin4 => 4,
@@ -60,7 +60,7 @@ impl Sraa {
     pub fn shaded_layer(&self) -> usize {
         match self.shading {
             Shading::Sample0 => 0,
-            Shading::Centre => self.pattern.len(),
+            Shading::Centre => self.pattern.samples(),
         }
     }
 }

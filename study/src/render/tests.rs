@@ -44,14 +44,14 @@ fn plane(corners: [[f32; 3]; 4], normal: [f32; 3]) -> Scene {
     }
 }
 
-/// A floor from behind the camera to far ahead.
+/// A floor from before what is seen to far ahead. Narrow where it is near: drivers lose digits on triangles that reach
+/// far beyond the picture.
 fn floor() -> Scene {
-    let reach = 500.0;
     let corners = [
-        [-reach, 0.0, reach],
-        [reach, 0.0, reach],
-        [reach, 0.0, -reach],
-        [-reach, 0.0, -reach],
+        [-3.0, 0.0, -1.0],
+        [3.0, 0.0, -1.0],
+        [500.0, 0.0, -500.0],
+        [-500.0, 0.0, -500.0],
     ];
     plane(corners, [0.0, 1.0, 0.0])
 }
@@ -71,10 +71,12 @@ fn depth_and_normal_are_those_of_the_plane() {
                 let y = pixel.y as f32 + 0.5 + offset.y;
                 // How far the sample's ray falls in one unit ahead, from the camera one unit above the floor.
                 let fall = (2.0 * y / size.y as f32 - 1.0) * 0.5_f32.tan();
+                // Half of the coarsest step that Vulkan lets a driver round corners to, a sixteenth of a pixel.
+                let rounding = 2.0 * 0.5_f32.tan() / size.y as f32 / 32.0;
                 let (z, n) = (depth.load(pixel), normal.load(pixel));
                 if fall * 450.0 > 1.0 {
                     assert!(
-                        (z * fall - 1.0).abs() < 1.0e-4,
+                        (1.0 / z - fall).abs() < rounding,
                         "{pixel} {offset}: {z} for {}",
                         1.0 / fall
                     );
@@ -134,11 +136,12 @@ fn the_cpu_and_the_gpu_draw_the_same() {
             // Of two stones beside each other only the colours differ.
             differs((z0.load(*pixel), n0.load(*pixel)), (z1.load(*pixel), n1.load(*pixel))) || apart(*pixel) > 4.0e-3
         });
-        // Rounding puts edges 1/256 pixel apart at most, and there are many of them in this scene.
+        // Rounding puts edges 1/256 pixel apart, or 1/16 on drivers with no more digits than Vulkan asks for
+        // (SwiftShader: 2.0 % of the pixels; lavapipe: 0.2 %). There are many edges in this scene.
         let share = edges.len() as f64 / f64::from(size.element_product());
-        assert!(share < 3.0e-3, "{} pixels, {share}", edges.len());
+        assert!(share < 0.025, "{} pixels, {share}", edges.len());
         let mean = faces.iter().map(|pixel| f64::from(apart(*pixel))).sum::<f64>() / faces.len() as f64;
-        assert!(mean < 2.0e-5, "colours differ by {mean} on average");
+        assert!(mean < 2.0e-4, "colours differ by {mean} on average");
     }
 }
 

@@ -39,10 +39,17 @@ pub fn surfaces(size: UVec2, layers: usize, seed: u64) -> Inputs {
         .map(|_| {
             let angle = random.unit() * std::f32::consts::TAU;
             let normal = vec3(random.unit() - 0.5, random.unit() - 0.5, 0.3 + random.unit()).normalize();
-            (Vec2::from_angle(angle), random.unit() * size.x as f32 - 0.3 * size.x as f32, 1.0 + 9.0 * random.unit(), normal)
+            (
+                Vec2::from_angle(angle),
+                random.unit() * size.x as f32 - 0.3 * size.x as f32,
+                1.0 + 9.0 * random.unit(),
+                normal,
+            )
         })
         .collect();
-    let offsets: Vec<Vec2> = (0..layers).map(|_| vec2(random.unit() - 0.5, random.unit() - 0.5)).collect();
+    let offsets: Vec<Vec2> = (0..layers)
+        .map(|_| vec2(random.unit() - 0.5, random.unit() - 0.5))
+        .collect();
     let surface = |at: Vec2| {
         let mut found = (1.0e6, Vec3::Z);
         for (direction, distance, depth, normal) in &edges {
@@ -55,15 +62,28 @@ pub fn surfaces(size: UVec2, layers: usize, seed: u64) -> Inputs {
     };
     let layer = |k: usize| {
         let at = |p: usize| vec2((p as u32 % size.x) as f32, (p as u32 / size.x) as f32) + 0.5 + offsets[k];
-        (0..(size.x * size.y) as usize).map(|p| surface(at(p))).collect::<Vec<_>>()
+        (0..(size.x * size.y) as usize)
+            .map(|p| surface(at(p)))
+            .collect::<Vec<_>>()
     };
     let layers: Vec<Vec<(f32, Vec3)>> = (0..layers).map(layer).collect();
-    let depth = layers.iter().map(|l| Frame::new(size, l.iter().map(|s| s.0).collect())).collect();
-    let normal = layers.iter().map(|l| Frame::new(size, l.iter().map(|s| s.1).collect())).collect();
-    let color = (0..size.x * size.y).map(|_| vec4(random.unit(), random.unit(), random.unit(), 1.0)).collect();
+    let depth = layers
+        .iter()
+        .map(|l| Frame::new(size, l.iter().map(|s| s.0).collect()))
+        .collect();
+    let normal = layers
+        .iter()
+        .map(|l| Frame::new(size, l.iter().map(|s| s.1).collect()))
+        .collect();
+    let color = (0..size.x * size.y)
+        .map(|_| vec4(random.unit(), random.unit(), random.unit(), 1.0))
+        .collect();
     Inputs {
         size,
-        gbuffer: GBuffer { depth: FrameLayers::new(depth), normal: FrameLayers::new(normal) },
+        gbuffer: GBuffer {
+            depth: FrameLayers::new(depth),
+            normal: FrameLayers::new(normal),
+        },
         color: Frame::new(size, color),
     }
 }
@@ -81,8 +101,21 @@ pub fn all_options() -> Vec<(Sraa, Vec<(String, String)>)> {
             for (metric, m) in [(Metric::DepthNormals, "depth-normals"), (Metric::Depth, "depth")] {
                 for (falloff, f) in [(Falloff::None, "none"), (Falloff::Tent, "tent")] {
                     for (normalisation, n) in [(Normalisation::Paper, "paper"), (Normalisation::Shifted, "shifted")] {
-                        let cfg = Sraa { pattern, shading, metric, falloff, normalisation, ..Sraa::default() };
-                        let set = [("pattern", p), ("shading", s), ("metric", m), ("falloff", f), ("normalisation", n)];
+                        let cfg = Sraa {
+                            pattern,
+                            shading,
+                            metric,
+                            falloff,
+                            normalisation,
+                            ..Sraa::default()
+                        };
+                        let set = [
+                            ("pattern", p),
+                            ("shading", s),
+                            ("metric", m),
+                            ("falloff", f),
+                            ("normalisation", n),
+                        ];
                         all.push((cfg, set.map(|(k, v)| (k.to_owned(), v.to_owned())).to_vec()));
                     }
                 }
@@ -93,26 +126,49 @@ pub fn all_options() -> Vec<(Sraa, Vec<(String, String)>)> {
 }
 
 pub fn compile(options: &[(String, String)], unroll: Unroll) -> Compiled {
-    let settings = Settings { options: options.to_vec(), unroll };
-    Kernel::builtin("sraa").and_then(|k| k.compile(&settings)).unwrap_or_else(|errors| panic!("{errors}"))
+    let settings = Settings {
+        options: options.to_vec(),
+        unroll,
+    };
+    Kernel::builtin("sraa")
+        .and_then(|k| k.compile(&settings))
+        .unwrap_or_else(|errors| panic!("{errors}"))
 }
 
 /// The inputs as the interpreter reads them: depth, normal, color.
 pub fn images(inputs: &Inputs) -> [(&'static str, Image); 3] {
     let size = inputs.size.to_array();
-    let depth = inputs.gbuffer.depth.layers().iter().map(|l| l.texels().iter().map(|d| [*d, 0.0, 0.0, 0.0]).collect());
-    let normal = inputs.gbuffer.normal.layers().iter().map(|l| l.texels().iter().map(|n| n.extend(0.0).to_array()).collect());
+    let depth = inputs
+        .gbuffer
+        .depth
+        .layers()
+        .iter()
+        .map(|l| l.texels().iter().map(|d| [*d, 0.0, 0.0, 0.0]).collect());
+    let normal = inputs
+        .gbuffer
+        .normal
+        .layers()
+        .iter()
+        .map(|l| l.texels().iter().map(|n| n.extend(0.0).to_array()).collect());
     let color = inputs.color.texels().iter().map(|c| c.to_array()).collect();
     let image = |layers| Image::new(size, layers).expect("whole layers");
-    [("depth", image(depth.collect())), ("normal", image(normal.collect())), ("color", image(vec![color]))]
+    [
+        ("depth", image(depth.collect())),
+        ("normal", image(normal.collect())),
+        ("color", image(vec![color])),
+    ]
 }
 
 /// Every pixel of a compiled kernel, by the interpreter.
 pub fn interpret(compiled: &Compiled, inputs: &Inputs, uniforms: &[(&str, f64)]) -> Vec<[f32; 4]> {
     let images = images(inputs);
-    let bound: Vec<(&str, &dyn Texels)> = images.iter().map(|(name, image)| (*name, image as &dyn Texels)).collect();
+    let bound: Vec<(&str, &dyn Texels)> = images
+        .iter()
+        .map(|(name, image)| (*name, image as &dyn Texels))
+        .collect();
     let size = inputs.size.to_array();
-    let interpreter = Interpreter::new(&compiled.graph, &compiled.schedule, size, &bound, uniforms).expect("all inputs are bound");
+    let interpreter =
+        Interpreter::new(&compiled.graph, &compiled.schedule, size, &bound, uniforms).expect("all inputs are bound");
     let mut scratch = interpreter.scratch();
     let pixels = (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| (x, y)));
     pixels.map(|(x, y)| interpreter.pixel(x, y, &mut scratch)).collect()

@@ -6,19 +6,14 @@ use crate::scene::mesh::Mesh;
 use glam::{Affine3A, Vec3, vec3};
 use std::f32::consts::{PI, TAU};
 
-/// Half the side of the ground: far enough that haze has taken it.
-const REACH: f32 = 1500.0;
+/// Where the ground is cut along x and z, from the camera's surroundings to where haze has taken it. One large patch
+/// would do for exact arithmetic; drivers lose digits on triangles that pass the camera and reach the horizon.
+const CUTS: [f32; 15] = [
+    -1500.0, -400.0, -120.0, -48.0, -24.0, -12.0, -6.0, 0.0, 6.0, 12.0, 24.0, 48.0, 120.0, 400.0, 1500.0,
+];
 
 pub(super) fn add(mesh: &mut Mesh) {
-    let corner = |x: f32, z: f32| vec3(x * REACH, 0.0, z * REACH);
-    let ground = [
-        corner(-1.0, 1.0),
-        corner(1.0, 1.0),
-        corner(1.0, -1.0),
-        corner(-1.0, -1.0),
-    ];
-    mesh.patch(&ground, vec3(0.60, 0.48, 0.36), Material::Tiles);
-    fence(mesh, vec3(-8.6, 0.0, 3.2), vec3(-10.5, 0.0, -46.0), 150);
+    ground(mesh);
     hills(mesh);
     fence(mesh, vec3(11.0, 0.0, -3.4), vec3(45.0, 0.0, -9.0), 150);
     for (i, (x, z, height)) in [
@@ -36,6 +31,16 @@ pub(super) fn add(mesh: &mut Mesh) {
     }
     let place = Affine3A::from_translation(vec3(-6.0, 0.0, 3.9));
     mesh.at(place, monument);
+}
+
+/// A tiled floor up to the horizon.
+fn ground(mesh: &mut Mesh) {
+    for x in CUTS.windows(2) {
+        for z in CUTS.windows(2) {
+            let corners = [(x[0], z[1]), (x[1], z[1]), (x[1], z[0]), (x[0], z[0])].map(|(x, z)| vec3(x, 0.0, z));
+            mesh.patch(&corners, vec3(0.60, 0.48, 0.36), Material::Tiles);
+        }
+    }
 }
 
 /// Two ranges around the far half of the horizon, in large facets.

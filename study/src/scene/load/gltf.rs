@@ -2,13 +2,14 @@
 
 use super::accessor::{floats, indices};
 use super::assemble::{Normals, Part};
+use super::parse::parse;
 use super::texture::Texture;
 use super::{MAX_TRIANGLES, read_file};
 use crate::scene::SceneError;
 use glam::{Mat3, Mat4, Vec2, Vec3};
 use gltf::buffer::Data;
 use gltf::mesh::{Mode, Primitive};
-use gltf::{Document, Gltf, Semantic};
+use gltf::{Document, Semantic};
 use std::collections::hash_map::Entry;
 use std::collections::{HashMap, HashSet};
 use std::path::Path;
@@ -17,8 +18,7 @@ use std::path::Path;
 pub(super) fn read(path: &Path) -> Result<Vec<Part>, SceneError> {
     let bytes = read_file(path)?;
     let parts = || {
-        let Gltf { document, blob } = Gltf::from_slice(&bytes).map_err(|error| error.to_string())?;
-        check_uris(&document)?;
+        let (document, blob) = parse(&bytes)?;
         let buffers = gltf::import_buffers(&document, path.parent(), blob).map_err(|error| error.to_string())?;
         let model = Model {
             base: path.parent(),
@@ -31,43 +31,6 @@ pub(super) fn read(path: &Path) -> Result<Vec<Part>, SceneError> {
         path: path.to_owned(),
         problem,
     })
-}
-
-/// Refuses names that are no text, which the `gltf` crate would stumble over.
-fn check_uris(document: &Document) -> Result<(), String> {
-    let buffers = document.buffers().filter_map(|buffer| match buffer.source() {
-        gltf::buffer::Source::Uri(uri) => Some(uri),
-        gltf::buffer::Source::Bin => None,
-    });
-    let images = document.images().filter_map(|image| match image.source() {
-        gltf::image::Source::Uri { uri, .. } => Some(uri),
-        gltf::image::Source::View { .. } => None,
-    });
-    match buffers.chain(images).find(|uri| !is_text(uri)) {
-        Some(uri) => Err(format!("the URI `{uri}` does not stand for UTF-8 text")),
-        None => Ok(()),
-    }
-}
-
-/// Whether `uri` is text once its percent escapes are resolved.
-fn is_text(uri: &str) -> bool {
-    let bytes = uri.as_bytes();
-    let mut decoded = Vec::with_capacity(bytes.len());
-    let mut at = 0;
-    while at < bytes.len() {
-        let digits = uri.get(at + 1..at + 3).filter(|_| bytes[at] == b'%');
-        match digits.and_then(|digits| u8::from_str_radix(digits, 16).ok()) {
-            Some(byte) => {
-                decoded.push(byte);
-                at += 3;
-            }
-            None => {
-                decoded.push(bytes[at]);
-                at += 1;
-            }
-        }
-    }
-    String::from_utf8(decoded).is_ok()
 }
 
 struct Model<'a> {

@@ -4,6 +4,7 @@ mod accessor;
 mod assemble;
 mod gltf;
 mod obj;
+mod parse;
 mod surface;
 mod texture;
 

@@ -201,6 +201,8 @@ fn broken_gltf_files() {
             "ancestor",
         ),
         (r#""POSITION": 0"#, r#""NORMAL": 0"#, "POSITION"),
+        (r#""POSITION": 0"#, r#""POSITION": 9"#, "accessor 9"),
+        (r#""nodes": [{"#, r#""images": [{}], "nodes": [{"#, "image 0"),
         (
             r#"{"version": "2.0"}"#,
             r#"{"version": "2.0"}, "extensionsRequired": ["KHR_draco"]"#,
