@@ -25,7 +25,7 @@ mod paint {
     pub const DOOR: Vec3 = vec3(0.10, 0.20, 0.17);
 }
 
-/// The scene. About 36 000 triangles; one unit is a metre.
+/// The scene. About 34 000 triangles; one unit is a metre.
 pub fn builtin() -> Scene {
     let mut mesh = Mesh::default();
     house::add(&mut mesh);
