@@ -197,7 +197,7 @@ pub struct DemoArgs {
     /// Folder for shaders and pictures
     #[arg(long, value_name = "DIR", default_value = "demo")]
     pub out: PathBuf,
-    /// Width and height in pixels; by default 1280x720, or 640x360 where no GPU is
+    /// Width and height in pixels; by default 1280x720, or 320x180 where no GPU is
     #[arg(long, value_name = "WxH", value_parser = size)]
     pub size: Option<UVec2>,
     /// Model to render instead of the built-in scene: .gltf, .glb or .obj

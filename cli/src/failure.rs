@@ -4,6 +4,7 @@ use codespan_reporting::diagnostic::{Diagnostic, Label};
 use codespan_reporting::files::SimpleFiles;
 use codespan_reporting::term::{self, termcolor};
 use std::fmt::Display;
+use std::io::IsTerminal;
 use std::process::ExitCode;
 use straightline_codegen::diagnostic::Errors;
 
@@ -59,7 +60,13 @@ fn render(errors: &Errors) {
         .iter()
         .map(|f| files.add(f.path.as_str(), f.text.as_str()))
         .collect();
-    let mut out = termcolor::StandardStream::stderr(termcolor::ColorChoice::Auto);
+    // `Auto` looks at the environment, not at whether anybody sees it.
+    let color = if std::io::stderr().is_terminal() {
+        termcolor::ColorChoice::Auto
+    } else {
+        termcolor::ColorChoice::Never
+    };
+    let mut out = termcolor::StandardStream::stderr(color);
     for error in &errors.diagnostics {
         let mut shown = Diagnostic::error().with_message(&error.message);
         if let Some(span) = error.span

@@ -65,7 +65,7 @@ pub fn run(args: &DemoArgs) -> Result<(), Failure> {
     let size = args.size.unwrap_or(if gpu.is_some() {
         UVec2::new(1280, 720)
     } else {
-        UVec2::new(640, 360)
+        UVec2::new(320, 180)
     });
     let shaders = default_set::files().map_err(Failure::of)?;
     files::write_all(&args.out.join("shaders"), &shaders).map_err(Failure::of)?;
@@ -164,19 +164,17 @@ fn on_adapter(gpu: &Gpu, method: &Method, rounds: u32) -> Result<Measured, Failu
     Ok((resolved, [times[0], times[1]], clock))
 }
 
-/// Three rounds in turn: the interpreter is there to show the result, not to be raced.
+/// One round: the interpreter is there to show the result, not to be raced.
 fn on_interpreter(method: &Method) -> Result<Measured, Failure> {
     let bound = Bound::new(&inputs(method))?;
     let mut times = [Vec::new(), Vec::new()];
     let mut resolved = None;
     let bar = scene::bar("interpreting, in turn");
-    bar.set_length(3);
-    for _ in 0..3 {
-        for (times, compiled) in times.iter_mut().zip([&method.looped, &method.unrolled]) {
-            let start = Instant::now();
-            resolved = Some(bound.run(compiled)?);
-            times.push(start.elapsed());
-        }
+    bar.set_length(2);
+    for (times, compiled) in times.iter_mut().zip([&method.looped, &method.unrolled]) {
+        let start = Instant::now();
+        resolved = Some(bound.run(compiled)?);
+        times.push(start.elapsed());
         bar.inc(1);
     }
     bar.finish_and_clear();
