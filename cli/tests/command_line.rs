@@ -3,19 +3,8 @@
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-/// The command line's binary, built beside the tests.
 fn straightline(arguments: &[&str]) -> Output {
-    let mut target = std::env::current_exe().expect("a test runs from a file");
-    target.pop();
-    if target.ends_with("deps") {
-        target.pop();
-    }
-    let binary = target.join(format!("straightline{}", std::env::consts::EXE_SUFFIX));
-    assert!(
-        binary.exists(),
-        "{} is not built: run `cargo test --workspace`",
-        binary.display()
-    );
+    let binary = env!("CARGO_BIN_EXE_straightline");
     Command::new(binary).args(arguments).output().expect("the binary runs")
 }
 
