@@ -252,16 +252,11 @@ impl Writer<'_> {
 
     fn array_set(&mut self, id: NodeId) -> Result<(), EmitError> {
         let args = self.compiled.graph.node(id).args.clone();
-        if self.webs.variable(id).is_none() {
-            self.open_web(id, args[0])?;
-        } else if self.compiled.graph.node(args[0]).op != Op::MakeArray && !self.webs.holds(args[0]) {
-            return Err(self.stale(args[0]));
-        }
+        self.enter_web(id, args[0])?;
         let name = Text::name(self.webs.variable(id).unwrap_or_default());
         let place = self.indexed(&name, args[1])?;
         let value = self.text(args[2])?;
         self.statement(id, format!("{} = {};", place.code, value.code));
-        self.webs.advance(id);
         Ok(())
     }
 
@@ -391,13 +386,12 @@ impl Writer<'_> {
             .collect();
         // A side that does nothing leaves values that are known before: the variable begins with them.
         let idle = otherwise.steps.is_empty();
+        let mut begins_array = false;
         for id in &results {
             let Op::Result(k) = graph.node(*id).op else { continue };
             let kept = regions[1].results[k as usize];
             if graph.ty(*id).is_array() {
-                if self.webs.variable(*id).is_none() {
-                    self.open_web(*id, kept)?;
-                }
+                begins_array |= self.prepare_array(*id, kept);
                 continue;
             }
             let begin = if idle { Some(self.text(kept)?.code) } else { None };
@@ -411,29 +405,33 @@ impl Writer<'_> {
         self.statements += 1;
         let before = self.webs.snapshot();
         self.side(then, &results, &regions[0].results, false)?;
-        if !idle || self.must_set_arrays(&results, &regions[1].results, &before) {
-            self.webs.restore(&before);
+        self.webs.restore(&before);
+        if !idle || begins_array {
             self.line("} else {".to_owned());
             self.side(otherwise, &results, &regions[1].results, idle)?;
+        } else {
+            for id in results.iter().filter(|id| graph.ty(**id).is_array()) {
+                let Op::Result(k) = graph.node(*id).op else { continue };
+                self.enter_web(*id, regions[1].results[k as usize])?;
+            }
         }
         self.line("}".to_owned());
         self.webs.leave(&before);
-        for id in results.iter().filter(|id| graph.ty(**id).is_array()) {
-            self.webs.advance(*id);
-        }
         Ok(())
     }
 
-    /// Whether the idle side of a branch still has to write a literal into an array.
-    fn must_set_arrays(&self, results: &[NodeId], values: &[NodeId], _: &impl Sized) -> bool {
+    /// Sees to it that an array that a branch chooses has its variable before the branch. Gives whether the side that
+    /// leaves `kept` must write it: a literal, which no variable holds.
+    fn prepare_array(&mut self, id: NodeId, kept: NodeId) -> bool {
         let graph = &self.compiled.graph;
-        results.iter().any(|id| {
-            let Op::Result(k) = graph.node(*id).op else {
-                return false;
-            };
-            let value = values[k as usize];
-            graph.ty(*id).is_array() && graph.node(value).op == Op::MakeArray && !self.webs.holds(value)
-        })
+        if self.webs.variable(id).is_none() {
+            let name = self.names.of(graph, id, self.plan.origin(id));
+            let line = self.dialect.mutable(&name, graph.ty(id), None);
+            self.statement(id, line);
+            // Both sides write it before it is read.
+            self.webs.declare(id, name, id);
+        }
+        graph.node(kept).op == Op::MakeArray
     }
 
     fn side(

@@ -62,7 +62,8 @@ impl Walk<'_, '_> {
     fn event(&mut self, event: Event) {
         match event {
             Event::Open(region) if self.live.regions[region.0 as usize] => self.open(region),
-            Event::Close(region) if self.live.regions[region.0 as usize] => self.close(region),
+            // Its results may be newer than its end: they are set when its owner is built.
+            Event::Close(region) if self.live.regions[region.0 as usize] => self.builder.close_region(Vec::new()),
             _ => {}
         }
     }
@@ -78,16 +79,22 @@ impl Walk<'_, '_> {
         }
     }
 
-    fn close(&mut self, region: RegionId) {
-        let results = self.live.kept(region, &self.old.region(region).results, false);
-        let results = results.iter().map(|r| self.new_id(*r)).collect();
-        self.builder.close_region(results);
+    /// Gives the regions of a loop or branch their results.
+    fn set_results(&mut self, owner: NodeId) {
+        for region in self.old.regions_of(owner) {
+            let results = self.live.kept(region, &self.old.region(region).results, false);
+            let results = results.iter().map(|r| self.new_id(*r)).collect();
+            if let Some(new) = self.new_regions[region.0 as usize] {
+                self.builder.graph_mut().regions[new.0 as usize].results = results;
+            }
+        }
     }
 
     fn node(&mut self, id: NodeId, share_loads: bool) {
         if !self.live.nodes[id.0 as usize] || self.new_ids[id.0 as usize].is_some() {
             return;
         }
+        self.set_results(id);
         let node = self.old.node(id);
         let region =
             |r: &RegionId| self.new_regions[r.0 as usize].expect("regions are opened before their owner is built");
