@@ -3,8 +3,9 @@
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use glam::UVec2;
 use std::path::PathBuf;
+use straightline_codegen::diagnostic::Errors;
 use straightline_codegen::emit::Target;
-use straightline_codegen::{Settings, Unroll};
+use straightline_codegen::{Branches, Kernel, Settings, Unroll};
 use straightline_manifest::{Format, Stage};
 
 /// Image filters written once, as ordinary Rust with ordinary loops, emitted as straight-line shaders.
@@ -28,6 +29,8 @@ pub enum Command {
     Emit(EmitArgs),
     /// Count what a kernel does for each pixel, without running it
     Explain(ExplainArgs),
+    /// Run a kernel on pictures
+    Run(RunArgs),
     /// Antialias a captured frame
     Resolve(ResolveArgs),
     /// Render a scene or a model to a capture: the frame that `resolve` reads
@@ -41,19 +44,51 @@ pub enum Command {
 pub struct KernelArgs {
     /// A built-in kernel (see `list`), FILE.rs, or FILE.rs::FUNCTION
     pub kernel: String,
+    /// A further file that the kernel calls functions of; may be given several times
+    #[arg(long, value_name = "FILE")]
+    pub source: Vec<PathBuf>,
     #[command(flatten)]
     pub options: OptionArgs,
 }
 
+impl KernelArgs {
+    /// The kernel with all its files.
+    pub fn locate(&self) -> Result<Kernel, Errors> {
+        let kernel = Kernel::locate(&self.kernel);
+        self.source.iter().fold(kernel, |kernel, path| kernel?.with_file(path))
+    }
+}
+
 /// Options of a kernel.
-#[derive(Debug, Clone, Default, Args)]
+#[derive(Debug, Clone, Args)]
 pub struct OptionArgs {
     /// Set an option of the kernel; may be given several times. A number may be `uniform`: set at run time
     #[arg(long = "set", value_name = "OPTION=VALUE", value_parser = pair)]
     pub set: Vec<(String, String)>,
-    /// What becomes of loops: `full` runs them all now, `none` keeps them
+    /// What becomes of loops: `full` runs them all now, `none` keeps them, `4` keeps them with four rounds in a row
     #[arg(long, value_name = "POLICY", default_value = "full", value_parser = |s: &str| s.parse::<Unroll>())]
     pub unroll: Unroll,
+    /// What becomes of one loop: LOOP is `function.counter` (see `explain`) or the counter; may be given several times
+    #[arg(long, value_name = "LOOP=POLICY", value_parser = loop_policy)]
+    pub unroll_loop: Vec<(String, Unroll)>,
+    /// What becomes of an `if` on values that are only known at run time: as-loops, keep or select
+    #[arg(long, value_name = "POLICY", default_value = "as-loops", value_parser = |s: &str| s.parse::<Branches>())]
+    pub branches: Branches,
+    /// Statements that the kernel may have
+    #[arg(long, value_name = "STATEMENTS", default_value_t = Settings::BUDGET)]
+    pub budget: u32,
+}
+
+impl Default for OptionArgs {
+    fn default() -> Self {
+        OptionArgs {
+            set: Vec::new(),
+            unroll: Unroll::default(),
+            unroll_loop: Vec::new(),
+            branches: Branches::default(),
+            budget: Settings::BUDGET,
+        }
+    }
 }
 
 impl OptionArgs {
@@ -61,6 +96,9 @@ impl OptionArgs {
         Settings {
             options: self.set.clone(),
             unroll: self.unroll,
+            loops: self.unroll_loop.clone(),
+            branches: self.branches,
+            budget: self.budget,
         }
     }
 }
@@ -100,6 +138,9 @@ pub struct EmitArgs {
     /// Texel format of the output: rgba8unorm, rgba16float or rgba32float
     #[arg(long, value_name = "FORMAT", default_value = "rgba16float", value_parser = |s: &str| s.parse::<Format>())]
     pub format: Format,
+    /// Invocations of a compute workgroup, across and down
+    #[arg(long, value_name = "WxH", value_parser = size)]
+    pub workgroup: Option<UVec2>,
     /// Folder to write to; made if it is not there
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
@@ -126,6 +167,42 @@ pub enum Executor {
     Gpu,
     /// The same graph, interpreted
     Cpu,
+}
+
+#[derive(Debug, Args)]
+pub struct RunArgs {
+    #[command(flatten)]
+    pub kernel: KernelArgs,
+    /// Picture for a texture of the kernel, NAME=FILE; NAME may be left out where it has one texture. May be given several
+    /// times. PNG or EXR; files given for a texture with layers, in order, are its layers
+    #[arg(long, value_name = "[NAME=]FILE", required = true)]
+    pub input: Vec<String>,
+    /// Value of a uniform: NAME=NUMBER, or NAME=X,Y,Z for a vector. May be given several times
+    #[arg(long, value_name = "NAME=NUMBERS", value_parser = pair)]
+    pub uniform: Vec<(String, String)>,
+    /// Elements of a buffer: NAME=A,B,C. May be given several times
+    #[arg(long, value_name = "NAME=NUMBERS", value_parser = pair)]
+    pub buffer: Vec<(String, String)>,
+    /// Width and height of the output; by default those of the first input
+    #[arg(long, value_name = "WxH", value_parser = size)]
+    pub size: Option<UVec2>,
+    /// Picture to write: .png (8 bits, sRGB) or .exr (linear floats)
+    #[arg(long, value_name = "FILE")]
+    pub out: PathBuf,
+    /// What computes the pixels
+    #[arg(long, value_enum, default_value = "gpu")]
+    pub executor: Executor,
+    /// On the CPU, the precision of floats: f16, f32 or f64
+    #[arg(long, value_name = "PRECISION", default_value = "f32", value_parser = ["f16", "f32", "f64"])]
+    pub precision: String,
+    /// On the CPU, say where a NaN or an infinity first came from, and fail if there is one
+    #[arg(long)]
+    pub check_finite: bool,
+    /// Pipeline stage, on the GPU
+    #[arg(long, value_enum, default_value = "compute")]
+    pub stage: StageArg,
+    #[command(flatten)]
+    pub adapter: AdapterArgs,
 }
 
 #[derive(Debug, Args)]
@@ -224,6 +301,11 @@ impl Default for DemoArgs {
             adapter: AdapterArgs::default(),
         }
     }
+}
+
+fn loop_policy(text: &str) -> Result<(String, Unroll), String> {
+    let (path, policy) = pair(text)?;
+    Ok((path, policy.parse()?))
 }
 
 fn pair(text: &str) -> Result<(String, String), String> {

@@ -2,13 +2,11 @@
 
 mod args;
 mod commands;
-mod cpu;
 mod failure;
 mod gpu;
 mod resolve;
 mod scene;
 mod table;
-mod timing;
 
 use args::{Arguments, Command};
 use clap::Parser;
@@ -21,6 +19,7 @@ fn main() -> ExitCode {
         Command::List(args) => commands::list::run(&args),
         Command::Emit(args) => commands::emit::run(&args),
         Command::Explain(args) => commands::explain::run(&args),
+        Command::Run(args) => commands::run::run(&args),
         Command::Resolve(args) => commands::resolve::run(&args),
         Command::Capture(args) => commands::capture::run(&args),
         Command::Adapters(args) => commands::adapters::run(&args),

@@ -10,20 +10,32 @@
 //! }
 //! ```
 //!
+//! One's own kernels alone need no more than `straightline_codegen::compile(["src/kernels/glow.rs"])`.
+//!
 //! The crate then says `straightline_runtime::include_shaders!();` where it wants the modules.
 
 use crate::diagnostic::Errors;
-use crate::emit::{self, EmitError, Target};
-use crate::eval::Unroll;
+use crate::emit::{self, EmitError, EmitOptions, Target};
 use crate::files::{self, WriteError};
 use crate::pipeline::{Compiled, Kernel, Settings};
-use std::collections::{BTreeMap, BTreeSet};
+use crate::policy::{Branches, Unroll};
+use std::collections::BTreeMap;
 use std::fmt;
 use std::path::{Path, PathBuf};
 use straightline_manifest::{Format, Manifest, Stage};
 
 /// Name of the file with the bindings.
 const BINDINGS: &str = "straightline.rs";
+
+/// Compiles kernels of one's own: of each file the function that has the file's name, with its options at their
+/// defaults. For anything else see [`Config`].
+///
+/// # Errors
+///
+/// As [`Config::compile`].
+pub fn compile<P: AsRef<Path>>(files: impl IntoIterator<Item = P>) -> Result<(), Error> {
+    files.into_iter().fold(Config::new(), Config::file).compile()
+}
 
 /// Which shaders a crate wants.
 #[derive(Clone, Debug, Default)]
@@ -38,9 +50,9 @@ pub struct KernelConfig {
     source: Source,
     name: Option<String>,
     settings: Settings,
-    stage: Stage,
-    format: Format,
-    targets: BTreeSet<Target>,
+    emit: EmitOptions,
+    /// Further files that the kernel calls functions of.
+    sources: Vec<PathBuf>,
 }
 
 #[derive(Clone, Debug)]
@@ -73,9 +85,8 @@ impl KernelConfig {
             source,
             name: None,
             settings: Settings::default(),
-            stage: Stage::Compute,
-            format: Format::default(),
-            targets: BTreeSet::from([Target::Wgsl]),
+            emit: EmitOptions::new(),
+            sources: Vec::new(),
         }
     }
 
@@ -91,15 +102,45 @@ impl KernelConfig {
         self
     }
 
+    /// What becomes of one loop, by `function.counter` or by its counter alone, whatever is said of others.
+    pub fn unroll_loop(mut self, path: &str, unroll: Unroll) -> Self {
+        self.settings.loops.push((path.to_owned(), unroll));
+        self
+    }
+
+    /// What becomes of an `if` on values that are only known at run time; by default both sides are computed.
+    pub fn branches(mut self, branches: Branches) -> Self {
+        self.settings.branches = branches;
+        self
+    }
+
+    /// Statements that the kernel may have; by default [`Settings::BUDGET`].
+    pub fn budget(mut self, statements: u32) -> Self {
+        self.settings.budget = statements;
+        self
+    }
+
+    /// A further file that the kernel calls functions of.
+    pub fn source(mut self, path: impl AsRef<Path>) -> Self {
+        self.sources.push(path.as_ref().to_owned());
+        self
+    }
+
     /// The pipeline stage; by default compute.
     pub fn stage(mut self, stage: Stage) -> Self {
-        self.stage = stage;
+        self.emit.stage = stage;
+        self
+    }
+
+    /// Invocations of a compute workgroup, across and down; by default [`EmitOptions::WORKGROUP`].
+    pub fn workgroup(mut self, x: u32, y: u32) -> Self {
+        self.emit.workgroup = Some([x, y]);
         self
     }
 
     /// Format of the output; by default `rgba16float`.
     pub fn format(mut self, format: Format) -> Self {
-        self.format = format;
+        self.emit.format = format;
         self
     }
 
@@ -119,7 +160,7 @@ impl KernelConfig {
 
     /// Also writes the shader in another language.
     pub fn target(mut self, target: Target) -> Self {
-        self.targets.insert(target);
+        self.emit.targets.insert(target);
         self
     }
 
@@ -128,6 +169,7 @@ impl KernelConfig {
             Source::Builtin(name) => Kernel::builtin(name),
             Source::File(path, function) => Kernel::from_file(path, function.as_deref()),
         };
+        let kernel = self.sources.iter().fold(kernel, |kernel, path| kernel?.with_file(path));
         let kernel = kernel.map_err(|e| Error::of(Problem::Kernel(e)))?;
         let name = self.name.clone().unwrap_or_else(|| kernel.name().to_owned());
         if syn::parse_str::<syn::Ident>(&name).is_err() {
@@ -137,7 +179,7 @@ impl KernelConfig {
             .compile(&self.settings)
             .map_err(|e| Error::of(Problem::Kernel(e)))?;
         let emitted = compiled
-            .emit(self.stage, self.format, &self.targets)
+            .emit(&self.emit)
             .map_err(|e| Error::of(Problem::Emit(e)))?;
         let files = emitted.named(&name);
         Ok(Built {
@@ -187,7 +229,11 @@ impl Config {
     /// Every error of every kernel at once; two shaders of one name; a folder that cannot be written.
     pub fn compile(&self) -> Result<(), Error> {
         for kernel in &self.kernels {
-            if let Source::File(path, _) = &kernel.source {
+            let own = match &kernel.source {
+                Source::File(path, _) => Some(path),
+                Source::Builtin(_) => None,
+            };
+            for path in own.into_iter().chain(&kernel.sources) {
                 println!("cargo::rerun-if-changed={}", path.display());
             }
         }

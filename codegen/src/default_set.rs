@@ -2,11 +2,11 @@
 //! samples, in both stages, and with its loops kept.
 
 use crate::diagnostic::Errors;
-use crate::emit::{EmitError, Target};
-use crate::eval::Unroll;
+use crate::emit::{EmitError, EmitOptions, Target};
 use crate::pipeline::{Kernel, Settings};
+use crate::policy::Unroll;
 use std::collections::BTreeMap;
-use straightline_manifest::{Format, Stage};
+use straightline_manifest::Stage;
 
 /// One shader of the set.
 #[derive(Clone, Debug)]
@@ -74,11 +74,12 @@ pub fn files() -> Result<BTreeMap<String, Vec<u8>>, Error> {
         let settings = Settings {
             options,
             unroll: entry.unroll,
+            ..Settings::default()
         };
         let compiled = Kernel::builtin(entry.kernel)
             .and_then(|k| k.compile(&settings))
             .map_err(Error::Kernel)?;
-        let emitted = compiled.emit(entry.stage, Format::default(), &Target::ALL.into())?;
+        let emitted = compiled.emit(&EmitOptions::new().stage(entry.stage).targets(Target::ALL))?;
         all.extend(emitted.named(entry.stem));
     }
     Ok(all)

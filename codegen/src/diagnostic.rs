@@ -1,5 +1,7 @@
 //! What is wrong with a kernel, where, and what to do about it.
 
+use codespan_reporting::diagnostic::Label;
+use codespan_reporting::files::SimpleFiles;
 use std::fmt;
 use std::sync::Arc;
 
@@ -36,6 +38,10 @@ pub struct Diagnostic {
     pub span: Option<Span>,
     /// A few words at the place.
     pub label: String,
+    /// Other places that matter, with a few words each.
+    pub others: Vec<(Span, String)>,
+    /// Why it is so, where that is not plain.
+    pub notes: Vec<String>,
     /// The way out.
     pub help: Option<String>,
 }
@@ -47,6 +53,8 @@ impl Diagnostic {
             message: message.into(),
             span: Some(span),
             label: String::new(),
+            others: Vec::new(),
+            notes: Vec::new(),
             help: None,
         }
     }
@@ -57,6 +65,8 @@ impl Diagnostic {
             message: message.into(),
             span: None,
             label: String::new(),
+            others: Vec::new(),
+            notes: Vec::new(),
             help: None,
         }
     }
@@ -64,6 +74,18 @@ impl Diagnostic {
     /// With a few words at the place.
     pub fn label(mut self, label: impl Into<String>) -> Self {
         self.label = label.into();
+        self
+    }
+
+    /// With another place that matters.
+    pub fn other(mut self, span: Span, label: impl Into<String>) -> Self {
+        self.others.push((span, label.into()));
+        self
+    }
+
+    /// With a reason.
+    pub fn note(mut self, note: impl Into<String>) -> Self {
+        self.notes.push(note.into());
         self
     }
 
@@ -103,26 +125,52 @@ impl Errors {
     }
 }
 
-impl fmt::Display for Errors {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (k, diagnostic) in self.diagnostics.iter().enumerate() {
-            if k > 0 {
-                f.write_str("\n")?;
-            }
-            if let Some(span) = diagnostic.span
-                && let Some(file) = self.files.get(span.file as usize)
-            {
-                write!(f, "{}:{}:{}: ", file.path, span.line, span.column)?;
-            }
-            f.write_str(&diagnostic.message)?;
-            if !diagnostic.label.is_empty() {
-                write!(f, " ({})", diagnostic.label)?;
-            }
-            if let Some(help) = &diagnostic.help {
-                write!(f, "\n  help: {help}")?;
+impl Errors {
+    /// The errors as rustc shows its own, with the source; in colour for a terminal.
+    pub fn render(&self, colour: bool) -> String {
+        use codespan_reporting::term::{self, termcolor};
+        let mut files = SimpleFiles::new();
+        for file in self.files.iter() {
+            files.add(file.path.as_str(), file.text.as_str());
+        }
+        let mut out = if colour { termcolor::Buffer::ansi() } else { termcolor::Buffer::no_color() };
+        for diagnostic in &self.diagnostics {
+            let shown = self.shown(diagnostic);
+            if term::emit_to_write_style(&mut out, &term::Config::default(), &files, &shown).is_err() {
+                // A place outside of its file: say what is wrong without it.
+                return self.diagnostics.iter().map(|d| format!("error: {}\n", d.message)).collect();
             }
         }
-        Ok(())
+        String::from_utf8_lossy(out.as_slice()).trim_end().to_owned() + "\n"
+    }
+
+    fn shown(&self, diagnostic: &Diagnostic) -> codespan_reporting::diagnostic::Diagnostic<usize> {
+        let mut shown = codespan_reporting::diagnostic::Diagnostic::error().with_message(&diagnostic.message);
+        let place = |span: Span| {
+            let file = span.file as usize;
+            self.files.get(file).map(|_| (file, span.start as usize..span.end as usize))
+        };
+        if let Some((file, range)) = diagnostic.span.and_then(place) {
+            shown = shown.with_label(Label::primary(file, range).with_message(&diagnostic.label));
+        }
+        for (span, label) in &diagnostic.others {
+            if let Some((file, range)) = place(*span) {
+                shown = shown.with_label(Label::secondary(file, range).with_message(label));
+            }
+        }
+        for note in &diagnostic.notes {
+            shown = shown.with_note(format!("note: {note}"));
+        }
+        if let Some(help) = &diagnostic.help {
+            shown = shown.with_note(format!("help: {help}"));
+        }
+        shown
+    }
+}
+
+impl fmt::Display for Errors {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.render(false).trim_end())
     }
 }
 

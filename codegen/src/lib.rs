@@ -21,8 +21,11 @@ mod front;
 pub mod ir;
 pub mod passes;
 mod pipeline;
+pub mod policy;
 
-pub use config::Config;
-pub use eval::{OptionInfo, OptionKind, Unroll};
+pub use config::{Config, compile};
+pub use emit::EmitOptions;
+pub use eval::{LoopReport, OptionInfo, OptionKind};
 pub use pipeline::{Compiled, Kernel, Observer, Settings};
+pub use policy::{Branches, Unroll};
 pub use straightline_manifest::{Format, Manifest, Stage};

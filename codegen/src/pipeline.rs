@@ -1,15 +1,16 @@
 //! The stages from text to graph, in order.
 
 use crate::diagnostic::{Diagnostic, Errors, File};
-use crate::emit::{self, EmitError, Emitted, Target};
-use crate::eval::{self, OptionInfo, Unroll};
+use crate::emit::{self, EmitError, EmitOptions, Emitted};
+use crate::eval::{self, LoopReport, OptionInfo};
 use crate::front;
 use crate::ir::{Graph, verify};
 use crate::passes::{self, Schedule};
-use std::collections::{BTreeMap, BTreeSet};
+use crate::policy::{Branches, LoopPolicy, Policy, Unroll};
+use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
-use straightline_manifest::{Counts, Format, Stage};
+use straightline_manifest::Counts;
 
 /// A kernel's source: its files and which function it is.
 #[derive(Clone, Debug)]
@@ -20,12 +21,43 @@ pub struct Kernel {
 }
 
 /// How a kernel is to be evaluated.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Settings {
     /// Option and value; what is not named stays at its default, and of an option named twice the last counts.
     pub options: Vec<(String, String)>,
     /// What becomes of loops.
     pub unroll: Unroll,
+    /// What becomes of single loops, by `function.counter` or `counter`; before all else that is said of them.
+    pub loops: Vec<LoopPolicy>,
+    /// What becomes of branches on values that are only known at run time.
+    pub branches: Branches,
+    /// Statements that the kernel may have.
+    pub budget: u32,
+}
+
+impl Settings {
+    /// Statements that a kernel may have unless more are allowed.
+    pub const BUDGET: u32 = 20_000;
+
+    fn policy(&self) -> Policy {
+        Policy {
+            unroll: self.unroll,
+            loops: self.loops.clone(),
+            branches: self.branches,
+        }
+    }
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Settings {
+            options: Vec::new(),
+            unroll: Unroll::default(),
+            loops: Vec::new(),
+            branches: Branches::default(),
+            budget: Settings::BUDGET,
+        }
+    }
 }
 
 /// A kernel with everything decided, ready to be emitted or interpreted.
@@ -37,8 +69,10 @@ pub struct Compiled {
     pub summary: String,
     /// Every option with its value.
     pub options: BTreeMap<String, String>,
-    /// What became of loops.
-    pub unroll: Unroll,
+    /// What was asked to become of loops and branches.
+    pub policy: Policy,
+    /// What became of each loop.
+    pub loops: Vec<LoopReport>,
     /// What is left to compute.
     pub graph: Graph,
     /// In which order.
@@ -48,9 +82,9 @@ pub struct Compiled {
 }
 
 impl Compiled {
-    /// The kernel as a shader for a stage, with its result in `format`, in every language asked for.
-    pub fn emit(&self, stage: Stage, format: Format, targets: &BTreeSet<Target>) -> Result<Emitted, EmitError> {
-        emit::emit(self, stage, format, targets)
+    /// The kernel as a shader, in every language asked for.
+    pub fn emit(&self, options: &EmitOptions) -> Result<Emitted, EmitError> {
+        emit::emit(self, options)
     }
 }
 
@@ -96,13 +130,17 @@ impl Kernel {
     /// A kernel of one's own, from a file. Without `function` it is the one that has the file's name.
     pub fn from_file(path: &Path, function: Option<&str>) -> Result<Kernel, Errors> {
         let shown = path.display().to_string();
-        let text = std::fs::read_to_string(path).map_err(|error| {
-            Errors::of(Diagnostic::new(format!(
-                "cannot read the kernel file `{shown}`: {error}"
-            )))
-        })?;
+        let text = read(path)?;
         let stem = path.file_stem().and_then(|s| s.to_str()).unwrap_or("kernel");
         Ok(Kernel::from_text(&shown, &text, function.unwrap_or(stem)))
+    }
+
+    /// The same kernel with a further file that it calls functions of.
+    pub fn with_file(mut self, path: &Path) -> Result<Kernel, Errors> {
+        let text = read(path)?;
+        let path = path.display().to_string();
+        Arc::make_mut(&mut self.files).push(File { path, text });
+        Ok(self)
     }
 
     /// What a command line or a `build.rs` calls a kernel: a built-in name, `FILE.rs` or `FILE.rs::FUNCTION`.
@@ -144,7 +182,8 @@ impl Kernel {
 
     fn stages(&self, settings: &Settings, observer: &mut Observer<'_>) -> Result<Compiled, Errors> {
         let library = front::parse(&self.files, &self.name)?;
-        let evaluated = eval::evaluate(&library, &self.files, &self.name, &settings.options, settings.unroll)?;
+        let policy = settings.policy();
+        let evaluated = eval::evaluate(&library, &self.files, &self.name, &settings.options, &policy)?;
         let mut stage = |name: &str, graph: Graph| -> Result<Graph, Errors> {
             verify::verify(&graph).map_err(|why| internal(name, &why))?;
             observer(name, &graph);
@@ -156,6 +195,12 @@ impl Kernel {
         // Sharing makes new common terms, and those leave others unused.
         let graph = stage("clean", passes::clean(&graph))?;
         let schedule = passes::schedule(&graph);
+        let statements = emit::statements(&graph, &schedule);
+        if statements > settings.budget {
+            let what = format!("`{}` has {statements} statements, more than its budget of {}", self.name, settings.budget);
+            let error = Diagnostic::at(evaluated.span, what).label("this kernel").help(eval::WAY_OUT);
+            return Err(Errors::new(vec![eval::blame(&evaluated.loops, error)], &self.files));
+        }
         let counts = passes::count(&graph, &schedule);
         let summary = if self.summary.is_empty() {
             first_sentence(&evaluated.docs)
@@ -166,12 +211,20 @@ impl Kernel {
             kernel: self.name.clone(),
             summary,
             options: evaluated.options,
-            unroll: settings.unroll,
+            policy,
+            loops: evaluated.loops,
             graph,
             schedule,
             counts,
         })
     }
+}
+
+fn read(path: &Path) -> Result<String, Errors> {
+    std::fs::read_to_string(path).map_err(|error| {
+        let what = format!("cannot read the kernel file `{}`: {error}", path.display());
+        Errors::of(Diagnostic::new(what).help("paths are taken from the folder that the build runs in: the crate's own"))
+    })
 }
 
 fn internal(stage: &str, why: &str) -> Errors {

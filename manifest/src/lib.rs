@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 pub use format::Format;
 
 /// Version of the manifest's layout. A reader refuses a manifest whose schema it does not know.
-pub const SCHEMA: u32 = 1;
+pub const SCHEMA: u32 = 2;
 
 /// Everything a host must know to run one emitted shader.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -25,14 +25,14 @@ pub struct Manifest {
     pub kernel: String,
     /// The pipeline stage that the shader is for.
     pub stage: Stage,
-    /// How loops were treated: `full` or `none`.
+    /// How loops were treated: `full`, `none` or `partial(N)`, followed by what was said of single loops.
     pub unroll: String,
     /// Name of the entry point, the same in every target that keeps names.
     pub entry_point: String,
     /// Invocations in a workgroup; compute only.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub workgroup_size: Option<[u32; 3]>,
-    /// Textures and uniform buffers that the shader reads, in binding order. What the options make
+    /// Textures, buffers, samplers and uniform buffers that the shader reads, in binding order. What the options make
     /// unnecessary is not listed.
     pub bindings: Vec<Binding>,
     /// Where the result goes.
@@ -84,16 +84,36 @@ pub struct Binding {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "type", rename_all = "kebab-case")]
 pub enum BindingKind {
-    /// A single-sampled float texture that is read texel by texel (never filtered), of the size of the output.
+    /// A texture.
     Texture {
         /// `access` is always `read` for a texture.
         access: Access,
-        /// 2-D, or 2-D array.
+        /// 2-D, 2-D array, or 2-D multisampled.
         dimension: Dimension,
+        /// How texels are read.
+        sample_type: SampleType,
         /// Components that the kernel uses, 1 to 4. Any float format with at least as many will do.
         components: u8,
-        /// Layers that the shader can address; 1 for a plain 2-D texture.
+        /// Layers that the shader can address; 1 unless it is an array.
         layers: u32,
+        /// Samples of a texel that the shader can address; 1 unless it is multisampled.
+        samples: u32,
+        /// Which size it must have.
+        extent: Extent,
+    },
+    /// A sampler.
+    Sampler {
+        /// What it is used for.
+        sampler: SamplerType,
+    },
+    /// A read-only storage buffer: elements one after the other, at least one.
+    Buffer {
+        /// Always `read`.
+        access: Access,
+        /// Type of an element as WGSL spells it: `f32`, `vec4f`, ...
+        element: String,
+        /// Bytes from one element to the next.
+        stride: u32,
     },
     /// A uniform buffer.
     Uniform {
@@ -125,6 +145,41 @@ pub enum Dimension {
     /// A stack of 2-D images.
     #[serde(rename = "2d-array")]
     D2Array,
+    /// One 2-D image with several samples a texel.
+    #[serde(rename = "2d-multisampled")]
+    D2Multisampled,
+}
+
+/// How the texels of a texture are read, which decides the formats that fit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum SampleType {
+    /// One by one: any float, normalised or depth format.
+    Unfilterable,
+    /// By a filtering sampler too: any float or normalised format that the device can filter.
+    Filterable,
+    /// By a comparison sampler, or one by one from a `texture_depth_2d`: a depth format.
+    Depth,
+}
+
+/// What a sampler is used for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum SamplerType {
+    /// To filter.
+    Filtering,
+    /// To compare with a reference depth.
+    Comparison,
+}
+
+/// Which size a texture must have.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Extent {
+    /// That of the output.
+    Output,
+    /// Any: the shader asks for it.
+    Any,
 }
 
 /// A field of a uniform struct.

@@ -1,7 +1,7 @@
 //! Runs emitted shaders in the caller's own [`wgpu::Device`] and encoder.
 //!
 //! A [`Pass`] is made once, from a shader's WGSL text and the manifest that the generator wrote beside it. Recording
-//! it takes texture views by name and a target. Nothing here creates a device, submits, or owns a texture.
+//! it takes texture views, samplers and buffers by name, and a target. Nothing here creates a device, submits, or owns a texture.
 //!
 //! ```no_run
 //! use straightline_runtime::{Error, Pass, Timer, wgpu};
@@ -39,8 +39,11 @@
 //!   result goes to a write-only storage texture.
 //! - Fragment: the module holds the fragment entry point only, with the result at location 0. This crate brings the
 //!   vertex shader of a triangle that covers the target.
-//! - Textures are `texture_2d<f32>` or `texture_2d_array<f32>` of the target's size, read texel by texel.
-//!   Values set at run time are members of a uniform struct.
+//! - Textures are `texture_2d<f32>`, `texture_2d_array<f32>`, `texture_multisampled_2d<f32>` or `texture_depth_2d`, of
+//!   the target's size unless the manifest says that any will do. They are read texel by texel, or through a
+//!   `sampler` or `sampler_comparison`.
+//! - Buffers are `var<storage, read>` arrays of a scalar or vector.
+//! - Values set at run time are members of a uniform struct.
 
 mod error;
 mod guard;
@@ -50,11 +53,13 @@ mod pass;
 mod pipeline;
 mod plan;
 mod reflect;
+mod resource;
 mod timer;
 mod uniforms;
 
-pub use error::{Error, Names, ViewProblem};
+pub use error::{BufferProblem, Error, Names, SamplerProblem, ViewProblem};
 pub use pass::{Pass, PassOptions};
+pub use resource::{Resource, ResourceKind};
 pub use straightline_manifest as manifest;
 pub use timer::{Span, Timer};
 pub use uniforms::{UniformType, UniformValue};

@@ -2,13 +2,13 @@
 
 use crate::error::ViewProblem;
 use crate::guard::{Pulse, guarded};
-use crate::inputs::{arrange, check_inputs, check_target, is_one_image, shared, size};
+use crate::inputs::{Abilities, arrange, check_inputs, check_target, is_one_image, shared, size};
 use crate::layout::{BoundGroup, Layout};
 use crate::pipeline::{Pipeline, check_format};
 use crate::plan::Plan;
 use crate::timer::{Span, Timer};
 use crate::uniforms::{self, UniformBlock, UniformValue};
-use crate::{Error, reflect};
+use crate::{Error, Resource, reflect};
 use straightline_manifest::Manifest;
 use wgpu::{CommandEncoder, Device, Queue, TextureFormat, TextureView};
 
@@ -41,7 +41,7 @@ pub struct Pass {
     pipeline: Pipeline,
     uniforms: Vec<UniformBlock>,
     format: TextureFormat,
-    max_workgroups: u32,
+    abilities: Abilities,
     pulse: Pulse,
 }
 
@@ -91,7 +91,6 @@ impl Pass {
         let uniforms = blocks.collect::<Result<Vec<_>, _>>()?;
         // Lost meanwhile, everything above was made without complaint and is dead.
         pulse.check(device, &doing)?;
-        let max_workgroups = device.limits().max_compute_workgroups_per_dimension;
         Ok(Pass {
             device: device.clone(),
             plan,
@@ -99,7 +98,7 @@ impl Pass {
             pipeline,
             uniforms,
             format,
-            max_workgroups,
+            abilities: Abilities::new(device),
             pulse,
         })
     }
@@ -109,9 +108,9 @@ impl Pass {
         &self.plan.kernel
     }
 
-    /// Names of the inputs that [`encode`](Self::encode) wants, in binding order.
+    /// Names of the inputs that [`encode`](Self::encode) wants, textures, samplers and buffers, in binding order.
     pub fn inputs(&self) -> impl ExactSizeIterator<Item = &str> {
-        self.plan.textures.iter().map(|texture| texture.name.as_str())
+        self.plan.inputs.iter().map(|input| input.name.as_str())
     }
 
     /// The format that the target must have.
@@ -132,30 +131,55 @@ impl Pass {
         uniforms::write(&self.uniforms, &self.plan.kernel, queue, name, value.into())
     }
 
+    /// Sets all uniforms at once, from `bytes` that are the uniform struct as it lies in the buffer: little-endian,
+    /// each field at the offset that the manifest gives, and as long as the manifest's size, padding included. (Of
+    /// several structs, one after the other in binding order.) All fields count as set.
+    ///
+    /// When the values are seen, see [`write_uniform`](Self::write_uniform). Nothing is allocated here.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::NoUniforms`], or [`Error::UniformSize`] for another length. Nothing has been written then.
+    pub fn write_uniforms(&self, queue: &Queue, bytes: &[u8]) -> Result<(), Error> {
+        uniforms::write_all(&self.uniforms, &self.plan.kernel, queue, bytes)
+    }
+
     /// Records the pass into `encoder`: reads `inputs`, given by name in any order, and writes every pixel of `target`.
     ///
-    /// Each input is a single-sampled 2-D view, or 2-D array view with at least as many layers as the manifest says,
-    /// of a texture with [`TEXTURE_BINDING`](wgpu::TextureUsages::TEXTURE_BINDING) usage, the target's size, and a
-    /// float, normalised or depth format with at least the components that the kernel reads. (Of a combined
-    /// depth-stencil texture, give a view of the depth aspect.) The target has the format
-    /// [`target_format`](Self::target_format), and [`STORAGE_BINDING`](wgpu::TextureUsages::STORAGE_BINDING) usage
-    /// for compute or [`RENDER_ATTACHMENT`](wgpu::TextureUsages::RENDER_ATTACHMENT) for fragment.
+    /// Where all inputs are textures, `inputs` can be a slice of views, `&[("color", &view)]`; otherwise each is made
+    /// a [`Resource`]: `&[("color", Resource::from(&view)), ("linear", (&sampler).into())]`. A kernel without inputs
+    /// is given `&[] as &[(&str, Resource)]`.
+    ///
+    /// - A texture is a 2-D view, or 2-D array view with at least as many layers as the manifest says, of a texture
+    ///   with [`TEXTURE_BINDING`](wgpu::TextureUsages::TEXTURE_BINDING) usage, the target's size unless the manifest
+    ///   says that any will do, and a format with at least the components that the kernel reads: float, normalised or
+    ///   depth where texels are read one by one, float or normalised where they are filtered, depth where depths are
+    ///   compared. (Of a combined depth-stencil texture, give a view of the depth aspect.) It has one sample a texel,
+    ///   or, where the kernel reads samples, at least as many as the manifest says.
+    /// - A sampler has a comparison function exactly if the kernel compares with it.
+    /// - A buffer has [`STORAGE`](wgpu::BufferUsages::STORAGE) usage and room for one element at least. All of it is
+    ///   bound, so that its size says how many elements there are.
+    ///
+    /// The target has the format [`target_format`](Self::target_format), and
+    /// [`STORAGE_BINDING`](wgpu::TextureUsages::STORAGE_BINDING) usage for compute or
+    /// [`RENDER_ATTACHMENT`](wgpu::TextureUsages::RENDER_ATTACHMENT) for fragment.
     ///
     /// wgpu does not tell which mip level and layers a view shows. Give views of level 0 that begin at the layer that
     /// the kernel calls 0: sizes and layers are checked on the texture.
     ///
     /// # Errors
     ///
-    /// [`Error::MissingInput`], [`Error::UnknownInput`] and [`Error::DuplicateInput`]; [`Error::Input`],
-    /// [`Error::Target`] and [`Error::Combination`] for unfit views; [`Error::UniformUnset`];
-    /// [`Error::DeviceLost`] and [`Error::OutOfMemory`]. Nothing has been recorded then.
-    pub fn encode(
+    /// [`Error::MissingInput`], [`Error::UnknownInput`], [`Error::DuplicateInput`] and [`Error::InputKind`];
+    /// [`Error::Input`], [`Error::InputSampler`], [`Error::InputBuffer`], [`Error::Target`] and
+    /// [`Error::Combination`] for unfit resources; [`Error::UniformUnset`]; [`Error::DeviceLost`] and
+    /// [`Error::OutOfMemory`]. Nothing has been recorded then.
+    pub fn encode<'r, R: Into<Resource<'r>> + Copy>(
         &self,
         encoder: &mut CommandEncoder,
-        inputs: &[(&str, &TextureView)],
+        inputs: &[(&str, R)],
         target: &TextureView,
     ) -> Result<(), Error> {
-        let groups = self.prepare(inputs, target)?;
+        let groups = self.prepare(&resources(inputs), target)?;
         self.record(encoder, &groups, target, None);
         Ok(())
     }
@@ -165,33 +189,33 @@ impl Pass {
     /// # Errors
     ///
     /// Those of [`encode`](Self::encode), and [`Error::TimerFull`]. No span is used up then.
-    pub fn encode_timed(
+    pub fn encode_timed<'r, R: Into<Resource<'r>> + Copy>(
         &self,
         encoder: &mut CommandEncoder,
-        inputs: &[(&str, &TextureView)],
+        inputs: &[(&str, R)],
         target: &TextureView,
         timer: &mut Timer,
     ) -> Result<(), Error> {
-        let groups = self.prepare(inputs, target)?;
+        let groups = self.prepare(&resources(inputs), target)?;
         let span = timer.span()?;
         self.record(encoder, &groups, target, Some(&span));
         Ok(())
     }
 
     /// Everything that can fail.
-    fn prepare(&self, inputs: &[(&str, &TextureView)], target: &TextureView) -> Result<Vec<BoundGroup>, Error> {
+    fn prepare(&self, inputs: &[(&str, Resource<'_>)], target: &TextureView) -> Result<Vec<BoundGroup>, Error> {
         self.pulse
             .check(&self.device, &format!("encoding `{}`", self.plan.kernel))?;
-        let views = arrange(&self.plan, inputs)?;
-        check_target(&self.plan, self.format, self.max_workgroups, target)?;
-        check_inputs(&self.plan, &views, target)?;
+        let resources = arrange(&self.plan, inputs)?;
+        check_target(&self.plan, self.format, &self.abilities, target)?;
+        check_inputs(&self.plan, &self.abilities, &resources, target)?;
         uniforms::check_set(&self.uniforms, &self.plan.kernel)?;
         let groups = self
             .layout
-            .bind(&self.device, &self.plan, &self.uniforms, &views, target);
-        let shared = shared(&self.plan, &views, target);
+            .bind(&self.device, &self.plan, &self.uniforms, &resources, target);
+        let shared = shared(&self.plan, &resources, target);
         let groups = groups.and_then(|groups| match (&self.pipeline, shared) {
-            // Binding has judged every view.
+            // Binding has judged every resource.
             (Pipeline::Compute { .. }, None) => Ok(groups),
             _ => self.rehearse(&groups, target, shared.is_some()).map(|()| groups),
         });
@@ -273,4 +297,11 @@ impl Pass {
             }
         }
     }
+}
+
+fn resources<'n, 'r, R: Into<Resource<'r>> + Copy>(inputs: &[(&'n str, R)]) -> Vec<(&'n str, Resource<'r>)> {
+    inputs
+        .iter()
+        .map(|(name, resource)| (*name, (*resource).into()))
+        .collect()
 }

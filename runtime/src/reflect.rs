@@ -5,9 +5,9 @@
 //! would run and give a wrong picture.
 
 use crate::Error;
-use crate::plan::{OutputPlan, Plan, TexturePlan, UniformPlan};
+use crate::plan::{BufferPlan, InputKind, InputPlan, OutputPlan, Plan, TexturePlan, UniformPlan};
 use crate::uniforms::{Kind, UniformType};
-use straightline_manifest::{Dimension, Format};
+use straightline_manifest::{Dimension, Format, SampleType, SamplerType};
 use wgpu::naga::{self, AddressSpace, GlobalVariable, ImageClass, Module, ScalarKind, ShaderStage, TypeInner};
 
 /// Parses `wgsl` and checks that it is the shader that `plan` describes.
@@ -24,8 +24,8 @@ pub(crate) fn check(plan: &Plan, wgsl: &str) -> Result<(), Error> {
         problem,
     };
     entry_point(plan, &module).map_err(mismatch)?;
-    for texture in &plan.textures {
-        check_texture(&module, texture).map_err(mismatch)?;
+    for input in &plan.inputs {
+        check_input(&module, input).map_err(mismatch)?;
     }
     for uniform in &plan.uniforms {
         check_uniform(&module, uniform).map_err(mismatch)?;
@@ -93,24 +93,63 @@ fn variable<'m>(module: &'m Module, name: &str, group: u32, binding: u32) -> Res
     }
 }
 
-fn check_texture(module: &Module, plan: &TexturePlan) -> Result<(), String> {
+fn check_input(module: &Module, plan: &InputPlan) -> Result<(), String> {
     let variable = variable(module, &plan.name, plan.group, plan.binding)?;
-    let wanted = TypeInner::Image {
-        dim: naga::ImageDimension::D2,
-        arrayed: plan.dimension == Dimension::D2Array,
-        class: ImageClass::Sampled {
-            kind: ScalarKind::Float,
-            multi: false,
-        },
+    let found = &module.types[variable.ty].inner;
+    let (fits, wanted) = match &plan.kind {
+        InputKind::Texture(texture) => {
+            let (inner, text) = texture_type(texture);
+            (*found == inner, text.to_owned())
+        }
+        InputKind::Sampler(sampler) => {
+            let (comparison, text) = match sampler {
+                SamplerType::Filtering => (false, "sampler"),
+                SamplerType::Comparison => (true, "sampler_comparison"),
+            };
+            (*found == TypeInner::Sampler { comparison }, text.to_owned())
+        }
+        InputKind::Buffer(buffer) => (
+            is_buffer(module, variable, buffer),
+            format!("var<storage, read> of type array<{}>", buffer.element),
+        ),
     };
-    if module.types[variable.ty].inner == wanted {
-        return Ok(());
+    if fits {
+        Ok(())
+    } else {
+        Err(format!("`{}` is not a `{wanted}`", plan.name))
     }
-    let wanted = match plan.dimension {
-        Dimension::D2 => "texture_2d<f32>",
-        Dimension::D2Array => "texture_2d_array<f32>",
+}
+
+/// The type of a texture, and how WGSL spells it.
+fn texture_type(plan: &TexturePlan) -> (TypeInner, &'static str) {
+    let kind = ScalarKind::Float;
+    let sampled = ImageClass::Sampled { kind, multi: false };
+    let (arrayed, class, text) = match (plan.sample_type, plan.dimension) {
+        // Checked by then: a depth is neither an array nor multisampled.
+        (SampleType::Depth, _) => (false, ImageClass::Depth { multi: false }, "texture_depth_2d"),
+        (_, Dimension::D2) => (false, sampled, "texture_2d<f32>"),
+        (_, Dimension::D2Array) => (true, sampled, "texture_2d_array<f32>"),
+        (_, Dimension::D2Multisampled) => {
+            let multi = ImageClass::Sampled { kind, multi: true };
+            (false, multi, "texture_multisampled_2d<f32>")
+        }
     };
-    Err(format!("`{}` is not a `{wanted}`", plan.name))
+    let dim = naga::ImageDimension::D2;
+    (TypeInner::Image { dim, arrayed, class }, text)
+}
+
+/// Whether `variable` is a read-only storage buffer of `plan`'s elements.
+fn is_buffer(module: &Module, variable: &GlobalVariable, plan: &BufferPlan) -> bool {
+    let read_only = AddressSpace::Storage {
+        access: naga::StorageAccess::LOAD,
+    };
+    let TypeInner::Array { base, size, stride } = module.types[variable.ty].inner else {
+        return false;
+    };
+    variable.space == read_only
+        && size == naga::ArraySize::Dynamic
+        && stride == plan.stride
+        && is_type(&module.types[base].inner, plan.element)
 }
 
 fn check_storage(module: &Module, name: &str, group: u32, binding: u32, format: Format) -> Result<(), String> {
@@ -190,7 +229,7 @@ fn is_type(inner: &TypeInner, ty: UniformType) -> bool {
 
 /// Every resource of the shader is in the manifest.
 fn nothing_else(plan: &Plan, module: &Module) -> Result<(), String> {
-    let mut known: Vec<(u32, u32)> = plan.textures.iter().map(|t| (t.group, t.binding)).collect();
+    let mut known: Vec<(u32, u32)> = plan.inputs.iter().map(|i| (i.group, i.binding)).collect();
     known.extend(plan.uniforms.iter().map(|u| (u.group, u.binding)));
     if let OutputPlan::Storage { group, binding, .. } = &plan.output {
         known.push((*group, *binding));

@@ -255,6 +255,35 @@ pub(crate) fn write(
     Ok(())
 }
 
+/// Puts `bytes` into all `blocks`, one after the other, ahead of the queue's next submission.
+pub(crate) fn write_all(blocks: &[UniformBlock], kernel: &str, queue: &wgpu::Queue, bytes: &[u8]) -> Result<(), Error> {
+    if blocks.is_empty() {
+        return Err(Error::NoUniforms {
+            kernel: kernel.to_owned(),
+        });
+    }
+    let needed: u64 = blocks.iter().map(|block| block.buffer.size()).sum();
+    let given = bytes.len() as u64;
+    if given != needed {
+        return Err(Error::UniformSize {
+            kernel: kernel.to_owned(),
+            needed,
+            given,
+        });
+    }
+    let mut rest = bytes;
+    for block in blocks {
+        // In bounds, as the sizes add up.
+        let (bytes, after) = rest.split_at(block.buffer.size() as usize);
+        queue.write_buffer(&block.buffer, 0, bytes);
+        for field in &block.fields {
+            field.set.store(true, Ordering::Release);
+        }
+        rest = after;
+    }
+    Ok(())
+}
+
 /// [`Error::UniformUnset`] for the first field that has neither a default nor a value.
 pub(crate) fn check_set(blocks: &[UniformBlock], kernel: &str) -> Result<(), Error> {
     match blocks

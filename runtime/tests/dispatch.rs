@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{ADD, COPY, Fixture, Gpu, Kernel, LAYERS, STAGES, Stage, array_view, ramp, view};
+use common::{ADD, COPY, Fixture, Gpu, Kernel, LAYERS, STAGES, Stage, array_view, clear_depth, ramp, view};
 use straightline_runtime::manifest::Manifest;
 use straightline_runtime::{Pass, PassOptions, wgpu};
 use wgpu::{TextureFormat, TextureUsages};
@@ -87,7 +87,35 @@ fn uniforms_start_from_defaults_and_keep_what_is_written() {
         pass.write_uniform(&gpu.queue, "scale", 0.5).expect("an f32");
         pass.write_uniform(&gpu.queue, "steps", 10).expect("an i32");
         assert_eq!(run(), expect([1.0, 2.0, 3.0, 4.0], 0.5, 10.0), "{stage:?}, written");
+        pass.write_uniforms(&gpu.queue, &params([4.0, 3.0, 2.0, 1.0], 4.0, -1))
+            .expect("a whole struct");
+        assert_eq!(run(), expect([4.0, 3.0, 2.0, 1.0], 4.0, -1.0), "{stage:?}, at once");
     }
+}
+
+/// The struct of `ADD` as it lies in the buffer.
+fn params(offset: [f32; 4], scale: f32, steps: i32) -> Vec<u8> {
+    let mut bytes: Vec<u8> = offset.iter().flat_map(|v| v.to_le_bytes()).collect();
+    bytes.extend(scale.to_le_bytes());
+    bytes.extend(steps.to_le_bytes());
+    bytes.resize(32, 0);
+    bytes
+}
+
+#[test]
+fn a_whole_struct_sets_what_has_no_default() {
+    let gpu = Gpu::new();
+    let size = [3, 2];
+    let color = gpu.upload(size, 1, &ramp(size, 1));
+    let target = gpu.target(size);
+    let pass = pass(&gpu, &ADD, Stage::Compute);
+    pass.write_uniforms(&gpu.queue, &params([1.0; 4], 1.0, -1))
+        .expect("a whole struct");
+    let mut encoder = gpu.encoder();
+    pass.encode(&mut encoder, &[("color", &view(&color))], &view(&target))
+        .expect("no uniform to be missing");
+    gpu.submit(encoder);
+    assert_eq!(gpu.download(&target), ramp(size, 1));
 }
 
 #[test]
@@ -118,7 +146,8 @@ fn depth_buffers_are_read_in_place() {
         name: "show",
         bindings: &[
             r#"{"group": 0, "binding": 1, "name": "depth", "type": "texture", "access": "read",
-            "dimension": "2d", "components": 1, "layers": 1}"#,
+            "dimension": "2d", "sample_type": "unfilterable", "components": 1, "layers": 1, "samples": 1,
+            "extent": "output"}"#,
         ],
         declarations: "@group(0) @binding(1) var depth: texture_2d<f32>;",
         result: "vec4f(textureLoad(depth, pixel, 0).x, 0.0, 0.0, 1.0)",
@@ -146,24 +175,6 @@ fn depth_buffers_are_read_in_place() {
             }
         }
     }
-}
-
-fn clear_depth(encoder: &mut wgpu::CommandEncoder, view: &wgpu::TextureView, format: TextureFormat, depth: f32) {
-    let store = wgpu::StoreOp::Store;
-    encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-        depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
-            view,
-            depth_ops: Some(wgpu::Operations {
-                load: wgpu::LoadOp::Clear(depth),
-                store,
-            }),
-            stencil_ops: format.has_stencil_aspect().then_some(wgpu::Operations {
-                load: wgpu::LoadOp::Clear(0),
-                store,
-            }),
-        }),
-        ..Default::default()
-    });
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{ADD, COPY, Fixture, Gpu, LAYERS, STAGES, Stage};
+use common::{ADD, COPY, Fixture, Gpu, Kernel, LAYERS, SCALE, STAGES, Stage, TABLE};
 use straightline_runtime::manifest::Manifest;
 use straightline_runtime::{Error, Pass, PassOptions, wgpu};
 use wgpu::TextureFormat;
@@ -25,7 +25,7 @@ fn a_text_that_is_no_manifest() {
     let gpu = Gpu::new();
     let Fixture { manifest, wgsl } = COPY.emit(Stage::Compute);
     assert!(matches!(refuse(&gpu, "{", &wgsl).0, Error::Manifest(_)));
-    let (_, message) = refuse(&gpu, &edit(&manifest, r#""schema": 1"#, r#""schema": 9"#), &wgsl);
+    let (_, message) = refuse(&gpu, &edit(&manifest, r#""schema": 2"#, r#""schema": 9"#), &wgsl);
     assert!(message.contains("schema 9"), "{message}");
     let mut read = Manifest::from_json(&manifest).expect("a manifest");
     read.schema = 9;
@@ -57,7 +57,7 @@ fn manifests_that_contradict_themselves() {
         (
             r#""name": "depth""#,
             r#""name": "color""#,
-            "texture `color` is listed twice",
+            "input `color` is listed twice",
         ),
         (
             r#""stage": "compute""#,
@@ -234,23 +234,41 @@ fn limits_that_are_too_low() {
         change(&mut limits);
         Gpu::with(wgpu::Features::empty(), limits)
     };
-    let cases: [(Gpu, &str); 4] = [
-        (low(|l| l.max_bind_groups = 2), "max_bind_groups"),
+    let cases: [(Gpu, Kernel, &str); 7] = [
+        (low(|l| l.max_bind_groups = 2), ADD, "max_bind_groups"),
         (
             low(|l| l.max_compute_invocations_per_workgroup = 32),
+            ADD,
             "max_compute_invocations_per_workgroup",
         ),
         (
             low(|l| l.max_compute_workgroup_size_x = 4),
+            ADD,
             "max_compute_workgroup_size_x",
         ),
         (
             low(|l| l.max_storage_textures_per_shader_stage = 0),
+            ADD,
             "max_storage_textures_per_shader_stage",
         ),
+        (
+            low(|l| l.max_samplers_per_shader_stage = 0),
+            SCALE,
+            "max_samplers_per_shader_stage",
+        ),
+        (
+            low(|l| l.max_storage_buffers_per_shader_stage = 0),
+            TABLE,
+            "max_storage_buffers_per_shader_stage",
+        ),
+        (
+            low(|l| l.max_storage_buffer_binding_size = 12),
+            TABLE,
+            "max_storage_buffer_binding_size",
+        ),
     ];
-    for (gpu, name) in cases {
-        let Fixture { manifest, wgsl } = ADD.emit(Stage::Compute);
+    for (gpu, kernel, name) in cases {
+        let Fixture { manifest, wgsl } = kernel.emit(Stage::Compute);
         let (error, message) = refuse(&gpu, &manifest, &wgsl);
         assert!(
             matches!(error, Error::Limit { limit, .. } if limit == name),

@@ -4,7 +4,7 @@ mod common;
 
 use common::{COPY, Fixture, Gpu, STAGES, Stage, ramp, view};
 use std::time::{Duration, Instant};
-use straightline_runtime::{Error, Pass, Timer, wgpu};
+use straightline_runtime::{Error, Pass, Resource, Timer, wgpu};
 
 fn timing_gpu() -> Gpu {
     Gpu::with(wgpu::Features::TIMESTAMP_QUERY, wgpu::Limits::default())
@@ -100,7 +100,7 @@ fn a_full_timer_records_nothing() {
     let mut encoder = gpu.encoder();
     // A failed encode does not use up the span.
     assert!(
-        pass.encode_timed(&mut encoder, &[], &view(&target), &mut timer)
+        pass.encode_timed(&mut encoder, &[] as &[(&str, Resource)], &view(&target), &mut timer)
             .is_err()
     );
     pass.encode_timed(&mut encoder, &[("color", &color)], &view(&target), &mut timer)

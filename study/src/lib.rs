@@ -1,8 +1,9 @@
 //! A deferred testbed, captures, references and error metrics for studying antialiasing kernels.
 //!
-//! Everything here stands apart from the generator: the oracle and the metrics judge what it emits.
+//! Only [`execute`] knows the generator. All else stands apart from it: the oracle and the metrics judge what it emits.
 
 pub mod capture;
+pub mod execute;
 pub mod metrics;
 pub mod oracle;
 pub mod picture;

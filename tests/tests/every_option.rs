@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use straightline_codegen::emit::Target;
-use straightline_codegen::{Format, Stage, Unroll};
+use straightline_codegen::{EmitOptions, Stage, Unroll};
 
 #[test]
 fn all_options_emit_in_all_languages() {
@@ -21,10 +21,10 @@ fn all_options_emit_in_all_languages() {
             let compiled = compile(options, unroll);
             for stage in [Stage::Compute, Stage::Fragment] {
                 let emitted = compiled
-                    .emit(stage, Format::Rgba16Float, &targets)
+                    .emit(&EmitOptions::new().stage(stage).targets(targets.clone()))
                     .unwrap_or_else(|e| panic!("{options:?} {unroll:?}: {e}"));
                 assert_eq!(emitted.files.len(), targets.len());
-                let stem = format!("{k}-{}-{}", unroll.name(), stage.name());
+                let stem = format!("{k}-{}-{}", unroll, stage.name());
                 for (name, contents) in emitted.named(&stem) {
                     let path = folder.join(&name);
                     if name.ends_with(".comp") || name.ends_with(".frag") {

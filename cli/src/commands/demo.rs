@@ -1,11 +1,9 @@
 //! `demo`: what Straightline does, in one run.
 
 use crate::args::DemoArgs;
-use crate::cpu::Bound;
 use crate::failure::Failure;
 use crate::gpu::{self, Gpu};
-use crate::resolve::{Inputs, Uploaded, on_gpu, pass};
-use crate::timing::{Clock, Times, interleaved};
+use crate::resolve::inputs;
 use crate::{scene, table};
 use glam::{UVec2, Vec4};
 use serde::Serialize;
@@ -13,7 +11,9 @@ use std::time::{Instant, SystemTime};
 use straightline_codegen::{Compiled, Kernel, Settings, Unroll, default_set, files};
 use straightline_kernels::prelude::Frame;
 use straightline_manifest::Stage;
+use straightline_runtime::Pass;
 use straightline_study::capture::{Capture, ShadingSample};
+use straightline_study::execute::{Bound, Clock, ExecuteError, Job, Times, interpret};
 use straightline_study::oracle::{self, SraaInputs, SraaParams};
 use straightline_study::render::{self, Renderer};
 use straightline_study::{metrics, picture};
@@ -115,7 +115,12 @@ pub fn run(args: &DemoArgs) -> Result<(), Failure> {
 fn method(name: &'static str, pattern: &'static str, renderer: &dyn Renderer) -> Result<Method, Failure> {
     let compile = |unroll| {
         let options = vec![("pattern".to_owned(), pattern.to_owned())];
-        Kernel::builtin("sraa").and_then(|kernel| kernel.compile(&Settings { options, unroll }))
+        let settings = Settings {
+            options,
+            unroll,
+            ..Settings::default()
+        };
+        Kernel::builtin("sraa").and_then(|kernel| kernel.compile(&settings))
     };
     let (_, samples) = scene::pattern(pattern)?;
     let capture = render::capture(renderer, &samples, ShadingSample::Centre).map_err(Failure::of)?;
@@ -135,45 +140,43 @@ fn supersampled(renderer: &dyn Renderer, side: u32, what: &'static str) -> Resul
     Ok(frame)
 }
 
-fn inputs(method: &Method) -> Inputs<'_> {
-    let capture = &method.capture;
-    Inputs {
-        color: &capture.color,
-        depth: &capture.depth,
-        normal: capture.normal.as_ref(),
-    }
-}
-
 /// The picture, times looped and unrolled, and what they were taken with.
 type Measured = (Frame<Vec4>, [Times; 2], Clock);
 
 fn on_adapter(gpu: &Gpu, method: &Method, rounds: u32) -> Result<Measured, Failure> {
-    let inputs = inputs(method);
-    let passes = [
-        pass(gpu, &method.looped, Stage::Compute)?,
-        pass(gpu, &method.unrolled, Stage::Compute)?,
-    ];
-    let uploaded = Uploaded::new(gpu, &inputs)?;
+    let (inputs, bench) = (inputs(&method.capture), gpu.bench());
+    let prepared = |compiled| -> Result<(Pass, Bound), ExecuteError> {
+        let (pass, manifest) = bench.pass(compiled, Stage::Compute)?;
+        let bound = bench.bind(&pass, &manifest, &inputs)?;
+        Ok((pass, bound))
+    };
+    let prepared = [&method.looped, &method.unrolled].map(prepared);
+    let mut jobs = Vec::new();
+    for pair in &prepared {
+        let (pass, bound) = pair.as_ref().map_err(Failure::of)?;
+        let size = inputs.size;
+        jobs.push(Job { pass, bound, size });
+    }
     let bar = scene::bar("timing, in turn");
     bar.set_length(u64::from(rounds));
-    let (times, clock) = interleaved(gpu, &[&passes[0], &passes[1]], &uploaded, rounds, |k| {
-        bar.set_position(u64::from(k))
-    })?;
+    let timed = bench.interleaved(&jobs, rounds, |k| bar.set_position(u64::from(k)));
+    let (times, clock) = timed.map_err(Failure::of)?;
     bar.finish_and_clear();
-    let resolved = on_gpu(gpu, &method.unrolled, Stage::Compute, &inputs)?;
+    let resolved = bench.run(&method.unrolled, Stage::Compute, &inputs).map_err(Failure::of)?;
     Ok((resolved, [times[0], times[1]], clock))
 }
 
 /// One round: the interpreter is there to show the result, not to be raced.
 fn on_interpreter(method: &Method) -> Result<Measured, Failure> {
-    let bound = Bound::new(&inputs(method))?;
+    let inputs = inputs(&method.capture);
     let mut times = [Vec::new(), Vec::new()];
     let mut resolved = None;
     let bar = scene::bar("interpreting, in turn");
     bar.set_length(2);
     for (times, compiled) in times.iter_mut().zip([&method.looped, &method.unrolled]) {
         let start = Instant::now();
-        resolved = Some(bound.run(compiled)?);
+        let texels = interpret::<f32>(compiled, &inputs, false).map_err(Failure::of)?;
+        resolved = Some(texels.frame(&inputs));
         times.push(start.elapsed());
         bar.inc(1);
     }

@@ -2,14 +2,12 @@
 
 use crate::args::EmitArgs;
 use crate::failure::Failure;
-use std::collections::BTreeSet;
-use straightline_codegen::{Kernel, files};
+use straightline_codegen::{EmitOptions, files};
 
 /// Writes the shader in every language asked for, and its manifest, or nothing.
 pub fn run(args: &EmitArgs) -> Result<(), Failure> {
-    let kernel = Kernel::locate(&args.kernel.kernel)?;
+    let kernel = args.kernel.locate()?;
     let compiled = kernel.compile(&args.kernel.options.settings())?;
-    let targets: BTreeSet<_> = args.target.iter().copied().collect();
     let name = args.name.as_deref().unwrap_or(&compiled.kernel);
     if name.is_empty() || !name.chars().all(|c| c.is_ascii_alphanumeric() || "_-.".contains(c)) || name.starts_with('.')
     {
@@ -17,9 +15,12 @@ pub fn run(args: &EmitArgs) -> Result<(), Failure> {
             "`{name}` cannot name files: use letters, digits, `_`, `-` and `.`"
         )));
     }
-    let emitted = compiled
-        .emit(args.stage.into(), args.format, &targets)
-        .map_err(Failure::of)?;
+    let mut options = EmitOptions::new()
+        .stage(args.stage.into())
+        .format(args.format)
+        .targets(args.target.iter().copied());
+    options.workgroup = args.workgroup.map(|size| size.to_array());
+    let emitted = compiled.emit(&options).map_err(Failure::of)?;
     let written = files::write_all(&args.out, &emitted.named(name)).map_err(Failure::of)?;
     for file in written {
         println!("{}", file.display());

@@ -4,14 +4,13 @@ use crate::args::ExplainArgs;
 use crate::failure::Failure;
 use crate::table;
 use serde_json::{Map, Value, json};
-use std::collections::BTreeSet;
-use straightline_codegen::{Compiled, Kernel};
+use straightline_codegen::{Compiled, EmitOptions};
 use straightline_kernels::PaperCounts;
-use straightline_manifest::{Counts, Format, Stage};
+use straightline_manifest::Counts;
 
 /// Prints the counts of one kernel and option set.
 pub fn run(args: &ExplainArgs) -> Result<(), Failure> {
-    let kernel = Kernel::locate(&args.kernel.kernel)?;
+    let kernel = args.kernel.locate()?;
     let compiled = kernel.compile_observed(&args.kernel.options.settings(), &mut |stage, graph| {
         if args.dump {
             println!("== {stage}\n{}", straightline_codegen::ir::print(graph));
@@ -19,7 +18,7 @@ pub fn run(args: &ExplainArgs) -> Result<(), Failure> {
     })?;
     // Statements are those of the emitted text.
     let emitted = compiled
-        .emit(Stage::Compute, Format::default(), &BTreeSet::new())
+        .emit(&EmitOptions::new().targets([]))
         .map_err(Failure::of)?;
     let counts = emitted.manifest.counts;
     let paper = paper(&compiled);
@@ -39,7 +38,7 @@ fn paper(compiled: &Compiled) -> Option<PaperCounts> {
 fn to_json(compiled: &Compiled, counts: &Counts, paper: Option<PaperCounts>) -> Value {
     let mut out = Map::new();
     out.insert("kernel".into(), json!(compiled.kernel));
-    out.insert("unroll".into(), json!(compiled.unroll.name()));
+    out.insert("unroll".into(), json!(compiled.policy.to_string()));
     out.insert("options".into(), json!(compiled.options));
     if let Value::Object(figures) = json!(counts) {
         for (name, figure) in figures {
@@ -66,7 +65,7 @@ fn print(compiled: &Compiled, counts: &Counts, paper: Option<PaperCounts>) {
         .iter()
         .map(|(name, value)| format!("{name}={value}"))
         .collect();
-    println!("  {} unroll={}\n", options.join(" "), compiled.unroll.name());
+    println!("  {} unroll={}\n", options.join(" "), compiled.policy);
     let mut rows = vec![
         row("basic blocks", counts.basic_blocks, None),
         row("loops", counts.loops, None),
@@ -90,6 +89,15 @@ fn print(compiled: &Compiled, counts: &Counts, paper: Option<PaperCounts>) {
     rows.push(row("statements", counts.statements, None));
     rows.push(row("scalars alive at most", counts.max_live, None));
     print!("{}", table::render(&["per pixel", "here", "paper"], &rows));
+    let loops = compiled.loops.iter().map(|report| {
+        let cells = [report.path(), report.unroll.to_string(), report.rounds.to_string(), report.operations.to_string()];
+        cells.to_vec()
+    });
+    let loops: Vec<Vec<String>> = loops.collect();
+    if !loops.is_empty() {
+        println!();
+        print!("{}", table::render(&["loop", "unroll", "rounds evaluated", "operations"], &loops));
+    }
 }
 
 fn row(name: &str, n: u32, paper: Option<u32>) -> Vec<String> {

@@ -7,3 +7,4 @@ pub mod emit;
 pub mod explain;
 pub mod list;
 pub mod resolve;
+pub mod run;

@@ -1,16 +1,16 @@
 //! `resolve`: antialiases a captured frame.
 
 use crate::args::{Executor, OptionArgs, ResolveArgs};
-use crate::cpu::Bound;
 use crate::failure::Failure;
 use crate::gpu::Gpu;
-use crate::resolve::{Inputs, on_gpu};
+use crate::resolve::inputs;
 use crate::scene;
 use glam::{Vec2, Vec4};
 use serde_json::json;
 use straightline_codegen::{Compiled, Kernel};
 use straightline_kernels::prelude::Frame;
 use straightline_study::capture::{Capture, ShadingSample};
+use straightline_study::execute::interpret;
 use straightline_study::{metrics, picture};
 
 /// Reads a capture, resolves it with SRAA, writes the picture, prints errors if asked.
@@ -20,17 +20,17 @@ pub fn run(args: &ResolveArgs) -> Result<(), Failure> {
     let settings = with_capture(&args.options, &capture)?;
     let compiled = Kernel::builtin("sraa")?.compile(&settings.settings())?;
     check_normals(&compiled, &capture)?;
-    let inputs = Inputs {
-        color: &capture.color,
-        depth: &capture.depth,
-        normal: capture.normal.as_ref(),
-    };
+    let inputs = inputs(&capture);
     let (resolved, by) = match args.executor {
         Executor::Gpu => {
             let gpu = Gpu::require(&args.adapter)?;
-            (on_gpu(&gpu, &compiled, args.stage.into(), &inputs)?, gpu.describe())
+            let resolved = gpu.bench().run(&compiled, args.stage.into(), &inputs);
+            (resolved.map_err(Failure::of)?, gpu.describe())
         }
-        Executor::Cpu => (Bound::new(&inputs)?.run(&compiled)?, "CPU interpreter".to_owned()),
+        Executor::Cpu => {
+            let resolved = interpret::<f32>(&compiled, &inputs, false).map_err(Failure::of)?;
+            (resolved.frame(&inputs), "CPU interpreter".to_owned())
+        }
     };
     let errors = args.reference.then(|| errors(&capture, &resolved)).transpose()?;
     picture::write(&args.out, &resolved).map_err(Failure::of)?;

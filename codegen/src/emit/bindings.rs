@@ -1,9 +1,10 @@
 //! Rust that binds a shader's inputs by name, for the caller's crate.
 
+use super::parameters;
 use crate::pipeline::Compiled;
-use proc_macro2::TokenStream;
+use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
-use straightline_manifest::{BindingKind, Manifest};
+use straightline_manifest::{Binding, BindingKind, Dimension, Extent, Format, Manifest, SampleType, SamplerType, Stage};
 
 /// One shader's part of the bindings file.
 pub struct Module<'a> {
@@ -26,54 +27,38 @@ pub fn bindings(modules: &[Module<'_>]) -> String {
 
 fn module(module: &Module<'_>) -> TokenStream {
     let name = format_ident!("{}", module.name);
-    let (wgsl, json) = (format!("{}.wgsl", module.name), format!("{}.json", module.name));
-    let options: Vec<String> = module
-        .compiled
-        .options
-        .iter()
-        .map(|(name, value)| format!("`{name}` {value}"))
-        .collect();
-    let summary = if module.compiled.summary.is_empty() {
-        format!("The kernel `{}`.", module.compiled.kernel)
-    } else {
-        format!("{}.", module.compiled.summary.trim_end_matches('.'))
-    };
-    let generated = format!(
-        "Generated for {}, loops unrolled: {}.",
-        options.join(", "),
-        module.compiled.unroll.name()
-    );
-    let generated = if options.is_empty() {
-        format!("Loops unrolled: {}.", module.compiled.unroll.name())
-    } else {
-        generated
-    };
-    let textures: Vec<_> = module.manifest.bindings.iter().filter_map(texture).collect();
-    let fields = textures.iter().map(|(field, docs)| {
-        quote! { #[doc = #docs] pub #field: &'a straightline_runtime::wgpu::TextureView }
+    let manifest = module.manifest;
+    let docs = documentation(module);
+    let constants = constants(module);
+    let inputs: Vec<Input> = manifest.bindings.iter().filter_map(Input::of).collect();
+    let fields = inputs.iter().map(|input| {
+        let Input { name, docs, ty } = input;
+        quote! { #[doc = #docs] pub #name: &'a straightline_runtime::wgpu::#ty }
     });
-    let pairs = textures.iter().map(|(field, _)| {
-        let name = field.to_string();
-        quote! { (#name, inputs.#field) }
+    let count = Literal::usize_unsuffixed(inputs.len());
+    let pairs = inputs.iter().map(|input| {
+        let (field, name) = (&input.name, input.name.to_string());
+        quote! { (#name, straightline_runtime::Resource::from(inputs.#field)) }
     });
-    let setters = module.manifest.bindings.iter().flat_map(|b| setters(&b.kind));
+    // Without inputs there is no reference to have a lifetime.
+    let (life, used, inputs_docs) = match inputs.len() {
+        0 => (quote! {}, quote! { _: &Inputs }, "What the shader reads: nothing."),
+        _ => (quote! { <'a> }, quote! { inputs: &Inputs<'_> }, "What the shader reads."),
+    };
+    let (structure, setters) = parameters::parameters(manifest);
     quote! {
-        #[doc = #summary]
-        #[doc = ""]
-        #[doc = #generated]
+        #(#[doc = #docs])*
         #[allow(dead_code)] // a caller uses the part that it needs
         pub mod #name {
-            /// The shader.
-            pub const WGSL: &str = include_str!(#wgsl);
+            #constants
 
-            /// What the shader binds, as JSON.
-            pub const MANIFEST: &str = include_str!(#json);
-
-            /// What the shader reads, all of the target's size.
+            #[doc = #inputs_docs]
             #[derive(Clone, Copy, Debug)]
-            pub struct Inputs<'a> {
+            pub struct Inputs #life {
                 #(#fields,)*
             }
+
+            #structure
 
             /// The shader on a device: make it once, encode it every frame.
             #[derive(Debug)]
@@ -93,17 +78,18 @@ fn module(module: &Module<'_>) -> TokenStream {
                 ///
                 /// # Errors
                 ///
-                /// If a view does not fit, naming it; nothing has been recorded then.
+                /// If an input or the target does not fit, naming it; nothing has been recorded then.
                 pub fn encode(
                     &self,
                     encoder: &mut straightline_runtime::wgpu::CommandEncoder,
-                    inputs: &Inputs<'_>,
+                    #used,
                     target: &straightline_runtime::wgpu::TextureView,
                 ) -> Result<(), straightline_runtime::Error> {
-                    self.0.encode(encoder, &[#(#pairs),*], target)
+                    let inputs: [(&str, straightline_runtime::Resource<'_>); #count] = [#(#pairs),*];
+                    self.0.encode(encoder, &inputs, target)
                 }
 
-                #(#setters)*
+                #setters
 
                 /// The pass itself, for timing it or asking what it binds.
                 #[must_use]
@@ -115,67 +101,187 @@ fn module(module: &Module<'_>) -> TokenStream {
     }
 }
 
-fn texture(binding: &straightline_manifest::Binding) -> Option<(proc_macro2::Ident, String)> {
-    let BindingKind::Texture {
-        components,
-        layers,
-        dimension,
-        ..
-    } = &binding.kind
-    else {
-        return None;
+/// What the shader is and was made from, a line each.
+fn documentation(module: &Module<'_>) -> Vec<String> {
+    let summary = if module.compiled.summary.is_empty() {
+        format!("The kernel `{}`.", module.compiled.kernel)
+    } else {
+        format!("{}.", module.compiled.summary.trim_end_matches('.'))
     };
-    let shape = match dimension {
-        straightline_manifest::Dimension::D2 => "A 2-D texture".to_owned(),
-        straightline_manifest::Dimension::D2Array => format!("A 2-D array texture of at least {layers} layers"),
+    let options = module.compiled.options.iter();
+    let options: Vec<String> = options.map(|(name, value)| format!("`{name}` {value}")).collect();
+    let generated = match options.is_empty() {
+        true => "Generated".to_owned(),
+        false => format!("Generated for {}", options.join(", ")),
     };
-    let plural = if *components == 1 { "component" } else { "components" };
-    Some((
-        format_ident!("{}", binding.name),
-        format!("{shape}, of a float format with at least {components} {plural}."),
-    ))
+    vec![
+        summary,
+        String::new(),
+        format!("{generated}; loops unrolled: `{}`.", module.compiled.policy),
+    ]
 }
 
-fn setters(kind: &BindingKind) -> Vec<TokenStream> {
-    let BindingKind::Uniform { fields, .. } = kind else {
-        return Vec::new();
-    };
-    let setter = |field: &straightline_manifest::UniformField| {
-        let (setter, name) = (format_ident!("set_{}", field.name), &field.name);
-        let ty = rust_type(&field.ty);
-        let docs = match field.default {
-            Some(default) => format!("Sets `{name}` from the next submission on; {default} until then."),
-            None => format!("Sets `{name}` from the next submission on; it must be set before the first."),
-        };
+fn constants(module: &Module<'_>) -> TokenStream {
+    let manifest = module.manifest;
+    let (wgsl, json) = (format!("{}.wgsl", module.name), format!("{}.json", module.name));
+    let entry = &manifest.entry_point;
+    let workgroup = manifest.workgroup_size.map(|size| {
+        let [x, y, z] = size.map(Literal::u32_unsuffixed);
         quote! {
-            #[doc = #docs]
-            ///
-            /// # Errors
-            ///
-            /// None but those of a damaged build.
-            pub fn #setter(
-                &self,
-                queue: &straightline_runtime::wgpu::Queue,
-                value: #ty,
-            ) -> Result<(), straightline_runtime::Error> {
-                self.0.write_uniform(queue, #name, value)
+            /// Invocations in a workgroup.
+            pub const WORKGROUP_SIZE: [u32; 3] = [#x, #y, #z];
+        }
+    });
+    let mut entries: Vec<TokenStream> = manifest.bindings.iter().map(|b| layout_entry(manifest.stage, b)).collect();
+    if let Some(binding) = manifest.output.binding {
+        entries.push(output_entry(binding, manifest.output.format));
+    }
+    let label = &manifest.kernel;
+    quote! {
+        /// The shader.
+        pub const WGSL: &str = include_str!(#wgsl);
+
+        /// What the shader binds, as JSON.
+        pub const MANIFEST: &str = include_str!(#json);
+
+        /// Name of the entry point.
+        pub const ENTRY_POINT: &str = #entry;
+
+        #workgroup
+
+        /// Layout of bind group 0, for a pipeline of one's own.
+        pub const BIND_GROUP_LAYOUT: straightline_runtime::wgpu::BindGroupLayoutDescriptor<'static> =
+            straightline_runtime::wgpu::BindGroupLayoutDescriptor {
+                label: Some(#label),
+                entries: &[#(#entries),*],
+            };
+    }
+}
+
+fn layout_entry(stage: Stage, binding: &Binding) -> TokenStream {
+    let wgpu = quote! { straightline_runtime::wgpu };
+    let number = Literal::u32_unsuffixed(binding.binding);
+    let visibility = match stage {
+        Stage::Compute => quote! { #wgpu::ShaderStages::COMPUTE },
+        Stage::Fragment => quote! { #wgpu::ShaderStages::FRAGMENT },
+    };
+    let buffer = |ty: TokenStream, size: u32| {
+        let size = Literal::u64_unsuffixed(size.into());
+        quote! {
+            #wgpu::BindingType::Buffer {
+                ty: #ty,
+                has_dynamic_offset: false,
+                min_binding_size: #wgpu::BufferSize::new(#size),
             }
         }
     };
-    fields.iter().map(setter).collect()
+    let ty = match &binding.kind {
+        BindingKind::Texture {
+            dimension, sample_type, ..
+        } => {
+            let sample_type = match sample_type {
+                SampleType::Unfilterable => quote! { #wgpu::TextureSampleType::Float { filterable: false } },
+                SampleType::Filterable => quote! { #wgpu::TextureSampleType::Float { filterable: true } },
+                SampleType::Depth => quote! { #wgpu::TextureSampleType::Depth },
+            };
+            let view = match dimension {
+                Dimension::D2Array => quote! { #wgpu::TextureViewDimension::D2Array },
+                _ => quote! { #wgpu::TextureViewDimension::D2 },
+            };
+            let multisampled = *dimension == Dimension::D2Multisampled;
+            quote! {
+                #wgpu::BindingType::Texture {
+                    sample_type: #sample_type,
+                    view_dimension: #view,
+                    multisampled: #multisampled,
+                }
+            }
+        }
+        BindingKind::Sampler { sampler } => match sampler {
+            SamplerType::Filtering => quote! { #wgpu::BindingType::Sampler(#wgpu::SamplerBindingType::Filtering) },
+            SamplerType::Comparison => quote! { #wgpu::BindingType::Sampler(#wgpu::SamplerBindingType::Comparison) },
+        },
+        BindingKind::Buffer { stride, .. } => {
+            buffer(quote! { #wgpu::BufferBindingType::Storage { read_only: true } }, *stride)
+        }
+        BindingKind::Uniform { size, .. } => buffer(quote! { #wgpu::BufferBindingType::Uniform }, *size),
+    };
+    quote! {
+        #wgpu::BindGroupLayoutEntry { binding: #number, visibility: #visibility, ty: #ty, count: None }
+    }
 }
 
-/// `f32`, or an array of lanes.
-fn rust_type(wgsl: &str) -> TokenStream {
-    if !wgsl.starts_with("vec") {
-        let ident = format_ident!("{wgsl}");
-        return quote! { #ident };
-    }
-    let lanes = proc_macro2::Literal::usize_unsuffixed(wgsl[3..4].parse().unwrap_or(1));
-    let ident = match &wgsl[4..] {
-        "f" => format_ident!("f32"),
-        "i" => format_ident!("i32"),
-        _ => format_ident!("u32"),
+fn output_entry(binding: u32, format: Format) -> TokenStream {
+    let number = Literal::u32_unsuffixed(binding);
+    let format = match format {
+        Format::Rgba8Unorm => format_ident!("Rgba8Unorm"),
+        Format::Rgba16Float => format_ident!("Rgba16Float"),
+        Format::Rgba32Float => format_ident!("Rgba32Float"),
     };
-    quote! { [#ident; #lanes] }
+    let wgpu = quote! { straightline_runtime::wgpu };
+    quote! {
+        #wgpu::BindGroupLayoutEntry {
+            binding: #number,
+            visibility: #wgpu::ShaderStages::COMPUTE,
+            ty: #wgpu::BindingType::StorageTexture {
+                access: #wgpu::StorageTextureAccess::WriteOnly,
+                format: #wgpu::TextureFormat::#format,
+                view_dimension: #wgpu::TextureViewDimension::D2,
+            },
+            count: None,
+        }
+    }
+}
+
+/// A field of `Inputs`.
+struct Input {
+    name: proc_macro2::Ident,
+    docs: String,
+    ty: proc_macro2::Ident,
+}
+
+impl Input {
+    fn of(binding: &Binding) -> Option<Input> {
+        let (docs, ty) = match &binding.kind {
+            BindingKind::Texture {
+                components,
+                layers,
+                samples,
+                dimension,
+                sample_type,
+                extent,
+                ..
+            } => {
+                let shape = match dimension {
+                    Dimension::D2 => "A 2-D texture".to_owned(),
+                    Dimension::D2Array => format!("A 2-D array texture of at least {layers} layers"),
+                    Dimension::D2Multisampled => format!("A multisampled 2-D texture of at least {samples} samples"),
+                };
+                let size = match extent {
+                    Extent::Output => "the target's size",
+                    Extent::Any => "any size",
+                };
+                let plural = if *components == 1 { "component" } else { "components" };
+                let format = match sample_type {
+                    SampleType::Depth => "a depth format".to_owned(),
+                    SampleType::Filterable => format!("a filterable float format with at least {components} {plural}"),
+                    SampleType::Unfilterable => format!("a float format with at least {components} {plural}"),
+                };
+                (format!("{shape} of {size}, of {format}."), "TextureView")
+            }
+            BindingKind::Sampler { sampler } => match sampler {
+                SamplerType::Filtering => ("A sampler that may filter.".to_owned(), "Sampler"),
+                SamplerType::Comparison => ("A comparison sampler.".to_owned(), "Sampler"),
+            },
+            BindingKind::Buffer { element, stride, .. } => {
+                (format!("A storage buffer of `{element}`, {stride} bytes each, at least one."), "Buffer")
+            }
+            BindingKind::Uniform { .. } => return None,
+        };
+        Some(Input {
+            name: format_ident!("{}", binding.name),
+            docs,
+            ty: format_ident!("{ty}"),
+        })
+    }
 }

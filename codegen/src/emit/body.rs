@@ -3,13 +3,15 @@
 use super::arrays::Webs;
 use super::dialect::Dialect;
 use super::error::EmitError;
+use super::listing::Listing;
 use super::names::Names;
 use super::plan::Plan;
 use super::resources::Resources;
 use super::text::Text;
-use crate::ir::{BinaryOp, Counter, NodeId, Op};
+use crate::ir::{BinaryOp, NodeId, Op};
 use crate::passes::{Block, Step};
 use crate::pipeline::Compiled;
+use std::collections::BTreeSet;
 
 /// Operators and calls that one expression may hold before part of it becomes a statement. Long chains also overflow
 /// the recursive parsers of shader compilers.
@@ -17,7 +19,7 @@ const LONGEST: u32 = 7;
 
 /// The text of a body.
 pub struct Body {
-    /// Constant arrays, for module scope.
+    /// Constant arrays and functions, for module scope.
     pub tables: Vec<String>,
     /// Lines, indented by one level.
     pub lines: Vec<String>,
@@ -38,18 +40,15 @@ pub fn body(compiled: &Compiled, resources: &Resources, entry: &str, dialect: &d
         webs: Webs::new(graph),
         texts: vec![None; graph.nodes.len()],
         tables: Vec::new(),
-        lines: Vec::new(),
-        indent: 1,
-        group: Group::default(),
-        commented: None,
+        helpers: BTreeSet::new(),
+        listing: Listing::new(graph),
         statements: 0,
     };
     writer.block(&compiled.schedule.body)?;
     let result = writer.text(graph.output())?.code;
-    writer.flush();
     Ok(Body {
-        tables: writer.tables,
-        lines: writer.lines,
+        tables: writer.tables.into_iter().chain(writer.helpers).collect(),
+        lines: writer.listing.lines(),
         result,
         statements: writer.statements,
     })
@@ -63,20 +62,10 @@ struct Writer<'a> {
     webs: Webs,
     texts: Vec<Option<Text>>,
     tables: Vec<String>,
-    lines: Vec<String>,
-    indent: usize,
-    group: Group,
-    /// Place and outer counters of the last comment.
-    commented: Option<((u32, u32), Vec<Counter>)>,
+    /// Functions at module scope, each once.
+    helpers: BTreeSet<String>,
+    listing: Listing<'a>,
     statements: u32,
-}
-
-/// Statements of one place in the source, under one comment.
-#[derive(Default)]
-struct Group {
-    counters: Vec<Counter>,
-    place: Option<(u32, u32)>,
-    lines: Vec<String>,
 }
 
 impl Writer<'_> {
@@ -192,7 +181,23 @@ impl Writer<'_> {
             Op::Compose => d.construct(node.ty, &args.iter().collect::<Vec<_>>()),
             Op::Extract(lane) => Text::member(&args[0], &"xyzw"[*lane as usize..=*lane as usize]),
             Op::Convert => d.convert(operand, node.ty, &args[0]),
+            Op::Bitcast => d.bitcast(operand, node.ty, &args[0]),
+            Op::TextureSize(texture) => d.size(*texture),
             Op::Load { texture, .. } => d.load(*texture, &args[0], args.get(1)),
+            Op::Sample { texture, sampler, .. } => d.sample(*texture, *sampler, &args[0]),
+            Op::Gather {
+                texture,
+                sampler,
+                component,
+                ..
+            } => {
+                let (text, helper) = d.gather(*texture, *sampler, *component, &args[0]);
+                self.helpers.extend(helper);
+                text
+            }
+            Op::Compare { texture, sampler, .. } => d.compare(*texture, *sampler, &args[0], &args[1]),
+            Op::BufferLen(buffer) => d.len(*buffer),
+            Op::BufferLoad { buffer, .. } => d.element(*buffer, &args[0]),
             Op::Tally(_) => args[0].clone(),
             _ => unreachable!("handled where it has a statement of its own"),
         })
@@ -243,11 +248,7 @@ impl Writer<'_> {
 
     fn indexed(&mut self, base: &Text, index: NodeId) -> Result<Text, EmitError> {
         let index = self.text(index)?;
-        Ok(Text {
-            code: format!("{}[{}]", base.code, index.code),
-            size: 1 + index.size,
-            ..base.clone()
-        })
+        Ok(Text::index(base, &index))
     }
 
     fn array_set(&mut self, id: NodeId) -> Result<(), EmitError> {
@@ -310,11 +311,10 @@ impl Writer<'_> {
         self.line(self.dialect.loop_head(&counter, &start, &end));
         self.statements += 1;
         let scope = self.webs.snapshot();
-        self.indent += 1;
+        self.listing.indent();
         self.block(body)?;
         self.assign_all(&region.params[1..], &region.results)?;
-        self.flush();
-        self.indent -= 1;
+        self.listing.dedent();
         self.line("}".to_owned());
         self.webs.leave(&scope);
         self.results(node, &region.params[1..]);
@@ -442,7 +442,7 @@ impl Writer<'_> {
         arrays_only: bool,
     ) -> Result<(), EmitError> {
         let graph = &self.compiled.graph;
-        self.indent += 1;
+        self.listing.indent();
         self.block(block)?;
         for id in results {
             let Op::Result(k) = graph.node(*id).op else { continue };
@@ -455,78 +455,18 @@ impl Writer<'_> {
                 self.statement(*id, format!("{target} = {value};"));
             }
         }
-        self.flush();
-        self.indent -= 1;
+        self.listing.dedent();
         Ok(())
     }
 
-    /// A statement, under a comment with those of the same place.
+    /// A statement of a node's, under a comment with those of the same place.
     fn statement(&mut self, id: NodeId, line: String) {
         self.statements += 1;
-        if let Some(origin) = self.plan.origin(id)
-            && !origin.name.is_empty()
-        {
-            let agrees = origin.counters.iter().all(|c| {
-                self.group
-                    .counters
-                    .iter()
-                    .find(|known| known.name == c.name)
-                    .is_none_or(|known| known.value == c.value)
-            });
-            if !agrees {
-                self.flush();
-            }
-            for counter in &origin.counters {
-                if !self.group.counters.contains(counter) {
-                    self.group.counters.push(counter.clone());
-                }
-            }
-            self.group.place.get_or_insert((origin.file, origin.line));
-        }
-        let indent = "    ".repeat(self.indent);
-        self.group.lines.push(format!("{indent}{line}"));
+        self.listing.statement(self.plan.origin(id), &line);
     }
 
-    /// A line that belongs to no group.
+    /// A line that belongs to no place.
     fn line(&mut self, line: String) {
-        self.flush();
-        let indent = "    ".repeat(self.indent);
-        self.lines.push(format!("{indent}{line}"));
-    }
-
-    /// Ends a group: its comment, then its statements.
-    fn flush(&mut self) {
-        let group = std::mem::take(&mut self.group);
-        if group.lines.is_empty() {
-            return;
-        }
-        let indent = "    ".repeat(self.indent);
-        let graph = &self.compiled.graph;
-        let mut counters = group.counters;
-        counters.sort_by_key(|c| self.compiled_order(c));
-        // The same line for the next innermost counter speaks for itself: the names carry it.
-        let outer = counters[..counters.len().saturating_sub(1)].to_vec();
-        let place = group.place.map(|place| (place, outer));
-        let repeated = place.is_some() && place == self.commented;
-        if let Some(((file, line), _)) = &place
-            && !repeated
-        {
-            let values: Vec<String> = counters.iter().map(|c| format!("{} {}", c.name, c.value)).collect();
-            let file = graph.files.get(*file as usize).map_or("", String::as_str);
-            let colon = if values.is_empty() { "" } else { ": " };
-            self.lines
-                .push(format!("{indent}// {}{colon}{file}:{line}", values.join(", ")));
-            self.commented = place;
-        }
-        self.lines.extend(group.lines);
-    }
-
-    /// Outer counters first: the order in which any origin that has all of them lists them.
-    fn compiled_order(&self, counter: &Counter) -> usize {
-        let lists = self.compiled.graph.origins.iter().flatten();
-        lists
-            .filter_map(|o| o.counters.iter().position(|c| c.name == counter.name))
-            .max()
-            .unwrap_or(0)
+        self.listing.line(&line);
     }
 }

@@ -22,8 +22,22 @@ pub trait Dialect {
     fn loop_head(&self, counter: &str, start: &Text, end: &Text) -> String;
     /// The head of a branch, up to the opening brace.
     fn if_head(&self, condition: &Text) -> String;
-    /// A texel of a texture.
+    /// A texel of a texture, or sample of one.
     fn load(&self, texture: u32, coord: &Text, layer: Option<&Text>) -> Text;
+    /// A texture through a sampler, at its finest level.
+    fn sample(&self, texture: u32, sampler: u32, uv: &Text) -> Text;
+    /// A component of the four texels around a place, and a function that this needs at module scope.
+    fn gather(&self, texture: u32, sampler: u32, component: u8, uv: &Text) -> (Text, Option<String>);
+    /// A comparison with a reference through a sampler.
+    fn compare(&self, texture: u32, sampler: u32, uv: &Text, reference: &Text) -> Text;
+    /// Width and height of a texture as signed integers.
+    fn size(&self, texture: u32) -> Text;
+    /// An element of a buffer.
+    fn element(&self, buffer: u32, index: &Text) -> Text;
+    /// Number of a buffer's elements as a signed integer.
+    fn len(&self, buffer: u32) -> Text;
+    /// The same bits as another type.
+    fn bitcast(&self, from: Type, to: Type, x: &Text) -> Text;
     /// One argument.
     fn unary(&self, op: UnaryOp, ty: Type, x: &Text) -> Text;
     /// Two arguments of a type.

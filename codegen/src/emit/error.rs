@@ -23,6 +23,19 @@ pub enum EmitError {
         /// The kernel.
         kernel: String,
     },
+    /// A layer or sample whose index nothing bounds.
+    #[error(
+        "`{kernel}` reads a layer or sample of `{texture}` whose index is only known at run time, so nothing tells how many it needs: bound it with `.min(...)`"
+    )]
+    Layers {
+        /// The kernel.
+        kernel: String,
+        /// The texture.
+        texture: String,
+    },
+    /// A workgroup that no device runs.
+    #[error("a workgroup of {0}x{1} is not possible: each side is at least 1, and both together at most 1024 invocations")]
+    Workgroup(u32, u32),
     /// A binding whose name is a word of a shading language.
     #[error("`{kernel}` calls an input `{name}`, which is a word of WGSL or GLSL: give the parameter another name")]
     Reserved {

@@ -3,12 +3,27 @@
 use super::dialect::{Dialect, float, integer, operator};
 use super::resources::Resources;
 use super::text::{Binds, Text};
-use crate::ir::{BinaryOp, Scalar, Type, UnaryOp};
+use crate::ir::{BinaryOp, Scalar, TextureKind, Type, UnaryOp};
 
 /// GLSL 4.50.
 pub struct Glsl<'a> {
     /// The shader's bindings.
     pub resources: &'a Resources,
+}
+
+impl Glsl<'_> {
+    /// A texture with the sampler that filters nothing.
+    fn unfiltered(&self, texture: u32) -> Text {
+        let texture = self.resources.texture(texture);
+        let kind = super::shell::glsl_sampler(texture.kind);
+        Text::name(format!("{kind}({}, {})", texture.name, super::resources::SAMPLER))
+    }
+
+    /// A texture with a sampler of the kernel's.
+    fn through(&self, kind: &str, texture: u32, sampler: u32) -> Text {
+        let texture = &self.resources.texture(texture).name;
+        Text::name(format!("{kind}({texture}, {})", self.resources.sampler(sampler).name))
+    }
 }
 
 impl Dialect for Glsl<'_> {
@@ -81,18 +96,89 @@ impl Dialect for Glsl<'_> {
     }
 
     fn load(&self, texture: u32, coord: &Text, layer: Option<&Text>) -> Text {
-        let texture = self.resources.texture(texture);
-        let kind = if texture.layered { "sampler2DArray" } else { "sampler2D" };
-        let name = Text::name(format!("{kind}({}, {})", texture.name, super::resources::SAMPLER));
-        let coord = match layer {
-            Some(layer) => Text::call("ivec3", &[coord, layer]),
-            None => coord.clone(),
+        let entry = self.resources.texture(texture);
+        let name = self.unfiltered(texture);
+        let texel = match (layer, entry.kind) {
+            (Some(sample), TextureKind::Multisampled) => Text::call("texelFetch", &[&name, coord, sample]),
+            (Some(layer), _) => {
+                let coord = Text::call("ivec3", &[coord, layer]);
+                Text::call("texelFetch", &[&name, &coord, &Text::name("0")])
+            }
+            (None, _) => Text::call("texelFetch", &[&name, coord, &Text::name("0")]),
         };
-        let texel = Text::call("texelFetch", &[&name, &coord, &Text::name("0")]);
-        match texture.components {
+        match entry.components {
             4 => texel,
             n => Text::member(&texel, &"xyzw"[..n as usize]),
         }
+    }
+
+    fn sample(&self, texture: u32, sampler: u32, uv: &Text) -> Text {
+        let through = self.through("sampler2D", texture, sampler);
+        let texel = Text::call("textureLod", &[&through, uv, &Text::name("0.0")]);
+        match self.resources.texture(texture).components {
+            4 => texel,
+            n => Text::member(&texel, &"xyzw"[..n as usize]),
+        }
+    }
+
+    // naga reads no `textureGather`: the four texels are read one by one at their centres, where filters agree.
+    fn gather(&self, texture: u32, sampler: u32, component: u8, uv: &Text) -> (Text, Option<String>) {
+        let through = self.through("sampler2D", texture, sampler).code;
+        let lane = &"xyzw"[component as usize..=component as usize];
+        let function = format!(
+            "gather_{}_{}_{lane}",
+            self.resources.texture(texture).name,
+            self.resources.sampler(sampler).name
+        );
+        let tap = |x: &str, y: &str| format!("textureLod({through}, (base + vec2({x}, {y})) / size, 0.0).{lane}");
+        let text = format!(
+            "vec4 {function}(vec2 uv) {{\n    vec2 size = vec2(textureSize({through}, 0));\n    vec2 base = floor(uv * size - \
+             0.5);\n    return vec4({}, {}, {}, {});\n}}",
+            tap("0.5", "1.5"),
+            tap("1.5", "1.5"),
+            tap("1.5", "0.5"),
+            tap("0.5", "0.5"),
+        );
+        (Text::call(&function, &[uv]), Some(text))
+    }
+
+    fn compare(&self, texture: u32, sampler: u32, uv: &Text, reference: &Text) -> Text {
+        let through = self.through("sampler2DShadow", texture, sampler);
+        let place = Text::call("vec3", &[uv, reference]);
+        Text::call("textureLod", &[&through, &place, &Text::name("0.0")])
+    }
+
+    fn size(&self, texture: u32) -> Text {
+        let name = self.unfiltered(texture);
+        match self.resources.texture(texture).kind {
+            TextureKind::Multisampled => Text::call("textureSize", &[&name]),
+            TextureKind::Layers => {
+                let size = Text::call("textureSize", &[&name, &Text::name("0")]);
+                Text::member(&size, "xy")
+            }
+            _ => Text::call("textureSize", &[&name, &Text::name("0")]),
+        }
+    }
+
+    fn element(&self, buffer: u32, index: &Text) -> Text {
+        let elements = Text::name(format!("{}.elements", self.resources.buffer(buffer).name));
+        Text::index(&elements, index)
+    }
+
+    fn len(&self, buffer: u32) -> Text {
+        let length = Text::name(format!("{}.elements.length()", self.resources.buffer(buffer).name));
+        Text::call("int", &[&length])
+    }
+
+    fn bitcast(&self, from: Type, to: Type, x: &Text) -> Text {
+        let function = match (from.kind(), to.kind()) {
+            (Some(Scalar::F32), Some(Scalar::I32)) => "floatBitsToInt",
+            (Some(Scalar::F32), _) => "floatBitsToUint",
+            (Some(Scalar::I32), Some(Scalar::F32)) => "intBitsToFloat",
+            (Some(Scalar::U32), Some(Scalar::F32)) => "uintBitsToFloat",
+            _ => return Text::call(&self.ty(to), &[x]),
+        };
+        Text::call(function, &[x])
     }
 
     fn unary(&self, op: UnaryOp, ty: Type, x: &Text) -> Text {
@@ -102,6 +188,27 @@ impl Dialect for Glsl<'_> {
             Not if ty.lanes() > 1 => "not",
             Not => return Text::prefix("!", x),
             BitNot => return Text::prefix("~", x),
+            // Numbered from the lowest bit, and -1 for none.
+            LeadingZeros | TrailingZeros => {
+                let kind = ty.kind().unwrap_or(Scalar::U32);
+                let bits = match kind {
+                    Scalar::I32 => Text::call("uint", &[x]),
+                    _ => x.clone(),
+                };
+                let found = Text::call(if op == LeadingZeros { "findMSB" } else { "findLSB" }, &[&bits]);
+                let none = Text::infix(&bits, "==", &Text::name("0u"), Binds::Comparison);
+                let zeros = match op {
+                    LeadingZeros => Text::infix(&Text::name("31"), "-", &found, Binds::Sum),
+                    _ => found,
+                };
+                let count = self.select(&none, &Text::name("32"), &zeros);
+                return Text::call(&self.ty(ty), &[&count]);
+            }
+            CountOneBits => return Text::call(&self.ty(ty), &[&Text::call("bitCount", &[x])]),
+            ReverseBits => "bitfieldReverse",
+            Sinh => "sinh",
+            Cosh => "cosh",
+            Tanh => "tanh",
             Abs => "abs",
             Sign => "sign",
             Floor => "floor",

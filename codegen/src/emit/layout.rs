@@ -23,6 +23,12 @@ pub fn layout(uniforms: &[&Uniform]) -> (Vec<UniformField>, u32) {
     (fields, at.max(1).next_multiple_of(16))
 }
 
+/// Bytes from one element of a storage buffer to the next.
+pub fn stride(ty: Type) -> u32 {
+    let (align, size) = measure(ty);
+    size.next_multiple_of(align)
+}
+
 /// Alignment and size in bytes of a scalar or vector.
 fn measure(ty: Type) -> (u32, u32) {
     match ty.lanes() {

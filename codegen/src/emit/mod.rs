@@ -11,7 +11,9 @@ mod dialect;
 mod error;
 mod glsl;
 mod layout;
+mod listing;
 mod names;
+mod parameters;
 mod plan;
 mod resources;
 mod shell;
@@ -19,7 +21,10 @@ mod target;
 mod text;
 mod translate;
 mod wgsl;
+mod words;
 
+use crate::ir::{Graph, Op};
+use crate::passes::Schedule;
 use crate::pipeline::Compiled;
 use std::collections::{BTreeMap, BTreeSet};
 use straightline_manifest::{Format, Manifest, Stage};
@@ -52,25 +57,91 @@ impl Emitted {
     }
 }
 
-/// Emits a kernel for a stage, its result in `format`. Nothing is given out that naga does not validate.
-pub fn emit(
-    compiled: &Compiled,
-    stage: Stage,
-    format: Format,
-    targets: &BTreeSet<Target>,
-) -> Result<Emitted, EmitError> {
-    let resources = resources::Resources::of(compiled, stage, format)?;
+/// How a kernel is to be emitted.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct EmitOptions {
+    /// Pipeline stage.
+    pub stage: Stage,
+    /// Texel format of the output.
+    pub format: Format,
+    /// Invocations of a compute workgroup, across and down; `None` for [`EmitOptions::WORKGROUP`].
+    pub workgroup: Option<[u32; 2]>,
+    /// Languages.
+    pub targets: BTreeSet<Target>,
+}
+
+impl EmitOptions {
+    /// A row of pixels, as wide as WebGPU's default limits allow. On lavapipe rows were faster than squares of 8x8 or
+    /// 16x16, looped and unrolled; on a GPU this has not been measured yet.
+    pub const WORKGROUP: [u32; 2] = [256, 1];
+
+    /// A compute shader in WGSL with an `rgba16float` output.
+    pub fn new() -> Self {
+        EmitOptions {
+            stage: Stage::Compute,
+            format: Format::default(),
+            workgroup: None,
+            targets: BTreeSet::from([Target::Wgsl]),
+        }
+    }
+
+    /// For a stage.
+    pub fn stage(mut self, stage: Stage) -> Self {
+        self.stage = stage;
+        self
+    }
+
+    /// With a texel format of the output.
+    pub fn format(mut self, format: Format) -> Self {
+        self.format = format;
+        self
+    }
+
+    /// In these languages.
+    pub fn targets(mut self, targets: impl IntoIterator<Item = Target>) -> Self {
+        self.targets = targets.into_iter().collect();
+        self
+    }
+
+    fn workgroup(&self) -> [u32; 3] {
+        let [x, y] = self.workgroup.unwrap_or(Self::WORKGROUP);
+        [x, y, 1]
+    }
+}
+
+impl Default for EmitOptions {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+/// Statements that a kernel will have, before any text is made: the long expressions that are split are not counted.
+pub fn statements(graph: &Graph, schedule: &Schedule) -> u32 {
+    let plan = plan::Plan::new(graph, schedule);
+    let live = graph.ids().filter(|id| schedule.place[id.0 as usize].is_some());
+    live.filter(|id| plan.is_statement(*id) || matches!(graph.node(*id).op, Op::ArraySet | Op::Loop(_) | Op::If(..)))
+        .count() as u32
+}
+
+/// Emits a kernel. Nothing is given out that naga does not validate.
+pub fn emit(compiled: &Compiled, options: &EmitOptions) -> Result<Emitted, EmitError> {
+    if let Some([x, y]) = options.workgroup
+        && (x == 0 || y == 0 || x.saturating_mul(y) > 1024)
+    {
+        return Err(EmitError::Workgroup(x, y));
+    }
+    let resources = resources::Resources::of(compiled, options)?;
     let wgsl = shell::render(compiled, &resources, &wgsl::Wgsl { resources: &resources })?;
     let mut manifest = resources.manifest(compiled);
     manifest.counts.statements = wgsl.statements;
     let module = translate::Module::parse_wgsl(&compiled.kernel, &wgsl.text)?;
     let mut files = BTreeMap::new();
-    for target in targets {
+    for target in &options.targets {
         let bytes = match target {
             Target::Wgsl => wgsl.text.clone().into_bytes(),
             Target::Glsl450 => {
                 let glsl = shell::render(compiled, &resources, &glsl::Glsl { resources: &resources })?;
-                translate::check_glsl(&compiled.kernel, stage, &glsl.text)?;
+                translate::check_glsl(&compiled.kernel, options.stage, &glsl.text)?;
                 glsl.text.into_bytes()
             }
             Target::Spirv => module.spirv(&resources)?,

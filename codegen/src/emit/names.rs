@@ -9,9 +9,24 @@ pub fn is_reserved(word: &str) -> bool {
     use naga::keywords::wgsl;
     wgsl::RESERVED.contains(&word)
         || wgsl::BUILTIN_IDENTIFIER_SET.contains(word)
-        || super::shell::GLSL_WORDS.contains(&word)
+        || super::words::GLSL.contains(&word)
+        || is_glsl_type(word)
         || word.starts_with("gl_")
         || word.starts_with("__")
+}
+
+/// Types of GLSL that come in families: `mat4x3`, `ivec2`, `usampler2DArray`, `image3D`, ...
+fn is_glsl_type(word: &str) -> bool {
+    let bare = word.trim_start_matches(['i', 'u', 'b', 'd']);
+    let numbered = |prefix: &str| bare.strip_prefix(prefix).is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit()));
+    let opaque = ["sampler", "image", "texture", "subpassInput"];
+    numbered("vec")
+        || numbered("mat")
+        || opaque.iter().any(|prefix| {
+            let rest = bare.strip_prefix(prefix);
+            let kinds = ["1D", "2D", "3D", "Cube", "Buffer", "Shadow", "MS"];
+            rest.is_some_and(|rest| rest.is_empty() || kinds.iter().any(|kind| rest.starts_with(kind)))
+        })
 }
 
 /// Gives out names, each once.
@@ -29,7 +44,7 @@ impl Names {
         ]
         .map(str::to_owned)
         .into();
-        taken.extend(resources.read.iter().map(|(k, ..)| resources.texture(*k).name.clone()));
+        taken.extend(resources.names().map(str::to_owned));
         let counters: BTreeSet<&str> = graph
             .origins
             .iter()
@@ -108,7 +123,13 @@ impl Names {
 fn plain(graph: &Graph, id: NodeId) -> String {
     let node = graph.node(id);
     match &node.op {
-        Op::Load { texture, .. } => graph.textures[*texture as usize].name.clone() + "_texel",
+        op if op.is_read() && op.texture().is_some() => {
+            let texture = op.texture().map_or("", |t| graph.textures[t as usize].name.as_str());
+            format!("{texture}_texel")
+        }
+        Op::BufferLoad { buffer, .. } => graph.buffers[*buffer as usize].name.clone() + "_element",
+        Op::TextureSize(texture) => graph.textures[*texture as usize].name.clone() + "_size",
+        Op::BufferLen(buffer) => graph.buffers[*buffer as usize].name.clone() + "_len",
         Op::Binary(op) if op.is_comparison() => "holds".to_owned(),
         Op::Dot => "dotted".to_owned(),
         Op::Select | Op::Result(_) => "chosen".to_owned(),

@@ -73,7 +73,8 @@ impl<'a> Plan<'a> {
             | Op::Result(_)
             | Op::Tally(_) => false,
             Op::Loop(_) | Op::If(..) | Op::MakeArray | Op::ArraySet => false,
-            Op::Load { .. } | Op::ArrayGet => true,
+            Op::ArrayGet => true,
+            ref op if op.is_read() => true,
             Op::Extract(_) | Op::Splat if self.is_atom(node.args[0]) => false,
             _ => {
                 let slot = id.0 as usize;

@@ -1,12 +1,15 @@
 //! What a shader binds: only what it reads.
 
+use super::EmitOptions;
 use super::error::EmitError;
-use super::layout::layout;
-use crate::ir::{NodeId, Op, Texture, Uniform};
+use super::layout::{layout, stride};
+use super::wgsl::type_name;
+use crate::ir::{Buffer, NodeId, Op, Sampler, Texture, TextureKind, Uniform};
 use crate::passes::layers_read;
 use crate::pipeline::Compiled;
 use straightline_manifest::{
-    Access, Binding, BindingKind, Dimension, Format, Manifest, Output, SCHEMA, Stage, UniformField,
+    Access, Binding, BindingKind, Dimension, Extent, Manifest, Output, SCHEMA, SampleType, SamplerType, Stage,
+    UniformField,
 };
 
 /// Name of the uniform buffer.
@@ -15,20 +18,33 @@ pub const UNIFORMS: &str = "parameters";
 pub const SAMPLER: &str = "unfiltered";
 /// Name of the storage texture or colour that is written.
 pub const OUTPUT: &str = "destination";
-/// Invocations in a workgroup: a row of pixels, as wide as WebGPU's default limits allow. On lavapipe and SwiftShader
-/// rows were faster than squares of 8x8 or 16x16, looped and unrolled.
-pub const WORKGROUP: [u32; 3] = [256, 1, 1];
+/// A texture that is read.
+#[derive(Clone, Debug)]
+pub struct BoundTexture {
+    /// Index in the graph.
+    pub index: u32,
+    /// Binding number.
+    pub binding: u32,
+    /// Layers, or samples of a texel, that reads can reach.
+    pub layers: u32,
+    /// Whether a sampler filters it.
+    pub filtered: bool,
+}
 
 /// A shader's bindings.
 pub struct Resources {
-    /// Stage that it is for.
-    pub stage: Stage,
-    /// Format of the output.
-    pub format: Format,
+    /// How it is emitted.
+    pub options: EmitOptions,
     /// Every texture of the kernel, read or not, by index.
     textures: Vec<Texture>,
-    /// Indices of those that are read, with their binding numbers and layers.
-    pub read: Vec<(u32, u32, u32)>,
+    buffers: Vec<Buffer>,
+    samplers: Vec<Sampler>,
+    /// Textures that are read.
+    pub read: Vec<BoundTexture>,
+    /// Index and binding number of each buffer that is read.
+    pub read_buffers: Vec<(u32, u32)>,
+    /// Index and binding number of each sampler that is used.
+    pub used_samplers: Vec<(u32, u32)>,
     /// Fields of the uniform buffer, and its size.
     pub fields: Vec<UniformField>,
     /// Size of the uniform buffer in bytes.
@@ -39,22 +55,35 @@ pub struct Resources {
 
 impl Resources {
     /// What the scheduled graph reads.
-    pub fn of(compiled: &Compiled, stage: Stage, format: Format) -> Result<Resources, EmitError> {
+    pub fn of(compiled: &Compiled, options: &EmitOptions) -> Result<Resources, EmitError> {
         let graph = &compiled.graph;
         let live = |id: &NodeId| compiled.schedule.place[id.0 as usize].is_some();
-        let reads = |k: u32| {
-            graph
-                .ids()
-                .filter(live)
-                .any(|id| matches!(graph.node(id).op, Op::Load { texture, .. } if texture == k))
-        };
+        let ops: Vec<&Op> = graph.ids().filter(live).map(|id| &graph.node(id).op).collect();
+        let kernel = || compiled.kernel.clone();
+        let mut next = 0..;
+        let mut number = || next.next().unwrap_or(u32::MAX);
         let mut read = Vec::new();
-        for k in 0..graph.textures.len() as u32 {
-            if reads(k) {
-                read.push((k, read.len() as u32, layers_read(graph, k)));
+        for index in 0..graph.textures.len() as u32 {
+            if !ops.iter().any(|op| op.texture() == Some(index)) {
+                continue;
             }
+            let layers = layers_read(graph, index).ok_or_else(|| EmitError::Layers {
+                kernel: kernel(),
+                texture: graph.textures[index as usize].name.clone(),
+            })?;
+            read.push(BoundTexture {
+                index,
+                binding: number(),
+                layers,
+                filtered: ops.iter().any(|op| matches!(op, Op::Sample { texture, .. } if *texture == index)),
+            });
         }
-        let used = |k: u32| graph.ids().filter(live).any(|id| graph.node(id).op == Op::Uniform(k));
+        let mut bound = |len: usize, used: &dyn Fn(u32) -> bool| -> Vec<(u32, u32)> {
+            (0..len as u32).filter(|k| used(*k)).map(|k| (k, number())).collect()
+        };
+        let read_buffers = bound(graph.buffers.len(), &|k| ops.iter().any(|op| op.buffer() == Some(k)));
+        let used_samplers = bound(graph.samplers.len(), &|k| ops.iter().any(|op| op.sampler() == Some(k)));
+        let used = |k: u32| ops.iter().any(|op| **op == Op::Uniform(k));
         let uniforms: Vec<&Uniform> = graph
             .uniforms
             .iter()
@@ -62,35 +91,35 @@ impl Resources {
             .filter(|(k, _)| used(*k as u32))
             .map(|(_, u)| u)
             .collect();
-        let textures_read = read.iter().map(|(k, ..)| &graph.textures[*k as usize].name);
-        let bound = textures_read.chain(uniforms.iter().map(|u| &u.name));
+        let names = read.iter().map(|t| &graph.textures[t.index as usize].name);
+        let names = names.chain(read_buffers.iter().map(|(k, _)| &graph.buffers[*k as usize].name));
+        let names = names.chain(used_samplers.iter().map(|(k, _)| &graph.samplers[*k as usize].name));
         let own = [UNIFORMS, SAMPLER, OUTPUT, "frame", "pixel", "id", "position"];
-        if let Some(name) = bound
-            .into_iter()
+        if let Some(name) = names
+            .chain(uniforms.iter().map(|u| &u.name))
             .find(|name| super::names::is_reserved(name) || own.contains(&name.as_str()))
         {
-            return Err(EmitError::Reserved {
-                kernel: compiled.kernel.clone(),
-                name: name.clone(),
-            });
+            let name = name.clone();
+            return Err(EmitError::Reserved { kernel: kernel(), name });
         }
         let (fields, uniform_size) = layout(&uniforms);
-        let needs_frame =
-            stage == Stage::Compute || graph.ids().filter(live).any(|id| graph.node(id).op == Op::FrameSize);
-        if needs_frame && stage == Stage::Fragment && read.is_empty() {
-            return Err(EmitError::NoFrame {
-                kernel: compiled.kernel.clone(),
-            });
-        }
-        Ok(Resources {
-            stage,
-            format,
+        let needs_frame = options.stage == Stage::Compute || ops.contains(&&Op::FrameSize);
+        let resources = Resources {
+            options: options.clone(),
             textures: graph.textures.clone(),
+            buffers: graph.buffers.clone(),
+            samplers: graph.samplers.clone(),
             read,
+            read_buffers,
+            used_samplers,
             fields,
             uniform_size,
             needs_frame,
-        })
+        };
+        if needs_frame && options.stage == Stage::Fragment && resources.framed().is_none() {
+            return Err(EmitError::NoFrame { kernel: kernel() });
+        }
+        Ok(resources)
     }
 
     /// A texture by its index in the graph.
@@ -98,43 +127,79 @@ impl Resources {
         &self.textures[index as usize]
     }
 
+    /// A buffer by its index in the graph.
+    pub fn buffer(&self, index: u32) -> &Buffer {
+        &self.buffers[index as usize]
+    }
+
+    /// A sampler by its index in the graph.
+    pub fn sampler(&self, index: u32) -> &Sampler {
+        &self.samplers[index as usize]
+    }
+
+    /// A texture that is read and has the output's size.
+    pub fn framed(&self) -> Option<&Texture> {
+        self.read.iter().map(|t| self.texture(t.index)).find(|t| t.framed)
+    }
+
+    /// Names of everything that is bound but the uniforms.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        let textures = self.read.iter().map(|t| self.texture(t.index).name.as_str());
+        let buffers = self.read_buffers.iter().map(|(k, _)| self.buffer(*k).name.as_str());
+        let samplers = self.used_samplers.iter().map(|(k, _)| self.sampler(*k).name.as_str());
+        textures.chain(buffers).chain(samplers)
+    }
+
+    fn inputs(&self) -> u32 {
+        (self.read.len() + self.read_buffers.len() + self.used_samplers.len()) as u32
+    }
+
     /// Binding number of the output, where it is one.
     pub fn output_binding(&self) -> Option<u32> {
-        (self.stage == Stage::Compute).then_some(self.read.len() as u32)
+        (self.options.stage == Stage::Compute).then_some(self.inputs())
     }
 
     /// Binding number of the uniform buffer, if there is one.
     pub fn uniform_binding(&self) -> Option<u32> {
-        let next = self.read.len() as u32 + u32::from(self.stage == Stage::Compute);
+        let next = self.inputs() + u32::from(self.options.stage == Stage::Compute);
         (!self.fields.is_empty()).then_some(next)
     }
 
     /// Binding number of the sampler that only GLSL has: the last.
     pub fn sampler_binding(&self) -> u32 {
-        self.read.len() as u32 + u32::from(self.stage == Stage::Compute) + u32::from(!self.fields.is_empty())
+        self.inputs() + u32::from(self.options.stage == Stage::Compute) + u32::from(!self.fields.is_empty())
     }
 
     /// The manifest of the shader, without its files and with `statements` still 0.
     pub fn manifest(&self, compiled: &Compiled) -> Manifest {
         let mut bindings = Vec::new();
-        for (index, binding, layers) in &self.read {
-            let texture = self.texture(*index);
-            let dimension = if texture.layered {
-                Dimension::D2Array
-            } else {
-                Dimension::D2
-            };
+        let mut add = |binding: u32, name: &str, kind: BindingKind| {
             bindings.push(Binding {
                 group: 0,
-                binding: *binding,
-                name: texture.name.clone(),
-                kind: BindingKind::Texture {
-                    access: Access::Read,
-                    dimension,
-                    components: texture.components,
-                    layers: *layers,
-                },
+                binding,
+                name: name.to_owned(),
+                kind,
             });
+        };
+        for bound in &self.read {
+            let texture = self.texture(bound.index);
+            add(bound.binding, &texture.name, texture_kind(texture, bound));
+        }
+        for (index, binding) in &self.read_buffers {
+            let buffer = self.buffer(*index);
+            let kind = BindingKind::Buffer {
+                access: Access::Read,
+                element: type_name(buffer.element),
+                stride: stride(buffer.element),
+            };
+            add(*binding, &buffer.name, kind);
+        }
+        for (index, binding) in &self.used_samplers {
+            let sampler = match self.sampler(*index).comparison {
+                true => SamplerType::Comparison,
+                false => SamplerType::Filtering,
+            };
+            add(*binding, &self.sampler(*index).name, BindingKind::Sampler { sampler });
         }
         if let Some(binding) = self.uniform_binding() {
             bindings.push(Binding {
@@ -148,15 +213,15 @@ impl Resources {
                 },
             });
         }
-        let compute = self.stage == Stage::Compute;
+        let compute = self.options.stage == Stage::Compute;
         Manifest {
             schema: SCHEMA,
             generator: super::shell::GENERATOR.to_owned(),
             kernel: compiled.kernel.clone(),
-            stage: self.stage,
-            unroll: compiled.unroll.name().to_owned(),
+            stage: self.options.stage,
+            unroll: compiled.policy.to_string(),
             entry_point: super::shell::entry_point(&compiled.kernel),
-            workgroup_size: compute.then_some(WORKGROUP),
+            workgroup_size: compute.then_some(self.options.workgroup()),
             bindings,
             output: Output {
                 name: OUTPUT.to_owned(),
@@ -164,11 +229,31 @@ impl Resources {
                 binding: self.output_binding(),
                 location: (!compute).then_some(0),
                 access: Access::Write,
-                format: self.format,
+                format: self.options.format,
             },
             options: compiled.options.clone(),
             counts: compiled.counts.clone(),
             files: Default::default(),
         }
+    }
+}
+
+fn texture_kind(texture: &Texture, bound: &BoundTexture) -> BindingKind {
+    BindingKind::Texture {
+        access: Access::Read,
+        dimension: match texture.kind {
+            TextureKind::Flat | TextureKind::Depth => Dimension::D2,
+            TextureKind::Layers => Dimension::D2Array,
+            TextureKind::Multisampled => Dimension::D2Multisampled,
+        },
+        sample_type: match texture.kind {
+            TextureKind::Depth => SampleType::Depth,
+            _ if bound.filtered => SampleType::Filterable,
+            _ => SampleType::Unfilterable,
+        },
+        components: texture.components,
+        layers: if texture.kind == TextureKind::Layers { bound.layers } else { 1 },
+        samples: if texture.kind == TextureKind::Multisampled { bound.layers } else { 1 },
+        extent: if texture.framed { Extent::Output } else { Extent::Any },
     }
 }

@@ -3,154 +3,14 @@
 use super::body::{Body, body};
 use super::dialect::Dialect;
 use super::error::EmitError;
-use super::resources::{OUTPUT, Resources, SAMPLER, UNIFORMS, WORKGROUP};
+use super::resources::{OUTPUT, Resources, SAMPLER, UNIFORMS};
+use crate::ir::TextureKind;
 use crate::pipeline::Compiled;
 use serde_json::json;
 use straightline_manifest::Stage;
 
 /// Name and version, for headers and manifests.
 pub const GENERATOR: &str = concat!("straightline ", env!("CARGO_PKG_VERSION"));
-
-/// Keywords and built-in functions of GLSL that a value of a kernel might be called.
-pub const GLSL_WORDS: &[&str] = &[
-    "abs",
-    "acos",
-    "active",
-    "all",
-    "any",
-    "asin",
-    "asm",
-    "atan",
-    "attribute",
-    "bool",
-    "break",
-    "buffer",
-    "case",
-    "cast",
-    "ceil",
-    "centroid",
-    "clamp",
-    "class",
-    "coherent",
-    "common",
-    "const",
-    "continue",
-    "cos",
-    "cross",
-    "default",
-    "degrees",
-    "discard",
-    "distance",
-    "do",
-    "dot",
-    "double",
-    "else",
-    "enum",
-    "equal",
-    "exp",
-    "exp2",
-    "extern",
-    "external",
-    "false",
-    "faceforward",
-    "filter",
-    "fixed",
-    "flat",
-    "float",
-    "floor",
-    "fma",
-    "for",
-    "fract",
-    "goto",
-    "half",
-    "highp",
-    "if",
-    "image2D",
-    "in",
-    "inline",
-    "inout",
-    "input",
-    "int",
-    "interface",
-    "invariant",
-    "inversesqrt",
-    "isinf",
-    "isnan",
-    "layout",
-    "length",
-    "log",
-    "log2",
-    "long",
-    "lowp",
-    "main",
-    "max",
-    "mediump",
-    "min",
-    "mix",
-    "mod",
-    "modf",
-    "namespace",
-    "noinline",
-    "noperspective",
-    "normalize",
-    "not",
-    "notEqual",
-    "out",
-    "output",
-    "partition",
-    "patch",
-    "pow",
-    "precise",
-    "precision",
-    "public",
-    "radians",
-    "readonly",
-    "reflect",
-    "refract",
-    "resource",
-    "restrict",
-    "return",
-    "round",
-    "roundEven",
-    "sample",
-    "sampler",
-    "sampler2D",
-    "shared",
-    "short",
-    "sign",
-    "sin",
-    "sizeof",
-    "smooth",
-    "smoothstep",
-    "sqrt",
-    "static",
-    "step",
-    "struct",
-    "subroutine",
-    "superp",
-    "switch",
-    "tan",
-    "template",
-    "texture",
-    "texture2D",
-    "this",
-    "true",
-    "trunc",
-    "typedef",
-    "uint",
-    "uniform",
-    "union",
-    "unsigned",
-    "using",
-    "varying",
-    "vec2",
-    "vec3",
-    "vec4",
-    "void",
-    "volatile",
-    "while",
-    "writeonly",
-];
 
 /// A rendered shader.
 pub struct Rendered {
@@ -185,11 +45,35 @@ pub fn render(compiled: &Compiled, resources: &Resources, dialect: &dyn Dialect)
     let textures: Vec<_> = resources
         .read
         .iter()
-        .map(|(k, binding, _)| {
-            let texture = resources.texture(*k);
-            json!({ "name": texture.name, "binding": binding, "layered": texture.layered })
+        .map(|bound| {
+            let texture = resources.texture(bound.index);
+            let (wgsl, glsl) = texture_types(texture.kind);
+            json!({ "name": texture.name, "binding": bound.binding, "wgsl": wgsl, "glsl": glsl })
         })
         .collect();
+    let buffers: Vec<_> = resources
+        .read_buffers
+        .iter()
+        .map(|(k, binding)| {
+            let buffer = resources.buffer(*k);
+            json!({ "name": buffer.name, "binding": binding, "element": dialect.ty(buffer.element) })
+        })
+        .collect();
+    let samplers: Vec<_> = resources
+        .used_samplers
+        .iter()
+        .map(|(k, binding)| {
+            let sampler = resources.sampler(*k);
+            let (wgsl, glsl) = match sampler.comparison {
+                true => ("sampler_comparison", "samplerShadow"),
+                false => ("sampler", "sampler"),
+            };
+            json!({ "name": sampler.name, "binding": binding, "wgsl": wgsl, "glsl": glsl })
+        })
+        .collect();
+    let frame = resources.framed().map(|t| json!({
+        "name": t.name, "glsl": glsl_sampler(t.kind), "lod": t.kind != TextureKind::Multisampled
+    }));
     let members: Vec<_> = resources
         .fields
         .iter()
@@ -198,15 +82,18 @@ pub fn render(compiled: &Compiled, resources: &Resources, dialect: &dyn Dialect)
     let context = json!({
         "header": header(compiled, resources, statements),
         "textures": textures,
+        "buffers": buffers,
+        "samplers": samplers,
+        "frame": frame,
         "uniforms": members,
         "uniform_binding": resources.uniform_binding(),
         "output_binding": resources.output_binding(),
         "sampler_binding": resources.sampler_binding(),
-        "format_wgsl": resources.format.wgsl(),
-        "format_glsl": resources.format.glsl(),
-        "compute": resources.stage == Stage::Compute,
+        "format_wgsl": resources.options.format.wgsl(),
+        "format_glsl": resources.options.format.glsl(),
+        "compute": resources.options.stage == Stage::Compute,
         "needs_frame": resources.needs_frame,
-        "workgroup": WORKGROUP,
+        "workgroup": resources.options.workgroup(),
         "entry": entry,
         "names": { "output": OUTPUT, "uniforms": UNIFORMS, "sampler": SAMPLER },
         "tables": tables,
@@ -243,11 +130,16 @@ fn header(compiled: &Compiled, resources: &Resources, statements: u32) -> Vec<St
         ),
         format!(
             "Stage {}, unroll {}, output {}.",
-            resources.stage.name(),
-            compiled.unroll.name(),
-            resources.format
+            resources.options.stage.name(),
+            compiled.policy,
+            resources.options.format
         ),
     ];
+    let reads = match (counts.texture_reads, counts.colour_reads) {
+        (reads, 0) => format!("{reads} reads"),
+        (0, reads) => format!("{reads} reads of colour"),
+        (reads, colour) => format!("{reads} texture reads + {colour} of colour"),
+    };
     let mut figures = vec![
         format!(
             "{} basic block{}",
@@ -255,10 +147,7 @@ fn header(compiled: &Compiled, resources: &Resources, statements: u32) -> Vec<St
             if counts.basic_blocks == 1 { "" } else { "s" }
         ),
         format!("{statements} statements"),
-        format!(
-            "{} texture reads + {} of colour",
-            counts.texture_reads, counts.colour_reads
-        ),
+        reads,
     ];
     figures.extend(
         counts
@@ -269,6 +158,25 @@ fn header(compiled: &Compiled, resources: &Resources, statements: u32) -> Vec<St
     figures.push(format!("{} transcendental calls", counts.transcendentals));
     lines.push(format!("Per pixel: {}.", figures.join(", ")));
     lines
+}
+
+/// Types of a texture in WGSL and in GLSL.
+fn texture_types(kind: TextureKind) -> (&'static str, &'static str) {
+    match kind {
+        TextureKind::Flat => ("texture_2d<f32>", "texture2D"),
+        TextureKind::Layers => ("texture_2d_array<f32>", "texture2DArray"),
+        TextureKind::Multisampled => ("texture_multisampled_2d<f32>", "texture2DMS"),
+        TextureKind::Depth => ("texture_depth_2d", "texture2D"),
+    }
+}
+
+/// What GLSL calls a texture together with a sampler that filters nothing.
+pub fn glsl_sampler(kind: TextureKind) -> &'static str {
+    match kind {
+        TextureKind::Flat | TextureKind::Depth => "sampler2D",
+        TextureKind::Layers => "sampler2DArray",
+        TextureKind::Multisampled => "sampler2DMS",
+    }
 }
 
 fn glsl_type(wgsl: &str) -> String {

@@ -90,6 +90,15 @@ impl Text {
         }
     }
 
+    /// `base[index]`.
+    pub fn index(base: &Text, index: &Text) -> Text {
+        Text {
+            code: format!("{}[{}]", base.code, index.code),
+            binds: Binds::Primary,
+            size: 1 + base.size + index.size,
+        }
+    }
+
     /// The text as an operand of an operator that binds so.
     fn inside(&self, outer: Binds, right: bool) -> String {
         let loose = self.binds < outer || (right && self.binds == outer);

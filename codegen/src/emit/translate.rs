@@ -31,7 +31,7 @@ impl Module {
     }
 
     fn stage(resources: &Resources) -> naga::ShaderStage {
-        stage(resources.stage)
+        stage(resources.options.stage)
     }
 
     fn failed(&self, target: &'static str, message: impl ToString) -> EmitError {
@@ -73,7 +73,25 @@ impl Module {
     pub fn msl(&self, resources: &Resources) -> Result<String, EmitError> {
         let mut slots = msl::EntryPointResources::default();
         let at = |binding| naga::ResourceBinding { group: 0, binding };
-        let textures = resources.read.iter().map(|(_, binding, _)| (*binding, false));
+        for (_, binding) in &resources.read_buffers {
+            let target = msl::BindTarget {
+                buffer: Some(*binding as u8),
+                ..Default::default()
+            };
+            slots.resources.insert(at(*binding), target);
+        }
+        for (_, binding) in &resources.used_samplers {
+            let target = msl::BindTarget {
+                sampler: Some(msl::BindSamplerTarget::Resource(*binding as u8)),
+                ..Default::default()
+            };
+            slots.resources.insert(at(*binding), target);
+        }
+        if !resources.read_buffers.is_empty() {
+            // Metal does not tell a shader how long a buffer is: the host writes the lengths here.
+            slots.sizes_buffer = Some(resources.sampler_binding() as u8);
+        }
+        let textures = resources.read.iter().map(|t| (t.binding, false));
         for (binding, mutable) in textures.chain(resources.output_binding().map(|b| (b, true))) {
             let target = msl::BindTarget {
                 texture: Some(binding as u8),

@@ -3,12 +3,20 @@
 use super::dialect::{Dialect, float, integer, operator};
 use super::resources::Resources;
 use super::text::{Binds, Text};
-use crate::ir::{BinaryOp, Scalar, Type, UnaryOp};
+use crate::ir::{BinaryOp, Scalar, TextureKind, Type, UnaryOp};
 
 /// WGSL as WebGPU and wgpu read it.
 pub struct Wgsl<'a> {
     /// The shader's bindings.
     pub resources: &'a Resources,
+}
+
+impl Wgsl<'_> {
+    fn names(&self, texture: u32, sampler: u32) -> [Text; 2] {
+        let texture = self.resources.texture(texture).name.as_str();
+        let sampler = self.resources.sampler(sampler).name.as_str();
+        [texture, sampler].map(Text::name)
+    }
 }
 
 impl Dialect for Wgsl<'_> {
@@ -62,12 +70,55 @@ impl Dialect for Wgsl<'_> {
         let level = Text::name("0");
         let mut args = vec![&name, coord];
         args.extend(layer);
-        args.push(&level);
+        if texture.kind != TextureKind::Multisampled {
+            args.push(&level);
+        }
         let texel = Text::call("textureLoad", &args);
         match texture.components {
             4 => texel,
+            // A depth texture gives a single number.
+            _ if texture.kind == TextureKind::Depth => texel,
             n => Text::member(&texel, &"xyzw"[..n as usize]),
         }
+    }
+
+    fn sample(&self, texture: u32, sampler: u32, uv: &Text) -> Text {
+        let components = self.resources.texture(texture).components;
+        let [texture, sampler] = self.names(texture, sampler);
+        let texel = Text::call("textureSampleLevel", &[&texture, &sampler, uv, &Text::name("0.0")]);
+        match components {
+            4 => texel,
+            n => Text::member(&texel, &"xyzw"[..n as usize]),
+        }
+    }
+
+    fn gather(&self, texture: u32, sampler: u32, component: u8, uv: &Text) -> (Text, Option<String>) {
+        let [texture, sampler] = self.names(texture, sampler);
+        let component = Text::name(component.to_string());
+        (Text::call("textureGather", &[&component, &texture, &sampler, uv]), None)
+    }
+
+    fn compare(&self, texture: u32, sampler: u32, uv: &Text, reference: &Text) -> Text {
+        let [texture, sampler] = self.names(texture, sampler);
+        Text::call("textureSampleCompareLevel", &[&texture, &sampler, uv, reference])
+    }
+
+    fn size(&self, texture: u32) -> Text {
+        let name = Text::name(self.resources.texture(texture).name.as_str());
+        Text::call("vec2i", &[&Text::call("textureDimensions", &[&name])])
+    }
+
+    fn element(&self, buffer: u32, index: &Text) -> Text {
+        Text::index(&Text::name(self.resources.buffer(buffer).name.as_str()), index)
+    }
+
+    fn len(&self, buffer: u32) -> Text {
+        let name = Text::name(format!("&{}", self.resources.buffer(buffer).name));
+        Text::call("i32", &[&Text::call("arrayLength", &[&name])])
+    }
+
+    fn bitcast(&self, _: Type, to: Type, x: &Text) -> Text {
+        Text::call(&format!("bitcast<{}>", self.ty(to)), &[x])
     }
 
     fn unary(&self, op: UnaryOp, _: Type, x: &Text) -> Text {
@@ -95,6 +146,13 @@ impl Dialect for Wgsl<'_> {
             Asin => "asin",
             Acos => "acos",
             Atan => "atan",
+            Sinh => "sinh",
+            Cosh => "cosh",
+            Tanh => "tanh",
+            CountOneBits => "countOneBits",
+            ReverseBits => "reverseBits",
+            LeadingZeros => "countLeadingZeros",
+            TrailingZeros => "countTrailingZeros",
         };
         Text::call(function, &[x])
     }

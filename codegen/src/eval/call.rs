@@ -3,11 +3,12 @@
 use super::value::{Eval, Exit, Value};
 use super::{Evaluator, MAX_CALLS};
 use crate::diagnostic::{Diagnostic, Span};
-use crate::front::tree::Expr;
+use crate::front::tree::{Expr, ExprKind, Function, Type as SourceType};
 use crate::ir::{NodeId, Op, Scalar, Type};
 
 impl Evaluator<'_> {
-    pub fn call(&mut self, path: &[String], args: &[Expr], span: Span) -> Eval {
+    pub fn call(&mut self, path: &[String], constants: &[Expr], args: &[Expr], span: Span) -> Eval {
+        let constants = self.all(constants)?;
         let values = self.all(args)?;
         if values.contains(&Value::Poison) {
             return Err(Exit::Noted);
@@ -15,10 +16,16 @@ impl Evaluator<'_> {
         let last = path.last().map(String::as_str).unwrap_or_default();
         let method = path.join("::");
         if path.len() == 2 && self.library.functions.contains_key(&method) {
-            return self.inline(&method, values, span);
+            return self.inline(&method, &constants, values, span);
         }
         if self.library.functions.contains_key(last) {
-            return self.inline(last, values, span);
+            return self.inline(last, &constants, values, span);
+        }
+        if let Some(value) = self.tuple_struct(last, &values, span)? {
+            return Ok(value);
+        }
+        if let Some(value) = self.matrix_function(path, &values, span)? {
+            return Ok(value);
         }
         if let Some((kind, lanes)) = constructor(path) {
             return self.compose(kind, lanes, &values, span);
@@ -32,20 +39,25 @@ impl Evaluator<'_> {
                 Ok(Value::Node(self.splat(value, lanes)))
             }
             ([.., name], [Value::Str(tally), value]) if name == "tally" => self.tally(tally, value, span),
-            ([.., ty, name], [receiver, rest @ ..]) if ty == "f32" || vector_type(ty).is_some() => {
+            ([.., ty, from], [value]) if ty == "f32" && from == "from_bits" => {
+                let bits = self.int_or_node(value, Scalar::U32, span)?;
+                Ok(Value::Node(self.builder.add(Op::Bitcast, vec![bits], Type::F32)))
+            }
+            ([.., ty, name], [receiver, rest @ ..])
+                if matches!(ty.as_str(), "f32" | "i32" | "u32") || vector_type(ty).is_some() =>
+            {
                 self.math(receiver, name, rest, span)
             }
-            _ => Err(
-                Diagnostic::at(span, format!("there is no function `{}`", path.join("::")))
-                    .label("not found in the kernel's files")
-                    .help("define it in one of the kernel's files, or use a function of the prelude")
-                    .into(),
-            ),
+            ([.., name], _) => match self.function(name, &values, span)? {
+                Some(value) => Ok(value),
+                None => Err(unknown_function(path, span)),
+            },
+            _ => Err(unknown_function(path, span)),
         }
     }
 
     /// Evaluates a function's body with its parameters bound.
-    pub fn inline(&mut self, name: &str, args: Vec<Value>, span: Span) -> Eval {
+    pub fn inline(&mut self, name: &str, constants: &[Value], args: Vec<Value>, span: Span) -> Eval {
         let library = self.library;
         let Some(function) = library.functions.get(name) else {
             return Err(Diagnostic::at(span, format!("there is no function `{name}`")).into());
@@ -55,6 +67,8 @@ impl Evaluator<'_> {
                 span,
                 format!("`{name}` takes {} arguments, not {}", function.params.len(), args.len()),
             )
+            .label("called here")
+            .other(function.span, "defined here")
             .into());
         }
         if self.calls.len() >= MAX_CALLS {
@@ -66,8 +80,19 @@ impl Evaluator<'_> {
             .help("let the recursion end by a condition that is known")
             .into());
         }
+        let bound = self.constants_of(function, constants, &args, span)?;
         let outer = std::mem::take(&mut self.scope);
-        for ((param, _, _), value) in function.params.iter().zip(args) {
+        for (name, value) in bound {
+            self.scope.bind(&name, value);
+        }
+        for ((param, ty, at), value) in function.params.iter().zip(args) {
+            let value = match self.ascribe(value, Some(ty), *at) {
+                Ok(value) => value,
+                Err(error) => {
+                    self.scope = outer;
+                    return Err(error);
+                }
+            };
             self.scope.bind(param, value);
         }
         self.calls.push(name.to_owned());
@@ -76,11 +101,70 @@ impl Evaluator<'_> {
         self.scope = outer;
         match result {
             Err(Exit::Return(value)) => Ok(value),
-            Err(Exit::Break | Exit::Continue) => {
+            Err(Exit::Break(_) | Exit::Continue(_)) => {
                 Err(Diagnostic::at(function.span, "`break` or `continue` outside of a loop").into())
             }
             other => other,
         }
+    }
+
+    /// Constant parameters of a generic function: those given, or the lengths of the arrays that it is given.
+    fn constants_of(
+        &mut self,
+        function: &Function,
+        given: &[Value],
+        args: &[Value],
+        span: Span,
+    ) -> Eval<Vec<(String, Value)>> {
+        let mut bound = Vec::new();
+        for (k, name) in function.generics.iter().enumerate() {
+            let Some(name) = name else { continue };
+            let from_array = || {
+                function.params.iter().zip(args).find_map(|((_, ty, _), value)| match (ty, value) {
+                    (SourceType::Array(_, Some(len)), Value::Array(elements)) => match &len.kind {
+                        ExprKind::Path(path) if path == std::slice::from_ref(name) => {
+                            Some(Value::Int(elements.len() as i64))
+                        }
+                        _ => None,
+                    },
+                    _ => None,
+                })
+            };
+            match given.get(k).cloned().or_else(from_array) {
+                Some(value) => bound.push((name.clone(), value)),
+                None => {
+                    return Err(Diagnostic::at(span, format!("the constant `{name}` of this call is not known"))
+                        .label("called here")
+                        .other(function.span, "defined here")
+                        .help(format!("state it: `::<{name}>`"))
+                        .into());
+                }
+            }
+        }
+        Ok(bound)
+    }
+
+    /// `Name(a, b)` of a structure without field names.
+    fn tuple_struct(&mut self, name: &str, values: &[Value], span: Span) -> Eval<Option<Value>> {
+        let library = self.library;
+        let Some(definition) = library.structs.get(name) else {
+            return Ok(None);
+        };
+        if definition.fields.iter().any(|(field, ..)| field.parse::<usize>().is_err()) {
+            return Ok(None);
+        }
+        if definition.fields.len() != values.len() {
+            let (wanted, found) = (definition.fields.len(), values.len());
+            return Err(Diagnostic::at(span, format!("`{name}` has {wanted} fields, not {found}")).into());
+        }
+        let mut fields = Vec::new();
+        for ((field, ty, _), value) in definition.fields.iter().zip(values) {
+            fields.push((field.clone(), self.ascribe(value.clone(), Some(ty), span)?));
+        }
+        Ok(Some(Value::Struct {
+            ty: name.to_owned(),
+            fields,
+        }))
     }
 
     /// A vector from its lanes, or from shorter vectors and lanes.
@@ -113,6 +197,11 @@ impl Evaluator<'_> {
                 .help(format!("convert it with `as {kind}`"))
                 .into(),
         )
+    }
+
+    /// A known integer as a kind, or a node that is of it already.
+    pub fn int_or_node(&mut self, value: &Value, kind: Scalar, span: Span) -> Eval<NodeId> {
+        self.lane_node(value, kind, span)
     }
 
     fn tally(&mut self, name: &str, value: &Value, span: Span) -> Eval {
@@ -184,15 +273,17 @@ impl Evaluator<'_> {
         let value = self.expr(&constant.value);
         self.calls.pop();
         self.scope = outer;
-        let value = match (value?, &constant.ty) {
-            (Value::Int(n), crate::front::tree::Type::Name(ty, _)) if ty == "u32" => {
-                Value::Node(self.int_node(n, Scalar::U32, span)?)
-            }
-            (value, _) => value,
-        };
+        let value = self.ascribe(value?, Some(&constant.ty), constant.value.span)?;
         self.consts.insert(name.to_owned(), value.clone());
         Ok(Some(value))
     }
+}
+
+fn unknown_function(path: &[String], span: Span) -> Exit {
+    Diagnostic::at(span, format!("there is no function `{}`", path.join("::")))
+        .label("not found in the kernel's files")
+        .help("define it in one of the kernel's files, or use a function of the prelude")
+        .into()
 }
 
 /// `vec3`, `Vec3::new`, ...

@@ -3,7 +3,7 @@
 use super::Evaluator;
 use super::call::vector_type;
 use super::value::Value;
-use crate::ir::{Scalar, Type};
+use crate::ir::{Op, Scalar, Type};
 use std::f32::consts;
 
 impl Evaluator<'_> {
@@ -17,6 +17,22 @@ impl Evaluator<'_> {
         if let Some((kind, lanes)) = vector_type(ty) {
             return self.vector_constant(kind, lanes, name);
         }
+        if let Some(n) = super::matrix::size(ty) {
+            let one = self.builder.f32(1.0);
+            let zero = self.builder.f32(0.0);
+            let diagonal = match name {
+                "IDENTITY" => one,
+                "ZERO" => zero,
+                _ => return None,
+            };
+            let columns: Vec<_> = (0..n)
+                .map(|c| {
+                    let parts = (0..n).map(|r| if r == c { diagonal } else { zero }).collect();
+                    self.builder.add(Op::Compose, parts, Type::value(Scalar::F32, n))
+                })
+                .collect();
+            return Some(super::matrix::matrix(&columns));
+        }
         let float = match (ty, name) {
             ("consts", _) => named(name)?,
             ("f32", "MAX") => f32::MAX,
@@ -25,6 +41,7 @@ impl Evaluator<'_> {
             ("f32", "EPSILON") => f32::EPSILON,
             ("i32", "MAX") => return Some(Value::Int(i64::from(i32::MAX))),
             ("i32", "MIN") => return Some(Value::Int(i64::from(i32::MIN))),
+            ("u32", "MIN") => return Some(Value::Node(self.builder.constant(Type::U32, [0; 4]))),
             ("u32", "MAX") => return Some(Value::Node(self.builder.constant(Type::U32, [u32::MAX, 0, 0, 0]))),
             _ => return None,
         };

@@ -2,13 +2,21 @@
 
 use super::scope::Scope;
 use super::value::{Eval, Exit, Value};
-use super::{Evaluator, Unroll};
+use super::Evaluator;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::front::tree::{Arm, Block, Expr, Pattern};
 use crate::ir::{NodeId, Op, RegionId, Type};
+use crate::policy::Branches;
 
 impl Evaluator<'_> {
-    pub fn if_(&mut self, condition: &Expr, then: &Block, otherwise: Option<&Expr>, span: Span) -> Eval {
+    pub fn if_(
+        &mut self,
+        condition: &Expr,
+        then: &Block,
+        otherwise: Option<&Expr>,
+        attribute: Option<Branches>,
+        span: Span,
+    ) -> Eval {
         let value = self.expr(condition)?;
         let id = self.node(&value, condition.span)?;
         if self.ty(id) != Type::BOOL {
@@ -17,14 +25,16 @@ impl Evaluator<'_> {
         match self.known_bool(id) {
             Some(true) => self.block(then),
             Some(false) => otherwise.map_or(Ok(Value::unit()), |e| self.expr(e)),
-            None => self.branch(id, then, otherwise, span),
+            None => {
+                let keep = self.policy.keeps(attribute);
+                self.branch(id, then, otherwise, keep, span)
+            }
         }
     }
 
     /// A condition that is known at run time: both sides are evaluated, and what differs is selected, or a branch
-    /// is kept where loops are.
-    fn branch(&mut self, condition: NodeId, then: &Block, otherwise: Option<&Expr>, span: Span) -> Eval {
-        let keep = self.unroll == Unroll::None;
+    /// is kept.
+    fn branch(&mut self, condition: NodeId, then: &Block, otherwise: Option<&Expr>, keep: bool, span: Span) -> Eval {
         let before = self.scope.clone();
         let first = keep.then(|| self.builder.open_region(&[]));
         let left = self.side(span, |e| e.block(then));
@@ -47,11 +57,12 @@ impl Evaluator<'_> {
         let outcome = evaluate(self);
         self.scope.leave(mark);
         match outcome {
-            Err(Exit::Break | Exit::Continue | Exit::Return(_)) => Err(Diagnostic::at(
+            Err(Exit::Break(_) | Exit::Continue(_) | Exit::Return(_)) => Err(Diagnostic::at(
                 span,
                 "`break`, `continue` or `return` under a condition that is only known at run time",
             )
             .label("not known now")
+            .note("both sides of this `if` are part of the shader, and what follows has to come after both")
             .help("let both sides of the `if` give a value, and go on with that")
             .into()),
             other => other,
@@ -186,6 +197,22 @@ impl Evaluator<'_> {
                 }
                 other => Err(Diagnostic::at(span, format!("a tuple pattern on {}", other.describe())).into()),
             },
+            Pattern::Struct(fields, _) => {
+                for (name, pattern) in fields {
+                    let part = self.field(value, name, span)?;
+                    if !self.matches(pattern, &part, span)? {
+                        return Ok(false);
+                    }
+                }
+                Ok(true)
+            }
+            Pattern::Range(low, high) => {
+                let (low, high) = (self.expr(low)?, self.expr(high)?);
+                match (self.known_int(value), self.known_int(&low), self.known_int(&high)) {
+                    (Some(n), Some(low), Some(high)) => Ok((low..=high).contains(&n)),
+                    _ => Err(at_run_time(span)),
+                }
+            }
             Pattern::Value(expr) => {
                 let expected = self.expr(expr)?;
                 match (value, &expected) {
@@ -193,15 +220,17 @@ impl Evaluator<'_> {
                     _ => {
                         let same = self.binary(crate::ir::BinaryOp::Eq, value, &expected, expr.span)?;
                         let id = self.node(&same, expr.span)?;
-                        self.known_bool(id).ok_or_else(|| {
-                            Diagnostic::at(span, "`match` on a value that is only known at run time")
-                                .label("not known now")
-                                .help("use `if`, whose sides are then both computed")
-                                .into()
-                        })
+                        self.known_bool(id).ok_or_else(|| at_run_time(span))
                     }
                 }
             }
         }
     }
+}
+
+fn at_run_time(span: Span) -> Exit {
+    Diagnostic::at(span, "`match` on a value that is only known at run time")
+        .label("not known now")
+        .help("use `if`, whose sides are then both computed")
+        .into()
 }

@@ -5,7 +5,7 @@ use super::call::vector_type;
 use super::value::{Eval, Exit, Value};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::front::tree::Type as SourceType;
-use crate::ir::{NodeId, Op, Scalar, Texture, Type};
+use crate::ir::{NodeId, Op, Scalar, Type};
 use std::collections::BTreeMap;
 
 impl Evaluator<'_> {
@@ -50,7 +50,7 @@ impl Evaluator<'_> {
         if !self.errors.is_empty() {
             return Err(Exit::Noted);
         }
-        let value = self.inline(entry, args, function.span)?;
+        let value = self.inline(entry, &[], args, function.span)?;
         let output = self.node(&value, function.span)?;
         if self.ty(output) != Type::value(Scalar::F32, 4) {
             return Err(
@@ -71,26 +71,15 @@ impl Evaluator<'_> {
         settings: &[(String, String)],
         options: &mut BTreeMap<String, String>,
     ) -> Eval {
-        let SourceType::Name(type_name, args) = ty else {
+        if let Some(resource) = self.resource(name, ty, span)? {
+            return Ok(resource);
+        }
+        if let Some(uniform) = self.uniform_parameter(name, ty, span)? {
+            return Ok(uniform);
+        }
+        let SourceType::Name(type_name, _) = ty else {
             return Err(bad_parameter(name, span));
         };
-        match type_name.as_str() {
-            "Frame" | "FrameLayers" => return self.texture_parameter(name, type_name, args, span),
-            "IVec2" if name == "pixel" => {
-                return Ok(Value::Node(self.builder.add(
-                    Op::Pixel,
-                    Vec::new(),
-                    Type::value(Scalar::I32, 2),
-                )));
-            }
-            "f32" => return Ok(self.uniform(name, Type::F32, None)),
-            "i32" => return Ok(self.uniform(name, Type::I32, None)),
-            "u32" => return Ok(self.uniform(name, Type::U32, None)),
-            _ => {}
-        }
-        if let Some((kind, lanes)) = vector_type(type_name) {
-            return Ok(self.uniform(name, Type::value(kind, lanes), None));
-        }
         if self.library.options.contains_key(type_name) {
             return self.configure(type_name, settings, options);
         }
@@ -100,16 +89,22 @@ impl Evaluator<'_> {
         };
         let mut fields = Vec::new();
         for (field, ty, at) in &structure.fields {
-            match ty {
-                SourceType::Name(texture, args) if texture == "Frame" || texture == "FrameLayers" => {
-                    fields.push((field.clone(), self.texture_parameter(field, texture, args, *at)?));
-                }
-                _ => {
-                    return Err(Diagnostic::at(*at, format!("`{field}` is not a texture"))
-                        .help("a structure that a kernel takes holds textures; options are declared by `options!`")
-                        .into());
-                }
-            }
+            let value = match self.resource(field, ty, *at)? {
+                Some(value) => Some(value),
+                None => self.uniform_parameter(field, ty, *at)?,
+            };
+            let Some(value) = value else {
+                return Err(
+                    Diagnostic::at(*at, format!("`{field}` is neither a resource nor a number"))
+                        .label("not supported")
+                        .help(
+                            "a structure that a kernel takes holds textures, samplers, buffers, numbers, vectors and matrices; options \
+                             are declared by `options!`",
+                        )
+                        .into(),
+                );
+            };
+            fields.push((field.clone(), value));
         }
         Ok(Value::Struct {
             ty: type_name.clone(),
@@ -117,40 +112,50 @@ impl Evaluator<'_> {
         })
     }
 
-    fn texture_parameter(&mut self, name: &str, ty: &str, args: &[SourceType], span: Span) -> Eval {
-        let components = match args {
-            [SourceType::Name(texel, _)] if texel == "f32" => Some(1),
-            [SourceType::Name(texel, _)] => vector_type(texel)
-                .filter(|(kind, _)| *kind == Scalar::F32)
-                .map(|(_, n)| n),
-            _ => None,
+    /// A parameter that is set at run time, or built in; `None` if its type is no number.
+    fn uniform_parameter(&mut self, name: &str, ty: &SourceType, span: Span) -> Eval<Option<Value>> {
+        let SourceType::Name(type_name, _) = ty else {
+            return Ok(None);
         };
-        let Some(components) = components else {
-            return Err(Diagnostic::at(
-                span,
-                format!("the texture `{name}` has no texels that a shader can read"),
-            )
-            .help("texels are f32, Vec2, Vec3 or Vec4")
-            .into());
+        let pair = Type::value(Scalar::I32, 2);
+        let ty = match type_name.as_str() {
+            "IVec2" if name == "pixel" => {
+                return Ok(Some(Value::Node(self.builder.add(Op::Pixel, Vec::new(), pair))));
+            }
+            "UVec2" if name == "resolution" => {
+                let size = self.builder.add(Op::FrameSize, Vec::new(), pair);
+                return Ok(Some(Value::Node(self.convert(size, Scalar::U32))));
+            }
+            "f32" => Type::F32,
+            "i32" => Type::I32,
+            "u32" => Type::U32,
+            other => match (vector_type(other), super::matrix::size(other)) {
+                (Some((kind, lanes)), _) => Type::value(kind, lanes),
+                (None, Some(n)) => {
+                    // Columns in a row are a matrix in memory, in WGSL and in GLSL.
+                    let mut columns = Vec::new();
+                    for axis in super::matrix::axes(n) {
+                        let name = format!("{name}_{axis}");
+                        self.unused_name(&name, span)?;
+                        let column = self.uniform(&name, Type::value(Scalar::F32, n), None);
+                        columns.push(self.node(&column, span)?);
+                    }
+                    return Ok(Some(super::matrix::matrix(&columns)));
+                }
+                (None, None) => return Ok(None),
+            },
         };
-        let textures = &mut self.builder.graph_mut().textures;
-        if textures.iter().any(|t| t.name == name) {
-            return Err(Diagnostic::at(span, format!("two textures are called `{name}`"))
-                .help("bindings go by name: rename one")
-                .into());
-        }
-        textures.push(Texture {
-            name: name.to_owned(),
-            components,
-            layered: ty == "FrameLayers",
-        });
-        Ok(Value::Texture(textures.len() as u32 - 1))
+        self.unused_name(name, span)?;
+        Ok(Some(self.uniform(name, ty, None)))
     }
 }
 
 fn bad_parameter(name: &str, span: Span) -> Exit {
     Diagnostic::at(span, format!("a kernel cannot take `{name}` of this type"))
         .label("not supported")
-        .help("a kernel takes options (`options!`), textures (`Frame`, `FrameLayers`, or a structure of them), numbers and vectors, and `pixel: IVec2`")
+        .help(
+            "a kernel takes options (`options!`), textures, samplers and buffers of the prelude, numbers, vectors and matrices, \
+             structures of these, `pixel: IVec2` and `resolution: UVec2`",
+        )
         .into()
 }

@@ -43,6 +43,7 @@ impl Evaluator<'_> {
                 },
                 Statement::Const(constant) => {
                     let value = self.expr(&constant.value)?;
+                    let value = self.ascribe(value, Some(&constant.ty), constant.value.span)?;
                     self.scope.bind(&constant.name, value);
                 }
             }
@@ -53,13 +54,55 @@ impl Evaluator<'_> {
         block.value.as_ref().map_or(Ok(Value::unit()), |e| self.expr(e))
     }
 
-    /// Gives a known integer the type that a `let` states.
-    fn ascribe(&mut self, value: Value, ty: Option<&SourceType>, span: Span) -> Eval {
-        match (&value, ty) {
-            (Value::Int(n), Some(SourceType::Name(name, _))) if name == "u32" => {
-                Ok(Value::Node(self.int_node(*n, Scalar::U32, span)?))
+    /// Checks a value against the type that is stated for it, as far as shaders tell types apart, and gives a known
+    /// integer that type.
+    pub fn ascribe(&mut self, value: Value, ty: Option<&SourceType>, span: Span) -> Eval {
+        match (ty, value) {
+            (Some(SourceType::Name(name, _)), value) => self.ascribe_name(value, name, span),
+            (Some(SourceType::Array(element, _)), Value::Array(elements)) => {
+                let each = elements.into_iter().map(|e| self.ascribe(e, Some(element), span));
+                Ok(Value::Array(each.collect::<Eval<_>>()?))
             }
-            _ => Ok(value),
+            (Some(SourceType::Tuple(types)), Value::Tuple(parts)) if types.len() == parts.len() => {
+                let each = parts.into_iter().zip(types).map(|(part, ty)| self.ascribe(part, Some(ty), span));
+                Ok(Value::Tuple(each.collect::<Eval<_>>()?))
+            }
+            (_, value) => Ok(value),
+        }
+    }
+
+    fn ascribe_name(&mut self, value: Value, name: &str, span: Span) -> Eval {
+        let stated = match name {
+            "u32" => Type::U32,
+            "i32" | "usize" | "isize" => Type::I32,
+            "f32" => Type::F32,
+            "bool" => Type::BOOL,
+            other => match super::call::vector_type(other) {
+                Some((kind, lanes)) => Type::value(kind, lanes),
+                None => return Ok(value),
+            },
+        };
+        match &value {
+            Value::Int(n) if stated == Type::U32 => Ok(Value::Node(self.int_node(*n, Scalar::U32, span)?)),
+            Value::Int(n) if stated == Type::I32 => {
+                self.int_node(*n, Scalar::I32, span)?;
+                Ok(value)
+            }
+            // An index is signed in a shader, whatever it was made from.
+            Value::Node(id) if self.ty(*id) == Type::U32 && name == "usize" => Ok(Value::Node(self.convert(*id, Scalar::I32))),
+            Value::Node(id) if self.ty(*id) == stated => Ok(value),
+            Value::Node(_) | Value::Int(_) => {
+                let found = match &value {
+                    Value::Node(id) => self.ty(*id).to_string(),
+                    _ => "an integer".to_owned(),
+                };
+                Err(Diagnostic::at(span, format!("{found} where `{name}` is stated"))
+                    .label("of another type")
+                    .help(format!("convert it, for example with `as {name}`"))
+                    .into())
+            }
+            Value::Poison => Ok(value),
+            other => Err(Diagnostic::at(span, format!("{} where `{name}` is stated", other.describe())).into()),
         }
     }
 
@@ -84,6 +127,17 @@ impl Evaluator<'_> {
                 )
                 .into()),
             },
+            Pattern::Struct(fields, at) => {
+                for (name, pattern) in fields {
+                    let part = match &value {
+                        Value::Poison => Value::Poison,
+                        value => self.field(value, name, *at)?,
+                    };
+                    self.bind(pattern, part, span)?;
+                }
+                Ok(())
+            }
+            Pattern::Range(..) => Err(Diagnostic::at(span, "a `let` cannot compare").help("use `match`").into()),
             Pattern::Value(expr) => Err(Diagnostic::at(expr.span, "a `let` cannot compare")
                 .help("use `match`")
                 .into()),
@@ -111,7 +165,7 @@ impl Evaluator<'_> {
             }
             ExprKind::Lazy(and, left, right) => self.lazy(*and, left, right, span),
             ExprKind::Assign(place, op, value) => self.assign(place, *op, value, span),
-            ExprKind::Call(path, args) => self.call(path, args, span),
+            ExprKind::Call(path, constants, args) => self.call(path, constants, args, span),
             ExprKind::Method(receiver, name, args) => self.method(receiver, name, args, span),
             ExprKind::Field(base, name) => {
                 let base = self.expr(base)?;
@@ -121,7 +175,9 @@ impl Evaluator<'_> {
                 let (base, index) = (self.expr(base)?, self.expr(index)?);
                 self.element(&base, &index, span)
             }
-            ExprKind::If(condition, then, otherwise) => self.if_(condition, then, otherwise.as_deref(), span),
+            ExprKind::If(condition, then, otherwise, branches) => {
+                self.if_(condition, then, otherwise.as_deref(), *branches, span)
+            }
             ExprKind::Match(subject, arms) => self.match_(subject, arms, span),
             ExprKind::Block(block) => self.block(block),
             ExprKind::Tuple(parts) => Ok(Value::Tuple(self.all(parts)?)),
@@ -133,14 +189,14 @@ impl Evaluator<'_> {
                 self.cast(&value, ty, span)
             }
             ExprKind::Range(start, end, inclusive) => self.range(start, end, *inclusive, span),
-            ExprKind::For(pattern, over, body) => self.for_(pattern, over, body, span),
-            ExprKind::While(condition, body) => self.while_(condition, body, span),
+            ExprKind::For(f) => self.for_(f, span),
+            ExprKind::While(condition, body, label) => self.while_(condition, body, label.as_deref(), span),
             ExprKind::Return(value) => {
                 let value = value.as_ref().map_or(Ok(Value::unit()), |e| self.expr(e))?;
                 Err(Exit::Return(value))
             }
-            ExprKind::Break => Err(Exit::Break),
-            ExprKind::Continue => Err(Exit::Continue),
+            ExprKind::Break(label) => Err(Exit::Break(label.clone())),
+            ExprKind::Continue(label) => Err(Exit::Continue(label.clone())),
         }
     }
 
@@ -170,7 +226,11 @@ impl Evaluator<'_> {
         let rest = rest.map(|e| self.expr(e)).transpose()?;
         let mut given = Vec::new();
         for (field, value) in fields {
-            given.push((field.clone(), self.expr(value)?));
+            let Some((_, ty, _)) = definition.fields.iter().find(|(name, ..)| name == field) else {
+                return Err(Diagnostic::at(value.span, format!("`{name}` has no field `{field}`")).into());
+            };
+            let given_value = self.expr(value)?;
+            given.push((field.clone(), self.ascribe(given_value, Some(ty), value.span)?));
         }
         let mut values = Vec::new();
         for (field, _, _) in &definition.fields {

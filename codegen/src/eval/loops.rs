@@ -1,34 +1,67 @@
 //! `for` and `while`.
 
+use super::Evaluator;
 use super::value::{Eval, Exit, Range, Value};
-use super::{Evaluator, Unroll};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::front::assigned;
-use crate::front::tree::{Block, Expr, Pattern};
-use crate::ir::{BinaryOp, Counter, NodeId, Op, Origin, Type};
+use crate::front::tree::{Block, Expr, ForLoop, Pattern};
+use crate::ir::{Counter, NodeId, Op, Origin, Type};
+use crate::policy::Unroll;
 
 impl Evaluator<'_> {
-    pub fn for_(&mut self, pattern: &Pattern, over: &Expr, body: &Block, span: Span) -> Eval {
-        let items = self.expr(over)?;
-        let effects = assigned(body);
-        match items {
+    pub fn for_(&mut self, f: &ForLoop, span: Span) -> Eval {
+        let items = self.expr(&f.over)?;
+        let function = self.calls.last().cloned().unwrap_or_default();
+        let counter = match &f.pattern {
+            Pattern::Name(name, _) => name.as_str(),
+            _ => "_",
+        };
+        let unroll = self.policy.of(&function, counter, f.unroll);
+        let made = self.builder.graph().nodes.len();
+        self.loops.enter(&function, counter, span, made);
+        let outcome = self.run(f, items, unroll, span);
+        let made = self.builder.graph().nodes.len();
+        let became = *outcome.as_ref().unwrap_or(&Unroll::Full);
+        self.loops.leave(became, made);
+        outcome.map(|_| Value::unit())
+    }
+
+    /// Runs a loop as asked, or as it can be; gives what became of it.
+    fn run(&mut self, f: &ForLoop, items: Value, unroll: Unroll, span: Span) -> Eval<Unroll> {
+        let leaves = assigned(&f.body).leaves;
+        let elements = match items {
             Value::Range(range) => {
                 let known = self.known_int(&range.start).zip(self.known_int(&range.end));
-                match known {
-                    Some((start, end)) if self.unroll == Unroll::Full || effects.leaves => {
-                        self.unrolled(pattern, range_values(start, end, &range), body, span)
+                let Some((start, end)) = known else {
+                    if leaves {
+                        return Err(Diagnostic::at(
+                            f.over.span,
+                            "a loop whose bounds are only known at run time cannot be left early",
+                        )
+                        .label("not known now")
+                        .help("give the loop fixed bounds, or select what is computed in it")
+                        .into());
                     }
-                    None if effects.leaves => Err(Diagnostic::at(
-                        over.span,
-                        "a loop whose bounds are only known at run time cannot be left early",
-                    )
-                    .label("not known now")
-                    .help("give the loop fixed bounds, or select what is computed in it")
-                    .into()),
-                    _ => self.kept(pattern, &range, body, span),
+                    return self.keep(f, &range, unroll, span);
+                };
+                let values = range_values(start, end, &range, f.over.span)?;
+                // A loop of one round is its body.
+                let worth = match unroll {
+                    Unroll::Full => false,
+                    Unroll::None => !values.is_empty(),
+                    Unroll::Partial(n) => values.len() >= 2 * n as usize,
+                };
+                if worth && !leaves {
+                    let before = self.checkpoint();
+                    match self.keep(f, &range, unroll, span) {
+                        // What cannot be a loop at run time is run now; if that fails too, it says why.
+                        Err(Exit::Error(_) | Exit::Noted) => self.return_to(before),
+                        other => return other,
+                    }
                 }
+                values
             }
-            Value::Array(elements) => self.unrolled(pattern, elements, body, span),
+            Value::Array(elements) => elements,
             Value::Node(id) if self.ty(id).is_array() => {
                 let Type::Array { len, .. } = self.ty(id) else {
                     unreachable!("just matched")
@@ -37,53 +70,69 @@ impl Evaluator<'_> {
                 for k in 0..len {
                     elements.push(self.element(&items, &Value::Int(i64::from(k)), span)?);
                 }
-                self.unrolled(pattern, elements, body, span)
+                elements
             }
-            Value::Poison => Err(Exit::Noted),
-            other => Err(
-                Diagnostic::at(over.span, format!("`for` cannot run over {}", other.describe()))
-                    .help("run over a range such as `0..n`, or over an array")
-                    .into(),
-            ),
-        }
+            Value::Poison => return Err(Exit::Noted),
+            other => {
+                return Err(
+                    Diagnostic::at(f.over.span, format!("`for` cannot run over {}", other.describe()))
+                        .label("not a range")
+                        .help("run over a range such as `0..n`, or over an array")
+                        .into(),
+                );
+            }
+        };
+        self.unrolled(f, elements, span)?;
+        Ok(Unroll::Full)
     }
 
-    fn unrolled(&mut self, pattern: &Pattern, items: Vec<Value>, body: &Block, span: Span) -> Eval {
+    fn unrolled(&mut self, f: &ForLoop, items: Vec<Value>, span: Span) -> Eval<()> {
         let noted = self.errors.len();
         for item in items {
             self.step(span)?;
-            let mark = self.scope.enter();
-            let counter = match (pattern, self.known_int(&item)) {
-                (Pattern::Name(name, _), Some(value)) => Some(Counter {
-                    name: name.clone(),
-                    value,
-                }),
-                _ => None,
-            };
-            let counted = counter.is_some();
-            self.counters.extend(counter);
-            let outcome = self.bind(pattern, item, span).and_then(|()| self.block(body));
-            if counted {
-                self.counters.pop();
-            }
-            self.scope.leave(mark);
-            match outcome {
-                Ok(_) | Err(Exit::Continue) => {}
-                Err(Exit::Break) => break,
-                Err(other) => return Err(other),
+            self.loops.round();
+            let outcome = self.round(&f.pattern, item, &f.body, span);
+            if !again(outcome, f.label.as_deref())? {
+                break;
             }
             // The next round would only find the same errors again.
             if self.errors.len() > noted {
                 return Err(Exit::Noted);
             }
         }
-        Ok(Value::unit())
+        Ok(())
     }
 
-    /// A loop of the graph: variables that the body assigns are carried from one iteration to the next.
-    fn kept(&mut self, pattern: &Pattern, range: &Range, body: &Block, span: Span) -> Eval {
-        let (start, end) = (self.index_node(&range.start, span)?, self.index_node(&range.end, span)?);
-        let carried: Vec<usize> = assigned(body)
+    /// The body for one value of the counter.
+    pub fn round(&mut self, pattern: &Pattern, item: Value, body: &Block, span: Span) -> Eval {
+        let mark = self.scope.enter();
+        let counter = match (pattern, self.known_int(&item)) {
+            (Pattern::Name(name, _), Some(value)) => Some(Counter {
+                name: name.clone(),
+                value,
+            }),
+            _ => None,
+        };
+        let counted = counter.is_some();
+        self.counters.extend(counter);
+        let outcome = self.bind(pattern, item, span).and_then(|()| self.block(body));
+        if counted {
+            self.counters.pop();
+        }
+        self.scope.leave(mark);
+        outcome
+    }
+
+    /// A loop of the graph that goes from `start` to `end` by one: variables that `body` assigns are carried from one
+    /// round to the next. `body` is given the counter.
+    pub fn kept(
+        &mut self,
+        f: &ForLoop,
+        (start, end): (NodeId, NodeId),
+        body: impl FnOnce(&mut Self, NodeId) -> Eval<()>,
+        span: Span,
+    ) -> Eval<()> {
+        let carried: Vec<usize> = assigned(&f.body)
             .assigned
             .iter()
             .filter_map(|name| self.scope.slot(name))
@@ -97,6 +146,7 @@ impl Evaluator<'_> {
             self.scope.set(*slot, value);
         }
         types.extend(initial.iter().map(|id| self.ty(*id)));
+        let settled = self.scope.clone();
 
         let region = self.builder.open_region(&types);
         let params = self.builder.graph().region(region).params.clone();
@@ -108,23 +158,18 @@ impl Evaluator<'_> {
             self.name_params(&value, &name, span);
             self.scope.set(*slot, value);
         }
-        if let Pattern::Name(name, at) = pattern {
+        if let Pattern::Name(name, at) = &f.pattern {
             self.name_params(&Value::Node(params[0]), name, *at);
         }
-        let (first, trips_end) = (start, self.trips(start, end, range));
-        let counter = self.counter(params[0], first, range, end);
-        let mark = self.scope.enter();
-        let outcome = self
-            .bind(pattern, Value::Node(counter), span)
-            .and_then(|()| self.block(body));
-        self.scope.leave(mark);
-
+        self.loops.round();
+        let outcome = body(self, params[0]);
         let mut results = Vec::new();
         let mut changed = None;
         for slot in &carried {
             let value = self.scope.at(*slot).1.clone();
             match self.settle(&value, span) {
-                Ok(value) => Self::leaves(&value, &mut results),
+                Ok(value) if same_shape(&value, settled.at(*slot).1) => Self::leaves(&value, &mut results),
+                Ok(_) => changed = Some(changes(settled.at(*slot).0, span)),
                 Err(error) => changed = Some(error),
             }
         }
@@ -136,16 +181,10 @@ impl Evaluator<'_> {
             return Err(error);
         }
         if !same {
-            return Err(
-                Diagnostic::at(span, "a variable changes its type in a loop that is kept")
-                    .help("give it one type, or unroll the loop")
-                    .into(),
-            );
+            return Err(changes("a variable", span));
         }
 
-        let (loop_start, loop_end) = trips_end;
-        let mut args = vec![loop_start, loop_end];
-        args.extend(&initial);
+        let args = [vec![start, end], initial].concat();
         let node = self.builder.add(Op::Loop(region), args, Type::Results);
         let outs: Vec<NodeId> = (0..results.len())
             .map(|k| self.builder.add(Op::Result(k as u32), vec![node], types[k + 1]))
@@ -158,7 +197,7 @@ impl Evaluator<'_> {
             self.name(&value, &name, span);
             self.scope.set(*slot, value);
         }
-        Ok(Value::unit())
+        Ok(())
     }
 
     /// Names a loop's parameters, which are variables in the text.
@@ -176,44 +215,17 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Bounds of the loop's own counter: the range itself if it goes up by one, else 0 to the number of values.
-    fn trips(&mut self, start: NodeId, end: NodeId, range: &Range) -> (NodeId, NodeId) {
-        if !range.reversed && range.step == 1 {
-            return (start, end);
-        }
-        let zero = self.builder.i32(0);
-        let mut length = self.builder.add(Op::Binary(BinaryOp::Sub), vec![end, start], Type::I32);
-        if range.step != 1 {
-            let up = self.builder.i32(range.step as i32 - 1);
-            let step = self.builder.i32(range.step as i32);
-            length = self.builder.add(Op::Binary(BinaryOp::Add), vec![length, up], Type::I32);
-            length = self
-                .builder
-                .add(Op::Binary(BinaryOp::Div), vec![length, step], Type::I32);
-        }
-        (zero, length)
+    pub fn while_(&mut self, condition: &Expr, body: &Block, label: Option<&str>, span: Span) -> Eval {
+        let function = self.calls.last().cloned().unwrap_or_default();
+        let made = self.builder.graph().nodes.len();
+        self.loops.enter(&function, "while", span, made);
+        let outcome = self.run_while(condition, body, label, span);
+        let made = self.builder.graph().nodes.len();
+        self.loops.leave(Unroll::Full, made);
+        outcome
     }
 
-    /// The source's counter from the loop's own.
-    fn counter(&mut self, own: NodeId, start: NodeId, range: &Range, end: NodeId) -> NodeId {
-        if !range.reversed && range.step == 1 {
-            return own;
-        }
-        let step = self.builder.i32(range.step as i32);
-        if range.reversed {
-            // Of a, a+s, ..., the last comes first.
-            let one = self.builder.i32(1);
-            let (_, trips) = self.trips(start, end, range);
-            let last = self.builder.add(Op::Binary(BinaryOp::Sub), vec![trips, one], Type::I32);
-            let back = self.builder.add(Op::Binary(BinaryOp::Sub), vec![last, own], Type::I32);
-            let far = self.builder.add(Op::Binary(BinaryOp::Mul), vec![back, step], Type::I32);
-            return self.builder.add(Op::Binary(BinaryOp::Add), vec![start, far], Type::I32);
-        }
-        let far = self.builder.add(Op::Binary(BinaryOp::Mul), vec![own, step], Type::I32);
-        self.builder.add(Op::Binary(BinaryOp::Add), vec![start, far], Type::I32)
-    }
-
-    pub fn while_(&mut self, condition: &Expr, body: &Block, span: Span) -> Eval {
+    fn run_while(&mut self, condition: &Expr, body: &Block, label: Option<&str>, span: Span) -> Eval {
         let noted = self.errors.len();
         loop {
             self.step(span)?;
@@ -226,15 +238,16 @@ impl Evaluator<'_> {
                     return Err(
                         Diagnostic::at(condition.span, "the condition of `while` is only known at run time")
                             .label("not known now")
+                            .note("how often a shader goes round must not hang on what it computes: a GPU would wait for its slowest pixel")
                             .help("use `for` with fixed bounds, and select what is computed in it")
                             .into(),
                     );
                 }
             }
-            match self.block(body) {
-                Ok(_) | Err(Exit::Continue) => {}
-                Err(Exit::Break) => return Ok(Value::unit()),
-                Err(other) => return Err(other),
+            self.loops.round();
+            let outcome = self.block(body);
+            if !again(outcome, label)? {
+                return Ok(Value::unit());
             }
             if self.errors.len() > noted {
                 return Err(Exit::Noted);
@@ -243,12 +256,54 @@ impl Evaluator<'_> {
     }
 }
 
+/// Whether a loop with this label goes on after a round that ended so.
+fn again(outcome: Eval, label: Option<&str>) -> Eval<bool> {
+    let mine = |of: &Option<String>| of.is_none() || of.as_deref() == label;
+    match outcome {
+        Ok(_) => Ok(true),
+        Err(Exit::Continue(of)) if mine(&of) => Ok(true),
+        Err(Exit::Break(of)) if mine(&of) => Ok(false),
+        Err(other) => Err(other),
+    }
+}
+
+fn changes(name: &str, span: Span) -> Exit {
+    Diagnostic::at(span, format!("`{name}` changes its type in a loop that is kept"))
+        .label("in this loop")
+        .help("give it one type, or unroll the loop")
+        .into()
+}
+
+/// Whether two settled values differ in their nodes alone.
+fn same_shape(a: &Value, b: &Value) -> bool {
+    match (a, b) {
+        (Value::Node(_), Value::Node(_)) => true,
+        (Value::Struct { ty, fields }, Value::Struct { ty: other, fields: others }) => {
+            ty == other && fields.iter().zip(others).all(|((_, a), (_, b))| same_shape(a, b))
+        }
+        (Value::Tuple(a), Value::Tuple(b)) | (Value::Array(a), Value::Array(b)) => {
+            a.len() == b.len() && a.iter().zip(b).all(|(a, b)| same_shape(a, b))
+        }
+        _ => a == b,
+    }
+}
+
+/// Values of a counter after which a loop is taken to be a mistake.
+const MAX_ROUNDS: i64 = 1_000_000;
+
 /// The values of a range with known ends, in the order of the loop.
-fn range_values(start: i64, end: i64, range: &Range) -> Vec<Value> {
+fn range_values(start: i64, end: i64, range: &Range, span: Span) -> Eval<Vec<Value>> {
+    let rounds = end.saturating_sub(start).max(0) / range.step.max(1);
+    if rounds > MAX_ROUNDS {
+        return Err(Diagnostic::at(span, format!("a loop of {rounds} rounds"))
+            .label("too many")
+            .help(format!("a loop may have up to {MAX_ROUNDS}"))
+            .into());
+    }
     let values = (start..end).step_by(range.step.max(1) as usize).map(Value::Int);
-    if range.reversed {
+    Ok(if range.reversed {
         values.collect::<Vec<_>>().into_iter().rev().collect()
     } else {
         values.collect()
-    }
+    })
 }

@@ -6,9 +6,11 @@ use crate::diagnostic::{Diagnostic, Span};
 use crate::ir::{BinaryOp, NodeId, Op, Scalar, Type, UnaryOp};
 
 /// What methods of numbers and vectors there are, for messages.
-pub const METHODS: &str = "abs, sqrt, recip, exp, exp2, ln, log2, powf, powi, sin, cos, tan, asin, acos, atan, atan2, floor, ceil, trunc, \
-    round_ties_even, min, max, clamp, dot, cross, length, length_squared, distance, distance_squared, normalize, lerp, \
-    extend, truncate, min_element, max_element, element_sum, as_vec2 .. as_uvec4";
+pub const METHODS: &str = "abs, sqrt, recip, exp, exp2, ln, log2, powf, powi, sin, cos, tan, asin, acos, atan, atan2, sinh, cosh, tanh, floor, \
+    ceil, trunc, round_ties_even, min, max, clamp, to_radians, to_degrees, to_bits, is_nan, dot, cross, reflect, perp, \
+    length, length_recip, length_squared, distance, distance_squared, normalize, lerp, extend, truncate, min_element, \
+    max_element, element_sum, element_product, as_vec2 .. as_uvec4, xy .. wzyx; integers have wrapping_add, wrapping_sub, \
+    wrapping_mul, wrapping_neg, wrapping_shl, wrapping_shr, count_ones, reverse_bits, leading_zeros, trailing_zeros, pow";
 
 impl Evaluator<'_> {
     /// A method of a number or vector.
@@ -53,6 +55,13 @@ impl Evaluator<'_> {
 
     fn math_one(&mut self, x: NodeId, name: &str, span: Span) -> Eval<Option<NodeId>> {
         let ty = self.ty(x);
+        if let Some(op) = super::integers::bits(name) {
+            return Ok(ty.is_integer().then(|| {
+                let counted = self.builder.add(Op::Unary(op), vec![x], ty);
+                // Rust counts in u32.
+                if name == "reverse_bits" { counted } else { self.convert(counted, Scalar::U32) }
+            }));
+        }
         if let Some(op) = unary(name) {
             let fits = ty.is_float() || (name == "abs" && ty.kind() != Some(Scalar::Bool));
             return Ok(fits.then(|| self.builder.add(Op::Unary(op), vec![x], ty)));
@@ -70,6 +79,38 @@ impl Evaluator<'_> {
                 let one = self.splat(one, ty.lanes());
                 Some(self.builder.add(Op::Binary(BinaryOp::Div), vec![one, x], ty))
             }
+            "wrapping_neg" if ty.kind() == Some(Scalar::I32) => Some(self.builder.add(Op::Unary(UnaryOp::Neg), vec![x], ty)),
+            "to_bits" if ty == Type::F32 => Some(self.builder.add(Op::Bitcast, vec![x], Type::U32)),
+            // A shader may assume that there are no NaNs: the test is one of bits.
+            "is_nan" if ty == Type::F32 => {
+                let bits = self.builder.add(Op::Bitcast, vec![x], Type::U32);
+                let mask = self.builder.constant(Type::U32, [0x7fff_ffff, 0, 0, 0]);
+                let infinity = self.builder.constant(Type::U32, [0x7f80_0000, 0, 0, 0]);
+                let size = self.builder.add(Op::Binary(BinaryOp::And), vec![bits, mask], Type::U32);
+                Some(self.builder.add(Op::Binary(BinaryOp::Gt), vec![size, infinity], Type::BOOL))
+            }
+            "is_finite" if ty == Type::F32 => {
+                let bits = self.builder.add(Op::Bitcast, vec![x], Type::U32);
+                let mask = self.builder.constant(Type::U32, [0x7fff_ffff, 0, 0, 0]);
+                let infinity = self.builder.constant(Type::U32, [0x7f80_0000, 0, 0, 0]);
+                let size = self.builder.add(Op::Binary(BinaryOp::And), vec![bits, mask], Type::U32);
+                Some(self.builder.add(Op::Binary(BinaryOp::Lt), vec![size, infinity], Type::BOOL))
+            }
+            "to_radians" | "to_degrees" if ty == Type::F32 => {
+                let factor = if name == "to_radians" { std::f32::consts::PI / 180.0 } else { 57.295_78 };
+                let factor = self.builder.f32(factor);
+                Some(self.builder.add(Op::Binary(BinaryOp::Mul), vec![x, factor], ty))
+            }
+            "perp" if ty == Type::value(Scalar::F32, 2) => {
+                let lanes = self.lanes(x);
+                let negative = self.builder.add(Op::Unary(UnaryOp::Neg), vec![lanes[1]], Type::F32);
+                Some(self.builder.add(Op::Compose, vec![negative, lanes[0]], ty))
+            }
+            "length_recip" if vector => {
+                let length = self.length(x);
+                let one = self.builder.f32(1.0);
+                Some(self.builder.add(Op::Binary(BinaryOp::Div), vec![one, length], Type::F32))
+            }
             "length_squared" if vector => Some(self.dot(x, x)),
             "length" if vector => Some(self.length(x)),
             "normalize" if vector => {
@@ -82,10 +123,11 @@ impl Evaluator<'_> {
                 let scale = self.splat(scale, ty.lanes());
                 Some(self.builder.add(Op::Binary(BinaryOp::Mul), vec![x, scale], ty))
             }
-            "min_element" | "max_element" | "element_sum" if ty.lanes() > 1 => {
+            "min_element" | "max_element" | "element_sum" | "element_product" if ty.lanes() > 1 => {
                 let op = match name {
                     "min_element" => BinaryOp::Min,
                     "max_element" => BinaryOp::Max,
+                    "element_product" => BinaryOp::Mul,
                     _ => BinaryOp::Add,
                 };
                 let lanes = self.lanes(x);
@@ -101,6 +143,7 @@ impl Evaluator<'_> {
                         .add(Op::Compose, lanes[..lanes.len() - 1].to_vec(), shorter),
                 )
             }
+            "signum" if ty.kind() == Some(Scalar::I32) => Some(self.builder.add(Op::Unary(UnaryOp::Sign), vec![x], ty)),
             "round" => {
                 return Err(instead(
                     span,
@@ -112,14 +155,14 @@ impl Evaluator<'_> {
                 return Err(instead(
                     span,
                     "`fract` truncates in Rust and floors in shaders",
-                    "x - x.floor()",
+                    "fract(x)",
                 ));
             }
             "signum" => {
                 return Err(instead(
                     span,
                     "`signum` of 0 is 1 in Rust and 0 in shaders",
-                    "if x < 0.0 { -1.0 } else { 1.0 }",
+                    "sign(x)",
                 ));
             }
             _ => None,
@@ -136,6 +179,22 @@ impl Evaluator<'_> {
                     let value = self.binary(op, receiver, a, span)?;
                     self.node(&value, span)?
                 }));
+            }
+            "wrapping_add" | "wrapping_sub" | "wrapping_mul" | "wrapping_shl" | "wrapping_shr" | "rem_euclid" | "pow"
+                if ty.is_integer() =>
+            {
+                return self.integer_two(receiver, x, name, a, span);
+            }
+            "mul_add" => None,
+            "reflect" if float_vector => {
+                // As glam computes it: self - 2 * self.dot(normal) * normal.
+                let (v, n) = self.same_type(receiver, a, span)?;
+                let dot = self.dot(v, n);
+                let two = self.builder.f32(2.0);
+                let twice = self.builder.add(Op::Binary(BinaryOp::Mul), vec![two, dot], Type::F32);
+                let twice = self.splat(twice, ty.lanes());
+                let away = self.builder.add(Op::Binary(BinaryOp::Mul), vec![twice, n], ty);
+                Some(self.builder.add(Op::Binary(BinaryOp::Sub), vec![v, away], ty))
             }
             "powf" | "atan2" if ty.is_float() => {
                 let op = if name == "powf" { BinaryOp::Pow } else { BinaryOp::Atan2 };
@@ -249,6 +308,9 @@ fn unary(name: &str) -> Option<UnaryOp> {
         "asin" => Asin,
         "acos" => Acos,
         "atan" => Atan,
+        "sinh" => Sinh,
+        "cosh" => Cosh,
+        "tanh" => Tanh,
         _ => return None,
     })
 }

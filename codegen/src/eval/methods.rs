@@ -4,7 +4,7 @@ use super::Evaluator;
 use super::value::{Eval, Exit, Value};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::front::tree::Expr;
-use crate::ir::{BinaryOp, Op, Scalar, Type};
+use crate::ir::{BinaryOp, Type};
 
 impl Evaluator<'_> {
     pub fn method(&mut self, receiver: &Expr, name: &str, args: &[Expr], span: Span) -> Eval {
@@ -18,11 +18,15 @@ impl Evaluator<'_> {
                 let method = format!("{ty}::{name}");
                 if self.library.functions.contains_key(&method) {
                     let all = std::iter::once(value.clone()).chain(args).collect();
-                    return self.inline(&method, all, span);
+                    return self.inline(&method, &[], all, span);
+                }
+                if super::matrix::size(ty).is_some() {
+                    return self.matrix_method(&value, name, &args, span);
                 }
                 Err(Diagnostic::at(span, format!("`{ty}` has no method `{name}`")).into())
             }
             Value::Texture(index) => self.texture(*index, name, &args, span),
+            Value::Buffer(index) => self.buffer(*index, name, &args, span),
             Value::Range(range) => match (name, args.as_slice()) {
                 ("rev", []) => {
                     let mut range = range.clone();
@@ -48,8 +52,13 @@ impl Evaluator<'_> {
             Value::Array(elements) => match (name, args.is_empty()) {
                 ("len", true) => Ok(Value::Int(elements.len() as i64)),
                 ("iter" | "into_iter" | "copied", true) => Ok(value.clone()),
+                ("enumerate", true) => {
+                    let pair = |(k, element): (usize, &Value)| Value::Tuple(vec![Value::Int(k as i64), element.clone()]);
+                    Ok(Value::Array(elements.iter().enumerate().map(pair).collect()))
+                }
+                ("rev", true) => Ok(Value::Array(elements.iter().rev().cloned().collect())),
                 _ => Err(Diagnostic::at(span, format!("an array has no method `{name}`"))
-                    .help("arrays have `len` and `iter`")
+                    .help("arrays have `len`, `iter`, `enumerate` and `rev`")
                     .into()),
             },
             Value::Node(id) if self.ty(*id).is_array() => match (self.ty(*id), name) {
@@ -60,6 +69,9 @@ impl Evaluator<'_> {
             },
             Value::Int(n) => match (name, args.as_slice()) {
                 ("abs", []) => Ok(Value::Int(n.abs())),
+                ("signum", []) => Ok(Value::Int(n.signum())),
+                ("rem_euclid", [Value::Int(m)]) if *m > 0 => Ok(Value::Int(n.rem_euclid(*m))),
+                ("div_euclid", [Value::Int(m)]) if *m > 0 => Ok(Value::Int(n.div_euclid(*m))),
                 ("min", [other]) => self.binary(BinaryOp::Min, &value, other, span),
                 ("max", [other]) => self.binary(BinaryOp::Max, &value, other, span),
                 _ => self.math(&value, name, &args, span),
@@ -67,63 +79,5 @@ impl Evaluator<'_> {
             Value::Poison => Err(Exit::Noted),
             _ => self.math(&value, name, &args, span),
         }
-    }
-
-    fn texture(&mut self, index: u32, name: &str, args: &[Value], span: Span) -> Eval {
-        let texture = self.builder.graph().textures[index as usize].clone();
-        match (name, args) {
-            ("size", []) => {
-                let size = self.builder.add(Op::FrameSize, Vec::new(), Type::value(Scalar::I32, 2));
-                Ok(Value::Node(self.convert(size, Scalar::U32)))
-            }
-            ("load", [coord]) if !texture.layered => self.load(index, coord, None, span),
-            ("load", [coord, layer]) if texture.layered => {
-                let layer = self.index_node(layer, span)?;
-                self.load(index, coord, Some(layer), span)
-            }
-            ("load", _) => {
-                let expected = if texture.layered {
-                    "a coordinate and a layer"
-                } else {
-                    "a coordinate"
-                };
-                Err(Diagnostic::at(span, format!("`load` of `{}` takes {expected}", texture.name)).into())
-            }
-            _ => Err(Diagnostic::at(span, format!("a texture has no method `{name}`"))
-                .help("textures have `load` and `size`")
-                .into()),
-        }
-    }
-
-    /// A texel, its coordinate clamped to the frame.
-    fn load(&mut self, texture: u32, coord: &Value, layer: Option<crate::ir::NodeId>, span: Span) -> Eval {
-        let pair = Type::value(Scalar::I32, 2);
-        let coord = self.node(coord, span)?;
-        if self.ty(coord) != pair {
-            return Err(Diagnostic::at(
-                span,
-                format!("a texel's coordinate is an IVec2, not {}", self.ty(coord)),
-            )
-            .into());
-        }
-        let size = self.builder.add(Op::FrameSize, Vec::new(), pair);
-        let one = self.builder.constant(pair, [1, 1, 0, 0]);
-        let zero = self.builder.constant(pair, [0; 4]);
-        let last = self.builder.add(Op::Binary(BinaryOp::Sub), vec![size, one], pair);
-        self.name(&Value::Node(last), "last", span);
-        let inside = self.builder.add(Op::Clamp, vec![coord, zero, last], pair);
-        self.name(&Value::Node(inside), "texel", span);
-        self.sites += 1;
-        let components = self.builder.graph().textures[texture as usize].components;
-        let args = std::iter::once(inside).chain(layer).collect();
-        let op = Op::Load {
-            texture,
-            site: self.sites,
-        };
-        Ok(Value::Node(self.builder.add(
-            op,
-            args,
-            Type::value(Scalar::F32, components),
-        )))
     }
 }

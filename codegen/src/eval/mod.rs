@@ -4,14 +4,20 @@
 //! Loops are run, or kept as loops, as the [`Unroll`] policy says; calls are always inlined.
 
 mod assign;
+mod budget;
 mod call;
 mod consts;
 mod control;
 mod entry;
 mod expr;
+mod functions;
+mod integers;
 mod loops;
 mod math;
+mod matrix;
 mod methods;
+mod partial;
+mod resources;
 mod operators;
 mod options;
 mod scope;
@@ -22,44 +28,14 @@ use crate::diagnostic::{Diagnostic, Errors, File, Span};
 use crate::front::Library;
 use crate::ir::{Builder, Counter, Graph, NodeId, Op, Origin, Scalar, Type};
 use crate::passes::Exact;
+use crate::policy::Policy;
 use scope::Scope;
 use std::collections::{BTreeMap, HashMap};
 use std::sync::Arc;
 use value::{Eval, Exit, Value};
 
+pub use budget::{LoopReport, WAY_OUT, blame};
 pub use options::{OptionInfo, OptionKind, describe};
-
-/// What becomes of loops.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Unroll {
-    /// Every loop is run now: one basic block is left.
-    #[default]
-    Full,
-    /// Every loop that can be a loop at run time is kept: the baseline of unroll studies.
-    None,
-}
-
-impl Unroll {
-    /// `full` or `none`.
-    pub fn name(self) -> &'static str {
-        match self {
-            Unroll::Full => "full",
-            Unroll::None => "none",
-        }
-    }
-}
-
-impl std::str::FromStr for Unroll {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        match text {
-            "full" => Ok(Unroll::Full),
-            "none" => Ok(Unroll::None),
-            _ => Err(format!("unknown unroll policy `{text}`: full or none")),
-        }
-    }
-}
 
 /// A kernel with its options decided.
 pub struct Evaluated {
@@ -69,6 +45,10 @@ pub struct Evaluated {
     pub options: BTreeMap<String, String>,
     /// First paragraph of the kernel's documentation.
     pub docs: String,
+    /// Every loop, in order of the source, with what became of it.
+    pub loops: Vec<LoopReport>,
+    /// Where the kernel's name stands.
+    pub span: Span,
 }
 
 /// Evaluates the function `entry` with some options set, the others at their defaults.
@@ -77,26 +57,17 @@ pub fn evaluate(
     files: &Arc<Vec<File>>,
     entry: &str,
     settings: &[(String, String)],
-    unroll: Unroll,
+    policy: &Policy,
 ) -> Result<Evaluated, Errors> {
-    let rules = Exact;
-    let mut builder = Builder::new(&rules);
-    builder.graph_mut().files = files.iter().map(|f| f.path.clone()).collect();
-    let mut evaluator = Evaluator {
-        library,
-        builder,
-        unroll,
-        scope: Scope::default(),
-        counters: Vec::new(),
-        calls: Vec::new(),
-        errors: Vec::new(),
-        consts: HashMap::new(),
-        sites: 0,
-        steps: 0,
-    };
+    let mut evaluator = Evaluator::new(library, files, policy);
     let result = evaluator.kernel(entry, settings);
+    if result.is_ok() {
+        evaluator.check_loop_paths();
+    }
     match result {
         Ok((output, options, docs)) if evaluator.errors.is_empty() => Ok(Evaluated {
+            loops: evaluator.loops.reports(),
+            span: library.functions[entry].span,
             graph: evaluator.builder.finish(output),
             options,
             docs,
@@ -124,7 +95,8 @@ const MAX_CALLS: usize = 200;
 struct Evaluator<'a> {
     library: &'a Library,
     builder: Builder<'a>,
-    unroll: Unroll,
+    policy: &'a Policy,
+    loops: budget::Loops,
     scope: Scope,
     /// Counters of the unrolled loops around.
     counters: Vec<Counter>,
@@ -133,9 +105,29 @@ struct Evaluator<'a> {
     errors: Vec<Diagnostic>,
     /// Constants evaluated so far.
     consts: HashMap<String, Value>,
-    /// Texture reads made so far.
+    /// Reads made so far.
     sites: u32,
     steps: u64,
+}
+
+impl<'a> Evaluator<'a> {
+    fn new(library: &'a Library, files: &Arc<Vec<File>>, policy: &'a Policy) -> Self {
+        let mut builder = Builder::new(&Exact);
+        builder.graph_mut().files = files.iter().map(|f| f.path.clone()).collect();
+        Evaluator {
+            library,
+            builder,
+            policy,
+            loops: budget::Loops::default(),
+            scope: Scope::default(),
+            counters: Vec::new(),
+            calls: Vec::new(),
+            errors: Vec::new(),
+            consts: HashMap::new(),
+            sites: 0,
+            steps: 0,
+        }
+    }
 }
 
 impl Evaluator<'_> {
@@ -148,10 +140,8 @@ impl Evaluator<'_> {
             } else {
                 format!("the kernel unrolls to more than {MAX_NODES} operations")
             };
-            return Err(Diagnostic::at(span, what)
-                .label("reached here")
-                .help("run loops over fewer values, or keep them with the unroll policy `none`")
-                .into());
+            let error = Diagnostic::at(span, what).label("reached here").help(budget::WAY_OUT);
+            return Err(self.loops.blame(error).into());
         }
         Ok(())
     }

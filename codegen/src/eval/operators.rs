@@ -37,6 +37,13 @@ impl Evaluator<'_> {
                     _ => Err(Diagnostic::at(span, "variants can be compared with `==` and `!=` only").into()),
                 };
             }
+            (Value::Struct { ty, .. }, _) | (_, Value::Struct { ty, .. }) if super::matrix::size(ty).is_some() => {
+                return match op {
+                    BinaryOp::Mul => self.matrix_product(left, right, span),
+                    BinaryOp::Add | BinaryOp::Sub => self.by_fields(op, left, right, span),
+                    _ => Err(Diagnostic::at(span, format!("this operator does not take a `{ty}`")).into()),
+                };
+            }
             _ => {}
         }
         let (a, b) = match op {
@@ -59,6 +66,23 @@ impl Evaluator<'_> {
             return self.comparison(op, a, b);
         }
         Ok(Value::Node(self.builder.add(Op::Binary(op), vec![a, b], ty)))
+    }
+
+    /// Two matrices, column by column.
+    fn by_fields(&mut self, op: BinaryOp, left: &Value, right: &Value, span: Span) -> Eval {
+        match (left, right) {
+            (Value::Struct { ty, fields }, Value::Struct { ty: other, fields: others }) if ty == other => {
+                let mut results = Vec::new();
+                for ((name, a), (_, b)) in fields.iter().zip(others) {
+                    results.push((name.clone(), self.binary(op, a, b, span)?));
+                }
+                Ok(Value::Struct {
+                    ty: ty.clone(),
+                    fields: results,
+                })
+            }
+            _ => Err(Diagnostic::at(span, format!("{} and {} do not go together", left.describe(), right.describe())).into()),
+        }
     }
 
     /// Rust compares vectors as wholes.

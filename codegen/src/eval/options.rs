@@ -6,6 +6,7 @@ use crate::diagnostic::{Diagnostic, Errors, File};
 use crate::front::Library;
 use crate::front::tree::{ExprKind, OptionField, Type as SourceType};
 use crate::ir::{Op, Scalar, Type, Uniform};
+use crate::policy::Policy;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -45,19 +46,8 @@ const UNIFORM: &str = "uniform";
 
 /// The options of the kernel `entry`, in order of declaration.
 pub fn describe(library: &Library, files: &Arc<Vec<File>>, entry: &str) -> Result<Vec<OptionInfo>, Errors> {
-    let rules = crate::passes::Exact;
-    let mut evaluator = Evaluator {
-        library,
-        builder: crate::ir::Builder::new(&rules),
-        unroll: super::Unroll::Full,
-        scope: Default::default(),
-        counters: Vec::new(),
-        calls: Vec::new(),
-        errors: Vec::new(),
-        consts: Default::default(),
-        sites: 0,
-        steps: 0,
-    };
+    let policy = Policy::default();
+    let mut evaluator = Evaluator::new(library, files, &policy);
     let mut infos = Vec::new();
     for field in fields(library, entry) {
         match evaluator.info(field) {

@@ -34,6 +34,10 @@ pub enum Value {
     Str(String),
     /// A texture, by its index in the graph.
     Texture(u32),
+    /// A sampler, by its index in the graph.
+    Sampler(u32),
+    /// A buffer, by its index in the graph.
+    Buffer(u32),
     /// What an expression with an error gives; using it is no second error.
     Poison,
 }
@@ -70,6 +74,8 @@ impl Value {
             Value::Range(_) => "a range".to_owned(),
             Value::Str(_) => "a text".to_owned(),
             Value::Texture(_) => "a texture".to_owned(),
+            Value::Sampler(_) => "a sampler".to_owned(),
+            Value::Buffer(_) => "a buffer".to_owned(),
             Value::Poison => "an error".to_owned(),
         }
     }
@@ -82,10 +88,10 @@ pub enum Exit {
     Error(Box<Diagnostic>),
     /// With an error that has been noted.
     Noted,
-    /// By `break`.
-    Break,
-    /// By `continue`.
-    Continue,
+    /// By `break`, of the loop with a label.
+    Break(Option<String>),
+    /// By `continue`, of the loop with a label.
+    Continue(Option<String>),
     /// By `return`.
     Return(Value),
 }

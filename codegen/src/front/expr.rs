@@ -1,7 +1,7 @@
 //! Expressions and statements.
 
 use super::place;
-use super::tree::{Arm, Block, Const, Expr, ExprKind, IntType, Statement};
+use super::tree::{Arm, Block, Const, Expr, ExprKind, ForLoop, IntType, Statement};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::ir::{BinaryOp, UnaryOp};
 use syn::spanned::Spanned;
@@ -125,11 +125,8 @@ impl Lower {
             syn::Expr::If(e) => {
                 let condition = self.boxed(&e.cond);
                 let then = self.block(&e.then_branch);
-                ExprKind::If(
-                    condition,
-                    then,
-                    e.else_branch.as_ref().map(|(_, other)| self.boxed(other)),
-                )
+                let otherwise = e.else_branch.as_ref().map(|(_, other)| self.boxed(other));
+                ExprKind::If(condition, then, otherwise, self.branch_attribute(&e.attrs))
             }
             syn::Expr::Match(e) => self.match_(e),
             syn::Expr::Block(e) if e.label.is_none() => ExprKind::Block(self.block(&e.block)),
@@ -139,14 +136,31 @@ impl Lower {
             syn::Expr::Struct(e) => self.struct_(e),
             syn::Expr::Cast(e) => ExprKind::Cast(self.boxed(&e.expr), self.ty(&e.ty)),
             syn::Expr::Range(e) => self.range(e),
-            syn::Expr::ForLoop(e) if e.label.is_none() => {
-                let iterable = self.boxed(&e.expr);
-                ExprKind::For(self.pattern(&e.pat), iterable, self.block(&e.body))
+            syn::Expr::ForLoop(e) => {
+                let over = self.expr(&e.expr);
+                ExprKind::For(Box::new(ForLoop {
+                    label: label(e.label.as_ref().map(|l| &l.name)),
+                    unroll: self.unroll_attribute(&e.attrs),
+                    pattern: self.pattern(&e.pat),
+                    over,
+                    body: self.block(&e.body),
+                }))
             }
-            syn::Expr::While(e) if e.label.is_none() => ExprKind::While(self.boxed(&e.cond), self.block(&e.body)),
+            syn::Expr::While(e) => {
+                let label = label(e.label.as_ref().map(|l| &l.name));
+                ExprKind::While(self.boxed(&e.cond), self.block(&e.body), label)
+            }
+            syn::Expr::Loop(e) => {
+                let label = label(e.label.as_ref().map(|l| &l.name));
+                let always = Expr {
+                    kind: ExprKind::Bool(true),
+                    span: self.span(e.loop_token.span()),
+                };
+                ExprKind::While(Box::new(always), self.block(&e.body), label)
+            }
             syn::Expr::Return(e) => ExprKind::Return(e.expr.as_ref().map(|e| self.boxed(e))),
-            syn::Expr::Break(e) if e.label.is_none() && e.expr.is_none() => ExprKind::Break,
-            syn::Expr::Continue(e) if e.label.is_none() => ExprKind::Continue,
+            syn::Expr::Break(e) if e.expr.is_none() => ExprKind::Break(label(e.label.as_ref())),
+            syn::Expr::Continue(e) => ExprKind::Continue(label(e.label.as_ref())),
             other => self.refused(other),
         }
     }
@@ -154,15 +168,8 @@ impl Lower {
     fn refused(&mut self, expr: &syn::Expr) -> ExprKind {
         let (what, instead) = match expr {
             syn::Expr::Closure(_) => ("a closure", "write a function and call it"),
-            syn::Expr::Loop(_) => (
-                "`loop`",
-                "use `for` over a range, or `while` with a condition that is known",
-            ),
-            syn::Expr::ForLoop(_)
-            | syn::Expr::While(_)
-            | syn::Expr::Break(_)
-            | syn::Expr::Continue(_)
-            | syn::Expr::Block(_) => ("a label", "put the inner loop into a function and `return` from it"),
+            syn::Expr::Break(_) => ("`break` with a value", "assign the value to a variable before"),
+            syn::Expr::Block(_) => ("a label on a block", "put the block into a function and `return` from it"),
             syn::Expr::Let(_) => ("`let` in a condition", "use `match`, or compare with `==`"),
             syn::Expr::Macro(_) => ("a macro", "write out what it stands for"),
             syn::Expr::Try(_) => ("`?`", "a kernel has no errors: compute a value for every pixel"),
@@ -283,12 +290,35 @@ impl Lower {
     fn call(&mut self, e: &syn::ExprCall) -> ExprKind {
         let args = e.args.iter().map(|a| self.expr(a)).collect();
         match &*e.func {
-            syn::Expr::Path(path) if path.qself.is_none() => ExprKind::Call(self.segments(&path.path), args),
+            syn::Expr::Path(path) if path.qself.is_none() => {
+                let constants = self.generic_arguments(&path.path);
+                ExprKind::Call(self.segments(&path.path), constants, args)
+            }
             other => {
                 self.unsupported(other.span(), "calling a value", "call functions by their names");
                 ExprKind::Tuple(Vec::new())
             }
         }
+    }
+
+    /// What stands in `::<>`, one for each; a type counts as `()`.
+    fn generic_arguments(&mut self, path: &syn::Path) -> Vec<Expr> {
+        let Some(syn::PathArguments::AngleBracketed(list)) = path.segments.last().map(|s| &s.arguments) else {
+            return Vec::new();
+        };
+        let mut constants = Vec::new();
+        for arg in &list.args {
+            let kind = match arg {
+                syn::GenericArgument::Const(e) => self.expr(e).kind,
+                // A constant by its name looks like a type.
+                syn::GenericArgument::Type(syn::Type::Path(t)) => ExprKind::Path(self.segments(&t.path)),
+                syn::GenericArgument::Type(_) => ExprKind::Tuple(Vec::new()),
+                _ => continue,
+            };
+            let span = self.span(arg.span());
+            constants.push(Expr { kind, span });
+        }
+        constants
     }
 
     fn match_(&mut self, e: &syn::ExprMatch) -> ExprKind {
@@ -365,7 +395,11 @@ impl Lower {
             if let Some((_, other)) = &init.diverge {
                 self.unsupported(other.span(), "`let ... else`", "use `if` or `match`");
             }
-            self.expr(&init.expr)
+            let mut value = self.expr(&init.expr);
+            if let ExprKind::If(_, _, _, branches) = &mut value.kind {
+                *branches = branches.or(self.branch_attribute(&local.attrs));
+            }
+            value
         });
         Statement::Let(pattern, ty, init, span)
     }
@@ -382,4 +416,8 @@ impl Lower {
             ty: self.ty(&item.ty),
         }
     }
+}
+
+fn label(label: Option<&syn::Lifetime>) -> Option<String> {
+    label.map(|l| l.ident.to_string())
 }

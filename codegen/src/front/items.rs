@@ -58,13 +58,13 @@ impl Items {
         let mut lower = Lower::new(file, of.map(str::to_owned));
         let name = qualified(of, &sig.ident);
         let mut params = Vec::new();
-        if let Some(generic) = sig.generics.type_params().next() {
-            lower.unsupported(
-                generic.span(),
-                "a generic function",
-                "write it for the type that is used",
-            );
-        }
+        // Evaluation is on values, so a type parameter is whatever comes; constants are bound by name.
+        let generics = sig.generics.params.iter().filter_map(|p| match p {
+            syn::GenericParam::Const(c) => Some(Some(c.ident.to_string())),
+            syn::GenericParam::Type(_) => Some(None),
+            syn::GenericParam::Lifetime(_) => None,
+        });
+        let generics = generics.collect();
         for input in &sig.inputs {
             match input {
                 syn::FnArg::Receiver(receiver) => {
@@ -94,6 +94,7 @@ impl Items {
             name.clone(),
             Function {
                 docs: docs(attrs),
+                generics,
                 params,
                 body,
                 span,
@@ -114,9 +115,9 @@ impl Items {
 
     fn structure(&mut self, file: u32, item: &syn::ItemStruct) {
         let mut lower = Lower::new(file, None);
-        let fields = item.fields.iter().filter_map(|field| {
-            let name = field.ident.as_ref()?;
-            Some((name.to_string(), lower.ty(&field.ty), lower.span(name.span())))
+        let fields = item.fields.iter().enumerate().map(|(k, field)| {
+            let name = field.ident.as_ref().map_or(k.to_string(), syn::Ident::to_string);
+            (name, lower.ty(&field.ty), lower.span(field.span()))
         });
         let fields = fields.collect();
         self.library.structs.insert(item.ident.to_string(), Struct { fields });

@@ -3,6 +3,7 @@
 //! Every error of the files is reported, not the first. A function that the kernel does not reach may hold
 //! anything.
 
+mod attribute;
 mod expr;
 mod items;
 mod pattern;

@@ -33,11 +33,29 @@ impl Lower {
                 let expr = self.literal(&p.lit, p.span());
                 Pattern::Value(Box::new(expr))
             }
+            syn::Pat::Struct(p) => {
+                let mut fields = Vec::new();
+                for field in &p.fields {
+                    if let syn::Member::Named(name) = &field.member {
+                        fields.push((name.to_string(), self.pattern(&field.pat)));
+                    }
+                }
+                Pattern::Struct(fields, self.span(p.span()))
+            }
+            syn::Pat::Range(p) => match (&p.start, &p.end) {
+                (Some(low), Some(high)) if matches!(p.limits, syn::RangeLimits::Closed(_)) => {
+                    Pattern::Range(Box::new(self.expr(low)), Box::new(self.expr(high)))
+                }
+                _ => {
+                    self.unsupported(p.span(), "a range without both ends", "write both: `0..=3`");
+                    Pattern::Wild
+                }
+            },
             other => {
                 self.unsupported(
                     other.span(),
                     "this pattern",
-                    "match on enum variants, literals, `a | b` or `_`, and bind plain names or tuples of them",
+                    "match on enum variants, integers, `0..=3`, `a | b` or `_`, and bind names, tuples and fields",
                 );
                 Pattern::Wild
             }
@@ -50,8 +68,8 @@ impl Lower {
             syn::Type::Reference(t) => self.ty(&t.elem),
             syn::Type::Paren(t) => self.ty(&t.elem),
             syn::Type::Group(t) => self.ty(&t.elem),
-            syn::Type::Array(t) => Type::Array(Box::new(self.ty(&t.elem))),
-            syn::Type::Slice(t) => Type::Array(Box::new(self.ty(&t.elem))),
+            syn::Type::Array(t) => Type::Array(Box::new(self.ty(&t.elem)), Some(Box::new(self.expr(&t.len)))),
+            syn::Type::Slice(t) => Type::Array(Box::new(self.ty(&t.elem)), None),
             syn::Type::Tuple(t) => Type::Tuple(t.elems.iter().map(|e| self.ty(e)).collect()),
             syn::Type::Path(t) if t.qself.is_none() => {
                 let last = t.path.segments.last().expect("a path has a segment");

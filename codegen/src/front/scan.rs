@@ -15,11 +15,11 @@ pub struct Effects {
 /// Scans a loop's body.
 pub fn assigned(body: &Block) -> Effects {
     let mut effects = Effects::default();
-    block(body, &mut effects, 0);
+    block(body, &mut effects, &mut Vec::new());
     effects
 }
 
-fn block(b: &Block, out: &mut Effects, loops: u32) {
+fn block<'b>(b: &'b Block, out: &mut Effects, loops: &mut Vec<Option<&'b str>>) {
     for statement in &b.statements {
         match statement {
             Statement::Let(_, _, init, _) => init.iter().for_each(|e| expr(e, out, loops)),
@@ -30,7 +30,8 @@ fn block(b: &Block, out: &mut Effects, loops: u32) {
     b.value.iter().for_each(|e| expr(e, out, loops));
 }
 
-fn expr(e: &Expr, out: &mut Effects, loops: u32) {
+/// `loops` are the labels of the loops that have been entered.
+fn expr<'b>(e: &'b Expr, out: &mut Effects, loops: &mut Vec<Option<&'b str>>) {
     match &e.kind {
         ExprKind::Assign(place, _, value) => {
             if let Some(name) = root(place) {
@@ -43,16 +44,21 @@ fn expr(e: &Expr, out: &mut Effects, loops: u32) {
             out.leaves = true;
             value.iter().for_each(|e| expr(e, out, loops));
         }
-        ExprKind::Break | ExprKind::Continue => out.leaves |= loops == 0,
-        ExprKind::For(_, over, body) => {
-            expr(over, out, loops);
-            block(body, out, loops + 1);
+        ExprKind::Break(None) | ExprKind::Continue(None) => out.leaves |= loops.is_empty(),
+        ExprKind::Break(label) | ExprKind::Continue(label) => out.leaves |= !loops.contains(&label.as_deref()),
+        ExprKind::For(f) => {
+            expr(&f.over, out, loops);
+            loops.push(f.label.as_deref());
+            block(&f.body, out, loops);
+            loops.pop();
         }
-        ExprKind::While(condition, body) => {
+        ExprKind::While(condition, body, label) => {
             expr(condition, out, loops);
-            block(body, out, loops + 1);
+            loops.push(label.as_deref());
+            block(body, out, loops);
+            loops.pop();
         }
-        ExprKind::If(condition, then, otherwise) => {
+        ExprKind::If(condition, then, otherwise, _) => {
             expr(condition, out, loops);
             block(then, out, loops);
             otherwise.iter().for_each(|e| expr(e, out, loops));
@@ -85,16 +91,17 @@ pub fn children(e: &Expr) -> Vec<&Expr> {
         | ExprKind::Repeat(a, b)
         | ExprKind::Range(a, b, _)
         | ExprKind::Assign(a, _, b) => vec![a, b],
-        ExprKind::Call(_, args) | ExprKind::Tuple(args) | ExprKind::Array(args) => args.iter().collect(),
+        ExprKind::Call(_, constants, args) => constants.iter().chain(args).collect(),
+        ExprKind::Tuple(args) | ExprKind::Array(args) => args.iter().collect(),
         ExprKind::Method(receiver, _, args) => std::iter::once(&**receiver).chain(args).collect(),
         ExprKind::Struct(_, fields, rest) => fields.iter().map(|(_, e)| e).chain(rest.as_deref()).collect(),
         ExprKind::Return(value) => value.iter().map(|e| &**e).collect(),
-        ExprKind::If(condition, _, otherwise) => std::iter::once(&**condition).chain(otherwise.as_deref()).collect(),
+        ExprKind::If(condition, _, otherwise, _) => std::iter::once(&**condition).chain(otherwise.as_deref()).collect(),
         ExprKind::Match(subject, arms) => std::iter::once(&**subject)
             .chain(arms.iter().map(|a| &a.body))
             .collect(),
-        ExprKind::For(_, over, _) => vec![over],
-        ExprKind::While(condition, _) => vec![condition],
+        ExprKind::For(f) => vec![&f.over],
+        ExprKind::While(condition, ..) => vec![condition],
         _ => Vec::new(),
     }
 }
@@ -114,15 +121,19 @@ pub fn mentioned(b: &Block, out: &mut BTreeSet<String>) {
 /// Every name that an expression mentions.
 pub fn mentioned_in(e: &Expr, out: &mut BTreeSet<String>) {
     match &e.kind {
-        ExprKind::Path(path) | ExprKind::Call(path, _) => out.extend(path.iter().cloned()),
+        ExprKind::Path(path) | ExprKind::Call(path, ..) => out.extend(path.iter().cloned()),
         ExprKind::Method(_, name, _) => {
             out.insert(name.clone());
         }
         ExprKind::Struct(name, ..) => {
             out.insert(name.clone());
         }
-        ExprKind::If(_, then, _) => mentioned(then, out),
-        ExprKind::For(_, _, body) | ExprKind::While(_, body) | ExprKind::Block(body) => mentioned(body, out),
+        ExprKind::If(_, then, ..) => mentioned(then, out),
+        ExprKind::For(f) => {
+            in_pattern(&f.pattern, out);
+            mentioned(&f.body, out);
+        }
+        ExprKind::While(_, body, _) | ExprKind::Block(body) => mentioned(body, out),
         ExprKind::Match(_, arms) => arms.iter().for_each(|arm| in_pattern(&arm.pattern, out)),
         _ => {}
     }
@@ -133,6 +144,11 @@ fn in_pattern(pattern: &Pattern, out: &mut BTreeSet<String>) {
     match pattern {
         Pattern::Value(e) => mentioned_in(e, out),
         Pattern::Or(all) | Pattern::Tuple(all, _) => all.iter().for_each(|p| in_pattern(p, out)),
+        Pattern::Struct(fields, _) => fields.iter().for_each(|(_, p)| in_pattern(p, out)),
+        Pattern::Range(low, high) => {
+            mentioned_in(low, out);
+            mentioned_in(high, out);
+        }
         Pattern::Name(..) | Pattern::Wild => {}
     }
 }

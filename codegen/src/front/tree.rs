@@ -2,6 +2,7 @@
 
 use crate::diagnostic::Span;
 use crate::ir::{BinaryOp, UnaryOp};
+use crate::policy::{Branches, Unroll};
 use std::collections::HashMap;
 
 /// An expression.
@@ -34,16 +35,16 @@ pub enum ExprKind {
     Lazy(bool, Box<Expr>, Box<Expr>),
     /// `place = value`, or `place op= value`.
     Assign(Box<Expr>, Option<BinaryOp>, Box<Expr>),
-    /// `function(arguments)` by the path's last two segments.
-    Call(Vec<String>, Vec<Expr>),
+    /// `function::<constants>(arguments)` by the path's last two segments.
+    Call(Vec<String>, Vec<Expr>, Vec<Expr>),
     /// `receiver.method(arguments)`.
     Method(Box<Expr>, String, Vec<Expr>),
     /// `base.field`, `base.0`.
     Field(Box<Expr>, String),
     /// `base[index]`.
     Index(Box<Expr>, Box<Expr>),
-    /// `if`.
-    If(Box<Expr>, Block, Option<Box<Expr>>),
+    /// `if`, with what its attribute says.
+    If(Box<Expr>, Block, Option<Box<Expr>>, Option<Branches>),
     /// `match`.
     Match(Box<Expr>, Vec<Arm>),
     /// `{ ... }`.
@@ -61,15 +62,30 @@ pub enum ExprKind {
     /// `a..b`, `a..=b` (true).
     Range(Box<Expr>, Box<Expr>, bool),
     /// `for pattern in iterable`.
-    For(Pattern, Box<Expr>, Block),
-    /// `while`.
-    While(Box<Expr>, Block),
+    For(Box<ForLoop>),
+    /// `while`, or `loop` as `while true`, with its label.
+    While(Box<Expr>, Block, Option<String>),
     /// `return`.
     Return(Option<Box<Expr>>),
-    /// `break`.
-    Break,
-    /// `continue`.
-    Continue,
+    /// `break`, of the loop with a label.
+    Break(Option<String>),
+    /// `continue`, of the loop with a label.
+    Continue(Option<String>),
+}
+
+/// A `for`.
+#[derive(Clone, Debug)]
+pub struct ForLoop {
+    /// Its label.
+    pub label: Option<String>,
+    /// What its attribute says.
+    pub unroll: Option<Unroll>,
+    /// What takes each value.
+    pub pattern: Pattern,
+    /// What it runs over.
+    pub over: Expr,
+    /// What it does.
+    pub body: Block,
 }
 
 /// Integer types by name.
@@ -123,15 +139,19 @@ pub enum Pattern {
     Value(Box<Expr>),
     /// `a | b`.
     Or(Vec<Pattern>),
+    /// `Name { field: pattern, .. }`.
+    Struct(Vec<(String, Pattern)>, Span),
+    /// `low..=high`: integers.
+    Range(Box<Expr>, Box<Expr>),
 }
 
 /// A type as written; references are dropped.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub enum Type {
     /// A name, with its arguments: `f32`, `Vec3`, `Frame<Vec4>`.
     Name(String, Vec<Type>),
-    /// `[T; n]`; the length is not needed.
-    Array(Box<Type>),
+    /// `[T; n]`, or `[T]` without a length.
+    Array(Box<Type>, Option<Box<Expr>>),
     /// `(A, B)`.
     Tuple(Vec<Type>),
 }
@@ -141,6 +161,8 @@ pub enum Type {
 pub struct Function {
     /// Documentation.
     pub docs: String,
+    /// Generic parameters in order: the name of a constant, `None` for a type.
+    pub generics: Vec<Option<String>>,
     /// Parameters in order; a method's first is `self`.
     pub params: Vec<(String, Type, Span)>,
     /// The body.

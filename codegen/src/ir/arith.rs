@@ -1,40 +1,59 @@
-//! What operations do to bits: the one place, used to fold constants and to interpret.
+//! What operations do: the one place, used to fold constants and to interpret, in any precision.
 
-use super::{BinaryOp, Lanes, Op, Scalar, Type, UnaryOp};
+use super::{BinaryOp, Lanes, Op, Real, Scalar, Type, UnaryOp};
 
-/// The result of a value operation (not a texture read, nor anything of arrays and regions) on arguments of
-/// type `operand`; `None` for operations that are not decided by their arguments' bits alone.
-pub fn apply(op: &Op, operand: Type, args: &[Lanes], ty: Type) -> Option<Lanes> {
+/// A scalar or up to four lanes of a vector, each the bits of an integer or of an `R`; unused lanes are 0.
+pub type Cells = [u64; 4];
+
+/// The bits of a constant as cells of an `R`.
+pub fn cells<R: Real>(ty: Type, bits: &Lanes) -> Cells {
+    bits.map(|bits| match ty.kind() {
+        Some(Scalar::F32) => R::from_f64(f64::from(f32::from_bits(bits))).to_bits(),
+        _ => u64::from(bits),
+    })
+}
+
+/// The result of a value operation on constants in `f32`, as the graph holds it.
+pub fn fold(op: &Op, operand: Type, args: &[Lanes], ty: Type) -> Option<Lanes> {
+    let args: Vec<Cells> = args.iter().map(|lanes| lanes.map(u64::from)).collect();
+    Some(apply::<f32>(op, operand, &args, ty)?.map(|cell| cell as u32))
+}
+
+/// The result of a value operation (not a read, nor anything of arrays and regions) on arguments of type `operand`;
+/// `None` for operations that are not decided by their arguments alone.
+pub fn apply<R: Real>(op: &Op, operand: Type, args: &[Cells], ty: Type) -> Option<Cells> {
     let lanes = ty.lanes() as usize;
+    let real = |cell: u64| R::from_bits(cell);
     Some(match op {
-        Op::Const(bits) => *bits,
-        Op::Unary(op) => each(lanes, |k| unary(*op, operand.kind()?, args[0][k]))?,
-        Op::Binary(op) => each(lanes, |k| binary(*op, operand.kind()?, args[0][k], args[1][k]))?,
+        Op::Const(bits) => cells::<R>(ty, bits),
+        Op::Unary(op) => each(lanes, |k| unary::<R>(*op, operand.kind()?, args[0][k]))?,
+        Op::Binary(op) => each(lanes, |k| binary::<R>(*op, operand.kind()?, args[0][k], args[1][k]))?,
         Op::Dot => {
-            let product = |k: usize| float(args[0][k]) * float(args[1][k]);
+            let product = |k: usize| real(args[0][k]) * real(args[1][k]);
             let sum = (1..operand.lanes() as usize).fold(product(0), |sum, k| sum + product(k));
             [sum.to_bits(), 0, 0, 0]
         }
         Op::Cross => {
-            let at = |v: usize, k: usize| float(args[v][k % 3]);
+            let at = |v: usize, k: usize| real(args[v][k % 3]);
             let lane = |k: usize| at(0, k + 1) * at(1, k + 2) - at(1, k + 1) * at(0, k + 2);
             each(3, |k| Some(lane(k).to_bits()))?
         }
         Op::Clamp => each(lanes, |k| {
-            let below = binary(BinaryOp::Min, operand.kind()?, args[0][k], args[2][k])?;
-            binary(BinaryOp::Max, operand.kind()?, below, args[1][k])
+            let below = binary::<R>(BinaryOp::Min, operand.kind()?, args[0][k], args[2][k])?;
+            binary::<R>(BinaryOp::Max, operand.kind()?, below, args[1][k])
         })?,
         Op::Select => args[if args[0][0] != 0 { 1 } else { 2 }],
         Op::Splat => each(lanes, |_| Some(args[0][0]))?,
         Op::Compose => each(lanes, |k| Some(args[k][0]))?,
         Op::Extract(lane) => [args[0][*lane as usize], 0, 0, 0],
-        Op::Convert => each(lanes, |k| convert(args[0][k], operand.kind()?, ty.kind()?))?,
+        Op::Convert => each(lanes, |k| convert::<R>(args[0][k], operand.kind()?, ty.kind()?))?,
+        Op::Bitcast => each(lanes, |k| bitcast::<R>(args[0][k], operand.kind()?, ty.kind()?))?,
         Op::Tally(_) => args[0],
         _ => return None,
     })
 }
 
-fn each(lanes: usize, lane: impl Fn(usize) -> Option<u32>) -> Option<Lanes> {
+fn each(lanes: usize, lane: impl Fn(usize) -> Option<u64>) -> Option<Cells> {
     let mut out = [0; 4];
     for (k, slot) in out.iter_mut().enumerate().take(lanes) {
         *slot = lane(k)?;
@@ -42,59 +61,32 @@ fn each(lanes: usize, lane: impl Fn(usize) -> Option<u32>) -> Option<Lanes> {
     Some(out)
 }
 
-fn float(bits: u32) -> f32 {
-    f32::from_bits(bits)
-}
-
-fn unary(op: UnaryOp, kind: Scalar, bits: u32) -> Option<u32> {
+fn unary<R: Real>(op: UnaryOp, kind: Scalar, cell: u64) -> Option<u64> {
     use UnaryOp::*;
-    Some(match (kind, op) {
+    let bits = cell as u32;
+    let word = match (kind, op) {
+        (Scalar::F32, _) => return Some(R::from_bits(cell).unary(op)?.to_bits()),
         (Scalar::Bool, Not) => 1 - bits,
         (Scalar::I32 | Scalar::U32, BitNot) => !bits,
+        (Scalar::I32 | Scalar::U32, CountOneBits) => bits.count_ones(),
+        (Scalar::I32 | Scalar::U32, ReverseBits) => bits.reverse_bits(),
+        (Scalar::I32 | Scalar::U32, LeadingZeros) => bits.leading_zeros(),
+        (Scalar::I32 | Scalar::U32, TrailingZeros) => bits.trailing_zeros(),
         (Scalar::I32, Neg) => (bits as i32).wrapping_neg() as u32,
         (Scalar::I32, Abs) => (bits as i32).wrapping_abs() as u32,
         (Scalar::I32, Sign) => (bits as i32).signum() as u32,
         (Scalar::U32, Abs) => bits,
-        (Scalar::F32, _) => unary_float(op, float(bits))?.to_bits(),
         _ => return None,
-    })
+    };
+    Some(word.into())
 }
 
-fn unary_float(op: UnaryOp, x: f32) -> Option<f32> {
-    use UnaryOp::*;
-    Some(match op {
-        Neg => -x,
-        Abs => x.abs(),
-        Sign if x > 0.0 => 1.0,
-        Sign if x < 0.0 => -1.0,
-        Sign => x * 0.0,
-        Floor => x.floor(),
-        Ceil => x.ceil(),
-        Round => x.round_ties_even(),
-        Trunc => x.trunc(),
-        Fract => x - x.floor(),
-        Sqrt => x.sqrt(),
-        InverseSqrt => 1.0 / x.sqrt(),
-        Exp => x.exp(),
-        Exp2 => x.exp2(),
-        Log => x.ln(),
-        Log2 => x.log2(),
-        Sin => x.sin(),
-        Cos => x.cos(),
-        Tan => x.tan(),
-        Asin => x.asin(),
-        Acos => x.acos(),
-        Atan => x.atan(),
-        Not | BitNot => return None,
-    })
-}
-
-fn binary(op: BinaryOp, kind: Scalar, a: u32, b: u32) -> Option<u32> {
+fn binary<R: Real>(op: BinaryOp, kind: Scalar, a: u64, b: u64) -> Option<u64> {
     match kind {
-        Scalar::Bool => binary_bool(op, a != 0, b != 0).map(u32::from),
-        Scalar::F32 => binary_float(op, float(a), float(b)),
-        Scalar::I32 => binary_i32(op, a as i32, b as i32),
-        Scalar::U32 => binary_u32(op, a, b),
+        Scalar::Bool => binary_bool(op, a != 0, b != 0).map(u64::from),
+        Scalar::F32 => binary_real(op, R::from_bits(a), R::from_bits(b)),
+        Scalar::I32 => binary_i32(op, a as i32, b as i32).map(u64::from),
+        Scalar::U32 => binary_u32(op, a as u32, b as u32).map(u64::from),
     }
 }
 
@@ -109,25 +101,16 @@ fn binary_bool(op: BinaryOp, a: bool, b: bool) -> Option<bool> {
     })
 }
 
-fn binary_float(op: BinaryOp, a: f32, b: f32) -> Option<u32> {
+fn binary_real<R: Real>(op: BinaryOp, a: R, b: R) -> Option<u64> {
     use BinaryOp::*;
     Some(match op {
-        Add => (a + b).to_bits(),
-        Sub => (a - b).to_bits(),
-        Mul => (a * b).to_bits(),
-        Div => (a / b).to_bits(),
-        Rem => (a % b).to_bits(),
-        Min => a.min(b).to_bits(),
-        Max => a.max(b).to_bits(),
-        Pow => a.powf(b).to_bits(),
-        Atan2 => a.atan2(b).to_bits(),
         Eq => (a == b).into(),
         Ne => (a != b).into(),
         Lt => (a < b).into(),
         Le => (a <= b).into(),
         Gt => (a > b).into(),
         Ge => (a >= b).into(),
-        And | Or | Xor | Shl | Shr => return None,
+        _ => a.binary(op, b)?.to_bits(),
     })
 }
 
@@ -177,16 +160,28 @@ fn binary_u32(op: BinaryOp, a: u32, b: u32) -> Option<u32> {
     })
 }
 
-fn convert(bits: u32, from: Scalar, to: Scalar) -> Option<u32> {
+fn convert<R: Real>(cell: u64, from: Scalar, to: Scalar) -> Option<u64> {
     use Scalar::*;
+    let bits = cell as u32;
+    let number = |x: f64| R::from_f64(x).to_bits();
     Some(match (from, to) {
-        (F32, I32) => float(bits) as i32 as u32,
-        (F32, U32) => float(bits) as u32,
-        (F32, Bool) => (float(bits) != 0.0).into(),
-        (I32, F32) => (bits as i32 as f32).to_bits(),
-        (U32, F32) => (bits as f32).to_bits(),
-        (Bool, F32) => (bits as f32).to_bits(),
+        (F32, I32) => u64::from(R::from_bits(cell).to_f64() as i32 as u32),
+        (F32, U32) => u64::from(R::from_bits(cell).to_f64() as u32),
+        (F32, Bool) => (R::from_bits(cell).to_f64() != 0.0).into(),
+        (I32, F32) => number(f64::from(bits as i32)),
+        (U32 | Bool, F32) => number(f64::from(bits)),
         (I32 | U32, Bool) => (bits != 0).into(),
-        (F32, F32) | (I32 | U32 | Bool, I32 | U32) | (Bool, Bool) => bits,
+        (F32, F32) | (I32 | U32 | Bool, I32 | U32) | (Bool, Bool) => cell,
+    })
+}
+
+fn bitcast<R: Real>(cell: u64, from: Scalar, to: Scalar) -> Option<u64> {
+    use Scalar::*;
+    // In other precisions too, bits are those of the nearest `f32`.
+    Some(match (from, to) {
+        (F32, I32 | U32) => u64::from((R::from_bits(cell).to_f64() as f32).to_bits()),
+        (I32 | U32, F32) => R::from_f64(f64::from(f32::from_bits(cell as u32))).to_bits(),
+        (F32, F32) | (I32 | U32, I32 | U32) => cell,
+        _ => return None,
     })
 }

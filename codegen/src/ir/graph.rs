@@ -42,15 +42,55 @@ pub enum Event {
     Close(RegionId),
 }
 
+/// What a texture is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum TextureKind {
+    /// One image.
+    Flat,
+    /// A stack of images.
+    Layers,
+    /// One image with several samples a texel.
+    Multisampled,
+    /// One image of depths to compare.
+    Depth,
+}
+
+impl TextureKind {
+    /// Whether a read names a layer or sample beside the coordinate.
+    pub fn is_indexed(self) -> bool {
+        matches!(self, TextureKind::Layers | TextureKind::Multisampled)
+    }
+}
+
 /// A texture that the kernel reads.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Texture {
     /// Its name in the kernel.
     pub name: String,
+    /// What it is.
+    pub kind: TextureKind,
     /// Components of a texel that the kernel uses, 1 to 4.
     pub components: u8,
-    /// Whether it is a stack of layers.
-    pub layered: bool,
+    /// Whether it has the output's size; else it has one of its own.
+    pub framed: bool,
+}
+
+/// A read-only array that the host fills.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Buffer {
+    /// Its name in the kernel.
+    pub name: String,
+    /// Scalar, or vector of 2 or 4.
+    pub element: Type,
+}
+
+/// A sampler.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Sampler {
+    /// Its name in the kernel.
+    pub name: String,
+    /// Whether it compares with a reference; else it filters.
+    pub comparison: bool,
 }
 
 /// A value set at run time.
@@ -79,6 +119,10 @@ pub struct Graph {
     pub events: Vec<(u32, Event)>,
     /// Textures, by the index that `Op::Load` carries.
     pub textures: Vec<Texture>,
+    /// Buffers, by the index that `Op::BufferLoad` carries.
+    pub buffers: Vec<Buffer>,
+    /// Samplers, by the index that `Op::Sample` carries.
+    pub samplers: Vec<Sampler>,
     /// Run-time parameters, by the index that `Op::Uniform` carries.
     pub uniforms: Vec<Uniform>,
     /// Names of tallies, by the index that `Op::Tally` carries.
@@ -143,15 +187,6 @@ impl Graph {
 pub trait Rules {
     /// A node that stands for `op` of `args`, or `None` to make it as it is. May make other nodes first.
     fn simplify(&self, builder: &mut Builder<'_>, op: &Op, args: &[NodeId], ty: Type) -> Option<NodeId>;
-}
-
-/// No simplification.
-pub struct Unfolded;
-
-impl Rules for Unfolded {
-    fn simplify(&self, _: &mut Builder<'_>, _: &Op, _: &[NodeId], _: Type) -> Option<NodeId> {
-        None
-    }
 }
 
 /// Makes a graph node by node; equal nodes are made once.

@@ -5,8 +5,8 @@
 //! - A [`Graph`] computes one value, [`Graph::output`], for one output pixel. It has no side effects; what a
 //!   host stores, and where, is the shell's affair.
 //! - A node is a pure, total function of its arguments. It may be evaluated never, once or often, early or
-//!   late, with the same result. This holds for texture reads too: textures do not change during a dispatch,
-//!   and coordinates are clamped by nodes of their own.
+//!   late, with the same result. This holds for reads too: textures and buffers do not change during a dispatch,
+//!   and coordinates and indices are clamped by nodes of their own.
 //! - Arithmetic is that of WGSL: `f32` rounds to nearest, ties to even, and is never contracted or reassociated
 //!   by a pass in exact mode; `i32` and `u32` wrap; a division by zero of integers gives the dividend and its
 //!   remainder 0; shifts use the count modulo 32.
@@ -21,8 +21,8 @@
 //! - A kept branch is one [`Op::If`] node with two regions without parameters.
 //! - Nodes belong to no region by themselves: where a node is evaluated follows from what it depends on and who
 //!   uses it, and is decided in one place, the schedule.
-//! - Equal nodes are one node (hash-consing). [`Op::Load`] carries the site of its call so that reads are only
-//!   shared by the pass that is there for it.
+//! - Equal nodes are one node (hash-consing). Reads carry the site of their call so that they are only shared by
+//!   the pass that is there for it.
 //!
 //! A graph is not changed once built: a pass builds another.
 
@@ -31,14 +31,18 @@ mod graph;
 pub mod interp;
 mod op;
 mod origin;
+mod parse;
 mod print;
+mod real;
 mod rebuild;
 mod types;
 pub mod verify;
 
-pub use graph::{Builder, Event, Graph, Node, NodeId, Region, RegionId, Rules, Texture, Unfolded, Uniform};
+pub use graph::{Buffer, Builder, Event, Graph, Node, NodeId, Region, RegionId, Rules, Sampler, Texture, TextureKind, Uniform};
 pub use op::{BinaryOp, Op, UnaryOp};
 pub use origin::{Counter, Origin};
+pub use parse::{ParseError, parse};
 pub use print::print;
+pub use real::{F16, Real};
 pub use rebuild::{Rebuild, rebuild};
 pub use types::{Lanes, Scalar, Type};

@@ -34,12 +34,55 @@ pub enum Op {
     /// A conversion to the node's type, lane by lane, as WGSL's value constructors do it: floats to integers
     /// truncate and saturate.
     Convert,
-    /// A texel: coordinate (`vec2<i32>`, inside the frame), and layer (`i32`) for a stack of layers. `site`
-    /// keeps reads of different calls apart until load sharing sets it to 0.
+    /// The same bits as another kind of number, lane by lane.
+    Bitcast,
+    /// Width and height of a texture (index into `Graph::textures`), `vec2<i32>`, each at least 1.
+    TextureSize(u32),
+    /// A texel: coordinate (`vec2<i32>`, inside the texture), and the layer or sample (`i32`) where there are several.
+    /// `site` keeps reads of different calls apart until load sharing sets it to 0.
     Load {
         /// Index into `Graph::textures`.
         texture: u32,
         /// The call that it stands for, or 0.
+        site: u32,
+    },
+    /// A texture between its texels, at its finest level: coordinate (`vec2<f32>`, 0 to 1).
+    Sample {
+        /// Index into `Graph::textures`.
+        texture: u32,
+        /// Index into `Graph::samplers`.
+        sampler: u32,
+        /// As of `Load`.
+        site: u32,
+    },
+    /// One component of the four texels around a coordinate (`vec2<f32>`), `vec4<f32>`: lower left, lower right, upper
+    /// right, upper left.
+    Gather {
+        /// Index into `Graph::textures`.
+        texture: u32,
+        /// Index into `Graph::samplers`.
+        sampler: u32,
+        /// 0 to 3.
+        component: u8,
+        /// As of `Load`.
+        site: u32,
+    },
+    /// How much of a depth texture around a coordinate (`vec2<f32>`) passes a comparison with a reference (`f32`).
+    Compare {
+        /// Index into `Graph::textures`.
+        texture: u32,
+        /// Index into `Graph::samplers`.
+        sampler: u32,
+        /// As of `Load`.
+        site: u32,
+    },
+    /// Number of elements of a buffer (index into `Graph::buffers`), `i32`, at least 1.
+    BufferLen(u32),
+    /// An element of a buffer: index (`i32`, inside the buffer).
+    BufferLoad {
+        /// Index into `Graph::buffers`.
+        buffer: u32,
+        /// As of `Load`.
         site: u32,
     },
     /// A value counted by name (index into `Graph::tallies`); the value itself.
@@ -86,6 +129,13 @@ pub enum UnaryOp {
     Asin,
     Acos,
     Atan,
+    Sinh,
+    Cosh,
+    Tanh,
+    CountOneBits,
+    ReverseBits,
+    LeadingZeros,
+    TrailingZeros,
 }
 
 /// Operations on two arguments.
@@ -115,6 +165,12 @@ pub enum BinaryOp {
 }
 
 impl BinaryOp {
+    /// Every operation.
+    pub const ALL: [BinaryOp; 20] = {
+        use BinaryOp::*;
+        [Add, Sub, Mul, Div, Rem, Min, Max, Pow, Atan2, And, Or, Xor, Shl, Shr, Eq, Ne, Lt, Le, Gt, Ge]
+    };
+
     /// Whether it compares, giving booleans.
     pub fn is_comparison(self) -> bool {
         use BinaryOp::*;
@@ -129,12 +185,78 @@ impl BinaryOp {
 }
 
 impl UnaryOp {
+    /// Every operation.
+    pub const ALL: [UnaryOp; 29] = {
+        use UnaryOp::*;
+        [Neg, Not, BitNot, Abs, Sign, Floor, Ceil, Round, Trunc, Fract, Sqrt, InverseSqrt, Exp, Exp2, Log, Log2, Sin, Cos, Tan, Asin, Acos, Atan, Sinh, Cosh, Tanh, CountOneBits, ReverseBits, LeadingZeros, TrailingZeros]
+    };
+
     /// Whether hardware computes it in a special, slower unit.
     pub fn is_transcendental(self) -> bool {
         use UnaryOp::*;
         matches!(
             self,
-            Sqrt | InverseSqrt | Exp | Exp2 | Log | Log2 | Sin | Cos | Tan | Asin | Acos | Atan
+            Sqrt | InverseSqrt | Exp | Exp2 | Log | Log2 | Sin | Cos | Tan | Asin | Acos | Atan | Sinh | Cosh | Tanh
         )
+    }
+}
+
+impl Op {
+    /// Whether it reads memory that a host fills.
+    pub fn is_read(&self) -> bool {
+        self.site().is_some()
+    }
+
+    /// The texture that it reads or asks the size of.
+    pub fn texture(&self) -> Option<u32> {
+        match self {
+            Op::Load { texture, .. }
+            | Op::Sample { texture, .. }
+            | Op::Gather { texture, .. }
+            | Op::Compare { texture, .. }
+            | Op::TextureSize(texture) => Some(*texture),
+            _ => None,
+        }
+    }
+
+    /// The sampler that it reads by.
+    pub fn sampler(&self) -> Option<u32> {
+        match self {
+            Op::Sample { sampler, .. } | Op::Gather { sampler, .. } | Op::Compare { sampler, .. } => Some(*sampler),
+            _ => None,
+        }
+    }
+
+    /// The buffer that it reads or asks the length of.
+    pub fn buffer(&self) -> Option<u32> {
+        match self {
+            Op::BufferLoad { buffer, .. } | Op::BufferLen(buffer) => Some(*buffer),
+            _ => None,
+        }
+    }
+
+    /// The call that a read stands for, 0 for all of them.
+    pub fn site(&self) -> Option<u32> {
+        match self {
+            Op::Load { site, .. }
+            | Op::Sample { site, .. }
+            | Op::Gather { site, .. }
+            | Op::Compare { site, .. }
+            | Op::BufferLoad { site, .. } => Some(*site),
+            _ => None,
+        }
+    }
+
+    /// A read that stands for every call of it.
+    pub fn shared(mut self) -> Op {
+        if let Op::Load { site, .. }
+        | Op::Sample { site, .. }
+        | Op::Gather { site, .. }
+        | Op::Compare { site, .. }
+        | Op::BufferLoad { site, .. } = &mut self
+        {
+            *site = 0;
+        }
+        self
     }
 }

@@ -1,46 +1,84 @@
-//! The graph as text, for people and for tests.
+//! The graph as text, for people and for tests; [`super::parse`] reads it back.
+//!
+//! Tables first, then one node a line, indented by region, and the kernel's result last:
+//!
+//! ```text
+//! file kernels/src/glow.rs
+//! texture color: flat 4 frame
+//! uniform tau: f32 = 500
+//! %0: f32 = const 1.0
+//! %1: f32 = uniform tau
+//! %2: f32 = binary Add %0 %1    // sum @0:31 sample=2
+//! ...
+//! output %7
+//! ```
 
-use super::{Graph, NodeId, Op};
+use super::{Event, Graph, NodeId, Op, Scalar, TextureKind, Type};
 use std::fmt::Write;
 
-/// One line a node, indented by region:
-///
-/// ```text
-/// %3: f32 = binary Add %1 %2    // sum sample=0
-/// ```
+/// The whole graph.
 pub fn print(graph: &Graph) -> String {
-    let mut text = String::new();
+    let mut text = tables(graph);
     let mut depth = 0usize;
     let mut events = graph.events.iter().peekable();
     for id in graph.ids() {
         while let Some((_, event)) = events.next_if(|(at, _)| *at <= id.0) {
-            depth = print_event(&mut text, graph, depth, event);
+            depth = print_event(&mut text, depth, event);
         }
         let _ = writeln!(text, "{}{}", "  ".repeat(depth), line(graph, id));
     }
     for (_, event) in events {
-        depth = print_event(&mut text, graph, depth, event);
+        depth = print_event(&mut text, depth, event);
+    }
+    let _ = writeln!(text, "output %{}", graph.output().0);
+    text
+}
+
+fn tables(graph: &Graph) -> String {
+    let mut text = String::new();
+    for file in &graph.files {
+        let _ = writeln!(text, "file {file}");
+    }
+    for t in &graph.textures {
+        let size = if t.framed { "frame" } else { "own" };
+        let _ = writeln!(text, "texture {}: {} {} {size}", t.name, kind_name(t.kind), t.components);
+    }
+    for b in &graph.buffers {
+        let _ = writeln!(text, "buffer {}: {}", b.name, b.element);
+    }
+    for s in &graph.samplers {
+        let kind = if s.comparison { "comparison" } else { "filtering" };
+        let _ = writeln!(text, "sampler {}: {kind}", s.name);
+    }
+    for u in &graph.uniforms {
+        let default = u.default.map_or(String::new(), |d| format!(" = {d}"));
+        let _ = writeln!(text, "uniform {}: {}{default}", u.name, u.ty);
+    }
+    for name in &graph.tallies {
+        let _ = writeln!(text, "tally {name}");
     }
     text
 }
 
-fn print_event(text: &mut String, graph: &Graph, depth: usize, event: &super::Event) -> usize {
+/// The word for a kind of texture.
+pub(super) fn kind_name(kind: TextureKind) -> &'static str {
+    match kind {
+        TextureKind::Flat => "flat",
+        TextureKind::Layers => "layers",
+        TextureKind::Multisampled => "multisampled",
+        TextureKind::Depth => "depth",
+    }
+}
+
+fn print_event(text: &mut String, depth: usize, event: &Event) -> usize {
     match event {
-        super::Event::Open(region) => {
+        Event::Open(region) => {
             let _ = writeln!(text, "{}region {} {{", "  ".repeat(depth), region.0);
             depth + 1
         }
-        super::Event::Close(region) => {
-            let results: Vec<_> = graph
-                .region(*region)
-                .results
-                .iter()
-                .map(|r| format!("%{}", r.0))
-                .collect();
-            let _ = writeln!(text, "{}yield {}", "  ".repeat(depth), results.join(" "));
-            if *region != Graph::BODY {
-                let _ = writeln!(text, "{}}}", "  ".repeat(depth.saturating_sub(1)));
-            }
+        Event::Close(Graph::BODY) => depth,
+        Event::Close(_) => {
+            let _ = writeln!(text, "{}}}", "  ".repeat(depth.saturating_sub(1)));
             depth.saturating_sub(1)
         }
     }
@@ -52,8 +90,14 @@ fn line(graph: &Graph, id: NodeId) -> String {
     for arg in &node.args {
         let _ = write!(line, " %{}", arg.0);
     }
+    for region in graph.regions_of(id) {
+        let _ = write!(line, " yields {}:", region.0);
+        for result in &graph.region(region).results {
+            let _ = write!(line, " %{}", result.0);
+        }
+    }
     if let Some(origin) = graph.origin(id) {
-        let _ = write!(line, "    // {}", origin.name);
+        let _ = write!(line, "    // {} @{}:{}", origin.name, origin.file, origin.line);
         for counter in &origin.counters {
             let _ = write!(line, " {}={}", counter.name, counter.value);
         }
@@ -61,27 +105,54 @@ fn line(graph: &Graph, id: NodeId) -> String {
     line
 }
 
-fn op(graph: &Graph, op: &Op, ty: super::Type) -> String {
+fn op(graph: &Graph, op: &Op, ty: Type) -> String {
+    let texture = |k: &u32| graph.textures[*k as usize].name.as_str();
+    let sampler = |k: &u32| graph.samplers[*k as usize].name.as_str();
+    let buffer = |k: &u32| graph.buffers[*k as usize].name.as_str();
+    let at = match op.site() {
+        None | Some(0) => String::new(),
+        Some(site) => format!(" site={site}"),
+    };
     match op {
         Op::Const(bits) => {
-            let lanes = bits[..ty.lanes() as usize].iter().map(|b| match ty.kind() {
-                Some(super::Scalar::F32) => format!("{:?}", f32::from_bits(*b)),
-                Some(super::Scalar::I32) => format!("{}", *b as i32),
-                _ => format!("{b}"),
-            });
+            let lanes = bits[..ty.lanes() as usize].iter().map(|b| lane(ty, *b));
             format!("const {}", lanes.collect::<Vec<_>>().join(" "))
         }
         Op::Uniform(k) => format!("uniform {}", graph.uniforms[*k as usize].name),
         Op::Unary(op) => format!("unary {op:?}"),
         Op::Binary(op) => format!("binary {op:?}"),
         Op::Extract(lane) => format!("extract {lane}"),
-        Op::Load { texture, site: 0 } => format!("load {}", graph.textures[*texture as usize].name),
-        Op::Load { texture, site } => format!("load {} site={site}", graph.textures[*texture as usize].name),
+        Op::TextureSize(k) => format!("texturesize {}", texture(k)),
+        Op::Load { texture: t, .. } => format!("load {}{at}", texture(t)),
+        Op::Sample {
+            texture: t, sampler: s, ..
+        } => format!("sample {} {}{at}", texture(t), sampler(s)),
+        Op::Gather {
+            texture: t,
+            sampler: s,
+            component,
+            ..
+        } => format!("gather {} {} {component}{at}", texture(t), sampler(s)),
+        Op::Compare {
+            texture: t, sampler: s, ..
+        } => format!("compare {} {}{at}", texture(t), sampler(s)),
+        Op::BufferLen(k) => format!("bufferlen {}", buffer(k)),
+        Op::BufferLoad { buffer: b, .. } => format!("bufferload {}{at}", buffer(b)),
         Op::Tally(name) => format!("tally {}", graph.tallies[*name as usize]),
         Op::Loop(region) => format!("loop region={}", region.0),
-        Op::If(then, otherwise) => format!("if region={} else region={}", then.0, otherwise.0),
+        Op::If(then, otherwise) => format!("if region={} region={}", then.0, otherwise.0),
         Op::Result(k) => format!("result {k}"),
-        Op::Param(region, k) => format!("param {} of {}", k, region.0),
+        Op::Param(region, k) => format!("param {k} region={}", region.0),
         plain => format!("{plain:?}").to_lowercase(),
+    }
+}
+
+/// A lane that reads back as the same bits.
+fn lane(ty: Type, bits: u32) -> String {
+    match ty.kind() {
+        Some(Scalar::F32) if f32::from_bits(bits).is_nan() => format!("bits:{bits:08x}"),
+        Some(Scalar::F32) => format!("{:?}", f32::from_bits(bits)),
+        Some(Scalar::I32) => format!("{}", bits as i32),
+        _ => format!("{bits}"),
     }
 }

@@ -41,6 +41,8 @@ pub fn rebuild(old: &Graph, pass: &Rebuild<'_>) -> Graph {
 
 fn copy_tables(old: &Graph, new: &mut Graph) {
     new.textures.clone_from(&old.textures);
+    new.buffers.clone_from(&old.buffers);
+    new.samplers.clone_from(&old.samplers);
     new.uniforms.clone_from(&old.uniforms);
     new.tallies.clone_from(&old.tallies);
     new.files.clone_from(&old.files);
@@ -115,13 +117,7 @@ impl Walk<'_, '_> {
                     .count();
                 (Op::Result(k - gone as u32), node.args.clone())
             }
-            Op::Load { texture, .. } if share_loads => (
-                Op::Load {
-                    texture: *texture,
-                    site: 0,
-                },
-                node.args.clone(),
-            ),
+            read if share_loads && read.is_read() => (read.clone().shared(), node.args.clone()),
             other => (other.clone(), node.args.clone()),
         };
         let args = args.iter().map(|a| self.new_id(*a)).collect();

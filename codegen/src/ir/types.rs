@@ -104,6 +104,11 @@ impl Type {
         matches!(self, Type::Value { lanes: 1, .. })
     }
 
+    /// Whether the lanes are integers.
+    pub fn is_integer(self) -> bool {
+        matches!(self.kind(), Some(Scalar::I32 | Scalar::U32))
+    }
+
     /// Whether the lanes are floats.
     pub fn is_float(self) -> bool {
         self.kind() == Some(Scalar::F32)

@@ -7,7 +7,7 @@
 //! 4. A parameter is only used inside its region.
 //! 5. The kernel has one result, `vec4<f32>`.
 
-use super::{BinaryOp, Graph, NodeId, Op, RegionId, Scalar, Type};
+use super::{BinaryOp, Graph, NodeId, Op, RegionId, Scalar, TextureKind, Type};
 
 /// Checks a graph; the message names the node that breaks a rule.
 pub fn verify(graph: &Graph) -> Result<(), String> {
@@ -113,15 +113,51 @@ fn check(graph: &Graph, id: NodeId) -> Result<(), String> {
             count(1)?;
             expect(types[0].lanes() == node.ty.lanes(), "as many lanes as before")
         }
+        Op::Bitcast => {
+            count(1)?;
+            let number = |t: Type| t.kind() != Some(Scalar::Bool);
+            let alike = types[0].lanes() == node.ty.lanes() && number(types[0]) && number(node.ty);
+            expect(alike, "numbers of as many lanes")
+        }
+        Op::TextureSize(texture) => {
+            expect((*texture as usize) < graph.textures.len(), "no such texture")?;
+            expect(node.ty == Type::value(Scalar::I32, 2), "a size is a vec2<i32>")
+        }
         Op::Load { texture, .. } => {
             let entry = graph.textures.get(*texture as usize).ok_or("no such texture")?;
-            count(1 + usize::from(entry.layered))?;
+            count(1 + usize::from(entry.kind.is_indexed()))?;
             expect(types[0] == Type::value(Scalar::I32, 2), "a coordinate is a vec2<i32>")?;
             expect(types.get(1).is_none_or(|t| *t == Type::I32), "a layer is an i32")?;
             expect(
                 node.ty == Type::value(Scalar::F32, entry.components),
                 "a texel of the texture's components",
             )
+        }
+        Op::Sample { texture, sampler, .. } | Op::Gather { texture, sampler, .. } => {
+            let entry = graph.textures.get(*texture as usize).ok_or("no such texture")?;
+            let through = graph.samplers.get(*sampler as usize).ok_or("no such sampler")?;
+            count(1)?;
+            expect(entry.kind == TextureKind::Flat && !through.comparison, "a flat texture and a filtering sampler")?;
+            let components = if matches!(node.op, Op::Gather { .. }) { 4 } else { entry.components };
+            let fits = types[0] == Type::value(Scalar::F32, 2) && node.ty == Type::value(Scalar::F32, components);
+            expect(fits, "a vec2<f32> to what the texture holds")
+        }
+        Op::Compare { texture, sampler, .. } => {
+            let entry = graph.textures.get(*texture as usize).ok_or("no such texture")?;
+            let through = graph.samplers.get(*sampler as usize).ok_or("no such sampler")?;
+            count(2)?;
+            expect(entry.kind == TextureKind::Depth && through.comparison, "a depth texture and a comparison sampler")?;
+            let fits = types[0] == Type::value(Scalar::F32, 2) && types[1] == Type::F32 && node.ty == Type::F32;
+            expect(fits, "a vec2<f32> and an f32 to an f32")
+        }
+        Op::BufferLen(buffer) => {
+            expect((*buffer as usize) < graph.buffers.len(), "no such buffer")?;
+            expect(node.ty == Type::I32, "a length is an i32")
+        }
+        Op::BufferLoad { buffer, .. } => {
+            let entry = graph.buffers.get(*buffer as usize).ok_or("no such buffer")?;
+            count(1)?;
+            expect(types[0] == Type::I32 && node.ty == entry.element, "an index to an element")
         }
         Op::MakeArray => {
             let Type::Array { len, .. } = node.ty else {

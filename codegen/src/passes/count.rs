@@ -1,5 +1,6 @@
 //! Static counts: what one invocation executes.
 
+use super::ranges;
 use super::schedule::{Block, Schedule, Step};
 use crate::ir::{Graph, NodeId, Op, Scalar};
 use std::collections::BTreeMap;
@@ -8,7 +9,8 @@ use straightline_manifest::Counts;
 /// The texture that a filter filters; its reads are counted apart.
 const FILTERED: &str = "color";
 
-/// Counts what one invocation executes. `statements` is known only once text is emitted and is left 0.
+/// Counts what one invocation executes; a loop whose number of rounds is only known at run time counts as one round.
+/// `statements` is known only once text is emitted and is left 0.
 pub fn count(graph: &Graph, schedule: &Schedule) -> Counts {
     let run = Counter { graph }.block(&schedule.body);
     let reads: BTreeMap<String, u32> = run.reads;
@@ -82,10 +84,12 @@ impl Counter<'_> {
 
     fn node(&self, id: NodeId, run: &mut Run) {
         match &self.graph.node(id).op {
-            Op::Load { texture, .. } => {
-                *run.reads
-                    .entry(self.graph.textures[*texture as usize].name.clone())
-                    .or_default() += 1;
+            op if op.is_read() => {
+                let texture = op.texture().map(|t| &self.graph.textures[t as usize].name);
+                let buffer = op.buffer().map(|b| &self.graph.buffers[b as usize].name);
+                if let Some(name) = texture.or(buffer) {
+                    *run.reads.entry(name.clone()).or_default() += 1;
+                }
             }
             Op::Tally(name) => {
                 *run.tallies
@@ -94,35 +98,26 @@ impl Counter<'_> {
             }
             Op::Unary(op) if op.is_transcendental() => run.transcendentals += 1,
             Op::Binary(crate::ir::BinaryOp::Pow | crate::ir::BinaryOp::Atan2) => run.transcendentals += 1,
-            Op::Unary(_) | Op::Binary(_) | Op::Dot | Op::Cross | Op::Clamp | Op::Select | Op::Convert => run.alu += 1,
+            Op::Unary(_) | Op::Binary(_) | Op::Dot | Op::Cross | Op::Clamp | Op::Select | Op::Convert | Op::Bitcast => run.alu += 1,
             _ => {}
         }
     }
 }
 
-/// Layers of a texture that reads can reach: one more than the largest index that a read's layer is known to take,
-/// be it a constant or the counter of a loop with known bounds. A layer computed in another way counts as the first.
-pub fn layers_read(graph: &Graph, texture: u32) -> u32 {
-    let reads = graph
-        .ids()
-        .filter(|id| matches!(graph.node(*id).op, Op::Load { texture: t, .. } if t == texture));
-    let layers = reads.map(|id| match graph.node(id).args.get(1) {
-        Some(layer) => largest(graph, *layer).map_or(1, |k| k.max(0) as u32 + 1),
-        None => 1,
-    });
-    layers.max().unwrap_or(1)
-}
-
-/// The largest value that an index can have, where that is plain.
-fn largest(graph: &Graph, id: NodeId) -> Option<i32> {
-    match graph.node(id).op {
-        Op::Const(bits) => Some(bits[0] as i32),
-        Op::Param(region, 0) => {
-            let owner = graph.ids().find(|id| graph.node(*id).op == Op::Loop(region))?;
-            graph.constant(graph.node(owner).args[1]).map(|bits| bits[0] as i32 - 1)
+/// Layers, or samples, of a texture that reads can reach: one more than the largest index. `None` if an index is not
+/// bounded by what is known now.
+pub fn layers_read(graph: &Graph, texture: u32) -> Option<u32> {
+    let mut layers = 1;
+    for id in graph.ids() {
+        let node = graph.node(id);
+        if matches!(node.op, Op::Load { texture: t, .. } if t == texture)
+            && let Some(layer) = node.args.get(1)
+        {
+            let (_, largest) = ranges::bounds(graph, *layer)?;
+            layers = layers.max(u32::try_from(largest.max(0)).ok()?.checked_add(1)?);
         }
-        _ => None,
     }
+    Some(layers)
 }
 
 /// How often a loop runs, where both bounds are known.

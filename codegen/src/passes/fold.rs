@@ -31,7 +31,7 @@ fn constant(b: &mut Builder<'_>, op: &Op, args: &[NodeId], ty: Type) -> Option<N
     if ty.is_array() {
         return None;
     }
-    let bits = arith::apply(op, operand, &operands?, ty)?;
+    let bits = arith::fold(op, operand, &operands?, ty)?;
     Some(b.constant(ty, bits))
 }
 

@@ -35,6 +35,67 @@ fn at_depth(g: &Graph, id: NodeId, depth: u32) -> bool {
     }
 }
 
+/// The smallest and the largest value that an integer can have, as far as constants and loop counters tell.
+pub fn bounds(g: &Graph, id: NodeId) -> Option<(i64, i64)> {
+    bounds_at(g, id, DEPTH)
+}
+
+fn bounds_at(g: &Graph, id: NodeId, depth: u32) -> Option<(i64, i64)> {
+    if depth == 0 {
+        return None;
+    }
+    let node = g.node(id);
+    let of = |k: usize| bounds_at(g, node.args[k], depth - 1);
+    let fits = |(low, high): (i64, i64)| {
+        // What leaves the range wraps.
+        let range = if node.ty == Type::U32 { 0..=i64::from(u32::MAX) } else { i64::from(i32::MIN)..=i64::from(i32::MAX) };
+        (range.contains(&low) && range.contains(&high)).then_some((low, high))
+    };
+    let corners = |f: fn(i64, i64) -> i64| {
+        let ((a, b), (c, d)) = (of(0)?, of(1)?);
+        let all = [f(a, c), f(a, d), f(b, c), f(b, d)];
+        fits((*all.iter().min()?, *all.iter().max()?))
+    };
+    match &node.op {
+        Op::Const(bits) if node.ty == Type::I32 => Some((i64::from(bits[0] as i32), i64::from(bits[0] as i32))),
+        Op::Const(bits) if node.ty == Type::U32 => Some((i64::from(bits[0]), i64::from(bits[0]))),
+        Op::Param(region, 0) => {
+            let owner = g.ids().find(|id| g.node(*id).op == Op::Loop(*region))?;
+            let bound = |k: usize| bounds_at(g, g.node(owner).args[k], depth - 1);
+            let ((low, _), (_, end)) = (bound(0)?, bound(1)?);
+            Some((low, (end - 1).max(low)))
+        }
+        Op::Binary(BinaryOp::Add) => corners(|a, b| a + b),
+        Op::Binary(BinaryOp::Sub) => corners(|a, b| a - b),
+        Op::Binary(BinaryOp::Mul) => corners(|a, b| a.saturating_mul(b)),
+        Op::Binary(BinaryOp::Div) => {
+            let divisor = g.constant(node.args[1]).map(|bits| i64::from(bits[0] as i32)).filter(|d| *d > 0)?;
+            of(0).map(|(low, high)| (low / divisor, high / divisor))
+        }
+        Op::Binary(BinaryOp::Rem) => {
+            let divisor = g.constant(node.args[1]).map(|bits| i64::from(bits[0] as i32)).filter(|d| *d > 0)?;
+            let low = of(0).map_or(1 - divisor, |(low, _)| low.clamp(1 - divisor, 0));
+            Some((if node.ty == Type::U32 { 0 } else { low }, divisor - 1))
+        }
+        Op::Binary(op @ (BinaryOp::Min | BinaryOp::Max)) => match (of(0), of(1), op) {
+            (Some((a, b)), Some((c, d)), BinaryOp::Min) => Some((a.min(c), b.min(d))),
+            (Some((a, b)), Some((c, d)), _) => Some((a.max(c), b.max(d))),
+            (Some((_, high)), None, BinaryOp::Min) | (None, Some((_, high)), BinaryOp::Min) => Some((i64::from(i32::MIN), high)),
+            _ => None,
+        },
+        Op::Clamp => {
+            let ((low, _), (_, high)) = (of(1)?, of(2)?);
+            Some((low, high.max(low)))
+        }
+        Op::Select => {
+            let ((a, b), (c, d)) = (of(1)?, of(2)?);
+            Some((a.min(c), b.max(d)))
+        }
+        Op::Convert if node.ty.is_scalar() => fits(of(0)?),
+        _ => None,
+    }
+}
+
 /// Clamping of a neighbour's coordinate to the frame: the pixel itself is inside, so a step to the right can only
 /// leave on the right.
 pub fn clamp(b: &mut Builder<'_>, op: &Op, args: &[NodeId], ty: Type) -> Option<NodeId> {

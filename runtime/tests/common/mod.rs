@@ -1,6 +1,8 @@
 //! A device, fixtures and pictures for the tests.
 #![allow(dead_code, reason = "each test file uses its part")]
 
+mod kernels;
+
 use straightline_runtime::wgpu;
 use wgpu::TextureFormat;
 
@@ -61,6 +63,52 @@ impl Gpu {
             format,
             usage,
             view_formats: &[],
+        })
+    }
+
+    /// A texture of one layer with `sample_count` samples a texel.
+    pub fn multisampled(&self, size: [u32; 2], sample_count: u32, format: TextureFormat) -> wgpu::Texture {
+        self.device.create_texture(&wgpu::TextureDescriptor {
+            label: None,
+            size: wgpu::Extent3d {
+                width: size[0],
+                height: size[1],
+                depth_or_array_layers: 1,
+            },
+            mip_level_count: 1,
+            sample_count,
+            dimension: wgpu::TextureDimension::D2,
+            format,
+            usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::RENDER_ATTACHMENT,
+            view_formats: &[],
+        })
+    }
+
+    /// A storage buffer that holds `words`.
+    pub fn storage(&self, words: &[f32]) -> wgpu::Buffer {
+        let bytes: Vec<u8> = words.iter().flat_map(|word| word.to_le_bytes()).collect();
+        let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST;
+        let buffer = self.buffer(bytes.len() as u64, usage);
+        self.queue.write_buffer(&buffer, 0, &bytes);
+        buffer
+    }
+
+    pub fn buffer(&self, size: u64, usage: wgpu::BufferUsages) -> wgpu::Buffer {
+        self.device.create_buffer(&wgpu::BufferDescriptor {
+            label: None,
+            size,
+            usage,
+            mapped_at_creation: false,
+        })
+    }
+
+    /// A linear sampler, of comparisons if there is something to `compare`.
+    pub fn sampler(&self, compare: Option<wgpu::CompareFunction>) -> wgpu::Sampler {
+        self.device.create_sampler(&wgpu::SamplerDescriptor {
+            mag_filter: wgpu::FilterMode::Linear,
+            min_filter: wgpu::FilterMode::Linear,
+            compare,
+            ..Default::default()
         })
     }
 
@@ -160,6 +208,24 @@ pub fn array_view(texture: &wgpu::Texture) -> wgpu::TextureView {
     })
 }
 
+pub fn clear_depth(encoder: &mut wgpu::CommandEncoder, view: &wgpu::TextureView, format: TextureFormat, depth: f32) {
+    let store = wgpu::StoreOp::Store;
+    encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+        depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+            view,
+            depth_ops: Some(wgpu::Operations {
+                load: wgpu::LoadOp::Clear(depth),
+                store,
+            }),
+            stencil_ops: format.has_stencil_aspect().then_some(wgpu::Operations {
+                load: wgpu::LoadOp::Clear(0),
+                store,
+            }),
+        }),
+        ..Default::default()
+    });
+}
+
 /// A picture in which every component of every pixel is different.
 pub fn ramp(size: [u32; 2], layers: u32) -> Vec<[f32; 4]> {
     (0..size[0] * size[1] * layers)
@@ -167,6 +233,7 @@ pub fn ramp(size: [u32; 2], layers: u32) -> Vec<[f32; 4]> {
         .collect()
 }
 
+pub use kernels::*;
 pub use straightline_runtime::manifest::Stage;
 pub const STAGES: [Stage; 2] = [Stage::Compute, Stage::Fragment];
 
@@ -225,7 +292,7 @@ impl Kernel<'_> {
         };
         let stage = stage.name();
         let manifest = format!(
-            r#"{{"schema": 1, "generator": "by hand", "kernel": "{name}", "stage": "{stage}", "unroll": "full",
+            r#"{{"schema": 2, "generator": "by hand", "kernel": "{name}", "stage": "{stage}", "unroll": "full",
                 "entry_point": "{name}", {workgroup} "bindings": [{}], "output": {output}, "options": {{}},
                 "counts": {{"basic_blocks": 1, "loops": 0, "texture_reads": 0, "colour_reads": 1, "reads": {{}},
                     "tallies": {{}}, "transcendentals": 0, "alu": 0, "statements": 1, "max_live": 4}}}}"#,
@@ -234,42 +301,3 @@ impl Kernel<'_> {
         Fixture { manifest, wgsl }
     }
 }
-
-pub const COLOR: &str = r#"{"group": 0, "binding": 0, "name": "color", "type": "texture", "access": "read",
-    "dimension": "2d", "components": 4, "layers": 1}"#;
-pub const DEPTH: &str = r#"{"group": 0, "binding": 1, "name": "depth", "type": "texture", "access": "read",
-    "dimension": "2d-array", "components": 1, "layers": 3}"#;
-/// In a group of its own, and not the next one.
-pub const PARAMS: &str = r#"{"group": 2, "binding": 4, "name": "params", "type": "uniform", "access": "read",
-    "size": 32, "fields": [
-        {"name": "offset", "type": "vec4f", "offset": 0, "size": 16},
-        {"name": "scale", "type": "f32", "offset": 16, "size": 4, "default": 2.0},
-        {"name": "steps", "type": "i32", "offset": 20, "size": 4, "default": -3}]}"#;
-
-/// `color`, unchanged.
-pub const COPY: Kernel = Kernel {
-    name: "copy",
-    bindings: &[COLOR],
-    declarations: "@group(0) @binding(0) var color: texture_2d<f32>;",
-    result: "textureLoad(color, pixel, 0)",
-};
-
-/// `color` with the three layers of `depth` in place of red, green and blue.
-pub const LAYERS: Kernel = Kernel {
-    name: "layers",
-    bindings: &[COLOR, DEPTH],
-    declarations: "@group(0) @binding(0) var color: texture_2d<f32>;
-        @group(0) @binding(1) var depth: texture_2d_array<f32>;",
-    result: "vec4f(textureLoad(depth, pixel, 0, 0).x, textureLoad(depth, pixel, 1, 0).x,
-        textureLoad(depth, pixel, 2, 0).x, textureLoad(color, pixel, 0).w)",
-};
-
-/// `color * scale + offset + steps`.
-pub const ADD: Kernel = Kernel {
-    name: "add",
-    bindings: &[COLOR, PARAMS],
-    declarations: "struct Params { offset: vec4f, scale: f32, steps: i32 }
-        @group(0) @binding(0) var color: texture_2d<f32>;
-        @group(2) @binding(4) var<uniform> params: Params;",
-    result: "textureLoad(color, pixel, 0) * params.scale + params.offset + f32(params.steps)",
-};

@@ -2,9 +2,9 @@
 
 #![allow(dead_code)] // each test uses a part
 
-use straightline_codegen::ir::interp::{Image, Interpreter, Texels};
 use straightline_codegen::{Compiled, Kernel, Settings, Unroll};
 use straightline_kernels::prelude::*;
+use straightline_study::execute;
 use straightline_kernels::sraa::{Falloff, GBuffer, Metric, Normalisation, Pattern, Shading, Sraa};
 
 /// What a frame's resolve reads.
@@ -129,49 +129,51 @@ pub fn compile(options: &[(String, String)], unroll: Unroll) -> Compiled {
     let settings = Settings {
         options: options.to_vec(),
         unroll,
+        ..Settings::default()
     };
     Kernel::builtin("sraa")
         .and_then(|k| k.compile(&settings))
         .unwrap_or_else(|errors| panic!("{errors}"))
 }
 
-/// The inputs as the interpreter reads them: depth, normal, color.
-pub fn images(inputs: &Inputs) -> [(&'static str, Image); 3] {
-    let size = inputs.size.to_array();
-    let depth = inputs
-        .gbuffer
-        .depth
-        .layers()
-        .iter()
-        .map(|l| l.texels().iter().map(|d| [*d, 0.0, 0.0, 0.0]).collect());
-    let normal = inputs
-        .gbuffer
-        .normal
-        .layers()
-        .iter()
-        .map(|l| l.texels().iter().map(|n| n.extend(0.0).to_array()).collect());
-    let color = inputs.color.texels().iter().map(|c| c.to_array()).collect();
-    let image = |layers| Image::new(size, layers).expect("whole layers");
-    [
-        ("depth", image(depth.collect())),
-        ("normal", image(normal.collect())),
-        ("color", image(vec![color])),
-    ]
+/// The inputs by name: depth, normal, color.
+pub fn images(inputs: &Inputs) -> execute::Inputs {
+    fn layers<T: Copy>(stack: &FrameLayers<T>, texel: impl Fn(T) -> Vec4) -> Vec<Frame<Vec4>> {
+        let layer = |l: &Frame<T>| Frame::new(l.size(), l.texels().iter().map(|t| texel(*t)).collect());
+        stack.layers().iter().map(layer).collect()
+    }
+    execute::Inputs::new(inputs.size)
+        .layers("depth", layers(&inputs.gbuffer.depth, |d| vec4(d, 0.0, 0.0, 0.0)))
+        .layers("normal", layers(&inputs.gbuffer.normal, |n| n.extend(0.0)))
+        .image("color", inputs.color.clone())
 }
 
 /// Every pixel of a compiled kernel, by the interpreter.
 pub fn interpret(compiled: &Compiled, inputs: &Inputs, uniforms: &[(&str, f64)]) -> Vec<[f32; 4]> {
-    let images = images(inputs);
-    let bound: Vec<(&str, &dyn Texels)> = images
-        .iter()
-        .map(|(name, image)| (*name, image as &dyn Texels))
-        .collect();
-    let size = inputs.size.to_array();
-    let interpreter =
-        Interpreter::new(&compiled.graph, &compiled.schedule, size, &bound, uniforms).expect("all inputs are bound");
-    let mut scratch = interpreter.scratch();
-    let pixels = (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| (x, y)));
-    pixels.map(|(x, y)| interpreter.pixel(x, y, &mut scratch)).collect()
+    let mut images = images(inputs);
+    for (name, value) in uniforms {
+        images = images.uniform(name, &[*value]);
+    }
+    execute::interpret(compiled, &images, false)
+        .expect("all inputs are bound")
+        .texels
+}
+
+/// A device of any adapter.
+pub fn bench() -> execute::Bench {
+    let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
+    let adapter = pollster::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions::default()))
+        .unwrap_or_else(|e| {
+            panic!("this test needs a GPU adapter; without a GPU install Debian's mesa-vulkan-drivers: {e}")
+        });
+    let descriptor = wgpu::DeviceDescriptor {
+        required_features: adapter.features() & wgpu::Features::FLOAT32_FILTERABLE,
+        ..Default::default()
+    };
+    let device = pollster::block_on(adapter.request_device(&descriptor));
+    let (device, queue) =
+        device.unwrap_or_else(|e| panic!("the adapter {} gives no device: {e}", adapter.get_info().name));
+    execute::Bench::new(&device, &queue, false)
 }
 
 /// The same, bit for bit; any NaN equals any other.

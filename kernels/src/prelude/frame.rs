@@ -1,12 +1,6 @@
-//! The vocabulary of a kernel.
-//!
-//! What a kernel may call besides its own functions: glam's vectors, `f32` mathematics, the textures below and
-//! [`tally`]. Each means the same natively as in the emitted shader. `options!` declares the choices that are
-//! made when a shader is generated.
+//! Images with one texel for each pixel of the output.
 
-pub use glam::{IVec2, IVec3, IVec4, UVec2, Vec2, Vec3, Vec4, ivec2, ivec3, ivec4, uvec2, vec2, vec3, vec4};
-
-pub use crate::options;
+use glam::{IVec2, UVec2};
 
 /// A single-sampled image with one texel for each pixel of the output. Bound as a `texture_2d<f32>`.
 ///
@@ -74,12 +68,4 @@ impl<T: Copy> FrameLayers<T> {
     pub fn load(&self, coord: IVec2, layer: usize) -> T {
         self.layers[layer].load(coord)
     }
-}
-
-/// `value`, counted under `name` in the generator's reports. Does nothing else.
-///
-/// Only what is still computed after partial evaluation is counted: a tallied value that turned out to be
-/// known, unused or shared costs nothing and counts nothing.
-pub fn tally(_name: &str, value: f32) -> f32 {
-    value
 }

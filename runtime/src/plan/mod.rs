@@ -1,28 +1,69 @@
 //! A manifest, checked for itself: what a pass binds, in the terms that the rest of the crate uses.
 
-use crate::Error;
+mod binding;
+
 use crate::uniforms::{UniformType, UniformValue};
-use straightline_manifest::{Access, Binding, BindingKind, Dimension, Format, Manifest, Stage, UniformField};
+use crate::{Error, ResourceKind};
+use straightline_manifest::{
+    Access, Binding, BindingKind, Dimension, Extent, Format, Manifest, SampleType, SamplerType, Stage,
+};
 
 /// What to bind where. Every number in it has been checked, except against the device.
 #[derive(Debug)]
 pub(crate) struct Plan {
     pub(crate) kernel: String,
     pub(crate) entry_point: String,
-    pub(crate) textures: Vec<TexturePlan>,
+    /// In binding order.
+    pub(crate) inputs: Vec<InputPlan>,
+    /// In binding order.
     pub(crate) uniforms: Vec<UniformPlan>,
     pub(crate) output: OutputPlan,
 }
 
-/// A texture that the shader reads.
-#[derive(Clone, Debug)]
-pub(crate) struct TexturePlan {
+/// A resource that the caller gives by name.
+#[derive(Debug)]
+pub(crate) struct InputPlan {
     pub(crate) name: String,
     pub(crate) group: u32,
     pub(crate) binding: u32,
+    pub(crate) kind: InputKind,
+}
+
+/// What an input must be.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum InputKind {
+    Texture(TexturePlan),
+    Sampler(SamplerType),
+    Buffer(BufferPlan),
+}
+
+impl InputKind {
+    /// The kind of resource that is bound.
+    pub(crate) fn resource(self) -> ResourceKind {
+        match self {
+            InputKind::Texture(_) => ResourceKind::Texture,
+            InputKind::Sampler(_) => ResourceKind::Sampler,
+            InputKind::Buffer(_) => ResourceKind::Buffer,
+        }
+    }
+}
+
+/// A texture that the shader reads.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct TexturePlan {
     pub(crate) dimension: Dimension,
+    pub(crate) sample_type: SampleType,
     pub(crate) components: u8,
     pub(crate) layers: u32,
+    pub(crate) samples: u32,
+    pub(crate) extent: Extent,
+}
+
+/// A storage buffer that the shader reads.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct BufferPlan {
+    pub(crate) element: UniformType,
+    pub(crate) stride: u32,
 }
 
 /// A uniform struct.
@@ -73,7 +114,7 @@ impl Plan {
         let mut plan = Plan {
             kernel: manifest.kernel.clone(),
             entry_point: manifest.entry_point.clone(),
-            textures: Vec::new(),
+            inputs: Vec::new(),
             uniforms: Vec::new(),
             output: output(manifest).map_err(|problem| bad("output".to_owned(), problem))?,
         };
@@ -81,6 +122,8 @@ impl Plan {
             let read = plan.add(binding);
             read.map_err(|problem| bad(format!("binding `{}`", binding.name), problem))?;
         }
+        plan.inputs.sort_by_key(|input| (input.group, input.binding));
+        plan.uniforms.sort_by_key(|uniform| (uniform.group, uniform.binding));
         plan.check_unique()
             .map_err(|problem| bad("bindings".to_owned(), problem))?;
         Ok(plan)
@@ -88,37 +131,46 @@ impl Plan {
 
     fn add(&mut self, source: &Binding) -> Result<(), String> {
         let (name, group, binding) = (source.name.clone(), source.group, source.binding);
-        match &source.kind {
+        let kind = match &source.kind {
             BindingKind::Texture {
                 access,
                 dimension,
+                sample_type,
                 components,
                 layers,
+                samples,
+                extent,
             } => {
                 require(*access == Access::Read, || "a texture is only read".to_owned())?;
-                require((1..=4).contains(components), || {
-                    format!("{components} components, not 1 to 4")
-                })?;
-                require(*layers >= 1, || "no layers".to_owned())?;
-                require(*dimension == Dimension::D2Array || *layers == 1, || {
-                    format!("2d, but with {layers} layers")
-                })?;
-                let (dimension, components, layers) = (*dimension, *components, *layers);
-                self.textures.push(TexturePlan {
-                    name,
-                    group,
-                    binding,
-                    dimension,
-                    components,
-                    layers,
-                });
+                let texture = TexturePlan {
+                    dimension: *dimension,
+                    sample_type: *sample_type,
+                    components: *components,
+                    layers: *layers,
+                    samples: *samples,
+                    extent: *extent,
+                };
+                binding::check_texture(&texture)?;
+                InputKind::Texture(texture)
+            }
+            BindingKind::Sampler { sampler } => InputKind::Sampler(*sampler),
+            BindingKind::Buffer {
+                access,
+                element,
+                stride,
+            } => {
+                require(*access == Access::Read, || "a buffer is only read".to_owned())?;
+                InputKind::Buffer(binding::buffer(element, *stride)?)
             }
             BindingKind::Uniform { access, size, fields } => {
                 require(*access == Access::Read, || "a uniform is only read".to_owned())?;
                 require(*size > 0 && size % 16 == 0, || {
                     format!("{size} bytes, not a multiple of 16")
                 })?;
-                let fields = fields.iter().map(|f| field(f, *size)).collect::<Result<Vec<_>, _>>()?;
+                let fields = fields
+                    .iter()
+                    .map(|f| binding::field(f, *size))
+                    .collect::<Result<Vec<_>, _>>()?;
                 self.uniforms.push(UniformPlan {
                     name,
                     group,
@@ -126,19 +178,26 @@ impl Plan {
                     size: *size,
                     fields,
                 });
+                return Ok(());
             }
-        }
+        };
+        self.inputs.push(InputPlan {
+            name,
+            group,
+            binding,
+            kind,
+        });
         Ok(())
     }
 
     /// Each place and each name is used once.
     fn check_unique(&self) -> Result<(), String> {
-        let mut places: Vec<(u32, u32)> = self.textures.iter().map(|t| (t.group, t.binding)).collect();
+        let mut places: Vec<(u32, u32)> = self.inputs.iter().map(|i| (i.group, i.binding)).collect();
         places.extend(self.uniforms.iter().map(|u| (u.group, u.binding)));
         if let OutputPlan::Storage { group, binding, .. } = &self.output {
             places.push((*group, *binding));
         }
-        let mut inputs: Vec<&str> = self.textures.iter().map(|t| t.name.as_str()).collect();
+        let mut inputs: Vec<&str> = self.inputs.iter().map(|i| i.name.as_str()).collect();
         let mut fields: Vec<&str> = self
             .uniforms
             .iter()
@@ -149,7 +208,7 @@ impl Plan {
             return Err(format!("@group({group}) @binding({binding}) is listed twice"));
         }
         if let Some(name) = repeated(&mut inputs) {
-            return Err(format!("texture `{name}` is listed twice"));
+            return Err(format!("input `{name}` is listed twice"));
         }
         if let Some(name) = repeated(&mut fields) {
             return Err(format!("uniform `{name}` is listed twice"));
@@ -158,6 +217,7 @@ impl Plan {
     }
 }
 
+/// The output of `manifest`.
 fn output(manifest: &Manifest) -> Result<OutputPlan, String> {
     let output = &manifest.output;
     require(output.access == Access::Write, || {
@@ -198,44 +258,6 @@ fn output(manifest: &Manifest) -> Result<OutputPlan, String> {
             Ok(OutputPlan::Attachment { format: output.format })
         }
     }
-}
-
-fn field(field: &UniformField, block: u32) -> Result<FieldPlan, String> {
-    let UniformField {
-        name,
-        ty: text,
-        offset,
-        size,
-        default,
-    } = field;
-    let ty = UniformType::from_wgsl(text)
-        .ok_or_else(|| format!("field `{name}` is of type `{text}`, not a 32-bit scalar or vector"))?;
-    require(*size == ty.size(), || {
-        format!(
-            "field `{name}` of type {ty} takes {size} bytes instead of {}",
-            ty.size()
-        )
-    })?;
-    require(offset % 4 == 0, || {
-        format!("field `{name}` lies at offset {offset}, not a multiple of 4")
-    })?;
-    let inside = offset.checked_add(*size).is_some_and(|end| end <= block);
-    require(inside, || {
-        format!("field `{name}` ends beyond the buffer of {block} bytes")
-    })?;
-    let default = match default {
-        None => None,
-        Some(value) => Some(
-            ty.scalar(*value)
-                .ok_or_else(|| format!("the default {value} of field `{name}` is no {ty}"))?,
-        ),
-    };
-    Ok(FieldPlan {
-        name: name.clone(),
-        ty,
-        offset: *offset,
-        default,
-    })
 }
 
 fn require(holds: bool, problem: impl FnOnce() -> String) -> Result<(), String> {

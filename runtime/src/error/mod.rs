@@ -1,8 +1,12 @@
 //! Everything that can go wrong, as values that name the thing, the place and the way out.
 
+mod problem;
+
+use crate::ResourceKind;
 use std::fmt;
-use straightline_manifest::Dimension;
 use wgpu::TextureFormat;
+
+pub use problem::{BufferProblem, SamplerProblem, ViewProblem};
 
 /// Why a pass could not be made, set or recorded.
 ///
@@ -134,6 +138,19 @@ pub enum Error {
         name: String,
     },
 
+    /// An input was given a resource of another kind.
+    #[error("`{kernel}` reads its input `{name}` as {needed}, but was given {given}: give it a `&wgpu::{}`", .needed.type_name())]
+    InputKind {
+        /// The kernel's name.
+        kernel: String,
+        /// The input.
+        name: String,
+        /// The kind that is needed.
+        needed: ResourceKind,
+        /// The kind that was given.
+        given: ResourceKind,
+    },
+
     /// The view given for an input cannot be read by the kernel.
     #[error("input `{name}` of `{kernel}`: {problem}")]
     Input {
@@ -145,6 +162,28 @@ pub enum Error {
         problem: ViewProblem,
     },
 
+    /// The sampler given for an input cannot be used by the kernel.
+    #[error("input `{name}` of `{kernel}`: {problem}")]
+    InputSampler {
+        /// The kernel's name.
+        kernel: String,
+        /// The input.
+        name: String,
+        /// What is wrong with the sampler.
+        problem: SamplerProblem,
+    },
+
+    /// The buffer given for an input cannot be read by the kernel.
+    #[error("input `{name}` of `{kernel}`: {problem}")]
+    InputBuffer {
+        /// The kernel's name.
+        kernel: String,
+        /// The input.
+        name: String,
+        /// What is wrong with the buffer.
+        problem: BufferProblem,
+    },
+
     /// The view given as target cannot be written by the kernel.
     #[error("target of `{kernel}`: {problem}")]
     Target {
@@ -154,8 +193,8 @@ pub enum Error {
         problem: ViewProblem,
     },
 
-    /// Each view is fit by itself, but wgpu refuses this combination of them.
-    #[error("`{kernel}` cannot run on these views together: {description}")]
+    /// Each resource is fit by itself, but wgpu refuses this combination of them.
+    #[error("`{kernel}` cannot run on these resources together: {description}")]
     Combination {
         /// The kernel's name.
         kernel: String,
@@ -187,8 +226,32 @@ pub enum Error {
         given: String,
     },
 
+    /// Uniforms were to be written all at once, but the kernel has none.
+    #[error(
+        "`{kernel}` has no uniforms to write: leave the call out, or generate the shader with an option as a uniform"
+    )]
+    NoUniforms {
+        /// The kernel's name.
+        kernel: String,
+    },
+
+    /// The bytes for all uniforms are of another size than their buffer.
+    #[error(
+        "the uniforms of `{kernel}` take {needed} bytes, but were given {given}: give the whole struct as it lies in the buffer, padding included"
+    )]
+    UniformSize {
+        /// The kernel's name.
+        kernel: String,
+        /// Bytes that the uniforms take.
+        needed: u64,
+        /// Bytes that were given.
+        given: u64,
+    },
+
     /// A uniform without a default was never set.
-    #[error("uniform `{name}` of `{kernel}` has no default: set it with `write_uniform` before encoding")]
+    #[error(
+        "uniform `{name}` of `{kernel}` has no default: set it with `write_uniform` or `write_uniforms` before encoding"
+    )]
     UniformUnset {
         /// The kernel's name.
         kernel: String,
@@ -235,96 +298,6 @@ pub enum Error {
     },
 }
 
-/// What is wrong with a texture view.
-///
-/// wgpu tells a view's texture but not which part of it the view shows. Sizes, layers and formats are therefore
-/// those of the texture; what only the view knows is asked of wgpu, and its answer is [`ViewProblem::Refused`].
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum ViewProblem {
-    /// Not a 2-D texture, or a view of the wrong dimension.
-    #[error("needs a view of dimension {}, but was given one of {found}", dimension_name(*.needed))]
-    Dimension {
-        /// The dimension that is needed.
-        needed: Dimension,
-        /// What was found.
-        found: String,
-    },
-    /// Multisampled, where one sample a texel is needed.
-    #[error("needs a single-sampled texture, but this one has {samples} samples a texel: resolve it first")]
-    Multisampled {
-        /// Samples a texel.
-        samples: u32,
-    },
-    /// Too few layers.
-    #[error("needs {needed} layers, but the texture has {found}")]
-    Layers {
-        /// Layers that the shader can address.
-        needed: u32,
-        /// Layers of the texture.
-        found: u32,
-    },
-    /// Not of the target's size.
-    #[error("is {}x{}, but the target is {}x{}: every input has the size of the target", .input[0], .input[1], .target[0], .target[1])]
-    Size {
-        /// Width and height of the input.
-        input: [u32; 2],
-        /// Width and height of the target.
-        target: [u32; 2],
-    },
-    /// An integer, stencil or multi-planar format.
-    #[error("is {format:?}, which cannot be read as floats: use a float, normalised or depth format")]
-    NotFloat {
-        /// The texture's format.
-        format: TextureFormat,
-    },
-    /// Fewer components than the kernel reads.
-    #[error("is {format:?} with {found} component(s), but the kernel reads {needed}")]
-    Components {
-        /// The texture's format.
-        format: TextureFormat,
-        /// Components that the kernel reads.
-        needed: u8,
-        /// Components of the format.
-        found: u8,
-    },
-    /// Not of the format that the shader writes.
-    #[error("is {found:?}, but the shader writes {needed:?}: {remedy}")]
-    Format {
-        /// The format that is needed.
-        needed: TextureFormat,
-        /// The texture's format.
-        found: TextureFormat,
-        /// The way out, which differs by stage.
-        remedy: &'static str,
-    },
-    /// The texture was created without a usage.
-    #[error("its texture was created without `TextureUsages::{missing}`")]
-    Usage {
-        /// The constant of [`wgpu::TextureUsages`].
-        missing: &'static str,
-    },
-    /// The same image is read and written.
-    #[error("is the target itself, which cannot be read while it is written: use two textures")]
-    IsTarget,
-    /// Larger than one dispatch can cover with the device's limits.
-    #[error(
-        "is {size} texels along one side, but the device dispatches at most {max}: raise `max_compute_workgroups_per_dimension`"
-    )]
-    TooLarge {
-        /// Texels along the longer side.
-        size: u32,
-        /// Texels that a dispatch can cover.
-        max: u32,
-    },
-    /// wgpu refuses the view.
-    #[error("wgpu refuses the view: {description}")]
-    Refused {
-        /// What wgpu said.
-        description: String,
-    },
-}
-
 /// A list of names for a message: `` `a`, `b` and `c` ``, or `none`.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Names(pub Vec<String>);
@@ -344,13 +317,5 @@ impl fmt::Display for Names {
             write!(f, "{}`{name}`", if i == 0 { "" } else { ", " })?;
         }
         write!(f, "{}`{last}`", if rest.is_empty() { "" } else { " and " })
-    }
-}
-
-/// A view dimension as WebGPU spells it.
-pub(crate) fn dimension_name(dimension: Dimension) -> &'static str {
-    match dimension {
-        Dimension::D2 => "2d",
-        Dimension::D2Array => "2d-array (`TextureViewDescriptor::dimension: Some(TextureViewDimension::D2Array)`)",
     }
 }

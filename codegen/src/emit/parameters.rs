@@ -1,0 +1,190 @@
+//! The Rust of a shader's uniform struct: laid out as the shader has it, which the caller's compiler checks.
+
+use proc_macro2::{Literal, TokenStream};
+use quote::{format_ident, quote};
+use straightline_manifest::{BindingKind, Manifest, UniformField};
+
+/// The struct `Parameters` with what belongs to it, and the methods of the pass that set it.
+pub fn parameters(manifest: &Manifest) -> (TokenStream, TokenStream) {
+    let uniforms = manifest.bindings.iter().find_map(|b| match &b.kind {
+        BindingKind::Uniform { fields, size, .. } => Some((fields.as_slice(), *size)),
+        _ => None,
+    });
+    match uniforms {
+        Some((fields, size)) => (structure(fields, size), setters(fields)),
+        None => (TokenStream::new(), TokenStream::new()),
+    }
+}
+
+fn structure(fields: &[UniformField], size: u32) -> TokenStream {
+    let mut members = Vec::new();
+    let mut pads = Vec::new();
+    let mut at = 0;
+    for field in fields {
+        pad(&mut members, &mut pads, field.offset - at);
+        let (name, ty) = (format_ident!("{}", field.name), rust_type(&field.ty));
+        let docs = match field.default {
+            Some(default) => format!("`{}` of the kernel; {default} by default.", field.name),
+            None => format!("`{}` of the kernel.", field.name),
+        };
+        members.push(quote! { #[doc = #docs] pub #name: #ty });
+        at = field.offset + field.size;
+    }
+    pad(&mut members, &mut pads, size - at);
+
+    let names: Vec<_> = fields.iter().map(|f| format_ident!("{}", f.name)).collect();
+    let types: Vec<_> = fields.iter().map(|f| rust_type(&f.ty)).collect();
+    let offsets: Vec<_> = fields.iter().map(|f| Literal::u32_unsuffixed(f.offset)).collect();
+    let total = Literal::u32_unsuffixed(size);
+    let copies = fields.iter().map(|field| {
+        let name = format_ident!("{}", field.name);
+        let start = Literal::u32_unsuffixed(field.offset);
+        let end = Literal::u32_unsuffixed(field.offset + field.size);
+        if field.ty.starts_with("vec") {
+            quote! {
+                for (place, lane) in bytes[#start..#end].chunks_exact_mut(4).zip(self.#name) {
+                    place.copy_from_slice(&lane.to_le_bytes());
+                }
+            }
+        } else {
+            quote! { bytes[#start..#end].copy_from_slice(&self.#name.to_le_bytes()); }
+        }
+    });
+    let arguments = match fields.len() {
+        // More would only be told apart by their order.
+        0..=7 => quote! {
+            impl Parameters {
+                /// All values, in order.
+                #[must_use]
+                pub const fn new(#(#names: #types),*) -> Self {
+                    Self { #(#names,)* #(#pads,)* }
+                }
+            }
+        },
+        _ => TokenStream::new(),
+    };
+    let defaults: Option<Vec<TokenStream>> = fields.iter().map(default).collect();
+    let default = defaults.map(|values| {
+        quote! {
+            impl Default for Parameters {
+                fn default() -> Self {
+                    Self { #(#names: #values,)* #(#pads,)* }
+                }
+            }
+        }
+    });
+    quote! {
+        /// Values that are set at run time, as they lie in the shader's uniform buffer.
+        #[repr(C)]
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        pub struct Parameters {
+            #(#members,)*
+        }
+
+        // Laid out as in the shader, or this does not compile.
+        const _: () = {
+            #(assert!(core::mem::offset_of!(Parameters, #names) == #offsets);)*
+            assert!(core::mem::size_of::<Parameters>() == #total);
+        };
+
+        #arguments
+
+        #default
+
+        impl Parameters {
+            /// The values as they lie in the buffer.
+            #[must_use]
+            pub fn to_bytes(&self) -> [u8; #total] {
+                let mut bytes = [0; #total];
+                #(#copies)*
+                bytes
+            }
+        }
+    }
+}
+
+/// Bytes that no value fills, as a field of their own.
+fn pad(members: &mut Vec<TokenStream>, pads: &mut Vec<TokenStream>, bytes: u32) {
+    if bytes == 0 {
+        return;
+    }
+    let name = format_ident!("padding_{}", pads.len());
+    let words = Literal::u32_unsuffixed(bytes / 4);
+    members.push(quote! { #[doc = "Not read."] pub #name: [u32; #words] });
+    pads.push(quote! { #name: [0; #words] });
+}
+
+fn setters(fields: &[UniformField]) -> TokenStream {
+    let each = fields.iter().map(|field| {
+        let (setter, name) = (format_ident!("set_{}", field.name), &field.name);
+        let ty = rust_type(&field.ty);
+        let docs = match field.default {
+            Some(default) => format!("Sets `{name}` from the next submission on; {default} until then."),
+            None => format!("Sets `{name}` from the next submission on; it must be set before the first."),
+        };
+        quote! {
+            #[doc = #docs]
+            ///
+            /// # Errors
+            ///
+            /// None but those of a damaged build.
+            pub fn #setter(
+                &self,
+                queue: &straightline_runtime::wgpu::Queue,
+                value: #ty,
+            ) -> Result<(), straightline_runtime::Error> {
+                self.0.write_uniform(queue, #name, value)
+            }
+        }
+    });
+    quote! {
+        /// Sets all values that are set at run time, from the next submission on.
+        ///
+        /// # Errors
+        ///
+        /// None but those of a damaged build.
+        pub fn set_parameters(
+            &self,
+            queue: &straightline_runtime::wgpu::Queue,
+            parameters: &Parameters,
+        ) -> Result<(), straightline_runtime::Error> {
+            self.0.write_uniforms(queue, &parameters.to_bytes())
+        }
+
+        #(#each)*
+    }
+}
+
+/// A default of every field, as Rust.
+fn default(field: &UniformField) -> Option<TokenStream> {
+    let value = field.default?;
+    Some(match field.ty.as_str() {
+        "f32" => {
+            let literal = Literal::f32_suffixed(value.abs() as f32);
+            if value.is_sign_negative() { quote! { -#literal } } else { quote! { #literal } }
+        }
+        "i32" => {
+            let literal = Literal::i32_suffixed(value as i32);
+            quote! { #literal }
+        }
+        _ => {
+            let literal = Literal::u32_suffixed(value as u32);
+            quote! { #literal }
+        }
+    })
+}
+
+/// `f32`, or an array of lanes.
+fn rust_type(wgsl: &str) -> TokenStream {
+    if !wgsl.starts_with("vec") {
+        let ident = format_ident!("{wgsl}");
+        return quote! { #ident };
+    }
+    let lanes = Literal::usize_unsuffixed(wgsl[3..4].parse().unwrap_or(1));
+    let ident = match &wgsl[4..] {
+        "f" => format_ident!("f32"),
+        "i" => format_ident!("i32"),
+        _ => format_ident!("u32"),
+    };
+    quote! { [#ident; #lanes] }
+}

@@ -1,0 +1,125 @@
+//! What each loop contributes to the size of a kernel.
+
+use super::Evaluator;
+use crate::diagnostic::{Diagnostic, Span};
+use crate::policy::{self, Unroll};
+
+/// What helps a kernel that is too large.
+pub const WAY_OUT: &str =
+    "run loops over fewer values, keep the largest one with `#[cfg_attr(false, unroll(none))]`, or raise the budget";
+
+/// A loop of the source, and what became of it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct LoopReport {
+    /// The function that it stands in.
+    pub function: String,
+    /// Its counter, or `while`.
+    pub counter: String,
+    /// Where it stands.
+    pub span: Span,
+    /// What was made of it the last time.
+    pub unroll: Unroll,
+    /// How often its body was evaluated, over all times that it was reached.
+    pub rounds: u64,
+    /// Operations that its body left, those of loops inside it left out.
+    pub operations: u64,
+}
+
+impl LoopReport {
+    /// `function.counter`, as policies name it.
+    pub fn path(&self) -> String {
+        format!("{}.{}", self.function, self.counter)
+    }
+}
+
+/// All loops that were reached.
+#[derive(Clone, Debug, Default)]
+pub struct Loops {
+    reports: Vec<LoopReport>,
+    /// Loops being evaluated: index, operations when it began, and operations of loops inside it.
+    open: Vec<(usize, usize, usize)>,
+}
+
+impl Loops {
+    /// A loop begins, when `operations` have been made.
+    pub fn enter(&mut self, function: &str, counter: &str, span: Span, operations: usize) {
+        let known = self.reports.iter().position(|r| r.span == span);
+        let index = known.unwrap_or_else(|| {
+            self.reports.push(LoopReport {
+                function: function.to_owned(),
+                counter: counter.to_owned(),
+                span,
+                unroll: Unroll::Full,
+                rounds: 0,
+                operations: 0,
+            });
+            self.reports.len() - 1
+        });
+        self.open.push((index, operations, 0));
+    }
+
+    /// Its body is evaluated once more.
+    pub fn round(&mut self) {
+        if let Some((index, ..)) = self.open.last() {
+            self.reports[*index].rounds += 1;
+        }
+    }
+
+    /// It ends.
+    pub fn leave(&mut self, unroll: Unroll, operations: usize) {
+        if let Some((index, began, inner)) = self.open.pop() {
+            let made = operations.saturating_sub(began);
+            self.reports[index].operations += made.saturating_sub(inner) as u64;
+            self.reports[index].unroll = unroll;
+            if let Some((_, _, outer)) = self.open.last_mut() {
+                *outer += made;
+            }
+        }
+    }
+
+    /// All loops in order of the source.
+    pub fn reports(&self) -> Vec<LoopReport> {
+        let mut reports = self.reports.clone();
+        reports.sort_by_key(|r| r.span);
+        reports
+    }
+
+    /// The error with what each loop contributed, the largest five.
+    pub fn blame(&self, error: Diagnostic) -> Diagnostic {
+        blame(&self.reports, error)
+    }
+}
+
+/// An error about size with what each loop contributed, the largest five.
+pub fn blame(reports: &[LoopReport], mut error: Diagnostic) -> Diagnostic {
+    let mut largest: Vec<&LoopReport> = reports.iter().filter(|r| r.rounds > 0).collect();
+    largest.sort_by_key(|r| std::cmp::Reverse(r.operations));
+    for report in largest.into_iter().take(5) {
+        let LoopReport {
+            rounds, operations, ..
+        } = report;
+        let text = format!("`{}`: {rounds} rounds, {operations} operations of its own", report.path());
+        error = error.other(report.span, text);
+    }
+    error
+}
+
+impl Evaluator<'_> {
+    /// Notes an error for each loop that the policy names and the kernel has not.
+    pub fn check_loop_paths(&mut self) {
+        let known = self.loops.reports();
+        for (path, _) in &self.policy.loops {
+            if !known.iter().any(|r| policy::matches(path, &r.function, &r.counter)) {
+                let mut paths: Vec<String> = known.iter().map(LoopReport::path).collect();
+                paths.dedup();
+                let help = if paths.is_empty() {
+                    "it reaches no loop with these options".to_owned()
+                } else {
+                    format!("its loops are {}", paths.join(", "))
+                };
+                self.errors
+                    .push(Diagnostic::new(format!("the kernel has no loop `{path}`")).help(help));
+            }
+        }
+    }
+}

@@ -1,0 +1,73 @@
+//! The prelude's functions of floats.
+
+use super::Evaluator;
+use super::value::{Eval, Value};
+use crate::diagnostic::{Diagnostic, Span};
+use crate::ir::{BinaryOp, NodeId, Op, Type, UnaryOp};
+
+impl Evaluator<'_> {
+    /// A function of the prelude; `None` if it has none of this name.
+    pub fn function(&mut self, name: &str, values: &[Value], span: Span) -> Eval<Option<Value>> {
+        let unary = match name {
+            "fract" => Some(UnaryOp::Fract),
+            "sign" => Some(UnaryOp::Sign),
+            "inverse_sqrt" => Some(UnaryOp::InverseSqrt),
+            _ => None,
+        };
+        match (name, values) {
+            (_, [x]) if unary.is_some() => {
+                let x = self.float(x, name, span)?;
+                let ty = self.ty(x);
+                let op = unary.unwrap_or(UnaryOp::Fract);
+                Ok(Some(Value::Node(self.builder.add(Op::Unary(op), vec![x], ty))))
+            }
+            ("saturate", [x]) => {
+                let x = self.float(x, name, span)?;
+                Ok(Some(Value::Node(self.saturated(x))))
+            }
+            ("mix", [from, _, _]) => {
+                self.float(from, name, span)?;
+                self.math(from, "lerp", &values[1..], span).map(Some)
+            }
+            ("step", [edge, x]) => {
+                let (edge, x) = (self.float(edge, name, span)?, self.float(x, name, span)?);
+                let below = self.builder.add(Op::Binary(BinaryOp::Lt), vec![x, edge], Type::BOOL);
+                let (zero, one) = (self.builder.f32(0.0), self.builder.f32(1.0));
+                let chosen = self.builder.add(Op::Select, vec![below, zero, one], Type::F32);
+                Ok(Some(Value::Node(chosen)))
+            }
+            ("smoothstep", [low, high, x]) => {
+                let width = self.binary(BinaryOp::Sub, high, low, span)?;
+                let from = self.binary(BinaryOp::Sub, x, low, span)?;
+                let t = self.binary(BinaryOp::Div, &from, &width, span)?;
+                let t = self.float(&t, name, span)?;
+                let t = Value::Node(self.saturated(t));
+                let (two, three) = (Value::Node(self.builder.f32(2.0)), Value::Node(self.builder.f32(3.0)));
+                let twice = self.binary(BinaryOp::Mul, &two, &t, span)?;
+                let rest = self.binary(BinaryOp::Sub, &three, &twice, span)?;
+                let square = self.binary(BinaryOp::Mul, &t, &t, span)?;
+                self.binary(BinaryOp::Mul, &square, &rest, span).map(Some)
+            }
+            _ => Ok(None),
+        }
+    }
+
+    fn saturated(&mut self, x: NodeId) -> NodeId {
+        let ty = self.ty(x);
+        let (zero, one) = (self.builder.f32(0.0), self.builder.f32(1.0));
+        let (zero, one) = (self.splat(zero, ty.lanes()), self.splat(one, ty.lanes()));
+        self.builder.add(Op::Clamp, vec![x, zero, one], ty)
+    }
+
+    fn float(&mut self, value: &Value, name: &str, span: Span) -> Eval<NodeId> {
+        let id = self.node(value, span)?;
+        if self.ty(id).is_float() {
+            return Ok(id);
+        }
+        let found = self.ty(id);
+        Err(Diagnostic::at(span, format!("`{name}` takes floats, not {found}"))
+            .label("not a float")
+            .help("convert with `as f32`")
+            .into())
+    }
+}

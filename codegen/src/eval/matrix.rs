@@ -1,0 +1,203 @@
+//! Matrices: structures of columns, with glam's names and glam's order of operations.
+
+use super::Evaluator;
+use super::value::{Eval, Value};
+use crate::diagnostic::{Diagnostic, Span};
+use crate::ir::{BinaryOp, NodeId, Op, Scalar, Type};
+
+const AXES: [&str; 4] = ["x_axis", "y_axis", "z_axis", "w_axis"];
+
+/// Columns of `Mat2`, `Mat3` or `Mat4`.
+pub fn size(ty: &str) -> Option<u8> {
+    match ty {
+        "Mat2" => Some(2),
+        "Mat3" => Some(3),
+        "Mat4" => Some(4),
+        _ => None,
+    }
+}
+
+/// Fields of a matrix: its columns.
+pub fn axes(n: u8) -> &'static [&'static str] {
+    &AXES[..n as usize]
+}
+
+impl Evaluator<'_> {
+    /// `Mat3::from_cols(a, b, c)`, `mat3(a, b, c)`, `Mat3::from_diagonal(d)`.
+    pub fn matrix_function(&mut self, path: &[String], values: &[Value], span: Span) -> Eval<Option<Value>> {
+        let (ty, name) = match path {
+            [name] => (name.replacen('m', "M", 1), "from_cols"),
+            [.., ty, name] => (ty.clone(), name.as_str()),
+            [] => return Ok(None),
+        };
+        let Some(n) = size(&ty) else { return Ok(None) };
+        let column = Type::value(Scalar::F32, n);
+        match (name, values) {
+            ("from_cols", columns) if columns.len() == n as usize => {
+                let mut nodes = Vec::new();
+                for value in columns {
+                    let id = self.node(value, span)?;
+                    if self.ty(id) != column {
+                        return Err(Diagnostic::at(span, format!("a column of a {ty} is a {column}, not {}", self.ty(id))).into());
+                    }
+                    nodes.push(id);
+                }
+                Ok(Some(matrix(&nodes)))
+            }
+            ("from_diagonal", [diagonal]) => {
+                let id = self.node(diagonal, span)?;
+                if self.ty(id) != column {
+                    return Err(Diagnostic::at(span, format!("the diagonal of a {ty} is a {column}")).into());
+                }
+                let lanes = self.lanes(id);
+                let zero = self.builder.f32(0.0);
+                let columns: Vec<NodeId> = (0..n as usize)
+                    .map(|c| {
+                        let parts = (0..n as usize).map(|r| if r == c { lanes[c] } else { zero }).collect();
+                        self.builder.add(Op::Compose, parts, column)
+                    })
+                    .collect();
+                Ok(Some(matrix(&columns)))
+            }
+            // A method called by its path.
+            (_, [receiver @ Value::Struct { ty: of, .. }, rest @ ..]) if *of == ty => {
+                self.matrix_method(receiver, name, rest, span).map(Some)
+            }
+            _ => Err(unknown(&ty, name, span).into()),
+        }
+    }
+
+    /// A method of a matrix.
+    pub fn matrix_method(&mut self, value: &Value, name: &str, args: &[Value], span: Span) -> Eval {
+        let (ty, columns) = self.columns(value, span)?;
+        match (name, args) {
+            ("transpose", []) => {
+                let rows: Vec<NodeId> = (0..columns.len())
+                    .map(|r| {
+                        let parts = columns
+                            .iter()
+                            .map(|c| self.builder.add(Op::Extract(r as u8), vec![*c], Type::F32))
+                            .collect();
+                        self.builder.add(Op::Compose, parts, self.ty(columns[0]))
+                    })
+                    .collect();
+                Ok(matrix(&rows))
+            }
+            ("col", [index]) => match self.known_int(index).and_then(|k| columns.get(usize::try_from(k).ok()?)) {
+                Some(column) => Ok(Value::Node(*column)),
+                None => Err(Diagnostic::at(span, "the column of a matrix must be known and in it").into()),
+            },
+            ("mul_vec2" | "mul_vec3" | "mul_vec4", [vector]) => self.matrix_product(value, vector, span),
+            ("mul_mat2" | "mul_mat3" | "mul_mat4", [other]) => self.matrix_product(value, other, span),
+            // As glam: a point has w 1, a direction 0, and the result's w is dropped.
+            ("transform_point3" | "transform_vector3", [vector]) if columns.len() == 4 => {
+                let vector = self.node(vector, span)?;
+                if self.ty(vector) != Type::value(Scalar::F32, 3) {
+                    return Err(Diagnostic::at(span, format!("`{name}` takes a Vec3")).into());
+                }
+                let mut sum = self.scaled(columns[0], vector, 0);
+                for k in 1..3 {
+                    let term = self.scaled(columns[k as usize], vector, k);
+                    sum = self.builder.add(Op::Binary(BinaryOp::Add), vec![sum, term], Type::value(Scalar::F32, 4));
+                }
+                if name == "transform_point3" {
+                    let whole = Type::value(Scalar::F32, 4);
+                    sum = self.builder.add(Op::Binary(BinaryOp::Add), vec![sum, columns[3]], whole);
+                }
+                let lanes = self.lanes(sum);
+                let short = Type::value(Scalar::F32, 3);
+                Ok(Value::Node(self.builder.add(Op::Compose, lanes[..3].to_vec(), short)))
+            }
+            _ => Err(unknown(&ty, name, span).into()),
+        }
+    }
+
+    /// A matrix times a vector, another matrix, or a number.
+    pub fn matrix_product(&mut self, left: &Value, right: &Value, span: Span) -> Eval {
+        if let (Value::Node(_), Value::Struct { .. }) = (left, right) {
+            return self.matrix_by_number(right, left, span);
+        }
+        let (ty, columns) = self.columns(left, span)?;
+        match right {
+            Value::Struct { .. } => {
+                let (other, others) = self.columns(right, span)?;
+                if other != ty {
+                    return Err(Diagnostic::at(span, format!("a {ty} times a {other}")).into());
+                }
+                let mut products = Vec::new();
+                for column in others {
+                    products.push(self.times_vector(&columns, column));
+                }
+                Ok(matrix(&products))
+            }
+            _ => {
+                let id = self.node(right, span)?;
+                if self.ty(id) == Type::F32 {
+                    return self.matrix_by_number(left, right, span);
+                }
+                if self.ty(id) != self.ty(columns[0]) {
+                    return Err(Diagnostic::at(span, format!("a {ty} times a {}", self.ty(id)))
+                        .label("of another size")
+                        .into());
+                }
+                Ok(Value::Node(self.times_vector(&columns, id)))
+            }
+        }
+    }
+
+    fn matrix_by_number(&mut self, left: &Value, number: &Value, span: Span) -> Eval {
+        let (_, columns) = self.columns(left, span)?;
+        let mut products = Vec::new();
+        for column in columns {
+            let product = self.binary(BinaryOp::Mul, &Value::Node(column), number, span)?;
+            products.push(self.node(&product, span)?);
+        }
+        Ok(matrix(&products))
+    }
+
+    /// The sum of the columns times the vector's lanes, first to last.
+    fn times_vector(&mut self, columns: &[NodeId], vector: NodeId) -> NodeId {
+        let ty = self.ty(columns[0]);
+        let mut sum = self.scaled(columns[0], vector, 0);
+        for (k, column) in columns.iter().enumerate().skip(1) {
+            let term = self.scaled(*column, vector, k as u8);
+            sum = self.builder.add(Op::Binary(BinaryOp::Add), vec![sum, term], ty);
+        }
+        sum
+    }
+
+    fn scaled(&mut self, column: NodeId, vector: NodeId, lane: u8) -> NodeId {
+        let ty = self.ty(column);
+        let lane = self.builder.add(Op::Extract(lane), vec![vector], Type::F32);
+        let lane = self.splat(lane, ty.lanes());
+        self.builder.add(Op::Binary(BinaryOp::Mul), vec![column, lane], ty)
+    }
+
+    fn columns(&mut self, value: &Value, span: Span) -> Eval<(String, Vec<NodeId>)> {
+        match value {
+            Value::Struct { ty, fields } if size(ty).is_some() => {
+                let nodes: Eval<Vec<NodeId>> = fields.iter().map(|(_, column)| self.node(column, span)).collect();
+                Ok((ty.clone(), nodes?))
+            }
+            other => Err(Diagnostic::at(span, format!("{} where a matrix is needed", other.describe())).into()),
+        }
+    }
+}
+
+/// A matrix of its columns.
+pub fn matrix(columns: &[NodeId]) -> Value {
+    let named = AXES.iter().zip(columns);
+    Value::Struct {
+        ty: format!("Mat{}", columns.len()),
+        fields: named.map(|(name, id)| ((*name).to_owned(), Value::Node(*id))).collect(),
+    }
+}
+
+fn unknown(ty: &str, name: &str, span: Span) -> Diagnostic {
+    Diagnostic::at(span, format!("a {ty} has no `{name}` with such arguments"))
+        .label("not supported")
+        .help(
+            "matrices have from_cols, from_diagonal, IDENTITY, x_axis .. w_axis, col, transpose, mul_vec3, \
+             transform_point3, transform_vector3, and `*` with vectors, matrices and numbers",
+        )
+}

@@ -1,0 +1,51 @@
+//! Where a number stopped being finite.
+
+use crate::ir::{Counter, Graph, NodeId, Op};
+
+/// The first operation of a pixel that made a NaN or an infinity of finite numbers, or read one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Birth {
+    /// The operation.
+    pub node: NodeId,
+    /// What it gave, lane by lane.
+    pub value: Vec<f64>,
+    /// Counters of the loops around it, kept and unrolled, outer ones first.
+    pub counters: Vec<Counter>,
+}
+
+impl Birth {
+    /// What happened, in a sentence: which variable, in which round of which loops, at which line.
+    pub fn describe(&self, graph: &Graph) -> String {
+        let lanes: Vec<String> = self.value.iter().map(f64::to_string).collect();
+        let what = match &graph.node(self.node).op {
+            Op::Const(_) => "is the constant".to_owned(),
+            Op::Unary(op) => format!("became, in `{op:?}`,").to_lowercase(),
+            Op::Binary(op) => format!("became, in `{op:?}`,").to_lowercase(),
+            read if read.is_read() => "was read as".to_owned(),
+            _ => "became".to_owned(),
+        };
+        let origin = self.origin(graph);
+        let name = origin.map_or("a value", |o| o.name.as_str());
+        let mut text = format!("`{name}` {what} {}", lanes.join(", "));
+        let rounds: Vec<String> = self.counters.iter().map(|c| format!("{} {}", c.name, c.value)).collect();
+        if !rounds.is_empty() {
+            text += &format!(" in {}", rounds.join(", "));
+        }
+        if let Some(origin) = origin {
+            let file = graph.files.get(origin.file as usize).map_or("", String::as_str);
+            text += &format!(" at {file}:{}", origin.line);
+        }
+        text
+    }
+
+    /// Where it comes from: its own origin, or that of the first named value that it goes into.
+    fn origin<'g>(&self, graph: &'g Graph) -> Option<&'g crate::ir::Origin> {
+        let mut at = self.node;
+        loop {
+            if let Some(origin) = graph.origin(at).filter(|o| !o.name.is_empty()) {
+                return Some(origin);
+            }
+            at = graph.ids().skip(at.0 as usize + 1).find(|id| graph.node(*id).args.contains(&at))?;
+        }
+    }
+}

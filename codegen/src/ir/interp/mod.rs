@@ -1,0 +1,309 @@
+//! Running a graph on the CPU, in the precision asked for.
+
+mod bindings;
+mod finite;
+mod sampling;
+
+use super::arith::{self, Cells};
+use super::{Counter, Graph, NodeId, Op, Real, Scalar, Type};
+use crate::passes::{Block, Schedule, Step};
+use sampling::Sampled;
+use std::marker::PhantomData;
+
+pub use bindings::{Address, Bindings, Comparison, Image, InputError, SamplerState, Texels};
+pub use finite::Birth;
+
+/// A graph with its inputs, ready to compute any pixel. `R` is the precision of its floats.
+pub struct Interpreter<'a, R: Real = f32> {
+    graph: &'a Graph,
+    schedule: &'a Schedule,
+    frame: [u32; 2],
+    textures: Vec<Option<&'a dyn Texels>>,
+    samplers: Vec<SamplerState>,
+    buffers: Vec<Vec<Cells>>,
+    uniforms: Vec<Cells>,
+    watches: bool,
+    precision: PhantomData<R>,
+}
+
+/// Room for the values of one pixel at a time: make one a thread and use it again.
+pub struct Scratch {
+    values: Vec<Cells>,
+    arrays: Vec<Vec<Cells>>,
+    /// Counters of the kept loops around, outer ones first.
+    loops: Vec<(NodeId, i32)>,
+    birth: Option<Birth>,
+}
+
+impl Scratch {
+    /// Where the last pixel first had a NaN or an infinity, if the interpreter watches for them.
+    pub fn birth(&self) -> Option<&Birth> {
+        self.birth.as_ref()
+    }
+}
+
+impl<'a> Interpreter<'a, f32> {
+    /// Binds inputs, for arithmetic in `f32`, bit for bit that of the kernel as rustc compiles it.
+    ///
+    /// # Errors
+    ///
+    /// If something that the graph reads is not bound or does not fit.
+    pub fn new(
+        graph: &'a Graph,
+        schedule: &'a Schedule,
+        frame: [u32; 2],
+        bindings: &Bindings<'a>,
+    ) -> Result<Self, InputError> {
+        Interpreter::in_precision(graph, schedule, frame, bindings)
+    }
+}
+
+impl<'a, R: Real> Interpreter<'a, R> {
+    /// Binds inputs, for arithmetic in `R`.
+    ///
+    /// # Errors
+    ///
+    /// If something that the graph reads is not bound or does not fit.
+    pub fn in_precision(
+        graph: &'a Graph,
+        schedule: &'a Schedule,
+        frame: [u32; 2],
+        bindings: &Bindings<'a>,
+    ) -> Result<Self, InputError> {
+        bindings::check(graph, schedule, frame, bindings)?;
+        let cells = |ty, lanes: &[f64]| arith::cells::<R>(ty, &bindings::bits(ty, lanes));
+        let textures = graph
+            .textures
+            .iter()
+            .map(|t| bindings::find(&bindings.textures, &t.name).copied());
+        let samplers = graph
+            .samplers
+            .iter()
+            .map(|s| bindings::find(&bindings.samplers, &s.name).copied().unwrap_or_default());
+        let buffers = graph.buffers.iter().map(|buffer| {
+            let elements = bindings::find(&bindings.buffers, &buffer.name).copied().unwrap_or_default();
+            elements.iter().map(|lanes| cells(buffer.element, lanes)).collect()
+        });
+        let uniforms = graph.uniforms.iter().map(|uniform| {
+            let given = bindings::find(&bindings.uniforms, &uniform.name).map(Vec::as_slice);
+            let default = [uniform.default.unwrap_or(0.0)];
+            cells(uniform.ty, given.unwrap_or(&default))
+        });
+        Ok(Interpreter {
+            graph,
+            schedule,
+            frame,
+            textures: textures.collect(),
+            samplers: samplers.collect(),
+            buffers: buffers.collect(),
+            uniforms: uniforms.collect(),
+            watches: false,
+            precision: PhantomData,
+        })
+    }
+
+    /// Notes for each pixel where it first had a NaN or an infinity, see [`Scratch::birth`].
+    pub fn watch(mut self) -> Self {
+        self.watches = true;
+        self
+    }
+
+    /// Room for this graph's values.
+    pub fn scratch(&self) -> Scratch {
+        let mut values = vec![[0; 4]; self.graph.nodes.len()];
+        for id in self.graph.ids() {
+            if let Some(bits) = self.graph.constant(id) {
+                values[id.0 as usize] = arith::cells::<R>(self.graph.ty(id), &bits);
+            }
+        }
+        Scratch {
+            values,
+            arrays: vec![Vec::new(); self.graph.nodes.len()],
+            loops: Vec::new(),
+            birth: None,
+        }
+    }
+
+    /// The colour of a pixel inside the frame.
+    pub fn pixel(&self, x: u32, y: u32, scratch: &mut Scratch) -> [R; 4] {
+        scratch.birth = None;
+        self.block(&self.schedule.body, [x, y], scratch);
+        scratch.values[self.graph.output().0 as usize].map(R::from_bits)
+    }
+
+    fn block(&self, block: &Block, pixel: [u32; 2], s: &mut Scratch) {
+        for step in &block.steps {
+            match step {
+                Step::Eval(id) => self.eval(*id, pixel, s),
+                Step::Loop { node, body } => self.run_loop(*node, body, pixel, s),
+                Step::If { node, then, otherwise } => {
+                    let regions = self.graph.regions_of(*node);
+                    let holds = s.values[self.graph.node(*node).args[0].0 as usize][0] != 0;
+                    let (side, region) = if holds {
+                        (then, regions[0])
+                    } else {
+                        (otherwise, regions[1])
+                    };
+                    self.block(side, pixel, s);
+                    let results = &self.graph.region(region).results;
+                    let slot = node.0 as usize;
+                    s.arrays[slot] = results.iter().flat_map(|r| whole(self.graph, s, *r)).collect();
+                }
+            }
+        }
+    }
+
+    fn run_loop(&self, node: NodeId, body: &Block, pixel: [u32; 2], s: &mut Scratch) {
+        let args = &self.graph.node(node).args;
+        let region = self.graph.region(self.graph.regions_of(node)[0]);
+        let (start, end) = (
+            s.values[args[0].0 as usize][0] as i32,
+            s.values[args[1].0 as usize][0] as i32,
+        );
+        let mut carried: Vec<Vec<Cells>> = args[2..].iter().map(|a| whole(self.graph, s, *a)).collect();
+        for counter in start..end {
+            s.values[region.params[0].0 as usize] = [u64::from(counter as u32), 0, 0, 0];
+            s.loops.push((region.params[0], counter));
+            for (param, value) in region.params[1..].iter().zip(carried) {
+                store(self.graph, s, *param, value);
+            }
+            self.block(body, pixel, s);
+            s.loops.pop();
+            carried = region.results.iter().map(|r| whole(self.graph, s, *r)).collect();
+        }
+        s.arrays[node.0 as usize] = carried.concat();
+    }
+
+    fn eval(&self, id: NodeId, pixel: [u32; 2], s: &mut Scratch) {
+        let node = self.graph.node(id);
+        let slot = id.0 as usize;
+        match &node.op {
+            Op::Const(_) => {}
+            Op::Pixel => s.values[slot] = [pixel[0].into(), pixel[1].into(), 0, 0],
+            Op::FrameSize => s.values[slot] = [self.frame[0].into(), self.frame[1].into(), 0, 0],
+            Op::Uniform(k) => s.values[slot] = self.uniforms[*k as usize],
+            op if op.is_read() || op.texture().is_some() || op.buffer().is_some() => {
+                s.values[slot] = self.read(op, &node.args, s);
+            }
+            Op::MakeArray => {
+                let values = &s.values;
+                s.arrays[slot] = node.args.iter().map(|a| values[a.0 as usize]).collect();
+            }
+            Op::ArrayGet => {
+                let array = &s.arrays[node.args[0].0 as usize];
+                let index = s.values[node.args[1].0 as usize][0] as u32 as usize;
+                s.values[slot] = array[index.min(array.len() - 1)];
+            }
+            Op::ArraySet => {
+                let mut array = s.arrays[node.args[0].0 as usize].clone();
+                let index = s.values[node.args[1].0 as usize][0] as u32 as usize;
+                if let Some(element) = array.get_mut(index) {
+                    *element = s.values[node.args[2].0 as usize];
+                }
+                s.arrays[slot] = array;
+            }
+            Op::Result(k) => {
+                let value = self.result(node.args[0], *k as usize, s);
+                store(self.graph, s, id, value);
+            }
+            op => {
+                let operand = node.args.last().map_or(node.ty, |a| match op {
+                    Op::Select => self.graph.ty(*a),
+                    _ => self.graph.ty(node.args[0]),
+                });
+                let mut args = [[0; 4]; 4];
+                for (slot, arg) in args.iter_mut().zip(&node.args) {
+                    *slot = s.values[arg.0 as usize];
+                }
+                s.values[slot] = arith::apply::<R>(op, operand, &args, node.ty).expect("a verified graph");
+            }
+        }
+        if self.watches && s.birth.is_none() && node.ty.is_float() && !node.ty.is_array() {
+            self.look(id, s);
+        }
+    }
+
+    /// What a read gives. Everything that is read has been bound.
+    fn read(&self, op: &Op, args: &[NodeId], s: &Scratch) -> Cells {
+        let word = |k: usize, lane: usize| args.get(k).map_or(0, |a| s.values[a.0 as usize][lane] as u32);
+        let real = |k: usize, lane: usize| R::from_bits(s.values[args[k].0 as usize][lane]);
+        let uv = || [real(0, 0), real(0, 1)];
+        if let Some(buffer) = op.buffer() {
+            let elements = &self.buffers[buffer as usize];
+            return match op {
+                Op::BufferLen(_) => [elements.len() as u64, 0, 0, 0],
+                _ => elements[(word(0, 0) as usize).min(elements.len() - 1)],
+            };
+        }
+        let texture = op.texture().and_then(|t| self.textures[t as usize]);
+        let Some(image) = texture else { return [0; 4] };
+        let state = op.sampler().map_or_else(SamplerState::default, |k| self.samplers[k as usize]);
+        let through = Sampled { image, state };
+        match op {
+            Op::TextureSize(_) => {
+                let [width, height, _] = image.extent();
+                [width.into(), height.into(), 0, 0]
+            }
+            Op::Load { .. } => image
+                .texel(word(0, 0), word(0, 1), word(1, 0))
+                .map(|v| R::from_f64(v.into()).to_bits()),
+            Op::Gather { component, .. } => through.gather(*component, uv()).map(R::to_bits),
+            Op::Compare { .. } => [through.compare(uv(), real(1, 0)).to_bits(), 0, 0, 0],
+            _ => through.sample(uv()).map(R::to_bits),
+        }
+    }
+
+    /// Notes a number that is not finite and comes of finite ones.
+    fn look(&self, id: NodeId, s: &mut Scratch) {
+        let finite = |id: NodeId| {
+            let ty = self.graph.ty(id);
+            let lanes = &s.values[id.0 as usize][..ty.lanes() as usize];
+            ty.kind() != Some(Scalar::F32) || ty.is_array() || lanes.iter().all(|c| R::from_bits(*c).to_f64().is_finite())
+        };
+        if finite(id) || !self.graph.node(id).args.iter().all(|a| finite(*a)) {
+            return;
+        }
+        let lanes = &s.values[id.0 as usize][..self.graph.ty(id).lanes() as usize];
+        let kept = s.loops.iter().map(|(param, value)| Counter {
+            name: self.graph.origin(*param).map_or("k", |o| o.name.as_str()).to_owned(),
+            value: i64::from(*value),
+        });
+        let unrolled = self.graph.origin(id).into_iter().flat_map(|o| o.counters.clone());
+        s.birth = Some(Birth {
+            node: id,
+            value: lanes.iter().map(|c| R::from_bits(*c).to_f64()).collect(),
+            counters: kept.chain(unrolled).collect(),
+        });
+    }
+
+    /// Result `k` of a loop or branch, cut from the values that all its results were left in.
+    fn result(&self, owner: NodeId, k: usize, s: &Scratch) -> Vec<Cells> {
+        let region = self.graph.region(self.graph.regions_of(owner)[0]);
+        let sizes: Vec<usize> = region.results.iter().map(|r| size(self.graph.ty(*r))).collect();
+        let from: usize = sizes[..k].iter().sum();
+        s.arrays[owner.0 as usize][from..from + sizes[k]].to_vec()
+    }
+}
+
+fn size(ty: Type) -> usize {
+    match ty {
+        Type::Array { len, .. } => len as usize,
+        _ => 1,
+    }
+}
+
+fn whole(graph: &Graph, s: &Scratch, id: NodeId) -> Vec<Cells> {
+    if graph.ty(id).is_array() {
+        s.arrays[id.0 as usize].clone()
+    } else {
+        vec![s.values[id.0 as usize]]
+    }
+}
+
+fn store(graph: &Graph, s: &mut Scratch, id: NodeId, value: Vec<Cells>) {
+    if graph.ty(id).is_array() {
+        s.arrays[id.0 as usize] = value;
+    } else {
+        s.values[id.0 as usize] = value[0];
+    }
+}

@@ -1,0 +1,391 @@
+//! The graph from its text.
+
+use super::{
+    BinaryOp, Buffer, Counter, Event, Graph, Node, NodeId, Op, Origin, Region, RegionId, Sampler, Scalar, Texture,
+    TextureKind, Type, UnaryOp, Uniform,
+};
+
+/// Why a text is not a graph.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("line {line}: {problem}")]
+pub struct ParseError {
+    /// From 1.
+    pub line: usize,
+    /// What is wrong with it.
+    pub problem: String,
+}
+
+/// Reads what [`super::print`] writes. What the text says is built as it stands, nothing is simplified; whether it
+/// keeps the rules is for [`super::verify`] to say.
+///
+/// # Errors
+///
+/// The first line that cannot be read, and why.
+pub fn parse(text: &str) -> Result<Graph, ParseError> {
+    let mut reader = Reader::default();
+    reader.graph.regions.push(empty(None));
+    reader.open.push(Graph::BODY);
+    for (k, line) in text.lines().enumerate() {
+        reader
+            .line(line.trim())
+            .map_err(|problem| ParseError { line: k + 1, problem })?;
+    }
+    let last = text.lines().count();
+    if reader.graph.regions[0].results.is_empty() {
+        return Err(ParseError {
+            line: last,
+            problem: "there is no `output %N` at the end".to_owned(),
+        });
+    }
+    if reader.open.len() > 1 {
+        return Err(ParseError {
+            line: last,
+            problem: "a region is not closed".to_owned(),
+        });
+    }
+    reader.event(Event::Close(Graph::BODY));
+    Ok(reader.graph)
+}
+
+#[derive(Default)]
+struct Reader {
+    graph: Graph,
+    open: Vec<RegionId>,
+}
+
+type Parsed<T = ()> = Result<T, String>;
+
+impl Reader {
+    fn event(&mut self, event: Event) {
+        self.graph.events.push((self.graph.nodes.len() as u32, event));
+    }
+
+    fn line(&mut self, line: &str) -> Parsed {
+        let (word, rest) = line.split_once(' ').unwrap_or((line, ""));
+        match word {
+            "" => Ok(()),
+            _ if line.starts_with("//") => Ok(()),
+            "file" => {
+                self.graph.files.push(rest.to_owned());
+                Ok(())
+            }
+            "tally" => {
+                self.graph.tallies.push(rest.to_owned());
+                Ok(())
+            }
+            "texture" => self.texture(rest),
+            "buffer" => self.buffer(rest),
+            "sampler" => self.sampler(rest),
+            "uniform" => self.uniform(rest),
+            "region" => self.open(rest),
+            "}" => match self.open.pop() {
+                Some(region) if region != Graph::BODY => {
+                    self.event(Event::Close(region));
+                    Ok(())
+                }
+                _ => Err("there is no region to close".to_owned()),
+            },
+            "output" => {
+                let output = self.node_id(rest)?;
+                self.graph.regions[0].results = vec![output];
+                Ok(())
+            }
+            _ if word.starts_with('%') => self.node(line),
+            _ => Err(format!("`{word}` begins no line")),
+        }
+    }
+
+    fn texture(&mut self, text: &str) -> Parsed {
+        let (name, rest) = named(text)?;
+        let words: Vec<&str> = rest.split_whitespace().collect();
+        let [kind, components, size] = words[..] else {
+            return Err("a texture is `texture NAME: KIND COMPONENTS frame|own`".to_owned());
+        };
+        let kinds = [
+            TextureKind::Flat,
+            TextureKind::Layers,
+            TextureKind::Multisampled,
+            TextureKind::Depth,
+        ];
+        let kind = kinds.into_iter().find(|k| super::print::kind_name(*k) == kind);
+        self.graph.textures.push(Texture {
+            name,
+            kind: kind.ok_or("a texture is flat, layers, multisampled or depth")?,
+            components: number(components)?,
+            framed: size == "frame",
+        });
+        Ok(())
+    }
+
+    fn buffer(&mut self, text: &str) -> Parsed {
+        let (name, rest) = named(text)?;
+        let element = ty(rest)?;
+        self.graph.buffers.push(Buffer { name, element });
+        Ok(())
+    }
+
+    fn sampler(&mut self, text: &str) -> Parsed {
+        let (name, rest) = named(text)?;
+        let comparison = match rest {
+            "comparison" => true,
+            "filtering" => false,
+            _ => return Err("a sampler is filtering or comparison".to_owned()),
+        };
+        self.graph.samplers.push(Sampler { name, comparison });
+        Ok(())
+    }
+
+    fn uniform(&mut self, text: &str) -> Parsed {
+        let (name, rest) = named(text)?;
+        let (kind, default) = match rest.split_once(" = ") {
+            Some((kind, default)) => (kind, Some(number(default)?)),
+            None => (rest, None),
+        };
+        let ty = ty(kind)?;
+        self.graph.uniforms.push(Uniform { name, ty, default });
+        Ok(())
+    }
+
+    fn open(&mut self, text: &str) -> Parsed {
+        let id: u32 = number(text.strip_suffix(" {").ok_or("a region is `region N {`")?)?;
+        if id as usize != self.graph.regions.len() {
+            return Err(format!("regions are numbered in order: this is region {}", self.graph.regions.len()));
+        }
+        let region = empty(self.open.last().copied());
+        self.graph.regions.push(region);
+        self.open.push(RegionId(id));
+        self.event(Event::Open(RegionId(id)));
+        Ok(())
+    }
+
+    fn node_id(&self, text: &str) -> Parsed<NodeId> {
+        let id = text.strip_prefix('%').ok_or_else(|| format!("`{text}` is not a node"))?;
+        let id: u32 = number(id)?;
+        if id as usize >= self.graph.nodes.len() {
+            return Err(format!("%{id} is not made yet"));
+        }
+        Ok(NodeId(id))
+    }
+
+    fn node(&mut self, line: &str) -> Parsed {
+        let (line, origin) = match line.split_once("    // ") {
+            Some((line, origin)) => (line, Some(read_origin(origin)?)),
+            None => (line, None),
+        };
+        let (head, body) = line.split_once(" = ").ok_or("a node is `%N: TYPE = OPERATION`")?;
+        let (id, kind) = head.split_once(": ").ok_or("a node is `%N: TYPE = OPERATION`")?;
+        if id != format!("%{}", self.graph.nodes.len()) {
+            return Err(format!("nodes are numbered in order: this is %{}", self.graph.nodes.len()));
+        }
+        let ty = ty(kind)?;
+        let mut parts = body.split(" yields ");
+        let mut words = parts.next().unwrap_or_default().split_whitespace().peekable();
+        let name = words.next().ok_or("an operation is missing")?;
+        let mut plain = Vec::new();
+        while let Some(word) = words.next_if(|w| !w.starts_with('%')) {
+            plain.push(word);
+        }
+        let args = words.map(|w| self.node_id(w)).collect::<Parsed<Vec<NodeId>>>()?;
+        let op = self.op(name, &plain, ty)?;
+        let here = NodeId(self.graph.nodes.len() as u32);
+        for part in parts {
+            let (region, results) = part.split_once(':').ok_or("results are `yields REGION: %A %B`")?;
+            let region: u32 = number(region)?;
+            let results = results.split_whitespace().map(|w| self.node_id(w)).collect::<Parsed<_>>()?;
+            let slot = self.graph.regions.get_mut(region as usize).ok_or("no such region")?;
+            slot.results = results;
+        }
+        if let Op::Param(region, _) = op {
+            let slot = self.graph.regions.get_mut(region.0 as usize).ok_or("no such region")?;
+            slot.params.push(here);
+        }
+        self.graph.nodes.push(Node { op, args, ty });
+        self.graph.origins.push(origin);
+        let home = self.open.last().copied().unwrap_or(Graph::BODY);
+        self.graph.homes.push(home);
+        Ok(())
+    }
+
+    fn op(&self, name: &str, words: &[&str], ty: Type) -> Parsed<Op> {
+        let word = |k: usize| words.get(k).copied().ok_or_else(|| format!("`{name}` lacks a word"));
+        let (g, missing) = (&self.graph, |what: &str| format!("there is no such {what}"));
+        let texture = || -> Parsed<u32> {
+            let found = position(g.textures.iter().map(|t| &t.name), word(0)?);
+            found.ok_or_else(|| missing("texture"))
+        };
+        let sampler = || -> Parsed<u32> {
+            let found = position(g.samplers.iter().map(|s| &s.name), word(1)?);
+            found.ok_or_else(|| missing("sampler"))
+        };
+        let buffer = || -> Parsed<u32> {
+            let found = position(g.buffers.iter().map(|b| &b.name), word(0)?);
+            found.ok_or_else(|| missing("buffer"))
+        };
+        let site = match words.iter().find_map(|w| w.strip_prefix("site=")) {
+            Some(site) => number(site)?,
+            None => 0,
+        };
+        let region = |k: usize| -> Parsed<RegionId> {
+            let text = words.iter().filter_map(|w| w.strip_prefix("region=")).nth(k);
+            Ok(RegionId(number(text.ok_or_else(|| missing("region"))?)?))
+        };
+        Ok(match name {
+            "const" => {
+                let mut bits = [0; 4];
+                if words.len() != ty.lanes() as usize {
+                    return Err(format!("a constant {ty} has {} lanes", ty.lanes()));
+                }
+                for (slot, word) in bits.iter_mut().zip(words) {
+                    *slot = lane(ty, word)?;
+                }
+                Op::Const(bits)
+            }
+            "pixel" => Op::Pixel,
+            "framesize" => Op::FrameSize,
+            "uniform" => {
+                Op::Uniform(position(g.uniforms.iter().map(|u| &u.name), word(0)?).ok_or_else(|| missing("uniform"))?)
+            }
+            "unary" => Op::Unary(unary(word(0)?).ok_or_else(|| missing("operation"))?),
+            "binary" => Op::Binary(binary(word(0)?).ok_or_else(|| missing("operation"))?),
+            "dot" => Op::Dot,
+            "cross" => Op::Cross,
+            "clamp" => Op::Clamp,
+            "select" => Op::Select,
+            "splat" => Op::Splat,
+            "compose" => Op::Compose,
+            "extract" => Op::Extract(number(word(0)?)?),
+            "convert" => Op::Convert,
+            "bitcast" => Op::Bitcast,
+            "texturesize" => Op::TextureSize(texture()?),
+            "load" => Op::Load {
+                texture: texture()?,
+                site,
+            },
+            "sample" => Op::Sample {
+                texture: texture()?,
+                sampler: sampler()?,
+                site,
+            },
+            "gather" => Op::Gather {
+                texture: texture()?,
+                sampler: sampler()?,
+                component: number(word(2)?)?,
+                site,
+            },
+            "compare" => Op::Compare {
+                texture: texture()?,
+                sampler: sampler()?,
+                site,
+            },
+            "bufferlen" => Op::BufferLen(buffer()?),
+            "bufferload" => Op::BufferLoad {
+                buffer: buffer()?,
+                site,
+            },
+            "tally" => Op::Tally(position(g.tallies.iter(), word(0)?).ok_or_else(|| missing("tally"))?),
+            "makearray" => Op::MakeArray,
+            "arrayget" => Op::ArrayGet,
+            "arrayset" => Op::ArraySet,
+            "loop" => Op::Loop(region(0)?),
+            "if" => Op::If(region(0)?, region(1)?),
+            "result" => Op::Result(number(word(0)?)?),
+            "param" => Op::Param(region(0)?, number(word(0)?)?),
+            _ => return Err(format!("`{name}` is no operation")),
+        })
+    }
+}
+
+fn empty(parent: Option<RegionId>) -> Region {
+    Region {
+        parent,
+        params: Vec::new(),
+        results: Vec::new(),
+    }
+}
+
+fn position<'a>(mut names: impl Iterator<Item = &'a String>, name: &str) -> Option<u32> {
+    names.position(|known| known == name).map(|k| k as u32)
+}
+
+fn named(text: &str) -> Parsed<(String, &str)> {
+    let (name, rest) = text.split_once(": ").ok_or("expected `NAME: ...`")?;
+    Ok((name.to_owned(), rest))
+}
+
+fn number<T: std::str::FromStr>(text: &str) -> Parsed<T> {
+    text.parse().map_err(|_| format!("`{text}` is not a number that fits here"))
+}
+
+fn scalar(text: &str) -> Parsed<Scalar> {
+    let all = [Scalar::Bool, Scalar::I32, Scalar::U32, Scalar::F32];
+    let found = all.into_iter().find(|s| s.to_string() == text);
+    found.ok_or_else(|| format!("`{text}` is no type"))
+}
+
+/// `f32`, `vec3<i32>`, `array<vec4<f32>, 9>`, `results`.
+fn ty(text: &str) -> Parsed<Type> {
+    if text == "results" {
+        return Ok(Type::Results);
+    }
+    if let Some(inner) = text.strip_prefix("array<").and_then(|t| t.strip_suffix('>')) {
+        let (element, len) = inner.rsplit_once(", ").ok_or("an array is `array<TYPE, LENGTH>`")?;
+        let Type::Value { scalar, lanes } = ty(element)? else {
+            return Err("an array holds scalars or vectors".to_owned());
+        };
+        let len = number(len)?;
+        return Ok(Type::Array { scalar, lanes, len });
+    }
+    if let Some(inner) = text.strip_prefix("vec").and_then(|t| t.strip_suffix('>')) {
+        let (lanes, kind) = inner.split_once('<').ok_or("a vector is `vecN<TYPE>`")?;
+        let lanes: u8 = number(lanes)?;
+        if !(2..=4).contains(&lanes) {
+            return Err("a vector has 2 to 4 lanes".to_owned());
+        }
+        return Ok(Type::value(scalar(kind)?, lanes));
+    }
+    Ok(Type::scalar(scalar(text)?))
+}
+
+fn lane(ty: Type, text: &str) -> Parsed<u32> {
+    if let Some(bits) = text.strip_prefix("bits:") {
+        return u32::from_str_radix(bits, 16).map_err(|_| format!("`{text}` is no bits"));
+    }
+    match ty.kind() {
+        Some(Scalar::F32) => Ok(number::<f32>(text)?.to_bits()),
+        Some(Scalar::I32) => Ok(number::<i32>(text)? as u32),
+        _ => number(text),
+    }
+}
+
+fn read_origin(text: &str) -> Parsed<Origin> {
+    let mut words = text.split_whitespace();
+    let mut name = String::new();
+    let mut place = words.next().ok_or("an origin is `NAME @FILE:LINE`")?;
+    if !place.starts_with('@') {
+        name = place.to_owned();
+        place = words.next().ok_or("an origin is `NAME @FILE:LINE`")?;
+    }
+    let place = place.strip_prefix('@').and_then(|p| p.split_once(':'));
+    let (file, line) = place.ok_or("an origin is `NAME @FILE:LINE`")?;
+    let counters = words.map(|word| {
+        let (name, value) = word.split_once('=').ok_or("a counter is `NAME=VALUE`")?;
+        Ok(Counter {
+            name: name.to_owned(),
+            value: number(value)?,
+        })
+    });
+    Ok(Origin {
+        name,
+        file: number(file)?,
+        line: number(line)?,
+        counters: counters.collect::<Parsed<_>>()?,
+    })
+}
+
+fn unary(text: &str) -> Option<UnaryOp> {
+    UnaryOp::ALL.into_iter().find(|op| format!("{op:?}") == text)
+}
+
+fn binary(text: &str) -> Option<BinaryOp> {
+    BinaryOp::ALL.into_iter().find(|op| format!("{op:?}") == text)
+}

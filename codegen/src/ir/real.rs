@@ -1,0 +1,165 @@
+//! Precisions that a graph can be interpreted in.
+
+use super::{BinaryOp, UnaryOp};
+use std::ops::{Add, Mul, Sub};
+
+/// A floating-point number: `f32` as shaders have it, `f64` to tell rounding from mistakes, [`F16`] for what half
+/// precision would do.
+pub trait Real:
+    Copy + PartialEq + PartialOrd + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Send + Sync + 'static
+{
+    /// `f16`, `f32` or `f64`.
+    const NAME: &'static str;
+    /// The nearest number.
+    fn from_f64(x: f64) -> Self;
+    /// The same number.
+    fn to_f64(self) -> f64;
+    /// Its bits, the unused high ones 0.
+    fn to_bits(self) -> u64;
+    /// The number with these bits.
+    fn from_bits(bits: u64) -> Self;
+    /// An operation on one number, as WGSL defines it.
+    fn unary(self, op: UnaryOp) -> Option<Self>;
+    /// An operation on two numbers that gives a number.
+    fn binary(self, op: BinaryOp, other: Self) -> Option<Self>;
+}
+
+macro_rules! real {
+    ($ty:ty, $bits:ty) => {
+        impl Real for $ty {
+            const NAME: &'static str = stringify!($ty);
+
+            fn from_f64(x: f64) -> Self {
+                x as $ty
+            }
+
+            fn to_f64(self) -> f64 {
+                self as f64
+            }
+
+            fn to_bits(self) -> u64 {
+                <$ty>::to_bits(self) as u64
+            }
+
+            fn from_bits(bits: u64) -> Self {
+                <$ty>::from_bits(bits as $bits)
+            }
+
+            fn unary(self, op: UnaryOp) -> Option<Self> {
+                use UnaryOp::*;
+                let x = self;
+                Some(match op {
+                    Neg => -x,
+                    Abs => x.abs(),
+                    Sign if x > 0.0 => 1.0,
+                    Sign if x < 0.0 => -1.0,
+                    Sign => x * 0.0,
+                    Floor => x.floor(),
+                    Ceil => x.ceil(),
+                    Round => x.round_ties_even(),
+                    Trunc => x.trunc(),
+                    Fract => x - x.floor(),
+                    Sqrt => x.sqrt(),
+                    InverseSqrt => 1.0 / x.sqrt(),
+                    Exp => x.exp(),
+                    Exp2 => x.exp2(),
+                    Log => x.ln(),
+                    Log2 => x.log2(),
+                    Sin => x.sin(),
+                    Cos => x.cos(),
+                    Tan => x.tan(),
+                    Asin => x.asin(),
+                    Acos => x.acos(),
+                    Atan => x.atan(),
+                    Sinh => x.sinh(),
+                    Cosh => x.cosh(),
+                    Tanh => x.tanh(),
+                    Not | BitNot | CountOneBits | ReverseBits | LeadingZeros | TrailingZeros => return None,
+                })
+            }
+
+            fn binary(self, op: BinaryOp, b: Self) -> Option<Self> {
+                use BinaryOp::*;
+                let a = self;
+                Some(match op {
+                    Add => a + b,
+                    Sub => a - b,
+                    Mul => a * b,
+                    Div => a / b,
+                    Rem => a % b,
+                    Min => a.min(b),
+                    Max => a.max(b),
+                    Pow => a.powf(b),
+                    Atan2 => a.atan2(b),
+                    _ => return None,
+                })
+            }
+        }
+    };
+}
+
+real!(f32, u32);
+real!(f64, u64);
+
+/// IEEE 754 binary16: every operation is done in `f32` and rounded, which for + - * / and the square root is the
+/// correctly rounded result.
+#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
+pub struct F16(half::f16);
+
+impl F16 {
+    fn round(x: f32) -> F16 {
+        F16(half::f16::from_f32(x))
+    }
+}
+
+impl Add for F16 {
+    type Output = F16;
+
+    fn add(self, other: F16) -> F16 {
+        F16::round(self.0.to_f32() + other.0.to_f32())
+    }
+}
+
+impl Sub for F16 {
+    type Output = F16;
+
+    fn sub(self, other: F16) -> F16 {
+        F16::round(self.0.to_f32() - other.0.to_f32())
+    }
+}
+
+impl Mul for F16 {
+    type Output = F16;
+
+    fn mul(self, other: F16) -> F16 {
+        F16::round(self.0.to_f32() * other.0.to_f32())
+    }
+}
+
+impl Real for F16 {
+    const NAME: &'static str = "f16";
+
+    fn from_f64(x: f64) -> Self {
+        F16(half::f16::from_f64(x))
+    }
+
+    fn to_f64(self) -> f64 {
+        self.0.to_f64()
+    }
+
+    fn to_bits(self) -> u64 {
+        self.0.to_bits().into()
+    }
+
+    fn from_bits(bits: u64) -> Self {
+        F16(half::f16::from_bits(bits as u16))
+    }
+
+    fn unary(self, op: UnaryOp) -> Option<Self> {
+        self.0.to_f32().unary(op).map(F16::round)
+    }
+
+    fn binary(self, op: BinaryOp, other: Self) -> Option<Self> {
+        self.0.to_f32().binary(op, other.0.to_f32()).map(F16::round)
+    }
+}

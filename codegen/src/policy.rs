@@ -1,0 +1,135 @@
+//! What becomes of loops and branches.
+
+use std::fmt;
+use std::str::FromStr;
+
+/// What becomes of a loop.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Unroll {
+    /// It is run now: nothing of it is left.
+    #[default]
+    Full,
+    /// It is kept where it can be a loop at run time: the baseline of unroll studies.
+    None,
+    /// It is kept with its body written so many times in a row, at least 2; rounds that are left over follow it.
+    Partial(u32),
+}
+
+/// Largest factor of a partial unroll.
+pub const MAX_FACTOR: u32 = 1024;
+
+impl fmt::Display for Unroll {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Unroll::Full => f.write_str("full"),
+            Unroll::None => f.write_str("none"),
+            Unroll::Partial(n) => write!(f, "partial({n})"),
+        }
+    }
+}
+
+impl FromStr for Unroll {
+    type Err = String;
+
+    /// `full`, `none`, `partial(4)` or `4`.
+    fn from_str(text: &str) -> Result<Self, String> {
+        let factor = text.strip_prefix("partial(").and_then(|t| t.strip_suffix(')')).unwrap_or(text);
+        match (text, factor.trim().parse::<u32>()) {
+            ("full", _) => Ok(Unroll::Full),
+            ("none", _) => Ok(Unroll::None),
+            (_, Ok(1)) => Ok(Unroll::None),
+            (_, Ok(n @ 2..=MAX_FACTOR)) => Ok(Unroll::Partial(n)),
+            _ => Err(format!(
+                "unknown unroll policy `{text}`: full, none, or partial(N) with N from 2 to {MAX_FACTOR}"
+            )),
+        }
+    }
+}
+
+/// What becomes of an `if` whose condition is only known at run time.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Branches {
+    /// As loops do: kept where the unroll policy is not `full`, else both sides are computed and selected from.
+    #[default]
+    AsLoops,
+    /// Kept as a branch.
+    Keep,
+    /// Both sides are computed and selected from.
+    Select,
+}
+
+impl fmt::Display for Branches {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Branches::AsLoops => "as-loops",
+            Branches::Keep => "keep",
+            Branches::Select => "select",
+        })
+    }
+}
+
+impl FromStr for Branches {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        match text {
+            "as-loops" => Ok(Branches::AsLoops),
+            "keep" => Ok(Branches::Keep),
+            "select" => Ok(Branches::Select),
+            _ => Err(format!("unknown branch policy `{text}`: as-loops, keep or select")),
+        }
+    }
+}
+
+/// What becomes of single loops, by the path `function.counter` or by the counter alone.
+pub type LoopPolicy = (String, Unroll);
+
+/// What a kernel's loops and branches become.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Policy {
+    /// Of loops of which nothing else is said.
+    pub unroll: Unroll,
+    /// Of single loops; these go before what the source says, and that before `unroll`.
+    pub loops: Vec<LoopPolicy>,
+    /// Of branches of which the source says nothing.
+    pub branches: Branches,
+}
+
+impl Policy {
+    /// What becomes of the loop over `counter` in `function`, of which the source says `attribute`.
+    pub fn of(&self, function: &str, counter: &str, attribute: Option<Unroll>) -> Unroll {
+        let named = self.loops.iter().rev().find(|(path, _)| matches(path, function, counter));
+        named.map(|(_, unroll)| *unroll).or(attribute).unwrap_or(self.unroll)
+    }
+
+    /// Whether a branch of which the source says `attribute` is kept.
+    pub fn keeps(&self, attribute: Option<Branches>) -> bool {
+        match attribute.unwrap_or(self.branches) {
+            Branches::Keep => true,
+            Branches::Select => false,
+            Branches::AsLoops => self.unroll != Unroll::Full,
+        }
+    }
+}
+
+/// Whether `path` names the loop over `counter` in `function`.
+pub fn matches(path: &str, function: &str, counter: &str) -> bool {
+    match path.rsplit_once('.') {
+        Some((of, name)) => of == function && name == counter,
+        None => path == counter,
+    }
+}
+
+impl fmt::Display for Policy {
+    /// As manifests and headers state it: `none`, `full; sraa.tap partial(3); branches keep`.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.unroll)?;
+        for (path, unroll) in &self.loops {
+            write!(f, "; {path} {unroll}")?;
+        }
+        if self.branches != Branches::AsLoops {
+            write!(f, "; branches {}", self.branches)?;
+        }
+        Ok(())
+    }
+}

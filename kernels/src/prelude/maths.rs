@@ -1,0 +1,78 @@
+//! Functions that Rust and shaders call by one name and mean differently, with the meaning that shaders have.
+
+use glam::{Vec2, Vec3, Vec4};
+use std::ops::{Add, Mul, Sub};
+
+/// A float or a vector of floats.
+pub trait Floats: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Mul<f32, Output = Self> {
+    /// `f` of each lane.
+    fn map(self, f: impl Fn(f32) -> f32) -> Self;
+}
+
+impl Floats for f32 {
+    fn map(self, f: impl Fn(f32) -> f32) -> f32 {
+        f(self)
+    }
+}
+
+impl Floats for Vec2 {
+    fn map(self, f: impl Fn(f32) -> f32) -> Vec2 {
+        Vec2::new(f(self.x), f(self.y))
+    }
+}
+
+impl Floats for Vec3 {
+    fn map(self, f: impl Fn(f32) -> f32) -> Vec3 {
+        Vec3::new(f(self.x), f(self.y), f(self.z))
+    }
+}
+
+impl Floats for Vec4 {
+    fn map(self, f: impl Fn(f32) -> f32) -> Vec4 {
+        Vec4::new(f(self.x), f(self.y), f(self.z), f(self.w))
+    }
+}
+
+/// `x - floor(x)`: in 0..1 for negative numbers too, where `f32::fract` truncates.
+pub fn fract<T: Floats>(x: T) -> T {
+    x.map(|x| x - x.floor())
+}
+
+/// 1, -1, or 0 for 0, where `f32::signum` has no 0. Of a NaN, a NaN.
+pub fn sign<T: Floats>(x: T) -> T {
+    x.map(|x| {
+        if x > 0.0 {
+            1.0
+        } else if x < 0.0 {
+            -1.0
+        } else {
+            x * 0.0
+        }
+    })
+}
+
+/// `x` between 0 and 1.
+pub fn saturate<T: Floats>(x: T) -> T {
+    x.map(|x| x.min(1.0).max(0.0))
+}
+
+/// `1 / sqrt(x)`.
+pub fn inverse_sqrt<T: Floats>(x: T) -> T {
+    x.map(|x| 1.0 / x.sqrt())
+}
+
+/// `a` at 0, `b` at 1, straight between: `a * (1 - t) + b * t`.
+pub fn mix<T: Floats>(a: T, b: T, t: f32) -> T {
+    a * (1.0 - t) + b * t
+}
+
+/// 0 where `x` is less than `edge`, else 1.
+pub fn step(edge: f32, x: f32) -> f32 {
+    if x < edge { 0.0 } else { 1.0 }
+}
+
+/// 0 up to `low`, 1 from `high`, a cubic between: `t * t * (3 - 2 * t)`.
+pub fn smoothstep(low: f32, high: f32, x: f32) -> f32 {
+    let t = saturate((x - low) / (high - low));
+    t * t * (3.0 - 2.0 * t)
+}

@@ -1,0 +1,37 @@
+//! The vocabulary of a kernel.
+//!
+//! What a kernel may call besides its own functions: glam's vectors and matrices, `f32` and integer mathematics, the
+//! functions of [`maths`] for what Rust and shaders call by one name and mean differently, the textures, samplers and
+//! buffers below, and [`tally`]. Each means the same natively as in the emitted shader. `options!` declares the choices
+//! that are made when a shader is generated.
+//!
+//! Two attributes speak to the generator alone; to rustc they are nothing:
+//!
+//! - `#[cfg_attr(false, unroll(full))]`, `unroll(none)` or `unroll(4)` before a `for` decides what becomes of that loop;
+//! - `#[cfg_attr(false, branch)]` or `select` before an `if` decides whether a condition that is known at run time only
+//!   becomes a branch, or computes both sides and selects.
+
+mod buffer;
+mod frame;
+pub mod maths;
+mod texture;
+
+pub use glam::{
+    IVec2, IVec3, IVec4, Mat2, Mat3, Mat4, UVec2, UVec3, UVec4, Vec2, Vec3, Vec4, ivec2, ivec3, ivec4, mat2, mat3, mat4,
+    uvec2, uvec3, uvec4, vec2, vec3, vec4,
+};
+
+pub use buffer::Buffer;
+pub use frame::{Frame, FrameLayers};
+pub use maths::{fract, inverse_sqrt, mix, saturate, sign, smoothstep, step};
+pub use texture::{Address, Comparison, ComparisonSampler, DepthTexture, Filter, Multisampled, Sampler, Texel, Texture};
+
+pub use crate::options;
+
+/// `value`, counted under `name` in the generator's reports. Does nothing else.
+///
+/// Only what is still computed after partial evaluation is counted: a tallied value that turned out to be
+/// known, unused or shared costs nothing and counts nothing.
+pub fn tally(_name: &str, value: f32) -> f32 {
+    value
+}

@@ -1,0 +1,131 @@
+//! Checks the caller's resources against what a shader reads and writes, before wgpu sees them.
+
+mod target;
+mod texture;
+
+use crate::Resource;
+use crate::error::{BufferProblem, Error, Names};
+use crate::plan::{BufferPlan, InputKind, InputPlan, Plan};
+use texture::check_texture;
+use wgpu::{Buffer, BufferUsages, Device, Features, TextureView};
+
+pub(crate) use target::check_target;
+pub(crate) use texture::{is_one_image, size};
+
+/// What WebGPU wants the size of a storage binding to be a multiple of.
+const SIZE_ALIGNMENT: u64 = 4;
+
+/// What of a device decides whether a resource is fit. Asked once, as wgpu copies all of its limits each time.
+#[derive(Debug)]
+pub(crate) struct Abilities {
+    features: Features,
+    max_workgroups: u32,
+    max_storage_binding: u64,
+}
+
+impl Abilities {
+    /// Those of `device`.
+    pub(crate) fn new(device: &Device) -> Self {
+        let limits = device.limits();
+        Abilities {
+            features: device.features(),
+            max_workgroups: limits.max_compute_workgroups_per_dimension,
+            max_storage_binding: limits.max_storage_buffer_binding_size,
+        }
+    }
+}
+
+/// The resources for `plan.inputs`, in that order: each exactly once, of its kind, and nothing else.
+pub(crate) fn arrange<'r>(plan: &Plan, inputs: &[(&str, Resource<'r>)]) -> Result<Vec<Resource<'r>>, Error> {
+    let kernel = || plan.kernel.clone();
+    let known = || plan.inputs.iter().map(|input| input.name.as_str()).collect::<Names>();
+    for (i, (name, _)) in inputs.iter().enumerate() {
+        if plan.inputs.iter().all(|input| input.name != *name) {
+            return Err(Error::UnknownInput {
+                kernel: kernel(),
+                name: (*name).to_owned(),
+                known: known(),
+            });
+        }
+        if inputs[..i].iter().any(|(earlier, _)| earlier == name) {
+            return Err(Error::DuplicateInput {
+                kernel: kernel(),
+                name: (*name).to_owned(),
+            });
+        }
+    }
+    plan.inputs
+        .iter()
+        .map(|input| match inputs.iter().find(|(name, _)| *name == input.name) {
+            Some((_, resource)) if resource.kind() == input.kind.resource() => Ok(*resource),
+            Some((_, resource)) => Err(Error::InputKind {
+                kernel: kernel(),
+                name: input.name.clone(),
+                needed: input.kind.resource(),
+                given: resource.kind(),
+            }),
+            None => Err(Error::MissingInput {
+                kernel: kernel(),
+                name: input.name.clone(),
+                known: known(),
+            }),
+        })
+        .collect()
+}
+
+/// Checks each input against the manifest, the device and the target. `resources` is as [`arrange`] made it.
+pub(crate) fn check_inputs(
+    plan: &Plan,
+    abilities: &Abilities,
+    resources: &[Resource<'_>],
+    target: &TextureView,
+) -> Result<(), Error> {
+    for (input, resource) in plan.inputs.iter().zip(resources) {
+        let names = || (plan.kernel.clone(), input.name.clone());
+        match (&input.kind, resource) {
+            (InputKind::Texture(texture), Resource::Texture(view)) => {
+                check_texture(texture, abilities, view.texture(), target.texture()).map_err(|problem| {
+                    let (kernel, name) = names();
+                    Error::Input { kernel, name, problem }
+                })?;
+            }
+            (InputKind::Buffer(plan), Resource::Buffer(buffer)) => {
+                check_buffer(plan, abilities, buffer).map_err(|problem| {
+                    let (kernel, name) = names();
+                    Error::InputBuffer { kernel, name, problem }
+                })?;
+            }
+            // Of a sampler, wgpu tells nothing; whether it is fit shows when it is bound.
+            _ => {}
+        }
+    }
+    Ok(())
+}
+
+/// Checks `buffer`, which is bound whole. What is left after the last whole element is not read.
+fn check_buffer(plan: &BufferPlan, abilities: &Abilities, buffer: &Buffer) -> Result<(), BufferProblem> {
+    if !buffer.usage().contains(BufferUsages::STORAGE) {
+        return Err(BufferProblem::Usage { missing: "STORAGE" });
+    }
+    let size = buffer.size();
+    if size < u64::from(plan.stride) {
+        let stride = plan.stride;
+        return Err(BufferProblem::TooSmall { size, stride });
+    }
+    if size > abilities.max_storage_binding {
+        let max = abilities.max_storage_binding;
+        return Err(BufferProblem::TooLarge { size, max });
+    }
+    if !size.is_multiple_of(SIZE_ALIGNMENT) {
+        return Err(BufferProblem::Unaligned { size });
+    }
+    Ok(())
+}
+
+/// The first input that is of the target's texture. Whether it shows the same part of it, only wgpu knows.
+pub(crate) fn shared<'p>(plan: &'p Plan, resources: &[Resource<'_>], target: &TextureView) -> Option<&'p InputPlan> {
+    let mut pairs = plan.inputs.iter().zip(resources);
+    pairs
+        .find(|(_, resource)| matches!(resource, Resource::Texture(view) if view.texture() == target.texture()))
+        .map(|(input, _)| input)
+}

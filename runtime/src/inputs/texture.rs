@@ -1,0 +1,111 @@
+//! Checks textures that are read, and what inputs and target have in common.
+
+use super::Abilities;
+use crate::error::ViewProblem;
+use crate::plan::TexturePlan;
+use straightline_manifest::{Dimension, Extent, SampleType};
+use wgpu::{Features, Texture, TextureAspect, TextureDimension, TextureFormat, TextureSampleType, TextureUsages};
+
+/// Checks an input of `texture` against the manifest, the device and the target.
+pub(super) fn check_texture(
+    plan: &TexturePlan,
+    abilities: &Abilities,
+    texture: &Texture,
+    target: &Texture,
+) -> Result<(), ViewProblem> {
+    check_shape(plan.dimension, plan.samples, texture)?;
+    if texture.depth_or_array_layers() < plan.layers {
+        return Err(ViewProblem::Layers {
+            needed: plan.layers,
+            found: texture.depth_or_array_layers(),
+        });
+    }
+    let format = texture.format();
+    check_float(format)?;
+    match plan.sample_type {
+        SampleType::Unfilterable => {}
+        SampleType::Filterable => check_filterable(format, abilities.features)?,
+        SampleType::Depth if format.has_depth_aspect() => {}
+        SampleType::Depth => return Err(ViewProblem::NotDepth { format }),
+    }
+    if components(format) < plan.components {
+        let (needed, found) = (plan.components, components(format));
+        return Err(ViewProblem::Components { format, needed, found });
+    }
+    check_usage(texture, TextureUsages::TEXTURE_BINDING, "TEXTURE_BINDING")?;
+    let (input, target) = (size(texture), size(target));
+    match plan.extent {
+        Extent::Output if input != target => Err(ViewProblem::Size { input, target }),
+        Extent::Output | Extent::Any => Ok(()),
+    }
+}
+
+/// Width and height in texels.
+pub(crate) fn size(texture: &Texture) -> [u32; 2] {
+    [texture.width(), texture.height()]
+}
+
+/// Whether `texture` has neither further mip levels nor further layers.
+pub(crate) fn is_one_image(texture: &Texture) -> bool {
+    texture.mip_level_count() == 1 && texture.depth_or_array_layers() == 1
+}
+
+/// `samples` is the least number that will do where `needed` is multisampled.
+pub(super) fn check_shape(needed: Dimension, samples: u32, texture: &Texture) -> Result<(), ViewProblem> {
+    let found = match texture.dimension() {
+        TextureDimension::D1 => "a 1d texture",
+        TextureDimension::D3 => "a 3d texture",
+        TextureDimension::D2 => return check_samples(needed, samples, texture.sample_count()),
+    };
+    Err(ViewProblem::Dimension {
+        needed,
+        found: found.to_owned(),
+    })
+}
+
+fn check_samples(needed: Dimension, samples: u32, found: u32) -> Result<(), ViewProblem> {
+    match (needed, found) {
+        (Dimension::D2Multisampled, 1) => Err(ViewProblem::SingleSampled { needed: samples.max(2) }),
+        (Dimension::D2Multisampled, _) if found < samples => Err(ViewProblem::Samples { needed: samples, found }),
+        (Dimension::D2Multisampled, _) | (Dimension::D2 | Dimension::D2Array, 1) => Ok(()),
+        (Dimension::D2 | Dimension::D2Array, _) => Err(ViewProblem::Multisampled { samples: found }),
+    }
+}
+
+pub(super) fn check_usage(texture: &Texture, usage: TextureUsages, missing: &'static str) -> Result<(), ViewProblem> {
+    if texture.usage().contains(usage) {
+        Ok(())
+    } else {
+        Err(ViewProblem::Usage { missing })
+    }
+}
+
+/// Float, normalised and depth formats read as floats. Of a combined depth-stencil format the view must select the
+/// depth; that is asked of wgpu when the view is bound.
+fn check_float(format: TextureFormat) -> Result<(), ViewProblem> {
+    match format.sample_type(Some(TextureAspect::DepthOnly), None) {
+        Some(TextureSampleType::Float { .. } | TextureSampleType::Depth) => Ok(()),
+        _ => Err(ViewProblem::NotFloat { format }),
+    }
+}
+
+/// Components that a read yields. Of a depth texture, combined with stencil or not, only the first is defined.
+fn components(format: TextureFormat) -> u8 {
+    if format.has_depth_aspect() {
+        1
+    } else {
+        format.components()
+    }
+}
+
+fn check_filterable(format: TextureFormat, features: Features) -> Result<(), ViewProblem> {
+    if format.has_depth_aspect() {
+        return Err(ViewProblem::DepthFiltered { format });
+    }
+    match format.sample_type(None, Some(features)) {
+        Some(TextureSampleType::Float { filterable: true }) => Ok(()),
+        // The adapter may filter more than WebGPU promises; wgpu knows when the view is bound.
+        _ if features.contains(Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES) => Ok(()),
+        _ => Err(ViewProblem::NotFilterable { format }),
+    }
+}

@@ -1,0 +1,212 @@
+//! Bind group layouts, and bind groups of the caller's resources.
+
+mod culprit;
+mod limits;
+
+use crate::guard::{guarded, scoped};
+use crate::plan::{InputKind, OutputPlan, Plan, TexturePlan};
+use crate::uniforms::UniformBlock;
+use crate::{Error, Resource};
+use culprit::culprit;
+use limits::check_limits;
+use straightline_manifest::{Dimension, Format, SampleType, SamplerType};
+use wgpu::{BindGroupLayoutEntry, BindingType, ShaderStages, TextureViewDimension};
+
+/// The layouts of a pass, one for each group that it uses.
+#[derive(Debug)]
+pub(crate) struct Layout {
+    groups: Vec<Group>,
+    pub(crate) pipeline: wgpu::PipelineLayout,
+}
+
+#[derive(Debug)]
+struct Group {
+    index: u32,
+    layout: wgpu::BindGroupLayout,
+}
+
+/// A bind group with the number it is bound to.
+pub(crate) type BoundGroup = (u32, wgpu::BindGroup);
+
+impl Layout {
+    /// Makes the layouts that `plan` asks for.
+    pub(crate) fn new(device: &wgpu::Device, plan: &Plan) -> Result<Self, Error> {
+        let mut entries = entries(plan);
+        entries.sort_by_key(|(group, entry)| (*group, entry.binding));
+        check_limits(device, plan, entries.last().map_or(0, |(group, _)| *group))?;
+
+        let kernel = &plan.kernel;
+        let refused = |description| Error::Pipeline {
+            kernel: kernel.clone(),
+            description,
+        };
+        guarded(device, &format!("making the layouts of `{kernel}`"), refused, || {
+            let groups: Vec<Group> = entries
+                .chunk_by(|a, b| a.0 == b.0)
+                .map(|chunk| {
+                    let entries: Vec<BindGroupLayoutEntry> = chunk.iter().map(|(_, entry)| *entry).collect();
+                    let descriptor = wgpu::BindGroupLayoutDescriptor {
+                        label: Some(kernel),
+                        entries: &entries,
+                    };
+                    Group {
+                        index: chunk[0].0,
+                        layout: device.create_bind_group_layout(&descriptor),
+                    }
+                })
+                .collect();
+            // Group numbers may have holes: a kernel can leave low groups to the renderer.
+            let mut slots = vec![None; groups.last().map_or(0, |group| group.index as usize + 1)];
+            for group in &groups {
+                slots[group.index as usize] = Some(&group.layout);
+            }
+            let pipeline = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+                label: Some(kernel),
+                bind_group_layouts: &slots,
+                immediate_size: 0,
+            });
+            Layout { groups, pipeline }
+        })
+    }
+
+    /// Bind groups of `resources`, which are in the order of `plan.inputs`, and of `target` if it is a storage texture.
+    pub(crate) fn bind(
+        &self,
+        device: &wgpu::Device,
+        plan: &Plan,
+        uniforms: &[UniformBlock],
+        resources: &[Resource<'_>],
+        target: &wgpu::TextureView,
+    ) -> Result<Vec<BoundGroup>, Error> {
+        let made = scoped(device, || {
+            self.groups
+                .iter()
+                .map(|group| (group.index, group.bind(device, plan, uniforms, resources, target)))
+                .collect()
+        });
+        made.map_err(|error| match error {
+            wgpu::Error::OutOfMemory { .. } => Error::OutOfMemory {
+                doing: format!("binding `{}`", plan.kernel),
+            },
+            other => culprit(device, plan, resources, target, other.to_string()),
+        })
+    }
+}
+
+impl Group {
+    fn bind(
+        &self,
+        device: &wgpu::Device,
+        plan: &Plan,
+        uniforms: &[UniformBlock],
+        resources: &[Resource<'_>],
+        target: &wgpu::TextureView,
+    ) -> wgpu::BindGroup {
+        let mut entries = Vec::with_capacity(plan.inputs.len() + uniforms.len() + 1);
+        let mut add = |group: u32, binding: u32, resource| {
+            if group == self.index {
+                entries.push(wgpu::BindGroupEntry { binding, resource });
+            }
+        };
+        for (input, resource) in plan.inputs.iter().zip(resources) {
+            add(input.group, input.binding, resource.binding());
+        }
+        for block in uniforms {
+            add(block.group, block.binding, block.buffer.as_entire_binding());
+        }
+        if let OutputPlan::Storage { group, binding, .. } = plan.output {
+            add(group, binding, wgpu::BindingResource::TextureView(target));
+        }
+        device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some(&plan.kernel),
+            layout: &self.layout,
+            entries: &entries,
+        })
+    }
+}
+
+/// Every entry with its group.
+fn entries(plan: &Plan) -> Vec<(u32, BindGroupLayoutEntry)> {
+    let visibility = match plan.output {
+        OutputPlan::Storage { .. } => ShaderStages::COMPUTE,
+        OutputPlan::Attachment { .. } => ShaderStages::FRAGMENT,
+    };
+    let entry = |binding, ty| BindGroupLayoutEntry {
+        binding,
+        visibility,
+        ty,
+        count: None,
+    };
+    let mut entries = Vec::new();
+    for input in &plan.inputs {
+        entries.push((input.group, entry(input.binding, binding_type(&input.kind))));
+    }
+    for uniform in &plan.uniforms {
+        let ty = BindingType::Buffer {
+            ty: wgpu::BufferBindingType::Uniform,
+            has_dynamic_offset: false,
+            min_binding_size: wgpu::BufferSize::new(u64::from(uniform.size)),
+        };
+        entries.push((uniform.group, entry(uniform.binding, ty)));
+    }
+    if let OutputPlan::Storage {
+        group, binding, format, ..
+    } = plan.output
+    {
+        entries.push((group, entry(binding, storage_type(format))));
+    }
+    entries
+}
+
+fn binding_type(kind: &InputKind) -> BindingType {
+    match kind {
+        InputKind::Texture(texture) => texture_type(texture),
+        InputKind::Sampler(sampler) => sampler_type(*sampler),
+        InputKind::Buffer(buffer) => BindingType::Buffer {
+            ty: wgpu::BufferBindingType::Storage { read_only: true },
+            has_dynamic_offset: false,
+            // Of an empty array, even a read that is clamped into it would have nothing to yield.
+            min_binding_size: wgpu::BufferSize::new(u64::from(buffer.stride)),
+        },
+    }
+}
+
+fn texture_type(texture: &TexturePlan) -> BindingType {
+    BindingType::Texture {
+        sample_type: match texture.sample_type {
+            // Texel reads need no filtering, and formats that cannot be filtered, such as depth, are welcome.
+            SampleType::Unfilterable => wgpu::TextureSampleType::Float { filterable: false },
+            SampleType::Filterable => wgpu::TextureSampleType::Float { filterable: true },
+            SampleType::Depth => wgpu::TextureSampleType::Depth,
+        },
+        view_dimension: match texture.dimension {
+            Dimension::D2 | Dimension::D2Multisampled => TextureViewDimension::D2,
+            Dimension::D2Array => TextureViewDimension::D2Array,
+        },
+        multisampled: texture.dimension == Dimension::D2Multisampled,
+    }
+}
+
+fn sampler_type(sampler: SamplerType) -> BindingType {
+    BindingType::Sampler(match sampler {
+        SamplerType::Filtering => wgpu::SamplerBindingType::Filtering,
+        SamplerType::Comparison => wgpu::SamplerBindingType::Comparison,
+    })
+}
+
+fn storage_type(format: Format) -> BindingType {
+    BindingType::StorageTexture {
+        access: wgpu::StorageTextureAccess::WriteOnly,
+        format: texture_format(format),
+        view_dimension: TextureViewDimension::D2,
+    }
+}
+
+/// The wgpu name of a manifest's format.
+pub(crate) fn texture_format(format: Format) -> wgpu::TextureFormat {
+    match format {
+        Format::Rgba8Unorm => wgpu::TextureFormat::Rgba8Unorm,
+        Format::Rgba16Float => wgpu::TextureFormat::Rgba16Float,
+        Format::Rgba32Float => wgpu::TextureFormat::Rgba32Float,
+    }
+}

@@ -1,0 +1,94 @@
+//! What is bound, each checked for itself: textures, storage buffers, and the fields of uniform structs.
+
+use super::{BufferPlan, FieldPlan, TexturePlan, require};
+use crate::uniforms::UniformType;
+use straightline_manifest::{Dimension, SampleType, UniformField};
+
+/// Checks a texture's numbers against one another and against the types that a shader can declare.
+pub(super) fn check_texture(plan: &TexturePlan) -> Result<(), String> {
+    let TexturePlan {
+        dimension,
+        sample_type,
+        components,
+        layers,
+        samples,
+        extent: _,
+    } = *plan;
+    require((1..=4).contains(&components), || {
+        format!("{components} components, not 1 to 4")
+    })?;
+    require(layers >= 1, || "no layers".to_owned())?;
+    require(dimension == Dimension::D2Array || layers == 1, || {
+        format!("2d, but with {layers} layers")
+    })?;
+    require(samples >= 1, || "no samples".to_owned())?;
+    require(dimension == Dimension::D2Multisampled || samples == 1, || {
+        format!("not multisampled, but with {samples} samples")
+    })?;
+    match sample_type {
+        SampleType::Unfilterable => Ok(()),
+        // Neither a device nor a shading language can filter the samples of a texel.
+        SampleType::Filterable => require(dimension != Dimension::D2Multisampled, || {
+            "multisampled, but filterable".to_owned()
+        }),
+        SampleType::Depth => {
+            require(dimension == Dimension::D2, || "a depth, but not 2d".to_owned())?;
+            require(components == 1, || format!("a depth, but with {components} components"))
+        }
+    }
+}
+
+/// A storage buffer of elements of the type that WGSL spells `element`, `stride` bytes apart.
+pub(super) fn buffer(element: &str, stride: u32) -> Result<BufferPlan, String> {
+    let ty = UniformType::from_wgsl(element)
+        .ok_or_else(|| format!("elements of type `{element}`, not a 32-bit scalar or vector"))?;
+    require(stride > 0 && stride.is_multiple_of(4), || {
+        format!("a stride of {stride} bytes, not a positive multiple of 4")
+    })?;
+    require(stride >= ty.size(), || {
+        format!(
+            "a stride of {stride} bytes, but an element of type {ty} takes {}",
+            ty.size()
+        )
+    })?;
+    Ok(BufferPlan { element: ty, stride })
+}
+
+/// A field of a struct of `block` bytes.
+pub(super) fn field(field: &UniformField, block: u32) -> Result<FieldPlan, String> {
+    let UniformField {
+        name,
+        ty: text,
+        offset,
+        size,
+        default,
+    } = field;
+    let ty = UniformType::from_wgsl(text)
+        .ok_or_else(|| format!("field `{name}` is of type `{text}`, not a 32-bit scalar or vector"))?;
+    require(*size == ty.size(), || {
+        format!(
+            "field `{name}` of type {ty} takes {size} bytes instead of {}",
+            ty.size()
+        )
+    })?;
+    require(offset % 4 == 0, || {
+        format!("field `{name}` lies at offset {offset}, not a multiple of 4")
+    })?;
+    let inside = offset.checked_add(*size).is_some_and(|end| end <= block);
+    require(inside, || {
+        format!("field `{name}` ends beyond the buffer of {block} bytes")
+    })?;
+    let default = match default {
+        None => None,
+        Some(value) => Some(
+            ty.scalar(*value)
+                .ok_or_else(|| format!("the default {value} of field `{name}` is no {ty}"))?,
+        ),
+    };
+    Ok(FieldPlan {
+        name: name.clone(),
+        ty,
+        offset: *offset,
+        default,
+    })
+}

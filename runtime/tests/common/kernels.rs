@@ -1,0 +1,95 @@
+//! Small kernels, written by hand, that read one kind of resource each.
+
+use super::Kernel;
+
+pub const COLOR: &str = r#"{"group": 0, "binding": 0, "name": "color", "type": "texture", "access": "read",
+    "dimension": "2d", "sample_type": "unfilterable", "components": 4, "layers": 1, "samples": 1,
+    "extent": "output"}"#;
+pub const DEPTH: &str = r#"{"group": 0, "binding": 1, "name": "depth", "type": "texture", "access": "read",
+    "dimension": "2d-array", "sample_type": "unfilterable", "components": 1, "layers": 3, "samples": 1,
+    "extent": "output"}"#;
+/// In a group of its own, and not the next one.
+pub const PARAMS: &str = r#"{"group": 2, "binding": 4, "name": "params", "type": "uniform", "access": "read",
+    "size": 32, "fields": [
+        {"name": "offset", "type": "vec4f", "offset": 0, "size": 16},
+        {"name": "scale", "type": "f32", "offset": 16, "size": 4, "default": 2.0},
+        {"name": "steps", "type": "i32", "offset": 20, "size": 4, "default": -3}]}"#;
+
+/// `color`, unchanged.
+pub const COPY: Kernel = Kernel {
+    name: "copy",
+    bindings: &[COLOR],
+    declarations: "@group(0) @binding(0) var color: texture_2d<f32>;",
+    result: "textureLoad(color, pixel, 0)",
+};
+
+/// `color` with the three layers of `depth` in place of red, green and blue.
+pub const LAYERS: Kernel = Kernel {
+    name: "layers",
+    bindings: &[COLOR, DEPTH],
+    declarations: "@group(0) @binding(0) var color: texture_2d<f32>;
+        @group(0) @binding(1) var depth: texture_2d_array<f32>;",
+    result: "vec4f(textureLoad(depth, pixel, 0, 0).x, textureLoad(depth, pixel, 1, 0).x,
+        textureLoad(depth, pixel, 2, 0).x, textureLoad(color, pixel, 0).w)",
+};
+
+/// `color * scale + offset + steps`.
+pub const ADD: Kernel = Kernel {
+    name: "add",
+    bindings: &[COLOR, PARAMS],
+    declarations: "struct Params { offset: vec4f, scale: f32, steps: i32 }
+        @group(0) @binding(0) var color: texture_2d<f32>;
+        @group(2) @binding(4) var<uniform> params: Params;",
+    result: "textureLoad(color, pixel, 0) * params.scale + params.offset + f32(params.steps)",
+};
+
+/// `small`, which is of any size, filtered over a target that is 4 pixels wide.
+pub const SCALE: Kernel = Kernel {
+    name: "scale",
+    bindings: &[
+        r#"{"group": 0, "binding": 0, "name": "small", "type": "texture", "access": "read",
+    "dimension": "2d", "sample_type": "filterable", "components": 4, "layers": 1, "samples": 1, "extent": "any"}"#,
+        r#"{"group": 0, "binding": 1, "name": "linear", "type": "sampler", "sampler": "filtering"}"#,
+    ],
+    declarations: "@group(0) @binding(0) var small: texture_2d<f32>;
+        @group(0) @binding(1) var linear: sampler;",
+    result: "textureSampleLevel(small, linear, vec2f((f32(pixel.x) + 0.5) / 4.0, 0.5), 0.0)",
+};
+
+/// The element of `weights` in the pixel's column, and how many elements there are.
+pub const TABLE: Kernel = Kernel {
+    name: "table",
+    bindings: &[
+        r#"{"group": 0, "binding": 3, "name": "weights", "type": "buffer", "access": "read",
+    "element": "vec3f", "stride": 16}"#,
+    ],
+    declarations: "@group(0) @binding(3) var<storage, read> weights: array<vec3f>;",
+    result: "vec4f(weights[pixel.x], f32(arrayLength(&weights)))",
+};
+
+/// The mean of a texel's four samples.
+pub const RESOLVE: Kernel = Kernel {
+    name: "resolve",
+    bindings: &[
+        r#"{"group": 0, "binding": 0, "name": "color", "type": "texture", "access": "read",
+    "dimension": "2d-multisampled", "sample_type": "unfilterable", "components": 4, "layers": 1, "samples": 4,
+    "extent": "output"}"#,
+    ],
+    declarations: "@group(0) @binding(0) var color: texture_multisampled_2d<f32>;",
+    result: "0.25 * (textureLoad(color, pixel, 0) + textureLoad(color, pixel, 1)
+        + textureLoad(color, pixel, 2) + textureLoad(color, pixel, 3))",
+};
+
+/// Whether a quarter of the pixel's column is less than `depth`, and the depth itself.
+pub const SHADOW: Kernel = Kernel {
+    name: "shadow",
+    bindings: &[
+        r#"{"group": 0, "binding": 0, "name": "depth", "type": "texture", "access": "read",
+    "dimension": "2d", "sample_type": "depth", "components": 1, "layers": 1, "samples": 1, "extent": "any"}"#,
+        r#"{"group": 0, "binding": 1, "name": "compare", "type": "sampler", "sampler": "comparison"}"#,
+    ],
+    declarations: "@group(0) @binding(0) var depth: texture_depth_2d;
+        @group(0) @binding(1) var compare: sampler_comparison;",
+    result: "vec4f(textureSampleCompareLevel(depth, compare, vec2f(0.5), f32(pixel.x) / 4.0),
+        textureLoad(depth, vec2i(0), 0), 0.0, 1.0)",
+};

@@ -1,0 +1,188 @@
+//! Values and textures in the form that a shader asks for.
+
+use super::ExecuteError;
+use glam::UVec2;
+use straightline_manifest::UniformField;
+use straightline_runtime::Pass;
+use wgpu::{TextureFormat, TextureUsages};
+
+/// Makes textures that no copy can fill: depths, and several samples a texel.
+pub struct Converters<'a> {
+    device: &'a wgpu::Device,
+    queue: &'a wgpu::Queue,
+}
+
+const SHADER: &str = "
+@group(0) @binding(0) var flat_image: texture_2d<f32>;
+@group(0) @binding(0) var layers: texture_2d_array<f32>;
+
+@vertex
+fn cover(@builtin(vertex_index) k: u32) -> @builtin(position) vec4f {
+    return vec4f(select(-1.0, 3.0, k == 1u), select(-1.0, 3.0, k == 2u), 0.0, 1.0);
+}
+
+@fragment
+fn depth(@builtin(position) at: vec4f) -> @builtin(frag_depth) f32 {
+    return textureLoad(flat_image, vec2i(at.xy), 0).x;
+}
+
+@fragment
+fn samples(@builtin(position) at: vec4f, @builtin(sample_index) k: u32) -> @location(0) vec4f {
+    return textureLoad(layers, vec2i(at.xy), k, 0);
+}
+";
+
+impl<'a> Converters<'a> {
+    pub fn new(device: &'a wgpu::Device, queue: &'a wgpu::Queue) -> Self {
+        Converters { device, queue }
+    }
+
+    /// The first component of an image as depths.
+    pub fn depth(&self, source: &wgpu::TextureView, size: UVec2) -> wgpu::TextureView {
+        let target = self.draw(source, size, 1, TextureFormat::Depth32Float, "depth");
+        target.create_view(&wgpu::TextureViewDescriptor::default())
+    }
+
+    /// Layers as the samples of an image; in half precision, which every device can multisample.
+    pub fn multisampled(&self, source: &wgpu::TextureView, size: UVec2, samples: u32) -> wgpu::TextureView {
+        let target = self.draw(source, size, samples, TextureFormat::Rgba16Float, "samples");
+        target.create_view(&wgpu::TextureViewDescriptor::default())
+    }
+
+    fn draw(
+        &self,
+        source: &wgpu::TextureView,
+        size: UVec2,
+        samples: u32,
+        format: TextureFormat,
+        entry: &str,
+    ) -> wgpu::Texture {
+        let target = self.device.create_texture(&wgpu::TextureDescriptor {
+            label: None,
+            size: wgpu::Extent3d {
+                width: size.x,
+                height: size.y,
+                depth_or_array_layers: 1,
+            },
+            mip_level_count: 1,
+            sample_count: samples,
+            dimension: wgpu::TextureDimension::D2,
+            format,
+            usage: TextureUsages::TEXTURE_BINDING | TextureUsages::RENDER_ATTACHMENT,
+            view_formats: &[],
+        });
+        let is_depth = format.is_depth_stencil_format();
+        let module = self.device.create_shader_module(wgpu::ShaderModuleDescriptor {
+            label: None,
+            source: wgpu::ShaderSource::Wgsl(SHADER.into()),
+        });
+        let pipeline = self.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            label: None,
+            layout: None,
+            vertex: wgpu::VertexState {
+                module: &module,
+                entry_point: Some("cover"),
+                compilation_options: Default::default(),
+                buffers: &[],
+            },
+            primitive: wgpu::PrimitiveState::default(),
+            depth_stencil: is_depth.then(|| wgpu::DepthStencilState {
+                format,
+                depth_write_enabled: Some(true),
+                depth_compare: Some(wgpu::CompareFunction::Always),
+                stencil: Default::default(),
+                bias: Default::default(),
+            }),
+            multisample: wgpu::MultisampleState {
+                count: samples,
+                ..Default::default()
+            },
+            fragment: Some(wgpu::FragmentState {
+                module: &module,
+                entry_point: Some(entry),
+                compilation_options: Default::default(),
+                targets: if is_depth { &[] } else { &[Some(wgpu::ColorTargetState { format: TextureFormat::Rgba16Float, blend: None, write_mask: wgpu::ColorWrites::ALL })] },
+            }),
+            multiview_mask: None,
+            cache: None,
+        });
+        let group = self.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: None,
+            layout: &pipeline.get_bind_group_layout(0),
+            entries: &[wgpu::BindGroupEntry {
+                binding: 0,
+                resource: wgpu::BindingResource::TextureView(source),
+            }],
+        });
+        let view = target.create_view(&wgpu::TextureViewDescriptor::default());
+        let colour = wgpu::RenderPassColorAttachment {
+            view: &view,
+            depth_slice: None,
+            resolve_target: None,
+            ops: wgpu::Operations::default(),
+        };
+        let colours = [Some(colour)];
+        let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: None,
+            color_attachments: if is_depth { &[] } else { &colours },
+            depth_stencil_attachment: is_depth.then(|| wgpu::RenderPassDepthStencilAttachment {
+                view: &view,
+                depth_ops: Some(wgpu::Operations {
+                    load: wgpu::LoadOp::Clear(1.0),
+                    store: wgpu::StoreOp::Store,
+                }),
+                stencil_ops: None,
+            }),
+            timestamp_writes: None,
+            occlusion_query_set: None,
+            multiview_mask: None,
+        });
+        pass.set_pipeline(&pipeline);
+        pass.set_bind_group(0, &group, &[]);
+        pass.draw(0..3, 0..1);
+        drop(pass);
+        self.queue.submit([encoder.finish()]);
+        target
+    }
+}
+
+/// Sets a uniform from numbers; a single number is for every lane.
+pub fn write_uniform(
+    pass: &Pass,
+    queue: &wgpu::Queue,
+    field: &UniformField,
+    lanes: &[f64],
+) -> Result<(), ExecuteError> {
+    let lane = |k: usize| lanes.get(k).or(lanes.first()).copied().unwrap_or(0.0);
+    let name = field.name.as_str();
+    let written = match field.ty.as_str() {
+        "f32" => pass.write_uniform(queue, name, lane(0) as f32),
+        "i32" => pass.write_uniform(queue, name, lane(0) as i32),
+        "u32" => pass.write_uniform(queue, name, lane(0) as u32),
+        "vec2f" => pass.write_uniform(queue, name, [0, 1].map(|k| lane(k) as f32)),
+        "vec3f" => pass.write_uniform(queue, name, [0, 1, 2].map(|k| lane(k) as f32)),
+        "vec4f" => pass.write_uniform(queue, name, [0, 1, 2, 3].map(|k| lane(k) as f32)),
+        "vec2i" => pass.write_uniform(queue, name, [0, 1].map(|k| lane(k) as i32)),
+        "vec3i" => pass.write_uniform(queue, name, [0, 1, 2].map(|k| lane(k) as i32)),
+        "vec4i" => pass.write_uniform(queue, name, [0, 1, 2, 3].map(|k| lane(k) as i32)),
+        "vec2u" => pass.write_uniform(queue, name, [0, 1].map(|k| lane(k) as u32)),
+        "vec3u" => pass.write_uniform(queue, name, [0, 1, 2].map(|k| lane(k) as u32)),
+        _ => pass.write_uniform(queue, name, [0, 1, 2, 3].map(|k| lane(k) as u32)),
+    };
+    Ok(written?)
+}
+
+/// Elements of a buffer as they lie in it.
+pub fn element_bytes(elements: &[[f64; 4]], element: &str) -> Vec<u8> {
+    let (lanes, kind) = match element.strip_prefix("vec") {
+        Some(rest) => (rest[..1].parse().unwrap_or(4), &rest[1..]),
+        None => (1, &element[..1]),
+    };
+    let word = |v: &f64| match kind {
+        "f" => (*v as f32).to_le_bytes(),
+        "i" => (*v as i32).to_le_bytes(),
+        _ => (*v as u32).to_le_bytes(),
+    };
+    elements.iter().flat_map(|e| e[..lanes].iter().flat_map(word).collect::<Vec<u8>>()).collect()
+}

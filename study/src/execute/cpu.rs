@@ -1,0 +1,84 @@
+//! The interpreter, on all processors.
+
+use super::{ExecuteError, Inputs};
+use glam::Vec4;
+use rayon::prelude::*;
+use straightline_codegen::Compiled;
+use straightline_codegen::ir::Real;
+use straightline_codegen::ir::interp::{Bindings, Image, Interpreter};
+use straightline_kernels::prelude::Frame;
+
+/// What the interpreter computed.
+#[derive(Clone, Debug)]
+pub struct Interpreted<R> {
+    /// Colours, row by row from the top.
+    pub texels: Vec<[R; 4]>,
+    /// For the first pixel that had a NaN or an infinity: its coordinate and where that came from.
+    pub not_finite: Option<([u32; 2], String)>,
+    /// Pixels that had one.
+    pub not_finite_pixels: usize,
+}
+
+impl<R: Real> Interpreted<R> {
+    /// The image in `f32`.
+    pub fn frame(&self, inputs: &Inputs) -> Frame<Vec4> {
+        let texel = |t: &[R; 4]| Vec4::from_array(t.map(|v| v.to_f64() as f32));
+        Frame::new(inputs.size, self.texels.iter().map(texel).collect())
+    }
+}
+
+/// Computes every pixel of a kernel in the precision `R`; with `watch`, notes where NaNs and infinities come from.
+///
+/// # Errors
+///
+/// If something that the kernel reads is missing or does not fit.
+pub fn interpret<R: Real>(compiled: &Compiled, inputs: &Inputs, watch: bool) -> Result<Interpreted<R>, ExecuteError> {
+    let mut images = Vec::new();
+    for (name, layers) in &inputs.images {
+        let size = layers.first().map_or([0, 0], |l| l.size().to_array());
+        let texels = layers.iter().map(|l| l.texels().iter().map(|t| t.to_array()).collect());
+        let image = Image::new(size, texels.collect())
+            .ok_or_else(|| ExecuteError::Input(format!("the layers of `{name}` have different sizes")))?;
+        images.push((name, image));
+    }
+    let mut bindings = Bindings::new();
+    for (name, image) in &images {
+        bindings = bindings.texture(name, image);
+    }
+    for (name, state) in &inputs.samplers {
+        bindings = bindings.sampler(name, *state);
+    }
+    for (name, elements) in &inputs.buffers {
+        bindings = bindings.buffer(name, elements);
+    }
+    for (name, lanes) in &inputs.uniforms {
+        bindings = bindings.uniform(name, lanes);
+    }
+    let [width, height] = inputs.size.to_array();
+    let frame = [width, height];
+    let interpreter = Interpreter::<R>::in_precision(&compiled.graph, &compiled.schedule, frame, &bindings)
+        .map_err(|e| ExecuteError::Input(e.to_string()))?;
+    let interpreter = if watch { interpreter.watch() } else { interpreter };
+    let rows: Vec<(Vec<[R; 4]>, Vec<([u32; 2], String)>)> = (0..height)
+        .into_par_iter()
+        .map_init(
+            || interpreter.scratch(),
+            |scratch, y| {
+                let mut births = Vec::new();
+                let pixel = |x| {
+                    let texel = interpreter.pixel(x, y, scratch);
+                    births.extend(scratch.birth().map(|b| ([x, y], b.describe(&compiled.graph))));
+                    texel
+                };
+                ((0..width).map(pixel).collect(), births)
+            },
+        )
+        .collect();
+    let (texels, births): (Vec<_>, Vec<_>) = rows.into_iter().unzip();
+    let births = births.concat();
+    Ok(Interpreted {
+        texels: texels.concat(),
+        not_finite_pixels: births.len(),
+        not_finite: births.into_iter().next(),
+    })
+}

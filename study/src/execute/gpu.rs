@@ -1,0 +1,321 @@
+//! Emitted shaders on a device: images up, the pass, the picture down.
+
+use super::convert::{self, Converters};
+use super::{Address, Comparison, ExecuteError, Inputs, SamplerState};
+use glam::{UVec2, Vec4, uvec2};
+use straightline_codegen::emit::Target;
+use straightline_codegen::{Compiled, EmitOptions, Format, Stage};
+use straightline_kernels::prelude::Frame;
+use straightline_manifest::{BindingKind, Dimension, Manifest, SampleType};
+use straightline_runtime::{Pass, Resource};
+use wgpu::{TextureFormat, TextureUsages};
+
+/// A device to run shaders on.
+#[derive(Clone, Debug)]
+pub struct Bench {
+    pub(super) device: wgpu::Device,
+    pub(super) queue: wgpu::Queue,
+    /// Whether passes are timed by the device itself.
+    pub(super) timestamps: bool,
+}
+
+/// A shader's inputs on a device.
+#[derive(Debug)]
+pub struct Bound {
+    resources: Vec<(String, Owned)>,
+}
+
+#[derive(Debug)]
+enum Owned {
+    Texture(wgpu::TextureView),
+    Sampler(wgpu::Sampler),
+    Buffer(wgpu::Buffer),
+}
+
+impl Bound {
+    /// The inputs as a pass takes them.
+    pub fn resources(&self) -> Vec<(&str, Resource<'_>)> {
+        let resources = self.resources.iter().map(|(name, owned)| {
+            let resource = match owned {
+                Owned::Texture(view) => Resource::Texture(view),
+                Owned::Sampler(sampler) => Resource::Sampler(sampler),
+                Owned::Buffer(buffer) => Resource::Buffer(buffer),
+            };
+            (name.as_str(), resource)
+        });
+        resources.collect()
+    }
+}
+
+impl Bench {
+    /// Works on the caller's device. With `FLOAT32_FILTERABLE` filtered textures keep full precision; with `timestamps`
+    /// passes are timed by the device, which must then have `TIMESTAMP_QUERY`, else by the wall clock.
+    pub fn new(device: &wgpu::Device, queue: &wgpu::Queue, timestamps: bool) -> Self {
+        Bench {
+            device: device.clone(),
+            queue: queue.clone(),
+            timestamps,
+        }
+    }
+
+    /// The kernel as a pass that writes full floats, and its manifest.
+    ///
+    /// # Errors
+    ///
+    /// If it cannot be emitted, or the device cannot run it.
+    pub fn pass(&self, compiled: &Compiled, stage: Stage) -> Result<(Pass, Manifest), ExecuteError> {
+        let emitted = compiled.emit(&EmitOptions::new().stage(stage).format(Format::Rgba32Float))?;
+        let wgsl = emitted.files.get(&Target::Wgsl).map(|bytes| String::from_utf8_lossy(bytes));
+        let pass = Pass::new(&self.device, &emitted.manifest, &wgsl.unwrap_or_default())?;
+        Ok((pass, emitted.manifest))
+    }
+
+    /// Puts onto the device what a manifest asks for, uniforms into the pass.
+    ///
+    /// # Errors
+    ///
+    /// If something is missing, or the device refuses it.
+    pub fn bind(&self, pass: &Pass, manifest: &Manifest, inputs: &Inputs) -> Result<Bound, ExecuteError> {
+        let missing = |what: &str, name: &str| ExecuteError::Input(format!("no {what} is given for `{name}`"));
+        let mut resources = Vec::new();
+        for binding in &manifest.bindings {
+            let name = binding.name.as_str();
+            let owned = match &binding.kind {
+                BindingKind::Texture {
+                    dimension,
+                    sample_type,
+                    components,
+                    ..
+                } => {
+                    let layers = Inputs::find(&inputs.images, name).ok_or_else(|| missing("image", name))?;
+                    Owned::Texture(self.texture(layers, *dimension, *sample_type, *components)?)
+                }
+                BindingKind::Sampler { .. } => {
+                    let state = Inputs::find(&inputs.samplers, name).copied().unwrap_or_default();
+                    let compares = matches!(
+                        binding.kind,
+                        BindingKind::Sampler {
+                            sampler: straightline_manifest::SamplerType::Comparison
+                        }
+                    );
+                    Owned::Sampler(self.sampler(state, compares))
+                }
+                BindingKind::Buffer { element, .. } => {
+                    let elements = Inputs::find(&inputs.buffers, name).ok_or_else(|| missing("list of elements", name))?;
+                    Owned::Buffer(self.buffer(elements, element))
+                }
+                BindingKind::Uniform { fields, .. } => {
+                    for field in fields {
+                        if let Some(lanes) = Inputs::find(&inputs.uniforms, &field.name) {
+                            convert::write_uniform(pass, &self.queue, field, lanes)?;
+                        }
+                    }
+                    continue;
+                }
+            };
+            resources.push((binding.name.clone(), owned));
+        }
+        Ok(Bound { resources })
+    }
+
+    /// Every pixel of a kernel.
+    ///
+    /// # Errors
+    ///
+    /// If it cannot be emitted or run on these inputs.
+    pub fn run(&self, compiled: &Compiled, stage: Stage, inputs: &Inputs) -> Result<Frame<Vec4>, ExecuteError> {
+        let (pass, manifest) = self.pass(compiled, stage)?;
+        let bound = self.bind(&pass, &manifest, inputs)?;
+        let target = self.target(inputs.size, pass.target_format());
+        let view = target.create_view(&wgpu::TextureViewDescriptor::default());
+        let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        pass.encode(&mut encoder, &bound.resources(), &view)?;
+        self.queue.submit([encoder.finish()]);
+        self.download(&target)
+    }
+
+    /// A texture of `layers`, of the shape and kind that a shader asks for, holding the `components` that it reads.
+    ///
+    /// # Errors
+    ///
+    /// If it is larger than the device holds.
+    pub fn texture(
+        &self,
+        layers: &[Frame<Vec4>],
+        dimension: Dimension,
+        sample_type: SampleType,
+        components: u8,
+    ) -> Result<wgpu::TextureView, ExecuteError> {
+        let size = layers.first().map_or(UVec2::ONE, Frame::size);
+        let limits = self.device.limits();
+        let largest = limits.max_texture_dimension_2d;
+        if size.max_element() > largest || layers.len() as u32 > limits.max_texture_array_layers {
+            return Err(ExecuteError::Input(format!(
+                "a picture of {}x{} with {} layers is more than this adapter holds ({largest}x{largest}, {} layers)",
+                size.x,
+                size.y,
+                layers.len(),
+                limits.max_texture_array_layers
+            )));
+        }
+        let filterable = self.device.features().contains(wgpu::Features::FLOAT32_FILTERABLE);
+        let half = sample_type == SampleType::Filterable && !filterable;
+        let format = match (half, components) {
+            (true, _) => TextureFormat::Rgba16Float,
+            (false, 1) => TextureFormat::R32Float,
+            (false, 2) => TextureFormat::Rg32Float,
+            (false, _) => TextureFormat::Rgba32Float,
+        };
+        let plain = self.upload(size, layers, format);
+        let view = |dimension| {
+            plain.create_view(&wgpu::TextureViewDescriptor {
+                dimension: Some(dimension),
+                ..Default::default()
+            })
+        };
+        Ok(match (dimension, sample_type) {
+            (_, SampleType::Depth) => {
+                Converters::new(&self.device, &self.queue).depth(&view(wgpu::TextureViewDimension::D2), size)
+            }
+            (Dimension::D2, _) => view(wgpu::TextureViewDimension::D2),
+            (Dimension::D2Array, _) => view(wgpu::TextureViewDimension::D2Array),
+            (Dimension::D2Multisampled, _) => Converters::new(&self.device, &self.queue)
+                .multisampled(&view(wgpu::TextureViewDimension::D2Array), size, layers.len() as u32),
+        })
+    }
+
+    fn upload(&self, size: UVec2, layers: &[Frame<Vec4>], format: TextureFormat) -> wgpu::Texture {
+        let extent = wgpu::Extent3d {
+            width: size.x,
+            height: size.y,
+            depth_or_array_layers: layers.len() as u32,
+        };
+        let texture = self.device.create_texture(&wgpu::TextureDescriptor {
+            label: None,
+            size: extent,
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format,
+            usage: TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_DST,
+            view_formats: &[],
+        });
+        let components = usize::from(format.components());
+        let texels = layers.iter().flat_map(Frame::texels);
+        let lanes = texels.flat_map(|t| t.to_array().into_iter().take(components));
+        let bytes: Vec<u8> = match format {
+            TextureFormat::Rgba16Float => lanes.flat_map(|v| half::f16::from_f32(v).to_le_bytes()).collect(),
+            _ => lanes.flat_map(f32::to_le_bytes).collect(),
+        };
+        let layout = wgpu::TexelCopyBufferLayout {
+            offset: 0,
+            bytes_per_row: Some(size.x * format.block_copy_size(None).unwrap_or(16)),
+            rows_per_image: Some(size.y),
+        };
+        self.queue.write_texture(texture.as_image_copy(), &bytes, layout, extent);
+        texture
+    }
+
+    fn sampler(&self, state: SamplerState, compares: bool) -> wgpu::Sampler {
+        let filter = if state.linear { wgpu::FilterMode::Linear } else { wgpu::FilterMode::Nearest };
+        let address = match state.address {
+            Address::Clamp => wgpu::AddressMode::ClampToEdge,
+            Address::Repeat => wgpu::AddressMode::Repeat,
+            Address::Mirror => wgpu::AddressMode::MirrorRepeat,
+        };
+        let compare = match state.comparison {
+            Comparison::Less => wgpu::CompareFunction::Less,
+            Comparison::LessEqual => wgpu::CompareFunction::LessEqual,
+            Comparison::Greater => wgpu::CompareFunction::Greater,
+            Comparison::GreaterEqual => wgpu::CompareFunction::GreaterEqual,
+        };
+        self.device.create_sampler(&wgpu::SamplerDescriptor {
+            address_mode_u: address,
+            address_mode_v: address,
+            mag_filter: filter,
+            min_filter: filter,
+            compare: compares.then_some(compare),
+            ..Default::default()
+        })
+    }
+
+    fn buffer(&self, elements: &[[f64; 4]], element: &str) -> wgpu::Buffer {
+        let bytes = convert::element_bytes(elements, element);
+        let buffer = self.device.create_buffer(&wgpu::BufferDescriptor {
+            label: None,
+            size: bytes.len() as u64,
+            usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        });
+        self.queue.write_buffer(&buffer, 0, &bytes);
+        buffer
+    }
+
+    /// A target that either stage can write and that can be read back.
+    pub fn target(&self, size: UVec2, format: TextureFormat) -> wgpu::Texture {
+        self.device.create_texture(&wgpu::TextureDescriptor {
+            label: None,
+            size: wgpu::Extent3d {
+                width: size.x,
+                height: size.y,
+                depth_or_array_layers: 1,
+            },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format,
+            usage: TextureUsages::STORAGE_BINDING | TextureUsages::RENDER_ATTACHMENT | TextureUsages::COPY_SRC,
+            view_formats: &[],
+        })
+    }
+
+    /// A picture of `rgba32float` texels, read back.
+    ///
+    /// # Errors
+    ///
+    /// If the device fails.
+    pub fn download(&self, texture: &wgpu::Texture) -> Result<Frame<Vec4>, ExecuteError> {
+        let size = uvec2(texture.width(), texture.height());
+        let row = (size.x * 16).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
+        let buffer = self.device.create_buffer(&wgpu::BufferDescriptor {
+            label: None,
+            size: u64::from(row) * u64::from(size.y),
+            usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        });
+        let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        let layout = wgpu::TexelCopyBufferLayout {
+            offset: 0,
+            bytes_per_row: Some(row),
+            rows_per_image: None,
+        };
+        let copy = wgpu::TexelCopyBufferInfo {
+            buffer: &buffer,
+            layout,
+        };
+        encoder.copy_texture_to_buffer(texture.as_image_copy(), copy, texture.size());
+        self.queue.submit([encoder.finish()]);
+        buffer.map_async(wgpu::MapMode::Read, .., |_| {});
+        self.wait()?;
+        let mapped = buffer.get_mapped_range(..).map_err(|e| ExecuteError::Device {
+            doing: "reading a picture back",
+            message: e.to_string(),
+        })?;
+        let rows = mapped.chunks_exact(row as usize);
+        let texels = rows.flat_map(|line| bytemuck::pod_collect_to_vec::<u8, Vec4>(&line[..size.x as usize * 16]));
+        Ok(Frame::new(size, texels.collect()))
+    }
+
+    /// Waits until everything submitted is done.
+    ///
+    /// # Errors
+    ///
+    /// If the device fails.
+    pub fn wait(&self) -> Result<(), ExecuteError> {
+        let waited = self.device.poll(wgpu::PollType::wait_indefinitely());
+        waited.map(|_| ()).map_err(|e| ExecuteError::Device {
+            doing: "waiting for the device",
+            message: e.to_string(),
+        })
+    }
+}

@@ -1,0 +1,94 @@
+//! Running compiled kernels on images: by the interpreter in any precision, and on a GPU as the shader that is emitted.
+
+mod convert;
+mod cpu;
+mod gpu;
+mod timing;
+
+use glam::{UVec2, Vec4};
+use straightline_kernels::prelude::Frame;
+
+pub use cpu::{Interpreted, interpret};
+pub use gpu::{Bench, Bound};
+pub use timing::{Clock, Job, Times};
+pub use straightline_codegen::ir::interp::{Address, Comparison, SamplerState};
+
+/// What a kernel is run on, by the names that it calls them.
+#[derive(Clone, Debug, Default)]
+pub struct Inputs {
+    /// Width and height of the output.
+    pub size: UVec2,
+    /// Images: one for a plain texture, several for layers or for the samples of a texel.
+    pub images: Vec<(String, Vec<Frame<Vec4>>)>,
+    /// Samplers; one that is not named filters linearly, clamps, and compares by `<=`.
+    pub samplers: Vec<(String, SamplerState)>,
+    /// Elements of buffers, each in as many lanes as it has.
+    pub buffers: Vec<(String, Vec<[f64; 4]>)>,
+    /// Lanes of uniforms; one that is not named keeps its default.
+    pub uniforms: Vec<(String, Vec<f64>)>,
+}
+
+impl Inputs {
+    /// Nothing to read yet.
+    pub fn new(size: UVec2) -> Self {
+        Inputs {
+            size,
+            ..Inputs::default()
+        }
+    }
+
+    /// With an image.
+    pub fn image(self, name: &str, image: Frame<Vec4>) -> Self {
+        self.layers(name, vec![image])
+    }
+
+    /// With a stack of images.
+    pub fn layers(mut self, name: &str, layers: Vec<Frame<Vec4>>) -> Self {
+        self.images.push((name.to_owned(), layers));
+        self
+    }
+
+    /// With a sampler.
+    pub fn sampler(mut self, name: &str, state: SamplerState) -> Self {
+        self.samplers.push((name.to_owned(), state));
+        self
+    }
+
+    /// With a buffer.
+    pub fn buffer(mut self, name: &str, elements: Vec<[f64; 4]>) -> Self {
+        self.buffers.push((name.to_owned(), elements));
+        self
+    }
+
+    /// With a uniform.
+    pub fn uniform(mut self, name: &str, lanes: &[f64]) -> Self {
+        self.uniforms.push((name.to_owned(), lanes.to_vec()));
+        self
+    }
+
+    fn find<'a, T>(entries: &'a [(String, T)], name: &str) -> Option<&'a T> {
+        entries.iter().rev().find(|(known, _)| known == name).map(|(_, value)| value)
+    }
+}
+
+/// Why a kernel could not be run.
+#[derive(Debug, thiserror::Error)]
+pub enum ExecuteError {
+    /// Something that the kernel reads is missing or does not fit.
+    #[error("{0}")]
+    Input(String),
+    /// The kernel cannot be emitted.
+    #[error(transparent)]
+    Emit(#[from] straightline_codegen::emit::EmitError),
+    /// The shader cannot be run on these inputs.
+    #[error(transparent)]
+    Runtime(#[from] straightline_runtime::Error),
+    /// The device failed.
+    #[error("{doing}: {message}")]
+    Device {
+        /// What was being done.
+        doing: &'static str,
+        /// What wgpu said.
+        message: String,
+    },
+}
