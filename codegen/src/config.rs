@@ -178,9 +178,7 @@ impl KernelConfig {
         let compiled = kernel
             .compile(&self.settings)
             .map_err(|e| Error::of(Problem::Kernel(e)))?;
-        let emitted = compiled
-            .emit(&self.emit)
-            .map_err(|e| Error::of(Problem::Emit(e)))?;
+        let emitted = compiled.emit(&self.emit).map_err(|e| Error::of(Problem::Emit(e)))?;
         let files = emitted.named(&name);
         Ok(Built {
             name,

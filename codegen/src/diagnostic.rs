@@ -133,12 +133,20 @@ impl Errors {
         for file in self.files.iter() {
             files.add(file.path.as_str(), file.text.as_str());
         }
-        let mut out = if colour { termcolor::Buffer::ansi() } else { termcolor::Buffer::no_color() };
+        let mut out = if colour {
+            termcolor::Buffer::ansi()
+        } else {
+            termcolor::Buffer::no_color()
+        };
         for diagnostic in &self.diagnostics {
             let shown = self.shown(diagnostic);
             if term::emit_to_write_style(&mut out, &term::Config::default(), &files, &shown).is_err() {
                 // A place outside of its file: say what is wrong without it.
-                return self.diagnostics.iter().map(|d| format!("error: {}\n", d.message)).collect();
+                return self
+                    .diagnostics
+                    .iter()
+                    .map(|d| format!("error: {}\n", d.message))
+                    .collect();
             }
         }
         String::from_utf8_lossy(out.as_slice()).trim_end().to_owned() + "\n"
@@ -148,7 +156,9 @@ impl Errors {
         let mut shown = codespan_reporting::diagnostic::Diagnostic::error().with_message(&diagnostic.message);
         let place = |span: Span| {
             let file = span.file as usize;
-            self.files.get(file).map(|_| (file, span.start as usize..span.end as usize))
+            self.files
+                .get(file)
+                .map(|_| (file, span.start as usize..span.end as usize))
         };
         if let Some((file, range)) = diagnostic.span.and_then(place) {
             shown = shown.with_label(Label::primary(file, range).with_message(&diagnostic.label));

@@ -197,8 +197,13 @@ impl Kernel {
         let schedule = passes::schedule(&graph);
         let statements = emit::statements(&graph, &schedule);
         if statements > settings.budget {
-            let what = format!("`{}` has {statements} statements, more than its budget of {}", self.name, settings.budget);
-            let error = Diagnostic::at(evaluated.span, what).label("this kernel").help(eval::WAY_OUT);
+            let what = format!(
+                "`{}` has {statements} statements, more than its budget of {}",
+                self.name, settings.budget
+            );
+            let error = Diagnostic::at(evaluated.span, what)
+                .label("this kernel")
+                .help(eval::WAY_OUT);
             return Err(Errors::new(vec![eval::blame(&evaluated.loops, error)], &self.files));
         }
         let counts = passes::count(&graph, &schedule);
@@ -223,7 +228,9 @@ impl Kernel {
 fn read(path: &Path) -> Result<String, Errors> {
     std::fs::read_to_string(path).map_err(|error| {
         let what = format!("cannot read the kernel file `{}`: {error}", path.display());
-        Errors::of(Diagnostic::new(what).help("paths are taken from the folder that the build runs in: the crate's own"))
+        Errors::of(
+            Diagnostic::new(what).help("paths are taken from the folder that the build runs in: the crate's own"),
+        )
     })
 }
 

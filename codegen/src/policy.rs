@@ -33,7 +33,10 @@ impl FromStr for Unroll {
 
     /// `full`, `none`, `partial(4)` or `4`.
     fn from_str(text: &str) -> Result<Self, String> {
-        let factor = text.strip_prefix("partial(").and_then(|t| t.strip_suffix(')')).unwrap_or(text);
+        let factor = text
+            .strip_prefix("partial(")
+            .and_then(|t| t.strip_suffix(')'))
+            .unwrap_or(text);
         match (text, factor.trim().parse::<u32>()) {
             ("full", _) => Ok(Unroll::Full),
             ("none", _) => Ok(Unroll::None),
@@ -98,7 +101,11 @@ pub struct Policy {
 impl Policy {
     /// What becomes of the loop over `counter` in `function`, of which the source says `attribute`.
     pub fn of(&self, function: &str, counter: &str, attribute: Option<Unroll>) -> Unroll {
-        let named = self.loops.iter().rev().find(|(path, _)| matches(path, function, counter));
+        let named = self
+            .loops
+            .iter()
+            .rev()
+            .find(|(path, _)| matches(path, function, counter));
         named.map(|(_, unroll)| *unroll).or(attribute).unwrap_or(self.unroll)
     }
 

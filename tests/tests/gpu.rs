@@ -68,7 +68,11 @@ fn all_options_match_the_brute_force() {
             (Stage::Fragment, Unroll::Full),
             (Stage::Compute, Unroll::None),
         ] {
-            let off = difference(&options, &inputs, &run(&bench, &compile(&options, unroll), stage, &inputs));
+            let off = difference(
+                &options,
+                &inputs,
+                &run(&bench, &compile(&options, unroll), stage, &inputs),
+            );
             let what = format!("{options:?} {stage:?} {unroll:?}");
             assert!(off <= BOUND, "off by {off:e}: {what}");
             if off > worst.0 {
@@ -150,7 +154,11 @@ fn arrays_of_kept_loops_hold_what_the_graph_says() {
             a[k] += 1.0;
             total += a[2 - k];
         }";
-    for (name, body) in [("begun_anew", begun_anew), ("chosen", chosen), ("kept_or_begun", kept_or_begun)] {
+    for (name, body) in [
+        ("begun_anew", begun_anew),
+        ("chosen", chosen),
+        ("kept_or_begun", kept_or_begun),
+    ] {
         let text = format!(
             "pub fn {name}(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {{
                 let shade = color.load(pixel);
@@ -160,14 +168,20 @@ fn arrays_of_kept_loops_hold_what_the_graph_says() {
             }}"
         );
         let kernel = straightline_codegen::Kernel::from_text("test.rs", &text, name);
-        let settings = |unroll| straightline_codegen::Settings { unroll, ..Default::default() };
+        let settings = |unroll| straightline_codegen::Settings {
+            unroll,
+            ..Default::default()
+        };
         let compiled = [Unroll::Full, Unroll::None]
             .map(|unroll| kernel.compile(&settings(unroll)).unwrap_or_else(|e| panic!("{e}")));
         let [unrolled, looped] = [0, 1].map(|k| interpret(&compiled[k], &inputs, &[]));
         same_bits(&unrolled, &looped).unwrap_or_else(|e| panic!("{name}: {e}"));
         let result = run(&bench, &compiled[1], Stage::Compute, &inputs);
         for (k, (a, b)) in result.texels().iter().zip(&looped).enumerate() {
-            assert!((*a - Vec4::from_array(*b)).abs().max_element() < 1.0e-4, "{name}, pixel {k}: {a} and {b:?}");
+            assert!(
+                (*a - Vec4::from_array(*b)).abs().max_element() < 1.0e-4,
+                "{name}, pixel {k}: {a} and {b:?}"
+            );
         }
     }
 }

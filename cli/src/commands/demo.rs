@@ -162,7 +162,9 @@ fn on_adapter(gpu: &Gpu, method: &Method, rounds: u32) -> Result<Measured, Failu
     let timed = bench.interleaved(&jobs, rounds, |k| bar.set_position(u64::from(k)));
     let (times, clock) = timed.map_err(Failure::of)?;
     bar.finish_and_clear();
-    let resolved = bench.run(&method.unrolled, Stage::Compute, &inputs).map_err(Failure::of)?;
+    let resolved = bench
+        .run(&method.unrolled, Stage::Compute, &inputs)
+        .map_err(Failure::of)?;
     Ok((resolved, [times[0], times[1]], clock))
 }
 

@@ -17,9 +17,7 @@ pub fn run(args: &ExplainArgs) -> Result<(), Failure> {
         }
     })?;
     // Statements are those of the emitted text.
-    let emitted = compiled
-        .emit(&EmitOptions::new().targets([]))
-        .map_err(Failure::of)?;
+    let emitted = compiled.emit(&EmitOptions::new().targets([])).map_err(Failure::of)?;
     let counts = emitted.manifest.counts;
     let paper = paper(&compiled);
     if args.json {
@@ -90,13 +88,21 @@ fn print(compiled: &Compiled, counts: &Counts, paper: Option<PaperCounts>) {
     rows.push(row("scalars alive at most", counts.max_live, None));
     print!("{}", table::render(&["per pixel", "here", "paper"], &rows));
     let loops = compiled.loops.iter().map(|report| {
-        let cells = [report.path(), report.unroll.to_string(), report.rounds.to_string(), report.operations.to_string()];
+        let cells = [
+            report.path(),
+            report.unroll.to_string(),
+            report.rounds.to_string(),
+            report.operations.to_string(),
+        ];
         cells.to_vec()
     });
     let loops: Vec<Vec<String>> = loops.collect();
     if !loops.is_empty() {
         println!();
-        print!("{}", table::render(&["loop", "unroll", "rounds evaluated", "operations"], &loops));
+        print!(
+            "{}",
+            table::render(&["loop", "unroll", "rounds evaluated", "operations"], &loops)
+        );
     }
 }
 

@@ -38,7 +38,12 @@ pub fn run(args: &RunArgs) -> Result<(), Failure> {
 
 /// What would otherwise be found only after all the work.
 fn check(args: &RunArgs) -> Result<(), Failure> {
-    let extension = args.out.extension().and_then(|e| e.to_str()).unwrap_or_default().to_ascii_lowercase();
+    let extension = args
+        .out
+        .extension()
+        .and_then(|e| e.to_str())
+        .unwrap_or_default()
+        .to_ascii_lowercase();
     if !picture::EXTENSIONS.contains(&extension.as_str()) {
         return Err(Failure::Usage(format!(
             "`{}` is neither .png nor .exr",
@@ -129,7 +134,11 @@ fn inputs(args: &RunArgs, compiled: &Compiled) -> Result<Inputs, Failure> {
         let element = |c: &[f64]| std::array::from_fn(|k| c.get(k).copied().unwrap_or(0.0));
         inputs = inputs.buffer(name, numbers.chunks_exact(lanes).map(element).collect());
     }
-    let first = inputs.images.first().and_then(|(_, layers)| layers.first()).map(Frame::size);
+    let first = inputs
+        .images
+        .first()
+        .and_then(|(_, layers)| layers.first())
+        .map(Frame::size);
     inputs.size = args
         .size
         .or(first)
@@ -138,12 +147,21 @@ fn inputs(args: &RunArgs, compiled: &Compiled) -> Result<Inputs, Failure> {
 }
 
 fn list(names: &[&str]) -> String {
-    if names.is_empty() { "none".to_owned() } else { names.join(", ") }
+    if names.is_empty() {
+        "none".to_owned()
+    } else {
+        names.join(", ")
+    }
 }
 
 fn parse(name: &str, text: &str) -> Result<Vec<f64>, Failure> {
     let number = |t: &str| t.trim().parse::<f64>().ok().filter(|n| n.is_finite());
-    text.split(',').map(number).collect::<Option<Vec<f64>>>().ok_or_else(|| {
-        Failure::Usage(format!("`{text}` for `{name}` is no list of numbers: write 1.5 or 1,2,3"))
-    })
+    text.split(',')
+        .map(number)
+        .collect::<Option<Vec<f64>>>()
+        .ok_or_else(|| {
+            Failure::Usage(format!(
+                "`{text}` for `{name}` is no list of numbers: write 1.5 or 1,2,3"
+            ))
+        })
 }

@@ -4,7 +4,9 @@ use super::parameters;
 use crate::pipeline::Compiled;
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
-use straightline_manifest::{Binding, BindingKind, Dimension, Extent, Format, Manifest, SampleType, SamplerType, Stage};
+use straightline_manifest::{
+    Binding, BindingKind, Dimension, Extent, Format, Manifest, SampleType, SamplerType, Stage,
+};
 
 /// One shader's part of the bindings file.
 pub struct Module<'a> {
@@ -43,7 +45,11 @@ fn module(module: &Module<'_>) -> TokenStream {
     // Without inputs there is no reference to have a lifetime.
     let (life, used, inputs_docs) = match inputs.len() {
         0 => (quote! {}, quote! { _: &Inputs }, "What the shader reads: nothing."),
-        _ => (quote! { <'a> }, quote! { inputs: &Inputs<'_> }, "What the shader reads."),
+        _ => (
+            quote! { <'a> },
+            quote! { inputs: &Inputs<'_> },
+            "What the shader reads.",
+        ),
     };
     let (structure, setters) = parameters::parameters(manifest);
     quote! {
@@ -132,7 +138,11 @@ fn constants(module: &Module<'_>) -> TokenStream {
             pub const WORKGROUP_SIZE: [u32; 3] = [#x, #y, #z];
         }
     });
-    let mut entries: Vec<TokenStream> = manifest.bindings.iter().map(|b| layout_entry(manifest.stage, b)).collect();
+    let mut entries: Vec<TokenStream> = manifest
+        .bindings
+        .iter()
+        .map(|b| layout_entry(manifest.stage, b))
+        .collect();
     if let Some(binding) = manifest.output.binding {
         entries.push(output_entry(binding, manifest.output.format));
     }
@@ -201,9 +211,10 @@ fn layout_entry(stage: Stage, binding: &Binding) -> TokenStream {
             SamplerType::Filtering => quote! { #wgpu::BindingType::Sampler(#wgpu::SamplerBindingType::Filtering) },
             SamplerType::Comparison => quote! { #wgpu::BindingType::Sampler(#wgpu::SamplerBindingType::Comparison) },
         },
-        BindingKind::Buffer { stride, .. } => {
-            buffer(quote! { #wgpu::BufferBindingType::Storage { read_only: true } }, *stride)
-        }
+        BindingKind::Buffer { stride, .. } => buffer(
+            quote! { #wgpu::BufferBindingType::Storage { read_only: true } },
+            *stride,
+        ),
         BindingKind::Uniform { size, .. } => buffer(quote! { #wgpu::BufferBindingType::Uniform }, *size),
     };
     quote! {
@@ -273,9 +284,10 @@ impl Input {
                 SamplerType::Filtering => ("A sampler that may filter.".to_owned(), "Sampler"),
                 SamplerType::Comparison => ("A comparison sampler.".to_owned(), "Sampler"),
             },
-            BindingKind::Buffer { element, stride, .. } => {
-                (format!("A storage buffer of `{element}`, {stride} bytes each, at least one."), "Buffer")
-            }
+            BindingKind::Buffer { element, stride, .. } => (
+                format!("A storage buffer of `{element}`, {stride} bytes each, at least one."),
+                "Buffer",
+            ),
             BindingKind::Uniform { .. } => return None,
         };
         Some(Input {

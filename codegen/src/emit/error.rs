@@ -34,7 +34,9 @@ pub enum EmitError {
         texture: String,
     },
     /// A workgroup that no device runs.
-    #[error("a workgroup of {0}x{1} is not possible: each side is at least 1, and both together at most 1024 invocations")]
+    #[error(
+        "a workgroup of {0}x{1} is not possible: each side is at least 1, and both together at most 1024 invocations"
+    )]
     Workgroup(u32, u32),
     /// A binding whose name is a word of a shading language.
     #[error("`{kernel}` calls an input `{name}`, which is a word of WGSL or GLSL: give the parameter another name")]

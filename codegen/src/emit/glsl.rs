@@ -5,6 +5,9 @@ use super::resources::Resources;
 use super::text::{Binds, Text};
 use crate::ir::{BinaryOp, Scalar, TextureKind, Type, UnaryOp};
 
+/// What follows a buffer's name to ask for its length.
+pub const LENGTH: &str = ".elements.length()";
+
 /// GLSL 4.50.
 pub struct Glsl<'a> {
     /// The shader's bindings.
@@ -166,7 +169,7 @@ impl Dialect for Glsl<'_> {
     }
 
     fn len(&self, buffer: u32) -> Text {
-        let length = Text::name(format!("{}.elements.length()", self.resources.buffer(buffer).name));
+        let length = Text::name(format!("{}{LENGTH}", self.resources.buffer(buffer).name));
         Text::call("int", &[&length])
     }
 

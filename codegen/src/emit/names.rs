@@ -18,7 +18,10 @@ pub fn is_reserved(word: &str) -> bool {
 /// Types of GLSL that come in families: `mat4x3`, `ivec2`, `usampler2DArray`, `image3D`, ...
 fn is_glsl_type(word: &str) -> bool {
     let bare = word.trim_start_matches(['i', 'u', 'b', 'd']);
-    let numbered = |prefix: &str| bare.strip_prefix(prefix).is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit()));
+    let numbered = |prefix: &str| {
+        bare.strip_prefix(prefix)
+            .is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit()))
+    };
     let opaque = ["sampler", "image", "texture", "subpassInput"];
     numbered("vec")
         || numbered("mat")

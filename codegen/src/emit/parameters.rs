@@ -161,7 +161,11 @@ fn default(field: &UniformField) -> Option<TokenStream> {
     Some(match field.ty.as_str() {
         "f32" => {
             let literal = Literal::f32_suffixed(value.abs() as f32);
-            if value.is_sign_negative() { quote! { -#literal } } else { quote! { #literal } }
+            if value.is_sign_negative() {
+                quote! { -#literal }
+            } else {
+                quote! { #literal }
+            }
         }
         "i32" => {
             let literal = Literal::i32_suffixed(value as i32);

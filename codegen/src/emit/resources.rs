@@ -75,7 +75,9 @@ impl Resources {
                 index,
                 binding: number(),
                 layers,
-                filtered: ops.iter().any(|op| matches!(op, Op::Sample { texture, .. } if *texture == index)),
+                filtered: ops.iter().any(
+                    |op| matches!(op, Op::Sample { texture, .. } | Op::Gather { texture, .. } if *texture == index),
+                ),
             });
         }
         let mut bound = |len: usize, used: &dyn Fn(u32) -> bool| -> Vec<(u32, u32)> {
@@ -252,8 +254,16 @@ fn texture_kind(texture: &Texture, bound: &BoundTexture) -> BindingKind {
             _ => SampleType::Unfilterable,
         },
         components: texture.components,
-        layers: if texture.kind == TextureKind::Layers { bound.layers } else { 1 },
-        samples: if texture.kind == TextureKind::Multisampled { bound.layers } else { 1 },
+        layers: if texture.kind == TextureKind::Layers {
+            bound.layers
+        } else {
+            1
+        },
+        samples: if texture.kind == TextureKind::Multisampled {
+            bound.layers
+        } else {
+            1
+        },
         extent: if texture.framed { Extent::Output } else { Extent::Any },
     }
 }

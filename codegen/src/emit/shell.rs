@@ -71,9 +71,11 @@ pub fn render(compiled: &Compiled, resources: &Resources, dialect: &dyn Dialect)
             json!({ "name": sampler.name, "binding": binding, "wgsl": wgsl, "glsl": glsl })
         })
         .collect();
-    let frame = resources.framed().map(|t| json!({
-        "name": t.name, "glsl": glsl_sampler(t.kind), "lod": t.kind != TextureKind::Multisampled
-    }));
+    let frame = resources.framed().map(|t| {
+        json!({
+            "name": t.name, "glsl": glsl_sampler(t.kind), "lod": t.kind != TextureKind::Multisampled
+        })
+    });
     let members: Vec<_> = resources
         .fields
         .iter()

@@ -121,8 +121,10 @@ impl Module {
     }
 }
 
-/// Parses and validates GLSL.
+/// Parses and validates GLSL. naga's reader makes an invalid module of the length of a storage buffer, so it is shown a
+/// number in its place.
 pub fn check_glsl(kernel: &str, of: Stage, text: &str) -> Result<(), EmitError> {
+    let text = &lengths_as_numbers(text);
     let invalid = |message| EmitError::Invalid {
         kernel: kernel.to_owned(),
         target: "glsl450",
@@ -146,4 +148,20 @@ fn stage(stage: Stage) -> naga::ShaderStage {
 fn validate(module: &naga::Module, text: &str) -> Result<ModuleInfo, String> {
     let mut validator = Validator::new(ValidationFlags::all(), Capabilities::empty());
     validator.validate(module).map_err(|error| error.emit_to_string(text))
+}
+
+/// The text with `1` for every `buffer.elements.length()`.
+fn lengths_as_numbers(text: &str) -> String {
+    let mut parts = text.split(super::glsl::LENGTH);
+    let mut out = parts.next().unwrap_or_default().to_owned();
+    for part in parts {
+        // What stands before is the buffer's name.
+        let name = out
+            .trim_end_matches(|c: char| c.is_ascii_alphanumeric() || c == '_')
+            .len();
+        out.truncate(name);
+        out += "1";
+        out += part;
+    }
+    out
 }

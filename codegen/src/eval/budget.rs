@@ -95,10 +95,11 @@ pub fn blame(reports: &[LoopReport], mut error: Diagnostic) -> Diagnostic {
     let mut largest: Vec<&LoopReport> = reports.iter().filter(|r| r.rounds > 0).collect();
     largest.sort_by_key(|r| std::cmp::Reverse(r.operations));
     for report in largest.into_iter().take(5) {
-        let LoopReport {
-            rounds, operations, ..
-        } = report;
-        let text = format!("`{}`: {rounds} rounds, {operations} operations of its own", report.path());
+        let LoopReport { rounds, operations, .. } = report;
+        let text = format!(
+            "`{}`: {rounds} rounds, {operations} operations of its own",
+            report.path()
+        );
         error = error.other(report.span, text);
     }
     error

@@ -120,24 +120,30 @@ impl Evaluator<'_> {
         for (k, name) in function.generics.iter().enumerate() {
             let Some(name) = name else { continue };
             let from_array = || {
-                function.params.iter().zip(args).find_map(|((_, ty, _), value)| match (ty, value) {
-                    (SourceType::Array(_, Some(len)), Value::Array(elements)) => match &len.kind {
-                        ExprKind::Path(path) if path == std::slice::from_ref(name) => {
-                            Some(Value::Int(elements.len() as i64))
-                        }
+                function
+                    .params
+                    .iter()
+                    .zip(args)
+                    .find_map(|((_, ty, _), value)| match (ty, value) {
+                        (SourceType::Array(_, Some(len)), Value::Array(elements)) => match &len.kind {
+                            ExprKind::Path(path) if path == std::slice::from_ref(name) => {
+                                Some(Value::Int(elements.len() as i64))
+                            }
+                            _ => None,
+                        },
                         _ => None,
-                    },
-                    _ => None,
-                })
+                    })
             };
             match given.get(k).cloned().or_else(from_array) {
                 Some(value) => bound.push((name.clone(), value)),
                 None => {
-                    return Err(Diagnostic::at(span, format!("the constant `{name}` of this call is not known"))
-                        .label("called here")
-                        .other(function.span, "defined here")
-                        .help(format!("state it: `::<{name}>`"))
-                        .into());
+                    return Err(
+                        Diagnostic::at(span, format!("the constant `{name}` of this call is not known"))
+                            .label("called here")
+                            .other(function.span, "defined here")
+                            .help(format!("state it: `::<{name}>`"))
+                            .into(),
+                    );
                 }
             }
         }
@@ -150,7 +156,11 @@ impl Evaluator<'_> {
         let Some(definition) = library.structs.get(name) else {
             return Ok(None);
         };
-        if definition.fields.iter().any(|(field, ..)| field.parse::<usize>().is_err()) {
+        if definition
+            .fields
+            .iter()
+            .any(|(field, ..)| field.parse::<usize>().is_err())
+        {
             return Ok(None);
         }
         if definition.fields.len() != values.len() {

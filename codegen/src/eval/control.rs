@@ -1,8 +1,8 @@
 //! `if`, `match`, and joining what two sides did.
 
+use super::Evaluator;
 use super::scope::Scope;
 use super::value::{Eval, Exit, Value};
-use super::Evaluator;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::front::tree::{Arm, Block, Expr, Pattern};
 use crate::ir::{NodeId, Op, RegionId, Type};

@@ -64,7 +64,10 @@ impl Evaluator<'_> {
                 Ok(Value::Array(each.collect::<Eval<_>>()?))
             }
             (Some(SourceType::Tuple(types)), Value::Tuple(parts)) if types.len() == parts.len() => {
-                let each = parts.into_iter().zip(types).map(|(part, ty)| self.ascribe(part, Some(ty), span));
+                let each = parts
+                    .into_iter()
+                    .zip(types)
+                    .map(|(part, ty)| self.ascribe(part, Some(ty), span));
                 Ok(Value::Tuple(each.collect::<Eval<_>>()?))
             }
             (_, value) => Ok(value),
@@ -89,7 +92,9 @@ impl Evaluator<'_> {
                 Ok(value)
             }
             // An index is signed in a shader, whatever it was made from.
-            Value::Node(id) if self.ty(*id) == Type::U32 && name == "usize" => Ok(Value::Node(self.convert(*id, Scalar::I32))),
+            Value::Node(id) if self.ty(*id) == Type::U32 && name == "usize" => {
+                Ok(Value::Node(self.convert(*id, Scalar::I32)))
+            }
             Value::Node(id) if self.ty(*id) == stated => Ok(value),
             Value::Node(_) | Value::Int(_) => {
                 let found = match &value {
@@ -137,7 +142,9 @@ impl Evaluator<'_> {
                 }
                 Ok(())
             }
-            Pattern::Range(..) => Err(Diagnostic::at(span, "a `let` cannot compare").help("use `match`").into()),
+            Pattern::Range(..) => Err(Diagnostic::at(span, "a `let` cannot compare")
+                .help("use `match`")
+                .into()),
             Pattern::Value(expr) => Err(Diagnostic::at(expr.span, "a `let` cannot compare")
                 .help("use `match`")
                 .into()),

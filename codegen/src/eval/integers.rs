@@ -36,9 +36,12 @@ impl Evaluator<'_> {
             "pow" => {
                 return match self.known_int(a) {
                     Some(n @ 0..=31) => {
-                        let one = self.builder.constant(Type::scalar(ty.kind().unwrap_or(Scalar::I32)), [1, 0, 0, 0]);
+                        let one = self
+                            .builder
+                            .constant(Type::scalar(ty.kind().unwrap_or(Scalar::I32)), [1, 0, 0, 0]);
                         let one = self.splat(one, ty.lanes());
-                        let times = |e: &mut Self, power, _| e.builder.add(Op::Binary(BinaryOp::Mul), vec![power, x], ty);
+                        let times =
+                            |e: &mut Self, power, _| e.builder.add(Op::Binary(BinaryOp::Mul), vec![power, x], ty);
                         Ok(Some((0..n).fold(one, |power, k| times(self, power, k))))
                     }
                     _ => Err(Diagnostic::at(span, "`pow` needs a known power from 0 to 31").into()),

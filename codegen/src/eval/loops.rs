@@ -278,9 +278,13 @@ fn changes(name: &str, span: Span) -> Exit {
 fn same_shape(a: &Value, b: &Value) -> bool {
     match (a, b) {
         (Value::Node(_), Value::Node(_)) => true,
-        (Value::Struct { ty, fields }, Value::Struct { ty: other, fields: others }) => {
-            ty == other && fields.iter().zip(others).all(|((_, a), (_, b))| same_shape(a, b))
-        }
+        (
+            Value::Struct { ty, fields },
+            Value::Struct {
+                ty: other,
+                fields: others,
+            },
+        ) => ty == other && fields.iter().zip(others).all(|((_, a), (_, b))| same_shape(a, b)),
         (Value::Tuple(a), Value::Tuple(b)) | (Value::Array(a), Value::Array(b)) => {
             a.len() == b.len() && a.iter().zip(b).all(|(a, b)| same_shape(a, b))
         }

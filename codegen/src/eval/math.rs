@@ -59,7 +59,11 @@ impl Evaluator<'_> {
             return Ok(ty.is_integer().then(|| {
                 let counted = self.builder.add(Op::Unary(op), vec![x], ty);
                 // Rust counts in u32.
-                if name == "reverse_bits" { counted } else { self.convert(counted, Scalar::U32) }
+                if name == "reverse_bits" {
+                    counted
+                } else {
+                    self.convert(counted, Scalar::U32)
+                }
             }));
         }
         if let Some(op) = unary(name) {
@@ -79,7 +83,9 @@ impl Evaluator<'_> {
                 let one = self.splat(one, ty.lanes());
                 Some(self.builder.add(Op::Binary(BinaryOp::Div), vec![one, x], ty))
             }
-            "wrapping_neg" if ty.kind() == Some(Scalar::I32) => Some(self.builder.add(Op::Unary(UnaryOp::Neg), vec![x], ty)),
+            "wrapping_neg" if ty.kind() == Some(Scalar::I32) => {
+                Some(self.builder.add(Op::Unary(UnaryOp::Neg), vec![x], ty))
+            }
             "to_bits" if ty == Type::F32 => Some(self.builder.add(Op::Bitcast, vec![x], Type::U32)),
             // A shader may assume that there are no NaNs: the test is one of bits.
             "is_nan" if ty == Type::F32 => {
@@ -87,17 +93,27 @@ impl Evaluator<'_> {
                 let mask = self.builder.constant(Type::U32, [0x7fff_ffff, 0, 0, 0]);
                 let infinity = self.builder.constant(Type::U32, [0x7f80_0000, 0, 0, 0]);
                 let size = self.builder.add(Op::Binary(BinaryOp::And), vec![bits, mask], Type::U32);
-                Some(self.builder.add(Op::Binary(BinaryOp::Gt), vec![size, infinity], Type::BOOL))
+                Some(
+                    self.builder
+                        .add(Op::Binary(BinaryOp::Gt), vec![size, infinity], Type::BOOL),
+                )
             }
             "is_finite" if ty == Type::F32 => {
                 let bits = self.builder.add(Op::Bitcast, vec![x], Type::U32);
                 let mask = self.builder.constant(Type::U32, [0x7fff_ffff, 0, 0, 0]);
                 let infinity = self.builder.constant(Type::U32, [0x7f80_0000, 0, 0, 0]);
                 let size = self.builder.add(Op::Binary(BinaryOp::And), vec![bits, mask], Type::U32);
-                Some(self.builder.add(Op::Binary(BinaryOp::Lt), vec![size, infinity], Type::BOOL))
+                Some(
+                    self.builder
+                        .add(Op::Binary(BinaryOp::Lt), vec![size, infinity], Type::BOOL),
+                )
             }
             "to_radians" | "to_degrees" if ty == Type::F32 => {
-                let factor = if name == "to_radians" { std::f32::consts::PI / 180.0 } else { 57.295_78 };
+                let factor = if name == "to_radians" {
+                    std::f32::consts::PI / 180.0
+                } else {
+                    57.295_78
+                };
                 let factor = self.builder.f32(factor);
                 Some(self.builder.add(Op::Binary(BinaryOp::Mul), vec![x, factor], ty))
             }
@@ -109,7 +125,10 @@ impl Evaluator<'_> {
             "length_recip" if vector => {
                 let length = self.length(x);
                 let one = self.builder.f32(1.0);
-                Some(self.builder.add(Op::Binary(BinaryOp::Div), vec![one, length], Type::F32))
+                Some(
+                    self.builder
+                        .add(Op::Binary(BinaryOp::Div), vec![one, length], Type::F32),
+                )
             }
             "length_squared" if vector => Some(self.dot(x, x)),
             "length" if vector => Some(self.length(x)),
@@ -159,11 +178,7 @@ impl Evaluator<'_> {
                 ));
             }
             "signum" => {
-                return Err(instead(
-                    span,
-                    "`signum` of 0 is 1 in Rust and 0 in shaders",
-                    "sign(x)",
-                ));
+                return Err(instead(span, "`signum` of 0 is 1 in Rust and 0 in shaders", "sign(x)"));
             }
             _ => None,
         })
@@ -180,7 +195,8 @@ impl Evaluator<'_> {
                     self.node(&value, span)?
                 }));
             }
-            "wrapping_add" | "wrapping_sub" | "wrapping_mul" | "wrapping_shl" | "wrapping_shr" | "rem_euclid" | "pow"
+            "wrapping_add" | "wrapping_sub" | "wrapping_mul" | "wrapping_shl" | "wrapping_shr" | "rem_euclid"
+            | "pow"
                 if ty.is_integer() =>
             {
                 return self.integer_two(receiver, x, name, a, span);

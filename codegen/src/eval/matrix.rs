@@ -38,7 +38,11 @@ impl Evaluator<'_> {
                 for value in columns {
                     let id = self.node(value, span)?;
                     if self.ty(id) != column {
-                        return Err(Diagnostic::at(span, format!("a column of a {ty} is a {column}, not {}", self.ty(id))).into());
+                        return Err(Diagnostic::at(
+                            span,
+                            format!("a column of a {ty} is a {column}, not {}", self.ty(id)),
+                        )
+                        .into());
                     }
                     nodes.push(id);
                 }
@@ -83,7 +87,10 @@ impl Evaluator<'_> {
                     .collect();
                 Ok(matrix(&rows))
             }
-            ("col", [index]) => match self.known_int(index).and_then(|k| columns.get(usize::try_from(k).ok()?)) {
+            ("col", [index]) => match self
+                .known_int(index)
+                .and_then(|k| columns.get(usize::try_from(k).ok()?))
+            {
                 Some(column) => Ok(Value::Node(*column)),
                 None => Err(Diagnostic::at(span, "the column of a matrix must be known and in it").into()),
             },
@@ -98,11 +105,15 @@ impl Evaluator<'_> {
                 let mut sum = self.scaled(columns[0], vector, 0);
                 for k in 1..3 {
                     let term = self.scaled(columns[k as usize], vector, k);
-                    sum = self.builder.add(Op::Binary(BinaryOp::Add), vec![sum, term], Type::value(Scalar::F32, 4));
+                    sum = self
+                        .builder
+                        .add(Op::Binary(BinaryOp::Add), vec![sum, term], Type::value(Scalar::F32, 4));
                 }
                 if name == "transform_point3" {
                     let whole = Type::value(Scalar::F32, 4);
-                    sum = self.builder.add(Op::Binary(BinaryOp::Add), vec![sum, columns[3]], whole);
+                    sum = self
+                        .builder
+                        .add(Op::Binary(BinaryOp::Add), vec![sum, columns[3]], whole);
                 }
                 let lanes = self.lanes(sum);
                 let short = Type::value(Scalar::F32, 3);

@@ -53,7 +53,8 @@ impl Evaluator<'_> {
                 ("len", true) => Ok(Value::Int(elements.len() as i64)),
                 ("iter" | "into_iter" | "copied", true) => Ok(value.clone()),
                 ("enumerate", true) => {
-                    let pair = |(k, element): (usize, &Value)| Value::Tuple(vec![Value::Int(k as i64), element.clone()]);
+                    let pair =
+                        |(k, element): (usize, &Value)| Value::Tuple(vec![Value::Int(k as i64), element.clone()]);
                     Ok(Value::Array(elements.iter().enumerate().map(pair).collect()))
                 }
                 ("rev", true) => Ok(Value::Array(elements.iter().rev().cloned().collect())),

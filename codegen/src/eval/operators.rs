@@ -71,7 +71,13 @@ impl Evaluator<'_> {
     /// Two matrices, column by column.
     fn by_fields(&mut self, op: BinaryOp, left: &Value, right: &Value, span: Span) -> Eval {
         match (left, right) {
-            (Value::Struct { ty, fields }, Value::Struct { ty: other, fields: others }) if ty == other => {
+            (
+                Value::Struct { ty, fields },
+                Value::Struct {
+                    ty: other,
+                    fields: others,
+                },
+            ) if ty == other => {
                 let mut results = Vec::new();
                 for ((name, a), (_, b)) in fields.iter().zip(others) {
                     results.push((name.clone(), self.binary(op, a, b, span)?));
@@ -81,7 +87,11 @@ impl Evaluator<'_> {
                     fields: results,
                 })
             }
-            _ => Err(Diagnostic::at(span, format!("{} and {} do not go together", left.describe(), right.describe())).into()),
+            _ => Err(Diagnostic::at(
+                span,
+                format!("{} and {} do not go together", left.describe(), right.describe()),
+            )
+            .into()),
         }
     }
 

@@ -47,7 +47,11 @@ impl Evaluator<'_> {
                 f,
                 bounds,
                 |e, own| {
-                    let counter = if plain { own } else { e.value_of(own, first, range, trips) };
+                    let counter = if plain {
+                        own
+                    } else {
+                        e.value_of(own, first, range, trips)
+                    };
                     e.body(f, counter, span)
                 },
                 span,
@@ -72,7 +76,10 @@ impl Evaluator<'_> {
             span,
         )?;
         let done = self.integer(BinaryOp::Mul, whole, factor as i32);
-        match self.known_int(&Value::Node(trips)).zip(self.known_int(&Value::Node(done))) {
+        match self
+            .known_int(&Value::Node(trips))
+            .zip(self.known_int(&Value::Node(done)))
+        {
             Some((trips_known, done)) => {
                 for own in done..trips_known {
                     let own = self.builder.i32(own as i32);
@@ -115,7 +122,8 @@ impl Evaluator<'_> {
             length = self.integer(BinaryOp::Div, length, range.step as i32);
         }
         let zero = self.builder.i32(0);
-        self.builder.add(Op::Binary(BinaryOp::Max), vec![length, zero], Type::I32)
+        self.builder
+            .add(Op::Binary(BinaryOp::Max), vec![length, zero], Type::I32)
     }
 
     /// The source's counter in round `own`.

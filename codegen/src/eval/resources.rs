@@ -75,16 +75,21 @@ impl Evaluator<'_> {
                 "f32" => Some(Type::F32),
                 "i32" => Some(Type::I32),
                 "u32" => Some(Type::U32),
-                other => vector_type(other).filter(|(_, n)| *n != 3).map(|(kind, n)| Type::value(kind, n)),
+                other => vector_type(other)
+                    .filter(|(_, n)| *n != 3)
+                    .map(|(kind, n)| Type::value(kind, n)),
             },
             _ => None,
         };
         element.ok_or_else(|| {
-            Diagnostic::at(span, format!("the buffer `{name}` has no elements that a shader can read"))
-                .label("of this type")
-                .note("a vector of 3 takes the room of 4 in a shader's array, and of 3 in Rust's")
-                .help("elements are f32, i32, u32, or vectors of 2 or 4 of them")
-                .into()
+            Diagnostic::at(
+                span,
+                format!("the buffer `{name}` has no elements that a shader can read"),
+            )
+            .label("of this type")
+            .note("a vector of 3 takes the room of 4 in a shader's array, and of 3 in Rust's")
+            .help("elements are f32, i32, u32, or vectors of 2 or 4 of them")
+            .into()
         })
     }
 
@@ -145,9 +150,11 @@ impl Evaluator<'_> {
                 let component = match self.known_int(component) {
                     Some(k) if (0..i64::from(texture.components)).contains(&k) => k as u8,
                     _ => {
-                        return Err(Diagnostic::at(span, "the component to gather must be known and in the texture")
-                            .help(format!("use 0 to {}", texture.components - 1))
-                            .into());
+                        return Err(
+                            Diagnostic::at(span, "the component to gather must be known and in the texture")
+                                .help(format!("use 0 to {}", texture.components - 1))
+                                .into(),
+                        );
                     }
                 };
                 let op = Op::Gather {
@@ -178,7 +185,11 @@ impl Evaluator<'_> {
     /// A method of a buffer.
     pub fn buffer(&mut self, index: u32, name: &str, args: &[Value], span: Span) -> Eval {
         match (name, args) {
-            ("len", []) => Ok(Value::Node(self.builder.add(Op::BufferLen(index), Vec::new(), Type::I32))),
+            ("len", []) => Ok(Value::Node(self.builder.add(
+                Op::BufferLen(index),
+                Vec::new(),
+                Type::I32,
+            ))),
             ("load", [at]) => {
                 let at = self.index_node(at, span)?;
                 let len = self.builder.add(Op::BufferLen(index), Vec::new(), Type::I32);
@@ -211,9 +222,11 @@ impl Evaluator<'_> {
             return Ok(id);
         }
         let found = self.ty(id);
-        Err(Diagnostic::at(span, format!("a place in a texture is a Vec2, not {found}"))
-            .label("(0, 0) is the upper left corner, (1, 1) the lower right")
-            .into())
+        Err(
+            Diagnostic::at(span, format!("a place in a texture is a Vec2, not {found}"))
+                .label("(0, 0) is the upper left corner, (1, 1) the lower right")
+                .into(),
+        )
     }
 
     fn filtering(&self, sampler: u32, span: Span) -> Eval<()> {

@@ -15,7 +15,11 @@ impl Lower {
             match &meta {
                 syn::Meta::List(list) if list.path.is_ident("unroll") => match list.tokens.to_string().parse() {
                     Ok(unroll) => found = Some(unroll),
-                    Err(error) => self.bad_attribute(meta.span(), error, "write `unroll(full)`, `unroll(none)` or `unroll(4)`"),
+                    Err(error) => self.bad_attribute(
+                        meta.span(),
+                        error,
+                        "write `unroll(full)`, `unroll(none)` or `unroll(4)`",
+                    ),
                 },
                 other => {
                     let text = other.to_token_stream().to_string();
@@ -55,15 +59,20 @@ impl Lower {
         let mut found = Vec::new();
         for attr in attrs.iter().filter(|a| a.path().is_ident("cfg_attr")) {
             let parse = Punctuated::<syn::Expr, syn::Token![,]>::parse_terminated;
-            let Ok(parts) = attr.parse_args_with(parse) else { continue };
-            let off = matches!(parts.first(), Some(syn::Expr::Lit(lit)) if matches!(&lit.lit, syn::Lit::Bool(b) if !b.value));
+            let Ok(parts) = attr.parse_args_with(parse) else {
+                continue;
+            };
+            let off =
+                matches!(parts.first(), Some(syn::Expr::Lit(lit)) if matches!(&lit.lit, syn::Lit::Bool(b) if !b.value));
             if !off {
                 continue;
             }
             for part in parts.iter().skip(1) {
                 match syn::parse2(part.to_token_stream()) {
                     Ok(meta) => found.push(meta),
-                    Err(error) => self.bad_attribute(part.span(), error.to_string(), "see the kernel language's attributes"),
+                    Err(error) => {
+                        self.bad_attribute(part.span(), error.to_string(), "see the kernel language's attributes")
+                    }
                 }
             }
         }
@@ -72,6 +81,7 @@ impl Lower {
 
     fn bad_attribute(&mut self, span: proc_macro2::Span, message: String, help: &str) {
         let span = self.span(span);
-        self.errors.push(Diagnostic::at(span, message).label("not understood").help(help));
+        self.errors
+            .push(Diagnostic::at(span, message).label("not understood").help(help));
     }
 }

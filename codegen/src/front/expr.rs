@@ -169,7 +169,10 @@ impl Lower {
         let (what, instead) = match expr {
             syn::Expr::Closure(_) => ("a closure", "write a function and call it"),
             syn::Expr::Break(_) => ("`break` with a value", "assign the value to a variable before"),
-            syn::Expr::Block(_) => ("a label on a block", "put the block into a function and `return` from it"),
+            syn::Expr::Block(_) => (
+                "a label on a block",
+                "put the block into a function and `return` from it",
+            ),
             syn::Expr::Let(_) => ("`let` in a condition", "use `match`, or compare with `==`"),
             syn::Expr::Macro(_) => ("a macro", "write out what it stands for"),
             syn::Expr::Try(_) => ("`?`", "a kernel has no errors: compute a value for every pixel"),

@@ -38,7 +38,9 @@ mod rebuild;
 mod types;
 pub mod verify;
 
-pub use graph::{Buffer, Builder, Event, Graph, Node, NodeId, Region, RegionId, Rules, Sampler, Texture, TextureKind, Uniform};
+pub use graph::{
+    Buffer, Builder, Event, Graph, Node, NodeId, Region, RegionId, Rules, Sampler, Texture, TextureKind, Uniform,
+};
 pub use op::{BinaryOp, Op, UnaryOp};
 pub use origin::{Counter, Origin};
 pub use parse::{ParseError, parse};

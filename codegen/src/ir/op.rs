@@ -168,7 +168,9 @@ impl BinaryOp {
     /// Every operation.
     pub const ALL: [BinaryOp; 20] = {
         use BinaryOp::*;
-        [Add, Sub, Mul, Div, Rem, Min, Max, Pow, Atan2, And, Or, Xor, Shl, Shr, Eq, Ne, Lt, Le, Gt, Ge]
+        [
+            Add, Sub, Mul, Div, Rem, Min, Max, Pow, Atan2, And, Or, Xor, Shl, Shr, Eq, Ne, Lt, Le, Gt, Ge,
+        ]
     };
 
     /// Whether it compares, giving booleans.
@@ -188,7 +190,37 @@ impl UnaryOp {
     /// Every operation.
     pub const ALL: [UnaryOp; 29] = {
         use UnaryOp::*;
-        [Neg, Not, BitNot, Abs, Sign, Floor, Ceil, Round, Trunc, Fract, Sqrt, InverseSqrt, Exp, Exp2, Log, Log2, Sin, Cos, Tan, Asin, Acos, Atan, Sinh, Cosh, Tanh, CountOneBits, ReverseBits, LeadingZeros, TrailingZeros]
+        [
+            Neg,
+            Not,
+            BitNot,
+            Abs,
+            Sign,
+            Floor,
+            Ceil,
+            Round,
+            Trunc,
+            Fract,
+            Sqrt,
+            InverseSqrt,
+            Exp,
+            Exp2,
+            Log,
+            Log2,
+            Sin,
+            Cos,
+            Tan,
+            Asin,
+            Acos,
+            Atan,
+            Sinh,
+            Cosh,
+            Tanh,
+            CountOneBits,
+            ReverseBits,
+            LeadingZeros,
+            TrailingZeros,
+        ]
     };
 
     /// Whether hardware computes it in a special, slower unit.

@@ -149,7 +149,10 @@ impl Reader {
     fn open(&mut self, text: &str) -> Parsed {
         let id: u32 = number(text.strip_suffix(" {").ok_or("a region is `region N {`")?)?;
         if id as usize != self.graph.regions.len() {
-            return Err(format!("regions are numbered in order: this is region {}", self.graph.regions.len()));
+            return Err(format!(
+                "regions are numbered in order: this is region {}",
+                self.graph.regions.len()
+            ));
         }
         let region = empty(self.open.last().copied());
         self.graph.regions.push(region);
@@ -159,7 +162,9 @@ impl Reader {
     }
 
     fn node_id(&self, text: &str) -> Parsed<NodeId> {
-        let id = text.strip_prefix('%').ok_or_else(|| format!("`{text}` is not a node"))?;
+        let id = text
+            .strip_prefix('%')
+            .ok_or_else(|| format!("`{text}` is not a node"))?;
         let id: u32 = number(id)?;
         if id as usize >= self.graph.nodes.len() {
             return Err(format!("%{id} is not made yet"));
@@ -175,7 +180,10 @@ impl Reader {
         let (head, body) = line.split_once(" = ").ok_or("a node is `%N: TYPE = OPERATION`")?;
         let (id, kind) = head.split_once(": ").ok_or("a node is `%N: TYPE = OPERATION`")?;
         if id != format!("%{}", self.graph.nodes.len()) {
-            return Err(format!("nodes are numbered in order: this is %{}", self.graph.nodes.len()));
+            return Err(format!(
+                "nodes are numbered in order: this is %{}",
+                self.graph.nodes.len()
+            ));
         }
         let ty = ty(kind)?;
         let mut parts = body.split(" yields ");
@@ -191,7 +199,10 @@ impl Reader {
         for part in parts {
             let (region, results) = part.split_once(':').ok_or("results are `yields REGION: %A %B`")?;
             let region: u32 = number(region)?;
-            let results = results.split_whitespace().map(|w| self.node_id(w)).collect::<Parsed<_>>()?;
+            let results = results
+                .split_whitespace()
+                .map(|w| self.node_id(w))
+                .collect::<Parsed<_>>()?;
             let slot = self.graph.regions.get_mut(region as usize).ok_or("no such region")?;
             slot.results = results;
         }
@@ -313,7 +324,8 @@ fn named(text: &str) -> Parsed<(String, &str)> {
 }
 
 fn number<T: std::str::FromStr>(text: &str) -> Parsed<T> {
-    text.parse().map_err(|_| format!("`{text}` is not a number that fits here"))
+    text.parse()
+        .map_err(|_| format!("`{text}` is not a number that fits here"))
 }
 
 fn scalar(text: &str) -> Parsed<Scalar> {

@@ -41,7 +41,13 @@ fn tables(graph: &Graph) -> String {
     }
     for t in &graph.textures {
         let size = if t.framed { "frame" } else { "own" };
-        let _ = writeln!(text, "texture {}: {} {} {size}", t.name, kind_name(t.kind), t.components);
+        let _ = writeln!(
+            text,
+            "texture {}: {} {} {size}",
+            t.name,
+            kind_name(t.kind),
+            t.components
+        );
     }
     for b in &graph.buffers {
         let _ = writeln!(text, "buffer {}: {}", b.name, b.element);

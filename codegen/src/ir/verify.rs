@@ -137,8 +137,15 @@ fn check(graph: &Graph, id: NodeId) -> Result<(), String> {
             let entry = graph.textures.get(*texture as usize).ok_or("no such texture")?;
             let through = graph.samplers.get(*sampler as usize).ok_or("no such sampler")?;
             count(1)?;
-            expect(entry.kind == TextureKind::Flat && !through.comparison, "a flat texture and a filtering sampler")?;
-            let components = if matches!(node.op, Op::Gather { .. }) { 4 } else { entry.components };
+            expect(
+                entry.kind == TextureKind::Flat && !through.comparison,
+                "a flat texture and a filtering sampler",
+            )?;
+            let components = if matches!(node.op, Op::Gather { .. }) {
+                4
+            } else {
+                entry.components
+            };
             let fits = types[0] == Type::value(Scalar::F32, 2) && node.ty == Type::value(Scalar::F32, components);
             expect(fits, "a vec2<f32> to what the texture holds")
         }
@@ -146,7 +153,10 @@ fn check(graph: &Graph, id: NodeId) -> Result<(), String> {
             let entry = graph.textures.get(*texture as usize).ok_or("no such texture")?;
             let through = graph.samplers.get(*sampler as usize).ok_or("no such sampler")?;
             count(2)?;
-            expect(entry.kind == TextureKind::Depth && through.comparison, "a depth texture and a comparison sampler")?;
+            expect(
+                entry.kind == TextureKind::Depth && through.comparison,
+                "a depth texture and a comparison sampler",
+            )?;
             let fits = types[0] == Type::value(Scalar::F32, 2) && types[1] == Type::F32 && node.ty == Type::F32;
             expect(fits, "a vec2<f32> and an f32 to an f32")
         }
@@ -157,7 +167,10 @@ fn check(graph: &Graph, id: NodeId) -> Result<(), String> {
         Op::BufferLoad { buffer, .. } => {
             let entry = graph.buffers.get(*buffer as usize).ok_or("no such buffer")?;
             count(1)?;
-            expect(types[0] == Type::I32 && node.ty == entry.element, "an index to an element")
+            expect(
+                types[0] == Type::I32 && node.ty == entry.element,
+                "an index to an element",
+            )
         }
         Op::MakeArray => {
             let Type::Array { len, .. } = node.ty else {

@@ -98,7 +98,9 @@ impl Counter<'_> {
             }
             Op::Unary(op) if op.is_transcendental() => run.transcendentals += 1,
             Op::Binary(crate::ir::BinaryOp::Pow | crate::ir::BinaryOp::Atan2) => run.transcendentals += 1,
-            Op::Unary(_) | Op::Binary(_) | Op::Dot | Op::Cross | Op::Clamp | Op::Select | Op::Convert | Op::Bitcast => run.alu += 1,
+            Op::Unary(_) | Op::Binary(_) | Op::Dot | Op::Cross | Op::Clamp | Op::Select | Op::Convert | Op::Bitcast => {
+                run.alu += 1
+            }
             _ => {}
         }
     }

@@ -48,7 +48,11 @@ fn bounds_at(g: &Graph, id: NodeId, depth: u32) -> Option<(i64, i64)> {
     let of = |k: usize| bounds_at(g, node.args[k], depth - 1);
     let fits = |(low, high): (i64, i64)| {
         // What leaves the range wraps.
-        let range = if node.ty == Type::U32 { 0..=i64::from(u32::MAX) } else { i64::from(i32::MIN)..=i64::from(i32::MAX) };
+        let range = if node.ty == Type::U32 {
+            0..=i64::from(u32::MAX)
+        } else {
+            i64::from(i32::MIN)..=i64::from(i32::MAX)
+        };
         (range.contains(&low) && range.contains(&high)).then_some((low, high))
     };
     let corners = |f: fn(i64, i64) -> i64| {
@@ -69,18 +73,26 @@ fn bounds_at(g: &Graph, id: NodeId, depth: u32) -> Option<(i64, i64)> {
         Op::Binary(BinaryOp::Sub) => corners(|a, b| a - b),
         Op::Binary(BinaryOp::Mul) => corners(|a, b| a.saturating_mul(b)),
         Op::Binary(BinaryOp::Div) => {
-            let divisor = g.constant(node.args[1]).map(|bits| i64::from(bits[0] as i32)).filter(|d| *d > 0)?;
+            let divisor = g
+                .constant(node.args[1])
+                .map(|bits| i64::from(bits[0] as i32))
+                .filter(|d| *d > 0)?;
             of(0).map(|(low, high)| (low / divisor, high / divisor))
         }
         Op::Binary(BinaryOp::Rem) => {
-            let divisor = g.constant(node.args[1]).map(|bits| i64::from(bits[0] as i32)).filter(|d| *d > 0)?;
+            let divisor = g
+                .constant(node.args[1])
+                .map(|bits| i64::from(bits[0] as i32))
+                .filter(|d| *d > 0)?;
             let low = of(0).map_or(1 - divisor, |(low, _)| low.clamp(1 - divisor, 0));
             Some((if node.ty == Type::U32 { 0 } else { low }, divisor - 1))
         }
         Op::Binary(op @ (BinaryOp::Min | BinaryOp::Max)) => match (of(0), of(1), op) {
             (Some((a, b)), Some((c, d)), BinaryOp::Min) => Some((a.min(c), b.min(d))),
             (Some((a, b)), Some((c, d)), _) => Some((a.max(c), b.max(d))),
-            (Some((_, high)), None, BinaryOp::Min) | (None, Some((_, high)), BinaryOp::Min) => Some((i64::from(i32::MIN), high)),
+            (Some((_, high)), None, BinaryOp::Min) | (None, Some((_, high)), BinaryOp::Min) => {
+                Some((i64::from(i32::MIN), high))
+            }
             _ => None,
         },
         Op::Clamp => {

@@ -4,7 +4,9 @@ use glam::{Vec2, Vec3, Vec4};
 use std::ops::{Add, Mul, Sub};
 
 /// A float or a vector of floats.
-pub trait Floats: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Mul<f32, Output = Self> {
+pub trait Floats:
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Mul<f32, Output = Self>
+{
     /// `f` of each lane.
     fn map(self, f: impl Fn(f32) -> f32) -> Self;
 }

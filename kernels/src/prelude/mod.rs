@@ -17,14 +17,16 @@ pub mod maths;
 mod texture;
 
 pub use glam::{
-    IVec2, IVec3, IVec4, Mat2, Mat3, Mat4, UVec2, UVec3, UVec4, Vec2, Vec3, Vec4, ivec2, ivec3, ivec4, mat2, mat3, mat4,
-    uvec2, uvec3, uvec4, vec2, vec3, vec4,
+    IVec2, IVec3, IVec4, Mat2, Mat3, Mat4, UVec2, UVec3, UVec4, Vec2, Vec2Swizzles, Vec3, Vec3Swizzles, Vec4,
+    Vec4Swizzles, ivec2, ivec3, ivec4, mat2, mat3, mat4, uvec2, uvec3, uvec4, vec2, vec3, vec4,
 };
 
 pub use buffer::Buffer;
 pub use frame::{Frame, FrameLayers};
 pub use maths::{fract, inverse_sqrt, mix, saturate, sign, smoothstep, step};
-pub use texture::{Address, Comparison, ComparisonSampler, DepthTexture, Filter, Multisampled, Sampler, Texel, Texture};
+pub use texture::{
+    Address, Comparison, ComparisonSampler, DepthTexture, Filter, Multisampled, Sampler, Texel, Texture,
+};
 
 pub use crate::options;
 

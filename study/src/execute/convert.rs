@@ -101,7 +101,15 @@ impl<'a> Converters<'a> {
                 module: &module,
                 entry_point: Some(entry),
                 compilation_options: Default::default(),
-                targets: if is_depth { &[] } else { &[Some(wgpu::ColorTargetState { format: TextureFormat::Rgba16Float, blend: None, write_mask: wgpu::ColorWrites::ALL })] },
+                targets: if is_depth {
+                    &[]
+                } else {
+                    &[Some(wgpu::ColorTargetState {
+                        format: TextureFormat::Rgba16Float,
+                        blend: None,
+                        write_mask: wgpu::ColorWrites::ALL,
+                    })]
+                },
             }),
             multiview_mask: None,
             cache: None,
@@ -122,7 +130,9 @@ impl<'a> Converters<'a> {
             ops: wgpu::Operations::default(),
         };
         let colours = [Some(colour)];
-        let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        let mut encoder = self
+            .device
+            .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: None,
             color_attachments: if is_depth { &[] } else { &colours },
@@ -184,5 +194,8 @@ pub fn element_bytes(elements: &[[f64; 4]], element: &str) -> Vec<u8> {
         "i" => (*v as i32).to_le_bytes(),
         _ => (*v as u32).to_le_bytes(),
     };
-    elements.iter().flat_map(|e| e[..lanes].iter().flat_map(word).collect::<Vec<u8>>()).collect()
+    elements
+        .iter()
+        .flat_map(|e| e[..lanes].iter().flat_map(word).collect::<Vec<u8>>())
+        .collect()
 }

@@ -65,7 +65,10 @@ impl Bench {
     /// If it cannot be emitted, or the device cannot run it.
     pub fn pass(&self, compiled: &Compiled, stage: Stage) -> Result<(Pass, Manifest), ExecuteError> {
         let emitted = compiled.emit(&EmitOptions::new().stage(stage).format(Format::Rgba32Float))?;
-        let wgsl = emitted.files.get(&Target::Wgsl).map(|bytes| String::from_utf8_lossy(bytes));
+        let wgsl = emitted
+            .files
+            .get(&Target::Wgsl)
+            .map(|bytes| String::from_utf8_lossy(bytes));
         let pass = Pass::new(&self.device, &emitted.manifest, &wgsl.unwrap_or_default())?;
         Ok((pass, emitted.manifest))
     }
@@ -101,7 +104,8 @@ impl Bench {
                     Owned::Sampler(self.sampler(state, compares))
                 }
                 BindingKind::Buffer { element, .. } => {
-                    let elements = Inputs::find(&inputs.buffers, name).ok_or_else(|| missing("list of elements", name))?;
+                    let elements =
+                        Inputs::find(&inputs.buffers, name).ok_or_else(|| missing("list of elements", name))?;
                     Owned::Buffer(self.buffer(elements, element))
                 }
                 BindingKind::Uniform { fields, .. } => {
@@ -128,7 +132,9 @@ impl Bench {
         let bound = self.bind(&pass, &manifest, inputs)?;
         let target = self.target(inputs.size, pass.target_format());
         let view = target.create_view(&wgpu::TextureViewDescriptor::default());
-        let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        let mut encoder = self
+            .device
+            .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         pass.encode(&mut encoder, &bound.resources(), &view)?;
         self.queue.submit([encoder.finish()]);
         self.download(&target)
@@ -179,8 +185,11 @@ impl Bench {
             }
             (Dimension::D2, _) => view(wgpu::TextureViewDimension::D2),
             (Dimension::D2Array, _) => view(wgpu::TextureViewDimension::D2Array),
-            (Dimension::D2Multisampled, _) => Converters::new(&self.device, &self.queue)
-                .multisampled(&view(wgpu::TextureViewDimension::D2Array), size, layers.len() as u32),
+            (Dimension::D2Multisampled, _) => Converters::new(&self.device, &self.queue).multisampled(
+                &view(wgpu::TextureViewDimension::D2Array),
+                size,
+                layers.len() as u32,
+            ),
         })
     }
 
@@ -212,12 +221,17 @@ impl Bench {
             bytes_per_row: Some(size.x * format.block_copy_size(None).unwrap_or(16)),
             rows_per_image: Some(size.y),
         };
-        self.queue.write_texture(texture.as_image_copy(), &bytes, layout, extent);
+        self.queue
+            .write_texture(texture.as_image_copy(), &bytes, layout, extent);
         texture
     }
 
     fn sampler(&self, state: SamplerState, compares: bool) -> wgpu::Sampler {
-        let filter = if state.linear { wgpu::FilterMode::Linear } else { wgpu::FilterMode::Nearest };
+        let filter = if state.linear {
+            wgpu::FilterMode::Linear
+        } else {
+            wgpu::FilterMode::Nearest
+        };
         let address = match state.address {
             Address::Clamp => wgpu::AddressMode::ClampToEdge,
             Address::Repeat => wgpu::AddressMode::Repeat,
@@ -283,7 +297,9 @@ impl Bench {
             usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
             mapped_at_creation: false,
         });
-        let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        let mut encoder = self
+            .device
+            .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         let layout = wgpu::TexelCopyBufferLayout {
             offset: 0,
             bytes_per_row: Some(row),

@@ -10,8 +10,8 @@ use straightline_kernels::prelude::Frame;
 
 pub use cpu::{Interpreted, interpret};
 pub use gpu::{Bench, Bound};
-pub use timing::{Clock, Job, Times};
 pub use straightline_codegen::ir::interp::{Address, Comparison, SamplerState};
+pub use timing::{Clock, Job, Times};
 
 /// What a kernel is run on, by the names that it calls them.
 #[derive(Clone, Debug, Default)]
@@ -67,7 +67,11 @@ impl Inputs {
     }
 
     fn find<'a, T>(entries: &'a [(String, T)], name: &str) -> Option<&'a T> {
-        entries.iter().rev().find(|(known, _)| known == name).map(|(_, value)| value)
+        entries
+            .iter()
+            .rev()
+            .find(|(known, _)| known == name)
+            .map(|(_, value)| value)
     }
 }
 

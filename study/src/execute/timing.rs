@@ -99,9 +99,16 @@ impl Bench {
         Ok((times.iter().filter_map(|t| Times::of(t)).collect(), clock))
     }
 
-    fn once(&self, job: &Job<'_>, target: &wgpu::TextureView, timer: Option<&mut Timer>) -> Result<Duration, ExecuteError> {
+    fn once(
+        &self,
+        job: &Job<'_>,
+        target: &wgpu::TextureView,
+        timer: Option<&mut Timer>,
+    ) -> Result<Duration, ExecuteError> {
         let resources = job.bound.resources();
-        let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        let mut encoder = self
+            .device
+            .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         match timer {
             Some(timer) => {
                 job.pass.encode_timed(&mut encoder, &resources, target, timer)?;

@@ -4,8 +4,8 @@
 
 use straightline_codegen::{Compiled, Kernel, Settings, Unroll};
 use straightline_kernels::prelude::*;
-use straightline_study::execute;
 use straightline_kernels::sraa::{Falloff, GBuffer, Metric, Normalisation, Pattern, Shading, Sraa};
+use straightline_study::execute;
 
 /// What a frame's resolve reads.
 pub struct Inputs {
@@ -162,8 +162,8 @@ pub fn interpret(compiled: &Compiled, inputs: &Inputs, uniforms: &[(&str, f64)])
 /// A device of any adapter.
 pub fn bench() -> execute::Bench {
     let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
-    let adapter = pollster::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions::default()))
-        .unwrap_or_else(|e| {
+    let adapter =
+        pollster::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions::default())).unwrap_or_else(|e| {
             panic!("this test needs a GPU adapter; without a GPU install Debian's mesa-vulkan-drivers: {e}")
         });
     let descriptor = wgpu::DeviceDescriptor {

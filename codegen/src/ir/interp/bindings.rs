@@ -125,7 +125,11 @@ impl<'a> Bindings<'a> {
 
 /// The entry of a name.
 pub(super) fn find<'b, T>(entries: &'b [(String, T)], name: &str) -> Option<&'b T> {
-    entries.iter().rev().find(|(known, _)| known == name).map(|(_, value)| value)
+    entries
+        .iter()
+        .rev()
+        .find(|(known, _)| known == name)
+        .map(|(_, value)| value)
 }
 
 /// Bits of a uniform or buffer element, as the graph's constants have them.

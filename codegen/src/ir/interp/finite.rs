@@ -27,7 +27,11 @@ impl Birth {
         let origin = self.origin(graph);
         let name = origin.map_or("a value", |o| o.name.as_str());
         let mut text = format!("`{name}` {what} {}", lanes.join(", "));
-        let rounds: Vec<String> = self.counters.iter().map(|c| format!("{} {}", c.name, c.value)).collect();
+        let rounds: Vec<String> = self
+            .counters
+            .iter()
+            .map(|c| format!("{} {}", c.name, c.value))
+            .collect();
         if !rounds.is_empty() {
             text += &format!(" in {}", rounds.join(", "));
         }
@@ -45,7 +49,10 @@ impl Birth {
             if let Some(origin) = graph.origin(at).filter(|o| !o.name.is_empty()) {
                 return Some(origin);
             }
-            at = graph.ids().skip(at.0 as usize + 1).find(|id| graph.node(*id).args.contains(&at))?;
+            at = graph
+                .ids()
+                .skip(at.0 as usize + 1)
+                .find(|id| graph.node(*id).args.contains(&at))?;
         }
     }
 }

@@ -81,7 +81,9 @@ impl<'a, R: Real> Interpreter<'a, R> {
             .iter()
             .map(|s| bindings::find(&bindings.samplers, &s.name).copied().unwrap_or_default());
         let buffers = graph.buffers.iter().map(|buffer| {
-            let elements = bindings::find(&bindings.buffers, &buffer.name).copied().unwrap_or_default();
+            let elements = bindings::find(&bindings.buffers, &buffer.name)
+                .copied()
+                .unwrap_or_default();
             elements.iter().map(|lanes| cells(buffer.element, lanes)).collect()
         });
         let uniforms = graph.uniforms.iter().map(|uniform| {
@@ -237,7 +239,9 @@ impl<'a, R: Real> Interpreter<'a, R> {
         }
         let texture = op.texture().and_then(|t| self.textures[t as usize]);
         let Some(image) = texture else { return [0; 4] };
-        let state = op.sampler().map_or_else(SamplerState::default, |k| self.samplers[k as usize]);
+        let state = op
+            .sampler()
+            .map_or_else(SamplerState::default, |k| self.samplers[k as usize]);
         let through = Sampled { image, state };
         match op {
             Op::TextureSize(_) => {
@@ -258,7 +262,9 @@ impl<'a, R: Real> Interpreter<'a, R> {
         let finite = |id: NodeId| {
             let ty = self.graph.ty(id);
             let lanes = &s.values[id.0 as usize][..ty.lanes() as usize];
-            ty.kind() != Some(Scalar::F32) || ty.is_array() || lanes.iter().all(|c| R::from_bits(*c).to_f64().is_finite())
+            ty.kind() != Some(Scalar::F32)
+                || ty.is_array()
+                || lanes.iter().all(|c| R::from_bits(*c).to_f64().is_finite())
         };
         if finite(id) || !self.graph.node(id).args.iter().all(|a| finite(*a)) {
             return;

@@ -71,10 +71,7 @@ impl Sampled<'_> {
 
     fn place<R: Real>(&self, uv: [R; 2]) -> [R; 2] {
         let [width, height, _] = self.image.extent();
-        [
-            uv[0] * R::from_f64(width.into()),
-            uv[1] * R::from_f64(height.into()),
-        ]
+        [uv[0] * R::from_f64(width.into()), uv[1] * R::from_f64(height.into())]
     }
 }
 

@@ -1,0 +1,68 @@
+//! Makes modules of the examples in `docs/kernel-language.md`, so that rustc compiles what the page says.
+
+use std::fmt::Write;
+use std::path::Path;
+
+fn main() {
+    let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/kernel-language.md");
+    println!("cargo::rerun-if-changed={}", page.display());
+    let text = std::fs::read_to_string(&page).expect("docs/kernel-language.md");
+    let mut modules = String::new();
+    let mut table = String::from("pub const EXAMPLES: &[Example] = &[\n");
+    for source in blocks(&text) {
+        let file = syn::parse_file(&source).unwrap_or_else(|e| panic!("an example is not Rust: {e}\n{source}"));
+        let kernel = file.items.iter().find_map(|item| match item {
+            syn::Item::Fn(f) if matches!(f.vis, syn::Visibility::Public(_)) => Some(f),
+            _ => None,
+        });
+        let kernel = kernel.unwrap_or_else(|| panic!("an example has no `pub fn`:\n{source}"));
+        let name = &kernel.sig.ident;
+        let arguments: Vec<String> = kernel.sig.inputs.iter().map(argument).collect();
+        let _ = write!(
+            modules,
+            "pub mod {name} {{\n#![allow(dead_code, unused, clippy::all)]\nuse straightline_kernels::prelude::*;\n{source}\n\
+             pub fn native(w: &super::World, at: IVec2) -> Vec4 {{ {name}({}) }}\n}}\n",
+            arguments.join(", ")
+        );
+        let _ = writeln!(
+            table,
+            "    Example {{ name: \"{name}\", source: {source:?}, native: {name}::native }},"
+        );
+    }
+    table += "];\n";
+    let out = Path::new(&std::env::var_os("OUT_DIR").expect("set by cargo")).join("examples.rs");
+    std::fs::write(out, modules + &table).expect("the build folder can be written");
+}
+
+/// The text of every block that is marked as Rust.
+fn blocks(page: &str) -> Vec<String> {
+    let mut found = Vec::new();
+    let mut open: Option<String> = None;
+    for line in page.lines() {
+        match &mut open {
+            None if line == "```rust" => open = Some(String::new()),
+            Some(_) if line == "```" => found.extend(open.take()),
+            Some(block) => *block += &format!("{line}\n"),
+            None => {}
+        }
+    }
+    found
+}
+
+/// What a parameter is given, by its name and type.
+fn argument(input: &syn::FnArg) -> String {
+    let syn::FnArg::Typed(typed) = input else {
+        panic!("a kernel is no method")
+    };
+    let syn::Pat::Ident(name) = &*typed.pat else {
+        panic!("a parameter has a name")
+    };
+    let name = name.ident.to_string();
+    match (name.as_str(), &*typed.ty) {
+        ("pixel", _) => "at".to_owned(),
+        ("cfg", _) => "&Default::default()".to_owned(),
+        ("scene", _) => "&Scene { color: &w.color, layers: &w.layers, tint: w.tint, strength: w.strength }".to_owned(),
+        (_, syn::Type::Reference(_)) => format!("&w.{name}"),
+        _ => format!("w.{name}"),
+    }
+}

@@ -1,0 +1,182 @@
+//! Every example of `docs/kernel-language.md`: as rustc compiles it, unrolled, kept and unrolled in part, and on a GPU.
+
+#![allow(missing_docs)] // a test has no readers but its own
+
+mod common;
+
+use common::{Random, bench, same_bits};
+use straightline_codegen::{Branches, Compiled, EmitOptions, Kernel, Settings, Stage, Unroll, emit::Target};
+use straightline_kernels::prelude::*;
+use straightline_study::execute::{self, SamplerState, interpret};
+
+/// What the examples read, by name.
+pub struct World {
+    pub color: Frame<Vec4>,
+    pub layers: FrameLayers<f32>,
+    pub image: Texture<Vec4>,
+    pub samples: Multisampled<Vec4>,
+    pub shadow: DepthTexture,
+    pub linear: Sampler,
+    pub less: ComparisonSampler,
+    pub weights: Buffer<f32>,
+    pub grade: Mat3,
+    pub strength: f32,
+    pub tint: Vec4,
+    pub taps: i32,
+    pub resolution: UVec2,
+}
+
+pub struct Example {
+    pub name: &'static str,
+    pub source: &'static str,
+    pub native: fn(&World, IVec2) -> Vec4,
+}
+
+include!(concat!(env!("OUT_DIR"), "/examples.rs"));
+
+const SIZE: UVec2 = uvec2(13, 9);
+
+impl World {
+    fn new() -> World {
+        let mut random = Random(7);
+        // Multiples of 1/64 are kept by half precision, which multisampled textures have.
+        let mut lane = || (random.unit() * 64.0).floor() / 64.0;
+        let mut image = |size: UVec2| -> Vec<Vec4> {
+            (0..size.x * size.y)
+                .map(|_| vec4(lane(), lane(), lane(), lane()))
+                .collect()
+        };
+        let small = uvec2(5, 4);
+        let depths = |texels: Vec<Vec4>| texels.iter().map(|t| t.x).collect::<Vec<f32>>();
+        World {
+            color: Frame::new(SIZE, image(SIZE)),
+            layers: FrameLayers::new((0..2).map(|_| Frame::new(SIZE, depths(image(SIZE)))).collect()),
+            image: Texture::new(small, image(small)),
+            samples: Multisampled::new((0..4).map(|_| Texture::new(SIZE, image(SIZE))).collect()),
+            shadow: DepthTexture::new(small, depths(image(small))),
+            linear: Sampler::default(),
+            less: ComparisonSampler::default(),
+            weights: Buffer::new(vec![0.25, 0.5, 0.25]),
+            grade: Mat3::from_cols(vec3(0.9, 0.1, 0.0), vec3(0.0, 0.8, 0.1), vec3(0.2, 0.0, 0.7)),
+            strength: 1.5,
+            tint: vec4(0.5, 0.6, 0.7, 1.0),
+            taps: 5,
+            resolution: SIZE,
+        }
+    }
+
+    fn inputs(&self) -> execute::Inputs {
+        let grey = |texels: &[f32]| texels.iter().map(|d| vec4(*d, 0.0, 0.0, 0.0)).collect();
+        let layer = |l: &Frame<f32>| Frame::new(SIZE, grey(l.texels()));
+        let sample = |s: &Texture<Vec4>| Frame::new(s.size(), s.texels().to_vec());
+        let column = |v: Vec3| v.to_array().map(f64::from);
+        execute::Inputs::new(SIZE)
+            .image("color", self.color.clone())
+            .layers("layers", self.layers.layers().iter().map(layer).collect())
+            .image("image", sample(&self.image))
+            .layers("samples", self.samples.samples().iter().map(sample).collect())
+            .image("shadow", Frame::new(self.shadow.size(), grey(self.shadow.texels())))
+            .sampler("linear", SamplerState::default())
+            .sampler("less", SamplerState::default())
+            .buffer(
+                "weights",
+                self.weights
+                    .elements()
+                    .iter()
+                    .map(|w| [f64::from(*w), 0.0, 0.0, 0.0])
+                    .collect(),
+            )
+            .uniform("grade_x_axis", &column(self.grade.x_axis))
+            .uniform("grade_y_axis", &column(self.grade.y_axis))
+            .uniform("grade_z_axis", &column(self.grade.z_axis))
+            .uniform("strength", &[f64::from(self.strength)])
+            .uniform("tint", &self.tint.to_array().map(f64::from))
+            .uniform("taps", &[f64::from(self.taps)])
+    }
+}
+
+fn compile(example: &Example, settings: &Settings) -> Compiled {
+    let text = format!("use straightline_kernels::prelude::*;\n{}", example.source);
+    Kernel::from_text("kernel-language.md", &text, example.name)
+        .compile(settings)
+        .unwrap_or_else(|e| panic!("{}:\n{e}", example.name))
+}
+
+#[test]
+fn every_example_means_the_same_in_every_form() {
+    let world = World::new();
+    let inputs = world.inputs();
+    assert!(EXAMPLES.len() >= 30, "{} examples", EXAMPLES.len());
+    for example in EXAMPLES {
+        let pixels = (0..SIZE.y as i32).flat_map(|y| (0..SIZE.x as i32).map(move |x| ivec2(x, y)));
+        let native: Vec<[f32; 4]> = pixels.map(|at| (example.native)(&world, at).to_array()).collect();
+        for unroll in [Unroll::Full, Unroll::None, Unroll::Partial(2), Unroll::Partial(3)] {
+            for branches in [Branches::AsLoops, Branches::Keep, Branches::Select] {
+                let settings = Settings {
+                    unroll,
+                    branches,
+                    ..Settings::default()
+                };
+                let compiled = compile(example, &settings);
+                let result = interpret(&compiled, &inputs, false).unwrap_or_else(|e| panic!("{}: {e}", example.name));
+                same_bits(&native, &result.texels)
+                    .unwrap_or_else(|e| panic!("{} with {unroll}, branches {branches}: {e}", example.name));
+            }
+        }
+    }
+}
+
+#[test]
+fn every_example_is_emitted_in_every_language() {
+    for example in EXAMPLES {
+        for unroll in [Unroll::Full, Unroll::None] {
+            let settings = Settings {
+                unroll,
+                ..Settings::default()
+            };
+            let compiled = compile(example, &settings);
+            for stage in [Stage::Compute, Stage::Fragment] {
+                if stage == Stage::Fragment
+                    && example.source.contains("resolution")
+                    && !example.source.contains("Frame")
+                {
+                    // Nothing of the output's size is bound that could tell it.
+                    continue;
+                }
+                let options = EmitOptions::new().stage(stage).targets(Target::ALL);
+                let emitted = compiled.emit(&options);
+                emitted.unwrap_or_else(|e| panic!("{} {unroll} {}: {e}", example.name, stage.name()));
+            }
+        }
+    }
+}
+
+#[test]
+fn every_example_is_the_same_picture_on_a_gpu() {
+    let bench = bench();
+    let world = World::new();
+    let inputs = world.inputs();
+    for example in EXAMPLES {
+        for unroll in [Unroll::Full, Unroll::None] {
+            let settings = Settings {
+                unroll,
+                ..Settings::default()
+            };
+            let compiled = compile(example, &settings);
+            let expected = interpret::<f32>(&compiled, &inputs, false).expect("ran before");
+            let found = bench
+                .run(&compiled, Stage::Compute, &inputs)
+                .unwrap_or_else(|e| panic!("{} {unroll}: {e}", example.name));
+            // A GPU weighs filtered texels in steps of 1/256.
+            let bound = if example.source.contains("Sampler") {
+                1.0 / 128.0
+            } else {
+                1.0e-4
+            };
+            for (k, (a, b)) in found.texels().iter().zip(&expected.texels).enumerate() {
+                let off = (*a - Vec4::from_array(*b)).abs().max_element();
+                assert!(off <= bound, "{} {unroll}, pixel {k}: {a} and {b:?}", example.name);
+            }
+        }
+    }
+}
