@@ -1,11 +1,12 @@
 //! Arrays of kept loops: values in the graph, variables changed in place in the text.
 //!
-//! All versions of an array that follow from one another by writes, iterations and branches share one variable (a
-//! web). That is right as long as no version is read once the next has been written, which is checked while the text
-//! is made; literals (`MakeArray`) belong to no web and are copied where a web begins.
+//! All versions of an array that follow from one another by writes, rounds and branches share one variable (a web).
+//! That is right as long as no version is read once the next has been written. Where one is, the emitter learns it
+//! when it gets there, and begins again with the web cut before the version that came too early: that version then
+//! begins a variable of its own with a copy. Literals (`MakeArray`) belong to no web and are copied where one begins.
 
 use crate::ir::{Graph, NodeId, Op};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 /// Webs of array versions.
 pub struct Webs {
@@ -14,36 +15,63 @@ pub struct Webs {
     names: HashMap<u32, String>,
     /// Per web in scope: the version that the variable holds.
     current: HashMap<u32, NodeId>,
+    /// By version: the one that took its place in the variable.
+    replaced: HashMap<NodeId, NodeId>,
 }
 
+/// What was in scope and what variables held.
+pub type Snapshot = (HashMap<u32, String>, HashMap<u32, NodeId>);
+
 impl Webs {
-    /// Finds the webs of a graph.
-    pub fn new(graph: &Graph) -> Webs {
+    /// Finds the webs of a graph. Versions in `cut` do not share the variable of what they were made from.
+    pub fn new(graph: &Graph, cut: &HashSet<NodeId>) -> Webs {
         let mut webs = Webs {
             parent: (0..graph.nodes.len() as u32).collect(),
             names: HashMap::new(),
             current: HashMap::new(),
+            replaced: HashMap::new(),
         };
         for id in graph.ids() {
             let node = graph.node(id);
+            if node.op == Op::ArraySet && !cut.contains(&id) {
+                webs.union(graph, id, node.args[0]);
+            }
+        }
+        for id in graph.ids() {
+            let node = graph.node(id);
             match &node.op {
-                Op::ArraySet => webs.union(graph, id, node.args[0]),
                 Op::Loop(body) => {
                     let region = graph.region(*body);
                     for (k, init) in node.args[2..].iter().enumerate() {
-                        webs.union(graph, region.params[k + 1], *init);
-                        webs.union(graph, region.params[k + 1], region.results[k]);
+                        let param = region.params[k + 1];
+                        if !cut.contains(&param) {
+                            webs.union(graph, param, *init);
+                        }
+                        webs.join(graph, param, region.results[k], cut);
                     }
                 }
-                Op::Result(k) if node.ty.is_array() => {
-                    for region in graph.regions_of(node.args[0]) {
-                        webs.union(graph, id, graph.region(region).results[*k as usize]);
+                Op::Result(k) if node.ty.is_array() => match graph.node(node.args[0]).op {
+                    // The variable that was carried.
+                    Op::Loop(body) => webs.union(graph, id, graph.region(body).params[*k as usize + 1]),
+                    _ if cut.contains(&id) => {}
+                    _ => {
+                        for region in graph.regions_of(node.args[0]) {
+                            webs.join(graph, id, graph.region(region).results[*k as usize], cut);
+                        }
                     }
-                }
+                },
                 _ => {}
             }
         }
         webs
+    }
+
+    /// Unites a version with what leaves a region for it, unless that would undo a cut.
+    fn join(&mut self, graph: &Graph, id: NodeId, result: NodeId, cut: &HashSet<NodeId>) {
+        let web = self.root(result);
+        if !cut.iter().any(|version| self.root(*version) == web) {
+            self.union(graph, id, result);
+        }
     }
 
     fn union(&mut self, graph: &Graph, a: NodeId, b: NodeId) {
@@ -74,30 +102,43 @@ impl Webs {
         self.current.insert(web, version);
     }
 
-    /// Whether the web's variable holds just this version.
-    pub fn holds(&self, id: NodeId) -> bool {
-        self.current.get(&self.root(id)) == Some(&id)
+    /// The variable that holds just this version, if one does.
+    pub fn holder(&self, id: NodeId) -> Option<&str> {
+        let web = self.root(id);
+        self.names
+            .get(&web)
+            .filter(|_| self.current.get(&web) == Some(&id))
+            .map(String::as_str)
     }
 
-    /// The variable holds this version from now on.
+    /// The variable of `id`'s web holds this version from now on.
     pub fn advance(&mut self, id: NodeId) {
         let web = self.root(id);
-        self.current.insert(web, id);
+        if let Some(before) = self.current.insert(web, id)
+            && before != id
+        {
+            self.replaced.insert(before, id);
+        }
+    }
+
+    /// The version to cut the web before, so that `id` can still be read: the one that took its place.
+    pub fn replacement(&self, id: NodeId) -> Option<NodeId> {
+        self.replaced.get(&id).copied()
     }
 
     /// What every variable holds and which are in scope, to return to with [`Webs::restore`].
-    pub fn snapshot(&self) -> (HashMap<u32, String>, HashMap<u32, NodeId>) {
+    pub fn snapshot(&self) -> Snapshot {
         (self.names.clone(), self.current.clone())
     }
 
     /// Leaves a scope: variables made in it are gone.
-    pub fn leave(&mut self, (names, _): &(HashMap<u32, String>, HashMap<u32, NodeId>)) {
+    pub fn leave(&mut self, (names, _): &Snapshot) {
         self.names.clone_from(names);
         self.current.retain(|web, _| names.contains_key(web));
     }
 
     /// Returns to a state, as the other side of a branch does.
-    pub fn restore(&mut self, (names, current): &(HashMap<u32, String>, HashMap<u32, NodeId>)) {
+    pub fn restore(&mut self, (names, current): &Snapshot) {
         self.names.clone_from(names);
         self.current.clone_from(current);
     }

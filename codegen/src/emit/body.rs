@@ -11,7 +11,7 @@ use super::text::Text;
 use crate::ir::{BinaryOp, NodeId, Op};
 use crate::passes::{Block, Step};
 use crate::pipeline::Compiled;
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashSet};
 
 /// Operators and calls that one expression may hold before part of it becomes a statement. Long chains also overflow
 /// the recursive parsers of shader compilers.
@@ -29,15 +29,58 @@ pub struct Body {
     pub statements: u32,
 }
 
+/// Why a body could not be written in one go.
+enum Failure {
+    /// For good.
+    Error(EmitError),
+    /// An array's version is needed that the variable no longer holds: cut its web before this one.
+    Cut(NodeId),
+}
+
+impl From<EmitError> for Failure {
+    fn from(error: EmitError) -> Self {
+        Failure::Error(error)
+    }
+}
+
+type Written<T = ()> = Result<T, Failure>;
+
 /// Writes the body of a compiled kernel.
 pub fn body(compiled: &Compiled, resources: &Resources, entry: &str, dialect: &dyn Dialect) -> Result<Body, EmitError> {
+    let mut cut = HashSet::new();
+    loop {
+        match attempt(compiled, resources, entry, dialect, &cut) {
+            Ok(body) => return Ok(body),
+            Err(Failure::Error(error)) => return Err(error),
+            Err(Failure::Cut(version)) => {
+                if !cut.insert(version) {
+                    let array = compiled
+                        .graph
+                        .origin(version)
+                        .map_or("an array", |o| o.name.as_str())
+                        .to_owned();
+                    let kernel = compiled.kernel.clone();
+                    return Err(EmitError::ArrayVersions { kernel, array });
+                }
+            }
+        }
+    }
+}
+
+fn attempt(
+    compiled: &Compiled,
+    resources: &Resources,
+    entry: &str,
+    dialect: &dyn Dialect,
+    cut: &HashSet<NodeId>,
+) -> Written<Body> {
     let graph = &compiled.graph;
     let mut writer = Writer {
         compiled,
         dialect,
         plan: Plan::new(graph, &compiled.schedule),
         names: Names::new(graph, resources, entry),
-        webs: Webs::new(graph),
+        webs: Webs::new(graph, cut),
         texts: vec![None; graph.nodes.len()],
         tables: Vec::new(),
         helpers: BTreeSet::new(),
@@ -69,7 +112,7 @@ struct Writer<'a> {
 }
 
 impl Writer<'_> {
-    fn block(&mut self, block: &Block) -> Result<(), EmitError> {
+    fn block(&mut self, block: &Block) -> Written {
         for step in &block.steps {
             match step {
                 Step::Eval(id) => self.eval(*id)?,
@@ -80,7 +123,7 @@ impl Writer<'_> {
         Ok(())
     }
 
-    fn eval(&mut self, id: NodeId) -> Result<(), EmitError> {
+    fn eval(&mut self, id: NodeId) -> Written {
         let graph = &self.compiled.graph;
         let node = graph.node(id);
         match &node.op {
@@ -120,38 +163,40 @@ impl Writer<'_> {
     }
 
     /// The text of a value that has been evaluated.
-    fn text(&mut self, id: NodeId) -> Result<Text, EmitError> {
+    fn text(&mut self, id: NodeId) -> Written<Text> {
         if let Some(text) = &self.texts[id.0 as usize] {
             return Ok(text.clone());
         }
         let node = self.compiled.graph.node(id);
         match &node.op {
             Op::MakeArray => {
-                let parts: Result<Vec<Text>, EmitError> = node.args.iter().map(|a| self.text(*a)).collect();
+                let parts: Written<Vec<Text>> = node.args.iter().map(|a| self.text(*a)).collect();
                 let parts = parts?;
                 Ok(self.dialect.construct(node.ty, &parts.iter().collect::<Vec<_>>()))
             }
             // Constants belong to no place and are written wherever they are used.
-            Op::Const(bits) => self.dialect.constant(&self.compiled.kernel, node.ty, bits),
-            _ if node.ty.is_array() => match self.webs.variable(id) {
-                Some(name) if self.webs.holds(id) => Ok(Text::name(name)),
-                _ => Err(self.stale(id)),
+            Op::Const(bits) => Ok(self.dialect.constant(&self.compiled.kernel, node.ty, bits)?),
+            _ if node.ty.is_array() => match self.webs.holder(id) {
+                Some(name) => Ok(Text::name(name)),
+                None => Err(self.stale(id)),
             },
             _ => unreachable!("verified and scheduled: arguments are evaluated before their users"),
         }
     }
 
-    fn stale(&self, id: NodeId) -> EmitError {
-        let array = self.plan.origin(id).map_or("an array", |o| o.name.as_str()).to_owned();
-        EmitError::ArrayVersions {
-            kernel: self.compiled.kernel.clone(),
-            array,
+    fn stale(&self, id: NodeId) -> Failure {
+        match self.webs.replacement(id) {
+            Some(version) => Failure::Cut(version),
+            None => Failure::Error(EmitError::ArrayVersions {
+                kernel: self.compiled.kernel.clone(),
+                array: self.plan.origin(id).map_or("an array", |o| o.name.as_str()).to_owned(),
+            }),
         }
     }
 
-    fn expression(&mut self, id: NodeId) -> Result<Text, EmitError> {
+    fn expression(&mut self, id: NodeId) -> Written<Text> {
         let node = self.compiled.graph.node(id);
-        let args: Result<Vec<Text>, EmitError> = node.args.iter().map(|a| self.text(*a)).collect();
+        let args: Written<Vec<Text>> = node.args.iter().map(|a| self.text(*a)).collect();
         let args = args?;
         let operand = node.args.first().map_or(node.ty, |a| self.compiled.graph.ty(*a));
         let d = self.dialect;
@@ -219,7 +264,7 @@ impl Writer<'_> {
         self.compiled.graph.node(id).op == Op::Splat
     }
 
-    fn array_get(&mut self, id: NodeId) -> Result<(), EmitError> {
+    fn array_get(&mut self, id: NodeId) -> Written {
         let graph = &self.compiled.graph;
         let (array, index) = (graph.node(id).args[0], graph.node(id).args[1]);
         if graph.node(array).op == Op::MakeArray && self.texts[array.0 as usize].is_none() {
@@ -246,12 +291,12 @@ impl Writer<'_> {
         Ok(())
     }
 
-    fn indexed(&mut self, base: &Text, index: NodeId) -> Result<Text, EmitError> {
+    fn indexed(&mut self, base: &Text, index: NodeId) -> Written<Text> {
         let index = self.text(index)?;
         Ok(Text::index(base, &index))
     }
 
-    fn array_set(&mut self, id: NodeId) -> Result<(), EmitError> {
+    fn array_set(&mut self, id: NodeId) -> Written {
         let args = self.compiled.graph.node(id).args.clone();
         self.enter_web(id, args[0])?;
         let name = Text::name(self.webs.variable(id).unwrap_or_default());
@@ -262,7 +307,7 @@ impl Writer<'_> {
     }
 
     /// Declares the variable of a web with what it begins with.
-    fn open_web(&mut self, id: NodeId, begin: NodeId) -> Result<(), EmitError> {
+    fn open_web(&mut self, id: NodeId, begin: NodeId) -> Written {
         let graph = &self.compiled.graph;
         let value = self.text(begin)?;
         let name = self.names.of(graph, id, self.plan.origin(id));
@@ -273,22 +318,21 @@ impl Writer<'_> {
     }
 
     /// Makes the web's variable hold `begin`, and takes it to be `version`.
-    fn enter_web(&mut self, version: NodeId, begin: NodeId) -> Result<(), EmitError> {
-        match self.webs.variable(version) {
+    fn enter_web(&mut self, version: NodeId, begin: NodeId) -> Written {
+        match self.webs.variable(version).map(str::to_owned) {
             None => self.open_web(version, begin)?,
-            Some(name) if self.compiled.graph.node(begin).op == Op::MakeArray => {
-                let name = name.to_owned();
+            Some(name) => {
                 let value = self.text(begin)?;
-                self.statement(version, format!("{name} = {};", value.code));
+                if value.code != name {
+                    self.statement(version, format!("{name} = {};", value.code));
+                }
             }
-            Some(_) if self.webs.holds(begin) => {}
-            Some(_) => return Err(self.stale(begin)),
         }
         self.webs.advance(version);
         Ok(())
     }
 
-    fn kept_loop(&mut self, node: NodeId, body: &Block) -> Result<(), EmitError> {
+    fn kept_loop(&mut self, node: NodeId, body: &Block) -> Written {
         let graph = &self.compiled.graph;
         let args = graph.node(node).args.clone();
         let region = graph.region(graph.regions_of(node)[0]).clone();
@@ -322,7 +366,7 @@ impl Writer<'_> {
     }
 
     /// Assigns the next iteration's values, all of them computed before any is changed.
-    fn assign_all(&mut self, params: &[NodeId], results: &[NodeId]) -> Result<(), EmitError> {
+    fn assign_all(&mut self, params: &[NodeId], results: &[NodeId]) -> Written {
         let graph = &self.compiled.graph;
         let mut assignments = Vec::new();
         for (param, result) in params.iter().zip(results) {
@@ -330,17 +374,13 @@ impl Writer<'_> {
                 continue;
             }
             if graph.ty(*param).is_array() {
-                if graph.node(*result).op == Op::MakeArray {
-                    self.enter_web(*param, *result)?;
-                } else if !self.webs.holds(*result) {
-                    return Err(self.stale(*result));
-                }
+                self.enter_web(*param, *result)?;
                 continue;
             }
             let target = self.text(*param)?.code;
             let mut value = self.text(*result)?;
             // Another carried variable, or an expression that may read one, must be read before that changes.
-            if params.len() > 1 && (params.contains(result) || value.size > 0) {
+            if params.len() > 1 && self.reads_carried(*result) {
                 let name = self.names.fresh(&format!("next_{target}"));
                 let line = self.dialect.immutable(&name, graph.ty(*result), &value.code);
                 self.statement(*result, line);
@@ -352,6 +392,15 @@ impl Writer<'_> {
             self.statement(param, line);
         }
         Ok(())
+    }
+
+    /// Whether the text of a value reads a variable that is carried from round to round.
+    fn reads_carried(&self, id: NodeId) -> bool {
+        let node = self.compiled.graph.node(id);
+        match node.op {
+            Op::Param(..) => true,
+            _ => !self.plan.is_statement(id) && node.args.iter().any(|arg| self.reads_carried(*arg)),
+        }
     }
 
     /// After a loop or branch, results go by the variables that were carried or chosen.
@@ -372,7 +421,7 @@ impl Writer<'_> {
         }
     }
 
-    fn kept_branch(&mut self, node: NodeId, then: &Block, otherwise: &Block) -> Result<(), EmitError> {
+    fn kept_branch(&mut self, node: NodeId, then: &Block, otherwise: &Block) -> Written {
         let graph = &self.compiled.graph;
         let regions: Vec<_> = graph
             .regions_of(node)
@@ -386,12 +435,12 @@ impl Writer<'_> {
             .collect();
         // A side that does nothing leaves values that are known before: the variable begins with them.
         let idle = otherwise.steps.is_empty();
-        let mut begins_array = false;
+        let mut changes_array = false;
         for id in &results {
             let Op::Result(k) = graph.node(*id).op else { continue };
             let kept = regions[1].results[k as usize];
             if graph.ty(*id).is_array() {
-                begins_array |= self.prepare_array(*id, kept);
+                changes_array |= self.prepare_array(*id, kept);
                 continue;
             }
             let begin = if idle { Some(self.text(kept)?.code) } else { None };
@@ -406,7 +455,7 @@ impl Writer<'_> {
         let before = self.webs.snapshot();
         self.side(then, &results, &regions[0].results, false)?;
         self.webs.restore(&before);
-        if !idle || begins_array {
+        if !idle || changes_array {
             self.line("} else {".to_owned());
             self.side(otherwise, &results, &regions[1].results, idle)?;
         } else {
@@ -421,7 +470,7 @@ impl Writer<'_> {
     }
 
     /// Sees to it that an array that a branch chooses has its variable before the branch. Gives whether the side that
-    /// leaves `kept` must write it: a literal, which no variable holds.
+    /// leaves `kept` must write it, because the variable holds something else.
     fn prepare_array(&mut self, id: NodeId, kept: NodeId) -> bool {
         let graph = &self.compiled.graph;
         if self.webs.variable(id).is_none() {
@@ -431,16 +480,10 @@ impl Writer<'_> {
             // Both sides write it before it is read.
             self.webs.declare(id, name, id);
         }
-        graph.node(kept).op == Op::MakeArray
+        self.webs.holder(kept) != self.webs.variable(id)
     }
 
-    fn side(
-        &mut self,
-        block: &Block,
-        results: &[NodeId],
-        values: &[NodeId],
-        arrays_only: bool,
-    ) -> Result<(), EmitError> {
+    fn side(&mut self, block: &Block, results: &[NodeId], values: &[NodeId], arrays_only: bool) -> Written {
         let graph = &self.compiled.graph;
         self.listing.indent();
         self.block(block)?;

@@ -272,6 +272,16 @@ impl Dialect for Glsl<'_> {
                 let fallback = if op == "/" { x.clone() } else { zero };
                 self.select(&none, &fallback, &some)
             }
+            // A constant has no lane of 0 left.
+            (Div | Rem, Scalar::I32 | Scalar::U32) if vector && !(y.size == 0 && y.code.ends_with(')')) => {
+                // A lane of 0 becomes 1, which gives the same.
+                let ty_name = self.ty(ty);
+                let zero = Text::call(&ty_name, &[&self.scalar(kind, 0)]);
+                let none = Text::call("equal", &[y, &zero]);
+                let mended = Text::infix(y, "+", &Text::call(&ty_name, &[&none]), Binds::Sum);
+                let (op, binds) = operator(op, kind).unwrap_or(("/", Binds::Product));
+                Text::infix(x, op, &mended, binds)
+            }
             (Shl | Shr, _) => {
                 let counts = self.construct(ty, &[&self.scalar(kind, 31)]);
                 let count = Text::infix(y, "&", &counts, Binds::Mixed);

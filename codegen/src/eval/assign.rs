@@ -6,6 +6,7 @@ use super::value::{Eval, Exit, Value};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::front::tree::{Expr, ExprKind};
 use crate::ir::{BinaryOp, NodeId, Op, Scalar, Type};
+use std::rc::Rc;
 
 /// A way from a variable to one of its parts.
 enum Step {
@@ -30,14 +31,17 @@ impl Evaluator<'_> {
             value = self.binary(op, &old, &value, span)?;
         }
         self.name(&value, &name, span);
-        let old = self.variable(&name, place.span)?;
-        let new = self.replace(&old, &path, value, span)?;
+        let Some(slot) = self.scope.get_mut(&name) else {
+            return Err(unknown(&name, place.span).into());
+        };
+        // Taken out, so that an array that nothing else holds is changed where it is.
+        let old = std::mem::replace(slot, Value::Poison);
+        let new = self.replace(old, &path, value, span)?;
         if matches!(&new, Value::Node(id) if self.ty(*id).is_array()) {
             self.name(&new, &name, span);
         }
-        match self.scope.get_mut(&name) {
-            Some(slot) => *slot = new,
-            None => return Err(unknown(&name, place.span).into()),
+        if let Some(slot) = self.scope.get_mut(&name) {
+            *slot = new;
         }
         Ok(Value::unit())
     }
@@ -69,38 +73,40 @@ impl Evaluator<'_> {
     }
 
     /// `old` with the part at `path` replaced.
-    fn replace(&mut self, old: &Value, path: &[Step], new: Value, span: Span) -> Eval {
+    fn replace(&mut self, old: Value, path: &[Step], new: Value, span: Span) -> Eval {
         let Some((step, rest)) = path.split_first() else {
             return Ok(new);
         };
         match (old, step) {
-            (Value::Struct { ty, fields }, Step::Field(name)) => {
-                let mut fields = fields.clone();
+            (Value::Struct { ty, mut fields }, Step::Field(name)) => {
                 match fields.iter_mut().find(|(field, _)| field == name) {
-                    Some((_, slot)) => *slot = self.replace(&slot.clone(), rest, new, span)?,
+                    Some((_, slot)) => *slot = self.replace(std::mem::replace(slot, Value::Poison), rest, new, span)?,
                     None => return Err(Diagnostic::at(span, format!("`{ty}` has no field `{name}`")).into()),
                 }
-                Ok(Value::Struct { ty: ty.clone(), fields })
+                Ok(Value::Struct { ty, fields })
             }
-            (Value::Tuple(parts), Step::Field(name)) => {
-                let mut parts = parts.clone();
+            (Value::Tuple(mut parts), Step::Field(name)) => {
                 match name.parse::<usize>().ok().and_then(|k| parts.get_mut(k)) {
-                    Some(slot) => *slot = self.replace(&slot.clone(), rest, new, span)?,
+                    Some(slot) => *slot = self.replace(std::mem::replace(slot, Value::Poison), rest, new, span)?,
                     None => return Err(Diagnostic::at(span, format!("a tuple has no `.{name}`")).into()),
                 }
                 Ok(Value::Tuple(parts))
             }
-            (Value::Array(elements), Step::Index(index)) if self.known_int(index).is_some() => {
-                let mut elements = elements.clone();
+            (Value::Array(mut elements), Step::Index(index)) if self.known_int(index).is_some() => {
                 let (len, k) = (elements.len(), self.known_int(index).unwrap_or(-1));
-                match usize::try_from(k).ok().and_then(|k| elements.get_mut(k)) {
-                    Some(slot) => *slot = self.replace(&slot.clone(), rest, new, span)?,
+                match usize::try_from(k).ok().filter(|k| *k < len) {
+                    Some(k) => {
+                        let slot = &mut Rc::make_mut(&mut elements)[k];
+                        *slot = self.replace(std::mem::replace(slot, Value::Poison), rest, new, span)?;
+                    }
                     None => return Err(out_of_range(k, len, span).into()),
                 }
                 Ok(Value::Array(elements))
             }
-            (Value::Array(_) | Value::Node(_), Step::Index(index)) => self.set_element(old, index, rest, new, span),
-            (Value::Node(id), Step::Field(name)) => self.set_lane(*id, name, &new, span),
+            (old @ (Value::Array(_) | Value::Node(_)), Step::Index(index)) => {
+                self.set_element(&old, index, rest, new, span)
+            }
+            (Value::Node(id), Step::Field(name)) => self.set_lane(id, name, &new, span),
             (Value::Poison, _) => Err(Exit::Noted),
             (other, _) => Err(Diagnostic::at(span, format!("{} has no such part", other.describe())).into()),
         }
@@ -109,7 +115,7 @@ impl Evaluator<'_> {
     /// An element whose index is known at run time only.
     fn set_element(&mut self, old: &Value, index: &Value, rest: &[Step], new: Value, span: Span) -> Eval {
         let current = self.element(old, index, span)?;
-        let element = self.replace(&current, rest, new, span)?;
+        let element = self.replace(current.clone(), rest, new, span)?;
         let array = self.array_node(old, span)?;
         let index = self.index_node(index, span)?;
         let (element, _) = self.same_type(&element, &current, span)?;

@@ -38,6 +38,8 @@ pub struct Loops {
     reports: Vec<LoopReport>,
     /// Loops being evaluated: index, operations when it began, and operations of loops inside it.
     open: Vec<(usize, usize, usize)>,
+    /// Loops of known bounds that were kept, in order.
+    kept: Vec<Span>,
 }
 
 impl Loops {
@@ -63,6 +65,16 @@ impl Loops {
         if let Some((index, ..)) = self.open.last() {
             self.reports[*index].rounds += 1;
         }
+    }
+
+    /// A loop that could have been unrolled is kept.
+    pub fn keep(&mut self, span: Span) {
+        self.kept.push(span);
+    }
+
+    /// The loop that was kept last, of those that could have been unrolled.
+    pub fn last_kept(&self) -> Option<Span> {
+        self.kept.last().copied()
     }
 
     /// It ends.

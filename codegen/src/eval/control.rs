@@ -52,7 +52,8 @@ impl Evaluator<'_> {
         self.join(condition, regions, (after_left, left), right, span)
     }
 
-    fn side(&mut self, span: Span, evaluate: impl FnOnce(&mut Self) -> Eval) -> Eval {
+    /// Evaluates what is only looked at where a run-time condition holds.
+    pub fn side(&mut self, span: Span, evaluate: impl FnOnce(&mut Self) -> Eval) -> Eval {
         let mark = self.scope.enter();
         let outcome = evaluate(self);
         self.scope.leave(mark);
@@ -70,7 +71,7 @@ impl Evaluator<'_> {
     }
 
     /// Joins the two sides: variables and values that differ are selected, or become the branch's results.
-    fn join(
+    pub fn join(
         &mut self,
         condition: NodeId,
         regions: Option<(RegionId, RegionId)>,
@@ -122,12 +123,7 @@ impl Evaluator<'_> {
     ) -> Vec<NodeId> {
         let pairs = lefts.iter().zip(rights);
         let Some((first, second)) = regions else {
-            return pairs
-                .map(|(a, b)| {
-                    let ty = self.ty(*a);
-                    self.builder.add(Op::Select, vec![condition, *a, *b], ty)
-                })
-                .collect();
+            return pairs.map(|(a, b)| self.select(condition, *a, *b)).collect();
         };
         // Only what differs leaves the branch.
         let differing: Vec<(NodeId, NodeId)> = pairs.clone().filter(|(a, b)| a != b).map(|(a, b)| (*a, *b)).collect();
@@ -150,6 +146,25 @@ impl Evaluator<'_> {
             }
         }
         merged
+    }
+
+    /// One of two values; of arrays, element by element.
+    fn select(&mut self, condition: NodeId, a: NodeId, b: NodeId) -> NodeId {
+        let ty = self.ty(a);
+        let Type::Array { len, .. } = ty else {
+            return self.builder.add(Op::Select, vec![condition, a, b], ty);
+        };
+        if a == b {
+            return a;
+        }
+        let element = ty.element();
+        let elements = (0..len as i32).map(|k| {
+            let k = self.builder.i32(k);
+            let [a, b] = [a, b].map(|array| self.builder.add(Op::ArrayGet, vec![array, k], element));
+            self.builder.add(Op::Select, vec![condition, a, b], element)
+        });
+        let elements = elements.collect();
+        self.builder.add(Op::MakeArray, elements, ty)
     }
 
     pub fn match_(&mut self, subject: &Expr, arms: &[Arm], span: Span) -> Eval {

@@ -1,7 +1,7 @@
 //! Expressions and blocks.
 
-use super::Evaluator;
 use super::value::{Eval, Exit, Range, Value};
+use super::{Evaluator, MAX_PARTS};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::front::tree::{Block, Expr, ExprKind, IntType, Pattern, Statement, Type as SourceType};
 use crate::ir::{BinaryOp, Op, Scalar, Type};
@@ -60,8 +60,8 @@ impl Evaluator<'_> {
         match (ty, value) {
             (Some(SourceType::Name(name, _)), value) => self.ascribe_name(value, name, span),
             (Some(SourceType::Array(element, _)), Value::Array(elements)) => {
-                let each = elements.into_iter().map(|e| self.ascribe(e, Some(element), span));
-                Ok(Value::Array(each.collect::<Eval<_>>()?))
+                let each = elements.iter().map(|e| self.ascribe(e.clone(), Some(element), span));
+                Ok(Value::array(each.collect::<Eval<_>>()?))
             }
             (Some(SourceType::Tuple(types)), Value::Tuple(parts)) if types.len() == parts.len() => {
                 let each = parts
@@ -88,8 +88,8 @@ impl Evaluator<'_> {
         match &value {
             Value::Int(n) if stated == Type::U32 => Ok(Value::Node(self.int_node(*n, Scalar::U32, span)?)),
             Value::Int(n) if stated == Type::I32 => {
-                self.int_node(*n, Scalar::I32, span)?;
-                Ok(value)
+                let id = self.int_node(*n, Scalar::I32, span)?;
+                Ok(Value::Int(self.known_int(&Value::Node(id)).unwrap_or(*n)))
             }
             // An index is signed in a shader, whatever it was made from.
             Value::Node(id) if self.ty(*id) == Type::U32 && name == "usize" => {
@@ -187,8 +187,14 @@ impl Evaluator<'_> {
             }
             ExprKind::Match(subject, arms) => self.match_(subject, arms, span),
             ExprKind::Block(block) => self.block(block),
-            ExprKind::Tuple(parts) => Ok(Value::Tuple(self.all(parts)?)),
-            ExprKind::Array(parts) => Ok(Value::Array(self.all(parts)?)),
+            ExprKind::Tuple(parts) => {
+                let value = Value::Tuple(self.all(parts)?);
+                self.bounded(value, span)
+            }
+            ExprKind::Array(parts) => {
+                let value = Value::array(self.all(parts)?);
+                self.bounded(value, span)
+            }
             ExprKind::Repeat(value, len) => self.repeat(value, len),
             ExprKind::Struct(name, fields, rest) => self.structure(name, fields, rest.as_deref(), span),
             ExprKind::Cast(value, ty) => {
@@ -216,7 +222,10 @@ impl Evaluator<'_> {
         let element = self.expr(value)?;
         let count = self.expr(len)?;
         match self.known_int(&count) {
-            Some(n @ 1..=65536) => Ok(Value::Array(vec![element; n as usize])),
+            Some(n @ 1..=65536) if element.parts(MAX_PARTS) * n as usize <= MAX_PARTS => {
+                Ok(Value::array(vec![element; n as usize]))
+            }
+            Some(1..=65536) => Err(too_many_parts(len.span)),
             Some(n) => Err(Diagnostic::at(len.span, format!("an array of {n} elements"))
                 .help("use 1 to 65536")
                 .into()),
@@ -224,6 +233,14 @@ impl Evaluator<'_> {
                 .label("not known now")
                 .into()),
         }
+    }
+
+    /// A value that is not too large to be worked with.
+    fn bounded(&self, value: Value, span: Span) -> Eval {
+        if value.parts(MAX_PARTS) > MAX_PARTS {
+            return Err(too_many_parts(span));
+        }
+        Ok(value)
     }
 
     fn structure(&mut self, name: &str, fields: &[(String, Expr)], rest: Option<&Expr>, span: Span) -> Eval {
@@ -250,10 +267,11 @@ impl Evaluator<'_> {
             };
             values.push((field.clone(), value));
         }
-        Ok(Value::Struct {
+        let value = Value::Struct {
             ty: name.to_owned(),
             fields: values,
-        })
+        };
+        self.bounded(value, span)
     }
 
     fn range(&mut self, start: &Expr, end: &Expr, inclusive: bool, span: Span) -> Eval {
@@ -277,9 +295,20 @@ impl Evaluator<'_> {
             Some(known) if known != and => Ok(Value::Node(left)),
             Some(_) => self.expr(right),
             None => {
-                let right = self.expr(right)?;
-                let op = if and { BinaryOp::And } else { BinaryOp::Or };
-                self.binary(op, &Value::Node(left), &right, span)
+                let before = self.scope.clone();
+                let value = self.side(span, |e| e.expr(right))?;
+                if self.scope == before {
+                    let op = if and { BinaryOp::And } else { BinaryOp::Or };
+                    return self.binary(op, &Value::Node(left), &value, span);
+                }
+                // What the right side assigns, it assigns only where it is looked at.
+                let decided = Value::Node(self.builder.bool(!and));
+                let after = std::mem::replace(&mut self.scope, before);
+                if and {
+                    return self.join(left, None, (after, value), decided, span);
+                }
+                let before = std::mem::replace(&mut self.scope, after);
+                self.join(left, None, (before, decided), value, span)
             }
         }
     }
@@ -332,6 +361,13 @@ impl Evaluator<'_> {
             ty.element(),
         )))
     }
+}
+
+fn too_many_parts(span: Span) -> Exit {
+    Diagnostic::at(span, format!("a value of more than {MAX_PARTS} parts"))
+        .label("too large")
+        .help("keep less at a time: a shader has a few hundred registers")
+        .into()
 }
 
 /// An index that is known to be wrong.

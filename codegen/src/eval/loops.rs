@@ -51,17 +51,20 @@ impl Evaluator<'_> {
                     Unroll::None => !values.is_empty(),
                     Unroll::Partial(n) => values.len() >= 2 * n as usize,
                 };
-                if worth && !leaves {
+                if worth && !leaves && !self.unroll_all && !self.unrolled.contains(&span) {
                     let before = self.checkpoint();
                     match self.keep(f, &range, unroll, span) {
                         // What cannot be a loop at run time is run now; if that fails too, it says why.
                         Err(Exit::Error(_) | Exit::Noted) => self.return_to(before),
-                        other => return other,
+                        other => {
+                            self.loops.keep(span);
+                            return other;
+                        }
                     }
                 }
                 values
             }
-            Value::Array(elements) => elements,
+            Value::Array(elements) => elements.to_vec(),
             Value::Node(id) if self.ty(id).is_array() => {
                 let Type::Array { len, .. } = self.ty(id) else {
                     unreachable!("just matched")
@@ -191,10 +194,9 @@ impl Evaluator<'_> {
             .collect();
         let mut outs = outs.into_iter();
         for slot in &carried {
-            let (name, template) = self.scope.at(*slot);
-            let name = name.to_owned();
-            let value = Self::with_leaves(&template.clone(), &mut outs);
-            self.name(&value, &name, span);
+            let (name, template) = settled.at(*slot);
+            let value = Self::with_leaves(template, &mut outs);
+            self.name(&value, name, span);
             self.scope.set(*slot, value);
         }
         Ok(())
@@ -285,11 +287,14 @@ fn same_shape(a: &Value, b: &Value) -> bool {
                 fields: others,
             },
         ) => ty == other && fields.iter().zip(others).all(|((_, a), (_, b))| same_shape(a, b)),
-        (Value::Tuple(a), Value::Tuple(b)) | (Value::Array(a), Value::Array(b)) => {
-            a.len() == b.len() && a.iter().zip(b).all(|(a, b)| same_shape(a, b))
-        }
+        (Value::Tuple(a), Value::Tuple(b)) => all_same(a, b),
+        (Value::Array(a), Value::Array(b)) => all_same(a, b),
         _ => a == b,
     }
+}
+
+fn all_same(a: &[Value], b: &[Value]) -> bool {
+    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| same_shape(a, b))
 }
 
 /// Values of a counter after which a loop is taken to be a mistake.

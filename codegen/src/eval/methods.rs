@@ -49,25 +49,15 @@ impl Evaluator<'_> {
                     .help("ranges have `rev` and `step_by`")
                     .into()),
             },
-            Value::Array(elements) => match (name, args.is_empty()) {
-                ("len", true) => Ok(Value::Int(elements.len() as i64)),
-                ("iter" | "into_iter" | "copied", true) => Ok(value.clone()),
-                ("enumerate", true) => {
-                    let pair =
-                        |(k, element): (usize, &Value)| Value::Tuple(vec![Value::Int(k as i64), element.clone()]);
-                    Ok(Value::Array(elements.iter().enumerate().map(pair).collect()))
-                }
-                ("rev", true) => Ok(Value::Array(elements.iter().rev().cloned().collect())),
-                _ => Err(Diagnostic::at(span, format!("an array has no method `{name}`"))
-                    .help("arrays have `len`, `iter`, `enumerate` and `rev`")
-                    .into()),
-            },
-            Value::Node(id) if self.ty(*id).is_array() => match (self.ty(*id), name) {
-                (Type::Array { len, .. }, "len") => Ok(Value::Int(i64::from(len))),
-                _ => Err(Diagnostic::at(span, format!("an array has no method `{name}`"))
-                    .help("arrays have `len` and `iter`")
-                    .into()),
-            },
+            Value::Array(elements) => self.array_method(elements, name, args.is_empty(), span),
+            Value::Node(id) if self.ty(*id).is_array() => {
+                let Type::Array { len, .. } = self.ty(*id) else {
+                    unreachable!("just matched")
+                };
+                let each = (0..len).map(|k| self.element(&value, &Value::Int(i64::from(k)), span));
+                let elements = each.collect::<Eval<Vec<Value>>>()?;
+                self.array_method(&elements, name, args.is_empty(), span)
+            }
             Value::Int(n) => match (name, args.as_slice()) {
                 ("abs", []) => Ok(Value::Int(n.abs())),
                 ("signum", []) => Ok(Value::Int(n.signum())),
@@ -79,6 +69,22 @@ impl Evaluator<'_> {
             },
             Value::Poison => Err(Exit::Noted),
             _ => self.math(&value, name, &args, span),
+        }
+    }
+
+    fn array_method(&mut self, elements: &[Value], name: &str, plain: bool, span: Span) -> Eval {
+        match (name, plain) {
+            ("len", true) => Ok(Value::Int(elements.len() as i64)),
+            ("iter" | "into_iter" | "copied", true) => Ok(Value::array(elements.to_vec())),
+            ("enumerate", true) => {
+                let pair = |(k, element): (usize, &Value)| Value::Tuple(vec![Value::Int(k as i64), element.clone()]);
+                Ok(Value::array(elements.iter().enumerate().map(pair).collect()))
+            }
+            ("rev", true) => Ok(Value::array(elements.iter().rev().cloned().collect())),
+            _ => Err(Diagnostic::at(span, format!("an array has no method `{name}`"))
+                .label("not supported")
+                .help("arrays have `len`, `iter`, `enumerate` and `rev`")
+                .into()),
         }
     }
 }

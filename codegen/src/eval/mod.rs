@@ -30,7 +30,7 @@ use crate::ir::{Builder, Counter, Graph, NodeId, Op, Origin, Scalar, Type};
 use crate::passes::Exact;
 use crate::policy::Policy;
 use scope::Scope;
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, HashMap, HashSet};
 use std::sync::Arc;
 use value::{Eval, Exit, Value};
 
@@ -52,6 +52,9 @@ pub struct Evaluated {
 }
 
 /// Evaluates the function `entry` with some options set, the others at their defaults.
+///
+/// A loop that is kept makes what it assigns known at run time only. Where what follows needs that known, the loop is
+/// unrolled after all: the last one that was kept before the error, until none is left.
 pub fn evaluate(
     library: &Library,
     files: &Arc<Vec<File>>,
@@ -59,35 +62,51 @@ pub fn evaluate(
     settings: &[(String, String)],
     policy: &Policy,
 ) -> Result<Evaluated, Errors> {
-    let mut evaluator = Evaluator::new(library, files, policy);
-    let result = evaluator.kernel(entry, settings);
-    if result.is_ok() {
-        evaluator.check_loop_paths();
-    }
-    match result {
-        Ok((output, options, docs)) if evaluator.errors.is_empty() => Ok(Evaluated {
-            loops: evaluator.loops.reports(),
-            span: library.functions[entry].span,
-            graph: evaluator.builder.finish(output),
-            options,
-            docs,
-        }),
-        Ok(_) | Err(Exit::Noted) => Err(Errors::new(evaluator.errors, files)),
-        Err(Exit::Error(last)) => {
-            evaluator.errors.push(*last);
-            Err(Errors::new(evaluator.errors, files))
+    let mut unrolled = HashSet::new();
+    loop {
+        let mut evaluator = Evaluator::new(library, files, policy);
+        // After some attempts all at once, so that a wrong kernel is told so in time.
+        evaluator.unroll_all = unrolled.len() > MAX_ATTEMPTS;
+        evaluator.unrolled.clone_from(&unrolled);
+        let result = evaluator.kernel(entry, settings);
+        let failed = result.is_err() || !evaluator.errors.is_empty();
+        if failed && evaluator.loops.last_kept().is_some_and(|span| unrolled.insert(span)) {
+            continue;
         }
-        Err(_) => Err(Errors::of(Diagnostic::new(format!(
-            "`{entry}` does not end with a value"
-        )))),
+        if !failed {
+            evaluator.check_loop_paths();
+        }
+        return match result {
+            Ok((output, options, docs)) if evaluator.errors.is_empty() => Ok(Evaluated {
+                loops: evaluator.loops.reports(),
+                span: library.functions[entry].span,
+                graph: evaluator.builder.finish(output),
+                options,
+                docs,
+            }),
+            Ok(_) | Err(Exit::Noted) => Err(Errors::new(evaluator.errors, files)),
+            Err(Exit::Error(last)) => {
+                evaluator.errors.push(*last);
+                Err(Errors::new(evaluator.errors, files))
+            }
+            Err(_) => Err(Errors::of(Diagnostic::new(format!(
+                "`{entry}` does not end with a value"
+            )))),
+        };
     }
 }
+
+/// Loops that are unrolled one by one for the sake of what follows them.
+const MAX_ATTEMPTS: usize = 24;
 
 /// Operations after which a kernel is taken not to end.
 const MAX_STEPS: u64 = 20_000_000;
 
 /// Nodes after which a kernel is taken to be unrolled by mistake.
 const MAX_NODES: usize = 400_000;
+
+/// Parts of one value after which it is taken to be a mistake.
+const MAX_PARTS: usize = 1 << 18;
 
 /// Depth of calls after which a recursion is taken not to end.
 const MAX_CALLS: usize = 200;
@@ -96,6 +115,9 @@ struct Evaluator<'a> {
     library: &'a Library,
     builder: Builder<'a>,
     policy: &'a Policy,
+    /// Loops that what follows them needs unrolled, whatever the policy says; or all of them.
+    unrolled: HashSet<Span>,
+    unroll_all: bool,
     loops: budget::Loops,
     scope: Scope,
     /// Counters of the unrolled loops around.
@@ -118,6 +140,8 @@ impl<'a> Evaluator<'a> {
             library,
             builder,
             policy,
+            unrolled: HashSet::new(),
+            unroll_all: false,
             loops: budget::Loops::default(),
             scope: Scope::default(),
             counters: Vec::new(),
@@ -168,12 +192,15 @@ impl Evaluator<'_> {
                     self.name(value, &format!("{name}_{field}"), span);
                 }
             }
-            Value::Tuple(parts) | Value::Array(parts) => {
-                for (k, part) in parts.iter().enumerate() {
-                    self.name(part, &format!("{name}_{k}"), span);
-                }
-            }
+            Value::Tuple(parts) => self.name_each(parts, name, span),
+            Value::Array(parts) => self.name_each(parts, name, span),
             _ => {}
+        }
+    }
+
+    fn name_each(&mut self, parts: &[Value], name: &str, span: Span) {
+        for (k, part) in parts.iter().enumerate() {
+            self.name(part, &format!("{name}_{k}"), span);
         }
     }
 
@@ -232,7 +259,8 @@ impl Evaluator<'_> {
     /// A known integer as a node of a kind.
     fn int_node(&mut self, n: i64, kind: Scalar, span: Span) -> Eval<NodeId> {
         let bits = match kind {
-            Scalar::I32 => i32::try_from(n).ok().map(|n| n as u32),
+            // Of a known shift or bit pattern the sign bit may be set: 1 << 31.
+            Scalar::I32 => i32::try_from(n).map(|n| n as u32).or_else(|_| u32::try_from(n)).ok(),
             Scalar::U32 => u32::try_from(n).ok(),
             Scalar::F32 | Scalar::Bool => {
                 return Err(

@@ -223,9 +223,15 @@ impl Evaluator<'_> {
             }
         };
         if let Value::Int(n) = value {
+            // Without a type an integer is an `i32`, of which the sign bit may be set.
+            let signed = if *n > i64::from(i32::MAX) {
+                i64::from(*n as u32 as i32)
+            } else {
+                *n
+            };
             return match kind {
-                Scalar::I32 => Ok(Value::Int(*n)),
-                Scalar::F32 => Ok(Value::Node(self.builder.f32(*n as f32))),
+                Scalar::I32 => Ok(Value::Int(signed)),
+                Scalar::F32 => Ok(Value::Node(self.builder.f32(signed as f32))),
                 _ => Ok(Value::Node(self.builder.constant(Type::U32, [*n as u32, 0, 0, 0]))),
             };
         }

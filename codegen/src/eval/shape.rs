@@ -33,7 +33,7 @@ impl Evaluator<'_> {
     pub fn array_node(&mut self, value: &Value, span: Span) -> Eval<NodeId> {
         let elements = match value {
             Value::Node(id) if self.ty(*id).is_array() => return Ok(*id),
-            Value::Array(elements) if !elements.is_empty() => elements.clone(),
+            Value::Array(elements) if !elements.is_empty() => elements.to_vec(),
             other => {
                 return Err(Diagnostic::at(span, format!("{} cannot be indexed", other.describe())).into());
             }
@@ -77,7 +77,8 @@ impl Evaluator<'_> {
         match value {
             Value::Node(id) => out.push(*id),
             Value::Struct { fields, .. } => fields.iter().for_each(|(_, field)| Self::leaves(field, out)),
-            Value::Tuple(parts) | Value::Array(parts) => parts.iter().for_each(|part| Self::leaves(part, out)),
+            Value::Tuple(parts) => parts.iter().for_each(|part| Self::leaves(part, out)),
+            Value::Array(parts) => parts.iter().for_each(|part| Self::leaves(part, out)),
             _ => {}
         }
     }
@@ -96,7 +97,7 @@ impl Evaluator<'_> {
                 }
             }
             Value::Tuple(parts) => Value::Tuple(parts.iter().map(|p| Self::with_leaves(p, nodes)).collect()),
-            Value::Array(parts) => Value::Array(parts.iter().map(|p| Self::with_leaves(p, nodes)).collect()),
+            Value::Array(parts) => Value::array(parts.iter().map(|p| Self::with_leaves(p, nodes)).collect()),
             other => other.clone(),
         }
     }
@@ -145,7 +146,7 @@ impl Evaluator<'_> {
             }
             (Value::Array(left), Value::Array(right)) if left.len() == right.len() => {
                 let (l, r) = self.agree_all(left, right, span)?;
-                (Value::Array(l), Value::Array(r))
+                (Value::array(l), Value::array(r))
             }
             (Value::Poison, _) | (_, Value::Poison) => return Err(super::Exit::Noted),
             _ => {

@@ -2,6 +2,7 @@
 
 use crate::diagnostic::Diagnostic;
 use crate::ir::NodeId;
+use std::rc::Rc;
 
 /// A value of the kernel language. What is known now is known exactly: numbers as constant nodes, all else by itself.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,8 +27,8 @@ pub enum Value {
     },
     /// A tuple; `()` is empty.
     Tuple(Vec<Value>),
-    /// An array with known indices.
-    Array(Vec<Value>),
+    /// An array with known indices; shared until it is changed.
+    Array(Rc<Vec<Value>>),
     /// Counters from a first to one before an end, for a loop.
     Range(Range),
     /// A text: the name in `tally`.
@@ -59,6 +60,29 @@ impl Value {
     /// `()`.
     pub fn unit() -> Value {
         Value::Tuple(Vec::new())
+    }
+
+    /// An array of its elements.
+    pub fn array(elements: Vec<Value>) -> Value {
+        Value::Array(Rc::new(elements))
+    }
+
+    /// Numbers and other parts in it, counted up to `limit`.
+    pub fn parts(&self, limit: usize) -> usize {
+        let parts: Box<dyn Iterator<Item = &Value>> = match self {
+            Value::Struct { fields, .. } => Box::new(fields.iter().map(|(_, value)| value)),
+            Value::Tuple(parts) => Box::new(parts.iter()),
+            Value::Array(parts) => Box::new(parts.iter()),
+            _ => return 1,
+        };
+        let mut sum = 1;
+        for part in parts {
+            sum += part.parts(limit.saturating_sub(sum));
+            if sum > limit {
+                break;
+            }
+        }
+        sum
     }
 
     /// Its kind, for messages.

@@ -201,9 +201,12 @@ impl Lower {
                         None
                     }
                 };
-                match lit.base10_parse::<u32>() {
-                    Ok(value) => ExprKind::Int(i64::from(value), ty),
-                    Err(_) => {
+                // In a pattern the sign belongs to the literal.
+                match lit.base10_parse::<i64>() {
+                    Ok(value) if (i64::from(i32::MIN)..=i64::from(u32::MAX)).contains(&value) => {
+                        ExprKind::Int(value, ty)
+                    }
+                    _ => {
                         self.unsupported(span, "an integer of more than 32 bits", "shaders have 32-bit integers");
                         ExprKind::Int(0, ty)
                     }

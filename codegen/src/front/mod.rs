@@ -4,6 +4,7 @@
 //! anything.
 
 mod attribute;
+mod depth;
 mod expr;
 mod items;
 mod pattern;
@@ -22,6 +23,10 @@ pub fn parse(files: &Arc<Vec<File>>, entry: &str) -> Result<Library, Errors> {
     let mut errors = Vec::new();
     let mut syntax = Vec::new();
     for (index, file) in files.iter().enumerate() {
+        if let Err(error) = depth::check(index as u32, &file.text) {
+            errors.push(error);
+            continue;
+        }
         match syn::parse_file(&file.text) {
             Ok(parsed) => syntax.push((index as u32, parsed)),
             Err(error) => errors.push(syntax_error(index as u32, &error)),

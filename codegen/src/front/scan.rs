@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 /// What a loop's body does to what is around it.
 #[derive(Debug, Default)]
 pub struct Effects {
-    /// Variables that it assigns to, its own among them.
+    /// Variables around it that it assigns to.
     pub assigned: BTreeSet<String>,
     /// Whether it may leave the loop other than by its end: `break`, `continue`, `return`.
     pub leaves: bool,
@@ -15,60 +15,87 @@ pub struct Effects {
 /// Scans a loop's body.
 pub fn assigned(body: &Block) -> Effects {
     let mut effects = Effects::default();
-    block(body, &mut effects, &mut Vec::new());
+    let mut around = Around::default();
+    block(body, &mut effects, &mut around);
     effects
 }
 
-fn block<'b>(b: &'b Block, out: &mut Effects, loops: &mut Vec<Option<&'b str>>) {
+/// What has been entered on the way to a place.
+#[derive(Default)]
+struct Around<'b> {
+    /// Labels of loops.
+    loops: Vec<Option<&'b str>>,
+    /// Variables of the body's own.
+    own: Vec<&'b str>,
+}
+
+fn block<'b>(b: &'b Block, out: &mut Effects, around: &mut Around<'b>) {
+    let mark = around.own.len();
     for statement in &b.statements {
         match statement {
-            Statement::Let(_, _, init, _) => init.iter().for_each(|e| expr(e, out, loops)),
-            Statement::Expr(e) => expr(e, out, loops),
+            Statement::Let(pattern, _, init, _) => {
+                init.iter().for_each(|e| expr(e, out, around));
+                bound(pattern, &mut around.own);
+            }
+            Statement::Expr(e) => expr(e, out, around),
             Statement::Const(_) => {}
         }
     }
-    b.value.iter().for_each(|e| expr(e, out, loops));
+    b.value.iter().for_each(|e| expr(e, out, around));
+    around.own.truncate(mark);
 }
 
-/// `loops` are the labels of the loops that have been entered.
-fn expr<'b>(e: &'b Expr, out: &mut Effects, loops: &mut Vec<Option<&'b str>>) {
+/// The names that a pattern binds.
+fn bound<'b>(pattern: &'b Pattern, out: &mut Vec<&'b str>) {
+    match pattern {
+        Pattern::Name(name, _) => out.push(name),
+        Pattern::Tuple(all, _) | Pattern::Or(all) => all.iter().for_each(|p| bound(p, out)),
+        Pattern::Struct(fields, _) => fields.iter().for_each(|(_, p)| bound(p, out)),
+        Pattern::Wild | Pattern::Value(_) | Pattern::Range(..) => {}
+    }
+}
+
+fn expr<'b>(e: &'b Expr, out: &mut Effects, around: &mut Around<'b>) {
     match &e.kind {
         ExprKind::Assign(place, _, value) => {
-            if let Some(name) = root(place) {
+            if let Some(name) = root(place).filter(|name| !around.own.contains(&name.as_str())) {
                 out.assigned.insert(name);
             }
-            expr(place, out, loops);
-            expr(value, out, loops);
+            expr(place, out, around);
+            expr(value, out, around);
         }
         ExprKind::Return(value) => {
             out.leaves = true;
-            value.iter().for_each(|e| expr(e, out, loops));
+            value.iter().for_each(|e| expr(e, out, around));
         }
-        ExprKind::Break(None) | ExprKind::Continue(None) => out.leaves |= loops.is_empty(),
-        ExprKind::Break(label) | ExprKind::Continue(label) => out.leaves |= !loops.contains(&label.as_deref()),
+        ExprKind::Break(None) | ExprKind::Continue(None) => out.leaves |= around.loops.is_empty(),
+        ExprKind::Break(label) | ExprKind::Continue(label) => out.leaves |= !around.loops.contains(&label.as_deref()),
         ExprKind::For(f) => {
-            expr(&f.over, out, loops);
-            loops.push(f.label.as_deref());
-            block(&f.body, out, loops);
-            loops.pop();
+            expr(&f.over, out, around);
+            let mark = around.own.len();
+            bound(&f.pattern, &mut around.own);
+            around.loops.push(f.label.as_deref());
+            block(&f.body, out, around);
+            around.loops.pop();
+            around.own.truncate(mark);
         }
         ExprKind::While(condition, body, label) => {
-            expr(condition, out, loops);
-            loops.push(label.as_deref());
-            block(body, out, loops);
-            loops.pop();
+            expr(condition, out, around);
+            around.loops.push(label.as_deref());
+            block(body, out, around);
+            around.loops.pop();
         }
         ExprKind::If(condition, then, otherwise, _) => {
-            expr(condition, out, loops);
-            block(then, out, loops);
-            otherwise.iter().for_each(|e| expr(e, out, loops));
+            expr(condition, out, around);
+            block(then, out, around);
+            otherwise.iter().for_each(|e| expr(e, out, around));
         }
-        ExprKind::Block(b) => block(b, out, loops),
+        ExprKind::Block(b) => block(b, out, around),
         ExprKind::Match(subject, arms) => {
-            expr(subject, out, loops);
-            arms.iter().for_each(|arm| expr(&arm.body, out, loops));
+            expr(subject, out, around);
+            arms.iter().for_each(|arm| expr(&arm.body, out, around));
         }
-        _ => children(e).into_iter().for_each(|child| expr(child, out, loops)),
+        _ => children(e).into_iter().for_each(|child| expr(child, out, around)),
     }
 }
 

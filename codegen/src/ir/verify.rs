@@ -84,8 +84,8 @@ fn check(graph: &Graph, id: NodeId) -> Result<(), String> {
         Op::Select => {
             count(3)?;
             expect(
-                types[0] == Type::BOOL && types[1] == node.ty && types[2] == node.ty,
-                "a boolean and two alike",
+                types[0] == Type::BOOL && types[1] == node.ty && types[2] == node.ty && !node.ty.is_array(),
+                "a boolean and two alike that are no arrays",
             )
         }
         Op::Splat => {

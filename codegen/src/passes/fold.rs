@@ -144,6 +144,18 @@ fn bounded_by(g: &Graph, id: NodeId, bound: NodeId) -> bool {
 }
 
 fn integer(b: &mut Builder<'_>, op: BinaryOp, x: NodeId, y: NodeId) -> Option<NodeId> {
+    if matches!(op, BinaryOp::Div | BinaryOp::Rem)
+        && let Some(mut divisor) = b.graph().constant(y)
+    {
+        // By 0 as by 1: the dividend, and no remainder. Shading languages refuse to divide by a known 0.
+        let ty = b.graph().ty(y);
+        let lanes = &mut divisor[..ty.lanes() as usize];
+        if lanes.contains(&0) {
+            lanes.iter_mut().filter(|lane| **lane == 0).for_each(|lane| *lane = 1);
+            let divisor = b.constant(ty, divisor);
+            return Some(b.add(Op::Binary(op), vec![x, divisor], ty));
+        }
+    }
     let g = b.graph();
     let is = |id: NodeId, value: u32| all_lanes(g, id, value);
     match op {
@@ -153,6 +165,10 @@ fn integer(b: &mut Builder<'_>, op: BinaryOp, x: NodeId, y: NodeId) -> Option<No
         }
         BinaryOp::Mul | BinaryOp::Div if is(y, 1) => Some(x),
         BinaryOp::Mul if is(x, 1) => Some(y),
+        BinaryOp::Rem if is(y, 1) => {
+            let ty = g.ty(x);
+            Some(b.constant(ty, [0; 4]))
+        }
         BinaryOp::Mul | BinaryOp::And if is(x, 0) => Some(x),
         BinaryOp::Mul | BinaryOp::And if is(y, 0) => Some(y),
         BinaryOp::Min | BinaryOp::Max | BinaryOp::And | BinaryOp::Or if x == y => Some(x),

@@ -186,7 +186,10 @@ impl<'g> Places<'g> {
             return self.place_of_owner(node.args[0]);
         }
         if node.ty.is_array() || matches!(node.op, Op::ArrayGet) {
-            return self.common(self.graph.homes[id.0 as usize], latest);
+            // Not before what it is made of: a branch that it was made after may have given that.
+            let home = self.common(self.graph.homes[id.0 as usize], latest);
+            let deeper = self.depth[early.0 as usize] > self.depth[home.0 as usize];
+            return if deeper { early } else { home };
         }
         let mut best = latest;
         let mut at = latest;

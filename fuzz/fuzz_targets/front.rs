@@ -1,0 +1,17 @@
+//! Any bytes as a kernel: an error or a kernel, never a panic. `cargo +nightly fuzz run front`.
+
+#![no_main]
+
+use libfuzzer_sys::fuzz_target;
+use straightline_codegen::{Kernel, Settings};
+use straightline_tests::random::check::is_internal;
+
+fuzz_target!(|bytes: &[u8]| {
+    let text = String::from_utf8_lossy(bytes);
+    let outcome = Kernel::from_text("fuzz.rs", &text, "k").compile(&Settings::default());
+    // A panic is caught by the generator itself, and told as its own mistake.
+    if let Err(errors) = outcome {
+        let internal = errors.diagnostics.iter().find(|d| is_internal(&d.message));
+        assert!(internal.is_none(), "{internal:?}");
+    }
+});

@@ -1,0 +1,12 @@
+// `iter` of an array that was written at an index known at run time only was refused.
+// expect 0 0: 8 8 8 8
+
+pub fn k(a: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
+    let mut v = [0.0, 1.0, 2.0];
+    v[pixel.x.clamp(0, 2) as usize] = 5.0;
+    let mut sum = 0.0;
+    for &x in v.iter() {
+        sum += x;
+    }
+    Vec4::splat(sum)
+}

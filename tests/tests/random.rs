@@ -1,0 +1,102 @@
+//! Random kernels, computed in every way there is, and texts that are nearly kernels. `agree` does the same for as
+//! long as one likes.
+
+use rayon::prelude::*;
+use std::path::{Path, PathBuf};
+use straightline_codegen::EmitOptions;
+use straightline_tests::random::check::{FORMS, agrees, check, compile, interpret, picture};
+use straightline_tests::random::generate::{Profile, generate};
+use straightline_tests::random::gpu::{Compared, Gpu};
+use straightline_tests::random::{Texts, print, survives};
+
+/// First seed; each test takes those that follow.
+const SEED: u64 = 10_440;
+
+#[test]
+fn every_form_agrees_with_the_tree() {
+    (SEED..SEED + 300).into_par_iter().for_each(|seed| {
+        let program = generate(seed, Profile::Exact);
+        if let Err(failure) = check(&program, &picture(seed)) {
+            panic!("{}\nseed {seed}: {failure}", print(&program));
+        }
+    });
+}
+
+#[test]
+fn shaders_agree_with_the_tree() {
+    let gpu = Gpu::new().unwrap_or_else(|why| panic!("{why}"));
+    let mut total = Compared::default();
+    for seed in SEED..SEED + 40 {
+        let program = generate(seed, Profile::Gpu);
+        match gpu.check(&program, &picture(seed)) {
+            Ok(compared) => {
+                total.pixels += compared.pixels;
+                total.unsure += compared.unsure;
+            }
+            Err(failure) => panic!("{}\nseed {seed}: {failure}", print(&program)),
+        }
+    }
+    assert!(total.pixels > total.unsure, "most pixels are compared: {total:?}");
+}
+
+#[test]
+fn no_text_makes_the_front_end_panic() {
+    let texts = Texts::of_repository();
+    (SEED..SEED + 2000).into_par_iter().for_each(|seed| {
+        let (text, function) = texts.text(seed);
+        if let Err(why) = survives(&text, function) {
+            panic!("{text}\ntext {seed}: {why}");
+        }
+    });
+}
+
+/// Kernels that once disagreed: every form agrees, gives what a line `// expect x y: r g b a` says, and can be
+/// emitted.
+#[test]
+fn the_corpus_agrees() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/corpus");
+    let entries = std::fs::read_dir(&folder).expect("the corpus");
+    let paths: Vec<PathBuf> = entries.map(|entry| entry.expect("an entry").path()).collect();
+    for path in paths.iter().filter(|path| path.extension().is_some_and(|e| e == "rs")) {
+        if let Err(why) = kept_promise(path) {
+            panic!("{}: {why}", path.display());
+        }
+    }
+}
+
+fn kept_promise(path: &Path) -> Result<(), String> {
+    let text = std::fs::read_to_string(path).map_err(|e| e.to_string())?;
+    for seed in 0..4 {
+        agrees(&text, &picture(seed), None).map_err(|failure| failure.to_string())?;
+    }
+    for form in FORMS {
+        let compiled = compile(&text, *form).map_err(|refusal| refusal.message)?;
+        for line in text.lines() {
+            let Some(promise) = line.strip_prefix("// expect ") else {
+                continue;
+            };
+            let numbers: Vec<f32> = promise.split([' ', ':']).filter_map(|word| word.parse().ok()).collect();
+            let [x, y, color @ ..] = numbers.as_slice() else {
+                return Err(format!("not a pixel and a colour: {promise}"));
+            };
+            let picture = picture(0);
+            let found = interpret(&compiled, &picture)[*y as usize * picture.size[0] as usize + *x as usize];
+            if found.as_slice() != color {
+                return Err(format!("{form} gives {found:?}, not {promise}"));
+            }
+        }
+        compiled.emit(&EmitOptions::new()).map_err(|e| format!("{form}: {e}"))?;
+    }
+    Ok(())
+}
+
+/// Texts that once took all memory, or for ever: refused, or compiled, at once.
+#[test]
+fn heavy_texts_are_answered() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/corpus/heavy");
+    for entry in std::fs::read_dir(&folder).expect("the corpus") {
+        let path = entry.expect("an entry").path();
+        let text = std::fs::read_to_string(&path).expect("a text");
+        survives(&text, "k").unwrap_or_else(|why| panic!("{}: {why}", path.display()));
+    }
+}
