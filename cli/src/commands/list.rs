@@ -51,6 +51,9 @@ fn print_option(option: &OptionInfo) {
                 option.default
             );
         }
+        OptionKind::List { len, .. } => {
+            println!("      {len} numbers, separated by commas (default {})", option.default);
+        }
         OptionKind::Flag => println!("      true or false (default {})", option.default),
     }
 }
@@ -65,6 +68,9 @@ fn option_json(option: &OptionInfo) -> serde_json::Value {
         ),
         OptionKind::Number { integer, min, max } => {
             json!({ "integer": integer, "min": min, "max": max, "uniform": true })
+        }
+        OptionKind::List { len, integer, min, max } => {
+            json!({ "numbers": len, "integer": integer, "min": min, "max": max })
         }
         OptionKind::Flag => json!(["true", "false"]),
     };

@@ -36,6 +36,7 @@ impl Evaluator<'_> {
     /// is kept.
     fn branch(&mut self, condition: NodeId, then: &Block, otherwise: Option<&Expr>, keep: bool, span: Span) -> Eval {
         let before = self.scope.clone();
+        let untouched = before.clone();
         let first = keep.then(|| self.builder.open_region(&[]));
         let left = self.side(span, |e| e.block(then));
         let after_left = std::mem::replace(&mut self.scope, before);
@@ -47,9 +48,16 @@ impl Evaluator<'_> {
         if keep {
             self.builder.close_region(Vec::new());
         }
-        let (left, right) = (left?, right?);
         let regions = first.zip(second);
-        self.join(condition, regions, (after_left, left), right, span)
+        let joined = match (left, right) {
+            (Ok(left), Ok(right)) => self.join(condition, regions, (after_left, left), right, span),
+            (Err(exit), _) | (_, Err(exit)) => Err(exit),
+        };
+        if joined.is_err() {
+            // Values made inside belong to no place outside.
+            self.scope = untouched;
+        }
+        joined
     }
 
     /// Evaluates what is only looked at where a run-time condition holds.
@@ -212,6 +220,15 @@ impl Evaluator<'_> {
                 }
                 other => Err(Diagnostic::at(span, format!("a tuple pattern on {}", other.describe())).into()),
             },
+            Pattern::Array(parts, at) => {
+                let elements = self.elements(value, parts.len(), *at)?;
+                for (part, value) in parts.iter().zip(elements) {
+                    if !self.matches(part, &value, span)? {
+                        return Ok(false);
+                    }
+                }
+                Ok(true)
+            }
             Pattern::Struct(fields, _) => {
                 for (name, pattern) in fields {
                     let part = self.field(value, name, span)?;

@@ -132,6 +132,13 @@ impl Evaluator<'_> {
                 )
                 .into()),
             },
+            Pattern::Array(parts, at) => {
+                let elements = self.elements(&value, parts.len(), *at)?;
+                parts
+                    .iter()
+                    .zip(elements)
+                    .try_for_each(|(part, value)| self.bind(part, value, span))
+            }
             Pattern::Struct(fields, at) => {
                 for (name, pattern) in fields {
                     let part = match &value {
@@ -337,6 +344,29 @@ impl Evaluator<'_> {
             Value::Poison => Err(Exit::Noted),
             other => Err(Diagnostic::at(span, format!("{} has no field `{name}`", other.describe())).into()),
         }
+    }
+
+    /// All elements of an array of a length.
+    pub fn elements(&mut self, value: &Value, len: usize, span: Span) -> Eval<Vec<Value>> {
+        let found = match value {
+            Value::Array(elements) => elements.len(),
+            Value::Node(id) => match self.ty(*id) {
+                Type::Array { len, .. } => len as usize,
+                _ => 0,
+            },
+            Value::Poison => return Ok(vec![Value::Poison; len]),
+            _ => 0,
+        };
+        if found != len {
+            return Err(
+                Diagnostic::at(span, format!("a pattern of {len} elements for {}", value.describe()))
+                    .label("of another length")
+                    .into(),
+            );
+        }
+        (0..len as i64)
+            .map(|k| self.element(value, &Value::Int(k), span))
+            .collect()
     }
 
     /// An element of an array.

@@ -10,6 +10,7 @@ impl Evaluator<'_> {
     pub fn function(&mut self, name: &str, values: &[Value], span: Span) -> Eval<Option<Value>> {
         let unary = match name {
             "fract" => Some(UnaryOp::Fract),
+            "round" => Some(UnaryOp::Round),
             "sign" => Some(UnaryOp::Sign),
             "inverse_sqrt" => Some(UnaryOp::InverseSqrt),
             _ => None,

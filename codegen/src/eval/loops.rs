@@ -131,6 +131,22 @@ impl Evaluator<'_> {
     pub fn kept(
         &mut self,
         f: &ForLoop,
+        bounds: (NodeId, NodeId),
+        body: impl FnOnce(&mut Self, NodeId) -> Eval<()>,
+        span: Span,
+    ) -> Eval<()> {
+        let before = self.scope.clone();
+        let outcome = self.carry(f, bounds, body, span);
+        if outcome.is_err() {
+            // Values made inside belong to no place outside.
+            self.scope = before;
+        }
+        outcome
+    }
+
+    fn carry(
+        &mut self,
+        f: &ForLoop,
         (start, end): (NodeId, NodeId),
         body: impl FnOnce(&mut Self, NodeId) -> Eval<()>,
         span: Span,

@@ -167,7 +167,7 @@ impl Evaluator<'_> {
                 return Err(instead(
                     span,
                     "`round` rounds halves away from zero, and no shader does",
-                    "round_ties_even",
+                    "round(x)",
                 ));
             }
             "fract" => {

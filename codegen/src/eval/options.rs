@@ -37,6 +37,17 @@ pub enum OptionKind {
         /// Largest value, if it is bounded.
         max: Option<f64>,
     },
+    /// As many numbers, separated by commas.
+    List {
+        /// How many.
+        len: usize,
+        /// Whether they are whole numbers.
+        integer: bool,
+        /// Smallest value, if it is bounded.
+        min: Option<f64>,
+        /// Largest value, if it is bounded.
+        max: Option<f64>,
+    },
     /// `true` or `false`.
     Flag,
 }
@@ -103,7 +114,10 @@ impl Evaluator<'_> {
                         Value::Poison
                     }
                 },
-                None => self.expr(&field.default)?,
+                None => {
+                    let default = self.expr(&field.default)?;
+                    self.ascribe(default, Some(&field.ty), field.default.span)?
+                }
             };
             chosen.insert(info.name.clone(), text.unwrap_or(&info.default).to_owned());
             values.push((field.name.clone(), value));
@@ -116,8 +130,11 @@ impl Evaluator<'_> {
 
     fn info(&mut self, field: &OptionField) -> Eval<OptionInfo> {
         let default = self.expr(&field.default)?;
-        let SourceType::Name(ty, _) = &field.ty else {
-            return Err(self.bad_type(field));
+        let default = self.ascribe(default, Some(&field.ty), field.default.span)?;
+        let ty = match &field.ty {
+            SourceType::Name(ty, _) => ty,
+            SourceType::Array(..) => return self.list_info(field, &default),
+            SourceType::Tuple(_) => return Err(self.bad_type(field)),
         };
         let (kind, default) = match (ty.as_str(), &default) {
             ("bool", Value::Node(id)) => {
@@ -153,12 +170,44 @@ impl Evaluator<'_> {
         })
     }
 
+    /// An option that is an array of numbers.
+    fn list_info(&mut self, field: &OptionField, default: &Value) -> Eval<OptionInfo> {
+        let element = match &field.ty {
+            SourceType::Array(element, _) => match &**element {
+                SourceType::Name(name, _) if matches!(name.as_str(), "f32" | "i32" | "u32") => name.clone(),
+                _ => return Err(self.bad_type(field)),
+            },
+            _ => return Err(self.bad_type(field)),
+        };
+        let numbers: Option<Vec<String>> = match default {
+            Value::Array(values) => values.iter().map(|v| self.number(v).map(shortest)).collect(),
+            _ => None,
+        };
+        let numbers = numbers.ok_or_else(|| self.bad_type(field))?;
+        let (min, max) = self.limits(field)?;
+        Ok(OptionInfo {
+            name: field.name.replace('_', "-"),
+            docs: field.docs.clone(),
+            kind: OptionKind::List {
+                len: numbers.len(),
+                integer: element != "f32",
+                min,
+                max,
+            },
+            default: numbers.join(","),
+        })
+    }
+
     fn bad_type(&self, field: &OptionField) -> Exit {
         Diagnostic::at(
             field.span,
-            format!("the option `{}` is neither a number, a boolean nor an enum", field.name),
+            format!(
+                "the option `{}` is neither a number, a boolean, an enum nor an array of numbers",
+                field.name
+            ),
         )
-        .help("options are f32, i32, u32, bool, or an enum of the kernel's files")
+        .label("of this type")
+        .help("options are f32, i32, u32, bool, an enum of the kernel's files, or an array of numbers")
         .into()
     }
 
@@ -226,8 +275,33 @@ impl Evaluator<'_> {
                     }
                 }
             }
+            OptionKind::List { len, integer, min, max } => {
+                let one = OptionInfo {
+                    kind: OptionKind::Number {
+                        integer: *integer,
+                        min: *min,
+                        max: *max,
+                    },
+                    ..info.clone()
+                };
+                let parts: Vec<&str> = text.split(',').map(str::trim).collect();
+                if parts.len() != *len {
+                    return Err(refuse(format!("give {len} numbers, separated by commas")));
+                }
+                if parts.contains(&UNIFORM) {
+                    return Err(refuse(format!(
+                        "give {len} numbers; a list is known when the shader is made"
+                    )));
+                }
+                let values: Eval<Vec<Value>> = parts.iter().map(|part| self.parse(field, &one, part)).collect();
+                Ok(Value::array(values?))
+            }
             OptionKind::Number { integer, min, max } => {
-                let kind = match &field.ty {
+                let ty = match &field.ty {
+                    SourceType::Array(element, _) => element,
+                    other => other,
+                };
+                let kind = match ty {
                     SourceType::Name(name, _) if name == "i32" => Scalar::I32,
                     SourceType::Name(name, _) if name == "u32" => Scalar::U32,
                     _ => Scalar::F32,

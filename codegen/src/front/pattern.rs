@@ -22,6 +22,9 @@ impl Lower {
             syn::Pat::Tuple(p) => {
                 Pattern::Tuple(p.elems.iter().map(|e| self.pattern(e)).collect(), self.span(p.span()))
             }
+            syn::Pat::Slice(p) => {
+                Pattern::Array(p.elems.iter().map(|e| self.pattern(e)).collect(), self.span(p.span()))
+            }
             syn::Pat::Paren(p) => self.pattern(&p.pat),
             syn::Pat::Reference(p) => self.pattern(&p.pat),
             syn::Pat::Or(p) => Pattern::Or(p.cases.iter().map(|c| self.pattern(c)).collect()),

@@ -49,7 +49,7 @@ fn block<'b>(b: &'b Block, out: &mut Effects, around: &mut Around<'b>) {
 fn bound<'b>(pattern: &'b Pattern, out: &mut Vec<&'b str>) {
     match pattern {
         Pattern::Name(name, _) => out.push(name),
-        Pattern::Tuple(all, _) | Pattern::Or(all) => all.iter().for_each(|p| bound(p, out)),
+        Pattern::Tuple(all, _) | Pattern::Array(all, _) | Pattern::Or(all) => all.iter().for_each(|p| bound(p, out)),
         Pattern::Struct(fields, _) => fields.iter().for_each(|(_, p)| bound(p, out)),
         Pattern::Wild | Pattern::Value(_) | Pattern::Range(..) => {}
     }
@@ -170,7 +170,9 @@ pub fn mentioned_in(e: &Expr, out: &mut BTreeSet<String>) {
 fn in_pattern(pattern: &Pattern, out: &mut BTreeSet<String>) {
     match pattern {
         Pattern::Value(e) => mentioned_in(e, out),
-        Pattern::Or(all) | Pattern::Tuple(all, _) => all.iter().for_each(|p| in_pattern(p, out)),
+        Pattern::Or(all) | Pattern::Tuple(all, _) | Pattern::Array(all, _) => {
+            all.iter().for_each(|p| in_pattern(p, out))
+        }
         Pattern::Struct(fields, _) => fields.iter().for_each(|(_, p)| in_pattern(p, out)),
         Pattern::Range(low, high) => {
             mentioned_in(low, out);

@@ -137,6 +137,8 @@ pub enum Pattern {
     Wild,
     /// A value to compare with: a variant, a constant or a literal.
     Value(Box<Expr>),
+    /// `[a, b]`.
+    Array(Vec<Pattern>, Span),
     /// `a | b`.
     Or(Vec<Pattern>),
     /// `Name { field: pattern, .. }`.

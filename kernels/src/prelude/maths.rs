@@ -40,6 +40,11 @@ pub fn fract<T: Floats>(x: T) -> T {
     x.map(|x| x - x.floor())
 }
 
+/// The nearest integer, of two the even one, where `f32::round` goes away from zero.
+pub fn round<T: Floats>(x: T) -> T {
+    x.map(f32::round_ties_even)
+}
+
 /// 1, -1, or 0 for 0, where `f32::signum` has no 0. Of a NaN, a NaN.
 pub fn sign<T: Floats>(x: T) -> T {
     x.map(|x| {

@@ -23,7 +23,7 @@ pub use glam::{
 
 pub use buffer::Buffer;
 pub use frame::{Frame, FrameLayers};
-pub use maths::{fract, inverse_sqrt, mix, saturate, sign, smoothstep, step};
+pub use maths::{fract, inverse_sqrt, mix, round, saturate, sign, smoothstep, step};
 pub use texture::{
     Address, Comparison, ComparisonSampler, DepthTexture, Filter, Multisampled, Sampler, Texel, Texture,
 };

@@ -3,6 +3,7 @@
 mod convert;
 mod cpu;
 mod gpu;
+mod synthetic;
 mod timing;
 
 use glam::{UVec2, Vec4};
@@ -11,6 +12,7 @@ use straightline_kernels::prelude::Frame;
 pub use cpu::{Interpreted, interpret};
 pub use gpu::{Bench, Bound};
 pub use straightline_codegen::ir::interp::{Address, Comparison, SamplerState};
+pub use synthetic::test_inputs;
 pub use timing::{Clock, Job, Times};
 
 /// What a kernel is run on, by the names that it calls them.

@@ -1,0 +1,241 @@
+//! The kernels of `examples/kernels/`: as rustc compiles them, in every form by the interpreter, and on a GPU.
+//! `STRAIGHTLINE_PICTURES=DIR` writes what they make.
+
+// As a graphics programmer's crate would hold them.
+#![allow(missing_docs, clippy::needless_range_loop)]
+
+#[path = "../../examples/kernels/bilateral.rs"]
+mod bilateral;
+#[path = "../../examples/kernels/catmull_rom.rs"]
+mod catmull_rom;
+mod common;
+#[path = "../../examples/kernels/convolution.rs"]
+mod convolution;
+#[path = "../../examples/kernels/fxaa.rs"]
+mod fxaa;
+#[allow(dead_code)] // one of its two passes is used
+#[path = "../../examples/kernels/gaussian.rs"]
+mod gaussian;
+#[path = "../../examples/kernels/joint_bilateral_upsampling.rs"]
+mod joint_bilateral_upsampling;
+#[path = "../../examples/kernels/kuwahara.rs"]
+mod kuwahara;
+#[path = "../../examples/kernels/median.rs"]
+mod median;
+#[path = "../../examples/kernels/sobel.rs"]
+mod sobel;
+#[path = "../../examples/kernels/ssao.rs"]
+mod ssao;
+
+use common::{bench, same_bits};
+use std::path::Path;
+use straightline_codegen::{Branches, Compiled, Kernel, Settings, Stage, Unroll};
+use straightline_kernels::prelude::*;
+use straightline_study::execute::{Inputs, interpret, test_inputs};
+use straightline_study::picture;
+
+const SIZE: UVec2 = uvec2(96, 64);
+
+fn kernel(name: &str) -> Kernel {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../examples/kernels/{name}.rs"));
+    Kernel::from_file(&path, None).unwrap_or_else(|e| panic!("{e}"))
+}
+
+fn compile(kernel: &Kernel, settings: &Settings) -> Compiled {
+    kernel.compile(settings).unwrap_or_else(|e| panic!("{e}"))
+}
+
+/// One image of the inputs, by its name.
+fn image<'a>(inputs: &'a Inputs, name: &str) -> &'a Frame<Vec4> {
+    let (_, layers) = inputs
+        .images
+        .iter()
+        .find(|(n, _)| n == name)
+        .expect("an image of this name");
+    &layers[0]
+}
+
+fn texture(inputs: &Inputs, name: &str) -> Texture<Vec4> {
+    let image = image(inputs, name);
+    Texture::new(image.size(), image.texels().to_vec())
+}
+
+fn first<T>(inputs: &Inputs, name: &str, make: impl Fn(UVec2, Vec<f32>) -> T) -> T {
+    let image = image(inputs, name);
+    make(image.size(), image.texels().iter().map(|t| t.x).collect())
+}
+
+/// Runs one kernel in every form. `native` is given the inputs and a pixel. On the GPU a share of pixels, `unsure`, may be
+/// off by more than `tolerance`: those on which a decision hangs on the last bit.
+fn check(name: &str, tolerance: f32, unsure: f64, native: impl Fn(&Inputs, IVec2) -> Vec4) {
+    let kernel = kernel(name);
+    let inputs = test_inputs(&compile(&kernel, &Settings::default()).graph, SIZE);
+    let pixels = (0..SIZE.y as i32).flat_map(|y| (0..SIZE.x as i32).map(move |x| ivec2(x, y)));
+    let expected: Vec<[f32; 4]> = pixels.map(|at| native(&inputs, at).to_array()).collect();
+    let forms = [
+        (Unroll::Full, Branches::AsLoops),
+        (Unroll::None, Branches::AsLoops),
+        (Unroll::Partial(2), Branches::AsLoops),
+        (Unroll::Partial(4), Branches::AsLoops),
+        (Unroll::Full, Branches::Keep),
+    ];
+    let gpu = bench();
+    for (unroll, branches) in forms {
+        let settings = Settings {
+            unroll,
+            branches,
+            ..Settings::default()
+        };
+        let compiled = compile(&kernel, &settings);
+        let found = interpret::<f32>(&compiled, &inputs, false).unwrap_or_else(|e| panic!("{name}: {e}"));
+        same_bits(&expected, &found.texels).unwrap_or_else(|e| panic!("{name} {unroll}, branches {branches}: {e}"));
+        let shown = gpu
+            .run(&compiled, Stage::Compute, &inputs)
+            .unwrap_or_else(|e| panic!("{name} {unroll}: {e}"));
+        let off = |(a, b): &(&Vec4, &[f32; 4])| (**a - Vec4::from_array(**b)).abs().max_element() > tolerance;
+        let off = shown.texels().iter().zip(&expected).filter(off).count();
+        let share = off as f64 / expected.len() as f64;
+        assert!(share <= unsure, "{name} {unroll}: {off} pixels are off by more than {tolerance} on the GPU");
+        if unroll == Unroll::Full && branches == Branches::AsLoops {
+            save(name, &inputs, &shown);
+        }
+    }
+}
+
+fn save(name: &str, inputs: &Inputs, shown: &Frame<Vec4>) {
+    let Some(folder) = std::env::var_os("STRAIGHTLINE_PICTURES") else {
+        return;
+    };
+    let folder = Path::new(&folder);
+    std::fs::create_dir_all(folder).expect("a folder for pictures");
+    for (input, layers) in &inputs.images {
+        picture::write(&folder.join(format!("{name}-{input}.png")), &layers[0]).expect("a picture is written");
+    }
+    picture::write(&folder.join(format!("{name}.png")), shown).expect("a picture is written");
+}
+
+#[test]
+fn gaussian() {
+    let cfg = gaussian::Gaussian::default();
+    check("gaussian", 1.0e-5, 0.0, |inputs, at| {
+        gaussian::gaussian(&cfg, image(inputs, "color"), at)
+    });
+}
+
+#[test]
+fn bilateral() {
+    let cfg = bilateral::Bilateral::default();
+    check("bilateral", 1.0e-4, 0.0, |inputs, at| {
+        bilateral::bilateral(&cfg, image(inputs, "color"), at)
+    });
+}
+
+#[test]
+fn median() {
+    check("median", 0.0, 0.0, |inputs, at| median::median(image(inputs, "color"), at));
+}
+
+/// The network against sorting, on every component.
+#[test]
+fn the_network_finds_the_median() {
+    let inputs = test_inputs(&compile(&kernel("median"), &Settings::default()).graph, SIZE);
+    let color = image(&inputs, "color");
+    for at in [ivec2(0, 0), ivec2(40, 30), ivec2(95, 63)] {
+        let found = median::median(color, at);
+        for lane in 0..4 {
+            let taps = (0..9).map(|k| color.load(at + ivec2(k % 3 - 1, k / 3 - 1))[lane]);
+            let mut sorted: Vec<f32> = taps.collect();
+            sorted.sort_by(f32::total_cmp);
+            assert_eq!(found[lane], sorted[4], "at {at}");
+        }
+    }
+}
+
+#[test]
+fn sobel() {
+    check("sobel", 1.0e-4, 0.0, |inputs, at| sobel::sobel(image(inputs, "color"), at));
+}
+
+#[test]
+fn catmull_rom() {
+    let cache = std::cell::OnceCell::new();
+    check("catmull_rom", 1.0e-4, 0.0, |inputs, at| {
+        let image = cache.get_or_init(|| texture(inputs, "image"));
+        catmull_rom::catmull_rom(image, SIZE, at)
+    });
+}
+
+#[test]
+fn kuwahara() {
+    let cfg = kuwahara::Kuwahara::default();
+    // Two quarters that vary alike are told apart by the last bit.
+    check("kuwahara", 5.0e-3, 0.01, |inputs, at| {
+        kuwahara::kuwahara(&cfg, image(inputs, "color"), at)
+    });
+}
+
+#[test]
+fn fxaa() {
+    let cfg = fxaa::Fxaa::default();
+    let cache = std::cell::OnceCell::new();
+    // Where a search ends hangs on filtered texels, which a GPU weighs in steps of 1/256.
+    check("fxaa", 5.0e-3, 0.01, |inputs, at| {
+        let image = cache.get_or_init(|| texture(inputs, "image"));
+        fxaa::fxaa(&cfg, image, &Sampler::default(), at)
+    });
+}
+
+#[test]
+fn ssao() {
+    let cfg = ssao::Ssao::default();
+    let cache = std::cell::OnceCell::new();
+    // A point that falls between two pixels, or just behind a surface, may count for one or the other.
+    check("ssao", 5.0e-3, 0.01, |inputs, at| {
+        let (depth, normal) = cache.get_or_init(|| {
+            let normals = image(inputs, "normal").texels().iter().map(|n| n.truncate()).collect();
+            (first(inputs, "depth", Frame::new), Frame::new(SIZE, normals))
+        });
+        ssao::ssao(&cfg, depth, normal, at)
+    });
+}
+
+#[test]
+fn joint_bilateral_upsampling() {
+    let cfg = joint_bilateral_upsampling::Upsampling::default();
+    let cache = std::cell::OnceCell::new();
+    check("joint_bilateral_upsampling", 1.0e-3, 0.0, |inputs, at| {
+        let (low, low_depth, depth) = cache.get_or_init(|| {
+            (
+                texture(inputs, "low"),
+                first(inputs, "low_depth", Texture::new),
+                first(inputs, "depth", Frame::new),
+            )
+        });
+        joint_bilateral_upsampling::joint_bilateral_upsampling(&cfg, low, low_depth, depth, at)
+    });
+}
+
+#[test]
+fn convolution() {
+    let cfg = convolution::Convolution::default();
+    check("convolution", 1.0e-5, 0.0, |inputs, at| {
+        convolution::convolution(&cfg, image(inputs, "color"), at)
+    });
+}
+
+/// A weight of zero is not in the shader: neither its product nor its read.
+#[test]
+fn zero_weights_cost_nothing() {
+    let kernel = kernel("convolution");
+    let reads = |weights: &str| {
+        let settings = Settings {
+            options: vec![("weights".to_owned(), weights.to_owned())],
+            ..Settings::default()
+        };
+        compile(&kernel, &settings).counts.colour_reads
+    };
+    let cross = "0,0,0,0,0, 0,0,1,0,0, 0,1,-4,1,0, 0,0,1,0,0, 0,0,0,0,0";
+    assert_eq!(reads(cross), 5);
+    let dense = ["0.04"; 25].join(",");
+    assert_eq!(reads(&dense), 25);
+}
