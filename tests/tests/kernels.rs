@@ -95,7 +95,10 @@ fn check(name: &str, tolerance: f32, unsure: f64, native: impl Fn(&Inputs, IVec2
         let off = |(a, b): &(&Vec4, &[f32; 4])| (**a - Vec4::from_array(**b)).abs().max_element() > tolerance;
         let off = shown.texels().iter().zip(&expected).filter(off).count();
         let share = off as f64 / expected.len() as f64;
-        assert!(share <= unsure, "{name} {unroll}: {off} pixels are off by more than {tolerance} on the GPU");
+        assert!(
+            share <= unsure,
+            "{name} {unroll}: {off} pixels are off by more than {tolerance} on the GPU"
+        );
         if unroll == Unroll::Full && branches == Branches::AsLoops {
             save(name, &inputs, &shown);
         }
@@ -132,7 +135,9 @@ fn bilateral() {
 
 #[test]
 fn median() {
-    check("median", 0.0, 0.0, |inputs, at| median::median(image(inputs, "color"), at));
+    check("median", 0.0, 0.0, |inputs, at| {
+        median::median(image(inputs, "color"), at)
+    });
 }
 
 /// The network against sorting, on every component.
@@ -153,7 +158,9 @@ fn the_network_finds_the_median() {
 
 #[test]
 fn sobel() {
-    check("sobel", 1.0e-4, 0.0, |inputs, at| sobel::sobel(image(inputs, "color"), at));
+    check("sobel", 1.0e-4, 0.0, |inputs, at| {
+        sobel::sobel(image(inputs, "color"), at)
+    });
 }
 
 #[test]

@@ -8,3 +8,4 @@ pub mod explain;
 pub mod list;
 pub mod resolve;
 pub mod run;
+pub mod unroll;

@@ -131,7 +131,12 @@ impl Evaluator<'_> {
         let ty = self.ty(vector);
         let part = Type::value(ty.kind().unwrap_or(Scalar::F32), 1);
         let Some(changed) = lane(name).filter(|k| *k < ty.lanes() && ty.lanes() > 1) else {
-            return Err(Diagnostic::at(span, format!("a {ty} has no field `{name}`")).into());
+            return Err(
+                Diagnostic::at(span, format!("a {} has no field `{name}`", ty.in_rust()))
+                    .label("not there")
+                    .help("vectors have x, y, z and w")
+                    .into(),
+            );
         };
         let mut lanes = Vec::new();
         for k in 0..ty.lanes() {

@@ -50,10 +50,36 @@ impl Evaluator<'_> {
             }
             ([.., name], _) => match self.function(name, &values, span)? {
                 Some(value) => Ok(value),
-                None => Err(unknown_function(path, span)),
+                None => Err(self.unknown_function(path, span)),
             },
-            _ => Err(unknown_function(path, span)),
+            _ => Err(self.unknown_function(path, span)),
         }
+    }
+
+    fn unknown_function(&self, path: &[String], span: Span) -> Exit {
+        let name = path.join("::");
+        let mut known: Vec<&str> = self.library.functions.keys().map(String::as_str).collect();
+        known.extend([
+            "mix",
+            "smoothstep",
+            "step",
+            "saturate",
+            "fract",
+            "sign",
+            "round",
+            "inverse_sqrt",
+            "tally",
+        ]);
+        known.sort_unstable();
+        let close = known.iter().find(|k| is_close(&name, k));
+        let help = match close {
+            Some(close) => format!("did you mean `{close}`?"),
+            None => "define it in one of the kernel's files, or use a function of the prelude".to_owned(),
+        };
+        Diagnostic::at(span, format!("there is no function `{name}`"))
+            .label("not found in the kernel's files")
+            .help(help)
+            .into()
     }
 
     /// Evaluates a function's body with its parameters bound.
@@ -65,7 +91,12 @@ impl Evaluator<'_> {
         if args.len() != function.params.len() {
             return Err(Diagnostic::at(
                 span,
-                format!("`{name}` takes {} arguments, not {}", function.params.len(), args.len()),
+                format!(
+                    "`{name}` takes {} argument{}, not {}",
+                    function.params.len(),
+                    if function.params.len() == 1 { "" } else { "s" },
+                    args.len()
+                ),
             )
             .label("called here")
             .other(function.span, "defined here")
@@ -86,11 +117,14 @@ impl Evaluator<'_> {
             self.scope.bind(&name, value);
         }
         for ((param, ty, at), value) in function.params.iter().zip(args) {
-            let value = match self.ascribe(value, Some(ty), *at) {
+            let value = match self.ascribe(value, Some(ty), span) {
                 Ok(value) => value,
-                Err(error) => {
+                Err(exit) => {
                     self.scope = outer;
-                    return Err(error);
+                    return Err(match exit {
+                        Exit::Error(error) => error.other(*at, format!("`{param}` is stated here")).into(),
+                        other => other,
+                    });
                 }
             };
             self.scope.bind(param, value);
@@ -185,7 +219,12 @@ impl Evaluator<'_> {
             parts.extend(self.lanes(id));
         }
         if parts.len() != lanes as usize {
-            return Err(Diagnostic::at(span, format!("a vector of {lanes} lanes from {}", parts.len())).into());
+            return Err(
+                Diagnostic::at(span, format!("a vector of {lanes} lanes from {}", parts.len()))
+                    .label("lanes and vectors in it count together")
+                    .help(format!("give {lanes}, or `splat` one"))
+                    .into(),
+            );
         }
         Ok(Value::Node(self.builder.add(
             Op::Compose,
@@ -203,7 +242,8 @@ impl Evaluator<'_> {
             return Ok(id);
         }
         Err(
-            Diagnostic::at(span, format!("a {} where a {kind} is needed", self.ty(id)))
+            Diagnostic::at(span, format!("{} where {kind} is needed", self.ty(id).in_rust()))
+                .label("of another type")
                 .help(format!("convert it with `as {kind}`"))
                 .into(),
         )
@@ -246,7 +286,11 @@ impl Evaluator<'_> {
                 });
             }
             if !self.library.consts.contains_key(&path.join("::")) {
-                return Err(Diagnostic::at(span, format!("`{ty}` has no variant `{variant}`")).into());
+                let names: Vec<&str> = found.variants.iter().map(|(name, _)| name.as_str()).collect();
+                return Err(Diagnostic::at(span, format!("`{ty}` has no variant `{variant}`"))
+                    .label("not there")
+                    .help(suggest(variant, &names, "it has"))
+                    .into());
             }
         }
         let joined = path.join("::");
@@ -260,9 +304,13 @@ impl Evaluator<'_> {
         }
         match self.known_constant(path) {
             Some(value) => Ok(value),
-            None => Err(Diagnostic::at(span, format!("there is no `{}` here", path.join("::")))
-                .label("not found")
-                .into()),
+            None => {
+                let names = self.scope.names();
+                Err(Diagnostic::at(span, format!("there is no `{}` here", path.join("::")))
+                    .label("not found")
+                    .help(suggest(last, &names, "variables here are"))
+                    .into())
+            }
         }
     }
 
@@ -276,7 +324,10 @@ impl Evaluator<'_> {
             return Ok(None);
         };
         if self.calls.len() >= MAX_CALLS {
-            return Err(Diagnostic::at(span, format!("the constant `{name}` needs itself")).into());
+            return Err(Diagnostic::at(span, format!("the constant `{name}` needs itself"))
+                .label("used here")
+                .help("write out one of the values that go round")
+                .into());
         }
         let outer = std::mem::take(&mut self.scope);
         self.calls.push(name.to_owned());
@@ -289,11 +340,40 @@ impl Evaluator<'_> {
     }
 }
 
-fn unknown_function(path: &[String], span: Span) -> Exit {
-    Diagnostic::at(span, format!("there is no function `{}`", path.join("::")))
-        .label("not found in the kernel's files")
-        .help("define it in one of the kernel's files, or use a function of the prelude")
-        .into()
+/// The way out of a wrong name: the name that it was meant to be, or those that there are.
+pub fn suggest(name: &str, known: &[&str], has: &str) -> String {
+    match known.iter().find(|k| is_close(name, k)) {
+        Some(close) => format!("did you mean `{close}`?"),
+        None if known.is_empty() => "check its name".to_owned(),
+        None => {
+            let more = if known.len() > 12 { ", ..." } else { "" };
+            format!("{has} {}{more}", known[..known.len().min(12)].join(", "))
+        }
+    }
+}
+
+/// Whether a name may be another one misspelt.
+fn is_close(name: &str, known: &str) -> bool {
+    distance(name, known) <= (1 + name.len() / 5).min(name.len().saturating_sub(1))
+}
+
+/// Letters to be changed, added, left out or exchanged with the next one.
+fn distance(a: &str, b: &str) -> usize {
+    let (a, b): (Vec<char>, Vec<char>) = (a.chars().collect(), b.chars().collect());
+    let mut rows = vec![(0..=b.len()).collect::<Vec<usize>>()];
+    for i in 1..=a.len() {
+        let mut row = vec![i];
+        for j in 1..=b.len() {
+            let change = rows[i - 1][j - 1] + usize::from(a[i - 1] != b[j - 1]);
+            let mut least = change.min(row[j - 1] + 1).min(rows[i - 1][j] + 1);
+            if i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] {
+                least = least.min(rows[i - 2][j - 2] + 1);
+            }
+            row.push(least);
+        }
+        rows.push(row);
+    }
+    rows[a.len()][b.len()]
 }
 
 /// `vec3`, `Vec3::new`, ...

@@ -20,7 +20,10 @@ impl Evaluator<'_> {
         let value = self.expr(condition)?;
         let id = self.node(&value, condition.span)?;
         if self.ty(id) != Type::BOOL {
-            return Err(Diagnostic::at(condition.span, "a condition must be a boolean").into());
+            return Err(Diagnostic::at(condition.span, "a condition must be a boolean")
+                .label(format!("of type {}", self.ty(id).in_rust()))
+                .help("compare it: `!= 0`")
+                .into());
         }
         match self.known_bool(id) {
             Some(true) => self.block(then),
@@ -187,7 +190,7 @@ impl Evaluator<'_> {
             self.scope.leave(mark);
         }
         Err(
-            Diagnostic::at(span, format!("no arm of this `match` takes {}", value.describe()))
+            Diagnostic::at(span, format!("no arm of this `match` takes {}", self.shown(&value)))
                 .help("add an arm for it, or `_`")
                 .into(),
         )

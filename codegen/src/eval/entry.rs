@@ -53,12 +53,13 @@ impl Evaluator<'_> {
         let value = self.inline(entry, &[], args, function.span)?;
         let output = self.node(&value, function.span)?;
         if self.ty(output) != Type::value(Scalar::F32, 4) {
-            return Err(
-                Diagnostic::at(function.span, format!("a kernel gives a Vec4, not {}", self.ty(output)))
-                    .label("the kernel")
-                    .help("for a Vec3 write `.extend(1.0)`, for a number `Vec4::splat(x)`")
-                    .into(),
-            );
+            return Err(Diagnostic::at(
+                function.span,
+                format!("a kernel gives a Vec4, not {}", self.ty(output).in_rust()),
+            )
+            .label("the kernel")
+            .help("for a Vec3 write `.extend(1.0)`, for a number `Vec4::splat(x)`")
+            .into());
         }
         Ok((output, options, function.docs.clone()))
     }

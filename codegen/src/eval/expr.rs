@@ -98,12 +98,20 @@ impl Evaluator<'_> {
             Value::Node(id) if self.ty(*id) == stated => Ok(value),
             Value::Node(_) | Value::Int(_) => {
                 let found = match &value {
-                    Value::Node(id) => self.ty(*id).to_string(),
-                    _ => "an integer".to_owned(),
+                    Value::Node(id) => self.ty(*id),
+                    _ => Type::I32,
                 };
+                let help = match (found.lanes(), stated.lanes()) {
+                    (1, 1) => format!("convert it with `as {name}`"),
+                    (a, b) if a == b => format!("convert it with `.as_{}()`", name.to_lowercase()),
+                    (1, _) => format!("write `{name}::splat(...)`"),
+                    (a, b) if a > b => "leave out what is too much with `.truncate()` or `.xy()`".to_owned(),
+                    _ => "add what lacks with `.extend(...)`".to_owned(),
+                };
+                let found = found.in_rust();
                 Err(Diagnostic::at(span, format!("{found} where `{name}` is stated"))
                     .label("of another type")
-                    .help(format!("convert it, for example with `as {name}`"))
+                    .help(help)
                     .into())
             }
             Value::Poison => Ok(value),
@@ -238,6 +246,7 @@ impl Evaluator<'_> {
                 .into()),
             None => Err(Diagnostic::at(len.span, "the length of an array must be known")
                 .label("not known now")
+                .help("use a constant, an option, or a loop counter")
                 .into()),
         }
     }
@@ -252,7 +261,13 @@ impl Evaluator<'_> {
 
     fn structure(&mut self, name: &str, fields: &[(String, Expr)], rest: Option<&Expr>, span: Span) -> Eval {
         let Some(definition) = self.library.structs.get(name) else {
-            return Err(Diagnostic::at(span, format!("there is no structure `{name}` in the kernel's files")).into());
+            let known: Vec<&str> = self.library.structs.keys().map(String::as_str).collect();
+            return Err(
+                Diagnostic::at(span, format!("there is no structure `{name}` in the kernel's files"))
+                    .label("not found")
+                    .help(super::call::suggest(name, &known, "there are"))
+                    .into(),
+            );
         };
         let rest = rest.map(|e| self.expr(e)).transpose()?;
         let mut given = Vec::new();
@@ -269,7 +284,12 @@ impl Evaluator<'_> {
                 Some((_, value)) => value.clone(),
                 None => match &rest {
                     Some(rest) => self.field(rest, field, span)?,
-                    None => return Err(Diagnostic::at(span, format!("`{name}` lacks its field `{field}`")).into()),
+                    None => {
+                        return Err(Diagnostic::at(span, format!("`{name}` lacks its field `{field}`"))
+                            .label("here")
+                            .help(format!("add `{field}: ...`, or `..other`"))
+                            .into());
+                    }
                 },
             };
             values.push((field.clone(), value));
@@ -325,7 +345,13 @@ impl Evaluator<'_> {
         match base {
             Value::Struct { ty, fields } => match fields.iter().find(|(field, _)| field == name) {
                 Some((_, value)) => Ok(value.clone()),
-                None => Err(Diagnostic::at(span, format!("`{ty}` has no field `{name}`")).into()),
+                None => {
+                    let names: Vec<&str> = fields.iter().map(|(field, _)| field.as_str()).collect();
+                    Err(Diagnostic::at(span, format!("`{ty}` has no field `{name}`"))
+                        .label("not there")
+                        .help(super::call::suggest(name, &names, "it has"))
+                        .into())
+                }
             },
             Value::Tuple(parts) => match name.parse::<usize>().ok().and_then(|k| parts.get(k)) {
                 Some(part) => Ok(part.clone()),
@@ -338,7 +364,15 @@ impl Evaluator<'_> {
                         let part = Type::value(ty.kind().unwrap_or(Scalar::F32), 1);
                         Ok(Value::Node(self.builder.add(Op::Extract(k), vec![*id], part)))
                     }
-                    _ => Err(Diagnostic::at(span, format!("a {ty} has no field `{name}`")).into()),
+                    _ => Err(
+                        Diagnostic::at(span, format!("a {} has no field `{name}`", ty.in_rust()))
+                            .label("not there")
+                            .help(match ty.lanes() {
+                                1 => "a number has no fields".to_owned(),
+                                n => format!("it has {}", ["x", "y", "z", "w"][..n as usize].join(", ")),
+                            })
+                            .into(),
+                    ),
                 }
             }
             Value::Poison => Err(Exit::Noted),

@@ -65,7 +65,7 @@ impl Evaluator<'_> {
         if self.ty(id).is_float() {
             return Ok(id);
         }
-        let found = self.ty(id);
+        let found = self.ty(id).in_rust();
         Err(Diagnostic::at(span, format!("`{name}` takes floats, not {found}"))
             .label("not a float")
             .help("convert with `as f32`")

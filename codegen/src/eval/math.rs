@@ -44,7 +44,7 @@ impl Evaluator<'_> {
                 format!(
                     "there is no method `{name}` with {} arguments on {}",
                     args.len(),
-                    self.ty(x)
+                    self.ty(x).in_rust()
                 ),
             )
             .label("not supported")

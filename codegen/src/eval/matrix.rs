@@ -40,7 +40,11 @@ impl Evaluator<'_> {
                     if self.ty(id) != column {
                         return Err(Diagnostic::at(
                             span,
-                            format!("a column of a {ty} is a {column}, not {}", self.ty(id)),
+                            format!(
+                                "a column of a {ty} is a {}, not {}",
+                                column.in_rust(),
+                                self.ty(id).in_rust()
+                            ),
                         )
                         .into());
                     }
@@ -51,7 +55,9 @@ impl Evaluator<'_> {
             ("from_diagonal", [diagonal]) => {
                 let id = self.node(diagonal, span)?;
                 if self.ty(id) != column {
-                    return Err(Diagnostic::at(span, format!("the diagonal of a {ty} is a {column}")).into());
+                    return Err(
+                        Diagnostic::at(span, format!("the diagonal of a {ty} is a {}", column.in_rust())).into(),
+                    );
                 }
                 let lanes = self.lanes(id);
                 let zero = self.builder.f32(0.0);
@@ -147,9 +153,12 @@ impl Evaluator<'_> {
                     return self.matrix_by_number(left, right, span);
                 }
                 if self.ty(id) != self.ty(columns[0]) {
-                    return Err(Diagnostic::at(span, format!("a {ty} times a {}", self.ty(id)))
-                        .label("of another size")
-                        .into());
+                    return Err(
+                        Diagnostic::at(span, format!("a {ty} times a {}", self.ty(id).in_rust()))
+                            .label("of another size")
+                            .help("use `.truncate()` or `.extend(...)`, or another matrix")
+                            .into(),
+                    );
                 }
                 Ok(Value::Node(self.times_vector(&columns, id)))
             }

@@ -23,7 +23,18 @@ impl Evaluator<'_> {
                 if super::matrix::size(ty).is_some() {
                     return self.matrix_method(&value, name, &args, span);
                 }
-                Err(Diagnostic::at(span, format!("`{ty}` has no method `{name}`")).into())
+                let prefix = format!("{ty}::");
+                let functions = self.library.functions.keys();
+                let mut names: Vec<&str> = functions.filter_map(|f| f.strip_prefix(prefix.as_str())).collect();
+                names.sort_unstable();
+                let help = match names.is_empty() {
+                    true => format!("it has none: write it in an `impl {ty}`"),
+                    false => super::call::suggest(name, &names, "it has"),
+                };
+                Err(Diagnostic::at(span, format!("`{ty}` has no method `{name}`"))
+                    .label("not there")
+                    .help(help)
+                    .into())
             }
             Value::Texture(index) => self.texture(*index, name, &args, span),
             Value::Buffer(index) => self.buffer(*index, name, &args, span),

@@ -221,6 +221,18 @@ impl Evaluator<'_> {
         self.builder.set_origin(id, &origin);
     }
 
+    /// A value for a message: a known number itself, else its kind.
+    fn shown(&self, value: &Value) -> String {
+        match (self.known_int(value), value) {
+            (Some(n), _) => n.to_string(),
+            (None, Value::Tuple(parts)) if !parts.is_empty() => {
+                let parts: Vec<String> = parts.iter().map(|part| self.shown(part)).collect();
+                format!("({})", parts.join(", "))
+            }
+            (None, other) => other.describe(),
+        }
+    }
+
     fn ty(&self, id: NodeId) -> Type {
         self.builder.graph().ty(id)
     }
@@ -263,12 +275,10 @@ impl Evaluator<'_> {
             Scalar::I32 => i32::try_from(n).map(|n| n as u32).or_else(|_| u32::try_from(n)).ok(),
             Scalar::U32 => u32::try_from(n).ok(),
             Scalar::F32 | Scalar::Bool => {
-                return Err(
-                    Diagnostic::at(span, format!("the integer {n} where a {kind} is needed"))
-                        .label("an integer")
-                        .help(format!("write `{n}.0`, or convert with `as f32`"))
-                        .into(),
-                );
+                return Err(Diagnostic::at(span, format!("the integer {n} where {kind} is needed"))
+                    .label("an integer")
+                    .help(format!("write `{n}.0`, or convert with `as f32`"))
+                    .into());
             }
         };
         match bits {

@@ -16,7 +16,7 @@ impl Evaluator<'_> {
         let op = match (op, ty.kind()) {
             (UnaryOp::Not, Some(Scalar::I32 | Scalar::U32)) => UnaryOp::BitNot,
             (UnaryOp::Not, Some(Scalar::Bool)) | (UnaryOp::Neg, Some(Scalar::F32 | Scalar::I32)) => op,
-            _ => return Err(Diagnostic::at(span, format!("this operator does not take a {ty}")).into()),
+            _ => return Err(not_taken(ty, span)),
         };
         Ok(Value::Node(self.builder.add(Op::Unary(op), vec![id], ty)))
     }
@@ -60,7 +60,7 @@ impl Evaluator<'_> {
             _ => kind != Scalar::Bool,
         };
         if !fits || ty.is_array() {
-            return Err(Diagnostic::at(span, format!("this operator does not take {ty}")).into());
+            return Err(not_taken(ty, span));
         }
         if op.is_comparison() {
             return self.comparison(op, a, b);
@@ -133,7 +133,12 @@ impl Evaluator<'_> {
             Mul => a.checked_mul(b),
             Div if b != 0 => Some(a / b),
             Rem if b != 0 => Some(a % b),
-            Div | Rem => return Err(Diagnostic::at(span, format!("{a} divided by zero")).into()),
+            Div | Rem => {
+                return Err(Diagnostic::at(span, format!("{a} divided by zero"))
+                    .label("always")
+                    .help("only divide where the divisor is not 0: `if n != 0 { ... }`")
+                    .into());
+            }
             Min => Some(a.min(b)),
             Max => Some(a.max(b)),
             And => Some(a & b),
@@ -185,10 +190,13 @@ impl Evaluator<'_> {
         if ta.kind() == tb.kind() && tb.is_scalar() && !ta.is_array() {
             return Ok((a, self.splat(b, ta.lanes())));
         }
-        Err(Diagnostic::at(span, format!("{ta} and {tb} do not go together"))
-            .label("two types")
-            .help("convert one of them, for example with `as f32` or `.as_vec2()`")
-            .into())
+        Err(Diagnostic::at(
+            span,
+            format!("{} and {} do not go together", ta.in_rust(), tb.in_rust()),
+        )
+        .label("two types")
+        .help("convert one of them, for example with `as f32` or `.as_vec2()`")
+        .into())
     }
 
     /// A scalar in each of `lanes` lanes.
@@ -253,7 +261,24 @@ impl Evaluator<'_> {
         match self.ty(id) {
             Type::I32 => Ok(id),
             Type::U32 => Ok(self.convert(id, Scalar::I32)),
-            other => Err(Diagnostic::at(span, format!("an index must be an integer, not {other}")).into()),
+            other => Err(
+                Diagnostic::at(span, format!("an index must be an integer, not {}", other.in_rust()))
+                    .label("of this index")
+                    .help("convert it with `as usize`")
+                    .into(),
+            ),
         }
     }
+}
+
+fn not_taken(ty: Type, span: Span) -> Exit {
+    let help = match ty.kind() {
+        Some(Scalar::F32) => "floats have + - * / % and comparisons; for their bits use `to_bits()`",
+        Some(Scalar::Bool) => "booleans have & | ^ ! && || == and !=",
+        _ => "integers have + - * / % & | ^ ! << >> and comparisons",
+    };
+    Diagnostic::at(span, format!("this operator does not take {}", ty.in_rust()))
+        .label("not for this type")
+        .help(help)
+        .into()
 }

@@ -129,7 +129,12 @@ impl Evaluator<'_> {
                     TextureKind::Multisampled => "a coordinate and a sample",
                     _ => "a coordinate",
                 };
-                Err(Diagnostic::at(span, format!("`load` of `{}` takes {expected}", texture.name)).into())
+                Err(
+                    Diagnostic::at(span, format!("`load` of `{}` takes {expected}", texture.name))
+                        .label("called here")
+                        .help("coordinates are IVec2, layers and samples usize")
+                        .into(),
+                )
             }
             ("sample", [Value::Sampler(sampler), uv]) if texture.kind == TextureKind::Flat && !texture.framed => {
                 let uv = self.uv(uv, span)?;
@@ -221,10 +226,11 @@ impl Evaluator<'_> {
         if self.ty(id) == Type::value(Scalar::F32, 2) {
             return Ok(id);
         }
-        let found = self.ty(id);
+        let found = self.ty(id).in_rust();
         Err(
             Diagnostic::at(span, format!("a place in a texture is a Vec2, not {found}"))
-                .label("(0, 0) is the upper left corner, (1, 1) the lower right")
+                .label("of this place")
+                .help("(0, 0) is the upper left corner and (1, 1) the lower right: `(pixel.as_vec2() + 0.5) / size`")
                 .into(),
         )
     }
@@ -253,7 +259,7 @@ impl Evaluator<'_> {
         if self.ty(coord) != PAIR {
             return Err(Diagnostic::at(
                 span,
-                format!("a texel's coordinate is an IVec2, not {}", self.ty(coord)),
+                format!("a texel's coordinate is an IVec2, not {}", self.ty(coord).in_rust()),
             )
             .label("in this read")
             .help("convert it with `.as_ivec2()`")

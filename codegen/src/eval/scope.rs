@@ -52,6 +52,14 @@ impl Scope {
         self.variables[slot].1 = value;
     }
 
+    /// Names of all variables, each once.
+    pub fn names(&self) -> Vec<&str> {
+        let mut names: Vec<&str> = self.variables.iter().map(|(name, _)| name.as_str()).collect();
+        names.sort_unstable();
+        names.dedup();
+        names
+    }
+
     /// Number of variables.
     pub fn len(&self) -> usize {
         self.variables.len()

@@ -45,7 +45,7 @@ impl Evaluator<'_> {
                 other => {
                     return Err(Diagnostic::at(
                         span,
-                        format!("an array of {} cannot be indexed at run time", other.describe()),
+                        format!("an array of {} cannot be indexed at run time", kind(other)),
                     )
                     .label("the index is not known now")
                     .help("unroll the loop, or keep an array for each number in it")
@@ -167,5 +167,15 @@ impl Evaluator<'_> {
     fn agree_all(&mut self, left: &[Value], right: &[Value], span: Span) -> Eval<(Vec<Value>, Vec<Value>)> {
         let pairs: Eval<Vec<_>> = left.iter().zip(right).map(|(a, b)| self.agree(a, b, span)).collect();
         Ok(pairs?.into_iter().unzip())
+    }
+}
+
+/// What an array is of, for a message.
+fn kind(element: &Value) -> String {
+    match element {
+        Value::Struct { ty, .. } | Value::Enum { ty, .. } => format!("`{ty}`"),
+        Value::Tuple(_) => "tuples".to_owned(),
+        Value::Array(_) => "arrays".to_owned(),
+        other => other.describe(),
     }
 }

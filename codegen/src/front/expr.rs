@@ -75,11 +75,14 @@ impl Lower {
     pub fn expr(&mut self, expr: &syn::Expr) -> Expr {
         let span = self.span(expr.span());
         if self.depth >= DEPTH {
-            self.errors.push(
-                Diagnostic::at(span, format!("expressions are nested more than {DEPTH} deep"))
-                    .label("too deep")
-                    .help("give parts of it a name with `let`"),
-            );
+            let what = format!("expressions are nested more than {DEPTH} deep");
+            if self.errors.iter().all(|e| e.message != what) {
+                self.errors.push(
+                    Diagnostic::at(span, what)
+                        .label("too deep")
+                        .help("give parts of it a name with `let`"),
+                );
+            }
             return Expr {
                 kind: ExprKind::Tuple(Vec::new()),
                 span,

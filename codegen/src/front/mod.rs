@@ -48,7 +48,15 @@ pub fn parse(files: &Arc<Vec<File>>, entry: &str) -> Result<Library, Errors> {
 
 fn syntax_error(file: u32, error: &syn::Error) -> Diagnostic {
     let span = place(file, error.span());
-    Diagnostic::at(span, format!("not valid Rust: {error}")).label("the parser stopped here")
+    let said = error.to_string();
+    if said.contains("token stream") {
+        return Diagnostic::at(span, "not valid Rust: a bracket or a quote has no partner")
+            .label("this one, or one before")
+            .help("count the brackets, or let `rustfmt` find the place");
+    }
+    Diagnostic::at(span, format!("not valid Rust: {said}"))
+        .label("the parser stopped here")
+        .help("rustc, which compiles the same file, says more")
 }
 
 /// The place of a token.

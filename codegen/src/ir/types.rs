@@ -115,6 +115,26 @@ impl Type {
     }
 }
 
+impl Type {
+    /// The type as glam and Rust call it: `f32`, `IVec2`, `[Vec4; 9]`.
+    pub fn in_rust(self) -> String {
+        match self {
+            Type::Value { scalar, lanes: 1 } => scalar.to_string(),
+            Type::Value { scalar, lanes } => {
+                let prefix = match scalar {
+                    Scalar::F32 => "",
+                    Scalar::I32 => "I",
+                    Scalar::U32 => "U",
+                    Scalar::Bool => "B",
+                };
+                format!("{prefix}Vec{lanes}")
+            }
+            Type::Array { len, .. } => format!("[{}; {len}]", self.element().in_rust()),
+            Type::Results => "nothing".to_owned(),
+        }
+    }
+}
+
 impl fmt::Display for Scalar {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {

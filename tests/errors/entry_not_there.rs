@@ -1,0 +1,4 @@
+// function: blur
+pub fn k(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
+    color.load(pixel)
+}

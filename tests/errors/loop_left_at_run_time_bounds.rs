@@ -1,0 +1,10 @@
+pub fn k(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
+    let mut sum = 0.0;
+    for i in 0..pixel.x {
+        if i == 3 {
+            break;
+        }
+        sum += 1.0;
+    }
+    Vec4::splat(sum)
+}

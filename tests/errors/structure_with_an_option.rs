@@ -1,0 +1,8 @@
+struct Scene<'a> {
+    color: &'a Frame<Vec4>,
+    sharp: bool,
+}
+
+pub fn k(scene: &Scene, pixel: IVec2) -> Vec4 {
+    scene.color.load(pixel)
+}
