@@ -30,21 +30,21 @@ pub fn bindings(modules: &[Module<'_>]) -> String {
 fn module(module: &Module<'_>) -> TokenStream {
     let name = format_ident!("{}", module.name);
     let manifest = module.manifest;
-    let docs = documentation(module);
+    let docs: Vec<String> = documentation(module).iter().map(|line| spaced(line)).collect();
     let constants = constants(module);
     let inputs: Vec<Input> = manifest.bindings.iter().filter_map(Input::of).collect();
     let fields = inputs.iter().map(|input| {
-        let Input { name, docs, ty } = input;
-        quote! { #[doc = #docs] pub #name: &'a straightline_runtime::wgpu::#ty }
+        let (Input { name, ty, .. }, docs) = (input, spaced(&input.docs));
+        quote! { #[doc = #docs] pub #name: &'a wgpu::#ty }
     });
     let count = Literal::usize_unsuffixed(inputs.len());
     let pairs = inputs.iter().map(|input| {
         let (field, name) = (&input.name, input.name.to_string());
-        quote! { (#name, straightline_runtime::Resource::from(inputs.#field)) }
+        quote! { (#name, Resource::from(inputs.#field)) }
     });
     // Without inputs there is no reference to have a lifetime.
     let (life, used, inputs_docs) = match inputs.len() {
-        0 => (quote! {}, quote! { _: &Inputs }, "What the shader reads: nothing."),
+        0 => (quote! {}, quote! { _: &Inputs }, " What the shader reads: nothing."),
         _ => (
             quote! { <'a> },
             quote! { inputs: &Inputs<'_> },
@@ -54,8 +54,11 @@ fn module(module: &Module<'_>) -> TokenStream {
     let (structure, setters) = parameters::parameters(manifest);
     quote! {
         #(#[doc = #docs])*
-        #[allow(dead_code)] // a caller uses the part that it needs
+        // A caller uses the part that it needs, and a struct of one reference is passed as one of many is.
+        #[allow(dead_code, clippy::trivially_copy_pass_by_ref)]
         pub mod #name {
+            use straightline_runtime::{Error, Resource, wgpu};
+
             #constants
 
             #[doc = #inputs_docs]
@@ -76,7 +79,7 @@ fn module(module: &Module<'_>) -> TokenStream {
                 /// # Errors
                 ///
                 /// If the device cannot run it or is lost.
-                pub fn new(device: &straightline_runtime::wgpu::Device) -> Result<Self, straightline_runtime::Error> {
+                pub fn new(device: &wgpu::Device) -> Result<Self, Error> {
                     straightline_runtime::Pass::from_json(device, MANIFEST, WGSL).map(Self)
                 }
 
@@ -87,11 +90,11 @@ fn module(module: &Module<'_>) -> TokenStream {
                 /// If an input or the target does not fit, naming it; nothing has been recorded then.
                 pub fn encode(
                     &self,
-                    encoder: &mut straightline_runtime::wgpu::CommandEncoder,
+                    encoder: &mut wgpu::CommandEncoder,
                     #used,
-                    target: &straightline_runtime::wgpu::TextureView,
-                ) -> Result<(), straightline_runtime::Error> {
-                    let inputs: [(&str, straightline_runtime::Resource<'_>); #count] = [#(#pairs),*];
+                    target: &wgpu::TextureView,
+                ) -> Result<(), Error> {
+                    let inputs: [(&str, Resource<'_>); #count] = [#(#pairs),*];
                     self.0.encode(encoder, &inputs, target)
                 }
 
@@ -105,6 +108,11 @@ fn module(module: &Module<'_>) -> TokenStream {
             }
         }
     }
+}
+
+/// A line of documentation as `///` is followed by one.
+pub fn spaced(line: &str) -> String {
+    if line.is_empty() { String::new() } else { format!(" {line}") }
 }
 
 /// What the shader is and was made from, a line each.
@@ -160,8 +168,8 @@ fn constants(module: &Module<'_>) -> TokenStream {
         #workgroup
 
         /// Layout of bind group 0, for a pipeline of one's own.
-        pub const BIND_GROUP_LAYOUT: straightline_runtime::wgpu::BindGroupLayoutDescriptor<'static> =
-            straightline_runtime::wgpu::BindGroupLayoutDescriptor {
+        pub const BIND_GROUP_LAYOUT: wgpu::BindGroupLayoutDescriptor<'static> =
+            wgpu::BindGroupLayoutDescriptor {
                 label: Some(#label),
                 entries: &[#(#entries),*],
             };
@@ -169,7 +177,7 @@ fn constants(module: &Module<'_>) -> TokenStream {
 }
 
 fn layout_entry(stage: Stage, binding: &Binding) -> TokenStream {
-    let wgpu = quote! { straightline_runtime::wgpu };
+    let wgpu = quote! { wgpu };
     let number = Literal::u32_unsuffixed(binding.binding);
     let visibility = match stage {
         Stage::Compute => quote! { #wgpu::ShaderStages::COMPUTE },
@@ -229,7 +237,7 @@ fn output_entry(binding: u32, format: Format) -> TokenStream {
         Format::Rgba16Float => format_ident!("Rgba16Float"),
         Format::Rgba32Float => format_ident!("Rgba32Float"),
     };
-    let wgpu = quote! { straightline_runtime::wgpu };
+    let wgpu = quote! { wgpu };
     quote! {
         #wgpu::BindGroupLayoutEntry {
             binding: #number,

@@ -27,6 +27,7 @@ fn structure(fields: &[UniformField], size: u32) -> TokenStream {
             Some(default) => format!("`{}` of the kernel; {default} by default.", field.name),
             None => format!("`{}` of the kernel.", field.name),
         };
+        let docs = super::bindings::spaced(&docs);
         members.push(quote! { #[doc = #docs] pub #name: #ty });
         at = field.offset + field.size;
     }
@@ -94,7 +95,7 @@ fn structure(fields: &[UniformField], size: u32) -> TokenStream {
         impl Parameters {
             /// The values as they lie in the buffer.
             #[must_use]
-            pub fn to_bytes(&self) -> [u8; #total] {
+            pub fn to_bytes(self) -> [u8; #total] {
                 let mut bytes = [0; #total];
                 #(#copies)*
                 bytes
@@ -110,7 +111,7 @@ fn pad(members: &mut Vec<TokenStream>, pads: &mut Vec<TokenStream>, bytes: u32) 
     }
     let name = format_ident!("padding_{}", pads.len());
     let words = Literal::u32_unsuffixed(bytes / 4);
-    members.push(quote! { #[doc = "Not read."] pub #name: [u32; #words] });
+    members.push(quote! { #[doc = " Not read."] pub #name: [u32; #words] });
     pads.push(quote! { #name: [0; #words] });
 }
 
@@ -122,6 +123,7 @@ fn setters(fields: &[UniformField]) -> TokenStream {
             Some(default) => format!("Sets `{name}` from the next submission on; {default} until then."),
             None => format!("Sets `{name}` from the next submission on; it must be set before the first."),
         };
+        let docs = super::bindings::spaced(&docs);
         quote! {
             #[doc = #docs]
             ///
@@ -130,9 +132,9 @@ fn setters(fields: &[UniformField]) -> TokenStream {
             /// None but those of a damaged build.
             pub fn #setter(
                 &self,
-                queue: &straightline_runtime::wgpu::Queue,
+                queue: &wgpu::Queue,
                 value: #ty,
-            ) -> Result<(), straightline_runtime::Error> {
+            ) -> Result<(), Error> {
                 self.0.write_uniform(queue, #name, value)
             }
         }
@@ -145,9 +147,9 @@ fn setters(fields: &[UniformField]) -> TokenStream {
         /// None but those of a damaged build.
         pub fn set_parameters(
             &self,
-            queue: &straightline_runtime::wgpu::Queue,
+            queue: &wgpu::Queue,
             parameters: &Parameters,
-        ) -> Result<(), straightline_runtime::Error> {
+        ) -> Result<(), Error> {
             self.0.write_uniforms(queue, &parameters.to_bytes())
         }
 

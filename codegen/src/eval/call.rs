@@ -38,6 +38,13 @@ impl Evaluator<'_> {
                 let value = self.lane_node(value, kind, span)?;
                 Ok(Value::Node(self.splat(value, lanes)))
             }
+            ([.., ty, from], [array]) if from == "from_array" && vector_type(ty).is_some() => {
+                let Some((kind, lanes)) = vector_type(ty) else {
+                    unreachable!("just asked")
+                };
+                let values = self.elements(array, usize::from(lanes), span)?;
+                self.compose(kind, lanes, &values, span)
+            }
             ([.., name], [Value::Str(tally), value]) if name == "tally" => self.tally(tally, value, span),
             ([.., ty, from], [value]) if ty == "f32" && from == "from_bits" => {
                 let bits = self.int_or_node(value, Scalar::U32, span)?;

@@ -411,6 +411,12 @@ impl Evaluator<'_> {
                 None => Err(out_of_range(k, elements.len(), span).into()),
             };
         }
+        if let Value::Node(id) = base
+            && matches!(self.ty(*id), Type::Value { lanes: 2.., .. })
+        {
+            let lanes = self.lanes(*id).into_iter().map(Value::Node).collect();
+            return self.element(&Value::array(lanes), index, span);
+        }
         let index = self.index_node(index, span)?;
         let array = self.array_node(base, span)?;
         let ty = self.ty(array);

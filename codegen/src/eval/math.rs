@@ -5,12 +5,32 @@ use super::value::{Eval, Value};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::ir::{BinaryOp, NodeId, Op, Scalar, Type, UnaryOp};
 
-/// What methods of numbers and vectors there are, for messages.
-pub const METHODS: &str = "abs, sqrt, recip, exp, exp2, ln, log2, powf, powi, sin, cos, tan, asin, acos, atan, atan2, sinh, cosh, tanh, floor, \
-    ceil, trunc, round_ties_even, min, max, clamp, to_radians, to_degrees, to_bits, is_nan, dot, cross, reflect, perp, \
-    length, length_recip, length_squared, distance, distance_squared, normalize, lerp, extend, truncate, min_element, \
-    max_element, element_sum, element_product, as_vec2 .. as_uvec4, xy .. wzyx; integers have wrapping_add, wrapping_sub, \
-    wrapping_mul, wrapping_neg, wrapping_shl, wrapping_shr, count_ones, reverse_bits, leading_zeros, trailing_zeros, pow";
+/// Methods of floats, lane by lane.
+const FLOATS: &str = "abs acos asin atan atan2 ceil clamp cos cosh exp exp2 floor is_finite is_nan ln log2 max min powf powi recip \
+    round_ties_even sin sinh sqrt tan tanh to_bits to_degrees to_radians trunc";
+
+/// Further methods of vectors.
+const VECTORS: &str = "cross distance distance_squared dot element_product element_sum extend length length_recip length_squared lerp \
+    max_element min_element normalize perp reflect to_array truncate";
+
+/// Methods of integers.
+const INTEGERS: &str = "abs clamp count_ones leading_zeros max min pow rem_euclid reverse_bits signum trailing_zeros wrapping_add \
+    wrapping_mul wrapping_neg wrapping_shl wrapping_shr wrapping_sub";
+
+/// The way out of a method that there is not.
+fn methods(name: &str, ty: Type) -> String {
+    let lists: &[&str] = match (ty.is_float(), ty.lanes()) {
+        (true, 1) => &[FLOATS],
+        (true, _) => &[FLOATS, VECTORS],
+        (false, _) => &[INTEGERS],
+    };
+    let known: Vec<&str> = lists.iter().flat_map(|list| list.split_whitespace()).collect();
+    let close = super::call::suggest(name, &known, "");
+    if close.starts_with("did you mean") {
+        return close;
+    }
+    format!("{} has {}", ty.in_rust(), known.join(", "))
+}
 
 impl Evaluator<'_> {
     /// A method of a number or vector.
@@ -48,7 +68,7 @@ impl Evaluator<'_> {
                 ),
             )
             .label("not supported")
-            .help(format!("numbers and vectors have {METHODS}"))
+            .help(methods(name, self.ty(x)))
             .into()),
         }
     }

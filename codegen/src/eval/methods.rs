@@ -79,6 +79,10 @@ impl Evaluator<'_> {
                 _ => self.math(&value, name, &args, span),
             },
             Value::Poison => Err(Exit::Noted),
+            Value::Node(id) if name == "to_array" && args.is_empty() && self.ty(*id).lanes() > 1 => {
+                let lanes = self.lanes(*id);
+                Ok(Value::array(lanes.into_iter().map(Value::Node).collect()))
+            }
             _ => self.math(&value, name, &args, span),
         }
     }

@@ -1,0 +1,3 @@
+fn main() -> Result<(), straightline_codegen::config::Error> {
+    straightline_codegen::compile(["src/kernels/lens.rs"])
+}
