@@ -221,6 +221,9 @@ pub struct UnrollArgs {
     /// Also write the table and its circumstances to this file, as JSON
     #[arg(long, value_name = "FILE")]
     pub record: Option<PathBuf>,
+    /// Also write what each kernel makes to this folder, and all of it in one picture, `all.png`
+    #[arg(long, value_name = "DIR")]
+    pub pictures: Option<PathBuf>,
     /// Print JSON
     #[arg(long)]
     pub json: bool,

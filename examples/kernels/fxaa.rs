@@ -30,13 +30,13 @@ fn stride(k: i32) -> f32 {
     }
 }
 
-/// `image` with its edges smoothed, by colours alone.
-pub fn fxaa(cfg: &Fxaa, image: &Texture<Vec4>, linear: &Sampler, pixel: IVec2) -> Vec4 {
-    let texel = Vec2::ONE / image.size().as_vec2();
+/// `color` with its edges smoothed, by colours alone.
+pub fn fxaa(cfg: &Fxaa, color: &Frame<Vec4>, linear: &Sampler, pixel: IVec2) -> Vec4 {
+    let texel = Vec2::ONE / color.size().as_vec2();
     let at = (pixel.as_vec2() + 0.5) * texel;
     let mut around = [0.0; 9];
     for k in 0..9 {
-        around[k] = luma(image.load(pixel + ivec2(k as i32 % 3 - 1, k as i32 / 3 - 1)));
+        around[k] = luma(color.load(pixel + ivec2(k as i32 % 3 - 1, k as i32 / 3 - 1)));
     }
     let [nw, n, ne, w, m, e, sw, s, se] = around;
     let brightest = m.max(n).max(s).max(w).max(e);
@@ -71,7 +71,7 @@ pub fn fxaa(cfg: &Fxaa, image: &Texture<Vec4>, linear: &Sampler, pixel: IVec2) -
         let mut going = true;
         for step in 0..cfg.steps {
             let next = ends[k] + stride(step);
-            let there = luma(image.sample(linear, start + way * next * along)) - edge;
+            let there = luma(color.sample(linear, start + way * next * along)) - edge;
             if going {
                 ends[k] = next;
                 lumas[k] = there;
@@ -91,9 +91,9 @@ pub fn fxaa(cfg: &Fxaa, image: &Texture<Vec4>, linear: &Sampler, pixel: IVec2) -
     let mean = (2.0 * (n + s + w + e) + nw + ne + sw + se) / 12.0;
     let alone = smoothstep(0.0, 1.0, saturate((mean - m).abs() / contrast.max(1.0e-6)));
     let shift = by_edge.max(alone * alone * cfg.subpixel);
-    let filtered = image.sample(linear, at + shift * side * normal);
+    let filtered = color.sample(linear, at + shift * side * normal);
     if contrast < cfg.threshold_min.max(brightest * cfg.threshold) {
-        image.load(pixel)
+        color.load(pixel)
     } else {
         filtered
     }

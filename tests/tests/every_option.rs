@@ -5,8 +5,7 @@ mod common;
 
 use common::*;
 use std::collections::BTreeSet;
-use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::path::PathBuf;
 use straightline_codegen::emit::Target;
 use straightline_codegen::{EmitOptions, Stage, Unroll};
 
@@ -40,31 +39,5 @@ fn all_options_emit_in_all_languages() {
         }
     }
     assert_eq!((glsl.len(), spirv.len()), (256, 256));
-    run(
-        "glslangValidator",
-        "glslang-tools",
-        &["-V", "-o", "/dev/null"],
-        &glsl,
-        &folder,
-    );
-    run(
-        "spirv-val",
-        "spirv-tools",
-        &["--target-env", "vulkan1.1"],
-        &spirv,
-        &folder,
-    );
-}
-
-fn run(tool: &str, package: &str, arguments: &[&str], files: &[PathBuf], folder: &Path) {
-    for file in files {
-        let run = Command::new(tool)
-            .args(arguments)
-            .current_dir(folder)
-            .arg(file)
-            .output();
-        let run = run.unwrap_or_else(|e| panic!("cannot run {tool} ({e}): install Debian's {package}"));
-        let said = String::from_utf8_lossy(&run.stdout).into_owned() + &String::from_utf8_lossy(&run.stderr);
-        assert!(run.status.success(), "{tool} refuses {}:\n{said}", file.display());
-    }
+    other_compilers(&glsl, &spirv);
 }

@@ -184,11 +184,9 @@ fn kuwahara() {
 #[test]
 fn fxaa() {
     let cfg = fxaa::Fxaa::default();
-    let cache = std::cell::OnceCell::new();
     // Where a search ends hangs on filtered texels, which a GPU weighs in steps of 1/256.
     check("fxaa", 5.0e-3, 0.01, |inputs, at| {
-        let image = cache.get_or_init(|| texture(inputs, "image"));
-        fxaa::fxaa(&cfg, image, &Sampler::default(), at)
+        fxaa::fxaa(&cfg, image(inputs, "color"), &Sampler::default(), at)
     });
 }
 

@@ -4,7 +4,8 @@
 
 mod common;
 
-use common::{Random, bench, same_bits};
+use common::{Random, bench, other_compilers, same_bits};
+use std::path::PathBuf;
 use straightline_codegen::{Branches, Compiled, EmitOptions, Kernel, Settings, Stage, Unroll, emit::Target};
 use straightline_kernels::prelude::*;
 use straightline_study::execute::{self, SamplerState, interpret};
@@ -128,6 +129,9 @@ fn every_example_means_the_same_in_every_form() {
 
 #[test]
 fn every_example_is_emitted_in_every_language() {
+    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("language");
+    std::fs::create_dir_all(&folder).expect("a folder for shaders");
+    let (mut glsl, mut spirv) = (Vec::new(), Vec::new());
     for example in EXAMPLES {
         for unroll in [Unroll::Full, Unroll::None] {
             let settings = Settings {
@@ -145,10 +149,21 @@ fn every_example_is_emitted_in_every_language() {
                 }
                 let options = EmitOptions::new().stage(stage).targets(Target::ALL);
                 let emitted = compiled.emit(&options);
-                emitted.unwrap_or_else(|e| panic!("{} {unroll} {}: {e}", example.name, stage.name()));
+                let emitted = emitted.unwrap_or_else(|e| panic!("{} {unroll} {}: {e}", example.name, stage.name()));
+                for (name, contents) in emitted.named(&format!("{}-{unroll}", example.name)) {
+                    let path = folder.join(&name);
+                    std::fs::write(&path, contents).expect("a shader is written");
+                    match name.rsplit('.').next() {
+                        Some("comp" | "frag") => glsl.push(path),
+                        Some("spv") => spirv.push(path),
+                        _ => {}
+                    }
+                }
             }
         }
     }
+    assert!(glsl.len() > 100 && spirv.len() > 100);
+    other_compilers(&glsl, &spirv);
 }
 
 #[test]

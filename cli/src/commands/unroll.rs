@@ -5,11 +5,13 @@ use crate::failure::Failure;
 use crate::gpu::Gpu;
 use crate::{scene, table};
 use serde::Serialize;
+use std::path::Path;
 use std::time::SystemTime;
 use straightline_codegen::{Compiled, Kernel, Settings, Unroll};
 use straightline_manifest::Stage;
 use straightline_runtime::Pass;
 use straightline_study::execute::{Bench, Bound, Clock, ExecuteError, Inputs, Job, Times, interpret, test_inputs};
+use straightline_study::picture;
 
 /// Policies in the order of the table; all are compared with the first.
 const POLICIES: [Unroll; 4] = [Unroll::None, Unroll::Partial(2), Unroll::Partial(4), Unroll::Full];
@@ -94,6 +96,9 @@ pub fn run(args: &UnrollArgs) -> Result<(), Failure> {
             });
         }
     }
+    if let Some(folder) = &args.pictures {
+        write_pictures(&bench, folder, &subjects)?;
+    }
     let record = Record {
         command: std::env::args().collect::<Vec<_>>().join(" "),
         date: humantime::format_rfc3339_seconds(SystemTime::now()).to_string(),
@@ -151,6 +156,24 @@ fn differences(bench: &Bench, subject: &Subject, compiled: &Compiled) -> Result<
             .copied()
     };
     Ok((at(1.0).unwrap_or(0.0), at(0.999).unwrap_or(0.0)))
+}
+
+/// What each kernel makes, unrolled.
+fn write_pictures(bench: &Bench, folder: &Path, subjects: &[Subject]) -> Result<(), Failure> {
+    std::fs::create_dir_all(folder).map_err(|e| Failure::of(format!("cannot make `{}`: {e}", folder.display())))?;
+    let mut all = Vec::new();
+    for subject in subjects {
+        let Some((compiled, ..)) = subject.forms.last() else {
+            continue;
+        };
+        let frame = bench
+            .run(compiled, Stage::Compute, &subject.inputs)
+            .map_err(Failure::of)?;
+        picture::write(&folder.join(format!("{}.png", subject.name)), &frame).map_err(Failure::of)?;
+        all.push((subject.name.as_str(), frame));
+    }
+    let columns: Vec<_> = all.iter().map(|(name, frame)| (*name, frame)).collect();
+    picture::write(&folder.join("all.png"), &picture::montage(&columns)).map_err(Failure::of)
 }
 
 fn print(args: &UnrollArgs, record: &Record) -> Result<(), Failure> {

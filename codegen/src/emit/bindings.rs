@@ -112,7 +112,11 @@ fn module(module: &Module<'_>) -> TokenStream {
 
 /// A line of documentation as `///` is followed by one.
 pub fn spaced(line: &str) -> String {
-    if line.is_empty() { String::new() } else { format!(" {line}") }
+    if line.is_empty() {
+        String::new()
+    } else {
+        format!(" {line}")
+    }
 }
 
 /// What the shader is and was made from, a line each.

@@ -136,7 +136,7 @@ impl Evaluator<'_> {
                         .into(),
                 )
             }
-            ("sample", [Value::Sampler(sampler), uv]) if texture.kind == TextureKind::Flat && !texture.framed => {
+            ("sample", [Value::Sampler(sampler), uv]) if texture.kind == TextureKind::Flat => {
                 let uv = self.uv(uv, span)?;
                 self.filtering(*sampler, span)?;
                 let ty = Type::value(Scalar::F32, texture.components);
@@ -147,9 +147,7 @@ impl Evaluator<'_> {
                 };
                 Ok(Value::Node(self.builder.add(op, vec![uv], ty)))
             }
-            ("gather", [component, Value::Sampler(sampler), uv])
-                if texture.kind == TextureKind::Flat && !texture.framed =>
-            {
+            ("gather", [component, Value::Sampler(sampler), uv]) if texture.kind == TextureKind::Flat => {
                 let uv = self.uv(uv, span)?;
                 self.filtering(*sampler, span)?;
                 let component = match self.known_int(component) {
@@ -288,9 +286,8 @@ impl Evaluator<'_> {
 
 fn no_such_method(texture: &Texture, name: &str, span: Span) -> Exit {
     let (ty, methods) = match (texture.kind, texture.framed) {
-        (TextureKind::Flat, true) => ("Frame", "`load(coord)` and `size()`"),
-        (TextureKind::Flat, false) => (
-            "Texture",
+        (TextureKind::Flat, framed) => (
+            if framed { "Frame" } else { "Texture" },
             "`load(coord)`, `sample(sampler, uv)`, `gather(component, sampler, uv)` and `size()`",
         ),
         (TextureKind::Layers, _) => ("FrameLayers", "`load(coord, layer)`"),
@@ -304,7 +301,9 @@ fn no_such_method(texture: &Texture, name: &str, span: Span) -> Exit {
         .label("not supported")
         .help(format!("it has {methods}"));
     match name {
-        "sample" | "gather" => error.note("only a `Texture` can be read between its texels").into(),
+        "sample" | "gather" => error
+            .note("a `Frame` or `Texture` is read between its texels, by a `Sampler`")
+            .into(),
         _ => error.into(),
     }
 }

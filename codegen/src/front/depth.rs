@@ -13,14 +13,16 @@ const LONGEST_CHAIN: usize = 1000;
 const MOST_TOKENS: usize = 1_000_000;
 
 /// Refuses a text on which a parser would run out of stack. What is no list of tokens is for the parser to refuse.
-pub fn check(file: u32, text: &str) -> Result<(), Diagnostic> {
+pub fn check(file: u32, text: &str) -> Result<(), Box<Diagnostic>> {
     let Ok(tokens) = text.parse::<TokenStream>() else {
         return Ok(());
     };
     let refuse = |span: proc_macro2::Span, what: String| {
-        Err(Diagnostic::at(super::place(file, span), what)
-            .label("here")
-            .help("give parts of it a name with `let`, or put them into functions"))
+        Err(Box::new(
+            Diagnostic::at(super::place(file, span), what)
+                .label("here")
+                .help("give parts of it a name with `let`, or put them into functions"),
+        ))
     };
     let mut open = vec![tokens.into_iter()];
     let mut chains = vec![0usize];

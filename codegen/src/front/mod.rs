@@ -24,7 +24,7 @@ pub fn parse(files: &Arc<Vec<File>>, entry: &str) -> Result<Library, Errors> {
     let mut syntax = Vec::new();
     for (index, file) in files.iter().enumerate() {
         if let Err(error) = depth::check(index as u32, &file.text) {
-            errors.push(error);
+            errors.push(*error);
             continue;
         }
         match syn::parse_file(&file.text) {

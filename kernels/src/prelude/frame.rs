@@ -1,6 +1,7 @@
 //! Images with one texel for each pixel of the output.
 
-use glam::{IVec2, UVec2};
+use super::texture::{self, Sampler, Texel};
+use glam::{IVec2, UVec2, Vec2, Vec4};
 
 /// A single-sampled image with one texel for each pixel of the output. Bound as a `texture_2d<f32>`.
 ///
@@ -38,6 +39,20 @@ impl<T: Copy> Frame<T> {
     pub fn load(&self, coord: IVec2) -> T {
         let inside = coord.clamp(IVec2::ZERO, self.size.as_ivec2() - 1);
         self.texels[(inside.y as u32 * self.size.x + inside.x as u32) as usize]
+    }
+}
+
+impl<T: Texel> Frame<T> {
+    /// The image at `uv`, (0, 0) its upper left and (1, 1) its lower right corner, as `sampler` reads it.
+    /// A GPU weighs texels in steps of 1/256.
+    pub fn sample(&self, sampler: &Sampler, uv: Vec2) -> T {
+        texture::sample(self.size, sampler, uv, |coord| self.load(coord))
+    }
+
+    /// Component `component` of the four texels that a linear filter would weigh at `uv`: lower left, lower right,
+    /// upper right, upper left.
+    pub fn gather(&self, component: usize, sampler: &Sampler, uv: Vec2) -> Vec4 {
+        texture::gather(self.size, sampler, uv, |coord| self.load(coord).component(component))
     }
 }
 

@@ -59,6 +59,7 @@ pub fn sign<T: Floats>(x: T) -> T {
 }
 
 /// `x` between 0 and 1.
+#[allow(clippy::manual_clamp)] // of a NaN this gives a number, as in the graph
 pub fn saturate<T: Floats>(x: T) -> T {
     x.map(|x| x.min(1.0).max(0.0))
 }

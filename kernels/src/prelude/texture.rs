@@ -68,6 +68,10 @@ impl Address {
         };
         inside as u32
     }
+
+    fn inside(self, coord: IVec2, size: UVec2) -> IVec2 {
+        IVec2::new(self.wrap(coord.x, size.x) as i32, self.wrap(coord.y, size.y) as i32)
+    }
 }
 
 /// How a [`Texture`] is read between its texels. Bound as a `sampler`, which the host makes.
@@ -142,23 +146,35 @@ impl<T: Texel> Texture<T> {
     /// The image at `uv`, (0, 0) its upper left and (1, 1) its lower right corner, as `sampler` reads it.
     /// A GPU weighs texels in steps of 1/256.
     pub fn sample(&self, sampler: &Sampler, uv: Vec2) -> T {
-        filtered(sampler.filter, uv * self.size.as_vec2(), |coord| {
-            self.at(coord, sampler.address)
-        })
+        sample(self.size, sampler, uv, |coord| self.at(coord, Address::Clamp))
     }
 
     /// Component `component` of the four texels that a linear filter would weigh at `uv`: lower left, lower right,
     /// upper right, upper left.
     pub fn gather(&self, component: usize, sampler: &Sampler, uv: Vec2) -> Vec4 {
-        let (corner, _) = footprint(uv * self.size.as_vec2());
-        let tap = |x, y| self.at(corner + IVec2::new(x, y), sampler.address).component(component);
-        Vec4::new(tap(0, 1), tap(1, 1), tap(1, 0), tap(0, 0))
+        gather(self.size, sampler, uv, |coord| {
+            self.at(coord, Address::Clamp).component(component)
+        })
     }
 
     fn at(&self, coord: IVec2, address: Address) -> T {
         let (x, y) = (address.wrap(coord.x, self.size.x), address.wrap(coord.y, self.size.y));
         self.texels[(y * self.size.x + x) as usize]
     }
+}
+
+/// What `sampler` makes of an image of `size` at `uv`; `texel` is only asked inside.
+pub(super) fn sample<T: Texel>(size: UVec2, sampler: &Sampler, uv: Vec2, texel: impl Fn(IVec2) -> T) -> T {
+    filtered(sampler.filter, uv * size.as_vec2(), |coord| {
+        texel(sampler.address.inside(coord, size))
+    })
+}
+
+/// The four texels that a linear filter would weigh: lower left, lower right, upper right, upper left.
+pub(super) fn gather(size: UVec2, sampler: &Sampler, uv: Vec2, texel: impl Fn(IVec2) -> f32) -> Vec4 {
+    let (corner, _) = footprint(uv * size.as_vec2());
+    let tap = |x, y| texel(sampler.address.inside(corner + IVec2::new(x, y), size));
+    Vec4::new(tap(0, 1), tap(1, 1), tap(1, 0), tap(0, 0))
 }
 
 /// What a filter makes of the texels around a place.

@@ -136,7 +136,7 @@ impl<'a> Converters<'a> {
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: None,
             color_attachments: if is_depth { &[] } else { &colours },
-            depth_stencil_attachment: is_depth.then(|| wgpu::RenderPassDepthStencilAttachment {
+            depth_stencil_attachment: is_depth.then_some(wgpu::RenderPassDepthStencilAttachment {
                 view: &view,
                 depth_ops: Some(wgpu::Operations {
                     load: wgpu::LoadOp::Clear(1.0),

@@ -27,6 +27,9 @@ impl<R: Real> Interpreted<R> {
     }
 }
 
+/// A row of colours, and of each pixel that had a NaN or an infinity where that came from.
+type Row<R> = (Vec<[R; 4]>, Vec<([u32; 2], String)>);
+
 /// Computes every pixel of a kernel in the precision `R`; with `watch`, notes where NaNs and infinities come from.
 ///
 /// # Errors
@@ -59,7 +62,7 @@ pub fn interpret<R: Real>(compiled: &Compiled, inputs: &Inputs, watch: bool) -> 
     let interpreter = Interpreter::<R>::in_precision(&compiled.graph, &compiled.schedule, frame, &bindings)
         .map_err(|e| ExecuteError::Input(e.to_string()))?;
     let interpreter = if watch { interpreter.watch() } else { interpreter };
-    let rows: Vec<(Vec<[R; 4]>, Vec<([u32; 2], String)>)> = (0..height)
+    let rows: Vec<Row<R>> = (0..height)
         .into_par_iter()
         .map_init(
             || interpreter.scratch(),

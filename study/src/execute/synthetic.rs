@@ -93,7 +93,7 @@ impl Surface {
             let line = ((uv.x * 60.0 + uv.y * 14.0) * (1.0 + uv.y)).sin();
             return Surface {
                 depth: 2.0 + uv.y,
-                normal: vec3(0.6, 0.0, 0.8),
+                normal: vec3(0.0, 0.6, 0.8),
                 color: if line > 0.0 {
                     vec3(0.95, 0.95, 0.9)
                 } else {
@@ -104,7 +104,7 @@ impl Surface {
         let tile = ((uv.x * 9.0).floor() + (uv.y * 6.0).floor()).rem_euclid(2.0);
         Surface {
             depth: 4.0 + 4.0 * (1.0 - uv.y),
-            normal: vec3(0.0, -0.6, 0.8),
+            normal: vec3(0.0, -0.89, 0.456),
             color: vec3(0.2, 0.5, 0.65) * (0.6 + 0.4 * tile) + vec3(0.0, 0.0, 0.2) * uv.y,
         }
     }

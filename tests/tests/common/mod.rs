@@ -2,6 +2,8 @@
 
 #![allow(dead_code)] // each test uses a part
 
+use std::path::PathBuf;
+use std::process::Command;
 use straightline_codegen::{Compiled, Kernel, Settings, Unroll};
 use straightline_kernels::prelude::*;
 use straightline_kernels::sraa::{Falloff, GBuffer, Metric, Normalisation, Pattern, Shading, Sraa};
@@ -186,4 +188,19 @@ pub fn same_bits(a: &[[f32; 4]], b: &[[f32; 4]]) -> Result<(), String> {
         }
     }
     Ok(())
+}
+
+/// Has two compilers that share nothing with naga read GLSL and SPIR-V files.
+pub fn other_compilers(glsl: &[PathBuf], spirv: &[PathBuf]) {
+    run("glslangValidator", "glslang-tools", &["-V", "-o", "/dev/null"], glsl);
+    run("spirv-val", "spirv-tools", &["--target-env", "vulkan1.1"], spirv);
+}
+
+fn run(tool: &str, package: &str, arguments: &[&str], files: &[PathBuf]) {
+    for file in files {
+        let run = Command::new(tool).args(arguments).arg(file).output();
+        let run = run.unwrap_or_else(|e| panic!("cannot run {tool} ({e}): install Debian's {package}"));
+        let said = String::from_utf8_lossy(&run.stdout).into_owned() + &String::from_utf8_lossy(&run.stderr);
+        assert!(run.status.success(), "{tool} refuses {}:\n{said}", file.display());
+    }
 }

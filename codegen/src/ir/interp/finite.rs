@@ -17,27 +17,27 @@ impl Birth {
     /// What happened, in a sentence: which variable, in which round of which loops, at which line.
     pub fn describe(&self, graph: &Graph) -> String {
         let lanes: Vec<String> = self.value.iter().map(f64::to_string).collect();
-        let what = match &graph.node(self.node).op {
-            Op::Const(_) => "is the constant".to_owned(),
-            Op::Unary(op) => format!("became, in `{op:?}`,").to_lowercase(),
-            Op::Binary(op) => format!("became, in `{op:?}`,").to_lowercase(),
-            read if read.is_read() => "was read as".to_owned(),
-            _ => "became".to_owned(),
-        };
+        let value = lanes.join(", ");
         let origin = self.origin(graph);
         let name = origin.map_or("a value", |o| o.name.as_str());
-        let mut text = format!("`{name}` {what} {}", lanes.join(", "));
+        let mut text = match &graph.node(self.node).op {
+            Op::Const(_) => format!("`{name}` is the constant {value}"),
+            Op::Unary(op) => format!("`{name}` became {value} in `{}`", format!("{op:?}").to_lowercase()),
+            Op::Binary(op) => format!("`{name}` became {value} in `{}`", format!("{op:?}").to_lowercase()),
+            read if read.is_read() => format!("`{name}` was read as {value}"),
+            _ => format!("`{name}` became {value}"),
+        };
         let rounds: Vec<String> = self
             .counters
             .iter()
             .map(|c| format!("{} {}", c.name, c.value))
             .collect();
         if !rounds.is_empty() {
-            text += &format!(" in {}", rounds.join(", "));
+            text += &format!(", {}", rounds.join(", "));
         }
         if let Some(origin) = origin {
             let file = graph.files.get(origin.file as usize).map_or("", String::as_str);
-            text += &format!(" at {file}:{}", origin.line);
+            text += &format!(", at {file}:{}", origin.line);
         }
         text
     }
