@@ -204,3 +204,138 @@ fn broken_captures_are_refused() {
     assert!(good.status.success(), "{}", String::from_utf8_lossy(&good.stderr));
     assert!(picture.exists());
 }
+
+/// A kernel of examples/kernels, from the folder that tests run in.
+fn example(name: &str) -> String {
+    format!("{}/../examples/kernels/{name}.rs", env!("CARGO_MANIFEST_DIR"))
+}
+
+#[test]
+fn any_kernel_runs_on_a_picture() {
+    let folder = scratch("run");
+    let picture = format!("{}/../docs/detail.png", env!("CARGO_MANIFEST_DIR"));
+    let out = folder.join("out.png");
+    let out = out.to_str().unwrap();
+    let run = |more: &[&str]| {
+        let kernel = example("median");
+        let mut words = vec!["run", kernel.as_str(), "--out", out];
+        words.extend(more);
+        straightline(&words)
+    };
+    for more in [
+        &["--input", picture.as_str(), "--size", "64x48", "--executor", "cpu"][..],
+        &["--input", picture.as_str(), "--executor", "gpu", "--unroll", "2"][..],
+    ] {
+        let finished = run(more);
+        let said = String::from_utf8_lossy(&finished.stderr).into_owned();
+        // The interpreter wants a picture of the output's size for a `Frame`.
+        if more.contains(&"64x48") {
+            assert!(
+                !finished.status.success() && said.contains("has the output's size"),
+                "{said}"
+            );
+        } else {
+            assert!(finished.status.success(), "{said}");
+            assert!(Path::new(out).exists());
+        }
+    }
+}
+
+#[test]
+fn run_names_what_it_was_not_given() {
+    let folder = scratch("run-wrong");
+    let out = folder.join("out.png");
+    let out = out.to_str().unwrap();
+    let picture = format!("{}/../docs/detail.png", env!("CARGO_MANIFEST_DIR"));
+    let two = example("joint_bilateral_upsampling");
+    let one = example("median");
+    fails(
+        &["run", &two, "--input", &picture, "--out", out],
+        2,
+        &["which texture", "low_depth"],
+    );
+    fails(
+        &["run", &one, "--input", "colour=x.png", "--out", out],
+        2,
+        &["no texture `colour`", "color"],
+    );
+    fails(
+        &["run", &one, "--input", "nowhere.png", "--out", out],
+        1,
+        &["nowhere.png"],
+    );
+    fails(
+        &["run", &one, "--input", &picture, "--out", "picture.jpg"],
+        2,
+        &["picture.jpg", ".png"],
+    );
+    fails(
+        &["run", &one, "--input", &picture, "--uniform", "sigma=2", "--out", out],
+        2,
+        &["no uniform `sigma`"],
+    );
+    fails(
+        &["run", &one, "--input", &picture, "--precision", "f16", "--out", out],
+        2,
+        &["--executor cpu"],
+    );
+    assert!(is_empty(&folder));
+}
+
+#[test]
+fn a_nan_is_traced_to_its_line() {
+    let folder = scratch("nan");
+    let text = "pub fn k(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {\n    let here = color.load(pixel);\n    let mut sum = 0.0;\n    for tap in 0..3 {\n        let ratio = tap as f32 / (here.x - here.x);\n        sum += ratio;\n    }\n    Vec4::splat(sum)\n}\n";
+    let kernel = write(&folder, "k.rs", text);
+    let picture = format!("{}/../docs/kernels.png", env!("CARGO_MANIFEST_DIR"));
+    let out = folder.join("out.png");
+    for unroll in ["full", "none"] {
+        let words = [
+            "run",
+            &kernel,
+            "--input",
+            &picture,
+            "--out",
+            out.to_str().unwrap(),
+            "--executor",
+            "cpu",
+            "--check-finite",
+            "--unroll",
+            unroll,
+        ];
+        fails(&words, 1, &["`ratio` became NaN in `div`", "tap 0", "k.rs:5"]);
+    }
+    assert!(!out.exists());
+}
+
+#[test]
+fn unrolling_is_compared_and_recorded() {
+    let folder = scratch("unroll");
+    let record = folder.join("record.json");
+    let kernel = example("sobel");
+    let words = [
+        "unroll",
+        &kernel,
+        "--size",
+        "32x16",
+        "--rounds",
+        "1",
+        "--record",
+        record.to_str().unwrap(),
+        "--pictures",
+        folder.to_str().unwrap(),
+    ];
+    let finished = straightline(&words);
+    assert!(
+        finished.status.success(),
+        "{}",
+        String::from_utf8_lossy(&finished.stderr)
+    );
+    let table = String::from_utf8_lossy(&finished.stdout).into_owned();
+    for word in ["none", "partial(2)", "partial(4)", "full"] {
+        assert!(table.contains(word), "{table}");
+    }
+    let record = std::fs::read_to_string(record).expect("a record");
+    assert!(record.contains("\"adapter\"") && record.contains("largest_difference_to_f64"));
+    assert!(folder.join("sobel.png").exists());
+}

@@ -145,16 +145,10 @@ fn bounded_by(g: &Graph, id: NodeId, bound: NodeId) -> bool {
 
 fn integer(b: &mut Builder<'_>, op: BinaryOp, x: NodeId, y: NodeId) -> Option<NodeId> {
     if matches!(op, BinaryOp::Div | BinaryOp::Rem)
-        && let Some(mut divisor) = b.graph().constant(y)
+        && let Some(divisor) = without_zeros(b, y)
     {
-        // By 0 as by 1: the dividend, and no remainder. Shading languages refuse to divide by a known 0.
         let ty = b.graph().ty(y);
-        let lanes = &mut divisor[..ty.lanes() as usize];
-        if lanes.contains(&0) {
-            lanes.iter_mut().filter(|lane| **lane == 0).for_each(|lane| *lane = 1);
-            let divisor = b.constant(ty, divisor);
-            return Some(b.add(Op::Binary(op), vec![x, divisor], ty));
-        }
+        return Some(b.add(Op::Binary(op), vec![x, divisor], ty));
     }
     let g = b.graph();
     let is = |id: NodeId, value: u32| all_lanes(g, id, value);
@@ -178,6 +172,34 @@ fn integer(b: &mut Builder<'_>, op: BinaryOp, x: NodeId, y: NodeId) -> Option<No
         }
         BinaryOp::Eq | BinaryOp::Le | BinaryOp::Ge if x == y && g.ty(x).is_scalar() => Some(b.bool(true)),
         BinaryOp::Ne | BinaryOp::Lt | BinaryOp::Gt if x == y && g.ty(x).is_scalar() => Some(b.bool(false)),
+        _ => None,
+    }
+}
+
+/// A divisor with 1 for every lane that is known to be 0. Dividing by 0 is as dividing by 1: it gives the dividend, and no
+/// remainder; but shading languages refuse to divide by a known 0.
+fn without_zeros(b: &mut Builder<'_>, y: NodeId) -> Option<NodeId> {
+    let ty = b.graph().ty(y);
+    let node = b.graph().node(y).clone();
+    match node.op {
+        Op::Const(mut bits) => {
+            let lanes = &mut bits[..ty.lanes() as usize];
+            if !lanes.contains(&0) {
+                return None;
+            }
+            lanes.iter_mut().filter(|lane| **lane == 0).for_each(|lane| *lane = 1);
+            Some(b.constant(ty, bits))
+        }
+        Op::Compose => {
+            let zero = |b: &Builder<'_>, id: NodeId| all_lanes(b.graph(), id, 0);
+            if !node.args.iter().any(|lane| zero(b, *lane)) {
+                return None;
+            }
+            let one = b.constant(Type::scalar(ty.kind()?), [1, 0, 0, 0]);
+            let lanes = node.args.iter().map(|lane| if zero(b, *lane) { one } else { *lane });
+            let lanes = lanes.collect();
+            Some(b.add(Op::Compose, lanes, ty))
+        }
         _ => None,
     }
 }
