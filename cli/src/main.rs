@@ -4,7 +4,6 @@ mod args;
 mod commands;
 mod failure;
 mod gpu;
-mod resolve;
 mod scene;
 mod table;
 

@@ -4,6 +4,7 @@
 
 pub mod capture;
 pub mod execute;
+pub mod gbuffer;
 pub mod metrics;
 pub mod oracle;
 pub mod picture;

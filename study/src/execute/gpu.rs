@@ -189,6 +189,7 @@ impl Bench {
                 &view(wgpu::TextureViewDimension::D2Array),
                 size,
                 layers.len() as u32,
+                components,
             ),
         })
     }
