@@ -140,6 +140,9 @@ pub struct EmitArgs {
     /// Texel format of the output: rgba8unorm, rgba16float or rgba32float
     #[arg(long, value_name = "FORMAT", default_value = "rgba16float", value_parser = |s: &str| s.parse::<Format>())]
     pub format: Format,
+    /// Filter a rectangle that the host states, not all of the image: for tiles
+    #[arg(long)]
+    pub region: bool,
     /// Invocations of a compute workgroup, across and down
     #[arg(long, value_name = "WxH", value_parser = size)]
     pub workgroup: Option<UVec2>,

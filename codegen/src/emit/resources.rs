@@ -8,8 +8,8 @@ use crate::ir::{Buffer, Graph, NodeId, Op, Sampler, Texture, TextureKind, Unifor
 use crate::passes::layers_read;
 use crate::pipeline::Compiled;
 use straightline_manifest::{
-    Access, Binding, BindingKind, Dimension, Extent, Manifest, Output, SCHEMA, SampleType, SamplerType, Stage,
-    UniformField,
+    Access, Binding, BindingKind, Dimension, Extent, Manifest, Output, REGION, REGION_SIZE, SCHEMA, SampleType,
+    SamplerType, Stage, UniformField, region_fields,
 };
 
 /// Name of the uniform buffer.
@@ -99,7 +99,7 @@ impl Resources {
         let names = read.iter().map(|t| &graph.textures[t.index as usize].name);
         let names = names.chain(read_buffers.iter().map(|(k, _)| &graph.buffers[*k as usize].name));
         let names = names.chain(used_samplers.iter().map(|(k, _)| &graph.samplers[*k as usize].name));
-        let own = [UNIFORMS, SAMPLER, OUTPUT, "frame", "pixel", "id", "position"];
+        let own = [UNIFORMS, SAMPLER, OUTPUT, REGION, "frame", "pixel", "id", "position"];
         if let Some(name) = names
             .chain(uniforms.iter().map(|u| &u.name))
             .find(|name| super::names::is_reserved(name) || own.contains(&name.as_str()))
@@ -170,9 +170,16 @@ impl Resources {
         (!self.fields.is_empty()).then_some(next)
     }
 
+    /// Binding number of the rectangle's uniform buffer, if there is one.
+    pub fn region_binding(&self) -> Option<u32> {
+        let before = u32::from(self.options.stage == Stage::Compute) + u32::from(!self.fields.is_empty());
+        self.options.region.then_some(self.inputs() + before)
+    }
+
     /// Binding number of the sampler that only GLSL has: the last.
     pub fn sampler_binding(&self) -> u32 {
-        self.inputs() + u32::from(self.options.stage == Stage::Compute) + u32::from(!self.fields.is_empty())
+        let compute = u32::from(self.options.stage == Stage::Compute);
+        self.inputs() + compute + u32::from(!self.fields.is_empty()) + u32::from(self.options.region)
     }
 
     /// The manifest of the shader, without its files and with `statements` still 0.
@@ -215,6 +222,18 @@ impl Resources {
                     access: Access::Read,
                     size: self.uniform_size,
                     fields: self.fields.clone(),
+                },
+            });
+        }
+        if let Some(binding) = self.region_binding() {
+            bindings.push(Binding {
+                group: 0,
+                binding,
+                name: REGION.to_owned(),
+                kind: BindingKind::Uniform {
+                    access: Access::Read,
+                    size: REGION_SIZE,
+                    fields: region_fields(),
                 },
             });
         }
