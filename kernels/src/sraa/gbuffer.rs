@@ -158,7 +158,7 @@ impl Sraa {
         while columns * columns < self.samples() {
             columns += 1;
         }
-        let rows = (self.samples() + columns - 1) / columns;
+        let rows = self.samples().div_ceil(columns);
         ivec2(columns as i32, rows as i32)
     }
 

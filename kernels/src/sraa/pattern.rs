@@ -93,11 +93,11 @@ impl Sraa {
         let samples = self.samples();
         if self.pattern == Pattern::Listed {
             assert!(
-                self.offsets.len() % 2 == 0,
+                self.offsets.len().is_multiple_of(2),
                 "`offsets` needs an x and a y for each sample: an even count of numbers"
             );
             assert!(
-                samples >= 1 && samples <= 64,
+                (1..=64).contains(&samples),
                 "pattern=listed needs 1 to 64 samples in `offsets`"
             );
             for later in 0..samples {

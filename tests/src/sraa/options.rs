@@ -62,7 +62,7 @@ pub fn random(count: usize, seed: u64) -> Vec<Options> {
     let (choices, mut random) = (choices(), Random(seed));
     let mut set = || {
         let chosen = choices.iter().map(|(name, values)| {
-            let k = (random.next() % values.len() as u64) as usize;
+            let k = (random.number() % values.len() as u64) as usize;
             (name.clone(), values[k].clone())
         });
         completed(chosen.collect())
