@@ -33,6 +33,8 @@ pub enum Command {
     Run(RunArgs),
     /// Compare unroll policies of kernels in one run: statements, reads, time, error
     Unroll(UnrollArgs),
+    /// Count and measure what SRAA costs: memory, reads, time of each metric, and the shading cost from which it pays
+    Budget(BudgetArgs),
     /// Antialias a captured frame
     Resolve(ResolveArgs),
     /// Render a scene or a model to a capture: the frame that `resolve` reads
@@ -227,6 +229,27 @@ pub struct UnrollArgs {
     /// Also write what each kernel makes to this folder, and all of it in one picture, `all.png`
     #[arg(long, value_name = "DIR")]
     pub pictures: Option<PathBuf>,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+    #[command(flatten)]
+    pub adapter: AdapterArgs,
+}
+
+#[derive(Debug, Args)]
+pub struct BudgetArgs {
+    /// Width and height in pixels
+    #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = size)]
+    pub size: UVec2,
+    /// Rounds of timing; each runs every filter once, in turn
+    #[arg(long, value_name = "N", default_value_t = 9, value_parser = clap::value_parser!(u32).range(1..=1000))]
+    pub rounds: u32,
+    /// What drawing the further geometry samples costs in your renderer, in milliseconds
+    #[arg(long, value_name = "MS", default_value_t = 0.0)]
+    pub geometry_ms: f64,
+    /// Also write the figures and their circumstances to this JSON file
+    #[arg(long, value_name = "FILE")]
+    pub record: Option<PathBuf>,
     /// Print JSON
     #[arg(long)]
     pub json: bool,
