@@ -10,6 +10,7 @@
 //! axis. mₛₜ is the difference of the two surfaces: the larger of `depth_scale·|Δdepth|` and 1 − a·b of their
 //! normals. Beyond the border the nearest pixel's surface and colour are repeated.
 
+pub mod edge;
 mod params;
 mod pattern;
 
