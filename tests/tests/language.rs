@@ -4,11 +4,12 @@
 
 mod common;
 
-use common::{Random, bench, other_compilers, same_bits};
+use common::{bench, other_compilers, same_bits};
 use std::path::PathBuf;
 use straightline_codegen::{Branches, Compiled, EmitOptions, Kernel, Settings, Stage, Unroll, emit::Target};
 use straightline_kernels::prelude::*;
 use straightline_study::execute::{self, SamplerState, interpret};
+use straightline_tests::sraa::Random;
 
 /// What the examples read, by name.
 pub struct World {

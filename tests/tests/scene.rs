@@ -2,43 +2,40 @@
 
 mod common;
 
-use common::*;
+use common::same_bits;
 use straightline_codegen::Unroll;
 use straightline_kernels::prelude::*;
-use straightline_kernels::sraa::{GBuffer, Pattern};
 use straightline_study::capture::{Capture, ShadingSample};
+use straightline_study::execute::interpret;
+use straightline_study::gbuffer;
 use straightline_study::metrics;
 use straightline_study::render::{CpuRenderer, capture, reference};
 use straightline_study::scene::builtin;
+use straightline_tests::sraa::compiled;
+use straightline_tests::sraa::options::options;
 
-fn rendered(size: UVec2, pattern: Pattern) -> (Capture, Frame<Vec4>) {
+fn captured(size: UVec2, pattern: &str) -> Capture {
     let renderer = CpuRenderer::new(&builtin(), size).expect("the scene is drawn");
-    let offsets: Vec<Vec2> = (0..pattern.samples()).map(|k| pattern.offset(k)).collect();
-    let capture = capture(&renderer, &offsets, ShadingSample::Centre).expect("captured");
-    let reference = reference(&renderer, 8, &mut |_, _| {}).expect("supersampled");
-    (capture, reference)
+    let samples = gbuffer::samples(pattern).expect("a pattern");
+    capture(&renderer, &samples, ShadingSample::Centre).expect("captured")
 }
 
-fn resolve(capture: &Capture, options: &[(&str, &str)], unroll: Unroll) -> Frame<Vec4> {
-    let options: Vec<_> = options
-        .iter()
-        .map(|(k, v)| ((*k).to_owned(), (*v).to_owned()))
-        .collect();
-    let inputs = Inputs {
-        size: capture.size,
-        gbuffer: GBuffer {
-            depth: capture.depth.clone(),
-            normal: capture.normal.clone().expect("normals"),
-        },
-        color: capture.color.clone(),
-    };
-    let texels = interpret(&compile(&options, unroll), &inputs, &[]);
-    Frame::new(capture.size, texels.into_iter().map(Vec4::from_array).collect())
+fn rendered(size: UVec2, pattern: &str) -> (Capture, Frame<Vec4>) {
+    let renderer = CpuRenderer::new(&builtin(), size).expect("the scene is drawn");
+    let reference = reference(&renderer, 8, &mut |_, _| {}).expect("supersampled");
+    (captured(size, pattern), reference)
+}
+
+fn resolve(capture: &Capture, words: &[(&str, &str)], unroll: Unroll) -> Frame<Vec4> {
+    let compiled = compiled(&options(words), unroll).unwrap_or_else(|errors| panic!("{errors}"));
+    let inputs = gbuffer::inputs(capture, &compiled.options).expect("all is captured");
+    let interpreted = interpret::<f32>(&compiled, &inputs, false).expect("all is bound");
+    interpreted.frame(&inputs)
 }
 
 #[test]
 fn shifting_mends_what_the_listing_loses_and_changes_nothing_else() {
-    let (capture, reference) = rendered(uvec2(640, 360), Pattern::Latin4);
+    let (capture, reference) = rendered(uvec2(640, 360), "latin4");
     let paper = resolve(&capture, &[("normalisation", "paper")], Unroll::Full);
     let shifted = resolve(&capture, &[("normalisation", "shifted")], Unroll::Full);
     let (lost, left) = (metrics::non_finite(&paper), metrics::non_finite(&shifted));
@@ -55,8 +52,8 @@ fn shifting_mends_what_the_listing_loses_and_changes_nothing_else() {
 
 #[test]
 fn antialiasing_helps_and_more_samples_help_more() {
-    let (four, reference) = rendered(uvec2(320, 180), Pattern::Latin4);
-    let (sixteen, _) = rendered(uvec2(320, 180), Pattern::Latin16);
+    let (four, reference) = rendered(uvec2(320, 180), "latin4");
+    let sixteen = captured(uvec2(320, 180), "latin16");
     let plain = metrics::psnr(&four.color, &reference);
     let x4 = metrics::psnr(&resolve(&four, &[("pattern", "latin4")], Unroll::Full), &reference);
     let x16 = metrics::psnr(&resolve(&sixteen, &[("pattern", "latin16")], Unroll::Full), &reference);
@@ -66,25 +63,14 @@ fn antialiasing_helps_and_more_samples_help_more() {
 
 #[test]
 fn looped_and_unrolled_agree_bit_for_bit_on_the_scene() {
-    for (pattern, name) in [
-        (Pattern::Ordered4, "ordered4"),
-        (Pattern::Latin4, "latin4"),
-        (Pattern::Ordered16, "ordered16"),
-        (Pattern::Latin16, "latin16"),
-    ] {
-        let renderer = CpuRenderer::new(&builtin(), uvec2(96, 54)).expect("the scene is drawn");
-        let offsets: Vec<Vec2> = (0..pattern.samples()).map(|k| pattern.offset(k)).collect();
-        let capture = capture(&renderer, &offsets, ShadingSample::Centre).expect("captured");
-        for (_, options) in all_options().iter().filter(|(cfg, _)| cfg.pattern == pattern) {
-            let set: Vec<(&str, &str)> = options.iter().map(|(k, v)| (k.as_str(), v.as_str())).collect();
-            let bits = |unroll| {
-                resolve(&capture, &set, unroll)
-                    .texels()
-                    .iter()
-                    .map(|c| c.to_array())
-                    .collect::<Vec<_>>()
+    for pattern in gbuffer::PATTERNS {
+        let capture = captured(uvec2(96, 54), pattern);
+        for metric in ["planes-normals", "depth-normals", "normals", "depth"] {
+            let bits = |unroll| -> Vec<[f32; 4]> {
+                let resolved = resolve(&capture, &[("pattern", pattern), ("metric", metric)], unroll);
+                resolved.texels().iter().map(|color| color.to_array()).collect()
             };
-            same_bits(&bits(Unroll::None), &bits(Unroll::Full)).unwrap_or_else(|e| panic!("{name} {set:?}: {e}"));
+            same_bits(&bits(Unroll::None), &bits(Unroll::Full)).unwrap_or_else(|e| panic!("{pattern} {metric}: {e}"));
         }
     }
 }
