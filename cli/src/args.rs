@@ -39,6 +39,8 @@ pub enum Command {
     Resolve(ResolveArgs),
     /// Render a scene or a model to a capture: the frame that `resolve` reads
     Capture(CaptureArgs),
+    /// List the built-in scenes, and what each is for
+    Scenes(ScenesArgs),
     /// List the GPUs and drivers that wgpu sees, and what each can do
     Adapters(AdaptersArgs),
 }
@@ -292,8 +294,11 @@ pub struct AdapterArgs {
 
 #[derive(Debug, Args)]
 pub struct CaptureArgs {
-    /// Model to render instead of the built-in scene: .gltf, .glb or .obj
-    #[arg(long, value_name = "FILE")]
+    /// Built-in scene to render; `scenes` lists them
+    #[arg(long, value_name = "NAME", default_value = "roof")]
+    pub scene: String,
+    /// Model to render instead of a built-in scene: .gltf, .glb or .obj
+    #[arg(long, value_name = "FILE", conflicts_with = "scene")]
     pub mesh: Option<PathBuf>,
     /// Width and height in pixels
     #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = size)]
@@ -316,6 +321,13 @@ pub struct CaptureArgs {
 }
 
 #[derive(Debug, Args)]
+pub struct ScenesArgs {
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+#[derive(Debug, Args)]
 pub struct AdaptersArgs {
     /// Print JSON
     #[arg(long)]
@@ -327,11 +339,14 @@ pub struct DemoArgs {
     /// Folder for shaders and pictures
     #[arg(long, value_name = "DIR", default_value = "demo")]
     pub out: PathBuf,
+    /// Built-in scene to render; `scenes` lists them
+    #[arg(long, value_name = "NAME", default_value = "roof")]
+    pub scene: String,
     /// Width and height in pixels; by default 1280x720, or 320x180 where no GPU is
     #[arg(long, value_name = "WxH", value_parser = size)]
     pub size: Option<UVec2>,
-    /// Model to render instead of the built-in scene: .gltf, .glb or .obj
-    #[arg(long, value_name = "FILE")]
+    /// Model to render instead of a built-in scene: .gltf, .glb or .obj
+    #[arg(long, value_name = "FILE", conflicts_with = "scene")]
     pub mesh: Option<PathBuf>,
     /// Rounds of timing; each runs every shader once, in turn
     #[arg(long, value_name = "N", default_value_t = 15, value_parser = clap::value_parser!(u32).range(1..=1000))]
@@ -347,6 +362,7 @@ impl Default for DemoArgs {
     fn default() -> Self {
         DemoArgs {
             out: PathBuf::from("demo"),
+            scene: "roof".to_owned(),
             size: None,
             mesh: None,
             rounds: 15,

@@ -23,6 +23,7 @@ fn main() -> ExitCode {
         Command::Budget(args) => commands::budget::run(&args),
         Command::Resolve(args) => commands::resolve::run(&args),
         Command::Capture(args) => commands::capture::run(&args),
+        Command::Scenes(args) => commands::scenes::run(&args),
         Command::Adapters(args) => commands::adapters::run(&args),
     };
     match outcome {

@@ -10,11 +10,11 @@ use straightline_study::gbuffer;
 use straightline_study::render::{CpuRenderer, GpuRenderer, Renderer};
 use straightline_study::scene::{self, Scene};
 
-/// The built-in scene, or a model.
-pub fn load(mesh: Option<&Path>) -> Result<Scene, Failure> {
+/// A model, or else the built-in scene of a name.
+pub fn load(mesh: Option<&Path>, name: &str) -> Result<Scene, Failure> {
     match mesh {
         Some(path) => scene::load(path).map_err(Failure::of),
-        None => Ok(scene::builtin()),
+        None => Scene::named(name).map_err(|error| Failure::Usage(error.to_string())),
     }
 }
 

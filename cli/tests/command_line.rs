@@ -339,3 +339,28 @@ fn unrolling_is_compared_and_recorded() {
     assert!(record.contains("\"adapter\"") && record.contains("largest_difference_to_f64"));
     assert!(folder.join("sobel.png").exists());
 }
+
+#[test]
+fn scenes_are_listed_and_unknown_ones_refused() {
+    let listed = String::from_utf8_lossy(&straightline(&["scenes"]).stdout).into_owned();
+    for name in ["roof", "grooves", "sparkle"] {
+        assert!(
+            listed.lines().any(|line| line.starts_with(name)),
+            "no {name} in:\n{listed}"
+        );
+    }
+    let folder = scratch("scenes");
+    let out = folder.join("out");
+    let out_text = out.to_str().unwrap();
+    fails(
+        &["capture", "--scene", "rooof", "--out", out_text],
+        2,
+        &["no scene `rooof`", "roof, grooves"],
+    );
+    fails(
+        &["capture", "--scene", "floor", "--mesh", "some.obj", "--out", out_text],
+        2,
+        &["--mesh", "--scene"],
+    );
+    assert!(is_empty(&out));
+}

@@ -44,23 +44,42 @@ macro_rules! source {
 }
 
 /// Every built-in kernel.
-pub const CATALOGUE: &[Entry] = &[Entry {
-    name: "sraa",
-    summary: "Subpixel Reconstruction Antialiasing: 1x shading, subpixel geometry (Chajdas et al. 2011)",
-    sources: &[
-        source!("sraa/mod.rs"),
-        source!("sraa/options.rs"),
-        source!("sraa/pattern.rs"),
-        source!("sraa/gbuffer.rs"),
-        source!("sraa/view.rs"),
-        source!("sraa/metric.rs"),
-    ],
-    paper: sraa_paper,
-}];
+pub const CATALOGUE: &[Entry] = &[
+    Entry {
+        name: "sraa",
+        summary: "Subpixel Reconstruction Antialiasing: 1x shading, subpixel geometry (Chajdas et al. 2011)",
+        sources: &[
+            source!("sraa/mod.rs"),
+            source!("sraa/options.rs"),
+            source!("sraa/pattern.rs"),
+            source!("sraa/gbuffer.rs"),
+            source!("sraa/view.rs"),
+            source!("sraa/metric.rs"),
+        ],
+        paper: sraa_paper,
+    },
+    Entry {
+        name: "stalker",
+        summary: "Blur where normals turn or depth bends, as S.T.A.L.K.E.R. did (GPU Gems 2, chapter 9)",
+        sources: &[source!("edge/mod.rs"), source!("edge/stalker.rs")],
+        paper: no_paper,
+    },
+    Entry {
+        name: "tabula_rasa",
+        summary: "Blur where the gradient of depth or the normals change, as Tabula Rasa did (GPU Gems 3, chapter 19)",
+        sources: &[source!("edge/mod.rs"), source!("edge/tabula_rasa.rs")],
+        paper: no_paper,
+    },
+];
 
 /// The built-in kernel called `name`.
 pub fn find(name: &str) -> Option<&'static Entry> {
     CATALOGUE.iter().find(|entry| entry.name == name)
+}
+
+/// A publication that counts nothing.
+fn no_paper(_: &OptionValue<'_>) -> Option<PaperCounts> {
+    None
 }
 
 /// Section 3.5: "we read the G-buffers 58x per pixel (194 for 16x). The filter is evaluated 25 (81) times."

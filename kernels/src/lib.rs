@@ -7,6 +7,8 @@
 #![allow(clippy::needless_range_loop)]
 
 mod catalogue;
+#[cfg(feature = "native")]
+pub mod edge;
 mod options;
 #[cfg(feature = "native")]
 pub mod prelude;

@@ -3,6 +3,7 @@
 //! Only [`execute`] knows the generator. All else stands apart from it: the oracle and the metrics judge what it emits.
 
 pub mod capture;
+pub mod encode;
 pub mod execute;
 pub mod gbuffer;
 pub mod metrics;

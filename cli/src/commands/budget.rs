@@ -113,7 +113,7 @@ pub fn run(args: &BudgetArgs) -> Result<(), Failure> {
 
 fn measured(args: &BudgetArgs, gpu: &Gpu) -> Result<(Vec<Filter>, Clock), Failure> {
     let bench = gpu.bench();
-    let world = scene::load(None)?;
+    let world = scene::load(None, "roof")?;
     let renderer = scene::renderer(Some(gpu), &world, args.size)?;
     let mut subjects: Vec<(&str, &str, u64, Compiled, Pass, Bound)> = Vec::new();
     for (pattern, samples) in PATTERNS {

@@ -10,7 +10,7 @@ use straightline_study::render;
 pub fn run(args: &CaptureArgs) -> Result<(), Failure> {
     let samples = scene::pattern(&args.pattern)?;
     let shading = scene::shading(&args.shading)?;
-    let world = scene::load(args.mesh.as_deref())?;
+    let world = scene::load(args.mesh.as_deref(), &args.scene)?;
     let gpu = Gpu::open(&args.adapter)?;
     let renderer = scene::renderer(gpu.as_ref(), &world, args.size)?;
     let mut capture = render::capture(renderer.as_ref(), &samples, shading).map_err(Failure::of)?;

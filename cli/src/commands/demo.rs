@@ -70,7 +70,7 @@ pub fn run(args: &DemoArgs) -> Result<(), Failure> {
     let shaders = default_set::files().map_err(Failure::of)?;
     files::write_all(&args.out.join("shaders"), &shaders).map_err(Failure::of)?;
 
-    let world = scene::load(args.mesh.as_deref())?;
+    let world = scene::load(args.mesh.as_deref(), &args.scene)?;
     let renderer = scene::renderer(gpu.as_ref(), &world, size)?;
     let methods = [
         method("SRAA 4", "latin4", renderer.as_ref())?,

@@ -44,8 +44,12 @@ fn print_option(option: &OptionInfo) {
         }
         OptionKind::Number { min, max, .. } => {
             let bound = |b: &Option<f64>| b.map_or("any".to_owned(), |b| b.to_string());
+            let (or, default) = match option.uniform {
+                true => ("", "default: uniform, "),
+                false => (", or uniform", "default "),
+            };
             println!(
-                "      {} to {}, or uniform (default {})",
+                "      {} to {}{or} ({default}{})",
                 bound(min),
                 bound(max),
                 option.default
@@ -80,5 +84,8 @@ fn option_json(option: &OptionInfo) -> serde_json::Value {
         }
         OptionKind::Flag => json!(["true", "false"]),
     };
-    json!({ "name": option.name, "docs": option.docs, "default": option.default, "values": values })
+    json!({
+        "name": option.name, "docs": option.docs, "default": option.default, "values": values,
+        "uniform_by_default": option.uniform,
+    })
 }

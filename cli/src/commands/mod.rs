@@ -9,4 +9,5 @@ pub mod explain;
 pub mod list;
 pub mod resolve;
 pub mod run;
+pub mod scenes;
 pub mod unroll;

@@ -21,6 +21,8 @@ pub struct OptionInfo {
     pub kind: OptionKind,
     /// Its default, as it would be written.
     pub default: String,
+    /// Whether it is `uniform` unless a setting says otherwise: a number that is set at run time, with this default.
+    pub uniform: bool,
 }
 
 /// What an option can be.
@@ -105,7 +107,8 @@ impl Evaluator<'_> {
                 .iter()
                 .rev()
                 .find(|(name, _)| *name == info.name)
-                .map(|(_, value)| value.as_str());
+                .map(|(_, value)| value.as_str())
+                .or(info.uniform.then_some(UNIFORM));
             let value = match text {
                 Some(text) => match self.parse(field, &info, text) {
                     Ok(value) => value,
@@ -162,11 +165,15 @@ impl Evaluator<'_> {
             }
             _ => return Err(self.bad_type(field)),
         };
+        if field.uniform && !matches!(kind, OptionKind::Number { .. }) {
+            return Err(only_numbers(field));
+        }
         Ok(OptionInfo {
             name: field.name.replace('_', "-"),
             docs: field.docs.clone(),
             kind,
             default,
+            uniform: field.uniform,
         })
     }
 
@@ -185,6 +192,9 @@ impl Evaluator<'_> {
         };
         let numbers = numbers.ok_or_else(|| self.bad_type(field))?;
         let (min, max) = self.limits(field)?;
+        if field.uniform {
+            return Err(only_numbers(field));
+        }
         Ok(OptionInfo {
             name: field.name.replace('_', "-"),
             docs: field.docs.clone(),
@@ -198,6 +208,7 @@ impl Evaluator<'_> {
                 max,
             },
             default: numbers.join(","),
+            uniform: false,
         })
     }
 
@@ -351,6 +362,16 @@ impl Evaluator<'_> {
         let index = uniforms.len() as u32 - 1;
         Value::Node(self.builder.add(Op::Uniform(index), Vec::new(), ty))
     }
+}
+
+fn only_numbers(field: &OptionField) -> Exit {
+    Diagnostic::at(
+        field.default.span,
+        format!("the option `{}` cannot be set at run time", field.name),
+    )
+    .label("its default")
+    .help("only single numbers can: give this one a default without `uniform(...)`")
+    .into()
 }
 
 /// `DepthNormals` as `depth-normals`.

@@ -2,7 +2,7 @@
 
 use super::expr::Lower;
 use super::reach::reach;
-use super::tree::{Enum, Function, Library, OptionField, Struct, Type};
+use super::tree::{Enum, Expr, ExprKind, Function, Library, OptionField, Struct, Type};
 use crate::diagnostic::Diagnostic;
 use proc_macro2::Span;
 use std::collections::HashMap;
@@ -153,13 +153,17 @@ impl Items {
         match mac.parse_body::<OptionsSyntax>() {
             Ok(syntax) => {
                 let name = syntax.name.to_string();
-                let fields = syntax.fields.iter().map(|field| OptionField {
-                    name: field.name.to_string(),
-                    docs: docs(&field.attrs),
-                    ty: lower.ty(&field.ty),
-                    range: field.range.as_ref().map(|r| lower.expr(r)),
-                    default: lower.expr(&field.default),
-                    span: lower.span(field.name.span()),
+                let fields = syntax.fields.iter().map(|field| {
+                    let (default, uniform) = at_run_time(lower.expr(&field.default));
+                    OptionField {
+                        name: field.name.to_string(),
+                        docs: docs(&field.attrs),
+                        ty: lower.ty(&field.ty),
+                        range: field.range.as_ref().map(|r| lower.expr(r)),
+                        default,
+                        uniform,
+                        span: lower.span(field.name.span()),
+                    }
                 });
                 let fields: Vec<OptionField> = fields.collect();
                 let plain = fields.iter().map(|f| (f.name.clone(), f.ty.clone(), f.span)).collect();
@@ -286,5 +290,17 @@ impl Parse for OptionSyntax {
             range,
             default: input.parse()?,
         })
+    }
+}
+
+/// The default of an option, and whether it is `uniform(default)`: a number that is set at run time.
+fn at_run_time(default: Expr) -> (Expr, bool) {
+    match default.kind {
+        ExprKind::Call(path, constants, mut arguments)
+            if constants.is_empty() && arguments.len() == 1 && path.last().is_some_and(|name| name == "uniform") =>
+        {
+            (arguments.remove(0), true)
+        }
+        kind => (Expr { kind, ..default }, false),
     }
 }

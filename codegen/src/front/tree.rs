@@ -213,6 +213,8 @@ pub struct OptionField {
     pub range: Option<Expr>,
     /// The default.
     pub default: Expr,
+    /// Whether it is set at run time unless a setting says otherwise: `= uniform(default)`.
+    pub uniform: bool,
     /// Where its name stands.
     pub span: Span,
 }

@@ -30,6 +30,13 @@ pub use texture::{
 
 pub use crate::options;
 
+/// `default`, as the default of an option that is set at run time unless a setting makes it known: `= uniform(0.5)`.
+///
+/// Means something to the generator only as the whole default of a number in `options!`.
+pub const fn uniform<T: Copy>(default: T) -> T {
+    default
+}
+
 /// `value`, counted under `name` in the generator's reports. Does nothing else.
 ///
 /// Only what is still computed after partial evaluation is counted: a tallied value that turned out to be

@@ -1,12 +1,11 @@
 //! What an SRAA shader reads, made from a capture: the G-buffer in the layout and the encodings that its options name.
 
-mod encode;
 mod pattern;
 
 use crate::capture::Capture;
+use crate::encode::{self, DepthEncoding, DepthStorage, NormalEncoding};
 use crate::execute::Inputs;
 use crate::scene::Camera;
-use encode::{DepthCode, NormalCode};
 use glam::{IVec2, UVec2, Vec2, Vec4, vec3};
 use std::collections::BTreeMap;
 use straightline_kernels::prelude::{Frame, FrameLayers};
@@ -52,9 +51,7 @@ fn option<'a>(options: &'a BTreeMap<String, String>, name: &str, default: &'a st
 /// [`GBufferError`] if the capture lacks normals, a camera or samples that the options need.
 pub fn inputs(capture: &Capture, options: &BTreeMap<String, String>) -> Result<Inputs, GBufferError> {
     let metric = option(options, "metric", "depth-normals");
-    let packed = option(options, "normals", "float") == "packed";
     let layout = option(options, "layout", "layers");
-    let depth_code = DepthCode::named(option(options, "depth", "linear"));
     let needed = match option(options, "pattern", "latin4") {
         "listed" => option(options, "offsets", "").split(',').count() / 2,
         name => samples(name).map_or(0, |samples| samples.len()),
@@ -65,26 +62,11 @@ pub fn inputs(capture: &Capture, options: &BTreeMap<String, String>) -> Result<I
             found: capture.samples.len(),
         });
     }
-    let mut inputs = Inputs::new(capture.size).image("color", capture.color.clone());
-
-    let planes = planes(capture, depth_code, options)?;
-    let depth = match metric {
-        "normals" => None,
-        _ => Some(stack(&capture.depth, |z| {
-            Vec4::new(depth_code.encode(z, planes), 0.0, 0.0, 0.0)
-        })),
-    };
-    let normal = match (metric, &capture.normal) {
+    let planes = planes(capture, options)?;
+    let depth_encoding = depth_encoding(options, planes);
+    let normals = match (metric, &capture.normal) {
         ("depth", _) => None,
-        (_, Some(normal)) => {
-            let code = NormalCode::named(option(options, "normals", "float"));
-            // What every device can multisample.
-            let half = layout == "multisampled";
-            Some(stack(normal, |n| match half {
-                true => encode::halved(code.encode(n)),
-                false => code.encode(n),
-            }))
-        }
+        (_, Some(normals)) => Some(normals),
         (metric, None) => {
             return Err(GBufferError::Missing {
                 what: "normals (normal.exr)",
@@ -93,33 +75,39 @@ pub fn inputs(capture: &Capture, options: &BTreeMap<String, String>) -> Result<I
             });
         }
     };
+    let mut images = Vec::new();
+    match (option(options, "normals", "float"), normals) {
+        ("packed", Some(normals)) => {
+            images.push(("packed", encode::packed(normals, &capture.depth, depth_encoding)));
+        }
+        (normals_as, normals) => {
+            if metric != "normals" {
+                let stored = encode::depth(&capture.depth, depth_encoding, DepthStorage::Float32);
+                images.push(("depth", texels(&stored)));
+            }
+            if let Some(normals) = normals {
+                let stored = encode::normal(normals, normal_encoding(normals_as));
+                images.push(("normal", stored));
+            }
+        }
+    }
+    let mut inputs = Inputs::new(capture.size).image("color", capture.color.clone());
     let apart = capture.layer_count() > capture.samples.len();
-    let mut add = |name: &str, layers: Vec<Frame<Vec4>>| {
+    for (name, stack) in images {
+        // What every device can multisample: a single component in whole floats, more in half.
+        let stack = if layout == "multisampled" && name != "depth" {
+            encode::halved(&stack)
+        } else {
+            stack
+        };
         inputs = laid_out(
-            std::mem::take(&mut inputs),
+            inputs,
             name,
-            layers,
+            stack.layers().to_vec(),
             layout,
             capture.samples.len(),
             apart,
         );
-    };
-    match (depth, normal, packed) {
-        (Some(depth), Some(normal), true) => {
-            let both = depth.iter().zip(&normal).map(|(depth, normal)| {
-                let texels = depth.texels().iter().zip(normal.texels());
-                Frame::new(depth.size(), texels.map(|(z, n)| encode::pack(n.x, n.y, z.x)).collect())
-            });
-            add("packed", both.collect());
-        }
-        (depth, normal, _) => {
-            if let Some(depth) = depth {
-                add("depth", depth);
-            }
-            if let Some(normal) = normal {
-                add("normal", normal);
-            }
-        }
     }
     let inputs = inputs
         .uniform("near", &[f64::from(planes.x)])
@@ -148,14 +136,14 @@ pub fn with_rays(inputs: Inputs, camera: &Camera, size: UVec2, origin: IVec2) ->
 }
 
 /// Near and far plane that depth is encoded with.
-fn planes(capture: &Capture, code: DepthCode, options: &BTreeMap<String, String>) -> Result<Vec2, GBufferError> {
-    let camera = match (&capture.camera, code) {
+fn planes(capture: &Capture, options: &BTreeMap<String, String>) -> Result<Vec2, GBufferError> {
+    let camera = match (&capture.camera, option(options, "depth", "linear")) {
         (Some(camera), _) => camera,
-        (None, DepthCode::Linear) => return Ok(Vec2::ONE),
-        (None, _) => {
+        (None, "linear") => return Ok(Vec2::ONE),
+        (None, encoding) => {
             return Err(GBufferError::Missing {
                 what: "camera",
-                option: format!("depth={}", option(options, "depth", "linear")),
+                option: format!("depth={encoding}"),
                 way_out: "write `camera` into capture.json, or use depth=linear",
             });
         }
@@ -168,9 +156,28 @@ fn planes(capture: &Capture, code: DepthCode, options: &BTreeMap<String, String>
     Ok(Vec2::new(camera.near, 1.01 * farthest))
 }
 
-fn stack<T: Copy>(layers: &FrameLayers<T>, texel: impl Fn(T) -> Vec4) -> Vec<Frame<Vec4>> {
-    let layer = |l: &Frame<T>| Frame::new(l.size(), l.texels().iter().map(|t| texel(*t)).collect());
-    layers.layers().iter().map(layer).collect()
+fn depth_encoding(options: &BTreeMap<String, String>, planes: Vec2) -> DepthEncoding {
+    let (near, far) = (f64::from(planes.x), f64::from(planes.y));
+    match option(options, "depth", "linear") {
+        "perspective" => DepthEncoding::Perspective { near, far },
+        "reversed" => DepthEncoding::Reversed { near, far },
+        "reversed-infinite" => DepthEncoding::InfiniteReversed { near },
+        _ => DepthEncoding::Linear,
+    }
+}
+
+/// In the smallest format that the shader's encoding stands for.
+fn normal_encoding(name: &str) -> NormalEncoding {
+    match name {
+        "unorm" => NormalEncoding::Rgb8,
+        "octahedral" => NormalEncoding::Octahedral8,
+        _ => NormalEncoding::Float,
+    }
+}
+
+fn texels(depths: &FrameLayers<f32>) -> FrameLayers<Vec4> {
+    let layer = |l: &Frame<f32>| Frame::new(l.size(), l.texels().iter().map(|z| Vec4::splat(*z)).collect());
+    FrameLayers::new(depths.layers().iter().map(layer).collect())
 }
 
 /// The layers of one quantity, the pixel's centre `apart` as the last, as the images that a layout has.

@@ -10,6 +10,7 @@
 //! share rₛ in the pixel. mₛₜ is the difference of the two surfaces (paper §3.2). Beyond the border the nearest pixel's
 //! surfaces and colours are repeated.
 
+pub mod edge;
 mod gbuffer;
 mod params;
 mod pattern;

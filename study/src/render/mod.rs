@@ -21,7 +21,7 @@ use straightline_kernels::prelude::Frame;
 pub use captured::capture;
 pub use cpu::CpuRenderer;
 pub use error::RenderError;
-pub use gpu::GpuRenderer;
+pub use gpu::{GpuRenderer, MultisampledGeometry};
 pub use reference::{grid, reference};
 
 /// Draws one scene at one size, sampled anywhere in a pixel.
@@ -44,7 +44,9 @@ pub trait Renderer {
     /// [`RenderError::Offset`] if `offset` is not finite; [`RenderError::Device`].
     fn geometry(&self, offset: Vec2) -> Result<(Frame<f32>, Frame<Vec3>), RenderError>;
 
-    /// Linear colour of each pixel shaded `offset` from its centre: RGB in 0..=1, alpha 1.
+    /// Linear colour of each pixel shaded `offset` from its centre. RGB is in 0..=1 but on what is polished or shines by
+    /// itself ([`Material::Glossy`](crate::scene::Material::Glossy), [`Material::Emissive`](crate::scene::Material::Emissive)):
+    /// there it goes up to 65504, the largest half. Alpha is 1.
     ///
     /// # Errors
     ///

@@ -1,7 +1,7 @@
 //! The colour of one point from what a G-buffer knows of it. `shade.wgsl` says the same line by line.
 
 use super::frame::Lighting;
-use crate::scene::SKY_DEPTH;
+use crate::scene::{EMISSION, Material, SKY_DEPTH};
 use glam::{Vec2, Vec3, Vec4Swizzles, vec2};
 
 /// What one sample of the G-buffer holds.
@@ -31,15 +31,20 @@ pub(super) fn shade(lighting: &Lighting, surface: &Surface, ray: Vec3) -> Vec3 {
     if surface.depth >= SKY_DEPTH {
         return sky(lighting, -view).clamp(Vec3::ZERO, Vec3::ONE);
     }
+    let is = |material: Material| surface.material as u32 == material as u32;
     let normal = surface.normal;
     let mut albedo = surface.color;
-    if surface.material > 0.5 {
-        let place = lighting.to_world * (ray * surface.depth).extend(1.0);
+    let place = lighting.to_world * (ray * surface.depth).extend(1.0);
+    if is(Material::Tiles) {
         let footprint = surface.depth * lighting.extent.z / normal.dot(view).max(0.05);
         albedo *= tiles(place.xz(), footprint);
     }
     let sun = lighting.sun_color.truncate();
-    let facing = normal.dot(lighting.sun_direction.truncate()).max(0.0);
+    let mut facing = normal.dot(lighting.sun_direction.truncate()).max(0.0);
+    if is(Material::Slats) {
+        let towards_sun = lighting.to_world * lighting.sun_direction.truncate().extend(0.0);
+        facing *= slats(place.truncate(), towards_sun.truncate());
+    }
     let upwards = 0.5 + 0.5 * normal.dot(lighting.up.truncate());
     let ambient = lighting.ground.truncate().lerp(lighting.zenith.truncate(), upwards);
     let halfway = (view + lighting.sun_direction.truncate()).normalize();
@@ -47,14 +52,48 @@ pub(super) fn shade(lighting: &Lighting, surface: &Surface, ray: Vec3) -> Vec3 {
     let s2 = s1 * s1;
     let s4 = s2 * s2;
     let s8 = s4 * s4;
-    let specular = 0.08 * s8 * s8 * facing;
-    let lit = albedo * (ambient + sun * facing) + sun * specular;
+    let s16 = s8 * s8;
+    let mut specular = 0.08 * s16 * facing;
+    let mut most = 1.0;
+    if is(Material::Glossy) {
+        let s32 = s16 * s16;
+        let s64 = s32 * s32;
+        let s128 = s64 * s64;
+        specular += 6.0 * s128 * s128 * facing;
+        most = MOST;
+    }
+    let mut lit = albedo * (ambient + sun * facing) + sun * specular;
+    if is(Material::Emissive) {
+        lit = surface.color * EMISSION;
+        most = MOST;
+    }
     let clear = (-lighting.sun_direction.w * surface.depth * ray.length()).exp2();
     lighting
         .horizon
         .truncate()
         .lerp(lit, clear)
-        .clamp(Vec3::ZERO, Vec3::ONE)
+        .clamp(Vec3::ZERO, Vec3::splat(most))
+}
+
+/// The largest half: what a texture of 16 bits holds.
+const MOST: f32 = 65504.0;
+
+/// 1 where the sun shines through the slats above, else 0. Not averaged over a pixel: an edge of shading alone.
+fn slats(place: Vec3, towards_sun: Vec3) -> f32 {
+    let shadow = place.x - towards_sun.x / towards_sun.y.max(0.05) * place.y;
+    let share = 2.0 * shadow;
+    if share - share.floor() < 0.45 { 0.0 } else { 1.0 }
+}
+
+/// Whether a place on a [`Material::ChainLink`] is one of its wires, which cross at right angles. `geometry.wgsl` says the
+/// same.
+pub(super) fn is_wire(place: Vec3) -> bool {
+    let along = place.x + place.z;
+    let wire = |across: f32| {
+        let at = across * 8.0;
+        at - at.floor() < 0.14
+    };
+    wire(along + place.y) || wire(along - place.y)
 }
 
 /// The sky in a direction.

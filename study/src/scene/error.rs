@@ -12,6 +12,12 @@ pub enum SceneError {
         /// The file.
         path: PathBuf,
     },
+    /// There is no built-in scene of this name.
+    #[error("there is no scene `{name}`; there are {}", super::NAMES.map(|(name, _)| name).join(", "))]
+    UnknownName {
+        /// The name.
+        name: String,
+    },
     /// The file, or one that it names, cannot be read.
     #[error("{}: cannot be read: {source}", path.display())]
     Io {

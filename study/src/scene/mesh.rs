@@ -11,6 +11,8 @@ pub(super) struct Mesh {
     pub triangles: Vec<[u32; 3]>,
     /// Applied to what is added. A rotation and a shift, so that normals stay normals.
     place: Affine3A,
+    /// Of what is added.
+    material: Material,
 }
 
 impl Mesh {
@@ -22,9 +24,21 @@ impl Mesh {
         self.place = outer;
     }
 
+    /// Adds what `build` adds, of a material.
+    pub fn of(&mut self, material: Material, build: impl FnOnce(&mut Mesh)) {
+        let outer = std::mem::replace(&mut self.material, material);
+        build(self);
+        self.material = outer;
+    }
+
+    /// The material of what is added now.
+    pub fn material(&self) -> Material {
+        self.material
+    }
+
     /// A flat convex polygon with corners counter-clockwise seen from its front. What is degenerate is left out.
     pub fn polygon(&mut self, corners: &[Vec3], color: Vec3) {
-        self.patch(corners, color, Material::Plain);
+        self.patch(corners, color, self.material);
     }
 
     /// [`polygon`](Self::polygon) of a material.
@@ -38,8 +52,8 @@ impl Mesh {
         }
     }
 
-    /// A convex polygon of positions and normals.
-    fn fan(&mut self, corners: &[(Vec3, Vec3)], color: Vec3, material: Material) {
+    /// A convex polygon of positions and normals, with corners as those of [`polygon`](Self::polygon).
+    pub fn fan(&mut self, corners: &[(Vec3, Vec3)], color: Vec3, material: Material) {
         let first = self.vertices.len() as u32;
         for (position, normal) in corners {
             self.vertices.push(Vertex {
@@ -91,7 +105,7 @@ impl Mesh {
                 let slope = axis * ((r0 - r1) / (to - from).length());
                 let normals = [a, b, b, a].map(|radial| (radial + slope).normalize_or(axis));
                 let corners: Vec<(Vec3, Vec3)> = corners.into_iter().zip(normals).collect();
-                self.fan(&corners, color, Material::Plain);
+                self.fan(&corners, color, self.material);
             } else {
                 self.polygon(&corners, color);
             }

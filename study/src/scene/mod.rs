@@ -1,13 +1,14 @@
 //! What the testbed draws: triangles with materials, a sun, a sky and a camera.
 //!
-//! A [`Scene`] is plain data that every renderer reads alike. [`builtin()`] makes one without any file; [`load()`]
-//! reads a model. World space is right-handed with y up; lengths are in scene units.
+//! A [`Scene`] is plain data that every renderer reads alike. [`Scene::named`] makes one of [`NAMES`] without any file;
+//! [`load()`] reads a model. World space is right-handed with y up; lengths are in scene units.
 
 mod builtin;
 mod camera;
 mod error;
 mod load;
 mod mesh;
+mod named;
 
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
@@ -16,6 +17,7 @@ pub use builtin::builtin;
 pub use camera::Camera;
 pub use error::SceneError;
 pub use load::{EXTENSIONS, load};
+pub use named::NAMES;
 
 /// Linear depth where no geometry is seen.
 ///
@@ -52,15 +54,28 @@ pub struct Vertex {
     pub material: u32,
 }
 
-/// How a surface's colour varies beyond its vertices'.
+/// What a surface is made of, beyond its vertices' colour.
 #[repr(u32)]
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Material {
-    /// Not at all.
+    /// Nothing more.
+    #[default]
     Plain = 0,
-    /// By tiles of one unit with grooves between, laid out in the world's x and z.
+    /// Tiles of one unit with grooves between, laid out in the world's x and z.
     Tiles = 1,
+    /// A fence of crossed wires, alpha-tested: between them it is not there. Laid out in the world's x + z and y, so it
+    /// stands upright along x or along z.
+    ChainLink = 2,
+    /// In the sun only between hard shadows of slats above, half a unit apart along the world's x.
+    Slats = 3,
+    /// Polished: a narrow highlight, brighter than 1.
+    Glossy = 4,
+    /// A light: its colour times [`EMISSION`], whatever falls on it.
+    Emissive = 5,
 }
+
+/// Radiance of a white [`Material::Emissive`], where a white surface in the sun is about 1.
+pub const EMISSION: f32 = 50.0;
 
 /// Light from one direction.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -4,9 +4,9 @@ mod clip;
 mod raster;
 
 use super::frame::{Lighting, Pass};
-use super::shade::{Surface, shade};
+use super::shade::{self, Surface, shade};
 use super::{RenderError, Renderer};
-use crate::scene::{Camera, Scene};
+use crate::scene::{Camera, Material, Scene};
 use clip::ScreenTriangle;
 use glam::{Mat3, UVec2, Vec2, Vec3, Vec4, uvec2};
 use raster::Visible;
@@ -60,7 +60,8 @@ impl CpuRenderer {
         rows.for_each(|(band, (pixels, inside))| {
             let top = band as u32 * BAND;
             let band = uvec2(self.size.x, (pixels.len() / width) as u32);
-            let visible = Visible::draw(&triangles, &inside, top, band, self.size);
+            let holes = |triangle| self.holes(triangle);
+            let visible = Visible::draw(&triangles, &inside, top, band, self.size, holes);
             for (at, pixel) in pixels.iter_mut().enumerate() {
                 let place = uvec2((at % width) as u32, top + (at / width) as u32);
                 let surface = match visible.at(at) {
@@ -71,6 +72,18 @@ impl CpuRenderer {
             }
         });
         pixels
+    }
+
+    /// Of an alpha-tested triangle, where it is there; `None` for all others.
+    fn holes<'a>(&'a self, triangle: &'a ScreenTriangle) -> Option<impl Fn(UVec2) -> bool + 'a> {
+        let corners = self.scene.triangles[triangle.source as usize].map(|i| &self.scene.vertices[i as usize]);
+        (corners[0].material == Material::ChainLink as u32).then(|| {
+            move |pixel| {
+                let shares = triangle.shares(pixel, self.size).as_vec3();
+                let [a, b, c] = corners.map(|corner| Vec3::from(corner.position));
+                shade::is_wire(a * shares.x + b * shares.y + c * shares.z)
+            }
+        })
     }
 
     /// Every triangle that may be seen, in order.

@@ -1,7 +1,7 @@
 //! Which triangle each pixel of a band of rows shows.
 
 use super::clip::{STEPS, ScreenTriangle};
-use glam::UVec2;
+use glam::{UVec2, uvec2};
 
 /// For each of `count` bands of `height` rows, the triangles that may reach into it, in order.
 pub(super) fn bands(triangles: &[ScreenTriangle], count: u32, height: u32) -> Vec<Vec<u32>> {
@@ -38,8 +38,15 @@ const NONE: u32 = u32::MAX;
 
 impl Visible {
     /// Draws those of `triangles` that `inside` lists, into rows `top` and below of a picture. `size` is the
-    /// picture's width and the band's height.
-    pub fn draw(triangles: &[ScreenTriangle], inside: &[u32], top: u32, size: UVec2, picture: UVec2) -> Self {
+    /// picture's width and the band's height. `holes` tells, of a triangle that is not whole, where it is there.
+    pub fn draw<'a, H: Fn(UVec2) -> bool + 'a>(
+        triangles: &'a [ScreenTriangle],
+        inside: &[u32],
+        top: u32,
+        size: UVec2,
+        picture: UVec2,
+        holes: impl Fn(&'a ScreenTriangle) -> Option<H>,
+    ) -> Self {
         let width = size.x as usize;
         let mut visible = vec![NONE; width * size.y as usize];
         // Reciprocals of depth; what is not there is infinitely far.
@@ -47,6 +54,7 @@ impl Visible {
         for &at in inside {
             let triangle = &triangles[at as usize];
             let [least, most] = triangle.reach;
+            let there = holes(triangle);
             let [first, last] = rows(triangle);
             let last = last.min((top + size.y) as i32 - 1);
             for y in first.max(top as i32)..=last {
@@ -60,7 +68,8 @@ impl Visible {
                 let depths = nearest[pixels.clone()].iter_mut().zip(&mut visible[pixels]);
                 for (i, (nearest, visible)) in depths.enumerate() {
                     let reciprocal = (start + step * i as f32).clamp(least, most);
-                    if reciprocal > *nearest {
+                    let seen = |there: &H| there(uvec2((left + i) as u32, y as u32));
+                    if reciprocal > *nearest && there.as_ref().is_none_or(seen) {
                         *nearest = reciprocal;
                         *visible = at;
                     }
@@ -107,12 +116,13 @@ fn span(triangle: &ScreenTriangle, y: i32, width: u32) -> Option<[usize; 2]> {
 mod tests {
     use super::super::clip::project;
     use super::*;
-    use glam::{Vec4, uvec2, vec4};
+    use glam::{Vec4, vec4};
 
     fn covered(corners: [Vec4; 3], size: UVec2) -> Vec<u32> {
         let triangles: Vec<_> = project(0, corners, 0.1, size).collect();
         let inside: Vec<u32> = (0..triangles.len() as u32).collect();
-        let visible = Visible::draw(&triangles, &inside, 0, size, size);
+        let whole = |_: &ScreenTriangle| None::<fn(UVec2) -> bool>;
+        let visible = Visible::draw(&triangles, &inside, 0, size, size, whole);
         (0..visible.triangles.len())
             .map(|at| u32::from(visible.at(at).is_some()))
             .collect()

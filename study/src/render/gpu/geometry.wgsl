@@ -16,7 +16,10 @@ struct Corner {
     @location(1) color: vec3f,
     @location(2) depth: f32,
     @location(3) @interpolate(flat) material: u32,
+    @location(4) place: vec3f,
 }
+
+const CHAIN_LINK: u32 = 2;
 
 struct Texels {
     @location(0) normal_depth: vec4f,
@@ -31,11 +34,25 @@ fn corner(
     @location(3) material: u32,
 ) -> Corner {
     let clip = frame.to_clip * vec4f(position, 1.0);
-    return Corner(clip, (frame.to_view * vec4f(normal, 0.0)).xyz, color, clip.w, material);
+    return Corner(clip, (frame.to_view * vec4f(normal, 0.0)).xyz, color, clip.w, material, position);
+}
+
+// As in `shade.rs`.
+fn is_wire(place: vec3f) -> bool {
+    let along = place.x + place.z;
+    return wire(along + place.y) || wire(along - place.y);
+}
+
+fn wire(across: f32) -> bool {
+    let at = across * 8.0;
+    return at - floor(at) < 0.14;
 }
 
 @fragment
 fn texels(surface: Corner, @builtin(front_facing) front: bool) -> Texels {
+    if surface.material == CHAIN_LINK && !is_wire(surface.place) {
+        discard;
+    }
     let normal = normalize(surface.normal);
     return Texels(
         vec4f(select(-normal, normal, front), surface.depth),

@@ -1,6 +1,7 @@
 //! Rasterising and shading on a device of wgpu.
 
 mod guard;
+mod multisampled;
 mod pipelines;
 mod read;
 mod resources;
@@ -10,6 +11,7 @@ use super::{RenderError, Renderer, check_offsets};
 use crate::scene::{Camera, Scene};
 use glam::{UVec2, Vec2, Vec3, Vec4};
 use guard::guarded;
+pub use multisampled::MultisampledGeometry;
 use pipelines::Pipelines;
 use resources::{Resources, check_limits};
 use straightline_kernels::prelude::Frame;

@@ -18,16 +18,16 @@ pub(super) struct Pipelines {
 
 impl Pipelines {
     pub fn new(device: &wgpu::Device) -> Self {
-        let geometry_layout = layout(device, &[(ShaderStages::VERTEX_FRAGMENT, uniform())]);
+        let geometry_layout = group_layout(device, &[(ShaderStages::VERTEX_FRAGMENT, uniform())]);
         let compute = ShaderStages::COMPUTE;
-        let shading_layout = layout(
+        let shading_layout = group_layout(
             device,
             &[
                 (compute, uniform()),
                 (compute, uniform()),
                 (compute, texture()),
                 (compute, texture()),
-                (compute, buffer(BufferBindingType::Storage { read_only: false })),
+                (compute, storage()),
             ],
         );
         Pipelines {
@@ -95,9 +95,24 @@ impl Pipelines {
     }
 }
 
+/// The fields of a [`Vertex`].
+pub(super) fn vertex_layout() -> [wgpu::VertexAttribute; 4] {
+    wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Float32x3, 3 => Uint32]
+}
+
+/// The nearest surface, by the reciprocal of depth.
+pub(super) fn depth_test() -> wgpu::DepthStencilState {
+    wgpu::DepthStencilState {
+        format: DEPTH_FORMAT,
+        depth_write_enabled: Some(true),
+        depth_compare: Some(wgpu::CompareFunction::Greater),
+        stencil: wgpu::StencilState::default(),
+        bias: wgpu::DepthBiasState::default(),
+    }
+}
+
 fn geometry_pipeline(device: &wgpu::Device, layout: &wgpu::BindGroupLayout) -> wgpu::RenderPipeline {
     let module = device.create_shader_module(wgpu::include_wgsl!("geometry.wgsl"));
-    let attributes = wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Float32x3, 3 => Uint32];
     device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some("straightline geometry"),
         layout: Some(&pipeline_layout(device, layout)),
@@ -108,18 +123,12 @@ fn geometry_pipeline(device: &wgpu::Device, layout: &wgpu::BindGroupLayout) -> w
             buffers: &[Some(wgpu::VertexBufferLayout {
                 array_stride: size_of::<Vertex>() as u64,
                 step_mode: wgpu::VertexStepMode::Vertex,
-                attributes: &attributes,
+                attributes: &vertex_layout(),
             })],
         },
         // Both sides are drawn; counter-clockwise is the front.
         primitive: wgpu::PrimitiveState::default(),
-        depth_stencil: Some(wgpu::DepthStencilState {
-            format: DEPTH_FORMAT,
-            depth_write_enabled: Some(true),
-            depth_compare: Some(wgpu::CompareFunction::Greater),
-            stencil: wgpu::StencilState::default(),
-            bias: wgpu::DepthBiasState::default(),
-        }),
+        depth_stencil: Some(depth_test()),
         multisample: wgpu::MultisampleState::default(),
         fragment: Some(wgpu::FragmentState {
             module: &module,
@@ -148,7 +157,7 @@ fn shading_pipeline(device: &wgpu::Device, layout: &wgpu::BindGroupLayout) -> wg
     })
 }
 
-fn pipeline_layout(device: &wgpu::Device, group: &wgpu::BindGroupLayout) -> wgpu::PipelineLayout {
+pub(super) fn pipeline_layout(device: &wgpu::Device, group: &wgpu::BindGroupLayout) -> wgpu::PipelineLayout {
     device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
         label: None,
         bind_group_layouts: &[Some(group)],
@@ -157,7 +166,7 @@ fn pipeline_layout(device: &wgpu::Device, group: &wgpu::BindGroupLayout) -> wgpu
 }
 
 /// Bindings 0, 1, 2, ... of group 0.
-fn layout(device: &wgpu::Device, bindings: &[(ShaderStages, BindingType)]) -> wgpu::BindGroupLayout {
+pub(super) fn group_layout(device: &wgpu::Device, bindings: &[(ShaderStages, BindingType)]) -> wgpu::BindGroupLayout {
     let entry = |(at, (visibility, ty)): (usize, &(ShaderStages, BindingType))| wgpu::BindGroupLayoutEntry {
         binding: at as u32,
         visibility: *visibility,
@@ -170,8 +179,13 @@ fn layout(device: &wgpu::Device, bindings: &[(ShaderStages, BindingType)]) -> wg
     })
 }
 
-fn uniform() -> BindingType {
+pub(super) fn uniform() -> BindingType {
     buffer(BufferBindingType::Uniform)
+}
+
+/// A storage buffer that is written.
+pub(super) fn storage() -> BindingType {
+    buffer(BufferBindingType::Storage { read_only: false })
 }
 
 fn buffer(ty: BufferBindingType) -> BindingType {

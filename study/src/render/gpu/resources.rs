@@ -142,7 +142,7 @@ fn target(device: &wgpu::Device, size: UVec2, format: TextureFormat, usage: Text
 }
 
 /// Bindings 0, 1, 2, ... of group 0.
-fn group(
+pub(super) fn group(
     device: &wgpu::Device,
     layout: &wgpu::BindGroupLayout,
     resources: &[wgpu::BindingResource],

@@ -72,7 +72,7 @@ fn cross_arm(mesh: &mut Mesh, y: f32, reach: f32) {
 }
 
 /// A wire of square section that hangs `sag` below the straight line in its middle.
-fn wire(mesh: &mut Mesh, from: Vec3, to: Vec3, sag: f32, radius: f32) {
+pub(in crate::scene) fn wire(mesh: &mut Mesh, from: Vec3, to: Vec3, sag: f32, radius: f32) {
     const PIECES: u32 = 24;
     let at = |i: u32| {
         let share = i as f32 / PIECES as f32;

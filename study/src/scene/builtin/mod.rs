@@ -3,16 +3,16 @@
 //! a tiled floor that recedes to the horizon.
 
 mod house;
-mod mast;
-mod square;
-mod stair;
+pub(super) mod mast;
+pub(super) mod square;
+pub(super) mod stair;
 
 use super::mesh::Mesh;
 use super::{Camera, Scene, Sky, Sun};
 use glam::vec3;
 
 /// Linear reflectances.
-mod paint {
+pub(super) mod paint {
     use glam::{Vec3, vec3};
 
     pub const PLASTER: Vec3 = vec3(0.72, 0.58, 0.40);
@@ -56,7 +56,7 @@ pub fn builtin() -> Scene {
 }
 
 /// A fixed number in 0..1 for each `seed`, without pattern (PCG's output permutation).
-fn noise(seed: u32) -> f32 {
+pub(super) fn noise(seed: u32) -> f32 {
     let state = seed.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
     let word = ((state >> ((state >> 28) + 4)) ^ state).wrapping_mul(277_803_737);
     ((word >> 22) ^ word) as f32 / u32::MAX as f32

@@ -34,7 +34,7 @@ pub(super) fn add(mesh: &mut Mesh) {
 }
 
 /// A tiled floor up to the horizon.
-fn ground(mesh: &mut Mesh) {
+pub(in crate::scene) fn ground(mesh: &mut Mesh) {
     for x in CUTS.windows(2) {
         for z in CUTS.windows(2) {
             let corners = [(x[0], z[1]), (x[1], z[1]), (x[1], z[0]), (x[0], z[0])].map(|(x, z)| vec3(x, 0.0, z));
@@ -70,7 +70,7 @@ fn hills(mesh: &mut Mesh) {
 }
 
 /// Pickets with points and two rails, from one post to the other.
-fn fence(mesh: &mut Mesh, from: Vec3, to: Vec3, pickets: u32) {
+pub(in crate::scene) fn fence(mesh: &mut Mesh, from: Vec3, to: Vec3, pickets: u32) {
     let color = paint::TRIM * 0.8;
     let along = (to - from).normalize();
     let out = along.cross(Vec3::Y) * 0.02;
@@ -100,7 +100,7 @@ fn fence(mesh: &mut Mesh, from: Vec3, to: Vec3, pickets: u32) {
 }
 
 /// A slender tree of flat facets.
-fn cypress(mesh: &mut Mesh, foot: Vec3, height: f32, seed: u32) {
+pub(in crate::scene) fn cypress(mesh: &mut Mesh, foot: Vec3, height: f32, seed: u32) {
     const RINGS: u32 = 9;
     const SIDES: u32 = 9;
     mesh.bar(foot, foot + Vec3::Y * 0.6, 0.09, 6, paint::TIMBER);

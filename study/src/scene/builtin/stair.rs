@@ -70,7 +70,7 @@ fn landing(mesh: &mut Mesh) {
 }
 
 /// Balusters between two points at the foot of the railing, with a hand rail and a lower rail.
-fn railing(mesh: &mut Mesh, from: Vec3, to: Vec3, balusters: u32) {
+pub(in crate::scene) fn railing(mesh: &mut Mesh, from: Vec3, to: Vec3, balusters: u32) {
     const HEIGHT: f32 = 0.92;
     let at = |share: f32, height: f32| from.lerp(to, share) + Vec3::Y * height;
     mesh.bar(at(0.0, HEIGHT), at(1.0, HEIGHT), 0.028, 8, paint::TIMBER * 1.6);

@@ -1,0 +1,110 @@
+//! The edge filter of S.T.A.L.K.E.R.
+
+use super::{DEEPEST, Form, Output, nearby};
+use crate::prelude::*;
+
+options! {
+    /// What the S.T.A.L.K.E.R. filter is made of.
+    pub struct Stalker {
+        /// Whether the mistakes of the printed code are kept.
+        pub form: Form = Form::Corrected,
+        /// What comes out.
+        pub output: Output = Output::Antialias,
+        /// How depth is stored.
+        pub depth: Depth = Depth::Projected,
+        /// Cosine of the angle between two normals from which they are alike (`e_barrier.x`).
+        pub normal_barrier: f32 [-1.0..=1.0] = uniform(0.8),
+        /// Second difference of depth up to which a surface is flat (`e_barrier.y`), in the unit that depth is compared in.
+        pub depth_barrier: f32 [0.0..=1.0e6] = uniform(1.0e-5),
+        /// How far the blur reaches on an edge, in pixels (`e_kernel`): ½ weighs 3×3 pixels by (1,2,1)²/16; the printed 1
+        /// takes the four diagonal neighbours and leaves out the pixel itself.
+        pub kernel: f32 [0.0..=4.0] = uniform(0.5),
+    }
+}
+
+/// How depth is stored.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Depth {
+    /// As z/w after projection, reversed or not: it grows evenly across a plane on the screen.
+    Projected,
+    /// Along the view direction: its reciprocal, which grows evenly, is compared.
+    Linear,
+}
+
+/// `offs` 1 to 4: upper left, lower right, upper right, lower left.
+const DIAGONALS: [IVec2; 4] = [ivec2(-1, -1), ivec2(1, 1), ivec2(1, -1), ivec2(-1, 1)];
+
+/// `offs` 1, 3, 5 and 6: one of each pair of opposite neighbours.
+const AXES: [IVec2; 4] = [ivec2(-1, -1), ivec2(1, -1), ivec2(-1, 0), ivec2(0, -1)];
+
+/// `color` blurred where normals turn or depth bends, or how much it is an edge.
+///
+/// Normals are unit vectors in any one space. Nothing of the picture is read to find edges.
+pub fn stalker(
+    cfg: &Stalker,
+    depth: &Frame<f32>,
+    normal: &Frame<Vec3>,
+    color: &Frame<Vec4>,
+    linear: &Sampler,
+    pixel: IVec2,
+) -> Vec4 {
+    // w = (1 - de * ne) * e_kernel.x
+    let alike = alike_normals(cfg, normal, pixel) * flat_depths(cfg, depth, pixel);
+    let edge = 1.0 - alike;
+    match cfg.output {
+        Output::Edges => vec4(edge, edge, edge, 1.0),
+        Output::Antialias => {
+            // s0 to s3: the neighbours at distance w. Both axes by their own texel size.
+            let mut sum = Vec4::ZERO;
+            for offset in DIAGONALS {
+                sum += nearby(color, linear, pixel, offset.as_vec2() * (edge * cfg.kernel));
+            }
+            sum * 0.25
+        }
+    }
+}
+
+/// `ne`: the share of diagonal neighbours whose normal is like the pixel's.
+fn alike_normals(cfg: &Stalker, normal: &Frame<Vec3>, pixel: IVec2) -> f32 {
+    let centre = normal.load(pixel);
+    let mut alike = 0.0;
+    for offset in DIAGONALS {
+        let cosine = centre.dot(normal.load(pixel + offset));
+        // nd = abs(dot(...)): printed, opposite normals are alike.
+        let cosine = match cfg.form {
+            Form::Paper => cosine.abs(),
+            Form::Corrected => cosine,
+        };
+        alike += weight(cfg) * step(0.0, cosine - cfg.normal_barrier);
+    }
+    saturate(alike)
+}
+
+/// `de`: the share of directions in which depth does not bend.
+fn flat_depths(cfg: &Stalker, depth: &Frame<f32>, pixel: IVec2) -> f32 {
+    let centre = evenly(cfg, depth.load(pixel));
+    let mut flat = 0.0;
+    for offset in AXES {
+        // dd = the sum of two opposite neighbours; abs(2 * dc - dd) - e_barrier.y; step(dd, 0)
+        let sum = evenly(cfg, depth.load(pixel + offset)) + evenly(cfg, depth.load(pixel - offset));
+        let bend = (2.0 * centre - sum).abs() - cfg.depth_barrier;
+        flat += weight(cfg) * step(bend, 0.0);
+    }
+    saturate(flat)
+}
+
+/// `e_weights`: printed as 1, one direction without an edge hides those of all others; of ¼ each the sum is a share.
+fn weight(cfg: &Stalker) -> f32 {
+    match cfg.form {
+        Form::Paper => 1.0,
+        Form::Corrected => 0.25,
+    }
+}
+
+/// Depth in a form that grows evenly across a plane on the screen.
+fn evenly(cfg: &Stalker, depth: f32) -> f32 {
+    match cfg.depth {
+        Depth::Projected => depth,
+        Depth::Linear => 1.0 / depth.min(DEEPEST),
+    }
+}

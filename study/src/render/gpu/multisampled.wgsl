@@ -1,0 +1,39 @@
+// Geometry at every sample of a multisampled texture in one pass. Follows `geometry.wgsl` in one module.
+
+// As `Corner`, evaluated at each sample. Software drivers (lavapipe, SwiftShader) evaluate a/w there, but multiply by w of
+// the pixel's centre. `one` is off by the same factor, and what is divided by it is right everywhere.
+struct SampledCorner {
+    @builtin(position) clip: vec4f,
+    @location(0) @interpolate(perspective, sample) normal: vec3f,
+    @location(1) @interpolate(flat) material: u32,
+    @location(2) @interpolate(perspective, sample) place: vec3f,
+    @location(3) @interpolate(perspective, sample) depth_one: vec2f,
+}
+
+struct SampledTexels {
+    @location(0) depth: f32,
+    @location(1) normal: vec4f,
+}
+
+@vertex
+fn sampled_corner(
+    @location(0) position: vec3f,
+    @location(1) normal: vec3f,
+    @location(2) color: vec3f,
+    @location(3) material: u32,
+) -> SampledCorner {
+    let clip = frame.to_clip * vec4f(position, 1.0);
+    // Not the literal, which a driver may carry over to the fragments as it is.
+    let one = f32(min(frame.size.x, 1u));
+    return SampledCorner(clip, (frame.to_view * vec4f(normal, 0.0)).xyz, material, position, vec2f(clip.w, one));
+}
+
+@fragment
+fn sampled_texels(surface: SampledCorner, @builtin(front_facing) front: bool) -> SampledTexels {
+    let one = surface.depth_one.y;
+    if surface.material == CHAIN_LINK && !is_wire(surface.place / one) {
+        discard;
+    }
+    let normal = normalize(surface.normal);
+    return SampledTexels(surface.depth_one.x / one, vec4f(select(-normal, normal, front), 0.0));
+}

@@ -1,0 +1,547 @@
+//! The edge filters: in every form by the interpreter, on a GPU against their formulas in f64, and on the edges that the
+//! printed code misses. `STRAIGHTLINE_PICTURES=DIR` writes what they make of the built-in scene.
+
+mod common;
+
+use common::{bench, other_compilers, same_bits};
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+use straightline_codegen::emit::Target;
+use straightline_codegen::{Compiled, EmitOptions, Kernel, Settings, Stage, Unroll};
+use straightline_kernels::edge::{Depth, Form, Output, Stalker, TabulaRasa, stalker, tabula_rasa};
+use straightline_kernels::prelude::*;
+use straightline_manifest::BindingKind;
+use straightline_study::execute::{Inputs, interpret};
+use straightline_study::oracle::edge as oracle;
+use straightline_study::render::{CpuRenderer, Renderer, reference};
+use straightline_study::scene::builtin;
+use straightline_study::{metrics, picture};
+
+/// What both filters read.
+struct World {
+    depth: Frame<f32>,
+    normal: Frame<Vec3>,
+    color: Frame<Vec4>,
+}
+
+impl World {
+    fn new(size: UVec2, texel: impl Fn(IVec2) -> (f32, Vec3, Vec4)) -> World {
+        let texels: Vec<_> = pixels(size).map(texel).collect();
+        World {
+            depth: Frame::new(size, texels.iter().map(|t| t.0).collect()),
+            normal: Frame::new(size, texels.iter().map(|t| t.1).collect()),
+            color: Frame::new(size, texels.iter().map(|t| t.2).collect()),
+        }
+    }
+
+    /// Tilted surfaces beside and before each other, with noise in all that there is.
+    fn surfaces(size: UVec2) -> World {
+        World::new(size, |p| {
+            let cell = uvec2(p.x as u32 / 9, p.y as u32 / 7);
+            let surface = noise(cell.x * 31 + cell.y);
+            let here = (p.y as u32 * size.x + p.x as u32) * 8;
+            let [a, b] = [noise(here), noise(here + 1)];
+            let depth = 1.0 + 4.0 * surface + 0.03 * p.x as f32 * noise(cell.x + 77) + 0.02 * a * a;
+            // Some facets look the other way.
+            let side = if surface > 0.8 { -1.0 } else { 1.0 };
+            let normal = vec3(1.6 * surface - 0.8, 0.5 * b - 0.2, 0.7 * side).normalize();
+            let color = vec4(noise(here + 2), noise(here + 3), surface, 0.25 + 0.5 * a);
+            (depth, normal, color)
+        })
+    }
+
+    fn inputs(&self) -> Inputs {
+        let size = self.depth.size();
+        let depth = self.depth.texels().iter().map(|d| Vec4::splat(*d)).collect();
+        let normal = self.normal.texels().iter().map(|n| n.extend(0.0)).collect();
+        Inputs::new(size)
+            .image("depth", Frame::new(size, depth))
+            .image("normal", Frame::new(size, normal))
+            .image("color", self.color.clone())
+    }
+
+    fn geometry(&self) -> oracle::Geometry<'_> {
+        oracle::Geometry {
+            depth: &self.depth,
+            normal: &self.normal,
+        }
+    }
+}
+
+/// One setting of one filter.
+#[derive(Clone, Copy, Debug)]
+enum Filter {
+    Stalker(Stalker),
+    TabulaRasa(TabulaRasa),
+}
+
+impl Filter {
+    /// Every choice of both, with numbers that divide `World::surfaces` in two.
+    fn all() -> Vec<Filter> {
+        let mut all = Vec::new();
+        for form in [Form::Paper, Form::Corrected] {
+            for output in [Output::Antialias, Output::Edges] {
+                for depth in [Depth::Projected, Depth::Linear] {
+                    all.push(Filter::Stalker(Stalker {
+                        form,
+                        output,
+                        depth,
+                        normal_barrier: 0.9,
+                        depth_barrier: 0.004,
+                        kernel: 0.75,
+                    }));
+                }
+                all.push(Filter::TabulaRasa(TabulaRasa {
+                    form,
+                    output,
+                    depth_sensibility: 9.0,
+                    normal_sensibility: 3.0,
+                    weight: 0.8,
+                }));
+            }
+        }
+        all
+    }
+
+    fn name(&self) -> &'static str {
+        match self {
+            Filter::Stalker(_) => "stalker",
+            Filter::TabulaRasa(_) => "tabula_rasa",
+        }
+    }
+
+    fn output(&self) -> Output {
+        match self {
+            Filter::Stalker(cfg) => cfg.output,
+            Filter::TabulaRasa(cfg) => cfg.output,
+        }
+    }
+
+    /// Choices, and numbers.
+    fn options(&self) -> (Vec<(&'static str, &'static str)>, Vec<(&'static str, f32)>) {
+        let form = |form| match form {
+            Form::Paper => "paper",
+            Form::Corrected => "corrected",
+        };
+        let output = match self.output() {
+            Output::Antialias => "antialias",
+            Output::Edges => "edges",
+        };
+        match self {
+            Filter::Stalker(cfg) => {
+                let depth = match cfg.depth {
+                    Depth::Projected => "projected",
+                    Depth::Linear => "linear",
+                };
+                (
+                    vec![("form", form(cfg.form)), ("output", output), ("depth", depth)],
+                    vec![
+                        ("normal_barrier", cfg.normal_barrier),
+                        ("depth_barrier", cfg.depth_barrier),
+                        ("kernel", cfg.kernel),
+                    ],
+                )
+            }
+            Filter::TabulaRasa(cfg) => (
+                vec![("form", form(cfg.form)), ("output", output)],
+                vec![
+                    ("depth_sensibility", cfg.depth_sensibility),
+                    ("normal_sensibility", cfg.normal_sensibility),
+                    ("weight", cfg.weight),
+                ],
+            ),
+        }
+    }
+
+    /// The kernel as the generator has it, its numbers set at run time.
+    fn compile(&self, unroll: Unroll) -> Compiled {
+        let (choices, _) = self.options();
+        let choices = choices.iter().map(|(k, v)| ((*k).to_owned(), (*v).to_owned()));
+        compile(self.name(), choices.collect(), unroll)
+    }
+
+    /// What it reads, its numbers among it.
+    fn inputs(&self, world: &World) -> Inputs {
+        let (_, numbers) = self.options();
+        numbers
+            .iter()
+            .fold(world.inputs(), |inputs, (k, v)| inputs.uniform(k, &[f64::from(*v)]))
+    }
+
+    fn native(&self, world: &World) -> Vec<[f32; 4]> {
+        let World { depth, normal, color } = world;
+        let linear = Sampler::default();
+        let pixel = |at| match self {
+            Filter::Stalker(cfg) => stalker(cfg, depth, normal, color, &linear, at),
+            Filter::TabulaRasa(cfg) => tabula_rasa(cfg, depth, normal, color, &linear, at),
+        };
+        pixels(depth.size()).map(|at| pixel(at).to_array()).collect()
+    }
+
+    /// How much of an edge each pixel is, and the filtered colours, by definition.
+    fn exact(&self, world: &World) -> (Vec<oracle::Edge>, Vec<[f64; 4]>) {
+        let (edges, colors) = match self {
+            Filter::Stalker(cfg) => {
+                let exact = oracle::Stalker {
+                    printed: cfg.form == Form::Paper,
+                    linear_depth: cfg.depth == Depth::Linear,
+                    normal_barrier: cfg.normal_barrier.into(),
+                    depth_barrier: cfg.depth_barrier.into(),
+                    kernel: cfg.kernel.into(),
+                };
+                (
+                    exact.edges(&world.geometry()),
+                    exact.antialiased(&world.geometry(), &world.color),
+                )
+            }
+            Filter::TabulaRasa(cfg) => {
+                let exact = oracle::TabulaRasa {
+                    printed: cfg.form == Form::Paper,
+                    depth_sensibility: cfg.depth_sensibility.into(),
+                    normal_sensibility: cfg.normal_sensibility.into(),
+                    weight: cfg.weight.into(),
+                };
+                (
+                    exact.edges(&world.geometry()),
+                    exact.antialiased(&world.geometry(), &world.color),
+                )
+            }
+        };
+        match self.output() {
+            Output::Antialias => (edges, colors),
+            Output::Edges => {
+                let grey = edges.iter().map(|e| [e.weight, e.weight, e.weight, 1.0]);
+                let grey = grey.collect();
+                (edges, grey)
+            }
+        }
+    }
+
+    /// How much of an edge the kernel finds at `at`.
+    fn edge(&self, world: &World, at: IVec2) -> f32 {
+        self.native(world)[(at.y as u32 * world.depth.size().x + at.x as u32) as usize][0]
+    }
+}
+
+fn compile(kernel: &str, options: Vec<(String, String)>, unroll: Unroll) -> Compiled {
+    let settings = Settings {
+        options,
+        unroll,
+        ..Settings::default()
+    };
+    Kernel::builtin(kernel)
+        .and_then(|k| k.compile(&settings))
+        .unwrap_or_else(|e| panic!("{e}"))
+}
+
+fn pixels(size: UVec2) -> impl Iterator<Item = IVec2> {
+    let size = size.as_ivec2();
+    (0..size.y).flat_map(move |y| (0..size.x).map(move |x| ivec2(x, y)))
+}
+
+/// Between 0 and 1, the same for the same number (PCG).
+fn noise(k: u32) -> f32 {
+    let state = k.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
+    let word = ((state >> ((state >> 28) + 4)) ^ state).wrapping_mul(277_803_737);
+    ((word >> 22) ^ word) as f32 / u32::MAX as f32
+}
+
+#[test]
+fn native_looped_and_unrolled_agree() {
+    for size in [uvec2(47, 31), uvec2(1, 1), uvec2(1, 6), uvec2(5, 2)] {
+        let world = World::surfaces(size);
+        for filter in Filter::all() {
+            let expected = filter.native(&world);
+            for unroll in [Unroll::Full, Unroll::None, Unroll::Partial(2)] {
+                let found = interpret::<f32>(&filter.compile(unroll), &filter.inputs(&world), false);
+                let found = found.unwrap_or_else(|e| panic!("{filter:?}: {e}"));
+                same_bits(&expected, &found.texels).unwrap_or_else(|e| panic!("{filter:?} {unroll}: {e}"));
+            }
+        }
+    }
+}
+
+#[test]
+fn shaders_match_the_formulas() {
+    let bench = bench();
+    let world = World::surfaces(uvec2(83, 59));
+    let mut worst = 0.0f64;
+    for filter in Filter::all() {
+        let (edges, exact) = filter.exact(&world);
+        let sure: Vec<bool> = edges.iter().map(|e| e.margin > 1.0e-6).collect();
+        let unsure = sure.iter().filter(|s| !**s).count();
+        assert!(
+            unsure * 100 < sure.len(),
+            "{unsure} pixels hang on the last bit, {filter:?}"
+        );
+        let kinds: BTreeSet<u64> = edges.iter().map(|e| e.weight.to_bits()).collect();
+        assert!(kinds.len() > 1, "every pixel is the same, {filter:?}");
+        for (unroll, stage) in [
+            (Unroll::Full, Stage::Compute),
+            (Unroll::Full, Stage::Fragment),
+            (Unroll::None, Stage::Compute),
+        ] {
+            let shown = bench
+                .run(&filter.compile(unroll), stage, &filter.inputs(&world))
+                .unwrap_or_else(|e| panic!("{filter:?}: {e}"));
+            for (k, (shown, exact)) in shown.texels().iter().zip(&exact).enumerate().filter(|(k, _)| sure[*k]) {
+                let off = (0..4).map(|lane| (f64::from(shown[lane]) - exact[lane]).abs());
+                let off = off.fold(0.0, f64::max);
+                // A GPU weighs texels in steps of 1/256 on each axis.
+                let bound = if filter.output() == Output::Edges {
+                    0.0
+                } else {
+                    1.0 / 128.0
+                };
+                assert!(
+                    off <= bound,
+                    "pixel {k} is {shown}, not {exact:?}: {filter:?} {unroll} {stage:?}"
+                );
+                worst = worst.max(off);
+            }
+        }
+    }
+    println!("largest difference to f64: {worst:e}");
+}
+
+#[test]
+fn filtered_picture_of_the_kernel_is_that_of_the_formulas() {
+    let world = World::surfaces(uvec2(64, 40));
+    for filter in Filter::all() {
+        let (edges, exact) = filter.exact(&world);
+        for (k, (found, exact)) in filter.native(&world).iter().zip(&exact).enumerate() {
+            let off = (0..4).map(|lane| (f64::from(found[lane]) - exact[lane]).abs());
+            let off = off.fold(0.0, f64::max);
+            assert!(
+                off < 2.0e-5 || edges[k].margin < 1.0e-6,
+                "pixel {k}: {off:e}, {filter:?}"
+            );
+        }
+    }
+}
+
+fn stalker_edges(form: Form) -> Filter {
+    Filter::Stalker(Stalker {
+        form,
+        output: Output::Edges,
+        ..Stalker::default()
+    })
+}
+
+fn tabula_rasa_edges(form: Form) -> Filter {
+    Filter::TabulaRasa(TabulaRasa {
+        form,
+        output: Output::Edges,
+        ..TabulaRasa::default()
+    })
+}
+
+/// Printed, one direction without an edge hides those of all others: along a straight edge there is always one.
+#[test]
+fn a_straight_vertical_edge() {
+    let step = |p: IVec2| if p.x < 8 { 0.5 } else { 0.25 };
+    let depth = World::new(uvec2(16, 12), |p| (step(p), Vec3::Z, Vec4::ONE));
+    let turned = World::new(uvec2(16, 12), |p| {
+        (0.5, if p.x < 8 { Vec3::Z } else { Vec3::X }, Vec4::ONE)
+    });
+    for at in pixels(uvec2(16, 12)) {
+        let beside = at.x == 7 || at.x == 8;
+        // Of the four directions one is along the edge; of the four diagonals two are on this side of it.
+        for (world, weight) in [(&depth, 0.75), (&turned, 0.5)] {
+            let expected = if beside { weight } else { 0.0 };
+            assert_eq!(stalker_edges(Form::Corrected).edge(world, at), expected, "{at}");
+            assert_eq!(stalker_edges(Form::Paper).edge(world, at), 0.0, "{at}");
+        }
+    }
+}
+
+#[test]
+fn opposite_normals_are_not_alike() {
+    let world = World::new(uvec2(9, 9), |p| {
+        (0.5, if (p.x + p.y) % 2 == 0 { Vec3::Z } else { Vec3::NEG_Z }, Vec4::ONE)
+    });
+    // Diagonal neighbours of a chequered pattern are alike; of one in columns they are not.
+    let columns = World::new(uvec2(9, 9), |p| {
+        (0.5, if p.x % 2 == 0 { Vec3::Z } else { Vec3::NEG_Z }, Vec4::ONE)
+    });
+    let at = ivec2(4, 4);
+    assert_eq!(stalker_edges(Form::Corrected).edge(&world, at), 0.0);
+    assert_eq!(stalker_edges(Form::Corrected).edge(&columns, at), 1.0);
+    assert_eq!(stalker_edges(Form::Paper).edge(&columns, at), 0.0);
+}
+
+/// Printed, the difference of the two cosines is 0 where both sides fall away alike.
+#[test]
+fn a_ridge_of_one_pixel() {
+    let facing = |p: IVec2| match p.x.cmp(&8) {
+        std::cmp::Ordering::Less => vec3(-0.96, 0.0, 0.28),
+        std::cmp::Ordering::Equal => Vec3::Z,
+        std::cmp::Ordering::Greater => vec3(0.96, 0.0, 0.28),
+    };
+    let world = World::new(uvec2(17, 12), |p| {
+        (0.5 - 0.01 * (p.x - 8).abs() as f32, facing(p), Vec4::ONE)
+    });
+    for y in 0..12 {
+        // In all directions but along the ridge.
+        assert_eq!(tabula_rasa_edges(Form::Corrected).edge(&world, ivec2(8, y)), 0.75);
+        assert_eq!(tabula_rasa_edges(Form::Paper).edge(&world, ivec2(8, y)), 0.0);
+        for form in [Form::Corrected, Form::Paper] {
+            assert_eq!(tabula_rasa_edges(form).edge(&world, ivec2(3, y)), 0.0);
+        }
+    }
+}
+
+/// On an edge, half a pixel to each corner is a tent of three pixels on each axis.
+#[test]
+fn the_default_kernel_weighs_three_by_three() {
+    let at = ivec2(4, 4);
+    let world = World::new(uvec2(9, 9), |p| {
+        let normal = if p.x % 2 == 0 { Vec3::Z } else { Vec3::NEG_Z };
+        (0.5, normal, if p == at { Vec4::ONE } else { Vec4::ZERO })
+    });
+    let found = Filter::Stalker(Stalker::default()).native(&world);
+    for p in pixels(uvec2(9, 9)) {
+        let axis = |k: i32| [2.0, 1.0, 0.0][k.abs().min(2) as usize];
+        let expected = axis(p.x - at.x) * axis(p.y - at.y) / 16.0;
+        let off = (found[(p.y * 9 + p.x) as usize][0] - expected).abs();
+        assert!(off < 1.0e-6, "{p}: off by {off}");
+    }
+}
+
+#[test]
+fn nothing_is_bound_that_is_not_read() {
+    for kernel in ["stalker", "tabula_rasa"] {
+        let set = vec![("output".to_owned(), "edges".to_owned())];
+        let edges = compile(kernel, set, Unroll::Full);
+        let whole = compile(kernel, Vec::new(), Unroll::Full);
+        let bound = |compiled: &Compiled| {
+            let emitted = compiled.emit(&EmitOptions::new()).unwrap_or_else(|e| panic!("{e}"));
+            let (mut names, mut thresholds) = (Vec::new(), 0);
+            for binding in emitted.manifest.bindings {
+                match binding.kind {
+                    BindingKind::Uniform { fields, .. } => thresholds = fields.len(),
+                    _ => names.push(binding.name),
+                }
+            }
+            (names.join(" "), thresholds)
+        };
+        assert_eq!(bound(&edges), ("depth normal".to_owned(), 2), "{kernel}");
+        assert_eq!(bound(&whole), ("depth normal color linear".to_owned(), 3), "{kernel}");
+        assert_eq!((whole.counts.basic_blocks, whole.counts.loops), (1, 0), "{kernel}");
+    }
+}
+
+/// Thresholds start at their defaults, and mean the same known as at run time.
+#[test]
+fn thresholds_known_and_at_run_time() {
+    let world = World::surfaces(uvec2(40, 30));
+    let run = |compiled: &Compiled, inputs: &Inputs| interpret::<f32>(compiled, inputs, false).expect("all is bound");
+    for filter in Filter::all() {
+        let (choices, numbers) = filter.options();
+        let own = |(k, v): &(&str, &str)| ((*k).to_owned(), (*v).to_owned());
+        let mut set: Vec<(String, String)> = choices.iter().map(own).collect();
+        set.extend(numbers.iter().map(|(k, v)| (k.replace('_', "-"), v.to_string())));
+        let known = compile(filter.name(), set, Unroll::Full);
+        assert!(known.graph.uniforms.is_empty(), "{filter:?}");
+        let at_run_time = run(&filter.compile(Unroll::Full), &filter.inputs(&world));
+        same_bits(&run(&known, &world.inputs()).texels, &at_run_time.texels)
+            .unwrap_or_else(|e| panic!("{filter:?}: {e}"));
+    }
+    for filter in [
+        Filter::Stalker(Stalker::default()),
+        Filter::TabulaRasa(TabulaRasa::default()),
+    ] {
+        let untouched = run(&filter.compile(Unroll::Full), &world.inputs());
+        same_bits(&filter.native(&world), &untouched.texels).unwrap_or_else(|e| panic!("{filter:?}: {e}"));
+    }
+}
+
+#[test]
+fn all_options_emit_in_all_languages() {
+    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("edge");
+    std::fs::create_dir_all(&folder).expect("a folder for shaders");
+    let (mut glsl, mut spirv) = (Vec::new(), Vec::new());
+    for (k, filter) in Filter::all().iter().enumerate() {
+        for (stage, unroll) in [(Stage::Compute, Unroll::Full), (Stage::Fragment, Unroll::None)] {
+            let targets: BTreeSet<Target> = Target::ALL.into();
+            let emitted = filter
+                .compile(unroll)
+                .emit(&EmitOptions::new().stage(stage).targets(targets))
+                .unwrap_or_else(|e| panic!("{filter:?}: {e}"));
+            for (name, contents) in emitted.named(&format!("{k}-{}", stage.name())) {
+                let path = folder.join(&name);
+                std::fs::write(&path, contents).expect("a shader is written");
+                match name.rsplit('.').next() {
+                    Some("comp" | "frag") => glsl.push(path),
+                    Some("spv") => spirv.push(path),
+                    _ => {}
+                }
+            }
+        }
+    }
+    assert_eq!((glsl.len(), spirv.len()), (24, 24));
+    other_compilers(&glsl, &spirv);
+}
+
+/// On the built-in scene each finds edges, and comes closer to the reference than no filter does.
+#[test]
+fn on_the_scene() {
+    let size = uvec2(320, 180);
+    let renderer = CpuRenderer::new(&builtin(), size).expect("the scene is drawn");
+    let (depth, normal) = renderer.geometry(Vec2::ZERO).expect("geometry");
+    let color = renderer.shaded(Vec2::ZERO).expect("a picture");
+    let world = World { depth, normal, color };
+    let exact = reference(&renderer, 4, &mut |_, _| {}).expect("supersampled");
+    let plain = metrics::psnr(&world.color, &exact);
+    save("scene", &world.color);
+    let stalker = Stalker {
+        depth: Depth::Linear,
+        depth_barrier: 2.0e-3,
+        ..Stalker::default()
+    };
+    for form in [Form::Paper, Form::Corrected] {
+        for output in [Output::Edges, Output::Antialias] {
+            for filter in [
+                Filter::Stalker(Stalker {
+                    form,
+                    output,
+                    ..stalker
+                }),
+                Filter::TabulaRasa(TabulaRasa {
+                    form,
+                    output,
+                    weight: 0.5,
+                    ..TabulaRasa::default()
+                }),
+            ] {
+                let found = filter.native(&world);
+                let shown = Frame::new(size, found.into_iter().map(Vec4::from_array).collect());
+                let name = format!("{}-{form:?}-{output:?}", filter.name()).to_lowercase();
+                save(&name, &shown);
+                if output == Output::Edges {
+                    let edges = shown.texels().iter().filter(|c| c.x > 0.0).count() as f64;
+                    println!(
+                        "{name}: {:.1} % edges",
+                        100.0 * edges / f64::from(size.element_product())
+                    );
+                    continue;
+                }
+                let filtered = metrics::psnr(&shown, &exact);
+                println!("{name}: {filtered:.2} dB, unfiltered {plain:.2} dB");
+                assert!(
+                    form == Form::Paper || filtered > plain,
+                    "{name}: {filtered} dB, {plain} dB"
+                );
+            }
+        }
+    }
+}
+
+fn save(name: &str, shown: &Frame<Vec4>) {
+    let Some(folder) = std::env::var_os("STRAIGHTLINE_PICTURES") else {
+        return;
+    };
+    let folder = Path::new(&folder);
+    std::fs::create_dir_all(folder).expect("a folder for pictures");
+    picture::write(&folder.join(format!("edge-{name}.png")), shown).expect("a picture is written");
+}
