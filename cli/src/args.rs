@@ -5,7 +5,7 @@ use glam::UVec2;
 use std::path::PathBuf;
 use straightline_codegen::diagnostic::Errors;
 use straightline_codegen::emit::Target;
-use straightline_codegen::{Branches, Kernel, Settings, Unroll};
+use straightline_codegen::{Branches, Kernel, Settings, Transport, Unroll};
 use straightline_manifest::{Format, Stage};
 
 /// Image filters written once, as ordinary Rust with ordinary loops, emitted as straight-line shaders.
@@ -79,6 +79,13 @@ pub struct OptionArgs {
     /// Statements that the kernel may have
     #[arg(long, value_name = "STATEMENTS", default_value_t = Settings::BUDGET)]
     pub budget: u32,
+    /// How the lanes of a pixel quad hear from each other: subgroup, derivatives or block; by default subgroup operations
+    /// in fragment shaders and blocks in compute
+    #[arg(long, value_name = "TRANSPORT", value_parser = |s: &str| s.parse::<Transport>())]
+    pub transport: Option<Transport>,
+    /// Pixels that one compute invocation has, across and down
+    #[arg(long, value_name = "WxH", default_value = "1x1", value_parser = size)]
+    pub block: UVec2,
 }
 
 impl Default for OptionArgs {
@@ -89,6 +96,8 @@ impl Default for OptionArgs {
             unroll_loop: Vec::new(),
             branches: Branches::default(),
             budget: Settings::BUDGET,
+            transport: None,
+            block: UVec2::ONE,
         }
     }
 }
@@ -101,6 +110,8 @@ impl OptionArgs {
             loops: self.unroll_loop.clone(),
             branches: self.branches,
             budget: self.budget,
+            transport: self.transport,
+            block: self.block.to_array(),
         }
     }
 }
@@ -143,6 +154,9 @@ pub struct EmitArgs {
     /// Invocations of a compute workgroup, across and down
     #[arg(long, value_name = "WxH", value_parser = size)]
     pub workgroup: Option<UVec2>,
+    /// Begin WGSL that has quad operations with `enable subgroups;`, as browsers want it and wgpu does not
+    #[arg(long)]
+    pub enable_subgroups: bool,
     /// Folder to write to; made if it is not there
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,

@@ -52,6 +52,7 @@ mod layout;
 mod pass;
 mod pipeline;
 mod plan;
+mod quads;
 mod reflect;
 mod resource;
 mod timer;
@@ -59,6 +60,7 @@ mod uniforms;
 
 pub use error::{BufferProblem, Error, Names, SamplerProblem, ViewProblem};
 pub use pass::{Pass, PassOptions};
+pub use quads::{Arrivals, DerivativeControl, DerivativeKind, QuadTransport, Quads};
 pub use resource::{Resource, ResourceKind};
 pub use straightline_manifest as manifest;
 pub use timer::{Span, Timer};

@@ -2,6 +2,7 @@
 
 mod convert;
 mod cpu;
+mod forward;
 mod gpu;
 mod synthetic;
 mod timing;
@@ -10,6 +11,7 @@ use glam::{UVec2, Vec4};
 use straightline_kernels::prelude::Frame;
 
 pub use cpu::{Interpreted, interpret};
+pub use forward::{Corner, Forward};
 pub use gpu::{Bench, Bound};
 pub use straightline_codegen::ir::interp::{Address, Comparison, SamplerState};
 pub use synthetic::test_inputs;

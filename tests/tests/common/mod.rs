@@ -163,19 +163,23 @@ pub fn interpret(compiled: &Compiled, inputs: &Inputs, uniforms: &[(&str, f64)])
 
 /// A device of any adapter.
 pub fn bench() -> execute::Bench {
+    let (device, queue) = device();
+    execute::Bench::new(&device, &queue, false)
+}
+
+/// A device of any adapter, with what kernels can use of it.
+pub fn device() -> (wgpu::Device, wgpu::Queue) {
     let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
     let adapter =
         pollster::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions::default())).unwrap_or_else(|e| {
             panic!("this test needs a GPU adapter; without a GPU install Debian's mesa-vulkan-drivers: {e}")
         });
     let descriptor = wgpu::DeviceDescriptor {
-        required_features: adapter.features() & wgpu::Features::FLOAT32_FILTERABLE,
+        required_features: adapter.features() & (wgpu::Features::FLOAT32_FILTERABLE | wgpu::Features::SUBGROUP),
         ..Default::default()
     };
     let device = pollster::block_on(adapter.request_device(&descriptor));
-    let (device, queue) =
-        device.unwrap_or_else(|e| panic!("the adapter {} gives no device: {e}", adapter.get_info().name));
-    execute::Bench::new(&device, &queue, false)
+    device.unwrap_or_else(|e| panic!("the adapter {} gives no device: {e}", adapter.get_info().name))
 }
 
 /// The same, bit for bit; any NaN equals any other.
