@@ -33,6 +33,8 @@ pub enum Command {
     Run(RunArgs),
     /// Compare unroll policies of kernels in one run: statements, reads, time, error
     Unroll(UnrollArgs),
+    /// Compare filters that share work over pixel quads with those that do not: reads, messages, time, difference
+    Quads(QuadsArgs),
     /// Antialias a captured frame
     Resolve(ResolveArgs),
     /// Render a scene or a model to a capture: the frame that `resolve` reads
@@ -236,6 +238,30 @@ pub struct UnrollArgs {
     #[arg(long, value_name = "FILE")]
     pub record: Option<PathBuf>,
     /// Also write what each kernel makes to this folder, and all of it in one picture, `all.png`
+    #[arg(long, value_name = "DIR")]
+    pub pictures: Option<PathBuf>,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+    #[command(flatten)]
+    pub adapter: AdapterArgs,
+}
+
+#[derive(Debug, Args)]
+pub struct QuadsArgs {
+    /// Width and height in pixels
+    #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = size)]
+    pub size: UVec2,
+    /// Model to render instead of the built-in scene: .gltf, .glb or .obj
+    #[arg(long, value_name = "FILE")]
+    pub mesh: Option<PathBuf>,
+    /// Rounds of timing; each runs every shader once, in turn
+    #[arg(long, value_name = "N", default_value_t = 9, value_parser = clap::value_parser!(u32).range(1..=1000))]
+    pub rounds: u32,
+    /// Also write the table and its circumstances to this file, as JSON
+    #[arg(long, value_name = "FILE")]
+    pub record: Option<PathBuf>,
+    /// Also write pictures of shadows and occlusion to this folder
     #[arg(long, value_name = "DIR")]
     pub pictures: Option<PathBuf>,
     /// Print JSON

@@ -21,6 +21,7 @@ fn main() -> ExitCode {
         Command::Explain(args) => commands::explain::run(&args),
         Command::Run(args) => commands::run::run(&args),
         Command::Unroll(args) => commands::unroll::run(&args),
+        Command::Quads(args) => commands::quads::run(&args),
         Command::Resolve(args) => commands::resolve::run(&args),
         Command::Capture(args) => commands::capture::run(&args),
         Command::Adapters(args) => commands::adapters::run(&args),

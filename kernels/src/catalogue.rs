@@ -106,9 +106,11 @@ pub fn find(name: &str) -> Option<&'static Entry> {
 
 /// Section 2.8: "a 3×3 blur with four samples, while Figure 2.4 illustrates this process for a 5×5 blur using nine".
 fn convolution_paper(option: &OptionValue<'_>) -> Option<PaperCounts> {
-    let texture_reads = match option("radius")?.as_str() {
-        "1" => 4,
-        "2" => 9,
+    let texture_reads = match (option("sharing")?.as_str(), option("radius")?.as_str()) {
+        ("quad", "1") => 4,
+        ("quad", "2") => 9,
+        ("alone", "1") => 9,
+        ("alone", "2") => 25,
         _ => return None,
     };
     Some(PaperCounts {

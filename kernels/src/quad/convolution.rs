@@ -7,12 +7,23 @@ options! {
     pub struct QuadConvolution {
         /// Pixels on each side that count: 1 for 3×3, 2 for 5×5, 3 for 7×7.
         pub radius: i32 [1..=8] = 1,
+        /// Who reads them.
+        pub sharing: Sharing = Sharing::Quad,
         /// How the pixels around are weighed.
         pub weights: Weights = Weights::Box,
         /// Weights of 7×7 pixels, row by row, for `given`; with a smaller radius those around the centre. They are taken as
         /// they are: give weights that sum to 1 for an image that keeps its brightness.
         pub given: [f32; 49] = [0.0; 49],
     }
+}
+
+/// Who reads the pixels around.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sharing {
+    /// Each lane a quarter of those around the quad.
+    Quad,
+    /// Each pixel its own.
+    Alone,
 }
 
 /// How the pixels around are weighed.
@@ -32,6 +43,21 @@ pub enum Weights {
 /// three others with the weights that they give these pixels. The chapter's 3×3 blur weighs such messages once more by
 /// 4, 2, 2 and 1; they are sums already. Reads beyond the border give the border's pixels.
 pub fn quad_convolution(cfg: &QuadConvolution, image: &Frame<Vec4>, pixel: Quad<IVec2>) -> Quad<Vec4> {
+    match cfg.sharing {
+        Sharing::Quad => shared(cfg, image, pixel),
+        Sharing::Alone => {
+            let mut sum = Quad::splat(Vec4::ZERO);
+            for y in -cfg.radius..=cfg.radius {
+                for x in -cfg.radius..=cfg.radius {
+                    sum += image.load(pixel + ivec2(x, y)) * weight_at(cfg, x, y);
+                }
+            }
+            sum
+        }
+    }
+}
+
+fn shared(cfg: &QuadConvolution, image: &Frame<Vec4>, pixel: Quad<IVec2>) -> Quad<Vec4> {
     let outwards = quad_vector().as_ivec2();
     let mut own = Quad::splat(Vec4::ZERO);
     let mut beside = Quad::splat(Vec4::ZERO);

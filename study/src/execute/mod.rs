@@ -4,6 +4,7 @@ mod convert;
 mod cpu;
 mod forward;
 mod gpu;
+mod shadowed;
 mod synthetic;
 mod timing;
 
@@ -13,6 +14,7 @@ use straightline_kernels::prelude::Frame;
 pub use cpu::{Interpreted, interpret};
 pub use forward::{Corner, Forward};
 pub use gpu::{Bench, Bound};
+pub use shadowed::Shadowed;
 pub use straightline_codegen::ir::interp::{Address, Comparison, SamplerState};
 pub use synthetic::test_inputs;
 pub use timing::{Clock, Job, Times};

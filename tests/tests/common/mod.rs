@@ -196,7 +196,8 @@ pub fn same_bits(a: &[[f32; 4]], b: &[[f32; 4]]) -> Result<(), String> {
 
 /// Has two compilers that share nothing with naga read GLSL and SPIR-V files.
 pub fn other_compilers(glsl: &[PathBuf], spirv: &[PathBuf]) {
-    run("glslangValidator", "glslang-tools", &["-V", "-o", "/dev/null"], glsl);
+    let arguments = ["-V", "--target-env", "vulkan1.1", "-o", "/dev/null"];
+    run("glslangValidator", "glslang-tools", &arguments, glsl);
     run("spirv-val", "spirv-tools", &["--target-env", "vulkan1.1"], spirv);
 }
 

@@ -1,8 +1,8 @@
 //! Convolution, upsampling, bilateral blur, occlusion: full-screen filters.
 
 use super::*;
-use straightline_kernels::quad::bilateral::{QuadBilateral, quad_bilateral};
-use straightline_kernels::quad::convolution::{QuadConvolution, Weights, quad_convolution};
+use straightline_kernels::quad::bilateral::{self, QuadBilateral, quad_bilateral};
+use straightline_kernels::quad::convolution::{self, QuadConvolution, Weights, quad_convolution};
 use straightline_kernels::quad::ssao::{QuadSsao, Sharing, quad_ssao};
 use straightline_kernels::quad::upsampling::{
     Downsampling, Factor, Gives, Payload, Reads, Upsampling, downsampling, quad_upsampling,
@@ -20,6 +20,7 @@ fn convolutions_are_sums_of_weighted_pixels() {
         let inputs = Inputs::new(size).image("image", image.clone());
         let whole = picture(&image);
         for (radius, weights, word) in [
+            (0, Weights::Box, "box"),
             (1, Weights::Box, "box"),
             (2, Weights::Box, "box"),
             (3, Weights::Binomial, "binomial"),
@@ -27,20 +28,34 @@ fn convolutions_are_sums_of_weighted_pixels() {
             (2, Weights::Given, "given"),
             (3, Weights::Given, "given"),
         ] {
-            let cfg = QuadConvolution { radius, weights, given };
+            // A radius of 0 stands for one of 1 that is not shared.
+            let (radius, sharing, sharing_word) = match radius {
+                0 => (1, convolution::Sharing::Alone, "alone"),
+                _ => (radius, convolution::Sharing::Quad, "quad"),
+            };
+            let cfg = QuadConvolution {
+                radius,
+                sharing,
+                weights,
+                given,
+            };
             let weight = |i: i64, j: i64| match weights {
                 Weights::Box => 1.0 / f64::from((2 * radius + 1) * (2 * radius + 1)),
                 Weights::Binomial => quads::binomial(radius.into(), i) * quads::binomial(radius.into(), j),
                 Weights::Given => f64::from(given[((j + 3) * 7 + i + 3) as usize]),
             };
             let radius_text = radius.to_string();
-            let mut options = vec![("radius", radius_text.as_str()), ("weights", word)];
+            let mut options = vec![
+                ("radius", radius_text.as_str()),
+                ("weights", word),
+                ("sharing", sharing_word),
+            ];
             if weights == Weights::Given {
                 options.push(("given", &given_text));
             }
             check(
                 &gpu,
-                &format!("convolution {radius} {word}"),
+                &format!("convolution {radius} {word} {sharing_word}"),
                 "quad_convolution",
                 &options,
                 &inputs,
@@ -58,16 +73,21 @@ fn bilateral_blur_is_a_mean_of_near_pixels() {
     for size in SIZES {
         let image = noise(size, 8);
         let whole = picture(&image);
-        for radius in [1, 2] {
+        for (radius, sharing, word) in [
+            (1, bilateral::Sharing::Alone, "alone"),
+            (1, bilateral::Sharing::Quad, "quad"),
+            (2, bilateral::Sharing::Quad, "quad"),
+        ] {
             let cfg = QuadBilateral {
                 radius,
+                sharing,
                 ..QuadBilateral::default()
             };
             check(
                 &gpu,
-                &format!("bilateral {radius}"),
+                &format!("bilateral {radius} {word}"),
                 "quad_bilateral",
-                &[("radius", &radius.to_string())],
+                &[("radius", &radius.to_string()), ("sharing", word)],
                 &Inputs::new(size).image("image", image.clone()),
                 &native(size, |pixel| quad_bilateral(&cfg, &image, pixel)),
                 &defined(size, |at| {
