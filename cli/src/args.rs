@@ -5,7 +5,7 @@ use glam::UVec2;
 use std::path::PathBuf;
 use straightline_codegen::diagnostic::Errors;
 use straightline_codegen::emit::Target;
-use straightline_codegen::{Branches, Kernel, Settings, Unroll};
+use straightline_codegen::{Branches, Kernel, Settings, Transport, Unroll};
 use straightline_manifest::{Format, Stage};
 
 /// Image filters written once, as ordinary Rust with ordinary loops, emitted as straight-line shaders.
@@ -35,6 +35,8 @@ pub enum Command {
     Unroll(UnrollArgs),
     /// Count and measure what SRAA costs: memory, reads, time of each metric, and the shading cost from which it pays
     Budget(BudgetArgs),
+    /// Compare filters that share work over pixel quads with those that do not: reads, messages, time, difference
+    Quads(QuadsArgs),
     /// Antialias a captured frame
     Resolve(ResolveArgs),
     /// Render a scene or a model to a capture: the frame that `resolve` reads
@@ -83,6 +85,13 @@ pub struct OptionArgs {
     /// Statements that the kernel may have
     #[arg(long, value_name = "STATEMENTS", default_value_t = Settings::BUDGET)]
     pub budget: u32,
+    /// How the lanes of a pixel quad hear from each other: subgroup, derivatives or block; by default subgroup operations
+    /// in fragment shaders and blocks in compute
+    #[arg(long, value_name = "TRANSPORT", value_parser = |s: &str| s.parse::<Transport>())]
+    pub transport: Option<Transport>,
+    /// Pixels that one compute invocation has, across and down
+    #[arg(long, value_name = "WxH", default_value = "1x1", value_parser = size)]
+    pub block: UVec2,
 }
 
 impl Default for OptionArgs {
@@ -93,6 +102,8 @@ impl Default for OptionArgs {
             unroll_loop: Vec::new(),
             branches: Branches::default(),
             budget: Settings::BUDGET,
+            transport: None,
+            block: UVec2::ONE,
         }
     }
 }
@@ -105,6 +116,8 @@ impl OptionArgs {
             loops: self.unroll_loop.clone(),
             branches: self.branches,
             budget: self.budget,
+            transport: self.transport,
+            block: self.block.to_array(),
         }
     }
 }
@@ -150,6 +163,9 @@ pub struct EmitArgs {
     /// Invocations of a compute workgroup, across and down
     #[arg(long, value_name = "WxH", value_parser = size)]
     pub workgroup: Option<UVec2>,
+    /// Begin WGSL that has quad operations with `enable subgroups;`, as browsers want it and wgpu does not
+    #[arg(long)]
+    pub enable_subgroups: bool,
     /// Folder to write to; made if it is not there
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
@@ -252,6 +268,30 @@ pub struct BudgetArgs {
     /// Also write the figures and their circumstances to this JSON file
     #[arg(long, value_name = "FILE")]
     pub record: Option<PathBuf>,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+    #[command(flatten)]
+    pub adapter: AdapterArgs,
+}
+
+#[derive(Debug, Args)]
+pub struct QuadsArgs {
+    /// Width and height in pixels
+    #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = size)]
+    pub size: UVec2,
+    /// Model to render instead of the built-in scene: .gltf, .glb or .obj
+    #[arg(long, value_name = "FILE")]
+    pub mesh: Option<PathBuf>,
+    /// Rounds of timing; each runs every shader once, in turn
+    #[arg(long, value_name = "N", default_value_t = 9, value_parser = clap::value_parser!(u32).range(1..=1000))]
+    pub rounds: u32,
+    /// Also write the table and its circumstances to this file, as JSON
+    #[arg(long, value_name = "FILE")]
+    pub record: Option<PathBuf>,
+    /// Also write pictures of shadows and occlusion to this folder
+    #[arg(long, value_name = "DIR")]
+    pub pictures: Option<PathBuf>,
     /// Print JSON
     #[arg(long)]
     pub json: bool,

@@ -70,7 +70,8 @@ impl Gpu {
             adapter.features().contains(Features::TIMESTAMP_QUERY) && info.device_type != wgpu::DeviceType::Cpu;
         let descriptor = wgpu::DeviceDescriptor {
             label: Some("straightline"),
-            required_features: adapter.features() & (Features::TIMESTAMP_QUERY | Features::FLOAT32_FILTERABLE),
+            required_features: adapter.features()
+                & (Features::TIMESTAMP_QUERY | Features::FLOAT32_FILTERABLE | Features::SUBGROUP),
             required_limits: adapter.limits(),
             ..Default::default()
         };

@@ -27,5 +27,5 @@ pub use config::{Config, compile};
 pub use emit::EmitOptions;
 pub use eval::{LoopReport, OptionInfo, OptionKind};
 pub use pipeline::{Compiled, Kernel, Observer, Settings};
-pub use policy::{Branches, Unroll};
+pub use policy::{Branches, Transport, Unroll};
 pub use straightline_manifest::{Format, Manifest, Stage};

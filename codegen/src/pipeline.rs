@@ -4,9 +4,10 @@ use crate::diagnostic::{Diagnostic, Errors, File};
 use crate::emit::{self, EmitError, EmitOptions, Emitted};
 use crate::eval::{self, LoopReport, OptionInfo};
 use crate::front;
-use crate::ir::{Graph, verify};
+use crate::ir::{Graph, Invocation, verify};
 use crate::passes::{self, Schedule};
-use crate::policy::{Branches, LoopPolicy, Policy, Unroll};
+use crate::policy::{Branches, LoopPolicy, Policy, Transport, Unroll};
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
@@ -33,6 +34,11 @@ pub struct Settings {
     pub branches: Branches,
     /// Statements that the kernel may have.
     pub budget: u32,
+    /// How lanes of quads hear from each other; `None` leaves it to the stage: subgroup operations in fragment shaders,
+    /// blocks in compute.
+    pub transport: Option<Transport>,
+    /// Pixels that one invocation computes, across and down. A kernel of quads takes them by its transport alone.
+    pub block: [u32; 2],
 }
 
 impl Settings {
@@ -56,6 +62,8 @@ impl Default for Settings {
             loops: Vec::new(),
             branches: Branches::default(),
             budget: Settings::BUDGET,
+            transport: None,
+            block: [1, 1],
         }
     }
 }
@@ -79,6 +87,10 @@ pub struct Compiled {
     pub schedule: Schedule,
     /// What one invocation executes; `statements` is 0 until it is emitted.
     pub counts: Counts,
+    /// How lanes of quads were asked to hear from each other.
+    pub transport: Option<Transport>,
+    /// Of a kernel whose invocations are lanes, the graph in which one invocation computes the whole quad.
+    pub quad: Option<Arc<Graph>>,
 }
 
 impl Compiled {
@@ -86,7 +98,27 @@ impl Compiled {
     pub fn emit(&self, options: &EmitOptions) -> Result<Emitted, EmitError> {
         emit::emit(self, options)
     }
+
+    /// The kernel with whole quads computed by one invocation, as compute shaders and the interpreter need it; any other
+    /// kernel as it is.
+    pub fn in_blocks(&self) -> Cow<'_, Compiled> {
+        let Some(graph) = &self.quad else {
+            return Cow::Borrowed(self);
+        };
+        let graph = Graph::clone(graph);
+        let schedule = passes::schedule(&graph);
+        Cow::Owned(Compiled {
+            counts: passes::count(&graph, &schedule),
+            graph,
+            schedule,
+            quad: None,
+            ..self.clone()
+        })
+    }
 }
+
+/// Pixels that one invocation may compute.
+const MAX_BLOCK: u32 = 64;
 
 /// A graph after a stage, for whoever looks on.
 pub type Observer<'a> = dyn FnMut(&str, &Graph) + Send + 'a;
@@ -183,7 +215,18 @@ impl Kernel {
     fn stages(&self, settings: &Settings, observer: &mut Observer<'_>) -> Result<Compiled, Errors> {
         let library = front::parse(&self.files, &self.name)?;
         let policy = settings.policy();
-        let evaluated = eval::evaluate(&library, &self.files, &self.name, &settings.options, &policy)?;
+        let invocation = match settings.block {
+            [1, 1] => Invocation::Pixel,
+            _ => Invocation::Outlying,
+        };
+        let evaluated = eval::evaluate(
+            &library,
+            &self.files,
+            &self.name,
+            &settings.options,
+            &policy,
+            invocation,
+        )?;
         let mut stage = |name: &str, graph: Graph| -> Result<Graph, Errors> {
             verify::verify(&graph).map_err(|why| internal(name, &why))?;
             observer(name, &graph);
@@ -193,7 +236,57 @@ impl Kernel {
         let graph = stage("clean", passes::clean(&graph))?;
         let graph = stage("share-loads", passes::share_loads(&graph))?;
         // Sharing makes new common terms, and those leave others unused.
-        let graph = stage("clean", passes::clean(&graph))?;
+        let mut graph = stage("clean", passes::clean(&graph))?;
+        let refused = |what: String, help: &str| {
+            let error = Diagnostic::at(evaluated.span, what).label("this kernel").help(help);
+            Errors::new(vec![error], &self.files)
+        };
+        let mut quad = None;
+        if graph.invocation == Invocation::Lane {
+            if settings.block != [1, 1] {
+                return Err(refused(
+                    format!("`{}` computes quads, and no other blocks", self.name),
+                    "leave the block out: the transport `block` has one invocation compute each quad",
+                ));
+            }
+            if settings.transport == Some(Transport::Derivatives) {
+                let lowered = passes::by_derivatives(&graph)
+                    .map_err(|why| refused(why, "send floats, or use the transport `subgroup`"))?;
+                graph = stage("derivatives", passes::clean(&lowered))?;
+            }
+            let expanded = passes::expand(&graph, [2, 2]).map_err(|why| {
+                refused(
+                    format!("the lanes of `{}` do not run in step: {why}", self.name),
+                    "decide loops and branches by what the whole quad has in common; choose lane by lane with `select`",
+                )
+            })?;
+            let expanded = stage("quad", passes::clean(&expanded))?;
+            if settings.transport == Some(Transport::Block) {
+                graph = expanded;
+            } else {
+                quad = Some(Arc::new(expanded));
+            }
+        } else if settings.transport.is_some() {
+            return Err(refused(
+                format!("`{}` computes one pixel, and sends no messages", self.name),
+                "leave the transport out, or take `pixel: Quad<IVec2>` and give a `Quad<Vec4>`",
+            ));
+        } else if settings.block != [1, 1] {
+            let [width, height] = settings.block;
+            if width == 0 || height == 0 || width.saturating_mul(height) > MAX_BLOCK {
+                return Err(refused(
+                    format!("a block of {width}x{height} pixels"),
+                    "use blocks of 1 to 64 pixels, such as 2x1 or 2x2",
+                ));
+            }
+            let expanded = passes::expand(&graph, settings.block).map_err(|why| {
+                refused(
+                    format!("the pixels of `{}` cannot run in step: {why}", self.name),
+                    "unroll fully and select, so that no loop or branch is left, or compute one pixel at a time",
+                )
+            })?;
+            graph = stage("block", passes::clean(&expanded))?;
+        }
         let schedule = passes::schedule(&graph);
         let statements = emit::statements(&graph, &schedule);
         if statements > settings.budget {
@@ -221,6 +314,8 @@ impl Kernel {
             graph,
             schedule,
             counts,
+            transport: settings.transport,
+            quad,
         })
     }
 }

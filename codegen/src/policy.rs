@@ -84,6 +84,41 @@ impl FromStr for Branches {
     }
 }
 
+/// How the lanes of a quad hear from each other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Transport {
+    /// By quad operations, which move bits as they are. Fragment shaders, on devices with subgroups.
+    Subgroup,
+    /// By fine derivatives, as the chapter does: rounds, and only carries floats. Fragment shaders.
+    Derivatives,
+    /// Not at all: one invocation computes the four pixels. Compute shaders.
+    Block,
+}
+
+impl Transport {
+    /// Every transport.
+    pub const ALL: [Transport; 3] = [Transport::Subgroup, Transport::Derivatives, Transport::Block];
+}
+
+impl fmt::Display for Transport {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Transport::Subgroup => "subgroup",
+            Transport::Derivatives => "derivatives",
+            Transport::Block => "block",
+        })
+    }
+}
+
+impl FromStr for Transport {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let known = Transport::ALL.into_iter().find(|t| t.to_string() == text);
+        known.ok_or_else(|| format!("unknown transport `{text}`: subgroup, derivatives or block"))
+    }
+}
+
 /// What becomes of single loops, by the path `function.counter` or by the counter alone.
 pub type LoopPolicy = (String, Unroll);
 

@@ -70,6 +70,48 @@ pub const CATALOGUE: &[Entry] = &[
         sources: &[source!("edge/mod.rs"), source!("edge/tabula_rasa.rs")],
         paper: no_paper,
     },
+    Entry {
+        name: "quad_convolution",
+        summary: "Convolution with (2k+1)² weights from (k+1)² reads a pixel, shared over pixel quads (Penner 2011)",
+        sources: &[source!("quad/convolution.rs")],
+        paper: convolution_paper,
+    },
+    Entry {
+        name: "quad_upsampling",
+        summary: "Cross-bilateral upsampling, 2x or 4x, from one or two reads a pixel, shared over pixel quads (Penner 2011)",
+        sources: &[source!("quad/upsampling.rs")],
+        paper: upsampling_paper,
+    },
+    Entry {
+        name: "downsampling",
+        summary: "The image of low resolution, half a pixel off, that quad_upsampling reads",
+        sources: &[source!("quad/upsampling.rs")],
+        paper: no_paper,
+    },
+    Entry {
+        name: "quad_bilateral",
+        summary: "Bilateral blur of (2k+1)² pixels from (k+1)² reads a pixel, shared over pixel quads (Penner 2011)",
+        sources: &[source!("quad/bilateral.rs")],
+        paper: no_paper,
+    },
+    Entry {
+        name: "pcf",
+        summary: "Percentage-closer filtering of 4x4 or 8x8 texels, its comparisons shared over pixel quads (Penner 2011)",
+        sources: &[source!("quad/pcf/mod.rs"), source!("quad/pcf/weights.rs")],
+        paper: pcf_paper,
+    },
+    Entry {
+        name: "pcss",
+        summary: "Contact-hardening shadows, their searches split over pixel quads (after Penner 2011)",
+        sources: &[source!("quad/pcss.rs")],
+        paper: no_paper,
+    },
+    Entry {
+        name: "quad_ssao",
+        summary: "Screen-space ambient occlusion, its taps split over pixel quads (after Penner 2011)",
+        sources: &[source!("quad/ssao.rs")],
+        paper: no_paper,
+    },
 ];
 
 /// The built-in kernel called `name`.
@@ -77,7 +119,52 @@ pub fn find(name: &str) -> Option<&'static Entry> {
     CATALOGUE.iter().find(|entry| entry.name == name)
 }
 
-/// A publication that counts nothing.
+/// Section 2.8: "a 3×3 blur with four samples, while Figure 2.4 illustrates this process for a 5×5 blur using nine".
+fn convolution_paper(option: &OptionValue<'_>) -> Option<PaperCounts> {
+    let texture_reads = match (option("sharing")?.as_str(), option("radius")?.as_str()) {
+        ("quad", "1") => 4,
+        ("quad", "2") => 9,
+        ("alone", "1") => 9,
+        ("alone", "2") => 25,
+        _ => return None,
+    };
+    Some(PaperCounts {
+        weight_evaluations: 0,
+        texture_reads,
+    })
+}
+
+/// Section 2.7: "a bilateral upsample with only one or two texture fetches ... instead of eight".
+fn upsampling_paper(option: &OptionValue<'_>) -> Option<PaperCounts> {
+    let texture_reads = match option("reads")?.as_str() {
+        "packed" => 1,
+        "apart" => 2,
+        _ => 8,
+    };
+    Some(PaperCounts {
+        weight_evaluations: 4,
+        texture_reads,
+    })
+}
+
+/// Section 2.9: N² comparisons each by itself, one for 4×4 texels and four for 8×8 shared.
+fn pcf_paper(option: &OptionValue<'_>) -> Option<PaperCounts> {
+    let texture_reads = match (option("method")?.as_str(), option("width")?.as_str()) {
+        ("naive", "four") => 16,
+        ("naive", _) => 64,
+        ("bilinear", "four") => 4,
+        ("bilinear", _) => 16,
+        ("quad", "four") => 1,
+        ("quad", _) => 4,
+        _ => return None,
+    };
+    Some(PaperCounts {
+        weight_evaluations: 0,
+        texture_reads,
+    })
+}
+
+/// Its publication counts nothing.
 fn no_paper(_: &OptionValue<'_>) -> Option<PaperCounts> {
     None
 }

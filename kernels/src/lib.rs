@@ -13,6 +13,8 @@ mod options;
 #[cfg(feature = "native")]
 pub mod prelude;
 #[cfg(feature = "native")]
+pub mod quad;
+#[cfg(feature = "native")]
 pub mod sraa;
 
 pub use catalogue::{CATALOGUE, Entry, OptionValue, PaperCounts, SourceFile, find};

@@ -32,6 +32,17 @@ pub struct Manifest {
     /// Invocations in a workgroup; compute only.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub workgroup_size: Option<[u32; 3]>,
+    /// Pixels that one invocation computes, across and down. Compute dispatches one invocation for each block, and blocks
+    /// that stick out of the target store what lies inside.
+    #[serde(default = "one_pixel", skip_serializing_if = "is_one_pixel")]
+    pub block: [u32; 2],
+    /// What the device must be able to do besides: `subgroup`, quad operations in the shader's stage.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub features: Vec<String>,
+    /// Values that the host's vertex shader gives for interpolation; fragment only. A shader that has some is drawn in a
+    /// pipeline of the host's own.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub varyings: Vec<Varying>,
     /// Textures, buffers, samplers and uniform buffers that the shader reads, in binding order. What the options make
     /// unnecessary is not listed.
     pub bindings: Vec<Binding>,
@@ -44,6 +55,19 @@ pub struct Manifest {
     /// File of each target that was written, by target name (`wgsl`, `glsl450`, `spirv`, `hlsl`, `msl`).
     #[serde(default)]
     pub files: BTreeMap<String, String>,
+}
+
+/// A value that is interpolated for each fragment.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Varying {
+    /// Name in the kernel's source.
+    pub name: String,
+    /// Type as WGSL spells it: `f32`, `vec3f`, ...
+    #[serde(rename = "type")]
+    pub ty: String,
+    /// Location of the fragment's input.
+    pub location: u32,
 }
 
 /// A pipeline stage.
@@ -260,12 +284,27 @@ pub struct Counts {
     pub tallies: BTreeMap<String, u32>,
     /// Exponentials, logarithms, powers, roots and trigonometric calls.
     pub transcendentals: u32,
+    /// Messages between the lanes of a quad, or the derivatives that carry them.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub messages: u32,
     /// All other arithmetic, comparison and selection operations, a vector operation counting once.
     pub alu: u32,
     /// Statements of the emitted body.
     pub statements: u32,
     /// Scalars alive at the widest point of the emitted order.
     pub max_live: u32,
+}
+
+fn one_pixel() -> [u32; 2] {
+    [1, 1]
+}
+
+fn is_one_pixel(block: &[u32; 2]) -> bool {
+    *block == [1, 1]
+}
+
+fn is_zero(n: &u32) -> bool {
+    *n == 0
 }
 
 /// Why a text is not a manifest.

@@ -53,6 +53,7 @@ mod layout;
 mod pass;
 mod pipeline;
 mod plan;
+mod quads;
 mod reflect;
 mod region;
 mod resource;
@@ -61,6 +62,7 @@ mod uniforms;
 
 pub use error::{BufferProblem, Error, Names, SamplerProblem, ViewProblem};
 pub use pass::{Pass, PassOptions};
+pub use quads::{Arrivals, DerivativeControl, DerivativeKind, QuadTransport, Quads};
 pub use region::Region;
 pub use resource::{Resource, ResourceKind};
 pub use straightline_manifest as manifest;

@@ -79,6 +79,7 @@ impl Pass {
     ) -> Result<Self, Error> {
         let plan = Plan::new(manifest)?;
         reflect::check(&plan, wgsl)?;
+        check_quads(device, manifest)?;
         let format = check_format(device, &plan, options)?;
         let doing = format!("making a pass of `{}`", plan.kernel);
         let pulse = Pulse::new(device, &doing)?;
@@ -345,7 +346,11 @@ impl Pass {
                 for (index, group) in groups {
                     pass.set_bind_group(*index, group, &[]);
                 }
-                pass.dispatch_workgroups(width.div_ceil(workgroup[0]), height.div_ceil(workgroup[1]), 1);
+                pass.dispatch_workgroups(
+                    width.div_ceil(workgroup[0] * self.plan.block[0]),
+                    height.div_ceil(workgroup[1] * self.plan.block[1]),
+                    1,
+                );
             }
             Pipeline::Render(pipeline) => {
                 let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
@@ -386,6 +391,34 @@ struct Prepared {
     rectangle: Region,
     /// Whether what lies around the rectangle stays as it is.
     is_part: bool,
+}
+
+/// Refuses what a shader of quads needs and the device, or this crate, does not have.
+fn check_quads(device: &Device, manifest: &Manifest) -> Result<(), Error> {
+    let refused = |description: String| Error::Pipeline {
+        kernel: manifest.kernel.clone(),
+        description,
+    };
+    if let Some(first) = manifest.varyings.first() {
+        return Err(refused(format!(
+            "its `{}` is interpolated, and a pass has no vertices to interpolate between: draw it in a render pipeline of \
+             your own, or generate it for compute, where it is read from a texture",
+            first.name
+        )));
+    }
+    for feature in &manifest.features {
+        if feature != "subgroup" {
+            return Err(refused(format!("it needs `{feature}`, which this crate does not know")));
+        }
+        if !device.features().contains(wgpu::Features::SUBGROUP) {
+            return Err(refused(
+                "it sends messages by quad operations, and the device was created without the feature SUBGROUP: ask for \
+                 that, or generate the shader with the transport `derivatives` or `block`"
+                    .to_owned(),
+            ));
+        }
+    }
+    Ok(())
 }
 
 fn resources<'n, 'r, R: Into<Resource<'r>> + Copy>(inputs: &[(&'n str, R)]) -> Vec<(&'n str, Resource<'r>)> {

@@ -54,7 +54,7 @@ fn glslang_accepts_the_glsl() {
         "glslangValidator",
         "glslang-tools",
         &["comp", "frag"],
-        &["-V", "--quiet", "-o", "/dev/null"],
+        &["-V", "--target-env", "vulkan1.1", "--quiet", "-o", "/dev/null"],
     );
 }
 

@@ -4,7 +4,8 @@ use crate::args::ExplainArgs;
 use crate::failure::Failure;
 use crate::table;
 use serde_json::{Map, Value, json};
-use straightline_codegen::{Compiled, EmitOptions};
+use straightline_codegen::ir::Invocation;
+use straightline_codegen::{Compiled, EmitOptions, Stage};
 use straightline_kernels::PaperCounts;
 use straightline_manifest::Counts;
 
@@ -17,7 +18,12 @@ pub fn run(args: &ExplainArgs) -> Result<(), Failure> {
         }
     })?;
     // Statements are those of the emitted text.
-    let emitted = compiled.emit(&EmitOptions::new().targets([])).map_err(Failure::of)?;
+    let stage = match compiled.graph.invocation {
+        Invocation::Lane => Stage::Fragment,
+        _ => Stage::Compute,
+    };
+    let options = EmitOptions::new().stage(stage).targets([]);
+    let emitted = compiled.emit(&options).map_err(Failure::of)?;
     let counts = emitted.manifest.counts;
     let paper = paper(&compiled);
     if args.json {
@@ -29,6 +35,10 @@ pub fn run(args: &ExplainArgs) -> Result<(), Failure> {
 }
 
 fn paper(compiled: &Compiled) -> Option<PaperCounts> {
+    // It counts what one pixel costs.
+    if compiled.graph.invocation.pixels() != [1, 1] {
+        return None;
+    }
     let entry = straightline_kernels::find(&compiled.kernel)?;
     (entry.paper)(&|option| compiled.options.get(option).cloned())
 }
@@ -50,7 +60,9 @@ fn to_json(compiled: &Compiled, counts: &Counts, paper: Option<PaperCounts>) -> 
         }
     }
     if let Some(paper) = paper {
-        out.insert("paper_weight_evaluations".into(), json!(paper.weight_evaluations));
+        if paper.weight_evaluations > 0 {
+            out.insert("paper_weight_evaluations".into(), json!(paper.weight_evaluations));
+        }
         out.insert("paper_texture_reads".into(), json!(paper.texture_reads));
     }
     Value::Object(out)
@@ -82,11 +94,18 @@ fn print(compiled: &Compiled, counts: &Counts, paper: Option<PaperCounts>) {
             .map(|p| p.weight_evaluations);
         rows.push(row(&name.replace('_', " "), *n, paper));
     }
+    if counts.messages > 0 {
+        rows.push(row("messages", counts.messages, None));
+    }
     rows.push(row("transcendentals", counts.transcendentals, None));
     rows.push(row("other arithmetic", counts.alu, None));
     rows.push(row("statements", counts.statements, None));
     rows.push(row("scalars alive at most", counts.max_live, None));
-    print!("{}", table::render(&["per pixel", "here", "paper"], &rows));
+    let per = match compiled.graph.invocation.pixels() {
+        [1, 1] => "per pixel".to_owned(),
+        [width, height] => format!("per {width}x{height} pixels"),
+    };
+    print!("{}", table::render(&[&per, "here", "paper"], &rows));
     let loops = compiled.loops.iter().map(|report| {
         let cells = [
             report.path(),

@@ -8,7 +8,7 @@ use super::names::Names;
 use super::plan::Plan;
 use super::resources::Resources;
 use super::text::Text;
-use crate::ir::{BinaryOp, NodeId, Op};
+use crate::ir::{BinaryOp, NodeId, Op, Scalar};
 use crate::passes::{Block, Step};
 use crate::pipeline::Compiled;
 use std::collections::{BTreeSet, HashSet};
@@ -23,8 +23,8 @@ pub struct Body {
     pub tables: Vec<String>,
     /// Lines, indented by one level.
     pub lines: Vec<String>,
-    /// The colour.
-    pub result: String,
+    /// The colours of the invocation's pixels.
+    pub results: Vec<String>,
     /// Statements among the lines.
     pub statements: u32,
 }
@@ -88,11 +88,14 @@ fn attempt(
         statements: 0,
     };
     writer.block(&compiled.schedule.body)?;
-    let result = writer.text(graph.output())?.code;
+    let mut results = Vec::new();
+    for output in graph.outputs() {
+        results.push(writer.text(*output)?.code);
+    }
     Ok(Body {
         tables: writer.tables.into_iter().chain(writer.helpers).collect(),
         lines: writer.listing.lines(),
-        result,
+        results,
         statements: writer.statements,
     })
 }
@@ -203,6 +206,18 @@ impl Writer<'_> {
         Ok(match &node.op {
             Op::Pixel => Text::name("pixel"),
             Op::FrameSize => Text::name("frame"),
+            Op::Lane => {
+                let one = d.construct(node.ty, &[&d.scalar(Scalar::I32, 1)]);
+                Text::infix(&Text::name("pixel"), "&", &one, super::text::Binds::Mixed)
+            }
+            Op::Varying(k) => Text::name(self.compiled.graph.varyings[*k as usize].name.as_str()),
+            Op::Message(direction) => d.message(*direction, &args[0]),
+            Op::Derivative(axis) => d.derivative(*axis, &args[0]),
+            Op::GatherCompare { texture, sampler, .. } => {
+                let (text, helper) = d.gather_compare(*texture, *sampler, &args[0], &args[1]);
+                self.helpers.extend(helper);
+                text
+            }
             Op::Uniform(k) => d.uniform(&self.compiled.graph.uniforms[*k as usize].name),
             Op::Unary(op) => d.unary(*op, node.ty, &args[0]),
             Op::Binary(op) => {

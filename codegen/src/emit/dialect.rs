@@ -2,7 +2,7 @@
 
 use super::error::EmitError;
 use super::text::Text;
-use crate::ir::{BinaryOp, Scalar, Type, UnaryOp};
+use crate::ir::{Axis, BinaryOp, Direction, Scalar, Type, UnaryOp};
 
 /// A shading language.
 pub trait Dialect {
@@ -30,6 +30,12 @@ pub trait Dialect {
     fn gather(&self, texture: u32, sampler: u32, component: u8, uv: &Text) -> (Text, Option<String>);
     /// A comparison with a reference through a sampler.
     fn compare(&self, texture: u32, sampler: u32, uv: &Text, reference: &Text) -> Text;
+    /// Which of the four depths around a place pass a comparison, and a function that this needs at module scope.
+    fn gather_compare(&self, texture: u32, sampler: u32, uv: &Text, reference: &Text) -> (Text, Option<String>);
+    /// What another lane of the quad has.
+    fn message(&self, direction: Direction, x: &Text) -> Text;
+    /// A fine derivative.
+    fn derivative(&self, axis: Axis, x: &Text) -> Text;
     /// Width and height of a texture as signed integers.
     fn size(&self, texture: u32) -> Text;
     /// An element of a buffer.

@@ -23,6 +23,32 @@ pub enum EmitError {
         /// The kernel.
         kernel: String,
     },
+    /// Lanes in a stage that has none.
+    #[error(
+        "`{kernel}` sends messages by {transport}, and compute shaders have no pixel quads: emit it for fragment, or use the transport `block`"
+    )]
+    NoQuads {
+        /// The kernel.
+        kernel: String,
+        /// How lanes were to hear from each other.
+        transport: String,
+    },
+    /// A block of pixels in a stage that writes one.
+    #[error("`{kernel}` computes a block of pixels, and a fragment writes one: emit it for compute")]
+    OnePixel {
+        /// The kernel.
+        kernel: String,
+    },
+    /// Fine derivatives in a language without them.
+    #[error(
+        "`{kernel}` sends messages by fine derivatives, which {target} does not have: use the transport `subgroup` or `block`"
+    )]
+    Derivatives {
+        /// The kernel.
+        kernel: String,
+        /// The language.
+        target: &'static str,
+    },
     /// A layer or sample whose index nothing bounds.
     #[error(
         "`{kernel}` reads a layer or sample of `{texture}` whose index is only known at run time, so nothing tells how many it needs: bound it with `.min(...)`"

@@ -3,10 +3,17 @@
 use super::dialect::{Dialect, float, integer, operator};
 use super::resources::Resources;
 use super::text::{Binds, Text};
-use crate::ir::{BinaryOp, Scalar, TextureKind, Type, UnaryOp};
+use crate::ir::{Axis, BinaryOp, Direction, Scalar, TextureKind, Type, UnaryOp};
 
 /// What follows a buffer's name to ask for its length.
 pub const LENGTH: &str = ".elements.length()";
+
+/// Quad operations, horizontal, vertical and diagonal.
+pub const MESSAGES: [&str; 3] = [
+    "subgroupQuadSwapHorizontal",
+    "subgroupQuadSwapVertical",
+    "subgroupQuadSwapDiagonal",
+];
 
 /// GLSL 4.50.
 pub struct Glsl<'a> {
@@ -149,6 +156,40 @@ impl Dialect for Glsl<'_> {
         let through = self.through("sampler2DShadow", texture, sampler);
         let place = Text::call("vec3", &[uv, reference]);
         Text::call("textureLod", &[&through, &place, &Text::name("0.0")])
+    }
+
+    // naga reads no `textureGather`: as of colours, the four are compared one by one at their centres.
+    fn gather_compare(&self, texture: u32, sampler: u32, uv: &Text, reference: &Text) -> (Text, Option<String>) {
+        let through = self.through("sampler2DShadow", texture, sampler).code;
+        let function = format!(
+            "gather_compare_{}_{}",
+            self.resources.texture(texture).name,
+            self.resources.sampler(sampler).name
+        );
+        let tap =
+            |x: &str, y: &str| format!("textureLod({through}, vec3((base + vec2({x}, {y})) / size, reference), 0.0)");
+        let text = format!(
+            "vec4 {function}(vec2 uv, float reference) {{\n    vec2 size = vec2(textureSize({through}, 0));\n    vec2 base = \
+             floor(uv * size - 0.5);\n    return vec4({}, {}, {}, {});\n}}",
+            tap("0.5", "1.5"),
+            tap("1.5", "1.5"),
+            tap("1.5", "0.5"),
+            tap("0.5", "0.5"),
+        );
+        (Text::call(&function, &[uv, reference]), Some(text))
+    }
+
+    fn message(&self, direction: Direction, x: &Text) -> Text {
+        let function = match direction {
+            Direction::Horizontal => MESSAGES[0],
+            Direction::Vertical => MESSAGES[1],
+            Direction::Diagonal => MESSAGES[2],
+        };
+        Text::call(function, &[x])
+    }
+
+    fn derivative(&self, axis: Axis, x: &Text) -> Text {
+        Text::call(if axis == Axis::X { "dFdxFine" } else { "dFdyFine" }, &[x])
     }
 
     fn size(&self, texture: u32) -> Text {

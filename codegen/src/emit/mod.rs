@@ -23,9 +23,11 @@ mod translate;
 mod wgsl;
 mod words;
 
-use crate::ir::{Graph, Op};
+use crate::ir::{Graph, Invocation, Op};
 use crate::passes::Schedule;
 use crate::pipeline::Compiled;
+use crate::policy::Transport;
+use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 use straightline_manifest::{Format, Manifest, Stage};
 
@@ -70,6 +72,8 @@ pub struct EmitOptions {
     pub region: bool,
     /// Languages.
     pub targets: BTreeSet<Target>,
+    /// Whether WGSL with quad operations begins with `enable subgroups;`: browsers ask for it, naga and wgpu refuse it.
+    pub enable_subgroups: bool,
 }
 
 impl EmitOptions {
@@ -85,6 +89,7 @@ impl EmitOptions {
             workgroup: None,
             region: false,
             targets: BTreeSet::from([Target::Wgsl]),
+            enable_subgroups: false,
         }
     }
 
@@ -132,6 +137,22 @@ pub fn statements(graph: &Graph, schedule: &Schedule) -> u32 {
         .count() as u32
 }
 
+/// The kernel as invocations of the stage compute it.
+fn for_stage(compiled: &Compiled, stage: Stage) -> Result<Cow<'_, Compiled>, EmitError> {
+    let kernel = || compiled.kernel.clone();
+    match (compiled.graph.invocation, stage) {
+        (Invocation::Lane, Stage::Compute) => match compiled.transport {
+            None => Ok(compiled.in_blocks()),
+            Some(transport) => Err(EmitError::NoQuads {
+                kernel: kernel(),
+                transport: transport.to_string(),
+            }),
+        },
+        (Invocation::Block(size), Stage::Fragment) if size != [1, 1] => Err(EmitError::OnePixel { kernel: kernel() }),
+        _ => Ok(Cow::Borrowed(compiled)),
+    }
+}
+
 /// Emits a kernel. Nothing is given out that naga does not validate.
 pub fn emit(compiled: &Compiled, options: &EmitOptions) -> Result<Emitted, EmitError> {
     if let Some([x, y]) = options.workgroup
@@ -139,6 +160,7 @@ pub fn emit(compiled: &Compiled, options: &EmitOptions) -> Result<Emitted, EmitE
     {
         return Err(EmitError::Workgroup(x, y));
     }
+    let compiled = &*for_stage(compiled, options.stage)?;
     let resources = resources::Resources::of(compiled, options)?;
     let wgsl = shell::render(compiled, &resources, &wgsl::Wgsl { resources: &resources })?;
     let mut manifest = resources.manifest(compiled);
@@ -147,14 +169,23 @@ pub fn emit(compiled: &Compiled, options: &EmitOptions) -> Result<Emitted, EmitE
     let mut files = BTreeMap::new();
     for target in &options.targets {
         let bytes = match target {
+            Target::Wgsl if options.enable_subgroups && resources.subgroups => {
+                format!("enable subgroups;\n\n{}", wgsl.text).into_bytes()
+            }
             Target::Wgsl => wgsl.text.clone().into_bytes(),
             Target::Glsl450 => {
                 let glsl = shell::render(compiled, &resources, &glsl::Glsl { resources: &resources })?;
-                translate::check_glsl(&compiled.kernel, options.stage, &glsl.text)?;
+                translate::check_glsl(&compiled.kernel, options.stage, &glsl.text, &resources.compared())?;
                 glsl.text.into_bytes()
             }
             Target::Spirv => module.spirv(&resources)?,
             Target::Hlsl => module.hlsl(&resources)?.into_bytes(),
+            Target::Msl if compiled.transport == Some(Transport::Derivatives) => {
+                return Err(EmitError::Derivatives {
+                    kernel: compiled.kernel.clone(),
+                    target: "msl",
+                });
+            }
             Target::Msl => module.msl(&resources)?.into_bytes(),
         };
         files.insert(*target, bytes);

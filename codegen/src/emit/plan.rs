@@ -69,6 +69,7 @@ impl<'a> Plan<'a> {
             | Op::Pixel
             | Op::FrameSize
             | Op::Uniform(_)
+            | Op::Varying(_)
             | Op::Param(..)
             | Op::Result(_)
             | Op::Tally(_) => false,
@@ -87,7 +88,13 @@ impl<'a> Plan<'a> {
     fn is_atom(&self, id: NodeId) -> bool {
         let node = self.graph.node(id);
         match node.op {
-            Op::Const(_) | Op::Pixel | Op::FrameSize | Op::Uniform(_) | Op::Param(..) | Op::Result(_) => true,
+            Op::Const(_)
+            | Op::Pixel
+            | Op::FrameSize
+            | Op::Uniform(_)
+            | Op::Varying(_)
+            | Op::Param(..)
+            | Op::Result(_) => true,
             Op::Tally(_) => self.is_atom(node.args[0]),
             Op::Extract(_) | Op::Splat => self.is_atom(node.args[0]),
             _ => self.is_statement(id),

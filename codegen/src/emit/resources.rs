@@ -4,7 +4,7 @@ use super::EmitOptions;
 use super::error::EmitError;
 use super::layout::{layout, stride};
 use super::wgsl::type_name;
-use crate::ir::{Buffer, Graph, NodeId, Op, Sampler, Texture, TextureKind, Uniform};
+use crate::ir::{Buffer, Graph, NodeId, Op, Sampler, Texture, TextureKind, Uniform, Varying};
 use crate::passes::layers_read;
 use crate::pipeline::Compiled;
 use straightline_manifest::{
@@ -31,6 +31,8 @@ pub struct BoundTexture {
     pub components: u8,
     /// Whether a sampler filters it.
     pub filtered: bool,
+    /// Whether a sampler compares it.
+    pub compared: bool,
 }
 
 /// A shader's bindings.
@@ -53,6 +55,12 @@ pub struct Resources {
     pub uniform_size: u32,
     /// Whether the shader asks for the frame's size.
     pub needs_frame: bool,
+    /// Whether lanes of quads send messages by quad operations.
+    pub subgroups: bool,
+    /// Interpolated values that are used, by their locations.
+    pub varyings: Vec<Varying>,
+    /// Pixels that one invocation computes, across and down.
+    pub block: [u32; 2],
 }
 
 impl Resources {
@@ -78,6 +86,9 @@ impl Resources {
                 binding: number(),
                 layers,
                 components: components_read(graph, &live, index),
+                compared: ops.iter().any(
+                    |op| matches!(op, Op::Compare { texture, .. } | Op::GatherCompare { texture, .. } if *texture == index),
+                ),
                 filtered: ops.iter().any(
                     |op| matches!(op, Op::Sample { texture, .. } | Op::Gather { texture, .. } if *texture == index),
                 ),
@@ -102,11 +113,16 @@ impl Resources {
         let own = [UNIFORMS, SAMPLER, OUTPUT, REGION, "frame", "pixel", "id", "position"];
         if let Some(name) = names
             .chain(uniforms.iter().map(|u| &u.name))
+            .chain(graph.varyings.iter().map(|v| &v.name))
             .find(|name| super::names::is_reserved(name) || own.contains(&name.as_str()))
         {
             let name = name.clone();
             return Err(EmitError::Reserved { kernel: kernel(), name });
         }
+        let subgroups = ops.iter().any(|op| matches!(op, Op::Message(_)));
+        let used = |k: usize| ops.iter().any(|op| **op == Op::Varying(k as u32));
+        let varyings = graph.varyings.iter().enumerate().filter(|(k, _)| used(*k));
+        let varyings: Vec<Varying> = varyings.map(|(_, v)| v.clone()).collect();
         let (fields, uniform_size) = layout(&uniforms);
         let needs_frame = options.stage == Stage::Compute || ops.contains(&&Op::FrameSize);
         let resources = Resources {
@@ -120,6 +136,9 @@ impl Resources {
             fields,
             uniform_size,
             needs_frame,
+            subgroups,
+            varyings,
+            block: graph.invocation.pixels(),
         };
         if needs_frame && options.stage == Stage::Fragment && resources.framed().is_none() {
             return Err(EmitError::NoFrame { kernel: kernel() });
@@ -152,7 +171,25 @@ impl Resources {
         let textures = self.read.iter().map(|t| self.texture(t.index).name.as_str());
         let buffers = self.read_buffers.iter().map(|(k, _)| self.buffer(*k).name.as_str());
         let samplers = self.used_samplers.iter().map(|(k, _)| self.sampler(*k).name.as_str());
-        textures.chain(buffers).chain(samplers)
+        let varyings = self.varyings.iter().map(|v| v.name.as_str());
+        textures.chain(buffers).chain(samplers).chain(varyings)
+    }
+
+    fn varyings(&self) -> impl Iterator<Item = straightline_manifest::Varying> {
+        self.varyings
+            .iter()
+            .zip(0..)
+            .map(|(v, location)| straightline_manifest::Varying {
+                name: v.name.clone(),
+                ty: type_name(v.ty),
+                location,
+            })
+    }
+
+    /// Names of the textures that samplers compare.
+    pub fn compared(&self) -> Vec<&str> {
+        let compared = self.read.iter().filter(|bound| bound.compared);
+        compared.map(|bound| self.texture(bound.index).name.as_str()).collect()
     }
 
     fn inputs(&self) -> u32 {
@@ -246,6 +283,13 @@ impl Resources {
             unroll: compiled.policy.to_string(),
             entry_point: super::shell::entry_point(&compiled.kernel),
             workgroup_size: compute.then_some(self.options.workgroup()),
+            block: self.block,
+            features: if self.subgroups {
+                vec!["subgroup".to_owned()]
+            } else {
+                Vec::new()
+            },
+            varyings: self.varyings().collect(),
             bindings,
             output: Output {
                 name: OUTPUT.to_owned(),
@@ -280,7 +324,9 @@ fn components_read(graph: &Graph, live: &impl Fn(&NodeId) -> bool, texture: u32)
         };
         most = most.max(used);
     }
-    if is_texel(graph.output()) || graph.regions.iter().any(|r| r.results.iter().any(|id| is_texel(*id))) {
+    if graph.outputs().iter().any(|id| is_texel(*id))
+        || graph.regions.iter().any(|r| r.results.iter().any(|id| is_texel(*id)))
+    {
         return all;
     }
     most.min(all)

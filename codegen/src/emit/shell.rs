@@ -4,8 +4,9 @@ use super::body::{Body, body};
 use super::dialect::Dialect;
 use super::error::EmitError;
 use super::resources::{OUTPUT, Resources, SAMPLER, UNIFORMS};
-use crate::ir::TextureKind;
+use crate::ir::{Invocation, TextureKind};
 use crate::pipeline::Compiled;
+use crate::policy::Transport;
 use serde_json::json;
 use straightline_manifest::{REGION, Stage};
 
@@ -35,7 +36,7 @@ pub fn render(compiled: &Compiled, resources: &Resources, dialect: &dyn Dialect)
     let Body {
         tables,
         lines,
-        result,
+        results,
         statements,
     } = body(compiled, resources, &entry, dialect)?;
     let template = match dialect.name() {
@@ -81,6 +82,18 @@ pub fn render(compiled: &Compiled, resources: &Resources, dialect: &dyn Dialect)
         .iter()
         .map(|f| json!({ "name": f.name, "wgsl": f.ty, "glsl": glsl_type(&f.ty) }))
         .collect();
+    let varyings: Vec<_> = resources
+        .varyings
+        .iter()
+        .zip(0..)
+        .map(|(v, location)| json!({ "name": v.name, "location": location, "ty": dialect.ty(v.ty) }))
+        .collect();
+    let width = resources.block[0] as usize;
+    let stores: Vec<_> = results
+        .iter()
+        .enumerate()
+        .map(|(k, result)| json!({ "x": k % width, "y": k / width, "result": result }))
+        .collect();
     let context = json!({
         "header": header(compiled, resources, statements),
         "textures": textures,
@@ -101,7 +114,12 @@ pub fn render(compiled: &Compiled, resources: &Resources, dialect: &dyn Dialect)
         "names": { "output": OUTPUT, "uniforms": UNIFORMS, "sampler": SAMPLER, "region": REGION },
         "tables": tables,
         "body": lines.join("\n"),
-        "result": result,
+        "results": results,
+        "stores": stores,
+        "block": resources.block,
+        "blocks": resources.block != [1, 1],
+        "varyings": varyings,
+        "subgroups": resources.subgroups,
     });
     let failed = |error: tera::Error| EmitError::Shell {
         kernel: compiled.kernel.clone(),
@@ -118,7 +136,7 @@ fn header(compiled: &Compiled, resources: &Resources, statements: u32) -> Vec<St
     let options: Vec<String> = compiled
         .options
         .iter()
-        .map(|(name, value)| format!("{name}={value}"))
+        .map(|(name, value)| format!("{name}={}", shortened(value)))
         .collect();
     let mut lines = vec![
         format!("{}: {}", compiled.kernel, compiled.summary),
@@ -132,9 +150,10 @@ fn header(compiled: &Compiled, resources: &Resources, statements: u32) -> Vec<St
             }
         ),
         format!(
-            "Stage {}, unroll {}, output {}.",
+            "Stage {}, unroll {}, {}output {}.",
             resources.options.stage.name(),
             compiled.policy,
+            messages(compiled),
             resources.options.format
         ),
     ];
@@ -159,8 +178,35 @@ fn header(compiled: &Compiled, resources: &Resources, statements: u32) -> Vec<St
             .map(|(name, n)| format!("{n} {}", name.replace('_', " "))),
     );
     figures.push(format!("{} transcendental calls", counts.transcendentals));
-    lines.push(format!("Per pixel: {}.", figures.join(", ")));
+    if counts.messages > 0 {
+        figures.push(format!("{} messages", counts.messages));
+    }
+    let per = match resources.block {
+        [1, 1] => "pixel".to_owned(),
+        [width, height] => format!("block of {width}x{height} pixels"),
+    };
+    lines.push(format!("Per {per}: {}.", figures.join(", ")));
     lines
+}
+
+/// A list of many numbers that are all alike by one of them.
+fn shortened(value: &str) -> String {
+    let numbers: Vec<&str> = value.split(',').collect();
+    match numbers[..] {
+        [first, .., last] if numbers.len() > 9 && numbers.iter().all(|n| *n == last) => {
+            format!("{first},...({} alike)", numbers.len())
+        }
+        _ => value.to_owned(),
+    }
+}
+
+/// How lanes hear from each other, where there are some.
+fn messages(compiled: &Compiled) -> &'static str {
+    match compiled.graph.invocation {
+        Invocation::Lane if compiled.transport == Some(Transport::Derivatives) => "messages by fine derivatives, ",
+        Invocation::Lane => "messages by quad operations, ",
+        _ => "",
+    }
 }
 
 /// Types of a texture in WGSL and in GLSL.

@@ -58,10 +58,14 @@ impl Module {
         Ok(words.into_iter().flat_map(u32::to_le_bytes).collect())
     }
 
-    /// HLSL of shader model 5.1: group as space, binding as register.
-    pub fn hlsl(&self, _: &Resources) -> Result<String, EmitError> {
+    /// HLSL of shader model 5.1, with quad operations 6.0: group as space, binding as register.
+    pub fn hlsl(&self, resources: &Resources) -> Result<String, EmitError> {
         let mut text = String::new();
-        let (options, pipeline) = (hlsl::Options::default(), hlsl::PipelineOptions::default());
+        let mut options = hlsl::Options::default();
+        if resources.subgroups {
+            options.shader_model = hlsl::ShaderModel::V6_0;
+        }
+        let pipeline = hlsl::PipelineOptions::default();
         let mut writer = hlsl::Writer::new(&mut text, &options, &pipeline);
         writer
             .write(&self.module, &self.info, None)
@@ -122,9 +126,25 @@ impl Module {
 }
 
 /// Parses and validates GLSL. naga's reader makes an invalid module of the length of a storage buffer, so it is shown a
-/// number in its place.
-pub fn check_glsl(kernel: &str, of: Stage, text: &str) -> Result<(), EmitError> {
-    let text = &lengths_as_numbers(text);
+/// number in its place; it knows no quad operations, so it is shown what they are called with; and it takes a texture that
+/// is `compared` for one of depths alone, so that its texels are shown to it as another texture's.
+pub fn check_glsl(kernel: &str, of: Stage, text: &str, compared: &[&str]) -> Result<(), EmitError> {
+    let mut text = lengths_as_numbers(text);
+    for message in super::glsl::MESSAGES {
+        text = text.replace(message, "");
+    }
+    let mut text = text.replace("#extension GL_KHR_shader_subgroup_quad : require\n", "");
+    for (k, name) in compared.iter().enumerate() {
+        let sampler = super::resources::SAMPLER;
+        text = text.replace(
+            &format!("sampler2D({name}, {sampler})"),
+            &format!("sampler2D({name}_texels, {sampler})"),
+        );
+        let binding = 1000 + k;
+        let other = format!("#version 450\nlayout(set = 0, binding = {binding}) uniform texture2D {name}_texels;\n");
+        text = text.replacen("#version 450\n", &other, 1);
+    }
+    let text = &text;
     let invalid = |message| EmitError::Invalid {
         kernel: kernel.to_owned(),
         target: "glsl450",
@@ -146,7 +166,7 @@ fn stage(stage: Stage) -> naga::ShaderStage {
 }
 
 fn validate(module: &naga::Module, text: &str) -> Result<ModuleInfo, String> {
-    let mut validator = Validator::new(ValidationFlags::all(), Capabilities::empty());
+    let mut validator = Validator::new(ValidationFlags::all(), Capabilities::SUBGROUP);
     validator.validate(module).map_err(|error| error.emit_to_string(text))
 }
 

@@ -3,7 +3,7 @@
 use super::dialect::{Dialect, float, integer, operator};
 use super::resources::Resources;
 use super::text::{Binds, Text};
-use crate::ir::{BinaryOp, Scalar, TextureKind, Type, UnaryOp};
+use crate::ir::{Axis, BinaryOp, Direction, Scalar, TextureKind, Type, UnaryOp};
 
 /// WGSL as WebGPU and wgpu read it.
 pub struct Wgsl<'a> {
@@ -101,6 +101,27 @@ impl Dialect for Wgsl<'_> {
     fn compare(&self, texture: u32, sampler: u32, uv: &Text, reference: &Text) -> Text {
         let [texture, sampler] = self.names(texture, sampler);
         Text::call("textureSampleCompareLevel", &[&texture, &sampler, uv, reference])
+    }
+
+    fn gather_compare(&self, texture: u32, sampler: u32, uv: &Text, reference: &Text) -> (Text, Option<String>) {
+        let [texture, sampler] = self.names(texture, sampler);
+        (
+            Text::call("textureGatherCompare", &[&texture, &sampler, uv, reference]),
+            None,
+        )
+    }
+
+    fn message(&self, direction: Direction, x: &Text) -> Text {
+        let function = match direction {
+            Direction::Horizontal => "quadSwapX",
+            Direction::Vertical => "quadSwapY",
+            Direction::Diagonal => "quadSwapDiagonal",
+        };
+        Text::call(function, &[x])
+    }
+
+    fn derivative(&self, axis: Axis, x: &Text) -> Text {
+        Text::call(if axis == Axis::X { "dpdxFine" } else { "dpdyFine" }, &[x])
     }
 
     fn size(&self, texture: u32) -> Text {

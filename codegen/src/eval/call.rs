@@ -27,6 +27,9 @@ impl Evaluator<'_> {
         if let Some(value) = self.matrix_function(path, &values, span)? {
             return Ok(value);
         }
+        if let Some(value) = self.quad_function(path, &values, span)? {
+            return Ok(value);
+        }
         if let Some((kind, lanes)) = constructor(path) {
             return self.compose(kind, lanes, &values, span);
         }
@@ -76,6 +79,9 @@ impl Evaluator<'_> {
             "round",
             "inverse_sqrt",
             "tally",
+            "lane_position",
+            "quad_vector",
+            "quad_select",
         ]);
         known.sort_unstable();
         let close = known.iter().find(|k| is_close(&name, k));

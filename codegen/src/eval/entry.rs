@@ -115,6 +115,9 @@ impl Evaluator<'_> {
 
     /// A parameter that is set at run time, or built in; `None` if its type is no number.
     fn uniform_parameter(&mut self, name: &str, ty: &SourceType, span: Span) -> Eval<Option<Value>> {
+        if let Some(value) = self.quad_parameter(name, ty, span)? {
+            return Ok(Some(value));
+        }
         let SourceType::Name(type_name, _) = ty else {
             return Ok(None);
         };

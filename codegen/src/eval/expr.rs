@@ -57,6 +57,9 @@ impl Evaluator<'_> {
     /// Checks a value against the type that is stated for it, as far as shaders tell types apart, and gives a known
     /// integer that type.
     pub fn ascribe(&mut self, value: Value, ty: Option<&SourceType>, span: Span) -> Eval {
+        if let Some(lane) = ty.and_then(|ty| self.lane_type(ty)) {
+            return self.ascribe(value, Some(lane), span);
+        }
         match (ty, value) {
             (Some(SourceType::Name(name, _)), value) => self.ascribe_name(value, name, span),
             (Some(SourceType::Array(element, _)), Value::Array(elements)) => {

@@ -35,6 +35,9 @@ fn methods(name: &str, ty: Type) -> String {
 impl Evaluator<'_> {
     /// A method of a number or vector.
     pub fn math(&mut self, receiver: &Value, name: &str, args: &[Value], span: Span) -> Eval {
+        if let Some(value) = self.quad_method(receiver, name, args, span)? {
+            return Ok(value);
+        }
         let x = self.node(receiver, span)?;
         let result = match args {
             [] => self.math_one(x, name, span)?,

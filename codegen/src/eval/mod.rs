@@ -19,6 +19,7 @@ mod methods;
 mod operators;
 mod options;
 mod partial;
+mod quad;
 mod resources;
 mod scope;
 mod shape;
@@ -26,7 +27,7 @@ mod value;
 
 use crate::diagnostic::{Diagnostic, Errors, File, Span};
 use crate::front::Library;
-use crate::ir::{Builder, Counter, Graph, NodeId, Op, Origin, Scalar, Type};
+use crate::ir::{Builder, Counter, Graph, Invocation, NodeId, Op, Origin, Scalar, Type};
 use crate::passes::Exact;
 use crate::policy::Policy;
 use scope::Scope;
@@ -53,6 +54,8 @@ pub struct Evaluated {
 
 /// Evaluates the function `entry` with some options set, the others at their defaults.
 ///
+/// `invocation` is what each computes, unless the kernel's parameters say that it is a lane of a quad.
+///
 /// A loop that is kept makes what it assigns known at run time only. Where what follows needs that known, the loop is
 /// unrolled after all: the last one that was kept before the error, until none is left.
 pub fn evaluate(
@@ -61,6 +64,7 @@ pub fn evaluate(
     entry: &str,
     settings: &[(String, String)],
     policy: &Policy,
+    invocation: Invocation,
 ) -> Result<Evaluated, Errors> {
     let mut unrolled = HashSet::new();
     loop {
@@ -68,6 +72,7 @@ pub fn evaluate(
         // After some attempts all at once, so that a wrong kernel is told so in time.
         evaluator.unroll_all = unrolled.len() > MAX_ATTEMPTS;
         evaluator.unrolled.clone_from(&unrolled);
+        evaluator.builder.graph_mut().invocation = invocation;
         let result = evaluator.kernel(entry, settings);
         let failed = result.is_err() || !evaluator.errors.is_empty();
         if failed && evaluator.loops.last_kept().is_some_and(|span| unrolled.insert(span)) {
@@ -80,7 +85,7 @@ pub fn evaluate(
             Ok((output, options, docs)) if evaluator.errors.is_empty() => Ok(Evaluated {
                 loops: evaluator.loops.reports(),
                 span: library.functions[entry].span,
-                graph: evaluator.builder.finish(output),
+                graph: evaluator.builder.finish(vec![output]),
                 options,
                 docs,
             }),
@@ -207,7 +212,7 @@ impl Evaluator<'_> {
     fn name_node(&mut self, id: NodeId, name: &str, span: Span) {
         if matches!(
             self.builder.graph().node(id).op,
-            Op::Const(_) | Op::Pixel | Op::FrameSize | Op::Uniform(_) | Op::Param(..) | Op::MakeArray
+            Op::Const(_) | Op::Pixel | Op::FrameSize | Op::Uniform(_) | Op::Varying(_) | Op::Param(..) | Op::MakeArray
         ) {
             return;
         }

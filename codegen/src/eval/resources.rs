@@ -100,7 +100,8 @@ impl Evaluator<'_> {
         let taken = names.any(|n| n == name)
             || graph.buffers.iter().any(|b| b.name == name)
             || graph.samplers.iter().any(|s| s.name == name)
-            || graph.uniforms.iter().any(|u| u.name == name);
+            || graph.uniforms.iter().any(|u| u.name == name)
+            || graph.varyings.iter().any(|v| v.name == name);
         if taken {
             return Err(Diagnostic::at(span, format!("two inputs are called `{name}`"))
                 .label("the second")
@@ -180,6 +181,20 @@ impl Evaluator<'_> {
                     site: self.site(),
                 };
                 Ok(Value::Node(self.builder.add(op, vec![uv, reference], Type::F32)))
+            }
+            ("gather_compare", [Value::Sampler(sampler), uv, reference]) if texture.kind == TextureKind::Depth => {
+                let uv = self.uv(uv, span)?;
+                let reference = self.int_or_node(reference, Scalar::F32, span)?;
+                if !self.builder.graph().samplers[*sampler as usize].comparison {
+                    return Err(Diagnostic::at(span, "`gather_compare` needs a `ComparisonSampler`").into());
+                }
+                let op = Op::GatherCompare {
+                    texture: index,
+                    sampler: *sampler,
+                    site: self.site(),
+                };
+                let ty = Type::value(Scalar::F32, 4);
+                Ok(Value::Node(self.builder.add(op, vec![uv, reference], ty)))
             }
             _ => Err(no_such_method(&texture, name, span)),
         }
@@ -294,7 +309,7 @@ fn no_such_method(texture: &Texture, name: &str, span: Span) -> Exit {
         (TextureKind::Multisampled, _) => ("Multisampled", "`load(coord, sample)` and `size()`"),
         (TextureKind::Depth, _) => (
             "DepthTexture",
-            "`load(coord)`, `compare(sampler, uv, reference)` and `size()`",
+            "`load(coord)`, `compare(sampler, uv, reference)`, `gather_compare(sampler, uv, reference)` and `size()`",
         ),
     };
     let error = Diagnostic::at(span, format!("a `{ty}` has no method `{name}` with such arguments"))

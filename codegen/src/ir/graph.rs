@@ -104,6 +104,39 @@ pub struct Uniform {
     pub default: Option<f64>,
 }
 
+/// A value of a fragment that the host's rasteriser interpolates.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Varying {
+    /// Its name in the kernel.
+    pub name: String,
+    /// Float, or vector of floats.
+    pub ty: Type,
+}
+
+/// What one invocation computes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Invocation {
+    /// One pixel, inside the frame.
+    #[default]
+    Pixel,
+    /// One pixel that may lie outside the frame: of a block that is yet to be expanded.
+    Outlying,
+    /// One pixel, in step with the three others of its quad; it may lie outside the frame.
+    Lane,
+    /// A block of pixels, so many across and down, its upper left one inside the frame.
+    Block([u32; 2]),
+}
+
+impl Invocation {
+    /// Pixels across and down.
+    pub fn pixels(self) -> [u32; 2] {
+        match self {
+            Invocation::Pixel | Invocation::Outlying | Invocation::Lane => [1, 1],
+            Invocation::Block(size) => size,
+        }
+    }
+}
+
 /// A kernel as a graph of pure operations; see the module's text for what it means.
 #[derive(Clone, Debug, Default)]
 pub struct Graph {
@@ -125,6 +158,10 @@ pub struct Graph {
     pub samplers: Vec<Sampler>,
     /// Run-time parameters, by the index that `Op::Uniform` carries.
     pub uniforms: Vec<Uniform>,
+    /// Interpolated values, by the index that `Op::Varying` carries.
+    pub varyings: Vec<Varying>,
+    /// What one invocation computes.
+    pub invocation: Invocation,
     /// Names of tallies, by the index that `Op::Tally` carries.
     pub tallies: Vec<String>,
     /// Source files, by the index that origins carry.
@@ -155,9 +192,9 @@ impl Graph {
         self.origins[id.0 as usize].as_ref()
     }
 
-    /// The colour of the pixel, `vec4<f32>`: the kernel's one result.
-    pub fn output(&self) -> NodeId {
-        self.regions[0].results[0]
+    /// The colours of the invocation's pixels, row by row, each a `vec4<f32>`: the kernel's results.
+    pub fn outputs(&self) -> &[NodeId] {
+        &self.regions[0].results
     }
 
     /// All nodes in order.
@@ -252,6 +289,16 @@ impl<'r> Builder<'r> {
         id
     }
 
+    /// The node that computes `op` of `args`, if there is one already.
+    pub fn find(&self, op: &Op, args: &[NodeId], ty: Type) -> Option<NodeId> {
+        let node = Node {
+            op: op.clone(),
+            args: args.to_vec(),
+            ty,
+        };
+        self.known.get(&node).copied()
+    }
+
     /// A constant.
     pub fn constant(&mut self, ty: Type, bits: Lanes) -> NodeId {
         self.intern(Op::Const(bits), Vec::new(), ty)
@@ -309,9 +356,9 @@ impl<'r> Builder<'r> {
         self.graph.regions[id.0 as usize].results = results;
     }
 
-    /// Closes the body with its result.
-    pub fn finish(mut self, output: NodeId) -> Graph {
-        self.close_region(vec![output]);
+    /// Closes the body with its results.
+    pub fn finish(mut self, outputs: Vec<NodeId>) -> Graph {
+        self.close_region(outputs);
         assert!(self.open.is_empty(), "every region that was opened is closed");
         self.graph
     }

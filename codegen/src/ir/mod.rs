@@ -2,8 +2,14 @@
 //!
 //! # Semantics
 //!
-//! - A [`Graph`] computes one value, [`Graph::output`], for one output pixel. It has no side effects; what a
-//!   host stores, and where, is the shell's affair.
+//! - A [`Graph`] computes a colour for each pixel that one invocation has: one, or those of a block, row by row
+//!   ([`Graph::outputs`]). It has no side effects; what a host stores, and where, is the shell's affair.
+//! - What an invocation computes is stated in [`Graph::invocation`]. Of a block, [`Op::Pixel`] is the upper left pixel,
+//!   inside the frame and a multiple of the block's size; others may lie outside, and are not stored.
+//! - The invocations of a kernel of quads are [`Invocation::Lane`]s: four of them, at even coordinates, compute in step.
+//!   Each stores its own pixel; one that lies outside of the frame computes as the others do, and its [`Op::Pixel`] is
+//!   outside. [`Op::Message`] gives the other lane's bits as they are. A condition, or a bound of a kept loop, is the
+//!   same in all lanes of a quad, so that all of them come to every message.
 //! - A node is a pure, total function of its arguments. It may be evaluated never, once or often, early or
 //!   late, with the same result. This holds for reads too: textures and buffers do not change during a dispatch,
 //!   and coordinates and indices are clamped by nodes of their own.
@@ -39,12 +45,13 @@ mod types;
 pub mod verify;
 
 pub use graph::{
-    Buffer, Builder, Event, Graph, Node, NodeId, Region, RegionId, Rules, Sampler, Texture, TextureKind, Uniform,
+    Buffer, Builder, Event, Graph, Invocation, Node, NodeId, Region, RegionId, Rules, Sampler, Texture, TextureKind,
+    Uniform, Varying,
 };
-pub use op::{BinaryOp, Op, UnaryOp};
+pub use op::{Axis, BinaryOp, Direction, Op, UnaryOp};
 pub use origin::{Counter, Origin};
 pub use parse::{ParseError, parse};
 pub use print::print;
 pub use real::{F16, Real};
-pub use rebuild::{Rebuild, rebuild};
+pub use rebuild::{Rebuild, copy_tables, rebuild};
 pub use types::{Lanes, Scalar, Type};

@@ -11,6 +11,15 @@ pub enum Op {
     Pixel,
     /// Width and height of the frame, `vec2<i32>`, each at least 1.
     FrameSize,
+    /// Where the lane lies in its quad, `vec2<i32>`, each 0 or 1.
+    Lane,
+    /// The argument as the lane beside, above or below, or across has it, bit for bit.
+    Message(Direction),
+    /// The argument's fine derivative, of floats: in both lanes of a row the right one's less the left one's, in both of
+    /// a column the lower one's less the upper one's.
+    Derivative(Axis),
+    /// A value that the host's rasteriser interpolates for each lane, by index into `Graph::varyings`.
+    Varying(u32),
     /// A run-time parameter, by index into `Graph::uniforms`.
     Uniform(u32),
     /// One argument.
@@ -76,6 +85,16 @@ pub enum Op {
         /// As of `Load`.
         site: u32,
     },
+    /// Which of the four depths around a coordinate (`vec2<f32>`) pass a comparison with a reference (`f32`), 1 or 0 in
+    /// each lane of a `vec4<f32>`, in the order of `Gather`.
+    GatherCompare {
+        /// Index into `Graph::textures`.
+        texture: u32,
+        /// Index into `Graph::samplers`.
+        sampler: u32,
+        /// As of `Load`.
+        site: u32,
+    },
     /// Number of elements of a buffer (index into `Graph::buffers`), `i32`, at least 1.
     BufferLen(u32),
     /// An element of a buffer: index (`i32`, inside the buffer).
@@ -101,6 +120,37 @@ pub enum Op {
     Result(u32),
     /// A parameter of a region: 0 is a loop's counter, then the carried values.
     Param(RegionId, u32),
+}
+
+/// From which lane of a quad a message comes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[allow(missing_docs)] // named as in GLSL
+pub enum Direction {
+    Horizontal,
+    Vertical,
+    Diagonal,
+}
+
+impl Direction {
+    /// Every direction.
+    pub const ALL: [Direction; 3] = [Direction::Horizontal, Direction::Vertical, Direction::Diagonal];
+
+    /// The number of the lane that `lane` hears from; lanes count row by row.
+    pub fn from(self, lane: usize) -> usize {
+        match self {
+            Direction::Horizontal => lane ^ 1,
+            Direction::Vertical => lane ^ 2,
+            Direction::Diagonal => lane ^ 3,
+        }
+    }
+}
+
+/// An axis of the screen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[allow(missing_docs)] // named as everywhere
+pub enum Axis {
+    X,
+    Y,
 }
 
 /// Operations on one argument.
@@ -246,6 +296,7 @@ impl Op {
             | Op::Sample { texture, .. }
             | Op::Gather { texture, .. }
             | Op::Compare { texture, .. }
+            | Op::GatherCompare { texture, .. }
             | Op::TextureSize(texture) => Some(*texture),
             _ => None,
         }
@@ -254,7 +305,10 @@ impl Op {
     /// The sampler that it reads by.
     pub fn sampler(&self) -> Option<u32> {
         match self {
-            Op::Sample { sampler, .. } | Op::Gather { sampler, .. } | Op::Compare { sampler, .. } => Some(*sampler),
+            Op::Sample { sampler, .. }
+            | Op::Gather { sampler, .. }
+            | Op::Compare { sampler, .. }
+            | Op::GatherCompare { sampler, .. } => Some(*sampler),
             _ => None,
         }
     }
@@ -274,6 +328,7 @@ impl Op {
             | Op::Sample { site, .. }
             | Op::Gather { site, .. }
             | Op::Compare { site, .. }
+            | Op::GatherCompare { site, .. }
             | Op::BufferLoad { site, .. } => Some(*site),
             _ => None,
         }
@@ -285,6 +340,7 @@ impl Op {
         | Op::Sample { site, .. }
         | Op::Gather { site, .. }
         | Op::Compare { site, .. }
+        | Op::GatherCompare { site, .. }
         | Op::BufferLoad { site, .. } = &mut self
         {
             *site = 0;

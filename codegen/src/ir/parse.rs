@@ -1,8 +1,8 @@
 //! The graph from its text.
 
 use super::{
-    BinaryOp, Buffer, Counter, Event, Graph, Node, NodeId, Op, Origin, Region, RegionId, Sampler, Scalar, Texture,
-    TextureKind, Type, UnaryOp, Uniform,
+    Axis, BinaryOp, Buffer, Counter, Direction, Event, Graph, Invocation, Node, NodeId, Op, Origin, Region, RegionId,
+    Sampler, Scalar, Texture, TextureKind, Type, UnaryOp, Uniform, Varying,
 };
 
 /// Why a text is not a graph.
@@ -77,6 +77,13 @@ impl Reader {
             "buffer" => self.buffer(rest),
             "sampler" => self.sampler(rest),
             "uniform" => self.uniform(rest),
+            "varying" => {
+                let (name, kind) = named(rest)?;
+                let ty = ty(kind)?;
+                self.graph.varyings.push(Varying { name, ty });
+                Ok(())
+            }
+            "invocation" => self.invocation(rest),
             "region" => self.open(rest),
             "}" => match self.open.pop() {
                 Some(region) if region != Graph::BODY => {
@@ -86,8 +93,8 @@ impl Reader {
                 _ => Err("there is no region to close".to_owned()),
             },
             "output" => {
-                let output = self.node_id(rest)?;
-                self.graph.regions[0].results = vec![output];
+                let outputs = rest.split_whitespace().map(|word| self.node_id(word));
+                self.graph.regions[0].results = outputs.collect::<Parsed<_>>()?;
                 Ok(())
             }
             _ if word.starts_with('%') => self.node(line),
@@ -143,6 +150,17 @@ impl Reader {
         };
         let ty = ty(kind)?;
         self.graph.uniforms.push(Uniform { name, ty, default });
+        Ok(())
+    }
+
+    fn invocation(&mut self, text: &str) -> Parsed {
+        let words: Vec<&str> = text.split_whitespace().collect();
+        self.graph.invocation = match words[..] {
+            ["outlying"] => Invocation::Outlying,
+            ["lane"] => Invocation::Lane,
+            ["block", width, height] => Invocation::Block([number(width)?, number(height)?]),
+            _ => return Err("an invocation is `outlying`, `lane` or `block WIDTH HEIGHT`".to_owned()),
+        };
         Ok(())
     }
 
@@ -253,6 +271,25 @@ impl Reader {
             }
             "pixel" => Op::Pixel,
             "framesize" => Op::FrameSize,
+            "lane" => Op::Lane,
+            "message" => {
+                let found = Direction::ALL.into_iter().find(|d| format!("{d:?}") == words.concat());
+                Op::Message(found.ok_or_else(|| missing("direction"))?)
+            }
+            "derivative" => {
+                let found = [Axis::X, Axis::Y]
+                    .into_iter()
+                    .find(|a| format!("{a:?}") == words.concat());
+                Op::Derivative(found.ok_or_else(|| missing("axis"))?)
+            }
+            "varying" => {
+                Op::Varying(position(g.varyings.iter().map(|v| &v.name), word(0)?).ok_or_else(|| missing("varying"))?)
+            }
+            "gathercompare" => Op::GatherCompare {
+                texture: texture()?,
+                sampler: sampler()?,
+                site,
+            },
             "uniform" => {
                 Op::Uniform(position(g.uniforms.iter().map(|u| &u.name), word(0)?).ok_or_else(|| missing("uniform"))?)
             }

@@ -13,7 +13,7 @@
 //! output %7
 //! ```
 
-use super::{Event, Graph, NodeId, Op, Scalar, TextureKind, Type};
+use super::{Event, Graph, Invocation, NodeId, Op, Scalar, TextureKind, Type};
 use std::fmt::Write;
 
 /// The whole graph.
@@ -30,7 +30,8 @@ pub fn print(graph: &Graph) -> String {
     for (_, event) in events {
         depth = print_event(&mut text, depth, event);
     }
-    let _ = writeln!(text, "output %{}", graph.output().0);
+    let outputs: Vec<String> = graph.outputs().iter().map(|id| format!("%{}", id.0)).collect();
+    let _ = writeln!(text, "output {}", outputs.join(" "));
     text
 }
 
@@ -59,6 +60,17 @@ fn tables(graph: &Graph) -> String {
     for u in &graph.uniforms {
         let default = u.default.map_or(String::new(), |d| format!(" = {d}"));
         let _ = writeln!(text, "uniform {}: {}{default}", u.name, u.ty);
+    }
+    for v in &graph.varyings {
+        let _ = writeln!(text, "varying {}: {}", v.name, v.ty);
+    }
+    match graph.invocation {
+        Invocation::Pixel => {}
+        Invocation::Outlying => text += "invocation outlying\n",
+        Invocation::Lane => text += "invocation lane\n",
+        Invocation::Block([width, height]) => {
+            let _ = writeln!(text, "invocation block {width} {height}");
+        }
     }
     for name in &graph.tallies {
         let _ = writeln!(text, "tally {name}");
@@ -142,6 +154,12 @@ fn op(graph: &Graph, op: &Op, ty: Type) -> String {
         Op::Compare {
             texture: t, sampler: s, ..
         } => format!("compare {} {}{at}", texture(t), sampler(s)),
+        Op::GatherCompare {
+            texture: t, sampler: s, ..
+        } => format!("gathercompare {} {}{at}", texture(t), sampler(s)),
+        Op::Message(direction) => format!("message {direction:?}"),
+        Op::Derivative(axis) => format!("derivative {axis:?}"),
+        Op::Varying(k) => format!("varying {}", graph.varyings[*k as usize].name),
         Op::BufferLen(k) => format!("bufferlen {}", buffer(k)),
         Op::BufferLoad { buffer: b, .. } => format!("bufferload {}{at}", buffer(b)),
         Op::Tally(name) => format!("tally {}", graph.tallies[*name as usize]),

@@ -35,17 +35,20 @@ pub fn rebuild(old: &Graph, pass: &Rebuild<'_>) -> Graph {
             walk.event(*event);
         }
     }
-    let output = walk.new_id(old.output());
-    walk.builder.finish(output)
+    let outputs = old.outputs().iter().map(|id| walk.new_id(*id)).collect();
+    walk.builder.finish(outputs)
 }
 
-fn copy_tables(old: &Graph, new: &mut Graph) {
+/// Gives a new graph everything of the old one's but its nodes and regions.
+pub fn copy_tables(old: &Graph, new: &mut Graph) {
     new.textures.clone_from(&old.textures);
     new.buffers.clone_from(&old.buffers);
     new.samplers.clone_from(&old.samplers);
     new.uniforms.clone_from(&old.uniforms);
     new.tallies.clone_from(&old.tallies);
     new.files.clone_from(&old.files);
+    new.varyings.clone_from(&old.varyings);
+    new.invocation = old.invocation;
 }
 
 struct Walk<'g, 'r> {
@@ -152,7 +155,7 @@ impl Liveness {
             results: graph.regions.iter().map(|r| vec![false; r.results.len()]).collect(),
         };
         live.regions[0] = true;
-        let mut pending = vec![graph.output()];
+        let mut pending = graph.outputs().to_vec();
         while let Some(id) = pending.pop() {
             if std::mem::replace(&mut live.nodes[id.0 as usize], true) {
                 continue;

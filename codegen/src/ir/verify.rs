@@ -5,15 +5,19 @@
 //! 3. Indices of textures, uniforms, tallies and regions exist; the regions of a branch agree in their results, a
 //!    loop's carried values in number and type with its results.
 //! 4. A parameter is only used inside its region.
-//! 5. The kernel has one result, `vec4<f32>`.
+//! 5. The kernel has a result for each pixel of its invocation, each a `vec4<f32>`.
+//! 6. Lanes, messages, derivatives and interpolated values are of kernels whose invocations are lanes of quads.
 
-use super::{BinaryOp, Graph, NodeId, Op, RegionId, Scalar, TextureKind, Type};
+use super::{BinaryOp, Graph, Invocation, NodeId, Op, RegionId, Scalar, TextureKind, Type};
 
 /// Checks a graph; the message names the node that breaks a rule.
 pub fn verify(graph: &Graph) -> Result<(), String> {
     let outputs = &graph.regions.first().ok_or("no body")?.results;
-    if outputs.len() != 1 || graph.ty(outputs[0]) != Type::value(Scalar::F32, 4) {
-        return Err("the body must have one result, a vec4<f32>".to_owned());
+    let [width, height] = graph.invocation.pixels();
+    if outputs.len() != (width * height) as usize
+        || outputs.iter().any(|id| graph.ty(*id) != Type::value(Scalar::F32, 4))
+    {
+        return Err("the body must have one result for each pixel, a vec4<f32>".to_owned());
     }
     for id in graph.ids() {
         let node = graph.node(id);
@@ -41,6 +45,29 @@ fn check(graph: &Graph, id: NodeId) -> Result<(), String> {
         Op::Pixel | Op::FrameSize => {
             count(0)?;
             expect(node.ty == Type::value(Scalar::I32, 2), "a coordinate is a vec2<i32>")
+        }
+        Op::Lane => {
+            count(0)?;
+            expect(graph.invocation == Invocation::Lane, "the invocation is no lane")?;
+            expect(node.ty == Type::value(Scalar::I32, 2), "a position is a vec2<i32>")
+        }
+        Op::Varying(k) => {
+            let varying = graph.varyings.get(*k as usize).ok_or("no such varying")?;
+            count(0)?;
+            expect(graph.invocation == Invocation::Lane, "the invocation is no lane")?;
+            expect(
+                node.ty == varying.ty && node.ty.is_float(),
+                "floats of the varying's type",
+            )
+        }
+        Op::Message(_) | Op::Derivative(_) => {
+            count(1)?;
+            expect(graph.invocation == Invocation::Lane, "the invocation is no lane")?;
+            let floats = matches!(node.op, Op::Message(_)) || node.ty.is_float();
+            expect(
+                types[0] == node.ty && !node.ty.is_array() && floats,
+                "a scalar or vector, of floats for a derivative",
+            )
         }
         Op::Uniform(k) => expect((*k as usize) < graph.uniforms.len(), "no such uniform"),
         Op::Unary(_) | Op::Tally(_) => {
@@ -149,7 +176,7 @@ fn check(graph: &Graph, id: NodeId) -> Result<(), String> {
             let fits = types[0] == Type::value(Scalar::F32, 2) && node.ty == Type::value(Scalar::F32, components);
             expect(fits, "a vec2<f32> to what the texture holds")
         }
-        Op::Compare { texture, sampler, .. } => {
+        Op::Compare { texture, sampler, .. } | Op::GatherCompare { texture, sampler, .. } => {
             let entry = graph.textures.get(*texture as usize).ok_or("no such texture")?;
             let through = graph.samplers.get(*sampler as usize).ok_or("no such sampler")?;
             count(2)?;
@@ -157,8 +184,11 @@ fn check(graph: &Graph, id: NodeId) -> Result<(), String> {
                 entry.kind == TextureKind::Depth && through.comparison,
                 "a depth texture and a comparison sampler",
             )?;
-            let fits = types[0] == Type::value(Scalar::F32, 2) && types[1] == Type::F32 && node.ty == Type::F32;
-            expect(fits, "a vec2<f32> and an f32 to an f32")
+            let lanes = if matches!(node.op, Op::Compare { .. }) { 1 } else { 4 };
+            let fits = types[0] == Type::value(Scalar::F32, 2)
+                && types[1] == Type::F32
+                && node.ty == Type::value(Scalar::F32, lanes);
+            expect(fits, "a vec2<f32> and an f32 to an f32, or a vec4<f32> of a gather")
         }
         Op::BufferLen(buffer) => {
             expect((*buffer as usize) < graph.buffers.len(), "no such buffer")?;
@@ -276,7 +306,7 @@ fn scopes(graph: &Graph) -> Result<(), String> {
         }
         needs.push(need);
     }
-    if needs[graph.output().0 as usize] != Graph::BODY {
+    if graph.outputs().iter().any(|id| needs[id.0 as usize] != Graph::BODY) {
         return Err("the output depends on a region's parameter".to_owned());
     }
     Ok(())

@@ -23,6 +23,7 @@ pub fn count(graph: &Graph, schedule: &Schedule) -> Counts {
         reads,
         tallies: run.tallies,
         transcendentals: run.transcendentals,
+        messages: run.messages,
         alu: run.alu,
         statements: 0,
         max_live: max_live(graph, schedule),
@@ -34,6 +35,7 @@ struct Run {
     reads: BTreeMap<String, u32>,
     tallies: BTreeMap<String, u32>,
     transcendentals: u32,
+    messages: u32,
     alu: u32,
 }
 
@@ -46,6 +48,7 @@ impl Run {
             *self.tallies.entry(name.clone()).or_default() += n * times;
         }
         self.transcendentals += other.transcendentals * times;
+        self.messages += other.messages * times;
         self.alu += other.alu * times;
     }
 
@@ -60,6 +63,7 @@ impl Run {
             *slot = n.max(*slot);
         }
         self.transcendentals = self.transcendentals.max(other.transcendentals);
+        self.messages = self.messages.max(other.messages);
         self.alu = self.alu.max(other.alu);
         self
     }
@@ -98,6 +102,7 @@ impl Counter<'_> {
             }
             Op::Unary(op) if op.is_transcendental() => run.transcendentals += 1,
             Op::Binary(crate::ir::BinaryOp::Pow | crate::ir::BinaryOp::Atan2) => run.transcendentals += 1,
+            Op::Message(_) | Op::Derivative(_) => run.messages += 1,
             Op::Unary(_) | Op::Binary(_) | Op::Dot | Op::Cross | Op::Clamp | Op::Select | Op::Convert | Op::Bitcast => {
                 run.alu += 1
             }
@@ -159,7 +164,9 @@ fn max_live(graph: &Graph, schedule: &Schedule) -> u32 {
             last_use[arg.0 as usize] = last_use[arg.0 as usize].max(entry.until.unwrap_or(at));
         }
     }
-    last_use[graph.output().0 as usize] = order.len();
+    for output in graph.outputs() {
+        last_use[output.0 as usize] = order.len();
+    }
     let mut ends: Vec<u32> = vec![0; order.len() + 1];
     let (mut live, mut widest) = (0u32, 0u32);
     for (at, entry) in order.iter().enumerate() {

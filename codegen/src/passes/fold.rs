@@ -63,6 +63,9 @@ fn shape(b: &mut Builder<'_>, op: &Op, args: &[NodeId], ty: Type) -> Option<Node
             .constant(args[0])
             .map(|c| if c[0] != 0 { args[1] } else { args[2] }),
         Op::Convert if b.graph().ty(args[0]) == ty => Some(args[0]),
+        // What is known is known in every lane; a message and its answer are no message.
+        Op::Message(_) if matches!(node(args[0]).op, Op::Const(_) | Op::Uniform(_)) => Some(args[0]),
+        Op::Message(_) if node(args[0]).op == *op => Some(node(args[0]).args[0]),
         _ => None,
     }
 }
@@ -150,6 +153,11 @@ fn integer(b: &mut Builder<'_>, op: BinaryOp, x: NodeId, y: NodeId) -> Option<No
         let ty = b.graph().ty(y);
         return Some(b.add(Op::Binary(op), vec![x, divisor], ty));
     }
+    if op == BinaryOp::Add
+        && let Some(sum) = steps(b, x, y)
+    {
+        return Some(sum);
+    }
     let g = b.graph();
     let is = |id: NodeId, value: u32| all_lanes(g, id, value);
     match op {
@@ -174,6 +182,32 @@ fn integer(b: &mut Builder<'_>, op: BinaryOp, x: NodeId, y: NodeId) -> Option<No
         BinaryOp::Ne | BinaryOp::Lt | BinaryOp::Gt if x == y && g.ty(x).is_scalar() => Some(b.bool(false)),
         _ => None,
     }
+}
+
+/// (pixel + a) + b is pixel + (a + b): integers wrap, so their order is free. Neighbours of neighbours are then told alike,
+/// and their reads are shared.
+fn steps(b: &mut Builder<'_>, x: NodeId, y: NodeId) -> Option<NodeId> {
+    let ty = b.graph().ty(x);
+    let (inner, second) = match (b.graph().constant(x), b.graph().constant(y)) {
+        (None, Some(step)) => (b.graph().node(x), step),
+        (Some(step), None) => (b.graph().node(y), step),
+        _ => return None,
+    };
+    if inner.op != Op::Binary(BinaryOp::Add) {
+        return None;
+    }
+    let (p, q) = (inner.args[0], inner.args[1]);
+    let (pixel, first) = match (&b.graph().node(p).op, &b.graph().node(q).op) {
+        (Op::Pixel, Op::Const(step)) => (p, *step),
+        (Op::Const(step), Op::Pixel) => (q, *step),
+        _ => return None,
+    };
+    let mut sum = [0; 4];
+    for (k, slot) in sum.iter_mut().enumerate().take(ty.lanes() as usize) {
+        *slot = first[k].wrapping_add(second[k]);
+    }
+    let sum = b.constant(ty, sum);
+    Some(b.add(Op::Binary(BinaryOp::Add), vec![pixel, sum], ty))
 }
 
 /// A divisor with 1 for every lane that is known to be 0. Dividing by 0 is as dividing by 1: it gives the dividend, and no

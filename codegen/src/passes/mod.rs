@@ -4,11 +4,13 @@
 
 mod count;
 mod fold;
+mod lanes;
 mod ranges;
 mod schedule;
 
 pub use count::{count, layers_read};
 pub use fold::Exact;
+pub use lanes::{by_derivatives, expand};
 pub use schedule::{Block, Schedule, Step, schedule};
 
 use crate::ir::{Graph, Rebuild, rebuild};

@@ -1,6 +1,6 @@
 //! What is known of a value without knowing it.
 
-use crate::ir::{BinaryOp, Builder, Graph, NodeId, Op, Type, UnaryOp};
+use crate::ir::{BinaryOp, Builder, Graph, Invocation, NodeId, Op, Type, UnaryOp};
 
 /// How far back a question is followed; beyond it nothing is known.
 const DEPTH: u32 = 12;
@@ -125,6 +125,8 @@ pub fn clamp(b: &mut Builder<'_>, op: &Op, args: &[NodeId], ty: Type) -> Option<
     }
     let node = g.node(args[0]);
     match node.op {
+        // What is one of several pixels may lie outside.
+        _ if matches!(g.invocation, Invocation::Outlying | Invocation::Lane) => None,
         Op::Pixel => Some(args[0]),
         Op::Binary(BinaryOp::Add) => {
             let (x, y) = (node.args[0], node.args[1]);

@@ -124,8 +124,10 @@ impl<'g> Places<'g> {
         // Latest place: the common region of all uses. Users have larger ids, so one sweep down sees them first;
         // a region's results are used at its end, seen when its owner is.
         let mut late: Vec<Option<RegionId>> = vec![None; self.graph.nodes.len()];
-        late[self.graph.output().0 as usize] = Some(Graph::BODY);
-        self.uses[self.graph.output().0 as usize] += 1;
+        for output in self.graph.outputs() {
+            late[output.0 as usize] = Some(Graph::BODY);
+            self.uses[output.0 as usize] += 1;
+        }
         for id in self.graph.ids().rev() {
             let Some(latest) = late[id.0 as usize] else { continue };
             let here = self.choose(id, latest);

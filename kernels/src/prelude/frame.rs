@@ -1,5 +1,6 @@
 //! Images with one texel for each pixel of the output.
 
+use super::quad::PerLane;
 use super::texture::{self, Sampler, Texel};
 use glam::{IVec2, UVec2, Vec2, Vec4};
 
@@ -35,8 +36,13 @@ impl<T: Copy> Frame<T> {
         &self.texels
     }
 
-    /// The texel at `coord`, or the nearest one on the border if `coord` lies outside.
-    pub fn load(&self, coord: IVec2) -> T {
+    /// The texel at `coord`, or the nearest one on the border if `coord` lies outside. At four coordinates of a quad, four
+    /// texels.
+    pub fn load<P: PerLane<IVec2>>(&self, coord: P) -> P::Of<T> {
+        coord.each(|coord| self.texel(coord))
+    }
+
+    fn texel(&self, coord: IVec2) -> T {
         let inside = coord.clamp(IVec2::ZERO, self.size.as_ivec2() - 1);
         self.texels[(inside.y as u32 * self.size.x + inside.x as u32) as usize]
     }
@@ -45,14 +51,14 @@ impl<T: Copy> Frame<T> {
 impl<T: Texel> Frame<T> {
     /// The image at `uv`, (0, 0) its upper left and (1, 1) its lower right corner, as `sampler` reads it.
     /// A GPU weighs texels in steps of 1/256.
-    pub fn sample(&self, sampler: &Sampler, uv: Vec2) -> T {
-        texture::sample(self.size, sampler, uv, |coord| self.load(coord))
+    pub fn sample<P: PerLane<Vec2>>(&self, sampler: &Sampler, uv: P) -> P::Of<T> {
+        uv.each(|uv| texture::sample(self.size, sampler, uv, |coord| self.texel(coord)))
     }
 
     /// Component `component` of the four texels that a linear filter would weigh at `uv`: lower left, lower right,
     /// upper right, upper left.
-    pub fn gather(&self, component: usize, sampler: &Sampler, uv: Vec2) -> Vec4 {
-        texture::gather(self.size, sampler, uv, |coord| self.load(coord).component(component))
+    pub fn gather<P: PerLane<Vec2>>(&self, component: usize, sampler: &Sampler, uv: P) -> P::Of<Vec4> {
+        uv.each(|uv| texture::gather(self.size, sampler, uv, |coord| self.texel(coord).component(component)))
     }
 }
 
@@ -80,7 +86,7 @@ impl<T: Copy> FrameLayers<T> {
 
     /// The texel of `layer` at `coord`, or the nearest one on the border if `coord` lies outside.
     /// Panics if there is no such layer; a shader's manifest states how many it needs.
-    pub fn load(&self, coord: IVec2, layer: usize) -> T {
+    pub fn load<P: PerLane<IVec2>>(&self, coord: P, layer: usize) -> P::Of<T> {
         self.layers[layer].load(coord)
     }
 }

@@ -70,7 +70,11 @@ pub fn inverse_sqrt<T: Floats>(x: T) -> T {
 }
 
 /// `a` at 0, `b` at 1, straight between: `a * (1 - t) + b * t`.
-pub fn mix<T: Floats>(a: T, b: T, t: f32) -> T {
+pub fn mix<T: Floats, S: Copy + Sub<f32, Output = S>>(a: T, b: T, t: S) -> T
+where
+    f32: Sub<S, Output = S>,
+    T: Mul<S, Output = T>,
+{
     a * (1.0 - t) + b * t
 }
 
@@ -80,7 +84,9 @@ pub fn step(edge: f32, x: f32) -> f32 {
 }
 
 /// 0 up to `low`, 1 from `high`, a cubic between: `t * t * (3 - 2 * t)`.
-pub fn smoothstep(low: f32, high: f32, x: f32) -> f32 {
-    let t = saturate((x - low) / (high - low));
-    t * t * (3.0 - 2.0 * t)
+pub fn smoothstep<T: Floats>(low: f32, high: f32, x: T) -> T {
+    x.map(|x| {
+        let t = saturate((x - low) / (high - low));
+        t * t * (3.0 - 2.0 * t)
+    })
 }

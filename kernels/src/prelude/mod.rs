@@ -2,7 +2,7 @@
 //!
 //! What a kernel may call besides its own functions: glam's vectors and matrices, `f32` and integer mathematics, the
 //! functions of [`maths`] for what Rust and shaders call by one name and mean differently, the textures, samplers and
-//! buffers below, and [`tally`]. Each means the same natively as in the emitted shader. `options!` declares the choices
+//! buffers below, [`Quad`]s and their messages, and [`tally`]. Each means the same natively as in the emitted shader. `options!` declares the choices
 //! that are made when a shader is generated.
 //!
 //! Two attributes speak to the generator alone; to rustc they are nothing:
@@ -14,6 +14,7 @@
 mod buffer;
 mod frame;
 pub mod maths;
+mod quad;
 mod texture;
 
 pub use glam::{
@@ -24,6 +25,7 @@ pub use glam::{
 pub use buffer::Buffer;
 pub use frame::{Frame, FrameLayers};
 pub use maths::{fract, inverse_sqrt, mix, round, saturate, sign, smoothstep, step};
+pub use quad::{PerLane, Quad, lane_position, quad_select, quad_vector};
 pub use texture::{
     Address, Comparison, ComparisonSampler, DepthTexture, Filter, Multisampled, Sampler, Texel, Texture,
 };
@@ -37,10 +39,10 @@ pub const fn uniform<T: Copy>(default: T) -> T {
     default
 }
 
-/// `value`, counted under `name` in the generator's reports. Does nothing else.
+/// `value`, a number or a quad of them, counted under `name` in the generator's reports. Does nothing else.
 ///
 /// Only what is still computed after partial evaluation is counted: a tallied value that turned out to be
 /// known, unused or shared costs nothing and counts nothing.
-pub fn tally(_name: &str, value: f32) -> f32 {
+pub fn tally<T>(_name: &str, value: T) -> T {
     value
 }

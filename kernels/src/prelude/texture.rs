@@ -1,5 +1,6 @@
 //! Images of any size, and how they are filtered.
 
+use super::quad::PerLane;
 use glam::{IVec2, UVec2, Vec2, Vec3, Vec4};
 use std::ops::{Add, Mul};
 
@@ -97,6 +98,19 @@ pub enum Comparison {
     GreaterEqual,
 }
 
+impl Comparison {
+    /// 1 if it holds of a reference and a stored depth, else 0.
+    fn of(self, reference: f32, depth: f32) -> f32 {
+        let holds = match self {
+            Comparison::Less => reference < depth,
+            Comparison::LessEqual => reference <= depth,
+            Comparison::Greater => reference > depth,
+            Comparison::GreaterEqual => reference >= depth,
+        };
+        f32::from(u8::from(holds))
+    }
+}
+
 /// How a [`DepthTexture`] is compared. Bound as a `sampler_comparison`, which the host makes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ComparisonSampler {
@@ -138,23 +152,23 @@ impl<T: Texel> Texture<T> {
         &self.texels
     }
 
-    /// The texel at `coord`, or the nearest one on the border if `coord` lies outside.
-    pub fn load(&self, coord: IVec2) -> T {
-        self.at(coord, Address::Clamp)
+    /// The texel at `coord`, or the nearest one on the border if `coord` lies outside. At four coordinates of a quad, four
+    /// texels.
+    pub fn load<P: PerLane<IVec2>>(&self, coord: P) -> P::Of<T> {
+        coord.each(|coord| self.at(coord, Address::Clamp))
     }
 
     /// The image at `uv`, (0, 0) its upper left and (1, 1) its lower right corner, as `sampler` reads it.
     /// A GPU weighs texels in steps of 1/256.
-    pub fn sample(&self, sampler: &Sampler, uv: Vec2) -> T {
-        sample(self.size, sampler, uv, |coord| self.at(coord, Address::Clamp))
+    pub fn sample<P: PerLane<Vec2>>(&self, sampler: &Sampler, uv: P) -> P::Of<T> {
+        uv.each(|uv| sample(self.size, sampler, uv, |coord| self.at(coord, Address::Clamp)))
     }
 
     /// Component `component` of the four texels that a linear filter would weigh at `uv`: lower left, lower right,
     /// upper right, upper left.
-    pub fn gather(&self, component: usize, sampler: &Sampler, uv: Vec2) -> Vec4 {
-        gather(self.size, sampler, uv, |coord| {
-            self.at(coord, Address::Clamp).component(component)
-        })
+    pub fn gather<P: PerLane<Vec2>>(&self, component: usize, sampler: &Sampler, uv: P) -> P::Of<Vec4> {
+        let texel = |coord| self.at(coord, Address::Clamp).component(component);
+        uv.each(|uv| gather(self.size, sampler, uv, texel))
     }
 
     fn at(&self, coord: IVec2, address: Address) -> T {
@@ -223,23 +237,32 @@ impl DepthTexture {
     }
 
     /// The depth at `coord`, or the nearest one on the border if `coord` lies outside.
-    pub fn load(&self, coord: IVec2) -> f32 {
+    pub fn load<P: PerLane<IVec2>>(&self, coord: P) -> P::Of<f32> {
         self.depths.load(coord)
     }
 
     /// How much of what lies at `uv` passes the comparison with `reference`: 0 to 1. Beyond the border lie its texels.
-    pub fn compare(&self, sampler: &ComparisonSampler, uv: Vec2, reference: f32) -> f32 {
-        let passes = |depth: f32| {
-            let holds = match sampler.comparison {
-                Comparison::Less => reference < depth,
-                Comparison::LessEqual => reference <= depth,
-                Comparison::Greater => reference > depth,
-                Comparison::GreaterEqual => reference >= depth,
-            };
-            f32::from(u8::from(holds))
-        };
-        filtered(sampler.filter, uv * self.depths.size.as_vec2(), |coord| {
-            passes(self.depths.load(coord))
+    pub fn compare<P: PerLane<Vec2>>(&self, sampler: &ComparisonSampler, uv: P, reference: P::Of<f32>) -> P::Of<f32> {
+        uv.with(reference, |uv, reference| {
+            filtered(sampler.filter, uv * self.depths.size.as_vec2(), |coord| {
+                sampler.comparison.of(reference, self.depths.at(coord, Address::Clamp))
+            })
+        })
+    }
+
+    /// Which of the four texels that a linear filter would weigh at `uv` pass the comparison, 1 or 0 each: lower left,
+    /// lower right, upper right, upper left.
+    pub fn gather_compare<P: PerLane<Vec2>>(
+        &self,
+        sampler: &ComparisonSampler,
+        uv: P,
+        reference: P::Of<f32>,
+    ) -> P::Of<Vec4> {
+        uv.with(reference, |uv, reference| {
+            let depths = Sampler::default();
+            gather(self.depths.size, &depths, uv, |coord| {
+                sampler.comparison.of(reference, self.depths.at(coord, Address::Clamp))
+            })
         })
     }
 }
@@ -273,7 +296,7 @@ impl<T: Texel> Multisampled<T> {
 
     /// Sample `sample` of the texel at `coord`, or of the nearest one on the border if `coord` lies outside.
     /// Panics if there is no such sample; a shader's manifest states how many it needs.
-    pub fn load(&self, coord: IVec2, sample: usize) -> T {
+    pub fn load<P: PerLane<IVec2>>(&self, coord: P, sample: usize) -> P::Of<T> {
         self.samples[sample].load(coord)
     }
 }

@@ -14,6 +14,8 @@ use straightline_manifest::{
 pub(crate) struct Plan {
     pub(crate) kernel: String,
     pub(crate) entry_point: String,
+    /// Pixels that one invocation computes.
+    pub(crate) block: [u32; 2],
     /// In binding order.
     pub(crate) inputs: Vec<InputPlan>,
     /// In binding order.
@@ -117,6 +119,7 @@ impl Plan {
         let mut plan = Plan {
             kernel: manifest.kernel.clone(),
             entry_point: manifest.entry_point.clone(),
+            block: manifest.block.map(|side| side.max(1)),
             inputs: Vec::new(),
             uniforms: Vec::new(),
             region: None,

@@ -233,6 +233,7 @@ pub fn ramp(size: [u32; 2], layers: u32) -> Vec<[f32; 4]> {
         .collect()
 }
 
+#[allow(unused_imports, reason = "each test file uses its part")]
 pub use kernels::*;
 pub use straightline_runtime::manifest::Stage;
 pub const STAGES: [Stage; 2] = [Stage::Compute, Stage::Fragment];

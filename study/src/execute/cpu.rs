@@ -36,6 +36,7 @@ type Row<R> = (Vec<[R; 4]>, Vec<([u32; 2], String)>);
 ///
 /// If something that the kernel reads is missing or does not fit.
 pub fn interpret<R: Real>(compiled: &Compiled, inputs: &Inputs, watch: bool) -> Result<Interpreted<R>, ExecuteError> {
+    let compiled = &*compiled.in_blocks();
     let mut images = Vec::new();
     for (name, layers) in &inputs.images {
         let size = layers.first().map_or([0, 0], |l| l.size().to_array());
@@ -62,18 +63,23 @@ pub fn interpret<R: Real>(compiled: &Compiled, inputs: &Inputs, watch: bool) -> 
     let interpreter = Interpreter::<R>::in_precision(&compiled.graph, &compiled.schedule, frame, &bindings)
         .map_err(|e| ExecuteError::Input(e.to_string()))?;
     let interpreter = if watch { interpreter.watch() } else { interpreter };
-    let rows: Vec<Row<R>> = (0..height)
+    let [across, down] = compiled.graph.invocation.pixels();
+    let rows: Vec<Row<R>> = (0..height.div_ceil(down))
         .into_par_iter()
         .map_init(
             || interpreter.scratch(),
-            |scratch, y| {
-                let mut births = Vec::new();
-                let pixel = |x| {
-                    let texel = interpreter.pixel(x, y, scratch);
+            |scratch, row| {
+                let (y, mut births) = (row * down, Vec::new());
+                let mut lines = vec![Vec::with_capacity(width as usize); down as usize];
+                for x in (0..width).step_by(across as usize) {
+                    let texels = interpreter.invocation(x, y, scratch);
                     births.extend(scratch.birth().map(|b| ([x, y], b.describe(&compiled.graph))));
-                    texel
-                };
-                ((0..width).map(pixel).collect(), births)
+                    for (line, texels) in lines.iter_mut().zip(texels.chunks(across as usize)) {
+                        line.extend(texels.iter().take((width - x) as usize));
+                    }
+                }
+                lines.truncate((height - y) as usize);
+                (lines.concat(), births)
             },
         )
         .collect();

@@ -248,7 +248,7 @@ impl Bench {
         texture
     }
 
-    fn sampler(&self, state: SamplerState, compares: bool) -> wgpu::Sampler {
+    pub(super) fn sampler(&self, state: SamplerState, compares: bool) -> wgpu::Sampler {
         let filter = if state.linear {
             wgpu::FilterMode::Linear
         } else {
@@ -275,7 +275,7 @@ impl Bench {
         })
     }
 
-    fn buffer(&self, elements: &[[f64; 4]], element: &str) -> wgpu::Buffer {
+    pub(super) fn buffer(&self, elements: &[[f64; 4]], element: &str) -> wgpu::Buffer {
         let bytes = convert::element_bytes(elements, element);
         let buffer = self.device.create_buffer(&wgpu::BufferDescriptor {
             label: None,

@@ -2,7 +2,9 @@
 
 mod convert;
 mod cpu;
+mod forward;
 mod gpu;
+mod shadowed;
 mod synthetic;
 mod tiles;
 mod timing;
@@ -11,7 +13,9 @@ use glam::{UVec2, Vec4};
 use straightline_kernels::prelude::Frame;
 
 pub use cpu::{Interpreted, interpret};
+pub use forward::{Corner, Forward};
 pub use gpu::{Bench, Bound};
+pub use shadowed::Shadowed;
 pub use straightline_codegen::ir::interp::{Address, Comparison, SamplerState};
 pub use synthetic::test_inputs;
 pub use tiles::{Tile, cropped, tiles};

@@ -5,22 +5,27 @@
 use std::path::PathBuf;
 use std::process::Command;
 use straightline_study::execute;
+pub use straightline_tests::sraa::Random;
 
 /// A device of any adapter.
 pub fn bench() -> execute::Bench {
+    let (device, queue) = device();
+    execute::Bench::new(&device, &queue, false)
+}
+
+/// A device of any adapter, with what kernels can use of it.
+pub fn device() -> (wgpu::Device, wgpu::Queue) {
     let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
     let adapter =
         pollster::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions::default())).unwrap_or_else(|e| {
             panic!("this test needs a GPU adapter; without a GPU install Debian's mesa-vulkan-drivers: {e}")
         });
     let descriptor = wgpu::DeviceDescriptor {
-        required_features: adapter.features() & wgpu::Features::FLOAT32_FILTERABLE,
+        required_features: adapter.features() & (wgpu::Features::FLOAT32_FILTERABLE | wgpu::Features::SUBGROUP),
         ..Default::default()
     };
     let device = pollster::block_on(adapter.request_device(&descriptor));
-    let (device, queue) =
-        device.unwrap_or_else(|e| panic!("the adapter {} gives no device: {e}", adapter.get_info().name));
-    execute::Bench::new(&device, &queue, false)
+    device.unwrap_or_else(|e| panic!("the adapter {} gives no device: {e}", adapter.get_info().name))
 }
 
 /// The same, bit for bit; any NaN equals any other.
@@ -37,7 +42,8 @@ pub fn same_bits(a: &[[f32; 4]], b: &[[f32; 4]]) -> Result<(), String> {
 
 /// Has two compilers that share nothing with naga read GLSL and SPIR-V files.
 pub fn other_compilers(glsl: &[PathBuf], spirv: &[PathBuf]) {
-    run("glslangValidator", "glslang-tools", &["-V", "-o", "/dev/null"], glsl);
+    let arguments = ["-V", "--target-env", "vulkan1.1", "-o", "/dev/null"];
+    run("glslangValidator", "glslang-tools", &arguments, glsl);
     run("spirv-val", "spirv-tools", &["--target-env", "vulkan1.1"], spirv);
 }
 

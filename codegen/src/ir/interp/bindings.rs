@@ -187,6 +187,8 @@ pub(super) fn check(
 /// Why a graph cannot be run on the given inputs.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum InputError {
+    /// A lane of a quad cannot be computed alone: interpret `Compiled::in_blocks`.
+    Lanes,
     /// No image was given for a texture that is read.
     Missing(String),
     /// No elements were given for a buffer that is read.
@@ -214,6 +216,10 @@ pub enum InputError {
 impl fmt::Display for InputError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
+            InputError::Lanes => write!(
+                f,
+                "the lanes of a quad are computed together: expand it into one invocation"
+            ),
             InputError::Missing(name) => write!(f, "no image for the texture `{name}`"),
             InputError::MissingBuffer(name) => write!(f, "no elements for the buffer `{name}`: it needs at least one"),
             InputError::Layers { name, found, needed } => {

@@ -5,7 +5,7 @@ mod finite;
 mod sampling;
 
 use super::arith::{self, Cells};
-use super::{Counter, Graph, NodeId, Op, Real, Scalar, Type};
+use super::{Counter, Graph, Invocation, NodeId, Op, Real, Scalar, Type};
 use crate::passes::{Block, Schedule, Step};
 use sampling::Sampled;
 use std::marker::PhantomData;
@@ -70,6 +70,9 @@ impl<'a, R: Real> Interpreter<'a, R> {
         frame: [u32; 2],
         bindings: &Bindings<'a>,
     ) -> Result<Self, InputError> {
+        if graph.invocation == Invocation::Lane {
+            return Err(InputError::Lanes);
+        }
         bindings::check(graph, schedule, frame, bindings)?;
         let cells = |ty, lanes: &[f64]| arith::cells::<R>(ty, &bindings::bits(ty, lanes));
         let textures = graph
@@ -128,9 +131,20 @@ impl<'a, R: Real> Interpreter<'a, R> {
 
     /// The colour of a pixel inside the frame.
     pub fn pixel(&self, x: u32, y: u32, scratch: &mut Scratch) -> [R; 4] {
+        let [width, height] = self.graph.invocation.pixels();
+        let (left, upper) = (x % width, y % height);
+        self.invocation(x - left, y - upper, scratch)[(upper * width + left) as usize]
+    }
+
+    /// The colours of all pixels of the invocation whose upper left one is given, row by row; those outside of the frame
+    /// are of no account.
+    pub fn invocation(&self, x: u32, y: u32, scratch: &mut Scratch) -> Vec<[R; 4]> {
         scratch.birth = None;
         self.block(&self.schedule.body, [x, y], scratch);
-        scratch.values[self.graph.output().0 as usize].map(R::from_bits)
+        let outputs = self.graph.outputs().iter();
+        outputs
+            .map(|id| scratch.values[id.0 as usize].map(R::from_bits))
+            .collect()
     }
 
     fn block(&self, block: &Block, pixel: [u32; 2], s: &mut Scratch) {
@@ -252,6 +266,7 @@ impl<'a, R: Real> Interpreter<'a, R> {
                 .texel(word(0, 0), word(0, 1), word(1, 0))
                 .map(|v| R::from_f64(v.into()).to_bits()),
             Op::Gather { component, .. } => through.gather(*component, uv()).map(R::to_bits),
+            Op::GatherCompare { .. } => through.gather_compare(uv(), real(1, 0)).map(R::to_bits),
             Op::Compare { .. } => [through.compare(uv(), real(1, 0)).to_bits(), 0, 0, 0],
             _ => through.sample(uv()).map(R::to_bits),
         }

@@ -25,17 +25,25 @@ impl Sampled<'_> {
 
     /// The share of depths at `uv` that pass the comparison with `reference`.
     pub fn compare<R: Real>(&self, uv: [R; 2], reference: R) -> R {
-        let passes = |x, y| {
-            let depth = self.texel::<R>(x, y)[0];
-            let holds = match self.state.comparison {
-                Comparison::Less => reference < depth,
-                Comparison::LessEqual => reference <= depth,
-                Comparison::Greater => reference > depth,
-                Comparison::GreaterEqual => reference >= depth,
-            };
-            [R::from_f64(if holds { 1.0 } else { 0.0 }); 4]
+        self.filtered(uv, |x, y| [self.passes(x, y, reference); 4])[0]
+    }
+
+    /// 1 for each of the four depths around `uv` that passes the comparison with `reference`.
+    pub fn gather_compare<R: Real>(&self, uv: [R; 2], reference: R) -> [R; 4] {
+        let ([x, y], _) = self.footprint(uv);
+        let tap = |dx, dy| self.passes(x + dx, y + dy, reference);
+        [tap(0, 1), tap(1, 1), tap(1, 0), tap(0, 0)]
+    }
+
+    fn passes<R: Real>(&self, x: i64, y: i64, reference: R) -> R {
+        let depth = self.texel::<R>(x, y)[0];
+        let holds = match self.state.comparison {
+            Comparison::Less => reference < depth,
+            Comparison::LessEqual => reference <= depth,
+            Comparison::Greater => reference > depth,
+            Comparison::GreaterEqual => reference >= depth,
         };
-        self.filtered(uv, passes)[0]
+        R::from_f64(if holds { 1.0 } else { 0.0 })
     }
 
     /// A component of the four texels around `uv`.

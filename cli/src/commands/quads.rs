@@ -1,0 +1,471 @@
+//! `quads`: what sharing work over pixel quads is worth, filter by filter and transport by transport.
+
+use crate::args::QuadsArgs;
+use crate::failure::Failure;
+use crate::gpu::Gpu;
+use crate::{scene, table};
+use glam::{Vec4, vec3};
+use serde::Serialize;
+use std::path::Path;
+use std::time::SystemTime;
+use straightline_codegen::{Compiled, Kernel, Settings, Transport};
+use straightline_kernels::prelude::Frame;
+use straightline_manifest::Stage;
+use straightline_runtime::{Pass, Quads};
+use straightline_study::execute::{Bench, Bound, Clock, Forward, Inputs, Job, Shadowed, Times};
+use straightline_study::picture;
+use straightline_study::render::GpuRenderer;
+use straightline_study::render::Renderer;
+
+/// One way to compute a filter.
+#[derive(Clone, Debug, Serialize)]
+struct Row {
+    family: &'static str,
+    way: String,
+    transport: String,
+    /// Of a pixel, by one invocation; of a block, by one invocation for its four pixels.
+    reads: u32,
+    messages: u32,
+    statements: u32,
+    time: Times,
+    clock: Clock,
+    /// How many times as fast as the family's first row.
+    ratio: f64,
+    /// Difference to the family's first row: mean and largest, over all components.
+    mean_difference: f64,
+    largest_difference: f64,
+}
+
+/// A run and its circumstances.
+#[derive(Clone, Debug, Serialize)]
+struct Record {
+    command: String,
+    date: String,
+    adapter: String,
+    size: [u32; 2],
+    rounds: u32,
+    quads: String,
+    rows: Vec<Row>,
+}
+
+/// A filter: its kernel, and the options of each way to compute it, the first of which shares nothing.
+struct Family {
+    name: &'static str,
+    kernel: &'static str,
+    ways: &'static [(&'static str, &'static [(&'static str, &'static str)])],
+    /// Whether it is drawn with the scene's triangles.
+    forward: bool,
+}
+
+const FAMILIES: &[Family] = &[
+    Family {
+        name: "blur 3x3",
+        kernel: "quad_convolution",
+        ways: &[("naive", &[("sharing", "alone")]), ("quad", &[])],
+        forward: false,
+    },
+    Family {
+        name: "blur 7x7",
+        kernel: "quad_convolution",
+        ways: &[
+            (
+                "naive",
+                &[("radius", "3"), ("weights", "binomial"), ("sharing", "alone")],
+            ),
+            ("quad", &[("radius", "3"), ("weights", "binomial")]),
+        ],
+        forward: false,
+    },
+    Family {
+        name: "bilateral 5x5",
+        kernel: "quad_bilateral",
+        ways: &[("naive", &[("sharing", "alone")]), ("quad", &[])],
+        forward: false,
+    },
+    Family {
+        name: "upsampling 2x",
+        kernel: "quad_upsampling",
+        ways: &[
+            ("naive", &[("reads", "naive")]),
+            ("quad, 2 reads", &[("reads", "apart")]),
+            ("quad, 1 read", &[("reads", "packed")]),
+        ],
+        forward: false,
+    },
+    Family {
+        name: "occlusion, 16 taps",
+        kernel: "quad_ssao",
+        ways: &[("naive", &[("sharing", "alone")]), ("quad", &[])],
+        forward: false,
+    },
+    Family {
+        name: "PCF 4x4 box",
+        kernel: "pcf",
+        ways: &[
+            ("naive", &[("method", "naive"), ("width", "four")]),
+            ("bilinear", &[("method", "bilinear"), ("width", "four")]),
+            ("quad", &[("width", "four")]),
+            ("quad, gradient", &[("width", "four"), ("gradient", "prewitt")]),
+        ],
+        forward: true,
+    },
+    Family {
+        name: "PCF 8x8 quadratic",
+        kernel: "pcf",
+        ways: &[
+            ("naive", &[("method", "naive"), ("weights", "quadratic")]),
+            ("bilinear", &[("method", "bilinear"), ("weights", "quadratic")]),
+            ("quad", &[("weights", "quadratic")]),
+            ("quad, gradient", &[("weights", "quadratic"), ("gradient", "prewitt")]),
+            ("gather", &[("method", "gather"), ("weights", "quadratic")]),
+        ],
+        forward: true,
+    },
+    Family {
+        name: "PCSS",
+        kernel: "pcss",
+        ways: &[("naive", &[("sharing", "alone")]), ("quad", &[])],
+        forward: true,
+    },
+];
+
+/// A way with a transport, ready to run.
+struct Subject {
+    family: &'static str,
+    way: &'static str,
+    transport: String,
+    counts: straightline_manifest::Counts,
+    drawn: Drawn,
+    image: Frame<Vec4>,
+}
+
+enum Drawn {
+    Pass(Pass, Bound),
+    Forward(Forward),
+}
+
+/// Measures every way of every filter on a rendered frame, in one run.
+pub fn run(args: &QuadsArgs) -> Result<(), Failure> {
+    let gpu = Gpu::require(&args.adapter)?;
+    let bench = gpu.bench();
+    let quads = Quads::detect(&gpu.device, &gpu.queue).map_err(Failure::of)?;
+    let chosen = match quads.choose() {
+        Ok(transport) => format!("{transport:?}").to_lowercase(),
+        Err(why) => why,
+    };
+    let scene = scene::load(args.mesh.as_deref())?;
+    let shadowed = Shadowed::new(&bench, &scene, args.size, 1024, 9.0).map_err(Failure::of)?;
+    let forward_inputs = shadowed.inputs(&bench).map_err(Failure::of)?;
+    let screen_inputs = screen(&gpu, &bench, &scene, args)?;
+    let mut subjects = Vec::new();
+    for family in FAMILIES {
+        for (way, options) in family.ways {
+            // What shares nothing sends nothing: one fragment shader, and one compute shader, stand for it.
+            let transports: &[Transport] = match way.starts_with("naive") || *way == "bilinear" {
+                true => &[Transport::Subgroup, Transport::Block],
+                false => &Transport::ALL,
+            };
+            for transport in transports {
+                if *transport == Transport::Subgroup && quads.subgroup.is_none() {
+                    continue;
+                }
+                let inputs = if family.forward {
+                    &forward_inputs
+                } else {
+                    &screen_inputs
+                };
+                subjects.push(prepare(&bench, family, way, options, *transport, inputs, &shadowed)?);
+            }
+        }
+    }
+    let rows = measure(&bench, args, &subjects)?;
+    if let Some(folder) = &args.pictures {
+        write_pictures(&bench, folder, &subjects, &shadowed, &screen_inputs)?;
+    }
+    let record = Record {
+        command: std::env::args().collect::<Vec<_>>().join(" "),
+        date: humantime::format_rfc3339_seconds(SystemTime::now()).to_string(),
+        adapter: gpu.describe(),
+        size: args.size.to_array(),
+        rounds: args.rounds,
+        quads: format!(
+            "derivatives {:?}, origin {:?}; chosen: {chosen}",
+            quads.kind, quads.origin
+        ),
+        rows,
+    };
+    print(args, &record)
+}
+
+/// A rendered frame as the full-screen filters read it: its colours, geometry, and occlusion at half the resolution.
+fn screen(
+    gpu: &Gpu,
+    bench: &Bench,
+    scene: &straightline_study::scene::Scene,
+    args: &QuadsArgs,
+) -> Result<Inputs, Failure> {
+    let renderer = GpuRenderer::new(&gpu.device, &gpu.queue, scene, args.size).map_err(Failure::of)?;
+    let color = renderer.shaded(glam::Vec2::ZERO).map_err(Failure::of)?;
+    let (depth, normal) = renderer.geometry(glam::Vec2::ZERO).map_err(Failure::of)?;
+    let with_depth = color
+        .texels()
+        .iter()
+        .zip(depth.texels())
+        .map(|(c, z)| c.truncate().extend(*z));
+    let image = Frame::new(args.size, with_depth.collect());
+    let depth = Frame::new(args.size, depth.texels().iter().map(|z| Vec4::splat(*z)).collect());
+    // The testbed looks along -z with y up, the kernel along z with y down.
+    let turned = normal.texels().iter().map(|n| vec3(n.x, -n.y, -n.z).extend(0.0));
+    let normal = Frame::new(args.size, turned.collect());
+    let angle = 2.0 * scene.camera.half_extent(args.size).y / args.size.y as f32;
+    let full = Inputs::new(args.size)
+        .image("image", image)
+        .image("depth", depth)
+        .image("normal", normal)
+        .uniform("pixel_angle", &[f64::from(angle)]);
+    // Occlusion as it would be computed at half the resolution, here taken from the full one.
+    let occlusion = compile("quad_ssao", &[("sharing", "alone"), ("pixel-angle", "uniform")], None)?;
+    let occlusion = bench.run(&occlusion, Stage::Compute, &full).map_err(Failure::of)?;
+    let low_size = args.size.map(|n| n.div_ceil(2) + 1);
+    let mut low = full.clone().image("image", occlusion);
+    low.size = low_size;
+    let down = |gives: &str| -> Result<Frame<Vec4>, Failure> {
+        let compiled = compile("downsampling", &[("gives", gives)], None)?;
+        bench.run(&compiled, Stage::Compute, &low).map_err(Failure::of)
+    };
+    let (packed, surface) = (down("packed")?, down("surface")?);
+    Ok(full.image("low", packed).image("low_surface", surface))
+}
+
+fn compile(kernel: &str, options: &[(&str, &str)], transport: Option<Transport>) -> Result<Compiled, Failure> {
+    let settings = Settings {
+        options: options
+            .iter()
+            .map(|(k, v)| ((*k).to_owned(), (*v).to_owned()))
+            .collect(),
+        transport,
+        ..Settings::default()
+    };
+    Ok(Kernel::builtin(kernel)?.compile(&settings)?)
+}
+
+fn prepare(
+    bench: &Bench,
+    family: &Family,
+    way: &'static str,
+    options: &[(&str, &str)],
+    transport: Transport,
+    inputs: &Inputs,
+    shadowed: &Shadowed,
+) -> Result<Subject, Failure> {
+    let mut options = options.to_vec();
+    if family.kernel == "quad_ssao" {
+        options.push(("pixel-angle", "uniform"));
+    }
+    let compiled = compile(family.kernel, &options, Some(transport))?;
+    let stage = match transport {
+        Transport::Block => Stage::Compute,
+        _ => Stage::Fragment,
+    };
+    let (drawn, image, counts) = if family.forward && stage == Stage::Fragment {
+        let forward = bench.forward(&compiled, inputs, &shadowed.corners, None, |text| text);
+        let forward = forward.map_err(Failure::of)?;
+        let image = bench.picture(&forward).map_err(Failure::of)?;
+        (Drawn::Forward(forward), image, compiled.counts.clone())
+    } else {
+        let (pass, manifest) = bench.pass(&compiled, stage).map_err(Failure::of)?;
+        let bound = bench.bind(&pass, &manifest, inputs).map_err(Failure::of)?;
+        let image = bench.run(&compiled, stage, inputs).map_err(Failure::of)?;
+        (Drawn::Pass(pass, bound), image, manifest.counts)
+    };
+    let sends = counts.messages > 0 || transport == Transport::Block;
+    Ok(Subject {
+        family: family.name,
+        way,
+        transport: match (sends, transport) {
+            (false, _) => "none, fragment".to_owned(),
+            (_, Transport::Block) => "block, compute".to_owned(),
+            (_, other) => other.to_string(),
+        },
+        counts,
+        drawn,
+        image,
+    })
+}
+
+fn measure(bench: &Bench, args: &QuadsArgs, subjects: &[Subject]) -> Result<Vec<Row>, Failure> {
+    let (mut jobs, mut forwards) = (Vec::new(), Vec::new());
+    for subject in subjects {
+        match &subject.drawn {
+            Drawn::Pass(pass, bound) => jobs.push(Job {
+                pass,
+                bound,
+                size: args.size,
+            }),
+            Drawn::Forward(forward) => forwards.push(forward),
+        }
+    }
+    let bar = scene::bar("timing, in turn");
+    bar.set_length(u64::from(args.rounds) + 1);
+    let timed = bench.interleaved(&jobs, args.rounds, |k| bar.set_position(u64::from(k)));
+    let (times, clock) = timed.map_err(Failure::of)?;
+    let forward_times = bench.draw_in_turn(&forwards, args.rounds).map_err(Failure::of)?;
+    bar.finish_and_clear();
+    let (mut times, mut forward_times) = (times.into_iter(), forward_times.into_iter());
+    let mut rows: Vec<Row> = Vec::new();
+    for subject in subjects {
+        let (time, clock) = match subject.drawn {
+            Drawn::Pass(..) => (times.next(), clock),
+            Drawn::Forward(_) => (forward_times.next(), Clock::WallClock),
+        };
+        let Some(time) = time else { continue };
+        let first = subjects.iter().find(|s| s.family == subject.family).unwrap_or(subject);
+        let baseline = rows
+            .iter()
+            .find(|r| r.family == subject.family)
+            .map_or(time, |r| r.time);
+        let (mean, largest) = differences(&subject.image, &first.image);
+        rows.push(Row {
+            family: subject.family,
+            way: subject.way.to_owned(),
+            transport: subject.transport.clone(),
+            reads: subject.counts.texture_reads,
+            messages: subject.counts.messages,
+            statements: subject.counts.statements,
+            time,
+            clock,
+            ratio: baseline.median_ms / time.median_ms,
+            mean_difference: mean,
+            largest_difference: largest,
+        });
+    }
+    Ok(rows)
+}
+
+/// Mean and largest difference over all colours, of pixels that either draws.
+fn differences(a: &Frame<Vec4>, b: &Frame<Vec4>) -> (f64, f64) {
+    let drawn = a
+        .texels()
+        .iter()
+        .zip(b.texels())
+        .filter(|(a, b)| **a != Vec4::ZERO && **b != Vec4::ZERO);
+    let (mut sum, mut largest, mut count) = (0.0, 0.0f64, 0.0);
+    for (a, b) in drawn {
+        let off = f64::from((a.truncate() - b.truncate()).abs().max_element());
+        sum += off;
+        count += 1.0;
+        largest = largest.max(off);
+    }
+    (sum / f64::max(count, 1.0), largest)
+}
+
+/// The shadow scene by each way of the 8×8 filter, occlusion before and after upsampling, and details of both.
+fn write_pictures(
+    bench: &Bench,
+    folder: &Path,
+    subjects: &[Subject],
+    shadowed: &Shadowed,
+    screen: &Inputs,
+) -> Result<(), Failure> {
+    std::fs::create_dir_all(folder).map_err(|e| Failure::of(format!("cannot make `{}`: {e}", folder.display())))?;
+    let write = |name: &str, frame: &Frame<Vec4>| picture::write(&folder.join(name), frame).map_err(Failure::of);
+    let mut columns = Vec::new();
+    for way in ["naive", "quad", "quad, gradient", "gather"] {
+        let found = subjects
+            .iter()
+            .find(|s| s.family == "PCF 8x8 quadratic" && s.way == way);
+        let Some(subject) = found else { continue };
+        let shown = shadowed.picture(bench, &subject.image).map_err(Failure::of)?;
+        write(
+            &format!("pcf {way}.png").replace([',', ' '], "-").replace("--", "-"),
+            &shown,
+        )?;
+        columns.push((way, shown));
+    }
+    write_details(folder, "pcf-details.png", &columns)?;
+    let low = screen.images.iter().rev().find(|(name, _)| name == "low");
+    let naive = low.map(|(_, layers)| stretched(&layers[0], screen));
+    let mut columns = Vec::new();
+    columns.extend(naive.map(|frame| ("bilinear", frame)));
+    for (family, way, title) in [
+        ("upsampling 2x", "quad, 1 read", "bilateral"),
+        ("occlusion, 16 taps", "naive", "full resolution"),
+        ("occlusion, 16 taps", "quad", "split over the quad"),
+    ] {
+        if let Some(subject) = subjects.iter().find(|s| s.family == family && s.way == way) {
+            write(&format!("occlusion-{}.png", title.replace(' ', "-")), &subject.image)?;
+            columns.push((title, subject.image.clone()));
+        }
+    }
+    write_details(folder, "occlusion-details.png", &columns)
+}
+
+fn write_details(folder: &Path, name: &str, columns: &[(&str, Frame<Vec4>)]) -> Result<(), Failure> {
+    let detail = |frame: &Frame<Vec4>| {
+        let size = frame.size();
+        let (width, height) = (size.x / 5, size.y / 4);
+        picture::detail(frame, size.x * 11 / 20, size.y * 11 / 20, width, height, 4)
+    };
+    let details: Vec<(&str, Frame<Vec4>)> = columns.iter().map(|(title, frame)| (*title, detail(frame))).collect();
+    let columns: Vec<(&str, &Frame<Vec4>)> = details.iter().map(|(title, frame)| (*title, frame)).collect();
+    picture::write(&folder.join(name), &picture::montage(&columns)).map_err(Failure::of)
+}
+
+/// An image of low resolution as a sampler would stretch it: what bilateral upsampling is better than.
+fn stretched(low: &Frame<Vec4>, screen: &Inputs) -> Frame<Vec4> {
+    let size = screen.size;
+    let texel = |k: u32| {
+        let place = (glam::uvec2(k % size.x, k / size.x).as_vec2() + 0.5) / 2.0;
+        let (corner, t) = (place.floor(), place - place.floor());
+        let at = |i: i32, j: i32| low.load(corner.as_ivec2() + glam::ivec2(i, j));
+        let row = |j: i32| at(0, j).lerp(at(1, j), t.x);
+        row(0).lerp(row(1), t.y).truncate().extend(1.0)
+    };
+    Frame::new(size, (0..size.x * size.y).map(texel).collect())
+}
+
+fn print(args: &QuadsArgs, record: &Record) -> Result<(), Failure> {
+    let json = serde_json::to_string_pretty(record).map_err(Failure::of)? + "\n";
+    if let Some(path) = &args.record {
+        std::fs::write(path, &json).map_err(|e| Failure::of(format!("cannot write `{}`: {e}", path.display())))?;
+    }
+    if args.json {
+        print!("{json}");
+        return Ok(());
+    }
+    let [width, height] = record.size;
+    println!(
+        "{}, {width}x{height}, {} rounds in turn, {}\n{}\n",
+        record.adapter, record.rounds, record.date, record.quads
+    );
+    let cells = |row: &Row| {
+        vec![
+            row.family.to_owned(),
+            row.way.clone(),
+            row.transport.clone(),
+            row.reads.to_string(),
+            row.messages.to_string(),
+            format!(
+                "{:.2} ({:.2} to {:.2})",
+                row.time.median_ms, row.time.min_ms, row.time.max_ms
+            ),
+            format!("{:.2}{}", row.ratio, if row.ratio < 1.0 { " slower" } else { "" }),
+            format!("{:.1e}", row.mean_difference),
+            format!("{:.1e}", row.largest_difference),
+        ]
+    };
+    let rows: Vec<Vec<String>> = record.rows.iter().map(cells).collect();
+    let head = [
+        "filter",
+        "way",
+        "messages by",
+        "reads",
+        "messages",
+        "ms",
+        "times as fast",
+        "mean off",
+        "largest",
+    ];
+    print!("{}", table::render(&head, &rows));
+    Ok(())
+}

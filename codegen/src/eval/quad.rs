@@ -1,0 +1,208 @@
+//! Quads: a value of each lane is a node like any other; messages ask the other lanes for theirs.
+//!
+//! rustc sees to it that a `Quad<bool>` decides no branch, so that all lanes come to every message.
+
+use super::Evaluator;
+use super::value::{Eval, Value};
+use crate::diagnostic::{Diagnostic, Span};
+use crate::front::tree::Type as SourceType;
+use crate::ir::{BinaryOp, Direction, Invocation, NodeId, Op, Scalar, Type, Varying};
+
+const PAIR: Type = Type::value(Scalar::I32, 2);
+
+impl Evaluator<'_> {
+    /// The type of a lane, of a type that may be a `Quad`.
+    pub fn lane_type<'t>(&self, ty: &'t SourceType) -> Option<&'t SourceType> {
+        match ty {
+            SourceType::Name(name, args) if name == "Quad" && !self.library.structs.contains_key("Quad") => {
+                args.first()
+            }
+            _ => None,
+        }
+    }
+
+    /// A parameter of the kernel that has a value in each lane: the pixel, or what the host interpolates.
+    pub fn quad_parameter(&mut self, name: &str, ty: &SourceType, span: Span) -> Eval<Option<Value>> {
+        let Some(SourceType::Name(lane, _)) = self.lane_type(ty) else {
+            return Ok(None);
+        };
+        let lane = lane.as_str();
+        self.builder.graph_mut().invocation = Invocation::Lane;
+        if name == "pixel" && lane == "IVec2" {
+            return Ok(Some(Value::Node(self.builder.add(Op::Pixel, Vec::new(), PAIR))));
+        }
+        let ty = match super::call::vector_type(lane) {
+            _ if lane == "f32" => Type::F32,
+            Some((Scalar::F32, lanes)) => Type::value(Scalar::F32, lanes),
+            _ => {
+                return Err(
+                    Diagnostic::at(span, format!("`{name}` is a quad of `{lane}`, which no rasteriser interpolates"))
+                        .label("not supported")
+                        .help("a kernel takes `pixel: Quad<IVec2>`, and quads of f32, Vec2, Vec3 or Vec4 for what is interpolated")
+                        .into(),
+                );
+            }
+        };
+        self.unused_name(name, span)?;
+        let varyings = &mut self.builder.graph_mut().varyings;
+        varyings.push(Varying {
+            name: name.to_owned(),
+            ty,
+        });
+        let index = varyings.len() as u32 - 1;
+        Ok(Some(Value::Node(self.builder.add(Op::Varying(index), Vec::new(), ty))))
+    }
+
+    /// The prelude's functions of lanes; `None` if it has none of this name.
+    pub fn quad_function(&mut self, path: &[String], values: &[Value], span: Span) -> Eval<Option<Value>> {
+        let names: Vec<&str> = path.iter().map(String::as_str).collect();
+        match (names.as_slice(), values) {
+            ([.., "lane_position"], []) => Ok(Some(Value::Node(self.lane(span)?))),
+            ([.., "quad_select"], []) => {
+                let lane = self.lane(span)?;
+                Ok(Some(Value::Node(self.convert(lane, Scalar::F32))))
+            }
+            ([.., "quad_vector"], []) => {
+                let lane = self.lane(span)?;
+                let lane = Value::Node(self.convert(lane, Scalar::F32));
+                let (one, two) = (Value::Node(self.builder.f32(1.0)), Value::Node(self.builder.f32(2.0)));
+                let twice = self.binary(BinaryOp::Mul, &lane, &two, span)?;
+                let vector = self.binary(BinaryOp::Sub, &twice, &one, span)?;
+                self.name(&vector, "quad_vector", span);
+                Ok(Some(vector))
+            }
+            ([.., "Quad", "splat" | "from"], [value]) => Ok(Some(value.clone())),
+            ([.., "Quad", "new"], [lanes]) => {
+                let lanes = self.elements(lanes, 4, span)?;
+                self.of_lanes(&lanes, span).map(Some)
+            }
+            ([.., "Quad", "from_xy"], [x, y]) => {
+                let lanes = [x, y].map(|v| self.int_or_node(v, Scalar::F32, span));
+                let [x, y] = lanes;
+                let pair = Type::value(Scalar::F32, 2);
+                let lanes = vec![x?, y?];
+                Ok(Some(Value::Node(self.builder.add(Op::Compose, lanes, pair))))
+            }
+            _ => Ok(None),
+        }
+    }
+
+    /// A method that only quads have; `None` if this is none of them.
+    pub fn quad_method(&mut self, receiver: &Value, name: &str, args: &[Value], span: Span) -> Eval<Option<Value>> {
+        let direction = match name {
+            "swap_horizontal" => Some(Direction::Horizontal),
+            "swap_vertical" => Some(Direction::Vertical),
+            "swap_diagonal" => Some(Direction::Diagonal),
+            _ => None,
+        };
+        let value = match (name, args) {
+            (_, []) if direction.is_some() => {
+                let x = self.node(receiver, span)?;
+                self.message(direction.unwrap_or(Direction::Horizontal), x, name, span)?
+            }
+            ("gather", []) => {
+                let x = self.node(receiver, span)?;
+                let mut all = vec![Value::Node(x)];
+                for direction in Direction::ALL {
+                    all.push(self.message(direction, x, name, span)?);
+                }
+                Value::array(all)
+            }
+            ("sum" | "average", []) => {
+                let x = self.node(receiver, span)?;
+                let beside = self.message(Direction::Horizontal, x, name, span)?;
+                let row = self.binary(BinaryOp::Add, receiver, &beside, span)?;
+                let row_node = self.node(&row, span)?;
+                self.name(&row, "row", span);
+                let below = self.message(Direction::Vertical, row_node, name, span)?;
+                let sum = self.binary(BinaryOp::Add, &row, &below, span)?;
+                if name == "sum" {
+                    sum
+                } else {
+                    let quarter = Value::Node(self.builder.f32(0.25));
+                    self.binary(BinaryOp::Mul, &sum, &quarter, span)?
+                }
+            }
+            ("lt" | "le" | "gt" | "ge" | "eq" | "ne", [other]) => {
+                let op = match name {
+                    "lt" => BinaryOp::Lt,
+                    "le" => BinaryOp::Le,
+                    "gt" => BinaryOp::Gt,
+                    "ge" => BinaryOp::Ge,
+                    "eq" => BinaryOp::Eq,
+                    _ => BinaryOp::Ne,
+                };
+                self.binary(op, receiver, other, span)?
+            }
+            ("select", [yes, no]) => {
+                let condition = self.node(receiver, span)?;
+                if self.ty(condition) != Type::BOOL {
+                    return Ok(None);
+                }
+                let (yes, no) = self.same_type(yes, no, span)?;
+                let ty = self.ty(yes);
+                Value::Node(self.builder.add(Op::Select, vec![condition, yes, no], ty))
+            }
+            ("x" | "y" | "z" | "w", []) => self.field(receiver, name, span)?,
+            ("as_f32" | "as_i32", []) => {
+                let x = self.node(receiver, span)?;
+                let kind = if name == "as_f32" { Scalar::F32 } else { Scalar::I32 };
+                Value::Node(self.convert(x, kind))
+            }
+            _ => return Ok(None),
+        };
+        Ok(Some(value))
+    }
+
+    fn message(&mut self, direction: Direction, x: NodeId, name: &str, span: Span) -> Eval {
+        self.needs_lanes(name, span)?;
+        let ty = self.ty(x);
+        if ty.is_array() {
+            return Err(Diagnostic::at(span, "a message carries a number or a vector, no array")
+                .label("an array of a kept loop")
+                .help("send its elements one by one")
+                .into());
+        }
+        Ok(Value::Node(self.builder.add(Op::Message(direction), vec![x], ty)))
+    }
+
+    fn lane(&mut self, span: Span) -> Eval<NodeId> {
+        self.needs_lanes("lane_position", span)?;
+        let lane = self.builder.add(Op::Lane, Vec::new(), PAIR);
+        self.name(&Value::Node(lane), "lane", span);
+        Ok(lane)
+    }
+
+    fn needs_lanes(&self, name: &str, span: Span) -> Eval<()> {
+        if self.builder.graph().invocation == Invocation::Lane {
+            return Ok(());
+        }
+        Err(Diagnostic::at(
+            span,
+            format!("`{name}` is of quads, and this kernel computes one pixel"),
+        )
+        .label("no other lane to hear from")
+        .help("take `pixel: Quad<IVec2>` and give a `Quad<Vec4>`")
+        .into())
+    }
+
+    /// One of four values, by the lane.
+    fn of_lanes(&mut self, lanes: &[Value], span: Span) -> Eval {
+        let lane = self.lane(span)?;
+        let zero = self.builder.i32(0);
+        let [right, below] = [0, 1].map(|axis| {
+            let part = self.builder.add(Op::Extract(axis), vec![lane], Type::I32);
+            self.builder.add(Op::Binary(BinaryOp::Ne), vec![part, zero], Type::BOOL)
+        });
+        let mut rows = Vec::new();
+        for row in lanes.chunks(2) {
+            let (left, other) = self.same_type(&row[0], &row[1], span)?;
+            let ty = self.ty(left);
+            let row = self.builder.add(Op::Select, vec![right, other, left], ty);
+            rows.push(Value::Node(row));
+        }
+        let (upper, lower) = self.same_type(&rows[0], &rows[1], span)?;
+        let ty = self.ty(upper);
+        Ok(Value::Node(self.builder.add(Op::Select, vec![below, lower, upper], ty)))
+    }
+}

@@ -1,0 +1,302 @@
+//! The lanes of a quad in other ways than by quad operations: four pixels in one invocation, and messages by derivatives.
+
+use super::fold::Exact;
+use crate::ir::{
+    Axis, BinaryOp, Builder, Counter, Direction, Event, Graph, Invocation, NodeId, Op, Origin, Rebuild, RegionId,
+    Rules, Scalar, Texture, TextureKind, Type, copy_tables, rebuild,
+};
+
+const PAIR: Type = Type::value(Scalar::I32, 2);
+
+/// Has one invocation compute a block of pixels. Of a kernel of quads the block is the quad: its lanes run in step, and
+/// a message is the other lane's value itself. What lanes have in common, reads above all, is computed once.
+///
+/// # Errors
+///
+/// Why the kernel's pixels cannot run in step: a kept loop or branch that they may take differently.
+pub fn expand(graph: &Graph, size: [u32; 2]) -> Result<Graph, String> {
+    let lanes = (size[0] * size[1]) as usize;
+    let mut builder = Builder::new(&Exact);
+    copy_tables(graph, builder.graph_mut());
+    let tables = builder.graph_mut();
+    tables.invocation = Invocation::Block(size);
+    // Interpolated values are read from images of the same names.
+    let first_varying = tables.textures.len() as u32;
+    for varying in std::mem::take(&mut tables.varyings) {
+        tables.textures.push(Texture {
+            name: varying.name,
+            kind: TextureKind::Flat,
+            components: varying.ty.lanes(),
+            framed: true,
+        });
+    }
+    let mut expansion = Expansion {
+        old: graph,
+        builder,
+        size,
+        lanes,
+        first_varying,
+        ids: vec![Vec::new(); graph.nodes.len()],
+        regions: vec![None; graph.regions.len()],
+    };
+    expansion.regions[0] = Some(Graph::BODY);
+    let mut events = graph.events.iter().peekable();
+    for id in graph.ids() {
+        while let Some((_, event)) = events.next_if(|(at, _)| *at <= id.0) {
+            expansion.event(*event);
+        }
+        if expansion.ids[id.0 as usize].is_empty() {
+            expansion.node(id)?;
+        }
+    }
+    for (_, event) in events {
+        if *event != Event::Close(Graph::BODY) {
+            expansion.event(*event);
+        }
+    }
+    let outputs = expansion.ids[graph.outputs()[0].0 as usize].clone();
+    Ok(expansion.builder.finish(outputs))
+}
+
+struct Expansion<'g> {
+    old: &'g Graph,
+    builder: Builder<'g>,
+    size: [u32; 2],
+    lanes: usize,
+    first_varying: u32,
+    /// By old node, its new one in each lane.
+    ids: Vec<Vec<NodeId>>,
+    regions: Vec<Option<RegionId>>,
+}
+
+impl Expansion<'_> {
+    fn event(&mut self, event: Event) {
+        match event {
+            Event::Open(region) => self.open(region),
+            // Its results may be newer than its end: they are set when its owner is built.
+            Event::Close(_) => self.builder.close_region(Vec::new()),
+        }
+    }
+
+    /// A region with a parameter for each lane; a loop's counter is one for all.
+    fn open(&mut self, region: RegionId) {
+        let params = self.old.region(region).params.clone();
+        let mut types = Vec::new();
+        for (k, param) in params.iter().enumerate() {
+            let times = if k == 0 { 1 } else { self.lanes };
+            types.extend(std::iter::repeat_n(self.old.ty(*param), times));
+        }
+        let new = self.builder.open_region(&types);
+        self.regions[region.0 as usize] = Some(new);
+        let mut made = self.builder.graph().region(new).params.clone().into_iter();
+        for (k, param) in params.iter().enumerate() {
+            let times = if k == 0 { 1 } else { self.lanes };
+            let mut ids: Vec<NodeId> = made.by_ref().take(times).collect();
+            ids.resize(self.lanes, ids[0]);
+            self.keep(*param, ids);
+        }
+    }
+
+    fn node(&mut self, id: NodeId) -> Result<(), String> {
+        let node = self.old.node(id).clone();
+        let new: Vec<NodeId> = match &node.op {
+            Op::Loop(body) => {
+                for bound in &node.args[..2] {
+                    self.alike(*bound, "a loop of which each pixel may run another number of rounds")?;
+                }
+                let mut args = vec![
+                    self.ids[node.args[0].0 as usize][0],
+                    self.ids[node.args[1].0 as usize][0],
+                ];
+                args.extend(node.args[2..].iter().flat_map(|a| self.ids[a.0 as usize].clone()));
+                self.set_results(*body);
+                let op = Op::Loop(self.region(*body));
+                vec![self.builder.add(op, args, node.ty); self.lanes]
+            }
+            Op::If(then, otherwise) => {
+                self.alike(node.args[0], "a branch of which each pixel may take another side")?;
+                self.set_results(*then);
+                self.set_results(*otherwise);
+                let op = Op::If(self.region(*then), self.region(*otherwise));
+                let condition = self.ids[node.args[0].0 as usize][0];
+                vec![self.builder.add(op, vec![condition], node.ty); self.lanes]
+            }
+            _ => (0..self.lanes).map(|lane| self.in_lane(id, lane)).collect(),
+        };
+        self.keep(id, new);
+        Ok(())
+    }
+
+    fn region(&self, old: RegionId) -> RegionId {
+        self.regions[old.0 as usize].expect("regions are opened before their owner is built")
+    }
+
+    fn set_results(&mut self, region: RegionId) {
+        let results = self.old.region(region).results.iter();
+        let results = results.flat_map(|r| self.ids[r.0 as usize].clone()).collect();
+        let new = self.region(region);
+        self.builder.graph_mut().regions[new.0 as usize].results = results;
+    }
+
+    /// Refuses what differs between lanes.
+    fn alike(&self, id: NodeId, what: &str) -> Result<(), String> {
+        let lanes = &self.ids[id.0 as usize];
+        if lanes.iter().all(|lane| *lane == lanes[0]) {
+            return Ok(());
+        }
+        Err(what.to_owned())
+    }
+
+    fn in_lane(&mut self, id: NodeId, lane: usize) -> NodeId {
+        let node = self.old.node(id).clone();
+        let arg = |k: usize, lane: usize| self.ids[node.args[k].0 as usize][lane];
+        match &node.op {
+            Op::Const(bits) => self.builder.constant(node.ty, *bits),
+            Op::Pixel => self.pixel(lane),
+            Op::Lane => {
+                let [x, y] = self.position(lane);
+                self.builder.constant(PAIR, [x, y, 0, 0])
+            }
+            Op::Message(direction) => arg(0, direction.from(lane)),
+            Op::Derivative(axis) => {
+                let bit = if *axis == Axis::X { 1 } else { 2 };
+                let (from, to) = (arg(0, lane & !bit), arg(0, lane | bit));
+                self.builder.add(Op::Binary(BinaryOp::Sub), vec![to, from], node.ty)
+            }
+            Op::Varying(k) => {
+                let inside = self.inside(lane);
+                let texture = self.first_varying + k;
+                self.builder.add(Op::Load { texture, site: 0 }, vec![inside], node.ty)
+            }
+            Op::Result(k) => {
+                let owner = arg(0, 0);
+                let k = k * self.lanes as u32 + lane as u32;
+                self.builder.add(Op::Result(k), vec![owner], node.ty)
+            }
+            op => {
+                let mut args: Vec<NodeId> = (0..node.args.len()).map(|k| arg(k, lane)).collect();
+                // a + b in one lane is b + a in the other.
+                if matches!(op, Op::Binary(op) if op.commutes())
+                    && self.builder.find(op, &[args[1], args[0]], node.ty).is_some()
+                {
+                    args.reverse();
+                }
+                self.builder.add(op.clone(), args, node.ty)
+            }
+        }
+    }
+
+    fn position(&self, lane: usize) -> [u32; 2] {
+        [lane as u32 % self.size[0], lane as u32 / self.size[0]]
+    }
+
+    fn pixel(&mut self, lane: usize) -> NodeId {
+        let [x, y] = self.position(lane);
+        let corner = self.builder.add(Op::Pixel, Vec::new(), PAIR);
+        let offset = self.builder.constant(PAIR, [x, y, 0, 0]);
+        self.builder.add(Op::Binary(BinaryOp::Add), vec![corner, offset], PAIR)
+    }
+
+    /// The lane's pixel, or the nearest one in the frame.
+    fn inside(&mut self, lane: usize) -> NodeId {
+        let pixel = self.pixel(lane);
+        let frame = self.builder.add(Op::FrameSize, Vec::new(), PAIR);
+        let one = self.builder.constant(PAIR, [1, 1, 0, 0]);
+        let zero = self.builder.constant(PAIR, [0; 4]);
+        let last = self.builder.add(Op::Binary(BinaryOp::Sub), vec![frame, one], PAIR);
+        self.builder.add(Op::Clamp, vec![pixel, zero, last], PAIR)
+    }
+
+    /// Notes what a node became, and gives the new ones its name, with the lane where they differ.
+    fn keep(&mut self, old: NodeId, new: Vec<NodeId>) {
+        let alike = new.iter().all(|id| *id == new[0]);
+        if let Some(origin) = self.old.origin(old) {
+            for (lane, id) in new.iter().enumerate() {
+                let fixed = matches!(
+                    self.builder.graph().node(*id).op,
+                    Op::Const(_) | Op::Pixel | Op::FrameSize | Op::Uniform(_)
+                );
+                if fixed {
+                    continue;
+                }
+                let mut origin = origin.clone();
+                if !alike {
+                    origin.counters.push(Counter {
+                        name: "lane".to_owned(),
+                        value: lane as i64,
+                    });
+                }
+                self.builder.set_origin(*id, &origin);
+            }
+        }
+        self.ids[old.0 as usize] = new;
+    }
+}
+
+/// Sends messages by fine derivatives, as the chapter does: a value plus or minus its difference from the other lane's.
+/// Exact only where that difference and the sum with it are (`docs/quads.md`); a diagonal message takes two steps.
+///
+/// # Errors
+///
+/// If a message is not of floats: derivatives are of floats alone.
+pub fn by_derivatives(graph: &Graph) -> Result<Graph, String> {
+    let unfit = graph
+        .nodes
+        .iter()
+        .find(|n| matches!(n.op, Op::Message(_)) && !n.ty.is_float());
+    if let Some(node) = unfit {
+        return Err(format!(
+            "a message of {}, and derivatives are of floats alone",
+            node.ty.in_rust()
+        ));
+    }
+    let pass = Rebuild {
+        rules: &Derivatives,
+        share_loads: false,
+    };
+    Ok(rebuild(graph, &pass))
+}
+
+struct Derivatives;
+
+impl Rules for Derivatives {
+    fn simplify(&self, b: &mut Builder<'_>, op: &Op, args: &[NodeId], ty: Type) -> Option<NodeId> {
+        match op {
+            Op::Message(Direction::Horizontal) => Some(across(b, Axis::X, args[0], ty)),
+            Op::Message(Direction::Vertical) => Some(across(b, Axis::Y, args[0], ty)),
+            Op::Message(Direction::Diagonal) => {
+                let vertical = across(b, Axis::Y, args[0], ty);
+                Some(across(b, Axis::X, vertical, ty))
+            }
+            _ => Exact.simplify(b, op, args, ty),
+        }
+    }
+}
+
+/// value + derivative, or value - derivative in the lane that the difference is taken from.
+fn across(b: &mut Builder<'_>, axis: Axis, value: NodeId, ty: Type) -> NodeId {
+    let pair = Type::value(Scalar::F32, 2);
+    let lane = b.add(Op::Lane, Vec::new(), PAIR);
+    let lane = b.add(Op::Convert, vec![lane], pair);
+    let [one, two] = [1.0f32, 2.0].map(|x| b.constant(pair, [x.to_bits(), x.to_bits(), 0, 0]));
+    let twice = b.add(Op::Binary(BinaryOp::Mul), vec![lane, two], pair);
+    let towards = b.add(Op::Binary(BinaryOp::Sub), vec![one, twice], pair);
+    let origin = b.graph().origin(value).cloned();
+    let named = |name: String| origin.clone().map(|origin| Origin { name, ..origin });
+    if let Some(origin) = named("towards".to_owned()) {
+        b.set_origin(towards, &origin);
+    }
+    let mut sign = b.add(Op::Extract(axis as u8), vec![towards], Type::F32);
+    if ty.lanes() > 1 {
+        sign = b.add(Op::Splat, vec![sign], ty);
+    }
+    let slope = b.add(Op::Derivative(axis), vec![value], ty);
+    let step = b.add(Op::Binary(BinaryOp::Mul), vec![sign, slope], ty);
+    let message = b.add(Op::Binary(BinaryOp::Add), vec![value, step], ty);
+    let from = if axis == Axis::X { "beside" } else { "below" };
+    let whose = origin.as_ref().map_or("", |o| o.name.as_str());
+    if let Some(origin) = named(format!("{whose}_{from}")) {
+        b.set_origin(message, &origin);
+    }
+    message
+}

@@ -1,0 +1,74 @@
+//! A bilateral blur at full resolution, its reads shared over the quad (§2.7).
+
+use crate::prelude::*;
+
+options! {
+    /// How an image is blurred.
+    pub struct QuadBilateral {
+        /// Pixels on each side that count.
+        pub radius: i32 [1..=6] = 2,
+        /// Who reads them.
+        pub sharing: Sharing = Sharing::Quad,
+        /// Distance on the screen, in pixels, at which a weight has fallen to exp(-1/2).
+        pub sigma: f32 [0.1..=100.0] = 2.0,
+        /// Difference of depths, in their unit, at which a weight has fallen to exp(-1/2).
+        pub depth_sigma: f32 [1.0e-6..=1.0e6] = 0.1,
+    }
+}
+
+/// Who reads the pixels around.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sharing {
+    /// Each lane a quarter of those around the quad.
+    Quad,
+    /// Each pixel its own.
+    Alone,
+}
+
+/// Colours of a quad, each the mean of the (2k+1)² pixels around it, weighted by how near they are on the screen and in
+/// depth. The fourth component of `image` is the depth; so is that of the result.
+///
+/// Each lane reads (k+1)² pixels, outwards from the quad's centre, and passes each of them on as it is: weights depend on
+/// who asks.
+pub fn quad_bilateral(cfg: &QuadBilateral, image: &Frame<Vec4>, pixel: Quad<IVec2>) -> Quad<Vec4> {
+    let outwards = quad_vector().as_ivec2();
+    let centre = image.load(pixel);
+    let mut sum = Quad::splat(Vec4::ZERO);
+    match cfg.sharing {
+        Sharing::Quad => {
+            for j in 0..=cfg.radius {
+                for i in 0..=cfg.radius {
+                    let taps = image.load(pixel + outwards * ivec2(i, j)).gather();
+                    for k in 0..4 {
+                        // Seen from the other lane it lies one pixel farther out.
+                        let (x, y) = (i + k as i32 % 2, j + k as i32 / 2);
+                        if x <= cfg.radius && y <= cfg.radius {
+                            sum += weighed(cfg, taps[k], centre, x * x + y * y);
+                        }
+                    }
+                }
+            }
+        }
+        Sharing::Alone => {
+            for y in -cfg.radius..=cfg.radius {
+                for x in -cfg.radius..=cfg.radius {
+                    let tap = image.load(pixel + ivec2(x, y));
+                    sum += weighed(cfg, tap, centre, x * x + y * y);
+                }
+            }
+        }
+    }
+    (centre.truncate() + sum.truncate() / sum.w()).extend(centre.w())
+}
+
+/// What a pixel adds: its difference from the centre times its weight, and the weight. Of pixels all alike nothing is left
+/// but the centre.
+fn weighed(cfg: &QuadBilateral, tap: Quad<Vec4>, centre: Quad<Vec4>, squared: i32) -> Quad<Vec4> {
+    let z = (tap.w() - centre.w()) / cfg.depth_sigma;
+    let near = squared as f32 / (cfg.sigma * cfg.sigma);
+    let weight = tally("weight_evaluations", ((z * z + near) * HALF_LOG2_E).exp2());
+    ((tap.truncate() - centre.truncate()) * weight).extend(weight)
+}
+
+/// exp(-x / 2) is exp2(x times this).
+const HALF_LOG2_E: f32 = -0.5 * std::f32::consts::LOG2_E;

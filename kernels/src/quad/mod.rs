@@ -1,0 +1,12 @@
+//! Filters whose work the four pixels of a quad share, after E. Penner, "Shader Amortization using Pixel Quad Message
+//! Passing" (GPU Pro 2, 2011), with its slips mended; the notes on each say which.
+//!
+//! Each takes `pixel: Quad<IVec2>` and gives the colours of the four pixels. What each lane reads, and what it tells the
+//! others, is the filter's own affair: see the notes.
+
+pub mod bilateral;
+pub mod convolution;
+pub mod pcf;
+pub mod pcss;
+pub mod ssao;
+pub mod upsampling;

@@ -1,0 +1,324 @@
+//! Percentage-closer filtering of shadow maps, its comparisons shared over the quad (§2.9).
+
+mod weights;
+
+use crate::prelude::*;
+use weights::weigh;
+
+pub use weights::ShadowWeights;
+
+options! {
+    /// How a shadow map is filtered.
+    pub struct Pcf {
+        /// Who takes which comparisons.
+        pub method: Method = Method::Quad,
+        /// Texels that count, across and down.
+        pub width: Width = Width::Eight,
+        /// How texels are weighed.
+        pub weights: ShadowWeights = ShadowWeights::Box,
+        /// How the pixels of a quad, which share a value, are told apart; of `quad` alone.
+        pub gradient: Gradient = Gradient::None,
+        /// Distance between comparisons over that of a dense filter: more than 1 covers a wider footprint sparsely, for
+        /// shadow maps that are seen from afar. Of `quad` alone.
+        pub spread: f32 [1.0..=64.0] = 1.0,
+    }
+}
+
+/// Who takes which comparisons.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Method {
+    /// Each pixel one for each texel.
+    Naive,
+    /// Each pixel one between every 2×2 texels, placed so that the sampler's filter weighs them.
+    Bilinear,
+    /// The quad one between every 2×2 texels around its mean place: a quarter of those for each lane.
+    Quad,
+    /// The quad gathers 8×8 texels around its mean place, and each pixel weighs those for itself, 6×6 around its own
+    /// place. All compare with the quad's mean depth.
+    Gather,
+}
+
+/// Texels that count, across and down; `gather` takes 8.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Width {
+    /// 4 by 4.
+    Four,
+    /// 8 by 8.
+    Eight,
+}
+
+/// How the pixels of a quad are told apart.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Gradient {
+    /// Not at all: they have one value.
+    None,
+    /// By the slope that a Prewitt operator finds in the comparisons, as if they lay in the middle of their texels.
+    Prewitt,
+    /// By the slope of the plane through the comparisons where they really lie.
+    Fitted,
+}
+
+/// How much light comes to each pixel of a quad, 0 to 1, in every component.
+///
+/// `coord` is interpolated: a place in the shadow map, 0 to 1, and the depth to compare. Over 2×2 texels the sampler's own
+/// filter weighs: give one that filters linearly.
+///
+/// The chapter's `g01 = g0 = g1` is a sum, its `a.xxyy` is `a.xyxy`, and its gradient is corrected: for taps at -3, -1, 1
+/// and 3 texels the slope is their moment over 80, and a pixel's value lies towards it, from the middle of what was
+/// weighed.
+pub fn pcf(cfg: &Pcf, shadow: &DepthTexture, shadow_sampler: &ComparisonSampler, coord: Quad<Vec3>) -> Quad<Vec4> {
+    let lit = match cfg.method {
+        Method::Naive => naive(cfg, shadow, shadow_sampler, coord),
+        Method::Bilinear => bilinear(cfg, shadow, shadow_sampler, coord),
+        Method::Quad => {
+            let centre = coord.average();
+            let taps = compare(cfg, shadow, shadow_sampler, centre);
+            let away = (coord.truncate() - centre.truncate()) * shadow.size().as_vec2();
+            join(cfg, taps, fraction(shadow, centre), away)
+        }
+        Method::Gather => gathered(cfg, shadow, shadow_sampler, coord),
+    };
+    Vec4::ONE * lit
+}
+
+/// How far a place lies beyond the middle of the texel to its upper left, 0 to 1 on each axis.
+fn fraction(shadow: &DepthTexture, coord: Quad<Vec3>) -> Quad<Vec2> {
+    fract(coord.truncate() * shadow.size().as_vec2() - 0.5)
+}
+
+/// Each pixel compares every texel, in its middle.
+fn naive(cfg: &Pcf, shadow: &DepthTexture, shadow_sampler: &ComparisonSampler, coord: Quad<Vec3>) -> Quad<f32> {
+    let size = shadow.size().as_vec2();
+    let a = fraction(shadow, coord);
+    let n = cfg.width.texels();
+    let mut sum = Quad::splat(0.0);
+    let mut total = Quad::splat(0.0);
+    for j in 0..n {
+        for i in 0..n {
+            let offset = vec2((i - n / 2 + 1) as f32, (j - n / 2 + 1) as f32) - a;
+            let weight = match cfg.weights {
+                ShadowWeights::Box => Quad::splat(Vec2::ONE),
+                _ => weigh(cfg.weights, cfg.width.half(), offset),
+            };
+            let weight = weight.x() * weight.y();
+            sum += weight * shadow.compare(shadow_sampler, coord.truncate() + offset / size, coord.z());
+            total += weight;
+        }
+    }
+    sum / total
+}
+
+/// Two neighbouring texels of a row and of a column: where between them the sampler weighs them as the filter does, and
+/// the sum of their weights (Sigg and Hadwiger 2005).
+struct Pair {
+    place: Quad<Vec2>,
+    weight: Quad<Vec2>,
+}
+
+fn pair(cfg: &Pcf, first: Quad<Vec2>) -> Pair {
+    match cfg.weights {
+        ShadowWeights::Box => Pair {
+            place: first + 0.5,
+            weight: Quad::splat(Vec2::ONE),
+        },
+        _ => {
+            let w0 = weigh(cfg.weights, cfg.width.half(), first);
+            let w1 = weigh(cfg.weights, cfg.width.half(), first + 1.0);
+            let weight = w0 + w1;
+            Pair {
+                place: first + w1 / weight,
+                weight,
+            }
+        }
+    }
+}
+
+/// Each pixel compares between every 2×2 texels.
+fn bilinear(cfg: &Pcf, shadow: &DepthTexture, shadow_sampler: &ComparisonSampler, coord: Quad<Vec3>) -> Quad<f32> {
+    let size = shadow.size().as_vec2();
+    let a = fraction(shadow, coord);
+    let n = cfg.width.texels();
+    let mut sum = Quad::splat(0.0);
+    let mut total = Quad::splat(0.0);
+    for j in 0..n / 2 {
+        for i in 0..n / 2 {
+            let column = pair(cfg, (2 * i - n / 2 + 1) as f32 - a);
+            let row = pair(cfg, (2 * j - n / 2 + 1) as f32 - a);
+            let place = Quad::from_xy(column.place.x(), row.place.y());
+            let weight = column.weight.x() * row.weight.y();
+            sum += weight * shadow.compare(shadow_sampler, coord.truncate() + place / size, coord.z());
+            total += weight;
+        }
+    }
+    sum / total
+}
+
+/// What a lane's comparisons say: how much is lit, where, in texels from the quad's mean place, and with which weight.
+/// Of 4×4 texels the first alone.
+#[derive(Clone, Copy)]
+pub struct Tap {
+    /// The comparison's result.
+    pub lit: Quad<f32>,
+    /// Where it was taken.
+    pub place: Quad<Vec2>,
+    /// As if it had been taken in the middle of its texels: the place by its number.
+    pub middle: Quad<Vec2>,
+    /// Its weight.
+    pub weight: Quad<f32>,
+}
+
+/// Each lane takes its quarter of the comparisons around `centre`. Lanes lie side by side in the shadow map too (local
+/// mirroring), which is kind to caches.
+fn compare(cfg: &Pcf, shadow: &DepthTexture, shadow_sampler: &ComparisonSampler, centre: Quad<Vec3>) -> [Tap; 4] {
+    let size = shadow.size().as_vec2();
+    let a = fraction(shadow, centre);
+    let mut taps = [Tap {
+        lit: Quad::splat(0.0),
+        place: Quad::splat(Vec2::ZERO),
+        middle: Quad::splat(Vec2::ZERO),
+        weight: Quad::splat(0.0),
+    }; 4];
+    for k in 0..cfg.width.taps() {
+        let away = cfg.width.away(k);
+        let corner = quad_vector() + away;
+        let low = pair(cfg, corner - a);
+        let place = low.place * cfg.spread;
+        taps[k] = Tap {
+            lit: shadow.compare(shadow_sampler, centre.truncate() + place / size, centre.z()),
+            place,
+            middle: corner * cfg.spread,
+            weight: low.weight.x() * low.weight.y(),
+        };
+    }
+    taps
+}
+
+/// One value from all lanes' comparisons, and for each pixel what the slope adds. `fraction` is that of the quad's mean
+/// place, `away` how far each pixel lies from it, in texels.
+pub fn join(cfg: &Pcf, taps: [Tap; 4], fraction: Quad<Vec2>, away: Quad<Vec2>) -> Quad<f32> {
+    let n = cfg.width.taps();
+    let mut sums = Quad::splat(Vec4::ZERO);
+    for k in 0..n {
+        let weighed = (taps[k].place * taps[k].weight).extend(taps[k].weight);
+        sums += weighed.extend(taps[k].lit * taps[k].weight);
+    }
+    let (lit, middle) = match (cfg.weights, cfg.gradient) {
+        // Weights of 1: their sum is known, and their middle lies between two texels.
+        (ShadowWeights::Box, _) => {
+            let share = 1.0 / n as f32;
+            (sums.w().average() * share, (0.5 - fraction) * cfg.spread)
+        }
+        (_, Gradient::None) => {
+            let sums = sums.zw().sum();
+            (sums.y() / sums.x(), Quad::splat(Vec2::ZERO))
+        }
+        _ => {
+            let sums = sums.sum();
+            (sums.w() / sums.z(), sums.xy() / sums.z())
+        }
+    };
+    match cfg.gradient {
+        Gradient::None => lit,
+        Gradient::Prewitt => saturate(lit + prewitt(cfg, taps).dot(away - middle)),
+        Gradient::Fitted => saturate(lit + fitted(cfg, taps).dot(away - middle)),
+    }
+}
+
+/// Change of light for each texel, of taps at -1 and 1, or -3, -1, 1 and 3: the moment over the sum of the squares.
+fn prewitt(cfg: &Pcf, taps: [Tap; 4]) -> Quad<Vec2> {
+    let mut moment = Quad::splat(Vec2::ZERO);
+    for k in 0..cfg.width.taps() {
+        moment += taps[k].middle * taps[k].lit;
+    }
+    let squares = match cfg.width {
+        Width::Four => 4.0,
+        Width::Eight => 80.0,
+    };
+    moment.sum() / (squares * cfg.spread * cfg.spread)
+}
+
+/// Change of light for each texel, of the plane that fits the taps best.
+fn fitted(cfg: &Pcf, taps: [Tap; 4]) -> Quad<Vec2> {
+    let n = cfg.width.taps();
+    let mut lit = Quad::splat(0.0);
+    let mut place = Quad::splat(Vec2::ZERO);
+    for k in 0..n {
+        lit += taps[k].lit;
+        place += taps[k].place;
+    }
+    let share = 1.0 / n as f32;
+    let mean_lit = lit.average() * share;
+    let mean_place = place.average() * share;
+    let mut moments = Quad::splat(Vec4::ZERO);
+    for k in 0..n {
+        let from = taps[k].place - mean_place;
+        let moment = from * (taps[k].lit - mean_lit);
+        let square = from * from;
+        moments += moment.extend(square.x()).extend(square.y());
+    }
+    let moments = moments.sum();
+    moments.xy() / moments.zw()
+}
+
+/// Each lane gathers its quarter of 8×8 texels and passes them on; each pixel weighs those around its own place.
+fn gathered(cfg: &Pcf, shadow: &DepthTexture, shadow_sampler: &ComparisonSampler, coord: Quad<Vec3>) -> Quad<f32> {
+    let size = shadow.size().as_vec2();
+    let centre = coord.average();
+    let a = fraction(shadow, centre);
+    // From the pixel's own place to the texel at the upper left of the quad's.
+    let shift = (centre.truncate() - coord.truncate()) * size - a;
+    let mut sum = Quad::splat(0.0);
+    let mut total = Quad::splat(0.0);
+    for k in 0..4 {
+        let away = Width::Eight.away(k);
+        let corner = quad_vector() + away;
+        let place = corner - a + 0.5;
+        let texels = shadow.gather_compare(shadow_sampler, centre.truncate() + place / size, centre.z());
+        let messages = texels.gather();
+        for lane in 0..4 {
+            // The sender's corner: mirrored where it lies on the other side.
+            let flip = vec2(1.0 - 2.0 * (lane % 2) as f32, 1.0 - 2.0 * (lane / 2) as f32);
+            let first = quad_vector() * flip + away + shift;
+            let w0 = weigh(cfg.weights, 3.0, first);
+            let w1 = weigh(cfg.weights, 3.0, first + 1.0);
+            let from = messages[lane];
+            sum += w1.y() * (w0.x() * from.x() + w1.x() * from.y());
+            sum += w0.y() * (w1.x() * from.z() + w0.x() * from.w());
+            total += (w0.x() + w1.x()) * (w0.y() + w1.y());
+        }
+    }
+    sum / total
+}
+
+impl Width {
+    fn texels(self) -> i32 {
+        match self {
+            Width::Four => 4,
+            Width::Eight => 8,
+        }
+    }
+
+    /// Distance from the middle at which weights end, in texels.
+    fn half(self) -> f32 {
+        match self {
+            Width::Four => 2.0,
+            Width::Eight => 4.0,
+        }
+    }
+
+    /// Comparisons that a lane of a quad takes.
+    fn taps(self) -> usize {
+        match self {
+            Width::Four => 1,
+            Width::Eight => 4,
+        }
+    }
+
+    /// What a lane's comparison `k` lies away from where one alone would.
+    fn away(self, k: usize) -> Vec2 {
+        match self {
+            Width::Four => Vec2::ZERO,
+            Width::Eight => vec2(4.0 * (k % 2) as f32 - 2.0, 4.0 * (k / 2) as f32 - 2.0),
+        }
+    }
+}

@@ -1,0 +1,102 @@
+//! Shadows that are sharp where they begin: percentage-closer soft shadows, both of their searches split over the quad
+//! (the chapter's §2.10 names contact hardening).
+
+use crate::prelude::*;
+
+options! {
+    /// How a contact-hardening shadow is found.
+    pub struct Pcss {
+        /// Whose reads count.
+        pub sharing: SearchSharing = SearchSharing::Quad,
+        /// Width in texels in which blockers are looked for.
+        pub search: f32 [1.0..=256.0] = 16.0,
+        /// Width in texels of the penumbra for a difference of depths of 1: how large the light is.
+        pub light: f32 [0.0..=1.0e6] = 400.0,
+        /// The narrowest and the widest penumbra, in texels.
+        pub narrowest: f32 [0.5..=64.0] = 2.0,
+        /// The widest penumbra, in texels.
+        pub widest: f32 [1.0..=256.0] = 24.0,
+    }
+}
+
+/// Whose reads count.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SearchSharing {
+    /// Each lane reads four depths and takes four comparisons around the quad's mean place.
+    Quad,
+    /// Each pixel reads sixteen of each around its own.
+    Alone,
+}
+
+/// How much light comes to each pixel of a quad, 0 to 1, in every component.
+///
+/// Of sixteen depths in the search's width, those nearer to the light than the pixel are its blockers. Their mean distance
+/// gives the penumbra, in which sixteen comparisons are taken. `coord` is interpolated: a place in the shadow map, 0 to 1,
+/// and the depth to compare; depths are linear, as of a distant light.
+pub fn pcss(cfg: &Pcss, shadow: &DepthTexture, shadow_sampler: &ComparisonSampler, coord: Quad<Vec3>) -> Quad<Vec4> {
+    let lit = match cfg.sharing {
+        SearchSharing::Quad => {
+            let centre = coord.average();
+            let mut found = Quad::splat(Vec2::ZERO);
+            for k in 0..4 {
+                found += blocker(cfg, shadow, centre, quad_vector() + away(k));
+            }
+            let width = penumbra(cfg, found.sum(), centre.z());
+            let mut sum = Quad::splat(0.0);
+            for k in 0..4 {
+                sum += compare(shadow, shadow_sampler, centre, width, quad_vector() + away(k));
+            }
+            sum.average() * 0.25
+        }
+        SearchSharing::Alone => {
+            let mut found = Quad::splat(Vec2::ZERO);
+            for k in 0..16 {
+                found += blocker(cfg, shadow, coord, Quad::splat(grid(k)));
+            }
+            let width = penumbra(cfg, found, coord.z());
+            let mut sum = Quad::splat(0.0);
+            for k in 0..16 {
+                sum += compare(shadow, shadow_sampler, coord, width, Quad::splat(grid(k)));
+            }
+            sum / 16.0
+        }
+    };
+    Vec4::ONE * lit
+}
+
+/// What a lane's tap `k` lies away from where one alone would.
+fn away(k: usize) -> Vec2 {
+    vec2(4.0 * (k % 2) as f32 - 2.0, 4.0 * (k / 2) as f32 - 2.0)
+}
+
+/// Tap `k` of sixteen: -3, -1, 1 or 3 on each axis.
+fn grid(k: usize) -> Vec2 {
+    vec2(2.0 * (k % 4) as f32 - 3.0, 2.0 * (k / 4) as f32 - 3.0)
+}
+
+/// Depth of a blocker and 1, or nothing and 0.
+fn blocker(cfg: &Pcss, shadow: &DepthTexture, coord: Quad<Vec3>, at: Quad<Vec2>) -> Quad<Vec2> {
+    let place = coord.truncate() * shadow.size().as_vec2() + at * (cfg.search / 8.0);
+    let depth = shadow.load(place.floor().as_ivec2());
+    let blocks = depth.lt(coord.z());
+    blocks.select(Quad::from_xy(depth, 1.0), Quad::splat(Vec2::ZERO))
+}
+
+/// Width of the penumbra in texels, of blockers' summed depths and their number.
+fn penumbra(cfg: &Pcss, found: Quad<Vec2>, depth: Quad<f32>) -> Quad<f32> {
+    let distance = depth - found.x() / found.y().max(1.0);
+    let width = (distance * cfg.light).clamp(cfg.narrowest, cfg.widest);
+    // Without a blocker all is light, whatever the width.
+    found.y().gt(0.5).select(width, Quad::splat(cfg.narrowest))
+}
+
+fn compare(
+    shadow: &DepthTexture,
+    shadow_sampler: &ComparisonSampler,
+    coord: Quad<Vec3>,
+    width: Quad<f32>,
+    at: Quad<Vec2>,
+) -> Quad<f32> {
+    let place = at * (width * 0.125) / shadow.size().as_vec2();
+    shadow.compare(shadow_sampler, coord.truncate() + place, coord.z())
+}

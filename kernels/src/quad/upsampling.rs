@@ -1,0 +1,316 @@
+//! Cross-bilateral upsampling with one or two reads a pixel (§2.7), and the pass that makes what it reads.
+
+use crate::prelude::*;
+
+options! {
+    /// How an image of low resolution is brought to the frame's.
+    pub struct Upsampling {
+        /// Pixels of the frame to one of low resolution, across and down.
+        pub factor: Factor = Factor::Twice,
+        /// What of the low resolution is read, and by whom.
+        pub reads: Reads = Reads::Packed,
+        /// What is brought up.
+        pub payload: Payload = Payload::Color,
+        /// Whether normals tell surfaces apart too; not of `packed`, which has no room for them.
+        pub normals: bool = false,
+        /// Difference of depths, in their unit, at which a weight has fallen to exp(-1/2).
+        pub depth_sigma: f32 [1.0e-6..=1.0e6] = 0.1,
+        /// One less the cosine between normals at which a weight has fallen to exp(-1/2).
+        pub normal_sigma: f32 [1.0e-3..=2.0] = 0.1,
+    }
+}
+
+/// Pixels of the frame to one of low resolution, across and down.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Factor {
+    /// 2.
+    Twice,
+    /// 4.
+    FourTimes,
+}
+
+/// What of the low resolution is read, and by whom.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reads {
+    /// Each lane one texel of `low`, whose fourth component is its depth: one read.
+    Packed,
+    /// Each lane one texel of `low` and one of `low_surface`: two reads.
+    Apart,
+    /// Each pixel all four texels of both for itself: eight reads and no message.
+    Naive,
+}
+
+/// What is brought up.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Payload {
+    /// The first component of `low`, such as ambient occlusion: shorter messages.
+    Scalar,
+    /// All components of `low`; of `packed`, three.
+    Color,
+}
+
+/// Below this sum of weights none of the four texels is of the pixel's surface.
+const SMALLEST: f32 = 1.0e-20;
+
+/// A texel of low resolution, as each lane has heard of it.
+#[derive(Clone, Copy)]
+struct Tap {
+    color: Quad<Vec4>,
+    depth: Quad<f32>,
+    normal: Quad<Vec3>,
+    /// How near it lies on the screen.
+    tent: Quad<f32>,
+}
+
+/// Colours of a quad, each from the four texels of `low` around it: those near on the screen (a tent) and of a like
+/// surface (a Gaussian of the difference in depth, and of normals). Where none is of a like surface, the texel with the
+/// nearest depth.
+///
+/// `low` is as [`downsampling`] makes it: its texel n stands for the corner at 2n (4n), half a pixel off, so that a quad's
+/// pixels all have the same four texels around them and each lane reads one. It has ceil(W/2) + 1 columns and
+/// ceil(H/2) + 1 rows (of 4: ceil(W/4) + 1). `low_surface` holds normals and, fourth, depths.
+pub fn quad_upsampling(
+    cfg: &Upsampling,
+    low: &Texture<Vec4>,
+    low_surface: &Texture<Vec4>,
+    depth: &Frame<f32>,
+    normal: &Frame<Vec3>,
+    pixel: Quad<IVec2>,
+) -> Quad<Vec4> {
+    let factor = cfg.factor.pixels();
+    let corner = pixel / factor;
+    // Share of the texels on the right and below.
+    let share = ((pixel - corner * factor).as_vec2() + 0.5) / factor as f32;
+    let own_depth = depth.load(pixel);
+    let own_normal = if cfg.compares_normals() {
+        normal.load(pixel)
+    } else {
+        Quad::splat(Vec3::ZERO)
+    };
+    let taps = match cfg.reads {
+        Reads::Naive => around(cfg, low, low_surface, corner, share),
+        _ => heard(cfg, low, low_surface, corner, share),
+    };
+    let mut total = Quad::splat(0.0);
+    let mut weights = [Quad::splat(0.0); 4];
+    let mut nearest = Quad::splat(0.0);
+    let mut fallback = taps[0].color;
+    for k in 0..4 {
+        let away = (taps[k].depth - own_depth).abs();
+        let z = away / cfg.depth_sigma;
+        let mut exponent = z * z;
+        if cfg.compares_normals() {
+            let n = (1.0 - taps[k].normal.dot(own_normal)) / cfg.normal_sigma;
+            exponent += n * n;
+        }
+        let weight = tally("weight_evaluations", taps[k].tent * (exponent * HALF_LOG2_E).exp2());
+        weights[k] = weight;
+        total += weight;
+        if k == 0 {
+            nearest = away;
+        } else {
+            let nearer = away.lt(nearest);
+            nearest = nearer.select(away, nearest);
+            fallback = nearer.select(taps[k].color, fallback);
+        }
+    }
+    // Differences from one texel: of four alike nothing is left but that.
+    let scale = 1.0 / total.max(SMALLEST);
+    let mut color = taps[0].color;
+    for k in 1..4 {
+        color += (taps[k].color - taps[0].color) * (weights[k] * scale);
+    }
+    total.gt(SMALLEST).select(color, fallback)
+}
+
+/// exp(-x / 2) is exp2(x times this).
+const HALF_LOG2_E: f32 = -0.5 * std::f32::consts::LOG2_E;
+
+/// The texel that each lane reads, and those that the others do.
+fn heard(
+    cfg: &Upsampling,
+    low: &Texture<Vec4>,
+    low_surface: &Texture<Vec4>,
+    corner: Quad<IVec2>,
+    share: Quad<Vec2>,
+) -> [Tap; 4] {
+    let texel = low.load(corner + lane_position());
+    // The lane's own texel lies in its own direction; for the others the tent is flipped.
+    let near = match cfg.factor {
+        Factor::Twice => Quad::splat(vec2(0.75, 0.75)),
+        Factor::FourTimes => {
+            let side = quad_select();
+            share * side + (1.0 - share) * (1.0 - side)
+        }
+    };
+    let far = 1.0 - near;
+    let tents = [
+        near.x() * near.y(),
+        far.x() * near.y(),
+        near.x() * far.y(),
+        far.x() * far.y(),
+    ];
+    let mut taps = [Tap {
+        color: texel,
+        depth: texel.w(),
+        normal: Quad::splat(Vec3::ZERO),
+        tent: tents[0],
+    }; 4];
+    match cfg.reads {
+        Reads::Packed => match cfg.payload {
+            Payload::Scalar => {
+                let messages = Quad::from_xy(texel.x(), texel.w()).gather();
+                for k in 0..4 {
+                    taps[k].color = Vec4::ONE * messages[k].x();
+                    taps[k].depth = messages[k].y();
+                }
+            }
+            Payload::Color => {
+                let messages = texel.gather();
+                for k in 0..4 {
+                    taps[k].color = messages[k].truncate().extend(1.0);
+                    taps[k].depth = messages[k].w();
+                }
+            }
+        },
+        _ => {
+            let surface = low_surface.load(corner + lane_position());
+            match cfg.payload {
+                Payload::Scalar => {
+                    let messages = texel.x().gather();
+                    for k in 0..4 {
+                        taps[k].color = Vec4::ONE * messages[k];
+                    }
+                }
+                Payload::Color => {
+                    let messages = texel.gather();
+                    for k in 0..4 {
+                        taps[k].color = messages[k];
+                    }
+                }
+            }
+            if cfg.compares_normals() {
+                let messages = surface.gather();
+                for k in 0..4 {
+                    taps[k].normal = messages[k].truncate();
+                    taps[k].depth = messages[k].w();
+                }
+            } else {
+                let messages = surface.w().gather();
+                for k in 0..4 {
+                    taps[k].depth = messages[k];
+                }
+            }
+        }
+    }
+    for k in 0..4 {
+        taps[k].tent = tents[k];
+    }
+    taps
+}
+
+/// All four texels, read by each pixel for itself.
+fn around(
+    cfg: &Upsampling,
+    low: &Texture<Vec4>,
+    low_surface: &Texture<Vec4>,
+    corner: Quad<IVec2>,
+    share: Quad<Vec2>,
+) -> [Tap; 4] {
+    let mut taps = [Tap {
+        color: Quad::splat(Vec4::ZERO),
+        depth: Quad::splat(0.0),
+        normal: Quad::splat(Vec3::ZERO),
+        tent: Quad::splat(0.0),
+    }; 4];
+    let rest = 1.0 - share;
+    for k in 0..4 {
+        let (right, below) = (k % 2 == 1, k / 2 == 1);
+        let at = corner + ivec2(k as i32 % 2, k as i32 / 2);
+        let color = low.load(at);
+        let surface = low_surface.load(at);
+        let x = if right { share.x() } else { rest.x() };
+        let y = if below { share.y() } else { rest.y() };
+        taps[k].color = match cfg.payload {
+            Payload::Scalar => Vec4::ONE * color.x(),
+            Payload::Color => color,
+        };
+        taps[k].depth = surface.w();
+        taps[k].normal = surface.truncate();
+        taps[k].tent = x * y;
+    }
+    taps
+}
+
+impl Upsampling {
+    fn compares_normals(&self) -> bool {
+        match self.reads {
+            Reads::Packed => false,
+            _ => self.normals,
+        }
+    }
+}
+
+impl Factor {
+    fn pixels(self) -> i32 {
+        match self {
+            Factor::Twice => 2,
+            Factor::FourTimes => 4,
+        }
+    }
+}
+
+options! {
+    /// How an image is brought to a low resolution.
+    pub struct Downsampling {
+        /// Pixels of the image to one of low resolution, across and down.
+        pub factor: Factor = Factor::Twice,
+        /// What is written.
+        pub gives: Gives = Gives::Packed,
+    }
+}
+
+/// What is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Gives {
+    /// The colour's first three components and the depth.
+    Packed,
+    /// The colour.
+    Color,
+    /// The normal and the depth.
+    Surface,
+}
+
+/// The texel of low resolution that stands for the corner at twice (four times) `pixel`: of the 2×2 (4×4) pixels around
+/// that corner, the one nearest to the viewer, whose colour, normal and depth stay together.
+///
+/// The frame is the image of low resolution, half a pixel off that of the full one, so that it needs a column and a row
+/// more: ceil(W/2) + 1 by ceil(H/2) + 1 (of 4: ceil(W/4) + 1). Beyond the image's border lie its border's pixels.
+pub fn downsampling(
+    cfg: &Downsampling,
+    image: &Texture<Vec4>,
+    depth: &Texture<f32>,
+    normal: &Texture<Vec3>,
+    pixel: IVec2,
+) -> Vec4 {
+    let factor = cfg.factor.pixels();
+    let first = pixel * factor - factor / 2;
+    let mut at = first;
+    let mut nearest = depth.load(first);
+    for j in 0..factor {
+        for i in 0..factor {
+            if i + j > 0 {
+                let z = depth.load(first + ivec2(i, j));
+                if z < nearest {
+                    nearest = z;
+                    at = first + ivec2(i, j);
+                }
+            }
+        }
+    }
+    match cfg.gives {
+        Gives::Packed => image.load(at).truncate().extend(nearest),
+        Gives::Color => image.load(at),
+        Gives::Surface => normal.load(at).extend(nearest),
+    }
+}
