@@ -7,7 +7,7 @@ use serde_json::{Map, Value, json};
 use straightline_codegen::ir::Invocation;
 use straightline_codegen::{Compiled, EmitOptions, Stage};
 use straightline_kernels::PaperCounts;
-use straightline_manifest::Counts;
+use straightline_manifest::{BindingKind, Counts, Manifest};
 
 /// Prints the counts of one kernel and option set.
 pub fn run(args: &ExplainArgs) -> Result<(), Failure> {
@@ -24,14 +24,32 @@ pub fn run(args: &ExplainArgs) -> Result<(), Failure> {
     };
     let options = EmitOptions::new().stage(stage).targets([]);
     let emitted = compiled.emit(&options).map_err(Failure::of)?;
+    let bound = bound(&emitted.manifest);
     let counts = emitted.manifest.counts;
     let paper = paper(&compiled);
     if args.json {
-        println!("{:#}", to_json(&compiled, &counts, paper));
+        println!("{:#}", to_json(&compiled, &counts, &bound, paper));
     } else {
-        print(&compiled, &counts, paper);
+        print(&compiled, &counts, &bound, paper);
     }
     Ok(())
+}
+
+/// Names of the inputs and of the uniforms that the shader has: what a scene must give it, and no more.
+struct Bound {
+    inputs: Vec<String>,
+    uniforms: Vec<String>,
+}
+
+fn bound(manifest: &Manifest) -> Bound {
+    let (mut inputs, mut uniforms) = (Vec::new(), Vec::new());
+    for binding in &manifest.bindings {
+        match &binding.kind {
+            BindingKind::Uniform { fields, .. } => uniforms.extend(fields.iter().map(|field| field.name.clone())),
+            _ => inputs.push(binding.name.clone()),
+        }
+    }
+    Bound { inputs, uniforms }
 }
 
 fn paper(compiled: &Compiled) -> Option<PaperCounts> {
@@ -43,11 +61,13 @@ fn paper(compiled: &Compiled) -> Option<PaperCounts> {
     (entry.paper)(&|option| compiled.options.get(option).cloned())
 }
 
-fn to_json(compiled: &Compiled, counts: &Counts, paper: Option<PaperCounts>) -> Value {
+fn to_json(compiled: &Compiled, counts: &Counts, bound: &Bound, paper: Option<PaperCounts>) -> Value {
     let mut out = Map::new();
     out.insert("kernel".into(), json!(compiled.kernel));
     out.insert("unroll".into(), json!(compiled.policy.to_string()));
     out.insert("options".into(), json!(compiled.options));
+    out.insert("inputs".into(), json!(bound.inputs));
+    out.insert("uniforms".into(), json!(bound.uniforms));
     if let Value::Object(figures) = json!(counts) {
         for (name, figure) in figures {
             // Tallies stand among the other figures under their own names.
@@ -68,7 +88,7 @@ fn to_json(compiled: &Compiled, counts: &Counts, paper: Option<PaperCounts>) -> 
     Value::Object(out)
 }
 
-fn print(compiled: &Compiled, counts: &Counts, paper: Option<PaperCounts>) {
+fn print(compiled: &Compiled, counts: &Counts, bound: &Bound, paper: Option<PaperCounts>) {
     println!("{}: {}", compiled.kernel, compiled.summary);
     let options: Vec<String> = compiled
         .options
@@ -76,6 +96,9 @@ fn print(compiled: &Compiled, counts: &Counts, paper: Option<PaperCounts>) {
         .map(|(name, value)| format!("{name}={value}"))
         .collect();
     println!("  {} unroll={}\n", options.join(" "), compiled.policy);
+    let names = |names: &[String]| if names.is_empty() { "none".to_owned() } else { names.join(", ") };
+    println!("inputs: {}", names(&bound.inputs));
+    println!("set at run time: {}\n", names(&bound.uniforms));
     let mut rows = vec![
         row("basic blocks", counts.basic_blocks, None),
         row("loops", counts.loops, None),

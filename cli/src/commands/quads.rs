@@ -153,7 +153,7 @@ pub fn run(args: &QuadsArgs) -> Result<(), Failure> {
         Ok(transport) => format!("{transport:?}").to_lowercase(),
         Err(why) => why,
     };
-    let scene = scene::load(args.mesh.as_deref())?;
+    let scene = scene::load(args.mesh.as_deref(), "roof")?;
     let shadowed = Shadowed::new(&bench, &scene, args.size, 1024, 9.0).map_err(Failure::of)?;
     let forward_inputs = shadowed.inputs(&bench).map_err(Failure::of)?;
     let screen_inputs = screen(&gpu, &bench, &scene, args)?;

@@ -33,6 +33,12 @@ pub enum EmitError {
         /// How lanes were to hear from each other.
         transport: String,
     },
+    /// Quads over a rectangle that may begin anywhere.
+    #[error("`{kernel}` computes quads, which begin at even pixels, and a region may begin at any: leave `region` out")]
+    QuadsOfRegion {
+        /// The kernel.
+        kernel: String,
+    },
     /// A block of pixels in a stage that writes one.
     #[error("`{kernel}` computes a block of pixels, and a fragment writes one: emit it for compute")]
     OnePixel {

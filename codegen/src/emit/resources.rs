@@ -70,6 +70,9 @@ impl Resources {
         let live = |id: &NodeId| compiled.schedule.place[id.0 as usize].is_some();
         let ops: Vec<&Op> = graph.ids().filter(live).map(|id| &graph.node(id).op).collect();
         let kernel = || compiled.kernel.clone();
+        if options.region && (compiled.quad.is_some() || compiled.transport.is_some()) {
+            return Err(EmitError::QuadsOfRegion { kernel: kernel() });
+        }
         let mut next = 0..;
         let mut number = || next.next().unwrap_or(u32::MAX);
         let mut read = Vec::new();

@@ -5,6 +5,7 @@
 use std::path::PathBuf;
 use std::process::Command;
 use straightline_study::execute;
+#[allow(unused_imports)] // each test uses a part
 pub use straightline_tests::sraa::Random;
 
 /// A device of any adapter.
