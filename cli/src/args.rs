@@ -33,6 +33,8 @@ pub enum Command {
     Run(RunArgs),
     /// Compare unroll policies of kernels in one run: statements, reads, time, error
     Unroll(UnrollArgs),
+    /// Count and measure what SRAA costs: memory, reads, time of each metric, and the shading cost from which it pays
+    Budget(BudgetArgs),
     /// Antialias a captured frame
     Resolve(ResolveArgs),
     /// Render a scene or a model to a capture: the frame that `resolve` reads
@@ -142,6 +144,9 @@ pub struct EmitArgs {
     /// Texel format of the output: rgba8unorm, rgba16float or rgba32float
     #[arg(long, value_name = "FORMAT", default_value = "rgba16float", value_parser = |s: &str| s.parse::<Format>())]
     pub format: Format,
+    /// Filter a rectangle that the host states, not all of the image: for tiles
+    #[arg(long)]
+    pub region: bool,
     /// Invocations of a compute workgroup, across and down
     #[arg(long, value_name = "WxH", value_parser = size)]
     pub workgroup: Option<UVec2>,
@@ -234,6 +239,27 @@ pub struct UnrollArgs {
 }
 
 #[derive(Debug, Args)]
+pub struct BudgetArgs {
+    /// Width and height in pixels
+    #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = size)]
+    pub size: UVec2,
+    /// Rounds of timing; each runs every filter once, in turn
+    #[arg(long, value_name = "N", default_value_t = 9, value_parser = clap::value_parser!(u32).range(1..=1000))]
+    pub rounds: u32,
+    /// What drawing the further geometry samples costs in your renderer, in milliseconds
+    #[arg(long, value_name = "MS", default_value_t = 0.0)]
+    pub geometry_ms: f64,
+    /// Also write the figures and their circumstances to this JSON file
+    #[arg(long, value_name = "FILE")]
+    pub record: Option<PathBuf>,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+    #[command(flatten)]
+    pub adapter: AdapterArgs,
+}
+
+#[derive(Debug, Args)]
 pub struct ResolveArgs {
     /// Folder of the captured frame (see docs/captures.md)
     #[arg(long, value_name = "DIR")]
@@ -277,8 +303,9 @@ pub struct CaptureArgs {
     /// Width and height in pixels
     #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = size)]
     pub size: UVec2,
-    /// Where in a pixel geometry is sampled: ordered4, latin4, ordered16 or latin16
-    #[arg(long, value_name = "PATTERN", default_value = "latin4")]
+    /// Where in a pixel geometry is sampled: ordered4, latin4, standard8, ordered16, latin16, or x and y of each sample in
+    /// pixels from the centre: -0.25,0.1,0.25,-0.1
+    #[arg(long, value_name = "PATTERN", default_value = "latin4", allow_hyphen_values = true)]
     pub pattern: String,
     /// Where in a pixel shading is sampled: centre or sample0
     #[arg(long, value_name = "WHERE", default_value = "centre")]

@@ -4,7 +4,6 @@ mod args;
 mod commands;
 mod failure;
 mod gpu;
-mod resolve;
 mod scene;
 mod table;
 
@@ -21,6 +20,7 @@ fn main() -> ExitCode {
         Command::Explain(args) => commands::explain::run(&args),
         Command::Run(args) => commands::run::run(&args),
         Command::Unroll(args) => commands::unroll::run(&args),
+        Command::Budget(args) => commands::budget::run(&args),
         Command::Resolve(args) => commands::resolve::run(&args),
         Command::Capture(args) => commands::capture::run(&args),
         Command::Scenes(args) => commands::scenes::run(&args),

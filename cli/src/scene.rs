@@ -5,8 +5,8 @@ use crate::gpu::Gpu;
 use glam::{UVec2, Vec2};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::path::Path;
-use straightline_kernels::sraa::Pattern;
 use straightline_study::capture::ShadingSample;
+use straightline_study::gbuffer;
 use straightline_study::render::{CpuRenderer, GpuRenderer, Renderer};
 use straightline_study::scene::{self, Scene};
 
@@ -26,20 +26,14 @@ pub fn renderer(gpu: Option<&Gpu>, scene: &Scene, size: UVec2) -> Result<Box<dyn
     })
 }
 
-/// A pattern by its name on the command line, with the offsets of its samples.
-pub fn pattern(name: &str) -> Result<(Pattern, Vec<Vec2>), Failure> {
-    let all = [
-        ("ordered4", Pattern::Ordered4),
-        ("latin4", Pattern::Latin4),
-        ("ordered16", Pattern::Ordered16),
-        ("latin16", Pattern::Latin16),
-    ];
-    match all.into_iter().find(|(known, _)| *known == name) {
-        Some((_, pattern)) => Ok((pattern, (0..pattern.samples()).map(|k| pattern.offset(k)).collect())),
-        None => Err(Failure::Usage(format!(
-            "there is no pattern `{name}`; use one of ordered4, latin4, ordered16, latin16"
-        ))),
-    }
+/// Offsets of the samples of a pattern by its name, or listed.
+pub fn pattern(name: &str) -> Result<Vec<Vec2>, Failure> {
+    gbuffer::samples(name).ok_or_else(|| {
+        Failure::Usage(format!(
+            "there is no pattern `{name}`; use one of {}, or x and y of each sample, separated by commas, each from -0.5 to 0.5",
+            gbuffer::PATTERNS.join(", ")
+        ))
+    })
 }
 
 /// A shading sample by its name on the command line.

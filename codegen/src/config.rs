@@ -132,6 +132,12 @@ impl KernelConfig {
         self
     }
 
+    /// Filters a rectangle that the host states, not all of the image: see [`EmitOptions::region`].
+    pub fn region(mut self) -> Self {
+        self.emit.region = true;
+        self
+    }
+
     /// Invocations of a compute workgroup, across and down; by default [`EmitOptions::WORKGROUP`].
     pub fn workgroup(mut self, x: u32, y: u32) -> Self {
         self.emit.workgroup = Some([x, y]);

@@ -50,7 +50,10 @@ pub const CATALOGUE: &[Entry] = &[
         summary: "Subpixel Reconstruction Antialiasing: 1x shading, subpixel geometry (Chajdas et al. 2011)",
         sources: &[
             source!("sraa/mod.rs"),
+            source!("sraa/options.rs"),
             source!("sraa/pattern.rs"),
+            source!("sraa/gbuffer.rs"),
+            source!("sraa/view.rs"),
             source!("sraa/metric.rs"),
         ],
         paper: sraa_paper,

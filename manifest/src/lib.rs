@@ -126,6 +126,25 @@ pub enum BindingKind {
     },
 }
 
+/// Name of the uniform buffer of a shader that filters a rectangle of the image: see [`region_fields`].
+pub const REGION: &str = "region";
+
+/// Fields of the uniform buffer [`REGION`]: the rectangle's upper left pixel in the inputs, its size, and its upper left
+/// pixel in the target.
+pub fn region_fields() -> Vec<UniformField> {
+    let field = |(k, name): (u32, &str)| UniformField {
+        name: name.to_owned(),
+        ty: "vec2i".to_owned(),
+        offset: 8 * k,
+        size: 8,
+        default: None,
+    };
+    (0..).zip(["first", "size", "place"]).map(field).collect()
+}
+
+/// Size in bytes of the uniform buffer [`REGION`].
+pub const REGION_SIZE: u32 = 32;
+
 /// How a shader touches a resource.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]

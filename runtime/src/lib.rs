@@ -44,6 +44,7 @@
 //!   `sampler` or `sampler_comparison`.
 //! - Buffers are `var<storage, read>` arrays of a scalar or vector.
 //! - Values set at run time are members of a uniform struct.
+//! - A shader for regions has one more, which says what rectangle of the inputs goes where in the target.
 
 mod error;
 mod guard;
@@ -53,12 +54,14 @@ mod pass;
 mod pipeline;
 mod plan;
 mod reflect;
+mod region;
 mod resource;
 mod timer;
 mod uniforms;
 
 pub use error::{BufferProblem, Error, Names, SamplerProblem, ViewProblem};
 pub use pass::{Pass, PassOptions};
+pub use region::Region;
 pub use resource::{Resource, ResourceKind};
 pub use straightline_manifest as manifest;
 pub use timer::{Span, Timer};

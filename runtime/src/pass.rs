@@ -2,13 +2,13 @@
 
 use crate::error::ViewProblem;
 use crate::guard::{Pulse, guarded};
-use crate::inputs::{Abilities, arrange, check_inputs, check_target, is_one_image, shared, size};
+use crate::inputs::{Abilities, arrange, check_inputs, check_target, frame_size, is_one_image, shared, size};
 use crate::layout::{BoundGroup, Layout};
 use crate::pipeline::{Pipeline, check_format};
 use crate::plan::Plan;
 use crate::timer::{Span, Timer};
 use crate::uniforms::{self, UniformBlock, UniformValue};
-use crate::{Error, Resource, reflect};
+use crate::{Error, Region, Resource, reflect};
 use straightline_manifest::Manifest;
 use wgpu::{CommandEncoder, Device, Queue, TextureFormat, TextureView};
 
@@ -179,8 +179,28 @@ impl Pass {
         inputs: &[(&str, R)],
         target: &TextureView,
     ) -> Result<(), Error> {
-        let groups = self.prepare(&resources(inputs), target)?;
-        self.record(encoder, &groups, target, None);
+        let prepared = self.prepare(&resources(inputs), target, None)?;
+        self.record(encoder, &prepared, target, None);
+        Ok(())
+    }
+
+    /// [`encode`](Self::encode) for a rectangle: reads what lies at and around `region.first` of the inputs, and writes the
+    /// pixels at `region.place` of `target`; all others stay as they are. The inputs need not have the target's size, only
+    /// one size. The shader must have been generated for regions. One small buffer is allocated for each call.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`encode`](Self::encode), and [`Error::Region`] if the shader filters whole images only, or the rectangle
+    /// leaves the inputs or the target.
+    pub fn encode_region<'r, R: Into<Resource<'r>> + Copy>(
+        &self,
+        encoder: &mut CommandEncoder,
+        inputs: &[(&str, R)],
+        target: &TextureView,
+        region: Region,
+    ) -> Result<(), Error> {
+        let prepared = self.prepare(&resources(inputs), target, Some(region))?;
+        self.record(encoder, &prepared, target, None);
         Ok(())
     }
 
@@ -196,30 +216,57 @@ impl Pass {
         target: &TextureView,
         timer: &mut Timer,
     ) -> Result<(), Error> {
-        let groups = self.prepare(&resources(inputs), target)?;
+        let prepared = self.prepare(&resources(inputs), target, None)?;
         let span = timer.span()?;
-        self.record(encoder, &groups, target, Some(&span));
+        self.record(encoder, &prepared, target, Some(&span));
         Ok(())
     }
 
     /// Everything that can fail.
-    fn prepare(&self, inputs: &[(&str, Resource<'_>)], target: &TextureView) -> Result<Vec<BoundGroup>, Error> {
+    fn prepare(
+        &self,
+        inputs: &[(&str, Resource<'_>)],
+        target: &TextureView,
+        region: Option<Region>,
+    ) -> Result<Prepared, Error> {
         self.pulse
             .check(&self.device, &format!("encoding `{}`", self.plan.kernel))?;
         let resources = arrange(&self.plan, inputs)?;
         check_target(&self.plan, self.format, &self.abilities, target)?;
-        check_inputs(&self.plan, &self.abilities, &resources, target)?;
+        let rectangle = self.rectangle(&resources, target, region)?;
+        let frame = match self.plan.region {
+            Some(_) => frame_size(&self.plan, &resources),
+            None => None,
+        };
+        check_inputs(
+            &self.plan,
+            &self.abilities,
+            &resources,
+            frame.unwrap_or(size(target.texture())),
+        )?;
         uniforms::check_set(&self.uniforms, &self.plan.kernel)?;
+        let buffer = match self.plan.region {
+            Some(_) => Some(rectangle.buffer(&self.device, &self.plan.kernel)?),
+            None => None,
+        };
+        let bound = (target, buffer.as_ref());
         let groups = self
             .layout
-            .bind(&self.device, &self.plan, &self.uniforms, &resources, target);
+            .bind(&self.device, &self.plan, &self.uniforms, &resources, bound);
         let shared = shared(&self.plan, &resources, target);
-        let groups = groups.and_then(|groups| match (&self.pipeline, shared) {
-            // Binding has judged every resource.
-            (Pipeline::Compute { .. }, None) => Ok(groups),
-            _ => self.rehearse(&groups, target, shared.is_some()).map(|()| groups),
+        let prepared = groups.and_then(|groups| {
+            let prepared = Prepared {
+                groups,
+                rectangle,
+                is_part: region.is_some(),
+            };
+            match (&self.pipeline, shared) {
+                // Binding has judged every resource.
+                (Pipeline::Compute { .. }, None) => Ok(prepared),
+                _ => self.rehearse(&prepared, target, shared.is_some()).map(|()| prepared),
+            }
         });
-        groups.map_err(|error| match (error, shared) {
+        prepared.map_err(|error| match (error, shared) {
             // A texture of one image has no other part to show.
             (Error::Combination { kernel, .. }, Some(input)) if is_one_image(target.texture()) => Error::Input {
                 kernel,
@@ -230,11 +277,35 @@ impl Pass {
         })
     }
 
+    /// The rectangle to filter: the one asked for, or all of the inputs.
+    fn rectangle(
+        &self,
+        resources: &[Resource<'_>],
+        target: &TextureView,
+        region: Option<Region>,
+    ) -> Result<Region, Error> {
+        let whole = size(target.texture());
+        match (&self.plan.region, region) {
+            (None, None) => Ok(Region::at([0, 0], whole)),
+            (None, Some(region)) => Err(Error::Region {
+                kernel: self.plan.kernel.clone(),
+                region,
+                problem: "its shader filters whole images: generate it with `region`".to_owned(),
+            }),
+            (Some(_), region) => {
+                let frame = frame_size(&self.plan, resources);
+                let region = region.unwrap_or_else(|| Region::at([0, 0], frame.unwrap_or(whole)));
+                region.check(&self.plan.kernel, frame, whole)?;
+                Ok(region)
+            }
+        }
+    }
+
     /// Records into an encoder of its own and throws it away. What wgpu holds against a colour target, or against
     /// reading and writing the same image, it says only when an encoder is finished; that must not be the caller's.
     ///
     /// Inputs have been bound by now, so the fault is the target's, unless that is `shared` with an input.
-    fn rehearse(&self, groups: &[BoundGroup], target: &TextureView, shared: bool) -> Result<(), Error> {
+    fn rehearse(&self, prepared: &Prepared, target: &TextureView, shared: bool) -> Result<(), Error> {
         let kernel = &self.plan.kernel;
         let refused = |description| match shared {
             true => Error::Combination {
@@ -250,12 +321,18 @@ impl Pass {
             let mut encoder = self
                 .device
                 .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-            self.record(&mut encoder, groups, target, None);
+            self.record(&mut encoder, prepared, target, None);
             drop(encoder.finish());
         })
     }
 
-    fn record(&self, encoder: &mut CommandEncoder, groups: &[BoundGroup], target: &TextureView, span: Option<&Span>) {
+    fn record(&self, encoder: &mut CommandEncoder, prepared: &Prepared, target: &TextureView, span: Option<&Span>) {
+        let Prepared {
+            groups,
+            rectangle,
+            is_part,
+        } = prepared;
+        let [width, height] = rectangle.size;
         let label = Some(self.plan.kernel.as_str());
         match &self.pipeline {
             Pipeline::Compute { pipeline, workgroup } => {
@@ -268,7 +345,6 @@ impl Pass {
                 for (index, group) in groups {
                     pass.set_bind_group(*index, group, &[]);
                 }
-                let [width, height] = size(target.texture());
                 pass.dispatch_workgroups(width.div_ceil(workgroup[0]), height.div_ceil(workgroup[1]), 1);
             }
             Pipeline::Render(pipeline) => {
@@ -279,8 +355,11 @@ impl Pass {
                         depth_slice: None,
                         resolve_target: None,
                         ops: wgpu::Operations {
-                            // Every pixel is overwritten; clearing spares tiled GPUs from loading the old ones.
-                            load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
+                            // Where every pixel is overwritten, clearing spares tiled GPUs from loading the old ones.
+                            load: match is_part {
+                                true => wgpu::LoadOp::Load,
+                                false => wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
+                            },
                             store: wgpu::StoreOp::Store,
                         },
                     })],
@@ -293,10 +372,20 @@ impl Pass {
                 for (index, group) in groups {
                     pass.set_bind_group(*index, group, &[]);
                 }
+                let [x, y] = rectangle.place;
+                pass.set_scissor_rect(x, y, width, height);
                 pass.draw(0..3, 0..1);
             }
         }
     }
+}
+
+/// What is bound, and what is filtered.
+struct Prepared {
+    groups: Vec<BoundGroup>,
+    rectangle: Region,
+    /// Whether what lies around the rectangle stays as it is.
+    is_part: bool,
 }
 
 fn resources<'n, 'r, R: Into<Resource<'r>> + Copy>(inputs: &[(&'n str, R)]) -> Vec<(&'n str, Resource<'r>)> {

@@ -27,7 +27,7 @@ pub(crate) fn check(plan: &Plan, wgsl: &str) -> Result<(), Error> {
     for input in &plan.inputs {
         check_input(&module, input).map_err(mismatch)?;
     }
-    for uniform in &plan.uniforms {
+    for uniform in plan.uniform_structs() {
         check_uniform(&module, uniform).map_err(mismatch)?;
     }
     if let OutputPlan::Storage {
@@ -230,7 +230,7 @@ fn is_type(inner: &TypeInner, ty: UniformType) -> bool {
 /// Every resource of the shader is in the manifest.
 fn nothing_else(plan: &Plan, module: &Module) -> Result<(), String> {
     let mut known: Vec<(u32, u32)> = plan.inputs.iter().map(|i| (i.group, i.binding)).collect();
-    known.extend(plan.uniforms.iter().map(|u| (u.group, u.binding)));
+    known.extend(plan.uniform_structs().map(|u| (u.group, u.binding)));
     if let OutputPlan::Storage { group, binding, .. } = &plan.output {
         known.push((*group, *binding));
     }

@@ -1,6 +1,7 @@
-//! Differential testing of the generator with random kernels.
+//! What several tests and programs share.
 //!
-//! A random kernel is a tree of this crate's own, printed as text for the generator and evaluated directly by a tree
+//! [`random`]: differential testing of the generator. A random kernel is a tree of this crate's own, printed as text for the generator and evaluated directly by a tree
 //! walker that shares no code with it. The two must agree bit for bit, whatever becomes of loops.
 
 pub mod random;
+pub mod sraa;

@@ -2,78 +2,169 @@
 
 mod common;
 
-use common::*;
-use straightline_codegen::Unroll;
+use common::same_bits;
+use straightline_codegen::{Compiled, Unroll};
 use straightline_kernels::prelude::*;
-use straightline_kernels::sraa::{Sraa, sraa};
+use straightline_study::execute::{Inputs, interpret};
+use straightline_tests::sraa::options::{one_at_a_time, options, random, refusal};
+use straightline_tests::sraa::{Options, compiled, native, surfaces};
 
-fn native(cfg: &Sraa, inputs: &Inputs) -> Vec<[f32; 4]> {
-    let size = inputs.size.as_ivec2();
-    let pixels = (0..size.y).flat_map(|y| (0..size.x).map(move |x| ivec2(x, y)));
-    pixels
-        .map(|pixel| sraa(cfg, &inputs.gbuffer, &inputs.color, pixel).to_array())
-        .collect()
+fn form(options: &Options, unroll: Unroll) -> Compiled {
+    compiled(options, unroll).unwrap_or_else(|errors| panic!("{options:?}:\n{errors}"))
+}
+
+fn bits(compiled: &Compiled, inputs: &Inputs) -> Vec<[f32; 4]> {
+    let result = interpret::<f32>(compiled, inputs, false);
+    result.unwrap_or_else(|error| panic!("{error}")).texels
+}
+
+fn all_forms_agree(options: &Options, size: UVec2) {
+    if let Some(why) = refusal(options) {
+        let refused = compiled(options, Unroll::Full);
+        assert!(refused.is_err(), "{options:?} is not refused, though {why}");
+        return;
+    }
+    let inputs = surfaces::inputs(options, size, 1);
+    let expected = native::run(options, &inputs);
+    for unroll in [Unroll::Full, Unroll::None] {
+        let found = bits(&form(options, unroll), &inputs);
+        same_bits(&expected, &found).unwrap_or_else(|e| panic!("native and unroll {unroll}, {options:?}: {e}"));
+    }
 }
 
 #[test]
-fn native_looped_and_unrolled_agree_for_all_options() {
-    let inputs = surfaces(uvec2(23, 17), 17, 1);
-    for (cfg, options) in all_options() {
-        let expected = native(&cfg, &inputs);
-        let unrolled = interpret(&compile(&options, Unroll::Full), &inputs, &[]);
-        same_bits(&expected, &unrolled).unwrap_or_else(|e| panic!("native and unrolled, {options:?}: {e}"));
-        let looped = interpret(&compile(&options, Unroll::None), &inputs, &[]);
-        same_bits(&expected, &looped).unwrap_or_else(|e| panic!("native and looped, {options:?}: {e}"));
+fn each_value_of_each_option_is_the_same_in_every_form() {
+    for options in one_at_a_time() {
+        all_forms_agree(&options, uvec2(13, 9));
+    }
+}
+
+#[test]
+fn options_together_are_the_same_in_every_form() {
+    for options in random(40, 1) {
+        all_forms_agree(&options, uvec2(7, 5));
     }
 }
 
 #[test]
 fn smallest_frames_agree() {
     for size in [uvec2(1, 1), uvec2(1, 5), uvec2(5, 1), uvec2(2, 3)] {
-        let inputs = surfaces(size, 5, 7);
-        let expected = native(&Sraa::default(), &inputs);
-        let unrolled = interpret(&compile(&[], Unroll::Full), &inputs, &[]);
-        same_bits(&expected, &unrolled).unwrap_or_else(|e| panic!("{size}: {e}"));
+        for layout in ["layers", "superresolution", "multisampled"] {
+            all_forms_agree(&options(&[("layout", layout), ("metric", "planes-normals")]), size);
+        }
     }
 }
 
 #[test]
 fn a_number_set_at_run_time_means_the_same() {
-    let inputs = surfaces(uvec2(16, 16), 5, 3);
-    let cfg = Sraa {
-        tau: 80.0,
-        depth_scale: 3.0,
-        ..Sraa::default()
-    };
-    let options = [("tau", "uniform"), ("depth-scale", "uniform")].map(|(k, v)| (k.to_owned(), v.to_owned()));
-    let compiled = compile(&options, Unroll::Full);
-    let given = interpret(&compiled, &inputs, &[("tau", 80.0), ("depth_scale", 3.0)]);
-    same_bits(&native(&cfg, &inputs), &given).unwrap_or_else(|e| panic!("{e}"));
-    let defaults = interpret(&compiled, &inputs, &[]);
-    same_bits(&native(&Sraa::default(), &inputs), &defaults).unwrap_or_else(|e| panic!("{e}"));
+    let known = options(&[("tau", "80"), ("depth-scale", "3")]);
+    let at_run_time = options(&[("tau", "uniform"), ("depth-scale", "uniform")]);
+    let inputs = surfaces::inputs(&known, uvec2(16, 16), 3);
+    let compiled = form(&at_run_time, Unroll::Full);
+    let given = bits(
+        &compiled,
+        &inputs.clone().uniform("tau", &[80.0]).uniform("depth_scale", &[3.0]),
+    );
+    same_bits(&native::run(&known, &inputs), &given).unwrap_or_else(|e| panic!("{e}"));
+    let defaults = native::run(&Options::new(), &inputs);
+    same_bits(&defaults, &bits(&compiled, &inputs)).unwrap_or_else(|e| panic!("{e}"));
 }
 
 #[test]
 fn one_block_and_no_more_reads_than_distinct_texels() {
-    for (_, options) in all_options() {
-        let counts = compile(&options, Unroll::Full).counts;
-        assert_eq!((counts.basic_blocks, counts.loops), (1, 0), "{options:?}");
+    for options in one_at_a_time() {
+        let Ok(compiled) = compiled(&options, Unroll::Full) else {
+            continue;
+        };
+        let blocks = compiled.counts.basic_blocks;
+        let branch = options.iter().any(|(_, value)| value == "branch");
+        assert!(branch || blocks == 1, "{options:?}: {blocks} blocks");
+        assert_eq!(compiled.counts.loops, 0, "{options:?}");
     }
     let counts = |set: &[(&str, &str)]| {
-        let options: Vec<_> = set.iter().map(|(k, v)| ((*k).to_owned(), (*v).to_owned())).collect();
-        let counts = compile(&options, Unroll::Full).counts;
+        let counts = form(&options(set), Unroll::Full).counts;
         (counts.tallies["weight_evaluations"], counts.texture_reads)
     };
-    let listing = [("metric", "depth-normals"), ("falloff", "none"), ("shading", "sample0")];
-    let with = |pattern, falloff| counts(&[listing[0], listing[2], ("pattern", pattern), ("falloff", falloff)]);
+    let listing = [("metric", "depth-normals"), ("shading", "sample0")];
+    let with = |pattern, falloff| counts(&[listing[0], listing[1], ("pattern", pattern), ("falloff", falloff)]);
     // The paper: 25 and 58, 81 and 194 (section 3.5); a sample against itself needs no evaluation.
     assert_eq!(with("ordered4", "none"), (24, 24));
     assert_eq!(with("ordered16", "none"), (80, 48));
     assert_eq!(with("ordered4", "tent"), (8, 14));
-    let depth_only = compile(&[("metric".to_owned(), "depth".to_owned())], Unroll::Full).counts;
-    assert!(
-        !depth_only.reads.contains_key("normal"),
-        "normals are read for depth alone: {:?}",
-        depth_only.reads
+    // Half the reads.
+    let packed = counts(&[
+        listing[0],
+        listing[1],
+        ("pattern", "ordered4"),
+        ("falloff", "none"),
+        ("normals", "packed"),
+    ]);
+    assert_eq!(packed, (24, 12));
+}
+
+/// A shader reads no buffer and computes no term that its scene does not need.
+#[test]
+fn a_metric_reads_only_what_it_compares() {
+    let bound = |set: &[(&str, &str)]| {
+        let compiled = form(&options(set), Unroll::Full);
+        let manifest = compiled.emit(&Default::default()).expect("it is emitted").manifest;
+        let mut names = Vec::new();
+        for binding in manifest.bindings {
+            match binding.kind {
+                straightline_manifest::BindingKind::Uniform { fields, .. } => {
+                    names.extend(fields.into_iter().map(|field| field.name));
+                }
+                _ => names.push(binding.name),
+            }
+        }
+        names
+    };
+    assert_eq!(bound(&[("metric", "depth")]), ["depth", "color"]);
+    assert_eq!(bound(&[("metric", "normals")]), ["normal", "color"]);
+    assert_eq!(bound(&[("metric", "depth-normals")]), ["depth", "normal", "color"]);
+    assert_eq!(
+        bound(&[("metric", "planes-normals")]),
+        [
+            "depth",
+            "normal",
+            "color",
+            "ray_corner",
+            "ray_right",
+            "ray_down",
+            "origin"
+        ]
     );
+    assert_eq!(
+        bound(&[("depth", "reversed-infinite")]),
+        ["depth", "normal", "color", "near"]
+    );
+    assert_eq!(
+        bound(&[
+            ("layout", "multisampled"),
+            ("normals", "packed"),
+            ("shading", "sample0")
+        ]),
+        ["packed_samples", "color"]
+    );
+}
+
+#[test]
+fn a_pattern_is_checked() {
+    let refused = |offsets: &str, more: &[(&str, &str)]| {
+        let mut words = vec![("pattern", "listed"), ("offsets", offsets)];
+        words.extend(more);
+        compiled(&options(&words), Unroll::Full)
+            .err()
+            .map(|errors| errors.to_string())
+            .unwrap_or_default()
+    };
+    assert!(refused("0.1,0.2,0.3", &[]).contains("an x and a y for each sample"));
+    assert!(refused("", &[]).contains("1 to 64 samples"));
+    assert!(refused("0.1,0.2,0.1,0.2", &[]).contains("at the same place"));
+    assert!(refused("0.1,0.6", &[]).contains("from -0.5 to 0.5"));
+    assert!(refused("-0.3,0.3,-0.3,-0.3", &[("latin", "true")]).contains("no Latin square"));
+    assert_eq!(refused("-0.3,0.3,-0.3,-0.3", &[]), "");
+    assert_eq!(refused("-0.3,0.3,0.3,-0.3", &[("latin", "true")]), "");
+    let shaded = [("shading", "listed"), ("shaded", "0,7")];
+    assert!(refused("-0.3,0.3,0.3,-0.3", &shaded).contains("does not have"));
 }

@@ -8,7 +8,7 @@ use straightline_study::render;
 
 /// Renders and writes a capture, or nothing.
 pub fn run(args: &CaptureArgs) -> Result<(), Failure> {
-    let (_, samples) = scene::pattern(&args.pattern)?;
+    let samples = scene::pattern(&args.pattern)?;
     let shading = scene::shading(&args.shading)?;
     let world = scene::load(args.mesh.as_deref(), &args.scene)?;
     let gpu = Gpu::open(&args.adapter)?;

@@ -3,7 +3,6 @@
 use crate::args::DemoArgs;
 use crate::failure::Failure;
 use crate::gpu::{self, Gpu};
-use crate::resolve::inputs;
 use crate::{scene, table};
 use glam::{UVec2, Vec4};
 use serde::Serialize;
@@ -13,18 +12,19 @@ use straightline_kernels::prelude::Frame;
 use straightline_manifest::Stage;
 use straightline_runtime::Pass;
 use straightline_study::capture::{Capture, ShadingSample};
-use straightline_study::execute::{Bound, Clock, ExecuteError, Job, Times, interpret};
-use straightline_study::oracle::{self, SraaInputs, SraaParams};
+use straightline_study::execute::{Bound, Clock, ExecuteError, Inputs, Job, Times, interpret};
+use straightline_study::gbuffer;
+use straightline_study::oracle::{self, SraaParams};
 use straightline_study::render::{self, Renderer};
 use straightline_study::{metrics, picture};
 
 /// One antialiased picture and what it took.
 struct Method {
     name: &'static str,
-    pattern: &'static str,
     unrolled: Compiled,
     looped: Compiled,
     capture: Capture,
+    inputs: Inputs,
 }
 
 /// A line of the table.
@@ -122,12 +122,13 @@ fn method(name: &'static str, pattern: &'static str, renderer: &dyn Renderer) ->
         };
         Kernel::builtin("sraa").and_then(|kernel| kernel.compile(&settings))
     };
-    let (_, samples) = scene::pattern(pattern)?;
+    let samples = scene::pattern(pattern)?;
     let capture = render::capture(renderer, &samples, ShadingSample::Centre).map_err(Failure::of)?;
+    let unrolled = compile(Unroll::Full)?;
     Ok(Method {
         name,
-        pattern,
-        unrolled: compile(Unroll::Full)?,
+        inputs: gbuffer::inputs(&capture, &unrolled.options).map_err(Failure::of)?,
+        unrolled,
         looped: compile(Unroll::None)?,
         capture,
     })
@@ -144,10 +145,10 @@ fn supersampled(renderer: &dyn Renderer, side: u32, what: &'static str) -> Resul
 type Measured = (Frame<Vec4>, [Times; 2], Clock);
 
 fn on_adapter(gpu: &Gpu, method: &Method, rounds: u32) -> Result<Measured, Failure> {
-    let (inputs, bench) = (inputs(&method.capture), gpu.bench());
+    let (inputs, bench) = (&method.inputs, gpu.bench());
     let prepared = |compiled| -> Result<(Pass, Bound), ExecuteError> {
         let (pass, manifest) = bench.pass(compiled, Stage::Compute)?;
-        let bound = bench.bind(&pass, &manifest, &inputs)?;
+        let bound = bench.bind(&pass, &manifest, inputs)?;
         Ok((pass, bound))
     };
     let prepared = [&method.looped, &method.unrolled].map(prepared);
@@ -163,22 +164,22 @@ fn on_adapter(gpu: &Gpu, method: &Method, rounds: u32) -> Result<Measured, Failu
     let (times, clock) = timed.map_err(Failure::of)?;
     bar.finish_and_clear();
     let resolved = bench
-        .run(&method.unrolled, Stage::Compute, &inputs)
+        .run(&method.unrolled, Stage::Compute, inputs)
         .map_err(Failure::of)?;
     Ok((resolved, [times[0], times[1]], clock))
 }
 
 /// One round: the interpreter is there to show the result, not to be raced.
 fn on_interpreter(method: &Method) -> Result<Measured, Failure> {
-    let inputs = inputs(&method.capture);
+    let inputs = &method.inputs;
     let mut times = [Vec::new(), Vec::new()];
     let mut resolved = None;
     let bar = scene::bar("interpreting, in turn");
     bar.set_length(2);
     for (times, compiled) in times.iter_mut().zip([&method.looped, &method.unrolled]) {
         let start = Instant::now();
-        let texels = interpret::<f32>(compiled, &inputs, false).map_err(Failure::of)?;
-        resolved = Some(texels.frame(&inputs));
+        let texels = interpret::<f32>(compiled, inputs, false).map_err(Failure::of)?;
+        resolved = Some(texels.frame(inputs));
         times.push(start.elapsed());
         bar.inc(1);
     }
@@ -209,16 +210,10 @@ fn measured_row(
     unrolled: Times,
     reference: &Frame<Vec4>,
 ) -> Result<Row, Failure> {
-    let capture = &method.capture;
     let counts = &method.unrolled.counts;
-    let mut params = SraaParams::default();
-    params.set("pattern", method.pattern).map_err(Failure::of)?;
-    let inputs = SraaInputs {
-        color: &capture.color,
-        depth: &capture.depth,
-        normal: capture.normal.as_ref(),
-    };
-    let exact = oracle::sraa(&inputs, &params);
+    let params = SraaParams::of(&method.unrolled.options).map_err(Failure::of)?;
+    let exact = oracle::sraa(&method.inputs, &params).map_err(Failure::of)?;
+    let exact: Vec<[f64; 4]> = exact.into_iter().map(|pixel| pixel.color).collect();
     Ok(Row {
         texture_reads: Some(counts.texture_reads + counts.colour_reads),
         weight_evaluations: counts.tallies.get("weight_evaluations").copied(),

@@ -19,6 +19,7 @@ pub fn run(args: &EmitArgs) -> Result<(), Failure> {
         .stage(args.stage.into())
         .format(args.format)
         .targets(args.target.iter().copied());
+    options.region = args.region;
     options.workgroup = args.workgroup.map(|size| size.to_array());
     let emitted = compiled.emit(&options).map_err(Failure::of)?;
     let written = files::write_all(&args.out, &emitted.named(name)).map_err(Failure::of)?;

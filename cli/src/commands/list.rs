@@ -56,7 +56,13 @@ fn print_option(option: &OptionInfo) {
             );
         }
         OptionKind::List { len, .. } => {
-            println!("      {len} numbers, separated by commas (default {})", option.default);
+            let many = len.map_or("any number of".to_owned(), |len| len.to_string());
+            let default = if option.default.is_empty() {
+                "none"
+            } else {
+                &option.default
+            };
+            println!("      {many} numbers, separated by commas (default {default})");
         }
         OptionKind::Flag => println!("      true or false (default {})", option.default),
     }

@@ -1,6 +1,7 @@
 //! One room a command.
 
 pub mod adapters;
+pub mod budget;
 pub mod capture;
 pub mod demo;
 pub mod emit;

@@ -3,14 +3,13 @@
 use crate::args::{Executor, OptionArgs, ResolveArgs};
 use crate::failure::Failure;
 use crate::gpu::Gpu;
-use crate::resolve::inputs;
-use crate::scene;
-use glam::{Vec2, Vec4};
+use glam::Vec4;
 use serde_json::json;
 use straightline_codegen::{Compiled, Kernel};
 use straightline_kernels::prelude::Frame;
-use straightline_study::capture::{Capture, ShadingSample};
+use straightline_study::capture::Capture;
 use straightline_study::execute::interpret;
+use straightline_study::gbuffer;
 use straightline_study::{metrics, picture};
 
 /// Reads a capture, resolves it with SRAA, writes the picture, prints errors if asked.
@@ -19,8 +18,7 @@ pub fn run(args: &ResolveArgs) -> Result<(), Failure> {
     let capture = Capture::read(&args.capture).map_err(Failure::of)?;
     let settings = with_capture(&args.options, &capture)?;
     let compiled = Kernel::builtin("sraa")?.compile(&settings.settings())?;
-    check_normals(&compiled, &capture)?;
-    let inputs = inputs(&capture);
+    let inputs = gbuffer::inputs(&capture, &compiled.options).map_err(Failure::of)?;
     let (resolved, by) = match args.executor {
         Executor::Gpu => {
             let gpu = Gpu::require(&args.adapter)?;
@@ -83,41 +81,14 @@ fn errors(capture: &Capture, resolved: &Frame<Vec4>) -> Result<(f64, f64), Failu
 
 /// The options asked for, with those that the capture decides: where it was sampled.
 fn with_capture(options: &OptionArgs, capture: &Capture) -> Result<OptionArgs, Failure> {
-    let near = |a: &Vec2, b: &Vec2| (*a - *b).abs().max_element() < 1.0e-4;
-    let same = |offsets: &[Vec2]| {
-        offsets.len() == capture.samples.len() && offsets.iter().zip(&capture.samples).all(|(a, b)| near(a, b))
-    };
-    let known = ["ordered4", "latin4", "ordered16", "latin16"];
-    let mut pattern = None;
-    for name in known {
-        if same(&scene::pattern(name)?.1) {
-            pattern = Some(name);
-        }
-    }
-    let Some(pattern) = pattern else {
-        return Err(Failure::Failed(format!(
-            "the capture's {} sample offsets are none of the patterns that SRAA is generated for ({})",
-            capture.samples.len(),
-            known.join(", ")
-        )));
-    };
-    let shading = match capture.shading {
-        ShadingSample::Centre => "centre",
-        ShadingSample::Sample(0) => "sample0",
-        ShadingSample::Sample(k) => {
-            return Err(Failure::Failed(format!(
-                "the capture was shaded at sample {k}; SRAA is generated for sample 0 or the pixel's centre: list that sample first"
-            )));
-        }
-    };
     let mut options = options.clone();
-    for (name, decided) in [("pattern", pattern), ("shading", shading)] {
-        if let Some((_, asked)) = options.set.iter().find(|(n, v)| n == name && v != decided) {
+    for (name, decided) in gbuffer::sampled_at(capture) {
+        if let Some((_, asked)) = options.set.iter().find(|(n, v)| *n == name && *v != decided) {
             return Err(Failure::Usage(format!(
                 "--set {name}={asked}, but the capture was sampled with {name}={decided}"
             )));
         }
-        options.set.push((name.to_owned(), decided.to_owned()));
+        options.set.push((name, decided));
     }
     if let Some((name, _)) = options.set.iter().find(|(_, value)| value == "uniform") {
         return Err(Failure::Usage(format!(
@@ -125,15 +96,6 @@ fn with_capture(options: &OptionArgs, capture: &Capture) -> Result<OptionArgs, F
         )));
     }
     Ok(options)
-}
-
-fn check_normals(compiled: &Compiled, capture: &Capture) -> Result<(), Failure> {
-    if compiled.counts.reads.contains_key("normal") && capture.normal.is_none() {
-        return Err(Failure::Failed(
-            "the capture has no normal.exr, which the metric depth-normals reads; use --set metric=depth".to_owned(),
-        ));
-    }
-    Ok(())
 }
 
 /// Refuses a picture that could not be written before any work is done.

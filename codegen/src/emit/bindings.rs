@@ -5,7 +5,7 @@ use crate::pipeline::Compiled;
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 use straightline_manifest::{
-    Binding, BindingKind, Dimension, Extent, Format, Manifest, SampleType, SamplerType, Stage,
+    Binding, BindingKind, Dimension, Extent, Format, Manifest, REGION, SampleType, SamplerType, Stage,
 };
 
 /// One shader's part of the bindings file.
@@ -42,6 +42,7 @@ fn module(module: &Module<'_>) -> TokenStream {
         let (field, name) = (&input.name, input.name.to_string());
         quote! { (#name, Resource::from(inputs.#field)) }
     });
+    let pairs: Vec<TokenStream> = pairs.collect();
     // Without inputs there is no reference to have a lifetime.
     let (life, used, inputs_docs) = match inputs.len() {
         0 => (quote! {}, quote! { _: &Inputs }, " What the shader reads: nothing."),
@@ -52,6 +53,25 @@ fn module(module: &Module<'_>) -> TokenStream {
         ),
     };
     let (structure, setters) = parameters::parameters(manifest);
+    let region = manifest.bindings.iter().any(|b| b.name == REGION).then(|| {
+        quote! {
+            /// Records the shader for a rectangle: from `region.first` of `inputs` to `region.place` of `target`.
+            ///
+            /// # Errors
+            ///
+            /// Those of `encode`, and if the rectangle leaves the inputs or the target.
+            pub fn encode_region(
+                &self,
+                encoder: &mut wgpu::CommandEncoder,
+                #used,
+                target: &wgpu::TextureView,
+                region: straightline_runtime::Region,
+            ) -> Result<(), Error> {
+                let inputs: [(&str, Resource<'_>); #count] = [#(#pairs),*];
+                self.0.encode_region(encoder, &inputs, target, region)
+            }
+        }
+    });
     quote! {
         #(#[doc = #docs])*
         // A caller uses the part that it needs, and a struct of one reference is passed as one of many is.
@@ -97,6 +117,8 @@ fn module(module: &Module<'_>) -> TokenStream {
                     let inputs: [(&str, Resource<'_>); #count] = [#(#pairs),*];
                     self.0.encode(encoder, &inputs, target)
                 }
+
+                #region
 
                 #setters
 

@@ -66,6 +66,8 @@ pub struct EmitOptions {
     pub format: Format,
     /// Invocations of a compute workgroup, across and down; `None` for [`EmitOptions::WORKGROUP`].
     pub workgroup: Option<[u32; 2]>,
+    /// Whether the shader filters a rectangle that the host states, not all of the image: for tiles.
+    pub region: bool,
     /// Languages.
     pub targets: BTreeSet<Target>,
 }
@@ -81,6 +83,7 @@ impl EmitOptions {
             stage: Stage::Compute,
             format: Format::default(),
             workgroup: None,
+            region: false,
             targets: BTreeSet::from([Target::Wgsl]),
         }
     }
@@ -94,6 +97,12 @@ impl EmitOptions {
     /// With a texel format of the output.
     pub fn format(mut self, format: Format) -> Self {
         self.format = format;
+        self
+    }
+
+    /// For a rectangle that the host states: one more uniform buffer says where it lies in the inputs and in the target.
+    pub fn region(mut self, region: bool) -> Self {
+        self.region = region;
         self
     }
 

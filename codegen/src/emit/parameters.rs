@@ -2,12 +2,12 @@
 
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
-use straightline_manifest::{BindingKind, Manifest, UniformField};
+use straightline_manifest::{BindingKind, Manifest, REGION, UniformField};
 
 /// The struct `Parameters` with what belongs to it, and the methods of the pass that set it.
 pub fn parameters(manifest: &Manifest) -> (TokenStream, TokenStream) {
     let uniforms = manifest.bindings.iter().find_map(|b| match &b.kind {
-        BindingKind::Uniform { fields, size, .. } => Some((fields.as_slice(), *size)),
+        BindingKind::Uniform { fields, size, .. } if b.name != REGION => Some((fields.as_slice(), *size)),
         _ => None,
     });
     match uniforms {

@@ -4,12 +4,12 @@ use super::EmitOptions;
 use super::error::EmitError;
 use super::layout::{layout, stride};
 use super::wgsl::type_name;
-use crate::ir::{Buffer, NodeId, Op, Sampler, Texture, TextureKind, Uniform};
+use crate::ir::{Buffer, Graph, NodeId, Op, Sampler, Texture, TextureKind, Uniform};
 use crate::passes::layers_read;
 use crate::pipeline::Compiled;
 use straightline_manifest::{
-    Access, Binding, BindingKind, Dimension, Extent, Manifest, Output, SCHEMA, SampleType, SamplerType, Stage,
-    UniformField,
+    Access, Binding, BindingKind, Dimension, Extent, Manifest, Output, REGION, REGION_SIZE, SCHEMA, SampleType,
+    SamplerType, Stage, UniformField, region_fields,
 };
 
 /// Name of the uniform buffer.
@@ -27,6 +27,8 @@ pub struct BoundTexture {
     pub binding: u32,
     /// Layers, or samples of a texel, that reads can reach.
     pub layers: u32,
+    /// Components of its texels that are used, 1 to 4.
+    pub components: u8,
     /// Whether a sampler filters it.
     pub filtered: bool,
 }
@@ -75,6 +77,7 @@ impl Resources {
                 index,
                 binding: number(),
                 layers,
+                components: components_read(graph, &live, index),
                 filtered: ops.iter().any(
                     |op| matches!(op, Op::Sample { texture, .. } | Op::Gather { texture, .. } if *texture == index),
                 ),
@@ -96,7 +99,7 @@ impl Resources {
         let names = read.iter().map(|t| &graph.textures[t.index as usize].name);
         let names = names.chain(read_buffers.iter().map(|(k, _)| &graph.buffers[*k as usize].name));
         let names = names.chain(used_samplers.iter().map(|(k, _)| &graph.samplers[*k as usize].name));
-        let own = [UNIFORMS, SAMPLER, OUTPUT, "frame", "pixel", "id", "position"];
+        let own = [UNIFORMS, SAMPLER, OUTPUT, REGION, "frame", "pixel", "id", "position"];
         if let Some(name) = names
             .chain(uniforms.iter().map(|u| &u.name))
             .find(|name| super::names::is_reserved(name) || own.contains(&name.as_str()))
@@ -167,9 +170,16 @@ impl Resources {
         (!self.fields.is_empty()).then_some(next)
     }
 
+    /// Binding number of the rectangle's uniform buffer, if there is one.
+    pub fn region_binding(&self) -> Option<u32> {
+        let before = u32::from(self.options.stage == Stage::Compute) + u32::from(!self.fields.is_empty());
+        self.options.region.then_some(self.inputs() + before)
+    }
+
     /// Binding number of the sampler that only GLSL has: the last.
     pub fn sampler_binding(&self) -> u32 {
-        self.inputs() + u32::from(self.options.stage == Stage::Compute) + u32::from(!self.fields.is_empty())
+        let compute = u32::from(self.options.stage == Stage::Compute);
+        self.inputs() + compute + u32::from(!self.fields.is_empty()) + u32::from(self.options.region)
     }
 
     /// The manifest of the shader, without its files and with `statements` still 0.
@@ -215,6 +225,18 @@ impl Resources {
                 },
             });
         }
+        if let Some(binding) = self.region_binding() {
+            bindings.push(Binding {
+                group: 0,
+                binding,
+                name: REGION.to_owned(),
+                kind: BindingKind::Uniform {
+                    access: Access::Read,
+                    size: REGION_SIZE,
+                    fields: region_fields(),
+                },
+            });
+        }
         let compute = self.options.stage == Stage::Compute;
         Manifest {
             schema: SCHEMA,
@@ -240,6 +262,30 @@ impl Resources {
     }
 }
 
+/// Components up to the last one that is used of any texel of a texture.
+fn components_read(graph: &Graph, live: &impl Fn(&NodeId) -> bool, texture: u32) -> u8 {
+    let all = graph.textures[texture as usize].components;
+    let is_texel = |id: NodeId| {
+        let op = &graph.node(id).op;
+        matches!(op, Op::Load { .. } | Op::Sample { .. }) && op.texture() == Some(texture)
+    };
+    let mut most = 1;
+    for id in graph.ids().filter(live) {
+        let node = graph.node(id);
+        let used = match node.op {
+            Op::Gather { component, .. } if node.op.texture() == Some(texture) => component + 1,
+            Op::Extract(lane) if node.args.iter().any(|arg| is_texel(*arg)) => lane + 1,
+            _ if node.args.iter().any(|arg| is_texel(*arg)) => all,
+            _ => continue,
+        };
+        most = most.max(used);
+    }
+    if is_texel(graph.output()) || graph.regions.iter().any(|r| r.results.iter().any(|id| is_texel(*id))) {
+        return all;
+    }
+    most.min(all)
+}
+
 fn texture_kind(texture: &Texture, bound: &BoundTexture) -> BindingKind {
     BindingKind::Texture {
         access: Access::Read,
@@ -253,7 +299,7 @@ fn texture_kind(texture: &Texture, bound: &BoundTexture) -> BindingKind {
             _ if bound.filtered => SampleType::Filterable,
             _ => SampleType::Unfilterable,
         },
-        components: texture.components,
+        components: bound.components,
         layers: if texture.kind == TextureKind::Layers {
             bound.layers
         } else {

@@ -7,7 +7,7 @@ use super::resources::{OUTPUT, Resources, SAMPLER, UNIFORMS};
 use crate::ir::TextureKind;
 use crate::pipeline::Compiled;
 use serde_json::json;
-use straightline_manifest::Stage;
+use straightline_manifest::{REGION, Stage};
 
 /// Name and version, for headers and manifests.
 pub const GENERATOR: &str = concat!("straightline ", env!("CARGO_PKG_VERSION"));
@@ -89,6 +89,7 @@ pub fn render(compiled: &Compiled, resources: &Resources, dialect: &dyn Dialect)
         "frame": frame,
         "uniforms": members,
         "uniform_binding": resources.uniform_binding(),
+        "region_binding": resources.region_binding(),
         "output_binding": resources.output_binding(),
         "sampler_binding": resources.sampler_binding(),
         "format_wgsl": resources.options.format.wgsl(),
@@ -97,7 +98,7 @@ pub fn render(compiled: &Compiled, resources: &Resources, dialect: &dyn Dialect)
         "needs_frame": resources.needs_frame,
         "workgroup": resources.options.workgroup(),
         "entry": entry,
-        "names": { "output": OUTPUT, "uniforms": UNIFORMS, "sampler": SAMPLER },
+        "names": { "output": OUTPUT, "uniforms": UNIFORMS, "sampler": SAMPLER, "region": REGION },
         "tables": tables,
         "body": lines.join("\n"),
         "result": result,

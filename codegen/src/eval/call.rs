@@ -349,7 +349,7 @@ impl Evaluator<'_> {
 
 /// The way out of a wrong name: the name that it was meant to be, or those that there are.
 pub fn suggest(name: &str, known: &[&str], has: &str) -> String {
-    match known.iter().find(|k| is_close(name, k)) {
+    match known.iter().find(|k| **k != name && is_close(name, k)) {
         Some(close) => format!("did you mean `{close}`?"),
         None if known.is_empty() => "check its name".to_owned(),
         None => {

@@ -35,6 +35,23 @@ impl Evaluator<'_> {
         }
     }
 
+    /// `assert!`: a condition that is known now and must hold.
+    pub fn assert(&mut self, condition: &Expr, message: &str) -> Eval {
+        let value = self.expr(condition)?;
+        let id = self.node(&value, condition.span)?;
+        match self.known_bool(id) {
+            Some(true) => Ok(Value::unit()),
+            Some(false) => Err(Diagnostic::at(condition.span, message).label("does not hold").into()),
+            None => Err(
+                Diagnostic::at(condition.span, "an assertion about what is only known at run time")
+                    .label("not known now")
+                    .note("a shader has no way to fail")
+                    .help("assert what follows from options and counters, and let run-time values choose with `if`")
+                    .into(),
+            ),
+        }
+    }
+
     /// A condition that is known at run time: both sides are evaluated, and what differs is selected, or a branch
     /// is kept.
     fn branch(&mut self, condition: NodeId, then: &Block, otherwise: Option<&Expr>, keep: bool, span: Span) -> Eval {

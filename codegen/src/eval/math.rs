@@ -108,25 +108,12 @@ impl Evaluator<'_> {
             }
             "to_bits" if ty == Type::F32 => Some(self.builder.add(Op::Bitcast, vec![x], Type::U32)),
             // A shader may assume that there are no NaNs: the test is one of bits.
-            "is_nan" if ty == Type::F32 => {
-                let bits = self.builder.add(Op::Bitcast, vec![x], Type::U32);
-                let mask = self.builder.constant(Type::U32, [0x7fff_ffff, 0, 0, 0]);
+            // A NaN is larger than infinity, by its bits without the sign.
+            "is_nan" | "is_finite" if ty.is_float() => {
+                let largest = self.largest_magnitude(x);
                 let infinity = self.builder.constant(Type::U32, [0x7f80_0000, 0, 0, 0]);
-                let size = self.builder.add(Op::Binary(BinaryOp::And), vec![bits, mask], Type::U32);
-                Some(
-                    self.builder
-                        .add(Op::Binary(BinaryOp::Gt), vec![size, infinity], Type::BOOL),
-                )
-            }
-            "is_finite" if ty == Type::F32 => {
-                let bits = self.builder.add(Op::Bitcast, vec![x], Type::U32);
-                let mask = self.builder.constant(Type::U32, [0x7fff_ffff, 0, 0, 0]);
-                let infinity = self.builder.constant(Type::U32, [0x7f80_0000, 0, 0, 0]);
-                let size = self.builder.add(Op::Binary(BinaryOp::And), vec![bits, mask], Type::U32);
-                Some(
-                    self.builder
-                        .add(Op::Binary(BinaryOp::Lt), vec![size, infinity], Type::BOOL),
-                )
+                let op = if name == "is_nan" { BinaryOp::Gt } else { BinaryOp::Lt };
+                Some(self.builder.add(Op::Binary(op), vec![largest, infinity], Type::BOOL))
             }
             "to_radians" | "to_degrees" if ty == Type::F32 => {
                 let factor = if name == "to_radians" {
@@ -277,6 +264,21 @@ impl Evaluator<'_> {
 
     fn dot(&mut self, a: NodeId, b: NodeId) -> NodeId {
         self.builder.add(Op::Dot, vec![a, b], Type::F32)
+    }
+
+    /// Bits of the largest lane, its sign left out.
+    fn largest_magnitude(&mut self, x: NodeId) -> NodeId {
+        let bits_type = Type::value(Scalar::U32, self.ty(x).lanes());
+        let bits = self.builder.add(Op::Bitcast, vec![x], bits_type);
+        let without_sign = self.builder.constant(Type::U32, [0x7fff_ffff, 0, 0, 0]);
+        let mask = self.splat(without_sign, bits_type.lanes());
+        let sizes = self.builder.add(Op::Binary(BinaryOp::And), vec![bits, mask], bits_type);
+        let lanes = self.lanes(sizes);
+        let (first, rest) = (lanes[0], &lanes[1..]);
+        rest.iter().fold(first, |largest, lane| {
+            self.builder
+                .add(Op::Binary(BinaryOp::Max), vec![largest, *lane], Type::U32)
+        })
     }
 
     fn length(&mut self, x: NodeId) -> NodeId {

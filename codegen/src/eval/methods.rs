@@ -56,8 +56,13 @@ impl Evaluator<'_> {
                     )
                     .into()),
                 },
+                ("contains", [x]) if range.step == 1 => {
+                    let from = self.binary(BinaryOp::Ge, x, &range.start, span)?;
+                    let to = self.binary(BinaryOp::Lt, x, &range.end, span)?;
+                    self.binary(BinaryOp::And, &from, &to, span)
+                }
                 _ => Err(Diagnostic::at(span, format!("a range has no method `{name}`"))
-                    .help("ranges have `rev` and `step_by`")
+                    .help("ranges have `rev`, `step_by` and `contains`")
                     .into()),
             },
             Value::Array(elements) => self.array_method(elements, name, args.is_empty(), span),
@@ -74,6 +79,11 @@ impl Evaluator<'_> {
                 ("signum", []) => Ok(Value::Int(n.signum())),
                 ("rem_euclid", [Value::Int(m)]) if *m > 0 => Ok(Value::Int(n.rem_euclid(*m))),
                 ("div_euclid", [Value::Int(m)]) if *m > 0 => Ok(Value::Int(n.div_euclid(*m))),
+                ("div_ceil", [Value::Int(m)]) if *n >= 0 && *m > 0 => Ok(Value::Int(n / m + i64::from(n % m > 0))),
+                ("is_multiple_of", [Value::Int(m)]) => {
+                    let multiple = if *m == 0 { *n == 0 } else { n % m == 0 };
+                    Ok(Value::Node(self.builder.bool(multiple)))
+                }
                 ("min", [other]) => self.binary(BinaryOp::Min, &value, other, span),
                 ("max", [other]) => self.binary(BinaryOp::Max, &value, other, span),
                 _ => self.math(&value, name, &args, span),

@@ -41,8 +41,8 @@ pub enum OptionKind {
     },
     /// As many numbers, separated by commas.
     List {
-        /// How many.
-        len: usize,
+        /// How many; any number of them if there is none.
+        len: Option<usize>,
         /// Whether they are whole numbers.
         integer: bool,
         /// Smallest value, if it is bounded.
@@ -199,7 +199,10 @@ impl Evaluator<'_> {
             name: field.name.replace('_', "-"),
             docs: field.docs.clone(),
             kind: OptionKind::List {
-                len: numbers.len(),
+                len: match &field.ty {
+                    SourceType::Array(_, None) => None,
+                    _ => Some(numbers.len()),
+                },
                 integer: element != "f32",
                 min,
                 max,
@@ -295,13 +298,18 @@ impl Evaluator<'_> {
                     },
                     ..info.clone()
                 };
-                let parts: Vec<&str> = text.split(',').map(str::trim).collect();
-                if parts.len() != *len {
-                    return Err(refuse(format!("give {len} numbers, separated by commas")));
+                let mut parts: Vec<&str> = text.split(',').map(str::trim).collect();
+                let many = len.map_or("any number of".to_owned(), |len| len.to_string());
+                match len {
+                    None if text.trim().is_empty() => parts.clear(),
+                    Some(len) if parts.len() != *len => {
+                        return Err(refuse(format!("give {many} numbers, separated by commas")));
+                    }
+                    _ => {}
                 }
                 if parts.contains(&UNIFORM) {
                     return Err(refuse(format!(
-                        "give {len} numbers; a list is known when the shader is made"
+                        "give {many} numbers; a list is known when the shader is made"
                     )));
                 }
                 let values: Eval<Vec<Value>> = parts.iter().map(|part| self.parse(field, &one, part)).collect();

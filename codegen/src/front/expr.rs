@@ -4,6 +4,7 @@ use super::place;
 use super::tree::{Arm, Block, Const, Expr, ExprKind, ForLoop, IntType, Statement};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::ir::{BinaryOp, UnaryOp};
+use syn::punctuated::Punctuated;
 use syn::spanned::Spanned;
 
 /// How deep expressions may be nested.
@@ -164,6 +165,7 @@ impl Lower {
             syn::Expr::Return(e) => ExprKind::Return(e.expr.as_ref().map(|e| self.boxed(e))),
             syn::Expr::Break(e) if e.expr.is_none() => ExprKind::Break(label(e.label.as_ref())),
             syn::Expr::Continue(e) => ExprKind::Continue(label(e.label.as_ref())),
+            syn::Expr::Macro(e) => self.macro_call(&e.mac),
             other => self.refused(other),
         }
     }
@@ -177,7 +179,6 @@ impl Lower {
                 "put the block into a function and `return` from it",
             ),
             syn::Expr::Let(_) => ("`let` in a condition", "use `match`, or compare with `==`"),
-            syn::Expr::Macro(_) => ("a macro", "write out what it stands for"),
             syn::Expr::Try(_) => ("`?`", "a kernel has no errors: compute a value for every pixel"),
             syn::Expr::Unsafe(_) => ("`unsafe`", "use the prelude's textures and arrays"),
             syn::Expr::Async(_) | syn::Expr::Await(_) => ("`async`", "a kernel computes its value at once"),
@@ -188,6 +189,41 @@ impl Lower {
         };
         self.unsupported(expr.span(), what, instead);
         ExprKind::Tuple(Vec::new())
+    }
+
+    /// `assert!(condition, "message")`; there are no other macros.
+    fn macro_call(&mut self, call: &syn::Macro) -> ExprKind {
+        if !call.path.is_ident("assert") {
+            self.unsupported(
+                call.span(),
+                "a macro other than `assert!`",
+                "write out what it stands for",
+            );
+            return ExprKind::Tuple(Vec::new());
+        }
+        let parser = Punctuated::<syn::Expr, syn::Token![,]>::parse_terminated;
+        let parts = call
+            .parse_body_with(parser)
+            .map(|parts| parts.into_iter().collect::<Vec<_>>());
+        match parts.as_deref() {
+            Ok(
+                [
+                    condition,
+                    syn::Expr::Lit(syn::ExprLit {
+                        lit: syn::Lit::Str(message),
+                        ..
+                    }),
+                ],
+            ) => ExprKind::Assert(self.boxed(condition), message.value()),
+            _ => {
+                self.unsupported(
+                    call.span(),
+                    "this `assert!`",
+                    "give a condition and a message without values: `assert!(radius > 0, \"no radius\")`",
+                );
+                ExprKind::Tuple(Vec::new())
+            }
+        }
     }
 
     /// A literal.
@@ -388,7 +424,11 @@ impl Lower {
                         "move it to the top of the file",
                     );
                 }
-                syn::Stmt::Macro(m) => self.unsupported(m.span(), "a macro", "write out what it stands for"),
+                syn::Stmt::Macro(m) => {
+                    let kind = self.macro_call(&m.mac);
+                    let span = self.span(m.span());
+                    statements.push(Statement::Expr(Expr { kind, span }));
+                }
             }
         }
         Block { statements, value }

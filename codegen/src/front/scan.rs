@@ -111,7 +111,7 @@ pub fn root(place: &Expr) -> Option<String> {
 /// Direct parts of an expression, blocks left out.
 pub fn children(e: &Expr) -> Vec<&Expr> {
     match &e.kind {
-        ExprKind::Unary(_, a) | ExprKind::Field(a, _) | ExprKind::Cast(a, _) => vec![a],
+        ExprKind::Unary(_, a) | ExprKind::Field(a, _) | ExprKind::Cast(a, _) | ExprKind::Assert(a, _) => vec![a],
         ExprKind::Binary(_, a, b)
         | ExprKind::Lazy(_, a, b)
         | ExprKind::Index(a, b)

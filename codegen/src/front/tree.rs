@@ -71,6 +71,8 @@ pub enum ExprKind {
     Break(Option<String>),
     /// `continue`, of the loop with a label.
     Continue(Option<String>),
+    /// `assert!(condition, "message")`.
+    Assert(Box<Expr>, String),
 }
 
 /// A `for`.

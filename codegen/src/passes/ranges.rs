@@ -103,6 +103,14 @@ fn bounds_at(g: &Graph, id: NodeId, depth: u32) -> Option<(i64, i64)> {
             let ((a, b), (c, d)) = (of(1)?, of(2)?);
             Some((a.min(c), b.max(d)))
         }
+        // Of a wrong index, the last element.
+        Op::ArrayGet if g.node(node.args[0]).op == Op::MakeArray => {
+            let elements = g.node(node.args[0]).args.iter().map(|id| bounds_at(g, *id, depth - 1));
+            let all: Vec<(i64, i64)> = elements.collect::<Option<_>>()?;
+            let low = all.iter().map(|(low, _)| *low).min()?;
+            let high = all.iter().map(|(_, high)| *high).max()?;
+            Some((low, high))
+        }
         Op::Convert if node.ty.is_scalar() => fits(of(0)?),
         _ => None,
     }

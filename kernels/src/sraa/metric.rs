@@ -1,42 +1,61 @@
-//! What tells two surfaces apart (paper §3.2).
+//! What tells two surfaces apart (paper §3.2, Table 1).
 
-use super::Sraa;
+use super::gbuffer::Surface;
+use super::options::Sraa;
+use super::view::View;
 use crate::prelude::*;
 
-/// What tells two surfaces apart.
+/// What tells two surfaces apart, from the dearest to the cheapest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Metric {
+    /// The larger of the distance from the sample's plane and the difference in normal.
+    PlanesNormals,
     /// The larger of the differences in depth and in normal.
     DepthNormals,
+    /// The difference in normal alone: no depth is read.
+    Normals,
     /// The difference in depth alone: no normals are read.
     Depth,
 }
 
-/// Geometry at every sample: layer `s` is sample `s` of the pattern, and with shading at the pixel centre the
-/// last layer is the geometry there.
-pub struct GBuffer {
-    /// Linear depth along the view direction, in scene units.
-    pub depth: FrameLayers<f32>,
-    /// Unit normals.
-    pub normal: FrameLayers<Vec3>,
+/// What a difference in depth counts as.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Difference {
+    /// Itself, in scene units.
+    Absolute,
+    /// Its share of the sample's depth: a receding floor is as smooth far away as it is near.
+    Relative,
 }
 
-/// The surface seen at one geometry sample.
+/// A geometry sample that taps are compared with.
 #[derive(Clone, Copy, Debug)]
-pub struct Surface {
-    /// Linear depth.
-    pub depth: f32,
-    /// Unit normal.
-    pub normal: Vec3,
+pub(super) struct Sample {
+    surface: Surface,
+    plane: Plane,
+    /// From the centre of the pixel that is filtered, in pixels, y down.
+    at: Vec2,
 }
 
-impl GBuffer {
-    /// The surface seen at `sample` of `pixel`.
-    pub fn surface(&self, pixel: IVec2, sample: usize) -> Surface {
-        Surface {
-            depth: self.depth.load(pixel, sample).min(DEEPEST),
-            normal: self.normal.load(pixel, sample),
-        }
+/// The plane of a surface, as rays see it: how much of the way along a ray to depth 1 is along the normal.
+#[derive(Clone, Copy, Debug)]
+struct Plane {
+    /// Along the ray through the pixel's centre.
+    along: f32,
+    /// More for each pixel to the right.
+    right: f32,
+    /// More for each pixel down.
+    down: f32,
+}
+
+impl Sample {
+    /// The sample at which `surface` is seen, `at` from the centre of `pixel`.
+    pub(super) fn new(view: &View, surface: Surface, pixel: IVec2, at: Vec2) -> Sample {
+        let plane = Plane {
+            along: view.ray(pixel).dot(surface.normal),
+            right: view.ray_right.dot(surface.normal),
+            down: view.ray_down.dot(surface.normal),
+        };
+        Sample { surface, plane, at }
     }
 }
 
@@ -45,21 +64,44 @@ impl GBuffer {
 /// the exponential needs.
 pub(super) const FAR: f32 = 16.0;
 
-/// More than any depth, and finite: the sky's infinite depth less itself is not a number.
-const DEEPEST: f32 = 1.0e30;
+/// The least depth that another is divided by.
+const NEAREST: f32 = 1.0e-30;
 
-/// How different two surfaces are: 0 for the same, 1 or more for unrelated ones.
-pub(super) fn distance(cfg: &Sraa, a: &Surface, b: &Surface) -> f32 {
-    let depths = cfg.depth_scale * (a.depth - b.depth).abs();
+/// How different the surface at a tap is from that at a geometry sample: 0 for the same, 1 or more for unrelated ones.
+pub(super) fn distance(cfg: &Sraa, sample: &Sample, tap: &Surface, at: Vec2) -> f32 {
     let larger = match cfg.metric {
-        Metric::DepthNormals => depths.max(normal_distance(a.normal, b.normal)),
-        Metric::Depth => depths,
+        Metric::PlanesNormals => off_plane(cfg, sample, tap, at).max(turned(sample, tap)),
+        Metric::DepthNormals => deeper(cfg, sample, tap).max(turned(sample, tap)),
+        Metric::Normals => turned(sample, tap),
+        Metric::Depth => deeper(cfg, sample, tap),
     };
     tally("weight_evaluations", larger.min(FAR))
 }
 
+/// σp |(pₜ - pₛ)·nₛ|. The points are their depths along their rays, so (pₜ - pₛ)·nₛ is
+/// (zₜ - zₛ) rₜ·nₛ + zₛ (rₜ - rₛ)·nₛ, where rₜ - rₛ is exact: the points' own coordinates would cancel.
+fn off_plane(cfg: &Sraa, sample: &Sample, tap: &Surface, at: Vec2) -> f32 {
+    let (plane, away) = (&sample.plane, at - sample.at);
+    let along = plane.along + at.x * plane.right + at.y * plane.down;
+    let aside = away.x * plane.right + away.y * plane.down;
+    let deeper = tap.depth - sample.surface.depth;
+    let off = match cfg.difference {
+        Difference::Absolute => deeper * along + sample.surface.depth * aside,
+        Difference::Relative => deeper / sample.surface.depth.max(NEAREST) * along + aside,
+    };
+    cfg.depth_scale * off.abs()
+}
+
+fn deeper(cfg: &Sraa, sample: &Sample, tap: &Surface) -> f32 {
+    let apart = (sample.surface.depth - tap.depth).abs();
+    match cfg.difference {
+        Difference::Absolute => cfg.depth_scale * apart,
+        Difference::Relative => cfg.depth_scale / sample.surface.depth.max(NEAREST) * apart,
+    }
+}
+
 /// 1 - a·b of two unit vectors, as ½|a - b|²: the same number without the cancellation.
-fn normal_distance(a: Vec3, b: Vec3) -> f32 {
-    let apart = a - b;
+fn turned(sample: &Sample, tap: &Surface) -> f32 {
+    let apart = sample.surface.normal - tap.normal;
     0.5 * apart.dot(apart)
 }

@@ -1,135 +1,242 @@
 //! Subpixel Reconstruction Antialiasing (Chajdas, McGuire and Luebke 2011).
 //!
-//! Shading is known once a pixel, geometry at several samples in it. Each geometry sample borrows its colour
-//! from the shading samples of the 3×3 pixels around it, most from those on the same surface; the pixel is the
-//! mean of its geometry samples. The paper's listing, with its slips mended.
+//! Shading is known once a pixel or a little more often, geometry at several samples in it. Each geometry sample borrows
+//! its colour from the shading samples around it, most from those on the same surface; the pixel is the mean of its
+//! geometry samples. The paper's listing, with its slips mended and its suggestions built.
 
+mod gbuffer;
 mod metric;
+mod options;
 mod pattern;
+mod view;
 
 use crate::prelude::*;
-use metric::{FAR, distance};
+use gbuffer::surface;
+use metric::{FAR, Sample, distance};
+use pattern::{Place, tent};
 
-pub use metric::{GBuffer, Metric, Surface};
+pub use gbuffer::{Depth, GBuffer, Layout, Normals, Surface};
+pub use metric::{Difference, Metric};
+pub use options::{Falloff, Mask, NonFinite, Normalisation, Resolve, Sraa};
 pub use pattern::{Pattern, Shading};
+pub use view::View;
 
-options! {
-    /// What an SRAA filter is made of.
-    pub struct Sraa {
-        /// Where in a pixel geometry is sampled.
-        pub pattern: Pattern = Pattern::Latin4,
-        /// Where in a pixel shading is sampled.
-        pub shading: Shading = Shading::Centre,
-        /// What tells two surfaces apart.
-        pub metric: Metric = Metric::DepthNormals,
-        /// How a tap's weight falls with its distance on the screen.
-        pub falloff: Falloff = Falloff::Tent,
-        /// How the weights of a sample are made to sum to one.
-        pub normalisation: Normalisation = Normalisation::Shifted,
-        /// How sharply a weight falls as surfaces differ: exp(-tau * difference).
-        pub tau: f32 [0.0..=1.0e6] = 500.0,
-        /// Difference per unit of depth: large enough that a step between two surfaces counts as 1 or more.
-        pub depth_scale: f32 [0.0..=1.0e6] = 1.0,
-    }
+/// Colours of the shading samples, linear, alpha premultiplied if it is not 1.
+pub struct Colors {
+    /// One a pixel.
+    pub color: Frame<Vec4>,
+    /// A layer for each, where there are several a pixel.
+    pub colors: FrameLayers<Vec4>,
 }
 
-/// How a tap's weight falls with its distance on the screen (paper §3.3).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Falloff {
-    /// Not at all within one pixel on each axis, as the listing has it.
-    None,
-    /// Linearly to zero at one pixel on each axis: sharper, and with fewer taps.
-    Tent,
+/// What a pixel is filtered from.
+struct Inputs<'a> {
+    gbuffer: &'a GBuffer,
+    view: &'a View,
+    colors: &'a Colors,
+    pixel: IVec2,
 }
-
-/// How the weights of a sample are made to sum to one.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Normalisation {
-    /// w / Σw as the listing has it: 0/0 where no tap lies on the sample's surface.
-    Paper,
-    /// The same with the smallest difference subtracted first, which cancels in w / Σw: the nearest surface
-    /// always has weight 1, so Σw is never 0.
-    Shifted,
-}
-
-/// Shading samples that a geometry sample can borrow from: those of the 3×3 pixels around it.
-const TAPS: usize = 9;
 
 /// Antialiased colour of `pixel`: each geometry sample takes its colour from the shading samples around it,
 /// weighted by how close their surfaces are.
-pub fn sraa(cfg: &Sraa, gbuffer: &GBuffer, color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
-    let samples = cfg.pattern.samples();
-    let share = 1.0 / samples as f32;
+pub fn sraa(cfg: &Sraa, gbuffer: &GBuffer, view: &View, colors: &Colors, pixel: IVec2) -> Vec4 {
+    cfg.check();
+    let inputs = Inputs {
+        gbuffer,
+        view,
+        colors,
+        pixel,
+    };
+    match (cfg.resolve, cfg.shading_samples()) {
+        (Resolve::Box, 1) => masked::<9, 3>(cfg, &inputs),
+        (Resolve::Box, 2) => masked::<18, 3>(cfg, &inputs),
+        (Resolve::Box, _) => masked::<36, 3>(cfg, &inputs),
+        (Resolve::Tent, 1) => masked::<25, 5>(cfg, &inputs),
+        (Resolve::Tent, 2) => masked::<50, 5>(cfg, &inputs),
+        (Resolve::Tent, _) => masked::<100, 5>(cfg, &inputs),
+    }
+}
+
+/// Filters the pixel, or keeps its own colour where there is no geometric variation.
+fn masked<const TAPS: usize, const SIDE: usize>(cfg: &Sraa, inputs: &Inputs) -> Vec4 {
+    match cfg.mask {
+        Mask::None => filtered::<TAPS, SIDE>(cfg, inputs),
+        Mask::Select => {
+            let own = own_color(cfg, inputs);
+            if is_even::<TAPS, SIDE>(cfg, inputs) && is_kept(cfg, own) {
+                own
+            } else {
+                filtered::<TAPS, SIDE>(cfg, inputs)
+            }
+        }
+        Mask::Branch => {
+            let own = own_color(cfg, inputs);
+            #[cfg_attr(false, branch)]
+            if is_even::<TAPS, SIDE>(cfg, inputs) && is_kept(cfg, own) {
+                own
+            } else {
+                filtered::<TAPS, SIDE>(cfg, inputs)
+            }
+        }
+    }
+}
+
+/// The pixel's colour from the `TAPS` shading samples of the `SIDE` × `SIDE` pixels around it.
+fn filtered<const TAPS: usize, const SIDE: usize>(cfg: &Sraa, inputs: &Inputs) -> Vec4 {
     let steepness = cfg.tau * std::f32::consts::LOG2_E;
+    let total = total_share(cfg);
     let mut weights = [0.0; TAPS];
-    for sample in 0..samples {
-        let centre = gbuffer.surface(pixel, sample);
-        let mut distances = [0.0; TAPS];
-        let mut nearest = FAR;
-        for tap in 0..TAPS {
-            if falloff(cfg, sample, tap) > 0.0 {
-                let d = if is_itself(cfg, sample, tap) {
-                    0.0
-                } else {
-                    let shaded = gbuffer.surface(pixel + offset(tap), cfg.shaded_layer());
-                    distance(cfg, &centre, &shaded)
-                };
-                distances[tap] = d;
-                nearest = nearest.min(d);
+    for sample in 0..cfg.reconstructed() {
+        if cfg.share(sample) > 0.0 {
+            let share = cfg.share(sample) / total;
+            let place = cfg.place(sample);
+            let centre = geometry_sample(cfg, inputs, place);
+            let mut distances = [0.0; TAPS];
+            let mut nearest = FAR;
+            for tap in 0..TAPS {
+                if falloff(cfg, place, cfg.tap(tap, SIDE)) > 0.0 {
+                    let d = difference(cfg, inputs, place, &centre, cfg.tap(tap, SIDE));
+                    distances[tap] = d;
+                    nearest = nearest.min(d);
+                }
             }
-        }
-        let origin = match cfg.normalisation {
-            Normalisation::Paper => 0.0,
-            Normalisation::Shifted => nearest,
-        };
-        let mut tap_weights = [0.0; TAPS];
-        let mut sum = 0.0;
-        for tap in 0..TAPS {
-            if falloff(cfg, sample, tap) > 0.0 {
-                let w = falloff(cfg, sample, tap) * (-steepness * (distances[tap] - origin)).exp2();
-                tap_weights[tap] = w;
-                sum += w;
+            let origin = match cfg.normalisation {
+                Normalisation::Paper | Normalisation::Epsilon => 0.0,
+                Normalisation::Shifted => nearest,
+            };
+            let mut tap_weights = [0.0; TAPS];
+            let mut sum = 0.0;
+            for tap in 0..TAPS {
+                if falloff(cfg, place, cfg.tap(tap, SIDE)) > 0.0 {
+                    let nearness = (-steepness * (distances[tap] - origin)).exp2();
+                    let w = falloff(cfg, place, cfg.tap(tap, SIDE)) * nearness;
+                    tap_weights[tap] = w;
+                    sum += w;
+                }
             }
-        }
-        let scale = share / sum;
-        for tap in 0..TAPS {
-            if falloff(cfg, sample, tap) > 0.0 {
-                weights[tap] += tap_weights[tap] * scale;
+            let scale = match cfg.normalisation {
+                Normalisation::Paper | Normalisation::Shifted => share / sum,
+                Normalisation::Epsilon => share / sum.max(EPSILON),
+            };
+            for tap in 0..TAPS {
+                if falloff(cfg, place, cfg.tap(tap, SIDE)) > 0.0 {
+                    weights[tap] += tap_weights[tap] * scale;
+                }
             }
         }
     }
     let mut result = Vec4::ZERO;
+    let mut sum = 0.0;
     for tap in 0..TAPS {
-        // A tap that no sample wants must not be read: 0 times an infinite colour is not 0.
-        if weights[tap] != 0.0 {
-            let shaded = color.load(pixel + offset(tap));
-            result += weights[tap] * shaded;
+        let shaded = color(cfg, inputs, tap, SIDE);
+        let w = if is_kept(cfg, shaded) { weights[tap] } else { 0.0 };
+        // A tap that no sample wants must not be counted: 0 times an infinite colour is not 0.
+        if w != 0.0 {
+            result += w * shaded;
+        }
+        sum += w;
+    }
+    match cfg.non_finite {
+        NonFinite::Spread => result,
+        NonFinite::Skip => result / sum.max(EPSILON),
+    }
+}
+
+/// Less than any sum of weights that counts.
+const EPSILON: f32 = 1.0e-30;
+
+/// Sum of the shares of all reconstructed samples.
+fn total_share(cfg: &Sraa) -> f32 {
+    let mut total = 0.0;
+    for sample in 0..cfg.reconstructed() {
+        total += cfg.share(sample);
+    }
+    total
+}
+
+/// Whether no surface that the filter looks at differs from that of its sample.
+fn is_even<const TAPS: usize, const SIDE: usize>(cfg: &Sraa, inputs: &Inputs) -> bool {
+    let mut largest = 0.0f32;
+    for sample in 0..cfg.reconstructed() {
+        if cfg.share(sample) > 0.0 {
+            let place = cfg.place(sample);
+            let centre = geometry_sample(cfg, inputs, place);
+            for tap in 0..TAPS {
+                if falloff(cfg, place, cfg.tap(tap, SIDE)) > 0.0 {
+                    largest = largest.max(difference(cfg, inputs, place, &centre, cfg.tap(tap, SIDE)));
+                }
+            }
         }
     }
-    result
+    largest <= cfg.mask_threshold
 }
 
-/// Pixel of `tap` relative to the centre pixel, row by row from (-1, -1) to (1, 1).
-fn offset(tap: usize) -> IVec2 {
-    ivec2(tap as i32 % 3 - 1, tap as i32 / 3 - 1)
+/// What is seen at a geometry sample.
+fn geometry_sample(cfg: &Sraa, inputs: &Inputs, place: Place) -> Sample {
+    let seen = surface(cfg, inputs.gbuffer, inputs.view, inputs.pixel, place);
+    Sample::new(inputs.view, seen, inputs.pixel, place.at)
 }
 
-/// Weight of `tap` for `sample` by screen distance alone; 0 outside the filter's support of one pixel.
-fn falloff(cfg: &Sraa, sample: usize, tap: usize) -> f32 {
-    let away = (offset(tap).as_vec2() + cfg.shaded_offset() - cfg.pattern.offset(sample)).abs();
+/// How different the surface at a tap is from that at a geometry sample; of the sample itself, 0.
+fn difference(cfg: &Sraa, inputs: &Inputs, place: Place, centre: &Sample, tap: Place) -> f32 {
+    if place.sample == tap.sample && place.pixel == tap.pixel {
+        0.0
+    } else {
+        let shaded = surface(cfg, inputs.gbuffer, inputs.view, inputs.pixel, tap);
+        distance(cfg, centre, &shaded, tap.at)
+    }
+}
+
+/// Weight of a tap for a geometry sample by distance on the screen alone; 0 beyond one pixel.
+fn falloff(cfg: &Sraa, sample: Place, tap: Place) -> f32 {
+    let away = tap.at - sample.at;
+    let near = away.x.abs() <= 1.0 && away.y.abs() <= 1.0;
     match cfg.falloff {
         Falloff::None => {
-            if away.x <= 1.0 && away.y <= 1.0 {
+            if near {
                 1.0
             } else {
                 0.0
             }
         }
-        Falloff::Tent => (1.0 - away.x).max(0.0) * (1.0 - away.y).max(0.0),
+        Falloff::Tent => tent(away),
+        Falloff::Gaussian => {
+            if near {
+                (-away.dot(away) / (2.0 * cfg.sigma * cfg.sigma)).exp()
+            } else {
+                0.0
+            }
+        }
     }
 }
 
-/// Whether `tap` is the very sample that it would be compared with.
-fn is_itself(cfg: &Sraa, sample: usize, tap: usize) -> bool {
-    tap == TAPS / 2 && sample == cfg.shaded_layer()
+/// Colour of a tap.
+fn color(cfg: &Sraa, inputs: &Inputs, tap: usize, side: usize) -> Vec4 {
+    let pixel = inputs.pixel + cfg.tap(tap, side).pixel;
+    match cfg.shading_samples() {
+        1 => inputs.colors.color.load(pixel),
+        several => inputs.colors.colors.load(pixel, tap % several),
+    }
+}
+
+/// The pixel's own colour: the mean of its shading samples.
+fn own_color(cfg: &Sraa, inputs: &Inputs) -> Vec4 {
+    match cfg.shading_samples() {
+        1 => inputs.colors.color.load(inputs.pixel),
+        several => {
+            let mut sum = Vec4::ZERO;
+            for k in 0..several {
+                sum += inputs.colors.colors.load(inputs.pixel, k);
+            }
+            sum / several as f32
+        }
+    }
+}
+
+/// Whether a colour may count.
+fn is_kept(cfg: &Sraa, color: Vec4) -> bool {
+    match cfg.non_finite {
+        NonFinite::Spread => true,
+        NonFinite::Skip => color.is_finite(),
+    }
 }

@@ -1,6 +1,8 @@
 //! Where in a pixel geometry and shading are sampled. Offsets are in pixels from the pixel's centre, y down.
 
-use super::Sraa;
+use super::gbuffer::{Layout, Normals};
+use super::metric::Metric;
+use super::options::{Resolve, Sraa};
 use crate::prelude::*;
 
 /// Where in a pixel geometry is sampled.
@@ -10,10 +12,14 @@ pub enum Pattern {
     Ordered4,
     /// The rotated grid that graphics hardware uses for 4× multisampling (D3D's standard pattern).
     Latin4,
+    /// What graphics hardware uses for 8× multisampling (D3D's standard pattern).
+    Standard8,
     /// A regular 4×4 grid.
     Ordered16,
     /// Sixteen distinct rows and columns of a 16×16 grid (D3D's standard pattern).
     Latin16,
+    /// Where the option `offsets` says.
+    Listed,
 }
 
 /// Where in a pixel shading is sampled.
@@ -21,48 +27,196 @@ pub enum Pattern {
 pub enum Shading {
     /// At the first geometry sample: no geometry beyond the pattern's own is needed.
     Sample0,
-    /// At the pixel's centre, whose geometry is one more layer, the last.
+    /// At the pixel's centre, whose geometry is sampled there too.
     Centre,
+    /// At the geometry samples that the option `shaded` lists.
+    Listed,
 }
 
-impl Pattern {
-    /// Number of geometry samples in a pixel.
-    pub fn samples(self) -> usize {
-        match self {
-            Pattern::Ordered4 => 4,
-            Pattern::Latin4 => 4,
-            Pattern::Ordered16 => 16,
-            Pattern::Latin16 => 16,
-        }
-    }
-
-    /// Offset of a geometry sample from the pixel's centre, each axis in -0.5..0.5 pixel.
-    pub fn offset(self, sample: usize) -> Vec2 {
-        match self {
-            Pattern::Ordered4 => ordered(sample, 2),
-            Pattern::Latin4 => LATIN4[sample].as_vec2() / 16.0,
-            Pattern::Ordered16 => ordered(sample, 4),
-            Pattern::Latin16 => LATIN16[sample].as_vec2() / 16.0,
-        }
-    }
+/// A sample, from the pixel that is filtered.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Place {
+    /// The sample's pixel.
+    pub(super) pixel: IVec2,
+    /// Its number there: of the pattern, or one more for the pixel's centre.
+    pub(super) sample: usize,
+    /// Whether it is the pixel's centre.
+    pub(super) centre: bool,
+    /// From the centre of the pixel that is filtered, in pixels, y down.
+    pub(super) at: Vec2,
 }
 
 impl Sraa {
-    /// Offset of the shading sample from the pixel's centre.
-    pub fn shaded_offset(&self) -> Vec2 {
-        match self.shading {
-            Shading::Sample0 => self.pattern.offset(0),
-            Shading::Centre => vec2(0.0, 0.0),
+    /// Number of geometry samples in a pixel, the pixel's centre not counted.
+    pub fn samples(&self) -> usize {
+        match self.pattern {
+            Pattern::Ordered4 => 4,
+            Pattern::Latin4 => 4,
+            Pattern::Standard8 => 8,
+            Pattern::Ordered16 => 16,
+            Pattern::Latin16 => 16,
+            Pattern::Listed => self.offsets.len() / 2,
         }
     }
 
-    /// Layer of the G-buffer that holds the geometry of the shading sample.
-    pub fn shaded_layer(&self) -> usize {
-        match self.shading {
-            Shading::Sample0 => 0,
-            Shading::Centre => self.pattern.samples(),
+    /// Offset of a geometry sample from the pixel's centre, each axis in -0.5..=0.5 pixel.
+    pub fn offset(&self, sample: usize) -> Vec2 {
+        match self.pattern {
+            Pattern::Ordered4 => ordered(sample, 2),
+            Pattern::Latin4 => LATIN4[sample].as_vec2() / 16.0,
+            Pattern::Standard8 => STANDARD8[sample].as_vec2() / 16.0,
+            Pattern::Ordered16 => ordered(sample, 4),
+            Pattern::Latin16 => LATIN16[sample].as_vec2() / 16.0,
+            Pattern::Listed => vec2(self.offsets[2 * sample], self.offsets[2 * sample + 1]),
         }
     }
+
+    /// Number of shading samples in a pixel.
+    pub fn shading_samples(&self) -> usize {
+        match self.shading {
+            Shading::Sample0 | Shading::Centre => 1,
+            Shading::Listed => self.shaded.len(),
+        }
+    }
+
+    /// The geometry sample at which shading sample `k` lies.
+    pub fn shaded_sample(&self, k: usize) -> usize {
+        match self.shading {
+            Shading::Sample0 => 0,
+            Shading::Centre => self.samples(),
+            Shading::Listed => self.shaded[k] as usize,
+        }
+    }
+
+    /// Refuses what no filter can be made of.
+    pub(super) fn check(&self) {
+        let samples = self.samples();
+        if self.pattern == Pattern::Listed {
+            assert!(
+                self.offsets.len().is_multiple_of(2),
+                "`offsets` needs an x and a y for each sample: an even count of numbers"
+            );
+            assert!(
+                (1..=64).contains(&samples),
+                "pattern=listed needs 1 to 64 samples in `offsets`"
+            );
+            for later in 0..samples {
+                for earlier in 0..later {
+                    let (a, b) = (self.offset(earlier), self.offset(later));
+                    assert!(
+                        a.x != b.x || a.y != b.y,
+                        "two samples of `offsets` lie at the same place: leave one out"
+                    );
+                    if self.latin {
+                        let apart = (cell(a, samples) - cell(b, samples)).abs();
+                        assert!(
+                            apart.x != 0 && apart.y != 0,
+                            "`offsets` is no Latin square: two samples share a row or a column of the grid with as many of \
+                             them as there are samples; move one, or set latin=false"
+                        );
+                    }
+                }
+            }
+        }
+        if self.shading == Shading::Listed {
+            let shaded = self.shading_samples();
+            assert!(
+                shaded == 1 || shaded == 2 || shaded == 4,
+                "shading=listed needs one, two or four samples in `shaded`"
+            );
+            for k in 0..shaded {
+                assert!(
+                    self.shaded_sample(k) < samples,
+                    "`shaded` names a sample that the pattern does not have: they are counted from 0"
+                );
+                for earlier in 0..k {
+                    assert!(
+                        self.shaded_sample(earlier) != self.shaded_sample(k),
+                        "`shaded` names a sample twice"
+                    );
+                }
+            }
+        }
+        if self.layout == Layout::Multisampled {
+            assert!(
+                self.pattern != Pattern::Ordered4 && self.pattern != Pattern::Ordered16,
+                "layout=multisampled needs a pattern that hardware samples: latin4, standard8 or latin16, or listed for one \
+                 of your device's own"
+            );
+            assert!(samples >= 2, "layout=multisampled needs two samples at least");
+        }
+        assert!(
+            self.normals != Normals::Packed
+                || self.metric == Metric::PlanesNormals
+                || self.metric == Metric::DepthNormals,
+            "normals=packed holds normals and depth in one texel, and this metric compares one of them only: use \
+             metric=planes-normals or metric=depth-normals, or another encoding"
+        );
+    }
+
+    /// Number of geometry samples that are reconstructed for a pixel.
+    pub(super) fn reconstructed(&self) -> usize {
+        match self.resolve {
+            Resolve::Box => self.samples(),
+            Resolve::Tent => 9 * self.samples(),
+        }
+    }
+
+    /// Reconstructed sample `k`: one of the pixel's own, or of its neighbours'.
+    pub(super) fn place(&self, k: usize) -> Place {
+        match self.resolve {
+            Resolve::Box => self.geometry_sample(IVec2::ZERO, k),
+            Resolve::Tent => self.geometry_sample(neighbour(k / self.samples(), 3), k % self.samples()),
+        }
+    }
+
+    /// Share of reconstructed sample `k` in the pixel, before all are made to sum to one.
+    pub(super) fn share(&self, k: usize) -> f32 {
+        match self.resolve {
+            Resolve::Box => 1.0,
+            Resolve::Tent => tent(self.place(k).at),
+        }
+    }
+
+    /// Tap `tap` of a square of `side` × `side` pixels: the shading samples of each, pixel by pixel.
+    pub(super) fn tap(&self, tap: usize, side: usize) -> Place {
+        match self.shading {
+            Shading::Sample0 => self.geometry_sample(neighbour(tap, side), 0),
+            Shading::Centre => {
+                let pixel = neighbour(tap, side);
+                Place {
+                    pixel,
+                    sample: self.samples(),
+                    centre: true,
+                    at: pixel.as_vec2(),
+                }
+            }
+            Shading::Listed => {
+                let several = self.shading_samples();
+                self.geometry_sample(neighbour(tap / several, side), self.shaded_sample(tap % several))
+            }
+        }
+    }
+
+    fn geometry_sample(&self, pixel: IVec2, sample: usize) -> Place {
+        Place {
+            pixel,
+            sample,
+            centre: false,
+            at: pixel.as_vec2() + self.offset(sample),
+        }
+    }
+}
+
+/// Linear from 1 at zero to 0 at one, on each axis.
+pub(super) fn tent(away: Vec2) -> f32 {
+    (1.0 - away.x.abs()).max(0.0) * (1.0 - away.y.abs()).max(0.0)
+}
+
+/// Pixel `k` of `side` × `side` ones around the middle one, row by row, relative to it.
+fn neighbour(k: usize, side: usize) -> IVec2 {
+    let (k, side) = (k as i32, side as i32);
+    ivec2(k % side - side / 2, k / side - side / 2)
 }
 
 /// Centre of cell `sample` of a `side` × `side` grid over the pixel, row by row.
@@ -71,8 +225,26 @@ fn ordered(sample: usize, side: usize) -> Vec2 {
     (cell.as_vec2() + 0.5) / side as f32 - 0.5
 }
 
+/// Column and row of a place, of `side` each over the pixel.
+fn cell(offset: Vec2, side: usize) -> IVec2 {
+    let place = (offset + 0.5) * side as f32;
+    place.floor().as_ivec2().min(IVec2::splat(side as i32 - 1))
+}
+
 /// In sixteenths of a pixel.
 const LATIN4: [IVec2; 4] = [ivec2(-2, -6), ivec2(6, -2), ivec2(-6, 2), ivec2(2, 6)];
+
+/// In sixteenths of a pixel.
+const STANDARD8: [IVec2; 8] = [
+    ivec2(1, -3),
+    ivec2(-1, 3),
+    ivec2(5, 1),
+    ivec2(-3, -5),
+    ivec2(-5, 5),
+    ivec2(-7, -1),
+    ivec2(3, 7),
+    ivec2(7, -7),
+];
 
 /// In sixteenths of a pixel.
 const LATIN16: [IVec2; 16] = [

@@ -2,7 +2,7 @@
 
 mod problem;
 
-use crate::ResourceKind;
+use crate::{Region, ResourceKind};
 use std::fmt;
 use wgpu::TextureFormat;
 
@@ -200,6 +200,17 @@ pub enum Error {
         kernel: String,
         /// What wgpu said.
         description: String,
+    },
+
+    /// The shader cannot filter this rectangle.
+    #[error("`{kernel}` cannot filter the region {region}: {problem}")]
+    Region {
+        /// The kernel's name.
+        kernel: String,
+        /// The rectangle.
+        region: Region,
+        /// Why not, and the way out.
+        problem: String,
     },
 
     /// A uniform was named that the kernel does not have.

@@ -6,6 +6,7 @@ mod texture;
 use crate::Resource;
 use crate::error::{BufferProblem, Error, Names};
 use crate::plan::{BufferPlan, InputKind, InputPlan, Plan};
+use straightline_manifest::Extent;
 use texture::check_texture;
 use wgpu::{Buffer, BufferUsages, Device, Features, TextureView};
 
@@ -73,18 +74,29 @@ pub(crate) fn arrange<'r>(plan: &Plan, inputs: &[(&str, Resource<'r>)]) -> Resul
         .collect()
 }
 
-/// Checks each input against the manifest, the device and the target. `resources` is as [`arrange`] made it.
+/// Size of the first texture that is to have the frame's: the target's, unless a region is filtered.
+pub(crate) fn frame_size(plan: &Plan, resources: &[Resource<'_>]) -> Option<[u32; 2]> {
+    let mut pairs = plan.inputs.iter().zip(resources);
+    pairs.find_map(|(input, resource)| match (&input.kind, resource) {
+        (InputKind::Texture(texture), Resource::Texture(view)) if texture.extent == Extent::Output => {
+            Some(size(view.texture()))
+        }
+        _ => None,
+    })
+}
+
+/// Checks each input against the manifest, the device and the frame's size. `resources` is as [`arrange`] made it.
 pub(crate) fn check_inputs(
     plan: &Plan,
     abilities: &Abilities,
     resources: &[Resource<'_>],
-    target: &TextureView,
+    frame: [u32; 2],
 ) -> Result<(), Error> {
     for (input, resource) in plan.inputs.iter().zip(resources) {
         let names = || (plan.kernel.clone(), input.name.clone());
         match (&input.kind, resource) {
             (InputKind::Texture(texture), Resource::Texture(view)) => {
-                check_texture(texture, abilities, view.texture(), target.texture()).map_err(|problem| {
+                check_texture(texture, abilities, view.texture(), frame).map_err(|problem| {
                     let (kernel, name) = names();
                     Error::Input { kernel, name, problem }
                 })?;

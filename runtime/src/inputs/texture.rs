@@ -6,12 +6,13 @@ use crate::plan::TexturePlan;
 use straightline_manifest::{Dimension, Extent, SampleType};
 use wgpu::{Features, Texture, TextureAspect, TextureDimension, TextureFormat, TextureSampleType, TextureUsages};
 
-/// Checks an input of `texture` against the manifest, the device and the target.
+/// Checks an input of `texture` against the manifest, the device and the frame, which is as large as the target, or as the
+/// other inputs where a region is filtered.
 pub(super) fn check_texture(
     plan: &TexturePlan,
     abilities: &Abilities,
     texture: &Texture,
-    target: &Texture,
+    frame: [u32; 2],
 ) -> Result<(), ViewProblem> {
     check_shape(plan.dimension, plan.samples, texture)?;
     if texture.depth_or_array_layers() < plan.layers {
@@ -33,9 +34,9 @@ pub(super) fn check_texture(
         return Err(ViewProblem::Components { format, needed, found });
     }
     check_usage(texture, TextureUsages::TEXTURE_BINDING, "TEXTURE_BINDING")?;
-    let (input, target) = (size(texture), size(target));
+    let input = size(texture);
     match plan.extent {
-        Extent::Output if input != target => Err(ViewProblem::Size { input, target }),
+        Extent::Output if input != frame => Err(ViewProblem::Size { input, target: frame }),
         Extent::Output | Extent::Any => Ok(()),
     }
 }

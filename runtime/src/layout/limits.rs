@@ -40,12 +40,12 @@ pub(super) fn check_limits(device: &wgpu::Device, plan: &Plan, last_group: u32) 
         ),
         (
             "max_uniform_buffers_per_shader_stage",
-            plan.uniforms.len() as u64,
+            plan.uniform_structs().count() as u64,
             u64::from(limits.max_uniform_buffers_per_shader_stage),
         ),
         (
             "max_uniform_buffer_binding_size",
-            plan.uniforms.iter().map(|u| u64::from(u.size)).max().unwrap_or(0),
+            plan.uniform_structs().map(|u| u64::from(u.size)).max().unwrap_or(0),
             limits.max_uniform_buffer_binding_size,
         ),
     ];

@@ -69,19 +69,25 @@ impl Layout {
         })
     }
 
-    /// Bind groups of `resources`, which are in the order of `plan.inputs`, and of `target` if it is a storage texture.
+    /// Bind groups of `resources`, which are in the order of `plan.inputs`, and of `target` if it is a storage texture, and of
+    /// the region's buffer if the shader has one.
     pub(crate) fn bind(
         &self,
         device: &wgpu::Device,
         plan: &Plan,
         uniforms: &[UniformBlock],
         resources: &[Resource<'_>],
-        target: &wgpu::TextureView,
+        (target, region): (&wgpu::TextureView, Option<&wgpu::Buffer>),
     ) -> Result<Vec<BoundGroup>, Error> {
         let made = scoped(device, || {
             self.groups
                 .iter()
-                .map(|group| (group.index, group.bind(device, plan, uniforms, resources, target)))
+                .map(|group| {
+                    (
+                        group.index,
+                        group.bind(device, plan, uniforms, resources, (target, region)),
+                    )
+                })
                 .collect()
         });
         made.map_err(|error| match error {
@@ -100,7 +106,7 @@ impl Group {
         plan: &Plan,
         uniforms: &[UniformBlock],
         resources: &[Resource<'_>],
-        target: &wgpu::TextureView,
+        (target, region): (&wgpu::TextureView, Option<&wgpu::Buffer>),
     ) -> wgpu::BindGroup {
         let mut entries = Vec::with_capacity(plan.inputs.len() + uniforms.len() + 1);
         let mut add = |group: u32, binding: u32, resource| {
@@ -113,6 +119,9 @@ impl Group {
         }
         for block in uniforms {
             add(block.group, block.binding, block.buffer.as_entire_binding());
+        }
+        if let (Some(plan), Some(buffer)) = (&plan.region, region) {
+            add(plan.group, plan.binding, buffer.as_entire_binding());
         }
         if let OutputPlan::Storage { group, binding, .. } = plan.output {
             add(group, binding, wgpu::BindingResource::TextureView(target));
@@ -141,7 +150,7 @@ fn entries(plan: &Plan) -> Vec<(u32, BindGroupLayoutEntry)> {
     for input in &plan.inputs {
         entries.push((input.group, entry(input.binding, binding_type(&input.kind))));
     }
-    for uniform in &plan.uniforms {
+    for uniform in plan.uniform_structs() {
         let ty = BindingType::Buffer {
             ty: wgpu::BufferBindingType::Uniform,
             has_dynamic_offset: false,

@@ -5,7 +5,8 @@ mod binding;
 use crate::uniforms::{UniformType, UniformValue};
 use crate::{Error, ResourceKind};
 use straightline_manifest::{
-    Access, Binding, BindingKind, Dimension, Extent, Format, Manifest, SampleType, SamplerType, Stage,
+    Access, Binding, BindingKind, Dimension, Extent, Format, Manifest, REGION, REGION_SIZE, SampleType, SamplerType,
+    Stage, region_fields,
 };
 
 /// What to bind where. Every number in it has been checked, except against the device.
@@ -17,6 +18,8 @@ pub(crate) struct Plan {
     pub(crate) inputs: Vec<InputPlan>,
     /// In binding order.
     pub(crate) uniforms: Vec<UniformPlan>,
+    /// Of a shader that filters a rectangle.
+    pub(crate) region: Option<UniformPlan>,
     pub(crate) output: OutputPlan,
 }
 
@@ -116,6 +119,7 @@ impl Plan {
             entry_point: manifest.entry_point.clone(),
             inputs: Vec::new(),
             uniforms: Vec::new(),
+            region: None,
             output: output(manifest).map_err(|problem| bad("output".to_owned(), problem))?,
         };
         for binding in &manifest.bindings {
@@ -167,17 +171,27 @@ impl Plan {
                 require(*size > 0 && size % 16 == 0, || {
                     format!("{size} bytes, not a multiple of 16")
                 })?;
+                if name == REGION {
+                    let fits = *fields == region_fields() && *size == REGION_SIZE;
+                    require(fits, || "its fields are not those of a region".to_owned())?;
+                }
                 let fields = fields
                     .iter()
                     .map(|f| binding::field(f, *size))
                     .collect::<Result<Vec<_>, _>>()?;
-                self.uniforms.push(UniformPlan {
+                let uniform = UniformPlan {
                     name,
                     group,
                     binding,
                     size: *size,
                     fields,
-                });
+                };
+                if uniform.name == REGION {
+                    require(self.region.is_none(), || "it is listed twice".to_owned())?;
+                    self.region = Some(uniform);
+                } else {
+                    self.uniforms.push(uniform);
+                }
                 return Ok(());
             }
         };
@@ -190,10 +204,15 @@ impl Plan {
         Ok(())
     }
 
+    /// The structs of values set at run time, that of the region among them.
+    pub(crate) fn uniform_structs(&self) -> impl Iterator<Item = &UniformPlan> {
+        self.uniforms.iter().chain(&self.region)
+    }
+
     /// Each place and each name is used once.
     fn check_unique(&self) -> Result<(), String> {
         let mut places: Vec<(u32, u32)> = self.inputs.iter().map(|i| (i.group, i.binding)).collect();
-        places.extend(self.uniforms.iter().map(|u| (u.group, u.binding)));
+        places.extend(self.uniform_structs().map(|u| (u.group, u.binding)));
         if let OutputPlan::Storage { group, binding, .. } = &self.output {
             places.push((*group, *binding));
         }

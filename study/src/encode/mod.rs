@@ -9,6 +9,7 @@ mod depth;
 mod normal;
 
 use glam::{Vec3, Vec4, vec4};
+use half::f16;
 use straightline_kernels::prelude::{Frame, FrameLayers};
 
 pub use depth::{DepthEncoding, DepthStorage};
@@ -27,19 +28,33 @@ pub fn normal(normals: &FrameLayers<Vec3>, encoding: NormalEncoding) -> FrameLay
     })
 }
 
-/// Normals and depth in one texel, half the reads: red and green are the normal in [`NormalEncoding::Octahedral16`],
-/// blue is depth as `encoding` stores it in a whole float, alpha is 1. In bits, 32 for the normal and 32 for depth.
+/// Normals and depth in one texel, half the reads, in four 16-bit floats: red and green are the normal unfolded to a square
+/// from -1 to 1, blue and alpha have the sum that `encoding` stores for the depth. The two halves of a depth hold 22 bits,
+/// up to 65504.
 ///
 /// Panics unless both have as many layers.
 pub fn packed(normals: &FrameLayers<Vec3>, linear: &FrameLayers<f32>, encoding: DepthEncoding) -> FrameLayers<Vec4> {
     assert_eq!(normals.layers().len(), linear.layers().len(), "layers of both");
-    let normals = normal(normals, NormalEncoding::Octahedral16);
-    let depths = depth(linear, encoding, DepthStorage::Float32);
-    let layers = normals.layers().iter().zip(depths.layers()).map(|(normals, depths)| {
+    let layers = normals.layers().iter().zip(linear.layers()).map(|(normals, depths)| {
         let texels = normals.texels().iter().zip(depths.texels());
-        Frame::new(normals.size(), texels.map(|(n, d)| vec4(n.x, n.y, *d, 1.0)).collect())
+        Frame::new(normals.size(), texels.map(|(n, d)| pack(*n, *d, encoding)).collect())
     });
     FrameLayers::new(layers.collect())
+}
+
+fn pack(normal: Vec3, depth: f32, encoding: DepthEncoding) -> Vec4 {
+    let [x, y] = normal::unfolded(normal.as_dvec3().to_array());
+    let largest = f16::MAX.to_f64();
+    let stored = encoding.encode(f64::from(depth)).clamp(-largest, largest);
+    let coarse = f16::from_f64(stored);
+    let fine = f16::from_f64(stored - coarse.to_f64());
+    Vec4::from_array([f16::from_f64(x), f16::from_f64(y), coarse, fine].map(f16::to_f32))
+}
+
+/// The same in 16-bit floats, which every device can multisample.
+pub fn halved(texels: &FrameLayers<Vec4>) -> FrameLayers<Vec4> {
+    let half = |texel: Vec4| Vec4::from_array(texel.to_array().map(|c| f16::from_f32(c).to_f32()));
+    each(texels, half)
 }
 
 fn each<A: Copy, B: Copy>(stack: &FrameLayers<A>, texel: impl Fn(A) -> B) -> FrameLayers<B> {
@@ -53,6 +68,19 @@ mod tests {
     use glam::uvec2;
 
     #[test]
+    fn a_packed_depth_keeps_22_bits() {
+        for k in 1..2000 {
+            let depth = 0.013 * k as f32 * k as f32;
+            let texel = pack(Vec3::Z, depth, DepthEncoding::Linear);
+            let back = f64::from(texel.z) + f64::from(texel.w);
+            assert!(
+                (back / f64::from(depth) - 1.0).abs() < 2.0_f64.powi(-21),
+                "{depth}: {back}"
+            );
+        }
+    }
+
+    #[test]
     fn a_packed_texel_is_normal_and_depth() {
         let size = uvec2(2, 1);
         let normals = FrameLayers::new(vec![Frame::new(size, vec![Vec3::Z, Vec3::NEG_X])]);
@@ -61,12 +89,13 @@ mod tests {
         let stack = packed(&normals, &depths, encoding);
         let texels = stack.layers()[0].texels();
         for (texel, (normal, depth)) in texels.iter().zip([(Vec3::Z, 4.0), (Vec3::NEG_X, 8.0)]) {
-            let read = NormalEncoding::Octahedral16.decode([texel.x.into(), texel.y.into(), 0.0]);
+            let square = [texel.x, texel.y].map(|c| 0.5 + 0.5 * f64::from(c));
+            let read = NormalEncoding::Octahedral16.decode([square[0], square[1], 0.0]);
             assert!(
-                (Vec3::from(read.map(|c| c as f32)) - normal).length() < 1.0e-4,
+                (Vec3::from(read.map(|c| c as f32)) - normal).length() < 1.0e-3,
                 "{texel}"
             );
-            assert_eq!(encoding.decode(texel.z.into()), depth);
+            assert_eq!(encoding.decode(f64::from(texel.z) + f64::from(texel.w)), depth);
         }
     }
 }

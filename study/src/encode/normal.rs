@@ -44,12 +44,16 @@ impl NormalEncoding {
     }
 }
 
-/// Onto the octahedron |x| + |y| + |z| = 1, its lower half folded out to the corners of the square.
-fn octahedral([x, y, z]: [f64; 3], bits: u32) -> [f64; 3] {
+fn octahedral(normal: [f64; 3], bits: u32) -> [f64; 3] {
+    let [x, y] = unfolded(normal);
+    [unorm(0.5 * x + 0.5, bits), unorm(0.5 * y + 0.5, bits), 0.0]
+}
+
+/// Onto the octahedron |x| + |y| + |z| = 1, its lower half folded out to the corners of the square from -1 to 1.
+pub(super) fn unfolded([x, y, z]: [f64; 3]) -> [f64; 2] {
     let size = x.abs() + y.abs() + z.abs();
     let [x, y] = [x / size, y / size];
-    let [x, y] = if z < 0.0 { folded(x, y) } else { [x, y] };
-    [unorm(0.5 * x + 0.5, bits), unorm(0.5 * y + 0.5, bits), 0.0]
+    if z < 0.0 { folded(x, y) } else { [x, y] }
 }
 
 /// Mirrored at the diagonal of its quadrant; 0 counts as above 0. The same in both directions.

@@ -43,9 +43,20 @@ impl<'a> Converters<'a> {
         target.create_view(&wgpu::TextureViewDescriptor::default())
     }
 
-    /// Layers as the samples of an image; in half precision, which every device can multisample.
-    pub fn multisampled(&self, source: &wgpu::TextureView, size: UVec2, samples: u32) -> wgpu::TextureView {
-        let target = self.draw(source, size, samples, TextureFormat::Rgba16Float, "samples");
+    /// Layers as the samples of an image: single numbers in full precision, more in half, which every device can
+    /// multisample.
+    pub fn multisampled(
+        &self,
+        source: &wgpu::TextureView,
+        size: UVec2,
+        samples: u32,
+        components: u8,
+    ) -> wgpu::TextureView {
+        let format = match components {
+            1 => TextureFormat::R32Float,
+            _ => TextureFormat::Rgba16Float,
+        };
+        let target = self.draw(source, size, samples, format, "samples");
         target.create_view(&wgpu::TextureViewDescriptor::default())
     }
 
@@ -76,6 +87,11 @@ impl<'a> Converters<'a> {
             label: None,
             source: wgpu::ShaderSource::Wgsl(SHADER.into()),
         });
+        let targets = [Some(wgpu::ColorTargetState {
+            format,
+            blend: None,
+            write_mask: wgpu::ColorWrites::ALL,
+        })];
         let pipeline = self.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: None,
             layout: None,
@@ -101,15 +117,7 @@ impl<'a> Converters<'a> {
                 module: &module,
                 entry_point: Some(entry),
                 compilation_options: Default::default(),
-                targets: if is_depth {
-                    &[]
-                } else {
-                    &[Some(wgpu::ColorTargetState {
-                        format: TextureFormat::Rgba16Float,
-                        blend: None,
-                        write_mask: wgpu::ColorWrites::ALL,
-                    })]
-                },
+                targets: if is_depth { &[] } else { &targets },
             }),
             multiview_mask: None,
             cache: None,

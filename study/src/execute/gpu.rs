@@ -6,7 +6,7 @@ use glam::{UVec2, Vec4, uvec2};
 use straightline_codegen::emit::Target;
 use straightline_codegen::{Compiled, EmitOptions, Format, Stage};
 use straightline_kernels::prelude::Frame;
-use straightline_manifest::{BindingKind, Dimension, Manifest, SampleType};
+use straightline_manifest::{BindingKind, Dimension, Manifest, REGION, SampleType};
 use straightline_runtime::{Pass, Resource};
 use wgpu::{TextureFormat, TextureUsages};
 
@@ -58,13 +58,32 @@ impl Bench {
         }
     }
 
+    /// The device.
+    pub fn device(&self) -> &wgpu::Device {
+        &self.device
+    }
+
+    /// Its queue.
+    pub fn queue(&self) -> &wgpu::Queue {
+        &self.queue
+    }
+
     /// The kernel as a pass that writes full floats, and its manifest.
     ///
     /// # Errors
     ///
     /// If it cannot be emitted, or the device cannot run it.
     pub fn pass(&self, compiled: &Compiled, stage: Stage) -> Result<(Pass, Manifest), ExecuteError> {
-        let emitted = compiled.emit(&EmitOptions::new().stage(stage).format(Format::Rgba32Float))?;
+        self.emitted(compiled, &EmitOptions::new().stage(stage).format(Format::Rgba32Float))
+    }
+
+    /// The kernel as a pass emitted with `options`, and its manifest.
+    ///
+    /// # Errors
+    ///
+    /// If it cannot be emitted, or the device cannot run it.
+    pub fn emitted(&self, compiled: &Compiled, options: &EmitOptions) -> Result<(Pass, Manifest), ExecuteError> {
+        let emitted = compiled.emit(options)?;
         let wgsl = emitted
             .files
             .get(&Target::Wgsl)
@@ -108,6 +127,8 @@ impl Bench {
                         Inputs::find(&inputs.buffers, name).ok_or_else(|| missing("list of elements", name))?;
                     Owned::Buffer(self.buffer(elements, element))
                 }
+                // Stated with each region that is recorded.
+                BindingKind::Uniform { .. } if name == REGION => continue,
                 BindingKind::Uniform { fields, .. } => {
                     for field in fields {
                         if let Some(lanes) = Inputs::find(&inputs.uniforms, &field.name) {
@@ -189,6 +210,7 @@ impl Bench {
                 &view(wgpu::TextureViewDimension::D2Array),
                 size,
                 layers.len() as u32,
+                components,
             ),
         })
     }

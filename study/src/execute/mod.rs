@@ -4,6 +4,7 @@ mod convert;
 mod cpu;
 mod gpu;
 mod synthetic;
+mod tiles;
 mod timing;
 
 use glam::{UVec2, Vec4};
@@ -13,6 +14,7 @@ pub use cpu::{Interpreted, interpret};
 pub use gpu::{Bench, Bound};
 pub use straightline_codegen::ir::interp::{Address, Comparison, SamplerState};
 pub use synthetic::test_inputs;
+pub use tiles::{Tile, cropped, tiles};
 pub use timing::{Clock, Job, Times};
 
 /// What a kernel is run on, by the names that it calls them.

@@ -1,246 +1,288 @@
 //! What SRAA should give: the definition, evaluated in double precision without regard to speed.
 //!
-//! Nothing here is shared with the kernel but the containers that texels are read from. Where the kernel adds up
-//! nine weights over all samples and applies them once, this reconstructs the colour of each geometry sample as a
-//! weighted mean of shading samples, then takes the mean of the samples:
+//! Nothing here is shared with the kernel but the names of options and bindings. Where the kernel adds up weights over
+//! all samples and applies them once, this reconstructs the colour of each geometry sample as a weighted mean of shading
+//! samples, then takes the weighted mean of the samples:
 //!
-//! > C(p) = 1/n Σₛ ( Σₜ wₛₜ · colour(p + t) / Σₜ wₛₜ ),  wₛₜ = falloff(t + shade − centreₛ) · exp(−τ · mₛₜ)
+//! > C(p) = Σₛ rₛ C(s) / Σₛ rₛ,  C(s) = Σₜ wₛₜ · colour(t) / Σₜ wₛₜ,  wₛₜ = falloff(t − s) · exp(−τ · mₛₜ)
 //!
-//! over the 3×3 pixels t around p whose shading samples are at most one pixel from the geometry sample on each
-//! axis. mₛₜ is the difference of the two surfaces: the larger of `depth_scale·|Δdepth|` and 1 − a·b of their
-//! normals. Beyond the border the nearest pixel's surface and colour are repeated.
+//! over the shading samples t at most one pixel from the geometry sample s on each axis, and the geometry samples with a
+//! share rₛ in the pixel. mₛₜ is the difference of the two surfaces (paper §3.2). Beyond the border the nearest pixel's
+//! surfaces and colours are repeated.
 
 pub mod edge;
+mod gbuffer;
 mod params;
 mod pattern;
 
+use crate::execute::Inputs;
+use gbuffer::{GBuffer, Point};
 use rayon::prelude::*;
-use straightline_kernels::prelude::{Frame, FrameLayers, Vec3, Vec4};
 
-pub use params::{Falloff, Metric, Normalisation, OracleError, Pattern, Shading, SraaParams};
+pub use params::{
+    Depth, Difference, Falloff, Layout, Mask, Metric, NonFinite, Normalisation, Normals, OracleError, Pattern, Resolve,
+    Shading, SraaParams,
+};
 
-/// A G-buffer and the shading to be antialiased, all of one size. Layer `s` is geometry sample `s` of the
-/// pattern; with shading at the pixel's centre the geometry there is one more layer, the last.
-#[derive(Clone, Copy, Debug)]
-pub struct SraaInputs<'a> {
-    /// One shading sample a pixel, linear.
-    pub color: &'a Frame<Vec4>,
-    /// Linear depth. An infinite depth is as far as any other infinite depth.
-    pub depth: &'a FrameLayers<f32>,
-    /// Unit normals. Not needed by [`Metric::Depth`].
-    pub normal: Option<&'a FrameLayers<Vec3>>,
+/// What the definition gives for a pixel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Resolved {
+    /// The colour.
+    pub color: [f64; 4],
+    /// Whether 32 bits decide as 64 do. They need not where [`Normalisation::Paper`] has weights that 32 bits cannot hold,
+    /// and where the mask's threshold is all but met.
+    pub sure: bool,
 }
 
 /// The smallest normal `f32`, 2⁻¹²⁶: what is below is 0 on hardware that flushes subnormal numbers.
 const SMALLEST_NORMAL: f64 = f32::MIN_POSITIVE as f64;
 
-/// Antialiased colour of every pixel, row by row from the top.
-///
-/// With [`Normalisation::Paper`] a pixel is NaN only where the weights vanish in double precision too, so fewer are
-/// than in the listing's `f32`: [`all_weights_underflow`] tells where that has none.
-///
-/// Panics unless all images have one size and there are at least as many layers as `params` needs, and if the
-/// metric needs normals and there are none.
-pub fn sraa(inputs: &SraaInputs, params: &SraaParams) -> Vec<[f64; 4]> {
-    let definition = Definition::new(inputs, params);
-    definition.each_pixel(|pixel| definition.color(pixel))
-}
+/// Differences from here on are alike, by definition of the filter: surfaces are unrelated from 1 on.
+const FAR: f64 = 16.0;
 
-/// For every pixel whether the paper's listing, in `f32` with subnormal numbers flushed to zero, gives 0/0 there:
-/// whether at least one of its samples has every weight below the smallest normal `f32`. What `params` says of
-/// normalisation does not matter. Panics as [`sraa`].
-pub fn all_weights_underflow(inputs: &SraaInputs, params: &SraaParams) -> Vec<bool> {
-    let definition = Definition::new(inputs, params);
-    definition.each_pixel(|pixel| {
-        (0..definition.samples.len()).any(|sample| {
-            definition
-                .taps(pixel, sample)
-                .iter()
-                .all(|tap| tap.listed_weight(params) < SMALLEST_NORMAL)
-        })
-    })
+/// Antialiased colour of every pixel, row by row from the top, of what a shader with these options would read.
+///
+/// # Errors
+///
+/// [`OracleError::Input`] if an image or a number that the filter needs is missing or does not fit.
+pub fn sraa(inputs: &Inputs, params: &SraaParams) -> Result<Vec<Resolved>, OracleError> {
+    let definition = Definition::new(inputs, params)?;
+    let (width, height) = (inputs.size.x as i32, inputs.size.y as i32);
+    let pixels = (0..height).into_par_iter();
+    Ok(pixels
+        .flat_map_iter(|y| (0..width).map(move |x| [x, y]))
+        .map(|pixel| definition.pixel(pixel))
+        .collect())
 }
 
 /// A shading sample within reach of a geometry sample.
 struct Tap {
     /// Weight by distance on the screen, above 0.
     falloff: f64,
-    /// Difference of the two surfaces, 0 or more, possibly infinite.
+    /// Difference of the two surfaces, 0 or more.
     difference: f64,
     color: [f64; 4],
 }
 
-impl Tap {
-    /// The weight that the paper's listing computes.
-    fn listed_weight(&self, params: &SraaParams) -> f64 {
-        self.falloff * decay(params.tau, self.difference)
-    }
-}
-
 struct Definition<'a> {
-    inputs: SraaInputs<'a>,
-    params: SraaParams,
-    /// In sixteenths of a pixel from the pixel's centre.
-    samples: &'static [[i32; 2]],
-    shaded: [i32; 2],
-    shaded_layer: usize,
-    width: i32,
-    height: i32,
+    params: &'a SraaParams,
+    gbuffer: GBuffer<'a>,
+    samples: Vec<[f64; 2]>,
+    shaded: Vec<usize>,
 }
 
 impl<'a> Definition<'a> {
-    fn new(inputs: &SraaInputs<'a>, params: &SraaParams) -> Self {
-        let samples = pattern::samples(params.pattern);
-        let (shaded_layer, needed) = match params.shading {
-            Shading::Sample0 => (0, samples.len()),
-            Shading::Centre => (samples.len(), samples.len() + 1),
+    fn new(inputs: &'a Inputs, params: &'a SraaParams) -> Result<Self, OracleError> {
+        Ok(Definition {
+            params,
+            gbuffer: GBuffer::new(inputs, params)?,
+            samples: params.samples(),
+            shaded: params.shaded_samples(),
+        })
+    }
+
+    fn pixel(&self, pixel: [i32; 2]) -> Resolved {
+        let (mut color, mut shares, mut sure, mut largest) = ([0.0; 4], 0.0, true, 0.0f64);
+        for (at, share) in self.reconstructed() {
+            let taps = self.taps(pixel, at);
+            largest = taps.iter().map(|tap| tap.difference).fold(largest, f64::max);
+            let (reconstructed, is_sure) = self.reconstruct(&taps);
+            add(&mut color, reconstructed, share);
+            shares += share;
+            sure &= is_sure;
+        }
+        // In one mean over all taps, a bad one's share goes to the taps of all samples: leave it out of the whole.
+        let color = match self.params.non_finite {
+            NonFinite::Spread => color.map(|axis| axis / shares),
+            NonFinite::Skip => self.without_bad(pixel),
         };
-        let size = inputs.color.size();
-        let fits = |layers: usize, frame_size| layers >= needed && frame_size == size;
-        let depth = inputs.depth.layers();
-        assert!(
-            fits(depth.len(), depth[0].size()),
-            "depth: {needed} layers of the colour's size"
-        );
-        if params.metric == Metric::DepthNormals {
-            let normal = inputs.normal.expect("the metric needs normals").layers();
-            assert!(
-                fits(normal.len(), normal[0].size()),
-                "normal: {needed} layers of the colour's size"
-            );
+        if self.params.mask != Mask::None {
+            let own = self.own_color(pixel);
+            let threshold = self.params.mask_threshold;
+            let is_kept = self.params.non_finite == NonFinite::Spread || is_finite(&own);
+            sure &= (largest - threshold).abs() > 1.0e-3 * threshold.max(1.0e-3) || !is_kept || largest == threshold;
+            if largest <= threshold && is_kept {
+                return Resolved { color: own, sure };
+            }
         }
-        Definition {
-            inputs: *inputs,
-            params: *params,
-            samples,
-            shaded: pattern::shaded(params.pattern, params.shading),
-            shaded_layer,
-            width: size.x as i32,
-            height: size.y as i32,
+        Resolved { color, sure }
+    }
+
+    /// The mean over all finite colours, each by its weight in the whole pixel.
+    fn without_bad(&self, pixel: [i32; 2]) -> [f64; 4] {
+        let (mut color, mut sum) = ([0.0; 4], 0.0);
+        for (at, share) in self.reconstructed() {
+            let taps = self.taps(pixel, at);
+            let weights = self.weights(&taps);
+            let total = self.total(&weights);
+            for (tap, weight) in taps.iter().zip(weights) {
+                if is_finite(&tap.color) && weight > 0.0 {
+                    add(&mut color, tap.color, share * weight / total);
+                    sum += share * weight / total;
+                }
+            }
+        }
+        if sum > 0.0 {
+            color.map(|axis| axis / sum)
+        } else {
+            [0.0; 4]
         }
     }
 
-    fn each_pixel<T: Send>(&self, value: impl Fn([i32; 2]) -> T + Sync) -> Vec<T> {
-        let value = &value;
-        (0..self.height)
-            .into_par_iter()
-            .flat_map_iter(|y| (0..self.width).map(move |x| value([x, y])))
-            .collect()
+    /// Geometry samples that have a share in the pixel: relative pixel and number, and the share.
+    fn reconstructed(&self) -> Vec<(([i32; 2], usize), f64)> {
+        let own = (0..self.samples.len()).map(|sample| (([0, 0], sample), 1.0));
+        match self.params.resolve {
+            Resolve::Box => own.collect(),
+            Resolve::Tent => {
+                let pixels = (-1..=1).flat_map(|y| (-1..=1).map(move |x| [x, y]));
+                let all = pixels.flat_map(|pixel| (0..self.samples.len()).map(move |sample| (pixel, sample)));
+                all.map(|at| (at, [0, 1].map(|axis| tent(self.place(at)[axis])).iter().product()))
+                    .filter(|(_, share)| *share > 0.0)
+                    .collect()
+            }
+        }
     }
 
-    /// The mean of the pixel's samples.
-    fn color(&self, pixel: [i32; 2]) -> [f64; 4] {
-        let mut sum = [0.0; 4];
-        for sample in 0..self.samples.len() {
-            add(&mut sum, self.reconstruct(pixel, sample));
+    /// From the centre of the pixel that is filtered, in pixels.
+    fn place(&self, (pixel, sample): ([i32; 2], usize)) -> [f64; 2] {
+        let offset = self.samples.get(sample).copied().unwrap_or([0.0; 2]);
+        [0, 1].map(|axis| f64::from(pixel[axis]) + offset[axis])
+    }
+
+    /// Weight of each tap by screen and surface.
+    fn weights(&self, taps: &[Tap]) -> Vec<f64> {
+        let nearest = taps.iter().map(|tap| tap.difference).fold(f64::INFINITY, f64::min);
+        let origin = match self.params.normalisation {
+            Normalisation::Shifted => nearest,
+            Normalisation::Paper | Normalisation::Epsilon => 0.0,
+        };
+        let weight = |tap: &Tap| tap.falloff * (-self.params.tau * (tap.difference - origin)).exp();
+        taps.iter().map(weight).collect()
+    }
+
+    fn total(&self, weights: &[f64]) -> f64 {
+        let sum: f64 = weights.iter().sum();
+        match self.params.normalisation {
+            Normalisation::Epsilon => sum.max(1.0e-30),
+            Normalisation::Paper | Normalisation::Shifted => sum,
         }
-        sum.map(|axis| axis / self.samples.len() as f64)
     }
 
     /// Colour at one geometry sample: the weighted mean of the shading samples around it.
-    fn reconstruct(&self, pixel: [i32; 2], sample: usize) -> [f64; 4] {
-        let taps = self.taps(pixel, sample);
-        let nearest = taps.iter().map(|tap| tap.difference).fold(f64::INFINITY, f64::min);
-        let weight = |tap: &Tap| match self.params.normalisation {
-            Normalisation::Paper => tap.listed_weight(&self.params),
-            // Two infinite differences are equal, and their difference is 0.
-            Normalisation::Shifted if tap.difference == nearest => tap.falloff,
-            Normalisation::Shifted => tap.falloff * decay(self.params.tau, tap.difference - nearest),
-        };
+    fn reconstruct(&self, taps: &[Tap]) -> ([f64; 4], bool) {
+        let weights = self.weights(taps);
+        let total = self.total(&weights);
         let mut color = [0.0; 4];
-        let mut sum = 0.0;
-        for tap in &taps {
-            let weight = weight(tap);
+        for (tap, weight) in taps.iter().zip(&weights) {
             // A bad colour spoils nothing that gives it no weight.
-            if weight > 0.0 {
-                sum += weight;
-                add(&mut color, tap.color.map(|axis| weight * axis));
+            if *weight > 0.0 {
+                add(&mut color, tap.color, weight / total);
             }
         }
-        color.map(|axis| axis / sum)
+        let lost = self.params.normalisation == Normalisation::Paper && weights.iter().all(|w| *w < SMALLEST_NORMAL);
+        (color, !lost)
     }
 
     /// The shading samples within reach of a geometry sample.
-    fn taps(&self, pixel: [i32; 2], sample: usize) -> Vec<Tap> {
-        let centre = self.samples[sample];
-        let at = self.index(pixel);
-        let mut taps = Vec::with_capacity(9);
-        for dy in -1..=1 {
-            for dx in -1..=1 {
-                let falloff = self.falloff(dx * 16 + self.shaded[0] - centre[0])
-                    * self.falloff(dy * 16 + self.shaded[1] - centre[1]);
-                if falloff > 0.0 {
-                    let tap = self.index([pixel[0] + dx, pixel[1] + dy]);
-                    taps.push(Tap {
-                        falloff,
-                        difference: self.difference((at, sample), (tap, self.shaded_layer)),
-                        color: self.inputs.color.texels()[tap].to_array().map(f64::from),
-                    });
+    fn taps(&self, pixel: [i32; 2], at: ([i32; 2], usize)) -> Vec<Tap> {
+        let mut taps = Vec::new();
+        let centre = self.point(pixel, at);
+        for y in at.0[1] - 2..=at.0[1] + 2 {
+            for x in at.0[0] - 2..=at.0[0] + 2 {
+                for (k, sample) in self.shaded.iter().enumerate() {
+                    let tap = ([x, y], *sample);
+                    let away = [0, 1].map(|axis| self.place(tap)[axis] - self.place(at)[axis]);
+                    let falloff = self.falloff(away);
+                    if falloff > 0.0 {
+                        let difference = match tap == at {
+                            true => 0.0,
+                            false => self.difference(&centre, &self.point(pixel, tap)),
+                        };
+                        let color = self.gbuffer.color([pixel[0] + x, pixel[1] + y], k);
+                        taps.push(Tap {
+                            falloff,
+                            difference,
+                            color,
+                        });
+                    }
                 }
             }
         }
         taps
     }
 
-    /// Weight on one axis of a tap that is `sixteenths` of a pixel away.
-    fn falloff(&self, sixteenths: i32) -> f64 {
-        let away = f64::from(sixteenths.abs()) / 16.0;
+    fn point(&self, pixel: [i32; 2], at: ([i32; 2], usize)) -> Point {
+        let place = self.place(at);
+        let ray_at = [0, 1].map(|axis| f64::from(pixel[axis]) + 0.5 + place[axis]);
+        self.gbuffer
+            .point([pixel[0] + at.0[0], pixel[1] + at.0[1]], at.1, ray_at)
+    }
+
+    fn own_color(&self, pixel: [i32; 2]) -> [f64; 4] {
+        let mut sum = [0.0; 4];
+        for k in 0..self.shaded.len() {
+            add(&mut sum, self.gbuffer.color(pixel, k), 1.0 / self.shaded.len() as f64);
+        }
+        sum
+    }
+
+    /// Weight of a tap that is `away` pixels from a sample.
+    fn falloff(&self, away: [f64; 2]) -> f64 {
+        if away.iter().any(|axis| axis.abs() > 1.0) {
+            return 0.0;
+        }
         match self.params.falloff {
-            Falloff::None if away <= 1.0 => 1.0,
-            Falloff::Tent if away < 1.0 => 1.0 - away,
-            _ => 0.0,
-        }
-    }
-
-    /// How different the surfaces at two samples are, each given by texel and layer.
-    fn difference(&self, a: (usize, usize), b: (usize, usize)) -> f64 {
-        let depth = |(texel, layer): (usize, usize)| f64::from(self.inputs.depth.layers()[layer].texels()[texel]);
-        let depths = apart(depth(a), depth(b), self.params.depth_scale);
-        match (self.params.metric, self.inputs.normal) {
-            (Metric::DepthNormals, Some(normals)) => {
-                let normal =
-                    |(texel, layer): (usize, usize)| normals.layers()[layer].texels()[texel].to_array().map(f64::from);
-                depths.max(half_squared_distance(normal(a), normal(b))).min(FAR)
+            Falloff::None => 1.0,
+            Falloff::Tent => tent(away[0]) * tent(away[1]),
+            Falloff::Gaussian => {
+                let square: f64 = away.iter().map(|axis| axis * axis).sum();
+                (-square / (2.0 * self.params.sigma.powi(2))).exp()
             }
-            _ => depths.min(FAR),
         }
     }
 
-    /// Index of the texel at `pixel`, or of the nearest one inside.
-    fn index(&self, pixel: [i32; 2]) -> usize {
-        let (x, y) = (pixel[0].clamp(0, self.width - 1), pixel[1].clamp(0, self.height - 1));
-        y as usize * self.width as usize + x as usize
+    /// How different the surface at a tap is from that at a geometry sample.
+    fn difference(&self, sample: &Point, tap: &Point) -> f64 {
+        let per_depth = match self.params.difference {
+            Difference::Absolute => 1.0,
+            Difference::Relative => 1.0 / sample.depth,
+        };
+        let scale = self.params.depth_scale * per_depth;
+        // Two skies are equally deep.
+        let depths = || scale * (sample.depth - tap.depth).abs();
+        let plane = || {
+            let apart: f64 = (0..3)
+                .map(|axis| (tap.depth * tap.ray[axis] - sample.depth * sample.ray[axis]) * sample.normal[axis])
+                .sum();
+            scale * apart.abs()
+        };
+        let turned = || {
+            (0..3)
+                .map(|axis| (sample.normal[axis] - tap.normal[axis]).powi(2))
+                .sum::<f64>()
+                / 2.0
+        };
+        let difference = match self.params.metric {
+            Metric::PlanesNormals => plane().max(turned()),
+            Metric::DepthNormals => depths().max(turned()),
+            Metric::Normals => turned(),
+            Metric::Depth => depths(),
+        };
+        difference.min(FAR)
     }
 }
 
-fn add(sum: &mut [f64; 4], color: [f64; 4]) {
+fn tent(away: f64) -> f64 {
+    (1.0 - away.abs()).max(0.0)
+}
+
+fn is_finite(color: &[f64; 4]) -> bool {
+    color.iter().all(|axis| axis.is_finite())
+}
+
+fn add(sum: &mut [f64; 4], color: [f64; 4], weight: f64) {
     for (sum, axis) in sum.iter_mut().zip(color) {
-        *sum += axis;
+        *sum += weight * axis;
     }
-}
-
-/// `scale·|a − b|`, where an infinity equals itself and a scale of 0 makes all equal.
-fn apart(a: f64, b: f64, scale: f64) -> f64 {
-    if a == b || scale == 0.0 {
-        0.0
-    } else {
-        scale * (a - b).abs()
-    }
-}
-
-/// Beyond it all differences are alike, by definition of the filter: surfaces are unrelated from 1 on.
-const FAR: f64 = 16.0;
-
-/// `exp(−rate·distance)`, where a rate or a distance of 0 gives 1 whatever the other is.
-fn decay(rate: f64, distance: f64) -> f64 {
-    if rate == 0.0 || distance == 0.0 {
-        1.0
-    } else {
-        (-rate * distance).exp()
-    }
-}
-
-/// ½|a − b|², which for unit vectors is 1 − a·b without the cancellation.
-fn half_squared_distance(a: [f64; 3], b: [f64; 3]) -> f64 {
-    (0..3).map(|axis| (a[axis] - b[axis]).powi(2)).sum::<f64>() / 2.0
 }

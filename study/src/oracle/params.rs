@@ -28,10 +28,14 @@ choices! {
         Ordered4 = "ordered4",
         /// Direct3D's standard pattern of 4.
         Latin4 = "latin4",
+        /// Direct3D's standard pattern of 8.
+        Standard8 = "standard8",
         /// A regular 4×4 grid, row by row.
         Ordered16 = "ordered16",
         /// Direct3D's standard pattern of 16.
         Latin16 = "latin16",
+        /// As listed.
+        Listed = "listed",
     }
 }
 
@@ -40,18 +44,74 @@ choices! {
     Shading {
         /// At the first geometry sample.
         Sample0 = "sample0",
-        /// At the pixel's centre, whose geometry is one more layer, the last.
+        /// At the pixel's centre, whose geometry is sampled too.
         Centre = "centre",
+        /// At the geometry samples listed.
+        Listed = "listed",
     }
 }
 
 choices! {
     /// What tells two surfaces apart.
     Metric {
+        /// The larger of the distance from the sample's plane and the difference in normal.
+        PlanesNormals = "planes-normals",
         /// The larger of the differences in depth and in normal.
         DepthNormals = "depth-normals",
+        /// The difference in normal.
+        Normals = "normals",
         /// The difference in depth.
         Depth = "depth",
+    }
+}
+
+choices! {
+    /// What a difference in depth counts as.
+    Difference {
+        /// Itself.
+        Absolute = "absolute",
+        /// Its share of the sample's depth.
+        Relative = "relative",
+    }
+}
+
+choices! {
+    /// How depth is held.
+    Depth {
+        /// Along the view direction, in scene units.
+        Linear = "linear",
+        /// 0 at the near plane, 1 at the far plane.
+        Perspective = "perspective",
+        /// 1 at the near plane, 0 at the far plane.
+        Reversed = "reversed",
+        /// 1 at the near plane, 0 infinitely far.
+        ReversedInfinite = "reversed-infinite",
+    }
+}
+
+choices! {
+    /// How normals are held.
+    Normals {
+        /// Three numbers.
+        Float = "float",
+        /// Three numbers, as 0.5 + 0.5 n.
+        Unorm = "unorm",
+        /// Unfolded, as 0.5 + 0.5 n.
+        Octahedral = "octahedral",
+        /// Unfolded, with the depth in the third and fourth component.
+        Packed = "packed",
+    }
+}
+
+choices! {
+    /// How the samples of a pixel are held.
+    Layout {
+        /// A layer each.
+        Layers = "layers",
+        /// Side by side.
+        Superresolution = "superresolution",
+        /// As samples of a texel.
+        Multisampled = "multisampled",
     }
 }
 
@@ -62,32 +122,90 @@ choices! {
         None = "none",
         /// Linearly to zero at one pixel on each axis.
         Tent = "tent",
+        /// As a Gaussian, up to one pixel on each axis.
+        Gaussian = "gaussian",
     }
 }
 
 choices! {
-    /// How the weights of a sample are made to sum to one. The same number in exact arithmetic.
+    /// How the weights of a sample are made to sum to one. The same number in exact arithmetic where there is any weight.
     Normalisation {
         /// w / Σw: 0/0, and so NaN, where every weight is below the smallest number.
         Paper = "paper",
+        /// w / max(Σw, 1e-30).
+        Epsilon = "epsilon",
         /// The same with the smallest difference subtracted first: Σw is never 0.
         Shifted = "shifted",
     }
 }
 
+choices! {
+    /// How the reconstructed samples make up the pixel.
+    Resolve {
+        /// The mean of the pixel's own.
+        Box = "box",
+        /// A tent over those less than one pixel away on each axis.
+        Tent = "tent",
+    }
+}
+
+choices! {
+    /// Whether pixels without geometric variation keep their colour.
+    Mask {
+        /// No.
+        None = "none",
+        /// Yes.
+        Select = "select",
+        /// Yes.
+        Branch = "branch",
+    }
+}
+
+choices! {
+    /// What a colour that is not finite does.
+    NonFinite {
+        /// It counts.
+        Spread = "spread",
+        /// It is left out.
+        Skip = "skip",
+    }
+}
+
 /// What an SRAA filter is made of. The default is the kernel's.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct SraaParams {
     /// Where in a pixel geometry is sampled.
     pub pattern: Pattern,
+    /// x and y of each sample of [`Pattern::Listed`].
+    pub offsets: Vec<f64>,
     /// Where in a pixel shading is sampled.
     pub shading: Shading,
+    /// Samples that [`Shading::Listed`] names.
+    pub shaded: Vec<f64>,
     /// What tells two surfaces apart.
     pub metric: Metric,
+    /// What a difference in depth counts as.
+    pub difference: Difference,
+    /// How depth is held.
+    pub depth: Depth,
+    /// How normals are held.
+    pub normals: Normals,
+    /// How the samples of a pixel are held.
+    pub layout: Layout,
     /// How a tap's weight falls with its distance on the screen.
     pub falloff: Falloff,
+    /// Standard deviation of [`Falloff::Gaussian`], in pixels.
+    pub sigma: f64,
     /// How the weights of a sample are made to sum to one.
     pub normalisation: Normalisation,
+    /// How the reconstructed samples make up the pixel.
+    pub resolve: Resolve,
+    /// Whether pixels without geometric variation keep their colour.
+    pub mask: Mask,
+    /// The largest difference that is no variation.
+    pub mask_threshold: f64,
+    /// What a colour that is not finite does.
+    pub non_finite: NonFinite,
     /// How sharply a weight falls as surfaces differ; 0 or more.
     pub tau: f64,
     /// Difference per unit of depth; 0 or more.
@@ -98,10 +216,21 @@ impl Default for SraaParams {
     fn default() -> Self {
         SraaParams {
             pattern: Pattern::Latin4,
+            offsets: Vec::new(),
             shading: Shading::Centre,
+            shaded: Vec::new(),
             metric: Metric::DepthNormals,
+            difference: Difference::Absolute,
+            depth: Depth::Linear,
+            normals: Normals::Float,
+            layout: Layout::Layers,
             falloff: Falloff::Tent,
+            sigma: 0.4,
             normalisation: Normalisation::Shifted,
+            resolve: Resolve::Box,
+            mask: Mask::None,
+            mask_threshold: 0.01,
+            non_finite: NonFinite::Skip,
             tau: 500.0,
             depth_scale: 1.0,
         }
@@ -112,12 +241,18 @@ impl Default for SraaParams {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum OracleError {
     /// There is no such option.
-    #[error("the oracle knows no option `{option}`: it has {known}")]
+    #[error("the oracle of SRAA knows no option `{option}`")]
     UnknownOption {
         /// What was asked for.
         option: String,
-        /// The options that there are.
-        known: String,
+    },
+    /// An image or a number is missing or does not fit.
+    #[error("the oracle of SRAA needs `{name}`: {needed}")]
+    Input {
+        /// Its name.
+        name: String,
+        /// What is needed.
+        needed: String,
     },
     /// The option has no such value.
     #[error("{option}={value}: expected {expected}")]
@@ -132,25 +267,67 @@ pub enum OracleError {
 }
 
 impl SraaParams {
+    /// The filter of a manifest's `options`.
+    ///
+    /// # Errors
+    ///
+    /// [`OracleError`] for an option or a value that there is not.
+    pub fn of<'a>(options: impl IntoIterator<Item = (&'a String, &'a String)>) -> Result<Self, OracleError> {
+        let mut params = SraaParams::default();
+        for (option, value) in options {
+            params.set(option, value)?;
+        }
+        Ok(params)
+    }
+
     /// Sets an option by name, both spelled as on the command line or in a manifest's `options`.
+    ///
+    /// # Errors
+    ///
+    /// [`OracleError`] for an option or a value that there is not.
     pub fn set(&mut self, option: &str, value: &str) -> Result<(), OracleError> {
         match option {
             "pattern" => self.pattern = choice(option, value, Pattern::ALL, Pattern::name)?,
+            "offsets" => self.offsets = numbers(option, value)?,
+            // Whether a pattern is a Latin square changes nothing of what it gives.
+            "latin" => {}
             "shading" => self.shading = choice(option, value, Shading::ALL, Shading::name)?,
+            "shaded" => self.shaded = numbers(option, value)?,
             "metric" => self.metric = choice(option, value, Metric::ALL, Metric::name)?,
+            "difference" => self.difference = choice(option, value, Difference::ALL, Difference::name)?,
+            "depth" => self.depth = choice(option, value, Depth::ALL, Depth::name)?,
+            "normals" => self.normals = choice(option, value, Normals::ALL, Normals::name)?,
+            "layout" => self.layout = choice(option, value, Layout::ALL, Layout::name)?,
             "falloff" => self.falloff = choice(option, value, Falloff::ALL, Falloff::name)?,
+            "sigma" => self.sigma = number(option, value)?,
             "normalisation" => self.normalisation = choice(option, value, Normalisation::ALL, Normalisation::name)?,
+            "resolve" => self.resolve = choice(option, value, Resolve::ALL, Resolve::name)?,
+            "mask" => self.mask = choice(option, value, Mask::ALL, Mask::name)?,
+            "mask-threshold" => self.mask_threshold = number(option, value)?,
+            "non-finite" => self.non_finite = choice(option, value, NonFinite::ALL, NonFinite::name)?,
             "tau" => self.tau = number(option, value)?,
-            "depth_scale" => self.depth_scale = number(option, value)?,
+            "depth-scale" => self.depth_scale = number(option, value)?,
             _ => {
-                let known = "pattern, shading, metric, falloff, normalisation, tau, depth_scale".to_owned();
                 return Err(OracleError::UnknownOption {
                     option: option.to_owned(),
-                    known,
                 });
             }
         }
         Ok(())
+    }
+
+    /// Offsets of the geometry samples from the pixel's centre, in pixels, y down.
+    pub fn samples(&self) -> Vec<[f64; 2]> {
+        super::pattern::samples(self.pattern, &self.offsets)
+    }
+
+    /// The geometry sample of each shading sample; the one after the last is the pixel's centre.
+    pub fn shaded_samples(&self) -> Vec<usize> {
+        match self.shading {
+            Shading::Sample0 => vec![0],
+            Shading::Centre => vec![self.samples().len()],
+            Shading::Listed => self.shaded.iter().map(|k| *k as usize).collect(),
+        }
     }
 }
 
@@ -171,6 +348,16 @@ fn number(option: &str, value: &str) -> Result<f64, OracleError> {
     }
 }
 
+fn numbers(option: &str, value: &str) -> Result<Vec<f64>, OracleError> {
+    if value.is_empty() {
+        return Ok(Vec::new());
+    }
+    let parts = value.split(',').map(|part| part.trim().parse::<f64>().ok());
+    parts
+        .map(|part| part.ok_or_else(|| bad_value(option, value, "numbers, separated by commas")))
+        .collect()
+}
+
 fn bad_value(option: &str, value: &str, expected: impl Display) -> OracleError {
     OracleError::BadValue {
         option: option.to_owned(),
@@ -187,24 +374,27 @@ mod tests {
     fn options_are_set_by_name() {
         let mut params = SraaParams::default();
         for (option, value) in [
-            ("pattern", "ordered16"),
+            ("pattern", "listed"),
+            ("offsets", "0.25, -0.25"),
             ("shading", "sample0"),
             ("metric", "depth"),
             ("falloff", "none"),
             ("normalisation", "paper"),
             ("tau", "12.5"),
-            ("depth_scale", "0"),
+            ("depth-scale", "0"),
         ] {
             params.set(option, value).unwrap();
         }
         let expected = SraaParams {
-            pattern: Pattern::Ordered16,
+            pattern: Pattern::Listed,
+            offsets: vec![0.25, -0.25],
             shading: Shading::Sample0,
             metric: Metric::Depth,
             falloff: Falloff::None,
             normalisation: Normalisation::Paper,
             tau: 12.5,
             depth_scale: 0.0,
+            ..SraaParams::default()
         };
         assert_eq!(params, expected);
     }
@@ -217,10 +407,10 @@ mod tests {
                 .set("patern", "latin4")
                 .unwrap_err()
                 .to_string()
-                .contains("pattern, shading")
+                .contains("patern")
         );
         let error = params.set("falloff", "gauss").unwrap_err();
-        assert_eq!(error.to_string(), "falloff=gauss: expected none, tent");
+        assert_eq!(error.to_string(), "falloff=gauss: expected none, tent, gaussian");
         for bad in ["-1", "NaN", "inf", "many"] {
             assert!(params.set("tau", bad).is_err(), "{bad}");
         }

@@ -1,13 +1,18 @@
 //! Sample positions, typed from the documentation of Direct3D (`D3D11_STANDARD_MULTISAMPLE_QUALITY_LEVELS`) and
 //! checked in the tests against the table in Vulkan's specification (*Standard sample locations*).
 
-use super::params::{Pattern, Shading};
+use super::params::Pattern;
 
-/// Offsets from the pixel's centre, in sixteenths of a pixel, y down.
-pub(super) fn samples(pattern: Pattern) -> &'static [[i32; 2]] {
+/// Offsets from the pixel's centre, in sixteenths of a pixel, y down; none of a pattern that is given as data.
+fn sixteenths(pattern: Pattern) -> &'static [[i32; 2]] {
     match pattern {
         Pattern::Ordered4 => &[[-4, -4], [4, -4], [-4, 4], [4, 4]],
         Pattern::Latin4 => &[[-2, -6], [6, -2], [-6, 2], [2, 6]],
+        #[rustfmt::skip]
+        Pattern::Standard8 => &[
+            [ 1, -3], [-1,  3], [ 5,  1], [-3, -5],
+            [-5,  5], [-7, -1], [ 3,  7], [ 7, -7],
+        ],
         #[rustfmt::skip]
         Pattern::Ordered16 => &[
             [-6, -6], [-2, -6], [2, -6], [6, -6],
@@ -22,14 +27,18 @@ pub(super) fn samples(pattern: Pattern) -> &'static [[i32; 2]] {
             [-2,  6], [ 0, -7], [-4, -6], [-6,  4],
             [-8,  0], [ 7, -4], [ 6,  7], [-7, -8],
         ],
+        Pattern::Listed => &[],
     }
 }
 
-/// Offset of the shading sample from the pixel's centre, in sixteenths.
-pub(super) fn shaded(pattern: Pattern, shading: Shading) -> [i32; 2] {
-    match shading {
-        Shading::Sample0 => samples(pattern)[0],
-        Shading::Centre => [0, 0],
+/// Offsets from the pixel's centre, in pixels, y down. Of [`Pattern::Listed`], `listed` in pairs.
+pub(super) fn samples(pattern: Pattern, listed: &[f64]) -> Vec<[f64; 2]> {
+    match pattern {
+        Pattern::Listed => listed.chunks_exact(2).map(|pair| [pair[0], pair[1]]).collect(),
+        _ => sixteenths(pattern)
+            .iter()
+            .map(|offset| offset.map(|axis| f64::from(axis) / 16.0))
+            .collect(),
     }
 }
 
@@ -39,9 +48,9 @@ mod tests {
 
     /// Vulkan counts from the pixel's top left corner.
     fn from_corner(pattern: Pattern) -> Vec<[f64; 2]> {
-        samples(pattern)
+        samples(pattern, &[])
             .iter()
-            .map(|offset| offset.map(|axis| f64::from(axis) / 16.0 + 0.5))
+            .map(|offset| offset.map(|axis| axis + 0.5))
             .collect()
     }
 
@@ -51,6 +60,12 @@ mod tests {
             from_corner(Pattern::Latin4),
             [[0.375, 0.125], [0.875, 0.375], [0.125, 0.625], [0.625, 0.875]]
         );
+        #[rustfmt::skip]
+        let eight = [
+            [0.5625, 0.3125], [0.4375, 0.6875], [0.8125, 0.5625], [0.3125, 0.1875],
+            [0.1875, 0.8125], [0.0625, 0.4375], [0.6875, 0.9375], [0.9375, 0.0625],
+        ];
+        assert_eq!(from_corner(Pattern::Standard8), eight);
         #[rustfmt::skip]
         let sixteen = [
             [0.5625, 0.5625], [0.4375, 0.3125], [0.3125, 0.625], [0.75, 0.4375],
@@ -62,17 +77,17 @@ mod tests {
     }
 
     #[test]
-    fn latin_patterns_have_one_sample_in_each_row_and_column() {
-        for (pattern, step) in [(Pattern::Latin4, 4), (Pattern::Latin16, 1)] {
+    fn latin_squares_share_no_row_and_no_column() {
+        for pattern in [Pattern::Latin4, Pattern::Standard8, Pattern::Latin16] {
+            let samples = samples(pattern, &[]);
             for axis in 0..2 {
-                let mut cells: Vec<i32> = samples(pattern).iter().map(|s| (s[axis] + 8) / step).collect();
-                cells.sort();
-                assert_eq!(
-                    cells,
-                    (0..samples(pattern).len() as i32).collect::<Vec<_>>(),
-                    "{}",
-                    pattern.name()
-                );
+                let mut cells: Vec<i64> = samples
+                    .iter()
+                    .map(|offset| ((offset[axis] + 0.5) * samples.len() as f64).floor() as i64)
+                    .collect();
+                cells.sort_unstable();
+                cells.dedup();
+                assert_eq!(cells.len(), samples.len(), "{pattern:?}");
             }
         }
     }

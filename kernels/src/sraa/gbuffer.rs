@@ -1,0 +1,240 @@
+//! What the G-buffer holds, and how: depth and normals at every geometry sample.
+
+use super::metric::Metric;
+use super::options::Sraa;
+use super::pattern::Place;
+use super::view::View;
+use crate::prelude::*;
+
+/// How the G-buffer holds depth.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Depth {
+    /// Along the view direction, in scene units; infinite where there is no geometry.
+    Linear,
+    /// As projected: 0 at the near plane, 1 at the far plane.
+    Perspective,
+    /// As projected with near and far swapped: 1 at the near plane, 0 at the far plane.
+    Reversed,
+    /// As projected with near and far swapped and no far plane: 1 at the near plane, 0 infinitely far.
+    ReversedInfinite,
+}
+
+/// How the G-buffer holds normals.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Normals {
+    /// As unit vectors, in a float format.
+    Float,
+    /// As 0.5 + 0.5 n, in a normalised format such as RGB8 or RGB10A2; renormalised when read.
+    Unorm,
+    /// Unfolded to a square, each axis as 0.5 + 0.5 n, in a normalised format of two components such as RG8 or RG16.
+    Octahedral,
+    /// Unfolded to a square, each axis in -1..1, with the depth in the same texel: half the reads. The depth is the sum of
+    /// the third and fourth component, so that two 16-bit floats hold one of 22 bits.
+    Packed,
+}
+
+/// How the G-buffer holds the samples of a pixel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Layout {
+    /// A layer for each; the pixel's centre, if that is shaded, in one more, the last (paper §3.4: one pass for each).
+    Layers,
+    /// Side by side in one large texture (the listing's superresolution buffers): sample s of c columns is at column s % c
+    /// and row s / c of its pixel.
+    Superresolution,
+    /// The samples of a multisampled texture (paper §3.4: one pass for all).
+    Multisampled,
+}
+
+/// The G-buffer. A shader binds only what its layout, its metric and its encodings need.
+///
+/// Natively all are there, and those that are not read may be of any size: see [`GBuffer::unread`].
+pub struct GBuffer {
+    /// Of layout=layers.
+    pub depth: FrameLayers<f32>,
+    /// Of layout=layers.
+    pub normal: FrameLayers<Vec4>,
+    /// Of layout=layers with normals=packed.
+    pub packed: FrameLayers<Vec4>,
+    /// Of layout=superresolution.
+    pub depth_grid: Texture<f32>,
+    /// Of layout=superresolution.
+    pub normal_grid: Texture<Vec4>,
+    /// Of layout=superresolution with normals=packed.
+    pub packed_grid: Texture<Vec4>,
+    /// Of layout=multisampled.
+    pub depth_samples: Multisampled<f32>,
+    /// Of layout=multisampled.
+    pub normal_samples: Multisampled<Vec4>,
+    /// Of layout=multisampled with normals=packed.
+    pub packed_samples: Multisampled<Vec4>,
+    /// At the pixel's centre, where that is shaded and the layout has no place for it.
+    pub centre_depth: Frame<f32>,
+    /// At the pixel's centre, where that is shaded and the layout has no place for it.
+    pub centre_normal: Frame<Vec4>,
+    /// At the pixel's centre, where that is shaded and the layout has no place for it.
+    pub centre_packed: Frame<Vec4>,
+}
+
+/// The surface seen at one geometry sample.
+#[derive(Clone, Copy, Debug)]
+pub struct Surface {
+    /// Linear depth, at most [`DEEPEST`].
+    pub depth: f32,
+    /// Unit normal.
+    pub normal: Vec3,
+}
+
+/// More than any depth, and finite: the sky's infinite depth less itself is not a number.
+const DEEPEST: f32 = 1.0e30;
+
+/// Less than any depth but 0, and than the square of any normal's length.
+const SHORTEST: f32 = 1.0e-30;
+
+/// The surface seen at `place`, from `pixel`: as much of it as the metric compares.
+pub(super) fn surface(cfg: &Sraa, gbuffer: &GBuffer, view: &View, pixel: IVec2, place: Place) -> Surface {
+    let texel = pixel + place.pixel;
+    match cfg.normals {
+        Normals::Packed => {
+            let packed = gbuffer.packed(cfg, texel, place);
+            Surface {
+                depth: linear(cfg, view, packed.z + packed.w),
+                normal: decoded(cfg, packed),
+            }
+        }
+        _ => Surface {
+            depth: match cfg.metric {
+                Metric::Normals => 0.0,
+                _ => linear(cfg, view, gbuffer.depth(cfg, texel, place)),
+            },
+            normal: match cfg.metric {
+                Metric::Depth => Vec3::ZERO,
+                _ => decoded(cfg, gbuffer.normal(cfg, texel, place)),
+            },
+        },
+    }
+}
+
+impl GBuffer {
+    fn depth(&self, cfg: &Sraa, pixel: IVec2, place: Place) -> f32 {
+        match (cfg.layout, place.centre) {
+            (Layout::Layers, _) => self.depth.load(pixel, place.sample),
+            (_, true) => self.centre_depth.load(pixel),
+            (Layout::Superresolution, _) => self
+                .depth_grid
+                .load(cfg.cell(self.depth_grid.size(), pixel, place.sample)),
+            (Layout::Multisampled, _) => self.depth_samples.load(pixel, place.sample),
+        }
+    }
+
+    fn normal(&self, cfg: &Sraa, pixel: IVec2, place: Place) -> Vec4 {
+        match (cfg.layout, place.centre) {
+            (Layout::Layers, _) => self.normal.load(pixel, place.sample),
+            (_, true) => self.centre_normal.load(pixel),
+            (Layout::Superresolution, _) => {
+                self.normal_grid
+                    .load(cfg.cell(self.normal_grid.size(), pixel, place.sample))
+            }
+            (Layout::Multisampled, _) => self.normal_samples.load(pixel, place.sample),
+        }
+    }
+
+    fn packed(&self, cfg: &Sraa, pixel: IVec2, place: Place) -> Vec4 {
+        match (cfg.layout, place.centre) {
+            (Layout::Layers, _) => self.packed.load(pixel, place.sample),
+            (_, true) => self.centre_packed.load(pixel),
+            (Layout::Superresolution, _) => {
+                self.packed_grid
+                    .load(cfg.cell(self.packed_grid.size(), pixel, place.sample))
+            }
+            (Layout::Multisampled, _) => self.packed_samples.load(pixel, place.sample),
+        }
+    }
+}
+
+impl Sraa {
+    /// Columns and rows of the samples of a pixel in a superresolution texture: 2×2, 4×4, or as near as can be.
+    pub fn grid(&self) -> IVec2 {
+        let mut columns = 1;
+        while columns * columns < self.samples() {
+            columns += 1;
+        }
+        let rows = self.samples().div_ceil(columns);
+        ivec2(columns as i32, rows as i32)
+    }
+
+    /// The texel of a superresolution texture of `size` that holds `sample` of `pixel`, or of the nearest pixel inside.
+    fn cell(&self, size: UVec2, pixel: IVec2, sample: usize) -> IVec2 {
+        let grid = self.grid();
+        let last = size.as_ivec2() / grid - 1;
+        let sample = sample as i32;
+        pixel.clamp(IVec2::ZERO, last) * grid + ivec2(sample % grid.x, sample / grid.x)
+    }
+}
+
+/// Depth along the view direction, in scene units.
+fn linear(cfg: &Sraa, view: &View, stored: f32) -> f32 {
+    let (near, far) = (view.near, view.far);
+    let depth = match cfg.depth {
+        Depth::Linear => stored,
+        // 1 - stored is exact near the far plane, where far - stored * (far - near) would cancel.
+        Depth::Perspective => near * far / (far * (1.0 - stored) + near * stored),
+        Depth::Reversed => near * far / (near * (1.0 - stored) + far * stored),
+        Depth::ReversedInfinite => near / stored.max(SHORTEST),
+    };
+    depth.min(DEEPEST)
+}
+
+/// The unit normal that a texel holds.
+fn decoded(cfg: &Sraa, texel: Vec4) -> Vec3 {
+    match cfg.normals {
+        Normals::Float => texel.xyz(),
+        Normals::Unorm => unit(2.0 * texel.xyz() - 1.0),
+        Normals::Octahedral => folded(2.0 * texel.xy() - 1.0),
+        Normals::Packed => folded(texel.xy()),
+    }
+}
+
+/// The unit vector that was unfolded to a square from -1 to 1 (Cigolle et al. 2014, "A Survey of Efficient
+/// Representations for Independent Unit Vectors").
+fn folded(square: Vec2) -> Vec3 {
+    let z = 1.0 - square.x.abs() - square.y.abs();
+    let beyond = (-z).max(0.0);
+    let x = if square.x >= 0.0 {
+        square.x - beyond
+    } else {
+        square.x + beyond
+    };
+    let y = if square.y >= 0.0 {
+        square.y - beyond
+    } else {
+        square.y + beyond
+    };
+    unit(vec3(x, y, z))
+}
+
+/// The vector at length 1; a zero vector, which no surface has, as it is.
+fn unit(v: Vec3) -> Vec3 {
+    v * inverse_sqrt(v.dot(v).max(SHORTEST))
+}
+
+impl GBuffer {
+    /// A G-buffer of which nothing may be read: single texels of zero, to be replaced by what a layout needs.
+    pub fn unread() -> GBuffer {
+        let scalar = || Frame::new(UVec2::ONE, vec![0.0]);
+        let vector = || Frame::new(UVec2::ONE, vec![Vec4::ZERO]);
+        GBuffer {
+            depth: FrameLayers::new(vec![scalar()]),
+            normal: FrameLayers::new(vec![vector()]),
+            packed: FrameLayers::new(vec![vector()]),
+            depth_grid: Texture::new(UVec2::ONE, vec![0.0]),
+            normal_grid: Texture::new(UVec2::ONE, vec![Vec4::ZERO]),
+            packed_grid: Texture::new(UVec2::ONE, vec![Vec4::ZERO]),
+            depth_samples: Multisampled::new(vec![Texture::new(UVec2::ONE, vec![0.0]); 2]),
+            normal_samples: Multisampled::new(vec![Texture::new(UVec2::ONE, vec![Vec4::ZERO]); 2]),
+            packed_samples: Multisampled::new(vec![Texture::new(UVec2::ONE, vec![Vec4::ZERO]); 2]),
+            centre_depth: scalar(),
+            centre_normal: vector(),
+            centre_packed: vector(),
+        }
+    }
+}

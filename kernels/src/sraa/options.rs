@@ -1,0 +1,104 @@
+//! What an SRAA filter is made of: every choice that the paper names, and those that it leaves open.
+
+use crate::prelude::*;
+
+use super::gbuffer::{Depth, Layout, Normals};
+use super::metric::{Difference, Metric};
+use super::pattern::{Pattern, Shading};
+
+options! {
+    /// What an SRAA filter is made of.
+    pub struct Sraa {
+        /// Where in a pixel geometry is sampled.
+        pub pattern: Pattern = Pattern::Latin4,
+        /// Of pattern=listed: x and y of each geometry sample, in pixels from the pixel's centre, y down.
+        pub offsets: &'static [f32] [-0.5..=0.5] = &[],
+        /// Of pattern=listed: whether it is to be a Latin square, with a row and a column for each sample.
+        pub latin: bool = false,
+        /// Where in a pixel shading is sampled.
+        pub shading: Shading = Shading::Centre,
+        /// Of shading=listed: the geometry samples that are shaded, counted from 0: one, two or four.
+        pub shaded: &'static [i32] [0..=63] = &[],
+        /// What tells two surfaces apart.
+        pub metric: Metric = Metric::DepthNormals,
+        /// Whether differences in depth count as they are, or as shares of the depth.
+        pub difference: Difference = Difference::Absolute,
+        /// How the G-buffer holds depth.
+        pub depth: Depth = Depth::Linear,
+        /// How the G-buffer holds normals.
+        pub normals: Normals = Normals::Float,
+        /// How the G-buffer holds the samples of a pixel.
+        pub layout: Layout = Layout::Layers,
+        /// How a tap's weight falls with its distance on the screen.
+        pub falloff: Falloff = Falloff::Tent,
+        /// Of falloff=gaussian: the standard deviation, in pixels.
+        pub sigma: f32 [0.05..=4.0] = 0.4,
+        /// How the weights of a sample are made to sum to one.
+        pub normalisation: Normalisation = Normalisation::Shifted,
+        /// How the reconstructed samples make up the pixel.
+        pub resolve: Resolve = Resolve::Box,
+        /// Whether pixels without geometric variation keep their own colour.
+        pub mask: Mask = Mask::None,
+        /// Of mask: the largest difference that is no variation.
+        pub mask_threshold: f32 [0.0..=16.0] = 0.01,
+        /// What a colour that is infinite or not a number does.
+        pub non_finite: NonFinite = NonFinite::Skip,
+        /// How sharply a weight falls as surfaces differ: exp(-tau * difference).
+        pub tau: f32 [0.0..=1.0e6] = 500.0,
+        /// Difference per unit of depth, or per share of it: large enough that a step between two surfaces counts as 1 or
+        /// more.
+        pub depth_scale: f32 [0.0..=1.0e6] = 1.0,
+    }
+}
+
+/// How a tap's weight falls with its distance on the screen (paper §3.3).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Falloff {
+    /// Not at all within one pixel on each axis, as the listing has it.
+    None,
+    /// Linearly to zero at one pixel on each axis: sharper, and with fewer taps.
+    Tent,
+    /// As a Gaussian, cut off beyond one pixel on each axis.
+    Gaussian,
+}
+
+/// How the weights of a sample are made to sum to one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Normalisation {
+    /// w / Σw as the listing has it: 0/0 where no tap lies on the sample's surface.
+    Paper,
+    /// w / max(Σw, 1e-30): black where no tap lies on the sample's surface.
+    Epsilon,
+    /// w / Σw with the smallest difference subtracted first, which cancels: the nearest surface always has weight 1, so
+    /// Σw is never 0.
+    Shifted,
+}
+
+/// How the reconstructed samples make up the pixel (paper §3.1).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Resolve {
+    /// The mean of the pixel's own.
+    Box,
+    /// A tent over those less than one pixel from its centre on each axis, its neighbours' among them.
+    Tent,
+}
+
+/// Whether pixels without geometric variation keep their own colour, noisy but sharp (paper §3.3).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mask {
+    /// All are filtered, and an even region is blurred a little.
+    None,
+    /// They do; the filter is computed everywhere, in one basic block.
+    Select,
+    /// They do, and the filter is computed only where it counts.
+    Branch,
+}
+
+/// What a colour that is infinite or not a number does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NonFinite {
+    /// It spoils every pixel that it has weight in.
+    Spread,
+    /// Nothing: its weight goes to the others.
+    Skip,
+}

@@ -1,0 +1,220 @@
+//! What an SRAA shader reads, made from a capture: the G-buffer in the layout and the encodings that its options name.
+
+mod pattern;
+
+use crate::capture::Capture;
+use crate::encode::{self, DepthEncoding, DepthStorage, NormalEncoding};
+use crate::execute::Inputs;
+use crate::scene::Camera;
+use glam::{IVec2, UVec2, Vec2, Vec4, vec3};
+use std::collections::BTreeMap;
+use straightline_kernels::prelude::{Frame, FrameLayers};
+
+pub use pattern::{PATTERNS, sampled_at, samples};
+
+/// Why a capture cannot feed a shader.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum GBufferError {
+    /// The capture lacks what the options need.
+    #[error("the capture has no {what}, which {option} needs: {way_out}")]
+    Missing {
+        /// What it lacks.
+        what: &'static str,
+        /// The option that needs it.
+        option: String,
+        /// What to do instead.
+        way_out: &'static str,
+    },
+    /// The options ask for samples that the capture does not have.
+    #[error("the shader needs {needed} geometry samples a pixel, and the capture has {found}")]
+    Samples {
+        /// How many are needed.
+        needed: usize,
+        /// How many there are.
+        found: usize,
+    },
+}
+
+/// The option of a compiled kernel, or its default.
+fn option<'a>(options: &'a BTreeMap<String, String>, name: &str, default: &'a str) -> &'a str {
+    options.get(name).map_or(default, String::as_str)
+}
+
+/// Everything that SRAA with these options may read, by the names of its bindings.
+///
+/// `options` are those of the compiled kernel; the capture's samples must be those of its pattern. Depth is encoded with
+/// the camera's near plane and a far plane just beyond the farthest surface.
+///
+/// # Errors
+///
+/// [`GBufferError`] if the capture lacks normals, a camera or samples that the options need.
+pub fn inputs(capture: &Capture, options: &BTreeMap<String, String>) -> Result<Inputs, GBufferError> {
+    let metric = option(options, "metric", "depth-normals");
+    let layout = option(options, "layout", "layers");
+    let needed = match option(options, "pattern", "latin4") {
+        "listed" => option(options, "offsets", "").split(',').count() / 2,
+        name => samples(name).map_or(0, |samples| samples.len()),
+    };
+    if needed != capture.samples.len() {
+        return Err(GBufferError::Samples {
+            needed,
+            found: capture.samples.len(),
+        });
+    }
+    let planes = planes(capture, options)?;
+    let depth_encoding = depth_encoding(options, planes);
+    let normals = match (metric, &capture.normal) {
+        ("depth", _) => None,
+        (_, Some(normals)) => Some(normals),
+        (metric, None) => {
+            return Err(GBufferError::Missing {
+                what: "normals (normal.exr)",
+                option: format!("metric={metric}"),
+                way_out: "use metric=depth",
+            });
+        }
+    };
+    let mut images = Vec::new();
+    match (option(options, "normals", "float"), normals) {
+        ("packed", Some(normals)) => {
+            images.push(("packed", encode::packed(normals, &capture.depth, depth_encoding)));
+        }
+        (normals_as, normals) => {
+            if metric != "normals" {
+                let stored = encode::depth(&capture.depth, depth_encoding, DepthStorage::Float32);
+                images.push(("depth", texels(&stored)));
+            }
+            if let Some(normals) = normals {
+                let stored = encode::normal(normals, normal_encoding(normals_as));
+                images.push(("normal", stored));
+            }
+        }
+    }
+    let mut inputs = Inputs::new(capture.size).image("color", capture.color.clone());
+    let apart = capture.layer_count() > capture.samples.len();
+    for (name, stack) in images {
+        // What every device can multisample: a single component in whole floats, more in half.
+        let stack = if layout == "multisampled" && name != "depth" {
+            encode::halved(&stack)
+        } else {
+            stack
+        };
+        inputs = laid_out(
+            inputs,
+            name,
+            stack.layers().to_vec(),
+            layout,
+            capture.samples.len(),
+            apart,
+        );
+    }
+    let inputs = inputs
+        .uniform("near", &[f64::from(planes.x)])
+        .uniform("far", &[f64::from(planes.y)]);
+    match (&capture.camera, metric) {
+        (Some(camera), _) => Ok(with_rays(inputs, camera, capture.size, IVec2::ZERO)),
+        (None, "planes-normals") => Err(GBufferError::Missing {
+            what: "camera",
+            option: "metric=planes-normals".to_owned(),
+            way_out: "write `camera` into capture.json, or use metric=depth-normals",
+        }),
+        (None, _) => Ok(inputs),
+    }
+}
+
+/// The rays through the pixels of an image of `size`, of which the inputs show the part from `origin` on, in view space.
+pub fn with_rays(inputs: Inputs, camera: &Camera, size: UVec2, origin: IVec2) -> Inputs {
+    let extent = camera.half_extent(size);
+    let step = 2.0 * extent / size.as_vec2();
+    let numbers = |v: glam::Vec3| v.to_array().map(f64::from);
+    inputs
+        .uniform("ray_corner", &numbers(vec3(-extent.x, extent.y, -1.0)))
+        .uniform("ray_right", &numbers(vec3(step.x, 0.0, 0.0)))
+        .uniform("ray_down", &numbers(vec3(0.0, -step.y, 0.0)))
+        .uniform("origin", &[f64::from(origin.x), f64::from(origin.y)])
+}
+
+/// Near and far plane that depth is encoded with.
+fn planes(capture: &Capture, options: &BTreeMap<String, String>) -> Result<Vec2, GBufferError> {
+    let camera = match (&capture.camera, option(options, "depth", "linear")) {
+        (Some(camera), _) => camera,
+        (None, "linear") => return Ok(Vec2::ONE),
+        (None, encoding) => {
+            return Err(GBufferError::Missing {
+                what: "camera",
+                option: format!("depth={encoding}"),
+                way_out: "write `camera` into capture.json, or use depth=linear",
+            });
+        }
+    };
+    let layers = capture.depth.layers().iter();
+    let depths = layers.flat_map(|layer| layer.texels().iter().copied());
+    let farthest = depths
+        .filter(|z| *z < crate::scene::SKY_DEPTH)
+        .fold(2.0 * camera.near, f32::max);
+    Ok(Vec2::new(camera.near, 1.01 * farthest))
+}
+
+fn depth_encoding(options: &BTreeMap<String, String>, planes: Vec2) -> DepthEncoding {
+    let (near, far) = (f64::from(planes.x), f64::from(planes.y));
+    match option(options, "depth", "linear") {
+        "perspective" => DepthEncoding::Perspective { near, far },
+        "reversed" => DepthEncoding::Reversed { near, far },
+        "reversed-infinite" => DepthEncoding::InfiniteReversed { near },
+        _ => DepthEncoding::Linear,
+    }
+}
+
+/// In the smallest format that the shader's encoding stands for.
+fn normal_encoding(name: &str) -> NormalEncoding {
+    match name {
+        "unorm" => NormalEncoding::Rgb8,
+        "octahedral" => NormalEncoding::Octahedral8,
+        _ => NormalEncoding::Float,
+    }
+}
+
+fn texels(depths: &FrameLayers<f32>) -> FrameLayers<Vec4> {
+    let layer = |l: &Frame<f32>| Frame::new(l.size(), l.texels().iter().map(|z| Vec4::splat(*z)).collect());
+    FrameLayers::new(depths.layers().iter().map(layer).collect())
+}
+
+/// The layers of one quantity, the pixel's centre `apart` as the last, as the images that a layout has.
+fn laid_out(
+    inputs: Inputs,
+    name: &str,
+    mut layers: Vec<Frame<Vec4>>,
+    layout: &str,
+    samples: usize,
+    apart: bool,
+) -> Inputs {
+    if layout == "layers" {
+        return inputs.layers(name, layers);
+    }
+    let inputs = match (apart, layers.len() > samples) {
+        (true, true) => inputs.image(&format!("centre_{name}"), layers.remove(samples)),
+        _ => inputs,
+    };
+    match layout {
+        "superresolution" => inputs.image(&format!("{name}_grid"), side_by_side(&layers)),
+        _ => inputs.layers(&format!("{name}_samples"), layers),
+    }
+}
+
+/// The samples of each pixel side by side, row by row, in as square a block as can be.
+fn side_by_side(layers: &[Frame<Vec4>]) -> Frame<Vec4> {
+    let columns = (1..).find(|c| c * c >= layers.len()).unwrap_or(1);
+    let rows = layers.len().div_ceil(columns);
+    let block = UVec2::new(columns as u32, rows as u32);
+    let size = layers[0].size() * block;
+    let texels = (0..size.x * size.y).map(|k| {
+        let at = UVec2::new(k % size.x, k / size.x);
+        let (pixel, cell) = (at / block, at % block);
+        let sample = (cell.y * block.x + cell.x) as usize;
+        layers
+            .get(sample)
+            .map_or(Vec4::ZERO, |layer| layer.load(pixel.as_ivec2()))
+    });
+    Frame::new(size, texels.collect())
+}

@@ -1,0 +1,59 @@
+//! Patterns by name, and the options that say where a capture was sampled.
+
+use crate::capture::{Capture, ShadingSample};
+use glam::Vec2;
+use straightline_kernels::sraa::{Pattern, Sraa};
+
+/// Names of the patterns that have one.
+pub const PATTERNS: [&str; 5] = ["ordered4", "latin4", "standard8", "ordered16", "latin16"];
+
+/// Offsets of the geometry samples of a pattern, in pixels from the pixel's centre, y down: of one of [`PATTERNS`], or of
+/// numbers separated by commas, x and y in turn. `None` for any other text, and for places outside the pixel.
+pub fn samples(pattern: &str) -> Option<Vec<Vec2>> {
+    let pattern = match pattern {
+        "ordered4" => Pattern::Ordered4,
+        "latin4" => Pattern::Latin4,
+        "standard8" => Pattern::Standard8,
+        "ordered16" => Pattern::Ordered16,
+        "latin16" => Pattern::Latin16,
+        listed => {
+            let numbers: Option<Vec<f32>> = listed.split(',').map(|part| part.trim().parse().ok()).collect();
+            let numbers = numbers.filter(|n| n.len() % 2 == 0 && n.iter().all(|axis| axis.abs() <= 0.5))?;
+            return Some(numbers.chunks_exact(2).map(Vec2::from_slice).collect());
+        }
+    };
+    let filter = Sraa {
+        pattern,
+        ..Sraa::default()
+    };
+    Some((0..filter.samples()).map(|sample| filter.offset(sample)).collect())
+}
+
+/// The options of SRAA that say where `capture` was sampled.
+pub fn sampled_at(capture: &Capture) -> Vec<(String, String)> {
+    let near = |a: &Vec2, b: &Vec2| (*a - *b).abs().max_element() < 1.0e-4;
+    let is = |name: &&&str| {
+        let offsets = samples(name).unwrap_or_default();
+        offsets.len() == capture.samples.len() && offsets.iter().zip(&capture.samples).all(|(a, b)| near(a, b))
+    };
+    let mut options = match PATTERNS.iter().find(is) {
+        Some(name) => vec![("pattern", (*name).to_owned())],
+        None => {
+            let numbers = capture.samples.iter().flat_map(|offset| offset.to_array());
+            let numbers: Vec<String> = numbers.map(|axis| axis.to_string()).collect();
+            vec![("pattern", "listed".to_owned()), ("offsets", numbers.join(","))]
+        }
+    };
+    match capture.shading {
+        ShadingSample::Centre => options.push(("shading", "centre".to_owned())),
+        ShadingSample::Sample(0) => options.push(("shading", "sample0".to_owned())),
+        ShadingSample::Sample(k) => {
+            options.push(("shading", "listed".to_owned()));
+            options.push(("shaded", k.to_string()));
+        }
+    }
+    options
+        .into_iter()
+        .map(|(name, value)| (name.to_owned(), value))
+        .collect()
+}

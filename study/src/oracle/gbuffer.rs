@@ -1,0 +1,221 @@
+//! What the images of a shader's inputs say, decoded in double precision.
+
+use super::{Depth, Layout, Metric, Normals, OracleError, Shading, SraaParams};
+use crate::execute::Inputs;
+use straightline_kernels::prelude::{Frame, Vec4};
+
+/// A point of a surface.
+pub struct Point {
+    /// Linear depth.
+    pub depth: f64,
+    /// Unit normal.
+    pub normal: [f64; 3],
+    /// From the eye to depth 1.
+    pub ray: [f64; 3],
+}
+
+/// More than any depth, by definition of the filter: a sky is as deep as any other.
+const DEEPEST: f64 = 1.0e30;
+
+/// The images and numbers that a filter's options name.
+pub struct GBuffer<'a> {
+    params: &'a SraaParams,
+    samples: usize,
+    width: i32,
+    height: i32,
+    colors: &'a [Frame<Vec4>],
+    depth: Option<Stored<'a>>,
+    normal: Option<Stored<'a>>,
+    rays: Option<[[f64; 3]; 3]>,
+    origin: [f64; 2],
+    planes: [f64; 2],
+}
+
+/// One quantity at all samples.
+struct Stored<'a> {
+    images: &'a [Frame<Vec4>],
+    centre: Option<&'a Frame<Vec4>>,
+}
+
+impl<'a> GBuffer<'a> {
+    pub fn new(inputs: &'a Inputs, params: &'a SraaParams) -> Result<Self, OracleError> {
+        let samples = params.samples().len();
+        let packed = params.normals == Normals::Packed;
+        let stored = |name: &str| stored(inputs, params, samples, name);
+        let shared = if packed { Some("packed") } else { None };
+        let depth = match params.metric {
+            Metric::Normals => None,
+            _ => Some(stored(shared.unwrap_or("depth"))?),
+        };
+        let normal = match params.metric {
+            Metric::Depth => None,
+            _ => Some(stored(shared.unwrap_or("normal"))?),
+        };
+        let colors = match params.shaded_samples().len() {
+            1 => images(inputs, "color", 1)?,
+            several => images(inputs, "colors", several)?,
+        };
+        let rays = match params.metric {
+            Metric::PlanesNormals => Some([
+                vector(inputs, "ray_corner")?,
+                vector(inputs, "ray_right")?,
+                vector(inputs, "ray_down")?,
+            ]),
+            _ => None,
+        };
+        let number = |name: &str| vector::<1>(inputs, name).map(|[value]| value);
+        let planes = match (params.depth, &depth) {
+            (Depth::Linear, _) | (_, None) => [1.0, 1.0],
+            (Depth::ReversedInfinite, _) => [number("near")?, f64::INFINITY],
+            _ => [number("near")?, number("far")?],
+        };
+        Ok(GBuffer {
+            params,
+            samples,
+            width: inputs.size.x as i32,
+            height: inputs.size.y as i32,
+            colors,
+            depth,
+            normal,
+            rays,
+            origin: vector(inputs, "origin").unwrap_or([0.0; 2]),
+            planes,
+        })
+    }
+
+    /// Colour of shading sample `k` of `pixel`, or of the nearest one inside.
+    pub fn color(&self, pixel: [i32; 2], k: usize) -> [f64; 4] {
+        numbers(texel(&self.colors[k], self.inside(pixel)))
+    }
+
+    /// The surface at `sample` of `pixel`, or of the nearest one inside, seen along the ray through `ray_at`.
+    pub fn point(&self, pixel: [i32; 2], sample: usize, ray_at: [f64; 2]) -> Point {
+        let pixel = self.inside(pixel);
+        let depth = self.depth.as_ref().map_or(1.0, |stored| {
+            let texel = self.texel(stored, pixel, sample);
+            let value = match self.params.normals {
+                Normals::Packed => texel[2] + texel[3],
+                _ => texel[0],
+            };
+            self.linear(value).min(DEEPEST)
+        });
+        let normal = self.normal.as_ref().map_or([0.0, 0.0, 1.0], |stored| {
+            self.decoded(self.texel(stored, pixel, sample))
+        });
+        let ray = self.rays.map_or([0.0; 3], |[corner, right, down]| {
+            let at = [0, 1].map(|axis| ray_at[axis] + self.origin[axis]);
+            [0, 1, 2].map(|axis| corner[axis] + at[0] * right[axis] + at[1] * down[axis])
+        });
+        Point { depth, normal, ray }
+    }
+
+    fn texel(&self, stored: &Stored, pixel: [i32; 2], sample: usize) -> [f64; 4] {
+        if let (Some(centre), true) = (stored.centre, sample == self.samples) {
+            return numbers(texel(centre, pixel));
+        }
+        if self.params.layout != Layout::Superresolution {
+            return numbers(texel(&stored.images[sample], pixel));
+        }
+        let columns = (self.samples as f64).sqrt().ceil() as usize;
+        let rows = self.samples.div_ceil(columns);
+        let at = [
+            pixel[0] * columns as i32 + (sample % columns) as i32,
+            pixel[1] * rows as i32 + (sample / columns) as i32,
+        ];
+        numbers(texel(&stored.images[0], at))
+    }
+
+    fn inside(&self, pixel: [i32; 2]) -> [i32; 2] {
+        [pixel[0].clamp(0, self.width - 1), pixel[1].clamp(0, self.height - 1)]
+    }
+
+    /// Distance along the view direction, from the definition of the projections: d = (f / (f - n)) (1 - n / z), and the
+    /// same with 1 - d, and n / z.
+    fn linear(&self, stored: f64) -> f64 {
+        let [near, far] = self.planes;
+        let whole = far / (far - near);
+        match self.params.depth {
+            Depth::Linear => stored,
+            Depth::Perspective => near / (1.0 - stored / whole),
+            Depth::Reversed => near / (1.0 - (1.0 - stored) / whole),
+            Depth::ReversedInfinite => near / stored,
+        }
+    }
+
+    fn decoded(&self, texel: [f64; 4]) -> [f64; 3] {
+        let signed = texel.map(|axis| 2.0 * axis - 1.0);
+        match self.params.normals {
+            Normals::Float => [texel[0], texel[1], texel[2]],
+            Normals::Unorm => unit([signed[0], signed[1], signed[2]]),
+            Normals::Octahedral => folded([signed[0], signed[1]]),
+            Normals::Packed => folded([texel[0], texel[1]]),
+        }
+    }
+}
+
+/// The images of `name` in the layout of the options.
+fn stored<'a>(inputs: &'a Inputs, params: &SraaParams, samples: usize, name: &str) -> Result<Stored<'a>, OracleError> {
+    let apart = params.shading == Shading::Centre;
+    if params.layout == Layout::Layers {
+        return Ok(Stored {
+            images: images(inputs, name, samples + usize::from(apart))?,
+            centre: None,
+        });
+    }
+    let (suffix, count) = match params.layout {
+        Layout::Superresolution => ("grid", 1),
+        _ => ("samples", samples),
+    };
+    let centre = match apart {
+        true => Some(&images(inputs, &format!("centre_{name}"), 1)?[0]),
+        false => None,
+    };
+    Ok(Stored {
+        images: images(inputs, &format!("{name}_{suffix}"), count)?,
+        centre,
+    })
+}
+
+fn images<'a>(inputs: &'a Inputs, name: &str, count: usize) -> Result<&'a [Frame<Vec4>], OracleError> {
+    let found = inputs.images.iter().rev().find(|(known, _)| known == name);
+    match found {
+        Some((_, images)) if images.len() >= count => Ok(images),
+        _ => Err(OracleError::Input {
+            name: name.to_owned(),
+            needed: format!("{count} images"),
+        }),
+    }
+}
+
+fn vector<const N: usize>(inputs: &Inputs, name: &str) -> Result<[f64; N], OracleError> {
+    let found = inputs.uniforms.iter().rev().find(|(known, _)| known == name);
+    found
+        .and_then(|(_, lanes)| lanes.as_slice().try_into().ok())
+        .ok_or_else(|| OracleError::Input {
+            name: name.to_owned(),
+            needed: format!("{N} numbers"),
+        })
+}
+
+fn texel(image: &Frame<Vec4>, at: [i32; 2]) -> Vec4 {
+    let width = image.size().x as usize;
+    image.texels()[at[1] as usize * width + at[0] as usize]
+}
+
+fn numbers(texel: Vec4) -> [f64; 4] {
+    texel.to_array().map(f64::from)
+}
+
+/// The point of the octahedron |x| + |y| + |z| = 1 whose lower half was unfolded outwards, at length 1.
+fn folded([x, y]: [f64; 2]) -> [f64; 3] {
+    let z = 1.0 - x.abs() - y.abs();
+    if z >= 0.0 {
+        return unit([x, y, z]);
+    }
+    unit([(1.0 - y.abs()).copysign(x), (1.0 - x.abs()).copysign(y), z])
+}
+
+fn unit(v: [f64; 3]) -> [f64; 3] {
+    let length = v.iter().map(|axis| axis * axis).sum::<f64>().sqrt();
+    if length > 0.0 { v.map(|axis| axis / length) } else { v }
+}

@@ -1,0 +1,155 @@
+//! The kernel as rustc compiles it.
+
+use super::options::Options;
+use glam::{Vec3, ivec2};
+use straightline_kernels::prelude::{Frame, FrameLayers, Multisampled, Texture, Vec4};
+use straightline_kernels::sraa::{
+    Colors, Depth, Difference, Falloff, GBuffer, Layout, Mask, Metric, NonFinite, Normalisation, Normals, Pattern,
+    Resolve, Shading, Sraa, View, sraa,
+};
+use straightline_study::execute::Inputs;
+
+/// Every pixel, by the native kernel.
+pub fn run(options: &Options, inputs: &Inputs) -> Vec<[f32; 4]> {
+    let (cfg, gbuffer, view, colors) = (config(options), gbuffer(inputs), view(inputs), colors(inputs));
+    let size = inputs.size.as_ivec2();
+    let pixels = (0..size.y).flat_map(|y| (0..size.x).map(move |x| ivec2(x, y)));
+    pixels
+        .map(|pixel| sraa(&cfg, &gbuffer, &view, &colors, pixel).to_array())
+        .collect()
+}
+
+/// The kernel's own options.
+pub fn config(options: &Options) -> Sraa {
+    let mut cfg = Sraa::default();
+    for (name, value) in options {
+        set(&mut cfg, name, value);
+    }
+    cfg
+}
+
+macro_rules! one_of {
+    ($value:expr, $ty:ident: $($text:literal => $variant:ident),*) => {
+        match $value { $( $text => $ty::$variant, )* other => panic!("no value `{other}`") }
+    };
+}
+
+fn set(cfg: &mut Sraa, name: &str, value: &str) {
+    match name {
+        "pattern" => {
+            cfg.pattern = one_of!(value, Pattern: "ordered4" => Ordered4, "latin4" => Latin4, "standard8" => Standard8,
+                "ordered16" => Ordered16, "latin16" => Latin16, "listed" => Listed);
+        }
+        "offsets" => cfg.offsets = leaked(value, |text| text.parse().ok()),
+        "latin" => cfg.latin = value == "true",
+        "shading" => {
+            cfg.shading = one_of!(value, Shading: "sample0" => Sample0, "centre" => Centre, "listed" => Listed);
+        }
+        "shaded" => cfg.shaded = leaked(value, |text| text.parse().ok()),
+        "metric" => {
+            cfg.metric = one_of!(value, Metric: "planes-normals" => PlanesNormals, "depth-normals" => DepthNormals,
+                "normals" => Normals, "depth" => Depth);
+        }
+        "difference" => {
+            cfg.difference = one_of!(value, Difference: "absolute" => Absolute, "relative" => Relative);
+        }
+        "depth" => {
+            cfg.depth = one_of!(value, Depth: "linear" => Linear, "perspective" => Perspective, "reversed" => Reversed,
+                "reversed-infinite" => ReversedInfinite);
+        }
+        "normals" => {
+            cfg.normals = one_of!(value, Normals: "float" => Float, "unorm" => Unorm, "octahedral" => Octahedral,
+                "packed" => Packed);
+        }
+        "layout" => {
+            cfg.layout = one_of!(value, Layout: "layers" => Layers, "superresolution" => Superresolution,
+                "multisampled" => Multisampled);
+        }
+        "falloff" => cfg.falloff = one_of!(value, Falloff: "none" => None, "tent" => Tent, "gaussian" => Gaussian),
+        "normalisation" => {
+            cfg.normalisation = one_of!(value, Normalisation: "paper" => Paper, "epsilon" => Epsilon,
+                "shifted" => Shifted);
+        }
+        "resolve" => cfg.resolve = one_of!(value, Resolve: "box" => Box, "tent" => Tent),
+        "mask" => cfg.mask = one_of!(value, Mask: "none" => None, "select" => Select, "branch" => Branch),
+        "non-finite" => cfg.non_finite = one_of!(value, NonFinite: "spread" => Spread, "skip" => Skip),
+        "tau" => cfg.tau = number(value),
+        "depth-scale" => cfg.depth_scale = number(value),
+        "sigma" => cfg.sigma = number(value),
+        "mask-threshold" => cfg.mask_threshold = number(value),
+        other => panic!("no option `{other}`"),
+    }
+}
+
+fn number(text: &str) -> f32 {
+    text.parse().unwrap_or_else(|_| panic!("`{text}` is no number"))
+}
+
+/// Options are data of the program; those of a test are made up as it goes.
+fn leaked<T>(text: &str, parse: impl Fn(&str) -> Option<T>) -> &'static [T] {
+    let parts = text.split(',').map(|part| parse(part).expect("a number"));
+    Vec::leak(parts.collect())
+}
+
+fn gbuffer(inputs: &Inputs) -> GBuffer {
+    let mut gbuffer = GBuffer::unread();
+    for (name, images) in &inputs.images {
+        let first = &images[0];
+        match name.as_str() {
+            "depth" => gbuffer.depth = FrameLayers::new(images.iter().map(first_of).collect()),
+            "normal" => gbuffer.normal = FrameLayers::new(images.clone()),
+            "packed" => gbuffer.packed = FrameLayers::new(images.clone()),
+            "depth_grid" => gbuffer.depth_grid = scalars(first),
+            "normal_grid" => gbuffer.normal_grid = texture(first),
+            "packed_grid" => gbuffer.packed_grid = texture(first),
+            "depth_samples" => gbuffer.depth_samples = Multisampled::new(images.iter().map(scalars).collect()),
+            "normal_samples" => gbuffer.normal_samples = Multisampled::new(images.iter().map(texture).collect()),
+            "packed_samples" => gbuffer.packed_samples = Multisampled::new(images.iter().map(texture).collect()),
+            "centre_depth" => gbuffer.centre_depth = first_of(first),
+            "centre_normal" => gbuffer.centre_normal = first.clone(),
+            "centre_packed" => gbuffer.centre_packed = first.clone(),
+            _ => {}
+        }
+    }
+    gbuffer
+}
+
+fn colors(inputs: &Inputs) -> Colors {
+    let images = |name: &str| {
+        let found = inputs.images.iter().find(|(known, _)| known == name);
+        found.map(|(_, images)| images.clone()).expect("colours are there")
+    };
+    Colors {
+        color: images("color").remove(0),
+        colors: FrameLayers::new(images("colors")),
+    }
+}
+
+fn view(inputs: &Inputs) -> View {
+    let lanes = |name: &str| {
+        let found = inputs.uniforms.iter().find(|(known, _)| known == name);
+        found.map(|(_, lanes)| lanes.clone()).expect("the view is there")
+    };
+    let vector = |name: &str| Vec3::from_slice(&lanes(name).iter().map(|lane| *lane as f32).collect::<Vec<_>>());
+    let origin = lanes("origin");
+    View {
+        ray_corner: vector("ray_corner"),
+        ray_right: vector("ray_right"),
+        ray_down: vector("ray_down"),
+        origin: ivec2(origin[0] as i32, origin[1] as i32),
+        near: lanes("near")[0] as f32,
+        far: lanes("far")[0] as f32,
+    }
+}
+
+fn first_of(image: &Frame<Vec4>) -> Frame<f32> {
+    Frame::new(image.size(), image.texels().iter().map(|t| t.x).collect())
+}
+
+fn scalars(image: &Frame<Vec4>) -> Texture<f32> {
+    Texture::new(image.size(), image.texels().iter().map(|t| t.x).collect())
+}
+
+fn texture(image: &Frame<Vec4>) -> Texture<Vec4> {
+    Texture::new(image.size(), image.texels().to_vec())
+}

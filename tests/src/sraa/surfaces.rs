@@ -1,0 +1,99 @@
+//! Slanted surfaces with steps between them, slopes, creases and a sky, as a G-buffer sees them.
+
+use super::options::{Options, value};
+use super::{Random, compiled};
+use glam::{UVec2, Vec2, Vec3, Vec4, uvec2, vec2, vec3, vec4};
+use straightline_codegen::Unroll;
+use straightline_kernels::prelude::{Frame, FrameLayers};
+use straightline_study::capture::{Capture, ShadingSample};
+use straightline_study::execute::Inputs;
+use straightline_study::gbuffer;
+use straightline_study::oracle::SraaParams;
+use straightline_study::scene::{Camera, SKY_DEPTH};
+
+/// Surfaces sampled where the options of a set say, with random colours.
+pub fn capture(options: &Options, size: UVec2, seed: u64) -> Capture {
+    let params = SraaParams::of(options.iter().map(|(name, value)| (name, value)));
+    let params = params.unwrap_or_else(|error| panic!("{error}"));
+    let samples: Vec<Vec2> = params
+        .samples()
+        .into_iter()
+        .map(|[x, y]| vec2(x as f32, y as f32))
+        .collect();
+    let centre = value(options, "shading", "centre") == "centre";
+    let mut random = Random(seed);
+    let edges = edges(&mut random, size);
+    let mut places = samples.clone();
+    places.extend(centre.then_some(Vec2::ZERO));
+    let layer = |offset: Vec2| -> Vec<(f32, Vec3)> {
+        let pixels = (0..size.y).flat_map(|y| (0..size.x).map(move |x| uvec2(x, y)));
+        pixels
+            .map(|pixel| surface(&edges, pixel.as_vec2() + 0.5 + offset))
+            .collect()
+    };
+    let layers: Vec<Vec<(f32, Vec3)>> = places.iter().map(|place| layer(*place)).collect();
+    let depth = layers.iter().map(|l| Frame::new(size, l.iter().map(|s| s.0).collect()));
+    let normal = layers.iter().map(|l| Frame::new(size, l.iter().map(|s| s.1).collect()));
+    Capture {
+        size,
+        samples,
+        shading: if centre {
+            ShadingSample::Centre
+        } else {
+            ShadingSample::Sample(0)
+        },
+        camera: Some(Camera {
+            position: [0.0; 3],
+            target: [0.0, 0.0, -1.0],
+            up: [0.0, 1.0, 0.0],
+            vertical_fov: 1.0,
+            near: 0.1,
+        }),
+        color: colors(&mut random, size),
+        depth: FrameLayers::new(depth.collect()),
+        normal: Some(FrameLayers::new(normal.collect())),
+        reference: None,
+    }
+}
+
+/// What a shader with these options reads.
+pub fn inputs(options: &Options, size: UVec2, seed: u64) -> Inputs {
+    let capture = capture(options, size, seed);
+    let compiled = compiled(options, Unroll::Full).unwrap_or_else(|errors| panic!("{options:?}:\n{errors}"));
+    let inputs = gbuffer::inputs(&capture, &compiled.options).unwrap_or_else(|error| panic!("{options:?}: {error}"));
+    let mut random = Random(seed ^ 0x5eed);
+    inputs.layers("colors", (0..4).map(|_| colors(&mut random, size)).collect())
+}
+
+fn colors(random: &mut Random, size: UVec2) -> Frame<Vec4> {
+    let color = |random: &mut Random| vec4(random.unit(), random.unit(), random.unit(), 1.0);
+    Frame::new(size, (0..size.x * size.y).map(|_| color(random)).collect())
+}
+
+/// The border of a half plane that lies before what is behind it: direction, distance, depth, normal.
+type Edge = (Vec2, f32, f32, Vec3);
+
+fn edges(random: &mut Random, size: UVec2) -> Vec<Edge> {
+    let mut edge = || {
+        let angle = random.unit() * std::f32::consts::TAU;
+        let normal = vec3(random.unit() - 0.5, random.unit() - 0.5, 0.3 + random.unit()).normalize();
+        (
+            Vec2::from_angle(angle),
+            random.unit() * size.x as f32 - 0.3 * size.x as f32,
+            1.0 + 9.0 * random.unit(),
+            normal,
+        )
+    };
+    (0..6).map(|_| edge()).collect()
+}
+
+fn surface(edges: &[Edge], at: Vec2) -> (f32, Vec3) {
+    let mut found = (SKY_DEPTH, Vec3::Z);
+    for (direction, distance, depth, normal) in edges {
+        let side = direction.dot(at) - distance;
+        if side > 0.0 && *depth < found.0 {
+            found = (depth + 0.001 * side, *normal);
+        }
+    }
+    found
+}
