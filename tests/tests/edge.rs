@@ -68,6 +68,9 @@ impl World {
     }
 }
 
+/// Values by the names of options.
+type Named<T> = Vec<(&'static str, T)>;
+
 /// One setting of one filter.
 #[derive(Clone, Copy, Debug)]
 enum Filter {
@@ -118,7 +121,7 @@ impl Filter {
     }
 
     /// Choices, and numbers.
-    fn options(&self) -> (Vec<(&'static str, &'static str)>, Vec<(&'static str, f32)>) {
+    fn options(&self) -> (Named<&'static str>, Named<f32>) {
         let form = |form| match form {
             Form::Paper => "paper",
             Form::Corrected => "corrected",

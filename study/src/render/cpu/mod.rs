@@ -77,13 +77,12 @@ impl CpuRenderer {
     /// Of an alpha-tested triangle, where it is there; `None` for all others.
     fn holes<'a>(&'a self, triangle: &'a ScreenTriangle) -> Option<impl Fn(UVec2) -> bool + 'a> {
         let corners = self.scene.triangles[triangle.source as usize].map(|i| &self.scene.vertices[i as usize]);
-        (corners[0].material == Material::ChainLink as u32).then(|| {
-            move |pixel| {
-                let shares = triangle.shares(pixel, self.size).as_vec3();
-                let [a, b, c] = corners.map(|corner| Vec3::from(corner.position));
-                shade::is_wire(a * shares.x + b * shares.y + c * shares.z)
-            }
-        })
+        let there = move |pixel| {
+            let shares = triangle.shares(pixel, self.size).as_vec3();
+            let [a, b, c] = corners.map(|corner| Vec3::from(corner.position));
+            shade::is_wire(a * shares.x + b * shares.y + c * shares.z)
+        };
+        (corners[0].material == Material::ChainLink as u32).then_some(there)
     }
 
     /// Every triangle that may be seen, in order.

@@ -24,7 +24,7 @@ pub(super) fn scene() -> Scene {
 
 /// A folded screen of `folds` leaves along +x from `from`, a third of a metre each.
 fn screen(mesh: &mut Mesh, from: Vec3, height: f32, folds: u32) {
-    let foot = |k: u32| from + vec3(0.31 * k as f32, 0.0, if k % 2 == 0 { 0.0 } else { 0.16 });
+    let foot = |k: u32| from + vec3(0.31 * k as f32, 0.0, if k.is_multiple_of(2) { 0.0 } else { 0.16 });
     for k in 0..folds {
         let (a, b) = (foot(k), foot(k + 1));
         let rise = Vec3::Y * height.min(2.9);

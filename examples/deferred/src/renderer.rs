@@ -1,0 +1,316 @@
+//! A frame in four passes: geometry, once for each of its four samples; shading, once a pixel; SRAA; and to the screen.
+
+use crate::shaders::sraa;
+use crate::{Failure, Size, scene};
+use glam::camera::rh::proj::directx::perspective_infinite_reverse;
+use glam::camera::rh::view::look_at_mat4;
+use glam::{Mat4, Vec2, Vec3, vec2, vec3};
+use straightline_runtime::wgpu;
+use wgpu::{TextureFormat, TextureUsages, TextureViewDimension};
+
+/// Where in a pixel geometry is sampled, from its centre in pixels, y down: the kernel's pattern `latin4`. The first is
+/// shaded.
+const SAMPLES: [Vec2; 4] = [
+    vec2(-0.125, -0.375),
+    vec2(0.375, -0.125),
+    vec2(-0.375, 0.125),
+    vec2(0.125, 0.375),
+];
+
+/// Linear depth, so that the kernel needs to know nothing of the projection.
+const DEPTH: TextureFormat = TextureFormat::R32Float;
+const NORMAL: TextureFormat = TextureFormat::Rgba16Float;
+const ALBEDO: TextureFormat = TextureFormat::Rgba8Unorm;
+const COLOR: TextureFormat = TextureFormat::Rgba16Float;
+const Z_BUFFER: TextureFormat = TextureFormat::Depth32Float;
+
+/// Linear depth where there is nothing.
+const SKY: f64 = 1.0e6;
+
+/// Bytes of the uniforms of `scene.wgsl`.
+const UNIFORMS: usize = 160;
+
+/// Pipelines and what does not change with the size.
+pub struct Renderer {
+    device: wgpu::Device,
+    queue: wgpu::Queue,
+    corners: wgpu::Buffer,
+    count: u32,
+    /// One for each sample.
+    uniforms: Vec<wgpu::Buffer>,
+    geometry: wgpu::RenderPipeline,
+    shading: wgpu::RenderPipeline,
+    sraa: sraa::Pass,
+    present: wgpu::RenderPipeline,
+    targets: Targets,
+}
+
+/// What does change with the size.
+struct Targets {
+    size: Size,
+    /// Four layers each: one for each sample.
+    depth: wgpu::Texture,
+    normal: wgpu::Texture,
+    albedo: wgpu::TextureView,
+    z_buffer: wgpu::TextureView,
+    /// Shaded once a pixel.
+    shaded: wgpu::TextureView,
+    /// The same, antialiased.
+    resolved: wgpu::TextureView,
+}
+
+impl Renderer {
+    /// A renderer of pictures of `size` into targets of `format`, which converts to sRGB.
+    pub fn new(device: &wgpu::Device, queue: &wgpu::Queue, size: Size, format: TextureFormat) -> Result<Self, Failure> {
+        let shader = device.create_shader_module(wgpu::include_wgsl!("scene.wgsl"));
+        let corners = scene::corners();
+        let numbers = corners.as_flattened().iter().flat_map(Vec3::to_array);
+        Ok(Renderer {
+            corners: buffer(device, queue, wgpu::BufferUsages::VERTEX, &bytes(numbers)),
+            count: corners.len() as u32,
+            uniforms: SAMPLES
+                .iter()
+                .map(|_| buffer(device, queue, wgpu::BufferUsages::UNIFORM, &[0; UNIFORMS]))
+                .collect(),
+            geometry: pipeline(device, &shader, ["corner", "surface"], &[DEPTH, NORMAL, ALBEDO], true),
+            shading: pipeline(device, &shader, ["cover", "shade"], &[COLOR], false),
+            present: pipeline(device, &shader, ["cover", "present"], &[format], false),
+            sraa: sraa::Pass::new(device)?,
+            targets: Targets::new(device, size),
+            device: device.clone(),
+            queue: queue.clone(),
+        })
+    }
+
+    /// Goes on in another size. Passes and uniforms stay as they are.
+    #[cfg(any(test, feature = "window"))] // a picture has one size
+    pub fn resize(&mut self, size: Size) {
+        if size != self.targets.size {
+            self.targets = Targets::new(&self.device, size);
+        }
+    }
+
+    /// Records and submits the frame at `time` seconds, with or without antialiasing.
+    pub fn draw(&self, time: f32, with_sraa: bool, target: &wgpu::TextureView) -> Result<(), Failure> {
+        let distance = 5.4 + 1.0 * (0.4 * time).sin();
+        for (sample, uniforms) in SAMPLES.iter().zip(&self.uniforms) {
+            self.queue.write_buffer(uniforms, 0, &self.view(time, distance, *sample));
+        }
+        // A pixel covers more depth the farther away it is.
+        self.sraa.set_depth_scale(&self.queue, 120.0 / distance)?;
+
+        let targets = &self.targets;
+        let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        // The shaded sample comes last, so that what is not kept for each sample is its own.
+        for sample in (0..SAMPLES.len()).rev() {
+            self.draw_geometry(&mut encoder, sample as u32);
+        }
+        let (depth, normal) = (layer(&targets.depth, 0), layer(&targets.normal, 0));
+        self.cover(&mut encoder, &self.shading, Some(&self.uniforms[0]), &[&depth, &normal, &targets.albedo], &targets.shaded);
+        if with_sraa {
+            let (depth, normal) = (all_layers(&targets.depth), all_layers(&targets.normal));
+            let inputs = sraa::Inputs { color: &targets.shaded, depth: &depth, normal: &normal };
+            self.sraa.encode(&mut encoder, &inputs, &targets.resolved)?;
+        }
+        let shown = if with_sraa { &targets.resolved } else { &targets.shaded };
+        self.cover(&mut encoder, &self.present, None, &[shown], target);
+        self.queue.submit([encoder.finish()]);
+        Ok(())
+    }
+
+    /// The uniforms of `scene.wgsl`.
+    fn view(&self, time: f32, distance: f32, sample: Vec2) -> Vec<u8> {
+        let size = Vec2::from(self.targets.size.map(|side| side as f32));
+        let to_world = Mat4::from_rotation_y(0.5 * time);
+        let eye = vec3(0.0, 0.45, 1.0).normalize() * distance;
+        let to_view = look_at_mat4(eye, vec3(0.0, -0.4, 0.0), Vec3::Y);
+        // To sample right of the centre, everything moves left.
+        let shift = Mat4::from_translation((vec2(-sample.x, sample.y) * 2.0 / size).extend(0.0));
+        let fov: f32 = 0.75;
+        let to_clip = shift * perspective_infinite_reverse(fov, size.x / size.y, 0.1) * to_view * to_world;
+        let half = (0.5 * fov).tan() * vec2(size.x / size.y, 1.0);
+        // Rays of the shading pass: the camera's axes in the world, as far as its picture reaches.
+        let axes = to_view.transpose();
+        let matrices = [to_clip, to_world].into_iter().flat_map(|m| m.to_cols_array());
+        let camera = [axes.x_axis * half.x, axes.y_axis * half.y].into_iter().flat_map(|axis| axis.truncate().extend(0.0).to_array());
+        bytes(matrices.chain(camera))
+    }
+
+    /// Draws the scene into one layer of the G-buffer.
+    fn draw_geometry(&self, encoder: &mut wgpu::CommandEncoder, sample: u32) {
+        let targets = &self.targets;
+        let (depth, normal) = (layer(&targets.depth, sample), layer(&targets.normal, sample));
+        let cleared = |view, r, b| attachment(view, wgpu::LoadOp::Clear(wgpu::Color { r, g: 0.0, b, a: 0.0 }));
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("geometry"),
+            color_attachments: &[
+                cleared(&depth, SKY, 0.0),
+                // Any unit vector, the same everywhere.
+                cleared(&normal, 0.0, 1.0),
+                cleared(&targets.albedo, 0.0, 0.0),
+            ],
+            depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+                view: &targets.z_buffer,
+                depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Discard }),
+                stencil_ops: None,
+            }),
+            ..Default::default()
+        });
+        pass.set_pipeline(&self.geometry);
+        pass.set_bind_group(0, &self.bind(&self.geometry, Some(&self.uniforms[sample as usize]), &[]), &[]);
+        pass.set_vertex_buffer(0, self.corners.slice(..));
+        pass.draw(0..self.count, 0..1);
+    }
+
+    /// Draws one triangle over all of `target`.
+    fn cover(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        pipeline: &wgpu::RenderPipeline,
+        uniforms: Option<&wgpu::Buffer>,
+        inputs: &[&wgpu::TextureView],
+        target: &wgpu::TextureView,
+    ) {
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("cover"),
+            color_attachments: &[attachment(target, wgpu::LoadOp::Clear(wgpu::Color::BLACK))],
+            ..Default::default()
+        });
+        pass.set_pipeline(pipeline);
+        pass.set_bind_group(0, &self.bind(pipeline, uniforms, inputs), &[]);
+        pass.draw(0..3, 0..1);
+    }
+
+    /// Uniforms at binding 0, textures from 1 on.
+    fn bind(
+        &self,
+        pipeline: &wgpu::RenderPipeline,
+        uniforms: Option<&wgpu::Buffer>,
+        textures: &[&wgpu::TextureView],
+    ) -> wgpu::BindGroup {
+        let uniforms = uniforms.map(|buffer| wgpu::BindGroupEntry { binding: 0, resource: buffer.as_entire_binding() });
+        let textures = (1..).zip(textures);
+        let textures = textures.map(|(binding, view)| wgpu::BindGroupEntry {
+            binding,
+            resource: wgpu::BindingResource::TextureView(view),
+        });
+        self.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: None,
+            layout: &pipeline.get_bind_group_layout(0),
+            entries: &uniforms.into_iter().chain(textures).collect::<Vec<_>>(),
+        })
+    }
+}
+
+impl Targets {
+    fn new(device: &wgpu::Device, size: Size) -> Self {
+        let texture = |format, layers, usage| {
+            device.create_texture(&wgpu::TextureDescriptor {
+                label: None,
+                size: wgpu::Extent3d { width: size[0], height: size[1], depth_or_array_layers: layers },
+                mip_level_count: 1,
+                sample_count: 1,
+                dimension: wgpu::TextureDimension::D2,
+                format,
+                usage,
+                view_formats: &[],
+            })
+        };
+        let drawn = TextureUsages::RENDER_ATTACHMENT | TextureUsages::TEXTURE_BINDING;
+        let stored = TextureUsages::STORAGE_BINDING | TextureUsages::TEXTURE_BINDING;
+        let samples = SAMPLES.len() as u32;
+        Targets {
+            size,
+            depth: texture(DEPTH, samples, drawn),
+            normal: texture(NORMAL, samples, drawn),
+            albedo: layer(&texture(ALBEDO, 1, drawn), 0),
+            z_buffer: layer(&texture(Z_BUFFER, 1, TextureUsages::RENDER_ATTACHMENT), 0),
+            shaded: layer(&texture(COLOR, 1, drawn), 0),
+            resolved: layer(&texture(COLOR, 1, stored), 0),
+        }
+    }
+}
+
+/// One layer, as a plain texture.
+fn layer(texture: &wgpu::Texture, at: u32) -> wgpu::TextureView {
+    texture.create_view(&wgpu::TextureViewDescriptor {
+        dimension: Some(TextureViewDimension::D2),
+        base_array_layer: at,
+        array_layer_count: Some(1),
+        ..Default::default()
+    })
+}
+
+/// All layers, as the kernel reads them.
+fn all_layers(texture: &wgpu::Texture) -> wgpu::TextureView {
+    texture.create_view(&wgpu::TextureViewDescriptor { dimension: Some(TextureViewDimension::D2Array), ..Default::default() })
+}
+
+fn attachment(view: &wgpu::TextureView, load: wgpu::LoadOp<wgpu::Color>) -> Option<wgpu::RenderPassColorAttachment<'_>> {
+    Some(wgpu::RenderPassColorAttachment {
+        view,
+        depth_slice: None,
+        resolve_target: None,
+        ops: wgpu::Operations { load, store: wgpu::StoreOp::Store },
+    })
+}
+
+/// A pipeline of two functions of the shader, with the layout that they ask for.
+fn pipeline(
+    device: &wgpu::Device,
+    shader: &wgpu::ShaderModule,
+    [vertex, fragment]: [&str; 2],
+    formats: &[TextureFormat],
+    geometry: bool,
+) -> wgpu::RenderPipeline {
+    let attributes = wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Float32x3];
+    let corners = Some(wgpu::VertexBufferLayout {
+        array_stride: 36,
+        step_mode: wgpu::VertexStepMode::Vertex,
+        attributes: &attributes,
+    });
+    let targets: Vec<_> = formats.iter().map(|format| Some((*format).into())).collect();
+    device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some(fragment),
+        layout: None,
+        vertex: wgpu::VertexState {
+            module: shader,
+            entry_point: Some(vertex),
+            compilation_options: Default::default(),
+            buffers: if geometry { std::slice::from_ref(&corners) } else { &[] },
+        },
+        primitive: wgpu::PrimitiveState::default(),
+        depth_stencil: geometry.then(|| wgpu::DepthStencilState {
+            format: Z_BUFFER,
+            depth_write_enabled: Some(true),
+            // The reciprocal of depth: 1 is near.
+            depth_compare: Some(wgpu::CompareFunction::Greater),
+            stencil: Default::default(),
+            bias: Default::default(),
+        }),
+        multisample: wgpu::MultisampleState::default(),
+        fragment: Some(wgpu::FragmentState {
+            module: shader,
+            entry_point: Some(fragment),
+            compilation_options: Default::default(),
+            targets: &targets,
+        }),
+        multiview_mask: None,
+        cache: None,
+    })
+}
+
+fn buffer(device: &wgpu::Device, queue: &wgpu::Queue, usage: wgpu::BufferUsages, bytes: &[u8]) -> wgpu::Buffer {
+    let buffer = device.create_buffer(&wgpu::BufferDescriptor {
+        label: None,
+        size: bytes.len() as u64,
+        usage: usage | wgpu::BufferUsages::COPY_DST,
+        mapped_at_creation: false,
+    });
+    queue.write_buffer(&buffer, 0, bytes);
+    buffer
+}
+
+fn bytes(numbers: impl Iterator<Item = f32>) -> Vec<u8> {
+    numbers.flat_map(f32::to_le_bytes).collect()
+}

@@ -1,0 +1,151 @@
+//! Frames in a window.
+
+use crate::picture::NO_ADAPTER;
+use crate::renderer::Renderer;
+use crate::{Failure, Size};
+use std::sync::Arc;
+use std::time::Instant;
+use straightline_runtime::wgpu;
+use wgpu::CurrentSurfaceTexture;
+use winit::application::ApplicationHandler;
+use winit::dpi::PhysicalSize;
+use winit::event::{ElementState, KeyEvent, WindowEvent};
+use winit::event_loop::{ActiveEventLoop, EventLoop};
+use winit::keyboard::{Key, NamedKey};
+use winit::window::{Window, WindowId};
+
+/// Opens a window of `size` and draws until it is closed.
+pub fn run(size: Size, sraa: bool) -> Result<(), Failure> {
+    let events = EventLoop::new().map_err(|error| format!("{error}\nWithout a screen, draw a picture: --out FILE.png"))?;
+    let mut application = Application { size, sraa, started: Instant::now(), screen: None, failure: None };
+    events.run_app(&mut application)?;
+    application.failure.map_or(Ok(()), Err)
+}
+
+struct Application {
+    size: Size,
+    sraa: bool,
+    started: Instant,
+    /// From the first moment that there can be one.
+    screen: Option<Screen>,
+    failure: Option<Failure>,
+}
+
+struct Screen {
+    window: Arc<Window>,
+    device: wgpu::Device,
+    queue: wgpu::Queue,
+    surface: wgpu::Surface<'static>,
+    config: wgpu::SurfaceConfiguration,
+    renderer: Renderer,
+}
+
+impl Screen {
+    fn new(events: &ActiveEventLoop, [width, height]: Size) -> Result<Self, Failure> {
+        let attributes = Window::default_attributes().with_inner_size(PhysicalSize::new(width, height));
+        let window = Arc::new(events.create_window(attributes)?);
+        let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
+        let surface = instance.create_surface(window.clone())?;
+        let options = wgpu::RequestAdapterOptions { compatible_surface: Some(&surface), ..Default::default() };
+        let adapter = pollster::block_on(instance.request_adapter(&options)).map_err(|e| format!("{NO_ADAPTER}: {e}"))?;
+        let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor::default()))?;
+        let size = window.inner_size();
+        let mut config = surface
+            .get_default_config(&adapter, size.width.max(1), size.height.max(1))
+            .ok_or("the adapter cannot draw to this window")?;
+        // The renderer gives linear colours; the format converts them.
+        let format = config.format.add_srgb_suffix();
+        if format != config.format {
+            config.view_formats.push(format);
+        }
+        surface.configure(&device, &config);
+        let renderer = Renderer::new(&device, &queue, [config.width, config.height], format)?;
+        Ok(Screen { window, device, queue, surface, config, renderer })
+    }
+
+    fn resize(&mut self, size: PhysicalSize<u32>) {
+        // A minimised window has no size.
+        if size.width > 0 && size.height > 0 {
+            (self.config.width, self.config.height) = (size.width, size.height);
+            self.surface.configure(&self.device, &self.config);
+            self.renderer.resize([size.width, size.height]);
+        }
+    }
+
+    fn draw(&mut self, time: f32, sraa: bool) -> Result<(), Failure> {
+        let frame = match self.surface.get_current_texture() {
+            CurrentSurfaceTexture::Success(frame) | CurrentSurfaceTexture::Suboptimal(frame) => frame,
+            CurrentSurfaceTexture::Outdated | CurrentSurfaceTexture::Lost => {
+                self.surface.configure(&self.device, &self.config);
+                return Ok(());
+            }
+            // Nothing to draw to now; the next frame may have more luck.
+            _ => return Ok(()),
+        };
+        let view = frame.texture.create_view(&wgpu::TextureViewDescriptor {
+            format: Some(self.config.format.add_srgb_suffix()),
+            ..Default::default()
+        });
+        self.renderer.draw(time, sraa, &view)?;
+        self.window.pre_present_notify();
+        self.queue.present(frame);
+        Ok(())
+    }
+}
+
+impl ApplicationHandler for Application {
+    fn resumed(&mut self, events: &ActiveEventLoop) {
+        if self.screen.is_none() {
+            match Screen::new(events, self.size) {
+                Ok(screen) => self.screen = Some(screen),
+                Err(failure) => self.fail(events, failure),
+            }
+        }
+        self.show_state();
+    }
+
+    fn window_event(&mut self, events: &ActiveEventLoop, _: WindowId, event: WindowEvent) {
+        let Some(screen) = &mut self.screen else { return };
+        match event {
+            WindowEvent::CloseRequested => events.exit(),
+            WindowEvent::Resized(size) => screen.resize(size),
+            WindowEvent::KeyboardInput {
+                event: KeyEvent { logical_key: Key::Named(key), state: ElementState::Pressed, repeat: false, .. },
+                ..
+            } => match key {
+                NamedKey::Space => {
+                    self.sraa = !self.sraa;
+                    self.show_state();
+                }
+                NamedKey::Escape => events.exit(),
+                _ => {}
+            },
+            WindowEvent::RedrawRequested => {
+                if let Err(failure) = screen.draw(self.started.elapsed().as_secs_f32(), self.sraa) {
+                    self.fail(events, failure);
+                }
+            }
+            _ => {}
+        }
+    }
+
+    fn about_to_wait(&mut self, _: &ActiveEventLoop) {
+        if let Some(screen) = &self.screen {
+            screen.window.request_redraw();
+        }
+    }
+}
+
+impl Application {
+    fn show_state(&self) {
+        if let Some(screen) = &self.screen {
+            let state = if self.sraa { "on" } else { "off" };
+            screen.window.set_title(&format!("SRAA {state} (Space)"));
+        }
+    }
+
+    fn fail(&mut self, events: &ActiveEventLoop, failure: Failure) {
+        self.failure = Some(failure);
+        events.exit();
+    }
+}
