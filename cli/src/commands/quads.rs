@@ -144,6 +144,9 @@ enum Drawn {
     Forward(Forward),
 }
 
+/// Occlusion as far as the scene's walls and steps, dark enough to be judged.
+const OCCLUSION: [(&str, &str); 3] = [("pixel-angle", "uniform"), ("radius", "1.2"), ("strength", "4")];
+
 /// Measures every way of every filter on a rendered frame, in one run.
 pub fn run(args: &QuadsArgs) -> Result<(), Failure> {
     let gpu = Gpu::require(&args.adapter)?;
@@ -154,7 +157,7 @@ pub fn run(args: &QuadsArgs) -> Result<(), Failure> {
         Err(why) => why,
     };
     let scene = scene::load(args.mesh.as_deref())?;
-    let shadowed = Shadowed::new(&bench, &scene, args.size, 1024, 9.0).map_err(Failure::of)?;
+    let shadowed = Shadowed::new(&bench, &scene, args.size, args.texels, 9.0).map_err(Failure::of)?;
     let forward_inputs = shadowed.inputs(&bench).map_err(Failure::of)?;
     let screen_inputs = screen(&gpu, &bench, &scene, args)?;
     let mut subjects = Vec::new();
@@ -224,7 +227,7 @@ fn screen(
         .image("normal", normal)
         .uniform("pixel_angle", &[f64::from(angle)]);
     // Occlusion as it would be computed at half the resolution, here taken from the full one.
-    let occlusion = compile("quad_ssao", &[("sharing", "alone"), ("pixel-angle", "uniform")], None)?;
+    let occlusion = compile("quad_ssao", &[&[("sharing", "alone")], &OCCLUSION[..]].concat(), None)?;
     let occlusion = bench.run(&occlusion, Stage::Compute, &full).map_err(Failure::of)?;
     let low_size = args.size.map(|n| n.div_ceil(2) + 1);
     let mut low = full.clone().image("image", occlusion);
@@ -260,7 +263,7 @@ fn prepare(
 ) -> Result<Subject, Failure> {
     let mut options = options.to_vec();
     if family.kernel == "quad_ssao" {
-        options.push(("pixel-angle", "uniform"));
+        options.extend(OCCLUSION);
     }
     let compiled = compile(family.kernel, &options, Some(transport))?;
     let stage = match transport {
@@ -382,7 +385,8 @@ fn write_pictures(
         )?;
         columns.push((way, shown));
     }
-    write_details(folder, "pcf-details.png", &columns)?;
+    // Under the awning over the built-in scene's door.
+    write_details(folder, "pcf-details.png", &columns, [0.55, 0.53, 0.1, 0.2])?;
     let low = screen.images.iter().rev().find(|(name, _)| name == "low");
     let naive = low.map(|(_, layers)| stretched(&layers[0], screen));
     let mut columns = Vec::new();
@@ -397,14 +401,17 @@ fn write_pictures(
             columns.push((title, subject.image.clone()));
         }
     }
-    write_details(folder, "occlusion-details.png", &columns)
+    write_details(folder, "occlusion-details.png", &columns, [0.5, 0.45, 0.2, 0.3])
 }
 
-fn write_details(folder: &Path, name: &str, columns: &[(&str, Frame<Vec4>)]) -> Result<(), Failure> {
+/// The same part of several pictures, left, top, width and height as shares of the whole, enlarged beside one another.
+fn write_details(folder: &Path, name: &str, columns: &[(&str, Frame<Vec4>)], part: [f32; 4]) -> Result<(), Failure> {
     let detail = |frame: &Frame<Vec4>| {
-        let size = frame.size();
-        let (width, height) = (size.x / 5, size.y / 4);
-        picture::detail(frame, size.x * 11 / 20, size.y * 11 / 20, width, height, 4)
+        let size = frame.size().as_vec2();
+        let [left, top, width, height] = part;
+        let [x, y] = [left * size.x, top * size.y].map(|v| v as u32);
+        let [width, height] = [width * size.x, height * size.y].map(|v| (v as u32).max(1));
+        picture::detail(frame, x, y, width, height, (400 / width).clamp(1, 8))
     };
     let details: Vec<(&str, Frame<Vec4>)> = columns.iter().map(|(title, frame)| (*title, detail(frame))).collect();
     let columns: Vec<(&str, &Frame<Vec4>)> = details.iter().map(|(title, frame)| (*title, frame)).collect();
