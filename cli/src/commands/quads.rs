@@ -397,11 +397,13 @@ fn write_pictures(
         ("occlusion, 16 taps", "quad", "split over the quad"),
     ] {
         if let Some(subject) = subjects.iter().find(|s| s.family == family && s.way == way) {
-            write(&format!("occlusion-{}.png", title.replace(' ', "-")), &subject.image)?;
-            columns.push((title, subject.image.clone()));
+            let opaque = subject.image.texels().iter().map(|t| t.truncate().extend(1.0));
+            let shown = Frame::new(subject.image.size(), opaque.collect());
+            write(&format!("occlusion-{}.png", title.replace(' ', "-")), &shown)?;
+            columns.push((title, shown));
         }
     }
-    write_details(folder, "occlusion-details.png", &columns, [0.5, 0.45, 0.2, 0.3])
+    write_details(folder, "occlusion-details.png", &columns, [0.53, 0.42, 0.12, 0.22])
 }
 
 /// The same part of several pictures, left, top, width and height as shares of the whole, enlarged beside one another.
