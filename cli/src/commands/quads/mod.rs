@@ -1,21 +1,22 @@
 //! `quads`: what sharing work over pixel quads is worth, filter by filter and transport by transport.
 
+mod families;
+mod pictures;
+
 use crate::args::QuadsArgs;
 use crate::failure::Failure;
 use crate::gpu::Gpu;
 use crate::{scene, table};
+use families::{FAMILIES, Family};
 use glam::{Vec4, vec3};
 use serde::Serialize;
-use std::path::Path;
 use std::time::SystemTime;
-use straightline_codegen::{Compiled, Kernel, Settings, Transport};
+use straightline_codegen::{Compiled, EmitOptions, Kernel, Settings, Transport};
 use straightline_kernels::prelude::Frame;
 use straightline_manifest::Stage;
 use straightline_runtime::{Pass, Quads};
 use straightline_study::execute::{Bench, Bound, Clock, Forward, Inputs, Job, Shadowed, Times};
-use straightline_study::picture;
-use straightline_study::render::GpuRenderer;
-use straightline_study::render::Renderer;
+use straightline_study::render::{GpuRenderer, Renderer};
 
 /// One way to compute a filter.
 #[derive(Clone, Debug, Serialize)]
@@ -47,87 +48,6 @@ struct Record {
     quads: String,
     rows: Vec<Row>,
 }
-
-/// A filter: its kernel, and the options of each way to compute it, the first of which shares nothing.
-struct Family {
-    name: &'static str,
-    kernel: &'static str,
-    ways: &'static [(&'static str, &'static [(&'static str, &'static str)])],
-    /// Whether it is drawn with the scene's triangles.
-    forward: bool,
-}
-
-const FAMILIES: &[Family] = &[
-    Family {
-        name: "blur 3x3",
-        kernel: "quad_convolution",
-        ways: &[("naive", &[("sharing", "alone")]), ("quad", &[])],
-        forward: false,
-    },
-    Family {
-        name: "blur 7x7",
-        kernel: "quad_convolution",
-        ways: &[
-            (
-                "naive",
-                &[("radius", "3"), ("weights", "binomial"), ("sharing", "alone")],
-            ),
-            ("quad", &[("radius", "3"), ("weights", "binomial")]),
-        ],
-        forward: false,
-    },
-    Family {
-        name: "bilateral 5x5",
-        kernel: "quad_bilateral",
-        ways: &[("naive", &[("sharing", "alone")]), ("quad", &[])],
-        forward: false,
-    },
-    Family {
-        name: "upsampling 2x",
-        kernel: "quad_upsampling",
-        ways: &[
-            ("naive", &[("reads", "naive")]),
-            ("quad, 2 reads", &[("reads", "apart")]),
-            ("quad, 1 read", &[("reads", "packed")]),
-        ],
-        forward: false,
-    },
-    Family {
-        name: "occlusion, 16 taps",
-        kernel: "quad_ssao",
-        ways: &[("naive", &[("sharing", "alone")]), ("quad", &[])],
-        forward: false,
-    },
-    Family {
-        name: "PCF 4x4 box",
-        kernel: "pcf",
-        ways: &[
-            ("naive", &[("method", "naive"), ("width", "four")]),
-            ("bilinear", &[("method", "bilinear"), ("width", "four")]),
-            ("quad", &[("width", "four")]),
-            ("quad, gradient", &[("width", "four"), ("gradient", "prewitt")]),
-        ],
-        forward: true,
-    },
-    Family {
-        name: "PCF 8x8 quadratic",
-        kernel: "pcf",
-        ways: &[
-            ("naive", &[("method", "naive"), ("weights", "quadratic")]),
-            ("bilinear", &[("method", "bilinear"), ("weights", "quadratic")]),
-            ("quad", &[("weights", "quadratic")]),
-            ("quad, gradient", &[("weights", "quadratic"), ("gradient", "prewitt")]),
-            ("gather", &[("method", "gather"), ("weights", "quadratic")]),
-        ],
-        forward: true,
-    },
-    Family {
-        name: "PCSS",
-        kernel: "pcss",
-        ways: &[("naive", &[("sharing", "alone")]), ("quad", &[])],
-        forward: true,
-    },
-];
 
 /// A way with a transport, ready to run.
 struct Subject {
@@ -183,7 +103,7 @@ pub fn run(args: &QuadsArgs) -> Result<(), Failure> {
     }
     let rows = measure(&bench, args, &subjects)?;
     if let Some(folder) = &args.pictures {
-        write_pictures(&bench, folder, &subjects, &shadowed, &screen_inputs)?;
+        pictures::write(&bench, folder, &subjects, &shadowed, &screen_inputs)?;
     }
     let record = Record {
         command: std::env::args().collect::<Vec<_>>().join(" "),
@@ -274,7 +194,9 @@ fn prepare(
         let forward = bench.forward(&compiled, inputs, &shadowed.corners, None, |text| text);
         let forward = forward.map_err(Failure::of)?;
         let image = bench.picture(&forward).map_err(Failure::of)?;
-        (Drawn::Forward(forward), image, compiled.counts.clone())
+        let emitted = compiled.emit(&EmitOptions::new().stage(stage).targets([]));
+        let counts = emitted.map_err(Failure::of)?.manifest.counts;
+        (Drawn::Forward(forward), image, counts)
     } else {
         let (pass, manifest) = bench.pass(&compiled, stage).map_err(Failure::of)?;
         let bound = bench.bind(&pass, &manifest, inputs).map_err(Failure::of)?;
@@ -360,77 +282,6 @@ fn differences(a: &Frame<Vec4>, b: &Frame<Vec4>) -> (f64, f64) {
         largest = largest.max(off);
     }
     (sum / f64::max(count, 1.0), largest)
-}
-
-/// The shadow scene by each way of the 8×8 filter, occlusion before and after upsampling, and details of both.
-fn write_pictures(
-    bench: &Bench,
-    folder: &Path,
-    subjects: &[Subject],
-    shadowed: &Shadowed,
-    screen: &Inputs,
-) -> Result<(), Failure> {
-    std::fs::create_dir_all(folder).map_err(|e| Failure::of(format!("cannot make `{}`: {e}", folder.display())))?;
-    let write = |name: &str, frame: &Frame<Vec4>| picture::write(&folder.join(name), frame).map_err(Failure::of);
-    let mut columns = Vec::new();
-    for way in ["naive", "quad", "quad, gradient", "gather"] {
-        let found = subjects
-            .iter()
-            .find(|s| s.family == "PCF 8x8 quadratic" && s.way == way);
-        let Some(subject) = found else { continue };
-        let shown = shadowed.picture(bench, &subject.image).map_err(Failure::of)?;
-        write(
-            &format!("pcf {way}.png").replace([',', ' '], "-").replace("--", "-"),
-            &shown,
-        )?;
-        columns.push((way, shown));
-    }
-    // Under the awning over the built-in scene's door.
-    write_details(folder, "pcf-details.png", &columns, [0.55, 0.53, 0.1, 0.2])?;
-    let low = screen.images.iter().rev().find(|(name, _)| name == "low");
-    let naive = low.map(|(_, layers)| stretched(&layers[0], screen));
-    let mut columns = Vec::new();
-    columns.extend(naive.map(|frame| ("bilinear", frame)));
-    for (family, way, title) in [
-        ("upsampling 2x", "quad, 1 read", "bilateral"),
-        ("occlusion, 16 taps", "naive", "full resolution"),
-        ("occlusion, 16 taps", "quad", "split over the quad"),
-    ] {
-        if let Some(subject) = subjects.iter().find(|s| s.family == family && s.way == way) {
-            let opaque = subject.image.texels().iter().map(|t| t.truncate().extend(1.0));
-            let shown = Frame::new(subject.image.size(), opaque.collect());
-            write(&format!("occlusion-{}.png", title.replace(' ', "-")), &shown)?;
-            columns.push((title, shown));
-        }
-    }
-    write_details(folder, "occlusion-details.png", &columns, [0.53, 0.42, 0.12, 0.22])
-}
-
-/// The same part of several pictures, left, top, width and height as shares of the whole, enlarged beside one another.
-fn write_details(folder: &Path, name: &str, columns: &[(&str, Frame<Vec4>)], part: [f32; 4]) -> Result<(), Failure> {
-    let detail = |frame: &Frame<Vec4>| {
-        let size = frame.size().as_vec2();
-        let [left, top, width, height] = part;
-        let [x, y] = [left * size.x, top * size.y].map(|v| v as u32);
-        let [width, height] = [width * size.x, height * size.y].map(|v| (v as u32).max(1));
-        picture::detail(frame, x, y, width, height, (400 / width).clamp(1, 8))
-    };
-    let details: Vec<(&str, Frame<Vec4>)> = columns.iter().map(|(title, frame)| (*title, detail(frame))).collect();
-    let columns: Vec<(&str, &Frame<Vec4>)> = details.iter().map(|(title, frame)| (*title, frame)).collect();
-    picture::write(&folder.join(name), &picture::montage(&columns)).map_err(Failure::of)
-}
-
-/// An image of low resolution as a sampler would stretch it: what bilateral upsampling is better than.
-fn stretched(low: &Frame<Vec4>, screen: &Inputs) -> Frame<Vec4> {
-    let size = screen.size;
-    let texel = |k: u32| {
-        let place = (glam::uvec2(k % size.x, k / size.x).as_vec2() + 0.5) / 2.0;
-        let (corner, t) = (place.floor(), place - place.floor());
-        let at = |i: i32, j: i32| low.load(corner.as_ivec2() + glam::ivec2(i, j));
-        let row = |j: i32| at(0, j).lerp(at(1, j), t.x);
-        row(0).lerp(row(1), t.y).truncate().extend(1.0)
-    };
-    Frame::new(size, (0..size.x * size.y).map(texel).collect())
 }
 
 fn print(args: &QuadsArgs, record: &Record) -> Result<(), Failure> {
