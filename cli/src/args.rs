@@ -289,6 +289,9 @@ pub struct QuadsArgs {
     /// Also write the table and its circumstances to this file, as JSON
     #[arg(long, value_name = "FILE")]
     pub record: Option<PathBuf>,
+    /// Texels of the shadow map, across and down
+    #[arg(long, value_name = "N", default_value_t = 512, value_parser = clap::value_parser!(u32).range(16..=8192))]
+    pub texels: u32,
     /// Also write pictures of shadows and occlusion to this folder
     #[arg(long, value_name = "DIR")]
     pub pictures: Option<PathBuf>,

@@ -364,3 +364,74 @@ fn scenes_are_listed_and_unknown_ones_refused() {
     );
     assert!(is_empty(&out));
 }
+
+#[test]
+fn transports_that_a_stage_does_not_have_are_refused() {
+    let folder = scratch("transports");
+    let out = folder.join("out");
+    let out = out.to_str().unwrap();
+    fails(
+        &["emit", "pcf", "--transport", "subgroup", "--out", out],
+        1,
+        &["no pixel quads", "`block`"],
+    );
+    fails(
+        &[
+            "emit",
+            "pcf",
+            "--transport",
+            "block",
+            "--stage",
+            "fragment",
+            "--out",
+            out,
+        ],
+        1,
+        &["a fragment writes one"],
+    );
+    fails(
+        &[
+            "emit",
+            "sraa",
+            "--transport",
+            "subgroup",
+            "--stage",
+            "fragment",
+            "--out",
+            out,
+        ],
+        1,
+        &["sends no messages", "pixel: Quad<IVec2>"],
+    );
+    fails(
+        &["emit", "pcf", "--transport", "telepathy", "--out", out],
+        2,
+        &["subgroup, derivatives or block"],
+    );
+    fails(
+        &["emit", "pcf", "--block", "2x2", "--out", out],
+        1,
+        &["no other blocks"],
+    );
+    assert!(is_empty(&folder.join("out")));
+}
+
+#[test]
+fn quads_measures_every_filter_on_a_small_frame() {
+    let folder = scratch("quads");
+    let record = folder.join("record.json");
+    let arguments = [
+        "quads", "--size", "64x48", "--texels", "64", "--rounds", "1", "--record",
+    ];
+    let pictures = folder.join("pictures");
+    let more = [record.to_str().unwrap(), "--pictures", pictures.to_str().unwrap()];
+    let output = straightline(&[&arguments[..], &more].concat());
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let table = String::from_utf8_lossy(&output.stdout);
+    for text in ["blur 3x3", "PCF 8x8 quadratic", "PCSS", "derivatives Fine"] {
+        assert!(table.contains(text), "no `{text}` in:\n{table}");
+    }
+    let record = std::fs::read_to_string(record).expect("a record");
+    assert!(!record.contains("null"), "a figure is missing:\n{record}");
+    assert!(pictures.join("pcf-details.png").is_file() && pictures.join("occlusion-details.png").is_file());
+}

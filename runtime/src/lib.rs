@@ -1,7 +1,8 @@
 //! Runs emitted shaders in the caller's own [`wgpu::Device`] and encoder.
 //!
 //! A [`Pass`] is made once, from a shader's WGSL text and the manifest that the generator wrote beside it. Recording
-//! it takes texture views, samplers and buffers by name, and a target. Nothing here creates a device, submits, or owns a texture.
+//! it takes texture views, samplers and buffers by name, and a target. Nothing here creates a device, submits, or owns a texture,
+//! but for [`Quads::detect`], which asks a device what its pixel quads can do.
 //!
 //! ```no_run
 //! use straightline_runtime::{Error, Pass, Timer, wgpu};

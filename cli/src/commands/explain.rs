@@ -96,7 +96,13 @@ fn print(compiled: &Compiled, counts: &Counts, bound: &Bound, paper: Option<Pape
         .map(|(name, value)| format!("{name}={value}"))
         .collect();
     println!("  {} unroll={}\n", options.join(" "), compiled.policy);
-    let names = |names: &[String]| if names.is_empty() { "none".to_owned() } else { names.join(", ") };
+    let names = |names: &[String]| {
+        if names.is_empty() {
+            "none".to_owned()
+        } else {
+            names.join(", ")
+        }
+    };
     println!("inputs: {}", names(&bound.inputs));
     println!("set at run time: {}\n", names(&bound.uniforms));
     let mut rows = vec![

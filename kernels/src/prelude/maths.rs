@@ -70,10 +70,11 @@ pub fn inverse_sqrt<T: Floats>(x: T) -> T {
 }
 
 /// `a` at 0, `b` at 1, straight between: `a * (1 - t) + b * t`.
-pub fn mix<T: Floats, S: Copy + Sub<f32, Output = S>>(a: T, b: T, t: S) -> T
+pub fn mix<T, S>(a: T, b: T, t: S) -> T
 where
+    T: Floats + Mul<S, Output = T>,
+    S: Copy,
     f32: Sub<S, Output = S>,
-    T: Mul<S, Output = T>,
 {
     a * (1.0 - t) + b * t
 }

@@ -78,7 +78,7 @@ pub struct GBuffer {
 /// The surface seen at one geometry sample.
 #[derive(Clone, Copy, Debug)]
 pub struct Surface {
-    /// Linear depth, at most [`DEEPEST`].
+    /// Linear depth, at most 1e30.
     pub depth: f32,
     /// Unit normal.
     pub normal: Vec3,

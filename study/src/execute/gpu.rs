@@ -10,6 +10,9 @@ use straightline_manifest::{BindingKind, Dimension, Manifest, REGION, SampleType
 use straightline_runtime::{Pass, Resource};
 use wgpu::{TextureFormat, TextureUsages};
 
+/// Samples of a multisampled texel that WebGPU promises.
+const MULTISAMPLES: usize = 4;
+
 /// A device to run shaders on.
 #[derive(Clone, Debug)]
 pub struct Bench {
@@ -183,6 +186,13 @@ impl Bench {
                 size.y,
                 layers.len(),
                 limits.max_texture_array_layers
+            )));
+        }
+        if dimension == Dimension::D2Multisampled && layers.len() != MULTISAMPLES {
+            return Err(ExecuteError::Input(format!(
+                "a texture of {} samples a texel, where every device has {MULTISAMPLES}: use a pattern of {MULTISAMPLES} samples, \
+                 or another layout",
+                layers.len()
             )));
         }
         let filterable = self.device.features().contains(wgpu::Features::FLOAT32_FILTERABLE);

@@ -38,7 +38,7 @@ impl Shadowed {
         let to_sun = sun_space(sun, scene.camera.target.into(), radius);
         let to_clip = scene.camera.projection(size, glam::Vec2::ZERO) * scene.camera.view();
         // What lies at a slant to the sun would shadow itself; a step along the normal keeps it clear.
-        let step = 3.0 * radius / texels as f32;
+        let step = 6.0 * radius / texels as f32;
         let (mut corners, mut shades, mut seen_by_sun) = (Vec::new(), Vec::new(), Vec::new());
         for index in scene.triangles.iter().flatten() {
             let vertex = &scene.vertices[*index as usize];

@@ -4,7 +4,7 @@ use super::*;
 use straightline_kernels::find;
 
 /// Reads of what is shared; the pixel's own depth, which tells its surface, is not counted by the chapter.
-fn reads(name: &str, options: &[(&str, &str)], of: &[&str]) -> u32 {
+fn reads(name: &str, options: Options<'_>, of: &[&str]) -> u32 {
     let counts = compile(name, options, Unroll::Full, Some(Transport::Subgroup)).counts;
     of.iter()
         .map(|texture| counts.reads.get(*texture).copied().unwrap_or(0))
@@ -14,7 +14,7 @@ fn reads(name: &str, options: &[(&str, &str)], of: &[&str]) -> u32 {
 #[test]
 fn reads_are_the_chapters() {
     let low = &["low", "low_surface"][..];
-    let table: [(&str, &[(&str, &str)], &[&str], u32); 12] = [
+    let table: [(&str, Options<'_>, &[&str], u32); 12] = [
         ("quad_upsampling", &[("reads", "packed")], low, 1),
         ("quad_upsampling", &[("reads", "apart")], low, 2),
         ("quad_upsampling", &[("reads", "naive")], low, 8),

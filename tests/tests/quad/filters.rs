@@ -55,8 +55,10 @@ fn convolutions_are_sums_of_weighted_pixels() {
             }
             check(
                 &gpu,
-                &format!("convolution {radius} {word} {sharing_word}"),
-                "quad_convolution",
+                [
+                    &format!("convolution {radius} {word} {sharing_word}"),
+                    "quad_convolution",
+                ],
                 &options,
                 &inputs,
                 &native(size, |pixel| quad_convolution(&cfg, &image, pixel)),
@@ -85,8 +87,7 @@ fn bilateral_blur_is_a_mean_of_near_pixels() {
             };
             check(
                 &gpu,
-                &format!("bilateral {radius} {word}"),
-                "quad_bilateral",
+                [&format!("bilateral {radius} {word}"), "quad_bilateral"],
                 &[("radius", &radius.to_string()), ("sharing", word)],
                 &Inputs::new(size).image("image", image.clone()),
                 &native(size, |pixel| quad_bilateral(&cfg, &image, pixel)),
@@ -199,8 +200,10 @@ fn upsampling_is_a_tent_times_gaussians() {
                         });
                         check(
                             &gpu,
-                            &format!("upsampling {word} {reads_word} {payload_word} normals {normals}"),
-                            "quad_upsampling",
+                            [
+                                &format!("upsampling {word} {reads_word} {payload_word} normals {normals}"),
+                                "quad_upsampling",
+                            ],
                             &[
                                 ("factor", word),
                                 ("reads", reads_word),
@@ -335,8 +338,7 @@ fn occlusion_is_shared_with_near_surfaces_alone() {
             let (z, n) = (components(&depth, |t| t.x), components(&normal, Vec4::truncate));
             check(
                 &gpu,
-                &format!("ssao {word}"),
-                "quad_ssao",
+                [&format!("ssao {word}"), "quad_ssao"],
                 &[("sharing", word), ("pixel-angle", "0.05")],
                 &Inputs::new(size)
                     .image("depth", depth.clone())

@@ -178,7 +178,7 @@ fn all_emit_in_all_languages() {
     let folder = std::path::PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("quads");
     std::fs::create_dir_all(&folder).expect("a folder for shaders");
     let (mut glsl, mut spirv) = (Vec::new(), Vec::new());
-    let kernels: [(&str, &[&[(&str, &str)]]); 6] = [
+    let kernels: [(&str, &[Options<'_>]); 6] = [
         ("quad_convolution", &[&[], &[("radius", "2"), ("weights", "binomial")]]),
         (
             "quad_upsampling",

@@ -34,7 +34,7 @@ pub enum Method {
     /// The quad one between every 2×2 texels around its mean place: a quarter of those for each lane.
     Quad,
     /// The quad gathers 8×8 texels around its mean place, and each pixel weighs those for itself, 6×6 around its own
-    /// place. All compare with the quad's mean depth.
+    /// place, which is at most a texel off. All compare with the quad's mean depth.
     Gather,
 }
 
@@ -179,15 +179,15 @@ fn compare(cfg: &Pcf, shadow: &DepthTexture, shadow_sampler: &ComparisonSampler,
         weight: Quad::splat(0.0),
     }; 4];
     for k in 0..cfg.width.taps() {
-        let away = cfg.width.away(k);
-        let corner = quad_vector() + away;
-        let low = pair(cfg, corner - a);
-        let place = low.place * cfg.spread;
+        let (i, j) = (cfg.width.away(k % 2), cfg.width.away(k / 2));
+        // The same two columns and two rows for all four.
+        let (column, row) = (pair(cfg, quad_vector() + i - a), pair(cfg, quad_vector() + j - a));
+        let place = Quad::from_xy(column.place.x(), row.place.y()) * cfg.spread;
         taps[k] = Tap {
             lit: shadow.compare(shadow_sampler, centre.truncate() + place / size, centre.z()),
             place,
-            middle: corner * cfg.spread,
-            weight: low.weight.x() * low.weight.y(),
+            middle: (quad_vector() + vec2(i, j)) * cfg.spread,
+            weight: column.weight.x() * row.weight.y(),
         };
     }
     taps
@@ -265,29 +265,40 @@ fn gathered(cfg: &Pcf, shadow: &DepthTexture, shadow_sampler: &ComparisonSampler
     let size = shadow.size().as_vec2();
     let centre = coord.average();
     let a = fraction(shadow, centre);
-    // From the pixel's own place to the texel at the upper left of the quad's.
-    let shift = (centre.truncate() - coord.truncate()) * size - a;
+    // From the pixel's own place to the texel at the upper left of the quad's. Where the quad covers more texels than there
+    // are to spare, its pixels take the nearest place that has all of its own.
+    let away = ((coord.truncate() - centre.truncate()) * size)
+        .max(-Vec2::ONE)
+        .min(Vec2::ONE);
+    let shift = -away - a;
     let mut sum = Quad::splat(0.0);
     let mut total = Quad::splat(0.0);
     for k in 0..4 {
-        let away = Width::Eight.away(k);
-        let corner = quad_vector() + away;
-        let place = corner - a + 0.5;
+        let (i, j) = (Width::Eight.away(k % 2), Width::Eight.away(k / 2));
+        let place = quad_vector() + vec2(i, j) - a + 0.5;
         let texels = shadow.gather_compare(shadow_sampler, centre.truncate() + place / size, centre.z());
         let messages = texels.gather();
         for lane in 0..4 {
-            // The sender's corner: mirrored where it lies on the other side.
-            let flip = vec2(1.0 - 2.0 * (lane % 2) as f32, 1.0 - 2.0 * (lane / 2) as f32);
-            let first = quad_vector() * flip + away + shift;
-            let w0 = weigh(cfg.weights, 3.0, first);
-            let w1 = weigh(cfg.weights, 3.0, first + 1.0);
+            // The sender's texels: mirrored where it lies on the other side.
+            let [x0, x1] = columns(cfg, shift + i, lane % 2 == 1);
+            let [y0, y1] = columns(cfg, shift + j, lane / 2 == 1);
             let from = messages[lane];
-            sum += w1.y() * (w0.x() * from.x() + w1.x() * from.y());
-            sum += w0.y() * (w1.x() * from.z() + w0.x() * from.w());
-            total += (w0.x() + w1.x()) * (w0.y() + w1.y());
+            sum += y1.y() * (x0.x() * from.x() + x1.x() * from.y());
+            sum += y0.y() * (x1.x() * from.z() + x0.x() * from.w());
+            total += (x0.x() + x1.x()) * (y0.y() + y1.y());
         }
     }
     sum / total
+}
+
+/// The weights of two neighbouring columns, and rows, of texels that a lane gathered.
+fn columns(cfg: &Pcf, shift: Quad<Vec2>, mirrored: bool) -> [Quad<Vec2>; 2] {
+    let first = if mirrored {
+        shift - quad_vector()
+    } else {
+        shift + quad_vector()
+    };
+    [weigh(cfg.weights, 3.0, first), weigh(cfg.weights, 3.0, first + 1.0)]
 }
 
 impl Width {
@@ -314,11 +325,11 @@ impl Width {
         }
     }
 
-    /// What a lane's comparison `k` lies away from where one alone would.
-    fn away(self, k: usize) -> Vec2 {
+    /// How far column, or row, `k` of a lane's comparisons lies from where one alone would.
+    fn away(self, k: usize) -> f32 {
         match self {
-            Width::Four => Vec2::ZERO,
-            Width::Eight => vec2(4.0 * (k % 2) as f32 - 2.0, 4.0 * (k / 2) as f32 - 2.0),
+            Width::Four => 0.0,
+            Width::Eight => 4.0 * k as f32 - 2.0,
         }
     }
 }

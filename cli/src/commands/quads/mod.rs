@@ -1,21 +1,22 @@
 //! `quads`: what sharing work over pixel quads is worth, filter by filter and transport by transport.
 
+mod families;
+mod pictures;
+
 use crate::args::QuadsArgs;
 use crate::failure::Failure;
 use crate::gpu::Gpu;
 use crate::{scene, table};
+use families::{FAMILIES, Family};
 use glam::{Vec4, vec3};
 use serde::Serialize;
-use std::path::Path;
 use std::time::SystemTime;
-use straightline_codegen::{Compiled, Kernel, Settings, Transport};
+use straightline_codegen::{Compiled, EmitOptions, Kernel, Settings, Transport};
 use straightline_kernels::prelude::Frame;
 use straightline_manifest::Stage;
 use straightline_runtime::{Pass, Quads};
 use straightline_study::execute::{Bench, Bound, Clock, Forward, Inputs, Job, Shadowed, Times};
-use straightline_study::picture;
-use straightline_study::render::GpuRenderer;
-use straightline_study::render::Renderer;
+use straightline_study::render::{GpuRenderer, Renderer};
 
 /// One way to compute a filter.
 #[derive(Clone, Debug, Serialize)]
@@ -48,87 +49,6 @@ struct Record {
     rows: Vec<Row>,
 }
 
-/// A filter: its kernel, and the options of each way to compute it, the first of which shares nothing.
-struct Family {
-    name: &'static str,
-    kernel: &'static str,
-    ways: &'static [(&'static str, &'static [(&'static str, &'static str)])],
-    /// Whether it is drawn with the scene's triangles.
-    forward: bool,
-}
-
-const FAMILIES: &[Family] = &[
-    Family {
-        name: "blur 3x3",
-        kernel: "quad_convolution",
-        ways: &[("naive", &[("sharing", "alone")]), ("quad", &[])],
-        forward: false,
-    },
-    Family {
-        name: "blur 7x7",
-        kernel: "quad_convolution",
-        ways: &[
-            (
-                "naive",
-                &[("radius", "3"), ("weights", "binomial"), ("sharing", "alone")],
-            ),
-            ("quad", &[("radius", "3"), ("weights", "binomial")]),
-        ],
-        forward: false,
-    },
-    Family {
-        name: "bilateral 5x5",
-        kernel: "quad_bilateral",
-        ways: &[("naive", &[("sharing", "alone")]), ("quad", &[])],
-        forward: false,
-    },
-    Family {
-        name: "upsampling 2x",
-        kernel: "quad_upsampling",
-        ways: &[
-            ("naive", &[("reads", "naive")]),
-            ("quad, 2 reads", &[("reads", "apart")]),
-            ("quad, 1 read", &[("reads", "packed")]),
-        ],
-        forward: false,
-    },
-    Family {
-        name: "occlusion, 16 taps",
-        kernel: "quad_ssao",
-        ways: &[("naive", &[("sharing", "alone")]), ("quad", &[])],
-        forward: false,
-    },
-    Family {
-        name: "PCF 4x4 box",
-        kernel: "pcf",
-        ways: &[
-            ("naive", &[("method", "naive"), ("width", "four")]),
-            ("bilinear", &[("method", "bilinear"), ("width", "four")]),
-            ("quad", &[("width", "four")]),
-            ("quad, gradient", &[("width", "four"), ("gradient", "prewitt")]),
-        ],
-        forward: true,
-    },
-    Family {
-        name: "PCF 8x8 quadratic",
-        kernel: "pcf",
-        ways: &[
-            ("naive", &[("method", "naive"), ("weights", "quadratic")]),
-            ("bilinear", &[("method", "bilinear"), ("weights", "quadratic")]),
-            ("quad", &[("weights", "quadratic")]),
-            ("quad, gradient", &[("weights", "quadratic"), ("gradient", "prewitt")]),
-            ("gather", &[("method", "gather"), ("weights", "quadratic")]),
-        ],
-        forward: true,
-    },
-    Family {
-        name: "PCSS",
-        kernel: "pcss",
-        ways: &[("naive", &[("sharing", "alone")]), ("quad", &[])],
-        forward: true,
-    },
-];
-
 /// A way with a transport, ready to run.
 struct Subject {
     family: &'static str,
@@ -144,6 +64,9 @@ enum Drawn {
     Forward(Forward),
 }
 
+/// Occlusion as far as the scene's walls and steps, dark enough to be judged.
+const OCCLUSION: [(&str, &str); 3] = [("pixel-angle", "uniform"), ("radius", "1.2"), ("strength", "4")];
+
 /// Measures every way of every filter on a rendered frame, in one run.
 pub fn run(args: &QuadsArgs) -> Result<(), Failure> {
     let gpu = Gpu::require(&args.adapter)?;
@@ -154,7 +77,7 @@ pub fn run(args: &QuadsArgs) -> Result<(), Failure> {
         Err(why) => why,
     };
     let scene = scene::load(args.mesh.as_deref(), "roof")?;
-    let shadowed = Shadowed::new(&bench, &scene, args.size, 1024, 9.0).map_err(Failure::of)?;
+    let shadowed = Shadowed::new(&bench, &scene, args.size, args.texels, 9.0).map_err(Failure::of)?;
     let forward_inputs = shadowed.inputs(&bench).map_err(Failure::of)?;
     let screen_inputs = screen(&gpu, &bench, &scene, args)?;
     let mut subjects = Vec::new();
@@ -180,7 +103,7 @@ pub fn run(args: &QuadsArgs) -> Result<(), Failure> {
     }
     let rows = measure(&bench, args, &subjects)?;
     if let Some(folder) = &args.pictures {
-        write_pictures(&bench, folder, &subjects, &shadowed, &screen_inputs)?;
+        pictures::write(&bench, folder, &subjects, &shadowed, &screen_inputs)?;
     }
     let record = Record {
         command: std::env::args().collect::<Vec<_>>().join(" "),
@@ -224,7 +147,7 @@ fn screen(
         .image("normal", normal)
         .uniform("pixel_angle", &[f64::from(angle)]);
     // Occlusion as it would be computed at half the resolution, here taken from the full one.
-    let occlusion = compile("quad_ssao", &[("sharing", "alone"), ("pixel-angle", "uniform")], None)?;
+    let occlusion = compile("quad_ssao", &[&[("sharing", "alone")], &OCCLUSION[..]].concat(), None)?;
     let occlusion = bench.run(&occlusion, Stage::Compute, &full).map_err(Failure::of)?;
     let low_size = args.size.map(|n| n.div_ceil(2) + 1);
     let mut low = full.clone().image("image", occlusion);
@@ -260,7 +183,7 @@ fn prepare(
 ) -> Result<Subject, Failure> {
     let mut options = options.to_vec();
     if family.kernel == "quad_ssao" {
-        options.push(("pixel-angle", "uniform"));
+        options.extend(OCCLUSION);
     }
     let compiled = compile(family.kernel, &options, Some(transport))?;
     let stage = match transport {
@@ -271,7 +194,9 @@ fn prepare(
         let forward = bench.forward(&compiled, inputs, &shadowed.corners, None, |text| text);
         let forward = forward.map_err(Failure::of)?;
         let image = bench.picture(&forward).map_err(Failure::of)?;
-        (Drawn::Forward(forward), image, compiled.counts.clone())
+        let emitted = compiled.emit(&EmitOptions::new().stage(stage).targets([]));
+        let counts = emitted.map_err(Failure::of)?.manifest.counts;
+        (Drawn::Forward(forward), image, counts)
     } else {
         let (pass, manifest) = bench.pass(&compiled, stage).map_err(Failure::of)?;
         let bound = bench.bind(&pass, &manifest, inputs).map_err(Failure::of)?;
@@ -357,71 +282,6 @@ fn differences(a: &Frame<Vec4>, b: &Frame<Vec4>) -> (f64, f64) {
         largest = largest.max(off);
     }
     (sum / f64::max(count, 1.0), largest)
-}
-
-/// The shadow scene by each way of the 8×8 filter, occlusion before and after upsampling, and details of both.
-fn write_pictures(
-    bench: &Bench,
-    folder: &Path,
-    subjects: &[Subject],
-    shadowed: &Shadowed,
-    screen: &Inputs,
-) -> Result<(), Failure> {
-    std::fs::create_dir_all(folder).map_err(|e| Failure::of(format!("cannot make `{}`: {e}", folder.display())))?;
-    let write = |name: &str, frame: &Frame<Vec4>| picture::write(&folder.join(name), frame).map_err(Failure::of);
-    let mut columns = Vec::new();
-    for way in ["naive", "quad", "quad, gradient", "gather"] {
-        let found = subjects
-            .iter()
-            .find(|s| s.family == "PCF 8x8 quadratic" && s.way == way);
-        let Some(subject) = found else { continue };
-        let shown = shadowed.picture(bench, &subject.image).map_err(Failure::of)?;
-        write(
-            &format!("pcf {way}.png").replace([',', ' '], "-").replace("--", "-"),
-            &shown,
-        )?;
-        columns.push((way, shown));
-    }
-    write_details(folder, "pcf-details.png", &columns)?;
-    let low = screen.images.iter().rev().find(|(name, _)| name == "low");
-    let naive = low.map(|(_, layers)| stretched(&layers[0], screen));
-    let mut columns = Vec::new();
-    columns.extend(naive.map(|frame| ("bilinear", frame)));
-    for (family, way, title) in [
-        ("upsampling 2x", "quad, 1 read", "bilateral"),
-        ("occlusion, 16 taps", "naive", "full resolution"),
-        ("occlusion, 16 taps", "quad", "split over the quad"),
-    ] {
-        if let Some(subject) = subjects.iter().find(|s| s.family == family && s.way == way) {
-            write(&format!("occlusion-{}.png", title.replace(' ', "-")), &subject.image)?;
-            columns.push((title, subject.image.clone()));
-        }
-    }
-    write_details(folder, "occlusion-details.png", &columns)
-}
-
-fn write_details(folder: &Path, name: &str, columns: &[(&str, Frame<Vec4>)]) -> Result<(), Failure> {
-    let detail = |frame: &Frame<Vec4>| {
-        let size = frame.size();
-        let (width, height) = (size.x / 5, size.y / 4);
-        picture::detail(frame, size.x * 11 / 20, size.y * 11 / 20, width, height, 4)
-    };
-    let details: Vec<(&str, Frame<Vec4>)> = columns.iter().map(|(title, frame)| (*title, detail(frame))).collect();
-    let columns: Vec<(&str, &Frame<Vec4>)> = details.iter().map(|(title, frame)| (*title, frame)).collect();
-    picture::write(&folder.join(name), &picture::montage(&columns)).map_err(Failure::of)
-}
-
-/// An image of low resolution as a sampler would stretch it: what bilateral upsampling is better than.
-fn stretched(low: &Frame<Vec4>, screen: &Inputs) -> Frame<Vec4> {
-    let size = screen.size;
-    let texel = |k: u32| {
-        let place = (glam::uvec2(k % size.x, k / size.x).as_vec2() + 0.5) / 2.0;
-        let (corner, t) = (place.floor(), place - place.floor());
-        let at = |i: i32, j: i32| low.load(corner.as_ivec2() + glam::ivec2(i, j));
-        let row = |j: i32| at(0, j).lerp(at(1, j), t.x);
-        row(0).lerp(row(1), t.y).truncate().extend(1.0)
-    };
-    Frame::new(size, (0..size.x * size.y).map(texel).collect())
 }
 
 fn print(args: &QuadsArgs, record: &Record) -> Result<(), Failure> {

@@ -1,0 +1,80 @@
+//! What the filters make, to be looked at.
+
+use super::Subject;
+use crate::failure::Failure;
+use glam::Vec4;
+use std::path::Path;
+use straightline_kernels::prelude::Frame;
+use straightline_study::execute::{Bench, Inputs, Shadowed};
+use straightline_study::picture;
+
+/// The shadow scene by each way of the 8×8 filter, occlusion before and after upsampling, and details of both.
+pub fn write(
+    bench: &Bench,
+    folder: &Path,
+    subjects: &[Subject],
+    shadowed: &Shadowed,
+    screen: &Inputs,
+) -> Result<(), Failure> {
+    std::fs::create_dir_all(folder).map_err(|e| Failure::of(format!("cannot make `{}`: {e}", folder.display())))?;
+    let save = |name: &str, frame: &Frame<Vec4>| picture::write(&folder.join(name), frame).map_err(Failure::of);
+    let mut columns = Vec::new();
+    for way in ["naive", "quad", "quad, gradient", "gather"] {
+        let found = subjects
+            .iter()
+            .find(|s| s.family == "PCF 8x8 quadratic" && s.way == way);
+        let Some(subject) = found else { continue };
+        let shown = shadowed.picture(bench, &subject.image).map_err(Failure::of)?;
+        save(
+            &format!("pcf {way}.png").replace([',', ' '], "-").replace("--", "-"),
+            &shown,
+        )?;
+        columns.push((way, shown));
+    }
+    // Under the awning over the built-in scene's door.
+    write_details(folder, "pcf-details.png", &columns, [0.55, 0.53, 0.1, 0.2])?;
+    let low = screen.images.iter().rev().find(|(name, _)| name == "low");
+    let naive = low.map(|(_, layers)| stretched(&layers[0], screen));
+    let mut columns = Vec::new();
+    columns.extend(naive.map(|frame| ("bilinear", frame)));
+    for (family, way, title) in [
+        ("upsampling 2x", "quad, 1 read", "bilateral"),
+        ("occlusion, 16 taps", "naive", "full resolution"),
+        ("occlusion, 16 taps", "quad", "split over the quad"),
+    ] {
+        if let Some(subject) = subjects.iter().find(|s| s.family == family && s.way == way) {
+            let opaque = subject.image.texels().iter().map(|t| t.truncate().extend(1.0));
+            let shown = Frame::new(subject.image.size(), opaque.collect());
+            save(&format!("occlusion-{}.png", title.replace(' ', "-")), &shown)?;
+            columns.push((title, shown));
+        }
+    }
+    write_details(folder, "occlusion-details.png", &columns, [0.53, 0.42, 0.12, 0.22])
+}
+
+/// The same part of several pictures, left, top, width and height as shares of the whole, enlarged beside one another.
+fn write_details(folder: &Path, name: &str, columns: &[(&str, Frame<Vec4>)], part: [f32; 4]) -> Result<(), Failure> {
+    let detail = |frame: &Frame<Vec4>| {
+        let size = frame.size().as_vec2();
+        let [left, top, width, height] = part;
+        let [x, y] = [left * size.x, top * size.y].map(|v| v as u32);
+        let [width, height] = [width * size.x, height * size.y].map(|v| (v as u32).max(1));
+        picture::detail(frame, x, y, width, height, (400 / width).clamp(1, 8))
+    };
+    let details: Vec<(&str, Frame<Vec4>)> = columns.iter().map(|(title, frame)| (*title, detail(frame))).collect();
+    let columns: Vec<(&str, &Frame<Vec4>)> = details.iter().map(|(title, frame)| (*title, frame)).collect();
+    picture::write(&folder.join(name), &picture::montage(&columns)).map_err(Failure::of)
+}
+
+/// An image of low resolution as a sampler would stretch it: what bilateral upsampling is better than.
+fn stretched(low: &Frame<Vec4>, screen: &Inputs) -> Frame<Vec4> {
+    let size = screen.size;
+    let texel = |k: u32| {
+        let place = (glam::uvec2(k % size.x, k / size.x).as_vec2() + 0.5) / 2.0;
+        let (corner, t) = (place.floor(), place - place.floor());
+        let at = |i: i32, j: i32| low.load(corner.as_ivec2() + glam::ivec2(i, j));
+        let row = |j: i32| at(0, j).lerp(at(1, j), t.x);
+        row(0).lerp(row(1), t.y).truncate().extend(1.0)
+    };
+    Frame::new(size, (0..size.x * size.y).map(texel).collect())
+}

@@ -1,0 +1,46 @@
+Texture2D<float> shadow : register(t0);
+SamplerState nagaSamplerHeap[2048]: register(s0, space0);
+SamplerComparisonState nagaComparisonSamplerHeap[2048]: register(s0, space1);
+StructuredBuffer<uint> nagaGroup0SamplerIndexArray : register(t0, space255);
+static const SamplerComparisonState shadow_sampler = nagaComparisonSamplerHeap[nagaGroup0SamplerIndexArray[1]];
+
+struct FragmentInput_pcf {
+    float3 coord_1 : LOC0;
+    float4 position_1 : SV_Position;
+};
+
+int2 naga_f2i32(float2 value) {
+    return int2(clamp(value, -2147483600.0, 2147483500.0));
+}
+
+uint2 NagaDepthDimensions2D(Texture2D<float> tex)
+{
+    uint4 ret;
+    tex.GetDimensions(0, ret.x, ret.y, ret.z);
+    return ret.xy;
+}
+
+float4 pcf(FragmentInput_pcf fragmentinput_pcf) : SV_Target0
+{
+    float4 position = fragmentinput_pcf.position_1;
+    float3 coord = fragmentinput_pcf.coord_1;
+    int2 pixel = naga_f2i32(floor(position.xy));
+    const float3 _e5 = QuadReadAcrossX(coord);
+    float3 row = (coord + _e5);
+    const float3 _e7 = QuadReadAcrossY(row);
+    float3 centre = ((row + _e7) * (0.25).xxx);
+    float2 size = float2(uint2(int2(NagaDepthDimensions2D(shadow))));
+    float2 value = float2(centre.x, centre.y);
+    float2 a = frac(((value * size) - (0.5).xx));
+    int2 lane_k0_ = (pixel & (int(1)).xx);
+    float2 quad_vector_k0_ = ((float2(lane_k0_) * (2.0).xx) - (1.0).xx);
+    float2 taps_middle_k0_ = (quad_vector_k0_ + (0.0).xx);
+    float2 column_place_k0_ = ((taps_middle_k0_ - a) + (0.5).xx);
+    float taps_lit_k0_ = shadow.SampleCmpLevelZero(shadow_sampler, (value + (column_place_k0_ / size)), centre.z);
+    float4 sums_k0_ = ((0.0).xxxx + float4(column_place_k0_.x, column_place_k0_.y, 1.0, taps_lit_k0_));
+    const float _e57 = QuadReadAcrossX(sums_k0_.w);
+    float row_2_ = (sums_k0_.w + _e57);
+    const float _e59 = QuadReadAcrossY(row_2_);
+    float lit_ = ((row_2_ + _e59) * 0.25);
+    return (lit_).xxxx;
+}

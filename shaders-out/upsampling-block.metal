@@ -1,0 +1,194 @@
+// language: metal2.0
+#include <metal_stdlib>
+#include <simd/simd.h>
+
+using metal::uint;
+
+metal::int2 naga_div(metal::int2 lhs, metal::int2 rhs) {
+    return lhs / metal::select(rhs, 1, (lhs == (-2147483647 - 1) & rhs == -1) | (rhs == 0));
+}
+
+
+struct quad_upsamplingInput {
+};
+kernel void quad_upsampling(
+  metal::uint3 id [[thread_position_in_grid]]
+, metal::texture2d<float, metal::access::sample> low [[texture(0)]]
+, metal::texture2d<float, metal::access::sample> depth [[texture(1)]]
+, metal::texture2d<float, metal::access::write> destination [[texture(2)]]
+) {
+    metal::int2 frame = static_cast<metal::int2>(metal::uint2(destination.get_width(), destination.get_height()));
+    metal::int2 pixel = as_type<metal::int2>(as_type<metal::uint2>(static_cast<metal::int2>(id.xy)) * as_type<metal::uint2>(metal::int2(2, 2)));
+    if (metal::any(pixel >= frame)) {
+        return;
+    }
+    metal::int2 texel = as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(metal::int2(1, 0)));
+    metal::int2 texel_2_ = as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(metal::int2(0, 1)));
+    metal::int2 texel_3_ = as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(metal::int2(1)));
+    metal::int2 corner_l0_ = naga_div(pixel, metal::int2(2));
+    metal::int2 corner_l1_ = naga_div(texel, metal::int2(2));
+    metal::int2 corner_l2_ = naga_div(texel_2_, metal::int2(2));
+    metal::int2 corner_l3_ = naga_div(texel_3_, metal::int2(2));
+    metal::int2 last = as_type<metal::int2>(as_type<metal::uint2>(frame) - as_type<metal::uint2>(metal::int2(1)));
+    metal::int2 texel_l1_ = metal::min(texel, last);
+    metal::int2 texel_l2_ = metal::min(texel_2_, last);
+    metal::int2 texel_l3_ = metal::min(texel_3_, last);
+    metal::float4 _e43 = depth.read(metal::uint2(pixel), 0);
+    float own_depth_l0_ = _e43.x;
+    metal::float4 _e47 = depth.read(metal::uint2(texel_l1_), 0);
+    float own_depth_l1_ = _e47.x;
+    metal::float4 _e51 = depth.read(metal::uint2(texel_l2_), 0);
+    float own_depth_l2_ = _e51.x;
+    metal::float4 _e55 = depth.read(metal::uint2(texel_l3_), 0);
+    float own_depth_l3_ = _e55.x;
+    metal::int2 last_2_ = as_type<metal::int2>(as_type<metal::uint2>(static_cast<metal::int2>(metal::uint2(low.get_width(), low.get_height()))) - as_type<metal::uint2>(metal::int2(1)));
+    metal::int2 texel_l0_ = metal::clamp(corner_l0_, metal::int2(0), last_2_);
+    metal::int2 texel_l1_2_ = metal::clamp(as_type<metal::int2>(as_type<metal::uint2>(corner_l1_) + as_type<metal::uint2>(metal::int2(1, 0))), metal::int2(0), last_2_);
+    metal::int2 texel_l2_2_ = metal::clamp(as_type<metal::int2>(as_type<metal::uint2>(corner_l2_) + as_type<metal::uint2>(metal::int2(0, 1))), metal::int2(0), last_2_);
+    metal::int2 texel_l3_2_ = metal::clamp(as_type<metal::int2>(as_type<metal::uint2>(corner_l3_) + as_type<metal::uint2>(metal::int2(1))), metal::int2(0), last_2_);
+    metal::float4 texel_l0_2_ = low.read(metal::uint2(texel_l0_), 0);
+    metal::float4 texel_l1_3_ = low.read(metal::uint2(texel_l1_2_), 0);
+    metal::float4 texel_l2_3_ = low.read(metal::uint2(texel_l2_2_), 0);
+    metal::float4 texel_l3_3_ = low.read(metal::uint2(texel_l3_2_), 0);
+    metal::float4 taps = metal::float4(texel_l0_2_.x, texel_l0_2_.y, texel_l0_2_.z, 1.0);
+    metal::float4 taps_2_ = metal::float4(texel_l1_3_.x, texel_l1_3_.y, texel_l1_3_.z, 1.0);
+    metal::float4 taps_3_ = metal::float4(texel_l2_3_.x, texel_l2_3_.y, texel_l2_3_.z, 1.0);
+    metal::float4 taps_4_ = metal::float4(texel_l3_3_.x, texel_l3_3_.y, texel_l3_3_.z, 1.0);
+    float away_k0_l0_ = metal::abs(texel_l0_2_.w - own_depth_l0_);
+    float away_k0_l1_ = metal::abs(texel_l1_3_.w - own_depth_l1_);
+    float away_k0_l2_ = metal::abs(texel_l2_3_.w - own_depth_l2_);
+    float away_k0_l3_ = metal::abs(texel_l3_3_.w - own_depth_l3_);
+    float z_k0_l0_ = away_k0_l0_ / 0.1;
+    float z_k0_l1_ = away_k0_l1_ / 0.1;
+    float z_k0_l2_ = away_k0_l2_ / 0.1;
+    float z_k0_l3_ = away_k0_l3_ / 0.1;
+    float exponent_k0_l0_ = z_k0_l0_ * z_k0_l0_;
+    float exponent_k0_l1_ = z_k0_l1_ * z_k0_l1_;
+    float exponent_k0_l2_ = z_k0_l2_ * z_k0_l2_;
+    float exponent_k0_l3_ = z_k0_l3_ * z_k0_l3_;
+    float weight_k0_l0_ = 0.5625 * metal::exp2(exponent_k0_l0_ * -0.7213475);
+    float weight_k0_l1_ = 0.5625 * metal::exp2(exponent_k0_l1_ * -0.7213475);
+    float weight_k0_l2_ = 0.5625 * metal::exp2(exponent_k0_l2_ * -0.7213475);
+    float weight_k0_l3_ = 0.5625 * metal::exp2(exponent_k0_l3_ * -0.7213475);
+    float away_k1_l0_ = metal::abs(texel_l1_3_.w - own_depth_l0_);
+    float away_k1_l1_ = metal::abs(texel_l0_2_.w - own_depth_l1_);
+    float away_k1_l2_ = metal::abs(texel_l3_3_.w - own_depth_l2_);
+    float away_k1_l3_ = metal::abs(texel_l2_3_.w - own_depth_l3_);
+    float z_k1_l0_ = away_k1_l0_ / 0.1;
+    float z_k1_l1_ = away_k1_l1_ / 0.1;
+    float z_k1_l2_ = away_k1_l2_ / 0.1;
+    float z_k1_l3_ = away_k1_l3_ / 0.1;
+    float exponent_k1_l0_ = z_k1_l0_ * z_k1_l0_;
+    float exponent_k1_l1_ = z_k1_l1_ * z_k1_l1_;
+    float exponent_k1_l2_ = z_k1_l2_ * z_k1_l2_;
+    float exponent_k1_l3_ = z_k1_l3_ * z_k1_l3_;
+    float weight_k1_l0_ = 0.1875 * metal::exp2(exponent_k1_l0_ * -0.7213475);
+    float weight_k1_l1_ = 0.1875 * metal::exp2(exponent_k1_l1_ * -0.7213475);
+    float weight_k1_l2_ = 0.1875 * metal::exp2(exponent_k1_l2_ * -0.7213475);
+    float weight_k1_l3_ = 0.1875 * metal::exp2(exponent_k1_l3_ * -0.7213475);
+    float total_k1_l0_ = weight_k0_l0_ + weight_k1_l0_;
+    float total_k1_l1_ = weight_k0_l1_ + weight_k1_l1_;
+    float total_k1_l2_ = weight_k0_l2_ + weight_k1_l2_;
+    float total_k1_l3_ = weight_k0_l3_ + weight_k1_l3_;
+    bool nearer_k1_l0_ = away_k1_l0_ < away_k0_l0_;
+    bool nearer_k1_l1_ = away_k1_l1_ < away_k0_l1_;
+    bool nearer_k1_l2_ = away_k1_l2_ < away_k0_l2_;
+    bool nearer_k1_l3_ = away_k1_l3_ < away_k0_l3_;
+    float nearest_k1_l0_ = nearer_k1_l0_ ? away_k1_l0_ : away_k0_l0_;
+    float nearest_k1_l1_ = nearer_k1_l1_ ? away_k1_l1_ : away_k0_l1_;
+    float nearest_k1_l2_ = nearer_k1_l2_ ? away_k1_l2_ : away_k0_l2_;
+    float nearest_k1_l3_ = nearer_k1_l3_ ? away_k1_l3_ : away_k0_l3_;
+    metal::float4 fallback_k1_l0_ = nearer_k1_l0_ ? taps_2_ : taps;
+    metal::float4 fallback_k1_l1_ = nearer_k1_l1_ ? taps : taps_2_;
+    metal::float4 fallback_k1_l2_ = nearer_k1_l2_ ? taps_4_ : taps_3_;
+    metal::float4 fallback_k1_l3_ = nearer_k1_l3_ ? taps_3_ : taps_4_;
+    float away_k2_l0_ = metal::abs(texel_l2_3_.w - own_depth_l0_);
+    float away_k2_l1_ = metal::abs(texel_l3_3_.w - own_depth_l1_);
+    float away_k2_l2_ = metal::abs(texel_l0_2_.w - own_depth_l2_);
+    float away_k2_l3_ = metal::abs(texel_l1_3_.w - own_depth_l3_);
+    float z_k2_l0_ = away_k2_l0_ / 0.1;
+    float z_k2_l1_ = away_k2_l1_ / 0.1;
+    float z_k2_l2_ = away_k2_l2_ / 0.1;
+    float z_k2_l3_ = away_k2_l3_ / 0.1;
+    float exponent_k2_l0_ = z_k2_l0_ * z_k2_l0_;
+    float exponent_k2_l1_ = z_k2_l1_ * z_k2_l1_;
+    float exponent_k2_l2_ = z_k2_l2_ * z_k2_l2_;
+    float exponent_k2_l3_ = z_k2_l3_ * z_k2_l3_;
+    float weight_k2_l0_ = 0.1875 * metal::exp2(exponent_k2_l0_ * -0.7213475);
+    float weight_k2_l1_ = 0.1875 * metal::exp2(exponent_k2_l1_ * -0.7213475);
+    float weight_k2_l2_ = 0.1875 * metal::exp2(exponent_k2_l2_ * -0.7213475);
+    float weight_k2_l3_ = 0.1875 * metal::exp2(exponent_k2_l3_ * -0.7213475);
+    float total_k2_l0_ = total_k1_l0_ + weight_k2_l0_;
+    float total_k2_l1_ = total_k1_l1_ + weight_k2_l1_;
+    float total_k2_l2_ = total_k1_l2_ + weight_k2_l2_;
+    float total_k2_l3_ = total_k1_l3_ + weight_k2_l3_;
+    bool nearer_k2_l0_ = away_k2_l0_ < nearest_k1_l0_;
+    bool nearer_k2_l1_ = away_k2_l1_ < nearest_k1_l1_;
+    bool nearer_k2_l2_ = away_k2_l2_ < nearest_k1_l2_;
+    bool nearer_k2_l3_ = away_k2_l3_ < nearest_k1_l3_;
+    float nearest_k2_l0_ = nearer_k2_l0_ ? away_k2_l0_ : nearest_k1_l0_;
+    float nearest_k2_l1_ = nearer_k2_l1_ ? away_k2_l1_ : nearest_k1_l1_;
+    float nearest_k2_l2_ = nearer_k2_l2_ ? away_k2_l2_ : nearest_k1_l2_;
+    float nearest_k2_l3_ = nearer_k2_l3_ ? away_k2_l3_ : nearest_k1_l3_;
+    metal::float4 fallback_k2_l0_ = nearer_k2_l0_ ? taps_3_ : fallback_k1_l0_;
+    metal::float4 fallback_k2_l1_ = nearer_k2_l1_ ? taps_4_ : fallback_k1_l1_;
+    metal::float4 fallback_k2_l2_ = nearer_k2_l2_ ? taps : fallback_k1_l2_;
+    metal::float4 fallback_k2_l3_ = nearer_k2_l3_ ? taps_2_ : fallback_k1_l3_;
+    float away_k3_l0_ = metal::abs(texel_l3_3_.w - own_depth_l0_);
+    float away_k3_l1_ = metal::abs(texel_l2_3_.w - own_depth_l1_);
+    float away_k3_l2_ = metal::abs(texel_l1_3_.w - own_depth_l2_);
+    float away_k3_l3_ = metal::abs(texel_l0_2_.w - own_depth_l3_);
+    float z_k3_l0_ = away_k3_l0_ / 0.1;
+    float z_k3_l1_ = away_k3_l1_ / 0.1;
+    float z_k3_l2_ = away_k3_l2_ / 0.1;
+    float z_k3_l3_ = away_k3_l3_ / 0.1;
+    float exponent_k3_l0_ = z_k3_l0_ * z_k3_l0_;
+    float exponent_k3_l1_ = z_k3_l1_ * z_k3_l1_;
+    float exponent_k3_l2_ = z_k3_l2_ * z_k3_l2_;
+    float exponent_k3_l3_ = z_k3_l3_ * z_k3_l3_;
+    float weight_k3_l0_ = 0.0625 * metal::exp2(exponent_k3_l0_ * -0.7213475);
+    float weight_k3_l1_ = 0.0625 * metal::exp2(exponent_k3_l1_ * -0.7213475);
+    float weight_k3_l2_ = 0.0625 * metal::exp2(exponent_k3_l2_ * -0.7213475);
+    float weight_k3_l3_ = 0.0625 * metal::exp2(exponent_k3_l3_ * -0.7213475);
+    float total_k3_l0_ = total_k2_l0_ + weight_k3_l0_;
+    float total_k3_l1_ = total_k2_l1_ + weight_k3_l1_;
+    float total_k3_l2_ = total_k2_l2_ + weight_k3_l2_;
+    float total_k3_l3_ = total_k2_l3_ + weight_k3_l3_;
+    bool nearer_k3_l0_ = away_k3_l0_ < nearest_k2_l0_;
+    bool nearer_k3_l1_ = away_k3_l1_ < nearest_k2_l1_;
+    bool nearer_k3_l2_ = away_k3_l2_ < nearest_k2_l2_;
+    bool nearer_k3_l3_ = away_k3_l3_ < nearest_k2_l3_;
+    metal::float4 fallback_k3_l0_ = nearer_k3_l0_ ? taps_4_ : fallback_k2_l0_;
+    metal::float4 fallback_k3_l1_ = nearer_k3_l1_ ? taps_3_ : fallback_k2_l1_;
+    metal::float4 fallback_k3_l2_ = nearer_k3_l2_ ? taps_2_ : fallback_k2_l2_;
+    metal::float4 fallback_k3_l3_ = nearer_k3_l3_ ? taps : fallback_k2_l3_;
+    float scale_l0_ = 1.0 / metal::max(total_k3_l0_, 0.00000000000000000001);
+    float scale_l1_ = 1.0 / metal::max(total_k3_l1_, 0.00000000000000000001);
+    float scale_l2_ = 1.0 / metal::max(total_k3_l2_, 0.00000000000000000001);
+    float scale_l3_ = 1.0 / metal::max(total_k3_l3_, 0.00000000000000000001);
+    metal::float4 color_k1_l0_ = taps + ((taps_2_ - taps) * (weight_k1_l0_ * scale_l0_));
+    metal::float4 color_k1_l1_ = taps_2_ + ((taps - taps_2_) * (weight_k1_l1_ * scale_l1_));
+    metal::float4 color_k1_l2_ = taps_3_ + ((taps_4_ - taps_3_) * (weight_k1_l2_ * scale_l2_));
+    metal::float4 color_k1_l3_ = taps_4_ + ((taps_3_ - taps_4_) * (weight_k1_l3_ * scale_l3_));
+    metal::float4 color_k2_l0_ = color_k1_l0_ + ((taps_3_ - taps) * (weight_k2_l0_ * scale_l0_));
+    metal::float4 color_k2_l1_ = color_k1_l1_ + ((taps_4_ - taps_2_) * (weight_k2_l1_ * scale_l1_));
+    metal::float4 color_k2_l2_ = color_k1_l2_ + ((taps - taps_3_) * (weight_k2_l2_ * scale_l2_));
+    metal::float4 color_k2_l3_ = color_k1_l3_ + ((taps_2_ - taps_4_) * (weight_k2_l3_ * scale_l3_));
+    metal::float4 color_k3_l0_ = color_k2_l0_ + ((taps_4_ - taps) * (weight_k3_l0_ * scale_l0_));
+    metal::float4 color_k3_l1_ = color_k2_l1_ + ((taps_3_ - taps_2_) * (weight_k3_l1_ * scale_l1_));
+    metal::float4 color_k3_l2_ = color_k2_l2_ + ((taps_2_ - taps_3_) * (weight_k3_l2_ * scale_l2_));
+    metal::float4 color_k3_l3_ = color_k2_l3_ + ((taps - taps_4_) * (weight_k3_l3_ * scale_l3_));
+    destination.write((total_k3_l0_ > 0.00000000000000000001) ? color_k3_l0_ : fallback_k3_l0_, metal::uint2(pixel));
+    if (metal::all(as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(metal::int2(1, 0))) < frame)) {
+        destination.write((total_k3_l1_ > 0.00000000000000000001) ? color_k3_l1_ : fallback_k3_l1_, metal::uint2(as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(metal::int2(1, 0)))));
+    }
+    if (metal::all(as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(metal::int2(0, 1))) < frame)) {
+        destination.write((total_k3_l2_ > 0.00000000000000000001) ? color_k3_l2_ : fallback_k3_l2_, metal::uint2(as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(metal::int2(0, 1)))));
+    }
+    if (metal::all(as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(metal::int2(1, 1))) < frame)) {
+        destination.write((total_k3_l3_ > 0.00000000000000000001) ? color_k3_l3_ : fallback_k3_l3_, metal::uint2(as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(metal::int2(1, 1)))));
+        return;
+    } else {
+        return;
+    }
+}
