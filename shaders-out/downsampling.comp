@@ -45,6 +45,6 @@ void main() {
     float nearest_j1_i1 = (holds_3 ? z_j1_i1 : nearest_j1_i0);
     ivec2 last_2 = textureSize(sampler2D(image, unfiltered), 0) - ivec2(1);
     ivec2 texel_2 = clamp(at_j1_i1_2, ivec2(0), last_2);
-    vec4 image_texel = texelFetch(sampler2D(image, unfiltered), texel_2, 0);
+    vec3 image_texel = texelFetch(sampler2D(image, unfiltered), texel_2, 0).xyz;
     imageStore(destination, pixel, vec4(image_texel.x, image_texel.y, image_texel.z, nearest_j1_i1));
 }

@@ -52,7 +52,8 @@ void downsampling(uint3 id : SV_DispatchThreadID)
     float nearest_j1_i1_ = (holds_3_ ? z_j1_i1_ : nearest_j1_i0_);
     int2 last_2_ = asint(asuint(int2(NagaDimensions2D(image))) - asuint((int(1)).xx));
     int2 texel_2_ = clamp(at_j1_i1_2_, (int(0)).xx, last_2_);
-    float4 image_texel = image.Load(int3(texel_2_, int(0)));
+    float4 _e79 = image.Load(int3(texel_2_, int(0)));
+    float3 image_texel = _e79.xyz;
     destination[pixel] = float4(image_texel.x, image_texel.y, image_texel.z, nearest_j1_i1_);
     return;
 }

@@ -46,7 +46,8 @@ kernel void downsampling(
     float nearest_j1_i1_ = holds_3_ ? z_j1_i1_ : nearest_j1_i0_;
     metal::int2 last_2_ = as_type<metal::int2>(as_type<metal::uint2>(static_cast<metal::int2>(metal::uint2(image.get_width(), image.get_height()))) - as_type<metal::uint2>(metal::int2(1)));
     metal::int2 texel_2_ = metal::clamp(at_j1_i1_2_, metal::int2(0), last_2_);
-    metal::float4 image_texel = image.read(metal::uint2(texel_2_), 0);
+    metal::float4 _e79 = image.read(metal::uint2(texel_2_), 0);
+    metal::float3 image_texel = _e79.xyz;
     destination.write(metal::float4(image_texel.x, image_texel.y, image_texel.z, nearest_j1_i1_), metal::uint2(pixel));
     return;
 }

@@ -41,6 +41,6 @@ fn downsampling(@builtin(global_invocation_id) id: vec3u) {
     let nearest_j1_i1 = select(nearest_j1_i0, z_j1_i1, holds_3);
     let last_2 = vec2i(textureDimensions(image)) - vec2i(1);
     let texel_2 = clamp(at_j1_i1_2, vec2i(0), last_2);
-    let image_texel = textureLoad(image, texel_2, 0);
+    let image_texel = textureLoad(image, texel_2, 0).xyz;
     textureStore(destination, pixel, vec4f(image_texel.x, image_texel.y, image_texel.z, nearest_j1_i1));
 }

@@ -40,21 +40,26 @@ uint2 NagaRWDimensions2D(RWTexture2D<float4> tex)
 [numthreads(256, 1, 1)]
 void sraa(uint3 id : SV_DispatchThreadID)
 {
-    float weights[9] = Constructarray9_float_(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
+    float total = 0.0;
     int sample_value = int(0);
+    float weights[9] = Constructarray9_float_(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
+    int sample_2_ = int(0);
     float distances[9] = (float[9])0;
     float nearest = (float)0;
     int tap = (int)0;
     float nearest_2_ = (float)0;
     float d = (float)0;
     bool local = (bool)0;
+    bool local_1 = (bool)0;
     float sum = (float)0;
     float tap_weights[9] = (float[9])0;
     int tap_2_ = (int)0;
     float sum_2_ = (float)0;
     int tap_3_ = (int)0;
     float4 result = (0.0).xxxx;
+    float sum_4_ = 0.0;
     int tap_4_ = int(0);
+    float w_2_ = (float)0;
     float4 result_2_ = (float4)0;
 
     int2 frame = int2(NagaRWDimensions2D(destination));
@@ -62,206 +67,253 @@ void sraa(uint3 id : SV_DispatchThreadID)
     if (any((pixel >= frame))) {
         return;
     }
-    int2 last = asint(asuint(frame) - asuint((int(1)).xx));
     uint2 loop_bound = uint2(4294967295u, 4294967295u);
     bool loop_init = true;
     while(true) {
         if (all(loop_bound == uint2(0u, 0u))) { break; }
         loop_bound -= uint2(loop_bound.y == 0u, 1u);
         if (!loop_init) {
-            int _e263 = sample_value;
-            sample_value = asint(asuint(_e263) + asuint(int(1)));
+            int _e19 = sample_value;
+            sample_value = asint(asuint(_e19) + asuint(int(1)));
         }
         loop_init = false;
-        int _e24 = sample_value;
-        if ((_e24 < int(4))) {
+        int _e12 = sample_value;
+        if ((_e12 < int(4))) {
         } else {
             break;
         }
         {
-            int _e28 = sample_value;
-            float4 _e30 = depth.Load(int4(pixel, _e28, int(0)));
-            float depth_texel = _e30.x;
-            float centre_depth = min(depth_texel, 1e30);
-            int _e35 = sample_value;
-            float4 _e37 = normal.Load(int4(pixel, _e35, int(0)));
-            float3 centre_normal = _e37.xyz;
-            int _e40 = sample_value;
-            int2 texel = table[min(uint(_e40), 3u)];
-            float2 value = (float2(texel) / (16.0).xx);
-            int _e46 = sample_value;
-            bool holds = (_e46 == int(4));
+            float _e15 = total;
+            float total_2_ = (_e15 + 1.0);
+            total = total_2_;
+        }
+    }
+    float _e21 = total;
+    float share = (1.0 / _e21);
+    int2 last = asint(asuint(frame) - asuint((int(1)).xx));
+    uint2 loop_bound_1 = uint2(4294967295u, 4294967295u);
+    bool loop_init_1 = true;
+    while(true) {
+        if (all(loop_bound_1 == uint2(0u, 0u))) { break; }
+        loop_bound_1 -= uint2(loop_bound_1.y == 0u, 1u);
+        if (!loop_init_1) {
+            int _e281 = sample_2_;
+            sample_2_ = asint(asuint(_e281) + asuint(int(1)));
+        }
+        loop_init_1 = false;
+        int _e40 = sample_2_;
+        if ((_e40 < int(4))) {
+        } else {
+            break;
+        }
+        {
+            int _e44 = sample_2_;
+            int2 texel = table[min(uint(_e44), 3u)];
+            float2 place_at = ((0.0).xx + (float2(texel) / (16.0).xx));
+            int _e54 = sample_2_;
+            float4 _e56 = depth.Load(int4(pixel, _e54, int(0)));
+            float depth_2_ = _e56.x;
+            float seen_depth = min(depth_2_, 1e30);
+            int _e61 = sample_2_;
+            float4 _e63 = normal.Load(int4(pixel, _e61, int(0)));
+            float3 seen_normal = _e63.xyz;
+            int _e65 = sample_2_;
+            bool holds = (_e65 == int(4));
             distances = Constructarray9_float_(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
             nearest = 16.0;
             tap = int(0);
-            uint2 loop_bound_1 = uint2(4294967295u, 4294967295u);
-            bool loop_init_1 = true;
-            while(true) {
-                if (all(loop_bound_1 == uint2(0u, 0u))) { break; }
-                loop_bound_1 -= uint2(loop_bound_1.y == 0u, 1u);
-                if (!loop_init_1) {
-                    int _e142 = tap;
-                    tap = asint(asuint(_e142) + asuint(int(1)));
-                }
-                loop_init_1 = false;
-                int _e64 = tap;
-                if ((_e64 < int(9))) {
-                } else {
-                    break;
-                }
-                {
-                    int _e67 = tap;
-                    int _e72 = tap;
-                    int2 texel_2_ = int2(asint(asuint(naga_mod(_e67, int(3))) - asuint(int(1))), asint(asuint(naga_div(_e72, int(3))) - asuint(int(1))));
-                    float2 away = abs(((float2(texel_2_) + (0.0).xx) - value));
-                    float _e84 = nearest;
-                    nearest_2_ = _e84;
-                    if (((max((1.0 - away.x), 0.0) * max((1.0 - away.y), 0.0)) > 0.0)) {
-                        d = ZeroValuefloat();
-                        int _e101 = tap;
-                        if ((_e101 == int(4))) {
-                            local = holds;
-                        } else {
-                            local = false;
-                        }
-                        bool _e107 = local;
-                        if (_e107) {
-                            d = 0.0;
-                        } else {
-                            int2 texel_3_ = clamp(asint(asuint(pixel) + asuint(texel_2_)), (int(0)).xx, last);
-                            float4 _e116 = depth.Load(int4(texel_3_, int(4), int(0)));
-                            float depth_texel_2_ = _e116.x;
-                            float shaded_depth = min(depth_texel_2_, 1e30);
-                            float4 _e123 = normal.Load(int4(texel_3_, int(4), int(0)));
-                            float3 shaded_normal = _e123.xyz;
-                            float depths = abs((centre_depth - shaded_depth));
-                            float3 apart = (centre_normal - shaded_normal);
-                            float larger = max(depths, (0.5 * dot(apart, apart)));
-                            d = min(larger, 16.0);
-                        }
-                        int _e134 = tap;
-                        float _e136 = d;
-                        distances[min(uint(_e134), 8u)] = _e136;
-                        float _e137 = nearest;
-                        float _e138 = d;
-                        float nearest_3_ = min(_e137, _e138);
-                        nearest_2_ = nearest_3_;
-                    }
-                    float _e140 = nearest_2_;
-                    nearest = _e140;
-                }
-            }
-            sum = 0.0;
-            tap_weights = Constructarray9_float_(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
-            tap_2_ = int(0);
             uint2 loop_bound_2 = uint2(4294967295u, 4294967295u);
             bool loop_init_2 = true;
             while(true) {
                 if (all(loop_bound_2 == uint2(0u, 0u))) { break; }
                 loop_bound_2 -= uint2(loop_bound_2.y == 0u, 1u);
                 if (!loop_init_2) {
-                    int _e209 = tap_2_;
-                    tap_2_ = asint(asuint(_e209) + asuint(int(1)));
+                    int _e165 = tap;
+                    tap = asint(asuint(_e165) + asuint(int(1)));
                 }
                 loop_init_2 = false;
-                int _e159 = tap_2_;
-                if ((_e159 < int(9))) {
+                int _e83 = tap;
+                if ((_e83 < int(9))) {
                 } else {
                     break;
                 }
                 {
-                    int _e162 = tap_2_;
-                    int _e167 = tap_2_;
-                    float2 value_2_ = ((float2(int2(asint(asuint(naga_mod(_e162, int(3))) - asuint(int(1))), asint(asuint(naga_div(_e167, int(3))) - asuint(int(1))))) + (0.0).xx) - value);
-                    float2 away_2_ = abs(value_2_);
-                    float value_3_ = (max((1.0 - away_2_.x), 0.0) * max((1.0 - away_2_.y), 0.0));
-                    float _e190 = sum;
-                    sum_2_ = _e190;
-                    if ((value_3_ > 0.0)) {
-                        int _e194 = tap_2_;
-                        float value_4_ = distances[min(uint(_e194), 8u)];
-                        float _e197 = nearest;
-                        float w = (value_3_ * exp2((-721.34753 * (value_4_ - _e197))));
-                        int _e203 = tap_2_;
-                        tap_weights[min(uint(_e203), 8u)] = w;
-                        float _e205 = sum;
-                        float sum_3_ = (_e205 + w);
-                        sum_2_ = sum_3_;
+                    int _e86 = tap;
+                    int _e91 = tap;
+                    int2 pixel_2_ = int2(asint(asuint(naga_mod(_e86, int(3))) - asuint(int(1))), asint(asuint(naga_div(_e91, int(3))) - asuint(int(1))));
+                    float2 away = (float2(pixel_2_) - place_at);
+                    bool holds_2_ = ((max((1.0 - abs(away.x)), 0.0) * max((1.0 - abs(away.y)), 0.0)) > 0.0);
+                    float _e114 = nearest;
+                    nearest_2_ = _e114;
+                    if (holds_2_) {
+                        bool2 holds_3_ = ((int(0)).xx == pixel_2_);
+                        d = ZeroValuefloat();
+                        if (holds) {
+                            if (holds_3_.x) {
+                                local_1 = holds_3_.y;
+                            } else {
+                                local_1 = false;
+                            }
+                            bool _e128 = local_1;
+                            local = _e128;
+                        } else {
+                            local = false;
+                        }
+                        bool _e130 = local;
+                        if (_e130) {
+                            d = 0.0;
+                        } else {
+                            int2 texel_2_ = asint(asuint(pixel) + asuint(pixel_2_));
+                            int2 texel_3_ = clamp(texel_2_, (int(0)).xx, last);
+                            float4 _e139 = depth.Load(int4(texel_3_, int(4), int(0)));
+                            float depth_3_ = _e139.x;
+                            float shaded_depth = min(depth_3_, 1e30);
+                            float4 _e146 = normal.Load(int4(texel_3_, int(4), int(0)));
+                            float3 shaded_normal = _e146.xyz;
+                            float apart = abs((seen_depth - shaded_depth));
+                            float3 apart_2_ = (seen_normal - shaded_normal);
+                            float larger = max(apart, (0.5 * dot(apart_2_, apart_2_)));
+                            d = min(larger, 16.0);
+                        }
+                        int _e157 = tap;
+                        float _e159 = d;
+                        distances[min(uint(_e157), 8u)] = _e159;
+                        float _e160 = nearest;
+                        float _e161 = d;
+                        float nearest_3_ = min(_e160, _e161);
+                        nearest_2_ = nearest_3_;
                     }
-                    float _e207 = sum_2_;
-                    sum = _e207;
+                    float _e163 = nearest_2_;
+                    nearest = _e163;
                 }
             }
-            float _e211 = sum;
-            float scale = (0.25 / _e211);
-            tap_3_ = int(0);
+            sum = 0.0;
+            tap_weights = Constructarray9_float_(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
+            tap_2_ = int(0);
             uint2 loop_bound_3 = uint2(4294967295u, 4294967295u);
             bool loop_init_3 = true;
             while(true) {
                 if (all(loop_bound_3 == uint2(0u, 0u))) { break; }
                 loop_bound_3 -= uint2(loop_bound_3.y == 0u, 1u);
                 if (!loop_init_3) {
-                    int _e260 = tap_3_;
-                    tap_3_ = asint(asuint(_e260) + asuint(int(1)));
+                    int _e230 = tap_2_;
+                    tap_2_ = asint(asuint(_e230) + asuint(int(1)));
                 }
                 loop_init_3 = false;
-                int _e216 = tap_3_;
-                if ((_e216 < int(9))) {
+                int _e182 = tap_2_;
+                if ((_e182 < int(9))) {
                 } else {
                     break;
                 }
                 {
-                    int _e219 = tap_3_;
-                    int _e224 = tap_3_;
-                    float2 value_5_ = ((float2(int2(asint(asuint(naga_mod(_e219, int(3))) - asuint(int(1))), asint(asuint(naga_div(_e224, int(3))) - asuint(int(1))))) + (0.0).xx) - value);
-                    float2 away_3_ = abs(value_5_);
-                    if (((max((1.0 - away_3_.x), 0.0) * max((1.0 - away_3_.y), 0.0)) > 0.0)) {
-                        int _e249 = tap_3_;
-                        float value_6_ = tap_weights[min(uint(_e249), 8u)];
-                        int _e252 = tap_3_;
-                        float value_7_ = weights[min(uint(_e252), 8u)];
-                        float weights_2_ = (value_7_ + (value_6_ * scale));
-                        int _e257 = tap_3_;
-                        weights[min(uint(_e257), 8u)] = weights_2_;
+                    int _e185 = tap_2_;
+                    int _e190 = tap_2_;
+                    int2 pixel_3_ = int2(asint(asuint(naga_mod(_e185, int(3))) - asuint(int(1))), asint(asuint(naga_div(_e190, int(3))) - asuint(int(1))));
+                    float2 away_2_ = (float2(pixel_3_) - place_at);
+                    float value = (max((1.0 - abs(away_2_.x)), 0.0) * max((1.0 - abs(away_2_.y)), 0.0));
+                    float _e211 = sum;
+                    sum_2_ = _e211;
+                    if ((value > 0.0)) {
+                        int _e215 = tap_2_;
+                        float value_2_ = distances[min(uint(_e215), 8u)];
+                        float _e218 = nearest;
+                        float nearness = exp2((-721.34753 * (value_2_ - _e218)));
+                        float w = (value * nearness);
+                        int _e224 = tap_2_;
+                        tap_weights[min(uint(_e224), 8u)] = w;
+                        float _e226 = sum;
+                        float sum_3_ = (_e226 + w);
+                        sum_2_ = sum_3_;
+                    }
+                    float _e228 = sum_2_;
+                    sum = _e228;
+                }
+            }
+            float _e232 = sum;
+            float scale = (share / _e232);
+            tap_3_ = int(0);
+            uint2 loop_bound_4 = uint2(4294967295u, 4294967295u);
+            bool loop_init_4 = true;
+            while(true) {
+                if (all(loop_bound_4 == uint2(0u, 0u))) { break; }
+                loop_bound_4 -= uint2(loop_bound_4.y == 0u, 1u);
+                if (!loop_init_4) {
+                    int _e278 = tap_3_;
+                    tap_3_ = asint(asuint(_e278) + asuint(int(1)));
+                }
+                loop_init_4 = false;
+                int _e236 = tap_3_;
+                if ((_e236 < int(9))) {
+                } else {
+                    break;
+                }
+                {
+                    int _e239 = tap_3_;
+                    int _e244 = tap_3_;
+                    int2 pixel_4_ = int2(asint(asuint(naga_mod(_e239, int(3))) - asuint(int(1))), asint(asuint(naga_div(_e244, int(3))) - asuint(int(1))));
+                    float2 away_3_ = (float2(pixel_4_) - place_at);
+                    bool holds_4_ = ((max((1.0 - abs(away_3_.x)), 0.0) * max((1.0 - abs(away_3_.y)), 0.0)) > 0.0);
+                    if (holds_4_) {
+                        int _e267 = tap_3_;
+                        float value_3_ = tap_weights[min(uint(_e267), 8u)];
+                        int _e270 = tap_3_;
+                        float value_4_ = weights[min(uint(_e270), 8u)];
+                        float weights_2_ = (value_4_ + (value_3_ * scale));
+                        int _e275 = tap_3_;
+                        weights[min(uint(_e275), 8u)] = weights_2_;
                     }
                 }
             }
         }
     }
-    uint2 loop_bound_4 = uint2(4294967295u, 4294967295u);
-    bool loop_init_4 = true;
+    uint2 loop_bound_5 = uint2(4294967295u, 4294967295u);
+    bool loop_init_5 = true;
     while(true) {
-        if (all(loop_bound_4 == uint2(0u, 0u))) { break; }
-        loop_bound_4 -= uint2(loop_bound_4.y == 0u, 1u);
-        if (!loop_init_4) {
-            int _e303 = tap_4_;
-            tap_4_ = asint(asuint(_e303) + asuint(int(1)));
+        if (all(loop_bound_5 == uint2(0u, 0u))) { break; }
+        loop_bound_5 -= uint2(loop_bound_5.y == 0u, 1u);
+        if (!loop_init_5) {
+            int _e343 = tap_4_;
+            tap_4_ = asint(asuint(_e343) + asuint(int(1)));
         }
-        loop_init_4 = false;
-        int _e270 = tap_4_;
-        if ((_e270 < int(9))) {
+        loop_init_5 = false;
+        int _e290 = tap_4_;
+        if ((_e290 < int(9))) {
         } else {
             break;
         }
         {
-            int _e273 = tap_4_;
-            float value_8_ = weights[min(uint(_e273), 8u)];
-            float4 _e276 = result;
-            result_2_ = _e276;
-            if ((value_8_ != 0.0)) {
-                int _e280 = tap_4_;
-                int _e285 = tap_4_;
-                int2 texel_4_ = clamp(asint(asuint(pixel) + asuint(int2(asint(asuint(naga_mod(_e280, int(3))) - asuint(int(1))), asint(asuint(naga_div(_e285, int(3))) - asuint(int(1)))))), (int(0)).xx, last);
-                float4 shaded = color.Load(int3(texel_4_, int(0)));
-                float4 _e298 = result;
-                float4 result_3_ = (_e298 + (value_8_ * shaded));
+            int _e293 = tap_4_;
+            int _e298 = tap_4_;
+            int2 pixel_5_ = int2(asint(asuint(naga_mod(_e293, int(3))) - asuint(int(1))), asint(asuint(naga_div(_e298, int(3))) - asuint(int(1))));
+            int2 pixel_6_ = asint(asuint(pixel) + asuint(pixel_5_));
+            int2 texel_4_ = clamp(pixel_6_, (int(0)).xx, last);
+            float4 shaded = color.Load(int3(texel_4_, int(0)));
+            uint4 value_5_ = (asuint(shaded) & (2147483647u).xxxx);
+            w_2_ = 0.0;
+            if ((max(max(max(value_5_.x, value_5_.y), value_5_.z), value_5_.w) < 2139095040u)) {
+                int _e326 = tap_4_;
+                float value_6_ = weights[min(uint(_e326), 8u)];
+                w_2_ = value_6_;
+            }
+            float4 _e329 = result;
+            result_2_ = _e329;
+            float _e331 = w_2_;
+            if ((_e331 != 0.0)) {
+                float4 _e334 = result;
+                float _e335 = w_2_;
+                float4 result_3_ = (_e334 + (_e335 * shaded));
                 result_2_ = result_3_;
             }
-            float4 _e301 = result_2_;
-            result = _e301;
+            float _e338 = sum_4_;
+            float _e339 = w_2_;
+            float sum_5_ = (_e338 + _e339);
+            float4 _e341 = result_2_;
+            result = _e341;
+            sum_4_ = sum_5_;
         }
     }
-    float4 _e306 = result;
-    destination[pixel] = _e306;
+    float4 _e346 = result;
+    float _e347 = sum_4_;
+    destination[pixel] = (_e346 / (max(_e347, 1e-30)).xxxx);
     return;
 }

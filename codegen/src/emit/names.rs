@@ -3,6 +3,7 @@
 use super::resources::{OUTPUT, Resources, SAMPLER, UNIFORMS};
 use crate::ir::{Counter, Graph, NodeId, Op, Origin, Type};
 use std::collections::{BTreeSet, HashMap, HashSet};
+use straightline_manifest::REGION;
 
 /// Whether a word has a meaning of its own in WGSL or GLSL.
 pub fn is_reserved(word: &str) -> bool {
@@ -43,10 +44,13 @@ impl Names {
     /// Names of a graph's values, with those of the shader's bindings taken.
     pub fn new(graph: &Graph, resources: &Resources, entry: &str) -> Names {
         let mut taken: HashSet<String> = [
-            "pixel", "frame", "id", "position", OUTPUT, SAMPLER, UNIFORMS, entry, "main",
+            "pixel", "frame", "id", "position", OUTPUT, SAMPLER, UNIFORMS, entry, "main", REGION,
         ]
         .map(str::to_owned)
         .into();
+        if resources.options.region {
+            taken.extend(["within", "place"].map(str::to_owned));
+        }
         taken.extend(resources.names().map(str::to_owned));
         let counters: BTreeSet<&str> = graph
             .origins

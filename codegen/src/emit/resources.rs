@@ -4,7 +4,7 @@ use super::EmitOptions;
 use super::error::EmitError;
 use super::layout::{layout, stride};
 use super::wgsl::type_name;
-use crate::ir::{Buffer, Graph, NodeId, Op, Sampler, Texture, TextureKind, Uniform, Varying};
+use crate::ir::{Buffer, NodeId, Op, Sampler, Texture, TextureKind, Uniform, Varying};
 use crate::passes::layers_read;
 use crate::pipeline::Compiled;
 use straightline_manifest::{
@@ -27,8 +27,6 @@ pub struct BoundTexture {
     pub binding: u32,
     /// Layers, or samples of a texel, that reads can reach.
     pub layers: u32,
-    /// Components of its texels that are used, 1 to 4.
-    pub components: u8,
     /// Whether a sampler filters it.
     pub filtered: bool,
     /// Whether a sampler compares it.
@@ -88,7 +86,6 @@ impl Resources {
                 index,
                 binding: number(),
                 layers,
-                components: components_read(graph, &live, index),
                 compared: ops.iter().any(
                     |op| matches!(op, Op::Compare { texture, .. } | Op::GatherCompare { texture, .. } if *texture == index),
                 ),
@@ -309,32 +306,6 @@ impl Resources {
     }
 }
 
-/// Components up to the last one that is used of any texel of a texture.
-fn components_read(graph: &Graph, live: &impl Fn(&NodeId) -> bool, texture: u32) -> u8 {
-    let all = graph.textures[texture as usize].components;
-    let is_texel = |id: NodeId| {
-        let op = &graph.node(id).op;
-        matches!(op, Op::Load { .. } | Op::Sample { .. }) && op.texture() == Some(texture)
-    };
-    let mut most = 1;
-    for id in graph.ids().filter(live) {
-        let node = graph.node(id);
-        let used = match node.op {
-            Op::Gather { component, .. } if node.op.texture() == Some(texture) => component + 1,
-            Op::Extract(lane) if node.args.iter().any(|arg| is_texel(*arg)) => lane + 1,
-            _ if node.args.iter().any(|arg| is_texel(*arg)) => all,
-            _ => continue,
-        };
-        most = most.max(used);
-    }
-    if graph.outputs().iter().any(|id| is_texel(*id))
-        || graph.regions.iter().any(|r| r.results.iter().any(|id| is_texel(*id)))
-    {
-        return all;
-    }
-    most.min(all)
-}
-
 fn texture_kind(texture: &Texture, bound: &BoundTexture) -> BindingKind {
     BindingKind::Texture {
         access: Access::Read,
@@ -348,7 +319,7 @@ fn texture_kind(texture: &Texture, bound: &BoundTexture) -> BindingKind {
             _ if bound.filtered => SampleType::Filterable,
             _ => SampleType::Unfilterable,
         },
-        components: bound.components,
+        components: texture.components,
         layers: if texture.kind == TextureKind::Layers {
             bound.layers
         } else {

@@ -1,6 +1,6 @@
 //! Building a graph again, without what is not used: the frame of every pass.
 
-use super::{Builder, Event, Graph, NodeId, Op, RegionId, Rules};
+use super::{Builder, Event, Graph, NodeId, Op, RegionId, Rules, Scalar, Type};
 
 /// What a pass changes while the graph is built again.
 pub struct Rebuild<'a> {
@@ -10,11 +10,15 @@ pub struct Rebuild<'a> {
     pub share_loads: bool,
 }
 
-/// The same kernel built again: unused nodes and unused carried values vanish, the pass's rules apply.
+/// The same kernel built again: unused nodes, unused carried values and unused components of texels vanish, the pass's
+/// rules apply.
 pub fn rebuild(old: &Graph, pass: &Rebuild<'_>) -> Graph {
     let live = Liveness::of(old);
     let mut builder = Builder::new(pass.rules);
     copy_tables(old, builder.graph_mut());
+    for (texture, components) in builder.graph_mut().textures.iter_mut().zip(components_read(old, &live)) {
+        texture.components = components.min(texture.components);
+    }
     let mut walk = Walk {
         old,
         live,
@@ -123,10 +127,19 @@ impl Walk<'_, '_> {
             read if share_loads && read.is_read() => (read.clone().shared(), node.args.clone()),
             other => (other.clone(), node.args.clone()),
         };
-        let args = args.iter().map(|a| self.new_id(*a)).collect();
+        let args: Vec<NodeId> = args.iter().map(|a| self.new_id(*a)).collect();
+        let ty = match (&op, op.texture()) {
+            (Op::Load { .. } | Op::Sample { .. }, Some(texture)) => {
+                let components = self.builder.graph().textures[texture as usize].components;
+                Type::value(Scalar::F32, components)
+            }
+            _ => node.ty,
+        };
         let new = match op {
-            Op::Const(_) => self.builder.intern(op, args, node.ty),
-            _ => self.builder.add(op, args, node.ty),
+            Op::Const(_) => self.builder.intern(op, args, ty),
+            // Of a texel that has become a number.
+            Op::Extract(0) if self.builder.graph().ty(args[0]) == ty => args[0],
+            _ => self.builder.add(op, args, ty),
         };
         self.take_over(id, new);
     }
@@ -137,6 +150,38 @@ impl Walk<'_, '_> {
             self.builder.set_origin(new, origin);
         }
     }
+}
+
+/// Components up to the last one that is used of any texel, for each texture.
+fn components_read(graph: &Graph, live: &Liveness) -> Vec<u8> {
+    let texel_of = |id: NodeId| match graph.node(id).op {
+        Op::Load { texture, .. } | Op::Sample { texture, .. } => Some(texture as usize),
+        _ => None,
+    };
+    let mut most = vec![1; graph.textures.len()];
+    let mut use_of = |id: NodeId, components: u8| {
+        if let Some(texture) = texel_of(id) {
+            most[texture] = components.max(most[texture]);
+        }
+    };
+    const ALL: u8 = 4;
+    for id in graph.ids().filter(|id| live.nodes[id.0 as usize]) {
+        let node = graph.node(id);
+        match node.op {
+            Op::Extract(lane) => use_of(node.args[0], lane + 1),
+            _ => node.args.iter().for_each(|arg| use_of(*arg, ALL)),
+        }
+    }
+    graph.outputs().iter().for_each(|id| use_of(*id, ALL));
+    for region in &graph.regions {
+        region.results.iter().for_each(|id| use_of(*id, ALL));
+    }
+    for id in graph.ids().filter(|id| live.nodes[id.0 as usize]) {
+        if let Op::Gather { texture, component, .. } = graph.node(id).op {
+            most[texture as usize] = most[texture as usize].max(component + 1);
+        }
+    }
+    most
 }
 
 /// What the output depends on.
