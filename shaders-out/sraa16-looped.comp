@@ -62,9 +62,9 @@ void main() {
                     float depth_3 = texelFetch(sampler2DArray(depth, unfiltered), ivec3(texel_3, 16), 0).x;
                     float shaded_depth = min(depth_3, 1e30);
                     vec3 shaded_normal = texelFetch(sampler2DArray(normal, unfiltered), ivec3(texel_3, 16), 0).xyz;
-                    float apart = abs(seen_depth - shaded_depth);
-                    vec3 apart_2 = seen_normal - shaded_normal;
-                    float larger = max(apart, 0.5 * dot(apart_2, apart_2));
+                    float step_value = abs(seen_depth - shaded_depth);
+                    vec3 turn = seen_normal - shaded_normal;
+                    float larger = max(step_value, 0.5 * dot(turn, turn));
                     d = min(larger, 16.0);
                 }
                 // kernels/src/sraa/mod.rs:99

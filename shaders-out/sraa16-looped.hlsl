@@ -170,9 +170,9 @@ void sraa(uint3 id : SV_DispatchThreadID)
                             float shaded_depth = min(depth_3_, 1e30);
                             float4 _e146 = normal.Load(int4(texel_3_, int(16), int(0)));
                             float3 shaded_normal = _e146.xyz;
-                            float apart = abs((seen_depth - shaded_depth));
-                            float3 apart_2_ = (seen_normal - shaded_normal);
-                            float larger = max(apart, (0.5 * dot(apart_2_, apart_2_)));
+                            float step_value = abs((seen_depth - shaded_depth));
+                            float3 turn = (seen_normal - shaded_normal);
+                            float larger = max(step_value, (0.5 * dot(turn, turn)));
                             d = min(larger, 16.0);
                         }
                         int _e157 = tap;

@@ -28,9 +28,9 @@ void main() {
     float depth_t4 = texelFetch(sampler2DArray(depth, unfiltered), ivec3(pixel, 16), 0).x;
     float shaded_depth_t4 = min(depth_t4, 1e30);
     vec3 shaded_normal_t4 = texelFetch(sampler2DArray(normal, unfiltered), ivec3(pixel, 16), 0).xyz;
-    float apart_s0_t4 = abs(seen_depth_s0 - shaded_depth_t4);
-    vec3 apart_s0_t4_2 = seen_normal_s0 - shaded_normal_t4;
-    float larger_s0_t4 = max(apart_s0_t4, 0.5 * dot(apart_s0_t4_2, apart_s0_t4_2));
+    float step_s0_t4 = abs(seen_depth_s0 - shaded_depth_t4);
+    vec3 turn_s0_t4 = seen_normal_s0 - shaded_normal_t4;
+    float larger_s0_t4 = max(step_s0_t4, 0.5 * dot(turn_s0_t4, turn_s0_t4));
     float d_s0_t4 = min(larger_s0_t4, 16.0);
     // sample 0, tap 5: kernels/src/sraa/gbuffer.rs:95
     ivec2 texel_t5 = pixel + ivec2(1, 0);
@@ -38,9 +38,9 @@ void main() {
     float depth_t5 = texelFetch(sampler2DArray(depth, unfiltered), ivec3(texel_t5_2, 16), 0).x;
     float shaded_depth_t5 = min(depth_t5, 1e30);
     vec3 shaded_normal_t5 = texelFetch(sampler2DArray(normal, unfiltered), ivec3(texel_t5_2, 16), 0).xyz;
-    float apart_s0_t5 = abs(seen_depth_s0 - shaded_depth_t5);
-    vec3 apart_s0_t5_2 = seen_normal_s0 - shaded_normal_t5;
-    float larger_s0_t5 = max(apart_s0_t5, 0.5 * dot(apart_s0_t5_2, apart_s0_t5_2));
+    float step_s0_t5 = abs(seen_depth_s0 - shaded_depth_t5);
+    vec3 turn_s0_t5 = seen_normal_s0 - shaded_normal_t5;
+    float larger_s0_t5 = max(step_s0_t5, 0.5 * dot(turn_s0_t5, turn_s0_t5));
     float d_s0_t5 = min(larger_s0_t5, 16.0);
     float nearest_s0_t5 = min(d_s0_t4, d_s0_t5);
     ivec2 texel_t7 = pixel + ivec2(0, 1);
@@ -48,9 +48,9 @@ void main() {
     float depth_t7 = texelFetch(sampler2DArray(depth, unfiltered), ivec3(texel_t7_2, 16), 0).x;
     float shaded_depth_t7 = min(depth_t7, 1e30);
     vec3 shaded_normal_t7 = texelFetch(sampler2DArray(normal, unfiltered), ivec3(texel_t7_2, 16), 0).xyz;
-    float apart_s0_t7 = abs(seen_depth_s0 - shaded_depth_t7);
-    vec3 apart_s0_t7_2 = seen_normal_s0 - shaded_normal_t7;
-    float larger_s0_t7 = max(apart_s0_t7, 0.5 * dot(apart_s0_t7_2, apart_s0_t7_2));
+    float step_s0_t7 = abs(seen_depth_s0 - shaded_depth_t7);
+    vec3 turn_s0_t7 = seen_normal_s0 - shaded_normal_t7;
+    float larger_s0_t7 = max(step_s0_t7, 0.5 * dot(turn_s0_t7, turn_s0_t7));
     float d_s0_t7 = min(larger_s0_t7, 16.0);
     float nearest_s0_t7 = min(nearest_s0_t5, d_s0_t7);
     ivec2 texel_t8 = pixel + ivec2(1);
@@ -58,9 +58,9 @@ void main() {
     float depth_t8 = texelFetch(sampler2DArray(depth, unfiltered), ivec3(texel_t8_2, 16), 0).x;
     float shaded_depth_t8 = min(depth_t8, 1e30);
     vec3 shaded_normal_t8 = texelFetch(sampler2DArray(normal, unfiltered), ivec3(texel_t8_2, 16), 0).xyz;
-    float apart_s0_t8 = abs(seen_depth_s0 - shaded_depth_t8);
-    vec3 apart_s0_t8_2 = seen_normal_s0 - shaded_normal_t8;
-    float larger_s0_t8 = max(apart_s0_t8, 0.5 * dot(apart_s0_t8_2, apart_s0_t8_2));
+    float step_s0_t8 = abs(seen_depth_s0 - shaded_depth_t8);
+    vec3 turn_s0_t8 = seen_normal_s0 - shaded_normal_t8;
+    float larger_s0_t8 = max(step_s0_t8, 0.5 * dot(turn_s0_t8, turn_s0_t8));
     float d_s0_t8 = min(larger_s0_t8, 16.0);
     float nearest_s0_t8 = min(nearest_s0_t7, d_s0_t8);
     // sample 0, tap 4: kernels/src/sraa/mod.rs:111
@@ -90,9 +90,9 @@ void main() {
     float depth_t0 = texelFetch(sampler2DArray(depth, unfiltered), ivec3(texel_t0_2, 16), 0).x;
     float shaded_depth_t0 = min(depth_t0, 1e30);
     vec3 shaded_normal_t0 = texelFetch(sampler2DArray(normal, unfiltered), ivec3(texel_t0_2, 16), 0).xyz;
-    float apart_s1_t0 = abs(seen_depth_s1 - shaded_depth_t0);
-    vec3 apart_s1_t0_2 = seen_normal_s1 - shaded_normal_t0;
-    float larger_s1_t0 = max(apart_s1_t0, 0.5 * dot(apart_s1_t0_2, apart_s1_t0_2));
+    float step_s1_t0 = abs(seen_depth_s1 - shaded_depth_t0);
+    vec3 turn_s1_t0 = seen_normal_s1 - shaded_normal_t0;
+    float larger_s1_t0 = max(step_s1_t0, 0.5 * dot(turn_s1_t0, turn_s1_t0));
     float d_s1_t0 = min(larger_s1_t0, 16.0);
     // sample 1, tap 1: kernels/src/sraa/gbuffer.rs:95
     ivec2 texel_t1 = pixel + ivec2(0, -1);
@@ -100,9 +100,9 @@ void main() {
     float depth_t1 = texelFetch(sampler2DArray(depth, unfiltered), ivec3(texel_t1_2, 16), 0).x;
     float shaded_depth_t1 = min(depth_t1, 1e30);
     vec3 shaded_normal_t1 = texelFetch(sampler2DArray(normal, unfiltered), ivec3(texel_t1_2, 16), 0).xyz;
-    float apart_s1_t1 = abs(seen_depth_s1 - shaded_depth_t1);
-    vec3 apart_s1_t1_2 = seen_normal_s1 - shaded_normal_t1;
-    float larger_s1_t1 = max(apart_s1_t1, 0.5 * dot(apart_s1_t1_2, apart_s1_t1_2));
+    float step_s1_t1 = abs(seen_depth_s1 - shaded_depth_t1);
+    vec3 turn_s1_t1 = seen_normal_s1 - shaded_normal_t1;
+    float larger_s1_t1 = max(step_s1_t1, 0.5 * dot(turn_s1_t1, turn_s1_t1));
     float d_s1_t1 = min(larger_s1_t1, 16.0);
     float nearest_s1_t1 = min(d_s1_t0, d_s1_t1);
     ivec2 texel_t3 = pixel + ivec2(-1, 0);
@@ -110,15 +110,15 @@ void main() {
     float depth_t3 = texelFetch(sampler2DArray(depth, unfiltered), ivec3(texel_t3_2, 16), 0).x;
     float shaded_depth_t3 = min(depth_t3, 1e30);
     vec3 shaded_normal_t3 = texelFetch(sampler2DArray(normal, unfiltered), ivec3(texel_t3_2, 16), 0).xyz;
-    float apart_s1_t3 = abs(seen_depth_s1 - shaded_depth_t3);
-    vec3 apart_s1_t3_2 = seen_normal_s1 - shaded_normal_t3;
-    float larger_s1_t3 = max(apart_s1_t3, 0.5 * dot(apart_s1_t3_2, apart_s1_t3_2));
+    float step_s1_t3 = abs(seen_depth_s1 - shaded_depth_t3);
+    vec3 turn_s1_t3 = seen_normal_s1 - shaded_normal_t3;
+    float larger_s1_t3 = max(step_s1_t3, 0.5 * dot(turn_s1_t3, turn_s1_t3));
     float d_s1_t3 = min(larger_s1_t3, 16.0);
     float nearest_s1_t3 = min(nearest_s1_t1, d_s1_t3);
     // sample 1, tap 4: kernels/src/sraa/metric.rs:96
-    float apart_s1_t4 = abs(seen_depth_s1 - shaded_depth_t4);
-    vec3 apart_s1_t4_2 = seen_normal_s1 - shaded_normal_t4;
-    float larger_s1_t4 = max(apart_s1_t4, 0.5 * dot(apart_s1_t4_2, apart_s1_t4_2));
+    float step_s1_t4 = abs(seen_depth_s1 - shaded_depth_t4);
+    vec3 turn_s1_t4 = seen_normal_s1 - shaded_normal_t4;
+    float larger_s1_t4 = max(step_s1_t4, 0.5 * dot(turn_s1_t4, turn_s1_t4));
     float d_s1_t4 = min(larger_s1_t4, 16.0);
     float nearest_s1_t4 = min(nearest_s1_t3, d_s1_t4);
     // sample 1, tap 0: kernels/src/sraa/mod.rs:111
@@ -143,14 +143,14 @@ void main() {
     float depth_s2 = texelFetch(sampler2DArray(depth, unfiltered), ivec3(pixel, 2), 0).x;
     float seen_depth_s2 = min(depth_s2, 1e30);
     vec3 seen_normal_s2 = texelFetch(sampler2DArray(normal, unfiltered), ivec3(pixel, 2), 0).xyz;
-    float apart_s2_t3 = abs(seen_depth_s2 - shaded_depth_t3);
-    vec3 apart_s2_t3_2 = seen_normal_s2 - shaded_normal_t3;
-    float larger_s2_t3 = max(apart_s2_t3, 0.5 * dot(apart_s2_t3_2, apart_s2_t3_2));
+    float step_s2_t3 = abs(seen_depth_s2 - shaded_depth_t3);
+    vec3 turn_s2_t3 = seen_normal_s2 - shaded_normal_t3;
+    float larger_s2_t3 = max(step_s2_t3, 0.5 * dot(turn_s2_t3, turn_s2_t3));
     float d_s2_t3 = min(larger_s2_t3, 16.0);
     // sample 2, tap 4: kernels/src/sraa/metric.rs:96
-    float apart_s2_t4 = abs(seen_depth_s2 - shaded_depth_t4);
-    vec3 apart_s2_t4_2 = seen_normal_s2 - shaded_normal_t4;
-    float larger_s2_t4 = max(apart_s2_t4, 0.5 * dot(apart_s2_t4_2, apart_s2_t4_2));
+    float step_s2_t4 = abs(seen_depth_s2 - shaded_depth_t4);
+    vec3 turn_s2_t4 = seen_normal_s2 - shaded_normal_t4;
+    float larger_s2_t4 = max(step_s2_t4, 0.5 * dot(turn_s2_t4, turn_s2_t4));
     float d_s2_t4 = min(larger_s2_t4, 16.0);
     float nearest_s2_t4 = min(d_s2_t3, d_s2_t4);
     // sample 2, tap 6: kernels/src/sraa/gbuffer.rs:95
@@ -159,15 +159,15 @@ void main() {
     float depth_t6 = texelFetch(sampler2DArray(depth, unfiltered), ivec3(texel_t6_2, 16), 0).x;
     float shaded_depth_t6 = min(depth_t6, 1e30);
     vec3 shaded_normal_t6 = texelFetch(sampler2DArray(normal, unfiltered), ivec3(texel_t6_2, 16), 0).xyz;
-    float apart_s2_t6 = abs(seen_depth_s2 - shaded_depth_t6);
-    vec3 apart_s2_t6_2 = seen_normal_s2 - shaded_normal_t6;
-    float larger_s2_t6 = max(apart_s2_t6, 0.5 * dot(apart_s2_t6_2, apart_s2_t6_2));
+    float step_s2_t6 = abs(seen_depth_s2 - shaded_depth_t6);
+    vec3 turn_s2_t6 = seen_normal_s2 - shaded_normal_t6;
+    float larger_s2_t6 = max(step_s2_t6, 0.5 * dot(turn_s2_t6, turn_s2_t6));
     float d_s2_t6 = min(larger_s2_t6, 16.0);
     float nearest_s2_t6 = min(nearest_s2_t4, d_s2_t6);
     // sample 2, tap 7: kernels/src/sraa/metric.rs:96
-    float apart_s2_t7 = abs(seen_depth_s2 - shaded_depth_t7);
-    vec3 apart_s2_t7_2 = seen_normal_s2 - shaded_normal_t7;
-    float larger_s2_t7 = max(apart_s2_t7, 0.5 * dot(apart_s2_t7_2, apart_s2_t7_2));
+    float step_s2_t7 = abs(seen_depth_s2 - shaded_depth_t7);
+    vec3 turn_s2_t7 = seen_normal_s2 - shaded_normal_t7;
+    float larger_s2_t7 = max(step_s2_t7, 0.5 * dot(turn_s2_t7, turn_s2_t7));
     float d_s2_t7 = min(larger_s2_t7, 16.0);
     float nearest_s2_t7 = min(nearest_s2_t6, d_s2_t7);
     // sample 2, tap 3: kernels/src/sraa/mod.rs:111
@@ -192,9 +192,9 @@ void main() {
     float depth_s3 = texelFetch(sampler2DArray(depth, unfiltered), ivec3(pixel, 3), 0).x;
     float seen_depth_s3 = min(depth_s3, 1e30);
     vec3 seen_normal_s3 = texelFetch(sampler2DArray(normal, unfiltered), ivec3(pixel, 3), 0).xyz;
-    float apart_s3_t1 = abs(seen_depth_s3 - shaded_depth_t1);
-    vec3 apart_s3_t1_2 = seen_normal_s3 - shaded_normal_t1;
-    float larger_s3_t1 = max(apart_s3_t1, 0.5 * dot(apart_s3_t1_2, apart_s3_t1_2));
+    float step_s3_t1 = abs(seen_depth_s3 - shaded_depth_t1);
+    vec3 turn_s3_t1 = seen_normal_s3 - shaded_normal_t1;
+    float larger_s3_t1 = max(step_s3_t1, 0.5 * dot(turn_s3_t1, turn_s3_t1));
     float d_s3_t1 = min(larger_s3_t1, 16.0);
     // sample 3, tap 2: kernels/src/sraa/gbuffer.rs:95
     ivec2 texel_t2 = pixel + ivec2(1, -1);
@@ -202,20 +202,20 @@ void main() {
     float depth_t2 = texelFetch(sampler2DArray(depth, unfiltered), ivec3(texel_t2_2, 16), 0).x;
     float shaded_depth_t2 = min(depth_t2, 1e30);
     vec3 shaded_normal_t2 = texelFetch(sampler2DArray(normal, unfiltered), ivec3(texel_t2_2, 16), 0).xyz;
-    float apart_s3_t2 = abs(seen_depth_s3 - shaded_depth_t2);
-    vec3 apart_s3_t2_2 = seen_normal_s3 - shaded_normal_t2;
-    float larger_s3_t2 = max(apart_s3_t2, 0.5 * dot(apart_s3_t2_2, apart_s3_t2_2));
+    float step_s3_t2 = abs(seen_depth_s3 - shaded_depth_t2);
+    vec3 turn_s3_t2 = seen_normal_s3 - shaded_normal_t2;
+    float larger_s3_t2 = max(step_s3_t2, 0.5 * dot(turn_s3_t2, turn_s3_t2));
     float d_s3_t2 = min(larger_s3_t2, 16.0);
     float nearest_s3_t2 = min(d_s3_t1, d_s3_t2);
     // sample 3, tap 4: kernels/src/sraa/metric.rs:96
-    float apart_s3_t4 = abs(seen_depth_s3 - shaded_depth_t4);
-    vec3 apart_s3_t4_2 = seen_normal_s3 - shaded_normal_t4;
-    float larger_s3_t4 = max(apart_s3_t4, 0.5 * dot(apart_s3_t4_2, apart_s3_t4_2));
+    float step_s3_t4 = abs(seen_depth_s3 - shaded_depth_t4);
+    vec3 turn_s3_t4 = seen_normal_s3 - shaded_normal_t4;
+    float larger_s3_t4 = max(step_s3_t4, 0.5 * dot(turn_s3_t4, turn_s3_t4));
     float d_s3_t4 = min(larger_s3_t4, 16.0);
     float nearest_s3_t4 = min(nearest_s3_t2, d_s3_t4);
-    float apart_s3_t5 = abs(seen_depth_s3 - shaded_depth_t5);
-    vec3 apart_s3_t5_2 = seen_normal_s3 - shaded_normal_t5;
-    float larger_s3_t5 = max(apart_s3_t5, 0.5 * dot(apart_s3_t5_2, apart_s3_t5_2));
+    float step_s3_t5 = abs(seen_depth_s3 - shaded_depth_t5);
+    vec3 turn_s3_t5 = seen_normal_s3 - shaded_normal_t5;
+    float larger_s3_t5 = max(step_s3_t5, 0.5 * dot(turn_s3_t5, turn_s3_t5));
     float d_s3_t5 = min(larger_s3_t5, 16.0);
     float nearest_s3_t5 = min(nearest_s3_t4, d_s3_t5);
     // sample 3, tap 1: kernels/src/sraa/mod.rs:111
@@ -240,24 +240,24 @@ void main() {
     float depth_s4 = texelFetch(sampler2DArray(depth, unfiltered), ivec3(pixel, 4), 0).x;
     float seen_depth_s4 = min(depth_s4, 1e30);
     vec3 seen_normal_s4 = texelFetch(sampler2DArray(normal, unfiltered), ivec3(pixel, 4), 0).xyz;
-    float apart_s4_t0 = abs(seen_depth_s4 - shaded_depth_t0);
-    vec3 apart_s4_t0_2 = seen_normal_s4 - shaded_normal_t0;
-    float larger_s4_t0 = max(apart_s4_t0, 0.5 * dot(apart_s4_t0_2, apart_s4_t0_2));
+    float step_s4_t0 = abs(seen_depth_s4 - shaded_depth_t0);
+    vec3 turn_s4_t0 = seen_normal_s4 - shaded_normal_t0;
+    float larger_s4_t0 = max(step_s4_t0, 0.5 * dot(turn_s4_t0, turn_s4_t0));
     float d_s4_t0 = min(larger_s4_t0, 16.0);
     // sample 4, tap 1: kernels/src/sraa/metric.rs:96
-    float apart_s4_t1 = abs(seen_depth_s4 - shaded_depth_t1);
-    vec3 apart_s4_t1_2 = seen_normal_s4 - shaded_normal_t1;
-    float larger_s4_t1 = max(apart_s4_t1, 0.5 * dot(apart_s4_t1_2, apart_s4_t1_2));
+    float step_s4_t1 = abs(seen_depth_s4 - shaded_depth_t1);
+    vec3 turn_s4_t1 = seen_normal_s4 - shaded_normal_t1;
+    float larger_s4_t1 = max(step_s4_t1, 0.5 * dot(turn_s4_t1, turn_s4_t1));
     float d_s4_t1 = min(larger_s4_t1, 16.0);
     float nearest_s4_t1 = min(d_s4_t0, d_s4_t1);
-    float apart_s4_t3 = abs(seen_depth_s4 - shaded_depth_t3);
-    vec3 apart_s4_t3_2 = seen_normal_s4 - shaded_normal_t3;
-    float larger_s4_t3 = max(apart_s4_t3, 0.5 * dot(apart_s4_t3_2, apart_s4_t3_2));
+    float step_s4_t3 = abs(seen_depth_s4 - shaded_depth_t3);
+    vec3 turn_s4_t3 = seen_normal_s4 - shaded_normal_t3;
+    float larger_s4_t3 = max(step_s4_t3, 0.5 * dot(turn_s4_t3, turn_s4_t3));
     float d_s4_t3 = min(larger_s4_t3, 16.0);
     float nearest_s4_t3 = min(nearest_s4_t1, d_s4_t3);
-    float apart_s4_t4 = abs(seen_depth_s4 - shaded_depth_t4);
-    vec3 apart_s4_t4_2 = seen_normal_s4 - shaded_normal_t4;
-    float larger_s4_t4 = max(apart_s4_t4, 0.5 * dot(apart_s4_t4_2, apart_s4_t4_2));
+    float step_s4_t4 = abs(seen_depth_s4 - shaded_depth_t4);
+    vec3 turn_s4_t4 = seen_normal_s4 - shaded_normal_t4;
+    float larger_s4_t4 = max(step_s4_t4, 0.5 * dot(turn_s4_t4, turn_s4_t4));
     float d_s4_t4 = min(larger_s4_t4, 16.0);
     float nearest_s4_t4 = min(nearest_s4_t3, d_s4_t4);
     // sample 4, tap 0: kernels/src/sraa/mod.rs:111
@@ -282,24 +282,24 @@ void main() {
     float depth_s5 = texelFetch(sampler2DArray(depth, unfiltered), ivec3(pixel, 5), 0).x;
     float seen_depth_s5 = min(depth_s5, 1e30);
     vec3 seen_normal_s5 = texelFetch(sampler2DArray(normal, unfiltered), ivec3(pixel, 5), 0).xyz;
-    float apart_s5_t4 = abs(seen_depth_s5 - shaded_depth_t4);
-    vec3 apart_s5_t4_2 = seen_normal_s5 - shaded_normal_t4;
-    float larger_s5_t4 = max(apart_s5_t4, 0.5 * dot(apart_s5_t4_2, apart_s5_t4_2));
+    float step_s5_t4 = abs(seen_depth_s5 - shaded_depth_t4);
+    vec3 turn_s5_t4 = seen_normal_s5 - shaded_normal_t4;
+    float larger_s5_t4 = max(step_s5_t4, 0.5 * dot(turn_s5_t4, turn_s5_t4));
     float d_s5_t4 = min(larger_s5_t4, 16.0);
     // sample 5, tap 5: kernels/src/sraa/metric.rs:96
-    float apart_s5_t5 = abs(seen_depth_s5 - shaded_depth_t5);
-    vec3 apart_s5_t5_2 = seen_normal_s5 - shaded_normal_t5;
-    float larger_s5_t5 = max(apart_s5_t5, 0.5 * dot(apart_s5_t5_2, apart_s5_t5_2));
+    float step_s5_t5 = abs(seen_depth_s5 - shaded_depth_t5);
+    vec3 turn_s5_t5 = seen_normal_s5 - shaded_normal_t5;
+    float larger_s5_t5 = max(step_s5_t5, 0.5 * dot(turn_s5_t5, turn_s5_t5));
     float d_s5_t5 = min(larger_s5_t5, 16.0);
     float nearest_s5_t5 = min(d_s5_t4, d_s5_t5);
-    float apart_s5_t7 = abs(seen_depth_s5 - shaded_depth_t7);
-    vec3 apart_s5_t7_2 = seen_normal_s5 - shaded_normal_t7;
-    float larger_s5_t7 = max(apart_s5_t7, 0.5 * dot(apart_s5_t7_2, apart_s5_t7_2));
+    float step_s5_t7 = abs(seen_depth_s5 - shaded_depth_t7);
+    vec3 turn_s5_t7 = seen_normal_s5 - shaded_normal_t7;
+    float larger_s5_t7 = max(step_s5_t7, 0.5 * dot(turn_s5_t7, turn_s5_t7));
     float d_s5_t7 = min(larger_s5_t7, 16.0);
     float nearest_s5_t7 = min(nearest_s5_t5, d_s5_t7);
-    float apart_s5_t8 = abs(seen_depth_s5 - shaded_depth_t8);
-    vec3 apart_s5_t8_2 = seen_normal_s5 - shaded_normal_t8;
-    float larger_s5_t8 = max(apart_s5_t8, 0.5 * dot(apart_s5_t8_2, apart_s5_t8_2));
+    float step_s5_t8 = abs(seen_depth_s5 - shaded_depth_t8);
+    vec3 turn_s5_t8 = seen_normal_s5 - shaded_normal_t8;
+    float larger_s5_t8 = max(step_s5_t8, 0.5 * dot(turn_s5_t8, turn_s5_t8));
     float d_s5_t8 = min(larger_s5_t8, 16.0);
     float nearest_s5_t8 = min(nearest_s5_t7, d_s5_t8);
     // sample 5, tap 4: kernels/src/sraa/mod.rs:111
@@ -324,24 +324,24 @@ void main() {
     float depth_s6 = texelFetch(sampler2DArray(depth, unfiltered), ivec3(pixel, 6), 0).x;
     float seen_depth_s6 = min(depth_s6, 1e30);
     vec3 seen_normal_s6 = texelFetch(sampler2DArray(normal, unfiltered), ivec3(pixel, 6), 0).xyz;
-    float apart_s6_t4 = abs(seen_depth_s6 - shaded_depth_t4);
-    vec3 apart_s6_t4_2 = seen_normal_s6 - shaded_normal_t4;
-    float larger_s6_t4 = max(apart_s6_t4, 0.5 * dot(apart_s6_t4_2, apart_s6_t4_2));
+    float step_s6_t4 = abs(seen_depth_s6 - shaded_depth_t4);
+    vec3 turn_s6_t4 = seen_normal_s6 - shaded_normal_t4;
+    float larger_s6_t4 = max(step_s6_t4, 0.5 * dot(turn_s6_t4, turn_s6_t4));
     float d_s6_t4 = min(larger_s6_t4, 16.0);
     // sample 6, tap 5: kernels/src/sraa/metric.rs:96
-    float apart_s6_t5 = abs(seen_depth_s6 - shaded_depth_t5);
-    vec3 apart_s6_t5_2 = seen_normal_s6 - shaded_normal_t5;
-    float larger_s6_t5 = max(apart_s6_t5, 0.5 * dot(apart_s6_t5_2, apart_s6_t5_2));
+    float step_s6_t5 = abs(seen_depth_s6 - shaded_depth_t5);
+    vec3 turn_s6_t5 = seen_normal_s6 - shaded_normal_t5;
+    float larger_s6_t5 = max(step_s6_t5, 0.5 * dot(turn_s6_t5, turn_s6_t5));
     float d_s6_t5 = min(larger_s6_t5, 16.0);
     float nearest_s6_t5 = min(d_s6_t4, d_s6_t5);
-    float apart_s6_t7 = abs(seen_depth_s6 - shaded_depth_t7);
-    vec3 apart_s6_t7_2 = seen_normal_s6 - shaded_normal_t7;
-    float larger_s6_t7 = max(apart_s6_t7, 0.5 * dot(apart_s6_t7_2, apart_s6_t7_2));
+    float step_s6_t7 = abs(seen_depth_s6 - shaded_depth_t7);
+    vec3 turn_s6_t7 = seen_normal_s6 - shaded_normal_t7;
+    float larger_s6_t7 = max(step_s6_t7, 0.5 * dot(turn_s6_t7, turn_s6_t7));
     float d_s6_t7 = min(larger_s6_t7, 16.0);
     float nearest_s6_t7 = min(nearest_s6_t5, d_s6_t7);
-    float apart_s6_t8 = abs(seen_depth_s6 - shaded_depth_t8);
-    vec3 apart_s6_t8_2 = seen_normal_s6 - shaded_normal_t8;
-    float larger_s6_t8 = max(apart_s6_t8, 0.5 * dot(apart_s6_t8_2, apart_s6_t8_2));
+    float step_s6_t8 = abs(seen_depth_s6 - shaded_depth_t8);
+    vec3 turn_s6_t8 = seen_normal_s6 - shaded_normal_t8;
+    float larger_s6_t8 = max(step_s6_t8, 0.5 * dot(turn_s6_t8, turn_s6_t8));
     float d_s6_t8 = min(larger_s6_t8, 16.0);
     float nearest_s6_t8 = min(nearest_s6_t7, d_s6_t8);
     // sample 6, tap 4: kernels/src/sraa/mod.rs:111
@@ -366,24 +366,24 @@ void main() {
     float depth_s7 = texelFetch(sampler2DArray(depth, unfiltered), ivec3(pixel, 7), 0).x;
     float seen_depth_s7 = min(depth_s7, 1e30);
     vec3 seen_normal_s7 = texelFetch(sampler2DArray(normal, unfiltered), ivec3(pixel, 7), 0).xyz;
-    float apart_s7_t1 = abs(seen_depth_s7 - shaded_depth_t1);
-    vec3 apart_s7_t1_2 = seen_normal_s7 - shaded_normal_t1;
-    float larger_s7_t1 = max(apart_s7_t1, 0.5 * dot(apart_s7_t1_2, apart_s7_t1_2));
+    float step_s7_t1 = abs(seen_depth_s7 - shaded_depth_t1);
+    vec3 turn_s7_t1 = seen_normal_s7 - shaded_normal_t1;
+    float larger_s7_t1 = max(step_s7_t1, 0.5 * dot(turn_s7_t1, turn_s7_t1));
     float d_s7_t1 = min(larger_s7_t1, 16.0);
     // sample 7, tap 2: kernels/src/sraa/metric.rs:96
-    float apart_s7_t2 = abs(seen_depth_s7 - shaded_depth_t2);
-    vec3 apart_s7_t2_2 = seen_normal_s7 - shaded_normal_t2;
-    float larger_s7_t2 = max(apart_s7_t2, 0.5 * dot(apart_s7_t2_2, apart_s7_t2_2));
+    float step_s7_t2 = abs(seen_depth_s7 - shaded_depth_t2);
+    vec3 turn_s7_t2 = seen_normal_s7 - shaded_normal_t2;
+    float larger_s7_t2 = max(step_s7_t2, 0.5 * dot(turn_s7_t2, turn_s7_t2));
     float d_s7_t2 = min(larger_s7_t2, 16.0);
     float nearest_s7_t2 = min(d_s7_t1, d_s7_t2);
-    float apart_s7_t4 = abs(seen_depth_s7 - shaded_depth_t4);
-    vec3 apart_s7_t4_2 = seen_normal_s7 - shaded_normal_t4;
-    float larger_s7_t4 = max(apart_s7_t4, 0.5 * dot(apart_s7_t4_2, apart_s7_t4_2));
+    float step_s7_t4 = abs(seen_depth_s7 - shaded_depth_t4);
+    vec3 turn_s7_t4 = seen_normal_s7 - shaded_normal_t4;
+    float larger_s7_t4 = max(step_s7_t4, 0.5 * dot(turn_s7_t4, turn_s7_t4));
     float d_s7_t4 = min(larger_s7_t4, 16.0);
     float nearest_s7_t4 = min(nearest_s7_t2, d_s7_t4);
-    float apart_s7_t5 = abs(seen_depth_s7 - shaded_depth_t5);
-    vec3 apart_s7_t5_2 = seen_normal_s7 - shaded_normal_t5;
-    float larger_s7_t5 = max(apart_s7_t5, 0.5 * dot(apart_s7_t5_2, apart_s7_t5_2));
+    float step_s7_t5 = abs(seen_depth_s7 - shaded_depth_t5);
+    vec3 turn_s7_t5 = seen_normal_s7 - shaded_normal_t5;
+    float larger_s7_t5 = max(step_s7_t5, 0.5 * dot(turn_s7_t5, turn_s7_t5));
     float d_s7_t5 = min(larger_s7_t5, 16.0);
     float nearest_s7_t5 = min(nearest_s7_t4, d_s7_t5);
     // sample 7, tap 1: kernels/src/sraa/mod.rs:111
@@ -408,24 +408,24 @@ void main() {
     float depth_s8 = texelFetch(sampler2DArray(depth, unfiltered), ivec3(pixel, 8), 0).x;
     float seen_depth_s8 = min(depth_s8, 1e30);
     vec3 seen_normal_s8 = texelFetch(sampler2DArray(normal, unfiltered), ivec3(pixel, 8), 0).xyz;
-    float apart_s8_t3 = abs(seen_depth_s8 - shaded_depth_t3);
-    vec3 apart_s8_t3_2 = seen_normal_s8 - shaded_normal_t3;
-    float larger_s8_t3 = max(apart_s8_t3, 0.5 * dot(apart_s8_t3_2, apart_s8_t3_2));
+    float step_s8_t3 = abs(seen_depth_s8 - shaded_depth_t3);
+    vec3 turn_s8_t3 = seen_normal_s8 - shaded_normal_t3;
+    float larger_s8_t3 = max(step_s8_t3, 0.5 * dot(turn_s8_t3, turn_s8_t3));
     float d_s8_t3 = min(larger_s8_t3, 16.0);
     // sample 8, tap 4: kernels/src/sraa/metric.rs:96
-    float apart_s8_t4 = abs(seen_depth_s8 - shaded_depth_t4);
-    vec3 apart_s8_t4_2 = seen_normal_s8 - shaded_normal_t4;
-    float larger_s8_t4 = max(apart_s8_t4, 0.5 * dot(apart_s8_t4_2, apart_s8_t4_2));
+    float step_s8_t4 = abs(seen_depth_s8 - shaded_depth_t4);
+    vec3 turn_s8_t4 = seen_normal_s8 - shaded_normal_t4;
+    float larger_s8_t4 = max(step_s8_t4, 0.5 * dot(turn_s8_t4, turn_s8_t4));
     float d_s8_t4 = min(larger_s8_t4, 16.0);
     float nearest_s8_t4 = min(d_s8_t3, d_s8_t4);
-    float apart_s8_t6 = abs(seen_depth_s8 - shaded_depth_t6);
-    vec3 apart_s8_t6_2 = seen_normal_s8 - shaded_normal_t6;
-    float larger_s8_t6 = max(apart_s8_t6, 0.5 * dot(apart_s8_t6_2, apart_s8_t6_2));
+    float step_s8_t6 = abs(seen_depth_s8 - shaded_depth_t6);
+    vec3 turn_s8_t6 = seen_normal_s8 - shaded_normal_t6;
+    float larger_s8_t6 = max(step_s8_t6, 0.5 * dot(turn_s8_t6, turn_s8_t6));
     float d_s8_t6 = min(larger_s8_t6, 16.0);
     float nearest_s8_t6 = min(nearest_s8_t4, d_s8_t6);
-    float apart_s8_t7 = abs(seen_depth_s8 - shaded_depth_t7);
-    vec3 apart_s8_t7_2 = seen_normal_s8 - shaded_normal_t7;
-    float larger_s8_t7 = max(apart_s8_t7, 0.5 * dot(apart_s8_t7_2, apart_s8_t7_2));
+    float step_s8_t7 = abs(seen_depth_s8 - shaded_depth_t7);
+    vec3 turn_s8_t7 = seen_normal_s8 - shaded_normal_t7;
+    float larger_s8_t7 = max(step_s8_t7, 0.5 * dot(turn_s8_t7, turn_s8_t7));
     float d_s8_t7 = min(larger_s8_t7, 16.0);
     float nearest_s8_t7 = min(nearest_s8_t6, d_s8_t7);
     // sample 8, tap 3: kernels/src/sraa/mod.rs:111
@@ -450,14 +450,14 @@ void main() {
     float depth_s9 = texelFetch(sampler2DArray(depth, unfiltered), ivec3(pixel, 9), 0).x;
     float seen_depth_s9 = min(depth_s9, 1e30);
     vec3 seen_normal_s9 = texelFetch(sampler2DArray(normal, unfiltered), ivec3(pixel, 9), 0).xyz;
-    float apart_s9_t1 = abs(seen_depth_s9 - shaded_depth_t1);
-    vec3 apart_s9_t1_2 = seen_normal_s9 - shaded_normal_t1;
-    float larger_s9_t1 = max(apart_s9_t1, 0.5 * dot(apart_s9_t1_2, apart_s9_t1_2));
+    float step_s9_t1 = abs(seen_depth_s9 - shaded_depth_t1);
+    vec3 turn_s9_t1 = seen_normal_s9 - shaded_normal_t1;
+    float larger_s9_t1 = max(step_s9_t1, 0.5 * dot(turn_s9_t1, turn_s9_t1));
     float d_s9_t1 = min(larger_s9_t1, 16.0);
     // sample 9, tap 4: kernels/src/sraa/metric.rs:96
-    float apart_s9_t4 = abs(seen_depth_s9 - shaded_depth_t4);
-    vec3 apart_s9_t4_2 = seen_normal_s9 - shaded_normal_t4;
-    float larger_s9_t4 = max(apart_s9_t4, 0.5 * dot(apart_s9_t4_2, apart_s9_t4_2));
+    float step_s9_t4 = abs(seen_depth_s9 - shaded_depth_t4);
+    vec3 turn_s9_t4 = seen_normal_s9 - shaded_normal_t4;
+    float larger_s9_t4 = max(step_s9_t4, 0.5 * dot(turn_s9_t4, turn_s9_t4));
     float d_s9_t4 = min(larger_s9_t4, 16.0);
     float nearest_s9_t4 = min(d_s9_t1, d_s9_t4);
     // sample 9, tap 1: kernels/src/sraa/mod.rs:111
@@ -474,24 +474,24 @@ void main() {
     float depth_s10 = texelFetch(sampler2DArray(depth, unfiltered), ivec3(pixel, 10), 0).x;
     float seen_depth_s10 = min(depth_s10, 1e30);
     vec3 seen_normal_s10 = texelFetch(sampler2DArray(normal, unfiltered), ivec3(pixel, 10), 0).xyz;
-    float apart_s10_t0 = abs(seen_depth_s10 - shaded_depth_t0);
-    vec3 apart_s10_t0_2 = seen_normal_s10 - shaded_normal_t0;
-    float larger_s10_t0 = max(apart_s10_t0, 0.5 * dot(apart_s10_t0_2, apart_s10_t0_2));
+    float step_s10_t0 = abs(seen_depth_s10 - shaded_depth_t0);
+    vec3 turn_s10_t0 = seen_normal_s10 - shaded_normal_t0;
+    float larger_s10_t0 = max(step_s10_t0, 0.5 * dot(turn_s10_t0, turn_s10_t0));
     float d_s10_t0 = min(larger_s10_t0, 16.0);
     // sample 10, tap 1: kernels/src/sraa/metric.rs:96
-    float apart_s10_t1 = abs(seen_depth_s10 - shaded_depth_t1);
-    vec3 apart_s10_t1_2 = seen_normal_s10 - shaded_normal_t1;
-    float larger_s10_t1 = max(apart_s10_t1, 0.5 * dot(apart_s10_t1_2, apart_s10_t1_2));
+    float step_s10_t1 = abs(seen_depth_s10 - shaded_depth_t1);
+    vec3 turn_s10_t1 = seen_normal_s10 - shaded_normal_t1;
+    float larger_s10_t1 = max(step_s10_t1, 0.5 * dot(turn_s10_t1, turn_s10_t1));
     float d_s10_t1 = min(larger_s10_t1, 16.0);
     float nearest_s10_t1 = min(d_s10_t0, d_s10_t1);
-    float apart_s10_t3 = abs(seen_depth_s10 - shaded_depth_t3);
-    vec3 apart_s10_t3_2 = seen_normal_s10 - shaded_normal_t3;
-    float larger_s10_t3 = max(apart_s10_t3, 0.5 * dot(apart_s10_t3_2, apart_s10_t3_2));
+    float step_s10_t3 = abs(seen_depth_s10 - shaded_depth_t3);
+    vec3 turn_s10_t3 = seen_normal_s10 - shaded_normal_t3;
+    float larger_s10_t3 = max(step_s10_t3, 0.5 * dot(turn_s10_t3, turn_s10_t3));
     float d_s10_t3 = min(larger_s10_t3, 16.0);
     float nearest_s10_t3 = min(nearest_s10_t1, d_s10_t3);
-    float apart_s10_t4 = abs(seen_depth_s10 - shaded_depth_t4);
-    vec3 apart_s10_t4_2 = seen_normal_s10 - shaded_normal_t4;
-    float larger_s10_t4 = max(apart_s10_t4, 0.5 * dot(apart_s10_t4_2, apart_s10_t4_2));
+    float step_s10_t4 = abs(seen_depth_s10 - shaded_depth_t4);
+    vec3 turn_s10_t4 = seen_normal_s10 - shaded_normal_t4;
+    float larger_s10_t4 = max(step_s10_t4, 0.5 * dot(turn_s10_t4, turn_s10_t4));
     float d_s10_t4 = min(larger_s10_t4, 16.0);
     float nearest_s10_t4 = min(nearest_s10_t3, d_s10_t4);
     // sample 10, tap 0: kernels/src/sraa/mod.rs:111
@@ -516,24 +516,24 @@ void main() {
     float depth_s11 = texelFetch(sampler2DArray(depth, unfiltered), ivec3(pixel, 11), 0).x;
     float seen_depth_s11 = min(depth_s11, 1e30);
     vec3 seen_normal_s11 = texelFetch(sampler2DArray(normal, unfiltered), ivec3(pixel, 11), 0).xyz;
-    float apart_s11_t3 = abs(seen_depth_s11 - shaded_depth_t3);
-    vec3 apart_s11_t3_2 = seen_normal_s11 - shaded_normal_t3;
-    float larger_s11_t3 = max(apart_s11_t3, 0.5 * dot(apart_s11_t3_2, apart_s11_t3_2));
+    float step_s11_t3 = abs(seen_depth_s11 - shaded_depth_t3);
+    vec3 turn_s11_t3 = seen_normal_s11 - shaded_normal_t3;
+    float larger_s11_t3 = max(step_s11_t3, 0.5 * dot(turn_s11_t3, turn_s11_t3));
     float d_s11_t3 = min(larger_s11_t3, 16.0);
     // sample 11, tap 4: kernels/src/sraa/metric.rs:96
-    float apart_s11_t4 = abs(seen_depth_s11 - shaded_depth_t4);
-    vec3 apart_s11_t4_2 = seen_normal_s11 - shaded_normal_t4;
-    float larger_s11_t4 = max(apart_s11_t4, 0.5 * dot(apart_s11_t4_2, apart_s11_t4_2));
+    float step_s11_t4 = abs(seen_depth_s11 - shaded_depth_t4);
+    vec3 turn_s11_t4 = seen_normal_s11 - shaded_normal_t4;
+    float larger_s11_t4 = max(step_s11_t4, 0.5 * dot(turn_s11_t4, turn_s11_t4));
     float d_s11_t4 = min(larger_s11_t4, 16.0);
     float nearest_s11_t4 = min(d_s11_t3, d_s11_t4);
-    float apart_s11_t6 = abs(seen_depth_s11 - shaded_depth_t6);
-    vec3 apart_s11_t6_2 = seen_normal_s11 - shaded_normal_t6;
-    float larger_s11_t6 = max(apart_s11_t6, 0.5 * dot(apart_s11_t6_2, apart_s11_t6_2));
+    float step_s11_t6 = abs(seen_depth_s11 - shaded_depth_t6);
+    vec3 turn_s11_t6 = seen_normal_s11 - shaded_normal_t6;
+    float larger_s11_t6 = max(step_s11_t6, 0.5 * dot(turn_s11_t6, turn_s11_t6));
     float d_s11_t6 = min(larger_s11_t6, 16.0);
     float nearest_s11_t6 = min(nearest_s11_t4, d_s11_t6);
-    float apart_s11_t7 = abs(seen_depth_s11 - shaded_depth_t7);
-    vec3 apart_s11_t7_2 = seen_normal_s11 - shaded_normal_t7;
-    float larger_s11_t7 = max(apart_s11_t7, 0.5 * dot(apart_s11_t7_2, apart_s11_t7_2));
+    float step_s11_t7 = abs(seen_depth_s11 - shaded_depth_t7);
+    vec3 turn_s11_t7 = seen_normal_s11 - shaded_normal_t7;
+    float larger_s11_t7 = max(step_s11_t7, 0.5 * dot(turn_s11_t7, turn_s11_t7));
     float d_s11_t7 = min(larger_s11_t7, 16.0);
     float nearest_s11_t7 = min(nearest_s11_t6, d_s11_t7);
     // sample 11, tap 3: kernels/src/sraa/mod.rs:111
@@ -558,14 +558,14 @@ void main() {
     float depth_s12 = texelFetch(sampler2DArray(depth, unfiltered), ivec3(pixel, 12), 0).x;
     float seen_depth_s12 = min(depth_s12, 1e30);
     vec3 seen_normal_s12 = texelFetch(sampler2DArray(normal, unfiltered), ivec3(pixel, 12), 0).xyz;
-    float apart_s12_t3 = abs(seen_depth_s12 - shaded_depth_t3);
-    vec3 apart_s12_t3_2 = seen_normal_s12 - shaded_normal_t3;
-    float larger_s12_t3 = max(apart_s12_t3, 0.5 * dot(apart_s12_t3_2, apart_s12_t3_2));
+    float step_s12_t3 = abs(seen_depth_s12 - shaded_depth_t3);
+    vec3 turn_s12_t3 = seen_normal_s12 - shaded_normal_t3;
+    float larger_s12_t3 = max(step_s12_t3, 0.5 * dot(turn_s12_t3, turn_s12_t3));
     float d_s12_t3 = min(larger_s12_t3, 16.0);
     // sample 12, tap 4: kernels/src/sraa/metric.rs:96
-    float apart_s12_t4 = abs(seen_depth_s12 - shaded_depth_t4);
-    vec3 apart_s12_t4_2 = seen_normal_s12 - shaded_normal_t4;
-    float larger_s12_t4 = max(apart_s12_t4, 0.5 * dot(apart_s12_t4_2, apart_s12_t4_2));
+    float step_s12_t4 = abs(seen_depth_s12 - shaded_depth_t4);
+    vec3 turn_s12_t4 = seen_normal_s12 - shaded_normal_t4;
+    float larger_s12_t4 = max(step_s12_t4, 0.5 * dot(turn_s12_t4, turn_s12_t4));
     float d_s12_t4 = min(larger_s12_t4, 16.0);
     float nearest_s12_t4 = min(d_s12_t3, d_s12_t4);
     // sample 12, tap 3: kernels/src/sraa/mod.rs:111
@@ -582,24 +582,24 @@ void main() {
     float depth_s13 = texelFetch(sampler2DArray(depth, unfiltered), ivec3(pixel, 13), 0).x;
     float seen_depth_s13 = min(depth_s13, 1e30);
     vec3 seen_normal_s13 = texelFetch(sampler2DArray(normal, unfiltered), ivec3(pixel, 13), 0).xyz;
-    float apart_s13_t1 = abs(seen_depth_s13 - shaded_depth_t1);
-    vec3 apart_s13_t1_2 = seen_normal_s13 - shaded_normal_t1;
-    float larger_s13_t1 = max(apart_s13_t1, 0.5 * dot(apart_s13_t1_2, apart_s13_t1_2));
+    float step_s13_t1 = abs(seen_depth_s13 - shaded_depth_t1);
+    vec3 turn_s13_t1 = seen_normal_s13 - shaded_normal_t1;
+    float larger_s13_t1 = max(step_s13_t1, 0.5 * dot(turn_s13_t1, turn_s13_t1));
     float d_s13_t1 = min(larger_s13_t1, 16.0);
     // sample 13, tap 2: kernels/src/sraa/metric.rs:96
-    float apart_s13_t2 = abs(seen_depth_s13 - shaded_depth_t2);
-    vec3 apart_s13_t2_2 = seen_normal_s13 - shaded_normal_t2;
-    float larger_s13_t2 = max(apart_s13_t2, 0.5 * dot(apart_s13_t2_2, apart_s13_t2_2));
+    float step_s13_t2 = abs(seen_depth_s13 - shaded_depth_t2);
+    vec3 turn_s13_t2 = seen_normal_s13 - shaded_normal_t2;
+    float larger_s13_t2 = max(step_s13_t2, 0.5 * dot(turn_s13_t2, turn_s13_t2));
     float d_s13_t2 = min(larger_s13_t2, 16.0);
     float nearest_s13_t2 = min(d_s13_t1, d_s13_t2);
-    float apart_s13_t4 = abs(seen_depth_s13 - shaded_depth_t4);
-    vec3 apart_s13_t4_2 = seen_normal_s13 - shaded_normal_t4;
-    float larger_s13_t4 = max(apart_s13_t4, 0.5 * dot(apart_s13_t4_2, apart_s13_t4_2));
+    float step_s13_t4 = abs(seen_depth_s13 - shaded_depth_t4);
+    vec3 turn_s13_t4 = seen_normal_s13 - shaded_normal_t4;
+    float larger_s13_t4 = max(step_s13_t4, 0.5 * dot(turn_s13_t4, turn_s13_t4));
     float d_s13_t4 = min(larger_s13_t4, 16.0);
     float nearest_s13_t4 = min(nearest_s13_t2, d_s13_t4);
-    float apart_s13_t5 = abs(seen_depth_s13 - shaded_depth_t5);
-    vec3 apart_s13_t5_2 = seen_normal_s13 - shaded_normal_t5;
-    float larger_s13_t5 = max(apart_s13_t5, 0.5 * dot(apart_s13_t5_2, apart_s13_t5_2));
+    float step_s13_t5 = abs(seen_depth_s13 - shaded_depth_t5);
+    vec3 turn_s13_t5 = seen_normal_s13 - shaded_normal_t5;
+    float larger_s13_t5 = max(step_s13_t5, 0.5 * dot(turn_s13_t5, turn_s13_t5));
     float d_s13_t5 = min(larger_s13_t5, 16.0);
     float nearest_s13_t5 = min(nearest_s13_t4, d_s13_t5);
     // sample 13, tap 1: kernels/src/sraa/mod.rs:111
@@ -624,24 +624,24 @@ void main() {
     float depth_s14 = texelFetch(sampler2DArray(depth, unfiltered), ivec3(pixel, 14), 0).x;
     float seen_depth_s14 = min(depth_s14, 1e30);
     vec3 seen_normal_s14 = texelFetch(sampler2DArray(normal, unfiltered), ivec3(pixel, 14), 0).xyz;
-    float apart_s14_t4 = abs(seen_depth_s14 - shaded_depth_t4);
-    vec3 apart_s14_t4_2 = seen_normal_s14 - shaded_normal_t4;
-    float larger_s14_t4 = max(apart_s14_t4, 0.5 * dot(apart_s14_t4_2, apart_s14_t4_2));
+    float step_s14_t4 = abs(seen_depth_s14 - shaded_depth_t4);
+    vec3 turn_s14_t4 = seen_normal_s14 - shaded_normal_t4;
+    float larger_s14_t4 = max(step_s14_t4, 0.5 * dot(turn_s14_t4, turn_s14_t4));
     float d_s14_t4 = min(larger_s14_t4, 16.0);
     // sample 14, tap 5: kernels/src/sraa/metric.rs:96
-    float apart_s14_t5 = abs(seen_depth_s14 - shaded_depth_t5);
-    vec3 apart_s14_t5_2 = seen_normal_s14 - shaded_normal_t5;
-    float larger_s14_t5 = max(apart_s14_t5, 0.5 * dot(apart_s14_t5_2, apart_s14_t5_2));
+    float step_s14_t5 = abs(seen_depth_s14 - shaded_depth_t5);
+    vec3 turn_s14_t5 = seen_normal_s14 - shaded_normal_t5;
+    float larger_s14_t5 = max(step_s14_t5, 0.5 * dot(turn_s14_t5, turn_s14_t5));
     float d_s14_t5 = min(larger_s14_t5, 16.0);
     float nearest_s14_t5 = min(d_s14_t4, d_s14_t5);
-    float apart_s14_t7 = abs(seen_depth_s14 - shaded_depth_t7);
-    vec3 apart_s14_t7_2 = seen_normal_s14 - shaded_normal_t7;
-    float larger_s14_t7 = max(apart_s14_t7, 0.5 * dot(apart_s14_t7_2, apart_s14_t7_2));
+    float step_s14_t7 = abs(seen_depth_s14 - shaded_depth_t7);
+    vec3 turn_s14_t7 = seen_normal_s14 - shaded_normal_t7;
+    float larger_s14_t7 = max(step_s14_t7, 0.5 * dot(turn_s14_t7, turn_s14_t7));
     float d_s14_t7 = min(larger_s14_t7, 16.0);
     float nearest_s14_t7 = min(nearest_s14_t5, d_s14_t7);
-    float apart_s14_t8 = abs(seen_depth_s14 - shaded_depth_t8);
-    vec3 apart_s14_t8_2 = seen_normal_s14 - shaded_normal_t8;
-    float larger_s14_t8 = max(apart_s14_t8, 0.5 * dot(apart_s14_t8_2, apart_s14_t8_2));
+    float step_s14_t8 = abs(seen_depth_s14 - shaded_depth_t8);
+    vec3 turn_s14_t8 = seen_normal_s14 - shaded_normal_t8;
+    float larger_s14_t8 = max(step_s14_t8, 0.5 * dot(turn_s14_t8, turn_s14_t8));
     float d_s14_t8 = min(larger_s14_t8, 16.0);
     float nearest_s14_t8 = min(nearest_s14_t7, d_s14_t8);
     // sample 14, tap 4: kernels/src/sraa/mod.rs:111
@@ -666,24 +666,24 @@ void main() {
     float depth_s15 = texelFetch(sampler2DArray(depth, unfiltered), ivec3(pixel, 15), 0).x;
     float seen_depth_s15 = min(depth_s15, 1e30);
     vec3 seen_normal_s15 = texelFetch(sampler2DArray(normal, unfiltered), ivec3(pixel, 15), 0).xyz;
-    float apart_s15_t0 = abs(seen_depth_s15 - shaded_depth_t0);
-    vec3 apart_s15_t0_2 = seen_normal_s15 - shaded_normal_t0;
-    float larger_s15_t0 = max(apart_s15_t0, 0.5 * dot(apart_s15_t0_2, apart_s15_t0_2));
+    float step_s15_t0 = abs(seen_depth_s15 - shaded_depth_t0);
+    vec3 turn_s15_t0 = seen_normal_s15 - shaded_normal_t0;
+    float larger_s15_t0 = max(step_s15_t0, 0.5 * dot(turn_s15_t0, turn_s15_t0));
     float d_s15_t0 = min(larger_s15_t0, 16.0);
     // sample 15, tap 1: kernels/src/sraa/metric.rs:96
-    float apart_s15_t1 = abs(seen_depth_s15 - shaded_depth_t1);
-    vec3 apart_s15_t1_2 = seen_normal_s15 - shaded_normal_t1;
-    float larger_s15_t1 = max(apart_s15_t1, 0.5 * dot(apart_s15_t1_2, apart_s15_t1_2));
+    float step_s15_t1 = abs(seen_depth_s15 - shaded_depth_t1);
+    vec3 turn_s15_t1 = seen_normal_s15 - shaded_normal_t1;
+    float larger_s15_t1 = max(step_s15_t1, 0.5 * dot(turn_s15_t1, turn_s15_t1));
     float d_s15_t1 = min(larger_s15_t1, 16.0);
     float nearest_s15_t1 = min(d_s15_t0, d_s15_t1);
-    float apart_s15_t3 = abs(seen_depth_s15 - shaded_depth_t3);
-    vec3 apart_s15_t3_2 = seen_normal_s15 - shaded_normal_t3;
-    float larger_s15_t3 = max(apart_s15_t3, 0.5 * dot(apart_s15_t3_2, apart_s15_t3_2));
+    float step_s15_t3 = abs(seen_depth_s15 - shaded_depth_t3);
+    vec3 turn_s15_t3 = seen_normal_s15 - shaded_normal_t3;
+    float larger_s15_t3 = max(step_s15_t3, 0.5 * dot(turn_s15_t3, turn_s15_t3));
     float d_s15_t3 = min(larger_s15_t3, 16.0);
     float nearest_s15_t3 = min(nearest_s15_t1, d_s15_t3);
-    float apart_s15_t4 = abs(seen_depth_s15 - shaded_depth_t4);
-    vec3 apart_s15_t4_2 = seen_normal_s15 - shaded_normal_t4;
-    float larger_s15_t4 = max(apart_s15_t4, 0.5 * dot(apart_s15_t4_2, apart_s15_t4_2));
+    float step_s15_t4 = abs(seen_depth_s15 - shaded_depth_t4);
+    vec3 turn_s15_t4 = seen_normal_s15 - shaded_normal_t4;
+    float larger_s15_t4 = max(step_s15_t4, 0.5 * dot(turn_s15_t4, turn_s15_t4));
     float d_s15_t4 = min(larger_s15_t4, 16.0);
     float nearest_s15_t4 = min(nearest_s15_t3, d_s15_t4);
     // sample 15, tap 0: kernels/src/sraa/mod.rs:111

@@ -159,9 +159,9 @@ kernel void sraa(
                             float shaded_depth = metal::min(depth_3_, 1000000000000000000000000000000.0);
                             metal::float4 _e146 = normal.read(metal::uint2(texel_3_), 4, 0);
                             metal::float3 shaded_normal = _e146.xyz;
-                            float apart = metal::abs(seen_depth - shaded_depth);
-                            metal::float3 apart_2_ = seen_normal - shaded_normal;
-                            float larger = metal::max(apart, 0.5 * metal::dot(apart_2_, apart_2_));
+                            float step_value = metal::abs(seen_depth - shaded_depth);
+                            metal::float3 turn = seen_normal - shaded_normal;
+                            float larger = metal::max(step_value, 0.5 * metal::dot(turn, turn));
                             d = metal::min(larger, 16.0);
                         }
                         int _e157 = tap;

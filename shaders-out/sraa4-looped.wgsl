@@ -58,9 +58,9 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
                     let depth_3 = textureLoad(depth, texel_3, 4, 0).x;
                     let shaded_depth = min(depth_3, 1e30);
                     let shaded_normal = textureLoad(normal, texel_3, 4, 0).xyz;
-                    let apart = abs(seen_depth - shaded_depth);
-                    let apart_2 = seen_normal - shaded_normal;
-                    let larger = max(apart, 0.5 * dot(apart_2, apart_2));
+                    let step_value = abs(seen_depth - shaded_depth);
+                    let turn = seen_normal - shaded_normal;
+                    let larger = max(step_value, 0.5 * dot(turn, turn));
                     d = min(larger, 16.0);
                 }
                 // kernels/src/sraa/mod.rs:99

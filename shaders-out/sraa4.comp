@@ -30,9 +30,9 @@ void main() {
     float depth_s0_t0 = texelFetch(sampler2DArray(depth, unfiltered), ivec3(texel_t0, 4), 0).x;
     float shaded_depth_s0_t0 = min(depth_s0_t0, 1e30);
     vec3 shaded_normal_s0_t0 = texelFetch(sampler2DArray(normal, unfiltered), ivec3(texel_t0, 4), 0).xyz;
-    float apart_s0_t0 = abs(seen_depth_s0 - shaded_depth_s0_t0);
-    vec3 apart_s0_t0_2 = seen_normal_s0 - shaded_normal_s0_t0;
-    float larger_s0_t0 = max(apart_s0_t0, 0.5 * dot(apart_s0_t0_2, apart_s0_t0_2));
+    float step_s0_t0 = abs(seen_depth_s0 - shaded_depth_s0_t0);
+    vec3 turn_s0_t0 = seen_normal_s0 - shaded_normal_s0_t0;
+    float larger_s0_t0 = max(step_s0_t0, 0.5 * dot(turn_s0_t0, turn_s0_t0));
     float d_s0_t0 = min(larger_s0_t0, 16.0);
     // sample 0, tap 1: kernels/src/sraa/gbuffer.rs:95
     ivec2 texel_t1 = pixel + ivec2(0, -1);
@@ -40,9 +40,9 @@ void main() {
     float depth_t1 = texelFetch(sampler2DArray(depth, unfiltered), ivec3(texel_t1_2, 4), 0).x;
     float shaded_depth_t1 = min(depth_t1, 1e30);
     vec3 shaded_normal_t1 = texelFetch(sampler2DArray(normal, unfiltered), ivec3(texel_t1_2, 4), 0).xyz;
-    float apart_s0_t1 = abs(seen_depth_s0 - shaded_depth_t1);
-    vec3 apart_s0_t1_2 = seen_normal_s0 - shaded_normal_t1;
-    float larger_s0_t1 = max(apart_s0_t1, 0.5 * dot(apart_s0_t1_2, apart_s0_t1_2));
+    float step_s0_t1 = abs(seen_depth_s0 - shaded_depth_t1);
+    vec3 turn_s0_t1 = seen_normal_s0 - shaded_normal_t1;
+    float larger_s0_t1 = max(step_s0_t1, 0.5 * dot(turn_s0_t1, turn_s0_t1));
     float d_s0_t1 = min(larger_s0_t1, 16.0);
     float nearest_s0_t1 = min(d_s0_t0, d_s0_t1);
     ivec2 texel_t3 = pixel + ivec2(-1, 0);
@@ -50,18 +50,18 @@ void main() {
     float depth_t3 = texelFetch(sampler2DArray(depth, unfiltered), ivec3(texel_t3_2, 4), 0).x;
     float shaded_depth_t3 = min(depth_t3, 1e30);
     vec3 shaded_normal_t3 = texelFetch(sampler2DArray(normal, unfiltered), ivec3(texel_t3_2, 4), 0).xyz;
-    float apart_s0_t3 = abs(seen_depth_s0 - shaded_depth_t3);
-    vec3 apart_s0_t3_2 = seen_normal_s0 - shaded_normal_t3;
-    float larger_s0_t3 = max(apart_s0_t3, 0.5 * dot(apart_s0_t3_2, apart_s0_t3_2));
+    float step_s0_t3 = abs(seen_depth_s0 - shaded_depth_t3);
+    vec3 turn_s0_t3 = seen_normal_s0 - shaded_normal_t3;
+    float larger_s0_t3 = max(step_s0_t3, 0.5 * dot(turn_s0_t3, turn_s0_t3));
     float d_s0_t3 = min(larger_s0_t3, 16.0);
     float nearest_s0_t3 = min(nearest_s0_t1, d_s0_t3);
     // sample 0, tap 4: kernels/src/sraa/gbuffer.rs:177
     float depth_t4 = texelFetch(sampler2DArray(depth, unfiltered), ivec3(pixel, 4), 0).x;
     float shaded_depth_t4 = min(depth_t4, 1e30);
     vec3 shaded_normal_t4 = texelFetch(sampler2DArray(normal, unfiltered), ivec3(pixel, 4), 0).xyz;
-    float apart_s0_t4 = abs(seen_depth_s0 - shaded_depth_t4);
-    vec3 apart_s0_t4_2 = seen_normal_s0 - shaded_normal_t4;
-    float larger_s0_t4 = max(apart_s0_t4, 0.5 * dot(apart_s0_t4_2, apart_s0_t4_2));
+    float step_s0_t4 = abs(seen_depth_s0 - shaded_depth_t4);
+    vec3 turn_s0_t4 = seen_normal_s0 - shaded_normal_t4;
+    float larger_s0_t4 = max(step_s0_t4, 0.5 * dot(turn_s0_t4, turn_s0_t4));
     float d_s0_t4 = min(larger_s0_t4, 16.0);
     float nearest_s0_t4 = min(nearest_s0_t3, d_s0_t4);
     // sample 0, tap 0: kernels/src/sraa/mod.rs:111
@@ -86,9 +86,9 @@ void main() {
     float depth_s1 = texelFetch(sampler2DArray(depth, unfiltered), ivec3(pixel, 1), 0).x;
     float seen_depth_s1 = min(depth_s1, 1e30);
     vec3 seen_normal_s1 = texelFetch(sampler2DArray(normal, unfiltered), ivec3(pixel, 1), 0).xyz;
-    float apart_s1_t1 = abs(seen_depth_s1 - shaded_depth_t1);
-    vec3 apart_s1_t1_2 = seen_normal_s1 - shaded_normal_t1;
-    float larger_s1_t1 = max(apart_s1_t1, 0.5 * dot(apart_s1_t1_2, apart_s1_t1_2));
+    float step_s1_t1 = abs(seen_depth_s1 - shaded_depth_t1);
+    vec3 turn_s1_t1 = seen_normal_s1 - shaded_normal_t1;
+    float larger_s1_t1 = max(step_s1_t1, 0.5 * dot(turn_s1_t1, turn_s1_t1));
     float d_s1_t1 = min(larger_s1_t1, 16.0);
     // sample 1, tap 2: kernels/src/sraa/gbuffer.rs:95
     ivec2 texel_s1_t2 = pixel + ivec2(1, -1);
@@ -96,15 +96,15 @@ void main() {
     float depth_s1_t2 = texelFetch(sampler2DArray(depth, unfiltered), ivec3(texel_t2, 4), 0).x;
     float shaded_depth_s1_t2 = min(depth_s1_t2, 1e30);
     vec3 shaded_normal_s1_t2 = texelFetch(sampler2DArray(normal, unfiltered), ivec3(texel_t2, 4), 0).xyz;
-    float apart_s1_t2 = abs(seen_depth_s1 - shaded_depth_s1_t2);
-    vec3 apart_s1_t2_2 = seen_normal_s1 - shaded_normal_s1_t2;
-    float larger_s1_t2 = max(apart_s1_t2, 0.5 * dot(apart_s1_t2_2, apart_s1_t2_2));
+    float step_s1_t2 = abs(seen_depth_s1 - shaded_depth_s1_t2);
+    vec3 turn_s1_t2 = seen_normal_s1 - shaded_normal_s1_t2;
+    float larger_s1_t2 = max(step_s1_t2, 0.5 * dot(turn_s1_t2, turn_s1_t2));
     float d_s1_t2 = min(larger_s1_t2, 16.0);
     float nearest_s1_t2 = min(d_s1_t1, d_s1_t2);
     // sample 1, tap 4: kernels/src/sraa/metric.rs:96
-    float apart_s1_t4 = abs(seen_depth_s1 - shaded_depth_t4);
-    vec3 apart_s1_t4_2 = seen_normal_s1 - shaded_normal_t4;
-    float larger_s1_t4 = max(apart_s1_t4, 0.5 * dot(apart_s1_t4_2, apart_s1_t4_2));
+    float step_s1_t4 = abs(seen_depth_s1 - shaded_depth_t4);
+    vec3 turn_s1_t4 = seen_normal_s1 - shaded_normal_t4;
+    float larger_s1_t4 = max(step_s1_t4, 0.5 * dot(turn_s1_t4, turn_s1_t4));
     float d_s1_t4 = min(larger_s1_t4, 16.0);
     float nearest_s1_t4 = min(nearest_s1_t2, d_s1_t4);
     // sample 1, tap 5: kernels/src/sraa/gbuffer.rs:95
@@ -113,9 +113,9 @@ void main() {
     float depth_t5 = texelFetch(sampler2DArray(depth, unfiltered), ivec3(texel_t5_2, 4), 0).x;
     float shaded_depth_t5 = min(depth_t5, 1e30);
     vec3 shaded_normal_t5 = texelFetch(sampler2DArray(normal, unfiltered), ivec3(texel_t5_2, 4), 0).xyz;
-    float apart_s1_t5 = abs(seen_depth_s1 - shaded_depth_t5);
-    vec3 apart_s1_t5_2 = seen_normal_s1 - shaded_normal_t5;
-    float larger_s1_t5 = max(apart_s1_t5, 0.5 * dot(apart_s1_t5_2, apart_s1_t5_2));
+    float step_s1_t5 = abs(seen_depth_s1 - shaded_depth_t5);
+    vec3 turn_s1_t5 = seen_normal_s1 - shaded_normal_t5;
+    float larger_s1_t5 = max(step_s1_t5, 0.5 * dot(turn_s1_t5, turn_s1_t5));
     float d_s1_t5 = min(larger_s1_t5, 16.0);
     float nearest_s1_t5 = min(nearest_s1_t4, d_s1_t5);
     // sample 1, tap 1: kernels/src/sraa/mod.rs:111
@@ -140,14 +140,14 @@ void main() {
     float depth_s2 = texelFetch(sampler2DArray(depth, unfiltered), ivec3(pixel, 2), 0).x;
     float seen_depth_s2 = min(depth_s2, 1e30);
     vec3 seen_normal_s2 = texelFetch(sampler2DArray(normal, unfiltered), ivec3(pixel, 2), 0).xyz;
-    float apart_s2_t3 = abs(seen_depth_s2 - shaded_depth_t3);
-    vec3 apart_s2_t3_2 = seen_normal_s2 - shaded_normal_t3;
-    float larger_s2_t3 = max(apart_s2_t3, 0.5 * dot(apart_s2_t3_2, apart_s2_t3_2));
+    float step_s2_t3 = abs(seen_depth_s2 - shaded_depth_t3);
+    vec3 turn_s2_t3 = seen_normal_s2 - shaded_normal_t3;
+    float larger_s2_t3 = max(step_s2_t3, 0.5 * dot(turn_s2_t3, turn_s2_t3));
     float d_s2_t3 = min(larger_s2_t3, 16.0);
     // sample 2, tap 4: kernels/src/sraa/metric.rs:96
-    float apart_s2_t4 = abs(seen_depth_s2 - shaded_depth_t4);
-    vec3 apart_s2_t4_2 = seen_normal_s2 - shaded_normal_t4;
-    float larger_s2_t4 = max(apart_s2_t4, 0.5 * dot(apart_s2_t4_2, apart_s2_t4_2));
+    float step_s2_t4 = abs(seen_depth_s2 - shaded_depth_t4);
+    vec3 turn_s2_t4 = seen_normal_s2 - shaded_normal_t4;
+    float larger_s2_t4 = max(step_s2_t4, 0.5 * dot(turn_s2_t4, turn_s2_t4));
     float d_s2_t4 = min(larger_s2_t4, 16.0);
     float nearest_s2_t4 = min(d_s2_t3, d_s2_t4);
     // sample 2, tap 6: kernels/src/sraa/gbuffer.rs:95
@@ -156,9 +156,9 @@ void main() {
     float depth_s2_t6 = texelFetch(sampler2DArray(depth, unfiltered), ivec3(texel_t6, 4), 0).x;
     float shaded_depth_s2_t6 = min(depth_s2_t6, 1e30);
     vec3 shaded_normal_s2_t6 = texelFetch(sampler2DArray(normal, unfiltered), ivec3(texel_t6, 4), 0).xyz;
-    float apart_s2_t6 = abs(seen_depth_s2 - shaded_depth_s2_t6);
-    vec3 apart_s2_t6_2 = seen_normal_s2 - shaded_normal_s2_t6;
-    float larger_s2_t6 = max(apart_s2_t6, 0.5 * dot(apart_s2_t6_2, apart_s2_t6_2));
+    float step_s2_t6 = abs(seen_depth_s2 - shaded_depth_s2_t6);
+    vec3 turn_s2_t6 = seen_normal_s2 - shaded_normal_s2_t6;
+    float larger_s2_t6 = max(step_s2_t6, 0.5 * dot(turn_s2_t6, turn_s2_t6));
     float d_s2_t6 = min(larger_s2_t6, 16.0);
     float nearest_s2_t6 = min(nearest_s2_t4, d_s2_t6);
     ivec2 texel_t7 = pixel + ivec2(0, 1);
@@ -166,9 +166,9 @@ void main() {
     float depth_t7 = texelFetch(sampler2DArray(depth, unfiltered), ivec3(texel_t7_2, 4), 0).x;
     float shaded_depth_t7 = min(depth_t7, 1e30);
     vec3 shaded_normal_t7 = texelFetch(sampler2DArray(normal, unfiltered), ivec3(texel_t7_2, 4), 0).xyz;
-    float apart_s2_t7 = abs(seen_depth_s2 - shaded_depth_t7);
-    vec3 apart_s2_t7_2 = seen_normal_s2 - shaded_normal_t7;
-    float larger_s2_t7 = max(apart_s2_t7, 0.5 * dot(apart_s2_t7_2, apart_s2_t7_2));
+    float step_s2_t7 = abs(seen_depth_s2 - shaded_depth_t7);
+    vec3 turn_s2_t7 = seen_normal_s2 - shaded_normal_t7;
+    float larger_s2_t7 = max(step_s2_t7, 0.5 * dot(turn_s2_t7, turn_s2_t7));
     float d_s2_t7 = min(larger_s2_t7, 16.0);
     float nearest_s2_t7 = min(nearest_s2_t6, d_s2_t7);
     // sample 2, tap 3: kernels/src/sraa/mod.rs:111
@@ -193,19 +193,19 @@ void main() {
     float depth_s3 = texelFetch(sampler2DArray(depth, unfiltered), ivec3(pixel, 3), 0).x;
     float seen_depth_s3 = min(depth_s3, 1e30);
     vec3 seen_normal_s3 = texelFetch(sampler2DArray(normal, unfiltered), ivec3(pixel, 3), 0).xyz;
-    float apart_s3_t4 = abs(seen_depth_s3 - shaded_depth_t4);
-    vec3 apart_s3_t4_2 = seen_normal_s3 - shaded_normal_t4;
-    float larger_s3_t4 = max(apart_s3_t4, 0.5 * dot(apart_s3_t4_2, apart_s3_t4_2));
+    float step_s3_t4 = abs(seen_depth_s3 - shaded_depth_t4);
+    vec3 turn_s3_t4 = seen_normal_s3 - shaded_normal_t4;
+    float larger_s3_t4 = max(step_s3_t4, 0.5 * dot(turn_s3_t4, turn_s3_t4));
     float d_s3_t4 = min(larger_s3_t4, 16.0);
     // sample 3, tap 5: kernels/src/sraa/metric.rs:96
-    float apart_s3_t5 = abs(seen_depth_s3 - shaded_depth_t5);
-    vec3 apart_s3_t5_2 = seen_normal_s3 - shaded_normal_t5;
-    float larger_s3_t5 = max(apart_s3_t5, 0.5 * dot(apart_s3_t5_2, apart_s3_t5_2));
+    float step_s3_t5 = abs(seen_depth_s3 - shaded_depth_t5);
+    vec3 turn_s3_t5 = seen_normal_s3 - shaded_normal_t5;
+    float larger_s3_t5 = max(step_s3_t5, 0.5 * dot(turn_s3_t5, turn_s3_t5));
     float d_s3_t5 = min(larger_s3_t5, 16.0);
     float nearest_s3_t5 = min(d_s3_t4, d_s3_t5);
-    float apart_s3_t7 = abs(seen_depth_s3 - shaded_depth_t7);
-    vec3 apart_s3_t7_2 = seen_normal_s3 - shaded_normal_t7;
-    float larger_s3_t7 = max(apart_s3_t7, 0.5 * dot(apart_s3_t7_2, apart_s3_t7_2));
+    float step_s3_t7 = abs(seen_depth_s3 - shaded_depth_t7);
+    vec3 turn_s3_t7 = seen_normal_s3 - shaded_normal_t7;
+    float larger_s3_t7 = max(step_s3_t7, 0.5 * dot(turn_s3_t7, turn_s3_t7));
     float d_s3_t7 = min(larger_s3_t7, 16.0);
     float nearest_s3_t7 = min(nearest_s3_t5, d_s3_t7);
     // sample 3, tap 8: kernels/src/sraa/gbuffer.rs:95
@@ -214,9 +214,9 @@ void main() {
     float depth_s3_t8 = texelFetch(sampler2DArray(depth, unfiltered), ivec3(texel_t8, 4), 0).x;
     float shaded_depth_s3_t8 = min(depth_s3_t8, 1e30);
     vec3 shaded_normal_s3_t8 = texelFetch(sampler2DArray(normal, unfiltered), ivec3(texel_t8, 4), 0).xyz;
-    float apart_s3_t8 = abs(seen_depth_s3 - shaded_depth_s3_t8);
-    vec3 apart_s3_t8_2 = seen_normal_s3 - shaded_normal_s3_t8;
-    float larger_s3_t8 = max(apart_s3_t8, 0.5 * dot(apart_s3_t8_2, apart_s3_t8_2));
+    float step_s3_t8 = abs(seen_depth_s3 - shaded_depth_s3_t8);
+    vec3 turn_s3_t8 = seen_normal_s3 - shaded_normal_s3_t8;
+    float larger_s3_t8 = max(step_s3_t8, 0.5 * dot(turn_s3_t8, turn_s3_t8));
     float d_s3_t8 = min(larger_s3_t8, 16.0);
     float nearest_s3_t8 = min(nearest_s3_t7, d_s3_t8);
     // sample 3, tap 4: kernels/src/sraa/mod.rs:111

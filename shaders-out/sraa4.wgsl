@@ -26,9 +26,9 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let depth_s0_t0 = textureLoad(depth, texel_t0, 4, 0).x;
     let shaded_depth_s0_t0 = min(depth_s0_t0, 1e30);
     let shaded_normal_s0_t0 = textureLoad(normal, texel_t0, 4, 0).xyz;
-    let apart_s0_t0 = abs(seen_depth_s0 - shaded_depth_s0_t0);
-    let apart_s0_t0_2 = seen_normal_s0 - shaded_normal_s0_t0;
-    let larger_s0_t0 = max(apart_s0_t0, 0.5 * dot(apart_s0_t0_2, apart_s0_t0_2));
+    let step_s0_t0 = abs(seen_depth_s0 - shaded_depth_s0_t0);
+    let turn_s0_t0 = seen_normal_s0 - shaded_normal_s0_t0;
+    let larger_s0_t0 = max(step_s0_t0, 0.5 * dot(turn_s0_t0, turn_s0_t0));
     let d_s0_t0 = min(larger_s0_t0, 16.0);
     // sample 0, tap 1: kernels/src/sraa/gbuffer.rs:95
     let texel_t1 = pixel + vec2i(0, -1);
@@ -36,9 +36,9 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let depth_t1 = textureLoad(depth, texel_t1_2, 4, 0).x;
     let shaded_depth_t1 = min(depth_t1, 1e30);
     let shaded_normal_t1 = textureLoad(normal, texel_t1_2, 4, 0).xyz;
-    let apart_s0_t1 = abs(seen_depth_s0 - shaded_depth_t1);
-    let apart_s0_t1_2 = seen_normal_s0 - shaded_normal_t1;
-    let larger_s0_t1 = max(apart_s0_t1, 0.5 * dot(apart_s0_t1_2, apart_s0_t1_2));
+    let step_s0_t1 = abs(seen_depth_s0 - shaded_depth_t1);
+    let turn_s0_t1 = seen_normal_s0 - shaded_normal_t1;
+    let larger_s0_t1 = max(step_s0_t1, 0.5 * dot(turn_s0_t1, turn_s0_t1));
     let d_s0_t1 = min(larger_s0_t1, 16.0);
     let nearest_s0_t1 = min(d_s0_t0, d_s0_t1);
     let texel_t3 = pixel + vec2i(-1, 0);
@@ -46,18 +46,18 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let depth_t3 = textureLoad(depth, texel_t3_2, 4, 0).x;
     let shaded_depth_t3 = min(depth_t3, 1e30);
     let shaded_normal_t3 = textureLoad(normal, texel_t3_2, 4, 0).xyz;
-    let apart_s0_t3 = abs(seen_depth_s0 - shaded_depth_t3);
-    let apart_s0_t3_2 = seen_normal_s0 - shaded_normal_t3;
-    let larger_s0_t3 = max(apart_s0_t3, 0.5 * dot(apart_s0_t3_2, apart_s0_t3_2));
+    let step_s0_t3 = abs(seen_depth_s0 - shaded_depth_t3);
+    let turn_s0_t3 = seen_normal_s0 - shaded_normal_t3;
+    let larger_s0_t3 = max(step_s0_t3, 0.5 * dot(turn_s0_t3, turn_s0_t3));
     let d_s0_t3 = min(larger_s0_t3, 16.0);
     let nearest_s0_t3 = min(nearest_s0_t1, d_s0_t3);
     // sample 0, tap 4: kernels/src/sraa/gbuffer.rs:177
     let depth_t4 = textureLoad(depth, pixel, 4, 0).x;
     let shaded_depth_t4 = min(depth_t4, 1e30);
     let shaded_normal_t4 = textureLoad(normal, pixel, 4, 0).xyz;
-    let apart_s0_t4 = abs(seen_depth_s0 - shaded_depth_t4);
-    let apart_s0_t4_2 = seen_normal_s0 - shaded_normal_t4;
-    let larger_s0_t4 = max(apart_s0_t4, 0.5 * dot(apart_s0_t4_2, apart_s0_t4_2));
+    let step_s0_t4 = abs(seen_depth_s0 - shaded_depth_t4);
+    let turn_s0_t4 = seen_normal_s0 - shaded_normal_t4;
+    let larger_s0_t4 = max(step_s0_t4, 0.5 * dot(turn_s0_t4, turn_s0_t4));
     let d_s0_t4 = min(larger_s0_t4, 16.0);
     let nearest_s0_t4 = min(nearest_s0_t3, d_s0_t4);
     // sample 0, tap 0: kernels/src/sraa/mod.rs:111
@@ -82,9 +82,9 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let depth_s1 = textureLoad(depth, pixel, 1, 0).x;
     let seen_depth_s1 = min(depth_s1, 1e30);
     let seen_normal_s1 = textureLoad(normal, pixel, 1, 0).xyz;
-    let apart_s1_t1 = abs(seen_depth_s1 - shaded_depth_t1);
-    let apart_s1_t1_2 = seen_normal_s1 - shaded_normal_t1;
-    let larger_s1_t1 = max(apart_s1_t1, 0.5 * dot(apart_s1_t1_2, apart_s1_t1_2));
+    let step_s1_t1 = abs(seen_depth_s1 - shaded_depth_t1);
+    let turn_s1_t1 = seen_normal_s1 - shaded_normal_t1;
+    let larger_s1_t1 = max(step_s1_t1, 0.5 * dot(turn_s1_t1, turn_s1_t1));
     let d_s1_t1 = min(larger_s1_t1, 16.0);
     // sample 1, tap 2: kernels/src/sraa/gbuffer.rs:95
     let texel_s1_t2 = pixel + vec2i(1, -1);
@@ -92,15 +92,15 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let depth_s1_t2 = textureLoad(depth, texel_t2, 4, 0).x;
     let shaded_depth_s1_t2 = min(depth_s1_t2, 1e30);
     let shaded_normal_s1_t2 = textureLoad(normal, texel_t2, 4, 0).xyz;
-    let apart_s1_t2 = abs(seen_depth_s1 - shaded_depth_s1_t2);
-    let apart_s1_t2_2 = seen_normal_s1 - shaded_normal_s1_t2;
-    let larger_s1_t2 = max(apart_s1_t2, 0.5 * dot(apart_s1_t2_2, apart_s1_t2_2));
+    let step_s1_t2 = abs(seen_depth_s1 - shaded_depth_s1_t2);
+    let turn_s1_t2 = seen_normal_s1 - shaded_normal_s1_t2;
+    let larger_s1_t2 = max(step_s1_t2, 0.5 * dot(turn_s1_t2, turn_s1_t2));
     let d_s1_t2 = min(larger_s1_t2, 16.0);
     let nearest_s1_t2 = min(d_s1_t1, d_s1_t2);
     // sample 1, tap 4: kernels/src/sraa/metric.rs:96
-    let apart_s1_t4 = abs(seen_depth_s1 - shaded_depth_t4);
-    let apart_s1_t4_2 = seen_normal_s1 - shaded_normal_t4;
-    let larger_s1_t4 = max(apart_s1_t4, 0.5 * dot(apart_s1_t4_2, apart_s1_t4_2));
+    let step_s1_t4 = abs(seen_depth_s1 - shaded_depth_t4);
+    let turn_s1_t4 = seen_normal_s1 - shaded_normal_t4;
+    let larger_s1_t4 = max(step_s1_t4, 0.5 * dot(turn_s1_t4, turn_s1_t4));
     let d_s1_t4 = min(larger_s1_t4, 16.0);
     let nearest_s1_t4 = min(nearest_s1_t2, d_s1_t4);
     // sample 1, tap 5: kernels/src/sraa/gbuffer.rs:95
@@ -109,9 +109,9 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let depth_t5 = textureLoad(depth, texel_t5_2, 4, 0).x;
     let shaded_depth_t5 = min(depth_t5, 1e30);
     let shaded_normal_t5 = textureLoad(normal, texel_t5_2, 4, 0).xyz;
-    let apart_s1_t5 = abs(seen_depth_s1 - shaded_depth_t5);
-    let apart_s1_t5_2 = seen_normal_s1 - shaded_normal_t5;
-    let larger_s1_t5 = max(apart_s1_t5, 0.5 * dot(apart_s1_t5_2, apart_s1_t5_2));
+    let step_s1_t5 = abs(seen_depth_s1 - shaded_depth_t5);
+    let turn_s1_t5 = seen_normal_s1 - shaded_normal_t5;
+    let larger_s1_t5 = max(step_s1_t5, 0.5 * dot(turn_s1_t5, turn_s1_t5));
     let d_s1_t5 = min(larger_s1_t5, 16.0);
     let nearest_s1_t5 = min(nearest_s1_t4, d_s1_t5);
     // sample 1, tap 1: kernels/src/sraa/mod.rs:111
@@ -136,14 +136,14 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let depth_s2 = textureLoad(depth, pixel, 2, 0).x;
     let seen_depth_s2 = min(depth_s2, 1e30);
     let seen_normal_s2 = textureLoad(normal, pixel, 2, 0).xyz;
-    let apart_s2_t3 = abs(seen_depth_s2 - shaded_depth_t3);
-    let apart_s2_t3_2 = seen_normal_s2 - shaded_normal_t3;
-    let larger_s2_t3 = max(apart_s2_t3, 0.5 * dot(apart_s2_t3_2, apart_s2_t3_2));
+    let step_s2_t3 = abs(seen_depth_s2 - shaded_depth_t3);
+    let turn_s2_t3 = seen_normal_s2 - shaded_normal_t3;
+    let larger_s2_t3 = max(step_s2_t3, 0.5 * dot(turn_s2_t3, turn_s2_t3));
     let d_s2_t3 = min(larger_s2_t3, 16.0);
     // sample 2, tap 4: kernels/src/sraa/metric.rs:96
-    let apart_s2_t4 = abs(seen_depth_s2 - shaded_depth_t4);
-    let apart_s2_t4_2 = seen_normal_s2 - shaded_normal_t4;
-    let larger_s2_t4 = max(apart_s2_t4, 0.5 * dot(apart_s2_t4_2, apart_s2_t4_2));
+    let step_s2_t4 = abs(seen_depth_s2 - shaded_depth_t4);
+    let turn_s2_t4 = seen_normal_s2 - shaded_normal_t4;
+    let larger_s2_t4 = max(step_s2_t4, 0.5 * dot(turn_s2_t4, turn_s2_t4));
     let d_s2_t4 = min(larger_s2_t4, 16.0);
     let nearest_s2_t4 = min(d_s2_t3, d_s2_t4);
     // sample 2, tap 6: kernels/src/sraa/gbuffer.rs:95
@@ -152,9 +152,9 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let depth_s2_t6 = textureLoad(depth, texel_t6, 4, 0).x;
     let shaded_depth_s2_t6 = min(depth_s2_t6, 1e30);
     let shaded_normal_s2_t6 = textureLoad(normal, texel_t6, 4, 0).xyz;
-    let apart_s2_t6 = abs(seen_depth_s2 - shaded_depth_s2_t6);
-    let apart_s2_t6_2 = seen_normal_s2 - shaded_normal_s2_t6;
-    let larger_s2_t6 = max(apart_s2_t6, 0.5 * dot(apart_s2_t6_2, apart_s2_t6_2));
+    let step_s2_t6 = abs(seen_depth_s2 - shaded_depth_s2_t6);
+    let turn_s2_t6 = seen_normal_s2 - shaded_normal_s2_t6;
+    let larger_s2_t6 = max(step_s2_t6, 0.5 * dot(turn_s2_t6, turn_s2_t6));
     let d_s2_t6 = min(larger_s2_t6, 16.0);
     let nearest_s2_t6 = min(nearest_s2_t4, d_s2_t6);
     let texel_t7 = pixel + vec2i(0, 1);
@@ -162,9 +162,9 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let depth_t7 = textureLoad(depth, texel_t7_2, 4, 0).x;
     let shaded_depth_t7 = min(depth_t7, 1e30);
     let shaded_normal_t7 = textureLoad(normal, texel_t7_2, 4, 0).xyz;
-    let apart_s2_t7 = abs(seen_depth_s2 - shaded_depth_t7);
-    let apart_s2_t7_2 = seen_normal_s2 - shaded_normal_t7;
-    let larger_s2_t7 = max(apart_s2_t7, 0.5 * dot(apart_s2_t7_2, apart_s2_t7_2));
+    let step_s2_t7 = abs(seen_depth_s2 - shaded_depth_t7);
+    let turn_s2_t7 = seen_normal_s2 - shaded_normal_t7;
+    let larger_s2_t7 = max(step_s2_t7, 0.5 * dot(turn_s2_t7, turn_s2_t7));
     let d_s2_t7 = min(larger_s2_t7, 16.0);
     let nearest_s2_t7 = min(nearest_s2_t6, d_s2_t7);
     // sample 2, tap 3: kernels/src/sraa/mod.rs:111
@@ -189,19 +189,19 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let depth_s3 = textureLoad(depth, pixel, 3, 0).x;
     let seen_depth_s3 = min(depth_s3, 1e30);
     let seen_normal_s3 = textureLoad(normal, pixel, 3, 0).xyz;
-    let apart_s3_t4 = abs(seen_depth_s3 - shaded_depth_t4);
-    let apart_s3_t4_2 = seen_normal_s3 - shaded_normal_t4;
-    let larger_s3_t4 = max(apart_s3_t4, 0.5 * dot(apart_s3_t4_2, apart_s3_t4_2));
+    let step_s3_t4 = abs(seen_depth_s3 - shaded_depth_t4);
+    let turn_s3_t4 = seen_normal_s3 - shaded_normal_t4;
+    let larger_s3_t4 = max(step_s3_t4, 0.5 * dot(turn_s3_t4, turn_s3_t4));
     let d_s3_t4 = min(larger_s3_t4, 16.0);
     // sample 3, tap 5: kernels/src/sraa/metric.rs:96
-    let apart_s3_t5 = abs(seen_depth_s3 - shaded_depth_t5);
-    let apart_s3_t5_2 = seen_normal_s3 - shaded_normal_t5;
-    let larger_s3_t5 = max(apart_s3_t5, 0.5 * dot(apart_s3_t5_2, apart_s3_t5_2));
+    let step_s3_t5 = abs(seen_depth_s3 - shaded_depth_t5);
+    let turn_s3_t5 = seen_normal_s3 - shaded_normal_t5;
+    let larger_s3_t5 = max(step_s3_t5, 0.5 * dot(turn_s3_t5, turn_s3_t5));
     let d_s3_t5 = min(larger_s3_t5, 16.0);
     let nearest_s3_t5 = min(d_s3_t4, d_s3_t5);
-    let apart_s3_t7 = abs(seen_depth_s3 - shaded_depth_t7);
-    let apart_s3_t7_2 = seen_normal_s3 - shaded_normal_t7;
-    let larger_s3_t7 = max(apart_s3_t7, 0.5 * dot(apart_s3_t7_2, apart_s3_t7_2));
+    let step_s3_t7 = abs(seen_depth_s3 - shaded_depth_t7);
+    let turn_s3_t7 = seen_normal_s3 - shaded_normal_t7;
+    let larger_s3_t7 = max(step_s3_t7, 0.5 * dot(turn_s3_t7, turn_s3_t7));
     let d_s3_t7 = min(larger_s3_t7, 16.0);
     let nearest_s3_t7 = min(nearest_s3_t5, d_s3_t7);
     // sample 3, tap 8: kernels/src/sraa/gbuffer.rs:95
@@ -210,9 +210,9 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let depth_s3_t8 = textureLoad(depth, texel_t8, 4, 0).x;
     let shaded_depth_s3_t8 = min(depth_s3_t8, 1e30);
     let shaded_normal_s3_t8 = textureLoad(normal, texel_t8, 4, 0).xyz;
-    let apart_s3_t8 = abs(seen_depth_s3 - shaded_depth_s3_t8);
-    let apart_s3_t8_2 = seen_normal_s3 - shaded_normal_s3_t8;
-    let larger_s3_t8 = max(apart_s3_t8, 0.5 * dot(apart_s3_t8_2, apart_s3_t8_2));
+    let step_s3_t8 = abs(seen_depth_s3 - shaded_depth_s3_t8);
+    let turn_s3_t8 = seen_normal_s3 - shaded_normal_s3_t8;
+    let larger_s3_t8 = max(step_s3_t8, 0.5 * dot(turn_s3_t8, turn_s3_t8));
     let d_s3_t8 = min(larger_s3_t8, 16.0);
     let nearest_s3_t8 = min(nearest_s3_t7, d_s3_t8);
     // sample 3, tap 4: kernels/src/sraa/mod.rs:111

@@ -93,15 +93,15 @@ fn off_plane(cfg: &Sraa, sample: &Sample, tap: &Surface, at: Vec2) -> f32 {
 }
 
 fn deeper(cfg: &Sraa, sample: &Sample, tap: &Surface) -> f32 {
-    let apart = (sample.surface.depth - tap.depth).abs();
+    let step = (sample.surface.depth - tap.depth).abs();
     match cfg.difference {
-        Difference::Absolute => cfg.depth_scale * apart,
-        Difference::Relative => cfg.depth_scale / sample.surface.depth.max(NEAREST) * apart,
+        Difference::Absolute => cfg.depth_scale * step,
+        Difference::Relative => cfg.depth_scale / sample.surface.depth.max(NEAREST) * step,
     }
 }
 
 /// 1 - a·b of two unit vectors, as ½|a - b|²: the same number without the cancellation.
 fn turned(sample: &Sample, tap: &Surface) -> f32 {
-    let apart = sample.surface.normal - tap.normal;
-    0.5 * apart.dot(apart)
+    let turn = sample.surface.normal - tap.normal;
+    0.5 * turn.dot(turn)
 }
