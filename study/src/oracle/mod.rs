@@ -177,9 +177,11 @@ impl<'a> Definition<'a> {
         for (tap, weight) in taps.iter().zip(&weights) {
             // A bad colour spoils nothing that gives it no weight.
             if *weight > 0.0 {
-                add(&mut color, tap.color, weight / total);
+                add(&mut color, tap.color, *weight);
             }
         }
+        // Where no weight is left, 0/0.
+        let color = color.map(|axis| axis / total);
         let lost = self.params.normalisation == Normalisation::Paper && weights.iter().all(|w| *w < SMALLEST_NORMAL);
         (color, !lost)
     }
