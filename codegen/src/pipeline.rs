@@ -3,14 +3,14 @@
 use crate::diagnostic::{Diagnostic, Errors, File};
 use crate::emit::{self, EmitError, EmitOptions, Emitted};
 use crate::eval::{self, LoopReport, OptionInfo};
-use crate::front;
+use crate::front::{self, Library};
 use crate::ir::{Graph, Invocation, verify};
 use crate::passes::{self, Schedule};
 use crate::policy::{Branches, LoopPolicy, Policy, Transport, Unroll};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::path::Path;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 use straightline_manifest::Counts;
 
 /// A kernel's source: its files and which function it is.
@@ -19,6 +19,8 @@ pub struct Kernel {
     name: String,
     summary: String,
     files: Arc<Vec<File>>,
+    /// What the files define, read once for all variants.
+    library: OnceLock<Arc<Library>>,
 }
 
 /// How a kernel is to be evaluated.
@@ -143,6 +145,7 @@ impl Kernel {
             name: name.to_owned(),
             summary: entry.summary.to_owned(),
             files: Arc::new(files.collect()),
+            library: OnceLock::new(),
         })
     }
 
@@ -156,6 +159,7 @@ impl Kernel {
             name: function.to_owned(),
             summary: String::new(),
             files: Arc::new(vec![file]),
+            library: OnceLock::new(),
         }
     }
 
@@ -172,6 +176,7 @@ impl Kernel {
         let text = read(path)?;
         let path = path.display().to_string();
         Arc::make_mut(&mut self.files).push(File { path, text });
+        self.library = OnceLock::new();
         Ok(self)
     }
 
@@ -197,9 +202,17 @@ impl Kernel {
     /// The kernel's options in order of declaration.
     pub fn options(&self) -> Result<Vec<OptionInfo>, Errors> {
         deep(|| {
-            let library = front::parse(&self.files, &self.name)?;
+            let library = self.library()?;
             eval::describe(&library, &self.files, &self.name)
         })
+    }
+
+    fn library(&self) -> Result<Arc<Library>, Errors> {
+        if let Some(library) = self.library.get() {
+            return Ok(Arc::clone(library));
+        }
+        let library = Arc::new(front::parse(&self.files, &self.name)?);
+        Ok(Arc::clone(self.library.get_or_init(|| library)))
     }
 
     /// Decides everything that can be decided now.
@@ -213,7 +226,7 @@ impl Kernel {
     }
 
     fn stages(&self, settings: &Settings, observer: &mut Observer<'_>) -> Result<Compiled, Errors> {
-        let library = front::parse(&self.files, &self.name)?;
+        let library = self.library()?;
         let policy = settings.policy();
         let invocation = match settings.block {
             [1, 1] => Invocation::Pixel,

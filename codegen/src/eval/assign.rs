@@ -79,7 +79,7 @@ impl Evaluator<'_> {
         };
         match (old, step) {
             (Value::Struct { ty, mut fields }, Step::Field(name)) => {
-                match fields.iter_mut().find(|(field, _)| field == name) {
+                match Rc::make_mut(&mut fields).iter_mut().find(|(field, _)| field == name) {
                     Some((_, slot)) => *slot = self.replace(std::mem::replace(slot, Value::Poison), rest, new, span)?,
                     None => return Err(Diagnostic::at(span, format!("`{ty}` has no field `{name}`")).into()),
                 }

@@ -218,10 +218,7 @@ impl Evaluator<'_> {
         for ((field, ty, _), value) in definition.fields.iter().zip(values) {
             fields.push((field.clone(), self.ascribe(value.clone(), Some(ty), span)?));
         }
-        Ok(Some(Value::Struct {
-            ty: name.to_owned(),
-            fields,
-        }))
+        Ok(Some(Value::structure(name, fields)))
     }
 
     /// A vector from its lanes, or from shorter vectors and lanes.

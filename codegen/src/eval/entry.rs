@@ -107,10 +107,7 @@ impl Evaluator<'_> {
             };
             fields.push((field.clone(), value));
         }
-        Ok(Value::Struct {
-            ty: type_name.clone(),
-            fields,
-        })
+        Ok(Value::structure(type_name.clone(), fields))
     }
 
     /// A parameter that is set at run time, or built in; `None` if its type is no number.

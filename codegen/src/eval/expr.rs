@@ -298,11 +298,7 @@ impl Evaluator<'_> {
             };
             values.push((field.clone(), value));
         }
-        let value = Value::Struct {
-            ty: name.to_owned(),
-            fields: values,
-        };
-        self.bounded(value, span)
+        self.bounded(Value::structure(name, values), span)
     }
 
     fn range(&mut self, start: &Expr, end: &Expr, inclusive: bool, span: Span) -> Eval {

@@ -302,7 +302,13 @@ fn same_shape(a: &Value, b: &Value) -> bool {
                 ty: other,
                 fields: others,
             },
-        ) => ty == other && fields.iter().zip(others).all(|((_, a), (_, b))| same_shape(a, b)),
+        ) => {
+            ty == other
+                && fields
+                    .iter()
+                    .zip(others.iter())
+                    .all(|((_, a), (_, b))| same_shape(a, b))
+        }
         (Value::Tuple(a), Value::Tuple(b)) => all_same(a, b),
         (Value::Array(a), Value::Array(b)) => all_same(a, b),
         _ => a == b,

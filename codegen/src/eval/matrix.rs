@@ -207,10 +207,8 @@ impl Evaluator<'_> {
 /// A matrix of its columns.
 pub fn matrix(columns: &[NodeId]) -> Value {
     let named = AXES.iter().zip(columns);
-    Value::Struct {
-        ty: format!("Mat{}", columns.len()),
-        fields: named.map(|(name, id)| ((*name).to_owned(), Value::Node(*id))).collect(),
-    }
+    let fields = named.map(|(name, id)| ((*name).to_owned(), Value::Node(*id)));
+    Value::structure(format!("Mat{}", columns.len()), fields.collect())
 }
 
 fn unknown(ty: &str, name: &str, span: Span) -> Diagnostic {

@@ -193,7 +193,7 @@ impl Evaluator<'_> {
         match value {
             Value::Node(id) => self.name_node(*id, name, span),
             Value::Struct { fields, .. } => {
-                for (field, value) in fields {
+                for (field, value) in fields.iter() {
                     self.name(value, &format!("{name}_{field}"), span);
                 }
             }

@@ -79,13 +79,10 @@ impl Evaluator<'_> {
                 },
             ) if ty == other => {
                 let mut results = Vec::new();
-                for ((name, a), (_, b)) in fields.iter().zip(others) {
+                for ((name, a), (_, b)) in fields.iter().zip(others.iter()) {
                     results.push((name.clone(), self.binary(op, a, b, span)?));
                 }
-                Ok(Value::Struct {
-                    ty: ty.clone(),
-                    fields: results,
-                })
+                Ok(Value::structure(ty.clone(), results))
             }
             _ => Err(Diagnostic::at(
                 span,

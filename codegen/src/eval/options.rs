@@ -125,10 +125,7 @@ impl Evaluator<'_> {
             chosen.insert(info.name.clone(), text.unwrap_or(&info.default).to_owned());
             values.push((field.name.clone(), value));
         }
-        Ok(Value::Struct {
-            ty: ty.to_owned(),
-            fields: values,
-        })
+        Ok(Value::structure(ty, values))
     }
 
     fn info(&mut self, field: &OptionField) -> Eval<OptionInfo> {

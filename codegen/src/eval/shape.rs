@@ -12,13 +12,10 @@ impl Evaluator<'_> {
             Value::Int(n) => Value::Node(self.int_node(*n, Scalar::I32, span)?),
             Value::Struct { ty, fields } => {
                 let mut settled = Vec::new();
-                for (name, field) in fields {
+                for (name, field) in fields.iter() {
                     settled.push((name.clone(), self.settle(field, span)?));
                 }
-                Value::Struct {
-                    ty: ty.clone(),
-                    fields: settled,
-                }
+                Value::structure(ty.clone(), settled)
             }
             Value::Tuple(parts) => {
                 let parts: Eval<Vec<Value>> = parts.iter().map(|p| self.settle(p, span)).collect();
@@ -91,10 +88,7 @@ impl Evaluator<'_> {
                 let fields = fields
                     .iter()
                     .map(|(name, field)| (name.clone(), Self::with_leaves(field, nodes)));
-                Value::Struct {
-                    ty: ty.clone(),
-                    fields: fields.collect(),
-                }
+                Value::structure(ty.clone(), fields.collect())
             }
             Value::Tuple(parts) => Value::Tuple(parts.iter().map(|p| Self::with_leaves(p, nodes)).collect()),
             Value::Array(parts) => Value::array(parts.iter().map(|p| Self::with_leaves(p, nodes)).collect()),
@@ -124,21 +118,12 @@ impl Evaluator<'_> {
                 },
             ) if ty == other => {
                 let (mut l, mut r) = (Vec::new(), Vec::new());
-                for ((name, a), (_, b)) in left.iter().zip(right) {
+                for ((name, a), (_, b)) in left.iter().zip(right.iter()) {
                     let (a, b) = self.agree(a, b, span)?;
                     l.push((name.clone(), a));
                     r.push((name.clone(), b));
                 }
-                (
-                    Value::Struct {
-                        ty: ty.clone(),
-                        fields: l,
-                    },
-                    Value::Struct {
-                        ty: ty.clone(),
-                        fields: r,
-                    },
-                )
+                (Value::structure(ty.clone(), l), Value::structure(ty.clone(), r))
             }
             (Value::Tuple(left), Value::Tuple(right)) if left.len() == right.len() => {
                 let (l, r) = self.agree_all(left, right, span)?;

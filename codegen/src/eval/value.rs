@@ -22,8 +22,8 @@ pub enum Value {
     Struct {
         /// Its type.
         ty: String,
-        /// Its fields in order.
-        fields: Vec<(String, Value)>,
+        /// Its fields in order; shared until one is changed.
+        fields: Rc<Vec<(String, Value)>>,
     },
     /// A tuple; `()` is empty.
     Tuple(Vec<Value>),
@@ -65,6 +65,14 @@ impl Value {
     /// An array of its elements.
     pub fn array(elements: Vec<Value>) -> Value {
         Value::Array(Rc::new(elements))
+    }
+
+    /// A structure.
+    pub fn structure(ty: impl Into<String>, fields: Vec<(String, Value)>) -> Value {
+        Value::Struct {
+            ty: ty.into(),
+            fields: Rc::new(fields),
+        }
     }
 
     /// Numbers and other parts in it, counted up to `limit`.
