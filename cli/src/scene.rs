@@ -48,10 +48,10 @@ pub fn shading(name: &str) -> Result<ShadingSample, Failure> {
 }
 
 /// A bar on stderr for `what`, to be advanced as work is done.
-pub fn bar(what: &'static str) -> ProgressBar {
+pub fn bar(what: &str) -> ProgressBar {
     let style = ProgressStyle::with_template("{msg:<28} [{bar:30}] {pos}/{len}, {eta} left")
         .unwrap_or_else(|_| ProgressStyle::default_bar());
-    ProgressBar::new(1).with_style(style).with_message(what)
+    ProgressBar::new(1).with_style(style).with_message(what.to_owned())
 }
 
 /// A progress function for `bar`.

@@ -9,5 +9,6 @@ pub mod gbuffer;
 pub mod metrics;
 pub mod oracle;
 pub mod picture;
+pub mod record;
 pub mod render;
 pub mod scene;

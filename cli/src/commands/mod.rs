@@ -11,4 +11,5 @@ pub mod quads;
 pub mod resolve;
 pub mod run;
 pub mod scenes;
+pub mod study;
 pub mod unroll;

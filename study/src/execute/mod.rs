@@ -19,7 +19,7 @@ pub use shadowed::Shadowed;
 pub use straightline_codegen::ir::interp::{Address, Comparison, SamplerState};
 pub use synthetic::test_inputs;
 pub use tiles::{Tile, cropped, tiles};
-pub use timing::{Clock, Job, Times};
+pub use timing::{Clock, Job, Ratio, Timed, Times};
 
 /// What a kernel is run on, by the names that it calls them.
 #[derive(Clone, Debug, Default)]

@@ -2,12 +2,12 @@
 
 use super::{Bench, Bound, ExecuteError};
 use glam::UVec2;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::time::{Duration, Instant};
 use straightline_runtime::{Pass, Timer};
 
 /// Times of one shader over all rounds, in milliseconds.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Times {
     /// The middle of all rounds.
     pub median_ms: f64,
@@ -40,8 +40,60 @@ impl Times {
     }
 }
 
+/// How many times as fast one shader is as another, from rounds in which both ran.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Ratio {
+    /// The middle of the ratios of all rounds.
+    pub median: f64,
+    /// A tenth of the rounds were below this.
+    pub low: f64,
+    /// A tenth of the rounds were above this.
+    pub high: f64,
+}
+
+impl Ratio {
+    /// How many times as fast as `base` something is that took `times`, round by round; `None` of no rounds.
+    pub fn of(base: &[Duration], times: &[Duration]) -> Option<Ratio> {
+        let ratio = |(base, time): (&Duration, &Duration)| base.as_secs_f64() / time.as_secs_f64().max(1e-9);
+        let mut sorted: Vec<f64> = base.iter().zip(times).map(ratio).collect();
+        sorted.sort_by(f64::total_cmp);
+        let last = sorted.len().checked_sub(1)?;
+        let at = |share: f64| {
+            let place = share * last as f64;
+            let below = sorted[place as usize];
+            below + (sorted[(place as usize + 1).min(last)] - below) * place.fract()
+        };
+        Some(Ratio {
+            median: at(0.5),
+            low: at(0.1),
+            high: at(0.9),
+        })
+    }
+}
+
+/// Times of several shaders that ran in turn, round by round.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Timed {
+    /// What they were taken with.
+    pub clock: Clock,
+    /// For each shader, the time of each round.
+    pub rounds: Vec<Vec<Duration>>,
+}
+
+impl Timed {
+    /// Median and extremes of a shader; `None` if there is no such shader.
+    pub fn times(&self, shader: usize) -> Option<Times> {
+        Times::of(self.rounds.get(shader)?)
+    }
+
+    /// How many times as fast as `base` a shader is; `None` if one of them is not there.
+    pub fn ratio(&self, base: usize, shader: usize) -> Option<Ratio> {
+        Ratio::of(self.rounds.get(base)?, self.rounds.get(shader)?)
+    }
+}
+
 /// What a time was taken with.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Clock {
     /// The GPU's own timestamps around each pass.
@@ -62,7 +114,7 @@ pub struct Job<'a> {
 }
 
 impl Bench {
-    /// Runs every job once a round, in turn, after one round that is not counted. `tick` is called after each round.
+    /// Median and extremes of what [`timed`](Self::timed) measures, and its clock. `tick` is called after each round.
     ///
     /// # Errors
     ///
@@ -73,6 +125,25 @@ impl Bench {
         rounds: u32,
         mut tick: impl FnMut(u32),
     ) -> Result<(Vec<Times>, Clock), ExecuteError> {
+        let timed = self.timed(jobs, rounds, |round| {
+            tick(round);
+            true
+        })?;
+        Ok((timed.rounds.iter().filter_map(|t| Times::of(t)).collect(), timed.clock))
+    }
+
+    /// Runs every job once a round, in turn, after one round that is not counted. `tick` is called after each round, and
+    /// ends it by answering `false`.
+    ///
+    /// # Errors
+    ///
+    /// If a pass cannot be encoded, or the device fails.
+    pub fn timed(
+        &self,
+        jobs: &[Job<'_>],
+        rounds: u32,
+        mut tick: impl FnMut(u32) -> bool,
+    ) -> Result<Timed, ExecuteError> {
         let view = |job: &Job<'_>| {
             self.target(job.size, job.pass.target_format())
                 .create_view(&wgpu::TextureViewDescriptor::default())
@@ -90,13 +161,15 @@ impl Bench {
                     times[k].push(took);
                 }
             }
-            tick(round);
+            if !tick(round) && round > 0 {
+                break;
+            }
         }
         let clock = match timer {
             Some(_) => Clock::GpuTimestamps,
             None => Clock::WallClock,
         };
-        Ok((times.iter().filter_map(|t| Times::of(t)).collect(), clock))
+        Ok(Timed { clock, rounds: times })
     }
 
     fn once(
@@ -124,5 +197,23 @@ impl Bench {
                 Ok(start.elapsed())
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ratios_are_taken_round_by_round() {
+        let ms = |times: &[u64]| times.iter().map(|t| Duration::from_millis(*t)).collect::<Vec<_>>();
+        // The second round was slow for both: their ratio is not.
+        let ratio = Ratio::of(&ms(&[40, 400, 44]), &ms(&[10, 100, 10])).unwrap();
+        assert_eq!(ratio.median, 4.0);
+        assert!(
+            (ratio.low - 4.0).abs() < 1e-12 && (ratio.high - 4.32).abs() < 1e-12,
+            "{ratio:?}"
+        );
+        assert_eq!(Ratio::of(&[], &[]), None);
     }
 }

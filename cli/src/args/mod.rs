@@ -1,5 +1,7 @@
 //! The command line.
 
+mod study;
+
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use glam::UVec2;
 use std::path::PathBuf;
@@ -7,6 +9,8 @@ use straightline_codegen::diagnostic::Errors;
 use straightline_codegen::emit::Target;
 use straightline_codegen::{Branches, Kernel, Settings, Transport, Unroll};
 use straightline_manifest::{Format, Stage};
+
+pub use study::{CommonArgs, ErrorArgs, HardArgs, LoopsArgs, Study, StudyArgs};
 
 /// Image filters written once, as ordinary Rust with ordinary loops, emitted as straight-line shaders.
 ///
@@ -37,6 +41,8 @@ pub enum Command {
     Budget(BudgetArgs),
     /// Compare filters that share work over pixel quads with those that do not: reads, messages, time, difference
     Quads(QuadsArgs),
+    /// Measure: unroll against loop, speed against error, hard cases; writes records and a page
+    Study(StudyArgs),
     /// Antialias a captured frame
     Resolve(ResolveArgs),
     /// Render a scene or a model to a capture: the frame that `resolve` reads

@@ -1,0 +1,70 @@
+//! Arguments of `study` and `tune`.
+
+use super::{AdapterArgs, size};
+use clap::{Args, Subcommand};
+use glam::UVec2;
+use std::path::PathBuf;
+
+#[derive(Debug, Args)]
+pub struct StudyArgs {
+    /// Without one, all of them
+    #[command(subcommand)]
+    pub study: Option<Study>,
+    #[command(flatten)]
+    pub common: CommonArgs,
+}
+
+/// What every study is asked.
+#[derive(Clone, Debug, Args)]
+pub struct CommonArgs {
+    /// Folder for records (JSON, CSV), pictures and report.html, which shows all records that are in the folder
+    #[arg(long, value_name = "DIR", default_value = "study-report", global = true)]
+    pub out: PathBuf,
+    /// Small pictures, few rounds: minutes instead of hours, and figures that say less
+    #[arg(long, global = true)]
+    pub quick: bool,
+    /// Width and height in pixels; by default 1280x720, with --quick 480x270
+    #[arg(long, value_name = "WxH", value_parser = size, global = true)]
+    pub size: Option<UVec2>,
+    /// Rounds of timing; each runs every shader once, in turn. By default 31, with --quick 11
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1000), global = true)]
+    pub rounds: Option<u32>,
+    #[command(flatten)]
+    pub adapter: AdapterArgs,
+}
+
+impl CommonArgs {
+    /// Width and height of pictures.
+    pub fn size(&self) -> UVec2 {
+        self.size.unwrap_or(match self.quick {
+            true => UVec2::new(480, 270),
+            false => UVec2::new(1280, 720),
+        })
+    }
+
+    /// Rounds of timing.
+    pub fn rounds(&self) -> u32 {
+        self.rounds.unwrap_or(if self.quick { 11 } else { 31 })
+    }
+}
+
+#[derive(Clone, Debug, Subcommand)]
+pub enum Study {
+    /// Unroll against loop: every form of each kernel, its time, its counts, its error
+    Loops(LoopsArgs),
+    /// Speed against error: methods of antialiasing on all scenes, against 256 samples a pixel
+    Error(ErrorArgs),
+    /// Numerical stability: hard cases, in every precision, by shader and interpreter
+    Hard(HardArgs),
+    /// Make the page anew from the records that are there
+    Report,
+}
+
+#[derive(Clone, Debug, Default, Args)]
+pub struct LoopsArgs {}
+
+#[derive(Clone, Debug, Default, Args)]
+pub struct ErrorArgs {}
+
+#[derive(Clone, Debug, Default, Args)]
+pub struct HardArgs {}

@@ -1,0 +1,67 @@
+//! `study`: unroll against loop, speed against error, hard cases; records, and one page of them all.
+
+mod error;
+mod hard;
+mod loops;
+mod watch;
+
+use crate::args::{CommonArgs, Study, StudyArgs};
+use crate::failure::Failure;
+use crate::gpu::Gpu;
+use std::time::SystemTime;
+use straightline_study::execute::Clock;
+use straightline_study::record::Circumstances;
+
+pub use watch::Progress;
+
+/// Measures, and writes records and the page.
+pub fn run(args: &StudyArgs) -> Result<(), Failure> {
+    let common = &args.common;
+    let mut progress = Progress::new()?;
+    match &args.study {
+        Some(Study::Loops(loops)) => loops::run(common, loops, &mut progress),
+        Some(Study::Error(error)) => error::run(common, error, &mut progress),
+        Some(Study::Hard(hard)) => hard::run(common, hard, &mut progress),
+        Some(Study::Report) => Ok(()),
+        None => {
+            loops::run(common, &Default::default(), &mut progress)?;
+            error::run(common, &Default::default(), &mut progress)?;
+            hard::run(common, &Default::default(), &mut progress)
+        }
+    }
+}
+
+/// What a record says of this run. `complete` is to be put right when it ends.
+pub fn circumstances(common: &CommonArgs, gpu: &Gpu) -> Circumstances {
+    Circumstances {
+        command: command(),
+        date: humantime::format_rfc3339_seconds(SystemTime::now()).to_string(),
+        adapter: gpu.describe(),
+        processor: processor(),
+        clock: match gpu.timestamps {
+            true => Clock::GpuTimestamps,
+            false => Clock::WallClock,
+        },
+        size: common.size().to_array(),
+        rounds: common.rounds(),
+        complete: true,
+    }
+}
+
+/// The command as it was given, with the program's name for its path.
+fn command() -> String {
+    let arguments = std::env::args().skip(1);
+    std::iter::once("straightline".to_owned())
+        .chain(arguments)
+        .collect::<Vec<_>>()
+        .join(" ")
+}
+
+/// What the processor calls itself, and its threads.
+fn processor() -> String {
+    let threads = std::thread::available_parallelism().map_or(1, usize::from);
+    let told = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+    let name = told.lines().find_map(|line| line.strip_prefix("model name"));
+    let name = name.map_or("unknown processor", |name| name.trim_start_matches([' ', '\t', ':']));
+    format!("{name}, {threads} threads")
+}

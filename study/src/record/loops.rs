@@ -1,0 +1,127 @@
+//! Unroll against loop.
+
+use super::{Circumstances, Record};
+use crate::execute::{Ratio, Times};
+use serde::{Deserialize, Serialize};
+
+/// What became of a kernel's loops.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum FormKind {
+    /// Loops kept, as wgpu compiles them: with a bound on the rounds of each. All others are compared with this.
+    Looped,
+    /// Loops kept, without that bound.
+    LoopedUnchecked,
+    /// Loops kept, and written by hand for speed: what is read several times is read once, into arrays.
+    LoopedByHand,
+    /// Two rounds in a row.
+    Partial2,
+    /// Four rounds in a row.
+    Partial4,
+    /// No loop left; each read as often as the source asks for it.
+    FullUnshared,
+    /// No loop left; each distinct read once.
+    Full,
+    /// As `Full`, each invocation computing 2x2 pixels.
+    FullBlock,
+    /// The reads and the store of `Full`, and next to no arithmetic between: what no form can beat.
+    Floor,
+}
+
+/// A kernel in one form.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Form {
+    /// Which.
+    pub kind: FormKind,
+    /// Loops that are left.
+    pub loops: u32,
+    /// Statements of the emitted text.
+    pub statements: u32,
+    /// Texture and buffer reads of one invocation.
+    pub reads: u32,
+    /// Bytes of SPIR-V.
+    pub spirv_bytes: usize,
+    /// Milliseconds that the driver took to make a pipeline of it.
+    pub pipeline_ms: f64,
+    /// Time of a frame.
+    pub time: Times,
+    /// How many times as fast as `Looped`.
+    pub ratio: Ratio,
+    /// Largest difference to the same kernel in `f64` over all but the thousandth of the pixels that differ most; `None`
+    /// for the floor, which computes nothing.
+    pub difference_999: Option<f64>,
+    /// Largest difference of all pixels.
+    pub difference: Option<f64>,
+}
+
+/// A kernel in every form.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct KernelForms {
+    /// A name for people: the kernel's, with what distinguishes it.
+    pub kernel: String,
+    /// Options that are not the default.
+    pub options: Vec<(String, String)>,
+    /// What it was run on.
+    pub input: String,
+    /// Its forms, `Looped` first. One that a kernel does not have is left out.
+    pub forms: Vec<Form>,
+    /// Forms that there are not, and why.
+    pub absent: Vec<(FormKind, String)>,
+}
+
+/// What unrolling is worth.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct LoopsRecord {
+    /// Circumstances.
+    #[serde(flatten)]
+    pub circumstances: Circumstances,
+    /// All kernels.
+    pub kernels: Vec<KernelForms>,
+}
+
+impl Record for LoopsRecord {
+    const STEM: &'static str = "loops";
+
+    fn table(&self) -> (Vec<&'static str>, Vec<Vec<String>>) {
+        let head = vec![
+            "kernel",
+            "form",
+            "loops",
+            "statements",
+            "reads",
+            "spirv_bytes",
+            "pipeline_ms",
+            "median_ms",
+            "min_ms",
+            "max_ms",
+            "times_as_fast",
+            "times_as_fast_low",
+            "times_as_fast_high",
+            "off_f64_999",
+            "off_f64_largest",
+        ];
+        let optional = |value: Option<f64>| value.map_or(String::new(), |v| format!("{v:.3e}"));
+        let rows = self.kernels.iter().flat_map(|kernel| {
+            kernel.forms.iter().map(move |form| {
+                vec![
+                    kernel.kernel.clone(),
+                    super::name(&form.kind),
+                    form.loops.to_string(),
+                    form.statements.to_string(),
+                    form.reads.to_string(),
+                    form.spirv_bytes.to_string(),
+                    format!("{:.3}", form.pipeline_ms),
+                    format!("{:.4}", form.time.median_ms),
+                    format!("{:.4}", form.time.min_ms),
+                    format!("{:.4}", form.time.max_ms),
+                    format!("{:.3}", form.ratio.median),
+                    format!("{:.3}", form.ratio.low),
+                    format!("{:.3}", form.ratio.high),
+                    optional(form.difference_999),
+                    optional(form.difference),
+                ]
+            })
+        });
+        (head, rows.collect())
+    }
+}

@@ -1,0 +1,140 @@
+//! Methods of antialiasing against references.
+
+use super::{Circumstances, Record};
+use crate::execute::Times;
+use serde::{Deserialize, Serialize};
+
+/// What kind of method it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Family {
+    /// One shading sample a pixel, as it is.
+    None,
+    /// Subpixel reconstruction.
+    Sraa,
+    /// The filters of S.T.A.L.K.E.R. and Tabula Rasa, which look for edges in the G-buffer.
+    Edge,
+    /// FXAA and SMAA, which look for edges in the picture.
+    Picture,
+    /// More shading samples, or as many coverage samples.
+    Supersampling,
+}
+
+/// Errors of a method on a scene, against 256 samples a pixel. PSNR over linear RGB clamped to 0..=1, in dB; a class of
+/// pixels that the scene has none of has `None`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct MethodErrors {
+    /// A name for people, the same in all scenes.
+    pub method: String,
+    /// Its kind.
+    pub family: Family,
+    /// Options of its kernel that are not the default.
+    pub options: Vec<(String, String)>,
+    /// All pixels.
+    pub psnr: f64,
+    /// Structural similarity, 1 for equal pictures.
+    pub ssim: f64,
+    /// Mean FLIP, 0 for equal pictures.
+    pub flip: f64,
+    /// Pixels with an edge of geometry in them.
+    pub psnr_geometry: Option<f64>,
+    /// Pixels with an edge of shading and none of geometry.
+    pub psnr_shading: Option<f64>,
+    /// All others.
+    pub psnr_flat: Option<f64>,
+    /// Share of the gap between no antialiasing and 16x supersampling, in dB, that it closes: 0 to 1, more if it is better.
+    pub gap_closed: f64,
+    /// Root of the mean squared error of frame differences, over a slow pan; `None` where it was not taken.
+    pub temporal: Option<f64>,
+    /// Time of the filter alone, without what it reads being drawn; `None` for what is not a filter.
+    pub time: Option<Times>,
+    /// Bytes of what it reads and writes: G-buffer, picture and target.
+    pub bytes: u64,
+    /// Pixels that are not finite.
+    pub non_finite: usize,
+    /// Picture beside the record, if one was written.
+    pub picture: Option<String>,
+}
+
+/// Shares of a scene's pixels, 0 to 1.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Shares {
+    /// With an edge of geometry in them.
+    pub geometry: f64,
+    /// With an edge of shading and none of geometry.
+    pub shading: f64,
+    /// With neither.
+    pub flat: f64,
+    /// With a surface in them that no shading sample around them saw.
+    pub unseen: f64,
+}
+
+/// All methods on a scene.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SceneErrors {
+    /// Its name, or the path of a model or capture.
+    pub scene: String,
+    /// What it is for.
+    pub purpose: String,
+    /// Kinds of its pixels.
+    pub shares: Shares,
+    /// Picture of the reference, if one was written.
+    pub reference: Option<String>,
+    /// Its methods.
+    pub methods: Vec<MethodErrors>,
+}
+
+/// Speed against error.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct QualityRecord {
+    /// Circumstances.
+    #[serde(flatten)]
+    pub circumstances: Circumstances,
+    /// All scenes.
+    pub scenes: Vec<SceneErrors>,
+}
+
+impl Record for QualityRecord {
+    const STEM: &'static str = "error";
+
+    fn table(&self) -> (Vec<&'static str>, Vec<Vec<String>>) {
+        let head = vec![
+            "scene",
+            "method",
+            "family",
+            "psnr_db",
+            "ssim",
+            "flip",
+            "psnr_geometry_db",
+            "psnr_shading_db",
+            "psnr_flat_db",
+            "gap_closed",
+            "temporal",
+            "median_ms",
+            "bytes",
+            "non_finite",
+        ];
+        let optional = |value: Option<f64>| value.map_or(String::new(), |v| format!("{v:.4}"));
+        let rows = self.scenes.iter().flat_map(|scene| {
+            scene.methods.iter().map(move |m| {
+                vec![
+                    scene.scene.clone(),
+                    m.method.clone(),
+                    super::name(&m.family),
+                    format!("{:.4}", m.psnr),
+                    format!("{:.6}", m.ssim),
+                    format!("{:.6}", m.flip),
+                    optional(m.psnr_geometry),
+                    optional(m.psnr_shading),
+                    optional(m.psnr_flat),
+                    format!("{:.4}", m.gap_closed),
+                    m.temporal.map_or(String::new(), |v| format!("{v:.4e}")),
+                    optional(m.time.map(|t| t.median_ms)),
+                    m.bytes.to_string(),
+                    m.non_finite.to_string(),
+                ]
+            })
+        });
+        (head, rows.collect())
+    }
+}

@@ -1,0 +1,126 @@
+//! The cheapest shader that a scene needs.
+
+use super::{Circumstances, Record};
+use crate::execute::{Ratio, Times};
+use serde::{Deserialize, Serialize};
+
+/// A variant that was tried.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Candidate {
+    /// Options that are not the default.
+    pub options: Vec<(String, String)>,
+    /// `f16` or `f32`.
+    pub precision: String,
+    /// Pixels of one invocation.
+    pub block: [u32; 2],
+    /// Its error by the record's metric: dB of PSNR or mean FLIP.
+    pub error: f64,
+    /// Pixels that are not finite.
+    pub non_finite: usize,
+    /// Texture reads a pixel.
+    pub reads: f64,
+    /// Statements a pixel.
+    pub statements: f64,
+    /// Bytes of G-buffer that it reads.
+    pub gbuffer_bytes: u64,
+    /// What the model says that it takes.
+    pub predicted_ms: f64,
+    /// What it takes, if it was run.
+    pub time: Option<Times>,
+    /// How many times as fast as the most general variant, if it was run.
+    pub ratio: Option<Ratio>,
+    /// Whether no other is both faster and better.
+    pub front: bool,
+}
+
+/// A term that the chosen shader does without.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct LeftOut {
+    /// What: normals, planes, 16 samples, mask, f32.
+    pub term: String,
+    /// What that cost in error: with it minus without it, by the record's metric, so that what is lost is positive.
+    pub cost: f64,
+}
+
+/// A model of time, linear in static counts.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Model {
+    /// Counts, and milliseconds for each of them and million pixels.
+    pub terms: Vec<(String, f64)>,
+    /// Variants that it was learned from.
+    pub learned_from: usize,
+    /// Variants that it was tested on, none of them learned from.
+    pub tested_on: usize,
+    /// Mean of |predicted - measured| / measured over those.
+    pub mean_error: f64,
+    /// The largest of them.
+    pub largest_error: f64,
+}
+
+/// What a scene needs.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct TuneRecord {
+    /// Circumstances.
+    #[serde(flatten)]
+    pub circumstances: Circumstances,
+    /// The scene's name, or the capture's path.
+    pub scene: String,
+    /// `psnr` or `flip`.
+    pub metric: String,
+    /// The budget as it was asked for, and what the variants are compared with: for PSNR dB that may be lost against the best
+    /// variant, for FLIP the largest mean.
+    pub max_error: f64,
+    /// Every variant.
+    pub candidates: Vec<Candidate>,
+    /// Index of the chosen one; `None` if none is within the budget.
+    pub chosen: Option<usize>,
+    /// Index of the most general one.
+    pub general: usize,
+    /// What the chosen one leaves out.
+    pub left_out: Vec<LeftOut>,
+    /// How times were predicted.
+    pub model: Model,
+}
+
+impl Record for TuneRecord {
+    const STEM: &'static str = "tune";
+
+    fn table(&self) -> (Vec<&'static str>, Vec<Vec<String>>) {
+        let head = vec![
+            "options",
+            "precision",
+            "block",
+            "error",
+            "reads",
+            "statements",
+            "gbuffer_bytes",
+            "predicted_ms",
+            "median_ms",
+            "times_as_fast",
+            "front",
+            "chosen",
+        ];
+        let rows = self.candidates.iter().enumerate().map(|(index, c)| {
+            let options: Vec<String> = c
+                .options
+                .iter()
+                .map(|(name, value)| format!("{name}={value}"))
+                .collect();
+            vec![
+                options.join(" "),
+                c.precision.clone(),
+                format!("{}x{}", c.block[0], c.block[1]),
+                format!("{:.5}", c.error),
+                format!("{:.2}", c.reads),
+                format!("{:.2}", c.statements),
+                c.gbuffer_bytes.to_string(),
+                format!("{:.4}", c.predicted_ms),
+                c.time.map_or(String::new(), |t| format!("{:.4}", t.median_ms)),
+                c.ratio.map_or(String::new(), |r| format!("{:.3}", r.median)),
+                c.front.to_string(),
+                (self.chosen == Some(index)).to_string(),
+            ]
+        });
+        (head, rows.collect())
+    }
+}
