@@ -168,7 +168,16 @@ impl Bench {
     /// If it cannot be emitted or run on these inputs.
     pub fn run(&self, compiled: &Compiled, stage: Stage, inputs: &Inputs) -> Result<Frame<Vec4>, ExecuteError> {
         let (pass, manifest) = self.pass(compiled, stage)?;
-        let bound = self.bind(&pass, &manifest, inputs)?;
+        self.shown(&pass, &manifest, inputs)
+    }
+
+    /// Every pixel of a kernel that is a pass already. Uniforms that `inputs` do not name keep what they had.
+    ///
+    /// # Errors
+    ///
+    /// If it cannot be run on these inputs.
+    pub fn shown(&self, pass: &Pass, manifest: &Manifest, inputs: &Inputs) -> Result<Frame<Vec4>, ExecuteError> {
+        let bound = self.bind(pass, manifest, inputs)?;
         let target = self.target(inputs.size, pass.target_format());
         let view = target.create_view(&wgpu::TextureViewDescriptor::default());
         let mut encoder = self

@@ -34,14 +34,23 @@ pub fn run(args: &StudyArgs) -> Result<(), Failure> {
 /// What a record says of this run. `complete` is to be put right when it ends.
 pub fn circumstances(common: &CommonArgs, gpu: &Gpu) -> Circumstances {
     Circumstances {
-        command: command(),
-        date: humantime::format_rfc3339_seconds(SystemTime::now()).to_string(),
         adapter: gpu.describe(),
-        processor: processor(),
         clock: match gpu.timestamps {
             true => Clock::GpuTimestamps,
             false => Clock::WallClock,
         },
+        ..on_processor(common)
+    }
+}
+
+/// What the record of a run without a device says.
+pub fn on_processor(common: &CommonArgs) -> Circumstances {
+    Circumstances {
+        command: command(),
+        date: humantime::format_rfc3339_seconds(SystemTime::now()).to_string(),
+        adapter: "none: interpreter only".to_owned(),
+        processor: processor(),
+        clock: Clock::WallClock,
         size: common.size().to_array(),
         rounds: common.rounds(),
         complete: true,

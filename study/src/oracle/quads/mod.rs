@@ -43,13 +43,34 @@ pub fn binomial(radius: i64, x: i64) -> f64 {
     factorial(n) / factorial(radius + x) / factorial(radius - x) / 2.0f64.powi(n as i32)
 }
 
+/// Depths are at most this, by definition of the filters; what is infinite or not a number is as deep.
+const DEEPEST: f64 = 1.0e30;
+
+/// Colours are less than this, by definition of the filters; a texel with another has no weight.
+const BRIGHTEST: f64 = 3.0e38;
+
+/// `depth` as it counts.
+pub fn bounded(depth: f64) -> f64 {
+    if depth.abs() < DEEPEST { depth } else { DEEPEST }
+}
+
+/// A texel as it counts, colour and depth: one of whose first `lanes` components any is not finite is black, and of no
+/// surface.
+pub fn counted(texel: [f64; 4], lanes: usize) -> [f64; 4] {
+    match texel.iter().take(lanes).all(|c| c.abs() < BRIGHTEST) {
+        true => [texel[0], texel[1], texel[2], bounded(texel[3])],
+        false => [0.0, 0.0, 0.0, -DEEPEST],
+    }
+}
+
 /// The mean of the pixels around, weighed by Gaussians of distance and of depth, the fourth component.
 pub fn bilateral(image: &Picture, radius: i64, sigma: f64, depth_sigma: f64, [x, y]: [i64; 2]) -> [f64; 4] {
-    let centre = image.at(x, y);
+    let surface = |x: i64, y: i64| counted(image.at(x, y), 3);
+    let centre = surface(x, y);
     let (mut sum, mut total) = ([0.0; 3], 0.0);
     for j in -radius..=radius {
         for i in -radius..=radius {
-            let texel = image.at(x + i, y + j);
+            let texel = surface(x + i, y + j);
             let z = (texel[3] - centre[3]) / depth_sigma;
             let weight = (-0.5 * (((i * i + j * j) as f64) / (sigma * sigma) + z * z)).exp();
             total += weight;
@@ -58,7 +79,7 @@ pub fn bilateral(image: &Picture, radius: i64, sigma: f64, depth_sigma: f64, [x,
             }
         }
     }
-    [sum[0] / total, sum[1] / total, sum[2] / total, centre[3]]
+    [sum[0] / total, sum[1] / total, sum[2] / total, bounded(image.at(x, y)[3])]
 }
 
 /// What tells surfaces apart in upsampling.
@@ -79,35 +100,74 @@ pub struct Upsampled<'a> {
     pub normal_sigma: Option<f64>,
 }
 
-/// The four texels of low resolution around the pixel's centre, each standing for a corner of pixels: tent times Gaussians.
-pub fn upsampling(inputs: &Upsampled<'_>, [x, y]: [i64; 2]) -> [f64; 4] {
+/// A texel of low resolution as a pixel sees it.
+#[derive(Clone, Copy, Debug)]
+pub struct Tap {
+    /// Its colour; black if that does not count.
+    pub color: [f64; 4],
+    /// Its weight by distance on the screen.
+    pub tent: f64,
+    /// How far its depth is from the pixel's.
+    pub away: f64,
+    /// One less the cosine between normals, in units of its sigma; 0 if normals do not count.
+    pub turned: f64,
+    /// Sum of the sizes of the cosine's products.
+    pub products: f64,
+    /// What its weight is exp(-1/2) to the power of.
+    pub exponent: f64,
+}
+
+/// The four texels of low resolution around the pixel's centre, each standing for a corner of pixels.
+pub fn upsampling_taps(inputs: &Upsampled<'_>, [x, y]: [i64; 2]) -> [Tap; 4] {
     let factor = inputs.factor as f64;
     let place = [(x as f64 + 0.5) / factor, (y as f64 + 0.5) / factor];
     let first = place.map(f64::floor);
-    let z = inputs.depth.at(x, y)[0];
+    let z = bounded(inputs.depth.at(x, y)[0]);
     let normal = inputs.normal.at(x, y);
+    [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]].map(|[i, j]| {
+        let at = [first[0] + i, first[1] + j];
+        let tent = (1.0 - (place[0] - at[0]).abs()) * (1.0 - (place[1] - at[1]).abs());
+        let texel = inputs.low.at(at[0] as i64, at[1] as i64);
+        let surface = inputs.surface.at(at[0] as i64, at[1] as i64);
+        let (color, depth) = match texel.iter().all(|c| c.abs() < BRIGHTEST) {
+            true => (texel, bounded(surface[3])),
+            false => ([0.0; 4], -DEEPEST),
+        };
+        let away = (depth - z).abs();
+        let (mut turned, mut products) = (0.0, 0.0);
+        if let Some(sigma) = inputs.normal_sigma {
+            let cosine: f64 = (0..3).map(|k| surface[k] * normal[k]).sum();
+            products = 1.0 + (0..3).map(|k| (surface[k] * normal[k]).abs()).sum::<f64>();
+            turned = (1.0 - cosine) / sigma;
+        }
+        Tap {
+            color,
+            tent,
+            away,
+            turned,
+            products,
+            exponent: (away / inputs.depth_sigma).powi(2) + turned.powi(2),
+        }
+    })
+}
+
+/// The four texels of low resolution around the pixel's centre, weighed: tent times Gaussians. Where none is of a like
+/// surface, the one with the nearest depth.
+pub fn upsampling(inputs: &Upsampled<'_>, at: [i64; 2]) -> [f64; 4] {
+    let taps = upsampling_taps(inputs, at);
     let (mut sum, mut total) = ([0.0; 4], 0.0);
     let mut nearest = (f64::INFINITY, [0.0; 4]);
-    for j in 0..2 {
-        for i in 0..2 {
-            let at = [first[0] + f64::from(i), first[1] + f64::from(j)];
-            let tent = (1.0 - (place[0] - at[0]).abs()) * (1.0 - (place[1] - at[1]).abs());
-            let texel = inputs.low.at(at[0] as i64, at[1] as i64);
-            let surface = inputs.surface.at(at[0] as i64, at[1] as i64);
-            let away = (surface[3] - z).abs();
-            let mut exponent = (away / inputs.depth_sigma).powi(2);
-            if let Some(sigma) = inputs.normal_sigma {
-                let cosine: f64 = (0..3).map(|k| surface[k] * normal[k]).sum();
-                exponent += ((1.0 - cosine) / sigma).powi(2);
-            }
-            let weight = tent * (-0.5 * exponent).exp();
+    for tap in taps {
+        let weight = tap.tent * (-0.5 * tap.exponent).exp();
+        // What cannot be told has no weight.
+        if weight > 0.0 {
             total += weight;
-            for k in 0..4 {
-                sum[k] += weight * texel[k];
+            for (sum, lane) in sum.iter_mut().zip(tap.color) {
+                *sum += weight * lane;
             }
-            if away < nearest.0 {
-                nearest = (away, texel);
-            }
+        }
+        if tap.away < nearest.0 {
+            nearest = (tap.away, tap.color);
         }
     }
     if total > 1.0e-20 {
