@@ -102,11 +102,10 @@ pub fn quad_upsampling(
         let mut exponent = z * z;
         if cfg.compares_normals() {
             let n = (1.0 - taps[k].normal.dot(own_normal)) / cfg.normal_sigma;
-            exponent += n * n;
+            // A normal that is not a number tells nothing.
+            exponent += (n * n).ge(0.0).select(n * n, Quad::splat(0.0));
         }
         let weight = tally("weight_evaluations", taps[k].tent * (exponent * HALF_LOG2_E).exp2());
-        // A normal that is not a number is like no other.
-        let weight = weight.gt(0.0).select(weight, Quad::splat(0.0));
         weights[k] = weight;
         total += weight;
         if k == 0 {

@@ -185,8 +185,8 @@ fn places(inputs: &Inputs) -> impl Iterator<Item = [i64; 2]> {
     (0..size.y).flat_map(move |y| (0..size.x).map(move |x| [i64::from(x), i64::from(y)]))
 }
 
-/// A Gaussian weight, and the most that it may be off where its exponent −x is a sum of `inexact` squares that are off by
-/// some roundings.
+/// A Gaussian weight `tent` exp(−`exponent`), and the most that it may be off, `off` being the most that the exponent is beside
+/// the rounding of the squares that it is a sum of.
 fn gaussian(tent: f64, exponent: f64, off: f64) -> (f64, f64) {
     let rounding = &Rounding::SINGLE;
     let weight = tent * (-exponent).exp();
@@ -273,7 +273,6 @@ fn upsampling_off(given: &quads::Upsampled<'_>, at: [i64; 2]) -> f64 {
         let n_off = 8.0 * unit * tap.products / given.normal_sigma.unwrap_or(1.0);
         let off = n_off * tap.turned.abs() + n_off * n_off;
         let (weight, most) = gaussian(tap.tent, 0.5 * tap.exponent, off);
-        let (weight, most) = if weight.is_nan() { (0.0, 0.0) } else { (weight, most) };
         shares.push(Share {
             color: tap.color,
             weight,
@@ -284,6 +283,10 @@ fn upsampling_off(given: &quads::Upsampled<'_>, at: [i64; 2]) -> f64 {
     let rounded = 24.0 * unit * brightest + 24.0 * Rounding::SINGLE.smallest;
     let range = taps.iter().flat_map(|a| taps.iter().map(|b| apart(&a.color, &b.color))).fold(0.0, f64::max);
     let (low, high) = shares.iter().fold((0.0, 0.0), |(l, h), s| (l + (s.weight - s.off).max(0.0), h + s.weight + s.off));
+    // A sum of products that are infinite in 32 bits may be no number there.
+    if taps.iter().any(|tap| tap.products > f64::from(f32::MAX)) {
+        return range + rounded;
+    }
     if low > SMALLEST_SUM {
         return bound::of_mean(&shares, true, &Rounding::SINGLE) + rounded;
     }

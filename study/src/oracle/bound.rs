@@ -69,13 +69,13 @@ struct Range {
 impl Range {
     /// A difference of surfaces, 0 or more, that may be off by so much.
     fn around(value: f64, off: f64) -> Range {
-        match off.is_nan() {
-            true => Range {
-                low: 0.0,
-                high: bounded(f64::INFINITY),
-            },
-            false => Range {
-                low: bounded((value - off).max(if value.is_nan() { f64::NAN } else { 0.0 })),
+        let far = bounded(f64::INFINITY);
+        match (value.is_nan(), off.is_nan()) {
+            // Of what is read as no number, in any precision.
+            (true, _) => Range { low: far, high: far },
+            (false, true) => Range { low: 0.0, high: far },
+            (false, false) => Range {
+                low: bounded((value - off).max(0.0)),
                 high: bounded(value + off),
             },
         }

@@ -111,7 +111,7 @@ pub struct Tap {
     pub away: f64,
     /// One less the cosine between normals, in units of its sigma; 0 if normals do not count.
     pub turned: f64,
-    /// Sum of the sizes of the cosine's products.
+    /// Sum of the sizes of the cosine's products; 0 where they tell nothing.
     pub products: f64,
     /// What its weight is exp(-1/2) to the power of.
     pub exponent: f64,
@@ -138,7 +138,10 @@ pub fn upsampling_taps(inputs: &Upsampled<'_>, [x, y]: [i64; 2]) -> [Tap; 4] {
         if let Some(sigma) = inputs.normal_sigma {
             let cosine: f64 = (0..3).map(|k| surface[k] * normal[k]).sum();
             products = 1.0 + (0..3).map(|k| (surface[k] * normal[k]).abs()).sum::<f64>();
+            products = if cosine.is_nan() { 0.0 } else { products };
             turned = (1.0 - cosine) / sigma;
+            // What is no number tells nothing.
+            turned = if turned.is_nan() { 0.0 } else { turned };
         }
         Tap {
             color,
@@ -159,12 +162,9 @@ pub fn upsampling(inputs: &Upsampled<'_>, at: [i64; 2]) -> [f64; 4] {
     let mut nearest = (f64::INFINITY, [0.0; 4]);
     for tap in taps {
         let weight = tap.tent * (-0.5 * tap.exponent).exp();
-        // What cannot be told has no weight.
-        if weight > 0.0 {
-            total += weight;
-            for (sum, lane) in sum.iter_mut().zip(tap.color) {
-                *sum += weight * lane;
-            }
+        total += weight;
+        for (sum, lane) in sum.iter_mut().zip(tap.color) {
+            *sum += weight * lane;
         }
         if tap.away < nearest.0 {
             nearest = (tap.away, tap.color);
