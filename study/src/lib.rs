@@ -11,4 +11,5 @@ pub mod oracle;
 pub mod picture;
 pub mod record;
 pub mod render;
+pub mod report;
 pub mod scene;
