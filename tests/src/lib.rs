@@ -5,4 +5,5 @@
 
 pub mod quads;
 pub mod random;
+pub mod readme;
 pub mod sraa;
