@@ -47,14 +47,11 @@ fn integers_become_numbers() {
         let large = (n as u32).wrapping_mul(100_000);
         let exact =
             [f64::from(n), f64::from(-n), f64::from(large), f64::from(x - 30)].map(|n| n.clamp(-65504.0, 65504.0));
-        for lane in 0..4 {
-            let near = f16::from_f64(exact[lane]).to_f64();
+        for (lane, exact) in exact.into_iter().enumerate() {
+            let near = f16::from_f64(exact).to_f64();
             assert_eq!(f64::from(found.load(ivec2(x, 0))[lane]), near, "{x}, lane {lane}");
-            let off = (f64::from(shown.load(ivec2(x, 0))[lane]) - exact[lane]).abs();
-            assert!(
-                off < (exact[lane].abs() / 1024.0).max(f64::MIN_POSITIVE),
-                "{x}, lane {lane}"
-            );
+            let off = (f64::from(shown.load(ivec2(x, 0))[lane]) - exact).abs();
+            assert!(off < (exact.abs() / 1024.0).max(f64::MIN_POSITIVE), "{x}, lane {lane}");
         }
     }
 }
