@@ -10,8 +10,16 @@ pub trait Real:
 {
     /// `f16`, `f32` or `f64`.
     const NAME: &'static str;
+    /// What samplers compute in: they take and give `f32` where shaders compute in less.
+    type Sampled: Real;
     /// The nearest number.
     fn from_f64(x: f64) -> Self;
+    /// A number that the kernel makes itself, a constant or of an integer: the nearest one that is finite, and not zero, if
+    /// that was neither. A bound such as `x.min(1.0e30)` must go on bounding, and `sum.max(1.0e-12)` must go on keeping a
+    /// division from 0/0.
+    fn made(x: f64) -> Self {
+        Self::from_f64(x)
+    }
     /// The same number.
     fn to_f64(self) -> f64;
     /// Its bits, the unused high ones 0.
@@ -28,6 +36,7 @@ macro_rules! real {
     ($ty:ty, $bits:ty) => {
         impl Real for $ty {
             const NAME: &'static str = stringify!($ty);
+            type Sampled = $ty;
 
             fn from_f64(x: f64) -> Self {
                 x as $ty
@@ -110,6 +119,20 @@ impl F16 {
     fn round(x: f32) -> F16 {
         F16(half::f16::from_f32(x))
     }
+
+    /// The nearest number; of a finite one a finite one, and of one that is not zero one that is not.
+    pub(crate) fn nearest(x: f64) -> half::f16 {
+        use half::f16;
+        let near = f16::from_f64(x);
+        let instead = if near.is_infinite() && x.is_finite() {
+            f16::MAX
+        } else if near.to_f32() == 0.0 && x != 0.0 {
+            f16::MIN_POSITIVE_SUBNORMAL
+        } else {
+            near
+        };
+        f16::from_f64(instead.to_f64().copysign(x))
+    }
 }
 
 impl Add for F16 {
@@ -138,9 +161,14 @@ impl Mul for F16 {
 
 impl Real for F16 {
     const NAME: &'static str = "f16";
+    type Sampled = f32;
 
     fn from_f64(x: f64) -> Self {
         F16(half::f16::from_f64(x))
+    }
+
+    fn made(x: f64) -> Self {
+        F16(F16::nearest(x))
     }
 
     fn to_f64(self) -> f64 {

@@ -11,6 +11,7 @@ mod schedule;
 pub use count::{count, layers_read};
 pub use fold::Exact;
 pub use lanes::{by_derivatives, expand};
+pub(crate) use ranges::bounds;
 pub use schedule::{Block, Schedule, Step, schedule};
 
 use crate::ir::{Graph, Rebuild, rebuild};
