@@ -124,6 +124,7 @@ impl OptionArgs {
             budget: self.budget,
             transport: self.transport,
             block: self.block.to_array(),
+            ..Settings::default()
         }
     }
 }

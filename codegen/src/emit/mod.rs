@@ -74,6 +74,9 @@ pub struct EmitOptions {
     pub targets: BTreeSet<Target>,
     /// Whether WGSL with quad operations begins with `enable subgroups;`: browsers ask for it, naga and wgpu refuse it.
     pub enable_subgroups: bool,
+    /// Whether naga leaves out the bound that it otherwise puts on the rounds of every loop of SPIR-V, HLSL and MSL. The
+    /// loops that this generator emits end without one: each counts to an integer that is computed before it.
+    pub unbounded_loops: bool,
 }
 
 impl EmitOptions {
@@ -90,6 +93,7 @@ impl EmitOptions {
             region: false,
             targets: BTreeSet::from([Target::Wgsl]),
             enable_subgroups: false,
+            unbounded_loops: false,
         }
     }
 
@@ -108,6 +112,12 @@ impl EmitOptions {
     /// For a rectangle that the host states: one more uniform buffer says where it lies in the inputs and in the target.
     pub fn region(mut self, region: bool) -> Self {
         self.region = region;
+        self
+    }
+
+    /// Whether loops of SPIR-V, HLSL and MSL go without a bound of naga's.
+    pub fn unbounded_loops(mut self, unbounded: bool) -> Self {
+        self.unbounded_loops = unbounded;
         self
     }
 
