@@ -6,6 +6,7 @@ pub mod capture;
 pub mod encode;
 pub mod execute;
 pub mod gbuffer;
+pub mod loops;
 pub mod metrics;
 pub mod oracle;
 pub mod picture;
