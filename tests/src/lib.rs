@@ -5,4 +5,5 @@
 
 pub use straightline_study::oracle::quads;
 pub mod random;
+pub mod readme;
 pub mod sraa;

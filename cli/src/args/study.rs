@@ -62,7 +62,18 @@ pub enum Study {
 }
 
 #[derive(Clone, Debug, Default, Args)]
-pub struct LoopsArgs {}
+pub struct LoopsArgs {
+    /// A kernel of your own instead of the built-in choice: FILE.rs or FILE.rs::FUNCTION, or a built-in name. May be given
+    /// several times; each is run on a test card
+    #[arg(long, value_name = "KERNEL")]
+    pub from: Vec<String>,
+    /// The same kernel written by hand with its loops, reading the same by the same names: one for each --from, in order
+    #[arg(long, value_name = "KERNEL", requires = "from")]
+    pub by_hand: Vec<String>,
+    /// Also write what each kernel makes to this folder, and all of it in one picture, `all.png`
+    #[arg(long, value_name = "DIR")]
+    pub pictures: Option<PathBuf>,
+}
 
 #[derive(Clone, Debug, Default, Args)]
 pub struct ErrorArgs {}

@@ -12,4 +12,3 @@ pub mod resolve;
 pub mod run;
 pub mod scenes;
 pub mod study;
-pub mod unroll;

@@ -3,11 +3,11 @@
 use super::convert::{self, Converters};
 use super::{Address, Comparison, ExecuteError, Inputs, SamplerState};
 use glam::{UVec2, Vec4, uvec2};
-use straightline_codegen::emit::Target;
+use straightline_codegen::emit::{Emitted, Target};
 use straightline_codegen::{Compiled, EmitOptions, Format, Precision, Stage};
 use straightline_kernels::prelude::Frame;
 use straightline_manifest::{BindingKind, Dimension, Manifest, REGION, SampleType};
-use straightline_runtime::{Pass, Resource};
+use straightline_runtime::{Pass, PassOptions, Resource};
 use wgpu::{TextureFormat, TextureUsages};
 
 /// Samples of a multisampled texel that WebGPU promises.
@@ -102,12 +102,26 @@ impl Bench {
     /// If it cannot be emitted, or the device cannot run it.
     pub fn emitted(&self, compiled: &Compiled, options: &EmitOptions) -> Result<(Pass, Manifest), ExecuteError> {
         let emitted = compiled.emit(options)?;
+        let pass = self.made(&emitted, &PassOptions::default())?;
+        Ok((pass, emitted.manifest))
+    }
+
+    /// What was emitted, its WGSL among it, as a pass.
+    ///
+    /// # Errors
+    ///
+    /// If the device cannot run it.
+    pub fn made(&self, emitted: &Emitted, options: &PassOptions) -> Result<Pass, ExecuteError> {
         let wgsl = emitted
             .files
             .get(&Target::Wgsl)
             .map(|bytes| String::from_utf8_lossy(bytes));
-        let pass = Pass::new(&self.device, &emitted.manifest, &wgsl.unwrap_or_default())?;
-        Ok((pass, emitted.manifest))
+        Ok(Pass::with_options(
+            &self.device,
+            &emitted.manifest,
+            &wgsl.unwrap_or_default(),
+            options,
+        )?)
     }
 
     /// Puts onto the device what a manifest asks for, uniforms into the pass.
@@ -145,20 +159,33 @@ impl Bench {
                         Inputs::find(&inputs.buffers, name).ok_or_else(|| missing("list of elements", name))?;
                     Owned::Buffer(self.buffer(elements, element))
                 }
-                // Stated with each region that is recorded.
-                BindingKind::Uniform { .. } if name == REGION => continue,
-                BindingKind::Uniform { fields, .. } => {
-                    for field in fields {
-                        if let Some(lanes) = Inputs::find(&inputs.uniforms, &field.name) {
-                            convert::write_uniform(pass, &self.queue, field, lanes)?;
-                        }
-                    }
-                    continue;
-                }
+                BindingKind::Uniform { .. } => continue,
             };
             resources.push((binding.name.clone(), owned));
         }
+        self.set_uniforms(pass, manifest, inputs)?;
         Ok(Bound { resources })
+    }
+
+    /// Sets the uniforms of a pass; all that [`bind`](Self::bind) does for a second pass that reads what a first one reads.
+    ///
+    /// # Errors
+    ///
+    /// If a value is of another type.
+    pub fn set_uniforms(&self, pass: &Pass, manifest: &Manifest, inputs: &Inputs) -> Result<(), ExecuteError> {
+        for binding in &manifest.bindings {
+            // The region is stated with each that is recorded.
+            if let BindingKind::Uniform { fields, .. } = &binding.kind
+                && binding.name != REGION
+            {
+                for field in fields {
+                    if let Some(lanes) = Inputs::find(&inputs.uniforms, &field.name) {
+                        convert::write_uniform(pass, &self.queue, field, lanes)?;
+                    }
+                }
+            }
+        }
+        Ok(())
     }
 
     /// Every pixel of a kernel.
@@ -168,17 +195,17 @@ impl Bench {
     /// If it cannot be emitted or run on these inputs.
     pub fn run(&self, compiled: &Compiled, stage: Stage, inputs: &Inputs) -> Result<Frame<Vec4>, ExecuteError> {
         let (pass, manifest) = self.pass(compiled, stage)?;
-        self.shown(&pass, &manifest, inputs)
+        let bound = self.bind(&pass, &manifest, inputs)?;
+        self.picture_of(&pass, &bound, inputs.size)
     }
 
-    /// Every pixel of a kernel that is a pass already. Uniforms that `inputs` do not name keep what they had.
+    /// What a pass that writes full floats makes of its inputs.
     ///
     /// # Errors
     ///
-    /// If it cannot be run on these inputs.
-    pub fn shown(&self, pass: &Pass, manifest: &Manifest, inputs: &Inputs) -> Result<Frame<Vec4>, ExecuteError> {
-        let bound = self.bind(pass, manifest, inputs)?;
-        let target = self.target(inputs.size, pass.target_format());
+    /// If it cannot be encoded, or the device fails.
+    pub fn picture_of(&self, pass: &Pass, bound: &Bound, size: UVec2) -> Result<Frame<Vec4>, ExecuteError> {
+        let target = self.target(size, pass.target_format());
         let view = target.create_view(&wgpu::TextureViewDescriptor::default());
         let mut encoder = self
             .device

@@ -39,9 +39,11 @@ pub struct Form {
     pub statements: u32,
     /// Texture and buffer reads of one invocation.
     pub reads: u32,
-    /// Bytes of SPIR-V.
+    /// Bytes of SPIR-V as emitted, names included.
     pub spirv_bytes: usize,
-    /// Milliseconds that the driver took to make a pipeline of it.
+    /// Milliseconds until the shader was ready: making the pipeline, in which are wgpu's translation of the checked shader and
+    /// the driver's compiling, and what the first frame took longer than others. Drivers that keep what they compiled find
+    /// it again unless that is switched off.
     pub pipeline_ms: f64,
     /// Time of a frame.
     pub time: Times,

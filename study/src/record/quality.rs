@@ -31,16 +31,20 @@ pub struct MethodErrors {
     /// Options of its kernel that are not the default.
     pub options: Vec<(String, String)>,
     /// All pixels.
+    #[serde(with = "decibels")]
     pub psnr: f64,
     /// Structural similarity, 1 for equal pictures.
     pub ssim: f64,
     /// Mean FLIP, 0 for equal pictures.
     pub flip: f64,
     /// Pixels with an edge of geometry in them.
+    #[serde(with = "decibels::optional")]
     pub psnr_geometry: Option<f64>,
     /// Pixels with an edge of shading and none of geometry.
+    #[serde(with = "decibels::optional")]
     pub psnr_shading: Option<f64>,
     /// All others.
+    #[serde(with = "decibels::optional")]
     pub psnr_flat: Option<f64>,
     /// Share of the gap between no antialiasing and 16x supersampling, in dB, that it closes: 0 to 1, more if it is better.
     pub gap_closed: f64,
@@ -136,5 +140,58 @@ impl Record for QualityRecord {
             })
         });
         (head, rows.collect())
+    }
+}
+
+/// Equal pictures are infinitely good, which JSON has no number for: there it is `"Infinity"`.
+mod decibels {
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    const INFINITE: &str = "Infinity";
+
+    #[derive(Serialize, Deserialize)]
+    #[serde(untagged)]
+    enum Decibels {
+        Finite(f64),
+        Named(String),
+    }
+
+    impl Decibels {
+        fn of(value: f64) -> Decibels {
+            match value.is_finite() {
+                true => Decibels::Finite(value),
+                false => Decibels::Named(INFINITE.to_owned()),
+            }
+        }
+
+        fn value<E: serde::de::Error>(self) -> Result<f64, E> {
+            match self {
+                Decibels::Finite(value) => Ok(value),
+                Decibels::Named(name) if name == INFINITE => Ok(f64::INFINITY),
+                Decibels::Named(name) => Err(E::custom(format!("`{name}` is no number of decibels"))),
+            }
+        }
+    }
+
+    pub fn serialize<S: Serializer>(value: &f64, serializer: S) -> Result<S::Ok, S::Error> {
+        Decibels::of(*value).serialize(serializer)
+    }
+
+    pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
+        Decibels::deserialize(deserializer)?.value()
+    }
+
+    pub mod optional {
+        use super::Decibels;
+        use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+        pub fn serialize<S: Serializer>(value: &Option<f64>, serializer: S) -> Result<S::Ok, S::Error> {
+            value.map(Decibels::of).serialize(serializer)
+        }
+
+        pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<f64>, D::Error> {
+            let found = Option::<Decibels>::deserialize(deserializer)?;
+            found.map(Decibels::value).transpose()
+        }
     }
 }

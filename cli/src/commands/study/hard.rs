@@ -13,12 +13,6 @@ use straightline_study::record::{HardRecord, HardResult, Record};
 /// Runs hard cases, prints what became of them, and writes the record.
 pub fn run(common: &CommonArgs, args: &HardArgs, progress: &mut Progress) -> Result<(), Failure> {
     let selection = selection(args)?;
-    if args.list {
-        for case in &selection.cases {
-            println!("{:<32} {}", case.name, case.about);
-        }
-        return Ok(());
-    }
     let gpu = Gpu::open(&common.adapter)?;
     let circumstances = match &gpu {
         Some(gpu) => circumstances(common, gpu),
@@ -36,15 +30,23 @@ pub fn run(common: &CommonArgs, args: &HardArgs, progress: &mut Progress) -> Res
     println!("written: {}", common.out.join("hard.json").display());
     match record.broken().next() {
         None => Ok(()),
-        Some((case, r)) => Err(Failure::Failed(format!(
+        Some((case, r)) => super::page(&common.out).and(Err(Failure::Failed(format!(
             "{} results in default options break what they promise; the first: {} on `{}` by {}, {}",
             record.broken().count(),
             r.kernel,
             case.name,
             executor(r),
             broken(r)
-        ))),
+        )))),
     }
+}
+
+/// Names the cases.
+pub fn list(args: &HardArgs) -> Result<(), Failure> {
+    for case in selection(args)?.cases {
+        println!("{:<32} {}", case.name, case.about);
+    }
+    Ok(())
 }
 
 fn selection(args: &HardArgs) -> Result<Selection, Failure> {

@@ -8,9 +8,11 @@ mod watch;
 use crate::args::{CommonArgs, Study, StudyArgs};
 use crate::failure::Failure;
 use crate::gpu::Gpu;
+use std::path::Path;
 use std::time::SystemTime;
 use straightline_study::execute::Clock;
-use straightline_study::record::Circumstances;
+use straightline_study::record::{Circumstances, Watch};
+use straightline_study::report;
 
 pub use watch::Progress;
 
@@ -19,16 +21,36 @@ pub fn run(args: &StudyArgs) -> Result<(), Failure> {
     let common = &args.common;
     let mut progress = Progress::new()?;
     match &args.study {
-        Some(Study::Loops(loops)) => loops::run(common, loops, &mut progress),
-        Some(Study::Error(error)) => error::run(common, error, &mut progress),
-        Some(Study::Hard(hard)) => hard::run(common, hard, &mut progress),
-        Some(Study::Report) => Ok(()),
-        None => {
-            loops::run(common, &Default::default(), &mut progress)?;
-            error::run(common, &Default::default(), &mut progress)?;
-            hard::run(common, &Default::default(), &mut progress)
+        Some(Study::Loops(loops)) => loops::run(common, loops, &mut progress)?,
+        Some(Study::Error(error)) => error::run(common, error, &mut progress)?,
+        Some(Study::Hard(args)) if args.list => return hard::list(args),
+        Some(Study::Hard(args)) => hard::run(common, args, &mut progress)?,
+        Some(Study::Report) => {}
+        None => all(common, &mut progress)?,
+    }
+    page(&common.out)
+}
+
+/// Every study, until Ctrl-C.
+fn all(common: &CommonArgs, progress: &mut Progress) -> Result<(), Failure> {
+    let studies: [&dyn Fn(&mut Progress) -> Result<(), Failure>; 3] = [
+        &|progress| loops::run(common, &Default::default(), progress),
+        &|progress| error::run(common, &Default::default(), progress),
+        &|progress| hard::run(common, &Default::default(), progress),
+    ];
+    for study in studies {
+        if !progress.stopped() {
+            study(progress)?;
         }
     }
+    Ok(())
+}
+
+/// The page of all records in a folder.
+pub fn page(folder: &Path) -> Result<(), Failure> {
+    let path = report::write(folder).map_err(Failure::of)?;
+    println!("{}", path.display());
+    Ok(())
 }
 
 /// What a record says of this run. `complete` is to be put right when it ends.
