@@ -3,8 +3,8 @@
 use super::{AdapterArgs, size};
 use clap::{Args, Subcommand};
 use glam::UVec2;
-use straightline_codegen::Precision;
 use std::path::PathBuf;
+use straightline_codegen::Precision;
 
 #[derive(Debug, Args)]
 pub struct StudyArgs {

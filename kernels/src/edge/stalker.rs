@@ -64,10 +64,9 @@ pub fn stalker(
             let mut sum = Vec4::ZERO;
             for offset in DIAGONALS {
                 let offset = offset.as_vec2() * (edge * cfg.kernel);
-                // A quarter of each: four of the brightest colours would be infinite.
-                sum += nearby(cfg.non_finite, color, linear, pixel, offset, own) * 0.25;
+                sum += nearby(cfg.non_finite, color, linear, pixel, offset, own);
             }
-            sum
+            sum * 0.25
         }
     }
 }

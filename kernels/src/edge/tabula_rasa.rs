@@ -49,14 +49,13 @@ pub fn tabula_rasa(
             // The loop over `factor` before this one comes to nothing: what it adds up is overwritten.
             let reach = edge.min(1.0) * cfg.weight;
             let own = own(cfg.non_finite, color, pixel);
-            // An eighth of each, which is exact: ten of the brightest colours would be infinite.
-            let mut sum = 0.25 * own;
+            let mut sum = 2.0 * own;
             for offset in HALF {
                 let offset = offset.as_vec2() * reach;
-                sum += nearby(cfg.non_finite, color, linear, pixel, offset, own) * 0.125;
-                sum += nearby(cfg.non_finite, color, linear, pixel, -offset, own) * 0.125;
+                sum += nearby(cfg.non_finite, color, linear, pixel, offset, own);
+                sum += nearby(cfg.non_finite, color, linear, pixel, -offset, own);
             }
-            sum * 0.8
+            sum * 0.1
         }
     }
 }

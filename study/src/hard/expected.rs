@@ -16,10 +16,10 @@ use super::case::Case;
 use super::form::{Family, Form};
 use super::inputs::Reads;
 use crate::execute::Inputs;
+use crate::oracle;
 use crate::oracle::bound::{self, Rounding, Share};
 use crate::oracle::edge::{Edge, Geometry, Stalker, TabulaRasa};
 use crate::oracle::quads::{self, Picture};
-use crate::oracle;
 use glam::{IVec2, Vec4};
 use straightline_kernels::prelude::Frame;
 
@@ -31,6 +31,10 @@ pub struct Expected {
     pub bounds: Vec<f64>,
     /// Most that a device may be off.
     pub device_bounds: Vec<f64>,
+    /// Most that either may be off in `f16`, where that has been analysed.
+    pub half_bounds: Option<Vec<f64>>,
+    /// Components that count: the fourth of some is a depth, or always 1.
+    pub lanes: usize,
 }
 
 /// What a form with `options` should give.
@@ -45,6 +49,8 @@ pub fn expected(form: &Form, options: &[(String, String)], reads: &Reads) -> Res
                 colors: resolved.into_iter().map(|pixel| pixel.color).collect(),
                 device_bounds: bounds.clone(),
                 bounds,
+                half_bounds: Some(bound::sraa(inputs, &params, &Rounding::HALF)?),
+                lanes: 4,
             })
         }
         Family::Stalker | Family::TabulaRasa => Ok(edges(form.family, options, inputs)),
@@ -131,6 +137,8 @@ fn edges(family: Family, options: &[(String, String)], inputs: &Inputs) -> Expec
         colors,
         bounds,
         device_bounds,
+        half_bounds: None,
+        lanes: 4,
     }
 }
 
@@ -203,7 +211,9 @@ fn blurred(options: &[(String, String)], inputs: &Inputs) -> Expected {
     let (radius, sigma) = (number(options, "radius", 2.0) as i64, number(options, "sigma", 2.0));
     let depth_sigma = number(options, "depth-sigma", 0.1);
     let image = picture(inputs, "image", |t| t);
-    let colors = places(inputs).map(|at| quads::bilateral(&image, radius, sigma, depth_sigma, at)).collect();
+    let colors = places(inputs)
+        .map(|at| quads::bilateral(&image, radius, sigma, depth_sigma, at))
+        .collect();
     let most_off = |[x, y]: [i64; 2]| {
         let centre = quads::counted(image.at(x, y), 3);
         let mut shares = Vec::new();
@@ -229,6 +239,8 @@ fn blurred(options: &[(String, String)], inputs: &Inputs) -> Expected {
         colors,
         device_bounds: bounds.clone(),
         bounds,
+        half_bounds: None,
+        lanes: 3,
     }
 }
 
@@ -237,7 +249,11 @@ fn color_of(texel: [f64; 4]) -> [f64; 4] {
 }
 
 fn upsampled(options: &[(String, String)], inputs: &Inputs) -> Expected {
-    let factor: i64 = if Form::value(options, "factor", "twice") == "four-times" { 4 } else { 2 };
+    let factor: i64 = if Form::value(options, "factor", "twice") == "four-times" {
+        4
+    } else {
+        2
+    };
     let packed = Form::value(options, "reads", "packed") == "packed";
     let normals = !packed && Form::value(options, "normals", "false") == "true";
     let low = picture(inputs, "low", |t| if packed { [t[0], t[1], t[2], 1.0] } else { t });
@@ -258,6 +274,8 @@ fn upsampled(options: &[(String, String)], inputs: &Inputs) -> Expected {
         colors,
         device_bounds: bounds.clone(),
         bounds,
+        half_bounds: None,
+        lanes: if packed { 3 } else { 4 },
     }
 }
 
@@ -281,8 +299,13 @@ fn upsampling_off(given: &quads::Upsampled<'_>, at: [i64; 2]) -> f64 {
     }
     let brightest = taps.iter().map(|tap| size(&tap.color)).fold(0.0, f64::max);
     let rounded = 24.0 * unit * brightest + 24.0 * Rounding::SINGLE.smallest;
-    let range = taps.iter().flat_map(|a| taps.iter().map(|b| apart(&a.color, &b.color))).fold(0.0, f64::max);
-    let (low, high) = shares.iter().fold((0.0, 0.0), |(l, h), s| (l + (s.weight - s.off).max(0.0), h + s.weight + s.off));
+    let range = taps
+        .iter()
+        .flat_map(|a| taps.iter().map(|b| apart(&a.color, &b.color)))
+        .fold(0.0, f64::max);
+    let (low, high) = shares.iter().fold((0.0, 0.0), |(l, h), s| {
+        (l + (s.weight - s.off).max(0.0), h + s.weight + s.off)
+    });
     // A sum of products that are infinite in 32 bits may be no number there.
     if taps.iter().any(|tap| tap.products > f64::from(f32::MAX)) {
         return range + rounded;
@@ -297,7 +320,10 @@ fn upsampling_off(given: &quads::Upsampled<'_>, at: [i64; 2]) -> f64 {
     let nearest = taps.iter().map(|tap| tap.away).fold(f64::INFINITY, f64::min);
     let may_be = |tap: &&quads::Tap| tap.away <= nearest + 4.0 * unit * tap.away;
     let near: Vec<_> = taps.iter().filter(may_be).collect();
-    near.iter().flat_map(|a| near.iter().map(|b| apart(&a.color, &b.color))).fold(0.0, f64::max) + rounded
+    near.iter()
+        .flat_map(|a| near.iter().map(|b| apart(&a.color, &b.color)))
+        .fold(0.0, f64::max)
+        + rounded
 }
 
 fn apart(a: &[f64; 4], b: &[f64; 4]) -> f64 {

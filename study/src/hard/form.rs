@@ -84,9 +84,18 @@ impl Form {
             Form::new("stalker linear", Stalker, &[("depth", "linear")]),
             Form::new("stalker paper", Stalker, &[("form", "paper"), ("non-finite", "spread")]).unpromised(),
             Form::new("tabula-rasa", TabulaRasa, &[]),
-            Form::new("tabula-rasa paper", TabulaRasa, &[("form", "paper"), ("non-finite", "spread")]).unpromised(),
+            Form::new(
+                "tabula-rasa paper",
+                TabulaRasa,
+                &[("form", "paper"), ("non-finite", "spread")],
+            )
+            .unpromised(),
             Form::new("upsampling", Upsampling, &[]),
-            Form::new("upsampling normals", Upsampling, &[("reads", "apart"), ("normals", "true")]),
+            Form::new(
+                "upsampling normals",
+                Upsampling,
+                &[("reads", "apart"), ("normals", "true")],
+            ),
             Form::new("bilateral", Bilateral, &[]),
         ]
     }

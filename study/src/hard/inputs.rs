@@ -5,7 +5,7 @@ use super::case::{Case, Normal, Place, Seen};
 use super::form::{Family, Form};
 use crate::encode::{self, DepthEncoding, NormalEncoding};
 use crate::execute::Inputs;
-use crate::oracle::{self, SraaParams, Shading};
+use crate::oracle::{self, Shading, SraaParams};
 use glam::{UVec2, Vec2, Vec3, Vec4, uvec2, vec2};
 use straightline_kernels::prelude::{Frame, FrameLayers};
 
@@ -103,7 +103,10 @@ fn sraa(case: &Case, params: &SraaParams) -> Inputs {
         let packed = encode::packed(&normals, &depths, DepthEncoding::Linear);
         return inputs.layers("packed", packed.layers().to_vec());
     }
-    inputs = inputs.layers("depth", layers(&|seen| Vec4::splat(stored(case, params.depth, seen.depth))));
+    inputs = inputs.layers(
+        "depth",
+        layers(&|seen| Vec4::splat(stored(case, params.depth, seen.depth))),
+    );
     inputs.layers("normal", layers(&|seen| normal(params.normals, seen)))
 }
 
@@ -171,10 +174,13 @@ fn upsampling(case: &Case, options: &[(String, String)]) -> Inputs {
         })
     };
     Inputs::new(case.size)
-        .image("low", low(&|seen| match packed {
-            true => seen.color.truncate().extend(seen.depth),
-            false => seen.color,
-        }))
+        .image(
+            "low",
+            low(&|seen| match packed {
+                true => seen.color.truncate().extend(seen.depth),
+                false => seen.color,
+            }),
+        )
         .image("low_surface", low(&|seen| vector(seen).extend(seen.depth)))
         .image("depth", centres(case, |seen| Vec4::splat(seen.depth)))
         .image("normal", centres(case, |seen| vector(seen).extend(0.0)))

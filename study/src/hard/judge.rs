@@ -99,6 +99,7 @@ impl<'a> Trial<'a> {
             bound: None,
             kept: true,
             promised: false,
+            analysed: None,
             refused: Some(why.to_owned()),
         }
     }
@@ -149,7 +150,7 @@ impl<'a> Trial<'a> {
             if !expected.iter().all(|lane| lane.is_finite()) {
                 continue;
             }
-            for (lane, exact) in texel.iter().zip(expected) {
+            for (lane, exact) in texel.iter().zip(expected).take(self.expected.lanes) {
                 let off = (lane - exact).abs();
                 difference = Some(difference.unwrap_or(0.0).max(off));
                 ulps = Some(ulps.unwrap_or(0.0).max(off / place(*exact, precision)));
@@ -177,6 +178,10 @@ impl<'a> Trial<'a> {
             bound,
             kept,
             promised: self.form.promises && !half,
+            analysed: self.expected.half_bounds.as_ref().filter(|_| half).map(|all| {
+                let finite = all.iter().copied().filter(|bound| bound.is_finite());
+                finite.fold(0.0, f64::max)
+            }),
             refused: None,
         }
     }

@@ -21,7 +21,7 @@ mod verdict;
 pub use case::{Case, Normal, Place, Seen};
 pub use form::{Family, Form, PAPER};
 pub use reals::{Flushed, Loose};
-pub use run::{Selection, run};
+pub use run::{Selection, judged_as, run};
 pub use verdict::half_precision_verdict;
 
 use crate::execute::ExecuteError;

@@ -70,8 +70,8 @@ macro_rules! through {
                 $name(flushed(R::from_f64(x)))
             }
 
-            fn constant(x: f32) -> Self {
-                $name(flushed(R::constant(x)))
+            fn made(x: f64) -> Self {
+                $name(flushed(R::made(x)))
             }
 
             fn to_f64(self) -> f64 {
@@ -198,9 +198,18 @@ mod tests {
     fn subnormal_results_are_zero() {
         let x = Flushed::<f32>::from_f64(1.0e-30);
         assert_eq!((x * x).to_f64(), 0.0);
-        assert_eq!(Flushed::<f32>::from_f64(-1.0e-40).to_f64().to_bits(), (-0.0f64).to_bits());
+        assert_eq!(
+            Flushed::<f32>::from_f64(-1.0e-40).to_f64().to_bits(),
+            (-0.0f64).to_bits()
+        );
         let half = Flushed::<F16>::from_f64(0.01);
-        assert_eq!((half * half).to_f64(), F16::from_f64(0.01).binary(BinaryOp::Mul, F16::from_f64(0.01)).map(Real::to_f64).unwrap_or(0.0));
+        assert_eq!(
+            (half * half).to_f64(),
+            F16::from_f64(0.01)
+                .binary(BinaryOp::Mul, F16::from_f64(0.01))
+                .map(Real::to_f64)
+                .unwrap_or(0.0)
+        );
         let tiny = Flushed::<F16>::from_f64(0.001);
         assert_eq!((tiny * tiny).to_f64(), 0.0);
     }

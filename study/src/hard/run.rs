@@ -79,7 +79,8 @@ pub fn run(
                 let shader = shaders.entry((key.clone(), *precision)).or_insert_with(|| {
                     let kernel = compiled.get(key).ok_or("it was not compiled")?;
                     let half = bench.clone().precision(*precision);
-                    half.pass(kernel, Stage::Compute).map_err(|error: ExecuteError| error.to_string())
+                    half.pass(kernel, Stage::Compute)
+                        .map_err(|error: ExecuteError| error.to_string())
                 });
                 results.push(match shader {
                     Ok((pass, manifest)) => trial.shown(bench, pass, manifest, *precision)?,
@@ -101,6 +102,16 @@ pub fn run(
         half: verdicts(&selection.forms, &done),
         cases: done,
     })
+}
+
+/// A form on a case in `f32` by every interpreter, held to what another form promises: whether bounds catch the difference.
+///
+/// # Errors
+///
+/// If either cannot be compiled or run.
+pub fn judged_as(case: &Case, form: &Form, promise: &Form) -> Result<Vec<HardResult>, HardError> {
+    let compiled = compile(form, &form.options)?;
+    Trial::new(case, promise, promise.options.clone())?.interpreted(&compiled, Precision::F32)
 }
 
 /// The forms that a case is for.
@@ -131,7 +142,9 @@ fn compiled(selection: &Selection, watch: &mut dyn Watch) -> Result<BTreeMap<Key
         if watch.stopped() {
             break;
         }
-        let compiled = some.par_iter().map(|(key, form)| Ok((key.clone(), compile(form, &key.1)?)));
+        let compiled = some
+            .par_iter()
+            .map(|(key, form)| Ok((key.clone(), compile(form, &key.1)?)));
         all.extend(compiled.collect::<Result<Vec<_>, HardError>>()?);
         some.iter().for_each(|_| watch.step());
     }

@@ -289,7 +289,8 @@ impl Definition<'_> {
             let tilt = rs.normal * reach;
             let (along_off, aside_off) = (
                 (12.0 * u + 2.0 * rounding.read) * sizes + tilt,
-                (8.0 * u + 2.0 * rounding.read) * spans + rs.normal * (right.iter().chain(&down).map(|v| v.abs()).sum::<f64>()),
+                (8.0 * u + 2.0 * rounding.read) * spans
+                    + rs.normal * (right.iter().chain(&down).map(|v| v.abs()).sum::<f64>()),
             );
             let off = step.abs() * along_off
                 + step_off * (along.abs() + along_off)
@@ -339,7 +340,10 @@ impl Definition<'_> {
             let exact = weight(tap) / total.max(epsilon);
             let most = ratio(high, (lows - low + high).max(epsilon)).min(1.0);
             let fewest = low / (highs - high + low).max(epsilon).max(f64::MIN_POSITIVE);
-            let bright = tap.color.iter().any(|lane| lane.abs() >= rounding.largest * (1.0 - rounding.read));
+            let bright = tap
+                .color
+                .iter()
+                .any(|lane| lane.abs() >= rounding.largest * (1.0 - rounding.read));
             // A colour that these bits cannot hold may be left out.
             let fewest = if bright && rounding.read > 0.0 { 0.0 } else { fewest };
             let off = (most - exact).max(exact - fewest).max(0.0);

@@ -73,7 +73,11 @@ impl Stalker {
     pub fn edges(&self, geometry: &Geometry) -> Vec<Edge> {
         let depth = |p: IVec2| {
             let d = f64::from(geometry.depth.load(p));
-            if self.linear_depth { 1.0 / bounded(d).max(NEAREST) } else { d }
+            if self.linear_depth {
+                1.0 / bounded(d).max(NEAREST)
+            } else {
+                d
+            }
         };
         each(geometry.depth.size(), |p| {
             let mut margin = f64::INFINITY;
@@ -178,7 +182,8 @@ impl TabulaRasa {
 
 /// At most 10³⁰, by definition of both filters; what is infinite or not a number is as deep.
 fn bounded(depth: f64) -> f64 {
-    if depth.abs() < 1.0e30 { depth } else { 1.0e30 }
+    let deepest = f64::from(1.0e30_f32);
+    if depth.abs() < deepest { depth } else { deepest }
 }
 
 /// The least depth whose reciprocal is taken.
@@ -198,7 +203,11 @@ fn each<T>(size: UVec2, pixel: impl Fn(IVec2) -> T) -> Vec<T> {
 /// The colour of a pixel, black if it is not finite.
 fn own(color: &Frame<Vec4>, p: IVec2) -> [f64; 4] {
     let own = color.load(p);
-    if own.is_finite() { own.as_dvec4().to_array() } else { [0.0; 4] }
+    if own.is_finite() {
+        own.as_dvec4().to_array()
+    } else {
+        [0.0; 4]
+    }
 }
 
 fn cosine(normal: &Frame<Vec3>, a: IVec2, b: IVec2) -> f64 {

@@ -16,10 +16,10 @@ pub struct Point {
 }
 
 /// More than any depth, by definition of the filter: a sky is as deep as any other, and so is what is no number.
-pub(super) const DEEPEST: f64 = 1.0e30;
+pub(super) const DEEPEST: f64 = 1.0e30_f32 as f64;
 
 /// Stored depths of a reversed projection are no less, by definition of the filter.
-const SHORTEST: f64 = 1.0e-30;
+const SHORTEST: f64 = 1.0e-30_f32 as f64;
 
 /// Normals that are shorter are divided by this, by definition of the filter: a cleared texel is no normal.
 const NO_NORMAL: f64 = 0.01;
@@ -145,7 +145,13 @@ impl<'a> GBuffer<'a> {
         let mut reading = Reading::default();
         if let Some(stored) = &self.depth {
             let value = self.stored_depth(self.texel(stored, pixel, sample));
-            reading.stored = value;
+            // What is taken for the same depth is the same number.
+            reading.stored = match self.params.depth {
+                // `max` gives the number of a number and a NaN.
+                Depth::ReversedInfinite => value.max(SHORTEST),
+                _ if value.is_nan() => f64::INFINITY,
+                _ => value,
+            };
             let depth = self.linear(value);
             let [near, far] = self.planes;
             // (stored / depth) d depth / d stored, of the definitions below.
@@ -158,7 +164,11 @@ impl<'a> GBuffer<'a> {
                 Depth::Linear => 0.0,
                 _ => 2.0 * read + 16.0 * unit,
             };
-            let packed = if self.params.normals == Normals::Packed { unit } else { 0.0 };
+            let packed = if self.params.normals == Normals::Packed {
+                unit
+            } else {
+                0.0
+            };
             reading.depth = read * condition.abs() + decoding + packed;
         }
         if let Some(stored) = &self.normal {

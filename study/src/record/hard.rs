@@ -47,6 +47,8 @@ pub struct HardResult {
     pub kept: bool,
     /// Whether this must be finite and within its bound: in `f32`, all forms but those that keep what was printed.
     pub promised: bool,
+    /// In `f16`, where `bound` is what can be seen: the most that error analysis allows, if there is one.
+    pub analysed: Option<f64>,
     /// Why it was not run: the adapter lacks something, or the form is refused.
     pub refused: Option<String>,
 }
@@ -75,6 +77,8 @@ pub struct HalfVerdict {
     pub worst: Option<String>,
     /// How far that is; `None` if nothing was finite.
     pub difference: Option<f64>,
+    /// How far it may be off in that case on a device that is as inexact as WGSL allows, which decides nothing.
+    pub loosest: Option<f64>,
     /// What can be seen there: 1/255 of the brightest colour.
     pub limit: Option<f64>,
     /// Cases that scenes have and in which it is farther off than can be seen, of `cases`.
@@ -100,7 +104,10 @@ pub struct HardRecord {
 impl HardRecord {
     /// Results that must be finite and within their bounds and are not, each with its case.
     pub fn broken(&self) -> impl Iterator<Item = (&HardCase, &HardResult)> {
-        let results = self.cases.iter().flat_map(|case| case.results.iter().map(move |r| (case, r)));
+        let results = self
+            .cases
+            .iter()
+            .flat_map(|case| case.results.iter().map(move |r| (case, r)));
         results.filter(|(_, r)| r.promised && !r.kept)
     }
 

@@ -78,8 +78,11 @@ fn matrix(record: &HardRecord, selection: &Selection) -> String {
     let mut text = String::new();
     for precision in &selection.precisions {
         let letters = ('a'..='z').chain('A'..='Z');
-        let forms: Vec<(char, &str)> = letters.zip(selection.forms.iter().map(|form| form.name.as_str())).collect();
-        text += &format!("\n{precision}: . finite and within bounds, o out of bounds, X not finite, empty: not for it\n");
+        let forms: Vec<(char, &str)> = letters
+            .zip(selection.forms.iter().map(|form| form.name.as_str()))
+            .collect();
+        text +=
+            &format!("\n{precision}: . finite and within bounds, o out of bounds, X not finite, empty: not for it\n");
         for (letter, form) in &forms {
             text += &format!("  {letter}  {form}\n");
         }
@@ -110,18 +113,25 @@ fn summary(record: &HardRecord) -> String {
          as printed (`paper`), f32: {others} pixels that are not finite\n",
         record.cases.len(),
         record.circumstances.adapter,
-        if record.circumstances.complete { "" } else { "; not complete" },
+        if record.circumstances.complete {
+            ""
+        } else {
+            "; not complete"
+        },
         record.broken().count(),
     );
-    let refused: BTreeMap<&str, usize> = results.filter_map(|r| r.refused.as_deref()).fold(
-        BTreeMap::new(),
-        |mut counts, why| {
-            *counts.entry(why).or_default() += 1;
-            counts
-        },
-    );
+    let refused: BTreeMap<&str, usize> =
+        results
+            .filter_map(|r| r.refused.as_deref())
+            .fold(BTreeMap::new(), |mut counts, why| {
+                *counts.entry(why).or_default() += 1;
+                counts
+            });
     for (why, count) in refused {
-        text += &format!("{count} results were not computed: {}\n", why.lines().next().unwrap_or_default());
+        text += &format!(
+            "{count} results were not computed: {}\n",
+            why.lines().next().unwrap_or_default()
+        );
     }
     let mut closest: BTreeMap<&str, (f64, String)> = BTreeMap::new();
     for case in &record.cases {
@@ -132,7 +142,10 @@ fn summary(record: &HardRecord) -> String {
             let share = if bound > 0.0 { off / bound } else { off };
             let entry = closest.entry(&r.kernel).or_insert((-1.0, String::new()));
             if share > entry.0 {
-                *entry = (share, format!("{off:.1e} of {bound:.1e}, {}, {}", case.name, executor(r)));
+                *entry = (
+                    share,
+                    format!("{off:.1e} of {bound:.1e}, {}, {}", case.name, executor(r)),
+                );
             }
         }
     }
@@ -141,12 +154,21 @@ fn summary(record: &HardRecord) -> String {
     }
     for verdict in &record.half {
         text += &match &verdict.reason {
-            None => format!("half precision: {:<20} keeps what can be seen in {} cases\n", verdict.kernel, verdict.cases),
+            None => format!(
+                "half precision: {:<20} keeps what can be seen in {} cases\n",
+                verdict.kernel, verdict.cases
+            ),
             Some(why) => format!("half precision: {:<20} no: {why}\n", verdict.kernel),
         };
     }
     for (case, r) in record.broken().take(20) {
-        text += &format!("broken: {} on `{}` by {}: {}\n", r.kernel, case.name, executor(r), broken(r));
+        text += &format!(
+            "broken: {} on `{}` by {}: {}\n",
+            r.kernel,
+            case.name,
+            executor(r),
+            broken(r)
+        );
     }
     text
 }

@@ -5,11 +5,18 @@ use crate::hard::case::{Case, Place, Seen};
 use glam::{Vec3, vec3};
 
 pub const CASES: &[Case] = &[
-    Case::new("one-pixel", "every tap is the border: one texel stands for all nine", walls).size(1, 1),
+    Case::new(
+        "one-pixel",
+        "every tap is the border: one texel stands for all nine",
+        walls,
+    )
+    .size(1, 1),
     Case::new("one-wide", "left and right of every pixel is the border", walls).size(1, 16),
     Case::new("one-high", "above and below every pixel is the border", walls).size(16, 1),
     Case::new("two-by-two", "no pixel has all its neighbours", walls).size(2, 2),
-    Case::new("odd-size", "quads stick out of the picture at two sides", walls).size(13, 7).common(),
+    Case::new("odd-size", "quads stick out of the picture at two sides", walls)
+        .size(13, 7)
+        .common(),
     Case::new("two-walls", "the plain case: a step of 3 between two walls", walls).common(),
     Case::new(
         "thin-wire",
@@ -35,19 +42,49 @@ pub const CASES: &[Case] = &[
         floor,
     )
     .common(),
-    Case::new("grazing-wall", "normals at a right angle to the rays: the plane passes through the eye", edge_on),
-    Case::new("one-wall", "no edge at all: every weight is as large as any other", flat).common(),
-    Case::new("coincident", "two surfaces at one depth with one normal: only colours differ", coincident).common(),
+    Case::new(
+        "grazing-wall",
+        "normals at a right angle to the rays: the plane passes through the eye",
+        edge_on,
+    ),
+    Case::new(
+        "one-wall",
+        "no edge at all: every weight is as large as any other",
+        flat,
+    )
+    .common(),
+    Case::new(
+        "coincident",
+        "two surfaces at one depth with one normal: only colours differ",
+        coincident,
+    )
+    .common(),
     Case::new(
         "z-fighting",
         "of two surfaces one millionth apart each sample sees either",
         fighting,
     )
     .common(),
-    Case::new("back-to-back", "opposite normals at one depth: as different as normals can be", back),
-    Case::new("depth-chequers", "depths 1 and 100 in turn: no neighbour is on the pixel's surface", chequers),
-    Case::new("sample-chequers", "depths 1 and 100 from sample to sample", sample_chequers),
-    Case::new("normal-chequers", "three normals at right angles in turn", normal_chequers),
+    Case::new(
+        "back-to-back",
+        "opposite normals at one depth: as different as normals can be",
+        back,
+    ),
+    Case::new(
+        "depth-chequers",
+        "depths 1 and 100 in turn: no neighbour is on the pixel's surface",
+        chequers,
+    ),
+    Case::new(
+        "sample-chequers",
+        "depths 1 and 100 from sample to sample",
+        sample_chequers,
+    ),
+    Case::new(
+        "normal-chequers",
+        "three normals at right angles in turn",
+        normal_chequers,
+    ),
     Case::new(
         "tiny-steps-everywhere",
         "each sample one unit in the last place deeper than the last",
@@ -130,5 +167,9 @@ fn normal_chequers(place: &Place) -> Seen {
 
 fn staircase(place: &Place) -> Seen {
     let sample = place.sample.map_or(0, |k| k as u32 + 1);
-    seen(place, steps_from(5.0, sample + 17 * (place.pixel.x + place.pixel.y)), Vec3::Z)
+    seen(
+        place,
+        steps_from(5.0, sample + 17 * (place.pixel.x + place.pixel.y)),
+        Vec3::Z,
+    )
 }

@@ -44,7 +44,7 @@ pub fn binomial(radius: i64, x: i64) -> f64 {
 }
 
 /// Depths are at most this, by definition of the filters; what is infinite or not a number is as deep.
-const DEEPEST: f64 = 1.0e30;
+const DEEPEST: f64 = 1.0e30_f32 as f64;
 
 /// Colours are less than this, by definition of the filters; a texel with another has no weight.
 const BRIGHTEST: f64 = 3.0e38;
@@ -79,7 +79,12 @@ pub fn bilateral(image: &Picture, radius: i64, sigma: f64, depth_sigma: f64, [x,
             }
         }
     }
-    [sum[0] / total, sum[1] / total, sum[2] / total, bounded(image.at(x, y)[3])]
+    [
+        sum[0] / total,
+        sum[1] / total,
+        sum[2] / total,
+        bounded(image.at(x, y)[3]),
+    ]
 }
 
 /// What tells surfaces apart in upsampling.
