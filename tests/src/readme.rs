@@ -5,7 +5,6 @@
 
 use serde_json::Value;
 use std::path::Path;
-use std::path::Path;
 use straightline_study::record::{FormKind, HardRecord, KernelForms, LoopsRecord, QualityRecord, Record, TuneRecord};
 
 /// The document with every table made anew.
