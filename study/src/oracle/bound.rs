@@ -341,7 +341,8 @@ impl Definition<'_> {
             Normalisation::Paper | Normalisation::Shifted => 0.0,
         };
         // Divided by too little, a share is infinite.
-        if share / lows.max(epsilon.max(rounding.smallest)) > rounding.largest {
+        let step = 2.0 * rounding.unit * rounding.smallest;
+        if share / lows.max(epsilon.max(step)) > rounding.largest {
             return None;
         }
         let summed = (reach.len() as f64 + 8.0) * rounding.unit;
