@@ -112,7 +112,7 @@ impl<'a> Trial<'a> {
         found.map_err(|source| HardError::Execute {
             form: self.form.name.clone(),
             case: self.case.name.to_owned(),
-            source,
+            source: Box::new(source),
         })
     }
 

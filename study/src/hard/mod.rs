@@ -73,7 +73,7 @@ pub enum HardError {
         /// On what.
         case: String,
         /// Why.
-        source: ExecuteError,
+        source: Box<ExecuteError>,
     },
     /// The definition cannot be evaluated.
     #[error(transparent)]

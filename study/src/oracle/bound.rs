@@ -287,7 +287,7 @@ impl Definition<'_> {
             let spans: f64 = (0..3)
                 .map(|axis| (away[0] * right[axis].abs() + away[1] * down[axis].abs()) * s.normal[axis].abs())
                 .sum();
-            let reach: f64 = (0..3).map(|axis| ray(axis)).sum();
+            let reach: f64 = (0..3).map(ray).sum();
             let tilt = rs.normal * reach;
             let (along_off, aside_off) = (
                 (12.0 * u + 2.0 * rounding.read) * sizes + tilt,
