@@ -172,7 +172,7 @@ impl Bench {
         Ok(Timed { clock, rounds: times })
     }
 
-    fn once(
+    pub(super) fn once(
         &self,
         job: &Job<'_>,
         target: &wgpu::TextureView,
