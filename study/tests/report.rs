@@ -76,8 +76,8 @@ fn quality(pictures: bool) -> QualityRecord {
         flip: 0.0123,
         psnr_geometry: Some(psnr - 6.0),
         psnr_shading: None,
-        psnr_flat: Some(f64::INFINITY),
-        gap_closed: 0.5,
+        psnr_flat: Some(MOST_DB),
+        gap_closed: Some(0.5),
         temporal: Some(0.01),
         time: ms.map(times),
         bytes: 5_500_000,
@@ -99,9 +99,22 @@ fn quality(pictures: bool) -> QualityRecord {
             method("SRAA", Family::Sraa, 38.0, Some(9.0)),
             method("FXAA", Family::Picture, 33.0, Some(4.0)),
         ],
+        absent: vec![("SMAA".to_owned(), "nobody made it".to_owned())],
+        gaps: vec![Gap {
+            method: "SRAA 4".to_owned(),
+            bound: "4x".to_owned(),
+            psnr: 38.0,
+            ideal_psnr: 38.5,
+            bound_psnr: 39.25,
+            psnr_seen: Some(41.0),
+            bound_psnr_seen: None,
+            error_unseen: 0.375,
+        }],
     };
     QualityRecord {
         circumstances: circumstances(),
+        timed_on: vec!["roof".to_owned()],
+        pan_frames: 8,
         scenes: vec![scene],
     }
 }
@@ -199,6 +212,8 @@ fn the_page_says_what_the_records_say() {
         "not finite: 1",
         "<code>metric=depth</code>, 39.8000",
         "off by 7.0 % in the mean and 20.0 % at most",
+        "<td>-1.25<td>-0.75<td>-0.50<td>37.5 %",
+        "No SMAA: nobody made it",
         "class=\"pair\"",
         "data:image/png;base64,",
     ] {

@@ -5,7 +5,6 @@
 
 use serde_json::Value;
 use std::path::Path;
-use std::path::Path;
 use straightline_study::record::{FormKind, HardRecord, KernelForms, LoopsRecord, QualityRecord, Record, TuneRecord};
 
 /// The document with every table made anew.
@@ -197,7 +196,11 @@ fn quality(record: &QualityRecord) -> String {
             (*name).to_owned(),
             shown(mean(edges.iter().map(|m| m.psnr).collect()), 2, " dB"),
             shown(mean(edges.iter().map(|m| m.flip).collect()), 4, ""),
-            shown(mean(edges.iter().map(|m| 100.0 * m.gap_closed).collect()), 0, " %"),
+            shown(
+                mean(edges.iter().filter_map(|m| Some(100.0 * m.gap_closed?)).collect()),
+                0,
+                " %",
+            ),
             shown(mean(others.iter().map(|m| m.psnr).collect()), 2, " dB"),
             shown(mean(others.iter().map(|m| m.flip).collect()), 4, ""),
             shown(mean(all().filter_map(|m| Some(m.time?.median_ms)).collect()), 1, ""),

@@ -50,6 +50,29 @@ impl Bound {
         });
         resources.collect()
     }
+
+    /// Bytes of all textures and buffers, as they lie on the device.
+    pub fn bytes(&self) -> u64 {
+        let bytes = |owned: &Owned| match owned {
+            Owned::Texture(view) => texture_bytes(view.texture()),
+            Owned::Sampler(_) => 0,
+            Owned::Buffer(buffer) => buffer.size(),
+        };
+        self.resources.iter().map(|(_, owned)| bytes(owned)).sum()
+    }
+}
+
+/// Bytes of all texels of a texture without smaller levels.
+pub fn texture_bytes(texture: &wgpu::Texture) -> u64 {
+    let extent = texture.size();
+    let texels = [
+        extent.width,
+        extent.height,
+        extent.depth_or_array_layers,
+        texture.sample_count(),
+    ];
+    let each = texture.format().block_copy_size(None).unwrap_or(4);
+    texels.map(u64::from).iter().product::<u64>() * u64::from(each)
 }
 
 impl Bench {

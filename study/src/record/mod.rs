@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 
 pub use hard::{Executor, HardCase, HardRecord, HardResult};
 pub use loops::{Form, FormKind, KernelForms, LoopsRecord};
-pub use quality::{Family, MethodErrors, QualityRecord, SceneErrors, Shares};
+pub use quality::{Family, Gap, MOST_DB, MethodErrors, QualityRecord, SceneErrors, Shares};
 pub use tune::{Candidate, LeftOut, Model, TuneRecord};
 
 /// Under which circumstances figures were taken: without these a figure says nothing.
