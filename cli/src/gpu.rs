@@ -71,7 +71,10 @@ impl Gpu {
         let descriptor = wgpu::DeviceDescriptor {
             label: Some("straightline"),
             required_features: adapter.features()
-                & (Features::TIMESTAMP_QUERY | Features::FLOAT32_FILTERABLE | Features::SUBGROUP),
+                & (Features::TIMESTAMP_QUERY
+                    | Features::FLOAT32_FILTERABLE
+                    | Features::SUBGROUP
+                    | Features::SHADER_F16),
             required_limits: adapter.limits(),
             ..Default::default()
         };
@@ -88,6 +91,11 @@ impl Gpu {
     /// Name, driver and backend, for records.
     pub fn describe(&self) -> String {
         describe(&self.info)
+    }
+
+    /// Whether shaders can compute in half precision.
+    pub fn has_half(&self) -> bool {
+        self.device.features().contains(Features::SHADER_F16)
     }
 
     /// Runs kernels on the device.

@@ -22,7 +22,7 @@ use crate::policy::{Branches, Unroll};
 use std::collections::BTreeMap;
 use std::fmt;
 use std::path::{Path, PathBuf};
-use straightline_manifest::{Format, Manifest, Stage};
+use straightline_manifest::{Format, Manifest, Precision, Stage};
 
 /// Name of the file with the bindings.
 const BINDINGS: &str = "straightline.rs";
@@ -147,6 +147,13 @@ impl KernelConfig {
     /// Format of the output; by default `rgba16float`.
     pub fn format(mut self, format: Format) -> Self {
         self.emit.format = format;
+        self
+    }
+
+    /// What the shader computes in; by default full precision. For half precision the device needs the feature
+    /// `SHADER_F16`: see [`EmitOptions::precision`].
+    pub fn precision(mut self, precision: Precision) -> Self {
+        self.emit.precision = precision;
         self
     }
 

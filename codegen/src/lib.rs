@@ -28,4 +28,4 @@ pub use emit::EmitOptions;
 pub use eval::{LoopReport, OptionInfo, OptionKind};
 pub use pipeline::{Compiled, Kernel, Observer, Settings};
 pub use policy::{Branches, Transport, Unroll};
-pub use straightline_manifest::{Format, Manifest, Stage};
+pub use straightline_manifest::{Format, Manifest, Precision, Stage};

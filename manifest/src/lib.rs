@@ -4,11 +4,13 @@
 //! bind the shader without looking inside. Fields are plain data and serialise to JSON.
 
 mod format;
+mod precision;
 
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 pub use format::Format;
+pub use precision::Precision;
 
 /// Version of the manifest's layout. A reader refuses a manifest whose schema it does not know.
 pub const SCHEMA: u32 = 2;
@@ -27,6 +29,9 @@ pub struct Manifest {
     pub stage: Stage,
     /// How loops were treated: `full`, `none` or `partial(N)`, followed by what was said of single loops.
     pub unroll: String,
+    /// What the shader computes in. Uniforms, buffers and textures are the same in every precision.
+    #[serde(default, skip_serializing_if = "Precision::is_default")]
+    pub precision: Precision,
     /// Name of the entry point, the same in every target that keeps names.
     pub entry_point: String,
     /// Invocations in a workgroup; compute only.
@@ -36,7 +41,8 @@ pub struct Manifest {
     /// that stick out of the target store what lies inside.
     #[serde(default = "one_pixel", skip_serializing_if = "is_one_pixel")]
     pub block: [u32; 2],
-    /// What the device must be able to do besides: `subgroup`, quad operations in the shader's stage.
+    /// What the device must be able to do besides: `subgroup`, quad operations in the shader's stage; `shader-f16`,
+    /// arithmetic in half precision.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub features: Vec<String>,
     /// Values that the host's vertex shader gives for interpolation; fragment only. A shader that has some is drawn in a

@@ -79,7 +79,7 @@ impl Pass {
     ) -> Result<Self, Error> {
         let plan = Plan::new(manifest)?;
         reflect::check(&plan, wgsl)?;
-        check_quads(device, manifest)?;
+        check_features(device, manifest)?;
         let format = check_format(device, &plan, options)?;
         let doing = format!("making a pass of `{}`", plan.kernel);
         let pulse = Pulse::new(device, &doing)?;
@@ -393,8 +393,8 @@ struct Prepared {
     is_part: bool,
 }
 
-/// Refuses what a shader of quads needs and the device, or this crate, does not have.
-fn check_quads(device: &Device, manifest: &Manifest) -> Result<(), Error> {
+/// Refuses what a shader needs and the device, or this crate, does not have.
+fn check_features(device: &Device, manifest: &Manifest) -> Result<(), Error> {
     let refused = |description: String| Error::Pipeline {
         kernel: manifest.kernel.clone(),
         description,
@@ -407,15 +407,22 @@ fn check_quads(device: &Device, manifest: &Manifest) -> Result<(), Error> {
         )));
     }
     for feature in &manifest.features {
-        if feature != "subgroup" {
-            return Err(refused(format!("it needs `{feature}`, which this crate does not know")));
-        }
-        if !device.features().contains(wgpu::Features::SUBGROUP) {
-            return Err(refused(
+        let (needed, why) = match feature.as_str() {
+            "subgroup" => (
+                wgpu::Features::SUBGROUP,
                 "it sends messages by quad operations, and the device was created without the feature SUBGROUP: ask for \
-                 that, or generate the shader with the transport `derivatives` or `block`"
-                    .to_owned(),
-            ));
+                 that, or generate the shader with the transport `derivatives` or `block`",
+            ),
+            "shader-f16" => (
+                wgpu::Features::SHADER_F16,
+                "it computes in half precision, and the device was created without the feature SHADER_F16: ask for that \
+                 in `DeviceDescriptor::required_features` where the adapter has it, or generate the shader with the \
+                 precision `f32`",
+            ),
+            _ => return Err(refused(format!("it needs `{feature}`, which this crate does not know"))),
+        };
+        if !device.features().contains(needed) {
+            return Err(refused(why.to_owned()));
         }
     }
     Ok(())

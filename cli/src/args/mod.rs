@@ -8,7 +8,7 @@ use std::path::PathBuf;
 use straightline_codegen::diagnostic::Errors;
 use straightline_codegen::emit::Target;
 use straightline_codegen::{Branches, Kernel, Settings, Transport, Unroll};
-use straightline_manifest::{Format, Stage};
+use straightline_manifest::{Format, Precision, Stage};
 
 pub use study::{CommonArgs, ErrorArgs, HardArgs, LoopsArgs, Study, StudyArgs};
 
@@ -163,6 +163,9 @@ pub struct EmitArgs {
     /// Texel format of the output: rgba8unorm, rgba16float or rgba32float
     #[arg(long, value_name = "FORMAT", default_value = "rgba16float", value_parser = |s: &str| s.parse::<Format>())]
     pub format: Format,
+    /// What the shader computes in: f32, or f16 where the device has half precision
+    #[arg(long, value_name = "PRECISION", default_value = "f32", value_parser = |s: &str| s.parse::<Precision>())]
+    pub precision: Precision,
     /// Filter a rectangle that the host states, not all of the image: for tiles
     #[arg(long)]
     pub region: bool,
@@ -184,6 +187,9 @@ pub struct EmitArgs {
 pub struct ExplainArgs {
     #[command(flatten)]
     pub kernel: KernelArgs,
+    /// What the shader computes in: f32 or f16
+    #[arg(long, value_name = "PRECISION", default_value = "f32", value_parser = |s: &str| s.parse::<Precision>())]
+    pub precision: Precision,
     /// Print JSON
     #[arg(long)]
     pub json: bool,
@@ -223,7 +229,7 @@ pub struct RunArgs {
     /// What computes the pixels
     #[arg(long, value_enum, default_value = "gpu")]
     pub executor: Executor,
-    /// On the CPU, the precision of floats: f16, f32 or f64
+    /// The precision of floats: f16 or f32, on the CPU also f64
     #[arg(long, value_name = "PRECISION", default_value = "f32", value_parser = ["f16", "f32", "f64"])]
     pub precision: String,
     /// On the CPU, say where a NaN or an infinity first came from, and fail if there is one

@@ -18,6 +18,7 @@ pub fn run(args: &EmitArgs) -> Result<(), Failure> {
     let mut options = EmitOptions::new()
         .stage(args.stage.into())
         .format(args.format)
+        .precision(args.precision)
         .targets(args.target.iter().copied());
     options.region = args.region;
     options.enable_subgroups = args.enable_subgroups;

@@ -7,7 +7,7 @@ use serde_json::{Map, Value, json};
 use straightline_codegen::ir::Invocation;
 use straightline_codegen::{Compiled, EmitOptions, Stage};
 use straightline_kernels::PaperCounts;
-use straightline_manifest::{BindingKind, Counts, Manifest};
+use straightline_manifest::{BindingKind, Counts, Manifest, Precision};
 
 /// Prints the counts of one kernel and option set.
 pub fn run(args: &ExplainArgs) -> Result<(), Failure> {
@@ -22,15 +22,21 @@ pub fn run(args: &ExplainArgs) -> Result<(), Failure> {
         Invocation::Lane => Stage::Fragment,
         _ => Stage::Compute,
     };
-    let options = EmitOptions::new().stage(stage).targets([]);
+    let options = EmitOptions::new().stage(stage).precision(args.precision).targets([]);
     let emitted = compiled.emit(&options).map_err(Failure::of)?;
     let bound = bound(&emitted.manifest);
+    let features = emitted.manifest.features.join(", ");
     let counts = emitted.manifest.counts;
     let paper = paper(&compiled);
     if args.json {
-        println!("{:#}", to_json(&compiled, &counts, &bound, paper));
+        let mut out = to_json(&compiled, &counts, &bound, paper);
+        out.insert("precision".into(), json!(args.precision));
+        println!("{:#}", Value::Object(out));
     } else {
         print(&compiled, &counts, &bound, paper);
+        if args.precision != Precision::default() {
+            println!("\nin {}: the device needs {features}", args.precision);
+        }
     }
     Ok(())
 }
@@ -61,7 +67,7 @@ fn paper(compiled: &Compiled) -> Option<PaperCounts> {
     (entry.paper)(&|option| compiled.options.get(option).cloned())
 }
 
-fn to_json(compiled: &Compiled, counts: &Counts, bound: &Bound, paper: Option<PaperCounts>) -> Value {
+fn to_json(compiled: &Compiled, counts: &Counts, bound: &Bound, paper: Option<PaperCounts>) -> Map<String, Value> {
     let mut out = Map::new();
     out.insert("kernel".into(), json!(compiled.kernel));
     out.insert("unroll".into(), json!(compiled.policy.to_string()));
@@ -85,7 +91,7 @@ fn to_json(compiled: &Compiled, counts: &Counts, bound: &Bound, paper: Option<Pa
         }
         out.insert("paper_texture_reads".into(), json!(paper.texture_reads));
     }
-    Value::Object(out)
+    out
 }
 
 fn print(compiled: &Compiled, counts: &Counts, bound: &Bound, paper: Option<PaperCounts>) {

@@ -6,6 +6,7 @@ use crate::gpu::Gpu;
 use glam::Vec4;
 use std::path::Path;
 use straightline_codegen::Compiled;
+use straightline_codegen::Precision;
 use straightline_codegen::ir::{F16, Real, TextureKind};
 use straightline_kernels::prelude::Frame;
 use straightline_study::execute::{Inputs, interpret};
@@ -19,8 +20,21 @@ pub fn run(args: &RunArgs) -> Result<(), Failure> {
     let (frame, by) = match args.executor {
         Executor::Gpu => {
             let gpu = Gpu::require(&args.adapter)?;
-            let frame = gpu.bench().run(&compiled, args.stage.into(), &inputs);
-            (frame.map_err(Failure::of)?, gpu.describe())
+            let precision = args.precision.parse::<Precision>().map_err(Failure::Usage)?;
+            if precision == Precision::F16 && !gpu.has_half() {
+                return Err(Failure::Failed(format!(
+                    "the adapter {} has no half precision (SHADER_F16): use --executor cpu, another --adapter, or the \
+                     precision f32",
+                    gpu.describe()
+                )));
+            }
+            let bench = gpu.bench().precision(precision);
+            let frame = bench.run(&compiled, args.stage.into(), &inputs);
+            let by = match precision {
+                Precision::F32 => gpu.describe(),
+                Precision::F16 => format!("{}, f16", gpu.describe()),
+            };
+            (frame.map_err(Failure::of)?, by)
         }
         Executor::Cpu => {
             let frame = match args.precision.as_str() {
@@ -50,9 +64,9 @@ fn check(args: &RunArgs) -> Result<(), Failure> {
             args.out.display()
         )));
     }
-    if args.executor == Executor::Gpu && (args.check_finite || args.precision != "f32") {
+    if args.executor == Executor::Gpu && (args.check_finite || args.precision == "f64") {
         return Err(Failure::Usage(
-            "--check-finite and --precision are for the interpreter: add --executor cpu".to_owned(),
+            "--check-finite and --precision f64 are for the interpreter: add --executor cpu".to_owned(),
         ));
     }
     Ok(())

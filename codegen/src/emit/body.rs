@@ -90,7 +90,8 @@ fn attempt(
     writer.block(&compiled.schedule.body)?;
     let mut results = Vec::new();
     for output in graph.outputs() {
-        results.push(writer.text(*output)?.code);
+        let colour = writer.text(*output)?;
+        results.push(dialect.leave(graph.ty(*output), colour).code);
     }
     Ok(Body {
         tables: writer.tables.into_iter().chain(writer.helpers).collect(),
@@ -203,6 +204,10 @@ impl Writer<'_> {
         let args = args?;
         let operand = node.args.first().map_or(node.ty, |a| self.compiled.graph.ty(*a));
         let d = self.dialect;
+        // What other hardware reads is in full precision, whatever the shader computes in.
+        let graph = &self.compiled.graph;
+        let outer = |k: usize| d.leave(graph.ty(node.args[k]), args[k].clone());
+        let inner = |x: Text| d.enter(node.ty, x);
         Ok(match &node.op {
             Op::Pixel => Text::name("pixel"),
             Op::FrameSize => Text::name("frame"),
@@ -210,15 +215,15 @@ impl Writer<'_> {
                 let one = d.construct(node.ty, &[&d.scalar(Scalar::I32, 1)]);
                 Text::infix(&Text::name("pixel"), "&", &one, super::text::Binds::Mixed)
             }
-            Op::Varying(k) => Text::name(self.compiled.graph.varyings[*k as usize].name.as_str()),
-            Op::Message(direction) => d.message(*direction, &args[0]),
-            Op::Derivative(axis) => d.derivative(*axis, &args[0]),
+            Op::Varying(k) => inner(Text::name(self.compiled.graph.varyings[*k as usize].name.as_str())),
+            Op::Message(direction) => inner(d.message(*direction, &outer(0))),
+            Op::Derivative(axis) => inner(d.derivative(*axis, &outer(0))),
             Op::GatherCompare { texture, sampler, .. } => {
-                let (text, helper) = d.gather_compare(*texture, *sampler, &args[0], &args[1]);
+                let (text, helper) = d.gather_compare(*texture, *sampler, &outer(0), &outer(1));
                 self.helpers.extend(helper);
-                text
+                inner(text)
             }
-            Op::Uniform(k) => d.uniform(&self.compiled.graph.uniforms[*k as usize].name),
+            Op::Uniform(k) => inner(d.uniform(&self.compiled.graph.uniforms[*k as usize].name)),
             Op::Unary(op) => d.unary(*op, node.ty, &args[0]),
             Op::Binary(op) => {
                 let [x, y] = [0, 1].map(|k| self.operand(*op, node.args[k], &args[k]));
@@ -243,21 +248,21 @@ impl Writer<'_> {
             Op::Convert => d.convert(operand, node.ty, &args[0]),
             Op::Bitcast => d.bitcast(operand, node.ty, &args[0]),
             Op::TextureSize(texture) => d.size(*texture),
-            Op::Load { texture, .. } => d.load(*texture, &args[0], args.get(1)),
-            Op::Sample { texture, sampler, .. } => d.sample(*texture, *sampler, &args[0]),
+            Op::Load { texture, .. } => inner(d.load(*texture, &args[0], args.get(1))),
+            Op::Sample { texture, sampler, .. } => inner(d.sample(*texture, *sampler, &outer(0))),
             Op::Gather {
                 texture,
                 sampler,
                 component,
                 ..
             } => {
-                let (text, helper) = d.gather(*texture, *sampler, *component, &args[0]);
+                let (text, helper) = d.gather(*texture, *sampler, *component, &outer(0));
                 self.helpers.extend(helper);
-                text
+                inner(text)
             }
-            Op::Compare { texture, sampler, .. } => d.compare(*texture, *sampler, &args[0], &args[1]),
+            Op::Compare { texture, sampler, .. } => inner(d.compare(*texture, *sampler, &outer(0), &outer(1))),
             Op::BufferLen(buffer) => d.len(*buffer),
-            Op::BufferLoad { buffer, .. } => d.element(*buffer, &args[0]),
+            Op::BufferLoad { buffer, .. } => inner(d.element(*buffer, &args[0])),
             Op::Tally(_) => args[0].clone(),
             _ => unreachable!("handled where it has a statement of its own"),
         })

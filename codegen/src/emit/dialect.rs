@@ -54,6 +54,18 @@ pub trait Dialect {
     fn convert(&self, from: Type, to: Type, x: &Text) -> Text;
     /// A run-time parameter.
     fn uniform(&self, name: &str) -> Text;
+    /// A type as a host lays it out and interpolates it.
+    fn outside(&self, ty: Type) -> String {
+        self.ty(ty)
+    }
+    /// A value that was read, as the shader computes with it.
+    fn enter(&self, _: Type, x: Text) -> Text {
+        x
+    }
+    /// A value that the shader computed, as reads, messages and the output take it.
+    fn leave(&self, _: Type, x: Text) -> Text {
+        x
+    }
 
     /// A vector or array from its parts.
     fn construct(&self, ty: Type, parts: &[&Text]) -> Text {

@@ -55,6 +55,14 @@ pub enum EmitError {
         /// The language.
         target: &'static str,
     },
+    /// Half precision in a language that naga can neither write nor check with it.
+    #[error(
+        "`{kernel}` in half precision cannot be written in glsl450, where naga knows no f16: use wgsl, spirv, hlsl or msl, or leave the precision at f32"
+    )]
+    HalfGlsl {
+        /// The kernel.
+        kernel: String,
+    },
     /// A layer or sample whose index nothing bounds.
     #[error(
         "`{kernel}` reads a layer or sample of `{texture}` whose index is only known at run time, so nothing tells how many it needs: bound it with `.min(...)`"

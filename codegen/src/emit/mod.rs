@@ -10,6 +10,7 @@ mod body;
 mod dialect;
 mod error;
 mod glsl;
+mod half;
 mod layout;
 mod listing;
 mod names;
@@ -29,7 +30,7 @@ use crate::pipeline::Compiled;
 use crate::policy::Transport;
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
-use straightline_manifest::{Format, Manifest, Stage};
+use straightline_manifest::{Format, Manifest, Precision, Stage};
 
 pub use bindings::{Module, bindings};
 pub use error::EmitError;
@@ -70,6 +71,9 @@ pub struct EmitOptions {
     pub workgroup: Option<[u32; 2]>,
     /// Whether the shader filters a rectangle that the host states, not all of the image: for tiles.
     pub region: bool,
+    /// What the shader computes in. In half precision every float of the kernel is an `f16`: what is read is rounded once, as
+    /// it comes in, and the result is an `f32` again when it is stored. Not in GLSL.
+    pub precision: Precision,
     /// Languages.
     pub targets: BTreeSet<Target>,
     /// Whether WGSL with quad operations begins with `enable subgroups;`: browsers ask for it, naga and wgpu refuse it.
@@ -88,6 +92,7 @@ impl EmitOptions {
             format: Format::default(),
             workgroup: None,
             region: false,
+            precision: Precision::default(),
             targets: BTreeSet::from([Target::Wgsl]),
             enable_subgroups: false,
         }
@@ -108,6 +113,12 @@ impl EmitOptions {
     /// For a rectangle that the host states: one more uniform buffer says where it lies in the inputs and in the target.
     pub fn region(mut self, region: bool) -> Self {
         self.region = region;
+        self
+    }
+
+    /// Computing in a precision.
+    pub fn precision(mut self, precision: Precision) -> Self {
+        self.precision = precision;
         self
     }
 
@@ -170,9 +181,14 @@ pub fn emit(compiled: &Compiled, options: &EmitOptions) -> Result<Emitted, EmitE
     for target in &options.targets {
         let bytes = match target {
             Target::Wgsl if options.enable_subgroups && resources.subgroups => {
-                format!("enable subgroups;\n\n{}", wgsl.text).into_bytes()
+                format!("enable subgroups;\n{}{}", gap(options.precision), wgsl.text).into_bytes()
             }
             Target::Wgsl => wgsl.text.clone().into_bytes(),
+            Target::Glsl450 if options.precision == Precision::F16 => {
+                return Err(EmitError::HalfGlsl {
+                    kernel: compiled.kernel.clone(),
+                });
+            }
             Target::Glsl450 => {
                 let glsl = shell::render(compiled, &resources, &glsl::Glsl { resources: &resources })?;
                 translate::check_glsl(&compiled.kernel, options.stage, &glsl.text, &resources.compared())?;
@@ -191,4 +207,12 @@ pub fn emit(compiled: &Compiled, options: &EmitOptions) -> Result<Emitted, EmitE
         files.insert(*target, bytes);
     }
     Ok(Emitted { manifest, files })
+}
+
+/// What stands between a directive and a text that begins with another, or with its header.
+fn gap(precision: Precision) -> &'static str {
+    match precision {
+        Precision::F32 => "\n",
+        Precision::F16 => "",
+    }
 }

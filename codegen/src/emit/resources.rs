@@ -8,8 +8,8 @@ use crate::ir::{Buffer, NodeId, Op, Sampler, Texture, TextureKind, Uniform, Vary
 use crate::passes::layers_read;
 use crate::pipeline::Compiled;
 use straightline_manifest::{
-    Access, Binding, BindingKind, Dimension, Extent, Manifest, Output, REGION, REGION_SIZE, SCHEMA, SampleType,
-    SamplerType, Stage, UniformField, region_fields,
+    Access, Binding, BindingKind, Dimension, Extent, Manifest, Output, Precision, REGION, REGION_SIZE, SCHEMA,
+    SampleType, SamplerType, Stage, UniformField, region_fields,
 };
 
 /// Name of the uniform buffer.
@@ -219,6 +219,14 @@ impl Resources {
         self.inputs() + compute + u32::from(!self.fields.is_empty()) + u32::from(self.options.region)
     }
 
+    /// What not every device can do.
+    fn features(&self) -> Vec<String> {
+        let half = self.options.precision == Precision::F16;
+        let features = [(self.subgroups, "subgroup"), (half, "shader-f16")];
+        let needed = features.into_iter().filter(|(needed, _)| *needed);
+        needed.map(|(_, name)| name.to_owned()).collect()
+    }
+
     /// The manifest of the shader, without its files and with `statements` still 0.
     pub fn manifest(&self, compiled: &Compiled) -> Manifest {
         let mut bindings = Vec::new();
@@ -281,14 +289,11 @@ impl Resources {
             kernel: compiled.kernel.clone(),
             stage: self.options.stage,
             unroll: compiled.policy.to_string(),
+            precision: self.options.precision,
             entry_point: super::shell::entry_point(&compiled.kernel),
             workgroup_size: compute.then_some(self.options.workgroup()),
             block: self.block,
-            features: if self.subgroups {
-                vec!["subgroup".to_owned()]
-            } else {
-                Vec::new()
-            },
+            features: self.features(),
             varyings: self.varyings().collect(),
             bindings,
             output: Output {

@@ -8,7 +8,7 @@ use crate::ir::{Invocation, TextureKind};
 use crate::pipeline::Compiled;
 use crate::policy::Transport;
 use serde_json::json;
-use straightline_manifest::{REGION, Stage};
+use straightline_manifest::{Precision, REGION, Stage};
 
 /// Name and version, for headers and manifests.
 pub const GENERATOR: &str = concat!("straightline ", env!("CARGO_PKG_VERSION"));
@@ -57,7 +57,7 @@ pub fn render(compiled: &Compiled, resources: &Resources, dialect: &dyn Dialect)
         .iter()
         .map(|(k, binding)| {
             let buffer = resources.buffer(*k);
-            json!({ "name": buffer.name, "binding": binding, "element": dialect.ty(buffer.element) })
+            json!({ "name": buffer.name, "binding": binding, "element": dialect.outside(buffer.element) })
         })
         .collect();
     let samplers: Vec<_> = resources
@@ -86,7 +86,7 @@ pub fn render(compiled: &Compiled, resources: &Resources, dialect: &dyn Dialect)
         .varyings
         .iter()
         .zip(0..)
-        .map(|(v, location)| json!({ "name": v.name, "location": location, "ty": dialect.ty(v.ty) }))
+        .map(|(v, location)| json!({ "name": v.name, "location": location, "ty": dialect.outside(v.ty) }))
         .collect();
     let width = resources.block[0] as usize;
     let stores: Vec<_> = results
@@ -120,6 +120,7 @@ pub fn render(compiled: &Compiled, resources: &Resources, dialect: &dyn Dialect)
         "blocks": resources.block != [1, 1],
         "varyings": varyings,
         "subgroups": resources.subgroups,
+        "half": resources.options.precision == Precision::F16,
     });
     let failed = |error: tera::Error| EmitError::Shell {
         kernel: compiled.kernel.clone(),
@@ -150,10 +151,11 @@ fn header(compiled: &Compiled, resources: &Resources, statements: u32) -> Vec<St
             }
         ),
         format!(
-            "Stage {}, unroll {}, {}output {}.",
+            "Stage {}, unroll {}, {}{}output {}.",
             resources.options.stage.name(),
             compiled.policy,
             messages(compiled),
+            precision(resources.options.precision),
             resources.options.format
         ),
     ];
@@ -206,6 +208,14 @@ fn messages(compiled: &Compiled) -> &'static str {
         Invocation::Lane if compiled.transport == Some(Transport::Derivatives) => "messages by fine derivatives, ",
         Invocation::Lane => "messages by quad operations, ",
         _ => "",
+    }
+}
+
+/// What the shader computes in, where that is not what all do.
+fn precision(precision: Precision) -> &'static str {
+    match precision {
+        Precision::F32 => "",
+        Precision::F16 => "half precision (f16), ",
     }
 }
 

@@ -13,7 +13,7 @@ pub enum Target {
     Glsl450,
     /// SPIR-V 1.3, binary.
     Spirv,
-    /// HLSL, shader model 5.1.
+    /// HLSL, shader model 5.1; in half precision 6.2, compiled with `-enable-16bit-types`.
     Hlsl,
     /// Metal Shading Language 2.0.
     Msl,

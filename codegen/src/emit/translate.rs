@@ -4,7 +4,7 @@ use super::error::EmitError;
 use super::resources::Resources;
 use naga::back::{hlsl, msl, spv};
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
-use straightline_manifest::Stage;
+use straightline_manifest::{Precision, Stage};
 
 /// A validated module.
 pub struct Module {
@@ -58,12 +58,15 @@ impl Module {
         Ok(words.into_iter().flat_map(u32::to_le_bytes).collect())
     }
 
-    /// HLSL of shader model 5.1, with quad operations 6.0: group as space, binding as register.
+    /// HLSL of shader model 5.1, with quad operations 6.0, in half precision 6.2: group as space, binding as register.
     pub fn hlsl(&self, resources: &Resources) -> Result<String, EmitError> {
         let mut text = String::new();
         let mut options = hlsl::Options::default();
         if resources.subgroups {
             options.shader_model = hlsl::ShaderModel::V6_0;
+        }
+        if resources.options.precision == Precision::F16 {
+            options.shader_model = hlsl::ShaderModel::V6_2;
         }
         let pipeline = hlsl::PipelineOptions::default();
         let mut writer = hlsl::Writer::new(&mut text, &options, &pipeline);
@@ -166,7 +169,10 @@ fn stage(stage: Stage) -> naga::ShaderStage {
 }
 
 fn validate(module: &naga::Module, text: &str) -> Result<ModuleInfo, String> {
-    let mut validator = Validator::new(ValidationFlags::all(), Capabilities::SUBGROUP);
+    let mut validator = Validator::new(
+        ValidationFlags::all(),
+        Capabilities::SUBGROUP | Capabilities::SHADER_FLOAT16,
+    );
     validator.validate(module).map_err(|error| error.emit_to_string(text))
 }
 

@@ -4,6 +4,7 @@ use super::dialect::{Dialect, float, integer, operator};
 use super::resources::Resources;
 use super::text::{Binds, Text};
 use crate::ir::{Axis, BinaryOp, Direction, Scalar, TextureKind, Type, UnaryOp};
+use straightline_manifest::Precision;
 
 /// WGSL as WebGPU and wgpu read it.
 pub struct Wgsl<'a> {
@@ -17,6 +18,10 @@ impl Wgsl<'_> {
         let sampler = self.resources.sampler(sampler).name.as_str();
         [texture, sampler].map(Text::name)
     }
+
+    fn is_half(&self) -> bool {
+        self.resources.options.precision == Precision::F16
+    }
 }
 
 impl Dialect for Wgsl<'_> {
@@ -25,11 +30,37 @@ impl Dialect for Wgsl<'_> {
     }
 
     fn ty(&self, ty: Type) -> String {
+        match (ty, self.is_half() && ty.is_float()) {
+            (Type::Array { len, .. }, true) => format!("array<{}, {len}>", self.ty(ty.element())),
+            (Type::Value { lanes: 1, .. }, true) => "f16".to_owned(),
+            (Type::Value { lanes, .. }, true) => format!("vec{lanes}h"),
+            _ => type_name(ty),
+        }
+    }
+
+    fn outside(&self, ty: Type) -> String {
         type_name(ty)
+    }
+
+    fn enter(&self, ty: Type, x: Text) -> Text {
+        if self.is_half() && ty.is_float() {
+            Text::call(&self.ty(ty), &[&x])
+        } else {
+            x
+        }
+    }
+
+    fn leave(&self, ty: Type, x: Text) -> Text {
+        if self.is_half() && ty.is_float() {
+            Text::call(&type_name(ty), &[&x])
+        } else {
+            x
+        }
     }
 
     fn scalar(&self, kind: Scalar, bits: u32) -> Text {
         match kind {
+            Scalar::F32 if self.is_half() => super::half::literal(bits),
             Scalar::F32 => float(bits),
             Scalar::I32 if bits as i32 == i32::MIN => Text::name("i32(-2147483648)"),
             Scalar::I32 => integer(i64::from(bits as i32), ""),
@@ -138,8 +169,10 @@ impl Dialect for Wgsl<'_> {
         Text::call("i32", &[&Text::call("arrayLength", &[&name])])
     }
 
-    fn bitcast(&self, _: Type, to: Type, x: &Text) -> Text {
-        Text::call(&format!("bitcast<{}>", self.ty(to)), &[x])
+    // Bits are those of an `f32` in every precision.
+    fn bitcast(&self, from: Type, to: Type, x: &Text) -> Text {
+        let x = self.leave(from, x.clone());
+        self.enter(to, Text::call(&format!("bitcast<{}>", type_name(to)), &[&x]))
     }
 
     fn unary(&self, op: UnaryOp, _: Type, x: &Text) -> Text {
@@ -211,8 +244,11 @@ impl Dialect for Wgsl<'_> {
         Text::call("select", &[no, yes, condition])
     }
 
-    fn convert(&self, _: Type, to: Type, x: &Text) -> Text {
-        Text::call(&self.ty(to), &[x])
+    // Between half precision and integers by way of `f32`, which holds every `f16`, and every integer that an `f16` holds:
+    // whatever a driver does of its own is what it does in full precision.
+    fn convert(&self, from: Type, to: Type, x: &Text) -> Text {
+        let x = self.leave(from, x.clone());
+        self.enter(to, Text::call(&type_name(to), &[&x]))
     }
 
     fn uniform(&self, name: &str) -> Text {

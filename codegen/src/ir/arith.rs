@@ -5,10 +5,18 @@ use super::{BinaryOp, Lanes, Op, Real, Scalar, Type, UnaryOp};
 /// A scalar or up to four lanes of a vector, each the bits of an integer or of an `R`; unused lanes are 0.
 pub type Cells = [u64; 4];
 
-/// The bits of a constant as cells of an `R`.
+/// The bits of what a host gives as cells of an `R`.
 pub fn cells<R: Real>(ty: Type, bits: &Lanes) -> Cells {
     bits.map(|bits| match ty.kind() {
         Some(Scalar::F32) => R::from_f64(f64::from(f32::from_bits(bits))).to_bits(),
+        _ => u64::from(bits),
+    })
+}
+
+/// The bits of a constant as cells of an `R`.
+pub fn constant<R: Real>(ty: Type, bits: &Lanes) -> Cells {
+    bits.map(|bits| match ty.kind() {
+        Some(Scalar::F32) => R::constant(f32::from_bits(bits)).to_bits(),
         _ => u64::from(bits),
     })
 }
@@ -25,7 +33,7 @@ pub fn apply<R: Real>(op: &Op, operand: Type, args: &[Cells], ty: Type) -> Optio
     let lanes = ty.lanes() as usize;
     let real = |cell: u64| R::from_bits(cell);
     Some(match op {
-        Op::Const(bits) => cells::<R>(ty, bits),
+        Op::Const(bits) => constant::<R>(ty, bits),
         Op::Unary(op) => each(lanes, |k| unary::<R>(*op, operand.kind()?, args[0][k]))?,
         Op::Binary(op) => each(lanes, |k| binary::<R>(*op, operand.kind()?, args[0][k], args[1][k]))?,
         Op::Dot => {

@@ -10,8 +10,15 @@ pub trait Real:
 {
     /// `f16`, `f32` or `f64`.
     const NAME: &'static str;
+    /// What samplers compute in: they take and give `f32` where shaders compute in less.
+    type Sampled: Real;
     /// The nearest number.
     fn from_f64(x: f64) -> Self;
+    /// A number that the kernel states: the nearest one, and of what lies beyond all of them the last. A bound such as
+    /// `x.min(1.0e30)` must go on bounding, which an infinity would not.
+    fn constant(x: f32) -> Self {
+        Self::from_f64(x.into())
+    }
     /// The same number.
     fn to_f64(self) -> f64;
     /// Its bits, the unused high ones 0.
@@ -28,6 +35,7 @@ macro_rules! real {
     ($ty:ty, $bits:ty) => {
         impl Real for $ty {
             const NAME: &'static str = stringify!($ty);
+            type Sampled = $ty;
 
             fn from_f64(x: f64) -> Self {
                 x as $ty
@@ -110,6 +118,12 @@ impl F16 {
     fn round(x: f32) -> F16 {
         F16(half::f16::from_f32(x))
     }
+
+    /// The nearest number, a finite one of a finite one.
+    pub(crate) fn nearest(x: f32) -> half::f16 {
+        let x = if x.is_finite() { x.clamp(-65504.0, 65504.0) } else { x };
+        half::f16::from_f32(x)
+    }
 }
 
 impl Add for F16 {
@@ -138,9 +152,14 @@ impl Mul for F16 {
 
 impl Real for F16 {
     const NAME: &'static str = "f16";
+    type Sampled = f32;
 
     fn from_f64(x: f64) -> Self {
         F16(half::f16::from_f64(x))
+    }
+
+    fn constant(x: f32) -> Self {
+        F16(F16::nearest(x))
     }
 
     fn to_f64(self) -> f64 {

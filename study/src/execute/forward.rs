@@ -3,7 +3,7 @@
 use super::{Bench, ExecuteError, Inputs};
 use glam::{UVec2, Vec4};
 use straightline_codegen::emit::Target;
-use straightline_codegen::{Compiled, EmitOptions, Format, Stage};
+use straightline_codegen::{Compiled, Stage};
 use straightline_kernels::prelude::Frame;
 use straightline_manifest::{BindingKind, Dimension, Manifest, SampleType, SamplerType};
 use wgpu::TextureFormat;
@@ -45,7 +45,7 @@ impl Bench {
         discard: Option<&str>,
         rewrite: impl Fn(String) -> String,
     ) -> Result<Forward, ExecuteError> {
-        let emitted = compiled.emit(&EmitOptions::new().stage(Stage::Fragment).format(Format::Rgba32Float))?;
+        let emitted = compiled.emit(&self.options(Stage::Fragment))?;
         let text = emitted.files.get(&Target::Wgsl).map(|b| String::from_utf8_lossy(b));
         let mut text = rewrite(text.unwrap_or_default().into_owned());
         if let Some(condition) = discard {

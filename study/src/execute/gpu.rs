@@ -4,7 +4,7 @@ use super::convert::{self, Converters};
 use super::{Address, Comparison, ExecuteError, Inputs, SamplerState};
 use glam::{UVec2, Vec4, uvec2};
 use straightline_codegen::emit::Target;
-use straightline_codegen::{Compiled, EmitOptions, Format, Stage};
+use straightline_codegen::{Compiled, EmitOptions, Format, Precision, Stage};
 use straightline_kernels::prelude::Frame;
 use straightline_manifest::{BindingKind, Dimension, Manifest, REGION, SampleType};
 use straightline_runtime::{Pass, Resource};
@@ -20,6 +20,8 @@ pub struct Bench {
     pub(super) queue: wgpu::Queue,
     /// Whether passes are timed by the device itself.
     pub(super) timestamps: bool,
+    /// What shaders compute in.
+    precision: Precision,
 }
 
 /// A shader's inputs on a device.
@@ -58,7 +60,20 @@ impl Bench {
             device: device.clone(),
             queue: queue.clone(),
             timestamps,
+            precision: Precision::default(),
         }
+    }
+
+    /// The same device, with shaders that compute in a precision; half precision needs its feature `SHADER_F16`.
+    pub fn precision(mut self, precision: Precision) -> Self {
+        self.precision = precision;
+        self
+    }
+
+    /// How kernels are emitted for this bench: for a stage, writing full floats.
+    pub fn options(&self, stage: Stage) -> EmitOptions {
+        let options = EmitOptions::new().stage(stage).precision(self.precision);
+        options.format(Format::Rgba32Float)
     }
 
     /// The device.
@@ -77,7 +92,7 @@ impl Bench {
     ///
     /// If it cannot be emitted, or the device cannot run it.
     pub fn pass(&self, compiled: &Compiled, stage: Stage) -> Result<(Pass, Manifest), ExecuteError> {
-        self.emitted(compiled, &EmitOptions::new().stage(stage).format(Format::Rgba32Float))
+        self.emitted(compiled, &self.options(stage))
     }
 
     /// The kernel as a pass emitted with `options`, and its manifest.

@@ -2,7 +2,7 @@
 
 use super::{Bench, ExecuteError, Inputs};
 use glam::{IVec2, UVec2, Vec4, uvec2};
-use straightline_codegen::{Compiled, EmitOptions, Format, Stage};
+use straightline_codegen::{Compiled, Stage};
 use straightline_kernels::prelude::Frame;
 use straightline_runtime::Region;
 
@@ -74,7 +74,7 @@ impl Bench {
         mut inputs: impl FnMut(&Tile) -> Result<Inputs, ExecuteError>,
         mut output: impl FnMut(&Tile, Frame<Vec4>),
     ) -> Result<(), ExecuteError> {
-        let options = EmitOptions::new().stage(stage).format(Format::Rgba32Float).region(true);
+        let options = self.options(stage).region(true);
         let (pass, manifest) = self.emitted(compiled, &options)?;
         for tile in tiles(size, side, apron) {
             let bound = self.bind(&pass, &manifest, &inputs(&tile)?)?;

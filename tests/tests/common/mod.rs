@@ -22,7 +22,8 @@ pub fn device() -> (wgpu::Device, wgpu::Queue) {
             panic!("this test needs a GPU adapter; without a GPU install Debian's mesa-vulkan-drivers: {e}")
         });
     let descriptor = wgpu::DeviceDescriptor {
-        required_features: adapter.features() & (wgpu::Features::FLOAT32_FILTERABLE | wgpu::Features::SUBGROUP),
+        required_features: adapter.features()
+            & (wgpu::Features::FLOAT32_FILTERABLE | wgpu::Features::SUBGROUP | wgpu::Features::SHADER_F16),
         ..Default::default()
     };
     let device = pollster::block_on(adapter.request_device(&descriptor));

@@ -118,7 +118,7 @@ impl<'a, R: Real> Interpreter<'a, R> {
         let mut values = vec![[0; 4]; self.graph.nodes.len()];
         for id in self.graph.ids() {
             if let Some(bits) = self.graph.constant(id) {
-                values[id.0 as usize] = arith::cells::<R>(self.graph.ty(id), &bits);
+                values[id.0 as usize] = arith::constant::<R>(self.graph.ty(id), &bits);
             }
         }
         Scratch {
@@ -243,7 +243,10 @@ impl<'a, R: Real> Interpreter<'a, R> {
     fn read(&self, op: &Op, args: &[NodeId], s: &Scratch) -> Cells {
         let word = |k: usize, lane: usize| args.get(k).map_or(0, |a| s.values[a.0 as usize][lane] as u32);
         let real = |k: usize, lane: usize| R::from_bits(s.values[args[k].0 as usize][lane]);
-        let uv = || [real(0, 0), real(0, 1)];
+        // A sampler is other hardware, and reads and gives what it computes in.
+        let outer = |k: usize, lane: usize| R::Sampled::from_f64(real(k, lane).to_f64());
+        let inner = |x: R::Sampled| R::from_f64(x.to_f64()).to_bits();
+        let uv = || [outer(0, 0), outer(0, 1)];
         if let Some(buffer) = op.buffer() {
             let elements = &self.buffers[buffer as usize];
             return match op {
@@ -265,10 +268,10 @@ impl<'a, R: Real> Interpreter<'a, R> {
             Op::Load { .. } => image
                 .texel(word(0, 0), word(0, 1), word(1, 0))
                 .map(|v| R::from_f64(v.into()).to_bits()),
-            Op::Gather { component, .. } => through.gather(*component, uv()).map(R::to_bits),
-            Op::GatherCompare { .. } => through.gather_compare(uv(), real(1, 0)).map(R::to_bits),
-            Op::Compare { .. } => [through.compare(uv(), real(1, 0)).to_bits(), 0, 0, 0],
-            _ => through.sample(uv()).map(R::to_bits),
+            Op::Gather { component, .. } => through.gather(*component, uv()).map(inner),
+            Op::GatherCompare { .. } => through.gather_compare(uv(), outer(1, 0)).map(inner),
+            Op::Compare { .. } => [inner(through.compare(uv(), outer(1, 0))), 0, 0, 0],
+            _ => through.sample(uv()).map(inner),
         }
     }
 

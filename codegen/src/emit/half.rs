@@ -1,0 +1,78 @@
+//! Half precision: literals.
+
+use super::text::{Binds, Text};
+use half::f16;
+
+/// The `f16` nearest to an `f32`, with the fewest digits that give it back. A number beyond all of them becomes the last, as
+/// `ir::Real::constant` has it.
+pub fn literal(bits: u32) -> Text {
+    let x = crate::ir::F16::nearest(f32::from_bits(bits));
+    Text {
+        binds: if x.is_sign_negative() {
+            Binds::Prefix
+        } else {
+            Binds::Primary
+        },
+        code: format!("{}h", shortest(x)),
+        size: 0,
+    }
+}
+
+/// Digits that give the number back, whether they are read at once or by way of `f32`, as naga does.
+fn shortest(x: f16) -> String {
+    let exact = x.to_f64();
+    let candidates = (0..8).filter_map(|digits| format!("{exact:.digits$e}").parse::<f64>().ok());
+    let mut right = candidates.filter(|v| f16::from_f64(*v) == x && f16::from_f32(*v as f32) == x);
+    format!("{:?}", right.next().unwrap_or(exact))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn code(x: f32) -> String {
+        literal(x.to_bits()).code
+    }
+
+    #[test]
+    fn few_digits() {
+        let cases = [
+            (0.1, "0.1h"),
+            (1.0, "1.0h"),
+            (-0.0, "-0.0h"),
+            (2048.0, "2048.0h"),
+            (1.0 / 3.0, "0.3333h"),
+            (-2.5, "-2.5h"),
+        ];
+        for (x, expected) in cases {
+            assert_eq!(code(x), expected);
+        }
+    }
+
+    #[test]
+    fn what_does_not_fit() {
+        assert_eq!(code(1.0e30), "65504.0h");
+        assert_eq!(code(-65520.0), "-65504.0h");
+        assert_eq!(code(1.0e-12), "0.0h");
+        assert_eq!(code(-1.0e-12), "-0.0h");
+    }
+
+    #[test]
+    fn every_number_comes_back() {
+        for bits in 0..=u16::MAX {
+            let x = f16::from_bits(bits);
+            if x.is_finite() {
+                let text = code(x.to_f32());
+                let digits = text.trim_end_matches('h');
+                let back: f16 = digits.parse().expect("a number");
+                assert_eq!(back.to_bits(), bits, "{text}");
+                assert_eq!(
+                    f16::from_f64(digits.parse().expect("a number")).to_bits(),
+                    bits,
+                    "{text}"
+                );
+                assert!(text.contains('.') || text.contains('e'), "{text}");
+            }
+        }
+    }
+}
