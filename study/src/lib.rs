@@ -1,6 +1,7 @@
 //! A deferred testbed, captures, references and error metrics for studying antialiasing kernels.
 //!
-//! Only [`execute`] knows the generator. All else stands apart from it: the oracle and the metrics judge what it emits.
+//! Only [`execute`] and [`tune`] know the generator. All else stands apart from it: the oracle and the metrics judge what it
+//! emits.
 
 pub mod capture;
 pub mod encode;
@@ -12,3 +13,4 @@ pub mod picture;
 pub mod record;
 pub mod render;
 pub mod scene;
+pub mod tune;

@@ -30,7 +30,7 @@ pub struct Bound {
     resources: Vec<(String, Owned)>,
 }
 
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 enum Owned {
     Texture(wgpu::TextureView),
     Sampler(wgpu::Sampler),
@@ -145,20 +145,54 @@ impl Bench {
                         Inputs::find(&inputs.buffers, name).ok_or_else(|| missing("list of elements", name))?;
                     Owned::Buffer(self.buffer(elements, element))
                 }
-                // Stated with each region that is recorded.
-                BindingKind::Uniform { .. } if name == REGION => continue,
-                BindingKind::Uniform { fields, .. } => {
-                    for field in fields {
-                        if let Some(lanes) = Inputs::find(&inputs.uniforms, &field.name) {
-                            convert::write_uniform(pass, &self.queue, field, lanes)?;
-                        }
-                    }
-                    continue;
-                }
+                BindingKind::Uniform { .. } => continue,
             };
             resources.push((binding.name.clone(), owned));
         }
+        self.set_uniforms(pass, manifest, inputs)?;
         Ok(Bound { resources })
+    }
+
+    /// As [`bind`](Self::bind), with all but uniforms taken from what was bound for another shader of the same kernel, so
+    /// that many shaders share one copy. That shader must read as many components and layers of each texture, or more.
+    ///
+    /// # Errors
+    ///
+    /// If the other shader does not read what this one does, or the device fails.
+    pub fn bind_shared(
+        &self,
+        pass: &Pass,
+        manifest: &Manifest,
+        inputs: &Inputs,
+        other: &Bound,
+    ) -> Result<Bound, ExecuteError> {
+        let mut resources = Vec::new();
+        for binding in &manifest.bindings {
+            if matches!(binding.kind, BindingKind::Uniform { .. }) {
+                continue;
+            }
+            let found = other.resources.iter().find(|(name, _)| *name == binding.name);
+            let shared = found.ok_or_else(|| ExecuteError::Input(format!("nothing is bound for `{}`", binding.name)))?;
+            resources.push(shared.clone());
+        }
+        self.set_uniforms(pass, manifest, inputs)?;
+        Ok(Bound { resources })
+    }
+
+    /// Sets those uniforms of a pass that are given; those of a region are stated with each region that is recorded.
+    fn set_uniforms(&self, pass: &Pass, manifest: &Manifest, inputs: &Inputs) -> Result<(), ExecuteError> {
+        for binding in &manifest.bindings {
+            if let BindingKind::Uniform { fields, .. } = &binding.kind
+                && binding.name != REGION
+            {
+                for field in fields {
+                    if let Some(lanes) = Inputs::find(&inputs.uniforms, &field.name) {
+                        convert::write_uniform(pass, &self.queue, field, lanes)?;
+                    }
+                }
+            }
+        }
+        Ok(())
     }
 
     /// Every pixel of a kernel.
@@ -169,7 +203,16 @@ impl Bench {
     pub fn run(&self, compiled: &Compiled, stage: Stage, inputs: &Inputs) -> Result<Frame<Vec4>, ExecuteError> {
         let (pass, manifest) = self.pass(compiled, stage)?;
         let bound = self.bind(&pass, &manifest, inputs)?;
-        let target = self.target(inputs.size, pass.target_format());
+        self.run_pass(&pass, &bound, inputs.size)
+    }
+
+    /// What a pass that writes full floats makes of its inputs.
+    ///
+    /// # Errors
+    ///
+    /// If it cannot be encoded, or the device fails.
+    pub fn run_pass(&self, pass: &Pass, bound: &Bound, size: UVec2) -> Result<Frame<Vec4>, ExecuteError> {
+        let target = self.target(size, pass.target_format());
         let view = target.create_view(&wgpu::TextureViewDescriptor::default());
         let mut encoder = self
             .device
