@@ -12,4 +12,5 @@ pub mod resolve;
 pub mod run;
 pub mod scenes;
 pub mod study;
+pub mod tune;
 pub mod unroll;

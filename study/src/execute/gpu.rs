@@ -172,7 +172,8 @@ impl Bench {
                 continue;
             }
             let found = other.resources.iter().find(|(name, _)| *name == binding.name);
-            let shared = found.ok_or_else(|| ExecuteError::Input(format!("nothing is bound for `{}`", binding.name)))?;
+            let shared =
+                found.ok_or_else(|| ExecuteError::Input(format!("nothing is bound for `{}`", binding.name)))?;
             resources.push(shared.clone());
         }
         self.set_uniforms(pass, manifest, inputs)?;

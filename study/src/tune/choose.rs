@@ -39,7 +39,12 @@ impl Search {
         let mut which: Vec<usize> = thinned.collect();
         which.extend(within.iter().take(OF_THE_FASTEST));
         // The best of all keeps every budget.
-        which.extend(usable.iter().copied().min_by(|a, b| self.losses(*a).total_cmp(&self.losses(*b))));
+        which.extend(
+            usable
+                .iter()
+                .copied()
+                .min_by(|a, b| self.losses(*a).total_cmp(&self.losses(*b))),
+        );
         which.extend(self.space.of_defaults(&self.defaults).and_then(|v| self.index.get(&v)));
         if let Some(winner) = within.first() {
             let limit = NEAR * self.entries[*winner].predicted;
@@ -96,8 +101,11 @@ impl Search {
         let metric = self.question.metric;
         let finite = self.entries.iter().filter(|e| e.refused.is_none());
         let errors = finite.filter_map(|e| e.error).filter(|(_, bad)| *bad == 0);
-        let best = errors.map(|(error, _)| error).min_by(|a, b| metric.loss(0.0, *a).total_cmp(&metric.loss(0.0, *b)));
-        best.or(self.entries.first().and_then(|e| e.error).map(|(error, _)| error)).unwrap_or(0.0)
+        let best = errors
+            .map(|(error, _)| error)
+            .min_by(|a, b| metric.loss(0.0, *a).total_cmp(&metric.loss(0.0, *b)));
+        best.or(self.entries.first().and_then(|e| e.error).map(|(error, _)| error))
+            .unwrap_or(0.0)
     }
 
     fn loss(&self, index: usize) -> Option<f64> {
@@ -124,16 +132,32 @@ impl Search {
 
     /// Everything that was measured.
     pub fn record(&self, circumstances: Circumstances, chosen: Option<usize>) -> TuneRecord {
-        let seen: Vec<usize> = (0..self.entries.len()).filter(|k| self.entries[*k].error.is_some()).collect();
+        let seen: Vec<usize> = (0..self.entries.len())
+            .filter(|k| self.entries[*k].error.is_some())
+            .collect();
         let place: BTreeMap<usize, usize> = seen.iter().enumerate().map(|(place, k)| (*k, place)).collect();
-        let timed: Vec<usize> = seen.iter().copied().filter(|k| self.entries[*k].ratio.is_some()).collect();
+        let timed: Vec<usize> = seen
+            .iter()
+            .copied()
+            .filter(|k| self.entries[*k].ratio.is_some())
+            .collect();
         let usable = self.usable();
         let timed: Vec<usize> = timed.into_iter().filter(|k| usable.contains(k)).collect();
         let points: Vec<(f64, f64)> = timed
             .iter()
-            .map(|k| (self.entries[*k].ratio.map_or(f64::INFINITY, |r| 1.0 / r.median), self.losses(*k)))
+            .map(|k| {
+                (
+                    self.entries[*k].ratio.map_or(f64::INFINITY, |r| 1.0 / r.median),
+                    self.losses(*k),
+                )
+            })
             .collect();
-        let on: Vec<usize> = timed.iter().zip(front(&points)).filter(|(_, on)| *on).map(|(k, _)| *k).collect();
+        let on: Vec<usize> = timed
+            .iter()
+            .zip(front(&points))
+            .filter(|(_, on)| *on)
+            .map(|(k, _)| *k)
+            .collect();
         let candidate = |k: &usize| {
             let mut candidate = self.candidate(&self.entries[*k]);
             candidate.front = on.contains(k);
@@ -190,7 +214,13 @@ impl Search {
     /// What the chosen variant does without, and what putting each back would win.
     fn left_out(&self, chosen: Variant) -> Vec<LeftOut> {
         let all = self.space.left_out(chosen).into_iter();
-        all.filter_map(|(term, with)| Some(LeftOut { term, cost: self.cost(chosen, with)? })).collect()
+        all.filter_map(|(term, with)| {
+            Some(LeftOut {
+                term,
+                cost: self.cost(chosen, with)?,
+            })
+        })
+        .collect()
     }
 
     /// The most general variant with each of its terms replaced.

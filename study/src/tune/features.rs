@@ -110,7 +110,10 @@ mod tests {
 
     fn counted(options: &[(&str, &str)], block: [u32; 2]) -> Static {
         let settings = Settings {
-            options: options.iter().map(|(n, v)| ((*n).to_owned(), (*v).to_owned())).collect(),
+            options: options
+                .iter()
+                .map(|(n, v)| ((*n).to_owned(), (*v).to_owned()))
+                .collect(),
             block,
             ..Settings::default()
         };
@@ -139,6 +142,9 @@ mod tests {
         assert_eq!(figure(&four, "invocations"), 0.25);
         assert!(four.reads < one.reads);
         assert_eq!(figure(&one, "weights"), figure(&four, "weights"));
-        assert_eq!(figure(&counted(&[("metric", "depth")], [1, 1]), "reads of normals"), 0.0);
+        assert_eq!(
+            figure(&counted(&[("metric", "depth")], [1, 1]), "reads of normals"),
+            0.0
+        );
     }
 }

@@ -40,16 +40,19 @@ pub const EQUAL_DB: f64 = 48.130_803_608_679_1;
 pub enum ErrorMetric {
     /// Peak signal-to-noise ratio in dB: more is better.
     Psnr,
+    /// Mean of LDR-FLIP, 0 to 1: less is better.
+    Flip,
 }
 
 impl ErrorMetric {
     /// Every metric.
-    pub const ALL: [ErrorMetric; 1] = [ErrorMetric::Psnr];
+    pub const ALL: [ErrorMetric; 2] = [ErrorMetric::Psnr, ErrorMetric::Flip];
 
     /// As on the command line and in records.
     pub fn name(self) -> &'static str {
         match self {
             ErrorMetric::Psnr => "psnr",
+            ErrorMetric::Flip => "flip",
         }
     }
 
@@ -57,6 +60,7 @@ impl ErrorMetric {
     pub fn error(self, test: &Frame<Vec4>, reference: &Frame<Vec4>) -> f64 {
         match self {
             ErrorMetric::Psnr => metrics::psnr(test, reference),
+            ErrorMetric::Flip => metrics::flip(test, reference),
         }
     }
 
@@ -64,6 +68,7 @@ impl ErrorMetric {
     pub fn loss(self, best: f64, error: f64) -> f64 {
         match self {
             ErrorMetric::Psnr => best - error,
+            ErrorMetric::Flip => error - best,
         }
     }
 
@@ -71,6 +76,7 @@ impl ErrorMetric {
     pub fn show(self, error: f64) -> String {
         match self {
             ErrorMetric::Psnr => format!("{error:.2} dB"),
+            ErrorMetric::Flip => format!("{error:.4}"),
         }
     }
 }

@@ -131,7 +131,12 @@ mod tests {
         let times: Vec<f64> = rows.iter().map(|r| 5.0 + r[0] - 0.05 * r[1] + 0.01 * r[2]).collect();
         let found = learn(&rows, &times);
         assert!(found.iter().all(|c| *c >= 0.0), "{found:?}");
-        let loss = |c: &[f64]| -> f64 { rows.iter().zip(&times).map(|(r, t)| (predict(c, r) / t - 1.0).powi(2)).sum() };
+        let loss = |c: &[f64]| -> f64 {
+            rows.iter()
+                .zip(&times)
+                .map(|(r, t)| (predict(c, r) / t - 1.0).powi(2))
+                .sum()
+        };
         for k in 0..3 {
             for step in [0.9, 1.1] {
                 let mut moved = found.clone();

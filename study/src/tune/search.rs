@@ -134,7 +134,11 @@ impl Search {
             name: subject.name,
             referred_to: subject.referred_to,
             size,
-            index: entries.iter().enumerate().map(|(k, entry)| (entry.variant, k)).collect(),
+            index: entries
+                .iter()
+                .enumerate()
+                .map(|(k, entry)| (entry.variant, k))
+                .collect(),
             entries,
             space,
             grounds,
@@ -255,7 +259,11 @@ impl Search {
         let predicted: Vec<f64> = rows.iter().map(|row| model::predict(&coefficients, row)).collect();
         let (mean_error, largest_error) = model::errors(&predicted, &times);
         self.model = Model {
-            terms: NAMES.iter().map(|n| (*n).to_owned()).zip(coefficients.iter().copied()).collect(),
+            terms: NAMES
+                .iter()
+                .map(|n| (*n).to_owned())
+                .zip(coefficients.iter().copied())
+                .collect(),
             learned_from: learned.iter().filter(|k| self.entries[**k].time.is_some()).count(),
             tested_on: times.len(),
             mean_error,
@@ -286,7 +294,10 @@ impl Search {
             if watch.stopped() {
                 return Ok(false);
             }
-            let prepared: Vec<_> = some.par_iter().map(|k| (*k, self.shown(self.entries[*k].variant))).collect();
+            let prepared: Vec<_> = some
+                .par_iter()
+                .map(|k| (*k, self.shown(self.entries[*k].variant)))
+                .collect();
             for (k, prepared) in prepared {
                 match prepared {
                     Ok((ready, error)) => {
@@ -334,7 +345,9 @@ impl Search {
 
     /// Error of the picture as it is without any filter.
     pub(super) fn unfiltered(&self) -> f64 {
-        self.reference.as_ref().map_or(0.0, |reference| self.error(&self.color, reference))
+        self.reference
+            .as_ref()
+            .map_or(0.0, |reference| self.error(&self.color, reference))
     }
 
     /// Bytes of G-buffer that a variant reads.
@@ -344,7 +357,10 @@ impl Search {
             "depth" => DEPTH_BYTES,
             _ => DEPTH_BYTES + NORMAL_BYTES,
         };
-        let layers = self.grounds.get(variant.at(Term::Samples)).map_or(0, |ground| ground.layers);
+        let layers = self
+            .grounds
+            .get(variant.at(Term::Samples))
+            .map_or(0, |ground| ground.layers);
         sample * layers * u64::from(self.size.x) * u64::from(self.size.y)
     }
 
@@ -364,6 +380,7 @@ impl Search {
         let error = self.question.metric.error(picture, reference);
         match self.question.metric {
             ErrorMetric::Psnr => error.min(self.ceiling_db),
+            ErrorMetric::Flip => error,
         }
     }
 
@@ -388,7 +405,10 @@ impl Search {
         let ready = self.prepare(variant).map_err(|error| error.to_string())?;
         let picture = self.bench.run_pass(&ready.0, &ready.1, self.size);
         let picture = picture.map_err(|error| error.to_string())?;
-        let error = self.reference.as_ref().map_or(0.0, |reference| self.error(&picture, reference));
+        let error = self
+            .reference
+            .as_ref()
+            .map_or(0.0, |reference| self.error(&picture, reference));
         Ok((ready, (error, metrics::non_finite(&picture))))
     }
 

@@ -166,7 +166,9 @@ impl Space {
         }
         let mut terms = [
             samples.collect(),
-            metric.map(|(name, needs)| Value::of(name, needs, &[("metric", name)])).collect(),
+            metric
+                .map(|(name, needs)| Value::of(name, needs, &[("metric", name)]))
+                .collect(),
             vec![
                 Value::of("relative depth", "relative depth", &[("difference", "relative")]),
                 Value::of("absolute depth", "absolute depth", &[("difference", "absolute")]),
@@ -237,7 +239,11 @@ impl Space {
     pub fn variants(&self) -> Vec<Variant> {
         let mut all = vec![self.general()];
         for term in Term::ALL {
-            let each = |v: &Variant| (0..self.values(term).len()).map(|k| v.with(term, k)).collect::<Vec<_>>();
+            let each = |v: &Variant| {
+                (0..self.values(term).len())
+                    .map(|k| v.with(term, k))
+                    .collect::<Vec<_>>()
+            };
             all = all.iter().flat_map(each).collect();
         }
         all.retain(|v| *v == self.canonical(*v));
@@ -268,7 +274,11 @@ impl Space {
     /// without the finite test if all colours are finite.
     pub fn picture_of(&self, variant: Variant, finite: bool) -> Variant {
         let single = variant.with(Term::Block, 0);
-        if finite { single.with(Term::FiniteTest, 0) } else { single }
+        if finite {
+            single.with(Term::FiniteTest, 0)
+        } else {
+            single
+        }
     }
 
     /// How the kernel is generated for a variant.
@@ -297,9 +307,7 @@ impl Space {
 
     /// A variant in words, term by term.
     pub fn name(&self, variant: Variant) -> String {
-        let skip = |term: &Term| {
-            *term == Term::Difference && self.value(variant, Term::Metric).label == "normals"
-        };
+        let skip = |term: &Term| *term == Term::Difference && self.value(variant, Term::Metric).label == "normals";
         let labels = Term::ALL.into_iter().filter(|term| !skip(term));
         let labels: Vec<&str> = labels.map(|term| self.value(variant, term).label.as_str()).collect();
         labels.join(", ")
@@ -377,7 +385,11 @@ mod tests {
         assert_eq!(settings.len(), all.len());
         assert_eq!(all[0], space.general());
         let general = space.settings(space.general());
-        for option in [("pattern", "latin16"), ("metric", "planes-normals"), ("non-finite", "skip")] {
+        for option in [
+            ("pattern", "latin16"),
+            ("metric", "planes-normals"),
+            ("non-finite", "skip"),
+        ] {
             assert!(general.options.contains(&owned(&[option])[0]), "{option:?}");
         }
     }
@@ -412,7 +424,12 @@ mod tests {
         };
         let space = Space::new(&set).unwrap();
         assert_eq!(space.values(Term::Falloff).len(), 1);
-        assert!(space.settings(space.general()).options.contains(&owned(&[("tau", "300")])[0]));
+        assert!(
+            space
+                .settings(space.general())
+                .options
+                .contains(&owned(&[("tau", "300")])[0])
+        );
 
         let no_such = Offer {
             fixed: owned(&[("metric", "planes-normals")]),

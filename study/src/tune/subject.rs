@@ -104,7 +104,9 @@ fn fewer_samples(capture: &Capture, count: usize) -> Capture {
     let mut kept = vec![first];
     while kept.len() < count {
         let gap = |k: &usize| {
-            let gaps = kept.iter().map(|other| apart(capture.samples[*k], capture.samples[*other]));
+            let gaps = kept
+                .iter()
+                .map(|other| apart(capture.samples[*k], capture.samples[*other]));
             gaps.fold(f32::INFINITY, f32::min)
         };
         let left = (0..capture.samples.len()).filter(|k| !kept.contains(k));
