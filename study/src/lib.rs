@@ -17,3 +17,4 @@ pub mod record;
 pub mod render;
 pub mod report;
 pub mod scene;
+pub mod tune;

@@ -146,6 +146,7 @@ fn hard() -> HardRecord {
 
 fn tune() -> TuneRecord {
     let candidate = |options: &[(&str, &str)], error, ms: Option<f64>, front| Candidate {
+        name: options.iter().map(|(a, b)| format!("{a} {b}")).collect(),
         options: options.iter().map(|(a, b)| (a.to_string(), b.to_string())).collect(),
         precision: "f32".to_owned(),
         block: [1, 1],
@@ -164,6 +165,22 @@ fn tune() -> TuneRecord {
         scene: "floor".to_owned(),
         metric: "psnr".to_owned(),
         max_error: 0.5,
+        best: 40.0,
+        reference: "256 samples a pixel".to_owned(),
+        unfiltered: 31.5,
+        fixed: vec![("shading".to_owned(), "centre".to_owned())],
+        terms: vec![TermWorth {
+            term: "normals".to_owned(),
+            instead: "depth".to_owned(),
+            cost: 0.125,
+            ratio: Some(ratio(2.5)),
+            candidate: 1,
+        }],
+        refused: vec![Refused {
+            variant: "f16".to_owned(),
+            reason: "the adapter has none".to_owned(),
+        }],
+        not_searched: Vec::new(),
         candidates: vec![
             candidate(&[("metric", "planes-normals")], 40.0, Some(20.0), true),
             candidate(&[("metric", "depth")], 39.8, Some(8.0), true),
@@ -210,7 +227,9 @@ fn the_page_says_what_the_records_say() {
         "10.0 % of its pixels have an edge of geometry",
         "born at metric.rs:12: 0 / 0",
         "not finite: 1",
-        "<code>metric=depth</code>, 39.8000",
+        "<code>metric depth</code>, 39.8000",
+        "<td>0.1250<td>2.50",
+        "Refused: f16: the adapter has none",
         "off by 7.0 % in the mean and 20.0 % at most",
         "<td>-1.25<td>-0.75<td>-0.50<td>37.5 %",
         "No SMAA: nobody made it",

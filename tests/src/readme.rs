@@ -53,8 +53,9 @@ fn table(name: &str, files: &[&Path]) -> Result<String, String> {
             let all: Result<Vec<_>, _> = files.iter().map(|file| TuneRecord::read(file)).collect();
             Ok(tune(&all.map_err(why)?))
         }
+        "budget" => budget(files),
         _ => Err(format!(
-            "there is no table `{name}`; there are loops, quality, hard and tune"
+            "there is no table `{name}`; there are loops, quality, hard, tune and budget"
         )),
     }
 }
@@ -262,11 +263,7 @@ fn tune(records: &[TuneRecord]) -> String {
     ];
     let row = |record: &TuneRecord| {
         let chosen = record.chosen.and_then(|index| record.candidates.get(index));
-        let best = record.candidates.iter().filter(|c| c.non_finite == 0).map(|c| c.error);
-        let (best, unit) = match record.metric.as_str() {
-            "flip" => (best.fold(f64::INFINITY, f64::min), ""),
-            _ => (best.fold(f64::NEG_INFINITY, f64::max), " dB"),
-        };
+        let unit = if record.metric == "flip" { "" } else { " dB" };
         let cell = |text: Option<String>| text.unwrap_or("–".to_owned());
         vec![
             record.scene.clone(),
@@ -281,7 +278,7 @@ fn tune(records: &[TuneRecord]) -> String {
                 words.extend((c.block != [1, 1]).then(|| format!("block {}x{}", c.block[0], c.block[1])));
                 format!("`{}`", words.join(" "))
             })),
-            cell(chosen.map(|c| format!("{:.3}{unit}", (c.error - best).abs()))),
+            cell(chosen.map(|c| format!("{:.3}{unit}", (c.error - record.best).abs()))),
             cell(chosen.and_then(|c| c.time).map(|t| format!("{:.1}", t.median_ms))),
             cell(
                 chosen

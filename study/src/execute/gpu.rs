@@ -30,7 +30,7 @@ pub struct Bound {
     resources: Vec<(String, Owned)>,
 }
 
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 enum Owned {
     Texture(wgpu::TextureView),
     Sampler(wgpu::Sampler),
@@ -185,6 +185,33 @@ impl Bench {
                 BindingKind::Uniform { .. } => continue,
             };
             resources.push((binding.name.clone(), owned));
+        }
+        self.set_uniforms(pass, manifest, inputs)?;
+        Ok(Bound { resources })
+    }
+
+    /// As [`bind`](Self::bind), with all but uniforms taken from what was bound for another shader of the same kernel, so
+    /// that many shaders share one copy. That shader must read as many components and layers of each texture, or more.
+    ///
+    /// # Errors
+    ///
+    /// If the other shader does not read what this one does, or the device fails.
+    pub fn bind_shared(
+        &self,
+        pass: &Pass,
+        manifest: &Manifest,
+        inputs: &Inputs,
+        other: &Bound,
+    ) -> Result<Bound, ExecuteError> {
+        let mut resources = Vec::new();
+        for binding in &manifest.bindings {
+            if matches!(binding.kind, BindingKind::Uniform { .. }) {
+                continue;
+            }
+            let found = other.resources.iter().find(|(name, _)| *name == binding.name);
+            let shared =
+                found.ok_or_else(|| ExecuteError::Input(format!("nothing is bound for `{}`", binding.name)))?;
+            resources.push(shared.clone());
         }
         self.set_uniforms(pass, manifest, inputs)?;
         Ok(Bound { resources })

@@ -8,6 +8,7 @@ mod watch;
 use crate::args::{CommonArgs, Study, StudyArgs};
 use crate::failure::Failure;
 use crate::gpu::Gpu;
+use glam::UVec2;
 use std::path::Path;
 use std::time::SystemTime;
 use straightline_study::execute::Clock;
@@ -54,6 +55,11 @@ pub fn page(folder: &Path) -> Result<(), Failure> {
 
 /// What a record says of this run. `complete` is to be put right when it ends.
 pub fn circumstances(common: &CommonArgs, gpu: &Gpu) -> Circumstances {
+    circumstances_of(gpu, common.size(), common.rounds())
+}
+
+/// The same for a picture's size and rounds of timing.
+pub fn circumstances_of(gpu: &Gpu, size: UVec2, rounds: u32) -> Circumstances {
     Circumstances {
         command: command(),
         date: humantime::format_rfc3339_seconds(SystemTime::now()).to_string(),
@@ -63,8 +69,8 @@ pub fn circumstances(common: &CommonArgs, gpu: &Gpu) -> Circumstances {
             true => Clock::GpuTimestamps,
             false => Clock::WallClock,
         },
-        size: common.size().to_array(),
-        rounds: common.rounds(),
+        size: size.to_array(),
+        rounds,
         complete: true,
     }
 }
