@@ -45,6 +45,7 @@ fn table(name: &str, files: &[&Path]) -> Result<String, String> {
     match name {
         "loops" => Ok(loops(&LoopsRecord::read(first).map_err(why)?)),
         "quality" => Ok(quality(&QualityRecord::read(first).map_err(why)?)),
+        "gaps" => Ok(gaps(&QualityRecord::read(first).map_err(why)?)),
         "hard" => {
             let all: Result<Vec<_>, _> = files.iter().map(|file| HardRecord::read(file)).collect();
             Ok(hard(&all.map_err(why)?))
@@ -55,7 +56,7 @@ fn table(name: &str, files: &[&Path]) -> Result<String, String> {
         }
         "budget" => budget(files),
         _ => Err(format!(
-            "there is no table `{name}`; there are loops, quality, hard, tune and budget"
+            "there is no table `{name}`; there are loops, quality, gaps, hard, tune and budget"
         )),
     }
 }
@@ -209,6 +210,33 @@ fn quality(record: &QualityRecord) -> String {
         ]
     };
     markdown(&head, names.iter().map(row).collect())
+}
+
+/// How far SRAA is from supersampling on every scene that has gaps, and what that is made of.
+fn gaps(record: &QualityRecord) -> String {
+    let mut head = vec!["scene".to_owned()];
+    let first = record.scenes.iter().find(|scene| !scene.gaps.is_empty());
+    for gap in first.map(|scene| scene.gaps.as_slice()).unwrap_or_default() {
+        head.push(format!("{} − {}", gap.method, gap.bound));
+        head.extend(["unseen surfaces", "borrowed colours"].map(str::to_owned));
+    }
+    let rows = record
+        .scenes
+        .iter()
+        .filter(|scene| !scene.gaps.is_empty())
+        .map(|scene| {
+            let figures = scene.gaps.iter().flat_map(|gap| {
+                let parts = [
+                    gap.psnr - gap.bound_psnr,
+                    gap.ideal_psnr - gap.bound_psnr,
+                    gap.psnr - gap.ideal_psnr,
+                ];
+                parts.map(|part| format!("{part:+.2}"))
+            });
+            std::iter::once(scene.scene.clone()).chain(figures).collect()
+        });
+    let head: Vec<&str> = head.iter().map(String::as_str).collect();
+    markdown(&head, rows.collect())
 }
 
 /// Every kernel of the hard cases on each adapter: how often it was not finite, or beyond its bound.
