@@ -267,11 +267,14 @@ const METHOD: Method = Method {
     pipelines: 1,
 };
 
-/// Everything, small.
+/// Kernels of every kind, small.
 #[test]
 fn every_form_is_there_or_says_why_not() {
-    let subjects = subjects(false).unwrap_or_else(|e| panic!("{e}"));
+    let mut subjects = subjects(false).unwrap_or_else(|e| panic!("{e}"));
     assert_eq!(subjects.len(), 15);
+    subjects
+        .retain(|subject| ["SRAA 4", "stalker", "fxaa", "kuwahara", "convolution"].contains(&subject.name.as_str()));
+    assert_eq!(subjects.len(), 5);
     let studied = study(&bench(), &subjects, &METHOD, &mut Unwatched).unwrap_or_else(|e| panic!("{e}"));
     assert_eq!(studied.len(), subjects.len());
     for studied in &studied {
@@ -336,7 +339,12 @@ fn every_form_is_there_or_says_why_not() {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("loops");
     record.write(&folder).unwrap_or_else(|e| panic!("{e}"));
     let again = LoopsRecord::read(&folder.join("loops.json")).unwrap_or_else(|e| panic!("{e}"));
-    assert_eq!(again, record);
+    // Reading JSON may lose the last bit of a number, and no more.
+    assert_eq!(again.csv(), record.csv());
+    assert_eq!(again.circumstances, record.circumstances);
+    for (again, kernel) in again.kernels.iter().zip(&record.kernels) {
+        assert_eq!(again.absent, kernel.absent);
+    }
     let rows: usize = record.kernels.iter().map(|kernel| kernel.forms.len()).sum();
     let csv = std::fs::read_to_string(folder.join("loops.csv")).expect("loops.csv");
     assert_eq!(csv.lines().count(), rows + 1);
@@ -374,7 +382,12 @@ fn what_was_measured_is_kept() {
     // Eight forms: all but two by hand. The picture in f64 is a step, and so are forms and rounds.
     let forms = 8;
     assert_eq!(study(usize::MAX).len(), 2);
-    assert_eq!(study(1 + forms).len(), 0, "stopped before the first round");
+    assert_eq!(study(forms).len(), 0, "stopped before the last form");
+    assert_eq!(
+        study(1 + forms)[0].forms.forms[0].time.rounds,
+        1,
+        "a round is carried through"
+    );
     let stopped = study(1 + forms + 2);
     assert_eq!(stopped.len(), 1);
     assert!(stopped[0].forms.forms.iter().all(|form| form.time.rounds == 2));
