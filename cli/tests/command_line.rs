@@ -375,7 +375,11 @@ fn what_cannot_be_studied_is_named() {
     };
     study(&["--from", &broken], 1, &["broken.rs:1"]);
     study(&["--from", &good, "--by-hand", &broken], 1, &["broken.rs:1"]);
-    study(&["--from", &format!("{good}::sobeel")], 2, &["no function `sobeel`", "luma, sobel"]);
+    study(
+        &["--from", &format!("{good}::sobeel")],
+        2,
+        &["no function `sobeel`", "luma, sobel"],
+    );
     study(&["--from", "nowhere.rs"], 2, &["nowhere.rs"]);
     study(&["--from", "sraaa"], 2, &["no kernel `sraaa`"]);
     study(&["--by-hand", &good], 2, &["--from"]);
