@@ -145,6 +145,7 @@ fn label(kind: FormKind) -> &'static str {
         FormKind::Looped => "looped",
         FormKind::LoopedUnchecked => "looped, no bound",
         FormKind::LoopedByHand => "looped, by hand",
+        FormKind::LoopedByHandUnchecked => "by hand, no bound",
         FormKind::Partial2 => "partial(2)",
         FormKind::Partial4 => "partial(4)",
         FormKind::FullUnshared => "full, not shared",
