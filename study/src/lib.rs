@@ -7,6 +7,7 @@ pub mod capture;
 pub mod encode;
 pub mod execute;
 pub mod gbuffer;
+pub mod hard;
 pub mod loops;
 pub mod metrics;
 pub mod oracle;

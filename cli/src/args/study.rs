@@ -4,6 +4,7 @@ use super::{AdapterArgs, size};
 use clap::{Args, Subcommand};
 use glam::UVec2;
 use std::path::PathBuf;
+use straightline_codegen::Precision;
 
 #[derive(Debug, Args)]
 pub struct StudyArgs {
@@ -78,4 +79,14 @@ pub struct LoopsArgs {
 pub struct ErrorArgs {}
 
 #[derive(Clone, Debug, Default, Args)]
-pub struct HardArgs {}
+pub struct HardArgs {
+    /// Only this case; may be given several times. Without it, all of them
+    #[arg(long = "case", value_name = "NAME")]
+    pub cases: Vec<String>,
+    /// Name the cases, with what is hard about each, and run none
+    #[arg(long)]
+    pub list: bool,
+    /// Only this precision: f16 or f32. Without it, both
+    #[arg(long, value_name = "f16|f32")]
+    pub precision: Option<Precision>,
+}

@@ -10,7 +10,7 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
-pub use hard::{Executor, HardCase, HardRecord, HardResult};
+pub use hard::{Executor, HalfVerdict, HardCase, HardRecord, HardResult};
 pub use loops::{Form, FormKind, KernelForms, LoopsRecord};
 pub use quality::{Family, Gap, MOST_DB, MethodErrors, QualityRecord, SceneErrors, Shares};
 pub use tune::{Candidate, LeftOut, Model, Refused, TermWorth, TuneRecord};

@@ -72,6 +72,7 @@ fn column(result: &HardResult) -> String {
     let executor = match result.executor {
         Executor::Interpreter => "interpreter",
         Executor::InterpreterFlushed => "flushed",
+        Executor::InterpreterLoose => "loose",
         Executor::Gpu => "shader",
     };
     format!("{} · {} · {executor}", result.kernel, result.precision)

@@ -24,7 +24,8 @@ pub fn run(args: &StudyArgs) -> Result<(), Failure> {
     match &args.study {
         Some(Study::Loops(loops)) => loops::run(common, loops, &mut progress)?,
         Some(Study::Error(error)) => error::run(common, error, &mut progress)?,
-        Some(Study::Hard(hard)) => hard::run(common, hard, &mut progress)?,
+        Some(Study::Hard(args)) if args.list => return hard::list(args),
+        Some(Study::Hard(args)) => hard::run(common, args, &mut progress)?,
         Some(Study::Report) => {}
         None => all(common, &mut progress)?,
     }
@@ -61,14 +62,23 @@ pub fn circumstances(common: &CommonArgs, gpu: &Gpu) -> Circumstances {
 /// The same for a picture's size and rounds of timing.
 pub fn circumstances_of(gpu: &Gpu, size: UVec2, rounds: u32) -> Circumstances {
     Circumstances {
-        command: command(),
-        date: humantime::format_rfc3339_seconds(SystemTime::now()).to_string(),
         adapter: gpu.describe(),
-        processor: processor(),
         clock: match gpu.timestamps {
             true => Clock::GpuTimestamps,
             false => Clock::WallClock,
         },
+        ..on_processor(size, rounds)
+    }
+}
+
+/// What the record of a run without a device says.
+pub fn on_processor(size: UVec2, rounds: u32) -> Circumstances {
+    Circumstances {
+        command: command(),
+        date: humantime::format_rfc3339_seconds(SystemTime::now()).to_string(),
+        adapter: "none: interpreter only".to_owned(),
+        processor: processor(),
+        clock: Clock::WallClock,
         size: size.to_array(),
         rounds,
         complete: true,
