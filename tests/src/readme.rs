@@ -43,6 +43,7 @@ fn table(name: &str, files: &[&Path]) -> Result<String, String> {
     };
     let why = |error: straightline_study::record::RecordError| error.to_string();
     match name {
+        "speed" => Ok(speed(&LoopsRecord::read(first).map_err(why)?)),
         "loops" => Ok(loops(&LoopsRecord::read(first).map_err(why)?)),
         "quality" => Ok(quality(&QualityRecord::read(first).map_err(why)?)),
         "gaps" => Ok(gaps(&QualityRecord::read(first).map_err(why)?)),
@@ -56,7 +57,7 @@ fn table(name: &str, files: &[&Path]) -> Result<String, String> {
         }
         "budget" => budget(files),
         _ => Err(format!(
-            "there is no table `{name}`; there are loops, quality, gaps, hard, tune and budget"
+            "there is no table `{name}`; there are speed, loops, quality, gaps, hard, tune and budget"
         )),
     }
 }
@@ -99,6 +100,39 @@ fn markdown(head: &[&str], rows: Vec<Vec<String>>) -> String {
     text += &format!("| --- |{}\n", " --: |".repeat(head.len() - 1));
     rows.iter().for_each(|row| text += &line(row));
     text
+}
+
+/// Every kernel: what is gained by unrolling it, in the fewest columns that say it.
+fn speed(record: &LoopsRecord) -> String {
+    let head = [
+        "kernel",
+        "looped",
+        "without its bound",
+        "by hand",
+        "**unrolled**",
+        "2×2 pixels",
+        "floor",
+        "off f64 by",
+    ];
+    let row = |kernel: &KernelForms| {
+        let form = |kind| kernel.forms.iter().find(|form| form.kind == kind);
+        let ratio = |kind| form(kind).map_or("–".to_owned(), |form| format!("{:.2}", form.ratio.median));
+        let full = form(FormKind::Full);
+        vec![
+            kernel.kernel.clone(),
+            form(FormKind::Looped).map_or("–".to_owned(), |form| format!("{:.1} ms", form.time.median_ms)),
+            ratio(FormKind::LoopedUnchecked),
+            ratio(FormKind::LoopedByHand),
+            full.map_or("–".to_owned(), |form| {
+                format!("**{:.2}**, {:.1} ms", form.ratio.median, form.time.median_ms)
+            }),
+            ratio(FormKind::FullBlock),
+            ratio(FormKind::Floor),
+            full.and_then(|form| form.difference_999)
+                .map_or("–".to_owned(), |off| format!("{off:.0e}")),
+        ]
+    };
+    markdown(&head, record.kernels.iter().map(row).collect())
 }
 
 /// Every kernel: how many times as fast as its loop each form is.
