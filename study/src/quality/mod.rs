@@ -11,6 +11,8 @@ mod pan;
 mod scores;
 mod shot;
 mod surfaces;
+#[cfg(test)]
+mod tests;
 
 use crate::capture::Capture;
 use crate::execute::{Bench, Times};
