@@ -57,6 +57,16 @@ pub enum Source {
     },
 }
 
+impl Source {
+    /// Width and height of its pictures in pixels, where scenes are drawn at `drawn`.
+    pub fn size(&self, drawn: UVec2) -> UVec2 {
+        match self {
+            Source::Scene { .. } => drawn,
+            Source::Capture { capture, .. } => capture.size,
+        }
+    }
+}
+
 /// How much to do.
 #[derive(Clone, Debug)]
 pub struct Plan {

@@ -99,8 +99,8 @@ fn columns(class: &[bool]) -> Vec<usize> {
 
 #[test]
 fn a_plane_at_a_grazing_angle_is_one_surface() {
-    // Depth grows by a third from a row to the next.
-    let (capture, shaded) = captured(|_| Some(plane(vec3(0.05, 1.0, 0.12), vec3(0.0, -1.0, 0.0), 0.5)));
+    // Its depth grows from 0.8 below to 4.5 above.
+    let (capture, shaded) = captured(|_| Some(plane(vec3(0.05, 1.0, 0.75), vec3(0.0, -1.0, 0.0), 0.5)));
     let found = classes(&capture, &shaded);
     assert_eq!(found.shares().flat, 1.0, "{:?}", found.geometry);
     assert_eq!(found.shares().unseen, 0.0);

@@ -28,6 +28,11 @@ pub fn run(common: &CommonArgs, args: &ErrorArgs, progress: &mut Progress) -> Re
         out: Some(common.out.clone()),
     };
     let mut circumstances = circumstances(common, &gpu);
+    // A capture has its own size; a record of nothing else says so.
+    let sizes: Vec<_> = sources.iter().map(|source| source.size(plan.size)).collect();
+    if let Some(first) = sizes.first().filter(|first| sizes.iter().all(|size| size == *first)) {
+        circumstances.size = first.to_array();
+    }
     let outcome = quality::study(&gpu.bench(), sources, &plan, progress).map_err(Failure::of)?;
     circumstances.complete = outcome.complete;
     let record = QualityRecord {
@@ -96,7 +101,7 @@ fn print(record: &QualityRecord, out: &Path) {
         println!("Interrupted: only the scenes above were finished.\n");
     }
     let size = circumstances.size;
-    println!("Scenes are {}x{}, on {}.", size[0], size[1], circumstances.adapter);
+    println!("{}x{} pixels, on {}.", size[0], size[1], circumstances.adapter);
     println!(
         "PSNR in dB over linear colour clamped to 0..1; edges of geometry: pixels whose samples see several surfaces; edges of \
          shading: pixels of one surface whose sRGB colour varies by more than {:.0} of 255.",
