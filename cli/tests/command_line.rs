@@ -493,3 +493,58 @@ fn quads_measures_every_filter_on_a_small_frame() {
     assert!(!record.contains("null"), "a figure is missing:\n{record}");
     assert!(pictures.join("pcf-details.png").is_file() && pictures.join("occlusion-details.png").is_file());
 }
+
+/// The capture of `examples/captures/spheres`, to be broken.
+fn spheres(folder: &Path) -> PathBuf {
+    let from = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/captures/spheres");
+    let to = folder.join("spheres");
+    std::fs::create_dir_all(&to).expect("a folder");
+    for entry in std::fs::read_dir(from).expect("the capture is there") {
+        let entry = entry.expect("an entry");
+        std::fs::copy(entry.path(), to.join(entry.file_name())).expect("a copy");
+    }
+    to
+}
+
+#[test]
+fn what_errors_cannot_be_measured_of_is_refused_before_any_work() {
+    let folder = scratch("study-error");
+    let out = folder.join("out");
+    let fails_with = |arguments: &[&str], status, says: &[&str]| {
+        let all = [&["study", "error", "--out", out.to_str().unwrap()], arguments].concat();
+        fails(&all, status, says);
+        assert!(is_empty(&out));
+    };
+    fails_with(&["--scene", "rooof"], 2, &["no scene `rooof`", "terrain"]);
+    fails_with(&["--mesh", "nowhere.glb"], 1, &["nowhere.glb", "cannot be read"]);
+    fails_with(
+        &["--capture", "nowhere"],
+        1,
+        &["nowhere is not a capture", "docs/captures.md"],
+    );
+
+    let capture = spheres(&folder);
+    let with_capture = |says: &[&str]| fails_with(&["--capture", capture.to_str().unwrap()], 1, says);
+    let original = std::fs::read(capture.join("depth.exr")).expect("depth");
+    std::fs::write(capture.join("depth.exr"), &original[..original.len() / 2]).expect("written");
+    with_capture(&["depth.exr"]);
+    std::fs::write(capture.join("depth.exr"), "no picture").expect("written");
+    with_capture(&["depth.exr"]);
+    std::fs::write(capture.join("depth.exr"), &original).expect("written");
+
+    let description = capture.join("capture.json");
+    let text = std::fs::read_to_string(&description).expect("a description");
+    for (right, wrong, says) in [
+        ("\"linear\"", "\"reversed\"", "depth encoding `reversed` is unknown"),
+        ("\"schema\": 1", "\"schema\": 7", "schema 7"),
+        ("\"shading\"", "\"shadding\"", "shadding"),
+        ("96,", "97,", "color.exr"),
+    ] {
+        assert!(text.contains(right), "{right}");
+        std::fs::write(&description, text.replacen(right, wrong, 1)).expect("written");
+        with_capture(&[says]);
+    }
+    std::fs::write(&description, &text).expect("written");
+    std::fs::remove_file(capture.join("reference.exr")).expect("removed");
+    with_capture(&["has no reference.exr", "--reference 256"]);
+}

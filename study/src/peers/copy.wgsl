@@ -1,5 +1,5 @@
 // Texel by texel into a target of any format.
-@group(0) @binding(0) var from: texture_2d<f32>;
+@group(0) @binding(0) var source: texture_2d<f32>;
 
 @vertex
 fn corner(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
@@ -8,5 +8,5 @@ fn corner(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
 
 @fragment
 fn texel(@builtin(position) at: vec4f) -> @location(0) vec4f {
-    return textureLoad(from, vec2u(at.xy), 0);
+    return textureLoad(source, vec2u(at.xy), 0);
 }

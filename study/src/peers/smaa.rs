@@ -3,7 +3,7 @@
 use super::copy::Copy;
 use super::transfer::Transfer;
 use crate::execute::{Bench, Clock, ExecuteError, texture_bytes};
-use crate::render::guarded;
+use crate::render::{RenderError, guarded};
 use glam::{UVec2, Vec4};
 use smaa::{SmaaMode, SmaaTarget};
 use std::sync::mpsc;
@@ -63,7 +63,7 @@ impl Smaa {
                 copy_out: Copy::new(device, TextureFormat::Rgba32Float),
             }
         });
-        made.map_err(|error| failed("making SMAA's passes", error))
+        made.map_err(of_device)
     }
 
     /// The picture antialiased; both linear.
@@ -84,7 +84,7 @@ impl Smaa {
             frame.resolve();
             self.copy_out.submit(&bench, &output, &view(&result));
         });
-        ran.map_err(|error| failed("running SMAA", error))?;
+        ran.map_err(of_device)?;
         Ok(self.transfer.taken(&bench.download(&result)?))
     }
 
@@ -112,6 +112,13 @@ impl Smaa {
     pub fn bytes(&self) -> u64 {
         let texels = u64::from(self.output.width()) * u64::from(self.output.height());
         2 * texture_bytes(&self.output) + BETWEEN * texels
+    }
+}
+
+fn of_device(error: RenderError) -> ExecuteError {
+    match error {
+        RenderError::Device { doing, description } => failed(doing, description),
+        other => failed("running SMAA", other),
     }
 }
 

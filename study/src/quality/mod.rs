@@ -11,6 +11,8 @@ mod pan;
 mod scores;
 mod shot;
 mod surfaces;
+#[cfg(test)]
+mod tests;
 
 use crate::capture::Capture;
 use crate::execute::{Bench, Times};
@@ -53,6 +55,16 @@ pub enum Source {
         /// The capture.
         capture: Box<Capture>,
     },
+}
+
+impl Source {
+    /// Width and height of its pictures in pixels, where scenes are drawn at `drawn`.
+    pub fn size(&self, drawn: UVec2) -> UVec2 {
+        match self {
+            Source::Scene { .. } => drawn,
+            Source::Capture { capture, .. } => capture.size,
+        }
+    }
 }
 
 /// How much to do.
