@@ -322,7 +322,7 @@ pub struct ResolveArgs {
 #[derive(Debug, Clone, Default, Args)]
 pub struct AdapterArgs {
     /// Use the first adapter whose name or driver contains this (see `adapters`)
-    #[arg(long, value_name = "TEXT")]
+    #[arg(long, value_name = "TEXT", global = true)]
     pub adapter: Option<String>,
 }
 
