@@ -287,7 +287,9 @@ impl Search {
             return Ok(false);
         }
         let megapixels = self.megapixels();
-        let measured = |k: &usize| Some((self.row(*k)?, self.entries[*k].time?.median_ms / megapixels));
+        // By ratios, round by round, to a shader that ran in every round: a drifting clock is not learned.
+        let general = self.entries[0].time.map_or(0.0, |time| time.median_ms) / megapixels;
+        let measured = |k: &usize| Some((self.row(*k)?, general / self.entries[*k].ratio?.median));
         let (rows, times): (Vec<_>, Vec<_>) = learned.iter().filter_map(measured).unzip();
         let coefficients = model::learn(&rows, &times);
         let (rows, times): (Vec<_>, Vec<_>) = tested.iter().filter_map(measured).unzip();
