@@ -19,7 +19,6 @@ fn main() -> ExitCode {
         Command::Emit(args) => commands::emit::run(&args),
         Command::Explain(args) => commands::explain::run(&args),
         Command::Run(args) => commands::run::run(&args),
-        Command::Unroll(args) => commands::unroll::run(&args),
         Command::Budget(args) => commands::budget::run(&args),
         Command::Quads(args) => commands::quads::run(&args),
         Command::Study(args) => commands::study::run(&args),

@@ -41,6 +41,9 @@ pub struct Settings {
     pub transport: Option<Transport>,
     /// Pixels that one invocation computes, across and down. A kernel of quads takes them by its transport alone.
     pub block: [u32; 2],
+    /// Whether each distinct read happens once, wherever the source asks for it. Without, it happens as often as the source
+    /// asks: for studies of what sharing is worth. The result is the same, bit for bit.
+    pub share_loads: bool,
 }
 
 impl Settings {
@@ -66,6 +69,7 @@ impl Default for Settings {
             budget: Settings::BUDGET,
             transport: None,
             block: [1, 1],
+            share_loads: true,
         }
     }
 }
@@ -114,6 +118,34 @@ impl Compiled {
             graph,
             schedule,
             quad: None,
+            ..self.clone()
+        })
+    }
+
+    /// The kernel's reads and stores with next to no arithmetic between: what no form of it can beat
+    /// ([`passes::floor`]). It computes nothing of use, and is there to be timed.
+    ///
+    /// # Errors
+    ///
+    /// If a loop or branch is left.
+    pub fn floor(&self) -> Result<Compiled, Errors> {
+        let made = |graph: &Graph| -> Result<Graph, Errors> {
+            let floor = passes::floor(graph).map_err(|why| {
+                let what = format!("`{}` has no floor: {why}", self.kernel);
+                Errors::of(Diagnostic::new(what).help("unroll it fully, and let its branches be selections"))
+            })?;
+            let floor = passes::clean(&floor);
+            verify::verify(&floor).map_err(|why| internal("floor", &why))?;
+            Ok(floor)
+        };
+        let graph = made(&self.graph)?;
+        let quad = self.quad.as_deref().map(made).transpose()?;
+        let schedule = passes::schedule(&graph);
+        Ok(Compiled {
+            counts: passes::count(&graph, &schedule),
+            graph,
+            schedule,
+            quad: quad.map(Arc::new),
             ..self.clone()
         })
     }
@@ -246,10 +278,12 @@ impl Kernel {
             Ok(graph)
         };
         let graph = stage("eval", evaluated.graph)?;
-        let graph = stage("clean", passes::clean(&graph))?;
-        let graph = stage("share-loads", passes::share_loads(&graph))?;
-        // Sharing makes new common terms, and those leave others unused.
         let mut graph = stage("clean", passes::clean(&graph))?;
+        if settings.share_loads {
+            graph = stage("share-loads", passes::share_loads(&graph))?;
+            // Sharing makes new common terms, and those leave others unused.
+            graph = stage("clean", passes::clean(&graph))?;
+        }
         let refused = |what: String, help: &str| {
             let error = Diagnostic::at(evaluated.span, what).label("this kernel").help(help);
             Errors::new(vec![error], &self.files)

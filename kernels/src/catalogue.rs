@@ -79,19 +79,19 @@ pub const CATALOGUE: &[Entry] = &[
     Entry {
         name: "quad_upsampling",
         summary: "Cross-bilateral upsampling, 2x or 4x, from one or two reads a pixel, shared over pixel quads (Penner 2011)",
-        sources: &[source!("quad/upsampling.rs")],
+        sources: &[source!("quad/surface.rs"), source!("quad/upsampling.rs")],
         paper: upsampling_paper,
     },
     Entry {
         name: "downsampling",
         summary: "The image of low resolution, half a pixel off, that quad_upsampling reads",
-        sources: &[source!("quad/upsampling.rs")],
+        sources: &[source!("quad/surface.rs"), source!("quad/upsampling.rs")],
         paper: no_paper,
     },
     Entry {
         name: "quad_bilateral",
         summary: "Bilateral blur of (2k+1)² pixels from (k+1)² reads a pixel, shared over pixel quads (Penner 2011)",
-        sources: &[source!("quad/bilateral.rs")],
+        sources: &[source!("quad/bilateral.rs"), source!("quad/surface.rs")],
         paper: no_paper,
     },
     Entry {

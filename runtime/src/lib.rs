@@ -51,6 +51,7 @@ mod error;
 mod guard;
 mod inputs;
 mod layout;
+mod loops;
 mod pass;
 mod pipeline;
 mod plan;

@@ -9,6 +9,7 @@ use crate::plan::Plan;
 use crate::timer::{Span, Timer};
 use crate::uniforms::{self, UniformBlock, UniformValue};
 use crate::{Error, Region, Resource, reflect};
+use std::time::Duration;
 use straightline_manifest::Manifest;
 use wgpu::{CommandEncoder, Device, Queue, TextureFormat, TextureView};
 
@@ -19,12 +20,21 @@ pub struct PassOptions {
     /// Format of the colour target of a fragment pass, where it is not the manifest's; a swap chain's, say.
     /// For compute, the shader's text fixes the format, and another one here is an error.
     pub target_format: Option<TextureFormat>,
+    /// Whether loops go without the bound that wgpu otherwise puts on the rounds of each, by a counter that costs time. Only
+    /// for shaders whose text shows that every loop ends, as that of emitted shaders does; all others are refused.
+    pub unbounded_loops: bool,
 }
 
 impl PassOptions {
     /// Draws to targets of `format`.
     pub fn target_format(mut self, format: TextureFormat) -> Self {
         self.target_format = Some(format);
+        self
+    }
+
+    /// Whether loops go without wgpu's bound.
+    pub fn unbounded_loops(mut self, unbounded: bool) -> Self {
+        self.unbounded_loops = unbounded;
         self
     }
 }
@@ -39,6 +49,7 @@ pub struct Pass {
     plan: Plan,
     layout: Layout,
     pipeline: Pipeline,
+    creation_time: Duration,
     uniforms: Vec<UniformBlock>,
     format: TextureFormat,
     abilities: Abilities,
@@ -70,7 +81,8 @@ impl Pass {
     ///
     /// # Errors
     ///
-    /// Those of [`new`](Self::new), and [`Error::TargetFormat`] if the shader cannot write the format asked for.
+    /// Those of [`new`](Self::new); [`Error::TargetFormat`] if the shader cannot write the format asked for, and
+    /// [`Error::UnboundedLoop`] if loops are to go without a bound and one may not end.
     pub fn with_options(
         device: &Device,
         manifest: &Manifest,
@@ -84,7 +96,7 @@ impl Pass {
         let doing = format!("making a pass of `{}`", plan.kernel);
         let pulse = Pulse::new(device, &doing)?;
         let layout = Layout::new(device, &plan)?;
-        let pipeline = Pipeline::new(device, &plan, &layout, wgsl, format)?;
+        let (pipeline, creation_time) = Pipeline::new(device, &plan, &layout, (wgsl, options.unbounded_loops), format)?;
         let blocks = plan
             .uniforms
             .iter()
@@ -97,6 +109,7 @@ impl Pass {
             plan,
             layout,
             pipeline,
+            creation_time,
             uniforms,
             format,
             abilities: Abilities::new(device),
@@ -117,6 +130,12 @@ impl Pass {
     /// The format that the target must have.
     pub fn target_format(&self) -> TextureFormat {
         self.format
+    }
+
+    /// How long the device took to make the pipeline: wgpu's translation of the checked shader into the backend's language,
+    /// and what the driver compiles then. Some drivers compile only when the pass first runs.
+    pub fn creation_time(&self) -> Duration {
+        self.creation_time
     }
 
     /// Sets the uniform `name`, for all passes recorded into what `queue`, the device's own, submits next.

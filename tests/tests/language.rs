@@ -6,7 +6,8 @@ mod common;
 
 use common::{bench, other_compilers, same_bits};
 use std::path::PathBuf;
-use straightline_codegen::{Branches, Compiled, EmitOptions, Kernel, Settings, Stage, Unroll, emit::Target};
+use straightline_codegen::ir::F16;
+use straightline_codegen::{Branches, Compiled, EmitOptions, Kernel, Precision, Settings, Stage, Unroll, emit::Target};
 use straightline_kernels::prelude::*;
 use straightline_study::execute::{self, SamplerState, interpret};
 use straightline_tests::sraa::Random;
@@ -195,4 +196,39 @@ fn every_example_is_the_same_picture_on_a_gpu() {
             }
         }
     }
+}
+
+#[test]
+fn every_example_works_in_half_precision() {
+    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("language-half");
+    std::fs::create_dir_all(&folder).expect("a folder for shaders");
+    let bench = bench().precision(Precision::F16);
+    let inputs = World::new().inputs();
+    let mut spirv = Vec::new();
+    for example in EXAMPLES {
+        for unroll in [Unroll::Full, Unroll::None] {
+            let settings = Settings {
+                unroll,
+                ..Settings::default()
+            };
+            let compiled = compile(example, &settings);
+            let targets = Target::ALL.into_iter().filter(|t| *t != Target::Glsl450);
+            let emitted = compiled.emit(&EmitOptions::new().precision(Precision::F16).targets(targets));
+            let emitted = emitted.unwrap_or_else(|e| panic!("{} {unroll}: {e}", example.name));
+            let path = folder.join(format!("{}-{unroll}.spv", example.name));
+            std::fs::write(&path, &emitted.files[&Target::Spirv]).expect("a shader is written");
+            spirv.push(path);
+            let expected = interpret::<F16>(&compiled, &inputs, false).expect("ran before");
+            let found = bench
+                .run(&compiled, Stage::Compute, &inputs)
+                .unwrap_or_else(|e| panic!("{} {unroll}: {e}", example.name));
+            for (k, (a, b)) in found.texels().iter().zip(expected.frame(&inputs).texels()).enumerate() {
+                // A GPU weighs filtered texels in steps of 1/256, and may truncate what comes in.
+                let off = ((*a - *b).abs() / b.abs().max(Vec4::ONE)).max_element();
+                assert!(off <= 1.0 / 64.0, "{} {unroll}, pixel {k}: {a} and {b}", example.name);
+            }
+        }
+    }
+    assert!(spirv.len() > 60);
+    other_compilers(&[], &spirv);
 }

@@ -37,8 +37,6 @@ pub enum Command {
     Explain(ExplainArgs),
     /// Run a kernel on pictures
     Run(RunArgs),
-    /// Compare unroll policies of kernels in one run: statements, reads, time, error
-    Unroll(UnrollArgs),
     /// Count and measure what SRAA costs: memory, reads, time of each metric, and the shading cost from which it pays
     Budget(BudgetArgs),
     /// Compare filters that share work over pixel quads with those that do not: reads, messages, time, difference
@@ -128,6 +126,7 @@ impl OptionArgs {
             budget: self.budget,
             transport: self.transport,
             block: self.block.to_array(),
+            ..Settings::default()
         }
     }
 }
@@ -242,30 +241,6 @@ pub struct RunArgs {
     /// Pipeline stage, on the GPU
     #[arg(long, value_enum, default_value = "compute")]
     pub stage: StageArg,
-    #[command(flatten)]
-    pub adapter: AdapterArgs,
-}
-
-#[derive(Debug, Args)]
-pub struct UnrollArgs {
-    /// Built-in kernels, FILE.rs, or FILE.rs::FUNCTION
-    #[arg(required = true)]
-    pub kernels: Vec<String>,
-    /// Width and height in pixels
-    #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = size)]
-    pub size: UVec2,
-    /// Rounds of timing; each runs every shader once, in turn
-    #[arg(long, value_name = "N", default_value_t = 9, value_parser = clap::value_parser!(u32).range(1..=1000))]
-    pub rounds: u32,
-    /// Also write the table and its circumstances to this file, as JSON
-    #[arg(long, value_name = "FILE")]
-    pub record: Option<PathBuf>,
-    /// Also write what each kernel makes to this folder, and all of it in one picture, `all.png`
-    #[arg(long, value_name = "DIR")]
-    pub pictures: Option<PathBuf>,
-    /// Print JSON
-    #[arg(long)]
-    pub json: bool,
     #[command(flatten)]
     pub adapter: AdapterArgs,
 }

@@ -4,6 +4,7 @@ use super::{AdapterArgs, size};
 use clap::{Args, Subcommand};
 use glam::UVec2;
 use std::path::PathBuf;
+use straightline_codegen::Precision;
 
 #[derive(Debug, Args)]
 pub struct StudyArgs {
@@ -61,10 +62,41 @@ pub enum Study {
 }
 
 #[derive(Clone, Debug, Default, Args)]
-pub struct LoopsArgs {}
+pub struct LoopsArgs {
+    /// A kernel of your own instead of the built-in choice: FILE.rs or FILE.rs::FUNCTION, or a built-in name. May be given
+    /// several times; each is run on a test card
+    #[arg(long, value_name = "KERNEL")]
+    pub from: Vec<String>,
+    /// The same kernel written by hand with its loops, reading the same by the same names: one for each --from, in order
+    #[arg(long, value_name = "KERNEL", requires = "from")]
+    pub by_hand: Vec<String>,
+    /// Also write what each kernel makes to this folder, and all of it in one picture, `all.png`
+    #[arg(long, value_name = "DIR")]
+    pub pictures: Option<PathBuf>,
+}
 
 #[derive(Clone, Debug, Default, Args)]
-pub struct ErrorArgs {}
+pub struct ErrorArgs {
+    /// A built-in scene (see `scenes`); may be given several times. By default all of them
+    #[arg(long, value_name = "NAME")]
+    pub scene: Vec<String>,
+    /// A model: .gltf, .glb or .obj; may be given several times
+    #[arg(long, value_name = "FILE")]
+    pub mesh: Vec<PathBuf>,
+    /// A capture with reference.exr (docs/captures.md); may be given several times. Its size is its own
+    #[arg(long, value_name = "DIR")]
+    pub capture: Vec<PathBuf>,
+}
 
 #[derive(Clone, Debug, Default, Args)]
-pub struct HardArgs {}
+pub struct HardArgs {
+    /// Only this case; may be given several times. Without it, all of them
+    #[arg(long = "case", value_name = "NAME")]
+    pub cases: Vec<String>,
+    /// Name the cases, with what is hard about each, and run none
+    #[arg(long)]
+    pub list: bool,
+    /// Only this precision: f16 or f32. Without it, both
+    #[arg(long, value_name = "f16|f32")]
+    pub precision: Option<Precision>,
+}

@@ -13,4 +13,3 @@ pub mod run;
 pub mod scenes;
 pub mod study;
 pub mod tune;
-pub mod unroll;

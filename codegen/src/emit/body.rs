@@ -245,7 +245,7 @@ impl Writer<'_> {
             },
             Op::Compose => d.construct(node.ty, &args.iter().collect::<Vec<_>>()),
             Op::Extract(lane) => Text::member(&args[0], &"xyzw"[*lane as usize..=*lane as usize]),
-            Op::Convert => d.convert(operand, node.ty, &args[0]),
+            Op::Convert => d.convert(operand, node.ty, &args[0], super::half::fits(graph, node.args[0])),
             Op::Bitcast => d.bitcast(operand, node.ty, &args[0]),
             Op::TextureSize(texture) => d.size(*texture),
             Op::Load { texture, .. } => inner(d.load(*texture, &args[0], args.get(1))),

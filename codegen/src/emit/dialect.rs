@@ -50,8 +50,8 @@ pub trait Dialect {
     fn binary(&self, op: BinaryOp, ty: Type, x: &Text, y: &Text) -> Text;
     /// Selection by a scalar boolean.
     fn select(&self, condition: &Text, yes: &Text, no: &Text) -> Text;
-    /// Conversion between types of as many lanes.
-    fn convert(&self, from: Type, to: Type, x: &Text) -> Text;
+    /// Conversion between types of as many lanes. `fits` says of integers that every precision has finite numbers as large.
+    fn convert(&self, from: Type, to: Type, x: &Text, fits: bool) -> Text;
     /// A run-time parameter.
     fn uniform(&self, name: &str) -> Text;
     /// A type as a host lays it out and interpolates it.

@@ -350,7 +350,7 @@ impl Dialect for Glsl<'_> {
         }
     }
 
-    fn convert(&self, from: Type, to: Type, x: &Text) -> Text {
+    fn convert(&self, from: Type, to: Type, x: &Text, _: bool) -> Text {
         // WGSL saturates; GLSL leaves numbers out of range open.
         let bounds = match (from.kind(), to.kind()) {
             (Some(Scalar::F32), Some(Scalar::I32)) => Some(("-2147483648.0", "2147483520.0")),

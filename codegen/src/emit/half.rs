@@ -1,12 +1,25 @@
-//! Half precision: literals.
+//! Half precision: literals, and the integers that fit.
 
 use super::text::{Binds, Text};
+use crate::ir::{Graph, NodeId, Op};
+use crate::passes::bounds;
 use half::f16;
 
-/// The `f16` nearest to an `f32`, with the fewest digits that give it back. A number beyond all of them becomes the last, as
-/// `ir::Real::constant` has it.
+/// Whether an integer is known to lie within the finite numbers of half precision. Textures are never as wide as that.
+pub fn fits(graph: &Graph, id: NodeId) -> bool {
+    let node = graph.node(id);
+    match node.op {
+        Op::Pixel | Op::FrameSize | Op::TextureSize(_) | Op::Lane => true,
+        Op::Extract(_) | Op::Splat | Op::Compose | Op::Tally(_) => node.args.iter().all(|arg| fits(graph, *arg)),
+        _ if node.ty.is_scalar() => bounds(graph, id).is_some_and(|(low, high)| low >= -65504 && high <= 65504),
+        _ => false,
+    }
+}
+
+/// The `f16` nearest to an `f32`, with the fewest digits that give it back. What becomes of numbers that it cannot
+/// hold, `ir::Real::made` says.
 pub fn literal(bits: u32) -> Text {
-    let x = crate::ir::F16::nearest(f32::from_bits(bits));
+    let x = crate::ir::F16::nearest(f32::from_bits(bits).into());
     Text {
         binds: if x.is_sign_negative() {
             Binds::Prefix
@@ -18,9 +31,12 @@ pub fn literal(bits: u32) -> Text {
     }
 }
 
-/// Digits that give the number back, whether they are read at once or by way of `f32`, as naga does.
+/// All digits of an integer; of others so many that they give the number back, whether they are read at once or by way of `f32`, as naga does.
 fn shortest(x: f16) -> String {
     let exact = x.to_f64();
+    if exact.fract() == 0.0 {
+        return format!("{exact:?}");
+    }
     let candidates = (0..8).filter_map(|digits| format!("{exact:.digits$e}").parse::<f64>().ok());
     let mut right = candidates.filter(|v| f16::from_f64(*v) == x && f16::from_f32(*v as f32) == x);
     format!("{:?}", right.next().unwrap_or(exact))
@@ -53,8 +69,8 @@ mod tests {
     fn what_does_not_fit() {
         assert_eq!(code(1.0e30), "65504.0h");
         assert_eq!(code(-65520.0), "-65504.0h");
-        assert_eq!(code(1.0e-12), "0.0h");
-        assert_eq!(code(-1.0e-12), "-0.0h");
+        assert_eq!(code(1.0e-12), "6e-8h");
+        assert_eq!(code(-1.0e-12), "-6e-8h");
     }
 
     #[test]

@@ -78,6 +78,9 @@ pub struct EmitOptions {
     pub targets: BTreeSet<Target>,
     /// Whether WGSL with quad operations begins with `enable subgroups;`: browsers ask for it, naga and wgpu refuse it.
     pub enable_subgroups: bool,
+    /// Whether naga leaves out the bound that it otherwise puts on the rounds of every loop of SPIR-V, HLSL and MSL. The
+    /// loops that this generator emits end without one: each counts to an integer that is computed before it.
+    pub unbounded_loops: bool,
 }
 
 impl EmitOptions {
@@ -95,6 +98,7 @@ impl EmitOptions {
             precision: Precision::default(),
             targets: BTreeSet::from([Target::Wgsl]),
             enable_subgroups: false,
+            unbounded_loops: false,
         }
     }
 
@@ -119,6 +123,12 @@ impl EmitOptions {
     /// Computing in a precision.
     pub fn precision(mut self, precision: Precision) -> Self {
         self.precision = precision;
+        self
+    }
+
+    /// Whether loops of SPIR-V, HLSL and MSL go without a bound of naga's.
+    pub fn unbounded_loops(mut self, unbounded: bool) -> Self {
+        self.unbounded_loops = unbounded;
         self
     }
 

@@ -47,6 +47,7 @@ impl Module {
         let options = spv::Options {
             lang_version: (1, 3),
             flags: spv::WriterFlags::DEBUG,
+            force_loop_bounding: !resources.options.unbounded_loops,
             ..Default::default()
         };
         let pipeline = spv::PipelineOptions {
@@ -61,7 +62,10 @@ impl Module {
     /// HLSL of shader model 5.1, with quad operations 6.0, in half precision 6.2: group as space, binding as register.
     pub fn hlsl(&self, resources: &Resources) -> Result<String, EmitError> {
         let mut text = String::new();
-        let mut options = hlsl::Options::default();
+        let mut options = hlsl::Options {
+            force_loop_bounding: !resources.options.unbounded_loops,
+            ..Default::default()
+        };
         if resources.subgroups {
             options.shader_model = hlsl::ShaderModel::V6_0;
         }
@@ -119,6 +123,7 @@ impl Module {
             lang_version: (2, 0),
             per_entry_point_map: [(entry, slots)].into_iter().collect(),
             fake_missing_bindings: false,
+            force_loop_bounding: !resources.options.unbounded_loops,
             ..Default::default()
         };
         let pipeline = msl::PipelineOptions::default();

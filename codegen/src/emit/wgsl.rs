@@ -246,9 +246,17 @@ impl Dialect for Wgsl<'_> {
 
     // Between half precision and integers by way of `f32`, which holds every `f16`, and every integer that an `f16` holds:
     // whatever a driver does of its own is what it does in full precision.
-    fn convert(&self, from: Type, to: Type, x: &Text) -> Text {
+    fn convert(&self, from: Type, to: Type, x: &Text, fits: bool) -> Text {
         let x = self.leave(from, x.clone());
-        self.enter(to, Text::call(&type_name(to), &[&x]))
+        let mut converted = Text::call(&type_name(to), &[&x]);
+        if self.is_half() && from.is_integer() && to.is_float() && !fits {
+            let bound = |code: &str| match to.lanes() {
+                1 => Text::name(code),
+                _ => Text::call(&type_name(to), &[&Text::name(code)]),
+            };
+            converted = Text::call("clamp", &[&converted, &bound("-65504.0"), &bound("65504.0")]);
+        }
+        self.enter(to, converted)
     }
 
     fn uniform(&self, name: &str) -> Text {

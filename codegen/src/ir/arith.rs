@@ -16,7 +16,7 @@ pub fn cells<R: Real>(ty: Type, bits: &Lanes) -> Cells {
 /// The bits of a constant as cells of an `R`.
 pub fn constant<R: Real>(ty: Type, bits: &Lanes) -> Cells {
     bits.map(|bits| match ty.kind() {
-        Some(Scalar::F32) => R::constant(f32::from_bits(bits)).to_bits(),
+        Some(Scalar::F32) => R::made(f32::from_bits(bits).into()).to_bits(),
         _ => u64::from(bits),
     })
 }
@@ -171,7 +171,7 @@ fn binary_u32(op: BinaryOp, a: u32, b: u32) -> Option<u32> {
 fn convert<R: Real>(cell: u64, from: Scalar, to: Scalar) -> Option<u64> {
     use Scalar::*;
     let bits = cell as u32;
-    let number = |x: f64| R::from_f64(x).to_bits();
+    let number = |x: f64| R::made(x).to_bits();
     Some(match (from, to) {
         (F32, I32) => u64::from(R::from_bits(cell).to_f64() as i32 as u32),
         (F32, U32) => u64::from(R::from_bits(cell).to_f64() as u32),

@@ -14,10 +14,11 @@ pub trait Real:
     type Sampled: Real;
     /// The nearest number.
     fn from_f64(x: f64) -> Self;
-    /// A number that the kernel states: the nearest one, and of what lies beyond all of them the last. A bound such as
-    /// `x.min(1.0e30)` must go on bounding, which an infinity would not.
-    fn constant(x: f32) -> Self {
-        Self::from_f64(x.into())
+    /// A number that the kernel makes itself, a constant or of an integer: the nearest one that is finite, and not zero, if
+    /// that was neither. A bound such as `x.min(1.0e30)` must go on bounding, and `sum.max(1.0e-12)` must go on keeping a
+    /// division from 0/0.
+    fn made(x: f64) -> Self {
+        Self::from_f64(x)
     }
     /// The same number.
     fn to_f64(self) -> f64;
@@ -119,10 +120,18 @@ impl F16 {
         F16(half::f16::from_f32(x))
     }
 
-    /// The nearest number, a finite one of a finite one.
-    pub(crate) fn nearest(x: f32) -> half::f16 {
-        let x = if x.is_finite() { x.clamp(-65504.0, 65504.0) } else { x };
-        half::f16::from_f32(x)
+    /// The nearest number; of a finite one a finite one, and of one that is not zero one that is not.
+    pub(crate) fn nearest(x: f64) -> half::f16 {
+        use half::f16;
+        let near = f16::from_f64(x);
+        let instead = if near.is_infinite() && x.is_finite() {
+            f16::MAX
+        } else if near.to_f32() == 0.0 && x != 0.0 {
+            f16::MIN_POSITIVE_SUBNORMAL
+        } else {
+            near
+        };
+        f16::from_f64(instead.to_f64().copysign(x))
     }
 }
 
@@ -158,7 +167,7 @@ impl Real for F16 {
         F16(half::f16::from_f64(x))
     }
 
-    fn constant(x: f32) -> Self {
+    fn made(x: f64) -> Self {
         F16(F16::nearest(x))
     }
 

@@ -3,14 +3,17 @@
 //! A pass takes a graph and builds another. [`schedule`] alone decides order and place.
 
 mod count;
+mod floor;
 mod fold;
 mod lanes;
 mod ranges;
 mod schedule;
 
 pub use count::{count, layers_read};
+pub use floor::floor;
 pub use fold::Exact;
 pub use lanes::{by_derivatives, expand};
+pub(crate) use ranges::bounds;
 pub use schedule::{Block, Schedule, Step, schedule};
 
 use crate::ir::{Graph, Rebuild, rebuild};

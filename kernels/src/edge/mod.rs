@@ -23,6 +23,15 @@ pub enum Form {
     Corrected,
 }
 
+/// What a colour that is infinite or not a number does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NonFinite {
+    /// It spoils every pixel that is blurred with it.
+    Spread,
+    /// The pixel's own colour stands in for a tap that is touched by it, and black for a pixel whose own colour is bad.
+    Skip,
+}
+
 /// What a filter gives.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Output {
@@ -32,10 +41,41 @@ pub enum Output {
     Edges,
 }
 
-/// The colour `offset` pixels from the centre of `pixel`, filtered.
-fn nearby(color: &Frame<Vec4>, linear: &Sampler, pixel: IVec2, offset: Vec2) -> Vec4 {
+/// The colour of `pixel`; black if it is not finite and that is not to spread.
+fn own(non_finite: NonFinite, color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
+    let own = color.load(pixel);
+    match non_finite {
+        NonFinite::Spread => own,
+        NonFinite::Skip => {
+            if own.is_finite() {
+                own
+            } else {
+                Vec4::ZERO
+            }
+        }
+    }
+}
+
+/// The colour `offset` pixels from the centre of `pixel`, filtered. A sampler reads four texels, and 0 times a bad one is
+/// bad: nothing can be told of the others, and `own` is what is left.
+fn nearby(non_finite: NonFinite, color: &Frame<Vec4>, linear: &Sampler, pixel: IVec2, offset: Vec2, own: Vec4) -> Vec4 {
     let texel = Vec2::ONE / color.size().as_vec2();
-    color.sample(linear, (pixel.as_vec2() + 0.5 + offset) * texel)
+    let tap = color.sample(linear, (pixel.as_vec2() + 0.5 + offset) * texel);
+    match non_finite {
+        NonFinite::Spread => tap,
+        NonFinite::Skip => {
+            if tap.is_finite() {
+                tap
+            } else {
+                own
+            }
+        }
+    }
+}
+
+/// `depth`, at most [`DEEPEST`]; what is infinite or not a number is as deep.
+fn bounded(depth: f32) -> f32 {
+    if depth.abs() < DEEPEST { depth } else { DEEPEST }
 }
 
 /// More than any depth, and finite: the sky's infinite depth less itself is not a number.

@@ -1,6 +1,6 @@
 //! The edge filter of S.T.A.L.K.E.R.
 
-use super::{DEEPEST, Form, Output, nearby};
+use super::{Form, NonFinite, Output, bounded, nearby, own};
 use crate::prelude::*;
 
 options! {
@@ -12,6 +12,8 @@ options! {
         pub output: Output = Output::Antialias,
         /// How depth is stored.
         pub depth: Depth = Depth::Projected,
+        /// What a colour that is infinite or not a number does.
+        pub non_finite: NonFinite = NonFinite::Skip,
         /// Cosine of the angle between two normals from which they are alike (`e_barrier.x`).
         pub normal_barrier: f32 [-1.0..=1.0] = uniform(0.8),
         /// Second difference of depth up to which a surface is flat (`e_barrier.y`), in the unit that depth is compared in.
@@ -55,9 +57,14 @@ pub fn stalker(
         Output::Edges => vec4(edge, edge, edge, 1.0),
         Output::Antialias => {
             // s0 to s3: the neighbours at distance w. Both axes by their own texel size.
+            let own = match cfg.non_finite {
+                NonFinite::Spread => Vec4::ZERO,
+                NonFinite::Skip => own(cfg.non_finite, color, pixel),
+            };
             let mut sum = Vec4::ZERO;
             for offset in DIAGONALS {
-                sum += nearby(color, linear, pixel, offset.as_vec2() * (edge * cfg.kernel));
+                let offset = offset.as_vec2() * (edge * cfg.kernel);
+                sum += nearby(cfg.non_finite, color, linear, pixel, offset, own);
             }
             sum * 0.25
         }
@@ -75,7 +82,12 @@ fn alike_normals(cfg: &Stalker, normal: &Frame<Vec3>, pixel: IVec2) -> f32 {
             Form::Paper => cosine.abs(),
             Form::Corrected => cosine,
         };
-        alike += weight(cfg) * step(0.0, cosine - cfg.normal_barrier);
+        // Whatever is not a number is alike to nothing.
+        alike += if cosine - cfg.normal_barrier >= 0.0 {
+            weight(cfg)
+        } else {
+            0.0
+        };
     }
     saturate(alike)
 }
@@ -85,10 +97,10 @@ fn flat_depths(cfg: &Stalker, depth: &Frame<f32>, pixel: IVec2) -> f32 {
     let centre = evenly(cfg, depth.load(pixel));
     let mut flat = 0.0;
     for offset in AXES {
-        // dd = the sum of two opposite neighbours; abs(2 * dc - dd) - e_barrier.y; step(dd, 0)
+        // dd = the sum of two opposite neighbours; abs(2 * dc - dd) - e_barrier.y; step(dd, 0). What is not a number bends.
         let sum = evenly(cfg, depth.load(pixel + offset)) + evenly(cfg, depth.load(pixel - offset));
         let bend = (2.0 * centre - sum).abs() - cfg.depth_barrier;
-        flat += weight(cfg) * step(bend, 0.0);
+        flat += if bend <= 0.0 { weight(cfg) } else { 0.0 };
     }
     saturate(flat)
 }
@@ -101,10 +113,13 @@ fn weight(cfg: &Stalker) -> f32 {
     }
 }
 
+/// The least depth whose reciprocal is a number.
+const NEAREST: f32 = 1.0e-30;
+
 /// Depth in a form that grows evenly across a plane on the screen.
 fn evenly(cfg: &Stalker, depth: f32) -> f32 {
     match cfg.depth {
         Depth::Projected => depth,
-        Depth::Linear => 1.0 / depth.min(DEEPEST),
+        Depth::Linear => 1.0 / bounded(depth).max(NEAREST),
     }
 }

@@ -1,6 +1,6 @@
 //! The edge filter of Tabula Rasa.
 
-use super::{DEEPEST, Form, Output, nearby};
+use super::{Form, NonFinite, Output, bounded, nearby, own};
 use crate::prelude::*;
 
 options! {
@@ -10,6 +10,8 @@ options! {
         pub form: Form = Form::Corrected,
         /// What comes out.
         pub output: Output = Output::Antialias,
+        /// What a colour that is infinite or not a number does.
+        pub non_finite: NonFinite = NonFinite::Skip,
         /// How many times steeper depth must become from one side of a pixel to the other (`depthSensibility`).
         pub depth_sensibility: f32 [0.0..=1.0e6] = uniform(25.0),
         /// How strongly normals count (`normalSensibility`): a change of 0.4 / this of the cosine is an edge.
@@ -46,10 +48,12 @@ pub fn tabula_rasa(
         Output::Antialias => {
             // The loop over `factor` before this one comes to nothing: what it adds up is overwritten.
             let reach = edge.min(1.0) * cfg.weight;
-            let mut sum = 2.0 * color.load(pixel);
+            let own = own(cfg.non_finite, color, pixel);
+            let mut sum = 2.0 * own;
             for offset in HALF {
-                sum += nearby(color, linear, pixel, offset.as_vec2() * reach);
-                sum += nearby(color, linear, pixel, -offset.as_vec2() * reach);
+                let offset = offset.as_vec2() * reach;
+                sum += nearby(cfg.non_finite, color, linear, pixel, offset, own);
+                sum += nearby(cfg.non_finite, color, linear, pixel, -offset, own);
             }
             sum * 0.1
         }
@@ -58,26 +62,34 @@ pub fn tabula_rasa(
 
 /// `DL_GetEdgeWeight`: the share of the four directions in which there is an edge.
 fn edge_weight(cfg: &TabulaRasa, depth: &Frame<f32>, normal: &Frame<Vec3>, pixel: IVec2) -> f32 {
-    let here = depth.load(pixel).min(DEEPEST);
+    let here = bounded(depth.load(pixel));
     let facing = normal.load(pixel);
     let mut edges = 0.0;
     for offset in HALF {
         // Gradients to both sides; an edge where the greater is many times the smaller.
-        let before = (depth.load(pixel + offset).min(DEEPEST) - here).abs();
-        let after = (depth.load(pixel - offset).min(DEEPEST) - here).abs();
+        let before = (bounded(depth.load(pixel + offset)) - here).abs();
+        let after = (bounded(depth.load(pixel - offset)) - here).abs();
         let least = before.min(after).max(LEAST_GRADIENT);
         let by_depth = step(least * cfg.depth_sensibility, before.max(after));
 
         let before = normal.load(pixel + offset).dot(facing);
         let after = normal.load(pixel - offset).dot(facing);
-        let change = match cfg.form {
+        let by_normal = match cfg.form {
             // On a ridge of one pixel both cosines are equal, and their difference finds nothing.
-            Form::Paper => (before - after).abs(),
-            // For unit vectors never less than that: 1 - min >= max - min.
-            Form::Corrected => 1.0 - before.min(after),
+            Form::Paper => step(CHANGE, (before - after).abs() * cfg.normal_sensibility),
+            // For unit vectors never less than that: 1 - min >= max - min. A cosine that is not a number is an edge.
+            Form::Corrected => turned(cfg, before).max(turned(cfg, after)),
         };
-        let by_normal = step(CHANGE, change * cfg.normal_sensibility);
         edges += by_depth.max(by_normal);
     }
     edges * 0.25
+}
+
+/// 0 if a neighbour with this cosine between normals is on the same surface, else 1.
+fn turned(cfg: &TabulaRasa, cosine: f32) -> f32 {
+    if (1.0 - cosine) * cfg.normal_sensibility < CHANGE {
+        0.0
+    } else {
+        1.0
+    }
 }

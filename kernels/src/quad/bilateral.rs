@@ -1,5 +1,6 @@
 //! A bilateral blur at full resolution, its reads shared over the quad (§2.7).
 
+use super::surface::{bounded, is_bright, of_no_surface};
 use crate::prelude::*;
 
 options! {
@@ -32,13 +33,14 @@ pub enum Sharing {
 /// who asks.
 pub fn quad_bilateral(cfg: &QuadBilateral, image: &Frame<Vec4>, pixel: Quad<IVec2>) -> Quad<Vec4> {
     let outwards = quad_vector().as_ivec2();
-    let centre = image.load(pixel);
+    let own = image.load(pixel);
+    let centre = surface(own);
     let mut sum = Quad::splat(Vec4::ZERO);
     match cfg.sharing {
         Sharing::Quad => {
             for j in 0..=cfg.radius {
                 for i in 0..=cfg.radius {
-                    let taps = image.load(pixel + outwards * ivec2(i, j)).gather();
+                    let taps = surface(image.load(pixel + outwards * ivec2(i, j))).gather();
                     for k in 0..4 {
                         // Seen from the other lane it lies one pixel farther out.
                         let (x, y) = (i + k as i32 % 2, j + k as i32 / 2);
@@ -52,13 +54,20 @@ pub fn quad_bilateral(cfg: &QuadBilateral, image: &Frame<Vec4>, pixel: Quad<IVec
         Sharing::Alone => {
             for y in -cfg.radius..=cfg.radius {
                 for x in -cfg.radius..=cfg.radius {
-                    let tap = image.load(pixel + ivec2(x, y));
+                    let tap = surface(image.load(pixel + ivec2(x, y)));
                     sum += weighed(cfg, tap, centre, x * x + y * y);
                 }
             }
         }
     }
-    (centre.truncate() + sum.truncate() / sum.w()).extend(centre.w())
+    (centre.truncate() + sum.truncate() / sum.w()).extend(bounded(own.w()))
+}
+
+/// A pixel as it counts: one whose colour is not finite is black, and of no surface that any other lies on.
+fn surface(texel: Quad<Vec4>) -> Quad<Vec4> {
+    let counts = is_bright(texel.x()) & is_bright(texel.y()) & is_bright(texel.z());
+    let counted = texel.truncate().extend(bounded(texel.w()));
+    counts.select(counted, of_no_surface())
 }
 
 /// What a pixel adds: its difference from the centre times its weight, and the weight. Of pixels all alike nothing is left

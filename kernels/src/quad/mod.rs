@@ -9,4 +9,5 @@ pub mod convolution;
 pub mod pcf;
 pub mod pcss;
 pub mod ssao;
+mod surface;
 pub mod upsampling;

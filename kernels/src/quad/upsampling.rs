@@ -1,5 +1,6 @@
 //! Cross-bilateral upsampling with one or two reads a pixel (§2.7), and the pass that makes what it reads.
 
+use super::surface::{bounded, is_bright, of_no_surface};
 use crate::prelude::*;
 
 options! {
@@ -81,7 +82,7 @@ pub fn quad_upsampling(
     let corner = pixel / factor;
     // Share of the texels on the right and below.
     let share = ((pixel - corner * factor).as_vec2() + 0.5) / factor as f32;
-    let own_depth = depth.load(pixel);
+    let own_depth = bounded(depth.load(pixel));
     let own_normal = if cfg.compares_normals() {
         normal.load(pixel)
     } else {
@@ -101,7 +102,8 @@ pub fn quad_upsampling(
         let mut exponent = z * z;
         if cfg.compares_normals() {
             let n = (1.0 - taps[k].normal.dot(own_normal)) / cfg.normal_sigma;
-            exponent += n * n;
+            // A normal that is not a number tells nothing.
+            exponent += (n * n).ge(0.0).select(n * n, Quad::splat(0.0));
         }
         let weight = tally("weight_evaluations", taps[k].tent * (exponent * HALF_LOG2_E).exp2());
         weights[k] = weight;
@@ -135,6 +137,11 @@ fn heard(
     share: Quad<Vec2>,
 ) -> [Tap; 4] {
     let texel = low.load(corner + lane_position());
+    let counts = cfg.counts(texel);
+    let texel = match cfg.reads {
+        Reads::Packed => counts.select(texel.truncate().extend(bounded(texel.w())), of_no_surface()),
+        _ => counts.select(texel, Quad::splat(Vec4::ZERO)),
+    };
     // The lane's own texel lies in its own direction; for the others the tent is flipped.
     let near = match cfg.factor {
         Factor::Twice => Quad::splat(vec2(0.75, 0.75)),
@@ -175,6 +182,7 @@ fn heard(
         },
         _ => {
             let surface = low_surface.load(corner + lane_position());
+            let depth = counts.select(bounded(surface.w()), of_no_surface().w());
             match cfg.payload {
                 Payload::Scalar => {
                     let messages = texel.x().gather();
@@ -190,13 +198,13 @@ fn heard(
                 }
             }
             if cfg.compares_normals() {
-                let messages = surface.gather();
+                let messages = surface.truncate().extend(depth).gather();
                 for k in 0..4 {
                     taps[k].normal = messages[k].truncate();
                     taps[k].depth = messages[k].w();
                 }
             } else {
-                let messages = surface.w().gather();
+                let messages = depth.gather();
                 for k in 0..4 {
                     taps[k].depth = messages[k];
                 }
@@ -227,7 +235,9 @@ fn around(
     for k in 0..4 {
         let (right, below) = (k % 2 == 1, k / 2 == 1);
         let at = corner + ivec2(k as i32 % 2, k as i32 / 2);
-        let color = low.load(at);
+        let texel = low.load(at);
+        let counts = cfg.counts(texel);
+        let color = counts.select(texel, Quad::splat(Vec4::ZERO));
         let surface = low_surface.load(at);
         let x = if right { share.x() } else { rest.x() };
         let y = if below { share.y() } else { rest.y() };
@@ -235,7 +245,7 @@ fn around(
             Payload::Scalar => Vec4::ONE * color.x(),
             Payload::Color => color,
         };
-        taps[k].depth = surface.w();
+        taps[k].depth = counts.select(bounded(surface.w()), of_no_surface().w());
         taps[k].normal = surface.truncate();
         taps[k].tent = x * y;
     }
@@ -243,6 +253,20 @@ fn around(
 }
 
 impl Upsampling {
+    /// Whether a texel of low resolution has a colour that may count: what is brought up is finite.
+    fn counts(&self, texel: Quad<Vec4>) -> Quad<bool> {
+        match self.payload {
+            Payload::Scalar => is_bright(texel.x()),
+            Payload::Color => {
+                let color = is_bright(texel.x()) & is_bright(texel.y()) & is_bright(texel.z());
+                match self.reads {
+                    Reads::Packed => color,
+                    _ => color & is_bright(texel.w()),
+                }
+            }
+        }
+    }
+
     fn compares_normals(&self) -> bool {
         match self.reads {
             Reads::Packed => false,

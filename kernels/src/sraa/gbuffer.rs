@@ -87,8 +87,11 @@ pub struct Surface {
 /// More than any depth, and finite: the sky's infinite depth less itself is not a number.
 const DEEPEST: f32 = 1.0e30;
 
-/// Less than any depth but 0, and than the square of any normal's length.
+/// Less than any stored depth but 0.
 const SHORTEST: f32 = 1.0e-30;
+
+/// Less than the square of any normal's length, and still a number in 16 bits.
+const NO_NORMAL: f32 = 1.0e-4;
 
 /// The surface seen at `place`, from `pixel`: as much of it as the metric compares.
 pub(super) fn surface(cfg: &Sraa, gbuffer: &GBuffer, view: &View, pixel: IVec2, place: Place) -> Surface {
@@ -176,12 +179,14 @@ fn linear(cfg: &Sraa, view: &View, stored: f32) -> f32 {
     let (near, far) = (view.near, view.far);
     let depth = match cfg.depth {
         Depth::Linear => stored,
-        // 1 - stored is exact near the far plane, where far - stored * (far - near) would cancel.
-        Depth::Perspective => near * far / (far * (1.0 - stored) + near * stored),
-        Depth::Reversed => near * far / (near * (1.0 - stored) + far * stored),
-        Depth::ReversedInfinite => near / stored.max(SHORTEST),
+        // 1 - stored is exact near the far plane, where far - stored * (far - near) would cancel; and of an infinite far
+        // plane the share is 0.
+        Depth::Perspective => near / ((1.0 - stored) + near / far * stored),
+        Depth::Reversed => near / (stored + near / far * (1.0 - stored)),
+        Depth::ReversedInfinite => near / if stored > SHORTEST { stored } else { SHORTEST },
     };
-    depth.min(DEEPEST)
+    // What is infinite or not a number is as deep as the sky. `min` may give either of its operands if one is a NaN.
+    if depth.abs() < DEEPEST { depth } else { DEEPEST }
 }
 
 /// The unit normal that a texel holds.
@@ -212,9 +217,9 @@ fn folded(square: Vec2) -> Vec3 {
     unit(vec3(x, y, z))
 }
 
-/// The vector at length 1; a zero vector, which no surface has, as it is.
+/// The vector at length 1. One that is shorter than 1/100, which no surface has, becomes 100 times as long: zero stays zero.
 fn unit(v: Vec3) -> Vec3 {
-    v * inverse_sqrt(v.dot(v).max(SHORTEST))
+    v * inverse_sqrt(v.dot(v).max(NO_NORMAL))
 }
 
 impl GBuffer {

@@ -70,12 +70,18 @@ const NEAREST: f32 = 1.0e-30;
 /// How different the surface at a tap is from that at a geometry sample: 0 for the same, 1 or more for unrelated ones.
 pub(super) fn distance(cfg: &Sraa, sample: &Sample, tap: &Surface, at: Vec2) -> f32 {
     let larger = match cfg.metric {
-        Metric::PlanesNormals => off_plane(cfg, sample, tap, at).max(turned(sample, tap)),
-        Metric::DepthNormals => deeper(cfg, sample, tap).max(turned(sample, tap)),
-        Metric::Normals => turned(sample, tap),
-        Metric::Depth => deeper(cfg, sample, tap),
+        Metric::PlanesNormals => bounded(off_plane(cfg, sample, tap, at)).max(bounded(turned(sample, tap))),
+        Metric::DepthNormals => bounded(deeper(cfg, sample, tap)).max(bounded(turned(sample, tap))),
+        Metric::Normals => bounded(turned(sample, tap)),
+        Metric::Depth => bounded(deeper(cfg, sample, tap)),
     };
-    tally("weight_evaluations", larger.min(FAR))
+    tally("weight_evaluations", larger)
+}
+
+/// At most [`FAR`]. What is not a number, as of a normal that was divided by its length of zero, is of no surface at all:
+/// `min` and `max` would leave to the device what becomes of it.
+fn bounded(difference: f32) -> f32 {
+    if difference < FAR { difference } else { FAR }
 }
 
 /// σp |(pₜ - pₛ)·nₛ|. The points are their depths along their rays, so (pₜ - pₛ)·nₛ is

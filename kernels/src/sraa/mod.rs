@@ -83,7 +83,7 @@ fn masked<const TAPS: usize, const SIDE: usize>(cfg: &Sraa, inputs: &Inputs) -> 
 
 /// The pixel's colour from the `TAPS` shading samples of the `SIDE` × `SIDE` pixels around it.
 fn filtered<const TAPS: usize, const SIDE: usize>(cfg: &Sraa, inputs: &Inputs) -> Vec4 {
-    let steepness = cfg.tau * std::f32::consts::LOG2_E;
+    let steepness = (cfg.tau * std::f32::consts::LOG2_E).min(STEEPEST);
     let total = total_share(cfg);
     let mut weights = [0.0; TAPS];
     for sample in 0..cfg.reconstructed() {
@@ -138,12 +138,21 @@ fn filtered<const TAPS: usize, const SIDE: usize>(cfg: &Sraa, inputs: &Inputs) -
     }
     match cfg.non_finite {
         NonFinite::Spread => result,
-        NonFinite::Skip => result / sum.max(EPSILON),
+        NonFinite::Skip => {
+            if sum > EPSILON {
+                result / sum
+            } else {
+                Vec4::ZERO
+            }
+        }
     }
 }
 
 /// Less than any sum of weights that counts.
 const EPSILON: f32 = 1.0e-30;
+
+/// As steep as the largest tau, and finite: an infinite one given at run time would make the nearest surface 0 times it.
+const STEEPEST: f32 = 1.0e7;
 
 /// Sum of the shares of all reconstructed samples.
 fn total_share(cfg: &Sraa) -> f32 {

@@ -31,8 +31,8 @@ options! {
         pub layout: Layout = Layout::Layers,
         /// How a tap's weight falls with its distance on the screen.
         pub falloff: Falloff = Falloff::Tent,
-        /// Of falloff=gaussian: the standard deviation, in pixels.
-        pub sigma: f32 [0.05..=4.0] = 0.4,
+        /// Of falloff=gaussian: the standard deviation, in pixels. With less, the farthest taps would weigh too little for a float.
+        pub sigma: f32 [0.125..=4.0] = 0.4,
         /// How the weights of a sample are made to sum to one.
         pub normalisation: Normalisation = Normalisation::Shifted,
         /// How the reconstructed samples make up the pixel.

@@ -47,6 +47,15 @@ pub enum Error {
         description: String,
     },
 
+    /// Loops were to go without wgpu's bound, and the text does not show that all of them end.
+    #[error("loops of `{kernel}` cannot go without a bound: {problem}; leave `unbounded_loops` out")]
+    UnboundedLoop {
+        /// The kernel's name.
+        kernel: String,
+        /// What is wrong with the first such loop.
+        problem: String,
+    },
+
     /// Layouts or the pipeline could not be made although shader and manifest agree.
     #[error("pipeline of `{kernel}` could not be made: {description}")]
     Pipeline {

@@ -17,6 +17,8 @@ pub struct Interpreted<R> {
     pub not_finite: Option<([u32; 2], String)>,
     /// Pixels that had one.
     pub not_finite_pixels: usize,
+    /// The same as `not_finite` for all of them, in order.
+    pub births: Vec<([u32; 2], String)>,
 }
 
 impl<R: Real> Interpreted<R> {
@@ -88,6 +90,7 @@ pub fn interpret<R: Real>(compiled: &Compiled, inputs: &Inputs, watch: bool) -> 
     Ok(Interpreted {
         texels: texels.concat(),
         not_finite_pixels: births.len(),
-        not_finite: births.into_iter().next(),
+        not_finite: births.first().cloned(),
+        births,
     })
 }

@@ -3,11 +3,11 @@
 use super::convert::{self, Converters};
 use super::{Address, Comparison, ExecuteError, Inputs, SamplerState};
 use glam::{UVec2, Vec4, uvec2};
-use straightline_codegen::emit::Target;
+use straightline_codegen::emit::{Emitted, Target};
 use straightline_codegen::{Compiled, EmitOptions, Format, Precision, Stage};
 use straightline_kernels::prelude::Frame;
 use straightline_manifest::{BindingKind, Dimension, Manifest, REGION, SampleType};
-use straightline_runtime::{Pass, Resource};
+use straightline_runtime::{Pass, PassOptions, Resource};
 use wgpu::{TextureFormat, TextureUsages};
 
 /// Samples of a multisampled texel that WebGPU promises.
@@ -50,6 +50,29 @@ impl Bound {
         });
         resources.collect()
     }
+
+    /// Bytes of all textures and buffers, as they lie on the device.
+    pub fn bytes(&self) -> u64 {
+        let bytes = |owned: &Owned| match owned {
+            Owned::Texture(view) => texture_bytes(view.texture()),
+            Owned::Sampler(_) => 0,
+            Owned::Buffer(buffer) => buffer.size(),
+        };
+        self.resources.iter().map(|(_, owned)| bytes(owned)).sum()
+    }
+}
+
+/// Bytes of all texels of a texture without smaller levels.
+pub fn texture_bytes(texture: &wgpu::Texture) -> u64 {
+    let extent = texture.size();
+    let texels = [
+        extent.width,
+        extent.height,
+        extent.depth_or_array_layers,
+        texture.sample_count(),
+    ];
+    let each = texture.format().block_copy_size(None).unwrap_or(4);
+    texels.map(u64::from).iter().product::<u64>() * u64::from(each)
 }
 
 impl Bench {
@@ -102,12 +125,26 @@ impl Bench {
     /// If it cannot be emitted, or the device cannot run it.
     pub fn emitted(&self, compiled: &Compiled, options: &EmitOptions) -> Result<(Pass, Manifest), ExecuteError> {
         let emitted = compiled.emit(options)?;
+        let pass = self.made(&emitted, &PassOptions::default())?;
+        Ok((pass, emitted.manifest))
+    }
+
+    /// What was emitted, its WGSL among it, as a pass.
+    ///
+    /// # Errors
+    ///
+    /// If the device cannot run it.
+    pub fn made(&self, emitted: &Emitted, options: &PassOptions) -> Result<Pass, ExecuteError> {
         let wgsl = emitted
             .files
             .get(&Target::Wgsl)
             .map(|bytes| String::from_utf8_lossy(bytes));
-        let pass = Pass::new(&self.device, &emitted.manifest, &wgsl.unwrap_or_default())?;
-        Ok((pass, emitted.manifest))
+        Ok(Pass::with_options(
+            &self.device,
+            &emitted.manifest,
+            &wgsl.unwrap_or_default(),
+            options,
+        )?)
     }
 
     /// Puts onto the device what a manifest asks for, uniforms into the pass.
@@ -180,9 +217,14 @@ impl Bench {
         Ok(Bound { resources })
     }
 
-    /// Sets those uniforms of a pass that are given; those of a region are stated with each region that is recorded.
-    fn set_uniforms(&self, pass: &Pass, manifest: &Manifest, inputs: &Inputs) -> Result<(), ExecuteError> {
+    /// Sets the uniforms of a pass; all that [`bind`](Self::bind) does for a second pass that reads what a first one reads.
+    ///
+    /// # Errors
+    ///
+    /// If a value is of another type.
+    pub fn set_uniforms(&self, pass: &Pass, manifest: &Manifest, inputs: &Inputs) -> Result<(), ExecuteError> {
         for binding in &manifest.bindings {
+            // The region is stated with each that is recorded.
             if let BindingKind::Uniform { fields, .. } = &binding.kind
                 && binding.name != REGION
             {
@@ -204,7 +246,7 @@ impl Bench {
     pub fn run(&self, compiled: &Compiled, stage: Stage, inputs: &Inputs) -> Result<Frame<Vec4>, ExecuteError> {
         let (pass, manifest) = self.pass(compiled, stage)?;
         let bound = self.bind(&pass, &manifest, inputs)?;
-        self.run_pass(&pass, &bound, inputs.size)
+        self.picture_of(&pass, &bound, inputs.size)
     }
 
     /// What a pass that writes full floats makes of its inputs.
@@ -212,7 +254,7 @@ impl Bench {
     /// # Errors
     ///
     /// If it cannot be encoded, or the device fails.
-    pub fn run_pass(&self, pass: &Pass, bound: &Bound, size: UVec2) -> Result<Frame<Vec4>, ExecuteError> {
+    pub fn picture_of(&self, pass: &Pass, bound: &Bound, size: UVec2) -> Result<Frame<Vec4>, ExecuteError> {
         let target = self.target(size, pass.target_format());
         let view = target.create_view(&wgpu::TextureViewDescriptor::default());
         let mut encoder = self

@@ -92,6 +92,9 @@ impl Timed {
     }
 }
 
+/// Runs of a job in one submission, at most.
+const MOST_REPEATS: u32 = 64;
+
 /// What a time was taken with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -138,10 +141,22 @@ impl Bench {
     /// # Errors
     ///
     /// If a pass cannot be encoded, or the device fails.
-    pub fn timed(
+    pub fn timed(&self, jobs: &[Job<'_>], rounds: u32, tick: impl FnMut(u32) -> bool) -> Result<Timed, ExecuteError> {
+        self.timed_for(jobs, rounds, Duration::ZERO, tick)
+    }
+
+    /// As [`timed`](Self::timed), but a job that is done sooner than `least` is run several times in a row, in one submission:
+    /// as often as it takes, up to 64 times. A time is that of one of them. What else the machine does, and what a submission
+    /// costs by itself, then matters less. Every other round runs the jobs in reverse, so that none always follows the same.
+    ///
+    /// # Errors
+    ///
+    /// If a pass cannot be encoded, or the device fails.
+    pub fn timed_for(
         &self,
         jobs: &[Job<'_>],
         rounds: u32,
+        least: Duration,
         mut tick: impl FnMut(u32) -> bool,
     ) -> Result<Timed, ExecuteError> {
         let view = |job: &Job<'_>| {
@@ -150,15 +165,22 @@ impl Bench {
         };
         let views: Vec<wgpu::TextureView> = jobs.iter().map(view).collect();
         let mut timer = match self.timestamps {
-            true => Some(Timer::new(&self.device, &self.queue, 1)?),
+            true => Some(Timer::new(&self.device, &self.queue, MOST_REPEATS)?),
             false => None,
         };
         let mut times: Vec<Vec<Duration>> = vec![Vec::new(); jobs.len()];
+        let mut repeats = vec![1; jobs.len()];
         for round in 0..=rounds.max(1) {
-            for (k, job) in jobs.iter().enumerate() {
-                let took = self.once(job, &views[k], timer.as_mut())?;
+            for turn in 0..jobs.len() {
+                let k = if round % 2 == 0 { turn } else { jobs.len() - 1 - turn };
+                let took = self.once(&jobs[k], &views[k], repeats[k], timer.as_mut())?;
                 if round > 0 {
                     times[k].push(took);
+                } else if !least.is_zero() {
+                    // The first time has the driver's compiling in it.
+                    let took = self.once(&jobs[k], &views[k], 1, timer.as_mut())?;
+                    let wanted = least.as_secs_f64() / took.as_secs_f64().max(1e-9);
+                    repeats[k] = (wanted.ceil() as u32).clamp(1, MOST_REPEATS);
                 }
             }
             if !tick(round) && round > 0 {
@@ -172,10 +194,12 @@ impl Bench {
         Ok(Timed { clock, rounds: times })
     }
 
-    fn once(
+    /// The time of one of `repeats` runs in one submission.
+    pub(super) fn once(
         &self,
         job: &Job<'_>,
         target: &wgpu::TextureView,
+        repeats: u32,
         timer: Option<&mut Timer>,
     ) -> Result<Duration, ExecuteError> {
         let resources = job.bound.resources();
@@ -184,17 +208,22 @@ impl Bench {
             .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         match timer {
             Some(timer) => {
-                job.pass.encode_timed(&mut encoder, &resources, target, timer)?;
+                for _ in 0..repeats {
+                    job.pass.encode_timed(&mut encoder, &resources, target, timer)?;
+                }
                 timer.resolve(&mut encoder)?;
                 self.queue.submit([encoder.finish()]);
-                Ok(timer.read()?.first().copied().unwrap_or_default())
+                Ok(timer.read()?.iter().sum::<Duration>() / repeats)
             }
             None => {
-                job.pass.encode(&mut encoder, &resources, target)?;
+                for _ in 0..repeats {
+                    job.pass.encode(&mut encoder, &resources, target)?;
+                }
+                let commands = encoder.finish();
                 let start = Instant::now();
-                self.queue.submit([encoder.finish()]);
+                self.queue.submit([commands]);
                 self.wait()?;
-                Ok(start.elapsed())
+                Ok(start.elapsed() / repeats)
             }
         }
     }

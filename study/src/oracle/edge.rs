@@ -73,7 +73,11 @@ impl Stalker {
     pub fn edges(&self, geometry: &Geometry) -> Vec<Edge> {
         let depth = |p: IVec2| {
             let d = f64::from(geometry.depth.load(p));
-            if self.linear_depth { 1.0 / d } else { d }
+            if self.linear_depth {
+                1.0 / bounded(d).max(NEAREST)
+            } else {
+                d
+            }
         };
         each(geometry.depth.size(), |p| {
             let mut margin = f64::INFINITY;
@@ -83,13 +87,13 @@ impl Stalker {
                 let (d, d1, d2) = (depth(p), depth(p + away), depth(p - away));
                 let bend = (2.0 * d - d1 - d2).abs();
                 let size = d.abs().max(d1.abs()).max(d2.abs()).max(self.depth_barrier);
-                margin = margin.min((bend - self.depth_barrier).abs() / size);
+                margin = margin.min(decided((bend - self.depth_barrier).abs() / size));
                 flat += i32::from(bend <= self.depth_barrier);
                 if x * y != 0 {
                     for neighbour in [p + away, p - away] {
                         let cosine = cosine(geometry.normal, p, neighbour);
                         let cosine = if self.printed { cosine.abs() } else { cosine };
-                        margin = margin.min((cosine - self.normal_barrier).abs());
+                        margin = margin.min(decided((cosine - self.normal_barrier).abs() / cosine.abs().max(1.0)));
                         alike += i32::from(cosine >= self.normal_barrier);
                     }
                 }
@@ -119,7 +123,7 @@ impl Stalker {
 impl TabulaRasa {
     /// How much of an edge each pixel is, row by row from the top.
     pub fn edges(&self, geometry: &Geometry) -> Vec<Edge> {
-        let depth = |p: IVec2| f64::from(geometry.depth.load(p));
+        let depth = |p: IVec2| bounded(f64::from(geometry.depth.load(p)));
         each(geometry.depth.size(), |p| {
             let mut margin = f64::INFINITY;
             let mut edges = 0;
@@ -136,12 +140,18 @@ impl TabulaRasa {
                     cosine(geometry.normal, p, p + away),
                     cosine(geometry.normal, p, p - away),
                 );
-                let mut change = (c1 - c2).abs();
-                if !self.printed {
-                    change = change.max(1.0 - c1).max(1.0 - c2);
+                let changes = match self.printed {
+                    true => [(c1 - c2).abs(); 2],
+                    false => [1.0 - c1, 1.0 - c2],
+                };
+                let size = c1.abs().max(c2.abs()).max(1.0);
+                let mut edge = g1.max(g2) >= needed;
+                for change in changes.map(|change| change * self.normal_sensibility) {
+                    margin = margin.min(decided((change - 0.4).abs() / size));
+                    // What cannot be told is an edge.
+                    edge |= change >= 0.4 || change.is_nan();
                 }
-                margin = margin.min((change * self.normal_sensibility - 0.4).abs());
-                edges += i32::from(g1.max(g2) >= needed || change * self.normal_sensibility >= 0.4);
+                edges += i32::from(edge);
             }
             let weight = f64::from(edges) / 4.0;
             Edge { weight, margin }
@@ -154,10 +164,13 @@ impl TabulaRasa {
         let width = color.size().x as i32;
         each(color.size(), |p| {
             let reach = edges[(p.y * width + p.x) as usize].weight * self.weight;
-            let mut sum = [0.0; 4];
+            let mut sum = own(color, p).map(|lane| 0.2 * lane);
             for y in -1..=1 {
                 for x in -1..=1 {
-                    let share = if (x, y) == (0, 0) { 0.2 } else { 0.1 };
+                    if (x, y) == (0, 0) {
+                        continue;
+                    }
+                    let share = 0.1;
                     let tap = between(color, p, [f64::from(x) * reach, f64::from(y) * reach]);
                     sum.iter_mut().zip(tap).for_each(|(sum, tap)| *sum += share * tap);
                 }
@@ -167,10 +180,34 @@ impl TabulaRasa {
     }
 }
 
+/// At most 10³⁰, by definition of both filters; what is infinite or not a number is as deep.
+fn bounded(depth: f64) -> f64 {
+    let deepest = f64::from(1.0e30_f32);
+    if depth.abs() < deepest { depth } else { deepest }
+}
+
+/// The least depth whose reciprocal is taken.
+const NEAREST: f64 = 1.0e-30;
+
+/// A margin; of what is not a number, which is decided in any precision, an infinite one.
+fn decided(margin: f64) -> f64 {
+    if margin.is_nan() { f64::INFINITY } else { margin }
+}
+
 fn each<T>(size: UVec2, pixel: impl Fn(IVec2) -> T) -> Vec<T> {
     let size = size.as_ivec2();
     let pixels = (0..size.y).flat_map(|y| (0..size.x).map(move |x| IVec2::new(x, y)));
     pixels.map(pixel).collect()
+}
+
+/// The colour of a pixel, black if it is not finite.
+fn own(color: &Frame<Vec4>, p: IVec2) -> [f64; 4] {
+    let own = color.load(p);
+    if own.is_finite() {
+        own.as_dvec4().to_array()
+    } else {
+        [0.0; 4]
+    }
 }
 
 fn cosine(normal: &Frame<Vec3>, a: IVec2, b: IVec2) -> f64 {
@@ -178,7 +215,7 @@ fn cosine(normal: &Frame<Vec3>, a: IVec2, b: IVec2) -> f64 {
 }
 
 /// The colour `away` from the centre of `p` in pixels: the mean of the texels around, each weighted by a tent of one
-/// pixel on each axis.
+/// pixel on each axis. If one of them is not finite it is that of `p`, and black if that is not either.
 fn between(color: &Frame<Vec4>, p: IVec2, away: [f64; 2]) -> [f64; 4] {
     let mut sum = [0.0; 4];
     let reach = away.map(|a| a.abs().ceil() as i32 + 1);
@@ -188,6 +225,9 @@ fn between(color: &Frame<Vec4>, p: IVec2, away: [f64; 2]) -> [f64; 4] {
             let weight = tent(x, away[0]) * tent(y, away[1]);
             if weight > 0.0 {
                 let texel = color.load(p + IVec2::new(x, y)).as_dvec4().to_array();
+                if texel.iter().any(|lane| !lane.is_finite()) {
+                    return own(color, p);
+                }
                 sum.iter_mut()
                     .zip(texel)
                     .for_each(|(sum, texel)| *sum += weight * texel);

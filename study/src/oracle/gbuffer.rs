@@ -1,5 +1,6 @@
 //! What the images of a shader's inputs say, decoded in double precision.
 
+use super::bound::Rounding;
 use super::{Depth, Layout, Metric, Normals, OracleError, Shading, SraaParams};
 use crate::execute::Inputs;
 use straightline_kernels::prelude::{Frame, Vec4};
@@ -14,8 +15,27 @@ pub struct Point {
     pub ray: [f64; 3],
 }
 
-/// More than any depth, by definition of the filter: a sky is as deep as any other.
-const DEEPEST: f64 = 1.0e30;
+/// More than any depth, by definition of the filter: a sky is as deep as any other, and so is what is no number.
+pub(super) const DEEPEST: f64 = 1.0e30_f32 as f64;
+
+/// Stored depths of a reversed projection are no less, by definition of the filter.
+const SHORTEST: f64 = 1.0e-30_f32 as f64;
+
+/// Normals that are shorter are divided by this, by definition of the filter: a cleared texel is no normal.
+const NO_NORMAL: f64 = 0.01;
+
+/// How far a point may be read from where it is.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Reading {
+    /// Depth as it is stored; 0 where none is read.
+    pub stored: f64,
+    /// The texel of the normal.
+    pub texel: [f64; 4],
+    /// Most that linear depth is off, as a share of it.
+    pub depth: f64,
+    /// Most that a component of the normal is off.
+    pub normal: f64,
+}
 
 /// The images and numbers that a filter's options name.
 pub struct GBuffer<'a> {
@@ -83,6 +103,11 @@ impl<'a> GBuffer<'a> {
         })
     }
 
+    /// The ray through the image's corner, and how it changes to the right and down.
+    pub fn rays(&self) -> Option<[[f64; 3]; 3]> {
+        self.rays
+    }
+
     /// Colour of shading sample `k` of `pixel`, or of the nearest one inside.
     pub fn color(&self, pixel: [i32; 2], k: usize) -> [f64; 4] {
         numbers(texel(&self.colors[k], self.inside(pixel)))
@@ -93,11 +118,8 @@ impl<'a> GBuffer<'a> {
         let pixel = self.inside(pixel);
         let depth = self.depth.as_ref().map_or(1.0, |stored| {
             let texel = self.texel(stored, pixel, sample);
-            let value = match self.params.normals {
-                Normals::Packed => texel[2] + texel[3],
-                _ => texel[0],
-            };
-            self.linear(value).min(DEEPEST)
+            let depth = self.linear(self.stored_depth(texel));
+            if depth.abs() < DEEPEST { depth } else { DEEPEST }
         });
         let normal = self.normal.as_ref().map_or([0.0, 0.0, 1.0], |stored| {
             self.decoded(self.texel(stored, pixel, sample))
@@ -107,6 +129,64 @@ impl<'a> GBuffer<'a> {
             [0, 1, 2].map(|axis| corner[axis] + at[0] * right[axis] + at[1] * down[axis])
         });
         Point { depth, normal, ray }
+    }
+
+    fn stored_depth(&self, texel: [f64; 4]) -> f64 {
+        match self.params.normals {
+            Normals::Packed => texel[2] + texel[3],
+            _ => texel[0],
+        }
+    }
+
+    /// How far a filter in less than `f64` may read a point from where it is.
+    pub fn reading(&self, pixel: [i32; 2], sample: usize, rounding: &Rounding) -> Reading {
+        let pixel = self.inside(pixel);
+        let (unit, read) = (rounding.unit, rounding.read);
+        let mut reading = Reading::default();
+        if let Some(stored) = &self.depth {
+            let value = self.stored_depth(self.texel(stored, pixel, sample));
+            // What is taken for the same depth is the same number.
+            reading.stored = match self.params.depth {
+                // `max` gives the number of a number and a NaN.
+                Depth::ReversedInfinite => value.max(SHORTEST),
+                _ if value.is_nan() => f64::INFINITY,
+                _ => value,
+            };
+            let depth = self.linear(value);
+            let [near, far] = self.planes;
+            // (stored / depth) d depth / d stored, of the definitions below.
+            let condition = match self.params.depth {
+                Depth::Linear | Depth::ReversedInfinite => 1.0,
+                Depth::Perspective | Depth::Reversed => value * depth / near * (1.0 - near / far),
+            };
+            // Near and far are read too; then two products, two sums and two quotients of 2.5 ULP each.
+            let decoding = match self.params.depth {
+                Depth::Linear => 0.0,
+                _ => 2.0 * read + 16.0 * unit,
+            };
+            let packed = if self.params.normals == Normals::Packed {
+                unit
+            } else {
+                0.0
+            };
+            reading.depth = read * condition.abs() + decoding + packed;
+        }
+        if let Some(stored) = &self.normal {
+            let texel = self.texel(stored, pixel, sample);
+            reading.texel = texel;
+            // Components are at most 1 long; 2 t - 1 and the folding are off by some units, which the division by the
+            // length makes larger; then the length itself, by an inverse square root of 2 ULP.
+            let normalised = |v: [f64; 3], off: f64| off / length(v).max(NO_NORMAL) + 10.0 * unit;
+            let largest = texel.iter().take(3).fold(0.0f64, |most, axis| most.max(axis.abs()));
+            let signed = texel.map(|axis| 2.0 * axis - 1.0);
+            reading.normal = match self.params.normals {
+                Normals::Float => read * largest,
+                Normals::Unorm => normalised([signed[0], signed[1], signed[2]], 2.0 * read + 2.0 * unit),
+                // No point of the octahedron is nearer to its middle than 1/√3.
+                Normals::Octahedral | Normals::Packed => 4.0 * (2.0 * read + 4.0 * unit) + 10.0 * unit,
+            };
+        }
+        reading
     }
 
     fn texel(&self, stored: &Stored, pixel: [i32; 2], sample: usize) -> [f64; 4] {
@@ -133,12 +213,12 @@ impl<'a> GBuffer<'a> {
     /// same with 1 - d, and n / z.
     fn linear(&self, stored: f64) -> f64 {
         let [near, far] = self.planes;
-        let whole = far / (far - near);
+        let whole = 1.0 / (1.0 - near / far);
         match self.params.depth {
             Depth::Linear => stored,
             Depth::Perspective => near / (1.0 - stored / whole),
             Depth::Reversed => near / (1.0 - (1.0 - stored) / whole),
-            Depth::ReversedInfinite => near / stored,
+            Depth::ReversedInfinite => near / if stored > SHORTEST { stored } else { SHORTEST },
         }
     }
 
@@ -216,6 +296,10 @@ fn folded([x, y]: [f64; 2]) -> [f64; 3] {
 }
 
 fn unit(v: [f64; 3]) -> [f64; 3] {
-    let length = v.iter().map(|axis| axis * axis).sum::<f64>().sqrt();
-    if length > 0.0 { v.map(|axis| axis / length) } else { v }
+    let length = length(v).max(NO_NORMAL);
+    v.map(|axis| axis / length)
+}
+
+fn length(v: [f64; 3]) -> f64 {
+    v.iter().map(|axis| axis * axis).sum::<f64>().sqrt()
 }

@@ -10,10 +10,12 @@
 //! share rₛ in the pixel. mₛₜ is the difference of the two surfaces (paper §3.2). Beyond the border the nearest pixel's
 //! surfaces and colours are repeated.
 
+pub mod bound;
 pub mod edge;
 mod gbuffer;
 mod params;
 mod pattern;
+pub mod quads;
 
 use crate::execute::Inputs;
 use gbuffer::{GBuffer, Point};
@@ -37,8 +39,15 @@ pub struct Resolved {
 /// The smallest normal `f32`, 2⁻¹²⁶: what is below is 0 on hardware that flushes subnormal numbers.
 const SMALLEST_NORMAL: f64 = f32::MIN_POSITIVE as f64;
 
-/// Differences from here on are alike, by definition of the filter: surfaces are unrelated from 1 on.
+/// Differences from here on are alike, by definition of the filter: surfaces are unrelated from 1 on. So is one that is
+/// not a number.
 const FAR: f64 = 16.0;
+
+/// Weights that sum to no more are none, by definition of the filter.
+const EPSILON: f64 = 1.0e-30;
+
+/// The least depth that another is divided by, by definition of the filter.
+const NEAREST: f64 = 1.0e-30;
 
 /// Antialiased colour of every pixel, row by row from the top, of what a shader with these options would read.
 ///
@@ -122,7 +131,7 @@ impl<'a> Definition<'a> {
                 }
             }
         }
-        if sum > 0.0 {
+        if sum > EPSILON {
             color.map(|axis| axis / sum)
         } else {
             [0.0; 4]
@@ -157,14 +166,14 @@ impl<'a> Definition<'a> {
             Normalisation::Shifted => nearest,
             Normalisation::Paper | Normalisation::Epsilon => 0.0,
         };
-        let weight = |tap: &Tap| tap.falloff * (-self.params.tau * (tap.difference - origin)).exp();
+        let weight = |tap: &Tap| tap.falloff * (-self.params.steepness() * (tap.difference - origin)).exp();
         taps.iter().map(weight).collect()
     }
 
     fn total(&self, weights: &[f64]) -> f64 {
         let sum: f64 = weights.iter().sum();
         match self.params.normalisation {
-            Normalisation::Epsilon => sum.max(1.0e-30),
+            Normalisation::Epsilon => sum.max(EPSILON),
             Normalisation::Paper | Normalisation::Shifted => sum,
         }
     }
@@ -248,7 +257,7 @@ impl<'a> Definition<'a> {
     fn difference(&self, sample: &Point, tap: &Point) -> f64 {
         let per_depth = match self.params.difference {
             Difference::Absolute => 1.0,
-            Difference::Relative => 1.0 / sample.depth,
+            Difference::Relative => 1.0 / sample.depth.max(NEAREST),
         };
         let scale = self.params.depth_scale * per_depth;
         // Two skies are equally deep.
@@ -265,14 +274,18 @@ impl<'a> Definition<'a> {
                 .sum::<f64>()
                 / 2.0
         };
-        let difference = match self.params.metric {
-            Metric::PlanesNormals => plane().max(turned()),
-            Metric::DepthNormals => depths().max(turned()),
-            Metric::Normals => turned(),
-            Metric::Depth => depths(),
-        };
-        difference.min(FAR)
+        match self.params.metric {
+            Metric::PlanesNormals => bounded(plane()).max(bounded(turned())),
+            Metric::DepthNormals => bounded(depths()).max(bounded(turned())),
+            Metric::Normals => bounded(turned()),
+            Metric::Depth => bounded(depths()),
+        }
     }
+}
+
+/// At most [`FAR`], which is also how far is what cannot be told.
+fn bounded(difference: f64) -> f64 {
+    if difference < FAR { difference } else { FAR }
 }
 
 fn tent(away: f64) -> f64 {

@@ -316,6 +316,11 @@ impl SraaParams {
         Ok(())
     }
 
+    /// τ; from 10⁷ / log₂ e on the filter makes no difference, so that an infinite one is a number.
+    pub fn steepness(&self) -> f64 {
+        self.tau.min(1.0e7 / std::f64::consts::LOG2_E)
+    }
+
     /// Offsets of the geometry samples from the pixel's centre, in pixels, y down.
     pub fn samples(&self) -> Vec<[f64; 2]> {
         super::pattern::samples(self.pattern, &self.offsets)

@@ -62,6 +62,17 @@ pub fn write_png(path: &Path, frame: &Frame<Vec4>) -> Result<(), PictureError> {
     whole::file(path, |file| png::encode(path, file, frame))
 }
 
+/// The bytes of what [`write_png`] writes.
+///
+/// # Errors
+///
+/// If the encoder fails.
+pub fn png_bytes(frame: &Frame<Vec4>) -> Result<Vec<u8>, PictureError> {
+    let mut bytes = Vec::new();
+    png::encode(Path::new("a picture in memory"), &mut bytes, frame)?;
+    Ok(bytes)
+}
+
 /// Writes linear colour as it is: an EXR file of 32-bit float channels R, G, B and A, compressed without loss.
 /// Whole or not at all, as [`write()`].
 pub fn write_exr(path: &Path, frame: &Frame<Vec4>) -> Result<(), PictureError> {

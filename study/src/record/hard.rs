@@ -11,6 +11,10 @@ pub enum Executor {
     Interpreter,
     /// The interpreter, subnormal numbers flushed to zero after every operation.
     InterpreterFlushed,
+    /// The interpreter, as inexact as WGSL lets a device be: every inexact result is rounded up or down as it happens, which is
+    /// how far a compiler's own order of additions and its fused products can move one; functions are off by their whole ULPs;
+    /// subnormal numbers are flushed; of a NaN and a number, `min` and `max` give the NaN.
+    InterpreterLoose,
     /// The emitted shader on the adapter that the record names.
     Gpu,
 }
@@ -41,6 +45,10 @@ pub struct HardResult {
     pub bound: Option<f64>,
     /// Whether it kept the bound, and is finite where that is asked of it.
     pub kept: bool,
+    /// Whether this must be finite and within its bound: in `f32`, all forms but those that keep what was printed.
+    pub promised: bool,
+    /// In `f16`, where `bound` is what can be seen: the most that error analysis allows, if there is one.
+    pub analysed: Option<f64>,
     /// Why it was not run: the adapter lacks something, or the form is refused.
     pub refused: Option<String>,
 }
@@ -52,8 +60,33 @@ pub struct HardCase {
     pub name: String,
     /// What is hard about it.
     pub about: String,
+    /// Whether scenes really have this: what half precision is judged by.
+    pub common: bool,
     /// All kernels, precisions and executors.
     pub results: Vec<HardResult>,
+}
+
+/// Whether a form of a kernel may compute in half precision.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct HalfVerdict {
+    /// The kernel, as in [`HardResult::kernel`].
+    pub kernel: String,
+    /// Options that are not the default.
+    pub options: Vec<(String, String)>,
+    /// The case that it is farthest off in, measured by what can be seen there.
+    pub worst: Option<String>,
+    /// How far that is; `None` if nothing was finite.
+    pub difference: Option<f64>,
+    /// How far it may be off in that case on a device that is as inexact as WGSL allows, which decides nothing.
+    pub loosest: Option<f64>,
+    /// What can be seen there: 1/255 of the brightest colour.
+    pub limit: Option<f64>,
+    /// Cases that scenes have and in which it is farther off than can be seen, of `cases`.
+    pub broken: usize,
+    /// See `broken`.
+    pub cases: usize,
+    /// Why it is to be refused; `None` if it may.
+    pub reason: Option<String>,
 }
 
 /// All cases.
@@ -64,6 +97,29 @@ pub struct HardRecord {
     pub circumstances: Circumstances,
     /// The cases.
     pub cases: Vec<HardCase>,
+    /// Which forms may compute in half precision.
+    pub half: Vec<HalfVerdict>,
+}
+
+impl HardRecord {
+    /// Results that must be finite and within their bounds and are not, each with its case.
+    pub fn broken(&self) -> impl Iterator<Item = (&HardCase, &HardResult)> {
+        let results = self
+            .cases
+            .iter()
+            .flat_map(|case| case.results.iter().map(move |r| (case, r)));
+        results.filter(|(_, r)| r.promised && !r.kept)
+    }
+
+    /// Pixels that are not finite, of results that promise that all are and of those that do not, in `f32`.
+    pub fn non_finite(&self) -> [usize; 2] {
+        let results = self.cases.iter().flat_map(|case| &case.results);
+        let single = results.filter(|r| r.precision == "f32");
+        single.fold([0, 0], |[promised, others], r| match r.promised {
+            true => [promised + r.non_finite, others],
+            false => [promised, others + r.non_finite],
+        })
+    }
 }
 
 impl Record for HardRecord {
@@ -81,6 +137,7 @@ impl Record for HardRecord {
             "ulps",
             "bound",
             "kept",
+            "promised",
             "born",
             "refused",
         ];
@@ -98,6 +155,7 @@ impl Record for HardRecord {
                     optional(r.ulps),
                     optional(r.bound),
                     r.kept.to_string(),
+                    r.promised.to_string(),
                     r.born.clone().unwrap_or_default(),
                     r.refused.clone().unwrap_or_default(),
                 ]

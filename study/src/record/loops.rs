@@ -14,6 +14,8 @@ pub enum FormKind {
     LoopedUnchecked,
     /// Loops kept, and written by hand for speed: what is read several times is read once, into arrays.
     LoopedByHand,
+    /// The same without the bound: compilers that unroll loops by themselves can do it then.
+    LoopedByHandUnchecked,
     /// Two rounds in a row.
     Partial2,
     /// Four rounds in a row.
@@ -39,9 +41,11 @@ pub struct Form {
     pub statements: u32,
     /// Texture and buffer reads of one invocation.
     pub reads: u32,
-    /// Bytes of SPIR-V.
+    /// Bytes of SPIR-V as emitted, names included.
     pub spirv_bytes: usize,
-    /// Milliseconds that the driver took to make a pipeline of it.
+    /// Milliseconds until the shader was ready: making the pipeline, in which are wgpu's translation of the checked shader and
+    /// the driver's compiling, and what the first frame took longer than others. The text is one that no driver has in a
+    /// cache; naga's reading and checking of it is left out.
     pub pipeline_ms: f64,
     /// Time of a frame.
     pub time: Times,

@@ -10,9 +10,9 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
-pub use hard::{Executor, HardCase, HardRecord, HardResult};
+pub use hard::{Executor, HalfVerdict, HardCase, HardRecord, HardResult};
 pub use loops::{Form, FormKind, KernelForms, LoopsRecord};
-pub use quality::{Family, MethodErrors, QualityRecord, SceneErrors, Shares};
+pub use quality::{Family, Gap, MOST_DB, MethodErrors, QualityRecord, SceneErrors, Shares};
 pub use tune::{Candidate, LeftOut, Model, Refused, TermWorth, TuneRecord};
 
 /// Under which circumstances figures were taken: without these a figure says nothing.
@@ -164,7 +164,7 @@ impl Watch for Unwatched {
 }
 
 /// What a value is called in JSON.
-fn name(value: &impl Serialize) -> String {
+pub(crate) fn name(value: &impl Serialize) -> String {
     match serde_json::to_value(value) {
         Ok(serde_json::Value::String(text)) => text,
         Ok(other) => other.to_string(),

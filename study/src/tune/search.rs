@@ -173,7 +173,7 @@ impl Search {
             return Ok(false);
         }
         let general = self.prepare(self.space.general())?;
-        let picture = self.bench.run_pass(&general.0, &general.1, self.size)?;
+        let picture = self.bench.picture_of(&general.0, &general.1, self.size)?;
         if self.reference.is_none() {
             self.reference = Some(picture);
         }
@@ -440,7 +440,7 @@ impl Search {
     /// A variant ready to run, and its error.
     fn shown(&self, variant: Variant) -> Result<((Pass, Bound), (f64, usize)), String> {
         let ready = self.prepare(variant).map_err(|error| error.to_string())?;
-        let picture = self.bench.run_pass(&ready.0, &ready.1, self.size);
+        let picture = self.bench.picture_of(&ready.0, &ready.1, self.size);
         let picture = picture.map_err(|error| error.to_string())?;
         let error = self
             .reference

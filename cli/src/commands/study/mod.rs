@@ -9,9 +9,11 @@ use crate::args::{CommonArgs, Study, StudyArgs};
 use crate::failure::Failure;
 use crate::gpu::Gpu;
 use glam::UVec2;
+use std::path::Path;
 use std::time::SystemTime;
 use straightline_study::execute::Clock;
-use straightline_study::record::Circumstances;
+use straightline_study::record::{Circumstances, Watch};
+use straightline_study::report;
 
 pub use watch::Progress;
 
@@ -20,16 +22,36 @@ pub fn run(args: &StudyArgs) -> Result<(), Failure> {
     let common = &args.common;
     let mut progress = Progress::new()?;
     match &args.study {
-        Some(Study::Loops(loops)) => loops::run(common, loops, &mut progress),
-        Some(Study::Error(error)) => error::run(common, error, &mut progress),
-        Some(Study::Hard(hard)) => hard::run(common, hard, &mut progress),
-        Some(Study::Report) => Ok(()),
-        None => {
-            loops::run(common, &Default::default(), &mut progress)?;
-            error::run(common, &Default::default(), &mut progress)?;
-            hard::run(common, &Default::default(), &mut progress)
+        Some(Study::Loops(loops)) => loops::run(common, loops, &mut progress)?,
+        Some(Study::Error(error)) => error::run(common, error, &mut progress)?,
+        Some(Study::Hard(args)) if args.list => return hard::list(args),
+        Some(Study::Hard(args)) => hard::run(common, args, &mut progress)?,
+        Some(Study::Report) => {}
+        None => all(common, &mut progress)?,
+    }
+    page(&common.out)
+}
+
+/// Every study, until Ctrl-C.
+fn all(common: &CommonArgs, progress: &mut Progress) -> Result<(), Failure> {
+    let studies: [&dyn Fn(&mut Progress) -> Result<(), Failure>; 3] = [
+        &|progress| loops::run(common, &Default::default(), progress),
+        &|progress| error::run(common, &Default::default(), progress),
+        &|progress| hard::run(common, &Default::default(), progress),
+    ];
+    for study in studies {
+        if !progress.stopped() {
+            study(progress)?;
         }
     }
+    Ok(())
+}
+
+/// The page of all records in a folder.
+pub fn page(folder: &Path) -> Result<(), Failure> {
+    let path = report::write(folder).map_err(Failure::of)?;
+    println!("{}", path.display());
+    Ok(())
 }
 
 /// What a record says of this run. `complete` is to be put right when it ends.
@@ -40,14 +62,23 @@ pub fn circumstances(common: &CommonArgs, gpu: &Gpu) -> Circumstances {
 /// The same for a picture's size and rounds of timing.
 pub fn circumstances_of(gpu: &Gpu, size: UVec2, rounds: u32) -> Circumstances {
     Circumstances {
-        command: command(),
-        date: humantime::format_rfc3339_seconds(SystemTime::now()).to_string(),
         adapter: gpu.describe(),
-        processor: processor(),
         clock: match gpu.timestamps {
             true => Clock::GpuTimestamps,
             false => Clock::WallClock,
         },
+        ..on_processor(size, rounds)
+    }
+}
+
+/// What the record of a run without a device says.
+pub fn on_processor(size: UVec2, rounds: u32) -> Circumstances {
+    Circumstances {
+        command: command(),
+        date: humantime::format_rfc3339_seconds(SystemTime::now()).to_string(),
+        adapter: "none: interpreter only".to_owned(),
+        processor: processor(),
+        clock: Clock::WallClock,
         size: size.to_array(),
         rounds,
         complete: true,

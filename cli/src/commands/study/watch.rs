@@ -36,6 +36,13 @@ impl Progress {
     }
 }
 
+impl Progress {
+    /// Takes the bar away, before something is printed.
+    pub fn done(&mut self) {
+        self.bar.finish_and_clear();
+    }
+}
+
 fn hidden() -> ProgressBar {
     ProgressBar::hidden()
 }

@@ -1,0 +1,368 @@
+//! The floor of a kernel: its reads and its stores, and next to nothing between. No form of the kernel can be faster, so
+//! what a form takes longer is what its arithmetic costs.
+
+use super::fold::Exact;
+use crate::ir::{BinaryOp, Builder, Graph, NodeId, Op, Scalar, Type, copy_tables};
+use std::collections::HashSet;
+
+const PAIR: Type = Type::value(Scalar::I32, 2);
+const PLACE: Type = Type::value(Scalar::F32, 2);
+const COLOUR: Type = Type::value(Scalar::F32, 4);
+
+/// More than a texel holds; whether one is larger is known only once it is read.
+const LARGE: f32 = 1.0e30;
+
+/// A graph with the same distinct reads and the same number of outputs, each output the sum of all components of the reads
+/// that it depended on: none of them can be dropped, and no two of them merged.
+///
+/// Where a read looks is computed as in the kernel, unless that takes another read or a transcendental function. Then it
+/// looks near the pixel instead, at a place of its own; if it waited for another read, it still does.
+///
+/// # Errors
+///
+/// If a loop or branch is left: how often its reads happen is not known.
+pub fn floor(graph: &Graph) -> Result<Graph, String> {
+    let is_kept = |op: &Op| matches!(op, Op::Loop(_) | Op::If(..));
+    let live = cone(graph, graph.outputs());
+    if graph.ids().any(|id| live[id.0 as usize] && is_kept(&graph.node(id).op)) {
+        return Err("a loop or branch is left, and how often its reads happen is not known".to_owned());
+    }
+    let mut builder = Builder::new(&Exact);
+    copy_tables(graph, builder.graph_mut());
+    let mut floor = Floor {
+        old: graph,
+        builder,
+        ids: vec![None; graph.nodes.len()],
+        made: HashSet::new(),
+        moved: 0,
+    };
+    let reads: Vec<NodeId> = graph
+        .ids()
+        .filter(|id| live[id.0 as usize] && graph.node(*id).op.is_read())
+        .collect();
+    floor.plain();
+    // Places that are kept come first, so that no other is chosen where they are.
+    let (kept, moved): (Vec<NodeId>, Vec<NodeId>) = reads.iter().partition(|id| floor.is_placed(**id));
+    for id in kept.into_iter().chain(moved) {
+        floor.read(id);
+    }
+    let mut outputs = Vec::new();
+    for output in graph.outputs() {
+        let needed = cone(graph, &[*output]);
+        let summed: Vec<NodeId> = reads.iter().filter(|id| needed[id.0 as usize]).copied().collect();
+        outputs.push(floor.sum(&summed));
+    }
+    Ok(floor.builder.finish(outputs))
+}
+
+/// By node, whether one of `from` depends on it.
+fn cone(graph: &Graph, from: &[NodeId]) -> Vec<bool> {
+    let mut inside = vec![false; graph.nodes.len()];
+    let mut pending = from.to_vec();
+    while let Some(id) = pending.pop() {
+        if !std::mem::replace(&mut inside[id.0 as usize], true) {
+            pending.extend(&graph.node(id).args);
+            for region in graph.regions_of(id) {
+                pending.extend(&graph.region(region).results);
+            }
+        }
+    }
+    inside
+}
+
+struct Floor<'g> {
+    old: &'g Graph,
+    builder: Builder<'g>,
+    /// By old node, its new one: of what needs no read and no transcendental function, and of reads.
+    ids: Vec<Option<NodeId>>,
+    /// Reads that there are.
+    made: HashSet<NodeId>,
+    /// How many places had to be chosen.
+    moved: u32,
+}
+
+impl Floor<'_> {
+    /// Takes over what needs no read and no transcendental function.
+    fn plain(&mut self) {
+        for id in self.old.ids() {
+            let node = self.old.node(id);
+            let is_dear = match &node.op {
+                Op::Unary(op) => op.is_transcendental(),
+                Op::Binary(BinaryOp::Pow | BinaryOp::Atan2) => true,
+                Op::Param(..) | Op::Result(_) | Op::Message(_) | Op::Derivative(_) => true,
+                op => op.is_read(),
+            };
+            let args: Option<Vec<NodeId>> = node.args.iter().map(|a| self.ids[a.0 as usize]).collect();
+            if let (false, Some(args)) = (is_dear, args) {
+                let new = match &node.op {
+                    Op::Const(bits) => self.builder.intern(Op::Const(*bits), args, node.ty),
+                    op => self.builder.add(op.clone(), args, node.ty),
+                };
+                self.take_over(id, new);
+            }
+        }
+    }
+
+    fn take_over(&mut self, old: NodeId, new: NodeId) {
+        self.ids[old.0 as usize] = Some(new);
+        if let Some(origin) = self.old.origin(old) {
+            self.builder.set_origin(new, origin);
+        }
+    }
+
+    /// Whether where a read looks is computed as in the kernel.
+    fn is_placed(&self, read: NodeId) -> bool {
+        let mut args = self.old.node(read).args.iter();
+        args.all(|arg| self.ids[arg.0 as usize].is_some() && !self.old.node(*arg).op.is_read())
+    }
+
+    fn read(&mut self, id: NodeId) {
+        let node = self.old.node(id).clone();
+        let op = node.op.clone().shared();
+        let new = if self.is_placed(id) {
+            let args = node.args.iter().filter_map(|a| self.ids[a.0 as usize]).collect();
+            self.builder.add(op, args, node.ty)
+        } else {
+            let awaited = self.awaited(&node.args);
+            loop {
+                let args = self.moved_args(&op, &node.args, awaited);
+                self.moved += 1;
+                let new = self.builder.add(op.clone(), args, node.ty);
+                if !self.made.contains(&new) {
+                    break new;
+                }
+            }
+        };
+        self.made.insert(new);
+        self.take_over(id, new);
+    }
+
+    /// The last read that arguments wait for, as a number.
+    fn awaited(&mut self, args: &[NodeId]) -> Option<NodeId> {
+        let needed = cone(self.old, args);
+        let is_read = |id: &NodeId| needed[id.0 as usize] && self.old.node(*id).op.is_read();
+        let last = self.old.ids().rev().find(is_read)?;
+        let last = self.ids[last.0 as usize]?;
+        let float = self.as_floats(last);
+        Some(match self.builder.graph().ty(float).is_scalar() {
+            true => float,
+            false => self.builder.add(Op::Extract(0), vec![float], Type::F32),
+        })
+    }
+
+    /// What a read is given that cannot look where the kernel looks.
+    fn moved_args(&mut self, op: &Op, old: &[NodeId], awaited: Option<NodeId>) -> Vec<NodeId> {
+        let step = self.step(awaited);
+        let first = match op {
+            Op::Load { texture, .. } => {
+                let texture = *texture;
+                self.texel(texture, step)
+            }
+            Op::BufferLoad { buffer, .. } => {
+                let buffer = *buffer;
+                self.element(buffer, step)
+            }
+            op => self.place(op.texture(), step),
+        };
+        let mut args = vec![first];
+        for arg in &old[1..] {
+            // A layer, or what is compared with.
+            let ty = self.old.ty(*arg);
+            let plain = self.ids[arg.0 as usize].filter(|_| !self.old.node(*arg).op.is_read());
+            let other = match (plain, awaited) {
+                (Some(plain), _) => plain,
+                (None, Some(awaited)) if ty == Type::F32 => awaited,
+                (None, _) => self.builder.constant(ty, [0; 4]),
+            };
+            args.push(other);
+        }
+        args
+    }
+
+    /// A step from the pixel, another one for each that is asked for; one that only a read decides if one is awaited.
+    fn step(&mut self, awaited: Option<NodeId>) -> NodeId {
+        let (x, y) = ((self.moved % 5) as i32 - 2, (self.moved / 5) as i32 - 2);
+        let near = self.builder.constant(PAIR, [x as u32, y as u32, 0, 0]);
+        let Some(awaited) = awaited else { return near };
+        let far = self.builder.constant(PAIR, [x as u32, (y + 1) as u32, 0, 0]);
+        let large = self.builder.f32(LARGE);
+        let is_large = self
+            .builder
+            .add(Op::Binary(BinaryOp::Gt), vec![awaited, large], Type::BOOL);
+        self.builder.add(Op::Select, vec![is_large, far, near], PAIR)
+    }
+
+    fn size(&mut self, texture: Option<u32>) -> NodeId {
+        let op = match texture {
+            Some(texture) if !self.old.textures[texture as usize].framed => Op::TextureSize(texture),
+            _ => Op::FrameSize,
+        };
+        self.builder.add(op, Vec::new(), PAIR)
+    }
+
+    fn binary(&mut self, op: BinaryOp, x: NodeId, y: NodeId) -> NodeId {
+        let ty = self.builder.graph().ty(x);
+        self.builder.add(Op::Binary(op), vec![x, y], ty)
+    }
+
+    /// A texel near the pixel, inside the texture; of one that has another size, at the pixel's place in it.
+    fn texel(&mut self, texture: u32, step: NodeId) -> NodeId {
+        let size = self.size(Some(texture));
+        let mut pixel = self.builder.add(Op::Pixel, Vec::new(), PAIR);
+        if !self.old.textures[texture as usize].framed {
+            let frame = self.size(None);
+            let scaled = self.binary(BinaryOp::Mul, pixel, size);
+            pixel = self.binary(BinaryOp::Div, scaled, frame);
+        }
+        let one = self.builder.constant(PAIR, [1, 1, 0, 0]);
+        let zero = self.builder.constant(PAIR, [0; 4]);
+        let last = self.binary(BinaryOp::Sub, size, one);
+        let at = self.binary(BinaryOp::Add, pixel, step);
+        self.builder.add(Op::Clamp, vec![at, zero, last], PAIR)
+    }
+
+    /// A place near the pixel, from 0 to 1.
+    fn place(&mut self, texture: Option<u32>, step: NodeId) -> NodeId {
+        let (size, frame) = (self.size(texture), self.size(None));
+        let pixel = self.builder.add(Op::Pixel, Vec::new(), PAIR);
+        let half = self.builder.constant(PLACE, [0.5f32.to_bits(), 0.5f32.to_bits(), 0, 0]);
+        let floats = |floor: &mut Self, id| floor.builder.add(Op::Convert, vec![id], PLACE);
+        let (size, frame) = (floats(self, size), floats(self, frame));
+        let (pixel, step) = (floats(self, pixel), floats(self, step));
+        let centre = self.binary(BinaryOp::Add, pixel, half);
+        let own = self.binary(BinaryOp::Div, centre, frame);
+        let away = self.binary(BinaryOp::Div, step, size);
+        self.binary(BinaryOp::Add, own, away)
+    }
+
+    /// An index inside a buffer.
+    fn element(&mut self, buffer: u32, step: NodeId) -> NodeId {
+        let length = self.builder.add(Op::BufferLen(buffer), Vec::new(), Type::I32);
+        let [x, y] = [0, 1].map(|lane| self.builder.add(Op::Extract(lane), vec![step], Type::I32));
+        let five = self.builder.i32(5);
+        let rows = self.binary(BinaryOp::Mul, y, five);
+        let index = self.binary(BinaryOp::Add, rows, x);
+        // From (-2, -2) on.
+        let first = self.builder.i32(12);
+        let index = self.binary(BinaryOp::Add, index, first);
+        let (zero, one) = (self.builder.i32(0), self.builder.i32(1));
+        let last = self.binary(BinaryOp::Sub, length, one);
+        self.builder.add(Op::Clamp, vec![index, zero, last], Type::I32)
+    }
+
+    fn as_floats(&mut self, id: NodeId) -> NodeId {
+        let ty = self.builder.graph().ty(id);
+        match ty.is_float() {
+            true => id,
+            false => self.builder.add(Op::Convert, vec![id], ty.with_scalar(Scalar::F32)),
+        }
+    }
+
+    /// The sum of reads as a colour: those of as many lanes are added up first.
+    fn sum(&mut self, reads: &[NodeId]) -> NodeId {
+        let mut sums: [Option<NodeId>; 4] = [None; 4];
+        for read in reads {
+            let Some(new) = self.ids[read.0 as usize] else { continue };
+            let floats = self.as_floats(new);
+            let slot = usize::from(self.builder.graph().ty(floats).lanes()) - 1;
+            sums[slot] = Some(match sums[slot] {
+                Some(sum) => self.binary(BinaryOp::Add, sum, floats),
+                None => floats,
+            });
+        }
+        let mut total: Option<NodeId> = None;
+        for (k, sum) in sums.into_iter().enumerate() {
+            let Some(sum) = sum else { continue };
+            let colour = self.colour(sum, k + 1);
+            total = Some(match total {
+                Some(total) => self.binary(BinaryOp::Add, total, colour),
+                None => colour,
+            });
+        }
+        total.unwrap_or_else(|| self.builder.constant(COLOUR, [0; 4]))
+    }
+
+    /// A value of so many lanes in the lanes of a colour.
+    fn colour(&mut self, value: NodeId, lanes: usize) -> NodeId {
+        match lanes {
+            1 => self.builder.add(Op::Splat, vec![value], COLOUR),
+            4 => value,
+            _ => {
+                let mut parts = Vec::new();
+                for k in 0..4 {
+                    let lane = (k % lanes) as u8;
+                    parts.push(self.builder.add(Op::Extract(lane), vec![value], Type::F32));
+                }
+                self.builder.add(Op::Compose, parts, COLOUR)
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Kernel, Settings};
+
+    fn of(text: &str) -> (Graph, Graph) {
+        let settings = Settings::default();
+        let compiled = Kernel::from_text("k.rs", text, "k")
+            .compile(&settings)
+            .unwrap_or_else(|e| panic!("{e}"));
+        let floor = compiled.floor().unwrap_or_else(|e| panic!("{e}"));
+        (compiled.graph, floor.graph)
+    }
+
+    fn reads(graph: &Graph) -> Vec<Op> {
+        graph
+            .nodes
+            .iter()
+            .filter(|n| n.op.is_read())
+            .map(|n| n.op.clone())
+            .collect()
+    }
+
+    #[test]
+    fn arithmetic_goes_and_reads_stay() {
+        let (full, floor) = of(
+            "pub fn k(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {\n    let mut sum = Vec4::ZERO;\n    for x in -2..=2 {\n        sum += color.load(pixel + ivec2(x, 0)).exp() * x as f32;\n    }\n    sum + color.load(pixel).sqrt()\n}\n",
+        );
+        assert_eq!(reads(&full).len(), 5);
+        assert_eq!(reads(&floor), reads(&full));
+        let is_dear = |op: &Op| matches!(op, Op::Unary(op) if op.is_transcendental());
+        assert!(full.nodes.iter().any(|n| is_dear(&n.op)) && !floor.nodes.iter().any(|n| is_dear(&n.op)));
+        let adds = floor
+            .nodes
+            .iter()
+            .filter(|n| n.op == Op::Binary(BinaryOp::Add) && n.ty == COLOUR);
+        assert_eq!(adds.count(), 4);
+    }
+
+    #[test]
+    fn reads_that_wait_for_others_still_wait() {
+        let (full, floor) = of(
+            "pub fn k(color: &Frame<Vec4>, far: &Texture<Vec2>, table: &Buffer<u32>, pixel: IVec2) -> Vec4 {\n    let here = color.load(pixel);\n    let there = far.load(here.truncate().truncate().as_ivec2());\n    let on = far.load(there.as_ivec2());\n    let entry = table.load(on.x as i32) as f32;\n    here * there.x + on.y * entry\n}\n",
+        );
+        assert_eq!(reads(&full).len(), 4);
+        assert_eq!(reads(&floor).len(), 4);
+        // Each of the three depends on the one before.
+        for (id, node) in floor.ids().zip(&floor.nodes) {
+            if node.op.is_read() {
+                let needed = cone(&floor, &node.args);
+                let awaited = floor.ids().filter(|k| *k != id && needed[k.0 as usize]);
+                let awaited = awaited.filter(|k| floor.node(*k).op.is_read()).count();
+                let place = floor.ids().take_while(|k| *k != id);
+                assert_eq!(awaited, place.filter(|k| floor.node(*k).op.is_read()).count());
+            }
+        }
+    }
+
+    #[test]
+    fn what_keeps_a_loop_has_no_floor() {
+        let text = "pub fn k(color: &Frame<Vec4>, taps: i32, pixel: IVec2) -> Vec4 {\n    let mut sum = Vec4::ZERO;\n    for x in 0..taps {\n        sum += color.load(pixel + ivec2(x, 0));\n    }\n    sum\n}\n";
+        let compiled = Kernel::from_text("k.rs", text, "k").compile(&Settings::default());
+        let compiled = compiled.unwrap_or_else(|e| panic!("{e}"));
+        let why = compiled.floor().expect_err("a loop is left").to_string();
+        assert!(why.contains("a loop or branch is left"), "{why}");
+    }
+}

@@ -1,0 +1,250 @@
+//! Whether every loop of a shader ends, told from its text alone.
+//!
+//! wgpu puts a bound on the rounds of every loop, because a compiler may take one that never ends for unreachable code and
+//! draw conclusions. Where it is shown here that all loops end, that bound can go.
+
+use wgpu::naga::{
+    AddressSpace, BinaryOperator, Block, Expression, Function, Handle, Literal, LocalVariable, Module, Scalar,
+    Statement, TypeInner, front,
+};
+
+/// Checks that each loop of `wgsl` counts up by one, from an `i32` that nothing else in it writes, to a limit that does not
+/// change in it. Such a loop ends: the counter meets every limit that an `i32` can hold before it could wrap. Loops of
+/// emitted shaders are such.
+///
+/// # Errors
+///
+/// What is wrong with the first loop that is not.
+pub(crate) fn check(wgsl: &str) -> Result<(), String> {
+    let module = front::wgsl::parse_str(wgsl).map_err(|error| error.message().to_owned())?;
+    let entries = module.entry_points.iter().map(|entry| &entry.function);
+    for function in entries.chain(module.functions.iter().map(|(_, function)| function)) {
+        walk(&module, function, &function.body)?;
+    }
+    Ok(())
+}
+
+fn walk(module: &Module, function: &Function, block: &Block) -> Result<(), String> {
+    for statement in block {
+        if let Statement::Loop {
+            body,
+            continuing,
+            break_if,
+        } = statement
+        {
+            if break_if.is_some() {
+                return Err("a `loop` with `break if`".to_owned());
+            }
+            counts(module, function, body, continuing)?;
+        }
+        for inner in blocks_of(statement) {
+            walk(module, function, inner)?;
+        }
+    }
+    Ok(())
+}
+
+fn blocks_of(statement: &Statement) -> Vec<&Block> {
+    match statement {
+        Statement::Block(block) => vec![block],
+        Statement::If { accept, reject, .. } => vec![accept, reject],
+        Statement::Switch { cases, .. } => cases.iter().map(|case| &case.body).collect(),
+        Statement::Loop { body, continuing, .. } => vec![body, continuing],
+        _ => Vec::new(),
+    }
+}
+
+/// One loop: `for (...; counter < limit; counter++)`.
+fn counts(module: &Module, function: &Function, body: &Block, continuing: &Block) -> Result<(), String> {
+    let shape = || "a loop that does not begin with `counter < limit`".to_owned();
+    let test = body
+        .iter()
+        .find(|s| !matches!(s, Statement::Emit(_)))
+        .ok_or_else(shape)?;
+    let Statement::If { condition, reject, .. } = test else {
+        return Err(shape());
+    };
+    if !matches!(reject.first(), Some(Statement::Break)) {
+        return Err(shape());
+    }
+    let Expression::Binary {
+        op: BinaryOperator::Less,
+        left,
+        right,
+    } = function.expressions[*condition]
+    else {
+        return Err(shape());
+    };
+    let counter = loaded(function, left).ok_or_else(shape)?;
+    let variable = &function.local_variables[counter];
+    let name = variable.name.as_deref().unwrap_or("counter");
+    if module.types[variable.ty].inner != TypeInner::Scalar(Scalar::I32) {
+        return Err(format!("`{name}` does not count in `i32`"));
+    }
+    let mut written = Vec::new();
+    writes(function, body, &mut written);
+    if written.contains(&Some(counter)) || written.contains(&None) {
+        return Err(format!("`{name}` may be written in the loop that it counts"));
+    }
+    let steps: Vec<&Statement> = continuing.iter().filter(|s| !matches!(s, Statement::Emit(_))).collect();
+    let [Statement::Store { pointer, value }] = steps[..] else {
+        return Err(format!("`{name}` is not all that changes between two rounds"));
+    };
+    let is_step = root(function, *pointer) == Some(counter)
+        && matches!(function.expressions[*value],
+            Expression::Binary { op: BinaryOperator::Add, left, right }
+            if loaded(function, left) == Some(counter) && is_one(function, right));
+    if !is_step {
+        return Err(format!("`{name}` does not count up by one"));
+    }
+    let mut inside = Vec::new();
+    emitted(body, &mut inside);
+    if !stays(module, function, right, &inside, &written) {
+        return Err(format!("the limit of `{name}` may change in the loop"));
+    }
+    Ok(())
+}
+
+/// The local variable that an expression is the value of.
+fn loaded(function: &Function, expression: Handle<Expression>) -> Option<Handle<LocalVariable>> {
+    match function.expressions[expression] {
+        Expression::Load { pointer } => match function.expressions[pointer] {
+            Expression::LocalVariable(variable) => Some(variable),
+            _ => None,
+        },
+        _ => None,
+    }
+}
+
+fn is_one(function: &Function, expression: Handle<Expression>) -> bool {
+    matches!(function.expressions[expression], Expression::Literal(Literal::I32(1)))
+}
+
+/// The local variable that a pointer points into; `None` for all other memory, or if it cannot be told.
+fn root(function: &Function, pointer: Handle<Expression>) -> Option<Handle<LocalVariable>> {
+    match function.expressions[pointer] {
+        Expression::LocalVariable(variable) => Some(variable),
+        Expression::Access { base, .. } | Expression::AccessIndex { base, .. } => root(function, base),
+        _ => None,
+    }
+}
+
+/// Local variables that statements write; `None` stands for what cannot be told.
+fn writes(function: &Function, block: &Block, written: &mut Vec<Option<Handle<LocalVariable>>>) {
+    for statement in block {
+        match statement {
+            Statement::Store { pointer, .. } => written.push(root(function, *pointer)),
+            // A function may write what it is given a pointer to.
+            Statement::Call { arguments, .. } => written.extend(
+                arguments
+                    .iter()
+                    .map(|argument| root(function, *argument))
+                    .filter(Option::is_some),
+            ),
+            _ => {}
+        }
+        for inner in blocks_of(statement) {
+            writes(function, inner, written);
+        }
+    }
+}
+
+/// Expressions that are evaluated in a block.
+fn emitted(block: &Block, inside: &mut Vec<Handle<Expression>>) {
+    for statement in block {
+        if let Statement::Emit(range) = statement {
+            inside.extend(range.clone());
+        }
+        for inner in blocks_of(statement) {
+            emitted(inner, inside);
+        }
+    }
+}
+
+/// Whether an expression has one value in all rounds of a loop in which those `inside` are evaluated.
+fn stays(
+    module: &Module,
+    function: &Function,
+    expression: Handle<Expression>,
+    inside: &[Handle<Expression>],
+    written: &[Option<Handle<LocalVariable>>],
+) -> bool {
+    let stays = |other: Handle<Expression>| stays(module, function, other, inside, written);
+    match function.expressions[expression] {
+        Expression::Literal(_) | Expression::Constant(_) | Expression::FunctionArgument(_) => true,
+        _ if !inside.contains(&expression) => true,
+        Expression::Load { pointer } => match root(function, pointer) {
+            Some(variable) => !written.contains(&Some(variable)),
+            None => is_constant_memory(module, function, pointer),
+        },
+        Expression::Binary { left, right, .. } => stays(left) && stays(right),
+        Expression::Unary { expr, .. } | Expression::As { expr, .. } => stays(expr),
+        Expression::AccessIndex { base, .. } => stays(base),
+        _ => false,
+    }
+}
+
+/// Whether a pointer leads to a fixed place in a uniform buffer, which nothing in a shader writes.
+fn is_constant_memory(module: &Module, function: &Function, pointer: Handle<Expression>) -> bool {
+    match function.expressions[pointer] {
+        Expression::GlobalVariable(global) => module.global_variables[global].space == AddressSpace::Uniform,
+        Expression::AccessIndex { base, .. } => is_constant_memory(module, function, base),
+        _ => false,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::check;
+
+    fn of(body: &str) -> Result<(), String> {
+        check(&format!(
+            "struct U {{ n: i32, m: i32 }}\n@group(0) @binding(0) var<uniform> u: U;\n@group(0) @binding(1) var<storage, read_write> s: U;\nfn change(p: ptr<function, i32>) {{ *p = 0; }}\n@compute @workgroup_size(1)\nfn main(@builtin(global_invocation_id) id: vec3u) {{\n{body}\n}}"
+        ))
+    }
+
+    #[test]
+    fn loops_that_count_end() {
+        let kept = [
+            "for (var k = 0; k < 9; k++) { }",
+            "let n = i32(id.x); for (var k = n - 4; k < n; k++) { for (var j = k; j < 2 * n + 1; j++) { } }",
+            "var n = 4; for (var k = 0; k < n; k++) { var a = array<i32, 4>(); a[k] = k; }",
+            "var sum = 0; for (var k = 0; k < 3; k++) { if id.x > 4u { continue; } sum = sum + k; }",
+            "for (var k = 0; k < u.m; k++) { }",
+            // The outer counter is the inner limit.
+            "for (var k = 0; k < 9; k++) { for (var j = 0; j < k; j++) { } }",
+        ];
+        for body in kept {
+            assert_eq!(of(body), Ok(()), "{body}");
+        }
+    }
+
+    #[test]
+    fn loops_that_may_not_end_are_told() {
+        let refused = [
+            ("loop { if id.x > 4u { break; } }", "does not begin"),
+            ("while id.x > 4u { }", "does not begin"),
+            (
+                "var k = 0; loop { if k < 4 { } else { break; } continuing { k++; break if k == 9; } }",
+                "break if",
+            ),
+            ("for (var k = 0; k < 9; k++) { k = 0; }", "may be written"),
+            ("for (var k = 0; k < 9; k++) { change(&k); }", "may be written"),
+            ("for (var k = 0; k < 9; k--) { }", "does not count up"),
+            ("for (var k = 0; k < 9; k += 0) { }", "does not count up"),
+            ("for (var k = 0u; k < id.x; k++) { }", "does not count in `i32`"),
+            ("for (var k = 0.0; k < 9.0; k += 1.0) { }", "does not count in `i32`"),
+            ("for (var k = 0; k <= 9; k++) { }", "does not begin"),
+            ("var n = 4; for (var k = 0; k < n; k++) { n = n + 1; }", "may change"),
+            ("var n = 4; for (var k = 0; k < n; k++) { change(&n); }", "may change"),
+            (
+                "for (var j = 0; j < 9; j++) { for (var k = 0; k < 9; k++) { j = 0; } }",
+                "may be written",
+            ),
+        ];
+        for (body, says) in refused {
+            let why = of(body).expect_err(body);
+            assert!(why.contains(says), "{body}: {why}");
+        }
+    }
+}

@@ -1,0 +1,163 @@
+//! SRAA with its default options, its loops kept and written by hand for speed: the surfaces at the taps are read once, into
+//! arrays, and of nine taps only the four that a sample's tent reaches are visited.
+
+use straightline_kernels::prelude::*;
+
+/// Where in a pixel geometry is sampled.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Pattern {
+    /// Direct3D's standard pattern of 4.
+    Latin4,
+    /// Direct3D's standard pattern of 16.
+    Latin16,
+}
+
+/// What tells two surfaces apart.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Metric {
+    /// The larger of the differences in depth and in normal.
+    DepthNormals,
+    /// The difference in depth alone: no normals are read.
+    Depth,
+}
+
+options! {
+    /// Which filter it is.
+    pub struct Sraa {
+        /// Where in a pixel geometry is sampled.
+        pub pattern: Pattern = Pattern::Latin4,
+        /// What tells two surfaces apart.
+        pub metric: Metric = Metric::DepthNormals,
+    }
+}
+
+/// In sixteenths of a pixel.
+const LATIN4: [IVec2; 4] = [ivec2(-2, -6), ivec2(6, -2), ivec2(-6, 2), ivec2(2, 6)];
+
+/// In sixteenths of a pixel.
+const LATIN16: [IVec2; 16] = [
+    ivec2(1, 1),
+    ivec2(-1, -3),
+    ivec2(-3, 2),
+    ivec2(4, -1),
+    ivec2(-5, -2),
+    ivec2(2, 5),
+    ivec2(5, 3),
+    ivec2(3, -5),
+    ivec2(-2, 6),
+    ivec2(0, -7),
+    ivec2(-4, -6),
+    ivec2(-6, 4),
+    ivec2(-8, 0),
+    ivec2(7, -4),
+    ivec2(6, 7),
+    ivec2(-7, -8),
+];
+
+const DEEPEST: f32 = 1.0e30;
+const FAR: f32 = 16.0;
+const STEEPNESS: f32 = 500.0 * std::f32::consts::LOG2_E;
+const EPSILON: f32 = 1.0e-30;
+
+/// Antialiased colour of `pixel`, as `sraa` gives it, bit for bit.
+pub fn sraa(
+    cfg: &Sraa,
+    depth: &FrameLayers<f32>,
+    normal: &FrameLayers<Vec4>,
+    color: &Frame<Vec4>,
+    pixel: IVec2,
+) -> Vec4 {
+    match cfg.pattern {
+        Pattern::Latin4 => filtered::<4>(cfg, LATIN4, depth, normal, color, pixel),
+        Pattern::Latin16 => filtered::<16>(cfg, LATIN16, depth, normal, color, pixel),
+    }
+}
+
+/// The pixel's colour from the 3×3 shading samples around it.
+fn filtered<const SAMPLES: usize>(
+    cfg: &Sraa,
+    places: [IVec2; SAMPLES],
+    depth: &FrameLayers<f32>,
+    normal: &FrameLayers<Vec4>,
+    color: &Frame<Vec4>,
+    pixel: IVec2,
+) -> Vec4 {
+    // What is seen at the taps, each read once.
+    let mut depths = [0.0; 9];
+    let mut normals = [Vec3::ZERO; 9];
+    for tap in 0..9 {
+        let at = pixel + ivec2(tap as i32 % 3 - 1, tap as i32 / 3 - 1);
+        depths[tap] = depth.load(at, SAMPLES).min(DEEPEST);
+        normals[tap] = match cfg.metric {
+            Metric::DepthNormals => normal.load(at, SAMPLES).truncate(),
+            Metric::Depth => Vec3::ZERO,
+        };
+    }
+    let mut weights = [0.0; 9];
+    for sample in 0..SAMPLES {
+        let seen_depth = depth.load(pixel, sample).min(DEEPEST);
+        let seen_normal = match cfg.metric {
+            Metric::DepthNormals => normal.load(pixel, sample).truncate(),
+            Metric::Depth => Vec3::ZERO,
+        };
+        // The upper left of the four taps that its tent reaches.
+        let place = places[sample].as_vec2() / 16.0;
+        let left = if place.x < 0.0 { 0 } else { 1 };
+        let top = if place.y < 0.0 { 0 } else { 1 };
+        let first = top * 3 + left;
+        let mut falloffs = [0.0; 4];
+        let mut distances = [0.0; 4];
+        let mut nearest = FAR;
+        for k in 0..4 {
+            let tap = first + k / 2 * 3 + k % 2;
+            let away = (vec2((left + k % 2) as f32 - 1.0, (top + k / 2) as f32 - 1.0) - place).abs();
+            let falloff = (1.0 - away.x) * (1.0 - away.y);
+            let deeper = (seen_depth - depths[tap]).abs();
+            let larger = match cfg.metric {
+                Metric::DepthNormals => {
+                    let turn = seen_normal - normals[tap];
+                    deeper.max(0.5 * turn.dot(turn))
+                }
+                Metric::Depth => deeper,
+            };
+            // Samples on an axis reach two taps of the four: the others must not be the nearest.
+            let d = match cfg.pattern {
+                Pattern::Latin4 => larger.min(FAR),
+                Pattern::Latin16 => {
+                    #[cfg_attr(false, select)]
+                    if falloff > 0.0 {
+                        larger.min(FAR)
+                    } else {
+                        FAR
+                    }
+                }
+            };
+            falloffs[k] = falloff;
+            distances[k] = d;
+            nearest = nearest.min(d);
+        }
+        let mut sum = 0.0;
+        for k in 0..4 {
+            let nearness = (-STEEPNESS * (distances[k] - nearest)).exp2();
+            let w = falloffs[k] * nearness;
+            distances[k] = w;
+            sum += w;
+        }
+        let scale = 1.0 / SAMPLES as f32 / sum;
+        for k in 0..4 {
+            weights[first + k / 2 * 3 + k % 2] += distances[k] * scale;
+        }
+    }
+    let mut result = Vec4::ZERO;
+    let mut sum = 0.0;
+    for tap in 0..9 {
+        let shaded = color.load(pixel + ivec2(tap as i32 % 3 - 1, tap as i32 / 3 - 1));
+        let w = if shaded.is_finite() { weights[tap] } else { 0.0 };
+        // 0 times an infinite colour is not 0.
+        if w != 0.0 {
+            result += w * shaded;
+        }
+        sum += w;
+    }
+    result / sum.max(EPSILON)
+}

@@ -1,0 +1,166 @@
+//! What a hard case is: something seen at every sample, and the settings that it is filtered with.
+
+use crate::encode::DepthStorage;
+use glam::{UVec2, Vec2, Vec3, Vec4, vec2};
+
+/// A small world with one thing in it that is hard to compute.
+#[derive(Clone, Copy, Debug)]
+pub struct Case {
+    /// One word or several with hyphens.
+    pub name: &'static str,
+    /// What is hard about it, in a line.
+    pub about: &'static str,
+    /// Width and height in pixels.
+    pub size: UVec2,
+    /// Whether scenes really have this, so that a precision that fails here is of no use; the others are accidents, which
+    /// only must not spread.
+    pub common: bool,
+    /// Options of SRAA that it is about; it then runs with the forms of SRAA that have something to say to them, and with no
+    /// other kernel.
+    pub options: &'static [(&'static str, &'static str)],
+    /// Numbers of SRAA that are given at run time, of options that are `uniform`.
+    pub uniforms: &'static [(&'static str, f64)],
+    /// How a depth that `options` encodes is held.
+    pub storage: DepthStorage,
+    /// Linear depths of the near and far plane, of an encoded depth.
+    pub planes: [f32; 2],
+    /// What is seen.
+    pub seen: fn(&Place) -> Seen,
+}
+
+/// Where something is seen.
+#[derive(Clone, Copy, Debug)]
+pub struct Place {
+    /// The pixel.
+    pub pixel: UVec2,
+    /// Width and height of the picture.
+    pub size: UVec2,
+    /// From the picture's upper left corner, in pixels.
+    pub at: Vec2,
+    /// Number of the geometry sample, from 0 on; `None` at the pixel's centre.
+    pub sample: Option<usize>,
+}
+
+/// What is seen at a place.
+#[derive(Clone, Copy, Debug)]
+pub struct Seen {
+    /// Linear depth.
+    pub depth: f32,
+    /// Normal, of length 1 or not.
+    pub normal: Normal,
+    /// Colour, which counts at pixel centres alone.
+    pub color: Vec4,
+}
+
+/// What a G-buffer holds for a normal.
+#[derive(Clone, Copy, Debug)]
+pub enum Normal {
+    /// This vector, in whatever encoding.
+    Vector(Vec3),
+    /// The texel's components as they are.
+    Texel(Vec4),
+}
+
+impl Case {
+    /// A case of 12×12 pixels with default settings.
+    pub const fn new(name: &'static str, about: &'static str, seen: fn(&Place) -> Seen) -> Case {
+        Case {
+            name,
+            about,
+            size: UVec2::new(12, 12),
+            common: false,
+            options: &[],
+            uniforms: &[],
+            storage: DepthStorage::Float32,
+            planes: [0.1, 1000.0],
+            seen,
+        }
+    }
+
+    /// Of another size.
+    pub const fn size(mut self, width: u32, height: u32) -> Case {
+        self.size = UVec2::new(width, height);
+        self
+    }
+
+    /// Scenes really have this.
+    pub const fn common(mut self) -> Case {
+        self.common = true;
+        self
+    }
+
+    /// With options of SRAA.
+    pub const fn options(mut self, options: &'static [(&'static str, &'static str)]) -> Case {
+        self.options = options;
+        self
+    }
+
+    /// With numbers of SRAA that are given at run time.
+    pub const fn uniforms(mut self, uniforms: &'static [(&'static str, f64)]) -> Case {
+        self.uniforms = uniforms;
+        self
+    }
+
+    /// With an encoded depth held otherwise.
+    pub const fn stored(mut self, storage: DepthStorage) -> Case {
+        self.storage = storage;
+        self
+    }
+
+    /// With other planes.
+    pub const fn planes(mut self, near: f32, far: f32) -> Case {
+        self.planes = [near, far];
+        self
+    }
+
+    /// What is seen in `pixel`, `offset` from its centre.
+    pub fn at(&self, pixel: UVec2, offset: Vec2, sample: Option<usize>) -> Seen {
+        (self.seen)(&Place {
+            pixel,
+            size: self.size,
+            at: pixel.as_vec2() + 0.5 + offset,
+            sample,
+        })
+    }
+}
+
+impl Place {
+    /// From -1 to 1 across and down, whatever the picture's size.
+    pub fn centred(&self) -> Vec2 {
+        2.0 * self.at / self.size.as_vec2() - 1.0
+    }
+
+    /// Noise in 0..1 that is the same all over a pixel, another one for each `kind`.
+    pub fn noise(&self, kind: u32) -> f32 {
+        noise(self.pixel.x + 131 * self.pixel.y + 17_389 * kind)
+    }
+
+    /// The same, another at each sample.
+    pub fn sample_noise(&self, kind: u32) -> f32 {
+        let sample = self.sample.map_or(64, |k| k as u32);
+        noise(self.pixel.x + 131 * self.pixel.y + 17_389 * kind + 1_000_003 * (sample + 1))
+    }
+
+    /// Whether the pixel is one of a few, at least one in every picture.
+    pub fn is_spot(&self) -> bool {
+        self.pixel == self.size / 2 || self.noise(99) < 0.06
+    }
+
+    /// A colour that differs from pixel to pixel, each component in 0..1.
+    pub fn color(&self) -> Vec4 {
+        Vec4::new(self.noise(1), self.noise(2), self.noise(3), 1.0)
+    }
+
+    /// Whether it lies behind a slanted edge through the picture's middle.
+    pub fn is_behind(&self) -> bool {
+        let from = self.centred();
+        vec2(0.93, 0.37).dot(from) > 0.03
+    }
+}
+
+/// In 0..1, the same for the same number (PCG).
+fn noise(k: u32) -> f32 {
+    let state = k.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
+    let word = ((state >> ((state >> 28) + 4)) ^ state).wrapping_mul(277_803_737);
+    (((word >> 22) ^ word) >> 8) as f32 / (1 << 24) as f32
+}

@@ -1,0 +1,44 @@
+//! The hard cases.
+
+mod color;
+mod depth;
+mod normal;
+mod parameter;
+mod shape;
+
+use super::case::{Case, Normal, Place, Seen};
+use glam::{Vec3, vec3};
+
+/// All of them.
+pub fn all() -> Vec<Case> {
+    [
+        shape::CASES,
+        depth::CASES,
+        normal::CASES,
+        color::CASES,
+        parameter::CASES,
+    ]
+    .concat()
+}
+
+/// A wall before another, both facing the viewer a little askance: depths 5 and 8.
+fn walls(place: &Place) -> Seen {
+    match place.is_behind() {
+        true => seen(place, 8.0, vec3(0.6, 0.0, 0.8)),
+        false => seen(place, 5.0, vec3(0.0, -0.28, 0.96)),
+    }
+}
+
+/// A surface with noise for colour.
+fn seen(place: &Place, depth: f32, normal: Vec3) -> Seen {
+    Seen {
+        depth,
+        normal: Normal::Vector(normal),
+        color: place.color(),
+    }
+}
+
+/// The number that follows so many others of its sign.
+fn steps_from(x: f32, steps: u32) -> f32 {
+    f32::from_bits(x.to_bits() + steps)
+}

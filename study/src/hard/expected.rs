@@ -1,0 +1,331 @@
+//! What a form should give in a case, by definition in `f64`, and how far from that it may be: by error analysis of the
+//! case's inputs, never by what was seen.
+//!
+//! | what | how far | why |
+//! | --- | --- | --- |
+//! | SRAA | [`bound::sraa`] | weights by the rounding of differences, exponents and sums; see there |
+//! | an edge filter's taps, by the interpreter | 8 u · side of the picture · range of colours around | a place between texels is off by some roundings of its coordinate |
+//! | the same, on a device | 1/128 of the range | hardware weighs texels in steps of 1/256 on each axis |
+//! | an edge filter where a decision is close | the range of colours around | a comparison may go either way, and moves the taps by less than their reach |
+//! | bilateral filters | [`bound::of_mean`] | as SRAA: Gaussians of differences that are known |
+//! | the same, differences from one colour | 24 u · the brightest of the colours | what is subtracted and added again is rounded, even if it weighs nothing |
+//! | 16 bits | 1/255 of the brightest colour | a step of an 8-bit picture: more would be seen |
+
+use super::HardError;
+use super::case::Case;
+use super::form::{Family, Form};
+use super::inputs::Reads;
+use crate::execute::Inputs;
+use crate::oracle;
+use crate::oracle::bound::{self, Rounding, Share};
+use crate::oracle::edge::{Edge, Geometry, Stalker, TabulaRasa};
+use crate::oracle::quads::{self, Picture};
+use glam::{IVec2, Vec4};
+use straightline_kernels::prelude::Frame;
+
+/// What should come out.
+pub struct Expected {
+    /// By definition, pixel by pixel.
+    pub colors: Vec<[f64; 4]>,
+    /// Most that the interpreter may be off in each pixel.
+    pub bounds: Vec<f64>,
+    /// Most that a device may be off.
+    pub device_bounds: Vec<f64>,
+    /// Most that either may be off in `f16`, where that has been analysed.
+    pub half_bounds: Option<Vec<f64>>,
+    /// Components that count: the fourth of some is a depth, or always 1.
+    pub lanes: usize,
+}
+
+/// What a form with `options` should give.
+pub fn expected(form: &Form, options: &[(String, String)], reads: &Reads) -> Result<Expected, HardError> {
+    let inputs = &reads.inputs;
+    match form.family {
+        Family::Sraa => {
+            let params = reads.params.clone().unwrap_or_default();
+            let resolved = oracle::sraa(inputs, &params)?;
+            let bounds = bound::sraa(inputs, &params, &Rounding::SINGLE)?;
+            Ok(Expected {
+                colors: resolved.into_iter().map(|pixel| pixel.color).collect(),
+                device_bounds: bounds.clone(),
+                bounds,
+                half_bounds: Some(bound::sraa(inputs, &params, &Rounding::HALF)?),
+                lanes: 4,
+            })
+        }
+        Family::Stalker | Family::TabulaRasa => Ok(edges(form.family, options, inputs)),
+        Family::Upsampling => Ok(upsampled(options, inputs)),
+        Family::Bilateral => Ok(blurred(options, inputs)),
+    }
+}
+
+/// A step of an 8-bit picture, of what the case's colours are at the brightest.
+pub fn half_limit(case: &Case) -> f64 {
+    let pixels = (0..case.size.y).flat_map(|y| (0..case.size.x).map(move |x| glam::uvec2(x, y)));
+    let lanes = pixels.flat_map(|pixel| case.at(pixel, glam::Vec2::ZERO, None).color.to_array());
+    let finite = lanes.filter(|lane| lane.is_finite());
+    finite.fold(0.0f64, |most, lane| most.max(f64::from(lane).abs())) / 255.0
+}
+
+fn find<'a>(inputs: &'a Inputs, name: &str) -> Option<&'a Frame<Vec4>> {
+    let found = inputs.images.iter().rev().find(|(known, _)| known == name);
+    found.and_then(|(_, layers)| layers.first())
+}
+
+fn frame<T: Copy>(inputs: &Inputs, name: &str, of: impl Fn(Vec4) -> T) -> Frame<T> {
+    match find(inputs, name) {
+        Some(image) => Frame::new(image.size(), image.texels().iter().map(|t| of(*t)).collect()),
+        None => Frame::new(glam::UVec2::ONE, vec![of(Vec4::ZERO)]),
+    }
+}
+
+fn number(options: &[(String, String)], name: &str, default: f64) -> f64 {
+    Form::value(options, name, "").parse().unwrap_or(default)
+}
+
+/// Decisions closer than this, of numbers relative to what they are computed from, may go either way: products of three,
+/// their sums, a reciprocal of 2.5 ULP.
+const CLOSE: f64 = 32.0 * Rounding::SINGLE.unit;
+
+fn edges(family: Family, options: &[(String, String)], inputs: &Inputs) -> Expected {
+    let (depth, normal) = (
+        frame(inputs, "depth", |t| t.x),
+        frame(inputs, "normal", |t| t.truncate()),
+    );
+    let color = frame(inputs, "color", |t| t);
+    let geometry = Geometry {
+        depth: &depth,
+        normal: &normal,
+    };
+    let printed = Form::value(options, "form", "corrected") == "paper";
+    let (edges, colors) = match family {
+        Family::Stalker => {
+            let filter = Stalker {
+                printed,
+                linear_depth: Form::value(options, "depth", "projected") == "linear",
+                normal_barrier: number(options, "normal-barrier", 0.8),
+                depth_barrier: number(options, "depth-barrier", 1.0e-5),
+                kernel: number(options, "kernel", 0.5),
+            };
+            (filter.edges(&geometry), filter.antialiased(&geometry, &color))
+        }
+        _ => {
+            let filter = TabulaRasa {
+                printed,
+                depth_sensibility: number(options, "depth-sensibility", 25.0),
+                normal_sensibility: number(options, "normal-sensibility", 1.0),
+                weight: number(options, "weight", 1.0),
+            };
+            (filter.edges(&geometry), filter.antialiased(&geometry, &color))
+        }
+    };
+    let size = color.size().as_ivec2();
+    let unit = Rounding::SINGLE.unit;
+    let (mut bounds, mut device_bounds) = (Vec::new(), Vec::new());
+    for (k, edge) in edges.iter().enumerate() {
+        let at = IVec2::new(k as i32 % size.x, k as i32 / size.x);
+        let around = Around::new(&color, &normal, at);
+        let rounded = 24.0 * unit * around.brightest + 24.0 * Rounding::SINGLE.smallest;
+        let [exact, device] = match around.is_sure(edge) {
+            true => [8.0 * unit * f64::from(size.max_element()), 1.0 / 128.0].map(|share| share * around.range),
+            false => [around.range; 2],
+        };
+        bounds.push(exact + rounded);
+        device_bounds.push(exact.max(device) + rounded);
+    }
+    Expected {
+        colors,
+        bounds,
+        device_bounds,
+        half_bounds: None,
+        lanes: 4,
+    }
+}
+
+/// Colours and normals that an edge filter may read for a pixel.
+struct Around {
+    range: f64,
+    brightest: f64,
+    all_good: bool,
+    long_normals: bool,
+}
+
+impl Around {
+    fn new(color: &Frame<Vec4>, normal: &Frame<glam::Vec3>, at: IVec2) -> Around {
+        let places = (-2..=2).flat_map(|y| (-2..=2).map(move |x| at + IVec2::new(x, y)));
+        let (mut low, mut high, mut all_good, mut long_normals) = (Vec4::INFINITY, Vec4::NEG_INFINITY, true, false);
+        for place in places {
+            let texel = color.load(place);
+            // Black stands for a bad colour.
+            let counted = if texel.is_finite() { texel } else { Vec4::ZERO };
+            (low, high) = (low.min(counted), high.max(counted));
+            all_good &= texel.is_finite();
+            let length = normal.load(place).length();
+            long_normals |= length.is_finite() && length > 2.0;
+        }
+        let lanes = |v: Vec4| v.to_array().map(f64::from);
+        let pairs = lanes(low).into_iter().zip(lanes(high));
+        Around {
+            range: pairs.clone().map(|(l, h)| h - l).fold(0.0, f64::max),
+            brightest: pairs.map(|(l, h)| l.abs().max(h.abs())).fold(0.0, f64::max),
+            all_good,
+            long_normals,
+        }
+    }
+
+    /// Whether 32 bits decide as 64 do, and a sampler reads nothing that is bad. A cosine of long normals is a difference of
+    /// large numbers, of which its margin knows nothing.
+    fn is_sure(&self, edge: &Edge) -> bool {
+        edge.margin > CLOSE && self.all_good && !self.long_normals
+    }
+}
+
+fn picture(inputs: &Inputs, name: &str, of: impl Fn([f64; 4]) -> [f64; 4]) -> Picture {
+    let image = frame(inputs, name, |t| t);
+    Picture {
+        size: [image.size().x.into(), image.size().y.into()],
+        texels: image.texels().iter().map(|t| of(t.to_array().map(f64::from))).collect(),
+    }
+}
+
+fn places(inputs: &Inputs) -> impl Iterator<Item = [i64; 2]> {
+    let size = inputs.size;
+    (0..size.y).flat_map(move |y| (0..size.x).map(move |x| [i64::from(x), i64::from(y)]))
+}
+
+/// A Gaussian weight `tent` exp(−`exponent`), and the most that it may be off, `off` being the most that the exponent is beside
+/// the rounding of the squares that it is a sum of.
+fn gaussian(tent: f64, exponent: f64, off: f64) -> (f64, f64) {
+    let rounding = &Rounding::SINGLE;
+    let weight = tent * (-exponent).exp();
+    let share = off + rounding.of_exponential(exponent) + 16.0 * rounding.unit * (1.0 + exponent);
+    let most = weight * share.min(700.0).exp_m1();
+    (weight, most.min(tent) + 2.0 * rounding.smallest)
+}
+
+fn size(color: &[f64; 4]) -> f64 {
+    color.iter().fold(0.0, |most, lane| most.max(lane.abs()))
+}
+
+fn blurred(options: &[(String, String)], inputs: &Inputs) -> Expected {
+    let (radius, sigma) = (number(options, "radius", 2.0) as i64, number(options, "sigma", 2.0));
+    let depth_sigma = number(options, "depth-sigma", 0.1);
+    let image = picture(inputs, "image", |t| t);
+    let colors = places(inputs)
+        .map(|at| quads::bilateral(&image, radius, sigma, depth_sigma, at))
+        .collect();
+    let most_off = |[x, y]: [i64; 2]| {
+        let centre = quads::counted(image.at(x, y), 3);
+        let mut shares = Vec::new();
+        let mut brightest = size(&color_of(centre));
+        for j in -radius..=radius {
+            for i in -radius..=radius {
+                let texel = quads::counted(image.at(x + i, y + j), 3);
+                let z = (texel[3] - centre[3]) / depth_sigma;
+                let near = (i * i + j * j) as f64 / (sigma * sigma);
+                let (weight, off) = gaussian(1.0, 0.5 * (z * z + near), 0.0);
+                brightest = brightest.max(size(&color_of(texel)));
+                shares.push(Share {
+                    color: color_of(texel),
+                    weight,
+                    off,
+                });
+            }
+        }
+        bound::of_mean(&shares, true, &Rounding::SINGLE) + 24.0 * Rounding::SINGLE.unit * brightest
+    };
+    let bounds: Vec<f64> = places(inputs).map(most_off).collect();
+    Expected {
+        colors,
+        device_bounds: bounds.clone(),
+        bounds,
+        half_bounds: None,
+        lanes: 3,
+    }
+}
+
+fn color_of(texel: [f64; 4]) -> [f64; 4] {
+    [texel[0], texel[1], texel[2], 0.0]
+}
+
+fn upsampled(options: &[(String, String)], inputs: &Inputs) -> Expected {
+    let factor: i64 = if Form::value(options, "factor", "twice") == "four-times" {
+        4
+    } else {
+        2
+    };
+    let packed = Form::value(options, "reads", "packed") == "packed";
+    let normals = !packed && Form::value(options, "normals", "false") == "true";
+    let low = picture(inputs, "low", |t| if packed { [t[0], t[1], t[2], 1.0] } else { t });
+    let surface = picture(inputs, if packed { "low" } else { "low_surface" }, |t| t);
+    let (depth, normal) = (picture(inputs, "depth", |t| t), picture(inputs, "normal", |t| t));
+    let given = quads::Upsampled {
+        factor,
+        low: &low,
+        surface: &surface,
+        depth: &depth,
+        normal: &normal,
+        depth_sigma: number(options, "depth-sigma", 0.1),
+        normal_sigma: normals.then(|| number(options, "normal-sigma", 0.1)),
+    };
+    let colors = places(inputs).map(|at| quads::upsampling(&given, at)).collect();
+    let bounds: Vec<f64> = places(inputs).map(|at| upsampling_off(&given, at)).collect();
+    Expected {
+        colors,
+        device_bounds: bounds.clone(),
+        bounds,
+        half_bounds: None,
+        lanes: if packed { 3 } else { 4 },
+    }
+}
+
+/// Sums of weights near this are of no surface or of one, as they are rounded.
+const SMALLEST_SUM: f64 = 1.0e-20;
+
+fn upsampling_off(given: &quads::Upsampled<'_>, at: [i64; 2]) -> f64 {
+    let unit = Rounding::SINGLE.unit;
+    let taps = quads::upsampling_taps(given, at);
+    let mut shares = Vec::new();
+    for tap in &taps {
+        // A cosine is off by four roundings of its products; its square by twice that times itself.
+        let n_off = 8.0 * unit * tap.products / given.normal_sigma.unwrap_or(1.0);
+        let off = n_off * tap.turned.abs() + n_off * n_off;
+        let (weight, most) = gaussian(tap.tent, 0.5 * tap.exponent, off);
+        shares.push(Share {
+            color: tap.color,
+            weight,
+            off: most,
+        });
+    }
+    let brightest = taps.iter().map(|tap| size(&tap.color)).fold(0.0, f64::max);
+    let rounded = 24.0 * unit * brightest + 24.0 * Rounding::SINGLE.smallest;
+    let range = taps
+        .iter()
+        .flat_map(|a| taps.iter().map(|b| apart(&a.color, &b.color)))
+        .fold(0.0, f64::max);
+    let (low, high) = shares.iter().fold((0.0, 0.0), |(l, h), s| {
+        (l + (s.weight - s.off).max(0.0), h + s.weight + s.off)
+    });
+    // A sum of products that are infinite in 32 bits may be no number there.
+    if taps.iter().any(|tap| tap.products > f64::from(f32::MAX)) {
+        return range + rounded;
+    }
+    if low > SMALLEST_SUM {
+        return bound::of_mean(&shares, true, &Rounding::SINGLE) + rounded;
+    }
+    if high > SMALLEST_SUM {
+        return range + rounded;
+    }
+    // The nearest depth: the taps that may be it. Of equally near ones any may be.
+    let nearest = taps.iter().map(|tap| tap.away).fold(f64::INFINITY, f64::min);
+    let may_be = |tap: &&quads::Tap| tap.away <= nearest + 4.0 * unit * tap.away;
+    let near: Vec<_> = taps.iter().filter(may_be).collect();
+    near.iter()
+        .flat_map(|a| near.iter().map(|b| apart(&a.color, &b.color)))
+        .fold(0.0, f64::max)
+        + rounded
+}
+
+fn apart(a: &[f64; 4], b: &[f64; 4]) -> f64 {
+    (0..4).map(|k| (a[k] - b[k]).abs()).fold(0.0, f64::max)
+}

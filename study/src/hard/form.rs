@@ -1,0 +1,158 @@
+//! Which kernels hard cases are run with, in which options.
+
+use super::case::Case;
+
+/// What a kernel reads, and which definition judges it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Family {
+    /// SRAA.
+    Sraa,
+    /// S.T.A.L.K.E.R.'s edge filter.
+    Stalker,
+    /// Tabula Rasa's edge filter.
+    TabulaRasa,
+    /// Cross-bilateral upsampling.
+    Upsampling,
+    /// The bilateral blur of quads.
+    Bilateral,
+}
+
+/// A kernel with options.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Form {
+    /// What it is called in records: `sraa`, `sraa paper`.
+    pub name: String,
+    /// The built-in kernel.
+    pub kernel: String,
+    /// What it reads.
+    pub family: Family,
+    /// Options that are not the default.
+    pub options: Vec<(String, String)>,
+    /// Whether it promises a finite picture within bounds: all do but those that keep the mistakes of what was printed.
+    pub promises: bool,
+    /// Whether it runs cases that set options.
+    pub takes_options: bool,
+}
+
+/// Options that reproduce the paper's listing, but for the order in which it takes its arguments: shading at the first of
+/// 2×2 samples, no falloff, weights divided by their sum whatever that is, colours as they come.
+pub const PAPER: &[(&str, &str)] = &[
+    ("pattern", "ordered4"),
+    ("shading", "sample0"),
+    ("falloff", "none"),
+    ("normalisation", "paper"),
+    ("non-finite", "spread"),
+];
+
+impl Form {
+    fn new(name: &str, family: Family, options: &[(&str, &str)]) -> Form {
+        Form {
+            name: name.to_owned(),
+            kernel: family.kernel().to_owned(),
+            family,
+            options: owned(options),
+            promises: true,
+            takes_options: false,
+        }
+    }
+
+    fn unpromised(mut self) -> Form {
+        self.promises = false;
+        self
+    }
+
+    fn taking_options(mut self) -> Form {
+        self.takes_options = true;
+        self
+    }
+
+    /// Every form that is studied.
+    pub fn all() -> Vec<Form> {
+        use Family::*;
+        vec![
+            Form::new("sraa", Sraa, &[]).taking_options(),
+            Form::new("sraa 16", Sraa, &[("pattern", "latin16")]),
+            Form::new("sraa planes-normals", Sraa, &[("metric", "planes-normals")]).taking_options(),
+            Form::new("sraa normals", Sraa, &[("metric", "normals")]),
+            Form::new("sraa depth", Sraa, &[("metric", "depth")]),
+            Form::new("sraa relative", Sraa, &[("difference", "relative")]),
+            Form::new("sraa epsilon", Sraa, &[("normalisation", "epsilon")]).taking_options(),
+            Form::new("sraa mask", Sraa, &[("mask", "select")]),
+            Form::new("sraa unshifted", Sraa, &[("normalisation", "paper")]).unpromised(),
+            Form::new("sraa paper", Sraa, PAPER).unpromised().taking_options(),
+            Form::new("stalker", Stalker, &[]),
+            Form::new("stalker linear", Stalker, &[("depth", "linear")]),
+            Form::new("stalker paper", Stalker, &[("form", "paper"), ("non-finite", "spread")]).unpromised(),
+            Form::new("tabula-rasa", TabulaRasa, &[]),
+            Form::new(
+                "tabula-rasa paper",
+                TabulaRasa,
+                &[("form", "paper"), ("non-finite", "spread")],
+            )
+            .unpromised(),
+            Form::new("upsampling", Upsampling, &[]),
+            Form::new(
+                "upsampling normals",
+                Upsampling,
+                &[("reads", "apart"), ("normals", "true")],
+            ),
+            Form::new("bilateral", Bilateral, &[]),
+        ]
+    }
+
+    /// A built-in kernel with options, if it is of a family that is studied.
+    pub fn of(kernel: &str, options: &[(String, String)]) -> Option<Form> {
+        let family = Family::ALL.into_iter().find(|family| family.kernel() == kernel)?;
+        let words: Vec<String> = options.iter().map(|(name, value)| format!("{name}={value}")).collect();
+        Some(Form {
+            name: [&[kernel.to_owned()], &words[..]].concat().join(" "),
+            options: options.to_vec(),
+            takes_options: true,
+            ..Form::new(kernel, family, &[])
+        })
+    }
+
+    /// The options that it has in a case; `None` if the case is not for it.
+    pub fn in_case(&self, case: &Case) -> Option<Vec<(String, String)>> {
+        if case.options.is_empty() {
+            return Some(self.options.clone());
+        }
+        let own = |name: &str| self.options.iter().any(|(known, _)| known == name);
+        let fits = self.family == Family::Sraa && self.takes_options && !case.options.iter().any(|(name, _)| own(name));
+        fits.then(|| [self.options.clone(), owned(case.options)].concat())
+    }
+
+    /// The value of an option among `options`, or `default`.
+    pub fn value<'a>(options: &'a [(String, String)], name: &str, default: &'a str) -> &'a str {
+        let found = options.iter().rev().find(|(known, _)| known == name);
+        found.map_or(default, |(_, value)| value.as_str())
+    }
+}
+
+impl Family {
+    const ALL: [Family; 5] = [
+        Family::Sraa,
+        Family::Stalker,
+        Family::TabulaRasa,
+        Family::Upsampling,
+        Family::Bilateral,
+    ];
+
+    /// The name of the built-in kernel.
+    pub fn kernel(self) -> &'static str {
+        match self {
+            Family::Sraa => "sraa",
+            Family::Stalker => "stalker",
+            Family::TabulaRasa => "tabula_rasa",
+            Family::Upsampling => "quad_upsampling",
+            Family::Bilateral => "quad_bilateral",
+        }
+    }
+}
+
+fn owned(options: &[(&str, &str)]) -> Vec<(String, String)> {
+    options
+        .iter()
+        .map(|(name, value)| ((*name).to_owned(), (*value).to_owned()))
+        .collect()
+}

@@ -1,0 +1,196 @@
+//! A case as the images and numbers that a kernel reads.
+
+use super::HardError;
+use super::case::{Case, Normal, Place, Seen};
+use super::form::{Family, Form};
+use crate::encode::{self, DepthEncoding, NormalEncoding};
+use crate::execute::Inputs;
+use crate::oracle::{self, Shading, SraaParams};
+use glam::{UVec2, Vec2, Vec3, Vec4, uvec2, vec2};
+use straightline_kernels::prelude::{Frame, FrameLayers};
+
+/// What a form reads of a case, and the numbers of its definition.
+pub struct Reads {
+    /// Images and uniforms.
+    pub inputs: Inputs,
+    /// Of SRAA, the definition's numbers.
+    pub params: Option<SraaParams>,
+}
+
+/// What a form with `options` reads of a case.
+pub fn reads(case: &Case, form: &Form, options: &[(String, String)]) -> Result<Reads, HardError> {
+    let inputs = match form.family {
+        Family::Sraa => {
+            let params = params(case, options)?;
+            return Ok(Reads {
+                inputs: sraa(case, &params),
+                params: Some(params),
+            });
+        }
+        Family::Stalker | Family::TabulaRasa => {
+            let projected = form.family == Family::Stalker && Form::value(options, "depth", "projected") == "projected";
+            let near = f64::from(case.planes[0]);
+            let depth = centres(case, |seen| {
+                Vec4::splat(match projected {
+                    true => DepthEncoding::InfiniteReversed { near }.encode(seen.depth.into()) as f32,
+                    false => seen.depth,
+                })
+            });
+            let normal = centres(case, |seen| vector(seen).extend(0.0));
+            Inputs::new(case.size)
+                .image("depth", depth)
+                .image("normal", normal)
+                .image("color", centres(case, |seen| seen.color))
+        }
+        Family::Upsampling => upsampling(case, options),
+        Family::Bilateral => {
+            Inputs::new(case.size).image("image", centres(case, |seen| seen.color.truncate().extend(seen.depth)))
+        }
+    };
+    Ok(Reads { inputs, params: None })
+}
+
+/// The definition's numbers: those that are uniforms as the case gives them.
+fn params(case: &Case, options: &[(String, String)]) -> Result<SraaParams, OracleFailure> {
+    let mut params = SraaParams::default();
+    for (name, value) in options {
+        if value != "uniform" {
+            params.set(name, value)?;
+            continue;
+        }
+        let uniform = name.replace('-', "_");
+        if let Some((_, number)) = case.uniforms.iter().find(|(known, _)| *known == uniform) {
+            match name.as_str() {
+                "tau" => params.tau = *number,
+                "depth-scale" => params.depth_scale = *number,
+                _ => params.set(name, &number.to_string())?,
+            }
+        }
+    }
+    Ok(params)
+}
+
+type OracleFailure = oracle::OracleError;
+
+fn sraa(case: &Case, params: &SraaParams) -> Inputs {
+    let places = params.samples().into_iter().map(|[x, y]| vec2(x as f32, y as f32));
+    let mut places: Vec<(Vec2, Option<usize>)> = places.enumerate().map(|(k, at)| (at, Some(k))).collect();
+    if params.shading == Shading::Centre {
+        places.push((Vec2::ZERO, None));
+    }
+    let layers = |texel: &dyn Fn(&Seen) -> Vec4| -> Vec<Frame<Vec4>> {
+        let layer = |(offset, sample): &(Vec2, Option<usize>)| {
+            image(case.size, |pixel| texel(&case.at(pixel, *offset, *sample)))
+        };
+        places.iter().map(layer).collect()
+    };
+    let size = case.size.as_dvec2();
+    let [near, far] = case.planes.map(f64::from);
+    let mut inputs = Inputs::new(case.size)
+        .image("color", centres(case, |seen| seen.color))
+        .uniform("near", &[near])
+        .uniform("far", &[far])
+        .uniform("ray_corner", &[-1.0, 1.0, -1.0])
+        .uniform("ray_right", &[2.0 / size.x, 0.0, 0.0])
+        .uniform("ray_down", &[0.0, -2.0 / size.y, 0.0])
+        .uniform("origin", &[0.0, 0.0])
+        .uniform("tau", &[params.tau])
+        .uniform("depth_scale", &[params.depth_scale]);
+    if params.normals == oracle::Normals::Packed {
+        let part = |of: &dyn Fn(&Seen) -> Vec4| FrameLayers::new(layers(of));
+        let normals = each(&part(&|seen| vector(seen).extend(0.0)), Vec4::truncate);
+        let depths = each(&part(&|seen| Vec4::splat(seen.depth)), |texel| texel.x);
+        let packed = encode::packed(&normals, &depths, DepthEncoding::Linear);
+        return inputs.layers("packed", packed.layers().to_vec());
+    }
+    inputs = inputs.layers(
+        "depth",
+        layers(&|seen| Vec4::splat(stored(case, params.depth, seen.depth))),
+    );
+    inputs.layers("normal", layers(&|seen| normal(params.normals, seen)))
+}
+
+fn each<A: Copy, B: Copy>(stack: &FrameLayers<A>, of: impl Fn(A) -> B) -> FrameLayers<B> {
+    let layer = |l: &Frame<A>| Frame::new(l.size(), l.texels().iter().map(|t| of(*t)).collect());
+    FrameLayers::new(stack.layers().iter().map(layer).collect())
+}
+
+/// A linear depth as a texture holds it.
+fn stored(case: &Case, encoding: oracle::Depth, depth: f32) -> f32 {
+    let ([near, far], depth) = (case.planes.map(f64::from), f64::from(depth));
+    // The definitions' products of infinities are no numbers.
+    let endless = far.is_infinite() || depth.is_infinite();
+    let value = match encoding {
+        oracle::Depth::Linear => return depth as f32,
+        oracle::Depth::Perspective if endless => (1.0 - near / depth).clamp(0.0, 1.0),
+        oracle::Depth::Reversed if endless => (near / depth).clamp(0.0, 1.0),
+        oracle::Depth::Perspective => DepthEncoding::Perspective { near, far }.encode(depth),
+        oracle::Depth::Reversed => DepthEncoding::Reversed { near, far }.encode(depth),
+        oracle::Depth::ReversedInfinite => DepthEncoding::InfiniteReversed { near }.encode(depth),
+    };
+    case.storage.round(value) as f32
+}
+
+/// A normal as a texture holds it.
+fn normal(encoding: oracle::Normals, seen: &Seen) -> Vec4 {
+    let vector = match seen.normal {
+        Normal::Texel(texel) => return texel,
+        Normal::Vector(vector) => vector,
+    };
+    let encoding = match encoding {
+        oracle::Normals::Unorm => NormalEncoding::Rgb8,
+        oracle::Normals::Octahedral => NormalEncoding::Octahedral8,
+        _ => return vector.extend(0.0),
+    };
+    let [x, y, z] = encoding.encode(vector.as_dvec3().to_array());
+    Vec4::new(x as f32, y as f32, z as f32, 1.0)
+}
+
+/// What a case calls a normal, without any encoding.
+fn vector(seen: &Seen) -> Vec3 {
+    match seen.normal {
+        Normal::Vector(vector) => vector,
+        Normal::Texel(texel) => texel.truncate(),
+    }
+}
+
+/// The frame in full, and every corner of 2×2 pixels (or 4×4) as the low resolution.
+fn upsampling(case: &Case, options: &[(String, String)]) -> Inputs {
+    let factor = match Form::value(options, "factor", "twice") {
+        "four-times" => 4,
+        _ => 2,
+    };
+    let packed = Form::value(options, "reads", "packed") == "packed";
+    let size = case.size.map(|n| n.div_ceil(factor) + 1);
+    let low = |texel: &dyn Fn(&Seen) -> Vec4| {
+        image(size, |corner| {
+            let at = corner * factor;
+            texel(&(case.seen)(&Place {
+                pixel: at.min(case.size - 1),
+                size: case.size,
+                at: at.as_vec2(),
+                sample: None,
+            }))
+        })
+    };
+    Inputs::new(case.size)
+        .image(
+            "low",
+            low(&|seen| match packed {
+                true => seen.color.truncate().extend(seen.depth),
+                false => seen.color,
+            }),
+        )
+        .image("low_surface", low(&|seen| vector(seen).extend(seen.depth)))
+        .image("depth", centres(case, |seen| Vec4::splat(seen.depth)))
+        .image("normal", centres(case, |seen| vector(seen).extend(0.0)))
+}
+
+fn centres(case: &Case, texel: impl Fn(&Seen) -> Vec4) -> Frame<Vec4> {
+    image(case.size, |pixel| texel(&case.at(pixel, Vec2::ZERO, None)))
+}
+
+fn image(size: UVec2, texel: impl Fn(UVec2) -> Vec4) -> Frame<Vec4> {
+    let pixels = (0..size.y).flat_map(|y| (0..size.x).map(move |x| uvec2(x, y)));
+    Frame::new(size, pixels.map(texel).collect())
+}

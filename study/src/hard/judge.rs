@@ -1,0 +1,217 @@
+//! One form on one case: computed, compared, judged.
+
+use super::case::Case;
+use super::expected::{Expected, expected, half_limit};
+use super::form::Form;
+use super::inputs::{Reads, reads};
+use super::reals::{Flushed, Loose};
+use super::{HardError, form};
+use crate::execute::{Bench, ExecuteError, Inputs, interpret};
+use crate::record::{Executor, HardResult};
+use straightline_codegen::ir::{F16, Real};
+use straightline_codegen::{Compiled, Precision};
+use straightline_manifest::Manifest;
+use straightline_runtime::Pass;
+
+/// A form on a case, with what should come out.
+pub struct Trial<'a> {
+    case: &'a Case,
+    form: &'a Form,
+    options: Vec<(String, String)>,
+    reads: Reads,
+    expected: Expected,
+}
+
+/// What was computed.
+struct Found {
+    texels: Vec<[f64; 4]>,
+    births: Vec<([u32; 2], String)>,
+}
+
+impl<'a> Trial<'a> {
+    /// A form with `options` on a case.
+    pub fn new(case: &'a Case, form: &'a Form, options: Vec<(String, String)>) -> Result<Trial<'a>, HardError> {
+        let reads = reads(case, form, &options)?;
+        let expected = expected(form, &options, &reads)?;
+        Ok(Trial {
+            case,
+            form,
+            options,
+            reads,
+            expected,
+        })
+    }
+
+    /// By every executor that is no device.
+    pub fn interpreted(&self, compiled: &Compiled, precision: Precision) -> Result<Vec<HardResult>, HardError> {
+        let found = match precision {
+            Precision::F32 => [
+                self.interpret::<f32>(compiled, true),
+                self.interpret::<Flushed<f32>>(compiled, false),
+                self.interpret::<Loose<f32>>(compiled, false),
+            ],
+            Precision::F16 => [
+                self.interpret::<F16>(compiled, true),
+                self.interpret::<Flushed<F16>>(compiled, false),
+                self.interpret::<Loose<F16>>(compiled, false),
+            ],
+        };
+        let executors = [
+            Executor::Interpreter,
+            Executor::InterpreterFlushed,
+            Executor::InterpreterLoose,
+        ];
+        let judged = found.into_iter().zip(executors);
+        judged
+            .map(|(found, executor)| Ok(self.judged(&self.executed(found)?, precision, executor)))
+            .collect()
+    }
+
+    /// By a device.
+    pub fn shown(
+        &self,
+        bench: &Bench,
+        pass: &Pass,
+        manifest: &Manifest,
+        precision: Precision,
+    ) -> Result<HardResult, HardError> {
+        let frame = bench.bind(pass, manifest, self.inputs());
+        let frame = frame.and_then(|bound| bench.picture_of(pass, &bound, self.case.size));
+        let found = frame.map(|frame| Found {
+            texels: frame.texels().iter().map(|t| t.to_array().map(f64::from)).collect(),
+            births: Vec::new(),
+        });
+        Ok(self.judged(&self.executed(found)?, precision, Executor::Gpu))
+    }
+
+    /// What was not run, and why.
+    pub fn refused(&self, precision: Precision, executor: Executor, why: &str) -> HardResult {
+        HardResult {
+            kernel: self.form.name.clone(),
+            options: self.options.clone(),
+            precision: precision.to_string(),
+            executor,
+            pixels: self.expected.colors.len(),
+            non_finite: 0,
+            difference: None,
+            ulps: None,
+            born: None,
+            bound: None,
+            kept: true,
+            promised: false,
+            analysed: None,
+            refused: Some(why.to_owned()),
+        }
+    }
+
+    fn inputs(&self) -> &Inputs {
+        &self.reads.inputs
+    }
+
+    fn executed(&self, found: Result<Found, ExecuteError>) -> Result<Found, HardError> {
+        found.map_err(|source| HardError::Execute {
+            form: self.form.name.clone(),
+            case: self.case.name.to_owned(),
+            source,
+        })
+    }
+
+    fn interpret<R: Real>(&self, compiled: &Compiled, watch: bool) -> Result<Found, ExecuteError> {
+        let result = interpret::<R>(compiled, self.inputs(), watch)?;
+        Ok(Found {
+            texels: result.texels.iter().map(|t| t.map(Real::to_f64)).collect(),
+            births: result.births,
+        })
+    }
+
+    fn judged(&self, found: &Found, precision: Precision, executor: Executor) -> HardResult {
+        let half = precision == Precision::F16;
+        let limit = half_limit(self.case);
+        let watched = half && !self.case.common;
+        let (mut non_finite, mut kept) = (0, true);
+        let (mut difference, mut ulps, mut bound): (Option<f64>, Option<f64>, Option<f64>) = (None, None, None);
+        let mut first_bad = None;
+        for (k, (texel, expected)) in found.texels.iter().zip(&self.expected.colors).enumerate() {
+            let own = match (half, executor) {
+                (true, _) => limit,
+                (false, Executor::Gpu) => self.expected.device_bounds[k],
+                (false, _) => self.expected.bounds[k],
+            };
+            if own.is_finite() && !watched {
+                bound = Some(bound.unwrap_or(0.0).max(own));
+            }
+            let finite = texel.iter().all(|lane| lane.is_finite());
+            if !finite {
+                non_finite += 1;
+                first_bad = first_bad.or(Some(k));
+                kept &= watched || !self.form.promises && !half;
+                continue;
+            }
+            if !expected.iter().all(|lane| lane.is_finite()) {
+                continue;
+            }
+            for (lane, exact) in texel.iter().zip(expected).take(self.expected.lanes) {
+                let off = (lane - exact).abs();
+                difference = Some(difference.unwrap_or(0.0).max(off));
+                ulps = Some(ulps.unwrap_or(0.0).max(off / place(*exact, precision)));
+                kept &= watched || off <= own;
+            }
+        }
+        let width = self.case.size.x;
+        let born = first_bad.and_then(|k| {
+            // Quads note what happened at their upper left pixel.
+            let at = [k as u32 % width, k as u32 / width];
+            let quad = at.map(|axis| axis - axis % 2);
+            let birth = found.births.iter().find(|(place, _)| *place == at || *place == quad);
+            birth.map(|([x, y], text)| format!("at ({x}, {y}): {text}"))
+        });
+        HardResult {
+            kernel: self.form.name.clone(),
+            options: self.options.clone(),
+            precision: precision.to_string(),
+            executor,
+            pixels: found.texels.len(),
+            non_finite,
+            difference,
+            ulps,
+            born,
+            bound,
+            kept,
+            promised: self.form.promises && !half,
+            analysed: self.expected.half_bounds.as_ref().filter(|_| half).map(|all| {
+                let finite = all.iter().copied().filter(|bound| bound.is_finite());
+                finite.fold(0.0, f64::max)
+            }),
+            refused: None,
+        }
+    }
+}
+
+/// The distance of neighbouring numbers at `x`; at 0 and below the smallest normal number, at that.
+fn place(x: f64, precision: Precision) -> f64 {
+    let (digits, smallest) = match precision {
+        Precision::F32 => (23, f64::from(f32::MIN_POSITIVE)),
+        Precision::F16 => (10, 1.0 / 16384.0),
+    };
+    let exponent = x.abs().max(smallest).log2().floor() as i32;
+    2.0f64.powi(exponent - digits)
+}
+
+/// A form compiled with the options that it has in a case.
+pub fn compile(form: &Form, options: &[(String, String)]) -> Result<Compiled, HardError> {
+    let settings = straightline_codegen::Settings {
+        options: options.to_vec(),
+        // One invocation computes a quad: the stage is a compute shader.
+        transport: match form.family {
+            form::Family::Upsampling | form::Family::Bilateral => Some(straightline_codegen::Transport::Block),
+            _ => None,
+        },
+        ..Default::default()
+    };
+    let kernel = straightline_codegen::Kernel::builtin(&form.kernel);
+    let compiled = kernel.and_then(|kernel| kernel.compile(&settings));
+    compiled.map_err(|errors| HardError::Kernel {
+        form: form.name.clone(),
+        errors,
+    })
+}

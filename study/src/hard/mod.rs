@@ -1,0 +1,81 @@
+//! Numerical stability: named cases that are hard to compute, kernels in several options, precisions and executors.
+//!
+//! [`run`] computes every form of a kernel ([`Form`]) in every case ([`Case`]) that it is for: by the interpreter, by the
+//! interpreter with subnormal numbers flushed, by the interpreter as inexact as WGSL allows, and by the shader that is
+//! emitted; in `f32` and in `f16`. Each result is compared with the definition in `f64` ([`crate::oracle`]) and held to a
+//! bound that follows from an error analysis of the case's inputs ([`crate::oracle::bound`]).
+//!
+//! In `f16` no such bound is useful, because it grows beyond what can be seen as soon as depths are compared; there each
+//! result is held to what can be seen, and [`half_precision_verdict`] says which kernels may compute in it.
+
+mod case;
+mod cases;
+mod expected;
+mod form;
+mod inputs;
+mod judge;
+mod reals;
+mod run;
+mod verdict;
+
+pub use case::{Case, Normal, Place, Seen};
+pub use form::{Family, Form, PAPER};
+pub use reals::{Flushed, Loose};
+pub use run::{Selection, judged_as, run};
+pub use verdict::half_precision_verdict;
+
+use crate::execute::ExecuteError;
+use crate::oracle::OracleError;
+use straightline_codegen::diagnostic::Errors;
+
+/// Every case.
+pub fn cases() -> Vec<Case> {
+    cases::all()
+}
+
+/// The case of a name.
+///
+/// # Errors
+///
+/// [`HardError::UnknownCase`].
+pub fn case(name: &str) -> Result<Case, HardError> {
+    cases()
+        .into_iter()
+        .find(|case| case.name == name)
+        .ok_or_else(|| HardError::UnknownCase(name.to_owned()))
+}
+
+/// Why hard cases could not be run.
+#[derive(Debug, thiserror::Error)]
+pub enum HardError {
+    /// There is no such case.
+    #[error("there is no hard case `{0}`; `straightline study hard --list` names all of them")]
+    UnknownCase(String),
+    /// The kernel is not among those that are studied.
+    #[error(
+        "`{0}` has no hard cases: they are there for sraa, stalker, tabula_rasa, quad_upsampling and quad_bilateral alone, so \
+         nothing can be said of it in half precision"
+    )]
+    NotStudied(String),
+    /// A kernel does not compile.
+    #[error("{form}: {errors}")]
+    Kernel {
+        /// Which.
+        form: String,
+        /// Why.
+        errors: Errors,
+    },
+    /// A kernel could not be run.
+    #[error("{form} on `{case}`: {source}")]
+    Execute {
+        /// Which.
+        form: String,
+        /// On what.
+        case: String,
+        /// Why.
+        source: ExecuteError,
+    },
+    /// The definition cannot be evaluated.
+    #[error(transparent)]
+    Oracle(#[from] OracleError),
+}

@@ -1,0 +1,152 @@
+//! All that was selected, by all executors.
+
+use super::case::Case;
+use super::form::Form;
+use super::judge::{Trial, compile};
+use super::verdict::verdicts;
+use super::{HardError, cases};
+use crate::execute::{Bench, ExecuteError};
+use crate::record::{Circumstances, Executor, HardCase, HardRecord, HardResult, Watch};
+use rayon::prelude::*;
+use std::collections::BTreeMap;
+use straightline_codegen::{Compiled, Precision, Stage};
+use straightline_manifest::Manifest;
+use straightline_runtime::Pass;
+
+/// What to run.
+#[derive(Clone, Debug)]
+pub struct Selection {
+    /// Cases.
+    pub cases: Vec<Case>,
+    /// Forms of kernels.
+    pub forms: Vec<Form>,
+    /// Precisions.
+    pub precisions: Vec<Precision>,
+}
+
+impl Default for Selection {
+    /// All.
+    fn default() -> Self {
+        Selection {
+            cases: cases::all(),
+            forms: Form::all(),
+            precisions: Precision::ALL.to_vec(),
+        }
+    }
+}
+
+/// Kernel and options.
+type Key = (String, Vec<(String, String)>);
+
+/// A compiled shader, or why the device cannot have it.
+type Shader = Result<(Pass, Manifest), String>;
+
+/// Runs what is selected: interpreters, and the device if there is one. What `watch` stops is left out of the record, which
+/// then is not complete.
+///
+/// # Errors
+///
+/// If a kernel cannot be compiled or run at all. A result that is bad is no error: it is in the record.
+pub fn run(
+    selection: &Selection,
+    bench: Option<&Bench>,
+    mut circumstances: Circumstances,
+    watch: &mut dyn Watch,
+) -> Result<HardRecord, HardError> {
+    let compiled = compiled(selection, watch)?;
+    let mut shaders: BTreeMap<(Key, Precision), Shader> = BTreeMap::new();
+    let mut done = Vec::new();
+    watch.begin("hard cases", selection.cases.len());
+    for case in &selection.cases {
+        if watch.stopped() {
+            break;
+        }
+        let trials = trials(case, &selection.forms)?;
+        let mut results: Vec<Vec<HardResult>> = trials
+            .par_iter()
+            .map(|(key, trial)| {
+                let precisions = selection.precisions.iter();
+                let found = precisions.filter_map(|precision| Some(trial.interpreted(compiled.get(key)?, *precision)));
+                Ok(found.collect::<Result<Vec<_>, HardError>>()?.concat())
+            })
+            .collect::<Result<_, HardError>>()?;
+        for ((key, trial), results) in trials.iter().zip(&mut results) {
+            for precision in &selection.precisions {
+                let Some(bench) = bench else {
+                    results.push(trial.refused(*precision, Executor::Gpu, "there is no adapter"));
+                    continue;
+                };
+                let shader = shaders.entry((key.clone(), *precision)).or_insert_with(|| {
+                    let kernel = compiled.get(key).ok_or("it was not compiled")?;
+                    let half = bench.clone().precision(*precision);
+                    half.pass(kernel, Stage::Compute)
+                        .map_err(|error: ExecuteError| error.to_string())
+                });
+                results.push(match shader {
+                    Ok((pass, manifest)) => trial.shown(bench, pass, manifest, *precision)?,
+                    Err(why) => trial.refused(*precision, Executor::Gpu, why),
+                });
+            }
+        }
+        done.push(HardCase {
+            name: case.name.to_owned(),
+            about: case.about.to_owned(),
+            common: case.common,
+            results: results.concat(),
+        });
+        watch.step();
+    }
+    circumstances.complete = done.len() == selection.cases.len();
+    Ok(HardRecord {
+        circumstances,
+        half: verdicts(&selection.forms, &done),
+        cases: done,
+    })
+}
+
+/// A form on a case in `f32` by every interpreter, held to what another form promises: whether bounds catch the difference.
+///
+/// # Errors
+///
+/// If either cannot be compiled or run.
+pub fn judged_as(case: &Case, form: &Form, promise: &Form) -> Result<Vec<HardResult>, HardError> {
+    let compiled = compile(form, &form.options)?;
+    Trial::new(case, promise, promise.options.clone())?.interpreted(&compiled, Precision::F32)
+}
+
+/// The forms that a case is for.
+pub fn trials<'a>(case: &'a Case, forms: &'a [Form]) -> Result<Vec<(Key, Trial<'a>)>, HardError> {
+    let for_it = forms.iter().filter_map(|form| Some((form, form.in_case(case)?)));
+    for_it
+        .map(|(form, options)| {
+            let key = (form.kernel.clone(), options.clone());
+            Ok((key, Trial::new(case, form, options)?))
+        })
+        .collect()
+}
+
+/// Every form with the options of every case that it is for, compiled once.
+fn compiled(selection: &Selection, watch: &mut dyn Watch) -> Result<BTreeMap<Key, Compiled>, HardError> {
+    let mut needed: BTreeMap<Key, &Form> = BTreeMap::new();
+    for case in &selection.cases {
+        for form in &selection.forms {
+            if let Some(options) = form.in_case(case) {
+                needed.insert((form.kernel.clone(), options), form);
+            }
+        }
+    }
+    let needed: Vec<(Key, &Form)> = needed.into_iter().collect();
+    watch.begin("compiling kernels", needed.len());
+    let mut all = BTreeMap::new();
+    for some in needed.chunks(8) {
+        if watch.stopped() {
+            break;
+        }
+        let compiled = some
+            .par_iter()
+            .map(|(key, form)| Ok((key.clone(), compile(form, &key.1)?)));
+        all.extend(compiled.collect::<Result<Vec<_>, HardError>>()?);
+        some.iter().for_each(|_| watch.step());
+    }
+    Ok(all)
+}

@@ -1,0 +1,139 @@
+//! Which kernels may compute in half precision: those that stay within what can be seen in every case that scenes have.
+
+use super::case::Case;
+use super::form::{Family, Form};
+use super::judge::compile;
+use super::run::trials;
+use super::{HardError, cases};
+use crate::record::{Executor, HalfVerdict, HardCase, HardResult};
+use rayon::prelude::*;
+use straightline_codegen::Precision;
+
+/// Whether a built-in kernel with `options` may compute in half precision: by the interpreter, with and without subnormal
+/// numbers, on every case that scenes have. How far it would be off on a device that is as inexact as WGSL allows is told, but
+/// decides nothing: known ones are not.
+///
+/// A layout of the G-buffer changes nothing of what is computed and is left out.
+///
+/// # Errors
+///
+/// [`HardError::NotStudied`] for a kernel that has no hard cases; others if it does not compile.
+pub fn half_precision_verdict(kernel: &str, options: &[(String, String)]) -> Result<HalfVerdict, HardError> {
+    let options: Vec<_> = options.iter().filter(|(name, _)| name != "layout").cloned().collect();
+    let form = Form::of(kernel, &options).ok_or_else(|| HardError::NotStudied(kernel.to_owned()))?;
+    let forms = [form];
+    let common: Vec<Case> = cases::all().into_iter().filter(|case| case.common).collect();
+    let plain = common.iter().filter(|case| case.options.is_empty());
+    let compiled = compile(&forms[0], &forms[0].options)?;
+    let done = plain.par_bridge().map(|case| {
+        let mut results = Vec::new();
+        for (_, trial) in trials(case, &forms)? {
+            results.extend(trial.interpreted(&compiled, Precision::F16)?);
+        }
+        Ok(HardCase {
+            name: case.name.to_owned(),
+            about: case.about.to_owned(),
+            common: true,
+            results,
+        })
+    });
+    let mut done = done.collect::<Result<Vec<_>, HardError>>()?;
+    done.sort_by(|a, b| a.name.cmp(&b.name));
+    Ok(verdict(&forms[0], &done))
+}
+
+/// The verdict on every form that ran in half precision.
+pub fn verdicts(forms: &[Form], done: &[HardCase]) -> Vec<HalfVerdict> {
+    let ran = |form: &&Form| done.iter().any(|case| own(case, form).next().is_some());
+    forms.iter().filter(ran).map(|form| verdict(form, done)).collect()
+}
+
+fn own<'a>(case: &'a HardCase, form: &'a Form) -> impl Iterator<Item = &'a HardResult> {
+    let half = case
+        .results
+        .iter()
+        .filter(|r| r.precision == "f16" && r.refused.is_none());
+    half.filter(|r| r.kernel == form.name)
+}
+
+fn verdict(form: &Form, done: &[HardCase]) -> HalfVerdict {
+    let common = done.iter().filter(|case| case.common);
+    let all: Vec<(&HardCase, &HardResult)> = common.flat_map(|c| own(c, form).map(move |r| (c, r))).collect();
+    let is_loose = |r: &HardResult| r.executor == Executor::InterpreterLoose;
+    let results: Vec<_> = all.iter().filter(|(_, r)| !is_loose(r)).copied().collect();
+    // How many times the limit, most for what is not even finite.
+    let excess = |r: &HardResult| match (r.non_finite, r.difference, r.bound) {
+        (0, Some(off), Some(limit)) if limit > 0.0 => off / limit,
+        (0, ..) => 0.0,
+        _ => f64::INFINITY,
+    };
+    let worst = results.iter().max_by(|a, b| excess(a.1).total_cmp(&excess(b.1)));
+    let broken: Vec<&str> = {
+        let mut names: Vec<&str> = results
+            .iter()
+            .filter(|(_, r)| !r.kept)
+            .map(|(c, _)| c.name.as_str())
+            .collect();
+        names.dedup();
+        names
+    };
+    let reason = worst.filter(|_| !broken.is_empty()).map(|(case, r)| {
+        let what = match (r.non_finite, r.difference, r.bound) {
+            (0, Some(off), Some(limit)) => {
+                format!("off by {off:.1e} on `{}`, where {limit:.1e} can be seen", case.name)
+            }
+            (count, ..) => format!("{count} pixels of `{}` are not finite", case.name),
+        };
+        let others = match broken.len() {
+            1 => String::new(),
+            n => format!(", and more than can be seen on {} others", n - 1),
+        };
+        format!("{what}{others}: {}", why(form))
+    });
+    HalfVerdict {
+        kernel: form.name.clone(),
+        options: form.options.clone(),
+        worst: worst.map(|(case, _)| case.name.clone()),
+        difference: worst.and_then(|(_, r)| r.difference),
+        loosest: worst.and_then(|(worst, _)| {
+            let loose = all.iter().find(|(case, r)| case.name == worst.name && is_loose(r));
+            loose.and_then(|(_, r)| r.difference)
+        }),
+        limit: worst.and_then(|(_, r)| r.bound),
+        broken: broken.len(),
+        cases: done
+            .iter()
+            .filter(|case| case.common && own(case, form).next().is_some())
+            .count(),
+        reason,
+    }
+}
+
+/// What 11 bits cannot hold of what a form computes.
+fn why(form: &Form) -> &'static str {
+    let is = |name, value| Form::value(&form.options, name, "") == value;
+    match form.family {
+        Family::Sraa if is("metric", "normals") => {
+            "components of a normal are off by up to 2^-12, and tau times what that makes of a small turn goes into an exponent"
+        }
+        Family::Sraa if is("metric", "planes-normals") => {
+            "depths are off by 2^-11 of themselves, and depth-scale times tau of that goes into an exponent: a slope of one \
+             plane becomes steps between surfaces"
+        }
+        Family::Sraa => {
+            "depths are off by 2^-11 of themselves, and depth-scale times tau of that goes into an exponent: a slope becomes \
+             steps between surfaces"
+        }
+        Family::Stalker | Family::TabulaRasa => {
+            "places between texels are held in 11 bits, half a pixel off from the 1024th on, and what bends in depth is of the size \
+             that 11 bits round away: flat surfaces become edges"
+        }
+        Family::Upsampling => {
+            "weights of less than 2^-24 are none, so that the nearest depth takes the place of a mean of far ones, and depths are \
+             off by 2^-11 of themselves"
+        }
+        Family::Bilateral => {
+            "depths are off by 2^-11 of themselves, which is no less than depth-sigma once they are far"
+        }
+    }
+}

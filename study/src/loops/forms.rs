@@ -1,0 +1,280 @@
+//! The forms of a kernel: compiled, and on a device.
+
+use super::{LoopsError, Subject};
+use crate::execute::{Bench, Bound, Inputs};
+use crate::record::FormKind;
+use std::rc::Rc;
+use std::sync::atomic::{AtomicU32, Ordering};
+use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
+use straightline_codegen::diagnostic::Errors;
+use straightline_codegen::emit::{Emitted, Target};
+use straightline_codegen::{Compiled, EmitOptions, Format, Kernel, Settings, Stage, Unroll};
+use straightline_manifest::{Binding, BindingKind};
+use straightline_runtime::{Pass, PassOptions};
+
+/// Every form, in the order of the record.
+pub const ALL: [FormKind; 10] = [
+    FormKind::Looped,
+    FormKind::LoopedUnchecked,
+    FormKind::LoopedByHand,
+    FormKind::LoopedByHandUnchecked,
+    FormKind::Partial2,
+    FormKind::Partial4,
+    FormKind::FullUnshared,
+    FormKind::Full,
+    FormKind::FullBlock,
+    FormKind::Floor,
+];
+
+/// A kernel in every form that it has, looped first, and why it does not have the others.
+pub struct Forms {
+    /// With all loops unrolled; it is among `made`, too.
+    pub full: Compiled,
+    /// Those that there are.
+    pub made: Vec<(FormKind, Compiled)>,
+    /// Those that there are not.
+    pub absent: Vec<(FormKind, String)>,
+}
+
+impl Forms {
+    /// Compiles a kernel in every form.
+    ///
+    /// # Errors
+    ///
+    /// If the kernel is not one, looped or unrolled, or what was written by hand is none.
+    pub fn of(subject: &Subject) -> Result<Forms, LoopsError> {
+        let settings = |unroll| Settings {
+            unroll,
+            options: subject.options.clone(),
+            ..Settings::default()
+        };
+        let compile = |kernel: &Kernel, settings: &Settings| {
+            kernel.compile(settings).map_err(|errors| LoopsError::Kernel {
+                name: subject.name.clone(),
+                errors,
+            })
+        };
+        let full = compile(&subject.kernel, &settings(Unroll::Full))?;
+        let looped = compile(&subject.kernel, &settings(Unroll::None))?;
+        let has_loops = looped.in_blocks().counts.loops > 0;
+        let (mut made, mut absent) = (Vec::new(), Vec::new());
+        for kind in ALL {
+            let outcome: Result<Compiled, String> = match kind {
+                FormKind::Looped => Ok(looped.clone()),
+                FormKind::Full => Ok(full.clone()),
+                FormKind::LoopedUnchecked | FormKind::Partial2 | FormKind::Partial4 if !has_loops => {
+                    Err("no loop of it can be kept".to_owned())
+                }
+                FormKind::LoopedUnchecked => Ok(looped.clone()),
+                FormKind::LoopedByHand | FormKind::LoopedByHandUnchecked => match &subject.by_hand {
+                    Err(why) => Err(why.clone()),
+                    Ok(by_hand) => {
+                        let settings = Settings {
+                            unroll: Unroll::None,
+                            options: by_hand.options.clone(),
+                            ..Settings::default()
+                        };
+                        Ok(compile(&by_hand.kernel, &settings)?)
+                    }
+                },
+                FormKind::Partial2 => subject.kernel.compile(&settings(Unroll::Partial(2))).map_err(reason),
+                FormKind::Partial4 => subject.kernel.compile(&settings(Unroll::Partial(4))).map_err(reason),
+                FormKind::FullUnshared => {
+                    let settings = Settings {
+                        share_loads: false,
+                        ..settings(Unroll::Full)
+                    };
+                    let unshared = subject.kernel.compile(&settings).map_err(reason);
+                    unshared.and_then(|unshared| match reads(&unshared) == reads(&full) {
+                        true => Err("the source asks for each read once, as the full form does".to_owned()),
+                        false => Ok(unshared),
+                    })
+                }
+                FormKind::FullBlock => {
+                    let settings = Settings {
+                        block: [2, 2],
+                        ..settings(Unroll::Full)
+                    };
+                    subject.kernel.compile(&settings).map_err(reason)
+                }
+                FormKind::Floor => full.floor().map_err(reason),
+            };
+            match outcome {
+                Ok(compiled) => made.push((kind, compiled)),
+                Err(why) => absent.push((kind, why)),
+            }
+        }
+        Ok(Forms { full, made, absent })
+    }
+}
+
+/// Texture and buffer reads of one compute invocation.
+fn reads(compiled: &Compiled) -> u32 {
+    compiled.in_blocks().counts.reads.values().sum()
+}
+
+/// What the first error says, in a line.
+fn reason(errors: Errors) -> String {
+    let first = errors.diagnostics.first();
+    first.map_or_else(|| "refused".to_owned(), |error| error.message.clone())
+}
+
+/// How every compute shader begins: invocations beyond the border leave.
+const BORDER: &str = "if any(pixel >= frame) {";
+
+/// The same shader in a text that no driver has compiled before, so that none finds it in a cache: invocations in a column
+/// that no picture has leave, too.
+fn unseen(emitted: &Emitted) -> Emitted {
+    static MADE: AtomicU32 = AtomicU32::new(0);
+    let now = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();
+    let number = (now.as_nanos() as u32).wrapping_add(MADE.fetch_add(1, Ordering::Relaxed));
+    let column = (1 << 30) | (number >> 2);
+    let mut unseen = emitted.clone();
+    if let Some(wgsl) = unseen.files.get_mut(&Target::Wgsl) {
+        let text = String::from_utf8_lossy(wgsl);
+        let other = format!("if any(pixel >= frame) || pixel.x == {column} {{");
+        *wgsl = text.replacen(BORDER, &other, 1).into_bytes();
+    }
+    unseen
+}
+
+/// A form on a device.
+pub struct Ready {
+    /// Which.
+    pub kind: FormKind,
+    /// What was emitted.
+    pub emitted: Emitted,
+    /// The shader.
+    pub pass: Pass,
+    /// What it reads.
+    pub bound: Rc<Bound>,
+    /// Of each time that the shader was made in a text of its own: what making its pipeline took, and its first frame.
+    pub made: Vec<(Duration, Duration)>,
+}
+
+impl Ready {
+    /// Bytes of SPIR-V.
+    pub fn spirv_bytes(&self) -> usize {
+        self.emitted.files.get(&Target::Spirv).map_or(0, Vec::len)
+    }
+
+    /// Milliseconds until the shader was ready: making the pipeline, and what the first frame took longer than a frame of
+    /// `frame_ms` takes. Software drivers compile only then. The median of all times that it was made.
+    pub fn pipeline_ms(&self, frame_ms: f64) -> f64 {
+        let ms = |d: &Duration| d.as_secs_f64() * 1e3;
+        let mut all: Vec<f64> = self
+            .made
+            .iter()
+            .map(|(pipeline, frame)| ms(pipeline) + (ms(frame) - frame_ms).max(0.0))
+            .collect();
+        all.sort_by(f64::total_cmp);
+        all.get(all.len() / 2).copied().unwrap_or(0.0)
+    }
+}
+
+/// Puts forms of one kernel onto a device; what several of them read is there once.
+pub struct Stand<'a> {
+    bench: &'a Bench,
+    inputs: &'a Inputs,
+    bound: Vec<(Vec<Binding>, Rc<Bound>)>,
+}
+
+impl<'a> Stand<'a> {
+    /// Nothing on it yet.
+    pub fn new(bench: &'a Bench, inputs: &'a Inputs) -> Self {
+        Stand {
+            bench,
+            inputs,
+            bound: Vec::new(),
+        }
+    }
+
+    /// Emits a form and makes it, before that `times` times in texts that no driver has seen, each up to its first frame.
+    ///
+    /// # Errors
+    ///
+    /// If it cannot be emitted or run.
+    pub fn put(&mut self, kind: FormKind, compiled: &Compiled, times: u32) -> Result<Ready, LoopsError> {
+        let unbounded = matches!(kind, FormKind::LoopedUnchecked | FormKind::LoopedByHandUnchecked);
+        let options = EmitOptions::new()
+            .stage(Stage::Compute)
+            .format(Format::Rgba32Float)
+            .unbounded_loops(unbounded)
+            .targets([Target::Wgsl, Target::Spirv]);
+        let emitted = compiled.emit(&options).map_err(crate::execute::ExecuteError::from)?;
+        let options = PassOptions::default().unbounded_loops(unbounded);
+        let mut made = Vec::new();
+        for _ in 0..times.max(1) {
+            let unseen = unseen(&emitted);
+            let pass = self.bench.made(&unseen, &options)?;
+            let bound = self.bind(&pass, &unseen)?;
+            let first = self.frame(&pass, &bound)?;
+            made.push((pass.creation_time(), first));
+        }
+        let pass = self.bench.made(&emitted, &options)?;
+        let bound = self.bind(&pass, &emitted)?;
+        Ok(Ready {
+            kind,
+            emitted,
+            pass,
+            bound,
+            made,
+        })
+    }
+
+    fn bind(&mut self, pass: &Pass, emitted: &Emitted) -> Result<Rc<Bound>, LoopsError> {
+        let is_resource = |b: &&Binding| !matches!(b.kind, BindingKind::Uniform { .. });
+        let wanted: Vec<Binding> = emitted.manifest.bindings.iter().filter(is_resource).cloned().collect();
+        if let Some((_, bound)) = self.bound.iter().find(|(known, _)| *known == wanted) {
+            self.bench.set_uniforms(pass, &emitted.manifest, self.inputs)?;
+            return Ok(Rc::clone(bound));
+        }
+        let bound = Rc::new(self.bench.bind(pass, &emitted.manifest, self.inputs)?);
+        self.bound.push((wanted, Rc::clone(&bound)));
+        Ok(bound)
+    }
+
+    /// How long a frame takes, by the wall clock.
+    fn frame(&self, pass: &Pass, bound: &Bound) -> Result<Duration, LoopsError> {
+        let bench = self.bench;
+        let target = bench.target(self.inputs.size, pass.target_format());
+        let view = target.create_view(&wgpu::TextureViewDescriptor::default());
+        let mut encoder = bench
+            .device()
+            .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        pass.encode(&mut encoder, &bound.resources(), &view)
+            .map_err(crate::execute::ExecuteError::from)?;
+        // What was written before is not to be waited for.
+        bench.wait()?;
+        let start = Instant::now();
+        bench.queue().submit([encoder.finish()]);
+        bench.wait()?;
+        Ok(start.elapsed())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_text_is_unseen_each_time() {
+        let text = "pub fn k(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {\n    color.load(pixel) * 0.5\n}\n";
+        for block in [[1, 1], [2, 2]] {
+            let settings = Settings {
+                block,
+                ..Settings::default()
+            };
+            let compiled = Kernel::from_text("k.rs", text, "k")
+                .compile(&settings)
+                .expect("a kernel");
+            let emitted = compiled.emit(&EmitOptions::new()).expect("a shader");
+            let wgsl = |emitted: &Emitted| emitted.files.get(&Target::Wgsl).cloned();
+            let (first, second) = (unseen(&emitted), unseen(&emitted));
+            assert!(
+                wgsl(&first) != wgsl(&emitted) && wgsl(&first) != wgsl(&second),
+                "{block:?}"
+            );
+        }
+    }
+}

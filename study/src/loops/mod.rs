@@ -1,0 +1,191 @@
+//! Unroll against loop: every form of a kernel, what it costs and how wrong it is.
+//!
+//! All forms of a kernel are timed in turn, round by round. How many times as fast one is as the looped form is taken of each
+//! round by itself, so that whatever slows a whole round down cancels.
+
+mod forms;
+mod subjects;
+mod truth;
+
+use crate::execute::{Bench, ExecuteError, Job};
+use crate::gbuffer::GBufferError;
+use crate::oracle::OracleError;
+use crate::record::{Form, FormKind, KernelForms, Watch};
+use crate::render::RenderError;
+use crate::scene::SceneError;
+use forms::{Forms, Ready, Stand};
+use glam::{UVec2, Vec4};
+use std::time::Duration;
+use straightline_codegen::diagnostic::Errors;
+use straightline_kernels::prelude::Frame;
+use truth::Truth;
+
+pub use subjects::{ByHand, Input, Subject, subjects};
+
+/// How it is measured.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Method {
+    /// Width and height of the pictures.
+    pub size: UVec2,
+    /// Rounds of timing.
+    pub rounds: u32,
+    /// A form that is done sooner is run several times in a row for one time.
+    pub least: Duration,
+    /// How often each pipeline is made.
+    pub pipelines: u32,
+}
+
+/// What was measured of a kernel.
+#[derive(Clone, Debug)]
+pub struct Studied {
+    /// For the record.
+    pub forms: KernelForms,
+    /// What the kernel makes, unrolled.
+    pub picture: Frame<Vec4>,
+}
+
+/// Why a study could not be made.
+#[derive(Debug, thiserror::Error)]
+pub enum LoopsError {
+    /// A kernel, or what was written by hand for it, is refused.
+    #[error("the kernel `{name}` is refused")]
+    Kernel {
+        /// The kernel's name.
+        name: String,
+        /// Every error.
+        errors: Errors,
+    },
+    /// A form cannot be run.
+    #[error("`{name}`, {form}: {source}")]
+    Form {
+        /// The kernel's name.
+        name: String,
+        /// The form's, as in the record.
+        form: String,
+        /// Why not.
+        source: Box<LoopsError>,
+    },
+    /// Something cannot be run.
+    #[error(transparent)]
+    Execute(#[from] ExecuteError),
+    /// There is no such scene.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// The scene cannot be drawn.
+    #[error(transparent)]
+    Render(#[from] RenderError),
+    /// The scene lacks what the kernel reads.
+    #[error(transparent)]
+    GBuffer(#[from] GBufferError),
+    /// The oracle lacks what it reads.
+    #[error(transparent)]
+    Oracle(#[from] OracleError),
+    /// No form was measured.
+    #[error("nothing was measured")]
+    Nothing,
+}
+
+/// Measures kernel by kernel. Stopped by `watch`, it gives what has been measured until then.
+///
+/// # Errors
+///
+/// [`LoopsError`] names the kernel that is refused or cannot be run. Of a form that a kernel does not have the record says why.
+pub fn study(
+    bench: &Bench,
+    subjects: &[Subject],
+    method: &Method,
+    watch: &mut dyn Watch,
+) -> Result<Vec<Studied>, LoopsError> {
+    let mut truth = Truth::new(bench, method.size);
+    let mut all = Vec::new();
+    for subject in subjects {
+        match measured(bench, subject, method, &mut truth, watch)? {
+            Some(studied) => all.push(studied),
+            None => break,
+        }
+    }
+    Ok(all)
+}
+
+/// One kernel; `None` if it was stopped before anything was measured.
+fn measured(
+    bench: &Bench,
+    subject: &Subject,
+    method: &Method,
+    truth: &mut Truth<'_>,
+    watch: &mut dyn Watch,
+) -> Result<Option<Studied>, LoopsError> {
+    let forms = Forms::of(subject)?;
+    watch.begin(&subject.name, forms.made.len() + 1 + method.rounds as usize);
+    let inputs = truth.inputs(subject, &forms.full)?;
+    if watch.stopped() {
+        return Ok(None);
+    }
+    let exact = truth::exact(subject, &forms.full, &inputs)?;
+    watch.step();
+
+    let mut stand = Stand::new(bench, &inputs);
+    let mut ready: Vec<(Ready, Option<(f64, f64)>)> = Vec::new();
+    let mut picture = None;
+    for (kind, compiled) in &forms.made {
+        if watch.stopped() {
+            return Ok(None);
+        }
+        let in_form = |source: LoopsError| LoopsError::Form {
+            name: subject.name.clone(),
+            form: crate::record::name(kind),
+            source: Box::new(source),
+        };
+        let form = stand.put(*kind, compiled, method.pipelines).map_err(in_form)?;
+        let frame = bench.picture_of(&form.pass, &form.bound, method.size)?;
+        let off = (*kind != FormKind::Floor).then(|| truth::differences(frame.texels(), &exact));
+        if *kind == FormKind::Full {
+            picture = Some(frame);
+        }
+        ready.push((form, off));
+        watch.step();
+    }
+
+    let jobs: Vec<Job<'_>> = ready
+        .iter()
+        .map(|(form, _)| Job {
+            pass: &form.pass,
+            bound: &form.bound,
+            size: method.size,
+        })
+        .collect();
+    let timed = bench.timed_for(&jobs, method.rounds, method.least, |round| {
+        if round > 0 {
+            watch.step();
+        }
+        !watch.stopped()
+    })?;
+    let mut measured = Vec::new();
+    for (k, (form, off)) in ready.iter().enumerate() {
+        let (Some(time), Some(ratio)) = (timed.times(k), timed.ratio(0, k)) else {
+            continue;
+        };
+        let counts = &form.emitted.manifest.counts;
+        measured.push(Form {
+            kind: form.kind,
+            loops: counts.loops,
+            statements: counts.statements,
+            reads: counts.reads.values().sum(),
+            spirv_bytes: form.spirv_bytes(),
+            pipeline_ms: form.pipeline_ms(time.median_ms),
+            time,
+            ratio,
+            difference_999: off.map(|(_, most)| most),
+            difference: off.map(|(largest, _)| largest),
+        });
+    }
+    let forms = KernelForms {
+        kernel: subject.name.clone(),
+        options: subject.options.clone(),
+        input: truth::name(subject.input),
+        forms: measured,
+        absent: forms.absent,
+    };
+    let picture = picture.ok_or(LoopsError::Nothing)?;
+    Ok(Some(Studied { forms, picture }))
+}

@@ -1,0 +1,170 @@
+//! Which kernels are studied.
+
+use straightline_codegen::Kernel;
+use straightline_codegen::diagnostic::Errors;
+
+/// What a kernel is run on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Input {
+    /// The built-in scene `roof`, rendered with the geometry samples that the kernel's options name; judged by
+    /// [`oracle`](crate::oracle).
+    Roof,
+    /// [`test_inputs`](crate::execute::test_inputs); judged by the same graph in `f64`.
+    TestCard,
+}
+
+/// A kernel as somebody wrote it by hand, with its loops.
+#[derive(Clone, Debug)]
+pub struct ByHand {
+    /// The kernel; it reads what the other reads, by the same names.
+    pub kernel: Kernel,
+    /// Options that are not its default.
+    pub options: Vec<(String, String)>,
+}
+
+/// A kernel to be studied.
+#[derive(Clone, Debug)]
+pub struct Subject {
+    /// A name for people.
+    pub name: String,
+    /// Options that are not the default.
+    pub options: Vec<(String, String)>,
+    /// The kernel.
+    pub kernel: Kernel,
+    /// The same by hand, or why there is no such thing.
+    pub by_hand: Result<ByHand, String>,
+    /// What it is run on.
+    pub input: Input,
+}
+
+/// Why nothing was written by hand.
+const NOTHING_TO_GAIN: &str = "it reads nothing twice and computes nothing anew in its loops";
+
+/// The kernels of `examples/kernels`, and what was written by hand for them.
+const EXAMPLES: [(&str, &str, Option<&str>); 10] = [
+    (
+        "gaussian",
+        include_str!("../../../examples/kernels/gaussian.rs"),
+        Some(include_str!("../../kernels/gaussian.rs")),
+    ),
+    (
+        "bilateral",
+        include_str!("../../../examples/kernels/bilateral.rs"),
+        Some(include_str!("../../kernels/bilateral.rs")),
+    ),
+    ("median", include_str!("../../../examples/kernels/median.rs"), None),
+    (
+        "sobel",
+        include_str!("../../../examples/kernels/sobel.rs"),
+        Some(include_str!("../../kernels/sobel.rs")),
+    ),
+    (
+        "catmull_rom",
+        include_str!("../../../examples/kernels/catmull_rom.rs"),
+        None,
+    ),
+    (
+        "kuwahara",
+        include_str!("../../../examples/kernels/kuwahara.rs"),
+        Some(include_str!("../../kernels/kuwahara.rs")),
+    ),
+    (
+        "fxaa",
+        include_str!("../../../examples/kernels/fxaa.rs"),
+        Some(include_str!("../../kernels/fxaa.rs")),
+    ),
+    ("ssao", include_str!("../../../examples/kernels/ssao.rs"), None),
+    (
+        "joint_bilateral_upsampling",
+        include_str!("../../../examples/kernels/joint_bilateral_upsampling.rs"),
+        None,
+    ),
+    (
+        "convolution",
+        include_str!("../../../examples/kernels/convolution.rs"),
+        Some(include_str!("../../kernels/convolution.rs")),
+    ),
+];
+
+/// Those that a quick study leaves out: they have no loops, or gain next to nothing.
+const NOT_QUICK: [&str; 8] = [
+    "stalker",
+    "tabula rasa",
+    "gaussian",
+    "median",
+    "catmull rom",
+    "fxaa",
+    "ssao",
+    "joint bilateral upsampling",
+];
+
+/// SRAA in three variants, the edge filters, and the ten of `examples/kernels`; of a quick study, half of them.
+///
+/// # Errors
+///
+/// If a built-in kernel is gone.
+pub fn subjects(quick: bool) -> Result<Vec<Subject>, Errors> {
+    let mut all = vec![
+        sraa("SRAA 4", &[])?,
+        sraa("SRAA 16", &[("pattern", "latin16")])?,
+        sraa("SRAA 4, depth", &[("metric", "depth")])?,
+    ];
+    for name in ["stalker", "tabula_rasa"] {
+        all.push(Subject {
+            name: name.replace('_', " "),
+            options: Vec::new(),
+            kernel: Kernel::builtin(name)?,
+            by_hand: Err("its loops run over lists, and are written out in every form".to_owned()),
+            input: Input::TestCard,
+        });
+    }
+    for (name, text, by_hand) in EXAMPLES {
+        let by_hand = by_hand.map(|text| ByHand {
+            kernel: Kernel::from_text(&format!("study/kernels/{name}.rs"), text, name),
+            options: Vec::new(),
+        });
+        all.push(Subject {
+            name: name.replace('_', " "),
+            options: Vec::new(),
+            kernel: Kernel::from_text(&format!("examples/kernels/{name}.rs"), text, name),
+            by_hand: by_hand.ok_or_else(|| NOTHING_TO_GAIN.to_owned()),
+            input: Input::TestCard,
+        });
+    }
+    if quick {
+        all.retain(|subject| !NOT_QUICK.contains(&subject.name.as_str()));
+    }
+    Ok(all)
+}
+
+fn sraa(name: &str, options: &[(&str, &str)]) -> Result<Subject, Errors> {
+    let owned = |(k, v): &(&str, &str)| ((*k).to_owned(), (*v).to_owned());
+    let options: Vec<(String, String)> = options.iter().map(owned).collect();
+    Ok(Subject {
+        name: name.to_owned(),
+        options: options.clone(),
+        kernel: Kernel::builtin("sraa")?,
+        by_hand: Ok(ByHand {
+            kernel: Kernel::from_text("study/kernels/sraa.rs", include_str!("../../kernels/sraa.rs"), "sraa"),
+            options,
+        }),
+        input: Input::Roof,
+    })
+}
+
+impl Subject {
+    /// A kernel of one's own, and perhaps the same by hand.
+    pub fn own(kernel: Kernel, by_hand: Option<Kernel>) -> Subject {
+        let by_hand = by_hand.map(|kernel| ByHand {
+            kernel,
+            options: Vec::new(),
+        });
+        Subject {
+            name: kernel.name().to_owned(),
+            options: Vec::new(),
+            kernel,
+            by_hand: by_hand.ok_or_else(|| "none was given with --by-hand".to_owned()),
+            input: Input::TestCard,
+        }
+    }
+}

@@ -1,0 +1,133 @@
+//! What a kernel is run on, and what it should give.
+
+use super::{Input, LoopsError, Subject};
+use crate::capture::{Capture, ShadingSample};
+use crate::execute::{Bench, Inputs, interpret, test_inputs};
+use crate::gbuffer;
+use crate::oracle::{self, SraaParams};
+use crate::render::{self, GpuRenderer};
+use crate::scene::Scene;
+use glam::{UVec2, Vec4};
+use straightline_codegen::Compiled;
+
+/// The scene that SRAA is run on.
+const SCENE: &str = "roof";
+
+/// Makes inputs of one size; a scene is drawn once.
+pub struct Truth<'a> {
+    bench: &'a Bench,
+    size: UVec2,
+    captures: Vec<(String, Capture)>,
+}
+
+impl<'a> Truth<'a> {
+    /// For pictures of `size`.
+    pub fn new(bench: &'a Bench, size: UVec2) -> Self {
+        Truth {
+            bench,
+            size,
+            captures: Vec::new(),
+        }
+    }
+
+    /// What a kernel is run on.
+    ///
+    /// # Errors
+    ///
+    /// If the scene cannot be drawn.
+    pub fn inputs(&mut self, subject: &Subject, full: &Compiled) -> Result<Inputs, LoopsError> {
+        match subject.input {
+            Input::TestCard => Ok(test_inputs(&full.graph, self.size)),
+            Input::Roof => {
+                let pattern = full.options.get("pattern").cloned().unwrap_or_default();
+                let known = self.captures.iter().position(|(name, _)| *name == pattern);
+                let at = match known {
+                    Some(at) => at,
+                    None => {
+                        let capture = self.capture(&pattern)?;
+                        self.captures.push((pattern, capture));
+                        self.captures.len() - 1
+                    }
+                };
+                Ok(gbuffer::inputs(&self.captures[at].1, &full.options)?)
+            }
+        }
+    }
+
+    fn capture(&self, pattern: &str) -> Result<Capture, LoopsError> {
+        let samples = gbuffer::samples(pattern).unwrap_or_default();
+        let scene = Scene::named(SCENE)?;
+        let renderer = GpuRenderer::new(self.bench.device(), self.bench.queue(), &scene, self.size)?;
+        Ok(render::capture(&renderer, &samples, ShadingSample::Centre)?)
+    }
+}
+
+/// What a record says of an input.
+pub fn name(input: Input) -> String {
+    match input {
+        Input::Roof => format!("the scene `{SCENE}`"),
+        Input::TestCard => "the test card".to_owned(),
+    }
+}
+
+/// What a kernel should give, in `f64`: each pixel's colour; `None` where 32 bits may decide otherwise.
+///
+/// # Errors
+///
+/// If something that it reads is missing.
+pub fn exact(subject: &Subject, full: &Compiled, inputs: &Inputs) -> Result<Vec<Option<[f64; 4]>>, LoopsError> {
+    match subject.input {
+        Input::TestCard => Ok(interpret::<f64>(full, inputs, false)?
+            .texels
+            .into_iter()
+            .map(Some)
+            .collect()),
+        Input::Roof => {
+            let params = SraaParams::of(&full.options)?;
+            let resolved = oracle::sraa(inputs, &params)?;
+            Ok(resolved
+                .into_iter()
+                .map(|pixel| pixel.sure.then_some(pixel.color))
+                .collect())
+        }
+    }
+}
+
+/// The largest difference of any colour, and the largest but for the thousandth of the pixels that differ most. Of two
+/// numbers of which one alone is finite it is the largest `f64`.
+pub fn differences(found: &[Vec4], exact: &[Option<[f64; 4]>]) -> (f64, f64) {
+    let apart = |a: f64, b: f64| match (a.is_finite(), b.is_finite()) {
+        (true, true) => (a - b).abs(),
+        (false, false) => 0.0,
+        _ => f64::MAX,
+    };
+    let off = |(found, exact): (&Vec4, &Option<[f64; 4]>)| {
+        let exact = (*exact)?;
+        Some((0..4).map(|k| apart(f64::from(found[k]), exact[k])).fold(0.0, f64::max))
+    };
+    let mut all: Vec<f64> = found.iter().zip(exact).filter_map(off).collect();
+    all.sort_by(f64::total_cmp);
+    let at = |share: f64| {
+        let last = all.len().saturating_sub(1);
+        all.get((last as f64 * share) as usize).copied().unwrap_or(0.0)
+    };
+    (at(1.0), at(0.999))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_thousandth_that_differs_most_is_left_out() {
+        let exact: Vec<_> = (0..1001).map(|k| Some([f64::from(k), 0.0, 0.0, 0.0])).collect();
+        let mut found: Vec<Vec4> = (0..1001).map(|k| Vec4::new(k as f32, 0.0, 0.0, 0.25)).collect();
+        found[500].x += 3.0;
+        assert_eq!(differences(&found, &exact), (3.0, 0.25));
+        found[3].y = f32::NAN;
+        assert_eq!(differences(&found, &exact).0, f64::MAX);
+        let mut unsure = exact.clone();
+        unsure[3] = None;
+        assert_eq!(differences(&found, &unsure).0, 3.0);
+    }
+}

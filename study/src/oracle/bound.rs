@@ -1,0 +1,362 @@
+//! How far from the definition a computation in fewer bits may be: an error analysis, pixel by pixel, of the inputs.
+//!
+//! Nothing here is fitted to what shaders were seen to do. With u the unit roundoff, every number that the filter computes
+//! is followed with the most that it may be off: what is read, the difference of two surfaces, the exponent −τ m, the
+//! weight, the mean. Rounding that depends on the order of additions or on whether a product and a sum are rounded once
+//! or twice is counted for the worst order, so that the bound holds for whatever a driver's compiler makes of a shader;
+//! functions are as inexact as WGSL's specification allows (*Accuracy of expressions*: a quotient 2.5 ULP, an inverse
+//! square root 2 ULP, exp2 3 + 2 |x| ULP, in 16 bits 1 + 2 |x|). A number below the smallest normal one may be 0.
+//!
+//! A weighted mean r = Σ w c / Σ w whose weights are off by Δw is off by at most Σ Δw |c − r| / Σ w: taps of the mean's own
+//! colour cannot move it, and nothing moves it out of the range of its colours. So where two surfaces cannot be told apart
+//! in the bits that there are, the bound is as large as their colours differ, and no larger.
+
+use super::gbuffer::DEEPEST;
+use super::{
+    Definition, Difference, EPSILON, Mask, Metric, NEAREST, NonFinite, Normalisation, OracleError, SraaParams, bounded,
+    is_finite,
+};
+use crate::execute::Inputs;
+use rayon::prelude::*;
+
+/// What a precision rounds to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rounding {
+    /// Most that a rounded number is off, as a share of it: half the distance of neighbours.
+    pub unit: f64,
+    /// The same of what is read: 0 where inputs are held in as many bits.
+    pub read: f64,
+    /// The smallest normal number: what is below may be 0.
+    pub smallest: f64,
+    /// The largest number: what is beyond is infinite.
+    pub largest: f64,
+    /// ULP that exp2 may be off at 0.
+    pub exponential: f64,
+}
+
+impl Rounding {
+    /// `f32`, of inputs in `f32`.
+    pub const SINGLE: Rounding = Rounding {
+        unit: f32::EPSILON as f64 / 2.0,
+        read: 0.0,
+        smallest: f32::MIN_POSITIVE as f64,
+        largest: f32::MAX as f64,
+        exponential: 3.0,
+    };
+    /// `f16`, of inputs in `f32` that are rounded as they are read.
+    pub const HALF: Rounding = Rounding {
+        unit: 1.0 / 2048.0,
+        read: 1.0 / 2048.0,
+        smallest: 1.0 / 16384.0,
+        largest: 65504.0,
+        exponential: 1.0,
+    };
+
+    /// Most that exp2(−x) may be off as a share of it, x a product of a difference that is exact: x itself is off by four
+    /// roundings (τ log₂ e, the subtraction of the smallest, the product), the function by ULPs of at most two units.
+    pub fn of_exponential(&self, x: f64) -> f64 {
+        self.unit * (4.0 * x * std::f64::consts::LN_2 + 2.0 * (self.exponential + 2.0 * x))
+    }
+}
+
+/// Numbers that may be what a computation finds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Range {
+    low: f64,
+    high: f64,
+}
+
+impl Range {
+    /// A difference of surfaces, 0 or more, that may be off by so much.
+    fn around(value: f64, off: f64) -> Range {
+        let far = bounded(f64::INFINITY);
+        match (value.is_nan(), off.is_nan()) {
+            // Of what is read as no number, in any precision.
+            (true, _) => Range { low: far, high: far },
+            (false, true) => Range { low: 0.0, high: far },
+            (false, false) => Range {
+                low: bounded((value - off).max(0.0)),
+                high: bounded(value + off),
+            },
+        }
+    }
+
+    fn max(self, other: Range) -> Range {
+        Range {
+            low: self.low.max(other.low),
+            high: self.high.max(other.high),
+        }
+    }
+}
+
+/// A colour with its share in a mean: what it is by definition, and the most that it may be off.
+pub(crate) struct Share {
+    pub color: [f64; 4],
+    pub weight: f64,
+    pub off: f64,
+}
+
+/// Most that the mean of `shares` may be off in any component. The weights' sum need not be 1; `normalised` says whether the
+/// mean is divided by it. Where so little weight is left that it counts for none, black is possible too.
+pub(crate) fn of_mean(shares: &[Share], normalised: bool, rounding: &Rounding) -> f64 {
+    let total: f64 = shares.iter().map(|s| s.weight).sum();
+    let least: f64 = shares.iter().map(|s| (s.weight - s.off).max(0.0)).sum();
+    let most: f64 = shares.iter().map(|s| s.weight + s.off).sum();
+    let rest = if normalised { total } else { 1.0 };
+    let mean = match normalised && total <= EPSILON {
+        true => [0.0; 4],
+        false => [0, 1, 2, 3].map(|k| shares.iter().map(|s| s.weight * s.color[k]).sum::<f64>() / rest),
+    };
+    if normalised && most <= EPSILON {
+        return 0.0;
+    }
+    let apart = |a: &[f64; 4], b: &[f64; 4]| (0..4).map(|k| (a[k] - b[k]).abs()).fold(0.0, f64::max);
+    let size = |a: &[f64; 4]| apart(a, &[0.0; 4]);
+    let count = shares.len() as f64;
+    let possible = shares.iter().filter(|s| s.weight + s.off > 0.0);
+    let brightest = possible.clone().map(|s| size(&s.color)).fold(0.0, f64::max);
+    let mut range = possible.map(|s| apart(&s.color, &mean)).fold(0.0, f64::max);
+    let divisor = if normalised { least } else { 1.0 };
+    let mut by_weights = match divisor > EPSILON {
+        true => shares.iter().map(|s| s.off * apart(&s.color, &mean)).sum::<f64>() / divisor,
+        false => f64::INFINITY,
+    };
+    if !normalised {
+        by_weights += size(&mean) * (most - least).max(0.0);
+        range = f64::INFINITY;
+    } else if least <= EPSILON {
+        range = range.max(size(&mean));
+    }
+    // Products, their sum in any order, the sum of weights, a quotient; and colours as they are read.
+    let arithmetic = (2.0 * count + 12.0) * rounding.unit + rounding.read;
+    // A sum that grows beyond the largest number is infinite; what cannot even be read is left out of a mean.
+    if brightest * (1.0 + arithmetic) > rounding.largest && (rounding.read == 0.0 || !normalised) {
+        return f64::INFINITY;
+    }
+    let added: f64 = shares.iter().map(|s| (s.weight + s.off) * size(&s.color)).sum();
+    let lost = (2.0 * count + 2.0) * rounding.smallest;
+    let rounded = match divisor > EPSILON {
+        true => (arithmetic * added + lost) / divisor.min(1.0),
+        false => arithmetic * brightest,
+    };
+    by_weights.min(range) + rounded
+}
+
+/// Most that any component of every pixel may be off, row by row, in whatever a shader with these options makes of these
+/// inputs; see [`oracle::sraa`](super::sraa). Of [`Normalisation::Paper`] nothing is promised where no weight is left:
+/// infinity.
+///
+/// # Errors
+///
+/// [`OracleError::Input`] if an image or a number that the filter needs is missing or does not fit.
+pub fn sraa(inputs: &Inputs, params: &SraaParams, rounding: &Rounding) -> Result<Vec<f64>, OracleError> {
+    let definition = Definition::new(inputs, params)?;
+    let (width, height) = (inputs.size.x as i32, inputs.size.y as i32);
+    let pixels = (0..height).into_par_iter();
+    Ok(pixels
+        .flat_map_iter(|y| (0..width).map(move |x| [x, y]))
+        .map(|pixel| definition.most_off(pixel, rounding))
+        .collect())
+}
+
+/// A tap with what its difference may be.
+struct Reach {
+    falloff: f64,
+    difference: f64,
+    range: Range,
+    color: [f64; 4],
+}
+
+impl Definition<'_> {
+    fn most_off(&self, pixel: [i32; 2], rounding: &Rounding) -> f64 {
+        let reconstructed = self.reconstructed();
+        let total: f64 = reconstructed.iter().map(|(_, share)| share).sum();
+        let mut shares = Vec::new();
+        let mut largest = Range { low: 0.0, high: 0.0 };
+        for (at, share) in reconstructed {
+            let reach = self.reach(pixel, at, rounding);
+            largest = reach.iter().fold(largest, |most, tap| most.max(tap.range));
+            match self.shares(&reach, share / total, rounding) {
+                Some(own) => shares.extend(own),
+                None => return f64::INFINITY,
+            }
+        }
+        let skip = self.params.non_finite == NonFinite::Skip;
+        if skip {
+            shares.retain(|s| is_finite(&s.color));
+        }
+        let filtered = of_mean(&shares, skip, rounding);
+        let own = self.own_color(pixel);
+        if self.params.mask == Mask::None || (skip && !is_finite(&own)) {
+            return filtered;
+        }
+        // The mask's own threshold is rounded, too.
+        let threshold = self.params.mask_threshold;
+        let close = threshold * 2.0 * (rounding.read + rounding.unit);
+        let kept = rounding.read * own.iter().fold(0.0f64, |most, lane| most.max(lane.abs())) + rounding.smallest;
+        if largest.high <= threshold - close || largest.high == 0.0 {
+            return kept;
+        }
+        if largest.low > threshold + close {
+            return filtered;
+        }
+        let apart = shares.iter().flat_map(|s| (0..4).map(|k| (s.color[k] - own[k]).abs()));
+        filtered + kept + apart.fold(0.0, f64::max)
+    }
+
+    fn reach(&self, pixel: [i32; 2], at: ([i32; 2], usize), rounding: &Rounding) -> Vec<Reach> {
+        let mut places = Vec::new();
+        for y in at.0[1] - 2..=at.0[1] + 2 {
+            for x in at.0[0] - 2..=at.0[0] + 2 {
+                places.extend(self.shaded.iter().map(|sample| ([x, y], *sample)));
+            }
+        }
+        let near = places.into_iter().filter(|tap| {
+            let away = [0, 1].map(|axis| self.place(*tap)[axis] - self.place(at)[axis]);
+            self.falloff(away) > 0.0
+        });
+        let taps = self.taps(pixel, at);
+        let reached = taps.into_iter().zip(near).map(|(tap, place)| {
+            let range = match place == at {
+                true => Range { low: 0.0, high: 0.0 },
+                false => self.range(pixel, at, place, rounding),
+            };
+            Reach {
+                falloff: tap.falloff,
+                difference: tap.difference,
+                range,
+                color: tap.color,
+            }
+        });
+        reached.collect()
+    }
+
+    /// What the difference of two surfaces may be found to be.
+    fn range(&self, pixel: [i32; 2], at: ([i32; 2], usize), tap: ([i32; 2], usize), rounding: &Rounding) -> Range {
+        let u = rounding.unit;
+        let reading = |(away, sample): ([i32; 2], usize)| {
+            let there = [pixel[0] + away[0], pixel[1] + away[1]];
+            self.gbuffer.reading(there, sample, rounding)
+        };
+        let (s, t) = (self.point(pixel, at), self.point(pixel, tap));
+        let (rs, rt) = (reading(at), reading(tap));
+        let step = s.depth - t.depth;
+        let beyond = |depth: f64| depth.abs() > rounding.largest && depth < DEEPEST;
+        let same_depth = rs.stored == rt.stored || (s.depth == DEEPEST && t.depth == DEEPEST);
+        let step_off = if same_depth {
+            0.0
+        } else if beyond(s.depth) || beyond(t.depth) || s.depth.max(t.depth) == DEEPEST && rounding.largest < 1.0e6 {
+            // The sky is as deep as the largest number, and so may be what is far.
+            match s.depth.min(t.depth).abs() < rounding.largest / 2.0 {
+                true => 0.0,
+                false => f64::INFINITY,
+            }
+        } else {
+            rs.depth * s.depth.abs() + rt.depth * t.depth.abs() + u * step.abs() + rounding.smallest
+        };
+        let (per_depth, scale_off) = match self.params.difference {
+            Difference::Absolute => (1.0, 2.0 * u + rounding.read),
+            Difference::Relative => (1.0 / s.depth.max(NEAREST), rs.depth + 8.0 * u + rounding.read),
+        };
+        let scale = self.params.depth_scale * per_depth;
+        let scaled = |value: f64, off: f64| {
+            let value = scale * value.abs();
+            Range::around(value, scale * off + value * scale_off + 4.0 * rounding.smallest)
+        };
+        let by_depth = || scaled(step, step_off);
+        let by_normal = || {
+            let turn = [0, 1, 2].map(|axis| s.normal[axis] - t.normal[axis]);
+            let value = turn.iter().map(|axis| axis * axis).sum::<f64>() / 2.0;
+            if (0..4).all(|lane| rs.texel[lane].to_bits() == rt.texel[lane].to_bits()) {
+                return Range::around(value, 0.0);
+            }
+            let each = rs.normal + rt.normal;
+            let across: f64 = turn.iter().map(|axis| axis.abs()).sum();
+            let off = across * each + 1.5 * each * each + 8.0 * u * value + 4.0 * rounding.smallest;
+            Range::around(value, off)
+        };
+        let by_plane = || {
+            let ray = |axis: usize| t.ray[axis].abs() + s.ray[axis].abs();
+            let along: f64 = (0..3).map(|axis| t.ray[axis] * s.normal[axis]).sum();
+            let aside: f64 = (0..3).map(|axis| (t.ray[axis] - s.ray[axis]) * s.normal[axis]).sum();
+            let sizes: f64 = (0..3).map(|axis| ray(axis) * s.normal[axis].abs()).sum();
+            let [_, right, down] = self.gbuffer.rays().unwrap_or_default();
+            let away = [0, 1].map(|axis| (self.place(tap)[axis] - self.place(at)[axis]).abs());
+            let spans: f64 = (0..3)
+                .map(|axis| (away[0] * right[axis].abs() + away[1] * down[axis].abs()) * s.normal[axis].abs())
+                .sum();
+            let reach: f64 = (0..3).map(|axis| ray(axis)).sum();
+            let tilt = rs.normal * reach;
+            let (along_off, aside_off) = (
+                (12.0 * u + 2.0 * rounding.read) * sizes + tilt,
+                (8.0 * u + 2.0 * rounding.read) * spans
+                    + rs.normal * (right.iter().chain(&down).map(|v| v.abs()).sum::<f64>()),
+            );
+            let off = step.abs() * along_off
+                + step_off * (along.abs() + along_off)
+                + s.depth.abs() * aside_off
+                + rs.depth * s.depth.abs() * (aside.abs() + aside_off)
+                + 4.0 * u * ((step * along).abs() + (s.depth * aside).abs());
+            // The definition takes the difference of two points; it is this sum.
+            scaled(-step * along + s.depth * aside, off)
+        };
+        match self.params.metric {
+            Metric::PlanesNormals => by_plane().max(by_normal()),
+            Metric::DepthNormals => by_depth().max(by_normal()),
+            Metric::Normals => by_normal(),
+            Metric::Depth => by_depth(),
+        }
+    }
+
+    /// The share of each tap in a sample that has `share` in the pixel; `None` where nothing is promised.
+    fn shares(&self, reach: &[Reach], share: f64, rounding: &Rounding) -> Option<Vec<Share>> {
+        let nearest = |of: fn(&Reach) -> f64| reach.iter().map(of).fold(f64::INFINITY, f64::min);
+        let (origin, least) = match self.params.normalisation {
+            Normalisation::Shifted => (nearest(|tap| tap.difference), nearest(|tap| tap.range.low)),
+            Normalisation::Paper | Normalisation::Epsilon => (0.0, 0.0),
+        };
+        // All weights may be multiplied by one number: origins differ, shares do not.
+        let tau = self.params.steepness();
+        let ends = reach.iter().map(|tap| {
+            let steep = tau * std::f64::consts::LOG2_E * (tap.range.high - least);
+            let rounded = rounding.of_exponential(steep) + 4.0 * rounding.unit;
+            let high = tap.falloff * (rounded - tau * (tap.range.low - least)).min(rounded.min(1.0)).exp();
+            let low = tap.falloff * (-rounded - tau * (tap.range.high - least)).exp();
+            ((low - rounding.smallest).max(0.0), high + rounding.smallest)
+        });
+        let ends: Vec<(f64, f64)> = ends.collect();
+        let weight = |tap: &Reach| tap.falloff * (-tau * (tap.difference - origin)).exp();
+        let total: f64 = reach.iter().map(weight).sum();
+        let (lows, highs) = ends.iter().fold((0.0, 0.0), |(l, h), (low, high)| (l + low, h + high));
+        if self.params.normalisation == Normalisation::Paper && lows < 100.0 * rounding.smallest {
+            return None;
+        }
+        let epsilon = match self.params.normalisation {
+            Normalisation::Epsilon => EPSILON,
+            Normalisation::Paper | Normalisation::Shifted => 0.0,
+        };
+        let summed = (reach.len() as f64 + 8.0) * rounding.unit;
+        let own = reach.iter().zip(ends).map(|(tap, (low, high))| {
+            let exact = weight(tap) / total.max(epsilon);
+            let most = ratio(high, (lows - low + high).max(epsilon)).min(1.0);
+            let fewest = low / (highs - high + low).max(epsilon).max(f64::MIN_POSITIVE);
+            let bright = tap
+                .color
+                .iter()
+                .any(|lane| lane.abs() >= rounding.largest * (1.0 - rounding.read));
+            // A colour that these bits cannot hold may be left out.
+            let fewest = if bright && rounding.read > 0.0 { 0.0 } else { fewest };
+            let off = (most - exact).max(exact - fewest).max(0.0);
+            Share {
+                color: tap.color,
+                weight: share * exact,
+                off: share * (off + summed * (exact + off)) + 2.0 * rounding.smallest,
+            }
+        });
+        Some(own.collect())
+    }
+}
+
+fn ratio(part: f64, whole: f64) -> f64 {
+    if whole > 0.0 { part / whole } else { 1.0 }
+}

@@ -1,0 +1,198 @@
+//! What filters of quads are to give, by definition: pixel by pixel, in `f64`, without quads, lanes or messages.
+
+mod shadow;
+mod surface;
+
+pub use shadow::{Shadow, pcf_around, pcf_bilinear, pcss, slope_fitted, slope_prewitt};
+pub use surface::{Ao, ssao};
+
+/// An image in `f64`, its border continued outwards.
+pub struct Picture {
+    /// Width and height.
+    pub size: [i64; 2],
+    /// Row by row.
+    pub texels: Vec<[f64; 4]>,
+}
+
+impl Picture {
+    /// The texel at a place, or the nearest one on the border.
+    pub fn at(&self, x: i64, y: i64) -> [f64; 4] {
+        let (x, y) = (x.clamp(0, self.size[0] - 1), y.clamp(0, self.size[1] - 1));
+        self.texels[(y * self.size[0] + x) as usize]
+    }
+}
+
+/// The sum of the pixels around, each times its weight.
+pub fn convolution(image: &Picture, radius: i64, weight: impl Fn(i64, i64) -> f64, [x, y]: [i64; 2]) -> [f64; 4] {
+    let mut sum = [0.0; 4];
+    for j in -radius..=radius {
+        for i in -radius..=radius {
+            let texel = image.at(x + i, y + j);
+            for k in 0..4 {
+                sum[k] += weight(i, j) * texel[k];
+            }
+        }
+    }
+    sum
+}
+
+/// Entry `x` from the middle of row 2k of Pascal's triangle, over the row's sum.
+pub fn binomial(radius: i64, x: i64) -> f64 {
+    let factorial = |n: i64| (1..=n).map(|k| k as f64).product::<f64>();
+    let n = 2 * radius;
+    factorial(n) / factorial(radius + x) / factorial(radius - x) / 2.0f64.powi(n as i32)
+}
+
+/// Depths are at most this, by definition of the filters; what is infinite or not a number is as deep.
+const DEEPEST: f64 = 1.0e30_f32 as f64;
+
+/// Colours are less than this, by definition of the filters; a texel with another has no weight.
+const BRIGHTEST: f64 = 3.0e38;
+
+/// `depth` as it counts.
+pub fn bounded(depth: f64) -> f64 {
+    if depth.abs() < DEEPEST { depth } else { DEEPEST }
+}
+
+/// A texel as it counts, colour and depth: one of whose first `lanes` components any is not finite is black, and of no
+/// surface.
+pub fn counted(texel: [f64; 4], lanes: usize) -> [f64; 4] {
+    match texel.iter().take(lanes).all(|c| c.abs() < BRIGHTEST) {
+        true => [texel[0], texel[1], texel[2], bounded(texel[3])],
+        false => [0.0, 0.0, 0.0, -DEEPEST],
+    }
+}
+
+/// The mean of the pixels around, weighed by Gaussians of distance and of depth, the fourth component.
+pub fn bilateral(image: &Picture, radius: i64, sigma: f64, depth_sigma: f64, [x, y]: [i64; 2]) -> [f64; 4] {
+    let surface = |x: i64, y: i64| counted(image.at(x, y), 3);
+    let centre = surface(x, y);
+    let (mut sum, mut total) = ([0.0; 3], 0.0);
+    for j in -radius..=radius {
+        for i in -radius..=radius {
+            let texel = surface(x + i, y + j);
+            let z = (texel[3] - centre[3]) / depth_sigma;
+            let weight = (-0.5 * (((i * i + j * j) as f64) / (sigma * sigma) + z * z)).exp();
+            total += weight;
+            for k in 0..3 {
+                sum[k] += weight * texel[k];
+            }
+        }
+    }
+    [
+        sum[0] / total,
+        sum[1] / total,
+        sum[2] / total,
+        bounded(image.at(x, y)[3]),
+    ]
+}
+
+/// What tells surfaces apart in upsampling.
+pub struct Upsampled<'a> {
+    /// Pixels to one of low resolution.
+    pub factor: i64,
+    /// The low resolution, and depth in the fourth component of its surface.
+    pub low: &'a Picture,
+    /// Normals and depths of the low resolution.
+    pub surface: &'a Picture,
+    /// Depth of the frame, first component.
+    pub depth: &'a Picture,
+    /// Normals of the frame.
+    pub normal: &'a Picture,
+    /// Difference of depths at a weight of exp(-1/2).
+    pub depth_sigma: f64,
+    /// The same of 1 less the cosine of normals, if they count.
+    pub normal_sigma: Option<f64>,
+}
+
+/// A texel of low resolution as a pixel sees it.
+#[derive(Clone, Copy, Debug)]
+pub struct Tap {
+    /// Its colour; black if that does not count.
+    pub color: [f64; 4],
+    /// Its weight by distance on the screen.
+    pub tent: f64,
+    /// How far its depth is from the pixel's.
+    pub away: f64,
+    /// One less the cosine between normals, in units of its sigma; 0 if normals do not count.
+    pub turned: f64,
+    /// Sum of the sizes of the cosine's products; 0 where they tell nothing.
+    pub products: f64,
+    /// What its weight is exp(-1/2) to the power of.
+    pub exponent: f64,
+}
+
+/// The four texels of low resolution around the pixel's centre, each standing for a corner of pixels.
+pub fn upsampling_taps(inputs: &Upsampled<'_>, [x, y]: [i64; 2]) -> [Tap; 4] {
+    let factor = inputs.factor as f64;
+    let place = [(x as f64 + 0.5) / factor, (y as f64 + 0.5) / factor];
+    let first = place.map(f64::floor);
+    let z = bounded(inputs.depth.at(x, y)[0]);
+    let normal = inputs.normal.at(x, y);
+    [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]].map(|[i, j]| {
+        let at = [first[0] + i, first[1] + j];
+        let tent = (1.0 - (place[0] - at[0]).abs()) * (1.0 - (place[1] - at[1]).abs());
+        let texel = inputs.low.at(at[0] as i64, at[1] as i64);
+        let surface = inputs.surface.at(at[0] as i64, at[1] as i64);
+        let (color, depth) = match texel.iter().all(|c| c.abs() < BRIGHTEST) {
+            true => (texel, bounded(surface[3])),
+            false => ([0.0; 4], -DEEPEST),
+        };
+        let away = (depth - z).abs();
+        let (mut turned, mut products) = (0.0, 0.0);
+        if let Some(sigma) = inputs.normal_sigma {
+            let cosine: f64 = (0..3).map(|k| surface[k] * normal[k]).sum();
+            products = 1.0 + (0..3).map(|k| (surface[k] * normal[k]).abs()).sum::<f64>();
+            products = if cosine.is_nan() { 0.0 } else { products };
+            turned = (1.0 - cosine) / sigma;
+            // What is no number tells nothing.
+            turned = if turned.is_nan() { 0.0 } else { turned };
+        }
+        Tap {
+            color,
+            tent,
+            away,
+            turned,
+            products,
+            exponent: (away / inputs.depth_sigma).powi(2) + turned.powi(2),
+        }
+    })
+}
+
+/// The four texels of low resolution around the pixel's centre, weighed: tent times Gaussians. Where none is of a like
+/// surface, the one with the nearest depth.
+pub fn upsampling(inputs: &Upsampled<'_>, at: [i64; 2]) -> [f64; 4] {
+    let taps = upsampling_taps(inputs, at);
+    let (mut sum, mut total) = ([0.0; 4], 0.0);
+    let mut nearest = (f64::INFINITY, [0.0; 4]);
+    for tap in taps {
+        let weight = tap.tent * (-0.5 * tap.exponent).exp();
+        total += weight;
+        for (sum, lane) in sum.iter_mut().zip(tap.color) {
+            *sum += weight * lane;
+        }
+        if tap.away < nearest.0 {
+            nearest = (tap.away, tap.color);
+        }
+    }
+    if total > 1.0e-20 {
+        sum.map(|s| s / total)
+    } else {
+        nearest.1
+    }
+}
+
+/// The depth nearest to the viewer among the pixels around a corner, and where it is.
+pub fn downsampling(depth: &Picture, factor: i64, [x, y]: [i64; 2]) -> ([i64; 2], f64) {
+    let mut found = ([0, 0], f64::INFINITY);
+    for j in 0..factor {
+        for i in 0..factor {
+            let at = [x * factor - factor / 2 + i, y * factor - factor / 2 + j];
+            let z = depth.at(at[0], at[1])[0];
+            if z < found.1 {
+                found = (at, z);
+            }
+        }
+    }
+    found
+}

@@ -1,0 +1,206 @@
+//! Unroll against loop.
+
+use super::plot::{Dot, Line, Plot, Scale, number};
+use super::{ReportError, caption, options};
+use crate::record::{Form, FormKind, KernelForms, LoopsRecord};
+use serde::Serialize;
+
+#[derive(Debug, Serialize)]
+pub(super) struct Loops {
+    caption: String,
+    /// Ratios of all kernels.
+    overview: String,
+    /// Ratio by form, a line for each kernel.
+    curves: String,
+    legend: Vec<(&'static str, &'static str)>,
+    kernels: Vec<Kernel>,
+}
+
+#[derive(Debug, Serialize)]
+struct Kernel {
+    name: String,
+    options: String,
+    input: String,
+    rows: Vec<Row>,
+    absent: Vec<(&'static str, String)>,
+}
+
+#[derive(Debug, Serialize)]
+struct Row {
+    form: &'static str,
+    time: String,
+    spread: String,
+    ratio: String,
+    ratio_spread: String,
+    pipeline: String,
+    loops: u32,
+    statements: u32,
+    reads: u32,
+    spirv: String,
+    error: String,
+    largest: String,
+}
+
+/// Forms in the order of the page, with their words and colours.
+const FORMS: [(FormKind, &str, usize); 9] = [
+    (FormKind::Looped, "looped", 7),
+    (FormKind::LoopedUnchecked, "looped, unbounded", 5),
+    (FormKind::LoopedByHand, "looped by hand", 4),
+    (FormKind::Partial2, "partial(2)", 3),
+    (FormKind::Partial4, "partial(4)", 1),
+    (FormKind::FullUnshared, "unrolled, loads not shared", 6),
+    (FormKind::Full, "unrolled", 0),
+    (FormKind::FullBlock, "unrolled, 2×2 pixels", 2),
+    (FormKind::Floor, "floor", 7),
+];
+
+fn words(kind: FormKind) -> (&'static str, usize) {
+    let found = FORMS.iter().find(|(known, ..)| *known == kind);
+    found.map_or(("", 0), |(_, words, color)| (words, *color))
+}
+
+pub(super) fn section(record: &LoopsRecord) -> Result<Loops, ReportError> {
+    let shown = FORMS.iter().filter(|(kind, ..)| *kind != FormKind::Looped);
+    Ok(Loops {
+        caption: caption(&record.circumstances),
+        overview: overview(record)?,
+        curves: curves(record)?,
+        legend: shown
+            .map(|(_, words, color)| (*words, super::plot::COLORS[*color]))
+            .collect(),
+        kernels: record.kernels.iter().map(kernel).collect(),
+    })
+}
+
+fn overview(record: &LoopsRecord) -> Result<String, ReportError> {
+    let count = record.kernels.len();
+    let mut dots = Vec::new();
+    for (row, kernel) in record.kernels.iter().enumerate() {
+        for form in kernel.forms.iter().filter(|form| form.kind != FormKind::Looped) {
+            let (words, color) = words(form.kind);
+            dots.push(Dot {
+                at: (form.ratio.median, (count - 1 - row) as f64),
+                spread: Some((form.ratio.low, form.ratio.high)),
+                color,
+                label: None,
+                title: format!(
+                    "{}, {words}: {}× as fast as looped ({} to {}), {} ms",
+                    kernel.kernel,
+                    number(form.ratio.median),
+                    number(form.ratio.low),
+                    number(form.ratio.high),
+                    number(form.time.median_ms)
+                ),
+            });
+        }
+    }
+    let one = Line {
+        points: vec![(1.0, -0.5), (1.0, count as f64 - 0.5)],
+        color: 7,
+        dashed: true,
+        label: None,
+    };
+    let plot = Plot {
+        size: (980, 70 + 34 * count as u32),
+        axes: (
+            "times as fast as the loop, as wgpu compiles it".to_owned(),
+            String::new(),
+        ),
+        scales: (
+            Scale::Log,
+            Scale::Names(record.kernels.iter().rev().map(|k| k.kernel.clone()).collect()),
+        ),
+        across: true,
+        dots,
+        lines: vec![one],
+    };
+    plot.svg()
+}
+
+fn curves(record: &LoopsRecord) -> Result<String, ReportError> {
+    const STEPS: [FormKind; 6] = [
+        FormKind::Looped,
+        FormKind::Partial2,
+        FormKind::Partial4,
+        FormKind::FullUnshared,
+        FormKind::Full,
+        FormKind::FullBlock,
+    ];
+    let mut lines = Vec::new();
+    let mut dots = Vec::new();
+    for (index, kernel) in record.kernels.iter().enumerate() {
+        let place = |kind: FormKind| STEPS.iter().position(|step| *step == kind);
+        let mut points: Vec<(f64, f64)> = kernel
+            .forms
+            .iter()
+            .filter_map(|form| Some((place(form.kind)? as f64, form.ratio.median)))
+            .collect();
+        points.sort_by(|a, b| a.0.total_cmp(&b.0));
+        for form in &kernel.forms {
+            if let Some(step) = place(form.kind) {
+                dots.push(Dot {
+                    at: (step as f64, form.ratio.median),
+                    spread: None,
+                    color: index,
+                    label: None,
+                    title: format!(
+                        "{}, {}: {}×",
+                        kernel.kernel,
+                        words(form.kind).0,
+                        number(form.ratio.median)
+                    ),
+                });
+            }
+        }
+        lines.push(Line {
+            points,
+            color: index,
+            dashed: false,
+            label: Some(kernel.kernel.clone()),
+        });
+    }
+    let plot = Plot {
+        size: (980, 460),
+        axes: (String::new(), "times as fast as the loop".to_owned()),
+        scales: (
+            Scale::Names(STEPS.iter().map(|kind| words(*kind).0.to_owned()).collect()),
+            Scale::Log,
+        ),
+        across: false,
+        dots,
+        lines,
+    };
+    plot.svg()
+}
+
+fn kernel(kernel: &KernelForms) -> Kernel {
+    Kernel {
+        name: kernel.kernel.clone(),
+        options: options(&kernel.options),
+        input: kernel.input.clone(),
+        rows: kernel.forms.iter().map(row).collect(),
+        absent: kernel
+            .absent
+            .iter()
+            .map(|(kind, why)| (words(*kind).0, why.clone()))
+            .collect(),
+    }
+}
+
+fn row(form: &Form) -> Row {
+    let error = |value: Option<f64>| value.map_or("–".to_owned(), |v| format!("{v:.0e}"));
+    Row {
+        form: words(form.kind).0,
+        time: number(form.time.median_ms),
+        spread: format!("{} to {}", number(form.time.min_ms), number(form.time.max_ms)),
+        ratio: format!("{:.2}", form.ratio.median),
+        ratio_spread: format!("{:.2} to {:.2}", form.ratio.low, form.ratio.high),
+        pipeline: number(form.pipeline_ms),
+        loops: form.loops,
+        statements: form.statements,
+        reads: form.reads,
+        spirv: format!("{:.1}", form.spirv_bytes as f64 / 1024.0),
+        error: error(form.difference_999),
+        largest: error(form.difference),
+    }
+}

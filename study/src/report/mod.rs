@@ -1,0 +1,200 @@
+//! One page of all records in a folder: plots, tables, pictures to compare. It needs nothing beside itself.
+
+mod hard;
+mod loops;
+mod pictures;
+mod plot;
+mod quality;
+mod tune;
+
+use crate::record::{Circumstances, HardRecord, LoopsRecord, QualityRecord, Record, RecordError, TuneRecord, whole};
+use serde::Serialize;
+use std::path::{Path, PathBuf};
+use tera::{Context, Tera};
+
+/// Name of the page.
+pub const PAGE: &str = "report.html";
+
+/// Why there is no page.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum ReportError {
+    /// A record cannot be read, or the page cannot be written.
+    #[error(transparent)]
+    Record(#[from] RecordError),
+    /// A picture that a record names cannot be shown.
+    #[error(transparent)]
+    Picture(#[from] crate::picture::PictureError),
+    /// There is no record.
+    #[error("there is no record in `{}`: run `study loops`, `study error`, `study hard` or `tune` with this --out first", .0.display())]
+    Empty(PathBuf),
+    /// Figures that cannot be drawn.
+    #[error("a plot cannot be drawn: {0}")]
+    Plot(String),
+    /// The page's own template.
+    #[error("the page cannot be put together: {0}")]
+    Template(String),
+}
+
+/// Makes `report.html` in `folder` from every record that lies there: `loops*.json`, `error*.json`, `hard*.json` and
+/// `tune*.json`, with the pictures that they name. Returns its path.
+///
+/// # Errors
+///
+/// [`ReportError`]; the page is whole, or as it was before.
+pub fn write(folder: &Path) -> Result<PathBuf, ReportError> {
+    let html = page(folder)?;
+    let path = folder.join(PAGE);
+    whole(&path, html.as_bytes())?;
+    Ok(path)
+}
+
+/// The page as text.
+///
+/// # Errors
+///
+/// [`ReportError`].
+pub fn page(folder: &Path) -> Result<String, ReportError> {
+    let mut pictures = pictures::Pictures::default();
+    let loops = sections(folder, |record: LoopsRecord| loops::section(&record))?;
+    let quality = sections(folder, |record: QualityRecord| {
+        quality::section(&record, folder, &mut pictures)
+    })?;
+    let hard = sections(folder, |record: HardRecord| Ok(hard::section(&record)))?;
+    let tune = sections(folder, |record: TuneRecord| tune::section(&record))?;
+    if loops.is_empty() && quality.is_empty() && hard.is_empty() && tune.is_empty() {
+        return Err(ReportError::Empty(folder.to_owned()));
+    }
+    let mut context = Context::new();
+    context.insert("loops", &loops);
+    context.insert("quality", &quality);
+    context.insert("hard", &hard);
+    context.insert("tune", &tune);
+    context.insert("pictures", &pictures.css());
+    context.insert("style", include_str!("page/style.css"));
+    context.insert("script", include_str!("page/script.js"));
+    render(&context)
+}
+
+fn render(context: &Context) -> Result<String, ReportError> {
+    let failure = |error: tera::Error| {
+        let mut text = error.to_string();
+        let mut source = std::error::Error::source(&error);
+        while let Some(inner) = source {
+            text = format!("{text}: {inner}");
+            source = inner.source();
+        }
+        ReportError::Template(text)
+    };
+    let mut tera = Tera::default();
+    tera.add_raw_templates([
+        ("shared.html", include_str!("page/shared.html")),
+        ("loops.html", include_str!("page/loops.html")),
+        ("error.html", include_str!("page/error.html")),
+        ("hard.html", include_str!("page/hard.html")),
+        ("tune.html", include_str!("page/tune.html")),
+        ("page.html", include_str!("page/page.html")),
+    ])
+    .map_err(failure)?;
+    tera.render("page.html", context).map_err(failure)
+}
+
+/// What the page says of one record.
+#[derive(Debug, Serialize)]
+struct Section<T> {
+    /// Name of the record's file.
+    file: String,
+    #[serde(flatten)]
+    body: T,
+}
+
+/// Every record of a kind in the folder, in order of name.
+fn sections<R: Record, T>(
+    folder: &Path,
+    mut body: impl FnMut(R) -> Result<T, ReportError>,
+) -> Result<Vec<Section<T>>, ReportError> {
+    let entries = std::fs::read_dir(folder).map_err(|source| {
+        ReportError::Record(RecordError::File {
+            doing: "read",
+            path: folder.to_owned(),
+            source,
+        })
+    })?;
+    let mut files: Vec<String> = entries
+        .filter_map(|entry| entry.ok()?.file_name().into_string().ok())
+        .filter(|name| belongs(name, R::STEM))
+        .collect();
+    files.sort();
+    let section = |file: String| {
+        let body = body(R::read(&folder.join(&file))?)?;
+        Ok(Section { file, body })
+    };
+    files.into_iter().map(section).collect()
+}
+
+/// Whether a file is `STEM.json` or `STEM-SOMETHING.json`.
+fn belongs(file: &str, stem: &str) -> bool {
+    file.strip_suffix(".json")
+        .and_then(|name| name.strip_prefix(stem))
+        .is_some_and(|rest| rest.is_empty() || rest.starts_with('-'))
+}
+
+/// The circumstances in a line, for the caption of a figure.
+fn caption(circumstances: &Circumstances) -> String {
+    let Circumstances {
+        command,
+        date,
+        adapter,
+        processor,
+        clock,
+        size: [width, height],
+        rounds,
+        complete,
+    } = circumstances;
+    let clock = match clock {
+        crate::execute::Clock::GpuTimestamps => "GPU timestamps",
+        crate::execute::Clock::WallClock => "wall clock",
+    };
+    let interrupted = if *complete {
+        ""
+    } else {
+        " · interrupted: not all was measured"
+    };
+    format!(
+        "{adapter} · {processor} · {width}×{height} · {rounds} rounds in turn, {clock} · {} · {command}{interrupted}",
+        date.get(..10).unwrap_or(date)
+    )
+}
+
+/// Options as one would write them on a command line.
+fn options(options: &[(String, String)]) -> String {
+    let words: Vec<String> = options.iter().map(|(name, value)| format!("{name}={value}")).collect();
+    words.join(" ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn records_are_known_by_their_names() {
+        assert!(belongs("loops.json", "loops") && belongs("loops-lavapipe.json", "loops"));
+        assert!(!belongs("loops.csv", "loops") && !belongs("loopsy.json", "loops") && !belongs("error.json", "loops"));
+    }
+
+    #[test]
+    fn an_empty_folder_has_no_page() {
+        let folder = std::env::temp_dir().join(format!("straightline-report-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).unwrap();
+        let error = page(&folder).unwrap_err().to_string();
+        assert!(error.contains("no record") && error.contains("study loops"), "{error}");
+        std::fs::write(folder.join("hard.json"), "{}").unwrap();
+        let error = page(&folder).unwrap_err().to_string();
+        assert!(
+            error.contains("hard.json") && error.contains("missing field"),
+            "{error}"
+        );
+        std::fs::remove_dir_all(&folder).unwrap();
+        assert!(page(&folder).unwrap_err().to_string().contains("cannot read"));
+    }
+}

@@ -1,0 +1,262 @@
+//! Speed against error.
+
+use super::pictures::{Compared, Pictures};
+use super::plot::{Dot, Line, Plot, Scale, number};
+use super::{ReportError, caption, options};
+use crate::record::{Family, Gap, MOST_DB, MethodErrors, QualityRecord, SceneErrors};
+use serde::Serialize;
+use std::path::Path;
+
+#[derive(Debug, Serialize)]
+pub(super) struct Quality {
+    caption: String,
+    /// PSNR of each method on each scene.
+    methods: Vec<Method>,
+    names: Vec<String>,
+    legend: Vec<(&'static str, &'static str)>,
+    scenes: Vec<SceneSection>,
+}
+
+#[derive(Debug, Serialize)]
+struct Method {
+    name: String,
+    psnr: Vec<Option<String>>,
+    gap: String,
+    flip: String,
+}
+
+#[derive(Debug, Serialize)]
+struct SceneSection {
+    name: String,
+    purpose: String,
+    shares: String,
+    plot: String,
+    rows: Vec<Row>,
+    absent: Vec<(String, String)>,
+    gaps: Vec<GapRow>,
+    compared: Option<Compared>,
+}
+
+/// How far a method is from supersampling, in dB, and where that comes from.
+#[derive(Debug, Serialize)]
+struct GapRow {
+    method: String,
+    bound: String,
+    gap: String,
+    unseen: String,
+    borrowed: String,
+    error_unseen: String,
+    gap_seen: String,
+}
+
+#[derive(Debug, Serialize)]
+struct Row {
+    method: String,
+    options: String,
+    psnr: String,
+    flip: String,
+    ssim: String,
+    geometry: String,
+    shading: String,
+    flat: String,
+    gap: String,
+    temporal: String,
+    time: String,
+    bytes: String,
+    non_finite: usize,
+}
+
+/// Families with their words and colours.
+const FAMILIES: [(Family, &str, usize); 5] = [
+    (Family::None, "no antialiasing", 6),
+    (Family::Sraa, "SRAA", 0),
+    (Family::Edge, "edge filters of the G-buffer", 2),
+    (Family::Picture, "filters of the picture", 1),
+    (Family::Supersampling, "more samples", 7),
+];
+
+fn color(family: Family) -> usize {
+    FAMILIES
+        .iter()
+        .find(|(f, ..)| *f == family)
+        .map_or(0, |(.., color)| *color)
+}
+
+pub(super) fn section(record: &QualityRecord, folder: &Path, pictures: &mut Pictures) -> Result<Quality, ReportError> {
+    let mut names: Vec<&str> = Vec::new();
+    for method in record.scenes.iter().flat_map(|scene| &scene.methods) {
+        if !names.contains(&method.method.as_str()) {
+            names.push(&method.method);
+        }
+    }
+    let scenes: Result<Vec<SceneSection>, ReportError> = record
+        .scenes
+        .iter()
+        .map(|scene| scene_section(scene, folder, pictures))
+        .collect();
+    Ok(Quality {
+        caption: caption(&record.circumstances),
+        methods: names.iter().map(|name| method(record, name)).collect(),
+        names: record.scenes.iter().map(|scene| scene.scene.clone()).collect(),
+        legend: FAMILIES
+            .iter()
+            .map(|(_, words, color)| (*words, super::plot::COLORS[*color]))
+            .collect(),
+        scenes: scenes?,
+    })
+}
+
+fn method(record: &QualityRecord, name: &str) -> Method {
+    let found = |scene: &SceneErrors| scene.methods.iter().find(|m| m.method == name).cloned();
+    let all: Vec<Option<MethodErrors>> = record.scenes.iter().map(found).collect();
+    let mean = |pick: fn(&MethodErrors) -> Option<f64>| {
+        let values: Vec<f64> = all.iter().flatten().filter_map(pick).collect();
+        (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
+    };
+    Method {
+        name: name.to_owned(),
+        psnr: all.iter().map(|m| m.as_ref().map(|m| decibels(m.psnr))).collect(),
+        gap: percent(mean(|m| m.gap_closed)),
+        flip: mean(|m| Some(m.flip)).map_or(NONE.to_owned(), |flip| format!("{flip:.4}")),
+    }
+}
+
+fn decibels(psnr: f64) -> String {
+    match psnr < MOST_DB {
+        true => format!("{psnr:.2}"),
+        false => "∞".to_owned(),
+    }
+}
+
+/// What stands where there is no figure.
+const NONE: &str = "–";
+
+fn percent(share: Option<f64>) -> String {
+    share.map_or(NONE.to_owned(), |share| format!("{:.0} %", share * 100.0))
+}
+
+fn scene_section(scene: &SceneErrors, folder: &Path, pictures: &mut Pictures) -> Result<SceneSection, ReportError> {
+    let files: Vec<(&str, &str)> = scene
+        .methods
+        .iter()
+        .filter_map(|m| Some((m.method.as_str(), m.picture.as_deref()?)))
+        .collect();
+    let compared = match &scene.reference {
+        Some(reference) if !files.is_empty() => pictures.compare(folder, reference, &files)?,
+        _ => None,
+    };
+    let percent = |share: f64| format!("{:.1} %", share * 100.0);
+    let gap = |gap: &Gap| GapRow {
+        method: gap.method.clone(),
+        bound: gap.bound.clone(),
+        gap: format!("{:+.2}", gap.psnr - gap.bound_psnr),
+        unseen: format!("{:+.2}", gap.ideal_psnr - gap.bound_psnr),
+        borrowed: format!("{:+.2}", gap.psnr - gap.ideal_psnr),
+        error_unseen: percent(gap.error_unseen),
+        gap_seen: match (gap.psnr_seen, gap.bound_psnr_seen) {
+            (Some(psnr), Some(bound)) => format!("{:+.2}", psnr - bound),
+            _ => NONE.to_owned(),
+        },
+    };
+    Ok(SceneSection {
+        name: scene.scene.clone(),
+        purpose: scene.purpose.clone(),
+        shares: format!(
+            "{} of its pixels have an edge of geometry, {} an edge of shading alone; {} show a surface that no shading sample saw.",
+            percent(scene.shares.geometry),
+            percent(scene.shares.shading),
+            percent(scene.shares.unseen)
+        ),
+        plot: plot(scene)?,
+        rows: scene.methods.iter().map(row).collect(),
+        absent: scene.absent.clone(),
+        gaps: scene.gaps.iter().map(gap).collect(),
+        compared,
+    })
+}
+
+fn plot(scene: &SceneErrors) -> Result<String, ReportError> {
+    let timed: Vec<(&MethodErrors, f64)> = scene
+        .methods
+        .iter()
+        .filter_map(|m| Some((m, m.time?.median_ms)))
+        .filter(|(m, ms)| m.psnr.is_finite() && *ms > 0.0)
+        .collect();
+    // What no other method beats in both.
+    let best = |m: &MethodErrors, ms: f64| !timed.iter().any(|(other, o)| other.psnr > m.psnr && *o < ms);
+    let mut front: Vec<(f64, f64)> = timed
+        .iter()
+        .filter(|(m, ms)| best(m, *ms))
+        .map(|(m, ms)| (*ms, m.psnr))
+        .collect();
+    front.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let dots: Vec<Dot> = timed
+        .iter()
+        .map(|(m, ms)| Dot {
+            at: (*ms, m.psnr),
+            spread: None,
+            color: color(m.family),
+            label: best(m, *ms).then(|| m.method.clone()),
+            title: format!(
+                "{}: {} dB, FLIP {:.4}, {} ms",
+                m.method,
+                decibels(m.psnr),
+                m.flip,
+                number(*ms)
+            ),
+        })
+        .collect();
+    let fastest = timed.iter().map(|(_, ms)| *ms).fold(f64::INFINITY, f64::min);
+    let slowest = timed.iter().map(|(_, ms)| *ms).fold(0.0, f64::max);
+    let ends = match fastest.is_finite() {
+        true => (fastest, slowest.max(fastest * 1.01)),
+        false => (1.0, 2.0),
+    };
+    let untimed = scene.methods.iter().filter(|m| m.time.is_none() && m.psnr.is_finite());
+    let mut lines: Vec<Line> = untimed
+        .map(|m| Line {
+            points: vec![(ends.0, m.psnr), (ends.1, m.psnr)],
+            color: color(m.family),
+            dashed: true,
+            label: Some(m.method.clone()),
+        })
+        .collect();
+    lines.push(Line {
+        points: front,
+        color: 5,
+        dashed: false,
+        label: None,
+    });
+    lines.retain(|line| !line.points.is_empty());
+    let plot = Plot {
+        size: (980, 440),
+        axes: (
+            "time of the filter in ms".to_owned(),
+            "PSNR in dB (more is better)".to_owned(),
+        ),
+        scales: (Scale::Log, Scale::Linear),
+        across: true,
+        dots,
+        lines,
+    };
+    plot.svg()
+}
+
+fn row(m: &MethodErrors) -> Row {
+    let class = |value: Option<f64>| value.map_or(NONE.to_owned(), decibels);
+    Row {
+        method: m.method.clone(),
+        options: options(&m.options),
+        psnr: decibels(m.psnr),
+        flip: format!("{:.4}", m.flip),
+        ssim: format!("{:.4}", m.ssim),
+        geometry: class(m.psnr_geometry),
+        shading: class(m.psnr_shading),
+        flat: class(m.psnr_flat),
+        gap: percent(m.gap_closed),
+        temporal: m.temporal.map_or(NONE.to_owned(), |v| format!("{v:.1e}")),
+        time: m.time.map_or(NONE.to_owned(), |t| number(t.median_ms)),
+        bytes: format!("{:.1}", m.bytes as f64 / 1e6),
+        non_finite: m.non_finite,
+    }
+}

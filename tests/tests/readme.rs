@@ -1,0 +1,53 @@
+//! The figures of the documents are those of the records that they cite.
+//!
+//! After new measurements: `STRAIGHTLINE_BLESS=1 cargo test -p straightline-tests --test readme`.
+
+use std::path::Path;
+use straightline_tests::readme::filled;
+
+#[test]
+fn tables_are_what_their_records_say() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let mut tables = 0;
+    for name in ["README.md", "docs/study.md"] {
+        let path = root.join(name);
+        let document = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{name}: {error}"));
+        let expected = filled(&document, &root.join("study/records")).unwrap_or_else(|error| panic!("{name}: {error}"));
+        tables += document.lines().filter(|line| line.starts_with("<!-- table ")).count();
+        if std::env::var_os("STRAIGHTLINE_BLESS").is_some() {
+            std::fs::write(&path, &expected).expect("the document is written");
+        } else {
+            assert!(
+                document == expected,
+                "{name} and study/records/ disagree: measure again, or run STRAIGHTLINE_BLESS=1 cargo test -p straightline-tests --test readme"
+            );
+        }
+    }
+    assert!(tables >= 4, "the documents cite {tables} records");
+}
+
+#[test]
+fn a_changed_figure_is_noticed() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let records = root.join("study/records");
+    let made =
+        filled("<!-- table loops of loops-lavapipe.json -->\n<!-- end -->\n", &records).expect("the record is there");
+    let digit = made.rfind(|c: char| c.is_ascii_digit()).expect("a figure");
+    let mut changed = made.clone();
+    changed.replace_range(digit..=digit, if &made[digit..=digit] == "9" { "8" } else { "9" });
+    assert_eq!(filled(&changed, &records).expect("filled"), made);
+    assert_ne!(changed, made);
+}
+
+#[test]
+fn bad_markers_are_told() {
+    let records = Path::new("nowhere");
+    for (document, expected) in [
+        ("<!-- table loops -->\n<!-- end -->\n", "names no record"),
+        ("<!-- table loops of a.json -->\n<!-- end -->\n", "a.json"),
+        ("<!-- table lops of a.json -->\n<!-- end -->\n", "no table `lops`"),
+    ] {
+        let error = filled(document, records).unwrap_err();
+        assert!(error.contains(expected), "{error}");
+    }
+}
