@@ -37,3 +37,41 @@ pub struct LeftOut {
     /// What that cost: error without it less error with it, by the metric, a loss being positive.
     pub cost: f64,
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Manifest;
+
+    const OLDER: &str = include_str!("../../shaders-out/sraa4.json");
+
+    #[test]
+    fn a_manifest_without_it_reads_and_writes_as_ever() {
+        let manifest = Manifest::from_json(OLDER).expect("an older manifest is read");
+        assert_eq!(manifest.tuned, None);
+        assert_eq!(manifest.to_json(), OLDER);
+    }
+
+    #[test]
+    fn what_was_left_out_comes_back() {
+        let mut manifest = Manifest::from_json(OLDER).expect("a manifest");
+        manifest.tuned = Some(Tuned {
+            scene: "floor".to_owned(),
+            size: [640, 360],
+            metric: "psnr".to_owned(),
+            max_error: 0.5,
+            best: 41.5,
+            error: 41.25,
+            general: 41.375,
+            adapter: "some adapter".to_owned(),
+            times_as_fast: 2.5,
+            left_out: vec![LeftOut {
+                term: "normals".to_owned(),
+                cost: 0.125,
+            }],
+        });
+        let text = manifest.to_json();
+        assert_eq!(Manifest::from_json(&text).expect("it reads its own"), manifest);
+        assert!(Manifest::from_json(&text.replace("\"left_out\"", "\"omitted\"")).is_err());
+    }
+}

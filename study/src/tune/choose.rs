@@ -75,7 +75,7 @@ impl Search {
         let spoilt = |e: &&Entry| matches!(e.error, Some((_, bad)) if bad > 0);
         let reason = match self.entries.iter().filter(spoilt).count() {
             0 => "none that was measured keeps it".to_owned(),
-            count => format!("{count} give pixels that are not finite"),
+            count => format!("{count} of them give pixels that are not finite"),
         };
         let judged = self.entries.iter().filter(|e| e.refused.is_none());
         let judged = judged.filter_map(|e| Some((e, e.error?)));
@@ -124,9 +124,12 @@ impl Search {
             && self.loss(index).is_some_and(|loss| loss <= self.question.max_error)
     }
 
-    /// How much worse `without` is than `with`.
+    /// How much worse `without` is than `with`. A block that was too long to be searched has the picture of single pixels.
     fn cost(&self, without: Variant, with: Variant) -> Option<f64> {
-        let error = |v: Variant| Some(self.entries[*self.index.get(&v)?].error?.0);
+        let error = |v: Variant| {
+            let index = self.index.get(&v).or_else(|| self.index.get(&v.with(Term::Block, 0)))?;
+            self.entries[*index].error.map(|(error, _)| error)
+        };
         Some(self.question.metric.loss(error(with)?, error(without)?))
     }
 

@@ -1,7 +1,7 @@
 //! What a shader's static counts say of its time: the columns of the model, a pixel.
 
 use straightline_codegen::passes::{self, Block, Schedule, Step};
-use straightline_codegen::{Compiled, Precision, emit};
+use straightline_codegen::{Compiled, emit};
 use straightline_manifest::Counts;
 
 /// The columns. What stands behind a branch is counted apart: how many pixels take it is learned, too.
@@ -20,6 +20,12 @@ pub const NAMES: [&str; 12] = [
     "exponentials in f16",
 ];
 
+/// What is counted in another column in `f16`.
+const HALF: [(&str, &str); 2] = [
+    ("exponentials and roots", "exponentials in f16"),
+    ("arithmetic", "arithmetic in f16"),
+];
+
 /// What is known of a variant before it is run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Static {
@@ -32,8 +38,8 @@ pub struct Static {
 }
 
 impl Static {
-    /// Counts a compiled variant.
-    pub fn of(compiled: &Compiled, precision: Precision) -> Static {
+    /// Counts a compiled variant, as it computes in `f32`.
+    pub fn of(compiled: &Compiled) -> Static {
         let all = passes::count(&compiled.graph, &compiled.schedule);
         let always = passes::count(&compiled.graph, &without_branches(&compiled.schedule));
         let [width, height] = compiled.graph.invocation.pixels();
@@ -42,10 +48,6 @@ impl Static {
         let (depth, normal, colour) = reads(&always);
         let (alu, calls) = (f64::from(always.alu), f64::from(always.transcendentals));
         let behind = f64::from(all.alu + 4 * all.transcendentals) - f64::from(always.alu + 4 * always.transcendentals);
-        let (whole, half) = match precision {
-            Precision::F32 => ((alu, calls), (0.0, 0.0)),
-            Precision::F16 => ((0.0, 0.0), (alu, calls)),
-        };
         let weights = f64::from(always.tallies.get("weight_evaluations").copied().unwrap_or(0));
         // A branch reads what it needs: counted as if always.
         let hidden = f64::from(all.texture_reads + all.colour_reads) - (depth + normal + colour);
@@ -56,18 +58,29 @@ impl Static {
             normal,
             colour + hidden.max(0.0),
             weights,
-            whole.1,
-            whole.0,
+            calls,
+            alu,
             f64::from(all.max_live),
             behind.max(0.0),
-            half.0,
-            half.1,
+            0.0,
+            0.0,
         ];
         Static {
             row: figures.iter().map(|figure| figure / pixels).collect(),
             reads: f64::from(all.texture_reads + all.colour_reads) / pixels,
             statements,
         }
+    }
+
+    /// The same computed in `f16`.
+    pub fn in_half(mut self) -> Static {
+        for (whole, half) in HALF {
+            let place = |name: &str| NAMES.iter().position(|known| *known == name);
+            if let (Some(whole), Some(half)) = (place(whole), place(half)) {
+                self.row[half] = std::mem::take(&mut self.row[whole]);
+            }
+        }
+        self
     }
 }
 
@@ -118,7 +131,7 @@ mod tests {
             ..Settings::default()
         };
         let compiled = Kernel::builtin("sraa").unwrap().compile(&settings).unwrap();
-        Static::of(&compiled, Precision::F32)
+        Static::of(&compiled)
     }
 
     fn figure(of: &Static, name: &str) -> f64 {
@@ -133,6 +146,15 @@ mod tests {
         assert!(figure(&masked, "arithmetic behind a branch") > 50.0, "{masked:?}");
         assert!(figure(&masked, "exponentials and roots") < figure(&plain, "exponentials and roots"));
         assert_eq!(plain.reads, 35.0);
+    }
+
+    #[test]
+    fn half_precision_moves_arithmetic_and_nothing_else() {
+        let whole = counted(&[], [1, 1]);
+        let half = whole.clone().in_half();
+        assert_eq!(figure(&half, "arithmetic"), 0.0);
+        assert_eq!(figure(&half, "arithmetic in f16"), figure(&whole, "arithmetic"));
+        assert_eq!(half.row.iter().sum::<f64>(), whole.row.iter().sum::<f64>());
     }
 
     #[test]

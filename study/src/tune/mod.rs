@@ -155,8 +155,8 @@ pub enum TuneError {
     Space(String),
     /// No variant keeps the budget.
     #[error(
-        "none of {variants} variants is within the budget of {max_error} {metric}: {reason}; the one that comes closest is \
-         {closest}"
+        "none of {variants} variants is within {} ({metric}) of the best: {reason}; the one that comes closest is {closest}",
+        metric.show(*max_error)
     )]
     NothingWithin {
         /// How many were tried.

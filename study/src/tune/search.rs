@@ -19,6 +19,9 @@ use straightline_runtime::Pass;
 const LEARNED_FROM: usize = 32;
 const TESTED_ON: usize = 12;
 
+/// Statements of an invocation beyond which a block is not searched.
+const LONGEST: f64 = 2500.0;
+
 /// PSNR that counts as no difference at all; equal pictures would have an infinite one.
 const NO_DIFFERENCE_DB: f64 = 100.0;
 
@@ -166,6 +169,9 @@ impl Search {
     ///
     /// If the most general variant cannot be run.
     pub fn pictures(&mut self, watch: &mut dyn Watch) -> Result<bool, TuneError> {
+        if !self.count(watch)? {
+            return Ok(false);
+        }
         let general = self.prepare(self.space.general())?;
         let picture = self.bench.picture_of(&general.0, &general.1, self.size)?;
         if self.reference.is_none() {
@@ -194,32 +200,61 @@ impl Search {
                 None => {}
             }
         }
-        Ok(finished && self.count(watch))
+        Ok(finished)
     }
 
-    /// Static counts of every variant.
-    fn count(&mut self, watch: &mut dyn Watch) -> bool {
-        watch.begin("counts", self.entries.len());
-        let all: Vec<usize> = (0..self.entries.len()).collect();
-        for some in all.chunks(4 * chunk()) {
+    /// Static counts of every variant but blocks that would be too long.
+    fn count(&mut self, watch: &mut dyn Watch) -> Result<bool, TuneError> {
+        // One graph for both precisions; single pixels before blocks, which are judged by them.
+        let mut alike: BTreeMap<Variant, Vec<usize>> = BTreeMap::new();
+        for (k, entry) in self.entries.iter().enumerate() {
+            alike.entry(entry.variant.with(Term::Precision, 0)).or_default().push(k);
+        }
+        let mut graphs: Vec<Variant> = alike.keys().copied().collect();
+        graphs.sort_by_key(|variant| variant.at(Term::Block));
+        watch.begin("counts", graphs.len());
+        let mut too_long = 0;
+        for some in graphs.chunks(4 * chunk()) {
             if watch.stopped() {
-                return false;
+                return Ok(false);
             }
-            let counted = some.par_iter().map(|k| {
-                let variant = self.entries[*k].variant;
-                let compiled = self.compile(variant).map_err(|errors| errors.to_string());
-                compiled.map(|compiled| Static::of(&compiled, self.space.precision(variant)))
-            });
-            let counted: Vec<Result<Static, String>> = counted.collect();
-            for (k, counted) in some.iter().zip(counted) {
-                match counted {
-                    Ok(known) => self.entries[*k].known = Some(known),
-                    Err(reason) => self.entries[*k].refused = Some(reason),
+            let counted: Vec<_> = some.par_iter().map(|graph| (*graph, self.counted(*graph))).collect();
+            for (graph, counted) in counted {
+                let counted = counted?;
+                too_long += usize::from(counted.is_none());
+                for k in &alike[&graph] {
+                    let half = self.space.precision(self.entries[*k].variant) == Precision::F16;
+                    self.entries[*k].known = counted.clone().map(|known| if half { known.in_half() } else { known });
                 }
                 watch.step();
             }
         }
-        true
+        if too_long > 0 {
+            self.space.left_aside.push(format!(
+                "blocks of more than {LONGEST} statements, which drivers take long to compile: {too_long} variants in each precision"
+            ));
+        }
+        self.entries.retain(|entry| entry.known.is_some());
+        self.index = self
+            .entries
+            .iter()
+            .enumerate()
+            .map(|(k, entry)| (entry.variant, k))
+            .collect();
+        Ok(true)
+    }
+
+    /// Counts of a variant; `None` of a block that would be too long.
+    fn counted(&self, variant: Variant) -> Result<Option<Static>, TuneError> {
+        let [width, height] = self.space.value(variant, Term::Block).block;
+        let single = self.index.get(&variant.with(Term::Block, 0));
+        let single = single.and_then(|k| self.entries[*k].known.as_ref());
+        if let Some(single) = single.filter(|_| width * height > 1)
+            && single.statements * f64::from(width * height) > LONGEST
+        {
+            return Ok(None);
+        }
+        Ok(Some(Static::of(&self.compile(variant)?)))
     }
 
     /// Times some variants, learns from them what a count costs, and tests that on others. Whether all was done.
@@ -252,7 +287,9 @@ impl Search {
             return Ok(false);
         }
         let megapixels = self.megapixels();
-        let measured = |k: &usize| Some((self.row(*k)?, self.entries[*k].time?.median_ms / megapixels));
+        // By ratios, round by round, to a shader that ran in every round: a drifting clock is not learned.
+        let general = self.entries[0].time.map_or(0.0, |time| time.median_ms) / megapixels;
+        let measured = |k: &usize| Some((self.row(*k)?, general / self.entries[*k].ratio?.median));
         let (rows, times): (Vec<_>, Vec<_>) = learned.iter().filter_map(measured).unzip();
         let coefficients = model::learn(&rows, &times);
         let (rows, times): (Vec<_>, Vec<_>) = tested.iter().filter_map(measured).unzip();
