@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use straightline_codegen::emit::Target;
 use straightline_codegen::{Compiled, EmitOptions, Kernel, Settings, Stage, Unroll};
-use straightline_kernels::edge::{Depth, Form, Output, Stalker, TabulaRasa, stalker, tabula_rasa};
+use straightline_kernels::edge::{Depth, Form, NonFinite, Output, Stalker, TabulaRasa, stalker, tabula_rasa};
 use straightline_kernels::prelude::*;
 use straightline_manifest::BindingKind;
 use straightline_study::execute::{Inputs, interpret};
@@ -78,6 +78,21 @@ enum Filter {
     TabulaRasa(TabulaRasa),
 }
 
+/// Either form with one of the two.
+fn non_finite(form: Form) -> NonFinite {
+    match form {
+        Form::Paper => NonFinite::Spread,
+        Form::Corrected => NonFinite::Skip,
+    }
+}
+
+fn word(non_finite: NonFinite) -> &'static str {
+    match non_finite {
+        NonFinite::Spread => "spread",
+        NonFinite::Skip => "skip",
+    }
+}
+
 impl Filter {
     /// Every choice of both, with numbers that divide `World::surfaces` in two.
     fn all() -> Vec<Filter> {
@@ -89,6 +104,7 @@ impl Filter {
                         form,
                         output,
                         depth,
+                        non_finite: non_finite(form),
                         normal_barrier: 0.9,
                         depth_barrier: 0.004,
                         kernel: 0.75,
@@ -97,6 +113,7 @@ impl Filter {
                 all.push(Filter::TabulaRasa(TabulaRasa {
                     form,
                     output,
+                    non_finite: non_finite(form),
                     depth_sensibility: 9.0,
                     normal_sensibility: 3.0,
                     weight: 0.8,
@@ -137,7 +154,12 @@ impl Filter {
                     Depth::Linear => "linear",
                 };
                 (
-                    vec![("form", form(cfg.form)), ("output", output), ("depth", depth)],
+                    vec![
+                        ("form", form(cfg.form)),
+                        ("output", output),
+                        ("depth", depth),
+                        ("non-finite", word(cfg.non_finite)),
+                    ],
                     vec![
                         ("normal_barrier", cfg.normal_barrier),
                         ("depth_barrier", cfg.depth_barrier),
@@ -146,7 +168,11 @@ impl Filter {
                 )
             }
             Filter::TabulaRasa(cfg) => (
-                vec![("form", form(cfg.form)), ("output", output)],
+                vec![
+                    ("form", form(cfg.form)),
+                    ("output", output),
+                    ("non-finite", word(cfg.non_finite)),
+                ],
                 vec![
                     ("depth_sensibility", cfg.depth_sensibility),
                     ("normal_sensibility", cfg.normal_sensibility),

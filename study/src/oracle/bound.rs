@@ -116,15 +116,17 @@ pub(crate) fn of_mean(shares: &[Share], normalised: bool, rounding: &Rounding) -
     let possible = shares.iter().filter(|s| s.weight + s.off > 0.0);
     let brightest = possible.clone().map(|s| size(&s.color)).fold(0.0, f64::max);
     let mut range = possible.map(|s| apart(&s.color, &mean)).fold(0.0, f64::max);
+    // In few bits the sum that counts for none is the smallest number that there is.
+    let none = EPSILON.max(rounding.smallest);
     let divisor = if normalised { least } else { 1.0 };
-    let mut by_weights = match divisor > EPSILON {
+    let mut by_weights = match divisor > none {
         true => shares.iter().map(|s| s.off * apart(&s.color, &mean)).sum::<f64>() / divisor,
         false => f64::INFINITY,
     };
     if !normalised {
         by_weights += size(&mean) * (most - least).max(0.0);
         range = f64::INFINITY;
-    } else if least <= EPSILON {
+    } else if least <= none {
         range = range.max(size(&mean));
     }
     // Products, their sum in any order, the sum of weights, a quotient; and colours as they are read.
@@ -135,7 +137,7 @@ pub(crate) fn of_mean(shares: &[Share], normalised: bool, rounding: &Rounding) -
     }
     let added: f64 = shares.iter().map(|s| (s.weight + s.off) * size(&s.color)).sum();
     let lost = (2.0 * count + 2.0) * rounding.smallest;
-    let rounded = match divisor > EPSILON {
+    let rounded = match divisor > none {
         true => (arithmetic * added + lost) / divisor.min(1.0),
         false => arithmetic * brightest,
     };
@@ -339,7 +341,13 @@ impl Definition<'_> {
         let own = reach.iter().zip(ends).map(|(tap, (low, high))| {
             let exact = weight(tap) / total.max(epsilon);
             let most = ratio(high, (lows - low + high).max(epsilon)).min(1.0);
-            let fewest = low / (highs - high + low).max(epsilon).max(f64::MIN_POSITIVE);
+            // In few bits the divisor is bounded by the smallest number that there is.
+            let least = epsilon.max(if epsilon > 0.0 {
+                rounding.smallest
+            } else {
+                f64::MIN_POSITIVE
+            });
+            let fewest = low / (highs - high + low).max(least);
             let bright = tap
                 .color
                 .iter()
