@@ -1,6 +1,6 @@
 //! Arguments of `tune`.
 
-use super::{AdapterArgs, pair, size};
+use super::{AdapterArgs, CommonArgs, pair, size};
 use clap::Args;
 use glam::UVec2;
 use std::path::PathBuf;
@@ -41,6 +41,32 @@ pub struct TuneArgs {
     pub json: bool,
     #[command(flatten)]
     pub adapter: AdapterArgs,
+}
+
+impl TuneArgs {
+    /// A built-in scene as `study` tunes for it: within a decibel of the best.
+    pub fn of_study(scene: &str, common: &CommonArgs) -> TuneArgs {
+        TuneArgs {
+            subject: SubjectArgs {
+                capture: None,
+                scene: Some(scene.to_owned()),
+                mesh: None,
+            },
+            max_error: 1.0,
+            metric: ErrorMetric::Psnr,
+            size: Some(common.size.unwrap_or(match common.quick {
+                true => UVec2::new(320, 180),
+                false => UVec2::new(640, 360),
+            })),
+            rounds: common.rounds(),
+            set: Vec::new(),
+            target: vec![Target::Wgsl],
+            format: Format::default(),
+            out: common.out.clone(),
+            json: false,
+            adapter: common.adapter.clone(),
+        }
+    }
 }
 
 /// What to tune for.

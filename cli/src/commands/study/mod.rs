@@ -5,7 +5,8 @@ mod hard;
 mod loops;
 mod watch;
 
-use crate::args::{CommonArgs, Study, StudyArgs};
+use super::tune;
+use crate::args::{CommonArgs, Study, StudyArgs, TuneArgs};
 use crate::failure::Failure;
 use crate::gpu::Gpu;
 use glam::UVec2;
@@ -32,12 +33,19 @@ pub fn run(args: &StudyArgs) -> Result<(), Failure> {
     page(&common.out)
 }
 
+/// Scenes that need different things: the flat one, thin things, and creases that depth does not tell.
+const TUNED: [&str; 3] = ["floor", "tubes", "creases"];
+
 /// Every study, until Ctrl-C.
 fn all(common: &CommonArgs, progress: &mut Progress) -> Result<(), Failure> {
-    let studies: [&dyn Fn(&mut Progress) -> Result<(), Failure>; 3] = [
+    let tuned = |scene: &str| tune::run(&TuneArgs::of_study(scene, common));
+    let studies: [&dyn Fn(&mut Progress) -> Result<(), Failure>; 6] = [
+        &|progress| hard::run(common, &Default::default(), progress),
         &|progress| loops::run(common, &Default::default(), progress),
         &|progress| error::run(common, &Default::default(), progress),
-        &|progress| hard::run(common, &Default::default(), progress),
+        &|_| tuned(TUNED[0]),
+        &|_| tuned(TUNED[1]),
+        &|_| tuned(TUNED[2]),
     ];
     for study in studies {
         if !progress.stopped() {
