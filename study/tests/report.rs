@@ -132,6 +132,8 @@ fn hard() -> HardRecord {
         born: (non_finite > 0).then(|| "metric.rs:12: 0 / 0".to_owned()),
         bound: Some(1e-5),
         kept,
+        promised: true,
+        analysed: None,
         refused: None,
     };
     HardRecord {
@@ -139,7 +141,19 @@ fn hard() -> HardRecord {
         cases: vec![HardCase {
             name: "nan-colour".to_owned(),
             about: "one colour is NaN".to_owned(),
+            common: false,
             results: vec![result(Executor::Interpreter, 0, true), result(Executor::Gpu, 7, false)],
+        }],
+        half: vec![HalfVerdict {
+            kernel: "sraa default".to_owned(),
+            options: Vec::new(),
+            worst: Some("steps".to_owned()),
+            difference: Some(0.5),
+            loosest: None,
+            limit: Some(0.004),
+            broken: 3,
+            cases: 10,
+            reason: Some("depth has too few bits".to_owned()),
         }],
     }
 }
@@ -227,6 +241,8 @@ fn the_page_says_what_the_records_say() {
         "10.0 % of its pixels have an edge of geometry",
         "born at metric.rs:12: 0 / 0",
         "not finite: 1",
+        "depth has too few bits",
+        "3 of 10",
         "<code>metric depth</code>, 39.8000",
         "<td>0.1250<td>2.50",
         "Refused: f16: the adapter has none",
