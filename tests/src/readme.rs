@@ -109,6 +109,7 @@ fn speed(record: &LoopsRecord) -> String {
         "looped",
         "without its bound",
         "by hand",
+        "both",
         "**unrolled**",
         "2×2 pixels",
         "floor",
@@ -123,6 +124,7 @@ fn speed(record: &LoopsRecord) -> String {
             form(FormKind::Looped).map_or("–".to_owned(), |form| format!("{:.1} ms", form.time.median_ms)),
             ratio(FormKind::LoopedUnchecked),
             ratio(FormKind::LoopedByHand),
+            ratio(FormKind::LoopedByHandUnchecked),
             full.map_or("–".to_owned(), |form| {
                 format!("**{:.2}**, {:.1} ms", form.ratio.median, form.time.median_ms)
             }),
@@ -144,6 +146,7 @@ fn loops(record: &LoopsRecord) -> String {
         "looped",
         "unbounded",
         "by hand",
+        "both",
         "partial(2), (4)",
         "not shared",
         "**unrolled**",
@@ -173,6 +176,7 @@ fn loops(record: &LoopsRecord) -> String {
             form(FormKind::Looped).map_or("–".to_owned(), |form| format!("{:.1} ms", form.time.median_ms)),
             ratio(FormKind::LoopedUnchecked),
             ratio(FormKind::LoopedByHand),
+            ratio(FormKind::LoopedByHandUnchecked),
             format!("{}, {}", ratio(FormKind::Partial2), ratio(FormKind::Partial4)),
             ratio(FormKind::FullUnshared),
             full,
