@@ -44,6 +44,7 @@ void sraa(uint3 id : SV_DispatchThreadID)
     int sample_value = int(0);
     float weights[9] = Constructarray9_float_(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
     int sample_2_ = int(0);
+    float seen_depth = (float)0;
     float distances[9] = (float[9])0;
     float nearest = (float)0;
     int tap = (int)0;
@@ -51,6 +52,9 @@ void sraa(uint3 id : SV_DispatchThreadID)
     float d = (float)0;
     bool local = (bool)0;
     bool local_1 = (bool)0;
+    float shaded_depth = (float)0;
+    float chosen = (float)0;
+    float chosen_2_ = (float)0;
     float sum = (float)0;
     float tap_weights[9] = (float[9])0;
     int tap_2_ = (int)0;
@@ -61,6 +65,7 @@ void sraa(uint3 id : SV_DispatchThreadID)
     int tap_4_ = int(0);
     float w_2_ = (float)0;
     float4 result_2_ = (float4)0;
+    float4 chosen_3_ = (0.0).xxxx;
 
     int2 frame = int2(NagaRWDimensions2D(destination));
     int2 pixel = int2(id.xy);
@@ -97,8 +102,8 @@ void sraa(uint3 id : SV_DispatchThreadID)
         if (all(loop_bound_1 == uint2(0u, 0u))) { break; }
         loop_bound_1 -= uint2(loop_bound_1.y == 0u, 1u);
         if (!loop_init_1) {
-            int _e281 = sample_2_;
-            sample_2_ = asint(asuint(_e281) + asuint(int(1)));
+            int _e297 = sample_2_;
+            sample_2_ = asint(asuint(_e297) + asuint(int(1)));
         }
         loop_init_1 = false;
         int _e40 = sample_2_;
@@ -113,12 +118,15 @@ void sraa(uint3 id : SV_DispatchThreadID)
             int _e54 = sample_2_;
             float4 _e56 = depth.Load(int4(pixel, _e54, int(0)));
             float depth_2_ = _e56.x;
-            float seen_depth = min(depth_2_, 1e30);
-            int _e61 = sample_2_;
-            float4 _e63 = normal.Load(int4(pixel, _e61, int(0)));
-            float3 seen_normal = _e63.xyz;
-            int _e65 = sample_2_;
-            bool holds = (_e65 == int(16));
+            seen_depth = 1e30;
+            if ((abs(depth_2_) < 1e30)) {
+                seen_depth = depth_2_;
+            }
+            int _e64 = sample_2_;
+            float4 _e66 = normal.Load(int4(pixel, _e64, int(0)));
+            float3 seen_normal = _e66.xyz;
+            int _e68 = sample_2_;
+            bool holds = (_e68 == int(16));
             distances = Constructarray9_float_(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
             nearest = 16.0;
             tap = int(0);
@@ -128,23 +136,23 @@ void sraa(uint3 id : SV_DispatchThreadID)
                 if (all(loop_bound_2 == uint2(0u, 0u))) { break; }
                 loop_bound_2 -= uint2(loop_bound_2.y == 0u, 1u);
                 if (!loop_init_2) {
-                    int _e165 = tap;
-                    tap = asint(asuint(_e165) + asuint(int(1)));
+                    int _e181 = tap;
+                    tap = asint(asuint(_e181) + asuint(int(1)));
                 }
                 loop_init_2 = false;
-                int _e83 = tap;
-                if ((_e83 < int(9))) {
+                int _e86 = tap;
+                if ((_e86 < int(9))) {
                 } else {
                     break;
                 }
                 {
-                    int _e86 = tap;
-                    int _e91 = tap;
-                    int2 pixel_2_ = int2(asint(asuint(naga_mod(_e86, int(3))) - asuint(int(1))), asint(asuint(naga_div(_e91, int(3))) - asuint(int(1))));
+                    int _e89 = tap;
+                    int _e94 = tap;
+                    int2 pixel_2_ = int2(asint(asuint(naga_mod(_e89, int(3))) - asuint(int(1))), asint(asuint(naga_div(_e94, int(3))) - asuint(int(1))));
                     float2 away = (float2(pixel_2_) - place_at);
                     bool holds_2_ = ((max((1.0 - abs(away.x)), 0.0) * max((1.0 - abs(away.y)), 0.0)) > 0.0);
-                    float _e114 = nearest;
-                    nearest_2_ = _e114;
+                    float _e117 = nearest;
+                    nearest_2_ = _e117;
                     if (holds_2_) {
                         bool2 holds_3_ = ((int(0)).xx == pixel_2_);
                         d = ZeroValuefloat();
@@ -154,37 +162,53 @@ void sraa(uint3 id : SV_DispatchThreadID)
                             } else {
                                 local_1 = false;
                             }
-                            bool _e128 = local_1;
-                            local = _e128;
+                            bool _e131 = local_1;
+                            local = _e131;
                         } else {
                             local = false;
                         }
-                        bool _e130 = local;
-                        if (_e130) {
+                        bool _e133 = local;
+                        if (_e133) {
                             d = 0.0;
                         } else {
                             int2 texel_2_ = asint(asuint(pixel) + asuint(pixel_2_));
                             int2 texel_3_ = clamp(texel_2_, (int(0)).xx, last);
-                            float4 _e139 = depth.Load(int4(texel_3_, int(16), int(0)));
-                            float depth_3_ = _e139.x;
-                            float shaded_depth = min(depth_3_, 1e30);
-                            float4 _e146 = normal.Load(int4(texel_3_, int(16), int(0)));
-                            float3 shaded_normal = _e146.xyz;
-                            float step_value = abs((seen_depth - shaded_depth));
+                            float4 _e142 = depth.Load(int4(texel_3_, int(16), int(0)));
+                            float depth_3_ = _e142.x;
+                            shaded_depth = 1e30;
+                            if ((abs(depth_3_) < 1e30)) {
+                                shaded_depth = depth_3_;
+                            }
+                            float4 _e152 = normal.Load(int4(texel_3_, int(16), int(0)));
+                            float3 shaded_normal = _e152.xyz;
+                            float _e154 = seen_depth;
+                            float _e155 = shaded_depth;
+                            float step_value = abs((_e154 - _e155));
+                            chosen = 16.0;
+                            if ((step_value < 16.0)) {
+                                chosen = step_value;
+                            }
                             float3 turn = (seen_normal - shaded_normal);
-                            float larger = max(step_value, (0.5 * dot(turn, turn)));
-                            d = min(larger, 16.0);
+                            float value = (0.5 * dot(turn, turn));
+                            chosen_2_ = 16.0;
+                            if ((value < 16.0)) {
+                                chosen_2_ = value;
+                            }
+                            float _e170 = chosen;
+                            float _e171 = chosen_2_;
+                            float larger = max(_e170, _e171);
+                            d = larger;
                         }
-                        int _e157 = tap;
-                        float _e159 = d;
-                        distances[min(uint(_e157), 8u)] = _e159;
-                        float _e160 = nearest;
-                        float _e161 = d;
-                        float nearest_3_ = min(_e160, _e161);
+                        int _e173 = tap;
+                        float _e175 = d;
+                        distances[min(uint(_e173), 8u)] = _e175;
+                        float _e176 = nearest;
+                        float _e177 = d;
+                        float nearest_3_ = min(_e176, _e177);
                         nearest_2_ = nearest_3_;
                     }
-                    float _e163 = nearest_2_;
-                    nearest = _e163;
+                    float _e179 = nearest_2_;
+                    nearest = _e179;
                 }
             }
             sum = 0.0;
@@ -196,41 +220,41 @@ void sraa(uint3 id : SV_DispatchThreadID)
                 if (all(loop_bound_3 == uint2(0u, 0u))) { break; }
                 loop_bound_3 -= uint2(loop_bound_3.y == 0u, 1u);
                 if (!loop_init_3) {
-                    int _e230 = tap_2_;
-                    tap_2_ = asint(asuint(_e230) + asuint(int(1)));
+                    int _e246 = tap_2_;
+                    tap_2_ = asint(asuint(_e246) + asuint(int(1)));
                 }
                 loop_init_3 = false;
-                int _e182 = tap_2_;
-                if ((_e182 < int(9))) {
+                int _e198 = tap_2_;
+                if ((_e198 < int(9))) {
                 } else {
                     break;
                 }
                 {
-                    int _e185 = tap_2_;
-                    int _e190 = tap_2_;
-                    int2 pixel_3_ = int2(asint(asuint(naga_mod(_e185, int(3))) - asuint(int(1))), asint(asuint(naga_div(_e190, int(3))) - asuint(int(1))));
+                    int _e201 = tap_2_;
+                    int _e206 = tap_2_;
+                    int2 pixel_3_ = int2(asint(asuint(naga_mod(_e201, int(3))) - asuint(int(1))), asint(asuint(naga_div(_e206, int(3))) - asuint(int(1))));
                     float2 away_2_ = (float2(pixel_3_) - place_at);
-                    float value = (max((1.0 - abs(away_2_.x)), 0.0) * max((1.0 - abs(away_2_.y)), 0.0));
-                    float _e211 = sum;
-                    sum_2_ = _e211;
-                    if ((value > 0.0)) {
-                        int _e215 = tap_2_;
-                        float value_2_ = distances[min(uint(_e215), 8u)];
-                        float _e218 = nearest;
-                        float nearness = exp2((-721.34753 * (value_2_ - _e218)));
-                        float w = (value * nearness);
-                        int _e224 = tap_2_;
-                        tap_weights[min(uint(_e224), 8u)] = w;
-                        float _e226 = sum;
-                        float sum_3_ = (_e226 + w);
+                    float value_2_ = (max((1.0 - abs(away_2_.x)), 0.0) * max((1.0 - abs(away_2_.y)), 0.0));
+                    float _e227 = sum;
+                    sum_2_ = _e227;
+                    if ((value_2_ > 0.0)) {
+                        int _e231 = tap_2_;
+                        float value_3_ = distances[min(uint(_e231), 8u)];
+                        float _e234 = nearest;
+                        float nearness = exp2((-721.34753 * (value_3_ - _e234)));
+                        float w = (value_2_ * nearness);
+                        int _e240 = tap_2_;
+                        tap_weights[min(uint(_e240), 8u)] = w;
+                        float _e242 = sum;
+                        float sum_3_ = (_e242 + w);
                         sum_2_ = sum_3_;
                     }
-                    float _e228 = sum_2_;
-                    sum = _e228;
+                    float _e244 = sum_2_;
+                    sum = _e244;
                 }
             }
-            float _e232 = sum;
-            float scale = (share / _e232);
+            float _e248 = sum;
+            float scale = (share / _e248);
             tap_3_ = int(0);
             uint2 loop_bound_4 = uint2(4294967295u, 4294967295u);
             bool loop_init_4 = true;
@@ -238,29 +262,29 @@ void sraa(uint3 id : SV_DispatchThreadID)
                 if (all(loop_bound_4 == uint2(0u, 0u))) { break; }
                 loop_bound_4 -= uint2(loop_bound_4.y == 0u, 1u);
                 if (!loop_init_4) {
-                    int _e278 = tap_3_;
-                    tap_3_ = asint(asuint(_e278) + asuint(int(1)));
+                    int _e294 = tap_3_;
+                    tap_3_ = asint(asuint(_e294) + asuint(int(1)));
                 }
                 loop_init_4 = false;
-                int _e236 = tap_3_;
-                if ((_e236 < int(9))) {
+                int _e252 = tap_3_;
+                if ((_e252 < int(9))) {
                 } else {
                     break;
                 }
                 {
-                    int _e239 = tap_3_;
-                    int _e244 = tap_3_;
-                    int2 pixel_4_ = int2(asint(asuint(naga_mod(_e239, int(3))) - asuint(int(1))), asint(asuint(naga_div(_e244, int(3))) - asuint(int(1))));
+                    int _e255 = tap_3_;
+                    int _e260 = tap_3_;
+                    int2 pixel_4_ = int2(asint(asuint(naga_mod(_e255, int(3))) - asuint(int(1))), asint(asuint(naga_div(_e260, int(3))) - asuint(int(1))));
                     float2 away_3_ = (float2(pixel_4_) - place_at);
                     bool holds_4_ = ((max((1.0 - abs(away_3_.x)), 0.0) * max((1.0 - abs(away_3_.y)), 0.0)) > 0.0);
                     if (holds_4_) {
-                        int _e267 = tap_3_;
-                        float value_3_ = tap_weights[min(uint(_e267), 8u)];
-                        int _e270 = tap_3_;
-                        float value_4_ = weights[min(uint(_e270), 8u)];
-                        float weights_2_ = (value_4_ + (value_3_ * scale));
-                        int _e275 = tap_3_;
-                        weights[min(uint(_e275), 8u)] = weights_2_;
+                        int _e283 = tap_3_;
+                        float value_4_ = tap_weights[min(uint(_e283), 8u)];
+                        int _e286 = tap_3_;
+                        float value_5_ = weights[min(uint(_e286), 8u)];
+                        float weights_2_ = (value_5_ + (value_4_ * scale));
+                        int _e291 = tap_3_;
+                        weights[min(uint(_e291), 8u)] = weights_2_;
                     }
                 }
             }
@@ -272,48 +296,53 @@ void sraa(uint3 id : SV_DispatchThreadID)
         if (all(loop_bound_5 == uint2(0u, 0u))) { break; }
         loop_bound_5 -= uint2(loop_bound_5.y == 0u, 1u);
         if (!loop_init_5) {
-            int _e343 = tap_4_;
-            tap_4_ = asint(asuint(_e343) + asuint(int(1)));
+            int _e359 = tap_4_;
+            tap_4_ = asint(asuint(_e359) + asuint(int(1)));
         }
         loop_init_5 = false;
-        int _e290 = tap_4_;
-        if ((_e290 < int(9))) {
+        int _e306 = tap_4_;
+        if ((_e306 < int(9))) {
         } else {
             break;
         }
         {
-            int _e293 = tap_4_;
-            int _e298 = tap_4_;
-            int2 pixel_5_ = int2(asint(asuint(naga_mod(_e293, int(3))) - asuint(int(1))), asint(asuint(naga_div(_e298, int(3))) - asuint(int(1))));
+            int _e309 = tap_4_;
+            int _e314 = tap_4_;
+            int2 pixel_5_ = int2(asint(asuint(naga_mod(_e309, int(3))) - asuint(int(1))), asint(asuint(naga_div(_e314, int(3))) - asuint(int(1))));
             int2 pixel_6_ = asint(asuint(pixel) + asuint(pixel_5_));
             int2 texel_4_ = clamp(pixel_6_, (int(0)).xx, last);
             float4 shaded = color.Load(int3(texel_4_, int(0)));
-            uint4 value_5_ = (asuint(shaded) & (2147483647u).xxxx);
+            uint4 value_6_ = (asuint(shaded) & (2147483647u).xxxx);
             w_2_ = 0.0;
-            if ((max(max(max(value_5_.x, value_5_.y), value_5_.z), value_5_.w) < 2139095040u)) {
-                int _e326 = tap_4_;
-                float value_6_ = weights[min(uint(_e326), 8u)];
-                w_2_ = value_6_;
+            if ((max(max(max(value_6_.x, value_6_.y), value_6_.z), value_6_.w) < 2139095040u)) {
+                int _e342 = tap_4_;
+                float value_7_ = weights[min(uint(_e342), 8u)];
+                w_2_ = value_7_;
             }
-            float4 _e329 = result;
-            result_2_ = _e329;
-            float _e331 = w_2_;
-            if ((_e331 != 0.0)) {
-                float4 _e334 = result;
-                float _e335 = w_2_;
-                float4 result_3_ = (_e334 + (_e335 * shaded));
+            float4 _e345 = result;
+            result_2_ = _e345;
+            float _e347 = w_2_;
+            if ((_e347 != 0.0)) {
+                float4 _e350 = result;
+                float _e351 = w_2_;
+                float4 result_3_ = (_e350 + (_e351 * shaded));
                 result_2_ = result_3_;
             }
-            float _e338 = sum_4_;
-            float _e339 = w_2_;
-            float sum_5_ = (_e338 + _e339);
-            float4 _e341 = result_2_;
-            result = _e341;
+            float _e354 = sum_4_;
+            float _e355 = w_2_;
+            float sum_5_ = (_e354 + _e355);
+            float4 _e357 = result_2_;
+            result = _e357;
             sum_4_ = sum_5_;
         }
     }
-    float4 _e346 = result;
-    float _e347 = sum_4_;
-    destination[pixel] = (_e346 / (max(_e347, 1e-30)).xxxx);
+    float _e364 = sum_4_;
+    if ((_e364 > 1e-30)) {
+        float4 _e367 = result;
+        float _e368 = sum_4_;
+        chosen_3_ = (_e367 / (_e368).xxxx);
+    }
+    float4 _e372 = chosen_3_;
+    destination[pixel] = _e372;
     return;
 }

@@ -34,6 +34,7 @@ kernel void sraa(
     int sample_value = 0;
     type_8 weights = type_8 {{0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0}};
     int sample_2_ = 0;
+    float seen_depth = {};
     type_8 distances = {};
     float nearest = {};
     int tap = {};
@@ -41,6 +42,9 @@ kernel void sraa(
     float d = {};
     bool local = {};
     bool local_1 = {};
+    float shaded_depth = {};
+    float chosen = {};
+    float chosen_2_ = {};
     float sum = {};
     type_8 tap_weights = {};
     int tap_2_ = {};
@@ -51,6 +55,7 @@ kernel void sraa(
     int tap_4_ = 0;
     float w_2_ = {};
     metal::float4 result_2_ = {};
+    metal::float4 chosen_3_ = metal::float4(0.0);
     metal::int2 frame = static_cast<metal::int2>(metal::uint2(destination.get_width(), destination.get_height()));
     metal::int2 pixel = static_cast<metal::int2>(id.xy);
     if (metal::any(pixel >= frame)) {
@@ -86,8 +91,8 @@ kernel void sraa(
         if (metal::all(loop_bound_1 == uint2(0u))) { break; }
         loop_bound_1 -= uint2(loop_bound_1.y == 0u, 1u);
         if (!loop_init_1) {
-            int _e281 = sample_2_;
-            sample_2_ = as_type<int>(as_type<uint>(_e281) + as_type<uint>(1));
+            int _e297 = sample_2_;
+            sample_2_ = as_type<int>(as_type<uint>(_e297) + as_type<uint>(1));
         }
         loop_init_1 = false;
         int _e40 = sample_2_;
@@ -102,12 +107,15 @@ kernel void sraa(
             int _e54 = sample_2_;
             metal::float4 _e56 = depth.read(metal::uint2(pixel), _e54, 0);
             float depth_2_ = _e56.x;
-            float seen_depth = metal::min(depth_2_, 1000000000000000000000000000000.0);
-            int _e61 = sample_2_;
-            metal::float4 _e63 = normal.read(metal::uint2(pixel), _e61, 0);
-            metal::float3 seen_normal = _e63.xyz;
-            int _e65 = sample_2_;
-            bool holds = _e65 == 4;
+            seen_depth = 1000000000000000000000000000000.0;
+            if (metal::abs(depth_2_) < 1000000000000000000000000000000.0) {
+                seen_depth = depth_2_;
+            }
+            int _e64 = sample_2_;
+            metal::float4 _e66 = normal.read(metal::uint2(pixel), _e64, 0);
+            metal::float3 seen_normal = _e66.xyz;
+            int _e68 = sample_2_;
+            bool holds = _e68 == 4;
             distances = type_8 {{0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0}};
             nearest = 16.0;
             tap = 0;
@@ -117,23 +125,23 @@ kernel void sraa(
                 if (metal::all(loop_bound_2 == uint2(0u))) { break; }
                 loop_bound_2 -= uint2(loop_bound_2.y == 0u, 1u);
                 if (!loop_init_2) {
-                    int _e165 = tap;
-                    tap = as_type<int>(as_type<uint>(_e165) + as_type<uint>(1));
+                    int _e181 = tap;
+                    tap = as_type<int>(as_type<uint>(_e181) + as_type<uint>(1));
                 }
                 loop_init_2 = false;
-                int _e83 = tap;
-                if (_e83 < 9) {
+                int _e86 = tap;
+                if (_e86 < 9) {
                 } else {
                     break;
                 }
                 {
-                    int _e86 = tap;
-                    int _e91 = tap;
-                    metal::int2 pixel_2_ = metal::int2(as_type<int>(as_type<uint>(naga_mod(_e86, 3)) - as_type<uint>(1)), as_type<int>(as_type<uint>(naga_div(_e91, 3)) - as_type<uint>(1)));
+                    int _e89 = tap;
+                    int _e94 = tap;
+                    metal::int2 pixel_2_ = metal::int2(as_type<int>(as_type<uint>(naga_mod(_e89, 3)) - as_type<uint>(1)), as_type<int>(as_type<uint>(naga_div(_e94, 3)) - as_type<uint>(1)));
                     metal::float2 away = static_cast<metal::float2>(pixel_2_) - place_at;
                     bool holds_2_ = (metal::max(1.0 - metal::abs(away.x), 0.0) * metal::max(1.0 - metal::abs(away.y), 0.0)) > 0.0;
-                    float _e114 = nearest;
-                    nearest_2_ = _e114;
+                    float _e117 = nearest;
+                    nearest_2_ = _e117;
                     if (holds_2_) {
                         metal::bool2 holds_3_ = metal::int2(0) == pixel_2_;
                         d = float {};
@@ -143,37 +151,53 @@ kernel void sraa(
                             } else {
                                 local_1 = false;
                             }
-                            bool _e128 = local_1;
-                            local = _e128;
+                            bool _e131 = local_1;
+                            local = _e131;
                         } else {
                             local = false;
                         }
-                        bool _e130 = local;
-                        if (_e130) {
+                        bool _e133 = local;
+                        if (_e133) {
                             d = 0.0;
                         } else {
                             metal::int2 texel_2_ = as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(pixel_2_));
                             metal::int2 texel_3_ = metal::clamp(texel_2_, metal::int2(0), last);
-                            metal::float4 _e139 = depth.read(metal::uint2(texel_3_), 4, 0);
-                            float depth_3_ = _e139.x;
-                            float shaded_depth = metal::min(depth_3_, 1000000000000000000000000000000.0);
-                            metal::float4 _e146 = normal.read(metal::uint2(texel_3_), 4, 0);
-                            metal::float3 shaded_normal = _e146.xyz;
-                            float step_value = metal::abs(seen_depth - shaded_depth);
+                            metal::float4 _e142 = depth.read(metal::uint2(texel_3_), 4, 0);
+                            float depth_3_ = _e142.x;
+                            shaded_depth = 1000000000000000000000000000000.0;
+                            if (metal::abs(depth_3_) < 1000000000000000000000000000000.0) {
+                                shaded_depth = depth_3_;
+                            }
+                            metal::float4 _e152 = normal.read(metal::uint2(texel_3_), 4, 0);
+                            metal::float3 shaded_normal = _e152.xyz;
+                            float _e154 = seen_depth;
+                            float _e155 = shaded_depth;
+                            float step_value = metal::abs(_e154 - _e155);
+                            chosen = 16.0;
+                            if (step_value < 16.0) {
+                                chosen = step_value;
+                            }
                             metal::float3 turn = seen_normal - shaded_normal;
-                            float larger = metal::max(step_value, 0.5 * metal::dot(turn, turn));
-                            d = metal::min(larger, 16.0);
+                            float value = 0.5 * metal::dot(turn, turn);
+                            chosen_2_ = 16.0;
+                            if (value < 16.0) {
+                                chosen_2_ = value;
+                            }
+                            float _e170 = chosen;
+                            float _e171 = chosen_2_;
+                            float larger = metal::max(_e170, _e171);
+                            d = larger;
                         }
-                        int _e157 = tap;
-                        float _e159 = d;
-                        distances.inner[_e157] = _e159;
-                        float _e160 = nearest;
-                        float _e161 = d;
-                        float nearest_3_ = metal::min(_e160, _e161);
+                        int _e173 = tap;
+                        float _e175 = d;
+                        distances.inner[_e173] = _e175;
+                        float _e176 = nearest;
+                        float _e177 = d;
+                        float nearest_3_ = metal::min(_e176, _e177);
                         nearest_2_ = nearest_3_;
                     }
-                    float _e163 = nearest_2_;
-                    nearest = _e163;
+                    float _e179 = nearest_2_;
+                    nearest = _e179;
                 }
             }
             sum = 0.0;
@@ -185,41 +209,41 @@ kernel void sraa(
                 if (metal::all(loop_bound_3 == uint2(0u))) { break; }
                 loop_bound_3 -= uint2(loop_bound_3.y == 0u, 1u);
                 if (!loop_init_3) {
-                    int _e230 = tap_2_;
-                    tap_2_ = as_type<int>(as_type<uint>(_e230) + as_type<uint>(1));
+                    int _e246 = tap_2_;
+                    tap_2_ = as_type<int>(as_type<uint>(_e246) + as_type<uint>(1));
                 }
                 loop_init_3 = false;
-                int _e182 = tap_2_;
-                if (_e182 < 9) {
+                int _e198 = tap_2_;
+                if (_e198 < 9) {
                 } else {
                     break;
                 }
                 {
-                    int _e185 = tap_2_;
-                    int _e190 = tap_2_;
-                    metal::int2 pixel_3_ = metal::int2(as_type<int>(as_type<uint>(naga_mod(_e185, 3)) - as_type<uint>(1)), as_type<int>(as_type<uint>(naga_div(_e190, 3)) - as_type<uint>(1)));
+                    int _e201 = tap_2_;
+                    int _e206 = tap_2_;
+                    metal::int2 pixel_3_ = metal::int2(as_type<int>(as_type<uint>(naga_mod(_e201, 3)) - as_type<uint>(1)), as_type<int>(as_type<uint>(naga_div(_e206, 3)) - as_type<uint>(1)));
                     metal::float2 away_2_ = static_cast<metal::float2>(pixel_3_) - place_at;
-                    float value = metal::max(1.0 - metal::abs(away_2_.x), 0.0) * metal::max(1.0 - metal::abs(away_2_.y), 0.0);
-                    float _e211 = sum;
-                    sum_2_ = _e211;
-                    if (value > 0.0) {
-                        int _e215 = tap_2_;
-                        float value_2_ = distances.inner[_e215];
-                        float _e218 = nearest;
-                        float nearness = metal::exp2(-721.34753 * (value_2_ - _e218));
-                        float w = value * nearness;
-                        int _e224 = tap_2_;
-                        tap_weights.inner[_e224] = w;
-                        float _e226 = sum;
-                        float sum_3_ = _e226 + w;
+                    float value_2_ = metal::max(1.0 - metal::abs(away_2_.x), 0.0) * metal::max(1.0 - metal::abs(away_2_.y), 0.0);
+                    float _e227 = sum;
+                    sum_2_ = _e227;
+                    if (value_2_ > 0.0) {
+                        int _e231 = tap_2_;
+                        float value_3_ = distances.inner[_e231];
+                        float _e234 = nearest;
+                        float nearness = metal::exp2(-721.34753 * (value_3_ - _e234));
+                        float w = value_2_ * nearness;
+                        int _e240 = tap_2_;
+                        tap_weights.inner[_e240] = w;
+                        float _e242 = sum;
+                        float sum_3_ = _e242 + w;
                         sum_2_ = sum_3_;
                     }
-                    float _e228 = sum_2_;
-                    sum = _e228;
+                    float _e244 = sum_2_;
+                    sum = _e244;
                 }
             }
-            float _e232 = sum;
-            float scale = share / _e232;
+            float _e248 = sum;
+            float scale = share / _e248;
             tap_3_ = 0;
             uint2 loop_bound_4 = uint2(4294967295u);
             bool loop_init_4 = true;
@@ -227,29 +251,29 @@ kernel void sraa(
                 if (metal::all(loop_bound_4 == uint2(0u))) { break; }
                 loop_bound_4 -= uint2(loop_bound_4.y == 0u, 1u);
                 if (!loop_init_4) {
-                    int _e278 = tap_3_;
-                    tap_3_ = as_type<int>(as_type<uint>(_e278) + as_type<uint>(1));
+                    int _e294 = tap_3_;
+                    tap_3_ = as_type<int>(as_type<uint>(_e294) + as_type<uint>(1));
                 }
                 loop_init_4 = false;
-                int _e236 = tap_3_;
-                if (_e236 < 9) {
+                int _e252 = tap_3_;
+                if (_e252 < 9) {
                 } else {
                     break;
                 }
                 {
-                    int _e239 = tap_3_;
-                    int _e244 = tap_3_;
-                    metal::int2 pixel_4_ = metal::int2(as_type<int>(as_type<uint>(naga_mod(_e239, 3)) - as_type<uint>(1)), as_type<int>(as_type<uint>(naga_div(_e244, 3)) - as_type<uint>(1)));
+                    int _e255 = tap_3_;
+                    int _e260 = tap_3_;
+                    metal::int2 pixel_4_ = metal::int2(as_type<int>(as_type<uint>(naga_mod(_e255, 3)) - as_type<uint>(1)), as_type<int>(as_type<uint>(naga_div(_e260, 3)) - as_type<uint>(1)));
                     metal::float2 away_3_ = static_cast<metal::float2>(pixel_4_) - place_at;
                     bool holds_4_ = (metal::max(1.0 - metal::abs(away_3_.x), 0.0) * metal::max(1.0 - metal::abs(away_3_.y), 0.0)) > 0.0;
                     if (holds_4_) {
-                        int _e267 = tap_3_;
-                        float value_3_ = tap_weights.inner[_e267];
-                        int _e270 = tap_3_;
-                        float value_4_ = weights.inner[_e270];
-                        float weights_2_ = value_4_ + (value_3_ * scale);
-                        int _e275 = tap_3_;
-                        weights.inner[_e275] = weights_2_;
+                        int _e283 = tap_3_;
+                        float value_4_ = tap_weights.inner[_e283];
+                        int _e286 = tap_3_;
+                        float value_5_ = weights.inner[_e286];
+                        float weights_2_ = value_5_ + (value_4_ * scale);
+                        int _e291 = tap_3_;
+                        weights.inner[_e291] = weights_2_;
                     }
                 }
             }
@@ -261,48 +285,53 @@ kernel void sraa(
         if (metal::all(loop_bound_5 == uint2(0u))) { break; }
         loop_bound_5 -= uint2(loop_bound_5.y == 0u, 1u);
         if (!loop_init_5) {
-            int _e343 = tap_4_;
-            tap_4_ = as_type<int>(as_type<uint>(_e343) + as_type<uint>(1));
+            int _e359 = tap_4_;
+            tap_4_ = as_type<int>(as_type<uint>(_e359) + as_type<uint>(1));
         }
         loop_init_5 = false;
-        int _e290 = tap_4_;
-        if (_e290 < 9) {
+        int _e306 = tap_4_;
+        if (_e306 < 9) {
         } else {
             break;
         }
         {
-            int _e293 = tap_4_;
-            int _e298 = tap_4_;
-            metal::int2 pixel_5_ = metal::int2(as_type<int>(as_type<uint>(naga_mod(_e293, 3)) - as_type<uint>(1)), as_type<int>(as_type<uint>(naga_div(_e298, 3)) - as_type<uint>(1)));
+            int _e309 = tap_4_;
+            int _e314 = tap_4_;
+            metal::int2 pixel_5_ = metal::int2(as_type<int>(as_type<uint>(naga_mod(_e309, 3)) - as_type<uint>(1)), as_type<int>(as_type<uint>(naga_div(_e314, 3)) - as_type<uint>(1)));
             metal::int2 pixel_6_ = as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(pixel_5_));
             metal::int2 texel_4_ = metal::clamp(pixel_6_, metal::int2(0), last);
             metal::float4 shaded = color.read(metal::uint2(texel_4_), 0);
-            metal::uint4 value_5_ = as_type<metal::uint4>(shaded) & metal::uint4(2147483647u);
+            metal::uint4 value_6_ = as_type<metal::uint4>(shaded) & metal::uint4(2147483647u);
             w_2_ = 0.0;
-            if (metal::max(metal::max(metal::max(value_5_.x, value_5_.y), value_5_.z), value_5_.w) < 2139095040u) {
-                int _e326 = tap_4_;
-                float value_6_ = weights.inner[_e326];
-                w_2_ = value_6_;
+            if (metal::max(metal::max(metal::max(value_6_.x, value_6_.y), value_6_.z), value_6_.w) < 2139095040u) {
+                int _e342 = tap_4_;
+                float value_7_ = weights.inner[_e342];
+                w_2_ = value_7_;
             }
-            metal::float4 _e329 = result;
-            result_2_ = _e329;
-            float _e331 = w_2_;
-            if (_e331 != 0.0) {
-                metal::float4 _e334 = result;
-                float _e335 = w_2_;
-                metal::float4 result_3_ = _e334 + (_e335 * shaded);
+            metal::float4 _e345 = result;
+            result_2_ = _e345;
+            float _e347 = w_2_;
+            if (_e347 != 0.0) {
+                metal::float4 _e350 = result;
+                float _e351 = w_2_;
+                metal::float4 result_3_ = _e350 + (_e351 * shaded);
                 result_2_ = result_3_;
             }
-            float _e338 = sum_4_;
-            float _e339 = w_2_;
-            float sum_5_ = _e338 + _e339;
-            metal::float4 _e341 = result_2_;
-            result = _e341;
+            float _e354 = sum_4_;
+            float _e355 = w_2_;
+            float sum_5_ = _e354 + _e355;
+            metal::float4 _e357 = result_2_;
+            result = _e357;
             sum_4_ = sum_5_;
         }
     }
-    metal::float4 _e346 = result;
-    float _e347 = sum_4_;
-    destination.write(_e346 / metal::float4(metal::max(_e347, 0.000000000000000000000000000001)), metal::uint2(pixel));
+    float _e364 = sum_4_;
+    if (_e364 > 0.000000000000000000000000000001) {
+        metal::float4 _e367 = result;
+        float _e368 = sum_4_;
+        chosen_3_ = _e367 / metal::float4(_e368);
+    }
+    metal::float4 _e372 = chosen_3_;
+    destination.write(_e372, metal::uint2(pixel));
     return;
 }

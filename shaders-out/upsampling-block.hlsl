@@ -23,6 +23,15 @@ uint2 NagaDimensions2D(Texture2D<float4> tex)
 [numthreads(256, 1, 1)]
 void quad_upsampling(uint3 id : SV_DispatchThreadID)
 {
+    bool local = (bool)0;
+    bool local_1 = (bool)0;
+    bool local_2 = (bool)0;
+    bool local_3 = (bool)0;
+    bool local_4 = (bool)0;
+    bool local_5 = (bool)0;
+    bool local_6 = (bool)0;
+    bool local_7 = (bool)0;
+
     int2 frame = int2(NagaRWDimensions2D(destination));
     int2 pixel = asint(asuint(int2(id.xy)) * asuint(int2(int(2), int(2))));
     if (any((pixel >= frame))) {
@@ -40,13 +49,17 @@ void quad_upsampling(uint3 id : SV_DispatchThreadID)
     int2 texel_l2_ = min(texel_2_, last);
     int2 texel_l3_ = min(texel_3_, last);
     float4 _e43 = depth.Load(int3(pixel, int(0)));
-    float own_depth_l0_ = _e43.x;
+    float depth_texel = _e43.x;
     float4 _e47 = depth.Load(int3(texel_l1_, int(0)));
-    float own_depth_l1_ = _e47.x;
+    float depth_texel_2_ = _e47.x;
     float4 _e51 = depth.Load(int3(texel_l2_, int(0)));
-    float own_depth_l2_ = _e51.x;
+    float depth_texel_3_ = _e51.x;
     float4 _e55 = depth.Load(int3(texel_l3_, int(0)));
-    float own_depth_l3_ = _e55.x;
+    float depth_texel_4_ = _e55.x;
+    float own_depth_l0_ = ((abs(depth_texel) < 1e30) ? depth_texel : 1e30);
+    float own_depth_l1_ = ((abs(depth_texel_2_) < 1e30) ? depth_texel_2_ : 1e30);
+    float own_depth_l2_ = ((abs(depth_texel_3_) < 1e30) ? depth_texel_3_ : 1e30);
+    float own_depth_l3_ = ((abs(depth_texel_4_) < 1e30) ? depth_texel_4_ : 1e30);
     int2 last_2_ = asint(asuint(int2(NagaDimensions2D(low))) - asuint((int(1)).xx));
     int2 texel_l0_ = clamp(corner_l0_, (int(0)).xx, last_2_);
     int2 texel_l1_2_ = clamp(asint(asuint(corner_l1_) + asuint(int2(int(1), int(0)))), (int(0)).xx, last_2_);
@@ -56,14 +69,66 @@ void quad_upsampling(uint3 id : SV_DispatchThreadID)
     float4 texel_l1_3_ = low.Load(int3(texel_l1_2_, int(0)));
     float4 texel_l2_3_ = low.Load(int3(texel_l2_2_, int(0)));
     float4 texel_l3_3_ = low.Load(int3(texel_l3_2_, int(0)));
-    float4 taps = float4(texel_l0_2_.x, texel_l0_2_.y, texel_l0_2_.z, 1.0);
-    float4 taps_2_ = float4(texel_l1_3_.x, texel_l1_3_.y, texel_l1_3_.z, 1.0);
-    float4 taps_3_ = float4(texel_l2_3_.x, texel_l2_3_.y, texel_l2_3_.z, 1.0);
-    float4 taps_4_ = float4(texel_l3_3_.x, texel_l3_3_.y, texel_l3_3_.z, 1.0);
-    float away_k0_l0_ = abs((texel_l0_2_.w - own_depth_l0_));
-    float away_k0_l1_ = abs((texel_l1_3_.w - own_depth_l1_));
-    float away_k0_l2_ = abs((texel_l2_3_.w - own_depth_l2_));
-    float away_k0_l3_ = abs((texel_l3_3_.w - own_depth_l3_));
+    if ((abs(texel_l0_2_.x) < 3e38)) {
+        local = (abs(texel_l0_2_.y) < 3e38);
+    } else {
+        local = false;
+    }
+    bool _e129 = local;
+    if (_e129) {
+        local_1 = (abs(texel_l0_2_.z) < 3e38);
+    } else {
+        local_1 = false;
+    }
+    bool color_l0_ = local_1;
+    if ((abs(texel_l1_3_.x) < 3e38)) {
+        local_2 = (abs(texel_l1_3_.y) < 3e38);
+    } else {
+        local_2 = false;
+    }
+    bool _e149 = local_2;
+    if (_e149) {
+        local_3 = (abs(texel_l1_3_.z) < 3e38);
+    } else {
+        local_3 = false;
+    }
+    bool color_l1_ = local_3;
+    if ((abs(texel_l2_3_.x) < 3e38)) {
+        local_4 = (abs(texel_l2_3_.y) < 3e38);
+    } else {
+        local_4 = false;
+    }
+    bool _e169 = local_4;
+    if (_e169) {
+        local_5 = (abs(texel_l2_3_.z) < 3e38);
+    } else {
+        local_5 = false;
+    }
+    bool color_l2_ = local_5;
+    if ((abs(texel_l3_3_.x) < 3e38)) {
+        local_6 = (abs(texel_l3_3_.y) < 3e38);
+    } else {
+        local_6 = false;
+    }
+    bool _e189 = local_6;
+    if (_e189) {
+        local_7 = (abs(texel_l3_3_.z) < 3e38);
+    } else {
+        local_7 = false;
+    }
+    bool color_l3_ = local_7;
+    float4 texel_l0_3_ = (color_l0_ ? float4(texel_l0_2_.x, texel_l0_2_.y, texel_l0_2_.z, ((abs(texel_l0_2_.w) < 1e30) ? texel_l0_2_.w : 1e30)) : float4(0.0, 0.0, 0.0, -1e30));
+    float4 texel_l1_4_ = (color_l1_ ? float4(texel_l1_3_.x, texel_l1_3_.y, texel_l1_3_.z, ((abs(texel_l1_3_.w) < 1e30) ? texel_l1_3_.w : 1e30)) : float4(0.0, 0.0, 0.0, -1e30));
+    float4 texel_l2_4_ = (color_l2_ ? float4(texel_l2_3_.x, texel_l2_3_.y, texel_l2_3_.z, ((abs(texel_l2_3_.w) < 1e30) ? texel_l2_3_.w : 1e30)) : float4(0.0, 0.0, 0.0, -1e30));
+    float4 texel_l3_4_ = (color_l3_ ? float4(texel_l3_3_.x, texel_l3_3_.y, texel_l3_3_.z, ((abs(texel_l3_3_.w) < 1e30) ? texel_l3_3_.w : 1e30)) : float4(0.0, 0.0, 0.0, -1e30));
+    float4 taps = float4(texel_l0_3_.x, texel_l0_3_.y, texel_l0_3_.z, 1.0);
+    float4 taps_2_ = float4(texel_l1_4_.x, texel_l1_4_.y, texel_l1_4_.z, 1.0);
+    float4 taps_3_ = float4(texel_l2_4_.x, texel_l2_4_.y, texel_l2_4_.z, 1.0);
+    float4 taps_4_ = float4(texel_l3_4_.x, texel_l3_4_.y, texel_l3_4_.z, 1.0);
+    float away_k0_l0_ = abs((texel_l0_3_.w - own_depth_l0_));
+    float away_k0_l1_ = abs((texel_l1_4_.w - own_depth_l1_));
+    float away_k0_l2_ = abs((texel_l2_4_.w - own_depth_l2_));
+    float away_k0_l3_ = abs((texel_l3_4_.w - own_depth_l3_));
     float z_k0_l0_ = (away_k0_l0_ / 0.1);
     float z_k0_l1_ = (away_k0_l1_ / 0.1);
     float z_k0_l2_ = (away_k0_l2_ / 0.1);
@@ -76,10 +141,10 @@ void quad_upsampling(uint3 id : SV_DispatchThreadID)
     float weight_k0_l1_ = (0.5625 * exp2((exponent_k0_l1_ * -0.7213475)));
     float weight_k0_l2_ = (0.5625 * exp2((exponent_k0_l2_ * -0.7213475)));
     float weight_k0_l3_ = (0.5625 * exp2((exponent_k0_l3_ * -0.7213475)));
-    float away_k1_l0_ = abs((texel_l1_3_.w - own_depth_l0_));
-    float away_k1_l1_ = abs((texel_l0_2_.w - own_depth_l1_));
-    float away_k1_l2_ = abs((texel_l3_3_.w - own_depth_l2_));
-    float away_k1_l3_ = abs((texel_l2_3_.w - own_depth_l3_));
+    float away_k1_l0_ = abs((texel_l1_4_.w - own_depth_l0_));
+    float away_k1_l1_ = abs((texel_l0_3_.w - own_depth_l1_));
+    float away_k1_l2_ = abs((texel_l3_4_.w - own_depth_l2_));
+    float away_k1_l3_ = abs((texel_l2_4_.w - own_depth_l3_));
     float z_k1_l0_ = (away_k1_l0_ / 0.1);
     float z_k1_l1_ = (away_k1_l1_ / 0.1);
     float z_k1_l2_ = (away_k1_l2_ / 0.1);
@@ -108,10 +173,10 @@ void quad_upsampling(uint3 id : SV_DispatchThreadID)
     float4 fallback_k1_l1_ = (nearer_k1_l1_ ? taps : taps_2_);
     float4 fallback_k1_l2_ = (nearer_k1_l2_ ? taps_4_ : taps_3_);
     float4 fallback_k1_l3_ = (nearer_k1_l3_ ? taps_3_ : taps_4_);
-    float away_k2_l0_ = abs((texel_l2_3_.w - own_depth_l0_));
-    float away_k2_l1_ = abs((texel_l3_3_.w - own_depth_l1_));
-    float away_k2_l2_ = abs((texel_l0_2_.w - own_depth_l2_));
-    float away_k2_l3_ = abs((texel_l1_3_.w - own_depth_l3_));
+    float away_k2_l0_ = abs((texel_l2_4_.w - own_depth_l0_));
+    float away_k2_l1_ = abs((texel_l3_4_.w - own_depth_l1_));
+    float away_k2_l2_ = abs((texel_l0_3_.w - own_depth_l2_));
+    float away_k2_l3_ = abs((texel_l1_4_.w - own_depth_l3_));
     float z_k2_l0_ = (away_k2_l0_ / 0.1);
     float z_k2_l1_ = (away_k2_l1_ / 0.1);
     float z_k2_l2_ = (away_k2_l2_ / 0.1);
@@ -140,10 +205,10 @@ void quad_upsampling(uint3 id : SV_DispatchThreadID)
     float4 fallback_k2_l1_ = (nearer_k2_l1_ ? taps_4_ : fallback_k1_l1_);
     float4 fallback_k2_l2_ = (nearer_k2_l2_ ? taps : fallback_k1_l2_);
     float4 fallback_k2_l3_ = (nearer_k2_l3_ ? taps_2_ : fallback_k1_l3_);
-    float away_k3_l0_ = abs((texel_l3_3_.w - own_depth_l0_));
-    float away_k3_l1_ = abs((texel_l2_3_.w - own_depth_l1_));
-    float away_k3_l2_ = abs((texel_l1_3_.w - own_depth_l2_));
-    float away_k3_l3_ = abs((texel_l0_2_.w - own_depth_l3_));
+    float away_k3_l0_ = abs((texel_l3_4_.w - own_depth_l0_));
+    float away_k3_l1_ = abs((texel_l2_4_.w - own_depth_l1_));
+    float away_k3_l2_ = abs((texel_l1_4_.w - own_depth_l2_));
+    float away_k3_l3_ = abs((texel_l0_3_.w - own_depth_l3_));
     float z_k3_l0_ = (away_k3_l0_ / 0.1);
     float z_k3_l1_ = (away_k3_l1_ / 0.1);
     float z_k3_l2_ = (away_k3_l2_ / 0.1);

@@ -17,6 +17,14 @@ kernel void quad_upsampling(
 , metal::texture2d<float, metal::access::sample> depth [[texture(1)]]
 , metal::texture2d<float, metal::access::write> destination [[texture(2)]]
 ) {
+    bool local = {};
+    bool local_1 = {};
+    bool local_2 = {};
+    bool local_3 = {};
+    bool local_4 = {};
+    bool local_5 = {};
+    bool local_6 = {};
+    bool local_7 = {};
     metal::int2 frame = static_cast<metal::int2>(metal::uint2(destination.get_width(), destination.get_height()));
     metal::int2 pixel = as_type<metal::int2>(as_type<metal::uint2>(static_cast<metal::int2>(id.xy)) * as_type<metal::uint2>(metal::int2(2, 2)));
     if (metal::any(pixel >= frame)) {
@@ -34,13 +42,17 @@ kernel void quad_upsampling(
     metal::int2 texel_l2_ = metal::min(texel_2_, last);
     metal::int2 texel_l3_ = metal::min(texel_3_, last);
     metal::float4 _e43 = depth.read(metal::uint2(pixel), 0);
-    float own_depth_l0_ = _e43.x;
+    float depth_texel = _e43.x;
     metal::float4 _e47 = depth.read(metal::uint2(texel_l1_), 0);
-    float own_depth_l1_ = _e47.x;
+    float depth_texel_2_ = _e47.x;
     metal::float4 _e51 = depth.read(metal::uint2(texel_l2_), 0);
-    float own_depth_l2_ = _e51.x;
+    float depth_texel_3_ = _e51.x;
     metal::float4 _e55 = depth.read(metal::uint2(texel_l3_), 0);
-    float own_depth_l3_ = _e55.x;
+    float depth_texel_4_ = _e55.x;
+    float own_depth_l0_ = (metal::abs(depth_texel) < 1000000000000000000000000000000.0) ? depth_texel : 1000000000000000000000000000000.0;
+    float own_depth_l1_ = (metal::abs(depth_texel_2_) < 1000000000000000000000000000000.0) ? depth_texel_2_ : 1000000000000000000000000000000.0;
+    float own_depth_l2_ = (metal::abs(depth_texel_3_) < 1000000000000000000000000000000.0) ? depth_texel_3_ : 1000000000000000000000000000000.0;
+    float own_depth_l3_ = (metal::abs(depth_texel_4_) < 1000000000000000000000000000000.0) ? depth_texel_4_ : 1000000000000000000000000000000.0;
     metal::int2 last_2_ = as_type<metal::int2>(as_type<metal::uint2>(static_cast<metal::int2>(metal::uint2(low.get_width(), low.get_height()))) - as_type<metal::uint2>(metal::int2(1)));
     metal::int2 texel_l0_ = metal::clamp(corner_l0_, metal::int2(0), last_2_);
     metal::int2 texel_l1_2_ = metal::clamp(as_type<metal::int2>(as_type<metal::uint2>(corner_l1_) + as_type<metal::uint2>(metal::int2(1, 0))), metal::int2(0), last_2_);
@@ -50,14 +62,66 @@ kernel void quad_upsampling(
     metal::float4 texel_l1_3_ = low.read(metal::uint2(texel_l1_2_), 0);
     metal::float4 texel_l2_3_ = low.read(metal::uint2(texel_l2_2_), 0);
     metal::float4 texel_l3_3_ = low.read(metal::uint2(texel_l3_2_), 0);
-    metal::float4 taps = metal::float4(texel_l0_2_.x, texel_l0_2_.y, texel_l0_2_.z, 1.0);
-    metal::float4 taps_2_ = metal::float4(texel_l1_3_.x, texel_l1_3_.y, texel_l1_3_.z, 1.0);
-    metal::float4 taps_3_ = metal::float4(texel_l2_3_.x, texel_l2_3_.y, texel_l2_3_.z, 1.0);
-    metal::float4 taps_4_ = metal::float4(texel_l3_3_.x, texel_l3_3_.y, texel_l3_3_.z, 1.0);
-    float away_k0_l0_ = metal::abs(texel_l0_2_.w - own_depth_l0_);
-    float away_k0_l1_ = metal::abs(texel_l1_3_.w - own_depth_l1_);
-    float away_k0_l2_ = metal::abs(texel_l2_3_.w - own_depth_l2_);
-    float away_k0_l3_ = metal::abs(texel_l3_3_.w - own_depth_l3_);
+    if (metal::abs(texel_l0_2_.x) < 300000000000000000000000000000000000000.0) {
+        local = metal::abs(texel_l0_2_.y) < 300000000000000000000000000000000000000.0;
+    } else {
+        local = false;
+    }
+    bool _e129 = local;
+    if (_e129) {
+        local_1 = metal::abs(texel_l0_2_.z) < 300000000000000000000000000000000000000.0;
+    } else {
+        local_1 = false;
+    }
+    bool color_l0_ = local_1;
+    if (metal::abs(texel_l1_3_.x) < 300000000000000000000000000000000000000.0) {
+        local_2 = metal::abs(texel_l1_3_.y) < 300000000000000000000000000000000000000.0;
+    } else {
+        local_2 = false;
+    }
+    bool _e149 = local_2;
+    if (_e149) {
+        local_3 = metal::abs(texel_l1_3_.z) < 300000000000000000000000000000000000000.0;
+    } else {
+        local_3 = false;
+    }
+    bool color_l1_ = local_3;
+    if (metal::abs(texel_l2_3_.x) < 300000000000000000000000000000000000000.0) {
+        local_4 = metal::abs(texel_l2_3_.y) < 300000000000000000000000000000000000000.0;
+    } else {
+        local_4 = false;
+    }
+    bool _e169 = local_4;
+    if (_e169) {
+        local_5 = metal::abs(texel_l2_3_.z) < 300000000000000000000000000000000000000.0;
+    } else {
+        local_5 = false;
+    }
+    bool color_l2_ = local_5;
+    if (metal::abs(texel_l3_3_.x) < 300000000000000000000000000000000000000.0) {
+        local_6 = metal::abs(texel_l3_3_.y) < 300000000000000000000000000000000000000.0;
+    } else {
+        local_6 = false;
+    }
+    bool _e189 = local_6;
+    if (_e189) {
+        local_7 = metal::abs(texel_l3_3_.z) < 300000000000000000000000000000000000000.0;
+    } else {
+        local_7 = false;
+    }
+    bool color_l3_ = local_7;
+    metal::float4 texel_l0_3_ = color_l0_ ? metal::float4(texel_l0_2_.x, texel_l0_2_.y, texel_l0_2_.z, (metal::abs(texel_l0_2_.w) < 1000000000000000000000000000000.0) ? texel_l0_2_.w : 1000000000000000000000000000000.0) : metal::float4(0.0, 0.0, 0.0, -1000000000000000000000000000000.0);
+    metal::float4 texel_l1_4_ = color_l1_ ? metal::float4(texel_l1_3_.x, texel_l1_3_.y, texel_l1_3_.z, (metal::abs(texel_l1_3_.w) < 1000000000000000000000000000000.0) ? texel_l1_3_.w : 1000000000000000000000000000000.0) : metal::float4(0.0, 0.0, 0.0, -1000000000000000000000000000000.0);
+    metal::float4 texel_l2_4_ = color_l2_ ? metal::float4(texel_l2_3_.x, texel_l2_3_.y, texel_l2_3_.z, (metal::abs(texel_l2_3_.w) < 1000000000000000000000000000000.0) ? texel_l2_3_.w : 1000000000000000000000000000000.0) : metal::float4(0.0, 0.0, 0.0, -1000000000000000000000000000000.0);
+    metal::float4 texel_l3_4_ = color_l3_ ? metal::float4(texel_l3_3_.x, texel_l3_3_.y, texel_l3_3_.z, (metal::abs(texel_l3_3_.w) < 1000000000000000000000000000000.0) ? texel_l3_3_.w : 1000000000000000000000000000000.0) : metal::float4(0.0, 0.0, 0.0, -1000000000000000000000000000000.0);
+    metal::float4 taps = metal::float4(texel_l0_3_.x, texel_l0_3_.y, texel_l0_3_.z, 1.0);
+    metal::float4 taps_2_ = metal::float4(texel_l1_4_.x, texel_l1_4_.y, texel_l1_4_.z, 1.0);
+    metal::float4 taps_3_ = metal::float4(texel_l2_4_.x, texel_l2_4_.y, texel_l2_4_.z, 1.0);
+    metal::float4 taps_4_ = metal::float4(texel_l3_4_.x, texel_l3_4_.y, texel_l3_4_.z, 1.0);
+    float away_k0_l0_ = metal::abs(texel_l0_3_.w - own_depth_l0_);
+    float away_k0_l1_ = metal::abs(texel_l1_4_.w - own_depth_l1_);
+    float away_k0_l2_ = metal::abs(texel_l2_4_.w - own_depth_l2_);
+    float away_k0_l3_ = metal::abs(texel_l3_4_.w - own_depth_l3_);
     float z_k0_l0_ = away_k0_l0_ / 0.1;
     float z_k0_l1_ = away_k0_l1_ / 0.1;
     float z_k0_l2_ = away_k0_l2_ / 0.1;
@@ -70,10 +134,10 @@ kernel void quad_upsampling(
     float weight_k0_l1_ = 0.5625 * metal::exp2(exponent_k0_l1_ * -0.7213475);
     float weight_k0_l2_ = 0.5625 * metal::exp2(exponent_k0_l2_ * -0.7213475);
     float weight_k0_l3_ = 0.5625 * metal::exp2(exponent_k0_l3_ * -0.7213475);
-    float away_k1_l0_ = metal::abs(texel_l1_3_.w - own_depth_l0_);
-    float away_k1_l1_ = metal::abs(texel_l0_2_.w - own_depth_l1_);
-    float away_k1_l2_ = metal::abs(texel_l3_3_.w - own_depth_l2_);
-    float away_k1_l3_ = metal::abs(texel_l2_3_.w - own_depth_l3_);
+    float away_k1_l0_ = metal::abs(texel_l1_4_.w - own_depth_l0_);
+    float away_k1_l1_ = metal::abs(texel_l0_3_.w - own_depth_l1_);
+    float away_k1_l2_ = metal::abs(texel_l3_4_.w - own_depth_l2_);
+    float away_k1_l3_ = metal::abs(texel_l2_4_.w - own_depth_l3_);
     float z_k1_l0_ = away_k1_l0_ / 0.1;
     float z_k1_l1_ = away_k1_l1_ / 0.1;
     float z_k1_l2_ = away_k1_l2_ / 0.1;
@@ -102,10 +166,10 @@ kernel void quad_upsampling(
     metal::float4 fallback_k1_l1_ = nearer_k1_l1_ ? taps : taps_2_;
     metal::float4 fallback_k1_l2_ = nearer_k1_l2_ ? taps_4_ : taps_3_;
     metal::float4 fallback_k1_l3_ = nearer_k1_l3_ ? taps_3_ : taps_4_;
-    float away_k2_l0_ = metal::abs(texel_l2_3_.w - own_depth_l0_);
-    float away_k2_l1_ = metal::abs(texel_l3_3_.w - own_depth_l1_);
-    float away_k2_l2_ = metal::abs(texel_l0_2_.w - own_depth_l2_);
-    float away_k2_l3_ = metal::abs(texel_l1_3_.w - own_depth_l3_);
+    float away_k2_l0_ = metal::abs(texel_l2_4_.w - own_depth_l0_);
+    float away_k2_l1_ = metal::abs(texel_l3_4_.w - own_depth_l1_);
+    float away_k2_l2_ = metal::abs(texel_l0_3_.w - own_depth_l2_);
+    float away_k2_l3_ = metal::abs(texel_l1_4_.w - own_depth_l3_);
     float z_k2_l0_ = away_k2_l0_ / 0.1;
     float z_k2_l1_ = away_k2_l1_ / 0.1;
     float z_k2_l2_ = away_k2_l2_ / 0.1;
@@ -134,10 +198,10 @@ kernel void quad_upsampling(
     metal::float4 fallback_k2_l1_ = nearer_k2_l1_ ? taps_4_ : fallback_k1_l1_;
     metal::float4 fallback_k2_l2_ = nearer_k2_l2_ ? taps : fallback_k1_l2_;
     metal::float4 fallback_k2_l3_ = nearer_k2_l3_ ? taps_2_ : fallback_k1_l3_;
-    float away_k3_l0_ = metal::abs(texel_l3_3_.w - own_depth_l0_);
-    float away_k3_l1_ = metal::abs(texel_l2_3_.w - own_depth_l1_);
-    float away_k3_l2_ = metal::abs(texel_l1_3_.w - own_depth_l2_);
-    float away_k3_l3_ = metal::abs(texel_l0_2_.w - own_depth_l3_);
+    float away_k3_l0_ = metal::abs(texel_l3_4_.w - own_depth_l0_);
+    float away_k3_l1_ = metal::abs(texel_l2_4_.w - own_depth_l1_);
+    float away_k3_l2_ = metal::abs(texel_l1_4_.w - own_depth_l2_);
+    float away_k3_l3_ = metal::abs(texel_l0_3_.w - own_depth_l3_);
     float z_k3_l0_ = away_k3_l0_ / 0.1;
     float z_k3_l1_ = away_k3_l1_ / 0.1;
     float z_k3_l2_ = away_k3_l2_ / 0.1;

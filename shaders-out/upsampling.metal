@@ -23,25 +23,41 @@ fragment quad_upsamplingOutput quad_upsampling(
 , metal::texture2d<float, metal::access::sample> low [[texture(0)]]
 , metal::texture2d<float, metal::access::sample> depth [[texture(1)]]
 ) {
+    bool local = {};
+    bool local_1 = {};
     metal::int2 pixel = naga_f2i32(metal::floor(position.xy));
     metal::int2 frame = static_cast<metal::int2>(metal::uint2(depth.get_width(), depth.get_height()));
     metal::int2 corner = naga_div(pixel, metal::int2(2));
     metal::int2 last = as_type<metal::int2>(as_type<metal::uint2>(frame) - as_type<metal::uint2>(metal::int2(1)));
     metal::int2 texel = metal::clamp(pixel, metal::int2(0), last);
     metal::float4 _e18 = depth.read(metal::uint2(texel), 0);
-    float own_depth = _e18.x;
+    float depth_texel = _e18.x;
+    float own_depth = (metal::abs(depth_texel) < 1000000000000000000000000000000.0) ? depth_texel : 1000000000000000000000000000000.0;
     metal::int2 lane = pixel & metal::int2(1);
     metal::int2 last_2_ = as_type<metal::int2>(as_type<metal::uint2>(static_cast<metal::int2>(metal::uint2(low.get_width(), low.get_height()))) - as_type<metal::uint2>(metal::int2(1)));
     metal::int2 texel_2_ = metal::clamp(as_type<metal::int2>(as_type<metal::uint2>(corner) + as_type<metal::uint2>(lane)), metal::int2(0), last_2_);
     metal::float4 texel_3_ = low.read(metal::uint2(texel_2_), 0);
-    metal::float4 unnamed = metal::quad_shuffle_xor(texel_3_, 1u);
-    metal::float4 unnamed_1 = metal::quad_shuffle_xor(texel_3_, 2u);
-    metal::float4 unnamed_2 = metal::quad_shuffle_xor(texel_3_, 3u);
-    metal::float4 taps_k0_ = metal::float4(texel_3_.x, texel_3_.y, texel_3_.z, 1.0);
+    if (metal::abs(texel_3_.x) < 300000000000000000000000000000000000000.0) {
+        local = metal::abs(texel_3_.y) < 300000000000000000000000000000000000000.0;
+    } else {
+        local = false;
+    }
+    bool _e52 = local;
+    if (_e52) {
+        local_1 = metal::abs(texel_3_.z) < 300000000000000000000000000000000000000.0;
+    } else {
+        local_1 = false;
+    }
+    bool color = local_1;
+    metal::float4 texel_4_ = color ? metal::float4(texel_3_.x, texel_3_.y, texel_3_.z, (metal::abs(texel_3_.w) < 1000000000000000000000000000000.0) ? texel_3_.w : 1000000000000000000000000000000.0) : metal::float4(0.0, 0.0, 0.0, -1000000000000000000000000000000.0);
+    metal::float4 unnamed = metal::quad_shuffle_xor(texel_4_, 1u);
+    metal::float4 unnamed_1 = metal::quad_shuffle_xor(texel_4_, 2u);
+    metal::float4 unnamed_2 = metal::quad_shuffle_xor(texel_4_, 3u);
+    metal::float4 taps_k0_ = metal::float4(texel_4_.x, texel_4_.y, texel_4_.z, 1.0);
     metal::float4 taps_k1_ = metal::float4(unnamed.x, unnamed.y, unnamed.z, 1.0);
     metal::float4 taps_k2_ = metal::float4(unnamed_1.x, unnamed_1.y, unnamed_1.z, 1.0);
     metal::float4 taps_k3_ = metal::float4(unnamed_2.x, unnamed_2.y, unnamed_2.z, 1.0);
-    float away_k0_ = metal::abs(texel_3_.w - own_depth);
+    float away_k0_ = metal::abs(texel_4_.w - own_depth);
     float z_k0_ = away_k0_ / 0.1;
     float exponent_k0_ = z_k0_ * z_k0_;
     float weight_k0_ = 0.5625 * metal::exp2(exponent_k0_ * -0.7213475);

@@ -129,7 +129,9 @@ fn half_precision_keeps_to_its_analysis() {
     let mut compared = 0;
     for case in &record.cases {
         for r in case.results.iter().filter(|r| r.refused.is_none()) {
-            let (off, most) = (r.difference.unwrap_or(0.0), r.analysed.expect("analysed"));
+            // Where nothing is lost by underflow.
+            let Some(most) = r.analysed else { continue };
+            let off = r.difference.unwrap_or(0.0);
             assert!(
                 off <= most,
                 "{} on `{}` by {:?}: {off:e}, {most:e}",

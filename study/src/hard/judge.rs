@@ -178,10 +178,10 @@ impl<'a> Trial<'a> {
             bound,
             kept,
             promised: self.form.promises && !half,
-            analysed: self.expected.half_bounds.as_ref().filter(|_| half).map(|all| {
-                let finite = all.iter().copied().filter(|bound| bound.is_finite());
-                finite.fold(0.0, f64::max)
-            }),
+            analysed: (self.expected.half_bounds.as_ref())
+                .filter(|_| half)
+                .map(|all| all.iter().copied().fold(0.0, f64::max))
+                .filter(|most| most.is_finite()),
             refused: None,
         }
     }

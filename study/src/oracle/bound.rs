@@ -145,8 +145,8 @@ pub(crate) fn of_mean(shares: &[Share], normalised: bool, rounding: &Rounding) -
 }
 
 /// Most that any component of every pixel may be off, row by row, in whatever a shader with these options makes of these
-/// inputs; see [`oracle::sraa`](super::sraa). Of [`Normalisation::Paper`] nothing is promised where no weight is left:
-/// infinity.
+/// inputs; see [`oracle::sraa`](super::sraa). Of [`Normalisation::Paper`] nothing is promised where no weight is left,
+/// nor where a quotient may overflow: infinity.
 ///
 /// # Errors
 ///
@@ -324,7 +324,10 @@ impl Definition<'_> {
             let rounded = rounding.of_exponential(steep) + 4.0 * rounding.unit;
             let high = tap.falloff * (rounded - tau * (tap.range.low - least)).min(rounded.min(1.0)).exp();
             let low = tap.falloff * (-rounded - tau * (tap.range.high - least)).exp();
-            ((low - rounding.smallest).max(0.0), high + rounding.smallest)
+            // What is too small is lost; what is smaller than half of the smallest number of all cannot come back.
+            let step = 2.0 * rounding.unit * rounding.smallest;
+            let high = if high < 0.5 * step { 0.0 } else { high + step };
+            ((low - rounding.smallest).max(0.0), high)
         });
         let ends: Vec<(f64, f64)> = ends.collect();
         let weight = |tap: &Reach| tap.falloff * (-tau * (tap.difference - origin)).exp();
@@ -337,6 +340,10 @@ impl Definition<'_> {
             Normalisation::Epsilon => EPSILON,
             Normalisation::Paper | Normalisation::Shifted => 0.0,
         };
+        // Divided by too little, a share is infinite.
+        if share / lows.max(epsilon.max(rounding.smallest)) > rounding.largest {
+            return None;
+        }
         let summed = (reach.len() as f64 + 8.0) * rounding.unit;
         let own = reach.iter().zip(ends).map(|(tap, (low, high))| {
             let exact = weight(tap) / total.max(epsilon);
