@@ -25,7 +25,8 @@ impl Bench {
         Ok(Box::new(move || bench.once(&job, &view, 1, timer.as_mut())))
     }
 
-    /// As [`timed`](Self::timed), of any work. Each must take its time as this bench does: by [`clock`](Self::clock).
+    /// As [`timed`](Self::timed), of any work. Each must take its time as this bench does: by [`clock`](Self::clock). Every other
+    /// round runs them in reverse.
     ///
     /// # Errors
     ///
@@ -38,10 +39,11 @@ impl Bench {
     ) -> Result<Timed, ExecuteError> {
         let mut times: Vec<Vec<Duration>> = vec![Vec::new(); works.len()];
         for round in 0..=rounds.max(1) {
-            for (work, times) in works.iter_mut().zip(&mut times) {
-                let took = work()?;
+            for turn in 0..works.len() {
+                let k = if round % 2 == 0 { turn } else { works.len() - 1 - turn };
+                let took = works[k]()?;
                 if round > 0 {
-                    times.push(took);
+                    times[k].push(took);
                 }
             }
             if !tick(round) && round > 0 {

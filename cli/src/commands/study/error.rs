@@ -12,7 +12,7 @@ use straightline_study::record::{Gap, MOST_DB, MethodErrors, QualityRecord, Reco
 use straightline_study::scene::{self, NAMES, Scene};
 
 /// Frames of the pan.
-const FRAMES: u32 = 8;
+const FRAMES: u32 = 5;
 const QUICK_FRAMES: u32 = 4;
 
 /// Compares, writes the record and prints it.
