@@ -22,6 +22,7 @@ fn main() -> ExitCode {
         Command::Budget(args) => commands::budget::run(&args),
         Command::Quads(args) => commands::quads::run(&args),
         Command::Study(args) => commands::study::run(&args),
+        Command::Tune(args) => commands::tune::run(&args),
         Command::Resolve(args) => commands::resolve::run(&args),
         Command::Capture(args) => commands::capture::run(&args),
         Command::Scenes(args) => commands::scenes::run(&args),

@@ -310,20 +310,28 @@ fn a_nan_is_traced_to_its_line() {
 
 #[test]
 fn unrolling_is_compared_and_recorded() {
-    let folder = scratch("unroll");
-    let record = folder.join("record.json");
-    let kernel = example("sobel");
+    let folder = scratch("loops");
+    let out = folder.join("out");
+    let pictures = folder.join("pictures");
+    let text = std::fs::read_to_string(example("sobel")).expect("the example");
+    let kernel = write(&folder, "edges.rs", &text);
+    let kernel = format!("{kernel}::sobel");
+    let by_hand = format!("{}/../study/kernels/sobel.rs", env!("CARGO_MANIFEST_DIR"));
     let words = [
-        "unroll",
+        "study",
+        "loops",
+        "--from",
         &kernel,
+        "--by-hand",
+        &by_hand,
         "--size",
         "32x16",
         "--rounds",
         "1",
-        "--record",
-        record.to_str().unwrap(),
+        "--out",
+        out.to_str().unwrap(),
         "--pictures",
-        folder.to_str().unwrap(),
+        pictures.to_str().unwrap(),
     ];
     let finished = straightline(&words);
     assert!(
@@ -332,12 +340,62 @@ fn unrolling_is_compared_and_recorded() {
         String::from_utf8_lossy(&finished.stderr)
     );
     let table = String::from_utf8_lossy(&finished.stdout).into_owned();
-    for word in ["none", "partial(2)", "partial(4)", "full"] {
-        assert!(table.contains(word), "{table}");
+    for word in [
+        "looped",
+        "no bound",
+        "by hand",
+        "partial(2)",
+        "partial(4)",
+        "full",
+        "2x2",
+        "floor",
+    ] {
+        assert!(table.contains(word), "no {word} in:\n{table}");
     }
-    let record = std::fs::read_to_string(record).expect("a record");
-    assert!(record.contains("\"adapter\"") && record.contains("largest_difference_to_f64"));
-    assert!(folder.join("sobel.png").exists());
+    let record = std::fs::read_to_string(out.join("loops.json")).expect("a record");
+    assert!(
+        record.contains("\"adapter\"")
+            && record.contains("\"looped-by-hand\"")
+            && record.contains("\"complete\": true")
+    );
+    assert!(out.join("loops.csv").exists());
+    assert!(pictures.join("sobel.png").exists() && pictures.join("all.png").exists());
+}
+
+#[test]
+fn what_cannot_be_studied_is_named() {
+    let folder = scratch("study-loops");
+    let out = folder.join("out");
+    let out_text = out.to_str().unwrap();
+    let broken = write(&folder, "broken.rs", "pub fn broken(pixel: IVec2) -> Vec4 { 1.0 }\n");
+    let good = example("sobel");
+    let study = |more: &[&str], status: i32, says: &[&str]| {
+        let words = ["study", "loops", "--size", "16x16", "--rounds", "1", "--out", out_text];
+        fails(&[&words, more].concat(), status, says);
+    };
+    study(&["--from", &broken], 1, &["broken.rs:1"]);
+    study(&["--from", &good, "--by-hand", &broken], 1, &["broken.rs:1"]);
+    study(
+        &["--from", &format!("{good}::sobeel")],
+        2,
+        &["no function `sobeel`", "luma, sobel"],
+    );
+    study(&["--from", "nowhere.rs"], 2, &["nowhere.rs"]);
+    study(&["--from", "sraaa"], 2, &["no kernel `sraaa`"]);
+    study(&["--by-hand", &good], 2, &["--from"]);
+    study(
+        &["--from", &good, "--from", &good, "--by-hand", &good],
+        2,
+        &["1 kernels by hand for 2 kernels", "one --by-hand for each --from"],
+    );
+    study(&["--rounds", "0"], 2, &["--rounds"]);
+    study(&["--adapter", "no such adapter"], 2, &["no such adapter"]);
+    assert!(is_empty(&out));
+    let blocked = write(&folder, "blocked", "");
+    let words = [
+        "study", "loops", "--size", "16x16", "--rounds", "1", "--from", &good, "--out",
+    ];
+    fails(&[&words[..], &[&format!("{blocked}/out")]].concat(), 1, &["blocked"]);
 }
 
 #[test]
@@ -434,4 +492,59 @@ fn quads_measures_every_filter_on_a_small_frame() {
     let record = std::fs::read_to_string(record).expect("a record");
     assert!(!record.contains("null"), "a figure is missing:\n{record}");
     assert!(pictures.join("pcf-details.png").is_file() && pictures.join("occlusion-details.png").is_file());
+}
+
+/// The capture of `examples/captures/spheres`, to be broken.
+fn spheres(folder: &Path) -> PathBuf {
+    let from = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/captures/spheres");
+    let to = folder.join("spheres");
+    std::fs::create_dir_all(&to).expect("a folder");
+    for entry in std::fs::read_dir(from).expect("the capture is there") {
+        let entry = entry.expect("an entry");
+        std::fs::copy(entry.path(), to.join(entry.file_name())).expect("a copy");
+    }
+    to
+}
+
+#[test]
+fn what_errors_cannot_be_measured_of_is_refused_before_any_work() {
+    let folder = scratch("study-error");
+    let out = folder.join("out");
+    let fails_with = |arguments: &[&str], status, says: &[&str]| {
+        let all = [&["study", "error", "--out", out.to_str().unwrap()], arguments].concat();
+        fails(&all, status, says);
+        assert!(is_empty(&out));
+    };
+    fails_with(&["--scene", "rooof"], 2, &["no scene `rooof`", "terrain"]);
+    fails_with(&["--mesh", "nowhere.glb"], 1, &["nowhere.glb", "cannot be read"]);
+    fails_with(
+        &["--capture", "nowhere"],
+        1,
+        &["nowhere is not a capture", "docs/captures.md"],
+    );
+
+    let capture = spheres(&folder);
+    let with_capture = |says: &[&str]| fails_with(&["--capture", capture.to_str().unwrap()], 1, says);
+    let original = std::fs::read(capture.join("depth.exr")).expect("depth");
+    std::fs::write(capture.join("depth.exr"), &original[..original.len() / 2]).expect("written");
+    with_capture(&["depth.exr"]);
+    std::fs::write(capture.join("depth.exr"), "no picture").expect("written");
+    with_capture(&["depth.exr"]);
+    std::fs::write(capture.join("depth.exr"), &original).expect("written");
+
+    let description = capture.join("capture.json");
+    let text = std::fs::read_to_string(&description).expect("a description");
+    for (right, wrong, says) in [
+        ("\"linear\"", "\"reversed\"", "depth encoding `reversed` is unknown"),
+        ("\"schema\": 1", "\"schema\": 7", "schema 7"),
+        ("\"shading\"", "\"shadding\"", "shadding"),
+        ("96,", "97,", "color.exr"),
+    ] {
+        assert!(text.contains(right), "{right}");
+        std::fs::write(&description, text.replacen(right, wrong, 1)).expect("written");
+        with_capture(&[says]);
+    }
+    std::fs::write(&description, &text).expect("written");
+    std::fs::remove_file(capture.join("reference.exr")).expect("removed");
+    with_capture(&["has no reference.exr", "--reference 256"]);
 }

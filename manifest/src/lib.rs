@@ -5,12 +5,14 @@
 
 mod format;
 mod precision;
+mod tuned;
 
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 pub use format::Format;
 pub use precision::Precision;
+pub use tuned::{LeftOut, Tuned};
 
 /// Version of the manifest's layout. A reader refuses a manifest whose schema it does not know.
 pub const SCHEMA: u32 = 2;
@@ -61,6 +63,9 @@ pub struct Manifest {
     /// File of each target that was written, by target name (`wgsl`, `glsl450`, `spirv`, `hlsl`, `msl`).
     #[serde(default)]
     pub files: BTreeMap<String, String>,
+    /// Of a shader that `straightline tune` chose: what was left out, and what that cost.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tuned: Option<Tuned>,
 }
 
 /// A value that is interpolated for each fragment.

@@ -4,8 +4,8 @@
 //! draw conclusions. Where it is shown here that all loops end, that bound can go.
 
 use wgpu::naga::{
-    BinaryOperator, Block, Expression, Function, Handle, Literal, LocalVariable, Module, Scalar, Statement, TypeInner,
-    front,
+    AddressSpace, BinaryOperator, Block, Expression, Function, Handle, Literal, LocalVariable, Module, Scalar,
+    Statement, TypeInner, front,
 };
 
 /// Checks that each loop of `wgsl` counts up by one, from an `i32` that nothing else in it writes, to a limit that does not
@@ -99,7 +99,7 @@ fn counts(module: &Module, function: &Function, body: &Block, continuing: &Block
     }
     let mut inside = Vec::new();
     emitted(body, &mut inside);
-    if !stays(function, right, &inside, &written) {
+    if !stays(module, function, right, &inside, &written) {
         return Err(format!("the limit of `{name}` may change in the loop"));
     }
     Ok(())
@@ -163,21 +163,32 @@ fn emitted(block: &Block, inside: &mut Vec<Handle<Expression>>) {
 
 /// Whether an expression has one value in all rounds of a loop in which those `inside` are evaluated.
 fn stays(
+    module: &Module,
     function: &Function,
     expression: Handle<Expression>,
     inside: &[Handle<Expression>],
     written: &[Option<Handle<LocalVariable>>],
 ) -> bool {
-    let stays = |other: Handle<Expression>| stays(function, other, inside, written);
+    let stays = |other: Handle<Expression>| stays(module, function, other, inside, written);
     match function.expressions[expression] {
         Expression::Literal(_) | Expression::Constant(_) | Expression::FunctionArgument(_) => true,
         _ if !inside.contains(&expression) => true,
-        Expression::Load { pointer } => {
-            root(function, pointer).is_some_and(|variable| !written.contains(&Some(variable)))
-        }
+        Expression::Load { pointer } => match root(function, pointer) {
+            Some(variable) => !written.contains(&Some(variable)),
+            None => is_constant_memory(module, function, pointer),
+        },
         Expression::Binary { left, right, .. } => stays(left) && stays(right),
         Expression::Unary { expr, .. } | Expression::As { expr, .. } => stays(expr),
         Expression::AccessIndex { base, .. } => stays(base),
+        _ => false,
+    }
+}
+
+/// Whether a pointer leads to a fixed place in a uniform buffer, which nothing in a shader writes.
+fn is_constant_memory(module: &Module, function: &Function, pointer: Handle<Expression>) -> bool {
+    match function.expressions[pointer] {
+        Expression::GlobalVariable(global) => module.global_variables[global].space == AddressSpace::Uniform,
+        Expression::AccessIndex { base, .. } => is_constant_memory(module, function, base),
         _ => false,
     }
 }
@@ -188,7 +199,7 @@ mod tests {
 
     fn of(body: &str) -> Result<(), String> {
         check(&format!(
-            "fn change(p: ptr<function, i32>) {{ *p = 0; }}\n@compute @workgroup_size(1)\nfn main(@builtin(global_invocation_id) id: vec3u) {{\n{body}\n}}"
+            "struct U {{ n: i32, m: i32 }}\n@group(0) @binding(0) var<uniform> u: U;\n@group(0) @binding(1) var<storage, read_write> s: U;\nfn change(p: ptr<function, i32>) {{ *p = 0; }}\n@compute @workgroup_size(1)\nfn main(@builtin(global_invocation_id) id: vec3u) {{\n{body}\n}}"
         ))
     }
 
@@ -199,6 +210,7 @@ mod tests {
             "let n = i32(id.x); for (var k = n - 4; k < n; k++) { for (var j = k; j < 2 * n + 1; j++) { } }",
             "var n = 4; for (var k = 0; k < n; k++) { var a = array<i32, 4>(); a[k] = k; }",
             "var sum = 0; for (var k = 0; k < 3; k++) { if id.x > 4u { continue; } sum = sum + k; }",
+            "for (var k = 0; k < u.m; k++) { }",
             // The outer counter is the inner limit.
             "for (var k = 0; k < 9; k++) { for (var j = 0; j < k; j++) { } }",
         ];

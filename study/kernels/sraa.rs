@@ -1,5 +1,5 @@
 //! SRAA with its default options, its loops kept and written by hand for speed: the surfaces at the taps are read once, into
-//! arrays; of nine taps only the four that a sample's tent reaches are visited; weights on the screen come from a table.
+//! arrays, and of nine taps only the four that a sample's tent reaches are visited.
 
 use straightline_kernels::prelude::*;
 
@@ -68,13 +68,13 @@ pub fn sraa(
     pixel: IVec2,
 ) -> Vec4 {
     match cfg.pattern {
-        Pattern::Latin4 => filtered::<4, 16>(cfg, LATIN4, depth, normal, color, pixel),
-        Pattern::Latin16 => filtered::<16, 64>(cfg, LATIN16, depth, normal, color, pixel),
+        Pattern::Latin4 => filtered::<4>(cfg, LATIN4, depth, normal, color, pixel),
+        Pattern::Latin16 => filtered::<16>(cfg, LATIN16, depth, normal, color, pixel),
     }
 }
 
-/// `REACHED` is four times `SAMPLES`.
-fn filtered<const SAMPLES: usize, const REACHED: usize>(
+/// The pixel's colour from the 3×3 shading samples around it.
+fn filtered<const SAMPLES: usize>(
     cfg: &Sraa,
     places: [IVec2; SAMPLES],
     depth: &FrameLayers<f32>,
@@ -82,22 +82,6 @@ fn filtered<const SAMPLES: usize, const REACHED: usize>(
     color: &Frame<Vec4>,
     pixel: IVec2,
 ) -> Vec4 {
-    // Tables: the upper left of the four taps around each sample, and the weights of all four on the screen.
-    let mut firsts = [0; SAMPLES];
-    let mut falloffs = [0.0; REACHED];
-    #[cfg_attr(false, unroll(full))]
-    for sample in 0..SAMPLES {
-        let place = places[sample].as_vec2() / 16.0;
-        let left = if place.x < 0.0 { 0 } else { 1 };
-        let top = if place.y < 0.0 { 0 } else { 1 };
-        firsts[sample] = top * 3 + left;
-        #[cfg_attr(false, unroll(full))]
-        for k in 0..4 {
-            let tap = vec2((left + k % 2) as f32 - 1.0, (top + k / 2) as f32 - 1.0);
-            let away = (tap - place).abs();
-            falloffs[sample * 4 + k] = (1.0 - away.x) * (1.0 - away.y);
-        }
-    }
     // What is seen at the taps, each read once.
     let mut depths = [0.0; 9];
     let mut normals = [Vec3::ZERO; 9];
@@ -116,11 +100,18 @@ fn filtered<const SAMPLES: usize, const REACHED: usize>(
             Metric::DepthNormals => normal.load(pixel, sample).truncate(),
             Metric::Depth => Vec3::ZERO,
         };
-        let first = firsts[sample];
+        // The upper left of the four taps that its tent reaches.
+        let place = places[sample].as_vec2() / 16.0;
+        let left = if place.x < 0.0 { 0 } else { 1 };
+        let top = if place.y < 0.0 { 0 } else { 1 };
+        let first = top * 3 + left;
+        let mut falloffs = [0.0; 4];
         let mut distances = [0.0; 4];
         let mut nearest = FAR;
         for k in 0..4 {
             let tap = first + k / 2 * 3 + k % 2;
+            let away = (vec2((left + k % 2) as f32 - 1.0, (top + k / 2) as f32 - 1.0) - place).abs();
+            let falloff = (1.0 - away.x) * (1.0 - away.y);
             let deeper = (seen_depth - depths[tap]).abs();
             let larger = match cfg.metric {
                 Metric::DepthNormals => {
@@ -134,20 +125,21 @@ fn filtered<const SAMPLES: usize, const REACHED: usize>(
                 Pattern::Latin4 => larger.min(FAR),
                 Pattern::Latin16 => {
                     #[cfg_attr(false, select)]
-                    if falloffs[sample * 4 + k] > 0.0 {
+                    if falloff > 0.0 {
                         larger.min(FAR)
                     } else {
                         FAR
                     }
                 }
             };
+            falloffs[k] = falloff;
             distances[k] = d;
             nearest = nearest.min(d);
         }
         let mut sum = 0.0;
         for k in 0..4 {
             let nearness = (-STEEPNESS * (distances[k] - nearest)).exp2();
-            let w = falloffs[sample * 4 + k] * nearness;
+            let w = falloffs[k] * nearness;
             distances[k] = w;
             sum += w;
         }

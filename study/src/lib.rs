@@ -1,6 +1,7 @@
 //! A deferred testbed, captures, references and error metrics for studying antialiasing kernels.
 //!
-//! Only [`execute`] knows the generator. All else stands apart from it: the oracle and the metrics judge what it emits.
+//! Only [`execute`], and the studies that run kernels, know the generator. All else stands apart from it: the oracle and the
+//! metrics judge what it emits.
 
 pub mod capture;
 pub mod encode;
@@ -10,8 +11,11 @@ pub mod hard;
 pub mod loops;
 pub mod metrics;
 pub mod oracle;
+pub mod peers;
 pub mod picture;
+pub mod quality;
 pub mod record;
 pub mod render;
 pub mod report;
 pub mod scene;
+pub mod tune;

@@ -76,8 +76,8 @@ fn quality(pictures: bool) -> QualityRecord {
         flip: 0.0123,
         psnr_geometry: Some(psnr - 6.0),
         psnr_shading: None,
-        psnr_flat: Some(f64::INFINITY),
-        gap_closed: 0.5,
+        psnr_flat: Some(MOST_DB),
+        gap_closed: Some(0.5),
         temporal: Some(0.01),
         time: ms.map(times),
         bytes: 5_500_000,
@@ -99,9 +99,22 @@ fn quality(pictures: bool) -> QualityRecord {
             method("SRAA", Family::Sraa, 38.0, Some(9.0)),
             method("FXAA", Family::Picture, 33.0, Some(4.0)),
         ],
+        absent: vec![("SMAA".to_owned(), "nobody made it".to_owned())],
+        gaps: vec![Gap {
+            method: "SRAA 4".to_owned(),
+            bound: "4x".to_owned(),
+            psnr: 38.0,
+            ideal_psnr: 38.5,
+            bound_psnr: 39.25,
+            psnr_seen: Some(41.0),
+            bound_psnr_seen: None,
+            error_unseen: 0.375,
+        }],
     };
     QualityRecord {
         circumstances: circumstances(),
+        timed_on: vec!["roof".to_owned()],
+        pan_frames: 8,
         scenes: vec![scene],
     }
 }
@@ -119,6 +132,8 @@ fn hard() -> HardRecord {
         born: (non_finite > 0).then(|| "metric.rs:12: 0 / 0".to_owned()),
         bound: Some(1e-5),
         kept,
+        promised: true,
+        analysed: None,
         refused: None,
     };
     HardRecord {
@@ -126,13 +141,26 @@ fn hard() -> HardRecord {
         cases: vec![HardCase {
             name: "nan-colour".to_owned(),
             about: "one colour is NaN".to_owned(),
+            common: false,
             results: vec![result(Executor::Interpreter, 0, true), result(Executor::Gpu, 7, false)],
+        }],
+        half: vec![HalfVerdict {
+            kernel: "sraa default".to_owned(),
+            options: Vec::new(),
+            worst: Some("steps".to_owned()),
+            difference: Some(0.5),
+            loosest: None,
+            limit: Some(0.004),
+            broken: 3,
+            cases: 10,
+            reason: Some("depth has too few bits".to_owned()),
         }],
     }
 }
 
 fn tune() -> TuneRecord {
     let candidate = |options: &[(&str, &str)], error, ms: Option<f64>, front| Candidate {
+        name: options.iter().map(|(a, b)| format!("{a} {b}")).collect(),
         options: options.iter().map(|(a, b)| (a.to_string(), b.to_string())).collect(),
         precision: "f32".to_owned(),
         block: [1, 1],
@@ -151,6 +179,22 @@ fn tune() -> TuneRecord {
         scene: "floor".to_owned(),
         metric: "psnr".to_owned(),
         max_error: 0.5,
+        best: 40.0,
+        reference: "256 samples a pixel".to_owned(),
+        unfiltered: 31.5,
+        fixed: vec![("shading".to_owned(), "centre".to_owned())],
+        terms: vec![TermWorth {
+            term: "normals".to_owned(),
+            instead: "depth".to_owned(),
+            cost: 0.125,
+            ratio: Some(ratio(2.5)),
+            candidate: 1,
+        }],
+        refused: vec![Refused {
+            variant: "f16".to_owned(),
+            reason: "the adapter has none".to_owned(),
+        }],
+        not_searched: Vec::new(),
         candidates: vec![
             candidate(&[("metric", "planes-normals")], 40.0, Some(20.0), true),
             candidate(&[("metric", "depth")], 39.8, Some(8.0), true),
@@ -197,8 +241,14 @@ fn the_page_says_what_the_records_say() {
         "10.0 % of its pixels have an edge of geometry",
         "born at metric.rs:12: 0 / 0",
         "not finite: 1",
-        "<code>metric=depth</code>, 39.8000",
+        "depth has too few bits",
+        "3 of 10",
+        "<code>metric depth</code>, 39.8000",
+        "<td>0.1250<td>2.50",
+        "Refused: f16: the adapter has none",
         "off by 7.0 % in the mean and 20.0 % at most",
+        "<td>-1.25<td>-0.75<td>-0.50<td>37.5 %",
+        "No SMAA: nobody made it",
         "class=\"pair\"",
         "data:image/png;base64,",
     ] {

@@ -43,8 +43,10 @@ fn table(name: &str, files: &[&Path]) -> Result<String, String> {
     };
     let why = |error: straightline_study::record::RecordError| error.to_string();
     match name {
+        "speed" => Ok(speed(&LoopsRecord::read(first).map_err(why)?)),
         "loops" => Ok(loops(&LoopsRecord::read(first).map_err(why)?)),
         "quality" => Ok(quality(&QualityRecord::read(first).map_err(why)?)),
+        "gaps" => Ok(gaps(&QualityRecord::read(first).map_err(why)?)),
         "hard" => {
             let all: Result<Vec<_>, _> = files.iter().map(|file| HardRecord::read(file)).collect();
             Ok(hard(&all.map_err(why)?))
@@ -53,8 +55,9 @@ fn table(name: &str, files: &[&Path]) -> Result<String, String> {
             let all: Result<Vec<_>, _> = files.iter().map(|file| TuneRecord::read(file)).collect();
             Ok(tune(&all.map_err(why)?))
         }
+        "budget" => budget(files),
         _ => Err(format!(
-            "there is no table `{name}`; there are loops, quality, hard and tune"
+            "there is no table `{name}`; there are speed, loops, quality, gaps, hard, tune and budget"
         )),
     }
 }
@@ -99,6 +102,41 @@ fn markdown(head: &[&str], rows: Vec<Vec<String>>) -> String {
     text
 }
 
+/// Every kernel: what is gained by unrolling it, in the fewest columns that say it.
+fn speed(record: &LoopsRecord) -> String {
+    let head = [
+        "kernel",
+        "looped",
+        "without its bound",
+        "by hand",
+        "both",
+        "**unrolled**",
+        "2×2 pixels",
+        "floor",
+        "off f64 by",
+    ];
+    let row = |kernel: &KernelForms| {
+        let form = |kind| kernel.forms.iter().find(|form| form.kind == kind);
+        let ratio = |kind| form(kind).map_or("–".to_owned(), |form| format!("{:.2}", form.ratio.median));
+        let full = form(FormKind::Full);
+        vec![
+            kernel.kernel.clone(),
+            form(FormKind::Looped).map_or("–".to_owned(), |form| format!("{:.1} ms", form.time.median_ms)),
+            ratio(FormKind::LoopedUnchecked),
+            ratio(FormKind::LoopedByHand),
+            ratio(FormKind::LoopedByHandUnchecked),
+            full.map_or("–".to_owned(), |form| {
+                format!("**{:.2}**, {:.1} ms", form.ratio.median, form.time.median_ms)
+            }),
+            ratio(FormKind::FullBlock),
+            ratio(FormKind::Floor),
+            full.and_then(|form| form.difference_999)
+                .map_or("–".to_owned(), |off| format!("{off:.0e}")),
+        ]
+    };
+    markdown(&head, record.kernels.iter().map(row).collect())
+}
+
 /// Every kernel: how many times as fast as its loop each form is.
 fn loops(record: &LoopsRecord) -> String {
     let head = [
@@ -108,6 +146,7 @@ fn loops(record: &LoopsRecord) -> String {
         "looped",
         "unbounded",
         "by hand",
+        "both",
         "partial(2), (4)",
         "not shared",
         "**unrolled**",
@@ -137,6 +176,7 @@ fn loops(record: &LoopsRecord) -> String {
             form(FormKind::Looped).map_or("–".to_owned(), |form| format!("{:.1} ms", form.time.median_ms)),
             ratio(FormKind::LoopedUnchecked),
             ratio(FormKind::LoopedByHand),
+            ratio(FormKind::LoopedByHandUnchecked),
             format!("{}, {}", ratio(FormKind::Partial2), ratio(FormKind::Partial4)),
             ratio(FormKind::FullUnshared),
             full,
@@ -196,7 +236,11 @@ fn quality(record: &QualityRecord) -> String {
             (*name).to_owned(),
             shown(mean(edges.iter().map(|m| m.psnr).collect()), 2, " dB"),
             shown(mean(edges.iter().map(|m| m.flip).collect()), 4, ""),
-            shown(mean(edges.iter().map(|m| 100.0 * m.gap_closed).collect()), 0, " %"),
+            shown(
+                mean(edges.iter().filter_map(|m| Some(100.0 * m.gap_closed?)).collect()),
+                0,
+                " %",
+            ),
             shown(mean(others.iter().map(|m| m.psnr).collect()), 2, " dB"),
             shown(mean(others.iter().map(|m| m.flip).collect()), 4, ""),
             shown(mean(all().filter_map(|m| Some(m.time?.median_ms)).collect()), 1, ""),
@@ -204,6 +248,33 @@ fn quality(record: &QualityRecord) -> String {
         ]
     };
     markdown(&head, names.iter().map(row).collect())
+}
+
+/// How far SRAA is from supersampling on every scene that has gaps, and what that is made of.
+fn gaps(record: &QualityRecord) -> String {
+    let mut head = vec!["scene".to_owned()];
+    let first = record.scenes.iter().find(|scene| !scene.gaps.is_empty());
+    for gap in first.map(|scene| scene.gaps.as_slice()).unwrap_or_default() {
+        head.push(format!("{} − {}", gap.method, gap.bound));
+        head.extend(["unseen surfaces", "borrowed colours"].map(str::to_owned));
+    }
+    let rows = record
+        .scenes
+        .iter()
+        .filter(|scene| !scene.gaps.is_empty())
+        .map(|scene| {
+            let figures = scene.gaps.iter().flat_map(|gap| {
+                let parts = [
+                    gap.psnr - gap.bound_psnr,
+                    gap.ideal_psnr - gap.bound_psnr,
+                    gap.psnr - gap.ideal_psnr,
+                ];
+                parts.map(|part| format!("{part:+.2}"))
+            });
+            std::iter::once(scene.scene.clone()).chain(figures).collect()
+        });
+    let head: Vec<&str> = head.iter().map(String::as_str).collect();
+    markdown(&head, rows.collect())
 }
 
 /// Every kernel of the hard cases on each adapter: how often it was not finite, or beyond its bound.
@@ -258,11 +329,7 @@ fn tune(records: &[TuneRecord]) -> String {
     ];
     let row = |record: &TuneRecord| {
         let chosen = record.chosen.and_then(|index| record.candidates.get(index));
-        let best = record.candidates.iter().filter(|c| c.non_finite == 0).map(|c| c.error);
-        let (best, unit) = match record.metric.as_str() {
-            "flip" => (best.fold(f64::INFINITY, f64::min), ""),
-            _ => (best.fold(f64::NEG_INFINITY, f64::max), " dB"),
-        };
+        let unit = if record.metric == "flip" { "" } else { " dB" };
         let cell = |text: Option<String>| text.unwrap_or("–".to_owned());
         vec![
             record.scene.clone(),
@@ -277,7 +344,7 @@ fn tune(records: &[TuneRecord]) -> String {
                 words.extend((c.block != [1, 1]).then(|| format!("block {}x{}", c.block[0], c.block[1])));
                 format!("`{}`", words.join(" "))
             })),
-            cell(chosen.map(|c| format!("{:.3}{unit}", (c.error - best).abs()))),
+            cell(chosen.map(|c| format!("{:.3}{unit}", (c.error - record.best).abs()))),
             cell(chosen.and_then(|c| c.time).map(|t| format!("{:.1}", t.median_ms))),
             cell(
                 chosen

@@ -1,6 +1,7 @@
 //! The command line.
 
 mod study;
+mod tune;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use glam::UVec2;
@@ -11,6 +12,7 @@ use straightline_codegen::{Branches, Kernel, Settings, Transport, Unroll};
 use straightline_manifest::{Format, Precision, Stage};
 
 pub use study::{CommonArgs, ErrorArgs, HardArgs, LoopsArgs, Study, StudyArgs};
+pub use tune::TuneArgs;
 
 /// Image filters written once, as ordinary Rust with ordinary loops, emitted as straight-line shaders.
 ///
@@ -41,6 +43,8 @@ pub enum Command {
     Quads(QuadsArgs),
     /// Measure: unroll against loop, speed against error, hard cases; writes records and a page
     Study(StudyArgs),
+    /// Find and emit the cheapest SRAA shader that a scene needs, within a budget of error
+    Tune(TuneArgs),
     /// Antialias a captured frame
     Resolve(ResolveArgs),
     /// Render a scene or a model to a capture: the frame that `resolve` reads
@@ -318,7 +322,7 @@ pub struct ResolveArgs {
 #[derive(Debug, Clone, Default, Args)]
 pub struct AdapterArgs {
     /// Use the first adapter whose name or driver contains this (see `adapters`)
-    #[arg(long, value_name = "TEXT")]
+    #[arg(long, value_name = "TEXT", global = true)]
     pub adapter: Option<String>,
 }
 

@@ -76,7 +76,17 @@ pub struct LoopsArgs {
 }
 
 #[derive(Clone, Debug, Default, Args)]
-pub struct ErrorArgs {}
+pub struct ErrorArgs {
+    /// A built-in scene (see `scenes`); may be given several times. By default all of them
+    #[arg(long, value_name = "NAME")]
+    pub scene: Vec<String>,
+    /// A model: .gltf, .glb or .obj; may be given several times
+    #[arg(long, value_name = "FILE")]
+    pub mesh: Vec<PathBuf>,
+    /// A capture with reference.exr (docs/captures.md); may be given several times. Its size is its own
+    #[arg(long, value_name = "DIR")]
+    pub capture: Vec<PathBuf>,
+}
 
 #[derive(Clone, Debug, Default, Args)]
 pub struct HardArgs {

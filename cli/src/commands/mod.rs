@@ -12,3 +12,4 @@ pub mod resolve;
 pub mod run;
 pub mod scenes;
 pub mod study;
+pub mod tune;

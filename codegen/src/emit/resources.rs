@@ -307,6 +307,7 @@ impl Resources {
             options: compiled.options.clone(),
             counts: compiled.counts.clone(),
             files: Default::default(),
+            tuned: None,
         }
     }
 }

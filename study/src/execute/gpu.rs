@@ -30,7 +30,7 @@ pub struct Bound {
     resources: Vec<(String, Owned)>,
 }
 
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 enum Owned {
     Texture(wgpu::TextureView),
     Sampler(wgpu::Sampler),
@@ -50,6 +50,29 @@ impl Bound {
         });
         resources.collect()
     }
+
+    /// Bytes of all textures and buffers, as they lie on the device.
+    pub fn bytes(&self) -> u64 {
+        let bytes = |owned: &Owned| match owned {
+            Owned::Texture(view) => texture_bytes(view.texture()),
+            Owned::Sampler(_) => 0,
+            Owned::Buffer(buffer) => buffer.size(),
+        };
+        self.resources.iter().map(|(_, owned)| bytes(owned)).sum()
+    }
+}
+
+/// Bytes of all texels of a texture without smaller levels.
+pub fn texture_bytes(texture: &wgpu::Texture) -> u64 {
+    let extent = texture.size();
+    let texels = [
+        extent.width,
+        extent.height,
+        extent.depth_or_array_layers,
+        texture.sample_count(),
+    ];
+    let each = texture.format().block_copy_size(None).unwrap_or(4);
+    texels.map(u64::from).iter().product::<u64>() * u64::from(each)
 }
 
 impl Bench {
@@ -162,6 +185,33 @@ impl Bench {
                 BindingKind::Uniform { .. } => continue,
             };
             resources.push((binding.name.clone(), owned));
+        }
+        self.set_uniforms(pass, manifest, inputs)?;
+        Ok(Bound { resources })
+    }
+
+    /// As [`bind`](Self::bind), with all but uniforms taken from what was bound for another shader of the same kernel, so
+    /// that many shaders share one copy. That shader must read as many components and layers of each texture, or more.
+    ///
+    /// # Errors
+    ///
+    /// If the other shader does not read what this one does, or the device fails.
+    pub fn bind_shared(
+        &self,
+        pass: &Pass,
+        manifest: &Manifest,
+        inputs: &Inputs,
+        other: &Bound,
+    ) -> Result<Bound, ExecuteError> {
+        let mut resources = Vec::new();
+        for binding in &manifest.bindings {
+            if matches!(binding.kind, BindingKind::Uniform { .. }) {
+                continue;
+            }
+            let found = other.resources.iter().find(|(name, _)| *name == binding.name);
+            let shared =
+                found.ok_or_else(|| ExecuteError::Input(format!("nothing is bound for `{}`", binding.name)))?;
+            resources.push(shared.clone());
         }
         self.set_uniforms(pass, manifest, inputs)?;
         Ok(Bound { resources })

@@ -8,18 +8,20 @@ mod shadowed;
 mod synthetic;
 mod tiles;
 mod timing;
+mod work;
 
 use glam::{UVec2, Vec4};
 use straightline_kernels::prelude::Frame;
 
 pub use cpu::{Interpreted, interpret};
 pub use forward::{Corner, Forward};
-pub use gpu::{Bench, Bound};
+pub use gpu::{Bench, Bound, texture_bytes};
 pub use shadowed::Shadowed;
 pub use straightline_codegen::ir::interp::{Address, Comparison, SamplerState};
 pub use synthetic::test_inputs;
 pub use tiles::{Tile, cropped, tiles};
 pub use timing::{Clock, Job, Ratio, Timed, Times};
+pub use work::Work;
 
 /// What a kernel is run on, by the names that it calls them.
 #[derive(Clone, Debug, Default)]

@@ -19,10 +19,10 @@ pub fn test_inputs(graph: &Graph, size: UVec2) -> Inputs {
         };
         let layers = (0..4).map(|k| layer(texture, own, k));
         let layers: Vec<Frame<Vec4>> = match texture.kind.is_indexed() {
-            true => layers.chain((4..16).map(|k| layer(texture, own, k))).collect(),
+            true => layers.chain((4..17).map(|k| layer(texture, own, k))).collect(),
             false => layers.take(1).collect(),
         };
-        // A texel has 4 samples, an array as many layers as any pattern.
+        // A texel has 4 samples, an array as many layers as any pattern and the pixel's centre.
         let count = match texture.kind {
             straightline_codegen::ir::TextureKind::Multisampled => 4,
             _ => layers.len(),

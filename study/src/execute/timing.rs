@@ -195,7 +195,7 @@ impl Bench {
     }
 
     /// The time of one of `repeats` runs in one submission.
-    fn once(
+    pub(super) fn once(
         &self,
         job: &Job<'_>,
         target: &wgpu::TextureView,

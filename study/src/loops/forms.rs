@@ -4,7 +4,8 @@ use super::{LoopsError, Subject};
 use crate::execute::{Bench, Bound, Inputs};
 use crate::record::FormKind;
 use std::rc::Rc;
-use std::time::{Duration, Instant};
+use std::sync::atomic::{AtomicU32, Ordering};
+use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 use straightline_codegen::diagnostic::Errors;
 use straightline_codegen::emit::{Emitted, Target};
 use straightline_codegen::{Compiled, EmitOptions, Format, Kernel, Settings, Stage, Unroll};
@@ -12,10 +13,11 @@ use straightline_manifest::{Binding, BindingKind};
 use straightline_runtime::{Pass, PassOptions};
 
 /// Every form, in the order of the record.
-pub const ALL: [FormKind; 9] = [
+pub const ALL: [FormKind; 10] = [
     FormKind::Looped,
     FormKind::LoopedUnchecked,
     FormKind::LoopedByHand,
+    FormKind::LoopedByHandUnchecked,
     FormKind::Partial2,
     FormKind::Partial4,
     FormKind::FullUnshared,
@@ -64,7 +66,7 @@ impl Forms {
                     Err("no loop of it can be kept".to_owned())
                 }
                 FormKind::LoopedUnchecked => Ok(looped.clone()),
-                FormKind::LoopedByHand => match &subject.by_hand {
+                FormKind::LoopedByHand | FormKind::LoopedByHandUnchecked => match &subject.by_hand {
                     Err(why) => Err(why.clone()),
                     Ok(by_hand) => {
                         let settings = Settings {
@@ -117,6 +119,25 @@ fn reason(errors: Errors) -> String {
     first.map_or_else(|| "refused".to_owned(), |error| error.message.clone())
 }
 
+/// How every compute shader begins: invocations beyond the border leave.
+const BORDER: &str = "if any(pixel >= frame) {";
+
+/// The same shader in a text that no driver has compiled before, so that none finds it in a cache: invocations in a column
+/// that no picture has leave, too.
+fn unseen(emitted: &Emitted) -> Emitted {
+    static MADE: AtomicU32 = AtomicU32::new(0);
+    let now = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();
+    let number = (now.as_nanos() as u32).wrapping_add(MADE.fetch_add(1, Ordering::Relaxed));
+    let column = (1 << 30) | (number >> 2);
+    let mut unseen = emitted.clone();
+    if let Some(wgsl) = unseen.files.get_mut(&Target::Wgsl) {
+        let text = String::from_utf8_lossy(wgsl);
+        let other = format!("if any(pixel >= frame) || pixel.x == {column} {{");
+        *wgsl = text.replacen(BORDER, &other, 1).into_bytes();
+    }
+    unseen
+}
+
 /// A form on a device.
 pub struct Ready {
     /// Which.
@@ -127,7 +148,7 @@ pub struct Ready {
     pub pass: Pass,
     /// What it reads.
     pub bound: Rc<Bound>,
-    /// Of each time that the shader was made anew: what making its pipeline took, and its first frame.
+    /// Of each time that the shader was made in a text of its own: what making its pipeline took, and its first frame.
     pub made: Vec<(Duration, Duration)>,
 }
 
@@ -168,32 +189,30 @@ impl<'a> Stand<'a> {
         }
     }
 
-    /// Emits a form, and makes it `times` times, each time up to its first frame.
+    /// Emits a form and makes it, before that `times` times in texts that no driver has seen, each up to its first frame.
     ///
     /// # Errors
     ///
     /// If it cannot be emitted or run.
     pub fn put(&mut self, kind: FormKind, compiled: &Compiled, times: u32) -> Result<Ready, LoopsError> {
-        let unbounded = kind == FormKind::LoopedUnchecked;
+        let unbounded = matches!(kind, FormKind::LoopedUnchecked | FormKind::LoopedByHandUnchecked);
         let options = EmitOptions::new()
             .stage(Stage::Compute)
             .format(Format::Rgba32Float)
             .unbounded_loops(unbounded)
             .targets([Target::Wgsl, Target::Spirv]);
         let emitted = compiled.emit(&options).map_err(crate::execute::ExecuteError::from)?;
+        let options = PassOptions::default().unbounded_loops(unbounded);
         let mut made = Vec::new();
-        let mut last = None;
         for _ in 0..times.max(1) {
-            let options = PassOptions::default().unbounded_loops(unbounded);
-            let pass = self.bench.made(&emitted, &options)?;
-            let bound = self.bind(&pass, &emitted)?;
+            let unseen = unseen(&emitted);
+            let pass = self.bench.made(&unseen, &options)?;
+            let bound = self.bind(&pass, &unseen)?;
             let first = self.frame(&pass, &bound)?;
             made.push((pass.creation_time(), first));
-            last = Some((pass, bound));
         }
-        let Some((pass, bound)) = last else {
-            return Err(LoopsError::Nothing);
-        };
+        let pass = self.bench.made(&emitted, &options)?;
+        let bound = self.bind(&pass, &emitted)?;
         Ok(Ready {
             kind,
             emitted,
@@ -231,5 +250,31 @@ impl<'a> Stand<'a> {
         bench.queue().submit([encoder.finish()]);
         bench.wait()?;
         Ok(start.elapsed())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_text_is_unseen_each_time() {
+        let text = "pub fn k(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {\n    color.load(pixel) * 0.5\n}\n";
+        for block in [[1, 1], [2, 2]] {
+            let settings = Settings {
+                block,
+                ..Settings::default()
+            };
+            let compiled = Kernel::from_text("k.rs", text, "k")
+                .compile(&settings)
+                .expect("a kernel");
+            let emitted = compiled.emit(&EmitOptions::new()).expect("a shader");
+            let wgsl = |emitted: &Emitted| emitted.files.get(&Target::Wgsl).cloned();
+            let (first, second) = (unseen(&emitted), unseen(&emitted));
+            assert!(
+                wgsl(&first) != wgsl(&emitted) && wgsl(&first) != wgsl(&second),
+                "{block:?}"
+            );
+        }
     }
 }

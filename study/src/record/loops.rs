@@ -14,6 +14,8 @@ pub enum FormKind {
     LoopedUnchecked,
     /// Loops kept, and written by hand for speed: what is read several times is read once, into arrays.
     LoopedByHand,
+    /// The same without the bound: compilers that unroll loops by themselves can do it then.
+    LoopedByHandUnchecked,
     /// Two rounds in a row.
     Partial2,
     /// Four rounds in a row.
@@ -42,8 +44,8 @@ pub struct Form {
     /// Bytes of SPIR-V as emitted, names included.
     pub spirv_bytes: usize,
     /// Milliseconds until the shader was ready: making the pipeline, in which are wgpu's translation of the checked shader and
-    /// the driver's compiling, and what the first frame took longer than others. Drivers that keep what they compiled find
-    /// it again unless that is switched off.
+    /// the driver's compiling, and what the first frame took longer than others. The text is one that no driver has in a
+    /// cache; naga's reading and checking of it is left out.
     pub pipeline_ms: f64,
     /// Time of a frame.
     pub time: Times,

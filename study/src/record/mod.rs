@@ -12,8 +12,8 @@ use std::path::{Path, PathBuf};
 
 pub use hard::{Executor, HalfVerdict, HardCase, HardRecord, HardResult};
 pub use loops::{Form, FormKind, KernelForms, LoopsRecord};
-pub use quality::{Family, MethodErrors, QualityRecord, SceneErrors, Shares};
-pub use tune::{Candidate, LeftOut, Model, TuneRecord};
+pub use quality::{Family, Gap, MOST_DB, MethodErrors, QualityRecord, SceneErrors, Shares};
+pub use tune::{Candidate, LeftOut, Model, Refused, TermWorth, TuneRecord};
 
 /// Under which circumstances figures were taken: without these a figure says nothing.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -50,14 +50,23 @@ pub trait Record: Serialize + DeserializeOwned {
     ///
     /// [`RecordError`] names the file.
     fn write(&self, folder: &Path) -> Result<(), RecordError> {
+        self.write_as(folder, Self::STEM)
+    }
+
+    /// [`write`](Self::write), with another stem: for several records of one kind in a folder.
+    ///
+    /// # Errors
+    ///
+    /// [`RecordError`] names the file.
+    fn write_as(&self, folder: &Path, stem: &str) -> Result<(), RecordError> {
         std::fs::create_dir_all(folder).map_err(|source| RecordError::file("make", folder, source))?;
         let mut json = serde_json::to_vec_pretty(self).map_err(|source| RecordError::Json {
-            path: folder.join(format!("{}.json", Self::STEM)),
+            path: folder.join(format!("{stem}.json")),
             source,
         })?;
         json.push(b'\n');
-        whole(&folder.join(format!("{}.json", Self::STEM)), &json)?;
-        whole(&folder.join(format!("{}.csv", Self::STEM)), self.csv().as_bytes())
+        whole(&folder.join(format!("{stem}.json")), &json)?;
+        whole(&folder.join(format!("{stem}.csv")), self.csv().as_bytes())
     }
 
     /// Reads a record from a JSON file.

@@ -4,6 +4,9 @@ use super::{Circumstances, Record};
 use crate::execute::Times;
 use serde::{Deserialize, Serialize};
 
+/// PSNR of equal pictures, and the most of any: infinity cannot be written as JSON.
+pub const MOST_DB: f64 = 160.0;
+
 /// What kind of method it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -20,8 +23,8 @@ pub enum Family {
     Supersampling,
 }
 
-/// Errors of a method on a scene, against 256 samples a pixel. PSNR over linear RGB clamped to 0..=1, in dB; a class of
-/// pixels that the scene has none of has `None`.
+/// Errors of a method on a scene, against 256 samples a pixel. PSNR over linear RGB clamped to 0..=1, in dB, at most
+/// [`MOST_DB`]; a class of pixels that the scene has none of has `None`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MethodErrors {
     /// A name for people, the same in all scenes.
@@ -31,23 +34,20 @@ pub struct MethodErrors {
     /// Options of its kernel that are not the default.
     pub options: Vec<(String, String)>,
     /// All pixels.
-    #[serde(with = "decibels")]
     pub psnr: f64,
     /// Structural similarity, 1 for equal pictures.
     pub ssim: f64,
     /// Mean FLIP, 0 for equal pictures.
     pub flip: f64,
     /// Pixels with an edge of geometry in them.
-    #[serde(with = "decibels::optional")]
     pub psnr_geometry: Option<f64>,
     /// Pixels with an edge of shading and none of geometry.
-    #[serde(with = "decibels::optional")]
     pub psnr_shading: Option<f64>,
     /// All others.
-    #[serde(with = "decibels::optional")]
     pub psnr_flat: Option<f64>,
-    /// Share of the gap between no antialiasing and 16x supersampling, in dB, that it closes: 0 to 1, more if it is better.
-    pub gap_closed: f64,
+    /// Share of the gap between no antialiasing and 16x supersampling, in dB, that it closes: 0 to 1, more if it is better;
+    /// `None` of a capture, which has no 16x.
+    pub gap_closed: Option<f64>,
     /// Root of the mean squared error of frame differences, over a slow pan; `None` where it was not taken.
     pub temporal: Option<f64>,
     /// Time of the filter alone, without what it reads being drawn; `None` for what is not a filter.
@@ -73,6 +73,31 @@ pub struct Shares {
     pub unseen: f64,
 }
 
+/// How far SRAA is from supersampling at the same places, and why. All in dB, at most [`MOST_DB`].
+///
+/// The ideal reconstruction gives each geometry sample its true colour if one of the 3 x 3 shading samples around saw its
+/// surface, and else the colour of the nearest of them. So `bound - ideal` is the price of surfaces that no shading sample
+/// saw, and `ideal - psnr` the price of colours that are borrowed from other places of a surface.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Gap {
+    /// `SRAA 4` or `SRAA 16`.
+    pub method: String,
+    /// `4x` or `16x`.
+    pub bound: String,
+    /// Of SRAA.
+    pub psnr: f64,
+    /// Of the ideal reconstruction.
+    pub ideal_psnr: f64,
+    /// Of supersampling.
+    pub bound_psnr: f64,
+    /// Of SRAA, without the pixels of which a surface was not seen; `None` if that leaves none.
+    pub psnr_seen: Option<f64>,
+    /// Of supersampling, without them.
+    pub bound_psnr_seen: Option<f64>,
+    /// Share of SRAA's squared error that is in pixels of which a surface was not seen.
+    pub error_unseen: f64,
+}
+
 /// All methods on a scene.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SceneErrors {
@@ -86,6 +111,10 @@ pub struct SceneErrors {
     pub reference: Option<String>,
     /// Its methods.
     pub methods: Vec<MethodErrors>,
+    /// Methods that it has not, and why.
+    pub absent: Vec<(String, String)>,
+    /// How far SRAA is from supersampling; none of a capture.
+    pub gaps: Vec<Gap>,
 }
 
 /// Speed against error.
@@ -94,6 +123,10 @@ pub struct QualityRecord {
     /// Circumstances.
     #[serde(flatten)]
     pub circumstances: Circumstances,
+    /// The scene that filters were timed on, in turn; a method has the same time in all scenes of the same methods.
+    pub timed_on: Vec<String>,
+    /// Frames of the pan.
+    pub pan_frames: u32,
     /// All scenes.
     pub scenes: Vec<SceneErrors>,
 }
@@ -131,7 +164,7 @@ impl Record for QualityRecord {
                     optional(m.psnr_geometry),
                     optional(m.psnr_shading),
                     optional(m.psnr_flat),
-                    format!("{:.4}", m.gap_closed),
+                    optional(m.gap_closed),
                     m.temporal.map_or(String::new(), |v| format!("{v:.4e}")),
                     optional(m.time.map(|t| t.median_ms)),
                     m.bytes.to_string(),
@@ -140,58 +173,5 @@ impl Record for QualityRecord {
             })
         });
         (head, rows.collect())
-    }
-}
-
-/// Equal pictures are infinitely good, which JSON has no number for: there it is `"Infinity"`.
-mod decibels {
-    use serde::{Deserialize, Deserializer, Serialize, Serializer};
-
-    const INFINITE: &str = "Infinity";
-
-    #[derive(Serialize, Deserialize)]
-    #[serde(untagged)]
-    enum Decibels {
-        Finite(f64),
-        Named(String),
-    }
-
-    impl Decibels {
-        fn of(value: f64) -> Decibels {
-            match value.is_finite() {
-                true => Decibels::Finite(value),
-                false => Decibels::Named(INFINITE.to_owned()),
-            }
-        }
-
-        fn value<E: serde::de::Error>(self) -> Result<f64, E> {
-            match self {
-                Decibels::Finite(value) => Ok(value),
-                Decibels::Named(name) if name == INFINITE => Ok(f64::INFINITY),
-                Decibels::Named(name) => Err(E::custom(format!("`{name}` is no number of decibels"))),
-            }
-        }
-    }
-
-    pub fn serialize<S: Serializer>(value: &f64, serializer: S) -> Result<S::Ok, S::Error> {
-        Decibels::of(*value).serialize(serializer)
-    }
-
-    pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
-        Decibels::deserialize(deserializer)?.value()
-    }
-
-    pub mod optional {
-        use super::Decibels;
-        use serde::{Deserialize, Deserializer, Serialize, Serializer};
-
-        pub fn serialize<S: Serializer>(value: &Option<f64>, serializer: S) -> Result<S::Ok, S::Error> {
-            value.map(Decibels::of).serialize(serializer)
-        }
-
-        pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<f64>, D::Error> {
-            let found = Option::<Decibels>::deserialize(deserializer)?;
-            found.map(Decibels::value).transpose()
-        }
     }
 }

@@ -7,6 +7,8 @@ use serde::{Deserialize, Serialize};
 /// A variant that was tried.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Candidate {
+    /// The variant in words, each of its values: `16 samples, planes-normals, ...`.
+    pub name: String,
     /// Options that are not the default.
     pub options: Vec<(String, String)>,
     /// `f16` or `f32`.
@@ -23,7 +25,7 @@ pub struct Candidate {
     pub statements: f64,
     /// Bytes of G-buffer that it reads.
     pub gbuffer_bytes: u64,
-    /// What the model says that it takes.
+    /// What the model says that it takes; 0 if there is no model yet.
     pub predicted_ms: f64,
     /// What it takes, if it was run.
     pub time: Option<Times>,
@@ -42,8 +44,32 @@ pub struct LeftOut {
     pub cost: f64,
 }
 
-/// A model of time, linear in static counts.
+/// The most general variant with one of its terms left out or replaced.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct TermWorth {
+    /// What is left out.
+    pub term: String,
+    /// What is there instead.
+    pub instead: String,
+    /// What that costs in error, by the record's metric, a loss being positive.
+    pub cost: f64,
+    /// How many times as fast it is then, if it was run.
+    pub ratio: Option<Ratio>,
+    /// Index of the variant.
+    pub candidate: usize,
+}
+
+/// A variant that could not be emitted or run.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Refused {
+    /// The variant, in words.
+    pub variant: String,
+    /// Why.
+    pub reason: String,
+}
+
+/// A model of time, linear in static counts.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Model {
     /// Counts, and milliseconds for each of them and million pixels.
     pub terms: Vec<(String, f64)>,
@@ -67,9 +93,17 @@ pub struct TuneRecord {
     pub scene: String,
     /// `psnr` or `flip`.
     pub metric: String,
-    /// The budget as it was asked for, and what the variants are compared with: for PSNR dB that may be lost against the best
-    /// variant, for FLIP the largest mean.
+    /// The budget as it was asked for: what may be lost against the best variant, dB of PSNR or mean FLIP.
     pub max_error: f64,
+    /// The best error of all variants. Without a reference of the capture's own, the general variant's picture is the
+    /// reference, which it cannot be judged by: the best is then that of the others, at most 48.13 dB.
+    pub best: f64,
+    /// What variants are compared with: the mean of how many samples, the capture's reference, or the general variant.
+    pub reference: String,
+    /// Error of the picture before the filter, by the metric.
+    pub unfiltered: f64,
+    /// Options that are the same for all variants.
+    pub fixed: Vec<(String, String)>,
     /// Every variant.
     pub candidates: Vec<Candidate>,
     /// Index of the chosen one; `None` if none is within the budget.
@@ -78,7 +112,13 @@ pub struct TuneRecord {
     pub general: usize,
     /// What the chosen one leaves out.
     pub left_out: Vec<LeftOut>,
-    /// How times were predicted.
+    /// What each term of the most general variant is worth: that one without it.
+    pub terms: Vec<TermWorth>,
+    /// Variants that could not be emitted or run.
+    pub refused: Vec<Refused>,
+    /// What was not searched, and why.
+    pub not_searched: Vec<String>,
+    /// How times were predicted; without terms if the run was interrupted before.
     pub model: Model,
 }
 

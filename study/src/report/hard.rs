@@ -1,16 +1,24 @@
 //! Hard cases.
 
 use super::caption;
-use crate::record::{Executor, HardRecord, HardResult};
+use crate::record::{Executor, HalfVerdict, HardRecord, HardResult};
 use serde::Serialize;
 
 #[derive(Debug, Serialize)]
 pub(super) struct Hard {
     caption: String,
+    precisions: Vec<Matrix>,
+    /// What is worst among the executors, by what became of it: what it is called, how often, the class of its colour.
+    tally: Vec<(&'static str, usize, &'static str)>,
+    half: Vec<Half>,
+}
+
+/// Cases down, kernels across.
+#[derive(Debug, Serialize)]
+struct Matrix {
+    precision: String,
     columns: Vec<String>,
     rows: Vec<Row>,
-    /// Cells by what became of them: what it is called, how many there are, the class of their colour.
-    tally: Vec<(&'static str, usize, &'static str)>,
 }
 
 #[derive(Debug, Serialize)]
@@ -20,6 +28,7 @@ struct Row {
     cells: Vec<Option<Cell>>,
 }
 
+/// A kernel on a case, by all executors.
 #[derive(Debug, Serialize)]
 struct Cell {
     class: &'static str,
@@ -27,28 +36,67 @@ struct Cell {
     title: String,
 }
 
+/// Whether a kernel may compute in half precision.
+#[derive(Debug, Serialize)]
+struct Half {
+    kernel: String,
+    verdict: String,
+    worst: String,
+    difference: String,
+    limit: String,
+    broken: String,
+}
+
 /// Classes of cells, from the best to the worst, and what they mean.
 const CLASSES: [(&str, &str); 5] = [
-    ("kept", "finite, and within its bound"),
-    ("watched", "finite, without a bound"),
     ("refused", "not run"),
+    ("watched", "finite, without a bound"),
+    ("kept", "finite, and within its bound"),
     ("beyond", "finite, beyond its bound"),
     ("bad", "not finite"),
 ];
 
 pub(super) fn section(record: &HardRecord) -> Hard {
-    let results = || record.cases.iter().flat_map(|case| &case.results);
+    let mut precisions: Vec<&str> = Vec::new();
+    for result in record.cases.iter().flat_map(|case| &case.results) {
+        if !precisions.contains(&result.precision.as_str()) {
+            precisions.push(&result.precision);
+        }
+    }
+    precisions.sort_by_key(|precision| std::cmp::Reverse(*precision));
+    let precisions: Vec<Matrix> = precisions.iter().map(|precision| matrix(record, precision)).collect();
+    let cells = || {
+        precisions
+            .iter()
+            .flat_map(|m| &m.rows)
+            .flat_map(|row| row.cells.iter().flatten())
+    };
+    let tally = CLASSES.iter().map(|(class, words)| {
+        let count = cells().filter(|cell| cell.class == *class).count();
+        (*words, count, *class)
+    });
+    Hard {
+        caption: caption(&record.circumstances),
+        tally: tally.collect(),
+        half: record.half.iter().map(half).collect(),
+        precisions,
+    }
+}
+
+fn matrix(record: &HardRecord, precision: &str) -> Matrix {
     let mut columns: Vec<String> = Vec::new();
-    for result in results() {
-        let column = column(result);
-        if !columns.contains(&column) {
-            columns.push(column);
+    for result in record.cases.iter().flat_map(|case| &case.results) {
+        if result.precision == precision && !columns.contains(&result.kernel) {
+            columns.push(result.kernel.clone());
         }
     }
     let rows = record.cases.iter().map(|case| {
-        let cell = |name: &String| {
-            let found = case.results.iter().find(|result| column(result) == *name);
-            found.map(cell)
+        let cell = |kernel: &String| {
+            let own = case.results.iter();
+            let own: Vec<&HardResult> = own
+                .filter(|r| r.kernel == *kernel && r.precision == precision)
+                .collect();
+            cell(&own)
         };
         Row {
             name: case.name.clone(),
@@ -56,60 +104,76 @@ pub(super) fn section(record: &HardRecord) -> Hard {
             cells: columns.iter().map(cell).collect(),
         }
     });
-    let tally = CLASSES.iter().map(|(class, words)| {
-        let count = results().filter(|result| classify(result) == *class).count();
-        (*words, count, *class)
-    });
-    Hard {
-        caption: caption(&record.circumstances),
+    Matrix {
+        precision: precision.to_owned(),
         rows: rows.collect(),
-        tally: tally.collect(),
-        columns,
+        columns: columns.clone(),
     }
 }
 
-fn column(result: &HardResult) -> String {
-    let executor = match result.executor {
+fn executor(result: &HardResult) -> &'static str {
+    match result.executor {
         Executor::Interpreter => "interpreter",
-        Executor::InterpreterFlushed => "flushed",
-        Executor::InterpreterLoose => "loose",
+        Executor::InterpreterFlushed => "interpreter, subnormals flushed",
+        Executor::InterpreterLoose => "interpreter, as inexact as WGSL allows",
         Executor::Gpu => "shader",
-    };
-    format!("{} · {} · {executor}", result.kernel, result.precision)
-}
-
-fn classify(result: &HardResult) -> &'static str {
-    match result {
-        r if r.refused.is_some() => "refused",
-        r if r.non_finite > 0 => "bad",
-        r if r.bound.is_none() => "watched",
-        r if r.kept => "kept",
-        _ => "beyond",
     }
 }
 
-fn cell(result: &HardResult) -> Cell {
-    let class = classify(result);
+/// Place in [`CLASSES`].
+fn classify(result: &HardResult) -> usize {
+    match result {
+        r if r.refused.is_some() => 0,
+        r if r.non_finite > 0 => 4,
+        r if r.bound.is_none() => 1,
+        r if r.kept => 2,
+        _ => 3,
+    }
+}
+
+fn cell(results: &[&HardResult]) -> Option<Cell> {
+    let worst = results.iter().map(|result| classify(result)).max()?;
+    let (class, _) = CLASSES[worst];
     let text = match class {
         "refused" => "·".to_owned(),
-        "bad" => result.non_finite.to_string(),
-        _ => result.difference.map_or(String::new(), |d| match d {
-            0.0 => "0".to_owned(),
-            d => format!("{d:.0e}"),
-        }),
+        "bad" => results.iter().map(|r| r.non_finite).max().unwrap_or(0).to_string(),
+        _ => results
+            .iter()
+            .filter_map(|r| r.difference)
+            .reduce(f64::max)
+            .map_or(String::new(), |d| match d {
+                0.0 => "0".to_owned(),
+                d => format!("{d:.0e}"),
+            }),
     };
-    let mut title = vec![column(result)];
-    title.extend(result.refused.clone());
-    if result.refused.is_none() {
-        title.push(format!("{} of {} pixels not finite", result.non_finite, result.pixels));
-        title.extend(result.difference.map(|d| format!("largest difference to f64: {d:.2e}")));
-        title.extend(result.ulps.map(|u| format!("{u:.1} ULP")));
-        title.extend(result.bound.map(|b| format!("bound: {b:.1e}")));
-        title.extend(result.born.as_ref().map(|b| format!("born at {b}")));
-    }
-    Cell {
+    Some(Cell {
         class,
         text,
-        title: title.join("\n"),
+        title: results.iter().map(|result| told(result)).collect::<Vec<_>>().join("\n"),
+    })
+}
+
+/// A result in a line.
+fn told(result: &HardResult) -> String {
+    if let Some(why) = &result.refused {
+        return format!("{}: {why}", executor(result));
+    }
+    let mut words = vec![format!("{} of {} pixels not finite", result.non_finite, result.pixels)];
+    words.extend(result.difference.map(|d| format!("off f64 by {d:.2e}")));
+    words.extend(result.ulps.map(|u| format!("{u:.1} ULP")));
+    words.extend(result.bound.map(|b| format!("bound {b:.1e}")));
+    words.extend(result.born.as_ref().map(|b| format!("born at {b}")));
+    format!("{}: {}", executor(result), words.join(", "))
+}
+
+fn half(verdict: &HalfVerdict) -> Half {
+    let number = |value: Option<f64>| value.map_or("–".to_owned(), |v| format!("{v:.1e}"));
+    Half {
+        kernel: verdict.kernel.clone(),
+        verdict: verdict.reason.clone().unwrap_or_else(|| "may be used".to_owned()),
+        worst: verdict.worst.clone().unwrap_or_default(),
+        difference: number(verdict.difference),
+        limit: number(verdict.limit),
+        broken: format!("{} of {}", verdict.broken, verdict.cases),
     }
 }

@@ -42,12 +42,13 @@ struct Row {
 }
 
 /// Forms in the order of the page, with their words and colours.
-const FORMS: [(FormKind, &str, usize); 9] = [
+const FORMS: [(FormKind, &str, usize); 10] = [
     (FormKind::Looped, "looped", 7),
     (FormKind::LoopedUnchecked, "looped, unbounded", 5),
     (FormKind::LoopedByHand, "looped by hand", 4),
+    (FormKind::LoopedByHandUnchecked, "by hand, unbounded", 1),
     (FormKind::Partial2, "partial(2)", 3),
-    (FormKind::Partial4, "partial(4)", 1),
+    (FormKind::Partial4, "partial(4)", 3),
     (FormKind::FullUnshared, "unrolled, loads not shared", 6),
     (FormKind::Full, "unrolled", 0),
     (FormKind::FullBlock, "unrolled, 2×2 pixels", 2),

@@ -3,7 +3,7 @@
 use super::pictures::{Compared, Pictures};
 use super::plot::{Dot, Line, Plot, Scale, number};
 use super::{ReportError, caption, options};
-use crate::record::{Family, MethodErrors, QualityRecord, SceneErrors};
+use crate::record::{Family, Gap, MOST_DB, MethodErrors, QualityRecord, SceneErrors};
 use serde::Serialize;
 use std::path::Path;
 
@@ -32,7 +32,21 @@ struct SceneSection {
     shares: String,
     plot: String,
     rows: Vec<Row>,
+    absent: Vec<(String, String)>,
+    gaps: Vec<GapRow>,
     compared: Option<Compared>,
+}
+
+/// How far a method is from supersampling, in dB, and where that comes from.
+#[derive(Debug, Serialize)]
+struct GapRow {
+    method: String,
+    bound: String,
+    gap: String,
+    unseen: String,
+    borrowed: String,
+    error_unseen: String,
+    gap_seen: String,
 }
 
 #[derive(Debug, Serialize)]
@@ -95,23 +109,30 @@ pub(super) fn section(record: &QualityRecord, folder: &Path, pictures: &mut Pict
 fn method(record: &QualityRecord, name: &str) -> Method {
     let found = |scene: &SceneErrors| scene.methods.iter().find(|m| m.method == name).cloned();
     let all: Vec<Option<MethodErrors>> = record.scenes.iter().map(found).collect();
-    let mean = |pick: fn(&MethodErrors) -> f64| {
-        let values: Vec<f64> = all.iter().flatten().map(pick).filter(|v| v.is_finite()).collect();
-        values.iter().sum::<f64>() / values.len().max(1) as f64
+    let mean = |pick: fn(&MethodErrors) -> Option<f64>| {
+        let values: Vec<f64> = all.iter().flatten().filter_map(pick).collect();
+        (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
     };
     Method {
         name: name.to_owned(),
         psnr: all.iter().map(|m| m.as_ref().map(|m| decibels(m.psnr))).collect(),
-        gap: format!("{:.0} %", 100.0 * mean(|m| m.gap_closed)),
-        flip: format!("{:.4}", mean(|m| m.flip)),
+        gap: percent(mean(|m| m.gap_closed)),
+        flip: mean(|m| Some(m.flip)).map_or(NONE.to_owned(), |flip| format!("{flip:.4}")),
     }
 }
 
 fn decibels(psnr: f64) -> String {
-    match psnr.is_finite() {
+    match psnr < MOST_DB {
         true => format!("{psnr:.2}"),
         false => "∞".to_owned(),
     }
+}
+
+/// What stands where there is no figure.
+const NONE: &str = "–";
+
+fn percent(share: Option<f64>) -> String {
+    share.map_or(NONE.to_owned(), |share| format!("{:.0} %", share * 100.0))
 }
 
 fn scene_section(scene: &SceneErrors, folder: &Path, pictures: &mut Pictures) -> Result<SceneSection, ReportError> {
@@ -125,6 +146,18 @@ fn scene_section(scene: &SceneErrors, folder: &Path, pictures: &mut Pictures) ->
         _ => None,
     };
     let percent = |share: f64| format!("{:.1} %", share * 100.0);
+    let gap = |gap: &Gap| GapRow {
+        method: gap.method.clone(),
+        bound: gap.bound.clone(),
+        gap: format!("{:+.2}", gap.psnr - gap.bound_psnr),
+        unseen: format!("{:+.2}", gap.ideal_psnr - gap.bound_psnr),
+        borrowed: format!("{:+.2}", gap.psnr - gap.ideal_psnr),
+        error_unseen: percent(gap.error_unseen),
+        gap_seen: match (gap.psnr_seen, gap.bound_psnr_seen) {
+            (Some(psnr), Some(bound)) => format!("{:+.2}", psnr - bound),
+            _ => NONE.to_owned(),
+        },
+    };
     Ok(SceneSection {
         name: scene.scene.clone(),
         purpose: scene.purpose.clone(),
@@ -136,6 +169,8 @@ fn scene_section(scene: &SceneErrors, folder: &Path, pictures: &mut Pictures) ->
         ),
         plot: plot(scene)?,
         rows: scene.methods.iter().map(row).collect(),
+        absent: scene.absent.clone(),
+        gaps: scene.gaps.iter().map(gap).collect(),
         compared,
     })
 }
@@ -208,7 +243,7 @@ fn plot(scene: &SceneErrors) -> Result<String, ReportError> {
 }
 
 fn row(m: &MethodErrors) -> Row {
-    let class = |value: Option<f64>| value.map_or("–".to_owned(), decibels);
+    let class = |value: Option<f64>| value.map_or(NONE.to_owned(), decibels);
     Row {
         method: m.method.clone(),
         options: options(&m.options),
@@ -218,9 +253,9 @@ fn row(m: &MethodErrors) -> Row {
         geometry: class(m.psnr_geometry),
         shading: class(m.psnr_shading),
         flat: class(m.psnr_flat),
-        gap: format!("{:.0} %", m.gap_closed * 100.0),
-        temporal: m.temporal.map_or("–".to_owned(), |v| format!("{v:.1e}")),
-        time: m.time.map_or("–".to_owned(), |t| number(t.median_ms)),
+        gap: percent(m.gap_closed),
+        temporal: m.temporal.map_or(NONE.to_owned(), |v| format!("{v:.1e}")),
+        time: m.time.map_or(NONE.to_owned(), |t| number(t.median_ms)),
         bytes: format!("{:.1}", m.bytes as f64 / 1e6),
         non_finite: m.non_finite,
     }

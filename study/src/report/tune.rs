@@ -16,6 +16,13 @@ pub(super) struct Tune {
     chosen: Option<Row>,
     general: Option<Row>,
     left_out: Vec<(String, String)>,
+    /// What is left out of the most general variant, what is there instead, what that costs and what it saves.
+    worth: Vec<[String; 4]>,
+    refused: Vec<(String, String)>,
+    reference: String,
+    best: String,
+    unfiltered: String,
+    fixed: String,
     tried: usize,
     measured: usize,
     learned_from: usize,
@@ -64,6 +71,28 @@ pub(super) fn section(record: &TuneRecord) -> Result<Tune, ReportError> {
             .iter()
             .map(|left| (left.term.clone(), format!("{:.3}", left.cost)))
             .collect(),
+        worth: record
+            .terms
+            .iter()
+            .map(|worth| {
+                let ratio = worth.ratio.map_or(String::new(), |r| format!("{:.2}", r.median));
+                [
+                    worth.term.clone(),
+                    worth.instead.clone(),
+                    format!("{:.4}", worth.cost),
+                    ratio,
+                ]
+            })
+            .collect(),
+        refused: record
+            .refused
+            .iter()
+            .map(|refused| (refused.variant.clone(), refused.reason.clone()))
+            .collect(),
+        reference: record.reference.clone(),
+        best: format!("{:.4}", record.best),
+        unfiltered: format!("{:.4}", record.unfiltered),
+        fixed: options(&record.fixed),
         tried: record.candidates.len(),
         measured: record.candidates.iter().filter(|c| c.time.is_some()).count(),
         learned_from: model.learned_from,
@@ -83,24 +112,9 @@ fn milliseconds(candidate: &Candidate) -> f64 {
     candidate.time.map_or(candidate.predicted_ms, |time| time.median_ms)
 }
 
-fn name(candidate: &Candidate) -> String {
-    let [width, height] = candidate.block;
-    let mut name = options(&candidate.options);
-    if candidate.precision != "f32" {
-        name = format!("{name} {}", candidate.precision);
-    }
-    if candidate.block != [1, 1] {
-        name = format!("{name} block {width}x{height}");
-    }
-    match name.trim() {
-        "" => "defaults".to_owned(),
-        name => name.to_owned(),
-    }
-}
-
 fn row(candidate: &Candidate, chosen: bool) -> Row {
     Row {
-        name: name(candidate),
+        name: candidate.name.clone(),
         error: format!("{:.4}", candidate.error),
         time: match candidate.time {
             Some(time) => format!("{:.2}", time.median_ms),
@@ -134,7 +148,7 @@ fn plot(record: &TuneRecord, front: &[usize]) -> Result<String, ReportError> {
             },
             title: format!(
                 "{}: {:.4}, {} ms{}",
-                name(candidate),
+                candidate.name,
                 candidate.error,
                 number(milliseconds(candidate)),
                 if measured { "" } else { " (predicted)" }

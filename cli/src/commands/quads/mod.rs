@@ -60,7 +60,7 @@ struct Subject {
 }
 
 enum Drawn {
-    Pass(Pass, Bound),
+    Pass(Box<Pass>, Bound),
     Forward(Forward),
 }
 
@@ -201,7 +201,7 @@ fn prepare(
         let (pass, manifest) = bench.pass(&compiled, stage).map_err(Failure::of)?;
         let bound = bench.bind(&pass, &manifest, inputs).map_err(Failure::of)?;
         let image = bench.run(&compiled, stage, inputs).map_err(Failure::of)?;
-        (Drawn::Pass(pass, bound), image, manifest.counts)
+        (Drawn::Pass(Box::new(pass), bound), image, manifest.counts)
     };
     let sends = counts.messages > 0 || transport == Transport::Block;
     Ok(Subject {

@@ -1,10 +1,187 @@
-//! `study error`.
+//! `study error`: methods of antialiasing against references.
 
-use super::Progress;
+use super::{Progress, circumstances};
 use crate::args::{CommonArgs, ErrorArgs};
 use crate::failure::Failure;
+use crate::gpu::Gpu;
+use crate::table;
+use std::path::Path;
+use straightline_study::capture::Capture;
+use straightline_study::quality::{self, Plan, Source};
+use straightline_study::record::{Gap, MOST_DB, MethodErrors, QualityRecord, Record, SceneErrors};
+use straightline_study::scene::{self, NAMES, Scene};
 
-/// To be written.
-pub fn run(_common: &CommonArgs, _args: &ErrorArgs, _progress: &mut Progress) -> Result<(), Failure> {
-    Err(Failure::Failed("`study error` is not there yet".to_owned()))
+/// Frames of the pan.
+const FRAMES: u32 = 5;
+const QUICK_FRAMES: u32 = 4;
+
+/// Compares, writes the record and prints it.
+pub fn run(common: &CommonArgs, args: &ErrorArgs, progress: &mut Progress) -> Result<(), Failure> {
+    let sources = sources(args)?;
+    let gpu = Gpu::require(&common.adapter)?;
+    let plan = Plan {
+        size: common.size(),
+        rounds: common.rounds(),
+        quick: common.quick,
+        pan_frames: if common.quick { QUICK_FRAMES } else { FRAMES },
+        pan_scenes: if common.quick { 1 } else { usize::MAX },
+        out: Some(common.out.clone()),
+    };
+    let mut circumstances = circumstances(common, &gpu);
+    // A capture has its own size; a record of nothing else says so.
+    let sizes: Vec<_> = sources.iter().map(|source| source.size(plan.size)).collect();
+    if let Some(first) = sizes.first().filter(|first| sizes.iter().all(|size| size == *first)) {
+        circumstances.size = first.to_array();
+    }
+    let outcome = quality::study(&gpu.bench(), sources, &plan, progress).map_err(Failure::of)?;
+    circumstances.complete = outcome.complete;
+    let record = QualityRecord {
+        circumstances,
+        timed_on: outcome.timed_on,
+        pan_frames: plan.pan_frames,
+        scenes: outcome.scenes,
+    };
+    record.write(&common.out).map_err(Failure::of)?;
+    print(&record, &common.out);
+    Ok(())
+}
+
+/// What was asked for; by default all scenes.
+fn sources(args: &ErrorArgs) -> Result<Vec<Source>, Failure> {
+    let mut sources = Vec::new();
+    for name in &args.scene {
+        let scene = Scene::named(name).map_err(|error| Failure::Usage(error.to_string()))?;
+        sources.push(named(name, scene));
+    }
+    for path in &args.mesh {
+        let scene = scene::load(path).map_err(Failure::of)?;
+        sources.push(Source::Scene {
+            name: path.display().to_string(),
+            purpose: "a model".to_owned(),
+            scene: Box::new(scene),
+        });
+    }
+    for path in &args.capture {
+        let capture = Capture::read(path).map_err(Failure::of)?;
+        if capture.reference.is_none() {
+            return Err(Failure::Failed(format!(
+                "{} has no reference.exr to compare with: write one, shaded at many places of each pixel (docs/captures.md), \
+                 or capture with --reference 256",
+                path.display()
+            )));
+        }
+        sources.push(Source::Capture {
+            name: path.display().to_string(),
+            capture: Box::new(capture),
+        });
+    }
+    if sources.is_empty() {
+        for (name, _) in NAMES {
+            sources.push(named(name, Scene::named(name).map_err(Failure::of)?));
+        }
+    }
+    Ok(sources)
+}
+
+fn named(name: &str, scene: Scene) -> Source {
+    let purpose = NAMES.iter().find(|(known, _)| *known == name);
+    Source::Scene {
+        name: name.to_owned(),
+        purpose: purpose.map_or(String::new(), |(_, purpose)| (*purpose).to_owned()),
+        scene: Box::new(scene),
+    }
+}
+
+fn print(record: &QualityRecord, out: &Path) {
+    for scene in &record.scenes {
+        print_scene(scene);
+    }
+    let circumstances = &record.circumstances;
+    if !circumstances.complete {
+        println!("Interrupted: only the scenes above were finished.\n");
+    }
+    let size = circumstances.size;
+    println!("{}x{} pixels, on {}.", size[0], size[1], circumstances.adapter);
+    println!(
+        "PSNR in dB over linear colour clamped to 0..1; edges of geometry: pixels whose samples see several surfaces; edges of \
+         shading: pixels of one surface whose sRGB colour varies by more than {:.0} of 255.",
+        quality::STEP * 255.0
+    );
+    if !record.timed_on.is_empty() {
+        println!(
+            "Times: medians of filters in turn, {} rounds, on {}.",
+            circumstances.rounds,
+            record.timed_on.join(" and ")
+        );
+    }
+    println!("{} and pictures are in {}.", "error.json, error.csv", out.display());
+}
+
+fn print_scene(scene: &SceneErrors) {
+    let percent = |share: f64| format!("{:.1} %", 100.0 * share);
+    let shares = &scene.shares;
+    println!("{}: {}", scene.scene, scene.purpose);
+    println!(
+        "{} of the pixels have an edge of geometry, {} of shading; in {} a surface was seen by no shading sample.\n",
+        percent(shares.geometry),
+        percent(shares.shading),
+        percent(shares.unseen)
+    );
+    let headings = [
+        "method", "PSNR", "SSIM", "FLIP", "geometry", "shading", "flat", "of 16x", "pan", "time", "MB",
+    ];
+    let rows: Vec<Vec<String>> = scene.methods.iter().map(row).collect();
+    println!("{}", table::render(&headings, &rows));
+    for gap in &scene.gaps {
+        println!("{}", gap_in_words(gap));
+    }
+    for loss in quality::losses(scene) {
+        println!("{loss}");
+    }
+    for (method, reason) in &scene.absent {
+        println!("without {method}: {reason}");
+    }
+    println!();
+}
+
+fn row(method: &MethodErrors) -> Vec<String> {
+    let db = |value: Option<f64>| match value {
+        None => String::new(),
+        Some(db) if db >= MOST_DB => "equal".to_owned(),
+        Some(db) => format!("{db:.2}"),
+    };
+    vec![
+        method.method.clone(),
+        db(Some(method.psnr)),
+        format!("{:.4}", method.ssim),
+        format!("{:.4}", method.flip),
+        db(method.psnr_geometry),
+        db(method.psnr_shading),
+        db(method.psnr_flat),
+        method
+            .gap_closed
+            .map_or(String::new(), |share| format!("{:.0} %", 100.0 * share)),
+        method.temporal.map_or(String::new(), |error| format!("{error:.4}")),
+        method
+            .time
+            .map_or(String::new(), |time| format!("{:.2} ms", time.median_ms)),
+        format!("{:.1}", method.bytes as f64 / 1e6),
+    ]
+}
+
+fn gap_in_words(gap: &Gap) -> String {
+    let seen = match (gap.psnr_seen, gap.bound_psnr_seen) {
+        (Some(own), Some(bound)) => format!("; where all surfaces were seen {:.2} dB", bound - own),
+        _ => String::new(),
+    };
+    format!(
+        "{} is {:.2} dB below {}: {:.2} dB for surfaces that no shading sample saw, {:.2} dB for borrowed colours{seen}; {:.0} % of \
+         its squared error is in pixels with unseen surfaces",
+        gap.method,
+        gap.bound_psnr - gap.psnr,
+        gap.bound,
+        gap.bound_psnr - gap.ideal_psnr,
+        gap.ideal_psnr - gap.psnr,
+        100.0 * gap.error_unseen
+    )
 }

@@ -18,7 +18,7 @@ pub fn run(common: &CommonArgs, args: &HardArgs, progress: &mut Progress) -> Res
         Some(gpu) => circumstances(common, gpu),
         None => {
             eprintln!("there is no GPU adapter, so only the interpreter runs the cases; {INSTALL}");
-            on_processor(common)
+            on_processor(common.size(), common.rounds())
         }
     };
     let bench = gpu.as_ref().map(Gpu::bench);

@@ -5,9 +5,11 @@ mod hard;
 mod loops;
 mod watch;
 
-use crate::args::{CommonArgs, Study, StudyArgs};
+use super::tune;
+use crate::args::{CommonArgs, Study, StudyArgs, TuneArgs};
 use crate::failure::Failure;
 use crate::gpu::Gpu;
+use glam::UVec2;
 use std::path::Path;
 use std::time::SystemTime;
 use straightline_study::execute::Clock;
@@ -31,12 +33,19 @@ pub fn run(args: &StudyArgs) -> Result<(), Failure> {
     page(&common.out)
 }
 
+/// Scenes that need different things: the flat one, thin things, and creases that depth does not tell.
+const TUNED: [&str; 3] = ["floor", "tubes", "creases"];
+
 /// Every study, until Ctrl-C.
 fn all(common: &CommonArgs, progress: &mut Progress) -> Result<(), Failure> {
-    let studies: [&dyn Fn(&mut Progress) -> Result<(), Failure>; 3] = [
+    let tuned = |scene: &str| tune::run(&TuneArgs::of_study(scene, common));
+    let studies: [&dyn Fn(&mut Progress) -> Result<(), Failure>; 6] = [
+        &|progress| hard::run(common, &Default::default(), progress),
         &|progress| loops::run(common, &Default::default(), progress),
         &|progress| error::run(common, &Default::default(), progress),
-        &|progress| hard::run(common, &Default::default(), progress),
+        &|_| tuned(TUNED[0]),
+        &|_| tuned(TUNED[1]),
+        &|_| tuned(TUNED[2]),
     ];
     for study in studies {
         if !progress.stopped() {
@@ -55,26 +64,31 @@ pub fn page(folder: &Path) -> Result<(), Failure> {
 
 /// What a record says of this run. `complete` is to be put right when it ends.
 pub fn circumstances(common: &CommonArgs, gpu: &Gpu) -> Circumstances {
+    circumstances_of(gpu, common.size(), common.rounds())
+}
+
+/// The same for a picture's size and rounds of timing.
+pub fn circumstances_of(gpu: &Gpu, size: UVec2, rounds: u32) -> Circumstances {
     Circumstances {
         adapter: gpu.describe(),
         clock: match gpu.timestamps {
             true => Clock::GpuTimestamps,
             false => Clock::WallClock,
         },
-        ..on_processor(common)
+        ..on_processor(size, rounds)
     }
 }
 
 /// What the record of a run without a device says.
-pub fn on_processor(common: &CommonArgs) -> Circumstances {
+pub fn on_processor(size: UVec2, rounds: u32) -> Circumstances {
     Circumstances {
         command: command(),
         date: humantime::format_rfc3339_seconds(SystemTime::now()).to_string(),
         adapter: "none: interpreter only".to_owned(),
         processor: processor(),
         clock: Clock::WallClock,
-        size: common.size().to_array(),
-        rounds: common.rounds(),
+        size: size.to_array(),
+        rounds,
         complete: true,
     }
 }

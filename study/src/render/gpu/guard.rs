@@ -8,7 +8,7 @@ use std::task::{Context, Poll, Waker};
 /// Runs `work`, and makes an error of what wgpu complained about meanwhile.
 ///
 /// Without a scope wgpu hands errors to the device's own handler, which by default panics.
-pub(super) fn guarded<T>(
+pub(crate) fn guarded<T>(
     device: &wgpu::Device,
     doing: &'static str,
     work: impl FnOnce() -> T,

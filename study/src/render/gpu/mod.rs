@@ -1,6 +1,6 @@
 //! Rasterising and shading on a device of wgpu.
 
-mod guard;
+pub(crate) mod guard;
 mod multisampled;
 mod pipelines;
 mod read;

@@ -1,10 +1,7 @@
-//! How far a picture is from its reference.
+//! Peak signal-to-noise ratio, and plain differences.
 //!
-//! Errors are taken over red, green and blue of linear colour clamped to 0..=1, the range of a display, and summed
-//! in double precision. Alpha is not compared. A pixel with a red, green or blue that is not finite, in either
-//! picture, counts as wrong by the whole range in all three: a NaN must never look like a small error.
-//!
-//! Every function that takes two pictures panics unless they have the same size.
+//! Errors are taken over red, green and blue of linear colour clamped to 0..=1, the range of a display, and summed in
+//! double precision. A pixel that is not finite counts as wrong by the whole range in all three.
 
 use glam::Vec4;
 use straightline_kernels::prelude::Frame;

@@ -1,0 +1,94 @@
+//! Arguments of `tune`.
+
+use super::{AdapterArgs, CommonArgs, pair, size};
+use clap::Args;
+use glam::UVec2;
+use std::path::PathBuf;
+use straightline_codegen::emit::Target;
+use straightline_manifest::Format;
+use straightline_study::tune::ErrorMetric;
+
+#[derive(Debug, Args)]
+pub struct TuneArgs {
+    #[command(flatten)]
+    pub subject: SubjectArgs,
+    /// How much error may be given up against the best variant: dB of PSNR, or mean FLIP
+    #[arg(long, value_name = "X", allow_negative_numbers = true, value_parser = budget)]
+    pub max_error: f64,
+    /// What errors are measured by: psnr or flip
+    #[arg(long, value_name = "METRIC", default_value = "psnr", value_parser = |s: &str| s.parse::<ErrorMetric>())]
+    pub metric: ErrorMetric,
+    /// Width and height of a scene or model in pixels; by default 640x360. A capture has its own
+    #[arg(long, value_name = "WxH", value_parser = size, conflicts_with = "capture")]
+    pub size: Option<UVec2>,
+    /// Rounds of the timing that decides; each runs every shader once, in turn
+    #[arg(long, value_name = "N", default_value_t = 15, value_parser = clap::value_parser!(u32).range(1..=1000))]
+    pub rounds: u32,
+    /// Give all variants an option; may be given several times. One that is searched is then not
+    #[arg(long = "set", value_name = "OPTION=VALUE", value_parser = pair)]
+    pub set: Vec<(String, String)>,
+    /// Languages of the shader, separated by commas: wgsl, glsl450, spirv, hlsl, msl
+    #[arg(long, value_name = "LANGUAGES", value_delimiter = ',', default_value = "wgsl", value_parser = |s: &str| s.parse::<Target>())]
+    pub target: Vec<Target>,
+    /// Texel format of the shader's output: rgba8unorm, rgba16float or rgba32float
+    #[arg(long, value_name = "FORMAT", default_value = "rgba16float", value_parser = |s: &str| s.parse::<Format>())]
+    pub format: Format,
+    /// Folder for the shader (sraa-SCENE.wgsl, .json) and the record (tune-SCENE.json, .csv); made if it is not there
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
+    /// Print the record as JSON
+    #[arg(long)]
+    pub json: bool,
+    #[command(flatten)]
+    pub adapter: AdapterArgs,
+}
+
+impl TuneArgs {
+    /// A built-in scene as `study` tunes for it: within a decibel of the best.
+    pub fn of_study(scene: &str, common: &CommonArgs) -> TuneArgs {
+        TuneArgs {
+            subject: SubjectArgs {
+                capture: None,
+                scene: Some(scene.to_owned()),
+                mesh: None,
+            },
+            max_error: 1.0,
+            metric: ErrorMetric::Psnr,
+            size: Some(common.size.unwrap_or(match common.quick {
+                true => UVec2::new(320, 180),
+                false => UVec2::new(640, 360),
+            })),
+            rounds: common.rounds(),
+            set: Vec::new(),
+            target: vec![Target::Wgsl],
+            format: Format::default(),
+            out: common.out.clone(),
+            json: false,
+            adapter: common.adapter.clone(),
+        }
+    }
+}
+
+/// What to tune for.
+#[derive(Debug, Args)]
+#[group(required = true, multiple = false)]
+pub struct SubjectArgs {
+    /// Folder of a captured frame (see docs/captures.md)
+    #[arg(long, value_name = "DIR")]
+    pub capture: Option<PathBuf>,
+    /// Built-in scene; `scenes` lists them
+    #[arg(long, value_name = "NAME")]
+    pub scene: Option<String>,
+    /// Model: .gltf, .glb or .obj
+    #[arg(long, value_name = "FILE")]
+    pub mesh: Option<PathBuf>,
+}
+
+fn budget(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(number) if number.is_finite() && number >= 0.0 => Ok(number),
+        _ => Err(format!(
+            "`{text}` is no budget: give a number that is not negative, such as 0.5 (dB) or, with --metric flip, 0.002"
+        )),
+    }
+}

@@ -1,0 +1,145 @@
+//! `tune`: the cheapest shader that a scene needs.
+
+mod print;
+
+use super::study::{Progress, circumstances_of};
+use crate::args::TuneArgs;
+use crate::failure::Failure;
+use crate::gpu::Gpu;
+use crate::scene;
+use glam::UVec2;
+use std::path::PathBuf;
+use straightline_codegen::emit::{Emitted, Target};
+use straightline_codegen::{EmitOptions, Kernel, Settings, files};
+use straightline_study::capture::Capture;
+use straightline_study::gbuffer;
+use straightline_study::record::{Record, Watch};
+use straightline_study::tune::{self, Chosen, PATTERNS, Question, Subject, TuneError};
+
+/// Size of a scene's picture where none is asked for.
+const SIZE: UVec2 = UVec2::new(640, 360);
+
+/// Searches, writes the record and the shader, prints what was found.
+pub fn run(args: &TuneArgs) -> Result<(), Failure> {
+    check_options(args)?;
+    let gpu = Gpu::require(&args.adapter)?;
+    let mut progress = Progress::new()?;
+    let Some(subject) = subject(args, &gpu, &mut progress)? else {
+        return Err(nothing_measured());
+    };
+    let no_half = match (gpu.has_half(), args.target.contains(&Target::Glsl450)) {
+        (false, _) => Some("the adapter has none".to_owned()),
+        (true, true) => Some("GLSL, which is asked for, has none".to_owned()),
+        (true, false) => None,
+    };
+    let question = Question {
+        metric: args.metric,
+        max_error: args.max_error,
+        rounds: args.rounds,
+        no_half,
+        fixed: args.set.clone(),
+    };
+    let stem = stem(&subject.name);
+    let circumstances = circumstances_of(&gpu, subject.size(), args.rounds);
+    let found = tune::tune(&gpu.bench(), subject, &question, circumstances, &mut progress).map_err(failure)?;
+    drop(progress);
+    let Some(outcome) = found else {
+        return Err(nothing_measured());
+    };
+    let emitted = outcome.chosen.as_ref().map(|chosen| emit(args, chosen)).transpose()?;
+    let mut written: Vec<PathBuf> = Vec::new();
+    if let Some(emitted) = emitted {
+        let named = emitted.named(&format!("sraa-{stem}"));
+        written = files::write_all(&args.out, &named).map_err(Failure::of)?;
+    }
+    let record_stem = format!("tune-{stem}");
+    outcome.record.write_as(&args.out, &record_stem).map_err(Failure::of)?;
+    written.extend(["json", "csv"].map(|kind| args.out.join(format!("{record_stem}.{kind}"))));
+    print::report(args, &outcome.record, &written)?;
+    match outcome.chosen {
+        Some(_) => Ok(()),
+        None => Err(Failure::Failed(format!(
+            "interrupted: the record in `{}` has what was measured, and no shader was chosen",
+            args.out.display()
+        ))),
+    }
+}
+
+/// What is to be tuned for; `None` if it was stopped before all was drawn.
+fn subject(args: &TuneArgs, gpu: &Gpu, watch: &mut dyn Watch) -> Result<Option<Subject>, Failure> {
+    if let Some(folder) = &args.subject.capture {
+        let capture = Capture::read(folder).map_err(Failure::of)?;
+        return Ok(Some(Subject::of_capture(&folder.display().to_string(), capture)));
+    }
+    let name = args.subject.scene.as_deref().unwrap_or_default();
+    let world = scene::load(args.subject.mesh.as_deref(), name)?;
+    let name = match &args.subject.mesh {
+        Some(path) => path.display().to_string(),
+        None => name.to_owned(),
+    };
+    let renderer = scene::renderer(Some(gpu), &world, args.size.unwrap_or(SIZE))?;
+    let asked = args
+        .set
+        .iter()
+        .rev()
+        .find(|(name, _)| name == "pattern")
+        .map(|(_, value)| value.as_str());
+    let patterns: Vec<&str> = match asked {
+        Some(pattern) if gbuffer::PATTERNS.contains(&pattern) => vec![pattern],
+        Some(other) => {
+            return Err(Failure::Usage(format!(
+                "a scene is not sampled at `pattern={other}` here; use one of {}, or tune a capture",
+                gbuffer::PATTERNS.join(", ")
+            )));
+        }
+        None => PATTERNS.to_vec(),
+    };
+    Subject::of_scene(&name, renderer.as_ref(), &patterns, watch).map_err(failure)
+}
+
+/// Refuses options that the kernel does not have before anything is drawn, and those left to a host.
+fn check_options(args: &TuneArgs) -> Result<(), Failure> {
+    if let Some((name, _)) = args.set.iter().find(|(_, value)| value == "uniform") {
+        return Err(Failure::Usage(format!(
+            "`{name}=uniform` leaves the value to a host; here give a number"
+        )));
+    }
+    let settings = Settings {
+        options: args.set.clone(),
+        ..Settings::default()
+    };
+    Kernel::builtin("sraa")?.compile(&settings)?;
+    Ok(())
+}
+
+fn emit(args: &TuneArgs, chosen: &Chosen) -> Result<Emitted, Failure> {
+    let options = EmitOptions::new()
+        .format(args.format)
+        .precision(chosen.precision)
+        .targets(args.target.iter().copied());
+    let mut emitted = chosen.compiled.emit(&options).map_err(Failure::of)?;
+    emitted.manifest.tuned = Some(chosen.tuned.clone());
+    Ok(emitted)
+}
+
+/// What files are called for a scene, a model's path or a capture's.
+fn stem(name: &str) -> String {
+    let path = std::path::Path::new(name);
+    let last = path.file_stem().and_then(|stem| stem.to_str()).unwrap_or("scene");
+    let kept = last
+        .chars()
+        .map(|c| if c.is_ascii_alphanumeric() || c == '-' { c } else { '-' });
+    kept.collect()
+}
+
+fn nothing_measured() -> Failure {
+    Failure::Failed("interrupted before anything was measured: nothing is written".to_owned())
+}
+
+fn failure(error: TuneError) -> Failure {
+    match error {
+        TuneError::Kernel(errors) => Failure::Kernel(errors),
+        TuneError::Space(message) => Failure::Usage(message),
+        other => Failure::of(other),
+    }
+}

@@ -1,0 +1,146 @@
+//! What `tune` says.
+
+use crate::args::TuneArgs;
+use crate::failure::Failure;
+use crate::table;
+use std::path::PathBuf;
+use straightline_study::execute::Ratio;
+use straightline_study::record::{Candidate, TuneRecord};
+use straightline_study::tune::ErrorMetric;
+
+/// Prints the record: as JSON, or its findings as tables.
+pub fn report(args: &TuneArgs, record: &TuneRecord, written: &[PathBuf]) -> Result<(), Failure> {
+    if args.json {
+        println!("{}", serde_json::to_string_pretty(record).map_err(Failure::of)?);
+        return Ok(());
+    }
+    let metric = args.metric;
+    let [width, height] = record.circumstances.size;
+    println!(
+        "{}, {width}x{height}, {}; {} rounds in turn",
+        record.scene, record.circumstances.adapter, record.circumstances.rounds
+    );
+    println!(
+        "{} variants against {}; the best has {}, the unfiltered picture {}\n",
+        record.candidates.len(),
+        record.reference,
+        metric.show(record.best),
+        metric.show(record.unfiltered)
+    );
+    for line in &record.not_searched {
+        println!("not searched: {line}");
+    }
+    if let Some(refused) = record.refused.first() {
+        println!(
+            "{} variants refused, the first: {}: {}",
+            record.refused.len(),
+            refused.variant,
+            refused.reason
+        );
+    }
+    if !record.terms.is_empty() {
+        println!("\nThe most general variant with one term replaced:\n");
+        println!("{}", terms(record, metric));
+    }
+    if record.candidates.iter().any(|c| c.front) {
+        println!("Of those measured, the front of time against error:\n");
+        println!("{}", front(record, metric));
+    }
+    let model = &record.model;
+    if model.learned_from > 0 {
+        println!(
+            "times were predicted from counts learned on {} variants; on {} others they are off by {:.0} % on average, {:.0} % at most",
+            model.learned_from,
+            model.tested_on,
+            100.0 * model.mean_error,
+            100.0 * model.largest_error
+        );
+    }
+    if let Some(chosen) = record.chosen.and_then(|k| record.candidates.get(k)) {
+        choice(record, chosen, metric);
+    }
+    println!();
+    for path in written {
+        println!("{}", path.display());
+    }
+    Ok(())
+}
+
+fn choice(record: &TuneRecord, chosen: &Candidate, metric: ErrorMetric) {
+    println!("\nchosen: {}", chosen.name);
+    println!(
+        "  {}, budget {}; {} times as fast as the most general variant",
+        metric.show(chosen.error),
+        budget(record, metric),
+        ratio(chosen.ratio)
+    );
+    for out in &record.left_out {
+        println!("  without {}: {}", out.term, lost(out.cost, metric));
+    }
+}
+
+/// The worst error that the budget allows.
+fn budget(record: &TuneRecord, metric: ErrorMetric) -> String {
+    match metric {
+        ErrorMetric::Psnr => format!("at least {}", metric.show(record.best - record.max_error)),
+        ErrorMetric::Flip => format!("at most {}", metric.show(record.best + record.max_error)),
+    }
+}
+
+fn terms(record: &TuneRecord, metric: ErrorMetric) -> String {
+    let rows = record.terms.iter().map(|term| {
+        vec![
+            term.term.clone(),
+            term.instead.clone(),
+            lost(term.cost, metric),
+            ratio(term.ratio),
+        ]
+    });
+    table::render(
+        &["instead of", "with", "error", "times as fast"],
+        &rows.collect::<Vec<_>>(),
+    )
+}
+
+fn front(record: &TuneRecord, metric: ErrorMetric) -> String {
+    let mut shown: Vec<(usize, &Candidate)> = record.candidates.iter().enumerate().filter(|(_, c)| c.front).collect();
+    let speed = |c: &Candidate| c.ratio.map_or(0.0, |ratio| ratio.median);
+    shown.sort_by(|a, b| speed(b.1).total_cmp(&speed(a.1)));
+    if let Some(general) = record.candidates.get(record.general)
+        && !general.front
+    {
+        shown.push((record.general, general));
+    }
+    let rows = shown.iter().map(|(index, c)| {
+        let mark = match (record.chosen == Some(*index), *index == record.general) {
+            (true, _) => " <- chosen",
+            (_, true) => " <- most general",
+            _ => "",
+        };
+        vec![
+            format!("{}{mark}", c.name),
+            metric.show(c.error),
+            c.time.map_or(String::new(), |time| format!("{:.2}", time.median_ms)),
+            ratio(c.ratio),
+            format!("{:.2}", c.predicted_ms),
+            format!("{:.1}", c.gbuffer_bytes as f64 / 1.0e6),
+        ]
+    });
+    let headings = ["variant", "error", "ms", "times as fast", "predicted ms", "G-buffer MB"];
+    table::render(&headings, &rows.collect::<Vec<_>>())
+}
+
+fn lost(cost: f64, metric: ErrorMetric) -> String {
+    let what = if cost > 0.0 { "worse" } else { "better" };
+    match metric {
+        _ if cost == 0.0 => "the same".to_owned(),
+        ErrorMetric::Psnr => format!("{:.2} dB {what}", cost.abs()),
+        ErrorMetric::Flip => format!("{:.5} {what}", cost.abs()),
+    }
+}
+
+fn ratio(ratio: Option<Ratio>) -> String {
+    ratio.map_or(String::new(), |r| {
+        format!("{:.2} ({:.2} to {:.2})", r.median, r.low, r.high)
+    })
+}

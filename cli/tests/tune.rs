@@ -1,0 +1,165 @@
+//! `tune` on the command line: what it writes, and what it refuses.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+use straightline_manifest::Manifest;
+
+fn straightline(arguments: &[&str]) -> Output {
+    let binary = env!("CARGO_BIN_EXE_straightline");
+    Command::new(binary).args(arguments).output().expect("the binary runs")
+}
+
+fn fails(arguments: &[&str], status: i32, says: &[&str]) {
+    let output = straightline(arguments);
+    let error = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(status), "{arguments:?} said: {error}");
+    for text in says {
+        assert!(
+            error.contains(text),
+            "{arguments:?} does not say `{text}` but:\n{error}"
+        );
+    }
+    assert!(!error.contains("panicked"), "{error}");
+}
+
+fn scratch(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(&folder).expect("a scratch folder");
+    folder
+}
+
+/// Options that leave little to search, so that a test is short.
+const SMALL: [&str; 10] = [
+    "--set",
+    "pattern=latin4",
+    "--set",
+    "falloff=tent",
+    "--set",
+    "difference=absolute",
+    "--set",
+    "non-finite=skip",
+    "--rounds",
+    "1",
+];
+
+#[test]
+fn bad_use_is_refused_before_anything_is_drawn() {
+    let folder = scratch("tune-refused");
+    let out = folder.join("out");
+    let out = out.to_str().unwrap();
+    let tune = |more: &[&str], status: i32, says: &[&str]| {
+        let words = [&["tune", "--out", out], more].concat();
+        fails(&words, status, says);
+        assert!(!Path::new(out).exists());
+    };
+    tune(
+        &["--scene", "rooof", "--max-error", "1"],
+        2,
+        &["no scene `rooof`", "roof, grooves"],
+    );
+    tune(&["--max-error", "1"], 2, &["--scene"]);
+    tune(
+        &["--scene", "roof", "--capture", "x", "--max-error", "1"],
+        2,
+        &["--capture"],
+    );
+    tune(&["--capture", "x", "--size", "8x8", "--max-error", "1"], 2, &["--size"]);
+    for budget in ["-1", "NaN", "inf", "much"] {
+        tune(
+            &["--scene", "roof", "--max-error", budget],
+            2,
+            &[budget, "not negative"],
+        );
+    }
+    tune(&["--scene", "roof"], 2, &["--max-error"]);
+    tune(
+        &["--scene", "roof", "--max-error", "1", "--metric", "mse"],
+        2,
+        &["no metric `mse`", "psnr or flip"],
+    );
+    tune(
+        &["--scene", "roof", "--max-error", "1", "--set", "pattrn=latin4"],
+        2,
+        &["no option `pattrn`"],
+    );
+    tune(
+        &["--scene", "roof", "--max-error", "1", "--set", "tau=uniform"],
+        2,
+        &["tau=uniform", "give a number"],
+    );
+    tune(
+        &["--scene", "roof", "--max-error", "1", "--adapter", "no such adapter"],
+        2,
+        &["no such adapter"],
+    );
+    tune(&["--capture", "nowhere", "--max-error", "1"], 1, &["nowhere"]);
+    tune(&["--mesh", "nowhere.obj", "--max-error", "1"], 1, &["nowhere.obj"]);
+}
+
+#[test]
+fn a_capture_is_tuned_and_a_broken_one_refused() {
+    let folder = scratch("tune-capture");
+    let frame = folder.join("frame");
+    let frame_text = frame.to_str().unwrap();
+    let made = straightline(&["capture", "--scene", "tubes", "--size", "64x36", "--out", frame_text]);
+    assert!(made.status.success(), "{}", String::from_utf8_lossy(&made.stderr));
+    let out = folder.join("out");
+    let out_text = out.to_str().unwrap();
+    let words = [
+        "tune",
+        "--capture",
+        frame_text,
+        "--max-error",
+        "0.01",
+        "--metric",
+        "flip",
+        "--out",
+        out_text,
+    ];
+    let finished = straightline(&[&words[..], &SMALL, &["--target", "wgsl,spirv"]].concat());
+    let said = String::from_utf8_lossy(&finished.stdout).into_owned();
+    assert!(
+        finished.status.success(),
+        "{said}{}",
+        String::from_utf8_lossy(&finished.stderr)
+    );
+    for text in [
+        "most general",
+        "chosen:",
+        "not searched",
+        "the capture has no reference",
+    ] {
+        assert!(said.contains(text), "no `{text}` in:\n{said}");
+    }
+    let manifest = std::fs::read_to_string(out.join("sraa-frame.json")).expect("a manifest");
+    let manifest = Manifest::from_json(&manifest).expect("it is one");
+    assert_eq!(manifest.files["wgsl"], "sraa-frame.wgsl");
+    assert!(manifest.files.values().all(|file| out.join(file).is_file()));
+    assert!(manifest.tuned.is_some_and(|tuned| tuned.error <= 0.01));
+    let record = std::fs::read_to_string(out.join("tune-frame.json")).expect("a record");
+    assert!(
+        record.contains("\"complete\": true") && !record.contains("null,\n  \"general\""),
+        "{record}"
+    );
+    assert!(out.join("tune-frame.csv").is_file());
+
+    let depth = frame.join("depth.exr");
+    let bytes = std::fs::read(&depth).expect("depths");
+    std::fs::write(&depth, &bytes[..bytes.len() / 2]).expect("cut");
+    let elsewhere = folder.join("elsewhere");
+    fails(
+        &[
+            "tune",
+            "--capture",
+            frame_text,
+            "--max-error",
+            "1",
+            "--out",
+            elsewhere.to_str().unwrap(),
+        ],
+        1,
+        &["depth.exr"],
+    );
+    assert!(!elsewhere.exists());
+}

@@ -1,0 +1,10 @@
+//! What SRAA is compared with and is not ours: filters that look at the picture alone.
+
+mod copy;
+mod fxaa;
+mod smaa;
+mod transfer;
+
+pub use fxaa::fxaa;
+pub use smaa::Smaa;
+pub use transfer::Transfer;

@@ -1,0 +1,67 @@
+//! The colours that filters of pictures take.
+//!
+//! FXAA and SMAA were made for the picture that a display is sent: clamped, after tone mapping. They look for edges in its
+//! luma, and what they blend depends on whether the numbers are sRGB values or light. FXAA is documented for sRGB values.
+//! SMAA asks for sRGB values where it looks for edges and for light where it blends; the crate has one texture for both.
+//! So each is measured with both.
+
+use crate::picture::srgb;
+use glam::{Vec3, Vec4};
+use straightline_kernels::prelude::Frame;
+
+/// What the numbers of a picture mean that a filter is given.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Transfer {
+    /// sRGB values: even steps for the eye.
+    Srgb,
+    /// Light.
+    Linear,
+}
+
+impl Transfer {
+    /// A linear picture as the filter takes it, each number in 0..=1. What is not a number becomes 0.
+    pub fn given(self, linear: &Frame<Vec4>) -> Frame<Vec4> {
+        each(linear, |color| {
+            let shown = color.map(|v| if v.is_nan() { 0.0 } else { v.clamp(0.0, 1.0) });
+            match self {
+                Transfer::Srgb => shown.map(srgb::encode),
+                Transfer::Linear => shown,
+            }
+        })
+    }
+
+    /// What the filter made, linear again.
+    pub fn taken(self, filtered: &Frame<Vec4>) -> Frame<Vec4> {
+        match self {
+            Transfer::Srgb => each(filtered, |color| color.map(|v| srgb::decode(v.clamp(0.0, 1.0)))),
+            Transfer::Linear => filtered.clone(),
+        }
+    }
+}
+
+fn each(frame: &Frame<Vec4>, change: impl Fn(Vec3) -> Vec3) -> Frame<Vec4> {
+    let texels = frame.texels().iter().map(|t| change(t.truncate()).extend(t.w));
+    Frame::new(frame.size(), texels.collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::{uvec2, vec4};
+
+    #[test]
+    fn there_and_back_gives_what_a_display_shows() {
+        let picture = Frame::new(
+            uvec2(2, 1),
+            vec![vec4(0.2, 7.0, f32::NAN, 1.0), vec4(0.5, -1.0, 1.0, 0.5)],
+        );
+        for transfer in [Transfer::Srgb, Transfer::Linear] {
+            let back = transfer.taken(&transfer.given(&picture));
+            let expected = [vec4(0.2, 1.0, 0.0, 1.0), vec4(0.5, 0.0, 1.0, 0.5)];
+            for (found, expected) in back.texels().iter().zip(expected) {
+                assert!((*found - expected).abs().max_element() < 1e-6, "{found} {expected}");
+            }
+        }
+        assert!((Transfer::Srgb.given(&picture).texels()[0].x - 0.484_529).abs() < 1e-5);
+    }
+}

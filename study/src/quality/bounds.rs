@@ -1,0 +1,71 @@
+//! What a filter of one shading sample a pixel could come to, and antialiasing that shades once a surface.
+
+use super::classes::seen_around;
+use super::surfaces::{Point, Surfaces};
+use glam::{UVec2, Vec4, ivec2};
+use rayon::prelude::*;
+use straightline_kernels::prelude::Frame;
+
+/// The mean of pictures of one size; `None` of none.
+pub fn mean(frames: &[Frame<Vec4>]) -> Option<Frame<Vec4>> {
+    let size = frames.first()?.size();
+    let share = 1.0 / frames.len() as f32;
+    let texel = |k: usize| frames.iter().map(|frame| frame.texels()[k]).sum::<Vec4>() * share;
+    Some(Frame::new(size, (0..(size.x * size.y) as usize).map(texel).collect()))
+}
+
+/// As multisampling does it: each sample of a pixel takes the colour of the first sample that sees its surface, so that each
+/// surface is shaded once. `shaded` holds the picture at each sample.
+pub fn once_a_surface(surfaces: &Surfaces<'_>, shaded: &[Frame<Vec4>]) -> Frame<Vec4> {
+    each_pixel(surfaces.size(), |pixel, k| {
+        let points: Vec<Point> = (0..shaded.len()).map(|sample| surfaces.point(pixel, sample)).collect();
+        let first = |point: &Point| points.iter().position(|other| surfaces.same(point, other));
+        let colors = points.iter().enumerate();
+        let sum: Vec4 = colors
+            .map(|(sample, point)| shaded[first(point).unwrap_or(sample)].texels()[k])
+            .sum();
+        sum / shaded.len() as f32
+    })
+}
+
+/// What reconstruction would give that knew the right colour of every surface that it can know of: each geometry sample has
+/// its own true colour if one of the 3 x 3 shading samples around saw its surface, else the colour of the shading sample
+/// that is nearest to it in depth and normal. What it is short of supersampling at the same places is the price of surfaces
+/// that no shading sample saw; what SRAA is short of it is the price of borrowed colours.
+///
+/// `shaded` holds the picture at each sample, `color` at the shading sample.
+pub fn ideal(surfaces: &Surfaces<'_>, shaded: &[Frame<Vec4>], color: &Frame<Vec4>) -> Frame<Vec4> {
+    each_pixel(surfaces.size(), |pixel, k| {
+        let around = seen_around(surfaces, pixel);
+        let sum: Vec4 = shaded
+            .iter()
+            .enumerate()
+            .map(|(sample, shaded)| {
+                let point = surfaces.point(pixel, sample);
+                if around.iter().any(|tap| surfaces.same(&point, tap)) {
+                    shaded.texels()[k]
+                } else {
+                    nearest(&point, &around).map_or(shaded.texels()[k], |tap| color.load(tap))
+                }
+            })
+            .sum();
+        sum / shaded.len() as f32
+    })
+}
+
+/// The pixel whose shading sample is most like a point.
+fn nearest(point: &Point, around: &[Point]) -> Option<glam::IVec2> {
+    let nearest = around
+        .iter()
+        .min_by(|a, b| point.unlike(a).total_cmp(&point.unlike(b)))?;
+    let pixel = nearest.pixel();
+    Some(ivec2(pixel.x as i32, pixel.y as i32))
+}
+
+fn each_pixel(size: UVec2, texel: impl Fn(UVec2, usize) -> Vec4 + Sync) -> Frame<Vec4> {
+    let texels = (0..size.x * size.y)
+        .into_par_iter()
+        .map(|k| texel(UVec2::new(k % size.x, k / size.x), k as usize))
+        .collect();
+    Frame::new(size, texels)
+}

@@ -1,0 +1,129 @@
+//! Kinds of pixels: where there is geometry to antialias, where there is only shading, and where there is nothing to do.
+
+use super::surfaces::Surfaces;
+use crate::picture::srgb;
+use crate::record::Shares;
+use glam::{IVec2, UVec2, Vec3, Vec4};
+use rayon::prelude::*;
+use straightline_kernels::prelude::Frame;
+
+/// How much sRGB values vary over an edge of shading: eight steps of 255.
+pub const STEP: f32 = 8.0 / 255.0;
+
+/// What each pixel of a picture is, row by row from the top.
+#[derive(Clone, Debug, Default)]
+pub struct Classes {
+    /// Its samples see more than one surface.
+    pub geometry: Vec<bool>,
+    /// They see one, whose colour varies by more than [`STEP`] over the pixel.
+    pub shading: Vec<bool>,
+    /// One of its samples sees a surface that none of the 3 x 3 shading samples around saw.
+    pub unseen: Vec<bool>,
+}
+
+impl Classes {
+    /// Of the geometry in `surfaces`, and of `varies`, which says whether the shading of a pixel does.
+    pub fn new(surfaces: &Surfaces<'_>, varies: &[bool]) -> Classes {
+        let size = surfaces.size();
+        let found: Vec<(bool, bool)> = (0..size.y)
+            .into_par_iter()
+            .flat_map_iter(|y| (0..size.x).map(move |x| UVec2::new(x, y)))
+            .map(|pixel| look(surfaces, pixel))
+            .collect();
+        let geometry: Vec<bool> = found.iter().map(|(edge, _)| *edge).collect();
+        Classes {
+            shading: geometry
+                .iter()
+                .zip(varies)
+                .map(|(edge, varies)| !edge && *varies)
+                .collect(),
+            geometry,
+            unseen: found.iter().map(|(_, unseen)| *unseen).collect(),
+        }
+    }
+
+    /// Whether a pixel has an edge of neither kind.
+    pub fn flat(&self, pixel: usize) -> bool {
+        !self.geometry[pixel] && !self.shading[pixel]
+    }
+
+    /// Shares of all pixels.
+    pub fn shares(&self) -> Shares {
+        let all = self.geometry.len().max(1) as f64;
+        let share = |class: &[bool]| class.iter().filter(|is| **is).count() as f64 / all;
+        let (geometry, shading) = (share(&self.geometry), share(&self.shading));
+        Shares {
+            geometry,
+            shading,
+            flat: 1.0 - geometry - shading,
+            unseen: share(&self.unseen),
+        }
+    }
+}
+
+/// Whether a pixel has an edge of geometry, and whether it has a surface that was not seen.
+fn look(surfaces: &Surfaces<'_>, pixel: UVec2) -> (bool, bool) {
+    let around = seen_around(surfaces, pixel);
+    let (mut edge, mut unseen) = (false, false);
+    for sample in 0..surfaces.samples() {
+        let point = surfaces.point(pixel, sample);
+        // The first is the pixel's own.
+        if !surfaces.same(&point, &around[0]) {
+            edge = true;
+            unseen |= !around[1..].iter().any(|tap| surfaces.same(&point, tap));
+        }
+    }
+    (edge, unseen)
+}
+
+/// What the shading samples of a pixel and its neighbours see, its own first.
+pub(super) fn seen_around(surfaces: &Surfaces<'_>, pixel: UVec2) -> Vec<super::surfaces::Point> {
+    let places = std::iter::once(IVec2::ZERO).chain(neighbours());
+    places.filter_map(|by| surfaces.shaded(pixel.as_ivec2() + by)).collect()
+}
+
+/// The eight pixels around a pixel.
+pub(super) fn neighbours() -> impl Iterator<Item = IVec2> {
+    (-1..=1)
+        .flat_map(|y| (-1..=1).map(move |x| IVec2::new(x, y)))
+        .filter(|by| *by != IVec2::ZERO)
+}
+
+/// Whether the colours of a pixel vary, of pictures shaded at several places of it.
+pub fn varies_within(shaded: &[Frame<Vec4>]) -> Vec<bool> {
+    let pixels = shaded.first().map_or(0, |frame| frame.texels().len());
+    (0..pixels)
+        .into_par_iter()
+        .map(|k| {
+            let colors = shaded.iter().map(|frame| shown(frame.texels()[k]));
+            let (low, high) = colors.fold((Vec3::ONE, Vec3::ZERO), |(low, high), c| (low.min(c), high.max(c)));
+            (high - low).max_element() > STEP
+        })
+        .collect()
+}
+
+/// A stand-in where a picture was shaded only once a pixel: whether the colour differs from that of a neighbour above,
+/// below, left or right that sees the same surface.
+pub fn varies_around(color: &Frame<Vec4>, surfaces: &Surfaces<'_>) -> Vec<bool> {
+    let size = color.size();
+    let at = |p: IVec2| shown(color.texels()[(p.y * size.x as i32 + p.x) as usize]);
+    (0..size.x * size.y)
+        .into_par_iter()
+        .map(|k| {
+            let pixel = IVec2::new((k % size.x) as i32, (k / size.x) as i32);
+            let Some(own) = surfaces.shaded(pixel) else {
+                return false;
+            };
+            [IVec2::X, IVec2::NEG_X, IVec2::Y, IVec2::NEG_Y].into_iter().any(|by| {
+                let near = surfaces.shaded(pixel + by);
+                near.is_some_and(|near| surfaces.same(&own, &near))
+                    && (at(pixel) - at(pixel + by)).abs().max_element() > STEP
+            })
+        })
+        .collect()
+}
+
+/// As a display shows it.
+fn shown(color: Vec4) -> Vec3 {
+    color.truncate().clamp(Vec3::ZERO, Vec3::ONE).map(srgb::encode)
+}

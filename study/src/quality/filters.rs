@@ -1,0 +1,219 @@
+//! Methods made ready on a device, to be run and timed.
+
+use super::bounds::once_a_surface;
+use super::methods::{Kind, Method};
+use super::shot::Shot;
+use super::surfaces::Surfaces;
+use super::{QualityError, check};
+use crate::capture::Capture;
+use crate::execute::{Bench, Bound, ExecuteError, Inputs, Job, Timed, Work, texture_bytes};
+use crate::gbuffer;
+use crate::peers::{Smaa, Transfer, fxaa};
+use crate::record::Watch;
+use glam::{UVec2, Vec4};
+use straightline_codegen::{Compiled, Kernel, Settings, Stage};
+use straightline_kernels::prelude::Frame;
+use straightline_manifest::Manifest;
+use straightline_runtime::Pass;
+
+/// Bytes of a pixel of full floats, which pictures are read and written in.
+const PICTURE: u64 = 16;
+
+/// Bytes that a geometry sample has where SRAA reads it: depth in one full float, a normal in four.
+const GEOMETRY: u64 = 4 + 16;
+
+enum Runner {
+    /// Computed from pictures that the renderer gives: no filter.
+    None,
+    Kernel(Box<Shader>),
+    Smaa(Box<Smaa>),
+}
+
+struct Shader {
+    compiled: Compiled,
+    pass: Pass,
+    manifest: Manifest,
+}
+
+/// Methods on a device.
+pub struct Filters<'a> {
+    bench: &'a Bench,
+    methods: &'a [Method],
+    runners: Vec<Runner>,
+}
+
+impl<'a> Filters<'a> {
+    /// Compiles the kernels of all methods, for pictures of `size` pixels.
+    pub fn new(
+        bench: &'a Bench,
+        methods: &'a [Method],
+        size: UVec2,
+        watch: &mut dyn Watch,
+    ) -> Result<Filters<'a>, QualityError> {
+        let mut runners = Vec::new();
+        for method in methods {
+            check(watch)?;
+            runners.push(runner(bench, method, size)?);
+            watch.step();
+        }
+        Ok(Filters {
+            bench,
+            methods,
+            runners,
+        })
+    }
+
+    /// The picture that method `k` makes of a shot, linear.
+    pub fn run(&mut self, k: usize, shot: &Shot) -> Result<Frame<Vec4>, QualityError> {
+        let method = &self.methods[k];
+        match (&mut self.runners[k], method.kind) {
+            (Runner::Smaa(smaa), _) => Ok(smaa.run(&shot.any()?.color)?),
+            (Runner::Kernel(shader), kind) => {
+                let (inputs, bound) = shader.bound(self.bench, method, shot)?;
+                let target = self.bench.target(inputs.size, shader.pass.target_format());
+                let view = target.create_view(&wgpu::TextureViewDescriptor::default());
+                let descriptor = wgpu::CommandEncoderDescriptor::default();
+                let mut encoder = self.bench.device().create_command_encoder(&descriptor);
+                let encoded = shader.pass.encode(&mut encoder, &bound.resources(), &view);
+                encoded.map_err(ExecuteError::from)?;
+                self.bench.queue().submit([encoder.finish()]);
+                let filtered = self.bench.download(&target)?;
+                Ok(match kind {
+                    Kind::Fxaa(transfer) => transfer.taken(&filtered),
+                    _ => filtered,
+                })
+            }
+            (Runner::None, Kind::Supersampled(samples)) => shot.supersampled(samples),
+            (Runner::None, Kind::Multisampled) => {
+                let surfaces = Surfaces::of(&[shot.capture(method)?]);
+                let surfaces = surfaces.ok_or_else(|| QualityError::NotDrawn(method.name.clone()))?;
+                Ok(once_a_surface(&surfaces, shot.shaded(4)?))
+            }
+            (Runner::None, _) => Ok(shot.any()?.color.clone()),
+        }
+    }
+
+    /// Bytes that each method reads and writes of a shot, as they lie on the device.
+    ///
+    /// Of what is no filter here: its samples' geometry as SRAA would read it and their colours, and the target.
+    pub fn bytes(&self, shot: &Shot) -> Result<Vec<u64>, QualityError> {
+        let size = shot.any()?.size;
+        let pixels = u64::from(size.x) * u64::from(size.y);
+        let mut all = Vec::new();
+        for (method, runner) in self.methods.iter().zip(&self.runners) {
+            all.push(match (runner, method.kind) {
+                (Runner::Smaa(smaa), _) => smaa.bytes(),
+                (Runner::Kernel(shader), _) => {
+                    let (_, bound) = shader.bound(self.bench, method, shot)?;
+                    let target = self.bench.target(size, shader.pass.target_format());
+                    bound.bytes() + texture_bytes(&target)
+                }
+                (Runner::None, Kind::Plain) => PICTURE * pixels,
+                (Runner::None, Kind::Supersampled(n)) => (n as u64 * (GEOMETRY + PICTURE) + PICTURE) * pixels,
+                (Runner::None, _) => (4 * (GEOMETRY + PICTURE) + PICTURE) * pixels,
+            });
+        }
+        Ok(all)
+    }
+
+    /// Times all filters in turn on one shot. The second value says which shader of the first each method is.
+    pub fn time(
+        &mut self,
+        shot: &Shot,
+        rounds: u32,
+        watch: &mut dyn Watch,
+    ) -> Result<(Timed, Vec<Option<usize>>), QualityError> {
+        let mut bounds = Vec::new();
+        for (method, runner) in self.methods.iter().zip(&mut self.runners) {
+            bounds.push(match runner {
+                Runner::Kernel(shader) => Some(shader.bound(self.bench, method, shot)?),
+                Runner::Smaa(smaa) => {
+                    smaa.run(&shot.any()?.color)?;
+                    None
+                }
+                Runner::None => None,
+            });
+        }
+        let (mut works, mut places): (Vec<Work<'_>>, Vec<Option<usize>>) = (Vec::new(), Vec::new());
+        for (runner, bound) in self.runners.iter_mut().zip(&bounds) {
+            let work = match (runner, bound) {
+                (Runner::Kernel(shader), Some((inputs, bound))) => self.bench.work(Job {
+                    pass: &shader.pass,
+                    bound,
+                    size: inputs.size,
+                })?,
+                (Runner::Smaa(smaa), _) => Box::new(|| smaa.time()),
+                _ => {
+                    places.push(None);
+                    continue;
+                }
+            };
+            places.push(Some(works.len()));
+            works.push(work);
+        }
+        let timed = self.bench.in_turn(&mut works, rounds, |_| {
+            watch.step();
+            !watch.stopped()
+        })?;
+        drop(works);
+        Ok((timed, places))
+    }
+}
+
+fn runner(bench: &Bench, method: &Method, size: UVec2) -> Result<Runner, QualityError> {
+    let kernel = match method.kind {
+        Kind::Sraa => Kernel::builtin("sraa")?,
+        Kind::Edge(name) => Kernel::builtin(name)?,
+        Kind::Fxaa(_) => fxaa(),
+        Kind::Smaa(transfer) => return Ok(Runner::Smaa(Box::new(Smaa::new(bench, size, transfer)?))),
+        Kind::Plain | Kind::Multisampled | Kind::Supersampled(_) => return Ok(Runner::None),
+    };
+    let settings = Settings {
+        options: method.options.clone(),
+        ..Settings::default()
+    };
+    let compiled = kernel.compile(&settings)?;
+    let (pass, manifest) = bench.pass(&compiled, Stage::Compute)?;
+    Ok(Runner::Kernel(Box::new(Shader {
+        compiled,
+        pass,
+        manifest,
+    })))
+}
+
+impl Shader {
+    fn bound(&self, bench: &Bench, method: &Method, shot: &Shot) -> Result<(Inputs, Bound), QualityError> {
+        let capture = shot.capture(method)?;
+        let inputs = match method.kind {
+            Kind::Edge(_) => one_a_pixel(capture)?,
+            Kind::Fxaa(transfer) => of_the_picture(capture, transfer),
+            _ => gbuffer::inputs(capture, &self.compiled.options)?,
+        };
+        let bound = bench.bind(&self.pass, &self.manifest, &inputs)?;
+        Ok((inputs, bound))
+    }
+}
+
+fn of_the_picture(capture: &Capture, transfer: Transfer) -> Inputs {
+    Inputs::new(capture.size).image("color", transfer.given(&capture.color))
+}
+
+/// Depth and normals where the picture was shaded. Depth as a projection without a far plane stores it, reversed: what both
+/// edge filters are set for.
+fn one_a_pixel(capture: &Capture) -> Result<Inputs, QualityError> {
+    let layer = capture.shaded_layer();
+    let missing =
+        || QualityError::Capture("the capture has no normals (normal.exr), which edge filters need".to_owned());
+    let normals = capture.normal.as_ref().ok_or_else(missing)?;
+    let near = capture.camera.map_or(NEAR, |camera| camera.near);
+    let depth = capture.depth.layers()[layer].texels().iter();
+    let depth = depth.map(|z| Vec4::splat(near / z.max(near))).collect();
+    let normal = normals.layers()[layer].texels().iter().map(|n| n.extend(0.0)).collect();
+    Ok(Inputs::new(capture.size)
+        .image("depth", Frame::new(capture.size, depth))
+        .image("normal", Frame::new(capture.size, normal))
+        .image("color", capture.color.clone()))
+}
+
+/// Near plane of a capture that does not tell.
+const NEAR: f32 = 0.1;

@@ -1,0 +1,229 @@
+//! The methods that are compared.
+
+use crate::capture::Capture;
+use crate::gbuffer;
+use crate::peers::Transfer;
+use crate::record::Family;
+
+/// What a method is, beyond its name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// The shaded picture as it is.
+    Plain,
+    /// The kernel `sraa`.
+    Sraa,
+    /// A built-in kernel that reads depth, normals and colour of one sample a pixel.
+    Edge(&'static str),
+    /// FXAA.
+    Fxaa(Transfer),
+    /// SMAA.
+    Smaa(Transfer),
+    /// Coverage of the samples of `latin4`, and shading once a surface in each pixel.
+    Multisampled,
+    /// Shading at every sample of `latin4` or `latin16`.
+    Supersampled(usize),
+}
+
+/// A method of antialiasing.
+#[derive(Clone, Debug)]
+pub struct Method {
+    /// For people.
+    pub name: String,
+    /// What it is.
+    pub kind: Kind,
+    /// Options of its kernel that are not the default.
+    pub options: Vec<(String, String)>,
+    /// Whether its pictures are written.
+    pub pictured: bool,
+    /// Whether it is watched over the pan.
+    pub panned: bool,
+}
+
+impl Method {
+    fn new(name: &str, kind: Kind, options: &[(&str, &str)]) -> Method {
+        let own = |(name, value): &(&str, &str)| ((*name).to_owned(), (*value).to_owned());
+        Method {
+            name: name.to_owned(),
+            kind,
+            options: options.iter().map(own).collect(),
+            pictured: false,
+            panned: false,
+        }
+    }
+
+    /// One of the few that are shown and watched.
+    fn main(self) -> Method {
+        Method {
+            pictured: true,
+            panned: true,
+            ..self
+        }
+    }
+
+    fn pictured(self) -> Method {
+        Method { pictured: true, ..self }
+    }
+
+    /// Its kind in records.
+    pub fn family(&self) -> Family {
+        match self.kind {
+            Kind::Plain => Family::None,
+            Kind::Sraa => Family::Sraa,
+            Kind::Edge(_) => Family::Edge,
+            Kind::Fxaa(_) | Kind::Smaa(_) => Family::Picture,
+            Kind::Multisampled | Kind::Supersampled(_) => Family::Supersampling,
+        }
+    }
+
+    /// The pattern of its geometry samples.
+    pub fn pattern(&self) -> &str {
+        let asked = self.options.iter().find(|(name, _)| name == "pattern");
+        match self.kind {
+            Kind::Supersampled(16) => "latin16",
+            _ => asked.map_or("latin4", |(_, pattern)| pattern.as_str()),
+        }
+    }
+
+    /// Name of its picture's file, without extension.
+    pub fn stem(&self) -> String {
+        stem(&self.name)
+    }
+}
+
+/// A name made of lower-case letters, digits and hyphens.
+pub fn stem(name: &str) -> String {
+    let words = name.to_lowercase();
+    let words = words.split(|c: char| !c.is_ascii_alphanumeric());
+    words.filter(|word| !word.is_empty()).collect::<Vec<_>>().join("-")
+}
+
+/// All methods; with `quick` without the variants of SRAA that differ little.
+pub fn methods(quick: bool) -> Vec<Method> {
+    let sraa = |name, options: &[(&str, &str)]| Method::new(name, Kind::Sraa, options);
+    let mut all = vec![
+        Method::new("1x", Kind::Plain, &[]).main(),
+        sraa("SRAA 4", &[]).main(),
+        sraa("SRAA 16", &[("pattern", "latin16")]).main(),
+    ];
+    all.extend(metrics());
+    if !quick {
+        all.extend([
+            sraa(
+                "SRAA 16, planes and normals",
+                &[("pattern", "latin16"), ("metric", "planes-normals")],
+            ),
+            sraa("SRAA 4, ordered", &[("pattern", "ordered4")]),
+            sraa("SRAA 8, standard", &[("pattern", "standard8")]),
+            sraa("SRAA 16, ordered", &[("pattern", "ordered16")]),
+        ]);
+        all.extend(falloffs());
+    }
+    all.extend([
+        Method::new("S.T.A.L.K.E.R.", Kind::Edge("stalker"), &[]),
+        Method::new("Tabula Rasa", Kind::Edge("tabula_rasa"), &[]),
+    ]);
+    all.extend(of_the_picture());
+    all.extend([
+        Method::new("MSAA 4", Kind::Multisampled, &[]).pictured(),
+        Method::new("4x", Kind::Supersampled(4), &[]).main(),
+        Method::new("16x", Kind::Supersampled(16), &[]).main(),
+    ]);
+    all
+}
+
+fn metrics() -> Vec<Method> {
+    let sraa = |name, metric| Method::new(name, Kind::Sraa, &[("metric", metric)]);
+    vec![
+        sraa("SRAA 4, planes and normals", "planes-normals"),
+        sraa("SRAA 4, normals", "normals"),
+        sraa("SRAA 4, depth", "depth"),
+    ]
+}
+
+fn falloffs() -> Vec<Method> {
+    let sraa = |name, options: &[(&str, &str)]| Method::new(name, Kind::Sraa, options);
+    vec![
+        sraa("SRAA 4, no falloff", &[("falloff", "none")]),
+        sraa("SRAA 4, Gaussian falloff", &[("falloff", "gaussian")]),
+        sraa("SRAA 4, relative depth", &[("difference", "relative")]),
+        sraa("SRAA 4, mask", &[("mask", "select")]),
+    ]
+}
+
+fn of_the_picture() -> Vec<Method> {
+    vec![
+        Method::new("FXAA", Kind::Fxaa(Transfer::Srgb), &[]).main(),
+        Method::new("FXAA on light", Kind::Fxaa(Transfer::Linear), &[]),
+        Method::new("SMAA", Kind::Smaa(Transfer::Srgb), &[]).main(),
+        Method::new("SMAA on light", Kind::Smaa(Transfer::Linear), &[]),
+    ]
+}
+
+/// The methods that a capture can feed, and those that it cannot with the reason.
+pub fn methods_of(capture: &Capture) -> (Vec<Method>, Vec<(String, String)>) {
+    let sampled = gbuffer::sampled_at(capture);
+    let with = |options: &[(&str, &str)]| {
+        let own = |(name, value): &(&str, &str)| ((*name).to_owned(), (*value).to_owned());
+        sampled
+            .iter()
+            .cloned()
+            .chain(options.iter().map(own))
+            .collect::<Vec<_>>()
+    };
+    let samples = capture.samples.len();
+    let sraa = |what: &str, options: &[(&str, &str)]| Method {
+        options: with(options),
+        ..Method::new(&format!("SRAA {samples}{what}"), Kind::Sraa, &[])
+    };
+    let normals = capture.normal.is_some();
+    let mut all = vec![Method::new("1x", Kind::Plain, &[]).pictured()];
+    let mut absent: Vec<(String, String)> = Vec::new();
+    let no_normals = "the capture has no normal.exr";
+    if normals {
+        all.push(sraa("", &[]).pictured());
+        all.push(sraa(", normals", &[("metric", "normals")]));
+        all.push(sraa(", no falloff", &[("falloff", "none")]));
+        all.push(sraa(", Gaussian falloff", &[("falloff", "gaussian")]));
+        all.push(sraa(", relative depth", &[("difference", "relative")]));
+        all.push(sraa(", mask", &[("mask", "select")]));
+        if capture.camera.is_some() {
+            all.push(sraa(", planes and normals", &[("metric", "planes-normals")]));
+        } else {
+            let reason = "capture.json has no camera".to_owned();
+            absent.push((format!("SRAA {samples}, planes and normals"), reason));
+        }
+        all.push(Method::new("S.T.A.L.K.E.R.", Kind::Edge("stalker"), &[]));
+        all.push(Method::new("Tabula Rasa", Kind::Edge("tabula_rasa"), &[]));
+    } else {
+        absent.push((format!("SRAA {samples} with normals"), no_normals.to_owned()));
+        absent.push(("S.T.A.L.K.E.R., Tabula Rasa".to_owned(), no_normals.to_owned()));
+    }
+    all.push(Method {
+        pictured: !normals,
+        ..sraa(", depth", &[("metric", "depth")])
+    });
+    all.extend(of_the_picture());
+    let once = "a capture is shaded once a pixel";
+    absent.push((
+        "MSAA 4, 4x, 16x, and the share of the gap to 16x".to_owned(),
+        once.to_owned(),
+    ));
+    absent.push(("the pan".to_owned(), "a capture is one frame".to_owned()));
+    (all, absent)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeSet;
+
+    #[test]
+    fn names_and_file_names_are_unique() {
+        for quick in [false, true] {
+            let all = methods(quick);
+            let stems: BTreeSet<String> = all.iter().map(Method::stem).collect();
+            assert_eq!(stems.len(), all.len());
+        }
+        assert_eq!(stem("SRAA 4, no falloff"), "sraa-4-no-falloff");
+    }
+}

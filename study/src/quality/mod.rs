@@ -1,0 +1,315 @@
+//! Methods of antialiasing against references of 256 samples a pixel: how wrong each is and where, what it costs, and what
+//! SRAA is short of.
+
+mod bounds;
+mod classes;
+mod error;
+mod filters;
+mod losses;
+mod methods;
+mod pan;
+mod scores;
+mod shot;
+mod surfaces;
+#[cfg(test)]
+mod tests;
+
+use crate::capture::Capture;
+use crate::execute::{Bench, Times};
+use crate::picture;
+use crate::record::{SceneErrors, Watch};
+use crate::render::GpuRenderer;
+use crate::scene::Scene;
+use classes::{Classes, varies_around, varies_within};
+use filters::Filters;
+use glam::{UVec2, Vec2, Vec4};
+use scores::{gaps, scores, share_of_gap};
+use shot::{Shot, supersampled};
+use std::path::{Path, PathBuf};
+use straightline_kernels::prelude::Frame;
+
+pub use classes::STEP;
+pub use error::QualityError;
+pub use losses::losses;
+pub use methods::{Kind, Method, methods, methods_of};
+pub use surfaces::{Point, Surfaces};
+
+/// Side of the grid of shading samples of a reference: 256x.
+const SIDE: u32 = 16;
+
+/// What methods are compared on.
+pub enum Source {
+    /// A scene, which is drawn.
+    Scene {
+        /// For people and for the names of files.
+        name: String,
+        /// What it is for.
+        purpose: String,
+        /// The scene.
+        scene: Box<Scene>,
+    },
+    /// A capture with a reference.
+    Capture {
+        /// For people and for the names of files.
+        name: String,
+        /// The capture.
+        capture: Box<Capture>,
+    },
+}
+
+impl Source {
+    /// Width and height of its pictures in pixels, where scenes are drawn at `drawn`.
+    pub fn size(&self, drawn: UVec2) -> UVec2 {
+        match self {
+            Source::Scene { .. } => drawn,
+            Source::Capture { capture, .. } => capture.size,
+        }
+    }
+}
+
+/// How much to do.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    /// Width and height of scenes that are drawn, in pixels.
+    pub size: UVec2,
+    /// Rounds of timing.
+    pub rounds: u32,
+    /// Fewer methods.
+    pub quick: bool,
+    /// Frames of the pan; 0 for none.
+    pub pan_frames: u32,
+    /// How many scenes are panned over, the first ones.
+    pub pan_scenes: usize,
+    /// Folder of the record, where pictures go to `pictures/SCENE/METHOD.png`; none are written without.
+    pub out: Option<PathBuf>,
+}
+
+/// What was found.
+#[derive(Clone, Debug, Default)]
+pub struct Outcome {
+    /// Of each source that was finished.
+    pub scenes: Vec<SceneErrors>,
+    /// What filters were timed on.
+    pub timed_on: Vec<String>,
+    /// Whether all sources were finished.
+    pub complete: bool,
+}
+
+/// Compares all methods on all sources. What is finished is kept when the watch says stop.
+///
+/// # Errors
+///
+/// [`QualityError`], if something cannot be drawn, run or written.
+pub fn study(bench: &Bench, sources: Vec<Source>, plan: &Plan, watch: &mut dyn Watch) -> Result<Outcome, QualityError> {
+    let mut outcome = Outcome::default();
+    match all(bench, sources, plan, watch, &mut outcome) {
+        Ok(()) => outcome.complete = true,
+        Err(QualityError::Stopped) => {}
+        Err(error) => return Err(error),
+    }
+    Ok(outcome)
+}
+
+fn all(
+    bench: &Bench,
+    sources: Vec<Source>,
+    plan: &Plan,
+    watch: &mut dyn Watch,
+    outcome: &mut Outcome,
+) -> Result<(), QualityError> {
+    let listed = methods(plan.quick);
+    watch.begin("speed against error", steps(&sources, &listed, plan));
+    let mut filters = match sources.iter().any(|source| matches!(source, Source::Scene { .. })) {
+        true => Some(Filters::new(bench, &listed, plan.size, watch)?),
+        false => None,
+    };
+    let mut times: Option<Vec<Option<Times>>> = None;
+    let mut panned = 0;
+    for source in sources {
+        match (source, &mut filters) {
+            (Source::Scene { name, purpose, scene }, Some(filters)) => {
+                let renderer = GpuRenderer::new(bench.device(), bench.queue(), &scene, plan.size)?;
+                let shot = Shot::draw(&renderer, &listed.iter().collect::<Vec<_>>(), watch)?;
+                let reference = supersampled(&renderer, SIDE, Vec2::ZERO, watch)?;
+                let wanted = Wanted { name, purpose, plan };
+                let mut errors = wanted.errors(&listed, filters, &shot, &reference, watch)?;
+                if plan.pan_frames > 1 && panned < plan.pan_scenes {
+                    panned += 1;
+                    let found = pan::pan(&renderer, &listed, filters, plan.pan_frames, watch)?;
+                    for (method, temporal) in errors.methods.iter_mut().zip(found) {
+                        method.temporal = temporal;
+                    }
+                }
+                if times.is_none() {
+                    times = Some(timed(filters, &shot, plan, watch)?);
+                    outcome.timed_on.push(errors.scene.clone());
+                }
+                put_times(&mut errors, times.as_deref().unwrap_or_default());
+                outcome.scenes.push(errors);
+            }
+            (Source::Capture { name, capture }, _) => {
+                let errors = of_capture(bench, name, *capture, plan, watch)?;
+                outcome.timed_on.push(errors.scene.clone());
+                outcome.scenes.push(errors);
+            }
+            (Source::Scene { .. }, None) => {}
+        }
+    }
+    Ok(())
+}
+
+fn of_capture(
+    bench: &Bench,
+    name: String,
+    capture: Capture,
+    plan: &Plan,
+    watch: &mut dyn Watch,
+) -> Result<SceneErrors, QualityError> {
+    let (listed, absent) = methods_of(&capture);
+    let Some(reference) = capture.reference.clone() else {
+        return Err(QualityError::Capture(format!(
+            "`{name}` has no reference.exr, so nothing can be said of errors: write one, shaded at many places of each pixel \
+             (docs/captures.md); `straightline capture --reference 256` does"
+        )));
+    };
+    let mut filters = Filters::new(bench, &listed, capture.size, watch)?;
+    let wanted = Wanted {
+        name,
+        purpose: "a capture".to_owned(),
+        plan,
+    };
+    let shot = Shot::of(capture);
+    let mut errors = wanted.errors(&listed, &mut filters, &shot, &reference, watch)?;
+    errors.absent = absent;
+    let times = timed(&mut filters, &shot, plan, watch)?;
+    put_times(&mut errors, &times);
+    Ok(errors)
+}
+
+/// Steps of the watch.
+fn steps(sources: &[Source], listed: &[Method], plan: &Plan) -> usize {
+    let drawn = sources.iter().filter(|s| matches!(s, Source::Scene { .. })).count();
+    let timing = plan.rounds as usize + 1;
+    let mut steps = 0;
+    if drawn > 0 {
+        steps += listed.len() + timing;
+        steps += drawn * (SIDE as usize + listed.len());
+        if plan.pan_frames > 1 {
+            steps += drawn.min(plan.pan_scenes) * plan.pan_frames as usize * (pan::SIDE as usize + 1);
+        }
+    }
+    for source in sources {
+        if let Source::Capture { capture, .. } = source {
+            steps += 2 * methods_of(capture).0.len() + timing;
+        }
+    }
+    steps
+}
+
+/// What is asked of a source.
+struct Wanted<'a> {
+    name: String,
+    purpose: String,
+    plan: &'a Plan,
+}
+
+impl Wanted<'_> {
+    fn errors(
+        self,
+        listed: &[Method],
+        filters: &mut Filters<'_>,
+        shot: &Shot,
+        reference: &Frame<Vec4>,
+        watch: &mut dyn Watch,
+    ) -> Result<SceneErrors, QualityError> {
+        let classes = classes(shot)?;
+        let bytes = filters.bytes(shot)?;
+        let mut errors = SceneErrors {
+            reference: self.picture("reference", reference)?,
+            shares: classes.shares(),
+            methods: Vec::new(),
+            absent: Vec::new(),
+            gaps: Vec::new(),
+            scene: self.name.clone(),
+            purpose: self.purpose.clone(),
+        };
+        let mut reconstructed = Vec::new();
+        for (k, method) in listed.iter().enumerate() {
+            check(watch)?;
+            let made = filters.run(k, shot)?;
+            let picture = match method.pictured {
+                true => self.picture(&method.stem(), &made)?,
+                false => None,
+            };
+            let mut scores = scores(method, &made, reference, &classes);
+            (scores.bytes, scores.picture) = (bytes[k], picture);
+            errors.methods.push(scores);
+            if matches!(method.name.as_str(), "SRAA 4" | "SRAA 16") {
+                reconstructed.push(made);
+            }
+            watch.step();
+        }
+        share_of_gap(&mut errors.methods);
+        if let [four, sixteen] = &reconstructed[..]
+            && !shot.shaded.is_empty()
+        {
+            errors.gaps = gaps(shot, [four, sixteen], reference, &classes)?;
+        }
+        Ok(errors)
+    }
+
+    /// Writes a picture, and gives its path beside the record.
+    fn picture(&self, stem: &str, frame: &Frame<Vec4>) -> Result<Option<String>, QualityError> {
+        let Some(out) = &self.plan.out else {
+            return Ok(None);
+        };
+        let folder = Path::new("pictures").join(methods::stem(&self.name));
+        std::fs::create_dir_all(out.join(&folder)).map_err(|source| QualityError::Folder {
+            path: out.join(&folder),
+            source,
+        })?;
+        let path = format!("pictures/{}/{stem}.png", methods::stem(&self.name));
+        picture::write_png(&out.join(&path), frame)?;
+        Ok(Some(path))
+    }
+}
+
+/// Kinds of pixels, by all geometry that there is.
+fn classes(shot: &Shot) -> Result<Classes, QualityError> {
+    let dense: Vec<&Capture> = match shot.captures.get("latin16") {
+        Some(latin16) => std::iter::once(latin16).chain(shot.captures.get("latin4")).collect(),
+        None => vec![shot.any()?],
+    };
+    let surfaces = Surfaces::of(&dense).ok_or_else(|| QualityError::NotDrawn("any method".to_owned()))?;
+    let varies = match shot.shaded.get(&16) {
+        Some(shaded) => varies_within(shaded),
+        None => varies_around(&shot.any()?.color, &surfaces),
+    };
+    Ok(Classes::new(&surfaces, &varies))
+}
+
+fn timed(
+    filters: &mut Filters<'_>,
+    shot: &Shot,
+    plan: &Plan,
+    watch: &mut dyn Watch,
+) -> Result<Vec<Option<Times>>, QualityError> {
+    let (timed, places) = filters.time(shot, plan.rounds, watch)?;
+    check(watch)?;
+    let times = places.into_iter().map(|place| place.and_then(|k| timed.times(k)));
+    Ok(times.collect())
+}
+
+fn put_times(errors: &mut SceneErrors, times: &[Option<Times>]) {
+    for (method, time) in errors.methods.iter_mut().zip(times) {
+        method.time = *time;
+    }
+}
+
+/// Ends the study if the watch says so.
+fn check(watch: &dyn Watch) -> Result<(), QualityError> {
+    match watch.stopped() {
+        true => Err(QualityError::Stopped),
+        false => Ok(()),
+    }
+}

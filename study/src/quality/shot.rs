@@ -1,0 +1,132 @@
+//! Everything that methods read of one picture.
+
+use super::bounds::mean;
+use super::methods::{Kind, Method};
+use super::{QualityError, check};
+use crate::capture::{Capture, ShadingSample};
+use crate::gbuffer;
+use crate::record::Watch;
+use crate::render::{self, Renderer};
+use glam::{DVec4, UVec2, Vec2, Vec4};
+use std::collections::BTreeMap;
+use straightline_kernels::prelude::Frame;
+
+/// A picture shaded once a pixel, its geometry in several patterns, and the same shaded at every sample.
+pub struct Shot {
+    /// By the pattern's name.
+    pub captures: BTreeMap<String, Capture>,
+    /// Shaded at each sample of `latin4`, and of `latin16`; none of a capture.
+    pub shaded: BTreeMap<usize, Vec<Frame<Vec4>>>,
+}
+
+impl Shot {
+    /// What `methods` need, drawn.
+    pub fn draw(renderer: &dyn Renderer, methods: &[&Method], watch: &mut dyn Watch) -> Result<Shot, QualityError> {
+        let mut shot = Shot {
+            captures: BTreeMap::new(),
+            shaded: BTreeMap::new(),
+        };
+        for method in methods {
+            let pattern = method.pattern();
+            if !shot.captures.contains_key(pattern) {
+                check(watch)?;
+                let samples = gbuffer::samples(pattern).unwrap_or_default();
+                let capture = render::capture(renderer, &samples, ShadingSample::Centre)?;
+                shot.captures.insert(pattern.to_owned(), capture);
+            }
+            let several = match method.kind {
+                Kind::Multisampled => 4,
+                Kind::Supersampled(several) => several,
+                _ => continue,
+            };
+            if !shot.shaded.contains_key(&several) {
+                check(watch)?;
+                let samples = gbuffer::samples(method.pattern()).unwrap_or_default();
+                let shaded = samples.iter().map(|offset| renderer.shaded(*offset));
+                shot.shaded.insert(several, shaded.collect::<Result<_, _>>()?);
+            }
+        }
+        Ok(shot)
+    }
+
+    /// Of someone else's capture, which every pattern then stands for.
+    pub fn of(capture: Capture) -> Shot {
+        Shot {
+            captures: BTreeMap::from([(String::new(), capture)]),
+            shaded: BTreeMap::new(),
+        }
+    }
+
+    /// The capture for a method.
+    pub fn capture(&self, method: &Method) -> Result<&Capture, QualityError> {
+        let found = self.captures.get(method.pattern()).or_else(|| self.captures.get(""));
+        found.ok_or_else(|| QualityError::NotDrawn(method.name.clone()))
+    }
+
+    /// Any capture: all have the same picture.
+    pub fn any(&self) -> Result<&Capture, QualityError> {
+        let first = self.captures.values().next();
+        first.ok_or_else(|| QualityError::NotDrawn("1x".to_owned()))
+    }
+
+    /// The picture shaded at each of `samples` samples.
+    pub fn shaded(&self, samples: usize) -> Result<&[Frame<Vec4>], QualityError> {
+        let found = self.shaded.get(&samples).map(Vec::as_slice);
+        found.ok_or_else(|| QualityError::NotDrawn(format!("{samples}x")))
+    }
+
+    /// The mean of those.
+    pub fn supersampled(&self, samples: usize) -> Result<Frame<Vec4>, QualityError> {
+        mean(self.shaded(samples)?).ok_or_else(|| QualityError::NotDrawn(format!("{samples}x")))
+    }
+}
+
+/// The mean of pictures shaded at `side` x `side` places around `shift`, as [`render::reference`], a step of the watch for
+/// each row; ends when it is told to.
+pub fn supersampled(
+    renderer: &dyn Renderer,
+    side: u32,
+    shift: Vec2,
+    watch: &mut dyn Watch,
+) -> Result<Frame<Vec4>, QualityError> {
+    let size: UVec2 = renderer.size();
+    let mut sums = vec![DVec4::ZERO; (size.x * size.y) as usize];
+    for row in render::grid(side).chunks(side.max(1) as usize) {
+        check(watch)?;
+        let places: Vec<Vec2> = row.iter().map(|offset| *offset + shift).collect();
+        let mean = renderer.mean(&places)?;
+        for (sum, texel) in sums.iter_mut().zip(mean.texels()) {
+            *sum += texel.as_dvec4();
+        }
+        watch.step();
+    }
+    let share = 1.0 / f64::from(side.max(1));
+    let texels = sums.into_iter().map(|sum| (sum * share).as_vec4()).collect();
+    Ok(Frame::new(size, texels))
+}
+
+/// Draws with the camera turned by some pixels.
+pub struct Shifted<'a> {
+    /// Who draws.
+    pub renderer: &'a dyn Renderer,
+    /// By how much, in pixels, y down.
+    pub by: Vec2,
+}
+
+impl Renderer for Shifted<'_> {
+    fn size(&self) -> UVec2 {
+        self.renderer.size()
+    }
+
+    fn camera(&self) -> crate::scene::Camera {
+        self.renderer.camera()
+    }
+
+    fn geometry(&self, offset: Vec2) -> Result<(Frame<f32>, Frame<glam::Vec3>), render::RenderError> {
+        self.renderer.geometry(offset + self.by)
+    }
+
+    fn shaded(&self, offset: Vec2) -> Result<Frame<Vec4>, render::RenderError> {
+        self.renderer.shaded(offset + self.by)
+    }
+}

@@ -1,0 +1,275 @@
+//! From what is known of all variants: which to measure, which to choose, and what to write down.
+
+use super::front::front;
+use super::search::{Entry, Search};
+use super::{Chosen, Term, TuneError, Variant};
+use crate::record::{Candidate, Circumstances, LeftOut, Refused, TermWorth, TuneRecord, Watch};
+use std::collections::BTreeMap;
+use straightline_manifest::Tuned;
+
+/// Variants of the predicted front that are measured; a longer one is thinned out evenly.
+const OF_THE_FRONT: usize = 14;
+
+/// Variants within the budget that are measured, the ones predicted to be fastest.
+const OF_THE_FASTEST: usize = 10;
+
+/// How much slower than the predicted winner a neighbour may be, by prediction, to be measured.
+const NEAR: f64 = 1.3;
+
+impl Search {
+    /// Measures the predicted front, the variants within the budget that are predicted to be fastest, and what is next to
+    /// them. Whether all was done.
+    ///
+    /// # Errors
+    ///
+    /// If the device fails.
+    pub fn measure_front(&mut self, watch: &mut dyn Watch) -> Result<bool, TuneError> {
+        let usable = self.usable();
+        let points: Vec<(f64, f64)> = usable
+            .iter()
+            .map(|k| (self.entries[*k].predicted, self.loss(*k).unwrap_or(f64::INFINITY)))
+            .collect();
+        let on = front(&points);
+        let mut on_front: Vec<usize> = usable.iter().zip(&on).filter(|(_, on)| **on).map(|(k, _)| *k).collect();
+        on_front.sort_by(|a, b| self.entries[*a].predicted.total_cmp(&self.entries[*b].predicted));
+        let count = on_front.len().min(OF_THE_FRONT);
+        let thinned = (0..count).map(|k| on_front[k * (on_front.len() - 1) / (count - 1).max(1)]);
+        let mut within: Vec<usize> = usable.iter().copied().filter(|k| self.is_within(*k)).collect();
+        within.sort_by(|a, b| self.entries[*a].predicted.total_cmp(&self.entries[*b].predicted));
+        let mut which: Vec<usize> = thinned.collect();
+        which.extend(within.iter().take(OF_THE_FASTEST));
+        // The best of all keeps every budget.
+        which.extend(
+            usable
+                .iter()
+                .copied()
+                .min_by(|a, b| self.losses(*a).total_cmp(&self.losses(*b))),
+        );
+        which.extend(self.space.of_defaults(&self.defaults).and_then(|v| self.index.get(&v)));
+        if let Some(winner) = within.first() {
+            let limit = NEAR * self.entries[*winner].predicted;
+            let near = self.space.neighbours(self.entries[*winner].variant);
+            let near = near.iter().filter_map(|v| self.index.get(v)).copied();
+            which.extend(near.filter(|k| self.is_within(*k) && self.entries[*k].predicted <= limit));
+        }
+        which.retain(|k| usable.contains(k));
+        self.finalists = which.clone();
+        self.finalists.push(0);
+        self.measure(&which, self.question.rounds, "timing, to decide", watch)
+    }
+
+    /// The fastest of those that were measured last and are within the budget.
+    ///
+    /// # Errors
+    ///
+    /// [`TuneError::NothingWithin`], which says what comes closest.
+    pub fn choose(&self) -> Result<usize, TuneError> {
+        let ratio = |k: usize| self.entries[k].ratio.map_or(0.0, |ratio| ratio.median);
+        let within = self.finalists.iter().copied().filter(|k| self.is_within(*k));
+        let fastest = within.max_by(|a, b| ratio(*a).total_cmp(&ratio(*b)).then(b.cmp(a)));
+        fastest.ok_or_else(|| self.nothing_within())
+    }
+
+    fn nothing_within(&self) -> TuneError {
+        let metric = self.question.metric;
+        let spoilt = |e: &&Entry| matches!(e.error, Some((_, bad)) if bad > 0);
+        let reason = match self.entries.iter().filter(spoilt).count() {
+            0 => "none that was measured keeps it".to_owned(),
+            count => format!("{count} of them give pixels that are not finite"),
+        };
+        let judged = self.entries.iter().filter(|e| e.refused.is_none());
+        let judged = judged.filter_map(|e| Some((e, e.error?)));
+        let key = |(error, bad): (f64, usize)| (bad, metric.loss(0.0, error));
+        let closest = judged.min_by(|a, b| {
+            let (a, b) = (key(a.1), key(b.1));
+            a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))
+        });
+        TuneError::NothingWithin {
+            variants: self.entries.len(),
+            max_error: self.question.max_error,
+            metric,
+            reason,
+            closest: closest.map_or("none at all".to_owned(), |(entry, (error, bad))| {
+                let name = self.space.name(entry.variant);
+                format!("{name}: {}, {bad} pixels that are not finite", metric.show(error))
+            }),
+        }
+    }
+
+    /// The best error of all variants whose pixels are finite.
+    pub(super) fn best(&self) -> f64 {
+        let metric = self.question.metric;
+        let finite = self.entries.iter().filter(|e| e.refused.is_none());
+        let errors = finite.filter_map(|e| e.error).filter(|(_, bad)| *bad == 0);
+        let best = errors
+            .map(|(error, _)| error)
+            .min_by(|a, b| metric.loss(0.0, *a).total_cmp(&metric.loss(0.0, *b)));
+        best.or(self.entries.first().and_then(|e| e.error).map(|(error, _)| error))
+            .unwrap_or(0.0)
+    }
+
+    fn loss(&self, index: usize) -> Option<f64> {
+        let (error, _) = self.entries[index].error?;
+        Some(self.question.metric.loss(self.best(), error))
+    }
+
+    fn losses(&self, index: usize) -> f64 {
+        self.loss(index).unwrap_or(f64::INFINITY)
+    }
+
+    fn is_within(&self, index: usize) -> bool {
+        let entry = &self.entries[index];
+        entry.refused.is_none()
+            && matches!(entry.error, Some((_, 0)))
+            && self.loss(index).is_some_and(|loss| loss <= self.question.max_error)
+    }
+
+    /// How much worse `without` is than `with`. A block that was too long to be searched has the picture of single pixels.
+    fn cost(&self, without: Variant, with: Variant) -> Option<f64> {
+        let error = |v: Variant| {
+            let index = self.index.get(&v).or_else(|| self.index.get(&v.with(Term::Block, 0)))?;
+            self.entries[*index].error.map(|(error, _)| error)
+        };
+        Some(self.question.metric.loss(error(with)?, error(without)?))
+    }
+
+    /// Everything that was measured.
+    pub fn record(&self, circumstances: Circumstances, chosen: Option<usize>) -> TuneRecord {
+        let seen: Vec<usize> = (0..self.entries.len())
+            .filter(|k| self.entries[*k].error.is_some())
+            .collect();
+        let place: BTreeMap<usize, usize> = seen.iter().enumerate().map(|(place, k)| (*k, place)).collect();
+        let timed: Vec<usize> = seen
+            .iter()
+            .copied()
+            .filter(|k| self.entries[*k].ratio.is_some())
+            .collect();
+        let usable = self.usable();
+        let timed: Vec<usize> = timed.into_iter().filter(|k| usable.contains(k)).collect();
+        let points: Vec<(f64, f64)> = timed
+            .iter()
+            .map(|k| {
+                (
+                    self.entries[*k].ratio.map_or(f64::INFINITY, |r| 1.0 / r.median),
+                    self.losses(*k),
+                )
+            })
+            .collect();
+        let on: Vec<usize> = timed
+            .iter()
+            .zip(front(&points))
+            .filter(|(_, on)| *on)
+            .map(|(k, _)| *k)
+            .collect();
+        let candidate = |k: &usize| {
+            let mut candidate = self.candidate(&self.entries[*k]);
+            candidate.front = on.contains(k);
+            candidate
+        };
+        let refused = self.entries.iter().filter_map(|e| {
+            Some(Refused {
+                variant: self.space.name(e.variant),
+                reason: e.refused.clone()?,
+            })
+        });
+        TuneRecord {
+            circumstances,
+            scene: self.name.clone(),
+            metric: self.question.metric.name().to_owned(),
+            max_error: self.question.max_error,
+            best: self.best(),
+            reference: self.referred_to.clone(),
+            unfiltered: self.unfiltered(),
+            fixed: self.space.fixed.clone(),
+            candidates: seen.iter().map(candidate).collect(),
+            chosen: chosen.and_then(|k| place.get(&k).copied()),
+            general: place.get(&0).copied().unwrap_or(0),
+            left_out: chosen.map_or(Vec::new(), |k| self.left_out(self.entries[k].variant)),
+            terms: self.terms(&place),
+            refused: refused.collect(),
+            not_searched: self.space.left_aside.clone(),
+            model: self.model.clone(),
+        }
+    }
+
+    fn candidate(&self, entry: &Entry) -> Candidate {
+        let settings = self.space.settings(entry.variant);
+        let mut options = settings.options;
+        options.retain(|(name, value)| self.defaults.get(name) != Some(value));
+        let (error, non_finite) = entry.error.unwrap_or_default();
+        Candidate {
+            name: self.space.name(entry.variant),
+            options,
+            precision: self.space.precision(entry.variant).to_string(),
+            block: settings.block,
+            error,
+            non_finite,
+            reads: entry.known.as_ref().map_or(0.0, |known| known.reads),
+            statements: entry.known.as_ref().map_or(0.0, |known| known.statements),
+            gbuffer_bytes: self.gbuffer_bytes(entry.variant),
+            predicted_ms: entry.predicted,
+            time: entry.time,
+            ratio: entry.ratio,
+            front: false,
+        }
+    }
+
+    /// What the chosen variant does without, and what putting each back would win.
+    fn left_out(&self, chosen: Variant) -> Vec<LeftOut> {
+        let all = self.space.left_out(chosen).into_iter();
+        all.filter_map(|(term, with)| {
+            Some(LeftOut {
+                term,
+                cost: self.cost(chosen, with)?,
+            })
+        })
+        .collect()
+    }
+
+    /// The most general variant with each of its terms replaced.
+    fn terms(&self, place: &BTreeMap<usize, usize>) -> Vec<TermWorth> {
+        let general = self.space.general();
+        let worth = |variant: Variant| {
+            let index = self.index.get(&variant)?;
+            let term = Term::ALL.into_iter().find(|term| variant.at(*term) != 0)?;
+            Some(TermWorth {
+                term: self.space.value(general, term).label.clone(),
+                instead: self.space.value(variant, term).label.clone(),
+                cost: self.cost(variant, general)?,
+                ratio: self.entries[*index].ratio,
+                candidate: *place.get(index)?,
+            })
+        };
+        self.space.neighbours(general).into_iter().filter_map(worth).collect()
+    }
+
+    /// A variant as it can be emitted, with what its manifest is to say.
+    ///
+    /// # Errors
+    ///
+    /// If it cannot be compiled, which it could be before.
+    pub fn chosen(&self, index: usize, record: &TuneRecord) -> Result<Chosen, TuneError> {
+        let entry = &self.entries[index];
+        let error = |entry: &Entry| entry.error.map_or(0.0, |(error, _)| error);
+        let left_out = record.left_out.iter().map(|out| straightline_manifest::LeftOut {
+            term: out.term.clone(),
+            cost: out.cost,
+        });
+        Ok(Chosen {
+            compiled: self.compile(entry.variant)?,
+            precision: self.space.precision(entry.variant),
+            tuned: Tuned {
+                scene: record.scene.clone(),
+                size: self.size.to_array(),
+                metric: record.metric.clone(),
+                max_error: record.max_error,
+                best: record.best,
+                error: error(entry),
+                general: error(&self.entries[0]),
+                adapter: record.circumstances.adapter.clone(),
+                times_as_fast: entry.ratio.map_or(1.0, |ratio| ratio.median),
+                left_out: left_out.collect(),
+            },
+        })
+    }
+}

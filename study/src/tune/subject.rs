@@ -1,0 +1,206 @@
+//! What is tuned for: one view of a scene, sampled in several ways, and what it should look like.
+
+use super::TuneError;
+use crate::capture::{Capture, ShadingSample};
+use crate::gbuffer;
+use crate::record::Watch;
+use crate::render::{self, Renderer};
+use glam::{UVec2, Vec2, Vec4};
+use straightline_kernels::prelude::{Frame, FrameLayers};
+
+/// Patterns that a scene is sampled in, the most samples first.
+pub const PATTERNS: [&str; 3] = ["latin16", "standard8", "latin4"];
+
+/// Side of the grid of samples that a scene's reference is the mean of: 256 a pixel.
+const REFERENCE_SIDE: u32 = 16;
+
+/// One view, in as many captures as it has sets of geometry samples, the largest set first.
+#[derive(Clone, Debug)]
+pub struct Subject {
+    /// The scene's name, or the capture's path.
+    pub name: String,
+    /// The same view with the same colours; at least one.
+    pub captures: Vec<Capture>,
+    /// What a perfect filter would give.
+    pub reference: Option<Frame<Vec4>>,
+    /// What the reference is, in words.
+    pub referred_to: String,
+}
+
+impl Subject {
+    /// A scene, sampled in `patterns` and shaded at the pixels' centres, with its 256× reference. `None` if the watch stops
+    /// it before all is drawn.
+    ///
+    /// # Errors
+    ///
+    /// What the renderer refuses.
+    pub fn of_scene(
+        name: &str,
+        renderer: &dyn Renderer,
+        patterns: &[&str],
+        watch: &mut dyn Watch,
+    ) -> Result<Option<Subject>, TuneError> {
+        let mut captures = Vec::new();
+        watch.begin("geometry", patterns.len());
+        for pattern in patterns {
+            let samples = gbuffer::samples(pattern).unwrap_or_default();
+            captures.push(render::capture(renderer, &samples, ShadingSample::Centre)?);
+            watch.step();
+            if watch.stopped() {
+                return Ok(None);
+            }
+        }
+        watch.begin("reference", REFERENCE_SIDE as usize);
+        let reference = render::reference(renderer, REFERENCE_SIDE, &mut |_, _| watch.step())?;
+        if watch.stopped() {
+            return Ok(None);
+        }
+        Ok(Some(Subject {
+            name: name.to_owned(),
+            captures,
+            reference: Some(reference),
+            referred_to: format!("the mean of {} samples a pixel", REFERENCE_SIDE * REFERENCE_SIDE),
+        }))
+    }
+
+    /// A capture with all of its samples, with half of them and with a quarter, as long as four are left.
+    pub fn of_capture(name: &str, mut capture: Capture) -> Subject {
+        let reference = capture.reference.take();
+        let referred_to = match &reference {
+            Some(_) => "the capture's reference",
+            None => "the picture of the most general variant: the capture has no reference",
+        };
+        let mut counts = vec![capture.samples.len()];
+        for share in [2, 4] {
+            let fewer = capture.samples.len() / share;
+            if fewer >= 4 {
+                counts.push(fewer);
+            }
+        }
+        let captures = counts.iter().map(|count| fewer_samples(&capture, *count)).collect();
+        Subject {
+            name: name.to_owned(),
+            captures,
+            reference,
+            referred_to: referred_to.to_owned(),
+        }
+    }
+
+    /// Width and height in pixels.
+    pub fn size(&self) -> UVec2 {
+        self.captures.first().map_or(UVec2::ZERO, |capture| capture.size)
+    }
+}
+
+/// The capture with `count` of its geometry samples, as far apart as can be; the one that was shaded is among them.
+fn fewer_samples(capture: &Capture, count: usize) -> Capture {
+    if count >= capture.samples.len() {
+        return capture.clone();
+    }
+    let first = match capture.shading {
+        ShadingSample::Sample(k) => k,
+        ShadingSample::Centre => 0,
+    };
+    let mut kept = vec![first];
+    while kept.len() < count {
+        let gap = |k: &usize| {
+            let gaps = kept
+                .iter()
+                .map(|other| apart(capture.samples[*k], capture.samples[*other]));
+            gaps.fold(f32::INFINITY, f32::min)
+        };
+        let left = (0..capture.samples.len()).filter(|k| !kept.contains(k));
+        match left.max_by(|a, b| gap(a).total_cmp(&gap(b)).then(b.cmp(a))) {
+            Some(farthest) => kept.push(farthest),
+            None => break,
+        }
+    }
+    // In their old order, then the centre, if that was shaded.
+    kept.sort_unstable();
+    let mut layers = kept.clone();
+    layers.extend(capture.samples.len()..capture.layer_count());
+    let depth = layers.iter().map(|k| capture.depth.layers()[*k].clone()).collect();
+    let normal = capture.normal.as_ref().map(|normal| {
+        let kept = layers.iter().map(|k| normal.layers()[*k].clone());
+        FrameLayers::new(kept.collect())
+    });
+    Capture {
+        size: capture.size,
+        samples: kept.iter().map(|k| capture.samples[*k]).collect(),
+        shading: match capture.shading {
+            ShadingSample::Centre => ShadingSample::Centre,
+            ShadingSample::Sample(_) => ShadingSample::Sample(kept.iter().position(|k| *k == first).unwrap_or(0)),
+        },
+        camera: capture.camera,
+        color: capture.color.clone(),
+        depth: FrameLayers::new(depth),
+        normal,
+        reference: None,
+    }
+}
+
+/// How far two samples are apart in a picture in which every pixel has them.
+fn apart(a: Vec2, b: Vec2) -> f32 {
+    let away = (a - b).abs();
+    away.min(1.0 - away).length()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::{Vec3, uvec2};
+
+    fn capture(samples: Vec<Vec2>, shading: ShadingSample) -> Capture {
+        let size = uvec2(2, 1);
+        let layers = samples.len() + usize::from(shading == ShadingSample::Centre);
+        let depth = (0..layers).map(|k| Frame::new(size, vec![k as f32; 2]));
+        let normal = (0..layers).map(|k| Frame::new(size, vec![Vec3::splat(k as f32); 2]));
+        Capture {
+            size,
+            shading,
+            camera: None,
+            color: Frame::new(size, vec![Vec4::ONE; 2]),
+            depth: FrameLayers::new(depth.collect()),
+            normal: Some(FrameLayers::new(normal.collect())),
+            reference: None,
+            samples,
+        }
+    }
+
+    fn pattern(name: &str) -> Vec<Vec2> {
+        gbuffer::samples(name).unwrap()
+    }
+
+    #[test]
+    fn a_capture_is_thinned_and_its_layers_follow() {
+        for shading in [ShadingSample::Centre, ShadingSample::Sample(5)] {
+            let whole = capture(pattern("latin16"), shading);
+            let subject = Subject::of_capture("frame", whole.clone());
+            let counts: Vec<usize> = subject.captures.iter().map(|c| c.samples.len()).collect();
+            assert_eq!(counts, [16, 8, 4]);
+            for thin in &subject.captures {
+                assert_eq!(thin.depth.layers().len(), thin.layer_count());
+                for (sample, layer) in thin.samples.iter().zip(thin.depth.layers()) {
+                    let place = whole.samples.iter().position(|s| s == sample).unwrap();
+                    assert_eq!(layer.texels()[0], place as f32);
+                }
+                let shaded = thin.depth.layers()[thin.shaded_layer()].texels()[0];
+                assert_eq!(shaded, whole.shaded_layer() as f32);
+                assert_eq!(thin.shaded_offset(), whole.shaded_offset());
+            }
+            let least = |c: &Capture| {
+                let pairs = c.samples.iter().flat_map(|a| c.samples.iter().map(move |b| (a, b)));
+                let gaps = pairs.filter(|(a, b)| a != b).map(|(a, b)| apart(*a, *b));
+                gaps.fold(f32::INFINITY, f32::min)
+            };
+            assert!(least(&subject.captures[2]) > 0.35, "{:?}", subject.captures[2].samples);
+        }
+    }
+
+    #[test]
+    fn four_samples_stay_four() {
+        let subject = Subject::of_capture("frame", capture(pattern("latin4"), ShadingSample::Centre));
+        assert_eq!(subject.captures.len(), 1);
+        assert!(subject.referred_to.contains("most general"), "{}", subject.referred_to);
+    }
+}

@@ -1,0 +1,281 @@
+//! `study error`: peers and methods on a GPU driver, on small pictures.
+
+mod common;
+
+use common::bench;
+use std::cell::Cell;
+use std::path::{Path, PathBuf};
+use straightline_codegen::{Settings, Stage};
+use straightline_kernels::prelude::*;
+use straightline_study::capture::Capture;
+use straightline_study::execute::Inputs;
+use straightline_study::metrics;
+use straightline_study::peers::{Smaa, Transfer, fxaa};
+use straightline_study::quality::{Outcome, Plan, QualityError, Source, losses, study};
+use straightline_study::record::{Unwatched, Watch};
+use straightline_study::scene::Scene;
+
+/// A line of slope 1/5 between light and dark, each pixel shaded at its centre, and what it should look like.
+fn slope() -> (Frame<Vec4>, Frame<Vec4>) {
+    let size = uvec2(64, 40);
+    let light = |place: Vec2| if place.y < 12.0 + place.x / 5.0 { 0.8 } else { 0.05 };
+    let pixels = || (0..size.x * size.y).map(|k| vec2((k % 64) as f32, (k / 64) as f32));
+    let grey = |v: f32| vec4(v, v, v, 1.0);
+    let plain = pixels().map(|p| grey(light(p + 0.5))).collect();
+    let perfect = pixels().map(|p| {
+        let places = (0..256).map(|k| vec2((k % 16) as f32 + 0.5, (k / 16) as f32 + 0.5) / 16.0);
+        grey(places.map(|by| light(p + by)).sum::<f32>() / 256.0)
+    });
+    (Frame::new(size, plain), Frame::new(size, perfect.collect()))
+}
+
+fn even(color: Vec4) -> Frame<Vec4> {
+    Frame::new(uvec2(33, 21), vec![color; 33 * 21])
+}
+
+fn by_fxaa(picture: &Frame<Vec4>, transfer: Transfer) -> Frame<Vec4> {
+    let compiled = fxaa().compile(&Settings::default()).expect("it compiles");
+    let inputs = Inputs::new(picture.size()).image("color", transfer.given(picture));
+    transfer.taken(&bench().run(&compiled, Stage::Compute, &inputs).expect("it runs"))
+}
+
+fn by_smaa(picture: &Frame<Vec4>, transfer: Transfer) -> Frame<Vec4> {
+    let mut smaa = Smaa::new(&bench(), picture.size(), transfer).expect("it is made");
+    let first = smaa.run(picture).expect("it runs");
+    let took = smaa.time().expect("it is timed");
+    assert!(took.as_nanos() > 0);
+    let second = smaa.run(picture).expect("it runs");
+    assert_eq!(metrics::max_abs_difference(&first, &second), 0.0);
+    first
+}
+
+#[test]
+fn filters_of_the_picture_smooth_a_line_and_leave_evenness_alone() {
+    let (plain, perfect) = slope();
+    let before = metrics::psnr(&plain, &perfect);
+    let color = vec4(0.6, 0.3, 0.1, 1.0);
+    for transfer in [Transfer::Srgb, Transfer::Linear] {
+        for (name, filter) in [
+            ("FXAA", by_fxaa as fn(&Frame<Vec4>, Transfer) -> Frame<Vec4>),
+            ("SMAA", by_smaa),
+        ] {
+            let after = metrics::psnr(&filter(&plain, transfer), &perfect);
+            println!("{name} on {transfer:?}: {before:.2} dB before, {after:.2} dB after");
+            assert!(after > before + 1.0, "{name} {transfer:?}: {before} {after}");
+            let left = metrics::max_abs_difference(&filter(&even(color), transfer), &even(color));
+            assert!(left < 2e-3, "{name} {transfer:?} changes an even picture by {left}");
+        }
+    }
+}
+
+fn plan(out: Option<PathBuf>) -> Plan {
+    Plan {
+        size: uvec2(96, 54),
+        rounds: 2,
+        quick: true,
+        pan_frames: 2,
+        pan_scenes: 1,
+        out,
+    }
+}
+
+fn source(name: &str) -> Source {
+    Source::Scene {
+        name: name.to_owned(),
+        purpose: "a test".to_owned(),
+        scene: Box::new(Scene::named(name).expect("a scene")),
+    }
+}
+
+#[test]
+fn methods_on_a_scene() {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("quality");
+    let _ = std::fs::remove_dir_all(&folder);
+    let sources = vec![source("railings")];
+    let Outcome {
+        scenes,
+        complete,
+        timed_on,
+    } = study(&bench(), sources, &plan(Some(folder.clone())), &mut Unwatched).unwrap_or_else(|e| panic!("{e}"));
+    assert!(complete && timed_on == ["railings"]);
+    let scene = &scenes[0];
+    let method = |name: &str| {
+        let found = scene.methods.iter().find(|m| m.method == name);
+        found.unwrap_or_else(|| panic!("{name} is missing"))
+    };
+    for m in &scene.methods {
+        println!(
+            "{:28} {:.2} dB, SSIM {:.4}, FLIP {:.4}, {} B",
+            m.method, m.psnr, m.ssim, m.flip, m.bytes
+        );
+        assert_eq!(m.non_finite, 0, "{}", m.method);
+        assert!(m.bytes >= 96 * 54 * 16, "{}", m.method);
+        let filter = !matches!(m.method.as_str(), "1x" | "MSAA 4" | "4x" | "16x");
+        assert_eq!(m.time.is_some(), filter, "{}", m.method);
+        if let Some(picture) = &m.picture {
+            assert!(folder.join(picture).is_file(), "{picture}");
+        }
+    }
+    assert_eq!(
+        method("SRAA 4").picture.as_deref(),
+        Some("pictures/railings/sraa-4.png")
+    );
+    // What must be so whatever the scene.
+    assert_eq!(
+        (method("1x").gap_closed, method("16x").gap_closed),
+        (Some(0.0), Some(1.0))
+    );
+    assert!(method("1x").psnr < method("SRAA 4").psnr && method("SRAA 4").psnr < method("4x").psnr);
+    assert!(method("4x").psnr < method("16x").psnr && method("MSAA 4").psnr <= method("4x").psnr + 0.5);
+    assert!(method("16x").flip < method("4x").flip && method("4x").flip < method("1x").flip);
+    assert!(
+        method("16x")
+            .temporal
+            .is_some_and(|own| method("1x").temporal.is_some_and(|plain| own < plain))
+    );
+    let shares = &scene.shares;
+    assert!((shares.geometry + shares.shading + shares.flat - 1.0).abs() < 1e-9);
+    assert!(shares.unseen > 0.0 && shares.unseen < shares.geometry, "{shares:?}");
+    // The pixels' errors, put together again, are the picture's.
+    let mse = |db: Option<f64>| db.map_or(0.0, |db| 10f64.powf(-db / 10.0));
+    let plain = method("1x");
+    let parts = shares.geometry * mse(plain.psnr_geometry)
+        + shares.shading * mse(plain.psnr_shading)
+        + shares.flat * mse(plain.psnr_flat);
+    assert!((parts - mse(Some(plain.psnr))).abs() < 1e-6 * parts, "{parts}");
+    assert_eq!(scene.gaps.len(), 2);
+    for gap in &scene.gaps {
+        assert!(gap.ideal_psnr <= gap.bound_psnr + 0.5, "{gap:?}");
+        assert!(
+            gap.bound_psnr_seen >= Some(gap.bound_psnr) && gap.error_unseen > 0.0,
+            "{gap:?}"
+        );
+    }
+    println!("{:#?}", losses(scene));
+}
+
+/// Says stop once the second scene has begun to be measured.
+struct Impatient {
+    steps: Cell<usize>,
+    patience: usize,
+}
+
+impl Watch for Impatient {
+    fn begin(&mut self, _: &str, _: usize) {}
+
+    fn step(&mut self) {
+        self.steps.set(self.steps.get() + 1);
+    }
+
+    fn stopped(&self) -> bool {
+        self.steps.get() >= self.patience
+    }
+}
+
+#[test]
+fn what_is_finished_is_kept_when_it_is_stopped() {
+    let plan = Plan {
+        pan_frames: 0,
+        size: uvec2(32, 18),
+        ..plan(None)
+    };
+    let run = |patience| {
+        let mut watch = Impatient {
+            steps: Cell::new(0),
+            patience,
+        };
+        let outcome = study(&bench(), vec![source("sky"), source("wires")], &plan, &mut watch);
+        (outcome.unwrap_or_else(|e| panic!("{e}")), watch.steps.get())
+    };
+    let (all, steps) = run(usize::MAX);
+    assert!(all.complete && all.scenes.len() == 2);
+    let (some, _) = run(steps - 3);
+    assert!(!some.complete && some.scenes.len() == 1 && some.scenes[0].scene == "sky");
+    let (none, _) = run(1);
+    assert!(!none.complete && none.scenes.is_empty());
+}
+
+/// Made by `examples/captures/spheres.py`.
+fn spheres() -> Capture {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/captures/spheres");
+    Capture::read(&folder).unwrap_or_else(|e| panic!("{e}"))
+}
+
+fn of_capture(capture: Capture) -> Result<Outcome, QualityError> {
+    let source = Source::Capture {
+        name: "spheres".to_owned(),
+        capture: Box::new(capture),
+    };
+    study(&bench(), vec![source], &plan(None), &mut Unwatched)
+}
+
+#[test]
+fn a_capture_of_another_program() {
+    let outcome = of_capture(spheres()).unwrap_or_else(|e| panic!("{e}"));
+    let scene = &outcome.scenes[0];
+    let psnr = |name: &str| scene.methods.iter().find(|m| m.method == name).map(|m| m.psnr);
+    println!(
+        "1x {:?}, SRAA 4 {:?}, SMAA {:?}",
+        psnr("1x"),
+        psnr("SRAA 4"),
+        psnr("SMAA")
+    );
+    assert!(
+        psnr("SRAA 4")
+            .zip(psnr("1x"))
+            .is_some_and(|(ours, plain)| ours > plain + 3.0)
+    );
+    assert!(psnr("SRAA 4, planes and normals").is_some() && psnr("16x").is_none());
+    assert!(
+        scene
+            .absent
+            .iter()
+            .any(|(what, why)| what.contains("16x") && why.contains("once a pixel"))
+    );
+    assert!(
+        scene.shares.geometry > 0.02 && scene.shares.shading > 0.005,
+        "{:?}",
+        scene.shares
+    );
+    assert!(
+        scene
+            .methods
+            .iter()
+            .all(|m| m.gap_closed.is_none() && m.temporal.is_none())
+    );
+}
+
+#[test]
+fn a_capture_that_lacks_something_says_so() {
+    let without_normals = Capture {
+        normal: None,
+        camera: None,
+        ..spheres()
+    };
+    let scene = of_capture(without_normals)
+        .unwrap_or_else(|e| panic!("{e}"))
+        .scenes
+        .remove(0);
+    let names: Vec<&str> = scene.methods.iter().map(|m| m.method.as_str()).collect();
+    assert_eq!(
+        names,
+        ["1x", "SRAA 4, depth", "FXAA", "FXAA on light", "SMAA", "SMAA on light"]
+    );
+    assert!(
+        scene
+            .absent
+            .iter()
+            .any(|(what, why)| what.contains("S.T.A.L.K.E.R.") && why.contains("normal.exr"))
+    );
+    let blind = Capture {
+        reference: None,
+        ..spheres()
+    };
+    let error = of_capture(blind)
+        .expect_err("there is nothing to compare with")
+        .to_string();
+    assert!(
+        error.contains("reference.exr") && error.contains("docs/captures.md"),
+        "{error}"
+    );
+}
