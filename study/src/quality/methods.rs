@@ -140,12 +140,19 @@ fn metrics() -> Vec<Method> {
     ]
 }
 
+/// A step of a third of the depth, and more, is between unrelated surfaces.
+const RELATIVE: [(&str, &str); 2] = [("difference", "relative"), ("depth-scale", "3")];
+
 fn falloffs() -> Vec<Method> {
     let sraa = |name, options: &[(&str, &str)]| Method::new(name, Kind::Sraa, options);
     vec![
         sraa("SRAA 4, no falloff", &[("falloff", "none")]),
         sraa("SRAA 4, Gaussian falloff", &[("falloff", "gaussian")]),
-        sraa("SRAA 4, relative depth", &[("difference", "relative")]),
+        sraa("SRAA 4, relative depth", &RELATIVE),
+        sraa(
+            "SRAA 16, relative depth",
+            &[("pattern", "latin16"), RELATIVE[0], RELATIVE[1]],
+        ),
         sraa("SRAA 4, mask", &[("mask", "select")]),
     ]
 }
@@ -184,7 +191,7 @@ pub fn methods_of(capture: &Capture) -> (Vec<Method>, Vec<(String, String)>) {
         all.push(sraa(", normals", &[("metric", "normals")]));
         all.push(sraa(", no falloff", &[("falloff", "none")]));
         all.push(sraa(", Gaussian falloff", &[("falloff", "gaussian")]));
-        all.push(sraa(", relative depth", &[("difference", "relative")]));
+        all.push(sraa(", relative depth", &RELATIVE));
         all.push(sraa(", mask", &[("mask", "select")]));
         if capture.camera.is_some() {
             all.push(sraa(", planes and normals", &[("metric", "planes-normals")]));
