@@ -132,14 +132,14 @@ impl<'a> Surfaces<'a> {
 
     /// Whether two points are of one surface.
     pub fn same(&self, a: &Point, b: &Point) -> bool {
-        let sky = |point: &Point| !(point.depth < SKY_DEPTH);
+        let sky = |point: &Point| point.depth.is_nan() || point.depth >= SKY_DEPTH;
         match (sky(a), sky(b)) {
             (true, true) => return true,
             (false, false) => {}
             _ => return false,
         }
         if let (Some(a), Some(b)) = (a.normal, b.normal)
-            && !(a.dot(b) >= ALIKE)
+            && (a.dot(b).is_nan() || a.dot(b) < ALIKE)
         {
             return false;
         }

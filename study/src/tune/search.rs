@@ -38,13 +38,18 @@ struct Ground {
     layers: u64,
 }
 
+/// A shader with what it reads.
+type Ready = (Pass, Bound);
+
+/// Error by the metric, and pixels that are not finite.
+type Seen = (f64, usize);
+
 /// A variant and what is known of it.
 #[derive(Clone, Debug)]
 pub(super) struct Entry {
     pub variant: Variant,
     pub known: Option<Static>,
-    /// Error by the metric, and pixels that are not finite.
-    pub error: Option<(f64, usize)>,
+    pub error: Option<Seen>,
     /// Why it cannot be emitted or run.
     pub refused: Option<String>,
     /// Milliseconds, by the model.
@@ -72,7 +77,7 @@ pub struct Search {
     reference: Option<Frame<Vec4>>,
     /// Errors beyond this are no errors.
     ceiling_db: f64,
-    ready: BTreeMap<usize, (Pass, Bound)>,
+    ready: BTreeMap<usize, Ready>,
     pub(super) model: Model,
     /// What was measured last, and decides.
     pub(super) finalists: Vec<usize>,
@@ -426,7 +431,7 @@ impl Search {
         self.space.picture_of(variant, self.finite_colors)
     }
 
-    fn prepare(&self, variant: Variant) -> Result<(Pass, Bound), TuneError> {
+    fn prepare(&self, variant: Variant) -> Result<Ready, TuneError> {
         let ground = self.grounds.get(variant.at(Term::Samples));
         let ground = ground.ok_or_else(|| ExecuteError::Input("there is no such set of samples".to_owned()))?;
         let precision: Precision = self.space.precision(variant);
@@ -438,7 +443,7 @@ impl Search {
     }
 
     /// A variant ready to run, and its error.
-    fn shown(&self, variant: Variant) -> Result<((Pass, Bound), (f64, usize)), String> {
+    fn shown(&self, variant: Variant) -> Result<(Ready, Seen), String> {
         let ready = self.prepare(variant).map_err(|error| error.to_string())?;
         let picture = self.bench.picture_of(&ready.0, &ready.1, self.size);
         let picture = picture.map_err(|error| error.to_string())?;
@@ -449,7 +454,7 @@ impl Search {
         Ok((ready, (error, metrics::non_finite(&picture))))
     }
 
-    fn judged(&self, variant: Variant) -> Result<(f64, usize), String> {
+    fn judged(&self, variant: Variant) -> Result<Seen, String> {
         self.shown(variant).map(|(_, error)| error)
     }
 }
