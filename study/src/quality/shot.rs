@@ -9,6 +9,7 @@ use crate::record::Watch;
 use crate::render::{self, Renderer};
 use glam::{DVec4, UVec2, Vec2, Vec4};
 use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 use straightline_kernels::prelude::Frame;
 
 /// A picture shaded once a pixel, its geometry in several patterns, and the same shaded at every sample.
@@ -39,11 +40,11 @@ impl Shot {
                 Kind::Supersampled(several) => several,
                 _ => continue,
             };
-            if !shot.shaded.contains_key(&several) {
+            if let Entry::Vacant(shaded_at) = shot.shaded.entry(several) {
                 check(watch)?;
                 let samples = gbuffer::samples(method.pattern()).unwrap_or_default();
                 let shaded = samples.iter().map(|offset| renderer.shaded(*offset));
-                shot.shaded.insert(several, shaded.collect::<Result<_, _>>()?);
+                shaded_at.insert(shaded.collect::<Result<_, _>>()?);
             }
         }
         Ok(shot)

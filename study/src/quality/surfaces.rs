@@ -132,15 +132,18 @@ impl<'a> Surfaces<'a> {
 
     /// Whether two points are of one surface.
     pub fn same(&self, a: &Point, b: &Point) -> bool {
-        let sky = |point: &Point| !(point.depth < SKY_DEPTH);
+        let sky = |point: &Point| point.depth >= SKY_DEPTH || point.depth.is_nan();
         match (sky(a), sky(b)) {
             (true, true) => return true,
             (false, false) => {}
             _ => return false,
         }
-        if let (Some(a), Some(b)) = (a.normal, b.normal)
-            && !(a.dot(b) >= ALIKE)
-        {
+        // Of normals that are not numbers, none is like another.
+        let alike = match (a.normal, b.normal) {
+            (Some(a), Some(b)) => a.dot(b) >= ALIKE,
+            _ => true,
+        };
+        if !alike {
             return false;
         }
         let nearer = a.depth.min(b.depth);
