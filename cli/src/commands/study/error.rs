@@ -114,7 +114,7 @@ fn print(record: &QualityRecord, out: &Path) {
             record.timed_on.join(" and ")
         );
     }
-    println!("{} and pictures are in {}.", "error.json, error.csv", out.display());
+    println!("error.json, error.csv and pictures are in {}.", out.display());
 }
 
 fn print_scene(scene: &SceneErrors) {
