@@ -3,6 +3,7 @@
 use super::front::front;
 use super::search::{Entry, Search};
 use super::{Chosen, Term, TuneError, Variant};
+use crate::execute::Ratio;
 use crate::record::{Candidate, Circumstances, LeftOut, Refused, TermWorth, TuneRecord, Watch};
 use std::collections::BTreeMap;
 use straightline_manifest::Tuned;
@@ -15,6 +16,9 @@ const OF_THE_FASTEST: usize = 10;
 
 /// How much slower than the predicted winner a neighbour may be, by prediction, to be measured.
 const NEAR: f64 = 1.3;
+
+/// Share of the best ratio from which a variant may count as just as fast, if its spread reaches the best.
+const AS_FAST: f64 = 0.9;
 
 impl Search {
     /// Measures the predicted front, the variants within the budget that are predicted to be fastest, and what is next to
@@ -58,16 +62,25 @@ impl Search {
         self.measure(&which, self.question.rounds, "timing, to decide", watch)
     }
 
-    /// The fastest of those that were measured last and are within the budget.
+    /// The fastest of those that were measured last and are within the budget; of those that cannot be told from it, the one
+    /// that reads the fewest bytes of G-buffer.
     ///
     /// # Errors
     ///
     /// [`TuneError::NothingWithin`], which says what comes closest.
     pub fn choose(&self) -> Result<usize, TuneError> {
-        let ratio = |k: usize| self.entries[k].ratio.map_or(0.0, |ratio| ratio.median);
         let within = self.finalists.iter().copied().filter(|k| self.is_within(*k));
-        let fastest = within.max_by(|a, b| ratio(*a).total_cmp(&ratio(*b)).then(b.cmp(a)));
-        fastest.ok_or_else(|| self.nothing_within())
+        let measured: Vec<(usize, Ratio)> = within.filter_map(|k| Some((k, self.entries[k].ratio?))).collect();
+        let fastest = measured.iter().map(|(_, ratio)| ratio.median).fold(0.0, f64::max);
+        let as_fast = measured
+            .iter()
+            .filter(|(_, ratio)| ratio.median >= AS_FAST * fastest && ratio.high >= fastest);
+        let bytes = |k: usize| self.gbuffer_bytes(self.entries[k].variant);
+        let cheapest = as_fast.min_by(|(a, one), (b, other)| {
+            let by_time = other.median.total_cmp(&one.median);
+            bytes(*a).cmp(&bytes(*b)).then(by_time).then(a.cmp(b))
+        });
+        cheapest.map(|(k, _)| *k).ok_or_else(|| self.nothing_within())
     }
 
     fn nothing_within(&self) -> TuneError {

@@ -19,6 +19,9 @@ use straightline_runtime::Pass;
 const LEARNED_FROM: usize = 32;
 const TESTED_ON: usize = 12;
 
+/// Rounds in which half precision is compared with whole.
+const PROBED: u32 = 3;
+
 /// Statements of an invocation beyond which a block is not searched.
 const LONGEST: f64 = 2500.0;
 
@@ -79,6 +82,8 @@ pub struct Search {
     ceiling_db: f64,
     ready: BTreeMap<usize, Ready>,
     pub(super) model: Model,
+    /// The most general variant in half precision, where that is slower.
+    slow_half: Option<Variant>,
     /// What was measured last, and decides.
     pub(super) finalists: Vec<usize>,
 }
@@ -159,6 +164,7 @@ impl Search {
             reference: subject.reference,
             ready: BTreeMap::new(),
             model: Model::default(),
+            slow_half: None,
             finalists: Vec::new(),
         })
     }
@@ -181,6 +187,9 @@ impl Search {
         let picture = self.bench.picture_of(&general.0, &general.1, self.size)?;
         if self.reference.is_none() {
             self.reference = Some(picture);
+        }
+        if !self.probe_half(watch)? {
+            return Ok(false);
         }
         let apart: BTreeSet<Variant> = self.entries.iter().map(|e| self.seen_as(e.variant)).collect();
         let apart: Vec<Variant> = apart.into_iter().collect();
@@ -206,6 +215,48 @@ impl Search {
             }
         }
         Ok(finished)
+    }
+
+    /// Whether half precision is worth a search here: the most general variant is run in it. Where that is slower, the others
+    /// are not run in it. Whether all was done.
+    fn probe_half(&mut self, watch: &mut dyn Watch) -> Result<bool, TuneError> {
+        let general = self.space.general();
+        let mut precisions = 0..self.space.values(Term::Precision).len();
+        let half = precisions.find(|k| self.space.values(Term::Precision)[*k].precision == Precision::F16);
+        let Some(half) = half
+            .map(|k| general.with(Term::Precision, k))
+            .filter(|half| *half != general)
+        else {
+            return Ok(true);
+        };
+        let Some(index) = self.index.get(&half).copied() else {
+            return Ok(true);
+        };
+        if !self.measure(&[index], PROBED, "half precision", watch)? {
+            return Ok(false);
+        }
+        match self.entries[index].ratio {
+            Some(ratio) if ratio.median < 1.0 => {
+                self.space.left_aside.push(format!(
+                    "half precision, but for the most general variant: it takes {:.1} times as long as f32 here",
+                    1.0 / ratio.median
+                ));
+                let whole = general.at(Term::Precision);
+                let kept = |v: Variant| v == half || v.at(Term::Precision) == whole;
+                self.entries.retain(|entry| kept(entry.variant));
+                self.index = self
+                    .entries
+                    .iter()
+                    .enumerate()
+                    .map(|(k, entry)| (entry.variant, k))
+                    .collect();
+                // The passes go by places that have changed.
+                self.ready.clear();
+                self.slow_half = Some(half);
+            }
+            _ => {}
+        }
+        Ok(true)
     }
 
     /// Static counts of every variant but blocks that would be too long.
@@ -376,11 +427,14 @@ impl Search {
         Ok(complete)
     }
 
-    /// Variants that can be run and whose pixels are all finite.
+    /// Variants that can be run, whose pixels are all finite, and that may be chosen.
     pub(super) fn usable(&self) -> Vec<usize> {
         let usable = |k: &usize| {
             let entry = &self.entries[*k];
-            entry.refused.is_none() && entry.known.is_some() && matches!(entry.error, Some((_, 0)))
+            entry.refused.is_none()
+                && entry.known.is_some()
+                && matches!(entry.error, Some((_, 0)))
+                && Some(entry.variant) != self.slow_half
         };
         (0..self.entries.len()).filter(usable).collect()
     }

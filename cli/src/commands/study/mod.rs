@@ -38,18 +38,16 @@ const TUNED: [&str; 3] = ["floor", "tubes", "creases"];
 
 /// Every study, until Ctrl-C.
 fn all(common: &CommonArgs, progress: &mut Progress) -> Result<(), Failure> {
-    let tuned = |scene: &str| tune::run(&TuneArgs::of_study(scene, common));
-    let studies: [&dyn Fn(&mut Progress) -> Result<(), Failure>; 6] = [
-        &|progress| hard::run(common, &Default::default(), progress),
-        &|progress| loops::run(common, &Default::default(), progress),
-        &|progress| error::run(common, &Default::default(), progress),
-        &|_| tuned(TUNED[0]),
-        &|_| tuned(TUNED[1]),
-        &|_| tuned(TUNED[2]),
-    ];
-    for study in studies {
+    hard::run(common, &Default::default(), progress)?;
+    if !progress.stopped() {
+        loops::run(common, &Default::default(), progress)?;
+    }
+    if !progress.stopped() {
+        error::run(common, &Default::default(), progress)?;
+    }
+    for scene in TUNED {
         if !progress.stopped() {
-            study(progress)?;
+            tune::run(&TuneArgs::of_study(scene, common))?;
         }
     }
     Ok(())
