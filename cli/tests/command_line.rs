@@ -275,7 +275,7 @@ fn run_names_what_it_was_not_given() {
         &["no uniform `sigma`"],
     );
     fails(
-        &["run", &one, "--input", &picture, "--precision", "f16", "--out", out],
+        &["run", &one, "--input", &picture, "--precision", "f64", "--out", out],
         2,
         &["--executor cpu"],
     );

@@ -161,8 +161,8 @@ fn weights_fall_with_the_difference_of_surfaces() {
 
 #[test]
 fn the_larger_of_both_differences_counts() {
-    // A tilt by 0.001 radian: 1 - cos = 5e-7, so tau·m = 2.5e-4; only the geometry at sample 3 differs.
-    let tilted = Vec3::new(0.001f32.sin(), 0.0, 0.001f32.cos());
+    // A tilt by 0.01 radian: 1 - cos = 5e-5, so tau·m = 2.5e-2; only the geometry at sample 3 differs.
+    let tilted = Vec3::new(0.01f32.sin(), 0.0, 0.01f32.cos());
     let inputs = inputs(
         uvec2(1, 1),
         |_| Vec4::ONE,
@@ -188,10 +188,10 @@ fn the_larger_of_both_differences_counts() {
     // From 16 on all differences are alike: 0.25 times 350 is one of them.
     assert!(!flushed(5.4, 350.0, Metric::Depth));
     assert!(flushed(5.5, 350.0, Metric::Depth));
-    // 87.3366 / 5e-7 = 1.7467e8: the normals' part, alone.
-    assert!(!flushed(1.746e8, 0.0, Metric::DepthNormals));
-    assert!(flushed(1.748e8, 0.0, Metric::DepthNormals));
-    assert!(!flushed(1.748e8, 0.0, Metric::Depth));
+    // 87.3366 / 5e-5 = 1.7467e6: the normals' part, alone.
+    assert!(!flushed(1.746e6, 0.0, Metric::DepthNormals));
+    assert!(flushed(1.748e6, 0.0, Metric::DepthNormals));
+    assert!(!flushed(1.748e6, 0.0, Metric::Depth));
 }
 
 /// One pixel whose sample 1 lies on a surface that no tap has.
