@@ -64,12 +64,18 @@ fn budget(files: &[&Path]) -> Result<String, String> {
     let read = |path: &&Path| -> Result<Vec<Value>, String> {
         let text = std::fs::read_to_string(path).map_err(|error| format!("`{}`: {error}", path.display()))?;
         let record: Value = serde_json::from_str(&text).map_err(|error| format!("`{}`: {error}", path.display()))?;
-        Ok(record["filters"].as_array().cloned().unwrap_or_default())
+        let filters = record["filters"].as_array().cloned().unwrap_or_default();
+        // The paper has these for 4 samples.
+        Ok(filters
+            .into_iter()
+            .filter(|filter| filter["pattern"] == "latin4")
+            .collect())
     };
     let records = files.iter().map(read).collect::<Result<Vec<_>, _>>()?;
-    let mut head = vec!["metric", "reads"];
-    head.extend(records.iter().map(|_| "ms, ratio"));
-    head.push("paper (GTX 480), ratio");
+    let stem = |path: &&Path| path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    let mut head = vec!["metric".to_owned(), "reads".to_owned()];
+    head.extend(files.iter().map(|path| stem(path).replace("budget-", "ms and ratio, ")));
+    head.push("ratio, paper".to_owned());
     let number = |value: &Value| value.as_f64().unwrap_or(f64::NAN);
     let row = |(index, first): (usize, &Value)| {
         let mut cells = vec![
@@ -88,6 +94,7 @@ fn budget(files: &[&Path]) -> Result<String, String> {
         cells
     };
     let first = records.first().map(Vec::as_slice).unwrap_or_default();
+    let head: Vec<&str> = head.iter().map(String::as_str).collect();
     Ok(markdown(&head, first.iter().enumerate().map(row).collect()))
 }
 
@@ -97,6 +104,13 @@ fn markdown(head: &[&str], rows: Vec<Vec<String>>) -> String {
     text += &format!("| --- |{}\n", " --: |".repeat(head.len() - 1));
     rows.iter().for_each(|row| text += &line(row));
     text
+}
+
+fn tiny(value: f64) -> String {
+    match value {
+        0.0 => "0".to_owned(),
+        value => format!("{value:.0e}"),
+    }
 }
 
 /// Every kernel: what is gained by unrolling it, in the fewest columns that say it.
@@ -127,8 +141,7 @@ fn speed(record: &LoopsRecord) -> String {
             }),
             ratio(FormKind::FullBlock),
             ratio(FormKind::Floor),
-            full.and_then(|form| form.difference_999)
-                .map_or("–".to_owned(), |off| format!("{off:.0e}")),
+            full.and_then(|form| form.difference_999).map_or("–".to_owned(), tiny),
         ]
     };
     markdown(&head, record.kernels.iter().map(row).collect())
@@ -181,7 +194,7 @@ fn loops(record: &LoopsRecord) -> String {
             ratio(FormKind::Floor),
             form(FormKind::Full)
                 .and_then(|form| form.difference_999)
-                .map_or("–".to_owned(), |off| format!("{off:.0e}")),
+                .map_or("–".to_owned(), tiny),
         ]
     };
     markdown(&head, record.kernels.iter().map(row).collect())

@@ -340,9 +340,14 @@ impl Definition<'_> {
             Normalisation::Epsilon => EPSILON,
             Normalisation::Paper | Normalisation::Shifted => 0.0,
         };
+        // Shifted, whichever tap is the nearest as computed is at no distance from itself, and weighs its whole falloff.
+        let nearest_weighs = match self.params.normalisation {
+            Normalisation::Shifted => nearest(|tap| tap.falloff),
+            Normalisation::Paper | Normalisation::Epsilon => 0.0,
+        };
         // Divided by too little, a share is infinite.
         let step = 2.0 * rounding.unit * rounding.smallest;
-        if share / lows.max(epsilon.max(step)) > rounding.largest {
+        if share / lows.max(nearest_weighs).max(epsilon.max(step)) > rounding.largest {
             return None;
         }
         let summed = (reach.len() as f64 + 8.0) * rounding.unit;
