@@ -65,6 +65,21 @@ impl Value {
     }
 }
 
+/// Ways to compare depths. One of them has a scale of its own, unless one was set: with it a tenth of the depth is a step, and
+/// a floor that recedes to the horizon is one surface.
+fn differences(offer: &Offer) -> Vec<Value> {
+    let coarse = [("difference", "relative"), ("depth-scale", "0.1")];
+    let mut values = vec![
+        Value::of("relative depth", "relative depth", &coarse[..1]),
+        Value::of("coarse relative depth", "coarse relative depth", &coarse),
+        Value::of("absolute depth", "absolute depth", &[("difference", "absolute")]),
+    ];
+    if offer.fixed.iter().any(|(name, _)| name == "depth-scale") {
+        values.remove(1);
+    }
+    values
+}
+
 fn owned(options: &[(&str, &str)]) -> Vec<(String, String)> {
     options
         .iter()
@@ -169,10 +184,7 @@ impl Space {
             metric
                 .map(|(name, needs)| Value::of(name, needs, &[("metric", name)]))
                 .collect(),
-            vec![
-                Value::of("relative depth", "relative depth", &[("difference", "relative")]),
-                Value::of("absolute depth", "absolute depth", &[("difference", "absolute")]),
-            ],
+            differences(offer),
             vec![
                 Value::of("gaussian", "nine taps a sample, weighted", &[("falloff", "gaussian")]),
                 Value::of("no falloff", "nine taps a sample", &[("falloff", "none")]),
@@ -333,6 +345,11 @@ impl Space {
             if variant.at(term) == 0 || term == Term::Block {
                 continue;
             }
+            // Neither does another scale.
+            let own = &self.value(variant, term).options;
+            if term == Term::Difference && own.iter().any(|(_, value)| value == "relative") {
+                continue;
+            }
             if term == Term::Metric {
                 let label = |k: usize| self.values(term)[k].label.as_str();
                 let own = label(variant.at(term));
@@ -376,8 +393,8 @@ mod tests {
     fn every_variant_is_searched_once() {
         let space = Space::new(&offer()).unwrap();
         let all = space.variants();
-        // Seven ways to tell surfaces apart, normals alone having no depth to compare.
-        assert_eq!(all.len(), 3 * 7 * 3 * 2 * 2 * 2 * 2);
+        // Ten ways to tell surfaces apart, normals alone having no depth to compare.
+        assert_eq!(all.len(), 3 * 10 * 3 * 2 * 2 * 2 * 2);
         let settings: BTreeSet<String> = all
             .iter()
             .map(|v| format!("{:?} {}", space.settings(*v), space.precision(*v)))
@@ -419,7 +436,7 @@ mod tests {
         assert_eq!(space.left_aside.len(), 2, "{:?}", space.left_aside);
 
         let set = Offer {
-            fixed: owned(&[("falloff", "tent"), ("tau", "300")]),
+            fixed: owned(&[("falloff", "tent"), ("tau", "300"), ("depth-scale", "2")]),
             ..offer()
         };
         let space = Space::new(&set).unwrap();
@@ -430,6 +447,7 @@ mod tests {
                 .options
                 .contains(&owned(&[("tau", "300")])[0])
         );
+        assert_eq!(space.values(Term::Difference).len(), 2);
 
         let no_such = Offer {
             fixed: owned(&[("metric", "planes-normals")]),
