@@ -1,42 +1,9 @@
 //! `--precision`: what each command makes of it, and what it refuses.
 
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+mod common;
 
-fn straightline(arguments: &[&str]) -> Output {
-    let binary = env!("CARGO_BIN_EXE_straightline");
-    Command::new(binary).args(arguments).output().expect("the binary runs")
-}
-
-fn finishes(arguments: &[&str]) -> String {
-    let output = straightline(arguments);
-    let error = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{arguments:?} said: {error}");
-    String::from_utf8_lossy(&output.stdout).into_owned()
-}
-
-fn fails(arguments: &[&str], status: i32, says: &[&str]) {
-    let output = straightline(arguments);
-    let error = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(status), "{arguments:?} said: {error}");
-    for text in says {
-        assert!(
-            error.contains(text),
-            "{arguments:?} does not say `{text}` but:\n{error}"
-        );
-    }
-}
-
-fn scratch(name: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
-    let _ = std::fs::remove_dir_all(&folder);
-    std::fs::create_dir_all(&folder).expect("a scratch folder");
-    folder
-}
-
-fn here(path: &str) -> String {
-    format!("{}/../{path}", env!("CARGO_MANIFEST_DIR"))
-}
+use common::{example, fails, finishes, here, is_empty, scratch, straightline};
+use std::path::Path;
 
 #[test]
 fn shaders_are_emitted_in_half_precision() {
@@ -45,6 +12,8 @@ fn shaders_are_emitted_in_half_precision() {
     finishes(&[
         "emit",
         "sraa",
+        "--set",
+        "metric=normals",
         "--precision",
         "f16",
         "--target",
@@ -64,6 +33,7 @@ fn shaders_are_emitted_in_half_precision() {
     let words = [
         "emit",
         "sraa",
+        "--accept-loss",
         "--precision",
         "f16",
         "--target",
@@ -78,6 +48,25 @@ fn shaders_are_emitted_in_half_precision() {
         2,
         &["unknown precision `f64`"],
     );
+}
+
+/// Depths of 11 bits make steps of slopes: that is for the user to want.
+#[test]
+fn half_precision_that_shows_is_refused_with_its_reason() {
+    let folder = scratch("half-loss");
+    let out = folder.to_str().expect("a path of text");
+    let words = ["emit", "sraa", "--precision", "f16", "--out", out];
+    fails(&words, 1, &["`sraa` in f16", "2^-11", "--accept-loss", "study hard"]);
+    assert!(is_empty(&folder));
+    finishes(&[&words[..], &["--accept-loss"]].concat());
+    assert!(folder.join("sraa.wgsl").exists());
+    let f32 = ["emit", "sraa", "--accept-loss", "--out", out];
+    fails(&f32, 2, &["--accept-loss", "--precision f16"]);
+    // Who writes a kernel judges it.
+    let own = example("median");
+    let output = straightline(&["emit", &own, "--precision", "f16", "--out", out]);
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success() && said.contains("no hard cases"), "{said}");
 }
 
 #[test]

@@ -1,33 +1,10 @@
 //! `tune` on the command line: what it writes, and what it refuses.
 
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+mod common;
+
+use common::{fails, scratch, straightline};
+use std::path::Path;
 use straightline_manifest::Manifest;
-
-fn straightline(arguments: &[&str]) -> Output {
-    let binary = env!("CARGO_BIN_EXE_straightline");
-    Command::new(binary).args(arguments).output().expect("the binary runs")
-}
-
-fn fails(arguments: &[&str], status: i32, says: &[&str]) {
-    let output = straightline(arguments);
-    let error = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(status), "{arguments:?} said: {error}");
-    for text in says {
-        assert!(
-            error.contains(text),
-            "{arguments:?} does not say `{text}` but:\n{error}"
-        );
-    }
-    assert!(!error.contains("panicked"), "{error}");
-}
-
-fn scratch(name: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
-    let _ = std::fs::remove_dir_all(&folder);
-    std::fs::create_dir_all(&folder).expect("a scratch folder");
-    folder
-}
 
 /// Options that leave little to search, so that a test is short.
 const SMALL: [&str; 10] = [

@@ -8,7 +8,9 @@ use std::collections::BTreeSet;
 use straightline_codegen::Precision;
 use straightline_study::execute::Clock;
 use straightline_study::hard::{self, Form, HardError, Selection};
-use straightline_study::record::{Circumstances, Executor, HardRecord, Record, Unwatched, Watch};
+use straightline_study::record::{Circumstances, Executor, HardRecord, Record};
+use straightline_study::watch::Unwatched;
+use straightline_tests::impatient::StopsAfter;
 
 fn circumstances() -> Circumstances {
     Circumstances {
@@ -206,21 +208,6 @@ fn a_case_by_name_and_none_by_another() {
     assert_eq!(names.len(), hard::cases().len(), "names are unique");
 }
 
-/// Stops after a few steps.
-struct Impatient(usize);
-
-impl Watch for Impatient {
-    fn begin(&mut self, _: &str, _: usize) {}
-
-    fn step(&mut self) {
-        self.0 = self.0.saturating_sub(1);
-    }
-
-    fn stopped(&self) -> bool {
-        self.0 == 0
-    }
-}
-
 #[test]
 fn what_was_done_is_kept_and_a_record_is_read_as_it_was_written() {
     let selection = Selection {
@@ -233,7 +220,7 @@ fn what_was_done_is_kept_and_a_record_is_read_as_it_was_written() {
         precisions: vec![Precision::F32],
     };
     // One form is compiled, and two cases are run.
-    let found = hard::run(&selection, None, circumstances(), &mut Impatient(3)).expect("it runs");
+    let found = hard::run(&selection, None, circumstances(), &mut StopsAfter(3)).expect("it runs");
     assert_eq!((found.cases.len(), found.circumstances.complete), (2, false));
     let without = found.cases[0].results.iter().filter(|r| r.refused.is_some());
     assert_eq!(without.map(|r| r.executor).collect::<Vec<_>>(), [Executor::Gpu]);

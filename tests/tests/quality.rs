@@ -3,7 +3,6 @@
 mod common;
 
 use common::bench;
-use std::cell::Cell;
 use std::path::{Path, PathBuf};
 use straightline_codegen::{Settings, Stage};
 use straightline_kernels::prelude::*;
@@ -12,8 +11,9 @@ use straightline_study::execute::Inputs;
 use straightline_study::metrics;
 use straightline_study::peers::{Smaa, Transfer, fxaa};
 use straightline_study::quality::{Outcome, Plan, QualityError, Source, losses, study};
-use straightline_study::record::{Unwatched, Watch};
 use straightline_study::scene::Scene;
+use straightline_study::watch::Unwatched;
+use straightline_tests::impatient::StopsAfter;
 
 /// A line of slope 1/5 between light and dark, each pixel shaded at its centre, and what it should look like.
 fn slope() -> (Frame<Vec4>, Frame<Vec4>) {
@@ -154,24 +154,6 @@ fn methods_on_a_scene() {
     println!("{:#?}", losses(scene));
 }
 
-/// Says stop once the second scene has begun to be measured.
-struct Impatient {
-    steps: Cell<usize>,
-    patience: usize,
-}
-
-impl Watch for Impatient {
-    fn begin(&mut self, _: &str, _: usize) {}
-
-    fn step(&mut self) {
-        self.steps.set(self.steps.get() + 1);
-    }
-
-    fn stopped(&self) -> bool {
-        self.steps.get() >= self.patience
-    }
-}
-
 #[test]
 fn what_is_finished_is_kept_when_it_is_stopped() {
     let plan = Plan {
@@ -180,12 +162,9 @@ fn what_is_finished_is_kept_when_it_is_stopped() {
         ..plan(None)
     };
     let run = |patience| {
-        let mut watch = Impatient {
-            steps: Cell::new(0),
-            patience,
-        };
+        let mut watch = StopsAfter(patience);
         let outcome = study(&bench(), vec![source("sky"), source("wires")], &plan, &mut watch);
-        (outcome.unwrap_or_else(|e| panic!("{e}")), watch.steps.get())
+        (outcome.unwrap_or_else(|e| panic!("{e}")), patience - watch.0)
     };
     let (all, steps) = run(usize::MAX);
     assert!(all.complete && all.scenes.len() == 2);

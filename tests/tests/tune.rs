@@ -11,11 +11,13 @@ use straightline_kernels::prelude::Frame;
 use straightline_runtime::Pass;
 use straightline_study::capture::{Capture, ShadingSample};
 use straightline_study::execute::{Clock, interpret};
-use straightline_study::record::{Circumstances, TuneRecord, Unwatched, Watch};
+use straightline_study::record::{Circumstances, TuneRecord};
 use straightline_study::render::{CpuRenderer, capture, reference};
 use straightline_study::scene::Scene;
 use straightline_study::tune::{ErrorMetric, Outcome, PATTERNS, Question, Subject, TuneError, tune};
+use straightline_study::watch::{Unwatched, Watch};
 use straightline_study::{gbuffer, metrics};
+use straightline_tests::impatient::StopsAfter;
 
 const SIZE: UVec2 = UVec2::new(128, 72);
 
@@ -189,16 +191,6 @@ fn a_flat_scene_needs_no_normals_and_creases_need_them() {
 
 #[test]
 fn what_was_measured_before_an_interruption_is_kept() {
-    struct Impatient(usize);
-    impl Watch for Impatient {
-        fn begin(&mut self, _: &str, _: usize) {}
-        fn step(&mut self) {
-            self.0 = self.0.saturating_sub(1);
-        }
-        fn stopped(&self) -> bool {
-            self.0 == 0
-        }
-    }
     let subject = subject("floor");
     let budget = question(ErrorMetric::Psnr, 1.0);
     // Counts are a step for each variant: then come pictures.
@@ -209,7 +201,7 @@ fn what_was_measured_before_an_interruption_is_kept() {
             subject.clone(),
             &budget,
             circumstances(),
-            &mut Impatient(steps),
+            &mut StopsAfter(steps),
         )
     };
     assert!(

@@ -169,6 +169,9 @@ pub struct EmitArgs {
     /// What the shader computes in: f32, or f16 where the device has half precision
     #[arg(long, value_name = "PRECISION", default_value = "f32", value_parser = |s: &str| s.parse::<Precision>())]
     pub precision: Precision,
+    /// Write a shader in f16 that hard cases show to be off by more than cannot be seen
+    #[arg(long)]
+    pub accept_loss: bool,
     /// Filter a rectangle that the host states, not all of the image: for tiles
     #[arg(long)]
     pub region: bool,

@@ -2,7 +2,8 @@
 
 use crate::args::EmitArgs;
 use crate::failure::Failure;
-use straightline_codegen::{EmitOptions, files};
+use straightline_codegen::{EmitOptions, Precision, files};
+use straightline_study::hard::{self, HardError};
 
 /// Writes the shader in every language asked for, and its manifest, or nothing.
 pub fn run(args: &EmitArgs) -> Result<(), Failure> {
@@ -24,9 +25,37 @@ pub fn run(args: &EmitArgs) -> Result<(), Failure> {
     options.enable_subgroups = args.enable_subgroups;
     options.workgroup = args.workgroup.map(|size| size.to_array());
     let emitted = compiled.emit(&options).map_err(Failure::of)?;
+    match (args.precision, args.accept_loss) {
+        (Precision::F16, false) => refuse_visible_loss(args)?,
+        (Precision::F32, true) => return Err(Failure::Usage("--accept-loss goes with --precision f16".to_owned())),
+        _ => {}
+    }
     let written = files::write_all(&args.out, &emitted.named(name)).map_err(Failure::of)?;
     for file in written {
         println!("{}", file.display());
     }
     Ok(())
+}
+
+/// Half precision is refused where hard cases show more error than cannot be seen, with the reason. A kernel that has no hard
+/// cases is its author's to judge.
+fn refuse_visible_loss(args: &EmitArgs) -> Result<(), Failure> {
+    let kernel = &args.kernel.kernel;
+    // What a host sets at run time is judged at its default.
+    let set = args.kernel.options.set.iter();
+    let options: Vec<_> = set.filter(|(_, value)| value != "uniform").cloned().collect();
+    let verdict = match hard::half_precision_verdict(kernel, &options) {
+        Err(HardError::NotStudied(_)) => {
+            eprintln!("note: no hard cases tell what f16 costs `{kernel}`; compare `run --precision f16` and f32");
+            return Ok(());
+        }
+        verdict => verdict.map_err(Failure::of)?,
+    };
+    match verdict.reason {
+        None => Ok(()),
+        Some(reason) => Err(Failure::Failed(format!(
+            "`{kernel}` in f16 does not keep what can be seen: {reason}. Emit it in f32; with other options (`study hard --precision f16` tells which keep what \
+             can be seen); or, where your scenes do not show it, which `tune` measures, with --accept-loss"
+        ))),
+    }
 }

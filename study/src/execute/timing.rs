@@ -92,9 +92,6 @@ impl Timed {
     }
 }
 
-/// Runs of a job in one submission, at most.
-const MOST_REPEATS: u32 = 64;
-
 /// What a time was taken with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -157,41 +154,10 @@ impl Bench {
         jobs: &[Job<'_>],
         rounds: u32,
         least: Duration,
-        mut tick: impl FnMut(u32) -> bool,
+        tick: impl FnMut(u32) -> bool,
     ) -> Result<Timed, ExecuteError> {
-        let view = |job: &Job<'_>| {
-            self.target(job.size, job.pass.target_format())
-                .create_view(&wgpu::TextureViewDescriptor::default())
-        };
-        let views: Vec<wgpu::TextureView> = jobs.iter().map(view).collect();
-        let mut timer = match self.timestamps {
-            true => Some(Timer::new(&self.device, &self.queue, MOST_REPEATS)?),
-            false => None,
-        };
-        let mut times: Vec<Vec<Duration>> = vec![Vec::new(); jobs.len()];
-        let mut repeats = vec![1; jobs.len()];
-        for round in 0..=rounds.max(1) {
-            for turn in 0..jobs.len() {
-                let k = if round % 2 == 0 { turn } else { jobs.len() - 1 - turn };
-                let took = self.once(&jobs[k], &views[k], repeats[k], timer.as_mut())?;
-                if round > 0 {
-                    times[k].push(took);
-                } else if !least.is_zero() {
-                    // The first time has the driver's compiling in it.
-                    let took = self.once(&jobs[k], &views[k], 1, timer.as_mut())?;
-                    let wanted = least.as_secs_f64() / took.as_secs_f64().max(1e-9);
-                    repeats[k] = (wanted.ceil() as u32).clamp(1, MOST_REPEATS);
-                }
-            }
-            if !tick(round) && round > 0 {
-                break;
-            }
-        }
-        let clock = match timer {
-            Some(_) => Clock::GpuTimestamps,
-            None => Clock::WallClock,
-        };
-        Ok(Timed { clock, rounds: times })
+        let works: Result<Vec<_>, _> = jobs.iter().map(|job| self.work(*job, least)).collect();
+        self.in_turn(&mut works?, rounds, tick)
     }
 
     /// The time of one of `repeats` runs in one submission.

@@ -1,28 +1,45 @@
-//! Times of shaders of ours in turn with work that others submit.
+//! Work in turn: shaders of ours, and what others submit.
 
 use super::{Bench, Clock, ExecuteError, Job, Timed};
 use std::time::Duration;
 use straightline_runtime::Timer;
 
-/// Does its work once, and says how long that took.
+/// Runs of a pass in one submission, at most.
+const MOST_REPEATS: u32 = 64;
+
+/// Does its work once, and says how long that took. The first time is not counted: it may compile, and find out how often to
+/// repeat.
 pub type Work<'a> = Box<dyn FnMut() -> Result<Duration, ExecuteError> + 'a>;
 
 impl Bench {
-    /// A pass to be timed with others.
+    /// A pass to be timed with others, repeated as [`timed_for`](Self::timed_for) says.
     ///
     /// # Errors
     ///
     /// If the device cannot be asked for the time.
-    pub fn work<'a>(&self, job: Job<'a>) -> Result<Work<'a>, ExecuteError> {
+    pub fn work<'a>(&self, job: Job<'a>, least: Duration) -> Result<Work<'a>, ExecuteError> {
         let bench = self.clone();
         let view = self
             .target(job.size, job.pass.target_format())
             .create_view(&wgpu::TextureViewDescriptor::default());
         let mut timer = match self.timestamps {
-            true => Some(Timer::new(&self.device, &self.queue, 1)?),
+            true => Some(Timer::new(&self.device, &self.queue, MOST_REPEATS)?),
             false => None,
         };
-        Ok(Box::new(move || bench.once(&job, &view, 1, timer.as_mut())))
+        let mut repeats = None;
+        Ok(Box::new(move || {
+            if let Some(repeats) = repeats {
+                return bench.once(&job, &view, repeats, timer.as_mut());
+            }
+            let mut took = bench.once(&job, &view, 1, timer.as_mut())?;
+            if !least.is_zero() {
+                // The first time has the driver's compiling in it.
+                took = bench.once(&job, &view, 1, timer.as_mut())?;
+            }
+            let wanted = least.as_secs_f64() / took.as_secs_f64().max(1e-9);
+            repeats = Some((wanted.ceil() as u32).clamp(1, MOST_REPEATS));
+            Ok(took)
+        }))
     }
 
     /// As [`timed`](Self::timed), of any work. Each must take its time as this bench does: by [`clock`](Self::clock). Every other

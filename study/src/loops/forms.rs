@@ -8,23 +8,9 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 use straightline_codegen::diagnostic::Errors;
 use straightline_codegen::emit::{Emitted, Target};
-use straightline_codegen::{Compiled, EmitOptions, Format, Kernel, Settings, Stage, Unroll};
+use straightline_codegen::{Compiled, EmitOptions, Format, Kernel, Precision, Settings, Stage, Unroll};
 use straightline_manifest::{Binding, BindingKind};
 use straightline_runtime::{Pass, PassOptions};
-
-/// Every form, in the order of the record.
-pub const ALL: [FormKind; 10] = [
-    FormKind::Looped,
-    FormKind::LoopedUnchecked,
-    FormKind::LoopedByHand,
-    FormKind::LoopedByHandUnchecked,
-    FormKind::Partial2,
-    FormKind::Partial4,
-    FormKind::FullUnshared,
-    FormKind::Full,
-    FormKind::FullBlock,
-    FormKind::Floor,
-];
 
 /// A kernel in every form that it has, looped first, and why it does not have the others.
 pub struct Forms {
@@ -37,12 +23,12 @@ pub struct Forms {
 }
 
 impl Forms {
-    /// Compiles a kernel in every form.
+    /// Compiles a kernel in every form; `half` says whether the device has half precision.
     ///
     /// # Errors
     ///
     /// If the kernel is not one, looped or unrolled, or what was written by hand is none.
-    pub fn of(subject: &Subject) -> Result<Forms, LoopsError> {
+    pub fn of(subject: &Subject, half: bool) -> Result<Forms, LoopsError> {
         let settings = |unroll| Settings {
             unroll,
             options: subject.options.clone(),
@@ -58,7 +44,7 @@ impl Forms {
         let looped = compile(&subject.kernel, &settings(Unroll::None))?;
         let has_loops = looped.in_blocks().counts.loops > 0;
         let (mut made, mut absent) = (Vec::new(), Vec::new());
-        for kind in ALL {
+        for kind in FormKind::ALL {
             let outcome: Result<Compiled, String> = match kind {
                 FormKind::Looped => Ok(looped.clone()),
                 FormKind::Full => Ok(full.clone()),
@@ -97,6 +83,11 @@ impl Forms {
                     };
                     subject.kernel.compile(&settings).map_err(reason)
                 }
+                FormKind::FullHalf if !half => Err("the device has no half precision (SHADER_F16)".to_owned()),
+                FormKind::FullHalf => match full.emit(&emit_options(kind)) {
+                    Ok(_) => Ok(full.clone()),
+                    Err(error) => Err(error.to_string()),
+                },
                 FormKind::Floor => full.floor().map_err(reason),
             };
             match outcome {
@@ -117,6 +108,23 @@ fn reads(compiled: &Compiled) -> u32 {
 fn reason(errors: Errors) -> String {
     let first = errors.diagnostics.first();
     first.map_or_else(|| "refused".to_owned(), |error| error.message.clone())
+}
+
+/// Whether wgpu is to leave loops as they are.
+fn is_unbounded(kind: FormKind) -> bool {
+    matches!(kind, FormKind::LoopedUnchecked | FormKind::LoopedByHandUnchecked)
+}
+
+fn emit_options(kind: FormKind) -> EmitOptions {
+    EmitOptions::new()
+        .stage(Stage::Compute)
+        .format(Format::Rgba32Float)
+        .unbounded_loops(is_unbounded(kind))
+        .precision(match kind {
+            FormKind::FullHalf => Precision::F16,
+            _ => Precision::F32,
+        })
+        .targets([Target::Wgsl, Target::Spirv])
 }
 
 /// How every compute shader begins: invocations beyond the border leave.
@@ -195,14 +203,10 @@ impl<'a> Stand<'a> {
     ///
     /// If it cannot be emitted or run.
     pub fn put(&mut self, kind: FormKind, compiled: &Compiled, times: u32) -> Result<Ready, LoopsError> {
-        let unbounded = matches!(kind, FormKind::LoopedUnchecked | FormKind::LoopedByHandUnchecked);
-        let options = EmitOptions::new()
-            .stage(Stage::Compute)
-            .format(Format::Rgba32Float)
-            .unbounded_loops(unbounded)
-            .targets([Target::Wgsl, Target::Spirv]);
-        let emitted = compiled.emit(&options).map_err(crate::execute::ExecuteError::from)?;
-        let options = PassOptions::default().unbounded_loops(unbounded);
+        let emitted = compiled
+            .emit(&emit_options(kind))
+            .map_err(crate::execute::ExecuteError::from)?;
+        let options = PassOptions::default().unbounded_loops(is_unbounded(kind));
         let mut made = Vec::new();
         for _ in 0..times.max(1) {
             let unseen = unseen(&emitted);

@@ -10,9 +10,10 @@ mod truth;
 use crate::execute::{Bench, ExecuteError, Job};
 use crate::gbuffer::GBufferError;
 use crate::oracle::OracleError;
-use crate::record::{Form, FormKind, KernelForms, Watch};
+use crate::record::{Form, FormKind, KernelForms};
 use crate::render::RenderError;
 use crate::scene::SceneError;
+use crate::watch::Watch;
 use forms::{Forms, Ready, Stand};
 use glam::{UVec2, Vec4};
 use std::time::Duration;
@@ -115,7 +116,8 @@ fn measured(
     truth: &mut Truth<'_>,
     watch: &mut dyn Watch,
 ) -> Result<Option<Studied>, LoopsError> {
-    let forms = Forms::of(subject)?;
+    let half = bench.device().features().contains(wgpu::Features::SHADER_F16);
+    let forms = Forms::of(subject, half)?;
     watch.begin(&subject.name, forms.made.len() + 1 + method.rounds as usize);
     let inputs = truth.inputs(subject, &forms.full)?;
     if watch.stopped() {

@@ -9,8 +9,9 @@ use crate::capture::Capture;
 use crate::execute::{Bench, Bound, ExecuteError, Inputs, Job, Timed, Work, texture_bytes};
 use crate::gbuffer;
 use crate::peers::{Smaa, Transfer, fxaa};
-use crate::record::Watch;
+use crate::watch::Watch;
 use glam::{UVec2, Vec4};
+use std::time::Duration;
 use straightline_codegen::{Compiled, Kernel, Settings, Stage};
 use straightline_kernels::prelude::Frame;
 use straightline_manifest::Manifest;
@@ -137,11 +138,14 @@ impl<'a> Filters<'a> {
         let (mut works, mut places): (Vec<Work<'_>>, Vec<Option<usize>>) = (Vec::new(), Vec::new());
         for (runner, bound) in self.runners.iter_mut().zip(&bounds) {
             let work = match (runner, bound) {
-                (Runner::Kernel(shader), Some((inputs, bound))) => self.bench.work(Job {
-                    pass: &shader.pass,
-                    bound,
-                    size: inputs.size,
-                })?,
+                (Runner::Kernel(shader), Some((inputs, bound))) => {
+                    let job = Job {
+                        pass: &shader.pass,
+                        bound,
+                        size: inputs.size,
+                    };
+                    self.bench.work(job, Duration::ZERO)?
+                }
                 (Runner::Smaa(smaa), _) => Box::new(|| smaa.time()),
                 _ => {
                     places.push(None);

@@ -4,8 +4,8 @@ use super::QualityError;
 use super::filters::Filters;
 use super::methods::Method;
 use super::shot::{Shifted, Shot, supersampled};
-use crate::record::Watch;
 use crate::render::Renderer;
+use crate::watch::Watch;
 use glam::{Vec2, Vec3, Vec4, vec2};
 use straightline_kernels::prelude::Frame;
 

@@ -26,8 +26,44 @@ pub enum FormKind {
     Full,
     /// As `Full`, each invocation computing 2x2 pixels.
     FullBlock,
+    /// As `Full`, computed in half precision.
+    FullHalf,
     /// The reads and the store of `Full`, and next to no arithmetic between: what no form can beat.
     Floor,
+}
+
+impl FormKind {
+    /// Every form, in the order of tables.
+    pub const ALL: [FormKind; 11] = [
+        FormKind::Looped,
+        FormKind::LoopedUnchecked,
+        FormKind::LoopedByHand,
+        FormKind::LoopedByHandUnchecked,
+        FormKind::Partial2,
+        FormKind::Partial4,
+        FormKind::FullUnshared,
+        FormKind::Full,
+        FormKind::FullBlock,
+        FormKind::FullHalf,
+        FormKind::Floor,
+    ];
+
+    /// A name for people.
+    pub fn words(self) -> &'static str {
+        match self {
+            FormKind::Looped => "looped",
+            FormKind::LoopedUnchecked => "looped, unbounded",
+            FormKind::LoopedByHand => "looped by hand",
+            FormKind::LoopedByHandUnchecked => "by hand, unbounded",
+            FormKind::Partial2 => "partial(2)",
+            FormKind::Partial4 => "partial(4)",
+            FormKind::FullUnshared => "unrolled, loads not shared",
+            FormKind::Full => "unrolled",
+            FormKind::FullBlock => "unrolled, 2×2 pixels",
+            FormKind::FullHalf => "unrolled, f16",
+            FormKind::Floor => "floor",
+        }
+    }
 }
 
 /// A kernel in one form.
@@ -71,6 +107,13 @@ pub struct KernelForms {
     pub forms: Vec<Form>,
     /// Forms that there are not, and why.
     pub absent: Vec<(FormKind, String)>,
+}
+
+impl KernelForms {
+    /// The form of that kind, if the kernel has it.
+    pub fn form(&self, kind: FormKind) -> Option<&Form> {
+        self.forms.iter().find(|form| form.kind == kind)
+    }
 }
 
 /// What unrolling is worth.

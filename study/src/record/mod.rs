@@ -8,7 +8,9 @@ mod tune;
 use crate::execute::Clock;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use straightline_codegen::files;
 
 pub use hard::{Executor, HalfVerdict, HardCase, HardRecord, HardResult};
 pub use loops::{Form, FormKind, KernelForms, LoopsRecord};
@@ -48,7 +50,7 @@ pub trait Record: Serialize + DeserializeOwned {
     ///
     /// # Errors
     ///
-    /// [`RecordError`] names the file.
+    /// [`RecordError`] names the file or folder.
     fn write(&self, folder: &Path) -> Result<(), RecordError> {
         self.write_as(folder, Self::STEM)
     }
@@ -59,14 +61,15 @@ pub trait Record: Serialize + DeserializeOwned {
     ///
     /// [`RecordError`] names the file.
     fn write_as(&self, folder: &Path, stem: &str) -> Result<(), RecordError> {
-        std::fs::create_dir_all(folder).map_err(|source| RecordError::file("make", folder, source))?;
-        let mut json = serde_json::to_vec_pretty(self).map_err(|source| RecordError::Json {
-            path: folder.join(format!("{stem}.json")),
+        let [json, csv] = ["json", "csv"].map(|extension| format!("{stem}.{extension}"));
+        let mut text = serde_json::to_vec_pretty(self).map_err(|source| RecordError::Json {
+            path: folder.join(&json),
             source,
         })?;
-        json.push(b'\n');
-        whole(&folder.join(format!("{stem}.json")), &json)?;
-        whole(&folder.join(format!("{stem}.csv")), self.csv().as_bytes())
+        text.push(b'\n');
+        let files = BTreeMap::from([(json, text), (csv, self.csv().into_bytes())]);
+        files::write_all(folder, &files)?;
+        Ok(())
     }
 
     /// Reads a record from a JSON file.
@@ -75,7 +78,10 @@ pub trait Record: Serialize + DeserializeOwned {
     ///
     /// [`RecordError`] names the file and what is wrong in it.
     fn read(path: &Path) -> Result<Self, RecordError> {
-        let text = std::fs::read(path).map_err(|source| RecordError::file("read", path, source))?;
+        let text = std::fs::read(path).map_err(|source| RecordError::Read {
+            path: path.to_owned(),
+            source,
+        })?;
         serde_json::from_slice(&text).map_err(|source| RecordError::Json {
             path: path.to_owned(),
             source,
@@ -101,16 +107,17 @@ pub trait Record: Serialize + DeserializeOwned {
 /// Why a record could not be written or read.
 #[derive(Debug, thiserror::Error)]
 pub enum RecordError {
-    /// The file system says no.
-    #[error("cannot {doing} `{}`: {source}", path.display())]
-    File {
-        /// `read`, `write` or `make`.
-        doing: &'static str,
-        /// Which file or folder.
+    /// The file cannot be read.
+    #[error("cannot read `{}`: {source}", path.display())]
+    Read {
+        /// Which file.
         path: PathBuf,
         /// Why.
         source: std::io::Error,
     },
+    /// It cannot be written.
+    #[error(transparent)]
+    Write(#[from] files::WriteError),
     /// The text is no such record.
     #[error("`{}` is not a record of this study: {source}; run the study again", path.display())]
     Json {
@@ -119,48 +126,6 @@ pub enum RecordError {
         /// What and where.
         source: serde_json::Error,
     },
-}
-
-impl RecordError {
-    fn file(doing: &'static str, path: &Path, source: std::io::Error) -> RecordError {
-        RecordError::File {
-            doing,
-            path: path.to_owned(),
-            source,
-        }
-    }
-}
-
-/// Writes a file by way of another, so that an interrupted run leaves the old one whole.
-pub fn whole(path: &Path, contents: &[u8]) -> Result<(), RecordError> {
-    let mut name = path.file_name().unwrap_or_default().to_owned();
-    name.push(".part");
-    let part = path.with_file_name(name);
-    std::fs::write(&part, contents)
-        .and_then(|()| std::fs::rename(&part, path))
-        .map_err(|source| RecordError::file("write", path, source))
-}
-
-/// Who is told how far a study is, and says whether to stop.
-pub trait Watch {
-    /// `steps` steps of `what` come next.
-    fn begin(&mut self, what: &str, steps: usize);
-    /// One of them is done.
-    fn step(&mut self);
-    /// Whether to stop at once, and keep what was measured.
-    fn stopped(&self) -> bool;
-}
-
-/// Nobody watches.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Unwatched;
-
-impl Watch for Unwatched {
-    fn begin(&mut self, _: &str, _: usize) {}
-    fn step(&mut self) {}
-    fn stopped(&self) -> bool {
-        false
-    }
 }
 
 /// What a value is called in JSON.

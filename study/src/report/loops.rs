@@ -41,33 +41,28 @@ struct Row {
     largest: String,
 }
 
-/// Forms in the order of the page, with their words and colours.
-const FORMS: [(FormKind, &str, usize); 10] = [
-    (FormKind::Looped, "looped", 7),
-    (FormKind::LoopedUnchecked, "looped, unbounded", 5),
-    (FormKind::LoopedByHand, "looped by hand", 4),
-    (FormKind::LoopedByHandUnchecked, "by hand, unbounded", 1),
-    (FormKind::Partial2, "partial(2)", 3),
-    (FormKind::Partial4, "partial(4)", 3),
-    (FormKind::FullUnshared, "unrolled, loads not shared", 6),
-    (FormKind::Full, "unrolled", 0),
-    (FormKind::FullBlock, "unrolled, 2×2 pixels", 2),
-    (FormKind::Floor, "floor", 7),
-];
-
-fn words(kind: FormKind) -> (&'static str, usize) {
-    let found = FORMS.iter().find(|(known, ..)| *known == kind);
-    found.map_or(("", 0), |(_, words, color)| (words, *color))
+/// Index of a form's colour.
+fn color(kind: FormKind) -> usize {
+    match kind {
+        FormKind::Full => 0,
+        FormKind::LoopedByHandUnchecked | FormKind::FullHalf => 1,
+        FormKind::FullBlock => 2,
+        FormKind::Partial2 | FormKind::Partial4 => 3,
+        FormKind::LoopedByHand => 4,
+        FormKind::LoopedUnchecked => 5,
+        FormKind::FullUnshared => 6,
+        FormKind::Looped | FormKind::Floor => 7,
+    }
 }
 
 pub(super) fn section(record: &LoopsRecord) -> Result<Loops, ReportError> {
-    let shown = FORMS.iter().filter(|(kind, ..)| *kind != FormKind::Looped);
+    let shown = FormKind::ALL.into_iter().filter(|kind| *kind != FormKind::Looped);
     Ok(Loops {
         caption: caption(&record.circumstances),
         overview: overview(record)?,
         curves: curves(record)?,
         legend: shown
-            .map(|(_, words, color)| (*words, super::plot::COLORS[*color]))
+            .map(|kind| (kind.words(), super::plot::COLORS[color(kind)]))
             .collect(),
         kernels: record.kernels.iter().map(kernel).collect(),
     })
@@ -78,15 +73,15 @@ fn overview(record: &LoopsRecord) -> Result<String, ReportError> {
     let mut dots = Vec::new();
     for (row, kernel) in record.kernels.iter().enumerate() {
         for form in kernel.forms.iter().filter(|form| form.kind != FormKind::Looped) {
-            let (words, color) = words(form.kind);
             dots.push(Dot {
                 at: (form.ratio.median, (count - 1 - row) as f64),
                 spread: Some((form.ratio.low, form.ratio.high)),
-                color,
+                color: color(form.kind),
                 label: None,
                 title: format!(
-                    "{}, {words}: {}× as fast as looped ({} to {}), {} ms",
+                    "{}, {}: {}× as fast as looped ({} to {}), {} ms",
                     kernel.kernel,
+                    form.kind.words(),
                     number(form.ratio.median),
                     number(form.ratio.low),
                     number(form.ratio.high),
@@ -147,7 +142,7 @@ fn curves(record: &LoopsRecord) -> Result<String, ReportError> {
                     title: format!(
                         "{}, {}: {}×",
                         kernel.kernel,
-                        words(form.kind).0,
+                        form.kind.words(),
                         number(form.ratio.median)
                     ),
                 });
@@ -164,7 +159,7 @@ fn curves(record: &LoopsRecord) -> Result<String, ReportError> {
         size: (980, 460),
         axes: (String::new(), "times as fast as the loop".to_owned()),
         scales: (
-            Scale::Names(STEPS.iter().map(|kind| words(*kind).0.to_owned()).collect()),
+            Scale::Names(STEPS.iter().map(|kind| kind.words().to_owned()).collect()),
             Scale::Log,
         ),
         across: false,
@@ -183,7 +178,7 @@ fn kernel(kernel: &KernelForms) -> Kernel {
         absent: kernel
             .absent
             .iter()
-            .map(|(kind, why)| (words(*kind).0, why.clone()))
+            .map(|(kind, why)| (kind.words(), why.clone()))
             .collect(),
     }
 }
@@ -191,7 +186,7 @@ fn kernel(kernel: &KernelForms) -> Kernel {
 fn row(form: &Form) -> Row {
     let error = |value: Option<f64>| value.map_or("–".to_owned(), |v| format!("{v:.0e}"));
     Row {
-        form: words(form.kind).0,
+        form: form.kind.words(),
         time: number(form.time.median_ms),
         spread: format!("{} to {}", number(form.time.min_ms), number(form.time.max_ms)),
         ratio: format!("{:.2}", form.ratio.median),

@@ -7,9 +7,11 @@ mod plot;
 mod quality;
 mod tune;
 
-use crate::record::{Circumstances, HardRecord, LoopsRecord, QualityRecord, Record, RecordError, TuneRecord, whole};
+use crate::record::{Circumstances, HardRecord, LoopsRecord, QualityRecord, Record, RecordError, TuneRecord};
 use serde::Serialize;
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use straightline_codegen::files;
 use tera::{Context, Tera};
 
 /// Name of the page.
@@ -43,10 +45,9 @@ pub enum ReportError {
 ///
 /// [`ReportError`]; the page is whole, or as it was before.
 pub fn write(folder: &Path) -> Result<PathBuf, ReportError> {
-    let html = page(folder)?;
-    let path = folder.join(PAGE);
-    whole(&path, html.as_bytes())?;
-    Ok(path)
+    let html = page(folder)?.into_bytes();
+    files::write_all(folder, &BTreeMap::from([(PAGE.to_owned(), html)])).map_err(RecordError::from)?;
+    Ok(folder.join(PAGE))
 }
 
 /// The page as text.
@@ -114,8 +115,7 @@ fn sections<R: Record, T>(
     mut body: impl FnMut(R) -> Result<T, ReportError>,
 ) -> Result<Vec<Section<T>>, ReportError> {
     let entries = std::fs::read_dir(folder).map_err(|source| {
-        ReportError::Record(RecordError::File {
-            doing: "read",
+        ReportError::Record(RecordError::Read {
             path: folder.to_owned(),
             source,
         })

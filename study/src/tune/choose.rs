@@ -4,7 +4,8 @@ use super::front::front;
 use super::search::{Entry, Search};
 use super::{Chosen, Term, TuneError, Variant};
 use crate::execute::Ratio;
-use crate::record::{Candidate, Circumstances, LeftOut, Refused, TermWorth, TuneRecord, Watch};
+use crate::record::{Candidate, Circumstances, LeftOut, Refused, TermWorth, TuneRecord};
+use crate::watch::Watch;
 use std::collections::BTreeMap;
 use straightline_manifest::Tuned;
 

@@ -3,8 +3,8 @@
 use super::TuneError;
 use crate::capture::{Capture, ShadingSample};
 use crate::gbuffer;
-use crate::record::Watch;
 use crate::render::{self, Renderer};
+use crate::watch::Watch;
 use glam::{UVec2, Vec2, Vec4};
 use straightline_kernels::prelude::{Frame, FrameLayers};
 

@@ -10,7 +10,8 @@ use std::time::Duration;
 use straightline_codegen::Kernel;
 use straightline_study::loops::{LoopsError, Method, Studied, Subject, study, subjects};
 use straightline_study::picture;
-use straightline_study::record::{FormKind, KernelForms, LoopsRecord, Record, Watch};
+use straightline_study::record::{KernelForms, LoopsRecord, Record};
+use straightline_study::watch::Watch;
 
 /// How long a form is run at least for one time. On two busy cores ratios of a form in 40 ms spread by 0.64 of their median,
 /// in 10 ms by 0.81, and of a single frame by 1.06.
@@ -112,7 +113,7 @@ fn print(record: &LoopsRecord) {
     println!("\ntimes as fast: as the looped form, median of the rounds (a tenth were below, a tenth above)");
     for kernel in &record.kernels {
         for (kind, why) in &kernel.absent {
-            println!("{}, {}: {why}", kernel.kernel, label(*kind));
+            println!("{}, {}: {why}", kernel.kernel, kind.words());
         }
     }
 }
@@ -122,7 +123,7 @@ fn rows(kernel: &KernelForms) -> Vec<Vec<String>> {
     let row = |(k, form): (usize, &straightline_study::record::Form)| {
         vec![
             if k == 0 { kernel.kernel.clone() } else { String::new() },
-            label(form.kind).to_owned(),
+            form.kind.words().to_owned(),
             form.loops.to_string(),
             form.statements.to_string(),
             form.reads.to_string(),
@@ -141,20 +142,4 @@ fn rows(kernel: &KernelForms) -> Vec<Vec<String>> {
         ]
     };
     kernel.forms.iter().enumerate().map(row).collect()
-}
-
-/// A form's name for people.
-fn label(kind: FormKind) -> &'static str {
-    match kind {
-        FormKind::Looped => "looped",
-        FormKind::LoopedUnchecked => "looped, no bound",
-        FormKind::LoopedByHand => "looped, by hand",
-        FormKind::LoopedByHandUnchecked => "by hand, no bound",
-        FormKind::Partial2 => "partial(2)",
-        FormKind::Partial4 => "partial(4)",
-        FormKind::FullUnshared => "full, not shared",
-        FormKind::Full => "full",
-        FormKind::FullBlock => "full, 2x2 pixels",
-        FormKind::Floor => "floor",
-    }
 }

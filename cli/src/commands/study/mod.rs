@@ -13,8 +13,9 @@ use glam::UVec2;
 use std::path::Path;
 use std::time::SystemTime;
 use straightline_study::execute::Clock;
-use straightline_study::record::{Circumstances, Watch};
+use straightline_study::record::Circumstances;
 use straightline_study::report;
+use straightline_study::watch::Watch;
 
 pub use watch::Progress;
 

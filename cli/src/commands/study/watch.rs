@@ -5,7 +5,7 @@ use crate::scene;
 use indicatif::ProgressBar;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, OnceLock};
-use straightline_study::record::Watch;
+use straightline_study::watch::Watch;
 
 /// A bar on stderr, and whether Ctrl-C was pressed.
 pub struct Progress {

@@ -13,8 +13,9 @@ use straightline_codegen::emit::{Emitted, Target};
 use straightline_codegen::{EmitOptions, Kernel, Settings, files};
 use straightline_study::capture::Capture;
 use straightline_study::gbuffer;
-use straightline_study::record::{Record, Watch};
+use straightline_study::record::Record;
 use straightline_study::tune::{self, Chosen, PATTERNS, Question, Subject, TuneError};
+use straightline_study::watch::Watch;
 
 /// Size of a scene's picture where none is asked for.
 const SIZE: UVec2 = UVec2::new(640, 360);

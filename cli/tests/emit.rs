@@ -1,0 +1,147 @@
+//! `emit` refuses what is broken: one clear error, an exit status that says whose fault it is, no partial file.
+
+mod common;
+
+use common::{fails, is_empty, scratch, write};
+
+#[test]
+fn a_syntax_error_is_shown_with_its_place() {
+    let folder = scratch("syntax");
+    let kernel = write(
+        &folder,
+        "broken.rs",
+        "use straightline_kernels::prelude::*;\npub fn broken(pixel: IVec2) -> Vec4 {\n    let x = ;\n}\n",
+    );
+    let out = folder.join("out");
+    fails(
+        &["emit", &kernel, "--out", out.to_str().unwrap()],
+        1,
+        &["broken.rs:3:13", "not valid Rust"],
+    );
+    assert!(is_empty(&out));
+}
+
+#[test]
+fn every_unsupported_construct_is_named_with_the_way_out() {
+    let folder = scratch("unsupported");
+    let text = "pub fn k(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {\n    let f = |x: f32| x;\n    let n = async { 1.0 };\n    color.load(pixel)\n}\n";
+    let kernel = write(&folder, "k.rs", text);
+    let says = [
+        "k.rs:2:13",
+        "a closure",
+        "write a function",
+        "k.rs:3:13",
+        "`async`",
+        "a kernel computes its value at once",
+    ];
+    fails(
+        &["emit", &kernel, "--out", folder.join("out").to_str().unwrap()],
+        1,
+        &says,
+    );
+    assert!(is_empty(&folder.join("out")));
+}
+
+#[test]
+fn errors_of_evaluation_have_their_place_too() {
+    let folder = scratch("evaluation");
+    let text = "pub fn k(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {\n    let a = [1.0, 2.0];\n    let b = a[2];\n    let c = color.lod(pixel);\n    Vec4::splat(b) + c\n}\n";
+    let kernel = write(&folder, "k.rs", text);
+    fails(
+        &["explain", &kernel],
+        1,
+        &["k.rs:3:13", "index 2 of an array of 2", "k.rs:4:13", "no method `lod`"],
+    );
+}
+
+#[test]
+fn unknown_names_and_values_are_bad_use() {
+    fails(&["explain", "sraaa"], 2, &["no kernel `sraaa`", "sraa"]);
+    fails(
+        &["explain", "sraa", "--set", "pattrn=latin4"],
+        2,
+        &["no option `pattrn`", "pattern"],
+    );
+    fails(
+        &["explain", "sraa", "--set", "pattern=latin5"],
+        2,
+        &["latin5", "latin16"],
+    );
+    fails(&["explain", "sraa", "--set", "tau=-1"], 2, &["`-1`", "0 to 1000000"]);
+    fails(&["explain", "sraa", "--set", "tau=many"], 2, &["`many`"]);
+    fails(&["explain", "sraa", "--set", "tau"], 2, &["OPTION=VALUE"]);
+    fails(
+        &["emit", "sraa", "--target", "cg", "--out", "nowhere"],
+        2,
+        &["cg", "glsl450"],
+    );
+    fails(&["no-such-command"], 2, &["no-such-command"]);
+}
+
+#[test]
+fn a_folder_that_cannot_be_written_is_named() {
+    let folder = scratch("unwritable");
+    // A file where the folder should be: refused to everyone, root included.
+    let blocked = write(&folder, "blocked", "");
+    fails(
+        &["emit", "sraa", "--out", &format!("{blocked}/shaders")],
+        1,
+        &["blocked", "cannot write"],
+    );
+    fails(
+        &["demo", "--out", &format!("{blocked}/demo"), "--size", "16x16"],
+        1,
+        &["blocked", "cannot write"],
+    );
+}
+
+#[test]
+fn transports_that_a_stage_does_not_have_are_refused() {
+    let folder = scratch("transports");
+    let out = folder.join("out");
+    let out = out.to_str().unwrap();
+    fails(
+        &["emit", "pcf", "--transport", "subgroup", "--out", out],
+        1,
+        &["no pixel quads", "`block`"],
+    );
+    fails(
+        &[
+            "emit",
+            "pcf",
+            "--transport",
+            "block",
+            "--stage",
+            "fragment",
+            "--out",
+            out,
+        ],
+        1,
+        &["a fragment writes one"],
+    );
+    fails(
+        &[
+            "emit",
+            "sraa",
+            "--transport",
+            "subgroup",
+            "--stage",
+            "fragment",
+            "--out",
+            out,
+        ],
+        1,
+        &["sends no messages", "pixel: Quad<IVec2>"],
+    );
+    fails(
+        &["emit", "pcf", "--transport", "telepathy", "--out", out],
+        2,
+        &["subgroup, derivatives or block"],
+    );
+    fails(
+        &["emit", "pcf", "--block", "2x2", "--out", out],
+        1,
+        &["no other blocks"],
+    );
+    assert!(is_empty(&folder.join("out")));
+}

@@ -1,0 +1,196 @@
+//! The studies on the command line: what they write, and what they refuse before any work.
+
+mod common;
+
+use common::{example, fails, here, is_empty, scratch, straightline, write};
+use std::path::{Path, PathBuf};
+
+#[test]
+fn unrolling_is_compared_and_recorded() {
+    let folder = scratch("loops");
+    let out = folder.join("out");
+    let pictures = folder.join("pictures");
+    let text = std::fs::read_to_string(example("sobel")).expect("the example");
+    let kernel = write(&folder, "edges.rs", &text);
+    let kernel = format!("{kernel}::sobel");
+    let by_hand = here("study/kernels/sobel.rs");
+    let words = [
+        "study",
+        "loops",
+        "--from",
+        &kernel,
+        "--by-hand",
+        &by_hand,
+        "--size",
+        "32x16",
+        "--rounds",
+        "1",
+        "--out",
+        out.to_str().unwrap(),
+        "--pictures",
+        pictures.to_str().unwrap(),
+    ];
+    let finished = straightline(&words);
+    assert!(
+        finished.status.success(),
+        "{}",
+        String::from_utf8_lossy(&finished.stderr)
+    );
+    let table = String::from_utf8_lossy(&finished.stdout).into_owned();
+    for word in [
+        "looped",
+        "unbounded",
+        "by hand",
+        "partial(2)",
+        "partial(4)",
+        "unrolled",
+        "2×2",
+        "floor",
+    ] {
+        assert!(table.contains(word), "no {word} in:\n{table}");
+    }
+    let record = std::fs::read_to_string(out.join("loops.json")).expect("a record");
+    assert!(
+        record.contains("\"adapter\"")
+            && record.contains("\"looped-by-hand\"")
+            && record.contains("\"complete\": true")
+    );
+    assert!(out.join("loops.csv").exists());
+    assert!(pictures.join("sobel.png").exists() && pictures.join("all.png").exists());
+}
+
+#[test]
+fn what_cannot_be_studied_is_named() {
+    let folder = scratch("study-loops");
+    let out = folder.join("out");
+    let out_text = out.to_str().unwrap();
+    let broken = write(&folder, "broken.rs", "pub fn broken(pixel: IVec2) -> Vec4 { 1.0 }\n");
+    let good = example("sobel");
+    let study = |more: &[&str], status: i32, says: &[&str]| {
+        let words = ["study", "loops", "--size", "16x16", "--rounds", "1", "--out", out_text];
+        fails(&[&words, more].concat(), status, says);
+    };
+    study(&["--from", &broken], 1, &["broken.rs:1"]);
+    study(&["--from", &good, "--by-hand", &broken], 1, &["broken.rs:1"]);
+    study(
+        &["--from", &format!("{good}::sobeel")],
+        2,
+        &["no function `sobeel`", "luma, sobel"],
+    );
+    study(&["--from", "nowhere.rs"], 2, &["nowhere.rs"]);
+    study(&["--from", "sraaa"], 2, &["no kernel `sraaa`"]);
+    study(&["--by-hand", &good], 2, &["--from"]);
+    study(
+        &["--from", &good, "--from", &good, "--by-hand", &good],
+        2,
+        &["1 kernels by hand for 2 kernels", "one --by-hand for each --from"],
+    );
+    study(&["--rounds", "0"], 2, &["--rounds"]);
+    study(&["--adapter", "no such adapter"], 2, &["no such adapter"]);
+    assert!(is_empty(&out));
+    let blocked = write(&folder, "blocked", "");
+    let words = [
+        "study", "loops", "--size", "16x16", "--rounds", "1", "--from", &good, "--out",
+    ];
+    fails(&[&words[..], &[&format!("{blocked}/out")]].concat(), 1, &["blocked"]);
+}
+
+#[test]
+fn scenes_are_listed_and_unknown_ones_refused() {
+    let listed = String::from_utf8_lossy(&straightline(&["scenes"]).stdout).into_owned();
+    for name in ["roof", "grooves", "sparkle"] {
+        assert!(
+            listed.lines().any(|line| line.starts_with(name)),
+            "no {name} in:\n{listed}"
+        );
+    }
+    let folder = scratch("scenes");
+    let out = folder.join("out");
+    let out_text = out.to_str().unwrap();
+    fails(
+        &["capture", "--scene", "rooof", "--out", out_text],
+        2,
+        &["no scene `rooof`", "roof, grooves"],
+    );
+    fails(
+        &["capture", "--scene", "floor", "--mesh", "some.obj", "--out", out_text],
+        2,
+        &["--mesh", "--scene"],
+    );
+    assert!(is_empty(&out));
+}
+
+#[test]
+fn quads_measures_every_filter_on_a_small_frame() {
+    let folder = scratch("quads");
+    let record = folder.join("record.json");
+    let arguments = [
+        "quads", "--size", "64x48", "--texels", "64", "--rounds", "1", "--record",
+    ];
+    let pictures = folder.join("pictures");
+    let more = [record.to_str().unwrap(), "--pictures", pictures.to_str().unwrap()];
+    let output = straightline(&[&arguments[..], &more].concat());
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let table = String::from_utf8_lossy(&output.stdout);
+    for text in ["blur 3x3", "PCF 8x8 quadratic", "PCSS", "derivatives Fine"] {
+        assert!(table.contains(text), "no `{text}` in:\n{table}");
+    }
+    let record = std::fs::read_to_string(record).expect("a record");
+    assert!(!record.contains("null"), "a figure is missing:\n{record}");
+    assert!(pictures.join("pcf-details.png").is_file() && pictures.join("occlusion-details.png").is_file());
+}
+
+/// The capture of `examples/captures/spheres`, to be broken.
+fn spheres(folder: &Path) -> PathBuf {
+    let from = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/captures/spheres");
+    let to = folder.join("spheres");
+    std::fs::create_dir_all(&to).expect("a folder");
+    for entry in std::fs::read_dir(from).expect("the capture is there") {
+        let entry = entry.expect("an entry");
+        std::fs::copy(entry.path(), to.join(entry.file_name())).expect("a copy");
+    }
+    to
+}
+
+#[test]
+fn what_errors_cannot_be_measured_of_is_refused_before_any_work() {
+    let folder = scratch("study-error");
+    let out = folder.join("out");
+    let fails_with = |arguments: &[&str], status, says: &[&str]| {
+        let all = [&["study", "error", "--out", out.to_str().unwrap()], arguments].concat();
+        fails(&all, status, says);
+        assert!(is_empty(&out));
+    };
+    fails_with(&["--scene", "rooof"], 2, &["no scene `rooof`", "terrain"]);
+    fails_with(&["--mesh", "nowhere.glb"], 1, &["nowhere.glb", "cannot be read"]);
+    fails_with(
+        &["--capture", "nowhere"],
+        1,
+        &["nowhere is not a capture", "docs/captures.md"],
+    );
+
+    let capture = spheres(&folder);
+    let with_capture = |says: &[&str]| fails_with(&["--capture", capture.to_str().unwrap()], 1, says);
+    let original = std::fs::read(capture.join("depth.exr")).expect("depth");
+    std::fs::write(capture.join("depth.exr"), &original[..original.len() / 2]).expect("written");
+    with_capture(&["depth.exr"]);
+    std::fs::write(capture.join("depth.exr"), "no picture").expect("written");
+    with_capture(&["depth.exr"]);
+    std::fs::write(capture.join("depth.exr"), &original).expect("written");
+
+    let description = capture.join("capture.json");
+    let text = std::fs::read_to_string(&description).expect("a description");
+    for (right, wrong, says) in [
+        ("\"linear\"", "\"reversed\"", "depth encoding `reversed` is unknown"),
+        ("\"schema\": 1", "\"schema\": 7", "schema 7"),
+        ("\"shading\"", "\"shadding\"", "shadding"),
+        ("96,", "97,", "color.exr"),
+    ] {
+        assert!(text.contains(right), "{right}");
+        std::fs::write(&description, text.replacen(right, wrong, 1)).expect("written");
+        with_capture(&[says]);
+    }
+    std::fs::write(&description, &text).expect("written");
+    std::fs::remove_file(capture.join("reference.exr")).expect("removed");
+    with_capture(&["has no reference.exr", "--reference 256"]);
+}

@@ -1,0 +1,19 @@
+//! A user who presses Ctrl-C.
+
+use straightline_study::watch::Watch;
+
+/// Asks to stop after so many steps.
+#[derive(Clone, Copy, Debug)]
+pub struct StopsAfter(pub usize);
+
+impl Watch for StopsAfter {
+    fn begin(&mut self, _: &str, _: usize) {}
+
+    fn step(&mut self) {
+        self.0 = self.0.saturating_sub(1);
+    }
+
+    fn stopped(&self) -> bool {
+        self.0 == 0
+    }
+}

@@ -1,0 +1,114 @@
+//! Unroll against loop.
+
+use super::markdown;
+use straightline_study::record::{Form, FormKind, KernelForms, LoopsRecord};
+
+/// Every kernel: what is gained by unrolling it, in the fewest columns that say it.
+pub fn in_short(record: &LoopsRecord) -> String {
+    let head = [
+        "kernel",
+        "looped",
+        "without its bound",
+        "by hand",
+        "both",
+        "**unrolled**",
+        "2×2 pixels",
+        "floor",
+        "off f64 by",
+    ];
+    let row = |kernel: &KernelForms| {
+        let full = kernel.form(FormKind::Full);
+        vec![
+            kernel.kernel.clone(),
+            time(kernel),
+            ratio(kernel, FormKind::LoopedUnchecked),
+            ratio(kernel, FormKind::LoopedByHand),
+            ratio(kernel, FormKind::LoopedByHandUnchecked),
+            full.map_or("–".to_owned(), |form| {
+                format!("**{:.2}**, {:.1} ms", form.ratio.median, form.time.median_ms)
+            }),
+            ratio(kernel, FormKind::FullBlock),
+            ratio(kernel, FormKind::Floor),
+            off(full),
+        ]
+    };
+    markdown(&head, record.kernels.iter().map(row).collect())
+}
+
+/// Every kernel: how many times as fast as its loop each form is.
+pub fn in_full(record: &LoopsRecord) -> String {
+    let head = [
+        "kernel",
+        "statements",
+        "reads",
+        "looped",
+        "unbounded",
+        "by hand",
+        "both",
+        "partial(2), (4)",
+        "not shared",
+        "**unrolled**",
+        "2×2 pixels",
+        "floor",
+        "off f64 by",
+        "f16",
+        "off f64 by",
+    ];
+    let row = |kernel: &KernelForms| {
+        let full = kernel.form(FormKind::Full);
+        vec![
+            kernel.kernel.clone(),
+            change(kernel, |form| form.statements),
+            change(kernel, |form| form.reads),
+            time(kernel),
+            ratio(kernel, FormKind::LoopedUnchecked),
+            ratio(kernel, FormKind::LoopedByHand),
+            ratio(kernel, FormKind::LoopedByHandUnchecked),
+            format!(
+                "{}, {}",
+                ratio(kernel, FormKind::Partial2),
+                ratio(kernel, FormKind::Partial4)
+            ),
+            ratio(kernel, FormKind::FullUnshared),
+            full.map_or("–".to_owned(), |form| {
+                format!(
+                    "**{:.2}** ({:.2} to {:.2})",
+                    form.ratio.median, form.ratio.low, form.ratio.high
+                )
+            }),
+            ratio(kernel, FormKind::FullBlock),
+            ratio(kernel, FormKind::Floor),
+            off(full),
+            ratio(kernel, FormKind::FullHalf),
+            off(kernel.form(FormKind::FullHalf)),
+        ]
+    };
+    markdown(&head, record.kernels.iter().map(row).collect())
+}
+
+fn time(kernel: &KernelForms) -> String {
+    let looped = kernel.form(FormKind::Looped);
+    looped.map_or("–".to_owned(), |form| format!("{:.1} ms", form.time.median_ms))
+}
+
+fn ratio(kernel: &KernelForms, kind: FormKind) -> String {
+    let form = kernel.form(kind);
+    form.map_or("–".to_owned(), |form| format!("{:.2}", form.ratio.median))
+}
+
+/// What the unrolling made of a count.
+fn change(kernel: &KernelForms, count: fn(&Form) -> u32) -> String {
+    match (kernel.form(FormKind::Looped), kernel.form(FormKind::Full)) {
+        (Some(looped), Some(full)) if count(looped) == count(full) => count(full).to_string(),
+        (Some(looped), Some(full)) => format!("{} → {}", count(looped), count(full)),
+        _ => "–".to_owned(),
+    }
+}
+
+fn off(form: Option<&Form>) -> String {
+    match form.and_then(|form| form.difference_999) {
+        None => "–".to_owned(),
+        Some(0.0) => "0".to_owned(),
+        Some(value) => format!("{value:.0e}"),
+    }
+}

@@ -1,0 +1,75 @@
+//! Tables of documents, made of the records that they cite.
+//!
+//! A table stands between `<!-- table NAME of FILE ... -->`, files from `study/records/`, and `<!-- end -->`. What stands there
+//! must be what [`filled`] makes of the records.
+
+mod budget;
+mod hard;
+mod loops;
+mod quality;
+mod tune;
+
+use std::path::Path;
+use straightline_study::record::{LoopsRecord, QualityRecord, Record, RecordError, TuneRecord};
+
+pub use quality::GEOMETRIC;
+
+/// The document with every table made anew.
+///
+/// # Errors
+///
+/// What is wrong with a marker or a record, for people.
+pub fn filled(document: &str, records: &Path) -> Result<String, String> {
+    let mut out = String::new();
+    let mut lines = document.lines();
+    while let Some(line) = lines.next() {
+        out += line;
+        out.push('\n');
+        let Some(marker) = line
+            .strip_prefix("<!-- table ")
+            .and_then(|rest| rest.strip_suffix(" -->"))
+        else {
+            continue;
+        };
+        let (name, files) = marker
+            .split_once(" of ")
+            .ok_or_else(|| format!("`{line}` names no record: write `<!-- table NAME of FILE -->`"))?;
+        let files: Vec<_> = files.split(' ').map(|file| records.join(file)).collect();
+        out += &table(name, &files.iter().map(|file| file.as_path()).collect::<Vec<_>>())?;
+        if !lines.any(|line| line == "<!-- end -->") {
+            return Err(format!("the table `{name}` has no `<!-- end -->`"));
+        }
+        out += "<!-- end -->\n";
+    }
+    Ok(out)
+}
+
+fn table(name: &str, files: &[&Path]) -> Result<String, String> {
+    let Some(first) = files.first() else {
+        return Err(format!("the table `{name}` has no record"));
+    };
+    let why = |error: RecordError| error.to_string();
+    match name {
+        "speed" => Ok(loops::in_short(&LoopsRecord::read(first).map_err(why)?)),
+        "loops" => Ok(loops::in_full(&LoopsRecord::read(first).map_err(why)?)),
+        "quality" => Ok(quality::methods(&QualityRecord::read(first).map_err(why)?)),
+        "gaps" => Ok(quality::gaps(&QualityRecord::read(first).map_err(why)?)),
+        "hard" => hard::kernels(files),
+        "tune" => {
+            let all: Result<Vec<_>, _> = files.iter().map(|file| TuneRecord::read(file)).collect();
+            Ok(tune::scenes(&all.map_err(why)?))
+        }
+        "budget" => budget::metrics(files),
+        _ => Err(format!(
+            "there is no table `{name}`; there are speed, loops, quality, gaps, hard, tune and budget"
+        )),
+    }
+}
+
+fn markdown(head: &[&str], rows: Vec<Vec<String>>) -> String {
+    let line = |cells: &[String]| format!("| {} |\n", cells.join(" | "));
+    let mut text = line(&head.iter().map(|h| (*h).to_owned()).collect::<Vec<_>>());
+    text += &format!("| --- |{}\n", " --: |".repeat(head.len() - 1));
+    rows.iter().for_each(|row| text += &line(row));
+    text
+}
