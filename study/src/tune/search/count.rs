@@ -1,0 +1,63 @@
+//! Static counts of variants.
+
+use super::{Search, chunk};
+use crate::tune::features::Static;
+use crate::tune::space::Variant;
+use crate::tune::{Term, TuneError};
+use crate::watch::Watch;
+use rayon::prelude::*;
+use std::collections::BTreeMap;
+use straightline_codegen::Precision;
+
+/// Statements of an invocation beyond which a block is not searched.
+const LONGEST: f64 = 2500.0;
+
+impl Search {
+    /// Static counts of every variant but blocks that would be too long.
+    pub(super) fn count(&mut self, watch: &mut dyn Watch) -> Result<bool, TuneError> {
+        // One graph for both precisions; single pixels before blocks, which are judged by them.
+        let mut alike: BTreeMap<Variant, Vec<usize>> = BTreeMap::new();
+        for (k, entry) in self.entries.iter().enumerate() {
+            alike.entry(entry.variant.with(Term::Precision, 0)).or_default().push(k);
+        }
+        let mut graphs: Vec<Variant> = alike.keys().copied().collect();
+        graphs.sort_by_key(|variant| variant.at(Term::Block));
+        watch.begin("counts", graphs.len());
+        let mut too_long = 0;
+        for some in graphs.chunks(4 * chunk()) {
+            if watch.stopped() {
+                return Ok(false);
+            }
+            let counted: Vec<_> = some.par_iter().map(|graph| (*graph, self.counted(*graph))).collect();
+            for (graph, counted) in counted {
+                let counted = counted?;
+                too_long += usize::from(counted.is_none());
+                for k in &alike[&graph] {
+                    let half = self.space.precision(self.entries[*k].variant) == Precision::F16;
+                    self.entries[*k].known = counted.clone().map(|known| if half { known.in_half() } else { known });
+                }
+                watch.step();
+            }
+        }
+        if too_long > 0 {
+            self.space.left_aside.push(format!(
+                "blocks of more than {LONGEST} statements, which drivers take long to compile: {too_long} variants in each precision"
+            ));
+        }
+        self.keep(|entry| entry.known.is_some());
+        Ok(true)
+    }
+
+    /// Counts of a variant; `None` of a block that would be too long.
+    fn counted(&self, variant: Variant) -> Result<Option<Static>, TuneError> {
+        let [width, height] = self.space.value(variant, Term::Block).block;
+        let single = self.index.get(&variant.with(Term::Block, 0));
+        let single = single.and_then(|k| self.entries[*k].known.as_ref());
+        if let Some(single) = single.filter(|_| width * height > 1)
+            && single.statements * f64::from(width * height) > LONGEST
+        {
+            return Ok(None);
+        }
+        Ok(Some(Static::of(&self.compile(variant)?)))
+    }
+}

@@ -1,0 +1,255 @@
+//! A search under way: every variant, what is known of it, and how it is run.
+
+mod count;
+mod pictures;
+mod time;
+
+use super::features::Static;
+use super::space::{Offer, SampleSet, Space, Variant};
+use super::subject::Subject;
+use super::{EQUAL_DB, ErrorMetric, Question, Term, TuneError};
+use crate::execute::{Bench, Bound, ExecuteError, Inputs, Ratio, Times};
+use crate::gbuffer;
+use crate::metrics;
+use crate::record::Model;
+use glam::{UVec2, Vec4};
+use std::collections::BTreeMap;
+use straightline_codegen::{Compiled, Kernel, Precision, Stage};
+use straightline_kernels::prelude::Frame;
+use straightline_runtime::Pass;
+
+/// PSNR that counts as no difference at all; equal pictures would have an infinite one.
+const NO_DIFFERENCE_DB: f64 = 100.0;
+
+/// Bytes of a geometry sample: depth as `r32float`, a normal as `rgba16float`, as `straightline budget` counts.
+const DEPTH_BYTES: u64 = 4;
+const NORMAL_BYTES: u64 = 8;
+
+/// What a variant of one set of samples reads, on the device.
+#[derive(Debug)]
+struct Ground {
+    bound: Bound,
+    /// Uniforms; the images are on the device.
+    inputs: Inputs,
+    layers: u64,
+}
+
+/// A shader with what it reads.
+type Ready = (Pass, Bound);
+
+/// Error by the metric, and pixels that are not finite.
+type Seen = (f64, usize);
+
+/// A variant and what is known of it.
+#[derive(Clone, Debug)]
+pub(in crate::tune) struct Entry {
+    pub variant: Variant,
+    pub known: Option<Static>,
+    pub error: Option<Seen>,
+    /// Why it cannot be emitted or run.
+    pub refused: Option<String>,
+    /// Milliseconds, by the model.
+    pub predicted: f64,
+    pub time: Option<Times>,
+    pub ratio: Option<Ratio>,
+}
+
+/// A search under way.
+#[derive(Debug)]
+pub struct Search {
+    pub(in crate::tune) bench: Bench,
+    pub(in crate::tune) kernel: Kernel,
+    pub(in crate::tune) defaults: BTreeMap<String, String>,
+    pub(in crate::tune) space: Space,
+    pub(in crate::tune) question: Question,
+    pub(in crate::tune) name: String,
+    pub(in crate::tune) referred_to: String,
+    pub(in crate::tune) size: UVec2,
+    pub(in crate::tune) entries: Vec<Entry>,
+    pub(in crate::tune) index: BTreeMap<Variant, usize>,
+    grounds: Vec<Ground>,
+    color: Frame<Vec4>,
+    finite_colors: bool,
+    reference: Option<Frame<Vec4>>,
+    /// Errors beyond this are no errors.
+    ceiling_db: f64,
+    ready: BTreeMap<usize, Ready>,
+    pub(in crate::tune) model: Model,
+    /// The most general variant in half precision, where that is slower.
+    slow_half: Option<Variant>,
+    /// What was measured last, and decides.
+    pub(in crate::tune) finalists: Vec<usize>,
+}
+
+impl Search {
+    /// Puts onto the device what all variants read.
+    ///
+    /// # Errors
+    ///
+    /// If an option is wrong, or the capture lacks what the options need.
+    pub fn new(bench: &Bench, subject: Subject, question: &Question) -> Result<Search, TuneError> {
+        let kernel = Kernel::builtin("sraa")?;
+        let first = subject.captures.first();
+        let offer = Offer {
+            samples: subject.captures.iter().map(sample_set).collect(),
+            normals: first.is_some_and(|capture| capture.normal.is_some()),
+            camera: first.is_some_and(|capture| capture.camera.is_some()),
+            no_half: question.no_half.clone(),
+            fixed: question.fixed.clone(),
+        };
+        let space = Space::new(&offer).map_err(TuneError::Space)?;
+        let size = subject.size();
+        let Some(color) = first.map(|capture| capture.color.clone()) else {
+            return Err(TuneError::Space("there is no capture to tune for".to_owned()));
+        };
+        let mut grounds = Vec::new();
+        for (place, value) in space.values(Term::Samples).iter().enumerate() {
+            // Of the captures, one whose options a value has.
+            let own = subject.captures.iter().find(|c| sample_set(c).options == value.options);
+            let Some(capture) = own else { continue };
+            let richest = space.general().with(Term::Samples, place);
+            let compiled = kernel.compile(&space.settings(richest))?;
+            let inputs = gbuffer::inputs(capture, &compiled.options)?;
+            let (pass, manifest) = bench.pass(&compiled, Stage::Compute)?;
+            let bound = bench.bind(&pass, &manifest, &inputs)?;
+            grounds.push(Ground {
+                bound,
+                inputs: Inputs {
+                    images: Vec::new(),
+                    ..inputs
+                },
+                layers: capture.layer_count() as u64,
+            });
+        }
+        let entry = |variant| Entry {
+            variant,
+            known: None,
+            error: None,
+            refused: None,
+            predicted: 0.0,
+            time: None,
+            ratio: None,
+        };
+        let entries: Vec<Entry> = space.variants().into_iter().map(entry).collect();
+        let defaults = kernel.options()?.into_iter().map(|info| (info.name, info.default));
+        Ok(Search {
+            bench: bench.clone(),
+            defaults: defaults.collect(),
+            kernel,
+            question: question.clone(),
+            name: subject.name,
+            referred_to: subject.referred_to,
+            size,
+            index: places(&entries),
+            entries,
+            space,
+            grounds,
+            finite_colors: metrics::non_finite(&color) == 0,
+            color,
+            ceiling_db: match subject.reference {
+                Some(_) => NO_DIFFERENCE_DB,
+                None => EQUAL_DB,
+            },
+            reference: subject.reference,
+            ready: BTreeMap::new(),
+            model: Model::default(),
+            slow_half: None,
+            finalists: Vec::new(),
+        })
+    }
+
+    /// Whether the most general variant's picture is there, without which nothing can be said.
+    pub fn has_general(&self) -> bool {
+        self.entries.first().is_some_and(|entry| entry.error.is_some())
+    }
+
+    /// Leaves entries out. Passes are known by their entries' places, and are made anew.
+    fn keep(&mut self, kept: impl Fn(&Entry) -> bool) {
+        self.entries.retain(kept);
+        self.index = places(&self.entries);
+        self.ready.clear();
+    }
+
+    /// Variants that can be run, whose pixels are all finite, and that may be chosen.
+    pub(in crate::tune) fn usable(&self) -> Vec<usize> {
+        let usable = |k: &usize| {
+            let entry = &self.entries[*k];
+            entry.refused.is_none()
+                && entry.known.is_some()
+                && matches!(entry.error, Some((_, 0)))
+                && Some(entry.variant) != self.slow_half
+        };
+        (0..self.entries.len()).filter(usable).collect()
+    }
+
+    /// Error of the picture as it is without any filter.
+    pub(in crate::tune) fn unfiltered(&self) -> f64 {
+        self.reference
+            .as_ref()
+            .map_or(0.0, |reference| self.error(&self.color, reference))
+    }
+
+    /// Bytes of G-buffer that a variant reads.
+    pub(in crate::tune) fn gbuffer_bytes(&self, variant: Variant) -> u64 {
+        let sample = match self.space.value(variant, Term::Metric).label.as_str() {
+            "normals" => NORMAL_BYTES,
+            "depth" => DEPTH_BYTES,
+            _ => DEPTH_BYTES + NORMAL_BYTES,
+        };
+        let layers = self
+            .grounds
+            .get(variant.at(Term::Samples))
+            .map_or(0, |ground| ground.layers);
+        sample * layers * u64::from(self.size.x) * u64::from(self.size.y)
+    }
+
+    pub(in crate::tune) fn compile(&self, variant: Variant) -> Result<Compiled, TuneError> {
+        Ok(self.kernel.compile(&self.space.settings(variant))?)
+    }
+
+    pub(in crate::tune) fn megapixels(&self) -> f64 {
+        f64::from(self.size.x) * f64::from(self.size.y) / 1.0e6
+    }
+
+    fn error(&self, picture: &Frame<Vec4>, reference: &Frame<Vec4>) -> f64 {
+        let error = self.question.metric.error(picture, reference);
+        match self.question.metric {
+            ErrorMetric::Psnr => error.min(self.ceiling_db),
+            ErrorMetric::Flip => error,
+        }
+    }
+
+    /// The variant whose picture stands for this one's.
+    fn seen_as(&self, variant: Variant) -> Variant {
+        self.space.picture_of(variant, self.finite_colors)
+    }
+
+    fn prepare(&self, variant: Variant) -> Result<Ready, TuneError> {
+        let ground = self.grounds.get(variant.at(Term::Samples));
+        let ground = ground.ok_or_else(|| ExecuteError::Input("there is no such set of samples".to_owned()))?;
+        let precision: Precision = self.space.precision(variant);
+        let compiled = self.compile(variant)?;
+        let bench = self.bench.clone().precision(precision);
+        let (pass, manifest) = bench.pass(&compiled, Stage::Compute)?;
+        let bound = bench.bind_shared(&pass, &manifest, &ground.inputs, &ground.bound)?;
+        Ok((pass, bound))
+    }
+}
+
+/// Variants that are worked on at once, between looks at the watch.
+fn chunk() -> usize {
+    2 * rayon::current_num_threads().max(1)
+}
+
+/// Where each variant's entry is.
+fn places(entries: &[Entry]) -> BTreeMap<Variant, usize> {
+    let places = entries.iter().enumerate();
+    places.map(|(k, entry)| (entry.variant, k)).collect()
+}
+
+fn sample_set(capture: &crate::capture::Capture) -> SampleSet {
+    SampleSet {
+        count: capture.samples.len(),
+        options: gbuffer::sampled_at(capture),
+    }
+}

@@ -1,0 +1,108 @@
+//! Pictures of variants, and their errors.
+
+use super::{Ready, Search, Seen, chunk};
+use crate::metrics;
+use crate::tune::space::Variant;
+use crate::tune::{Term, TuneError};
+use crate::watch::Watch;
+use rayon::prelude::*;
+use std::collections::{BTreeMap, BTreeSet};
+use straightline_codegen::Precision;
+
+/// Rounds in which half precision is compared with whole.
+const PROBED: u32 = 3;
+
+impl Search {
+    /// Counts every variant and measures its error. Whether all was done, or the watch stopped it.
+    ///
+    /// # Errors
+    ///
+    /// If the most general variant cannot be run.
+    pub fn pictures(&mut self, watch: &mut dyn Watch) -> Result<bool, TuneError> {
+        if !self.count(watch)? {
+            return Ok(false);
+        }
+        let general = self.prepare(self.space.general())?;
+        let picture = self.bench.picture_of(&general.0, &general.1, self.size)?;
+        if self.reference.is_none() {
+            self.reference = Some(picture);
+        }
+        if !self.probe_half(watch)? {
+            return Ok(false);
+        }
+        let apart: BTreeSet<Variant> = self.entries.iter().map(|e| self.seen_as(e.variant)).collect();
+        let apart: Vec<Variant> = apart.into_iter().collect();
+        let mut found: BTreeMap<Variant, Result<(f64, usize), String>> = BTreeMap::new();
+        watch.begin("pictures", apart.len());
+        let mut finished = true;
+        for some in apart.chunks(chunk()) {
+            if watch.stopped() {
+                finished = false;
+                break;
+            }
+            let judged: Vec<_> = some.par_iter().map(|v| (*v, self.judged(*v))).collect();
+            for (variant, result) in judged {
+                found.insert(variant, result);
+                watch.step();
+            }
+        }
+        for k in 0..self.entries.len() {
+            match found.get(&self.seen_as(self.entries[k].variant)) {
+                Some(Ok(error)) => self.entries[k].error = Some(*error),
+                Some(Err(reason)) => self.entries[k].refused = Some(reason.clone()),
+                None => {}
+            }
+        }
+        Ok(finished)
+    }
+
+    /// Whether half precision is worth a search here: the most general variant is run in it. Where that is slower, the others
+    /// are not run in it. Whether all was done.
+    fn probe_half(&mut self, watch: &mut dyn Watch) -> Result<bool, TuneError> {
+        let general = self.space.general();
+        let mut precisions = 0..self.space.values(Term::Precision).len();
+        let half = precisions.find(|k| self.space.values(Term::Precision)[*k].precision == Precision::F16);
+        let Some(half) = half
+            .map(|k| general.with(Term::Precision, k))
+            .filter(|half| *half != general)
+        else {
+            return Ok(true);
+        };
+        let Some(index) = self.index.get(&half).copied() else {
+            return Ok(true);
+        };
+        if !self.measure(&[index], PROBED, "half precision", watch)? {
+            return Ok(false);
+        }
+        match self.entries[index].ratio {
+            Some(ratio) if ratio.median < 1.0 => {
+                self.space.left_aside.push(format!(
+                    "half precision, but for the most general variant: it takes {:.1} times as long as f32 here",
+                    1.0 / ratio.median
+                ));
+                let whole = general.at(Term::Precision);
+                let kept = |v: Variant| v == half || v.at(Term::Precision) == whole;
+                self.keep(|entry| kept(entry.variant));
+                self.slow_half = Some(half);
+            }
+            _ => {}
+        }
+        Ok(true)
+    }
+
+    /// A variant ready to run, and its error.
+    pub(super) fn shown(&self, variant: Variant) -> Result<(Ready, Seen), String> {
+        let ready = self.prepare(variant).map_err(|error| error.to_string())?;
+        let picture = self.bench.picture_of(&ready.0, &ready.1, self.size);
+        let picture = picture.map_err(|error| error.to_string())?;
+        let error = self
+            .reference
+            .as_ref()
+            .map_or(0.0, |reference| self.error(&picture, reference));
+        Ok((ready, (error, metrics::non_finite(&picture))))
+    }
+
+    fn judged(&self, variant: Variant) -> Result<Seen, String> {
+        self.shown(variant).map(|(_, error)| error)
+    }
+}

@@ -1,0 +1,134 @@
+//! Times of variants: measured of some, predicted of all.
+
+use super::{Search, chunk};
+use crate::execute::Job;
+use crate::record::Model;
+use crate::tune::features::NAMES;
+use crate::tune::{TuneError, model};
+use crate::watch::Watch;
+use rayon::prelude::*;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Variants that times are learned from, and on which the model is then tested; less in a small space.
+const LEARNED_FROM: usize = 32;
+const TESTED_ON: usize = 12;
+
+impl Search {
+    /// Times some variants, learns from them what a count costs, and tests that on others. Whether all was done.
+    ///
+    /// # Errors
+    ///
+    /// If the device fails.
+    pub fn learn(&mut self, watch: &mut dyn Watch) -> Result<bool, TuneError> {
+        let usable = self.usable();
+        let rows: Vec<Vec<f64>> = usable.iter().filter_map(|k| self.row(*k)).collect();
+        let place: BTreeMap<usize, usize> = usable.iter().enumerate().map(|(place, k)| (*k, place)).collect();
+        let general = self.space.general();
+        let mut first: Vec<usize> = vec![0];
+        first.extend(self.space.of_defaults(&self.defaults).and_then(|v| self.index.get(&v)));
+        first.extend(self.space.neighbours(general).iter().filter_map(|v| self.index.get(v)));
+        first.retain(|k| place.contains_key(k));
+        first.sort_unstable();
+        first.dedup();
+        let taken: Vec<usize> = first.iter().map(|k| place[k]).collect();
+        let wanted = LEARNED_FROM.min(usable.len() * 3 / 4).saturating_sub(taken.len());
+        let mut learned = first;
+        learned.extend(model::spanning(&rows, &taken, wanted).iter().map(|at| usable[*at]));
+        // Any others: spread over the list by a step that visits all of it.
+        let others: Vec<usize> = usable.iter().copied().filter(|k| !learned.contains(k)).collect();
+        let tested: Vec<usize> = (0..others.len().min(TESTED_ON))
+            .map(|k| others[(k * 2 + 1) * others.len() / (2 * others.len().min(TESTED_ON))])
+            .collect();
+        let both: Vec<usize> = learned.iter().chain(&tested).copied().collect();
+        if !self.measure(&both, (self.question.rounds / 2).max(3), "timing, to learn", watch)? {
+            return Ok(false);
+        }
+        let megapixels = self.megapixels();
+        // By ratios, round by round, to a shader that ran in every round: a drifting clock is not learned.
+        let general = self.entries[0].time.map_or(0.0, |time| time.median_ms) / megapixels;
+        let measured = |k: &usize| Some((self.row(*k)?, general / self.entries[*k].ratio?.median));
+        let (rows, times): (Vec<_>, Vec<_>) = learned.iter().filter_map(measured).unzip();
+        let coefficients = model::learn(&rows, &times);
+        let (rows, times): (Vec<_>, Vec<_>) = tested.iter().filter_map(measured).unzip();
+        let predicted: Vec<f64> = rows.iter().map(|row| model::predict(&coefficients, row)).collect();
+        let (mean_error, largest_error) = model::errors(&predicted, &times);
+        self.model = Model {
+            terms: NAMES
+                .iter()
+                .map(|n| (*n).to_owned())
+                .zip(coefficients.iter().copied())
+                .collect(),
+            learned_from: learned.iter().filter(|k| self.entries[**k].time.is_some()).count(),
+            tested_on: times.len(),
+            mean_error,
+            largest_error,
+        };
+        for k in 0..self.entries.len() {
+            if let Some(row) = self.row(k) {
+                self.entries[k].predicted = megapixels * model::predict(&coefficients, &row);
+            }
+        }
+        Ok(true)
+    }
+
+    /// Times variants in turn with the most general one, each of which also shows its own picture. Whether all was done.
+    pub(in crate::tune) fn measure(
+        &mut self,
+        which: &[usize],
+        rounds: u32,
+        what: &str,
+        watch: &mut dyn Watch,
+    ) -> Result<bool, TuneError> {
+        let mut all: Vec<usize> = std::iter::once(0).chain(which.iter().copied()).collect();
+        let mut seen = BTreeSet::new();
+        all.retain(|k| seen.insert(*k));
+        let fresh: Vec<usize> = all.iter().copied().filter(|k| !self.ready.contains_key(k)).collect();
+        watch.begin("compiling", fresh.len());
+        for some in fresh.chunks(chunk()) {
+            if watch.stopped() {
+                return Ok(false);
+            }
+            let prepared: Vec<_> = some
+                .par_iter()
+                .map(|k| (*k, self.shown(self.entries[*k].variant)))
+                .collect();
+            for (k, prepared) in prepared {
+                match prepared {
+                    Ok((ready, error)) => {
+                        self.ready.insert(k, ready);
+                        self.entries[k].error = Some(error);
+                    }
+                    Err(reason) => self.entries[k].refused = Some(reason),
+                }
+                watch.step();
+            }
+        }
+        all.retain(|k| self.ready.contains_key(k));
+        let jobs: Vec<Job<'_>> = all
+            .iter()
+            .map(|k| Job {
+                pass: &self.ready[k].0,
+                bound: &self.ready[k].1,
+                size: self.size,
+            })
+            .collect();
+        watch.begin(what, rounds as usize);
+        let mut complete = false;
+        let timed = self.bench.timed(&jobs, rounds, |round| {
+            if round > 0 {
+                watch.step();
+            }
+            complete = round == rounds;
+            !watch.stopped()
+        })?;
+        for (job, k) in all.iter().enumerate() {
+            self.entries[*k].time = timed.times(job);
+            self.entries[*k].ratio = timed.ratio(0, job);
+        }
+        Ok(complete)
+    }
+
+    fn row(&self, index: usize) -> Option<Vec<f64>> {
+        self.entries[index].known.as_ref().map(|known| known.row.clone())
+    }
+}
