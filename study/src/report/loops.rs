@@ -45,13 +45,15 @@ struct Row {
 fn color(kind: FormKind) -> usize {
     match kind {
         FormKind::Full => 0,
-        FormKind::LoopedByHandUnchecked | FormKind::FullHalf => 1,
+        FormKind::LoopedByHandUnchecked => 1,
         FormKind::FullBlock => 2,
-        FormKind::Partial2 | FormKind::Partial4 => 3,
+        FormKind::Partial4 => 3,
         FormKind::LoopedByHand => 4,
         FormKind::LoopedUnchecked => 5,
         FormKind::FullUnshared => 6,
         FormKind::Looped | FormKind::Floor => 7,
+        FormKind::FullHalf => 8,
+        FormKind::Partial2 => 9,
     }
 }
 

@@ -1,6 +1,7 @@
 //! Unroll against loop.
 
 use super::markdown;
+use straightline_study::execute::Ratio;
 use straightline_study::record::{Form, FormKind, KernelForms, LoopsRecord};
 
 /// Every kernel: what is gained by unrolling it, in the fewest columns that say it.
@@ -84,6 +85,50 @@ pub fn in_full(record: &LoopsRecord) -> String {
         ]
     };
     markdown(&head, record.kernels.iter().map(row).collect())
+}
+
+/// Two runs of one study: how well what they say agrees.
+///
+/// # Errors
+///
+/// If they are not of the same kernels and forms.
+pub fn agreement(once: &LoopsRecord, again: &LoopsRecord) -> Result<String, String> {
+    let all = |record: &LoopsRecord| -> Vec<(String, FormKind, Ratio)> {
+        let kernels = record.kernels.iter();
+        let forms = kernels.flat_map(|kernel| kernel.forms.iter().map(|form| (kernel.kernel.clone(), form)));
+        let compared = forms.filter(|(_, form)| form.kind != FormKind::Looped);
+        compared.map(|(kernel, form)| (kernel, form.kind, form.ratio)).collect()
+    };
+    let (once, again) = (all(once), all(again));
+    let named = |all: &[(String, FormKind, Ratio)]| -> Vec<(String, FormKind)> {
+        all.iter().map(|(kernel, kind, _)| (kernel.clone(), *kind)).collect()
+    };
+    if named(&once) != named(&again) {
+        return Err("the two runs are not of the same kernels and forms".to_owned());
+    }
+    let pairs: Vec<(Ratio, Ratio)> = once.iter().zip(&again).map(|(a, b)| (a.2, b.2)).collect();
+    let within = |span: &Ratio, value: f64| span.low <= value && value <= span.high;
+    let count = |holds: &dyn Fn(&Ratio, &Ratio) -> bool| pairs.iter().filter(|(a, b)| holds(a, b)).count().to_string();
+    let mut changes: Vec<f64> = pairs.iter().map(|(a, b)| (a.median / b.median - 1.0).abs()).collect();
+    changes.sort_by(f64::total_cmp);
+    let percent = |change: Option<&f64>| change.map_or("–".to_owned(), |change| format!("{:.0} %", 100.0 * change));
+    let row = vec![
+        pairs.len().to_string(),
+        count(&|a, b| a.low <= b.high && b.low <= a.high),
+        count(&|a, b| within(a, b.median) || within(b, a.median)),
+        count(&|a, b| within(a, b.median) && within(b, a.median)),
+        percent(changes.get(changes.len() / 2)),
+        percent(changes.last()),
+    ];
+    let head = [
+        "ratios",
+        "spans overlap",
+        "one's median in the other's span",
+        "both medians",
+        "change of a median, typical",
+        "largest",
+    ];
+    Ok(markdown(&head, vec![row]))
 }
 
 fn time(kernel: &KernelForms) -> String {

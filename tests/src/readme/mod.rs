@@ -52,6 +52,15 @@ fn table(name: &str, files: &[&Path]) -> Result<String, String> {
     match name {
         "speed" => Ok(loops::in_short(&LoopsRecord::read(first).map_err(why)?)),
         "loops" => Ok(loops::in_full(&LoopsRecord::read(first).map_err(why)?)),
+        "agreement" => {
+            let again = files
+                .get(1)
+                .ok_or_else(|| format!("the table `{name}` needs two records"))?;
+            loops::agreement(
+                &LoopsRecord::read(first).map_err(why)?,
+                &LoopsRecord::read(again).map_err(why)?,
+            )
+        }
         "quality" => Ok(quality::methods(&QualityRecord::read(first).map_err(why)?)),
         "gaps" => Ok(quality::gaps(&QualityRecord::read(first).map_err(why)?)),
         "hard" => hard::kernels(files),
@@ -61,7 +70,7 @@ fn table(name: &str, files: &[&Path]) -> Result<String, String> {
         }
         "budget" => budget::metrics(files),
         _ => Err(format!(
-            "there is no table `{name}`; there are speed, loops, quality, gaps, hard, tune and budget"
+            "there is no table `{name}`; there are speed, loops, agreement, quality, gaps, hard, tune and budget"
         )),
     }
 }

@@ -1,0 +1,203 @@
+//! One setting of one filter: as a kernel, natively, and by definition.
+
+use super::world::{World, pixels};
+use straightline_codegen::{Compiled, Kernel, Settings, Unroll};
+use straightline_kernels::edge::{Depth, Form, NonFinite, Output, Stalker, TabulaRasa, stalker, tabula_rasa};
+use straightline_kernels::prelude::*;
+use straightline_study::execute::Inputs;
+use straightline_study::oracle::edge as oracle;
+
+/// Values by the names of options.
+type Named<T> = Vec<(&'static str, T)>;
+
+/// One setting of one filter.
+#[derive(Clone, Copy, Debug)]
+pub enum Filter {
+    Stalker(Stalker),
+    TabulaRasa(TabulaRasa),
+}
+
+/// Either form with one of the two.
+fn non_finite(form: Form) -> NonFinite {
+    match form {
+        Form::Paper => NonFinite::Spread,
+        Form::Corrected => NonFinite::Skip,
+    }
+}
+
+fn word(non_finite: NonFinite) -> &'static str {
+    match non_finite {
+        NonFinite::Spread => "spread",
+        NonFinite::Skip => "skip",
+    }
+}
+
+impl Filter {
+    /// Every choice of both, with numbers that divide `World::surfaces` in two.
+    pub fn all() -> Vec<Filter> {
+        let mut all = Vec::new();
+        for form in [Form::Paper, Form::Corrected] {
+            for output in [Output::Antialias, Output::Edges] {
+                for depth in [Depth::Projected, Depth::Linear] {
+                    all.push(Filter::Stalker(Stalker {
+                        form,
+                        output,
+                        depth,
+                        non_finite: non_finite(form),
+                        normal_barrier: 0.9,
+                        depth_barrier: 0.004,
+                        kernel: 0.75,
+                    }));
+                }
+                all.push(Filter::TabulaRasa(TabulaRasa {
+                    form,
+                    output,
+                    non_finite: non_finite(form),
+                    depth_sensibility: 9.0,
+                    normal_sensibility: 3.0,
+                    weight: 0.8,
+                }));
+            }
+        }
+        all
+    }
+
+    pub fn name(&self) -> &'static str {
+        match self {
+            Filter::Stalker(_) => "stalker",
+            Filter::TabulaRasa(_) => "tabula_rasa",
+        }
+    }
+
+    pub fn output(&self) -> Output {
+        match self {
+            Filter::Stalker(cfg) => cfg.output,
+            Filter::TabulaRasa(cfg) => cfg.output,
+        }
+    }
+
+    /// Choices, and numbers.
+    pub fn options(&self) -> (Named<&'static str>, Named<f32>) {
+        let form = |form| match form {
+            Form::Paper => "paper",
+            Form::Corrected => "corrected",
+        };
+        let output = match self.output() {
+            Output::Antialias => "antialias",
+            Output::Edges => "edges",
+        };
+        match self {
+            Filter::Stalker(cfg) => {
+                let depth = match cfg.depth {
+                    Depth::Projected => "projected",
+                    Depth::Linear => "linear",
+                };
+                (
+                    vec![
+                        ("form", form(cfg.form)),
+                        ("output", output),
+                        ("depth", depth),
+                        ("non-finite", word(cfg.non_finite)),
+                    ],
+                    vec![
+                        ("normal_barrier", cfg.normal_barrier),
+                        ("depth_barrier", cfg.depth_barrier),
+                        ("kernel", cfg.kernel),
+                    ],
+                )
+            }
+            Filter::TabulaRasa(cfg) => (
+                vec![
+                    ("form", form(cfg.form)),
+                    ("output", output),
+                    ("non-finite", word(cfg.non_finite)),
+                ],
+                vec![
+                    ("depth_sensibility", cfg.depth_sensibility),
+                    ("normal_sensibility", cfg.normal_sensibility),
+                    ("weight", cfg.weight),
+                ],
+            ),
+        }
+    }
+
+    /// The kernel as the generator has it, its numbers set at run time.
+    pub fn compile(&self, unroll: Unroll) -> Compiled {
+        let (choices, _) = self.options();
+        let choices = choices.iter().map(|(k, v)| ((*k).to_owned(), (*v).to_owned()));
+        compile(self.name(), choices.collect(), unroll)
+    }
+
+    /// What it reads, its numbers among it.
+    pub fn inputs(&self, world: &World) -> Inputs {
+        let (_, numbers) = self.options();
+        numbers
+            .iter()
+            .fold(world.inputs(), |inputs, (k, v)| inputs.uniform(k, &[f64::from(*v)]))
+    }
+
+    pub fn native(&self, world: &World) -> Vec<[f32; 4]> {
+        let World { depth, normal, color } = world;
+        let linear = Sampler::default();
+        let pixel = |at| match self {
+            Filter::Stalker(cfg) => stalker(cfg, depth, normal, color, &linear, at),
+            Filter::TabulaRasa(cfg) => tabula_rasa(cfg, depth, normal, color, &linear, at),
+        };
+        pixels(depth.size()).map(|at| pixel(at).to_array()).collect()
+    }
+
+    /// How much of an edge each pixel is, and the filtered colours, by definition.
+    pub fn exact(&self, world: &World) -> (Vec<oracle::Edge>, Vec<[f64; 4]>) {
+        let (edges, colors) = match self {
+            Filter::Stalker(cfg) => {
+                let exact = oracle::Stalker {
+                    printed: cfg.form == Form::Paper,
+                    linear_depth: cfg.depth == Depth::Linear,
+                    normal_barrier: cfg.normal_barrier.into(),
+                    depth_barrier: cfg.depth_barrier.into(),
+                    kernel: cfg.kernel.into(),
+                };
+                (
+                    exact.edges(&world.geometry()),
+                    exact.antialiased(&world.geometry(), &world.color),
+                )
+            }
+            Filter::TabulaRasa(cfg) => {
+                let exact = oracle::TabulaRasa {
+                    printed: cfg.form == Form::Paper,
+                    depth_sensibility: cfg.depth_sensibility.into(),
+                    normal_sensibility: cfg.normal_sensibility.into(),
+                    weight: cfg.weight.into(),
+                };
+                (
+                    exact.edges(&world.geometry()),
+                    exact.antialiased(&world.geometry(), &world.color),
+                )
+            }
+        };
+        match self.output() {
+            Output::Antialias => (edges, colors),
+            Output::Edges => {
+                let grey = edges.iter().map(|e| [e.weight, e.weight, e.weight, 1.0]);
+                let grey = grey.collect();
+                (edges, grey)
+            }
+        }
+    }
+
+    /// How much of an edge the kernel finds at `at`.
+    pub fn edge(&self, world: &World, at: IVec2) -> f32 {
+        self.native(world)[(at.y as u32 * world.depth.size().x + at.x as u32) as usize][0]
+    }
+}
+
+pub fn compile(kernel: &str, options: Vec<(String, String)>, unroll: Unroll) -> Compiled {
+    let settings = Settings {
+        options,
+        unroll,
+        ..Settings::default()
+    };
+    Kernel::builtin(kernel)
+        .and_then(|k| k.compile(&settings))
+        .unwrap_or_else(|e| panic!("{e}"))
+}
