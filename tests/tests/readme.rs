@@ -3,7 +3,8 @@
 //! After new measurements: `STRAIGHTLINE_BLESS=1 cargo test -p straightline-tests --test readme`.
 
 use std::path::Path;
-use straightline_tests::readme::filled;
+use straightline_study::record::{QualityRecord, Record};
+use straightline_tests::readme::{GEOMETRIC, filled};
 
 #[test]
 fn tables_are_what_their_records_say() {
@@ -24,6 +25,38 @@ fn tables_are_what_their_records_say() {
         }
     }
     assert!(tables >= 4, "the documents cite {tables} records");
+}
+
+/// What `docs/study.md` and `docs/sraa.md` say in words.
+#[test]
+fn what_is_said_of_sraa_is_so() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../study/records/error-lavapipe.json");
+    let record = QualityRecord::read(&path).unwrap_or_else(|error| panic!("{error}"));
+    for scene in &record.scenes {
+        let name = scene.scene.as_str();
+        let of = |method: &str| {
+            let found = scene.methods.iter().find(|m| m.method == method);
+            found.unwrap_or_else(|| panic!("{name} has no {method}"))
+        };
+        for ours in ["SRAA 4", "SRAA 16"] {
+            let relative = of(&format!("{ours}, relative depth")).psnr - of(ours).psnr;
+            let said = if name == "emissive" { -0.8..=-0.4 } else { -0.02..=0.71 };
+            assert!(said.contains(&relative), "{name}, {ours}: {relative}");
+            for other in ["FXAA", "FXAA on light", "SMAA", "SMAA on light"] {
+                let (ours_is, other_is) = (of(ours), of(other));
+                let even = if name == "terrain" && ours == "SRAA 16" {
+                    2.0e-4
+                } else {
+                    0.0
+                };
+                assert!(
+                    !GEOMETRIC.contains(&name) || (ours_is.psnr > other_is.psnr && ours_is.flip < other_is.flip + even),
+                    "{name}: {ours} against {other}"
+                );
+            }
+            assert_eq!(of(ours).non_finite, 0, "{name}");
+        }
+    }
 }
 
 #[test]
@@ -48,6 +81,19 @@ fn bad_markers_are_told() {
         ("<!-- table lops of a.json -->\n<!-- end -->\n", "no table `lops`"),
     ] {
         let error = filled(document, records).unwrap_err();
+        assert!(error.contains(expected), "{error}");
+    }
+}
+
+#[test]
+fn only_runs_of_the_same_study_can_agree() {
+    let records = Path::new(env!("CARGO_MANIFEST_DIR")).join("../study/records");
+    for (files, expected) in [
+        ("loops-lavapipe.json", "needs two records"),
+        ("loops-lavapipe.json loops-swiftshader.json", "not of the same kernels"),
+    ] {
+        let document = format!("<!-- table agreement of {files} -->\n<!-- end -->\n");
+        let error = filled(&document, &records).unwrap_err();
         assert!(error.contains(expected), "{error}");
     }
 }

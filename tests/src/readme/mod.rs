@@ -61,7 +61,9 @@ fn table(name: &str, files: &[&Path]) -> Result<String, String> {
                 &LoopsRecord::read(again).map_err(why)?,
             )
         }
-        "quality" => Ok(quality::methods(&QualityRecord::read(first).map_err(why)?)),
+        "quality" => Ok(quality::in_short(&QualityRecord::read(first).map_err(why)?)),
+        "methods" => Ok(quality::methods(&QualityRecord::read(first).map_err(why)?)),
+        "scenes" => Ok(quality::scenes(&QualityRecord::read(first).map_err(why)?)),
         "gaps" => Ok(quality::gaps(&QualityRecord::read(first).map_err(why)?)),
         "hard" => hard::kernels(files),
         "tune" => {
@@ -70,7 +72,7 @@ fn table(name: &str, files: &[&Path]) -> Result<String, String> {
         }
         "budget" => budget::metrics(files),
         _ => Err(format!(
-            "there is no table `{name}`; there are speed, loops, agreement, quality, gaps, hard, tune and budget"
+            "there is no table `{name}`; there are speed, loops, agreement, quality, methods, scenes, gaps, hard, tune and budget"
         )),
     }
 }

@@ -1,15 +1,32 @@
 //! Methods of antialiasing against references.
 
 use super::markdown;
-use straightline_study::record::QualityRecord;
+use straightline_study::record::{MethodErrors, QualityRecord, SceneErrors};
 
 /// Scenes whose errors are edges of geometry, for which SRAA is made.
 pub const GEOMETRIC: [&str; 8] = [
     "roof", "grooves", "creases", "railings", "wires", "tubes", "sky", "terrain",
 ];
 
-/// Every method: means over the geometric scenes and over the others.
-pub fn methods(record: &QualityRecord) -> String {
+/// Methods that stand for the others where there is room for few.
+const MAIN: [&str; 13] = [
+    "1x",
+    "SRAA 4",
+    "SRAA 16",
+    "SRAA 4, depth",
+    "S.T.A.L.K.E.R.",
+    "Tabula Rasa",
+    "FXAA",
+    "FXAA on light",
+    "SMAA",
+    "SMAA on light",
+    "MSAA 4",
+    "4x",
+    "16x",
+];
+
+/// The main methods: means over the geometric scenes and over the others.
+pub fn in_short(record: &QualityRecord) -> String {
     let head = [
         "method",
         "PSNR, edges of geometry",
@@ -20,6 +37,40 @@ pub fn methods(record: &QualityRecord) -> String {
         "ms",
         "MB",
     ];
+    let row = |name: &&str| {
+        let (edges, others) = (Scenes::of(record, name, true), Scenes::of(record, name, false));
+        let all = edges.and(&others);
+        vec![
+            (*name).to_owned(),
+            edges.mean(2, " dB", |m| Some(m.psnr)),
+            edges.mean(4, "", |m| Some(m.flip)),
+            edges.mean(0, " %", |m| Some(100.0 * m.gap_closed?)),
+            others.mean(2, " dB", |m| Some(m.psnr)),
+            others.mean(4, "", |m| Some(m.flip)),
+            all.mean(1, "", |m| Some(m.time?.median_ms)),
+            all.mean(1, "", |m| Some(m.bytes as f64 / 1e6)),
+        ]
+    };
+    markdown(&head, MAIN.iter().map(row).collect())
+}
+
+/// Every method: the same means, over kinds of pixels too, and over the pan.
+pub fn methods(record: &QualityRecord) -> String {
+    let head = [
+        "method",
+        "PSNR, edges of geometry",
+        "SSIM",
+        "FLIP",
+        "gap closed",
+        "pan",
+        "PSNR, other scenes",
+        "FLIP",
+        "at edges of geometry",
+        "at edges of shading",
+        "flat",
+        "ms",
+        "MB",
+    ];
     let mut names: Vec<&str> = Vec::new();
     for method in record.scenes.iter().flat_map(|scene| &scene.methods) {
         if !names.contains(&method.method.as_str()) {
@@ -27,40 +78,68 @@ pub fn methods(record: &QualityRecord) -> String {
         }
     }
     let row = |name: &&str| {
-        let of = |geometric: bool| {
-            let scenes = record
-                .scenes
-                .iter()
-                .filter(move |s| GEOMETRIC.contains(&s.scene.as_str()) == geometric);
-            scenes
-                .filter_map(|s| s.methods.iter().find(|m| m.method == *name))
-                .collect::<Vec<_>>()
-        };
-        let mean = |values: Vec<f64>| match values.is_empty() {
-            true => None,
-            false => Some(values.iter().sum::<f64>() / values.len() as f64),
-        };
-        let shown = |value: Option<f64>, digits: usize, unit: &str| {
-            value.map_or("–".to_owned(), |value| format!("{value:.digits$}{unit}"))
-        };
-        let (edges, others) = (of(true), of(false));
-        let all = || edges.iter().chain(&others);
+        let (edges, others) = (Scenes::of(record, name, true), Scenes::of(record, name, false));
+        let all = edges.and(&others);
         vec![
             (*name).to_owned(),
-            shown(mean(edges.iter().map(|m| m.psnr).collect()), 2, " dB"),
-            shown(mean(edges.iter().map(|m| m.flip).collect()), 4, ""),
-            shown(
-                mean(edges.iter().filter_map(|m| Some(100.0 * m.gap_closed?)).collect()),
-                0,
-                " %",
-            ),
-            shown(mean(others.iter().map(|m| m.psnr).collect()), 2, " dB"),
-            shown(mean(others.iter().map(|m| m.flip).collect()), 4, ""),
-            shown(mean(all().filter_map(|m| Some(m.time?.median_ms)).collect()), 1, ""),
-            shown(mean(all().map(|m| m.bytes as f64 / 1e6).collect()), 1, ""),
+            edges.mean(2, "", |m| Some(m.psnr)),
+            edges.mean(4, "", |m| Some(m.ssim)),
+            edges.mean(4, "", |m| Some(m.flip)),
+            edges.mean(0, " %", |m| Some(100.0 * m.gap_closed?)),
+            edges.mean(4, "", |m| m.temporal),
+            others.mean(2, "", |m| Some(m.psnr)),
+            others.mean(4, "", |m| Some(m.flip)),
+            all.mean(1, "", |m| m.psnr_geometry),
+            all.mean(1, "", |m| m.psnr_shading),
+            all.mean(1, "", |m| m.psnr_flat),
+            all.mean(1, "", |m| Some(m.time?.median_ms)),
+            all.mean(1, "", |m| Some(m.bytes as f64 / 1e6)),
         ]
     };
     markdown(&head, names.iter().map(row).collect())
+}
+
+/// Every scene: PSNR and FLIP of the main methods.
+pub fn scenes(record: &QualityRecord) -> String {
+    let mut head = vec!["scene"];
+    head.extend(MAIN);
+    let row = |scene: &SceneErrors| {
+        let cell = |name: &&str| match scene.methods.iter().find(|m| m.method == **name) {
+            Some(method) => format!("{:.2}, {:.4}", method.psnr, method.flip),
+            None => "–".to_owned(),
+        };
+        std::iter::once(scene.scene.clone())
+            .chain(MAIN.iter().map(cell))
+            .collect()
+    };
+    markdown(&head, record.scenes.iter().map(row).collect())
+}
+
+/// What one method gave on some scenes.
+struct Scenes<'a>(Vec<&'a MethodErrors>);
+
+impl<'a> Scenes<'a> {
+    fn of(record: &'a QualityRecord, name: &str, geometric: bool) -> Scenes<'a> {
+        let scenes = record.scenes.iter();
+        let own = scenes.filter(|s| GEOMETRIC.contains(&s.scene.as_str()) == geometric);
+        Scenes(
+            own.filter_map(|s| s.methods.iter().find(|m| m.method == name))
+                .collect(),
+        )
+    }
+
+    fn and(&self, others: &Scenes<'a>) -> Scenes<'a> {
+        Scenes(self.0.iter().chain(&others.0).copied().collect())
+    }
+
+    /// The mean of a figure over the scenes that have it.
+    fn mean(&self, digits: usize, unit: &str, figure: impl Fn(&MethodErrors) -> Option<f64>) -> String {
+        let values: Vec<f64> = self.0.iter().filter_map(|method| figure(method)).collect();
+        match values.is_empty() {
+            true => "–".to_owned(),
+            false => format!("{:.digits$}{unit}", values.iter().sum::<f64>() / values.len() as f64),
+        }
+    }
 }
 
 /// How far SRAA is from supersampling on every scene that has gaps, and what that is made of.
