@@ -86,6 +86,7 @@ fn verdict(form: &Form, done: &[HardCase]) -> HalfVerdict {
         };
         let others = match broken.len() {
             1 => String::new(),
+            2 => ", and more than can be seen on another".to_owned(),
             n => format!(", and more than can be seen on {} others", n - 1),
         };
         format!("{what}{others}: {}", why(form))

@@ -295,10 +295,10 @@ impl Space {
 
     /// How the kernel is generated for a variant.
     pub fn settings(&self, variant: Variant) -> Settings {
-        let values = Term::ALL.map(|term| self.value(variant, term));
+        let terms = Term::ALL.into_iter().filter(|term| self.counts(variant, *term));
         let block = self.value(variant, Term::Block).block;
         let mut options = self.fixed.clone();
-        options.extend(values.iter().flat_map(|value| value.options.iter().cloned()));
+        options.extend(terms.flat_map(|term| self.value(variant, term).options.iter().cloned()));
         // The pixels of a block go the same way: there the mask selects.
         for (name, value) in &mut options {
             if name == "mask" && value == "branch" && block != [1, 1] {
@@ -312,6 +312,11 @@ impl Space {
         }
     }
 
+    /// Whether a term does anything in a variant: normals alone have no depths to compare.
+    fn counts(&self, variant: Variant, term: Term) -> bool {
+        term != Term::Difference || self.value(variant, Term::Metric).label != "normals"
+    }
+
     /// A variant's precision.
     pub fn precision(&self, variant: Variant) -> Precision {
         self.value(variant, Term::Precision).precision
@@ -319,8 +324,7 @@ impl Space {
 
     /// A variant in words, term by term.
     pub fn name(&self, variant: Variant) -> String {
-        let skip = |term: &Term| *term == Term::Difference && self.value(variant, Term::Metric).label == "normals";
-        let labels = Term::ALL.into_iter().filter(|term| !skip(term));
+        let labels = Term::ALL.into_iter().filter(|term| self.counts(variant, *term));
         let labels: Vec<&str> = labels.map(|term| self.value(variant, term).label.as_str()).collect();
         labels.join(", ")
     }
