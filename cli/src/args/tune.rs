@@ -54,10 +54,7 @@ impl TuneArgs {
             },
             max_error: 1.0,
             metric: ErrorMetric::Psnr,
-            size: Some(common.size.unwrap_or(match common.quick {
-                true => UVec2::new(320, 180),
-                false => UVec2::new(640, 360),
-            })),
+            size: common.size.or(common.quick.then_some(UVec2::new(320, 180))),
             rounds: common.rounds(),
             set: Vec::new(),
             target: vec![Target::Wgsl],

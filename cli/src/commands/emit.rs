@@ -7,6 +7,9 @@ use straightline_study::hard::{self, HardError};
 
 /// Writes the shader in every language asked for, and its manifest, or nothing.
 pub fn run(args: &EmitArgs) -> Result<(), Failure> {
+    if args.accept_loss && args.precision != Precision::F16 {
+        return Err(Failure::Usage("--accept-loss goes with --precision f16".to_owned()));
+    }
     let kernel = args.kernel.locate()?;
     let compiled = kernel.compile(&args.kernel.options.settings())?;
     let name = args.name.as_deref().unwrap_or(&compiled.kernel);
@@ -25,10 +28,8 @@ pub fn run(args: &EmitArgs) -> Result<(), Failure> {
     options.enable_subgroups = args.enable_subgroups;
     options.workgroup = args.workgroup.map(|size| size.to_array());
     let emitted = compiled.emit(&options).map_err(Failure::of)?;
-    match (args.precision, args.accept_loss) {
-        (Precision::F16, false) => refuse_visible_loss(args)?,
-        (Precision::F32, true) => return Err(Failure::Usage("--accept-loss goes with --precision f16".to_owned())),
-        _ => {}
+    if args.precision == Precision::F16 && !args.accept_loss {
+        refuse_visible_loss(args)?;
     }
     let written = files::write_all(&args.out, &emitted.named(name)).map_err(Failure::of)?;
     for file in written {

@@ -22,8 +22,9 @@ impl Bench {
         let view = self
             .target(job.size, job.pass.target_format())
             .create_view(&wgpu::TextureViewDescriptor::default());
+        let most = if least.is_zero() { 1 } else { MOST_REPEATS };
         let mut timer = match self.timestamps {
-            true => Some(Timer::new(&self.device, &self.queue, MOST_REPEATS)?),
+            true => Some(Timer::new(&self.device, &self.queue, most)?),
             false => None,
         };
         let mut repeats = None;
@@ -37,7 +38,7 @@ impl Bench {
                 took = bench.once(&job, &view, 1, timer.as_mut())?;
             }
             let wanted = least.as_secs_f64() / took.as_secs_f64().max(1e-9);
-            repeats = Some((wanted.ceil() as u32).clamp(1, MOST_REPEATS));
+            repeats = Some((wanted.ceil() as u32).clamp(1, most));
             Ok(took)
         }))
     }
