@@ -1,6 +1,6 @@
 //! Expressions and blocks.
 
-use super::value::{Eval, Exit, Range, Value};
+use super::value::{Eval, Exit, Value};
 use super::{Evaluator, MAX_PARTS};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::front::tree::{Block, Expr, ExprKind, IntType, Pattern, Statement, Type as SourceType};
@@ -219,7 +219,7 @@ impl Evaluator<'_> {
                 let value = self.expr(value)?;
                 self.cast(&value, ty, span)
             }
-            ExprKind::Range(start, end, inclusive) => self.range(start, end, *inclusive, span),
+            ExprKind::Range(start, end, inclusive) => self.range(start, end, *inclusive),
             ExprKind::For(f) => self.for_(f, span),
             ExprKind::While(condition, body, label) => self.while_(condition, body, label.as_deref(), span),
             ExprKind::Return(value) => {
@@ -299,19 +299,6 @@ impl Evaluator<'_> {
             values.push((field.clone(), value));
         }
         self.bounded(Value::structure(name, values), span)
-    }
-
-    fn range(&mut self, start: &Expr, end: &Expr, inclusive: bool, span: Span) -> Eval {
-        let (first, mut last) = (self.expr(start)?, self.expr(end)?);
-        if inclusive {
-            last = self.binary(BinaryOp::Add, &last, &Value::Int(1), span)?;
-        }
-        Ok(Value::Range(Range {
-            start: Box::new(first),
-            end: Box::new(last),
-            reversed: false,
-            step: 1,
-        }))
     }
 
     /// `&&` and `||`.

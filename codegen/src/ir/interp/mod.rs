@@ -31,7 +31,7 @@ pub struct Scratch {
     values: Vec<Cells>,
     arrays: Vec<Vec<Cells>>,
     /// Counters of the kept loops around, outer ones first.
-    loops: Vec<(NodeId, i32)>,
+    loops: Vec<(NodeId, i64)>,
     birth: Option<Birth>,
 }
 
@@ -172,10 +172,11 @@ impl<'a, R: Real> Interpreter<'a, R> {
     fn run_loop(&self, node: NodeId, body: &Block, pixel: [u32; 2], s: &mut Scratch) {
         let args = &self.graph.node(node).args;
         let region = self.graph.region(self.graph.regions_of(node)[0]);
-        let (start, end) = (
-            s.values[args[0].0 as usize][0] as i32,
-            s.values[args[1].0 as usize][0] as i32,
-        );
+        let signed = self.graph.ty(args[0]) == Type::I32;
+        let [start, end] = [args[0], args[1]].map(|id| {
+            let bits = s.values[id.0 as usize][0] as u32;
+            if signed { i64::from(bits as i32) } else { i64::from(bits) }
+        });
         let mut carried: Vec<Vec<Cells>> = args[2..].iter().map(|a| whole(self.graph, s, *a)).collect();
         for counter in start..end {
             s.values[region.params[0].0 as usize] = [u64::from(counter as u32), 0, 0, 0];
@@ -290,7 +291,7 @@ impl<'a, R: Real> Interpreter<'a, R> {
         let lanes = &s.values[id.0 as usize][..self.graph.ty(id).lanes() as usize];
         let kept = s.loops.iter().map(|(param, value)| Counter {
             name: self.graph.origin(*param).map_or("k", |o| o.name.as_str()).to_owned(),
-            value: i64::from(*value),
+            value: *value,
         });
         let unrolled = self.graph.origin(id).into_iter().flat_map(|o| o.counters.clone());
         s.birth = Some(Birth {
