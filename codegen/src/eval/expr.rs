@@ -221,7 +221,9 @@ impl Evaluator<'_> {
             }
             ExprKind::Range(start, end, inclusive) => self.range(start, end, *inclusive),
             ExprKind::For(f) => self.for_(f, span),
-            ExprKind::While(condition, body, label) => self.while_(condition, body, label.as_deref(), span),
+            ExprKind::While(condition, body, label, unroll) => {
+                self.while_(condition, body, label.as_deref(), *unroll, span)
+            }
             ExprKind::Return(value) => {
                 let value = value.as_ref().map_or(Ok(Value::unit()), |e| self.expr(e))?;
                 Err(Exit::Return(value))

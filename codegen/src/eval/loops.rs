@@ -326,9 +326,16 @@ impl Evaluator<'_> {
         }
     }
 
-    pub fn while_(&mut self, condition: &Expr, block: &Block, label: Option<&str>, span: Span) -> Eval {
+    pub fn while_(
+        &mut self,
+        condition: &Expr,
+        block: &Block,
+        label: Option<&str>,
+        attribute: Option<Unroll>,
+        span: Span,
+    ) -> Eval {
         let function = self.calls.last().cloned().unwrap_or_default();
-        let asked = self.policy.asked(&function, "while", None);
+        let asked = self.policy.asked(&function, "while", attribute);
         let made = self.builder.graph().nodes.len();
         self.loops.enter(&function, "while", span, made);
         let body = Body {

@@ -11,7 +11,7 @@ use crate::front::tree::Expr;
 use crate::ir::{BinaryOp, NodeId, Op, Scalar, Type};
 
 /// Iterations after which a loop is taken to be a mistake.
-const MAX_ROUNDS: u128 = 1_000_000;
+const MAX_ROUNDS: i128 = 1_000_000;
 
 /// How a loop over a range runs in the graph.
 pub struct Course {
@@ -128,20 +128,19 @@ impl Evaluator<'_> {
         let Some((start, end)) = self.known_int(&range.start).zip(self.known_int(&range.end)) else {
             return Ok(None);
         };
-        let (start, last) = (i128::from(start), i128::from(end) - i128::from(!range.inclusive));
-        if last < start {
-            return Ok(Some(Vec::new()));
-        }
-        let step = i128::from(range.step);
-        let rounds = ((last - start) / step + 1).unsigned_abs();
+        let rounds = iterations(range, start, end);
         if rounds > MAX_ROUNDS {
             return Err(Diagnostic::at(span, format!("a loop of {rounds} iterations"))
                 .label("too many")
                 .help(format!("a loop may have up to {MAX_ROUNDS}"))
                 .into());
         }
-        let mut values: Vec<i128> = (0..rounds as i128)
-            .map(|k| if range.down { last - k * step } else { start + k * step })
+        let (step, last) = (i128::from(range.step), last(range, end));
+        let mut values: Vec<i128> = (0..rounds)
+            .map(|k| match range.down {
+                true => last - k * step,
+                false => i128::from(start) + k * step,
+            })
             .collect();
         if range.reversed {
             values.reverse();
@@ -174,7 +173,11 @@ impl Evaluator<'_> {
         // Counts that an i32 holds need no conversion.
         let from_zero = self.known_int(&Value::Node(start)) == Some(0) && !range.inclusive;
         let own = if known.is_some() || from_zero { ty } else { Type::U32 };
-        let trips = self.trips(range, (start, end), own);
+        let trips = match known.and_then(|(start, end)| u32::try_from(iterations(range, start, end)).ok()) {
+            // Few enough, or the range would have been refused.
+            Some(trips) => self.whole(trips, own),
+            None => self.trips(range, (start, end), own),
+        };
         let from = if range.down && !range.inclusive {
             self.integer(BinaryOp::Sub, end, 1)
         } else if range.down {
@@ -303,6 +306,17 @@ impl Evaluator<'_> {
         let n = self.whole(n, ty);
         self.builder.add(Op::Binary(op), vec![x, n], ty)
     }
+}
+
+/// The last value of a range of which the end is known.
+fn last(range: &Range, end: i64) -> i128 {
+    i128::from(end) - i128::from(!range.inclusive)
+}
+
+/// Number of iterations of a loop over a range with known ends.
+fn iterations(range: &Range, start: i64, end: i64) -> i128 {
+    let distance = last(range, end) - i128::from(start);
+    if distance < 0 { 0 } else { distance / i128::from(range.step) + 1 }
 }
 
 impl Course {
