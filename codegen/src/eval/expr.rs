@@ -407,6 +407,9 @@ impl Evaluator<'_> {
             return self.element(&Value::array(lanes), index, span);
         }
         let index = self.index_node(index, span)?;
+        if let Some(element) = self.element_of_many(base, index, span)? {
+            return Ok(element);
+        }
         let array = self.array_node(base, span)?;
         let ty = self.ty(array);
         if let (Type::Array { len, .. }, Some(bits)) = (ty, self.builder.graph().constant(index))

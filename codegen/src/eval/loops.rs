@@ -15,6 +15,8 @@ pub struct Body<'a> {
     pub block: &'a Block,
     /// What takes each value; `None` of a `while`.
     pub pattern: Option<&'a Pattern>,
+    /// The name of its count in the shader, where the source has one.
+    pub counter: Option<(&'a str, Span)>,
     label: Option<&'a str>,
 }
 
@@ -56,9 +58,14 @@ impl Evaluator<'_> {
     /// Runs a loop as asked, or as it can be; gives what became of it.
     fn run(&mut self, f: &ForLoop, items: Value, asked: Asked, span: Span) -> Eval<Unroll> {
         let leaves = assigned(&f.body).leaves;
+        let counter = match (&f.pattern, &items) {
+            (Pattern::Name(name, at), Value::Range(_)) => Some((name.as_str(), *at)),
+            _ => None,
+        };
         let body = Body {
             block: &f.body,
             pattern: Some(&f.pattern),
+            counter,
             label: f.label.as_deref(),
         };
         let mut range = None;
@@ -142,7 +149,8 @@ impl Evaluator<'_> {
         }
         if let Some(needed) = self.unrolled.get(&span) {
             let why = needed.clone();
-            self.loops.because(span, told(&why));
+            let reason = format!("what follows it needs a compile-time constant that it assigns: {}", told(&why));
+            self.loops.because(span, reason);
             if asked.by_name {
                 let error = refusal(wish, &why).note("what the loop assigns would be a runtime value after it");
                 self.loops.defer(error);
@@ -270,8 +278,8 @@ impl Evaluator<'_> {
             self.name_params(&value, &name, span);
             self.scope.set(*slot, value);
         }
-        if let Some(Pattern::Name(name, at)) = body.pattern {
-            self.name_params(&Value::Node(params[0]), name, *at);
+        if let Some((name, at)) = body.counter {
+            self.name_params(&Value::Node(params[0]), name, at);
         }
         self.loops.round();
         let outcome = iteration(self, params[0]);
@@ -341,6 +349,7 @@ impl Evaluator<'_> {
         let body = Body {
             block,
             pattern: None,
+            counter: None,
             label,
         };
         let outcome = self.run_while(condition, &body, asked, span);
@@ -361,7 +370,7 @@ impl Evaluator<'_> {
             };
             let (test, effects) = (assigned(&test), assigned(body.block));
             let leaves = effects.leaves || test.leaves || !test.assigned.is_empty();
-            let mut iterations = u64::MAX;
+            let (mut iterations, mut after) = (u64::MAX, Vec::new());
             if !leaves {
                 let before = self.checkpoint();
                 self.unrolls_all = true;
@@ -372,6 +381,7 @@ impl Evaluator<'_> {
                 if noted {
                     return Err(Exit::Noted);
                 }
+                after = (0..self.scope.len()).map(|slot| self.scope.at(slot).1.clone()).collect();
                 self.return_to(before);
             }
             let wish = Wish {
@@ -383,12 +393,27 @@ impl Evaluator<'_> {
             };
             let count = |_: &mut Self| Ok(Count::Times(iterations as u32));
             refused = match self.attempt(body, &wish, count)? {
-                Granted::Kept(unroll) => return Ok(unroll),
+                Granted::Kept(unroll) => {
+                    // What the loop makes of variables is known where it is known without the loop.
+                    for (slot, value) in after.into_iter().enumerate() {
+                        if self.scope.at(slot).1 != &value && self.is_known(&value) {
+                            self.scope.set(slot, value);
+                        }
+                    }
+                    return Ok(unroll);
+                }
                 Granted::Unrolled(refused) => refused,
             };
         }
         self.unrolled_while(condition, body, span)?;
         refused.map_or(Ok(Unroll::Full), |error| Err(error.into()))
+    }
+
+    /// Whether all numbers in a value are known.
+    fn is_known(&self, value: &Value) -> bool {
+        let mut leaves = Vec::new();
+        Self::leaves(value, &mut leaves);
+        leaves.iter().all(|id| self.builder.graph().constant(*id).is_some())
     }
 
     /// Unrolls a `while`; gives how many iterations it had.

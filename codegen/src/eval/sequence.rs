@@ -182,6 +182,84 @@ impl Evaluator<'_> {
         Self::with_leaves(&columns.template, &mut nodes.into_iter())
     }
 
+    /// An element, at an index that is not known, of an array of arrays, tuples or structures; `None` of an array of
+    /// numbers that has nothing to be simplified.
+    pub fn element_of_many(&mut self, base: &Value, index: NodeId, span: Span) -> Eval<Option<Value>> {
+        let Value::Array(elements) = base else { return Ok(None) };
+        match elements.first() {
+            Some(Value::Array(row)) if row.len() * elements.len() <= super::MAX_PARTS => {
+                if let Some(flat) = self.flat(elements) {
+                    let from = self.integer(BinaryOp::Mul, index, row.len() as u32);
+                    let element = self.ty(flat).element();
+                    let row = (0..row.len() as u32).map(|k| {
+                        let at = self.integer(BinaryOp::Add, from, k);
+                        Value::Node(self.builder.add(Op::ArrayGet, vec![flat, at], element))
+                    });
+                    let row = row.collect();
+                    return Ok(Some(Value::array(row)));
+                }
+                let columns = self.by_columns(elements, span)?;
+                Ok(Some(self.element_at(&columns, index)))
+            }
+            Some(Value::Struct { .. } | Value::Tuple(_)) => {
+                let columns = self.by_columns(elements, span)?;
+                Ok(Some(self.element_at(&columns, index)))
+            }
+            _ => Ok(self.element_of_row(elements, index)),
+        }
+    }
+
+    /// An array of arrays of numbers of one type as one array, row by row.
+    fn flat(&mut self, rows: &[Value]) -> Option<NodeId> {
+        let mut nodes = Vec::new();
+        for row in rows {
+            let (Value::Array(row), Value::Array(first)) = (row, &rows[0]) else {
+                return None;
+            };
+            if row.len() != first.len() {
+                return None;
+            }
+            for value in row.iter() {
+                match self.known_integers(value, &first[0]) {
+                    Value::Node(id) => nodes.push(id),
+                    _ => return None,
+                }
+            }
+        }
+        let Type::Value { scalar, lanes } = self.ty(nodes[0]) else {
+            return None;
+        };
+        let len = nodes.len() as u32;
+        let alike = nodes.iter().all(|id| self.ty(*id) == self.ty(nodes[0]));
+        let ty = Type::Array { scalar, lanes, len };
+        alike.then(|| self.builder.add(Op::MakeArray, nodes, ty))
+    }
+
+    /// An element of a row of a flat array: its elements are `flat[from]`, `flat[from + 1]`, ...
+    fn element_of_row(&mut self, row: &[Value], index: NodeId) -> Option<Value> {
+        let get = |e: &Self, value: &Value| match value {
+            Value::Node(id) if e.builder.graph().node(*id).op == Op::ArrayGet => {
+                let args = &e.builder.graph().node(*id).args;
+                Some((args[0], args[1]))
+            }
+            _ => None,
+        };
+        let (flat, from) = get(self, row.first()?)?;
+        // Elements at known indices are left to the rules that fold them.
+        if row.len() < 2 || self.builder.graph().constant(from).is_some() {
+            return None;
+        }
+        for (k, value) in row.iter().enumerate() {
+            let at = self.integer(BinaryOp::Add, from, k as u32);
+            if get(self, value)? != (flat, at) {
+                return None;
+            }
+        }
+        let at = self.builder.add(Op::Binary(BinaryOp::Add), vec![from, index], Type::I32);
+        let element = self.ty(flat).element();
+        Some(Value::Node(self.builder.add(Op::ArrayGet, vec![flat, at], element)))
+    }
+
     fn evenly(&mut self, even: Even, position: NodeId) -> NodeId {
         let ty = self.ty(position);
         let first = self.whole(even.first, ty);

@@ -5,7 +5,7 @@ mod finite;
 mod sampling;
 
 use super::arith::{self, Cells};
-use super::{Counter, Graph, Invocation, NodeId, Op, Real, Scalar, Type};
+use super::{Counter, Graph, Invocation, NodeId, Op, Real, Region, Scalar, Type};
 use crate::passes::{Block, Schedule, Step};
 use sampling::Sampled;
 use std::marker::PhantomData;
@@ -186,9 +186,33 @@ impl<'a, R: Real> Interpreter<'a, R> {
             }
             self.block(body, pixel, s);
             s.loops.pop();
-            carried = region.results.iter().map(|r| whole(self.graph, s, *r)).collect();
+            carried = self.leaving(region, s);
         }
         s.arrays[node.0 as usize] = carried.concat();
+    }
+
+    /// Whether nothing uses a value but `user`, which is evaluated once each time that the value is.
+    fn is_last_use(&self, id: NodeId, user: NodeId) -> bool {
+        let Schedule { uses, place, .. } = self.schedule;
+        uses[id.0 as usize] == 1 && place[id.0 as usize] == place[user.0 as usize]
+    }
+
+    /// What leaves a loop's body. An array that is made in each iteration, and leaves once, is moved.
+    fn leaving(&self, region: &Region, s: &mut Scratch) -> Vec<Vec<Cells>> {
+        let here = self.schedule.place[region.params[0].0 as usize];
+        let mut values = Vec::new();
+        for result in &region.results {
+            let slot = result.0 as usize;
+            let moves = self.graph.ty(*result).is_array()
+                && self.schedule.place[slot] == here
+                && here.is_some()
+                && region.results.iter().filter(|r| *r == result).count() == 1;
+            values.push(match moves {
+                true => std::mem::take(&mut s.arrays[slot]),
+                false => whole(self.graph, s, *result),
+            });
+        }
+        values
     }
 
     fn eval(&self, id: NodeId, pixel: [u32; 2], s: &mut Scratch) {
@@ -212,7 +236,13 @@ impl<'a, R: Real> Interpreter<'a, R> {
                 s.values[slot] = array[index.min(array.len() - 1)];
             }
             Op::ArraySet => {
-                let mut array = s.arrays[node.args[0].0 as usize].clone();
+                let old = node.args[0];
+                // Changed where it is, if nothing else looks at it: else a loop over it would take the square of its length.
+                let mut array = if self.is_last_use(old, id) {
+                    std::mem::take(&mut s.arrays[old.0 as usize])
+                } else {
+                    s.arrays[old.0 as usize].clone()
+                };
                 let index = s.values[node.args[1].0 as usize][0] as u32 as usize;
                 if let Some(element) = array.get_mut(index) {
                     *element = s.values[node.args[2].0 as usize];
