@@ -122,6 +122,15 @@ impl FromStr for Transport {
 /// What becomes of single loops, by the path `function.counter` or by the counter alone.
 pub type LoopPolicy = (String, Unroll);
 
+/// What is asked of one loop.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Asked {
+    /// What it is to become.
+    pub unroll: Unroll,
+    /// Whether this is said of the loop itself, by path or attribute, and not of all loops.
+    pub by_name: bool,
+}
+
 /// What a kernel's loops and branches become.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Policy {
@@ -134,14 +143,18 @@ pub struct Policy {
 }
 
 impl Policy {
-    /// What becomes of the loop over `counter` in `function`, of which the source says `attribute`.
-    pub fn of(&self, function: &str, counter: &str, attribute: Option<Unroll>) -> Unroll {
+    /// What is asked of the loop over `counter` in `function`, of which the source says `attribute`.
+    pub fn asked(&self, function: &str, counter: &str, attribute: Option<Unroll>) -> Asked {
         let named = self
             .loops
             .iter()
             .rev()
             .find(|(path, _)| matches(path, function, counter));
-        named.map(|(_, unroll)| *unroll).or(attribute).unwrap_or(self.unroll)
+        let named = named.map(|(_, unroll)| *unroll).or(attribute);
+        Asked {
+            unroll: named.unwrap_or(self.unroll),
+            by_name: named.is_some(),
+        }
     }
 
     /// Whether a branch of which the source says `attribute` is kept.

@@ -141,6 +141,11 @@ fn print(compiled: &Compiled, counts: &Counts, bound: &Bound, paper: Option<Pape
         [width, height] => format!("per {width}x{height} pixels"),
     };
     print!("{}", table::render(&[&per, "here", "paper"], &rows));
+    print_loops(compiled);
+}
+
+/// What became of each loop, and why it was unrolled where it was asked to be left in the shader.
+fn print_loops(compiled: &Compiled) {
     let loops = compiled.loops.iter().map(|report| {
         let cells = [
             report.path(),
@@ -151,12 +156,18 @@ fn print(compiled: &Compiled, counts: &Counts, bound: &Bound, paper: Option<Pape
         cells.to_vec()
     });
     let loops: Vec<Vec<String>> = loops.collect();
-    if !loops.is_empty() {
-        println!();
-        print!(
-            "{}",
-            table::render(&["loop", "unroll", "rounds evaluated", "operations"], &loops)
-        );
+    if loops.is_empty() {
+        return;
+    }
+    println!();
+    print!(
+        "{}",
+        table::render(&["loop", "unroll", "iterations evaluated", "operations"], &loops)
+    );
+    for report in &compiled.loops {
+        if let Some(reason) = &report.reason {
+            println!("`{}` was unrolled: {reason}", report.path());
+        }
     }
 }
 

@@ -4,6 +4,7 @@
 //! That is right as long as no version is read once the next has been written. Where one is, the emitter learns it
 //! when it gets there, and begins again with the web cut before the version that came too early: that version then
 //! begins a variable of its own with a copy. Literals (`MakeArray`) belong to no web and are copied where one begins.
+//! Where cuts do not help, every version is a variable of its own, which is always right: see [`Webs::apart`].
 
 use crate::ir::{Graph, NodeId, Op};
 use std::collections::{HashMap, HashSet};
@@ -25,12 +26,7 @@ pub type Snapshot = (HashMap<u32, String>, HashMap<u32, NodeId>);
 impl Webs {
     /// Finds the webs of a graph. Versions in `cut` do not share the variable of what they were made from.
     pub fn new(graph: &Graph, cut: &HashSet<NodeId>) -> Webs {
-        let mut webs = Webs {
-            parent: (0..graph.nodes.len() as u32).collect(),
-            names: HashMap::new(),
-            current: HashMap::new(),
-            replaced: HashMap::new(),
-        };
+        let mut webs = Webs::single(graph);
         for id in graph.ids() {
             let node = graph.node(id);
             if node.op == Op::ArraySet && !cut.contains(&id) {
@@ -64,6 +60,30 @@ impl Webs {
             }
         }
         webs
+    }
+
+    /// Webs of one version each; only what a loop carries is, after the loop, where it was carried. No version is ever
+    /// read once another has taken its place, so that text can be written for every graph.
+    pub fn apart(graph: &Graph) -> Webs {
+        let mut webs = Webs::single(graph);
+        for id in graph.ids() {
+            let node = graph.node(id);
+            if let Op::Result(k) = node.op
+                && let Op::Loop(body) = graph.node(node.args[0]).op
+            {
+                webs.union(graph, id, graph.region(body).params[k as usize + 1]);
+            }
+        }
+        webs
+    }
+
+    fn single(graph: &Graph) -> Webs {
+        Webs {
+            parent: (0..graph.nodes.len() as u32).collect(),
+            names: HashMap::new(),
+            current: HashMap::new(),
+            replaced: HashMap::new(),
+        }
     }
 
     /// Unites a version with what leaves a region for it, unless that would undo a cut.
@@ -135,6 +155,24 @@ impl Webs {
     pub fn leave(&mut self, (names, _): &Snapshot) {
         self.names.clone_from(names);
         self.current.retain(|web, _| names.contains_key(web));
+    }
+
+    /// Of what was in scope before a loop's body, a version that its variable no longer holds at the end: the next
+    /// iteration would find another.
+    pub fn lost(&self, (names, current): &Snapshot) -> Option<NodeId> {
+        let mut lost: Vec<NodeId> = names
+            .keys()
+            .filter(|web| self.current.get(web) != current.get(web))
+            .filter_map(|web| current.get(web).copied())
+            .collect();
+        lost.sort_unstable();
+        lost.first().copied()
+    }
+
+    /// Joins this state, that of the second side of a branch, with that of the first: where a variable may hold two
+    /// versions, it is not known to hold any.
+    pub fn join_sides(&mut self, (_, first): &Snapshot) {
+        self.current.retain(|web, version| first.get(web) == Some(version));
     }
 
     /// Returns to a state, as the other side of a branch does.

@@ -19,7 +19,7 @@ pub trait Dialect {
     /// An array at module scope.
     fn table(&self, name: &str, ty: Type, value: &str) -> String;
     /// The head of a loop, up to the opening brace.
-    fn loop_head(&self, counter: &str, start: &Text, end: &Text) -> String;
+    fn loop_head(&self, counter: &str, ty: Type, start: &Text, end: &Text) -> String;
     /// The head of a branch, up to the opening brace.
     fn if_head(&self, condition: &Text) -> String;
     /// A texel of a texture, or sample of one.

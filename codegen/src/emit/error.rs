@@ -86,16 +86,6 @@ pub enum EmitError {
         /// The input.
         name: String,
     },
-    /// An array of a kept loop is used after it was changed.
-    #[error(
-        "`{kernel}` uses an old version of the array `{array}` after changing it in a kept loop: copy what is needed before, or unroll fully"
-    )]
-    ArrayVersions {
-        /// The kernel.
-        kernel: String,
-        /// The array.
-        array: String,
-    },
     /// A validator refused the text: a mistake of the emitter's.
     #[error(
         "the {target} text of `{kernel}` is not valid; this is a mistake in Straightline, please report it:\n{message}"

@@ -94,9 +94,10 @@ impl Dialect for Glsl<'_> {
         format!("const {}", self.mutable(name, ty, Some(value)))
     }
 
-    fn loop_head(&self, counter: &str, start: &Text, end: &Text) -> String {
+    fn loop_head(&self, counter: &str, ty: Type, start: &Text, end: &Text) -> String {
         format!(
-            "for (int {counter} = {}; {counter} < {}; {counter}++) {{",
+            "for ({} {counter} = {}; {counter} < {}; {counter}++) {{",
+            if ty == Type::U32 { "uint" } else { "int" },
             start.code, end.code
         )
     }

@@ -99,6 +99,12 @@ impl Text {
         }
     }
 
+    /// The text as it may stand beside `<`.
+    pub fn compared(self) -> Text {
+        let code = self.inside(Binds::Comparison, true);
+        Text { code, ..self }
+    }
+
     /// The text as an operand of an operator that binds so.
     fn inside(&self, outer: Binds, right: bool) -> String {
         let loose = self.binds < outer || (right && self.binds == outer);

@@ -84,7 +84,7 @@ impl Dialect for Wgsl<'_> {
         format!("const {name} = {value};")
     }
 
-    fn loop_head(&self, counter: &str, start: &Text, end: &Text) -> String {
+    fn loop_head(&self, counter: &str, _: Type, start: &Text, end: &Text) -> String {
         format!(
             "for (var {counter} = {}; {counter} < {}; {counter}++) {{",
             start.code, end.code

@@ -3,6 +3,7 @@
 use super::Evaluator;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::policy::{self, Unroll};
+use std::collections::HashMap;
 
 /// What helps a kernel that is too large.
 pub const WAY_OUT: &str =
@@ -19,6 +20,8 @@ pub struct LoopReport {
     pub span: Span,
     /// What was made of it the last time.
     pub unroll: Unroll,
+    /// Why it was unrolled although it was asked to be left in the shader, if it was.
+    pub reason: Option<String>,
     /// How often its body was evaluated, over all times that it was reached.
     pub rounds: u64,
     /// Operations that its body left, those of loops inside it left out.
@@ -38,9 +41,17 @@ pub struct Loops {
     reports: Vec<LoopReport>,
     /// Loops being evaluated: index, operations when it began, and operations of loops inside it.
     open: Vec<(usize, usize, usize)>,
-    /// Loops of known bounds that were kept, in order.
+    /// Loops of known bounds that were left in the shader, in order.
     kept: Vec<Span>,
+    /// How often each loop was tried to be left in the shader in vain, and why not the last time.
+    refused: HashMap<Span, (u32, Diagnostic)>,
+    /// Errors to give if there are no others: what follows a loop needs it unrolled, but it was asked for by name.
+    deferred: Vec<Diagnostic>,
 }
+
+/// Attempts to leave one loop in the shader after which it is unrolled wherever it is reached. Without such an end loops
+/// in loops would be tried twice a level.
+const MAX_REFUSALS: u32 = 3;
 
 impl Loops {
     /// A loop begins, when `operations` have been made.
@@ -52,6 +63,7 @@ impl Loops {
                 counter: counter.to_owned(),
                 span,
                 unroll: Unroll::Full,
+                reason: None,
                 rounds: 0,
                 operations: 0,
             });
@@ -67,12 +79,49 @@ impl Loops {
         }
     }
 
-    /// A loop that could have been unrolled is kept.
+    /// Notes why a loop is unrolled; the first reason stays.
+    pub fn because(&mut self, span: Span, reason: String) {
+        if let Some(report) = self.reports.iter_mut().find(|r| r.span == span) {
+            report.reason.get_or_insert(reason);
+        }
+    }
+
+    /// An attempt to leave a loop in the shader has failed.
+    pub fn refuse(&mut self, span: Span, why: &Diagnostic) {
+        let entry = self.refused.entry(span).or_insert_with(|| (0, why.clone()));
+        *entry = (entry.0 + 1, why.clone());
+    }
+
+    /// Why a loop is not tried to be left in the shader any more.
+    pub fn given_up(&self, span: Span) -> Option<Diagnostic> {
+        let (times, why) = self.refused.get(&span)?;
+        (*times >= MAX_REFUSALS).then(|| why.clone())
+    }
+
+    /// An error to give if there are no others.
+    pub fn defer(&mut self, error: Diagnostic) {
+        if !self.deferred.contains(&error) {
+            self.deferred.push(error);
+        }
+    }
+
+    /// Errors to give if there are no others.
+    pub fn deferred(&mut self) -> Vec<Diagnostic> {
+        std::mem::take(&mut self.deferred)
+    }
+
+    /// Goes back to a state, but keeps in mind which attempts failed.
+    pub fn return_to(&mut self, before: Loops) {
+        let refused = std::mem::take(&mut self.refused);
+        *self = Loops { refused, ..before };
+    }
+
+    /// A loop that could have been unrolled is left in the shader.
     pub fn keep(&mut self, span: Span) {
         self.kept.push(span);
     }
 
-    /// The loop that was kept last, of those that could have been unrolled.
+    /// The loop that was left in the shader last, of those that could have been unrolled.
     pub fn last_kept(&self) -> Option<Span> {
         self.kept.last().copied()
     }
@@ -109,7 +158,7 @@ pub fn blame(reports: &[LoopReport], mut error: Diagnostic) -> Diagnostic {
     for report in largest.into_iter().take(5) {
         let LoopReport { rounds, operations, .. } = report;
         let text = format!(
-            "`{}`: {rounds} rounds, {operations} operations of its own",
+            "`{}`: {rounds} iterations, {operations} operations of its own",
             report.path()
         );
         error = error.other(report.span, text);

@@ -1,6 +1,6 @@
 //! Expressions and blocks.
 
-use super::value::{Eval, Exit, Range, Step, Value};
+use super::value::{Eval, Exit, Step, Value};
 use super::{Evaluator, MAX_PARTS};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::front::tree::{Block, Expr, ExprKind, IntType, Pattern, Statement, Type as SourceType};
@@ -299,9 +299,11 @@ impl Evaluator<'_> {
                 let value = self.value(value)?;
                 self.cast(&value, ty, span)
             }
-            ExprKind::Range(start, end, inclusive) => self.range(start, end, *inclusive, span),
+            ExprKind::Range(start, end, inclusive) => self.range(start, end, *inclusive),
             ExprKind::For(f) => self.for_(f, span),
-            ExprKind::While(condition, body, label) => self.while_(condition, body, label.as_deref(), span),
+            ExprKind::While(condition, body, label, unroll) => {
+                self.while_(condition, body, label.as_deref(), *unroll, span)
+            }
             ExprKind::Return(value) => {
                 let value = value.as_ref().map_or(Ok(Value::unit()), |e| self.expr(e))?;
                 Err(Exit::Return(value))
@@ -379,19 +381,6 @@ impl Evaluator<'_> {
             values.push((field.clone(), value));
         }
         self.bounded(Value::structure(name, values), span)
-    }
-
-    fn range(&mut self, start: &Expr, end: &Expr, inclusive: bool, span: Span) -> Eval {
-        let (first, mut last) = (self.value(start)?, self.value(end)?);
-        if inclusive {
-            last = self.binary(BinaryOp::Add, &last, &Value::Int(1), span)?;
-        }
-        Ok(Value::Range(Range {
-            start: Box::new(first),
-            end: Box::new(last),
-            reversed: false,
-            step: 1,
-        }))
     }
 
     /// `&&` and `||`.
@@ -498,6 +487,9 @@ impl Evaluator<'_> {
             return self.element(&Value::array(lanes), index, span);
         }
         let index = self.index_node(index, span)?;
+        if let Some(element) = self.element_of_many(base, index, span)? {
+            return Ok(element);
+        }
         let array = self.array_node(base, span)?;
         let ty = self.ty(array);
         if let (Type::Array { len, .. }, Some(bits)) = (ty, self.builder.graph().constant(index))

@@ -1,25 +1,56 @@
 //! `for` and `while`.
 
 use super::Evaluator;
-use super::value::{Eval, Exit, Range, Value};
+use super::partial::Count;
+use super::value::{Eval, Exit, Place, Step, Value};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::front::assigned;
-use crate::front::tree::{Block, Expr, ForLoop, Pattern};
+use crate::front::tree::{Block, Expr, ForLoop, Pattern, Statement};
 use crate::ir::{Counter, NodeId, Op, Origin, Type};
-use crate::policy::Unroll;
+use crate::policy::{Asked, Unroll};
+
+/// What a loop does in each iteration.
+pub struct Body<'a> {
+    /// Its statements.
+    pub block: &'a Block,
+    /// What takes each value; `None` of a `while`.
+    pub pattern: Option<&'a Pattern>,
+    /// The name of its count in the shader, where the source has one.
+    pub counter: Option<(&'a str, Span)>,
+    label: Option<&'a str>,
+    /// Positions of variables that it may write through what it runs over.
+    written: Vec<usize>,
+}
+
+/// A loop of which the number of iterations is known, and what is asked of it.
+struct Wish {
+    asked: Asked,
+    iterations: u64,
+    /// Whether it may be left other than by its end.
+    leaves: bool,
+    /// The whole of it, by which it is known.
+    span: Span,
+    /// What an error points at.
+    head: Span,
+}
+
+/// What became of a wish.
+enum Granted {
+    /// It is left in the shader.
+    Kept(Unroll),
+    /// It is to be unrolled. If it was asked for by name, the error that this is.
+    Unrolled(Option<Diagnostic>),
+}
 
 impl Evaluator<'_> {
     pub fn for_(&mut self, f: &ForLoop, span: Span) -> Eval {
         let items = self.expr(&f.over)?;
         let function = self.calls.last().cloned().unwrap_or_default();
-        let counter = match &f.pattern {
-            Pattern::Name(name, ..) => name.as_str(),
-            _ => "_",
-        };
-        let unroll = self.policy.of(&function, counter, f.unroll);
+        let counter = counter_of(&f.pattern);
+        let asked = self.policy.asked(&function, &counter, f.unroll);
         let made = self.builder.graph().nodes.len();
-        self.loops.enter(&function, counter, span, made);
-        let outcome = self.run(f, items, unroll, span);
+        self.loops.enter(&function, &counter, span, made);
+        let outcome = self.run(f, items, asked, span);
         let made = self.builder.graph().nodes.len();
         let became = *outcome.as_ref().unwrap_or(&Unroll::Full);
         self.loops.leave(became, made);
@@ -27,43 +58,40 @@ impl Evaluator<'_> {
     }
 
     /// Runs a loop as asked, or as it can be; gives what became of it.
-    fn run(&mut self, f: &ForLoop, items: Value, unroll: Unroll, span: Span) -> Eval<Unroll> {
+    fn run(&mut self, f: &ForLoop, items: Value, asked: Asked, span: Span) -> Eval<Unroll> {
         let leaves = assigned(&f.body, &self.library.mutating).leaves;
-        let elements = match items {
-            Value::Range(range) => {
-                let known = self.known_int(&range.start).zip(self.known_int(&range.end));
-                let Some((start, end)) = known else {
-                    if leaves {
-                        return Err(Diagnostic::at(
-                            f.over.span,
-                            "a loop whose bounds are only known at run time cannot be left early",
-                        )
-                        .label("not known now")
-                        .help("give the loop fixed bounds, or select what is computed in it")
-                        .into());
-                    }
-                    return self.keep(f, &range, unroll, span);
-                };
-                let values = self.range_values(start, end, &range, f.over.span)?;
-                // A loop of one round is its body.
-                let worth = match unroll {
-                    Unroll::Full => false,
-                    Unroll::None => !values.is_empty(),
-                    Unroll::Partial(n) => values.len() >= 2 * n as usize,
-                };
-                if worth && !leaves && !self.unroll_all && !self.unrolled.contains(&span) {
-                    let before = self.checkpoint();
-                    match self.keep(f, &range, unroll, span) {
-                        // What cannot be a loop at run time is run now; if that fails too, it says why.
-                        Err(Exit::Error(_) | Exit::Noted) => self.return_to(before),
-                        other => {
-                            self.loops.keep(span);
-                            return other;
-                        }
-                    }
+        let counter = match (&f.pattern, &items) {
+            (Pattern::Name(name, _, at), Value::Range(_)) => Some((name.as_str(), *at)),
+            _ => None,
+        };
+        let mut body = Body {
+            block: &f.body,
+            pattern: Some(&f.pattern),
+            counter,
+            label: f.label.as_deref(),
+            written: Vec::new(),
+        };
+        let mut range = None;
+        let values = match items {
+            Value::Range(items) => match self.range_values(&items, f.over.span)? {
+                Some(values) => {
+                    range = Some(items);
+                    values
                 }
-                values
-            }
+                None if leaves => {
+                    return Err(Diagnostic::at(
+                        f.over.span,
+                        "a loop whose bounds are runtime values cannot be left early",
+                    )
+                    .label("a runtime value")
+                    .help("give the loop fixed bounds, or select what is computed in it")
+                    .into());
+                }
+                None => {
+                    let course = self.course(&items, f.over.span)?;
+                    return self.keep(&body, &Count::Range(course), asked.unroll, span);
+                }
+            },
             Value::Array(elements) => elements.to_vec(),
             Value::Ref(_) => match self.elements_mut(&items, f.over.span)? {
                 Value::Array(elements) => elements.to_vec(),
@@ -89,17 +117,97 @@ impl Evaluator<'_> {
                 );
             }
         };
-        self.unrolled(f, elements, span)?;
-        Ok(Unroll::Full)
+        values.iter().for_each(|value| self.targets(value, &mut body.written));
+        let wish = Wish {
+            asked,
+            iterations: values.len() as u64,
+            leaves,
+            span,
+            head: f.over.span,
+        };
+        let count = |e: &mut Self| match &range {
+            Some(range) => e.course(range, f.over.span).map(Count::Range),
+            None => match array_behind(&values) {
+                Some(array) => Ok(Count::Places(array, values.len() as u32)),
+                None => e.by_columns(&values, f.over.span).map(Count::Elements),
+            },
+        };
+        let refused = match self.attempt(&body, &wish, count)? {
+            Granted::Kept(unroll) => return Ok(unroll),
+            Granted::Unrolled(refused) => refused,
+        };
+        self.unrolled(&body, values, span)?;
+        refused.map_or(Ok(Unroll::Full), |error| Err(error.into()))
     }
 
-    fn unrolled(&mut self, f: &ForLoop, items: Vec<Value>, span: Span) -> Eval<()> {
+    /// Leaves a loop in the shader if that is asked for and can be done.
+    fn attempt(&mut self, body: &Body<'_>, wish: &Wish, count: impl FnOnce(&mut Self) -> Eval<Count>) -> Eval<Granted> {
+        let Wish { asked, span, .. } = *wish;
+        let least = match asked.unroll {
+            Unroll::Full => return Ok(Granted::Unrolled(None)),
+            _ if self.unrolls_all => return Ok(Granted::Unrolled(None)),
+            Unroll::None => 1,
+            Unroll::Partial(factor) => 2 * u64::from(factor),
+        };
+        if wish.iterations < least {
+            let reason = match wish.iterations {
+                0 => "it has no iterations".to_owned(),
+                1 => "it has 1 iteration".to_owned(),
+                n => format!("it has {n} iterations, fewer than {least}"),
+            };
+            self.loops.because(span, reason);
+            return Ok(Granted::Unrolled(None));
+        }
+        if let Some(needed) = self.unrolled.get(&span) {
+            let why = needed.clone();
+            let reason = format!("what follows it needs a compile-time constant that it assigns: {}", told(&why));
+            self.loops.because(span, reason);
+            if asked.by_name {
+                let error = refusal(wish, &why).note("what the loop assigns would be a runtime value after it");
+                self.loops.defer(error);
+            }
+            return Ok(Granted::Unrolled(None));
+        }
+        let why = if wish.leaves {
+            Diagnostic::at(
+                wish.head,
+                "its body has a `break`, `continue` or `return` that leaves an iteration",
+            )
+        } else if let Some(why) = self.loops.given_up(span) {
+            why
+        } else {
+            let before = self.checkpoint();
+            match count(self).and_then(|count| self.keep(body, &count, asked.unroll, span)) {
+                // What cannot be a loop in the shader is unrolled; if that fails too, it says why.
+                Err(exit @ (Exit::Error(_) | Exit::Noted)) => {
+                    let noted = self.return_to(before);
+                    let why = match exit {
+                        Exit::Error(error) => Some(*error),
+                        _ => noted,
+                    };
+                    let why = why.unwrap_or_else(|| Diagnostic::at(wish.head, "its body has an error"));
+                    self.loops.refuse(span, &why);
+                    why
+                }
+                Err(other) => return Err(other),
+                Ok(unroll) => {
+                    self.loops.keep(span);
+                    return Ok(Granted::Kept(unroll));
+                }
+            }
+        };
+        self.loops.because(span, told(&why));
+        Ok(Granted::Unrolled(asked.by_name.then(|| refusal(wish, &why))))
+    }
+
+    fn unrolled(&mut self, body: &Body<'_>, items: Vec<Value>, span: Span) -> Eval<()> {
         let noted = self.errors.len();
+        let Some(pattern) = body.pattern else { return Ok(()) };
         for item in items {
             self.step(span)?;
             self.loops.round();
-            let outcome = self.round(&f.pattern, item, &f.body, span);
-            if !again(outcome, f.label.as_deref())? {
+            let outcome = self.round(pattern, item, body.block, span);
+            if !again(outcome, body.label)? {
                 break;
             }
             // The next round would only find the same errors again.
@@ -130,17 +238,17 @@ impl Evaluator<'_> {
         outcome
     }
 
-    /// A loop of the graph that goes from `start` to `end` by one: variables that `body` assigns are carried from one
-    /// round to the next. `body` is given the counter.
+    /// A loop of the graph that goes from `start` to `end` by one, both of type `i32` or `u32`: variables that its body
+    /// assigns are carried from one iteration to the next. `iteration` is given the counter.
     pub fn kept(
         &mut self,
-        f: &ForLoop,
+        body: &Body<'_>,
         bounds: (NodeId, NodeId),
-        body: impl FnOnce(&mut Self, NodeId) -> Eval<()>,
+        iteration: impl FnOnce(&mut Self, NodeId) -> Eval<()>,
         span: Span,
     ) -> Eval<()> {
         let before = self.scope.clone();
-        let outcome = self.carry(f, bounds, body, span);
+        let outcome = self.carry(body, bounds, iteration, span);
         if outcome.is_err() {
             // Values made inside belong to no place outside.
             self.scope = before;
@@ -150,14 +258,14 @@ impl Evaluator<'_> {
 
     fn carry(
         &mut self,
-        f: &ForLoop,
+        body: &Body<'_>,
         (start, end): (NodeId, NodeId),
-        body: impl FnOnce(&mut Self, NodeId) -> Eval<()>,
+        iteration: impl FnOnce(&mut Self, NodeId) -> Eval<()>,
         span: Span,
     ) -> Eval<()> {
-        let carried = self.carried(&f.body);
+        let carried = self.carried(body);
         let mut initial = Vec::new();
-        let mut types = vec![Type::I32];
+        let mut types = vec![self.ty(start)];
         for slot in &carried {
             let value = self.scope.at(*slot).1.clone();
             let value = self.settle(&value, span)?;
@@ -177,11 +285,11 @@ impl Evaluator<'_> {
             self.name_params(&value, &name, span);
             self.scope.set(*slot, value);
         }
-        if let Pattern::Name(name, _, at) = &f.pattern {
-            self.name_params(&Value::Node(params[0]), name, *at);
+        if let Some((name, at)) = body.counter {
+            self.name_params(&Value::Node(params[0]), name, at);
         }
         self.loops.round();
-        let outcome = body(self, params[0]);
+        let outcome = iteration(self, params[0]);
         let mut results = Vec::new();
         let mut changed = None;
         for slot in &carried {
@@ -220,13 +328,14 @@ impl Evaluator<'_> {
 
     /// Positions of the variables that a body may write: those that it names, and those that mutable references in the
     /// variables that it mentions lead to.
-    fn carried(&self, body: &Block) -> Vec<usize> {
-        let effects = assigned(body, &self.library.mutating);
-        let mut carried: Vec<usize> = effects
-            .assigned
-            .iter()
-            .filter_map(|name| self.scope.slot(name))
-            .collect();
+    fn carried(&self, body: &Body<'_>) -> Vec<usize> {
+        let effects = assigned(body.block, &self.library.mutating);
+        let mut carried = body.written.clone();
+        for slot in effects.assigned.iter().filter_map(|name| self.scope.slot(name)) {
+            if !carried.contains(&slot) {
+                carried.push(slot);
+            }
+        }
         for slot in effects.mentioned.iter().filter_map(|name| self.scope.slot(name)) {
             self.targets(self.scope.at(slot).1, &mut carried);
         }
@@ -236,7 +345,7 @@ impl Evaluator<'_> {
     }
 
     /// Names a loop's parameters, which are variables in the text.
-    fn name_params(&mut self, value: &Value, name: &str, span: Span) {
+    pub fn name_params(&mut self, value: &Value, name: &str, span: Span) {
         let mut nodes = Vec::new();
         Self::leaves(value, &mut nodes);
         for id in nodes {
@@ -250,25 +359,101 @@ impl Evaluator<'_> {
         }
     }
 
-    pub fn while_(&mut self, condition: &Expr, body: &Block, label: Option<&str>, span: Span) -> Eval {
+    pub fn while_(
+        &mut self,
+        condition: &Expr,
+        block: &Block,
+        label: Option<&str>,
+        attribute: Option<Unroll>,
+        span: Span,
+    ) -> Eval {
         let function = self.calls.last().cloned().unwrap_or_default();
+        let asked = self.policy.asked(&function, "while", attribute);
         let made = self.builder.graph().nodes.len();
         self.loops.enter(&function, "while", span, made);
-        let outcome = self.run_while(condition, body, label, span);
+        let body = Body {
+            block,
+            pattern: None,
+            counter: None,
+            label,
+            written: Vec::new(),
+        };
+        let outcome = self.run_while(condition, &body, asked, span);
         let made = self.builder.graph().nodes.len();
-        self.loops.leave(Unroll::Full, made);
-        outcome
+        let became = *outcome.as_ref().unwrap_or(&Unroll::Full);
+        self.loops.leave(became, made);
+        outcome.map(|_| Value::unit())
     }
 
-    fn run_while(&mut self, condition: &Expr, body: &Block, label: Option<&str>, span: Span) -> Eval {
+    /// Runs a `while` as asked, or as it can be. To be left in the shader it is run once to count its iterations: as its
+    /// condition is known in each, a loop of so many does the same.
+    fn run_while(&mut self, condition: &Expr, body: &Body<'_>, asked: Asked, span: Span) -> Eval<Unroll> {
+        let mut refused = None;
+        if asked.unroll != Unroll::Full && !self.unrolls_all {
+            let test = Block {
+                statements: vec![Statement::Expr(condition.clone())],
+                value: None,
+            };
+            let mutating = &self.library.mutating;
+            let (test, effects) = (assigned(&test, mutating), assigned(body.block, mutating));
+            let leaves = effects.leaves || test.leaves || !test.assigned.is_empty();
+            let (mut iterations, mut after) = (u64::MAX, Vec::new());
+            if !leaves {
+                let before = self.checkpoint();
+                self.unrolls_all = true;
+                let counted = self.unrolled_while(condition, body, span);
+                self.unrolls_all = false;
+                let noted = self.errors.len() > before.errors();
+                iterations = counted?;
+                if noted {
+                    return Err(Exit::Noted);
+                }
+                after = (0..self.scope.len()).map(|slot| self.scope.at(slot).1.clone()).collect();
+                self.return_to(before);
+            }
+            let wish = Wish {
+                asked,
+                iterations,
+                leaves,
+                span,
+                head: condition.span,
+            };
+            let count = |_: &mut Self| Ok(Count::Times(iterations as u32));
+            refused = match self.attempt(body, &wish, count)? {
+                Granted::Kept(unroll) => {
+                    // What the loop makes of variables is known where it is known without the loop.
+                    for (slot, value) in after.into_iter().enumerate() {
+                        if self.scope.at(slot).1 != &value && self.is_known(&value) {
+                            self.scope.set(slot, value);
+                        }
+                    }
+                    return Ok(unroll);
+                }
+                Granted::Unrolled(refused) => refused,
+            };
+        }
+        self.unrolled_while(condition, body, span)?;
+        refused.map_or(Ok(Unroll::Full), |error| Err(error.into()))
+    }
+
+    /// Whether all numbers in a value are known.
+    fn is_known(&self, value: &Value) -> bool {
+        let mut leaves = Vec::new();
+        Self::leaves(value, &mut leaves);
+        leaves.iter().all(|id| self.builder.graph().constant(*id).is_some())
+    }
+
+    /// Unrolls a `while`; gives how many iterations it had.
+    fn unrolled_while(&mut self, condition: &Expr, body: &Body<'_>, span: Span) -> Eval<u64> {
         let noted = self.errors.len();
+        let mut iterations = 0;
         loop {
             self.step(span)?;
             let value = self.value(condition)?;
             let id = self.node(&value, condition.span)?;
             match self.known_bool(id) {
                 Some(true) => {}
-                Some(false) => return Ok(Value::unit()),
+                Some(false) => return Ok(iterations),
                 None => {
                     return Err(
                         Diagnostic::at(condition.span, "the condition of `while` is only known at run time")
@@ -279,16 +464,73 @@ impl Evaluator<'_> {
                     );
                 }
             }
+            iterations += 1;
             self.loops.round();
-            let outcome = self.block(body);
-            if !again(outcome, label)? {
-                return Ok(Value::unit());
+            let outcome = self.block(body.block);
+            if !again(outcome, body.label)? {
+                return Ok(iterations);
             }
             if self.errors.len() > noted {
                 return Err(Exit::Noted);
             }
         }
     }
+}
+
+/// What a loop goes by in policies: its counter, or the first of the names that it binds.
+fn counter_of(pattern: &Pattern) -> String {
+    match pattern {
+        Pattern::Name(name, ..) => name.clone(),
+        _ => "_".to_owned(),
+    }
+}
+
+/// Why a loop was unrolled, in one line.
+fn told(why: &Diagnostic) -> String {
+    match why.span {
+        Some(span) => format!("{} (line {})", why.message, span.line),
+        None => why.message.clone(),
+    }
+}
+
+/// The error that a loop cannot be left in the shader as it was asked by name.
+fn refusal(wish: &Wish, why: &Diagnostic) -> Diagnostic {
+    let asked = match wish.asked.unroll {
+        Unroll::Partial(factor) => format!("unroll({factor})"),
+        other => format!("unroll({other})"),
+    };
+    let mut error = Diagnostic::at(
+        wish.head,
+        format!("this loop cannot be left in the shader: {}", why.message),
+    )
+    .label(format!("`{asked}` asks for it"))
+    .help("leave it out, so that the loop is unrolled where it has to be");
+    if let Some(at) = why.span.filter(|at| *at != wish.head) {
+        let label = if why.label.is_empty() { "here" } else { why.label.as_str() };
+        error = error.other(at, label);
+    }
+    error
+}
+
+/// The array of which the values are mutable references to all elements, first to last.
+fn array_behind(values: &[Value]) -> Option<Place> {
+    let mut array: Option<Place> = None;
+    for (k, value) in values.iter().enumerate() {
+        let Value::Ref(place) = value else { return None };
+        let (last, path) = place.path.split_last()?;
+        if *last != Step::Index(Value::Int(k as i64)) {
+            return None;
+        }
+        let of = Place {
+            path: path.to_vec(),
+            ..(**place).clone()
+        };
+        if array.as_ref().is_some_and(|array| *array != of) {
+            return None;
+        }
+        array = Some(of);
+    }
+    array
 }
 
 /// Whether a loop with this label goes on after a round that ended so.
@@ -303,14 +545,14 @@ fn again(outcome: Eval, label: Option<&str>) -> Eval<bool> {
 }
 
 fn changes(name: &str, span: Span) -> Exit {
-    Diagnostic::at(span, format!("`{name}` changes its type in a loop that is kept"))
+    Diagnostic::at(span, format!("`{name}` changes its type in a loop that is left in the shader"))
         .label("in this loop")
         .help("give it one type, or unroll the loop")
         .into()
 }
 
 /// Whether two settled values differ in their nodes alone.
-fn same_shape(a: &Value, b: &Value) -> bool {
+pub fn same_shape(a: &Value, b: &Value) -> bool {
     match (a, b) {
         (Value::Node(_), Value::Node(_)) => true,
         (
@@ -334,35 +576,4 @@ fn same_shape(a: &Value, b: &Value) -> bool {
 
 fn all_same(a: &[Value], b: &[Value]) -> bool {
     a.len() == b.len() && a.iter().zip(b).all(|(a, b)| same_shape(a, b))
-}
-
-/// Values of a counter after which a loop is taken to be a mistake.
-const MAX_ROUNDS: i64 = 1_000_000;
-
-impl Evaluator<'_> {
-    /// The values of a range with known ends, in the order of the loop, of the type of its ends.
-    fn range_values(&mut self, start: i64, end: i64, range: &Range, span: Span) -> Eval<Vec<Value>> {
-        let rounds = end.saturating_sub(start).max(0) / range.step.max(1);
-        if rounds > MAX_ROUNDS {
-            return Err(Diagnostic::at(span, format!("a loop of {rounds} rounds"))
-                .label("too many")
-                .help(format!("a loop may have up to {MAX_ROUNDS}"))
-                .into());
-        }
-        let ty = match (&*range.start, &*range.end) {
-            (Value::Node(start), Value::Node(_)) => Some(self.ty(*start)),
-            _ => None,
-        };
-        let mut values: Vec<Value> = (start..end)
-            .step_by(range.step.max(1) as usize)
-            .map(|n| match ty {
-                Some(ty) => Value::Node(self.builder.constant(ty, [n as u32, 0, 0, 0])),
-                None => Value::Int(n),
-            })
-            .collect();
-        if range.reversed {
-            values.reverse();
-        }
-        Ok(values)
-    }
 }

@@ -63,33 +63,7 @@ impl Evaluator<'_> {
             }
             Value::Texture(index) => self.texture(*index, name, &args, span),
             Value::Buffer(index) => self.buffer(*index, name, &args, span),
-            Value::Range(range) => match (name, args.as_slice()) {
-                ("rev", []) => {
-                    let mut range = range.clone();
-                    range.reversed = !range.reversed;
-                    Ok(Value::Range(range))
-                }
-                ("step_by", [step]) => match self.known_int(step) {
-                    Some(step @ 1..) if !range.reversed && range.step == 1 => {
-                        let mut range = range.clone();
-                        range.step = step;
-                        Ok(Value::Range(range))
-                    }
-                    _ => Err(Diagnostic::at(
-                        span,
-                        "`step_by` needs a known step of at least 1, and comes before `rev`",
-                    )
-                    .into()),
-                },
-                ("contains", [x]) if range.step == 1 => {
-                    let from = self.binary(BinaryOp::Ge, x, &range.start, span)?;
-                    let to = self.binary(BinaryOp::Lt, x, &range.end, span)?;
-                    self.binary(BinaryOp::And, &from, &to, span)
-                }
-                _ => Err(Diagnostic::at(span, format!("a range has no method `{name}`"))
-                    .help("ranges have `rev`, `step_by` and `contains`")
-                    .into()),
-            },
+            Value::Range(range) => self.range_method(range, name, &args, span),
             Value::Array(_) | Value::Node(_) if name == "iter_mut" && args.is_empty() => match place {
                 Some(place) => self.elements_mut(&Value::Ref(Rc::new(place)), span),
                 None => {

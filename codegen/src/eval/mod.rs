@@ -21,8 +21,10 @@ mod options;
 mod partial;
 mod place;
 mod quad;
+mod ranges;
 mod resources;
 mod scope;
+mod sequence;
 mod shape;
 mod value;
 
@@ -32,7 +34,7 @@ use crate::ir::{Builder, Counter, Graph, Invocation, NodeId, Op, Origin, Scalar,
 use crate::passes::Exact;
 use crate::policy::Policy;
 use scope::Scope;
-use std::collections::{BTreeMap, HashMap, HashSet};
+use std::collections::{BTreeMap, HashMap};
 use std::sync::Arc;
 use value::{Eval, Exit, Value};
 
@@ -67,20 +69,31 @@ pub fn evaluate(
     policy: &Policy,
     invocation: Invocation,
 ) -> Result<Evaluated, Errors> {
-    let mut unrolled = HashSet::new();
+    let mut unrolled: HashMap<Span, Diagnostic> = HashMap::new();
     loop {
         let mut evaluator = Evaluator::new(library, files, policy);
         // After some attempts all at once, so that a wrong kernel is told so in time.
-        evaluator.unroll_all = unrolled.len() > MAX_ATTEMPTS;
+        evaluator.unrolls_all = unrolled.len() > MAX_ATTEMPTS;
         evaluator.unrolled.clone_from(&unrolled);
         evaluator.builder.graph_mut().invocation = invocation;
         let result = evaluator.kernel(entry, settings);
         let failed = result.is_err() || !evaluator.errors.is_empty();
-        if failed && evaluator.loops.last_kept().is_some_and(|span| unrolled.insert(span)) {
+        if failed
+            && let Some(span) = evaluator.loops.last_kept()
+            && !unrolled.contains_key(&span)
+        {
+            let first = match (evaluator.errors.first(), &result) {
+                (Some(noted), _) => noted.clone(),
+                (None, Err(Exit::Error(error))) => (**error).clone(),
+                _ => Diagnostic::new("what follows needs to know what it assigns"),
+            };
+            unrolled.insert(span, first);
             continue;
         }
         if !failed {
             evaluator.check_loop_paths();
+            let deferred = evaluator.loops.deferred();
+            evaluator.errors.extend(deferred);
         }
         return match result {
             Ok((output, options, docs)) if evaluator.errors.is_empty() => Ok(Evaluated {
@@ -121,9 +134,11 @@ struct Evaluator<'a> {
     library: &'a Library,
     builder: Builder<'a>,
     policy: &'a Policy,
-    /// Loops that what follows them needs unrolled, whatever the policy says; or all of them.
-    unrolled: HashSet<Span>,
-    unroll_all: bool,
+    /// Loops that what follows them needs unrolled, whatever the policy says,
+    /// with the error that what follows gave.
+    unrolled: HashMap<Span, Diagnostic>,
+    /// Whether all loops that can be unrolled are.
+    unrolls_all: bool,
     loops: budget::Loops,
     scope: Scope,
     /// Counters of the unrolled loops around.
@@ -148,8 +163,8 @@ impl<'a> Evaluator<'a> {
             library,
             builder,
             policy,
-            unrolled: HashSet::new(),
-            unroll_all: false,
+            unrolled: HashMap::new(),
+            unrolls_all: false,
             loops: budget::Loops::default(),
             scope: Scope::default(),
             counters: Vec::new(),

@@ -1,12 +1,15 @@
-//! Loops that are kept: their own counter, and bodies written several times in a row.
+//! Loops that are left in the shader: what they count, and bodies written several times in a row.
 
 use super::Evaluator;
+use super::loops::Body;
+use super::ranges::Course;
 use super::scope::Scope;
-use super::value::{Eval, Exit, Range, Value};
+use super::sequence::Columns;
+use super::value::{Eval, Exit, Place, Step, Value};
 use crate::diagnostic::Span;
-use crate::front::tree::ForLoop;
-use crate::ir::{BinaryOp, NodeId, Op, Type};
+use crate::ir::{BinaryOp, NodeId, Type};
 use crate::policy::Unroll;
+use std::rc::Rc;
 
 /// What an attempt may change, to go back to.
 pub struct Checkpoint {
@@ -14,6 +17,25 @@ pub struct Checkpoint {
     counters: usize,
     errors: usize,
     loops: super::budget::Loops,
+}
+
+impl Checkpoint {
+    /// How many errors had been noted.
+    pub fn errors(&self) -> usize {
+        self.errors
+    }
+}
+
+/// What a loop that is left in the shader counts.
+pub enum Count {
+    /// The values of a range.
+    Range(Course),
+    /// Positions in a list of values.
+    Elements(Columns),
+    /// Elements of an array, by mutable references to them: the array, and how many there are.
+    Places(Place, u32),
+    /// Iterations, which the body takes no notice of.
+    Times(u32),
 }
 
 impl Evaluator<'_> {
@@ -27,114 +49,97 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Goes back.
-    pub fn return_to(&mut self, before: Checkpoint) {
+    /// Goes back. Gives the first error that was noted meanwhile.
+    pub fn return_to(&mut self, before: Checkpoint) -> Option<crate::diagnostic::Diagnostic> {
         self.scope = before.scope;
         self.counters.truncate(before.counters);
+        self.loops.return_to(before.loops);
+        let noted = self.errors.get(before.errors).cloned();
         self.errors.truncate(before.errors);
-        self.loops = before.loops;
+        noted
     }
 
-    /// Keeps a loop over a range, its body written once or several times in a row.
-    pub fn keep(&mut self, f: &ForLoop, range: &Range, unroll: Unroll, span: Span) -> Eval<Unroll> {
-        let (first, end) = (self.index_node(&range.start, span)?, self.index_node(&range.end, span)?);
+    /// Leaves a loop in the shader, its body written once or several times in a row.
+    pub fn keep(&mut self, body: &Body<'_>, count: &Count, unroll: Unroll, span: Span) -> Eval<Unroll> {
+        let (own, trips) = match count {
+            Count::Range(course) => (course.own, course.trips),
+            Count::Elements(columns) => (Type::I32, self.whole(columns.len(), Type::I32)),
+            Count::Places(_, len) => (Type::I32, self.whole(*len, Type::I32)),
+            Count::Times(times) => (Type::I32, self.whole(*times, Type::I32)),
+        };
+        let zero = self.whole(0, own);
         let Unroll::Partial(factor) = unroll else {
-            let plain = !range.reversed && range.step == 1;
-            let trips = self.trips(first, end, range);
-            let zero = self.builder.i32(0);
-            let bounds = if plain { (first, end) } else { (zero, trips) };
-            self.kept(
-                f,
-                bounds,
-                |e, own| {
-                    let counter = if plain {
-                        own
-                    } else {
-                        e.value_of(own, first, range, trips)
-                    };
-                    e.body(f, counter, span)
-                },
-                span,
-            )?;
+            if let Count::Range(course) = count
+                && let Some(bounds) = course.plain
+            {
+                let index = course.of_indices();
+                self.kept(
+                    body,
+                    bounds,
+                    |e, own| {
+                        let counter = e.as_counter(own, index);
+                        e.body(body, counter, span)
+                    },
+                    span,
+                )?;
+            } else {
+                self.kept(body, (zero, trips), |e, own| e.iteration(body, count, own, span), span)?;
+            }
             return Ok(Unroll::None);
         };
-        let trips = self.trips(first, end, range);
-        let zero = self.builder.i32(0);
-        let whole = self.integer(BinaryOp::Div, trips, factor as i32);
+        let whole = self.integer(BinaryOp::Div, trips, factor);
         self.kept(
-            f,
+            body,
             (zero, whole),
             |e, own| {
-                let from = e.integer(BinaryOp::Mul, own, factor as i32);
+                let from = e.integer(BinaryOp::Mul, own, factor);
                 for k in 0..factor {
-                    let own = e.integer(BinaryOp::Add, from, k as i32);
-                    let counter = e.value_of(own, first, range, trips);
-                    e.body(f, counter, span)?;
+                    let own = e.integer(BinaryOp::Add, from, k);
+                    e.iteration(body, count, own, span)?;
                 }
                 Ok(())
             },
             span,
         )?;
-        let done = self.integer(BinaryOp::Mul, whole, factor as i32);
+        let done = self.integer(BinaryOp::Mul, whole, factor);
         match self
             .known_int(&Value::Node(trips))
             .zip(self.known_int(&Value::Node(done)))
         {
-            Some((trips_known, done)) => {
-                for own in done..trips_known {
-                    let own = self.builder.i32(own as i32);
-                    let counter = self.value_of(own, first, range, trips);
-                    self.body(f, counter, span)?;
+            Some((trips, done)) => {
+                for k in done..trips {
+                    let own = self.whole(k as u32, own);
+                    self.iteration(body, count, own, span)?;
                 }
             }
-            None => self.kept(
-                f,
-                (done, trips),
-                |e, own| {
-                    let counter = e.value_of(own, first, range, trips);
-                    e.body(f, counter, span)
-                },
-                span,
-            )?,
+            None => self.kept(body, (done, trips), |e, own| e.iteration(body, count, own, span), span)?,
         }
         Ok(unroll)
     }
 
-    fn body(&mut self, f: &ForLoop, counter: NodeId, span: Span) -> Eval<()> {
+    /// Iteration `own` of a loop.
+    fn iteration(&mut self, body: &Body<'_>, count: &Count, own: NodeId, span: Span) -> Eval<()> {
+        let item = match count {
+            Count::Range(course) => self.counter_at(course, own),
+            Count::Elements(columns) => self.element_at(columns, own),
+            Count::Places(array, _) => Value::Ref(Rc::new(array.part(Step::Index(self.as_counter(own, true))))),
+            Count::Times(_) => Value::unit(),
+        };
+        self.name_position(body, &item, own);
+        self.body(body, item, span)
+    }
+
+    /// The body for one value of what the loop runs over.
+    fn body(&mut self, body: &Body<'_>, item: Value, span: Span) -> Eval<()> {
         self.step(span)?;
-        match self.round(&f.pattern, Value::Node(counter), &f.body, span) {
+        let outcome = match body.pattern {
+            Some(pattern) => self.round(pattern, item, body.block, span),
+            None => self.block(body.block),
+        };
+        match outcome {
             Ok(_) => Ok(()),
             Err(exit @ (Exit::Error(_) | Exit::Noted)) => Err(exit),
             Err(_) => Err(Exit::Noted),
         }
-    }
-
-    /// Number of rounds. A range that runs backwards has none: the loop's own test sees to that, or a bound of 0.
-    fn trips(&mut self, first: NodeId, end: NodeId, range: &Range) -> NodeId {
-        let mut length = self.builder.add(Op::Binary(BinaryOp::Sub), vec![end, first], Type::I32);
-        if range.step != 1 {
-            length = self.integer(BinaryOp::Add, length, range.step as i32 - 1);
-            length = self.integer(BinaryOp::Div, length, range.step as i32);
-        }
-        let zero = self.builder.i32(0);
-        self.builder
-            .add(Op::Binary(BinaryOp::Max), vec![length, zero], Type::I32)
-    }
-
-    /// The source's counter in round `own`.
-    fn value_of(&mut self, own: NodeId, first: NodeId, range: &Range, trips: NodeId) -> NodeId {
-        let mut at = own;
-        if range.reversed {
-            // Of a, a+s, ..., the last comes first.
-            let last = self.integer(BinaryOp::Sub, trips, 1);
-            at = self.builder.add(Op::Binary(BinaryOp::Sub), vec![last, own], Type::I32);
-        }
-        let far = self.integer(BinaryOp::Mul, at, range.step as i32);
-        self.builder.add(Op::Binary(BinaryOp::Add), vec![first, far], Type::I32)
-    }
-
-    fn integer(&mut self, op: BinaryOp, x: NodeId, n: i32) -> NodeId {
-        let n = self.builder.i32(n);
-        self.builder.add(Op::Binary(op), vec![x, n], Type::I32)
     }
 }

@@ -80,14 +80,18 @@ impl Place {
 /// What a `for` runs over.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Range {
-    /// First value: a known integer or an `i32` node.
+    /// Its smallest value: a known integer, or a node of type `i32` or `u32`.
     pub start: Box<Value>,
-    /// One past the last.
+    /// Its end, of the same type.
     pub end: Box<Value>,
-    /// Last to first.
-    pub reversed: bool,
+    /// Whether the end belongs to it.
+    pub inclusive: bool,
+    /// Whether its steps go from the largest value down: `(a..b).rev()`.
+    pub down: bool,
     /// Distance of values, at least 1.
     pub step: i64,
+    /// Whether its values then come last to first: `(a..b).step_by(n).rev()`.
+    pub reversed: bool,
 }
 
 impl Value {

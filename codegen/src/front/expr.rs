@@ -152,7 +152,12 @@ impl Lower {
             }
             syn::Expr::While(e) => {
                 let label = label(e.label.as_ref().map(|l| &l.name));
-                ExprKind::While(self.boxed(&e.cond), self.block(&e.body), label)
+                ExprKind::While(
+                    self.boxed(&e.cond),
+                    self.block(&e.body),
+                    label,
+                    self.unroll_attribute(&e.attrs),
+                )
             }
             syn::Expr::Loop(e) => {
                 let label = label(e.label.as_ref().map(|l| &l.name));
@@ -160,7 +165,8 @@ impl Lower {
                     kind: ExprKind::Bool(true),
                     span: self.span(e.loop_token.span()),
                 };
-                ExprKind::While(Box::new(always), self.block(&e.body), label)
+                let unroll = self.unroll_attribute(&e.attrs);
+                ExprKind::While(Box::new(always), self.block(&e.body), label, unroll)
             }
             syn::Expr::Return(e) => ExprKind::Return(e.expr.as_ref().map(|e| self.boxed(e))),
             syn::Expr::Break(e) if e.expr.is_none() => ExprKind::Break(label(e.label.as_ref())),

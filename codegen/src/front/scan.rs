@@ -110,7 +110,7 @@ fn expr<'b>(e: &'b Expr, out: &mut Effects, around: &mut Around<'b>) {
             around.loops.pop();
             around.own.truncate(mark);
         }
-        ExprKind::While(condition, body, label) => {
+        ExprKind::While(condition, body, label, _) => {
             expr(condition, out, around);
             around.loops.push(label.as_deref());
             block(body, out, around);
@@ -205,7 +205,7 @@ pub fn mentioned_in(e: &Expr, out: &mut BTreeSet<String>) {
             in_pattern(&f.pattern, out);
             mentioned(&f.body, out);
         }
-        ExprKind::While(_, body, _) | ExprKind::Block(body) => mentioned(body, out),
+        ExprKind::While(_, body, ..) | ExprKind::Block(body) => mentioned(body, out),
         ExprKind::Match(_, arms) => arms.iter().for_each(|arm| in_pattern(&arm.pattern, out)),
         _ => {}
     }

@@ -67,8 +67,8 @@ pub enum ExprKind {
     Range(Box<Expr>, Box<Expr>, bool),
     /// `for pattern in iterable`.
     For(Box<ForLoop>),
-    /// `while`, or `loop` as `while true`, with its label.
-    While(Box<Expr>, Block, Option<String>),
+    /// `while`, or `loop` as `while true`, with its label and what its attribute says.
+    While(Box<Expr>, Block, Option<String>, Option<Unroll>),
     /// `return`.
     Return(Option<Box<Expr>>),
     /// `break`, of the loop with a label.

@@ -104,7 +104,7 @@ fn expr(e: &mut Expr, literals: &HashMap<Span, IntType>) {
             expr(&mut f.over, literals);
             block(&mut f.body, literals);
         }
-        ExprKind::While(condition, body, _) => {
+        ExprKind::While(condition, body, ..) => {
             go(condition);
             block(body, literals);
         }

@@ -247,7 +247,7 @@ impl<'l> Checker<'l> {
                 Ty::Range(Box::new(ty))
             }
             ExprKind::For(f) => self.for_(f),
-            ExprKind::While(condition, body, _) => {
+            ExprKind::While(condition, body, ..) => {
                 self.against(condition, &Ty::Bool);
                 let found = self.block(body, None);
                 let at = body.value.as_ref().map_or(span, |value| value.span);

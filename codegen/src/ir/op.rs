@@ -112,7 +112,7 @@ pub enum Op {
     ArrayGet,
     /// array, index (`i32`), element.
     ArraySet,
-    /// start (`i32`), end (`i32`), carried values.
+    /// start, end (both `i32` or both `u32`), carried values.
     Loop(RegionId),
     /// condition (scalar boolean): results of the first region if it holds, else of the second.
     If(RegionId, RegionId),

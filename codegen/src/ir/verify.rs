@@ -224,9 +224,11 @@ fn check(graph: &Graph, id: NodeId) -> Result<(), String> {
         Op::Loop(body) => {
             let body = region(graph, *body)?;
             expect(
-                types.len() >= 2 && types[0] == Type::I32 && types[1] == Type::I32,
-                "bounds are i32",
+                types.len() >= 2 && types[0] == types[1] && matches!(types[0], Type::I32 | Type::U32),
+                "bounds are two i32 or two u32",
             )?;
+            let counter = body.params.first().map(|p| graph.ty(*p));
+            expect(counter == Some(types[0]), "the counter has the type of the bounds")?;
             let params: Vec<Type> = body.params.iter().skip(1).map(|p| graph.ty(*p)).collect();
             let results: Vec<Type> = body.results.iter().map(|r| graph.ty(*r)).collect();
             expect(

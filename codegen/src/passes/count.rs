@@ -2,7 +2,7 @@
 
 use super::ranges;
 use super::schedule::{Block, Schedule, Step};
-use crate::ir::{Graph, NodeId, Op, Scalar};
+use crate::ir::{Graph, NodeId, Op, Scalar, Type};
 use std::collections::BTreeMap;
 use straightline_manifest::Counts;
 
@@ -42,14 +42,16 @@ struct Run {
 impl Run {
     fn add(&mut self, other: &Run, times: u32) {
         for (name, n) in &other.reads {
-            *self.reads.entry(name.clone()).or_default() += n * times;
+            let slot = self.reads.entry(name.clone()).or_default();
+            *slot = slot.saturating_add(n.saturating_mul(times));
         }
         for (name, n) in &other.tallies {
-            *self.tallies.entry(name.clone()).or_default() += n * times;
+            let slot = self.tallies.entry(name.clone()).or_default();
+            *slot = slot.saturating_add(n.saturating_mul(times));
         }
-        self.transcendentals += other.transcendentals * times;
-        self.messages += other.messages * times;
-        self.alu += other.alu * times;
+        self.transcendentals = self.transcendentals.saturating_add(other.transcendentals.saturating_mul(times));
+        self.messages = self.messages.saturating_add(other.messages.saturating_mul(times));
+        self.alu = self.alu.saturating_add(other.alu.saturating_mul(times));
     }
 
     /// Of two alternatives, the larger in each figure.
@@ -129,8 +131,16 @@ pub fn layers_read(graph: &Graph, texture: u32) -> Option<u32> {
 
 /// How often a loop runs, where both bounds are known.
 pub(super) fn trips(graph: &Graph, node: NodeId) -> Option<u32> {
-    let bound = |arg: usize| graph.constant(graph.node(node).args[arg]).map(|bits| bits[0] as i32);
-    Some((i64::from(bound(1)?) - i64::from(bound(0)?)).max(0) as u32)
+    let bound = |arg: usize| {
+        let id = graph.node(node).args[arg];
+        let bits = graph.constant(id)?[0];
+        Some(match graph.ty(id) {
+            Type::U32 => i64::from(bits),
+            _ => i64::from(bits as i32),
+        })
+    };
+    // Never more than a u32 holds.
+    Some((bound(1)? - bound(0)?).max(0) as u32)
 }
 
 fn basic_blocks(block: &Block) -> u32 {

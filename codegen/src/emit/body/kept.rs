@@ -4,6 +4,7 @@ use super::{Writer, Written};
 use crate::emit::text::Text;
 use crate::ir::{NodeId, Op};
 use crate::passes::Block;
+use std::collections::HashSet;
 
 impl Writer<'_> {
     pub(super) fn kept_loop(&mut self, node: NodeId, body: &Block) -> Written {
@@ -24,14 +25,17 @@ impl Writer<'_> {
         let counter = self
             .names
             .of(graph, region.params[0], self.plan.origin(region.params[0]));
-        let (start, end) = (self.text(args[0])?, self.text(args[1])?);
+        let (start, end) = (self.text(args[0])?, self.text(args[1])?.compared());
         self.texts[region.params[0].0 as usize] = Some(Text::name(counter.as_str()));
-        self.line(self.dialect.loop_head(&counter, &start, &end));
+        self.line(self.dialect.loop_head(&counter, graph.ty(args[0]), &start, &end));
         self.statements += 1;
         let scope = self.webs.snapshot();
         self.listing.indent();
         self.block(body)?;
         self.assign_all(&region.params[1..], &region.results)?;
+        if let Some(version) = self.webs.lost(&scope) {
+            return Err(self.stale(version));
+        }
         self.listing.dedent();
         self.line("}".to_owned());
         self.webs.leave(&scope);
@@ -43,12 +47,9 @@ impl Writer<'_> {
     fn assign_all(&mut self, params: &[NodeId], results: &[NodeId]) -> Written {
         let graph = &self.compiled.graph;
         let mut assignments = Vec::new();
+        self.assign_arrays(params, results)?;
         for (param, result) in params.iter().zip(results) {
-            if param == result {
-                continue;
-            }
-            if graph.ty(*param).is_array() {
-                self.enter_web(*param, *result)?;
+            if param == result || graph.ty(*param).is_array() {
                 continue;
             }
             let target = self.text(*param)?.code;
@@ -64,6 +65,36 @@ impl Writer<'_> {
         }
         for (param, line) in assignments {
             self.statement(param, line);
+        }
+        Ok(())
+    }
+
+    /// The arrays among them. One that is read from a variable that another is assigned to is copied first, as where two
+    /// arrays change places.
+    fn assign_arrays(&mut self, params: &[NodeId], results: &[NodeId]) -> Written {
+        let graph = &self.compiled.graph;
+        let mut moves = Vec::new();
+        for (param, result) in params.iter().zip(results) {
+            if graph.ty(*param).is_array() {
+                let target = self.webs.variable(*param).unwrap_or_default().to_owned();
+                moves.push((*param, target, self.text(*result)?));
+            }
+        }
+        let moved = |(_, target, value): &&(NodeId, String, Text)| value.code != *target;
+        let targets: HashSet<String> = moves.iter().filter(moved).map(|(_, target, _)| target.clone()).collect();
+        for (param, target, value) in &mut moves {
+            if value.code != *target && targets.contains(&value.code) {
+                let name = self.names.fresh(&format!("next_{target}"));
+                let line = self.dialect.immutable(&name, graph.ty(*param), &value.code);
+                self.statement(*param, line);
+                *value = Text::name(name);
+            }
+        }
+        for (param, target, value) in moves {
+            if value.code != target {
+                self.statement(param, format!("{target} = {};", value.code));
+            }
+            self.webs.advance(param);
         }
         Ok(())
     }
@@ -128,6 +159,7 @@ impl Writer<'_> {
         self.statements += 1;
         let before = self.webs.snapshot();
         self.side(then, &results, &regions[0].results, false)?;
+        let first = self.webs.snapshot();
         self.webs.restore(&before);
         if !idle || changes_array {
             self.line("} else {".to_owned());
@@ -140,6 +172,7 @@ impl Writer<'_> {
         }
         self.line("}".to_owned());
         self.webs.leave(&before);
+        self.webs.join_sides(&first);
         Ok(())
     }
 

@@ -36,8 +36,9 @@ pub struct Body {
 enum Failure {
     /// For good.
     Error(EmitError),
-    /// An array's version is needed that the variable no longer holds: cut its web before this one.
-    Cut(NodeId),
+    /// An array's version is needed that its variable no longer holds: cut its web before the one that took its place,
+    /// if it is known which.
+    Stale(Option<NodeId>),
 }
 
 impl From<EmitError> for Failure {
@@ -50,32 +51,32 @@ type Written<T = ()> = Result<T, Failure>;
 
 /// Writes the body of a compiled kernel.
 pub fn body(compiled: &Compiled, resources: &Resources, entry: &str, dialect: &dyn Dialect) -> Result<Body, EmitError> {
+    let graph = &compiled.graph;
     let mut cut = HashSet::new();
-    loop {
-        match attempt(compiled, resources, entry, dialect, &cut) {
+    while cut.len() < MAX_CUTS {
+        match attempt(compiled, resources, entry, dialect, Webs::new(graph, &cut)) {
             Ok(body) => return Ok(body),
             Err(Failure::Error(error)) => return Err(error),
-            Err(Failure::Cut(version)) => {
-                if !cut.insert(version) {
-                    let array = compiled
-                        .graph
-                        .origin(version)
-                        .map_or("an array", |o| o.name.as_str())
-                        .to_owned();
-                    let kernel = compiled.kernel.clone();
-                    return Err(EmitError::ArrayVersions { kernel, array });
-                }
-            }
+            Err(Failure::Stale(Some(version))) if cut.insert(version) => {}
+            Err(Failure::Stale(_)) => break,
         }
     }
+    match attempt(compiled, resources, entry, dialect, Webs::apart(graph)) {
+        Ok(body) => Ok(body),
+        Err(Failure::Error(error)) => Err(error),
+        Err(Failure::Stale(_)) => unreachable!("no version takes another's place where each has a variable of its own"),
+    }
 }
+
+/// Cuts after which every version of an array is given a variable of its own.
+const MAX_CUTS: usize = 16;
 
 fn attempt(
     compiled: &Compiled,
     resources: &Resources,
     entry: &str,
     dialect: &dyn Dialect,
-    cut: &HashSet<NodeId>,
+    webs: Webs,
 ) -> Written<Body> {
     let graph = &compiled.graph;
     let mut writer = Writer {
@@ -83,7 +84,7 @@ fn attempt(
         dialect,
         plan: Plan::new(graph, &compiled.schedule),
         names: Names::new(graph, resources, entry),
-        webs: Webs::new(graph, cut),
+        webs,
         texts: vec![None; graph.nodes.len()],
         tables: Vec::new(),
         helpers: BTreeSet::new(),
@@ -192,13 +193,7 @@ impl Writer<'_> {
     }
 
     fn stale(&self, id: NodeId) -> Failure {
-        match self.webs.replacement(id) {
-            Some(version) => Failure::Cut(version),
-            None => Failure::Error(EmitError::ArrayVersions {
-                kernel: self.compiled.kernel.clone(),
-                array: self.plan.origin(id).map_or("an array", |o| o.name.as_str()).to_owned(),
-            }),
-        }
+        Failure::Stale(self.webs.replacement(id))
     }
 
     fn expression(&mut self, id: NodeId) -> Written<Text> {

@@ -5,7 +5,7 @@ mod finite;
 mod sampling;
 
 use super::arith::{self, Cells};
-use super::{Counter, Graph, Invocation, NodeId, Op, Real, Scalar, Type};
+use super::{Counter, Graph, Invocation, NodeId, Op, Real, Region, Scalar, Type};
 use crate::passes::{Block, Schedule, Step};
 use sampling::Sampled;
 use std::marker::PhantomData;
@@ -31,7 +31,7 @@ pub struct Scratch {
     values: Vec<Cells>,
     arrays: Vec<Vec<Cells>>,
     /// Counters of the kept loops around, outer ones first.
-    loops: Vec<(NodeId, i32)>,
+    loops: Vec<(NodeId, i64)>,
     birth: Option<Birth>,
 }
 
@@ -172,10 +172,11 @@ impl<'a, R: Real> Interpreter<'a, R> {
     fn run_loop(&self, node: NodeId, body: &Block, pixel: [u32; 2], s: &mut Scratch) {
         let args = &self.graph.node(node).args;
         let region = self.graph.region(self.graph.regions_of(node)[0]);
-        let (start, end) = (
-            s.values[args[0].0 as usize][0] as i32,
-            s.values[args[1].0 as usize][0] as i32,
-        );
+        let signed = self.graph.ty(args[0]) == Type::I32;
+        let [start, end] = [args[0], args[1]].map(|id| {
+            let bits = s.values[id.0 as usize][0] as u32;
+            if signed { i64::from(bits as i32) } else { i64::from(bits) }
+        });
         let mut carried: Vec<Vec<Cells>> = args[2..].iter().map(|a| whole(self.graph, s, *a)).collect();
         for counter in start..end {
             s.values[region.params[0].0 as usize] = [u64::from(counter as u32), 0, 0, 0];
@@ -185,9 +186,33 @@ impl<'a, R: Real> Interpreter<'a, R> {
             }
             self.block(body, pixel, s);
             s.loops.pop();
-            carried = region.results.iter().map(|r| whole(self.graph, s, *r)).collect();
+            carried = self.leaving(region, s);
         }
         s.arrays[node.0 as usize] = carried.concat();
+    }
+
+    /// Whether nothing uses a value but `user`, which is evaluated once each time that the value is.
+    fn is_last_use(&self, id: NodeId, user: NodeId) -> bool {
+        let Schedule { uses, place, .. } = self.schedule;
+        uses[id.0 as usize] == 1 && place[id.0 as usize] == place[user.0 as usize]
+    }
+
+    /// What leaves a loop's body. An array that is made in each iteration, and leaves once, is moved.
+    fn leaving(&self, region: &Region, s: &mut Scratch) -> Vec<Vec<Cells>> {
+        let here = self.schedule.place[region.params[0].0 as usize];
+        let mut values = Vec::new();
+        for result in &region.results {
+            let slot = result.0 as usize;
+            let moves = self.graph.ty(*result).is_array()
+                && self.schedule.place[slot] == here
+                && here.is_some()
+                && region.results.iter().filter(|r| *r == result).count() == 1;
+            values.push(match moves {
+                true => std::mem::take(&mut s.arrays[slot]),
+                false => whole(self.graph, s, *result),
+            });
+        }
+        values
     }
 
     fn eval(&self, id: NodeId, pixel: [u32; 2], s: &mut Scratch) {
@@ -211,7 +236,13 @@ impl<'a, R: Real> Interpreter<'a, R> {
                 s.values[slot] = array[index.min(array.len() - 1)];
             }
             Op::ArraySet => {
-                let mut array = s.arrays[node.args[0].0 as usize].clone();
+                let old = node.args[0];
+                // Changed where it is, if nothing else looks at it: else a loop over it would take the square of its length.
+                let mut array = if self.is_last_use(old, id) {
+                    std::mem::take(&mut s.arrays[old.0 as usize])
+                } else {
+                    s.arrays[old.0 as usize].clone()
+                };
                 let index = s.values[node.args[1].0 as usize][0] as u32 as usize;
                 if let Some(element) = array.get_mut(index) {
                     *element = s.values[node.args[2].0 as usize];
@@ -290,7 +321,7 @@ impl<'a, R: Real> Interpreter<'a, R> {
         let lanes = &s.values[id.0 as usize][..self.graph.ty(id).lanes() as usize];
         let kept = s.loops.iter().map(|(param, value)| Counter {
             name: self.graph.origin(*param).map_or("k", |o| o.name.as_str()).to_owned(),
-            value: i64::from(*value),
+            value: *value,
         });
         let unrolled = self.graph.origin(id).into_iter().flat_map(|o| o.counters.clone());
         s.birth = Some(Birth {

@@ -1,0 +1,327 @@
+//! Ranges: their methods, their values, and how often a loop over one runs.
+//!
+//! A loop that is left in the shader and is not plainly `start..end` counts its iterations from 0, and derives the
+//! source's counter from that count in arithmetic that wraps. The number of iterations is computed without a difference
+//! that could overflow, so that ranges up to the ends of their type run as in Rust.
+
+use super::Evaluator;
+use super::value::{Eval, Exit, Range, Value};
+use crate::diagnostic::{Diagnostic, Span};
+use crate::front::tree::Expr;
+use crate::ir::{BinaryOp, NodeId, Op, Scalar, Type};
+
+/// Iterations after which a loop is taken to be a mistake.
+const MAX_ROUNDS: i128 = 1_000_000;
+
+/// How a loop over a range runs in the graph.
+pub struct Course {
+    /// The type that iterations are counted in.
+    pub own: Type,
+    /// Number of iterations, of type `own`.
+    pub trips: NodeId,
+    /// First and one past the last counter, where the loop needs no count of its own.
+    pub plain: Option<(NodeId, NodeId)>,
+    /// The value that the walk begins at.
+    from: NodeId,
+    /// Whether the walk goes down.
+    down: bool,
+    /// Distance of two values.
+    step: u32,
+    /// Whether the values come last to first.
+    reversed: bool,
+    /// Whether a known counter is an integer without a type: of `usize`.
+    index: bool,
+}
+
+impl Evaluator<'_> {
+    /// `start..end`, `start..=end`.
+    pub fn range(&mut self, start: &Expr, end: &Expr, inclusive: bool) -> Eval {
+        let (start, end) = (self.value(start)?, self.value(end)?);
+        Ok(Value::Range(Range {
+            start: Box::new(start),
+            end: Box::new(end),
+            inclusive,
+            down: false,
+            step: 1,
+            reversed: false,
+        }))
+    }
+
+    /// A method of a range.
+    pub fn range_method(&mut self, range: &Range, name: &str, args: &[Value], span: Span) -> Eval {
+        let mut range = range.clone();
+        let plain = range.step == 1 && !range.down;
+        match (name, args) {
+            ("rev", []) if range.step == 1 => range.down = !range.down,
+            ("rev", []) => range.reversed = !range.reversed,
+            ("step_by", [step]) => match self.known_int(step) {
+                Some(step @ 1..) if !range.reversed => range.step = range.step.saturating_mul(step),
+                Some(1..) => {
+                    return Err(Diagnostic::at(span, "`step_by` of a range that is stepped and reversed")
+                        .label("a second step")
+                        .help("write one `step_by`, before or after `rev`")
+                        .into());
+                }
+                _ => {
+                    return Err(Diagnostic::at(span, "`step_by` needs a step that is a constant of at least 1")
+                        .label("of this step")
+                        .into());
+                }
+            },
+            ("contains", [x]) if plain => {
+                let below = if range.inclusive { BinaryOp::Le } else { BinaryOp::Lt };
+                let from = self.binary(BinaryOp::Ge, x, &range.start, span)?;
+                let to = self.binary(below, x, &range.end, span)?;
+                return self.binary(BinaryOp::And, &from, &to, span);
+            }
+            _ => {
+                return Err(Diagnostic::at(span, format!("a range has no method `{name}`"))
+                    .help("ranges have `rev`, `step_by` and `contains`")
+                    .into());
+            }
+        }
+        Ok(Value::Range(range))
+    }
+
+    /// The type of a range's counter; whether a known counter has no type of its own.
+    fn counted_in(&self, range: &Range, span: Span) -> Eval<(Scalar, bool)> {
+        let mut kinds = Vec::new();
+        for end in [&range.start, &range.end] {
+            match &**end {
+                Value::Int(_) => {}
+                Value::Poison => return Err(Exit::Noted),
+                Value::Node(id) if matches!(self.ty(*id), Type::I32 | Type::U32) => kinds.extend(self.ty(*id).kind()),
+                other => {
+                    let found = match other {
+                        Value::Node(id) => self.ty(*id).in_rust(),
+                        other => other.describe(),
+                    };
+                    return Err(Diagnostic::at(span, format!("a range of {found} cannot be iterated"))
+                        .label("not of integers")
+                        .help("convert its ends with `as i32`, `as u32` or `as usize`")
+                        .into());
+                }
+            }
+        }
+        match kinds[..] {
+            [] => Ok((Scalar::I32, true)),
+            [kind] => Ok((kind, kind == Scalar::I32)),
+            [a, b] if a == b => Ok((a, false)),
+            _ => Err(Diagnostic::at(span, "a range from an i32 to a u32, or the other way round")
+                .label("two types")
+                .help("convert one of them with `as`")
+                .into()),
+        }
+    }
+
+    /// A known counter.
+    fn known_counter(&mut self, n: i64, kind: Scalar, index: bool) -> Value {
+        if index {
+            return Value::Int(n);
+        }
+        Value::Node(self.builder.constant(Type::scalar(kind), [n as u32, 0, 0, 0]))
+    }
+
+    /// The values of a range in the order of the loop, if both its ends are known.
+    pub fn range_values(&mut self, range: &Range, span: Span) -> Eval<Option<Vec<Value>>> {
+        let (kind, index) = self.counted_in(range, span)?;
+        let Some((start, end)) = self.known_int(&range.start).zip(self.known_int(&range.end)) else {
+            return Ok(None);
+        };
+        let rounds = iterations(range, start, end);
+        if rounds > MAX_ROUNDS {
+            return Err(Diagnostic::at(span, format!("a loop of {rounds} iterations"))
+                .label("too many")
+                .help(format!("a loop may have up to {MAX_ROUNDS}"))
+                .into());
+        }
+        let (step, last) = (i128::from(range.step), last(range, end));
+        let mut values: Vec<i128> = (0..rounds)
+            .map(|k| match range.down {
+                true => last - k * step,
+                false => i128::from(start) + k * step,
+            })
+            .collect();
+        if range.reversed {
+            values.reverse();
+        }
+        let values = values.into_iter().map(|n| self.known_counter(n as i64, kind, index));
+        Ok(Some(values.collect()))
+    }
+
+    /// How a loop over a range runs in the graph.
+    pub fn course(&mut self, range: &Range, span: Span) -> Eval<Course> {
+        let (kind, index) = self.counted_in(range, span)?;
+        let ty = Type::scalar(kind);
+        let start = self.end_of_range(&range.start, kind, span)?;
+        let end = self.end_of_range(&range.end, kind, span)?;
+        let known = self
+            .known_int(&Value::Node(start))
+            .zip(self.known_int(&Value::Node(end)));
+        let limit = if kind == Scalar::U32 { i64::from(u32::MAX) } else { i64::from(i32::MAX) };
+        let upright = !range.down && !range.reversed && range.step == 1;
+        let plain = match known {
+            _ if !upright => None,
+            _ if !range.inclusive => Some((start, end)),
+            // One past a known end, where there is one.
+            Some((_, last)) if last < limit => {
+                let past = self.builder.constant(ty, [(last + 1) as u32, 0, 0, 0]);
+                Some((start, past))
+            }
+            _ => None,
+        };
+        // Counts that an i32 holds need no conversion.
+        let from_zero = self.known_int(&Value::Node(start)) == Some(0) && !range.inclusive;
+        let own = if known.is_some() || from_zero { ty } else { Type::U32 };
+        let trips = match known.and_then(|(start, end)| u32::try_from(iterations(range, start, end)).ok()) {
+            // Few enough, or the range would have been refused.
+            Some(trips) => self.whole(trips, own),
+            None => self.trips(range, (start, end), own),
+        };
+        let from = if range.down && !range.inclusive {
+            self.integer(BinaryOp::Sub, end, 1)
+        } else if range.down {
+            end
+        } else {
+            start
+        };
+        Ok(Course {
+            own,
+            trips,
+            plain,
+            from,
+            down: range.down,
+            step: range.step as u32,
+            reversed: range.reversed,
+            index,
+        })
+    }
+
+    fn end_of_range(&mut self, value: &Value, kind: Scalar, span: Span) -> Eval<NodeId> {
+        match value {
+            Value::Int(n) if kind == Scalar::I32 && i32::try_from(*n).is_err() => {
+                Err(Diagnostic::at(span, format!("{n} does not fit into the i32 that a shader counts in")).into())
+            }
+            Value::Int(n) => self.int_node(*n, kind, span),
+            other => self.node(other, span),
+        }
+    }
+
+    /// Number of iterations, in the type `own`: of an empty or backwards range 0.
+    fn trips(&mut self, range: &Range, (start, end): (NodeId, NodeId), own: Type) -> NodeId {
+        let from_zero = self.known_int(&Value::Node(start)) == Some(0);
+        if from_zero && !range.inclusive && range.step == 1 && self.ty(start) == own {
+            // Nothing is less than 0 of type u32; of type i32 such an end leaves the range empty.
+            return match own {
+                Type::U32 => end,
+                _ => self.builder.add(Op::Binary(BinaryOp::Max), vec![end, start], own),
+            };
+        }
+        let holds = if range.inclusive { BinaryOp::Le } else { BinaryOp::Lt };
+        let any = self.builder.add(Op::Binary(holds), vec![start, end], Type::BOOL);
+        let (zero, one) = (self.whole(0, own), self.whole(1, own));
+        // The distance of two i32 fits into a u32, and wraps to it.
+        let [low, high] = [start, end].map(|id| self.convert(id, own.kind().unwrap_or(Scalar::U32)));
+        let distance = self.builder.add(Op::Binary(BinaryOp::Sub), vec![high, low], own);
+        let trips = match (range.step, range.inclusive) {
+            (1, false) => distance,
+            (1, true) => {
+                // All values of a type are one more than it can count: the last of them is left out.
+                let all = self.may_be_all(range, start, end);
+                let distance = if all {
+                    let most = self.whole(u32::MAX - 1, own);
+                    self.builder.add(Op::Binary(BinaryOp::Min), vec![distance, most], own)
+                } else {
+                    distance
+                };
+                self.builder.add(Op::Binary(BinaryOp::Add), vec![distance, one], own)
+            }
+            (step, inclusive) => {
+                let last = match inclusive {
+                    true => distance,
+                    false => self.builder.add(Op::Binary(BinaryOp::Sub), vec![distance, one], own),
+                };
+                let steps = match u32::try_from(step) {
+                    Ok(step) => {
+                        let step = self.whole(step, own);
+                        self.builder.add(Op::Binary(BinaryOp::Div), vec![last, step], own)
+                    }
+                    Err(_) => zero,
+                };
+                self.builder.add(Op::Binary(BinaryOp::Add), vec![steps, one], own)
+            }
+        };
+        self.builder.add(Op::Select, vec![any, trips, zero], own)
+    }
+
+    /// Whether an inclusive range may have all values of its type, as far as its ends are known.
+    fn may_be_all(&self, range: &Range, start: NodeId, end: NodeId) -> bool {
+        let (least, most) = match self.ty(start) {
+            Type::U32 => (0, i64::from(u32::MAX)),
+            _ => (i64::from(i32::MIN), i64::from(i32::MAX)),
+        };
+        let may = |id: NodeId, n: i64| self.known_int(&Value::Node(id)).is_none_or(|known| known == n);
+        range.inclusive && may(start, least) && may(end, most)
+    }
+
+    /// The source's counter in iteration `own`.
+    pub fn counter_at(&mut self, course: &Course, own: NodeId) -> Value {
+        let ty = self.ty(course.from);
+        let mut at = own;
+        if course.reversed {
+            let one = self.whole(1, course.own);
+            let last = self
+                .builder
+                .add(Op::Binary(BinaryOp::Sub), vec![course.trips, one], course.own);
+            at = self
+                .builder
+                .add(Op::Binary(BinaryOp::Sub), vec![last, own], course.own);
+        }
+        if course.own != ty {
+            at = self.convert(at, ty.kind().unwrap_or(Scalar::I32));
+        }
+        let step = self.whole(course.step, ty);
+        let far = self.builder.add(Op::Binary(BinaryOp::Mul), vec![at, step], ty);
+        let towards = if course.down { BinaryOp::Sub } else { BinaryOp::Add };
+        let counter = self.builder.add(Op::Binary(towards), vec![course.from, far], ty);
+        self.as_counter(counter, course.index)
+    }
+
+    /// A counter as the loop's body takes it: a known one of `usize` is an integer without a type.
+    pub fn as_counter(&self, counter: NodeId, index: bool) -> Value {
+        match self.known_int(&Value::Node(counter)) {
+            Some(known) if index => Value::Int(known),
+            _ => Value::Node(counter),
+        }
+    }
+
+    /// A constant integer.
+    pub fn whole(&mut self, n: u32, ty: Type) -> NodeId {
+        self.builder.constant(ty, [n, 0, 0, 0])
+    }
+
+    /// `x op n`, in the type of `x`.
+    pub fn integer(&mut self, op: BinaryOp, x: NodeId, n: u32) -> NodeId {
+        let ty = self.ty(x);
+        let n = self.whole(n, ty);
+        self.builder.add(Op::Binary(op), vec![x, n], ty)
+    }
+}
+
+/// The last value of a range of which the end is known.
+fn last(range: &Range, end: i64) -> i128 {
+    i128::from(end) - i128::from(!range.inclusive)
+}
+
+/// Number of iterations of a loop over a range with known ends.
+fn iterations(range: &Range, start: i64, end: i64) -> i128 {
+    let distance = last(range, end) - i128::from(start);
+    if distance < 0 { 0 } else { distance / i128::from(range.step) + 1 }
+}
+
+impl Course {
+    /// Whether a known counter is an integer without a type.
+    pub fn of_indices(&self) -> bool {
+        self.index
+    }
+}

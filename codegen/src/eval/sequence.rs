@@ -1,0 +1,283 @@
+//! Lists of values as functions of a position, so that a loop over them can be left in the shader.
+//!
+//! Values of one shape are taken apart into columns, one for each number in them: a column that is the same everywhere,
+//! one that grows evenly (the counter of `enumerate`), elements of one array at indices that grow evenly (`iter`, `rev`),
+//! or a table of its own.
+
+use super::Evaluator;
+use super::loops::{Body, same_shape};
+use super::value::{Eval, Value};
+use crate::diagnostic::{Diagnostic, Span};
+use crate::front::tree::Pattern;
+use crate::ir::{BinaryOp, NodeId, Op, Scalar, Type};
+
+/// Numbers of one value after which a list of such values is no table.
+const MAX_COLUMNS: usize = 64;
+
+/// A list of values of one shape.
+pub struct Columns {
+    template: Value,
+    columns: Vec<Column>,
+    len: u32,
+}
+
+/// The numbers at one place in each value of a list.
+enum Column {
+    /// The same everywhere.
+    Same(NodeId),
+    /// A first value, and what each has more than the one before it.
+    Even(Even, Type),
+    /// Elements of an array.
+    Of(NodeId, Even),
+}
+
+/// Numbers that grow evenly, wrapping.
+#[derive(Clone, Copy)]
+struct Even {
+    first: u32,
+    step: u32,
+}
+
+impl Columns {
+    /// How many values there are.
+    pub fn len(&self) -> u32 {
+        self.len
+    }
+}
+
+impl Evaluator<'_> {
+    /// The values by columns; an error says why they have none.
+    pub fn by_columns(&mut self, values: &[Value], span: Span) -> Eval<Columns> {
+        let mut rows = Vec::new();
+        for value in values {
+            rows.push(self.known_integers(value, &values[0]));
+        }
+        let unlike = rows.iter().find(|row| !same_shape(row, &rows[0]));
+        if let Some(unlike) = unlike {
+            return Err(Diagnostic::at(
+                span,
+                format!("the elements are unlike: {} and {}", rows[0].describe(), unlike.describe()),
+            )
+            .into());
+        }
+        let leaves: Vec<Vec<NodeId>> = rows
+            .iter()
+            .map(|row| {
+                let mut leaves = Vec::new();
+                Self::leaves(row, &mut leaves);
+                leaves
+            })
+            .collect();
+        let width = leaves[0].len();
+        if width > MAX_COLUMNS {
+            return Err(Diagnostic::at(span, format!("each element has {width} numbers, more than {MAX_COLUMNS}")).into());
+        }
+        let mut columns = Vec::new();
+        for k in 0..width {
+            let column: Vec<NodeId> = leaves.iter().map(|row| row[k]).collect();
+            columns.push(self.column(&column, span)?);
+        }
+        Ok(Columns {
+            template: rows[0].clone(),
+            columns,
+            len: values.len() as u32,
+        })
+    }
+
+    /// The value with integers without a type as nodes, of the type that the same place in `like` has.
+    fn known_integers(&mut self, value: &Value, like: &Value) -> Value {
+        match (value, like) {
+            (Value::Int(n), _) => {
+                let ty = match like {
+                    Value::Node(id) if matches!(self.ty(*id), Type::U32) => Type::U32,
+                    _ => Type::I32,
+                };
+                match i32::try_from(*n).is_ok() || u32::try_from(*n).is_ok() {
+                    true => Value::Node(self.whole(*n as u32, ty)),
+                    false => value.clone(),
+                }
+            }
+            (Value::Struct { ty, fields }, Value::Struct { fields: others, .. }) if fields.len() == others.len() => {
+                let pairs = fields.iter().zip(others.iter());
+                let fields = pairs.map(|((name, part), (_, like))| (name.clone(), self.known_integers(part, like)));
+                let fields = fields.collect();
+                Value::structure(ty.clone(), fields)
+            }
+            (Value::Tuple(parts), Value::Tuple(others)) if parts.len() == others.len() => {
+                let parts = parts.iter().zip(others).map(|(part, like)| self.known_integers(part, like));
+                Value::Tuple(parts.collect())
+            }
+            (Value::Array(parts), Value::Array(others)) if parts.len() == others.len() => {
+                let parts = parts.iter().zip(others.iter()).map(|(part, like)| self.known_integers(part, like));
+                let parts = parts.collect();
+                Value::array(parts)
+            }
+            _ => value.clone(),
+        }
+    }
+
+    fn column(&mut self, nodes: &[NodeId], span: Span) -> Eval<Column> {
+        let ty = self.ty(nodes[0]);
+        if nodes.iter().all(|id| *id == nodes[0]) {
+            return Ok(Column::Same(nodes[0]));
+        }
+        let Type::Value { scalar, lanes } = ty else {
+            return Err(Diagnostic::at(span, "its elements are arrays").into());
+        };
+        if nodes.iter().any(|id| self.ty(*id) != ty) {
+            return Err(Diagnostic::at(span, "its elements have several types").into());
+        }
+        if matches!(ty, Type::I32 | Type::U32)
+            && let Some(even) = self.even(nodes)
+        {
+            return Ok(Column::Even(even, ty));
+        }
+        // Elements of one array.
+        let graph = self.builder.graph();
+        let array = graph.node(nodes[0]).args.first().copied();
+        if let Some(array) = array
+            && nodes.iter().all(|id| {
+                let node = graph.node(*id);
+                node.op == Op::ArrayGet && node.args[0] == array
+            })
+        {
+            let indices: Vec<NodeId> = nodes.iter().map(|id| graph.node(*id).args[1]).collect();
+            if let Some(even) = self.even(&indices) {
+                return Ok(Column::Of(array, even));
+            }
+        }
+        let len = nodes.len() as u32;
+        let table = Type::Array { scalar, lanes, len };
+        let array = self.builder.add(Op::MakeArray, nodes.to_vec(), table);
+        Ok(Column::Of(array, Even { first: 0, step: 1 }))
+    }
+
+    /// The constants as numbers that grow evenly.
+    fn even(&self, nodes: &[NodeId]) -> Option<Even> {
+        let graph = self.builder.graph();
+        let bits: Option<Vec<u32>> = nodes.iter().map(|id| graph.constant(*id).map(|bits| bits[0])).collect();
+        let bits = bits?;
+        let step = bits.get(1)?.wrapping_sub(bits[0]);
+        let evenly = bits.windows(2).all(|pair| pair[1].wrapping_sub(pair[0]) == step);
+        evenly.then_some(Even { first: bits[0], step })
+    }
+
+    /// The value at a position, an `i32`.
+    pub fn element_at(&mut self, columns: &Columns, position: NodeId) -> Value {
+        let mut nodes = Vec::new();
+        for column in &columns.columns {
+            nodes.push(match column {
+                Column::Same(id) => *id,
+                Column::Even(even, ty) => {
+                    let position = self.convert(position, ty.kind().unwrap_or(Scalar::I32));
+                    self.evenly(*even, position)
+                }
+                Column::Of(array, even) => {
+                    let index = self.evenly(*even, position);
+                    let element = self.ty(*array).element();
+                    self.builder.add(Op::ArrayGet, vec![*array, index], element)
+                }
+            });
+        }
+        Self::with_leaves(&columns.template, &mut nodes.into_iter())
+    }
+
+    /// An element, at an index that is not known, of an array of arrays, tuples or structures; `None` of an array of
+    /// numbers that has nothing to be simplified.
+    pub fn element_of_many(&mut self, base: &Value, index: NodeId, span: Span) -> Eval<Option<Value>> {
+        let Value::Array(elements) = base else { return Ok(None) };
+        match elements.first() {
+            Some(Value::Array(row)) if row.len() * elements.len() <= super::MAX_PARTS => {
+                if let Some(flat) = self.flat(elements) {
+                    let from = self.integer(BinaryOp::Mul, index, row.len() as u32);
+                    let element = self.ty(flat).element();
+                    let row = (0..row.len() as u32).map(|k| {
+                        let at = self.integer(BinaryOp::Add, from, k);
+                        Value::Node(self.builder.add(Op::ArrayGet, vec![flat, at], element))
+                    });
+                    let row = row.collect();
+                    return Ok(Some(Value::array(row)));
+                }
+                let columns = self.by_columns(elements, span)?;
+                Ok(Some(self.element_at(&columns, index)))
+            }
+            Some(Value::Struct { .. } | Value::Tuple(_)) => {
+                let columns = self.by_columns(elements, span)?;
+                Ok(Some(self.element_at(&columns, index)))
+            }
+            _ => Ok(self.element_of_row(elements, index)),
+        }
+    }
+
+    /// An array of arrays of numbers of one type as one array, row by row.
+    fn flat(&mut self, rows: &[Value]) -> Option<NodeId> {
+        let mut nodes = Vec::new();
+        for row in rows {
+            let (Value::Array(row), Value::Array(first)) = (row, &rows[0]) else {
+                return None;
+            };
+            if row.len() != first.len() {
+                return None;
+            }
+            for value in row.iter() {
+                match self.known_integers(value, &first[0]) {
+                    Value::Node(id) => nodes.push(id),
+                    _ => return None,
+                }
+            }
+        }
+        let Type::Value { scalar, lanes } = self.ty(nodes[0]) else {
+            return None;
+        };
+        let len = nodes.len() as u32;
+        let alike = nodes.iter().all(|id| self.ty(*id) == self.ty(nodes[0]));
+        let ty = Type::Array { scalar, lanes, len };
+        alike.then(|| self.builder.add(Op::MakeArray, nodes, ty))
+    }
+
+    /// An element of a row of a flat array: its elements are `flat[from]`, `flat[from + 1]`, ...
+    fn element_of_row(&mut self, row: &[Value], index: NodeId) -> Option<Value> {
+        let get = |e: &Self, value: &Value| match value {
+            Value::Node(id) if e.builder.graph().node(*id).op == Op::ArrayGet => {
+                let args = &e.builder.graph().node(*id).args;
+                Some((args[0], args[1]))
+            }
+            _ => None,
+        };
+        let (flat, from) = get(self, row.first()?)?;
+        // Elements at known indices are left to the rules that fold them.
+        if row.len() < 2 || self.builder.graph().constant(from).is_some() {
+            return None;
+        }
+        for (k, value) in row.iter().enumerate() {
+            let at = self.integer(BinaryOp::Add, from, k as u32);
+            if get(self, value)? != (flat, at) {
+                return None;
+            }
+        }
+        let at = self.builder.add(Op::Binary(BinaryOp::Add), vec![from, index], Type::I32);
+        let element = self.ty(flat).element();
+        Some(Value::Node(self.builder.add(Op::ArrayGet, vec![flat, at], element)))
+    }
+
+    fn evenly(&mut self, even: Even, position: NodeId) -> NodeId {
+        let ty = self.ty(position);
+        let first = self.whole(even.first, ty);
+        if even.step == u32::MAX {
+            return self.builder.add(Op::Binary(BinaryOp::Sub), vec![first, position], ty);
+        }
+        let far = self.integer(BinaryOp::Mul, position, even.step);
+        self.builder.add(Op::Binary(BinaryOp::Add), vec![first, far], ty)
+    }
+
+    /// Names the count of a loop where the pattern takes it as it is: the first of `enumerate`.
+    pub fn name_position(&mut self, body: &Body<'_>, item: &Value, own: NodeId) {
+        if let (Some(Pattern::Tuple(parts, _)), Value::Tuple(values)) = (body.pattern, item)
+            && let (Some(Pattern::Name(name, _, at)), Some(Value::Node(id))) = (parts.first(), values.first())
+            && *id == own
+            && matches!(self.builder.graph().node(own).op, Op::Param(..))
+        {
+            self.name_params(&Value::Node(own), name, *at);
+        }
+    }
+}
