@@ -8,7 +8,7 @@ use syn::punctuated::Punctuated;
 use syn::spanned::Spanned;
 
 /// How deep expressions may be nested.
-const DEPTH: u32 = 128;
+pub const DEPTH: u32 = 128;
 
 /// Lowers one item of one file, gathering errors.
 pub struct Lower {
@@ -29,6 +29,11 @@ impl Lower {
             depth: 0,
             errors: Vec::new(),
         }
+    }
+
+    /// The file that the items are of.
+    pub fn file(&self) -> u32 {
+        self.file
     }
 
     /// The place of a token.
@@ -119,10 +124,7 @@ impl Lower {
                 )
             }
             syn::Expr::Field(e) => {
-                let name = match &e.member {
-                    syn::Member::Named(name) => name.to_string(),
-                    syn::Member::Unnamed(index) => index.index.to_string(),
-                };
+                let name = member(&e.member);
                 ExprKind::Field(self.boxed(&e.base), name)
             }
             syn::Expr::Index(e) => ExprKind::Index(self.boxed(&e.expr), self.boxed(&e.index)),
@@ -357,7 +359,12 @@ impl Lower {
                 syn::GenericArgument::Const(e) => self.expr(e).kind,
                 // A constant by its name looks like a type.
                 syn::GenericArgument::Type(syn::Type::Path(t)) => ExprKind::Path(self.segments(&t.path)),
+                syn::GenericArgument::Type(syn::Type::Infer(_)) => {
+                    self.unsupported(arg.span(), "`_` for a generic argument", "leave `::<>` out, or state it");
+                    ExprKind::Tuple(Vec::new())
+                }
                 syn::GenericArgument::Type(_) => ExprKind::Tuple(Vec::new()),
+                // Lifetimes have no parameter to bind; the others are refused before.
                 _ => continue,
             };
             let span = self.span(arg.span());
@@ -386,9 +393,7 @@ impl Lower {
         let name = self.segments(&e.path).pop().unwrap_or_default();
         let mut fields = Vec::new();
         for field in &e.fields {
-            if let syn::Member::Named(name) = &field.member {
-                fields.push((name.to_string(), self.expr(&field.expr)));
-            }
+            fields.push((member(&field.member), self.expr(&field.expr)));
         }
         ExprKind::Struct(name, fields, e.rest.as_ref().map(|rest| self.boxed(rest)))
     }
@@ -464,6 +469,14 @@ impl Lower {
             value: self.expr(&item.expr),
             ty: self.ty(&item.ty),
         }
+    }
+}
+
+/// The name of a field, or its number.
+pub fn member(member: &syn::Member) -> String {
+    match member {
+        syn::Member::Named(name) => name.to_string(),
+        syn::Member::Unnamed(index) => index.index.to_string(),
     }
 }
 

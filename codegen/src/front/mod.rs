@@ -4,12 +4,18 @@
 //! anything.
 
 mod attribute;
+mod cfg;
+mod check;
 mod depth;
 mod expr;
+mod foreign;
 mod items;
+mod options;
 mod pattern;
 mod reach;
 mod scan;
+#[cfg(test)]
+mod fuzz;
 pub mod tree;
 
 use crate::diagnostic::{Diagnostic, Errors, File, Span};
@@ -36,8 +42,8 @@ pub fn parse(files: &Arc<Vec<File>>, entry: &str) -> Result<Library, Errors> {
         return Err(Errors::new(errors, files));
     }
     let mut items = items::Items::default();
-    for (file, parsed) in &syntax {
-        items.collect(*file, &parsed.items);
+    for (file, parsed) in &mut syntax {
+        items.file(*file, parsed);
     }
     let library = items.lower(entry);
     match library {

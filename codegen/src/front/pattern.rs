@@ -39,15 +39,17 @@ impl Lower {
             syn::Pat::Struct(p) => {
                 let mut fields = Vec::new();
                 for field in &p.fields {
-                    if let syn::Member::Named(name) = &field.member {
-                        fields.push((name.to_string(), self.pattern(&field.pat)));
-                    }
+                    fields.push((super::expr::member(&field.member), self.pattern(&field.pat)));
                 }
                 Pattern::Struct(fields, self.span(p.span()))
             }
             syn::Pat::Range(p) => match (&p.start, &p.end) {
                 (Some(low), Some(high)) if matches!(p.limits, syn::RangeLimits::Closed(_)) => {
                     Pattern::Range(Box::new(self.expr(low)), Box::new(self.expr(high)))
+                }
+                (Some(_), Some(_)) => {
+                    self.unsupported(p.span(), "a range without its end in a pattern", "write `0..=3` for `0..4`");
+                    Pattern::Wild
                 }
                 _ => {
                     self.unsupported(p.span(), "a range without both ends", "write both: `0..=3`");
