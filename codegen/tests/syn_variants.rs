@@ -41,18 +41,163 @@ closed! {
 
 /// The variants of the enums that syn may extend, as of syn 3.
 const OPEN: &[(&str, &[&str])] = &[
-    ("BinOp", &["Add", "Sub", "Mul", "Div", "Rem", "And", "Or", "BitXor", "BitAnd", "BitOr", "Shl", "Shr", "Eq", "Lt", "Le", "Ne", "Ge", "Gt", "AddAssign", "SubAssign", "MulAssign", "DivAssign", "RemAssign", "BitXorAssign", "BitAndAssign", "BitOrAssign", "ShlAssign", "ShrAssign"]),
-    ("Expr", &["Array", "Assign", "Async", "Await", "Binary", "Block", "Break", "Call", "Cast", "Closure", "Const", "Continue", "Field", "ForLoop", "Group", "If", "Index", "Infer", "Let", "Lit", "Loop", "Macro", "Match", "MethodCall", "Paren", "Path", "Range", "RawAddr", "Reference", "Repeat", "Return", "Struct", "Try", "TryBlock", "Tuple", "Unary", "Unsafe", "Verbatim", "While", "Yield"]),
+    (
+        "BinOp",
+        &[
+            "Add",
+            "Sub",
+            "Mul",
+            "Div",
+            "Rem",
+            "And",
+            "Or",
+            "BitXor",
+            "BitAnd",
+            "BitOr",
+            "Shl",
+            "Shr",
+            "Eq",
+            "Lt",
+            "Le",
+            "Ne",
+            "Ge",
+            "Gt",
+            "AddAssign",
+            "SubAssign",
+            "MulAssign",
+            "DivAssign",
+            "RemAssign",
+            "BitXorAssign",
+            "BitAndAssign",
+            "BitOrAssign",
+            "ShlAssign",
+            "ShrAssign",
+        ],
+    ),
+    (
+        "Expr",
+        &[
+            "Array",
+            "Assign",
+            "Async",
+            "Await",
+            "Binary",
+            "Block",
+            "Break",
+            "Call",
+            "Cast",
+            "Closure",
+            "Const",
+            "Continue",
+            "Field",
+            "ForLoop",
+            "Group",
+            "If",
+            "Index",
+            "Infer",
+            "Let",
+            "Lit",
+            "Loop",
+            "Macro",
+            "Match",
+            "MethodCall",
+            "Paren",
+            "Path",
+            "Range",
+            "RawAddr",
+            "Reference",
+            "Repeat",
+            "Return",
+            "Struct",
+            "Try",
+            "TryBlock",
+            "Tuple",
+            "Unary",
+            "Unsafe",
+            "Verbatim",
+            "While",
+            "Yield",
+        ],
+    ),
     ("ForeignItem", &["Fn", "Static", "Type", "Macro", "Verbatim"]),
-    ("GenericArgument", &["Lifetime", "Type", "Const", "AssocType", "AssocConst", "Constraint"]),
+    (
+        "GenericArgument",
+        &["Lifetime", "Type", "Const", "AssocType", "AssocConst", "Constraint"],
+    ),
     ("ImplItem", &["Const", "Fn", "Type", "Macro", "Verbatim"]),
-    ("Item", &["Const", "Enum", "ExternCrate", "Fn", "ForeignMod", "Impl", "Macro", "Mod", "Static", "Struct", "Trait", "TraitAlias", "Type", "Union", "Use", "Verbatim"]),
-    ("Lit", &["Str", "ByteStr", "CStr", "Byte", "Char", "Int", "Float", "Bool", "Verbatim"]),
-    ("Pat", &["Const", "Guard", "Ident", "Lit", "Macro", "Or", "Paren", "Path", "Range", "Reference", "Rest", "Slice", "Struct", "Tuple", "TupleStruct", "Type", "Verbatim", "Wild"]),
+    (
+        "Item",
+        &[
+            "Const",
+            "Enum",
+            "ExternCrate",
+            "Fn",
+            "ForeignMod",
+            "Impl",
+            "Macro",
+            "Mod",
+            "Static",
+            "Struct",
+            "Trait",
+            "TraitAlias",
+            "Type",
+            "Union",
+            "Use",
+            "Verbatim",
+        ],
+    ),
+    (
+        "Lit",
+        &[
+            "Str", "ByteStr", "CStr", "Byte", "Char", "Int", "Float", "Bool", "Verbatim",
+        ],
+    ),
+    (
+        "Pat",
+        &[
+            "Const",
+            "Guard",
+            "Ident",
+            "Lit",
+            "Macro",
+            "Or",
+            "Paren",
+            "Path",
+            "Range",
+            "Reference",
+            "Rest",
+            "Slice",
+            "Struct",
+            "Tuple",
+            "TupleStruct",
+            "Type",
+            "Verbatim",
+            "Wild",
+        ],
+    ),
     ("ReceiverKind", &["Value", "Reference", "Typed"]),
     ("StaticMutability", &["Mut", "None"]),
     ("TraitItem", &["Const", "Fn", "Type", "Macro", "Verbatim"]),
-    ("Type", &["Array", "FnPtr", "Group", "ImplTrait", "Infer", "Macro", "Never", "Paren", "Path", "Ptr", "Reference", "Slice", "TraitObject", "Tuple", "Verbatim"]),
+    (
+        "Type",
+        &[
+            "Array",
+            "FnPtr",
+            "Group",
+            "ImplTrait",
+            "Infer",
+            "Macro",
+            "Never",
+            "Paren",
+            "Path",
+            "Ptr",
+            "Reference",
+            "Slice",
+            "TraitObject",
+            "Tuple",
+            "Verbatim",
+        ],
+    ),
     ("TypeParamBound", &["Trait", "Lifetime", "PreciseCapture", "Verbatim"]),
     ("UnOp", &["Deref", "Not", "Neg"]),
     ("WherePredicate", &["Lifetime", "Type"]),
@@ -108,14 +253,21 @@ fn every_variant_is_handled_or_refused() {
     let mut seen = BTreeSet::new();
     let mut wrong = Vec::new();
     for (name, variants) in CLOSED.iter().chain(OPEN) {
-        let _ = write!(table, "\n## `{name}`\n\n| variant | example | result |\n| --- | --- | --- |\n");
+        let _ = write!(
+            table,
+            "\n## `{name}`\n\n| variant | example | result |\n| --- | --- | --- |\n"
+        );
         for variant in *variants {
             let full = format!("{name}::{variant}");
             if NEVER.contains(&full.as_str()) {
                 let _ = writeln!(table, "| {variant} | | no text is read as this |");
                 continue;
             }
-            let examples: Vec<&str> = cases.iter().filter(|(n, _)| *n == full).map(|(_, text)| *text).collect();
+            let examples: Vec<&str> = cases
+                .iter()
+                .filter(|(n, _)| *n == full)
+                .map(|(_, text)| *text)
+                .collect();
             if examples.is_empty() {
                 wrong.push(format!("no example of {full}"));
             }
@@ -128,11 +280,20 @@ fn every_variant_is_handled_or_refused() {
                     Err(error) => wrong.push(format!("{full}: {error} in {file}")),
                 }
                 let shown = text.replace("===", "…").replace('|', "\\|");
-                let _ = writeln!(table, "| {variant} | `{shown}` | {} |", result(&file).replace('|', "\\|"));
+                let _ = writeln!(
+                    table,
+                    "| {variant} | `{shown}` | {} |",
+                    result(&file).replace('|', "\\|")
+                );
             }
         }
     }
-    wrong.extend(cases.iter().filter(|(full, _)| !seen.contains(*full)).map(|(full, _)| format!("{full} is in no list")));
+    wrong.extend(
+        cases
+            .iter()
+            .filter(|(full, _)| !seen.contains(*full))
+            .map(|(full, _)| format!("{full} is in no list")),
+    );
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/syn-variants.md");
     if std::env::var_os("STRAIGHTLINE_BLESS").is_some() {

@@ -125,7 +125,10 @@ impl Lower {
                 Some(false) if own && carrier == Carrier::Other => {
                     let (of, help) = match name.as_str() {
                         "unroll" => ("a loop", "put it right before a `for`, `while` or `loop`"),
-                        _ => ("an `if`", "put it right before an `if`, or before the `let` that takes its value"),
+                        _ => (
+                            "an `if`",
+                            "put it right before an `if`, or before the `let` that takes its value",
+                        ),
                     };
                     let span = self.span(attr.span());
                     self.errors.push(
@@ -151,7 +154,11 @@ impl Lower {
         match name.as_str() {
             known if INERT.contains(&known) => {}
             "unroll" | "branch" | "select" => {
-                let shown = if name == "unroll" { "unroll(none)" } else { name.as_str() };
+                let shown = if name == "unroll" {
+                    "unroll(none)"
+                } else {
+                    name.as_str()
+                };
                 self.unsupported(
                     span,
                     &format!("the attribute `{name}` as rustc sees it"),

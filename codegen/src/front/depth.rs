@@ -26,8 +26,8 @@ const LONGEST_NUMBER: usize = 200;
 
 /// Words after which a parser reads an expression, a type, a pattern or an item as a part of what the word began.
 const NESTING: [&str; 26] = [
-    "async", "become", "box", "break", "const", "do", "dyn", "fn", "for", "if", "impl", "in", "let", "match", "move", "mut",
-    "raw", "ref", "return", "static", "unsafe", "use", "while", "where", "yeet", "yield",
+    "async", "become", "box", "break", "const", "do", "dyn", "fn", "for", "if", "impl", "in", "let", "match", "move",
+    "mut", "raw", "ref", "return", "static", "unsafe", "use", "while", "where", "yeet", "yield",
 ];
 
 /// Refuses a text on which a parser would run out of stack. What is no list of tokens is for the parser to refuse.
@@ -51,25 +51,36 @@ pub fn check(file: u32, text: &str) -> Result<(), Box<Diagnostic>> {
         count += 1;
         let span = token.span();
         if count > MOST_TOKENS {
-            return refuse(span, format!("a file of more than {MOST_TOKENS} tokens"), "keep kernels in files of their own");
+            return refuse(
+                span,
+                format!("a file of more than {MOST_TOKENS} tokens"),
+                "keep kernels in files of their own",
+            );
         }
         if let TokenTree::Literal(literal) = &token {
             let shown = literal.to_string();
             if shown.len() > LONGEST_NUMBER && shown.starts_with(|c: char| c.is_ascii_digit()) {
-                return refuse(span, format!("a number of {} characters", shown.len()), "round it: an f32 has 9 digits");
+                return refuse(
+                    span,
+                    format!("a number of {} characters", shown.len()),
+                    "round it: an f32 has 9 digits",
+                );
             }
         }
         level.take(&token);
         if level.prefixes > MOST_PREFIXES {
             return refuse(span, format!("more than {MOST_PREFIXES} operators in a row"), SMALLER);
         }
-        let nested: usize = open
-            .iter().map(|level| 1 + level.nested + level.angles.len()).sum();
+        let nested: usize = open.iter().map(|level| 1 + level.nested + level.angles.len()).sum();
         if nested > MOST_NESTED {
             return refuse(span, format!("this is nested more than {MOST_NESTED} deep"), SMALLER);
         }
         if open.iter().map(|level| level.chained).sum::<usize>() > LONGEST {
-            return refuse(span, format!("more than {LONGEST} operators in one expression"), SMALLER);
+            return refuse(
+                span,
+                format!("more than {LONGEST} operators in one expression"),
+                SMALLER,
+            );
         }
         if let TokenTree::Group(group) = token {
             if open.len() > DEEPEST {

@@ -4,6 +4,8 @@ use super::place;
 use super::tree::{Arm, Block, Const, Expr, ExprKind, ForLoop, IntType, Statement};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::ir::{BinaryOp, UnaryOp};
+use super::scan::mentioned_in;
+use std::collections::BTreeSet;
 use syn::punctuated::Punctuated;
 use syn::spanned::Spanned;
 
@@ -184,6 +186,12 @@ impl Lower {
             syn::Expr::Try(_) => ("`?`", "a kernel has no errors: compute a value for every pixel"),
             syn::Expr::Unsafe(_) => ("`unsafe`", "use the prelude's textures and arrays"),
             syn::Expr::Async(_) | syn::Expr::Await(_) => ("`async`", "a kernel computes its value at once"),
+            syn::Expr::Const(_) => ("a `const` block", "name the constant: `const NAME: f32 = ...;`"),
+            syn::Expr::Infer(_) => ("`_` as a value", "write `let _ = value;`, or leave the statement out"),
+            syn::Expr::RawAddr(_) => ("a raw pointer", "use the value itself"),
+            syn::Expr::TryBlock(_) => ("`try`", "a kernel has no errors: compute a value for every pixel"),
+            syn::Expr::Yield(_) => ("`yield`", "a kernel computes its value at once"),
+            syn::Expr::Path(_) => ("a type in `<>`", "name the type alone: `f32::MAX`"),
             _ => (
                 "this expression",
                 "see the kernel language's documentation for what there is",
@@ -216,7 +224,7 @@ impl Lower {
                         ..
                     }),
                 ],
-            ) => ExprKind::Assert(self.boxed(condition), message.value()),
+            ) if !message.value().contains(['{', '}']) => ExprKind::Assert(self.boxed(condition), message.value()),
             _ => {
                 self.unsupported(
                     call.span(),
@@ -413,6 +421,8 @@ impl Lower {
 
     /// A block.
     pub fn block(&mut self, block: &syn::Block) -> Block {
+        // A constant holds in all of its block, before its line too.
+        let mut constants = Vec::new();
         let mut statements = Vec::new();
         let mut value = None;
         for (k, statement) in block.stmts.iter().enumerate() {
@@ -420,7 +430,7 @@ impl Lower {
                 syn::Stmt::Local(local) => statements.push(self.local(local)),
                 syn::Stmt::Expr(expr, None) if k + 1 == block.stmts.len() => value = Some(self.boxed(expr)),
                 syn::Stmt::Expr(expr, _) => statements.push(Statement::Expr(self.expr(expr))),
-                syn::Stmt::Item(syn::Item::Const(item)) => statements.push(Statement::Const(self.constant(item, None))),
+                syn::Stmt::Item(syn::Item::Const(item)) => constants.push(self.constant(item, None)),
                 syn::Stmt::Item(syn::Item::Use(_)) => {}
                 syn::Stmt::Item(item) => {
                     self.unsupported(
@@ -436,6 +446,7 @@ impl Lower {
                 }
             }
         }
+        statements.splice(0..0, in_order(constants).into_iter().map(Statement::Const));
         Block { statements, value }
     }
 
@@ -470,6 +481,21 @@ impl Lower {
             ty: self.ty(&item.ty),
         }
     }
+}
+
+/// Constants so that each stands after those that it is made of. Those that need each other stay as they are, and are not found.
+fn in_order(mut constants: Vec<Const>) -> Vec<Const> {
+    let mut ordered = Vec::new();
+    while !constants.is_empty() {
+        let needs = |c: &Const| {
+            let mut names = BTreeSet::new();
+            mentioned_in(&c.value, &mut names);
+            constants.iter().any(|other| names.contains(&other.name))
+        };
+        let next = constants.iter().position(|c| !needs(c)).unwrap_or(0);
+        ordered.push(constants.remove(next));
+    }
+    ordered
 }
 
 /// The name of a field, or its number.

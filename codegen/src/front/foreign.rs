@@ -33,7 +33,7 @@ impl Import {
             || library.consts.contains_key(&here)
             || library.structs.contains_key(&here)
             || library.enums.contains_key(&here)
-            || library.functions.keys().any(|name| variant_of(name, &here));
+            || library.functions.keys().any(|name| method_of(name, &here));
         let known = ["std", "core", "alloc", "glam", "straightline_kernels"].contains(&self.root.as_str());
         if given || known || self.prelude {
             return None;
@@ -46,7 +46,7 @@ impl Import {
 }
 
 /// Whether `name` is a method of the type `of`.
-fn variant_of(name: &str, of: &str) -> bool {
+fn method_of(name: &str, of: &str) -> bool {
     name.split_once("::").is_some_and(|(ty, _)| ty == of)
 }
 
@@ -116,7 +116,8 @@ impl Items {
                         syn::TraitItem::Fn(f) => &f.sig.ident,
                         syn::TraitItem::Const(c) => &c.ident,
                         syn::TraitItem::Type(t) => &t.ident,
-                        syn::TraitItem::Macro(_) | syn::TraitItem::Verbatim(_) | _ => {
+                        // A macro, or unstable syntax.
+                        _ => {
                             self.hidden(inner.to_token_stream(), check.beside());
                             continue;
                         }
@@ -139,7 +140,8 @@ impl Items {
                         syn::ForeignItem::Fn(f) => &f.sig.ident,
                         syn::ForeignItem::Static(s) => &s.ident,
                         syn::ForeignItem::Type(t) => &t.ident,
-                        syn::ForeignItem::Macro(_) | syn::ForeignItem::Verbatim(_) | _ => {
+                        // A macro, or unstable syntax.
+                        _ => {
                             self.hidden(inner.to_token_stream(), check.beside());
                             continue;
                         }
@@ -202,7 +204,8 @@ impl Items {
                 syn::ImplItem::Fn(f) => &f.sig.ident,
                 syn::ImplItem::Const(c) => &c.ident,
                 syn::ImplItem::Type(t) => &t.ident,
-                syn::ImplItem::Macro(_) | syn::ImplItem::Verbatim(_) | _ => {
+                // A macro, or unstable syntax.
+                _ => {
                     self.hidden(item.to_token_stream(), check.beside());
                     continue;
                 }
@@ -224,8 +227,10 @@ impl Items {
             match (token, tokens.peek()) {
                 (TokenTree::Group(group), _) => self.hidden(group.stream(), check.beside()),
                 (TokenTree::Ident(word), Some(TokenTree::Ident(name)))
-                    if ["fn", "const", "static", "struct", "enum", "union", "type", "trait", "ref"]
-                        .contains(&word.to_string().as_str()) =>
+                    if [
+                        "fn", "const", "static", "struct", "enum", "union", "type", "trait", "ref",
+                    ]
+                    .contains(&word.to_string().as_str()) =>
                 {
                     let mut check = check.beside();
                     check.refuse(

@@ -152,11 +152,14 @@ fn texts_that_nest_without_brackets_are_refused() {
 #[test]
 fn long_texts_are_read() {
     let functions: String = (0..2000)
-        .map(|k| format!("/// Documented: {k}.\n#[inline]\npub fn f{k}(x: &[Vec4; 2], y: Option<f32>) -> f32 {{ x[0].x }}\n"))
+        .map(|k| {
+            format!("/// Documented: {k}.\n#[inline]\npub fn f{k}(x: &[Vec4; 2], y: Option<f32>) -> f32 {{ x[0].x }}\n")
+        })
         .collect();
     let table: Vec<String> = (0..5000).map(|k| format!("[{k}.0, -{k}.5, f(A::B) + 1.0]")).collect();
     let arms: String = (0..2000).map(|k| format!("{k} => {{ a }} ")).collect();
-    let ifs = "if a < b && c > d { x = -x; } 'l: for k in 0..4 { continue 'l; } *x += 1.0; if let a = b {} ".repeat(1000);
+    let ifs =
+        "if a < b && c > d { x = -x; } 'l: for k in 0..4 { continue 'l; } *x += 1.0; if let a = b {} ".repeat(1000);
     let compared: Vec<String> = (0..200).map(|k| format!("a < {k}.0 && b > a")).collect();
     let text = format!(
         "{functions} const T: [[f32; 3]; 5000] = [{}]; fn g() {{ match a {{ {arms} }} {ifs} [{}] }}",

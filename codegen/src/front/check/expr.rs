@@ -3,6 +3,9 @@
 use super::super::cfg::Carrier;
 use super::super::expr::DEPTH;
 use super::Check;
+use crate::diagnostic::Diagnostic;
+use proc_macro2::{TokenStream, TokenTree};
+use quote::ToTokens;
 use syn::punctuated::Punctuated;
 use syn::spanned::Spanned;
 
@@ -32,16 +35,18 @@ impl Check {
             E::Repeat(e) => self.pair(&mut e.expr, &mut e.len),
             E::Block(e) => self.block(&mut e.block),
             E::Call(e) => {
-                match &mut *e.func {
-                    E::Path(path) => self.path(&mut path.path, true),
-                    // Calling a value is refused by the lowering.
-                    _ => {}
+                // Calling a value is refused by the lowering.
+                if let E::Path(path) = &mut *e.func {
+                    self.path(&mut path.path, true);
                 }
                 self.exprs(&mut e.args);
             }
             E::Cast(e) => {
                 self.expr(&mut e.expr);
-                self.ty(&mut e.ty);
+                match &mut *e.ty {
+                    syn::Type::Path(t) if t.qself.is_none() => self.path(&mut t.path, true),
+                    other => self.ty(other),
+                }
             }
             E::Field(e) => self.expr(&mut e.base),
             E::ForLoop(e) => {
@@ -168,13 +173,47 @@ impl Check {
             let before = parts.len();
             self.exprs(&mut parts);
             if parts.len() != before {
-                self.refuse(call.span(), "`#[cfg(..)]` in an `assert!`", "put it before the `assert!`");
+                self.refuse(
+                    call.span(),
+                    "`#[cfg(..)]` in an `assert!`",
+                    "put it before the `assert!`",
+                );
             }
         }
     }
 
     /// Statements, each of which `cfg` may remove.
     pub fn block(&mut self, block: &mut syn::Block) {
+        self.statements(block);
+        for (k, statement) in block.stmts.iter().enumerate() {
+            if let syn::Stmt::Local(syn::Local { pat, init: None, .. }) = statement {
+                let name = match pat {
+                    syn::Pat::Ident(p) => p,
+                    syn::Pat::Type(typed) => match &*typed.pat {
+                        syn::Pat::Ident(p) => p,
+                        _ => continue,
+                    },
+                    _ => continue,
+                };
+                let rest = block.stmts[k + 1..].iter().map(|s| s.to_token_stream());
+                if !rest.into_iter().any(|text| assigns(text, &name.ident)) {
+                    let name = &name.ident;
+                    self.never_assigned(name);
+                }
+            }
+        }
+    }
+
+    fn never_assigned(&mut self, name: &syn::Ident) {
+        let span = self.span(name.span());
+        self.lower.errors.push(
+            Diagnostic::at(span, format!("`{name}` is declared, and never given a value"))
+                .label("no value")
+                .help(format!("write `let {name} = ...;`, or assign to it before it is used")),
+        );
+    }
+
+    fn statements(&mut self, block: &mut syn::Block) {
         for mut statement in std::mem::take(&mut block.stmts) {
             let kept = match &mut statement {
                 syn::Stmt::Local(local) => self.local(local),
@@ -268,11 +307,25 @@ impl Check {
         if shown.starts_with(|c: char| !c.is_uppercase() && c != '_') {
             self.refuse(
                 name.span(),
-                "a constant in lower case, which a pattern cannot tell from a variable",
-                &format!("write it in capitals: `{}`", shown.to_uppercase()),
+                "a constant in lower case",
+                &format!(
+                    "write `{}`: in a pattern, a name in lower case is a new variable",
+                    shown.to_uppercase()
+                ),
             );
         }
     }
+}
+
+/// Whether text assigns to a variable by `name = ...`.
+fn assigns(text: TokenStream, name: &syn::Ident) -> bool {
+    let tokens: Vec<TokenTree> = text.into_iter().collect();
+    let is = |at: usize, wanted: char| matches!(tokens.get(at), Some(TokenTree::Punct(p)) if p.as_char() == wanted);
+    tokens.iter().enumerate().any(|(k, token)| match token {
+        TokenTree::Group(group) => assigns(group.stream(), name),
+        TokenTree::Ident(word) => word == name && is(k + 1, '=') && !is(k + 2, '='),
+        TokenTree::Punct(_) | TokenTree::Literal(_) => false,
+    })
 }
 
 /// Which attributes of the generator's own an expression takes.

@@ -181,7 +181,11 @@ impl Check {
     /// A constant's type and value.
     pub fn constant(&mut self, generics: &mut syn::Generics, ty: &mut syn::Type, value: &mut syn::Expr) {
         if let Some(param) = generics.params.first() {
-            self.refuse(param.span(), "a generic constant", "write a `const fn`, or a constant for each type");
+            self.refuse(
+                param.span(),
+                "a generic constant",
+                "write a `const fn`, or a constant for each type",
+            );
         }
         self.ty(ty);
         self.expr(value);
@@ -241,8 +245,8 @@ impl Check {
             if variant.ident.to_string().starts_with(|c: char| !c.is_uppercase()) {
                 self.refuse(
                     variant.ident.span(),
-                    "a variant in lower case, which a pattern cannot tell from a variable",
-                    "begin its name with a capital",
+                    "a variant in lower case",
+                    "begin its name with a capital: in a pattern, a name in lower case is a new variable",
                 );
             }
             kept.push(variant);

@@ -14,8 +14,7 @@ impl Check {
             self.lower.keeps_always(&mut taken, super::Carrier::Other);
         }
         match pattern {
-            P::Ident(_) | P::Wild(_) => {}
-            P::Lit(_) => {}
+            P::Ident(_) | P::Lit(_) | P::Wild(_) => {}
             P::Or(p) => p.cases.iter_mut().for_each(|p| self.pattern(p)),
             P::Paren(p) => self.pattern(&mut p.pat),
             P::Path(p) => {
@@ -45,8 +44,15 @@ impl Check {
                 }
                 p.fields = kept;
             }
+            P::TupleStruct(p) => {
+                if let Some(qself) = &p.qself {
+                    self.refuse(qself.span(), "a type in `<>`", "name the structure alone");
+                }
+                self.path(&mut p.path, false);
+                p.elems.iter_mut().for_each(|p| self.pattern(p));
+            }
             // The lowering refuses these.
-            P::Const(_) | P::Guard(_) | P::Macro(_) | P::Rest(_) | P::TupleStruct(_) | P::Type(_) | P::Verbatim(_) => {}
+            P::Const(_) | P::Guard(_) | P::Macro(_) | P::Rest(_) | P::Type(_) | P::Verbatim(_) => {}
             // And whatever else syn may come to know.
             _ => {}
         }
@@ -65,7 +71,10 @@ impl Check {
             T::Reference(t) => self.ty(&mut t.elem),
             T::Slice(t) => self.ty(&mut t.elem),
             T::Tuple(t) => t.elems.iter_mut().for_each(|t| self.ty(t)),
-            T::Path(t) if t.qself.is_none() => self.path(&mut t.path, true),
+            T::Path(t) if t.qself.is_none() => {
+                self.number(&t.path);
+                self.path(&mut t.path, true);
+            }
             // The lowering refuses these.
             T::FnPtr(_)
             | T::ImplTrait(_)
@@ -79,6 +88,22 @@ impl Check {
             // And whatever else syn may come to know.
             _ => {}
         }
+    }
+
+    /// Refuses types of numbers that shaders do not have, where a value is said to be of one. Conversions to them are refused
+    /// where they are evaluated.
+    fn number(&mut self, path: &syn::Path) {
+        let Some(name) = path.segments.last().map(|s| s.ident.to_string()) else {
+            return;
+        };
+        let instead = match name.as_str() {
+            "f16" | "f64" | "f128" => "use f32",
+            "i8" | "i16" | "i64" | "i128" => "use i32",
+            "u8" | "u16" | "u64" | "u128" => "use u32",
+            "char" | "str" | "String" => "use numbers: a shader has no text",
+            _ => return,
+        };
+        self.refuse(path.span(), &format!("the type `{name}`"), instead);
     }
 
     /// A path, of which the last two segments count; `last` tells whether the last may have generic arguments.
