@@ -8,7 +8,7 @@ use crate::ir::{Buffer, NodeId, Op, Sampler, Texture, TextureKind, Uniform, Vary
 use crate::passes::layers_read;
 use crate::pipeline::Compiled;
 use straightline_manifest::{
-    Access, Binding, BindingKind, Dimension, Extent, Manifest, Output, Precision, REGION, REGION_SIZE, SCHEMA,
+    Access, Binding, BindingKind, Counts, Dimension, Extent, Manifest, Output, Precision, REGION, REGION_SIZE, SCHEMA,
     SampleType, SamplerType, Stage, UniformField, region_fields,
 };
 
@@ -227,8 +227,8 @@ impl Resources {
         needed.map(|(_, name)| name.to_owned()).collect()
     }
 
-    /// The manifest of the shader, without its files and with `statements` still 0.
-    pub fn manifest(&self, compiled: &Compiled) -> Manifest {
+    /// The manifest of the shader, without its files.
+    pub fn manifest(&self, compiled: &Compiled, counts: &Counts) -> Manifest {
         let mut bindings = Vec::new();
         let mut add = |binding: u32, name: &str, kind: BindingKind| {
             bindings.push(Binding {
@@ -305,7 +305,7 @@ impl Resources {
                 format: self.options.format,
             },
             options: compiled.options.clone(),
-            counts: compiled.counts.clone(),
+            counts: counts.clone(),
             files: Default::default(),
             tuned: None,
         }

@@ -99,6 +99,18 @@ impl Text {
         }
     }
 
+    /// In parentheses if an operator is outermost.
+    pub fn in_parentheses(&self) -> Text {
+        if self.binds >= Binds::Prefix {
+            return self.clone();
+        }
+        Text {
+            code: format!("({})", self.code),
+            binds: Binds::Primary,
+            size: self.size,
+        }
+    }
+
     /// The text as an operand of an operator that binds so.
     fn inside(&self, outer: Binds, right: bool) -> String {
         let loose = self.binds < outer || (right && self.binds == outer);

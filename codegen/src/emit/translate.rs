@@ -3,6 +3,7 @@
 use super::error::EmitError;
 use super::resources::Resources;
 use naga::back::{hlsl, msl, spv};
+use naga::proc::{BoundsCheckPolicies, BoundsCheckPolicy};
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use straightline_manifest::{Precision, Stage};
 
@@ -42,12 +43,13 @@ impl Module {
         }
     }
 
-    /// SPIR-V 1.3, little-endian words.
-    pub fn spirv(&self, resources: &Resources) -> Result<Vec<u8>, EmitError> {
+    /// SPIR-V 1.3.
+    pub fn spirv(&self, resources: &Resources) -> Result<Vec<u32>, EmitError> {
         let options = spv::Options {
             lang_version: (1, 3),
             flags: spv::WriterFlags::DEBUG,
             force_loop_bounding: !resources.options.unbounded_loops,
+            bounds_check_policies: restricted(),
             ..Default::default()
         };
         let pipeline = spv::PipelineOptions {
@@ -56,7 +58,7 @@ impl Module {
         };
         let words =
             spv::write_vec(&self.module, &self.info, &options, Some(&pipeline)).map_err(|e| self.failed("spirv", e))?;
-        Ok(words.into_iter().flat_map(u32::to_le_bytes).collect())
+        Ok(super::spirv::joined(&words))
     }
 
     /// HLSL of shader model 5.1, with quad operations 6.0, in half precision 6.2: group as space, binding as register.
@@ -123,6 +125,7 @@ impl Module {
             lang_version: (2, 0),
             per_entry_point_map: [(entry, slots)].into_iter().collect(),
             fake_missing_bindings: false,
+            bounds_check_policies: restricted(),
             force_loop_bounding: !resources.options.unbounded_loops,
             ..Default::default()
         };
@@ -130,6 +133,15 @@ impl Module {
         let (text, _) =
             msl::write_string(&self.module, &self.info, &options, &pipeline).map_err(|e| self.failed("msl", e))?;
         Ok(text)
+    }
+}
+
+/// An index outside of an array is that of its last element, as it is to who reads the WGSL. Coordinates of texels and indices
+/// of buffers are clamped in the text.
+fn restricted() -> BoundsCheckPolicies {
+    BoundsCheckPolicies {
+        index: BoundsCheckPolicy::Restrict,
+        ..BoundsCheckPolicies::default()
     }
 }
 
