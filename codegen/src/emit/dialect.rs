@@ -34,12 +34,12 @@ pub trait Dialect {
     fn load(&self, texture: u32, coord: &Text, layer: Option<&Text>) -> Text;
     /// A texture through a sampler, at its finest level.
     fn sample(&self, texture: u32, sampler: u32, uv: &Text) -> Text;
-    /// A component of the four texels around a place, and a function that this needs at module scope.
-    fn gather(&self, texture: u32, sampler: u32, component: u8, uv: &Text) -> (Text, Option<String>);
+    /// A component of the four texels around a place.
+    fn gather(&self, texture: u32, sampler: u32, component: u8, uv: &Text) -> Text;
     /// A comparison with a reference through a sampler.
     fn compare(&self, texture: u32, sampler: u32, uv: &Text, reference: &Text) -> Text;
-    /// Which of the four depths around a place pass a comparison, and a function that this needs at module scope.
-    fn gather_compare(&self, texture: u32, sampler: u32, uv: &Text, reference: &Text) -> (Text, Option<String>);
+    /// Which of the four depths around a place pass a comparison.
+    fn gather_compare(&self, texture: u32, sampler: u32, uv: &Text, reference: &Text) -> Text;
     /// What another lane of the quad has.
     fn message(&self, direction: Direction, x: &Text) -> Text;
     /// A fine derivative.

@@ -66,13 +66,15 @@ pub enum EmitError {
         "a workgroup of {0}x{1} is not possible: each side is at least 1, and both together at most 1024 invocations"
     )]
     Workgroup(u32, u32),
-    /// A binding whose name is a word of a shading language.
-    #[error("`{kernel}` calls an input `{name}`, which is a word of WGSL or GLSL: give the parameter another name")]
-    Reserved {
+    /// A binding or a uniform whose name cannot be one in every language.
+    #[error("`{kernel}` calls an input `{name}`, which {why}: give the parameter another name")]
+    Name {
         /// The kernel.
         kernel: String,
-        /// The input.
+        /// The input, cut if it is long.
         name: String,
+        /// What is wrong with the name.
+        why: &'static str,
     },
     /// An array of a kept loop is used after it was changed.
     #[error(

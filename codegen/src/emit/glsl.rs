@@ -8,6 +8,9 @@ use crate::ir::{Axis, BinaryOp, Direction, Scalar, TextureKind, Type, UnaryOp};
 /// What follows a buffer's name to ask for its length.
 pub const LENGTH: &str = ".elements.length()";
 
+/// The four texels around a place, or what a comparison gives of them.
+pub const GATHER: &str = "textureGather";
+
 /// Quad operations, horizontal, vertical and diagonal.
 pub const MESSAGES: [&str; 3] = [
     "subgroupQuadSwapHorizontal",
@@ -146,25 +149,10 @@ impl Dialect for Glsl<'_> {
         }
     }
 
-    // naga reads no `textureGather`: the four texels are read one by one at their centres, where filters agree.
-    fn gather(&self, texture: u32, sampler: u32, component: u8, uv: &Text) -> (Text, Option<String>) {
-        let through = self.through("sampler2D", texture, sampler).code;
-        let lane = &"xyzw"[component as usize..=component as usize];
-        let function = format!(
-            "gather_{}_{}_{lane}",
-            self.resources.texture(texture).name,
-            self.resources.sampler(sampler).name
-        );
-        let tap = |x: &str, y: &str| format!("textureLod({through}, (base + vec2({x}, {y})) / size, 0.0).{lane}");
-        let text = format!(
-            "vec4 {function}(vec2 uv) {{\n    vec2 size = vec2(textureSize({through}, 0));\n    vec2 base = floor(uv * size - \
-             0.5);\n    return vec4({}, {}, {}, {});\n}}",
-            tap("0.5", "1.5"),
-            tap("1.5", "1.5"),
-            tap("1.5", "0.5"),
-            tap("0.5", "0.5"),
-        );
-        (Text::call(&function, &[uv]), Some(text))
+    fn gather(&self, texture: u32, sampler: u32, component: u8, uv: &Text) -> Text {
+        let through = self.through("sampler2D", texture, sampler);
+        let component = Text::name(component.to_string());
+        Text::call(GATHER, &[&through, uv, &component])
     }
 
     fn compare(&self, texture: u32, sampler: u32, uv: &Text, reference: &Text) -> Text {
@@ -173,25 +161,9 @@ impl Dialect for Glsl<'_> {
         Text::call("textureLod", &[&through, &place, &Text::name("0.0")])
     }
 
-    // naga reads no `textureGather`: as of colours, the four are compared one by one at their centres.
-    fn gather_compare(&self, texture: u32, sampler: u32, uv: &Text, reference: &Text) -> (Text, Option<String>) {
-        let through = self.through("sampler2DShadow", texture, sampler).code;
-        let function = format!(
-            "gather_compare_{}_{}",
-            self.resources.texture(texture).name,
-            self.resources.sampler(sampler).name
-        );
-        let tap =
-            |x: &str, y: &str| format!("textureLod({through}, vec3((base + vec2({x}, {y})) / size, reference), 0.0)");
-        let text = format!(
-            "vec4 {function}(vec2 uv, float reference) {{\n    vec2 size = vec2(textureSize({through}, 0));\n    vec2 base = \
-             floor(uv * size - 0.5);\n    return vec4({}, {}, {}, {});\n}}",
-            tap("0.5", "1.5"),
-            tap("1.5", "1.5"),
-            tap("1.5", "0.5"),
-            tap("0.5", "0.5"),
-        );
-        (Text::call(&function, &[uv, reference]), Some(text))
+    fn gather_compare(&self, texture: u32, sampler: u32, uv: &Text, reference: &Text) -> Text {
+        let through = self.through("sampler2DShadow", texture, sampler);
+        Text::call(GATHER, &[&through, uv, reference])
     }
 
     fn message(&self, direction: Direction, x: &Text) -> Text {

@@ -7,6 +7,7 @@
 mod arrays;
 mod bindings;
 mod body;
+mod check;
 mod dialect;
 mod error;
 mod glsl;
@@ -160,7 +161,7 @@ pub fn statements(compiled: &Compiled) -> u32 {
     }
     let written = resources::Resources::of(compiled, &options).and_then(|resources| {
         let dialect = wgsl::Wgsl { resources: &resources };
-        body::body(compiled, &resources, &shell::entry_point(&compiled.kernel), &dialect)
+        body::body(compiled, &resources, &dialect)
     });
     written.map_or_else(|_| statements_at_least(graph, schedule), |body| body.statements)
 }
@@ -198,9 +199,8 @@ pub fn emit(compiled: &Compiled, options: &EmitOptions) -> Result<Emitted, EmitE
     }
     let compiled = &*for_stage(compiled, options.stage)?;
     let resources = resources::Resources::of(compiled, options)?;
-    let entry = shell::entry_point(&compiled.kernel);
     let dialect = wgsl::Wgsl { resources: &resources };
-    let body = body::body(compiled, &resources, &entry, &dialect)?;
+    let body = body::body(compiled, &resources, &dialect)?;
     // The header says how many blocks the shader has, and is a comment: what is counted is the same text.
     let mut counts = compiled.counts.clone();
     let counted = shell::render(compiled, &counts, &resources, &body, &dialect)?;
@@ -223,9 +223,9 @@ pub fn emit(compiled: &Compiled, options: &EmitOptions) -> Result<Emitted, EmitE
             }
             Target::Glsl450 => {
                 let dialect = glsl::Glsl { resources: &resources };
-                let body = body::body(compiled, &resources, &entry, &dialect)?;
+                let body = body::body(compiled, &resources, &dialect)?;
                 let glsl = shell::render(compiled, &counts, &resources, &body, &dialect)?;
-                translate::check_glsl(&compiled.kernel, options.stage, &glsl, &resources.compared())?;
+                check::check_glsl(&compiled.kernel, options.stage, &glsl, &resources.compared())?;
                 glsl.into_bytes()
             }
             Target::Spirv => words.iter().flat_map(|word| word.to_le_bytes()).collect(),

@@ -35,6 +35,8 @@ pub struct BoundTexture {
 
 /// A shader's bindings.
 pub struct Resources {
+    /// Name of the entry point.
+    pub entry: String,
     /// How it is emitted.
     pub options: EmitOptions,
     /// Every texture of the kernel, read or not, by index.
@@ -110,14 +112,17 @@ impl Resources {
         let names = read.iter().map(|t| &graph.textures[t.index as usize].name);
         let names = names.chain(read_buffers.iter().map(|(k, _)| &graph.buffers[*k as usize].name));
         let names = names.chain(used_samplers.iter().map(|(k, _)| &graph.samplers[*k as usize].name));
-        let own = [UNIFORMS, SAMPLER, OUTPUT, REGION, "frame", "pixel", "id", "position"];
-        if let Some(name) = names
+        let entry = super::names::entry_point(&compiled.kernel);
+        let mut names = names
             .chain(uniforms.iter().map(|u| &u.name))
-            .chain(graph.varyings.iter().map(|v| &v.name))
-            .find(|name| super::names::is_reserved(name) || own.contains(&name.as_str()))
-        {
-            let name = name.clone();
-            return Err(EmitError::Reserved { kernel: kernel(), name });
+            .chain(graph.varyings.iter().map(|v| &v.name));
+        if let Some((name, why)) = names.find_map(|name| Some((name, super::names::refused(name, &entry)?))) {
+            let name = shortened(name);
+            return Err(EmitError::Name {
+                kernel: kernel(),
+                name,
+                why,
+            });
         }
         let subgroups = ops.iter().any(|op| matches!(op, Op::Message(_)));
         let used = |k: usize| ops.iter().any(|op| **op == Op::Varying(k as u32));
@@ -126,6 +131,7 @@ impl Resources {
         let (fields, uniform_size) = layout(&uniforms);
         let needs_frame = options.stage == Stage::Compute || ops.contains(&&Op::FrameSize);
         let resources = Resources {
+            entry,
             options: options.clone(),
             textures: graph.textures.clone(),
             buffers: graph.buffers.clone(),
@@ -290,7 +296,7 @@ impl Resources {
             stage: self.options.stage,
             unroll: compiled.policy.to_string(),
             precision: self.options.precision,
-            entry_point: super::shell::entry_point(&compiled.kernel),
+            entry_point: self.entry.clone(),
             workgroup_size: compute.then_some(self.options.workgroup()),
             block: self.block,
             features: self.features(),
@@ -337,5 +343,13 @@ fn texture_kind(texture: &Texture, bound: &BoundTexture) -> BindingKind {
             1
         },
         extent: if texture.framed { Extent::Output } else { Extent::Any },
+    }
+}
+
+/// A name as a message shows it.
+fn shortened(name: &str) -> String {
+    match name.char_indices().nth(40) {
+        Some((end, _)) => format!("{}...", &name[..end]),
+        None => name.to_owned(),
     }
 }

@@ -3,6 +3,7 @@
 use super::body::Body;
 use super::dialect::Dialect;
 use super::error::EmitError;
+use super::text::comment;
 use super::resources::{OUTPUT, Resources, SAMPLER, UNIFORMS};
 use crate::ir::{Invocation, TextureKind};
 use crate::pipeline::Compiled;
@@ -13,15 +14,6 @@ use straightline_manifest::{Counts, Precision, REGION, Stage};
 /// Name and version, for headers and manifests.
 pub const GENERATOR: &str = concat!("straightline ", env!("CARGO_PKG_VERSION"));
 
-/// The entry point of a kernel.
-pub fn entry_point(kernel: &str) -> String {
-    if super::names::is_reserved(kernel) {
-        format!("{kernel}_kernel")
-    } else {
-        kernel.to_owned()
-    }
-}
-
 /// Renders a shader in a dialect, with what its header says of it.
 pub fn render(
     compiled: &Compiled,
@@ -30,7 +22,7 @@ pub fn render(
     body: &Body,
     dialect: &dyn Dialect,
 ) -> Result<String, EmitError> {
-    let entry = entry_point(&compiled.kernel);
+    let entry = &resources.entry;
     let Body {
         tables, lines, results, ..
     } = body;
@@ -181,7 +173,7 @@ fn header(compiled: &Compiled, counts: &Counts, resources: &Resources) -> Vec<St
         [width, height] => format!("block of {width}x{height} pixels"),
     };
     lines.push(format!("Per {per}: {}.", figures.join(", ")));
-    lines
+    lines.iter().map(|line| comment(line)).collect()
 }
 
 /// A list of many numbers that are all alike by one of them.

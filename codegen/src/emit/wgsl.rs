@@ -124,10 +124,10 @@ impl Dialect for Wgsl<'_> {
         }
     }
 
-    fn gather(&self, texture: u32, sampler: u32, component: u8, uv: &Text) -> (Text, Option<String>) {
+    fn gather(&self, texture: u32, sampler: u32, component: u8, uv: &Text) -> Text {
         let [texture, sampler] = self.names(texture, sampler);
         let component = Text::name(component.to_string());
-        (Text::call("textureGather", &[&component, &texture, &sampler, uv]), None)
+        Text::call("textureGather", &[&component, &texture, &sampler, uv])
     }
 
     fn compare(&self, texture: u32, sampler: u32, uv: &Text, reference: &Text) -> Text {
@@ -135,12 +135,9 @@ impl Dialect for Wgsl<'_> {
         Text::call("textureSampleCompareLevel", &[&texture, &sampler, uv, reference])
     }
 
-    fn gather_compare(&self, texture: u32, sampler: u32, uv: &Text, reference: &Text) -> (Text, Option<String>) {
+    fn gather_compare(&self, texture: u32, sampler: u32, uv: &Text, reference: &Text) -> Text {
         let [texture, sampler] = self.names(texture, sampler);
-        (
-            Text::call("textureGatherCompare", &[&texture, &sampler, uv, reference]),
-            None,
-        )
+        Text::call("textureGatherCompare", &[&texture, &sampler, uv, reference])
     }
 
     fn message(&self, direction: Direction, x: &Text) -> Text {

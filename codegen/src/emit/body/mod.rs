@@ -51,10 +51,10 @@ impl From<EmitError> for Failure {
 type Written<T = ()> = Result<T, Failure>;
 
 /// Writes the body of a compiled kernel.
-pub fn body(compiled: &Compiled, resources: &Resources, entry: &str, dialect: &dyn Dialect) -> Result<Body, EmitError> {
+pub fn body(compiled: &Compiled, resources: &Resources, dialect: &dyn Dialect) -> Result<Body, EmitError> {
     let mut cut = HashSet::new();
     loop {
-        match attempt(compiled, resources, entry, dialect, &cut) {
+        match attempt(compiled, resources, dialect, &cut) {
             Ok(body) => return Ok(body),
             Err(Failure::Error(error)) => return Err(error),
             Err(Failure::Cut(version)) => {
@@ -75,7 +75,6 @@ pub fn body(compiled: &Compiled, resources: &Resources, entry: &str, dialect: &d
 fn attempt(
     compiled: &Compiled,
     resources: &Resources,
-    entry: &str,
     dialect: &dyn Dialect,
     cut: &HashSet<NodeId>,
 ) -> Written<Body> {
@@ -84,7 +83,7 @@ fn attempt(
         compiled,
         dialect,
         plan: Plan::new(graph, &compiled.schedule),
-        names: Names::new(graph, resources, entry),
+        names: Names::new(graph, resources, &resources.entry),
         webs: Webs::new(graph, cut),
         texts: vec![None; graph.nodes.len()],
         half: resources.options.precision == Precision::F16,
@@ -235,9 +234,7 @@ impl Writer<'_> {
             Op::Message(direction) => inner(d.message(*direction, &outer(0))),
             Op::Derivative(axis) => inner(d.derivative(*axis, &outer(0))),
             Op::GatherCompare { texture, sampler, .. } => {
-                let (text, helper) = d.gather_compare(*texture, *sampler, &outer(0), &outer(1));
-                self.helpers.extend(helper);
-                inner(text)
+                inner(d.gather_compare(*texture, *sampler, &outer(0), &outer(1)))
             }
             Op::Uniform(k) => inner(d.uniform(&self.compiled.graph.uniforms[*k as usize].name)),
             Op::Unary(op) => d.unary(*op, node.ty, &args[0]),
@@ -287,11 +284,7 @@ impl Writer<'_> {
                 sampler,
                 component,
                 ..
-            } => {
-                let (text, helper) = d.gather(*texture, *sampler, *component, &outer(0));
-                self.helpers.extend(helper);
-                inner(text)
-            }
+            } => inner(d.gather(*texture, *sampler, *component, &outer(0))),
             Op::Compare { texture, sampler, .. } => inner(d.compare(*texture, *sampler, &outer(0), &outer(1))),
             Op::BufferLen(buffer) => d.len(*buffer),
             Op::BufferLoad { buffer, .. } => inner(d.element(*buffer, &args[0])),
