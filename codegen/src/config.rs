@@ -251,6 +251,7 @@ impl Config {
         // Without a line of its own cargo would come back for every change in the package.
         println!("cargo::rerun-if-changed=build.rs");
         let folder = match &self.out_dir {
+            Some(folder) if folder.as_os_str().is_empty() => return Err(Error::of(Problem::EmptyFolder)),
             Some(folder) => folder.clone(),
             None => std::env::var_os("OUT_DIR")
                 .map(PathBuf::from)
@@ -300,6 +301,8 @@ enum Problem {
     Name(String),
     #[error("two shaders are called `{0}`: give one of them another name with `.name(\"...\")`")]
     Twice(String),
+    #[error("the folder to write to is empty: say `.out_dir(\".\")` for the folder that the build runs in, or leave it out")]
+    EmptyFolder,
     #[error("OUT_DIR is not set: call this from build.rs, or say where to write with `.out_dir(...)`")]
     NoFolder,
 }

@@ -1,5 +1,6 @@
 //! `budget`: what SRAA costs in memory, reads and time (the paper's tables 1 and 2), and from which shading cost it pays.
 
+use super::study::command;
 use crate::args::BudgetArgs;
 use crate::failure::Failure;
 use crate::gpu::Gpu;
@@ -95,7 +96,7 @@ pub fn run(args: &BudgetArgs) -> Result<(), Failure> {
         cost("16x supersampling", 16, 16, None),
     ];
     let record = Record {
-        command: std::env::args().collect::<Vec<_>>().join(" "),
+        command: command(),
         date: humantime::format_rfc3339_seconds(SystemTime::now()).to_string(),
         size: args.size.to_array(),
         geometry_ms: args.geometry_ms,
@@ -183,10 +184,10 @@ fn measured(args: &BudgetArgs, gpu: &Gpu) -> Result<(Vec<Filter>, Clock), Failur
 
 fn print(args: &BudgetArgs, record: &Record) -> Result<(), Failure> {
     if args.json {
-        println!("{}", serde_json::to_string_pretty(record).map_err(Failure::of)?);
+        outln!("{}", serde_json::to_string_pretty(record).map_err(Failure::of)?);
         return Ok(());
     }
-    println!(
+    outln!(
         "{}x{} on {}; medians of {} rounds in turn, {}\n",
         record.size[0],
         record.size[1],
@@ -213,11 +214,11 @@ fn print(args: &BudgetArgs, record: &Record) -> Result<(), Failure> {
         })
         .collect();
     let headings = ["per pixel", "geometry", "shading", "6 B", "8 B", "12 B", "reads"];
-    println!("{}", table::render(&headings, &rows));
+    outln!("{}", table::render(&headings, &rows));
     for (format, bytes) in FORMATS {
-        println!("{bytes} B a sample: {format}");
+        outln!("{bytes} B a sample: {format}");
     }
-    println!("Shading at the pixel's centre needs the geometry there too, which the main G-buffer pass has.\n");
+    outln!("Shading at the pixel's centre needs the geometry there too, which the main G-buffer pass has.\n");
     let rows: Vec<Vec<String>> = record
         .filters
         .iter()
@@ -237,9 +238,9 @@ fn print(args: &BudgetArgs, record: &Record) -> Result<(), Failure> {
         })
         .collect();
     let headings = ["metric", "pattern", "reads", "ms", "ratio", "paper", "pays from"];
-    println!("{}", table::render(&headings, &rows));
-    println!("ratio: to depth-normals of the same pattern; paper: table 1, GeForce GTX 480.");
-    println!(
+    outln!("{}", table::render(&headings, &rows));
+    outln!("ratio: to depth-normals of the same pattern; paper: table 1, GeForce GTX 480.");
+    outln!(
         "pays from: shading of one sample a pixel that costs at least this is dearer for all samples than the filter{}.",
         match args.geometry_ms > 0.0 {
             true => format!(" and the {} ms of further geometry", args.geometry_ms),

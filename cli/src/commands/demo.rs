@@ -1,5 +1,6 @@
 //! `demo`: what Straightline does, in one run.
 
+use super::study::command;
 use crate::args::DemoArgs;
 use crate::failure::Failure;
 use crate::gpu::{self, Gpu};
@@ -57,7 +58,7 @@ struct Record {
 pub fn run(args: &DemoArgs) -> Result<(), Failure> {
     let gpu = Gpu::open(&args.adapter)?;
     if gpu.is_none() {
-        eprintln!(
+        errln!(
             "No GPU adapter: the same graphs run on the CPU interpreter instead. For the shaders, {}.",
             gpu::INSTALL
         );
@@ -97,7 +98,7 @@ pub fn run(args: &DemoArgs) -> Result<(), Failure> {
 
     let executor = gpu.as_ref().map_or("CPU interpreter".to_owned(), Gpu::describe);
     let record = Record {
-        command: std::env::args().collect::<Vec<_>>().join(" "),
+        command: command(),
         date: humantime::format_rfc3339_seconds(SystemTime::now()).to_string(),
         scene: args
             .mesh
@@ -263,7 +264,7 @@ fn busiest(plain: &Frame<Vec4>, reference: &Frame<Vec4>) -> (UVec2, UVec2, u32) 
 
 fn print(args: &DemoArgs, record: &Record) -> Result<(), Failure> {
     if args.json {
-        println!("{}", serde_json::to_string_pretty(record).map_err(Failure::of)?);
+        outln!("{}", serde_json::to_string_pretty(record).map_err(Failure::of)?);
         return Ok(());
     }
     let count = |n: Option<u32>| n.map_or(String::new(), |n| n.to_string());
@@ -295,17 +296,17 @@ fn print(args: &DemoArgs, record: &Record) -> Result<(), Failure> {
         "PSNR",
         "off f64 by",
     ];
-    println!("{}", table::render(&headings, &rows));
+    outln!("{}", table::render(&headings, &rows));
     let with = match record.clock {
         Clock::GpuTimestamps => "GPU timestamps, shaders in turn",
         Clock::WallClock => "wall clock, in turn",
     };
-    println!(
+    outln!(
         "{}x{} on {}; medians by {with}.",
         record.size[0], record.size[1], record.executor
     );
-    println!("PSNR is against {}.", record.reference);
-    println!(
+    outln!("PSNR is against {}.", record.reference);
+    outln!(
         "Shaders, pictures and an enlarged detail are in {}.",
         args.out.display()
     );

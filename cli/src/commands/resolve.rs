@@ -52,15 +52,15 @@ fn report(
             out["psnr_1x_db"] = json!(before);
             out["psnr_db"] = json!(after);
         }
-        println!("{out:#}");
+        outln!("{out:#}");
         return Ok(());
     }
-    println!("{}", args.out.display());
+    outln!("{}", args.out.display());
     if let Some((before, after)) = errors {
-        println!("PSNR against the reference: {after:.2} dB, and {before:.2} dB without antialiasing");
+        outln!("PSNR against the reference: {after:.2} dB, and {before:.2} dB without antialiasing");
     }
     if bad > 0 {
-        println!("{bad} pixels are not finite");
+        outln!("{bad} pixels are not finite");
     }
     Ok(())
 }

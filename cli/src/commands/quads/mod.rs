@@ -3,6 +3,7 @@
 mod families;
 mod pictures;
 
+use super::study::command;
 use crate::args::QuadsArgs;
 use crate::failure::Failure;
 use crate::gpu::Gpu;
@@ -106,7 +107,7 @@ pub fn run(args: &QuadsArgs) -> Result<(), Failure> {
         pictures::write(&bench, folder, &subjects, &shadowed, &screen_inputs)?;
     }
     let record = Record {
-        command: std::env::args().collect::<Vec<_>>().join(" "),
+        command: command(),
         date: humantime::format_rfc3339_seconds(SystemTime::now()).to_string(),
         adapter: gpu.describe(),
         size: args.size.to_array(),
@@ -290,11 +291,11 @@ fn print(args: &QuadsArgs, record: &Record) -> Result<(), Failure> {
         std::fs::write(path, &json).map_err(|e| Failure::of(format!("cannot write `{}`: {e}", path.display())))?;
     }
     if args.json {
-        print!("{json}");
+        out!("{json}");
         return Ok(());
     }
     let [width, height] = record.size;
-    println!(
+    outln!(
         "{}, {width}x{height}, {} rounds in turn, {}\n{}\n",
         record.adapter, record.rounds, record.date, record.quads
     );
@@ -326,6 +327,6 @@ fn print(args: &QuadsArgs, record: &Record) -> Result<(), Failure> {
         "mean off",
         "largest",
     ];
-    print!("{}", table::render(&head, &rows));
+    out!("{}", table::render(&head, &rows));
     Ok(())
 }

@@ -86,7 +86,7 @@ fn write_pictures(folder: &Path, studied: &[Studied]) -> Result<(), Failure> {
 
 fn print(record: &LoopsRecord) {
     let c = &record.circumstances;
-    println!(
+    outln!(
         "{}, {}x{}, {} rounds in turn, {}{}\n",
         c.adapter,
         c.size[0],
@@ -109,11 +109,11 @@ fn print(record: &LoopsRecord) {
         "off f64, 99.9 %",
         "largest",
     ];
-    print!("{}", table::render(&head, &rows));
-    println!("\ntimes as fast: as the looped form, median of the rounds (a tenth were below, a tenth above)");
+    out!("{}", table::render(&head, &rows));
+    outln!("\ntimes as fast: as the looped form, median of the rounds (a tenth were below, a tenth above)");
     for kernel in &record.kernels {
         for (kind, why) in &kernel.absent {
-            println!("{}, {}: {why}", kernel.kernel, kind.words());
+            outln!("{}, {}: {why}", kernel.kernel, kind.words());
         }
     }
 }

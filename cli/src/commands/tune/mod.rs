@@ -24,7 +24,7 @@ const SIZE: UVec2 = UVec2::new(640, 360);
 pub fn run(args: &TuneArgs) -> Result<(), Failure> {
     check_options(args)?;
     let gpu = Gpu::require(&args.adapter)?;
-    let mut progress = Progress::new()?;
+    let mut progress = Progress::new();
     let Some(subject) = subject(args, &gpu, &mut progress)? else {
         return Err(nothing_measured());
     };
