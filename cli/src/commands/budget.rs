@@ -7,7 +7,7 @@ use crate::gpu::Gpu;
 use crate::{scene, table};
 use serde::Serialize;
 use std::time::SystemTime;
-use straightline_codegen::{Compiled, Kernel, Settings};
+use straightline_codegen::{Compiled, Kernel, Settings, files};
 use straightline_manifest::Stage;
 use straightline_runtime::Pass;
 use straightline_study::capture::ShadingSample;
@@ -73,6 +73,9 @@ struct Record {
 /// Counts, measures, prints.
 pub fn run(args: &BudgetArgs) -> Result<(), Failure> {
     let pixels = u64::from(args.size.x) * u64::from(args.size.y);
+    if let Some(path) = &args.record {
+        files::try_file(path, true).map_err(Failure::of)?;
+    }
     let gpu = Gpu::require(&args.adapter)?;
     let (filters, clock) = measured(args, &gpu)?;
     let reads = |pattern: &str| {
@@ -107,7 +110,7 @@ pub fn run(args: &BudgetArgs) -> Result<(), Failure> {
     };
     if let Some(path) = &args.record {
         let text = serde_json::to_string_pretty(&record).map_err(Failure::of)? + "\n";
-        std::fs::write(path, &text).map_err(|e| Failure::of(format!("cannot write `{}`: {e}", path.display())))?;
+        files::write(path, text.as_bytes()).map_err(Failure::of)?;
     }
     print(args, &record)
 }

@@ -7,6 +7,7 @@ use crate::gpu::{self, Gpu};
 use crate::{scene, table};
 use glam::{UVec2, Vec4};
 use serde::Serialize;
+use std::collections::BTreeMap;
 use std::time::{Instant, SystemTime};
 use straightline_codegen::{Compiled, Kernel, Settings, Unroll, default_set, files};
 use straightline_kernels::prelude::Frame;
@@ -56,6 +57,7 @@ struct Record {
 
 /// Emits, renders, antialiases, compares, writes and prints.
 pub fn run(args: &DemoArgs) -> Result<(), Failure> {
+    files::try_folder(&args.out).map_err(Failure::of)?;
     let gpu = Gpu::open(&args.adapter)?;
     if gpu.is_none() {
         errln!(
@@ -69,7 +71,8 @@ pub fn run(args: &DemoArgs) -> Result<(), Failure> {
         UVec2::new(320, 180)
     });
     let shaders = default_set::files().map_err(Failure::of)?;
-    files::write_all(&args.out.join("shaders"), &shaders).map_err(Failure::of)?;
+    let shaders = shaders.into_iter().map(|(name, bytes)| (format!("shaders/{name}"), bytes));
+    let mut set: BTreeMap<String, Vec<u8>> = shaders.collect();
 
     let world = scene::load(args.mesh.as_deref(), &args.scene)?;
     let renderer = scene::renderer(gpu.as_ref(), &world, size)?;
@@ -94,7 +97,9 @@ pub fn run(args: &DemoArgs) -> Result<(), Failure> {
     }
     rows.push(plain("16x supersampling", &x16, &x256));
     pictures.push(("16x supersampled", x16));
-    write_pictures(args, &pictures, &x256)?;
+    add_pictures(&mut set, &pictures, &x256)?;
+    // Shaders and pictures are one set: whole, or not there.
+    files::write_all(&args.out, &set).map_err(Failure::of)?;
 
     let executor = gpu.as_ref().map_or("CPU interpreter".to_owned(), Gpu::describe);
     let record = Record {
@@ -226,8 +231,15 @@ fn measured_row(
     })
 }
 
-fn write_pictures(args: &DemoArgs, pictures: &[(&str, Frame<Vec4>)], reference: &Frame<Vec4>) -> Result<(), Failure> {
-    let save = |name: &str, frame: &Frame<Vec4>| picture::write(&args.out.join(name), frame).map_err(Failure::of);
+fn add_pictures(
+    set: &mut BTreeMap<String, Vec<u8>>,
+    pictures: &[(&str, Frame<Vec4>)],
+    reference: &Frame<Vec4>,
+) -> Result<(), Failure> {
+    let mut save = |name: &str, frame: &Frame<Vec4>| -> Result<(), Failure> {
+        set.insert(name.to_owned(), picture::png_bytes(frame).map_err(Failure::of)?);
+        Ok(())
+    };
     for (name, frame) in pictures {
         save(&format!("{}.png", name.to_lowercase().replace(' ', "-")), frame)?;
     }

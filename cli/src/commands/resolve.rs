@@ -5,7 +5,7 @@ use crate::failure::Failure;
 use crate::gpu::Gpu;
 use glam::Vec4;
 use serde_json::json;
-use straightline_codegen::{Compiled, Kernel};
+use straightline_codegen::{Compiled, Kernel, files};
 use straightline_kernels::prelude::Frame;
 use straightline_study::capture::Capture;
 use straightline_study::execute::interpret;
@@ -15,6 +15,7 @@ use straightline_study::{metrics, picture};
 /// Reads a capture, resolves it with SRAA, writes the picture, prints errors if asked.
 pub fn run(args: &ResolveArgs) -> Result<(), Failure> {
     check_extension(args)?;
+    files::try_file(&args.out, false).map_err(Failure::of)?;
     let capture = Capture::read(&args.capture).map_err(Failure::of)?;
     let settings = with_capture(&args.options, &capture)?;
     let compiled = Kernel::builtin("sraa")?.compile(&settings.settings())?;
@@ -88,7 +89,9 @@ fn with_capture(options: &OptionArgs, capture: &Capture) -> Result<OptionArgs, F
                 "--set {name}={asked}, but the capture was sampled with {name}={decided}"
             )));
         }
-        options.set.push((name, decided));
+        if !options.set.iter().any(|(known, _)| *known == name) {
+            options.set.push((name, decided));
+        }
     }
     if let Some((name, _)) = options.set.iter().find(|(_, value)| value == "uniform") {
         return Err(Failure::Usage(format!(

@@ -12,6 +12,7 @@ use crate::gpu::Gpu;
 use glam::UVec2;
 use std::path::Path;
 use std::time::SystemTime;
+use straightline_codegen::files;
 use straightline_study::execute::Clock;
 use straightline_study::record::Circumstances;
 use straightline_study::report;
@@ -22,6 +23,9 @@ pub use watch::Progress;
 /// Measures, and writes records and the page.
 pub fn run(args: &StudyArgs) -> Result<(), Failure> {
     let common = &args.common;
+    if !matches!(&args.study, Some(Study::Hard(args)) if args.list) {
+        files::try_folder(&common.out).map_err(Failure::of)?;
+    }
     let mut progress = Progress::new();
     match &args.study {
         Some(Study::Loops(loops)) => loops::run(common, loops, &mut progress)?,
