@@ -58,7 +58,7 @@ impl WriteError {
 ///
 /// [`WriteError`]. Then every file and folder is what it was before.
 pub fn write_all(folder: &Path, files: &BTreeMap<String, Vec<u8>>) -> Result<Vec<PathBuf>, WriteError> {
-    let mut folders = vec![Folders::make(folder).map_err(WriteError::folder(folder))?];
+    let mut folders = Folders::make(folder).map_err(WriteError::folder(folder))?;
     let mut staged = Vec::new();
     for (name, contents) in files {
         let path = folder.join(name);
@@ -70,14 +70,14 @@ pub fn write_all(folder: &Path, files: &BTreeMap<String, Vec<u8>>) -> Result<Vec
             return Err(WriteError::File { file: path, source });
         }
         if let Some(parent) = path.parent() {
-            folders.push(Folders::make(parent).map_err(WriteError::folder(parent))?);
+            folders.add(parent).map_err(WriteError::folder(parent))?;
         }
         let scrap = Scrap::beside(&path, "partial").map_err(WriteError::file(&path))?;
         fs::write(scrap.path(), contents).map_err(WriteError::file(&path))?;
         staged.push((scrap, path));
     }
     put_in_place(&staged)?;
-    folders.into_iter().for_each(Folders::keep);
+    folders.keep();
     Ok(files.keys().map(|name| folder.join(name)).collect())
 }
 

@@ -107,17 +107,28 @@ impl Folders {
     ///
     /// What the system says; then none was made.
     pub fn make(folder: &Path) -> io::Result<Folders> {
+        let mut made = Folders(Vec::new());
+        made.add(folder)?;
+        Ok(made)
+    }
+
+    /// Makes another folder, and those above it that are not there.
+    ///
+    /// # Errors
+    ///
+    /// What the system says.
+    pub fn add(&mut self, folder: &Path) -> io::Result<()> {
+        if folder.as_os_str().is_empty() {
+            return Ok(());
+        }
         let missing = folder
             .ancestors()
             .take_while(|path| !path.as_os_str().is_empty() && fs::symlink_metadata(path).is_err());
         let mut missing: Vec<PathBuf> = missing.map(Path::to_owned).collect();
         missing.reverse();
-        let made = Folders(missing);
-        lock(&UNFINISHED).extend(made.0.iter().cloned());
-        if !folder.as_os_str().is_empty() {
-            fs::create_dir_all(folder)?;
-        }
-        Ok(made)
+        lock(&UNFINISHED).extend(missing.iter().cloned());
+        self.0.extend(missing);
+        fs::create_dir_all(folder)
     }
 
     /// Leaves them where they are.

@@ -31,7 +31,8 @@ struct Row {
     statements: u32,
     time: Times,
     clock: Clock,
-    /// How many times as fast as the family's first row.
+    /// How many times as fast as the family's first row; in a forward family, as the first that is drawn, or dispatched, as
+    /// this one is: what is dispatched reads coordinates that another pass has drawn.
     ratio: f64,
     /// Difference to the family's first row: mean and largest, over all components.
     mean_difference: f64,
@@ -261,11 +262,12 @@ fn measure(
         };
         let Some(time) = time else { continue };
         let first = subjects.iter().find(|s| s.family == subject.family).unwrap_or(subject);
-        let baseline = rows
-            .iter()
-            .find(|r| r.family == subject.family)
-            .map_or(time, |r| r.time);
         let forward = FAMILIES.iter().any(|f| f.name == subject.family && f.forward);
+        let dispatched = matches!(subject.drawn, Drawn::Pass(..));
+        let like = |(of, _): &(&Subject, &Row)| {
+            of.family == subject.family && (!forward || matches!(of.drawn, Drawn::Pass(..)) == dispatched)
+        };
+        let baseline = subjects.iter().zip(&rows).find(like).map_or(time, |(_, row)| row.time);
         let (mean, largest) = differences(&subject.image, &first.image, covered.filter(|_| forward));
         rows.push(Row {
             family: subject.family,
