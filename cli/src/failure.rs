@@ -37,7 +37,10 @@ impl Failure {
             Failure::Kernel(errors) => {
                 // An unknown kernel, option or value is in no file: a mistake of the command line's.
                 let usage = errors.diagnostics.iter().all(|d| d.span.is_none());
-                output::note(format_args!("{}", output::limited(&errors.render(std::io::stderr().is_terminal()))));
+                output::note(format_args!(
+                    "{}",
+                    output::limited(&errors.render(std::io::stderr().is_terminal()))
+                ));
                 ExitCode::from(if usage { 2 } else { 1 })
             }
         }

@@ -22,7 +22,10 @@ fn main() -> ExitCode {
         Ok(arguments) => arguments,
         Err(said) => return report(&said),
     };
-    match interrupt::listen().and_then(|()| run(arguments)).and_then(|()| output::finish()) {
+    match interrupt::listen()
+        .and_then(|()| run(arguments))
+        .and_then(|()| output::finish())
+    {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => failure.report(),
     }
@@ -50,10 +53,17 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
 fn report(said: &clap::Error) -> ExitCode {
     let text = |colour: bool| {
         let text = said.render();
-        if colour { text.ansi().to_string() } else { text.to_string() }
+        if colour {
+            text.ansi().to_string()
+        } else {
+            text.to_string()
+        }
     };
     if said.use_stderr() {
-        output::note(format_args!("{}", output::limited(&text(std::io::stderr().is_terminal()))));
+        output::note(format_args!(
+            "{}",
+            output::limited(&text(std::io::stderr().is_terminal()))
+        ));
         return ExitCode::from(2);
     }
     out!("{}", text(std::io::stdout().is_terminal()));

@@ -11,10 +11,25 @@ fn captions_are_what_their_commands_give() {
     for scene in ["grooves", "creases"] {
         let frame = folder.join(scene);
         let frame = frame.to_str().unwrap();
-        finishes(&["capture", "--scene", scene, "--size", "320x180", "--reference", "256", "--out", frame]);
+        finishes(&[
+            "capture",
+            "--scene",
+            scene,
+            "--size",
+            "320x180",
+            "--reference",
+            "256",
+            "--out",
+            frame,
+        ]);
         let (_, rest) = text.split_once(&format!("]({scene}.png)")).expect("the picture");
         let line = text[..text.len() - rest.len()].lines().last().expect("its caption");
-        for (words, metric) in [("planes and normals", "planes-normals"), ("depth and normals", "depth-normals"), ("normals", "normals"), ("depth", "depth")] {
+        for (words, metric) in [
+            ("planes and normals", "planes-normals"),
+            ("depth and normals", "depth-normals"),
+            ("normals", "normals"),
+            ("depth", "depth"),
+        ] {
             let caption = line.split([':', ',']).map(str::trim).find_map(|part| {
                 let figure = part.strip_prefix(words)?.strip_prefix(' ')?.split([' ', ']']).next()?;
                 figure.parse::<f64>().ok()
@@ -23,12 +38,23 @@ fn captions_are_what_their_commands_give() {
             let out = folder.join("out.png");
             let option = format!("metric={metric}");
             let said = finishes(&[
-                "resolve", "--capture", frame, "--set", &option, "--reference", "--json", "--out", out.to_str().unwrap(),
+                "resolve",
+                "--capture",
+                frame,
+                "--set",
+                &option,
+                "--reference",
+                "--json",
+                "--out",
+                out.to_str().unwrap(),
             ]);
             let found: serde_json::Value = serde_json::from_str(&said).expect("JSON");
             let found = found["psnr_db"].as_f64().expect("a number");
             println!("{scene}, {metric}: {found:.2}, and the caption says {caption}");
-            assert!((found - caption).abs() < 0.06, "{scene}, {metric}: {found:.2}, and the caption says {caption}");
+            assert!(
+                (found - caption).abs() < 0.06,
+                "{scene}, {metric}: {found:.2}, and the caption says {caption}"
+            );
         }
     }
 }

@@ -18,7 +18,12 @@ fn command(arguments: &[&str]) -> Command {
 
 #[test]
 fn a_pipe_that_closes_early_is_no_error() {
-    for arguments in [&["list"][..], &["explain", "sraa", "--dump"], &["--help"], &["scenes", "--json"]] {
+    for arguments in [
+        &["list"][..],
+        &["explain", "sraa", "--dump"],
+        &["--help"],
+        &["scenes", "--json"],
+    ] {
         let mut child = command(arguments)
             .stdout(Stdio::piped())
             .stderr(Stdio::piped())
@@ -30,7 +35,12 @@ fn a_pipe_that_closes_early_is_no_error() {
         pipe.read_exact(&mut first).expect("a byte");
         drop(pipe);
         let mut said = String::new();
-        child.stderr.take().expect("a pipe").read_to_string(&mut said).expect("text");
+        child
+            .stderr
+            .take()
+            .expect("a pipe")
+            .read_to_string(&mut said)
+            .expect("text");
         let status = child.wait().expect("an end");
         assert!(status.success() && said.is_empty(), "{arguments:?}: {status}, {said}");
     }
@@ -43,7 +53,10 @@ fn output_that_is_full_is_an_error_and_no_panic() {
         let output = command(arguments).stdout(full).output().expect("the binary runs");
         let said = String::from_utf8_lossy(&output.stderr);
         assert_eq!(output.status.code(), Some(1), "{arguments:?}: {said}");
-        assert!(said.contains("cannot write to standard output") && !said.contains("panicked"), "{said}");
+        assert!(
+            said.contains("cannot write to standard output") && !said.contains("panicked"),
+            "{said}"
+        );
     }
     // Where errors cannot be told, the status does.
     let full = File::options().write(true).open("/dev/full").expect("a full device");
@@ -55,7 +68,6 @@ fn output_that_is_full_is_an_error_and_no_panic() {
 fn long_values_are_shortened() {
     let long = "9".repeat(100_000);
     let set = format!("pattern={long}");
-    let uniform = format!("x={long}");
     for arguments in [
         &["explain", "sraa", "--set", set.as_str()][..],
         &["explain", "sraa", "--set", long.as_str()],
@@ -63,20 +75,29 @@ fn long_values_are_shortened() {
         &["explain", "sraa", "--unroll", long.as_str()],
         &["explain", "sraa", "--block", long.as_str()],
         &["budget", "--geometry-ms", long.as_str()],
-        &["run", "sraa", "--size", "8x8", "--out", "x.png", "--uniform", uniform.as_str()],
+        &["run", "sraa", "--size", long.as_str(), "--out", "x.png"],
         &["capture", "--scene", long.as_str(), "--out", "x"],
     ] {
         let output = straightline(arguments);
         let said = String::from_utf8_lossy(&output.stderr);
         assert!(!output.status.success(), "{said}");
-        assert!(said.len() < 3000 && said.contains("99"), "{}: {}", said.len(), arguments[0]);
+        assert!(
+            said.len() < 3000 && said.contains("99"),
+            "{}: {}",
+            said.len(),
+            arguments[0]
+        );
     }
 }
 
 #[test]
 fn values_that_say_nothing_are_refused() {
     for time in ["NaN", "-1", "inf", "1e300"] {
-        fails(&["budget", "--geometry-ms", time], 2, &[time, "no time in milliseconds"]);
+        fails(
+            &["budget", "--geometry-ms", time],
+            2,
+            &[time, "no time in milliseconds"],
+        );
     }
     fails(
         &["explain", "sraa", "--set", "pattern=latin4", "--set", "pattern=latin16"],
@@ -84,7 +105,14 @@ fn values_that_say_nothing_are_refused() {
         &["`pattern` is set twice, to `latin4` and to `latin16`"],
     );
     fails(
-        &["explain", "sraa", "--unroll-loop", "tap=none", "--unroll-loop", "tap=full"],
+        &[
+            "explain",
+            "sraa",
+            "--unroll-loop",
+            "tap=none",
+            "--unroll-loop",
+            "tap=full",
+        ],
         2,
         &["loop `tap` is given two policies"],
     );
@@ -104,13 +132,35 @@ fn options_that_do_nothing_are_refused() {
         refused("pcf", &[method, "spread=2"], "spread is of method=quad alone");
     }
     refused("pcf", &["method=gather", "width=four"], "8 by 8 texels");
-    refused("quad_upsampling", &["reads=packed", "normals=true"], "no room for normals");
+    refused(
+        "quad_upsampling",
+        &["reads=packed", "normals=true"],
+        "no room for normals",
+    );
     let weights = format!("given={}", vec!["1"; 49].join(","));
-    refused("quad_convolution", &["weights=given", &weights, "radius=4"], "a radius of 3");
+    refused(
+        "quad_convolution",
+        &["weights=given", &weights, "radius=4"],
+        "a radius of 3",
+    );
     refused("quad_convolution", &["weights=given", "radius=2"], "all 49 are 0");
     finishes(&["explain", "pcf", "--set", "method=gather", "--set", "weights=quadratic"]);
-    finishes(&["explain", "quad_upsampling", "--set", "reads=apart", "--set", "normals=true"]);
-    finishes(&["explain", "quad_convolution", "--set", "weights=given", "--set", &weights]);
+    finishes(&[
+        "explain",
+        "quad_upsampling",
+        "--set",
+        "reads=apart",
+        "--set",
+        "normals=true",
+    ]);
+    finishes(&[
+        "explain",
+        "quad_convolution",
+        "--set",
+        "weights=given",
+        "--set",
+        &weights,
+    ]);
 }
 
 #[test]
@@ -167,11 +217,22 @@ fn a_set_is_whole_or_not_there() {
     let out = folder.join("demo");
     std::fs::create_dir_all(out.join("detail.png")).unwrap();
     fails(
-        &["demo", "--size", "32x18", "--rounds", "1", "--out", out.to_str().unwrap()],
+        &[
+            "demo",
+            "--size",
+            "32x18",
+            "--rounds",
+            "1",
+            "--out",
+            out.to_str().unwrap(),
+        ],
         1,
         &["detail.png"],
     );
-    let left: Vec<_> = std::fs::read_dir(&out).unwrap().map(|e| e.unwrap().file_name()).collect();
+    let left: Vec<_> = std::fs::read_dir(&out)
+        .unwrap()
+        .map(|e| e.unwrap().file_name())
+        .collect();
     assert_eq!(left, ["detail.png"]);
 }
 
@@ -186,18 +247,27 @@ fn an_interrupt_leaves_nothing_unfinished() {
     // A kernel and a picture that take long enough to be interrupted, at places that differ.
     for milliseconds in [60, 150, 300, 600] {
         let out = folder.join("frame");
-        let mut child = command(&["capture", "--size", "1280x720", "--pattern", "latin16", "--out", out.to_str().unwrap()])
-            .stdout(Stdio::null())
-            .stderr(Stdio::null())
-            .spawn()
-            .expect("the binary runs");
+        let mut child = command(&[
+            "capture",
+            "--size",
+            "1280x720",
+            "--pattern",
+            "latin16",
+            "--out",
+            out.to_str().unwrap(),
+        ])
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn()
+        .expect("the binary runs");
         std::thread::sleep(Duration::from_millis(milliseconds));
         interrupt(&child);
         let status = child.wait().expect("an end");
         if status.success() {
             std::fs::remove_dir_all(&out).unwrap();
         } else {
-            assert_eq!(status.code(), Some(130));
+            // Without a status it was ended before it listened.
+            assert!(matches!(status.code(), Some(130) | None), "{status}");
         }
         assert!(is_empty(&folder), "{milliseconds} ms: {:?}", entries(&folder));
     }
@@ -205,7 +275,9 @@ fn an_interrupt_leaves_nothing_unfinished() {
 
 fn entries(folder: &Path) -> Vec<String> {
     let entries = std::fs::read_dir(folder).expect("a folder");
-    entries.map(|e| e.unwrap().file_name().to_string_lossy().into_owned()).collect()
+    entries
+        .map(|e| e.unwrap().file_name().to_string_lossy().into_owned())
+        .collect()
 }
 
 #[test]

@@ -139,7 +139,11 @@ fn a_kernel_without_textures_runs_at_a_size() {
         refused(&with(&["--uniform", "scale=1e39"]), 2, &["does not fit into an f32"]);
         let words = run(&count("count=3"));
         let finished = straightline(&words.iter().map(String::as_str).collect::<Vec<_>>());
-        assert!(finished.status.success(), "{}", String::from_utf8_lossy(&finished.stderr));
+        assert!(
+            finished.status.success(),
+            "{}",
+            String::from_utf8_lossy(&finished.stderr)
+        );
         std::fs::remove_file(out).unwrap();
     }
 }
@@ -153,9 +157,24 @@ fn shadow_filters_read_their_coordinates() {
     let (shadow, coord) = (format!("shadow={picture}"), format!("coord={picture}"));
     for kernel in ["pcf", "pcss"] {
         for executor in ["cpu", "gpu"] {
-            let words = ["run", kernel, "--input", &shadow, "--input", &coord, "--executor", executor, "--out", out];
+            let words = [
+                "run",
+                kernel,
+                "--input",
+                &shadow,
+                "--input",
+                &coord,
+                "--executor",
+                executor,
+                "--out",
+                out,
+            ];
             let finished = straightline(&words);
-            assert!(finished.status.success(), "{}", String::from_utf8_lossy(&finished.stderr));
+            assert!(
+                finished.status.success(),
+                "{}",
+                String::from_utf8_lossy(&finished.stderr)
+            );
             std::fs::remove_file(out).unwrap();
         }
         let words = ["run", kernel, "--input", &shadow, "--stage", "fragment", "--out", out];
@@ -163,9 +182,15 @@ fn shadow_filters_read_their_coordinates() {
     }
     // `study loops` gives them the test card.
     let report = folder.join("study");
-    let words = ["study", "loops", "--from", "pcf", "--from", "pcss", "--size", "32x18", "--rounds", "1", "--out"];
+    let words = [
+        "study", "loops", "--from", "pcf", "--from", "pcss", "--size", "32x18", "--rounds", "1", "--out",
+    ];
     let finished = straightline(&[&words[..], &[report.to_str().unwrap()]].concat());
-    assert!(finished.status.success(), "{}", String::from_utf8_lossy(&finished.stderr));
+    assert!(
+        finished.status.success(),
+        "{}",
+        String::from_utf8_lossy(&finished.stderr)
+    );
 }
 
 #[test]
@@ -179,17 +204,39 @@ fn edge_filters_read_the_layers_of_a_capture() {
     let run = |depth: &str, normal: &str| {
         let (depth, normal) = (layer("depth", depth), layer("normal", normal));
         let words = [
-            "run", "stalker", "--set", "depth=linear", "--input", &depth, "--input", &normal, "--input", &color,
-            "--executor", "cpu", "--out", out,
+            "run",
+            "stalker",
+            "--set",
+            "depth=linear",
+            "--input",
+            &depth,
+            "--input",
+            &normal,
+            "--input",
+            &color,
+            "--executor",
+            "cpu",
+            "--out",
+            out,
         ];
         straightline(&words)
     };
     let finished = run(":centre", ":centre");
-    assert!(finished.status.success(), "{}", String::from_utf8_lossy(&finished.stderr));
-    for (depth, normal, says) in [("", ":centre", "takes one layer"), (":sample9", ":centre", "no layer `sample9`")] {
+    assert!(
+        finished.status.success(),
+        "{}",
+        String::from_utf8_lossy(&finished.stderr)
+    );
+    for (depth, normal, says) in [
+        ("", ":centre", "takes one layer"),
+        (":sample9", ":centre", "no layer `sample9`"),
+    ] {
         let refused = run(depth, normal);
         let said = String::from_utf8_lossy(&refused.stderr).into_owned();
-        assert!(!refused.status.success() && said.contains(says) && said.contains("centre"), "{said}");
+        assert!(
+            !refused.status.success() && said.contains(says) && said.contains("centre"),
+            "{said}"
+        );
     }
 }
 
@@ -208,8 +255,21 @@ fn sized(kernel: &str, folder: &Path) {
     let picture = here("docs/detail.png");
     let out = folder.join("out.png");
     for stage in ["compute", "fragment"] {
-        let words = ["run", kernel, "--input", &picture, "--stage", stage, "--out", out.to_str().unwrap()];
+        let words = [
+            "run",
+            kernel,
+            "--input",
+            &picture,
+            "--stage",
+            stage,
+            "--out",
+            out.to_str().unwrap(),
+        ];
         let finished = straightline(&words);
-        assert!(finished.status.success(), "{}", String::from_utf8_lossy(&finished.stderr));
+        assert!(
+            finished.status.success(),
+            "{}",
+            String::from_utf8_lossy(&finished.stderr)
+        );
     }
 }

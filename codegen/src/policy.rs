@@ -146,7 +146,11 @@ impl Policy {
             if let Unroll::Partial(n) = unroll
                 && !(2..=MAX_FACTOR).contains(n)
             {
-                let what = if what == "loops" { what.to_owned() } else { format!("the loop `{what}`") };
+                let what = if what == "loops" {
+                    what.to_owned()
+                } else {
+                    format!("the loop `{what}`")
+                };
                 return Err(format!(
                     "{what} cannot be unrolled by {n}: a partial unroll writes the body 2 to {MAX_FACTOR} times in a row"
                 ));

@@ -15,12 +15,7 @@ pub fn shorten(text: &str) -> String {
     }
     let head: String = text.chars().take(LONGEST - END).collect();
     let tail: String = text.chars().skip(count - END).collect();
-    format!(
-        "{}[{} characters]{}",
-        escape(&head),
-        count - LONGEST,
-        escape(&tail)
-    )
+    format!("{}[{} characters]{}", escape(&head), count - LONGEST, escape(&tail))
 }
 
 /// `text` with every character escaped that a terminal would act on or that would begin a new line.

@@ -475,10 +475,22 @@ fn surplus_and_double_layers_are_refused() {
         names.iter().map(|name| (*name, SIZE, &["Z"][..])).collect()
     };
     for (names, says) in [
-        (&["sample0", "sample1", "sample2", "sample3", "centre"][..], "a layer `centre`"),
-        (&["sample0", "sample1", "sample2", "sample3", "sample4"], "a layer `sample4`"),
-        (&["sample0", "sample1", "sample2", "sample3", "sample03"], "a layer `sample03`"),
-        (&["sample0", "sample1", "sample2", "sample3", "beauty"], "a layer `beauty`"),
+        (
+            &["sample0", "sample1", "sample2", "sample3", "centre"][..],
+            "a layer `centre`",
+        ),
+        (
+            &["sample0", "sample1", "sample2", "sample3", "sample4"],
+            "a layer `sample4`",
+        ),
+        (
+            &["sample0", "sample1", "sample2", "sample3", "sample03"],
+            "a layer `sample03`",
+        ),
+        (
+            &["sample0", "sample1", "sample2", "sample3", "beauty"],
+            "a layer `beauty`",
+        ),
     ] {
         let _ = fs::remove_dir_all(&dir);
         capture.write(&dir).unwrap();
@@ -486,7 +498,10 @@ fn surplus_and_double_layers_are_refused() {
         let said = Capture::read(&dir).unwrap_err().to_string();
         assert!(said.contains("depth.exr") && said.contains(says), "{said}");
     }
-    let twice = [("sample0", &["Z"][..]), ("rest", &["sample0.Z", "sample1.Z", "sample2.Z", "sample3.Z"])];
+    let twice = [
+        ("sample0", &["Z"][..]),
+        ("rest", &["sample0.Z", "sample1.Z", "sample2.Z", "sample3.Z"]),
+    ];
     let twice: Vec<_> = twice.iter().map(|(name, channels)| (*name, SIZE, *channels)).collect();
     write_exr(&dir.join("depth.exr"), &twice);
     let said = Capture::read(&dir).unwrap_err().to_string();
@@ -505,8 +520,16 @@ fn normals_and_references_that_are_not_finite_are_refused_with_their_place() {
     let mut reference = good;
     reference.reference = Some(frame(SIZE, |i| Vec4::splat(at(40)(i))));
     for (name, capture, says) in [
-        ("normal", normal, ["normal.exr", "layer `sample2`", "at (2, 1)", "1 of 247 pixels"]),
-        ("reference", reference, ["reference.exr", "its colour", "at (2, 2)", "not finite"]),
+        (
+            "normal",
+            normal,
+            ["normal.exr", "layer `sample2`", "at (2, 1)", "1 of 247 pixels"],
+        ),
+        (
+            "reference",
+            reference,
+            ["reference.exr", "its colour", "at (2, 2)", "not finite"],
+        ),
     ] {
         let dir = scratch.join(name);
         capture.write(&dir).unwrap();

@@ -71,7 +71,9 @@ pub fn run(args: &DemoArgs) -> Result<(), Failure> {
         UVec2::new(320, 180)
     });
     let shaders = default_set::files().map_err(Failure::of)?;
-    let shaders = shaders.into_iter().map(|(name, bytes)| (format!("shaders/{name}"), bytes));
+    let shaders = shaders
+        .into_iter()
+        .map(|(name, bytes)| (format!("shaders/{name}"), bytes));
     let mut set: BTreeMap<String, Vec<u8>> = shaders.collect();
 
     let world = scene::load(args.mesh.as_deref(), &args.scene)?;
@@ -315,7 +317,9 @@ fn print(args: &DemoArgs, record: &Record) -> Result<(), Failure> {
     };
     outln!(
         "{}x{} on {}; medians by {with}.",
-        record.size[0], record.size[1], record.executor
+        record.size[0],
+        record.size[1],
+        record.executor
     );
     outln!("PSNR is against {}.", record.reference);
     outln!(

@@ -275,7 +275,11 @@ impl Evaluator<'_> {
             && !(low <= high)
         {
             let text = format!("the range of the option `{}` holds no number", field.name);
-            let help = format!("it goes from {} to {}: write the lower end first", shortest(low), shortest(high));
+            let help = format!(
+                "it goes from {} to {}: write the lower end first",
+                shortest(low),
+                shortest(high)
+            );
             return Err(Diagnostic::at(range.span, text).help(help).into());
         }
         Ok(limits)
@@ -300,9 +304,13 @@ impl Evaluator<'_> {
     /// The value that `text` stands for.
     fn parse(&mut self, field: &OptionField, info: &OptionInfo, text: &str) -> Eval {
         let refuse = |allowed: String| -> Exit {
-            Diagnostic::new(format!("`{}` is not a value of the option `{}`", shorten(text), info.name))
-                .help(allowed)
-                .into()
+            Diagnostic::new(format!(
+                "`{}` is not a value of the option `{}`",
+                shorten(text),
+                info.name
+            ))
+            .help(allowed)
+            .into()
         };
         match &info.kind {
             OptionKind::Flag => match text {
@@ -380,7 +388,10 @@ impl Evaluator<'_> {
                     Scalar::U32 => (0.0, f64::from(u32::MAX)),
                     _ => (f64::from(f32::MIN), f64::from(f32::MAX)),
                 };
-                let (low, high) = (min.map_or(low, |min| min.max(low)), max.map_or(high, |max| max.min(high)));
+                let (low, high) = (
+                    min.map_or(low, |min| min.max(low)),
+                    max.map_or(high, |max| max.min(high)),
+                );
                 let what = if *integer { "a whole number" } else { "a number" };
                 let allowed = match (kind, min, max) {
                     (Scalar::F32, None, None) => {

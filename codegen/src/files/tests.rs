@@ -8,7 +8,9 @@ fn scratch(name: &str) -> PathBuf {
 }
 
 fn files(list: &[(&str, &str)]) -> BTreeMap<String, Vec<u8>> {
-    list.iter().map(|(name, text)| ((*name).to_owned(), text.as_bytes().to_vec())).collect()
+    list.iter()
+        .map(|(name, text)| ((*name).to_owned(), text.as_bytes().to_vec()))
+        .collect()
 }
 
 fn entries(folder: &Path) -> Vec<String> {
@@ -81,7 +83,13 @@ fn only_regular_files_of_a_known_size_are_read() {
     let said = |path: &Path| read(path, 8).unwrap_err().to_string();
     assert!(said(Path::new("/dev/zero")).contains("a device, and only regular files"));
     let pipe = folder.join("pipe");
-    assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+    assert!(
+        std::process::Command::new("mkfifo")
+            .arg(&pipe)
+            .status()
+            .unwrap()
+            .success()
+    );
     assert!(said(&pipe).contains("a pipe, and only regular files"));
     assert!(said(&folder).contains("directory"));
     fs::write(folder.join("file"), "123456789").unwrap();

@@ -44,7 +44,10 @@ pub enum Weights {
 /// 4, 2, 2 and 1; they are sums already. Reads beyond the border give the border's pixels.
 pub fn quad_convolution(cfg: &QuadConvolution, image: &Frame<Vec4>, pixel: Quad<IVec2>) -> Quad<Vec4> {
     if cfg.weights == Weights::Given {
-        assert!(cfg.radius <= 3, "weights=given has 49 weights, of a radius of 3: set radius to 1, 2 or 3");
+        assert!(
+            cfg.radius <= 3,
+            "weights=given has 49 weights, of a radius of 3: set radius to 1, 2 or 3"
+        );
         assert!(any(cfg.given), "weights=given needs weights in `given`: all 49 are 0");
     }
     match cfg.sharing {

@@ -104,11 +104,14 @@ pub fn interpret<R: Real>(compiled: &Compiled, inputs: &Inputs, watch: bool) -> 
 /// A uniform that is read, has no default and was not given: on a GPU its pass is refused too.
 fn unset<'a>(compiled: &'a Compiled, inputs: &Inputs) -> Option<&'a str> {
     let graph = &compiled.graph;
-    let scheduled = graph.ids().filter(|id| compiled.schedule.place[id.0 as usize].is_some());
+    let scheduled = graph
+        .ids()
+        .filter(|id| compiled.schedule.place[id.0 as usize].is_some());
     let mut read = scheduled.filter_map(|id| match graph.node(id).op {
         Op::Uniform(index) => Some(&graph.uniforms[index as usize]),
         _ => None,
     });
-    let unset = read.find(|uniform| uniform.default.is_none() && Inputs::find(&inputs.uniforms, &uniform.name).is_none());
+    let unset =
+        read.find(|uniform| uniform.default.is_none() && Inputs::find(&inputs.uniforms, &uniform.name).is_none());
     unset.map(|uniform| uniform.name.as_str())
 }

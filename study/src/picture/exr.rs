@@ -115,7 +115,11 @@ pub(crate) fn read_layer(path: &Path, layer: &str) -> Result<Frame<Vec4>, Pictur
     let source = Source::open(path)?;
     let found = source.layer_channels();
     let has = |name: &str| found.iter().any(|(of, channel)| of == layer && channel == name);
-    let own: Vec<&str> = found.iter().filter(|(of, _)| of == layer).map(|(_, channel)| channel.as_str()).collect();
+    let own: Vec<&str> = found
+        .iter()
+        .filter(|(of, _)| of == layer)
+        .map(|(_, channel)| channel.as_str())
+        .collect();
     let channels: Vec<&str> = match &own[..] {
         [only] => vec![only],
         _ if ["R", "G", "B", "A"].iter().all(|name| has(name)) => vec!["R", "G", "B", "A"],

@@ -134,7 +134,12 @@ fn all(
                 let shot = Shot::draw(&renderer, &listed.iter().collect::<Vec<_>>(), watch)?;
                 let reference = supersampled(&renderer, SIDE, Vec2::ZERO, watch)?;
                 let made = &mut outcome.pictures;
-                let wanted = Wanted { name, purpose, plan, made };
+                let wanted = Wanted {
+                    name,
+                    purpose,
+                    plan,
+                    made,
+                };
                 let mut errors = wanted.errors(&listed, filters, &shot, &reference, watch)?;
                 if plan.pan_frames > 1 && panned < plan.pan_scenes {
                     panned += 1;

@@ -313,7 +313,10 @@ fn print(args: &QuadsArgs, record: &Record) -> Result<(), Failure> {
     let [width, height] = record.size;
     outln!(
         "{}, {width}x{height}, {} rounds in turn, {}\n{}\n",
-        record.adapter, record.rounds, record.date, record.quads
+        record.adapter,
+        record.rounds,
+        record.date,
+        record.quads
     );
     let cells = |row: &Row| {
         vec![

@@ -31,7 +31,12 @@ pub fn inputs(args: &RunArgs, compiled: &Compiled) -> Result<Inputs, Failure> {
     }
     for (name, text) in &args.uniform {
         let Some(uniform) = graph.uniforms.iter().find(|u| u.name == *name) else {
-            return Err(unknown(&compiled, "uniform", name, graph.uniforms.iter().map(|u| u.name.as_str())));
+            return Err(unknown(
+                &compiled,
+                "uniform",
+                name,
+                graph.uniforms.iter().map(|u| u.name.as_str()),
+            ));
         };
         if inputs.uniforms.iter().any(|(known, _)| known == name) {
             return Err(Failure::Usage(format!("the uniform `{name}` is given twice")));
@@ -40,7 +45,12 @@ pub fn inputs(args: &RunArgs, compiled: &Compiled) -> Result<Inputs, Failure> {
     }
     for (name, text) in &args.buffer {
         let Some(buffer) = graph.buffers.iter().find(|b| b.name == *name) else {
-            return Err(unknown(&compiled, "buffer", name, graph.buffers.iter().map(|b| b.name.as_str())));
+            return Err(unknown(
+                &compiled,
+                "buffer",
+                name,
+                graph.buffers.iter().map(|b| b.name.as_str()),
+            ));
         };
         if inputs.buffers.iter().any(|(known, _)| known == name) {
             return Err(Failure::Usage(format!("the buffer `{name}` is given twice")));
@@ -48,7 +58,9 @@ pub fn inputs(args: &RunArgs, compiled: &Compiled) -> Result<Inputs, Failure> {
         inputs = inputs.buffer(name, values::buffer(name, buffer.element, text)?);
     }
     inputs.size = args.size.or_else(|| size(graph, &inputs)).ok_or_else(|| {
-        Failure::Usage("the output's size is that of a picture, and none is given: say --size, such as 640x360".to_owned())
+        Failure::Usage(
+            "the output's size is that of a picture, and none is given: say --size, such as 640x360".to_owned(),
+        )
     })?;
     Ok(inputs)
 }

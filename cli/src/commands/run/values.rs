@@ -93,7 +93,10 @@ mod tests {
         let long = said(Type::F32, &"x".repeat(100_000));
         assert!(long.len() < 300, "{long}");
         assert_eq!(uniform("n", Type::U32, "4294967295").unwrap(), [4294967295.0]);
-        assert_eq!(uniform("n", Type::value(Scalar::I32, 2), " -1, 2 ").unwrap(), [-1.0, 2.0]);
+        assert_eq!(
+            uniform("n", Type::value(Scalar::I32, 2), " -1, 2 ").unwrap(),
+            [-1.0, 2.0]
+        );
         assert!(matches!(buffer("b", Type::U32, "1,-1"), Err(Failure::Usage(_))));
         assert_eq!(buffer("b", Type::F32, "1,2").unwrap().len(), 2);
     }

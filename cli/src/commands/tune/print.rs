@@ -18,7 +18,9 @@ pub fn report(args: &TuneArgs, record: &TuneRecord, written: &[PathBuf]) -> Resu
     let [width, height] = record.circumstances.size;
     outln!(
         "{}, {width}x{height}, {}; {} rounds in turn",
-        record.scene, record.circumstances.adapter, record.circumstances.rounds
+        record.scene,
+        record.circumstances.adapter,
+        record.circumstances.rounds
     );
     outln!(
         "{} variants against {}; the best has {}, the unfiltered picture {}\n",

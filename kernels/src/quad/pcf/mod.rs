@@ -78,7 +78,10 @@ pub fn pcf(cfg: &Pcf, shadow: &DepthTexture, shadow_sampler: &ComparisonSampler,
         );
     }
     if cfg.method == Method::Gather {
-        assert!(cfg.width == Width::Eight, "method=gather takes 8 by 8 texels: leave width at eight");
+        assert!(
+            cfg.width == Width::Eight,
+            "method=gather takes 8 by 8 texels: leave width at eight"
+        );
     }
     let lit = match cfg.method {
         Method::Naive => naive(cfg, shadow, shadow_sampler, coord),

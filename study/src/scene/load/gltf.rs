@@ -40,7 +40,9 @@ fn buffers(document: &Document, base: Option<&Path>, mut blob: Option<Vec<u8>>) 
     for buffer in document.buffers() {
         let index = buffer.index();
         let mut bytes = match buffer.source() {
-            gltf::buffer::Source::Bin => blob.take().ok_or_else(|| format!("buffer {index} is in no binary chunk"))?,
+            gltf::buffer::Source::Bin => blob
+                .take()
+                .ok_or_else(|| format!("buffer {index} is in no binary chunk"))?,
             gltf::buffer::Source::Uri(uri) => {
                 resource(uri, base).map_err(|problem| format!("buffer {index}: {problem}"))?
             }
@@ -48,7 +50,9 @@ fn buffers(document: &Document, base: Option<&Path>, mut blob: Option<Vec<u8>>) 
         bytes.resize(bytes.len().next_multiple_of(4), 0);
         if bytes.len() < buffer.length() {
             let (found, wanted) = (bytes.len(), buffer.length());
-            return Err(format!("buffer {index} has {found} bytes, not the {wanted} that it should have"));
+            return Err(format!(
+                "buffer {index} has {found} bytes, not the {wanted} that it should have"
+            ));
         }
         all.push(Data(bytes));
     }
@@ -62,7 +66,9 @@ fn resource(uri: &str, base: Option<&Path>) -> Result<Vec<u8>, String> {
         // The crate decodes what needs no file.
         Some(("data", _)) => {
             let data = Data::from_source(gltf::buffer::Source::Uri(uri), base);
-            return data.map(|data| data.0).map_err(|error| format!("`{}`: {error}", shown()));
+            return data
+                .map(|data| data.0)
+                .map_err(|error| format!("`{}`: {error}", shown()));
         }
         Some(("file", path)) => PathBuf::from(path.strip_prefix("//").unwrap_or(path)),
         Some(_) => return Err(format!("`{}` is neither a file nor data", shown())),

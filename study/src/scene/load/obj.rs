@@ -85,7 +85,12 @@ fn check_faces(path: &Path, bytes: &[u8]) -> Result<(), SceneError> {
             continue;
         }
         let mut corners = 0;
-        let digits = |word: &[u8]| word.split(|byte| !byte.is_ascii_digit()).map(<[u8]>::len).max().unwrap_or(0);
+        let digits = |word: &[u8]| {
+            word.split(|byte| !byte.is_ascii_digit())
+                .map(<[u8]>::len)
+                .max()
+                .unwrap_or(0)
+        };
         for word in words {
             corners += 1;
             if digits(word) > 12 {
@@ -110,7 +115,11 @@ fn check_colours(path: &Path, bytes: &[u8]) -> Result<(), SceneError> {
         };
         let found = words.count();
         if found < 3 {
-            return Err(in_line(path, at, &format!("`{name}` takes three numbers, and there are {found}")));
+            return Err(in_line(
+                path,
+                at,
+                &format!("`{name}` takes three numbers, and there are {found}"),
+            ));
         }
     }
     Ok(())

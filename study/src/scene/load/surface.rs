@@ -87,7 +87,10 @@ fn by_direction(faces: &[u32], flat: &[[Vec3; 3]], areas: &[DVec3]) -> BTreeMap<
         let sum: DVec3 = near.map(|(_, area)| *area).sum();
         sum.try_normalize().map_or(own, |normal| normal.as_vec3())
     };
-    groups.iter().map(|(direction, (own, _))| (*direction, mean(*own))).collect()
+    groups
+        .iter()
+        .map(|(direction, (own, _))| (*direction, mean(*own)))
+        .collect()
 }
 
 #[cfg(test)]
@@ -108,7 +111,11 @@ mod tests {
         let start = std::time::Instant::now();
         let normals = smooth_normals(&positions, &triangles);
         assert!(start.elapsed().as_secs() < 20, "{:?}", start.elapsed());
-        assert!(normals.iter().all(|n| (n[0] - Vec3::Y).length() < 0.02), "{:?}", normals[0][0]);
+        assert!(
+            normals.iter().all(|n| (n[0] - Vec3::Y).length() < 0.02),
+            "{:?}",
+            normals[0][0]
+        );
     }
 
     /// Two triangles that share an edge along x, the second turned up by `angle`.
