@@ -272,7 +272,7 @@ impl Evaluator<'_> {
         let (low, high) = (self.expr(low)?, self.expr(high)?);
         let limits = (self.number(&low), self.number(&high));
         if let (Some(low), Some(high)) = limits
-            && !(low <= high)
+            && low > high
         {
             let text = format!("the range of the option `{}` holds no number", field.name);
             let help = format!(
