@@ -3,6 +3,7 @@
 use crate::diagnostic::{Diagnostic, Errors, File};
 use crate::emit::{self, EmitError, EmitOptions, Emitted};
 use crate::eval::{self, LoopReport, OptionInfo};
+use crate::files;
 use crate::front::{self, Library};
 use crate::ir::{Graph, Invocation, verify};
 use crate::passes::{self, Schedule};
@@ -12,6 +13,9 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::{Arc, OnceLock};
 use straightline_manifest::Counts;
+
+/// Longest file of a kernel that is read, in bytes.
+const MAX_SOURCE: u64 = 1 << 24;
 
 /// A kernel's source: its files and which function it is.
 #[derive(Clone, Debug)]
@@ -26,7 +30,7 @@ pub struct Kernel {
 /// How a kernel is to be evaluated.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Settings {
-    /// Option and value; what is not named stays at its default, and of an option named twice the last counts.
+    /// Option and value; what is not named stays at its default, and an option named twice is refused.
     pub options: Vec<(String, String)>,
     /// What becomes of loops.
     pub unroll: Unroll,
@@ -269,6 +273,10 @@ impl Kernel {
     fn stages(&self, settings: &Settings, observer: &mut Observer<'_>) -> Result<Compiled, Errors> {
         let library = self.library()?;
         let policy = settings.policy();
+        policy.check().map_err(|what| {
+            let help = "use full, none, or partial(N), and name each loop once";
+            Errors::of(Diagnostic::new(what).help(help))
+        })?;
         let invocation = match settings.block {
             [1, 1] => Invocation::Pixel,
             _ => Invocation::Outlying,
@@ -384,7 +392,7 @@ impl Kernel {
 }
 
 fn read(path: &Path) -> Result<String, Errors> {
-    std::fs::read_to_string(path).map_err(|error| {
+    files::read_text(path, MAX_SOURCE).map_err(|error| {
         let what = format!("cannot read the kernel file `{}`: {error}", path.display());
         Errors::of(
             Diagnostic::new(what).help("paths are taken from the folder that the build runs in: the crate's own"),

@@ -76,11 +76,21 @@ impl Resources {
         let mut next = 0..;
         let mut number = || next.next().unwrap_or(u32::MAX);
         let mut read = Vec::new();
-        for index in 0..graph.textures.len() as u32 {
-            if !ops.iter().any(|op| op.texture() == Some(index)) {
-                continue;
-            }
-            let layers = layers_read(graph, index).ok_or_else(|| EmitError::Layers {
+        let reads = |index: u32| ops.iter().any(|op| op.texture() == Some(index));
+        // A fragment shader that needs the output's size has it from a texture of that size: one that is read, or else any.
+        let framed = |index: &u32| graph.textures[*index as usize].framed;
+        let all = || 0..graph.textures.len() as u32;
+        let needs_size = options.stage == Stage::Fragment && ops.contains(&&Op::FrameSize);
+        let sized = match needs_size && !all().any(|index| framed(&index) && reads(index)) {
+            true => all().find(framed),
+            false => None,
+        };
+        for index in all().filter(|index| reads(*index) || sized == Some(*index)) {
+            let layers = match reads(index) {
+                true => layers_read(graph, index),
+                false => Some(1),
+            };
+            let layers = layers.ok_or_else(|| EmitError::Layers {
                 kernel: kernel(),
                 texture: graph.textures[index as usize].name.clone(),
             })?;
