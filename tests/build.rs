@@ -1,12 +1,15 @@
-//! Makes modules of the examples in `docs/kernel-language.md`, so that rustc compiles what the page says.
+//! Makes modules of the examples in the pages on the language, so that rustc compiles what they say.
 
 use std::fmt::Write;
 use std::path::Path;
 
 fn main() {
-    let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/kernel-language.md");
-    println!("cargo::rerun-if-changed={}", page.display());
-    let text = std::fs::read_to_string(&page).expect("docs/kernel-language.md");
+    let mut text = String::new();
+    for page in ["kernel-language.md", "semantics.md"] {
+        let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs").join(page);
+        println!("cargo::rerun-if-changed={}", page.display());
+        text += &std::fs::read_to_string(&page).expect("a page of docs/");
+    }
     let mut modules = String::new();
     let mut table = String::from("pub const EXAMPLES: &[Example] = &[\n");
     for source in blocks(&text) {
