@@ -244,33 +244,69 @@ fn interrupt(child: &std::process::Child) {
 #[test]
 fn an_interrupt_leaves_nothing_unfinished() {
     let folder = scratch("interrupted");
-    // A kernel and a picture that take long enough to be interrupted, at places that differ.
-    for milliseconds in [60, 150, 300, 600] {
-        let out = folder.join("frame");
-        let mut child = command(&[
-            "capture",
-            "--size",
-            "1280x720",
-            "--pattern",
-            "latin16",
-            "--out",
-            out.to_str().unwrap(),
-        ])
-        .stdout(Stdio::null())
-        .stderr(Stdio::null())
-        .spawn()
-        .expect("the binary runs");
-        std::thread::sleep(Duration::from_millis(milliseconds));
-        interrupt(&child);
-        let status = child.wait().expect("an end");
-        if status.success() {
-            std::fs::remove_dir_all(&out).unwrap();
-        } else {
-            // Without a status it was ended before it listened.
-            assert!(matches!(status.code(), Some(130) | None), "{status}");
+    let out = folder.join("frame");
+    let arguments = [
+        "capture",
+        "--size",
+        "640x360",
+        "--pattern",
+        "latin16",
+        "--out",
+        out.to_str().unwrap(),
+    ];
+    let mut interrupted = 0;
+    for _ in 0..3 {
+        let mut child = command(&arguments)
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
+            .spawn()
+            .expect("the binary runs");
+        // Until it has begun to write.
+        let partial = || entries(&folder).iter().any(|name| name.contains(".partial-"));
+        while !partial() && child.try_wait().expect("a status").is_none() {
+            std::thread::sleep(Duration::from_micros(500));
         }
-        assert!(is_empty(&folder), "{milliseconds} ms: {:?}", entries(&folder));
+        interrupt(&child);
+        match child.wait().expect("an end").code() {
+            Some(0) => std::fs::remove_dir_all(&out).unwrap(),
+            code => {
+                assert_eq!(code, Some(130));
+                interrupted += 1;
+            }
+        }
+        assert!(is_empty(&folder), "{:?}", entries(&folder));
     }
+    assert!(interrupted > 0, "it was always done before it could be interrupted");
+}
+
+/// What a disk that is full after so many half kilobytes in each file leaves: nothing, and what was there before.
+#[test]
+fn a_full_disk_leaves_what_was_there() {
+    let folder = scratch("full-disk");
+    let record = write(&folder, "budget.json", "the old record");
+    let full = |blocks: u32, arguments: &[&str]| {
+        let limited = format!("trap '' XFSZ; ulimit -f {blocks}; exec \"$0\" \"$@\"");
+        let output = Command::new("sh")
+            .args(["-c", &limited, env!("CARGO_BIN_EXE_straightline")])
+            .args(arguments)
+            .output()
+            .expect("a shell");
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(1), "{arguments:?}: {said}");
+        assert!(
+            said.contains("cannot write") && said.contains("File too large"),
+            "{said}"
+        );
+        assert_eq!(entries(&folder), ["budget.json"], "{arguments:?} leaves more");
+        assert_eq!(std::fs::read_to_string(&record).unwrap(), "the old record");
+    };
+    let below = folder.join("deep/deeper");
+    let below = below.to_str().unwrap();
+    let small = ["--size", "16x16", "--rounds", "1"];
+    full(1, &[&["budget", "--record", &record], &small[..]].concat());
+    full(8, &[&["demo", "--out", below], &small[..]].concat());
+    full(8, &["capture", "--size", "64x64", "--out", below]);
+    full(8, &["emit", "sraa", "--out", below]);
 }
 
 fn entries(folder: &Path) -> Vec<String> {

@@ -183,7 +183,7 @@ fn shadow_filters_read_their_coordinates() {
     // `study loops` gives them the test card.
     let report = folder.join("study");
     let words = [
-        "study", "loops", "--from", "pcf", "--from", "pcss", "--size", "32x18", "--rounds", "1", "--out",
+        "study", "loops", "--quick", "--from", "pcf", "--from", "pcss", "--size", "16x16", "--rounds", "1", "--out",
     ];
     let finished = straightline(&[&words[..], &[report.to_str().unwrap()]].concat());
     assert!(
