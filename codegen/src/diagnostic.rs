@@ -126,8 +126,11 @@ impl Errors {
         let more = diagnostics.len().saturating_sub(Self::MOST);
         if more > 0 {
             diagnostics.truncate(Self::MOST);
-            let s = if more == 1 { "" } else { "s" };
-            diagnostics.push(Diagnostic::new(format!("and {more} more error{s}")));
+            let what = match more {
+                1 => "1 further error is not shown".to_owned(),
+                _ => format!("{more} further errors are not shown"),
+            };
+            diagnostics.push(Diagnostic::new(what));
         }
         Errors {
             diagnostics,

@@ -224,7 +224,7 @@ fn messages_are_of_a_bounded_size() {
     assert!(errors.diagnostics.len() <= 51);
     let shown = errors.render(false);
     assert!(
-        shown.ends_with("error: and 4950 more errors\n"),
+        shown.ends_with("error: 4950 further errors are not shown\n"),
         "{}",
         &shown[shown.len() - 200..]
     );

@@ -1,5 +1,6 @@
 //! What the source says to the generator alone: `#[cfg_attr(false, unroll(4))]`, which rustc never sees.
 
+use super::cfg::as_written;
 use super::expr::Lower;
 use crate::diagnostic::Diagnostic;
 use crate::policy::{Branches, Unroll};
@@ -22,7 +23,7 @@ impl Lower {
                     ),
                 },
                 other => {
-                    let text = other.to_token_stream().to_string();
+                    let text = as_written(other);
                     self.bad_attribute(
                         other.span(),
                         format!("a loop takes no attribute `{text}`"),
@@ -42,7 +43,7 @@ impl Lower {
                 syn::Meta::Path(path) if path.is_ident("branch") => found = Some(Branches::Keep),
                 syn::Meta::Path(path) if path.is_ident("select") => found = Some(Branches::Select),
                 other => {
-                    let text = other.to_token_stream().to_string();
+                    let text = as_written(other);
                     self.bad_attribute(
                         other.span(),
                         format!("an `if` takes no attribute `{text}`"),

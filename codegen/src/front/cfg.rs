@@ -98,9 +98,12 @@ impl Lower {
     fn undecided(&mut self, span: proc_macro2::Span, predicate: &TokenStream) {
         let span = self.span(span);
         self.errors.push(
-            Diagnostic::at(span, format!("`cfg({predicate})` depends on how the crate is built"))
-                .label("not known from the source alone")
-                .help("remove it, or make it an option of the kernel (`options!`) and an `if`"),
+            Diagnostic::at(
+                span,
+                format!("`cfg({})` depends on how the crate is built", as_written(predicate)),
+            )
+            .label("not known from the source alone")
+            .help("remove it, or make it an option of the kernel (`options!`) and an `if`"),
         );
     }
 
@@ -120,7 +123,7 @@ impl Lower {
                 _ if own && !literal => self.unsupported(
                     attr.span(),
                     &format!("`{name}` under another condition than `false`"),
-                    &format!("write `#[cfg_attr(false, {part})]`"),
+                    &format!("write `#[cfg_attr(false, {})]`", as_written(&part)),
                 ),
                 Some(false) if own && carrier == Carrier::Other => {
                     let (of, help) = match name.as_str() {
@@ -166,7 +169,7 @@ impl Lower {
                 );
             }
             _ => {
-                let path = path.to_token_stream().to_string();
+                let path = as_written(path);
                 self.unsupported(
                     span,
                     &format!("the attribute `{path}`"),
@@ -225,6 +228,12 @@ fn split(tokens: TokenStream) -> Vec<TokenStream> {
         parts.pop();
     }
     parts
+}
+
+/// Text as it stands in the file.
+pub fn as_written(tokens: &impl ToTokens) -> String {
+    let text = tokens.span().source_text();
+    text.unwrap_or_else(|| tokens.to_token_stream().to_string())
 }
 
 fn first_word(tokens: &TokenStream) -> String {

@@ -2,7 +2,6 @@
 
 use super::expr::Lower;
 use super::tree::{Pattern, Type};
-use quote::ToTokens;
 use syn::spanned::Spanned;
 
 impl Lower {
@@ -103,7 +102,7 @@ impl Lower {
                 Type::Name(self.self_name(last.ident.to_string()), args)
             }
             other => {
-                let text = other.to_token_stream().to_string();
+                let text = super::cfg::as_written(other);
                 self.unsupported(
                     other.span(),
                     &format!("the type `{text}`"),

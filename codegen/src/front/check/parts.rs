@@ -1,7 +1,6 @@
 //! Patterns, types and paths.
 
 use super::Check;
-use quote::ToTokens;
 use syn::punctuated::Punctuated;
 use syn::spanned::Spanned;
 
@@ -100,7 +99,6 @@ impl Check {
             "f16" | "f64" | "f128" => "use f32",
             "i8" | "i16" | "i64" | "i128" => "use i32",
             "u8" | "u16" | "u64" | "u128" => "use u32",
-            "char" | "str" | "String" => "use numbers: a shader has no text",
             _ => return,
         };
         self.refuse(path.span(), &format!("the type `{name}`"), instead);
@@ -130,8 +128,8 @@ impl Check {
                 }
             };
             if !last || k + 1 < count {
-                let shown = list.to_token_stream().to_string().replace(' ', "");
-                let shown = shown.strip_prefix("::").unwrap_or(&shown).to_owned();
+                let shown = super::super::cfg::as_written(list);
+                let shown = shown.trim_start_matches("::").to_owned();
                 let span = list.span();
                 self.refuse(
                     span,
