@@ -98,7 +98,8 @@ impl Dialect for Glsl<'_> {
         format!(
             "for ({} {counter} = {}; {counter} < {}; {counter}++) {{",
             if ty == Type::U32 { "uint" } else { "int" },
-            start.code, end.code
+            start.code,
+            end.code
         )
     }
 

@@ -6,7 +6,7 @@ use super::ranges::Course;
 use super::scope::Scope;
 use super::sequence::Columns;
 use super::value::{Eval, Exit, Value};
-use crate::diagnostic::Span;
+use crate::diagnostic::{Diagnostic, Span};
 use crate::ir::{BinaryOp, NodeId, Type};
 use crate::policy::Unroll;
 
@@ -47,7 +47,7 @@ impl Evaluator<'_> {
     }
 
     /// Goes back. Gives the first error that was noted meanwhile.
-    pub fn return_to(&mut self, before: Checkpoint) -> Option<crate::diagnostic::Diagnostic> {
+    pub fn return_to(&mut self, before: Checkpoint) -> Option<Diagnostic> {
         self.scope = before.scope;
         self.counters.truncate(before.counters);
         self.loops.return_to(before.loops);
