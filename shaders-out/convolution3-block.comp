@@ -18,7 +18,7 @@ void main() {
     if (pixel.x >= frame.x || pixel.y >= frame.y) {
         return;
     }
-    // j 0, i 0, lane 1: kernels/src/quad/convolution.rs:68
+    // j 0, i 0, lane 1: kernels/src/quad/convolution.rs:85
     ivec2 last = frame - ivec2(1);
     ivec2 texel_j0_i0_l1 = min(pixel + ivec2(1, 0), last);
     ivec2 texel_j0_i0_l2 = min(pixel + ivec2(0, 1), last);
@@ -27,12 +27,12 @@ void main() {
     vec4 tap_j0_i0_l1 = texelFetch(sampler2D(image, unfiltered), texel_j0_i0_l1, 0);
     vec4 tap_j0_i0_l2 = texelFetch(sampler2D(image, unfiltered), texel_j0_i0_l2, 0);
     vec4 tap_j0_i0_l3 = texelFetch(sampler2D(image, unfiltered), texel_j0_i0_l3, 0);
-    // j 0, i 0, lane 0: kernels/src/quad/convolution.rs:69
+    // j 0, i 0, lane 0: kernels/src/quad/convolution.rs:86
     vec4 own_j0_i0_l0 = vec4(0.0) + tap_j0_i0_l0 * vec4(0.11111111);
     vec4 own_j0_i0_l1 = vec4(0.0) + tap_j0_i0_l1 * vec4(0.11111111);
     vec4 own_j0_i0_l2 = vec4(0.0) + tap_j0_i0_l2 * vec4(0.11111111);
     vec4 own_j0_i0_l3 = vec4(0.0) + tap_j0_i0_l3 * vec4(0.11111111);
-    // j 0, i 1, lane 0: kernels/src/quad/convolution.rs:68
+    // j 0, i 1, lane 0: kernels/src/quad/convolution.rs:85
     ivec2 texel_j0_i1_l0 = max(pixel + ivec2(-1, 0), ivec2(0));
     ivec2 texel_j0_i1_l1 = min(pixel + ivec2(2, 0), last);
     ivec2 texel_j0_i1_l2 = clamp(pixel + ivec2(-1, 1), ivec2(0), last);
@@ -41,12 +41,12 @@ void main() {
     vec4 tap_j0_i1_l1 = texelFetch(sampler2D(image, unfiltered), texel_j0_i1_l1, 0);
     vec4 tap_j0_i1_l2 = texelFetch(sampler2D(image, unfiltered), texel_j0_i1_l2, 0);
     vec4 tap_j0_i1_l3 = texelFetch(sampler2D(image, unfiltered), texel_j0_i1_l3, 0);
-    // j 0, i 1, lane 0: kernels/src/quad/convolution.rs:69
+    // j 0, i 1, lane 0: kernels/src/quad/convolution.rs:86
     vec4 own_j0_i1_l0 = own_j0_i0_l0 + tap_j0_i1_l0 * vec4(0.11111111);
     vec4 own_j0_i1_l1 = own_j0_i0_l1 + tap_j0_i1_l1 * vec4(0.11111111);
     vec4 own_j0_i1_l2 = own_j0_i0_l2 + tap_j0_i1_l2 * vec4(0.11111111);
     vec4 own_j0_i1_l3 = own_j0_i0_l3 + tap_j0_i1_l3 * vec4(0.11111111);
-    // j 1, i 0, lane 0: kernels/src/quad/convolution.rs:68
+    // j 1, i 0, lane 0: kernels/src/quad/convolution.rs:85
     ivec2 texel_j1_i0_l0 = max(pixel + ivec2(0, -1), ivec2(0));
     ivec2 texel_j1_i0_l1 = clamp(pixel + ivec2(1, -1), ivec2(0), last);
     ivec2 texel_j1_i0_l2 = min(pixel + ivec2(0, 2), last);
@@ -59,17 +59,17 @@ void main() {
     vec4 value_2 = tap_j1_i0_l1 * vec4(0.11111111);
     vec4 value_3 = tap_j1_i0_l2 * vec4(0.11111111);
     vec4 value_4 = tap_j1_i0_l3 * vec4(0.11111111);
-    // j 1, i 0, lane 0: kernels/src/quad/convolution.rs:69
+    // j 1, i 0, lane 0: kernels/src/quad/convolution.rs:86
     vec4 own_j1_i0_l0 = own_j0_i1_l0 + value;
     vec4 own_j1_i0_l1 = own_j0_i1_l1 + value_2;
     vec4 own_j1_i0_l2 = own_j0_i1_l2 + value_3;
     vec4 own_j1_i0_l3 = own_j0_i1_l3 + value_4;
-    // j 1, i 0, lane 0: kernels/src/quad/convolution.rs:72
+    // j 1, i 0, lane 0: kernels/src/quad/convolution.rs:89
     vec4 beside_j1_i0_l0 = own_j0_i0_l0 + value;
     vec4 beside_j1_i0_l1 = own_j0_i0_l1 + value_2;
     vec4 beside_j1_i0_l2 = own_j0_i0_l2 + value_3;
     vec4 beside_j1_i0_l3 = own_j0_i0_l3 + value_4;
-    // j 1, i 1, lane 0: kernels/src/quad/convolution.rs:68
+    // j 1, i 1, lane 0: kernels/src/quad/convolution.rs:85
     ivec2 texel_j1_i1_l0 = max(pixel + ivec2(-1), ivec2(0));
     ivec2 texel_j1_i1_l1 = clamp(pixel + ivec2(2, -1), ivec2(0), last);
     ivec2 texel_j1_i1_l2 = clamp(pixel + ivec2(-1, 2), ivec2(0), last);
@@ -78,7 +78,7 @@ void main() {
     vec4 tap_j1_i1_l1 = texelFetch(sampler2D(image, unfiltered), texel_j1_i1_l1, 0);
     vec4 tap_j1_i1_l2 = texelFetch(sampler2D(image, unfiltered), texel_j1_i1_l2, 0);
     vec4 tap_j1_i1_l3 = texelFetch(sampler2D(image, unfiltered), texel_j1_i1_l3, 0);
-    // j 1, i 1, lane 0: kernels/src/quad/convolution.rs:69
+    // j 1, i 1, lane 0: kernels/src/quad/convolution.rs:86
     vec4 own_j1_i1_l0 = own_j1_i0_l0 + tap_j1_i1_l0 * vec4(0.11111111);
     vec4 own_j1_i1_l1 = own_j1_i0_l1 + tap_j1_i1_l1 * vec4(0.11111111);
     vec4 own_j1_i1_l2 = own_j1_i0_l2 + tap_j1_i1_l2 * vec4(0.11111111);

@@ -14,7 +14,7 @@ fn quad_convolution(@builtin(global_invocation_id) id: vec3u) {
     if any(pixel >= frame) {
         return;
     }
-    // j 0, i 0, lane 1: kernels/src/quad/convolution.rs:68
+    // j 0, i 0, lane 1: kernels/src/quad/convolution.rs:85
     let last = frame - vec2i(1);
     let texel_j0_i0_l1 = min(pixel + vec2i(1, 0), last);
     let texel_j0_i0_l2 = min(pixel + vec2i(0, 1), last);
@@ -23,12 +23,12 @@ fn quad_convolution(@builtin(global_invocation_id) id: vec3u) {
     let tap_j0_i0_l1 = textureLoad(image, texel_j0_i0_l1, 0);
     let tap_j0_i0_l2 = textureLoad(image, texel_j0_i0_l2, 0);
     let tap_j0_i0_l3 = textureLoad(image, texel_j0_i0_l3, 0);
-    // j 0, i 0, lane 0: kernels/src/quad/convolution.rs:69
+    // j 0, i 0, lane 0: kernels/src/quad/convolution.rs:86
     let own_j0_i0_l0 = vec4f(0.0) + tap_j0_i0_l0 * vec4f(0.11111111);
     let own_j0_i0_l1 = vec4f(0.0) + tap_j0_i0_l1 * vec4f(0.11111111);
     let own_j0_i0_l2 = vec4f(0.0) + tap_j0_i0_l2 * vec4f(0.11111111);
     let own_j0_i0_l3 = vec4f(0.0) + tap_j0_i0_l3 * vec4f(0.11111111);
-    // j 0, i 1, lane 0: kernels/src/quad/convolution.rs:68
+    // j 0, i 1, lane 0: kernels/src/quad/convolution.rs:85
     let texel_j0_i1_l0 = max(pixel + vec2i(-1, 0), vec2i(0));
     let texel_j0_i1_l1 = min(pixel + vec2i(2, 0), last);
     let texel_j0_i1_l2 = clamp(pixel + vec2i(-1, 1), vec2i(0), last);
@@ -37,12 +37,12 @@ fn quad_convolution(@builtin(global_invocation_id) id: vec3u) {
     let tap_j0_i1_l1 = textureLoad(image, texel_j0_i1_l1, 0);
     let tap_j0_i1_l2 = textureLoad(image, texel_j0_i1_l2, 0);
     let tap_j0_i1_l3 = textureLoad(image, texel_j0_i1_l3, 0);
-    // j 0, i 1, lane 0: kernels/src/quad/convolution.rs:69
+    // j 0, i 1, lane 0: kernels/src/quad/convolution.rs:86
     let own_j0_i1_l0 = own_j0_i0_l0 + tap_j0_i1_l0 * vec4f(0.11111111);
     let own_j0_i1_l1 = own_j0_i0_l1 + tap_j0_i1_l1 * vec4f(0.11111111);
     let own_j0_i1_l2 = own_j0_i0_l2 + tap_j0_i1_l2 * vec4f(0.11111111);
     let own_j0_i1_l3 = own_j0_i0_l3 + tap_j0_i1_l3 * vec4f(0.11111111);
-    // j 1, i 0, lane 0: kernels/src/quad/convolution.rs:68
+    // j 1, i 0, lane 0: kernels/src/quad/convolution.rs:85
     let texel_j1_i0_l0 = max(pixel + vec2i(0, -1), vec2i(0));
     let texel_j1_i0_l1 = clamp(pixel + vec2i(1, -1), vec2i(0), last);
     let texel_j1_i0_l2 = min(pixel + vec2i(0, 2), last);
@@ -55,17 +55,17 @@ fn quad_convolution(@builtin(global_invocation_id) id: vec3u) {
     let value_2 = tap_j1_i0_l1 * vec4f(0.11111111);
     let value_3 = tap_j1_i0_l2 * vec4f(0.11111111);
     let value_4 = tap_j1_i0_l3 * vec4f(0.11111111);
-    // j 1, i 0, lane 0: kernels/src/quad/convolution.rs:69
+    // j 1, i 0, lane 0: kernels/src/quad/convolution.rs:86
     let own_j1_i0_l0 = own_j0_i1_l0 + value;
     let own_j1_i0_l1 = own_j0_i1_l1 + value_2;
     let own_j1_i0_l2 = own_j0_i1_l2 + value_3;
     let own_j1_i0_l3 = own_j0_i1_l3 + value_4;
-    // j 1, i 0, lane 0: kernels/src/quad/convolution.rs:72
+    // j 1, i 0, lane 0: kernels/src/quad/convolution.rs:89
     let beside_j1_i0_l0 = own_j0_i0_l0 + value;
     let beside_j1_i0_l1 = own_j0_i0_l1 + value_2;
     let beside_j1_i0_l2 = own_j0_i0_l2 + value_3;
     let beside_j1_i0_l3 = own_j0_i0_l3 + value_4;
-    // j 1, i 1, lane 0: kernels/src/quad/convolution.rs:68
+    // j 1, i 1, lane 0: kernels/src/quad/convolution.rs:85
     let texel_j1_i1_l0 = max(pixel + vec2i(-1), vec2i(0));
     let texel_j1_i1_l1 = clamp(pixel + vec2i(2, -1), vec2i(0), last);
     let texel_j1_i1_l2 = clamp(pixel + vec2i(-1, 2), vec2i(0), last);
@@ -74,7 +74,7 @@ fn quad_convolution(@builtin(global_invocation_id) id: vec3u) {
     let tap_j1_i1_l1 = textureLoad(image, texel_j1_i1_l1, 0);
     let tap_j1_i1_l2 = textureLoad(image, texel_j1_i1_l2, 0);
     let tap_j1_i1_l3 = textureLoad(image, texel_j1_i1_l3, 0);
-    // j 1, i 1, lane 0: kernels/src/quad/convolution.rs:69
+    // j 1, i 1, lane 0: kernels/src/quad/convolution.rs:86
     let own_j1_i1_l0 = own_j1_i0_l0 + tap_j1_i1_l0 * vec4f(0.11111111);
     let own_j1_i1_l1 = own_j1_i0_l1 + tap_j1_i1_l1 * vec4f(0.11111111);
     let own_j1_i1_l2 = own_j1_i0_l2 + tap_j1_i1_l2 * vec4f(0.11111111);

@@ -13,7 +13,7 @@ layout(set = 0, binding = 1) uniform sampler unfiltered;
 void main() {
     ivec2 pixel = ivec2(floor(gl_FragCoord.xy));
     ivec2 frame = textureSize(sampler2D(image, unfiltered), 0).xy;
-    // j 0, i 0: kernels/src/quad/convolution.rs:61
+    // j 0, i 0: kernels/src/quad/convolution.rs:78
     ivec2 lane = pixel & ivec2(1);
     vec2 value = vec2(lane) * vec2(2.0);
     vec2 quad_vector = value - vec2(1.0);
@@ -22,11 +22,11 @@ void main() {
     ivec2 texel_j0_i0 = clamp(pixel, ivec2(0), last);
     vec4 tap_j0_i0 = texelFetch(sampler2D(image, unfiltered), texel_j0_i0, 0);
     vec4 own_j0_i0 = vec4(0.0) + tap_j0_i0 * vec4(0.11111111);
-    // j 0, i 1: kernels/src/quad/convolution.rs:68
+    // j 0, i 1: kernels/src/quad/convolution.rs:85
     ivec2 texel_j0_i1 = clamp(pixel + outwards * ivec2(1, 0), ivec2(0), last);
     vec4 tap_j0_i1 = texelFetch(sampler2D(image, unfiltered), texel_j0_i1, 0);
     vec4 own_j0_i1 = own_j0_i0 + tap_j0_i1 * vec4(0.11111111);
-    // j 1, i 0: kernels/src/quad/convolution.rs:68
+    // j 1, i 0: kernels/src/quad/convolution.rs:85
     ivec2 texel_j1_i0 = clamp(pixel + outwards * ivec2(0, 1), ivec2(0), last);
     vec4 tap_j1_i0 = texelFetch(sampler2D(image, unfiltered), texel_j1_i0, 0);
     vec4 value_2 = tap_j1_i0 * vec4(0.11111111);
@@ -36,9 +36,9 @@ void main() {
     vec4 tap_j1_i1 = texelFetch(sampler2D(image, unfiltered), texel_j1_i1, 0);
     vec4 own_j1_i1 = own_j1_i0 + tap_j1_i1 * vec4(0.11111111);
     vec2 towards = vec2(1.0) - value;
-    // j 1, i 0: kernels/src/quad/convolution.rs:72
+    // j 1, i 0: kernels/src/quad/convolution.rs:89
     vec4 beside_beside_j1_i0 = beside_j1_i0 + towards.x * dFdxFine(beside_j1_i0);
-    // j 0, i 1: kernels/src/quad/convolution.rs:69
+    // j 0, i 1: kernels/src/quad/convolution.rs:86
     vec4 own_below_j0_i1 = own_j0_i1 + towards.y * dFdyFine(own_j0_i1);
     vec4 own_below_j0_i0 = own_j0_i0 + towards.y * dFdyFine(own_j0_i0);
     vec4 own_below_beside_j0_i0 = own_below_j0_i0 + towards.x * dFdxFine(own_below_j0_i0);

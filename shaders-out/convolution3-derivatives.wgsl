@@ -10,7 +10,7 @@
 fn quad_convolution(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let pixel = vec2i(floor(position.xy));
     let frame = vec2i(textureDimensions(image));
-    // j 0, i 0: kernels/src/quad/convolution.rs:61
+    // j 0, i 0: kernels/src/quad/convolution.rs:78
     let lane = pixel & vec2i(1);
     let value = vec2f(lane) * vec2f(2.0);
     let quad_vector = value - vec2f(1.0);
@@ -19,11 +19,11 @@ fn quad_convolution(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let texel_j0_i0 = clamp(pixel, vec2i(0), last);
     let tap_j0_i0 = textureLoad(image, texel_j0_i0, 0);
     let own_j0_i0 = vec4f(0.0) + tap_j0_i0 * vec4f(0.11111111);
-    // j 0, i 1: kernels/src/quad/convolution.rs:68
+    // j 0, i 1: kernels/src/quad/convolution.rs:85
     let texel_j0_i1 = clamp(pixel + outwards * vec2i(1, 0), vec2i(0), last);
     let tap_j0_i1 = textureLoad(image, texel_j0_i1, 0);
     let own_j0_i1 = own_j0_i0 + tap_j0_i1 * vec4f(0.11111111);
-    // j 1, i 0: kernels/src/quad/convolution.rs:68
+    // j 1, i 0: kernels/src/quad/convolution.rs:85
     let texel_j1_i0 = clamp(pixel + outwards * vec2i(0, 1), vec2i(0), last);
     let tap_j1_i0 = textureLoad(image, texel_j1_i0, 0);
     let value_2 = tap_j1_i0 * vec4f(0.11111111);
@@ -33,9 +33,9 @@ fn quad_convolution(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let tap_j1_i1 = textureLoad(image, texel_j1_i1, 0);
     let own_j1_i1 = own_j1_i0 + tap_j1_i1 * vec4f(0.11111111);
     let towards = vec2f(1.0) - value;
-    // j 1, i 0: kernels/src/quad/convolution.rs:72
+    // j 1, i 0: kernels/src/quad/convolution.rs:89
     let beside_beside_j1_i0 = beside_j1_i0 + towards.x * dpdxFine(beside_j1_i0);
-    // j 0, i 1: kernels/src/quad/convolution.rs:69
+    // j 0, i 1: kernels/src/quad/convolution.rs:86
     let own_below_j0_i1 = own_j0_i1 + towards.y * dpdyFine(own_j0_i1);
     let own_below_j0_i0 = own_j0_i0 + towards.y * dpdyFine(own_j0_i0);
     let own_below_beside_j0_i0 = own_below_j0_i0 + towards.x * dpdxFine(own_below_j0_i0);

@@ -14,7 +14,7 @@ layout(set = 0, binding = 1) uniform sampler unfiltered;
 void main() {
     ivec2 pixel = ivec2(floor(gl_FragCoord.xy));
     ivec2 frame = textureSize(sampler2D(image, unfiltered), 0).xy;
-    // j 0, i 0: kernels/src/quad/convolution.rs:61
+    // j 0, i 0: kernels/src/quad/convolution.rs:78
     ivec2 lane = pixel & ivec2(1);
     vec2 quad_vector = vec2(lane) * vec2(2.0) - vec2(1.0);
     ivec2 outwards = ivec2(clamp(quad_vector, -2147483648.0, 2147483520.0));
@@ -22,11 +22,11 @@ void main() {
     ivec2 texel_j0_i0 = clamp(pixel, ivec2(0), last);
     vec4 tap_j0_i0 = texelFetch(sampler2D(image, unfiltered), texel_j0_i0, 0);
     vec4 own_j0_i0 = vec4(0.0) + tap_j0_i0 * vec4(0.11111111);
-    // j 0, i 1: kernels/src/quad/convolution.rs:68
+    // j 0, i 1: kernels/src/quad/convolution.rs:85
     ivec2 texel_j0_i1 = clamp(pixel + outwards * ivec2(1, 0), ivec2(0), last);
     vec4 tap_j0_i1 = texelFetch(sampler2D(image, unfiltered), texel_j0_i1, 0);
     vec4 own_j0_i1 = own_j0_i0 + tap_j0_i1 * vec4(0.11111111);
-    // j 1, i 0: kernels/src/quad/convolution.rs:68
+    // j 1, i 0: kernels/src/quad/convolution.rs:85
     ivec2 texel_j1_i0 = clamp(pixel + outwards * ivec2(0, 1), ivec2(0), last);
     vec4 tap_j1_i0 = texelFetch(sampler2D(image, unfiltered), texel_j1_i0, 0);
     vec4 value = tap_j1_i0 * vec4(0.11111111);

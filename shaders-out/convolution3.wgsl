@@ -10,7 +10,7 @@
 fn quad_convolution(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let pixel = vec2i(floor(position.xy));
     let frame = vec2i(textureDimensions(image));
-    // j 0, i 0: kernels/src/quad/convolution.rs:61
+    // j 0, i 0: kernels/src/quad/convolution.rs:78
     let lane = pixel & vec2i(1);
     let quad_vector = vec2f(lane) * vec2f(2.0) - vec2f(1.0);
     let outwards = vec2i(quad_vector);
@@ -18,11 +18,11 @@ fn quad_convolution(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let texel_j0_i0 = clamp(pixel, vec2i(0), last);
     let tap_j0_i0 = textureLoad(image, texel_j0_i0, 0);
     let own_j0_i0 = vec4f(0.0) + tap_j0_i0 * vec4f(0.11111111);
-    // j 0, i 1: kernels/src/quad/convolution.rs:68
+    // j 0, i 1: kernels/src/quad/convolution.rs:85
     let texel_j0_i1 = clamp(pixel + outwards * vec2i(1, 0), vec2i(0), last);
     let tap_j0_i1 = textureLoad(image, texel_j0_i1, 0);
     let own_j0_i1 = own_j0_i0 + tap_j0_i1 * vec4f(0.11111111);
-    // j 1, i 0: kernels/src/quad/convolution.rs:68
+    // j 1, i 0: kernels/src/quad/convolution.rs:85
     let texel_j1_i0 = clamp(pixel + outwards * vec2i(0, 1), vec2i(0), last);
     let tap_j1_i0 = textureLoad(image, texel_j1_i0, 0);
     let value = tap_j1_i0 * vec4f(0.11111111);

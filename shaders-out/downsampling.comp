@@ -19,7 +19,7 @@ void main() {
     if (pixel.x >= frame.x || pixel.y >= frame.y) {
         return;
     }
-    // j 0, i 1: kernels/src/quad/upsampling.rs:321
+    // j 0, i 1: kernels/src/quad/upsampling.rs:322
     ivec2 first = pixel * ivec2(2) - ivec2(1);
     ivec2 last = textureSize(sampler2D(depth, unfiltered), 0) - ivec2(1);
     ivec2 texel = clamp(first, ivec2(0), last);
@@ -30,7 +30,7 @@ void main() {
     bool holds = z_j0_i1 < nearest;
     ivec2 at_j0_i1_2 = (holds ? at_j0_i1 : first);
     float nearest_j0_i1 = (holds ? z_j0_i1 : nearest);
-    // j 1, i 0: kernels/src/quad/upsampling.rs:330
+    // j 1, i 0: kernels/src/quad/upsampling.rs:331
     ivec2 at_j1_i0 = first + ivec2(0, 1);
     ivec2 texel_j1_i0 = clamp(at_j1_i0, ivec2(0), last);
     float z_j1_i0 = texelFetch(sampler2D(depth, unfiltered), texel_j1_i0, 0).x;

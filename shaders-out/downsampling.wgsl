@@ -15,7 +15,7 @@ fn downsampling(@builtin(global_invocation_id) id: vec3u) {
     if any(pixel >= frame) {
         return;
     }
-    // j 0, i 1: kernels/src/quad/upsampling.rs:321
+    // j 0, i 1: kernels/src/quad/upsampling.rs:322
     let first = pixel * vec2i(2) - vec2i(1);
     let last = vec2i(textureDimensions(depth)) - vec2i(1);
     let texel = clamp(first, vec2i(0), last);
@@ -26,7 +26,7 @@ fn downsampling(@builtin(global_invocation_id) id: vec3u) {
     let holds = z_j0_i1 < nearest;
     let at_j0_i1_2 = select(first, at_j0_i1, holds);
     let nearest_j0_i1 = select(nearest, z_j0_i1, holds);
-    // j 1, i 0: kernels/src/quad/upsampling.rs:330
+    // j 1, i 0: kernels/src/quad/upsampling.rs:331
     let at_j1_i0 = first + vec2i(0, 1);
     let texel_j1_i0 = clamp(at_j1_i0, vec2i(0), last);
     let z_j1_i0 = textureLoad(depth, texel_j1_i0, 0).x;

@@ -15,7 +15,7 @@ layout(set = 0, binding = 2) uniform sampler unfiltered;
 
 void main() {
     ivec2 pixel = ivec2(floor(gl_FragCoord.xy));
-    // k 0: kernels/src/quad/pcf/mod.rs:74
+    // k 0: kernels/src/quad/pcf/mod.rs:90
     vec3 row = coord + subgroupQuadSwapHorizontal(coord);
     vec3 centre = (row + subgroupQuadSwapVertical(row)) * vec3(0.25);
     vec2 size = vec2(uvec2(textureSize(sampler2D(shadow, unfiltered), 0)));

@@ -10,7 +10,7 @@
 @fragment
 fn pcf(@builtin(position) position: vec4f, @location(0) coord: vec3f) -> @location(0) vec4f {
     let pixel = vec2i(floor(position.xy));
-    // k 0: kernels/src/quad/pcf/mod.rs:74
+    // k 0: kernels/src/quad/pcf/mod.rs:90
     let row = coord + quadSwapX(coord);
     let centre = (row + quadSwapY(row)) * vec3f(0.25);
     let size = vec2f(vec2u(vec2i(textureDimensions(shadow))));

@@ -10,7 +10,7 @@
 @fragment
 fn pcf(@builtin(position) position: vec4f, @location(0) coord: vec3f) -> @location(0) vec4f {
     let pixel = vec2i(floor(position.xy));
-    // k 0: kernels/src/quad/pcf/mod.rs:184
+    // k 0: kernels/src/quad/pcf/mod.rs:200
     let lane = pixel & vec2i(1);
     let value = vec2f(lane) * vec2f(2.0);
     let towards = vec2f(1.0) - value;
@@ -37,7 +37,7 @@ fn pcf(@builtin(position) position: vec4f, @location(0) coord: vec3f) -> @locati
     let column_place = value_3 + w1 / weight;
     let taps_lit_k0 = textureSampleCompareLevel(shadow, shadow_sampler, value_2 + column_place / size, centre.z);
     let taps_weight_k0 = weight.x * weight.y;
-    // k 3: kernels/src/quad/pcf/mod.rs:186
+    // k 3: kernels/src/quad/pcf/mod.rs:202
     let taps_middle_k3 = quad_vector + vec2f(2.0);
     let value_4 = taps_middle_k3 - a;
     let away_3 = abs(value_4);
@@ -52,7 +52,7 @@ fn pcf(@builtin(position) position: vec4f, @location(0) coord: vec3f) -> @locati
     let w1_2 = outer_4 * outer_4 * vec2f(0.5) - inner_4 * inner_4 * vec2f(1.5);
     let weight_2 = w0_2 + w1_2;
     let column_place_2 = value_4 + w1_2 / weight_2;
-    // k 1: kernels/src/quad/pcf/mod.rs:185
+    // k 1: kernels/src/quad/pcf/mod.rs:201
     let place_k1 = vec2f(column_place_2.x, column_place.y);
     let taps_lit_k1 = textureSampleCompareLevel(shadow, shadow_sampler, value_2 + place_k1 / size, centre.z);
     let taps_middle_k1 = quad_vector + vec2f(2.0, -2.0);
@@ -61,12 +61,12 @@ fn pcf(@builtin(position) position: vec4f, @location(0) coord: vec3f) -> @locati
     let taps_lit_k2 = textureSampleCompareLevel(shadow, shadow_sampler, value_2 + place_k2 / size, centre.z);
     let taps_middle_k2 = quad_vector + vec2f(-2.0, 2.0);
     let taps_weight_k2 = weight.x * weight_2.y;
-    // k 3: kernels/src/quad/pcf/mod.rs:186
+    // k 3: kernels/src/quad/pcf/mod.rs:202
     let taps_lit_k3 = textureSampleCompareLevel(shadow, shadow_sampler, value_2 + column_place_2 / size, centre.z);
     let taps_weight_k3 = weight_2.x * weight_2.y;
     let away_5 = (vec2f(coord.x, coord.y) - value_2) * size;
     let value_5 = column_place * taps_weight_k0;
-    // k 0: kernels/src/quad/pcf/mod.rs:203
+    // k 0: kernels/src/quad/pcf/mod.rs:219
     let sums_k0 = vec4f(0.0) + vec4f(value_5.x, value_5.y, taps_weight_k0, taps_lit_k0 * taps_weight_k0);
     let value_6 = place_k1 * taps_weight_k1;
     let sums_k1 = sums_k0 + vec4f(value_6.x, value_6.y, taps_weight_k1, taps_lit_k1 * taps_weight_k1);
@@ -80,7 +80,7 @@ fn pcf(@builtin(position) position: vec4f, @location(0) coord: vec3f) -> @locati
     let sums = row_2 + row_below_2;
     let lit = sums.w / sums.z;
     let middle = vec2f(sums.x, sums.y) / sums.z;
-    // k 0: kernels/src/quad/pcf/mod.rs:231
+    // k 0: kernels/src/quad/pcf/mod.rs:247
     let moment_k0 = vec2f(0.0) + taps_middle_k0 * taps_lit_k0;
     let moment_k1 = moment_k0 + taps_middle_k1 * taps_lit_k1;
     let moment_k2 = moment_k1 + taps_middle_k2 * taps_lit_k2;

@@ -15,7 +15,7 @@ layout(set = 0, binding = 2) uniform sampler unfiltered;
 
 void main() {
     ivec2 pixel = ivec2(floor(gl_FragCoord.xy));
-    // k 0: kernels/src/quad/pcf/mod.rs:74
+    // k 0: kernels/src/quad/pcf/mod.rs:90
     vec3 row = coord + subgroupQuadSwapHorizontal(coord);
     vec3 centre = (row + subgroupQuadSwapVertical(row)) * vec3(0.25);
     vec2 size = vec2(uvec2(textureSize(sampler2D(shadow, unfiltered), 0)));
@@ -39,7 +39,7 @@ void main() {
     vec2 column_place = value_2 + w1 / weight;
     float taps_lit_k0 = textureLod(sampler2DShadow(shadow, shadow_sampler), vec3(value + column_place / size, centre.z), 0.0);
     float taps_weight_k0 = weight.x * weight.y;
-    // k 3: kernels/src/quad/pcf/mod.rs:186
+    // k 3: kernels/src/quad/pcf/mod.rs:202
     vec2 taps_middle_k3 = quad_vector + vec2(2.0);
     vec2 value_3 = taps_middle_k3 - a;
     vec2 away_3 = abs(value_3);
@@ -54,7 +54,7 @@ void main() {
     vec2 w1_2 = outer_4 * outer_4 * vec2(0.5) - inner_4 * inner_4 * vec2(1.5);
     vec2 weight_2 = w0_2 + w1_2;
     vec2 column_place_2 = value_3 + w1_2 / weight_2;
-    // k 1: kernels/src/quad/pcf/mod.rs:185
+    // k 1: kernels/src/quad/pcf/mod.rs:201
     vec2 place_k1 = vec2(column_place_2.x, column_place.y);
     float taps_lit_k1 = textureLod(sampler2DShadow(shadow, shadow_sampler), vec3(value + place_k1 / size, centre.z), 0.0);
     vec2 taps_middle_k1 = quad_vector + vec2(2.0, -2.0);
@@ -63,12 +63,12 @@ void main() {
     float taps_lit_k2 = textureLod(sampler2DShadow(shadow, shadow_sampler), vec3(value + place_k2 / size, centre.z), 0.0);
     vec2 taps_middle_k2 = quad_vector + vec2(-2.0, 2.0);
     float taps_weight_k2 = weight.x * weight_2.y;
-    // k 3: kernels/src/quad/pcf/mod.rs:186
+    // k 3: kernels/src/quad/pcf/mod.rs:202
     float taps_lit_k3 = textureLod(sampler2DShadow(shadow, shadow_sampler), vec3(value + column_place_2 / size, centre.z), 0.0);
     float taps_weight_k3 = weight_2.x * weight_2.y;
     vec2 away_5 = (vec2(coord.x, coord.y) - value) * size;
     vec2 value_4 = column_place * taps_weight_k0;
-    // k 0: kernels/src/quad/pcf/mod.rs:203
+    // k 0: kernels/src/quad/pcf/mod.rs:219
     vec4 sums_k0 = vec4(0.0) + vec4(value_4.x, value_4.y, taps_weight_k0, taps_lit_k0 * taps_weight_k0);
     vec2 value_5 = place_k1 * taps_weight_k1;
     vec4 sums_k1 = sums_k0 + vec4(value_5.x, value_5.y, taps_weight_k1, taps_lit_k1 * taps_weight_k1);
@@ -80,7 +80,7 @@ void main() {
     vec4 sums = row_2 + subgroupQuadSwapVertical(row_2);
     float lit = sums.w / sums.z;
     vec2 middle = vec2(sums.x, sums.y) / sums.z;
-    // k 0: kernels/src/quad/pcf/mod.rs:231
+    // k 0: kernels/src/quad/pcf/mod.rs:247
     vec2 moment_k0 = vec2(0.0) + taps_middle_k0 * taps_lit_k0;
     vec2 moment_k1 = moment_k0 + taps_middle_k1 * taps_lit_k1;
     vec2 moment_k2 = moment_k1 + taps_middle_k2 * taps_lit_k2;

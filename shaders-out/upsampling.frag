@@ -15,7 +15,7 @@ layout(set = 0, binding = 2) uniform sampler unfiltered;
 void main() {
     ivec2 pixel = ivec2(floor(gl_FragCoord.xy));
     ivec2 frame = textureSize(sampler2D(depth, unfiltered), 0).xy;
-    // k 0: kernels/src/quad/upsampling.rs:82
+    // k 0: kernels/src/quad/upsampling.rs:86
     ivec2 corner = pixel / ivec2(2);
     ivec2 last = frame - ivec2(1);
     ivec2 texel = clamp(pixel, ivec2(0), last);
@@ -31,11 +31,11 @@ void main() {
     vec4 messages_2 = subgroupQuadSwapVertical(texel_4);
     vec4 messages_3 = subgroupQuadSwapDiagonal(texel_4);
     vec4 taps_k0 = vec4(texel_4.x, texel_4.y, texel_4.z, 1.0);
-    // k 1: kernels/src/quad/upsampling.rs:178
+    // k 1: kernels/src/quad/upsampling.rs:182
     vec4 taps_k1 = vec4(messages_1.x, messages_1.y, messages_1.z, 1.0);
     vec4 taps_k2 = vec4(messages_2.x, messages_2.y, messages_2.z, 1.0);
     vec4 taps_k3 = vec4(messages_3.x, messages_3.y, messages_3.z, 1.0);
-    // k 0: kernels/src/quad/upsampling.rs:100
+    // k 0: kernels/src/quad/upsampling.rs:104
     float away_k0 = abs(texel_4.w - own_depth);
     float z_k0 = away_k0 / 0.1;
     float exponent_k0 = z_k0 * z_k0;
@@ -64,7 +64,7 @@ void main() {
     bool nearer_k3 = away_k3 < nearest_k2;
     vec4 fallback_k3 = (nearer_k3 ? taps_k3 : fallback_k2);
     float scale = 1.0 / max(total_k3, 1e-20);
-    // k 1: kernels/src/quad/upsampling.rs:123
+    // k 1: kernels/src/quad/upsampling.rs:127
     vec4 color_k1 = taps_k0 + (taps_k1 - taps_k0) * (weight_k1 * scale);
     vec4 color_k2 = color_k1 + (taps_k2 - taps_k0) * (weight_k2 * scale);
     vec4 color_k3 = color_k2 + (taps_k3 - taps_k0) * (weight_k3 * scale);

@@ -11,7 +11,7 @@
 fn quad_upsampling(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let pixel = vec2i(floor(position.xy));
     let frame = vec2i(textureDimensions(depth));
-    // k 0: kernels/src/quad/upsampling.rs:82
+    // k 0: kernels/src/quad/upsampling.rs:86
     let corner = pixel / vec2i(2);
     let last = frame - vec2i(1);
     let texel = clamp(pixel, vec2i(0), last);
@@ -27,11 +27,11 @@ fn quad_upsampling(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let messages_2 = quadSwapY(texel_4);
     let messages_3 = quadSwapDiagonal(texel_4);
     let taps_k0 = vec4f(texel_4.x, texel_4.y, texel_4.z, 1.0);
-    // k 1: kernels/src/quad/upsampling.rs:178
+    // k 1: kernels/src/quad/upsampling.rs:182
     let taps_k1 = vec4f(messages_1.x, messages_1.y, messages_1.z, 1.0);
     let taps_k2 = vec4f(messages_2.x, messages_2.y, messages_2.z, 1.0);
     let taps_k3 = vec4f(messages_3.x, messages_3.y, messages_3.z, 1.0);
-    // k 0: kernels/src/quad/upsampling.rs:100
+    // k 0: kernels/src/quad/upsampling.rs:104
     let away_k0 = abs(texel_4.w - own_depth);
     let z_k0 = away_k0 / 0.1;
     let exponent_k0 = z_k0 * z_k0;
@@ -60,7 +60,7 @@ fn quad_upsampling(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let nearer_k3 = away_k3 < nearest_k2;
     let fallback_k3 = select(fallback_k2, taps_k3, nearer_k3);
     let scale = 1.0 / max(total_k3, 1e-20);
-    // k 1: kernels/src/quad/upsampling.rs:123
+    // k 1: kernels/src/quad/upsampling.rs:127
     let color_k1 = taps_k0 + (taps_k1 - taps_k0) * (weight_k1 * scale);
     let color_k2 = color_k1 + (taps_k2 - taps_k0) * (weight_k2 * scale);
     let color_k3 = color_k2 + (taps_k3 - taps_k0) * (weight_k3 * scale);

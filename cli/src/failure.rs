@@ -1,5 +1,6 @@
 //! How the command line fails: one clear error on stderr, exit status 2 for bad use and 1 for all else.
 
+use crate::output;
 use std::fmt::Display;
 use std::io::IsTerminal;
 use std::process::ExitCode;
@@ -26,17 +27,20 @@ impl Failure {
     pub fn report(self) -> ExitCode {
         match self {
             Failure::Usage(message) => {
-                eprintln!("error: {message}");
+                errln!("error: {}", output::limited(&message));
                 ExitCode::from(2)
             }
             Failure::Failed(message) => {
-                eprintln!("error: {message}");
+                errln!("error: {}", output::limited(&message));
                 ExitCode::from(1)
             }
             Failure::Kernel(errors) => {
                 // An unknown kernel, option or value is in no file: a mistake of the command line's.
                 let usage = errors.diagnostics.iter().all(|d| d.span.is_none());
-                eprint!("{}", errors.render(std::io::stderr().is_terminal()));
+                output::note(format_args!(
+                    "{}",
+                    output::limited(&errors.render(std::io::stderr().is_terminal()))
+                ));
                 ExitCode::from(if usage { 2 } else { 1 })
             }
         }

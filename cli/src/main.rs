@@ -1,19 +1,38 @@
 //! `straightline`: emit, explain, run and measure straight-line shaders.
+#![deny(clippy::print_stdout, clippy::print_stderr)] // `output` writes, and never panics
 
+#[macro_use]
+mod output;
 mod args;
 mod commands;
 mod failure;
 mod gpu;
+mod interrupt;
 mod scene;
 mod table;
 
 use args::{Arguments, Command};
 use clap::Parser;
+use failure::Failure;
+use std::io::IsTerminal;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    let arguments = Arguments::parse();
-    let outcome = match arguments.command.unwrap_or_else(|| Command::Demo(Default::default())) {
+    let arguments = match Arguments::try_parse() {
+        Ok(arguments) => arguments,
+        Err(said) => return report(&said),
+    };
+    match interrupt::listen()
+        .and_then(|()| run(arguments))
+        .and_then(|()| output::finish())
+    {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => failure.report(),
+    }
+}
+
+fn run(arguments: Arguments) -> Result<(), Failure> {
+    match arguments.command.unwrap_or_else(|| Command::Demo(Default::default())) {
         Command::Demo(args) => commands::demo::run(&args),
         Command::List(args) => commands::list::run(&args),
         Command::Emit(args) => commands::emit::run(&args),
@@ -27,9 +46,26 @@ fn main() -> ExitCode {
         Command::Capture(args) => commands::capture::run(&args),
         Command::Scenes(args) => commands::scenes::run(&args),
         Command::Adapters(args) => commands::adapters::run(&args),
-    };
-    match outcome {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(failure) => failure.report(),
     }
+}
+
+/// Prints the help that was asked for, or what is wrong with the arguments.
+fn report(said: &clap::Error) -> ExitCode {
+    let text = |colour: bool| {
+        let text = said.render();
+        if colour {
+            text.ansi().to_string()
+        } else {
+            text.to_string()
+        }
+    };
+    if said.use_stderr() {
+        output::note(format_args!(
+            "{}",
+            output::limited(&text(std::io::stderr().is_terminal()))
+        ));
+        return ExitCode::from(2);
+    }
+    out!("{}", text(std::io::stdout().is_terminal()));
+    output::finish().map_or_else(Failure::report, |()| ExitCode::SUCCESS)
 }

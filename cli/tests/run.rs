@@ -102,3 +102,174 @@ fn a_nan_is_traced_to_its_line() {
     }
     assert!(!out.exists());
 }
+
+/// A kernel that reads nothing but numbers.
+const CIRCLES: &str = "pub fn circles(resolution: UVec2, scale: f32, count: u32, shift: IVec2, pixel: IVec2) -> Vec4 {\n    let at = (pixel + shift).as_vec2() / resolution.as_vec2();\n    Vec4::splat((at.length() * scale * count as f32).sin())\n}\n";
+
+#[test]
+fn a_kernel_without_textures_runs_at_a_size() {
+    let folder = scratch("run-no-texture");
+    let kernel = write(&folder, "circles.rs", CIRCLES);
+    let out = folder.join("out.png");
+    let out = out.to_str().unwrap();
+    for executor in ["cpu", "gpu"] {
+        let run = |more: &[&str]| {
+            let mut words = vec!["run", kernel.as_str(), "--out", out, "--executor", executor];
+            words.extend(more);
+            words.iter().map(|word| (*word).to_owned()).collect::<Vec<String>>()
+        };
+        let refused = |more: &[&str], status: i32, says: &[&str]| {
+            let words = run(more);
+            fails(&words.iter().map(String::as_str).collect::<Vec<_>>(), status, says);
+            assert!(!Path::new(out).exists());
+        };
+        refused(&[], 2, &["--size"]);
+        refused(&["--size", "8x8", "--input", "x.png"], 2, &["no texture"]);
+        let size = ["--size", "8x8"];
+        let with = |more: &[&'static str]| [&size[..], more].concat();
+        // Both executors refuse a uniform that was not set.
+        refused(&with(&["--uniform", "scale=1"]), 1, &["uniform `count`", "no default"]);
+        let rest = ["--uniform", "shift=1", "--uniform", "scale=2"];
+        let count = |value: &'static str| [&size[..], &rest[..], &["--uniform", value]].concat();
+        refused(&count("count=1.5"), 2, &["`1.5` for `count`", "no whole number", "u32"]);
+        refused(&count("count=-1"), 2, &["`-1` for `count`", "0 to 4294967295"]);
+        refused(&count("count=99999999999"), 2, &["does not fit into a u32"]);
+        refused(&count("count=1,2"), 2, &["takes one number, not 2"]);
+        refused(&count("scale=3"), 2, &["`scale` is given twice"]);
+        refused(&with(&["--uniform", "scale=1e39"]), 2, &["does not fit into an f32"]);
+        let words = run(&count("count=3"));
+        let finished = straightline(&words.iter().map(String::as_str).collect::<Vec<_>>());
+        assert!(
+            finished.status.success(),
+            "{}",
+            String::from_utf8_lossy(&finished.stderr)
+        );
+        std::fs::remove_file(out).unwrap();
+    }
+}
+
+#[test]
+fn shadow_filters_read_their_coordinates() {
+    let folder = scratch("run-shadows");
+    let out = folder.join("out.png");
+    let out = out.to_str().unwrap();
+    let picture = here("docs/detail.png");
+    let (shadow, coord) = (format!("shadow={picture}"), format!("coord={picture}"));
+    for kernel in ["pcf", "pcss"] {
+        for executor in ["cpu", "gpu"] {
+            let words = [
+                "run",
+                kernel,
+                "--input",
+                &shadow,
+                "--input",
+                &coord,
+                "--executor",
+                executor,
+                "--out",
+                out,
+            ];
+            let finished = straightline(&words);
+            assert!(
+                finished.status.success(),
+                "{}",
+                String::from_utf8_lossy(&finished.stderr)
+            );
+            std::fs::remove_file(out).unwrap();
+        }
+        let words = ["run", kernel, "--input", &shadow, "--stage", "fragment", "--out", out];
+        fails(&words, 2, &["interpolates `coord`", "--stage compute"]);
+    }
+    // `study loops` gives them the test card.
+    let report = folder.join("study");
+    let words = [
+        "study", "loops", "--from", "pcf", "--from", "pcss", "--size", "32x18", "--rounds", "1", "--out",
+    ];
+    let finished = straightline(&[&words[..], &[report.to_str().unwrap()]].concat());
+    assert!(
+        finished.status.success(),
+        "{}",
+        String::from_utf8_lossy(&finished.stderr)
+    );
+}
+
+#[test]
+fn edge_filters_read_the_layers_of_a_capture() {
+    let folder = scratch("run-layers");
+    let out = folder.join("out.png");
+    let out = out.to_str().unwrap();
+    let frame = here("examples/captures/spheres");
+    let layer = |name: &str, layer: &str| format!("{name}={frame}/{name}.exr{layer}");
+    let color = layer("color", "");
+    let run = |depth: &str, normal: &str| {
+        let (depth, normal) = (layer("depth", depth), layer("normal", normal));
+        let words = [
+            "run",
+            "stalker",
+            "--set",
+            "depth=linear",
+            "--input",
+            &depth,
+            "--input",
+            &normal,
+            "--input",
+            &color,
+            "--executor",
+            "cpu",
+            "--out",
+            out,
+        ];
+        straightline(&words)
+    };
+    let finished = run(":centre", ":centre");
+    assert!(
+        finished.status.success(),
+        "{}",
+        String::from_utf8_lossy(&finished.stderr)
+    );
+    for (depth, normal, says) in [
+        ("", ":centre", "takes one layer"),
+        (":sample9", ":centre", "no layer `sample9`"),
+    ] {
+        let refused = run(depth, normal);
+        let said = String::from_utf8_lossy(&refused.stderr).into_owned();
+        assert!(
+            !refused.status.success() && said.contains(says) && said.contains("centre"),
+            "{said}"
+        );
+    }
+}
+
+#[test]
+fn the_fragment_stage_knows_the_size_of_what_it_reads() {
+    let folder = scratch("run-resolution");
+    // `k` reads its texture, `size` alone asks for its size.
+    let text = "pub fn k(color: &Frame<Vec4>, resolution: UVec2, pixel: IVec2) -> Vec4 {\n    let at = pixel.as_vec2() / resolution.as_vec2();\n    color.load(pixel) * at.x\n}\npub fn size(color: &Frame<Vec4>, resolution: UVec2, pixel: IVec2) -> Vec4 {\n    (pixel.as_vec2() / resolution.as_vec2()).extend(0.0).extend(1.0)\n}\n";
+    let file = write(&folder, "k.rs", text);
+    for function in ["k", "size"] {
+        sized(&format!("{file}::{function}"), &folder);
+    }
+}
+
+fn sized(kernel: &str, folder: &Path) {
+    let picture = here("docs/detail.png");
+    let out = folder.join("out.png");
+    for stage in ["compute", "fragment"] {
+        let words = [
+            "run",
+            kernel,
+            "--input",
+            &picture,
+            "--stage",
+            stage,
+            "--out",
+            out.to_str().unwrap(),
+        ];
+        let finished = straightline(&words);
+        assert!(
+            finished.status.success(),
+            "{}",
+            String::from_utf8_lossy(&finished.stderr)
+        );
+    }
+}

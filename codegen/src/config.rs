@@ -251,6 +251,7 @@ impl Config {
         // Without a line of its own cargo would come back for every change in the package.
         println!("cargo::rerun-if-changed=build.rs");
         let folder = match &self.out_dir {
+            Some(folder) if folder.as_os_str().is_empty() => return Err(Error::of(Problem::EmptyFolder)),
             Some(folder) => folder.clone(),
             None => std::env::var_os("OUT_DIR")
                 .map(PathBuf::from)
@@ -300,6 +301,10 @@ enum Problem {
     Name(String),
     #[error("two shaders are called `{0}`: give one of them another name with `.name(\"...\")`")]
     Twice(String),
+    #[error(
+        "the folder to write to is empty: say `.out_dir(\".\")` for the folder that the build runs in, or leave it out"
+    )]
+    EmptyFolder,
     #[error("OUT_DIR is not set: call this from build.rs, or say where to write with `.out_dir(...)`")]
     NoFolder,
 }
@@ -330,3 +335,34 @@ impl fmt::Debug for Error {
 }
 
 impl std::error::Error for Error {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn said(config: &Config) -> String {
+        config.compile().expect_err("a refusal").to_string()
+    }
+
+    #[test]
+    fn factors_and_folders_that_say_nothing_are_refused() {
+        let out = std::env::temp_dir().join(format!("straightline-config-{}", std::process::id()));
+        let unrolled = |unroll| Config::new().kernel("sraa", |k| k.unroll(unroll)).out_dir(&out);
+        for n in [0, 1, 4096] {
+            let error = said(&unrolled(Unroll::Partial(n)));
+            assert!(error.contains(&format!("cannot be unrolled by {n}")), "{error}");
+        }
+        let of_one = Config::new().kernel("sraa", |k| k.unroll_loop("sraa.tap", Unroll::Partial(0)));
+        let error = said(&of_one.out_dir(&out));
+        assert!(error.contains("the loop `sraa.tap` cannot be unrolled by 0"), "{error}");
+        let twice = Config::new().kernel("sraa", |k| k.set("pattern", "latin4").set("pattern", "latin16"));
+        let error = said(&twice.out_dir(&out));
+        assert!(
+            error.contains("`pattern` is set twice, to `latin4` and to `latin16`"),
+            "{error}"
+        );
+        let error = said(&Config::new().kernel("stalker", |k| k).out_dir(""));
+        assert!(error.contains("the folder to write to is empty"), "{error}");
+        assert!(!out.exists());
+    }
+}

@@ -1,9 +1,11 @@
 //! What is wrong with a kernel, where, and what to do about it.
 
+mod view;
+
 use codespan_reporting::diagnostic::Label;
-use codespan_reporting::files::SimpleFiles;
 use std::fmt;
 use std::sync::Arc;
+use view::{Views, message, written_out};
 
 /// A stretch of a source file.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -106,6 +108,9 @@ pub struct Errors {
 }
 
 impl Errors {
+    /// Errors that are shown.
+    pub const MOST: usize = 50;
+
     /// One error that is in no file.
     pub fn of(diagnostic: Diagnostic) -> Self {
         Errors {
@@ -114,10 +119,16 @@ impl Errors {
         }
     }
 
-    /// Errors in `files`, sorted by place.
+    /// Errors in `files`, sorted by place: the first [`Errors::MOST`] of them, and how many more there are.
     pub fn new(mut diagnostics: Vec<Diagnostic>, files: &Arc<Vec<File>>) -> Self {
         diagnostics.sort_by_key(|d| d.span);
         diagnostics.dedup();
+        let more = diagnostics.len().saturating_sub(Self::MOST);
+        if more > 0 {
+            diagnostics.truncate(Self::MOST);
+            let s = if more == 1 { "" } else { "s" };
+            diagnostics.push(Diagnostic::new(format!("and {more} more error{s}")));
+        }
         Errors {
             diagnostics,
             files: files.clone(),
@@ -129,53 +140,50 @@ impl Errors {
     /// The errors as rustc shows its own, with the source; in colour for a terminal.
     pub fn render(&self, colour: bool) -> String {
         use codespan_reporting::term::{self, termcolor};
-        let mut files = SimpleFiles::new();
-        for file in self.files.iter() {
-            files.add(file.path.as_str(), file.text.as_str());
-        }
         let mut out = if colour {
             termcolor::Buffer::ansi()
         } else {
             termcolor::Buffer::no_color()
         };
         for diagnostic in &self.diagnostics {
-            let shown = self.shown(diagnostic);
+            let places: Vec<Span> = diagnostic
+                .span
+                .into_iter()
+                .chain(diagnostic.others.iter().map(|(span, _)| *span))
+                .collect();
+            let files = Views::new(&self.files, &places);
+            let shown = shown(diagnostic, &files);
             if term::emit_to_write_style(&mut out, &term::Config::default(), &files, &shown).is_err() {
                 // A place outside of its file: say what is wrong without it.
                 return self
                     .diagnostics
                     .iter()
-                    .map(|d| format!("error: {}\n", d.message))
+                    .map(|d| format!("error: {}\n", message(&d.message)))
                     .collect();
             }
         }
         String::from_utf8_lossy(out.as_slice()).trim_end().to_owned() + "\n"
     }
+}
 
-    fn shown(&self, diagnostic: &Diagnostic) -> codespan_reporting::diagnostic::Diagnostic<usize> {
-        let mut shown = codespan_reporting::diagnostic::Diagnostic::error().with_message(&diagnostic.message);
-        let place = |span: Span| {
-            let file = span.file as usize;
-            self.files
-                .get(file)
-                .map(|_| (file, span.start as usize..span.end as usize))
-        };
-        if let Some((file, range)) = diagnostic.span.and_then(place) {
-            shown = shown.with_label(Label::primary(file, range).with_message(&diagnostic.label));
-        }
-        for (span, label) in &diagnostic.others {
-            if let Some((file, range)) = place(*span) {
-                shown = shown.with_label(Label::secondary(file, range).with_message(label));
-            }
-        }
-        for note in &diagnostic.notes {
-            shown = shown.with_note(format!("note: {note}"));
-        }
-        if let Some(help) = &diagnostic.help {
-            shown = shown.with_note(format!("help: {help}"));
-        }
-        shown
+fn shown(diagnostic: &Diagnostic, files: &Views) -> codespan_reporting::diagnostic::Diagnostic<usize> {
+    let mut shown = codespan_reporting::diagnostic::Diagnostic::error().with_message(message(&diagnostic.message));
+    let place = |span: Span| files.range(span).map(|range| (span.file as usize, range));
+    if let Some((file, range)) = diagnostic.span.and_then(place) {
+        shown = shown.with_label(Label::primary(file, range).with_message(message(&diagnostic.label)));
     }
+    for (span, label) in &diagnostic.others {
+        if let Some((file, range)) = place(*span) {
+            shown = shown.with_label(Label::secondary(file, range).with_message(message(label)));
+        }
+    }
+    for note in &diagnostic.notes {
+        shown = shown.with_note(format!("note: {}", message(note)));
+    }
+    if let Some(help) = &diagnostic.help {
+        shown = shown.with_note(format!("help: {}", written_out(help)));
+    }
+    shown
 }
 
 impl fmt::Display for Errors {

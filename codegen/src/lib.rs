@@ -18,14 +18,17 @@ pub mod emit;
 mod eval;
 pub mod files;
 mod front;
+mod infer;
 pub mod ir;
 pub mod passes;
 mod pipeline;
 pub mod policy;
+mod shorten;
 
 pub use config::{Config, compile};
 pub use emit::EmitOptions;
 pub use eval::{LoopReport, OptionInfo, OptionKind};
 pub use pipeline::{Compiled, Kernel, Observer, Settings};
 pub use policy::{Branches, Transport, Unroll};
+pub use shorten::shorten;
 pub use straightline_manifest::{Format, Manifest, Precision, Stage};

@@ -3,6 +3,7 @@
 use crate::diagnostic::{Diagnostic, Errors, File};
 use crate::emit::{self, EmitError, EmitOptions, Emitted};
 use crate::eval::{self, LoopReport, OptionInfo};
+use crate::files;
 use crate::front::{self, Library};
 use crate::ir::{Graph, Invocation, verify};
 use crate::passes::{self, Schedule};
@@ -12,6 +13,9 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::{Arc, OnceLock};
 use straightline_manifest::Counts;
+
+/// Longest file of a kernel that is read, in bytes.
+const MAX_SOURCE: u64 = 1 << 24;
 
 /// A kernel's source: its files and which function it is.
 #[derive(Clone, Debug)]
@@ -26,7 +30,7 @@ pub struct Kernel {
 /// How a kernel is to be evaluated.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Settings {
-    /// Option and value; what is not named stays at its default, and of an option named twice the last counts.
+    /// Option and value; what is not named stays at its default, and an option named twice is refused.
     pub options: Vec<(String, String)>,
     /// What becomes of loops.
     pub unroll: Unroll,
@@ -91,7 +95,8 @@ pub struct Compiled {
     pub graph: Graph,
     /// In which order.
     pub schedule: Schedule,
-    /// What one invocation executes; `statements` is 0 until it is emitted.
+    /// What one invocation executes. `basic_blocks` is what the kernel's own loops and branches make; emission counts them in
+    /// the shader.
     pub counts: Counts,
     /// How lanes of quads were asked to hear from each other.
     pub transport: Option<Transport>,
@@ -113,13 +118,20 @@ impl Compiled {
         };
         let graph = Graph::clone(graph);
         let schedule = passes::schedule(&graph);
-        Cow::Owned(Compiled {
+        let whole = Compiled {
             counts: passes::count(&graph, &schedule),
             graph,
             schedule,
             quad: None,
             ..self.clone()
-        })
+        };
+        Cow::Owned(whole.with_statements())
+    }
+
+    /// With its statements counted.
+    fn with_statements(mut self) -> Compiled {
+        self.counts.statements = emit::statements(&self);
+        self
     }
 
     /// The kernel's reads and stores with next to no arithmetic between: what no form of it can beat
@@ -141,13 +153,14 @@ impl Compiled {
         let graph = made(&self.graph)?;
         let quad = self.quad.as_deref().map(made).transpose()?;
         let schedule = passes::schedule(&graph);
-        Ok(Compiled {
+        let floor = Compiled {
             counts: passes::count(&graph, &schedule),
             graph,
             schedule,
             quad: quad.map(Arc::new),
             ..self.clone()
-        })
+        };
+        Ok(floor.with_statements())
     }
 }
 
@@ -260,6 +273,10 @@ impl Kernel {
     fn stages(&self, settings: &Settings, observer: &mut Observer<'_>) -> Result<Compiled, Errors> {
         let library = self.library()?;
         let policy = settings.policy();
+        policy.check().map_err(|what| {
+            let help = "use full, none, or partial(N), and name each loop once";
+            Errors::of(Diagnostic::new(what).help(help))
+        })?;
         let invocation = match settings.block {
             [1, 1] => Invocation::Pixel,
             _ => Invocation::Outlying,
@@ -335,8 +352,10 @@ impl Kernel {
             graph = stage("block", passes::clean(&expanded))?;
         }
         let schedule = passes::schedule(&graph);
-        let statements = emit::statements(&graph, &schedule);
-        if statements > settings.budget {
+        let within_budget = |statements: u32| {
+            if statements <= settings.budget {
+                return Ok(());
+            }
             let what = format!(
                 "`{}` has {statements} statements, more than its budget of {}",
                 self.name, settings.budget
@@ -344,31 +363,36 @@ impl Kernel {
             let error = Diagnostic::at(evaluated.span, what)
                 .label("this kernel")
                 .help(eval::WAY_OUT);
-            return Err(Errors::new(vec![eval::blame(&evaluated.loops, error)], &self.files));
-        }
+            Err(Errors::new(vec![eval::blame(&evaluated.loops, error)], &self.files))
+        };
+        // Most of what is too long is known to be before it is written.
+        within_budget(emit::statements_at_least(&graph, &schedule))?;
         let counts = passes::count(&graph, &schedule);
         let summary = if self.summary.is_empty() {
             first_sentence(&evaluated.docs)
         } else {
             self.summary.clone()
         };
-        Ok(Compiled {
+        let compiled = Compiled {
             kernel: self.name.clone(),
             summary,
-            options: evaluated.options,
+            options: evaluated.options.clone(),
             policy,
-            loops: evaluated.loops,
+            loops: evaluated.loops.clone(),
             graph,
             schedule,
             counts,
             transport: settings.transport,
             quad,
-        })
+        };
+        let compiled = compiled.with_statements();
+        within_budget(compiled.counts.statements)?;
+        Ok(compiled)
     }
 }
 
 fn read(path: &Path) -> Result<String, Errors> {
-    std::fs::read_to_string(path).map_err(|error| {
+    files::read_text(path, MAX_SOURCE).map_err(|error| {
         let what = format!("cannot read the kernel file `{}`: {error}", path.display());
         Errors::of(
             Diagnostic::new(what).help("paths are taken from the folder that the build runs in: the crate's own"),

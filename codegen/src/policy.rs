@@ -143,6 +143,36 @@ pub struct Policy {
 }
 
 impl Policy {
+    /// Refuses factors of partial unrolling that say nothing: 0, 1, and more than [`MAX_FACTOR`].
+    ///
+    /// # Errors
+    ///
+    /// What is wrong, in words.
+    pub fn check(&self) -> Result<(), String> {
+        let all = std::iter::once(("loops", &self.unroll));
+        let single = self.loops.iter().map(|(path, unroll)| (path.as_str(), unroll));
+        for (what, unroll) in all.chain(single) {
+            if let Unroll::Partial(n) = unroll
+                && !(2..=MAX_FACTOR).contains(n)
+            {
+                let what = if what == "loops" {
+                    what.to_owned()
+                } else {
+                    format!("the loop `{what}`")
+                };
+                return Err(format!(
+                    "{what} cannot be unrolled by {n}: a partial unroll writes the body 2 to {MAX_FACTOR} times in a row"
+                ));
+            }
+        }
+        for (k, (path, first)) in self.loops.iter().enumerate() {
+            if let Some((_, again)) = self.loops[..k].iter().find(|(other, _)| other == path) {
+                return Err(format!("the loop `{path}` is given two policies, {again} and {first}"));
+            }
+        }
+        Ok(())
+    }
+
     /// What is asked of the loop over `counter` in `function`, of which the source says `attribute`.
     pub fn asked(&self, function: &str, counter: &str, attribute: Option<Unroll>) -> Asked {
         let named = self

@@ -462,3 +462,80 @@ fn changed_bytes_never_panic() {
     }
     assert!(refused > tried / 4, "{refused} of {tried} refused");
 }
+
+#[test]
+fn surplus_and_double_layers_are_refused() {
+    let scratch = Scratch::new("capture-surplus");
+    let dir = scratch.join("capture");
+    let capture = Capture {
+        reference: None,
+        ..example(ShadingSample::Sample(0))
+    };
+    let layers = |names: &[&'static str]| -> Vec<(&'static str, UVec2, &'static [&'static str])> {
+        names.iter().map(|name| (*name, SIZE, &["Z"][..])).collect()
+    };
+    for (names, says) in [
+        (
+            &["sample0", "sample1", "sample2", "sample3", "centre"][..],
+            "a layer `centre`",
+        ),
+        (
+            &["sample0", "sample1", "sample2", "sample3", "sample4"],
+            "a layer `sample4`",
+        ),
+        (
+            &["sample0", "sample1", "sample2", "sample3", "sample03"],
+            "a layer `sample03`",
+        ),
+        (
+            &["sample0", "sample1", "sample2", "sample3", "beauty"],
+            "a layer `beauty`",
+        ),
+    ] {
+        let _ = fs::remove_dir_all(&dir);
+        capture.write(&dir).unwrap();
+        write_exr(&dir.join("depth.exr"), &layers(names));
+        let said = Capture::read(&dir).unwrap_err().to_string();
+        assert!(said.contains("depth.exr") && said.contains(says), "{said}");
+    }
+    let twice = [
+        ("sample0", &["Z"][..]),
+        ("rest", &["sample0.Z", "sample1.Z", "sample2.Z", "sample3.Z"]),
+    ];
+    let twice: Vec<_> = twice.iter().map(|(name, channels)| (*name, SIZE, *channels)).collect();
+    write_exr(&dir.join("depth.exr"), &twice);
+    let said = Capture::read(&dir).unwrap_err().to_string();
+    assert!(said.contains("two layers `sample0` with a channel `Z`"), "{said}");
+}
+
+#[test]
+fn normals_and_references_that_are_not_finite_are_refused_with_their_place() {
+    let scratch = Scratch::new("capture-nan");
+    let at = |k: usize| move |i: f32| if i == k as f32 { f32::NAN } else { 0.5 };
+    let good = example(ShadingSample::Sample(0));
+    let mut normal = good.clone();
+    let mut layers: Vec<Frame<Vec3>> = normal.normal.clone().unwrap().layers().to_vec();
+    layers[2] = frame(SIZE, |i| Vec3::splat(at(21)(i)));
+    normal.normal = Some(FrameLayers::new(layers));
+    let mut reference = good;
+    reference.reference = Some(frame(SIZE, |i| Vec4::splat(at(40)(i))));
+    for (name, capture, says) in [
+        (
+            "normal",
+            normal,
+            ["normal.exr", "layer `sample2`", "at (2, 1)", "1 of 247 pixels"],
+        ),
+        (
+            "reference",
+            reference,
+            ["reference.exr", "its colour", "at (2, 2)", "not finite"],
+        ),
+    ] {
+        let dir = scratch.join(name);
+        capture.write(&dir).unwrap();
+        let said = Capture::read(&dir).unwrap_err().to_string();
+        for text in says {
+            assert!(said.contains(text), "{said}");
+        }
+    }
+}

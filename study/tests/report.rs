@@ -295,3 +295,19 @@ fn records_are_read_as_they_were_written() {
     );
     std::fs::remove_dir_all(&folder).unwrap();
 }
+
+#[test]
+fn a_time_beyond_all_measure_is_refused() {
+    let folder = std::env::temp_dir().join(format!("straightline-vast-{}", std::process::id()));
+    let mut record = loops();
+    for form in &mut record.kernels[0].forms {
+        form.time = times(1e308);
+        form.ratio = ratio(1e308);
+    }
+    record.write(&folder).unwrap();
+    let start = std::time::Instant::now();
+    let said = report::write(&folder).unwrap_err().to_string();
+    assert!(said.contains("e308") && said.contains("measure again"), "{said}");
+    assert!(start.elapsed().as_secs() < 10);
+    std::fs::remove_dir_all(&folder).unwrap();
+}

@@ -4,6 +4,7 @@
 //! walker that shares no code with it. The two must agree bit for bit, whatever becomes of loops.
 
 pub use straightline_study::oracle::quads;
+pub mod compilers;
 pub mod impatient;
 pub mod random;
 pub mod readme;

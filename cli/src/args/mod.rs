@@ -8,7 +8,7 @@ use glam::UVec2;
 use std::path::PathBuf;
 use straightline_codegen::diagnostic::Errors;
 use straightline_codegen::emit::Target;
-use straightline_codegen::{Branches, Kernel, Settings, Transport, Unroll};
+use straightline_codegen::{Branches, Kernel, Settings, Transport, Unroll, shorten};
 use straightline_manifest::{Format, Precision, Stage};
 
 pub use study::{CommonArgs, ErrorArgs, HardArgs, LoopsArgs, Study, StudyArgs};
@@ -217,8 +217,9 @@ pub struct RunArgs {
     #[command(flatten)]
     pub kernel: KernelArgs,
     /// Picture for a texture of the kernel, NAME=FILE; NAME may be left out where it has one texture. May be given several
-    /// times. PNG or EXR; files given for a texture with layers, in order, are its layers
-    #[arg(long, value_name = "[NAME=]FILE", required = true)]
+    /// times. PNG or EXR; FILE.exr:LAYER is one layer of a file, such as depth.exr:centre of a capture; files given for a
+    /// texture with layers, in order, are its layers
+    #[arg(long, value_name = "[NAME=]FILE")]
     pub input: Vec<String>,
     /// Value of a uniform: NAME=NUMBER, or NAME=X,Y,Z for a vector. May be given several times
     #[arg(long, value_name = "NAME=NUMBERS", value_parser = pair)]
@@ -226,7 +227,7 @@ pub struct RunArgs {
     /// Elements of a buffer: NAME=A,B,C. May be given several times
     #[arg(long, value_name = "NAME=NUMBERS", value_parser = pair)]
     pub buffer: Vec<(String, String)>,
-    /// Width and height of the output; by default those of the first input
+    /// Width and height of the output; by default those of the first input that has the output's size
     #[arg(long, value_name = "WxH", value_parser = size)]
     pub size: Option<UVec2>,
     /// Picture to write: .png (8 bits, sRGB) or .exr (linear floats)
@@ -257,7 +258,7 @@ pub struct BudgetArgs {
     #[arg(long, value_name = "N", default_value_t = 9, value_parser = clap::value_parser!(u32).range(1..=1000))]
     pub rounds: u32,
     /// What drawing the further geometry samples costs in your renderer, in milliseconds
-    #[arg(long, value_name = "MS", default_value_t = 0.0)]
+    #[arg(long, value_name = "MS", default_value_t = 0.0, allow_negative_numbers = true, value_parser = milliseconds)]
     pub geometry_ms: f64,
     /// Also write the figures and their circumstances to this JSON file
     #[arg(long, value_name = "FILE")]
@@ -418,7 +419,19 @@ fn pair(text: &str) -> Result<(String, String), String> {
     match text.split_once('=') {
         Some((name, value)) if !name.is_empty() && !value.is_empty() => Ok((name.to_owned(), value.to_owned())),
         _ => Err(format!(
-            "`{text}` is not of the form OPTION=VALUE, such as pattern=ordered16"
+            "`{}` is not of the form OPTION=VALUE, such as pattern=ordered16",
+            shorten(text)
+        )),
+    }
+}
+
+/// A time that something can take.
+fn milliseconds(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(number) if (0.0..=1e9).contains(&number) => Ok(number),
+        _ => Err(format!(
+            "`{}` is no time in milliseconds: give a number from 0 to 1e9, such as 1.5",
+            shorten(text)
         )),
     }
 }
@@ -428,7 +441,8 @@ fn size(text: &str) -> Result<UVec2, String> {
     match text.split_once('x').and_then(parse) {
         Some(size) if (1..=8192).contains(&size.x) && (1..=8192).contains(&size.y) => Ok(size),
         _ => Err(format!(
-            "`{text}` is not a size such as 1280x720, from 1x1 to 8192x8192"
+            "`{}` is not a size such as 1280x720, from 1x1 to 8192x8192",
+            shorten(text)
         )),
     }
 }

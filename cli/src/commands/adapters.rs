@@ -11,14 +11,14 @@ pub fn run(args: &AdaptersArgs) -> Result<(), Failure> {
     let adapters = gpu::adapters();
     let described: Vec<_> = adapters.iter().map(describe).collect();
     if args.json {
-        println!("{:#}", json!({ "adapters": described }));
+        outln!("{:#}", json!({ "adapters": described }));
         return Ok(());
     }
     if described.is_empty() {
-        println!("no adapter: {}", gpu::INSTALL);
+        outln!("no adapter: {}", gpu::INSTALL);
     }
     for adapter in &described {
-        println!("{}", adapter["name"].as_str().unwrap_or_default());
+        outln!("{}", adapter["name"].as_str().unwrap_or_default());
         for key in [
             "type",
             "backend",
@@ -30,7 +30,7 @@ pub fn run(args: &AdaptersArgs) -> Result<(), Failure> {
             "subgroups",
             "float32_output",
         ] {
-            println!("  {:<16} {}", key.replace('_', " "), plain(&adapter[key]));
+            outln!("  {:<16} {}", key.replace('_', " "), plain(&adapter[key]));
         }
     }
     Ok(())

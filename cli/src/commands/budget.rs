@@ -1,12 +1,13 @@
 //! `budget`: what SRAA costs in memory, reads and time (the paper's tables 1 and 2), and from which shading cost it pays.
 
+use super::study::command;
 use crate::args::BudgetArgs;
 use crate::failure::Failure;
 use crate::gpu::Gpu;
 use crate::{scene, table};
 use serde::Serialize;
 use std::time::SystemTime;
-use straightline_codegen::{Compiled, Kernel, Settings};
+use straightline_codegen::{Compiled, Kernel, Settings, files};
 use straightline_manifest::Stage;
 use straightline_runtime::Pass;
 use straightline_study::capture::ShadingSample;
@@ -72,6 +73,9 @@ struct Record {
 /// Counts, measures, prints.
 pub fn run(args: &BudgetArgs) -> Result<(), Failure> {
     let pixels = u64::from(args.size.x) * u64::from(args.size.y);
+    if let Some(path) = &args.record {
+        files::try_file(path, true).map_err(Failure::of)?;
+    }
     let gpu = Gpu::require(&args.adapter)?;
     let (filters, clock) = measured(args, &gpu)?;
     let reads = |pattern: &str| {
@@ -95,7 +99,7 @@ pub fn run(args: &BudgetArgs) -> Result<(), Failure> {
         cost("16x supersampling", 16, 16, None),
     ];
     let record = Record {
-        command: std::env::args().collect::<Vec<_>>().join(" "),
+        command: command(),
         date: humantime::format_rfc3339_seconds(SystemTime::now()).to_string(),
         size: args.size.to_array(),
         geometry_ms: args.geometry_ms,
@@ -106,7 +110,7 @@ pub fn run(args: &BudgetArgs) -> Result<(), Failure> {
     };
     if let Some(path) = &args.record {
         let text = serde_json::to_string_pretty(&record).map_err(Failure::of)? + "\n";
-        std::fs::write(path, &text).map_err(|e| Failure::of(format!("cannot write `{}`: {e}", path.display())))?;
+        files::write(path, text.as_bytes()).map_err(Failure::of)?;
     }
     print(args, &record)
 }
@@ -183,10 +187,10 @@ fn measured(args: &BudgetArgs, gpu: &Gpu) -> Result<(Vec<Filter>, Clock), Failur
 
 fn print(args: &BudgetArgs, record: &Record) -> Result<(), Failure> {
     if args.json {
-        println!("{}", serde_json::to_string_pretty(record).map_err(Failure::of)?);
+        outln!("{}", serde_json::to_string_pretty(record).map_err(Failure::of)?);
         return Ok(());
     }
-    println!(
+    outln!(
         "{}x{} on {}; medians of {} rounds in turn, {}\n",
         record.size[0],
         record.size[1],
@@ -213,11 +217,11 @@ fn print(args: &BudgetArgs, record: &Record) -> Result<(), Failure> {
         })
         .collect();
     let headings = ["per pixel", "geometry", "shading", "6 B", "8 B", "12 B", "reads"];
-    println!("{}", table::render(&headings, &rows));
+    outln!("{}", table::render(&headings, &rows));
     for (format, bytes) in FORMATS {
-        println!("{bytes} B a sample: {format}");
+        outln!("{bytes} B a sample: {format}");
     }
-    println!("Shading at the pixel's centre needs the geometry there too, which the main G-buffer pass has.\n");
+    outln!("Shading at the pixel's centre needs the geometry there too, which the main G-buffer pass has.\n");
     let rows: Vec<Vec<String>> = record
         .filters
         .iter()
@@ -237,9 +241,9 @@ fn print(args: &BudgetArgs, record: &Record) -> Result<(), Failure> {
         })
         .collect();
     let headings = ["metric", "pattern", "reads", "ms", "ratio", "paper", "pays from"];
-    println!("{}", table::render(&headings, &rows));
-    println!("ratio: to depth-normals of the same pattern; paper: table 1, GeForce GTX 480.");
-    println!(
+    outln!("{}", table::render(&headings, &rows));
+    outln!("ratio: to depth-normals of the same pattern; paper: table 1, GeForce GTX 480.");
+    outln!(
         "pays from: shading of one sample a pixel that costs at least this is dearer for all samples than the filter{}.",
         match args.geometry_ms > 0.0 {
             true => format!(" and the {} ms of further geometry", args.geometry_ms),

@@ -22,6 +22,6 @@ pub fn run(args: &CaptureArgs) -> Result<(), Failure> {
         capture.reference = Some(frame);
     }
     capture.write(&args.out).map_err(Failure::of)?;
-    println!("{}", args.out.display());
+    outln!("{}", args.out.display());
     Ok(())
 }

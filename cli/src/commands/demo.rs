@@ -1,11 +1,13 @@
 //! `demo`: what Straightline does, in one run.
 
+use super::study::command;
 use crate::args::DemoArgs;
 use crate::failure::Failure;
 use crate::gpu::{self, Gpu};
 use crate::{scene, table};
 use glam::{UVec2, Vec4};
 use serde::Serialize;
+use std::collections::BTreeMap;
 use std::time::{Instant, SystemTime};
 use straightline_codegen::{Compiled, Kernel, Settings, Unroll, default_set, files};
 use straightline_kernels::prelude::Frame;
@@ -55,9 +57,10 @@ struct Record {
 
 /// Emits, renders, antialiases, compares, writes and prints.
 pub fn run(args: &DemoArgs) -> Result<(), Failure> {
+    files::try_folder(&args.out).map_err(Failure::of)?;
     let gpu = Gpu::open(&args.adapter)?;
     if gpu.is_none() {
-        eprintln!(
+        errln!(
             "No GPU adapter: the same graphs run on the CPU interpreter instead. For the shaders, {}.",
             gpu::INSTALL
         );
@@ -68,7 +71,10 @@ pub fn run(args: &DemoArgs) -> Result<(), Failure> {
         UVec2::new(320, 180)
     });
     let shaders = default_set::files().map_err(Failure::of)?;
-    files::write_all(&args.out.join("shaders"), &shaders).map_err(Failure::of)?;
+    let shaders = shaders
+        .into_iter()
+        .map(|(name, bytes)| (format!("shaders/{name}"), bytes));
+    let mut set: BTreeMap<String, Vec<u8>> = shaders.collect();
 
     let world = scene::load(args.mesh.as_deref(), &args.scene)?;
     let renderer = scene::renderer(gpu.as_ref(), &world, size)?;
@@ -93,11 +99,13 @@ pub fn run(args: &DemoArgs) -> Result<(), Failure> {
     }
     rows.push(plain("16x supersampling", &x16, &x256));
     pictures.push(("16x supersampled", x16));
-    write_pictures(args, &pictures, &x256)?;
+    add_pictures(&mut set, &pictures, &x256)?;
+    // Shaders and pictures are one set: whole, or not there.
+    files::write_all(&args.out, &set).map_err(Failure::of)?;
 
     let executor = gpu.as_ref().map_or("CPU interpreter".to_owned(), Gpu::describe);
     let record = Record {
-        command: std::env::args().collect::<Vec<_>>().join(" "),
+        command: command(),
         date: humantime::format_rfc3339_seconds(SystemTime::now()).to_string(),
         scene: args
             .mesh
@@ -225,8 +233,15 @@ fn measured_row(
     })
 }
 
-fn write_pictures(args: &DemoArgs, pictures: &[(&str, Frame<Vec4>)], reference: &Frame<Vec4>) -> Result<(), Failure> {
-    let save = |name: &str, frame: &Frame<Vec4>| picture::write(&args.out.join(name), frame).map_err(Failure::of);
+fn add_pictures(
+    set: &mut BTreeMap<String, Vec<u8>>,
+    pictures: &[(&str, Frame<Vec4>)],
+    reference: &Frame<Vec4>,
+) -> Result<(), Failure> {
+    let mut save = |name: &str, frame: &Frame<Vec4>| -> Result<(), Failure> {
+        set.insert(name.to_owned(), picture::png_bytes(frame).map_err(Failure::of)?);
+        Ok(())
+    };
     for (name, frame) in pictures {
         save(&format!("{}.png", name.to_lowercase().replace(' ', "-")), frame)?;
     }
@@ -263,7 +278,7 @@ fn busiest(plain: &Frame<Vec4>, reference: &Frame<Vec4>) -> (UVec2, UVec2, u32) 
 
 fn print(args: &DemoArgs, record: &Record) -> Result<(), Failure> {
     if args.json {
-        println!("{}", serde_json::to_string_pretty(record).map_err(Failure::of)?);
+        outln!("{}", serde_json::to_string_pretty(record).map_err(Failure::of)?);
         return Ok(());
     }
     let count = |n: Option<u32>| n.map_or(String::new(), |n| n.to_string());
@@ -295,17 +310,19 @@ fn print(args: &DemoArgs, record: &Record) -> Result<(), Failure> {
         "PSNR",
         "off f64 by",
     ];
-    println!("{}", table::render(&headings, &rows));
+    outln!("{}", table::render(&headings, &rows));
     let with = match record.clock {
         Clock::GpuTimestamps => "GPU timestamps, shaders in turn",
         Clock::WallClock => "wall clock, in turn",
     };
-    println!(
+    outln!(
         "{}x{} on {}; medians by {with}.",
-        record.size[0], record.size[1], record.executor
+        record.size[0],
+        record.size[1],
+        record.executor
     );
-    println!("PSNR is against {}.", record.reference);
-    println!(
+    outln!("PSNR is against {}.", record.reference);
+    outln!(
         "Shaders, pictures and an enlarged detail are in {}.",
         args.out.display()
     );

@@ -33,7 +33,7 @@ pub fn run(args: &EmitArgs) -> Result<(), Failure> {
     }
     let written = files::write_all(&args.out, &emitted.named(name)).map_err(Failure::of)?;
     for file in written {
-        println!("{}", file.display());
+        outln!("{}", file.display());
     }
     Ok(())
 }
@@ -47,7 +47,7 @@ fn refuse_visible_loss(args: &EmitArgs) -> Result<(), Failure> {
     let options: Vec<_> = set.filter(|(_, value)| value != "uniform").cloned().collect();
     let verdict = match hard::half_precision_verdict(kernel, &options) {
         Err(HardError::NotStudied(_)) => {
-            eprintln!("note: no hard cases tell what f16 costs `{kernel}`; compare `run --precision f16` and f32");
+            errln!("note: no hard cases tell what f16 costs `{kernel}`; compare `run --precision f16` and f32");
             return Ok(());
         }
         verdict => verdict.map_err(Failure::of)?,

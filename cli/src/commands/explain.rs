@@ -14,7 +14,7 @@ pub fn run(args: &ExplainArgs) -> Result<(), Failure> {
     let kernel = args.kernel.locate()?;
     let compiled = kernel.compile_observed(&args.kernel.options.settings(), &mut |stage, graph| {
         if args.dump {
-            println!("== {stage}\n{}", straightline_codegen::ir::print(graph));
+            outln!("== {stage}\n{}", straightline_codegen::ir::print(graph));
         }
     })?;
     // Statements are those of the emitted text.
@@ -31,11 +31,11 @@ pub fn run(args: &ExplainArgs) -> Result<(), Failure> {
     if args.json {
         let mut out = to_json(&compiled, &counts, &bound, paper);
         out.insert("precision".into(), json!(args.precision));
-        println!("{:#}", Value::Object(out));
+        outln!("{:#}", Value::Object(out));
     } else {
         print(&compiled, &counts, &bound, paper);
         if args.precision != Precision::default() {
-            println!("\nin {}: the device needs {features}", args.precision);
+            outln!("\nin {}: the device needs {features}", args.precision);
         }
     }
     Ok(())
@@ -95,13 +95,13 @@ fn to_json(compiled: &Compiled, counts: &Counts, bound: &Bound, paper: Option<Pa
 }
 
 fn print(compiled: &Compiled, counts: &Counts, bound: &Bound, paper: Option<PaperCounts>) {
-    println!("{}: {}", compiled.kernel, compiled.summary);
+    outln!("{}: {}", compiled.kernel, compiled.summary);
     let options: Vec<String> = compiled
         .options
         .iter()
         .map(|(name, value)| format!("{name}={value}"))
         .collect();
-    println!("  {} unroll={}\n", options.join(" "), compiled.policy);
+    outln!("  {} unroll={}\n", options.join(" "), compiled.policy);
     let names = |names: &[String]| {
         if names.is_empty() {
             "none".to_owned()
@@ -109,8 +109,8 @@ fn print(compiled: &Compiled, counts: &Counts, bound: &Bound, paper: Option<Pape
             names.join(", ")
         }
     };
-    println!("inputs: {}", names(&bound.inputs));
-    println!("set at run time: {}\n", names(&bound.uniforms));
+    outln!("inputs: {}", names(&bound.inputs));
+    outln!("set at run time: {}\n", names(&bound.uniforms));
     let mut rows = vec![
         row("basic blocks", counts.basic_blocks, None),
         row("loops", counts.loops, None),
@@ -140,7 +140,7 @@ fn print(compiled: &Compiled, counts: &Counts, bound: &Bound, paper: Option<Pape
         [1, 1] => "per pixel".to_owned(),
         [width, height] => format!("per {width}x{height} pixels"),
     };
-    print!("{}", table::render(&[&per, "here", "paper"], &rows));
+    out!("{}", table::render(&[&per, "here", "paper"], &rows));
     print_loops(compiled);
 }
 
@@ -159,14 +159,14 @@ fn print_loops(compiled: &Compiled) {
     if loops.is_empty() {
         return;
     }
-    println!();
-    print!(
+    outln!();
+    out!(
         "{}",
         table::render(&["loop", "unroll", "iterations evaluated", "operations"], &loops)
     );
     for report in &compiled.loops {
         if let Some(reason) = &report.reason {
-            println!("`{}` was unrolled: {reason}", report.path());
+            outln!("`{}` was unrolled: {reason}", report.path());
         }
     }
 }

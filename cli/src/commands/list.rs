@@ -20,26 +20,26 @@ pub fn run(args: &ListArgs) -> Result<(), Failure> {
                 json!({ "name": entry.name, "summary": entry.summary, "options": options })
             })
             .collect();
-        println!("{:#}", json!({ "kernels": list }));
+        outln!("{:#}", json!({ "kernels": list }));
         return Ok(());
     }
     for (entry, options) in &kernels {
-        println!("{}\n  {}\n", entry.name, entry.summary);
+        outln!("{}\n  {}\n", entry.name, entry.summary);
         for option in options {
             print_option(option);
         }
     }
-    println!("Set an option with --set OPTION=VALUE. A kernel of your own: FILE.rs::FUNCTION in place of the name.");
+    outln!("Set an option with --set OPTION=VALUE. A kernel of your own: FILE.rs::FUNCTION in place of the name.");
     Ok(())
 }
 
 fn print_option(option: &OptionInfo) {
-    println!("  {}: {}", option.name, option.docs);
+    outln!("  {}: {}", option.name, option.docs);
     match &option.kind {
         OptionKind::Choice(values) => {
             for (name, docs) in values {
                 let mark = if *name == option.default { " (default)" } else { "" };
-                println!("      {name}{mark}: {docs}");
+                outln!("      {name}{mark}: {docs}");
             }
         }
         OptionKind::Number { min, max, .. } => {
@@ -48,7 +48,7 @@ fn print_option(option: &OptionInfo) {
                 true => ("", "default: uniform, "),
                 false => (", or uniform", "default "),
             };
-            println!(
+            outln!(
                 "      {} to {}{or} ({default}{})",
                 bound(min),
                 bound(max),
@@ -62,9 +62,9 @@ fn print_option(option: &OptionInfo) {
             } else {
                 &option.default
             };
-            println!("      {many} numbers, separated by commas (default {default})");
+            outln!("      {many} numbers, separated by commas (default {default})");
         }
-        OptionKind::Flag => println!("      true or false (default {})", option.default),
+        OptionKind::Flag => outln!("      true or false (default {})", option.default),
     }
 }
 

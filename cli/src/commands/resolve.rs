@@ -5,7 +5,7 @@ use crate::failure::Failure;
 use crate::gpu::Gpu;
 use glam::Vec4;
 use serde_json::json;
-use straightline_codegen::{Compiled, Kernel};
+use straightline_codegen::{Compiled, Kernel, files};
 use straightline_kernels::prelude::Frame;
 use straightline_study::capture::Capture;
 use straightline_study::execute::interpret;
@@ -15,6 +15,7 @@ use straightline_study::{metrics, picture};
 /// Reads a capture, resolves it with SRAA, writes the picture, prints errors if asked.
 pub fn run(args: &ResolveArgs) -> Result<(), Failure> {
     check_extension(args)?;
+    files::try_file(&args.out, false).map_err(Failure::of)?;
     let capture = Capture::read(&args.capture).map_err(Failure::of)?;
     let settings = with_capture(&args.options, &capture)?;
     let compiled = Kernel::builtin("sraa")?.compile(&settings.settings())?;
@@ -52,15 +53,15 @@ fn report(
             out["psnr_1x_db"] = json!(before);
             out["psnr_db"] = json!(after);
         }
-        println!("{out:#}");
+        outln!("{out:#}");
         return Ok(());
     }
-    println!("{}", args.out.display());
+    outln!("{}", args.out.display());
     if let Some((before, after)) = errors {
-        println!("PSNR against the reference: {after:.2} dB, and {before:.2} dB without antialiasing");
+        outln!("PSNR against the reference: {after:.2} dB, and {before:.2} dB without antialiasing");
     }
     if bad > 0 {
-        println!("{bad} pixels are not finite");
+        outln!("{bad} pixels are not finite");
     }
     Ok(())
 }
@@ -88,7 +89,9 @@ fn with_capture(options: &OptionArgs, capture: &Capture) -> Result<OptionArgs, F
                 "--set {name}={asked}, but the capture was sampled with {name}={decided}"
             )));
         }
-        options.set.push((name, decided));
+        if !options.set.iter().any(|(known, _)| *known == name) {
+            options.set.push((name, decided));
+        }
     }
     if let Some((name, _)) = options.set.iter().find(|(_, value)| value == "uniform") {
         return Err(Failure::Usage(format!(

@@ -9,11 +9,11 @@ use straightline_study::scene::NAMES;
 pub fn run(args: &ScenesArgs) -> Result<(), Failure> {
     if args.json {
         let scenes = NAMES.map(|(name, purpose)| json!({ "name": name, "purpose": purpose }));
-        println!("{:#}", json!({ "scenes": scenes }));
+        outln!("{:#}", json!({ "scenes": scenes }));
         return Ok(());
     }
     for (name, purpose) in NAMES {
-        println!("{name:<10} {purpose}");
+        outln!("{name:<10} {purpose}");
     }
     Ok(())
 }

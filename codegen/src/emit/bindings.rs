@@ -39,7 +39,7 @@ fn module(module: &Module<'_>) -> TokenStream {
     });
     let count = Literal::usize_unsuffixed(inputs.len());
     let pairs = inputs.iter().map(|input| {
-        let (field, name) = (&input.name, input.name.to_string());
+        let (field, name) = (&input.name, &input.bound);
         quote! { (#name, Resource::from(inputs.#field)) }
     });
     let pairs: Vec<TokenStream> = pairs.collect();
@@ -75,7 +75,7 @@ fn module(module: &Module<'_>) -> TokenStream {
     quote! {
         #(#[doc = #docs])*
         // A caller uses the part that it needs, and a struct of one reference is passed as one of many is.
-        #[allow(dead_code, clippy::trivially_copy_pass_by_ref)]
+        #[allow(dead_code, non_snake_case, clippy::trivially_copy_pass_by_ref)]
         pub mod #name {
             use straightline_runtime::{Error, Resource, wgpu};
 
@@ -129,6 +129,14 @@ fn module(module: &Module<'_>) -> TokenStream {
                 }
             }
         }
+    }
+}
+
+/// A name as Rust writes it, one of its keywords as `r#name`.
+pub fn identifier(name: &str) -> proc_macro2::Ident {
+    match syn::parse_str::<proc_macro2::Ident>(name) {
+        Ok(_) => format_ident!("{name}"),
+        Err(_) => proc_macro2::Ident::new_raw(name, proc_macro2::Span::call_site()),
     }
 }
 
@@ -281,6 +289,7 @@ fn output_entry(binding: u32, format: Format) -> TokenStream {
 /// A field of `Inputs`.
 struct Input {
     name: proc_macro2::Ident,
+    bound: String,
     docs: String,
     ty: proc_macro2::Ident,
 }
@@ -325,7 +334,8 @@ impl Input {
             BindingKind::Uniform { .. } => return None,
         };
         Some(Input {
-            name: format_ident!("{}", binding.name),
+            name: identifier(&binding.name),
+            bound: binding.name.clone(),
             docs,
             ty: format_ident!("{ty}"),
         })

@@ -3,18 +3,6 @@
 /// Why a kernel cannot be emitted.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum EmitError {
-    /// A constant that no shading language can write.
-    #[error(
-        "`{kernel}` needs the constant {value}, which {target} cannot write: bound it with `min` or `max` in the kernel"
-    )]
-    Constant {
-        /// The kernel.
-        kernel: String,
-        /// The constant.
-        value: String,
-        /// The language.
-        target: &'static str,
-    },
     /// The size of the frame is needed and nothing tells it.
     #[error(
         "`{kernel}` asks for the frame's size but reads no texture, so its fragment shader cannot know: emit it for compute"
@@ -78,13 +66,15 @@ pub enum EmitError {
         "a workgroup of {0}x{1} is not possible: each side is at least 1, and both together at most 1024 invocations"
     )]
     Workgroup(u32, u32),
-    /// A binding whose name is a word of a shading language.
-    #[error("`{kernel}` calls an input `{name}`, which is a word of WGSL or GLSL: give the parameter another name")]
-    Reserved {
+    /// A binding or a uniform whose name cannot be one in every language.
+    #[error("`{kernel}` calls an input `{name}`, which {why}: give the parameter another name")]
+    Name {
         /// The kernel.
         kernel: String,
-        /// The input.
+        /// The input, cut if it is long.
         name: String,
+        /// What is wrong with the name.
+        why: &'static str,
     },
     /// A validator refused the text: a mistake of the emitter's.
     #[error(

@@ -1,6 +1,6 @@
 //! GLSL 4.50 for Vulkan, with separate textures.
 
-use super::dialect::{Dialect, float, integer, operator};
+use super::dialect::{Dialect, Division, float, integer, operator};
 use super::resources::Resources;
 use super::text::{Binds, Text};
 use crate::ir::{Axis, BinaryOp, Direction, Scalar, TextureKind, Type, UnaryOp};
@@ -8,12 +8,29 @@ use crate::ir::{Axis, BinaryOp, Direction, Scalar, TextureKind, Type, UnaryOp};
 /// What follows a buffer's name to ask for its length.
 pub const LENGTH: &str = ".elements.length()";
 
+/// The four texels around a place, or what a comparison gives of them.
+pub const GATHER: &str = "textureGather";
+
 /// Quad operations, horizontal, vertical and diagonal.
 pub const MESSAGES: [&str; 3] = [
     "subgroupQuadSwapHorizontal",
     "subgroupQuadSwapVertical",
     "subgroupQuadSwapDiagonal",
 ];
+
+/// The smallest `int`, which no literal is.
+const SMALLEST: &str = "(-2147483647 - 1)";
+
+/// A name or a number.
+fn is_leaf(code: &str) -> bool {
+    let number = code.trim_start_matches('-').starts_with(|c: char| c.is_ascii_digit());
+    number || code.chars().all(|c| c.is_ascii_alphanumeric() || c == '_')
+}
+
+/// A leaf, or an operator between two of them.
+fn is_simple(x: &Text) -> bool {
+    x.size <= 1 && x.code.split(' ').step_by(2).all(is_leaf)
+}
 
 /// GLSL 4.50.
 pub struct Glsl<'a> {
@@ -67,7 +84,7 @@ impl Dialect for Glsl<'_> {
     fn scalar(&self, kind: Scalar, bits: u32) -> Text {
         match kind {
             Scalar::F32 => float(bits),
-            Scalar::I32 if bits as i32 == i32::MIN => Text::name("(-2147483647 - 1)"),
+            Scalar::I32 if bits as i32 == i32::MIN => Text::name(SMALLEST),
             Scalar::I32 => integer(i64::from(bits as i32), ""),
             Scalar::U32 => integer(i64::from(bits), "u"),
             Scalar::Bool => Text::name(if bits != 0 { "true" } else { "false" }),
@@ -96,10 +113,10 @@ impl Dialect for Glsl<'_> {
 
     fn loop_head(&self, counter: &str, ty: Type, start: &Text, end: &Text) -> String {
         format!(
-            "for ({} {counter} = {}; {counter} < {}; {counter}++) {{",
+            "for ({} {counter} = {}; {}; {counter}++) {{",
             if ty == Type::U32 { "uint" } else { "int" },
             start.code,
-            end.code
+            Text::infix(&Text::name(counter), "<", end, Binds::Comparison).code
         )
     }
 
@@ -133,25 +150,10 @@ impl Dialect for Glsl<'_> {
         }
     }
 
-    // naga reads no `textureGather`: the four texels are read one by one at their centres, where filters agree.
-    fn gather(&self, texture: u32, sampler: u32, component: u8, uv: &Text) -> (Text, Option<String>) {
-        let through = self.through("sampler2D", texture, sampler).code;
-        let lane = &"xyzw"[component as usize..=component as usize];
-        let function = format!(
-            "gather_{}_{}_{lane}",
-            self.resources.texture(texture).name,
-            self.resources.sampler(sampler).name
-        );
-        let tap = |x: &str, y: &str| format!("textureLod({through}, (base + vec2({x}, {y})) / size, 0.0).{lane}");
-        let text = format!(
-            "vec4 {function}(vec2 uv) {{\n    vec2 size = vec2(textureSize({through}, 0));\n    vec2 base = floor(uv * size - \
-             0.5);\n    return vec4({}, {}, {}, {});\n}}",
-            tap("0.5", "1.5"),
-            tap("1.5", "1.5"),
-            tap("1.5", "0.5"),
-            tap("0.5", "0.5"),
-        );
-        (Text::call(&function, &[uv]), Some(text))
+    fn gather(&self, texture: u32, sampler: u32, component: u8, uv: &Text) -> Text {
+        let through = self.through("sampler2D", texture, sampler);
+        let component = Text::name(component.to_string());
+        Text::call(GATHER, &[&through, uv, &component])
     }
 
     fn compare(&self, texture: u32, sampler: u32, uv: &Text, reference: &Text) -> Text {
@@ -160,25 +162,9 @@ impl Dialect for Glsl<'_> {
         Text::call("textureLod", &[&through, &place, &Text::name("0.0")])
     }
 
-    // naga reads no `textureGather`: as of colours, the four are compared one by one at their centres.
-    fn gather_compare(&self, texture: u32, sampler: u32, uv: &Text, reference: &Text) -> (Text, Option<String>) {
-        let through = self.through("sampler2DShadow", texture, sampler).code;
-        let function = format!(
-            "gather_compare_{}_{}",
-            self.resources.texture(texture).name,
-            self.resources.sampler(sampler).name
-        );
-        let tap =
-            |x: &str, y: &str| format!("textureLod({through}, vec3((base + vec2({x}, {y})) / size, reference), 0.0)");
-        let text = format!(
-            "vec4 {function}(vec2 uv, float reference) {{\n    vec2 size = vec2(textureSize({through}, 0));\n    vec2 base = \
-             floor(uv * size - 0.5);\n    return vec4({}, {}, {}, {});\n}}",
-            tap("0.5", "1.5"),
-            tap("1.5", "1.5"),
-            tap("1.5", "0.5"),
-            tap("0.5", "0.5"),
-        );
-        (Text::call(&function, &[uv, reference]), Some(text))
+    fn gather_compare(&self, texture: u32, sampler: u32, uv: &Text, reference: &Text) -> Text {
+        let through = self.through("sampler2DShadow", texture, sampler);
+        Text::call(GATHER, &[&through, uv, reference])
     }
 
     fn message(&self, direction: Direction, x: &Text) -> Text {
@@ -247,7 +233,7 @@ impl Dialect for Glsl<'_> {
                     LeadingZeros => Text::infix(&Text::name("31"), "-", &found, Binds::Sum),
                     _ => found,
                 };
-                let count = self.select(&none, &Text::name("32"), &zeros);
+                let count = self.select(ty, &none, &Text::name("32"), &zeros);
                 return Text::call(&self.ty(ty), &[&count]);
             }
             CountOneBits => return Text::call(&self.ty(ty), &[&Text::call("bitCount", &[x])]),
@@ -262,6 +248,7 @@ impl Dialect for Glsl<'_> {
             Round => "roundEven",
             Trunc => "trunc",
             Fract => "fract",
+            Saturate => return Text::call("clamp", &[x, &Text::name("0.0"), &Text::name("1.0")]),
             Sqrt => "sqrt",
             InverseSqrt => "inversesqrt",
             Exp => "exp",
@@ -289,6 +276,7 @@ impl Dialect for Glsl<'_> {
             Atan2 => Some("atan"),
             Eq if vector => Some("equal"),
             Ne if vector => Some("notEqual"),
+            Xor if vector && kind == Scalar::Bool => Some("notEqual"),
             Lt if vector => Some("lessThan"),
             Le if vector => Some("lessThanEqual"),
             Gt if vector => Some("greaterThan"),
@@ -306,24 +294,20 @@ impl Dialect for Glsl<'_> {
                 let back = Text::infix(y, "*", &whole, Binds::Product);
                 Text::infix(x, "-", &back, Binds::Sum)
             }
-            // Division by zero gives the dividend and its remainder 0, as in WGSL; GLSL leaves it open.
-            (Div | Rem, Scalar::I32 | Scalar::U32) if y.code.parse::<i64>().is_err() && !vector => {
-                let zero = self.scalar(kind, 0);
-                let none = Text::infix(y, "==", &zero, Binds::Comparison);
-                let (op, binds) = operator(op, kind).unwrap_or(("/", Binds::Product));
-                let some = Text::infix(x, op, y, binds);
-                let fallback = if op == "/" { x.clone() } else { zero };
-                self.select(&none, &fallback, &some)
+            // GLSL has no `&` of booleans, and glslang makes branches of `&&` and `||` where the right side is not a name or
+            // a comparison of two.
+            (And | Or, Scalar::Bool) if vector => {
+                let words = self.ty(ty.with_scalar(Scalar::U32));
+                let [x, y] = [x, y].map(|side| Text::call(&words, &[side]));
+                let both = Text::infix(&x, if op == And { "&" } else { "|" }, &y, Binds::Mixed);
+                Text::call(&self.ty(ty), &[&both])
             }
-            // A constant has no lane of 0 left.
-            (Div | Rem, Scalar::I32 | Scalar::U32) if vector && !(y.size == 0 && y.code.ends_with(')')) => {
-                // A lane of 0 becomes 1, which gives the same.
-                let ty_name = self.ty(ty);
-                let zero = Text::call(&ty_name, &[&self.scalar(kind, 0)]);
-                let none = Text::call("equal", &[y, &zero]);
-                let mended = Text::infix(y, "+", &Text::call(&ty_name, &[&none]), Binds::Sum);
-                let (op, binds) = operator(op, kind).unwrap_or(("/", Binds::Product));
-                Text::infix(x, op, &mended, binds)
+            (And | Or, Scalar::Bool) if is_simple(y) => {
+                Text::infix(x, if op == And { "&&" } else { "||" }, y, Binds::Mixed)
+            }
+            (And | Or, Scalar::Bool) => {
+                let both = Text::call("bvec2", &[x, y]);
+                Text::call(if op == And { "all" } else { "any" }, &[&both])
             }
             (Shl | Shr, _) => {
                 let counts = self.construct(ty, &[&self.scalar(kind, 31)]);
@@ -337,7 +321,15 @@ impl Dialect for Glsl<'_> {
         }
     }
 
-    fn select(&self, condition: &Text, yes: &Text, no: &Text) -> Text {
+    // glslang makes branches of a choice between more than names and literals, and none of `mix`.
+    fn select(&self, ty: Type, condition: &Text, yes: &Text, no: &Text) -> Text {
+        if !(is_leaf(&yes.code) && is_leaf(&no.code)) && ty.kind() != Some(Scalar::Bool) {
+            let condition = match ty.lanes() {
+                1 => condition.clone(),
+                _ => Text::call(&self.ty(ty.with_scalar(Scalar::Bool)), &[condition]),
+            };
+            return Text::call("mix", &[no, yes, &condition]);
+        }
         let wrap = |t: &Text| {
             if t.binds <= Binds::Ternary {
                 format!("({})", t.code)
@@ -352,18 +344,89 @@ impl Dialect for Glsl<'_> {
         }
     }
 
-    fn convert(&self, from: Type, to: Type, x: &Text, _: bool) -> Text {
-        // WGSL saturates; GLSL leaves numbers out of range open.
-        let bounds = match (from.kind(), to.kind()) {
-            (Some(Scalar::F32), Some(Scalar::I32)) => Some(("-2147483648.0", "2147483520.0")),
-            (Some(Scalar::F32), Some(Scalar::U32)) => Some(("0.0", "4294967040.0")),
-            _ => None,
+    // Division by zero gives the dividend and its remainder 0, as in WGSL, and the smallest integer divided by -1 itself; GLSL
+    // leaves both open. It leaves the remainder of negative numbers open too, and glslang gives it the sign of the divisor.
+    fn divide(&self, op: BinaryOp, ty: Type, x: &Text, y: &Text, known: Division) -> Option<(Text, String)> {
+        let signed = ty.kind() == Some(Scalar::I32);
+        let quotient = op == BinaryOp::Div;
+        if known.defined && (quotient || !signed || known.positive) {
+            return None;
+        }
+        let name = self.ty(ty);
+        let all = |code: &str| if ty.lanes() == 1 { code.to_owned() } else { format!("{name}({code})") };
+        let equal = |x: &str, code: &str| match ty.lanes() {
+            1 => format!("{x} == {code}"),
+            _ => format!("equal({x}, {name}({code}))"),
         };
-        let x = match bounds {
-            Some((low, high)) => Text::call("clamp", &[x, &Text::name(low), &Text::name(high)]),
-            None => x.clone(),
+        let (zero, one) = if signed { ("0", "1") } else { ("0u", "1u") };
+        let mut divisor = format!("mix(y, {}, {})", all(one), equal("y", zero));
+        if signed {
+            let overflow = match ty.lanes() {
+                1 => format!("all(bvec2({}, {}))", equal("x", SMALLEST), equal("y", "-1")),
+                lanes => format!(
+                    "bvec{lanes}({name}({}) & {name}({}))",
+                    equal("x", SMALLEST),
+                    equal("y", "-1")
+                ),
+            };
+            divisor = format!("mix({divisor}, {}, {overflow})", all(one));
+        }
+        let (function, comment, result) = match (quotient, signed) {
+            (true, _) => ("whole_quotient", "x / y, and x where that is not defined.", "x / divisor"),
+            (false, true) => (
+                "whole_remainder",
+                "What x / y leaves, with the sign of x, and 0 where it is not defined.",
+                "x - divisor * (x / divisor)",
+            ),
+            (false, false) => ("whole_remainder", "What x / y leaves, and 0 where it is not defined.", "x % divisor"),
         };
-        Text::call(&self.ty(to), &[&x])
+        let helper = format!(
+            "// {comment}\n{name} {function}({name} x, {name} y) {{\n    {name} divisor = {divisor};\n    return {result};\n}}"
+        );
+        Some((Text::call(function, &[x, y]), helper))
+    }
+
+    // WGSL saturates; GLSL leaves numbers out of range open. Rust has the largest integer for what is too large and 0 for a NaN.
+    fn convert(&self, from: Type, to: Type, x: &Text, fits: bool) -> (Text, Option<String>) {
+        let name = self.ty(to);
+        if !from.is_float() || !to.is_integer() || fits {
+            return (Text::call(&name, &[x]), None);
+        }
+        let signed = to.kind() == Some(Scalar::I32);
+        let (floats, words) = (self.ty(from), self.ty(to.with_scalar(Scalar::U32)));
+        let all = |ty: &str, code: &str| if to.lanes() == 1 { code.to_owned() } else { format!("{ty}({code})") };
+        let compare = |function: &str, op: &str, x: &str, y: &str| match to.lanes() {
+            1 => format!("{x} {op} {y}"),
+            _ => format!("{function}({x}, {y})"),
+        };
+        let (low, high, limit, largest, zero) = if signed {
+            ("-2147483648.0", "2147483520.0", "2147483648.0", "2147483647", "0")
+        } else {
+            ("0.0", "4294967040.0", "4294967296.0", "4294967295u", "0u")
+        };
+        let bits = match to.lanes() {
+            1 => "(floatBitsToUint(x) & 0x7fffffffu)".to_owned(),
+            _ => format!("floatBitsToUint(x) & {words}(0x7fffffffu)"),
+        };
+        let is_nan = compare("greaterThan", ">", &bits, &all(&words, "0x7f800000u"));
+        let too_large = compare("greaterThanEqual", ">=", "x", &all(&floats, limit));
+        let helper = format!(
+            "// What is out of range becomes the integer next to it, NaN becomes 0.\n{name} to_{name}({floats} x) {{\n    {name} \
+             whole = {name}(clamp(x, {low}, {high}));\n    return mix(mix(whole, {}, {too_large}), {}, {is_nan});\n}}",
+            all(&name, largest),
+            all(&name, zero),
+        );
+        (Text::call(&format!("to_{name}"), &[x]), Some(helper))
+    }
+
+    // GLSL leaves an index outside of an array open; WGSL goes to the last element.
+    fn inside(&self, index: &Text, len: u32) -> Text {
+        let index = Text::call("uint", &[index]);
+        Text::call("min", &[&index, &Text::name(format!("{}u", len - 1))])
+    }
+
+    fn non_finite(&self, bits: u32) -> Option<Text> {
+        Some(Text::name(format!("uintBitsToFloat({bits:#010x}u)")))
     }
 
     fn uniform(&self, name: &str) -> Text {

@@ -108,8 +108,8 @@ impl<'g> Listing<'g> {
             let values: Vec<String> = counters.iter().map(|c| format!("{} {}", c.name, c.value)).collect();
             let file = self.files.get(*file as usize).map_or("", String::as_str);
             let colon = if values.is_empty() { "" } else { ": " };
-            self.lines
-                .push(format!("{indent}// {}{colon}{file}:{line}", values.join(", ")));
+            let said = super::text::comment(&format!("{}{colon}{file}:{line}", values.join(", ")));
+            self.lines.push(format!("{indent}// {said}"));
             self.commented = place;
         }
         self.lines.extend(group.lines);

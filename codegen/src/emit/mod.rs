@@ -7,6 +7,7 @@
 mod arrays;
 mod bindings;
 mod body;
+mod check;
 mod dialect;
 mod error;
 mod glsl;
@@ -18,6 +19,7 @@ mod parameters;
 mod plan;
 mod resources;
 mod shell;
+mod spirv;
 mod target;
 mod text;
 mod translate;
@@ -150,8 +152,22 @@ impl Default for EmitOptions {
     }
 }
 
-/// Statements that a kernel will have, before any text is made: the long expressions that are split are not counted.
-pub fn statements(graph: &Graph, schedule: &Schedule) -> u32 {
+/// Statements of a kernel's body, the same in every language. Those of a kernel that cannot be emitted are estimated.
+pub fn statements(compiled: &Compiled) -> u32 {
+    let (graph, schedule) = (&compiled.graph, &compiled.schedule);
+    let mut options = EmitOptions::new();
+    if graph.invocation == Invocation::Lane {
+        options.stage = Stage::Fragment;
+    }
+    let written = resources::Resources::of(compiled, &options).and_then(|resources| {
+        let dialect = wgsl::Wgsl { resources: &resources };
+        body::body(compiled, &resources, &dialect)
+    });
+    written.map_or_else(|_| statements_at_least(graph, schedule), |body| body.statements)
+}
+
+/// Statements that a kernel will have, those not counted that long expressions are split into: quick to tell.
+pub fn statements_at_least(graph: &Graph, schedule: &Schedule) -> u32 {
     let plan = plan::Plan::new(graph, schedule);
     let live = graph.ids().filter(|id| schedule.place[id.0 as usize].is_some());
     live.filter(|id| plan.is_statement(*id) || matches!(graph.node(*id).op, Op::ArraySet | Op::Loop(_) | Op::If(..)))
@@ -183,28 +199,36 @@ pub fn emit(compiled: &Compiled, options: &EmitOptions) -> Result<Emitted, EmitE
     }
     let compiled = &*for_stage(compiled, options.stage)?;
     let resources = resources::Resources::of(compiled, options)?;
-    let wgsl = shell::render(compiled, &resources, &wgsl::Wgsl { resources: &resources })?;
-    let mut manifest = resources.manifest(compiled);
-    manifest.counts.statements = wgsl.statements;
-    let module = translate::Module::parse_wgsl(&compiled.kernel, &wgsl.text)?;
+    let dialect = wgsl::Wgsl { resources: &resources };
+    let body = body::body(compiled, &resources, &dialect)?;
+    // The header says how many blocks the shader has, and is a comment: what is counted is the same text.
+    let mut counts = compiled.counts.clone();
+    let counted = shell::render(compiled, &counts, &resources, &body, &dialect)?;
+    let module = translate::Module::parse_wgsl(&compiled.kernel, &counted)?;
+    let words = module.spirv(&resources)?;
+    counts.basic_blocks = spirv::basic_blocks(&words);
+    let wgsl = shell::render(compiled, &counts, &resources, &body, &dialect)?;
+    let manifest = resources.manifest(compiled, &counts);
     let mut files = BTreeMap::new();
     for target in &options.targets {
         let bytes = match target {
             Target::Wgsl if options.enable_subgroups && resources.subgroups => {
-                format!("enable subgroups;\n{}{}", gap(options.precision), wgsl.text).into_bytes()
+                format!("enable subgroups;\n{}{wgsl}", gap(options.precision)).into_bytes()
             }
-            Target::Wgsl => wgsl.text.clone().into_bytes(),
+            Target::Wgsl => wgsl.clone().into_bytes(),
             Target::Glsl450 if options.precision == Precision::F16 => {
                 return Err(EmitError::HalfGlsl {
                     kernel: compiled.kernel.clone(),
                 });
             }
             Target::Glsl450 => {
-                let glsl = shell::render(compiled, &resources, &glsl::Glsl { resources: &resources })?;
-                translate::check_glsl(&compiled.kernel, options.stage, &glsl.text, &resources.compared())?;
-                glsl.text.into_bytes()
+                let dialect = glsl::Glsl { resources: &resources };
+                let body = body::body(compiled, &resources, &dialect)?;
+                let glsl = shell::render(compiled, &counts, &resources, &body, &dialect)?;
+                check::check_glsl(&compiled.kernel, options.stage, &glsl, &resources.compared())?;
+                glsl.into_bytes()
             }
-            Target::Spirv => module.spirv(&resources)?,
+            Target::Spirv => words.iter().flat_map(|word| word.to_le_bytes()).collect(),
             Target::Hlsl => module.hlsl(&resources)?.into_bytes(),
             Target::Msl if compiled.transport == Some(Transport::Derivatives) => {
                 return Err(EmitError::Derivatives {

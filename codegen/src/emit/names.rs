@@ -5,7 +5,27 @@ use crate::ir::{Counter, Graph, NodeId, Op, Origin, Type};
 use std::collections::{BTreeSet, HashMap, HashSet};
 use straightline_manifest::REGION;
 
-/// Whether a word has a meaning of its own in WGSL or GLSL.
+/// Names that the text around a kernel's body has uses for.
+const OWN: [&str; 13] = [
+    UNIFORMS,
+    SAMPLER,
+    OUTPUT,
+    REGION,
+    "Parameters",
+    "Region",
+    "main",
+    "frame",
+    "pixel",
+    "id",
+    "position",
+    "within",
+    "place",
+];
+
+/// Longer names are cut, or refused where hosts use them.
+const LONGEST: usize = 255;
+
+/// Whether a word has a meaning of its own in WGSL or GLSL, or in what the emitter writes of its own.
 pub fn is_reserved(word: &str) -> bool {
     use naga::keywords::wgsl;
     wgsl::RESERVED.contains(&word)
@@ -14,23 +34,82 @@ pub fn is_reserved(word: &str) -> bool {
         || is_glsl_type(word)
         || word.starts_with("gl_")
         || word.starts_with("__")
+        || word.starts_with("to_ivec")
+        || word.starts_with("to_uvec")
+        || word.starts_with("to_vec")
+        || ["to_i32", "to_u32", "to_int", "to_uint", "whole_quotient", "whole_remainder"].contains(&word)
 }
 
 /// Types of GLSL that come in families: `mat4x3`, `ivec2`, `usampler2DArray`, `image3D`, ...
 fn is_glsl_type(word: &str) -> bool {
-    let bare = word.trim_start_matches(['i', 'u', 'b', 'd']);
-    let numbered = |prefix: &str| {
-        bare.strip_prefix(prefix)
-            .is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit()))
-    };
-    let opaque = ["sampler", "image", "texture", "subpassInput"];
-    numbered("vec")
-        || numbered("mat")
-        || opaque.iter().any(|prefix| {
+    let is_type = |bare: &str| {
+        let numbered = |prefix: &str| {
+            bare.strip_prefix(prefix)
+                .is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit()))
+        };
+        let opaque = ["sampler", "image", "texture", "subpassInput"];
+        let is_opaque = |prefix: &&str| {
             let rest = bare.strip_prefix(prefix);
             let kinds = ["1D", "2D", "3D", "Cube", "Buffer", "Shadow", "MS"];
             rest.is_some_and(|rest| rest.is_empty() || kinds.iter().any(|kind| rest.starts_with(kind)))
-        })
+        };
+        numbered("vec") || numbered("mat") || opaque.iter().any(is_opaque)
+    };
+    is_type(word) || word.strip_prefix(['i', 'u', 'b', 'd']).is_some_and(is_type)
+}
+
+/// Why a name that hosts use, of an input or a uniform, can be none in every language; names are not changed behind a host's
+/// back.
+pub fn refused(name: &str, entry: &str) -> Option<&'static str> {
+    let plain = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    if is_reserved(name) {
+        Some("is a word of WGSL or GLSL")
+    } else if OWN.contains(&name) || name == entry {
+        Some("is a name that the shader itself has a use for")
+    } else if name.len() > LONGEST {
+        Some("is longer than the 255 letters that every compiler takes")
+    } else if !name.chars().all(plain) || name.starts_with(|c: char| c.is_ascii_digit()) {
+        Some("has other letters than those of ASCII, which GLSL does not take")
+    } else if name.contains("__") || name == "_" {
+        Some("has two underscores in a row, which GLSL keeps for itself")
+    } else {
+        None
+    }
+}
+
+/// The entry point of a kernel: its name, changed where shading languages would not take it.
+pub fn entry_point(kernel: &str) -> String {
+    let name = identifier(kernel.strip_prefix("r#").unwrap_or(kernel));
+    if is_reserved(&name) || OWN.contains(&name.as_str()) {
+        format!("{name}_kernel")
+    } else {
+        name
+    }
+}
+
+/// A name as an identifier of every language: `é` becomes `ue9`, and what is very long is cut.
+fn identifier(name: &str) -> String {
+    let mut out = String::new();
+    for c in name.chars() {
+        if c.is_ascii_alphanumeric() || c == '_' {
+            out.push(c);
+        } else if !c.is_ascii() {
+            out += &format!("u{:x}", u32::from(c));
+        } else {
+            out.push('_');
+        }
+    }
+    while out.contains("__") {
+        // GLSL keeps two underscores in a row for itself.
+        out = out.replace("__", "_");
+    }
+    out.truncate(LONGEST / 2);
+    let out = out.trim_start_matches('_');
+    if out.is_empty() || out.starts_with(|c: char| c.is_ascii_digit()) || out.starts_with("gl_") {
+        format!("v_{out}")
+    } else {
+        out.to_owned()
+    }
 }
 
 /// Gives out names, each once.
@@ -43,14 +122,8 @@ pub struct Names {
 impl Names {
     /// Names of a graph's values, with those of the shader's bindings taken.
     pub fn new(graph: &Graph, resources: &Resources, entry: &str) -> Names {
-        let mut taken: HashSet<String> = [
-            "pixel", "frame", "id", "position", OUTPUT, SAMPLER, UNIFORMS, entry, "main", REGION,
-        ]
-        .map(str::to_owned)
-        .into();
-        if resources.options.region {
-            taken.extend(["within", "place"].map(str::to_owned));
-        }
+        let mut taken: HashSet<String> = OWN.map(str::to_owned).into();
+        taken.insert(entry.to_owned());
         taken.extend(resources.names().map(str::to_owned));
         let counters: BTreeSet<&str> = graph
             .origins
@@ -100,18 +173,8 @@ impl Names {
 
     /// `wanted`, or with a number if that is taken.
     pub fn fresh(&mut self, wanted: &str) -> String {
-        let base: String = wanted
-            .chars()
-            .map(|c| if c.is_ascii_alphanumeric() { c } else { '_' })
-            .collect();
-        // GLSL keeps two underscores in a row for itself, naga a digit at the end of a name for its own suffixes.
-        let base = base.replace("__", "_");
-        let base = base.trim_start_matches('_');
-        let base = if base.is_empty() || base.starts_with(|c: char| c.is_ascii_digit()) {
-            format!("v{base}")
-        } else {
-            base.to_owned()
-        };
+        // naga keeps a digit at the end of a name for its own suffixes.
+        let base = identifier(wanted);
         let mut name = if is_reserved(&base) {
             format!("{base}_value")
         } else {

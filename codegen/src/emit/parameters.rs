@@ -1,5 +1,6 @@
 //! The Rust of a shader's uniform struct: laid out as the shader has it, which the caller's compiler checks.
 
+use super::bindings::identifier;
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 use straightline_manifest::{BindingKind, Manifest, REGION, UniformField};
@@ -21,8 +22,8 @@ fn structure(fields: &[UniformField], size: u32) -> TokenStream {
     let mut pads = Vec::new();
     let mut at = 0;
     for field in fields {
-        pad(&mut members, &mut pads, field.offset - at);
-        let (name, ty) = (format_ident!("{}", field.name), rust_type(&field.ty));
+        pad(&mut members, &mut pads, fields, field.offset - at);
+        let (name, ty) = (identifier(&field.name), rust_type(&field.ty));
         let docs = match field.default {
             Some(default) => format!("`{}` of the kernel; {default} by default.", field.name),
             None => format!("`{}` of the kernel.", field.name),
@@ -31,14 +32,15 @@ fn structure(fields: &[UniformField], size: u32) -> TokenStream {
         members.push(quote! { #[doc = #docs] pub #name: #ty });
         at = field.offset + field.size;
     }
-    pad(&mut members, &mut pads, size - at);
+    pad(&mut members, &mut pads, fields, size - at);
 
-    let names: Vec<_> = fields.iter().map(|f| format_ident!("{}", f.name)).collect();
+    let names: Vec<_> = fields.iter().map(|f| identifier(&f.name)).collect();
+    let arguments: Vec<_> = (0..fields.len()).map(|k| argument(fields, k)).collect();
     let types: Vec<_> = fields.iter().map(|f| rust_type(&f.ty)).collect();
     let offsets: Vec<_> = fields.iter().map(|f| Literal::u32_unsuffixed(f.offset)).collect();
     let total = Literal::u32_unsuffixed(size);
     let copies = fields.iter().map(|field| {
-        let name = format_ident!("{}", field.name);
+        let name = identifier(&field.name);
         let start = Literal::u32_unsuffixed(field.offset);
         let end = Literal::u32_unsuffixed(field.offset + field.size);
         if field.ty.starts_with("vec") {
@@ -51,14 +53,14 @@ fn structure(fields: &[UniformField], size: u32) -> TokenStream {
             quote! { bytes[#start..#end].copy_from_slice(&self.#name.to_le_bytes()); }
         }
     });
-    let arguments = match fields.len() {
+    let new = match fields.len() {
         // More would only be told apart by their order.
         0..=7 => quote! {
             impl Parameters {
                 /// All values, in order.
                 #[must_use]
-                pub const fn new(#(#names: #types),*) -> Self {
-                    Self { #(#names,)* #(#pads,)* }
+                pub const fn new(#(#arguments: #types),*) -> Self {
+                    Self { #(#names: #arguments,)* #(#pads,)* }
                 }
             }
         },
@@ -88,7 +90,7 @@ fn structure(fields: &[UniformField], size: u32) -> TokenStream {
             assert!(core::mem::size_of::<Parameters>() == #total);
         };
 
-        #arguments
+        #new
 
         #default
 
@@ -104,12 +106,30 @@ fn structure(fields: &[UniformField], size: u32) -> TokenStream {
     }
 }
 
+/// The argument that a field is set by: its name, unless a pattern of that name could be a constant or a type.
+fn argument(fields: &[UniformField], k: usize) -> proc_macro2::Ident {
+    let name = &fields[k].name;
+    if !name.starts_with(|c: char| c.is_ascii_uppercase()) {
+        return identifier(name);
+    }
+    free(fields, &format!("value_{k}"))
+}
+
+/// A name that no field has.
+fn free(fields: &[UniformField], wanted: &str) -> proc_macro2::Ident {
+    let mut name = wanted.to_owned();
+    while fields.iter().any(|field| field.name == name) {
+        name.push('_');
+    }
+    format_ident!("{name}")
+}
+
 /// Bytes that no value fills, as a field of their own.
-fn pad(members: &mut Vec<TokenStream>, pads: &mut Vec<TokenStream>, bytes: u32) {
+fn pad(members: &mut Vec<TokenStream>, pads: &mut Vec<TokenStream>, fields: &[UniformField], bytes: u32) {
     if bytes == 0 {
         return;
     }
-    let name = format_ident!("padding_{}", pads.len());
+    let name = free(fields, &format!("padding_{}", pads.len()));
     let words = Literal::u32_unsuffixed(bytes / 4);
     members.push(quote! { #[doc = " Not read."] pub #name: [u32; #words] });
     pads.push(quote! { #name: [0; #words] });

@@ -8,7 +8,7 @@ use crate::ir::{Buffer, NodeId, Op, Sampler, Texture, TextureKind, Uniform, Vary
 use crate::passes::layers_read;
 use crate::pipeline::Compiled;
 use straightline_manifest::{
-    Access, Binding, BindingKind, Dimension, Extent, Manifest, Output, Precision, REGION, REGION_SIZE, SCHEMA,
+    Access, Binding, BindingKind, Counts, Dimension, Extent, Manifest, Output, Precision, REGION, REGION_SIZE, SCHEMA,
     SampleType, SamplerType, Stage, UniformField, region_fields,
 };
 
@@ -35,6 +35,8 @@ pub struct BoundTexture {
 
 /// A shader's bindings.
 pub struct Resources {
+    /// Name of the entry point.
+    pub entry: String,
     /// How it is emitted.
     pub options: EmitOptions,
     /// Every texture of the kernel, read or not, by index.
@@ -74,11 +76,21 @@ impl Resources {
         let mut next = 0..;
         let mut number = || next.next().unwrap_or(u32::MAX);
         let mut read = Vec::new();
-        for index in 0..graph.textures.len() as u32 {
-            if !ops.iter().any(|op| op.texture() == Some(index)) {
-                continue;
-            }
-            let layers = layers_read(graph, index).ok_or_else(|| EmitError::Layers {
+        let reads = |index: u32| ops.iter().any(|op| op.texture() == Some(index));
+        // A fragment shader that needs the output's size has it from a texture of that size: one that is read, or else any.
+        let framed = |index: &u32| graph.textures[*index as usize].framed;
+        let all = || 0..graph.textures.len() as u32;
+        let needs_size = options.stage == Stage::Fragment && ops.contains(&&Op::FrameSize);
+        let sized = match needs_size && !all().any(|index| framed(&index) && reads(index)) {
+            true => all().find(framed),
+            false => None,
+        };
+        for index in all().filter(|index| reads(*index) || sized == Some(*index)) {
+            let layers = match reads(index) {
+                true => layers_read(graph, index),
+                false => Some(1),
+            };
+            let layers = layers.ok_or_else(|| EmitError::Layers {
                 kernel: kernel(),
                 texture: graph.textures[index as usize].name.clone(),
             })?;
@@ -110,14 +122,17 @@ impl Resources {
         let names = read.iter().map(|t| &graph.textures[t.index as usize].name);
         let names = names.chain(read_buffers.iter().map(|(k, _)| &graph.buffers[*k as usize].name));
         let names = names.chain(used_samplers.iter().map(|(k, _)| &graph.samplers[*k as usize].name));
-        let own = [UNIFORMS, SAMPLER, OUTPUT, REGION, "frame", "pixel", "id", "position"];
-        if let Some(name) = names
+        let entry = super::names::entry_point(&compiled.kernel);
+        let mut names = names
             .chain(uniforms.iter().map(|u| &u.name))
-            .chain(graph.varyings.iter().map(|v| &v.name))
-            .find(|name| super::names::is_reserved(name) || own.contains(&name.as_str()))
-        {
-            let name = name.clone();
-            return Err(EmitError::Reserved { kernel: kernel(), name });
+            .chain(graph.varyings.iter().map(|v| &v.name));
+        if let Some((name, why)) = names.find_map(|name| Some((name, super::names::refused(name, &entry)?))) {
+            let name = shortened(name);
+            return Err(EmitError::Name {
+                kernel: kernel(),
+                name,
+                why,
+            });
         }
         let subgroups = ops.iter().any(|op| matches!(op, Op::Message(_)));
         let used = |k: usize| ops.iter().any(|op| **op == Op::Varying(k as u32));
@@ -126,6 +141,7 @@ impl Resources {
         let (fields, uniform_size) = layout(&uniforms);
         let needs_frame = options.stage == Stage::Compute || ops.contains(&&Op::FrameSize);
         let resources = Resources {
+            entry,
             options: options.clone(),
             textures: graph.textures.clone(),
             buffers: graph.buffers.clone(),
@@ -227,8 +243,8 @@ impl Resources {
         needed.map(|(_, name)| name.to_owned()).collect()
     }
 
-    /// The manifest of the shader, without its files and with `statements` still 0.
-    pub fn manifest(&self, compiled: &Compiled) -> Manifest {
+    /// The manifest of the shader, without its files.
+    pub fn manifest(&self, compiled: &Compiled, counts: &Counts) -> Manifest {
         let mut bindings = Vec::new();
         let mut add = |binding: u32, name: &str, kind: BindingKind| {
             bindings.push(Binding {
@@ -290,7 +306,7 @@ impl Resources {
             stage: self.options.stage,
             unroll: compiled.policy.to_string(),
             precision: self.options.precision,
-            entry_point: super::shell::entry_point(&compiled.kernel),
+            entry_point: self.entry.clone(),
             workgroup_size: compute.then_some(self.options.workgroup()),
             block: self.block,
             features: self.features(),
@@ -305,7 +321,7 @@ impl Resources {
                 format: self.options.format,
             },
             options: compiled.options.clone(),
-            counts: compiled.counts.clone(),
+            counts: counts.clone(),
             files: Default::default(),
             tuned: None,
         }
@@ -337,5 +353,13 @@ fn texture_kind(texture: &Texture, bound: &BoundTexture) -> BindingKind {
             1
         },
         extent: if texture.framed { Extent::Output } else { Extent::Any },
+    }
+}
+
+/// A name as a message shows it.
+fn shortened(name: &str) -> String {
+    match name.char_indices().nth(40) {
+        Some((end, _)) => format!("{}...", &name[..end]),
+        None => name.to_owned(),
     }
 }

@@ -1,44 +1,31 @@
 //! What stands around the body: header, bindings, entry point. From templates, which hold no arithmetic.
 
-use super::body::{Body, body};
+use super::body::Body;
 use super::dialect::Dialect;
 use super::error::EmitError;
+use super::text::comment;
 use super::resources::{OUTPUT, Resources, SAMPLER, UNIFORMS};
 use crate::ir::{Invocation, TextureKind};
 use crate::pipeline::Compiled;
 use crate::policy::Transport;
 use serde_json::json;
-use straightline_manifest::{Precision, REGION, Stage};
+use straightline_manifest::{Counts, Precision, REGION, Stage};
 
 /// Name and version, for headers and manifests.
 pub const GENERATOR: &str = concat!("straightline ", env!("CARGO_PKG_VERSION"));
 
-/// A rendered shader.
-pub struct Rendered {
-    /// The whole text.
-    pub text: String,
-    /// Statements of the body.
-    pub statements: u32,
-}
-
-/// The entry point of a kernel.
-pub fn entry_point(kernel: &str) -> String {
-    if super::names::is_reserved(kernel) {
-        format!("{kernel}_kernel")
-    } else {
-        kernel.to_owned()
-    }
-}
-
-/// Renders a shader in a dialect.
-pub fn render(compiled: &Compiled, resources: &Resources, dialect: &dyn Dialect) -> Result<Rendered, EmitError> {
-    let entry = entry_point(&compiled.kernel);
+/// Renders a shader in a dialect, with what its header says of it.
+pub fn render(
+    compiled: &Compiled,
+    counts: &Counts,
+    resources: &Resources,
+    body: &Body,
+    dialect: &dyn Dialect,
+) -> Result<String, EmitError> {
+    let entry = &resources.entry;
     let Body {
-        tables,
-        lines,
-        results,
-        statements,
-    } = body(compiled, resources, &entry, dialect)?;
+        tables, lines, results, ..
+    } = body;
     let template = match dialect.name() {
         "wgsl" => include_str!("../../templates/shader.wgsl.tera"),
         _ => include_str!("../../templates/shader.glsl.tera"),
@@ -95,7 +82,7 @@ pub fn render(compiled: &Compiled, resources: &Resources, dialect: &dyn Dialect)
         .map(|(k, result)| json!({ "x": k % width, "y": k / width, "result": result }))
         .collect();
     let context = json!({
-        "header": header(compiled, resources, statements),
+        "header": header(compiled, counts, resources),
         "textures": textures,
         "buffers": buffers,
         "samplers": samplers,
@@ -127,13 +114,11 @@ pub fn render(compiled: &Compiled, resources: &Resources, dialect: &dyn Dialect)
         message: format!("{error:?}"),
     };
     let context = tera::Context::from_value(context).map_err(failed)?;
-    let text = tera::Tera::one_off(template, &context, false).map_err(failed)?;
-    Ok(Rendered { text, statements })
+    tera::Tera::one_off(template, &context, false).map_err(failed)
 }
 
 /// What a reader should know, a line each. The same for the same input: no date, no path of the machine.
-fn header(compiled: &Compiled, resources: &Resources, statements: u32) -> Vec<String> {
-    let counts = &compiled.counts;
+fn header(compiled: &Compiled, counts: &Counts, resources: &Resources) -> Vec<String> {
     let options: Vec<String> = compiled
         .options
         .iter()
@@ -170,7 +155,7 @@ fn header(compiled: &Compiled, resources: &Resources, statements: u32) -> Vec<St
             counts.basic_blocks,
             if counts.basic_blocks == 1 { "" } else { "s" }
         ),
-        format!("{statements} statements"),
+        format!("{} statements", counts.statements),
         reads,
     ];
     figures.extend(
@@ -188,7 +173,7 @@ fn header(compiled: &Compiled, resources: &Resources, statements: u32) -> Vec<St
         [width, height] => format!("block of {width}x{height} pixels"),
     };
     lines.push(format!("Per {per}: {}.", figures.join(", ")));
-    lines
+    lines.iter().map(|line| comment(line)).collect()
 }
 
 /// A list of many numbers that are all alike by one of them.

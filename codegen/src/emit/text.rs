@@ -1,5 +1,17 @@
 //! Expressions as text, with what is needed to put them into larger ones.
 
+/// A text as it may stand in a comment of one line: without what ends a line in any language, and without backslashes, which
+/// in GLSL carry a comment on to the next line.
+pub fn comment(text: &str) -> String {
+    let harmless = |c: char| match c {
+        '\u{2028}' | '\u{2029}' => ' ',
+        c if c.is_control() => ' ',
+        '\\' => '/',
+        c => c,
+    };
+    text.chars().map(harmless).collect()
+}
+
 /// How tightly an expression's outermost operator binds; larger binds tighter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Binds {
@@ -99,10 +111,16 @@ impl Text {
         }
     }
 
-    /// The text as it may stand beside `<`.
-    pub fn compared(self) -> Text {
-        let code = self.inside(Binds::Comparison, true);
-        Text { code, ..self }
+    /// In parentheses if an operator is outermost.
+    pub fn in_parentheses(&self) -> Text {
+        if self.binds >= Binds::Prefix {
+            return self.clone();
+        }
+        Text {
+            code: format!("({})", self.code),
+            binds: Binds::Primary,
+            size: self.size,
+        }
     }
 
     /// The text as an operand of an operator that binds so.

@@ -3,6 +3,7 @@
 use super::error::EmitError;
 use super::resources::Resources;
 use naga::back::{hlsl, msl, spv};
+use naga::proc::{BoundsCheckPolicies, BoundsCheckPolicy};
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use straightline_manifest::{Precision, Stage};
 
@@ -42,21 +43,22 @@ impl Module {
         }
     }
 
-    /// SPIR-V 1.3, little-endian words.
-    pub fn spirv(&self, resources: &Resources) -> Result<Vec<u8>, EmitError> {
+    /// SPIR-V 1.3.
+    pub fn spirv(&self, resources: &Resources) -> Result<Vec<u32>, EmitError> {
         let options = spv::Options {
             lang_version: (1, 3),
             flags: spv::WriterFlags::DEBUG,
             force_loop_bounding: !resources.options.unbounded_loops,
+            bounds_check_policies: restricted(),
             ..Default::default()
         };
         let pipeline = spv::PipelineOptions {
             shader_stage: Self::stage(resources),
-            entry_point: super::shell::entry_point(&self.kernel),
+            entry_point: resources.entry.clone(),
         };
         let words =
             spv::write_vec(&self.module, &self.info, &options, Some(&pipeline)).map_err(|e| self.failed("spirv", e))?;
-        Ok(words.into_iter().flat_map(u32::to_le_bytes).collect())
+        Ok(super::spirv::joined(&words))
     }
 
     /// HLSL of shader model 5.1, with quad operations 6.0, in half precision 6.2: group as space, binding as register.
@@ -77,7 +79,7 @@ impl Module {
         writer
             .write(&self.module, &self.info, None)
             .map_err(|e| self.failed("hlsl", e))?;
-        Ok(text)
+        samplers_by_register(&text).ok_or_else(|| self.failed("hlsl", "naga binds samplers in a way that is not known"))
     }
 
     /// Metal: textures and buffers by their binding numbers.
@@ -118,11 +120,12 @@ impl Module {
             };
             slots.resources.insert(at(binding), target);
         }
-        let entry = super::shell::entry_point(&self.kernel);
+        let entry = resources.entry.clone();
         let options = msl::Options {
             lang_version: (2, 0),
             per_entry_point_map: [(entry, slots)].into_iter().collect(),
             fake_missing_bindings: false,
+            bounds_check_policies: restricted(),
             force_loop_bounding: !resources.options.unbounded_loops,
             ..Default::default()
         };
@@ -133,47 +136,23 @@ impl Module {
     }
 }
 
-/// Parses and validates GLSL. naga's reader makes an invalid module of the length of a storage buffer, so it is shown a
-/// number in its place; it knows no quad operations, so it is shown what they are called with; and it takes a texture that
-/// is `compared` for one of depths alone, so that its texels are shown to it as another texture's.
-pub fn check_glsl(kernel: &str, of: Stage, text: &str, compared: &[&str]) -> Result<(), EmitError> {
-    let mut text = lengths_as_numbers(text);
-    for message in super::glsl::MESSAGES {
-        text = text.replace(message, "");
+/// An index outside of an array is that of its last element, as it is to who reads the WGSL. Coordinates of texels and indices
+/// of buffers are clamped in the text.
+fn restricted() -> BoundsCheckPolicies {
+    BoundsCheckPolicies {
+        index: BoundsCheckPolicy::Restrict,
+        ..BoundsCheckPolicies::default()
     }
-    let mut text = text.replace("#extension GL_KHR_shader_subgroup_quad : require\n", "");
-    for (k, name) in compared.iter().enumerate() {
-        let sampler = super::resources::SAMPLER;
-        text = text.replace(
-            &format!("sampler2D({name}, {sampler})"),
-            &format!("sampler2D({name}_texels, {sampler})"),
-        );
-        let binding = 1000 + k;
-        let other = format!("#version 450\nlayout(set = 0, binding = {binding}) uniform texture2D {name}_texels;\n");
-        text = text.replacen("#version 450\n", &other, 1);
-    }
-    let text = &text;
-    let invalid = |message| EmitError::Invalid {
-        kernel: kernel.to_owned(),
-        target: "glsl450",
-        message,
-    };
-    let options = naga::front::glsl::Options::from(stage(of));
-    let module = naga::front::glsl::Frontend::default()
-        .parse(&options, text)
-        .map_err(|error| invalid(error.emit_to_string(text)))?;
-    validate(&module, text).map_err(invalid)?;
-    Ok(())
 }
 
-fn stage(stage: Stage) -> naga::ShaderStage {
+pub(super) fn stage(stage: Stage) -> naga::ShaderStage {
     match stage {
         Stage::Compute => naga::ShaderStage::Compute,
         Stage::Fragment => naga::ShaderStage::Fragment,
     }
 }
 
-fn validate(module: &naga::Module, text: &str) -> Result<ModuleInfo, String> {
+pub(super) fn validate(module: &naga::Module, text: &str) -> Result<ModuleInfo, String> {
     let mut validator = Validator::new(
         ValidationFlags::all(),
         Capabilities::SUBGROUP | Capabilities::SHADER_FLOAT16,
@@ -181,18 +160,29 @@ fn validate(module: &naga::Module, text: &str) -> Result<ModuleInfo, String> {
     validator.validate(module).map_err(|error| error.emit_to_string(text))
 }
 
-/// The text with `1` for every `buffer.elements.length()`.
-fn lengths_as_numbers(text: &str) -> String {
-    let mut parts = text.split(super::glsl::LENGTH);
-    let mut out = parts.next().unwrap_or_default().to_owned();
-    for part in parts {
-        // What stands before is the buffer's name.
-        let name = out
-            .trim_end_matches(|c: char| c.is_ascii_alphanumeric() || c == '_')
-            .len();
-        out.truncate(name);
-        out += "1";
-        out += part;
+/// HLSL in which each sampler is bound by a register of its binding's number. naga writes wgpu's own scheme: an array of all
+/// samplers, and a buffer that says which of them each one is.
+fn samplers_by_register(text: &str) -> Option<String> {
+    let mut out = String::new();
+    for line in text.lines() {
+        let declares = |what: &str| line.starts_with(what);
+        if declares("SamplerState nagaSamplerHeap[")
+            || declares("SamplerComparisonState nagaComparisonSamplerHeap[")
+            || declares("StructuredBuffer<uint> nagaGroup0SamplerIndexArray ")
+        {
+            continue;
+        }
+        match line.strip_prefix("static const Sampler") {
+            Some(rest) => {
+                let (declared, from) = rest.split_once(" = naga")?;
+                let (_, index) = from.split_once("[nagaGroup0SamplerIndexArray[")?;
+                let register: u32 = index.strip_suffix("]];")?.parse().ok()?;
+                out += &format!("Sampler{declared} : register(s{register});");
+            }
+            None => out += line,
+        }
+        out.push('\n');
     }
-    out
+    let known = !out.contains("SamplerHeap[") && !out.contains("SamplerIndexArray");
+    known.then_some(out)
 }

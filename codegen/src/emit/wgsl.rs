@@ -86,8 +86,9 @@ impl Dialect for Wgsl<'_> {
 
     fn loop_head(&self, counter: &str, _: Type, start: &Text, end: &Text) -> String {
         format!(
-            "for (var {counter} = {}; {counter} < {}; {counter}++) {{",
-            start.code, end.code
+            "for (var {counter} = {}; {}; {counter}++) {{",
+            start.code,
+            Text::infix(&Text::name(counter), "<", end, Binds::Comparison).code
         )
     }
 
@@ -123,10 +124,10 @@ impl Dialect for Wgsl<'_> {
         }
     }
 
-    fn gather(&self, texture: u32, sampler: u32, component: u8, uv: &Text) -> (Text, Option<String>) {
+    fn gather(&self, texture: u32, sampler: u32, component: u8, uv: &Text) -> Text {
         let [texture, sampler] = self.names(texture, sampler);
         let component = Text::name(component.to_string());
-        (Text::call("textureGather", &[&component, &texture, &sampler, uv]), None)
+        Text::call("textureGather", &[&component, &texture, &sampler, uv])
     }
 
     fn compare(&self, texture: u32, sampler: u32, uv: &Text, reference: &Text) -> Text {
@@ -134,12 +135,9 @@ impl Dialect for Wgsl<'_> {
         Text::call("textureSampleCompareLevel", &[&texture, &sampler, uv, reference])
     }
 
-    fn gather_compare(&self, texture: u32, sampler: u32, uv: &Text, reference: &Text) -> (Text, Option<String>) {
+    fn gather_compare(&self, texture: u32, sampler: u32, uv: &Text, reference: &Text) -> Text {
         let [texture, sampler] = self.names(texture, sampler);
-        (
-            Text::call("textureGatherCompare", &[&texture, &sampler, uv, reference]),
-            None,
-        )
+        Text::call("textureGatherCompare", &[&texture, &sampler, uv, reference])
     }
 
     fn message(&self, direction: Direction, x: &Text) -> Text {
@@ -188,6 +186,7 @@ impl Dialect for Wgsl<'_> {
             Round => "round",
             Trunc => "trunc",
             Fract => "fract",
+            Saturate => "saturate",
             Sqrt => "sqrt",
             InverseSqrt => "inverseSqrt",
             Exp => "exp",
@@ -240,14 +239,18 @@ impl Dialect for Wgsl<'_> {
         }
     }
 
-    fn select(&self, condition: &Text, yes: &Text, no: &Text) -> Text {
+    fn select(&self, _: Type, condition: &Text, yes: &Text, no: &Text) -> Text {
         Text::call("select", &[no, yes, condition])
     }
 
     // Between half precision and integers by way of `f32`, which holds every `f16`, and every integer that an `f16` holds:
     // whatever a driver does of its own is what it does in full precision.
-    fn convert(&self, from: Type, to: Type, x: &Text, fits: bool) -> Text {
+    fn convert(&self, from: Type, to: Type, x: &Text, fits: bool) -> (Text, Option<String>) {
         let x = self.leave(from, x.clone());
+        if from.is_float() && to.is_integer() && !fits {
+            let (name, helper) = saturating(to);
+            return (Text::call(&name, &[&x]), Some(helper));
+        }
         let mut converted = Text::call(&type_name(to), &[&x]);
         if self.is_half() && from.is_integer() && to.is_float() && !fits {
             let bound = |code: &str| match to.lanes() {
@@ -256,12 +259,37 @@ impl Dialect for Wgsl<'_> {
             };
             converted = Text::call("clamp", &[&converted, &bound("-65504.0"), &bound("65504.0")]);
         }
-        self.enter(to, converted)
+        (self.enter(to, converted), None)
     }
 
     fn uniform(&self, name: &str) -> Text {
         Text::name(format!("{}.{name}", super::resources::UNIFORMS))
     }
+}
+
+/// A function that converts floats as Rust does. WGSL's own conversion goes to the nearest integer that an `f32` has too, which
+/// is not the largest one, and leaves NaN open.
+fn saturating(to: Type) -> (String, String) {
+    let from = type_name(to.with_scalar(Scalar::F32));
+    let words = type_name(to.with_scalar(Scalar::U32));
+    let to_name = type_name(to);
+    let name = format!("to_{to_name}");
+    let (limit, largest, zero) = match to.kind() {
+        Some(Scalar::I32) => ("2147483648.0", "2147483647", "0"),
+        _ => ("4294967296.0", "4294967295u", "0u"),
+    };
+    let all = |ty: &str, code: &str| if to.lanes() == 1 { code.to_owned() } else { format!("{ty}({code})") };
+    let text = format!(
+        "// What is too large becomes the largest integer, NaN becomes 0.\nfn {name}(x: {from}) -> {to_name} {{\n    let is_nan = \
+         (bitcast<{words}>(x) & {}) > {};\n    let saturated = select({to_name}(x), {}, x >= {});\n    return select(saturated, \
+         {}, is_nan);\n}}",
+        all(&words, "0x7fffffffu"),
+        all(&words, "0x7f800000u"),
+        all(&to_name, largest),
+        all(&from, limit),
+        all(&to_name, zero),
+    );
+    (name, text)
 }
 
 /// A type as WGSL spells it.

@@ -55,9 +55,7 @@ impl Evaluator<'_> {
 
     fn saturated(&mut self, x: NodeId) -> NodeId {
         let ty = self.ty(x);
-        let (zero, one) = (self.builder.f32(0.0), self.builder.f32(1.0));
-        let (zero, one) = (self.splat(zero, ty.lanes()), self.splat(one, ty.lanes()));
-        self.builder.add(Op::Clamp, vec![x, zero, one], ty)
+        self.builder.add(Op::Unary(UnaryOp::Saturate), vec![x], ty)
     }
 
     fn float(&mut self, value: &Value, name: &str, span: Span) -> Eval<NodeId> {

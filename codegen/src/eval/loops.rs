@@ -2,7 +2,7 @@
 
 use super::Evaluator;
 use super::partial::Count;
-use super::value::{Eval, Exit, Value};
+use super::value::{Eval, Exit, Place, Step, Value};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::front::assigned;
 use crate::front::tree::{Block, ForLoop, Pattern};
@@ -19,6 +19,8 @@ pub struct Body<'a> {
     pub counter: Option<(&'a str, Span)>,
     /// Its label.
     pub label: Option<&'a str>,
+    /// Positions of variables that it may write through what it runs over.
+    pub written: Vec<usize>,
 }
 
 /// A loop of which the number of iterations is known, and what is asked of it.
@@ -27,8 +29,8 @@ pub struct Wish {
     pub asked: Asked,
     /// How often its body is evaluated.
     pub iterations: u64,
-    /// Whether it may be left other than by its end.
-    pub leaves: bool,
+    /// Why it cannot be granted whatever its body makes of variables.
+    pub obstacle: Option<&'static str>,
     /// The whole of it, by which it is known.
     pub span: Span,
     /// What an error points at.
@@ -42,6 +44,9 @@ pub enum Granted {
     /// It is to be unrolled. If it was asked for by name, the error that this is.
     Unrolled(Option<Diagnostic>),
 }
+
+/// Why a loop that may be left other than by its end is no loop in the shader.
+pub const LEAVES: &str = "its body has a `break`, `continue` or `return` that leaves an iteration";
 
 impl Evaluator<'_> {
     pub fn for_(&mut self, f: &ForLoop, span: Span) -> Eval {
@@ -60,16 +65,17 @@ impl Evaluator<'_> {
 
     /// Runs a loop as asked, or as it can be; gives what became of it.
     fn run(&mut self, f: &ForLoop, items: Value, asked: Asked, span: Span) -> Eval<Unroll> {
-        let leaves = assigned(&f.body).leaves;
+        let leaves = assigned(&f.body, &self.library.mutating).leaves;
         let counter = match (&f.pattern, &items) {
-            (Pattern::Name(name, at), Value::Range(_)) => Some((name.as_str(), *at)),
+            (Pattern::Name(name, _, at), Value::Range(_)) => Some((name.as_str(), *at)),
             _ => None,
         };
-        let body = Body {
+        let mut body = Body {
             block: &f.body,
             pattern: Some(&f.pattern),
             counter,
             label: f.label.as_deref(),
+            written: Vec::new(),
         };
         let mut range = None;
         let values = match items {
@@ -102,6 +108,10 @@ impl Evaluator<'_> {
                 }
             },
             Value::Array(elements) => elements.to_vec(),
+            Value::Ref(_) => match self.elements_mut(&items, f.over.span)? {
+                Value::Array(elements) => elements.to_vec(),
+                _ => return Err(Exit::Noted),
+            },
             Value::Node(id) if self.ty(id).is_array() => {
                 let Type::Array { len, .. } = self.ty(id) else {
                     unreachable!("just matched")
@@ -122,16 +132,20 @@ impl Evaluator<'_> {
                 );
             }
         };
+        values.iter().for_each(|value| self.targets(value, &mut body.written));
         let wish = Wish {
             asked,
             iterations: values.len() as u64,
-            leaves,
+            obstacle: leaves.then_some(LEAVES),
             span,
             head: f.over.span,
         };
         let count = |e: &mut Self| match &range {
             Some(range) => e.course(range, f.over.span).map(Count::Range),
-            None => e.by_columns(&values, f.over.span).map(Count::Elements),
+            None => match array_behind(&values) {
+                Some(array) => Ok(Count::Places(array, values.len() as u32)),
+                None => e.by_columns(&values, f.over.span).map(Count::Elements),
+            },
         };
         let refused = match self.attempt(&body, &wish, count)? {
             Granted::Kept(unroll) => return Ok(unroll),
@@ -177,11 +191,8 @@ impl Evaluator<'_> {
             }
             return Ok(Granted::Unrolled(None));
         }
-        let why = if wish.leaves {
-            Diagnostic::at(
-                wish.head,
-                "its body has a `break`, `continue` or `return` that leaves an iteration",
-            )
+        let why = if let Some(obstacle) = wish.obstacle {
+            Diagnostic::at(wish.head, obstacle)
         } else if let Some(why) = self.loops.given_up(span) {
             why
         } else {
@@ -231,7 +242,7 @@ impl Evaluator<'_> {
     pub fn round(&mut self, pattern: &Pattern, item: Value, body: &Block, span: Span) -> Eval {
         let mark = self.scope.enter();
         let counter = match (pattern, self.known_int(&item)) {
-            (Pattern::Name(name, _), Some(value)) => Some(Counter {
+            (Pattern::Name(name, ..), Some(value)) => Some(Counter {
                 name: name.clone(),
                 value,
             }),
@@ -272,11 +283,7 @@ impl Evaluator<'_> {
         iteration: impl FnOnce(&mut Self, NodeId) -> Eval<()>,
         span: Span,
     ) -> Eval<()> {
-        let carried: Vec<usize> = assigned(body.block)
-            .assigned
-            .iter()
-            .filter_map(|name| self.scope.slot(name))
-            .collect();
+        let carried = self.carried(body);
         let mut initial = Vec::new();
         let mut types = vec![self.ty(start)];
         for slot in &carried {
@@ -339,6 +346,24 @@ impl Evaluator<'_> {
         Ok(())
     }
 
+    /// Positions of the variables that a body may write: those that it names, and those that mutable references in the
+    /// variables that it mentions lead to.
+    fn carried(&self, body: &Body<'_>) -> Vec<usize> {
+        let effects = assigned(body.block, &self.library.mutating);
+        let mut carried = body.written.clone();
+        for slot in effects.assigned.iter().filter_map(|name| self.scope.slot(name)) {
+            if !carried.contains(&slot) {
+                carried.push(slot);
+            }
+        }
+        for slot in effects.mentioned.iter().filter_map(|name| self.scope.slot(name)) {
+            self.targets(self.scope.at(slot).1, &mut carried);
+        }
+        // A reference itself stays what it is.
+        carried.retain(|slot| !matches!(self.scope.at(*slot).1, Value::Ref(_)));
+        carried
+    }
+
     /// Names a loop's parameters, which are variables in the text.
     pub fn name_params(&mut self, value: &Value, name: &str, span: Span) {
         let mut nodes = Vec::new();
@@ -358,7 +383,7 @@ impl Evaluator<'_> {
 /// What a loop goes by in policies: its counter, or the first of the names that it binds.
 fn counter_of(pattern: &Pattern) -> String {
     match pattern {
-        Pattern::Name(name, _) => name.clone(),
+        Pattern::Name(name, ..) => name.clone(),
         _ => "_".to_owned(),
     }
 }
@@ -392,6 +417,27 @@ fn refusal(wish: &Wish, why: &Diagnostic) -> Diagnostic {
         error = error.other(at, label);
     }
     error
+}
+
+/// The array of which the values are mutable references to all elements, first to last.
+fn array_behind(values: &[Value]) -> Option<Place> {
+    let mut array: Option<Place> = None;
+    for (k, value) in values.iter().enumerate() {
+        let Value::Ref(place) = value else { return None };
+        let (last, path) = place.path.split_last()?;
+        if *last != Step::Index(Value::Int(k as i64)) {
+            return None;
+        }
+        let of = Place {
+            path: path.to_vec(),
+            ..(**place).clone()
+        };
+        if array.as_ref().is_some_and(|array| *array != of) {
+            return None;
+        }
+        array = Some(of);
+    }
+    array
 }
 
 /// Whether a loop with this label goes on after a round that ended so.

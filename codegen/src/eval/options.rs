@@ -7,6 +7,7 @@ use crate::front::Library;
 use crate::front::tree::{ExprKind, OptionField, Type as SourceType};
 use crate::ir::{Op, Scalar, Type, Uniform};
 use crate::policy::Policy;
+use crate::shorten::shorten;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -62,7 +63,11 @@ pub fn describe(library: &Library, files: &Arc<Vec<File>>, entry: &str) -> Resul
     let policy = Policy::default();
     let mut evaluator = Evaluator::new(library, files, &policy);
     let mut infos = Vec::new();
-    for field in fields(library, entry) {
+    let fields = fields(library, entry);
+    for error in twice(&fields) {
+        evaluator.note(error);
+    }
+    for field in fields {
         match evaluator.info(field) {
             Ok(info) => infos.push(info),
             Err(exit) => {
@@ -84,11 +89,24 @@ fn fields<'a>(library: &'a Library, entry: &str) -> Vec<&'a OptionField> {
         .get(entry)
         .map(|f| f.params.as_slice())
         .unwrap_or_default();
-    let declared = params.iter().filter_map(|(_, ty, _)| match ty {
+    let declared = params.iter().filter_map(|param| match param.ty.bare() {
         SourceType::Name(name, _) => library.options.get(name),
         _ => None,
     });
     declared.flatten().collect()
+}
+
+/// An error for every field that has the name of one before it.
+fn twice(fields: &[&OptionField]) -> Vec<Exit> {
+    let again = fields.iter().enumerate().filter_map(|(k, field)| {
+        let first = fields[..k].iter().find(|other| other.name == field.name)?;
+        let error = Diagnostic::at(field.span, format!("the option `{}` is declared twice", field.name))
+            .label("declared again")
+            .other(first.span, "first declared here")
+            .help("give one of them another name");
+        Some(error.into())
+    });
+    again.collect()
 }
 
 impl Evaluator<'_> {
@@ -101,14 +119,31 @@ impl Evaluator<'_> {
     ) -> Eval {
         let library = self.library;
         let mut values = Vec::new();
-        for field in &library.options[ty] {
-            let info = self.info(field)?;
-            let text = settings
-                .iter()
-                .rev()
-                .find(|(name, _)| *name == info.name)
-                .map(|(_, value)| value.as_str())
-                .or(info.uniform.then_some(UNIFORM));
+        let declared = &library.options[ty];
+        for error in twice(&declared.iter().collect::<Vec<_>>()) {
+            self.note(error);
+        }
+        for field in declared {
+            let info = match self.info(field) {
+                Ok(info) => info,
+                Err(exit) => {
+                    self.note(exit);
+                    values.push((field.name.clone(), Value::Poison));
+                    continue;
+                }
+            };
+            let mut set = settings.iter().filter(|(name, _)| *name == info.name);
+            let first = set.next().map(|(_, value)| value.as_str());
+            if let Some((_, again)) = set.next() {
+                let error = Diagnostic::new(format!(
+                    "the option `{}` is set twice, to `{}` and to `{}`",
+                    info.name,
+                    shorten(first.unwrap_or_default()),
+                    shorten(again)
+                ));
+                self.note(error.help("set it once").into());
+            }
+            let text = first.or(info.uniform.then_some(UNIFORM));
             let value = match text {
                 Some(text) => match self.parse(field, &info, text) {
                     Ok(value) => value,
@@ -131,10 +166,10 @@ impl Evaluator<'_> {
     fn info(&mut self, field: &OptionField) -> Eval<OptionInfo> {
         let default = self.expr(&field.default)?;
         let default = self.ascribe(default, Some(&field.ty), field.default.span)?;
-        let ty = match &field.ty {
+        let ty = match field.ty.bare() {
             SourceType::Name(ty, _) => ty,
             SourceType::Array(..) => return self.list_info(field, &default),
-            SourceType::Tuple(_) => return Err(self.bad_type(field)),
+            SourceType::Tuple(_) | SourceType::Ref(..) => return Err(self.bad_type(field)),
         };
         let (kind, default) = match (ty.as_str(), &default) {
             ("bool", Value::Node(id)) => {
@@ -145,6 +180,7 @@ impl Evaluator<'_> {
                 let (min, max) = self.limits(field)?;
                 let integer = ty != "f32";
                 let number = self.number(value).ok_or_else(|| self.bad_type(field))?;
+                in_range(field, &[number], min, max)?;
                 (OptionKind::Number { integer, min, max }, shortest(number))
             }
             (_, Value::Enum { ty, variant }) => {
@@ -176,19 +212,20 @@ impl Evaluator<'_> {
 
     /// An option that is an array of numbers.
     fn list_info(&mut self, field: &OptionField, default: &Value) -> Eval<OptionInfo> {
-        let element = match &field.ty {
+        let element = match field.ty.bare() {
             SourceType::Array(element, _) => match &**element {
                 SourceType::Name(name, _) if matches!(name.as_str(), "f32" | "i32" | "u32") => name.clone(),
                 _ => return Err(self.bad_type(field)),
             },
             _ => return Err(self.bad_type(field)),
         };
-        let numbers: Option<Vec<String>> = match default {
-            Value::Array(values) => values.iter().map(|v| self.number(v).map(shortest)).collect(),
+        let numbers: Option<Vec<f64>> = match default {
+            Value::Array(values) => values.iter().map(|v| self.number(v)).collect(),
             _ => None,
         };
         let numbers = numbers.ok_or_else(|| self.bad_type(field))?;
         let (min, max) = self.limits(field)?;
+        in_range(field, &numbers, min, max)?;
         if field.uniform {
             return Err(only_numbers(field));
         }
@@ -196,7 +233,7 @@ impl Evaluator<'_> {
             name: field.name.replace('_', "-"),
             docs: field.docs.clone(),
             kind: OptionKind::List {
-                len: match &field.ty {
+                len: match field.ty.bare() {
                     SourceType::Array(_, None) => None,
                     _ => Some(numbers.len()),
                 },
@@ -204,7 +241,7 @@ impl Evaluator<'_> {
                 min,
                 max,
             },
-            default: numbers.join(","),
+            default: numbers.into_iter().map(shortest).collect::<Vec<_>>().join(","),
             uniform: false,
         })
     }
@@ -233,7 +270,19 @@ impl Evaluator<'_> {
                 .into());
         };
         let (low, high) = (self.expr(low)?, self.expr(high)?);
-        Ok((self.number(&low), self.number(&high)))
+        let limits = (self.number(&low), self.number(&high));
+        if let (Some(low), Some(high)) = limits
+            && low > high
+        {
+            let text = format!("the range of the option `{}` holds no number", field.name);
+            let help = format!(
+                "it goes from {} to {}: write the lower end first",
+                shortest(low),
+                shortest(high)
+            );
+            return Err(Diagnostic::at(range.span, text).help(help).into());
+        }
+        Ok(limits)
     }
 
     fn number(&self, value: &Value) -> Option<f64> {
@@ -255,9 +304,13 @@ impl Evaluator<'_> {
     /// The value that `text` stands for.
     fn parse(&mut self, field: &OptionField, info: &OptionInfo, text: &str) -> Eval {
         let refuse = |allowed: String| -> Exit {
-            Diagnostic::new(format!("`{text}` is not a value of the option `{}`", info.name))
-                .help(allowed)
-                .into()
+            Diagnostic::new(format!(
+                "`{}` is not a value of the option `{}`",
+                shorten(text),
+                info.name
+            ))
+            .help(allowed)
+            .into()
         };
         match &info.kind {
             OptionKind::Flag => match text {
@@ -313,7 +366,7 @@ impl Evaluator<'_> {
                 Ok(Value::array(values?))
             }
             OptionKind::Number { integer, min, max } => {
-                let ty = match &field.ty {
+                let ty = match field.ty.bare() {
                     SourceType::Array(element, _) => element,
                     other => other,
                 };
@@ -325,22 +378,40 @@ impl Evaluator<'_> {
                 if text == UNIFORM {
                     return Ok(self.uniform(&field.name, Type::scalar(kind), info.default.parse().ok()));
                 }
-                let (low, high) = (min.unwrap_or(f64::NEG_INFINITY), max.unwrap_or(f64::INFINITY));
-                let allowed = match (min, max) {
-                    (Some(low), Some(high)) => {
-                        format!("use a number from {low} to {high}, or `{UNIFORM}` to set it at run time")
+                // An `f32` is compared with the bounds as the `f32` that it becomes: 0.001 is not below 0.001f32.
+                let held = |n: f64| match kind {
+                    Scalar::F32 => f64::from(n as f32),
+                    _ => n,
+                };
+                let (low, high) = match kind {
+                    Scalar::I32 => (f64::from(i32::MIN), f64::from(i32::MAX)),
+                    Scalar::U32 => (0.0, f64::from(u32::MAX)),
+                    _ => (f64::from(f32::MIN), f64::from(f32::MAX)),
+                };
+                let (low, high) = (
+                    min.map_or(low, |min| min.max(low)),
+                    max.map_or(high, |max| max.min(high)),
+                );
+                let what = if *integer { "a whole number" } else { "a number" };
+                let allowed = match (kind, min, max) {
+                    (Scalar::F32, None, None) => {
+                        format!("use {what} that an f32 can hold, or `{UNIFORM}` to set it at run time")
                     }
-                    _ => format!("use a number, or `{UNIFORM}` to set it at run time"),
+                    (Scalar::F32, ..) => {
+                        let (low, high) = (shortest(low), shortest(high));
+                        format!("use {what} from {low} to {high}, or `{UNIFORM}` to set it at run time")
+                    }
+                    _ => format!("use {what} from {low} to {high}, or `{UNIFORM}` to set it at run time"),
                 };
                 let number = text
                     .parse::<f64>()
                     .ok()
                     .filter(|n| n.is_finite() && (!integer || n.fract() == 0.0));
                 match number {
-                    Some(n) if n >= low && n <= high && (n as f32).is_finite() => Ok(match kind {
+                    Some(n) if (low..=high).contains(&held(n)) => Ok(match kind {
                         Scalar::F32 => Value::Node(self.builder.f32(n as f32)),
                         Scalar::U32 => Value::Node(self.builder.constant(Type::U32, [n as u32, 0, 0, 0])),
-                        _ => Value::Int(n as i64),
+                        _ => Value::Node(self.builder.i32(n as i32)),
                     }),
                     _ => Err(refuse(allowed)),
                 }
@@ -358,6 +429,27 @@ impl Evaluator<'_> {
         });
         let index = uniforms.len() as u32 - 1;
         Value::Node(self.builder.add(Op::Uniform(index), Vec::new(), ty))
+    }
+}
+
+/// Refuses a default with a number outside of the option's range.
+fn in_range(field: &OptionField, defaults: &[f64], min: Option<f64>, max: Option<f64>) -> Result<(), Exit> {
+    let (low, high) = (min.unwrap_or(f64::NEG_INFINITY), max.unwrap_or(f64::INFINITY));
+    match defaults.iter().find(|n| !(low..=high).contains(*n)) {
+        None => Ok(()),
+        Some(n) => {
+            let text = format!(
+                "the default of the option `{}` is {}, outside of its range from {} to {}",
+                field.name,
+                shortest(*n),
+                shortest(low),
+                shortest(high)
+            );
+            Err(Diagnostic::at(field.default.span, text)
+                .label("not in the range")
+                .help("widen the range, or choose a default within it")
+                .into())
+        }
     }
 }
 
@@ -383,6 +475,11 @@ fn kebab(name: &str) -> String {
     text
 }
 
+/// A number in as few digits as tell it from every other `f32`; a whole one in all of its digits.
 fn shortest(number: f64) -> String {
-    format!("{}", number as f32)
+    if number.fract() == 0.0 && number.abs() < 1e15 {
+        format!("{number}")
+    } else {
+        format!("{}", number as f32)
+    }
 }

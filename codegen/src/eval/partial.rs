@@ -5,10 +5,11 @@ use super::loops::Body;
 use super::ranges::Course;
 use super::scope::Scope;
 use super::sequence::Columns;
-use super::value::{Eval, Exit, Value};
-use crate::diagnostic::{Diagnostic, Span};
+use super::value::{Eval, Exit, Place, Step, Value};
+use crate::diagnostic::Span;
 use crate::ir::{BinaryOp, NodeId, Type};
 use crate::policy::Unroll;
+use std::rc::Rc;
 
 /// What an attempt may change, to go back to.
 pub struct Checkpoint {
@@ -31,6 +32,8 @@ pub enum Count {
     Range(Course),
     /// Positions in a list of values.
     Elements(Columns),
+    /// Elements of an array, by mutable references to them: the array, and how many there are.
+    Places(Place, u32),
     /// Iterations, which the body takes no notice of.
     Times(u32),
 }
@@ -47,7 +50,7 @@ impl Evaluator<'_> {
     }
 
     /// Goes back. Gives the first error that was noted meanwhile.
-    pub fn return_to(&mut self, before: Checkpoint) -> Option<Diagnostic> {
+    pub fn return_to(&mut self, before: Checkpoint) -> Option<crate::diagnostic::Diagnostic> {
         self.scope = before.scope;
         self.counters.truncate(before.counters);
         self.loops.return_to(before.loops);
@@ -61,6 +64,7 @@ impl Evaluator<'_> {
         let (own, trips) = match count {
             Count::Range(course) => (course.own, course.trips),
             Count::Elements(columns) => (Type::I32, self.whole(columns.len(), Type::I32)),
+            Count::Places(_, len) => (Type::I32, self.whole(*len, Type::I32)),
             Count::Times(times) => (Type::I32, self.whole(*times, Type::I32)),
         };
         let zero = self.whole(0, own);
@@ -118,6 +122,7 @@ impl Evaluator<'_> {
         let item = match count {
             Count::Range(course) => self.counter_at(course, own),
             Count::Elements(columns) => self.element_at(columns, own),
+            Count::Places(array, _) => Value::Ref(Rc::new(array.part(Step::Index(self.as_counter(own, true))))),
             Count::Times(_) => Value::unit(),
         };
         self.name_position(body, &item, own);

@@ -36,7 +36,7 @@ pub struct Course {
 impl Evaluator<'_> {
     /// `start..end`, `start..=end`.
     pub fn range(&mut self, start: &Expr, end: &Expr, inclusive: bool) -> Eval {
-        let (start, end) = (self.expr(start)?, self.expr(end)?);
+        let (start, end) = (self.value(start)?, self.value(end)?);
         Ok(Value::Range(Range {
             start: Box::new(start),
             end: Box::new(end),

@@ -294,7 +294,7 @@ impl Evaluator<'_> {
     /// Names the count of a loop where the pattern takes it as it is: the first of `enumerate`.
     pub fn name_position(&mut self, body: &Body<'_>, item: &Value, own: NodeId) {
         if let (Some(Pattern::Tuple(parts, _)), Value::Tuple(values)) = (body.pattern, item)
-            && let (Some(Pattern::Name(name, at)), Some(Value::Node(id))) = (parts.first(), values.first())
+            && let (Some(Pattern::Name(name, _, at)), Some(Value::Node(id))) = (parts.first(), values.first())
             && *id == own
             && matches!(self.builder.graph().node(own).op, Op::Param(..))
         {

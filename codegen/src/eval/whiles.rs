@@ -1,12 +1,12 @@
 //! `while` and `loop`.
 
 use super::Evaluator;
-use super::loops::{Body, Granted, Wish, again};
+use super::loops::{Body, Granted, LEAVES, Wish, again};
 use super::partial::Count;
 use super::value::{Eval, Exit, Value};
 use crate::diagnostic::{Diagnostic, Span};
-use crate::front::assigned;
-use crate::front::tree::{Block, Expr, Statement};
+use crate::front::tree::{Block, Expr, ExprKind, Statement};
+use crate::front::{assigned, children};
 use crate::policy::{Asked, Unroll};
 
 impl Evaluator<'_> {
@@ -27,6 +27,7 @@ impl Evaluator<'_> {
             pattern: None,
             counter: None,
             label,
+            written: Vec::new(),
         };
         let outcome = self.run_while(condition, &body, asked, span);
         let made = self.builder.graph().nodes.len();
@@ -44,10 +45,21 @@ impl Evaluator<'_> {
                 statements: vec![Statement::Expr(condition.clone())],
                 value: None,
             };
-            let (test, effects) = (assigned(&test), assigned(body.block));
-            let leaves = effects.leaves || test.leaves || !test.assigned.is_empty();
+            let mutating = &self.library.mutating;
+            let (test, effects) = (assigned(&test, mutating), assigned(body.block, mutating));
+            let mut behind = Vec::new();
+            for slot in test.mentioned.iter().filter_map(|name| self.scope.slot(name)) {
+                self.targets(self.scope.at(slot).1, &mut behind);
+            }
+            let obstacle = if effects.leaves || test.leaves {
+                Some(LEAVES)
+            } else if !test.assigned.is_empty() || (!behind.is_empty() && has_calls(condition)) {
+                Some("its condition assigns to variables")
+            } else {
+                None
+            };
             let (mut iterations, mut after) = (u64::MAX, Vec::new());
-            if !leaves {
+            if obstacle.is_none() {
                 let before = self.checkpoint();
                 self.unrolls_all = true;
                 let counted = self.unrolled_while(condition, body, span);
@@ -65,7 +77,7 @@ impl Evaluator<'_> {
             let wish = Wish {
                 asked,
                 iterations,
-                leaves,
+                obstacle,
                 span,
                 head: condition.span,
             };
@@ -100,7 +112,7 @@ impl Evaluator<'_> {
         let mut iterations = 0;
         loop {
             self.step(span)?;
-            let value = self.expr(condition)?;
+            let value = self.value(condition)?;
             let id = self.node(&value, condition.span)?;
             match self.known_bool(id) {
                 Some(true) => {}
@@ -126,4 +138,10 @@ impl Evaluator<'_> {
             }
         }
     }
+}
+
+/// Whether an expression may call what writes through a reference that it is given.
+fn has_calls(e: &Expr) -> bool {
+    matches!(e.kind, ExprKind::Call(..) | ExprKind::Method(..) | ExprKind::Block(_))
+        || children(e).into_iter().any(has_calls)
 }

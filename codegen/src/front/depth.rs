@@ -1,73 +1,285 @@
-//! Whether a text is nested too deep to be read: the parser goes down with every bracket and prefix.
+//! Whether a text is nested too deep to be read. A parser goes down with every bracket, but also with prefixes, closures, types
+//! of functions, generic arguments and words such as `return`; and what it makes of a long chain of operators is deep too.
+//! All of these are counted on the tokens, before anything recursive sees them.
 
 use crate::diagnostic::Diagnostic;
-use proc_macro2::{Delimiter, TokenStream, TokenTree};
+use proc_macro2::{Delimiter, Spacing, Span, TokenStream, TokenTree};
 
-/// Deepest nesting of brackets, and most prefix operators in a row.
+/// Deepest nesting of brackets.
 const DEEPEST: usize = 200;
 
-/// Most `else` and assignments in one block, each of which nests in what stands before it.
-const LONGEST_CHAIN: usize = 1000;
+/// Most tokens around one place that a parser goes down with: brackets count 1, prefixes and the like too.
+const MOST_NESTED: usize = 256;
+
+/// Most operators, calls and fields that one expression has in a row, which make a deep tree though the parser reads them in
+/// a loop.
+const LONGEST: usize = 1500;
+
+/// Most operators in a row.
+const MOST_PREFIXES: usize = 200;
 
 /// Most tokens of a file.
 const MOST_TOKENS: usize = 1_000_000;
+
+/// Most characters of a number.
+const LONGEST_NUMBER: usize = 200;
+
+/// Words after which a parser reads an expression, a type, a pattern or an item as a part of what the word began.
+const NESTING: [&str; 26] = [
+    "async", "become", "box", "break", "const", "do", "dyn", "fn", "for", "if", "impl", "in", "let", "match", "move",
+    "mut", "raw", "ref", "return", "static", "unsafe", "use", "while", "where", "yeet", "yield",
+];
 
 /// Refuses a text on which a parser would run out of stack. What is no list of tokens is for the parser to refuse.
 pub fn check(file: u32, text: &str) -> Result<(), Box<Diagnostic>> {
     let Ok(tokens) = text.parse::<TokenStream>() else {
         return Ok(());
     };
-    let refuse = |span: proc_macro2::Span, what: String| {
+    let refuse = |span: Span, what: String, help: &str| {
         Err(Box::new(
-            Diagnostic::at(super::place(file, span), what)
-                .label("here")
-                .help("give parts of it a name with `let`, or put them into functions"),
+            Diagnostic::at(super::place(file, span), what).label("here").help(help),
         ))
     };
-    let mut open = vec![tokens.into_iter()];
-    let mut chains = vec![0usize];
-    let (mut prefixes, mut count) = (0, 0);
-    while let Some(tokens) = open.last_mut() {
-        let Some(token) = tokens.next() else {
+    const SMALLER: &str = "give parts of it a name with `let`, or put them into functions";
+    let mut open = vec![Level::new(tokens, false)];
+    let mut count = 0;
+    while let Some(level) = open.last_mut() {
+        let Some(token) = level.tokens.next() else {
             open.pop();
-            chains.pop();
             continue;
         };
         count += 1;
-        if count > MOST_TOKENS {
-            return refuse(token.span(), format!("a file of more than {MOST_TOKENS} tokens"));
-        }
         let span = token.span();
-        prefixes = match &token {
-            TokenTree::Punct(_) => prefixes + 1,
-            // `for<'a>` and the like do not nest.
-            TokenTree::Ident(word) if matches!(word.to_string().as_str(), "return" | "break" | "move" | "mut") => {
-                prefixes + 1
-            }
-            _ => 0,
-        };
-        if prefixes > DEEPEST {
-            return refuse(span, format!("more than {DEEPEST} operators in a row"));
+        if count > MOST_TOKENS {
+            return refuse(
+                span,
+                format!("a file of more than {MOST_TOKENS} tokens"),
+                "keep kernels in files of their own",
+            );
         }
-        match token {
-            TokenTree::Group(group) => {
-                if open.len() > DEEPEST {
-                    return refuse(span, format!("brackets are nested more than {DEEPEST} deep"));
-                }
-                if group.delimiter() != Delimiter::None {
-                    open.push(group.stream().into_iter());
-                    chains.push(0);
-                }
+        if let TokenTree::Literal(literal) = &token {
+            let shown = literal.to_string();
+            if shown.len() > LONGEST_NUMBER && shown.starts_with(|c: char| c.is_ascii_digit()) {
+                return refuse(
+                    span,
+                    format!("a number of {} characters", shown.len()),
+                    "round it: an f32 has 9 digits",
+                );
             }
-            TokenTree::Ident(word) if word == "else" => {
-                let chain = chains.last_mut().expect("one for each open group");
-                *chain += 1;
-                if *chain > LONGEST_CHAIN {
-                    return refuse(span, format!("more than {LONGEST_CHAIN} `else` in a block"));
-                }
+        }
+        level.take(&token);
+        if level.prefixes > MOST_PREFIXES {
+            return refuse(span, format!("more than {MOST_PREFIXES} operators in a row"), SMALLER);
+        }
+        let nested: usize = open.iter().map(|level| 1 + level.nested + level.angles.len()).sum();
+        if nested > MOST_NESTED {
+            return refuse(span, format!("this is nested more than {MOST_NESTED} deep"), SMALLER);
+        }
+        if open.iter().map(|level| level.chained).sum::<usize>() > LONGEST {
+            return refuse(
+                span,
+                format!("more than {LONGEST} operators in one expression"),
+                SMALLER,
+            );
+        }
+        if let TokenTree::Group(group) = token {
+            if open.len() > DEEPEST {
+                return refuse(span, format!("brackets are nested more than {DEEPEST} deep"), SMALLER);
             }
-            _ => {}
+            if group.delimiter() != Delimiter::None {
+                let import = open.last().is_some_and(|level| level.import);
+                open.push(Level::new(group.stream(), import));
+            }
         }
     }
     Ok(())
+}
+
+/// What stands between two brackets, as far as it is read.
+struct Level {
+    tokens: proc_macro2::token_stream::IntoIter,
+    before: Before,
+    /// Prefixes in a row.
+    prefixes: usize,
+    /// Tokens since the last end of a statement, or the like, that the parser went down with.
+    nested: usize,
+    /// `<` without their `>`, with how far the parser had gone down before each.
+    angles: Vec<usize>,
+    /// Operators, calls and fields since then.
+    chained: usize,
+    /// Whether this is a `use`, whose path the parser goes down with.
+    import: bool,
+}
+
+/// The token before.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Before {
+    /// None, or one that ends a statement, an element or an arm.
+    Start,
+    /// An operator's character, and whether the next belongs to it.
+    Punct(char, bool),
+    /// A word that something has to follow.
+    Word,
+    /// `else`.
+    Else,
+    /// A name, a number, or a group in parentheses or brackets: an operand.
+    Operand,
+    /// A group in braces, and whether generic arguments may go on after it.
+    Braces,
+}
+
+impl Level {
+    fn new(tokens: TokenStream, import: bool) -> Self {
+        Level {
+            tokens: tokens.into_iter(),
+            before: Before::Start,
+            prefixes: 0,
+            nested: 0,
+            angles: Vec::new(),
+            chained: 0,
+            import,
+        }
+    }
+
+    /// Statements, items, elements and arms do not nest in what stands before them.
+    fn restart(&mut self) {
+        self.nested = 0;
+        self.angles.clear();
+        self.chained = 0;
+        self.prefixes = 0;
+        self.import = false;
+        self.before = Before::Start;
+    }
+
+    fn take(&mut self, token: &TokenTree) {
+        match token {
+            TokenTree::Ident(word) => self.word(&word.to_string()),
+            TokenTree::Literal(_) => {
+                if self.before == Before::Braces {
+                    self.restart();
+                }
+                self.prefixes = 0;
+                self.before = Before::Operand;
+            }
+            TokenTree::Group(group) => self.group(group.delimiter()),
+            TokenTree::Punct(p) => self.punct(p.as_char(), p.spacing() == Spacing::Joint),
+        }
+    }
+
+    fn word(&mut self, word: &str) {
+        // A word after braces begins anew, unless it goes on with what they end. (`if` may guard a pattern, which is at its end.)
+        if self.before == Before::Braces && !matches!(word, "else" | "as" | "in" | "where") {
+            self.restart();
+        }
+        let after_else = self.before == Before::Else;
+        self.import |= word == "use";
+        self.before = match word {
+            "else" => {
+                // One more in a chain, which the parser reads in a loop.
+                self.chained += 1;
+                Before::Else
+            }
+            "if" if after_else => Before::Word,
+            "as" => {
+                self.chained += 1;
+                Before::Word
+            }
+            _ if NESTING.contains(&word) => {
+                self.nested += 1;
+                // A loop of prefixes such as `return return` is told as one.
+                self.prefixes += 1;
+                Before::Word
+            }
+            _ => {
+                self.prefixes = 0;
+                Before::Operand
+            }
+        };
+    }
+
+    fn group(&mut self, delimiter: Delimiter) {
+        match delimiter {
+            Delimiter::Brace => {
+                // `a < b {`: a comparison. In `A<{3}, B>` braces follow `<`, `,` or `=`.
+                if !matches!(self.before, Before::Punct('<' | ',' | '=', _)) {
+                    self.angles.clear();
+                }
+                self.chained += 1;
+                self.before = Before::Braces;
+            }
+            _ => {
+                if matches!(self.before, Before::Operand | Before::Braces) {
+                    self.chained += 1;
+                }
+                self.before = Before::Operand;
+            }
+        }
+        self.prefixes = 0;
+    }
+
+    fn punct(&mut self, c: char, joint: bool) {
+        let before = self.before;
+        self.before = Before::Punct(c, joint);
+        let joined = matches!(before, Before::Punct(_, true));
+        match c {
+            ';' => return self.restart(),
+            ',' => {
+                // Inside of generic arguments the parser stays as deep as these are.
+                self.nested = self.angles.last().copied().unwrap_or(0);
+                self.chained = 0;
+                self.prefixes = 0;
+                if self.angles.is_empty() {
+                    self.before = Before::Start;
+                }
+                return;
+            }
+            '\'' | '#' => {
+                // A label or an attribute after braces begins anew.
+                if before == Before::Braces {
+                    self.restart();
+                }
+                return;
+            }
+            '>' => {
+                match before {
+                    // `->` leads to a type.
+                    Before::Punct('-', true) => self.nested += 1,
+                    // What stands before `=>` is read to its end.
+                    Before::Punct('=', true) => return self.restart(),
+                    _ => {
+                        self.angles.pop();
+                        self.chained += 1;
+                    }
+                }
+                self.prefixes = 0;
+                return;
+            }
+            '<' => {
+                self.angles.push(self.nested);
+                self.prefixes += 1;
+                return;
+            }
+            ':' => {
+                if self.import && joined {
+                    self.nested += 1;
+                }
+                return;
+            }
+            '@' => self.nested += 1,
+            '=' => match before {
+                // `==`, `<=`, `>=` and `!=` are read in a loop; assignments nest.
+                Before::Punct('=', true) => self.nested = self.nested.saturating_sub(1),
+                Before::Punct('<', true) => drop(self.angles.pop()),
+                Before::Punct('>' | '!', true) => {}
+                _ => self.nested += 1,
+            },
+            // `||` and `|`: between operands an operator, else a closure or the first of several patterns.
+            '|' if joined && matches!(before, Before::Punct('|', true)) => {}
+            _ => match before {
+                Before::Operand | Before::Braces => self.chained += 1,
+                Before::Start | Before::Word | Before::Else | Before::Punct(..) => self.nested += 1,
+            },
+        }
+        self.prefixes += 1;
+    }
 }

@@ -4,11 +4,13 @@ use super::place;
 use super::tree::{Arm, Block, Const, Expr, ExprKind, ForLoop, IntType, Statement};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::ir::{BinaryOp, UnaryOp};
+use super::scan::mentioned_in;
+use std::collections::BTreeSet;
 use syn::punctuated::Punctuated;
 use syn::spanned::Spanned;
 
 /// How deep expressions may be nested.
-const DEPTH: u32 = 128;
+pub const DEPTH: u32 = 128;
 
 /// Lowers one item of one file, gathering errors.
 pub struct Lower {
@@ -29,6 +31,11 @@ impl Lower {
             depth: 0,
             errors: Vec::new(),
         }
+    }
+
+    /// The file that the items are of.
+    pub fn file(&self) -> u32 {
+        self.file
     }
 
     /// The place of a token.
@@ -103,7 +110,7 @@ impl Lower {
         match expr {
             syn::Expr::Paren(e) => self.kind(&e.expr),
             syn::Expr::Group(e) => self.kind(&e.expr),
-            syn::Expr::Reference(e) => self.kind(&e.expr),
+            syn::Expr::Reference(e) => ExprKind::Ref(e.mutability.is_some(), self.boxed(&e.expr)),
             syn::Expr::Lit(e) => self.literal(&e.lit, e.span()).kind,
             syn::Expr::Path(e) if e.qself.is_none() => ExprKind::Path(self.segments(&e.path)),
             syn::Expr::Unary(e) => self.unary(e),
@@ -119,10 +126,7 @@ impl Lower {
                 )
             }
             syn::Expr::Field(e) => {
-                let name = match &e.member {
-                    syn::Member::Named(name) => name.to_string(),
-                    syn::Member::Unnamed(index) => index.index.to_string(),
-                };
+                let name = member(&e.member);
                 ExprKind::Field(self.boxed(&e.base), name)
             }
             syn::Expr::Index(e) => ExprKind::Index(self.boxed(&e.expr), self.boxed(&e.index)),
@@ -188,6 +192,12 @@ impl Lower {
             syn::Expr::Try(_) => ("`?`", "a kernel has no errors: compute a value for every pixel"),
             syn::Expr::Unsafe(_) => ("`unsafe`", "use the prelude's textures and arrays"),
             syn::Expr::Async(_) | syn::Expr::Await(_) => ("`async`", "a kernel computes its value at once"),
+            syn::Expr::Const(_) => ("a `const` block", "name the constant: `const NAME: f32 = ...;`"),
+            syn::Expr::Infer(_) => ("`_` as a value", "write `let _ = value;`, or leave the statement out"),
+            syn::Expr::RawAddr(_) => ("a raw pointer", "use the value itself"),
+            syn::Expr::TryBlock(_) => ("`try`", "a kernel has no errors: compute a value for every pixel"),
+            syn::Expr::Yield(_) => ("`yield`", "a kernel computes its value at once"),
+            syn::Expr::Path(_) => ("a type in `<>`", "name the type alone: `f32::MAX`"),
             _ => (
                 "this expression",
                 "see the kernel language's documentation for what there is",
@@ -220,7 +230,7 @@ impl Lower {
                         ..
                     }),
                 ],
-            ) => ExprKind::Assert(self.boxed(condition), message.value()),
+            ) if !message.value().contains(['{', '}']) => ExprKind::Assert(self.boxed(condition), message.value()),
             _ => {
                 self.unsupported(
                     call.span(),
@@ -239,8 +249,9 @@ impl Lower {
             syn::Lit::Int(lit) => {
                 let ty = match lit.suffix() {
                     "" => None,
-                    "i32" | "usize" | "isize" => Some(IntType::I32),
+                    "i32" => Some(IntType::I32),
                     "u32" => Some(IntType::U32),
+                    "usize" => Some(IntType::Usize),
                     other => {
                         self.unsupported(span, &format!("the integer type `{other}`"), "use i32, u32 or usize");
                         None
@@ -289,7 +300,7 @@ impl Lower {
         match e.op {
             syn::UnOp::Neg(_) => ExprKind::Unary(UnaryOp::Neg, self.boxed(&e.expr)),
             syn::UnOp::Not(_) => ExprKind::Unary(UnaryOp::Not, self.boxed(&e.expr)),
-            syn::UnOp::Deref(_) => self.kind(&e.expr),
+            syn::UnOp::Deref(_) => ExprKind::Deref(self.boxed(&e.expr)),
             _ => {
                 self.unsupported(e.span(), "this operator", "use `-` or `!`");
                 ExprKind::Tuple(Vec::new())
@@ -363,7 +374,12 @@ impl Lower {
                 syn::GenericArgument::Const(e) => self.expr(e).kind,
                 // A constant by its name looks like a type.
                 syn::GenericArgument::Type(syn::Type::Path(t)) => ExprKind::Path(self.segments(&t.path)),
+                syn::GenericArgument::Type(syn::Type::Infer(_)) => {
+                    self.unsupported(arg.span(), "`_` for a generic argument", "leave `::<>` out, or state it");
+                    ExprKind::Tuple(Vec::new())
+                }
                 syn::GenericArgument::Type(_) => ExprKind::Tuple(Vec::new()),
+                // Lifetimes have no parameter to bind; the others are refused before.
                 _ => continue,
             };
             let span = self.span(arg.span());
@@ -392,9 +408,7 @@ impl Lower {
         let name = self.segments(&e.path).pop().unwrap_or_default();
         let mut fields = Vec::new();
         for field in &e.fields {
-            if let syn::Member::Named(name) = &field.member {
-                fields.push((name.to_string(), self.expr(&field.expr)));
-            }
+            fields.push((member(&field.member), self.expr(&field.expr)));
         }
         ExprKind::Struct(name, fields, e.rest.as_ref().map(|rest| self.boxed(rest)))
     }
@@ -414,6 +428,8 @@ impl Lower {
 
     /// A block.
     pub fn block(&mut self, block: &syn::Block) -> Block {
+        // A constant holds in all of its block, before its line too.
+        let mut constants = Vec::new();
         let mut statements = Vec::new();
         let mut value = None;
         for (k, statement) in block.stmts.iter().enumerate() {
@@ -421,7 +437,7 @@ impl Lower {
                 syn::Stmt::Local(local) => statements.push(self.local(local)),
                 syn::Stmt::Expr(expr, None) if k + 1 == block.stmts.len() => value = Some(self.boxed(expr)),
                 syn::Stmt::Expr(expr, _) => statements.push(Statement::Expr(self.expr(expr))),
-                syn::Stmt::Item(syn::Item::Const(item)) => statements.push(Statement::Const(self.constant(item, None))),
+                syn::Stmt::Item(syn::Item::Const(item)) => constants.push(self.constant(item, None)),
                 syn::Stmt::Item(syn::Item::Use(_)) => {}
                 syn::Stmt::Item(item) => {
                     self.unsupported(
@@ -437,6 +453,7 @@ impl Lower {
                 }
             }
         }
+        statements.splice(0..0, in_order(constants).into_iter().map(Statement::Const));
         Block { statements, value }
     }
 
@@ -470,6 +487,29 @@ impl Lower {
             value: self.expr(&item.expr),
             ty: self.ty(&item.ty),
         }
+    }
+}
+
+/// Constants so that each stands after those that it is made of. Those that need each other stay as they are, and are not found.
+fn in_order(mut constants: Vec<Const>) -> Vec<Const> {
+    let mut ordered = Vec::new();
+    while !constants.is_empty() {
+        let needs = |c: &Const| {
+            let mut names = BTreeSet::new();
+            mentioned_in(&c.value, &mut names);
+            constants.iter().any(|other| names.contains(&other.name))
+        };
+        let next = constants.iter().position(|c| !needs(c)).unwrap_or(0);
+        ordered.push(constants.remove(next));
+    }
+    ordered
+}
+
+/// The name of a field, or its number.
+pub fn member(member: &syn::Member) -> String {
+    match member {
+        syn::Member::Named(name) => name.to_string(),
+        syn::Member::Unnamed(index) => index.index.to_string(),
     }
 }
 

@@ -1,12 +1,16 @@
 //! Items of a kernel's files.
 
+use super::cfg::is_test;
+use super::check::Check;
 use super::expr::Lower;
-use super::reach::reach;
-use super::tree::{Enum, Expr, ExprKind, Function, Library, OptionField, Struct, Type};
+use super::foreign::{Import, is_prelude_type};
+use super::options::{OptionsSyntax, at_run_time};
+use super::reach::Mentions;
+use super::tree::{Enum, Function, Generic, Library, OptionField, Param, Struct, Type};
 use crate::diagnostic::Diagnostic;
-use proc_macro2::Span;
+use proc_macro2::{Span, TokenStream};
+use quote::ToTokens;
 use std::collections::HashMap;
-use syn::parse::{Parse, ParseStream};
 use syn::spanned::Spanned;
 
 /// Items lowered so far, and the errors of each by its name.
@@ -15,35 +19,135 @@ pub struct Items {
     library: Library,
     errors: HashMap<String, Vec<Diagnostic>>,
     duplicates: Vec<Diagnostic>,
+    mentions: Mentions,
+    /// Names that files import.
+    imports: Vec<Import>,
+    /// Functions of implementations of traits, as `Type::name`.
+    of_traits: Vec<(String, Vec<Diagnostic>)>,
 }
 
 impl Items {
-    /// Takes the items of one file. Tests and native-only items are passed over.
-    pub fn collect(&mut self, file: u32, items: &[syn::Item]) {
+    /// Takes a file. Tests and what `cfg` removes are passed over; items that are not part of the kernel language are noted by their
+    /// names, and refused where the kernel reaches them.
+    pub fn file(&mut self, file: u32, parsed: &mut syn::File) {
+        let mut check = Check::new(file);
+        let kept = check.keeps(&mut parsed.attrs);
+        self.duplicates.extend(check.errors());
+        if kept {
+            self.collect(file, &mut parsed.items);
+        }
+    }
+
+    fn collect(&mut self, file: u32, items: &mut [syn::Item]) {
         for item in items {
+            let mut check = Check::new(file);
             match item {
-                syn::Item::Fn(f) if !native_only(&f.attrs) => self.function(file, &f.sig, &f.block, &f.attrs, None),
-                syn::Item::Const(c) if !native_only(&c.attrs) => self.constant(file, c, None),
-                syn::Item::Struct(s) if !native_only(&s.attrs) => self.structure(file, s),
-                syn::Item::Enum(e) if !native_only(&e.attrs) => {
+                syn::Item::Fn(f) => {
+                    if is_test(&f.attrs) || !check.keeps(&mut f.attrs) {
+                        continue;
+                    }
+                    check.function(&mut f.sig, &mut f.block);
+                    let name = f.sig.ident.to_string();
+                    self.function(file, &f.sig, &f.block, &f.attrs, None);
+                    self.note(&name, f.to_token_stream(), check);
+                }
+                syn::Item::Const(c) => {
+                    if !check.keeps(&mut c.attrs) || c.ident == "_" {
+                        continue;
+                    }
+                    check.constant_name(&c.ident);
+                    check.constant(&mut c.generics, &mut c.ty, &mut c.expr);
+                    let name = c.ident.to_string();
+                    self.constant(file, c, None);
+                    self.note(&name, c.to_token_stream(), check);
+                }
+                syn::Item::Struct(s) => {
+                    if !check.keeps(&mut s.attrs) {
+                        continue;
+                    }
+                    self.type_name(&mut check, &s.ident);
+                    check.structure(s);
+                    let name = s.ident.to_string();
+                    self.structure(file, s);
+                    self.note(&name, s.to_token_stream(), check);
+                }
+                syn::Item::Enum(e) => {
+                    if !check.keeps(&mut e.attrs) {
+                        continue;
+                    }
+                    self.type_name(&mut check, &e.ident);
+                    check.variants(e);
                     let variants = e
                         .variants
                         .iter()
                         .map(|v| (v.ident.to_string(), docs(&v.attrs)))
                         .collect();
-                    self.library.enums.insert(e.ident.to_string(), Enum { variants });
+                    let name = e.ident.to_string();
+                    self.library.enums.insert(name.clone(), Enum { variants });
+                    self.note(&name, e.to_token_stream(), check);
                 }
-                syn::Item::Impl(i) if !native_only(&i.attrs) && i.trait_.is_none() => self.implementation(file, i),
-                syn::Item::Mod(m) if !native_only(&m.attrs) => {
-                    if let Some((_, inner)) = &m.content {
+                syn::Item::Impl(i) => {
+                    if check.keeps(&mut i.attrs) {
+                        self.implementation(file, i, check);
+                    }
+                }
+                syn::Item::Mod(m) => {
+                    if check.keeps(&mut m.attrs)
+                        && let Some((_, inner)) = &mut m.content
+                    {
+                        self.duplicates.extend(check.errors());
                         self.collect(file, inner);
                     }
                 }
                 syn::Item::Macro(m) if m.mac.path.segments.last().is_some_and(|s| s.ident == "options") => {
-                    self.options(file, &m.mac);
+                    if check.keeps(&mut m.attrs) {
+                        self.duplicates.extend(check.errors());
+                        self.options(file, &m.mac);
+                    }
                 }
-                _ => {}
+                other => self.elsewhere(other, check),
             }
+        }
+    }
+
+    /// Notes an item's errors, and what its text mentions.
+    pub(super) fn note(&mut self, name: &str, text: TokenStream, mut check: Check) {
+        check.raw_names(text.clone());
+        self.mentions.add(name, text);
+        self.blame(name, check.errors());
+    }
+
+    /// Notes a function of an implementation of a trait.
+    pub(super) fn of_trait(&mut self, name: String, errors: Vec<Diagnostic>) {
+        self.of_traits.push((name, errors));
+    }
+
+    /// Notes a name that a file imports.
+    pub(super) fn takes(&mut self, import: Import) {
+        self.imports.push(import);
+    }
+
+    /// Notes errors that concern every kernel of the files.
+    pub(super) fn refuse_all(&mut self, check: Check) {
+        self.duplicates.extend(check.errors());
+    }
+
+    fn blame(&mut self, name: &str, errors: Vec<Diagnostic>) {
+        self.errors.entry(name.to_owned()).or_default().extend(errors);
+    }
+
+    /// Checks that a type's name is its alone.
+    fn type_name(&mut self, check: &mut Check, name: &syn::Ident) {
+        let shown = name.to_string();
+        if is_prelude_type(&shown) {
+            check.refuse(
+                name.span(),
+                &format!("a type of one's own by the name of `{shown}`"),
+                "give it another name",
+            );
+        }
+        if self.library.structs.contains_key(&shown) || self.library.enums.contains_key(&shown) {
+            check.twice(name);
         }
     }
 
@@ -60,35 +164,49 @@ impl Items {
         let mut params = Vec::new();
         // Evaluation is on values, so a type parameter is whatever comes; constants are bound by name.
         let generics = sig.generics.params.iter().filter_map(|p| match p {
-            syn::GenericParam::Const(c) => Some(Some(c.ident.to_string())),
-            syn::GenericParam::Type(_) => Some(None),
+            syn::GenericParam::Const(c) => Some(Generic::Const(c.ident.to_string(), lower.ty(&c.ty))),
+            syn::GenericParam::Type(t) => Some(Generic::Type(t.ident.to_string())),
             syn::GenericParam::Lifetime(_) => None,
         });
         let generics = generics.collect();
         for input in &sig.inputs {
             match input {
                 syn::FnArg::Receiver(receiver) => {
-                    let ty = Type::Name(of.unwrap_or_default().to_owned(), Vec::new());
-                    params.push(("self".to_owned(), ty, lower.span(receiver.span())));
+                    params.push(Param {
+                        name: "self".to_owned(),
+                        ty: receiver_type(&mut lower, receiver, of.unwrap_or_default()),
+                        mutable: receiver.mutability.is_some(),
+                        span: lower.span(receiver.span()),
+                    });
                 }
                 syn::FnArg::Typed(typed) => {
-                    if let syn::Type::Reference(reference) = &*typed.ty
-                        && reference.mutability.is_some()
-                    {
-                        lower.unsupported(typed.span(), "a `&mut` parameter", "return the new value");
-                    }
                     let ty = lower.ty(&typed.ty);
                     match &*typed.pat {
-                        syn::Pat::Ident(p) => params.push((p.ident.to_string(), ty, lower.span(p.span()))),
+                        syn::Pat::Ident(p) => params.push(Param {
+                            name: p.ident.to_string(),
+                            ty,
+                            mutable: p.mutability.is_some(),
+                            span: lower.span(p.span()),
+                        }),
                         other => lower.unsupported(other.span(), "a pattern as parameter", "give the parameter a name"),
                     }
                 }
             }
         }
+        let result = match &sig.output {
+            syn::ReturnType::Default => Type::Tuple(Vec::new()),
+            syn::ReturnType::Type(_, ty) => lower.ty(ty),
+        };
         let body = lower.block(body);
         let span = lower.span(sig.ident.span());
         if self.library.functions.contains_key(&name) {
             self.duplicate(&lower, sig.ident.span(), &name);
+        }
+        let mutates = params
+            .first()
+            .is_some_and(|p| p.name == "self" && p.ty.is_mutable_reference());
+        if mutates {
+            self.library.mutating.insert(sig.ident.to_string());
         }
         self.library.functions.insert(
             name.clone(),
@@ -96,11 +214,12 @@ impl Items {
                 docs: docs(attrs),
                 generics,
                 params,
+                result,
                 body,
                 span,
             },
         );
-        self.errors.insert(name, lower.errors);
+        self.blame(&name, lower.errors);
     }
 
     fn constant(&mut self, file: u32, item: &syn::ItemConst, of: Option<&str>) {
@@ -109,7 +228,7 @@ impl Items {
         if self.library.consts.contains_key(&constant.name) {
             self.duplicate(&lower, item.ident.span(), &constant.name);
         }
-        self.errors.insert(constant.name.clone(), lower.errors);
+        self.blame(&constant.name, lower.errors);
         self.library.consts.insert(constant.name.clone(), constant);
     }
 
@@ -121,38 +240,97 @@ impl Items {
         });
         let fields = fields.collect();
         self.library.structs.insert(item.ident.to_string(), Struct { fields });
+        self.blame(&item.ident.to_string(), lower.errors);
     }
 
-    fn implementation(&mut self, file: u32, item: &syn::ItemImpl) {
+    fn implementation(&mut self, file: u32, item: &mut syn::ItemImpl, mut check: Check) {
         let mut lower = Lower::new(file, None);
-        let Type::Name(of, _) = lower.ty(&item.self_ty) else {
-            return;
+        let ty = lower.ty(&item.self_ty);
+        if let Some((path, _)) = &item.trait_ {
+            return self.trait_implementation(path, &ty, &item.items, check);
+        }
+        let Type::Name(of, _) = ty else {
+            return self.duplicates.extend(lower.errors);
         };
-        for inner in &item.items {
-            match inner {
-                syn::ImplItem::Fn(f) if !native_only(&f.attrs) => {
+        if let Some(default) = &item.modifiers.defaultness {
+            check.refuse(default.span(), "`default`", "leave it out");
+        }
+        let of_all = check.errors();
+        for inner in &mut item.items {
+            let mut check = Check::new(file);
+            check.generics(&mut item.generics);
+            let name = match inner {
+                syn::ImplItem::Fn(f) => {
+                    if !check.keeps(&mut f.attrs) {
+                        continue;
+                    }
+                    check.function(&mut f.sig, &mut f.block);
                     self.function(file, &f.sig, &f.block, &f.attrs, Some(&of));
+                    &f.sig.ident
                 }
-                syn::ImplItem::Const(c) if !native_only(&c.attrs) => {
+                syn::ImplItem::Const(c) => {
+                    if !check.keeps(&mut c.attrs) {
+                        continue;
+                    }
+                    check.constant_name(&c.ident);
+                    check.constant(&mut c.generics, &mut c.ty, &mut c.expr);
                     let mut lower = Lower::new(file, Some(of.clone()));
                     let name = format!("{of}::{}", c.ident);
                     let value = lower.expr(&c.expr);
                     let ty = lower.ty(&c.ty);
-                    self.errors.insert(name.clone(), lower.errors);
+                    if self.library.consts.contains_key(&name) {
+                        self.duplicate(&lower, c.ident.span(), &name);
+                    }
+                    self.blame(&name, lower.errors);
                     self.library
                         .consts
                         .insert(name.clone(), super::tree::Const { name, value, ty });
+                    &c.ident
                 }
-                _ => {}
-            }
+                syn::ImplItem::Type(t) => {
+                    if !check.keeps(&mut t.attrs) {
+                        continue;
+                    }
+                    check.refuse(t.span(), "a type in an `impl`", "write the type out");
+                    &t.ident
+                }
+                other => {
+                    self.hidden(other.to_token_stream(), check);
+                    continue;
+                }
+            };
+            let name = qualified(Some(&of), name);
+            let mut text = item.self_ty.to_token_stream();
+            text.extend(inner.to_token_stream());
+            self.blame(&name, of_all.clone());
+            self.note(&name, text, check);
         }
     }
 
     fn options(&mut self, file: u32, mac: &syn::Macro) {
         let mut lower = Lower::new(file, None);
         match mac.parse_body::<OptionsSyntax>() {
-            Ok(syntax) => {
+            Ok(mut syntax) => {
                 let name = syntax.name.to_string();
+                let mut check = Check::new(file);
+                check.keeps(&mut syntax.attrs);
+                self.type_name(&mut check, &syntax.name);
+                syntax.fields.retain_mut(|field| {
+                    let kept = check.keeps(&mut field.attrs);
+                    if kept {
+                        check.ty(&mut field.ty);
+                        field.range.iter_mut().for_each(|range| check.expr(range));
+                        check.expr(&mut field.default);
+                    }
+                    kept
+                });
+                let twice = |k: &usize| syntax.fields[..*k].iter().any(|f| f.name == syntax.fields[*k].name);
+                if let Some(k) = (0..syntax.fields.len()).find(twice) {
+                    check.twice(&syntax.fields[k].name);
+                }
+                check.raw_names(mac.tokens.clone());
+                self.mentions.add(&name, mac.tokens.clone());
+                self.duplicates.extend(check.errors());
                 let fields = syntax.fields.iter().map(|field| {
                     let (default, uniform) = at_run_time(lower.expr(&field.default));
                     OptionField {
@@ -193,16 +371,42 @@ impl Items {
     }
 
     /// What `entry` needs, or the errors in it.
-    pub fn lower(self, entry: &str) -> Result<Library, Vec<Diagnostic>> {
-        let reached = reach(&self.library.functions, &self.library.consts, entry);
+    pub fn lower(mut self, entry: &str) -> Result<Library, Vec<Diagnostic>> {
+        // A method of a type itself goes before one of a trait.
+        for (name, errors) in std::mem::take(&mut self.of_traits) {
+            if !self.library.functions.contains_key(&name) {
+                self.blame(&name, errors);
+            }
+        }
+        for import in std::mem::take(&mut self.imports) {
+            if let Some((name, error)) = import.refused(&self.library) {
+                self.blame(&name, vec![error]);
+            }
+        }
+        let reached = self.mentions.reach(self.errors.keys(), entry);
         let mut errors = self.duplicates;
         for name in &reached {
             errors.extend(self.errors.get(name).into_iter().flatten().cloned());
         }
-        if errors.is_empty() {
-            Ok(self.library)
-        } else {
-            Err(errors)
+        if !errors.is_empty() {
+            return Err(errors);
+        }
+        let mut library = self.library;
+        crate::infer::infer(&mut library, &reached)?;
+        Ok(library)
+    }
+}
+
+/// The type of `self`, `&self`, `&mut self` or `self: T`.
+fn receiver_type(lower: &mut Lower, receiver: &syn::Receiver, of: &str) -> Type {
+    let own = Type::Name(of.to_owned(), Vec::new());
+    match &receiver.kind {
+        syn::ReceiverKind::Value => own,
+        syn::ReceiverKind::Reference(_, _, mutability) => Type::Ref(mutability.is_some(), Box::new(own)),
+        syn::ReceiverKind::Typed(_, ty) => lower.ty(ty),
+        _ => {
+            lower.unsupported(receiver.span(), "this receiver", "take `self`, `&self` or `&mut self`");
+            own
         }
     }
 }
@@ -212,14 +416,6 @@ fn qualified(of: Option<&str>, name: &syn::Ident) -> String {
         Some(ty) => format!("{ty}::{name}"),
         None => name.to_string(),
     }
-}
-
-/// `#[cfg(test)]` and `#[test]`.
-fn native_only(attrs: &[syn::Attribute]) -> bool {
-    attrs.iter().any(|attr| {
-        attr.path().is_ident("test")
-            || attr.path().is_ident("cfg") && attr.parse_args::<syn::Path>().is_ok_and(|path| path.is_ident("test"))
-    })
 }
 
 /// Documentation comments as one text.
@@ -237,70 +433,4 @@ fn docs(attrs: &[syn::Attribute]) -> String {
         }
     }
     lines.join(" ").trim().to_owned()
-}
-
-struct OptionsSyntax {
-    name: syn::Ident,
-    fields: Vec<OptionSyntax>,
-}
-
-struct OptionSyntax {
-    attrs: Vec<syn::Attribute>,
-    name: syn::Ident,
-    ty: syn::Type,
-    range: Option<syn::Expr>,
-    default: syn::Expr,
-}
-
-impl Parse for OptionsSyntax {
-    fn parse(input: ParseStream<'_>) -> syn::Result<Self> {
-        input.call(syn::Attribute::parse_outer)?;
-        input.parse::<syn::Visibility>()?;
-        input.parse::<syn::Token![struct]>()?;
-        let name = input.parse()?;
-        let body;
-        syn::braced!(body in input);
-        let fields = body.parse_terminated(OptionSyntax::parse, syn::Token![,])?;
-        Ok(OptionsSyntax {
-            name,
-            fields: fields.into_iter().collect(),
-        })
-    }
-}
-
-impl Parse for OptionSyntax {
-    fn parse(input: ParseStream<'_>) -> syn::Result<Self> {
-        let attrs = input.call(syn::Attribute::parse_outer)?;
-        input.parse::<syn::Visibility>()?;
-        let name = input.parse()?;
-        input.parse::<syn::Token![:]>()?;
-        let ty = input.parse()?;
-        let range = if input.peek(syn::token::Bracket) {
-            let inner;
-            syn::bracketed!(inner in input);
-            Some(inner.parse()?)
-        } else {
-            None
-        };
-        input.parse::<syn::Token![=]>()?;
-        Ok(OptionSyntax {
-            attrs,
-            name,
-            ty,
-            range,
-            default: input.parse()?,
-        })
-    }
-}
-
-/// The default of an option, and whether it is `uniform(default)`: a number that is set at run time.
-fn at_run_time(default: Expr) -> (Expr, bool) {
-    match default.kind {
-        ExprKind::Call(path, constants, mut arguments)
-            if constants.is_empty() && arguments.len() == 1 && path.last().is_some_and(|name| name == "uniform") =>
-        {
-            (arguments.remove(0), true)
-        }
-        kind => (Expr { kind, ..default }, false),
-    }
 }

@@ -4,18 +4,25 @@
 //! anything.
 
 mod attribute;
+mod cfg;
+mod check;
 mod depth;
 mod expr;
+mod foreign;
+#[cfg(test)]
+mod fuzz;
 mod items;
+mod options;
 mod pattern;
 mod reach;
 mod scan;
 pub mod tree;
 
 use crate::diagnostic::{Diagnostic, Errors, File, Span};
+use std::borrow::Cow;
 use std::sync::Arc;
 
-pub use scan::assigned;
+pub use scan::{assigned, children};
 pub use tree::Library;
 
 /// Reads all files and lowers what `entry` reaches.
@@ -23,11 +30,12 @@ pub fn parse(files: &Arc<Vec<File>>, entry: &str) -> Result<Library, Errors> {
     let mut errors = Vec::new();
     let mut syntax = Vec::new();
     for (index, file) in files.iter().enumerate() {
-        if let Err(error) = depth::check(index as u32, &file.text) {
+        let text = without_head(&file.text);
+        if let Err(error) = depth::check(index as u32, &text) {
             errors.push(*error);
             continue;
         }
-        match syn::parse_file(&file.text) {
+        match syn::parse_file(&text) {
             Ok(parsed) => syntax.push((index as u32, parsed)),
             Err(error) => errors.push(syntax_error(index as u32, &error)),
         }
@@ -36,13 +44,36 @@ pub fn parse(files: &Arc<Vec<File>>, entry: &str) -> Result<Library, Errors> {
         return Err(Errors::new(errors, files));
     }
     let mut items = items::Items::default();
-    for (file, parsed) in &syntax {
-        items.collect(*file, &parsed.items);
+    for (file, parsed) in &mut syntax {
+        items.file(*file, parsed);
     }
     let library = items.lower(entry);
     match library {
         Ok(library) => Ok(library),
         Err(found) => Err(Errors::new(found, files)),
+    }
+}
+
+/// The text with blanks for a byte order mark and a first line `#!/...`, so that what follows stays in its place.
+fn without_head(text: &str) -> Cow<'_, str> {
+    let mark = if text.starts_with('\u{feff}') {
+        '\u{feff}'.len_utf8()
+    } else {
+        0
+    };
+    let rest = &text[mark..];
+    let script = rest.strip_prefix("#!").is_some_and(|after| {
+        let after = after.trim_start();
+        !after.starts_with('[') && !after.starts_with("//") && !after.starts_with("/*")
+    });
+    let line = if script {
+        rest.find('\n').unwrap_or(rest.len())
+    } else {
+        0
+    };
+    match mark + line {
+        0 => Cow::Borrowed(text),
+        blank => Cow::Owned(format!("{}{}", " ".repeat(blank), &text[blank..])),
     }
 }
 

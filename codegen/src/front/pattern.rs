@@ -15,7 +15,7 @@ impl Lower {
                 if name.chars().next().is_some_and(char::is_uppercase) {
                     Pattern::Value(Box::new(self.path_expr(vec![name], p.span())))
                 } else {
-                    Pattern::Name(name, self.span(p.ident.span()))
+                    Pattern::Name(name, p.mutability.is_some(), self.span(p.ident.span()))
                 }
             }
             syn::Pat::Wild(_) => Pattern::Wild,
@@ -39,15 +39,23 @@ impl Lower {
             syn::Pat::Struct(p) => {
                 let mut fields = Vec::new();
                 for field in &p.fields {
-                    if let syn::Member::Named(name) = &field.member {
-                        fields.push((name.to_string(), self.pattern(&field.pat)));
-                    }
+                    fields.push((super::expr::member(&field.member), self.pattern(&field.pat)));
                 }
+                Pattern::Struct(fields, self.span(p.span()))
+            }
+            // Fields of a structure without names are named by their numbers.
+            syn::Pat::TupleStruct(p) if p.qself.is_none() => {
+                let fields = p.elems.iter().enumerate().map(|(k, e)| (k.to_string(), self.pattern(e)));
+                let fields = fields.collect();
                 Pattern::Struct(fields, self.span(p.span()))
             }
             syn::Pat::Range(p) => match (&p.start, &p.end) {
                 (Some(low), Some(high)) if matches!(p.limits, syn::RangeLimits::Closed(_)) => {
                     Pattern::Range(Box::new(self.expr(low)), Box::new(self.expr(high)))
+                }
+                (Some(_), Some(_)) => {
+                    self.unsupported(p.span(), "a range without its end in a pattern", "write `0..=3` for `0..4`");
+                    Pattern::Wild
                 }
                 _ => {
                     self.unsupported(p.span(), "a range without both ends", "write both: `0..=3`");
@@ -55,20 +63,28 @@ impl Lower {
                 }
             },
             other => {
-                self.unsupported(
-                    other.span(),
-                    "this pattern",
-                    "match on enum variants, integers, `0..=3`, `a | b` or `_`, and bind names, tuples and fields",
-                );
+                let (what, instead) = match other {
+                    syn::Pat::Ident(p) if p.by_ref.is_some() => ("`ref`", "leave it out: values are copied"),
+                    syn::Pat::Ident(_) => ("`@` in a pattern", "match on the value, and use its own name"),
+                    syn::Pat::Rest(_) => ("`..` in a tuple or array", "write `_` for each part that is not used"),
+                    syn::Pat::Const(_) => ("a `const` block in a pattern", "give the constant a name"),
+                    syn::Pat::Macro(_) => ("a macro in a pattern", "write the pattern out"),
+                    syn::Pat::Type(_) => ("a type inside of a pattern", "state the type of the whole pattern"),
+                    _ => (
+                        "this pattern",
+                        "match on enum variants, integers, `0..=3`, `a | b` or `_`, and bind names, tuples and fields",
+                    ),
+                };
+                self.unsupported(other.span(), what, instead);
                 Pattern::Wild
             }
         }
     }
 
-    /// A type; references, lifetimes and parentheses are dropped.
+    /// A type; lifetimes and parentheses are dropped.
     pub fn ty(&mut self, ty: &syn::Type) -> Type {
         match ty {
-            syn::Type::Reference(t) => self.ty(&t.elem),
+            syn::Type::Reference(t) => Type::Ref(t.mutability.is_some(), Box::new(self.ty(&t.elem))),
             syn::Type::Paren(t) => self.ty(&t.elem),
             syn::Type::Group(t) => self.ty(&t.elem),
             syn::Type::Array(t) => Type::Array(Box::new(self.ty(&t.elem)), Some(Box::new(self.expr(&t.len)))),

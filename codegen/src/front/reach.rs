@@ -1,42 +1,97 @@
-//! Which items a kernel reaches. Errors elsewhere are nobody's concern.
+//! Which items a kernel reaches. Errors elsewhere do not concern it.
 
-use super::scan;
-use super::tree::{Const, Function};
-use std::collections::{BTreeSet, HashMap};
+use proc_macro2::{TokenStream, TokenTree};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 
-/// Names of the functions (methods as `Type::name`) and constants that `entry` reaches by any mention of their
-/// last segment. Coarse, never too small.
-pub fn reach(functions: &HashMap<String, Function>, consts: &HashMap<String, Const>, entry: &str) -> BTreeSet<String> {
-    let mut by_last: HashMap<&str, Vec<&String>> = HashMap::new();
-    for name in functions.keys().chain(consts.keys()) {
-        by_last.entry(last(name)).or_default().push(name);
-    }
-    let mut reached = BTreeSet::new();
-    let mut pending = vec![entry.to_owned()];
-    while let Some(name) = pending.pop() {
-        if !reached.insert(name.clone()) {
-            continue;
-        }
-        let mut names = BTreeSet::new();
-        if let Some(function) = functions.get(&name) {
-            scan::mentioned(&function.body, &mut names);
-        }
-        if let Some(constant) = consts.get(&name) {
-            scan::mentioned_in(&constant.value, &mut names);
-        }
-        for mentioned in &names {
-            pending.extend(
-                by_last
-                    .get(mentioned.as_str())
-                    .into_iter()
-                    .flatten()
-                    .map(|n| (*n).clone()),
-            );
-        }
-    }
-    reached
+/// A word of an item's text that may name another item.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Mention {
+    /// `name`: a function, a constant, a type.
+    Plain(String),
+    /// `Type::name`: either.
+    Qualified(String),
+    /// `.name(..)`: a method of some type.
+    Method(String),
 }
 
-fn last(name: &str) -> &str {
-    name.rsplit("::").next().unwrap_or(name)
+/// The words that the text of items mentions, by the items' names.
+#[derive(Debug, Default)]
+pub struct Mentions {
+    words: BTreeMap<String, BTreeSet<Mention>>,
+}
+
+impl Mentions {
+    /// Adds the text of an item. What is added twice counts together.
+    pub fn add(&mut self, item: &str, text: TokenStream) {
+        scan(text, self.words.entry(item.to_owned()).or_default());
+    }
+
+    /// Names of the items that `entry` reaches by any mention. Coarse, never too small.
+    pub fn reach<'n>(&self, names: impl Iterator<Item = &'n String>, entry: &str) -> BTreeSet<String> {
+        let mut plain: HashMap<&str, Vec<&String>> = HashMap::new();
+        let mut members: HashMap<&str, Vec<&String>> = HashMap::new();
+        for name in names {
+            match name.rsplit_once("::") {
+                Some((_, last)) => members.entry(last).or_default().push(name),
+                None => plain.entry(name).or_default().push(name),
+            }
+        }
+        let of = |map: &HashMap<&str, Vec<&String>>, word: &str| -> Vec<String> {
+            map.get(word).into_iter().flatten().map(|n| (*n).clone()).collect()
+        };
+        let mut reached = BTreeSet::new();
+        let mut pending = vec![entry.to_owned()];
+        while let Some(name) = pending.pop() {
+            if !reached.insert(name.clone()) {
+                continue;
+            }
+            for mention in self.words.get(&name).into_iter().flatten() {
+                match mention {
+                    Mention::Plain(word) => pending.extend(of(&plain, word)),
+                    Mention::Method(word) => pending.extend(of(&members, word)),
+                    Mention::Qualified(word) => {
+                        pending.extend(of(&plain, word));
+                        pending.extend(of(&members, word));
+                    }
+                }
+            }
+        }
+        reached
+    }
+}
+
+fn scan(text: TokenStream, out: &mut BTreeSet<Mention>) {
+    let tokens: Vec<TokenTree> = text.into_iter().collect();
+    let punct = |at: usize| match tokens.get(at) {
+        Some(TokenTree::Punct(p)) => p.as_char(),
+        _ => ' ',
+    };
+    let before = |k: usize, n: usize| k.checked_sub(n).map_or(' ', punct);
+    for (k, token) in tokens.iter().enumerate() {
+        let word = match token {
+            TokenTree::Group(group) => {
+                scan(group.stream(), out);
+                continue;
+            }
+            TokenTree::Ident(word) => word.to_string(),
+            TokenTree::Punct(_) | TokenTree::Literal(_) => continue,
+        };
+        let path = punct(k + 1) == ':' && punct(k + 2) == ':';
+        let called = path || matches!(tokens.get(k + 1), Some(TokenTree::Group(_)));
+        match (before(k, 2), before(k, 1)) {
+            // `a..b`, or a method, or a field.
+            (two, '.') if two != '.' => {
+                if called {
+                    out.insert(Mention::Method(word));
+                }
+            }
+            // A lifetime; a module before `::`, which functions are found without.
+            (_, '\'') => {}
+            _ if path && punct(k + 3) != '<' && word.starts_with(char::is_lowercase) => {}
+            (':', ':') => drop(out.insert(Mention::Qualified(word))),
+            // `name: type`, or `field: value`.
+            _ if punct(k + 1) == ':' && !path => {}
+            _ => drop(out.insert(Mention::Plain(word))),
+        }
+    }
 }

@@ -35,7 +35,7 @@ pub fn apply<R: Real>(op: &Op, operand: Type, args: &[Cells], ty: Type) -> Optio
     Some(match op {
         Op::Const(bits) => constant::<R>(ty, bits),
         Op::Unary(op) => each(lanes, |k| unary::<R>(*op, operand.kind()?, args[0][k]))?,
-        Op::Binary(op) => each(lanes, |k| binary::<R>(*op, operand.kind()?, args[0][k], args[1][k]))?,
+        Op::Binary(op) => each(lanes, |k| component::<R>(*op, operand, args[0][k], args[1][k]))?,
         Op::Dot => {
             let product = |k: usize| real(args[0][k]) * real(args[1][k]);
             let sum = (1..operand.lanes() as usize).fold(product(0), |sum, k| sum + product(k));
@@ -46,9 +46,20 @@ pub fn apply<R: Real>(op: &Op, operand: Type, args: &[Cells], ty: Type) -> Optio
             let lane = |k: usize| at(0, k + 1) * at(1, k + 2) - at(1, k + 1) * at(0, k + 2);
             each(3, |k| Some(lane(k).to_bits()))?
         }
+        Op::Clamp if operand == Type::F32 => {
+            let [x, low, high] = [0, 1, 2].map(|k| real(args[k][0]));
+            let clamped = if x < low {
+                low
+            } else if x > high {
+                high
+            } else {
+                x
+            };
+            [clamped.to_bits(), 0, 0, 0]
+        }
         Op::Clamp => each(lanes, |k| {
-            let below = binary::<R>(BinaryOp::Min, operand.kind()?, args[0][k], args[2][k])?;
-            binary::<R>(BinaryOp::Max, operand.kind()?, below, args[1][k])
+            let above = component::<R>(BinaryOp::Max, operand, args[0][k], args[1][k])?;
+            component::<R>(BinaryOp::Min, operand, above, args[2][k])
         })?,
         Op::Select => args[if args[0][0] != 0 { 1 } else { 2 }],
         Op::Splat => each(lanes, |_| Some(args[0][0]))?,
@@ -95,6 +106,16 @@ fn binary<R: Real>(op: BinaryOp, kind: Scalar, a: u64, b: u64) -> Option<u64> {
         Scalar::F32 => binary_real(op, R::from_bits(a), R::from_bits(b)),
         Scalar::I32 => binary_i32(op, a as i32, b as i32).map(u64::from),
         Scalar::U32 => binary_u32(op, a as u32, b as u32).map(u64::from),
+    }
+}
+
+/// One component of an operation on two operands of a type.
+fn component<R: Real>(op: BinaryOp, operand: Type, a: u64, b: u64) -> Option<u64> {
+    let first = |holds: bool| Some(if holds { a } else { b });
+    match op {
+        BinaryOp::Min if operand.is_float() && !operand.is_scalar() => first(R::from_bits(a) < R::from_bits(b)),
+        BinaryOp::Max if operand.is_float() && !operand.is_scalar() => first(R::from_bits(a) > R::from_bits(b)),
+        _ => binary::<R>(op, operand.kind()?, a, b),
     }
 }
 

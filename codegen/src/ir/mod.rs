@@ -19,7 +19,7 @@
 //! - Vectors have 2 to 4 lanes. Both sides of a binary operation have the same type: a scalar that meets a
 //!   vector is [`Op::Splat`] first.
 //! - Arrays are values: [`Op::ArraySet`] gives a new array and leaves the old one as it was. An index out of
-//!   range reads the last element and writes nothing.
+//!   range, a negative one too, is that of the last element, for reads and for writes, as in WGSL.
 //! - A kept loop is one [`Op::Loop`] node with a [`Region`]. Its arguments are the first counter, the end (not
 //!   included) and the initial carried values; the region's parameters are the counter and the carried values,
 //!   and its results the carried values of the next iteration. Counter and bounds have one type, `i32` or `u32`, in

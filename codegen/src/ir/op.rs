@@ -24,13 +24,16 @@ pub enum Op {
     Uniform(u32),
     /// One argument.
     Unary(UnaryOp),
-    /// Two arguments of one type; comparisons give booleans, lane by lane.
+    /// Two arguments of one type; comparisons give booleans, lane by lane. Of two float scalars `Min` and `Max` are those of
+    /// `f32`, which pass over a NaN; of two vectors those of glam: the first one's component where it is less, or greater, and
+    /// else the second one's.
     Binary(BinaryOp),
     /// Sum of the products of the lanes, first to last: two vectors to a scalar.
     Dot,
     /// Cross product of two `vec3<f32>`.
     Cross,
-    /// `max(min(x, high), low)`: x, low, high.
+    /// x, low, high, as Rust has it: a float scalar that is a NaN stays one (`f32::clamp`), vectors of floats are
+    /// `x.max(low).min(high)` as glam's are.
     Clamp,
     /// condition (scalar boolean), value if true, value if false.
     Select,
@@ -167,6 +170,8 @@ pub enum UnaryOp {
     Round,
     Trunc,
     Fract,
+    /// Between 0 and 1; of a NaN a number.
+    Saturate,
     Sqrt,
     InverseSqrt,
     Exp,
@@ -238,7 +243,7 @@ impl BinaryOp {
 
 impl UnaryOp {
     /// Every operation.
-    pub const ALL: [UnaryOp; 29] = {
+    pub const ALL: [UnaryOp; 30] = {
         use UnaryOp::*;
         [
             Neg,
@@ -251,6 +256,7 @@ impl UnaryOp {
             Round,
             Trunc,
             Fract,
+            Saturate,
             Sqrt,
             InverseSqrt,
             Exp,

@@ -68,6 +68,8 @@ macro_rules! real {
                     Round => x.round_ties_even(),
                     Trunc => x.trunc(),
                     Fract => x - x.floor(),
+                    // Not `clamp`, which gives a NaN back.
+                    Saturate => x.min(1.0).max(0.0),
                     Sqrt => x.sqrt(),
                     InverseSqrt => 1.0 / x.sqrt(),
                     Exp => x.exp(),

@@ -115,6 +115,9 @@ impl Counter<'_> {
     }
 }
 
+/// Layers that the textures of the largest GPUs have; an index that is only known to be smaller than more is not bounded.
+const MAX_LAYERS: i64 = 2048;
+
 /// Layers, or samples, of a texture that reads can reach: one more than the largest index. `None` if an index is not
 /// bounded by what is known now.
 pub fn layers_read(graph: &Graph, texture: u32) -> Option<u32> {
@@ -124,7 +127,7 @@ pub fn layers_read(graph: &Graph, texture: u32) -> Option<u32> {
         if matches!(node.op, Op::Load { texture: t, .. } if t == texture)
             && let Some(layer) = node.args.get(1)
         {
-            let (_, largest) = ranges::bounds(graph, *layer)?;
+            let (_, largest) = ranges::bounds(graph, *layer).filter(|(_, largest)| *largest < MAX_LAYERS)?;
             layers = layers.max(u32::try_from(largest.max(0)).ok()?.checked_add(1)?);
         }
     }
@@ -171,9 +174,17 @@ fn max_live(graph: &Graph, schedule: &Schedule) -> u32 {
     let mut order = Vec::new();
     flatten(graph, &schedule.body, &mut order);
     let mut last_use: Vec<usize> = vec![0; graph.nodes.len()];
+    // Where each value is made: before the loop that it is used in, or in it.
+    let mut made: Vec<usize> = vec![0; graph.nodes.len()];
     for (at, entry) in order.iter().enumerate() {
+        if let Some(id) = entry.makes {
+            made[id.0 as usize] = at;
+        }
         for arg in &entry.reads {
-            last_use[arg.0 as usize] = last_use[arg.0 as usize].max(entry.until.unwrap_or(at));
+            // Of the loops around the use, those that the value comes from outside of: the outermost one's end.
+            let outside = entry.loops.iter().find(|(from, _)| made[arg.0 as usize] <= *from);
+            let until = outside.map_or(at, |(_, end)| *end);
+            last_use[arg.0 as usize] = last_use[arg.0 as usize].max(until);
         }
     }
     for output in graph.outputs() {
@@ -198,61 +209,45 @@ fn max_live(graph: &Graph, schedule: &Schedule) -> u32 {
 struct Entry {
     makes: Option<NodeId>,
     reads: Vec<NodeId>,
-    /// Values read in a loop live until its end.
-    until: Option<usize>,
+    /// Where the loops around it begin and end, outermost first.
+    loops: Vec<(usize, usize)>,
 }
 
 fn flatten(graph: &Graph, block: &Block, order: &mut Vec<Entry>) {
+    let entry = |makes: Option<NodeId>, reads: Vec<NodeId>| Entry {
+        makes,
+        reads,
+        loops: Vec::new(),
+    };
+    let results = |node: NodeId| {
+        let regions = graph.regions_of(node);
+        regions.iter().flat_map(|r| graph.region(*r).results.clone()).collect()
+    };
     for step in &block.steps {
         match step {
-            Step::Eval(id) => {
-                order.push(Entry {
-                    makes: Some(*id),
-                    reads: graph.node(*id).args.clone(),
-                    until: None,
-                });
-            }
+            Step::Eval(id) => order.push(entry(Some(*id), graph.node(*id).args.clone())),
             Step::Loop { node, body } => {
                 let from = order.len();
-                order.push(Entry {
-                    makes: None,
-                    reads: graph.node(*node).args.clone(),
-                    until: None,
-                });
+                order.push(entry(None, graph.node(*node).args.clone()));
+                // The counter and what is carried live from one iteration to the next.
+                for param in &graph.region(graph.regions_of(*node)[0]).params {
+                    order.push(entry(Some(*param), Vec::new()));
+                }
+                let inside = order.len();
                 flatten(graph, body, order);
-                let results = graph
-                    .regions_of(*node)
-                    .iter()
-                    .flat_map(|r| graph.region(*r).results.clone())
-                    .collect();
-                order.push(Entry {
-                    makes: Some(*node),
-                    reads: results,
-                    until: None,
-                });
+                let mut last: Vec<NodeId> = results(*node);
+                last.extend(&graph.region(graph.regions_of(*node)[0]).params);
+                order.push(entry(Some(*node), last));
                 let end = order.len() - 1;
-                for entry in &mut order[from..end] {
-                    entry.until = Some(end);
+                for entry in &mut order[inside..end] {
+                    entry.loops.insert(0, (from, end));
                 }
             }
             Step::If { node, then, otherwise } => {
-                order.push(Entry {
-                    makes: None,
-                    reads: graph.node(*node).args.clone(),
-                    until: None,
-                });
+                order.push(entry(None, graph.node(*node).args.clone()));
                 flatten(graph, then, order);
                 flatten(graph, otherwise, order);
-                let results = graph
-                    .regions_of(*node)
-                    .iter()
-                    .flat_map(|r| graph.region(*r).results.clone())
-                    .collect();
-                order.push(Entry {
-                    makes: Some(*node),
-                    reads: results,
-                    until: None,
-                });
+                order.push(entry(Some(*node), results(*node)));
             }
         }
     }

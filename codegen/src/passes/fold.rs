@@ -120,8 +120,8 @@ fn float(g: &Graph, op: BinaryOp, x: NodeId, y: NodeId) -> Option<NodeId> {
         BinaryOp::Sub if is(y, 0.0) => Some(x),
         BinaryOp::Mul | BinaryOp::Div if is(y, 1.0) => Some(x),
         BinaryOp::Mul if is(x, 1.0) => Some(y),
-        // The smaller of 0 and what is never negative; of 0 and a NaN it is 0 too.
-        BinaryOp::Min if is(x, 0.0) && ranges::nonnegative(g, y) => Some(x),
+        // The smaller of 0 and what is never negative; of 0 and a NaN it is 0 too, but of vectors only if the 0 comes last.
+        BinaryOp::Min if is(x, 0.0) && ranges::nonnegative(g, y) && g.ty(x).is_scalar() => Some(x),
         BinaryOp::Min if is(y, 0.0) && ranges::nonnegative(g, x) => Some(y),
         // A value that is bounded already; what `min` gave is no NaN.
         BinaryOp::Min if bounded_by(g, y, x) => Some(y),
@@ -137,7 +137,9 @@ fn bounded_by(g: &Graph, id: NodeId, bound: NodeId) -> bool {
     match node.op {
         Op::Tally(_) => bounded_by(g, node.args[0], bound),
         Op::Binary(BinaryOp::Min) => {
-            node.args.contains(&bound)
+            // Of vectors the last argument stands for a NaN in the first.
+            let bounds = if node.ty.is_scalar() { &node.args[..] } else { &node.args[1..] };
+            bounds.contains(&bound)
                 && g.constant(bound).is_some()
                 && !all_lanes(g, bound, 0)
                 && !all_lanes(g, bound, 1 << 31)

@@ -13,7 +13,7 @@ pub use count::{count, layers_read};
 pub use floor::floor;
 pub use fold::Exact;
 pub use lanes::{by_derivatives, expand};
-pub(crate) use ranges::bounds;
+pub(crate) use ranges::{bounds, component_bounds, float_bounds};
 pub use schedule::{Block, Schedule, Step, schedule};
 
 use crate::ir::{Graph, Rebuild, rebuild};

@@ -1,9 +1,12 @@
 //! What is known of a value without knowing it.
 
-use crate::ir::{BinaryOp, Builder, Graph, Invocation, NodeId, Op, Type, UnaryOp};
+use crate::ir::{BinaryOp, Builder, Graph, Invocation, NodeId, Op, Scalar, Type, UnaryOp};
 
 /// How far back a question is followed; beyond it nothing is known.
 const DEPTH: u32 = 12;
+
+/// No texture is wider or higher, and no pixel lies farther out.
+const LARGEST_FRAME: i64 = 1 << 20;
 
 /// Whether every lane of a float is +0, positive or NaN: never negative and never -0.
 pub fn nonnegative(g: &Graph, id: NodeId) -> bool {
@@ -35,64 +38,99 @@ fn at_depth(g: &Graph, id: NodeId, depth: u32) -> bool {
     }
 }
 
-/// The smallest and the largest value that an integer can have, as far as constants and loop counters tell.
+/// The smallest and the largest value that a scalar integer can have, as far as constants, counters and floats tell.
 pub fn bounds(g: &Graph, id: NodeId) -> Option<(i64, i64)> {
-    bounds_at(g, id, DEPTH)
+    bounds_at(g, id, 0, DEPTH)
 }
 
-fn bounds_at(g: &Graph, id: NodeId, depth: u32) -> Option<(i64, i64)> {
+/// As [`bounds`], of one component of an integer vector.
+pub fn component_bounds(g: &Graph, id: NodeId, component: u8) -> Option<(i64, i64)> {
+    bounds_at(g, id, component, DEPTH)
+}
+
+/// The smallest and the largest value that a component of floats can have, either of them infinite. A value for which this is
+/// known is a NaN only where it was clamped, and then hardware decides which of the bounds stands for the NaN.
+pub fn float_bounds(g: &Graph, id: NodeId, component: u8) -> Option<(f32, f32)> {
+    floats_at(g, id, component, DEPTH)
+}
+
+/// Every value of an integer type.
+fn whole(ty: Type) -> (i64, i64) {
+    match ty.kind() {
+        Some(Scalar::U32) => (0, i64::from(u32::MAX)),
+        _ => (i64::from(i32::MIN), i64::from(i32::MAX)),
+    }
+}
+
+fn bounds_at(g: &Graph, id: NodeId, component: u8, depth: u32) -> Option<(i64, i64)> {
     if depth == 0 {
         return None;
     }
     let node = g.node(id);
-    let of = |k: usize| bounds_at(g, node.args[k], depth - 1);
-    let fits = |(low, high): (i64, i64)| {
-        // What leaves the range wraps.
-        let range = if node.ty == Type::U32 {
-            0..=i64::from(u32::MAX)
+    if !node.ty.is_integer() {
+        return None;
+    }
+    let of = |k: usize| bounds_at(g, node.args[k], component, depth - 1);
+    let (smallest, largest) = whole(node.ty);
+    let unsigned = node.ty.kind() == Some(Scalar::U32);
+    // What leaves the range wraps.
+    let fits = |(low, high): (i64, i64)| (low >= smallest && high <= largest).then_some((low, high));
+    let known = |id: NodeId| {
+        let bits = g.constant(id)?[component as usize];
+        Some(if unsigned {
+            i64::from(bits)
         } else {
-            i64::from(i32::MIN)..=i64::from(i32::MAX)
-        };
-        (range.contains(&low) && range.contains(&high)).then_some((low, high))
+            i64::from(bits as i32)
+        })
     };
     let corners = |f: fn(i64, i64) -> i64| {
         let ((a, b), (c, d)) = (of(0)?, of(1)?);
         let all = [f(a, c), f(a, d), f(b, c), f(b, d)];
         fits((*all.iter().min()?, *all.iter().max()?))
     };
-    match &node.op {
-        Op::Const(bits) if node.ty == Type::I32 => Some((i64::from(bits[0] as i32), i64::from(bits[0] as i32))),
-        Op::Const(bits) if node.ty == Type::U32 => Some((i64::from(bits[0]), i64::from(bits[0]))),
+    let found = match &node.op {
+        Op::Const(_) => known(id).map(|n| (n, n)),
+        // A pixel of a block may lie outside of the frame, but never before it.
+        Op::Pixel => Some((0, LARGEST_FRAME)),
+        Op::FrameSize | Op::TextureSize(_) => Some((1, LARGEST_FRAME)),
+        Op::BufferLen(_) => Some((1, largest)),
+        Op::Lane => Some((0, 1)),
         Op::Param(region, 0) => {
             let owner = g.ids().find(|id| g.node(*id).op == Op::Loop(*region))?;
-            let bound = |k: usize| bounds_at(g, g.node(owner).args[k], depth - 1);
+            let bound = |k: usize| bounds_at(g, g.node(owner).args[k], 0, depth - 1);
             let ((low, _), (_, end)) = (bound(0)?, bound(1)?);
             Some((low, (end - 1).max(low)))
         }
+        Op::Splat => bounds_at(g, node.args[0], 0, depth - 1),
+        Op::Compose => bounds_at(g, node.args[component as usize], 0, depth - 1),
+        Op::Extract(k) => bounds_at(g, node.args[0], *k, depth - 1),
+        Op::Tally(_) => of(0),
         Op::Binary(BinaryOp::Add) => corners(|a, b| a + b),
         Op::Binary(BinaryOp::Sub) => corners(|a, b| a - b),
         Op::Binary(BinaryOp::Mul) => corners(|a, b| a.saturating_mul(b)),
         Op::Binary(BinaryOp::Div) => {
-            let divisor = g
-                .constant(node.args[1])
-                .map(|bits| i64::from(bits[0] as i32))
-                .filter(|d| *d > 0)?;
+            let divisor = known(node.args[1]).filter(|d| *d > 0)?;
             of(0).map(|(low, high)| (low / divisor, high / divisor))
         }
         Op::Binary(BinaryOp::Rem) => {
-            let divisor = g
-                .constant(node.args[1])
-                .map(|bits| i64::from(bits[0] as i32))
-                .filter(|d| *d > 0)?;
+            let divisor = known(node.args[1]).filter(|d| *d > 0)?;
             let low = of(0).map_or(1 - divisor, |(low, _)| low.clamp(1 - divisor, 0));
-            Some((if node.ty == Type::U32 { 0 } else { low }, divisor - 1))
+            Some((if unsigned { 0 } else { low }, divisor - 1))
+        }
+        Op::Binary(BinaryOp::And) => {
+            let mask = node.args.iter().filter_map(|arg| known(*arg)).find(|mask| *mask >= 0)?;
+            Some((0, mask))
+        }
+        Op::Binary(BinaryOp::Shr) => {
+            let count = g.constant(node.args[1])?[component as usize] % 32;
+            let (low, high) = of(0).unwrap_or((smallest, largest));
+            Some((low >> count, high >> count))
         }
         Op::Binary(op @ (BinaryOp::Min | BinaryOp::Max)) => match (of(0), of(1), op) {
             (Some((a, b)), Some((c, d)), BinaryOp::Min) => Some((a.min(c), b.min(d))),
             (Some((a, b)), Some((c, d)), _) => Some((a.max(c), b.max(d))),
-            (Some((_, high)), None, BinaryOp::Min) | (None, Some((_, high)), BinaryOp::Min) => {
-                Some((i64::from(i32::MIN), high))
-            }
+            (Some((_, high)), None, BinaryOp::Min) | (None, Some((_, high)), BinaryOp::Min) => Some((smallest, high)),
+            (Some((low, _)), None, _) | (None, Some((low, _)), _) => Some((low, largest)),
             _ => None,
         },
         Op::Clamp => {
@@ -105,13 +143,99 @@ fn bounds_at(g: &Graph, id: NodeId, depth: u32) -> Option<(i64, i64)> {
         }
         // Of a wrong index, the last element.
         Op::ArrayGet if g.node(node.args[0]).op == Op::MakeArray => {
-            let elements = g.node(node.args[0]).args.iter().map(|id| bounds_at(g, *id, depth - 1));
-            let all: Vec<(i64, i64)> = elements.collect::<Option<_>>()?;
+            let elements = g.node(node.args[0]).args.iter();
+            let all: Vec<(i64, i64)> = elements
+                .map(|id| bounds_at(g, *id, component, depth - 1))
+                .collect::<Option<_>>()?;
             let low = all.iter().map(|(low, _)| *low).min()?;
             let high = all.iter().map(|(_, high)| *high).max()?;
             Some((low, high))
         }
-        Op::Convert if node.ty.is_scalar() => fits(of(0)?),
+        Op::Convert if g.ty(node.args[0]).is_float() => {
+            let (low, high) = floats_at(g, node.args[0], component, depth - 1)?;
+            let whole = |x: f32| (x as i64).clamp(smallest, largest);
+            // A NaN becomes 0.
+            Some((whole(low).min(0), whole(high).max(0)))
+        }
+        Op::Convert if g.ty(node.args[0]).kind() == Some(Scalar::Bool) => Some((0, 1)),
+        Op::Convert => fits(of(0)?),
+        _ => None,
+    };
+    found.or(unsigned.then_some((smallest, largest)))
+}
+
+fn floats_at(g: &Graph, id: NodeId, component: u8, depth: u32) -> Option<(f32, f32)> {
+    if depth == 0 {
+        return None;
+    }
+    let node = g.node(id);
+    if !node.ty.is_float() {
+        return None;
+    }
+    let of = |k: usize| floats_at(g, node.args[k], component, depth - 1);
+    let finite = |(low, high): (f32, f32)| (low.is_finite() && high.is_finite()).then_some((low, high));
+    // Rounding is monotonic: what lies between is rounded to what lies between.
+    let corners = |f: fn(f32, f32) -> f32| {
+        let ((a, b), (c, d)) = (finite(of(0)?)?, finite(of(1)?)?);
+        let all = [f(a, c), f(a, d), f(b, c), f(b, d)];
+        let low = all.iter().copied().reduce(f32::min)?;
+        let high = all.iter().copied().reduce(f32::max)?;
+        finite((low, high))
+    };
+    let monotonic = |f: fn(f32) -> f32| of(0).map(|(low, high)| (f(low), f(high)));
+    match &node.op {
+        Op::Const(bits) => {
+            let x = f32::from_bits(bits[component as usize]);
+            (!x.is_nan()).then_some((x, x))
+        }
+        Op::Convert => {
+            let from = g.ty(node.args[0]);
+            let (low, high) = match from.kind()? {
+                Scalar::F32 => return of(0),
+                Scalar::Bool => (0, 1),
+                _ => bounds_at(g, node.args[0], component, depth - 1).unwrap_or(whole(from)),
+            };
+            Some((low as f32, high as f32))
+        }
+        Op::Splat => floats_at(g, node.args[0], 0, depth - 1),
+        Op::Compose => floats_at(g, node.args[component as usize], 0, depth - 1),
+        Op::Extract(k) => floats_at(g, node.args[0], *k, depth - 1),
+        Op::Tally(_) => of(0),
+        Op::Unary(UnaryOp::Neg) => of(0).map(|(low, high)| (-high, -low)),
+        Op::Unary(UnaryOp::Abs) => of(0).map(|(low, high)| (0.0, low.abs().max(high.abs()))),
+        Op::Unary(UnaryOp::Floor) => monotonic(f32::floor),
+        Op::Unary(UnaryOp::Ceil) => monotonic(f32::ceil),
+        Op::Unary(UnaryOp::Round) => monotonic(f32::round_ties_even),
+        Op::Unary(UnaryOp::Trunc) => monotonic(f32::trunc),
+        Op::Unary(UnaryOp::Fract) => of(0).and_then(finite).map(|_| (0.0, 1.0)),
+        Op::Unary(UnaryOp::Saturate) => Some((0.0, 1.0)),
+        Op::Unary(UnaryOp::Sqrt) => of(0).filter(|(low, _)| *low >= 0.0).map(|(_, high)| (0.0, high.sqrt())),
+        Op::Binary(BinaryOp::Add) => corners(|a, b| a + b),
+        Op::Binary(BinaryOp::Sub) => corners(|a, b| a - b),
+        Op::Binary(BinaryOp::Mul) => corners(|a, b| a * b),
+        Op::Binary(BinaryOp::Div) => {
+            let (low, high) = of(1)?;
+            // A divisor next to 0 would give what no float holds.
+            (low > 0.0 || high < 0.0).then(|| corners(|a, b| a / b))?
+        }
+        Op::Binary(BinaryOp::Min) => match (of(0), of(1)) {
+            (Some((a, b)), Some((c, d))) => Some((a.min(c), b.min(d))),
+            (Some((_, high)), None) | (None, Some((_, high))) => Some((f32::NEG_INFINITY, high)),
+            _ => None,
+        },
+        Op::Binary(BinaryOp::Max) => match (of(0), of(1)) {
+            (Some((a, b)), Some((c, d))) => Some((a.max(c), b.max(d))),
+            (Some((low, _)), None) | (None, Some((low, _))) => Some((low, f32::INFINITY)),
+            _ => None,
+        },
+        Op::Clamp => {
+            let ((low, _), (_, high)) = (of(1)?, of(2)?);
+            Some((low, high.max(low)))
+        }
+        Op::Select => {
+            let ((a, b), (c, d)) = (of(1)?, of(2)?);
+            Some((a.min(c), b.max(d)))
+        }
         _ => None,
     }
 }

@@ -43,6 +43,13 @@ pub enum Weights {
 /// three others with the weights that they give these pixels. The chapter's 3×3 blur weighs such messages once more by
 /// 4, 2, 2 and 1; they are sums already. Reads beyond the border give the border's pixels.
 pub fn quad_convolution(cfg: &QuadConvolution, image: &Frame<Vec4>, pixel: Quad<IVec2>) -> Quad<Vec4> {
+    if cfg.weights == Weights::Given {
+        assert!(
+            cfg.radius <= 3,
+            "weights=given has 49 weights, of a radius of 3: set radius to 1, 2 or 3"
+        );
+        assert!(any(cfg.given), "weights=given needs weights in `given`: all 49 are 0");
+    }
     match cfg.sharing {
         Sharing::Quad => shared(cfg, image, pixel),
         Sharing::Alone => {
@@ -55,6 +62,16 @@ pub fn quad_convolution(cfg: &QuadConvolution, image: &Frame<Vec4>, pixel: Quad<
             sum
         }
     }
+}
+
+/// Whether a weight is not 0.
+fn any(weights: [f32; 49]) -> bool {
+    for weight in weights {
+        if weight != 0.0 {
+            return true;
+        }
+    }
+    false
 }
 
 fn shared(cfg: &QuadConvolution, image: &Frame<Vec4>, pixel: Quad<IVec2>) -> Quad<Vec4> {
@@ -100,13 +117,7 @@ fn weight_at(cfg: &QuadConvolution, x: i32, y: i32) -> f32 {
             1.0 / (width * width)
         }
         Weights::Binomial => binomial(cfg.radius, x) * binomial(cfg.radius, y),
-        Weights::Given => {
-            if cfg.radius <= 3 {
-                cfg.given[((y + 3) * 7 + x + 3) as usize]
-            } else {
-                0.0
-            }
-        }
+        Weights::Given => cfg.given[((y + 3) * 7 + x + 3) as usize],
     }
 }
 

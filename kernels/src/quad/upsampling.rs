@@ -78,6 +78,10 @@ pub fn quad_upsampling(
     normal: &Frame<Vec3>,
     pixel: Quad<IVec2>,
 ) -> Quad<Vec4> {
+    assert!(
+        cfg.reads != Reads::Packed || !cfg.normals,
+        "reads=packed has no room for normals: set reads=apart, or leave normals out"
+    );
     let factor = cfg.factor.pixels();
     let corner = pixel / factor;
     // Share of the texels on the right and below.
@@ -268,10 +272,7 @@ impl Upsampling {
     }
 
     fn compares_normals(&self) -> bool {
-        match self.reads {
-            Reads::Packed => false,
-            _ => self.normals,
-        }
+        self.normals
     }
 }
 

@@ -1,4 +1,4 @@
-//! What an SRAA filter is made of: every choice that the paper names, and those that it leaves open.
+//! What an SRAA filter is made of: choices that the paper names, and those that it leaves open.
 
 use crate::prelude::*;
 

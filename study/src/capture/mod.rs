@@ -40,7 +40,7 @@ pub struct Capture {
     pub samples: Vec<Vec2>,
     /// Where in the pixel shading was sampled.
     pub shading: ShadingSample,
-    /// What the scene was seen with; nothing here depends on it.
+    /// What the scene was seen with: metrics that compare planes, and projected depths, need it.
     pub camera: Option<Camera>,
     /// Linear colour, one shading sample a pixel.
     pub color: Frame<Vec4>,

@@ -5,9 +5,10 @@ use super::{COLOR, Capture, CaptureError, DEPTH, DESCRIPTION, NORMAL, REFERENCE,
 use crate::picture::PictureError;
 use crate::picture::exr::{Source, read_color};
 use glam::{UVec2, Vec3};
-use std::fs::File;
-use std::io::{ErrorKind, Read};
+use std::collections::BTreeSet;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
+use straightline_codegen::{files, shorten};
 use straightline_kernels::prelude::{Frame, FrameLayers};
 
 /// Longest `capture.json` that is read, in bytes.
@@ -15,7 +16,8 @@ const MAX_DESCRIPTION: u64 = 1 << 20;
 
 impl Capture {
     /// Reads the capture in folder `dir`. Every size and count is checked against `capture.json` before memory is
-    /// set aside for it. Values are taken as they are: colours, depths and normals may be infinite or NaN.
+    /// set aside for it. Colours and depths may be infinite or NaN: filters say what they make of those. Normals and the
+    /// reference may not: what is measured against a NaN says nothing.
     pub fn read(dir: &Path) -> Result<Capture, CaptureError> {
         let description = read_description(dir)?;
         let layout = Layout {
@@ -25,11 +27,22 @@ impl Capture {
         let color = layout.color(COLOR, "the shading, one sample a pixel, in channels R, G and B")?;
         let depth = layout.layers(DEPTH, ["Z"], "channel Z", |[z]| z)?;
         let normal = match layout.optional(NORMAL) {
-            Some(_) => Some(layout.layers(NORMAL, ["X", "Y", "Z"], "channels X, Y and Z", Vec3::from)?),
+            Some(path) => {
+                let normal = layout.layers(NORMAL, ["X", "Y", "Z"], "channels X, Y and Z", Vec3::from)?;
+                for (layer, frame) in normal.layers().iter().enumerate() {
+                    let name = format!("layer `{}`", layer_name(layer, description.samples().len()));
+                    finite(&path, &name, frame, |normal| normal.is_finite())?;
+                }
+                Some(normal)
+            }
             None => None,
         };
         let reference = match layout.optional(REFERENCE) {
-            Some(_) => Some(layout.color(REFERENCE, "the reference")?),
+            Some(path) => {
+                let reference = layout.color(REFERENCE, "the reference")?;
+                finite(&path, "its colour", &reference, |colour| colour.is_finite())?;
+                Some(reference)
+            }
             None => None,
         };
         Ok(Capture {
@@ -45,6 +58,32 @@ impl Capture {
     }
 }
 
+/// Refuses an image with a texel that is infinite or not a number, with its place.
+fn finite<T: Copy + std::fmt::Debug>(
+    path: &Path,
+    layer: &str,
+    frame: &Frame<T>,
+    is_finite: impl Fn(&T) -> bool,
+) -> Result<(), CaptureError> {
+    let Some(at) = frame.texels().iter().position(|texel| !is_finite(texel)) else {
+        return Ok(());
+    };
+    let width = frame.size().x as usize;
+    let bad = frame.texels().iter().filter(|texel| !is_finite(texel)).count();
+    let problem = format!(
+        "{layer} is {:?} at ({}, {}), which is not finite ({bad} of {} pixels are not)",
+        frame.texels()[at],
+        at % width,
+        at / width,
+        frame.texels().len()
+    );
+    Err(PictureError::Unusable {
+        path: path.to_owned(),
+        problem,
+    }
+    .into())
+}
+
 fn read_description(dir: &Path) -> Result<Description, CaptureError> {
     let path = dir.join(DESCRIPTION);
     let refused = |source| PictureError::Io {
@@ -52,12 +91,10 @@ fn read_description(dir: &Path) -> Result<Description, CaptureError> {
         path: path.clone(),
         source,
     };
-    let file = File::open(&path).map_err(|error| match error.kind() {
+    let text = files::read_text(&path, MAX_DESCRIPTION).map_err(|error| match error.kind() {
         ErrorKind::NotFound | ErrorKind::NotADirectory => CaptureError::NotACapture { dir: dir.to_owned() },
-        _ => refused(error).into(),
+        _ => CaptureError::from(refused(error)),
     })?;
-    let mut text = String::new();
-    file.take(MAX_DESCRIPTION).read_to_string(&mut text).map_err(refused)?;
     Description::parse(&path, &text)
 }
 
@@ -118,22 +155,26 @@ impl Layout<'_> {
         Ok(FrameLayers::new(frames.collect()))
     }
 
-    /// A layer of a sample that `capture.json` does not list is a sign that the two do not belong together.
+    /// A layer that `capture.json` does not ask for is a sign that the two do not belong together, and of two layers of one
+    /// name nobody can tell which is meant.
     fn refuse_surplus(&self, path: &Path, source: &Source, samples: usize) -> Result<(), CaptureError> {
-        let index = |name: &str| {
-            name.strip_prefix("sample")
-                .and_then(|digits| digits.parse::<usize>().ok())
-        };
-        match source
-            .layer_names()
-            .iter()
-            .find(|name| index(name).is_some_and(|index| index >= samples))
-        {
-            Some(name) => Err(CaptureError::Layers {
+        let count = layer_count(samples, self.description.shading());
+        let expected: Vec<String> = (0..count).map(|layer| layer_name(layer, samples)).collect();
+        let found = source.layer_channels();
+        let mut seen = BTreeSet::new();
+        let surplus = found.iter().find_map(|(layer, channel)| {
+            if !expected.contains(layer) {
+                return Some(format!("there is a layer `{}`", shorten(layer)));
+            }
+            let again = !seen.insert((layer, channel));
+            again.then(|| format!("there are two layers `{layer}` with a channel `{}`", shorten(channel)))
+        });
+        match surplus {
+            Some(problem) => Err(CaptureError::Layers {
                 path: path.to_owned(),
-                problem: format!("there is a layer `{name}`"),
+                problem,
                 samples,
-                expected: expected_layers(samples, layer_count(samples, self.description.shading())),
+                expected: expected_layers(samples, count),
             }),
             None => Ok(()),
         }

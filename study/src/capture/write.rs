@@ -4,12 +4,12 @@ use super::description::{Description, STATED_BY};
 use super::read::expected_layers;
 use super::{COLOR, Capture, CaptureError, DEPTH, DESCRIPTION, FILES, NORMAL, REFERENCE, layer_name};
 use crate::picture::exr::{self, Layer};
-use crate::picture::whole::{self, Scrap};
 use crate::picture::{self, PictureError};
 use glam::UVec2;
 use std::fs;
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::Path;
+use straightline_codegen::files::{Folders, Scrap};
 use straightline_kernels::prelude::{Frame, FrameLayers};
 
 impl Capture {
@@ -28,13 +28,12 @@ impl Capture {
             path: dir.to_owned(),
             source,
         };
-        if let Some(parent) = dir.parent() {
-            fs::create_dir_all(parent).map_err(refused)?;
-        }
-        let scrap = Scrap(whole::beside(dir, "partial").map_err(refused)?);
-        fs::create_dir(&scrap.0).map_err(refused)?;
-        self.fill(&description, &scrap.0)?;
-        replace(&scrap.0, dir).map_err(refused)?;
+        let above = Folders::make(dir.parent().unwrap_or(Path::new(""))).map_err(refused)?;
+        let scrap = Scrap::beside(dir, "partial").map_err(refused)?;
+        fs::create_dir(scrap.path()).map_err(refused)?;
+        self.fill(&description, scrap.path())?;
+        replace(scrap.path(), dir).map_err(refused)?;
+        above.keep();
         Ok(())
     }
 
@@ -159,19 +158,18 @@ fn refuse_occupied(dir: &Path) -> Result<(), CaptureError> {
 
 /// Puts the folder `new` in the place of `dir`. If that fails, `dir` is what it was.
 fn replace(new: &Path, dir: &Path) -> io::Result<()> {
-    let old: Option<PathBuf> = if dir.exists() {
-        let old = whole::beside(dir, "replaced")?;
-        fs::rename(dir, &old)?;
-        Some(old)
-    } else {
-        None
-    };
-    match (fs::rename(new, dir), old) {
-        (Ok(()), old) => {
-            drop(old.map(Scrap));
-            Ok(())
-        }
-        (Err(error), Some(old)) => fs::rename(&old, dir).and(Err(error)),
-        (Err(error), None) => Err(error),
+    if !dir.exists() {
+        return fs::rename(new, dir);
+    }
+    // Not a scrap before the new one is in its place: an interruption would remove the only one that there is.
+    let old = dir.with_file_name(format!(
+        ".{}.replaced-{}",
+        dir.file_name().unwrap_or_default().to_string_lossy(),
+        std::process::id()
+    ));
+    fs::rename(dir, &old)?;
+    match fs::rename(new, dir) {
+        Ok(()) => fs::remove_dir_all(&old),
+        Err(error) => fs::rename(&old, dir).and(Err(error)),
     }
 }

@@ -4,8 +4,8 @@ use super::{ExecuteError, Inputs};
 use glam::Vec4;
 use rayon::prelude::*;
 use straightline_codegen::Compiled;
-use straightline_codegen::ir::Real;
 use straightline_codegen::ir::interp::{Bindings, Image, Interpreter};
+use straightline_codegen::ir::{Op, Real};
 use straightline_kernels::prelude::Frame;
 
 /// What the interpreter computed.
@@ -60,6 +60,12 @@ pub fn interpret<R: Real>(compiled: &Compiled, inputs: &Inputs, watch: bool) -> 
     for (name, lanes) in &inputs.uniforms {
         bindings = bindings.uniform(name, lanes);
     }
+    if let Some(name) = unset(compiled, inputs) {
+        return Err(ExecuteError::Input(format!(
+            "the uniform `{name}` of `{}` has no default: give it a value",
+            compiled.kernel
+        )));
+    }
     let [width, height] = inputs.size.to_array();
     let frame = [width, height];
     let interpreter = Interpreter::<R>::in_precision(&compiled.graph, &compiled.schedule, frame, &bindings)
@@ -93,4 +99,19 @@ pub fn interpret<R: Real>(compiled: &Compiled, inputs: &Inputs, watch: bool) -> 
         not_finite: births.first().cloned(),
         births,
     })
+}
+
+/// A uniform that is read, has no default and was not given: on a GPU its pass is refused too.
+fn unset<'a>(compiled: &'a Compiled, inputs: &Inputs) -> Option<&'a str> {
+    let graph = &compiled.graph;
+    let scheduled = graph
+        .ids()
+        .filter(|id| compiled.schedule.place[id.0 as usize].is_some());
+    let mut read = scheduled.filter_map(|id| match graph.node(id).op {
+        Op::Uniform(index) => Some(&graph.uniforms[index as usize]),
+        _ => None,
+    });
+    let unset =
+        read.find(|uniform| uniform.default.is_none() && Inputs::find(&inputs.uniforms, &uniform.name).is_none());
+    unset.map(|uniform| uniform.name.as_str())
 }

@@ -37,7 +37,8 @@ impl<'a> Truth<'a> {
     /// If the scene cannot be drawn.
     pub fn inputs(&mut self, subject: &Subject, full: &Compiled) -> Result<Inputs, LoopsError> {
         match subject.input {
-            Input::TestCard => Ok(test_inputs(&full.graph, self.size)),
+            // A compute invocation has a whole quad, and reads as a texture what a fragment shader interpolates.
+            Input::TestCard => Ok(test_inputs(&full.in_blocks().graph, self.size)),
             Input::Roof => {
                 let pattern = full.options.get("pattern").cloned().unwrap_or_default();
                 let known = self.captures.iter().position(|(name, _)| *name == pattern);

@@ -3,7 +3,7 @@
 //! Reading works on blocks rather than on whole images: only the channels that are wanted are decompressed, into
 //! memory whose size was checked first, whatever else the file claims to hold.
 
-use super::{PictureError, check_size, whole};
+use super::{MAX_BYTES, PictureError, check_size, refused};
 use ::exr::block::UncompressedBlock;
 use ::exr::block::reader::{ChunksReader, Reader};
 use ::exr::compression::Compression;
@@ -16,8 +16,9 @@ use ::exr::meta::header::{Header, ImageAttributes, LayerAttributes};
 use glam::{UVec2, Vec4};
 use half::f16;
 use std::fs::File;
-use std::io::BufReader;
+use std::io::{BufReader, BufWriter};
 use std::path::{Path, PathBuf};
+use straightline_codegen::files;
 use straightline_kernels::prelude::Frame;
 
 /// Lossless, read by every program that reads EXR, and more than twice as fast as blocks of 16 lines for a sixth
@@ -63,12 +64,13 @@ pub(crate) fn write(path: &Path, size: UVec2, layers: Vec<Layer>) -> Result<(), 
     let extent = ExrVec2(size.x as usize, size.y as usize);
     let layers: Vec<_> = layers.into_iter().map(|layer| layer.encode(extent)).collect();
     let image = Image::from_layers(ImageAttributes::with_size(extent), layers);
-    whole::file(path, |file| {
+    let encode = |file: &mut BufWriter<File>| {
         image
             .write()
             .to_buffered(file)
             .map_err(|error| failure("write", path, error))
-    })
+    };
+    files::fill(path, encode, refused(path))
 }
 
 /// Reads the first layer with channels `R`, `G` and `B`, and `A` if it has that. `expected` is the size that
@@ -93,6 +95,54 @@ pub(crate) fn read_color(path: &Path, expected: Option<(UVec2, &str)>) -> Result
     Ok(Frame::new(size, (0..values[0].len()).map(texel).collect()))
 }
 
+/// Names of the layers of a file without a colour, in order.
+pub(crate) fn layers(path: &Path) -> Result<Vec<String>, PictureError> {
+    let source = Source::open(path)?;
+    if source.find_color().is_ok() {
+        return Ok(Vec::new());
+    }
+    let mut names: Vec<String> = Vec::new();
+    for (layer, _) in source.layer_channels() {
+        if !names.contains(&layer) {
+            names.push(layer);
+        }
+    }
+    Ok(names)
+}
+
+/// The channels R, G and B (and A) of a layer, X, Y and Z, or its only one in all components.
+pub(crate) fn read_layer(path: &Path, layer: &str) -> Result<Frame<Vec4>, PictureError> {
+    let source = Source::open(path)?;
+    let found = source.layer_channels();
+    let has = |name: &str| found.iter().any(|(of, channel)| of == layer && channel == name);
+    let own: Vec<&str> = found
+        .iter()
+        .filter(|(of, _)| of == layer)
+        .map(|(_, channel)| channel.as_str())
+        .collect();
+    let channels: Vec<&str> = match &own[..] {
+        [only] => vec![only],
+        _ if ["R", "G", "B", "A"].iter().all(|name| has(name)) => vec!["R", "G", "B", "A"],
+        _ if ["R", "G", "B"].iter().all(|name| has(name)) => vec!["R", "G", "B"],
+        _ => vec!["X", "Y", "Z"],
+    };
+    let mut planes = Vec::new();
+    for channel in &channels {
+        let plane = source.find(layer, channel, "channels R, G and B, or X, Y and Z, or a single one")?;
+        let expected = planes.first().map_or(source.size(plane), |first| source.size(*first));
+        source.check(plane, &format!("layer `{layer}`"), expected, "its first channel")?;
+        planes.push(plane);
+    }
+    let size = source.size(planes[0]);
+    let values = source.read(&planes)?;
+    let texel = |i: usize| match &values[..] {
+        [only] => Vec4::splat(only[i]),
+        [x, y, z] => Vec4::new(x[i], y[i], z[i], 1.0),
+        all => Vec4::from_array(std::array::from_fn(|k| all[k][i])),
+    };
+    Ok(Frame::new(size, (0..values[0].len()).map(texel).collect()))
+}
+
 /// Where one channel of one layer is found in a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Plane {
@@ -109,7 +159,7 @@ pub(crate) struct Source {
 impl Source {
     /// Opens a file and reads its headers.
     pub(crate) fn open(path: &Path) -> Result<Self, PictureError> {
-        let file = File::open(path).map_err(|source| PictureError::Io {
+        let file = files::open(path, MAX_BYTES).map_err(|source| PictureError::Io {
             action: "read",
             path: path.to_owned(),
             source,
@@ -172,6 +222,23 @@ impl Source {
             path: self.path.clone(),
             found: self.inventory(),
         })
+    }
+
+    /// Every layer with each of its channels, as often as the file has them: of a channel whose name has a dot the layer stands
+    /// before it, of any other it is the part's name. Channels that are in no layer are left out.
+    pub(crate) fn layer_channels(&self) -> Vec<(String, String)> {
+        let mut found = Vec::new();
+        for header in self.reader.headers() {
+            let part = part_name(header);
+            found.extend(header.channels.list.iter().filter_map(|channel| {
+                let name = channel.name.to_string();
+                match name.rsplit_once('.') {
+                    Some((layer, channel)) => Some((layer.to_owned(), channel.to_owned())),
+                    None => Some((part.clone()?, name)),
+                }
+            }));
+        }
+        found
     }
 
     /// Names of parts, and what stands before the last dot in names of channels.

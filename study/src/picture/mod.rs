@@ -8,10 +8,10 @@ pub(crate) mod exr;
 pub(crate) mod layout;
 mod png;
 pub mod srgb;
-pub(crate) mod whole;
 
 use glam::{UVec2, Vec4};
 use std::path::Path;
+use straightline_codegen::files;
 use straightline_kernels::prelude::Frame;
 
 pub use error::PictureError;
@@ -25,6 +25,18 @@ pub const MAX_PIXELS: u64 = 1 << 26;
 
 /// Extensions that [`read`] and [`write()`] know.
 pub const EXTENSIONS: [&str; 2] = ["png", "exr"];
+
+/// Longest file of a picture that is read, in bytes.
+pub(crate) const MAX_BYTES: u64 = 1 << 34;
+
+/// What the system says when `path` cannot be written.
+pub(crate) fn refused(path: &Path) -> impl Fn(std::io::Error) -> PictureError + '_ {
+    |source| PictureError::Io {
+        action: "write",
+        path: path.to_owned(),
+        source,
+    }
+}
 
 enum Format {
     Png,
@@ -59,7 +71,7 @@ pub fn write(path: &Path, frame: &Frame<Vec4>) -> Result<(), PictureError> {
 /// becomes 0. Whole or not at all, as [`write()`].
 pub fn write_png(path: &Path, frame: &Frame<Vec4>) -> Result<(), PictureError> {
     check_size(path, frame.size())?;
-    whole::file(path, |file| png::encode(path, file, frame))
+    files::fill(path, |file| png::encode(path, file, frame), refused(path))
 }
 
 /// The bytes of what [`write_png`] writes.
@@ -89,6 +101,28 @@ pub fn read(path: &Path) -> Result<Frame<Vec4>, PictureError> {
         Format::Png => png::decode(path),
         Format::Exr => exr::read_color(path, None),
     }
+}
+
+/// Names of the layers of an EXR file that has layers and no colour, such as the depths and normals of a capture; none of any
+/// other picture.
+///
+/// # Errors
+///
+/// If the file cannot be read.
+pub fn layers(path: &Path) -> Result<Vec<String>, PictureError> {
+    match Format::of(path)? {
+        Format::Png => Ok(Vec::new()),
+        Format::Exr => exr::layers(path),
+    }
+}
+
+/// One layer of an EXR file: its channels R, G and B or X, Y and Z, or its only one (Z, Y or any other) in all components.
+///
+/// # Errors
+///
+/// If the file cannot be read, or has no such layer.
+pub fn read_layer(path: &Path, layer: &str) -> Result<Frame<Vec4>, PictureError> {
+    exr::read_layer(path, layer)
 }
 
 /// Channels of an image of colours.

@@ -1,12 +1,12 @@
 //! PNG files, in sRGB.
 
-use super::{PictureError, check_size, srgb};
+use super::{MAX_BYTES, PictureError, check_size, srgb};
 use glam::{UVec2, Vec4};
 use image::codecs::png::{PngDecoder, PngEncoder};
 use image::{DynamicImage, ExtendedColorType, ImageDecoder, ImageEncoder, ImageError};
-use std::fs::File;
 use std::io::{self, BufReader, Write};
 use std::path::Path;
+use straightline_codegen::files;
 use straightline_kernels::prelude::Frame;
 
 /// Writes `frame` to `file`, which errors call `path`.
@@ -20,7 +20,7 @@ pub(super) fn encode(path: &Path, file: &mut impl Write, frame: &Frame<Vec4>) ->
 
 /// Reads a PNG file as linear colour.
 pub(super) fn decode(path: &Path) -> Result<Frame<Vec4>, PictureError> {
-    let file = File::open(path).map_err(|source| PictureError::Io {
+    let file = files::open(path, MAX_BYTES).map_err(|source| PictureError::Io {
         action: "read",
         path: path.to_owned(),
         source,

@@ -4,7 +4,6 @@ use crate::execute::ExecuteError;
 use crate::gbuffer::GBufferError;
 use crate::picture::PictureError;
 use crate::render::RenderError;
-use std::path::PathBuf;
 use straightline_codegen::diagnostic::Errors;
 
 /// Why methods could not be compared.
@@ -35,12 +34,4 @@ pub enum QualityError {
     /// A picture could not be written.
     #[error(transparent)]
     Picture(#[from] PictureError),
-    /// A folder could not be made.
-    #[error("cannot make `{}`: {source}", path.display())]
-    Folder {
-        /// Which.
-        path: PathBuf,
-        /// Why.
-        source: std::io::Error,
-    },
 }

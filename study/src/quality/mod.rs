@@ -26,7 +26,7 @@ use filters::Filters;
 use glam::{UVec2, Vec2, Vec4};
 use scores::{gaps, scores, share_of_gap};
 use shot::{Shot, supersampled};
-use std::path::{Path, PathBuf};
+use std::collections::BTreeMap;
 use straightline_kernels::prelude::Frame;
 
 pub use classes::STEP;
@@ -81,8 +81,8 @@ pub struct Plan {
     pub pan_frames: u32,
     /// How many scenes are panned over, the first ones.
     pub pan_scenes: usize,
-    /// Folder of the record, where pictures go to `pictures/SCENE/METHOD.png`; none are written without.
-    pub out: Option<PathBuf>,
+    /// Whether pictures are made.
+    pub pictures: bool,
 }
 
 /// What was found.
@@ -92,6 +92,8 @@ pub struct Outcome {
     pub scenes: Vec<SceneErrors>,
     /// What filters were timed on.
     pub timed_on: Vec<String>,
+    /// Pictures as PNG files, by their paths beside the record: `pictures/SCENE/METHOD.png`.
+    pub pictures: BTreeMap<String, Vec<u8>>,
     /// Whether all sources were finished.
     pub complete: bool,
 }
@@ -124,7 +126,6 @@ fn all(
         true => Some(Filters::new(bench, &listed, plan.size, watch)?),
         false => None,
     };
-    let mut times: Option<Vec<Option<Times>>> = None;
     let mut panned = 0;
     for source in sources {
         match (source, &mut filters) {
@@ -132,7 +133,13 @@ fn all(
                 let renderer = GpuRenderer::new(bench.device(), bench.queue(), &scene, plan.size)?;
                 let shot = Shot::draw(&renderer, &listed.iter().collect::<Vec<_>>(), watch)?;
                 let reference = supersampled(&renderer, SIDE, Vec2::ZERO, watch)?;
-                let wanted = Wanted { name, purpose, plan };
+                let made = &mut outcome.pictures;
+                let wanted = Wanted {
+                    name,
+                    purpose,
+                    plan,
+                    made,
+                };
                 let mut errors = wanted.errors(&listed, filters, &shot, &reference, watch)?;
                 if plan.pan_frames > 1 && panned < plan.pan_scenes {
                     panned += 1;
@@ -141,15 +148,13 @@ fn all(
                         method.temporal = temporal;
                     }
                 }
-                if times.is_none() {
-                    times = Some(timed(filters, &shot, plan, watch)?);
-                    outcome.timed_on.push(errors.scene.clone());
-                }
-                put_times(&mut errors, times.as_deref().unwrap_or_default());
+                let times = timed(filters, &shot, plan, watch)?;
+                outcome.timed_on.push(errors.scene.clone());
+                put_times(&mut errors, &times);
                 outcome.scenes.push(errors);
             }
             (Source::Capture { name, capture }, _) => {
-                let errors = of_capture(bench, name, *capture, plan, watch)?;
+                let errors = of_capture(bench, name, *capture, plan, &mut outcome.pictures, watch)?;
                 outcome.timed_on.push(errors.scene.clone());
                 outcome.scenes.push(errors);
             }
@@ -164,6 +169,7 @@ fn of_capture(
     name: String,
     capture: Capture,
     plan: &Plan,
+    made: &mut BTreeMap<String, Vec<u8>>,
     watch: &mut dyn Watch,
 ) -> Result<SceneErrors, QualityError> {
     let (listed, absent) = methods_of(&capture);
@@ -178,6 +184,7 @@ fn of_capture(
         name,
         purpose: "a capture".to_owned(),
         plan,
+        made,
     };
     let shot = Shot::of(capture);
     let mut errors = wanted.errors(&listed, &mut filters, &shot, &reference, watch)?;
@@ -193,8 +200,8 @@ fn steps(sources: &[Source], listed: &[Method], plan: &Plan) -> usize {
     let timing = plan.rounds as usize + 1;
     let mut steps = 0;
     if drawn > 0 {
-        steps += listed.len() + timing;
-        steps += drawn * (SIDE as usize + listed.len());
+        steps += listed.len();
+        steps += drawn * (SIDE as usize + listed.len() + timing);
         if plan.pan_frames > 1 {
             steps += drawn.min(plan.pan_scenes) * plan.pan_frames as usize * (pan::SIDE as usize + 1);
         }
@@ -212,11 +219,13 @@ struct Wanted<'a> {
     name: String,
     purpose: String,
     plan: &'a Plan,
+    /// Where its pictures go.
+    made: &'a mut BTreeMap<String, Vec<u8>>,
 }
 
 impl Wanted<'_> {
     fn errors(
-        self,
+        mut self,
         listed: &[Method],
         filters: &mut Filters<'_>,
         shot: &Shot,
@@ -259,18 +268,13 @@ impl Wanted<'_> {
         Ok(errors)
     }
 
-    /// Writes a picture, and gives its path beside the record.
-    fn picture(&self, stem: &str, frame: &Frame<Vec4>) -> Result<Option<String>, QualityError> {
-        let Some(out) = &self.plan.out else {
+    /// Keeps a picture, and gives its path beside the record.
+    fn picture(&mut self, stem: &str, frame: &Frame<Vec4>) -> Result<Option<String>, QualityError> {
+        if !self.plan.pictures {
             return Ok(None);
-        };
-        let folder = Path::new("pictures").join(methods::stem(&self.name));
-        std::fs::create_dir_all(out.join(&folder)).map_err(|source| QualityError::Folder {
-            path: out.join(&folder),
-            source,
-        })?;
+        }
         let path = format!("pictures/{}/{stem}.png", methods::stem(&self.name));
-        picture::write_png(&out.join(&path), frame)?;
+        self.made.insert(path.clone(), picture::png_bytes(frame)?);
         Ok(Some(path))
     }
 }

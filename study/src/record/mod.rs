@@ -38,6 +38,9 @@ pub struct Circumstances {
     pub complete: bool,
 }
 
+/// Longest record that is read, in bytes.
+const MAX_RECORD: u64 = 1 << 28;
+
 /// A study's result that can be written as JSON and CSV, and be read again.
 pub trait Record: Serialize + DeserializeOwned {
     /// Stem of its files' names.
@@ -61,15 +64,23 @@ pub trait Record: Serialize + DeserializeOwned {
     ///
     /// [`RecordError`] names the file.
     fn write_as(&self, folder: &Path, stem: &str) -> Result<(), RecordError> {
+        files::write_all(folder, &self.files(stem)?)?;
+        Ok(())
+    }
+
+    /// The files of the record by name, with a stem: for a set that is written as a whole.
+    ///
+    /// # Errors
+    ///
+    /// [`RecordError::Json`].
+    fn files(&self, stem: &str) -> Result<BTreeMap<String, Vec<u8>>, RecordError> {
         let [json, csv] = ["json", "csv"].map(|extension| format!("{stem}.{extension}"));
         let mut text = serde_json::to_vec_pretty(self).map_err(|source| RecordError::Json {
-            path: folder.join(&json),
+            path: PathBuf::from(&json),
             source,
         })?;
         text.push(b'\n');
-        let files = BTreeMap::from([(json, text), (csv, self.csv().into_bytes())]);
-        files::write_all(folder, &files)?;
-        Ok(())
+        Ok(BTreeMap::from([(json, text), (csv, self.csv().into_bytes())]))
     }
 
     /// Reads a record from a JSON file.
@@ -78,7 +89,7 @@ pub trait Record: Serialize + DeserializeOwned {
     ///
     /// [`RecordError`] names the file and what is wrong in it.
     fn read(path: &Path) -> Result<Self, RecordError> {
-        let text = std::fs::read(path).map_err(|source| RecordError::Read {
+        let text = files::read(path, MAX_RECORD).map_err(|source| RecordError::Read {
             path: path.to_owned(),
             source,
         })?;

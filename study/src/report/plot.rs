@@ -12,6 +12,9 @@ pub const COLORS: [&str; 10] = [
     "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000", "#777777", "#7b3294", "#8c564b",
 ];
 
+/// Largest number on an axis.
+const LARGEST: f64 = 1e12;
+
 /// A point.
 #[derive(Clone, Debug)]
 pub struct Dot {
@@ -111,6 +114,14 @@ impl Plot {
             return Err(ReportError::Plot(
                 "there are no numbers, or some are not finite".to_owned(),
             ));
+        }
+        // Beyond any figure that a study measures, an axis has more divisions than can be drawn.
+        if let Some(vast) = values.iter().find(|v| v.abs() > LARGEST) {
+            let axis = if axis == 0 { &self.axes.0 } else { &self.axes.1 };
+            return Err(ReportError::Plot(format!(
+                "a value of {vast:e} on the axis `{axis}` is more than any study measures ({LARGEST:e}): the record is wrong, \
+                 so measure again"
+            )));
         }
         let low = values.iter().copied().fold(f64::INFINITY, f64::min);
         let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);

@@ -25,8 +25,17 @@ const MAIN: [&str; 13] = [
     "16x",
 ];
 
+/// The heading of times: a record of filters that were timed on one scene alone says which.
+fn timed(record: &QualityRecord) -> String {
+    match &record.timed_on[..] {
+        [one] if record.scenes.len() > 1 => format!("ms ({one})"),
+        _ => "ms".to_owned(),
+    }
+}
+
 /// The main methods: means over the geometric scenes and over the others.
 pub fn in_short(record: &QualityRecord) -> String {
+    let timed = timed(record);
     let head = [
         "method",
         "PSNR, edges of geometry",
@@ -34,7 +43,7 @@ pub fn in_short(record: &QualityRecord) -> String {
         "gap closed",
         "PSNR, other scenes",
         "FLIP",
-        "ms",
+        &timed,
         "MB",
     ];
     let row = |name: &&str| {
@@ -56,6 +65,7 @@ pub fn in_short(record: &QualityRecord) -> String {
 
 /// Every method: the same means, over kinds of pixels too, and over the pan.
 pub fn methods(record: &QualityRecord) -> String {
+    let timed = timed(record);
     let head = [
         "method",
         "PSNR, edges of geometry",
@@ -68,7 +78,7 @@ pub fn methods(record: &QualityRecord) -> String {
         "at edges of geometry",
         "at edges of shading",
         "flat",
-        "ms",
+        &timed,
         "MB",
     ];
     let mut names: Vec<&str> = Vec::new();

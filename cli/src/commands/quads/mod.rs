@@ -3,6 +3,7 @@
 mod families;
 mod pictures;
 
+use super::study::command;
 use crate::args::QuadsArgs;
 use crate::failure::Failure;
 use crate::gpu::Gpu;
@@ -11,7 +12,7 @@ use families::{FAMILIES, Family};
 use glam::{Vec4, vec3};
 use serde::Serialize;
 use std::time::SystemTime;
-use straightline_codegen::{Compiled, EmitOptions, Kernel, Settings, Transport};
+use straightline_codegen::{Compiled, EmitOptions, Kernel, Settings, Transport, files};
 use straightline_kernels::prelude::Frame;
 use straightline_manifest::Stage;
 use straightline_runtime::{Pass, Quads};
@@ -30,7 +31,8 @@ struct Row {
     statements: u32,
     time: Times,
     clock: Clock,
-    /// How many times as fast as the family's first row.
+    /// How many times as fast as the family's first row; in a forward family, as the first that is drawn, or dispatched, as
+    /// this one is: what is dispatched reads coordinates that another pass has drawn.
     ratio: f64,
     /// Difference to the family's first row: mean and largest, over all components.
     mean_difference: f64,
@@ -69,6 +71,12 @@ const OCCLUSION: [(&str, &str); 3] = [("pixel-angle", "uniform"), ("radius", "1.
 
 /// Measures every way of every filter on a rendered frame, in one run.
 pub fn run(args: &QuadsArgs) -> Result<(), Failure> {
+    if let Some(path) = &args.record {
+        files::try_file(path, true).map_err(Failure::of)?;
+    }
+    if let Some(folder) = &args.pictures {
+        files::try_folder(folder).map_err(Failure::of)?;
+    }
     let gpu = Gpu::require(&args.adapter)?;
     let bench = gpu.bench();
     let quads = Quads::detect(&gpu.device, &gpu.queue).map_err(Failure::of)?;
@@ -101,12 +109,16 @@ pub fn run(args: &QuadsArgs) -> Result<(), Failure> {
             }
         }
     }
-    let rows = measure(&bench, args, &subjects)?;
+    // A forward pass draws the pixels that the scene's triangles cover, and says nothing of the others.
+    let drawn = forward_inputs.images.iter().find(|(name, _)| name == "coord");
+    let covered: Option<Vec<bool>> =
+        drawn.map(|(_, layers)| layers[0].texels().iter().map(|place| *place != Vec4::ZERO).collect());
+    let rows = measure(&bench, args, &subjects, covered.as_deref())?;
     if let Some(folder) = &args.pictures {
         pictures::write(&bench, folder, &subjects, &shadowed, &screen_inputs)?;
     }
     let record = Record {
-        command: std::env::args().collect::<Vec<_>>().join(" "),
+        command: command(),
         date: humantime::format_rfc3339_seconds(SystemTime::now()).to_string(),
         adapter: gpu.describe(),
         size: args.size.to_array(),
@@ -218,7 +230,12 @@ fn prepare(
     })
 }
 
-fn measure(bench: &Bench, args: &QuadsArgs, subjects: &[Subject]) -> Result<Vec<Row>, Failure> {
+fn measure(
+    bench: &Bench,
+    args: &QuadsArgs,
+    subjects: &[Subject],
+    covered: Option<&[bool]>,
+) -> Result<Vec<Row>, Failure> {
     let (mut jobs, mut forwards) = (Vec::new(), Vec::new());
     for subject in subjects {
         match &subject.drawn {
@@ -245,11 +262,13 @@ fn measure(bench: &Bench, args: &QuadsArgs, subjects: &[Subject]) -> Result<Vec<
         };
         let Some(time) = time else { continue };
         let first = subjects.iter().find(|s| s.family == subject.family).unwrap_or(subject);
-        let baseline = rows
-            .iter()
-            .find(|r| r.family == subject.family)
-            .map_or(time, |r| r.time);
-        let (mean, largest) = differences(&subject.image, &first.image);
+        let forward = FAMILIES.iter().any(|f| f.name == subject.family && f.forward);
+        let dispatched = matches!(subject.drawn, Drawn::Pass(..));
+        let like = |(of, _): &(&Subject, &Row)| {
+            of.family == subject.family && (!forward || matches!(of.drawn, Drawn::Pass(..)) == dispatched)
+        };
+        let baseline = subjects.iter().zip(&rows).find(like).map_or(time, |(_, row)| row.time);
+        let (mean, largest) = differences(&subject.image, &first.image, covered.filter(|_| forward));
         rows.push(Row {
             family: subject.family,
             way: subject.way.to_owned(),
@@ -267,15 +286,13 @@ fn measure(bench: &Bench, args: &QuadsArgs, subjects: &[Subject]) -> Result<Vec<
     Ok(rows)
 }
 
-/// Mean and largest difference over all colours, of pixels that either draws.
-fn differences(a: &Frame<Vec4>, b: &Frame<Vec4>) -> (f64, f64) {
-    let drawn = a
-        .texels()
-        .iter()
-        .zip(b.texels())
-        .filter(|(a, b)| **a != Vec4::ZERO && **b != Vec4::ZERO);
+/// Mean and largest difference over all colours, of the pixels that are covered; of all pixels, if nothing says which are. A
+/// pixel in full shadow is covered, and its colour is 0.
+fn differences(a: &Frame<Vec4>, b: &Frame<Vec4>, covered: Option<&[bool]>) -> (f64, f64) {
+    let pairs = a.texels().iter().zip(b.texels()).enumerate();
+    let counted = pairs.filter(|(k, _)| covered.is_none_or(|covered| covered[*k]));
     let (mut sum, mut largest, mut count) = (0.0, 0.0f64, 0.0);
-    for (a, b) in drawn {
+    for (_, (a, b)) in counted {
         let off = f64::from((a.truncate() - b.truncate()).abs().max_element());
         sum += off;
         count += 1.0;
@@ -287,16 +304,19 @@ fn differences(a: &Frame<Vec4>, b: &Frame<Vec4>) -> (f64, f64) {
 fn print(args: &QuadsArgs, record: &Record) -> Result<(), Failure> {
     let json = serde_json::to_string_pretty(record).map_err(Failure::of)? + "\n";
     if let Some(path) = &args.record {
-        std::fs::write(path, &json).map_err(|e| Failure::of(format!("cannot write `{}`: {e}", path.display())))?;
+        files::write(path, json.as_bytes()).map_err(Failure::of)?;
     }
     if args.json {
-        print!("{json}");
+        out!("{json}");
         return Ok(());
     }
     let [width, height] = record.size;
-    println!(
+    outln!(
         "{}, {width}x{height}, {} rounds in turn, {}\n{}\n",
-        record.adapter, record.rounds, record.date, record.quads
+        record.adapter,
+        record.rounds,
+        record.date,
+        record.quads
     );
     let cells = |row: &Row| {
         vec![
@@ -326,6 +346,21 @@ fn print(args: &QuadsArgs, record: &Record) -> Result<(), Failure> {
         "mean off",
         "largest",
     ];
-    print!("{}", table::render(&head, &rows));
+    out!("{}", table::render(&head, &rows));
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shadows_count_and_what_is_not_drawn_does_not() {
+        let frame = |values: [f32; 4]| Frame::new(glam::uvec2(4, 1), values.map(Vec4::splat).to_vec());
+        // In the umbra one is 0 and the other is not; the last pixel is sky.
+        let (a, b) = (frame([0.0, 0.5, 1.0, 0.0]), frame([0.25, 0.5, 1.0, 1.0]));
+        let covered = [true, true, true, false];
+        assert_eq!(differences(&a, &b, Some(&covered)), (0.25 / 3.0, 0.25));
+        assert_eq!(differences(&a, &b, None), (1.25 / 4.0, 1.0));
+    }
 }

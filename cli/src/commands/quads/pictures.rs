@@ -3,7 +3,9 @@
 use super::Subject;
 use crate::failure::Failure;
 use glam::Vec4;
+use std::collections::BTreeMap;
 use std::path::Path;
+use straightline_codegen::files;
 use straightline_kernels::prelude::Frame;
 use straightline_study::execute::{Bench, Inputs, Shadowed};
 use straightline_study::picture;
@@ -16,8 +18,7 @@ pub fn write(
     shadowed: &Shadowed,
     screen: &Inputs,
 ) -> Result<(), Failure> {
-    std::fs::create_dir_all(folder).map_err(|e| Failure::of(format!("cannot make `{}`: {e}", folder.display())))?;
-    let save = |name: &str, frame: &Frame<Vec4>| picture::write(&folder.join(name), frame).map_err(Failure::of);
+    let mut set = BTreeMap::new();
     let mut columns = Vec::new();
     for way in ["naive", "quad", "quad, gradient", "gather"] {
         let found = subjects
@@ -25,14 +26,12 @@ pub fn write(
             .find(|s| s.family == "PCF 8x8 quadratic" && s.way == way);
         let Some(subject) = found else { continue };
         let shown = shadowed.picture(bench, &subject.image).map_err(Failure::of)?;
-        save(
-            &format!("pcf {way}.png").replace([',', ' '], "-").replace("--", "-"),
-            &shown,
-        )?;
+        let name = format!("pcf {way}.png").replace([',', ' '], "-").replace("--", "-");
+        save(&mut set, &name, &shown)?;
         columns.push((way, shown));
     }
     // Under the awning over the built-in scene's door.
-    write_details(folder, "pcf-details.png", &columns, [0.55, 0.53, 0.1, 0.2])?;
+    save_details(&mut set, "pcf-details.png", &columns, [0.55, 0.53, 0.1, 0.2])?;
     let low = screen.images.iter().rev().find(|(name, _)| name == "low");
     let naive = low.map(|(_, layers)| stretched(&layers[0], screen));
     let mut columns = Vec::new();
@@ -45,15 +44,25 @@ pub fn write(
         if let Some(subject) = subjects.iter().find(|s| s.family == family && s.way == way) {
             let opaque = subject.image.texels().iter().map(|t| t.truncate().extend(1.0));
             let shown = Frame::new(subject.image.size(), opaque.collect());
-            save(&format!("occlusion-{}.png", title.replace(' ', "-")), &shown)?;
+            save(&mut set, &format!("occlusion-{}.png", title.replace(' ', "-")), &shown)?;
             columns.push((title, shown));
         }
     }
-    write_details(folder, "occlusion-details.png", &columns, [0.53, 0.42, 0.12, 0.22])
+    save_details(&mut set, "occlusion-details.png", &columns, [0.53, 0.42, 0.12, 0.22])?;
+    files::write_all(folder, &set).map_err(Failure::of)?;
+    Ok(())
+}
+
+/// Pictures as PNG files by name.
+type Set = BTreeMap<String, Vec<u8>>;
+
+fn save(set: &mut Set, name: &str, frame: &Frame<Vec4>) -> Result<(), Failure> {
+    set.insert(name.to_owned(), picture::png_bytes(frame).map_err(Failure::of)?);
+    Ok(())
 }
 
 /// The same part of several pictures, left, top, width and height as shares of the whole, enlarged beside one another.
-fn write_details(folder: &Path, name: &str, columns: &[(&str, Frame<Vec4>)], part: [f32; 4]) -> Result<(), Failure> {
+fn save_details(set: &mut Set, name: &str, columns: &[(&str, Frame<Vec4>)], part: [f32; 4]) -> Result<(), Failure> {
     let detail = |frame: &Frame<Vec4>| {
         let size = frame.size().as_vec2();
         let [left, top, width, height] = part;
@@ -63,7 +72,7 @@ fn write_details(folder: &Path, name: &str, columns: &[(&str, Frame<Vec4>)], par
     };
     let details: Vec<(&str, Frame<Vec4>)> = columns.iter().map(|(title, frame)| (*title, detail(frame))).collect();
     let columns: Vec<(&str, &Frame<Vec4>)> = details.iter().map(|(title, frame)| (*title, frame)).collect();
-    picture::write(&folder.join(name), &picture::montage(&columns)).map_err(Failure::of)
+    save(set, name, &picture::montage(&columns))
 }
 
 /// An image of low resolution as a sampler would stretch it: what bilateral upsampling is better than.

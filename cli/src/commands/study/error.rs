@@ -6,6 +6,7 @@ use crate::failure::Failure;
 use crate::gpu::Gpu;
 use crate::table;
 use std::path::Path;
+use straightline_codegen::files;
 use straightline_study::capture::Capture;
 use straightline_study::quality::{self, Plan, Source};
 use straightline_study::record::{Gap, MOST_DB, MethodErrors, QualityRecord, Record, SceneErrors};
@@ -25,7 +26,7 @@ pub fn run(common: &CommonArgs, args: &ErrorArgs, progress: &mut Progress) -> Re
         quick: common.quick,
         pan_frames: if common.quick { QUICK_FRAMES } else { FRAMES },
         pan_scenes: if common.quick { 1 } else { usize::MAX },
-        out: Some(common.out.clone()),
+        pictures: true,
     };
     let mut circumstances = circumstances(common, &gpu);
     // A capture has its own size; a record of nothing else says so.
@@ -33,15 +34,18 @@ pub fn run(common: &CommonArgs, args: &ErrorArgs, progress: &mut Progress) -> Re
     if let Some(first) = sizes.first().filter(|first| sizes.iter().all(|size| size == *first)) {
         circumstances.size = first.to_array();
     }
-    let outcome = quality::study(&gpu.bench(), sources, &plan, progress).map_err(Failure::of)?;
+    let mut outcome = quality::study(&gpu.bench(), sources, &plan, progress).map_err(Failure::of)?;
     circumstances.complete = outcome.complete;
     let record = QualityRecord {
         circumstances,
-        timed_on: outcome.timed_on,
+        timed_on: std::mem::take(&mut outcome.timed_on),
         pan_frames: plan.pan_frames,
-        scenes: outcome.scenes,
+        scenes: std::mem::take(&mut outcome.scenes),
     };
-    record.write(&common.out).map_err(Failure::of)?;
+    // Record and pictures are one set.
+    let mut set = std::mem::take(&mut outcome.pictures);
+    set.extend(record.files(QualityRecord::STEM).map_err(Failure::of)?);
+    files::write_all(&common.out, &set).map_err(Failure::of)?;
     print(&record, &common.out);
     Ok(())
 }
@@ -98,30 +102,30 @@ fn print(record: &QualityRecord, out: &Path) {
     }
     let circumstances = &record.circumstances;
     if !circumstances.complete {
-        println!("Interrupted: only the scenes above were finished.\n");
+        outln!("Interrupted: only the scenes above were finished.\n");
     }
     let size = circumstances.size;
-    println!("{}x{} pixels, on {}.", size[0], size[1], circumstances.adapter);
-    println!(
+    outln!("{}x{} pixels, on {}.", size[0], size[1], circumstances.adapter);
+    outln!(
         "PSNR in dB over linear colour clamped to 0..1; edges of geometry: pixels whose samples see several surfaces; edges of \
          shading: pixels of one surface whose sRGB colour varies by more than {:.0} of 255.",
         quality::STEP * 255.0
     );
     if !record.timed_on.is_empty() {
-        println!(
+        outln!(
             "Times: medians of filters in turn, {} rounds, on {}.",
             circumstances.rounds,
             record.timed_on.join(" and ")
         );
     }
-    println!("error.json, error.csv and pictures are in {}.", out.display());
+    outln!("error.json, error.csv and pictures are in {}.", out.display());
 }
 
 fn print_scene(scene: &SceneErrors) {
     let percent = |share: f64| format!("{:.1} %", 100.0 * share);
     let shares = &scene.shares;
-    println!("{}: {}", scene.scene, scene.purpose);
-    println!(
+    outln!("{}: {}", scene.scene, scene.purpose);
+    outln!(
         "{} of the pixels have an edge of geometry, {} of shading; in {} a surface was seen by no shading sample.\n",
         percent(shares.geometry),
         percent(shares.shading),
@@ -131,17 +135,17 @@ fn print_scene(scene: &SceneErrors) {
         "method", "PSNR", "SSIM", "FLIP", "geometry", "shading", "flat", "of 16x", "pan", "time", "MB",
     ];
     let rows: Vec<Vec<String>> = scene.methods.iter().map(row).collect();
-    println!("{}", table::render(&headings, &rows));
+    outln!("{}", table::render(&headings, &rows));
     for gap in &scene.gaps {
-        println!("{}", gap_in_words(gap));
+        outln!("{}", gap_in_words(gap));
     }
     for loss in quality::losses(scene) {
-        println!("{loss}");
+        outln!("{loss}");
     }
     for (method, reason) in &scene.absent {
-        println!("without {method}: {reason}");
+        outln!("without {method}: {reason}");
     }
-    println!();
+    outln!();
 }
 
 fn row(method: &MethodErrors) -> Vec<String> {

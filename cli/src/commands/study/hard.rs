@@ -17,7 +17,7 @@ pub fn run(common: &CommonArgs, args: &HardArgs, progress: &mut Progress) -> Res
     let circumstances = match &gpu {
         Some(gpu) => circumstances(common, gpu),
         None => {
-            eprintln!("there is no GPU adapter, so only the interpreter runs the cases; {INSTALL}");
+            errln!("there is no GPU adapter, so only the interpreter runs the cases; {INSTALL}");
             on_processor(common.size(), common.rounds())
         }
     };
@@ -25,9 +25,9 @@ pub fn run(common: &CommonArgs, args: &HardArgs, progress: &mut Progress) -> Res
     let record = hard::run(&selection, bench.as_ref(), circumstances, progress).map_err(Failure::of)?;
     progress.done();
     record.write(&common.out).map_err(Failure::of)?;
-    print!("{}", matrix(&record, &selection));
-    print!("{}", summary(&record));
-    println!("written: {}", common.out.join("hard.json").display());
+    out!("{}", matrix(&record, &selection));
+    out!("{}", summary(&record));
+    outln!("written: {}", common.out.join("hard.json").display());
     match record.broken().next() {
         None => Ok(()),
         Some((case, r)) => super::page(&common.out).and(Err(Failure::Failed(format!(
@@ -44,7 +44,7 @@ pub fn run(common: &CommonArgs, args: &HardArgs, progress: &mut Progress) -> Res
 /// Names the cases.
 pub fn list(args: &HardArgs) -> Result<(), Failure> {
     for case in selection(args)?.cases {
-        println!("{:<32} {}", case.name, case.about);
+        outln!("{:<32} {}", case.name, case.about);
     }
     Ok(())
 }

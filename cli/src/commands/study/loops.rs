@@ -5,9 +5,10 @@ use crate::args::{CommonArgs, LoopsArgs};
 use crate::failure::Failure;
 use crate::gpu::Gpu;
 use crate::table;
+use std::collections::BTreeMap;
 use std::path::Path;
 use std::time::Duration;
-use straightline_codegen::Kernel;
+use straightline_codegen::{Kernel, files};
 use straightline_study::loops::{LoopsError, Method, Studied, Subject, study, subjects};
 use straightline_study::picture;
 use straightline_study::record::{KernelForms, LoopsRecord, Record};
@@ -20,6 +21,9 @@ const LEAST: Duration = Duration::from_millis(40);
 /// Measures, writes the record, prints it.
 pub fn run(common: &CommonArgs, args: &LoopsArgs, progress: &mut Progress) -> Result<(), Failure> {
     let subjects = chosen(common, args)?;
+    if let Some(folder) = &args.pictures {
+        files::try_folder(folder).map_err(Failure::of)?;
+    }
     let gpu = Gpu::require(&common.adapter)?;
     let method = Method {
         size: common.size(),
@@ -72,21 +76,24 @@ fn failure(error: LoopsError) -> Failure {
 
 /// What each kernel makes, unrolled, and all of it in one picture.
 fn write_pictures(folder: &Path, studied: &[Studied]) -> Result<(), Failure> {
-    std::fs::create_dir_all(folder).map_err(|e| Failure::of(format!("cannot make `{}`: {e}", folder.display())))?;
+    let png = |frame| picture::png_bytes(frame).map_err(Failure::of);
+    let mut set = BTreeMap::new();
     for kernel in studied {
         let stem = kernel.forms.kernel.replace([' ', ','], "_");
-        picture::write(&folder.join(format!("{stem}.png")), &kernel.picture).map_err(Failure::of)?;
+        set.insert(format!("{stem}.png"), png(&kernel.picture)?);
     }
     let columns: Vec<_> = studied.iter().map(|k| (k.forms.kernel.as_str(), &k.picture)).collect();
     if columns.is_empty() {
         return Ok(());
     }
-    picture::write(&folder.join("all.png"), &picture::montage(&columns)).map_err(Failure::of)
+    set.insert("all.png".to_owned(), png(&picture::montage(&columns))?);
+    files::write_all(folder, &set).map_err(Failure::of)?;
+    Ok(())
 }
 
 fn print(record: &LoopsRecord) {
     let c = &record.circumstances;
-    println!(
+    outln!(
         "{}, {}x{}, {} rounds in turn, {}{}\n",
         c.adapter,
         c.size[0],
@@ -109,11 +116,11 @@ fn print(record: &LoopsRecord) {
         "off f64, 99.9 %",
         "largest",
     ];
-    print!("{}", table::render(&head, &rows));
-    println!("\ntimes as fast: as the looped form, median of the rounds (a tenth were below, a tenth above)");
+    out!("{}", table::render(&head, &rows));
+    outln!("\ntimes as fast: as the looped form, median of the rounds (a tenth were below, a tenth above)");
     for kernel in &record.kernels {
         for (kind, why) in &kernel.absent {
-            println!("{}, {}: {why}", kernel.kernel, kind.words());
+            outln!("{}, {}: {why}", kernel.kernel, kind.words());
         }
     }
 }

@@ -12,6 +12,7 @@ use crate::gpu::Gpu;
 use glam::UVec2;
 use std::path::Path;
 use std::time::SystemTime;
+use straightline_codegen::files;
 use straightline_study::execute::Clock;
 use straightline_study::record::Circumstances;
 use straightline_study::report;
@@ -22,7 +23,10 @@ pub use watch::Progress;
 /// Measures, and writes records and the page.
 pub fn run(args: &StudyArgs) -> Result<(), Failure> {
     let common = &args.common;
-    let mut progress = Progress::new()?;
+    if !matches!(&args.study, Some(Study::Hard(args)) if args.list) {
+        files::try_folder(&common.out).map_err(Failure::of)?;
+    }
+    let mut progress = Progress::new();
     match &args.study {
         Some(Study::Loops(loops)) => loops::run(common, loops, &mut progress)?,
         Some(Study::Error(error)) => error::run(common, error, &mut progress)?,
@@ -57,7 +61,7 @@ fn all(common: &CommonArgs, progress: &mut Progress) -> Result<(), Failure> {
 /// The page of all records in a folder.
 pub fn page(folder: &Path) -> Result<(), Failure> {
     let path = report::write(folder).map_err(Failure::of)?;
-    println!("{}", path.display());
+    outln!("{}", path.display());
     Ok(())
 }
 
@@ -93,10 +97,10 @@ pub fn on_processor(size: UVec2, rounds: u32) -> Circumstances {
 }
 
 /// The command as it was given, with the program's name for its path.
-fn command() -> String {
-    let arguments = std::env::args().skip(1);
+pub fn command() -> String {
+    let arguments = std::env::args_os().skip(1);
     std::iter::once("straightline".to_owned())
-        .chain(arguments)
+        .chain(arguments.map(|argument| argument.to_string_lossy().into_owned()))
         .collect::<Vec<_>>()
         .join(" ")
 }

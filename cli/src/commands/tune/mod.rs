@@ -8,7 +8,6 @@ use crate::failure::Failure;
 use crate::gpu::Gpu;
 use crate::scene;
 use glam::UVec2;
-use std::path::PathBuf;
 use straightline_codegen::emit::{Emitted, Target};
 use straightline_codegen::{EmitOptions, Kernel, Settings, files};
 use straightline_study::capture::Capture;
@@ -23,8 +22,9 @@ const SIZE: UVec2 = UVec2::new(640, 360);
 /// Searches, writes the record and the shader, prints what was found.
 pub fn run(args: &TuneArgs) -> Result<(), Failure> {
     check_options(args)?;
+    files::try_folder(&args.out).map_err(Failure::of)?;
     let gpu = Gpu::require(&args.adapter)?;
-    let mut progress = Progress::new()?;
+    let mut progress = Progress::new();
     let Some(subject) = subject(args, &gpu, &mut progress)? else {
         return Err(nothing_measured());
     };
@@ -48,14 +48,12 @@ pub fn run(args: &TuneArgs) -> Result<(), Failure> {
         return Err(nothing_measured());
     };
     let emitted = outcome.chosen.as_ref().map(|chosen| emit(args, chosen)).transpose()?;
-    let mut written: Vec<PathBuf> = Vec::new();
+    // The shader and the record that says why it was chosen are one set.
+    let mut set = outcome.record.files(&format!("tune-{stem}")).map_err(Failure::of)?;
     if let Some(emitted) = emitted {
-        let named = emitted.named(&format!("sraa-{stem}"));
-        written = files::write_all(&args.out, &named).map_err(Failure::of)?;
+        set.extend(emitted.named(&format!("sraa-{stem}")));
     }
-    let record_stem = format!("tune-{stem}");
-    outcome.record.write_as(&args.out, &record_stem).map_err(Failure::of)?;
-    written.extend(["json", "csv"].map(|kind| args.out.join(format!("{record_stem}.{kind}"))));
+    let written = files::write_all(&args.out, &set).map_err(Failure::of)?;
     print::report(args, &outcome.record, &written)?;
     match outcome.chosen {
         Some(_) => Ok(()),

@@ -11,16 +11,18 @@ use straightline_study::tune::ErrorMetric;
 /// Prints the record: as JSON, or its findings as tables.
 pub fn report(args: &TuneArgs, record: &TuneRecord, written: &[PathBuf]) -> Result<(), Failure> {
     if args.json {
-        println!("{}", serde_json::to_string_pretty(record).map_err(Failure::of)?);
+        outln!("{}", serde_json::to_string_pretty(record).map_err(Failure::of)?);
         return Ok(());
     }
     let metric = args.metric;
     let [width, height] = record.circumstances.size;
-    println!(
+    outln!(
         "{}, {width}x{height}, {}; {} rounds in turn",
-        record.scene, record.circumstances.adapter, record.circumstances.rounds
+        record.scene,
+        record.circumstances.adapter,
+        record.circumstances.rounds
     );
-    println!(
+    outln!(
         "{} variants against {}; the best has {}, the unfiltered picture {}\n",
         record.candidates.len(),
         record.reference,
@@ -28,10 +30,10 @@ pub fn report(args: &TuneArgs, record: &TuneRecord, written: &[PathBuf]) -> Resu
         metric.show(record.unfiltered)
     );
     for line in &record.not_searched {
-        println!("not searched: {line}");
+        outln!("not searched: {line}");
     }
     if let Some(refused) = record.refused.first() {
-        println!(
+        outln!(
             "{} variants refused, the first: {}: {}",
             record.refused.len(),
             refused.variant,
@@ -39,16 +41,16 @@ pub fn report(args: &TuneArgs, record: &TuneRecord, written: &[PathBuf]) -> Resu
         );
     }
     if !record.terms.is_empty() {
-        println!("\nThe most general variant with one term replaced:\n");
-        println!("{}", terms(record, metric));
+        outln!("\nThe most general variant with one term replaced:\n");
+        outln!("{}", terms(record, metric));
     }
     if record.candidates.iter().any(|c| c.front) {
-        println!("Of those measured, the front of time against error:\n");
-        println!("{}", front(record, metric));
+        outln!("Of those measured, the front of time against error:\n");
+        outln!("{}", front(record, metric));
     }
     let model = &record.model;
     if model.learned_from > 0 {
-        println!(
+        outln!(
             "times were predicted from counts learned on {} variants; on {} others they are off by {:.0} % on average, {:.0} % at most",
             model.learned_from,
             model.tested_on,
@@ -59,23 +61,23 @@ pub fn report(args: &TuneArgs, record: &TuneRecord, written: &[PathBuf]) -> Resu
     if let Some(chosen) = record.chosen.and_then(|k| record.candidates.get(k)) {
         choice(record, chosen, metric);
     }
-    println!();
+    outln!();
     for path in written {
-        println!("{}", path.display());
+        outln!("{}", path.display());
     }
     Ok(())
 }
 
 fn choice(record: &TuneRecord, chosen: &Candidate, metric: ErrorMetric) {
-    println!("\nchosen: {}", chosen.name);
-    println!(
+    outln!("\nchosen: {}", chosen.name);
+    outln!(
         "  {}, budget {}; {} times as fast as the most general variant",
         metric.show(chosen.error),
         budget(record, metric),
         ratio(chosen.ratio)
     );
     for out in &record.left_out {
-        println!("  without {}: {}", out.term, lost(out.cost, metric));
+        outln!("  without {}: {}", out.term, lost(out.cost, metric));
     }
 }
 

@@ -25,7 +25,7 @@ impl Writer<'_> {
         let counter = self
             .names
             .of(graph, region.params[0], self.plan.origin(region.params[0]));
-        let (start, end) = (self.text(args[0])?, self.text(args[1])?.compared());
+        let (start, end) = (self.text(args[0])?, self.text(args[1])?);
         self.texts[region.params[0].0 as usize] = Some(Text::name(counter.as_str()));
         self.line(self.dialect.loop_head(&counter, graph.ty(args[0]), &start, &end));
         self.statements += 1;

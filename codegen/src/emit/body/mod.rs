@@ -2,6 +2,7 @@
 
 mod arrays;
 mod kept;
+mod known;
 
 use super::arrays::Webs;
 use super::dialect::Dialect;
@@ -11,10 +12,11 @@ use super::names::Names;
 use super::plan::Plan;
 use super::resources::Resources;
 use super::text::Text;
-use crate::ir::{BinaryOp, NodeId, Op, Scalar};
+use crate::ir::{BinaryOp, Lanes, NodeId, Op, Scalar, Type};
 use crate::passes::{Block, Step};
 use crate::pipeline::Compiled;
-use std::collections::{BTreeSet, HashSet};
+use std::collections::{BTreeMap, BTreeSet, HashSet};
+use straightline_manifest::Precision;
 
 /// Operators and calls that one expression may hold before part of it becomes a statement. Long chains also overflow
 /// the recursive parsers of shader compilers.
@@ -50,18 +52,18 @@ impl From<EmitError> for Failure {
 type Written<T = ()> = Result<T, Failure>;
 
 /// Writes the body of a compiled kernel.
-pub fn body(compiled: &Compiled, resources: &Resources, entry: &str, dialect: &dyn Dialect) -> Result<Body, EmitError> {
+pub fn body(compiled: &Compiled, resources: &Resources, dialect: &dyn Dialect) -> Result<Body, EmitError> {
     let graph = &compiled.graph;
     let mut cut = HashSet::new();
     while cut.len() < MAX_CUTS {
-        match attempt(compiled, resources, entry, dialect, Webs::new(graph, &cut)) {
+        match attempt(compiled, resources, dialect, Webs::new(graph, &cut)) {
             Ok(body) => return Ok(body),
             Err(Failure::Error(error)) => return Err(error),
             Err(Failure::Stale(Some(version))) if cut.insert(version) => {}
             Err(Failure::Stale(_)) => break,
         }
     }
-    match attempt(compiled, resources, entry, dialect, Webs::apart(graph)) {
+    match attempt(compiled, resources, dialect, Webs::apart(graph)) {
         Ok(body) => Ok(body),
         Err(Failure::Error(error)) => Err(error),
         Err(Failure::Stale(_)) => unreachable!("no version takes another's place where each has a variable of its own"),
@@ -74,7 +76,6 @@ const MAX_CUTS: usize = 16;
 fn attempt(
     compiled: &Compiled,
     resources: &Resources,
-    entry: &str,
     dialect: &dyn Dialect,
     webs: Webs,
 ) -> Written<Body> {
@@ -83,9 +84,11 @@ fn attempt(
         compiled,
         dialect,
         plan: Plan::new(graph, &compiled.schedule),
-        names: Names::new(graph, resources, entry),
+        names: Names::new(graph, resources, &resources.entry),
         webs,
         texts: vec![None; graph.nodes.len()],
+        half: resources.options.precision == Precision::F16,
+        specials: BTreeMap::new(),
         tables: Vec::new(),
         helpers: BTreeSet::new(),
         listing: Listing::new(graph),
@@ -97,12 +100,19 @@ fn attempt(
         let colour = writer.text(*output)?;
         results.push(dialect.leave(graph.ty(*output), colour).code);
     }
+    let specials = writer.specials.into_values().flat_map(|special| special.lines);
     Ok(Body {
         tables: writer.tables.into_iter().chain(writer.helpers).collect(),
-        lines: writer.listing.lines(),
+        lines: specials.chain(writer.listing.lines()).collect(),
         results,
         statements: writer.statements,
     })
+}
+
+/// A float that is not finite, in a language that has no expression for one.
+struct Special {
+    name: String,
+    lines: Vec<String>,
 }
 
 struct Writer<'a> {
@@ -112,6 +122,10 @@ struct Writer<'a> {
     names: Names,
     webs: Webs,
     texts: Vec<Option<Text>>,
+    /// Whether floats are those of half precision.
+    half: bool,
+    /// Floats without a literal that the body has names for, by their bits.
+    specials: BTreeMap<u32, Special>,
     tables: Vec<String>,
     /// Functions at module scope, each once.
     helpers: BTreeSet<String>,
@@ -136,11 +150,7 @@ impl Writer<'_> {
         let node = graph.node(id);
         match &node.op {
             Op::Const(bits) => {
-                let text = if node.ty.is_array() {
-                    None
-                } else {
-                    Some(self.dialect.constant(&self.compiled.kernel, node.ty, bits)?)
-                };
+                let text = (!node.ty.is_array()).then(|| self.constant(node.ty, bits));
                 self.texts[id.0 as usize] = text;
                 Ok(())
             }
@@ -149,7 +159,9 @@ impl Writer<'_> {
             Op::ArraySet => self.array_set(id),
             Op::ArrayGet => self.array_get(id),
             _ => {
-                let text = self.expression(id)?;
+                let mut text = self.expression(id)?;
+                // Counted on the graph, so that every language has the same statements.
+                text.size = self.size(id);
                 let text = if self.plan.is_statement(id) || text.size > LONGEST {
                     self.declare(id, &text)
                 } else {
@@ -183,7 +195,7 @@ impl Writer<'_> {
                 Ok(self.dialect.construct(node.ty, &parts.iter().collect::<Vec<_>>()))
             }
             // Constants belong to no place and are written wherever they are used.
-            Op::Const(bits) => Ok(self.dialect.constant(&self.compiled.kernel, node.ty, bits)?),
+            Op::Const(bits) => Ok(self.constant(node.ty, bits)),
             _ if node.ty.is_array() => match self.webs.holder(id) {
                 Some(name) => Ok(Text::name(name)),
                 None => Err(self.stale(id)),
@@ -217,12 +229,18 @@ impl Writer<'_> {
             Op::Message(direction) => inner(d.message(*direction, &outer(0))),
             Op::Derivative(axis) => inner(d.derivative(*axis, &outer(0))),
             Op::GatherCompare { texture, sampler, .. } => {
-                let (text, helper) = d.gather_compare(*texture, *sampler, &outer(0), &outer(1));
-                self.helpers.extend(helper);
-                inner(text)
+                inner(d.gather_compare(*texture, *sampler, &outer(0), &outer(1)))
             }
             Op::Uniform(k) => inner(d.uniform(&self.compiled.graph.uniforms[*k as usize].name)),
             Op::Unary(op) => d.unary(*op, node.ty, &args[0]),
+            Op::Binary(op @ (BinaryOp::Div | BinaryOp::Rem))
+                if operand.is_integer()
+                    && let Some((text, helper)) =
+                        d.divide(*op, operand, &args[0], &args[1], known::division(graph, node.args[0], node.args[1])) =>
+            {
+                self.helpers.insert(helper);
+                text
+            }
             Op::Binary(op) => {
                 let [x, y] = [0, 1].map(|k| self.operand(*op, node.args[k], &args[k]));
                 // One side stays a vector, or the result would be a scalar.
@@ -236,14 +254,22 @@ impl Writer<'_> {
             Op::Dot => Text::call("dot", &[&args[0], &args[1]]),
             Op::Cross => Text::call("cross", &[&args[0], &args[1]]),
             Op::Clamp => Text::call("clamp", &[&args[0], &args[1], &args[2]]),
-            Op::Select => d.select(&args[0], &args[1], &args[2]),
+            Op::Select => d.select(node.ty, &args[0], &args[1], &args[2]),
             Op::Splat => Text {
                 size: args[0].size,
                 ..d.construct(node.ty, &[&args[0]])
             },
             Op::Compose => d.construct(node.ty, &args.iter().collect::<Vec<_>>()),
             Op::Extract(lane) => Text::member(&args[0], &"xyzw"[*lane as usize..=*lane as usize]),
-            Op::Convert => d.convert(operand, node.ty, &args[0], super::half::fits(graph, node.args[0])),
+            Op::Convert => {
+                let fits = match operand.is_float() && node.ty.is_integer() {
+                    true => known::has_integer(graph, node.args[0], node.ty, self.half),
+                    false => super::half::fits(graph, node.args[0]),
+                };
+                let (text, helper) = d.convert(operand, node.ty, &args[0], fits);
+                self.helpers.extend(helper);
+                text
+            }
             Op::Bitcast => d.bitcast(operand, node.ty, &args[0]),
             Op::TextureSize(texture) => d.size(*texture),
             Op::Load { texture, .. } => inner(d.load(*texture, &args[0], args.get(1))),
@@ -253,17 +279,76 @@ impl Writer<'_> {
                 sampler,
                 component,
                 ..
-            } => {
-                let (text, helper) = d.gather(*texture, *sampler, *component, &outer(0));
-                self.helpers.extend(helper);
-                inner(text)
-            }
+            } => inner(d.gather(*texture, *sampler, *component, &outer(0))),
             Op::Compare { texture, sampler, .. } => inner(d.compare(*texture, *sampler, &outer(0), &outer(1))),
             Op::BufferLen(buffer) => d.len(*buffer),
             Op::BufferLoad { buffer, .. } => inner(d.element(*buffer, &args[0])),
             Op::Tally(_) => args[0].clone(),
             _ => unreachable!("handled where it has a statement of its own"),
         })
+    }
+
+    /// A constant scalar or vector.
+    fn constant(&mut self, ty: Type, bits: &Lanes) -> Text {
+        let lanes = &bits[..ty.lanes() as usize];
+        let special = |bits: &u32| ty.is_float() && !f32::from_bits(*bits).is_finite();
+        if !lanes.iter().any(special) {
+            return self.dialect.constant(ty, bits);
+        }
+        let kind = ty.kind().unwrap_or(Scalar::F32);
+        let parts = lanes.iter().map(|bits| match special(bits) {
+            true => self.non_finite(*bits),
+            false => self.dialect.scalar(kind, *bits),
+        });
+        let parts: Vec<Text> = parts.collect();
+        self.dialect.vector(ty, &parts)
+    }
+
+    /// An infinity or a NaN. WGSL has no expression for one that is known when the shader is made, and takes the bits of a
+    /// variable.
+    fn non_finite(&mut self, bits: u32) -> Text {
+        if let Some(text) = self.dialect.non_finite(bits) {
+            return text;
+        }
+        if bits == f32::NEG_INFINITY.to_bits() {
+            let infinity = self.non_finite(f32::INFINITY.to_bits());
+            return Text::prefix("-", &infinity);
+        }
+        if let Some(special) = self.specials.get(&bits) {
+            return Text::name(special.name.as_str());
+        }
+        let wanted = if f32::from_bits(bits).is_nan() { "nan" } else { "infinity" };
+        let [name, variable] = [wanted.to_owned(), format!("{wanted}_bits")].map(|name| self.names.fresh(&name));
+        let value = self
+            .dialect
+            .bitcast(Type::U32, Type::F32, &Text::name(variable.as_str()));
+        let comment = "// A variable, since no constant may be an infinity or a NaN.".to_owned();
+        let variable = self
+            .dialect
+            .mutable(&variable, Type::U32, Some(&format!("{bits:#010x}u")));
+        let value = self.dialect.immutable(&name, Type::F32, &value.code);
+        let lines = [comment, variable, value].map(|line| format!("    {line}")).into();
+        self.statements += 2;
+        let text = Text::name(name.as_str());
+        self.specials.insert(bits, Special { name, lines });
+        text
+    }
+
+    /// Operators and calls in the expression of a value, down to what has a name.
+    fn size(&self, id: NodeId) -> u32 {
+        let node = self.compiled.graph.node(id);
+        let own = match node.op {
+            Op::Pixel
+            | Op::FrameSize
+            | Op::Uniform(_)
+            | Op::Varying(_)
+            | Op::Splat
+            | Op::Extract(_)
+            | Op::Tally(_) => 0,
+            _ => 1,
+        };
+        let inside = |arg: &NodeId| self.texts[arg.0 as usize].as_ref().map_or(0, |text| text.size);
+        own + node.args.iter().map(inside).sum::<u32>()
     }
 
     /// An operand of arithmetic: a scalar stands for a vector of it.

@@ -248,9 +248,8 @@ impl<'a, R: Real> Interpreter<'a, R> {
                     s.arrays[old.0 as usize].clone()
                 };
                 let index = s.values[node.args[1].0 as usize][0] as u32 as usize;
-                if let Some(element) = array.get_mut(index) {
-                    *element = s.values[node.args[2].0 as usize];
-                }
+                let last = array.len() - 1;
+                array[index.min(last)] = s.values[node.args[2].0 as usize];
                 s.arrays[slot] = array;
             }
             Op::Result(k) => {

@@ -67,6 +67,22 @@ pub enum Gradient {
 /// and 3 texels the slope is their moment over 80, and a pixel's value lies towards it, from the middle of what was
 /// weighed.
 pub fn pcf(cfg: &Pcf, shadow: &DepthTexture, shadow_sampler: &ComparisonSampler, coord: Quad<Vec3>) -> Quad<Vec4> {
+    if cfg.method != Method::Quad {
+        assert!(
+            cfg.gradient == Gradient::None,
+            "gradient is of method=quad alone: the pixels of a quad share a value there, and in no other method"
+        );
+        assert!(
+            cfg.spread == 1.0,
+            "spread is of method=quad alone: the other methods compare every texel of the width"
+        );
+    }
+    if cfg.method == Method::Gather {
+        assert!(
+            cfg.width == Width::Eight,
+            "method=gather takes 8 by 8 texels: leave width at eight"
+        );
+    }
     let lit = match cfg.method {
         Method::Naive => naive(cfg, shadow, shadow_sampler, coord),
         Method::Bilinear => bilinear(cfg, shadow, shadow_sampler, coord),

@@ -2,9 +2,9 @@
 
 use super::accessor::{floats, indices};
 use super::assemble::{Normals, Part};
-use super::parse::parse;
+use super::parse::{parse, unescaped};
 use super::texture::Texture;
-use super::{MAX_TRIANGLES, read_file};
+use super::{MAX_BYTES, MAX_TRIANGLES, read_file};
 use crate::scene::SceneError;
 use glam::{Mat3, Mat4, Vec2, Vec3};
 use gltf::buffer::Data;
@@ -12,14 +12,15 @@ use gltf::mesh::{Mode, Primitive};
 use gltf::{Document, Semantic};
 use std::collections::hash_map::Entry;
 use std::collections::{HashMap, HashSet};
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use straightline_codegen::{files, shorten};
 
 /// Every mesh of the default scene, in world space.
 pub(super) fn read(path: &Path) -> Result<Vec<Part>, SceneError> {
     let bytes = read_file(path)?;
     let parts = || {
         let (document, blob) = parse(&bytes)?;
-        let buffers = gltf::import_buffers(&document, path.parent(), blob).map_err(|error| error.to_string())?;
+        let buffers = buffers(&document, path.parent(), blob)?;
         let model = Model {
             base: path.parent(),
             buffers: &buffers,
@@ -31,6 +32,52 @@ pub(super) fn read(path: &Path) -> Result<Vec<Part>, SceneError> {
         path: path.to_owned(),
         problem,
     })
+}
+
+/// The bytes of every buffer, padded to whole words.
+fn buffers(document: &Document, base: Option<&Path>, mut blob: Option<Vec<u8>>) -> Result<Vec<Data>, String> {
+    let mut all = Vec::new();
+    for buffer in document.buffers() {
+        let index = buffer.index();
+        let mut bytes = match buffer.source() {
+            gltf::buffer::Source::Bin => blob
+                .take()
+                .ok_or_else(|| format!("buffer {index} is in no binary chunk"))?,
+            gltf::buffer::Source::Uri(uri) => {
+                resource(uri, base).map_err(|problem| format!("buffer {index}: {problem}"))?
+            }
+        };
+        bytes.resize(bytes.len().next_multiple_of(4), 0);
+        if bytes.len() < buffer.length() {
+            let (found, wanted) = (bytes.len(), buffer.length());
+            return Err(format!(
+                "buffer {index} has {found} bytes, not the {wanted} that it should have"
+            ));
+        }
+        all.push(Data(bytes));
+    }
+    Ok(all)
+}
+
+/// What a URI stands for: data in itself, or a file beside the model.
+fn resource(uri: &str, base: Option<&Path>) -> Result<Vec<u8>, String> {
+    let shown = || shorten(uri);
+    let path = match uri.split_once(':') {
+        // The crate decodes what needs no file.
+        Some(("data", _)) => {
+            let data = Data::from_source(gltf::buffer::Source::Uri(uri), base);
+            return data
+                .map(|data| data.0)
+                .map_err(|error| format!("`{}`: {error}", shown()));
+        }
+        Some(("file", path)) => PathBuf::from(path.strip_prefix("//").unwrap_or(path)),
+        Some(_) => return Err(format!("`{}` is neither a file nor data", shown())),
+        None => {
+            let name = String::from_utf8(unescaped(uri)).map_err(|_| format!("`{}` is no text", shown()))?;
+            base.unwrap_or(Path::new("")).join(name)
+        }
+    };
+    files::read(&path, MAX_BYTES).map_err(|error| format!("`{}`: {error}", shown()))
 }
 
 struct Model<'a> {
@@ -158,11 +205,7 @@ impl Model<'_> {
                     .map(<[u8]>::to_vec)
                     .ok_or_else(|| "reaches beyond its buffer".to_owned())
             }
-            gltf::image::Source::Uri { uri, .. } => {
-                let source = gltf::buffer::Source::Uri(uri);
-                let data = Data::from_source(source, self.base).map_err(|error| format!("`{uri}`: {error}"))?;
-                Ok(data.0)
-            }
+            gltf::image::Source::Uri { uri, .. } => resource(uri, self.base),
         };
         bytes()
             .and_then(|bytes| Texture::decode(&bytes))

@@ -11,6 +11,7 @@ mod texture;
 use super::{Camera, Scene, SceneError, Sky, Sun};
 use glam::Vec3;
 use std::path::Path;
+use straightline_codegen::files;
 
 /// File name extensions that [`load()`] knows, in lower case.
 pub const EXTENSIONS: [&str; 3] = ["gltf", "glb", "obj"];
@@ -70,8 +71,11 @@ pub fn load(path: &Path) -> Result<Scene, SceneError> {
     Ok(scene)
 }
 
+/// Longest file of a model that is read, in bytes: it, its buffers, its materials and its textures each.
+const MAX_BYTES: u64 = 1 << 32;
+
 fn read_file(path: &Path) -> Result<Vec<u8>, SceneError> {
-    std::fs::read(path).map_err(|source| SceneError::Io {
+    files::read(path, MAX_BYTES).map_err(|source| SceneError::Io {
         path: path.to_owned(),
         source,
     })

@@ -24,6 +24,7 @@ const OPTIONS: tobj::LoadOptions = tobj::LoadOptions {
 /// Every object of the file.
 pub(super) fn read(path: &Path) -> Result<Vec<Part>, SceneError> {
     let bytes = read_file(path)?;
+    check_faces(path, &bytes)?;
     let base = path.parent().unwrap_or(Path::new(""));
     // The first library that cannot be read; the parser itself forgets which it was.
     let failure = RefCell::new(None);
@@ -60,6 +61,7 @@ pub(super) fn read(path: &Path) -> Result<Vec<Part>, SceneError> {
 /// Reads a material library. Of an error, the second form is worth showing.
 fn read_library(path: &Path) -> Result<tobj::MTLLoadResult, (LoadError, SceneError)> {
     let bytes = read_file(path).map_err(|error| (LoadError::OpenFileFailed, error))?;
+    check_colours(path, &bytes).map_err(|error| (LoadError::MaterialParseError, error))?;
     match tobj::load_mtl_buf(&mut bytes.as_slice()) {
         Ok(materials) => Ok(Ok(materials)),
         Err(error) => {
@@ -69,6 +71,64 @@ fn read_library(path: &Path) -> Result<tobj::MTLLoadResult, (LoadError, SceneErr
             };
             Err((error, malformed))
         }
+    }
+}
+
+/// Most corners of a face. A polygon of more is no surface that somebody modelled.
+const MAX_CORNERS: usize = 1 << 16;
+
+/// Refuses faces that the parser would take too long for, or compute places beyond any list of.
+fn check_faces(path: &Path, bytes: &[u8]) -> Result<(), SceneError> {
+    for (at, line) in bytes.split(|byte| *byte == b'\n').enumerate() {
+        let mut words = line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
+        if !matches!(words.next(), Some(b"f" | b"l")) {
+            continue;
+        }
+        let mut corners = 0;
+        let digits = |word: &[u8]| {
+            word.split(|byte| !byte.is_ascii_digit())
+                .map(<[u8]>::len)
+                .max()
+                .unwrap_or(0)
+        };
+        for word in words {
+            corners += 1;
+            if digits(word) > 12 {
+                return Err(in_line(path, at, "a corner's number has more than 12 digits"));
+            }
+        }
+        if corners > MAX_CORNERS {
+            let problem = format!("a face has {corners} corners, and at most {MAX_CORNERS} are read");
+            return Err(in_line(path, at, &problem));
+        }
+    }
+    Ok(())
+}
+
+/// Refuses colours of fewer than three numbers, on which the parser panics.
+fn check_colours(path: &Path, bytes: &[u8]) -> Result<(), SceneError> {
+    let text = String::from_utf8_lossy(bytes);
+    for (at, line) in text.split('\n').enumerate() {
+        let mut words = line.split_whitespace();
+        let Some(name @ ("Ka" | "Kd" | "Ks" | "Ke")) = words.next() else {
+            continue;
+        };
+        let found = words.count();
+        if found < 3 {
+            return Err(in_line(
+                path,
+                at,
+                &format!("`{name}` takes three numbers, and there are {found}"),
+            ));
+        }
+    }
+    Ok(())
+}
+
+fn in_line(path: &Path, at: usize, problem: &str) -> SceneError {
+    SceneError::Malformed {
+        path: path.to_owned(),
+        problem: format!("in line {}: {problem}", at + 1),
     }
 }
 

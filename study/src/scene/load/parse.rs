@@ -2,6 +2,7 @@
 
 use gltf::json::{Root, validation::Checked};
 use gltf::{Document, Gltf, Semantic};
+use straightline_codegen::shorten;
 
 /// The document, validated, and the binary chunk if there is one.
 pub(super) fn parse(bytes: &[u8]) -> Result<(Document, Option<Vec<u8>>), String> {
@@ -36,13 +37,18 @@ fn check(json: &Root) -> Result<(), String> {
     let buffers = json.buffers.iter().filter_map(|buffer| buffer.uri.as_ref());
     let images = json.images.iter().filter_map(|image| image.uri.as_ref());
     match buffers.chain(images).find(|uri| !is_text(uri)) {
-        Some(uri) => Err(format!("the URI `{uri}` does not stand for UTF-8 text")),
+        Some(uri) => Err(format!("the URI `{}` does not stand for UTF-8 text", shorten(uri))),
         None => Ok(()),
     }
 }
 
 /// Whether `uri` is text once its percent escapes are resolved.
 fn is_text(uri: &str) -> bool {
+    String::from_utf8(unescaped(uri)).is_ok()
+}
+
+/// The bytes of `uri` with its percent escapes resolved.
+pub(super) fn unescaped(uri: &str) -> Vec<u8> {
     let bytes = uri.as_bytes();
     let mut decoded = Vec::with_capacity(bytes.len());
     let mut at = 0;
@@ -59,5 +65,5 @@ fn is_text(uri: &str) -> bool {
             }
         }
     }
-    String::from_utf8(decoded).is_ok()
+    decoded
 }

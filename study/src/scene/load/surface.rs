@@ -1,7 +1,7 @@
 //! Normals of triangles.
 
 use glam::{DVec3, Vec3};
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 
 /// Cosine of the angle between two faces below which they are taken for one rounded surface: 55°.
 const CREASE: f32 = 0.574;
@@ -42,8 +42,16 @@ pub(super) fn smooth_normals(positions: &[Vec3], triangles: &[[u32; 3]]) -> Vec<
         .iter()
         .map(|triangle| area(corners(positions, *triangle)))
         .collect();
+    let crowded: HashMap<[u32; 3], BTreeMap<[i8; 3], Vec3>> = meeting
+        .iter()
+        .filter(|(_, faces)| faces.len() > CROWD)
+        .map(|(point, faces)| (*point, by_direction(faces, &flat, &areas)))
+        .collect();
     let normal = |at: usize, index: u32| {
         let own = flat[at][0];
+        if let Some(smooth) = crowded.get(&key(index)) {
+            return smooth.get(&direction(own)).copied().unwrap_or(own);
+        }
         let faces = meeting[&key(index)].iter().map(|face| *face as usize);
         let smooth = faces.filter(|face| flat[*face][0].dot(own) > CREASE);
         let sum: DVec3 = smooth.map(|face| areas[face]).sum();
@@ -54,10 +62,61 @@ pub(super) fn smooth_normals(positions: &[Vec3], triangles: &[[u32; 3]]) -> Vec<
         .collect()
 }
 
+/// Most faces that meet in a point before faces of like direction are taken together: each is compared with each.
+const CROWD: usize = 256;
+
+/// Steps of a direction's components between 0 and 1.
+const STEPS: f32 = 16.0;
+
+/// A normal, rounded: what lies within a sixteenth is taken together.
+fn direction(normal: Vec3) -> [i8; 3] {
+    normal.to_array().map(|axis| (axis * STEPS).round() as i8)
+}
+
+/// For a point in which many faces meet, the mean of those at less than [`CREASE`] to each direction that there is. Takes
+/// time in proportion to the faces.
+fn by_direction(faces: &[u32], flat: &[[Vec3; 3]], areas: &[DVec3]) -> BTreeMap<[i8; 3], Vec3> {
+    let mut groups: BTreeMap<[i8; 3], (Vec3, DVec3)> = BTreeMap::new();
+    for face in faces.iter().map(|face| *face as usize) {
+        let own = flat[face][0];
+        let group = groups.entry(direction(own)).or_insert((own, DVec3::ZERO));
+        group.1 += areas[face];
+    }
+    let mean = |own: Vec3| {
+        let near = groups.values().filter(|(other, _)| other.dot(own) > CREASE);
+        let sum: DVec3 = near.map(|(_, area)| *area).sum();
+        sum.try_normalize().map_or(own, |normal| normal.as_vec3())
+    };
+    groups
+        .iter()
+        .map(|(direction, (own, _))| (*direction, mean(*own)))
+        .collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use glam::vec3;
+
+    #[test]
+    fn many_faces_around_a_point_take_no_longer_than_their_number() {
+        let count = 200_000;
+        let rim = |k: u32| {
+            let angle = k as f32 * std::f32::consts::TAU / count as f32;
+            vec3(angle.cos(), -0.2, angle.sin())
+        };
+        let mut positions = vec![Vec3::ZERO];
+        positions.extend((0..count).map(rim));
+        let triangles: Vec<[u32; 3]> = (0..count).map(|k| [0, (k + 1) % count + 1, k + 1]).collect();
+        let start = std::time::Instant::now();
+        let normals = smooth_normals(&positions, &triangles);
+        assert!(start.elapsed().as_secs() < 20, "{:?}", start.elapsed());
+        assert!(
+            normals.iter().all(|n| (n[0] - Vec3::Y).length() < 0.02),
+            "{:?}",
+            normals[0][0]
+        );
+    }
 
     /// Two triangles that share an edge along x, the second turned up by `angle`.
     fn hinge(angle: f32) -> (Vec<Vec3>, Vec<[u32; 3]>) {

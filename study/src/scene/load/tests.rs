@@ -230,3 +230,45 @@ fn truncated_files_are_refused_at_any_length() {
         assert!(refusal(&path).contains("short.gltf"));
     }
 }
+
+#[test]
+fn short_colours_and_vast_faces_are_refused() {
+    let scratch = Scratch::new("vast");
+    scratch.file("paint.mtl", "newmtl red\nKd 0.8\n");
+    let said = refusal(&scratch.file("short.obj", format!("mtllib paint.mtl\n{QUAD}")));
+    assert!(
+        said.contains("line 2: `Kd` takes three numbers, and there are 1"),
+        "{said}"
+    );
+    let corners: String = (0..70_000).map(|k| format!(" {}", k % 4 + 1)).collect();
+    let said = refusal(&scratch.file("vast.obj", format!("{QUAD}f{corners}\n")));
+    assert!(
+        said.contains("line 6: a face has 70000 corners, and at most 65536"),
+        "{said}"
+    );
+    let said = refusal(&scratch.file("far.obj", format!("{QUAD}f 1 2/-9223372036854775807 3\n")));
+    assert!(said.contains("line 6") && said.contains("digits"), "{said}");
+}
+
+#[test]
+#[cfg(unix)]
+fn only_regular_files_are_read() {
+    let scratch = Scratch::new("devices");
+    let refused = |path: &Path| {
+        let said = refusal(path);
+        assert!(said.contains("only regular files are read"), "{said}");
+    };
+    let pipe = scratch.0.join("pipe.obj");
+    assert!(
+        std::process::Command::new("mkfifo")
+            .arg(&pipe)
+            .status()
+            .unwrap()
+            .success()
+    );
+    refused(&pipe);
+    refused(&scratch.file("lib.obj", format!("mtllib /dev/zero\n{QUAD}")));
+    for uri in ["/dev/zero", "pipe.obj", "file:///dev/zero"] {
+        refused(&triangle(&scratch, |text| text.replace("data.bin", uri)));
+    }
+}

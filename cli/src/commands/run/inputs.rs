@@ -1,0 +1,178 @@
+//! What a kernel is given to read: pictures, layers of captures, numbers.
+
+use super::values;
+use crate::args::{Executor, RunArgs, StageArg};
+use crate::failure::Failure;
+use glam::{UVec2, Vec4};
+use std::path::Path;
+use straightline_codegen::ir::{Graph, Texture, TextureKind};
+use straightline_codegen::{Compiled, shorten};
+use straightline_kernels::prelude::Frame;
+use straightline_study::execute::Inputs;
+use straightline_study::picture;
+
+/// Everything that the command line gives, for the kernel as it will run.
+pub fn inputs(args: &RunArgs, compiled: &Compiled) -> Result<Inputs, Failure> {
+    // One compute invocation has all of a quad, and reads as a texture what a fragment shader interpolates.
+    let compiled = match (args.executor, args.stage) {
+        (Executor::Gpu, StageArg::Fragment) => {
+            refuse_varyings(compiled)?;
+            std::borrow::Cow::Borrowed(compiled)
+        }
+        _ => compiled.in_blocks(),
+    };
+    let graph = &compiled.graph;
+    let mut inputs = Inputs::default();
+    for text in &args.input {
+        let (texture, path) = texture_and_path(&compiled, text)?;
+        for picture in pictures(path, texture)? {
+            put(&mut inputs, texture, picture)?;
+        }
+    }
+    for (name, text) in &args.uniform {
+        let Some(uniform) = graph.uniforms.iter().find(|u| u.name == *name) else {
+            return Err(unknown(
+                &compiled,
+                "uniform",
+                name,
+                graph.uniforms.iter().map(|u| u.name.as_str()),
+            ));
+        };
+        if inputs.uniforms.iter().any(|(known, _)| known == name) {
+            return Err(Failure::Usage(format!("the uniform `{name}` is given twice")));
+        }
+        inputs = inputs.uniform(name, &values::uniform(name, uniform.ty, text)?);
+    }
+    for (name, text) in &args.buffer {
+        let Some(buffer) = graph.buffers.iter().find(|b| b.name == *name) else {
+            return Err(unknown(
+                &compiled,
+                "buffer",
+                name,
+                graph.buffers.iter().map(|b| b.name.as_str()),
+            ));
+        };
+        if inputs.buffers.iter().any(|(known, _)| known == name) {
+            return Err(Failure::Usage(format!("the buffer `{name}` is given twice")));
+        }
+        inputs = inputs.buffer(name, values::buffer(name, buffer.element, text)?);
+    }
+    inputs.size = args.size.or_else(|| size(graph, &inputs)).ok_or_else(|| {
+        Failure::Usage(
+            "the output's size is that of a picture, and none is given: say --size, such as 640x360".to_owned(),
+        )
+    })?;
+    Ok(inputs)
+}
+
+/// A fragment shader takes interpolated values from a mesh, and `run` draws none.
+fn refuse_varyings(compiled: &Compiled) -> Result<(), Failure> {
+    let Some(varying) = compiled.graph.varyings.first() else {
+        return Ok(());
+    };
+    Err(Failure::Usage(format!(
+        "the fragment stage interpolates `{}` over triangles, and `run` draws none: use --stage compute, which reads it from a \
+         picture, --input {}=FILE",
+        varying.name, varying.name
+    )))
+}
+
+/// The size of the first picture for a texture that has the output's size, else of the first picture.
+fn size(graph: &Graph, inputs: &Inputs) -> Option<UVec2> {
+    let framed = |name: &str| graph.textures.iter().any(|t| t.framed && t.name == name);
+    let images = || inputs.images.iter();
+    let chosen = images().find(|(name, _)| framed(name)).or_else(|| images().next());
+    chosen.and_then(|(_, layers)| layers.first()).map(Frame::size)
+}
+
+/// What `NAME=FILE` or `FILE` says.
+fn texture_and_path<'a, 't>(compiled: &'a Compiled, text: &'t str) -> Result<(&'a Texture, &'t str), Failure> {
+    let textures = &compiled.graph.textures;
+    let names = || textures.iter().map(|t| t.name.as_str());
+    if let Some((name, path)) = text.split_once('=') {
+        if let Some(texture) = textures.iter().find(|t| t.name == name) {
+            return Ok((texture, path));
+        }
+        if !Path::new(text).exists() {
+            return Err(unknown(compiled, "texture", name, names()));
+        }
+    }
+    match &textures[..] {
+        [only] => Ok((only, text)),
+        [] => Err(Failure::Usage(format!(
+            "`{}` reads no texture: leave --input out, and say the output's --size",
+            compiled.kernel
+        ))),
+        _ => Err(Failure::Usage(format!(
+            "say which texture `{}` is for, NAME=FILE: `{}` has {}",
+            shorten(text),
+            compiled.kernel,
+            list(names())
+        ))),
+    }
+}
+
+/// The pictures of a file for a texture: a picture; the layer that FILE:LAYER names; or of an EXR file of layers without a
+/// colour, all of them where the texture takes several.
+fn pictures(path: &str, texture: &Texture) -> Result<Vec<Frame<Vec4>>, Failure> {
+    if !Path::new(path).exists()
+        && let Some((file, layer)) = path.rsplit_once(':')
+        && file.to_ascii_lowercase().ends_with(".exr")
+    {
+        return Ok(vec![picture::read_layer(Path::new(file), layer).map_err(Failure::of)?]);
+    }
+    let path = Path::new(path);
+    let layers = picture::layers(path).map_err(Failure::of)?;
+    if layers.is_empty() {
+        return Ok(vec![picture::read(path).map_err(Failure::of)?]);
+    }
+    if layers.len() > 1 && !texture.kind.is_indexed() {
+        return Err(Failure::Usage(format!(
+            "the texture `{}` takes one layer, and {} has {}: name one, as {}:{}",
+            texture.name,
+            path.display(),
+            list(layers.iter().map(String::as_str)),
+            path.display(),
+            layers.last().map_or("", String::as_str)
+        )));
+    }
+    let read = |layer: &String| picture::read_layer(path, layer).map_err(Failure::of);
+    layers.iter().map(read).collect()
+}
+
+fn put(inputs: &mut Inputs, texture: &Texture, picture: Frame<Vec4>) -> Result<(), Failure> {
+    let name = &texture.name;
+    match inputs.images.iter_mut().find(|(known, _)| known == name) {
+        Some((_, layers)) if TextureKind::is_indexed(texture.kind) => {
+            if layers[0].size() != picture.size() {
+                return Err(Failure::Usage(format!(
+                    "the layers of `{name}` have different sizes: {} and {}",
+                    layers[0].size(),
+                    picture.size()
+                )));
+            }
+            layers.push(picture);
+        }
+        Some(_) => return Err(Failure::Usage(format!("the texture `{name}` takes one picture"))),
+        None => inputs.images.push((name.clone(), vec![picture])),
+    }
+    Ok(())
+}
+
+fn unknown<'a>(compiled: &Compiled, what: &str, name: &str, known: impl Iterator<Item = &'a str>) -> Failure {
+    Failure::Usage(format!(
+        "`{}` has no {what} `{}`; it has {}",
+        compiled.kernel,
+        shorten(name),
+        list(known)
+    ))
+}
+
+fn list<'a>(names: impl Iterator<Item = &'a str>) -> String {
+    let names: Vec<&str> = names.collect();
+    if names.is_empty() {
+        "none".to_owned()
+    } else {
+        names.join(", ")
+    }
+}

@@ -1,0 +1,103 @@
+//! Numbers from the command line, as uniforms and elements of buffers hold them.
+
+use crate::failure::Failure;
+use straightline_codegen::ir::{Scalar, Type};
+use straightline_codegen::shorten;
+
+/// The components of a uniform: as many numbers as it has, or one for all of them.
+pub fn uniform(name: &str, ty: Type, text: &str) -> Result<Vec<f64>, Failure> {
+    let numbers = numbers(name, ty, text)?;
+    let components = ty.lanes() as usize;
+    if numbers.len() == components || numbers.len() == 1 {
+        return Ok(numbers);
+    }
+    let takes = match components {
+        1 => "one number".to_owned(),
+        n => format!("{n} numbers, or one for all of them"),
+    };
+    Err(Failure::Usage(format!(
+        "`{name}` is {} and takes {takes}, not {}",
+        ty.in_rust(),
+        numbers.len()
+    )))
+}
+
+/// The elements of a buffer.
+pub fn buffer(name: &str, element: Type, text: &str) -> Result<Vec<[f64; 4]>, Failure> {
+    let numbers = numbers(name, element, text)?;
+    let components = element.lanes() as usize;
+    if numbers.len() % components != 0 {
+        return Err(Failure::Usage(format!(
+            "`{name}` holds {}, and {} numbers are no whole number of them",
+            element.in_rust(),
+            numbers.len()
+        )));
+    }
+    let element = |c: &[f64]| std::array::from_fn(|k| c.get(k).copied().unwrap_or(0.0));
+    Ok(numbers.chunks_exact(components).map(element).collect())
+}
+
+/// Numbers separated by commas, each of which a component of `ty` can hold.
+fn numbers(name: &str, ty: Type, text: &str) -> Result<Vec<f64>, Failure> {
+    text.split(',').map(|text| number(name, ty, text.trim())).collect()
+}
+
+fn number(name: &str, ty: Type, text: &str) -> Result<f64, Failure> {
+    let refuse = |why: &str| Failure::Usage(format!("`{}` for `{name}` {why}", shorten(text)));
+    let Ok(number) = text.parse::<f64>() else {
+        return Err(refuse("is no list of numbers: write 1.5 or 1,2,3"));
+    };
+    let whole = |low: f64, high: f64, of: &str| {
+        if number.fract() != 0.0 || !number.is_finite() {
+            Err(refuse(&format!("is no whole number, and {of} holds no others")))
+        } else if !(low..=high).contains(&number) {
+            Err(refuse(&format!("does not fit into {of}, which holds {low} to {high}")))
+        } else {
+            Ok(number)
+        }
+    };
+    match ty.kind() {
+        Some(Scalar::I32) => whole(f64::from(i32::MIN), f64::from(i32::MAX), "an i32"),
+        Some(Scalar::U32) => whole(0.0, f64::from(u32::MAX), "a u32"),
+        _ if !number.is_finite() => Err(refuse("is not finite: give a number")),
+        _ if !(number as f32).is_finite() => Err(refuse(&format!(
+            "does not fit into an f32, which holds {:e} to {:e}",
+            f32::MIN,
+            f32::MAX
+        ))),
+        _ => Ok(number),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn said(ty: Type, text: &str) -> String {
+        match uniform("n", ty, text) {
+            Err(Failure::Usage(message)) => message,
+            other => panic!("{text}: {other:?}"),
+        }
+    }
+
+    #[test]
+    fn numbers_that_do_not_fit_are_refused_with_what_they_are() {
+        assert!(said(Type::I32, "1.5").contains("`1.5` for `n` is no whole number"));
+        assert!(said(Type::U32, "-1").contains("does not fit into a u32, which holds 0 to 4294967295"));
+        assert!(said(Type::U32, "99999999999").contains("does not fit into a u32"));
+        assert!(said(Type::I32, "2147483648").contains("-2147483648 to 2147483647"));
+        assert!(said(Type::F32, "1e39").contains("does not fit into an f32"));
+        assert!(said(Type::F32, "NaN").contains("not finite"));
+        assert!(said(Type::F32, "1,2").contains("takes one number, not 2"));
+        assert!(said(Type::value(Scalar::F32, 3), "1,2").contains("takes 3 numbers, or one for all of them, not 2"));
+        let long = said(Type::F32, &"x".repeat(100_000));
+        assert!(long.len() < 300, "{long}");
+        assert_eq!(uniform("n", Type::U32, "4294967295").unwrap(), [4294967295.0]);
+        assert_eq!(
+            uniform("n", Type::value(Scalar::I32, 2), " -1, 2 ").unwrap(),
+            [-1.0, 2.0]
+        );
+        assert!(matches!(buffer("b", Type::U32, "1,-1"), Err(Failure::Usage(_))));
+        assert_eq!(buffer("b", Type::F32, "1,2").unwrap().len(), 2);
+    }
+}

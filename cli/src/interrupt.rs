@@ -1,0 +1,38 @@
+//! Ctrl-C, and the signals by which a system ends programs: nothing unfinished is left on the disk.
+
+use crate::failure::Failure;
+use std::sync::atomic::{AtomicBool, Ordering};
+use straightline_codegen::files;
+
+/// Whether a first Ctrl-C only asks to stop: set while something runs that keeps what it has measured.
+static ASKS: AtomicBool = AtomicBool::new(false);
+
+/// Whether it was asked to stop.
+static PRESSED: AtomicBool = AtomicBool::new(false);
+
+/// Exit status of a program that was interrupted, as shells have it.
+const INTERRUPTED: i32 = 130;
+
+/// Listens for the program's whole life. Where nothing asks to be stopped, an interrupt removes unfinished files and ends
+/// the program.
+pub fn listen() -> Result<(), Failure> {
+    ctrlc::set_handler(|| {
+        if ASKS.load(Ordering::SeqCst) && !PRESSED.swap(true, Ordering::SeqCst) {
+            errln!("\nstopping; what was measured is kept (Ctrl-C again ends at once)");
+            return;
+        }
+        files::abandon();
+        std::process::exit(INTERRUPTED);
+    })
+    .map_err(|error| Failure::Failed(format!("cannot listen to Ctrl-C: {error}")))
+}
+
+/// From now on a first interrupt only asks to stop.
+pub fn ask() {
+    ASKS.store(true, Ordering::SeqCst);
+}
+
+/// Whether it was asked to stop.
+pub fn asked() -> bool {
+    PRESSED.load(Ordering::SeqCst)
+}

@@ -1,0 +1,89 @@
+//! The one place that writes to standard output and standard error. Neither ever makes the program panic.
+//!
+//! A pipe whose reader has gone is no error: what is printed after that is dropped, and the work goes on. What else keeps
+//! standard output from being written ends in an error when all is done.
+
+use crate::failure::Failure;
+use std::fmt::Arguments;
+use std::io::{self, ErrorKind, Write};
+use std::sync::Mutex;
+
+/// What standard output refused first.
+static REFUSED: Mutex<Option<io::Error>> = Mutex::new(None);
+
+/// Most characters of a line of an error.
+const LONGEST: usize = 1000;
+
+/// Prints to standard output.
+pub fn print(text: Arguments<'_>) {
+    attempt(|| io::stdout().write_fmt(text));
+}
+
+/// Prints to standard error.
+pub fn note(text: Arguments<'_>) {
+    // Where even errors cannot be told there is nothing left to do.
+    let _ = io::stderr().write_fmt(text);
+}
+
+/// Whether all that was printed has arrived, or nobody reads it any more.
+pub fn finish() -> Result<(), Failure> {
+    attempt(|| io::stdout().flush());
+    let refused = REFUSED.lock().ok().and_then(|mut refused| refused.take());
+    match refused {
+        Some(error) if error.kind() != ErrorKind::BrokenPipe => {
+            Err(Failure::Failed(format!("cannot write to standard output: {error}")))
+        }
+        _ => Ok(()),
+    }
+}
+
+fn attempt(write: impl FnOnce() -> io::Result<()>) {
+    let Ok(mut refused) = REFUSED.lock() else { return };
+    if refused.is_none()
+        && let Err(error) = write()
+    {
+        *refused = Some(error);
+    }
+}
+
+/// A message with every line that no screen holds shortened in its middle.
+pub fn limited(message: &str) -> String {
+    let shortened = |line: &str| {
+        let count = line.chars().count();
+        if count <= LONGEST {
+            return line.to_owned();
+        }
+        let head: String = line.chars().take(LONGEST / 2).collect();
+        let tail: String = line.chars().skip(count - LONGEST / 2).collect();
+        format!("{head}[{} characters]{tail}", count - 2 * (LONGEST / 2))
+    };
+    message.split('\n').map(shortened).collect::<Vec<_>>().join("\n")
+}
+
+/// `print!` by [`print`].
+macro_rules! out {
+    ($($text:tt)*) => { $crate::output::print(format_args!($($text)*)) };
+}
+
+/// `println!` by [`print`].
+macro_rules! outln {
+    () => { $crate::output::print(format_args!("\n")) };
+    ($($text:tt)*) => { $crate::output::print(format_args!("{}\n", format_args!($($text)*))) };
+}
+
+/// `eprintln!` by [`note`].
+macro_rules! errln {
+    ($($text:tt)*) => { $crate::output::note(format_args!("{}\n", format_args!($($text)*))) };
+}
+
+#[cfg(test)]
+mod tests {
+    use super::limited;
+
+    #[test]
+    fn long_lines_are_shortened() {
+        let text = limited(&format!("error: `{}` is no size\nuse 1x1\n", "9".repeat(100_000)));
+        assert!(text.len() < 1100 && text.starts_with("error: `9999") && text.ends_with("` is no size\nuse 1x1\n"));
+        assert_eq!(limited("a\nb\n"), "a\nb\n");
+    }
+}

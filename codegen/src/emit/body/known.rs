@@ -1,0 +1,53 @@
+//! What is known of operands, so that the text need not guard what cannot happen.
+
+use crate::emit::dialect::Division;
+use crate::ir::{Graph, NodeId, Scalar, Type};
+use crate::passes::{component_bounds, float_bounds};
+
+/// What is known of the operands of an integer division.
+pub fn division(graph: &Graph, x: NodeId, y: NodeId) -> Division {
+    let ty = graph.ty(x);
+    let signed = ty.kind() == Some(Scalar::I32);
+    let bounds = |id: NodeId| (0..ty.lanes()).map(move |k| component_bounds(graph, id, k));
+    let defined = bounds(x).zip(bounds(y)).all(|(x, y)| {
+        let Some((low, high)) = y else { return false };
+        let zero = low <= 0 && high >= 0;
+        let overflow = signed && low <= -1 && high >= -1 && x.is_none_or(|(low, _)| low == i64::from(i32::MIN));
+        !zero && !overflow
+    });
+    let positive = |id: NodeId| bounds(id).all(|b| b.is_some_and(|(low, _)| low >= 0));
+    Division {
+        defined,
+        positive: positive(x) && positive(y),
+    }
+}
+
+/// Whether every float that a value can be has an integer of the type `to` where it is cut off. In half precision the largest
+/// numbers may have become infinities.
+pub fn has_integer(graph: &Graph, id: NodeId, to: Type, half: bool) -> bool {
+    // A driver may round a little differently: stay clear of the edges.
+    let (smallest, largest) = match (half, to.kind()) {
+        (true, Some(Scalar::I32)) => (-60_000.0, 60_000.0),
+        (true, _) => (-0.5, 60_000.0),
+        (false, Some(Scalar::I32)) => (-2.1e9, 2.1e9),
+        (false, _) => (-0.5, 4.2e9),
+    };
+    let fits = |(low, high): (f32, f32)| low >= smallest && high <= largest;
+    (0..to.lanes()).all(|k| float_bounds(graph, id, k).is_some_and(fits))
+}
+
+/// Whether an index is known to lie inside an array of so many elements.
+pub fn is_inside(graph: &Graph, index: NodeId, len: u32) -> bool {
+    component_bounds(graph, index, 0).is_some_and(|(low, high)| low >= 0 && high < i64::from(len))
+}
+
+/// Whether all elements of an array literal are constants that a literal can say.
+pub fn is_table(graph: &Graph, elements: &[NodeId]) -> bool {
+    elements.iter().all(|id| {
+        let ty = graph.ty(*id);
+        let finite = |bits: &u32| !ty.is_float() || f32::from_bits(*bits).is_finite();
+        graph
+            .constant(*id)
+            .is_some_and(|bits| bits[..ty.lanes() as usize].iter().all(finite))
+    })
+}

@@ -1,0 +1,72 @@
+//! SPIR-V as words: basic blocks counted, and those joined that are one.
+
+/// Words before the first instruction: magic number, version, generator, bound of ids, and 0.
+const HEADER: usize = 5;
+
+/// Opcodes of the instructions that begin, end and join blocks.
+mod opcode {
+    pub const PHI: u32 = 245;
+    pub const LOOP_MERGE: u32 = 246;
+    pub const SELECTION_MERGE: u32 = 247;
+    pub const LABEL: u32 = 248;
+    pub const BRANCH: u32 = 249;
+    pub const SWITCH: u32 = 251;
+}
+
+/// The instructions of a module, each with its first word.
+fn instructions(words: &[u32]) -> Vec<&[u32]> {
+    let mut rest = words.get(HEADER..).unwrap_or_default();
+    let mut found = Vec::new();
+    while let Some(first) = rest.first() {
+        let length = ((first >> 16) as usize).clamp(1, rest.len());
+        let (instruction, after) = rest.split_at(length);
+        found.push(instruction);
+        rest = after;
+    }
+    found
+}
+
+fn opcode(instruction: &[u32]) -> u32 {
+    instruction[0] & 0xffff
+}
+
+/// Basic blocks of a module: its labels.
+pub fn basic_blocks(words: &[u32]) -> u32 {
+    let labels = instructions(words).into_iter().filter(|i| opcode(i) == opcode::LABEL);
+    labels.count() as u32
+}
+
+/// The module with a block and the next in one where the first ends in a branch to the second, and nothing else names that:
+/// naga begins each function with a block of its own for variables.
+pub fn joined(words: &[u32]) -> Vec<u32> {
+    let all = instructions(words);
+    let merges = |k: usize| k > 0 && matches!(opcode(all[k - 1]), opcode::LOOP_MERGE | opcode::SELECTION_MERGE);
+    let mut users: std::collections::HashMap<u32, u32> = all
+        .iter()
+        .filter(|i| opcode(i) == opcode::LABEL)
+        .map(|i| (i[1], 0))
+        .collect();
+    // A literal of a switch may look like a label: then a block is left as it is.
+    let controls = |i: &&&[u32]| matches!(opcode(i), opcode::PHI..=opcode::SWITCH if opcode(i) != opcode::LABEL);
+    for word in all.iter().filter(controls).flat_map(|i| &i[1..]) {
+        if let Some(count) = users.get_mut(word) {
+            *count += 1;
+        }
+    }
+    let mut out = words[..HEADER.min(words.len())].to_vec();
+    let mut k = 0;
+    while k < all.len() {
+        let joins = opcode(all[k]) == opcode::BRANCH
+            && !merges(k)
+            && all
+                .get(k + 1)
+                .is_some_and(|next| opcode(next) == opcode::LABEL && next[1] == all[k][1] && users[&next[1]] == 1);
+        if joins {
+            k += 2;
+        } else {
+            out.extend_from_slice(all[k]);
+            k += 1;
+        }
+    }
+    out
+}

@@ -1,0 +1,235 @@
+//! Attributes: which of them remove text, which rustc and the generator may pass over, and which are refused.
+//!
+//! `#[cfg(..)]` is evaluated as far as a source text by itself allows. What depends on how a crate is built is refused.
+
+use super::expr::Lower;
+use crate::diagnostic::Diagnostic;
+use proc_macro2::{Delimiter, TokenStream, TokenTree};
+use quote::ToTokens;
+use syn::spanned::Spanned;
+
+/// What stands after attributes, and so which of the generator's own it takes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Carrier {
+    /// `for`, `while` or `loop`: `unroll(..)`.
+    Loop,
+    /// `if`, or a `let` that takes its value: `branch` and `select`.
+    Branch,
+    /// Anything else.
+    Other,
+}
+
+/// Attributes that neither remove nor change the code after them.
+const INERT: [&str; 26] = [
+    "allow",
+    "automatically_derived",
+    "cold",
+    "clippy",
+    "default",
+    "deny",
+    "deprecated",
+    "derive",
+    "diagnostic",
+    "doc",
+    "expect",
+    "feature",
+    "forbid",
+    "inline",
+    "macro_export",
+    "macro_use",
+    "must_use",
+    "no_std",
+    "non_exhaustive",
+    "recursion_limit",
+    "repr",
+    "rustfmt",
+    "target_feature",
+    "track_caller",
+    "type_length_limit",
+    "warn",
+];
+
+impl Lower {
+    /// Whether text with these attributes is there at all. Attributes that are true are taken off; those that cannot be
+    /// decided, or that change what follows in ways of their own, are errors.
+    pub fn keeps(&mut self, attrs: &mut Vec<syn::Attribute>, carrier: Carrier) -> bool {
+        let mut kept = true;
+        attrs.retain(|attr| {
+            if !attr.path().is_ident("cfg") {
+                return true;
+            }
+            let tokens = match &attr.meta {
+                syn::Meta::List(list) => list.tokens.clone(),
+                _ => TokenStream::new(),
+            };
+            match predicate(tokens.clone()) {
+                Some(true) => {}
+                Some(false) => kept = false,
+                None => self.undecided(attr.span(), &tokens),
+            }
+            false
+        });
+        if kept {
+            for attr in attrs.iter() {
+                if attr.path().is_ident("cfg_attr") {
+                    self.conditional(attr, carrier);
+                } else {
+                    self.plain(attr.path(), attr.span());
+                }
+            }
+        }
+        kept
+    }
+
+    /// As [`Lower::keeps`], where nothing can be left out.
+    pub fn keeps_always(&mut self, attrs: &mut Vec<syn::Attribute>, carrier: Carrier) {
+        let span = attrs.first().map(Spanned::span);
+        if !self.keeps(attrs, carrier)
+            && let Some(span) = span
+        {
+            self.unsupported(
+                span,
+                "`#[cfg(..)]` on a part of an expression",
+                "put it before a statement, an arm, a field or an item",
+            );
+        }
+    }
+
+    fn undecided(&mut self, span: proc_macro2::Span, predicate: &TokenStream) {
+        let span = self.span(span);
+        self.errors.push(
+            Diagnostic::at(span, format!("`cfg({predicate})` depends on how the crate is built"))
+                .label("not known from the source alone")
+                .help("remove it, or make it an option of the kernel (`options!`) and an `if`"),
+        );
+    }
+
+    /// `#[cfg_attr(predicate, attributes)]`.
+    fn conditional(&mut self, attr: &syn::Attribute, carrier: Carrier) {
+        let syn::Meta::List(list) = &attr.meta else {
+            return self.unsupported(attr.span(), "this `cfg_attr`", "write `cfg_attr(false, unroll(none))`");
+        };
+        let mut parts = split(list.tokens.clone()).into_iter();
+        let condition = parts.next().unwrap_or_default();
+        let known = predicate(condition.clone());
+        let literal = condition.to_string() == "false";
+        for part in parts {
+            let name = first_word(&part);
+            let own = ["unroll", "branch", "select"].contains(&name.as_str());
+            match known {
+                _ if own && !literal => self.unsupported(
+                    attr.span(),
+                    &format!("`{name}` under another condition than `false`"),
+                    &format!("write `#[cfg_attr(false, {part})]`"),
+                ),
+                Some(false) if own && carrier == Carrier::Other => {
+                    let (of, help) = match name.as_str() {
+                        "unroll" => ("a loop", "put it right before a `for`, `while` or `loop`"),
+                        _ => (
+                            "an `if`",
+                            "put it right before an `if`, or before the `let` that takes its value",
+                        ),
+                    };
+                    let span = self.span(attr.span());
+                    self.errors.push(
+                        Diagnostic::at(span, format!("`{name}` is an attribute of {of}"))
+                            .label(format!("not before {of}"))
+                            .help(help),
+                    );
+                }
+                Some(false) => {}
+                Some(true) => match syn::parse2::<syn::Meta>(part.clone()) {
+                    Ok(meta) => self.plain(meta.path(), attr.span()),
+                    Err(_) => self.unsupported(attr.span(), "this `cfg_attr`", "write attributes after the condition"),
+                },
+                None if INERT.contains(&name.as_str()) => {}
+                None => self.undecided(attr.span(), &condition),
+            }
+        }
+    }
+
+    /// An attribute that applies.
+    fn plain(&mut self, path: &syn::Path, span: proc_macro2::Span) {
+        let name = path.segments.first().map(|s| s.ident.to_string()).unwrap_or_default();
+        match name.as_str() {
+            known if INERT.contains(&known) => {}
+            "unroll" | "branch" | "select" => {
+                let shown = if name == "unroll" {
+                    "unroll(none)"
+                } else {
+                    name.as_str()
+                };
+                self.unsupported(
+                    span,
+                    &format!("the attribute `{name}` as rustc sees it"),
+                    &format!("hide it from rustc: `#[cfg_attr(false, {shown})]`"),
+                );
+            }
+            _ => {
+                let path = path.to_token_stream().to_string();
+                self.unsupported(
+                    span,
+                    &format!("the attribute `{path}`"),
+                    "remove it; `doc`, `derive`, `inline` and lints may stay",
+                );
+            }
+        }
+    }
+}
+
+/// Whether a function is a test, which no kernel is.
+pub fn is_test(attrs: &[syn::Attribute]) -> bool {
+    attrs
+        .iter()
+        .any(|a| ["test", "bench"].iter().any(|name| a.path().is_ident(name)))
+}
+
+/// What a `cfg` comes to when a kernel is read, if the text alone tells: `test` is false.
+fn predicate(tokens: TokenStream) -> Option<bool> {
+    let mut parts = split(tokens);
+    let trees: Vec<TokenTree> = match parts.len() {
+        1 => parts.remove(0).into_iter().collect(),
+        _ => return None,
+    };
+    match trees.as_slice() {
+        [TokenTree::Ident(word)] => match word.to_string().as_str() {
+            "true" => Some(true),
+            "false" | "test" => Some(false),
+            _ => None,
+        },
+        [TokenTree::Ident(word), TokenTree::Group(group)] if group.delimiter() == Delimiter::Parenthesis => {
+            let inner: Vec<Option<bool>> = split(group.stream()).into_iter().map(predicate).collect();
+            match word.to_string().as_str() {
+                "not" if inner.len() == 1 => inner[0].map(|b| !b),
+                "all" if inner.contains(&Some(false)) => Some(false),
+                "all" if inner.iter().all(Option::is_some) => Some(true),
+                "any" if inner.contains(&Some(true)) => Some(true),
+                "any" if inner.iter().all(Option::is_some) => Some(false),
+                _ => None,
+            }
+        }
+        _ => None,
+    }
+}
+
+/// Parts between commas; one after the last comma only if there is something.
+fn split(tokens: TokenStream) -> Vec<TokenStream> {
+    let mut parts = vec![TokenStream::new()];
+    for token in tokens {
+        match &token {
+            TokenTree::Punct(p) if p.as_char() == ',' => parts.push(TokenStream::new()),
+            _ => parts.last_mut().expect("never empty").extend([token]),
+        }
+    }
+    if parts.last().is_some_and(TokenStream::is_empty) {
+        parts.pop();
+    }
+    parts
+}
+
+fn first_word(tokens: &TokenStream) -> String {
+    match tokens.clone().into_iter().next() {
+        Some(TokenTree::Ident(word)) => word.to_string(),
+        _ => String::new(),
+    }
+}

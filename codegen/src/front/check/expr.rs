@@ -1,0 +1,367 @@
+//! Expressions and statements.
+
+use super::super::cfg::Carrier;
+use super::super::expr::DEPTH;
+use super::Check;
+use crate::diagnostic::Diagnostic;
+use proc_macro2::{TokenStream, TokenTree};
+use quote::ToTokens;
+use syn::punctuated::Punctuated;
+use syn::spanned::Spanned;
+
+impl Check {
+    /// An expression where nothing can be left out.
+    pub fn expr(&mut self, expr: &mut syn::Expr) {
+        // What is deeper is refused by the lowering.
+        if self.depth >= DEPTH {
+            return;
+        }
+        self.depth += 1;
+        let carrier = carrier(expr);
+        if let Some(attrs) = attrs(expr) {
+            self.lower.keeps_always(attrs, carrier);
+        }
+        self.kind(expr);
+        self.depth -= 1;
+    }
+
+    fn kind(&mut self, expr: &mut syn::Expr) {
+        use syn::Expr as E;
+        match expr {
+            E::Array(e) => self.exprs(&mut e.elems),
+            E::Assign(e) => self.pair(&mut e.left, &mut e.right),
+            E::Binary(e) => self.pair(&mut e.left, &mut e.right),
+            E::Index(e) => self.pair(&mut e.expr, &mut e.index),
+            E::Repeat(e) => self.pair(&mut e.expr, &mut e.len),
+            E::Block(e) => self.block(&mut e.block),
+            E::Call(e) => {
+                // Calling a value is refused by the lowering.
+                if let E::Path(path) = &mut *e.func {
+                    self.path(&mut path.path, true);
+                }
+                self.exprs(&mut e.args);
+            }
+            E::Cast(e) => {
+                self.expr(&mut e.expr);
+                match &mut *e.ty {
+                    syn::Type::Path(t) if t.qself.is_none() => self.path(&mut t.path, true),
+                    other => self.ty(other),
+                }
+            }
+            E::Field(e) => self.expr(&mut e.base),
+            E::ForLoop(e) => {
+                self.pattern(&mut e.pat);
+                self.expr(&mut e.expr);
+                self.block(&mut e.body);
+            }
+            E::Group(e) => self.expr(&mut e.expr),
+            E::Paren(e) => self.expr(&mut e.expr),
+            E::Reference(e) => self.expr(&mut e.expr),
+            E::Unary(e) => self.expr(&mut e.expr),
+            E::If(e) => {
+                self.expr(&mut e.cond);
+                self.block(&mut e.then_branch);
+                if let Some((_, other)) = &mut e.else_branch {
+                    self.expr(other);
+                }
+            }
+            E::Loop(e) => self.block(&mut e.body),
+            E::While(e) => {
+                self.expr(&mut e.cond);
+                self.block(&mut e.body);
+            }
+            E::Macro(e) => self.macro_call(&mut e.mac),
+            E::Match(e) => {
+                self.expr(&mut e.expr);
+                for mut arm in std::mem::take(&mut e.arms) {
+                    if self.keeps(&mut arm.attrs) {
+                        self.pattern(&mut arm.pat);
+                        self.expr(&mut arm.body);
+                        e.arms.push(arm);
+                    }
+                }
+            }
+            E::MethodCall(e) => {
+                self.expr(&mut e.receiver);
+                if let Some(arguments) = &e.turbofish {
+                    self.refuse(
+                        arguments.span(),
+                        "`::<>` of a method",
+                        "leave it out, or call the function by its path: `Type::method::<3>(value)`",
+                    );
+                }
+                self.exprs(&mut e.args);
+            }
+            E::Path(e) => self.path(&mut e.path, false),
+            E::Range(e) => [&mut e.start, &mut e.end]
+                .into_iter()
+                .flatten()
+                .for_each(|end| self.expr(end)),
+            E::Return(e) => e.expr.iter_mut().for_each(|e| self.expr(e)),
+            E::Struct(e) => self.structure_literal(e),
+            E::Tuple(e) => self.exprs(&mut e.elems),
+            // Nothing in them.
+            E::Continue(_) | E::Lit(_) => {}
+            // The lowering refuses these, `break` if it has a value.
+            E::Async(_)
+            | E::Await(_)
+            | E::Break(_)
+            | E::Closure(_)
+            | E::Const(_)
+            | E::Infer(_)
+            | E::Let(_)
+            | E::RawAddr(_)
+            | E::Try(_)
+            | E::TryBlock(_)
+            | E::Unsafe(_)
+            | E::Verbatim(_)
+            | E::Yield(_) => {}
+            // And whatever else syn may come to know.
+            _ => {}
+        }
+    }
+
+    fn pair(&mut self, left: &mut syn::Expr, right: &mut syn::Expr) {
+        self.expr(left);
+        self.expr(right);
+    }
+
+    /// Elements of a list, each of which `cfg` may remove.
+    fn exprs(&mut self, list: &mut Punctuated<syn::Expr, syn::Token![,]>) {
+        let mut kept = Punctuated::new();
+        for mut expr in std::mem::take(list) {
+            let carrier = carrier(&expr);
+            if attrs(&mut expr).is_none_or(|attrs| self.lower.keeps(attrs, carrier)) {
+                self.expr(&mut expr);
+                kept.push(expr);
+            }
+        }
+        *list = kept;
+    }
+
+    fn structure_literal(&mut self, e: &mut syn::ExprStruct) {
+        if let Some(qself) = &e.qself {
+            self.refuse(qself.span(), "a type in `<>`", "name the structure alone");
+        }
+        self.path(&mut e.path, false);
+        let mut kept = Punctuated::new();
+        for mut field in std::mem::take(&mut e.fields) {
+            if self.keeps(&mut field.attrs) {
+                self.expr(&mut field.expr);
+                kept.push(field);
+            }
+        }
+        e.fields = kept;
+        match (&e.dot2_token, &mut e.rest) {
+            (_, Some(rest)) => self.expr(rest),
+            (Some(dots), None) => self.refuse(
+                dots.span(),
+                "`..` without a value after it",
+                "name all fields, or write `..other` to take the rest from a value",
+            ),
+            (None, None) => {}
+        }
+    }
+
+    /// The expressions in an `assert!`; other macros are refused by the lowering.
+    fn macro_call(&mut self, call: &mut syn::Macro) {
+        let parser = Punctuated::<syn::Expr, syn::Token![,]>::parse_terminated;
+        if !call.path.is_ident("assert") {
+            return;
+        }
+        if let Ok(mut parts) = call.parse_body_with(parser) {
+            let before = parts.len();
+            self.exprs(&mut parts);
+            if parts.len() != before {
+                self.refuse(
+                    call.span(),
+                    "`#[cfg(..)]` in an `assert!`",
+                    "put it before the `assert!`",
+                );
+            }
+        }
+    }
+
+    /// Statements, each of which `cfg` may remove.
+    pub fn block(&mut self, block: &mut syn::Block) {
+        self.statements(block);
+        for (k, statement) in block.stmts.iter().enumerate() {
+            if let syn::Stmt::Local(syn::Local { pat, init: None, .. }) = statement {
+                let name = match pat {
+                    syn::Pat::Ident(p) => p,
+                    syn::Pat::Type(typed) => match &*typed.pat {
+                        syn::Pat::Ident(p) => p,
+                        _ => continue,
+                    },
+                    _ => continue,
+                };
+                let rest = block.stmts[k + 1..].iter().map(|s| s.to_token_stream());
+                if !rest.into_iter().any(|text| assigns(text, &name.ident)) {
+                    let name = &name.ident;
+                    self.never_assigned(name);
+                }
+            }
+        }
+    }
+
+    fn never_assigned(&mut self, name: &syn::Ident) {
+        let span = self.span(name.span());
+        self.lower.errors.push(
+            Diagnostic::at(span, format!("`{name}` is declared, and never given a value"))
+                .label("no value")
+                .help(format!("write `let {name} = ...;`, or assign to it before it is used")),
+        );
+    }
+
+    fn statements(&mut self, block: &mut syn::Block) {
+        for mut statement in std::mem::take(&mut block.stmts) {
+            let kept = match &mut statement {
+                syn::Stmt::Local(local) => self.local(local),
+                syn::Stmt::Item(item) => self.inner_item(item),
+                syn::Stmt::Expr(expr, _) => {
+                    let target = leftmost(expr);
+                    let carrier = carrier(target);
+                    let kept = attrs(target).is_none_or(|attrs| self.lower.keeps(attrs, carrier));
+                    if kept {
+                        self.expr(expr);
+                    }
+                    kept
+                }
+                syn::Stmt::Macro(m) => {
+                    let kept = self.keeps(&mut m.attrs);
+                    if kept {
+                        self.macro_call(&mut m.mac);
+                    }
+                    kept
+                }
+            };
+            if kept {
+                block.stmts.push(statement);
+            }
+        }
+    }
+
+    fn local(&mut self, local: &mut syn::Local) -> bool {
+        let carrier = match &local.init {
+            Some(init) => match carrier(&init.expr) {
+                Carrier::Branch => Carrier::Branch,
+                Carrier::Loop | Carrier::Other => Carrier::Other,
+            },
+            None => Carrier::Other,
+        };
+        if !self.lower.keeps(&mut local.attrs, carrier) {
+            return false;
+        }
+        match &mut local.pat {
+            syn::Pat::Type(typed) => {
+                self.pattern(&mut typed.pat);
+                self.ty(&mut typed.ty);
+            }
+            other => self.pattern(other),
+        }
+        // An `else` is refused by the lowering.
+        if let Some(init) = &mut local.init {
+            self.expr(&mut init.expr);
+        }
+        true
+    }
+
+    /// A constant or an import; other items in functions are refused by the lowering.
+    fn inner_item(&mut self, item: &mut syn::Item) -> bool {
+        match item {
+            syn::Item::Const(c) => {
+                let kept = self.keeps(&mut c.attrs);
+                if kept {
+                    self.constant(&mut c.generics, &mut c.ty, &mut c.expr);
+                    self.constant_name(&c.ident);
+                }
+                kept
+            }
+            syn::Item::Use(u) => {
+                let kept = self.keeps(&mut u.attrs);
+                if kept {
+                    self.inner_use(&u.tree);
+                }
+                kept
+            }
+            _ => true,
+        }
+    }
+
+    fn inner_use(&mut self, tree: &syn::UseTree) {
+        match tree {
+            syn::UseTree::Path(p) => self.inner_use(&p.tree),
+            syn::UseTree::Group(g) => g.items.iter().for_each(|tree| self.inner_use(tree)),
+            syn::UseTree::Name(_) | syn::UseTree::Glob(_) => {}
+            syn::UseTree::Rename(r) => {
+                if r.rename != "_" {
+                    self.refuse(r.span(), "`use` with another name", &format!("use it as `{}`", r.ident));
+                }
+            }
+        }
+    }
+
+    /// A constant's name, by which a pattern tells it from a variable.
+    pub fn constant_name(&mut self, name: &syn::Ident) {
+        let shown = name.to_string();
+        if shown.starts_with(|c: char| !c.is_uppercase() && c != '_') {
+            self.refuse(
+                name.span(),
+                "a constant in lower case",
+                &format!(
+                    "write `{}`: in a pattern, a name in lower case is a new variable",
+                    shown.to_uppercase()
+                ),
+            );
+        }
+    }
+}
+
+/// Whether text assigns to a variable by `name = ...`.
+fn assigns(text: TokenStream, name: &syn::Ident) -> bool {
+    let tokens: Vec<TokenTree> = text.into_iter().collect();
+    let is = |at: usize, wanted: char| matches!(tokens.get(at), Some(TokenTree::Punct(p)) if p.as_char() == wanted);
+    tokens.iter().enumerate().any(|(k, token)| match token {
+        TokenTree::Group(group) => assigns(group.stream(), name),
+        TokenTree::Ident(word) => word == name && is(k + 1, '=') && !is(k + 2, '='),
+        TokenTree::Punct(_) | TokenTree::Literal(_) => false,
+    })
+}
+
+/// Which attributes of the generator's own an expression takes.
+fn carrier(expr: &syn::Expr) -> Carrier {
+    match expr {
+        syn::Expr::ForLoop(_) | syn::Expr::While(_) | syn::Expr::Loop(_) => Carrier::Loop,
+        syn::Expr::If(_) => Carrier::Branch,
+        _ => Carrier::Other,
+    }
+}
+
+/// The part of a statement that syn gives the statement's attributes to.
+fn leftmost(mut expr: &mut syn::Expr) -> &mut syn::Expr {
+    loop {
+        expr = match expr {
+            syn::Expr::Assign(e) => &mut e.left,
+            syn::Expr::Binary(e) => &mut e.left,
+            syn::Expr::Cast(e) => &mut e.expr,
+            other => return other,
+        };
+    }
+}
+
+/// The attributes of an expression.
+fn attrs(expr: &mut syn::Expr) -> Option<&mut Vec<syn::Attribute>> {
+    macro_rules! each {
+        ($($variant:ident)*) => {
+            match expr {
+                $(syn::Expr::$variant(e) => Some(&mut e.attrs),)*
+                _ => None,
+            }
+        };
+    }
+    each!(
+        Array Assign Async Await Binary Block Break Call Cast Closure Const Continue Field ForLoop Group If Index Infer
+        Let Lit Loop Macro Match MethodCall Paren Path Range RawAddr Reference Repeat Return Struct Try TryBlock Tuple
+        Unary Unsafe While Yield
+    )
+}

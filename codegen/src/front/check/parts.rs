@@ -1,0 +1,170 @@
+//! Patterns, types and paths.
+
+use super::Check;
+use quote::ToTokens;
+use syn::punctuated::Punctuated;
+use syn::spanned::Spanned;
+
+impl Check {
+    /// A pattern. Those that have no meaning in a kernel are refused by the lowering.
+    pub fn pattern(&mut self, pattern: &mut syn::Pat) {
+        use syn::Pat as P;
+        if let Some(attrs) = attrs(pattern) {
+            let mut taken = std::mem::take(attrs);
+            self.lower.keeps_always(&mut taken, super::Carrier::Other);
+        }
+        match pattern {
+            P::Ident(_) | P::Lit(_) | P::Wild(_) => {}
+            P::Or(p) => p.cases.iter_mut().for_each(|p| self.pattern(p)),
+            P::Paren(p) => self.pattern(&mut p.pat),
+            P::Path(p) => {
+                if let Some(qself) = &p.qself {
+                    self.refuse(qself.span(), "a type in `<>`", "name the constant by its path");
+                }
+                self.path(&mut p.path, false);
+            }
+            P::Range(p) => [&mut p.start, &mut p.end]
+                .into_iter()
+                .flatten()
+                .for_each(|end| self.expr(end)),
+            P::Reference(p) => self.pattern(&mut p.pat),
+            P::Slice(p) => p.elems.iter_mut().for_each(|p| self.pattern(p)),
+            P::Tuple(p) => p.elems.iter_mut().for_each(|p| self.pattern(p)),
+            P::Struct(p) => {
+                if let Some(qself) = &p.qself {
+                    self.refuse(qself.span(), "a type in `<>`", "name the structure alone");
+                }
+                self.path(&mut p.path, false);
+                let mut kept = Punctuated::new();
+                for mut field in std::mem::take(&mut p.fields) {
+                    if self.keeps(&mut field.attrs) {
+                        self.pattern(&mut field.pat);
+                        kept.push(field);
+                    }
+                }
+                p.fields = kept;
+            }
+            P::TupleStruct(p) => {
+                if let Some(qself) = &p.qself {
+                    self.refuse(qself.span(), "a type in `<>`", "name the structure alone");
+                }
+                self.path(&mut p.path, false);
+                p.elems.iter_mut().for_each(|p| self.pattern(p));
+            }
+            // The lowering refuses these.
+            P::Const(_) | P::Guard(_) | P::Macro(_) | P::Rest(_) | P::Type(_) | P::Verbatim(_) => {}
+            // And whatever else syn may come to know.
+            _ => {}
+        }
+    }
+
+    /// A type. Those that have no meaning in a kernel are refused by the lowering.
+    pub fn ty(&mut self, ty: &mut syn::Type) {
+        use syn::Type as T;
+        match ty {
+            T::Array(t) => {
+                self.ty(&mut t.elem);
+                self.expr(&mut t.len);
+            }
+            T::Group(t) => self.ty(&mut t.elem),
+            T::Paren(t) => self.ty(&mut t.elem),
+            T::Reference(t) => self.ty(&mut t.elem),
+            T::Slice(t) => self.ty(&mut t.elem),
+            T::Tuple(t) => t.elems.iter_mut().for_each(|t| self.ty(t)),
+            T::Path(t) if t.qself.is_none() => {
+                self.number(&t.path);
+                self.path(&mut t.path, true);
+            }
+            // The lowering refuses these.
+            T::FnPtr(_)
+            | T::ImplTrait(_)
+            | T::Infer(_)
+            | T::Macro(_)
+            | T::Never(_)
+            | T::Path(_)
+            | T::Ptr(_)
+            | T::TraitObject(_)
+            | T::Verbatim(_) => {}
+            // And whatever else syn may come to know.
+            _ => {}
+        }
+    }
+
+    /// Refuses types of numbers that shaders do not have, where a value is said to be of one. Conversions to them are refused
+    /// where they are evaluated.
+    fn number(&mut self, path: &syn::Path) {
+        let Some(name) = path.segments.last().map(|s| s.ident.to_string()) else {
+            return;
+        };
+        let instead = match name.as_str() {
+            "f16" | "f64" | "f128" => "use f32",
+            "i8" | "i16" | "i64" | "i128" => "use i32",
+            "u8" | "u16" | "u64" | "u128" => "use u32",
+            "char" | "str" | "String" => "use numbers: a shader has no text",
+            _ => return,
+        };
+        self.refuse(path.span(), &format!("the type `{name}`"), instead);
+    }
+
+    /// A path, of which the last two segments count; `last` tells whether the last may have generic arguments.
+    pub fn path(&mut self, path: &mut syn::Path, last: bool) {
+        let count = path.segments.len();
+        if count > 1 {
+            let first = path.segments[0].ident.to_string();
+            if self.type_parameters.contains(&first) {
+                self.refuse(
+                    path.span(),
+                    &format!("what belongs to the type parameter `{first}`"),
+                    "write the function for each type, or give the value as an argument",
+                );
+            }
+        }
+        for (k, segment) in path.segments.iter_mut().enumerate() {
+            let list = match &mut segment.arguments {
+                syn::PathArguments::None => continue,
+                syn::PathArguments::AngleBracketed(list) => list,
+                syn::PathArguments::Parenthesized(list) => {
+                    let span = list.span();
+                    self.refuse(span, "a type of functions", "write a function and call it by its name");
+                    continue;
+                }
+            };
+            if !last || k + 1 < count {
+                let shown = list.to_token_stream().to_string().replace(' ', "");
+                let shown = shown.strip_prefix("::").unwrap_or(&shown).to_owned();
+                let span = list.span();
+                self.refuse(
+                    span,
+                    &format!("`{shown}` here"),
+                    "leave it out; a function that is called takes constants after its own name: `power::<3>(x)`",
+                );
+                continue;
+            }
+            for argument in &mut list.args {
+                match argument {
+                    syn::GenericArgument::Lifetime(_) => {}
+                    syn::GenericArgument::Type(ty) => self.ty(ty),
+                    syn::GenericArgument::Const(value) => self.expr(value),
+                    other => {
+                        let span = other.span();
+                        self.refuse(span, "this generic argument", "give types and constants alone");
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn attrs(pattern: &mut syn::Pat) -> Option<&mut Vec<syn::Attribute>> {
+    macro_rules! each {
+        ($($variant:ident)*) => {
+            match pattern {
+                $(syn::Pat::$variant(p) => Some(&mut p.attrs),)*
+                _ => None,
+            }
+        };
+    }
+    each!(
+        Const Guard Ident Lit Macro Or Paren Path Range Reference Rest Slice Struct Tuple TupleStruct Type Wild
+    )
+}

@@ -1,0 +1,3 @@
+pub fn k(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
+    color.load(pixel) * (#[cfg(any())] 2.0)
+}

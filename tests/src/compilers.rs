@@ -1,0 +1,171 @@
+//! Compilers that share nothing with naga read what is emitted: Tint the WGSL, where it is on the path; glslang the GLSL and the
+//! HLSL; spirv-val the SPIR-V. Nothing here reads MSL.
+
+#![allow(dead_code)] // each test uses a part
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use straightline_codegen::Stage;
+use straightline_codegen::emit::{Emitted, Target};
+
+/// Languages that a compiler reads here.
+pub const READ: [Target; 4] = [Target::Wgsl, Target::Glsl450, Target::Spirv, Target::Hlsl];
+
+/// Has every text of a shader read by the compiler of its language.
+///
+/// # Errors
+///
+/// What the first compiler that refuses one says of it.
+pub fn read(emitted: &Emitted) -> Result<(), String> {
+    let folder = Folder::new()?;
+    let manifest = &emitted.manifest;
+    let half = manifest.features.iter().any(|f| f == "shader-f16");
+    let quads = manifest.features.iter().any(|f| f == "subgroup");
+    for (target, bytes) in &emitted.files {
+        let path = folder.0.join(format!("shader.{}", target.extension(manifest.stage)));
+        let mut bytes = bytes.clone();
+        let already = bytes.starts_with(b"enable subgroups;");
+        if *target == Target::Wgsl && quads && !already {
+            // Tint asks for the line that naga refuses.
+            bytes = [b"enable subgroups;\n".as_slice(), &bytes].concat();
+        }
+        std::fs::write(&path, bytes).map_err(|e| format!("{}: {e}", path.display()))?;
+        match target {
+            Target::Wgsl => tint(&path)?,
+            Target::Glsl450 => glsl(&path)?,
+            Target::Spirv => spirv(&path)?,
+            // glslang's HLSL has no half precision.
+            Target::Hlsl if half => {}
+            Target::Hlsl => hlsl(&path, manifest.stage, &manifest.entry_point)?,
+            Target::Msl => {}
+        }
+    }
+    Ok(())
+}
+
+/// Tint, if it is there.
+///
+/// # Errors
+///
+/// What it says of a text that it refuses.
+pub fn tint(path: &Path) -> Result<(), String> {
+    if has_tint() {
+        run("tint", "", &["--format", "wgsl", "-o", "/dev/null"], path)
+    } else {
+        Ok(())
+    }
+}
+
+/// Whether Tint is on the path.
+pub fn has_tint() -> bool {
+    Command::new("tint").arg("--help").output().is_ok()
+}
+
+/// glslang on GLSL, by the file's ending.
+///
+/// # Errors
+///
+/// What it says of a text that it refuses.
+pub fn glsl(path: &Path) -> Result<(), String> {
+    let arguments = ["-V", "--target-env", "vulkan1.1", "--quiet", "-o", "/dev/null"];
+    run("glslangValidator", "glslang-tools", &arguments, path)
+}
+
+/// glslang on HLSL.
+///
+/// # Errors
+///
+/// What it says of a text that it refuses.
+pub fn hlsl(path: &Path, stage: Stage, entry: &str) -> Result<(), String> {
+    let stage = match stage {
+        Stage::Compute => "comp",
+        Stage::Fragment => "frag",
+    };
+    let arguments = [
+        "-D", "-V", "--target-env", "vulkan1.1", "--quiet", "-o", "/dev/null", "-S", stage, "-e", entry,
+    ];
+    run("glslangValidator", "glslang-tools", &arguments, path)
+}
+
+/// spirv-val.
+///
+/// # Errors
+///
+/// What it says of a module that it refuses.
+pub fn spirv(path: &Path) -> Result<(), String> {
+    run("spirv-val", "spirv-tools", &["--target-env", "vulkan1.1"], path)
+}
+
+fn run(tool: &str, package: &str, arguments: &[&str], path: &Path) -> Result<(), String> {
+    let run = Command::new(tool).args(arguments).arg(path).output();
+    let run = run.map_err(|e| format!("cannot run {tool} ({e}): install Debian's {package}"))?;
+    if run.status.success() {
+        return Ok(());
+    }
+    let said = String::from_utf8_lossy(&run.stdout).into_owned() + &String::from_utf8_lossy(&run.stderr);
+    let text = std::fs::read(path).unwrap_or_default();
+    Err(format!("{tool} refuses it:\n{said}\n{}", String::from_utf8_lossy(&text)))
+}
+
+/// A folder of its own that is gone when it is dropped.
+struct Folder(PathBuf);
+
+impl Folder {
+    fn new() -> Result<Folder, String> {
+        use std::sync::atomic::{AtomicU32, Ordering};
+        static NEXT: AtomicU32 = AtomicU32::new(0);
+        let name = format!("straightline-texts-{}-{}", std::process::id(), NEXT.fetch_add(1, Ordering::Relaxed));
+        let path = std::env::temp_dir().join(name);
+        std::fs::create_dir_all(&path).map_err(|e| format!("{}: {e}", path.display()))?;
+        Ok(Folder(path))
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        // What cannot be removed stays behind in the folder for temporary files.
+        let _ = std::fs::remove_dir_all(&self.0);
+    }
+}
+
+/// The SPIR-V that glslang makes of GLSL for a stage, `comp` or `frag`, as words.
+///
+/// # Errors
+///
+/// What glslang says of a text that it refuses.
+pub fn compiled_glsl(text: &str, stage: &str) -> Result<Vec<u32>, String> {
+    let folder = Folder::new()?;
+    let (source, made) = (folder.0.join(format!("shader.{stage}")), folder.0.join("shader.spv"));
+    std::fs::write(&source, text).map_err(|e| e.to_string())?;
+    let made_name = made.to_string_lossy().into_owned();
+    let arguments = ["-V", "--target-env", "vulkan1.1", "--quiet", "-o", &made_name];
+    run("glslangValidator", "glslang-tools", &arguments, &source)?;
+    let bytes = std::fs::read(&made).map_err(|e| e.to_string())?;
+    let words = bytes.chunks_exact(4);
+    Ok(words.map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]])).collect())
+}
+
+/// `OpLabel`: begins a basic block.
+pub const LABEL: u32 = 248;
+/// `OpConstant`.
+const CONSTANT: u32 = 43;
+
+/// Operands of all instructions with an opcode.
+pub fn instructions(words: &[u32], opcode: u32) -> Vec<&[u32]> {
+    let mut found = Vec::new();
+    let mut at = 5;
+    while at < words.len() {
+        let length = (words[at] >> 16) as usize;
+        if words[at] & 0xffff == opcode {
+            found.push(&words[at + 1..at + length]);
+        }
+        at += length;
+    }
+    found
+}
+
+/// The words of all constants of 32 bits.
+pub fn constants(words: &[u32]) -> Vec<u32> {
+    let constants = instructions(words, CONSTANT).into_iter();
+    constants.map(|operands| operands[2]).collect()
+}
