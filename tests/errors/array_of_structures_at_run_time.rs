@@ -4,6 +4,7 @@ struct S {
 }
 
 pub fn k(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
-    let a = [S { x: 1.0 }, S { x: 2.0 }];
-    color.load(pixel) * a[pixel.x as usize].x
+    let mut a = [S { x: 1.0 }, S { x: 2.0 }];
+    a[pixel.x as usize].x = 3.0;
+    color.load(pixel) * a[0].x
 }

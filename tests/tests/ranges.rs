@@ -85,7 +85,17 @@ fn ends(ty: &str) -> Vec<(i64, i64)> {
         "u32" => (0, i64::from(u32::MAX)),
         _ => (0, 1000),
     };
-    let mut all = vec![(0, 8), (0, 7), (0, 0), (5, 3), (1, 0), (0, 1), (2, 9), (3, 3), (40, 100)];
+    let mut all = vec![
+        (0, 8),
+        (0, 7),
+        (0, 0),
+        (5, 3),
+        (1, 0),
+        (0, 1),
+        (2, 9),
+        (3, 3),
+        (40, 100),
+    ];
     if ty != "usize" {
         all.extend([
             (most - 4, most),
@@ -246,7 +256,9 @@ fn runtime_ranges_have_the_counters_of_rust_on_a_gpu() {
             inputs.images = vec![("color".to_owned(), vec![Frame::new(uvec2(1, 1), vec![Vec4::ZERO])])];
             let uniforms = [("a", a), ("b", b)];
             let uniforms = uniforms[2 - params.len()..].iter();
-            inputs.uniforms = uniforms.map(|(name, value)| ((*name).to_owned(), vec![*value as f64])).collect();
+            inputs.uniforms = uniforms
+                .map(|(name, value)| ((*name).to_owned(), vec![*value as f64]))
+                .collect();
             let found = bench.run(&compiled, Stage::Compute, &inputs);
             let found = found.unwrap_or_else(|e| panic!("{range} {unroll}: {e}"));
             assert_eq!(
@@ -254,6 +266,37 @@ fn runtime_ranges_have_the_counters_of_rust_on_a_gpu() {
                 told(&counters),
                 "{range} {unroll}, a = {a}, b = {b}"
             );
+        }
+    }
+}
+
+/// Literals at the ends of a type, as shading languages read them.
+#[test]
+fn known_ranges_at_the_ends_of_a_type_run_on_a_gpu() {
+    let bench = bench();
+    for (ty, a, b, inclusive, adapter) in [
+        ("i32", i64::from(i32::MIN), i64::from(i32::MIN) + 4, false, ""),
+        ("i32", i64::from(i32::MAX) - 4, i64::from(i32::MAX), true, ""),
+        (
+            "i32",
+            i64::from(i32::MIN),
+            i64::from(i32::MAX),
+            true,
+            ".step_by(1_000_000_000)",
+        ),
+        ("u32", i64::from(u32::MAX) - 4, i64::from(u32::MAX), true, ""),
+        ("u32", 0x7fff_fffe, 0x8000_0003, false, ""),
+        ("u32", 0, i64::from(u32::MAX), true, ".rev().step_by(1_000_000_000)"),
+    ] {
+        let counters = native(ty, a, b, inclusive, adapter).expect("few");
+        let dots = if inclusive { "..=" } else { ".." };
+        let range = format!("({}{dots}{}){adapter}", literal(ty, a), literal(ty, b));
+        for unroll in FORMS {
+            let mut inputs = Inputs::new(uvec2(1, 1));
+            inputs.images = vec![("color".to_owned(), vec![Frame::new(uvec2(1, 1), vec![Vec4::ZERO])])];
+            let found = bench.run(&compile(&kernel("", "", &range), unroll), Stage::Compute, &inputs);
+            let found = found.unwrap_or_else(|e| panic!("{range} {unroll}: {e}"));
+            assert_eq!(found.texels()[0].to_array(), told(&counters), "{range} {unroll}");
         }
     }
 }

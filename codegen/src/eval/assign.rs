@@ -50,6 +50,9 @@ impl Evaluator<'_> {
                 let (len, k) = (elements.len(), self.known_int(index).unwrap_or(-1));
                 match usize::try_from(k).ok().filter(|k| *k < len) {
                     Some(k) => {
+                        if Rc::strong_count(&elements) > 1 {
+                            self.copied(len, span)?;
+                        }
                         let slot = &mut Rc::make_mut(&mut elements)[k];
                         *slot = self.replace(std::mem::replace(slot, Value::Poison), rest, new, span)?;
                     }

@@ -1,6 +1,7 @@
 //! What each loop contributes to the size of a kernel.
 
 use super::Evaluator;
+use super::value::Eval;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::policy::{self, Unroll};
 use std::collections::HashMap;
@@ -166,7 +167,16 @@ pub fn blame(reports: &[LoopReport], mut error: Diagnostic) -> Diagnostic {
     error
 }
 
+/// Parts of a value that are copied in the time of a step.
+const PARTS_A_STEP: usize = 8;
+
 impl Evaluator<'_> {
+    /// Counts the work of copying or comparing a value of so many parts, so that copies of large arrays in loops end.
+    pub fn copied(&mut self, parts: usize, span: Span) -> Eval<()> {
+        self.steps += (parts / PARTS_A_STEP) as u64;
+        self.step(span)
+    }
+
     /// Notes an error for each loop that the policy names and the kernel has not.
     pub fn check_loop_paths(&mut self) {
         let known = self.loops.reports();

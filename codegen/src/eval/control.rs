@@ -7,6 +7,7 @@ use crate::diagnostic::{Diagnostic, Span};
 use crate::front::tree::{Arm, Block, Expr, Pattern};
 use crate::ir::{NodeId, Op, RegionId, Type};
 use crate::policy::Branches;
+use std::rc::Rc;
 
 impl Evaluator<'_> {
     pub fn if_(
@@ -110,12 +111,20 @@ impl Evaluator<'_> {
         span: Span,
     ) -> Eval {
         let mut pairs = vec![(None, left, right)];
+        let mut compared = 0;
         for slot in 0..self.scope.len() {
             let (a, b) = (left_scope.at(slot).1, self.scope.at(slot).1);
+            if let (Value::Array(x), Value::Array(y)) = (a, b) {
+                if Rc::ptr_eq(x, y) {
+                    continue;
+                }
+                compared += x.len();
+            }
             if a != b {
                 pairs.push((Some(slot), a.clone(), b.clone()));
             }
         }
+        self.copied(4 * compared, span)?;
         let mut joined = Vec::new();
         let (mut lefts, mut rights) = (Vec::new(), Vec::new());
         for (slot, a, b) in pairs {

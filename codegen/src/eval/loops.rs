@@ -1,11 +1,11 @@
-//! `for` and `while`.
+//! `for`, and what all loops have in common: a loop is left in the shader where that is asked for and can be done.
 
 use super::Evaluator;
 use super::partial::Count;
 use super::value::{Eval, Exit, Place, Step, Value};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::front::assigned;
-use crate::front::tree::{Block, Expr, ForLoop, Pattern, Statement};
+use crate::front::tree::{Block, ForLoop, Pattern};
 use crate::ir::{Counter, NodeId, Op, Origin, Type};
 use crate::policy::{Asked, Unroll};
 
@@ -17,30 +17,36 @@ pub struct Body<'a> {
     pub pattern: Option<&'a Pattern>,
     /// The name of its count in the shader, where the source has one.
     pub counter: Option<(&'a str, Span)>,
-    label: Option<&'a str>,
+    /// Its label.
+    pub label: Option<&'a str>,
     /// Positions of variables that it may write through what it runs over.
-    written: Vec<usize>,
+    pub written: Vec<usize>,
 }
 
 /// A loop of which the number of iterations is known, and what is asked of it.
-struct Wish {
-    asked: Asked,
-    iterations: u64,
-    /// Whether it may be left other than by its end.
-    leaves: bool,
+pub struct Wish {
+    /// What is asked.
+    pub asked: Asked,
+    /// How often its body is evaluated.
+    pub iterations: u64,
+    /// Why it cannot be granted whatever its body makes of variables.
+    pub obstacle: Option<&'static str>,
     /// The whole of it, by which it is known.
-    span: Span,
+    pub span: Span,
     /// What an error points at.
-    head: Span,
+    pub head: Span,
 }
 
 /// What became of a wish.
-enum Granted {
+pub enum Granted {
     /// It is left in the shader.
     Kept(Unroll),
     /// It is to be unrolled. If it was asked for by name, the error that this is.
     Unrolled(Option<Diagnostic>),
 }
+
+/// Why a loop that may be left other than by its end is no loop in the shader.
+pub const LEAVES: &str = "its body has a `break`, `continue` or `return` that leaves an iteration";
 
 impl Evaluator<'_> {
     pub fn for_(&mut self, f: &ForLoop, span: Span) -> Eval {
@@ -87,6 +93,15 @@ impl Evaluator<'_> {
                     .help("give the loop fixed bounds, or select what is computed in it")
                     .into());
                 }
+                None if asked.by_name && asked.unroll == Unroll::Full => {
+                    return Err(Diagnostic::at(
+                        f.over.span,
+                        "a loop whose bounds are runtime values cannot be unrolled",
+                    )
+                    .label("a runtime value")
+                    .help("give the loop fixed bounds, or leave out that it is to be unrolled")
+                    .into());
+                }
                 None => {
                     let course = self.course(&items, f.over.span)?;
                     return self.keep(&body, &Count::Range(course), asked.unroll, span);
@@ -121,7 +136,7 @@ impl Evaluator<'_> {
         let wish = Wish {
             asked,
             iterations: values.len() as u64,
-            leaves,
+            obstacle: leaves.then_some(LEAVES),
             span,
             head: f.over.span,
         };
@@ -141,7 +156,12 @@ impl Evaluator<'_> {
     }
 
     /// Leaves a loop in the shader if that is asked for and can be done.
-    fn attempt(&mut self, body: &Body<'_>, wish: &Wish, count: impl FnOnce(&mut Self) -> Eval<Count>) -> Eval<Granted> {
+    pub fn attempt(
+        &mut self,
+        body: &Body<'_>,
+        wish: &Wish,
+        count: impl FnOnce(&mut Self) -> Eval<Count>,
+    ) -> Eval<Granted> {
         let Wish { asked, span, .. } = *wish;
         let least = match asked.unroll {
             Unroll::Full => return Ok(Granted::Unrolled(None)),
@@ -160,7 +180,10 @@ impl Evaluator<'_> {
         }
         if let Some(needed) = self.unrolled.get(&span) {
             let why = needed.clone();
-            let reason = format!("what follows it needs a compile-time constant that it assigns: {}", told(&why));
+            let reason = format!(
+                "what follows it needs a compile-time constant that it assigns: {}",
+                told(&why)
+            );
             self.loops.because(span, reason);
             if asked.by_name {
                 let error = refusal(wish, &why).note("what the loop assigns would be a runtime value after it");
@@ -168,11 +191,8 @@ impl Evaluator<'_> {
             }
             return Ok(Granted::Unrolled(None));
         }
-        let why = if wish.leaves {
-            Diagnostic::at(
-                wish.head,
-                "its body has a `break`, `continue` or `return` that leaves an iteration",
-            )
+        let why = if let Some(obstacle) = wish.obstacle {
+            Diagnostic::at(wish.head, obstacle)
         } else if let Some(why) = self.loops.given_up(span) {
             why
         } else {
@@ -358,123 +378,6 @@ impl Evaluator<'_> {
             self.builder.set_origin(id, &origin);
         }
     }
-
-    pub fn while_(
-        &mut self,
-        condition: &Expr,
-        block: &Block,
-        label: Option<&str>,
-        attribute: Option<Unroll>,
-        span: Span,
-    ) -> Eval {
-        let function = self.calls.last().cloned().unwrap_or_default();
-        let asked = self.policy.asked(&function, "while", attribute);
-        let made = self.builder.graph().nodes.len();
-        self.loops.enter(&function, "while", span, made);
-        let body = Body {
-            block,
-            pattern: None,
-            counter: None,
-            label,
-            written: Vec::new(),
-        };
-        let outcome = self.run_while(condition, &body, asked, span);
-        let made = self.builder.graph().nodes.len();
-        let became = *outcome.as_ref().unwrap_or(&Unroll::Full);
-        self.loops.leave(became, made);
-        outcome.map(|_| Value::unit())
-    }
-
-    /// Runs a `while` as asked, or as it can be. To be left in the shader it is run once to count its iterations: as its
-    /// condition is known in each, a loop of so many does the same.
-    fn run_while(&mut self, condition: &Expr, body: &Body<'_>, asked: Asked, span: Span) -> Eval<Unroll> {
-        let mut refused = None;
-        if asked.unroll != Unroll::Full && !self.unrolls_all {
-            let test = Block {
-                statements: vec![Statement::Expr(condition.clone())],
-                value: None,
-            };
-            let mutating = &self.library.mutating;
-            let (test, effects) = (assigned(&test, mutating), assigned(body.block, mutating));
-            let leaves = effects.leaves || test.leaves || !test.assigned.is_empty();
-            let (mut iterations, mut after) = (u64::MAX, Vec::new());
-            if !leaves {
-                let before = self.checkpoint();
-                self.unrolls_all = true;
-                let counted = self.unrolled_while(condition, body, span);
-                self.unrolls_all = false;
-                let noted = self.errors.len() > before.errors();
-                iterations = counted?;
-                if noted {
-                    return Err(Exit::Noted);
-                }
-                after = (0..self.scope.len()).map(|slot| self.scope.at(slot).1.clone()).collect();
-                self.return_to(before);
-            }
-            let wish = Wish {
-                asked,
-                iterations,
-                leaves,
-                span,
-                head: condition.span,
-            };
-            let count = |_: &mut Self| Ok(Count::Times(iterations as u32));
-            refused = match self.attempt(body, &wish, count)? {
-                Granted::Kept(unroll) => {
-                    // What the loop makes of variables is known where it is known without the loop.
-                    for (slot, value) in after.into_iter().enumerate() {
-                        if self.scope.at(slot).1 != &value && self.is_known(&value) {
-                            self.scope.set(slot, value);
-                        }
-                    }
-                    return Ok(unroll);
-                }
-                Granted::Unrolled(refused) => refused,
-            };
-        }
-        self.unrolled_while(condition, body, span)?;
-        refused.map_or(Ok(Unroll::Full), |error| Err(error.into()))
-    }
-
-    /// Whether all numbers in a value are known.
-    fn is_known(&self, value: &Value) -> bool {
-        let mut leaves = Vec::new();
-        Self::leaves(value, &mut leaves);
-        leaves.iter().all(|id| self.builder.graph().constant(*id).is_some())
-    }
-
-    /// Unrolls a `while`; gives how many iterations it had.
-    fn unrolled_while(&mut self, condition: &Expr, body: &Body<'_>, span: Span) -> Eval<u64> {
-        let noted = self.errors.len();
-        let mut iterations = 0;
-        loop {
-            self.step(span)?;
-            let value = self.value(condition)?;
-            let id = self.node(&value, condition.span)?;
-            match self.known_bool(id) {
-                Some(true) => {}
-                Some(false) => return Ok(iterations),
-                None => {
-                    return Err(
-                        Diagnostic::at(condition.span, "the condition of `while` is only known at run time")
-                            .label("not known now")
-                            .note("how often a shader goes round must not hang on what it computes: a GPU would wait for its slowest pixel")
-                            .help("use `for` with fixed bounds, and select what is computed in it")
-                            .into(),
-                    );
-                }
-            }
-            iterations += 1;
-            self.loops.round();
-            let outcome = self.block(body.block);
-            if !again(outcome, body.label)? {
-                return Ok(iterations);
-            }
-            if self.errors.len() > noted {
-                return Err(Exit::Noted);
-            }
-        }
-    }
 }
 
 /// What a loop goes by in policies: its counter, or the first of the names that it binds.
@@ -506,7 +409,11 @@ fn refusal(wish: &Wish, why: &Diagnostic) -> Diagnostic {
     .label(format!("`{asked}` asks for it"))
     .help("leave it out, so that the loop is unrolled where it has to be");
     if let Some(at) = why.span.filter(|at| *at != wish.head) {
-        let label = if why.label.is_empty() { "here" } else { why.label.as_str() };
+        let label = if why.label.is_empty() {
+            "here"
+        } else {
+            why.label.as_str()
+        };
         error = error.other(at, label);
     }
     error
@@ -534,7 +441,7 @@ fn array_behind(values: &[Value]) -> Option<Place> {
 }
 
 /// Whether a loop with this label goes on after a round that ended so.
-fn again(outcome: Eval, label: Option<&str>) -> Eval<bool> {
+pub fn again(outcome: Eval, label: Option<&str>) -> Eval<bool> {
     let mine = |of: &Option<String>| of.is_none() || of.as_deref() == label;
     match outcome {
         Ok(_) => Ok(true),
@@ -545,10 +452,13 @@ fn again(outcome: Eval, label: Option<&str>) -> Eval<bool> {
 }
 
 fn changes(name: &str, span: Span) -> Exit {
-    Diagnostic::at(span, format!("`{name}` changes its type in a loop that is left in the shader"))
-        .label("in this loop")
-        .help("give it one type, or unroll the loop")
-        .into()
+    Diagnostic::at(
+        span,
+        format!("`{name}` changes its type in a loop that is left in the shader"),
+    )
+    .label("in this loop")
+    .help("give it one type, or unroll the loop")
+    .into()
 }
 
 /// Whether two settled values differ in their nodes alone.

@@ -27,6 +27,7 @@ mod scope;
 mod sequence;
 mod shape;
 mod value;
+mod whiles;
 
 use crate::diagnostic::{Diagnostic, Errors, File, Span};
 use crate::front::Library;
@@ -127,6 +128,9 @@ const MAX_NODES: usize = 400_000;
 /// Parts of one value after which it is taken to be a mistake.
 const MAX_PARTS: usize = 1 << 18;
 
+/// Elements of an array beyond which they are not named one by one.
+const MAX_NAMED: usize = 1024;
+
 /// Depth of calls after which a recursion is taken not to end.
 const MAX_CALLS: usize = 200;
 
@@ -223,6 +227,10 @@ impl Evaluator<'_> {
     }
 
     fn name_each(&mut self, parts: &[Value], name: &str, span: Span) {
+        // Nobody reads so many names, and an array is named each time that it is copied.
+        if parts.len() > MAX_NAMED {
+            return;
+        }
         for (k, part) in parts.iter().enumerate() {
             self.name(part, &format!("{name}_{k}"), span);
         }

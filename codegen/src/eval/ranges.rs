@@ -57,15 +57,19 @@ impl Evaluator<'_> {
             ("step_by", [step]) => match self.known_int(step) {
                 Some(step @ 1..) if !range.reversed => range.step = range.step.saturating_mul(step),
                 Some(1..) => {
-                    return Err(Diagnostic::at(span, "`step_by` of a range that is stepped and reversed")
-                        .label("a second step")
-                        .help("write one `step_by`, before or after `rev`")
-                        .into());
+                    return Err(
+                        Diagnostic::at(span, "`step_by` of a range that is stepped and reversed")
+                            .label("a second step")
+                            .help("write one `step_by`, before or after `rev`")
+                            .into(),
+                    );
                 }
                 _ => {
-                    return Err(Diagnostic::at(span, "`step_by` needs a step that is a constant of at least 1")
-                        .label("of this step")
-                        .into());
+                    return Err(
+                        Diagnostic::at(span, "`step_by` needs a step that is a constant of at least 1")
+                            .label("of this step")
+                            .into(),
+                    );
                 }
             },
             ("contains", [x]) if plain => {
@@ -107,10 +111,12 @@ impl Evaluator<'_> {
             [] => Ok((Scalar::I32, true)),
             [kind] => Ok((kind, kind == Scalar::I32)),
             [a, b] if a == b => Ok((a, false)),
-            _ => Err(Diagnostic::at(span, "a range from an i32 to a u32, or the other way round")
-                .label("two types")
-                .help("convert one of them with `as`")
-                .into()),
+            _ => Err(
+                Diagnostic::at(span, "a range from an i32 to a u32, or the other way round")
+                    .label("two types")
+                    .help("convert one of them with `as`")
+                    .into(),
+            ),
         }
     }
 
@@ -158,7 +164,11 @@ impl Evaluator<'_> {
         let known = self
             .known_int(&Value::Node(start))
             .zip(self.known_int(&Value::Node(end)));
-        let limit = if kind == Scalar::U32 { i64::from(u32::MAX) } else { i64::from(i32::MAX) };
+        let limit = if kind == Scalar::U32 {
+            i64::from(u32::MAX)
+        } else {
+            i64::from(i32::MAX)
+        };
         let upright = !range.down && !range.reversed && range.step == 1;
         let plain = match known {
             _ if !upright => None,
@@ -273,9 +283,7 @@ impl Evaluator<'_> {
             let last = self
                 .builder
                 .add(Op::Binary(BinaryOp::Sub), vec![course.trips, one], course.own);
-            at = self
-                .builder
-                .add(Op::Binary(BinaryOp::Sub), vec![last, own], course.own);
+            at = self.builder.add(Op::Binary(BinaryOp::Sub), vec![last, own], course.own);
         }
         if course.own != ty {
             at = self.convert(at, ty.kind().unwrap_or(Scalar::I32));
@@ -316,7 +324,11 @@ fn last(range: &Range, end: i64) -> i128 {
 /// Number of iterations of a loop over a range with known ends.
 fn iterations(range: &Range, start: i64, end: i64) -> i128 {
     let distance = last(range, end) - i128::from(start);
-    if distance < 0 { 0 } else { distance / i128::from(range.step) + 1 }
+    if distance < 0 {
+        0
+    } else {
+        distance / i128::from(range.step) + 1
+    }
 }
 
 impl Course {

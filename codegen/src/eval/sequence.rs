@@ -56,7 +56,11 @@ impl Evaluator<'_> {
         if let Some(unlike) = unlike {
             return Err(Diagnostic::at(
                 span,
-                format!("the elements are unlike: {} and {}", rows[0].describe(), unlike.describe()),
+                format!(
+                    "the elements are unlike: {} and {}",
+                    rows[0].describe(),
+                    unlike.describe()
+                ),
             )
             .into());
         }
@@ -70,7 +74,11 @@ impl Evaluator<'_> {
             .collect();
         let width = leaves[0].len();
         if width > MAX_COLUMNS {
-            return Err(Diagnostic::at(span, format!("each element has {width} numbers, more than {MAX_COLUMNS}")).into());
+            return Err(Diagnostic::at(
+                span,
+                format!("each element has {width} numbers, more than {MAX_COLUMNS}"),
+            )
+            .into());
         }
         let mut columns = Vec::new();
         for k in 0..width {
@@ -92,7 +100,12 @@ impl Evaluator<'_> {
                     Value::Node(id) if matches!(self.ty(*id), Type::U32) => Type::U32,
                     _ => Type::I32,
                 };
-                match i32::try_from(*n).is_ok() || u32::try_from(*n).is_ok() {
+                // What does not fit stays as it is, and makes the values unlike.
+                let fits = match ty {
+                    Type::U32 => u32::try_from(*n).is_ok(),
+                    _ => i32::try_from(*n).is_ok(),
+                };
+                match fits {
                     true => Value::Node(self.whole(*n as u32, ty)),
                     false => value.clone(),
                 }
@@ -104,11 +117,17 @@ impl Evaluator<'_> {
                 Value::structure(ty.clone(), fields)
             }
             (Value::Tuple(parts), Value::Tuple(others)) if parts.len() == others.len() => {
-                let parts = parts.iter().zip(others).map(|(part, like)| self.known_integers(part, like));
+                let parts = parts
+                    .iter()
+                    .zip(others)
+                    .map(|(part, like)| self.known_integers(part, like));
                 Value::Tuple(parts.collect())
             }
             (Value::Array(parts), Value::Array(others)) if parts.len() == others.len() => {
-                let parts = parts.iter().zip(others.iter()).map(|(part, like)| self.known_integers(part, like));
+                let parts = parts
+                    .iter()
+                    .zip(others.iter())
+                    .map(|(part, like)| self.known_integers(part, like));
                 let parts = parts.collect();
                 Value::array(parts)
             }
@@ -255,7 +274,9 @@ impl Evaluator<'_> {
                 return None;
             }
         }
-        let at = self.builder.add(Op::Binary(BinaryOp::Add), vec![from, index], Type::I32);
+        let at = self
+            .builder
+            .add(Op::Binary(BinaryOp::Add), vec![from, index], Type::I32);
         let element = self.ty(flat).element();
         Some(Value::Node(self.builder.add(Op::ArrayGet, vec![flat, at], element)))
     }

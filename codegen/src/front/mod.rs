@@ -22,7 +22,7 @@ use crate::diagnostic::{Diagnostic, Errors, File, Span};
 use std::borrow::Cow;
 use std::sync::Arc;
 
-pub use scan::assigned;
+pub use scan::{assigned, children};
 pub use tree::Library;
 
 /// Reads all files and lowers what `entry` reaches.

@@ -49,7 +49,9 @@ impl Run {
             let slot = self.tallies.entry(name.clone()).or_default();
             *slot = slot.saturating_add(n.saturating_mul(times));
         }
-        self.transcendentals = self.transcendentals.saturating_add(other.transcendentals.saturating_mul(times));
+        self.transcendentals = self
+            .transcendentals
+            .saturating_add(other.transcendentals.saturating_mul(times));
         self.messages = self.messages.saturating_add(other.messages.saturating_mul(times));
         self.alu = self.alu.saturating_add(other.alu.saturating_mul(times));
     }

@@ -81,7 +81,11 @@ impl Writer<'_> {
             }
         }
         let moved = |(_, target, value): &&(NodeId, String, Text)| value.code != *target;
-        let targets: HashSet<String> = moves.iter().filter(moved).map(|(_, target, _)| target.clone()).collect();
+        let targets: HashSet<String> = moves
+            .iter()
+            .filter(moved)
+            .map(|(_, target, _)| target.clone())
+            .collect();
         for (param, target, value) in &mut moves {
             if value.code != *target && targets.contains(&value.code) {
                 let name = self.names.fresh(&format!("next_{target}"));

@@ -175,7 +175,11 @@ impl<'a, R: Real> Interpreter<'a, R> {
         let signed = self.graph.ty(args[0]) == Type::I32;
         let [start, end] = [args[0], args[1]].map(|id| {
             let bits = s.values[id.0 as usize][0] as u32;
-            if signed { i64::from(bits as i32) } else { i64::from(bits) }
+            if signed {
+                i64::from(bits as i32)
+            } else {
+                i64::from(bits)
+            }
         });
         let mut carried: Vec<Vec<Cells>> = args[2..].iter().map(|a| whole(self.graph, s, *a)).collect();
         for counter in start..end {
