@@ -71,7 +71,7 @@ pub fn glsl(path: &Path) -> Result<(), String> {
     run("glslangValidator", "glslang-tools", &arguments, path)
 }
 
-/// glslang on HLSL.
+/// glslang on HLSL. It knows no `(float[9])0`, which other compilers of HLSL take, and is shown the zeros one by one.
 ///
 /// # Errors
 ///
@@ -81,10 +81,28 @@ pub fn hlsl(path: &Path, stage: Stage, entry: &str) -> Result<(), String> {
         Stage::Compute => "comp",
         Stage::Fragment => "frag",
     };
-    let arguments = [
-        "-D", "-V", "--target-env", "vulkan1.1", "--quiet", "-o", "/dev/null", "-S", stage, "-e", entry,
-    ];
-    run("glslangValidator", "glslang-tools", &arguments, path)
+    let folder = Folder::new()?;
+    let shown = folder.0.join("shader.hlsl");
+    let text = std::fs::read_to_string(path).map_err(|e| e.to_string())?;
+    std::fs::write(&shown, zeros_one_by_one(&text)).map_err(|e| e.to_string())?;
+    let mut arguments = vec!["-D", "-V", "--target-env", "vulkan1.1", "--quiet", "-o", "/dev/null"];
+    arguments.extend(["-S", stage, "-e", entry]);
+    run("glslangValidator", "glslang-tools", &arguments, &shown)
+}
+
+fn zeros_one_by_one(text: &str) -> String {
+    let mut out = String::new();
+    let mut rest = text;
+    while let Some(at) = rest.find("])0") {
+        let before = &rest[..at];
+        let begin = before.rfind('(').unwrap_or(0);
+        let (ty, length) = before[begin + 1..].split_once('[').unwrap_or_default();
+        let zeros = vec![format!("({ty})0"); length.parse().unwrap_or(0)];
+        out += &before[..begin];
+        out += &format!("{{{}}}", zeros.join(", "));
+        rest = &rest[at + 3..];
+    }
+    out + rest
 }
 
 /// spirv-val.

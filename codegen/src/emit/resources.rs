@@ -1,6 +1,6 @@
 //! What a shader binds: only what it reads.
 
-use super::EmitOptions;
+use super::{EmitOptions, Target};
 use super::error::EmitError;
 use super::layout::{layout, stride};
 use super::wgsl::type_name;
@@ -8,7 +8,7 @@ use crate::ir::{Buffer, NodeId, Op, Sampler, Texture, TextureKind, Uniform, Vary
 use crate::passes::layers_read;
 use crate::pipeline::Compiled;
 use straightline_manifest::{
-    Access, Binding, BindingKind, Counts, Dimension, Extent, Manifest, Output, Precision, REGION, REGION_SIZE, SCHEMA,
+    Access, Binding, BindingKind, Counts, Dimension, Extent, LanguageBinding, Manifest, Output, Precision, REGION, REGION_SIZE, SCHEMA,
     SampleType, SamplerType, Stage, UniformField, region_fields,
 };
 
@@ -233,6 +233,32 @@ impl Resources {
         needed.map(|(_, name)| name.to_owned()).collect()
     }
 
+    /// What single languages of the shader bind beside what all of them do.
+    fn language_bindings(&self) -> Vec<LanguageBinding> {
+        let mut extra = Vec::new();
+        let mut add = |target: Target, name: &str, what: &str| {
+            if self.options.targets.contains(&target) {
+                extra.push(LanguageBinding {
+                    language: target.to_string(),
+                    name: name.to_owned(),
+                    binding: self.sampler_binding(),
+                    what: what.to_owned(),
+                });
+            }
+        };
+        if !self.read.is_empty() {
+            add(Target::Glsl450, SAMPLER, "any sampler: texels are named with one, and not filtered");
+        }
+        if !self.read_buffers.is_empty() {
+            add(
+                Target::Msl,
+                "_buffer_sizes",
+                "a buffer of one u32 for each storage buffer, in order of binding: its length in bytes",
+            );
+        }
+        extra
+    }
+
     /// The manifest of the shader, without its files.
     pub fn manifest(&self, compiled: &Compiled, counts: &Counts) -> Manifest {
         let mut bindings = Vec::new();
@@ -302,6 +328,7 @@ impl Resources {
             features: self.features(),
             varyings: self.varyings().collect(),
             bindings,
+            language_bindings: self.language_bindings(),
             output: Output {
                 name: OUTPUT.to_owned(),
                 group: compute.then_some(0),
