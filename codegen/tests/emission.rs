@@ -6,7 +6,7 @@
 mod compilers;
 
 use compilers::{LABEL, instructions, read};
-use straightline_codegen::emit::{Emitted, Target};
+use straightline_codegen::emit::{EmitError, Emitted, Target};
 use straightline_codegen::{Branches, Compiled, EmitOptions, Kernel, Settings, Stage, Unroll};
 
 fn settings(unroll: Unroll, branches: Branches) -> Settings {
@@ -217,8 +217,12 @@ fn basic_blocks_are_those_of_the_spirv() {
         let compiled = compiled.unwrap_or_else(|e| panic!("{e}"));
         for stage in [Stage::Compute, Stage::Fragment] {
             let options = EmitOptions::new().targets(compilers::READ).stage(stage);
-            // Some have a uniform of the frame's size and no texture to tell it.
-            let Ok(emitted) = compiled.emit(&options) else { continue };
+            let emitted = match compiled.emit(&options) {
+                Ok(emitted) => emitted,
+                // No texture of the frame's size tells a fragment of it.
+                Err(EmitError::NoFrame { .. }) => continue,
+                Err(error) => panic!("{error}"),
+            };
             read(&emitted).unwrap_or_else(|e| panic!("{name}: {e}"));
             let labels = instructions(&words(&emitted), LABEL).len();
             let counts = &emitted.manifest.counts;
@@ -245,8 +249,11 @@ fn odd_names_are_changed() {
                  active filter mix clamp unorm discard within place id position frame region __a a__b Pass Region";
     let long = "n".repeat(1100);
     for name in names.split_whitespace().chain([long.as_str()]) {
+        // In Rust a pattern that begins with a capital is a constant.
+        let kernel_name = name;
+        let name = if name.starts_with(|c: char| c.is_ascii_uppercase()) { "local" } else { name };
         let kernel = format!(
-            "pub fn {name}(color: &Frame<Vec4>, p: IVec2) -> Vec4 {{
+            "pub fn {kernel_name}(color: &Frame<Vec4>, p: IVec2) -> Vec4 {{
                 let {name} = color.load(p);
                 let n_1 = {name} * {name};
                 let mut sum = n_1;
@@ -255,7 +262,7 @@ fn odd_names_are_changed() {
             }}"
         );
         for unroll in [Unroll::Full, Unroll::None] {
-            let compiled = Kernel::from_text("kernel.rs", &kernel, name).compile(&settings(unroll, Branches::AsLoops));
+            let compiled = Kernel::from_text("kernel.rs", &kernel, kernel_name).compile(&settings(unroll, Branches::AsLoops));
             let compiled = compiled.unwrap_or_else(|e| panic!("{name}: {e}"));
             emit(&compiled, Stage::Compute);
         }
@@ -278,15 +285,19 @@ fn odd_names_of_inputs_are_refused() {
     };
     let names = [
         ("imageStore", "is a word of"),
-        ("destination", "the shader itself"),
+        ("parameters", "the shader itself"),
         ("a__b", "two underscores"),
-        ("Parameters", "the shader itself"),
         ("image2D", "is a word of"),
         ("é", "other letters"),
         ("gl_x", "is a word of"),
-        ("k", "the shader itself"),
         ("__a", "is a word of"),
     ];
+    let kernel = "pub fn k(destination: &Frame<Vec4>, pixel: IVec2) -> Vec4 { destination.load(pixel) }";
+    for name in ["destination", "Parameters", "k"] {
+        let compiled = compile(&kernel.replace("destination", name), Unroll::Full, Branches::Select);
+        let error = compiled.emit(&EmitOptions::new()).expect_err(name).to_string();
+        assert!(error.contains("the shader itself"), "{name}: {error}");
+    }
     for (name, why) in names {
         for error in refused(name) {
             assert!(error.contains(why) && error.contains("give the parameter another name"), "{name}: {error}");

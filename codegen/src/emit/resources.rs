@@ -113,10 +113,15 @@ impl Resources {
         let names = names.chain(read_buffers.iter().map(|(k, _)| &graph.buffers[*k as usize].name));
         let names = names.chain(used_samplers.iter().map(|(k, _)| &graph.samplers[*k as usize].name));
         let entry = super::names::entry_point(&compiled.kernel);
+        let names = names.chain(graph.varyings.iter().map(|v| &v.name));
         let mut names = names
-            .chain(uniforms.iter().map(|u| &u.name))
-            .chain(graph.varyings.iter().map(|v| &v.name));
-        if let Some((name, why)) = names.find_map(|name| Some((name, super::names::refused(name, &entry)?))) {
+            .map(|name| (name, false))
+            .chain(uniforms.iter().map(|u| (&u.name, true)));
+        let refused = |(name, is_field)| {
+            let why = super::names::refused(name, &entry, is_field, options.region)?;
+            Some((name, why))
+        };
+        if let Some((name, why)) = names.find_map(refused) {
             let name = shortened(name);
             return Err(EmitError::Name {
                 kernel: kernel(),
