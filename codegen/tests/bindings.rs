@@ -25,7 +25,7 @@ pub mod wgpu {
     pub enum TextureViewDimension { D2 } pub enum StorageTextureAccess { WriteOnly } pub enum TextureFormat { Rgba16Float }
 }
 #[derive(Debug)] pub struct Error;
-pub struct Resource<'a>(&'a ());
+pub struct Resource<'a>(pub &'a ());
 impl<'a> From<&'a wgpu::TextureView> for Resource<'a> { fn from(_: &'a wgpu::TextureView) -> Self { Resource(&()) } }
 #[derive(Debug)] pub struct Pass;
 impl Pass {
@@ -39,7 +39,16 @@ impl Pass {
 fn rustc(folder: &Path, file: &str, arguments: &[&str]) {
     let run = Command::new("rustc")
         .current_dir(folder)
-        .args(["--edition", "2024", "--crate-type", "lib", "--emit", "metadata", "-D", "warnings"])
+        .args([
+            "--edition",
+            "2024",
+            "--crate-type",
+            "lib",
+            "--emit",
+            "metadata",
+            "-D",
+            "warnings",
+        ])
         .args(arguments)
         .arg(file)
         .output()
@@ -59,10 +68,37 @@ fn folder() -> PathBuf {
 fn bindings_compile_whatever_uniforms_are_called() {
     let folder = folder();
     std::fs::write(folder.join("straightline_runtime.rs"), RUNTIME).expect("written");
-    rustc(&folder, "straightline_runtime.rs", &["--crate-name", "straightline_runtime"]);
+    rustc(
+        &folder,
+        "straightline_runtime.rs",
+        &["--crate-name", "straightline_runtime"],
+    );
     let names = [
-        "Pass", "Some", "Ok", "None", "Err", "MANIFEST", "WGSL", "ENTRY_POINT", "padding_0", "padding_1", "value_0", "bytes",
-        "queue", "value", "Inputs", "Error", "Resource", "wgpu", "dyn", "gen", "place", "u32", "Self_", "Default", "to_bytes",
+        "Pass",
+        "Some",
+        "Ok",
+        "None",
+        "Err",
+        "MANIFEST",
+        "WGSL",
+        "ENTRY_POINT",
+        "padding_0",
+        "padding_1",
+        "value_0",
+        "bytes",
+        "queue",
+        "value",
+        "Inputs",
+        "Error",
+        "Resource",
+        "wgpu",
+        "dyn",
+        "gen",
+        "place",
+        "u32",
+        "Self_",
+        "Default",
+        "to_bytes",
     ];
     for (k, name) in names.into_iter().enumerate() {
         let text = format!(
@@ -71,15 +107,27 @@ fn bindings_compile_whatever_uniforms_are_called() {
             }}"
         );
         // Some are no names of Rust's, or of a shading language's: those are refused before.
-        let Ok(compiled) = Kernel::from_text("kernel.rs", &text, "k").compile(&Settings::default()) else { continue };
-        let Ok(emitted) = compiled.emit(&EmitOptions::new()) else { continue };
-        let module = Module { name: "shader", compiled: &compiled, manifest: &emitted.manifest };
+        let Ok(compiled) = Kernel::from_text("kernel.rs", &text, "k").compile(&Settings::default()) else {
+            continue;
+        };
+        let Ok(emitted) = compiled.emit(&EmitOptions::new()) else {
+            continue;
+        };
+        let module = Module {
+            name: "shader",
+            compiled: &compiled,
+            manifest: &emitted.manifest,
+        };
         for (file, contents) in emitted.named("shader") {
             std::fs::write(folder.join(file), contents).expect("written");
         }
         let file = format!("bindings_{k}.rs");
         std::fs::write(folder.join(&file), emit::bindings(&[module])).expect("written");
-        rustc(&folder, &file, &["--extern", "straightline_runtime=libstraightline_runtime.rmeta"]);
+        rustc(
+            &folder,
+            &file,
+            &["--extern", "straightline_runtime=libstraightline_runtime.rmeta"],
+        );
     }
     std::fs::remove_dir_all(&folder).expect("removed");
 }

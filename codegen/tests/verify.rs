@@ -3,8 +3,8 @@
 #![allow(missing_docs)]
 
 use straightline_codegen::ir::{
-    BinaryOp, Buffer, Builder, Direction, Graph, Invocation, Node, NodeId, Op, RegionId, Rules, Sampler, Scalar, Texture,
-    TextureKind, Type, UnaryOp, Uniform, verify::verify,
+    BinaryOp, Buffer, Builder, Direction, Graph, Invocation, Node, NodeId, Op, RegionId, Rules, Sampler, Scalar,
+    Texture, TextureKind, Type, UnaryOp, Uniform, verify::verify,
 };
 
 struct Nothing;
@@ -76,8 +76,27 @@ fn whole() -> Graph {
     let table = add(&mut b, Op::MakeArray, &[chosen, sum], array); // 15
     let set = add(&mut b, Op::ArraySet, &[table, zero, x], array); // 16
     let element = add(&mut b, Op::ArrayGet, &[set, zero], Type::F32); // 17
-    let gathered = add(&mut b, Op::Gather { texture: 0, sampler: 0, component: 1, site: 0 }, &[texel], VEC4); // 18
-    let compared = add(&mut b, Op::Compare { texture: 1, sampler: 1, site: 0 }, &[texel, element], Type::F32); // 19
+    let gathered = add(
+        &mut b,
+        Op::Gather {
+            texture: 0,
+            sampler: 0,
+            component: 1,
+            site: 0,
+        },
+        &[texel],
+        VEC4,
+    ); // 18
+    let compared = add(
+        &mut b,
+        Op::Compare {
+            texture: 1,
+            sampler: 1,
+            site: 0,
+        },
+        &[texel, element],
+        Type::F32,
+    ); // 19
     let read = add(&mut b, Op::BufferLoad { buffer: 0, site: 0 }, &[zero], Type::F32); // 20
     let vector = add(&mut b, Op::Compose, &[compared, read, element, x], VEC4); // 21
     let clamped = add(&mut b, Op::Clamp, &[vector, gathered, vector], VEC4); // 22
@@ -125,7 +144,9 @@ fn every_rule_is_checked() {
         ("an array and an index", |g| node(g, 17).args[0] = NodeId(2)),
         ("an array, an index", |g| node(g, 16).args[1] = NodeId(2)),
         ("elements of one type", |g| node(g, 15).args[0] = NodeId(6)),
-        ("a type that no value has", |g| node(g, 25).ty = Type::value(Scalar::F32, 5)),
+        ("a type that no value has", |g| {
+            node(g, 25).ty = Type::value(Scalar::F32, 5)
+        }),
         ("a type that no value has", |g| node(g, 12).ty = Type::Results),
         ("a boolean is 0 or 1", |g| {
             node(g, 6).ty = Type::BOOL;
@@ -134,15 +155,42 @@ fn every_rule_is_checked() {
         ("a vec2<f32>", |g| node(g, 18).args[0] = NodeId(2)),
         ("a vec2<f32>", |g| node(g, 19).args[1] = NodeId(6)),
         ("a component that", |g| {
-            node(g, 18).op = Op::Gather { texture: 0, sampler: 0, component: 2, site: 0 };
+            node(g, 18).op = Op::Gather {
+                texture: 0,
+                sampler: 0,
+                component: 2,
+                site: 0,
+            };
         }),
-        ("a flat texture", |g| node(g, 18).op = Op::Gather { texture: 1, sampler: 0, component: 0, site: 0 }),
-        ("a depth texture", |g| node(g, 19).op = Op::Compare { texture: 1, sampler: 0, site: 0 }),
+        ("a flat texture", |g| {
+            node(g, 18).op = Op::Gather {
+                texture: 1,
+                sampler: 0,
+                component: 0,
+                site: 0,
+            }
+        }),
+        ("a depth texture", |g| {
+            node(g, 19).op = Op::Compare {
+                texture: 1,
+                sampler: 0,
+                site: 0,
+            }
+        }),
         ("an index to an element", |g| node(g, 20).args[0] = NodeId(2)),
         // 3: what exists.
         ("no such texture", |g| node(g, 1).op = Op::Load { texture: 9, site: 0 }),
-        ("no such sampler", |g| node(g, 18).op = Op::Gather { texture: 0, sampler: 9, component: 0, site: 0 }),
-        ("no such buffer", |g| node(g, 20).op = Op::BufferLoad { buffer: 9, site: 0 }),
+        ("no such sampler", |g| {
+            node(g, 18).op = Op::Gather {
+                texture: 0,
+                sampler: 9,
+                component: 0,
+                site: 0,
+            }
+        }),
+        ("no such buffer", |g| {
+            node(g, 20).op = Op::BufferLoad { buffer: 9, site: 0 }
+        }),
         ("no such uniform", |g| node(g, 3).op = Op::Uniform(9)),
         ("no such varying", |g| node(g, 3).op = Op::Varying(0)),
         ("no such tally", |g| node(g, 4).op = Op::Tally(9)),

@@ -122,7 +122,10 @@ fn run(tool: &str, package: &str, arguments: &[&str], path: &Path) -> Result<(),
     }
     let said = String::from_utf8_lossy(&run.stdout).into_owned() + &String::from_utf8_lossy(&run.stderr);
     let text = std::fs::read(path).unwrap_or_default();
-    Err(format!("{tool} refuses it:\n{said}\n{}", String::from_utf8_lossy(&text)))
+    Err(format!(
+        "{tool} refuses it:\n{said}\n{}",
+        String::from_utf8_lossy(&text)
+    ))
 }
 
 /// A folder of its own that is gone when it is dropped.
@@ -132,7 +135,11 @@ impl Folder {
     fn new() -> Result<Folder, String> {
         use std::sync::atomic::{AtomicU32, Ordering};
         static NEXT: AtomicU32 = AtomicU32::new(0);
-        let name = format!("straightline-texts-{}-{}", std::process::id(), NEXT.fetch_add(1, Ordering::Relaxed));
+        let name = format!(
+            "straightline-texts-{}-{}",
+            std::process::id(),
+            NEXT.fetch_add(1, Ordering::Relaxed)
+        );
         let path = std::env::temp_dir().join(name);
         std::fs::create_dir_all(&path).map_err(|e| format!("{}: {e}", path.display()))?;
         Ok(Folder(path))

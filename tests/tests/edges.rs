@@ -100,7 +100,9 @@ fn check(name: &str, native: fn(&Frame<Vec4>, IVec2) -> Vec4) {
     let compiled = compiled.unwrap_or_else(|e| panic!("{e}"));
     let found = interpret::<f32>(&compiled, &inputs, false).unwrap_or_else(|e| panic!("{name}: {e}"));
     same_bits(&expected, &found.texels).unwrap_or_else(|e| panic!("{name}, interpreted: {e}"));
-    let shown = bench().run(&compiled, Stage::Compute, &inputs).unwrap_or_else(|e| panic!("{name}: {e}"));
+    let shown = bench()
+        .run(&compiled, Stage::Compute, &inputs)
+        .unwrap_or_else(|e| panic!("{name}: {e}"));
     let shown: Vec<[f32; 4]> = shown.texels().iter().map(|t| t.to_array()).collect();
     same_bits(&expected, &shown).unwrap_or_else(|e| panic!("{name}, on the GPU: {e}"));
 }

@@ -38,7 +38,15 @@ pub fn is_reserved(word: &str) -> bool {
         || word.starts_with("to_ivec")
         || word.starts_with("to_uvec")
         || word.starts_with("to_vec")
-        || ["to_i32", "to_u32", "to_int", "to_uint", "whole_quotient", "whole_remainder"].contains(&word)
+        || [
+            "to_i32",
+            "to_u32",
+            "to_int",
+            "to_uint",
+            "whole_quotient",
+            "whole_remainder",
+        ]
+        .contains(&word)
 }
 
 /// Types of GLSL that come in families: `mat4x3`, `ivec2`, `usampler2DArray`, `image3D`, ...

@@ -1,15 +1,15 @@
 //! What a shader binds: only what it reads.
 
-use super::{EmitOptions, Target};
 use super::error::EmitError;
 use super::layout::{layout, stride};
 use super::wgsl::type_name;
+use super::{EmitOptions, Target};
 use crate::ir::{Buffer, NodeId, Op, Sampler, Texture, TextureKind, Uniform, Varying};
 use crate::passes::layers_read;
 use crate::pipeline::Compiled;
 use straightline_manifest::{
-    Access, Binding, BindingKind, Counts, Dimension, Extent, LanguageBinding, Manifest, Output, Precision, REGION, REGION_SIZE, SCHEMA,
-    SampleType, SamplerType, Stage, UniformField, region_fields,
+    Access, Binding, BindingKind, Counts, Dimension, Extent, LanguageBinding, Manifest, Output, Precision, REGION,
+    REGION_SIZE, SCHEMA, SampleType, SamplerType, Stage, UniformField, region_fields,
 };
 
 /// Name of the uniform buffer.
@@ -117,12 +117,12 @@ impl Resources {
         let mut names = names
             .map(|name| (name, false))
             .chain(uniforms.iter().map(|u| (&u.name, true)));
-        let refused = |(name, is_field)| {
+        let refused = |(name, is_field): (&String, bool)| {
             let why = super::names::refused(name, &entry, is_field, options.region)?;
-            Some((name, why))
+            Some((name.clone(), why))
         };
         if let Some((name, why)) = names.find_map(refused) {
-            let name = shortened(name);
+            let name = shortened(&name);
             return Err(EmitError::Name {
                 kernel: kernel(),
                 name,
@@ -252,7 +252,11 @@ impl Resources {
             }
         };
         if !self.read.is_empty() {
-            add(Target::Glsl450, SAMPLER, "any sampler: texels are named with one, and not filtered");
+            add(
+                Target::Glsl450,
+                SAMPLER,
+                "any sampler: texels are named with one, and not filtered",
+            );
         }
         if !self.read_buffers.is_empty() {
             add(

@@ -94,7 +94,10 @@ fn check(graph: &Graph, id: NodeId) -> Result<(), String> {
         }
         Op::Param(region, k) => {
             count(0)?;
-            let own = graph.regions.get(region.0 as usize).and_then(|r| r.params.get(*k as usize));
+            let own = graph
+                .regions
+                .get(region.0 as usize)
+                .and_then(|r| r.params.get(*k as usize));
             expect(own == Some(&id), "no such parameter")?;
             expect(*k > 0 || node.ty == Type::I32, "a counter is an i32")
         }
@@ -138,7 +141,10 @@ fn check(graph: &Graph, id: NodeId) -> Result<(), String> {
         Op::Unary(op) => {
             count(1)?;
             expect(types[0] == node.ty, "type of argument and result differ")?;
-            expect(value && node.ty.kind().is_some_and(|kind| takes(*op, kind)), "an operation that the type does not have")
+            expect(
+                value && node.ty.kind().is_some_and(|kind| takes(*op, kind)),
+                "an operation that the type does not have",
+            )
         }
         Op::Binary(op) => {
             count(2)?;
@@ -156,7 +162,10 @@ fn check(graph: &Graph, id: NodeId) -> Result<(), String> {
             expect(!(bits && types[0].is_float()), "a bit operation on floats")?;
             let floats = matches!(op, BinaryOp::Pow | BinaryOp::Atan2);
             expect(!floats || types[0].is_float(), "a power or an angle of integers")?;
-            let logic = matches!(op, BinaryOp::And | BinaryOp::Or | BinaryOp::Xor | BinaryOp::Eq | BinaryOp::Ne);
+            let logic = matches!(
+                op,
+                BinaryOp::And | BinaryOp::Or | BinaryOp::Xor | BinaryOp::Eq | BinaryOp::Ne
+            );
             expect(logic || types[0].kind() != Some(Scalar::Bool), "arithmetic on booleans")?;
             expect(value, "arithmetic on arrays")
         }
@@ -205,7 +214,11 @@ fn check(graph: &Graph, id: NodeId) -> Result<(), String> {
         Op::Extract(lane) => {
             count(1)?;
             expect(
-                *lane < types[0].lanes() && !types[0].is_array() && !types[0].is_scalar() && node.ty.is_scalar() && node.ty.kind() == types[0].kind(),
+                *lane < types[0].lanes()
+                    && !types[0].is_array()
+                    && !types[0].is_scalar()
+                    && node.ty.is_scalar()
+                    && node.ty.kind() == types[0].kind(),
                 "a lane of a vector",
             )
         }
@@ -301,7 +314,10 @@ fn check(graph: &Graph, id: NodeId) -> Result<(), String> {
         }
         Op::Loop(body) => {
             let body = region(graph, *body)?;
-            expect(node.ty == Type::Results && !body.params.is_empty(), "results, of a region with a counter")?;
+            expect(
+                node.ty == Type::Results && !body.params.is_empty(),
+                "results, of a region with a counter",
+            )?;
             expect(
                 types.len() >= 2 && types[0] == Type::I32 && types[1] == Type::I32,
                 "bounds are i32",
@@ -317,7 +333,10 @@ fn check(graph: &Graph, id: NodeId) -> Result<(), String> {
             count(1)?;
             let sides = [region(graph, *then)?, region(graph, *otherwise)?];
             let bare = sides.iter().all(|side| side.params.is_empty());
-            expect(node.ty == Type::Results && bare, "results, of regions without parameters")?;
+            expect(
+                node.ty == Type::Results && bare,
+                "results, of regions without parameters",
+            )?;
             let [a, b] = sides.map(|r| r.results.iter().map(|id| graph.ty(*id)).collect::<Vec<_>>());
             expect(
                 types[0] == Type::BOOL && a == b,
