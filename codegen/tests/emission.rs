@@ -273,7 +273,7 @@ fn odd_names_are_changed() {
     for name in names.split_whitespace().chain([long.as_str()]) {
         // In Rust a pattern that begins with a capital is a constant.
         let kernel_name = name;
-        let name = if name.starts_with(|c: char| c.is_ascii_uppercase()) {
+        let name = if name.starts_with(char::is_uppercase) {
             "local"
         } else {
             name
