@@ -145,7 +145,7 @@ fn every_rule_is_checked() {
         ("an array, an index", |g| node(g, 16).args[1] = NodeId(2)),
         ("elements of one type", |g| node(g, 15).args[0] = NodeId(6)),
         ("a type that no value has", |g| {
-            node(g, 25).ty = Type::value(Scalar::F32, 5)
+            node(g, 24).ty = Type::value(Scalar::F32, 5)
         }),
         ("a type that no value has", |g| node(g, 12).ty = Type::Results),
         ("a boolean is 0 or 1", |g| {
