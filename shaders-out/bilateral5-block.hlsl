@@ -11,79 +11,6 @@ uint2 NagaRWDimensions2D(RWTexture2D<float4> tex)
 [numthreads(256, 1, 1)]
 void quad_bilateral(uint3 id : SV_DispatchThreadID)
 {
-    bool local = (bool)0;
-    bool local_1 = (bool)0;
-    bool local_2 = (bool)0;
-    bool local_3 = (bool)0;
-    bool local_4 = (bool)0;
-    bool local_5 = (bool)0;
-    bool local_6 = (bool)0;
-    bool local_7 = (bool)0;
-    bool local_8 = (bool)0;
-    bool local_9 = (bool)0;
-    bool local_10 = (bool)0;
-    bool local_11 = (bool)0;
-    bool local_12 = (bool)0;
-    bool local_13 = (bool)0;
-    bool local_14 = (bool)0;
-    bool local_15 = (bool)0;
-    bool local_16 = (bool)0;
-    bool local_17 = (bool)0;
-    bool local_18 = (bool)0;
-    bool local_19 = (bool)0;
-    bool local_20 = (bool)0;
-    bool local_21 = (bool)0;
-    bool local_22 = (bool)0;
-    bool local_23 = (bool)0;
-    bool local_24 = (bool)0;
-    bool local_25 = (bool)0;
-    bool local_26 = (bool)0;
-    bool local_27 = (bool)0;
-    bool local_28 = (bool)0;
-    bool local_29 = (bool)0;
-    bool local_30 = (bool)0;
-    bool local_31 = (bool)0;
-    bool local_32 = (bool)0;
-    bool local_33 = (bool)0;
-    bool local_34 = (bool)0;
-    bool local_35 = (bool)0;
-    bool local_36 = (bool)0;
-    bool local_37 = (bool)0;
-    bool local_38 = (bool)0;
-    bool local_39 = (bool)0;
-    bool local_40 = (bool)0;
-    bool local_41 = (bool)0;
-    bool local_42 = (bool)0;
-    bool local_43 = (bool)0;
-    bool local_44 = (bool)0;
-    bool local_45 = (bool)0;
-    bool local_46 = (bool)0;
-    bool local_47 = (bool)0;
-    bool local_48 = (bool)0;
-    bool local_49 = (bool)0;
-    bool local_50 = (bool)0;
-    bool local_51 = (bool)0;
-    bool local_52 = (bool)0;
-    bool local_53 = (bool)0;
-    bool local_54 = (bool)0;
-    bool local_55 = (bool)0;
-    bool local_56 = (bool)0;
-    bool local_57 = (bool)0;
-    bool local_58 = (bool)0;
-    bool local_59 = (bool)0;
-    bool local_60 = (bool)0;
-    bool local_61 = (bool)0;
-    bool local_62 = (bool)0;
-    bool local_63 = (bool)0;
-    bool local_64 = (bool)0;
-    bool local_65 = (bool)0;
-    bool local_66 = (bool)0;
-    bool local_67 = (bool)0;
-    bool local_68 = (bool)0;
-    bool local_69 = (bool)0;
-    bool local_70 = (bool)0;
-    bool local_71 = (bool)0;
-
     int2 frame = int2(NagaRWDimensions2D(destination));
     int2 pixel = asint(asuint(int2(id.xy)) * asuint(int2(int(2), int(2))));
     if (any((pixel >= frame))) {
@@ -97,54 +24,10 @@ void quad_bilateral(uint3 id : SV_DispatchThreadID)
     float4 own_l1_ = image.Load(int3(texel_l1_, int(0)));
     float4 own_l2_ = image.Load(int3(texel_l2_, int(0)));
     float4 own_l3_ = image.Load(int3(texel_l3_, int(0)));
-    if ((abs(own_l0_.x) < 3e38)) {
-        local = (abs(own_l0_.y) < 3e38);
-    } else {
-        local = false;
-    }
-    bool _e52 = local;
-    if (_e52) {
-        local_1 = (abs(own_l0_.z) < 3e38);
-    } else {
-        local_1 = false;
-    }
-    bool counts_l0_ = local_1;
-    if ((abs(own_l1_.x) < 3e38)) {
-        local_2 = (abs(own_l1_.y) < 3e38);
-    } else {
-        local_2 = false;
-    }
-    bool _e72 = local_2;
-    if (_e72) {
-        local_3 = (abs(own_l1_.z) < 3e38);
-    } else {
-        local_3 = false;
-    }
-    bool counts_l1_ = local_3;
-    if ((abs(own_l2_.x) < 3e38)) {
-        local_4 = (abs(own_l2_.y) < 3e38);
-    } else {
-        local_4 = false;
-    }
-    bool _e92 = local_4;
-    if (_e92) {
-        local_5 = (abs(own_l2_.z) < 3e38);
-    } else {
-        local_5 = false;
-    }
-    bool counts_l2_ = local_5;
-    if ((abs(own_l3_.x) < 3e38)) {
-        local_6 = (abs(own_l3_.y) < 3e38);
-    } else {
-        local_6 = false;
-    }
-    bool _e112 = local_6;
-    if (_e112) {
-        local_7 = (abs(own_l3_.z) < 3e38);
-    } else {
-        local_7 = false;
-    }
-    bool counts_l3_ = local_7;
+    bool counts_l0_ = (((abs(own_l0_.x) < 3e38) & (abs(own_l0_.y) < 3e38)) & (abs(own_l0_.z) < 3e38));
+    bool counts_l1_ = (((abs(own_l1_.x) < 3e38) & (abs(own_l1_.y) < 3e38)) & (abs(own_l1_.z) < 3e38));
+    bool counts_l2_ = (((abs(own_l2_.x) < 3e38) & (abs(own_l2_.y) < 3e38)) & (abs(own_l2_.z) < 3e38));
+    bool counts_l3_ = (((abs(own_l3_.x) < 3e38) & (abs(own_l3_.y) < 3e38)) & (abs(own_l3_.z) < 3e38));
     float chosen = ((abs(own_l0_.w) < 1e30) ? own_l0_.w : 1e30);
     float chosen_2_ = ((abs(own_l1_.w) < 1e30) ? own_l1_.w : 1e30);
     float chosen_3_ = ((abs(own_l2_.w) < 1e30) ? own_l2_.w : 1e30);
@@ -233,54 +116,10 @@ void quad_bilateral(uint3 id : SV_DispatchThreadID)
     float4 image_texel_2_ = image.Load(int3(texel_j0_i1_l1_, int(0)));
     float4 image_texel_3_ = image.Load(int3(texel_j0_i1_l2_, int(0)));
     float4 image_texel_4_ = image.Load(int3(texel_j0_i1_l3_, int(0)));
-    if ((abs(image_texel.x) < 3e38)) {
-        local_8 = (abs(image_texel.y) < 3e38);
-    } else {
-        local_8 = false;
-    }
-    bool _e540 = local_8;
-    if (_e540) {
-        local_9 = (abs(image_texel.z) < 3e38);
-    } else {
-        local_9 = false;
-    }
-    bool counts_j0_i1_l0_ = local_9;
-    if ((abs(image_texel_2_.x) < 3e38)) {
-        local_10 = (abs(image_texel_2_.y) < 3e38);
-    } else {
-        local_10 = false;
-    }
-    bool _e560 = local_10;
-    if (_e560) {
-        local_11 = (abs(image_texel_2_.z) < 3e38);
-    } else {
-        local_11 = false;
-    }
-    bool counts_j0_i1_l1_ = local_11;
-    if ((abs(image_texel_3_.x) < 3e38)) {
-        local_12 = (abs(image_texel_3_.y) < 3e38);
-    } else {
-        local_12 = false;
-    }
-    bool _e580 = local_12;
-    if (_e580) {
-        local_13 = (abs(image_texel_3_.z) < 3e38);
-    } else {
-        local_13 = false;
-    }
-    bool counts_j0_i1_l2_ = local_13;
-    if ((abs(image_texel_4_.x) < 3e38)) {
-        local_14 = (abs(image_texel_4_.y) < 3e38);
-    } else {
-        local_14 = false;
-    }
-    bool _e600 = local_14;
-    if (_e600) {
-        local_15 = (abs(image_texel_4_.z) < 3e38);
-    } else {
-        local_15 = false;
-    }
-    bool counts_j0_i1_l3_ = local_15;
+    bool counts_j0_i1_l0_ = (((abs(image_texel.x) < 3e38) & (abs(image_texel.y) < 3e38)) & (abs(image_texel.z) < 3e38));
+    bool counts_j0_i1_l1_ = (((abs(image_texel_2_.x) < 3e38) & (abs(image_texel_2_.y) < 3e38)) & (abs(image_texel_2_.z) < 3e38));
+    bool counts_j0_i1_l2_ = (((abs(image_texel_3_.x) < 3e38) & (abs(image_texel_3_.y) < 3e38)) & (abs(image_texel_3_.z) < 3e38));
+    bool counts_j0_i1_l3_ = (((abs(image_texel_4_.x) < 3e38) & (abs(image_texel_4_.y) < 3e38)) & (abs(image_texel_4_.z) < 3e38));
     float4 counted_j0_i1_l0_ = float4(image_texel.x, image_texel.y, image_texel.z, ((abs(image_texel.w) < 1e30) ? image_texel.w : 1e30));
     float4 counted_j0_i1_l1_ = float4(image_texel_2_.x, image_texel_2_.y, image_texel_2_.z, ((abs(image_texel_2_.w) < 1e30) ? image_texel_2_.w : 1e30));
     float4 counted_j0_i1_l2_ = float4(image_texel_3_.x, image_texel_3_.y, image_texel_3_.z, ((abs(image_texel_3_.w) < 1e30) ? image_texel_3_.w : 1e30));
@@ -365,54 +204,10 @@ void quad_bilateral(uint3 id : SV_DispatchThreadID)
     float4 image_texel_6_ = image.Load(int3(texel_j0_i2_l1_, int(0)));
     float4 image_texel_7_ = image.Load(int3(texel_j0_i2_l2_, int(0)));
     float4 image_texel_8_ = image.Load(int3(texel_j0_i2_l3_, int(0)));
-    if ((abs(image_texel_5_.x) < 3e38)) {
-        local_16 = (abs(image_texel_5_.y) < 3e38);
-    } else {
-        local_16 = false;
-    }
-    bool _e1028 = local_16;
-    if (_e1028) {
-        local_17 = (abs(image_texel_5_.z) < 3e38);
-    } else {
-        local_17 = false;
-    }
-    bool counts_j0_i2_l0_ = local_17;
-    if ((abs(image_texel_6_.x) < 3e38)) {
-        local_18 = (abs(image_texel_6_.y) < 3e38);
-    } else {
-        local_18 = false;
-    }
-    bool _e1048 = local_18;
-    if (_e1048) {
-        local_19 = (abs(image_texel_6_.z) < 3e38);
-    } else {
-        local_19 = false;
-    }
-    bool counts_j0_i2_l1_ = local_19;
-    if ((abs(image_texel_7_.x) < 3e38)) {
-        local_20 = (abs(image_texel_7_.y) < 3e38);
-    } else {
-        local_20 = false;
-    }
-    bool _e1068 = local_20;
-    if (_e1068) {
-        local_21 = (abs(image_texel_7_.z) < 3e38);
-    } else {
-        local_21 = false;
-    }
-    bool counts_j0_i2_l2_ = local_21;
-    if ((abs(image_texel_8_.x) < 3e38)) {
-        local_22 = (abs(image_texel_8_.y) < 3e38);
-    } else {
-        local_22 = false;
-    }
-    bool _e1088 = local_22;
-    if (_e1088) {
-        local_23 = (abs(image_texel_8_.z) < 3e38);
-    } else {
-        local_23 = false;
-    }
-    bool counts_j0_i2_l3_ = local_23;
+    bool counts_j0_i2_l0_ = (((abs(image_texel_5_.x) < 3e38) & (abs(image_texel_5_.y) < 3e38)) & (abs(image_texel_5_.z) < 3e38));
+    bool counts_j0_i2_l1_ = (((abs(image_texel_6_.x) < 3e38) & (abs(image_texel_6_.y) < 3e38)) & (abs(image_texel_6_.z) < 3e38));
+    bool counts_j0_i2_l2_ = (((abs(image_texel_7_.x) < 3e38) & (abs(image_texel_7_.y) < 3e38)) & (abs(image_texel_7_.z) < 3e38));
+    bool counts_j0_i2_l3_ = (((abs(image_texel_8_.x) < 3e38) & (abs(image_texel_8_.y) < 3e38)) & (abs(image_texel_8_.z) < 3e38));
     float4 counted_j0_i2_l0_ = float4(image_texel_5_.x, image_texel_5_.y, image_texel_5_.z, ((abs(image_texel_5_.w) < 1e30) ? image_texel_5_.w : 1e30));
     float4 counted_j0_i2_l1_ = float4(image_texel_6_.x, image_texel_6_.y, image_texel_6_.z, ((abs(image_texel_6_.w) < 1e30) ? image_texel_6_.w : 1e30));
     float4 counted_j0_i2_l2_ = float4(image_texel_7_.x, image_texel_7_.y, image_texel_7_.z, ((abs(image_texel_7_.w) < 1e30) ? image_texel_7_.w : 1e30));
@@ -465,54 +260,10 @@ void quad_bilateral(uint3 id : SV_DispatchThreadID)
     float4 image_texel_10_ = image.Load(int3(texel_j1_i0_l1_, int(0)));
     float4 image_texel_11_ = image.Load(int3(texel_j1_i0_l2_, int(0)));
     float4 image_texel_12_ = image.Load(int3(texel_j1_i0_l3_, int(0)));
-    if ((abs(image_texel_9_.x) < 3e38)) {
-        local_24 = (abs(image_texel_9_.y) < 3e38);
-    } else {
-        local_24 = false;
-    }
-    bool _e1372 = local_24;
-    if (_e1372) {
-        local_25 = (abs(image_texel_9_.z) < 3e38);
-    } else {
-        local_25 = false;
-    }
-    bool counts_j1_i0_l0_ = local_25;
-    if ((abs(image_texel_10_.x) < 3e38)) {
-        local_26 = (abs(image_texel_10_.y) < 3e38);
-    } else {
-        local_26 = false;
-    }
-    bool _e1392 = local_26;
-    if (_e1392) {
-        local_27 = (abs(image_texel_10_.z) < 3e38);
-    } else {
-        local_27 = false;
-    }
-    bool counts_j1_i0_l1_ = local_27;
-    if ((abs(image_texel_11_.x) < 3e38)) {
-        local_28 = (abs(image_texel_11_.y) < 3e38);
-    } else {
-        local_28 = false;
-    }
-    bool _e1412 = local_28;
-    if (_e1412) {
-        local_29 = (abs(image_texel_11_.z) < 3e38);
-    } else {
-        local_29 = false;
-    }
-    bool counts_j1_i0_l2_ = local_29;
-    if ((abs(image_texel_12_.x) < 3e38)) {
-        local_30 = (abs(image_texel_12_.y) < 3e38);
-    } else {
-        local_30 = false;
-    }
-    bool _e1432 = local_30;
-    if (_e1432) {
-        local_31 = (abs(image_texel_12_.z) < 3e38);
-    } else {
-        local_31 = false;
-    }
-    bool counts_j1_i0_l3_ = local_31;
+    bool counts_j1_i0_l0_ = (((abs(image_texel_9_.x) < 3e38) & (abs(image_texel_9_.y) < 3e38)) & (abs(image_texel_9_.z) < 3e38));
+    bool counts_j1_i0_l1_ = (((abs(image_texel_10_.x) < 3e38) & (abs(image_texel_10_.y) < 3e38)) & (abs(image_texel_10_.z) < 3e38));
+    bool counts_j1_i0_l2_ = (((abs(image_texel_11_.x) < 3e38) & (abs(image_texel_11_.y) < 3e38)) & (abs(image_texel_11_.z) < 3e38));
+    bool counts_j1_i0_l3_ = (((abs(image_texel_12_.x) < 3e38) & (abs(image_texel_12_.y) < 3e38)) & (abs(image_texel_12_.z) < 3e38));
     float4 counted_j1_i0_l0_ = float4(image_texel_9_.x, image_texel_9_.y, image_texel_9_.z, ((abs(image_texel_9_.w) < 1e30) ? image_texel_9_.w : 1e30));
     float4 counted_j1_i0_l1_ = float4(image_texel_10_.x, image_texel_10_.y, image_texel_10_.z, ((abs(image_texel_10_.w) < 1e30) ? image_texel_10_.w : 1e30));
     float4 counted_j1_i0_l2_ = float4(image_texel_11_.x, image_texel_11_.y, image_texel_11_.z, ((abs(image_texel_11_.w) < 1e30) ? image_texel_11_.w : 1e30));
@@ -597,54 +348,10 @@ void quad_bilateral(uint3 id : SV_DispatchThreadID)
     float4 image_texel_14_ = image.Load(int3(texel_j1_i1_l1_, int(0)));
     float4 image_texel_15_ = image.Load(int3(texel_j1_i1_l2_, int(0)));
     float4 image_texel_16_ = image.Load(int3(texel_j1_i1_l3_, int(0)));
-    if ((abs(image_texel_13_.x) < 3e38)) {
-        local_32 = (abs(image_texel_13_.y) < 3e38);
-    } else {
-        local_32 = false;
-    }
-    bool _e1860 = local_32;
-    if (_e1860) {
-        local_33 = (abs(image_texel_13_.z) < 3e38);
-    } else {
-        local_33 = false;
-    }
-    bool counts_j1_i1_l0_ = local_33;
-    if ((abs(image_texel_14_.x) < 3e38)) {
-        local_34 = (abs(image_texel_14_.y) < 3e38);
-    } else {
-        local_34 = false;
-    }
-    bool _e1880 = local_34;
-    if (_e1880) {
-        local_35 = (abs(image_texel_14_.z) < 3e38);
-    } else {
-        local_35 = false;
-    }
-    bool counts_j1_i1_l1_ = local_35;
-    if ((abs(image_texel_15_.x) < 3e38)) {
-        local_36 = (abs(image_texel_15_.y) < 3e38);
-    } else {
-        local_36 = false;
-    }
-    bool _e1900 = local_36;
-    if (_e1900) {
-        local_37 = (abs(image_texel_15_.z) < 3e38);
-    } else {
-        local_37 = false;
-    }
-    bool counts_j1_i1_l2_ = local_37;
-    if ((abs(image_texel_16_.x) < 3e38)) {
-        local_38 = (abs(image_texel_16_.y) < 3e38);
-    } else {
-        local_38 = false;
-    }
-    bool _e1920 = local_38;
-    if (_e1920) {
-        local_39 = (abs(image_texel_16_.z) < 3e38);
-    } else {
-        local_39 = false;
-    }
-    bool counts_j1_i1_l3_ = local_39;
+    bool counts_j1_i1_l0_ = (((abs(image_texel_13_.x) < 3e38) & (abs(image_texel_13_.y) < 3e38)) & (abs(image_texel_13_.z) < 3e38));
+    bool counts_j1_i1_l1_ = (((abs(image_texel_14_.x) < 3e38) & (abs(image_texel_14_.y) < 3e38)) & (abs(image_texel_14_.z) < 3e38));
+    bool counts_j1_i1_l2_ = (((abs(image_texel_15_.x) < 3e38) & (abs(image_texel_15_.y) < 3e38)) & (abs(image_texel_15_.z) < 3e38));
+    bool counts_j1_i1_l3_ = (((abs(image_texel_16_.x) < 3e38) & (abs(image_texel_16_.y) < 3e38)) & (abs(image_texel_16_.z) < 3e38));
     float4 counted_j1_i1_l0_ = float4(image_texel_13_.x, image_texel_13_.y, image_texel_13_.z, ((abs(image_texel_13_.w) < 1e30) ? image_texel_13_.w : 1e30));
     float4 counted_j1_i1_l1_ = float4(image_texel_14_.x, image_texel_14_.y, image_texel_14_.z, ((abs(image_texel_14_.w) < 1e30) ? image_texel_14_.w : 1e30));
     float4 counted_j1_i1_l2_ = float4(image_texel_15_.x, image_texel_15_.y, image_texel_15_.z, ((abs(image_texel_15_.w) < 1e30) ? image_texel_15_.w : 1e30));
@@ -729,54 +436,10 @@ void quad_bilateral(uint3 id : SV_DispatchThreadID)
     float4 image_texel_18_ = image.Load(int3(texel_j1_i2_l1_, int(0)));
     float4 image_texel_19_ = image.Load(int3(texel_j1_i2_l2_, int(0)));
     float4 image_texel_20_ = image.Load(int3(texel_j1_i2_l3_, int(0)));
-    if ((abs(image_texel_17_.x) < 3e38)) {
-        local_40 = (abs(image_texel_17_.y) < 3e38);
-    } else {
-        local_40 = false;
-    }
-    bool _e2350 = local_40;
-    if (_e2350) {
-        local_41 = (abs(image_texel_17_.z) < 3e38);
-    } else {
-        local_41 = false;
-    }
-    bool counts_j1_i2_l0_ = local_41;
-    if ((abs(image_texel_18_.x) < 3e38)) {
-        local_42 = (abs(image_texel_18_.y) < 3e38);
-    } else {
-        local_42 = false;
-    }
-    bool _e2370 = local_42;
-    if (_e2370) {
-        local_43 = (abs(image_texel_18_.z) < 3e38);
-    } else {
-        local_43 = false;
-    }
-    bool counts_j1_i2_l1_ = local_43;
-    if ((abs(image_texel_19_.x) < 3e38)) {
-        local_44 = (abs(image_texel_19_.y) < 3e38);
-    } else {
-        local_44 = false;
-    }
-    bool _e2390 = local_44;
-    if (_e2390) {
-        local_45 = (abs(image_texel_19_.z) < 3e38);
-    } else {
-        local_45 = false;
-    }
-    bool counts_j1_i2_l2_ = local_45;
-    if ((abs(image_texel_20_.x) < 3e38)) {
-        local_46 = (abs(image_texel_20_.y) < 3e38);
-    } else {
-        local_46 = false;
-    }
-    bool _e2410 = local_46;
-    if (_e2410) {
-        local_47 = (abs(image_texel_20_.z) < 3e38);
-    } else {
-        local_47 = false;
-    }
-    bool counts_j1_i2_l3_ = local_47;
+    bool counts_j1_i2_l0_ = (((abs(image_texel_17_.x) < 3e38) & (abs(image_texel_17_.y) < 3e38)) & (abs(image_texel_17_.z) < 3e38));
+    bool counts_j1_i2_l1_ = (((abs(image_texel_18_.x) < 3e38) & (abs(image_texel_18_.y) < 3e38)) & (abs(image_texel_18_.z) < 3e38));
+    bool counts_j1_i2_l2_ = (((abs(image_texel_19_.x) < 3e38) & (abs(image_texel_19_.y) < 3e38)) & (abs(image_texel_19_.z) < 3e38));
+    bool counts_j1_i2_l3_ = (((abs(image_texel_20_.x) < 3e38) & (abs(image_texel_20_.y) < 3e38)) & (abs(image_texel_20_.z) < 3e38));
     float4 counted_j1_i2_l0_ = float4(image_texel_17_.x, image_texel_17_.y, image_texel_17_.z, ((abs(image_texel_17_.w) < 1e30) ? image_texel_17_.w : 1e30));
     float4 counted_j1_i2_l1_ = float4(image_texel_18_.x, image_texel_18_.y, image_texel_18_.z, ((abs(image_texel_18_.w) < 1e30) ? image_texel_18_.w : 1e30));
     float4 counted_j1_i2_l2_ = float4(image_texel_19_.x, image_texel_19_.y, image_texel_19_.z, ((abs(image_texel_19_.w) < 1e30) ? image_texel_19_.w : 1e30));
@@ -829,54 +492,10 @@ void quad_bilateral(uint3 id : SV_DispatchThreadID)
     float4 image_texel_22_ = image.Load(int3(texel_j2_i0_l1_, int(0)));
     float4 image_texel_23_ = image.Load(int3(texel_j2_i0_l2_, int(0)));
     float4 image_texel_24_ = image.Load(int3(texel_j2_i0_l3_, int(0)));
-    if ((abs(image_texel_21_.x) < 3e38)) {
-        local_48 = (abs(image_texel_21_.y) < 3e38);
-    } else {
-        local_48 = false;
-    }
-    bool _e2694 = local_48;
-    if (_e2694) {
-        local_49 = (abs(image_texel_21_.z) < 3e38);
-    } else {
-        local_49 = false;
-    }
-    bool counts_j2_i0_l0_ = local_49;
-    if ((abs(image_texel_22_.x) < 3e38)) {
-        local_50 = (abs(image_texel_22_.y) < 3e38);
-    } else {
-        local_50 = false;
-    }
-    bool _e2714 = local_50;
-    if (_e2714) {
-        local_51 = (abs(image_texel_22_.z) < 3e38);
-    } else {
-        local_51 = false;
-    }
-    bool counts_j2_i0_l1_ = local_51;
-    if ((abs(image_texel_23_.x) < 3e38)) {
-        local_52 = (abs(image_texel_23_.y) < 3e38);
-    } else {
-        local_52 = false;
-    }
-    bool _e2734 = local_52;
-    if (_e2734) {
-        local_53 = (abs(image_texel_23_.z) < 3e38);
-    } else {
-        local_53 = false;
-    }
-    bool counts_j2_i0_l2_ = local_53;
-    if ((abs(image_texel_24_.x) < 3e38)) {
-        local_54 = (abs(image_texel_24_.y) < 3e38);
-    } else {
-        local_54 = false;
-    }
-    bool _e2754 = local_54;
-    if (_e2754) {
-        local_55 = (abs(image_texel_24_.z) < 3e38);
-    } else {
-        local_55 = false;
-    }
-    bool counts_j2_i0_l3_ = local_55;
+    bool counts_j2_i0_l0_ = (((abs(image_texel_21_.x) < 3e38) & (abs(image_texel_21_.y) < 3e38)) & (abs(image_texel_21_.z) < 3e38));
+    bool counts_j2_i0_l1_ = (((abs(image_texel_22_.x) < 3e38) & (abs(image_texel_22_.y) < 3e38)) & (abs(image_texel_22_.z) < 3e38));
+    bool counts_j2_i0_l2_ = (((abs(image_texel_23_.x) < 3e38) & (abs(image_texel_23_.y) < 3e38)) & (abs(image_texel_23_.z) < 3e38));
+    bool counts_j2_i0_l3_ = (((abs(image_texel_24_.x) < 3e38) & (abs(image_texel_24_.y) < 3e38)) & (abs(image_texel_24_.z) < 3e38));
     float4 counted_j2_i0_l0_ = float4(image_texel_21_.x, image_texel_21_.y, image_texel_21_.z, ((abs(image_texel_21_.w) < 1e30) ? image_texel_21_.w : 1e30));
     float4 counted_j2_i0_l1_ = float4(image_texel_22_.x, image_texel_22_.y, image_texel_22_.z, ((abs(image_texel_22_.w) < 1e30) ? image_texel_22_.w : 1e30));
     float4 counted_j2_i0_l2_ = float4(image_texel_23_.x, image_texel_23_.y, image_texel_23_.z, ((abs(image_texel_23_.w) < 1e30) ? image_texel_23_.w : 1e30));
@@ -929,54 +548,10 @@ void quad_bilateral(uint3 id : SV_DispatchThreadID)
     float4 image_texel_26_ = image.Load(int3(texel_j2_i1_l1_, int(0)));
     float4 image_texel_27_ = image.Load(int3(texel_j2_i1_l2_, int(0)));
     float4 image_texel_28_ = image.Load(int3(texel_j2_i1_l3_, int(0)));
-    if ((abs(image_texel_25_.x) < 3e38)) {
-        local_56 = (abs(image_texel_25_.y) < 3e38);
-    } else {
-        local_56 = false;
-    }
-    bool _e3040 = local_56;
-    if (_e3040) {
-        local_57 = (abs(image_texel_25_.z) < 3e38);
-    } else {
-        local_57 = false;
-    }
-    bool counts_j2_i1_l0_ = local_57;
-    if ((abs(image_texel_26_.x) < 3e38)) {
-        local_58 = (abs(image_texel_26_.y) < 3e38);
-    } else {
-        local_58 = false;
-    }
-    bool _e3060 = local_58;
-    if (_e3060) {
-        local_59 = (abs(image_texel_26_.z) < 3e38);
-    } else {
-        local_59 = false;
-    }
-    bool counts_j2_i1_l1_ = local_59;
-    if ((abs(image_texel_27_.x) < 3e38)) {
-        local_60 = (abs(image_texel_27_.y) < 3e38);
-    } else {
-        local_60 = false;
-    }
-    bool _e3080 = local_60;
-    if (_e3080) {
-        local_61 = (abs(image_texel_27_.z) < 3e38);
-    } else {
-        local_61 = false;
-    }
-    bool counts_j2_i1_l2_ = local_61;
-    if ((abs(image_texel_28_.x) < 3e38)) {
-        local_62 = (abs(image_texel_28_.y) < 3e38);
-    } else {
-        local_62 = false;
-    }
-    bool _e3100 = local_62;
-    if (_e3100) {
-        local_63 = (abs(image_texel_28_.z) < 3e38);
-    } else {
-        local_63 = false;
-    }
-    bool counts_j2_i1_l3_ = local_63;
+    bool counts_j2_i1_l0_ = (((abs(image_texel_25_.x) < 3e38) & (abs(image_texel_25_.y) < 3e38)) & (abs(image_texel_25_.z) < 3e38));
+    bool counts_j2_i1_l1_ = (((abs(image_texel_26_.x) < 3e38) & (abs(image_texel_26_.y) < 3e38)) & (abs(image_texel_26_.z) < 3e38));
+    bool counts_j2_i1_l2_ = (((abs(image_texel_27_.x) < 3e38) & (abs(image_texel_27_.y) < 3e38)) & (abs(image_texel_27_.z) < 3e38));
+    bool counts_j2_i1_l3_ = (((abs(image_texel_28_.x) < 3e38) & (abs(image_texel_28_.y) < 3e38)) & (abs(image_texel_28_.z) < 3e38));
     float4 counted_j2_i1_l0_ = float4(image_texel_25_.x, image_texel_25_.y, image_texel_25_.z, ((abs(image_texel_25_.w) < 1e30) ? image_texel_25_.w : 1e30));
     float4 counted_j2_i1_l1_ = float4(image_texel_26_.x, image_texel_26_.y, image_texel_26_.z, ((abs(image_texel_26_.w) < 1e30) ? image_texel_26_.w : 1e30));
     float4 counted_j2_i1_l2_ = float4(image_texel_27_.x, image_texel_27_.y, image_texel_27_.z, ((abs(image_texel_27_.w) < 1e30) ? image_texel_27_.w : 1e30));
@@ -1029,54 +604,10 @@ void quad_bilateral(uint3 id : SV_DispatchThreadID)
     float4 image_texel_30_ = image.Load(int3(texel_j2_i2_l1_, int(0)));
     float4 image_texel_31_ = image.Load(int3(texel_j2_i2_l2_, int(0)));
     float4 image_texel_32_ = image.Load(int3(texel_j2_i2_l3_, int(0)));
-    if ((abs(image_texel_29_.x) < 3e38)) {
-        local_64 = (abs(image_texel_29_.y) < 3e38);
-    } else {
-        local_64 = false;
-    }
-    bool _e3384 = local_64;
-    if (_e3384) {
-        local_65 = (abs(image_texel_29_.z) < 3e38);
-    } else {
-        local_65 = false;
-    }
-    bool counts_j2_i2_l0_ = local_65;
-    if ((abs(image_texel_30_.x) < 3e38)) {
-        local_66 = (abs(image_texel_30_.y) < 3e38);
-    } else {
-        local_66 = false;
-    }
-    bool _e3404 = local_66;
-    if (_e3404) {
-        local_67 = (abs(image_texel_30_.z) < 3e38);
-    } else {
-        local_67 = false;
-    }
-    bool counts_j2_i2_l1_ = local_67;
-    if ((abs(image_texel_31_.x) < 3e38)) {
-        local_68 = (abs(image_texel_31_.y) < 3e38);
-    } else {
-        local_68 = false;
-    }
-    bool _e3424 = local_68;
-    if (_e3424) {
-        local_69 = (abs(image_texel_31_.z) < 3e38);
-    } else {
-        local_69 = false;
-    }
-    bool counts_j2_i2_l2_ = local_69;
-    if ((abs(image_texel_32_.x) < 3e38)) {
-        local_70 = (abs(image_texel_32_.y) < 3e38);
-    } else {
-        local_70 = false;
-    }
-    bool _e3444 = local_70;
-    if (_e3444) {
-        local_71 = (abs(image_texel_32_.z) < 3e38);
-    } else {
-        local_71 = false;
-    }
-    bool counts_j2_i2_l3_ = local_71;
+    bool counts_j2_i2_l0_ = (((abs(image_texel_29_.x) < 3e38) & (abs(image_texel_29_.y) < 3e38)) & (abs(image_texel_29_.z) < 3e38));
+    bool counts_j2_i2_l1_ = (((abs(image_texel_30_.x) < 3e38) & (abs(image_texel_30_.y) < 3e38)) & (abs(image_texel_30_.z) < 3e38));
+    bool counts_j2_i2_l2_ = (((abs(image_texel_31_.x) < 3e38) & (abs(image_texel_31_.y) < 3e38)) & (abs(image_texel_31_.z) < 3e38));
+    bool counts_j2_i2_l3_ = (((abs(image_texel_32_.x) < 3e38) & (abs(image_texel_32_.y) < 3e38)) & (abs(image_texel_32_.z) < 3e38));
     float4 counted_j2_i2_l0_ = float4(image_texel_29_.x, image_texel_29_.y, image_texel_29_.z, ((abs(image_texel_29_.w) < 1e30) ? image_texel_29_.w : 1e30));
     float4 counted_j2_i2_l1_ = float4(image_texel_30_.x, image_texel_30_.y, image_texel_30_.z, ((abs(image_texel_30_.w) < 1e30) ? image_texel_30_.w : 1e30));
     float4 counted_j2_i2_l2_ = float4(image_texel_31_.x, image_texel_31_.y, image_texel_31_.z, ((abs(image_texel_31_.w) < 1e30) ? image_texel_31_.w : 1e30));

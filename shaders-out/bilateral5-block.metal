@@ -12,78 +12,6 @@ kernel void quad_bilateral(
 , metal::texture2d<float, metal::access::sample> image [[texture(0)]]
 , metal::texture2d<float, metal::access::write> destination [[texture(1)]]
 ) {
-    bool local = {};
-    bool local_1 = {};
-    bool local_2 = {};
-    bool local_3 = {};
-    bool local_4 = {};
-    bool local_5 = {};
-    bool local_6 = {};
-    bool local_7 = {};
-    bool local_8 = {};
-    bool local_9 = {};
-    bool local_10 = {};
-    bool local_11 = {};
-    bool local_12 = {};
-    bool local_13 = {};
-    bool local_14 = {};
-    bool local_15 = {};
-    bool local_16 = {};
-    bool local_17 = {};
-    bool local_18 = {};
-    bool local_19 = {};
-    bool local_20 = {};
-    bool local_21 = {};
-    bool local_22 = {};
-    bool local_23 = {};
-    bool local_24 = {};
-    bool local_25 = {};
-    bool local_26 = {};
-    bool local_27 = {};
-    bool local_28 = {};
-    bool local_29 = {};
-    bool local_30 = {};
-    bool local_31 = {};
-    bool local_32 = {};
-    bool local_33 = {};
-    bool local_34 = {};
-    bool local_35 = {};
-    bool local_36 = {};
-    bool local_37 = {};
-    bool local_38 = {};
-    bool local_39 = {};
-    bool local_40 = {};
-    bool local_41 = {};
-    bool local_42 = {};
-    bool local_43 = {};
-    bool local_44 = {};
-    bool local_45 = {};
-    bool local_46 = {};
-    bool local_47 = {};
-    bool local_48 = {};
-    bool local_49 = {};
-    bool local_50 = {};
-    bool local_51 = {};
-    bool local_52 = {};
-    bool local_53 = {};
-    bool local_54 = {};
-    bool local_55 = {};
-    bool local_56 = {};
-    bool local_57 = {};
-    bool local_58 = {};
-    bool local_59 = {};
-    bool local_60 = {};
-    bool local_61 = {};
-    bool local_62 = {};
-    bool local_63 = {};
-    bool local_64 = {};
-    bool local_65 = {};
-    bool local_66 = {};
-    bool local_67 = {};
-    bool local_68 = {};
-    bool local_69 = {};
-    bool local_70 = {};
-    bool local_71 = {};
     metal::int2 frame = static_cast<metal::int2>(metal::uint2(destination.get_width(), destination.get_height()));
     metal::int2 pixel = as_type<metal::int2>(as_type<metal::uint2>(static_cast<metal::int2>(id.xy)) * as_type<metal::uint2>(metal::int2(2, 2)));
     if (metal::any(pixel >= frame)) {
@@ -97,54 +25,10 @@ kernel void quad_bilateral(
     metal::float4 own_l1_ = image.read(metal::uint2(texel_l1_), 0);
     metal::float4 own_l2_ = image.read(metal::uint2(texel_l2_), 0);
     metal::float4 own_l3_ = image.read(metal::uint2(texel_l3_), 0);
-    if (metal::abs(own_l0_.x) < 300000000000000000000000000000000000000.0) {
-        local = metal::abs(own_l0_.y) < 300000000000000000000000000000000000000.0;
-    } else {
-        local = false;
-    }
-    bool _e52 = local;
-    if (_e52) {
-        local_1 = metal::abs(own_l0_.z) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_1 = false;
-    }
-    bool counts_l0_ = local_1;
-    if (metal::abs(own_l1_.x) < 300000000000000000000000000000000000000.0) {
-        local_2 = metal::abs(own_l1_.y) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_2 = false;
-    }
-    bool _e72 = local_2;
-    if (_e72) {
-        local_3 = metal::abs(own_l1_.z) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_3 = false;
-    }
-    bool counts_l1_ = local_3;
-    if (metal::abs(own_l2_.x) < 300000000000000000000000000000000000000.0) {
-        local_4 = metal::abs(own_l2_.y) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_4 = false;
-    }
-    bool _e92 = local_4;
-    if (_e92) {
-        local_5 = metal::abs(own_l2_.z) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_5 = false;
-    }
-    bool counts_l2_ = local_5;
-    if (metal::abs(own_l3_.x) < 300000000000000000000000000000000000000.0) {
-        local_6 = metal::abs(own_l3_.y) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_6 = false;
-    }
-    bool _e112 = local_6;
-    if (_e112) {
-        local_7 = metal::abs(own_l3_.z) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_7 = false;
-    }
-    bool counts_l3_ = local_7;
+    bool counts_l0_ = ((metal::abs(own_l0_.x) < 300000000000000000000000000000000000000.0) & (metal::abs(own_l0_.y) < 300000000000000000000000000000000000000.0)) & (metal::abs(own_l0_.z) < 300000000000000000000000000000000000000.0);
+    bool counts_l1_ = ((metal::abs(own_l1_.x) < 300000000000000000000000000000000000000.0) & (metal::abs(own_l1_.y) < 300000000000000000000000000000000000000.0)) & (metal::abs(own_l1_.z) < 300000000000000000000000000000000000000.0);
+    bool counts_l2_ = ((metal::abs(own_l2_.x) < 300000000000000000000000000000000000000.0) & (metal::abs(own_l2_.y) < 300000000000000000000000000000000000000.0)) & (metal::abs(own_l2_.z) < 300000000000000000000000000000000000000.0);
+    bool counts_l3_ = ((metal::abs(own_l3_.x) < 300000000000000000000000000000000000000.0) & (metal::abs(own_l3_.y) < 300000000000000000000000000000000000000.0)) & (metal::abs(own_l3_.z) < 300000000000000000000000000000000000000.0);
     float chosen = (metal::abs(own_l0_.w) < 1000000000000000000000000000000.0) ? own_l0_.w : 1000000000000000000000000000000.0;
     float chosen_2_ = (metal::abs(own_l1_.w) < 1000000000000000000000000000000.0) ? own_l1_.w : 1000000000000000000000000000000.0;
     float chosen_3_ = (metal::abs(own_l2_.w) < 1000000000000000000000000000000.0) ? own_l2_.w : 1000000000000000000000000000000.0;
@@ -233,54 +117,10 @@ kernel void quad_bilateral(
     metal::float4 image_texel_2_ = image.read(metal::uint2(texel_j0_i1_l1_), 0);
     metal::float4 image_texel_3_ = image.read(metal::uint2(texel_j0_i1_l2_), 0);
     metal::float4 image_texel_4_ = image.read(metal::uint2(texel_j0_i1_l3_), 0);
-    if (metal::abs(image_texel.x) < 300000000000000000000000000000000000000.0) {
-        local_8 = metal::abs(image_texel.y) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_8 = false;
-    }
-    bool _e540 = local_8;
-    if (_e540) {
-        local_9 = metal::abs(image_texel.z) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_9 = false;
-    }
-    bool counts_j0_i1_l0_ = local_9;
-    if (metal::abs(image_texel_2_.x) < 300000000000000000000000000000000000000.0) {
-        local_10 = metal::abs(image_texel_2_.y) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_10 = false;
-    }
-    bool _e560 = local_10;
-    if (_e560) {
-        local_11 = metal::abs(image_texel_2_.z) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_11 = false;
-    }
-    bool counts_j0_i1_l1_ = local_11;
-    if (metal::abs(image_texel_3_.x) < 300000000000000000000000000000000000000.0) {
-        local_12 = metal::abs(image_texel_3_.y) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_12 = false;
-    }
-    bool _e580 = local_12;
-    if (_e580) {
-        local_13 = metal::abs(image_texel_3_.z) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_13 = false;
-    }
-    bool counts_j0_i1_l2_ = local_13;
-    if (metal::abs(image_texel_4_.x) < 300000000000000000000000000000000000000.0) {
-        local_14 = metal::abs(image_texel_4_.y) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_14 = false;
-    }
-    bool _e600 = local_14;
-    if (_e600) {
-        local_15 = metal::abs(image_texel_4_.z) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_15 = false;
-    }
-    bool counts_j0_i1_l3_ = local_15;
+    bool counts_j0_i1_l0_ = ((metal::abs(image_texel.x) < 300000000000000000000000000000000000000.0) & (metal::abs(image_texel.y) < 300000000000000000000000000000000000000.0)) & (metal::abs(image_texel.z) < 300000000000000000000000000000000000000.0);
+    bool counts_j0_i1_l1_ = ((metal::abs(image_texel_2_.x) < 300000000000000000000000000000000000000.0) & (metal::abs(image_texel_2_.y) < 300000000000000000000000000000000000000.0)) & (metal::abs(image_texel_2_.z) < 300000000000000000000000000000000000000.0);
+    bool counts_j0_i1_l2_ = ((metal::abs(image_texel_3_.x) < 300000000000000000000000000000000000000.0) & (metal::abs(image_texel_3_.y) < 300000000000000000000000000000000000000.0)) & (metal::abs(image_texel_3_.z) < 300000000000000000000000000000000000000.0);
+    bool counts_j0_i1_l3_ = ((metal::abs(image_texel_4_.x) < 300000000000000000000000000000000000000.0) & (metal::abs(image_texel_4_.y) < 300000000000000000000000000000000000000.0)) & (metal::abs(image_texel_4_.z) < 300000000000000000000000000000000000000.0);
     metal::float4 counted_j0_i1_l0_ = metal::float4(image_texel.x, image_texel.y, image_texel.z, (metal::abs(image_texel.w) < 1000000000000000000000000000000.0) ? image_texel.w : 1000000000000000000000000000000.0);
     metal::float4 counted_j0_i1_l1_ = metal::float4(image_texel_2_.x, image_texel_2_.y, image_texel_2_.z, (metal::abs(image_texel_2_.w) < 1000000000000000000000000000000.0) ? image_texel_2_.w : 1000000000000000000000000000000.0);
     metal::float4 counted_j0_i1_l2_ = metal::float4(image_texel_3_.x, image_texel_3_.y, image_texel_3_.z, (metal::abs(image_texel_3_.w) < 1000000000000000000000000000000.0) ? image_texel_3_.w : 1000000000000000000000000000000.0);
@@ -365,54 +205,10 @@ kernel void quad_bilateral(
     metal::float4 image_texel_6_ = image.read(metal::uint2(texel_j0_i2_l1_), 0);
     metal::float4 image_texel_7_ = image.read(metal::uint2(texel_j0_i2_l2_), 0);
     metal::float4 image_texel_8_ = image.read(metal::uint2(texel_j0_i2_l3_), 0);
-    if (metal::abs(image_texel_5_.x) < 300000000000000000000000000000000000000.0) {
-        local_16 = metal::abs(image_texel_5_.y) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_16 = false;
-    }
-    bool _e1028 = local_16;
-    if (_e1028) {
-        local_17 = metal::abs(image_texel_5_.z) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_17 = false;
-    }
-    bool counts_j0_i2_l0_ = local_17;
-    if (metal::abs(image_texel_6_.x) < 300000000000000000000000000000000000000.0) {
-        local_18 = metal::abs(image_texel_6_.y) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_18 = false;
-    }
-    bool _e1048 = local_18;
-    if (_e1048) {
-        local_19 = metal::abs(image_texel_6_.z) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_19 = false;
-    }
-    bool counts_j0_i2_l1_ = local_19;
-    if (metal::abs(image_texel_7_.x) < 300000000000000000000000000000000000000.0) {
-        local_20 = metal::abs(image_texel_7_.y) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_20 = false;
-    }
-    bool _e1068 = local_20;
-    if (_e1068) {
-        local_21 = metal::abs(image_texel_7_.z) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_21 = false;
-    }
-    bool counts_j0_i2_l2_ = local_21;
-    if (metal::abs(image_texel_8_.x) < 300000000000000000000000000000000000000.0) {
-        local_22 = metal::abs(image_texel_8_.y) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_22 = false;
-    }
-    bool _e1088 = local_22;
-    if (_e1088) {
-        local_23 = metal::abs(image_texel_8_.z) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_23 = false;
-    }
-    bool counts_j0_i2_l3_ = local_23;
+    bool counts_j0_i2_l0_ = ((metal::abs(image_texel_5_.x) < 300000000000000000000000000000000000000.0) & (metal::abs(image_texel_5_.y) < 300000000000000000000000000000000000000.0)) & (metal::abs(image_texel_5_.z) < 300000000000000000000000000000000000000.0);
+    bool counts_j0_i2_l1_ = ((metal::abs(image_texel_6_.x) < 300000000000000000000000000000000000000.0) & (metal::abs(image_texel_6_.y) < 300000000000000000000000000000000000000.0)) & (metal::abs(image_texel_6_.z) < 300000000000000000000000000000000000000.0);
+    bool counts_j0_i2_l2_ = ((metal::abs(image_texel_7_.x) < 300000000000000000000000000000000000000.0) & (metal::abs(image_texel_7_.y) < 300000000000000000000000000000000000000.0)) & (metal::abs(image_texel_7_.z) < 300000000000000000000000000000000000000.0);
+    bool counts_j0_i2_l3_ = ((metal::abs(image_texel_8_.x) < 300000000000000000000000000000000000000.0) & (metal::abs(image_texel_8_.y) < 300000000000000000000000000000000000000.0)) & (metal::abs(image_texel_8_.z) < 300000000000000000000000000000000000000.0);
     metal::float4 counted_j0_i2_l0_ = metal::float4(image_texel_5_.x, image_texel_5_.y, image_texel_5_.z, (metal::abs(image_texel_5_.w) < 1000000000000000000000000000000.0) ? image_texel_5_.w : 1000000000000000000000000000000.0);
     metal::float4 counted_j0_i2_l1_ = metal::float4(image_texel_6_.x, image_texel_6_.y, image_texel_6_.z, (metal::abs(image_texel_6_.w) < 1000000000000000000000000000000.0) ? image_texel_6_.w : 1000000000000000000000000000000.0);
     metal::float4 counted_j0_i2_l2_ = metal::float4(image_texel_7_.x, image_texel_7_.y, image_texel_7_.z, (metal::abs(image_texel_7_.w) < 1000000000000000000000000000000.0) ? image_texel_7_.w : 1000000000000000000000000000000.0);
@@ -465,54 +261,10 @@ kernel void quad_bilateral(
     metal::float4 image_texel_10_ = image.read(metal::uint2(texel_j1_i0_l1_), 0);
     metal::float4 image_texel_11_ = image.read(metal::uint2(texel_j1_i0_l2_), 0);
     metal::float4 image_texel_12_ = image.read(metal::uint2(texel_j1_i0_l3_), 0);
-    if (metal::abs(image_texel_9_.x) < 300000000000000000000000000000000000000.0) {
-        local_24 = metal::abs(image_texel_9_.y) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_24 = false;
-    }
-    bool _e1372 = local_24;
-    if (_e1372) {
-        local_25 = metal::abs(image_texel_9_.z) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_25 = false;
-    }
-    bool counts_j1_i0_l0_ = local_25;
-    if (metal::abs(image_texel_10_.x) < 300000000000000000000000000000000000000.0) {
-        local_26 = metal::abs(image_texel_10_.y) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_26 = false;
-    }
-    bool _e1392 = local_26;
-    if (_e1392) {
-        local_27 = metal::abs(image_texel_10_.z) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_27 = false;
-    }
-    bool counts_j1_i0_l1_ = local_27;
-    if (metal::abs(image_texel_11_.x) < 300000000000000000000000000000000000000.0) {
-        local_28 = metal::abs(image_texel_11_.y) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_28 = false;
-    }
-    bool _e1412 = local_28;
-    if (_e1412) {
-        local_29 = metal::abs(image_texel_11_.z) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_29 = false;
-    }
-    bool counts_j1_i0_l2_ = local_29;
-    if (metal::abs(image_texel_12_.x) < 300000000000000000000000000000000000000.0) {
-        local_30 = metal::abs(image_texel_12_.y) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_30 = false;
-    }
-    bool _e1432 = local_30;
-    if (_e1432) {
-        local_31 = metal::abs(image_texel_12_.z) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_31 = false;
-    }
-    bool counts_j1_i0_l3_ = local_31;
+    bool counts_j1_i0_l0_ = ((metal::abs(image_texel_9_.x) < 300000000000000000000000000000000000000.0) & (metal::abs(image_texel_9_.y) < 300000000000000000000000000000000000000.0)) & (metal::abs(image_texel_9_.z) < 300000000000000000000000000000000000000.0);
+    bool counts_j1_i0_l1_ = ((metal::abs(image_texel_10_.x) < 300000000000000000000000000000000000000.0) & (metal::abs(image_texel_10_.y) < 300000000000000000000000000000000000000.0)) & (metal::abs(image_texel_10_.z) < 300000000000000000000000000000000000000.0);
+    bool counts_j1_i0_l2_ = ((metal::abs(image_texel_11_.x) < 300000000000000000000000000000000000000.0) & (metal::abs(image_texel_11_.y) < 300000000000000000000000000000000000000.0)) & (metal::abs(image_texel_11_.z) < 300000000000000000000000000000000000000.0);
+    bool counts_j1_i0_l3_ = ((metal::abs(image_texel_12_.x) < 300000000000000000000000000000000000000.0) & (metal::abs(image_texel_12_.y) < 300000000000000000000000000000000000000.0)) & (metal::abs(image_texel_12_.z) < 300000000000000000000000000000000000000.0);
     metal::float4 counted_j1_i0_l0_ = metal::float4(image_texel_9_.x, image_texel_9_.y, image_texel_9_.z, (metal::abs(image_texel_9_.w) < 1000000000000000000000000000000.0) ? image_texel_9_.w : 1000000000000000000000000000000.0);
     metal::float4 counted_j1_i0_l1_ = metal::float4(image_texel_10_.x, image_texel_10_.y, image_texel_10_.z, (metal::abs(image_texel_10_.w) < 1000000000000000000000000000000.0) ? image_texel_10_.w : 1000000000000000000000000000000.0);
     metal::float4 counted_j1_i0_l2_ = metal::float4(image_texel_11_.x, image_texel_11_.y, image_texel_11_.z, (metal::abs(image_texel_11_.w) < 1000000000000000000000000000000.0) ? image_texel_11_.w : 1000000000000000000000000000000.0);
@@ -597,54 +349,10 @@ kernel void quad_bilateral(
     metal::float4 image_texel_14_ = image.read(metal::uint2(texel_j1_i1_l1_), 0);
     metal::float4 image_texel_15_ = image.read(metal::uint2(texel_j1_i1_l2_), 0);
     metal::float4 image_texel_16_ = image.read(metal::uint2(texel_j1_i1_l3_), 0);
-    if (metal::abs(image_texel_13_.x) < 300000000000000000000000000000000000000.0) {
-        local_32 = metal::abs(image_texel_13_.y) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_32 = false;
-    }
-    bool _e1860 = local_32;
-    if (_e1860) {
-        local_33 = metal::abs(image_texel_13_.z) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_33 = false;
-    }
-    bool counts_j1_i1_l0_ = local_33;
-    if (metal::abs(image_texel_14_.x) < 300000000000000000000000000000000000000.0) {
-        local_34 = metal::abs(image_texel_14_.y) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_34 = false;
-    }
-    bool _e1880 = local_34;
-    if (_e1880) {
-        local_35 = metal::abs(image_texel_14_.z) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_35 = false;
-    }
-    bool counts_j1_i1_l1_ = local_35;
-    if (metal::abs(image_texel_15_.x) < 300000000000000000000000000000000000000.0) {
-        local_36 = metal::abs(image_texel_15_.y) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_36 = false;
-    }
-    bool _e1900 = local_36;
-    if (_e1900) {
-        local_37 = metal::abs(image_texel_15_.z) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_37 = false;
-    }
-    bool counts_j1_i1_l2_ = local_37;
-    if (metal::abs(image_texel_16_.x) < 300000000000000000000000000000000000000.0) {
-        local_38 = metal::abs(image_texel_16_.y) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_38 = false;
-    }
-    bool _e1920 = local_38;
-    if (_e1920) {
-        local_39 = metal::abs(image_texel_16_.z) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_39 = false;
-    }
-    bool counts_j1_i1_l3_ = local_39;
+    bool counts_j1_i1_l0_ = ((metal::abs(image_texel_13_.x) < 300000000000000000000000000000000000000.0) & (metal::abs(image_texel_13_.y) < 300000000000000000000000000000000000000.0)) & (metal::abs(image_texel_13_.z) < 300000000000000000000000000000000000000.0);
+    bool counts_j1_i1_l1_ = ((metal::abs(image_texel_14_.x) < 300000000000000000000000000000000000000.0) & (metal::abs(image_texel_14_.y) < 300000000000000000000000000000000000000.0)) & (metal::abs(image_texel_14_.z) < 300000000000000000000000000000000000000.0);
+    bool counts_j1_i1_l2_ = ((metal::abs(image_texel_15_.x) < 300000000000000000000000000000000000000.0) & (metal::abs(image_texel_15_.y) < 300000000000000000000000000000000000000.0)) & (metal::abs(image_texel_15_.z) < 300000000000000000000000000000000000000.0);
+    bool counts_j1_i1_l3_ = ((metal::abs(image_texel_16_.x) < 300000000000000000000000000000000000000.0) & (metal::abs(image_texel_16_.y) < 300000000000000000000000000000000000000.0)) & (metal::abs(image_texel_16_.z) < 300000000000000000000000000000000000000.0);
     metal::float4 counted_j1_i1_l0_ = metal::float4(image_texel_13_.x, image_texel_13_.y, image_texel_13_.z, (metal::abs(image_texel_13_.w) < 1000000000000000000000000000000.0) ? image_texel_13_.w : 1000000000000000000000000000000.0);
     metal::float4 counted_j1_i1_l1_ = metal::float4(image_texel_14_.x, image_texel_14_.y, image_texel_14_.z, (metal::abs(image_texel_14_.w) < 1000000000000000000000000000000.0) ? image_texel_14_.w : 1000000000000000000000000000000.0);
     metal::float4 counted_j1_i1_l2_ = metal::float4(image_texel_15_.x, image_texel_15_.y, image_texel_15_.z, (metal::abs(image_texel_15_.w) < 1000000000000000000000000000000.0) ? image_texel_15_.w : 1000000000000000000000000000000.0);
@@ -729,54 +437,10 @@ kernel void quad_bilateral(
     metal::float4 image_texel_18_ = image.read(metal::uint2(texel_j1_i2_l1_), 0);
     metal::float4 image_texel_19_ = image.read(metal::uint2(texel_j1_i2_l2_), 0);
     metal::float4 image_texel_20_ = image.read(metal::uint2(texel_j1_i2_l3_), 0);
-    if (metal::abs(image_texel_17_.x) < 300000000000000000000000000000000000000.0) {
-        local_40 = metal::abs(image_texel_17_.y) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_40 = false;
-    }
-    bool _e2350 = local_40;
-    if (_e2350) {
-        local_41 = metal::abs(image_texel_17_.z) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_41 = false;
-    }
-    bool counts_j1_i2_l0_ = local_41;
-    if (metal::abs(image_texel_18_.x) < 300000000000000000000000000000000000000.0) {
-        local_42 = metal::abs(image_texel_18_.y) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_42 = false;
-    }
-    bool _e2370 = local_42;
-    if (_e2370) {
-        local_43 = metal::abs(image_texel_18_.z) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_43 = false;
-    }
-    bool counts_j1_i2_l1_ = local_43;
-    if (metal::abs(image_texel_19_.x) < 300000000000000000000000000000000000000.0) {
-        local_44 = metal::abs(image_texel_19_.y) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_44 = false;
-    }
-    bool _e2390 = local_44;
-    if (_e2390) {
-        local_45 = metal::abs(image_texel_19_.z) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_45 = false;
-    }
-    bool counts_j1_i2_l2_ = local_45;
-    if (metal::abs(image_texel_20_.x) < 300000000000000000000000000000000000000.0) {
-        local_46 = metal::abs(image_texel_20_.y) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_46 = false;
-    }
-    bool _e2410 = local_46;
-    if (_e2410) {
-        local_47 = metal::abs(image_texel_20_.z) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_47 = false;
-    }
-    bool counts_j1_i2_l3_ = local_47;
+    bool counts_j1_i2_l0_ = ((metal::abs(image_texel_17_.x) < 300000000000000000000000000000000000000.0) & (metal::abs(image_texel_17_.y) < 300000000000000000000000000000000000000.0)) & (metal::abs(image_texel_17_.z) < 300000000000000000000000000000000000000.0);
+    bool counts_j1_i2_l1_ = ((metal::abs(image_texel_18_.x) < 300000000000000000000000000000000000000.0) & (metal::abs(image_texel_18_.y) < 300000000000000000000000000000000000000.0)) & (metal::abs(image_texel_18_.z) < 300000000000000000000000000000000000000.0);
+    bool counts_j1_i2_l2_ = ((metal::abs(image_texel_19_.x) < 300000000000000000000000000000000000000.0) & (metal::abs(image_texel_19_.y) < 300000000000000000000000000000000000000.0)) & (metal::abs(image_texel_19_.z) < 300000000000000000000000000000000000000.0);
+    bool counts_j1_i2_l3_ = ((metal::abs(image_texel_20_.x) < 300000000000000000000000000000000000000.0) & (metal::abs(image_texel_20_.y) < 300000000000000000000000000000000000000.0)) & (metal::abs(image_texel_20_.z) < 300000000000000000000000000000000000000.0);
     metal::float4 counted_j1_i2_l0_ = metal::float4(image_texel_17_.x, image_texel_17_.y, image_texel_17_.z, (metal::abs(image_texel_17_.w) < 1000000000000000000000000000000.0) ? image_texel_17_.w : 1000000000000000000000000000000.0);
     metal::float4 counted_j1_i2_l1_ = metal::float4(image_texel_18_.x, image_texel_18_.y, image_texel_18_.z, (metal::abs(image_texel_18_.w) < 1000000000000000000000000000000.0) ? image_texel_18_.w : 1000000000000000000000000000000.0);
     metal::float4 counted_j1_i2_l2_ = metal::float4(image_texel_19_.x, image_texel_19_.y, image_texel_19_.z, (metal::abs(image_texel_19_.w) < 1000000000000000000000000000000.0) ? image_texel_19_.w : 1000000000000000000000000000000.0);
@@ -829,54 +493,10 @@ kernel void quad_bilateral(
     metal::float4 image_texel_22_ = image.read(metal::uint2(texel_j2_i0_l1_), 0);
     metal::float4 image_texel_23_ = image.read(metal::uint2(texel_j2_i0_l2_), 0);
     metal::float4 image_texel_24_ = image.read(metal::uint2(texel_j2_i0_l3_), 0);
-    if (metal::abs(image_texel_21_.x) < 300000000000000000000000000000000000000.0) {
-        local_48 = metal::abs(image_texel_21_.y) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_48 = false;
-    }
-    bool _e2694 = local_48;
-    if (_e2694) {
-        local_49 = metal::abs(image_texel_21_.z) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_49 = false;
-    }
-    bool counts_j2_i0_l0_ = local_49;
-    if (metal::abs(image_texel_22_.x) < 300000000000000000000000000000000000000.0) {
-        local_50 = metal::abs(image_texel_22_.y) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_50 = false;
-    }
-    bool _e2714 = local_50;
-    if (_e2714) {
-        local_51 = metal::abs(image_texel_22_.z) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_51 = false;
-    }
-    bool counts_j2_i0_l1_ = local_51;
-    if (metal::abs(image_texel_23_.x) < 300000000000000000000000000000000000000.0) {
-        local_52 = metal::abs(image_texel_23_.y) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_52 = false;
-    }
-    bool _e2734 = local_52;
-    if (_e2734) {
-        local_53 = metal::abs(image_texel_23_.z) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_53 = false;
-    }
-    bool counts_j2_i0_l2_ = local_53;
-    if (metal::abs(image_texel_24_.x) < 300000000000000000000000000000000000000.0) {
-        local_54 = metal::abs(image_texel_24_.y) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_54 = false;
-    }
-    bool _e2754 = local_54;
-    if (_e2754) {
-        local_55 = metal::abs(image_texel_24_.z) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_55 = false;
-    }
-    bool counts_j2_i0_l3_ = local_55;
+    bool counts_j2_i0_l0_ = ((metal::abs(image_texel_21_.x) < 300000000000000000000000000000000000000.0) & (metal::abs(image_texel_21_.y) < 300000000000000000000000000000000000000.0)) & (metal::abs(image_texel_21_.z) < 300000000000000000000000000000000000000.0);
+    bool counts_j2_i0_l1_ = ((metal::abs(image_texel_22_.x) < 300000000000000000000000000000000000000.0) & (metal::abs(image_texel_22_.y) < 300000000000000000000000000000000000000.0)) & (metal::abs(image_texel_22_.z) < 300000000000000000000000000000000000000.0);
+    bool counts_j2_i0_l2_ = ((metal::abs(image_texel_23_.x) < 300000000000000000000000000000000000000.0) & (metal::abs(image_texel_23_.y) < 300000000000000000000000000000000000000.0)) & (metal::abs(image_texel_23_.z) < 300000000000000000000000000000000000000.0);
+    bool counts_j2_i0_l3_ = ((metal::abs(image_texel_24_.x) < 300000000000000000000000000000000000000.0) & (metal::abs(image_texel_24_.y) < 300000000000000000000000000000000000000.0)) & (metal::abs(image_texel_24_.z) < 300000000000000000000000000000000000000.0);
     metal::float4 counted_j2_i0_l0_ = metal::float4(image_texel_21_.x, image_texel_21_.y, image_texel_21_.z, (metal::abs(image_texel_21_.w) < 1000000000000000000000000000000.0) ? image_texel_21_.w : 1000000000000000000000000000000.0);
     metal::float4 counted_j2_i0_l1_ = metal::float4(image_texel_22_.x, image_texel_22_.y, image_texel_22_.z, (metal::abs(image_texel_22_.w) < 1000000000000000000000000000000.0) ? image_texel_22_.w : 1000000000000000000000000000000.0);
     metal::float4 counted_j2_i0_l2_ = metal::float4(image_texel_23_.x, image_texel_23_.y, image_texel_23_.z, (metal::abs(image_texel_23_.w) < 1000000000000000000000000000000.0) ? image_texel_23_.w : 1000000000000000000000000000000.0);
@@ -929,54 +549,10 @@ kernel void quad_bilateral(
     metal::float4 image_texel_26_ = image.read(metal::uint2(texel_j2_i1_l1_), 0);
     metal::float4 image_texel_27_ = image.read(metal::uint2(texel_j2_i1_l2_), 0);
     metal::float4 image_texel_28_ = image.read(metal::uint2(texel_j2_i1_l3_), 0);
-    if (metal::abs(image_texel_25_.x) < 300000000000000000000000000000000000000.0) {
-        local_56 = metal::abs(image_texel_25_.y) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_56 = false;
-    }
-    bool _e3040 = local_56;
-    if (_e3040) {
-        local_57 = metal::abs(image_texel_25_.z) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_57 = false;
-    }
-    bool counts_j2_i1_l0_ = local_57;
-    if (metal::abs(image_texel_26_.x) < 300000000000000000000000000000000000000.0) {
-        local_58 = metal::abs(image_texel_26_.y) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_58 = false;
-    }
-    bool _e3060 = local_58;
-    if (_e3060) {
-        local_59 = metal::abs(image_texel_26_.z) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_59 = false;
-    }
-    bool counts_j2_i1_l1_ = local_59;
-    if (metal::abs(image_texel_27_.x) < 300000000000000000000000000000000000000.0) {
-        local_60 = metal::abs(image_texel_27_.y) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_60 = false;
-    }
-    bool _e3080 = local_60;
-    if (_e3080) {
-        local_61 = metal::abs(image_texel_27_.z) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_61 = false;
-    }
-    bool counts_j2_i1_l2_ = local_61;
-    if (metal::abs(image_texel_28_.x) < 300000000000000000000000000000000000000.0) {
-        local_62 = metal::abs(image_texel_28_.y) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_62 = false;
-    }
-    bool _e3100 = local_62;
-    if (_e3100) {
-        local_63 = metal::abs(image_texel_28_.z) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_63 = false;
-    }
-    bool counts_j2_i1_l3_ = local_63;
+    bool counts_j2_i1_l0_ = ((metal::abs(image_texel_25_.x) < 300000000000000000000000000000000000000.0) & (metal::abs(image_texel_25_.y) < 300000000000000000000000000000000000000.0)) & (metal::abs(image_texel_25_.z) < 300000000000000000000000000000000000000.0);
+    bool counts_j2_i1_l1_ = ((metal::abs(image_texel_26_.x) < 300000000000000000000000000000000000000.0) & (metal::abs(image_texel_26_.y) < 300000000000000000000000000000000000000.0)) & (metal::abs(image_texel_26_.z) < 300000000000000000000000000000000000000.0);
+    bool counts_j2_i1_l2_ = ((metal::abs(image_texel_27_.x) < 300000000000000000000000000000000000000.0) & (metal::abs(image_texel_27_.y) < 300000000000000000000000000000000000000.0)) & (metal::abs(image_texel_27_.z) < 300000000000000000000000000000000000000.0);
+    bool counts_j2_i1_l3_ = ((metal::abs(image_texel_28_.x) < 300000000000000000000000000000000000000.0) & (metal::abs(image_texel_28_.y) < 300000000000000000000000000000000000000.0)) & (metal::abs(image_texel_28_.z) < 300000000000000000000000000000000000000.0);
     metal::float4 counted_j2_i1_l0_ = metal::float4(image_texel_25_.x, image_texel_25_.y, image_texel_25_.z, (metal::abs(image_texel_25_.w) < 1000000000000000000000000000000.0) ? image_texel_25_.w : 1000000000000000000000000000000.0);
     metal::float4 counted_j2_i1_l1_ = metal::float4(image_texel_26_.x, image_texel_26_.y, image_texel_26_.z, (metal::abs(image_texel_26_.w) < 1000000000000000000000000000000.0) ? image_texel_26_.w : 1000000000000000000000000000000.0);
     metal::float4 counted_j2_i1_l2_ = metal::float4(image_texel_27_.x, image_texel_27_.y, image_texel_27_.z, (metal::abs(image_texel_27_.w) < 1000000000000000000000000000000.0) ? image_texel_27_.w : 1000000000000000000000000000000.0);
@@ -1029,54 +605,10 @@ kernel void quad_bilateral(
     metal::float4 image_texel_30_ = image.read(metal::uint2(texel_j2_i2_l1_), 0);
     metal::float4 image_texel_31_ = image.read(metal::uint2(texel_j2_i2_l2_), 0);
     metal::float4 image_texel_32_ = image.read(metal::uint2(texel_j2_i2_l3_), 0);
-    if (metal::abs(image_texel_29_.x) < 300000000000000000000000000000000000000.0) {
-        local_64 = metal::abs(image_texel_29_.y) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_64 = false;
-    }
-    bool _e3384 = local_64;
-    if (_e3384) {
-        local_65 = metal::abs(image_texel_29_.z) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_65 = false;
-    }
-    bool counts_j2_i2_l0_ = local_65;
-    if (metal::abs(image_texel_30_.x) < 300000000000000000000000000000000000000.0) {
-        local_66 = metal::abs(image_texel_30_.y) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_66 = false;
-    }
-    bool _e3404 = local_66;
-    if (_e3404) {
-        local_67 = metal::abs(image_texel_30_.z) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_67 = false;
-    }
-    bool counts_j2_i2_l1_ = local_67;
-    if (metal::abs(image_texel_31_.x) < 300000000000000000000000000000000000000.0) {
-        local_68 = metal::abs(image_texel_31_.y) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_68 = false;
-    }
-    bool _e3424 = local_68;
-    if (_e3424) {
-        local_69 = metal::abs(image_texel_31_.z) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_69 = false;
-    }
-    bool counts_j2_i2_l2_ = local_69;
-    if (metal::abs(image_texel_32_.x) < 300000000000000000000000000000000000000.0) {
-        local_70 = metal::abs(image_texel_32_.y) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_70 = false;
-    }
-    bool _e3444 = local_70;
-    if (_e3444) {
-        local_71 = metal::abs(image_texel_32_.z) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_71 = false;
-    }
-    bool counts_j2_i2_l3_ = local_71;
+    bool counts_j2_i2_l0_ = ((metal::abs(image_texel_29_.x) < 300000000000000000000000000000000000000.0) & (metal::abs(image_texel_29_.y) < 300000000000000000000000000000000000000.0)) & (metal::abs(image_texel_29_.z) < 300000000000000000000000000000000000000.0);
+    bool counts_j2_i2_l1_ = ((metal::abs(image_texel_30_.x) < 300000000000000000000000000000000000000.0) & (metal::abs(image_texel_30_.y) < 300000000000000000000000000000000000000.0)) & (metal::abs(image_texel_30_.z) < 300000000000000000000000000000000000000.0);
+    bool counts_j2_i2_l2_ = ((metal::abs(image_texel_31_.x) < 300000000000000000000000000000000000000.0) & (metal::abs(image_texel_31_.y) < 300000000000000000000000000000000000000.0)) & (metal::abs(image_texel_31_.z) < 300000000000000000000000000000000000000.0);
+    bool counts_j2_i2_l3_ = ((metal::abs(image_texel_32_.x) < 300000000000000000000000000000000000000.0) & (metal::abs(image_texel_32_.y) < 300000000000000000000000000000000000000.0)) & (metal::abs(image_texel_32_.z) < 300000000000000000000000000000000000000.0);
     metal::float4 counted_j2_i2_l0_ = metal::float4(image_texel_29_.x, image_texel_29_.y, image_texel_29_.z, (metal::abs(image_texel_29_.w) < 1000000000000000000000000000000.0) ? image_texel_29_.w : 1000000000000000000000000000000.0);
     metal::float4 counted_j2_i2_l1_ = metal::float4(image_texel_30_.x, image_texel_30_.y, image_texel_30_.z, (metal::abs(image_texel_30_.w) < 1000000000000000000000000000000.0) ? image_texel_30_.w : 1000000000000000000000000000000.0);
     metal::float4 counted_j2_i2_l2_ = metal::float4(image_texel_31_.x, image_texel_31_.y, image_texel_31_.z, (metal::abs(image_texel_31_.w) < 1000000000000000000000000000000.0) ? image_texel_31_.w : 1000000000000000000000000000000.0);

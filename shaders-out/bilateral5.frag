@@ -17,14 +17,14 @@ void main() {
     // j 0, i 0, k 0: kernels/src/quad/bilateral.rs:35
     ivec2 lane = pixel & ivec2(1);
     vec2 quad_vector = vec2(lane) * vec2(2.0) - vec2(1.0);
-    ivec2 outwards = ivec2(clamp(quad_vector, -2147483648.0, 2147483520.0));
+    ivec2 outwards = ivec2(quad_vector);
     ivec2 last = frame - ivec2(1);
     ivec2 texel = clamp(pixel, ivec2(0), last);
     vec4 own = texelFetch(sampler2D(image, unfiltered), texel, 0);
-    bool counts = ((abs(own.x) < 3e38) && (abs(own.y) < 3e38)) && (abs(own.z) < 3e38);
-    float chosen = (abs(own.w) < 1e30 ? own.w : 1e30);
+    bool counts = all(bvec2(all(bvec2(abs(own.x) < 3e38, abs(own.y) < 3e38)), abs(own.z) < 3e38));
+    float chosen = mix(1e30, own.w, abs(own.w) < 1e30);
     vec4 counted = vec4(own.x, own.y, own.z, chosen);
-    vec4 centre = (counts ? counted : vec4(0.0, 0.0, 0.0, -1e30));
+    vec4 centre = mix(vec4(0.0, 0.0, 0.0, -1e30), counted, bvec4(counts));
     vec4 taps_1_j0_i0 = subgroupQuadSwapHorizontal(centre);
     vec4 taps_2_j0_i0 = subgroupQuadSwapVertical(centre);
     vec4 taps_3_j0_i0 = subgroupQuadSwapDiagonal(centre);
@@ -49,9 +49,9 @@ void main() {
     // j 0, i 1, k 0: kernels/src/quad/bilateral.rs:43
     ivec2 texel_j0_i1 = clamp(pixel + outwards * ivec2(1, 0), ivec2(0), last);
     vec4 image_texel = texelFetch(sampler2D(image, unfiltered), texel_j0_i1, 0);
-    bool counts_j0_i1 = ((abs(image_texel.x) < 3e38) && (abs(image_texel.y) < 3e38)) && (abs(image_texel.z) < 3e38);
-    vec4 counted_j0_i1 = vec4(image_texel.x, image_texel.y, image_texel.z, (abs(image_texel.w) < 1e30 ? image_texel.w : 1e30));
-    vec4 taps_0_j0_i1 = (counts_j0_i1 ? counted_j0_i1 : vec4(0.0, 0.0, 0.0, -1e30));
+    bool counts_j0_i1 = all(bvec2(all(bvec2(abs(image_texel.x) < 3e38, abs(image_texel.y) < 3e38)), abs(image_texel.z) < 3e38));
+    vec4 counted_j0_i1 = vec4(image_texel.x, image_texel.y, image_texel.z, mix(1e30, image_texel.w, abs(image_texel.w) < 1e30));
+    vec4 taps_0_j0_i1 = mix(vec4(0.0, 0.0, 0.0, -1e30), counted_j0_i1, bvec4(counts_j0_i1));
     vec4 taps_1_j0_i1 = subgroupQuadSwapHorizontal(taps_0_j0_i1);
     vec4 taps_2_j0_i1 = subgroupQuadSwapVertical(taps_0_j0_i1);
     vec4 taps_3_j0_i1 = subgroupQuadSwapDiagonal(taps_0_j0_i1);
@@ -75,9 +75,9 @@ void main() {
     // j 0, i 2, k 0: kernels/src/quad/bilateral.rs:43
     ivec2 texel_j0_i2 = clamp(pixel + outwards * ivec2(2, 0), ivec2(0), last);
     vec4 image_texel_2 = texelFetch(sampler2D(image, unfiltered), texel_j0_i2, 0);
-    bool counts_j0_i2 = ((abs(image_texel_2.x) < 3e38) && (abs(image_texel_2.y) < 3e38)) && (abs(image_texel_2.z) < 3e38);
-    vec4 counted_j0_i2 = vec4(image_texel_2.x, image_texel_2.y, image_texel_2.z, (abs(image_texel_2.w) < 1e30 ? image_texel_2.w : 1e30));
-    vec4 taps_0_j0_i2 = (counts_j0_i2 ? counted_j0_i2 : vec4(0.0, 0.0, 0.0, -1e30));
+    bool counts_j0_i2 = all(bvec2(all(bvec2(abs(image_texel_2.x) < 3e38, abs(image_texel_2.y) < 3e38)), abs(image_texel_2.z) < 3e38));
+    vec4 counted_j0_i2 = vec4(image_texel_2.x, image_texel_2.y, image_texel_2.z, mix(1e30, image_texel_2.w, abs(image_texel_2.w) < 1e30));
+    vec4 taps_0_j0_i2 = mix(vec4(0.0, 0.0, 0.0, -1e30), counted_j0_i2, bvec4(counts_j0_i2));
     vec4 taps_2_j0_i2 = subgroupQuadSwapVertical(taps_0_j0_i2);
     float z_j0_i2_k0 = (taps_0_j0_i2.w - centre.w) / 0.1;
     float weight_j0_i2_k0 = exp2((z_j0_i2_k0 * z_j0_i2_k0 + 1.0) * -0.7213475);
@@ -91,9 +91,9 @@ void main() {
     // j 1, i 0, k 0: kernels/src/quad/bilateral.rs:43
     ivec2 texel_j1_i0 = clamp(pixel + outwards * ivec2(0, 1), ivec2(0), last);
     vec4 image_texel_3 = texelFetch(sampler2D(image, unfiltered), texel_j1_i0, 0);
-    bool counts_j1_i0 = ((abs(image_texel_3.x) < 3e38) && (abs(image_texel_3.y) < 3e38)) && (abs(image_texel_3.z) < 3e38);
-    vec4 counted_j1_i0 = vec4(image_texel_3.x, image_texel_3.y, image_texel_3.z, (abs(image_texel_3.w) < 1e30 ? image_texel_3.w : 1e30));
-    vec4 taps_0_j1_i0 = (counts_j1_i0 ? counted_j1_i0 : vec4(0.0, 0.0, 0.0, -1e30));
+    bool counts_j1_i0 = all(bvec2(all(bvec2(abs(image_texel_3.x) < 3e38, abs(image_texel_3.y) < 3e38)), abs(image_texel_3.z) < 3e38));
+    vec4 counted_j1_i0 = vec4(image_texel_3.x, image_texel_3.y, image_texel_3.z, mix(1e30, image_texel_3.w, abs(image_texel_3.w) < 1e30));
+    vec4 taps_0_j1_i0 = mix(vec4(0.0, 0.0, 0.0, -1e30), counted_j1_i0, bvec4(counts_j1_i0));
     vec4 taps_1_j1_i0 = subgroupQuadSwapHorizontal(taps_0_j1_i0);
     vec4 taps_2_j1_i0 = subgroupQuadSwapVertical(taps_0_j1_i0);
     vec4 taps_3_j1_i0 = subgroupQuadSwapDiagonal(taps_0_j1_i0);
@@ -117,9 +117,9 @@ void main() {
     // j 1, i 1, k 0: kernels/src/quad/bilateral.rs:43
     ivec2 texel_j1_i1 = clamp(pixel + outwards, ivec2(0), last);
     vec4 image_texel_4 = texelFetch(sampler2D(image, unfiltered), texel_j1_i1, 0);
-    bool counts_j1_i1 = ((abs(image_texel_4.x) < 3e38) && (abs(image_texel_4.y) < 3e38)) && (abs(image_texel_4.z) < 3e38);
-    vec4 counted_j1_i1 = vec4(image_texel_4.x, image_texel_4.y, image_texel_4.z, (abs(image_texel_4.w) < 1e30 ? image_texel_4.w : 1e30));
-    vec4 taps_0_j1_i1 = (counts_j1_i1 ? counted_j1_i1 : vec4(0.0, 0.0, 0.0, -1e30));
+    bool counts_j1_i1 = all(bvec2(all(bvec2(abs(image_texel_4.x) < 3e38, abs(image_texel_4.y) < 3e38)), abs(image_texel_4.z) < 3e38));
+    vec4 counted_j1_i1 = vec4(image_texel_4.x, image_texel_4.y, image_texel_4.z, mix(1e30, image_texel_4.w, abs(image_texel_4.w) < 1e30));
+    vec4 taps_0_j1_i1 = mix(vec4(0.0, 0.0, 0.0, -1e30), counted_j1_i1, bvec4(counts_j1_i1));
     vec4 taps_1_j1_i1 = subgroupQuadSwapHorizontal(taps_0_j1_i1);
     vec4 taps_2_j1_i1 = subgroupQuadSwapVertical(taps_0_j1_i1);
     vec4 taps_3_j1_i1 = subgroupQuadSwapDiagonal(taps_0_j1_i1);
@@ -143,9 +143,9 @@ void main() {
     // j 1, i 2, k 0: kernels/src/quad/bilateral.rs:43
     ivec2 texel_j1_i2 = clamp(pixel + outwards * ivec2(2, 1), ivec2(0), last);
     vec4 image_texel_5 = texelFetch(sampler2D(image, unfiltered), texel_j1_i2, 0);
-    bool counts_j1_i2 = ((abs(image_texel_5.x) < 3e38) && (abs(image_texel_5.y) < 3e38)) && (abs(image_texel_5.z) < 3e38);
-    vec4 counted_j1_i2 = vec4(image_texel_5.x, image_texel_5.y, image_texel_5.z, (abs(image_texel_5.w) < 1e30 ? image_texel_5.w : 1e30));
-    vec4 taps_0_j1_i2 = (counts_j1_i2 ? counted_j1_i2 : vec4(0.0, 0.0, 0.0, -1e30));
+    bool counts_j1_i2 = all(bvec2(all(bvec2(abs(image_texel_5.x) < 3e38, abs(image_texel_5.y) < 3e38)), abs(image_texel_5.z) < 3e38));
+    vec4 counted_j1_i2 = vec4(image_texel_5.x, image_texel_5.y, image_texel_5.z, mix(1e30, image_texel_5.w, abs(image_texel_5.w) < 1e30));
+    vec4 taps_0_j1_i2 = mix(vec4(0.0, 0.0, 0.0, -1e30), counted_j1_i2, bvec4(counts_j1_i2));
     vec4 taps_2_j1_i2 = subgroupQuadSwapVertical(taps_0_j1_i2);
     float z_j1_i2_k0 = (taps_0_j1_i2.w - centre.w) / 0.1;
     float weight_j1_i2_k0 = exp2((z_j1_i2_k0 * z_j1_i2_k0 + 1.25) * -0.7213475);
@@ -159,9 +159,9 @@ void main() {
     // j 2, i 0, k 0: kernels/src/quad/bilateral.rs:43
     ivec2 texel_j2_i0 = clamp(pixel + outwards * ivec2(0, 2), ivec2(0), last);
     vec4 image_texel_6 = texelFetch(sampler2D(image, unfiltered), texel_j2_i0, 0);
-    bool counts_j2_i0 = ((abs(image_texel_6.x) < 3e38) && (abs(image_texel_6.y) < 3e38)) && (abs(image_texel_6.z) < 3e38);
-    vec4 counted_j2_i0 = vec4(image_texel_6.x, image_texel_6.y, image_texel_6.z, (abs(image_texel_6.w) < 1e30 ? image_texel_6.w : 1e30));
-    vec4 taps_0_j2_i0 = (counts_j2_i0 ? counted_j2_i0 : vec4(0.0, 0.0, 0.0, -1e30));
+    bool counts_j2_i0 = all(bvec2(all(bvec2(abs(image_texel_6.x) < 3e38, abs(image_texel_6.y) < 3e38)), abs(image_texel_6.z) < 3e38));
+    vec4 counted_j2_i0 = vec4(image_texel_6.x, image_texel_6.y, image_texel_6.z, mix(1e30, image_texel_6.w, abs(image_texel_6.w) < 1e30));
+    vec4 taps_0_j2_i0 = mix(vec4(0.0, 0.0, 0.0, -1e30), counted_j2_i0, bvec4(counts_j2_i0));
     vec4 taps_1_j2_i0 = subgroupQuadSwapHorizontal(taps_0_j2_i0);
     float z_j2_i0_k0 = (taps_0_j2_i0.w - centre.w) / 0.1;
     float weight_j2_i0_k0 = exp2((z_j2_i0_k0 * z_j2_i0_k0 + 1.0) * -0.7213475);
@@ -175,9 +175,9 @@ void main() {
     // j 2, i 1, k 0: kernels/src/quad/bilateral.rs:43
     ivec2 texel_j2_i1 = clamp(pixel + outwards * ivec2(1, 2), ivec2(0), last);
     vec4 image_texel_7 = texelFetch(sampler2D(image, unfiltered), texel_j2_i1, 0);
-    bool counts_j2_i1 = ((abs(image_texel_7.x) < 3e38) && (abs(image_texel_7.y) < 3e38)) && (abs(image_texel_7.z) < 3e38);
-    vec4 counted_j2_i1 = vec4(image_texel_7.x, image_texel_7.y, image_texel_7.z, (abs(image_texel_7.w) < 1e30 ? image_texel_7.w : 1e30));
-    vec4 taps_0_j2_i1 = (counts_j2_i1 ? counted_j2_i1 : vec4(0.0, 0.0, 0.0, -1e30));
+    bool counts_j2_i1 = all(bvec2(all(bvec2(abs(image_texel_7.x) < 3e38, abs(image_texel_7.y) < 3e38)), abs(image_texel_7.z) < 3e38));
+    vec4 counted_j2_i1 = vec4(image_texel_7.x, image_texel_7.y, image_texel_7.z, mix(1e30, image_texel_7.w, abs(image_texel_7.w) < 1e30));
+    vec4 taps_0_j2_i1 = mix(vec4(0.0, 0.0, 0.0, -1e30), counted_j2_i1, bvec4(counts_j2_i1));
     vec4 taps_1_j2_i1 = subgroupQuadSwapHorizontal(taps_0_j2_i1);
     float z_j2_i1_k0 = (taps_0_j2_i1.w - centre.w) / 0.1;
     float weight_j2_i1_k0 = exp2((z_j2_i1_k0 * z_j2_i1_k0 + 1.25) * -0.7213475);
@@ -191,9 +191,9 @@ void main() {
     // j 2, i 2, k 0: kernels/src/quad/bilateral.rs:43
     ivec2 texel_j2_i2 = clamp(pixel + outwards * ivec2(2), ivec2(0), last);
     vec4 image_texel_8 = texelFetch(sampler2D(image, unfiltered), texel_j2_i2, 0);
-    bool counts_j2_i2 = ((abs(image_texel_8.x) < 3e38) && (abs(image_texel_8.y) < 3e38)) && (abs(image_texel_8.z) < 3e38);
-    vec4 counted_j2_i2 = vec4(image_texel_8.x, image_texel_8.y, image_texel_8.z, (abs(image_texel_8.w) < 1e30 ? image_texel_8.w : 1e30));
-    vec4 taps_0_j2_i2 = (counts_j2_i2 ? counted_j2_i2 : vec4(0.0, 0.0, 0.0, -1e30));
+    bool counts_j2_i2 = all(bvec2(all(bvec2(abs(image_texel_8.x) < 3e38, abs(image_texel_8.y) < 3e38)), abs(image_texel_8.z) < 3e38));
+    vec4 counted_j2_i2 = vec4(image_texel_8.x, image_texel_8.y, image_texel_8.z, mix(1e30, image_texel_8.w, abs(image_texel_8.w) < 1e30));
+    vec4 taps_0_j2_i2 = mix(vec4(0.0, 0.0, 0.0, -1e30), counted_j2_i2, bvec4(counts_j2_i2));
     float z_j2_i2_k0 = (taps_0_j2_i2.w - centre.w) / 0.1;
     float weight_j2_i2_k0 = exp2((z_j2_i2_k0 * z_j2_i2_k0 + 2.0) * -0.7213475);
     vec3 value_26 = (vec3(taps_0_j2_i2.x, taps_0_j2_i2.y, taps_0_j2_i2.z) - value) * weight_j2_i2_k0;

@@ -18,24 +18,6 @@ fragment quad_bilateralOutput quad_bilateral(
   metal::float4 position [[position]]
 , metal::texture2d<float, metal::access::sample> image [[texture(0)]]
 ) {
-    bool local = {};
-    bool local_1 = {};
-    bool local_2 = {};
-    bool local_3 = {};
-    bool local_4 = {};
-    bool local_5 = {};
-    bool local_6 = {};
-    bool local_7 = {};
-    bool local_8 = {};
-    bool local_9 = {};
-    bool local_10 = {};
-    bool local_11 = {};
-    bool local_12 = {};
-    bool local_13 = {};
-    bool local_14 = {};
-    bool local_15 = {};
-    bool local_16 = {};
-    bool local_17 = {};
     metal::int2 pixel = naga_f2i32(metal::floor(position.xy));
     metal::int2 frame = static_cast<metal::int2>(metal::uint2(image.get_width(), image.get_height()));
     metal::int2 lane = pixel & metal::int2(1);
@@ -44,18 +26,7 @@ fragment quad_bilateralOutput quad_bilateral(
     metal::int2 last = as_type<metal::int2>(as_type<metal::uint2>(frame) - as_type<metal::uint2>(metal::int2(1)));
     metal::int2 texel = metal::clamp(pixel, metal::int2(0), last);
     metal::float4 own = image.read(metal::uint2(texel), 0);
-    if (metal::abs(own.x) < 300000000000000000000000000000000000000.0) {
-        local = metal::abs(own.y) < 300000000000000000000000000000000000000.0;
-    } else {
-        local = false;
-    }
-    bool _e38 = local;
-    if (_e38) {
-        local_1 = metal::abs(own.z) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_1 = false;
-    }
-    bool counts = local_1;
+    bool counts = ((metal::abs(own.x) < 300000000000000000000000000000000000000.0) & (metal::abs(own.y) < 300000000000000000000000000000000000000.0)) & (metal::abs(own.z) < 300000000000000000000000000000000000000.0);
     float chosen = (metal::abs(own.w) < 1000000000000000000000000000000.0) ? own.w : 1000000000000000000000000000000.0;
     metal::float4 counted = metal::float4(own.x, own.y, own.z, chosen);
     metal::float4 centre = counts ? counted : metal::float4(0.0, 0.0, 0.0, -1000000000000000000000000000000.0);
@@ -81,18 +52,7 @@ fragment quad_bilateralOutput quad_bilateral(
     metal::float4 sum_j0_i0_k3_ = sum_j0_i0_k2_ + metal::float4(value_5_.x, value_5_.y, value_5_.z, weight_j0_i0_k3_);
     metal::int2 texel_j0_i1_ = metal::clamp(as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(as_type<metal::int2>(as_type<metal::uint2>(outwards) * as_type<metal::uint2>(metal::int2(1, 0))))), metal::int2(0), last);
     metal::float4 image_texel = image.read(metal::uint2(texel_j0_i1_), 0);
-    if (metal::abs(image_texel.x) < 300000000000000000000000000000000000000.0) {
-        local_2 = metal::abs(image_texel.y) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_2 = false;
-    }
-    bool _e177 = local_2;
-    if (_e177) {
-        local_3 = metal::abs(image_texel.z) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_3 = false;
-    }
-    bool counts_j0_i1_ = local_3;
+    bool counts_j0_i1_ = ((metal::abs(image_texel.x) < 300000000000000000000000000000000000000.0) & (metal::abs(image_texel.y) < 300000000000000000000000000000000000000.0)) & (metal::abs(image_texel.z) < 300000000000000000000000000000000000000.0);
     metal::float4 counted_j0_i1_ = metal::float4(image_texel.x, image_texel.y, image_texel.z, (metal::abs(image_texel.w) < 1000000000000000000000000000000.0) ? image_texel.w : 1000000000000000000000000000000.0);
     metal::float4 taps_0_j0_i1_ = counts_j0_i1_ ? counted_j0_i1_ : metal::float4(0.0, 0.0, 0.0, -1000000000000000000000000000000.0);
     metal::float4 unnamed_3 = metal::quad_shuffle_xor(taps_0_j0_i1_, 1u);
@@ -116,18 +76,7 @@ fragment quad_bilateralOutput quad_bilateral(
     metal::float4 sum_j0_i1_k3_ = sum_j0_i1_k2_ + metal::float4(value_9_.x, value_9_.y, value_9_.z, weight_j0_i1_k3_);
     metal::int2 texel_j0_i2_ = metal::clamp(as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(as_type<metal::int2>(as_type<metal::uint2>(outwards) * as_type<metal::uint2>(metal::int2(2, 0))))), metal::int2(0), last);
     metal::float4 image_texel_2_ = image.read(metal::uint2(texel_j0_i2_), 0);
-    if (metal::abs(image_texel_2_.x) < 300000000000000000000000000000000000000.0) {
-        local_4 = metal::abs(image_texel_2_.y) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_4 = false;
-    }
-    bool _e316 = local_4;
-    if (_e316) {
-        local_5 = metal::abs(image_texel_2_.z) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_5 = false;
-    }
-    bool counts_j0_i2_ = local_5;
+    bool counts_j0_i2_ = ((metal::abs(image_texel_2_.x) < 300000000000000000000000000000000000000.0) & (metal::abs(image_texel_2_.y) < 300000000000000000000000000000000000000.0)) & (metal::abs(image_texel_2_.z) < 300000000000000000000000000000000000000.0);
     metal::float4 counted_j0_i2_ = metal::float4(image_texel_2_.x, image_texel_2_.y, image_texel_2_.z, (metal::abs(image_texel_2_.w) < 1000000000000000000000000000000.0) ? image_texel_2_.w : 1000000000000000000000000000000.0);
     metal::float4 taps_0_j0_i2_ = counts_j0_i2_ ? counted_j0_i2_ : metal::float4(0.0, 0.0, 0.0, -1000000000000000000000000000000.0);
     metal::float4 unnamed_6 = metal::quad_shuffle_xor(taps_0_j0_i2_, 2u);
@@ -141,18 +90,7 @@ fragment quad_bilateralOutput quad_bilateral(
     metal::float4 sum_j0_i2_k2_ = sum_j0_i2_k0_ + metal::float4(value_11_.x, value_11_.y, value_11_.z, weight_j0_i2_k2_);
     metal::int2 texel_j1_i0_ = metal::clamp(as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(as_type<metal::int2>(as_type<metal::uint2>(outwards) * as_type<metal::uint2>(metal::int2(0, 1))))), metal::int2(0), last);
     metal::float4 image_texel_3_ = image.read(metal::uint2(texel_j1_i0_), 0);
-    if (metal::abs(image_texel_3_.x) < 300000000000000000000000000000000000000.0) {
-        local_6 = metal::abs(image_texel_3_.y) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_6 = false;
-    }
-    bool _e409 = local_6;
-    if (_e409) {
-        local_7 = metal::abs(image_texel_3_.z) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_7 = false;
-    }
-    bool counts_j1_i0_ = local_7;
+    bool counts_j1_i0_ = ((metal::abs(image_texel_3_.x) < 300000000000000000000000000000000000000.0) & (metal::abs(image_texel_3_.y) < 300000000000000000000000000000000000000.0)) & (metal::abs(image_texel_3_.z) < 300000000000000000000000000000000000000.0);
     metal::float4 counted_j1_i0_ = metal::float4(image_texel_3_.x, image_texel_3_.y, image_texel_3_.z, (metal::abs(image_texel_3_.w) < 1000000000000000000000000000000.0) ? image_texel_3_.w : 1000000000000000000000000000000.0);
     metal::float4 taps_0_j1_i0_ = counts_j1_i0_ ? counted_j1_i0_ : metal::float4(0.0, 0.0, 0.0, -1000000000000000000000000000000.0);
     metal::float4 unnamed_7 = metal::quad_shuffle_xor(taps_0_j1_i0_, 1u);
@@ -176,18 +114,7 @@ fragment quad_bilateralOutput quad_bilateral(
     metal::float4 sum_j1_i0_k3_ = sum_j1_i0_k2_ + metal::float4(value_15_.x, value_15_.y, value_15_.z, weight_j1_i0_k3_);
     metal::int2 texel_j1_i1_ = metal::clamp(as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(outwards)), metal::int2(0), last);
     metal::float4 image_texel_4_ = image.read(metal::uint2(texel_j1_i1_), 0);
-    if (metal::abs(image_texel_4_.x) < 300000000000000000000000000000000000000.0) {
-        local_8 = metal::abs(image_texel_4_.y) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_8 = false;
-    }
-    bool _e544 = local_8;
-    if (_e544) {
-        local_9 = metal::abs(image_texel_4_.z) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_9 = false;
-    }
-    bool counts_j1_i1_ = local_9;
+    bool counts_j1_i1_ = ((metal::abs(image_texel_4_.x) < 300000000000000000000000000000000000000.0) & (metal::abs(image_texel_4_.y) < 300000000000000000000000000000000000000.0)) & (metal::abs(image_texel_4_.z) < 300000000000000000000000000000000000000.0);
     metal::float4 counted_j1_i1_ = metal::float4(image_texel_4_.x, image_texel_4_.y, image_texel_4_.z, (metal::abs(image_texel_4_.w) < 1000000000000000000000000000000.0) ? image_texel_4_.w : 1000000000000000000000000000000.0);
     metal::float4 taps_0_j1_i1_ = counts_j1_i1_ ? counted_j1_i1_ : metal::float4(0.0, 0.0, 0.0, -1000000000000000000000000000000.0);
     metal::float4 unnamed_10 = metal::quad_shuffle_xor(taps_0_j1_i1_, 1u);
@@ -211,18 +138,7 @@ fragment quad_bilateralOutput quad_bilateral(
     metal::float4 sum_j1_i1_k3_ = sum_j1_i1_k2_ + metal::float4(value_19_.x, value_19_.y, value_19_.z, weight_j1_i1_k3_);
     metal::int2 texel_j1_i2_ = metal::clamp(as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(as_type<metal::int2>(as_type<metal::uint2>(outwards) * as_type<metal::uint2>(metal::int2(2, 1))))), metal::int2(0), last);
     metal::float4 image_texel_5_ = image.read(metal::uint2(texel_j1_i2_), 0);
-    if (metal::abs(image_texel_5_.x) < 300000000000000000000000000000000000000.0) {
-        local_10 = metal::abs(image_texel_5_.y) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_10 = false;
-    }
-    bool _e683 = local_10;
-    if (_e683) {
-        local_11 = metal::abs(image_texel_5_.z) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_11 = false;
-    }
-    bool counts_j1_i2_ = local_11;
+    bool counts_j1_i2_ = ((metal::abs(image_texel_5_.x) < 300000000000000000000000000000000000000.0) & (metal::abs(image_texel_5_.y) < 300000000000000000000000000000000000000.0)) & (metal::abs(image_texel_5_.z) < 300000000000000000000000000000000000000.0);
     metal::float4 counted_j1_i2_ = metal::float4(image_texel_5_.x, image_texel_5_.y, image_texel_5_.z, (metal::abs(image_texel_5_.w) < 1000000000000000000000000000000.0) ? image_texel_5_.w : 1000000000000000000000000000000.0);
     metal::float4 taps_0_j1_i2_ = counts_j1_i2_ ? counted_j1_i2_ : metal::float4(0.0, 0.0, 0.0, -1000000000000000000000000000000.0);
     metal::float4 unnamed_13 = metal::quad_shuffle_xor(taps_0_j1_i2_, 2u);
@@ -236,18 +152,7 @@ fragment quad_bilateralOutput quad_bilateral(
     metal::float4 sum_j1_i2_k2_ = sum_j1_i2_k0_ + metal::float4(value_21_.x, value_21_.y, value_21_.z, weight_j1_i2_k2_);
     metal::int2 texel_j2_i0_ = metal::clamp(as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(as_type<metal::int2>(as_type<metal::uint2>(outwards) * as_type<metal::uint2>(metal::int2(0, 2))))), metal::int2(0), last);
     metal::float4 image_texel_6_ = image.read(metal::uint2(texel_j2_i0_), 0);
-    if (metal::abs(image_texel_6_.x) < 300000000000000000000000000000000000000.0) {
-        local_12 = metal::abs(image_texel_6_.y) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_12 = false;
-    }
-    bool _e776 = local_12;
-    if (_e776) {
-        local_13 = metal::abs(image_texel_6_.z) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_13 = false;
-    }
-    bool counts_j2_i0_ = local_13;
+    bool counts_j2_i0_ = ((metal::abs(image_texel_6_.x) < 300000000000000000000000000000000000000.0) & (metal::abs(image_texel_6_.y) < 300000000000000000000000000000000000000.0)) & (metal::abs(image_texel_6_.z) < 300000000000000000000000000000000000000.0);
     metal::float4 counted_j2_i0_ = metal::float4(image_texel_6_.x, image_texel_6_.y, image_texel_6_.z, (metal::abs(image_texel_6_.w) < 1000000000000000000000000000000.0) ? image_texel_6_.w : 1000000000000000000000000000000.0);
     metal::float4 taps_0_j2_i0_ = counts_j2_i0_ ? counted_j2_i0_ : metal::float4(0.0, 0.0, 0.0, -1000000000000000000000000000000.0);
     metal::float4 unnamed_14 = metal::quad_shuffle_xor(taps_0_j2_i0_, 1u);
@@ -261,18 +166,7 @@ fragment quad_bilateralOutput quad_bilateral(
     metal::float4 sum_j2_i0_k1_ = sum_j2_i0_k0_ + metal::float4(value_23_.x, value_23_.y, value_23_.z, weight_j2_i0_k1_);
     metal::int2 texel_j2_i1_ = metal::clamp(as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(as_type<metal::int2>(as_type<metal::uint2>(outwards) * as_type<metal::uint2>(metal::int2(1, 2))))), metal::int2(0), last);
     metal::float4 image_texel_7_ = image.read(metal::uint2(texel_j2_i1_), 0);
-    if (metal::abs(image_texel_7_.x) < 300000000000000000000000000000000000000.0) {
-        local_14 = metal::abs(image_texel_7_.y) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_14 = false;
-    }
-    bool _e869 = local_14;
-    if (_e869) {
-        local_15 = metal::abs(image_texel_7_.z) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_15 = false;
-    }
-    bool counts_j2_i1_ = local_15;
+    bool counts_j2_i1_ = ((metal::abs(image_texel_7_.x) < 300000000000000000000000000000000000000.0) & (metal::abs(image_texel_7_.y) < 300000000000000000000000000000000000000.0)) & (metal::abs(image_texel_7_.z) < 300000000000000000000000000000000000000.0);
     metal::float4 counted_j2_i1_ = metal::float4(image_texel_7_.x, image_texel_7_.y, image_texel_7_.z, (metal::abs(image_texel_7_.w) < 1000000000000000000000000000000.0) ? image_texel_7_.w : 1000000000000000000000000000000.0);
     metal::float4 taps_0_j2_i1_ = counts_j2_i1_ ? counted_j2_i1_ : metal::float4(0.0, 0.0, 0.0, -1000000000000000000000000000000.0);
     metal::float4 unnamed_15 = metal::quad_shuffle_xor(taps_0_j2_i1_, 1u);
@@ -286,18 +180,7 @@ fragment quad_bilateralOutput quad_bilateral(
     metal::float4 sum_j2_i1_k1_ = sum_j2_i1_k0_ + metal::float4(value_25_.x, value_25_.y, value_25_.z, weight_j2_i1_k1_);
     metal::int2 texel_j2_i2_ = metal::clamp(as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(as_type<metal::int2>(as_type<metal::uint2>(outwards) * as_type<metal::uint2>(metal::int2(2))))), metal::int2(0), last);
     metal::float4 image_texel_8_ = image.read(metal::uint2(texel_j2_i2_), 0);
-    if (metal::abs(image_texel_8_.x) < 300000000000000000000000000000000000000.0) {
-        local_16 = metal::abs(image_texel_8_.y) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_16 = false;
-    }
-    bool _e961 = local_16;
-    if (_e961) {
-        local_17 = metal::abs(image_texel_8_.z) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_17 = false;
-    }
-    bool counts_j2_i2_ = local_17;
+    bool counts_j2_i2_ = ((metal::abs(image_texel_8_.x) < 300000000000000000000000000000000000000.0) & (metal::abs(image_texel_8_.y) < 300000000000000000000000000000000000000.0)) & (metal::abs(image_texel_8_.z) < 300000000000000000000000000000000000000.0);
     metal::float4 counted_j2_i2_ = metal::float4(image_texel_8_.x, image_texel_8_.y, image_texel_8_.z, (metal::abs(image_texel_8_.w) < 1000000000000000000000000000000.0) ? image_texel_8_.w : 1000000000000000000000000000000.0);
     metal::float4 taps_0_j2_i2_ = counts_j2_i2_ ? counted_j2_i2_ : metal::float4(0.0, 0.0, 0.0, -1000000000000000000000000000000.0);
     float z_j2_i2_k0_ = (taps_0_j2_i2_.w - centre.w) / 0.1;

@@ -17,7 +17,7 @@ fn quad_bilateral(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let last = frame - vec2i(1);
     let texel = clamp(pixel, vec2i(0), last);
     let own = textureLoad(image, texel, 0);
-    let counts = ((abs(own.x) < 3e38) && (abs(own.y) < 3e38)) && (abs(own.z) < 3e38);
+    let counts = ((abs(own.x) < 3e38) & (abs(own.y) < 3e38)) & (abs(own.z) < 3e38);
     let chosen = select(1e30, own.w, abs(own.w) < 1e30);
     let counted = vec4f(own.x, own.y, own.z, chosen);
     let centre = select(vec4f(0.0, 0.0, 0.0, -1e30), counted, counts);
@@ -45,7 +45,7 @@ fn quad_bilateral(@builtin(position) position: vec4f) -> @location(0) vec4f {
     // j 0, i 1, k 0: kernels/src/quad/bilateral.rs:43
     let texel_j0_i1 = clamp(pixel + outwards * vec2i(1, 0), vec2i(0), last);
     let image_texel = textureLoad(image, texel_j0_i1, 0);
-    let counts_j0_i1 = ((abs(image_texel.x) < 3e38) && (abs(image_texel.y) < 3e38)) && (abs(image_texel.z) < 3e38);
+    let counts_j0_i1 = ((abs(image_texel.x) < 3e38) & (abs(image_texel.y) < 3e38)) & (abs(image_texel.z) < 3e38);
     let counted_j0_i1 = vec4f(image_texel.x, image_texel.y, image_texel.z, select(1e30, image_texel.w, abs(image_texel.w) < 1e30));
     let taps_0_j0_i1 = select(vec4f(0.0, 0.0, 0.0, -1e30), counted_j0_i1, counts_j0_i1);
     let taps_1_j0_i1 = quadSwapX(taps_0_j0_i1);
@@ -71,7 +71,7 @@ fn quad_bilateral(@builtin(position) position: vec4f) -> @location(0) vec4f {
     // j 0, i 2, k 0: kernels/src/quad/bilateral.rs:43
     let texel_j0_i2 = clamp(pixel + outwards * vec2i(2, 0), vec2i(0), last);
     let image_texel_2 = textureLoad(image, texel_j0_i2, 0);
-    let counts_j0_i2 = ((abs(image_texel_2.x) < 3e38) && (abs(image_texel_2.y) < 3e38)) && (abs(image_texel_2.z) < 3e38);
+    let counts_j0_i2 = ((abs(image_texel_2.x) < 3e38) & (abs(image_texel_2.y) < 3e38)) & (abs(image_texel_2.z) < 3e38);
     let counted_j0_i2 = vec4f(image_texel_2.x, image_texel_2.y, image_texel_2.z, select(1e30, image_texel_2.w, abs(image_texel_2.w) < 1e30));
     let taps_0_j0_i2 = select(vec4f(0.0, 0.0, 0.0, -1e30), counted_j0_i2, counts_j0_i2);
     let taps_2_j0_i2 = quadSwapY(taps_0_j0_i2);
@@ -87,7 +87,7 @@ fn quad_bilateral(@builtin(position) position: vec4f) -> @location(0) vec4f {
     // j 1, i 0, k 0: kernels/src/quad/bilateral.rs:43
     let texel_j1_i0 = clamp(pixel + outwards * vec2i(0, 1), vec2i(0), last);
     let image_texel_3 = textureLoad(image, texel_j1_i0, 0);
-    let counts_j1_i0 = ((abs(image_texel_3.x) < 3e38) && (abs(image_texel_3.y) < 3e38)) && (abs(image_texel_3.z) < 3e38);
+    let counts_j1_i0 = ((abs(image_texel_3.x) < 3e38) & (abs(image_texel_3.y) < 3e38)) & (abs(image_texel_3.z) < 3e38);
     let counted_j1_i0 = vec4f(image_texel_3.x, image_texel_3.y, image_texel_3.z, select(1e30, image_texel_3.w, abs(image_texel_3.w) < 1e30));
     let taps_0_j1_i0 = select(vec4f(0.0, 0.0, 0.0, -1e30), counted_j1_i0, counts_j1_i0);
     let taps_1_j1_i0 = quadSwapX(taps_0_j1_i0);
@@ -113,7 +113,7 @@ fn quad_bilateral(@builtin(position) position: vec4f) -> @location(0) vec4f {
     // j 1, i 1, k 0: kernels/src/quad/bilateral.rs:43
     let texel_j1_i1 = clamp(pixel + outwards, vec2i(0), last);
     let image_texel_4 = textureLoad(image, texel_j1_i1, 0);
-    let counts_j1_i1 = ((abs(image_texel_4.x) < 3e38) && (abs(image_texel_4.y) < 3e38)) && (abs(image_texel_4.z) < 3e38);
+    let counts_j1_i1 = ((abs(image_texel_4.x) < 3e38) & (abs(image_texel_4.y) < 3e38)) & (abs(image_texel_4.z) < 3e38);
     let counted_j1_i1 = vec4f(image_texel_4.x, image_texel_4.y, image_texel_4.z, select(1e30, image_texel_4.w, abs(image_texel_4.w) < 1e30));
     let taps_0_j1_i1 = select(vec4f(0.0, 0.0, 0.0, -1e30), counted_j1_i1, counts_j1_i1);
     let taps_1_j1_i1 = quadSwapX(taps_0_j1_i1);
@@ -139,7 +139,7 @@ fn quad_bilateral(@builtin(position) position: vec4f) -> @location(0) vec4f {
     // j 1, i 2, k 0: kernels/src/quad/bilateral.rs:43
     let texel_j1_i2 = clamp(pixel + outwards * vec2i(2, 1), vec2i(0), last);
     let image_texel_5 = textureLoad(image, texel_j1_i2, 0);
-    let counts_j1_i2 = ((abs(image_texel_5.x) < 3e38) && (abs(image_texel_5.y) < 3e38)) && (abs(image_texel_5.z) < 3e38);
+    let counts_j1_i2 = ((abs(image_texel_5.x) < 3e38) & (abs(image_texel_5.y) < 3e38)) & (abs(image_texel_5.z) < 3e38);
     let counted_j1_i2 = vec4f(image_texel_5.x, image_texel_5.y, image_texel_5.z, select(1e30, image_texel_5.w, abs(image_texel_5.w) < 1e30));
     let taps_0_j1_i2 = select(vec4f(0.0, 0.0, 0.0, -1e30), counted_j1_i2, counts_j1_i2);
     let taps_2_j1_i2 = quadSwapY(taps_0_j1_i2);
@@ -155,7 +155,7 @@ fn quad_bilateral(@builtin(position) position: vec4f) -> @location(0) vec4f {
     // j 2, i 0, k 0: kernels/src/quad/bilateral.rs:43
     let texel_j2_i0 = clamp(pixel + outwards * vec2i(0, 2), vec2i(0), last);
     let image_texel_6 = textureLoad(image, texel_j2_i0, 0);
-    let counts_j2_i0 = ((abs(image_texel_6.x) < 3e38) && (abs(image_texel_6.y) < 3e38)) && (abs(image_texel_6.z) < 3e38);
+    let counts_j2_i0 = ((abs(image_texel_6.x) < 3e38) & (abs(image_texel_6.y) < 3e38)) & (abs(image_texel_6.z) < 3e38);
     let counted_j2_i0 = vec4f(image_texel_6.x, image_texel_6.y, image_texel_6.z, select(1e30, image_texel_6.w, abs(image_texel_6.w) < 1e30));
     let taps_0_j2_i0 = select(vec4f(0.0, 0.0, 0.0, -1e30), counted_j2_i0, counts_j2_i0);
     let taps_1_j2_i0 = quadSwapX(taps_0_j2_i0);
@@ -171,7 +171,7 @@ fn quad_bilateral(@builtin(position) position: vec4f) -> @location(0) vec4f {
     // j 2, i 1, k 0: kernels/src/quad/bilateral.rs:43
     let texel_j2_i1 = clamp(pixel + outwards * vec2i(1, 2), vec2i(0), last);
     let image_texel_7 = textureLoad(image, texel_j2_i1, 0);
-    let counts_j2_i1 = ((abs(image_texel_7.x) < 3e38) && (abs(image_texel_7.y) < 3e38)) && (abs(image_texel_7.z) < 3e38);
+    let counts_j2_i1 = ((abs(image_texel_7.x) < 3e38) & (abs(image_texel_7.y) < 3e38)) & (abs(image_texel_7.z) < 3e38);
     let counted_j2_i1 = vec4f(image_texel_7.x, image_texel_7.y, image_texel_7.z, select(1e30, image_texel_7.w, abs(image_texel_7.w) < 1e30));
     let taps_0_j2_i1 = select(vec4f(0.0, 0.0, 0.0, -1e30), counted_j2_i1, counts_j2_i1);
     let taps_1_j2_i1 = quadSwapX(taps_0_j2_i1);
@@ -187,7 +187,7 @@ fn quad_bilateral(@builtin(position) position: vec4f) -> @location(0) vec4f {
     // j 2, i 2, k 0: kernels/src/quad/bilateral.rs:43
     let texel_j2_i2 = clamp(pixel + outwards * vec2i(2), vec2i(0), last);
     let image_texel_8 = textureLoad(image, texel_j2_i2, 0);
-    let counts_j2_i2 = ((abs(image_texel_8.x) < 3e38) && (abs(image_texel_8.y) < 3e38)) && (abs(image_texel_8.z) < 3e38);
+    let counts_j2_i2 = ((abs(image_texel_8.x) < 3e38) & (abs(image_texel_8.y) < 3e38)) & (abs(image_texel_8.z) < 3e38);
     let counted_j2_i2 = vec4f(image_texel_8.x, image_texel_8.y, image_texel_8.z, select(1e30, image_texel_8.w, abs(image_texel_8.w) < 1e30));
     let taps_0_j2_i2 = select(vec4f(0.0, 0.0, 0.0, -1e30), counted_j2_i2, counts_j2_i2);
     let z_j2_i2_k0 = (taps_0_j2_i2.w - centre.w) / 0.1;

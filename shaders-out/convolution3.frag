@@ -17,7 +17,7 @@ void main() {
     // j 0, i 0: kernels/src/quad/convolution.rs:78
     ivec2 lane = pixel & ivec2(1);
     vec2 quad_vector = vec2(lane) * vec2(2.0) - vec2(1.0);
-    ivec2 outwards = ivec2(clamp(quad_vector, -2147483648.0, 2147483520.0));
+    ivec2 outwards = ivec2(quad_vector);
     ivec2 last = frame - ivec2(1);
     ivec2 texel_j0_i0 = clamp(pixel, ivec2(0), last);
     vec4 tap_j0_i0 = texelFetch(sampler2D(image, unfiltered), texel_j0_i0, 0);

@@ -1,8 +1,5 @@
 Texture2D<float> shadow : register(t0);
-SamplerState nagaSamplerHeap[2048]: register(s0, space0);
-SamplerComparisonState nagaComparisonSamplerHeap[2048]: register(s0, space1);
-StructuredBuffer<uint> nagaGroup0SamplerIndexArray : register(t0, space255);
-static const SamplerComparisonState shadow_sampler = nagaComparisonSamplerHeap[nagaGroup0SamplerIndexArray[1]];
+SamplerComparisonState shadow_sampler : register(s1);
 
 struct FragmentInput_pcf {
     float3 coord_1 : LOC0;

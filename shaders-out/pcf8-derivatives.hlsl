@@ -1,8 +1,5 @@
 Texture2D<float> shadow : register(t0);
-SamplerState nagaSamplerHeap[2048]: register(s0, space0);
-SamplerComparisonState nagaComparisonSamplerHeap[2048]: register(s0, space1);
-StructuredBuffer<uint> nagaGroup0SamplerIndexArray : register(t0, space255);
-static const SamplerComparisonState shadow_sampler = nagaComparisonSamplerHeap[nagaGroup0SamplerIndexArray[1]];
+SamplerComparisonState shadow_sampler : register(s1);
 
 struct FragmentInput_pcf {
     float3 coord_1 : LOC0;
@@ -103,6 +100,6 @@ float4 pcf(FragmentInput_pcf fragmentinput_pcf) : SV_Target0
     float2 row_3_ = (moment_k3_ + moment_beside_k3_);
     float2 _e280 = ddy_fine(row_3_);
     float2 row_below_3_ = (row_3_ + (towards.y * _e280));
-    float lit_2_ = clamp((lit_ + dot(((row_3_ + row_below_3_) / (80.0).xx), (away_5_ - middle))), 0.0, 1.0);
+    float lit_2_ = saturate((lit_ + dot(((row_3_ + row_below_3_) / (80.0).xx), (away_5_ - middle))));
     return (lit_2_).xxxx;
 }

@@ -88,6 +88,6 @@ fn pcf(@builtin(position) position: vec4f, @location(0) coord: vec3f) -> @locati
     let moment_beside_k3 = moment_k3 + towards.x * dpdxFine(moment_k3);
     let row_3 = moment_k3 + moment_beside_k3;
     let row_below_3 = row_3 + towards.y * dpdyFine(row_3);
-    let lit_2 = clamp(lit + dot((row_3 + row_below_3) / vec2f(80.0), away_5 - middle), 0.0, 1.0);
+    let lit_2 = saturate(lit + dot((row_3 + row_below_3) / vec2f(80.0), away_5 - middle));
     return vec4f(lit_2);
 }

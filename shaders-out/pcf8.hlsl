@@ -1,8 +1,5 @@
 Texture2D<float> shadow : register(t0);
-SamplerState nagaSamplerHeap[2048]: register(s0, space0);
-SamplerComparisonState nagaComparisonSamplerHeap[2048]: register(s0, space1);
-StructuredBuffer<uint> nagaGroup0SamplerIndexArray : register(t0, space255);
-static const SamplerComparisonState shadow_sampler = nagaComparisonSamplerHeap[nagaGroup0SamplerIndexArray[1]];
+SamplerComparisonState shadow_sampler : register(s1);
 
 struct FragmentInput_pcf {
     float3 coord_1 : LOC0;
@@ -96,6 +93,6 @@ float4 pcf(FragmentInput_pcf fragmentinput_pcf) : SV_Target0
     const float2 _e259 = QuadReadAcrossX(moment_k3_);
     float2 row_3_ = (moment_k3_ + _e259);
     const float2 _e261 = QuadReadAcrossY(row_3_);
-    float lit_2_ = clamp((lit_ + dot(((row_3_ + _e261) / (80.0).xx), (away_5_ - middle))), 0.0, 1.0);
+    float lit_2_ = saturate((lit_ + dot(((row_3_ + _e261) / (80.0).xx), (away_5_ - middle))));
     return (lit_2_).xxxx;
 }

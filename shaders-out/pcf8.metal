@@ -94,6 +94,6 @@ fragment pcfOutput pcf(
     metal::float2 unnamed_4 = metal::quad_shuffle_xor(moment_k3_, 1u);
     metal::float2 row_3_ = moment_k3_ + unnamed_4;
     metal::float2 unnamed_5 = metal::quad_shuffle_xor(row_3_, 2u);
-    float lit_2_ = metal::clamp(lit + metal::dot((row_3_ + unnamed_5) / metal::float2(80.0), away_5_ - middle), 0.0, 1.0);
+    float lit_2_ = metal::saturate(lit + metal::dot((row_3_ + unnamed_5) / metal::float2(80.0), away_5_ - middle));
     return pcfOutput { metal::float4(lit_2_) };
 }

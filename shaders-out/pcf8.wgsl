@@ -81,6 +81,6 @@ fn pcf(@builtin(position) position: vec4f, @location(0) coord: vec3f) -> @locati
     let moment_k2 = moment_k1 + taps_middle_k2 * taps_lit_k2;
     let moment_k3 = moment_k2 + taps_middle_k3 * taps_lit_k3;
     let row_3 = moment_k3 + quadSwapX(moment_k3);
-    let lit_2 = clamp(lit + dot((row_3 + quadSwapY(row_3)) / vec2f(80.0), away_5 - middle), 0.0, 1.0);
+    let lit_2 = saturate(lit + dot((row_3 + quadSwapY(row_3)) / vec2f(80.0), away_5 - middle));
     return vec4f(lit_2);
 }

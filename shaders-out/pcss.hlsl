@@ -1,8 +1,5 @@
 Texture2D<float> shadow : register(t0);
-SamplerState nagaSamplerHeap[2048]: register(s0, space0);
-SamplerComparisonState nagaComparisonSamplerHeap[2048]: register(s0, space1);
-StructuredBuffer<uint> nagaGroup0SamplerIndexArray : register(t0, space255);
-static const SamplerComparisonState shadow_sampler = nagaComparisonSamplerHeap[nagaGroup0SamplerIndexArray[1]];
+SamplerComparisonState shadow_sampler : register(s1);
 
 struct FragmentInput_pcss {
     float3 coord_1 : LOC0;
@@ -11,6 +8,13 @@ struct FragmentInput_pcss {
 
 int2 naga_f2i32(float2 value) {
     return int2(clamp(value, -2147483600.0, 2147483500.0));
+}
+
+int2 to_vec2i(float2 x)
+{
+    bool2 is_nan = ((asuint(x) & (2147483647u).xx) > (2139095040u).xx);
+    int2 saturated = ((x >= (2147483600.0).xx) ? (int(2147483647)).xx : naga_f2i32(x));
+    return (is_nan ? (int(0)).xx : saturated);
 }
 
 uint2 NagaDepthDimensions2D(Texture2D<float> tex)
@@ -38,25 +42,29 @@ float4 pcss(FragmentInput_pcss fragmentinput_pcss) : SV_Target0
     float2 value_4_ = (value_2_ * value_3_);
     float2 place_k0_ = (value_4_ + (value * (2.0).xx));
     int2 last = asint(asuint(shadow_size) - asuint((int(1)).xx));
-    int2 texel_k0_ = clamp(naga_f2i32(floor(place_k0_)), (int(0)).xx, last);
+    const int2 _e42 = to_vec2i(floor(place_k0_));
+    int2 texel_k0_ = clamp(_e42, (int(0)).xx, last);
     float depth_k0_ = shadow.Load(int3(texel_k0_, int(0))).x;
     bool blocks_k0_ = (depth_k0_ < centre.z);
     float2 found_k0_ = ((0.0).xx + (blocks_k0_ ? float2(depth_k0_, 1.0) : (0.0).xx));
     float2 value_5_ = (quad_vector + float2(2.0, -2.0));
     float2 place_k1_ = (value_4_ + (value_5_ * (2.0).xx));
-    int2 texel_k1_ = clamp(naga_f2i32(floor(place_k1_)), (int(0)).xx, last);
+    const int2 _e68 = to_vec2i(floor(place_k1_));
+    int2 texel_k1_ = clamp(_e68, (int(0)).xx, last);
     float depth_k1_ = shadow.Load(int3(texel_k1_, int(0))).x;
     bool blocks_k1_ = (depth_k1_ < centre.z);
     float2 found_k1_ = (found_k0_ + (blocks_k1_ ? float2(depth_k1_, 1.0) : (0.0).xx));
     float2 value_6_ = (quad_vector + float2(-2.0, 2.0));
     float2 place_k2_ = (value_4_ + (value_6_ * (2.0).xx));
-    int2 texel_k2_ = clamp(naga_f2i32(floor(place_k2_)), (int(0)).xx, last);
+    const int2 _e92 = to_vec2i(floor(place_k2_));
+    int2 texel_k2_ = clamp(_e92, (int(0)).xx, last);
     float depth_k2_ = shadow.Load(int3(texel_k2_, int(0))).x;
     bool blocks_k2_ = (depth_k2_ < centre.z);
     float2 found_k2_ = (found_k1_ + (blocks_k2_ ? float2(depth_k2_, 1.0) : (0.0).xx));
     float2 value_7_ = (quad_vector + (2.0).xx);
     float2 place_k3_ = (value_4_ + (value_7_ * (2.0).xx));
-    int2 texel_k3_ = clamp(naga_f2i32(floor(place_k3_)), (int(0)).xx, last);
+    const int2 _e115 = to_vec2i(floor(place_k3_));
+    int2 texel_k3_ = clamp(_e115, (int(0)).xx, last);
     float depth_k3_ = shadow.Load(int3(texel_k3_, int(0))).x;
     bool blocks_k3_ = (depth_k3_ < centre.z);
     float2 found_k3_ = (found_k2_ + (blocks_k3_ ? float2(depth_k3_, 1.0) : (0.0).xx));

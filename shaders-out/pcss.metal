@@ -4,10 +4,18 @@
 
 using metal::uint;
 
+
 metal::int2 naga_f2i32(metal::float2 value) {
     return static_cast<metal::int2>(metal::clamp(value, -2147483600.0, 2147483500.0));
 }
 
+metal::int2 to_vec2i(
+    metal::float2 x
+) {
+    metal::bool2 is_nan = (as_type<metal::uint2>(x) & metal::uint2(2147483647u)) > metal::uint2(2139095040u);
+    metal::int2 saturated = metal::select(naga_f2i32(x), metal::int2(2147483647), x >= metal::float2(2147483600.0));
+    return metal::select(saturated, metal::int2(0), is_nan);
+}
 
 struct pcssInput {
     metal::float3 coord [[user(loc0), center_perspective]];
@@ -36,25 +44,29 @@ fragment pcssOutput pcss(
     metal::float2 value_4_ = value_2_ * value_3_;
     metal::float2 place_k0_ = value_4_ + (value * metal::float2(2.0));
     metal::int2 last = as_type<metal::int2>(as_type<metal::uint2>(shadow_size) - as_type<metal::uint2>(metal::int2(1)));
-    metal::int2 texel_k0_ = metal::clamp(naga_f2i32(metal::floor(place_k0_)), metal::int2(0), last);
+    metal::int2 _e42 = to_vec2i(metal::floor(place_k0_));
+    metal::int2 texel_k0_ = metal::clamp(_e42, metal::int2(0), last);
     float depth_k0_ = shadow.read(metal::uint2(texel_k0_), 0);
     bool blocks_k0_ = depth_k0_ < centre.z;
     metal::float2 found_k0_ = metal::float2(0.0) + (blocks_k0_ ? metal::float2(depth_k0_, 1.0) : metal::float2(0.0));
     metal::float2 value_5_ = quad_vector + metal::float2(2.0, -2.0);
     metal::float2 place_k1_ = value_4_ + (value_5_ * metal::float2(2.0));
-    metal::int2 texel_k1_ = metal::clamp(naga_f2i32(metal::floor(place_k1_)), metal::int2(0), last);
+    metal::int2 _e68 = to_vec2i(metal::floor(place_k1_));
+    metal::int2 texel_k1_ = metal::clamp(_e68, metal::int2(0), last);
     float depth_k1_ = shadow.read(metal::uint2(texel_k1_), 0);
     bool blocks_k1_ = depth_k1_ < centre.z;
     metal::float2 found_k1_ = found_k0_ + (blocks_k1_ ? metal::float2(depth_k1_, 1.0) : metal::float2(0.0));
     metal::float2 value_6_ = quad_vector + metal::float2(-2.0, 2.0);
     metal::float2 place_k2_ = value_4_ + (value_6_ * metal::float2(2.0));
-    metal::int2 texel_k2_ = metal::clamp(naga_f2i32(metal::floor(place_k2_)), metal::int2(0), last);
+    metal::int2 _e92 = to_vec2i(metal::floor(place_k2_));
+    metal::int2 texel_k2_ = metal::clamp(_e92, metal::int2(0), last);
     float depth_k2_ = shadow.read(metal::uint2(texel_k2_), 0);
     bool blocks_k2_ = depth_k2_ < centre.z;
     metal::float2 found_k2_ = found_k1_ + (blocks_k2_ ? metal::float2(depth_k2_, 1.0) : metal::float2(0.0));
     metal::float2 value_7_ = quad_vector + metal::float2(2.0);
     metal::float2 place_k3_ = value_4_ + (value_7_ * metal::float2(2.0));
-    metal::int2 texel_k3_ = metal::clamp(naga_f2i32(metal::floor(place_k3_)), metal::int2(0), last);
+    metal::int2 _e115 = to_vec2i(metal::floor(place_k3_));
+    metal::int2 texel_k3_ = metal::clamp(_e115, metal::int2(0), last);
     float depth_k3_ = shadow.read(metal::uint2(texel_k3_), 0);
     bool blocks_k3_ = depth_k3_ < centre.z;
     metal::float2 found_k3_ = found_k2_ + (blocks_k3_ ? metal::float2(depth_k3_, 1.0) : metal::float2(0.0));

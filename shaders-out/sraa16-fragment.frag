@@ -720,7 +720,7 @@ void main() {
     uvec4 value_61 = floatBitsToUint(shaded_t0) & uvec4(2147483647u);
     float w_t0 = (max(max(max(value_61.x, value_61.y), value_61.z), value_61.w) < 2139095040u ? weights_s15_t0 : 0.0);
     vec4 result_t0 = vec4(0.0) + w_t0 * shaded_t0;
-    vec4 result_t0_2 = (w_t0 != 0.0 ? result_t0 : vec4(0.0));
+    vec4 result_t0_2 = mix(vec4(0.0), result_t0, bvec4(w_t0 != 0.0));
     vec4 shaded_t1 = texelFetch(sampler2D(color, unfiltered), texel_t1_2, 0);
     uvec4 value_62 = floatBitsToUint(shaded_t1) & uvec4(2147483647u);
     float w_t1 = (max(max(max(value_62.x, value_62.y), value_62.z), value_62.w) < 2139095040u ? weights_s15_t1 : 0.0);
@@ -769,5 +769,5 @@ void main() {
     vec4 result_t8 = result_t7_2 + w_t8 * shaded_t8;
     vec4 result_t8_2 = (w_t8 != 0.0 ? result_t8 : result_t7_2);
     float sum_t8 = sum_t7 + w_t8;
-    destination = (sum_t8 > 1e-30 ? result_t8_2 / sum_t8 : vec4(0.0));
+    destination = mix(vec4(0.0), result_t8_2 / sum_t8, bvec4(sum_t8 > 1e-30));
 }

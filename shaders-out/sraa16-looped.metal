@@ -40,8 +40,6 @@ kernel void sraa(
     int tap = {};
     float nearest_2_ = {};
     float d = {};
-    bool local = {};
-    bool local_1 = {};
     float shaded_depth = {};
     float chosen = {};
     float chosen_2_ = {};
@@ -91,8 +89,8 @@ kernel void sraa(
         if (metal::all(loop_bound_1 == uint2(0u))) { break; }
         loop_bound_1 -= uint2(loop_bound_1.y == 0u, 1u);
         if (!loop_init_1) {
-            int _e297 = sample_2_;
-            sample_2_ = as_type<int>(as_type<uint>(_e297) + as_type<uint>(1));
+            int _e291 = sample_2_;
+            sample_2_ = as_type<int>(as_type<uint>(_e291) + as_type<uint>(1));
         }
         loop_init_1 = false;
         int _e40 = sample_2_;
@@ -102,7 +100,7 @@ kernel void sraa(
         }
         {
             int _e44 = sample_2_;
-            metal::int2 texel = table.inner[_e44];
+            metal::int2 texel = table.inner[metal::min(unsigned(_e44), 15u)];
             metal::float2 place_at = metal::float2(0.0) + (static_cast<metal::float2>(texel) / metal::float2(16.0));
             int _e54 = sample_2_;
             metal::float4 _e56 = depth.read(metal::uint2(pixel), _e54, 0);
@@ -125,8 +123,8 @@ kernel void sraa(
                 if (metal::all(loop_bound_2 == uint2(0u))) { break; }
                 loop_bound_2 -= uint2(loop_bound_2.y == 0u, 1u);
                 if (!loop_init_2) {
-                    int _e181 = tap;
-                    tap = as_type<int>(as_type<uint>(_e181) + as_type<uint>(1));
+                    int _e175 = tap;
+                    tap = as_type<int>(as_type<uint>(_e175) + as_type<uint>(1));
                 }
                 loop_init_2 = false;
                 int _e86 = tap;
@@ -145,34 +143,22 @@ kernel void sraa(
                     if (holds_2_) {
                         metal::bool2 holds_3_ = metal::int2(0) == pixel_2_;
                         d = float {};
-                        if (holds) {
-                            if (holds_3_.x) {
-                                local_1 = holds_3_.y;
-                            } else {
-                                local_1 = false;
-                            }
-                            bool _e131 = local_1;
-                            local = _e131;
-                        } else {
-                            local = false;
-                        }
-                        bool _e133 = local;
-                        if (_e133) {
+                        if (holds & (holds_3_.x & holds_3_.y)) {
                             d = 0.0;
                         } else {
                             metal::int2 texel_2_ = as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(pixel_2_));
                             metal::int2 texel_3_ = metal::clamp(texel_2_, metal::int2(0), last);
-                            metal::float4 _e142 = depth.read(metal::uint2(texel_3_), 16, 0);
-                            float depth_3_ = _e142.x;
+                            metal::float4 _e136 = depth.read(metal::uint2(texel_3_), 16, 0);
+                            float depth_3_ = _e136.x;
                             shaded_depth = 1000000000000000000000000000000.0;
                             if (metal::abs(depth_3_) < 1000000000000000000000000000000.0) {
                                 shaded_depth = depth_3_;
                             }
-                            metal::float4 _e152 = normal.read(metal::uint2(texel_3_), 16, 0);
-                            metal::float3 shaded_normal = _e152.xyz;
-                            float _e154 = seen_depth;
-                            float _e155 = shaded_depth;
-                            float step_value = metal::abs(_e154 - _e155);
+                            metal::float4 _e146 = normal.read(metal::uint2(texel_3_), 16, 0);
+                            metal::float3 shaded_normal = _e146.xyz;
+                            float _e148 = seen_depth;
+                            float _e149 = shaded_depth;
+                            float step_value = metal::abs(_e148 - _e149);
                             chosen = 16.0;
                             if (step_value < 16.0) {
                                 chosen = step_value;
@@ -183,21 +169,21 @@ kernel void sraa(
                             if (value < 16.0) {
                                 chosen_2_ = value;
                             }
-                            float _e170 = chosen;
-                            float _e171 = chosen_2_;
-                            float larger = metal::max(_e170, _e171);
+                            float _e164 = chosen;
+                            float _e165 = chosen_2_;
+                            float larger = metal::max(_e164, _e165);
                             d = larger;
                         }
-                        int _e173 = tap;
-                        float _e175 = d;
-                        distances.inner[_e173] = _e175;
-                        float _e176 = nearest;
-                        float _e177 = d;
-                        float nearest_3_ = metal::min(_e176, _e177);
+                        int _e167 = tap;
+                        float _e169 = d;
+                        distances.inner[metal::min(unsigned(_e167), 8u)] = _e169;
+                        float _e170 = nearest;
+                        float _e171 = d;
+                        float nearest_3_ = metal::min(_e170, _e171);
                         nearest_2_ = nearest_3_;
                     }
-                    float _e179 = nearest_2_;
-                    nearest = _e179;
+                    float _e173 = nearest_2_;
+                    nearest = _e173;
                 }
             }
             sum = 0.0;
@@ -209,41 +195,41 @@ kernel void sraa(
                 if (metal::all(loop_bound_3 == uint2(0u))) { break; }
                 loop_bound_3 -= uint2(loop_bound_3.y == 0u, 1u);
                 if (!loop_init_3) {
-                    int _e246 = tap_2_;
-                    tap_2_ = as_type<int>(as_type<uint>(_e246) + as_type<uint>(1));
+                    int _e240 = tap_2_;
+                    tap_2_ = as_type<int>(as_type<uint>(_e240) + as_type<uint>(1));
                 }
                 loop_init_3 = false;
-                int _e198 = tap_2_;
-                if (_e198 < 9) {
+                int _e192 = tap_2_;
+                if (_e192 < 9) {
                 } else {
                     break;
                 }
                 {
-                    int _e201 = tap_2_;
-                    int _e206 = tap_2_;
-                    metal::int2 pixel_3_ = metal::int2(as_type<int>(as_type<uint>(naga_mod(_e201, 3)) - as_type<uint>(1)), as_type<int>(as_type<uint>(naga_div(_e206, 3)) - as_type<uint>(1)));
+                    int _e195 = tap_2_;
+                    int _e200 = tap_2_;
+                    metal::int2 pixel_3_ = metal::int2(as_type<int>(as_type<uint>(naga_mod(_e195, 3)) - as_type<uint>(1)), as_type<int>(as_type<uint>(naga_div(_e200, 3)) - as_type<uint>(1)));
                     metal::float2 away_2_ = static_cast<metal::float2>(pixel_3_) - place_at;
                     float value_2_ = metal::max(1.0 - metal::abs(away_2_.x), 0.0) * metal::max(1.0 - metal::abs(away_2_.y), 0.0);
-                    float _e227 = sum;
-                    sum_2_ = _e227;
+                    float _e221 = sum;
+                    sum_2_ = _e221;
                     if (value_2_ > 0.0) {
-                        int _e231 = tap_2_;
-                        float value_3_ = distances.inner[_e231];
-                        float _e234 = nearest;
-                        float nearness = metal::exp2(-721.34753 * (value_3_ - _e234));
+                        int _e225 = tap_2_;
+                        float value_3_ = distances.inner[metal::min(unsigned(_e225), 8u)];
+                        float _e228 = nearest;
+                        float nearness = metal::exp2(-721.34753 * (value_3_ - _e228));
                         float w = value_2_ * nearness;
-                        int _e240 = tap_2_;
-                        tap_weights.inner[_e240] = w;
-                        float _e242 = sum;
-                        float sum_3_ = _e242 + w;
+                        int _e234 = tap_2_;
+                        tap_weights.inner[metal::min(unsigned(_e234), 8u)] = w;
+                        float _e236 = sum;
+                        float sum_3_ = _e236 + w;
                         sum_2_ = sum_3_;
                     }
-                    float _e244 = sum_2_;
-                    sum = _e244;
+                    float _e238 = sum_2_;
+                    sum = _e238;
                 }
             }
-            float _e248 = sum;
-            float scale = share / _e248;
+            float _e242 = sum;
+            float scale = share / _e242;
             tap_3_ = 0;
             uint2 loop_bound_4 = uint2(4294967295u);
             bool loop_init_4 = true;
@@ -251,29 +237,29 @@ kernel void sraa(
                 if (metal::all(loop_bound_4 == uint2(0u))) { break; }
                 loop_bound_4 -= uint2(loop_bound_4.y == 0u, 1u);
                 if (!loop_init_4) {
-                    int _e294 = tap_3_;
-                    tap_3_ = as_type<int>(as_type<uint>(_e294) + as_type<uint>(1));
+                    int _e288 = tap_3_;
+                    tap_3_ = as_type<int>(as_type<uint>(_e288) + as_type<uint>(1));
                 }
                 loop_init_4 = false;
-                int _e252 = tap_3_;
-                if (_e252 < 9) {
+                int _e246 = tap_3_;
+                if (_e246 < 9) {
                 } else {
                     break;
                 }
                 {
-                    int _e255 = tap_3_;
-                    int _e260 = tap_3_;
-                    metal::int2 pixel_4_ = metal::int2(as_type<int>(as_type<uint>(naga_mod(_e255, 3)) - as_type<uint>(1)), as_type<int>(as_type<uint>(naga_div(_e260, 3)) - as_type<uint>(1)));
+                    int _e249 = tap_3_;
+                    int _e254 = tap_3_;
+                    metal::int2 pixel_4_ = metal::int2(as_type<int>(as_type<uint>(naga_mod(_e249, 3)) - as_type<uint>(1)), as_type<int>(as_type<uint>(naga_div(_e254, 3)) - as_type<uint>(1)));
                     metal::float2 away_3_ = static_cast<metal::float2>(pixel_4_) - place_at;
                     bool holds_4_ = (metal::max(1.0 - metal::abs(away_3_.x), 0.0) * metal::max(1.0 - metal::abs(away_3_.y), 0.0)) > 0.0;
                     if (holds_4_) {
-                        int _e283 = tap_3_;
-                        float value_4_ = tap_weights.inner[_e283];
-                        int _e286 = tap_3_;
-                        float value_5_ = weights.inner[_e286];
+                        int _e277 = tap_3_;
+                        float value_4_ = tap_weights.inner[metal::min(unsigned(_e277), 8u)];
+                        int _e280 = tap_3_;
+                        float value_5_ = weights.inner[metal::min(unsigned(_e280), 8u)];
                         float weights_2_ = value_5_ + (value_4_ * scale);
-                        int _e291 = tap_3_;
-                        weights.inner[_e291] = weights_2_;
+                        int _e285 = tap_3_;
+                        weights.inner[metal::min(unsigned(_e285), 8u)] = weights_2_;
                     }
                 }
             }
@@ -285,53 +271,53 @@ kernel void sraa(
         if (metal::all(loop_bound_5 == uint2(0u))) { break; }
         loop_bound_5 -= uint2(loop_bound_5.y == 0u, 1u);
         if (!loop_init_5) {
-            int _e359 = tap_4_;
-            tap_4_ = as_type<int>(as_type<uint>(_e359) + as_type<uint>(1));
+            int _e353 = tap_4_;
+            tap_4_ = as_type<int>(as_type<uint>(_e353) + as_type<uint>(1));
         }
         loop_init_5 = false;
-        int _e306 = tap_4_;
-        if (_e306 < 9) {
+        int _e300 = tap_4_;
+        if (_e300 < 9) {
         } else {
             break;
         }
         {
-            int _e309 = tap_4_;
-            int _e314 = tap_4_;
-            metal::int2 pixel_5_ = metal::int2(as_type<int>(as_type<uint>(naga_mod(_e309, 3)) - as_type<uint>(1)), as_type<int>(as_type<uint>(naga_div(_e314, 3)) - as_type<uint>(1)));
+            int _e303 = tap_4_;
+            int _e308 = tap_4_;
+            metal::int2 pixel_5_ = metal::int2(as_type<int>(as_type<uint>(naga_mod(_e303, 3)) - as_type<uint>(1)), as_type<int>(as_type<uint>(naga_div(_e308, 3)) - as_type<uint>(1)));
             metal::int2 pixel_6_ = as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(pixel_5_));
             metal::int2 texel_4_ = metal::clamp(pixel_6_, metal::int2(0), last);
             metal::float4 shaded = color.read(metal::uint2(texel_4_), 0);
             metal::uint4 value_6_ = as_type<metal::uint4>(shaded) & metal::uint4(2147483647u);
             w_2_ = 0.0;
             if (metal::max(metal::max(metal::max(value_6_.x, value_6_.y), value_6_.z), value_6_.w) < 2139095040u) {
-                int _e342 = tap_4_;
-                float value_7_ = weights.inner[_e342];
+                int _e336 = tap_4_;
+                float value_7_ = weights.inner[metal::min(unsigned(_e336), 8u)];
                 w_2_ = value_7_;
             }
-            metal::float4 _e345 = result;
-            result_2_ = _e345;
-            float _e347 = w_2_;
-            if (_e347 != 0.0) {
-                metal::float4 _e350 = result;
-                float _e351 = w_2_;
-                metal::float4 result_3_ = _e350 + (_e351 * shaded);
+            metal::float4 _e339 = result;
+            result_2_ = _e339;
+            float _e341 = w_2_;
+            if (_e341 != 0.0) {
+                metal::float4 _e344 = result;
+                float _e345 = w_2_;
+                metal::float4 result_3_ = _e344 + (_e345 * shaded);
                 result_2_ = result_3_;
             }
-            float _e354 = sum_4_;
-            float _e355 = w_2_;
-            float sum_5_ = _e354 + _e355;
-            metal::float4 _e357 = result_2_;
-            result = _e357;
+            float _e348 = sum_4_;
+            float _e349 = w_2_;
+            float sum_5_ = _e348 + _e349;
+            metal::float4 _e351 = result_2_;
+            result = _e351;
             sum_4_ = sum_5_;
         }
     }
-    float _e364 = sum_4_;
-    if (_e364 > 0.000000000000000000000000000001) {
-        metal::float4 _e367 = result;
-        float _e368 = sum_4_;
-        chosen_3_ = _e367 / metal::float4(_e368);
+    float _e358 = sum_4_;
+    if (_e358 > 0.000000000000000000000000000001) {
+        metal::float4 _e361 = result;
+        float _e362 = sum_4_;
+        chosen_3_ = _e361 / metal::float4(_e362);
     }
-    metal::float4 _e372 = chosen_3_;
-    destination.write(_e372, metal::uint2(pixel));
+    metal::float4 _e366 = chosen_3_;
+    destination.write(_e366, metal::uint2(pixel));
     return;
 }

@@ -241,7 +241,7 @@ void main() {
     uvec4 value_17 = floatBitsToUint(shaded_t0) & uvec4(2147483647u);
     float w_t0 = (max(max(max(value_17.x, value_17.y), value_17.z), value_17.w) < 2139095040u ? weights_s0_t0 : 0.0);
     vec4 result_t0 = vec4(0.0) + w_t0 * shaded_t0;
-    vec4 result_t0_2 = (w_t0 != 0.0 ? result_t0 : vec4(0.0));
+    vec4 result_t0_2 = mix(vec4(0.0), result_t0, bvec4(w_t0 != 0.0));
     vec4 shaded_t1 = texelFetch(sampler2D(color, unfiltered), texel_t1_2, 0);
     uvec4 value_18 = floatBitsToUint(shaded_t1) & uvec4(2147483647u);
     float w_t1 = (max(max(max(value_18.x, value_18.y), value_18.z), value_18.w) < 2139095040u ? weights_s1_t1 : 0.0);
@@ -290,5 +290,5 @@ void main() {
     vec4 result_t8 = result_t7_2 + w_t8 * shaded_t8;
     vec4 result_t8_2 = (w_t8 != 0.0 ? result_t8 : result_t7_2);
     float sum_t8 = sum_t7 + w_t8;
-    destination = (sum_t8 > 1e-30 ? result_t8_2 / sum_t8 : vec4(0.0));
+    destination = mix(vec4(0.0), result_t8_2 / sum_t8, bvec4(sum_t8 > 1e-30));
 }

@@ -50,8 +50,6 @@ void sraa(uint3 id : SV_DispatchThreadID)
     int tap = (int)0;
     float nearest_2_ = (float)0;
     float d = (float)0;
-    bool local = (bool)0;
-    bool local_1 = (bool)0;
     float shaded_depth = (float)0;
     float chosen = (float)0;
     float chosen_2_ = (float)0;
@@ -102,8 +100,8 @@ void sraa(uint3 id : SV_DispatchThreadID)
         if (all(loop_bound_1 == uint2(0u, 0u))) { break; }
         loop_bound_1 -= uint2(loop_bound_1.y == 0u, 1u);
         if (!loop_init_1) {
-            int _e297 = sample_2_;
-            sample_2_ = asint(asuint(_e297) + asuint(int(1)));
+            int _e291 = sample_2_;
+            sample_2_ = asint(asuint(_e291) + asuint(int(1)));
         }
         loop_init_1 = false;
         int _e40 = sample_2_;
@@ -136,8 +134,8 @@ void sraa(uint3 id : SV_DispatchThreadID)
                 if (all(loop_bound_2 == uint2(0u, 0u))) { break; }
                 loop_bound_2 -= uint2(loop_bound_2.y == 0u, 1u);
                 if (!loop_init_2) {
-                    int _e181 = tap;
-                    tap = asint(asuint(_e181) + asuint(int(1)));
+                    int _e175 = tap;
+                    tap = asint(asuint(_e175) + asuint(int(1)));
                 }
                 loop_init_2 = false;
                 int _e86 = tap;
@@ -156,34 +154,22 @@ void sraa(uint3 id : SV_DispatchThreadID)
                     if (holds_2_) {
                         bool2 holds_3_ = ((int(0)).xx == pixel_2_);
                         d = ZeroValuefloat();
-                        if (holds) {
-                            if (holds_3_.x) {
-                                local_1 = holds_3_.y;
-                            } else {
-                                local_1 = false;
-                            }
-                            bool _e131 = local_1;
-                            local = _e131;
-                        } else {
-                            local = false;
-                        }
-                        bool _e133 = local;
-                        if (_e133) {
+                        if ((holds & (holds_3_.x & holds_3_.y))) {
                             d = 0.0;
                         } else {
                             int2 texel_2_ = asint(asuint(pixel) + asuint(pixel_2_));
                             int2 texel_3_ = clamp(texel_2_, (int(0)).xx, last);
-                            float4 _e142 = depth.Load(int4(texel_3_, int(4), int(0)));
-                            float depth_3_ = _e142.x;
+                            float4 _e136 = depth.Load(int4(texel_3_, int(4), int(0)));
+                            float depth_3_ = _e136.x;
                             shaded_depth = 1e30;
                             if ((abs(depth_3_) < 1e30)) {
                                 shaded_depth = depth_3_;
                             }
-                            float4 _e152 = normal.Load(int4(texel_3_, int(4), int(0)));
-                            float3 shaded_normal = _e152.xyz;
-                            float _e154 = seen_depth;
-                            float _e155 = shaded_depth;
-                            float step_value = abs((_e154 - _e155));
+                            float4 _e146 = normal.Load(int4(texel_3_, int(4), int(0)));
+                            float3 shaded_normal = _e146.xyz;
+                            float _e148 = seen_depth;
+                            float _e149 = shaded_depth;
+                            float step_value = abs((_e148 - _e149));
                             chosen = 16.0;
                             if ((step_value < 16.0)) {
                                 chosen = step_value;
@@ -194,21 +180,21 @@ void sraa(uint3 id : SV_DispatchThreadID)
                             if ((value < 16.0)) {
                                 chosen_2_ = value;
                             }
-                            float _e170 = chosen;
-                            float _e171 = chosen_2_;
-                            float larger = max(_e170, _e171);
+                            float _e164 = chosen;
+                            float _e165 = chosen_2_;
+                            float larger = max(_e164, _e165);
                             d = larger;
                         }
-                        int _e173 = tap;
-                        float _e175 = d;
-                        distances[min(uint(_e173), 8u)] = _e175;
-                        float _e176 = nearest;
-                        float _e177 = d;
-                        float nearest_3_ = min(_e176, _e177);
+                        int _e167 = tap;
+                        float _e169 = d;
+                        distances[min(uint(_e167), 8u)] = _e169;
+                        float _e170 = nearest;
+                        float _e171 = d;
+                        float nearest_3_ = min(_e170, _e171);
                         nearest_2_ = nearest_3_;
                     }
-                    float _e179 = nearest_2_;
-                    nearest = _e179;
+                    float _e173 = nearest_2_;
+                    nearest = _e173;
                 }
             }
             sum = 0.0;
@@ -220,41 +206,41 @@ void sraa(uint3 id : SV_DispatchThreadID)
                 if (all(loop_bound_3 == uint2(0u, 0u))) { break; }
                 loop_bound_3 -= uint2(loop_bound_3.y == 0u, 1u);
                 if (!loop_init_3) {
-                    int _e246 = tap_2_;
-                    tap_2_ = asint(asuint(_e246) + asuint(int(1)));
+                    int _e240 = tap_2_;
+                    tap_2_ = asint(asuint(_e240) + asuint(int(1)));
                 }
                 loop_init_3 = false;
-                int _e198 = tap_2_;
-                if ((_e198 < int(9))) {
+                int _e192 = tap_2_;
+                if ((_e192 < int(9))) {
                 } else {
                     break;
                 }
                 {
-                    int _e201 = tap_2_;
-                    int _e206 = tap_2_;
-                    int2 pixel_3_ = int2(asint(asuint(naga_mod(_e201, int(3))) - asuint(int(1))), asint(asuint(naga_div(_e206, int(3))) - asuint(int(1))));
+                    int _e195 = tap_2_;
+                    int _e200 = tap_2_;
+                    int2 pixel_3_ = int2(asint(asuint(naga_mod(_e195, int(3))) - asuint(int(1))), asint(asuint(naga_div(_e200, int(3))) - asuint(int(1))));
                     float2 away_2_ = (float2(pixel_3_) - place_at);
                     float value_2_ = (max((1.0 - abs(away_2_.x)), 0.0) * max((1.0 - abs(away_2_.y)), 0.0));
-                    float _e227 = sum;
-                    sum_2_ = _e227;
+                    float _e221 = sum;
+                    sum_2_ = _e221;
                     if ((value_2_ > 0.0)) {
-                        int _e231 = tap_2_;
-                        float value_3_ = distances[min(uint(_e231), 8u)];
-                        float _e234 = nearest;
-                        float nearness = exp2((-721.34753 * (value_3_ - _e234)));
+                        int _e225 = tap_2_;
+                        float value_3_ = distances[min(uint(_e225), 8u)];
+                        float _e228 = nearest;
+                        float nearness = exp2((-721.34753 * (value_3_ - _e228)));
                         float w = (value_2_ * nearness);
-                        int _e240 = tap_2_;
-                        tap_weights[min(uint(_e240), 8u)] = w;
-                        float _e242 = sum;
-                        float sum_3_ = (_e242 + w);
+                        int _e234 = tap_2_;
+                        tap_weights[min(uint(_e234), 8u)] = w;
+                        float _e236 = sum;
+                        float sum_3_ = (_e236 + w);
                         sum_2_ = sum_3_;
                     }
-                    float _e244 = sum_2_;
-                    sum = _e244;
+                    float _e238 = sum_2_;
+                    sum = _e238;
                 }
             }
-            float _e248 = sum;
-            float scale = (share / _e248);
+            float _e242 = sum;
+            float scale = (share / _e242);
             tap_3_ = int(0);
             uint2 loop_bound_4 = uint2(4294967295u, 4294967295u);
             bool loop_init_4 = true;
@@ -262,29 +248,29 @@ void sraa(uint3 id : SV_DispatchThreadID)
                 if (all(loop_bound_4 == uint2(0u, 0u))) { break; }
                 loop_bound_4 -= uint2(loop_bound_4.y == 0u, 1u);
                 if (!loop_init_4) {
-                    int _e294 = tap_3_;
-                    tap_3_ = asint(asuint(_e294) + asuint(int(1)));
+                    int _e288 = tap_3_;
+                    tap_3_ = asint(asuint(_e288) + asuint(int(1)));
                 }
                 loop_init_4 = false;
-                int _e252 = tap_3_;
-                if ((_e252 < int(9))) {
+                int _e246 = tap_3_;
+                if ((_e246 < int(9))) {
                 } else {
                     break;
                 }
                 {
-                    int _e255 = tap_3_;
-                    int _e260 = tap_3_;
-                    int2 pixel_4_ = int2(asint(asuint(naga_mod(_e255, int(3))) - asuint(int(1))), asint(asuint(naga_div(_e260, int(3))) - asuint(int(1))));
+                    int _e249 = tap_3_;
+                    int _e254 = tap_3_;
+                    int2 pixel_4_ = int2(asint(asuint(naga_mod(_e249, int(3))) - asuint(int(1))), asint(asuint(naga_div(_e254, int(3))) - asuint(int(1))));
                     float2 away_3_ = (float2(pixel_4_) - place_at);
                     bool holds_4_ = ((max((1.0 - abs(away_3_.x)), 0.0) * max((1.0 - abs(away_3_.y)), 0.0)) > 0.0);
                     if (holds_4_) {
-                        int _e283 = tap_3_;
-                        float value_4_ = tap_weights[min(uint(_e283), 8u)];
-                        int _e286 = tap_3_;
-                        float value_5_ = weights[min(uint(_e286), 8u)];
+                        int _e277 = tap_3_;
+                        float value_4_ = tap_weights[min(uint(_e277), 8u)];
+                        int _e280 = tap_3_;
+                        float value_5_ = weights[min(uint(_e280), 8u)];
                         float weights_2_ = (value_5_ + (value_4_ * scale));
-                        int _e291 = tap_3_;
-                        weights[min(uint(_e291), 8u)] = weights_2_;
+                        int _e285 = tap_3_;
+                        weights[min(uint(_e285), 8u)] = weights_2_;
                     }
                 }
             }
@@ -296,53 +282,53 @@ void sraa(uint3 id : SV_DispatchThreadID)
         if (all(loop_bound_5 == uint2(0u, 0u))) { break; }
         loop_bound_5 -= uint2(loop_bound_5.y == 0u, 1u);
         if (!loop_init_5) {
-            int _e359 = tap_4_;
-            tap_4_ = asint(asuint(_e359) + asuint(int(1)));
+            int _e353 = tap_4_;
+            tap_4_ = asint(asuint(_e353) + asuint(int(1)));
         }
         loop_init_5 = false;
-        int _e306 = tap_4_;
-        if ((_e306 < int(9))) {
+        int _e300 = tap_4_;
+        if ((_e300 < int(9))) {
         } else {
             break;
         }
         {
-            int _e309 = tap_4_;
-            int _e314 = tap_4_;
-            int2 pixel_5_ = int2(asint(asuint(naga_mod(_e309, int(3))) - asuint(int(1))), asint(asuint(naga_div(_e314, int(3))) - asuint(int(1))));
+            int _e303 = tap_4_;
+            int _e308 = tap_4_;
+            int2 pixel_5_ = int2(asint(asuint(naga_mod(_e303, int(3))) - asuint(int(1))), asint(asuint(naga_div(_e308, int(3))) - asuint(int(1))));
             int2 pixel_6_ = asint(asuint(pixel) + asuint(pixel_5_));
             int2 texel_4_ = clamp(pixel_6_, (int(0)).xx, last);
             float4 shaded = color.Load(int3(texel_4_, int(0)));
             uint4 value_6_ = (asuint(shaded) & (2147483647u).xxxx);
             w_2_ = 0.0;
             if ((max(max(max(value_6_.x, value_6_.y), value_6_.z), value_6_.w) < 2139095040u)) {
-                int _e342 = tap_4_;
-                float value_7_ = weights[min(uint(_e342), 8u)];
+                int _e336 = tap_4_;
+                float value_7_ = weights[min(uint(_e336), 8u)];
                 w_2_ = value_7_;
             }
-            float4 _e345 = result;
-            result_2_ = _e345;
-            float _e347 = w_2_;
-            if ((_e347 != 0.0)) {
-                float4 _e350 = result;
-                float _e351 = w_2_;
-                float4 result_3_ = (_e350 + (_e351 * shaded));
+            float4 _e339 = result;
+            result_2_ = _e339;
+            float _e341 = w_2_;
+            if ((_e341 != 0.0)) {
+                float4 _e344 = result;
+                float _e345 = w_2_;
+                float4 result_3_ = (_e344 + (_e345 * shaded));
                 result_2_ = result_3_;
             }
-            float _e354 = sum_4_;
-            float _e355 = w_2_;
-            float sum_5_ = (_e354 + _e355);
-            float4 _e357 = result_2_;
-            result = _e357;
+            float _e348 = sum_4_;
+            float _e349 = w_2_;
+            float sum_5_ = (_e348 + _e349);
+            float4 _e351 = result_2_;
+            result = _e351;
             sum_4_ = sum_5_;
         }
     }
-    float _e364 = sum_4_;
-    if ((_e364 > 1e-30)) {
-        float4 _e367 = result;
-        float _e368 = sum_4_;
-        chosen_3_ = (_e367 / (_e368).xxxx);
+    float _e358 = sum_4_;
+    if ((_e358 > 1e-30)) {
+        float4 _e361 = result;
+        float _e362 = sum_4_;
+        chosen_3_ = (_e361 / (_e362).xxxx);
     }
-    float4 _e372 = chosen_3_;
-    destination[pixel] = _e372;
+    float4 _e366 = chosen_3_;
+    destination[pixel] = _e366;
     return;
 }

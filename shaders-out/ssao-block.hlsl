@@ -6,6 +6,13 @@ int2 naga_f2i32(float2 value) {
     return int2(clamp(value, -2147483600.0, 2147483500.0));
 }
 
+int2 to_vec2i(float2 x)
+{
+    bool2 is_nan = ((asuint(x) & (2147483647u).xx) > (2139095040u).xx);
+    int2 saturated = ((x >= (2147483600.0).xx) ? (int(2147483647)).xx : naga_f2i32(x));
+    return (is_nan ? (int(0)).xx : saturated);
+}
+
 uint2 NagaRWDimensions2D(RWTexture2D<float4> tex)
 {
     uint4 ret;
@@ -61,10 +68,14 @@ void quad_ssao(uint3 id : SV_DispatchThreadID)
     float place_reach_l1_ = min((0.5 / value_2_), 48.0);
     float place_reach_l2_ = min((0.5 / value_3_), 48.0);
     float place_reach_l3_ = min((0.5 / value_4_), 48.0);
-    int2 tap_k0_l0_ = asint(asuint(pixel) + asuint(naga_f2i32(floor(((float2(0.03125, 0.0) * place_reach_l0_) + (0.5).xx)))));
-    int2 tap_k0_l1_ = asint(asuint(texel) + asuint(naga_f2i32(floor(((float2(-0.06912833, 0.06332722) * place_reach_l1_) + (0.5).xx)))));
-    int2 tap_k0_l2_ = asint(asuint(texel_2_) + asuint(naga_f2i32(floor(((float2(0.013660241, -0.15565173) * place_reach_l2_) + (0.5).xx)))));
-    int2 tap_k0_l3_ = asint(asuint(texel_3_) + asuint(naga_f2i32(floor(((float2(0.13309608, 0.17360009) * place_reach_l3_) + (0.5).xx)))));
+    const int2 _e134 = to_vec2i(floor(((float2(0.03125, 0.0) * place_reach_l0_) + (0.5).xx)));
+    int2 tap_k0_l0_ = asint(asuint(pixel) + asuint(_e134));
+    const int2 _e144 = to_vec2i(floor(((float2(-0.06912833, 0.06332722) * place_reach_l1_) + (0.5).xx)));
+    int2 tap_k0_l1_ = asint(asuint(texel) + asuint(_e144));
+    const int2 _e154 = to_vec2i(floor(((float2(0.013660241, -0.15565173) * place_reach_l2_) + (0.5).xx)));
+    int2 tap_k0_l2_ = asint(asuint(texel_2_) + asuint(_e154));
+    const int2 _e164 = to_vec2i(floor(((float2(0.13309608, 0.17360009) * place_reach_l3_) + (0.5).xx)));
+    int2 tap_k0_l3_ = asint(asuint(texel_3_) + asuint(_e164));
     int2 texel_k0_l0_ = clamp(tap_k0_l0_, (int(0)).xx, last);
     int2 texel_k0_l1_ = clamp(tap_k0_l1_, (int(0)).xx, last);
     int2 texel_k0_l2_ = clamp(tap_k0_l2_, (int(0)).xx, last);
@@ -101,10 +112,14 @@ void quad_ssao(uint3 id : SV_DispatchThreadID)
     float own_k0_l1_ = (0.0 + (max((cosine_k0_l1_ - 0.05), 0.0) * near_k0_l1_));
     float own_k0_l2_ = (0.0 + (max((cosine_k0_l2_ - 0.05), 0.0) * near_k0_l2_));
     float own_k0_l3_ = (0.0 + (max((cosine_k0_l3_ - 0.05), 0.0) * near_k0_l3_));
-    int2 tap_k1_l0_ = asint(asuint(pixel) + asuint(naga_f2i32(floor(((float2(-0.2769507, -0.048988573) * place_reach_l0_) + (0.5).xx)))));
-    int2 tap_k1_l1_ = asint(asuint(texel) + asuint(naga_f2i32(floor(((float2(0.29004085, -0.18450032) * place_reach_l1_) + (0.5).xx)))));
-    int2 tap_k1_l2_ = asint(asuint(texel_2_) + asuint(naga_f2i32(floor(((float2(-0.10546385, 0.39232185) * place_reach_l2_) + (0.5).xx)))));
-    int2 tap_k1_l3_ = asint(asuint(texel_3_) + asuint(naga_f2i32(floor(((float2(-0.21605052, -0.41599125) * place_reach_l3_) + (0.5).xx)))));
+    const int2 _e326 = to_vec2i(floor(((float2(-0.2769507, -0.048988573) * place_reach_l0_) + (0.5).xx)));
+    int2 tap_k1_l0_ = asint(asuint(pixel) + asuint(_e326));
+    const int2 _e336 = to_vec2i(floor(((float2(0.29004085, -0.18450032) * place_reach_l1_) + (0.5).xx)));
+    int2 tap_k1_l1_ = asint(asuint(texel) + asuint(_e336));
+    const int2 _e346 = to_vec2i(floor(((float2(-0.10546385, 0.39232185) * place_reach_l2_) + (0.5).xx)));
+    int2 tap_k1_l2_ = asint(asuint(texel_2_) + asuint(_e346));
+    const int2 _e356 = to_vec2i(floor(((float2(-0.21605052, -0.41599125) * place_reach_l3_) + (0.5).xx)));
+    int2 tap_k1_l3_ = asint(asuint(texel_3_) + asuint(_e356));
     int2 texel_k1_l0_ = clamp(tap_k1_l0_, (int(0)).xx, last);
     int2 texel_k1_l1_ = clamp(tap_k1_l1_, (int(0)).xx, last);
     int2 texel_k1_l2_ = clamp(tap_k1_l2_, (int(0)).xx, last);
@@ -141,10 +156,14 @@ void quad_ssao(uint3 id : SV_DispatchThreadID)
     float own_k1_l1_ = (own_k0_l1_ + (max((cosine_k1_l1_ - 0.05), 0.0) * near_k1_l1_));
     float own_k1_l2_ = (own_k0_l2_ + (max((cosine_k1_l2_ - 0.05), 0.0) * near_k1_l2_));
     float own_k1_l3_ = (own_k0_l3_ + (max((cosine_k1_l3_ - 0.05), 0.0) * near_k1_l3_));
-    int2 tap_k2_l0_ = asint(asuint(pixel) + asuint(naga_f2i32(floor(((float2(0.49901456, 0.18223892) * place_reach_l0_) + (0.5).xx)))));
-    int2 tap_k2_l1_ = asint(asuint(texel) + asuint(naga_f2i32(floor(((float2(-0.54883003, 0.22654943) * place_reach_l1_) + (0.5).xx)))));
-    int2 tap_k2_l2_ = asint(asuint(texel_2_) + asuint(naga_f2i32(floor(((float2(0.27814868, -0.5943882) * place_reach_l2_) + (0.5).xx)))));
-    int2 tap_k2_l3_ = asint(asuint(texel_3_) + asuint(naga_f2i32(floor(((float2(0.21511047, 0.6858054) * place_reach_l3_) + (0.5).xx)))));
+    const int2 _e514 = to_vec2i(floor(((float2(0.49901456, 0.18223892) * place_reach_l0_) + (0.5).xx)));
+    int2 tap_k2_l0_ = asint(asuint(pixel) + asuint(_e514));
+    const int2 _e524 = to_vec2i(floor(((float2(-0.54883003, 0.22654943) * place_reach_l1_) + (0.5).xx)));
+    int2 tap_k2_l1_ = asint(asuint(texel) + asuint(_e524));
+    const int2 _e534 = to_vec2i(floor(((float2(0.27814868, -0.5943882) * place_reach_l2_) + (0.5).xx)));
+    int2 tap_k2_l2_ = asint(asuint(texel_2_) + asuint(_e534));
+    const int2 _e544 = to_vec2i(floor(((float2(0.21511047, 0.6858054) * place_reach_l3_) + (0.5).xx)));
+    int2 tap_k2_l3_ = asint(asuint(texel_3_) + asuint(_e544));
     int2 texel_k2_l0_ = clamp(tap_k2_l0_, (int(0)).xx, last);
     int2 texel_k2_l1_ = clamp(tap_k2_l1_, (int(0)).xx, last);
     int2 texel_k2_l2_ = clamp(tap_k2_l2_, (int(0)).xx, last);
@@ -181,10 +200,14 @@ void quad_ssao(uint3 id : SV_DispatchThreadID)
     float own_k2_l1_ = (own_k1_l1_ + (max((cosine_k2_l1_ - 0.05), 0.0) * near_k2_l1_));
     float own_k2_l2_ = (own_k1_l2_ + (max((cosine_k2_l2_ - 0.05), 0.0) * near_k2_l2_));
     float own_k2_l3_ = (own_k1_l3_ + (max((cosine_k2_l3_ - 0.05), 0.0) * near_k2_l3_));
-    int2 tap_k3_l0_ = asint(asuint(pixel) + asuint(naga_f2i32(floor(((float2(-0.675947, -0.3917233) * place_reach_l0_) + (0.5).xx)))));
-    int2 tap_k3_l1_ = asint(asuint(texel) + asuint(naga_f2i32(floor(((float2(0.82406986, -0.18117106) * place_reach_l1_) + (0.5).xx)))));
-    int2 tap_k3_l2_ = asint(asuint(texel_2_) + asuint(naga_f2i32(floor(((float2(-0.5212098, 0.74136996) * place_reach_l2_) + (0.5).xx)))));
-    int2 tap_k3_l3_ = asint(asuint(texel_3_) + asuint(naga_f2i32(floor(((float2(-0.124496244, -0.960717) * place_reach_l3_) + (0.5).xx)))));
+    const int2 _e702 = to_vec2i(floor(((float2(-0.675947, -0.3917233) * place_reach_l0_) + (0.5).xx)));
+    int2 tap_k3_l0_ = asint(asuint(pixel) + asuint(_e702));
+    const int2 _e712 = to_vec2i(floor(((float2(0.82406986, -0.18117106) * place_reach_l1_) + (0.5).xx)));
+    int2 tap_k3_l1_ = asint(asuint(texel) + asuint(_e712));
+    const int2 _e722 = to_vec2i(floor(((float2(-0.5212098, 0.74136996) * place_reach_l2_) + (0.5).xx)));
+    int2 tap_k3_l2_ = asint(asuint(texel_2_) + asuint(_e722));
+    const int2 _e732 = to_vec2i(floor(((float2(-0.124496244, -0.960717) * place_reach_l3_) + (0.5).xx)));
+    int2 tap_k3_l3_ = asint(asuint(texel_3_) + asuint(_e732));
     int2 texel_k3_l0_ = clamp(tap_k3_l0_, (int(0)).xx, last);
     int2 texel_k3_l1_ = clamp(tap_k3_l1_, (int(0)).xx, last);
     int2 texel_k3_l2_ = clamp(tap_k3_l2_, (int(0)).xx, last);
@@ -277,15 +300,15 @@ void quad_ssao(uint3 id : SV_DispatchThreadID)
     float occluded_l1_ = (sum_k3_l1_ / total_k3_l1_);
     float occluded_l2_ = (sum_k3_l2_ / total_k3_l2_);
     float occluded_l3_ = (sum_k3_l3_ / total_k3_l3_);
-    destination[pixel] = (clamp((1.0 - (occluded_l0_ * 2.0)), 0.0, 1.0)).xxxx;
+    destination[pixel] = (saturate((1.0 - (occluded_l0_ * 2.0)))).xxxx;
     if (all((asint(asuint(pixel) + asuint(int2(int(1), int(0)))) < frame))) {
-        destination[asint(asuint(pixel) + asuint(int2(int(1), int(0))))] = (clamp((1.0 - (occluded_l1_ * 2.0)), 0.0, 1.0)).xxxx;
+        destination[asint(asuint(pixel) + asuint(int2(int(1), int(0))))] = (saturate((1.0 - (occluded_l1_ * 2.0)))).xxxx;
     }
     if (all((asint(asuint(pixel) + asuint(int2(int(0), int(1)))) < frame))) {
-        destination[asint(asuint(pixel) + asuint(int2(int(0), int(1))))] = (clamp((1.0 - (occluded_l2_ * 2.0)), 0.0, 1.0)).xxxx;
+        destination[asint(asuint(pixel) + asuint(int2(int(0), int(1))))] = (saturate((1.0 - (occluded_l2_ * 2.0)))).xxxx;
     }
     if (all((asint(asuint(pixel) + asuint(int2(int(1), int(1)))) < frame))) {
-        destination[asint(asuint(pixel) + asuint(int2(int(1), int(1))))] = (clamp((1.0 - (occluded_l3_ * 2.0)), 0.0, 1.0)).xxxx;
+        destination[asint(asuint(pixel) + asuint(int2(int(1), int(1))))] = (saturate((1.0 - (occluded_l3_ * 2.0)))).xxxx;
         return;
     } else {
         return;

@@ -4,10 +4,18 @@
 
 using metal::uint;
 
+
 metal::int2 naga_f2i32(metal::float2 value) {
     return static_cast<metal::int2>(metal::clamp(value, -2147483600.0, 2147483500.0));
 }
 
+metal::int2 to_vec2i(
+    metal::float2 x
+) {
+    metal::bool2 is_nan = (as_type<metal::uint2>(x) & metal::uint2(2147483647u)) > metal::uint2(2139095040u);
+    metal::int2 saturated = metal::select(naga_f2i32(x), metal::int2(2147483647), x >= metal::float2(2147483600.0));
+    return metal::select(saturated, metal::int2(0), is_nan);
+}
 
 struct quad_ssaoInput {
 };
@@ -62,10 +70,14 @@ kernel void quad_ssao(
     float place_reach_l1_ = metal::min(0.5 / value_2_, 48.0);
     float place_reach_l2_ = metal::min(0.5 / value_3_, 48.0);
     float place_reach_l3_ = metal::min(0.5 / value_4_, 48.0);
-    metal::int2 tap_k0_l0_ = as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(naga_f2i32(metal::floor((metal::float2(0.03125, 0.0) * place_reach_l0_) + metal::float2(0.5)))));
-    metal::int2 tap_k0_l1_ = as_type<metal::int2>(as_type<metal::uint2>(texel) + as_type<metal::uint2>(naga_f2i32(metal::floor((metal::float2(-0.06912833, 0.06332722) * place_reach_l1_) + metal::float2(0.5)))));
-    metal::int2 tap_k0_l2_ = as_type<metal::int2>(as_type<metal::uint2>(texel_2_) + as_type<metal::uint2>(naga_f2i32(metal::floor((metal::float2(0.013660241, -0.15565173) * place_reach_l2_) + metal::float2(0.5)))));
-    metal::int2 tap_k0_l3_ = as_type<metal::int2>(as_type<metal::uint2>(texel_3_) + as_type<metal::uint2>(naga_f2i32(metal::floor((metal::float2(0.13309608, 0.17360009) * place_reach_l3_) + metal::float2(0.5)))));
+    metal::int2 _e134 = to_vec2i(metal::floor((metal::float2(0.03125, 0.0) * place_reach_l0_) + metal::float2(0.5)));
+    metal::int2 tap_k0_l0_ = as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(_e134));
+    metal::int2 _e144 = to_vec2i(metal::floor((metal::float2(-0.06912833, 0.06332722) * place_reach_l1_) + metal::float2(0.5)));
+    metal::int2 tap_k0_l1_ = as_type<metal::int2>(as_type<metal::uint2>(texel) + as_type<metal::uint2>(_e144));
+    metal::int2 _e154 = to_vec2i(metal::floor((metal::float2(0.013660241, -0.15565173) * place_reach_l2_) + metal::float2(0.5)));
+    metal::int2 tap_k0_l2_ = as_type<metal::int2>(as_type<metal::uint2>(texel_2_) + as_type<metal::uint2>(_e154));
+    metal::int2 _e164 = to_vec2i(metal::floor((metal::float2(0.13309608, 0.17360009) * place_reach_l3_) + metal::float2(0.5)));
+    metal::int2 tap_k0_l3_ = as_type<metal::int2>(as_type<metal::uint2>(texel_3_) + as_type<metal::uint2>(_e164));
     metal::int2 texel_k0_l0_ = metal::clamp(tap_k0_l0_, metal::int2(0), last);
     metal::int2 texel_k0_l1_ = metal::clamp(tap_k0_l1_, metal::int2(0), last);
     metal::int2 texel_k0_l2_ = metal::clamp(tap_k0_l2_, metal::int2(0), last);
@@ -102,10 +114,14 @@ kernel void quad_ssao(
     float own_k0_l1_ = 0.0 + (metal::max(cosine_k0_l1_ - 0.05, 0.0) * near_k0_l1_);
     float own_k0_l2_ = 0.0 + (metal::max(cosine_k0_l2_ - 0.05, 0.0) * near_k0_l2_);
     float own_k0_l3_ = 0.0 + (metal::max(cosine_k0_l3_ - 0.05, 0.0) * near_k0_l3_);
-    metal::int2 tap_k1_l0_ = as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(naga_f2i32(metal::floor((metal::float2(-0.2769507, -0.048988573) * place_reach_l0_) + metal::float2(0.5)))));
-    metal::int2 tap_k1_l1_ = as_type<metal::int2>(as_type<metal::uint2>(texel) + as_type<metal::uint2>(naga_f2i32(metal::floor((metal::float2(0.29004085, -0.18450032) * place_reach_l1_) + metal::float2(0.5)))));
-    metal::int2 tap_k1_l2_ = as_type<metal::int2>(as_type<metal::uint2>(texel_2_) + as_type<metal::uint2>(naga_f2i32(metal::floor((metal::float2(-0.10546385, 0.39232185) * place_reach_l2_) + metal::float2(0.5)))));
-    metal::int2 tap_k1_l3_ = as_type<metal::int2>(as_type<metal::uint2>(texel_3_) + as_type<metal::uint2>(naga_f2i32(metal::floor((metal::float2(-0.21605052, -0.41599125) * place_reach_l3_) + metal::float2(0.5)))));
+    metal::int2 _e326 = to_vec2i(metal::floor((metal::float2(-0.2769507, -0.048988573) * place_reach_l0_) + metal::float2(0.5)));
+    metal::int2 tap_k1_l0_ = as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(_e326));
+    metal::int2 _e336 = to_vec2i(metal::floor((metal::float2(0.29004085, -0.18450032) * place_reach_l1_) + metal::float2(0.5)));
+    metal::int2 tap_k1_l1_ = as_type<metal::int2>(as_type<metal::uint2>(texel) + as_type<metal::uint2>(_e336));
+    metal::int2 _e346 = to_vec2i(metal::floor((metal::float2(-0.10546385, 0.39232185) * place_reach_l2_) + metal::float2(0.5)));
+    metal::int2 tap_k1_l2_ = as_type<metal::int2>(as_type<metal::uint2>(texel_2_) + as_type<metal::uint2>(_e346));
+    metal::int2 _e356 = to_vec2i(metal::floor((metal::float2(-0.21605052, -0.41599125) * place_reach_l3_) + metal::float2(0.5)));
+    metal::int2 tap_k1_l3_ = as_type<metal::int2>(as_type<metal::uint2>(texel_3_) + as_type<metal::uint2>(_e356));
     metal::int2 texel_k1_l0_ = metal::clamp(tap_k1_l0_, metal::int2(0), last);
     metal::int2 texel_k1_l1_ = metal::clamp(tap_k1_l1_, metal::int2(0), last);
     metal::int2 texel_k1_l2_ = metal::clamp(tap_k1_l2_, metal::int2(0), last);
@@ -142,10 +158,14 @@ kernel void quad_ssao(
     float own_k1_l1_ = own_k0_l1_ + (metal::max(cosine_k1_l1_ - 0.05, 0.0) * near_k1_l1_);
     float own_k1_l2_ = own_k0_l2_ + (metal::max(cosine_k1_l2_ - 0.05, 0.0) * near_k1_l2_);
     float own_k1_l3_ = own_k0_l3_ + (metal::max(cosine_k1_l3_ - 0.05, 0.0) * near_k1_l3_);
-    metal::int2 tap_k2_l0_ = as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(naga_f2i32(metal::floor((metal::float2(0.49901456, 0.18223892) * place_reach_l0_) + metal::float2(0.5)))));
-    metal::int2 tap_k2_l1_ = as_type<metal::int2>(as_type<metal::uint2>(texel) + as_type<metal::uint2>(naga_f2i32(metal::floor((metal::float2(-0.54883003, 0.22654943) * place_reach_l1_) + metal::float2(0.5)))));
-    metal::int2 tap_k2_l2_ = as_type<metal::int2>(as_type<metal::uint2>(texel_2_) + as_type<metal::uint2>(naga_f2i32(metal::floor((metal::float2(0.27814868, -0.5943882) * place_reach_l2_) + metal::float2(0.5)))));
-    metal::int2 tap_k2_l3_ = as_type<metal::int2>(as_type<metal::uint2>(texel_3_) + as_type<metal::uint2>(naga_f2i32(metal::floor((metal::float2(0.21511047, 0.6858054) * place_reach_l3_) + metal::float2(0.5)))));
+    metal::int2 _e514 = to_vec2i(metal::floor((metal::float2(0.49901456, 0.18223892) * place_reach_l0_) + metal::float2(0.5)));
+    metal::int2 tap_k2_l0_ = as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(_e514));
+    metal::int2 _e524 = to_vec2i(metal::floor((metal::float2(-0.54883003, 0.22654943) * place_reach_l1_) + metal::float2(0.5)));
+    metal::int2 tap_k2_l1_ = as_type<metal::int2>(as_type<metal::uint2>(texel) + as_type<metal::uint2>(_e524));
+    metal::int2 _e534 = to_vec2i(metal::floor((metal::float2(0.27814868, -0.5943882) * place_reach_l2_) + metal::float2(0.5)));
+    metal::int2 tap_k2_l2_ = as_type<metal::int2>(as_type<metal::uint2>(texel_2_) + as_type<metal::uint2>(_e534));
+    metal::int2 _e544 = to_vec2i(metal::floor((metal::float2(0.21511047, 0.6858054) * place_reach_l3_) + metal::float2(0.5)));
+    metal::int2 tap_k2_l3_ = as_type<metal::int2>(as_type<metal::uint2>(texel_3_) + as_type<metal::uint2>(_e544));
     metal::int2 texel_k2_l0_ = metal::clamp(tap_k2_l0_, metal::int2(0), last);
     metal::int2 texel_k2_l1_ = metal::clamp(tap_k2_l1_, metal::int2(0), last);
     metal::int2 texel_k2_l2_ = metal::clamp(tap_k2_l2_, metal::int2(0), last);
@@ -182,10 +202,14 @@ kernel void quad_ssao(
     float own_k2_l1_ = own_k1_l1_ + (metal::max(cosine_k2_l1_ - 0.05, 0.0) * near_k2_l1_);
     float own_k2_l2_ = own_k1_l2_ + (metal::max(cosine_k2_l2_ - 0.05, 0.0) * near_k2_l2_);
     float own_k2_l3_ = own_k1_l3_ + (metal::max(cosine_k2_l3_ - 0.05, 0.0) * near_k2_l3_);
-    metal::int2 tap_k3_l0_ = as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(naga_f2i32(metal::floor((metal::float2(-0.675947, -0.3917233) * place_reach_l0_) + metal::float2(0.5)))));
-    metal::int2 tap_k3_l1_ = as_type<metal::int2>(as_type<metal::uint2>(texel) + as_type<metal::uint2>(naga_f2i32(metal::floor((metal::float2(0.82406986, -0.18117106) * place_reach_l1_) + metal::float2(0.5)))));
-    metal::int2 tap_k3_l2_ = as_type<metal::int2>(as_type<metal::uint2>(texel_2_) + as_type<metal::uint2>(naga_f2i32(metal::floor((metal::float2(-0.5212098, 0.74136996) * place_reach_l2_) + metal::float2(0.5)))));
-    metal::int2 tap_k3_l3_ = as_type<metal::int2>(as_type<metal::uint2>(texel_3_) + as_type<metal::uint2>(naga_f2i32(metal::floor((metal::float2(-0.124496244, -0.960717) * place_reach_l3_) + metal::float2(0.5)))));
+    metal::int2 _e702 = to_vec2i(metal::floor((metal::float2(-0.675947, -0.3917233) * place_reach_l0_) + metal::float2(0.5)));
+    metal::int2 tap_k3_l0_ = as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(_e702));
+    metal::int2 _e712 = to_vec2i(metal::floor((metal::float2(0.82406986, -0.18117106) * place_reach_l1_) + metal::float2(0.5)));
+    metal::int2 tap_k3_l1_ = as_type<metal::int2>(as_type<metal::uint2>(texel) + as_type<metal::uint2>(_e712));
+    metal::int2 _e722 = to_vec2i(metal::floor((metal::float2(-0.5212098, 0.74136996) * place_reach_l2_) + metal::float2(0.5)));
+    metal::int2 tap_k3_l2_ = as_type<metal::int2>(as_type<metal::uint2>(texel_2_) + as_type<metal::uint2>(_e722));
+    metal::int2 _e732 = to_vec2i(metal::floor((metal::float2(-0.124496244, -0.960717) * place_reach_l3_) + metal::float2(0.5)));
+    metal::int2 tap_k3_l3_ = as_type<metal::int2>(as_type<metal::uint2>(texel_3_) + as_type<metal::uint2>(_e732));
     metal::int2 texel_k3_l0_ = metal::clamp(tap_k3_l0_, metal::int2(0), last);
     metal::int2 texel_k3_l1_ = metal::clamp(tap_k3_l1_, metal::int2(0), last);
     metal::int2 texel_k3_l2_ = metal::clamp(tap_k3_l2_, metal::int2(0), last);
@@ -278,15 +302,15 @@ kernel void quad_ssao(
     float occluded_l1_ = sum_k3_l1_ / total_k3_l1_;
     float occluded_l2_ = sum_k3_l2_ / total_k3_l2_;
     float occluded_l3_ = sum_k3_l3_ / total_k3_l3_;
-    destination.write(metal::float4(metal::clamp(1.0 - (occluded_l0_ * 2.0), 0.0, 1.0)), metal::uint2(pixel));
+    destination.write(metal::float4(metal::saturate(1.0 - (occluded_l0_ * 2.0))), metal::uint2(pixel));
     if (metal::all(as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(metal::int2(1, 0))) < frame)) {
-        destination.write(metal::float4(metal::clamp(1.0 - (occluded_l1_ * 2.0), 0.0, 1.0)), metal::uint2(as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(metal::int2(1, 0)))));
+        destination.write(metal::float4(metal::saturate(1.0 - (occluded_l1_ * 2.0))), metal::uint2(as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(metal::int2(1, 0)))));
     }
     if (metal::all(as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(metal::int2(0, 1))) < frame)) {
-        destination.write(metal::float4(metal::clamp(1.0 - (occluded_l2_ * 2.0), 0.0, 1.0)), metal::uint2(as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(metal::int2(0, 1)))));
+        destination.write(metal::float4(metal::saturate(1.0 - (occluded_l2_ * 2.0))), metal::uint2(as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(metal::int2(0, 1)))));
     }
     if (metal::all(as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(metal::int2(1, 1))) < frame)) {
-        destination.write(metal::float4(metal::clamp(1.0 - (occluded_l3_ * 2.0), 0.0, 1.0)), metal::uint2(as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(metal::int2(1, 1)))));
+        destination.write(metal::float4(metal::saturate(1.0 - (occluded_l3_ * 2.0))), metal::uint2(as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(metal::int2(1, 1)))));
         return;
     } else {
         return;

@@ -9,6 +9,13 @@ int2 naga_f2i32(float2 value) {
     return int2(clamp(value, -2147483600.0, 2147483500.0));
 }
 
+int2 to_vec2i(float2 x)
+{
+    bool2 is_nan = ((asuint(x) & (2147483647u).xx) > (2139095040u).xx);
+    int2 saturated = ((x >= (2147483600.0).xx) ? (int(2147483647)).xx : naga_f2i32(x));
+    return (is_nan ? (int(0)).xx : saturated);
+}
+
 uint2 NagaDimensions2D(Texture2D<float4> tex)
 {
     uint4 ret;
@@ -35,7 +42,8 @@ float4 quad_ssao(FragmentInput_quad_ssao fragmentinput_quad_ssao) : SV_Target0
     bool holds = (lane.x != int(0));
     bool holds_2_ = (lane.y != int(0));
     float2 way_k0_ = (holds_2_ ? (holds ? float2(0.13309608, 0.17360009) : float2(0.013660241, -0.15565173)) : (holds ? float2(-0.06912833, 0.06332722) : float2(0.03125, 0.0)));
-    int2 tap_k0_ = asint(asuint(pixel) + asuint(naga_f2i32(floor(((way_k0_ * place_reach) + (0.5).xx)))));
+    const int2 _e72 = to_vec2i(floor(((way_k0_ * place_reach) + (0.5).xx)));
+    int2 tap_k0_ = asint(asuint(pixel) + asuint(_e72));
     int2 texel_k0_ = clamp(tap_k0_, (int(0)).xx, last);
     float4 _e79 = depth.Load(int3(texel_k0_, int(0)));
     float depth_texel = _e79.x;
@@ -46,7 +54,8 @@ float4 quad_ssao(FragmentInput_quad_ssao fragmentinput_quad_ssao) : SV_Target0
     float near_k0_ = max((1.0 - (squared_k0_ / 0.25)), 0.0);
     float own_k0_ = (0.0 + (max((cosine_k0_ - 0.05), 0.0) * near_k0_));
     float2 way_k1_ = (holds_2_ ? (holds ? float2(-0.21605052, -0.41599125) : float2(-0.10546385, 0.39232185)) : (holds ? float2(0.29004085, -0.18450032) : float2(-0.2769507, -0.048988573)));
-    int2 tap_k1_ = asint(asuint(pixel) + asuint(naga_f2i32(floor(((way_k1_ * place_reach) + (0.5).xx)))));
+    const int2 _e132 = to_vec2i(floor(((way_k1_ * place_reach) + (0.5).xx)));
+    int2 tap_k1_ = asint(asuint(pixel) + asuint(_e132));
     int2 texel_k1_ = clamp(tap_k1_, (int(0)).xx, last);
     float4 _e139 = depth.Load(int3(texel_k1_, int(0)));
     float depth_texel_2_ = _e139.x;
@@ -57,7 +66,8 @@ float4 quad_ssao(FragmentInput_quad_ssao fragmentinput_quad_ssao) : SV_Target0
     float near_k1_ = max((1.0 - (squared_k1_ / 0.25)), 0.0);
     float own_k1_ = (own_k0_ + (max((cosine_k1_ - 0.05), 0.0) * near_k1_));
     float2 way_k2_ = (holds_2_ ? (holds ? float2(0.21511047, 0.6858054) : float2(0.27814868, -0.5943882)) : (holds ? float2(-0.54883003, 0.22654943) : float2(0.49901456, 0.18223892)));
-    int2 tap_k2_ = asint(asuint(pixel) + asuint(naga_f2i32(floor(((way_k2_ * place_reach) + (0.5).xx)))));
+    const int2 _e191 = to_vec2i(floor(((way_k2_ * place_reach) + (0.5).xx)));
+    int2 tap_k2_ = asint(asuint(pixel) + asuint(_e191));
     int2 texel_k2_ = clamp(tap_k2_, (int(0)).xx, last);
     float4 _e198 = depth.Load(int3(texel_k2_, int(0)));
     float depth_texel_3_ = _e198.x;
@@ -68,7 +78,8 @@ float4 quad_ssao(FragmentInput_quad_ssao fragmentinput_quad_ssao) : SV_Target0
     float near_k2_ = max((1.0 - (squared_k2_ / 0.25)), 0.0);
     float own_k2_ = (own_k1_ + (max((cosine_k2_ - 0.05), 0.0) * near_k2_));
     float2 way_k3_ = (holds_2_ ? (holds ? float2(-0.124496244, -0.960717) : float2(-0.5212098, 0.74136996)) : (holds ? float2(0.82406986, -0.18117106) : float2(-0.675947, -0.3917233)));
-    int2 tap_k3_ = asint(asuint(pixel) + asuint(naga_f2i32(floor(((way_k3_ * place_reach) + (0.5).xx)))));
+    const int2 _e250 = to_vec2i(floor(((way_k3_ * place_reach) + (0.5).xx)));
+    int2 tap_k3_ = asint(asuint(pixel) + asuint(_e250));
     int2 texel_k3_ = clamp(tap_k3_, (int(0)).xx, last);
     float4 _e257 = depth.Load(int3(texel_k3_, int(0)));
     float depth_texel_4_ = _e257.x;
@@ -96,5 +107,5 @@ float4 quad_ssao(FragmentInput_quad_ssao fragmentinput_quad_ssao) : SV_Target0
     float sum_k3_ = (sum_k2_ + (_e294.x * weight_k3_));
     float total_k3_ = (total_k2_ + weight_k3_);
     float occluded = (sum_k3_ / total_k3_);
-    return (clamp((1.0 - (occluded * 2.0)), 0.0, 1.0)).xxxx;
+    return (saturate((1.0 - (occluded * 2.0)))).xxxx;
 }

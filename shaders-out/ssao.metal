@@ -4,10 +4,18 @@
 
 using metal::uint;
 
+
 metal::int2 naga_f2i32(metal::float2 value) {
     return static_cast<metal::int2>(metal::clamp(value, -2147483600.0, 2147483500.0));
 }
 
+metal::int2 to_vec2i(
+    metal::float2 x
+) {
+    metal::bool2 is_nan = (as_type<metal::uint2>(x) & metal::uint2(2147483647u)) > metal::uint2(2139095040u);
+    metal::int2 saturated = metal::select(naga_f2i32(x), metal::int2(2147483647), x >= metal::float2(2147483600.0));
+    return metal::select(saturated, metal::int2(0), is_nan);
+}
 
 struct quad_ssaoInput {
 };
@@ -35,7 +43,8 @@ fragment quad_ssaoOutput quad_ssao(
     bool holds = lane.x != 0;
     bool holds_2_ = lane.y != 0;
     metal::float2 way_k0_ = holds_2_ ? (holds ? metal::float2(0.13309608, 0.17360009) : metal::float2(0.013660241, -0.15565173)) : (holds ? metal::float2(-0.06912833, 0.06332722) : metal::float2(0.03125, 0.0));
-    metal::int2 tap_k0_ = as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(naga_f2i32(metal::floor((way_k0_ * place_reach) + metal::float2(0.5)))));
+    metal::int2 _e72 = to_vec2i(metal::floor((way_k0_ * place_reach) + metal::float2(0.5)));
+    metal::int2 tap_k0_ = as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(_e72));
     metal::int2 texel_k0_ = metal::clamp(tap_k0_, metal::int2(0), last);
     metal::float4 _e79 = depth.read(metal::uint2(texel_k0_), 0);
     float depth_texel = _e79.x;
@@ -46,7 +55,8 @@ fragment quad_ssaoOutput quad_ssao(
     float near_k0_ = metal::max(1.0 - (squared_k0_ / 0.25), 0.0);
     float own_k0_ = 0.0 + (metal::max(cosine_k0_ - 0.05, 0.0) * near_k0_);
     metal::float2 way_k1_ = holds_2_ ? (holds ? metal::float2(-0.21605052, -0.41599125) : metal::float2(-0.10546385, 0.39232185)) : (holds ? metal::float2(0.29004085, -0.18450032) : metal::float2(-0.2769507, -0.048988573));
-    metal::int2 tap_k1_ = as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(naga_f2i32(metal::floor((way_k1_ * place_reach) + metal::float2(0.5)))));
+    metal::int2 _e132 = to_vec2i(metal::floor((way_k1_ * place_reach) + metal::float2(0.5)));
+    metal::int2 tap_k1_ = as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(_e132));
     metal::int2 texel_k1_ = metal::clamp(tap_k1_, metal::int2(0), last);
     metal::float4 _e139 = depth.read(metal::uint2(texel_k1_), 0);
     float depth_texel_2_ = _e139.x;
@@ -57,7 +67,8 @@ fragment quad_ssaoOutput quad_ssao(
     float near_k1_ = metal::max(1.0 - (squared_k1_ / 0.25), 0.0);
     float own_k1_ = own_k0_ + (metal::max(cosine_k1_ - 0.05, 0.0) * near_k1_);
     metal::float2 way_k2_ = holds_2_ ? (holds ? metal::float2(0.21511047, 0.6858054) : metal::float2(0.27814868, -0.5943882)) : (holds ? metal::float2(-0.54883003, 0.22654943) : metal::float2(0.49901456, 0.18223892));
-    metal::int2 tap_k2_ = as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(naga_f2i32(metal::floor((way_k2_ * place_reach) + metal::float2(0.5)))));
+    metal::int2 _e191 = to_vec2i(metal::floor((way_k2_ * place_reach) + metal::float2(0.5)));
+    metal::int2 tap_k2_ = as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(_e191));
     metal::int2 texel_k2_ = metal::clamp(tap_k2_, metal::int2(0), last);
     metal::float4 _e198 = depth.read(metal::uint2(texel_k2_), 0);
     float depth_texel_3_ = _e198.x;
@@ -68,7 +79,8 @@ fragment quad_ssaoOutput quad_ssao(
     float near_k2_ = metal::max(1.0 - (squared_k2_ / 0.25), 0.0);
     float own_k2_ = own_k1_ + (metal::max(cosine_k2_ - 0.05, 0.0) * near_k2_);
     metal::float2 way_k3_ = holds_2_ ? (holds ? metal::float2(-0.124496244, -0.960717) : metal::float2(-0.5212098, 0.74136996)) : (holds ? metal::float2(0.82406986, -0.18117106) : metal::float2(-0.675947, -0.3917233));
-    metal::int2 tap_k3_ = as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(naga_f2i32(metal::floor((way_k3_ * place_reach) + metal::float2(0.5)))));
+    metal::int2 _e250 = to_vec2i(metal::floor((way_k3_ * place_reach) + metal::float2(0.5)));
+    metal::int2 tap_k3_ = as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(_e250));
     metal::int2 texel_k3_ = metal::clamp(tap_k3_, metal::int2(0), last);
     metal::float4 _e257 = depth.read(metal::uint2(texel_k3_), 0);
     float depth_texel_4_ = _e257.x;
@@ -96,5 +108,5 @@ fragment quad_ssaoOutput quad_ssao(
     float sum_k3_ = sum_k2_ + (unnamed_2.x * weight_k3_);
     float total_k3_ = total_k2_ + weight_k3_;
     float occluded = sum_k3_ / total_k3_;
-    return quad_ssaoOutput { metal::float4(metal::clamp(1.0 - (occluded * 2.0), 0.0, 1.0)) };
+    return quad_ssaoOutput { metal::float4(metal::saturate(1.0 - (occluded * 2.0))) };
 }

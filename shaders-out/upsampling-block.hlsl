@@ -23,15 +23,6 @@ uint2 NagaDimensions2D(Texture2D<float4> tex)
 [numthreads(256, 1, 1)]
 void quad_upsampling(uint3 id : SV_DispatchThreadID)
 {
-    bool local = (bool)0;
-    bool local_1 = (bool)0;
-    bool local_2 = (bool)0;
-    bool local_3 = (bool)0;
-    bool local_4 = (bool)0;
-    bool local_5 = (bool)0;
-    bool local_6 = (bool)0;
-    bool local_7 = (bool)0;
-
     int2 frame = int2(NagaRWDimensions2D(destination));
     int2 pixel = asint(asuint(int2(id.xy)) * asuint(int2(int(2), int(2))));
     if (any((pixel >= frame))) {
@@ -69,54 +60,10 @@ void quad_upsampling(uint3 id : SV_DispatchThreadID)
     float4 texel_l1_3_ = low.Load(int3(texel_l1_2_, int(0)));
     float4 texel_l2_3_ = low.Load(int3(texel_l2_2_, int(0)));
     float4 texel_l3_3_ = low.Load(int3(texel_l3_2_, int(0)));
-    if ((abs(texel_l0_2_.x) < 3e38)) {
-        local = (abs(texel_l0_2_.y) < 3e38);
-    } else {
-        local = false;
-    }
-    bool _e129 = local;
-    if (_e129) {
-        local_1 = (abs(texel_l0_2_.z) < 3e38);
-    } else {
-        local_1 = false;
-    }
-    bool color_l0_ = local_1;
-    if ((abs(texel_l1_3_.x) < 3e38)) {
-        local_2 = (abs(texel_l1_3_.y) < 3e38);
-    } else {
-        local_2 = false;
-    }
-    bool _e149 = local_2;
-    if (_e149) {
-        local_3 = (abs(texel_l1_3_.z) < 3e38);
-    } else {
-        local_3 = false;
-    }
-    bool color_l1_ = local_3;
-    if ((abs(texel_l2_3_.x) < 3e38)) {
-        local_4 = (abs(texel_l2_3_.y) < 3e38);
-    } else {
-        local_4 = false;
-    }
-    bool _e169 = local_4;
-    if (_e169) {
-        local_5 = (abs(texel_l2_3_.z) < 3e38);
-    } else {
-        local_5 = false;
-    }
-    bool color_l2_ = local_5;
-    if ((abs(texel_l3_3_.x) < 3e38)) {
-        local_6 = (abs(texel_l3_3_.y) < 3e38);
-    } else {
-        local_6 = false;
-    }
-    bool _e189 = local_6;
-    if (_e189) {
-        local_7 = (abs(texel_l3_3_.z) < 3e38);
-    } else {
-        local_7 = false;
-    }
-    bool color_l3_ = local_7;
+    bool color_l0_ = (((abs(texel_l0_2_.x) < 3e38) & (abs(texel_l0_2_.y) < 3e38)) & (abs(texel_l0_2_.z) < 3e38));
+    bool color_l1_ = (((abs(texel_l1_3_.x) < 3e38) & (abs(texel_l1_3_.y) < 3e38)) & (abs(texel_l1_3_.z) < 3e38));
+    bool color_l2_ = (((abs(texel_l2_3_.x) < 3e38) & (abs(texel_l2_3_.y) < 3e38)) & (abs(texel_l2_3_.z) < 3e38));
+    bool color_l3_ = (((abs(texel_l3_3_.x) < 3e38) & (abs(texel_l3_3_.y) < 3e38)) & (abs(texel_l3_3_.z) < 3e38));
     float4 texel_l0_3_ = (color_l0_ ? float4(texel_l0_2_.x, texel_l0_2_.y, texel_l0_2_.z, ((abs(texel_l0_2_.w) < 1e30) ? texel_l0_2_.w : 1e30)) : float4(0.0, 0.0, 0.0, -1e30));
     float4 texel_l1_4_ = (color_l1_ ? float4(texel_l1_3_.x, texel_l1_3_.y, texel_l1_3_.z, ((abs(texel_l1_3_.w) < 1e30) ? texel_l1_3_.w : 1e30)) : float4(0.0, 0.0, 0.0, -1e30));
     float4 texel_l2_4_ = (color_l2_ ? float4(texel_l2_3_.x, texel_l2_3_.y, texel_l2_3_.z, ((abs(texel_l2_3_.w) < 1e30) ? texel_l2_3_.w : 1e30)) : float4(0.0, 0.0, 0.0, -1e30));

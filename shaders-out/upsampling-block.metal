@@ -17,14 +17,6 @@ kernel void quad_upsampling(
 , metal::texture2d<float, metal::access::sample> depth [[texture(1)]]
 , metal::texture2d<float, metal::access::write> destination [[texture(2)]]
 ) {
-    bool local = {};
-    bool local_1 = {};
-    bool local_2 = {};
-    bool local_3 = {};
-    bool local_4 = {};
-    bool local_5 = {};
-    bool local_6 = {};
-    bool local_7 = {};
     metal::int2 frame = static_cast<metal::int2>(metal::uint2(destination.get_width(), destination.get_height()));
     metal::int2 pixel = as_type<metal::int2>(as_type<metal::uint2>(static_cast<metal::int2>(id.xy)) * as_type<metal::uint2>(metal::int2(2, 2)));
     if (metal::any(pixel >= frame)) {
@@ -62,54 +54,10 @@ kernel void quad_upsampling(
     metal::float4 texel_l1_3_ = low.read(metal::uint2(texel_l1_2_), 0);
     metal::float4 texel_l2_3_ = low.read(metal::uint2(texel_l2_2_), 0);
     metal::float4 texel_l3_3_ = low.read(metal::uint2(texel_l3_2_), 0);
-    if (metal::abs(texel_l0_2_.x) < 300000000000000000000000000000000000000.0) {
-        local = metal::abs(texel_l0_2_.y) < 300000000000000000000000000000000000000.0;
-    } else {
-        local = false;
-    }
-    bool _e129 = local;
-    if (_e129) {
-        local_1 = metal::abs(texel_l0_2_.z) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_1 = false;
-    }
-    bool color_l0_ = local_1;
-    if (metal::abs(texel_l1_3_.x) < 300000000000000000000000000000000000000.0) {
-        local_2 = metal::abs(texel_l1_3_.y) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_2 = false;
-    }
-    bool _e149 = local_2;
-    if (_e149) {
-        local_3 = metal::abs(texel_l1_3_.z) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_3 = false;
-    }
-    bool color_l1_ = local_3;
-    if (metal::abs(texel_l2_3_.x) < 300000000000000000000000000000000000000.0) {
-        local_4 = metal::abs(texel_l2_3_.y) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_4 = false;
-    }
-    bool _e169 = local_4;
-    if (_e169) {
-        local_5 = metal::abs(texel_l2_3_.z) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_5 = false;
-    }
-    bool color_l2_ = local_5;
-    if (metal::abs(texel_l3_3_.x) < 300000000000000000000000000000000000000.0) {
-        local_6 = metal::abs(texel_l3_3_.y) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_6 = false;
-    }
-    bool _e189 = local_6;
-    if (_e189) {
-        local_7 = metal::abs(texel_l3_3_.z) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_7 = false;
-    }
-    bool color_l3_ = local_7;
+    bool color_l0_ = ((metal::abs(texel_l0_2_.x) < 300000000000000000000000000000000000000.0) & (metal::abs(texel_l0_2_.y) < 300000000000000000000000000000000000000.0)) & (metal::abs(texel_l0_2_.z) < 300000000000000000000000000000000000000.0);
+    bool color_l1_ = ((metal::abs(texel_l1_3_.x) < 300000000000000000000000000000000000000.0) & (metal::abs(texel_l1_3_.y) < 300000000000000000000000000000000000000.0)) & (metal::abs(texel_l1_3_.z) < 300000000000000000000000000000000000000.0);
+    bool color_l2_ = ((metal::abs(texel_l2_3_.x) < 300000000000000000000000000000000000000.0) & (metal::abs(texel_l2_3_.y) < 300000000000000000000000000000000000000.0)) & (metal::abs(texel_l2_3_.z) < 300000000000000000000000000000000000000.0);
+    bool color_l3_ = ((metal::abs(texel_l3_3_.x) < 300000000000000000000000000000000000000.0) & (metal::abs(texel_l3_3_.y) < 300000000000000000000000000000000000000.0)) & (metal::abs(texel_l3_3_.z) < 300000000000000000000000000000000000000.0);
     metal::float4 texel_l0_3_ = color_l0_ ? metal::float4(texel_l0_2_.x, texel_l0_2_.y, texel_l0_2_.z, (metal::abs(texel_l0_2_.w) < 1000000000000000000000000000000.0) ? texel_l0_2_.w : 1000000000000000000000000000000.0) : metal::float4(0.0, 0.0, 0.0, -1000000000000000000000000000000.0);
     metal::float4 texel_l1_4_ = color_l1_ ? metal::float4(texel_l1_3_.x, texel_l1_3_.y, texel_l1_3_.z, (metal::abs(texel_l1_3_.w) < 1000000000000000000000000000000.0) ? texel_l1_3_.w : 1000000000000000000000000000000.0) : metal::float4(0.0, 0.0, 0.0, -1000000000000000000000000000000.0);
     metal::float4 texel_l2_4_ = color_l2_ ? metal::float4(texel_l2_3_.x, texel_l2_3_.y, texel_l2_3_.z, (metal::abs(texel_l2_3_.w) < 1000000000000000000000000000000.0) ? texel_l2_3_.w : 1000000000000000000000000000000.0) : metal::float4(0.0, 0.0, 0.0, -1000000000000000000000000000000.0);

@@ -23,9 +23,6 @@ uint2 NagaDimensions2D(Texture2D<float4> tex)
 float4 quad_upsampling(FragmentInput_quad_upsampling fragmentinput_quad_upsampling) : SV_Target0
 {
     float4 position = fragmentinput_quad_upsampling.position_1;
-    bool local = (bool)0;
-    bool local_1 = (bool)0;
-
     int2 pixel = naga_f2i32(floor(position.xy));
     int2 frame = int2(NagaDimensions2D(depth));
     int2 corner = naga_div(pixel, (int(2)).xx);
@@ -38,31 +35,20 @@ float4 quad_upsampling(FragmentInput_quad_upsampling fragmentinput_quad_upsampli
     int2 last_2_ = asint(asuint(int2(NagaDimensions2D(low))) - asuint((int(1)).xx));
     int2 texel_2_ = clamp(asint(asuint(corner) + asuint(lane)), (int(0)).xx, last_2_);
     float4 texel_3_ = low.Load(int3(texel_2_, int(0)));
-    if ((abs(texel_3_.x) < 3e38)) {
-        local = (abs(texel_3_.y) < 3e38);
-    } else {
-        local = false;
-    }
-    bool _e52 = local;
-    if (_e52) {
-        local_1 = (abs(texel_3_.z) < 3e38);
-    } else {
-        local_1 = false;
-    }
-    bool color = local_1;
+    bool color = (((abs(texel_3_.x) < 3e38) & (abs(texel_3_.y) < 3e38)) & (abs(texel_3_.z) < 3e38));
     float4 texel_4_ = (color ? float4(texel_3_.x, texel_3_.y, texel_3_.z, ((abs(texel_3_.w) < 1e30) ? texel_3_.w : 1e30)) : float4(0.0, 0.0, 0.0, -1e30));
-    const float4 _e78 = QuadReadAcrossX(texel_4_);
-    const float4 _e79 = QuadReadAcrossY(texel_4_);
-    const float4 _e80 = QuadReadAcrossDiagonal(texel_4_);
+    const float4 _e72 = QuadReadAcrossX(texel_4_);
+    const float4 _e73 = QuadReadAcrossY(texel_4_);
+    const float4 _e74 = QuadReadAcrossDiagonal(texel_4_);
     float4 taps_k0_ = float4(texel_4_.x, texel_4_.y, texel_4_.z, 1.0);
-    float4 taps_k1_ = float4(_e78.x, _e78.y, _e78.z, 1.0);
-    float4 taps_k2_ = float4(_e79.x, _e79.y, _e79.z, 1.0);
-    float4 taps_k3_ = float4(_e80.x, _e80.y, _e80.z, 1.0);
+    float4 taps_k1_ = float4(_e72.x, _e72.y, _e72.z, 1.0);
+    float4 taps_k2_ = float4(_e73.x, _e73.y, _e73.z, 1.0);
+    float4 taps_k3_ = float4(_e74.x, _e74.y, _e74.z, 1.0);
     float away_k0_ = abs((texel_4_.w - own_depth));
     float z_k0_ = (away_k0_ / 0.1);
     float exponent_k0_ = (z_k0_ * z_k0_);
     float weight_k0_ = (0.5625 * exp2((exponent_k0_ * -0.7213475)));
-    float away_k1_ = abs((_e78.w - own_depth));
+    float away_k1_ = abs((_e72.w - own_depth));
     float z_k1_ = (away_k1_ / 0.1);
     float exponent_k1_ = (z_k1_ * z_k1_);
     float weight_k1_ = (0.1875 * exp2((exponent_k1_ * -0.7213475)));
@@ -70,7 +56,7 @@ float4 quad_upsampling(FragmentInput_quad_upsampling fragmentinput_quad_upsampli
     bool nearer_k1_ = (away_k1_ < away_k0_);
     float nearest_k1_ = (nearer_k1_ ? away_k1_ : away_k0_);
     float4 fallback_k1_ = (nearer_k1_ ? taps_k1_ : taps_k0_);
-    float away_k2_ = abs((_e79.w - own_depth));
+    float away_k2_ = abs((_e73.w - own_depth));
     float z_k2_ = (away_k2_ / 0.1);
     float exponent_k2_ = (z_k2_ * z_k2_);
     float weight_k2_ = (0.1875 * exp2((exponent_k2_ * -0.7213475)));
@@ -78,7 +64,7 @@ float4 quad_upsampling(FragmentInput_quad_upsampling fragmentinput_quad_upsampli
     bool nearer_k2_ = (away_k2_ < nearest_k1_);
     float nearest_k2_ = (nearer_k2_ ? away_k2_ : nearest_k1_);
     float4 fallback_k2_ = (nearer_k2_ ? taps_k2_ : fallback_k1_);
-    float away_k3_ = abs((_e80.w - own_depth));
+    float away_k3_ = abs((_e74.w - own_depth));
     float z_k3_ = (away_k3_ / 0.1);
     float exponent_k3_ = (z_k3_ * z_k3_);
     float weight_k3_ = (0.0625 * exp2((exponent_k3_ * -0.7213475)));

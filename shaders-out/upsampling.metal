@@ -23,8 +23,6 @@ fragment quad_upsamplingOutput quad_upsampling(
 , metal::texture2d<float, metal::access::sample> low [[texture(0)]]
 , metal::texture2d<float, metal::access::sample> depth [[texture(1)]]
 ) {
-    bool local = {};
-    bool local_1 = {};
     metal::int2 pixel = naga_f2i32(metal::floor(position.xy));
     metal::int2 frame = static_cast<metal::int2>(metal::uint2(depth.get_width(), depth.get_height()));
     metal::int2 corner = naga_div(pixel, metal::int2(2));
@@ -37,18 +35,7 @@ fragment quad_upsamplingOutput quad_upsampling(
     metal::int2 last_2_ = as_type<metal::int2>(as_type<metal::uint2>(static_cast<metal::int2>(metal::uint2(low.get_width(), low.get_height()))) - as_type<metal::uint2>(metal::int2(1)));
     metal::int2 texel_2_ = metal::clamp(as_type<metal::int2>(as_type<metal::uint2>(corner) + as_type<metal::uint2>(lane)), metal::int2(0), last_2_);
     metal::float4 texel_3_ = low.read(metal::uint2(texel_2_), 0);
-    if (metal::abs(texel_3_.x) < 300000000000000000000000000000000000000.0) {
-        local = metal::abs(texel_3_.y) < 300000000000000000000000000000000000000.0;
-    } else {
-        local = false;
-    }
-    bool _e52 = local;
-    if (_e52) {
-        local_1 = metal::abs(texel_3_.z) < 300000000000000000000000000000000000000.0;
-    } else {
-        local_1 = false;
-    }
-    bool color = local_1;
+    bool color = ((metal::abs(texel_3_.x) < 300000000000000000000000000000000000000.0) & (metal::abs(texel_3_.y) < 300000000000000000000000000000000000000.0)) & (metal::abs(texel_3_.z) < 300000000000000000000000000000000000000.0);
     metal::float4 texel_4_ = color ? metal::float4(texel_3_.x, texel_3_.y, texel_3_.z, (metal::abs(texel_3_.w) < 1000000000000000000000000000000.0) ? texel_3_.w : 1000000000000000000000000000000.0) : metal::float4(0.0, 0.0, 0.0, -1000000000000000000000000000000.0);
     metal::float4 unnamed = metal::quad_shuffle_xor(texel_4_, 1u);
     metal::float4 unnamed_1 = metal::quad_shuffle_xor(texel_4_, 2u);

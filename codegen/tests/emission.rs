@@ -6,7 +6,7 @@
 mod compilers;
 
 use compilers::{LABEL, instructions, read};
-use straightline_codegen::emit::{Emitted, Target};
+use straightline_codegen::emit::{EmitError, Emitted, Target};
 use straightline_codegen::{Branches, Compiled, EmitOptions, Kernel, Settings, Stage, Unroll};
 
 fn settings(unroll: Unroll, branches: Branches) -> Settings {
@@ -119,10 +119,19 @@ fn divisions_of_integers_compile_everywhere() {
     }";
     let emitted = emit_all(kernel);
     let glsl = text(&emitted, Target::Glsl450);
-    for plain in ["pixel.x / 2", "pixel.y % 4", "parameters.m / 3u", "parameters.m % 5u", "parameters.n / 3"] {
+    for plain in [
+        "pixel.x / 2",
+        "pixel.y % 4",
+        "parameters.m / 3u",
+        "parameters.m % 5u",
+        "parameters.n / 3",
+    ] {
         assert!(glsl.contains(plain), "`{plain}` needs no guard:\n{glsl}");
     }
-    for guarded in ["whole_quotient(pixel, ivec2(parameters.n))", "whole_remainder(parameters.n, 3)"] {
+    for guarded in [
+        "whole_quotient(pixel, ivec2(parameters.n))",
+        "whole_remainder(parameters.n, 3)",
+    ] {
         assert!(glsl.contains(guarded), "no `{guarded}`:\n{glsl}");
     }
 }
@@ -140,19 +149,29 @@ fn conversions_are_guarded_where_they_must_be() {
         color.load(c + e) + vec4(a as f32, b as f32, d.x as f32, f as f32)
     }";
     let wgsl = text(&emit_all(kernel), Target::Wgsl);
-    for guarded in ["to_i32(parameters.far)", "to_u32(parameters.far)", "to_vec2i(parameters.place)", "to_vec2u("] {
+    for guarded in [
+        "to_i32(parameters.far)",
+        "to_u32(parameters.far)",
+        "to_vec2i(parameters.place)",
+        "to_vec2u(",
+    ] {
         assert!(wgsl.contains(guarded), "no `{guarded}`:\n{wgsl}");
     }
     for bare in ["i32(clamp(parameters.far, 0.0, 255.0))", "vec2i(floor("] {
         let guarded = format!("to_{bare}");
-        assert!(wgsl.contains(bare) && !wgsl.contains(&guarded), "`{bare}` is guarded:\n{wgsl}");
+        assert!(
+            wgsl.contains(bare) && !wgsl.contains(&guarded),
+            "`{bare}` is guarded:\n{wgsl}"
+        );
     }
 }
 
 /// The bound of a loop that stays may be any expression.
 #[test]
 fn bounds_of_loops_keep_their_parentheses() {
-    for bound in ["n & 5", "n | 1", "n ^ 3", "n >> 1", "n << 1", "n % 4", "-n", "n.min(3)", "n + 1", "n * 2"] {
+    for bound in [
+        "n & 5", "n | 1", "n ^ 3", "n >> 1", "n << 1", "n % 4", "-n", "n.min(3)", "n + 1", "n * 2",
+    ] {
         let kernel = format!(
             "pub fn k(color: &Frame<Vec4>, n: i32, pixel: IVec2) -> Vec4 {{
                 let mut sum = Vec4::ZERO;
@@ -217,8 +236,12 @@ fn basic_blocks_are_those_of_the_spirv() {
         let compiled = compiled.unwrap_or_else(|e| panic!("{e}"));
         for stage in [Stage::Compute, Stage::Fragment] {
             let options = EmitOptions::new().targets(compilers::READ).stage(stage);
-            // Some have a uniform of the frame's size and no texture to tell it.
-            let Ok(emitted) = compiled.emit(&options) else { continue };
+            let emitted = match compiled.emit(&options) {
+                Ok(emitted) => emitted,
+                // No texture of the frame's size tells a fragment of it.
+                Err(EmitError::NoFrame { .. }) => continue,
+                Err(error) => panic!("{error}"),
+            };
             read(&emitted).unwrap_or_else(|e| panic!("{name}: {e}"));
             let labels = instructions(&words(&emitted), LABEL).len();
             let counts = &emitted.manifest.counts;
@@ -233,7 +256,10 @@ fn basic_blocks_are_those_of_the_spirv() {
             straight += u32::from(labels == 1);
         }
     }
-    assert!(counted >= 20 && straight >= 8, "{straight} of {counted} shaders are one block");
+    assert!(
+        counted >= 20 && straight >= 8,
+        "{straight} of {counted} shaders are one block"
+    );
 }
 
 /// Names of variables and of the kernel are changed where a language has another use for them.
@@ -245,8 +271,15 @@ fn odd_names_are_changed() {
                  active filter mix clamp unorm discard within place id position frame region __a a__b Pass Region";
     let long = "n".repeat(1100);
     for name in names.split_whitespace().chain([long.as_str()]) {
+        // In Rust a pattern that begins with a capital is a constant.
+        let kernel_name = name;
+        let name = if name.starts_with(char::is_uppercase) {
+            "local"
+        } else {
+            name
+        };
         let kernel = format!(
-            "pub fn {name}(color: &Frame<Vec4>, p: IVec2) -> Vec4 {{
+            "pub fn {kernel_name}(color: &Frame<Vec4>, p: IVec2) -> Vec4 {{
                 let {name} = color.load(p);
                 let n_1 = {name} * {name};
                 let mut sum = n_1;
@@ -255,7 +288,8 @@ fn odd_names_are_changed() {
             }}"
         );
         for unroll in [Unroll::Full, Unroll::None] {
-            let compiled = Kernel::from_text("kernel.rs", &kernel, name).compile(&settings(unroll, Branches::AsLoops));
+            let compiled =
+                Kernel::from_text("kernel.rs", &kernel, kernel_name).compile(&settings(unroll, Branches::AsLoops));
             let compiled = compiled.unwrap_or_else(|e| panic!("{name}: {e}"));
             emit(&compiled, Stage::Compute);
         }
@@ -268,7 +302,9 @@ fn odd_names_of_inputs_are_refused() {
     let refused = |name: &str| -> Vec<String> {
         let kernels = [
             format!("pub fn k({name}: &Frame<Vec4>, pixel: IVec2) -> Vec4 {{ {name}.load(pixel) }}"),
-            format!("pub fn k(color: &Frame<Vec4>, {name}: f32, pixel: IVec2) -> Vec4 {{ color.load(pixel) * {name} }}"),
+            format!(
+                "pub fn k(color: &Frame<Vec4>, {name}: f32, pixel: IVec2) -> Vec4 {{ color.load(pixel) * {name} }}"
+            ),
         ];
         let error = |kernel: &String| {
             let compiled = compile(kernel, Unroll::Full, Branches::Select);
@@ -278,18 +314,25 @@ fn odd_names_of_inputs_are_refused() {
     };
     let names = [
         ("imageStore", "is a word of"),
-        ("destination", "the shader itself"),
+        ("parameters", "the shader itself"),
         ("a__b", "two underscores"),
-        ("Parameters", "the shader itself"),
         ("image2D", "is a word of"),
         ("é", "other letters"),
         ("gl_x", "is a word of"),
-        ("k", "the shader itself"),
         ("__a", "is a word of"),
     ];
+    let kernel = "pub fn k(destination: &Frame<Vec4>, pixel: IVec2) -> Vec4 { destination.load(pixel) }";
+    for name in ["destination", "Parameters", "k"] {
+        let compiled = compile(&kernel.replace("destination", name), Unroll::Full, Branches::Select);
+        let error = compiled.emit(&EmitOptions::new()).expect_err(name).to_string();
+        assert!(error.contains("the shader itself"), "{name}: {error}");
+    }
     for (name, why) in names {
         for error in refused(name) {
-            assert!(error.contains(why) && error.contains("give the parameter another name"), "{name}: {error}");
+            assert!(
+                error.contains(why) && error.contains("give the parameter another name"),
+                "{name}: {error}"
+            );
         }
     }
     for error in refused(&"n".repeat(2000)) {
@@ -322,7 +365,8 @@ fn comments_hold_what_they_are_given() {
 /// Samplers of HLSL are bound by registers of their own, as any engine binds them, and GLSL gathers.
 #[test]
 fn samplers_and_gathers() {
-    let kernel = "pub fn k(image: &Texture<Vec4>, shadow: &DepthTexture, linear: &Sampler, less: &ComparisonSampler, at: Vec2, \
+    let kernel =
+        "pub fn k(image: &Texture<Vec4>, shadow: &DepthTexture, linear: &Sampler, less: &ComparisonSampler, at: Vec2, \
                   pixel: IVec2) -> Vec4 {
         let a = image.sample(linear, at);
         let b = image.gather(1, linear, at);

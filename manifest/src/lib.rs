@@ -54,6 +54,9 @@ pub struct Manifest {
     /// Textures, buffers, samplers and uniform buffers that the shader reads, in binding order. What the options make
     /// unnecessary is not listed.
     pub bindings: Vec<Binding>,
+    /// What single languages bind beside that.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub language_bindings: Vec<LanguageBinding>,
     /// Where the result goes.
     pub output: Output,
     /// Every option of the kernel with the value it was generated for; `uniform` for one that is set at run time.
@@ -66,6 +69,20 @@ pub struct Manifest {
     /// Of a shader that `straightline tune` chose: what was left out, and what that cost.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tuned: Option<Tuned>,
+}
+
+/// A resource that one language needs and the others do not.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LanguageBinding {
+    /// Target name, as in [`Manifest::files`].
+    pub language: String,
+    /// Name in the shader.
+    pub name: String,
+    /// Binding number; of `msl` the index of a buffer.
+    pub binding: u32,
+    /// What is to be bound, in words.
+    pub what: String,
 }
 
 /// A value that is interpolated for each fragment.
@@ -281,7 +298,8 @@ pub struct Output {
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Counts {
-    /// Basic blocks of the body; 1 means straight-line code.
+    /// Basic blocks: labels of the SPIR-V that naga makes of the shader, those of functions that it calls among them. 1 means
+    /// straight-line code; a compute shader has two more, for pixels outside of the target.
     pub basic_blocks: u32,
     /// Loops that were kept.
     pub loops: u32,

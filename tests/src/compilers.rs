@@ -71,7 +71,7 @@ pub fn glsl(path: &Path) -> Result<(), String> {
     run("glslangValidator", "glslang-tools", &arguments, path)
 }
 
-/// glslang on HLSL.
+/// glslang on HLSL. It knows no `(float[9])0`, which other compilers of HLSL take, and is shown the zeros one by one.
 ///
 /// # Errors
 ///
@@ -81,10 +81,28 @@ pub fn hlsl(path: &Path, stage: Stage, entry: &str) -> Result<(), String> {
         Stage::Compute => "comp",
         Stage::Fragment => "frag",
     };
-    let arguments = [
-        "-D", "-V", "--target-env", "vulkan1.1", "--quiet", "-o", "/dev/null", "-S", stage, "-e", entry,
-    ];
-    run("glslangValidator", "glslang-tools", &arguments, path)
+    let folder = Folder::new()?;
+    let shown = folder.0.join("shader.hlsl");
+    let text = std::fs::read_to_string(path).map_err(|e| e.to_string())?;
+    std::fs::write(&shown, zeros_one_by_one(&text)).map_err(|e| e.to_string())?;
+    let mut arguments = vec!["-D", "-V", "--target-env", "vulkan1.1", "--quiet", "-o", "/dev/null"];
+    arguments.extend(["-S", stage, "-e", entry]);
+    run("glslangValidator", "glslang-tools", &arguments, &shown)
+}
+
+fn zeros_one_by_one(text: &str) -> String {
+    let mut out = String::new();
+    let mut rest = text;
+    while let Some(at) = rest.find("])0") {
+        let before = &rest[..at];
+        let begin = before.rfind('(').unwrap_or(0);
+        let (ty, length) = before[begin + 1..].split_once('[').unwrap_or_default();
+        let zeros = vec![format!("({ty})0"); length.parse().unwrap_or(0)];
+        out += &before[..begin];
+        out += &format!("{{{}}}", zeros.join(", "));
+        rest = &rest[at + 3..];
+    }
+    out + rest
 }
 
 /// spirv-val.
@@ -104,7 +122,10 @@ fn run(tool: &str, package: &str, arguments: &[&str], path: &Path) -> Result<(),
     }
     let said = String::from_utf8_lossy(&run.stdout).into_owned() + &String::from_utf8_lossy(&run.stderr);
     let text = std::fs::read(path).unwrap_or_default();
-    Err(format!("{tool} refuses it:\n{said}\n{}", String::from_utf8_lossy(&text)))
+    Err(format!(
+        "{tool} refuses it:\n{said}\n{}",
+        String::from_utf8_lossy(&text)
+    ))
 }
 
 /// A folder of its own that is gone when it is dropped.
@@ -114,7 +135,11 @@ impl Folder {
     fn new() -> Result<Folder, String> {
         use std::sync::atomic::{AtomicU32, Ordering};
         static NEXT: AtomicU32 = AtomicU32::new(0);
-        let name = format!("straightline-texts-{}-{}", std::process::id(), NEXT.fetch_add(1, Ordering::Relaxed));
+        let name = format!(
+            "straightline-texts-{}-{}",
+            std::process::id(),
+            NEXT.fetch_add(1, Ordering::Relaxed)
+        );
         let path = std::env::temp_dir().join(name);
         std::fs::create_dir_all(&path).map_err(|e| format!("{}: {e}", path.display()))?;
         Ok(Folder(path))

@@ -135,8 +135,9 @@ fn module(module: &Module<'_>) -> TokenStream {
 /// A name as Rust writes it, one of its keywords as `r#name`.
 pub fn identifier(name: &str) -> proc_macro2::Ident {
     match syn::parse_str::<proc_macro2::Ident>(name) {
-        Ok(_) => format_ident!("{name}"),
-        Err(_) => proc_macro2::Ident::new_raw(name, proc_macro2::Span::call_site()),
+        // A keyword since the edition of 2024, which syn takes for a name.
+        Ok(_) if name != "gen" => format_ident!("{name}"),
+        _ => proc_macro2::Ident::new_raw(name, proc_macro2::Span::call_site()),
     }
 }
 

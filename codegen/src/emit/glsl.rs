@@ -353,7 +353,13 @@ impl Dialect for Glsl<'_> {
             return None;
         }
         let name = self.ty(ty);
-        let all = |code: &str| if ty.lanes() == 1 { code.to_owned() } else { format!("{name}({code})") };
+        let all = |code: &str| {
+            if ty.lanes() == 1 {
+                code.to_owned()
+            } else {
+                format!("{name}({code})")
+            }
+        };
         let equal = |x: &str, code: &str| match ty.lanes() {
             1 => format!("{x} == {code}"),
             _ => format!("equal({x}, {name}({code}))"),
@@ -372,13 +378,21 @@ impl Dialect for Glsl<'_> {
             divisor = format!("mix({divisor}, {}, {overflow})", all(one));
         }
         let (function, comment, result) = match (quotient, signed) {
-            (true, _) => ("whole_quotient", "x / y, and x where that is not defined.", "x / divisor"),
+            (true, _) => (
+                "whole_quotient",
+                "x / y, and x where that is not defined.",
+                "x / divisor",
+            ),
             (false, true) => (
                 "whole_remainder",
                 "What x / y leaves, with the sign of x, and 0 where it is not defined.",
                 "x - divisor * (x / divisor)",
             ),
-            (false, false) => ("whole_remainder", "What x / y leaves, and 0 where it is not defined.", "x % divisor"),
+            (false, false) => (
+                "whole_remainder",
+                "What x / y leaves, and 0 where it is not defined.",
+                "x % divisor",
+            ),
         };
         let helper = format!(
             "// {comment}\n{name} {function}({name} x, {name} y) {{\n    {name} divisor = {divisor};\n    return {result};\n}}"
@@ -394,7 +408,13 @@ impl Dialect for Glsl<'_> {
         }
         let signed = to.kind() == Some(Scalar::I32);
         let (floats, words) = (self.ty(from), self.ty(to.with_scalar(Scalar::U32)));
-        let all = |ty: &str, code: &str| if to.lanes() == 1 { code.to_owned() } else { format!("{ty}({code})") };
+        let all = |ty: &str, code: &str| {
+            if to.lanes() == 1 {
+                code.to_owned()
+            } else {
+                format!("{ty}({code})")
+            }
+        };
         let compare = |function: &str, op: &str, x: &str, y: &str| match to.lanes() {
             1 => format!("{x} {op} {y}"),
             _ => format!("{function}({x}, {y})"),

@@ -6,7 +6,7 @@ use std::collections::{BTreeSet, HashMap, HashSet};
 use straightline_manifest::REGION;
 
 /// Names that the text around a kernel's body has uses for.
-const OWN: [&str; 13] = [
+const OWN: [&str; 11] = [
     UNIFORMS,
     SAMPLER,
     OUTPUT,
@@ -18,9 +18,10 @@ const OWN: [&str; 13] = [
     "pixel",
     "id",
     "position",
-    "within",
-    "place",
 ];
+
+/// Names that it has uses for where the shader filters a rectangle.
+const OF_REGIONS: [&str; 2] = ["within", "place"];
 
 /// Longer names are cut, or refused where hosts use them.
 const LONGEST: usize = 255;
@@ -37,7 +38,15 @@ pub fn is_reserved(word: &str) -> bool {
         || word.starts_with("to_ivec")
         || word.starts_with("to_uvec")
         || word.starts_with("to_vec")
-        || ["to_i32", "to_u32", "to_int", "to_uint", "whole_quotient", "whole_remainder"].contains(&word)
+        || [
+            "to_i32",
+            "to_u32",
+            "to_int",
+            "to_uint",
+            "whole_quotient",
+            "whole_remainder",
+        ]
+        .contains(&word)
 }
 
 /// Types of GLSL that come in families: `mat4x3`, `ivec2`, `usampler2DArray`, `image3D`, ...
@@ -51,7 +60,8 @@ fn is_glsl_type(word: &str) -> bool {
         let is_opaque = |prefix: &&str| {
             let rest = bare.strip_prefix(prefix);
             let kinds = ["1D", "2D", "3D", "Cube", "Buffer", "Shadow", "MS"];
-            rest.is_some_and(|rest| rest.is_empty() || kinds.iter().any(|kind| rest.starts_with(kind)))
+            let whole = *prefix != "image";
+            rest.is_some_and(|rest| (whole && rest.is_empty()) || kinds.iter().any(|kind| rest.starts_with(kind)))
         };
         numbered("vec") || numbered("mat") || opaque.iter().any(is_opaque)
     };
@@ -59,12 +69,13 @@ fn is_glsl_type(word: &str) -> bool {
 }
 
 /// Why a name that hosts use, of an input or a uniform, can be none in every language; names are not changed behind a host's
-/// back.
-pub fn refused(name: &str, entry: &str) -> Option<&'static str> {
+/// back. Uniforms are fields, and have only the name of the struct that holds them to stay clear of.
+pub fn refused(name: &str, entry: &str, is_field: bool, of_region: bool) -> Option<&'static str> {
     let plain = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    let own = OWN.contains(&name) || name == entry || (of_region && OF_REGIONS.contains(&name));
     if is_reserved(name) {
         Some("is a word of WGSL or GLSL")
-    } else if OWN.contains(&name) || name == entry {
+    } else if name == UNIFORMS || (own && !is_field) {
         Some("is a name that the shader itself has a use for")
     } else if name.len() > LONGEST {
         Some("is longer than the 255 letters that every compiler takes")
@@ -124,6 +135,9 @@ impl Names {
     pub fn new(graph: &Graph, resources: &Resources, entry: &str) -> Names {
         let mut taken: HashSet<String> = OWN.map(str::to_owned).into();
         taken.insert(entry.to_owned());
+        if resources.options.region {
+            taken.extend(OF_REGIONS.map(str::to_owned));
+        }
         taken.extend(resources.names().map(str::to_owned));
         let counters: BTreeSet<&str> = graph
             .origins

@@ -1,15 +1,15 @@
 //! What a shader binds: only what it reads.
 
-use super::EmitOptions;
 use super::error::EmitError;
 use super::layout::{layout, stride};
 use super::wgsl::type_name;
+use super::{EmitOptions, Target};
 use crate::ir::{Buffer, NodeId, Op, Sampler, Texture, TextureKind, Uniform, Varying};
 use crate::passes::layers_read;
 use crate::pipeline::Compiled;
 use straightline_manifest::{
-    Access, Binding, BindingKind, Counts, Dimension, Extent, Manifest, Output, Precision, REGION, REGION_SIZE, SCHEMA,
-    SampleType, SamplerType, Stage, UniformField, region_fields,
+    Access, Binding, BindingKind, Counts, Dimension, Extent, LanguageBinding, Manifest, Output, Precision, REGION,
+    REGION_SIZE, SCHEMA, SampleType, SamplerType, Stage, UniformField, region_fields,
 };
 
 /// Name of the uniform buffer.
@@ -123,11 +123,16 @@ impl Resources {
         let names = names.chain(read_buffers.iter().map(|(k, _)| &graph.buffers[*k as usize].name));
         let names = names.chain(used_samplers.iter().map(|(k, _)| &graph.samplers[*k as usize].name));
         let entry = super::names::entry_point(&compiled.kernel);
+        let names = names.chain(graph.varyings.iter().map(|v| &v.name));
         let mut names = names
-            .chain(uniforms.iter().map(|u| &u.name))
-            .chain(graph.varyings.iter().map(|v| &v.name));
-        if let Some((name, why)) = names.find_map(|name| Some((name, super::names::refused(name, &entry)?))) {
-            let name = shortened(name);
+            .map(|name| (name, false))
+            .chain(uniforms.iter().map(|u| (&u.name, true)));
+        let refused = |(name, is_field): (&String, bool)| {
+            let why = super::names::refused(name, &entry, is_field, options.region)?;
+            Some((name.clone(), why))
+        };
+        if let Some((name, why)) = names.find_map(refused) {
+            let name = shortened(&name);
             return Err(EmitError::Name {
                 kernel: kernel(),
                 name,
@@ -243,6 +248,36 @@ impl Resources {
         needed.map(|(_, name)| name.to_owned()).collect()
     }
 
+    /// What single languages of the shader bind beside what all of them do.
+    fn language_bindings(&self) -> Vec<LanguageBinding> {
+        let mut extra = Vec::new();
+        let mut add = |target: Target, name: &str, what: &str| {
+            if self.options.targets.contains(&target) {
+                extra.push(LanguageBinding {
+                    language: target.to_string(),
+                    name: name.to_owned(),
+                    binding: self.sampler_binding(),
+                    what: what.to_owned(),
+                });
+            }
+        };
+        if !self.read.is_empty() {
+            add(
+                Target::Glsl450,
+                SAMPLER,
+                "any sampler: texels are named with one, and not filtered",
+            );
+        }
+        if !self.read_buffers.is_empty() {
+            add(
+                Target::Msl,
+                "_buffer_sizes",
+                "a buffer of one u32 for each storage buffer, in order of binding: its length in bytes",
+            );
+        }
+        extra
+    }
+
     /// The manifest of the shader, without its files.
     pub fn manifest(&self, compiled: &Compiled, counts: &Counts) -> Manifest {
         let mut bindings = Vec::new();
@@ -312,6 +347,7 @@ impl Resources {
             features: self.features(),
             varyings: self.varyings().collect(),
             bindings,
+            language_bindings: self.language_bindings(),
             output: Output {
                 name: OUTPUT.to_owned(),
                 group: compute.then_some(0),

@@ -3,8 +3,8 @@
 use super::body::Body;
 use super::dialect::Dialect;
 use super::error::EmitError;
-use super::text::comment;
 use super::resources::{OUTPUT, Resources, SAMPLER, UNIFORMS};
+use super::text::comment;
 use crate::ir::{Invocation, TextureKind};
 use crate::pipeline::Compiled;
 use crate::policy::Transport;

@@ -278,7 +278,13 @@ fn saturating(to: Type) -> (String, String) {
         Some(Scalar::I32) => ("2147483648.0", "2147483647", "0"),
         _ => ("4294967296.0", "4294967295u", "0u"),
     };
-    let all = |ty: &str, code: &str| if to.lanes() == 1 { code.to_owned() } else { format!("{ty}({code})") };
+    let all = |ty: &str, code: &str| {
+        if to.lanes() == 1 {
+            code.to_owned()
+        } else {
+            format!("{ty}({code})")
+        }
+    };
     let text = format!(
         "// What is too large becomes the largest integer, NaN becomes 0.\nfn {name}(x: {from}) -> {to_name} {{\n    let is_nan = \
          (bitcast<{words}>(x) & {}) > {};\n    let saturated = select({to_name}(x), {}, x >= {});\n    return select(saturated, \

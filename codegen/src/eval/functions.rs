@@ -3,7 +3,7 @@
 use super::Evaluator;
 use super::value::{Eval, Value};
 use crate::diagnostic::{Diagnostic, Span};
-use crate::ir::{BinaryOp, NodeId, Op, Type, UnaryOp};
+use crate::ir::{BinaryOp, NodeId, Op, Scalar, Type, UnaryOp};
 
 impl Evaluator<'_> {
     /// A function of the prelude; `None` if it has none of this name.
@@ -51,6 +51,28 @@ impl Evaluator<'_> {
             }
             _ => Ok(None),
         }
+    }
+
+    /// Refuses bounds of `clamp` that are known to be the wrong way round: Rust panics at them, and Tint refuses them.
+    pub(super) fn in_order(&self, low: NodeId, high: NodeId, span: Span) -> Eval<()> {
+        let graph = self.builder.graph();
+        let (Some(least), Some(most)) = (graph.constant(low), graph.constant(high)) else {
+            return Ok(());
+        };
+        let ty = graph.ty(low);
+        let ordered = |(a, b): (u32, u32)| match ty.kind() {
+            Some(Scalar::F32) => f32::from_bits(a) <= f32::from_bits(b),
+            Some(Scalar::I32) => a as i32 <= b as i32,
+            _ => a <= b,
+        };
+        let lanes = usize::from(ty.lanes());
+        if least.into_iter().zip(most).take(lanes).all(ordered) {
+            return Ok(());
+        }
+        Err(Diagnostic::at(span, "the bounds of `clamp` are the wrong way round")
+            .label("the first is not at most the second, and Rust panics here")
+            .help("give the smaller bound first: `x.clamp(low, high)`")
+            .into())
     }
 
     fn saturated(&mut self, x: NodeId) -> NodeId {

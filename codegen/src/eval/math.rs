@@ -48,6 +48,7 @@ impl Evaluator<'_> {
                     self.same_type(b, receiver, span)?.0,
                 );
                 let ty = self.ty(x);
+                self.in_order(low, high, span)?;
                 Some(self.builder.add(Op::Clamp, vec![x, low, high], ty))
             }
             [to, amount] if name == "lerp" => {

@@ -1,24 +1,29 @@
 //! What must hold of every graph.
 //!
-//! 1. Arguments, and a region's results, are made before their users.
-//! 2. Every operation has as many arguments as it takes, of the types that it takes, and gives the type it says.
-//! 3. Indices of textures, uniforms, tallies and regions exist; the regions of a branch agree in their results, a
-//!    loop's carried values in number and type with its results.
+//! 1. Arguments, and a region's results and parameters, are made before their users.
+//! 2. Every operation has as many arguments as it takes, of the types that it takes, and gives the type it says. Vectors have
+//!    2 to 4 components, arrays at least one element; of booleans a constant is 0 or 1.
+//! 3. Indices of textures, buffers, samplers, uniforms, interpolated values, tallies and regions exist. Every region but the
+//!    body belongs to one loop or branch; its parent was opened before it, and its parameters say that they are its own. The
+//!    regions of a branch agree in their results, a loop's carried values in number and type with its results.
 //! 4. A parameter is only used inside its region.
 //! 5. The kernel has a result for each pixel of its invocation, each a `vec4<f32>`.
 //! 6. Lanes, messages, derivatives and interpolated values are of kernels whose invocations are lanes of quads.
 
-use super::{BinaryOp, Graph, Invocation, NodeId, Op, RegionId, Scalar, TextureKind, Type};
+use super::{BinaryOp, Graph, Invocation, NodeId, Op, RegionId, Scalar, TextureKind, Type, UnaryOp};
 
 /// Checks a graph; the message names the node that breaks a rule.
 pub fn verify(graph: &Graph) -> Result<(), String> {
     let outputs = &graph.regions.first().ok_or("no body")?.results;
     let [width, height] = graph.invocation.pixels();
+    let known = |id: &NodeId| (id.0 as usize) < graph.nodes.len();
     if outputs.len() != (width * height) as usize
+        || !outputs.iter().all(known)
         || outputs.iter().any(|id| graph.ty(*id) != Type::value(Scalar::F32, 4))
     {
         return Err("the body must have one result for each pixel, a vec4<f32>".to_owned());
     }
+    regions(graph)?;
     for id in graph.ids() {
         let node = graph.node(id);
         if node.args.iter().any(|arg| *arg >= id) {
@@ -27,6 +32,39 @@ pub fn verify(graph: &Graph) -> Result<(), String> {
         check(graph, id).map_err(|why| format!("%{} ({:?} -> {}): {why}", id.0, node.op, node.ty))?;
     }
     scopes(graph)
+}
+
+/// Rules 1 and 3, as far as they are of regions.
+fn regions(graph: &Graph) -> Result<(), String> {
+    let mut owners = vec![0; graph.regions.len()];
+    for id in graph.ids() {
+        for region in graph.regions_of(id) {
+            let Some(owned) = owners.get_mut(region.0 as usize) else {
+                return Err(format!("%{}: no such region", id.0));
+            };
+            *owned += 1;
+            let region = graph.region(region);
+            if region.params.iter().chain(&region.results).any(|inner| *inner >= id) {
+                return Err(format!("%{}: a parameter or result is made after its user", id.0));
+            }
+        }
+    }
+    for (k, region) in graph.regions.iter().enumerate() {
+        let opened = region.parent.is_some_and(|parent| (parent.0 as usize) < k);
+        if (k == 0 && (region.parent.is_some() || owners[k] > 0)) || (k > 0 && !opened) {
+            return Err(format!("region {k} is not in a region that was opened before it"));
+        }
+        if owners[k] > 1 {
+            return Err(format!("region {k} belongs to {} loops or branches", owners[k]));
+        }
+        for (index, param) in region.params.iter().enumerate() {
+            let own = Op::Param(RegionId(k as u32), index as u32);
+            if graph.nodes.get(param.0 as usize).is_none_or(|node| node.op != own) {
+                return Err(format!("region {k} has a parameter that is not its own"));
+            }
+        }
+    }
+    Ok(())
 }
 
 fn check(graph: &Graph, id: NodeId) -> Result<(), String> {
@@ -40,8 +78,29 @@ fn check(graph: &Graph, id: NodeId) -> Result<(), String> {
         }
     };
     let count = |n: usize| expect(types.len() == n, "wrong number of arguments");
+    let shaped = match node.ty {
+        Type::Value { lanes, .. } => (1..=4).contains(&lanes),
+        Type::Array { lanes, len, .. } => (1..=4).contains(&lanes) && len >= 1,
+        Type::Results => matches!(node.op, Op::Loop(_) | Op::If(..)),
+    };
+    expect(shaped, "a type that no value has")?;
+    let value = !node.ty.is_array() && node.ty != Type::Results;
     match &node.op {
-        Op::Const(_) | Op::Param(..) => count(0),
+        Op::Const(bits) => {
+            count(0)?;
+            expect(value, "a constant is a scalar or a vector")?;
+            let boolean = node.ty.kind() == Some(Scalar::Bool);
+            expect(!boolean || bits.iter().all(|bit| *bit <= 1), "a boolean is 0 or 1")
+        }
+        Op::Param(region, k) => {
+            count(0)?;
+            let own = graph
+                .regions
+                .get(region.0 as usize)
+                .and_then(|r| r.params.get(*k as usize));
+            expect(own == Some(&id), "no such parameter")?;
+            expect(*k > 0 || node.ty == Type::I32, "a counter is an i32")
+        }
         Op::Pixel | Op::FrameSize => {
             count(0)?;
             expect(node.ty == Type::value(Scalar::I32, 2), "a coordinate is a vec2<i32>")
@@ -69,10 +128,23 @@ fn check(graph: &Graph, id: NodeId) -> Result<(), String> {
                 "a scalar or vector, of floats for a derivative",
             )
         }
-        Op::Uniform(k) => expect((*k as usize) < graph.uniforms.len(), "no such uniform"),
-        Op::Unary(_) | Op::Tally(_) => {
+        Op::Uniform(k) => {
+            let uniform = graph.uniforms.get(*k as usize).ok_or("no such uniform")?;
+            count(0)?;
+            expect(node.ty == uniform.ty, "of the uniform's type")
+        }
+        Op::Tally(k) => {
             count(1)?;
+            expect((*k as usize) < graph.tallies.len(), "no such tally")?;
             expect(types[0] == node.ty, "type of argument and result differ")
+        }
+        Op::Unary(op) => {
+            count(1)?;
+            expect(types[0] == node.ty, "type of argument and result differ")?;
+            expect(
+                value && node.ty.kind().is_some_and(|kind| takes(*op, kind)),
+                "an operation that the type does not have",
+            )
         }
         Op::Binary(op) => {
             count(2)?;
@@ -87,7 +159,15 @@ fn check(graph: &Graph, id: NodeId) -> Result<(), String> {
                 op,
                 BinaryOp::Shl | BinaryOp::Shr | BinaryOp::And | BinaryOp::Or | BinaryOp::Xor
             );
-            expect(!(bits && types[0].is_float()), "a bit operation on floats")
+            expect(!(bits && types[0].is_float()), "a bit operation on floats")?;
+            let floats = matches!(op, BinaryOp::Pow | BinaryOp::Atan2);
+            expect(!floats || types[0].is_float(), "a power or an angle of integers")?;
+            let logic = matches!(
+                op,
+                BinaryOp::And | BinaryOp::Or | BinaryOp::Xor | BinaryOp::Eq | BinaryOp::Ne
+            );
+            expect(logic || types[0].kind() != Some(Scalar::Bool), "arithmetic on booleans")?;
+            expect(value, "arithmetic on arrays")
         }
         Op::Dot => {
             count(2)?;
@@ -106,7 +186,8 @@ fn check(graph: &Graph, id: NodeId) -> Result<(), String> {
         }
         Op::Clamp => {
             count(3)?;
-            expect(types.iter().all(|t| *t == node.ty), "all of one type")
+            expect(types.iter().all(|t| *t == node.ty), "all of one type")?;
+            expect(value && node.ty.kind() != Some(Scalar::Bool), "numbers")
         }
         Op::Select => {
             count(3)?;
@@ -118,12 +199,13 @@ fn check(graph: &Graph, id: NodeId) -> Result<(), String> {
         Op::Splat => {
             count(1)?;
             expect(
-                types[0].is_scalar() && types[0].kind() == node.ty.kind(),
+                types[0].is_scalar() && types[0].kind() == node.ty.kind() && value && !node.ty.is_scalar(),
                 "a scalar of the vector's kind",
             )
         }
         Op::Compose => {
             count(node.ty.lanes() as usize)?;
+            expect(value && !node.ty.is_scalar(), "a vector")?;
             expect(
                 types.iter().all(|t| t.is_scalar() && t.kind() == node.ty.kind()),
                 "a scalar for each lane",
@@ -132,21 +214,27 @@ fn check(graph: &Graph, id: NodeId) -> Result<(), String> {
         Op::Extract(lane) => {
             count(1)?;
             expect(
-                *lane < types[0].lanes() && node.ty.is_scalar() && node.ty.kind() == types[0].kind(),
+                *lane < types[0].lanes()
+                    && !types[0].is_array()
+                    && !types[0].is_scalar()
+                    && node.ty.is_scalar()
+                    && node.ty.kind() == types[0].kind(),
                 "a lane of a vector",
             )
         }
         Op::Convert => {
             count(1)?;
-            expect(types[0].lanes() == node.ty.lanes(), "as many lanes as before")
+            let alike = types[0].lanes() == node.ty.lanes() && !types[0].is_array() && value;
+            expect(alike, "as many lanes as before")
         }
         Op::Bitcast => {
             count(1)?;
             let number = |t: Type| t.kind() != Some(Scalar::Bool);
             let alike = types[0].lanes() == node.ty.lanes() && number(types[0]) && number(node.ty);
-            expect(alike, "numbers of as many lanes")
+            expect(alike && !types[0].is_array() && value, "numbers of as many lanes")
         }
         Op::TextureSize(texture) => {
+            count(0)?;
             expect((*texture as usize) < graph.textures.len(), "no such texture")?;
             expect(node.ty == Type::value(Scalar::I32, 2), "a size is a vec2<i32>")
         }
@@ -174,7 +262,9 @@ fn check(graph: &Graph, id: NodeId) -> Result<(), String> {
                 entry.components
             };
             let fits = types[0] == Type::value(Scalar::F32, 2) && node.ty == Type::value(Scalar::F32, components);
-            expect(fits, "a vec2<f32> to what the texture holds")
+            expect(fits, "a vec2<f32> to what the texture holds")?;
+            let component = matches!(node.op, Op::Gather { component, .. } if component >= entry.components);
+            expect(!component, "a component that the texture does not have")
         }
         Op::Compare { texture, sampler, .. } | Op::GatherCompare { texture, sampler, .. } => {
             let entry = graph.textures.get(*texture as usize).ok_or("no such texture")?;
@@ -191,6 +281,7 @@ fn check(graph: &Graph, id: NodeId) -> Result<(), String> {
             expect(fits, "a vec2<f32> and an f32 to an f32, or a vec4<f32> of a gather")
         }
         Op::BufferLen(buffer) => {
+            count(0)?;
             expect((*buffer as usize) < graph.buffers.len(), "no such buffer")?;
             expect(node.ty == Type::I32, "a length is an i32")
         }
@@ -224,6 +315,10 @@ fn check(graph: &Graph, id: NodeId) -> Result<(), String> {
         Op::Loop(body) => {
             let body = region(graph, *body)?;
             expect(
+                node.ty == Type::Results && !body.params.is_empty(),
+                "results, of a region with a counter",
+            )?;
+            expect(
                 types.len() >= 2 && types[0] == types[1] && matches!(types[0], Type::I32 | Type::U32),
                 "bounds are two i32 or two u32",
             )?;
@@ -239,6 +334,11 @@ fn check(graph: &Graph, id: NodeId) -> Result<(), String> {
         Op::If(then, otherwise) => {
             count(1)?;
             let sides = [region(graph, *then)?, region(graph, *otherwise)?];
+            let bare = sides.iter().all(|side| side.params.is_empty());
+            expect(
+                node.ty == Type::Results && bare,
+                "results, of regions without parameters",
+            )?;
             let [a, b] = sides.map(|r| r.results.iter().map(|id| graph.ty(*id)).collect::<Vec<_>>());
             expect(
                 types[0] == Type::BOOL && a == b,
@@ -254,6 +354,18 @@ fn check(graph: &Graph, id: NodeId) -> Result<(), String> {
             let result = graph.region(first).results.get(*k as usize).ok_or("no such result")?;
             expect(graph.ty(*result) == node.ty, "wrong type")
         }
+    }
+}
+
+/// Whether an operation is one of a kind of numbers.
+fn takes(op: UnaryOp, kind: Scalar) -> bool {
+    use UnaryOp::*;
+    match op {
+        Not => kind == Scalar::Bool,
+        BitNot | CountOneBits | ReverseBits | LeadingZeros | TrailingZeros => matches!(kind, Scalar::I32 | Scalar::U32),
+        Neg | Sign => matches!(kind, Scalar::F32 | Scalar::I32),
+        Abs => kind != Scalar::Bool,
+        _ => kind == Scalar::F32,
     }
 }
 

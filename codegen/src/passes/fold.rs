@@ -138,7 +138,11 @@ fn bounded_by(g: &Graph, id: NodeId, bound: NodeId) -> bool {
         Op::Tally(_) => bounded_by(g, node.args[0], bound),
         Op::Binary(BinaryOp::Min) => {
             // Of vectors the last argument stands for a NaN in the first.
-            let bounds = if node.ty.is_scalar() { &node.args[..] } else { &node.args[1..] };
+            let bounds = if node.ty.is_scalar() {
+                &node.args[..]
+            } else {
+                &node.args[1..]
+            };
             bounds.contains(&bound)
                 && g.constant(bound).is_some()
                 && !all_lanes(g, bound, 0)

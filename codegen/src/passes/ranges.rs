@@ -77,7 +77,11 @@ fn bounds_at(g: &Graph, id: NodeId, component: u8, depth: u32) -> Option<(i64, i
     let fits = |(low, high): (i64, i64)| (low >= smallest && high <= largest).then_some((low, high));
     let known = |id: NodeId| {
         let bits = g.constant(id)?[component as usize];
-        Some(if unsigned { i64::from(bits) } else { i64::from(bits as i32) })
+        Some(if unsigned {
+            i64::from(bits)
+        } else {
+            i64::from(bits as i32)
+        })
     };
     let corners = |f: fn(i64, i64) -> i64| {
         let ((a, b), (c, d)) = (of(0)?, of(1)?);

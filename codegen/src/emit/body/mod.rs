@@ -73,12 +73,7 @@ pub fn body(compiled: &Compiled, resources: &Resources, dialect: &dyn Dialect) -
 /// Cuts after which every version of an array is given a variable of its own.
 const MAX_CUTS: usize = 16;
 
-fn attempt(
-    compiled: &Compiled,
-    resources: &Resources,
-    dialect: &dyn Dialect,
-    webs: Webs,
-) -> Written<Body> {
+fn attempt(compiled: &Compiled, resources: &Resources, dialect: &dyn Dialect, webs: Webs) -> Written<Body> {
     let graph = &compiled.graph;
     let mut writer = Writer {
         compiled,
@@ -235,8 +230,13 @@ impl Writer<'_> {
             Op::Unary(op) => d.unary(*op, node.ty, &args[0]),
             Op::Binary(op @ (BinaryOp::Div | BinaryOp::Rem))
                 if operand.is_integer()
-                    && let Some((text, helper)) =
-                        d.divide(*op, operand, &args[0], &args[1], known::division(graph, node.args[0], node.args[1])) =>
+                    && let Some((text, helper)) = d.divide(
+                        *op,
+                        operand,
+                        &args[0],
+                        &args[1],
+                        known::division(graph, node.args[0], node.args[1]),
+                    ) =>
             {
                 self.helpers.insert(helper);
                 text
@@ -317,7 +317,11 @@ impl Writer<'_> {
         if let Some(special) = self.specials.get(&bits) {
             return Text::name(special.name.as_str());
         }
-        let wanted = if f32::from_bits(bits).is_nan() { "nan" } else { "infinity" };
+        let wanted = if f32::from_bits(bits).is_nan() {
+            "nan"
+        } else {
+            "infinity"
+        };
         let [name, variable] = [wanted.to_owned(), format!("{wanted}_bits")].map(|name| self.names.fresh(&name));
         let value = self
             .dialect
@@ -338,13 +342,9 @@ impl Writer<'_> {
     fn size(&self, id: NodeId) -> u32 {
         let node = self.compiled.graph.node(id);
         let own = match node.op {
-            Op::Pixel
-            | Op::FrameSize
-            | Op::Uniform(_)
-            | Op::Varying(_)
-            | Op::Splat
-            | Op::Extract(_)
-            | Op::Tally(_) => 0,
+            Op::Pixel | Op::FrameSize | Op::Uniform(_) | Op::Varying(_) | Op::Splat | Op::Extract(_) | Op::Tally(_) => {
+                0
+            }
             _ => 1,
         };
         let inside = |arg: &NodeId| self.texts[arg.0 as usize].as_ref().map_or(0, |text| text.size);

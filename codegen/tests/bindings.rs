@@ -1,0 +1,133 @@
+//! The Rust that binds a shader compiles, whatever its uniforms are called.
+
+#![allow(missing_docs)]
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use straightline_codegen::emit::{self, Module};
+use straightline_codegen::{EmitOptions, Kernel, Settings};
+
+/// As much of the runtime as bindings name.
+const RUNTIME: &str = r#"
+pub mod wgpu {
+    pub struct Device; pub struct Queue; pub struct CommandEncoder;
+    #[derive(Debug)] pub struct TextureView; #[derive(Debug)] pub struct Sampler; #[derive(Debug)] pub struct Buffer;
+    pub struct BindGroupLayoutDescriptor<'a> { pub label: Option<&'a str>, pub entries: &'a [BindGroupLayoutEntry] }
+    pub struct BindGroupLayoutEntry { pub binding: u32, pub visibility: ShaderStages, pub ty: BindingType, pub count: Option<u32> }
+    pub struct ShaderStages; impl ShaderStages { pub const COMPUTE: ShaderStages = ShaderStages; }
+    pub struct BufferSize; impl BufferSize { pub const fn new(_: u64) -> Option<BufferSize> { None } }
+    pub enum BindingType {
+        Buffer { ty: BufferBindingType, has_dynamic_offset: bool, min_binding_size: Option<BufferSize> },
+        Texture { sample_type: TextureSampleType, view_dimension: TextureViewDimension, multisampled: bool },
+        StorageTexture { access: StorageTextureAccess, format: TextureFormat, view_dimension: TextureViewDimension },
+    }
+    pub enum BufferBindingType { Uniform } pub enum TextureSampleType { Float { filterable: bool } }
+    pub enum TextureViewDimension { D2 } pub enum StorageTextureAccess { WriteOnly } pub enum TextureFormat { Rgba16Float }
+}
+#[derive(Debug)] pub struct Error;
+pub struct Resource<'a>(pub &'a ());
+impl<'a> From<&'a wgpu::TextureView> for Resource<'a> { fn from(_: &'a wgpu::TextureView) -> Self { Resource(&()) } }
+#[derive(Debug)] pub struct Pass;
+impl Pass {
+    pub fn from_json(_: &wgpu::Device, _: &str, _: &str) -> Result<Pass, Error> { Ok(Pass) }
+    pub fn encode(&self, _: &mut wgpu::CommandEncoder, _: &[(&str, Resource<'_>)], _: &wgpu::TextureView) -> Result<(), Error> { Ok(()) }
+    pub fn write_uniform<T>(&self, _: &wgpu::Queue, _: &str, _: T) -> Result<(), Error> { Ok(()) }
+    pub fn write_uniforms(&self, _: &wgpu::Queue, _: &[u8]) -> Result<(), Error> { Ok(()) }
+}
+"#;
+
+fn rustc(folder: &Path, file: &str, arguments: &[&str]) {
+    let run = Command::new("rustc")
+        .current_dir(folder)
+        .args([
+            "--edition",
+            "2024",
+            "--crate-type",
+            "lib",
+            "--emit",
+            "metadata",
+            "-D",
+            "warnings",
+        ])
+        .args(arguments)
+        .arg(file)
+        .output()
+        .expect("rustc is on the path");
+    let said = String::from_utf8_lossy(&run.stderr);
+    let text = std::fs::read_to_string(folder.join(file)).unwrap_or_default();
+    assert!(run.status.success(), "{said}\n{text}");
+}
+
+fn folder() -> PathBuf {
+    let folder = std::env::temp_dir().join(format!("straightline-bindings-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).expect("a folder");
+    folder
+}
+
+#[test]
+fn bindings_compile_whatever_uniforms_are_called() {
+    let folder = folder();
+    std::fs::write(folder.join("straightline_runtime.rs"), RUNTIME).expect("written");
+    rustc(
+        &folder,
+        "straightline_runtime.rs",
+        &["--crate-name", "straightline_runtime"],
+    );
+    let names = [
+        "Pass",
+        "Some",
+        "Ok",
+        "None",
+        "Err",
+        "MANIFEST",
+        "WGSL",
+        "ENTRY_POINT",
+        "padding_0",
+        "padding_1",
+        "value_0",
+        "bytes",
+        "queue",
+        "value",
+        "Inputs",
+        "Error",
+        "Resource",
+        "wgpu",
+        "dyn",
+        "gen",
+        "place",
+        "u32",
+        "Self_",
+        "Default",
+        "to_bytes",
+    ];
+    for (k, name) in names.into_iter().enumerate() {
+        let text = format!(
+            "pub fn k(color: &Frame<Vec4>, first: f32, {name}: Vec2, last: Vec3, pixel: IVec2) -> Vec4 {{
+                color.load(pixel) * first + {name}.x * last.y
+            }}"
+        );
+        // Some are no names of Rust's, or of a shading language's: those are refused before.
+        let Ok(compiled) = Kernel::from_text("kernel.rs", &text, "k").compile(&Settings::default()) else {
+            continue;
+        };
+        let Ok(emitted) = compiled.emit(&EmitOptions::new()) else {
+            continue;
+        };
+        let module = Module {
+            name: "shader",
+            compiled: &compiled,
+            manifest: &emitted.manifest,
+        };
+        for (file, contents) in emitted.named("shader") {
+            std::fs::write(folder.join(file), contents).expect("written");
+        }
+        let file = format!("bindings_{k}.rs");
+        std::fs::write(folder.join(&file), emit::bindings(&[module])).expect("written");
+        rustc(
+            &folder,
+            &file,
+            &["--extern", "straightline_runtime=libstraightline_runtime.rmeta"],
+        );
+    }
+    std::fs::remove_dir_all(&folder).expect("removed");
+}

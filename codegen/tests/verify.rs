@@ -1,0 +1,227 @@
+//! Every rule of the verifier is broken by one change of a graph that keeps all of them.
+
+#![allow(missing_docs)]
+
+use straightline_codegen::ir::{
+    BinaryOp, Buffer, Builder, Direction, Graph, Invocation, Node, NodeId, Op, RegionId, Rules, Sampler, Scalar,
+    Texture, TextureKind, Type, UnaryOp, Uniform, verify::verify,
+};
+
+struct Nothing;
+
+impl Rules for Nothing {
+    fn simplify(&self, _: &mut Builder<'_>, _: &Op, _: &[NodeId], _: Type) -> Option<NodeId> {
+        None
+    }
+}
+
+const VEC2: Type = Type::value(Scalar::F32, 2);
+const VEC4: Type = Type::value(Scalar::F32, 4);
+const PAIR: Type = Type::value(Scalar::I32, 2);
+
+/// A graph with a loop, a branch, an array and reads: the nodes are numbered as they are made.
+fn whole() -> Graph {
+    let mut b = Builder::new(&Nothing);
+    let texture = |name: &str, kind, components| Texture {
+        name: name.to_owned(),
+        kind,
+        components,
+        framed: true,
+    };
+    let sampler = |name: &str, comparison| Sampler {
+        name: name.to_owned(),
+        comparison,
+    };
+    let graph = b.graph_mut();
+    graph.textures = vec![texture("a", TextureKind::Flat, 2), texture("d", TextureKind::Depth, 1)];
+    graph.samplers = vec![sampler("s", false), sampler("c", true)];
+    graph.buffers = vec![Buffer {
+        name: "b".to_owned(),
+        element: Type::F32,
+    }];
+    graph.uniforms = vec![Uniform {
+        name: "u".to_owned(),
+        ty: Type::F32,
+        default: None,
+    }];
+    graph.tallies = vec!["t".to_owned()];
+    let add = |b: &mut Builder<'_>, op: Op, args: &[u32], ty: Type| {
+        b.intern(op, args.iter().map(|k| NodeId(*k)).collect(), ty).0
+    };
+    let pixel = add(&mut b, Op::Pixel, &[], PAIR); // 0
+    let texel = add(&mut b, Op::Load { texture: 0, site: 0 }, &[pixel], VEC2); // 1
+    let x = add(&mut b, Op::Extract(0), &[texel], Type::F32); // 2
+    let uniform = add(&mut b, Op::Uniform(0), &[], Type::F32); // 3
+    let tally = add(&mut b, Op::Tally(0), &[x], Type::F32); // 4
+    let less = add(&mut b, Op::Binary(BinaryOp::Lt), &[tally, uniform], Type::BOOL); // 5
+    let zero = b.i32(0).0; // 6
+    let four = b.i32(4).0; // 7
+    let body = b.open_region(&[Type::I32, Type::F32]);
+    let carried = b.graph().region(body).params[1].0; // 8, 9
+    let next = add(&mut b, Op::Binary(BinaryOp::Add), &[carried, x], Type::F32); // 10
+    b.close_region(vec![NodeId(next)]);
+    let kept = add(&mut b, Op::Loop(body), &[zero, four, uniform], Type::Results); // 11
+    let sum = add(&mut b, Op::Result(0), &[kept], Type::F32); // 12
+    let then = b.open_region(&[]);
+    b.close_region(vec![NodeId(sum)]);
+    let otherwise = b.open_region(&[]);
+    b.close_region(vec![NodeId(x)]);
+    let branch = add(&mut b, Op::If(then, otherwise), &[less], Type::Results); // 13
+    let chosen = add(&mut b, Op::Result(0), &[branch], Type::F32); // 14
+    let array = Type::Array {
+        scalar: Scalar::F32,
+        lanes: 1,
+        len: 2,
+    };
+    let table = add(&mut b, Op::MakeArray, &[chosen, sum], array); // 15
+    let set = add(&mut b, Op::ArraySet, &[table, zero, x], array); // 16
+    let element = add(&mut b, Op::ArrayGet, &[set, zero], Type::F32); // 17
+    let gathered = add(
+        &mut b,
+        Op::Gather {
+            texture: 0,
+            sampler: 0,
+            component: 1,
+            site: 0,
+        },
+        &[texel],
+        VEC4,
+    ); // 18
+    let compared = add(
+        &mut b,
+        Op::Compare {
+            texture: 1,
+            sampler: 1,
+            site: 0,
+        },
+        &[texel, element],
+        Type::F32,
+    ); // 19
+    let read = add(&mut b, Op::BufferLoad { buffer: 0, site: 0 }, &[zero], Type::F32); // 20
+    let vector = add(&mut b, Op::Compose, &[compared, read, element, x], VEC4); // 21
+    let clamped = add(&mut b, Op::Clamp, &[vector, gathered, vector], VEC4); // 22
+    let whole = add(&mut b, Op::Convert, &[clamped], Type::value(Scalar::I32, 4)); // 23
+    let bits = add(&mut b, Op::Bitcast, &[whole], VEC4); // 24
+    let out = add(&mut b, Op::Unary(UnaryOp::Sqrt), &[bits], VEC4); // 25
+    let _ = add(&mut b, Op::Select, &[less, x, uniform], Type::F32); // 26
+    b.finish(vec![NodeId(out)])
+}
+
+fn node(graph: &mut Graph, k: usize) -> &mut Node {
+    &mut graph.nodes[k]
+}
+
+#[test]
+fn a_whole_graph_is_verified() {
+    assert_eq!(verify(&whole()), Ok(()));
+}
+
+#[test]
+fn every_rule_is_checked() {
+    type Break = fn(&mut Graph);
+    let cases: &[(&str, Break)] = &[
+        // 1: made before used.
+        ("made after its user", |g| node(g, 2).args[0] = NodeId(20)),
+        ("made after its user", |g| g.regions[1].results[0] = NodeId(25)),
+        // 2: arguments and types.
+        ("wrong number", |g| node(g, 25).args.clear()),
+        ("wrong number", |g| node(g, 3).args.push(NodeId(2))),
+        ("wrong number", |g| node(g, 21).args.truncate(3)),
+        ("a coordinate", |g| node(g, 0).ty = Type::I32),
+        ("of the uniform's type", |g| node(g, 3).ty = Type::I32),
+        ("differ", |g| node(g, 4).ty = Type::I32),
+        ("does not have", |g| node(g, 25).op = Op::Unary(UnaryOp::Not)),
+        ("one type", |g| node(g, 10).args[0] = NodeId(6)),
+        ("wrong result type", |g| node(g, 5).ty = Type::F32),
+        ("a bit operation", |g| node(g, 10).op = Op::Binary(BinaryOp::And)),
+        ("all of one type", |g| node(g, 22).ty = Type::value(Scalar::F32, 3)),
+        ("a boolean and two", |g| node(g, 26).args[0] = NodeId(2)),
+        ("a scalar for each", |g| node(g, 21).args[0] = NodeId(0)),
+        ("a lane of a vector", |g| node(g, 2).op = Op::Extract(2)),
+        ("a lane of a vector", |g| node(g, 2).args[0] = NodeId(0)),
+        ("as many lanes", |g| node(g, 23).ty = PAIR),
+        ("numbers of as many", |g| node(g, 24).ty = Type::value(Scalar::Bool, 4)),
+        ("an array and an index", |g| node(g, 17).args[0] = NodeId(2)),
+        ("an array, an index", |g| node(g, 16).args[1] = NodeId(2)),
+        ("elements of one type", |g| node(g, 15).args[0] = NodeId(6)),
+        ("a type that no value has", |g| {
+            node(g, 24).ty = Type::value(Scalar::F32, 5)
+        }),
+        ("a type that no value has", |g| node(g, 12).ty = Type::Results),
+        ("a boolean is 0 or 1", |g| {
+            node(g, 6).ty = Type::BOOL;
+            node(g, 6).op = Op::Const([2, 0, 0, 0]);
+        }),
+        ("a vec2<f32>", |g| node(g, 18).args[0] = NodeId(2)),
+        ("a vec2<f32>", |g| node(g, 19).args[1] = NodeId(6)),
+        ("a component that", |g| {
+            node(g, 18).op = Op::Gather {
+                texture: 0,
+                sampler: 0,
+                component: 2,
+                site: 0,
+            };
+        }),
+        ("a flat texture", |g| {
+            node(g, 18).op = Op::Gather {
+                texture: 1,
+                sampler: 0,
+                component: 0,
+                site: 0,
+            }
+        }),
+        ("a depth texture", |g| {
+            node(g, 19).op = Op::Compare {
+                texture: 1,
+                sampler: 0,
+                site: 0,
+            }
+        }),
+        ("an index to an element", |g| node(g, 20).args[0] = NodeId(2)),
+        // 3: what exists.
+        ("no such texture", |g| node(g, 1).op = Op::Load { texture: 9, site: 0 }),
+        ("no such sampler", |g| {
+            node(g, 18).op = Op::Gather {
+                texture: 0,
+                sampler: 9,
+                component: 0,
+                site: 0,
+            }
+        }),
+        ("no such buffer", |g| {
+            node(g, 20).op = Op::BufferLoad { buffer: 9, site: 0 }
+        }),
+        ("no such uniform", |g| node(g, 3).op = Op::Uniform(9)),
+        ("no such varying", |g| node(g, 3).op = Op::Varying(0)),
+        ("no such tally", |g| node(g, 4).op = Op::Tally(9)),
+        ("no such region", |g| node(g, 11).op = Op::Loop(RegionId(9))),
+        ("no such result", |g| node(g, 12).op = Op::Result(1)),
+        ("not the result of", |g| node(g, 12).args[0] = NodeId(2)),
+        ("belongs to 2", |g| node(g, 13).op = Op::If(RegionId(2), RegionId(2))),
+        ("opened before", |g| g.regions[2].parent = Some(RegionId(3))),
+        ("not its own", |g| g.regions[1].params[1] = NodeId(3)),
+        ("carried values", |g| node(g, 11).args[2] = NodeId(6)),
+        ("results alike", |g| g.regions[3].results[0] = NodeId(6)),
+        // 4: parameters inside their regions.
+        ("depends on a region", |g| node(g, 21).args[3] = NodeId(9)),
+        // 5: results.
+        ("one result for each pixel", |g| g.regions[0].results.clear()),
+        ("one result for each pixel", |g| g.regions[0].results[0] = NodeId(2)),
+        // 6: lanes.
+        ("no lane", |g| {
+            node(g, 25).op = Op::Message(Direction::Vertical);
+            g.invocation = Invocation::Pixel;
+        }),
+    ];
+    let mut wrong = Vec::new();
+    for (k, (expected, change)) in cases.iter().enumerate() {
+        let mut graph = whole();
+        change(&mut graph);
+        let said = std::panic::catch_unwind(|| verify(&graph));
+        match said {
+            Ok(Err(why)) if why.contains(expected) => {}
+            other => wrong.push(format!("case {k}, `{expected}`: {other:?}")),
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
