@@ -1,10 +1,10 @@
 //! Expressions and statements.
 
 use super::place;
+use super::scan::mentioned_in;
 use super::tree::{Arm, Block, Const, Expr, ExprKind, ForLoop, IntType, Statement};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::ir::{BinaryOp, UnaryOp};
-use super::scan::mentioned_in;
 use std::collections::BTreeSet;
 use syn::punctuated::Punctuated;
 use syn::spanned::Spanned;
@@ -375,7 +375,11 @@ impl Lower {
                 // A constant by its name looks like a type.
                 syn::GenericArgument::Type(syn::Type::Path(t)) => ExprKind::Path(self.segments(&t.path)),
                 syn::GenericArgument::Type(syn::Type::Infer(_)) => {
-                    self.unsupported(arg.span(), "`_` for a generic argument", "leave `::<>` out, or state it");
+                    self.unsupported(
+                        arg.span(),
+                        "`_` for a generic argument",
+                        "leave `::<>` out, or state it",
+                    );
                     ExprKind::Tuple(Vec::new())
                 }
                 syn::GenericArgument::Type(_) => ExprKind::Tuple(Vec::new()),

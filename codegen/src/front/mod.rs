@@ -9,13 +9,13 @@ mod check;
 mod depth;
 mod expr;
 mod foreign;
+#[cfg(test)]
+mod fuzz;
 mod items;
 mod options;
 mod pattern;
 mod reach;
 mod scan;
-#[cfg(test)]
-mod fuzz;
 pub mod tree;
 
 use crate::diagnostic::{Diagnostic, Errors, File, Span};
@@ -56,13 +56,21 @@ pub fn parse(files: &Arc<Vec<File>>, entry: &str) -> Result<Library, Errors> {
 
 /// The text with blanks for a byte order mark and a first line `#!/...`, so that what follows stays in its place.
 fn without_head(text: &str) -> Cow<'_, str> {
-    let mark = if text.starts_with('\u{feff}') { '\u{feff}'.len_utf8() } else { 0 };
+    let mark = if text.starts_with('\u{feff}') {
+        '\u{feff}'.len_utf8()
+    } else {
+        0
+    };
     let rest = &text[mark..];
     let script = rest.strip_prefix("#!").is_some_and(|after| {
         let after = after.trim_start();
         !after.starts_with('[') && !after.starts_with("//") && !after.starts_with("/*")
     });
-    let line = if script { rest.find('\n').unwrap_or(rest.len()) } else { 0 };
+    let line = if script {
+        rest.find('\n').unwrap_or(rest.len())
+    } else {
+        0
+    };
     match mark + line {
         0 => Cow::Borrowed(text),
         blank => Cow::Owned(format!("{}{}", " ".repeat(blank), &text[blank..])),

@@ -44,7 +44,11 @@ impl Lower {
             }
             // Fields of a structure without names are named by their numbers.
             syn::Pat::TupleStruct(p) if p.qself.is_none() => {
-                let fields = p.elems.iter().enumerate().map(|(k, e)| (k.to_string(), self.pattern(e)));
+                let fields = p
+                    .elems
+                    .iter()
+                    .enumerate()
+                    .map(|(k, e)| (k.to_string(), self.pattern(e)));
                 let fields = fields.collect();
                 Pattern::Struct(fields, self.span(p.span()))
             }
@@ -53,7 +57,11 @@ impl Lower {
                     Pattern::Range(Box::new(self.expr(low)), Box::new(self.expr(high)))
                 }
                 (Some(_), Some(_)) => {
-                    self.unsupported(p.span(), "a range without its end in a pattern", "write `0..=3` for `0..4`");
+                    self.unsupported(
+                        p.span(),
+                        "a range without its end in a pattern",
+                        "write `0..=3` for `0..4`",
+                    );
                     Pattern::Wild
                 }
                 _ => {
