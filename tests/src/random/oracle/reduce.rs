@@ -1,0 +1,125 @@
+//! Making a failing kernel smaller: on its text, since rustc says what is still a kernel.
+
+use super::{Failure, Rustc, Text, check};
+
+/// Candidates that are tried at once.
+const TOGETHER: usize = 60;
+
+/// The smallest text found that differs in the same manner.
+///
+/// # Errors
+///
+/// rustc cannot be run.
+pub fn reduce(rustc: &Rustc, failure: &Failure) -> Result<Failure, String> {
+    let mut best = failure.clone();
+    let mut skip = 0;
+    loop {
+        let candidates = candidates(&best.text.source);
+        if skip >= candidates.len() {
+            return Ok(best);
+        }
+        let texts: Vec<Text> = candidates[skip..]
+            .iter()
+            .take(TOGETHER)
+            .enumerate()
+            .map(|(k, source)| Text {
+                seed: k as u64,
+                source: source.clone(),
+            })
+            .collect();
+        let (_, found) = check(rustc, &texts, best.world)?;
+        let smaller = found.into_iter().filter(|f| f.difference.like(&best.difference));
+        match smaller.min_by_key(|f| f.text.source.len()) {
+            Some(smaller) => {
+                best = smaller;
+                best.text.seed = failure.text.seed;
+                // What could not be left out before rarely can later, but everything is tried at the end.
+                skip = skip.min(1);
+                if skip == 1 {
+                    skip = 0;
+                }
+            }
+            None => skip += TOGETHER,
+        }
+    }
+}
+
+/// Smaller texts: without some lines, with the inside of a block for the block, with simpler operands.
+fn candidates(source: &str) -> Vec<String> {
+    let lines: Vec<&str> = source.lines().collect();
+    let mut found = Vec::new();
+    let mut spans: Vec<(usize, usize)> = Vec::new();
+    let mut open = Vec::new();
+    for (k, line) in lines.iter().enumerate() {
+        let line = line.trim();
+        let closes = line.starts_with('}');
+        let opens = line.ends_with('{');
+        if closes && let Some(start) = open.pop() {
+            spans.push((start, k));
+        }
+        if opens {
+            open.push(k);
+        } else if !closes {
+            spans.push((k, k));
+        }
+    }
+    spans.sort_by_key(|(start, end)| start.abs_diff(*end));
+    for (start, end) in spans.iter().rev() {
+        found.push(without(&lines, *start..=*end));
+        if end > start {
+            let inside: Vec<&str> = lines
+                .iter()
+                .enumerate()
+                .filter(|(k, _)| k != start && k != end)
+                .map(|(_, line)| *line)
+                .collect();
+            found.push(inside.join("\n") + "\n");
+        }
+    }
+    simpler(source, &mut found);
+    found.retain(|text| text.len() < source.len());
+    found
+}
+
+fn without(lines: &[&str], gone: std::ops::RangeInclusive<usize>) -> String {
+    let left = lines.iter().enumerate().filter(|(k, _)| !gone.contains(k)).map(|(_, line)| *line);
+    left.collect::<Vec<_>>().join("\n") + "\n"
+}
+
+/// For each pair of parentheses: one of its operands, or a literal, in its place.
+fn simpler(source: &str, found: &mut Vec<String>) {
+    let bytes = source.as_bytes();
+    let mut open = Vec::new();
+    let mut pairs = Vec::new();
+    for (k, b) in bytes.iter().enumerate() {
+        match b {
+            b'(' => open.push(k),
+            b')' => {
+                if let Some(start) = open.pop() {
+                    pairs.push((start, k));
+                }
+            }
+            _ => {}
+        }
+    }
+    pairs.sort_by_key(|(start, end)| std::cmp::Reverse(end - start));
+    for (start, end) in &pairs {
+        if end - start < 4 {
+            continue;
+        }
+        for literal in ["1.0", "2", "true", "1u32", "pixel", "q", "p"] {
+            found.push(format!("{}{literal}{}", &source[..*start], &source[end + 1..]));
+        }
+        for (a, b) in pairs.iter().filter(|(a, b)| a > start && b < end).take(6) {
+            found.push(format!("{}{}{}", &source[..*start], &source[*a..=*b], &source[end + 1..]));
+        }
+        for operator in [" + ", " - ", " * ", " & ", " | ", " ^ "] {
+            let inner = &source[start + 1..*end];
+            if let Some((left, right)) = inner.split_once(operator) {
+                for side in [left, right] {
+                    found.push(format!("{}({side}){}", &source[..*start], &source[end + 1..]));
+                }
+            }
+        }
+    }
+}
