@@ -146,10 +146,10 @@ fn against_rustc(options: &Options) -> Result<(), String> {
     })?;
     let (total, failures) = (total.into_inner().expect("no thread panicked"), failures.into_inner().expect("no thread panicked"));
     for (what, reasons) in [("refused", &total.refused), ("not Rust", &total.unusable)] {
-        let mut reasons: Vec<(&String, &u64)> = reasons.iter().collect();
-        reasons.sort_by_key(|(_, n)| std::cmp::Reverse(**n));
-        for (why, n) in reasons {
-            println!("{what}: {n} {why}");
+        let mut reasons: Vec<_> = reasons.iter().collect();
+        reasons.sort_by_key(|(_, reason)| std::cmp::Reverse(reason.kernels));
+        for (why, reason) in reasons {
+            println!("{what}: {} such as seed {}: {why}", reason.kernels, reason.seed);
         }
     }
     println!(
@@ -161,7 +161,7 @@ fn against_rustc(options: &Options) -> Result<(), String> {
         total.empty,
         total.panics,
         total.refusals(),
-        total.unusable.values().sum::<u64>()
+        total.unusable.values().map(|r| r.kernels).sum::<u64>()
     );
     if failures > 0 {
         return Err(format!("{failures} kernels disagree"));

@@ -468,7 +468,8 @@ impl Maker {
                 Hold::Mutable => {
                     let place = self.writable(Some(ty))?;
                     // What is called may read the rest of its receiver in its arguments: a two-phase borrow.
-                    if self.random.below(3) > 0 || place.text.contains('[') {
+                    let others = signature.params.iter().any(|p| p.hold == Hold::Mutable);
+                    if self.random.below(3) > 0 || others || place.text.contains('[') {
                         self.freeze(&place.root, true);
                         frozen.push(place.root.clone());
                     }
@@ -478,7 +479,18 @@ impl Maker {
                     }
                 }
                 _ => match self.receiver_of(ty) {
-                    Some(text) => text,
+                    Some(text) => {
+                        let name = text.trim_start_matches(['(', '*']);
+                        let end = name.find(|c: char| !c.is_alphanumeric() && c != '_').unwrap_or(name.len());
+                        let root = name[..end].to_owned();
+                        if signature.params.iter().any(|p| p.hold == Hold::Mutable)
+                            && self.visible().iter().any(|l| l.name == root)
+                        {
+                            self.freeze(&root, true);
+                            frozen.push(root);
+                        }
+                        text
+                    }
                     None => format!("({})", self.whole(ty, d)),
                 },
             });

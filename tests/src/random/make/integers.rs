@@ -139,7 +139,7 @@ impl Maker {
                 if self.on(Feature::Coarse) {
                     format!("({e} as {})", self.ty(ty))
                 } else {
-                    format!("(({e}).clamp(-4096.0, 4096.0).abs() as {})", self.ty(ty)).replacen("((", "((0.0f32 + ", 1)
+                    format!("((0.0f32 + {e}).clamp(-4096.0, 4096.0) as {})", self.ty(ty))
                 }
             }
             26 => {
@@ -150,7 +150,7 @@ impl Maker {
             }
             27 if !signed => {
                 let e = self.expr(&Ty::F32, own);
-                format!("({e} + 0.0f32).clamp(-9.0, 9.0).to_bits()").replace(".to_bits()", " as u32")
+                format!("(({e} + 0.0f32).clamp(-9.0, 9.0) as u32)")
             }
             28..=29 => {
                 let lane = match signed {
@@ -167,7 +167,10 @@ impl Maker {
                 }
             }
             30 if want.known && !signed => {
-                format!("{}.div_ceil({})", self.int_text(ty, 7, false), self.random.between(1, 4))
+{
+                    let seven = self.int_text(&Ty::Usize, 7, false);
+                    format!("({seven}.div_ceil({}) as u32)", self.random.between(1, 4))
+                }
             }
             _ => self.leaf(ty, want),
         }

@@ -136,6 +136,8 @@ impl Maker {
 
     fn methods(&mut self, k: usize) {
         let name = self.structures[k].name.clone();
+        self.locals.clear();
+        self.inputs = false;
         self.open(format!("impl {name} {{"));
         if self.random.once_in(3) && self.structures[k].copy {
             let constant = self.fresh("K");
@@ -144,7 +146,10 @@ impl Maker {
                 known: true,
                 inferred: true,
             };
+            // Enums are not compared in constants.
+            let enumerations = std::mem::take(&mut self.enumerations);
             let value = self.leaf(&Ty::Struct(k), want);
+            self.enumerations = enumerations;
             self.line(format!("const {constant}: Self = {value};"));
             self.constants.push((format!("{name}::{constant}"), Ty::Struct(k), None));
         }

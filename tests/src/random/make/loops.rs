@@ -96,7 +96,8 @@ impl Maker {
         let range = match (step, self.random.below(4)) {
             (1, 0) => format!("({start}{dots}{end}).rev()"),
             (1, _) => format!("{start}{dots}{end}"),
-            (step, 0) => format!("({start}{dots}{end}).step_by({step}).rev()"),
+            // rustc takes no inclusive range there.
+            (step, 0) if !inclusive => format!("({start}{dots}{end}).step_by({step}).rev()"),
             (step, _) => format!("({start}{dots}{end}).step_by({step})"),
         };
         let label = self.label();

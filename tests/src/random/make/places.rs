@@ -13,7 +13,6 @@ pub struct Place {
     pub root: String,
     /// Whether it is the whole of a variable that is a reference.
     pub reference: Hold,
-    pub known: bool,
 }
 
 impl Maker {
@@ -29,13 +28,12 @@ impl Maker {
             ty: local.ty.clone(),
             root: local.name.clone(),
             reference: local.hold,
-            known: local.known,
         });
-        self.inner(&local.name, &local.ty, &local.name, local.known, &mut found);
+        self.inner(&local.name, &local.ty, &local.name, &mut found);
         found
     }
 
-    fn inner(&self, text: &str, ty: &Ty, root: &str, known: bool, found: &mut Vec<Place>) {
+    fn inner(&self, text: &str, ty: &Ty, root: &str, found: &mut Vec<Place>) {
         let mut parts: Vec<(String, Ty)> = Vec::new();
         match ty {
             Ty::Struct(k) => {
@@ -58,9 +56,8 @@ impl Maker {
                 ty: ty.clone(),
                 root: root.to_owned(),
                 reference: Hold::Value,
-                known,
             });
-            self.inner(&text, &ty, root, known, found);
+            self.inner(&text, &ty, root, found);
         }
     }
 

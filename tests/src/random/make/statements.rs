@@ -61,7 +61,7 @@ impl Maker {
         let value = self.with_effects(|m| m.expr(&ty, want));
         let name = self.name();
         let sign = if mutable { "mut " } else { "" };
-        let attribute = value.starts_with("(if ") && self.chance(Feature::Attributes, 3);
+        let attribute = value.starts_with("(if ") && whole(&value) && self.chance(Feature::Attributes, 3);
         if attribute {
             let word = self.random.pick(&["branch", "select"]);
             self.line(format!("#[cfg_attr(false, {word})]"));
@@ -464,4 +464,20 @@ impl Maker {
             }
         }
     }
+}
+
+/// Whether the parenthesis that begins a text ends it.
+fn whole(text: &str) -> bool {
+    let mut depth = 0;
+    for (k, c) in text.char_indices() {
+        match c {
+            '(' => depth += 1,
+            ')' => depth -= 1,
+            _ => {}
+        }
+        if depth == 0 {
+            return k + 1 == text.len();
+        }
+    }
+    false
 }

@@ -77,7 +77,7 @@ impl Maker {
                     let v = self.vector_receiver(from, n, own);
                     match self.on(Feature::Coarse) {
                         true => format!("{v}.as_vec{n}()"),
-                        false => format!("({v} & 0xfff).as_vec{n}()").replace(" & 0xfff", if from == Lane::U { " % 4096" } else { " % 4096" }),
+                        false => format!("({v} % 4096).as_vec{n}()"),
                     }
                 }
                 Lane::I => format!("{}.as_ivec{n}()", self.vector_receiver(Lane::U, n, own)),

@@ -54,6 +54,23 @@ impl fmt::Display for Difference {
     }
 }
 
+/// How often something was said.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Reason {
+    /// Kernels of which it was said.
+    pub kernels: u64,
+    /// The seed of one of them.
+    pub seed: u64,
+}
+
+impl Reason {
+    fn note(all: &mut BTreeMap<String, Reason>, why: String, kernels: u64, seed: u64) {
+        let reason = all.entry(why).or_default();
+        reason.kernels += kernels;
+        reason.seed = seed;
+    }
+}
+
 /// What became of many kernels.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Tally {
@@ -66,9 +83,9 @@ pub struct Tally {
     /// Pixels that are not a number in every component, so that they show little.
     pub empty: u64,
     /// Kernels that a form refuses, by the first error.
-    pub refused: BTreeMap<String, u64>,
+    pub refused: BTreeMap<String, Reason>,
     /// Texts that rustc refuses, by the error: mistakes of the maker.
-    pub unusable: BTreeMap<String, u64>,
+    pub unusable: BTreeMap<String, Reason>,
 }
 
 impl Tally {
@@ -78,17 +95,22 @@ impl Tally {
         self.pixels += other.pixels;
         self.panics += other.panics;
         self.empty += other.empty;
-        for (why, n) in &other.refused {
-            *self.refused.entry(why.clone()).or_default() += n;
+        for (why, reason) in &other.refused {
+            Reason::note(&mut self.refused, why.clone(), reason.kernels, reason.seed);
         }
-        for (why, n) in &other.unusable {
-            *self.unusable.entry(why.clone()).or_default() += n;
+        for (why, reason) in &other.unusable {
+            Reason::note(&mut self.unusable, why.clone(), reason.kernels, reason.seed);
         }
+    }
+
+    /// Notes a text that rustc refuses.
+    pub fn unusable(&mut self, why: String, seed: u64) {
+        Reason::note(&mut self.unusable, why, 1, seed);
     }
 
     /// Kernels refused, all reasons together.
     pub fn refusals(&self) -> u64 {
-        self.refused.values().sum()
+        self.refused.values().map(|r| r.kernels).sum()
     }
 }
 
@@ -129,7 +151,7 @@ pub fn compare(text: &Text, world: &World, native: &Native, tally: &mut Tally) -
             Ok(found) => found,
             Err(why) if is_internal(&why) => return Err(Difference::Internal(*form, why)),
             Err(why) => {
-                *tally.refused.entry(why).or_default() += 1;
+                Reason::note(&mut tally.refused, why, 1, text.seed);
                 return Ok(());
             }
         };

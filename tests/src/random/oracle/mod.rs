@@ -13,7 +13,7 @@ mod world;
 pub use change::{Lenient, Verdicts, judge_changed};
 pub use batch::{Native, run};
 pub use driver::{Compared, Driver, Off};
-pub use compare::{Difference, Tally, compare, interpret};
+pub use compare::{Difference, Reason, Tally, compare, interpret};
 pub use reduce::reduce;
 pub use rustc::{Rustc, Verdict};
 pub use world::World;
@@ -80,7 +80,7 @@ pub fn check(rustc: &Rustc, texts: &[Text], world: u64) -> Result<(Tally, Vec<Fa
                     });
                 }
             }
-            Err(why) => *tally.unusable.entry(why).or_default() += 1,
+            Err(why) => tally.unusable(why, text.seed),
         }
     }
     Ok((tally, failures))
