@@ -18,6 +18,7 @@ usage: agree [--kernels N] [--seed S] [--threads T] [--batch N] [--without FEATU
   --kernels N        random kernels to compare with what rustc makes of them (1000)
   --seed S           number of the first (1)
   --threads T        threads (one for each core)
+  --world W          number of the inputs (that of a batch's first kernel)
   --batch N          kernels that rustc compiles at once (400)
   --without FEATURE  leave out a group of constructs
   --accepts N        kernels with a mistake in them, which rustc and the generator must both refuse (0)
@@ -36,6 +37,7 @@ struct Options {
     seed: u64,
     threads: usize,
     batch: u64,
+    world: Option<u64>,
     features: Features,
     accepts: u64,
     tree: u64,
@@ -52,6 +54,7 @@ fn options() -> Option<Options> {
         seed: 1,
         threads: 0,
         batch: 400,
+        world: None,
         features: Features::all(),
         accepts: 0,
         tree: 0,
@@ -67,6 +70,7 @@ fn options() -> Option<Options> {
             "--kernels" => options.kernels = words.next()?.parse().ok()?,
             "--seed" => options.seed = words.next()?.parse().ok()?,
             "--threads" => options.threads = words.next()?.parse().ok()?,
+            "--world" => options.world = Some(words.next()?.parse().ok()?),
             "--batch" => options.batch = words.next()?.parse().ok().filter(|n| *n > 0)?,
             "--without" => options.features = options.features.without(Features::named(&words.next()?)?),
             "--accepts" => options.accepts = words.next()?.parse().ok()?,
@@ -126,7 +130,11 @@ fn against_rustc(options: &Options) -> Result<(), String> {
     let failures = Mutex::new(0u64);
     starts.par_iter().try_for_each(|start| {
         let seeds = *start..(start + options.batch).min(end);
-        let (tally, found) = oracle::batch(&rustc, seeds, options.features)?;
+        let (tally, found) = {
+            let world = options.world.unwrap_or(*start);
+            let texts: Vec<_> = seeds.map(|seed| make(seed, options.features)).collect();
+            oracle::check(&rustc, &texts, world)?
+        };
         let compared = {
             let mut total = total.lock().expect("no thread panics with it");
             total.add(&tally);
@@ -273,6 +281,7 @@ fn mistakes(options: &Options) -> Result<(), String> {
         let (verdicts, lenient) = oracle::judge_changed(&rustc, seeds, options.features)?;
         total.refused += verdicts.refused;
         total.accepted += verdicts.accepted;
+        total.ownership += verdicts.ownership;
         for (why, n) in verdicts.stricter {
             *total.stricter.entry(why).or_default() += n;
         }
@@ -288,12 +297,14 @@ fn mistakes(options: &Options) -> Result<(), String> {
         println!("only the generator refuses: {n} {why}");
     }
     println!(
-        "{} changed kernels in {:.1} s: both refuse {}, both accept {}, only rustc accepts {}, only the generator accepts {failures}",
+        "{} changed kernels in {:.1} s: both refuse {}, both accept {}, only rustc accepts {}, \
+         rustc alone refuses {} for ownership and {failures} for all else",
         options.accepts,
         begin.elapsed().as_secs_f64(),
         total.refused,
         total.accepted,
         total.stricter.values().sum::<u64>(),
+        total.ownership,
     );
     if failures > 0 {
         return Err(format!("{failures} kernels are accepted that rustc refuses"));

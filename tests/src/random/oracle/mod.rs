@@ -3,7 +3,7 @@
 mod batch;
 mod change;
 mod compare;
-//pub mod coverage;
+pub mod coverage;
 mod driver;
 mod reduce;
 mod rustc;

@@ -186,7 +186,11 @@ fn error(json: &str) -> Option<(usize, String)> {
     }
     let spans = value["spans"].as_array()?;
     let primary = spans.iter().find(|span| span["is_primary"] == true)?;
-    let message = value["message"].as_str()?.to_owned();
+    let said = value["message"].as_str()?;
+    let message = match value["code"]["code"].as_str() {
+        Some(code) => format!("{code}: {said}"),
+        None => said.to_owned(),
+    };
     // An error inside a macro of the prelude names the place in the kernel that called it.
     let mut place = primary;
     while place["expansion"].is_object() && place["file_name"].as_str().is_some_and(|f| f.starts_with('/') && !f.contains("oracle")) {
