@@ -18,6 +18,7 @@ pub mod emit;
 mod eval;
 pub mod files;
 mod front;
+mod infer;
 pub mod ir;
 pub mod passes;
 mod pipeline;

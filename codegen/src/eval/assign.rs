@@ -2,78 +2,32 @@
 
 use super::Evaluator;
 use super::expr::{lane, out_of_range};
-use super::value::{Eval, Exit, Value};
+use super::value::{Eval, Exit, Step, Value};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::front::tree::{Expr, ExprKind};
 use crate::ir::{BinaryOp, NodeId, Op, Scalar, Type};
 use std::rc::Rc;
 
-/// A way from a variable to one of its parts.
-enum Step {
-    Field(String),
-    Index(Value),
-}
-
 impl Evaluator<'_> {
-    /// `place = value` or `place op= value`.
-    pub fn assign(&mut self, place: &Expr, op: Option<BinaryOp>, value: &Expr, span: Span) -> Eval {
+    /// `place = value` or `place op= value`. As in Rust the value is evaluated before the place.
+    pub fn assign(&mut self, target: &Expr, op: Option<BinaryOp>, value: &Expr, span: Span) -> Eval {
         let mut value = self.expr(value)?;
-        let mut path = Vec::new();
-        let name = self.place(place, &mut path)?;
-        if let Some(op) = op {
-            let mut old = self.variable(&name, place.span)?;
-            for step in &path {
-                old = match step {
-                    Step::Field(field) => self.field(&old, field, place.span)?,
-                    Step::Index(index) => self.element(&old, index, place.span)?,
-                };
-            }
-            value = self.binary(op, &old, &value, span)?;
-        }
-        self.name(&value, &name, span);
-        let Some(slot) = self.scope.get_mut(&name) else {
-            return Err(unknown(&name, place.span).into());
+        let Some(mut place) = self.place(target)? else {
+            return Err(not_a_place(target).into());
         };
-        // Taken out, so that an array that nothing else holds is changed where it is.
-        let old = std::mem::replace(slot, Value::Poison);
-        let new = self.replace(old, &path, value, span)?;
-        if matches!(&new, Value::Node(id) if self.ty(*id).is_array()) {
-            self.name(&new, &name, span);
+        if let Some(op) = op {
+            // `reference.x += 1.0` and `*reference += 1.0` are one thing by now; `vector += ...` of a `&mut self` is not.
+            place = self.followed(place, target.span)?;
+            let old = self.read(&place, target.span)?;
+            let right = self.loaded(value, span)?;
+            value = self.binary(op, &old, &right, span)?;
         }
-        if let Some(slot) = self.scope.get_mut(&name) {
-            *slot = new;
-        }
+        self.write(&place, value, span)?;
         Ok(Value::unit())
     }
 
-    fn variable(&self, name: &str, span: Span) -> Eval {
-        self.scope.get(name).cloned().ok_or_else(|| unknown(name, span).into())
-    }
-
-    /// The variable that a place is part of, and the way to the part.
-    fn place(&mut self, place: &Expr, path: &mut Vec<Step>) -> Eval<String> {
-        match &place.kind {
-            ExprKind::Path(segments) if segments.len() == 1 => Ok(segments[0].clone()),
-            ExprKind::Field(base, field) => {
-                let name = self.place(base, path)?;
-                path.push(Step::Field(field.clone()));
-                Ok(name)
-            }
-            ExprKind::Index(base, index) => {
-                let name = self.place(base, path)?;
-                let index = self.expr(index)?;
-                path.push(Step::Index(index));
-                Ok(name)
-            }
-            _ => Err(Diagnostic::at(place.span, "this cannot be assigned to")
-                .label("not a variable")
-                .help("assign to a variable, a field or an element")
-                .into()),
-        }
-    }
-
     /// `old` with the part at `path` replaced.
-    fn replace(&mut self, old: Value, path: &[Step], new: Value, span: Span) -> Eval {
+    pub fn replace(&mut self, old: Value, path: &[Step], new: Value, span: Span) -> Eval {
         let Some((step, rest)) = path.split_first() else {
             return Ok(new);
         };
@@ -151,6 +105,11 @@ impl Evaluator<'_> {
     }
 }
 
-fn unknown(name: &str, span: Span) -> Diagnostic {
-    Diagnostic::at(span, format!("there is no variable `{name}`"))
+fn not_a_place(target: &Expr) -> Diagnostic {
+    if let ExprKind::Path(path) = &target.kind {
+        return Diagnostic::at(target.span, format!("there is no variable `{}`", path.join("::")));
+    }
+    Diagnostic::at(target.span, "this cannot be assigned to")
+        .label("not a variable")
+        .help("assign to a variable, a field or an element")
 }

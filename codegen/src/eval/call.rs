@@ -3,7 +3,7 @@
 use super::value::{Eval, Exit, Value};
 use super::{Evaluator, MAX_CALLS};
 use crate::diagnostic::{Diagnostic, Span};
-use crate::front::tree::{Expr, ExprKind, Function, Type as SourceType};
+use crate::front::tree::{Expr, ExprKind, Function, Generic, Type as SourceType};
 use crate::ir::{NodeId, Op, Scalar, Type};
 
 impl Evaluator<'_> {
@@ -21,6 +21,10 @@ impl Evaluator<'_> {
         if self.library.functions.contains_key(last) {
             return self.inline(last, &constants, values, span);
         }
+        let values = values
+            .into_iter()
+            .map(|v| self.loaded(v, span))
+            .collect::<Eval<Vec<_>>>()?;
         if let Some(value) = self.tuple_struct(last, &values, span)? {
             return Ok(value);
         }
@@ -125,29 +129,34 @@ impl Evaluator<'_> {
             .into());
         }
         let bound = self.constants_of(function, constants, &args, span)?;
-        let outer = std::mem::take(&mut self.scope);
+        let outer = self.scope.enter_function();
         for (name, value) in bound {
             self.scope.bind(&name, value);
         }
-        for ((param, ty, at), value) in function.params.iter().zip(args) {
-            let value = match self.ascribe(value, Some(ty), span) {
+        for (param, value) in function.params.iter().zip(args) {
+            let value = match self.ascribe(value, Some(&param.ty), span) {
                 Ok(value) => value,
                 Err(exit) => {
-                    self.scope = outer;
+                    self.scope.leave_function(outer);
                     return Err(match exit {
-                        Exit::Error(error) => error.other(*at, format!("`{param}` is stated here")).into(),
+                        Exit::Error(error) => error
+                            .other(param.span, format!("`{}` is stated here", param.name))
+                            .into(),
                         other => other,
                     });
                 }
             };
-            self.scope.bind(param, value);
+            self.scope.bind(&param.name, value);
         }
         self.calls.push(name.to_owned());
         let result = self.block(&function.body);
         self.calls.pop();
-        self.scope = outer;
+        let result = match result {
+            Ok(value) | Err(Exit::Return(value)) => self.ascribe(value, Some(&function.result), function.span),
+            other => other,
+        };
+        self.scope.leave_function(outer);
         match result {
-            Err(Exit::Return(value)) => Ok(value),
             Err(Exit::Break(_) | Exit::Continue(_)) => {
                 Err(Diagnostic::at(function.span, "`break` or `continue` outside of a loop").into())
             }
@@ -164,14 +173,11 @@ impl Evaluator<'_> {
         span: Span,
     ) -> Eval<Vec<(String, Value)>> {
         let mut bound = Vec::new();
-        for (k, name) in function.generics.iter().enumerate() {
-            let Some(name) = name else { continue };
+        for (k, generic) in function.generics.iter().enumerate() {
+            let Generic::Const(name, ty) = generic else { continue };
             let from_array = || {
-                function
-                    .params
-                    .iter()
-                    .zip(args)
-                    .find_map(|((_, ty, _), value)| match (ty, value) {
+                function.params.iter().zip(args).find_map(|(param, value)| {
+                    match (param.ty.bare(), &self.loaded_array(value)) {
                         (SourceType::Array(_, Some(len)), Value::Array(elements)) => match &len.kind {
                             ExprKind::Path(path) if path == std::slice::from_ref(name) => {
                                 Some(Value::Int(elements.len() as i64))
@@ -179,10 +185,14 @@ impl Evaluator<'_> {
                             _ => None,
                         },
                         _ => None,
-                    })
+                    }
+                })
             };
             match given.get(k).cloned().or_else(from_array) {
-                Some(value) => bound.push((name.clone(), value)),
+                Some(value) => {
+                    let value = self.ascribe(value, Some(ty), span)?;
+                    bound.push((name.clone(), value));
+                }
                 None => {
                     return Err(
                         Diagnostic::at(span, format!("the constant `{name}` of this call is not known"))
@@ -195,6 +205,14 @@ impl Evaluator<'_> {
             }
         }
         Ok(bound)
+    }
+
+    /// The value of an array, through a reference too.
+    fn loaded_array(&mut self, value: &Value) -> Value {
+        match value {
+            Value::Ref(place) => self.read(&place.clone(), Span::default()).unwrap_or(Value::Poison),
+            other => other.clone(),
+        }
     }
 
     /// `Name(a, b)` of a structure without field names.
@@ -283,6 +301,7 @@ impl Evaluator<'_> {
         {
             return match value {
                 Value::Poison => Err(Exit::Noted),
+                Value::Unset => Err(self.unset(last, span)),
                 other => Ok(other.clone()),
             };
         }
@@ -339,11 +358,11 @@ impl Evaluator<'_> {
                 .help("write out one of the values that go round")
                 .into());
         }
-        let outer = std::mem::take(&mut self.scope);
+        let outer = self.scope.enter_function();
         self.calls.push(name.to_owned());
         let value = self.expr(&constant.value);
         self.calls.pop();
-        self.scope = outer;
+        self.scope.leave_function(outer);
         let value = self.ascribe(value?, Some(&constant.ty), constant.value.span)?;
         self.consts.insert(name.to_owned(), value.clone());
         Ok(Some(value))

@@ -2,7 +2,7 @@
 
 use super::Evaluator;
 use super::scope::Scope;
-use super::value::{Eval, Exit, Value};
+use super::value::{Eval, Exit, Step, Value};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::front::tree::{Arm, Block, Expr, Pattern};
 use crate::ir::{NodeId, Op, RegionId, Type};
@@ -17,7 +17,7 @@ impl Evaluator<'_> {
         attribute: Option<Branches>,
         span: Span,
     ) -> Eval {
-        let value = self.expr(condition)?;
+        let value = self.value(condition)?;
         let id = self.node(&value, condition.span)?;
         if self.ty(id) != Type::BOOL {
             return Err(Diagnostic::at(condition.span, "a condition must be a boolean")
@@ -83,7 +83,9 @@ impl Evaluator<'_> {
     /// Evaluates what is only looked at where a run-time condition holds.
     pub fn side(&mut self, span: Span, evaluate: impl FnOnce(&mut Self) -> Eval) -> Eval {
         let mark = self.scope.enter();
+        self.conditions += 1;
         let outcome = evaluate(self);
+        self.conditions -= 1;
         self.scope.leave(mark);
         match outcome {
             Err(Exit::Break(_) | Exit::Continue(_) | Exit::Return(_)) => Err(Diagnostic::at(
@@ -217,7 +219,7 @@ impl Evaluator<'_> {
     fn matches(&mut self, pattern: &Pattern, value: &Value, span: Span) -> Eval<bool> {
         match pattern {
             Pattern::Wild => Ok(true),
-            Pattern::Name(name, _) => {
+            Pattern::Name(name, ..) => {
                 self.scope.bind(name, value.clone());
                 Ok(true)
             }
@@ -229,7 +231,7 @@ impl Evaluator<'_> {
                 }
                 Ok(false)
             }
-            Pattern::Tuple(parts, _) => match value {
+            Pattern::Tuple(parts, at) => match &self.taken_apart(value.clone(), parts.len(), *at)? {
                 Value::Tuple(values) if values.len() == parts.len() => {
                     for (part, value) in parts.iter().zip(values) {
                         if !self.matches(part, value, span)? {
@@ -241,7 +243,8 @@ impl Evaluator<'_> {
                 other => Err(Diagnostic::at(span, format!("a tuple pattern on {}", other.describe())).into()),
             },
             Pattern::Array(parts, at) => {
-                let elements = self.elements(value, parts.len(), *at)?;
+                let value = self.taken_apart(value.clone(), parts.len(), *at)?;
+                let elements = self.elements(&value, parts.len(), *at)?;
                 for (part, value) in parts.iter().zip(elements) {
                     if !self.matches(part, &value, span)? {
                         return Ok(false);
@@ -251,7 +254,7 @@ impl Evaluator<'_> {
             }
             Pattern::Struct(fields, _) => {
                 for (name, pattern) in fields {
-                    let part = self.field(value, name, span)?;
+                    let part = self.part(value, Step::Field(name.clone()), span)?;
                     if !self.matches(pattern, &part, span)? {
                         return Ok(false);
                     }
@@ -259,6 +262,7 @@ impl Evaluator<'_> {
                 Ok(true)
             }
             Pattern::Range(low, high) => {
+                let value = &self.loaded(value.clone(), span)?;
                 let (low, high) = (self.expr(low)?, self.expr(high)?);
                 match (self.known_int(value), self.known_int(&low), self.known_int(&high)) {
                     (Some(n), Some(low), Some(high)) => Ok((low..=high).contains(&n)),
@@ -267,6 +271,7 @@ impl Evaluator<'_> {
             }
             Pattern::Value(expr) => {
                 let expected = self.expr(expr)?;
+                let value = &self.loaded(value.clone(), span)?;
                 match (value, &expected) {
                     (Value::Enum { .. }, Value::Enum { .. }) => Ok(*value == expected),
                     _ => {

@@ -4,7 +4,7 @@ use super::Evaluator;
 use super::call::vector_type;
 use super::value::{Eval, Exit, Value};
 use crate::diagnostic::{Diagnostic, Span};
-use crate::front::tree::Type as SourceType;
+use crate::front::tree::{Param, Type as SourceType};
 use crate::ir::{NodeId, Op, Scalar, Type};
 use std::collections::BTreeMap;
 
@@ -32,8 +32,16 @@ impl Evaluator<'_> {
         };
         let mut options = BTreeMap::new();
         let mut args = Vec::new();
-        for (name, ty, span) in &function.params {
-            args.push(self.parameter(name, ty, *span, settings, &mut options)?);
+        for Param { name, ty, span, .. } in &function.params {
+            if ty.is_mutable_reference() {
+                return Err(
+                    Diagnostic::at(*span, format!("a kernel cannot take `{name}` by `&mut`"))
+                        .label("not supported")
+                        .help("a kernel reads its parameters, and gives one colour")
+                        .into(),
+                );
+            }
+            args.push(self.parameter(name, ty.bare(), *span, settings, &mut options)?);
         }
         for (name, _) in settings {
             if !options.contains_key(name) {
@@ -51,6 +59,7 @@ impl Evaluator<'_> {
             return Err(Exit::Noted);
         }
         let value = self.inline(entry, &[], args, function.span)?;
+        let value = self.loaded(value, function.span)?;
         let output = self.node(&value, function.span)?;
         if self.ty(output) != Type::value(Scalar::F32, 4) {
             return Err(Diagnostic::at(
@@ -90,6 +99,7 @@ impl Evaluator<'_> {
         };
         let mut fields = Vec::new();
         for (field, ty, at) in &structure.fields {
+            let ty = ty.bare();
             let value = match self.resource(field, ty, *at)? {
                 Some(value) => Some(value),
                 None => self.uniform_parameter(field, ty, *at)?,

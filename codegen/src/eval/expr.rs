@@ -1,10 +1,11 @@
 //! Expressions and blocks.
 
-use super::value::{Eval, Exit, Range, Value};
+use super::value::{Eval, Exit, Range, Step, Value};
 use super::{Evaluator, MAX_PARTS};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::front::tree::{Block, Expr, ExprKind, IntType, Pattern, Statement, Type as SourceType};
 use crate::ir::{BinaryOp, Op, Scalar, Type};
+use std::rc::Rc;
 
 impl Evaluator<'_> {
     /// A block in a scope of its own. An error in one statement does not hide those in the next.
@@ -30,7 +31,7 @@ impl Evaluator<'_> {
                             }
                             Err(leave) => return Err(leave),
                         },
-                        None => Value::Poison,
+                        None => Value::Unset,
                     };
                     self.bind(pattern, value, *span)?;
                 }
@@ -57,6 +58,13 @@ impl Evaluator<'_> {
     /// Checks a value against the type that is stated for it, as far as shaders tell types apart, and gives a known
     /// integer that type.
     pub fn ascribe(&mut self, value: Value, ty: Option<&SourceType>, span: Span) -> Eval {
+        let ty = match ty {
+            // A mutable reference goes on being one; where a value or a shared reference is stated, it is read.
+            Some(SourceType::Ref(true, _)) => return self.referring(value, span),
+            Some(ty) => Some(ty.bare()),
+            None => return Ok(value),
+        };
+        let value = self.loaded(value, span)?;
         if let Some(lane) = ty.and_then(|ty| self.lane_type(ty)) {
             return self.ascribe(value, Some(lane), span);
         }
@@ -77,10 +85,24 @@ impl Evaluator<'_> {
         }
     }
 
+    /// A value where `&mut T` is stated.
+    fn referring(&mut self, value: Value, span: Span) -> Eval {
+        match value {
+            Value::Ref(_) | Value::Poison => Ok(value),
+            other => Err(Diagnostic::at(
+                span,
+                format!("{} where a mutable reference is stated", other.describe()),
+            )
+            .label("not a reference")
+            .help("write `&mut` before the variable")
+            .into()),
+        }
+    }
+
     fn ascribe_name(&mut self, value: Value, name: &str, span: Span) -> Eval {
         let stated = match name {
             "u32" => Type::U32,
-            "i32" | "usize" | "isize" => Type::I32,
+            "i32" | "usize" => Type::I32,
             "f32" => Type::F32,
             "bool" => Type::BOOL,
             other => match super::call::vector_type(other) {
@@ -90,10 +112,8 @@ impl Evaluator<'_> {
         };
         match &value {
             Value::Int(n) if stated == Type::U32 => Ok(Value::Node(self.int_node(*n, Scalar::U32, span)?)),
-            Value::Int(n) if stated == Type::I32 => {
-                let id = self.int_node(*n, Scalar::I32, span)?;
-                Ok(Value::Int(self.known_int(&Value::Node(id)).unwrap_or(*n)))
-            }
+            Value::Int(_) if name == "usize" => Ok(value),
+            Value::Int(n) if stated == Type::I32 => Ok(Value::Node(self.int_node(*n, Scalar::I32, span)?)),
             // An index is signed in a shader, whatever it was made from.
             Value::Node(id) if self.ty(*id) == Type::U32 && name == "usize" => {
                 Ok(Value::Node(self.convert(*id, Scalar::I32)))
@@ -126,12 +146,12 @@ impl Evaluator<'_> {
     pub fn bind(&mut self, pattern: &Pattern, value: Value, span: Span) -> Eval<()> {
         match pattern {
             Pattern::Wild => Ok(()),
-            Pattern::Name(name, at) => {
+            Pattern::Name(name, _, at) => {
                 self.name(&value, name, *at);
                 self.scope.bind(name, value);
                 Ok(())
             }
-            Pattern::Tuple(parts, at) => match value {
+            Pattern::Tuple(parts, at) => match self.taken_apart(value, parts.len(), *at)? {
                 Value::Tuple(values) if values.len() == parts.len() => parts
                     .iter()
                     .zip(values)
@@ -144,6 +164,7 @@ impl Evaluator<'_> {
                 .into()),
             },
             Pattern::Array(parts, at) => {
+                let value = self.taken_apart(value, parts.len(), *at)?;
                 let elements = self.elements(&value, parts.len(), *at)?;
                 parts
                     .iter()
@@ -154,7 +175,7 @@ impl Evaluator<'_> {
                 for (name, pattern) in fields {
                     let part = match &value {
                         Value::Poison => Value::Poison,
-                        value => self.field(value, name, *at)?,
+                        value => self.part(value, Step::Field(name.clone()), *at)?,
                     };
                     self.bind(pattern, part, span)?;
                 }
@@ -170,35 +191,94 @@ impl Evaluator<'_> {
         }
     }
 
+    /// A part of a value; through a mutable reference, a reference to the part.
+    pub fn part(&mut self, value: &Value, step: Step, span: Span) -> Eval {
+        match (value, &step) {
+            (Value::Ref(place), _) => {
+                let place = self.followed((**place).clone(), span)?.part(step);
+                self.read(&place, span)?;
+                Ok(Value::Ref(Rc::new(place)))
+            }
+            (value, Step::Field(name)) => self.field(value, name, span),
+            (value, Step::Index(index)) => self.element(value, index, span),
+        }
+    }
+
+    /// What a pattern of some parts takes apart: of a reference to a tuple or an array, references to their parts.
+    pub fn taken_apart(&mut self, value: Value, parts: usize, span: Span) -> Eval {
+        let Value::Ref(place) = &value else {
+            return Ok(value);
+        };
+        let place = self.followed((**place).clone(), span)?;
+        let step = |tuple: bool, k: usize| match tuple {
+            true => Step::Field(k.to_string()),
+            false => Step::Index(Value::Int(k as i64)),
+        };
+        let whole = self.read(&place, span)?;
+        let tuple = matches!(whole, Value::Tuple(_));
+        let count = match &whole {
+            Value::Tuple(parts) => parts.len(),
+            other => self.elements(other, parts, span)?.len(),
+        };
+        let parts = (0..count)
+            .map(|k| Value::Ref(Rc::new(place.part(step(tuple, k)))))
+            .collect();
+        Ok(if tuple {
+            Value::Tuple(parts)
+        } else {
+            Value::array(parts)
+        })
+    }
+
+    /// The value of an expression; of a mutable reference, what it refers to.
+    pub fn value(&mut self, expr: &Expr) -> Eval {
+        let value = self.expr(expr)?;
+        self.loaded(value, expr.span)
+    }
+
     pub fn expr(&mut self, expr: &Expr) -> Eval {
         self.step(expr.span)?;
         let span = expr.span;
         match &expr.kind {
-            ExprKind::Int(n, None | Some(IntType::I32)) => Ok(Value::Int(*n)),
+            ExprKind::Int(n, None | Some(IntType::Usize)) => Ok(Value::Int(*n)),
+            // The digits of i32::MIN are one more than there are of i32: its sign is applied to what they wrap to.
+            ExprKind::Int(n, Some(IntType::I32)) => Ok(Value::Node(self.builder.i32(*n as i32))),
             ExprKind::Int(n, Some(IntType::U32)) => Ok(Value::Node(self.int_node(*n, Scalar::U32, span)?)),
             ExprKind::Float(x) => Ok(Value::Node(self.builder.f32(*x))),
             ExprKind::Bool(b) => Ok(Value::Node(self.builder.bool(*b))),
             ExprKind::Str(text) => Ok(Value::Str(text.clone())),
             ExprKind::Path(path) => self.path(path, span),
             ExprKind::Unary(op, operand) => {
-                let value = self.expr(operand)?;
+                let value = self.value(operand)?;
                 self.unary(*op, &value, span)
             }
             ExprKind::Binary(op, left, right) => {
-                let (left, right) = (self.expr(left)?, self.expr(right)?);
+                let (left, right) = (self.value(left)?, self.value(right)?);
                 self.binary(*op, &left, &right, span)
             }
+            ExprKind::Ref(true, operand) => self.borrow_mutably(operand),
+            ExprKind::Ref(false, operand) => self.expr(operand),
+            ExprKind::Deref(reference) => match self.expr(reference)? {
+                Value::Ref(place) => self.read(&place, span),
+                value => Ok(value),
+            },
             ExprKind::Lazy(and, left, right) => self.lazy(*and, left, right, span),
             ExprKind::Assign(place, op, value) => self.assign(place, *op, value, span),
             ExprKind::Call(path, constants, args) => self.call(path, constants, args, span),
             ExprKind::Method(receiver, name, args) => self.method(receiver, name, args, span),
             ExprKind::Field(base, name) => {
-                let base = self.expr(base)?;
+                let base = self.value(base)?;
                 self.field(&base, name, span)
             }
             ExprKind::Index(base, index) => {
-                let (base, index) = (self.expr(base)?, self.expr(index)?);
-                self.element(&base, &index, span)
+                // Rust reads an element when the index is known, which may have changed the array.
+                match self.place(expr)? {
+                    Some(place) => self.read(&place, span),
+                    None => {
+                        let (base, index) = (self.value(base)?, self.value(index)?);
+                        self.element(&base, &index, span)
+                    }
+                }
             }
             ExprKind::If(condition, then, otherwise, branches) => {
                 self.if_(condition, then, otherwise.as_deref(), *branches, span)
@@ -216,7 +296,7 @@ impl Evaluator<'_> {
             ExprKind::Repeat(value, len) => self.repeat(value, len),
             ExprKind::Struct(name, fields, rest) => self.structure(name, fields, rest.as_deref(), span),
             ExprKind::Cast(value, ty) => {
-                let value = self.expr(value)?;
+                let value = self.value(value)?;
                 self.cast(&value, ty, span)
             }
             ExprKind::Range(start, end, inclusive) => self.range(start, end, *inclusive, span),
@@ -273,7 +353,7 @@ impl Evaluator<'_> {
                     .into(),
             );
         };
-        let rest = rest.map(|e| self.expr(e)).transpose()?;
+        let rest = rest.map(|e| self.value(e)).transpose()?;
         let mut given = Vec::new();
         for (field, value) in fields {
             let Some((_, ty, _)) = definition.fields.iter().find(|(name, ..)| name == field) else {
@@ -302,7 +382,7 @@ impl Evaluator<'_> {
     }
 
     fn range(&mut self, start: &Expr, end: &Expr, inclusive: bool, span: Span) -> Eval {
-        let (first, mut last) = (self.expr(start)?, self.expr(end)?);
+        let (first, mut last) = (self.value(start)?, self.value(end)?);
         if inclusive {
             last = self.binary(BinaryOp::Add, &last, &Value::Int(1), span)?;
         }
@@ -316,14 +396,14 @@ impl Evaluator<'_> {
 
     /// `&&` and `||`.
     fn lazy(&mut self, and: bool, left: &Expr, right: &Expr, span: Span) -> Eval {
-        let value = self.expr(left)?;
+        let value = self.value(left)?;
         let left = self.node(&value, left.span)?;
         match self.known_bool(left) {
             Some(known) if known != and => Ok(Value::Node(left)),
-            Some(_) => self.expr(right),
+            Some(_) => self.value(right),
             None => {
                 let before = self.scope.clone();
-                let value = self.side(span, |e| e.expr(right))?;
+                let value = self.side(span, |e| e.value(right))?;
                 if self.scope == before {
                     let op = if and { BinaryOp::And } else { BinaryOp::Or };
                     return self.binary(op, &Value::Node(left), &value, span);

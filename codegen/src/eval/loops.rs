@@ -13,7 +13,7 @@ impl Evaluator<'_> {
         let items = self.expr(&f.over)?;
         let function = self.calls.last().cloned().unwrap_or_default();
         let counter = match &f.pattern {
-            Pattern::Name(name, _) => name.as_str(),
+            Pattern::Name(name, ..) => name.as_str(),
             _ => "_",
         };
         let unroll = self.policy.of(&function, counter, f.unroll);
@@ -28,7 +28,7 @@ impl Evaluator<'_> {
 
     /// Runs a loop as asked, or as it can be; gives what became of it.
     fn run(&mut self, f: &ForLoop, items: Value, unroll: Unroll, span: Span) -> Eval<Unroll> {
-        let leaves = assigned(&f.body).leaves;
+        let leaves = assigned(&f.body, &self.library.mutating).leaves;
         let elements = match items {
             Value::Range(range) => {
                 let known = self.known_int(&range.start).zip(self.known_int(&range.end));
@@ -44,7 +44,7 @@ impl Evaluator<'_> {
                     }
                     return self.keep(f, &range, unroll, span);
                 };
-                let values = range_values(start, end, &range, f.over.span)?;
+                let values = self.range_values(start, end, &range, f.over.span)?;
                 // A loop of one round is its body.
                 let worth = match unroll {
                     Unroll::Full => false,
@@ -65,6 +65,10 @@ impl Evaluator<'_> {
                 values
             }
             Value::Array(elements) => elements.to_vec(),
+            Value::Ref(_) => match self.elements_mut(&items, f.over.span)? {
+                Value::Array(elements) => elements.to_vec(),
+                _ => return Err(Exit::Noted),
+            },
             Value::Node(id) if self.ty(id).is_array() => {
                 let Type::Array { len, .. } = self.ty(id) else {
                     unreachable!("just matched")
@@ -110,7 +114,7 @@ impl Evaluator<'_> {
     pub fn round(&mut self, pattern: &Pattern, item: Value, body: &Block, span: Span) -> Eval {
         let mark = self.scope.enter();
         let counter = match (pattern, self.known_int(&item)) {
-            (Pattern::Name(name, _), Some(value)) => Some(Counter {
+            (Pattern::Name(name, ..), Some(value)) => Some(Counter {
                 name: name.clone(),
                 value,
             }),
@@ -151,11 +155,7 @@ impl Evaluator<'_> {
         body: impl FnOnce(&mut Self, NodeId) -> Eval<()>,
         span: Span,
     ) -> Eval<()> {
-        let carried: Vec<usize> = assigned(&f.body)
-            .assigned
-            .iter()
-            .filter_map(|name| self.scope.slot(name))
-            .collect();
+        let carried = self.carried(&f.body);
         let mut initial = Vec::new();
         let mut types = vec![Type::I32];
         for slot in &carried {
@@ -177,7 +177,7 @@ impl Evaluator<'_> {
             self.name_params(&value, &name, span);
             self.scope.set(*slot, value);
         }
-        if let Pattern::Name(name, at) = &f.pattern {
+        if let Pattern::Name(name, _, at) = &f.pattern {
             self.name_params(&Value::Node(params[0]), name, *at);
         }
         self.loops.round();
@@ -218,6 +218,23 @@ impl Evaluator<'_> {
         Ok(())
     }
 
+    /// Positions of the variables that a body may write: those that it names, and those that mutable references in the
+    /// variables that it mentions lead to.
+    fn carried(&self, body: &Block) -> Vec<usize> {
+        let effects = assigned(body, &self.library.mutating);
+        let mut carried: Vec<usize> = effects
+            .assigned
+            .iter()
+            .filter_map(|name| self.scope.slot(name))
+            .collect();
+        for slot in effects.mentioned.iter().filter_map(|name| self.scope.slot(name)) {
+            self.targets(self.scope.at(slot).1, &mut carried);
+        }
+        // A reference itself stays what it is.
+        carried.retain(|slot| !matches!(self.scope.at(*slot).1, Value::Ref(_)));
+        carried
+    }
+
     /// Names a loop's parameters, which are variables in the text.
     fn name_params(&mut self, value: &Value, name: &str, span: Span) {
         let mut nodes = Vec::new();
@@ -247,7 +264,7 @@ impl Evaluator<'_> {
         let noted = self.errors.len();
         loop {
             self.step(span)?;
-            let value = self.expr(condition)?;
+            let value = self.value(condition)?;
             let id = self.node(&value, condition.span)?;
             match self.known_bool(id) {
                 Some(true) => {}
@@ -322,19 +339,30 @@ fn all_same(a: &[Value], b: &[Value]) -> bool {
 /// Values of a counter after which a loop is taken to be a mistake.
 const MAX_ROUNDS: i64 = 1_000_000;
 
-/// The values of a range with known ends, in the order of the loop.
-fn range_values(start: i64, end: i64, range: &Range, span: Span) -> Eval<Vec<Value>> {
-    let rounds = end.saturating_sub(start).max(0) / range.step.max(1);
-    if rounds > MAX_ROUNDS {
-        return Err(Diagnostic::at(span, format!("a loop of {rounds} rounds"))
-            .label("too many")
-            .help(format!("a loop may have up to {MAX_ROUNDS}"))
-            .into());
+impl Evaluator<'_> {
+    /// The values of a range with known ends, in the order of the loop, of the type of its ends.
+    fn range_values(&mut self, start: i64, end: i64, range: &Range, span: Span) -> Eval<Vec<Value>> {
+        let rounds = end.saturating_sub(start).max(0) / range.step.max(1);
+        if rounds > MAX_ROUNDS {
+            return Err(Diagnostic::at(span, format!("a loop of {rounds} rounds"))
+                .label("too many")
+                .help(format!("a loop may have up to {MAX_ROUNDS}"))
+                .into());
+        }
+        let ty = match (&*range.start, &*range.end) {
+            (Value::Node(start), Value::Node(_)) => Some(self.ty(*start)),
+            _ => None,
+        };
+        let mut values: Vec<Value> = (start..end)
+            .step_by(range.step.max(1) as usize)
+            .map(|n| match ty {
+                Some(ty) => Value::Node(self.builder.constant(ty, [n as u32, 0, 0, 0])),
+                None => Value::Int(n),
+            })
+            .collect();
+        if range.reversed {
+            values.reverse();
+        }
+        Ok(values)
     }
-    let values = (start..end).step_by(range.step.max(1) as usize).map(Value::Int);
-    Ok(if range.reversed {
-        values.collect::<Vec<_>>().into_iter().rev().collect()
-    } else {
-        values.collect()
-    })
 }

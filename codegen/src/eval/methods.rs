@@ -1,25 +1,50 @@
 //! Methods of what is not a number: textures, arrays, ranges, and the kernel's own types.
 
 use super::Evaluator;
-use super::value::{Eval, Exit, Value};
+use super::value::{Eval, Exit, Place, Step, Value};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::front::tree::Expr;
 use crate::ir::{BinaryOp, Type};
+use std::rc::Rc;
+
+/// Methods that known integers have beyond those of runtime values, or with the 64 bits of a known `usize`.
+const INTEGERS: [&str; 7] = [
+    "is_multiple_of",
+    "rem_euclid",
+    "div_euclid",
+    "div_ceil",
+    "min",
+    "max",
+    "pow",
+];
 
 impl Evaluator<'_> {
     pub fn method(&mut self, receiver: &Expr, name: &str, args: &[Expr], span: Span) -> Eval {
-        let value = self.expr(receiver)?;
+        let (value, place) = self.receiver(receiver)?;
         let args = self.all(args)?;
         if args.contains(&Value::Poison) {
             return Err(Exit::Noted);
         }
+        if let Value::Struct { ty, .. } | Value::Enum { ty, .. } = &value {
+            let method = format!("{ty}::{name}");
+            if let Some(function) = self.library.functions.get(&method) {
+                let receiver = match function.params.first() {
+                    Some(own) if own.ty.is_mutable_reference() => {
+                        let place = place.unwrap_or_else(|| self.temporary(value.clone()));
+                        Value::Ref(Rc::new(place))
+                    }
+                    _ => value,
+                };
+                let all = std::iter::once(receiver).chain(args).collect();
+                return self.inline(&method, &[], all, span);
+            }
+        }
+        let args = args
+            .into_iter()
+            .map(|v| self.loaded(v, span))
+            .collect::<Eval<Vec<_>>>()?;
         match &value {
             Value::Struct { ty, .. } | Value::Enum { ty, .. } => {
-                let method = format!("{ty}::{name}");
-                if self.library.functions.contains_key(&method) {
-                    let all = std::iter::once(value.clone()).chain(args).collect();
-                    return self.inline(&method, &[], all, span);
-                }
                 if super::matrix::size(ty).is_some() {
                     return self.matrix_method(&value, name, &args, span);
                 }
@@ -65,6 +90,13 @@ impl Evaluator<'_> {
                     .help("ranges have `rev`, `step_by` and `contains`")
                     .into()),
             },
+            Value::Array(_) | Value::Node(_) if name == "iter_mut" && args.is_empty() => match place {
+                Some(place) => self.elements_mut(&Value::Ref(Rc::new(place)), span),
+                None => {
+                    let place = self.temporary(value);
+                    self.elements_mut(&Value::Ref(Rc::new(place)), span)
+                }
+            },
             Value::Array(elements) => self.array_method(elements, name, args.is_empty(), span),
             Value::Node(id) if self.ty(*id).is_array() => {
                 let Type::Array { len, .. } = self.ty(*id) else {
@@ -74,20 +106,12 @@ impl Evaluator<'_> {
                 let elements = each.collect::<Eval<Vec<Value>>>()?;
                 self.array_method(&elements, name, args.is_empty(), span)
             }
-            Value::Int(n) => match (name, args.as_slice()) {
-                ("abs", []) => Ok(Value::Int(n.abs())),
-                ("signum", []) => Ok(Value::Int(n.signum())),
-                ("rem_euclid", [Value::Int(m)]) if *m > 0 => Ok(Value::Int(n.rem_euclid(*m))),
-                ("div_euclid", [Value::Int(m)]) if *m > 0 => Ok(Value::Int(n.div_euclid(*m))),
-                ("div_ceil", [Value::Int(m)]) if *n >= 0 && *m > 0 => Ok(Value::Int(n / m + i64::from(n % m > 0))),
-                ("is_multiple_of", [Value::Int(m)]) => {
-                    let multiple = if *m == 0 { *n == 0 } else { n % m == 0 };
-                    Ok(Value::Node(self.builder.bool(multiple)))
+            Value::Int(_) | Value::Node(_) if args.len() <= 1 && INTEGERS.contains(&name) => {
+                match self.known_integer_method(&value, name, &args, span)? {
+                    Some(result) => Ok(result),
+                    None => self.math(&value, name, &args, span),
                 }
-                ("min", [other]) => self.binary(BinaryOp::Min, &value, other, span),
-                ("max", [other]) => self.binary(BinaryOp::Max, &value, other, span),
-                _ => self.math(&value, name, &args, span),
-            },
+            }
             Value::Poison => Err(Exit::Noted),
             Value::Node(id) if name == "to_array" && args.is_empty() && self.ty(*id).lanes() > 1 => {
                 let lanes = self.lanes(*id);
@@ -95,6 +119,83 @@ impl Evaluator<'_> {
             }
             _ => self.math(&value, name, &args, span),
         }
+    }
+
+    /// The value of a method's receiver and, where it is one, the place that it stands for.
+    fn receiver(&mut self, receiver: &Expr) -> Eval<(Value, Option<Place>)> {
+        if let Some(place) = self.place(receiver)? {
+            let place = self.followed(place, receiver.span)?;
+            return Ok((self.read(&place, receiver.span)?, Some(place)));
+        }
+        match self.expr(receiver)? {
+            Value::Ref(place) => {
+                let place = self.followed((*place).clone(), receiver.span)?;
+                Ok((self.read(&place, receiver.span)?, Some(place)))
+            }
+            value => Ok((value, None)),
+        }
+    }
+
+    /// Mutable references to the elements of an array.
+    pub fn elements_mut(&mut self, array: &Value, span: Span) -> Eval {
+        let Value::Ref(place) = array else {
+            return Err(Exit::Noted);
+        };
+        let place = self.followed((**place).clone(), span)?;
+        let len = match self.read(&place, span)? {
+            Value::Array(elements) => elements.len(),
+            Value::Node(id) if self.ty(id).is_array() => match self.ty(id) {
+                Type::Array { len, .. } => len as usize,
+                _ => 0,
+            },
+            other => {
+                return Err(Diagnostic::at(span, format!("{} has no elements to change", other.describe())).into());
+            }
+        };
+        let element = |k: usize| Value::Ref(Rc::new(place.part(Step::Index(Value::Int(k as i64)))));
+        Ok(Value::array((0..len).map(element).collect()))
+    }
+
+    /// Methods of integers that are computed where they are known; `None` where they are not.
+    fn known_integer_method(&mut self, value: &Value, name: &str, args: &[Value], span: Span) -> Eval<Option<Value>> {
+        if let Value::Node(id) = value
+            && !(self.ty(*id).is_integer() && self.ty(*id).is_scalar())
+        {
+            return Ok(None);
+        }
+        let (Some(n), Some(m)) = (
+            self.known_int(value),
+            args.first().map_or(Some(0), |a| self.known_int(a)),
+        ) else {
+            return Ok(None);
+        };
+        let result = match (name, args.len()) {
+            ("is_multiple_of", 1) => {
+                let multiple = if m == 0 { n == 0 } else { n % m == 0 };
+                return Ok(Some(Value::Node(self.builder.bool(multiple))));
+            }
+            ("rem_euclid", 1) if m > 0 => n.rem_euclid(m),
+            ("div_euclid", 1) if m > 0 => n.div_euclid(m),
+            ("div_ceil", 1) if n >= 0 && m > 0 => n / m + i64::from(n % m > 0),
+            ("min" | "max", 1) if matches!(value, Value::Int(_)) => {
+                let op = if name == "min" { BinaryOp::Min } else { BinaryOp::Max };
+                return self.binary(op, value, &args[0], span).map(Some);
+            }
+            ("pow", 1) if matches!(value, Value::Int(_)) => {
+                match u32::try_from(m).ok().and_then(|m| n.checked_pow(m)) {
+                    Some(power) => power,
+                    None => return Ok(None),
+                }
+            }
+            _ => return Ok(None),
+        };
+        Ok(Some(match value {
+            Value::Node(id) => {
+                let ty = self.ty(*id);
+                Value::Node(self.builder.constant(ty, [result as u32, 0, 0, 0]))
+            }
+            _ => Value::Int(result),
+        }))
     }
 
     fn array_method(&mut self, elements: &[Value], name: &str, plain: bool, span: Span) -> Eval {

@@ -19,6 +19,7 @@ mod methods;
 mod operators;
 mod options;
 mod partial;
+mod place;
 mod quad;
 mod resources;
 mod scope;
@@ -135,6 +136,8 @@ struct Evaluator<'a> {
     /// Reads made so far.
     sites: u32,
     steps: u64,
+    /// How many runtime conditions are around.
+    conditions: u32,
 }
 
 impl<'a> Evaluator<'a> {
@@ -155,6 +158,7 @@ impl<'a> Evaluator<'a> {
             consts: HashMap::new(),
             sites: 0,
             steps: 0,
+            conditions: 0,
         }
     }
 }
@@ -263,11 +267,15 @@ impl Evaluator<'_> {
         }
     }
 
-    /// A value as a node; integers become `i32`.
+    /// A value as a node; a `usize` becomes an `i32`.
     fn node(&mut self, value: &Value, span: Span) -> Eval<NodeId> {
         match value {
             Value::Node(id) => Ok(*id),
             Value::Int(n) => self.int_node(*n, Scalar::I32, span),
+            Value::Ref(_) => {
+                let value = self.loaded(value.clone(), span)?;
+                self.node(&value, span)
+            }
             Value::Poison => Err(Exit::Noted),
             other => Err(Diagnostic::at(span, format!("{} where a number is needed", other.describe())).into()),
         }
@@ -276,8 +284,7 @@ impl Evaluator<'_> {
     /// A known integer as a node of a kind.
     fn int_node(&mut self, n: i64, kind: Scalar, span: Span) -> Eval<NodeId> {
         let bits = match kind {
-            // Of a known shift or bit pattern the sign bit may be set: 1 << 31.
-            Scalar::I32 => i32::try_from(n).map(|n| n as u32).or_else(|_| u32::try_from(n)).ok(),
+            Scalar::I32 => i32::try_from(n).map(|n| n as u32).ok(),
             Scalar::U32 => u32::try_from(n).ok(),
             Scalar::F32 | Scalar::Bool => {
                 return Err(Diagnostic::at(span, format!("the integer {n} where {kind} is needed"))
@@ -288,7 +295,9 @@ impl Evaluator<'_> {
         };
         match bits {
             Some(bits) => Ok(self.builder.constant(Type::scalar(kind), [bits, 0, 0, 0])),
-            None => Err(Diagnostic::at(span, format!("{n} does not fit into {kind}")).into()),
+            None => Err(Diagnostic::at(span, format!("{n} does not fit into {kind}"))
+                .label("too large for a shader")
+                .into()),
         }
     }
 }

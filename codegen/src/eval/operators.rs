@@ -8,8 +8,8 @@ use crate::ir::{BinaryOp, NodeId, Op, Scalar, Type, UnaryOp};
 
 impl Evaluator<'_> {
     pub fn unary(&mut self, op: UnaryOp, value: &Value, span: Span) -> Eval {
-        if let (UnaryOp::Neg, Value::Int(n)) = (op, value) {
-            return Ok(Value::Int(-n));
+        if let (UnaryOp::Not, Value::Int(_)) = (op, value) {
+            return Err(too_large(span));
         }
         let id = self.node(value, span)?;
         let ty = self.ty(id);
@@ -51,6 +51,9 @@ impl Evaluator<'_> {
             BinaryOp::Shl | BinaryOp::Shr => (self.node(left, span)?, self.shift_count(left, right, span)?),
             _ => self.same_type(left, right, span)?,
         };
+        if matches!(op, BinaryOp::Div | BinaryOp::Rem) && self.conditions == 0 && self.is_zero(b) {
+            return Err(divided_by_zero("this is", span));
+        }
         let ty = self.ty(a);
         let kind = ty.kind().unwrap_or(Scalar::Bool);
         let fits = match op {
@@ -122,27 +125,40 @@ impl Evaluator<'_> {
         Ok(self.splat(count, ty.lanes()))
     }
 
+    /// Whether an integer is known to be 0 in a component.
+    fn is_zero(&self, id: NodeId) -> bool {
+        let ty = self.ty(id);
+        let known = self.builder.graph().constant(id).filter(|_| ty.is_integer());
+        known.is_some_and(|bits| bits[..usize::from(ty.lanes())].contains(&0))
+    }
+
+    /// An operation on known values of `usize`, which has 64 bits while it is known.
     fn integers(&mut self, op: BinaryOp, a: i64, b: i64, span: Span) -> Eval {
         use BinaryOp::*;
         let known = match op {
-            Add => Some(a + b),
+            Add => a.checked_add(b),
+            Sub if b > a => {
+                return Err(
+                    Diagnostic::at(span, format!("{a} - {b} is below 0, which no `usize` is"))
+                        .label("always")
+                        .help("compute it in i32, and convert the result with `as usize`")
+                        .into(),
+                );
+            }
             Sub => Some(a - b),
             Mul => a.checked_mul(b),
             Div if b != 0 => Some(a / b),
             Rem if b != 0 => Some(a % b),
             Div | Rem => {
-                return Err(Diagnostic::at(span, format!("{a} divided by zero"))
-                    .label("always")
-                    .help("only divide where the divisor is not 0: `if n != 0 { ... }`")
-                    .into());
+                return Err(divided_by_zero(&format!("{a} is"), span));
             }
             Min => Some(a.min(b)),
             Max => Some(a.max(b)),
             And => Some(a & b),
             Or => Some(a | b),
             Xor => Some(a ^ b),
-            Shl if (0..32).contains(&b) => Some(a << b),
-            Shr if (0..32).contains(&b) => Some(a >> b),
+            Shl if (0..64).contains(&b) => Some(a << b).filter(|n| n >> b == a),
+            Shr if (0..64).contains(&b) => Some(a >> b),
             Eq | Ne | Lt | Le | Gt | Ge => {
                 let holds = match op {
                     Eq => a == b,
@@ -157,10 +173,8 @@ impl Evaluator<'_> {
             _ => None,
         };
         match known {
-            Some(n) if i32::try_from(n).is_ok() || u32::try_from(n).is_ok() => Ok(Value::Int(n)),
-            _ => Err(Diagnostic::at(span, "the result does not fit into 32 bits")
-                .help("use `as u32` on both sides to wrap")
-                .into()),
+            Some(n) if n >= 0 => Ok(Value::Int(n)),
+            _ => Err(too_large(span)),
         }
     }
 
@@ -218,7 +232,7 @@ impl Evaluator<'_> {
         };
         let kind = match name.as_str() {
             "f32" => Scalar::F32,
-            "i32" | "usize" | "isize" => Scalar::I32,
+            "i32" | "usize" => Scalar::I32,
             "u32" => Scalar::U32,
             other => {
                 return Err(Diagnostic::at(span, format!("a cast to `{other}`"))
@@ -228,15 +242,10 @@ impl Evaluator<'_> {
             }
         };
         if let Value::Int(n) = value {
-            // Without a type an integer is an `i32`, of which the sign bit may be set.
-            let signed = if *n > i64::from(i32::MAX) {
-                i64::from(*n as u32 as i32)
-            } else {
-                *n
-            };
             return match kind {
-                Scalar::I32 => Ok(Value::Int(signed)),
-                Scalar::F32 => Ok(Value::Node(self.builder.f32(signed as f32))),
+                Scalar::I32 if name == "usize" => Ok(value.clone()),
+                Scalar::I32 => Ok(Value::Node(self.builder.i32(*n as i32))),
+                Scalar::F32 => Ok(Value::Node(self.builder.f32(*n as f32))),
                 _ => Ok(Value::Node(self.builder.constant(Type::U32, [*n as u32, 0, 0, 0]))),
             };
         }
@@ -249,7 +258,38 @@ impl Evaluator<'_> {
                 .help("vectors convert with `.as_vec2()`, `.as_ivec3()`, ...")
                 .into());
         }
+        if name == "usize" {
+            return self.to_usize(id, span);
+        }
         Ok(Value::Node(self.convert(id, kind)))
+    }
+
+    /// A number as a `usize`: known with its 64 bits, at run time an `i32`.
+    fn to_usize(&mut self, id: NodeId, span: Span) -> Eval {
+        let ty = self.ty(id);
+        let Some(bits) = self.builder.graph().constant(id) else {
+            // A negative float is 0 as a `usize`.
+            let unsigned = if ty == Type::F32 {
+                self.convert(id, Scalar::U32)
+            } else {
+                id
+            };
+            return Ok(Value::Node(self.convert(unsigned, Scalar::I32)));
+        };
+        let known = match ty {
+            Type::F32 => f32::from_bits(bits[0]) as i64,
+            Type::I32 => i64::from(bits[0] as i32),
+            _ => i64::from(bits[0]),
+        };
+        match known {
+            0.. => Ok(Value::Int(known)),
+            _ if ty == Type::F32 => Ok(Value::Int(0)),
+            _ => Err(Diagnostic::at(span, format!("{known} as a `usize`"))
+                .label("below 0")
+                .note("natively it would be a number of 64 bits, which a shader has not")
+                .help("compute a remainder with `rem_euclid`, or stay in i32 or u32")
+                .into()),
+        }
     }
 
     /// An index or a loop's bound: an `i32` node.
@@ -266,6 +306,20 @@ impl Evaluator<'_> {
             ),
         }
     }
+}
+
+fn too_large(span: Span) -> Exit {
+    Diagnostic::at(span, "the result does not fit into a `usize` of a shader")
+        .label("too large")
+        .help("compute it in u32, with `wrapping_add` and its like where it is to wrap")
+        .into()
+}
+
+fn divided_by_zero(what: &str, span: Span) -> Exit {
+    Diagnostic::at(span, format!("{what} divided by zero"))
+        .label("always")
+        .help("only divide where the divisor is not 0: `if n != 0 { ... }`")
+        .into()
 }
 
 fn not_taken(ty: Type, span: Span) -> Exit {

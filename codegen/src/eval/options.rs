@@ -84,7 +84,7 @@ fn fields<'a>(library: &'a Library, entry: &str) -> Vec<&'a OptionField> {
         .get(entry)
         .map(|f| f.params.as_slice())
         .unwrap_or_default();
-    let declared = params.iter().filter_map(|(_, ty, _)| match ty {
+    let declared = params.iter().filter_map(|param| match param.ty.bare() {
         SourceType::Name(name, _) => library.options.get(name),
         _ => None,
     });
@@ -131,10 +131,10 @@ impl Evaluator<'_> {
     fn info(&mut self, field: &OptionField) -> Eval<OptionInfo> {
         let default = self.expr(&field.default)?;
         let default = self.ascribe(default, Some(&field.ty), field.default.span)?;
-        let ty = match &field.ty {
+        let ty = match field.ty.bare() {
             SourceType::Name(ty, _) => ty,
             SourceType::Array(..) => return self.list_info(field, &default),
-            SourceType::Tuple(_) => return Err(self.bad_type(field)),
+            SourceType::Tuple(_) | SourceType::Ref(..) => return Err(self.bad_type(field)),
         };
         let (kind, default) = match (ty.as_str(), &default) {
             ("bool", Value::Node(id)) => {
@@ -176,7 +176,7 @@ impl Evaluator<'_> {
 
     /// An option that is an array of numbers.
     fn list_info(&mut self, field: &OptionField, default: &Value) -> Eval<OptionInfo> {
-        let element = match &field.ty {
+        let element = match field.ty.bare() {
             SourceType::Array(element, _) => match &**element {
                 SourceType::Name(name, _) if matches!(name.as_str(), "f32" | "i32" | "u32") => name.clone(),
                 _ => return Err(self.bad_type(field)),
@@ -196,7 +196,7 @@ impl Evaluator<'_> {
             name: field.name.replace('_', "-"),
             docs: field.docs.clone(),
             kind: OptionKind::List {
-                len: match &field.ty {
+                len: match field.ty.bare() {
                     SourceType::Array(_, None) => None,
                     _ => Some(numbers.len()),
                 },
@@ -313,7 +313,7 @@ impl Evaluator<'_> {
                 Ok(Value::array(values?))
             }
             OptionKind::Number { integer, min, max } => {
-                let ty = match &field.ty {
+                let ty = match field.ty.bare() {
                     SourceType::Array(element, _) => element,
                     other => other,
                 };
@@ -340,7 +340,7 @@ impl Evaluator<'_> {
                     Some(n) if n >= low && n <= high && (n as f32).is_finite() => Ok(match kind {
                         Scalar::F32 => Value::Node(self.builder.f32(n as f32)),
                         Scalar::U32 => Value::Node(self.builder.constant(Type::U32, [n as u32, 0, 0, 0])),
-                        _ => Value::Int(n as i64),
+                        _ => Value::Node(self.builder.i32(n as i32)),
                     }),
                     _ => Err(refuse(allowed)),
                 }

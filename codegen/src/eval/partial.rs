@@ -102,12 +102,7 @@ impl Evaluator<'_> {
 
     fn body(&mut self, f: &ForLoop, counter: NodeId, span: Span) -> Eval<()> {
         self.step(span)?;
-        // A known counter is an integer that takes the type of its use, as in a loop that is run.
-        let item = match self.known_int(&Value::Node(counter)) {
-            Some(known) => Value::Int(known),
-            None => Value::Node(counter),
-        };
-        match self.round(&f.pattern, item, &f.body, span) {
+        match self.round(&f.pattern, Value::Node(counter), &f.body, span) {
             Ok(_) => Ok(()),
             Err(exit @ (Exit::Error(_) | Exit::Noted)) => Err(exit),
             Err(_) => Err(Exit::Noted),

@@ -13,7 +13,7 @@ const PAIR: Type = Type::value(Scalar::I32, 2);
 impl Evaluator<'_> {
     /// The type of a lane, of a type that may be a `Quad`.
     pub fn lane_type<'t>(&self, ty: &'t SourceType) -> Option<&'t SourceType> {
-        match ty {
+        match ty.bare() {
             SourceType::Name(name, args) if name == "Quad" && !self.library.structs.contains_key("Quad") => {
                 args.first()
             }

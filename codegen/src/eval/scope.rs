@@ -1,12 +1,26 @@
-//! Variables by name.
+//! Variables by name, and by the place that a mutable reference holds.
 
-use super::value::Value;
+use super::value::{Place, Value};
+use std::cell::Cell;
+use std::rc::Rc;
 
-/// Nested scopes of one function. Calls start with a new one.
-#[derive(Clone, Debug, Default, PartialEq)]
+/// The variables of all functions being evaluated, each function's after its caller's. By name a function sees its own;
+/// through a mutable reference it reaches those of its callers.
+#[derive(Clone, Debug, Default)]
 pub struct Scope {
-    /// Name and value, outermost first; a later entry of the same name shadows an earlier one.
-    variables: Vec<(String, Value)>,
+    /// Outermost first; a later variable of the same name shadows an earlier one.
+    variables: Vec<Variable>,
+    /// Where the variables of the innermost function begin.
+    base: usize,
+    /// Number of the next variable, shared by all copies: no two variables ever have the same.
+    next: Rc<Cell<u32>>,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+struct Variable {
+    name: Rc<str>,
+    id: u32,
+    value: Value,
 }
 
 impl Scope {
@@ -20,41 +34,70 @@ impl Scope {
         self.variables.truncate(mark);
     }
 
-    /// A new variable.
-    pub fn bind(&mut self, name: &str, value: Value) {
-        self.variables.push((name.to_owned(), value));
+    /// Begins a function, which sees none of the names so far; gives what [`Scope::leave_function`] needs.
+    pub fn enter_function(&mut self) -> (usize, usize) {
+        let outer = (self.base, self.variables.len());
+        self.base = self.variables.len();
+        outer
+    }
+
+    /// Ends a function.
+    pub fn leave_function(&mut self, (base, mark): (usize, usize)) {
+        self.variables.truncate(mark);
+        self.base = base;
+    }
+
+    /// A new variable; gives its position.
+    pub fn bind(&mut self, name: &str, value: Value) -> usize {
+        let id = self.next.get();
+        self.next.set(id + 1);
+        self.variables.push(Variable {
+            name: name.into(),
+            id,
+            value,
+        });
+        self.variables.len() - 1
     }
 
     /// The variable's value.
     pub fn get(&self, name: &str) -> Option<&Value> {
-        self.slot(name).map(|slot| &self.variables[slot].1)
-    }
-
-    /// The variable's value, to be changed.
-    pub fn get_mut(&mut self, name: &str) -> Option<&mut Value> {
-        let slot = self.slot(name)?;
-        Some(&mut self.variables[slot].1)
+        self.slot(name).map(|slot| &self.variables[slot].value)
     }
 
     /// Position of the variable that a name stands for.
     pub fn slot(&self, name: &str) -> Option<usize> {
-        self.variables.iter().rposition(|(known, _)| known == name)
+        let own = &self.variables[self.base..];
+        own.iter().rposition(|v| &*v.name == name).map(|k| self.base + k)
+    }
+
+    /// The variable at a position as a place that a reference may hold.
+    pub fn place(&self, slot: usize) -> Place {
+        Place {
+            slot,
+            id: self.variables[slot].id,
+            path: Vec::new(),
+        }
+    }
+
+    /// Whether the variable that a place is a part of is still there.
+    pub fn holds(&self, place: &Place) -> bool {
+        self.variables.get(place.slot).is_some_and(|v| v.id == place.id)
     }
 
     /// Name and value at a position.
     pub fn at(&self, slot: usize) -> (&str, &Value) {
-        let (name, value) = &self.variables[slot];
+        let Variable { name, value, .. } = &self.variables[slot];
         (name, value)
     }
 
-    /// Changes the value at a position.
-    pub fn set(&mut self, slot: usize, value: Value) {
-        self.variables[slot].1 = value;
+    /// Changes the value at a position; gives the old one.
+    pub fn set(&mut self, slot: usize, value: Value) -> Value {
+        std::mem::replace(&mut self.variables[slot].value, value)
     }
 
-    /// Names of all variables, each once.
+    /// Names of the innermost function's variables, each once.
     pub fn names(&self) -> Vec<&str> {
-        let mut names: Vec<&str> = self.variables.iter().map(|(name, _)| name.as_str()).collect();
+        let mut names: Vec<&str> = self.variables[self.base..].iter().map(|v| &*v.name).collect();
         names.sort_unstable();
         names.dedup();
         names
@@ -63,5 +106,11 @@ impl Scope {
     /// Number of variables.
     pub fn len(&self) -> usize {
         self.variables.len()
+    }
+}
+
+impl PartialEq for Scope {
+    fn eq(&self, other: &Self) -> bool {
+        self.variables == other.variables
     }
 }

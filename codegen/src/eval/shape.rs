@@ -133,6 +133,17 @@ impl Evaluator<'_> {
                 let (l, r) = self.agree_all(left, right, span)?;
                 (Value::array(l), Value::array(r))
             }
+            // Given a value on one side alone, a variable has none afterwards.
+            (Value::Unset, _) | (_, Value::Unset) => (Value::Unset, Value::Unset),
+            (Value::Ref(_), Value::Ref(_)) => {
+                return Err(Diagnostic::at(
+                    span,
+                    "a mutable reference to one variable or another, by a condition that is only known at run time",
+                )
+                .label("which of them is not known")
+                .help("write to each of the variables under the condition")
+                .into());
+            }
             (Value::Poison, _) | (_, Value::Poison) => return Err(super::Exit::Noted),
             _ => {
                 return Err(Diagnostic::at(

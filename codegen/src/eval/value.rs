@@ -7,7 +7,7 @@ use std::rc::Rc;
 /// A value of the kernel language. What is known now is known exactly: numbers as constant nodes, all else by itself.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
-    /// An integer that is known and takes the type that its use needs.
+    /// A `usize` that is known, never negative.
     Int(i64),
     /// A scalar or vector, or in a kept loop an array; known if the node is a constant.
     Node(NodeId),
@@ -39,8 +39,42 @@ pub enum Value {
     Sampler(u32),
     /// A buffer, by its index in the graph.
     Buffer(u32),
+    /// A mutable reference to a variable or a part of one. A shared reference is the value that it refers to: nothing can
+    /// change that meanwhile.
+    Ref(Rc<Place>),
+    /// What a variable holds that has been declared and not been given a value.
+    Unset,
     /// What an expression with an error gives; using it is no second error.
     Poison,
+}
+
+/// A variable, or a part of one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Place {
+    /// Position of the variable in the scope.
+    pub slot: usize,
+    /// The variable's number, by which it is known to be the same one still.
+    pub id: u32,
+    /// The way from the variable to the part.
+    pub path: Vec<Step>,
+}
+
+/// A step from a value to one of its parts.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Step {
+    /// A field of a structure, a part of a tuple, a component of a vector.
+    Field(String),
+    /// An element of an array, a component of a vector; the index may be a runtime value.
+    Index(Value),
+}
+
+impl Place {
+    /// A part of this place.
+    pub fn part(&self, step: Step) -> Place {
+        let mut place = self.clone();
+        place.path.push(step);
+        place
+    }
 }
 
 /// What a `for` runs over.
@@ -108,6 +142,8 @@ impl Value {
             Value::Texture(_) => "a texture".to_owned(),
             Value::Sampler(_) => "a sampler".to_owned(),
             Value::Buffer(_) => "a buffer".to_owned(),
+            Value::Ref(_) => "a mutable reference".to_owned(),
+            Value::Unset => "a variable without a value".to_owned(),
             Value::Poison => "an error".to_owned(),
         }
     }

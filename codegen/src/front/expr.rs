@@ -103,7 +103,7 @@ impl Lower {
         match expr {
             syn::Expr::Paren(e) => self.kind(&e.expr),
             syn::Expr::Group(e) => self.kind(&e.expr),
-            syn::Expr::Reference(e) => self.kind(&e.expr),
+            syn::Expr::Reference(e) => ExprKind::Ref(e.mutability.is_some(), self.boxed(&e.expr)),
             syn::Expr::Lit(e) => self.literal(&e.lit, e.span()).kind,
             syn::Expr::Path(e) if e.qself.is_none() => ExprKind::Path(self.segments(&e.path)),
             syn::Expr::Unary(e) => self.unary(e),
@@ -233,8 +233,9 @@ impl Lower {
             syn::Lit::Int(lit) => {
                 let ty = match lit.suffix() {
                     "" => None,
-                    "i32" | "usize" | "isize" => Some(IntType::I32),
+                    "i32" => Some(IntType::I32),
                     "u32" => Some(IntType::U32),
+                    "usize" => Some(IntType::Usize),
                     other => {
                         self.unsupported(span, &format!("the integer type `{other}`"), "use i32, u32 or usize");
                         None
@@ -283,7 +284,7 @@ impl Lower {
         match e.op {
             syn::UnOp::Neg(_) => ExprKind::Unary(UnaryOp::Neg, self.boxed(&e.expr)),
             syn::UnOp::Not(_) => ExprKind::Unary(UnaryOp::Not, self.boxed(&e.expr)),
-            syn::UnOp::Deref(_) => self.kind(&e.expr),
+            syn::UnOp::Deref(_) => ExprKind::Deref(self.boxed(&e.expr)),
             _ => {
                 self.unsupported(e.span(), "this operator", "use `-` or `!`");
                 ExprKind::Tuple(Vec::new())

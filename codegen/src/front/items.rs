@@ -2,7 +2,7 @@
 
 use super::expr::Lower;
 use super::reach::reach;
-use super::tree::{Enum, Expr, ExprKind, Function, Library, OptionField, Struct, Type};
+use super::tree::{Enum, Expr, ExprKind, Function, Generic, Library, OptionField, Param, Struct, Type};
 use crate::diagnostic::Diagnostic;
 use proc_macro2::Span;
 use std::collections::HashMap;
@@ -60,35 +60,49 @@ impl Items {
         let mut params = Vec::new();
         // Evaluation is on values, so a type parameter is whatever comes; constants are bound by name.
         let generics = sig.generics.params.iter().filter_map(|p| match p {
-            syn::GenericParam::Const(c) => Some(Some(c.ident.to_string())),
-            syn::GenericParam::Type(_) => Some(None),
+            syn::GenericParam::Const(c) => Some(Generic::Const(c.ident.to_string(), lower.ty(&c.ty))),
+            syn::GenericParam::Type(t) => Some(Generic::Type(t.ident.to_string())),
             syn::GenericParam::Lifetime(_) => None,
         });
         let generics = generics.collect();
         for input in &sig.inputs {
             match input {
                 syn::FnArg::Receiver(receiver) => {
-                    let ty = Type::Name(of.unwrap_or_default().to_owned(), Vec::new());
-                    params.push(("self".to_owned(), ty, lower.span(receiver.span())));
+                    params.push(Param {
+                        name: "self".to_owned(),
+                        ty: receiver_type(&mut lower, receiver, of.unwrap_or_default()),
+                        mutable: receiver.mutability.is_some(),
+                        span: lower.span(receiver.span()),
+                    });
                 }
                 syn::FnArg::Typed(typed) => {
-                    if let syn::Type::Reference(reference) = &*typed.ty
-                        && reference.mutability.is_some()
-                    {
-                        lower.unsupported(typed.span(), "a `&mut` parameter", "return the new value");
-                    }
                     let ty = lower.ty(&typed.ty);
                     match &*typed.pat {
-                        syn::Pat::Ident(p) => params.push((p.ident.to_string(), ty, lower.span(p.span()))),
+                        syn::Pat::Ident(p) => params.push(Param {
+                            name: p.ident.to_string(),
+                            ty,
+                            mutable: p.mutability.is_some(),
+                            span: lower.span(p.span()),
+                        }),
                         other => lower.unsupported(other.span(), "a pattern as parameter", "give the parameter a name"),
                     }
                 }
             }
         }
+        let result = match &sig.output {
+            syn::ReturnType::Default => Type::Tuple(Vec::new()),
+            syn::ReturnType::Type(_, ty) => lower.ty(ty),
+        };
         let body = lower.block(body);
         let span = lower.span(sig.ident.span());
         if self.library.functions.contains_key(&name) {
             self.duplicate(&lower, sig.ident.span(), &name);
+        }
+        let mutates = params
+            .first()
+            .is_some_and(|p| p.name == "self" && p.ty.is_mutable_reference());
+        if mutates {
+            self.library.mutating.insert(sig.ident.to_string());
         }
         self.library.functions.insert(
             name.clone(),
@@ -96,6 +110,7 @@ impl Items {
                 docs: docs(attrs),
                 generics,
                 params,
+                result,
                 body,
                 span,
             },
@@ -199,10 +214,25 @@ impl Items {
         for name in &reached {
             errors.extend(self.errors.get(name).into_iter().flatten().cloned());
         }
-        if errors.is_empty() {
-            Ok(self.library)
-        } else {
-            Err(errors)
+        if !errors.is_empty() {
+            return Err(errors);
+        }
+        let mut library = self.library;
+        crate::infer::infer(&mut library, &reached)?;
+        Ok(library)
+    }
+}
+
+/// The type of `self`, `&self`, `&mut self` or `self: T`.
+fn receiver_type(lower: &mut Lower, receiver: &syn::Receiver, of: &str) -> Type {
+    let own = Type::Name(of.to_owned(), Vec::new());
+    match &receiver.kind {
+        syn::ReceiverKind::Value => own,
+        syn::ReceiverKind::Reference(_, _, mutability) => Type::Ref(mutability.is_some(), Box::new(own)),
+        syn::ReceiverKind::Typed(_, ty) => lower.ty(ty),
+        _ => {
+            lower.unsupported(receiver.span(), "this receiver", "take `self`, `&self` or `&mut self`");
+            own
         }
     }
 }

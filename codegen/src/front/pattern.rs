@@ -15,7 +15,7 @@ impl Lower {
                 if name.chars().next().is_some_and(char::is_uppercase) {
                     Pattern::Value(Box::new(self.path_expr(vec![name], p.span())))
                 } else {
-                    Pattern::Name(name, self.span(p.ident.span()))
+                    Pattern::Name(name, p.mutability.is_some(), self.span(p.ident.span()))
                 }
             }
             syn::Pat::Wild(_) => Pattern::Wild,
@@ -65,10 +65,10 @@ impl Lower {
         }
     }
 
-    /// A type; references, lifetimes and parentheses are dropped.
+    /// A type; lifetimes and parentheses are dropped.
     pub fn ty(&mut self, ty: &syn::Type) -> Type {
         match ty {
-            syn::Type::Reference(t) => self.ty(&t.elem),
+            syn::Type::Reference(t) => Type::Ref(t.mutability.is_some(), Box::new(self.ty(&t.elem))),
             syn::Type::Paren(t) => self.ty(&t.elem),
             syn::Type::Group(t) => self.ty(&t.elem),
             syn::Type::Array(t) => Type::Array(Box::new(self.ty(&t.elem)), Some(Box::new(self.expr(&t.len)))),

@@ -1,22 +1,29 @@
 //! What a piece of the tree may change or leave.
 
 use super::tree::{Block, Expr, ExprKind, Pattern, Statement};
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashSet};
 
 /// What a loop's body does to what is around it.
 #[derive(Debug, Default)]
 pub struct Effects {
-    /// Variables around it that it assigns to.
+    /// Variables around it that it assigns to or borrows mutably.
     pub assigned: BTreeSet<String>,
+    /// Every name that it mentions.
+    pub mentioned: BTreeSet<String>,
     /// Whether it may leave the loop other than by its end: `break`, `continue`, `return`.
     pub leaves: bool,
 }
 
-/// Scans a loop's body.
-pub fn assigned(body: &Block) -> Effects {
+/// Scans a loop's body. `mutating` names the methods that take `&mut self`: of whichever type the receiver is, it counts
+/// as borrowed by a method of such a name.
+pub fn assigned(body: &Block, mutating: &HashSet<String>) -> Effects {
     let mut effects = Effects::default();
-    let mut around = Around::default();
+    let mut around = Around {
+        mutating: Some(mutating),
+        ..Around::default()
+    };
     block(body, &mut effects, &mut around);
+    mentioned(body, &mut effects.mentioned);
     effects
 }
 
@@ -27,6 +34,21 @@ struct Around<'b> {
     loops: Vec<Option<&'b str>>,
     /// Variables of the body's own.
     own: Vec<&'b str>,
+    /// Methods that take `&mut self`.
+    mutating: Option<&'b HashSet<String>>,
+}
+
+impl Around<'_> {
+    /// Notes that the variable that `place` is a part of may be written.
+    fn write(&self, place: &Expr, out: &mut Effects) {
+        if let Some(name) = root(place).filter(|name| !self.own.contains(&name.as_str())) {
+            out.assigned.insert(name);
+        }
+    }
+
+    fn mutates(&self, method: &str) -> bool {
+        method == "iter_mut" || self.mutating.is_some_and(|names| names.contains(method))
+    }
 }
 
 fn block<'b>(b: &'b Block, out: &mut Effects, around: &mut Around<'b>) {
@@ -48,7 +70,7 @@ fn block<'b>(b: &'b Block, out: &mut Effects, around: &mut Around<'b>) {
 /// The names that a pattern binds.
 fn bound<'b>(pattern: &'b Pattern, out: &mut Vec<&'b str>) {
     match pattern {
-        Pattern::Name(name, _) => out.push(name),
+        Pattern::Name(name, ..) => out.push(name),
         Pattern::Tuple(all, _) | Pattern::Array(all, _) | Pattern::Or(all) => all.iter().for_each(|p| bound(p, out)),
         Pattern::Struct(fields, _) => fields.iter().for_each(|(_, p)| bound(p, out)),
         Pattern::Wild | Pattern::Value(_) | Pattern::Range(..) => {}
@@ -58,11 +80,20 @@ fn bound<'b>(pattern: &'b Pattern, out: &mut Vec<&'b str>) {
 fn expr<'b>(e: &'b Expr, out: &mut Effects, around: &mut Around<'b>) {
     match &e.kind {
         ExprKind::Assign(place, _, value) => {
-            if let Some(name) = root(place).filter(|name| !around.own.contains(&name.as_str())) {
-                out.assigned.insert(name);
-            }
+            around.write(place, out);
             expr(place, out, around);
             expr(value, out, around);
+        }
+        ExprKind::Ref(true, place) => {
+            around.write(place, out);
+            expr(place, out, around);
+        }
+        ExprKind::Method(receiver, name, args) => {
+            if around.mutates(name) {
+                around.write(receiver, out);
+            }
+            expr(receiver, out, around);
+            args.iter().for_each(|e| expr(e, out, around));
         }
         ExprKind::Return(value) => {
             out.leaves = true;
@@ -93,7 +124,12 @@ fn expr<'b>(e: &'b Expr, out: &mut Effects, around: &mut Around<'b>) {
         ExprKind::Block(b) => block(b, out, around),
         ExprKind::Match(subject, arms) => {
             expr(subject, out, around);
-            arms.iter().for_each(|arm| expr(&arm.body, out, around));
+            for arm in arms {
+                let mark = around.own.len();
+                bound(&arm.pattern, &mut around.own);
+                expr(&arm.body, out, around);
+                around.own.truncate(mark);
+            }
         }
         _ => children(e).into_iter().for_each(|child| expr(child, out, around)),
     }
@@ -103,7 +139,11 @@ fn expr<'b>(e: &'b Expr, out: &mut Effects, around: &mut Around<'b>) {
 pub fn root(place: &Expr) -> Option<String> {
     match &place.kind {
         ExprKind::Path(path) if path.len() == 1 => Some(path[0].clone()),
-        ExprKind::Field(base, _) | ExprKind::Index(base, _) => root(base),
+        ExprKind::Field(base, _) | ExprKind::Index(base, _) | ExprKind::Deref(base) | ExprKind::Ref(_, base) => {
+            root(base)
+        }
+        // A method may give a reference to a part of its receiver.
+        ExprKind::Method(receiver, ..) => root(receiver),
         _ => None,
     }
 }
@@ -111,7 +151,12 @@ pub fn root(place: &Expr) -> Option<String> {
 /// Direct parts of an expression, blocks left out.
 pub fn children(e: &Expr) -> Vec<&Expr> {
     match &e.kind {
-        ExprKind::Unary(_, a) | ExprKind::Field(a, _) | ExprKind::Cast(a, _) | ExprKind::Assert(a, _) => vec![a],
+        ExprKind::Unary(_, a)
+        | ExprKind::Field(a, _)
+        | ExprKind::Cast(a, _)
+        | ExprKind::Assert(a, _)
+        | ExprKind::Ref(_, a)
+        | ExprKind::Deref(a) => vec![a],
         ExprKind::Binary(_, a, b)
         | ExprKind::Lazy(_, a, b)
         | ExprKind::Index(a, b)

@@ -3,7 +3,7 @@
 use crate::diagnostic::Span;
 use crate::ir::{BinaryOp, UnaryOp};
 use crate::policy::{Branches, Unroll};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 /// An expression.
 #[derive(Clone, Debug)]
@@ -17,7 +17,7 @@ pub struct Expr {
 /// Kinds of expressions.
 #[derive(Clone, Debug)]
 pub enum ExprKind {
-    /// An integer literal, with its suffix.
+    /// An integer literal, with its type: the suffix, or what inference finds.
     Int(i64, Option<IntType>),
     /// A float literal.
     Float(f32),
@@ -29,6 +29,10 @@ pub enum ExprKind {
     Path(Vec<String>),
     /// `-x`, `!x`.
     Unary(UnaryOp, Box<Expr>),
+    /// `&place`, `&mut place` (true).
+    Ref(bool, Box<Expr>),
+    /// `*reference`.
+    Deref(Box<Expr>),
     /// `a + b`, ...
     Binary(BinaryOp, Box<Expr>, Box<Expr>),
     /// `&&` (true) and `||` (false): the right side is only looked at where it matters.
@@ -93,10 +97,12 @@ pub struct ForLoop {
 /// Integer types by name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum IntType {
-    /// `i32`, and `usize` and `isize`, which index.
+    /// `i32`.
     I32,
     /// `u32`.
     U32,
+    /// `usize`.
+    Usize,
 }
 
 /// Statements in braces; the last may be the block's value.
@@ -131,8 +137,8 @@ pub struct Arm {
 /// A pattern.
 #[derive(Clone, Debug)]
 pub enum Pattern {
-    /// `name`, `mut name`.
-    Name(String, Span),
+    /// `name`, `mut name` (true).
+    Name(String, bool, Span),
     /// `(a, b)`.
     Tuple(Vec<Pattern>, Span),
     /// `_`.
@@ -149,7 +155,7 @@ pub enum Pattern {
     Range(Box<Expr>, Box<Expr>),
 }
 
-/// A type as written; references are dropped.
+/// A type as written.
 #[derive(Clone, Debug)]
 pub enum Type {
     /// A name, with its arguments: `f32`, `Vec3`, `Frame<Vec4>`.
@@ -158,6 +164,45 @@ pub enum Type {
     Array(Box<Type>, Option<Box<Expr>>),
     /// `(A, B)`.
     Tuple(Vec<Type>),
+    /// `&T`, `&mut T` (true).
+    Ref(bool, Box<Type>),
+}
+
+impl Type {
+    /// The type behind any shared or mutable references.
+    pub fn bare(&self) -> &Type {
+        match self {
+            Type::Ref(_, inner) => inner.bare(),
+            other => other,
+        }
+    }
+
+    /// Whether it is `&mut T`.
+    pub fn is_mutable_reference(&self) -> bool {
+        matches!(self, Type::Ref(true, _))
+    }
+}
+
+/// A generic parameter of a function; lifetimes are dropped.
+#[derive(Clone, Debug)]
+pub enum Generic {
+    /// `T`.
+    Type(String),
+    /// `const N: usize`.
+    Const(String, Type),
+}
+
+/// A parameter of a function.
+#[derive(Clone, Debug)]
+pub struct Param {
+    /// Its name; a method's first is `self`.
+    pub name: String,
+    /// Its type, with `Self` resolved.
+    pub ty: Type,
+    /// Whether the function may assign to it: `mut name`.
+    pub mutable: bool,
+    /// Where it stands.
+    pub span: Span,
 }
 
 /// A function.
@@ -165,10 +210,12 @@ pub enum Type {
 pub struct Function {
     /// Documentation.
     pub docs: String,
-    /// Generic parameters in order: the name of a constant, `None` for a type.
-    pub generics: Vec<Option<String>>,
-    /// Parameters in order; a method's first is `self`.
-    pub params: Vec<(String, Type, Span)>,
+    /// Generic parameters in order.
+    pub generics: Vec<Generic>,
+    /// Parameters in order.
+    pub params: Vec<Param>,
+    /// What it gives; `()` is an empty tuple.
+    pub result: Type,
     /// The body.
     pub body: Block,
     /// Where its name stands.
@@ -224,6 +271,8 @@ pub struct OptionField {
 pub struct Library {
     /// Functions and methods (`Type::name`).
     pub functions: HashMap<String, Function>,
+    /// Names of the methods that take `&mut self`.
+    pub mutating: HashSet<String>,
     /// Constants.
     pub consts: HashMap<String, Const>,
     /// Structures.

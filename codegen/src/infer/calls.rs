@@ -1,0 +1,232 @@
+//! Calls: of the kernel's own functions by their signatures, of the prelude's and glam's by the tables below.
+
+use super::Checker;
+use super::types::{Kind, Ty};
+use crate::diagnostic::Span;
+use crate::front::tree::{Expr, Function};
+use crate::ir::Scalar;
+
+impl<'l> Checker<'l> {
+    /// The type of `path::<constants>(args)`.
+    pub fn call(&mut self, path: &'l [String], constants: &'l [Expr], args: &'l [Expr], span: Span) -> Ty {
+        let last = path.last().map(String::as_str).unwrap_or_default();
+        let library = self.library;
+        let own = match path.len() {
+            2 => library.functions.get(&path.join("::")),
+            _ => None,
+        };
+        if let Some(function) = own.or_else(|| library.functions.get(last)) {
+            return self.signature(function, constants, None, args, span);
+        }
+        if let Some(definition) = library.structs.get(last)
+            && definition.fields.iter().all(|(name, ..)| name.parse::<usize>().is_ok())
+        {
+            let types: Vec<Ty> = definition
+                .fields
+                .iter()
+                .map(|(_, ty, at)| self.field_type(ty, *at))
+                .collect();
+            return self.takes(args, &types, Ty::Struct(last.to_owned()));
+        }
+        let names: Vec<&str> = path.iter().map(String::as_str).collect();
+        self.known_call(&names, args, span)
+    }
+
+    /// A function of the kernel's files: each argument against its parameter. A method's receiver has been looked at.
+    pub fn signature(
+        &mut self,
+        function: &'l Function,
+        constants: &'l [Expr],
+        receiver: Option<&Ty>,
+        args: &'l [Expr],
+        span: Span,
+    ) -> Ty {
+        let given = self.instantiate(function, constants);
+        let params = &function.params[usize::from(receiver.is_some()).min(function.params.len())..];
+        if params.len() == args.len() {
+            for (param, arg) in params.iter().zip(args) {
+                let wanted = self.substituted(&param.ty, &given, span);
+                let known = self.errors.len();
+                let found = self.expr(arg, Some(&wanted));
+                let inside = self.errors.len();
+                self.coerce(&wanted, &found, arg.span);
+                if self.errors.len() > inside && inside == known {
+                    let error = self.errors.remove(inside);
+                    self.errors
+                        .push(error.other(param.span, format!("`{}` is stated here", param.name)));
+                }
+            }
+        } else {
+            self.loose(args);
+        }
+        self.substituted(&function.result, &given, span)
+    }
+
+    /// Looks at arguments of which nothing is known.
+    pub fn loose(&mut self, args: &'l [Expr]) {
+        for arg in args {
+            let found = self.expr(arg, None);
+            self.table.unify(&found, &Ty::Unknown);
+        }
+    }
+
+    /// Arguments against the types that are wanted of them; how many there are is the evaluator's to check.
+    pub fn takes(&mut self, args: &'l [Expr], wanted: &[Ty], result: Ty) -> Ty {
+        if args.len() == wanted.len() {
+            for (arg, wanted) in args.iter().zip(wanted) {
+                self.against(arg, wanted);
+            }
+        } else {
+            self.loose(args);
+        }
+        result
+    }
+
+    fn known_call(&mut self, path: &[&str], args: &'l [Expr], span: Span) -> Ty {
+        if let Some(ty) = constructed(path) {
+            let wanted = match &ty {
+                Ty::Vector(kind, lanes) => vec![Ty::scalar(*kind); usize::from(*lanes)],
+                Ty::Matrix(n) => vec![Ty::Vector(Scalar::F32, *n); usize::from(*n)],
+                _ => Vec::new(),
+            };
+            return self.takes(args, &wanted, ty);
+        }
+        if let [.., ty, name] = path
+            && let Some((kind, lanes)) = super::signature::vector(ty)
+        {
+            let vector = Ty::Vector(kind, lanes);
+            return match *name {
+                "splat" => self.takes(args, &[Ty::scalar(kind)], vector),
+                "from_array" => self.takes(args, &[Ty::Array(Box::new(Ty::scalar(kind)))], vector),
+                _ => self.by_path(&vector, name, args, span),
+            };
+        }
+        if let [.., ty, name] = path {
+            let receiver = match *ty {
+                "f32" => Some(Ty::Float),
+                "i32" => Some(Ty::I32),
+                "u32" => Some(Ty::U32),
+                "usize" => Some(Ty::USIZE),
+                "Mat2" => Some(Ty::Matrix(2)),
+                "Mat3" => Some(Ty::Matrix(3)),
+                "Mat4" => Some(Ty::Matrix(4)),
+                _ => None,
+            };
+            match (receiver, *name) {
+                (Some(Ty::Float), "from_bits") => return self.takes(args, &[Ty::U32], Ty::Float),
+                (Some(Ty::Matrix(n)), "from_diagonal") => {
+                    return self.takes(args, &[Ty::Vector(Scalar::F32, n)], Ty::Matrix(n));
+                }
+                (Some(receiver), name) => return self.by_path(&receiver, name, args, span),
+                (None, _) => {}
+            }
+        }
+        self.prelude(path, args)
+    }
+
+    /// A method called by its path: the receiver is the first argument.
+    fn by_path(&mut self, receiver: &Ty, name: &str, args: &'l [Expr], span: Span) -> Ty {
+        match args {
+            [first, rest @ ..] => {
+                self.against(first, receiver);
+                self.known_method(receiver, name, rest, span)
+            }
+            [] => Ty::Unknown,
+        }
+    }
+
+    /// The functions of the prelude.
+    fn prelude(&mut self, path: &[&str], args: &'l [Expr]) -> Ty {
+        let pair = |kind| Ty::Quad(Box::new(Ty::Vector(kind, 2)));
+        match (path, args) {
+            ([.., "Quad", "splat" | "from"], [value]) => Ty::Quad(Box::new(self.expr(value, None))),
+            ([.., "Quad", "new"], [lanes]) => match self.expr(lanes, None) {
+                Ty::Array(lane) => Ty::Quad(lane),
+                _ => Ty::Unknown,
+            },
+            ([.., "Quad", "from_xy"], [x, y]) => {
+                self.lane(x, &Ty::Float);
+                self.lane(y, &Ty::Float);
+                pair(Scalar::F32)
+            }
+            ([.., "lane_position"], []) => pair(Scalar::I32),
+            ([.., "quad_vector" | "quad_select"], []) => pair(Scalar::F32),
+            ([.., "fract" | "round" | "sign" | "saturate" | "inverse_sqrt"], [x]) => self.expr(x, None),
+            ([.., "mix"], [from, to, amount]) => {
+                let ty = self.expr(from, None);
+                self.against(to, &ty);
+                let found = self.expr(amount, None);
+                let (of, by) = (self.peeled(&ty).0, self.peeled(&found).0);
+                match (&of, &by) {
+                    (Ty::Vector(..) | Ty::Quad(_), Ty::Vector(..) | Ty::Quad(_) | Ty::Unknown) | (Ty::Unknown, _) => {}
+                    _ => self.coerce(&Ty::Float, &found, amount.span),
+                }
+                ty
+            }
+            ([.., "step"], [edge, x]) => {
+                self.against(edge, &Ty::Float);
+                self.against(x, &Ty::Float);
+                Ty::Float
+            }
+            ([.., "smoothstep"], [low, high, x]) => {
+                self.against(low, &Ty::Float);
+                self.against(high, &Ty::Float);
+                self.expr(x, None)
+            }
+            ([.., "tally"], [name, value]) => {
+                self.expr(name, None);
+                self.expr(value, None)
+            }
+            ([.., "uniform"], [value]) => self.expr(value, None),
+            _ => {
+                self.loose(args);
+                Ty::Unknown
+            }
+        }
+    }
+
+    /// An argument that is a value, or one in each lane: `impl Into<Quad<T>>`.
+    pub fn lane(&mut self, arg: &'l Expr, wanted: &Ty) {
+        let found = self.expr(arg, Some(wanted));
+        match self.table.shallow(&found) {
+            Ty::Quad(lane) => self.coerce(wanted, &lane, arg.span),
+            _ => self.coerce(wanted, &found, arg.span),
+        }
+    }
+
+    /// Floats of a method that takes literals as its receiver: an unsuffixed one is an `f32`, as there is no other.
+    pub fn settled(&mut self, ty: &Ty) -> Ty {
+        if self.table.kind(ty) == Some(Kind::Float) {
+            self.table.unify(ty, &Ty::Float);
+        }
+        self.table.shallow(ty)
+    }
+}
+
+/// `vec3`, `Vec3::new`, `mat3`, `Mat3::from_cols`.
+fn constructed(path: &[&str]) -> Option<Ty> {
+    let (ty, name) = match path {
+        [.., ty, name] if !ty.starts_with(|c: char| c.is_lowercase()) => (*ty, *name),
+        [.., name] => (*name, "new"),
+        [] => return None,
+    };
+    let ty = match ty {
+        "vec2" => "Vec2",
+        "vec3" => "Vec3",
+        "vec4" => "Vec4",
+        "ivec2" => "IVec2",
+        "ivec3" => "IVec3",
+        "ivec4" => "IVec4",
+        "uvec2" => "UVec2",
+        "uvec3" => "UVec3",
+        "uvec4" => "UVec4",
+        other => other,
+    };
+    match (super::signature::vector(ty), ty, name) {
+        (Some((kind, lanes)), _, "new") => Some(Ty::Vector(kind, lanes)),
+        (None, "mat2" | "Mat2", "new" | "from_cols") => Some(Ty::Matrix(2)),
+        (None, "mat3" | "Mat3", "new" | "from_cols") => Some(Ty::Matrix(3)),
+        (None, "mat4" | "Mat4", "new" | "from_cols") => Some(Ty::Matrix(4)),
+        _ => None,
+    }
+}

@@ -1,0 +1,287 @@
+//! Methods, with the signatures that Rust, glam and the prelude give them.
+
+use super::Checker;
+use super::places::Access;
+use super::types::{Kind, Ty};
+use crate::diagnostic::{Diagnostic, Span};
+use crate::front::tree::Expr;
+use crate::ir::Scalar;
+
+impl<'l> Checker<'l> {
+    /// The type of `receiver.name(args)`.
+    pub fn method(&mut self, receiver: &'l Expr, name: &str, args: &'l [Expr], span: Span) -> Ty {
+        let (ty, access) = self.place(receiver);
+        if self.table.kind(&self.peeled(&ty).0) == Some(Kind::Any) {
+            self.solve();
+        }
+        let (bare, reference) = self.peeled(&ty);
+        if let Ty::Struct(of) | Ty::Enum(of) = &bare {
+            let library = self.library;
+            if let Some(function) = library.functions.get(&format!("{of}::{name}")) {
+                let mutable = function.params.first().is_some_and(|own| own.ty.is_mutable_reference());
+                if mutable {
+                    self.borrowed(access, reference, receiver);
+                }
+                return self.signature(function, &[], Some(&ty), args, span);
+            }
+        }
+        if name == "iter_mut" {
+            self.borrowed(access, reference, receiver);
+        }
+        match (&bare, name) {
+            (Ty::Array(element), "iter" | "iter_mut") => {
+                Ty::Iter(Box::new(Ty::Ref(name == "iter_mut", element.clone())))
+            }
+            (Ty::Array(element), "into_iter") => Ty::Iter(match reference {
+                Some(mutable) => Box::new(Ty::Ref(mutable, element.clone())),
+                None => element.clone(),
+            }),
+            (Ty::Int(_) | Ty::Var(_), _) if self.table.kind(&bare) == Some(Kind::Integer) => {
+                self.ambiguous(name, receiver);
+                self.loose(args);
+                Ty::Unknown
+            }
+            _ => {
+                let bare = self.settled(&bare);
+                self.known_method(&bare, name, args, span)
+            }
+        }
+    }
+
+    /// A receiver that a method changes.
+    fn borrowed(&mut self, access: Access, reference: Option<bool>, receiver: &Expr) {
+        match reference {
+            Some(true) => {}
+            Some(false) => self.writable(Access::Shared, receiver, false),
+            None => self.writable(access, receiver, false),
+        }
+    }
+
+    fn ambiguous(&mut self, name: &str, receiver: &Expr) {
+        self.errors.push(
+            Diagnostic::at(
+                receiver.span,
+                format!("cannot call method `{name}` on an integer of which the type is not known yet"),
+            )
+            .label("of which type?")
+            .help("write its type behind a literal, such as `2_i32`, or state it where the variable is declared"),
+        );
+    }
+
+    /// A method of a type that the generator knows.
+    pub fn known_method(&mut self, receiver: &Ty, name: &str, args: &'l [Expr], span: Span) -> Ty {
+        let own = receiver.clone();
+        match receiver {
+            Ty::Float => self.of_float(name, args),
+            Ty::Int(_) => self.of_integer(receiver, name, args),
+            Ty::Vector(kind, lanes) => self.of_vector(*kind, *lanes, name, args),
+            Ty::Matrix(n) => {
+                let column = Ty::Vector(Scalar::F32, *n);
+                match name {
+                    "transpose" => self.takes(args, &[], own),
+                    "col" => self.takes(args, &[Ty::USIZE], column),
+                    "mul_vec2" | "mul_vec3" | "mul_vec4" => self.takes(args, &[column.clone()], column),
+                    "mul_mat2" | "mul_mat3" | "mul_mat4" => self.takes(args, &[own.clone()], own),
+                    "transform_point3" | "transform_vector3" => {
+                        let point = Ty::Vector(Scalar::F32, 3);
+                        self.takes(args, &[point.clone()], point)
+                    }
+                    _ => self.unknown_method(args),
+                }
+            }
+            Ty::Array(_) if name == "len" => self.takes(args, &[], Ty::USIZE),
+            Ty::Range(item) | Ty::Iter(item) => match name {
+                "rev" => self.takes(args, &[], own),
+                "step_by" => self.takes(args, &[Ty::USIZE], own),
+                "contains" => self.takes(args, &[(**item).clone().shared()], Ty::Bool),
+                "enumerate" => self.takes(
+                    args,
+                    &[],
+                    Ty::Iter(Box::new(Ty::Tuple(vec![Ty::USIZE, (**item).clone()]))),
+                ),
+                "copied" | "cloned" => {
+                    let bare = self.peeled(item).0;
+                    self.takes(args, &[], Ty::Iter(Box::new(bare)))
+                }
+                "iter" | "into_iter" => self.takes(args, &[], own),
+                _ => self.unknown_method(args),
+            },
+            Ty::Texture(kind, texel) => self.of_texture(kind, texel, name, args),
+            Ty::Buffer(element) => match name {
+                "load" => self.takes(args, &[Ty::USIZE], (**element).clone()),
+                "len" => self.takes(args, &[], Ty::USIZE),
+                _ => self.unknown_method(args),
+            },
+            Ty::Quad(lane) => self.of_quad(lane, name, args, span),
+            Ty::Bool if name == "select" => Ty::Unknown,
+            _ => self.unknown_method(args),
+        }
+    }
+
+    fn unknown_method(&mut self, args: &'l [Expr]) -> Ty {
+        self.loose(args);
+        Ty::Unknown
+    }
+
+    fn of_float(&mut self, name: &str, args: &'l [Expr]) -> Ty {
+        let float = Ty::Float;
+        match name {
+            "powf" | "atan2" | "min" | "max" | "rem_euclid" | "div_euclid" | "copysign" => {
+                self.takes(args, &[float.clone()], float)
+            }
+            "clamp" | "mul_add" | "lerp" => self.takes(args, &[float.clone(), float.clone()], float),
+            "powi" => self.takes(args, &[Ty::I32], float),
+            "is_nan" | "is_finite" => self.takes(args, &[], Ty::Bool),
+            "to_bits" => self.takes(args, &[], Ty::U32),
+            _ if args.is_empty() => float,
+            _ => self.unknown_method(args),
+        }
+    }
+
+    fn of_integer(&mut self, own: &Ty, name: &str, args: &'l [Expr]) -> Ty {
+        let own = own.clone();
+        match name {
+            "abs" | "signum" | "reverse_bits" | "wrapping_neg" => self.takes(args, &[], own),
+            "count_ones" | "leading_zeros" | "trailing_zeros" => self.takes(args, &[], Ty::U32),
+            "min" | "max" | "rem_euclid" | "div_euclid" | "div_ceil" | "wrapping_add" | "wrapping_sub"
+            | "wrapping_mul" => self.takes(args, &[own.clone()], own),
+            "clamp" => self.takes(args, &[own.clone(), own.clone()], own),
+            "is_multiple_of" => self.takes(args, &[own], Ty::Bool),
+            "pow" | "wrapping_shl" | "wrapping_shr" => self.takes(args, &[Ty::U32], own),
+            _ => self.unknown_method(args),
+        }
+    }
+
+    fn of_vector(&mut self, kind: Scalar, lanes: u8, name: &str, args: &'l [Expr]) -> Ty {
+        let (own, part) = (Ty::Vector(kind, lanes), Ty::scalar(kind));
+        if let Some(to) = name.strip_prefix("as_") {
+            let target = to.strip_prefix("vec").map(|n| format!("Vec{n}"));
+            let target = target.or_else(|| to.strip_prefix("ivec").map(|n| format!("IVec{n}")));
+            let target = target.or_else(|| to.strip_prefix("uvec").map(|n| format!("UVec{n}")));
+            return match target.and_then(|name| super::signature::vector(&name)) {
+                Some((kind, lanes)) => self.takes(args, &[], Ty::Vector(kind, lanes)),
+                None => self.unknown_method(args),
+            };
+        }
+        if name.len() <= 4 && name.len() > 1 && name.chars().all(|c| "xyzw".contains(c)) {
+            return self.takes(args, &[], Ty::Vector(kind, name.len() as u8));
+        }
+        match name {
+            "dot" | "distance" | "distance_squared" => self.takes(args, &[own], part),
+            "length" | "length_squared" | "length_recip" | "min_element" | "max_element" | "element_sum"
+            | "element_product" => self.takes(args, &[], part),
+            "min" | "max" | "cross" | "reflect" => self.takes(args, &[own.clone()], own),
+            "clamp" => self.takes(args, &[own.clone(), own.clone()], own),
+            "lerp" => self.takes(args, &[own.clone(), Ty::Float], own),
+            "powf" => self.takes(args, &[Ty::Float], own),
+            "extend" => self.takes(args, &[part], Ty::Vector(kind, lanes + 1)),
+            "truncate" => self.takes(args, &[], Ty::Vector(kind, lanes - 1)),
+            "to_array" => self.takes(args, &[], Ty::Array(Box::new(part))),
+            "is_nan" | "is_finite" => self.takes(args, &[], Ty::Bool),
+            "abs" | "ceil" | "floor" | "trunc" | "exp" | "exp2" | "ln" | "log2" | "sqrt" | "recip" | "normalize"
+            | "perp" | "sin" | "cos" | "signum" | "round" | "fract" => self.takes(args, &[], own),
+            _ => self.unknown_method(args),
+        }
+    }
+
+    fn of_texture(&mut self, kind: &str, texel: &Ty, name: &str, args: &'l [Expr]) -> Ty {
+        let (layered, uv) = (
+            matches!(kind, "FrameLayers" | "Multisampled"),
+            Ty::Vector(Scalar::F32, 2),
+        );
+        let sampler = Ty::Sampler.shared();
+        let comparison = Ty::ComparisonSampler.shared();
+        match (name, args) {
+            ("size", []) => Ty::Vector(Scalar::U32, 2),
+            ("load", [coord]) if !layered => self.per_lane(coord, &Ty::Vector(Scalar::I32, 2), texel),
+            ("load", [coord, layer]) if layered => {
+                let found = self.per_lane(coord, &Ty::Vector(Scalar::I32, 2), texel);
+                self.against(layer, &Ty::USIZE);
+                found
+            }
+            ("sample", [with, at]) => {
+                self.against(with, &sampler);
+                self.per_lane(at, &uv, texel)
+            }
+            ("gather", [component, with, at]) => {
+                self.against(component, &Ty::USIZE);
+                self.against(with, &sampler);
+                self.per_lane(at, &uv, &Ty::Vector(Scalar::F32, 4))
+            }
+            ("compare" | "gather_compare", [with, at, reference]) => {
+                self.against(with, &comparison);
+                let result = match name {
+                    "compare" => Ty::Float,
+                    _ => Ty::Vector(Scalar::F32, 4),
+                };
+                let found = self.per_lane(at, &uv, &result);
+                self.lane(reference, &Ty::Float);
+                found
+            }
+            _ => self.unknown_method(args),
+        }
+    }
+
+    /// What comes of a coordinate, or in each lane of one in each lane.
+    fn per_lane(&mut self, coord: &'l Expr, wanted: &Ty, result: &Ty) -> Ty {
+        let found = self.expr(coord, Some(wanted));
+        match self.table.shallow(&found) {
+            Ty::Quad(lane) => {
+                self.coerce(wanted, &lane, coord.span);
+                Ty::Quad(Box::new(result.clone()))
+            }
+            _ => {
+                self.coerce(wanted, &found, coord.span);
+                result.clone()
+            }
+        }
+    }
+
+    fn of_quad(&mut self, lane: &Ty, name: &str, args: &'l [Expr], span: Span) -> Ty {
+        let lane = self.table.shallow(lane);
+        let own = Ty::Quad(Box::new(lane.clone()));
+        match name {
+            "swap_horizontal" | "swap_vertical" | "swap_diagonal" | "sum" | "average" => self.takes(args, &[], own),
+            "gather" => self.takes(args, &[], Ty::Array(Box::new(own))),
+            "lt" | "le" | "gt" | "ge" | "eq" | "ne" => {
+                args.iter().for_each(|arg| self.lane(arg, &lane));
+                Ty::Quad(Box::new(Ty::Bool))
+            }
+            "select" => match args {
+                [yes, no] => {
+                    let ty = self.expr(yes, None);
+                    self.against(no, &ty);
+                    ty
+                }
+                _ => self.unknown_method(args),
+            },
+            "x" | "y" | "z" | "w" => match lane {
+                Ty::Vector(kind, _) => Ty::Quad(Box::new(Ty::scalar(kind))),
+                _ => Ty::Unknown,
+            },
+            "as_f32" => Ty::Quad(Box::new(Ty::Float)),
+            "as_i32" => Ty::Quad(Box::new(Ty::I32)),
+            // As the lane's method does, whose arguments may be quads or single values.
+            _ if args.is_empty() => match self.known_method(&lane, name, args, span) {
+                Ty::Unknown => Ty::Unknown,
+                result => Ty::Quad(Box::new(result)),
+            },
+            "extend" => {
+                args.iter().for_each(|arg| self.lane(arg, &Ty::Float));
+                match lane {
+                    Ty::Vector(kind, lanes) => Ty::Quad(Box::new(Ty::Vector(kind, lanes + 1))),
+                    _ => Ty::Unknown,
+                }
+            }
+            "dot" | "distance" | "distance_squared" => {
+                args.iter().for_each(|arg| self.lane(arg, &lane));
+                Ty::Quad(Box::new(Ty::Float))
+            }
+            "min" | "max" | "clamp" | "atan2" | "powf" | "cross" => {
+                args.iter().for_each(|arg| self.lane(arg, &lane));
+                own
+            }
+            _ => self.unknown_method(args),
+        }
+    }
+}

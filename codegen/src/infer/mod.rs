@@ -1,0 +1,258 @@
+//! Type inference: the type of every expression of the functions that a kernel reaches, as rustc finds it.
+//!
+//! A literal without a suffix takes its type from what it meets anywhere in its function, not from its value; only inference
+//! before evaluation can tell. On the way this refuses what rustc would refuse: types that do not match, assignments to
+//! what is not `mut`, numbers that Rust takes for an `f64`. What it does not know (a method that only exists natively) it
+//! leaves to the evaluator, which refuses it where it is reached.
+
+mod apply;
+mod calls;
+mod expr;
+mod methods;
+mod operators;
+mod pattern;
+mod places;
+mod signature;
+mod types;
+
+use crate::diagnostic::{Diagnostic, Span};
+use crate::front::tree::{Const, Expr, Function, Generic, IntType, Library};
+use std::collections::{BTreeSet, HashMap};
+use types::{Kind, Table, Ty};
+
+/// Gives every literal of the functions, constants and options that are `reached` its type.
+///
+/// # Errors
+///
+/// Everything that rustc would refuse, of all functions.
+pub fn infer(library: &mut Library, reached: &BTreeSet<String>) -> Result<(), Vec<Diagnostic>> {
+    let (literals, mut errors) = found(library, reached);
+    if errors.is_empty() {
+        apply::apply(library, &literals);
+        return Ok(());
+    }
+    errors.sort_by_key(|error| error.span);
+    errors.dedup();
+    Err(errors)
+}
+
+/// The types of the literals, and everything that is wrong.
+fn found(library: &Library, reached: &BTreeSet<String>) -> (HashMap<Span, IntType>, Vec<Diagnostic>) {
+    let (mut literals, mut errors) = (HashMap::new(), Vec::new());
+    for name in reached {
+        if let Some(function) = library.functions.get(name) {
+            one(library, &mut literals, &mut errors, |checker| {
+                checker.function(function)
+            });
+        }
+        if let Some(constant) = library.consts.get(name) {
+            one(library, &mut literals, &mut errors, |checker| {
+                checker.constant(constant)
+            });
+        }
+    }
+    for (_, ty, span) in library.structs.values().flat_map(|s| &s.fields) {
+        // A structure that the kernel does not reach may hold anything.
+        one(library, &mut literals, &mut Vec::new(), |checker| {
+            checker.stated(ty, *span);
+        });
+    }
+    for field in library.options.values().flatten() {
+        one(library, &mut literals, &mut errors, |checker| {
+            let ty = checker.stated(&field.ty, field.span);
+            checker.against(&field.default, &ty);
+            if let Some(range) = &field.range {
+                let number = match ty {
+                    Ty::Ref(_, list) | Ty::Array(list) => match *list {
+                        Ty::Array(element) => *element,
+                        other => other,
+                    },
+                    other => other,
+                };
+                checker.against(range, &Ty::Range(Box::new(number)));
+            }
+        });
+    }
+    (literals, errors)
+}
+
+/// Looks at one item by itself.
+fn one<'l>(
+    library: &'l Library,
+    literals: &mut HashMap<Span, IntType>,
+    errors: &mut Vec<Diagnostic>,
+    look: impl FnOnce(&mut Checker<'l>),
+) {
+    let mut checker = Checker::new(library);
+    look(&mut checker);
+    checker.finish(literals, errors);
+}
+
+/// A local variable.
+struct Local {
+    name: String,
+    ty: Ty,
+    mutable: bool,
+    /// Whether it was declared without a value, which then may be assigned once.
+    deferred: bool,
+    span: Span,
+}
+
+/// An operator whose operands were not known yet.
+struct Deferred<'l> {
+    op: crate::ir::BinaryOp,
+    left: Ty,
+    right: Ty,
+    result: Ty,
+    expr: &'l Expr,
+}
+
+/// What is known while one function is looked at.
+struct Checker<'l> {
+    library: &'l Library,
+    table: Table,
+    locals: Vec<Local>,
+    /// Type parameters of the function.
+    params: Vec<String>,
+    /// What the function gives.
+    result: Ty,
+    /// Integer literals and their types.
+    integers: Vec<(Span, Ty, i64)>,
+    /// Float literals and their types.
+    floats: Vec<(Span, Ty)>,
+    /// What a minus sign stands before, and where the sign and its operand stand.
+    negated: Vec<(Span, Ty, Span)>,
+    /// Operators between two literals: where, which, and the literals with the type of the result.
+    computed: Vec<(Span, crate::ir::BinaryOp, [i64; 2], Ty)>,
+    deferred: Vec<Deferred<'l>>,
+    errors: Vec<Diagnostic>,
+}
+
+impl<'l> Checker<'l> {
+    fn new(library: &'l Library) -> Self {
+        Checker {
+            library,
+            table: Table::default(),
+            locals: Vec::new(),
+            params: Vec::new(),
+            result: Ty::UNIT,
+            integers: Vec::new(),
+            floats: Vec::new(),
+            negated: Vec::new(),
+            computed: Vec::new(),
+            deferred: Vec::new(),
+            errors: Vec::new(),
+        }
+    }
+
+    fn function(&mut self, function: &'l Function) {
+        for generic in &function.generics {
+            match generic {
+                Generic::Type(name) => self.params.push(name.clone()),
+                Generic::Const(name, ty) => {
+                    let ty = self.stated(ty, function.span);
+                    self.declare(name, ty, false, false, function.span);
+                }
+            }
+        }
+        for param in &function.params {
+            let ty = self.stated(&param.ty, param.span);
+            self.declare(&param.name, ty, param.mutable, false, param.span);
+        }
+        self.result = self.stated(&function.result, function.span);
+        let wanted = self.result.clone();
+        let found = self.block(&function.body, Some(&wanted));
+        let at = function.body.value.as_ref().map_or(function.span, |value| value.span);
+        self.coerce(&wanted, &found, at);
+    }
+
+    fn constant(&mut self, constant: &'l Const) {
+        let ty = self.stated(&constant.ty, constant.value.span);
+        self.against(&constant.value, &ty);
+    }
+
+    fn declare(&mut self, name: &str, ty: Ty, mutable: bool, deferred: bool, span: Span) {
+        self.locals.push(Local {
+            name: name.to_owned(),
+            ty,
+            mutable,
+            deferred,
+            span,
+        });
+    }
+
+    /// Literals that nothing decides become `i32`, as in Rust; what is left is checked.
+    fn finish(mut self, literals: &mut HashMap<Span, IntType>, errors: &mut Vec<Diagnostic>) {
+        self.solve();
+        let integers = std::mem::take(&mut self.integers);
+        for (_, ty, _) in &integers {
+            if self.table.kind(ty) == Some(Kind::Integer) {
+                self.table.unify(ty, &Ty::I32);
+            }
+        }
+        self.solve();
+        let minus: HashMap<Span, Span> = self
+            .negated
+            .iter()
+            .map(|(sign, _, operand)| (*operand, *sign))
+            .collect();
+        for (span, ty, value) in integers {
+            let Ty::Int(kind) = self.table.shallow(&ty) else {
+                continue;
+            };
+            let largest = match kind {
+                IntType::I32 if minus.contains_key(&span) => 1 << 31,
+                IntType::I32 => i64::from(i32::MAX),
+                IntType::U32 | IntType::Usize => i64::from(u32::MAX),
+            };
+            if value > largest {
+                let at = minus.get(&span).copied().unwrap_or(span);
+                self.errors.push(
+                    Diagnostic::at(at, format!("literal out of range for `{}`", Ty::Int(kind)))
+                        .label(format!("this is more than {largest}"))
+                        .help(format!(
+                            "write `{value}_u32`, and convert it where another type is needed"
+                        )),
+                );
+            }
+            literals.insert(span, kind);
+        }
+        for (sign, ty, _) in std::mem::take(&mut self.negated) {
+            if let ty @ Ty::Int(IntType::U32 | IntType::Usize) = self.table.shallow(&ty) {
+                self.errors.push(
+                    Diagnostic::at(sign, format!("cannot apply unary operator `-` to type `{ty}`"))
+                        .label("unsigned")
+                        .help("use `wrapping_neg`, or compute in i32"),
+                );
+            }
+        }
+        for (span, op, [a, b], ty) in std::mem::take(&mut self.computed) {
+            if let Ty::Int(kind) = self.table.shallow(&ty)
+                && operators::overflows(op, a, b, kind)
+            {
+                self.errors.push(
+                    Diagnostic::at(span, "this arithmetic operation will overflow")
+                        .label(format!("beyond the range of `{}`", Ty::Int(kind)))
+                        .help("compute it in another type, or with `wrapping_mul` and its like where it is to wrap"),
+                );
+            }
+        }
+        let mut named = Vec::new();
+        for (span, ty) in std::mem::take(&mut self.floats) {
+            // One error for all the literals that would be of the same type.
+            let ty = self.table.shallow(&ty);
+            if self.table.kind(&ty) == Some(Kind::Float) && !named.contains(&ty) {
+                named.push(ty);
+                self.errors.push(
+                    Diagnostic::at(
+                        span,
+                        "nothing says that this number is an `f32`, so that Rust makes it an `f64`",
+                    )
+                    .label("an `f64`")
+                    .help("write `_f32` behind it, or state the type of its variable: `let x: f32 = ...`"),
+                );
+            }
+        }
+        errors.append(&mut self.errors);
+    }
+}

@@ -1,0 +1,271 @@
+//! Operators, with the impls that Rust and glam have of them.
+
+use super::types::{Kind, Ty};
+use super::{Checker, Deferred};
+use crate::diagnostic::Diagnostic;
+use crate::front::tree::{Expr, ExprKind, IntType};
+use crate::ir::{BinaryOp, Scalar, UnaryOp};
+
+impl<'l> Checker<'l> {
+    /// The type of `left op right`; `expr` is the whole.
+    pub fn operator(&mut self, op: BinaryOp, left: &Ty, right: &Ty, expr: &'l Expr) -> Ty {
+        let unknown = |checker: &Self, ty: &Ty| checker.table.kind(&checker.peeled(ty).0) == Some(Kind::Any);
+        if unknown(self, left) || unknown(self, right) {
+            self.solve();
+        }
+        if unknown(self, left) || unknown(self, right) {
+            let result = match op.is_comparison() {
+                true => Ty::Bool,
+                false => self.table.fresh(Kind::Any),
+            };
+            self.deferred.push(Deferred {
+                op,
+                left: left.clone(),
+                right: right.clone(),
+                result: result.clone(),
+                expr,
+            });
+            return result;
+        }
+        match self.combined(op, left, right) {
+            Some(ty) => ty,
+            None => {
+                self.refuse(op, left, right, expr);
+                if op.is_comparison() { Ty::Bool } else { Ty::Unknown }
+            }
+        }
+    }
+
+    /// Looks again at operators whose operands were not known.
+    pub fn solve(&mut self) {
+        loop {
+            let waiting = std::mem::take(&mut self.deferred);
+            let before = waiting.len();
+            for Deferred {
+                op,
+                left,
+                right,
+                result,
+                expr,
+            } in waiting
+            {
+                let any = |ty: &Ty| self.table.kind(&self.peeled(ty).0) == Some(Kind::Any);
+                if any(&left) || any(&right) {
+                    self.deferred.push(Deferred {
+                        op,
+                        left,
+                        right,
+                        result,
+                        expr,
+                    });
+                    continue;
+                }
+                match self.combined(op, &left, &right) {
+                    Some(ty) => self.coerce(&result, &ty, expr.span),
+                    None => self.refuse(op, &left, &right, expr),
+                }
+            }
+            if self.deferred.len() == before {
+                return;
+            }
+        }
+    }
+
+    /// What an operator gives; `None` if it does not take these.
+    fn combined(&mut self, op: BinaryOp, left: &Ty, right: &Ty) -> Option<Ty> {
+        if op.is_comparison() {
+            return self.compared(op, left, right).then_some(Ty::Bool);
+        }
+        // Numbers and vectors have operators on shared references too; on `&mut` there are none.
+        let ((l, left_ref), (r, right_ref)) = (self.peeled(left), self.peeled(right));
+        if left_ref == Some(true) && !matches!(l, Ty::Unknown | Ty::Param(_)) {
+            return None;
+        }
+        if right_ref == Some(true) && !matches!(r, Ty::Unknown | Ty::Param(_)) {
+            return None;
+        }
+        self.arithmetic(op, &l, &r)
+    }
+
+    fn arithmetic(&mut self, op: BinaryOp, l: &Ty, r: &Ty) -> Option<Ty> {
+        use BinaryOp::{Add, And, Div, Mul, Or, Rem, Shl, Shr, Sub, Xor};
+        match (l, r) {
+            (Ty::Unknown | Ty::Param(_) | Ty::Never, _) | (_, Ty::Unknown | Ty::Param(_) | Ty::Never) => {
+                // A literal that meets something unknown takes its type from the value.
+                let other = if matches!(l, Ty::Unknown | Ty::Param(_) | Ty::Never) {
+                    r
+                } else {
+                    l
+                };
+                self.table.unify(other, &Ty::Unknown);
+                return Some(Ty::Unknown);
+            }
+            (Ty::Quad(a), Ty::Quad(b)) => {
+                let (a, b) = (self.table.shallow(a), self.table.shallow(b));
+                return self.arithmetic(op, &a, &b).map(|t| Ty::Quad(Box::new(t)));
+            }
+            (Ty::Quad(a), b) => {
+                let a = self.table.shallow(a);
+                return self.arithmetic(op, &a, b).map(|t| Ty::Quad(Box::new(t)));
+            }
+            (a, Ty::Quad(b)) => {
+                let b = self.table.shallow(b);
+                return self.arithmetic(op, a, &b).map(|t| Ty::Quad(Box::new(t)));
+            }
+            _ => {}
+        }
+        match op {
+            Add | Sub | Mul | Div | Rem => match (l, r) {
+                (Ty::Vector(a, n), Ty::Vector(b, m)) => (a == b && n == m).then(|| l.clone()),
+                (Ty::Vector(kind, _), other) if self.is_number(other) => {
+                    self.table.unify(&Ty::scalar(*kind), other).then(|| l.clone())
+                }
+                (other, Ty::Vector(kind, _)) if self.is_number(other) => {
+                    self.table.unify(&Ty::scalar(*kind), other).then(|| r.clone())
+                }
+                (Ty::Matrix(n), Ty::Matrix(m)) => (n == m && matches!(op, Add | Sub | Mul)).then(|| l.clone()),
+                (Ty::Matrix(n), Ty::Vector(Scalar::F32, m)) => (n == m && op == Mul).then(|| r.clone()),
+                (Ty::Matrix(_), other) if self.is_number(other) => {
+                    (matches!(op, Mul | Div) && self.table.unify(&Ty::Float, other)).then(|| l.clone())
+                }
+                (other, Ty::Matrix(_)) if self.is_number(other) => {
+                    (op == Mul && self.table.unify(&Ty::Float, other)).then(|| r.clone())
+                }
+                _ if self.is_number(l) && self.is_number(r) => self.table.unify(l, r).then(|| l.clone()),
+                _ => None,
+            },
+            And | Or | Xor => match (l, r) {
+                (Ty::Bool, Ty::Bool) => Some(Ty::Bool),
+                (Ty::Vector(a, n), Ty::Vector(b, m)) => (a == b && n == m && *a != Scalar::F32).then(|| l.clone()),
+                (Ty::Vector(kind, _), other) if *kind != Scalar::F32 && self.is_integer(other) => {
+                    self.table.unify(&Ty::scalar(*kind), other).then(|| l.clone())
+                }
+                _ if self.is_integer(l) && self.is_integer(r) => self.table.unify(l, r).then(|| l.clone()),
+                _ => None,
+            },
+            Shl | Shr => match (l, r) {
+                (Ty::Vector(kind, _), _) if *kind == Scalar::F32 => None,
+                (Ty::Vector(_, n), Ty::Vector(kind, m)) => (n == m && *kind != Scalar::F32).then(|| l.clone()),
+                (Ty::Vector(..), other) if self.is_integer(other) => Some(l.clone()),
+                // The number of bits is of any integer type.
+                _ if self.is_integer(l) && self.is_integer(r) => Some(l.clone()),
+                _ => None,
+            },
+            _ => Some(Ty::Unknown),
+        }
+    }
+
+    fn compared(&mut self, op: BinaryOp, left: &Ty, right: &Ty) -> bool {
+        if !self.table.unify(left, right) {
+            return false;
+        }
+        match self.peeled(left).0 {
+            Ty::Vector(..) | Ty::Matrix(_) | Ty::Enum(_) | Ty::Struct(_) | Ty::Quad(_) => {
+                matches!(op, BinaryOp::Eq | BinaryOp::Ne)
+            }
+            _ => true,
+        }
+    }
+
+    fn is_number(&self, ty: &Ty) -> bool {
+        matches!(self.table.shallow(ty), Ty::Float | Ty::Int(_)) || self.table.kind(ty).is_some_and(|k| k != Kind::Any)
+    }
+
+    fn is_integer(&self, ty: &Ty) -> bool {
+        matches!(self.table.shallow(ty), Ty::Int(_)) || self.table.kind(ty) == Some(Kind::Integer)
+    }
+
+    fn refuse(&mut self, op: BinaryOp, left: &Ty, right: &Ty, expr: &Expr) {
+        let (left, right) = (self.table.deep(left), self.table.deep(right));
+        let shown = |ty: &Ty| match self.table.kind(ty) {
+            Some(Kind::Integer) => "an integer".to_owned(),
+            Some(Kind::Float) => "a float".to_owned(),
+            _ => format!("`{ty}`"),
+        };
+        let sign = symbol(op);
+        let (l, r) = (shown(&left), shown(&right));
+        let (message, label) = match op.is_comparison() {
+            true => (
+                format!("cannot compare {l} with {r} by `{sign}`"),
+                "not of one type that has an order",
+            ),
+            false => (format!("cannot apply `{sign}` to {l} and {r}"), "not for these types"),
+        };
+        let mut error = Diagnostic::at(expr.span, message).label(label);
+        let help = match (&left, &right) {
+            (Ty::Ref(..), Ty::Ref(..)) => Some("read what they refer to: `*`".to_owned()),
+            (Ty::Ref(..), _) | (_, Ty::Ref(..)) => Some("read what it refers to: `*`".to_owned()),
+            (Ty::Vector(a, _), Ty::Vector(b, _)) if a != b => Some(format!(
+                "convert one of them, for example with `.as_{}()`",
+                left.to_string().to_lowercase()
+            )),
+            (Ty::Vector(..), Ty::Vector(..)) if op.is_comparison() => Some("compare their components".to_owned()),
+            (Ty::Vector(kind, _), _) | (_, Ty::Vector(kind, _)) => {
+                Some(format!("convert the number with `as {}`", Ty::scalar(*kind)))
+            }
+            (Ty::Float, other) if self.table.kind(other) == Some(Kind::Integer) => {
+                Some("write it as a float: `2.0`".to_owned())
+            }
+            (other, Ty::Float) if self.table.kind(other) == Some(Kind::Integer) => {
+                Some("write it as a float: `2.0`".to_owned())
+            }
+            (Ty::Int(_) | Ty::Float, Ty::Int(_) | Ty::Float) => {
+                Some(format!("convert one of them, for example with `as {left}`"))
+            }
+            _ => None,
+        };
+        if let Some(help) = help {
+            error = error.help(help);
+        }
+        self.errors.push(error);
+    }
+}
+
+/// The value of an integer literal, with a minus sign before it or without.
+pub fn literal(expr: &Expr) -> Option<i64> {
+    match &expr.kind {
+        ExprKind::Int(value, _) => Some(*value),
+        ExprKind::Unary(UnaryOp::Neg, operand) => literal(operand).map(|value| -value),
+        _ => None,
+    }
+}
+
+/// Whether an operation on literals leaves the range of its type, which rustc refuses.
+pub fn overflows(op: BinaryOp, a: i64, b: i64, kind: IntType) -> bool {
+    let result = match op {
+        BinaryOp::Add => a.checked_add(b),
+        BinaryOp::Sub => a.checked_sub(b),
+        BinaryOp::Mul => a.checked_mul(b),
+        BinaryOp::Shl | BinaryOp::Shr => return kind != IntType::Usize && !(0..32).contains(&b),
+        _ => return false,
+    };
+    match (result, kind) {
+        (Some(n), IntType::I32) => i32::try_from(n).is_err(),
+        (Some(n), IntType::U32) => u32::try_from(n).is_err(),
+        (Some(n), IntType::Usize) => n < 0,
+        (None, _) => true,
+    }
+}
+
+/// An operator as it is written.
+pub fn symbol(op: BinaryOp) -> &'static str {
+    match op {
+        BinaryOp::Add => "+",
+        BinaryOp::Sub => "-",
+        BinaryOp::Mul => "*",
+        BinaryOp::Div => "/",
+        BinaryOp::Rem => "%",
+        BinaryOp::And => "&",
+        BinaryOp::Or => "|",
+        BinaryOp::Xor => "^",
+        BinaryOp::Shl => "<<",
+        BinaryOp::Shr => ">>",
+        BinaryOp::Eq => "==",
+        BinaryOp::Ne => "!=",
+        BinaryOp::Lt => "<",
+        BinaryOp::Le => "<=",
+        BinaryOp::Gt => ">",
+        BinaryOp::Ge => ">=",
+        _ => "this operator",
+    }
+}

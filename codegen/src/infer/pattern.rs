@@ -1,0 +1,99 @@
+//! Patterns: what they bind, and what they compare with.
+
+use super::Checker;
+use super::types::Ty;
+use crate::front::tree::{ExprKind, Pattern};
+
+impl<'l> Checker<'l> {
+    /// Binds the names of a pattern to the parts of a value of a type. What a reference is taken apart into are references.
+    pub fn bind(&mut self, pattern: &'l Pattern, ty: &Ty, deferred: bool) {
+        if let Pattern::Name(name, mutable, span) = pattern {
+            return self.declare(name, ty.clone(), *mutable, deferred, *span);
+        }
+        let (bare, reference) = self.peeled(ty);
+        let through = |part: Ty| match reference {
+            Some(mutable) => Ty::Ref(mutable, Box::new(part)),
+            None => part,
+        };
+        match pattern {
+            Pattern::Name(..) | Pattern::Wild => {}
+            Pattern::Tuple(parts, span) => match &bare {
+                Ty::Tuple(types) if types.len() == parts.len() => {
+                    for (part, ty) in parts.iter().zip(types) {
+                        self.bind(part, &through(ty.clone()), deferred);
+                    }
+                }
+                Ty::Unknown | Ty::Param(_) | Ty::Never => self.bind_unknown(parts, deferred),
+                other => {
+                    let types: Vec<Ty> = parts.iter().map(|_| self.table.fresh(super::Kind::Any)).collect();
+                    self.coerce(other, &Ty::Tuple(types.clone()), *span);
+                    for (part, ty) in parts.iter().zip(types) {
+                        self.bind(part, &through(ty), deferred);
+                    }
+                }
+            },
+            Pattern::Array(parts, span) => match &bare {
+                Ty::Array(element) => {
+                    let element = through((**element).clone());
+                    parts.iter().for_each(|part| self.bind(part, &element, deferred));
+                }
+                Ty::Unknown | Ty::Param(_) | Ty::Never => self.bind_unknown(parts, deferred),
+                other => {
+                    let element = self.table.fresh(super::Kind::Any);
+                    self.coerce(other, &Ty::Array(Box::new(element.clone())), *span);
+                    parts
+                        .iter()
+                        .for_each(|part| self.bind(part, &through(element.clone()), deferred));
+                }
+            },
+            Pattern::Struct(fields, span) => {
+                let definition = match &bare {
+                    Ty::Struct(name) => self.library.structs.get(name),
+                    _ => None,
+                };
+                for (field, part) in fields {
+                    let stated = definition.and_then(|d| d.fields.iter().find(|(name, ..)| name == field));
+                    let ty = match (stated, &bare) {
+                        (Some((_, ty, _)), _) => self.field_type(ty, *span),
+                        (None, Ty::Vector(kind, _)) => Ty::scalar(*kind),
+                        _ => Ty::Unknown,
+                    };
+                    self.bind(part, &through(ty), deferred);
+                }
+            }
+            Pattern::Or(cases) => {
+                // Every case binds the same names: those of the first are the ones that the arm sees.
+                let mark = self.locals.len();
+                for (k, case) in cases.iter().enumerate() {
+                    let kept = self.locals.len();
+                    self.bind(case, ty, deferred);
+                    if k > 0 {
+                        let again = self.locals.split_off(kept);
+                        for local in again {
+                            let first = self.locals[mark..].iter().find(|l| l.name == local.name);
+                            if let Some(first) = first.map(|l| l.ty.clone()) {
+                                self.coerce(&first, &local.ty, local.span);
+                            }
+                        }
+                    }
+                }
+            }
+            Pattern::Value(expr) => {
+                let known = match &expr.kind {
+                    // A constant or a variant.
+                    ExprKind::Path(_) => self.expr(expr, None),
+                    _ => self.expr(expr, Some(&bare)),
+                };
+                self.coerce(&bare, &known, expr.span);
+            }
+            Pattern::Range(low, high) => {
+                self.against(low, &bare);
+                self.against(high, &bare);
+            }
+        }
+    }
+
+    fn bind_unknown(&mut self, parts: &'l [Pattern], deferred: bool) {
+        parts.iter().for_each(|part| self.bind(part, &Ty::Unknown, deferred));
+    }
+}

@@ -1,0 +1,240 @@
+//! Names, fields, elements and references: their types, and whether they may be written.
+
+use super::Checker;
+use super::types::{Kind, Ty};
+use crate::diagnostic::{Diagnostic, Span};
+use crate::front::tree::{Expr, ExprKind, Type};
+use crate::ir::{BinaryOp, Scalar};
+use std::collections::HashMap;
+
+/// Whether a place may be written.
+#[derive(Clone, Debug)]
+pub enum Access {
+    /// It may.
+    Writable,
+    /// A variable that is not `mut`: its name, where it is declared, and whether it was declared without a value.
+    Immutable(String, Span, bool),
+    /// A part of an immutable variable.
+    Part(String, Span),
+    /// Behind a shared reference.
+    Shared,
+}
+
+impl<'l> Checker<'l> {
+    /// The type of an expression that may be a place, and whether that may be written.
+    pub fn place(&mut self, expr: &'l Expr) -> (Ty, Access) {
+        match &expr.kind {
+            ExprKind::Path(path) => self.path(path),
+            ExprKind::Field(base, name) => {
+                let (base, access) = self.place(base);
+                let (bare, access) = self.inside(&base, access);
+                (self.field(&bare, name, expr.span), access)
+            }
+            ExprKind::Index(base, index) => {
+                let (base, access) = self.place(base);
+                let (bare, access) = self.inside(&base, access);
+                let found = self.expr(index, None);
+                (self.element(&bare, &found, index), access)
+            }
+            ExprKind::Deref(reference) => {
+                let (ty, access) = self.place(reference);
+                match self.table.shallow(&ty) {
+                    Ty::Ref(true, inner) => (*inner, Access::Writable),
+                    Ty::Ref(false, inner) => (*inner, Access::Shared),
+                    Ty::Unknown | Ty::Var(_) | Ty::Param(_) => (Ty::Unknown, access),
+                    other => {
+                        self.errors.push(
+                            Diagnostic::at(
+                                expr.span,
+                                format!("type `{}` cannot be dereferenced", self.table.deep(&other)),
+                            )
+                            .label("not a reference")
+                            .help("leave out the `*`"),
+                        );
+                        (other, access)
+                    }
+                }
+            }
+            _ => (self.expr(expr, None), Access::Writable),
+        }
+    }
+
+    /// A type without the references around it, and whether the outermost of them are all `&mut`.
+    pub fn peeled(&self, ty: &Ty) -> (Ty, Option<bool>) {
+        let (mut ty, mut mutable) = (self.table.shallow(ty), None);
+        while let Ty::Ref(m, inner) = &ty {
+            mutable = Some(mutable.unwrap_or(true) && *m);
+            ty = self.table.shallow(inner);
+        }
+        (ty, mutable)
+    }
+
+    /// What a field or an element is a part of: references are followed.
+    fn inside(&mut self, base: &Ty, access: Access) -> (Ty, Access) {
+        if self.table.kind(base) == Some(Kind::Any) {
+            self.solve();
+        }
+        let (bare, reference) = self.peeled(base);
+        let access = match (reference, access) {
+            (Some(true), _) => Access::Writable,
+            (Some(false), _) => Access::Shared,
+            (None, Access::Immutable(name, span, _)) => Access::Part(name, span),
+            (None, access) => access,
+        };
+        (bare, access)
+    }
+
+    /// A variable, a constant or a variant.
+    fn path(&mut self, path: &[String]) -> (Ty, Access) {
+        if let [name] = path
+            && let Some(local) = self.locals.iter().rev().find(|local| local.name == *name)
+        {
+            let access = match local.mutable {
+                true => Access::Writable,
+                false => Access::Immutable(name.clone(), local.span, local.deferred),
+            };
+            return (local.ty.clone(), access);
+        }
+        let joined = path.join("::");
+        let last = path.last().map(String::as_str).unwrap_or_default();
+        let library = self.library;
+        if let [.., ty, variant] = path
+            && let Some(found) = library.enums.get(ty)
+            && found.variants.iter().any(|(name, _)| name == variant)
+        {
+            return (Ty::Enum(ty.clone()), Access::Writable);
+        }
+        if let Some(constant) = library.consts.get(&joined).or_else(|| library.consts.get(last)) {
+            return (self.field_type(&constant.ty, constant.value.span), Access::Writable);
+        }
+        (known_constant(path), Access::Writable)
+    }
+
+    /// The type that another item states, whose errors are that item's.
+    pub fn field_type(&mut self, ty: &'l Type, span: Span) -> Ty {
+        let errors = self.errors.len();
+        let ty = self.substituted(ty, &HashMap::new(), span);
+        self.errors.truncate(errors);
+        ty
+    }
+
+    fn field(&mut self, base: &Ty, name: &str, span: Span) -> Ty {
+        match base {
+            Ty::Struct(of) => match self
+                .library
+                .structs
+                .get(of)
+                .and_then(|s| s.fields.iter().find(|f| f.0 == name))
+            {
+                Some((_, ty, _)) => self.field_type(ty, span),
+                None => Ty::Unknown,
+            },
+            Ty::Tuple(parts) => match name.parse::<usize>().ok().and_then(|k| parts.get(k)) {
+                Some(part) => part.clone(),
+                None => Ty::Unknown,
+            },
+            Ty::Vector(kind, _) => Ty::scalar(*kind),
+            Ty::Matrix(n) if name.ends_with("_axis") => Ty::Vector(Scalar::F32, *n),
+            _ => Ty::Unknown,
+        }
+    }
+
+    fn element(&mut self, base: &Ty, index: &Ty, at: &Expr) -> Ty {
+        let element = match base {
+            Ty::Array(element) => (**element).clone(),
+            Ty::Vector(kind, _) => Ty::scalar(*kind),
+            _ => return Ty::Unknown,
+        };
+        if let Ty::Range(_) = self.table.shallow(index) {
+            return Ty::Unknown;
+        }
+        if !self.table.unify(&Ty::USIZE, index) {
+            let (base, found) = (self.table.deep(base), self.table.deep(index));
+            let found = match self.table.kind(&found) {
+                Some(Kind::Float) => "a float".to_owned(),
+                _ => format!("`{found}`"),
+            };
+            self.errors.push(
+                Diagnostic::at(at.span, format!("the type `{base}` cannot be indexed by {found}"))
+                    .label("an index is a `usize`")
+                    .help("convert it with `as usize`"),
+            );
+        }
+        element
+    }
+
+    /// `target = value`, `target op= value`.
+    pub fn assign(&mut self, target: &'l Expr, op: Option<BinaryOp>, value: &'l Expr, expr: &'l Expr) -> Ty {
+        let (ty, access) = self.place(target);
+        self.writable(access, target, op.is_none());
+        match op {
+            None => self.against(value, &ty),
+            Some(op) => {
+                let found = self.expr(value, None);
+                let result = self.operator(op, &ty, &found, expr);
+                if let Ty::Ref(true, _) = self.table.shallow(&ty) {
+                    let shown = self.table.deep(&ty);
+                    self.errors.push(
+                        Diagnostic::at(
+                            expr.span,
+                            format!("a binary assignment operation cannot be applied to type `{shown}`"),
+                        )
+                        .label("a reference")
+                        .help("write to what it refers to: `*`"),
+                    );
+                } else {
+                    self.coerce(&ty, &result, expr.span);
+                }
+            }
+        }
+        Ty::UNIT
+    }
+
+    /// Notes an error if a place may not be written. `first` is a whole assignment, which may give a variable its first value.
+    pub fn writable(&mut self, access: Access, place: &Expr, first: bool) {
+        let error = match access {
+            Access::Writable => return,
+            Access::Immutable(_, _, true) if first => return,
+            Access::Immutable(name, declared, _) | Access::Part(name, declared) => Diagnostic::at(
+                place.span,
+                format!("cannot change `{name}`, as it is not declared as mutable"),
+            )
+            .label("changed here")
+            .other(declared, "declared here")
+            .help(format!("declare it as `mut {name}`")),
+            Access::Shared => Diagnostic::at(place.span, "cannot change what is behind a `&` reference")
+                .label("changed here")
+                .help("take it by `&mut`"),
+        };
+        self.errors.push(error);
+    }
+}
+
+/// The type of a constant of the standard library or of glam.
+fn known_constant(path: &[String]) -> Ty {
+    let (ty, name) = match path {
+        [.., ty, name] => (ty.as_str(), name.as_str()),
+        [name] => ("consts", name.as_str()),
+        [] => return Ty::Unknown,
+    };
+    if let Some((kind, lanes)) = super::signature::vector(ty) {
+        return Ty::Vector(kind, lanes);
+    }
+    match ty {
+        "Mat2" => Ty::Matrix(2),
+        "Mat3" => Ty::Matrix(3),
+        "Mat4" => Ty::Matrix(4),
+        "f32" => Ty::Float,
+        "i32" => Ty::I32,
+        "u32" => Ty::U32,
+        "usize" => Ty::USIZE,
+        "consts"
+            if name
+                .chars()
+                .all(|c| c.is_ascii_uppercase() || c.is_ascii_digit() || c == '_') =>
+        {
+            Ty::Float
+        }
+        _ => Ty::Unknown,
+    }
+}

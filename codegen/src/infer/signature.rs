@@ -1,0 +1,141 @@
+//! Types as written, and what their parts are.
+
+use super::Checker;
+use super::types::{Kind, Ty};
+use crate::diagnostic::{Diagnostic, Span};
+use crate::front::tree::{Expr, Function, Generic, Type};
+use crate::ir::Scalar;
+use std::collections::HashMap;
+
+impl<'l> Checker<'l> {
+    /// The type that is written at `span`.
+    pub fn stated(&mut self, ty: &'l Type, span: Span) -> Ty {
+        self.lengths(ty);
+        self.substituted(ty, &HashMap::new(), span)
+    }
+
+    /// Looks at the lengths of arrays in a type, which are expressions of the item that states it.
+    fn lengths(&mut self, ty: &'l Type) {
+        match ty {
+            Type::Ref(_, inner) => self.lengths(inner),
+            Type::Name(_, args) | Type::Tuple(args) => args.iter().for_each(|arg| self.lengths(arg)),
+            Type::Array(element, len) => {
+                self.lengths(element);
+                if let Some(len) = len {
+                    self.against(len, &Ty::USIZE);
+                }
+            }
+        }
+    }
+
+    /// A type of another function, its type parameters replaced.
+    pub fn substituted(&mut self, ty: &'l Type, given: &HashMap<String, Ty>, span: Span) -> Ty {
+        match ty {
+            Type::Ref(mutable, inner) => Ty::Ref(*mutable, Box::new(self.substituted(inner, given, span))),
+            Type::Tuple(parts) => Ty::Tuple(parts.iter().map(|p| self.substituted(p, given, span)).collect()),
+            Type::Array(element, _) => Ty::Array(Box::new(self.substituted(element, given, span))),
+            Type::Name(name, args) => self.named(name, args, given, span),
+        }
+    }
+
+    fn named(&mut self, name: &str, args: &'l [Type], given: &HashMap<String, Ty>, span: Span) -> Ty {
+        if let Some(ty) = given.get(name) {
+            return ty.clone();
+        }
+        if self.params.iter().any(|param| param == name) {
+            return Ty::Param(name.to_owned());
+        }
+        if self.library.enums.contains_key(name) {
+            return Ty::Enum(name.to_owned());
+        }
+        if self.library.structs.contains_key(name) {
+            return Ty::Struct(name.to_owned());
+        }
+        if let Some((kind, lanes)) = vector(name) {
+            return Ty::Vector(kind, lanes);
+        }
+        let mut texel = || match args {
+            [texel] => self.substituted(texel, given, span),
+            _ => Ty::Unknown,
+        };
+        match name {
+            "f32" => Ty::Float,
+            "bool" => Ty::Bool,
+            "i32" => Ty::I32,
+            "u32" => Ty::U32,
+            "usize" => Ty::USIZE,
+            "str" => Ty::Str,
+            "Mat2" => Ty::Matrix(2),
+            "Mat3" => Ty::Matrix(3),
+            "Mat4" => Ty::Matrix(4),
+            "Quad" => Ty::Quad(Box::new(texel())),
+            "Frame" => Ty::Texture("Frame", Box::new(texel())),
+            "FrameLayers" => Ty::Texture("FrameLayers", Box::new(texel())),
+            "Texture" => Ty::Texture("Texture", Box::new(texel())),
+            "Multisampled" => Ty::Texture("Multisampled", Box::new(texel())),
+            "DepthTexture" => Ty::Texture("DepthTexture", Box::new(Ty::Float)),
+            "Buffer" => Ty::Buffer(Box::new(texel())),
+            "Sampler" => Ty::Sampler,
+            "ComparisonSampler" => Ty::ComparisonSampler,
+            "_" => self.table.fresh(Kind::Any),
+            _ => {
+                self.unknown_type(name, span);
+                Ty::Unknown
+            }
+        }
+    }
+
+    fn unknown_type(&mut self, name: &str, span: Span) {
+        let help = match name {
+            "f64" => "use `f32`, which is what shaders compute in",
+            "i8" | "i16" | "i64" | "i128" | "isize" => "use `i32`",
+            "u8" | "u16" | "u64" | "u128" => "use `u32`",
+            "Vec3A" => "use `Vec3`",
+            _ => {
+                "use numbers, vectors, matrices, arrays, tuples, the prelude's resources, or structures and enums of the kernel's files"
+            }
+        };
+        self.errors.push(
+            Diagnostic::at(span, format!("the type `{name}` is not part of the kernel language"))
+                .label("of this type")
+                .help(help),
+        );
+    }
+
+    /// Type parameters of a function as variables: those stated in `::<>`, the others to be found.
+    pub fn instantiate(&mut self, function: &'l Function, stated: &'l [Expr]) -> HashMap<String, Ty> {
+        let mut given = HashMap::new();
+        for (k, generic) in function.generics.iter().enumerate() {
+            match generic {
+                Generic::Type(name) => {
+                    let ty = self.table.fresh(Kind::Any);
+                    given.insert(name.clone(), ty);
+                }
+                Generic::Const(_, ty) => {
+                    if let Some(constant) = stated.get(k) {
+                        let ty = self.substituted(ty, &HashMap::new(), constant.span);
+                        self.against(constant, &ty);
+                    }
+                }
+            }
+        }
+        given
+    }
+}
+
+/// `Vec3`, `IVec2`, ... as kind and number of components.
+pub fn vector(name: &str) -> Option<(Scalar, u8)> {
+    let (kind, lanes) = match name.strip_prefix("Vec") {
+        Some(lanes) => (Scalar::F32, lanes),
+        None => match name.strip_prefix("IVec") {
+            Some(lanes) => (Scalar::I32, lanes),
+            None => (Scalar::U32, name.strip_prefix("UVec")?),
+        },
+    };
+    match lanes {
+        "2" => Some((kind, 2)),
+        "3" => Some((kind, 3)),
+        "4" => Some((kind, 4)),
+        _ => None,
+    }
+}

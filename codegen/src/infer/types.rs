@@ -1,0 +1,263 @@
+//! Types, and variables that stand for those not found yet.
+
+use crate::front::tree::IntType;
+use crate::ir::Scalar;
+use std::fmt;
+
+/// A type of the kernel language.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Ty {
+    /// To be found.
+    Var(u32),
+    /// `bool`.
+    Bool,
+    /// `i32`, `u32`, `usize`.
+    Int(IntType),
+    /// `f32`.
+    Float,
+    /// `Vec2` to `UVec4`.
+    Vector(Scalar, u8),
+    /// `Mat2` to `Mat4`.
+    Matrix(u8),
+    /// `&str`.
+    Str,
+    /// `(A, B)`.
+    Tuple(Vec<Ty>),
+    /// `[T; N]` and `[T]`; lengths are compared by the evaluator, which knows them.
+    Array(Box<Ty>),
+    /// `a..b`.
+    Range(Box<Ty>),
+    /// What `.iter()` and its like give.
+    Iter(Box<Ty>),
+    /// A structure of the kernel's files.
+    Struct(String),
+    /// An enum of the kernel's files.
+    Enum(String),
+    /// A value in each lane of a pixel quad.
+    Quad(Box<Ty>),
+    /// A texture of the prelude by its name, and its texel.
+    Texture(&'static str, Box<Ty>),
+    /// `Sampler`.
+    Sampler,
+    /// `ComparisonSampler`.
+    ComparisonSampler,
+    /// `Buffer<T>`.
+    Buffer(Box<Ty>),
+    /// `&T`, `&mut T` (true).
+    Ref(bool, Box<Ty>),
+    /// A type parameter of the function that is looked at.
+    Param(String),
+    /// Of what never gives a value: `return`, `break`.
+    Never,
+    /// Nothing is known of it, and nothing is said against it.
+    Unknown,
+}
+
+impl Ty {
+    /// `()`.
+    pub const UNIT: Ty = Ty::Tuple(Vec::new());
+    /// `i32`.
+    pub const I32: Ty = Ty::Int(IntType::I32);
+    /// `u32`.
+    pub const U32: Ty = Ty::Int(IntType::U32);
+    /// `usize`.
+    pub const USIZE: Ty = Ty::Int(IntType::Usize);
+
+    /// A component of a vector.
+    pub fn scalar(kind: Scalar) -> Ty {
+        match kind {
+            Scalar::Bool => Ty::Bool,
+            Scalar::I32 => Ty::I32,
+            Scalar::U32 => Ty::U32,
+            Scalar::F32 => Ty::Float,
+        }
+    }
+
+    /// `&T`.
+    pub fn shared(self) -> Ty {
+        Ty::Ref(false, Box::new(self))
+    }
+
+    /// Its parts, to be looked at one by one.
+    fn parts(&self) -> Vec<&Ty> {
+        match self {
+            Ty::Tuple(parts) => parts.iter().collect(),
+            Ty::Array(t) | Ty::Range(t) | Ty::Iter(t) | Ty::Quad(t) | Ty::Texture(_, t) | Ty::Buffer(t) => vec![t],
+            Ty::Ref(_, t) => vec![t],
+            _ => Vec::new(),
+        }
+    }
+}
+
+/// What a variable may become.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// Anything.
+    Any,
+    /// An integer: it is of a literal without a suffix.
+    Integer,
+    /// A float: it is of a literal.
+    Float,
+}
+
+/// All variables of a function.
+#[derive(Debug, Default)]
+pub struct Table {
+    variables: Vec<Result<Ty, Kind>>,
+}
+
+impl Table {
+    /// A new variable.
+    pub fn fresh(&mut self, kind: Kind) -> Ty {
+        self.variables.push(Err(kind));
+        Ty::Var(self.variables.len() as u32 - 1)
+    }
+
+    /// The type as far as its outermost part is known.
+    pub fn shallow(&self, ty: &Ty) -> Ty {
+        let mut ty = ty;
+        while let Ty::Var(v) = ty {
+            match &self.variables[*v as usize] {
+                Ok(found) => ty = found,
+                Err(_) => break,
+            }
+        }
+        ty.clone()
+    }
+
+    /// What an unknown variable may become; `None` for a type that is known.
+    pub fn kind(&self, ty: &Ty) -> Option<Kind> {
+        match self.shallow(ty) {
+            Ty::Var(v) => self.variables[v as usize].as_ref().err().copied(),
+            _ => None,
+        }
+    }
+
+    /// The type with all that is known of its parts.
+    pub fn deep(&self, ty: &Ty) -> Ty {
+        let boxed = |t: &Ty| Box::new(self.deep(t));
+        match self.shallow(ty) {
+            Ty::Tuple(parts) => Ty::Tuple(parts.iter().map(|p| self.deep(p)).collect()),
+            Ty::Array(t) => Ty::Array(boxed(&t)),
+            Ty::Range(t) => Ty::Range(boxed(&t)),
+            Ty::Iter(t) => Ty::Iter(boxed(&t)),
+            Ty::Quad(t) => Ty::Quad(boxed(&t)),
+            Ty::Texture(name, t) => Ty::Texture(name, boxed(&t)),
+            Ty::Buffer(t) => Ty::Buffer(boxed(&t)),
+            Ty::Ref(mutable, t) => Ty::Ref(mutable, boxed(&t)),
+            other => other,
+        }
+    }
+
+    /// Makes two types one; false if they differ. Of what is not known, nothing is refused.
+    pub fn unify(&mut self, a: &Ty, b: &Ty) -> bool {
+        let (a, b) = (self.shallow(a), self.shallow(b));
+        match (&a, &b) {
+            (Ty::Var(x), Ty::Var(y)) if x == y => true,
+            (Ty::Var(x), Ty::Var(y)) => {
+                let (of_x, of_y) = (self.variables[*x as usize].clone(), self.variables[*y as usize].clone());
+                match (of_x, of_y) {
+                    (Err(Kind::Integer), Err(Kind::Float)) | (Err(Kind::Float), Err(Kind::Integer)) => false,
+                    (Err(Kind::Any), _) => self.bind(*x, b),
+                    _ => self.bind(*y, a),
+                }
+            }
+            (Ty::Var(v), ty) | (ty, Ty::Var(v)) => {
+                let fits = match self.variables[*v as usize] {
+                    Err(Kind::Integer) => matches!(ty, Ty::Int(_) | Ty::Unknown | Ty::Never | Ty::Param(_)),
+                    Err(Kind::Float) => matches!(ty, Ty::Float | Ty::Unknown | Ty::Never | Ty::Param(_)),
+                    _ => !self.occurs(*v, ty),
+                };
+                match ty {
+                    // What never gives a value says nothing of the other.
+                    Ty::Never => fits,
+                    _ => fits && self.bind(*v, ty.clone()),
+                }
+            }
+            (Ty::Never | Ty::Unknown | Ty::Param(_), _) | (_, Ty::Never | Ty::Unknown | Ty::Param(_)) => {
+                self.taint(&a);
+                self.taint(&b);
+                true
+            }
+            (Ty::Tuple(xs), Ty::Tuple(ys)) => xs.len() == ys.len() && xs.iter().zip(ys).all(|(x, y)| self.unify(x, y)),
+            (Ty::Texture(x, s), Ty::Texture(y, t)) => x == y && self.unify(s, t),
+            (Ty::Array(s), Ty::Array(t))
+            | (Ty::Range(s), Ty::Range(t))
+            | (Ty::Iter(s), Ty::Iter(t))
+            | (Ty::Quad(s), Ty::Quad(t))
+            | (Ty::Buffer(s), Ty::Buffer(t)) => self.unify(s, t),
+            (Ty::Ref(m, s), Ty::Ref(n, t)) => m == n && self.unify(s, t),
+            _ => a == b,
+        }
+    }
+
+    fn bind(&mut self, variable: u32, ty: Ty) -> bool {
+        self.variables[variable as usize] = Ok(ty);
+        true
+    }
+
+    fn occurs(&self, variable: u32, ty: &Ty) -> bool {
+        match self.shallow(ty) {
+            Ty::Var(v) => v == variable,
+            other => other.parts().into_iter().any(|part| self.occurs(variable, part)),
+        }
+    }
+
+    /// What meets something unknown is unknown itself: its literals take their types from the values that they meet.
+    fn taint(&mut self, ty: &Ty) {
+        match self.shallow(ty) {
+            Ty::Var(v) => {
+                self.bind(v, Ty::Unknown);
+            }
+            other => {
+                for part in other.parts() {
+                    self.taint(part);
+                }
+            }
+        }
+    }
+}
+
+impl fmt::Display for Ty {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Ty::Var(_) | Ty::Unknown => f.write_str("_"),
+            Ty::Bool => f.write_str("bool"),
+            Ty::Int(IntType::I32) => f.write_str("i32"),
+            Ty::Int(IntType::U32) => f.write_str("u32"),
+            Ty::Int(IntType::Usize) => f.write_str("usize"),
+            Ty::Float => f.write_str("f32"),
+            Ty::Vector(kind, lanes) => {
+                let prefix = match kind {
+                    Scalar::F32 => "",
+                    Scalar::I32 => "I",
+                    Scalar::U32 => "U",
+                    Scalar::Bool => "B",
+                };
+                write!(f, "{prefix}Vec{lanes}")
+            }
+            Ty::Matrix(n) => write!(f, "Mat{n}"),
+            Ty::Str => f.write_str("&str"),
+            Ty::Tuple(parts) => {
+                f.write_str("(")?;
+                for (k, part) in parts.iter().enumerate() {
+                    write!(f, "{}{part}", if k > 0 { ", " } else { "" })?;
+                }
+                f.write_str(if parts.len() == 1 { ",)" } else { ")" })
+            }
+            Ty::Array(t) => write!(f, "[{t}]"),
+            Ty::Range(t) => write!(f, "Range<{t}>"),
+            Ty::Iter(t) => write!(f, "an iterator over {t}"),
+            Ty::Struct(name) | Ty::Enum(name) | Ty::Param(name) => f.write_str(name),
+            Ty::Quad(t) => write!(f, "Quad<{t}>"),
+            Ty::Texture("DepthTexture", _) => f.write_str("DepthTexture"),
+            Ty::Texture(name, t) => write!(f, "{name}<{t}>"),
+            Ty::Sampler => f.write_str("Sampler"),
+            Ty::ComparisonSampler => f.write_str("ComparisonSampler"),
+            Ty::Buffer(t) => write!(f, "Buffer<{t}>"),
+            Ty::Ref(true, t) => write!(f, "&mut {t}"),
+            Ty::Ref(false, t) => write!(f, "&{t}"),
+            Ty::Never => f.write_str("!"),
+        }
+    }
+}
