@@ -159,6 +159,8 @@ impl Maker {
         let loops = std::mem::take(&mut self.loops);
         self.dynamic += 1;
         self.iterate(&format!("for {name} in {range}"), None, 4, |m| {
+            // Nothing leaves it early: how often it runs is a runtime value.
+            m.loops.last_mut().expect("inside of a loop").dynamic = u32::MAX;
             m.bind(&name, &ty, false);
             m.last().counter = true;
         });
