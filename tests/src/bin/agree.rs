@@ -144,7 +144,7 @@ fn against_rustc(options: &Options) -> Result<(), String> {
         for failure in found {
             if !options.keep_going {
                 eprintln!("{}\n{}; making it smaller", failure.text, failure.difference);
-                let small = reduce(&rustc, &failure)?;
+                let small = reduce(&rustc, &failure);
                 return Err(format!("{}\nworld {}: {}", small.text, small.world, small.difference));
             }
             println!("seed {}, world {}: {}", failure.text.seed, failure.world, failure.difference);

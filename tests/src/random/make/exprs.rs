@@ -241,7 +241,7 @@ impl Maker {
         match self.random.below(14) {
             0..=2 => {
                 let op = self.random.pick(&["<", "<=", ">", ">="]);
-                let (a, b) = (self.expr(&Ty::F32, d), self.expr(&Ty::F32, d));
+                let (a, b) = (self.float_receiver(d), self.expr(&Ty::F32, d));
                 format!("({a} {op} {b})")
             }
             3..=6 => {

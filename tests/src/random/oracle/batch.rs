@@ -93,6 +93,11 @@ fn main() {
     use straightline_kernels::prelude::*;
     use std::io::Write;
     std::panic::set_hook(Box::new(|_| {}));
+    // A text that is being made smaller may never end.
+    std::thread::spawn(|| {
+        std::thread::sleep(std::time::Duration::from_secs(30));
+        std::process::exit(3);
+    });
     let texels = TEXELS.chunks(4).map(|t| vec4(t[0], t[1], t[2], t[3])).collect();
     let world = World { a: Frame::new(uvec2(SIZE[0], SIZE[1]), texels), b: Buffer::new(BUFFER.to_vec()) };
     let mut out = Vec::new();

@@ -6,17 +6,13 @@ use super::{Failure, Rustc, Text, check};
 const TOGETHER: usize = 60;
 
 /// The smallest text found that differs in the same manner.
-///
-/// # Errors
-///
-/// rustc cannot be run.
-pub fn reduce(rustc: &Rustc, failure: &Failure) -> Result<Failure, String> {
+pub fn reduce(rustc: &Rustc, failure: &Failure) -> Failure {
     let mut best = failure.clone();
     let mut skip = 0;
     loop {
         let candidates = candidates(&best.text.source);
         if skip >= candidates.len() {
-            return Ok(best);
+            return best;
         }
         let texts: Vec<Text> = candidates[skip..]
             .iter()
@@ -27,7 +23,8 @@ pub fn reduce(rustc: &Rustc, failure: &Failure) -> Result<Failure, String> {
                 source: source.clone(),
             })
             .collect();
-        let (_, found) = check(rustc, &texts, best.world)?;
+        let mut found = Vec::new();
+        differences(rustc, &texts, best.world, &mut found);
         let smaller = found.into_iter().filter(|f| f.difference.like(&best.difference));
         match smaller.min_by_key(|f| f.text.source.len()) {
             Some(smaller) => {
@@ -41,6 +38,19 @@ pub fn reduce(rustc: &Rustc, failure: &Failure) -> Result<Failure, String> {
             }
             None => skip += TOGETHER,
         }
+    }
+}
+
+/// The texts that differ. Some may not end, or take all of the stack: those are tried apart from the others.
+fn differences(rustc: &Rustc, texts: &[Text], world: u64, found: &mut Vec<Failure>) {
+    match check(rustc, texts, world) {
+        Ok((_, failures)) => found.extend(failures),
+        Err(_) if texts.len() > 1 => {
+            let (left, right) = texts.split_at(texts.len() / 2);
+            differences(rustc, left, world, found);
+            differences(rustc, right, world, found);
+        }
+        Err(_) => {}
     }
 }
 
