@@ -5,6 +5,7 @@ use rayon::prelude::*;
 use std::process::ExitCode;
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
+use straightline_codegen::{Kernel, Settings};
 use straightline_tests::random::check::{Failure, check, picture};
 use straightline_tests::random::generate::{Profile, generate};
 use straightline_tests::random::gpu::{self, Gpu};
@@ -27,7 +28,7 @@ usage: agree [--kernels N] [--seed S] [--threads T] [--batch N] [--without FEATU
   --tree-gpu N       random kernels to run on the default adapter, against a tree walker (0)
   --front-minutes M  time for mutated texts (0)
   --keep-going       list every disagreement by its seed, instead of making the first smaller
-  --print            only print the kernel of the seed";
+  --print            only print the kernel of the seed, and why it is refused if it is";
 
 /// Kernels between two reports.
 const CHUNK: u64 = 2000;
@@ -92,7 +93,11 @@ fn main() -> ExitCode {
         return ExitCode::from(2);
     };
     if options.print {
-        print!("{}", make(options.seed, options.features).file());
+        let text = make(options.seed, options.features).file();
+        print!("{text}");
+        if let Err(errors) = Kernel::from_text("random.rs", &text, "k").compile(&Settings::default()) {
+            eprintln!("{errors}");
+        }
         return ExitCode::SUCCESS;
     }
     // What panicked and where is part of the report.

@@ -135,11 +135,11 @@ impl Maker {
                 format!("({} as {})", self.expr(&from, own), self.ty(ty))
             }
             25 => {
-                let e = self.expr(&Ty::F32, own);
+                let e = self.float_receiver(own);
                 if self.on(Feature::Coarse) {
                     format!("({e} as {})", self.ty(ty))
                 } else {
-                    format!("((0.0f32 + {e}).clamp(-4096.0, 4096.0) as {})", self.ty(ty))
+                    format!("({e}.clamp(-4096.0, 4096.0) as {})", self.ty(ty))
                 }
             }
             26 => {
