@@ -101,7 +101,7 @@ impl Rustc {
     fn invoke(&self, file: &Path, out: &Path, flags: &[&str]) -> Result<Output, String> {
         let mut command = Command::new(&self.program);
         command.args(["--edition=2024", "--error-format=json", "--cap-lints=allow"]);
-        command.args(["-Cdebuginfo=0", "-Coverflow-checks=off", "-Copt-level=0"]);
+        command.args(["-Cdebuginfo=0", "-Coverflow-checks=off", "-Cdebug-assertions=off", "-Copt-level=0"]);
         command.args(["--crate-name", "batch"]).args(flags);
         command.arg("--extern").arg(format!("straightline_kernels={}", self.prelude.display()));
         command.arg("-L").arg(format!("dependency={}", self.built.display()));
