@@ -252,6 +252,12 @@ impl Kernel {
         })
     }
 
+    /// The tree of all of the kernel's files as its `Debug` form: for tests that ask which constructs a text has.
+    #[doc(hidden)]
+    pub fn tree(&self) -> Result<String, Errors> {
+        deep(|| self.library().map(|library| format!("{library:?}")))
+    }
+
     fn library(&self) -> Result<Arc<Library>, Errors> {
         if let Some(library) = self.library.get() {
             return Ok(Arc::clone(library));

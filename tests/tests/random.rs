@@ -3,14 +3,86 @@
 
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
+use std::sync::Mutex;
 use straightline_codegen::EmitOptions;
 use straightline_tests::random::check::{FORMS, agrees, check, compile, interpret, picture};
 use straightline_tests::random::generate::{Profile, generate};
 use straightline_tests::random::gpu::{Compared, Gpu};
-use straightline_tests::random::{Texts, print, survives};
+use straightline_tests::random::make::{Features, make};
+use straightline_tests::random::oracle::coverage::{Missing, missing};
+use straightline_tests::random::oracle::same::{CHANGES, apply, same_bits};
+use straightline_tests::random::oracle::{self, Rustc, Tally, World};
+use straightline_tests::random::{Random, Texts, print, survives};
 
 /// First seed; each test takes those that follow.
 const SEED: u64 = 10_440;
+
+/// Kernels that rustc compiles at once.
+const BATCH: u64 = 150;
+
+/// What rustc makes of kernels is what every form makes of them.
+#[test]
+fn every_form_agrees_with_rustc() {
+    let rustc = Rustc::find().unwrap_or_else(|why| panic!("{why}"));
+    let outcomes: Vec<_> = (0..4u64)
+        .into_par_iter()
+        .map(|k| {
+            let first = SEED + k * BATCH;
+            oracle::batch(&rustc, first..first + BATCH, Features::all()).unwrap_or_else(|why| panic!("{why}"))
+        })
+        .collect();
+    let mut total = Tally::default();
+    for (tally, failures) in outcomes {
+        total.add(&tally);
+        if let Some(failure) = failures.first() {
+            panic!("{}\nworld {}: {}", failure.text, failure.world, failure.difference);
+        }
+    }
+    let unusable: u64 = total.unusable.values().map(|r| r.kernels).sum();
+    assert!(unusable * 20 < total.compared, "most texts are Rust: {total:?}");
+    assert!(total.refusals() * 5 < total.compared, "most kernels are taken: {total:?}");
+    assert!(total.empty * 10 < total.pixels, "most pixels are numbers: {total:?}");
+}
+
+#[test]
+fn what_rustc_refuses_is_refused() {
+    let rustc = Rustc::find().unwrap_or_else(|why| panic!("{why}"));
+    let (verdicts, lenient) =
+        oracle::judge_changed(&rustc, SEED..SEED + 300, Features::all()).unwrap_or_else(|why| panic!("{why}"));
+    if let Some(case) = lenient.first() {
+        panic!("{}\nchanged line: {}\nrustc: {}", case.text, case.line, case.error);
+    }
+    assert!(verdicts.refused > 50, "many changes are mistakes: {verdicts:?}");
+}
+
+/// A construct that the front end has or the page names is generated: else nothing would show that it is right.
+#[test]
+fn random_kernels_have_every_construct() {
+    let missing = missing(0..3000).unwrap_or_else(|why| panic!("{why}"));
+    assert_eq!(missing, Missing::default());
+}
+
+/// Changes that leave a kernel's meaning leave its bits.
+#[test]
+fn changes_without_meaning_change_no_bit() {
+    let counts: Vec<Mutex<u32>> = CHANGES.iter().map(|_| Mutex::new(0)).collect();
+    (SEED..SEED + 200).into_par_iter().for_each(|seed| {
+        let text = make(seed, Features::all());
+        let world = World::new(seed);
+        for (change, count) in CHANGES.iter().zip(&counts) {
+            let Some(other) = apply(*change, &text.source, &mut Random(seed)) else {
+                continue;
+            };
+            match same_bits(&text, &other, &world) {
+                Ok(compared) => *count.lock().expect("no thread panics with it") += u32::from(compared),
+                Err(why) => panic!("{text}\n{change:?}\n{other}\n{why}"),
+            }
+        }
+    });
+    for (change, count) in CHANGES.iter().zip(&counts) {
+        assert!(*count.lock().expect("no thread panicked") > 10, "{change:?} changes some kernels");
+    }
+}
 
 #[test]
 fn every_form_agrees_with_the_tree() {

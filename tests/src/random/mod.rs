@@ -6,6 +6,8 @@ mod eval;
 mod front;
 pub mod generate;
 pub mod gpu;
+pub mod make;
+pub mod oracle;
 mod ops;
 mod print;
 mod real;

@@ -2,6 +2,7 @@
 
 use super::Random;
 use super::generate::{Profile, generate};
+use super::make::{Features, make};
 use super::print::print;
 use std::path::Path;
 
@@ -167,7 +168,12 @@ impl Texts {
             let function = if text.contains("fn glow") { "glow" } else { "sraa" };
             (text, function)
         } else {
-            (print(&generate(random.bits(), Profile::Exact)), "k")
+            let seed = random.bits();
+            let text = match random.once_in(2) {
+                true => print(&generate(seed, Profile::Exact)),
+                false => make(seed, Features::all()).file(),
+            };
+            (text, "k")
         };
         let mut bytes = text.into_bytes();
         // One change leaves much that can still be evaluated; more go deeper into the parser's errors.

@@ -1,0 +1,87 @@
+//! Which constructs kernels are made of.
+
+/// A group of constructs that can be left out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u32)]
+pub enum Feature {
+    /// `&mut` parameters, receivers, locals and loops.
+    Mutable,
+    /// Integer literals without a type where the type is not `i32`.
+    Inferred,
+    /// Loops over `u32` and `usize`.
+    UnsignedLoops,
+    /// Calls that change variables, within expressions.
+    Effects,
+    /// Loops whose bounds are runtime values.
+    RuntimeLoops,
+    /// `unroll` and `branch` attributes.
+    Attributes,
+    /// `Mat2` to `Mat4`.
+    Matrices,
+    /// Enums and `match` on them.
+    Enums,
+    /// Generic functions.
+    Generics,
+    /// Arrays of structures, of tuples and of arrays.
+    Nested,
+    /// Labelled loops, `break`, `continue`, early `return`.
+    Leaving,
+    /// `while` and `loop`.
+    While,
+    /// `options!`.
+    Options,
+    /// Division, roots and what else a driver may compute in other bits.
+    Coarse,
+    /// Ranges that end at the largest numbers.
+    Edges,
+}
+
+/// All features.
+pub const ALL: &[Feature] = &[
+    Feature::Mutable,
+    Feature::Inferred,
+    Feature::UnsignedLoops,
+    Feature::Effects,
+    Feature::RuntimeLoops,
+    Feature::Attributes,
+    Feature::Matrices,
+    Feature::Enums,
+    Feature::Generics,
+    Feature::Nested,
+    Feature::Leaving,
+    Feature::While,
+    Feature::Options,
+    Feature::Coarse,
+    Feature::Edges,
+];
+
+/// A set of features.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Features(u32);
+
+impl Features {
+    /// Everything.
+    pub fn all() -> Features {
+        Features(u32::MAX)
+    }
+
+    /// What all drivers compute in the same bits.
+    pub fn exact_on_drivers() -> Features {
+        Features::all().without(Feature::Coarse)
+    }
+
+    /// The set without one of its features.
+    pub fn without(self, feature: Feature) -> Features {
+        Features(self.0 & !(1 << feature as u32))
+    }
+
+    /// Whether a feature is in the set.
+    pub fn has(self, feature: Feature) -> bool {
+        self.0 & (1 << feature as u32) != 0
+    }
+
+    /// The feature of a name, as `{:?}` prints it.
+    pub fn named(name: &str) -> Option<Feature> {
+        ALL.iter().copied().find(|f| format!("{f:?}").eq_ignore_ascii_case(name))
+    }
+}

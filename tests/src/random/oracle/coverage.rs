@@ -1,0 +1,122 @@
+//! Which constructs random kernels have.
+
+use crate::random::make::{Features, make};
+use std::collections::BTreeSet;
+use std::path::Path;
+use straightline_codegen::Kernel;
+
+/// Names that the page's sections on mathematics and integers document and that no random kernel calls, since Rust and
+/// drivers compute them in other bits, or they are of a fixed function of a device.
+pub const NOT_COMPARED: &[&str] = &[
+    "exp", "exp2", "ln", "log2", "powf", "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh",
+    "normalize", "length_recip", "reflect", "distance",
+];
+
+/// What is missing.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Missing {
+    /// Variants of the front end's tree, `Enum::Variant`.
+    pub variants: BTreeSet<String>,
+    /// Names in the language's page.
+    pub names: BTreeSet<String>,
+}
+
+/// What kernels of the first seeds never have of the front end's tree and of the page's names.
+///
+/// # Errors
+///
+/// A file of the repository cannot be read.
+pub fn missing(seeds: std::ops::Range<u64>) -> Result<Missing, String> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let read = |path: &str| std::fs::read_to_string(root.join(path)).map_err(|e| format!("{path}: {e}"));
+    let variants = variants(&read("codegen/src/front/tree.rs")?);
+    let names = names(&read("docs/kernel-language.md")?);
+    let mut missing = Missing {
+        variants: variants.iter().map(|(of, name)| format!("{of}::{name}")).collect(),
+        names: names.into_iter().filter(|name| !NOT_COMPARED.contains(&name.as_str())).collect(),
+    };
+    for seed in seeds {
+        let text = make(seed, Features::all());
+        missing.names.retain(|name| !calls(&text.source, name));
+        if missing.variants.is_empty() {
+            continue;
+        }
+        // What the front end refuses has no tree.
+        if let Ok(tree) = Kernel::from_text("random.rs", &text.file(), "k").tree() {
+            missing.variants.retain(|variant| !has(&tree, variant));
+        }
+    }
+    Ok(missing)
+}
+
+/// The variants of the enums that a kernel's tree is made of, from the text that defines them.
+fn variants(text: &str) -> Vec<(String, String)> {
+    let mut found = Vec::new();
+    let mut of: Option<&str> = None;
+    for line in text.lines() {
+        if let Some(rest) = line.strip_prefix("pub enum ") {
+            of = Some(rest.trim_end_matches(" {"));
+        } else if line == "}" {
+            of = None;
+        } else if let Some(of) = of
+            && let Some(name) = line.strip_prefix("    ").filter(|l| l.starts_with(char::is_uppercase))
+        {
+            let end = name.find(|c: char| !c.is_alphanumeric()).unwrap_or(name.len());
+            found.push((of.to_owned(), name[..end].to_owned()));
+        }
+    }
+    found
+}
+
+/// Whether a tree, in its `Debug` form, has a variant. Kinds of expressions stand behind `kind: `, all else does not.
+fn has(tree: &str, variant: &str) -> bool {
+    let (of, name) = variant.split_once("::").expect("an enum and a variant");
+    match of {
+        "ExprKind" => tree.match_indices("kind: ").any(|(at, k)| {
+            let rest = &tree[at + k.len()..];
+            rest.strip_prefix(name).is_some_and(|after| !after.starts_with(char::is_alphanumeric))
+        }),
+        _ => tree.match_indices(name).any(|(at, _)| {
+            let before = &tree[..at];
+            let after = tree[at + name.len()..].chars().next();
+            let whole = !before.ends_with(|c: char| c.is_alphanumeric() || c == '_' || c == '"');
+            whole && !before.ends_with("kind: ") && after.is_none_or(|c| !c.is_alphanumeric() && c != '_')
+        }),
+    }
+}
+
+/// The names in backticks of the sections that list methods and functions.
+fn names(page: &str) -> BTreeSet<String> {
+    let mut found = BTreeSet::new();
+    let mut lists = false;
+    let mut code = false;
+    for line in page.lines() {
+        if let Some(title) = line.strip_prefix("## ") {
+            lists = ["Mathematics", "Integers and bits", "Matrices", "Loops"].contains(&title);
+        }
+        if line.starts_with("```") {
+            code = !code;
+        }
+        if !lists || code {
+            continue;
+        }
+        let parts: Vec<&str> = line.split('`').collect();
+        for word in parts.iter().skip(1).step_by(2) {
+            let word = word.trim_start_matches('.').trim_end_matches("()");
+            let name = !word.is_empty() && word.chars().all(|c| c.is_ascii_lowercase() || c == '_' || c.is_ascii_digit());
+            // Refused, or a lane's name.
+            if name && !["signum", "for", "while", "loop"].contains(&word) {
+                found.insert(word.to_owned());
+            }
+        }
+    }
+    found
+}
+
+/// Whether a text has a name as a word.
+fn calls(source: &str, name: &str) -> bool {
+    source.match_indices(name).any(|(at, _)| {
+        let word = |c: char| c.is_alphanumeric() || c == '_';
+        !source[..at].ends_with(word) && !source[at + name.len()..].starts_with(word)
+    })
+}
