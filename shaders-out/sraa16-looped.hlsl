@@ -4,7 +4,7 @@ ret_Constructarray16_int2_ Constructarray16_int2_(int2 arg0, int2 arg1, int2 arg
     return ret;
 }
 
-static const int2 table[16] = Constructarray16_int2_((int(1)).xx, int2(int(-1), int(-3)), int2(int(-3), int(2)), int2(int(4), int(-1)), int2(int(-5), int(-2)), int2(int(2), int(5)), int2(int(5), int(3)), int2(int(3), int(-5)), int2(int(-2), int(6)), int2(int(0), int(-7)), int2(int(-4), int(-6)), int2(int(-6), int(4)), int2(int(-8), int(0)), int2(int(7), int(-4)), int2(int(6), int(7)), int2(int(-7), int(-8)));
+static const int2 table[16] = { (int(1)).xx, int2(int(-1), int(-3)), int2(int(-3), int(2)), int2(int(4), int(-1)), int2(int(-5), int(-2)), int2(int(2), int(5)), int2(int(5), int(3)), int2(int(3), int(-5)), int2(int(-2), int(6)), int2(int(0), int(-7)), int2(int(-4), int(-6)), int2(int(-6), int(4)), int2(int(-8), int(0)), int2(int(7), int(-4)), int2(int(6), int(7)), int2(int(-7), int(-8)) };
 
 Texture2DArray<float4> depth : register(t0);
 Texture2DArray<float4> normal : register(t1);

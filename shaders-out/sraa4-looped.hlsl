@@ -4,7 +4,7 @@ ret_Constructarray4_int2_ Constructarray4_int2_(int2 arg0, int2 arg1, int2 arg2,
     return ret;
 }
 
-static const int2 table[4] = Constructarray4_int2_(int2(int(-2), int(-6)), int2(int(6), int(-2)), int2(int(-6), int(2)), int2(int(2), int(6)));
+static const int2 table[4] = { int2(int(-2), int(-6)), int2(int(6), int(-2)), int2(int(-6), int(2)), int2(int(2), int(6)) };
 
 Texture2DArray<float4> depth : register(t0);
 Texture2DArray<float4> normal : register(t1);

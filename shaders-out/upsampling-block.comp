@@ -19,7 +19,7 @@ void main() {
     if (pixel.x >= frame.x || pixel.y >= frame.y) {
         return;
     }
-    // lane 0: kernels/src/quad/upsampling.rs:82
+    // lane 0: kernels/src/quad/upsampling.rs:86
     ivec2 texel = pixel + ivec2(1, 0);
     ivec2 texel_2 = pixel + ivec2(0, 1);
     ivec2 texel_3 = pixel + ivec2(1);
@@ -28,7 +28,7 @@ void main() {
     ivec2 corner_l2 = texel_2 / ivec2(2);
     ivec2 corner_l3 = texel_3 / ivec2(2);
     ivec2 last = frame - ivec2(1);
-    // lane 1: kernels/src/quad/upsampling.rs:85
+    // lane 1: kernels/src/quad/upsampling.rs:89
     ivec2 texel_l1 = min(texel, last);
     ivec2 texel_l2 = min(texel_2, last);
     ivec2 texel_l3 = min(texel_3, last);
@@ -41,7 +41,7 @@ void main() {
     float own_depth_l2 = (abs(depth_texel_3) < 1e30 ? depth_texel_3 : 1e30);
     float own_depth_l3 = (abs(depth_texel_4) < 1e30 ? depth_texel_4 : 1e30);
     ivec2 last_2 = textureSize(sampler2D(low, unfiltered), 0) - ivec2(1);
-    // lane 0: kernels/src/quad/upsampling.rs:139
+    // lane 0: kernels/src/quad/upsampling.rs:143
     ivec2 texel_l0 = clamp(corner_l0, ivec2(0), last_2);
     ivec2 texel_l1_2 = clamp(corner_l1 + ivec2(1, 0), ivec2(0), last_2);
     ivec2 texel_l2_2 = clamp(corner_l2 + ivec2(0, 1), ivec2(0), last_2);
@@ -50,12 +50,12 @@ void main() {
     vec4 texel_l1_3 = texelFetch(sampler2D(low, unfiltered), texel_l1_2, 0);
     vec4 texel_l2_3 = texelFetch(sampler2D(low, unfiltered), texel_l2_2, 0);
     vec4 texel_l3_3 = texelFetch(sampler2D(low, unfiltered), texel_l3_2, 0);
-    // lane 0: kernels/src/quad/upsampling.rs:261
+    // lane 0: kernels/src/quad/upsampling.rs:265
     bool color_l0 = all(bvec2(all(bvec2(abs(texel_l0_2.x) < 3e38, abs(texel_l0_2.y) < 3e38)), abs(texel_l0_2.z) < 3e38));
     bool color_l1 = all(bvec2(all(bvec2(abs(texel_l1_3.x) < 3e38, abs(texel_l1_3.y) < 3e38)), abs(texel_l1_3.z) < 3e38));
     bool color_l2 = all(bvec2(all(bvec2(abs(texel_l2_3.x) < 3e38, abs(texel_l2_3.y) < 3e38)), abs(texel_l2_3.z) < 3e38));
     bool color_l3 = all(bvec2(all(bvec2(abs(texel_l3_3.x) < 3e38, abs(texel_l3_3.y) < 3e38)), abs(texel_l3_3.z) < 3e38));
-    // lane 0: kernels/src/quad/upsampling.rs:141
+    // lane 0: kernels/src/quad/upsampling.rs:145
     vec4 texel_l0_3 = mix(vec4(0.0, 0.0, 0.0, -1e30), vec4(texel_l0_2.x, texel_l0_2.y, texel_l0_2.z, mix(1e30, texel_l0_2.w, abs(texel_l0_2.w) < 1e30)), bvec4(color_l0));
     vec4 texel_l1_4 = mix(vec4(0.0, 0.0, 0.0, -1e30), vec4(texel_l1_3.x, texel_l1_3.y, texel_l1_3.z, mix(1e30, texel_l1_3.w, abs(texel_l1_3.w) < 1e30)), bvec4(color_l1));
     vec4 texel_l2_4 = mix(vec4(0.0, 0.0, 0.0, -1e30), vec4(texel_l2_3.x, texel_l2_3.y, texel_l2_3.z, mix(1e30, texel_l2_3.w, abs(texel_l2_3.w) < 1e30)), bvec4(color_l2));
@@ -64,157 +64,157 @@ void main() {
     vec4 taps_2 = vec4(texel_l1_4.x, texel_l1_4.y, texel_l1_4.z, 1.0);
     vec4 taps_3 = vec4(texel_l2_4.x, texel_l2_4.y, texel_l2_4.z, 1.0);
     vec4 taps_4 = vec4(texel_l3_4.x, texel_l3_4.y, texel_l3_4.z, 1.0);
-    // k 0, lane 0: kernels/src/quad/upsampling.rs:100
+    // k 0, lane 0: kernels/src/quad/upsampling.rs:104
     float away_k0_l0 = abs(texel_l0_3.w - own_depth_l0);
     float away_k0_l1 = abs(texel_l1_4.w - own_depth_l1);
     float away_k0_l2 = abs(texel_l2_4.w - own_depth_l2);
     float away_k0_l3 = abs(texel_l3_4.w - own_depth_l3);
-    // k 0, lane 0: kernels/src/quad/upsampling.rs:101
+    // k 0, lane 0: kernels/src/quad/upsampling.rs:105
     float z_k0_l0 = away_k0_l0 / 0.1;
     float z_k0_l1 = away_k0_l1 / 0.1;
     float z_k0_l2 = away_k0_l2 / 0.1;
     float z_k0_l3 = away_k0_l3 / 0.1;
-    // k 0, lane 0: kernels/src/quad/upsampling.rs:102
+    // k 0, lane 0: kernels/src/quad/upsampling.rs:106
     float exponent_k0_l0 = z_k0_l0 * z_k0_l0;
     float exponent_k0_l1 = z_k0_l1 * z_k0_l1;
     float exponent_k0_l2 = z_k0_l2 * z_k0_l2;
     float exponent_k0_l3 = z_k0_l3 * z_k0_l3;
-    // k 0, lane 0: kernels/src/quad/upsampling.rs:108
+    // k 0, lane 0: kernels/src/quad/upsampling.rs:112
     float weight_k0_l0 = 0.5625 * exp2(exponent_k0_l0 * -0.7213475);
     float weight_k0_l1 = 0.5625 * exp2(exponent_k0_l1 * -0.7213475);
     float weight_k0_l2 = 0.5625 * exp2(exponent_k0_l2 * -0.7213475);
     float weight_k0_l3 = 0.5625 * exp2(exponent_k0_l3 * -0.7213475);
-    // k 1, lane 0: kernels/src/quad/upsampling.rs:100
+    // k 1, lane 0: kernels/src/quad/upsampling.rs:104
     float away_k1_l0 = abs(texel_l1_4.w - own_depth_l0);
     float away_k1_l1 = abs(texel_l0_3.w - own_depth_l1);
     float away_k1_l2 = abs(texel_l3_4.w - own_depth_l2);
     float away_k1_l3 = abs(texel_l2_4.w - own_depth_l3);
-    // k 1, lane 0: kernels/src/quad/upsampling.rs:101
+    // k 1, lane 0: kernels/src/quad/upsampling.rs:105
     float z_k1_l0 = away_k1_l0 / 0.1;
     float z_k1_l1 = away_k1_l1 / 0.1;
     float z_k1_l2 = away_k1_l2 / 0.1;
     float z_k1_l3 = away_k1_l3 / 0.1;
-    // k 1, lane 0: kernels/src/quad/upsampling.rs:102
+    // k 1, lane 0: kernels/src/quad/upsampling.rs:106
     float exponent_k1_l0 = z_k1_l0 * z_k1_l0;
     float exponent_k1_l1 = z_k1_l1 * z_k1_l1;
     float exponent_k1_l2 = z_k1_l2 * z_k1_l2;
     float exponent_k1_l3 = z_k1_l3 * z_k1_l3;
-    // k 1, lane 0: kernels/src/quad/upsampling.rs:108
+    // k 1, lane 0: kernels/src/quad/upsampling.rs:112
     float weight_k1_l0 = 0.1875 * exp2(exponent_k1_l0 * -0.7213475);
     float weight_k1_l1 = 0.1875 * exp2(exponent_k1_l1 * -0.7213475);
     float weight_k1_l2 = 0.1875 * exp2(exponent_k1_l2 * -0.7213475);
     float weight_k1_l3 = 0.1875 * exp2(exponent_k1_l3 * -0.7213475);
-    // k 1, lane 0: kernels/src/quad/upsampling.rs:110
+    // k 1, lane 0: kernels/src/quad/upsampling.rs:114
     float total_k1_l0 = weight_k0_l0 + weight_k1_l0;
     float total_k1_l1 = weight_k0_l1 + weight_k1_l1;
     float total_k1_l2 = weight_k0_l2 + weight_k1_l2;
     float total_k1_l3 = weight_k0_l3 + weight_k1_l3;
-    // k 1, lane 0: kernels/src/quad/upsampling.rs:114
+    // k 1, lane 0: kernels/src/quad/upsampling.rs:118
     bool nearer_k1_l0 = away_k1_l0 < away_k0_l0;
     bool nearer_k1_l1 = away_k1_l1 < away_k0_l1;
     bool nearer_k1_l2 = away_k1_l2 < away_k0_l2;
     bool nearer_k1_l3 = away_k1_l3 < away_k0_l3;
-    // k 1, lane 0: kernels/src/quad/upsampling.rs:115
+    // k 1, lane 0: kernels/src/quad/upsampling.rs:119
     float nearest_k1_l0 = (nearer_k1_l0 ? away_k1_l0 : away_k0_l0);
     float nearest_k1_l1 = (nearer_k1_l1 ? away_k1_l1 : away_k0_l1);
     float nearest_k1_l2 = (nearer_k1_l2 ? away_k1_l2 : away_k0_l2);
     float nearest_k1_l3 = (nearer_k1_l3 ? away_k1_l3 : away_k0_l3);
-    // k 1, lane 0: kernels/src/quad/upsampling.rs:116
+    // k 1, lane 0: kernels/src/quad/upsampling.rs:120
     vec4 fallback_k1_l0 = (nearer_k1_l0 ? taps_2 : taps);
     vec4 fallback_k1_l1 = (nearer_k1_l1 ? taps : taps_2);
     vec4 fallback_k1_l2 = (nearer_k1_l2 ? taps_4 : taps_3);
     vec4 fallback_k1_l3 = (nearer_k1_l3 ? taps_3 : taps_4);
-    // k 2, lane 0: kernels/src/quad/upsampling.rs:100
+    // k 2, lane 0: kernels/src/quad/upsampling.rs:104
     float away_k2_l0 = abs(texel_l2_4.w - own_depth_l0);
     float away_k2_l1 = abs(texel_l3_4.w - own_depth_l1);
     float away_k2_l2 = abs(texel_l0_3.w - own_depth_l2);
     float away_k2_l3 = abs(texel_l1_4.w - own_depth_l3);
-    // k 2, lane 0: kernels/src/quad/upsampling.rs:101
+    // k 2, lane 0: kernels/src/quad/upsampling.rs:105
     float z_k2_l0 = away_k2_l0 / 0.1;
     float z_k2_l1 = away_k2_l1 / 0.1;
     float z_k2_l2 = away_k2_l2 / 0.1;
     float z_k2_l3 = away_k2_l3 / 0.1;
-    // k 2, lane 0: kernels/src/quad/upsampling.rs:102
+    // k 2, lane 0: kernels/src/quad/upsampling.rs:106
     float exponent_k2_l0 = z_k2_l0 * z_k2_l0;
     float exponent_k2_l1 = z_k2_l1 * z_k2_l1;
     float exponent_k2_l2 = z_k2_l2 * z_k2_l2;
     float exponent_k2_l3 = z_k2_l3 * z_k2_l3;
-    // k 2, lane 0: kernels/src/quad/upsampling.rs:108
+    // k 2, lane 0: kernels/src/quad/upsampling.rs:112
     float weight_k2_l0 = 0.1875 * exp2(exponent_k2_l0 * -0.7213475);
     float weight_k2_l1 = 0.1875 * exp2(exponent_k2_l1 * -0.7213475);
     float weight_k2_l2 = 0.1875 * exp2(exponent_k2_l2 * -0.7213475);
     float weight_k2_l3 = 0.1875 * exp2(exponent_k2_l3 * -0.7213475);
-    // k 2, lane 0: kernels/src/quad/upsampling.rs:110
+    // k 2, lane 0: kernels/src/quad/upsampling.rs:114
     float total_k2_l0 = total_k1_l0 + weight_k2_l0;
     float total_k2_l1 = total_k1_l1 + weight_k2_l1;
     float total_k2_l2 = total_k1_l2 + weight_k2_l2;
     float total_k2_l3 = total_k1_l3 + weight_k2_l3;
-    // k 2, lane 0: kernels/src/quad/upsampling.rs:114
+    // k 2, lane 0: kernels/src/quad/upsampling.rs:118
     bool nearer_k2_l0 = away_k2_l0 < nearest_k1_l0;
     bool nearer_k2_l1 = away_k2_l1 < nearest_k1_l1;
     bool nearer_k2_l2 = away_k2_l2 < nearest_k1_l2;
     bool nearer_k2_l3 = away_k2_l3 < nearest_k1_l3;
-    // k 2, lane 0: kernels/src/quad/upsampling.rs:115
+    // k 2, lane 0: kernels/src/quad/upsampling.rs:119
     float nearest_k2_l0 = (nearer_k2_l0 ? away_k2_l0 : nearest_k1_l0);
     float nearest_k2_l1 = (nearer_k2_l1 ? away_k2_l1 : nearest_k1_l1);
     float nearest_k2_l2 = (nearer_k2_l2 ? away_k2_l2 : nearest_k1_l2);
     float nearest_k2_l3 = (nearer_k2_l3 ? away_k2_l3 : nearest_k1_l3);
-    // k 2, lane 0: kernels/src/quad/upsampling.rs:116
+    // k 2, lane 0: kernels/src/quad/upsampling.rs:120
     vec4 fallback_k2_l0 = (nearer_k2_l0 ? taps_3 : fallback_k1_l0);
     vec4 fallback_k2_l1 = (nearer_k2_l1 ? taps_4 : fallback_k1_l1);
     vec4 fallback_k2_l2 = (nearer_k2_l2 ? taps : fallback_k1_l2);
     vec4 fallback_k2_l3 = (nearer_k2_l3 ? taps_2 : fallback_k1_l3);
-    // k 3, lane 0: kernels/src/quad/upsampling.rs:100
+    // k 3, lane 0: kernels/src/quad/upsampling.rs:104
     float away_k3_l0 = abs(texel_l3_4.w - own_depth_l0);
     float away_k3_l1 = abs(texel_l2_4.w - own_depth_l1);
     float away_k3_l2 = abs(texel_l1_4.w - own_depth_l2);
     float away_k3_l3 = abs(texel_l0_3.w - own_depth_l3);
-    // k 3, lane 0: kernels/src/quad/upsampling.rs:101
+    // k 3, lane 0: kernels/src/quad/upsampling.rs:105
     float z_k3_l0 = away_k3_l0 / 0.1;
     float z_k3_l1 = away_k3_l1 / 0.1;
     float z_k3_l2 = away_k3_l2 / 0.1;
     float z_k3_l3 = away_k3_l3 / 0.1;
-    // k 3, lane 0: kernels/src/quad/upsampling.rs:102
+    // k 3, lane 0: kernels/src/quad/upsampling.rs:106
     float exponent_k3_l0 = z_k3_l0 * z_k3_l0;
     float exponent_k3_l1 = z_k3_l1 * z_k3_l1;
     float exponent_k3_l2 = z_k3_l2 * z_k3_l2;
     float exponent_k3_l3 = z_k3_l3 * z_k3_l3;
-    // k 3, lane 0: kernels/src/quad/upsampling.rs:108
+    // k 3, lane 0: kernels/src/quad/upsampling.rs:112
     float weight_k3_l0 = 0.0625 * exp2(exponent_k3_l0 * -0.7213475);
     float weight_k3_l1 = 0.0625 * exp2(exponent_k3_l1 * -0.7213475);
     float weight_k3_l2 = 0.0625 * exp2(exponent_k3_l2 * -0.7213475);
     float weight_k3_l3 = 0.0625 * exp2(exponent_k3_l3 * -0.7213475);
-    // k 3, lane 0: kernels/src/quad/upsampling.rs:110
+    // k 3, lane 0: kernels/src/quad/upsampling.rs:114
     float total_k3_l0 = total_k2_l0 + weight_k3_l0;
     float total_k3_l1 = total_k2_l1 + weight_k3_l1;
     float total_k3_l2 = total_k2_l2 + weight_k3_l2;
     float total_k3_l3 = total_k2_l3 + weight_k3_l3;
-    // k 3, lane 0: kernels/src/quad/upsampling.rs:114
+    // k 3, lane 0: kernels/src/quad/upsampling.rs:118
     bool nearer_k3_l0 = away_k3_l0 < nearest_k2_l0;
     bool nearer_k3_l1 = away_k3_l1 < nearest_k2_l1;
     bool nearer_k3_l2 = away_k3_l2 < nearest_k2_l2;
     bool nearer_k3_l3 = away_k3_l3 < nearest_k2_l3;
-    // k 3, lane 0: kernels/src/quad/upsampling.rs:116
+    // k 3, lane 0: kernels/src/quad/upsampling.rs:120
     vec4 fallback_k3_l0 = (nearer_k3_l0 ? taps_4 : fallback_k2_l0);
     vec4 fallback_k3_l1 = (nearer_k3_l1 ? taps_3 : fallback_k2_l1);
     vec4 fallback_k3_l2 = (nearer_k3_l2 ? taps_2 : fallback_k2_l2);
     vec4 fallback_k3_l3 = (nearer_k3_l3 ? taps : fallback_k2_l3);
-    // lane 0: kernels/src/quad/upsampling.rs:120
+    // lane 0: kernels/src/quad/upsampling.rs:124
     float scale_l0 = 1.0 / max(total_k3_l0, 1e-20);
     float scale_l1 = 1.0 / max(total_k3_l1, 1e-20);
     float scale_l2 = 1.0 / max(total_k3_l2, 1e-20);
     float scale_l3 = 1.0 / max(total_k3_l3, 1e-20);
-    // k 1, lane 0: kernels/src/quad/upsampling.rs:123
+    // k 1, lane 0: kernels/src/quad/upsampling.rs:127
     vec4 color_k1_l0 = taps + (taps_2 - taps) * (weight_k1_l0 * scale_l0);
     vec4 color_k1_l1 = taps_2 + (taps - taps_2) * (weight_k1_l1 * scale_l1);
     vec4 color_k1_l2 = taps_3 + (taps_4 - taps_3) * (weight_k1_l2 * scale_l2);
     vec4 color_k1_l3 = taps_4 + (taps_3 - taps_4) * (weight_k1_l3 * scale_l3);
-    // k 2, lane 0: kernels/src/quad/upsampling.rs:123
+    // k 2, lane 0: kernels/src/quad/upsampling.rs:127
     vec4 color_k2_l0 = color_k1_l0 + (taps_3 - taps) * (weight_k2_l0 * scale_l0);
     vec4 color_k2_l1 = color_k1_l1 + (taps_4 - taps_2) * (weight_k2_l1 * scale_l1);
     vec4 color_k2_l2 = color_k1_l2 + (taps - taps_3) * (weight_k2_l2 * scale_l2);
     vec4 color_k2_l3 = color_k1_l3 + (taps_2 - taps_4) * (weight_k2_l3 * scale_l3);
-    // k 3, lane 0: kernels/src/quad/upsampling.rs:123
+    // k 3, lane 0: kernels/src/quad/upsampling.rs:127
     vec4 color_k3_l0 = color_k2_l0 + (taps_4 - taps) * (weight_k3_l0 * scale_l0);
     vec4 color_k3_l1 = color_k2_l1 + (taps_3 - taps_2) * (weight_k3_l1 * scale_l1);
     vec4 color_k3_l2 = color_k2_l2 + (taps_2 - taps_3) * (weight_k3_l2 * scale_l2);

@@ -15,7 +15,7 @@ fn quad_upsampling(@builtin(global_invocation_id) id: vec3u) {
     if any(pixel >= frame) {
         return;
     }
-    // lane 0: kernels/src/quad/upsampling.rs:82
+    // lane 0: kernels/src/quad/upsampling.rs:86
     let texel = pixel + vec2i(1, 0);
     let texel_2 = pixel + vec2i(0, 1);
     let texel_3 = pixel + vec2i(1);
@@ -24,7 +24,7 @@ fn quad_upsampling(@builtin(global_invocation_id) id: vec3u) {
     let corner_l2 = texel_2 / vec2i(2);
     let corner_l3 = texel_3 / vec2i(2);
     let last = frame - vec2i(1);
-    // lane 1: kernels/src/quad/upsampling.rs:85
+    // lane 1: kernels/src/quad/upsampling.rs:89
     let texel_l1 = min(texel, last);
     let texel_l2 = min(texel_2, last);
     let texel_l3 = min(texel_3, last);
@@ -37,7 +37,7 @@ fn quad_upsampling(@builtin(global_invocation_id) id: vec3u) {
     let own_depth_l2 = select(1e30, depth_texel_3, abs(depth_texel_3) < 1e30);
     let own_depth_l3 = select(1e30, depth_texel_4, abs(depth_texel_4) < 1e30);
     let last_2 = vec2i(textureDimensions(low)) - vec2i(1);
-    // lane 0: kernels/src/quad/upsampling.rs:139
+    // lane 0: kernels/src/quad/upsampling.rs:143
     let texel_l0 = clamp(corner_l0, vec2i(0), last_2);
     let texel_l1_2 = clamp(corner_l1 + vec2i(1, 0), vec2i(0), last_2);
     let texel_l2_2 = clamp(corner_l2 + vec2i(0, 1), vec2i(0), last_2);
@@ -46,12 +46,12 @@ fn quad_upsampling(@builtin(global_invocation_id) id: vec3u) {
     let texel_l1_3 = textureLoad(low, texel_l1_2, 0);
     let texel_l2_3 = textureLoad(low, texel_l2_2, 0);
     let texel_l3_3 = textureLoad(low, texel_l3_2, 0);
-    // lane 0: kernels/src/quad/upsampling.rs:261
+    // lane 0: kernels/src/quad/upsampling.rs:265
     let color_l0 = ((abs(texel_l0_2.x) < 3e38) & (abs(texel_l0_2.y) < 3e38)) & (abs(texel_l0_2.z) < 3e38);
     let color_l1 = ((abs(texel_l1_3.x) < 3e38) & (abs(texel_l1_3.y) < 3e38)) & (abs(texel_l1_3.z) < 3e38);
     let color_l2 = ((abs(texel_l2_3.x) < 3e38) & (abs(texel_l2_3.y) < 3e38)) & (abs(texel_l2_3.z) < 3e38);
     let color_l3 = ((abs(texel_l3_3.x) < 3e38) & (abs(texel_l3_3.y) < 3e38)) & (abs(texel_l3_3.z) < 3e38);
-    // lane 0: kernels/src/quad/upsampling.rs:141
+    // lane 0: kernels/src/quad/upsampling.rs:145
     let texel_l0_3 = select(vec4f(0.0, 0.0, 0.0, -1e30), vec4f(texel_l0_2.x, texel_l0_2.y, texel_l0_2.z, select(1e30, texel_l0_2.w, abs(texel_l0_2.w) < 1e30)), color_l0);
     let texel_l1_4 = select(vec4f(0.0, 0.0, 0.0, -1e30), vec4f(texel_l1_3.x, texel_l1_3.y, texel_l1_3.z, select(1e30, texel_l1_3.w, abs(texel_l1_3.w) < 1e30)), color_l1);
     let texel_l2_4 = select(vec4f(0.0, 0.0, 0.0, -1e30), vec4f(texel_l2_3.x, texel_l2_3.y, texel_l2_3.z, select(1e30, texel_l2_3.w, abs(texel_l2_3.w) < 1e30)), color_l2);
@@ -60,157 +60,157 @@ fn quad_upsampling(@builtin(global_invocation_id) id: vec3u) {
     let taps_2 = vec4f(texel_l1_4.x, texel_l1_4.y, texel_l1_4.z, 1.0);
     let taps_3 = vec4f(texel_l2_4.x, texel_l2_4.y, texel_l2_4.z, 1.0);
     let taps_4 = vec4f(texel_l3_4.x, texel_l3_4.y, texel_l3_4.z, 1.0);
-    // k 0, lane 0: kernels/src/quad/upsampling.rs:100
+    // k 0, lane 0: kernels/src/quad/upsampling.rs:104
     let away_k0_l0 = abs(texel_l0_3.w - own_depth_l0);
     let away_k0_l1 = abs(texel_l1_4.w - own_depth_l1);
     let away_k0_l2 = abs(texel_l2_4.w - own_depth_l2);
     let away_k0_l3 = abs(texel_l3_4.w - own_depth_l3);
-    // k 0, lane 0: kernels/src/quad/upsampling.rs:101
+    // k 0, lane 0: kernels/src/quad/upsampling.rs:105
     let z_k0_l0 = away_k0_l0 / 0.1;
     let z_k0_l1 = away_k0_l1 / 0.1;
     let z_k0_l2 = away_k0_l2 / 0.1;
     let z_k0_l3 = away_k0_l3 / 0.1;
-    // k 0, lane 0: kernels/src/quad/upsampling.rs:102
+    // k 0, lane 0: kernels/src/quad/upsampling.rs:106
     let exponent_k0_l0 = z_k0_l0 * z_k0_l0;
     let exponent_k0_l1 = z_k0_l1 * z_k0_l1;
     let exponent_k0_l2 = z_k0_l2 * z_k0_l2;
     let exponent_k0_l3 = z_k0_l3 * z_k0_l3;
-    // k 0, lane 0: kernels/src/quad/upsampling.rs:108
+    // k 0, lane 0: kernels/src/quad/upsampling.rs:112
     let weight_k0_l0 = 0.5625 * exp2(exponent_k0_l0 * -0.7213475);
     let weight_k0_l1 = 0.5625 * exp2(exponent_k0_l1 * -0.7213475);
     let weight_k0_l2 = 0.5625 * exp2(exponent_k0_l2 * -0.7213475);
     let weight_k0_l3 = 0.5625 * exp2(exponent_k0_l3 * -0.7213475);
-    // k 1, lane 0: kernels/src/quad/upsampling.rs:100
+    // k 1, lane 0: kernels/src/quad/upsampling.rs:104
     let away_k1_l0 = abs(texel_l1_4.w - own_depth_l0);
     let away_k1_l1 = abs(texel_l0_3.w - own_depth_l1);
     let away_k1_l2 = abs(texel_l3_4.w - own_depth_l2);
     let away_k1_l3 = abs(texel_l2_4.w - own_depth_l3);
-    // k 1, lane 0: kernels/src/quad/upsampling.rs:101
+    // k 1, lane 0: kernels/src/quad/upsampling.rs:105
     let z_k1_l0 = away_k1_l0 / 0.1;
     let z_k1_l1 = away_k1_l1 / 0.1;
     let z_k1_l2 = away_k1_l2 / 0.1;
     let z_k1_l3 = away_k1_l3 / 0.1;
-    // k 1, lane 0: kernels/src/quad/upsampling.rs:102
+    // k 1, lane 0: kernels/src/quad/upsampling.rs:106
     let exponent_k1_l0 = z_k1_l0 * z_k1_l0;
     let exponent_k1_l1 = z_k1_l1 * z_k1_l1;
     let exponent_k1_l2 = z_k1_l2 * z_k1_l2;
     let exponent_k1_l3 = z_k1_l3 * z_k1_l3;
-    // k 1, lane 0: kernels/src/quad/upsampling.rs:108
+    // k 1, lane 0: kernels/src/quad/upsampling.rs:112
     let weight_k1_l0 = 0.1875 * exp2(exponent_k1_l0 * -0.7213475);
     let weight_k1_l1 = 0.1875 * exp2(exponent_k1_l1 * -0.7213475);
     let weight_k1_l2 = 0.1875 * exp2(exponent_k1_l2 * -0.7213475);
     let weight_k1_l3 = 0.1875 * exp2(exponent_k1_l3 * -0.7213475);
-    // k 1, lane 0: kernels/src/quad/upsampling.rs:110
+    // k 1, lane 0: kernels/src/quad/upsampling.rs:114
     let total_k1_l0 = weight_k0_l0 + weight_k1_l0;
     let total_k1_l1 = weight_k0_l1 + weight_k1_l1;
     let total_k1_l2 = weight_k0_l2 + weight_k1_l2;
     let total_k1_l3 = weight_k0_l3 + weight_k1_l3;
-    // k 1, lane 0: kernels/src/quad/upsampling.rs:114
+    // k 1, lane 0: kernels/src/quad/upsampling.rs:118
     let nearer_k1_l0 = away_k1_l0 < away_k0_l0;
     let nearer_k1_l1 = away_k1_l1 < away_k0_l1;
     let nearer_k1_l2 = away_k1_l2 < away_k0_l2;
     let nearer_k1_l3 = away_k1_l3 < away_k0_l3;
-    // k 1, lane 0: kernels/src/quad/upsampling.rs:115
+    // k 1, lane 0: kernels/src/quad/upsampling.rs:119
     let nearest_k1_l0 = select(away_k0_l0, away_k1_l0, nearer_k1_l0);
     let nearest_k1_l1 = select(away_k0_l1, away_k1_l1, nearer_k1_l1);
     let nearest_k1_l2 = select(away_k0_l2, away_k1_l2, nearer_k1_l2);
     let nearest_k1_l3 = select(away_k0_l3, away_k1_l3, nearer_k1_l3);
-    // k 1, lane 0: kernels/src/quad/upsampling.rs:116
+    // k 1, lane 0: kernels/src/quad/upsampling.rs:120
     let fallback_k1_l0 = select(taps, taps_2, nearer_k1_l0);
     let fallback_k1_l1 = select(taps_2, taps, nearer_k1_l1);
     let fallback_k1_l2 = select(taps_3, taps_4, nearer_k1_l2);
     let fallback_k1_l3 = select(taps_4, taps_3, nearer_k1_l3);
-    // k 2, lane 0: kernels/src/quad/upsampling.rs:100
+    // k 2, lane 0: kernels/src/quad/upsampling.rs:104
     let away_k2_l0 = abs(texel_l2_4.w - own_depth_l0);
     let away_k2_l1 = abs(texel_l3_4.w - own_depth_l1);
     let away_k2_l2 = abs(texel_l0_3.w - own_depth_l2);
     let away_k2_l3 = abs(texel_l1_4.w - own_depth_l3);
-    // k 2, lane 0: kernels/src/quad/upsampling.rs:101
+    // k 2, lane 0: kernels/src/quad/upsampling.rs:105
     let z_k2_l0 = away_k2_l0 / 0.1;
     let z_k2_l1 = away_k2_l1 / 0.1;
     let z_k2_l2 = away_k2_l2 / 0.1;
     let z_k2_l3 = away_k2_l3 / 0.1;
-    // k 2, lane 0: kernels/src/quad/upsampling.rs:102
+    // k 2, lane 0: kernels/src/quad/upsampling.rs:106
     let exponent_k2_l0 = z_k2_l0 * z_k2_l0;
     let exponent_k2_l1 = z_k2_l1 * z_k2_l1;
     let exponent_k2_l2 = z_k2_l2 * z_k2_l2;
     let exponent_k2_l3 = z_k2_l3 * z_k2_l3;
-    // k 2, lane 0: kernels/src/quad/upsampling.rs:108
+    // k 2, lane 0: kernels/src/quad/upsampling.rs:112
     let weight_k2_l0 = 0.1875 * exp2(exponent_k2_l0 * -0.7213475);
     let weight_k2_l1 = 0.1875 * exp2(exponent_k2_l1 * -0.7213475);
     let weight_k2_l2 = 0.1875 * exp2(exponent_k2_l2 * -0.7213475);
     let weight_k2_l3 = 0.1875 * exp2(exponent_k2_l3 * -0.7213475);
-    // k 2, lane 0: kernels/src/quad/upsampling.rs:110
+    // k 2, lane 0: kernels/src/quad/upsampling.rs:114
     let total_k2_l0 = total_k1_l0 + weight_k2_l0;
     let total_k2_l1 = total_k1_l1 + weight_k2_l1;
     let total_k2_l2 = total_k1_l2 + weight_k2_l2;
     let total_k2_l3 = total_k1_l3 + weight_k2_l3;
-    // k 2, lane 0: kernels/src/quad/upsampling.rs:114
+    // k 2, lane 0: kernels/src/quad/upsampling.rs:118
     let nearer_k2_l0 = away_k2_l0 < nearest_k1_l0;
     let nearer_k2_l1 = away_k2_l1 < nearest_k1_l1;
     let nearer_k2_l2 = away_k2_l2 < nearest_k1_l2;
     let nearer_k2_l3 = away_k2_l3 < nearest_k1_l3;
-    // k 2, lane 0: kernels/src/quad/upsampling.rs:115
+    // k 2, lane 0: kernels/src/quad/upsampling.rs:119
     let nearest_k2_l0 = select(nearest_k1_l0, away_k2_l0, nearer_k2_l0);
     let nearest_k2_l1 = select(nearest_k1_l1, away_k2_l1, nearer_k2_l1);
     let nearest_k2_l2 = select(nearest_k1_l2, away_k2_l2, nearer_k2_l2);
     let nearest_k2_l3 = select(nearest_k1_l3, away_k2_l3, nearer_k2_l3);
-    // k 2, lane 0: kernels/src/quad/upsampling.rs:116
+    // k 2, lane 0: kernels/src/quad/upsampling.rs:120
     let fallback_k2_l0 = select(fallback_k1_l0, taps_3, nearer_k2_l0);
     let fallback_k2_l1 = select(fallback_k1_l1, taps_4, nearer_k2_l1);
     let fallback_k2_l2 = select(fallback_k1_l2, taps, nearer_k2_l2);
     let fallback_k2_l3 = select(fallback_k1_l3, taps_2, nearer_k2_l3);
-    // k 3, lane 0: kernels/src/quad/upsampling.rs:100
+    // k 3, lane 0: kernels/src/quad/upsampling.rs:104
     let away_k3_l0 = abs(texel_l3_4.w - own_depth_l0);
     let away_k3_l1 = abs(texel_l2_4.w - own_depth_l1);
     let away_k3_l2 = abs(texel_l1_4.w - own_depth_l2);
     let away_k3_l3 = abs(texel_l0_3.w - own_depth_l3);
-    // k 3, lane 0: kernels/src/quad/upsampling.rs:101
+    // k 3, lane 0: kernels/src/quad/upsampling.rs:105
     let z_k3_l0 = away_k3_l0 / 0.1;
     let z_k3_l1 = away_k3_l1 / 0.1;
     let z_k3_l2 = away_k3_l2 / 0.1;
     let z_k3_l3 = away_k3_l3 / 0.1;
-    // k 3, lane 0: kernels/src/quad/upsampling.rs:102
+    // k 3, lane 0: kernels/src/quad/upsampling.rs:106
     let exponent_k3_l0 = z_k3_l0 * z_k3_l0;
     let exponent_k3_l1 = z_k3_l1 * z_k3_l1;
     let exponent_k3_l2 = z_k3_l2 * z_k3_l2;
     let exponent_k3_l3 = z_k3_l3 * z_k3_l3;
-    // k 3, lane 0: kernels/src/quad/upsampling.rs:108
+    // k 3, lane 0: kernels/src/quad/upsampling.rs:112
     let weight_k3_l0 = 0.0625 * exp2(exponent_k3_l0 * -0.7213475);
     let weight_k3_l1 = 0.0625 * exp2(exponent_k3_l1 * -0.7213475);
     let weight_k3_l2 = 0.0625 * exp2(exponent_k3_l2 * -0.7213475);
     let weight_k3_l3 = 0.0625 * exp2(exponent_k3_l3 * -0.7213475);
-    // k 3, lane 0: kernels/src/quad/upsampling.rs:110
+    // k 3, lane 0: kernels/src/quad/upsampling.rs:114
     let total_k3_l0 = total_k2_l0 + weight_k3_l0;
     let total_k3_l1 = total_k2_l1 + weight_k3_l1;
     let total_k3_l2 = total_k2_l2 + weight_k3_l2;
     let total_k3_l3 = total_k2_l3 + weight_k3_l3;
-    // k 3, lane 0: kernels/src/quad/upsampling.rs:114
+    // k 3, lane 0: kernels/src/quad/upsampling.rs:118
     let nearer_k3_l0 = away_k3_l0 < nearest_k2_l0;
     let nearer_k3_l1 = away_k3_l1 < nearest_k2_l1;
     let nearer_k3_l2 = away_k3_l2 < nearest_k2_l2;
     let nearer_k3_l3 = away_k3_l3 < nearest_k2_l3;
-    // k 3, lane 0: kernels/src/quad/upsampling.rs:116
+    // k 3, lane 0: kernels/src/quad/upsampling.rs:120
     let fallback_k3_l0 = select(fallback_k2_l0, taps_4, nearer_k3_l0);
     let fallback_k3_l1 = select(fallback_k2_l1, taps_3, nearer_k3_l1);
     let fallback_k3_l2 = select(fallback_k2_l2, taps_2, nearer_k3_l2);
     let fallback_k3_l3 = select(fallback_k2_l3, taps, nearer_k3_l3);
-    // lane 0: kernels/src/quad/upsampling.rs:120
+    // lane 0: kernels/src/quad/upsampling.rs:124
     let scale_l0 = 1.0 / max(total_k3_l0, 1e-20);
     let scale_l1 = 1.0 / max(total_k3_l1, 1e-20);
     let scale_l2 = 1.0 / max(total_k3_l2, 1e-20);
     let scale_l3 = 1.0 / max(total_k3_l3, 1e-20);
-    // k 1, lane 0: kernels/src/quad/upsampling.rs:123
+    // k 1, lane 0: kernels/src/quad/upsampling.rs:127
     let color_k1_l0 = taps + (taps_2 - taps) * (weight_k1_l0 * scale_l0);
     let color_k1_l1 = taps_2 + (taps - taps_2) * (weight_k1_l1 * scale_l1);
     let color_k1_l2 = taps_3 + (taps_4 - taps_3) * (weight_k1_l2 * scale_l2);
     let color_k1_l3 = taps_4 + (taps_3 - taps_4) * (weight_k1_l3 * scale_l3);
-    // k 2, lane 0: kernels/src/quad/upsampling.rs:123
+    // k 2, lane 0: kernels/src/quad/upsampling.rs:127
     let color_k2_l0 = color_k1_l0 + (taps_3 - taps) * (weight_k2_l0 * scale_l0);
     let color_k2_l1 = color_k1_l1 + (taps_4 - taps_2) * (weight_k2_l1 * scale_l1);
     let color_k2_l2 = color_k1_l2 + (taps - taps_3) * (weight_k2_l2 * scale_l2);
     let color_k2_l3 = color_k1_l3 + (taps_2 - taps_4) * (weight_k2_l3 * scale_l3);
-    // k 3, lane 0: kernels/src/quad/upsampling.rs:123
+    // k 3, lane 0: kernels/src/quad/upsampling.rs:127
     let color_k3_l0 = color_k2_l0 + (taps_4 - taps) * (weight_k3_l0 * scale_l0);
     let color_k3_l1 = color_k2_l1 + (taps_3 - taps_2) * (weight_k3_l1 * scale_l1);
     let color_k3_l2 = color_k2_l2 + (taps_2 - taps_3) * (weight_k3_l2 * scale_l2);

@@ -23,6 +23,7 @@ pub mod ir;
 pub mod passes;
 mod pipeline;
 pub mod policy;
+mod suggest;
 mod shorten;
 
 pub use config::{Config, compile};

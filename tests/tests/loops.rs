@@ -233,7 +233,13 @@ fn every_kept_loop_is_shown_to_end() {
                 let emitted = compiled.emit(&options(unbounded));
                 emitted.unwrap_or_else(|e| panic!("{}: {e}", kernel.name()))
             });
-            assert_eq!(bounded.files[&Target::Wgsl], unbounded.files[&Target::Wgsl]);
+            // The bound is a matter of the SPIR-V, whose blocks the header counts.
+            let [with, without] = [&bounded, &unbounded].map(|e| {
+                let text = String::from_utf8_lossy(&e.files[&Target::Wgsl]).into_owned();
+                let lines = text.lines().filter(|line| !line.contains("basic block"));
+                lines.map(str::to_owned).collect::<Vec<_>>()
+            });
+            assert_eq!(with, without);
             let [longer, shorter] = [&bounded, &unbounded].map(|e| e.files[&Target::Spirv].len());
             assert!(shorter < longer, "{}: {shorter} and {longer} bytes", kernel.name());
             gpu.made(&unbounded, &PassOptions::default().unbounded_loops(true))

@@ -3,16 +3,6 @@
 /// Why a kernel cannot be emitted.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum EmitError {
-    /// A constant that a language cannot write. Every constant can be written now; the tests of random kernels still name it.
-    #[error("`{kernel}` needs the constant {value}, which {target} cannot write")]
-    Constant {
-        /// The kernel.
-        kernel: String,
-        /// The constant.
-        value: String,
-        /// The language.
-        target: &'static str,
-    },
     /// The size of the frame is needed and nothing tells it.
     #[error(
         "`{kernel}` asks for the frame's size but reads no texture, so its fragment shader cannot know: emit it for compute"

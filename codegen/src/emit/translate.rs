@@ -160,6 +160,18 @@ pub(super) fn validate(module: &naga::Module, text: &str) -> Result<ModuleInfo, 
     validator.validate(module).map_err(|error| error.emit_to_string(text))
 }
 
+/// A table of constants as a list of its elements, where naga calls a function: no compiler needs to evaluate that then.
+fn table(line: &str) -> String {
+    let parts = line
+        .strip_prefix("static const ")
+        .and_then(|rest| rest.split_once(" = Constructarray"))
+        .and_then(|(declared, call)| Some((declared, call.split_once('(')?.1.strip_suffix(");")?)));
+    match parts {
+        Some((declared, elements)) => format!("static const {declared} = {{ {elements} }};"),
+        None => line.to_owned(),
+    }
+}
+
 /// HLSL in which each sampler is bound by a register of its binding's number. naga writes wgpu's own scheme: an array of all
 /// samplers, and a buffer that says which of them each one is.
 fn samplers_by_register(text: &str) -> Option<String> {
@@ -179,7 +191,7 @@ fn samplers_by_register(text: &str) -> Option<String> {
                 let register: u32 = index.strip_suffix("]];")?.parse().ok()?;
                 out += &format!("Sampler{declared} : register(s{register});");
             }
-            None => out += line,
+            None => out += &table(line),
         }
         out.push('\n');
     }

@@ -28,7 +28,7 @@ pub const GLSL: &[&str] = &[
     "log2", "long", "lowp", "main", "matrixCompMult", "max", "mediump", "memoryBarrier", "memoryBarrierAtomicCounter",
     "memoryBarrierBuffer", "memoryBarrierImage", "memoryBarrierShared", "min", "mix", "mod", "modf", "mulExtended",
     "namespace", "noinline", "noise1", "noise2", "noise3", "noise4", "noperspective", "normalize", "not", "notEqual",
-    "out", "outerProduct", "output", "packDouble2x32", "packed", "packHalf2x16", "packSnorm2x16", "packSnorm4x8",
+    "out", "outerProduct", "output", "packDouble2x32", "packHalf2x16", "packSnorm2x16", "packSnorm4x8",
     "packUnorm2x16", "packUnorm4x8", "partition", "patch", "pow", "precise", "precision", "public", "radians",
     "readonly", "reflect", "refract", "resource", "restrict", "return", "round", "roundEven", "row_major", "sample",
     "shadow1D", "shadow1DLod", "shadow1DProj", "shadow1DProjLod", "shadow2D", "shadow2DLod", "shadow2DProj",

@@ -88,7 +88,7 @@ impl Evaluator<'_> {
             "quad_select",
         ]);
         known.sort_unstable();
-        let close = known.iter().find(|k| is_close(&name, k));
+        let close = known.iter().find(|k| crate::suggest::is_close(&name, k));
         let help = match close {
             Some(close) => format!("did you mean `{close}`?"),
             None => "define it in one of the kernel's files, or use a function of the prelude".to_owned(),
@@ -318,7 +318,7 @@ impl Evaluator<'_> {
                 let names: Vec<&str> = found.variants.iter().map(|(name, _)| name.as_str()).collect();
                 return Err(Diagnostic::at(span, format!("`{ty}` has no variant `{variant}`"))
                     .label("not there")
-                    .help(suggest(variant, &names, "it has"))
+                    .help(crate::suggest::suggest(variant, &names, "it has"))
                     .into());
             }
         }
@@ -337,7 +337,7 @@ impl Evaluator<'_> {
                 let names = self.scope.names();
                 Err(Diagnostic::at(span, format!("there is no `{}` here", path.join("::")))
                     .label("not found")
-                    .help(suggest(last, &names, "variables here are"))
+                    .help(crate::suggest::suggest(last, &names, "variables here are"))
                     .into())
             }
         }
@@ -367,42 +367,6 @@ impl Evaluator<'_> {
         self.consts.insert(name.to_owned(), value.clone());
         Ok(Some(value))
     }
-}
-
-/// The way out of a wrong name: the name that it was meant to be, or those that there are.
-pub fn suggest(name: &str, known: &[&str], has: &str) -> String {
-    match known.iter().find(|k| **k != name && is_close(name, k)) {
-        Some(close) => format!("did you mean `{close}`?"),
-        None if known.is_empty() => "check its name".to_owned(),
-        None => {
-            let more = if known.len() > 12 { ", ..." } else { "" };
-            format!("{has} {}{more}", known[..known.len().min(12)].join(", "))
-        }
-    }
-}
-
-/// Whether a name may be another one misspelt.
-fn is_close(name: &str, known: &str) -> bool {
-    distance(name, known) <= (1 + name.len() / 5).min(name.len().saturating_sub(1))
-}
-
-/// Letters to be changed, added, left out or exchanged with the next one.
-fn distance(a: &str, b: &str) -> usize {
-    let (a, b): (Vec<char>, Vec<char>) = (a.chars().collect(), b.chars().collect());
-    let mut rows = vec![(0..=b.len()).collect::<Vec<usize>>()];
-    for i in 1..=a.len() {
-        let mut row = vec![i];
-        for j in 1..=b.len() {
-            let change = rows[i - 1][j - 1] + usize::from(a[i - 1] != b[j - 1]);
-            let mut least = change.min(row[j - 1] + 1).min(rows[i - 1][j] + 1);
-            if i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] {
-                least = least.min(rows[i - 2][j - 2] + 1);
-            }
-            row.push(least);
-        }
-        rows.push(row);
-    }
-    rows[a.len()][b.len()]
 }
 
 /// `vec3`, `Vec3::new`, ...

@@ -232,6 +232,10 @@ impl Evaluator<'_> {
                 self.scope.bind(name, value.clone());
                 Ok(true)
             }
+            Pattern::Ref(inner, at) => {
+                let value = self.loaded(value.clone(), *at)?;
+                self.matches(inner, &value, span)
+            }
             Pattern::Or(cases) => {
                 for case in cases {
                     if self.matches(case, value, span)? {

@@ -151,6 +151,10 @@ impl Evaluator<'_> {
                 self.scope.bind(name, value);
                 Ok(())
             }
+            Pattern::Ref(inner, at) => {
+                let value = self.loaded(value, *at)?;
+                self.bind(inner, value, span)
+            }
             Pattern::Tuple(parts, at) => match self.taken_apart(value, parts.len(), *at)? {
                 Value::Tuple(values) if values.len() == parts.len() => parts
                     .iter()
@@ -244,7 +248,7 @@ impl Evaluator<'_> {
             // The digits of i32::MIN are one more than there are of i32: its sign is applied to what they wrap to.
             ExprKind::Int(n, Some(IntType::I32)) => Ok(Value::Node(self.builder.i32(*n as i32))),
             ExprKind::Int(n, Some(IntType::U32)) => Ok(Value::Node(self.int_node(*n, Scalar::U32, span)?)),
-            ExprKind::Float(x) => Ok(Value::Node(self.builder.f32(*x))),
+            ExprKind::Float(x, _) => Ok(Value::Node(self.builder.f32(*x))),
             ExprKind::Bool(b) => Ok(Value::Node(self.builder.bool(*b))),
             ExprKind::Str(text) => Ok(Value::Str(text.clone())),
             ExprKind::Path(path) => self.path(path, span),
@@ -351,7 +355,7 @@ impl Evaluator<'_> {
             return Err(
                 Diagnostic::at(span, format!("there is no structure `{name}` in the kernel's files"))
                     .label("not found")
-                    .help(super::call::suggest(name, &known, "there are"))
+                    .help(crate::suggest::suggest(name, &known, "there are"))
                     .into(),
             );
         };
@@ -418,7 +422,7 @@ impl Evaluator<'_> {
                     let names: Vec<&str> = fields.iter().map(|(field, _)| field.as_str()).collect();
                     Err(Diagnostic::at(span, format!("`{ty}` has no field `{name}`"))
                         .label("not there")
-                        .help(super::call::suggest(name, &names, "it has"))
+                        .help(crate::suggest::suggest(name, &names, "it has"))
                         .into())
                 }
             },

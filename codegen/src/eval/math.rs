@@ -25,7 +25,7 @@ fn methods(name: &str, ty: Type) -> String {
         (false, _) => &[INTEGERS],
     };
     let known: Vec<&str> = lists.iter().flat_map(|list| list.split_whitespace()).collect();
-    let close = super::call::suggest(name, &known, "");
+    let close = crate::suggest::suggest(name, &known, "");
     if close.starts_with("did you mean") {
         return close;
     }

@@ -54,7 +54,7 @@ impl Evaluator<'_> {
                 names.sort_unstable();
                 let help = match names.is_empty() {
                     true => format!("it has none: write it in an `impl {ty}`"),
-                    false => super::call::suggest(name, &names, "it has"),
+                    false => crate::suggest::suggest(name, &names, "it has"),
                 };
                 Err(Diagnostic::at(span, format!("`{ty}` has no method `{name}`"))
                     .label("not there")

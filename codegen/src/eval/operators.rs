@@ -51,8 +51,9 @@ impl Evaluator<'_> {
             BinaryOp::Shl | BinaryOp::Shr => (self.node(left, span)?, self.shift_count(left, right, span)?),
             _ => self.same_type(left, right, span)?,
         };
-        if matches!(op, BinaryOp::Div | BinaryOp::Rem) && self.conditions == 0 && self.is_zero(b) {
-            return Err(divided_by_zero("this is", span));
+        let known = self.builder.graph().constant(a).is_some();
+        if known && matches!(op, BinaryOp::Div | BinaryOp::Rem) && self.conditions == 0 && self.is_zero(b) {
+            return Err(divided_by_zero(span));
         }
         let ty = self.ty(a);
         let kind = ty.kind().unwrap_or(Scalar::Bool);
@@ -150,7 +151,7 @@ impl Evaluator<'_> {
             Div if b != 0 => Some(a / b),
             Rem if b != 0 => Some(a % b),
             Div | Rem => {
-                return Err(divided_by_zero(&format!("{a} is"), span));
+                return Err(divided_by_zero(span));
             }
             Min => Some(a.min(b)),
             Max => Some(a.max(b)),
@@ -315,9 +316,9 @@ fn too_large(span: Span) -> Exit {
         .into()
 }
 
-fn divided_by_zero(what: &str, span: Span) -> Exit {
-    Diagnostic::at(span, format!("{what} divided by zero"))
-        .label("always")
+fn divided_by_zero(span: Span) -> Exit {
+    Diagnostic::at(span, "attempt to divide by zero")
+        .label("the divisor is always 0")
         .help("only divide where the divisor is not 0: `if n != 0 { ... }`")
         .into()
 }

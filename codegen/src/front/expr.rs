@@ -245,7 +245,7 @@ impl Lower {
     /// A literal.
     pub fn literal(&mut self, lit: &syn::Lit, span: proc_macro2::Span) -> Expr {
         let kind = match lit {
-            syn::Lit::Int(lit) if matches!(lit.suffix(), "f32") => self.float(lit.base10_digits(), span),
+            syn::Lit::Int(lit) if matches!(lit.suffix(), "f32") => self.float(lit.base10_digits(), true, span),
             syn::Lit::Int(lit) => {
                 let ty = match lit.suffix() {
                     "" => None,
@@ -268,10 +268,12 @@ impl Lower {
                     }
                 }
             }
-            syn::Lit::Float(lit) if matches!(lit.suffix(), "" | "f32") => self.float(lit.base10_digits(), span),
+            syn::Lit::Float(lit) if matches!(lit.suffix(), "" | "f32") => {
+                self.float(lit.base10_digits(), !lit.suffix().is_empty(), span)
+            }
             syn::Lit::Float(lit) => {
                 self.unsupported(span, &format!("the type `{}`", lit.suffix()), "use f32");
-                ExprKind::Float(0.0)
+                ExprKind::Float(0.0, true)
             }
             syn::Lit::Bool(lit) => ExprKind::Bool(lit.value),
             syn::Lit::Str(lit) => ExprKind::Str(lit.value()),
@@ -286,12 +288,12 @@ impl Lower {
         }
     }
 
-    fn float(&mut self, digits: &str, span: proc_macro2::Span) -> ExprKind {
+    fn float(&mut self, digits: &str, suffixed: bool, span: proc_macro2::Span) -> ExprKind {
         match digits.parse::<f32>() {
-            Ok(value) if value.is_finite() => ExprKind::Float(value),
+            Ok(value) if value.is_finite() => ExprKind::Float(value, suffixed),
             _ => {
                 self.unsupported(span, "a number beyond the range of f32", "keep it below 3.4e38");
-                ExprKind::Float(0.0)
+                ExprKind::Float(0.0, true)
             }
         }
     }

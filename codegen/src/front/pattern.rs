@@ -25,7 +25,7 @@ impl Lower {
                 Pattern::Array(p.elems.iter().map(|e| self.pattern(e)).collect(), self.span(p.span()))
             }
             syn::Pat::Paren(p) => self.pattern(&p.pat),
-            syn::Pat::Reference(p) => self.pattern(&p.pat),
+            syn::Pat::Reference(p) => Pattern::Ref(Box::new(self.pattern(&p.pat)), self.span(p.span())),
             syn::Pat::Or(p) => Pattern::Or(p.cases.iter().map(|c| self.pattern(c)).collect()),
             syn::Pat::Path(p) => {
                 let segments = self.segments(&p.path);

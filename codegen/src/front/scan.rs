@@ -73,6 +73,7 @@ fn bound<'b>(pattern: &'b Pattern, out: &mut Vec<&'b str>) {
         Pattern::Name(name, ..) => out.push(name),
         Pattern::Tuple(all, _) | Pattern::Array(all, _) | Pattern::Or(all) => all.iter().for_each(|p| bound(p, out)),
         Pattern::Struct(fields, _) => fields.iter().for_each(|(_, p)| bound(p, out)),
+        Pattern::Ref(inner, _) => bound(inner, out),
         Pattern::Wild | Pattern::Value(_) | Pattern::Range(..) => {}
     }
 }
@@ -219,6 +220,7 @@ fn in_pattern(pattern: &Pattern, out: &mut BTreeSet<String>) {
             all.iter().for_each(|p| in_pattern(p, out))
         }
         Pattern::Struct(fields, _) => fields.iter().for_each(|(_, p)| in_pattern(p, out)),
+        Pattern::Ref(inner, _) => in_pattern(inner, out),
         Pattern::Range(low, high) => {
             mentioned_in(low, out);
             mentioned_in(high, out);

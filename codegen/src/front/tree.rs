@@ -19,8 +19,8 @@ pub struct Expr {
 pub enum ExprKind {
     /// An integer literal, with its type: the suffix, or what inference finds.
     Int(i64, Option<IntType>),
-    /// A float literal.
-    Float(f32),
+    /// A float literal, and whether it says that it is an `f32`.
+    Float(f32, bool),
     /// `true` or `false`.
     Bool(bool),
     /// A string literal: the name in `tally`.
@@ -143,6 +143,8 @@ pub enum Pattern {
     Tuple(Vec<Pattern>, Span),
     /// `_`.
     Wild,
+    /// `&pattern`, `&mut pattern`.
+    Ref(Box<Pattern>, Span),
     /// A value to compare with: a variant, a constant or a literal.
     Value(Box<Expr>),
     /// `[a, b]`.

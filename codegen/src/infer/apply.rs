@@ -49,7 +49,7 @@ fn expr(e: &mut Expr, literals: &HashMap<Span, IntType>) {
     let go = |e: &mut Expr| expr(e, literals);
     match &mut e.kind {
         ExprKind::Int(_, known) => *known = known.or_else(|| literals.get(&e.span).copied()),
-        ExprKind::Float(_)
+        ExprKind::Float(..)
         | ExprKind::Bool(_)
         | ExprKind::Str(_)
         | ExprKind::Path(_)
@@ -118,6 +118,7 @@ fn pattern(p: &mut Pattern, literals: &HashMap<Span, IntType>) {
             parts.iter_mut().for_each(|part| pattern(part, literals));
         }
         Pattern::Struct(fields, _) => fields.iter_mut().for_each(|(_, part)| pattern(part, literals)),
+        Pattern::Ref(inner, _) => pattern(inner, literals),
         Pattern::Value(e) => expr(e, literals),
         Pattern::Range(low, high) => {
             expr(low, literals);

@@ -2,7 +2,7 @@
 
 use super::Checker;
 use super::types::{Kind, Ty};
-use crate::diagnostic::Span;
+use crate::diagnostic::{Diagnostic, Span};
 use crate::front::tree::{Expr, Function};
 use crate::ir::Scalar;
 
@@ -62,6 +62,15 @@ impl<'l> Checker<'l> {
         self.substituted(&function.result, &given, span)
     }
 
+    fn miscounted(&mut self, name: String, wanted: usize, given: usize, span: Span) {
+        let plural = if wanted == 1 { "" } else { "s" };
+        self.errors.push(
+            Diagnostic::at(span, format!("`{name}` takes {wanted} argument{plural}, not {given}"))
+                .label("called here")
+                .help("give one number for each component; a longer vector is made with `.extend(...)`"),
+        );
+    }
+
     /// Looks at arguments of which nothing is known.
     pub fn loose(&mut self, args: &'l [Expr]) {
         for arg in args {
@@ -89,6 +98,9 @@ impl<'l> Checker<'l> {
                 Ty::Matrix(n) => vec![Ty::Vector(Scalar::F32, *n); usize::from(*n)],
                 _ => Vec::new(),
             };
+            if args.len() != wanted.len() {
+                self.miscounted(path.join("::"), wanted.len(), args.len(), span);
+            }
             return self.takes(args, &wanted, ty);
         }
         if let [.., ty, name] = path

@@ -6,6 +6,9 @@ use crate::diagnostic::{Diagnostic, Span};
 use crate::front::tree::{Block, Expr, ExprKind, ForLoop, Statement, Type};
 use crate::ir::UnaryOp;
 
+/// Parts of a type after which it is not looked at further.
+const LARGEST: usize = 4096;
+
 impl<'l> Checker<'l> {
     /// Looks at an expression where a type is wanted.
     pub fn against(&mut self, expr: &'l Expr, wanted: &Ty) {
@@ -80,6 +83,9 @@ impl<'l> Checker<'l> {
             (wanted, Ty::Tuple(parts)) if parts.is_empty() && *wanted != Ty::UNIT => {
                 "does a semicolon end its last line?".to_owned()
             }
+            (wanted, Ty::Quad(lane)) if *wanted == **lane => {
+                "for a value in each lane take `pixel: Quad<IVec2>` and give a `Quad<Vec4>`".to_owned()
+            }
             _ => return None,
         })
     }
@@ -141,13 +147,14 @@ impl<'l> Checker<'l> {
                 self.integers.push((span, ty.clone(), *value));
                 ty
             }
-            ExprKind::Float(_) => {
+            ExprKind::Float(_, true) => Ty::Float,
+            ExprKind::Float(_, false) => {
                 let ty = self.table.fresh(Kind::Float);
                 self.floats.push((span, ty.clone()));
                 ty
             }
             ExprKind::Bool(_) => Ty::Bool,
-            ExprKind::Str(_) => Ty::Str,
+            ExprKind::Str(_) => Ty::Str.shared(),
             ExprKind::Path(_) | ExprKind::Field(..) | ExprKind::Index(..) | ExprKind::Deref(_) => self.place(expr).0,
             ExprKind::Unary(op, operand) => self.unary(*op, operand, wanted, span),
             ExprKind::Ref(true, operand) => {
@@ -219,7 +226,8 @@ impl<'l> Checker<'l> {
                     }
                     hint => self.expr(part, hint),
                 });
-                Ty::Tuple(types.collect())
+                let types = types.collect();
+                self.bounded(Ty::Tuple(types))
             }
             ExprKind::Array(parts) => {
                 let element = match wanted.map(|ty| self.table.shallow(ty)) {
@@ -227,7 +235,7 @@ impl<'l> Checker<'l> {
                     _ => self.table.fresh(Kind::Any),
                 };
                 parts.iter().for_each(|part| self.against(part, &element));
-                Ty::Array(Box::new(element))
+                self.bounded(Ty::Array(Box::new(element)))
             }
             ExprKind::Repeat(value, len) => {
                 let hint = match wanted.map(|ty| self.table.shallow(ty)) {
@@ -268,6 +276,11 @@ impl<'l> Checker<'l> {
                 Ty::UNIT
             }
         }
+    }
+
+    /// A type that is not too large to be looked at; the evaluator refuses values of so many parts.
+    fn bounded(&mut self, ty: Ty) -> Ty {
+        if self.table.size(&ty, LARGEST) > LARGEST { Ty::Unknown } else { ty }
     }
 
     /// The type of what is one of two values.
@@ -317,6 +330,7 @@ impl<'l> Checker<'l> {
     fn cast(&mut self, value: &'l Expr, ty: &'l Type, span: Span) -> Ty {
         let target = self.stated(ty, span);
         let found = self.expr(value, Some(&target));
+        self.observed.push(found.clone());
         // A literal under a cast is of that type, if it can be.
         if self.is_literal(value) {
             let kind = self.table.kind(&found);
@@ -354,7 +368,7 @@ impl<'l> Checker<'l> {
     /// Whether an expression is a literal, with signs before it or in brackets, which takes its type from the cast around it.
     fn is_literal(&self, expr: &Expr) -> bool {
         match &expr.kind {
-            ExprKind::Int(_, None) | ExprKind::Float(_) => true,
+            ExprKind::Int(_, None) | ExprKind::Float(_, false) => true,
             ExprKind::Unary(_, operand) => self.is_literal(operand),
             ExprKind::Block(block) => block.value.as_ref().is_some_and(|value| self.is_literal(value)),
             _ => false,

@@ -120,6 +120,8 @@ struct Checker<'l> {
     integers: Vec<(Span, Ty, i64)>,
     /// Float literals and their types.
     floats: Vec<(Span, Ty)>,
+    /// What is compared or cast: where a number that is an `f64` natively can be told from an `f32`.
+    observed: Vec<Ty>,
     /// What a minus sign stands before, and where the sign and its operand stand.
     negated: Vec<(Span, Ty, Span)>,
     /// Operators between two literals: where, which, and the literals with the type of the result.
@@ -138,6 +140,7 @@ impl<'l> Checker<'l> {
             result: Ty::UNIT,
             integers: Vec::new(),
             floats: Vec::new(),
+            observed: Vec::new(),
             negated: Vec::new(),
             computed: Vec::new(),
             deferred: Vec::new(),
@@ -237,11 +240,12 @@ impl<'l> Checker<'l> {
                 );
             }
         }
+        let observed: Vec<Ty> = self.observed.iter().map(|ty| self.table.shallow(ty)).collect();
         let mut named = Vec::new();
         for (span, ty) in std::mem::take(&mut self.floats) {
             // One error for all the literals that would be of the same type.
             let ty = self.table.shallow(&ty);
-            if self.table.kind(&ty) == Some(Kind::Float) && !named.contains(&ty) {
+            if self.table.kind(&ty) == Some(Kind::Float) && observed.contains(&ty) && !named.contains(&ty) {
                 named.push(ty);
                 self.errors.push(
                     Diagnostic::at(

@@ -159,6 +159,7 @@ impl<'l> Checker<'l> {
         if !self.table.unify(left, right) {
             return false;
         }
+        self.observed.push(left.clone());
         match self.peeled(left).0 {
             Ty::Vector(..) | Ty::Matrix(_) | Ty::Enum(_) | Ty::Struct(_) | Ty::Quad(_) => {
                 matches!(op, BinaryOp::Eq | BinaryOp::Ne)
@@ -193,6 +194,10 @@ impl<'l> Checker<'l> {
         };
         let mut error = Diagnostic::at(expr.span, message).label(label);
         let help = match (&left, &right) {
+            (Ty::Quad(_), _) | (_, Ty::Quad(_)) if op.is_comparison() => {
+                error = error.note("the lanes of a quad do not run in step where one goes to another side than the next");
+                Some("compare with `.gt(...)` and its like, and choose lane by lane with `select`".to_owned())
+            }
             (Ty::Ref(..), Ty::Ref(..)) => Some("read what they refer to: `*`".to_owned()),
             (Ty::Ref(..), _) | (_, Ty::Ref(..)) => Some("read what it refers to: `*`".to_owned()),
             (Ty::Vector(a, _), Ty::Vector(b, _)) if a != b => Some(format!(
@@ -200,7 +205,11 @@ impl<'l> Checker<'l> {
                 left.to_string().to_lowercase()
             )),
             (Ty::Vector(..), Ty::Vector(..)) if op.is_comparison() => Some("compare their components".to_owned()),
-            (Ty::Vector(kind, _), _) | (_, Ty::Vector(kind, _)) => {
+            (Ty::Matrix(_), Ty::Vector(Scalar::F32, _)) => Some("use `.truncate()` or `.extend(...)`".to_owned()),
+            (Ty::Float, _) if matches!(op, BinaryOp::And | BinaryOp::Or | BinaryOp::Xor | BinaryOp::Shl | BinaryOp::Shr) => {
+                Some("for the bits of a float use `to_bits()`".to_owned())
+            }
+            (Ty::Vector(kind, _), other) | (other, Ty::Vector(kind, _)) if self.is_number(other) => {
                 Some(format!("convert the number with `as {}`", Ty::scalar(*kind)))
             }
             (Ty::Float, other) if self.table.kind(other) == Some(Kind::Integer) => {

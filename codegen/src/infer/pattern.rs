@@ -10,13 +10,25 @@ impl<'l> Checker<'l> {
         if let Pattern::Name(name, mutable, span) = pattern {
             return self.declare(name, ty.clone(), *mutable, deferred, *span);
         }
+        if let Pattern::Ref(inner, span) = pattern {
+            let referred = match self.table.shallow(ty) {
+                Ty::Ref(_, referred) => *referred,
+                Ty::Unknown | Ty::Param(_) | Ty::Never => Ty::Unknown,
+                other => {
+                    let any = self.table.fresh(super::Kind::Any);
+                    self.coerce(&other, &any.clone().shared(), *span);
+                    any
+                }
+            };
+            return self.bind(inner, &referred, deferred);
+        }
         let (bare, reference) = self.peeled(ty);
         let through = |part: Ty| match reference {
             Some(mutable) => Ty::Ref(mutable, Box::new(part)),
             None => part,
         };
         match pattern {
-            Pattern::Name(..) | Pattern::Wild => {}
+            Pattern::Name(..) | Pattern::Wild | Pattern::Ref(..) => {}
             Pattern::Tuple(parts, span) => match &bare {
                 Ty::Tuple(types) if types.len() == parts.len() => {
                     for (part, ty) in parts.iter().zip(types) {

@@ -24,7 +24,7 @@ impl<'l> Checker<'l> {
     /// The type of an expression that may be a place, and whether that may be written.
     pub fn place(&mut self, expr: &'l Expr) -> (Ty, Access) {
         match &expr.kind {
-            ExprKind::Path(path) => self.path(path),
+            ExprKind::Path(path) => self.path(path, expr.span),
             ExprKind::Field(base, name) => {
                 let (base, access) = self.place(base);
                 let (bare, access) = self.inside(&base, access);
@@ -85,7 +85,7 @@ impl<'l> Checker<'l> {
     }
 
     /// A variable, a constant or a variant.
-    fn path(&mut self, path: &[String]) -> (Ty, Access) {
+    fn path(&mut self, path: &[String], span: Span) -> (Ty, Access) {
         if let [name] = path
             && let Some(local) = self.locals.iter().rev().find(|local| local.name == *name)
         {
@@ -107,7 +107,16 @@ impl<'l> Checker<'l> {
         if let Some(constant) = library.consts.get(&joined).or_else(|| library.consts.get(last)) {
             return (self.field_type(&constant.ty, constant.value.span), Access::Writable);
         }
-        (known_constant(path), Access::Writable)
+        let known = known_constant(path);
+        if let ([name], Ty::Unknown) = (path, &known) {
+            let names: Vec<&str> = self.locals.iter().map(|local| local.name.as_str()).collect();
+            self.errors.push(
+                Diagnostic::at(span, format!("cannot find `{name}`"))
+                    .label("not found")
+                    .help(crate::suggest::suggest(name, &names, "variables here are")),
+            );
+        }
+        (known, Access::Writable)
     }
 
     /// The type that another item states, whose errors are that item's.
@@ -119,6 +128,30 @@ impl<'l> Checker<'l> {
     }
 
     fn field(&mut self, base: &Ty, name: &str, span: Span) -> Ty {
+        let found = self.known_field(base, name, span);
+        let fields = match base {
+            Ty::Unknown | Ty::Var(_) | Ty::Param(_) | Ty::Never => return found,
+            Ty::Vector(_, lanes) => ["x", "y", "z", "w"][..usize::from(*lanes)].to_vec(),
+            Ty::Matrix(n) => ["x_axis", "y_axis", "z_axis", "w_axis"][..usize::from(*n)].to_vec(),
+            Ty::Struct(of) => match self.library.structs.get(of) {
+                Some(definition) => definition.fields.iter().map(|(field, ..)| field.as_str()).collect(),
+                None => return found,
+            },
+            Ty::Tuple(parts) if name.parse::<usize>().is_ok_and(|k| k < parts.len()) => return found,
+            _ => Vec::new(),
+        };
+        if !fields.contains(&name) {
+            let shown = self.table.deep(base);
+            let mut error = Diagnostic::at(span, format!("no field `{name}` on type `{shown}`")).label("unknown field");
+            if !fields.is_empty() {
+                error = error.help(crate::suggest::suggest(name, &fields, "it has"));
+            }
+            self.errors.push(error);
+        }
+        found
+    }
+
+    fn known_field(&mut self, base: &Ty, name: &str, span: Span) -> Ty {
         match base {
             Ty::Struct(of) => match self
                 .library

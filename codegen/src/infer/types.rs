@@ -19,7 +19,7 @@ pub enum Ty {
     Vector(Scalar, u8),
     /// `Mat2` to `Mat4`.
     Matrix(u8),
-    /// `&str`.
+    /// `str`.
     Str,
     /// `(A, B)`.
     Tuple(Vec<Ty>),
@@ -149,6 +149,18 @@ impl Table {
         }
     }
 
+    /// Number of parts of a type, counted up to `limit`.
+    pub fn size(&self, ty: &Ty, limit: usize) -> usize {
+        let mut sum = 1;
+        for part in self.shallow(ty).parts() {
+            if sum > limit {
+                break;
+            }
+            sum += self.size(part, limit - sum);
+        }
+        sum
+    }
+
     /// Makes two types one; false if they differ. Of what is not known, nothing is refused.
     pub fn unify(&mut self, a: &Ty, b: &Ty) -> bool {
         let (a, b) = (self.shallow(a), self.shallow(b));
@@ -237,7 +249,7 @@ impl fmt::Display for Ty {
                 write!(f, "{prefix}Vec{lanes}")
             }
             Ty::Matrix(n) => write!(f, "Mat{n}"),
-            Ty::Str => f.write_str("&str"),
+            Ty::Str => f.write_str("str"),
             Ty::Tuple(parts) => {
                 f.write_str("(")?;
                 for (k, part) in parts.iter().enumerate() {

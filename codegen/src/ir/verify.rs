@@ -99,7 +99,10 @@ fn check(graph: &Graph, id: NodeId) -> Result<(), String> {
                 .get(region.0 as usize)
                 .and_then(|r| r.params.get(*k as usize));
             expect(own == Some(&id), "no such parameter")?;
-            expect(*k > 0 || node.ty == Type::I32, "a counter is an i32")
+            expect(
+                *k > 0 || matches!(node.ty, Type::I32 | Type::U32),
+                "a counter is an i32 or a u32",
+            )
         }
         Op::Pixel | Op::FrameSize => {
             count(0)?;

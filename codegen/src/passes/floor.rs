@@ -341,7 +341,7 @@ mod tests {
     #[test]
     fn reads_that_wait_for_others_still_wait() {
         let (full, floor) = of(
-            "pub fn k(color: &Frame<Vec4>, far: &Texture<Vec2>, table: &Buffer<u32>, pixel: IVec2) -> Vec4 {\n    let here = color.load(pixel);\n    let there = far.load(here.truncate().truncate().as_ivec2());\n    let on = far.load(there.as_ivec2());\n    let entry = table.load(on.x as i32) as f32;\n    here * there.x + on.y * entry\n}\n",
+            "pub fn k(color: &Frame<Vec4>, far: &Texture<Vec2>, table: &Buffer<u32>, pixel: IVec2) -> Vec4 {\n    let here = color.load(pixel);\n    let there = far.load(here.truncate().truncate().as_ivec2());\n    let on = far.load(there.as_ivec2());\n    let entry = table.load(on.x as usize) as f32;\n    here * there.x + on.y * entry\n}\n",
         );
         assert_eq!(reads(&full).len(), 4);
         assert_eq!(reads(&floor).len(), 4);

@@ -7,9 +7,8 @@ use super::print::print;
 use super::real::Noisy;
 use glam::{UVec2, Vec4};
 use straightline_codegen::Stage;
-use straightline_codegen::emit::EmitError;
 use straightline_kernels::prelude::Frame;
-use straightline_study::execute::{Bench, ExecuteError, Inputs};
+use straightline_study::execute::{Bench, Inputs};
 
 /// Most that a sure pixel may be off, relative to its size (and to 1 below that).
 const TOLERANCE: f32 = 1.0e-3;
@@ -95,11 +94,6 @@ impl Gpu {
             let compiled = compile(&text, *form).map_err(|refusal| GpuFailure::Cpu(Failure::Refused(refusal)))?;
             let found = match self.bench.run(&compiled, Stage::Compute, &inputs(picture)) {
                 Ok(frame) => frame,
-                // What the kernel asks for that no shader has is its own fault, all else the emitter's.
-                Err(ExecuteError::Emit(EmitError::Constant { .. })) => {
-                    compared.refused += 1;
-                    continue;
-                }
                 Err(why) => return Err(GpuFailure::Broken(*form, why.to_string())),
             };
             let found = found.texels().iter().map(|t| t.to_array());

@@ -102,7 +102,7 @@ fn uniforms_and_buffers_are_rounded_once() {
     let text =
         "pub fn k(value: &Frame<Vec4>, weights: &Buffer<Vec2>, strength: f32, tint: Vec3, pixel: IVec2) -> Vec4 {
     let v = value.load(pixel);
-    let w = weights.load(pixel.x);
+    let w = weights.load(pixel.x as usize);
     (w * strength).extend(v.x + tint.y).extend(tint.z)
 }";
     let compiled = compile_text(text, &Settings::default());

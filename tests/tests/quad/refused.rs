@@ -65,7 +65,7 @@ pub fn rounds(image: &Frame<Vec4>, pixel: Quad<IVec2>) -> Quad<Vec4> {
 ";
     says(
         &error(text, "rounds", &Settings::default()),
-        &["do not run in step", "rounds"],
+        &["mismatched types", "found `Quad<i32>`"],
     );
 }
 

@@ -66,7 +66,12 @@ pub fn body(compiled: &Compiled, resources: &Resources, dialect: &dyn Dialect) -
     match attempt(compiled, resources, dialect, Webs::apart(graph)) {
         Ok(body) => Ok(body),
         Err(Failure::Error(error)) => Err(error),
-        Err(Failure::Stale(_)) => unreachable!("no version takes another's place where each has a variable of its own"),
+        // No version takes another's place where each has a variable of its own.
+        Err(Failure::Stale(_)) => Err(EmitError::Invalid {
+            kernel: compiled.kernel.clone(),
+            target: "shader",
+            message: "an array is read after it was overwritten".to_owned(),
+        }),
     }
 }
 

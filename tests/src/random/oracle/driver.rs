@@ -4,10 +4,9 @@ use super::{Native, Text, World};
 use crate::random::check::{FORMS, Form};
 use glam::{UVec2, Vec4};
 use std::fmt;
-use straightline_codegen::emit::EmitError;
 use straightline_codegen::{Kernel, Settings, Stage};
 use straightline_kernels::prelude::Frame;
-use straightline_study::execute::{Bench, ExecuteError, Inputs};
+use straightline_study::execute::{Bench, Inputs};
 
 /// A device to run kernels on.
 #[derive(Debug)]
@@ -102,10 +101,6 @@ impl Driver {
             };
             let picture = match self.bench.run(&compiled, Stage::Compute, &inputs) {
                 Ok(picture) => picture,
-                Err(ExecuteError::Emit(EmitError::Constant { .. })) => {
-                    total.refused += 1;
-                    continue;
-                }
                 Err(why) => return Err(Off::Broken(*form, why.to_string())),
             };
             let found = picture.texels().iter().map(|t| t.to_array());
