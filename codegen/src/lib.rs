@@ -23,8 +23,8 @@ pub mod ir;
 pub mod passes;
 mod pipeline;
 pub mod policy;
-mod suggest;
 mod shorten;
+mod suggest;
 
 pub use config::{Config, compile};
 pub use emit::EmitOptions;

@@ -1,7 +1,7 @@
 pub fn k(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
     let a = missing(1.0);
-    let b = color.load(pixel).round();
-    let c = [1.0, 2.0][2];
-    let d = a + b;
-    color.load(pixel) * c
+    let b: f32 = pixel.x;
+    let c = 2.0;
+    c += b;
+    color.load(pixel) * a
 }

@@ -84,9 +84,7 @@ impl Evaluator<'_> {
     /// Evaluates what is only looked at where a run-time condition holds.
     pub fn side(&mut self, span: Span, evaluate: impl FnOnce(&mut Self) -> Eval) -> Eval {
         let mark = self.scope.enter();
-        self.conditions += 1;
         let outcome = evaluate(self);
-        self.conditions -= 1;
         self.scope.leave(mark);
         match outcome {
             Err(Exit::Break(_) | Exit::Continue(_) | Exit::Return(_)) => Err(Diagnostic::at(

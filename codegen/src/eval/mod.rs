@@ -155,8 +155,6 @@ struct Evaluator<'a> {
     /// Reads made so far.
     sites: u32,
     steps: u64,
-    /// How many runtime conditions are around.
-    conditions: u32,
 }
 
 impl<'a> Evaluator<'a> {
@@ -177,7 +175,6 @@ impl<'a> Evaluator<'a> {
             consts: HashMap::new(),
             sites: 0,
             steps: 0,
-            conditions: 0,
         }
     }
 }

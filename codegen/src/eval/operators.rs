@@ -51,10 +51,6 @@ impl Evaluator<'_> {
             BinaryOp::Shl | BinaryOp::Shr => (self.node(left, span)?, self.shift_count(left, right, span)?),
             _ => self.same_type(left, right, span)?,
         };
-        let known = self.builder.graph().constant(a).is_some();
-        if known && matches!(op, BinaryOp::Div | BinaryOp::Rem) && self.conditions == 0 && self.is_zero(b) {
-            return Err(divided_by_zero(span));
-        }
         let ty = self.ty(a);
         let kind = ty.kind().unwrap_or(Scalar::Bool);
         let fits = match op {
@@ -124,13 +120,6 @@ impl Evaluator<'_> {
         let count = self.node(right, span)?;
         let count = self.convert(count, ty.kind().unwrap_or(Scalar::I32));
         Ok(self.splat(count, ty.lanes()))
-    }
-
-    /// Whether an integer is known to be 0 in a component.
-    fn is_zero(&self, id: NodeId) -> bool {
-        let ty = self.ty(id);
-        let known = self.builder.graph().constant(id).filter(|_| ty.is_integer());
-        known.is_some_and(|bits| bits[..usize::from(ty.lanes())].contains(&0))
     }
 
     /// An operation on known values of `usize`, which has 64 bits while it is known.

@@ -116,6 +116,9 @@ impl Lower {
         let condition = parts.next().unwrap_or_default();
         let known = predicate(condition.clone());
         let literal = condition.to_string() == "false";
+        if known.is_none() && parts.len() == 0 {
+            return self.undecided(attr.span(), &condition);
+        }
         for part in parts {
             let name = first_word(&part);
             let own = ["unroll", "branch", "select"].contains(&name.as_str());

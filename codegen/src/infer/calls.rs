@@ -133,7 +133,7 @@ impl<'l> Checker<'l> {
                 (None, _) => {}
             }
         }
-        self.prelude(path, args)
+        self.prelude(path, args, span)
     }
 
     /// A method called by its path: the receiver is the first argument.
@@ -148,7 +148,7 @@ impl<'l> Checker<'l> {
     }
 
     /// The functions of the prelude.
-    fn prelude(&mut self, path: &[&str], args: &'l [Expr]) -> Ty {
+    fn prelude(&mut self, path: &[&str], args: &'l [Expr], span: Span) -> Ty {
         let pair = |kind| Ty::Quad(Box::new(Ty::Vector(kind, 2)));
         match (path, args) {
             ([.., "Quad", "splat" | "from"], [value]) => Ty::Quad(Box::new(self.expr(value, None))),
@@ -191,10 +191,56 @@ impl<'l> Checker<'l> {
             }
             ([.., "uniform"], [value]) => self.expr(value, None),
             _ => {
+                if let [name] = path {
+                    self.no_function(name, span);
+                }
                 self.loose(args);
                 Ty::Unknown
             }
         }
+    }
+
+    /// Notes an error about a name that is called and is no function.
+    fn no_function(&mut self, name: &str, span: Span) {
+        const PRELUDE: [&str; 12] = [
+            "fract",
+            "inverse_sqrt",
+            "lane_position",
+            "mix",
+            "quad_select",
+            "quad_vector",
+            "round",
+            "saturate",
+            "sign",
+            "smoothstep",
+            "step",
+            "tally",
+        ];
+        if PRELUDE.contains(&name) {
+            // With other arguments; the evaluator says which it takes.
+            return;
+        }
+        let error = match self.locals.iter().rev().find(|local| local.name == name) {
+            Some(local) => Diagnostic::at(
+                span,
+                format!("expected function, found `{}`", self.table.deep(&local.ty)),
+            )
+            .label("not a function")
+            .other(local.span, format!("`{name}` is declared here")),
+            None => {
+                let mut known: Vec<&str> = self.library.functions.keys().map(String::as_str).collect();
+                known.extend(PRELUDE);
+                known.sort_unstable();
+                let close = known.iter().find(|known| crate::suggest::is_close(name, known));
+                Diagnostic::at(span, format!("cannot find function `{name}`"))
+                    .label("not found in the kernel's files")
+                    .help(match close {
+                        Some(close) => format!("did you mean `{close}`?"),
+                        None => "define it in one of the kernel's files, or use a function of the prelude".to_owned(),
+                    })
+            }
+        };
+        self.errors.push(error);
     }
 
     /// An argument that is a value, or one in each lane: `impl Into<Quad<T>>`.

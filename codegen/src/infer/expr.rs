@@ -119,7 +119,7 @@ impl<'l> Checker<'l> {
                     (None, stated) => stated.unwrap_or_else(|| self.table.fresh(Kind::Any)),
                 };
                 let leaves = self.table.shallow(&found) == Ty::Never;
-                self.bind(pattern, &found, init.is_none());
+                self.bind_whole(pattern, &found, init.is_none());
                 if leaves { Ty::Never } else { Ty::UNIT }
             }
             Statement::Expr(expr) => {
@@ -205,11 +205,12 @@ impl<'l> Checker<'l> {
                 let mut all = Ty::Never;
                 for arm in arms {
                     let mark = self.locals.len();
-                    self.bind(&arm.pattern, &subject, false);
+                    self.bind_whole(&arm.pattern, &subject, false);
                     let found = self.expr(&arm.body, wanted);
                     self.locals.truncate(mark);
                     all = self.joined(all, found, arm.body.span);
                 }
+                self.exhaustive(&subject, arms, span);
                 all
             }
             ExprKind::Block(block) => self.block(block, wanted),
@@ -280,7 +281,11 @@ impl<'l> Checker<'l> {
 
     /// A type that is not too large to be looked at; the evaluator refuses values of so many parts.
     fn bounded(&mut self, ty: Ty) -> Ty {
-        if self.table.size(&ty, LARGEST) > LARGEST { Ty::Unknown } else { ty }
+        if self.table.size(&ty, LARGEST) > LARGEST {
+            Ty::Unknown
+        } else {
+            ty
+        }
     }
 
     /// The type of what is one of two values.
@@ -412,7 +417,7 @@ impl<'l> Checker<'l> {
             _ => Ty::Unknown,
         };
         let mark = self.locals.len();
-        self.bind(&f.pattern, &item, false);
+        self.bind_whole(&f.pattern, &item, false);
         let found = self.block(&f.body, None);
         let at = f.body.value.as_ref().map_or(f.over.span, |value| value.span);
         self.coerce(&Ty::UNIT, &found, at);

@@ -90,6 +90,14 @@ impl<'l> Checker<'l> {
                 }
             }
             Ty::Array(_) if name == "len" => self.takes(args, &[], Ty::USIZE),
+            Ty::Array(_) if matches!(name, "enumerate" | "rev" | "copied" | "cloned" | "step_by") => {
+                self.errors.push(
+                    Diagnostic::at(span, format!("an array is no iterator: it has no method `{name}`"))
+                        .label("not an iterator")
+                        .help(format!("write `.iter().{name}(...)`")),
+                );
+                self.unknown_method(args)
+            }
             Ty::Range(item) | Ty::Iter(item) => match name {
                 "rev" => self.takes(args, &[], own),
                 "step_by" => self.takes(args, &[Ty::USIZE], own),

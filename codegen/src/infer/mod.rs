@@ -7,6 +7,7 @@
 
 mod apply;
 mod calls;
+mod exhaustive;
 mod expr;
 mod methods;
 mod operators;
@@ -158,7 +159,10 @@ impl<'l> Checker<'l> {
                 }
             }
         }
-        for param in &function.params {
+        for (k, param) in function.params.iter().enumerate() {
+            if function.params[..k].iter().any(|other| other.name == param.name) {
+                self.bound_twice(&param.name, param.span, "parameter list");
+            }
             let ty = self.stated(&param.ty, param.span);
             self.declare(&param.name, ty, param.mutable, false, param.span);
         }
@@ -167,6 +171,17 @@ impl<'l> Checker<'l> {
         let found = self.block(&function.body, Some(&wanted));
         let at = function.body.value.as_ref().map_or(function.span, |value| value.span);
         self.coerce(&wanted, &found, at);
+    }
+
+    fn bound_twice(&mut self, name: &str, span: Span, list: &str) {
+        self.errors.push(
+            Diagnostic::at(
+                span,
+                format!("identifier `{name}` is bound more than once in this {list}"),
+            )
+            .label("bound again")
+            .help("give it another name"),
+        );
     }
 
     fn constant(&mut self, constant: &'l Const) {
@@ -233,6 +248,14 @@ impl<'l> Checker<'l> {
             if let Ty::Int(kind) = self.table.shallow(&ty)
                 && operators::overflows(op, a, b, kind)
             {
+                if b == 0 && op != crate::ir::BinaryOp::Sub {
+                    self.errors.push(
+                        Diagnostic::at(span, "attempt to divide by zero")
+                            .label("the divisor is always 0")
+                            .help("divide only where the divisor is not 0: `if n != 0 { ... }`"),
+                    );
+                    continue;
+                }
                 self.errors.push(
                     Diagnostic::at(span, "this arithmetic operation will overflow")
                         .label(format!("beyond the range of `{}`", Ty::Int(kind)))

@@ -195,7 +195,8 @@ impl<'l> Checker<'l> {
         let mut error = Diagnostic::at(expr.span, message).label(label);
         let help = match (&left, &right) {
             (Ty::Quad(_), _) | (_, Ty::Quad(_)) if op.is_comparison() => {
-                error = error.note("the lanes of a quad do not run in step where one goes to another side than the next");
+                error =
+                    error.note("the lanes of a quad do not run in step where one goes to another side than the next");
                 Some("compare with `.gt(...)` and its like, and choose lane by lane with `select`".to_owned())
             }
             (Ty::Ref(..), Ty::Ref(..)) => Some("read what they refer to: `*`".to_owned()),
@@ -206,7 +207,12 @@ impl<'l> Checker<'l> {
             )),
             (Ty::Vector(..), Ty::Vector(..)) if op.is_comparison() => Some("compare their components".to_owned()),
             (Ty::Matrix(_), Ty::Vector(Scalar::F32, _)) => Some("use `.truncate()` or `.extend(...)`".to_owned()),
-            (Ty::Float, _) if matches!(op, BinaryOp::And | BinaryOp::Or | BinaryOp::Xor | BinaryOp::Shl | BinaryOp::Shr) => {
+            (Ty::Float, _)
+                if matches!(
+                    op,
+                    BinaryOp::And | BinaryOp::Or | BinaryOp::Xor | BinaryOp::Shl | BinaryOp::Shr
+                ) =>
+            {
                 Some("for the bits of a float use `to_bits()`".to_owned())
             }
             (Ty::Vector(kind, _), other) | (other, Ty::Vector(kind, _)) if self.is_number(other) => {
@@ -239,9 +245,10 @@ pub fn literal(expr: &Expr) -> Option<i64> {
     }
 }
 
-/// Whether an operation on literals leaves the range of its type, which rustc refuses.
+/// Whether an operation on literals leaves the range of its type or divides by zero, which rustc refuses.
 pub fn overflows(op: BinaryOp, a: i64, b: i64, kind: IntType) -> bool {
     let result = match op {
+        BinaryOp::Div | BinaryOp::Rem => return b == 0,
         BinaryOp::Add => a.checked_add(b),
         BinaryOp::Sub => a.checked_sub(b),
         BinaryOp::Mul => a.checked_mul(b),

@@ -5,8 +5,21 @@ use super::types::Ty;
 use crate::front::tree::{ExprKind, Pattern};
 
 impl<'l> Checker<'l> {
+    /// Binds the names of a whole pattern, each of which it may have once.
+    pub fn bind_whole(&mut self, pattern: &'l Pattern, ty: &Ty, deferred: bool) {
+        let mark = self.locals.len();
+        self.bind(pattern, ty, deferred);
+        for k in mark..self.locals.len() {
+            let local = &self.locals[k];
+            if self.locals[mark..k].iter().any(|other| other.name == local.name) {
+                let (name, span) = (local.name.clone(), local.span);
+                self.bound_twice(&name, span, "pattern");
+            }
+        }
+    }
+
     /// Binds the names of a pattern to the parts of a value of a type. What a reference is taken apart into are references.
-    pub fn bind(&mut self, pattern: &'l Pattern, ty: &Ty, deferred: bool) {
+    fn bind(&mut self, pattern: &'l Pattern, ty: &Ty, deferred: bool) {
         if let Pattern::Name(name, mutable, span) = pattern {
             return self.declare(name, ty.clone(), *mutable, deferred, *span);
         }

@@ -130,7 +130,8 @@ impl<'l> Checker<'l> {
     fn field(&mut self, base: &Ty, name: &str, span: Span) -> Ty {
         let found = self.known_field(base, name, span);
         let fields = match base {
-            Ty::Unknown | Ty::Var(_) | Ty::Param(_) | Ty::Never => return found,
+            Ty::Var(_) if self.table.kind(base) == Some(Kind::Any) => return found,
+            Ty::Unknown | Ty::Param(_) | Ty::Never => return found,
             Ty::Vector(_, lanes) => ["x", "y", "z", "w"][..usize::from(*lanes)].to_vec(),
             Ty::Matrix(n) => ["x_axis", "y_axis", "z_axis", "w_axis"][..usize::from(*n)].to_vec(),
             Ty::Struct(of) => match self.library.structs.get(of) {
@@ -141,8 +142,11 @@ impl<'l> Checker<'l> {
             _ => Vec::new(),
         };
         if !fields.contains(&name) {
-            let shown = self.table.deep(base);
-            let mut error = Diagnostic::at(span, format!("no field `{name}` on type `{shown}`")).label("unknown field");
+            let shown = match self.table.kind(base) {
+                Some(_) => "a number".to_owned(),
+                None => format!("type `{}`", self.table.deep(base)),
+            };
+            let mut error = Diagnostic::at(span, format!("no field `{name}` on {shown}")).label("unknown field");
             if !fields.is_empty() {
                 error = error.help(crate::suggest::suggest(name, &fields, "it has"));
             }

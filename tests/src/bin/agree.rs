@@ -102,7 +102,9 @@ fn main() -> ExitCode {
     }
     // What panicked and where is part of the report.
     std::panic::set_hook(Box::new(|_| {}));
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(options.threads).build_global();
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(options.threads)
+        .build_global();
     if let Err(why) = pool {
         eprintln!("{why}");
         return ExitCode::FAILURE;
@@ -152,12 +154,18 @@ fn against_rustc(options: &Options) -> Result<(), String> {
                 let small = reduce(&rustc, &failure);
                 return Err(format!("{}\nworld {}: {}", small.text, small.world, small.difference));
             }
-            println!("seed {}, world {}: {}", failure.text.seed, failure.world, failure.difference);
+            println!(
+                "seed {}, world {}: {}",
+                failure.text.seed, failure.world, failure.difference
+            );
             *failures.lock().expect("no thread panics with it") += 1;
         }
         Ok(())
     })?;
-    let (total, failures) = (total.into_inner().expect("no thread panicked"), failures.into_inner().expect("no thread panicked"));
+    let (total, failures) = (
+        total.into_inner().expect("no thread panicked"),
+        failures.into_inner().expect("no thread panicked"),
+    );
     for (what, reasons) in [("refused", &total.refused), ("not Rust", &total.unusable)] {
         let mut reasons: Vec<_> = reasons.iter().collect();
         reasons.sort_by_key(|(_, reason)| std::cmp::Reverse(reason.kernels));
@@ -242,7 +250,9 @@ fn on_driver(options: &Options) -> Result<(), String> {
     let end = options.seed + options.gpu;
     let (mut total, mut failures) = (Compared::default(), 0);
     for start in (options.seed..end).step_by(options.batch as usize) {
-        let texts: Vec<_> = (start..(start + options.batch).min(end)).map(|seed| make(seed, features)).collect();
+        let texts: Vec<_> = (start..(start + options.batch).min(end))
+            .map(|seed| make(seed, features))
+            .collect();
         let world = World::new(start);
         for (text, native) in texts.iter().zip(oracle::run(&rustc, &texts, &world)?) {
             let Ok(native) = native else { continue };
@@ -254,7 +264,11 @@ fn on_driver(options: &Options) -> Result<(), String> {
                 failures += 1;
             }
         }
-        eprintln!("{} kernels on the driver, {:.1} s", total.kernels, begin.elapsed().as_secs_f64());
+        eprintln!(
+            "{} kernels on the driver, {:.1} s",
+            total.kernels,
+            begin.elapsed().as_secs_f64()
+        );
     }
     println!(
         "{} kernels agree with rustc on {} in {:.1} s: {} pixels compared, {} not sure, {} forms refused",
@@ -292,7 +306,10 @@ fn mistakes(options: &Options) -> Result<(), String> {
         }
         for case in lenient {
             if !options.keep_going {
-                return Err(format!("{}\nrustc: {}\nchanged line: {}", case.text, case.error, case.line));
+                return Err(format!(
+                    "{}\nrustc: {}\nchanged line: {}",
+                    case.text, case.error, case.line
+                ));
             }
             println!("seed {}: `{}`: {}", case.text.seed, case.line, case.error);
             failures += 1;

@@ -188,10 +188,33 @@ pub fn method<R: Real>(method: Method, args: &[Value<R>], ty: &Ty) -> Option<Val
             let lanes: Option<Vec<_>> = (0..x.lanes() as usize)
                 .map(|k| {
                     let each: Option<Vec<_>> = args.iter().map(|arg| arg.lane(k)).collect();
-                    self::method(method, &each?, ty)
+                    match method {
+                        Min | Max => component(method, &each?),
+                        Clamp => {
+                            let each = each?;
+                            let above = component(Max, &each[..2])?;
+                            component(Min, &[above, each[2].clone()])
+                        }
+                        _ => self::method(method, &each?, ty),
+                    }
                 })
                 .collect();
             Value::gather(&lanes?)
+        }
+        // Rust's own keeps a NaN; glam's, of vectors, does not.
+        _ if method == Method::Clamp && matches!(&args[0], Value::F32(x) if x.value().is_nan()) => {
+            Some(args[0].clone())
+        }
+        _ => scalar(method, args),
+    }
+}
+
+/// The smaller or larger of two components, as glam chooses: the second where neither is.
+fn component<R: Real>(method: Method, args: &[Value<R>]) -> Option<Value<R>> {
+    match args {
+        [Value::F32(a), Value::F32(b)] => {
+            let op = if method == Method::Max { Binary::Gt } else { Binary::Lt };
+            Some(Value::F32(if R::compares(op, *a, *b) { *a } else { *b }))
         }
         _ => scalar(method, args),
     }
@@ -206,8 +229,8 @@ fn scalar<R: Real>(method: Method, args: &[Value<R>]) -> Option<Value<R>> {
         (Min, [Value::U32(a), Value::U32(b)]) => Value::U32(*a.min(b)),
         (Max, [Value::U32(a), Value::U32(b)]) => Value::U32(*a.max(b)),
         (Clamp, [x, low, high]) => {
-            let below = scalar(Min, &[x.clone(), high.clone()])?;
-            scalar(Max, &[below, low.clone()])?
+            let above = scalar(Max, &[x.clone(), low.clone()])?;
+            scalar(Min, &[above, high.clone()])?
         }
         (Abs, [Value::I32(n)]) => Value::I32(n.wrapping_abs()),
         (Abs | Floor | Ceil | Trunc | RoundTiesEven | Sqrt | Exp2 | Recip, [Value::F32(x)]) => {

@@ -199,8 +199,8 @@ impl Printer {
         match &e.kind {
             Kind::Float(x) if x.is_sign_negative() => format!("({x:?}f32)"),
             Kind::Float(x) => format!("{x:?}f32"),
-            Kind::Int(n) if *n < 0 => format!("({n})"),
-            Kind::Int(n) => n.to_string(),
+            Kind::Int(n) if *n < 0 => format!("({n}i32)"),
+            Kind::Int(n) => format!("{n}i32"),
             Kind::Uint(n) => format!("{n}u32"),
             Kind::Bool(b) => b.to_string(),
             Kind::Var(var) => name(var.name),
@@ -211,6 +211,15 @@ impl Printer {
             Kind::Unary(op, x) => {
                 let sign = if *op == Unary::Neg { "-" } else { "!" };
                 format!("({sign}{})", self.nested(x))
+            }
+            // What rustc sees to overflow it refuses: between two literals the first stands in a block.
+            Kind::Binary(op, x, y)
+                if matches!(
+                    (&x.kind, &y.kind),
+                    (Kind::Int(_) | Kind::Uint(_), Kind::Int(_) | Kind::Uint(_))
+                ) =>
+            {
+                format!("({{ {} }} {} {})", self.nested(x), operator(*op), self.nested(y))
             }
             Kind::Binary(op, x, y) => format!("({} {} {})", self.nested(x), operator(*op), self.nested(y)),
             Kind::Method(method, args) => self.method(*method, args, &e.ty),
@@ -263,11 +272,7 @@ impl Printer {
             Method::Len => return format!("({}.len() as i32)", self.nested(&args[0])),
             other => method_name(other).to_owned(),
         };
-        let receiver = match &args[0].kind {
-            Kind::Int(n) if *n < 0 => format!("({n}i32)"),
-            Kind::Int(n) => format!("{n}i32"),
-            _ => self.nested(&args[0]),
-        };
+        let receiver = self.nested(&args[0]);
         format!("{receiver}.{name}({})", self.list(&args[1..]))
     }
 }

@@ -42,7 +42,9 @@ impl Maker {
     /// A receiver of a method: rustc must know its type from itself.
     pub(super) fn receiver(&mut self, ty: &Ty, want: Want) -> String {
         let text = self.expr(ty, want.inferred(false));
-        if text.starts_with('(') || text.chars().all(|c| c.is_alphanumeric() || c == '_') && !text.starts_with(|c: char| c.is_ascii_digit()) {
+        if text.starts_with('(')
+            || text.chars().all(|c| c.is_alphanumeric() || c == '_') && !text.starts_with(|c: char| c.is_ascii_digit())
+        {
             text
         } else {
             format!("({text})")
@@ -122,11 +124,21 @@ impl Maker {
         let text = match self.random.below(10) {
             0 => "0.0".to_owned(),
             1 => "1.0".to_owned(),
-            2 if self.on(Feature::Coarse) => self.random.pick(&["0.1", "3.3", "1e-3", "12345.678", "0.7f32"]).to_owned(),
-            3 => self.random.pick(&["0.5", "2.0", "4.0f32", "1_0.25", "3f32", "5."]).to_owned(),
+            2 if self.on(Feature::Coarse) => self
+                .random
+                .pick(&["0.1", "3.3", "1e-3", "12345.678", "0.7f32"])
+                .to_owned(),
+            3 => self
+                .random
+                .pick(&["0.5", "2.0", "4.0f32", "1_0.25", "3f32", "5."])
+                .to_owned(),
             _ => format!("{:?}", self.random.between(1, 64) as f32 / 16.0),
         };
-        if self.random.once_in(4) { format!("(-{text})") } else { text }
+        if self.random.once_in(4) {
+            format!("(-{text})")
+        } else {
+            text
+        }
     }
 
     /// A float literal whose type is written, which a method can be called of.
@@ -158,7 +170,11 @@ impl Maker {
                 let name = self.random.pick(&["sqrt", "recip", "to_radians", "to_degrees"]);
                 format!("({}.abs() + 0.25).{name}()", self.float_receiver(d))
             }
-            16 => format!("{}.clamp(-3.0, 3.0).powi({})", self.float_receiver(d), self.random.between(1, 3)),
+            16 => format!(
+                "{}.clamp(-3.0, 3.0).powi({})",
+                self.float_receiver(d),
+                self.random.between(1, 3)
+            ),
             17 => {
                 let from = self.random.pick(&[Ty::I32, Ty::U32, Ty::Usize]);
                 let e = self.expr(&from, d.inferred(false));
@@ -273,6 +289,13 @@ impl Maker {
                 let low = self.random.between(0, 3);
                 match ty {
                     Ty::I32 => format!("(-{low}..9).contains(&({e}))"),
+                    Ty::U32 if self.random.once_in(3) => {
+                        format!(
+                            "({}_u32.is_multiple_of({}))",
+                            self.random.between(0, 9),
+                            self.random.between(1, 4)
+                        )
+                    }
                     _ => format!("({low}..9).contains(&({e} & 15))"),
                 }
             }
@@ -410,7 +433,11 @@ impl Maker {
                     .iter()
                     .map(|(name, ty)| {
                         let value = self.expr(ty, d.inferred(true));
-                        if structure.tuple { value } else { format!("{name}: {value}") }
+                        if structure.tuple {
+                            value
+                        } else {
+                            format!("{name}: {value}")
+                        }
                     })
                     .collect();
                 match structure.tuple {
@@ -481,7 +508,9 @@ impl Maker {
                 _ => match self.receiver_of(ty) {
                     Some(text) => {
                         let name = text.trim_start_matches(['(', '*']);
-                        let end = name.find(|c: char| !c.is_alphanumeric() && c != '_').unwrap_or(name.len());
+                        let end = name
+                            .find(|c: char| !c.is_alphanumeric() && c != '_')
+                            .unwrap_or(name.len());
                         let root = name[..end].to_owned();
                         if signature.params.iter().any(|p| p.hold == Hold::Mutable)
                             && self.visible().iter().any(|l| l.name == root)

@@ -82,6 +82,8 @@ impl Features {
 
     /// The feature of a name, as `{:?}` prints it.
     pub fn named(name: &str) -> Option<Feature> {
-        ALL.iter().copied().find(|f| format!("{f:?}").eq_ignore_ascii_case(name))
+        ALL.iter()
+            .copied()
+            .find(|f| format!("{f:?}").eq_ignore_ascii_case(name))
     }
 }

@@ -33,9 +33,13 @@ impl Maker {
             return "u32::MAX".to_owned();
         }
         let n = match (ty, self.random.below(8)) {
-            (Ty::I32, 0) => self.random.pick(&[1000, -1000, 0x7fff_ffff, -0x8000_0000, 65_537, -12_345]),
+            (Ty::I32, 0) => self
+                .random
+                .pick(&[1000, -1000, 0x7fff_ffff, -0x8000_0000, 65_537, -12_345]),
             (Ty::I32, 1..=3) => self.random.between(-9, -1),
-            (Ty::U32, 0..=1) => self.random.pick(&[0x9e37_79b9, 0xffff_ffff, 0x8000_0000, 1_000_000_007, 4096]),
+            (Ty::U32, 0..=1) => self
+                .random
+                .pick(&[0x9e37_79b9, 0xffff_ffff, 0x8000_0000, 1_000_000_007, 4096]),
             _ => self.random.between(0, 7),
         };
         self.int_text(ty, n, inferred)
@@ -118,7 +122,13 @@ impl Maker {
             20 => {
                 let a = self.receiver(ty, own);
                 match (signed, self.random.below(7)) {
-                    (true, 0..=1) => format!("{a}.abs()"),
+                    (true, 0) => format!("{a}.abs()"),
+                    // Of constants alone.
+                    (true, 1) => format!(
+                        "({}_i32).div_euclid({})",
+                        self.random.between(-9, 9),
+                        self.random.between(1, 4)
+                    ),
                     (true, 2) => format!("{a}.signum()"),
                     (true, 3) => format!("{a}.rem_euclid({})", self.random.between(1, 9)),
                     (true, _) => format!("{a}.wrapping_neg()"),
@@ -167,10 +177,8 @@ impl Maker {
                 }
             }
             30 if want.known && !signed => {
-{
-                    let seven = self.int_text(&Ty::Usize, 7, false);
-                    format!("({seven}.div_ceil({}) as u32)", self.random.between(1, 4))
-                }
+                let seven = self.int_text(&Ty::Usize, 7, false);
+                format!("({seven}.div_ceil({}) as u32)", self.random.between(1, 4))
             }
             _ => self.leaf(ty, want),
         }
@@ -193,7 +201,11 @@ impl Maker {
             }
             3 => {
                 let a = self.receiver(&Ty::Usize, own);
-                format!("{a}.{}({})", self.random.pick(&["min", "max"]), self.random.between(0, 4))
+                format!(
+                    "{a}.{}({})",
+                    self.random.pick(&["min", "max"]),
+                    self.random.between(0, 4)
+                )
             }
             4..=5 => format!("(({} & 15) as usize)", self.expr(&Ty::U32, own)),
             6 => format!("({}.rem_euclid(7) as usize)", self.receiver(&Ty::I32, own)),

@@ -151,7 +151,8 @@ impl Maker {
             let value = self.leaf(&Ty::Struct(k), want);
             self.enumerations = enumerations;
             self.line(format!("const {constant}: Self = {value};"));
-            self.constants.push((format!("{name}::{constant}"), Ty::Struct(k), None));
+            self.constants
+                .push((format!("{name}::{constant}"), Ty::Struct(k), None));
         }
         if self.random.once_in(2) {
             let function = self.fresh("make");
@@ -165,7 +166,11 @@ impl Maker {
             let value = if self.structures[k].tuple {
                 format!("{name}({})", values.join(", "))
             } else {
-                let pairs: Vec<String> = fields.iter().zip(&values).map(|((f, _), v)| format!("{f}: {v}")).collect();
+                let pairs: Vec<String> = fields
+                    .iter()
+                    .zip(&values)
+                    .map(|((f, _), v)| format!("{f}: {v}"))
+                    .collect();
                 format!("Self {{ {} }}", pairs.join(", "))
             };
             self.line(format!("fn {function}({}) -> Self {{ {value} }}", params.join(", ")));
@@ -210,7 +215,11 @@ impl Maker {
                 self.int_text(ty, n, true)
             }
         };
-        let value = if self.on(Feature::Inferred) { value } else { value.replace("[1,", "[1u32,").replace("22, 333", "22u32, 333u32") };
+        let value = if self.on(Feature::Inferred) {
+            value
+        } else {
+            value.replace("[1,", "[1u32,").replace("22, 333", "22u32, 333u32")
+        };
         let text = format!("fn {name}() -> {} {{ {value} }}", self.ty(&ty));
         self.line(text);
         self.signatures.push(Signature {
@@ -258,7 +267,15 @@ impl Maker {
         }
         if signature.inputs {
             all.extend(
-                ["a: &Frame<Vec4>", "b: &Buffer<f32>", "p: i32", "q: u32", "r: f32", "pixel: IVec2"].map(str::to_owned),
+                [
+                    "a: &Frame<Vec4>",
+                    "b: &Buffer<f32>",
+                    "p: i32",
+                    "q: u32",
+                    "r: f32",
+                    "pixel: IVec2",
+                ]
+                .map(str::to_owned),
             );
         }
         for param in &signature.params {
@@ -269,7 +286,10 @@ impl Maker {
             };
             all.push(format!("{}: {sign}{}", param.name, self.ty(&param.ty)));
         }
-        let result = signature.result.as_ref().map_or(String::new(), |ty| format!(" -> {}", self.ty(ty)));
+        let result = signature
+            .result
+            .as_ref()
+            .map_or(String::new(), |ty| format!(" -> {}", self.ty(ty)));
         format!("fn {}({}){result} {{", signature.name, all.join(", "))
     }
 
@@ -362,7 +382,11 @@ impl Maker {
         self.line("if n0 == 0 {");
         self.line("    return n1;");
         self.line("}");
-        let by = if result == Ty::F32 { "n1 * 0.5 + n0 as f32" } else { "n1 * 3 + n0 as u32" };
+        let by = if result == Ty::F32 {
+            "n1 * 0.5 + n0 as f32"
+        } else {
+            "n1 * 3 + n0 as u32"
+        };
         self.line(format!("{name}(n0 - 1, {by})"));
         self.close("}");
         let param = |name: &str, ty: &Ty, known| Param {
@@ -479,7 +503,12 @@ impl Maker {
         };
         self.enter(&kernel, BUDGET);
         if self.options {
-            for (field, ty) in [("one", Ty::I32), ("two", Ty::U32), ("amount", Ty::F32), ("whether", Ty::Bool)] {
+            for (field, ty) in [
+                ("one", Ty::I32),
+                ("two", Ty::U32),
+                ("amount", Ty::F32),
+                ("whether", Ty::Bool),
+            ] {
                 let name = self.name();
                 self.line(format!("let {name} = cfg.{field};"));
                 self.bind(&name, &ty, false);

@@ -9,7 +9,9 @@ const ITERATIONS: u32 = 40;
 impl Maker {
     fn attribute(&mut self) {
         if self.chance(Feature::Attributes, 5) {
-            let word = self.random.pick(&["unroll(none)", "unroll(full)", "unroll(2)", "unroll(4)"]);
+            let word = self
+                .random
+                .pick(&["unroll(none)", "unroll(full)", "unroll(2)", "unroll(4)"]);
             self.line(format!("#[cfg_attr(false, {word})]"));
         }
     }
@@ -62,13 +64,21 @@ impl Maker {
         if inclusive && high - low == most {
             high -= 1;
         }
-        let step = if self.random.once_in(4) { self.random.between(1, 3) } else { 1 };
+        let step = if self.random.once_in(4) {
+            self.random.between(1, 3)
+        } else {
+            1
+        };
         if self.chance(Feature::Edges, 25) && ty != Ty::Usize {
             return self.for_edge(&ty);
         }
         // The bound may be a constant, a counter around, or a function's literal.
         let from_range = |l: &super::Local| {
-            l.known && l.ty == ty && l.hold == Hold::Value && l.range.is_some_and(|(a, b)| a >= low && b <= low + most && b - a <= most)
+            l.known
+                && l.ty == ty
+                && l.hold == Hold::Value
+                && l.range
+                    .is_some_and(|(a, b)| a >= low && b <= low + most && b - a <= most)
         };
         let mut bounds: Vec<(String, (i64, i64))> = self
             .visible()
@@ -217,7 +227,11 @@ impl Maker {
             0 if by_value => (format!("for {name} in {path}"), Hold::Value, None),
             1 => {
                 let k = self.fresh("k");
-                (format!("for ({k}, {name}) in {path}.iter().enumerate()"), Hold::Shared, Some(k))
+                (
+                    format!("for ({k}, {name}) in {path}.iter().enumerate()"),
+                    Hold::Shared,
+                    Some(k),
+                )
             }
             2 => (format!("for {name} in {path}.iter().rev()"), Hold::Shared, None),
             3 if self.copies(&of) => (format!("for &{name} in {path}.iter()"), Hold::Value, None),
@@ -269,7 +283,11 @@ impl Maker {
         };
         let dynamic = self.dynamic;
         let endless = self.random.once_in(3);
-        let head = if endless { "loop".to_owned() } else { format!("while {name} < {end}") };
+        let head = if endless {
+            "loop".to_owned()
+        } else {
+            format!("while {name} < {end}")
+        };
         let prefix = label.as_ref().map_or(String::new(), |l| format!("{l}: "));
         self.open(format!("{prefix}{head} {{"));
         if endless {

@@ -188,9 +188,20 @@ impl Maker {
     /// A variable's name: often one that is taken, for shadowing.
     fn name(&mut self) -> String {
         if self.random.once_in(4) {
-            let frozen = |l: &&Local| l.hold == Hold::Value && !l.counter && !l.frozen && l.name != "self" && l.name != "acc" && l.name.len() < 4;
+            let frozen = |l: &&Local| {
+                l.hold == Hold::Value
+                    && !l.counter
+                    && !l.frozen
+                    && l.name != "self"
+                    && l.name != "acc"
+                    && l.name.len() < 4
+            };
             let taken: Vec<String> = self.locals.iter().filter(frozen).map(|l| l.name.clone()).collect();
-            let shielded = |name: &String| self.locals.iter().any(|l| l.name == *name && (l.frozen || l.counter || l.hold != Hold::Value));
+            let shielded = |name: &String| {
+                self.locals
+                    .iter()
+                    .any(|l| l.name == *name && (l.frozen || l.counter || l.hold != Hold::Value))
+            };
             let taken: Vec<String> = taken.into_iter().filter(|name| !shielded(name)).collect();
             if !taken.is_empty() {
                 return self.random.pick(&taken);

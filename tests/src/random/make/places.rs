@@ -41,7 +41,11 @@ impl Maker {
                 parts.extend(fields.iter().map(|(name, ty)| (format!("{text}.{name}"), ty.clone())));
             }
             Ty::Tuple(all) => {
-                parts.extend(all.iter().enumerate().map(|(k, ty)| (format!("{text}.{k}"), ty.clone())));
+                parts.extend(
+                    all.iter()
+                        .enumerate()
+                        .map(|(k, ty)| (format!("{text}.{k}"), ty.clone())),
+                );
             }
             Ty::Array(of, len) => parts.extend((0..*len).map(|k| (format!("{text}[{k}]"), (**of).clone()))),
             Ty::Vec(_, n) => {
@@ -147,7 +151,11 @@ impl Maker {
             if !writes || local.counter || local.known {
                 continue;
             }
-            found.extend(self.parts_of(&local).into_iter().filter(|p| ty.is_none_or(|ty| p.ty == *ty)));
+            found.extend(
+                self.parts_of(&local)
+                    .into_iter()
+                    .filter(|p| ty.is_none_or(|ty| p.ty == *ty)),
+            );
         }
         if found.is_empty() {
             return None;

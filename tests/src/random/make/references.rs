@@ -10,7 +10,12 @@ impl Maker {
             return;
         };
         let places: Vec<_> = {
-            let hidden: Vec<String> = self.visible().into_iter().map(|l| l.name).filter(|n| n != name).collect();
+            let hidden: Vec<String> = self
+                .visible()
+                .into_iter()
+                .map(|l| l.name)
+                .filter(|n| n != name)
+                .collect();
             for other in &hidden {
                 self.freeze(other, true);
             }

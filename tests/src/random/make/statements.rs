@@ -66,8 +66,16 @@ impl Maker {
             let word = self.random.pick(&["branch", "select"]);
             self.line(format!("#[cfg_attr(false, {word})]"));
         }
-        let value = if attribute { value[1..value.len() - 1].to_owned() } else { value };
-        let written = if written { format!(": {}", self.ty(&ty)) } else { String::new() };
+        let value = if attribute {
+            value[1..value.len() - 1].to_owned()
+        } else {
+            value
+        };
+        let written = if written {
+            format!(": {}", self.ty(&ty))
+        } else {
+            String::new()
+        };
         self.line(format!("let {sign}{name}{written} = {value};"));
         self.bind(&name, &ty, mutable);
     }
@@ -129,11 +137,14 @@ impl Maker {
             }
             _ => {
                 self.line(format!("let mut {name} = {value};"));
-                let by = self.expr(&ty, Want {
-                    depth: 1,
-                    known: false,
-                    inferred: false,
-                });
+                let by = self.expr(
+                    &ty,
+                    Want {
+                        depth: 1,
+                        known: false,
+                        inferred: false,
+                    },
+                );
                 if ty == Ty::Usize {
                     self.line(format!("{name} = {name} % 9 + {by} % 9;"));
                 } else {
@@ -197,7 +208,11 @@ impl Maker {
             if blocked {
                 self.freeze(root, false);
             }
-            let value = if *ty == Ty::Usize { format!("({value} % 9)") } else { value };
+            let value = if *ty == Ty::Usize {
+                format!("({value} % 9)")
+            } else {
+                value
+            };
             return self.line(format!("{place} {op}= {value};"));
         }
         let value = self.with_effects(|m| m.expr(ty, want));
@@ -345,7 +360,10 @@ impl Maker {
                 let value = self.expr(&Ty::Struct(k), want);
                 let (field, ty) = self.random.pick(&structure.fields);
                 let name = self.fresh("v");
-                self.line(format!("let {} {{ {field}: mut {name}, .. }} = {value};", structure.name));
+                self.line(format!(
+                    "let {} {{ {field}: mut {name}, .. }} = {value};",
+                    structure.name
+                ));
                 self.bind(&name, &ty, true);
             }
             2 => {
@@ -389,7 +407,13 @@ impl Maker {
         if let Some((ty, Hold::Mutable)) = &signature.receiver {
             needed.push(ty.clone());
         }
-        needed.extend(signature.params.iter().filter(|p| p.hold == Hold::Mutable).map(|p| p.ty.clone()));
+        needed.extend(
+            signature
+                .params
+                .iter()
+                .filter(|p| p.hold == Hold::Mutable)
+                .map(|p| p.ty.clone()),
+        );
         for ty in needed {
             if self.random.once_in(2) || self.writable(Some(&ty)).is_none() {
                 let value = self.expr(&ty, want.inferred(true));

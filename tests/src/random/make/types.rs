@@ -160,7 +160,9 @@ impl Maker {
     }
 
     fn copyable_structure(&mut self) -> Option<Ty> {
-        let all: Vec<usize> = (0..self.structures.len()).filter(|k| self.structures[*k].copy).collect();
+        let all: Vec<usize> = (0..self.structures.len())
+            .filter(|k| self.structures[*k].copy)
+            .collect();
         (!all.is_empty()).then(|| Ty::Struct(self.random.pick(&all)))
     }
 

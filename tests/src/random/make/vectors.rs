@@ -20,7 +20,11 @@ impl Maker {
             1 => format!("{name}::splat({})", self.leaf(&scalar, flat)),
             _ => {
                 let parts: Vec<String> = (0..n).map(|_| self.leaf(&scalar, flat)).collect();
-                let function = if self.random.once_in(6) { format!("{name}::new") } else { name.to_lowercase() };
+                let function = if self.random.once_in(6) {
+                    format!("{name}::new")
+                } else {
+                    name.to_lowercase()
+                };
                 format!("{function}({})", parts.join(", "))
             }
         }
@@ -88,7 +92,11 @@ impl Maker {
                 1 => {
                     let name = self.random.pick(&["floor", "ceil", "fract_gl"]);
                     let v = self.vector_receiver(lane, n, own);
-                    if name == "fract_gl" { format!("fract({v})") } else { format!("{v}.{name}()") }
+                    if name == "fract_gl" {
+                        format!("fract({v})")
+                    } else {
+                        format!("{v}.{name}()")
+                    }
                 }
                 2 => {
                     let (a, b) = (self.vector_receiver(lane, n, own), self.expr(&ty, d));
@@ -122,14 +130,25 @@ impl Maker {
                 format!("({a} {op} {b})")
             }
             17 if self.on(Feature::Matrices) && lane == Lane::F => {
+                if n == 3 && self.random.once_in(3) {
+                    let name = self.random.pick(&["transform_point3", "transform_vector3"]);
+                    let m = self.expr(&Ty::Mat(4), d);
+                    return format!("({m}).{name}({})", self.expr(&ty, d));
+                }
                 let m = self.expr(&Ty::Mat(n), d);
-                format!("({m} * {})", self.expr(&ty, d))
+                match self.random.below(2) {
+                    0 => format!("({m} * {})", self.expr(&ty, d)),
+                    _ => format!("({m}).mul_vec{n}({})", self.expr(&ty, d)),
+                }
             }
             18 if self.on(Feature::Matrices) && lane == Lane::F => {
                 let m = self.expr(&Ty::Mat(n), d);
                 match self.random.below(2) {
                     0 => format!("({m}).col({})", self.random.below(n as usize)),
-                    _ => format!("({m}).{}_axis", self.random.pick(&["x", "y"])),
+                    _ => {
+                        let axis = self.random.below(n as usize);
+                        format!("({m}).{}_axis", ["x", "y", "z", "w"][axis])
+                    }
                 }
             }
             19 => {
@@ -150,7 +169,11 @@ impl Maker {
 
     pub(super) fn vector_receiver(&mut self, lane: Lane, n: u8, want: Want) -> String {
         let text = self.expr(&Ty::Vec(lane, n), want);
-        if text.starts_with("{") { format!("({text})") } else { text }
+        if text.starts_with("{") {
+            format!("({text})")
+        } else {
+            text
+        }
     }
 
     pub(super) fn vector_to_float(&mut self, e: &str, ty: &Ty, want: Want) -> String {
@@ -159,7 +182,11 @@ impl Maker {
             0 => format!("{e}.dot({})", self.expr(ty, want)),
             1 => format!("{e}.length_squared()"),
             2 if self.on(Feature::Coarse) => format!("{e}.length()"),
-            3 => format!("{e}.{}()", self.random.pick(&["element_sum", "element_product", "min_element", "max_element"])),
+            3 => format!(
+                "{e}.{}()",
+                self.random
+                    .pick(&["element_sum", "element_product", "min_element", "max_element"])
+            ),
             4 => format!("{e}.distance_squared({})", self.expr(ty, want)),
             5 => format!("{e}[{}]", self.random.below(*n as usize)),
             6 => format!("{e}.to_array()[{}]", self.random.below(*n as usize)),

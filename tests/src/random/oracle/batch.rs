@@ -54,7 +54,10 @@ fn execute(program: &Path, kernels: usize) -> Result<Vec<Native>, String> {
     for line in text.lines() {
         let mut pixels = Vec::new();
         for pixel in line.split(';').filter(|pixel| !pixel.is_empty()) {
-            let words: Vec<u32> = pixel.split(',').filter_map(|w| u32::from_str_radix(w, 16).ok()).collect();
+            let words: Vec<u32> = pixel
+                .split(',')
+                .filter_map(|w| u32::from_str_radix(w, 16).ok())
+                .collect();
             pixels.push(words.try_into().ok());
         }
         all.push(pixels);

@@ -65,7 +65,10 @@ pub fn judge_changed(
             (Verdict::Accepted, Ok(_)) => counts.accepted += 1,
             (Verdict::Refused(_), Err(_)) => counts.refused += 1,
             (Verdict::Accepted, Err(errors)) => {
-                *counts.stricter.entry(errors.diagnostics[0].message.clone()).or_default() += 1;
+                *counts
+                    .stricter
+                    .entry(errors.diagnostics[0].message.clone())
+                    .or_default() += 1;
             }
             (Verdict::Refused(error), Ok(_)) if OWNERSHIP.iter().any(|code| error.starts_with(code)) => {
                 counts.ownership += 1;
@@ -76,23 +79,27 @@ pub fn judge_changed(
     Ok((counts, lenient))
 }
 
-/// The text without functions that nothing calls: those may hold anything.
+/// The text without functions and constants that nothing mentions: those may hold anything.
 fn reached(source: &str) -> String {
     let mut lines: Vec<&str> = source.lines().collect();
     loop {
         let gone = lines.iter().enumerate().find_map(|(k, line)| {
-            let name = line.trim_start().strip_prefix("fn ")?;
-            let name = &name[..name.find(['(', '<'])?];
+            let start = line.trim_start();
+            let name = start.strip_prefix("fn ").or_else(|| start.strip_prefix("const "))?;
+            let name = &name[..name.find(['(', '<', ':'])?];
             let word = |text: &str| {
                 text.match_indices(name).any(|(at, _)| {
-                    let before = text[..at].chars().next_back().is_none_or(|c| !c.is_alphanumeric() && c != '_');
+                    let before = text[..at]
+                        .chars()
+                        .next_back()
+                        .is_none_or(|c| !c.is_alphanumeric() && c != '_');
                     let after = text[at + name.len()..].chars().next();
                     before && after.is_none_or(|c| !c.is_alphanumeric() && c != '_')
                 })
             };
             let indent = line.len() - line.trim_start().len();
             let closes = |l: &&str| l.trim() == "}" && l.len() == indent + 1;
-            let last = if line.trim_end().ends_with('}') {
+            let last = if line.trim_end().ends_with(['}', ';']) {
                 k
             } else {
                 k + lines[k..].iter().position(closes)?
@@ -192,7 +199,11 @@ fn changed(source: &str, random: &mut Random) -> Option<(String, String)> {
         let end = text[at..].find('\n').map_or(text.len(), |k| at + k);
         let line = text[start..end].trim().to_owned();
         // What stands before the kernel's own items has no meaning to the generator.
-        if line.starts_with("pub fn k(") || line.starts_with("#[derive") || line.starts_with("///") || line.starts_with("pub ") {
+        if line.starts_with("pub fn k(")
+            || line.starts_with("#[derive")
+            || line.starts_with("///")
+            || line.starts_with("pub ")
+        {
             continue;
         }
         return Some((text, line));

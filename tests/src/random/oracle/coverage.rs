@@ -8,8 +8,25 @@ use straightline_codegen::Kernel;
 /// Names that the page's sections on mathematics and integers document and that no random kernel calls, since Rust and
 /// drivers compute them in other bits, or they are of a fixed function of a device.
 pub const NOT_COMPARED: &[&str] = &[
-    "exp", "exp2", "ln", "log2", "powf", "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh",
-    "normalize", "length_recip", "reflect", "distance",
+    "exp",
+    "exp2",
+    "ln",
+    "log2",
+    "powf",
+    "sin",
+    "cos",
+    "tan",
+    "asin",
+    "acos",
+    "atan",
+    "atan2",
+    "sinh",
+    "cosh",
+    "tanh",
+    "normalize",
+    "length_recip",
+    "reflect",
+    "distance",
 ];
 
 /// What is missing.
@@ -33,7 +50,10 @@ pub fn missing(seeds: std::ops::Range<u64>) -> Result<Missing, String> {
     let names = names(&read("docs/kernel-language.md")?);
     let mut missing = Missing {
         variants: variants.iter().map(|(of, name)| format!("{of}::{name}")).collect(),
-        names: names.into_iter().filter(|name| !NOT_COMPARED.contains(&name.as_str())).collect(),
+        names: names
+            .into_iter()
+            .filter(|name| !NOT_COMPARED.contains(&name.as_str()))
+            .collect(),
     };
     for seed in seeds {
         let text = make(seed, Features::all());
@@ -74,7 +94,8 @@ fn has(tree: &str, variant: &str) -> bool {
     match of {
         "ExprKind" => tree.match_indices("kind: ").any(|(at, k)| {
             let rest = &tree[at + k.len()..];
-            rest.strip_prefix(name).is_some_and(|after| !after.starts_with(char::is_alphanumeric))
+            rest.strip_prefix(name)
+                .is_some_and(|after| !after.starts_with(char::is_alphanumeric))
         }),
         _ => tree.match_indices(name).any(|(at, _)| {
             let before = &tree[..at];
@@ -103,7 +124,10 @@ fn names(page: &str) -> BTreeSet<String> {
         let parts: Vec<&str> = line.split('`').collect();
         for word in parts.iter().skip(1).step_by(2) {
             let word = word.trim_start_matches('.').trim_end_matches("()");
-            let name = !word.is_empty() && word.chars().all(|c| c.is_ascii_lowercase() || c == '_' || c.is_ascii_digit());
+            let name = !word.is_empty()
+                && word
+                    .chars()
+                    .all(|c| c.is_ascii_lowercase() || c == '_' || c.is_ascii_digit());
             // Refused, or a lane's name.
             if name && !["signum", "for", "while", "loop"].contains(&word) {
                 found.insert(word.to_owned());

@@ -55,7 +55,10 @@ impl fmt::Display for Off {
                 pixel,
                 expected,
                 found,
-            } => write!(f, "pixel {pixel:?}: rustc gives {expected:?}, the driver with {form} {found:?}"),
+            } => write!(
+                f,
+                "pixel {pixel:?}: rustc gives {expected:?}, the driver with {form} {found:?}"
+            ),
             Off::Broken(form, why) => write!(f, "with {form}: {why}"),
         }
     }
@@ -132,7 +135,10 @@ fn inputs(world: &World) -> Inputs {
     let size = UVec2::from_array(super::world::SIZE);
     Inputs::new(size)
         .image("a", Frame::new(size, texels))
-        .buffer("b", world.buffer.iter().map(|x| [f64::from(*x), 0.0, 0.0, 0.0]).collect())
+        .buffer(
+            "b",
+            world.buffer.iter().map(|x| [f64::from(*x), 0.0, 0.0, 0.0]).collect(),
+        )
         .uniform("p", &[f64::from(world.p)])
         .uniform("q", &[f64::from(world.q)])
         .uniform("r", &[f64::from(world.r)])

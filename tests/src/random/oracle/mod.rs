@@ -10,10 +10,10 @@ mod rustc;
 pub mod same;
 mod world;
 
-pub use change::{Lenient, Verdicts, judge_changed};
 pub use batch::{Native, run};
-pub use driver::{Compared, Driver, Off};
+pub use change::{Lenient, Verdicts, judge_changed};
 pub use compare::{Difference, Reason, Tally, compare, interpret};
+pub use driver::{Compared, Driver, Off};
 pub use reduce::reduce;
 pub use rustc::{Rustc, Verdict};
 pub use world::World;

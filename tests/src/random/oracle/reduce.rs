@@ -94,7 +94,11 @@ fn candidates(source: &str) -> Vec<String> {
 }
 
 fn without(lines: &[&str], gone: std::ops::RangeInclusive<usize>) -> String {
-    let left = lines.iter().enumerate().filter(|(k, _)| !gone.contains(k)).map(|(_, line)| *line);
+    let left = lines
+        .iter()
+        .enumerate()
+        .filter(|(k, _)| !gone.contains(k))
+        .map(|(_, line)| *line);
     left.collect::<Vec<_>>().join("\n") + "\n"
 }
 
@@ -123,7 +127,12 @@ fn simpler(source: &str, found: &mut Vec<String>) {
             found.push(format!("{}{literal}{}", &source[..*start], &source[end + 1..]));
         }
         for (a, b) in pairs.iter().filter(|(a, b)| a > start && b < end).take(6) {
-            found.push(format!("{}{}{}", &source[..*start], &source[*a..=*b], &source[end + 1..]));
+            found.push(format!(
+                "{}{}{}",
+                &source[..*start],
+                &source[*a..=*b],
+                &source[end + 1..]
+            ));
         }
         for operator in [" + ", " - ", " * ", " & ", " | ", " ^ "] {
             let inner = &source[start + 1..*end];

@@ -101,9 +101,16 @@ impl Rustc {
     fn invoke(&self, file: &Path, out: &Path, flags: &[&str]) -> Result<Output, String> {
         let mut command = Command::new(&self.program);
         command.args(["--edition=2024", "--error-format=json", "--cap-lints=allow"]);
-        command.args(["-Cdebuginfo=0", "-Coverflow-checks=off", "-Cdebug-assertions=off", "-Copt-level=0"]);
+        command.args([
+            "-Cdebuginfo=0",
+            "-Coverflow-checks=off",
+            "-Cdebug-assertions=off",
+            "-Copt-level=0",
+        ]);
         command.args(["--crate-name", "batch"]).args(flags);
-        command.arg("--extern").arg(format!("straightline_kernels={}", self.prelude.display()));
+        command
+            .arg("--extern")
+            .arg(format!("straightline_kernels={}", self.prelude.display()));
         command.arg("-L").arg(format!("dependency={}", self.built.display()));
         command.arg("-o").arg(out).arg(file);
         command.output().map_err(|e| format!("{}: {e}", self.program.display()))
@@ -150,7 +157,11 @@ pub(super) fn refuse(errors: &str, lines: &[(usize, usize)], verdicts: &mut [Ver
             verdicts[k] = Verdict::Refused(message);
         }
     }
-    if found.is_empty() { Err(errors.to_owned()) } else { Ok(()) }
+    if found.is_empty() {
+        Err(errors.to_owned())
+    } else {
+        Ok(())
+    }
 }
 
 /// One module for each text that is not refused yet; the first line of each and its number.
@@ -193,7 +204,11 @@ fn error(json: &str) -> Option<(usize, String)> {
     };
     // An error inside a macro of the prelude names the place in the kernel that called it.
     let mut place = primary;
-    while place["expansion"].is_object() && place["file_name"].as_str().is_some_and(|f| f.starts_with('/') && !f.contains("oracle")) {
+    while place["expansion"].is_object()
+        && place["file_name"]
+            .as_str()
+            .is_some_and(|f| f.starts_with('/') && !f.contains("oracle"))
+    {
         place = &place["expansion"]["span"];
     }
     Some((place["line_start"].as_u64()? as usize, message))

@@ -81,7 +81,11 @@ fn renamed(source: &str) -> String {
         let digits = word.trim_start_matches(|c: char| c.is_ascii_lowercase());
         let letters = &word[..word.len() - digits.len()];
         let own = ["v", "f", "m", "g", "h", "k", "e", "i", "t", "c", "n"].contains(&letters);
-        if own && !digits.is_empty() && digits.bytes().all(|b| b.is_ascii_digit()) {
+        if own
+            && !["f32", "i32"].contains(&word.as_str())
+            && !digits.is_empty()
+            && digits.bytes().all(|b| b.is_ascii_digit())
+        {
             out.push_str(&format!("other_{letters}_{digits}"));
         } else {
             out.push_str(&word);
@@ -136,7 +140,9 @@ fn swapped(source: &str) -> String {
     let mut from = 0;
     while let Some(at) = text[from..].find("(if ").map(|at| from + at) {
         from = at + 4;
-        let Some((c, a, b, end)) = parts(&text, at) else { continue };
+        let Some((c, a, b, end)) = parts(&text, at) else {
+            continue;
+        };
         let new = format!("(if !({c}) {{{b}}} else {{{a}}})");
         text.replace_range(at..end, &new);
         from = at + 6;
@@ -191,16 +197,30 @@ fn parts(text: &str, at: usize) -> Option<(String, String, String, usize)> {
 fn peeled(source: &str) -> Option<String> {
     let lines: Vec<&str> = source.lines().collect();
     for (k, line) in lines.iter().enumerate() {
-        let Some(rest) = line.trim_start().strip_prefix("for ") else { continue };
-        let Some((name, range)) = rest.strip_suffix(" {").and_then(|r| r.split_once(" in ")) else { continue };
-        let Some((low, high)) = range.split_once("..") else { continue };
-        let plain = |text: &str| text.parse::<i64>().ok();
-        let (Some(first), Some(end)) = (plain(low), plain(high.trim_start_matches('='))) else { continue };
+        let Some(rest) = line.trim_start().strip_prefix("for ") else {
+            continue;
+        };
+        let Some((name, range)) = rest.strip_suffix(" {").and_then(|r| r.split_once(" in ")) else {
+            continue;
+        };
+        let Some((low, high)) = range.split_once("..") else {
+            continue;
+        };
+        let ty = ["i32", "u32", "usize"]
+            .into_iter()
+            .find(|ty| low.ends_with(ty))
+            .unwrap_or_default();
+        let plain = |text: &str| text.trim_end_matches(ty).trim_end_matches('_').parse::<i64>().ok();
+        let (Some(first), Some(end)) = (plain(low), plain(high.trim_start_matches('='))) else {
+            continue;
+        };
         if first >= end {
             continue;
         }
         let indent = line.len() - line.trim_start().len();
-        let last = k + lines[k..].iter().position(|l| l.len() == indent + 1 && l.trim() == "}")?;
+        let last = k + lines[k..]
+            .iter()
+            .position(|l| l.len() == indent + 1 && l.trim() == "}")?;
         let body = &lines[k + 1..last];
         let leaves = |l: &&str| l.contains("break") || l.contains("continue");
         if body.iter().any(leaves) || k > 0 && lines[k - 1].contains("unroll") {
@@ -214,7 +234,7 @@ fn peeled(source: &str) -> Option<String> {
             if counter {
                 continue;
             }
-            out.push(format!("for {name} in {first}..{} {{", first + 1));
+            out.push(format!("for {name} in {first}{ty}..{} {{", first + 1));
         }
         out.extend(body.iter().map(|l| (*l).to_owned()));
         if name != "_" {
@@ -222,7 +242,7 @@ fn peeled(source: &str) -> Option<String> {
         }
         out.push("}".to_owned());
         let dots = if high.starts_with('=') { "..=" } else { ".." };
-        out.push(format!("for {name} in {}{dots}{end} {{", first + 1));
+        out.push(format!("for {name} in {}{ty}{dots}{end} {{", first + 1));
         out.extend(lines[k + 1..].iter().map(|l| (*l).to_owned()));
         return Some(out.join("\n") + "\n");
     }

@@ -1,0 +1,139 @@
+//! Whether the arms of a `match` take every value, as rustc demands.
+
+use super::Checker;
+use super::operators::literal;
+use super::types::{Kind, Ty};
+use crate::diagnostic::{Diagnostic, Span};
+use crate::front::tree::{Arm, ExprKind, IntType, Pattern};
+
+/// A pattern, or one that takes everything.
+type Cell<'p> = Option<&'p Pattern>;
+
+impl<'l> Checker<'l> {
+    /// Notes an error if no arm takes some value of the subject's type.
+    pub fn exhaustive(&mut self, subject: &Ty, arms: &'l [Arm], span: Span) {
+        let rows = arms.iter().map(|arm| vec![Some(&arm.pattern)]).collect();
+        if !self.covers(rows, &[subject.clone()]) {
+            self.errors.push(
+                Diagnostic::at(
+                    span,
+                    "non-exhaustive patterns: some values are taken by no arm of this `match`",
+                )
+                .label("not all values are taken")
+                .help("add an arm `_ => ...`"),
+            );
+        }
+    }
+
+    /// Whether the rows together take all values of some types.
+    fn covers(&self, rows: Vec<Vec<Cell<'_>>>, types: &[Ty]) -> bool {
+        let Some((first, rest)) = types.split_first() else {
+            return !rows.is_empty();
+        };
+        let rows = alternatives(rows);
+        let ty = self.peeled(first).0;
+        let is_integer = matches!(ty, Ty::Int(_)) || self.table.kind(&ty) == Some(Kind::Integer);
+        match &ty {
+            Ty::Unknown | Ty::Param(_) | Ty::Never => true,
+            Ty::Bool => [true, false].iter().all(|value| {
+                let takes = |p: &Pattern| matches!(p, Pattern::Value(e) if matches!(&e.kind, ExprKind::Bool(b) if b == value));
+                self.covers(with(&rows, takes), rest)
+            }),
+            Ty::Enum(name) => self.library.enums.get(name).is_none_or(|definition| {
+                definition.variants.iter().all(|(variant, _)| {
+                    let takes = |p: &Pattern| {
+                        matches!(p, Pattern::Value(e) if matches!(&e.kind, ExprKind::Path(path) if path.last() == Some(variant)))
+                    };
+                    self.covers(with(&rows, takes), rest)
+                })
+            }),
+            _ if is_integer => {
+                // Between two ends of the arms' ranges all values are alike.
+                let mut ends: Vec<i64> = match ty {
+                    Ty::Int(IntType::U32) => vec![0, i64::from(u32::MAX) + 1],
+                    Ty::Int(IntType::Usize) => vec![0, i64::MAX],
+                    _ => vec![i64::from(i32::MIN), i64::from(i32::MAX) + 1],
+                };
+                let (least, most) = (ends[0], ends[1]);
+                let ranges = rows.iter().filter_map(|row| row[0].and_then(range));
+                ends.extend(ranges.flat_map(|(low, high)| [low, high.saturating_add(1)]));
+                ends.retain(|n| (least..=most).contains(n));
+                ends.sort_unstable();
+                ends.dedup();
+                ends[..ends.len() - 1].iter().all(|n| {
+                    let takes = |p: &Pattern| range(p).is_some_and(|(low, high)| (low..=high).contains(n));
+                    self.covers(with(&rows, takes), rest)
+                })
+            }
+            Ty::Tuple(parts) => {
+                let rows = rows.iter().filter_map(|row| {
+                    let cells: Vec<Cell<'_>> = match row[0].map(bare) {
+                        Some(Pattern::Tuple(patterns, _)) if patterns.len() == parts.len() => {
+                            patterns.iter().map(Some).collect()
+                        }
+                        other if takes_all(other) => vec![None; parts.len()],
+                        _ => return None,
+                    };
+                    Some([cells, row[1..].to_vec()].concat())
+                });
+                self.covers(rows.collect(), &[parts.clone(), rest.to_vec()].concat())
+            }
+            // Structures, arrays and floats: an arm that names no value of them.
+            _ => self.covers(with(&rows, |p| !compares(p)), rest),
+        }
+    }
+}
+
+/// Rows without `|` in their first cell.
+fn alternatives(rows: Vec<Vec<Cell<'_>>>) -> Vec<Vec<Cell<'_>>> {
+    let mut out = Vec::new();
+    for row in rows {
+        match row[0].map(bare) {
+            Some(Pattern::Or(cases)) => {
+                let each = cases.iter().map(|case| [vec![Some(case)], row[1..].to_vec()].concat());
+                out.extend(alternatives(each.collect()));
+            }
+            _ => out.push(row),
+        }
+    }
+    out
+}
+
+/// What is left of the rows that take a value in their first cell.
+fn with<'p>(rows: &[Vec<Cell<'p>>], takes: impl Fn(&Pattern) -> bool) -> Vec<Vec<Cell<'p>>> {
+    let taken = rows
+        .iter()
+        .filter(|row| takes_all(row[0]) || row[0].map(bare).is_some_and(&takes));
+    taken.map(|row| row[1..].to_vec()).collect()
+}
+
+fn takes_all(cell: Cell<'_>) -> bool {
+    cell.is_none_or(|p| matches!(bare(p), Pattern::Name(..) | Pattern::Wild))
+}
+
+/// A pattern without the `&` before it.
+fn bare(pattern: &Pattern) -> &Pattern {
+    match pattern {
+        Pattern::Ref(inner, _) => bare(inner),
+        other => other,
+    }
+}
+
+/// The integers that a pattern takes.
+fn range(pattern: &Pattern) -> Option<(i64, i64)> {
+    match bare(pattern) {
+        Pattern::Value(e) => literal(e).map(|n| (n, n)),
+        Pattern::Range(low, high) => Some((literal(low)?, literal(high)?)),
+        _ => None,
+    }
+}
+
+/// Whether a pattern compares with a value anywhere.
+fn compares(pattern: &Pattern) -> bool {
+    match bare(pattern) {
+        Pattern::Name(..) | Pattern::Wild | Pattern::Ref(..) => false,
+        Pattern::Value(_) | Pattern::Range(..) => true,
+        Pattern::Tuple(parts, _) | Pattern::Array(parts, _) | Pattern::Or(parts) => parts.iter().any(compares),
+        Pattern::Struct(fields, _) => fields.iter().any(|(_, part)| compares(part)),
+    }
+}
