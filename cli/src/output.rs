@@ -60,12 +60,12 @@ pub fn limited(message: &str) -> String {
     message.split('\n').map(shortened).collect::<Vec<_>>().join("\n")
 }
 
-/// `print!` by [`print`].
+/// `print!` by [`print()`].
 macro_rules! out {
     ($($text:tt)*) => { $crate::output::print(format_args!($($text)*)) };
 }
 
-/// `println!` by [`print`].
+/// `println!` by [`print()`].
 macro_rules! outln {
     () => { $crate::output::print(format_args!("\n")) };
     ($($text:tt)*) => { $crate::output::print(format_args!("{}\n", format_args!($($text)*))) };

@@ -45,7 +45,7 @@ fn infinities(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
     let far = 3.0e38 * 2.0;
     let near = c.z.min(far).max(-far);
     let beyond = if c.z < far { 1.0 } else { 2.0 };
-    let largest = c.z.min(3.4028234663852886e38);
+    let largest = c.z.min(3.4028235e38);
     vec4(near, beyond, largest, if near * far > 1.0 { 3.0 } else { 4.0 })
 }
 

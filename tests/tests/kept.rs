@@ -3,6 +3,7 @@
 
 mod common;
 #[path = "kept/kernels.rs"]
+#[allow(clippy::needless_range_loop, clippy::manual_swap)] // kernels as people write them
 mod kernels;
 
 use common::{bench, other_compilers, same_bits};

@@ -249,13 +249,13 @@ impl Evaluator<'_> {
                 .into());
         }
         if name == "usize" {
-            return self.to_usize(id, span);
+            return self.as_index(id, span);
         }
         Ok(Value::Node(self.convert(id, kind)))
     }
 
     /// A number as a `usize`: known with its 64 bits, at run time an `i32`.
-    fn to_usize(&mut self, id: NodeId, span: Span) -> Eval {
+    fn as_index(&mut self, id: NodeId, span: Span) -> Eval {
         let ty = self.ty(id);
         let Some(bits) = self.builder.graph().constant(id) else {
             // A negative float is 0 as a `usize`.

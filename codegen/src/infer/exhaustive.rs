@@ -13,7 +13,7 @@ impl<'l> Checker<'l> {
     /// Notes an error if no arm takes some value of the subject's type.
     pub fn exhaustive(&mut self, subject: &Ty, arms: &'l [Arm], span: Span) {
         let rows = arms.iter().map(|arm| vec![Some(&arm.pattern)]).collect();
-        if !self.covers(rows, &[subject.clone()]) {
+        if !self.covers(rows, std::slice::from_ref(subject)) {
             self.errors.push(
                 Diagnostic::at(
                     span,

@@ -80,11 +80,11 @@ impl<'l> Checker<'l> {
                 match name {
                     "transpose" => self.takes(args, &[], own),
                     "col" => self.takes(args, &[Ty::USIZE], column),
-                    "mul_vec2" | "mul_vec3" | "mul_vec4" => self.takes(args, &[column.clone()], column),
-                    "mul_mat2" | "mul_mat3" | "mul_mat4" => self.takes(args, &[own.clone()], own),
+                    "mul_vec2" | "mul_vec3" | "mul_vec4" => self.takes_own(args, column),
+                    "mul_mat2" | "mul_mat3" | "mul_mat4" => self.takes_own(args, own),
                     "transform_point3" | "transform_vector3" => {
                         let point = Ty::Vector(Scalar::F32, 3);
-                        self.takes(args, &[point.clone()], point)
+                        self.takes_own(args, point)
                     }
                     _ => self.unknown_method(args),
                 }
@@ -126,6 +126,11 @@ impl<'l> Checker<'l> {
         }
     }
 
+    /// One argument of the type that comes out.
+    fn takes_own(&mut self, args: &'l [Expr], own: Ty) -> Ty {
+        self.takes(args, std::slice::from_ref(&own), own.clone())
+    }
+
     fn unknown_method(&mut self, args: &'l [Expr]) -> Ty {
         self.loose(args);
         Ty::Unknown
@@ -134,9 +139,7 @@ impl<'l> Checker<'l> {
     fn of_float(&mut self, name: &str, args: &'l [Expr]) -> Ty {
         let float = Ty::Float;
         match name {
-            "powf" | "atan2" | "min" | "max" | "rem_euclid" | "div_euclid" | "copysign" => {
-                self.takes(args, &[float.clone()], float)
-            }
+            "powf" | "atan2" | "min" | "max" | "rem_euclid" | "div_euclid" | "copysign" => self.takes_own(args, float),
             "clamp" | "mul_add" | "lerp" => self.takes(args, &[float.clone(), float.clone()], float),
             "powi" => self.takes(args, &[Ty::I32], float),
             "is_nan" | "is_finite" => self.takes(args, &[], Ty::Bool),
@@ -152,7 +155,7 @@ impl<'l> Checker<'l> {
             "abs" | "signum" | "reverse_bits" | "wrapping_neg" => self.takes(args, &[], own),
             "count_ones" | "leading_zeros" | "trailing_zeros" => self.takes(args, &[], Ty::U32),
             "min" | "max" | "rem_euclid" | "div_euclid" | "div_ceil" | "wrapping_add" | "wrapping_sub"
-            | "wrapping_mul" => self.takes(args, &[own.clone()], own),
+            | "wrapping_mul" => self.takes_own(args, own),
             "clamp" => self.takes(args, &[own.clone(), own.clone()], own),
             "is_multiple_of" => self.takes(args, &[own], Ty::Bool),
             "pow" | "wrapping_shl" | "wrapping_shr" => self.takes(args, &[Ty::U32], own),
@@ -178,7 +181,7 @@ impl<'l> Checker<'l> {
             "dot" | "distance" | "distance_squared" => self.takes(args, &[own], part),
             "length" | "length_squared" | "length_recip" | "min_element" | "max_element" | "element_sum"
             | "element_product" => self.takes(args, &[], part),
-            "min" | "max" | "cross" | "reflect" => self.takes(args, &[own.clone()], own),
+            "min" | "max" | "cross" | "reflect" => self.takes_own(args, own),
             "clamp" => self.takes(args, &[own.clone(), own.clone()], own),
             "lerp" => self.takes(args, &[own.clone(), Ty::Float], own),
             "powf" => self.takes(args, &[Ty::Float], own),

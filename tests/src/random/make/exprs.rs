@@ -565,11 +565,7 @@ impl Maker {
     /// Something in reach to call a method of that takes it by value or by reference.
     fn receiver_of(&mut self, ty: &Ty) -> Option<String> {
         if !self.copies(ty) {
-            let name = self
-                .visible()
-                .into_iter()
-                .find(|l| l.ty == *ty && l.hold != Hold::Value || l.ty == *ty)
-                .map(|l| l.name);
+            let name = self.visible().into_iter().find(|l| l.ty == *ty).map(|l| l.name);
             return name;
         }
         self.read(ty, false)

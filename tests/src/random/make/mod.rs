@@ -93,6 +93,9 @@ struct Around {
     label: Option<String>,
 }
 
+/// A constant: its name, its type, and the range that an integer lies in.
+type Constant = (String, Ty, Option<(i64, i64)>);
+
 struct Maker {
     random: Random,
     features: Features,
@@ -102,7 +105,7 @@ struct Maker {
     enumerations: Vec<Enumeration>,
     signatures: Vec<Signature>,
     /// Names, types and bounds of constants.
-    constants: Vec<(String, Ty, Option<(i64, i64)>)>,
+    constants: Vec<Constant>,
     locals: Vec<Local>,
     next: u32,
     /// Runtime conditions around.
