@@ -53,6 +53,13 @@ fn structure(fields: &[UniformField], size: u32) -> TokenStream {
             quote! { bytes[#start..#end].copy_from_slice(&self.#name.to_le_bytes()); }
         }
     });
+    let given = names
+        .iter()
+        .zip(&arguments)
+        .map(|(name, argument)| match name == argument {
+            true => quote! { #name },
+            false => quote! { #name: #argument },
+        });
     let new = match fields.len() {
         // More would only be told apart by their order.
         0..=7 => quote! {
@@ -60,7 +67,7 @@ fn structure(fields: &[UniformField], size: u32) -> TokenStream {
                 /// All values, in order.
                 #[must_use]
                 pub const fn new(#(#arguments: #types),*) -> Self {
-                    Self { #(#names: #arguments,)* #(#pads,)* }
+                    Self { #(#given,)* #(#pads,)* }
                 }
             }
         },
