@@ -214,6 +214,21 @@ fn conditions_make_no_branches() {
     assert_eq!(instructions(&compiled, LABEL).len(), 1, "{glsl}");
 }
 
+/// `a < b, c, d > e` is a list of template arguments in WGSL, unless the comparison stands in parentheses.
+#[test]
+fn comparisons_among_arguments_are_comparisons() {
+    let kernel = "pub fn k(color: &Frame<Vec4>, q: u32, r: f32, pixel: IVec2) -> Vec4 {
+        let c = color.load(pixel);
+        let less = if c.x > r { q < pixel.as_uvec2().x } else { false };
+        let more = if c.y > r { true } else { q < pixel.as_uvec2().y };
+        if less & more { c } else { -c }
+    }";
+    for unroll in [Unroll::Full, Unroll::None] {
+        let emitted = emit(&compile(kernel, unroll, Branches::Select), Stage::Compute);
+        compilers::read(&emitted).unwrap_or_else(|why| panic!("{why}"));
+    }
+}
+
 /// The number of basic blocks in the manifest and in the header is that of labels in the SPIR-V, for every kernel that comes
 /// with Straightline and every example.
 #[test]

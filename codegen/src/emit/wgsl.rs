@@ -239,7 +239,11 @@ impl Dialect for Wgsl<'_> {
         }
     }
 
-    fn select(&self, _: Type, condition: &Text, yes: &Text, no: &Text) -> Text {
+    fn select(&self, ty: Type, condition: &Text, yes: &Text, no: &Text) -> Text {
+        if ty.kind() == Some(Scalar::Bool) {
+            // `a < b, c, d > e` would begin a list of template arguments.
+            return Text::call("select", &[&no.in_parentheses(), &yes.in_parentheses(), condition]);
+        }
         Text::call("select", &[no, yes, condition])
     }
 
