@@ -6,6 +6,8 @@ use crate::diagnostic::{Diagnostic, Span};
 use crate::front::tree::{Expr, ExprKind, Function, Generic, Type as SourceType};
 use crate::ir::{NodeId, Op, Scalar, Type};
 
+pub use crate::ir::vector_named as vector_type;
+
 impl Evaluator<'_> {
     pub fn call(&mut self, path: &[String], constants: &[Expr], args: &[Expr], span: Span) -> Eval {
         let constants = self.all(constants)?;
@@ -384,16 +386,4 @@ fn constructor(path: &[String]) -> Option<(Scalar, u8)> {
         }
         _ => None,
     }
-}
-
-/// `Vec3`, `IVec2`, ...
-pub fn vector_type(name: &str) -> Option<(Scalar, u8)> {
-    let (kind, lanes) = match name.strip_prefix("Vec") {
-        Some(lanes) => (Scalar::F32, lanes),
-        None => match name.strip_prefix("IVec") {
-            Some(lanes) => (Scalar::I32, lanes),
-            None => (Scalar::U32, name.strip_prefix("UVec")?),
-        },
-    };
-    lanes.parse().ok().filter(|n| (2..=4).contains(n)).map(|n| (kind, n))
 }

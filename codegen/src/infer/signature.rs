@@ -4,8 +4,9 @@ use super::Checker;
 use super::types::{Kind, Ty};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::front::tree::{Expr, Function, Generic, Type};
-use crate::ir::Scalar;
 use std::collections::HashMap;
+
+pub use crate::ir::vector_named as vector;
 
 impl<'l> Checker<'l> {
     /// The type that is written at `span`.
@@ -120,22 +121,5 @@ impl<'l> Checker<'l> {
             }
         }
         given
-    }
-}
-
-/// `Vec3`, `IVec2`, ... as kind and number of components.
-pub fn vector(name: &str) -> Option<(Scalar, u8)> {
-    let (kind, lanes) = match name.strip_prefix("Vec") {
-        Some(lanes) => (Scalar::F32, lanes),
-        None => match name.strip_prefix("IVec") {
-            Some(lanes) => (Scalar::I32, lanes),
-            None => (Scalar::U32, name.strip_prefix("UVec")?),
-        },
-    };
-    match lanes {
-        "2" => Some((kind, 2)),
-        "3" => Some((kind, 3)),
-        "4" => Some((kind, 4)),
-        _ => None,
     }
 }

@@ -55,4 +55,4 @@ pub use parse::{ParseError, parse};
 pub use print::print;
 pub use real::{F16, Real};
 pub use rebuild::{Rebuild, copy_tables, rebuild};
-pub use types::{Lanes, Scalar, Type};
+pub use types::{Lanes, Scalar, Type, vector_named};

@@ -156,3 +156,20 @@ impl fmt::Display for Type {
         }
     }
 }
+
+/// The vector that glam calls so, `Vec3` or `IVec2` say: the kind and the number of its components.
+pub fn vector_named(name: &str) -> Option<(Scalar, u8)> {
+    let (kind, lanes) = match name.strip_prefix("Vec") {
+        Some(lanes) => (Scalar::F32, lanes),
+        None => match name.strip_prefix("IVec") {
+            Some(lanes) => (Scalar::I32, lanes),
+            None => (Scalar::U32, name.strip_prefix("UVec")?),
+        },
+    };
+    match lanes {
+        "2" => Some((kind, 2)),
+        "3" => Some((kind, 3)),
+        "4" => Some((kind, 4)),
+        _ => None,
+    }
+}
