@@ -2,7 +2,7 @@
 //! of the same type. The tests have glslang read the text as it is.
 
 use super::error::EmitError;
-use super::glsl::{GATHER, LENGTH, MESSAGES};
+use super::print::{GATHER, LENGTH, MESSAGES};
 use super::translate::{stage, validate};
 use straightline_manifest::Stage;
 

@@ -1,34 +1,13 @@
-//! Half precision: literals, and the integers that fit.
+//! Literals of half precision.
 
-use super::text::{Binds, Text};
-use crate::ir::{Graph, NodeId, Op};
-use crate::passes::bounds;
+use super::text::Text;
 use half::f16;
-
-/// Whether an integer is known to lie within the finite numbers of half precision. Textures are never as wide as that.
-pub fn fits(graph: &Graph, id: NodeId) -> bool {
-    let node = graph.node(id);
-    match node.op {
-        Op::Pixel | Op::FrameSize | Op::TextureSize(_) | Op::Lane => true,
-        Op::Extract(_) | Op::Splat | Op::Compose | Op::Tally(_) => node.args.iter().all(|arg| fits(graph, *arg)),
-        _ if node.ty.is_scalar() => bounds(graph, id).is_some_and(|(low, high)| low >= -65504 && high <= 65504),
-        _ => false,
-    }
-}
 
 /// The `f16` nearest to an `f32`, with the fewest digits that give it back. What becomes of numbers that it cannot
 /// hold, `ir::Real::made` says.
 pub fn literal(bits: u32) -> Text {
     let x = crate::ir::F16::nearest(f32::from_bits(bits).into());
-    Text {
-        binds: if x.is_sign_negative() {
-            Binds::Prefix
-        } else {
-            Binds::Primary
-        },
-        code: format!("{}h", shortest(x)),
-        size: 0,
-    }
+    Text::literal(format!("{}h", shortest(x)), x.is_sign_negative())
 }
 
 /// All digits of an integer; of others so many that they give the number back, whether they are read at once or by way of `f32`, as naga does.

@@ -1,6 +1,6 @@
 //! Offsets of a uniform struct's members: the same in WGSL and in GLSL's std140.
 
-use super::wgsl::type_name;
+use super::print::wgsl_type;
 use crate::ir::{Type, Uniform};
 use straightline_manifest::UniformField;
 
@@ -13,7 +13,7 @@ pub fn layout(uniforms: &[&Uniform]) -> (Vec<UniformField>, u32) {
         at = at.next_multiple_of(align);
         fields.push(UniformField {
             name: uniform.name.clone(),
-            ty: type_name(uniform.ty),
+            ty: wgsl_type(uniform.ty.into()),
             offset: at,
             size,
             default: uniform.default,

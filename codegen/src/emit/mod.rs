@@ -4,26 +4,24 @@
 //! WGSL and GLSL come from the emitter of this room; SPIR-V, HLSL and MSL are translated from the WGSL by naga,
 //! which also validates every text before it is given out.
 
-mod arrays;
+mod ast;
 mod bindings;
-mod body;
 mod check;
-mod dialect;
+mod comments;
 mod error;
-mod glsl;
 mod half;
 mod layout;
-mod listing;
+mod legalise;
+mod lower;
 mod names;
 mod parameters;
 mod plan;
+mod print;
 mod resources;
-mod shell;
 mod spirv;
 mod target;
 mod text;
 mod translate;
-mod wgsl;
 mod words;
 
 use crate::ir::{Graph, Invocation, Op};
@@ -32,7 +30,7 @@ use crate::pipeline::Compiled;
 use crate::policy::Transport;
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
-use straightline_manifest::{Format, Manifest, Precision, Stage};
+use straightline_manifest::{Counts, Format, Manifest, Precision, Stage};
 
 pub use bindings::{Module, bindings};
 pub use error::EmitError;
@@ -152,18 +150,9 @@ impl Default for EmitOptions {
     }
 }
 
-/// Statements of a kernel's body, the same in every language. Those of a kernel that cannot be emitted are estimated.
+/// Statements of a kernel's body, the same in every language.
 pub fn statements(compiled: &Compiled) -> u32 {
-    let (graph, schedule) = (&compiled.graph, &compiled.schedule);
-    let mut options = EmitOptions::new();
-    if graph.invocation == Invocation::Lane {
-        options.stage = Stage::Fragment;
-    }
-    let written = resources::Resources::of(compiled, &options).and_then(|resources| {
-        let dialect = wgsl::Wgsl { resources: &resources };
-        body::body(compiled, &resources, &dialect)
-    });
-    written.map_or_else(|_| statements_at_least(graph, schedule), |body| body.statements)
+    ast::count(&lower::lower(compiled, &EmitOptions::new()).0.body)
 }
 
 /// Statements that a kernel will have, those not counted that long expressions are split into: quick to tell.
@@ -190,6 +179,18 @@ fn for_stage(compiled: &Compiled, stage: Stage) -> Result<Cow<'_, Compiled>, Emi
     }
 }
 
+/// The tree of a shader, with comments, before a language's own rules.
+fn tree<'g>(compiled: &'g Compiled, resources: &resources::Resources) -> ast::Module<'g> {
+    let (mut module, mut results) = lower::lower(compiled, &resources.options);
+    if resources.options.precision == Precision::F16 {
+        legalise::half(&mut module, &mut results);
+    }
+    let body = std::mem::take(&mut module.body);
+    module.body = comments::comment_groups(body, &compiled.graph);
+    lower::entry(&mut module, results, resources);
+    module
+}
+
 /// Emits a kernel. Nothing is given out that naga does not validate.
 pub fn emit(compiled: &Compiled, options: &EmitOptions) -> Result<Emitted, EmitError> {
     if let Some([x, y]) = options.workgroup
@@ -199,15 +200,20 @@ pub fn emit(compiled: &Compiled, options: &EmitOptions) -> Result<Emitted, EmitE
     }
     let compiled = &*for_stage(compiled, options.stage)?;
     let resources = resources::Resources::of(compiled, options)?;
-    let dialect = wgsl::Wgsl { resources: &resources };
-    let body = body::body(compiled, &resources, &dialect)?;
+    let tree = tree(compiled, &resources);
     // The header says how many blocks the shader has, and is a comment: what is counted is the same text.
     let mut counts = compiled.counts.clone();
-    let counted = shell::render(compiled, &counts, &resources, &body, &dialect)?;
-    let module = translate::Module::parse_wgsl(&compiled.kernel, &counted)?;
+    let wgsl = |counts: &Counts| {
+        let mut tree = tree.clone();
+        legalise::wgsl(&mut tree);
+        names::assign(&mut tree, &resources);
+        let language = print::Wgsl { resources: &resources };
+        print::module(&language, &tree, &print::header(compiled, counts, &resources))
+    };
+    let module = translate::Module::parse_wgsl(&compiled.kernel, &wgsl(&counts))?;
     let words = module.spirv(&resources)?;
     counts.basic_blocks = spirv::basic_blocks(&words);
-    let wgsl = shell::render(compiled, &counts, &resources, &body, &dialect)?;
+    let wgsl = wgsl(&counts);
     let manifest = resources.manifest(compiled, &counts);
     let mut files = BTreeMap::new();
     for target in &options.targets {
@@ -222,9 +228,11 @@ pub fn emit(compiled: &Compiled, options: &EmitOptions) -> Result<Emitted, EmitE
                 });
             }
             Target::Glsl450 => {
-                let dialect = glsl::Glsl { resources: &resources };
-                let body = body::body(compiled, &resources, &dialect)?;
-                let glsl = shell::render(compiled, &counts, &resources, &body, &dialect)?;
+                let mut tree = tree.clone();
+                legalise::glsl(&mut tree);
+                names::assign(&mut tree, &resources);
+                let language = print::Glsl { resources: &resources };
+                let glsl = print::module(&language, &tree, &print::header(compiled, &counts, &resources));
                 check::check_glsl(&compiled.kernel, options.stage, &glsl, &resources.compared())?;
                 glsl.into_bytes()
             }

@@ -1,5 +1,6 @@
 //! Names of values: from the kernel's own variables and the counters of the loops that they were made in.
 
+use super::ast::{Module, StmtKind, VarId};
 use super::resources::{OUTPUT, Resources, SAMPLER, UNIFORMS};
 use crate::ir::{Counter, Graph, NodeId, Op, Origin, Type};
 use std::collections::{BTreeSet, HashMap, HashSet};
@@ -123,55 +124,38 @@ fn identifier(name: &str) -> String {
     }
 }
 
-/// Gives out names, each once.
-pub struct Names {
-    taken: HashSet<String>,
+/// What values are to be called: by the variables of the kernel's source and the counters of the loops that they were made in.
+pub struct Wanted {
     /// Short forms of counters' names.
     short: HashMap<String, String>,
 }
 
-impl Names {
-    /// Names of a graph's values, with those of the shader's bindings taken.
-    pub fn new(graph: &Graph, resources: &Resources, entry: &str) -> Names {
-        let mut taken: HashSet<String> = OWN.map(str::to_owned).into();
-        taken.insert(entry.to_owned());
-        if resources.options.region {
-            taken.extend(OF_REGIONS.map(str::to_owned));
-        }
-        taken.extend(resources.names().map(str::to_owned));
-        let counters: BTreeSet<&str> = graph
-            .origins
-            .iter()
-            .flatten()
-            .flat_map(|o| &o.counters)
-            .map(|c| c.name.as_str())
-            .collect();
+impl Wanted {
+    /// For the values of a graph.
+    pub fn new(graph: &Graph) -> Wanted {
+        let origins = graph.origins.iter().flatten();
+        let counters: BTreeSet<&str> = origins.flat_map(|o| &o.counters).map(|c| c.name.as_str()).collect();
         let initial = |name: &str| name.chars().next().unwrap_or('k');
-        let short = counters.iter().map(|name| {
+        let short = |name: &&str| {
             let alone = counters.iter().filter(|other| initial(other) == initial(name)).count() == 1;
-            (
-                (*name).to_owned(),
-                if alone {
-                    initial(name).to_string()
-                } else {
-                    (*name).to_owned()
-                },
-            )
-        });
-        Names {
-            taken,
-            short: short.collect(),
+            match alone {
+                true => initial(name).to_string(),
+                false => (*name).to_owned(),
+            }
+        };
+        Wanted {
+            short: counters.iter().map(|name| ((*name).to_owned(), short(name))).collect(),
         }
     }
 
-    /// A name for a node.
-    pub fn of(&mut self, graph: &Graph, id: NodeId, origin: Option<&Origin>) -> String {
+    /// What a node is to be called.
+    pub fn of(&self, graph: &Graph, id: NodeId, origin: Option<&Origin>) -> String {
         match origin {
             Some(origin) if !origin.name.is_empty() => {
                 let suffix: String = origin.counters.iter().map(|c| self.counter(c)).collect();
-                self.fresh(&format!("{}{suffix}", origin.name))
+                format!("{}{suffix}", origin.name)
             }
-            _ => self.fresh(&plain(graph, id)),
+            _ => plain(graph, id),
         }
     }
 
@@ -184,23 +168,54 @@ impl Names {
         let sign = if counter.value < 0 { "n" } else { "" };
         format!("_{short}{sign}{}", counter.value.unsigned_abs())
     }
+}
 
-    /// `wanted`, or with a number if that is taken.
-    pub fn fresh(&mut self, wanted: &str) -> String {
-        // naga keeps a digit at the end of a name for its own suffixes.
-        let base = identifier(wanted);
-        let mut name = if is_reserved(&base) {
-            format!("{base}_value")
-        } else {
-            base.clone()
-        };
-        let mut k = 2;
-        while !self.taken.insert(name.clone()) {
-            name = format!("{base}_{k}");
-            k += 1;
-        }
-        name
+/// Gives the variables of a module names that differ from each other and from all others in their scope.
+pub fn assign(module: &mut Module<'_>, resources: &Resources) {
+    let mut taken: HashSet<String> = OWN.map(str::to_owned).into();
+    taken.insert(resources.entry.clone());
+    if resources.options.region {
+        taken.extend(OF_REGIONS.map(str::to_owned));
     }
+    taken.extend(resources.names().map(str::to_owned));
+    taken.extend(module.functions.iter().map(|f| f.name.clone()));
+    let mut local = HashSet::new();
+    for function in &module.functions {
+        let mut scope = taken.clone();
+        let lets = function.body.iter().filter_map(|stmt| match stmt.kind {
+            StmtKind::Let(var, _) | StmtKind::Var(var, _) => Some(var),
+            _ => None,
+        });
+        for var in function.params.iter().copied().chain(lets) {
+            let variable = &mut module.variables[var.0 as usize];
+            variable.name = fresh(&mut scope, &variable.name);
+            local.insert(var);
+        }
+    }
+    // The entry point's own come first, and are named as they are.
+    for k in VarId::PLACE.0 + 1..module.variables.len() as u32 {
+        if !local.contains(&VarId(k)) {
+            let variable = &mut module.variables[k as usize];
+            variable.name = fresh(&mut taken, &variable.name);
+        }
+    }
+}
+
+/// `wanted`, or with a number if that is taken.
+fn fresh(taken: &mut HashSet<String>, wanted: &str) -> String {
+    // naga keeps a digit at the end of a name for its own suffixes.
+    let base = identifier(wanted);
+    let mut name = if is_reserved(&base) {
+        format!("{base}_value")
+    } else {
+        base.clone()
+    };
+    let mut k = 2;
+    while !taken.insert(name.clone()) {
+        name = format!("{base}_{k}");
+        k += 1;
+    }
+    name
 }
 
 /// What a value without a variable is called.

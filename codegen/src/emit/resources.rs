@@ -2,7 +2,7 @@
 
 use super::error::EmitError;
 use super::layout::{layout, stride};
-use super::wgsl::type_name;
+use super::print::{GENERATOR, wgsl_type};
 use super::{EmitOptions, Target};
 use crate::ir::{Buffer, NodeId, Op, Sampler, Texture, TextureKind, Uniform, Varying};
 use crate::passes::layers_read;
@@ -43,12 +43,17 @@ pub struct Resources {
     textures: Vec<Texture>,
     buffers: Vec<Buffer>,
     samplers: Vec<Sampler>,
+    /// Names of every uniform and every varying of the kernel, by index.
+    uniform_names: Vec<String>,
+    varying_names: Vec<String>,
     /// Textures that are read.
     pub read: Vec<BoundTexture>,
     /// Index and binding number of each buffer that is read.
     pub read_buffers: Vec<(u32, u32)>,
     /// Index and binding number of each sampler that is used.
     pub used_samplers: Vec<(u32, u32)>,
+    /// Uniforms that are used.
+    pub uniforms: Vec<Uniform>,
     /// Fields of the uniform buffer, and its size.
     pub fields: Vec<UniformField>,
     /// Size of the uniform buffer in bytes.
@@ -151,6 +156,9 @@ impl Resources {
             textures: graph.textures.clone(),
             buffers: graph.buffers.clone(),
             samplers: graph.samplers.clone(),
+            uniform_names: graph.uniforms.iter().map(|u| u.name.clone()).collect(),
+            varying_names: graph.varyings.iter().map(|v| v.name.clone()).collect(),
+            uniforms: uniforms.into_iter().cloned().collect(),
             read,
             read_buffers,
             used_samplers,
@@ -182,9 +190,19 @@ impl Resources {
         &self.samplers[index as usize]
     }
 
+    /// Name of a uniform by its index in the graph.
+    pub fn uniform(&self, index: u32) -> &str {
+        &self.uniform_names[index as usize]
+    }
+
+    /// Name of a varying by its index in the graph.
+    pub fn varying(&self, index: u32) -> &str {
+        &self.varying_names[index as usize]
+    }
+
     /// A texture that is read and has the output's size.
-    pub fn framed(&self) -> Option<&Texture> {
-        self.read.iter().map(|t| self.texture(t.index)).find(|t| t.framed)
+    pub fn framed(&self) -> Option<u32> {
+        self.read.iter().map(|t| t.index).find(|t| self.texture(*t).framed)
     }
 
     /// Names of everything that is bound but the uniforms.
@@ -196,13 +214,14 @@ impl Resources {
         textures.chain(buffers).chain(samplers).chain(varyings)
     }
 
-    fn varyings(&self) -> impl Iterator<Item = straightline_manifest::Varying> {
+    /// Interpolated values that are used, as a host is told.
+    pub fn varyings(&self) -> impl Iterator<Item = straightline_manifest::Varying> {
         self.varyings
             .iter()
             .zip(0..)
             .map(|(v, location)| straightline_manifest::Varying {
                 name: v.name.clone(),
-                ty: type_name(v.ty),
+                ty: wgsl_type(v.ty.into()),
                 location,
             })
     }
@@ -297,7 +316,7 @@ impl Resources {
             let buffer = self.buffer(*index);
             let kind = BindingKind::Buffer {
                 access: Access::Read,
-                element: type_name(buffer.element),
+                element: wgsl_type(buffer.element.into()),
                 stride: stride(buffer.element),
             };
             add(*binding, &buffer.name, kind);
@@ -336,7 +355,7 @@ impl Resources {
         let compute = self.options.stage == Stage::Compute;
         Manifest {
             schema: SCHEMA,
-            generator: super::shell::GENERATOR.to_owned(),
+            generator: GENERATOR.to_owned(),
             kernel: compiled.kernel.clone(),
             stage: self.options.stage,
             unroll: compiled.policy.to_string(),

@@ -15,8 +15,6 @@ pub fn comment(text: &str) -> String {
 /// How tightly an expression's outermost operator binds; larger binds tighter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Binds {
-    /// `c ? a : b`.
-    Ternary,
     /// `&&`, `||`, `&`, `|`, `^`, `<<`, `>>`: WGSL and readers want parentheses around and inside.
     Mixed,
     /// `==`, `<`, ...
@@ -38,8 +36,6 @@ pub struct Text {
     pub code: String,
     /// How tightly it binds.
     pub binds: Binds,
-    /// Operators and calls in it.
-    pub size: u32,
 }
 
 impl Text {
@@ -48,8 +44,13 @@ impl Text {
         Text {
             code: code.into(),
             binds: Binds::Primary,
-            size: 0,
         }
+    }
+
+    /// A number, which may be negative.
+    pub fn literal(code: String, negative: bool) -> Text {
+        let binds = if negative { Binds::Prefix } else { Binds::Primary };
+        Text { code, binds }
     }
 
     /// A call of a function.
@@ -58,7 +59,6 @@ impl Text {
         Text {
             code: format!("{function}({})", list.join(", ")),
             binds: Binds::Primary,
-            size: size(args),
         }
     }
 
@@ -70,7 +70,6 @@ impl Text {
         Text {
             code: format!("{l} {op} {r}"),
             binds,
-            size: size(&[left, right]),
         }
     }
 
@@ -84,7 +83,6 @@ impl Text {
         Text {
             code: format!("{op}{inner}"),
             binds: Binds::Prefix,
-            size: size(&[operand]),
         }
     }
 
@@ -98,7 +96,6 @@ impl Text {
         Text {
             code: format!("{inner}.{member}"),
             binds: Binds::Primary,
-            size: base.size,
         }
     }
 
@@ -107,7 +104,6 @@ impl Text {
         Text {
             code: format!("{}[{}]", base.code, index.code),
             binds: Binds::Primary,
-            size: 1 + base.size + index.size,
         }
     }
 
@@ -119,7 +115,6 @@ impl Text {
         Text {
             code: format!("({})", self.code),
             binds: Binds::Primary,
-            size: self.size,
         }
     }
 
@@ -134,8 +129,4 @@ impl Text {
             self.code.clone()
         }
     }
-}
-
-fn size(args: &[&Text]) -> u32 {
-    1 + args.iter().map(|a| a.size).sum::<u32>()
 }

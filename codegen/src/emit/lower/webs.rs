@@ -1,11 +1,11 @@
 //! Arrays of kept loops: values in the graph, variables changed in place in the text.
 //!
 //! All versions of an array that follow from one another by writes, rounds and branches share one variable (a web).
-//! That is right as long as no version is read once the next has been written. Where one is, the emitter learns it
-//! when it gets there, and begins again with the web cut before the version that came too early: that version then
-//! begins a variable of its own with a copy. Literals (`MakeArray`) belong to no web and are copied where one begins.
+//! That is right as long as no version is read once the next has been written. Where one is, lowering begins again with
+//! the web cut before the version that came too early: that version then begins a variable of its own with a copy. Literals (`MakeArray`) belong to no web and are copied where one begins.
 //! Where cuts do not help, every version is a variable of its own, which is always right: see [`Webs::apart`].
 
+use crate::emit::ast::VarId;
 use crate::ir::{Graph, NodeId, Op};
 use std::collections::{HashMap, HashSet};
 
@@ -13,7 +13,7 @@ use std::collections::{HashMap, HashSet};
 pub struct Webs {
     parent: Vec<u32>,
     /// Per web in scope: its variable.
-    names: HashMap<u32, String>,
+    vars: HashMap<u32, VarId>,
     /// Per web in scope: the version that the variable holds.
     current: HashMap<u32, NodeId>,
     /// By version: the one that took its place in the variable.
@@ -21,7 +21,7 @@ pub struct Webs {
 }
 
 /// What was in scope and what variables held.
-pub type Snapshot = (HashMap<u32, String>, HashMap<u32, NodeId>);
+pub type Snapshot = (HashMap<u32, VarId>, HashMap<u32, NodeId>);
 
 impl Webs {
     /// Finds the webs of a graph. Versions in `cut` do not share the variable of what they were made from.
@@ -80,7 +80,7 @@ impl Webs {
     fn single(graph: &Graph) -> Webs {
         Webs {
             parent: (0..graph.nodes.len() as u32).collect(),
-            names: HashMap::new(),
+            vars: HashMap::new(),
             current: HashMap::new(),
             replaced: HashMap::new(),
         }
@@ -111,24 +111,24 @@ impl Webs {
     }
 
     /// The variable of a version's web, if the web is in scope.
-    pub fn variable(&self, id: NodeId) -> Option<&str> {
-        self.names.get(&self.root(id)).map(String::as_str)
+    pub fn variable(&self, id: NodeId) -> Option<VarId> {
+        self.vars.get(&self.root(id)).copied()
     }
 
-    /// Brings a web into scope under a name, holding `version`.
-    pub fn declare(&mut self, id: NodeId, name: String, version: NodeId) {
+    /// Brings a web into scope as a variable, holding `version`.
+    pub fn declare(&mut self, id: NodeId, var: VarId, version: NodeId) {
         let web = self.root(id);
-        self.names.insert(web, name);
+        self.vars.insert(web, var);
         self.current.insert(web, version);
     }
 
     /// The variable that holds just this version, if one does.
-    pub fn holder(&self, id: NodeId) -> Option<&str> {
+    pub fn holder(&self, id: NodeId) -> Option<VarId> {
         let web = self.root(id);
-        self.names
+        self.vars
             .get(&web)
             .filter(|_| self.current.get(&web) == Some(&id))
-            .map(String::as_str)
+            .copied()
     }
 
     /// The variable of `id`'s web holds this version from now on.
@@ -148,19 +148,19 @@ impl Webs {
 
     /// What every variable holds and which are in scope, to return to with [`Webs::restore`].
     pub fn snapshot(&self) -> Snapshot {
-        (self.names.clone(), self.current.clone())
+        (self.vars.clone(), self.current.clone())
     }
 
     /// Leaves a scope: variables made in it are gone.
-    pub fn leave(&mut self, (names, _): &Snapshot) {
-        self.names.clone_from(names);
-        self.current.retain(|web, _| names.contains_key(web));
+    pub fn leave(&mut self, (vars, _): &Snapshot) {
+        self.vars.clone_from(vars);
+        self.current.retain(|web, _| vars.contains_key(web));
     }
 
     /// Of what was in scope before a loop's body, a version that its variable no longer holds at the end: the next
     /// iteration would find another.
-    pub fn lost(&self, (names, current): &Snapshot) -> Option<NodeId> {
-        let mut lost: Vec<NodeId> = names
+    pub fn lost(&self, (vars, current): &Snapshot) -> Option<NodeId> {
+        let mut lost: Vec<NodeId> = vars
             .keys()
             .filter(|web| self.current.get(web) != current.get(web))
             .filter_map(|web| current.get(web).copied())
@@ -176,8 +176,8 @@ impl Webs {
     }
 
     /// Returns to a state, as the other side of a branch does.
-    pub fn restore(&mut self, (names, current): &Snapshot) {
-        self.names.clone_from(names);
+    pub fn restore(&mut self, (vars, current): &Snapshot) {
+        self.vars.clone_from(vars);
         self.current.clone_from(current);
     }
 }

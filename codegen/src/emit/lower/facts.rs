@@ -1,8 +1,8 @@
 //! What is known of operands, so that the text need not guard what cannot happen.
 
-use crate::emit::dialect::Division;
-use crate::ir::{Graph, NodeId, Scalar, Type};
-use crate::passes::{component_bounds, float_bounds};
+use crate::emit::ast::Division;
+use crate::ir::{Graph, NodeId, Op, Scalar, Type};
+use crate::passes::{bounds, component_bounds, float_bounds};
 
 /// What is known of the operands of an integer division.
 pub fn division(graph: &Graph, x: NodeId, y: NodeId) -> Division {
@@ -22,9 +22,18 @@ pub fn division(graph: &Graph, x: NodeId, y: NodeId) -> Division {
     }
 }
 
+/// Whether every value of a node has its like in the type `to`: for a float an integer where it is cut off, for an integer a
+/// finite number of every precision.
+pub fn converts(graph: &Graph, id: NodeId, to: Type, half: bool) -> bool {
+    match graph.ty(id).is_float() && to.is_integer() {
+        true => has_integer(graph, id, to, half),
+        false => fits_half(graph, id),
+    }
+}
+
 /// Whether every float that a value can be has an integer of the type `to` where it is cut off. In half precision the largest
 /// numbers may have become infinities.
-pub fn has_integer(graph: &Graph, id: NodeId, to: Type, half: bool) -> bool {
+fn has_integer(graph: &Graph, id: NodeId, to: Type, half: bool) -> bool {
     // A driver may round a little differently: stay clear of the edges.
     let (smallest, largest) = match (half, to.kind()) {
         (true, Some(Scalar::I32)) => (-60_000.0, 60_000.0),
@@ -34,6 +43,17 @@ pub fn has_integer(graph: &Graph, id: NodeId, to: Type, half: bool) -> bool {
     };
     let fits = |(low, high): (f32, f32)| low >= smallest && high <= largest;
     (0..to.lanes()).all(|k| float_bounds(graph, id, k).is_some_and(fits))
+}
+
+/// Whether an integer is known to lie within the finite numbers of half precision. Textures are never as wide as that.
+fn fits_half(graph: &Graph, id: NodeId) -> bool {
+    let node = graph.node(id);
+    match node.op {
+        Op::Pixel | Op::FrameSize | Op::TextureSize(_) | Op::Lane => true,
+        Op::Extract(_) | Op::Splat | Op::Compose | Op::Tally(_) => node.args.iter().all(|arg| fits_half(graph, *arg)),
+        _ if node.ty.is_scalar() => bounds(graph, id).is_some_and(|(low, high)| low >= -65504 && high <= 65504),
+        _ => false,
+    }
 }
 
 /// Whether an index is known to lie inside an array of so many elements.

@@ -1,0 +1,405 @@
+//! The tree of a shader: statements and expressions, each with its type, between the graph and a language's text.
+//!
+//! [`super::lower`] makes it, [`super::legalise`] rewrites what a language says in another way, [`super::names`] gives its
+//! variables names, and [`super::print`] writes it. No stage asks a text what it means.
+
+use crate::ir::{self, BinaryOp, Lanes, Origin, Scalar, Type};
+use std::ops::Deref;
+
+/// Type of an expression.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Ty {
+    /// Scalar, vector or array.
+    pub shape: Type,
+    /// Whether its floats have 16 bits.
+    pub half: bool,
+}
+
+impl Ty {
+    /// The same shape with components of another kind, in full precision.
+    pub fn of(self, scalar: Scalar) -> Ty {
+        self.shape.with_scalar(scalar).into()
+    }
+
+    /// The same type in full precision.
+    pub fn full(self) -> Ty {
+        self.shape.into()
+    }
+}
+
+impl From<Type> for Ty {
+    fn from(shape: Type) -> Ty {
+        Ty { shape, half: false }
+    }
+}
+
+impl Deref for Ty {
+    type Target = Type;
+
+    fn deref(&self) -> &Type {
+        &self.shape
+    }
+}
+
+/// A variable of the module: an index into [`Module::variables`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct VarId(pub u32);
+
+impl VarId {
+    /// The pixel, and of a block its upper left one.
+    pub const PIXEL: VarId = VarId(0);
+    /// Width and height of the frame.
+    pub const FRAME: VarId = VarId(1);
+    /// The pixel, counted from the region's upper left one.
+    pub const WITHIN: VarId = VarId(2);
+    /// The pixel in the target of a region.
+    pub const PLACE: VarId = VarId(3);
+}
+
+/// A variable.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Variable {
+    /// What it is to be called; [`super::names`] makes names differ.
+    pub name: String,
+    /// Its type.
+    pub ty: Ty,
+}
+
+/// What the entry point is told by the host.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Builtin {
+    /// Position of the invocation in the dispatch, `vec2<i32>`.
+    Invocation,
+    /// Position of the fragment, `vec2<f32>`, at a pixel's centre.
+    Position,
+    /// Width and height of the storage texture that is written, `vec2<i32>`.
+    OutputSize,
+    /// Upper left pixel of the region in the inputs, `vec2<i32>`.
+    RegionFirst,
+    /// Width and height of the region, `vec2<i32>`.
+    RegionSize,
+    /// Upper left pixel of the region in the target, `vec2<i32>`.
+    RegionPlace,
+}
+
+/// What is known of the operands of an integer division.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Division {
+    /// No component of the divisor can be 0, and no quotient can overflow.
+    pub defined: bool,
+    /// No component of either side can be negative.
+    pub positive: bool,
+}
+
+/// What an expression does with its arguments.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Op {
+    /// An operation of the graph that is none of the others here.
+    Ir(ir::Op),
+    /// A division or remainder of integers.
+    Division(BinaryOp, Division),
+    /// A conversion. `fits` says of integers that every precision has finite numbers as large, of floats that the target type has
+    /// an integer for each of them.
+    Convert {
+        /// Whether every value can be converted.
+        fits: bool,
+    },
+    /// A vector from scalars, one scalar for all components; an array from its elements.
+    Construct,
+    /// Components of a vector.
+    Swizzle(Vec<u8>),
+    /// An element of an array: array, index. An index outside is that of the last element.
+    Index {
+        /// Whether the index cannot lie outside.
+        inside: bool,
+    },
+    /// A variable.
+    Var(VarId),
+    /// What the host tells.
+    Builtin(Builtin),
+    /// Whether some component holds.
+    Any,
+    /// Whether all components hold.
+    All,
+    /// By component: condition, value if it holds, value if not.
+    Choose,
+    /// An unsigned constant that says something by its bits, the same in all components.
+    Hex(u32),
+    /// A built-in function of the language, by its name there.
+    Call(&'static str),
+    /// A function of the module's.
+    Function(String),
+}
+
+/// An expression.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Expr {
+    /// What it does.
+    pub op: Op,
+    /// With what.
+    pub args: Vec<Expr>,
+    /// What comes out.
+    pub ty: Ty,
+}
+
+impl Expr {
+    /// An operation of arguments.
+    pub fn new(op: Op, args: Vec<Expr>, ty: impl Into<Ty>) -> Expr {
+        let ty = ty.into();
+        Expr { op, args, ty }
+    }
+
+    /// A constant from its bits.
+    pub fn constant(ty: impl Into<Ty>, bits: Lanes) -> Expr {
+        Expr::new(Op::Ir(ir::Op::Const(bits)), Vec::new(), ty)
+    }
+
+    /// A constant with the same bits in every component.
+    pub fn splat(ty: impl Into<Ty>, bits: u32) -> Expr {
+        Expr::constant(ty, [bits; 4])
+    }
+
+    /// A vector of two constant integers.
+    pub fn ivec2(x: i32, y: i32) -> Expr {
+        Expr::constant(Type::value(Scalar::I32, 2), [x as u32, y as u32, 0, 0])
+    }
+
+    /// A variable.
+    pub fn var(var: VarId, ty: impl Into<Ty>) -> Expr {
+        Expr::new(Op::Var(var), Vec::new(), ty)
+    }
+
+    /// `self op other`.
+    pub fn binary(self, op: BinaryOp, other: Expr) -> Expr {
+        let ty = if op.is_comparison() {
+            self.ty.of(Scalar::Bool)
+        } else {
+            self.ty
+        };
+        Expr::new(Op::Ir(ir::Op::Binary(op)), vec![self, other], ty)
+    }
+
+    /// The value as another type, cut off or rounded; every value fits.
+    pub fn to(self, ty: impl Into<Ty>) -> Expr {
+        Expr::new(Op::Convert { fits: true }, vec![self], ty)
+    }
+
+    /// The same bits as another type.
+    pub fn bits_as(self, ty: impl Into<Ty>) -> Expr {
+        Expr::new(Op::Ir(ir::Op::Bitcast), vec![self], ty)
+    }
+
+    /// A built-in function of the language.
+    pub fn call(name: &'static str, args: Vec<Expr>, ty: impl Into<Ty>) -> Expr {
+        Expr::new(Op::Call(name), args, ty)
+    }
+
+    /// The bits of a constant.
+    pub fn as_constant(&self) -> Option<&Lanes> {
+        match &self.op {
+            Op::Ir(ir::Op::Const(bits)) => Some(bits),
+            _ => None,
+        }
+    }
+
+    /// Rewrites every expression in this one, arguments first.
+    pub fn rewrite(self, rule: &mut dyn FnMut(Expr) -> Expr) -> Expr {
+        let args = self.args.into_iter().map(|arg| arg.rewrite(rule)).collect();
+        rule(Expr { args, ..self })
+    }
+
+    /// Shows every expression in this one, arguments first.
+    pub fn visit<'e>(&'e self, see: &mut dyn FnMut(&'e Expr)) {
+        self.args.iter().for_each(|arg| arg.visit(see));
+        see(self);
+    }
+}
+
+/// A statement, and where its value comes from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stmt<'g> {
+    /// What it does.
+    pub kind: StmtKind<'g>,
+    /// The place in the kernel's source.
+    pub origin: Option<&'g Origin>,
+}
+
+/// A sequence of statements.
+pub type Block<'g> = Vec<Stmt<'g>>;
+
+/// What a statement does.
+#[derive(Clone, Debug, PartialEq)]
+pub enum StmtKind<'g> {
+    /// An immutable variable.
+    Let(VarId, Expr),
+    /// A mutable variable; without a value it is undefined until it is assigned.
+    Var(VarId, Option<Expr>),
+    /// Another value for a variable or an element: `place = value`.
+    Assign(Expr, Expr),
+    /// Counts from a start up to an end that is not reached.
+    For {
+        /// The counter.
+        counter: VarId,
+        /// First value.
+        start: Expr,
+        /// One past the last.
+        end: Expr,
+        /// What is repeated.
+        body: Block<'g>,
+    },
+    /// One of two sides.
+    If {
+        /// A scalar boolean.
+        condition: Expr,
+        /// If it holds.
+        then: Block<'g>,
+        /// If not.
+        otherwise: Block<'g>,
+    },
+    /// Writes a texel of the output: place, colour.
+    Store(Expr, Expr),
+    /// The fragment's colour.
+    Output(Expr),
+    /// Leaves the function, with its value if it has one.
+    Return(Option<Expr>),
+    /// A line for the reader.
+    Comment(String),
+}
+
+impl<'g> From<StmtKind<'g>> for Stmt<'g> {
+    fn from(kind: StmtKind<'g>) -> Stmt<'g> {
+        Stmt { kind, origin: None }
+    }
+}
+
+impl<'g> Stmt<'g> {
+    /// Rewrites every expression of the statement, those of its blocks too.
+    pub fn rewrite(&mut self, rule: &mut dyn FnMut(Expr) -> Expr) {
+        let mut each = |expr: &mut Expr| {
+            let taken = std::mem::replace(expr, Expr::new(Op::Construct, Vec::new(), Type::BOOL));
+            *expr = taken.rewrite(rule);
+        };
+        match &mut self.kind {
+            StmtKind::Let(_, value) | StmtKind::Output(value) => each(value),
+            StmtKind::Var(_, value) | StmtKind::Return(value) => value.iter_mut().for_each(each),
+            StmtKind::Assign(place, value) | StmtKind::Store(place, value) => {
+                each(place);
+                each(value);
+            }
+            StmtKind::For { start, end, body, .. } => {
+                each(start);
+                each(end);
+                body.iter_mut().for_each(|stmt| stmt.rewrite(rule));
+            }
+            StmtKind::If {
+                condition,
+                then,
+                otherwise,
+            } => {
+                each(condition);
+                then.iter_mut().chain(otherwise).for_each(|stmt| stmt.rewrite(rule));
+            }
+            StmtKind::Comment(_) => {}
+        }
+    }
+
+    /// Expressions of the statement itself, without those of its blocks.
+    pub fn own(&self) -> Vec<&Expr> {
+        match &self.kind {
+            StmtKind::Let(_, value) | StmtKind::Output(value) => vec![value],
+            StmtKind::Var(_, value) | StmtKind::Return(value) => value.iter().collect(),
+            StmtKind::Assign(place, value) | StmtKind::Store(place, value) => vec![place, value],
+            StmtKind::For { start, end, .. } => vec![start, end],
+            StmtKind::If { condition, .. } => vec![condition],
+            StmtKind::Comment(_) => Vec::new(),
+        }
+    }
+
+    /// Blocks of the statement.
+    pub fn blocks(&self) -> Vec<&Block<'g>> {
+        match &self.kind {
+            StmtKind::For { body, .. } => vec![body],
+            StmtKind::If { then, otherwise, .. } => vec![then, otherwise],
+            _ => Vec::new(),
+        }
+    }
+}
+
+/// Statements of a block and of the blocks in it; comments are none.
+pub fn count(block: &[Stmt<'_>]) -> u32 {
+    let own = |stmt: &Stmt<'_>| u32::from(!matches!(stmt.kind, StmtKind::Comment(_)));
+    block
+        .iter()
+        .map(|stmt| own(stmt) + stmt.blocks().into_iter().map(|inner| count(inner)).sum::<u32>())
+        .sum()
+}
+
+/// A function beside the entry point.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Function<'g> {
+    /// What it is for.
+    pub comment: String,
+    /// Its name.
+    pub name: String,
+    /// Parameters.
+    pub params: Vec<VarId>,
+    /// What it gives.
+    pub result: Ty,
+    /// What it does.
+    pub body: Block<'g>,
+}
+
+/// A shader: what stands at module scope beside the bindings, and the entry point's body.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct Module<'g> {
+    /// All variables.
+    pub variables: Vec<Variable>,
+    /// Constant arrays.
+    pub tables: Vec<(VarId, Expr)>,
+    /// Functions, by name and type of their results.
+    pub functions: Vec<Function<'g>>,
+    /// The entry point's statements.
+    pub body: Block<'g>,
+}
+
+impl<'g> Module<'g> {
+    /// A new variable.
+    pub fn variable(&mut self, name: impl Into<String>, ty: impl Into<Ty>) -> VarId {
+        let (name, ty) = (name.into(), ty.into());
+        self.variables.push(Variable { name, ty });
+        VarId(self.variables.len() as u32 - 1)
+    }
+
+    /// A variable's type.
+    pub fn ty(&self, var: VarId) -> Ty {
+        self.variables[var.0 as usize].ty
+    }
+
+    /// A variable as an expression.
+    pub fn read(&self, var: VarId) -> Expr {
+        Expr::var(var, self.ty(var))
+    }
+
+    /// Rewrites every expression, arguments first. What the rule adds to the module is not rewritten.
+    pub fn rewrite(&mut self, rule: &mut dyn FnMut(&mut Module<'g>, Expr) -> Expr) {
+        let (mut body, tables) = (std::mem::take(&mut self.body), std::mem::take(&mut self.tables));
+        for stmt in &mut body {
+            stmt.rewrite(&mut |expr| rule(self, expr));
+        }
+        let tables = tables
+            .into_iter()
+            .map(|(var, value)| (var, value.rewrite(&mut |expr| rule(self, expr))));
+        let tables: Vec<_> = tables.collect();
+        self.tables.splice(0..0, tables);
+        self.body = body;
+    }
+
+    /// Adds a function unless it is there; gives its name.
+    pub fn function(&mut self, name: &str, result: Ty, make: impl FnOnce(&mut Self) -> Function<'g>) -> Op {
+        if !self.functions.iter().any(|f| f.name == name && f.result == result) {
+            let function = make(self);
+            self.functions.push(function);
+        }
+        Op::Function(name.to_owned())
+    }
+}

@@ -1,0 +1,109 @@
+//! Comments that say where statements come from: one for each group of statements of a place.
+
+use super::ast::{Block, Stmt, StmtKind};
+use super::text::comment;
+use crate::ir::{Counter, Graph};
+use std::collections::HashMap;
+
+/// The statements with a comment before each group.
+pub fn comment_groups<'g>(block: Block<'g>, graph: &'g Graph) -> Block<'g> {
+    let mut depth: HashMap<&str, usize> = HashMap::new();
+    for origin in graph.origins.iter().flatten() {
+        for (k, counter) in origin.counters.iter().enumerate() {
+            let slot = depth.entry(counter.name.as_str()).or_default();
+            *slot = k.max(*slot);
+        }
+    }
+    let mut groups = Groups {
+        files: &graph.files,
+        depth,
+        group: Group::default(),
+        commented: None,
+    };
+    groups.block(block)
+}
+
+struct Groups<'g> {
+    files: &'g [String],
+    /// By name of a counter, how deep its loop is nested: outer counters come first in comments.
+    depth: HashMap<&'g str, usize>,
+    group: Group<'g>,
+    /// Place and outer counters of the last comment.
+    commented: Option<((u32, u32), Vec<Counter>)>,
+}
+
+/// Statements of one place in the source, under one comment.
+#[derive(Default)]
+struct Group<'g> {
+    counters: Vec<Counter>,
+    place: Option<(u32, u32)>,
+    statements: Block<'g>,
+}
+
+impl<'g> Groups<'g> {
+    fn block(&mut self, block: Block<'g>) -> Block<'g> {
+        let mut out = Vec::new();
+        for mut stmt in block {
+            match &mut stmt.kind {
+                StmtKind::For { body, .. } => {
+                    self.flush(&mut out);
+                    *body = self.block(std::mem::take(body));
+                    out.push(stmt);
+                }
+                StmtKind::If { then, otherwise, .. } => {
+                    self.flush(&mut out);
+                    *then = self.block(std::mem::take(then));
+                    *otherwise = self.block(std::mem::take(otherwise));
+                    out.push(stmt);
+                }
+                _ => self.add(stmt, &mut out),
+            }
+        }
+        self.flush(&mut out);
+        out
+    }
+
+    fn add(&mut self, stmt: Stmt<'g>, out: &mut Block<'g>) {
+        if let Some(origin) = stmt.origin.filter(|o| !o.name.is_empty()) {
+            let agrees = origin.counters.iter().all(|c| {
+                let known = self.group.counters.iter().find(|known| known.name == c.name);
+                known.is_none_or(|known| known.value == c.value)
+            });
+            if !agrees {
+                self.flush(out);
+            }
+            for counter in &origin.counters {
+                if !self.group.counters.contains(counter) {
+                    self.group.counters.push(counter.clone());
+                }
+            }
+            self.group.place.get_or_insert((origin.file, origin.line));
+        }
+        self.group.statements.push(stmt);
+    }
+
+    /// Ends a group: its comment, then its statements.
+    fn flush(&mut self, out: &mut Block<'g>) {
+        let group = std::mem::take(&mut self.group);
+        if group.statements.is_empty() {
+            return;
+        }
+        let mut counters = group.counters;
+        counters.sort_by_key(|c| self.depth.get(c.name.as_str()).copied().unwrap_or(0));
+        // The same line for the next innermost counter speaks for itself: the names carry it.
+        let outer = counters[..counters.len().saturating_sub(1)].to_vec();
+        let place = group.place.map(|place| (place, outer));
+        let repeated = place.is_some() && place == self.commented;
+        if let Some(((file, line), _)) = &place
+            && !repeated
+        {
+            let values: Vec<String> = counters.iter().map(|c| format!("{} {}", c.name, c.value)).collect();
+            let file = self.files.get(*file as usize).map_or("", String::as_str);
+            let colon = if values.is_empty() { "" } else { ": " };
+            let said = comment(&format!("{}{colon}{file}:{line}", values.join(", ")));
+            out.push(StmtKind::Comment(said).into());
+            self.commented = place;
+        }
+        out.extend(group.statements);
+    }
+}

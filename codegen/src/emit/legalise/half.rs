@@ -1,0 +1,89 @@
+//! Half precision: every float of the kernel is an `f16`; what other hardware reads and writes stays in full precision.
+
+use crate::emit::ast::{Expr, Module, Op, Ty};
+use crate::ir;
+
+/// The largest finite number of half precision.
+const LARGEST: f32 = 65504.0;
+
+/// Rewrites a kernel, and the colours that it gives, which are in full precision again.
+pub fn half(module: &mut Module<'_>, results: &mut [Expr]) {
+    for variable in &mut module.variables {
+        variable.ty = narrow(variable.ty);
+    }
+    module.rewrite(&mut |_, expr| rule(expr));
+    for result in results {
+        *result = full(result.clone().rewrite(&mut rule));
+    }
+}
+
+fn narrow(ty: Ty) -> Ty {
+    Ty {
+        half: ty.is_float(),
+        ..ty
+    }
+}
+
+/// A value in full precision.
+fn full(expr: Expr) -> Expr {
+    match expr.ty.half {
+        true => {
+            let ty = expr.ty.full();
+            expr.to(ty)
+        }
+        false => expr,
+    }
+}
+
+/// A value as the shader computes with it.
+fn halved(expr: Expr) -> Expr {
+    match expr.ty.is_float() {
+        true => {
+            let ty = narrow(expr.ty);
+            expr.to(ty)
+        }
+        false => expr,
+    }
+}
+
+fn rule(mut expr: Expr) -> Expr {
+    use ir::Op::{
+        Bitcast, BufferLoad, Compare, Derivative, Gather, GatherCompare, Load, Message, Sample, Uniform, Varying,
+    };
+    match &expr.op {
+        // Bits are those of an `f32` in every precision.
+        Op::Ir(
+            Load { .. }
+            | Sample { .. }
+            | Gather { .. }
+            | Compare { .. }
+            | GatherCompare { .. }
+            | BufferLoad { .. }
+            | Message(_)
+            | Derivative(_)
+            | Uniform(_)
+            | Varying(_)
+            | Bitcast,
+        ) => {
+            expr.args = expr.args.into_iter().map(full).collect();
+            halved(expr)
+        }
+        // Between half precision and integers by way of `f32`, which holds every `f16`, and every integer that an `f16` holds:
+        // whatever a driver does of its own is what it does in full precision.
+        Op::Convert { fits } => {
+            let fits = *fits;
+            expr.args = expr.args.into_iter().map(full).collect();
+            let clamps = !fits && expr.args[0].ty.is_integer() && expr.ty.is_float();
+            if clamps {
+                let ty = expr.ty;
+                let [low, high] = [-LARGEST, LARGEST].map(|x| Expr::splat(ty, x.to_bits()));
+                expr = Expr::new(Op::Ir(ir::Op::Clamp), vec![expr, low, high], ty);
+            }
+            halved(expr)
+        }
+        _ => {
+            expr.ty = narrow(expr.ty);
+            expr
+        }
+    }
+}

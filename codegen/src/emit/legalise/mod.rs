@@ -1,0 +1,182 @@
+//! Rewriting what a language says in another way, or leaves open where Rust does not.
+//!
+//! Each language has its rule, which sees every expression after its arguments and gives what stands for it.
+
+mod glsl;
+mod half;
+mod wgsl;
+
+use super::ast::{Division, Expr, Function, Module, Op, StmtKind, Ty};
+use crate::ir::{self, BinaryOp, Scalar, Type};
+
+pub use half::half;
+
+/// Rewrites a module for WGSL.
+pub fn wgsl(module: &mut Module<'_>) {
+    wgsl::legalise(module);
+}
+
+/// Rewrites a module for GLSL.
+pub fn glsl(module: &mut Module<'_>) {
+    module.rewrite(&mut glsl::rule);
+}
+
+/// A rule of a language.
+type Rule = fn(&mut Module<'_>, Expr) -> Expr;
+
+/// A selection by component: value if it holds, value if not.
+fn choose(condition: Expr, yes: Expr, no: Expr) -> Expr {
+    let ty = yes.ty;
+    Expr::new(Op::Choose, vec![condition, yes, no], ty)
+}
+
+/// Whether an expression is a name or a number.
+fn is_leaf(expr: &Expr) -> bool {
+    match &expr.op {
+        Op::Var(_) | Op::Ir(ir::Op::Varying(_)) => true,
+        Op::Ir(ir::Op::Const(_)) => expr.ty.is_scalar() && !is_non_finite(expr),
+        _ => false,
+    }
+}
+
+/// Whether a component of a constant is an infinity or a NaN.
+fn is_non_finite(expr: &Expr) -> bool {
+    let float = |bits: &u32| !f32::from_bits(*bits).is_finite();
+    let lanes = expr.ty.lanes() as usize;
+    expr.ty.is_float() && expr.as_constant().is_some_and(|bits| bits[..lanes].iter().any(float))
+}
+
+/// A constant vector that is not finite, component by component.
+fn by_component(expr: &Expr, mut scalar: impl FnMut(u32) -> Expr) -> Expr {
+    let bits = *expr.as_constant().expect("only constants are not finite");
+    let lanes = &bits[..expr.ty.lanes() as usize];
+    let ty = Ty {
+        shape: Type::F32,
+        ..expr.ty
+    };
+    let mut component = |bits: u32| match f32::from_bits(bits).is_finite() {
+        true => Expr::splat(ty, bits),
+        false => scalar(bits),
+    };
+    match lanes {
+        [bits] => component(*bits),
+        [first, rest @ ..] if rest.iter().all(|bits| bits == first) => {
+            Expr::new(Op::Construct, vec![component(*first)], expr.ty)
+        }
+        _ => Expr::new(
+            Op::Construct,
+            lanes.iter().map(|bits| component(*bits)).collect(),
+            expr.ty,
+        ),
+    }
+}
+
+/// A function that converts floats to integers as Rust does: to the nearest integer there is, and a NaN to 0. Where the language
+/// leaves open what becomes of numbers out of range, they are `clamped` first.
+fn to_integer(module: &mut Module<'_>, name: &str, to: Ty, clamped: bool, rule: Rule) -> Op {
+    let from = to.of(Scalar::F32);
+    module.function(name, to, |module| {
+        let signed = to.kind() == Some(Scalar::I32);
+        let (low, high, limit, largest): (f32, f32, f32, u32) = match signed {
+            true => (-2_147_483_648.0, 2_147_483_520.0, 2_147_483_648.0, i32::MAX as u32),
+            false => (0.0, 4_294_967_040.0, 4_294_967_296.0, u32::MAX),
+        };
+        let x = module.variable("x", from);
+        let read = module.read(x);
+        let bound = |x: f32| Expr::splat(from, x.to_bits());
+        let whole = match clamped {
+            true => Expr::new(Op::Ir(ir::Op::Clamp), vec![read.clone(), bound(low), bound(high)], from),
+            false => read.clone(),
+        };
+        let too_large = read.clone().binary(BinaryOp::Ge, bound(limit));
+        let saturated = choose(too_large, Expr::splat(to, largest), whole.to(to));
+        let bits = read.bits_as(to.of(Scalar::U32));
+        let word = |bits: u32| Expr::new(Op::Hex(bits), Vec::new(), to.of(Scalar::U32));
+        let is_nan = bits
+            .binary(BinaryOp::And, word(0x7fff_ffff))
+            .binary(BinaryOp::Gt, word(0x7f80_0000));
+        let lets = [("is_nan", is_nan), ("saturated", saturated)].map(|(name, value)| {
+            let value = value.rewrite(&mut |e| rule(module, e));
+            (module.variable(name, value.ty), value)
+        });
+        let [is_nan, saturated] = [0, 1].map(|k| module.read(lets[k].0));
+        let chosen = choose(is_nan, Expr::splat(to, 0), saturated).rewrite(&mut |e| rule(module, e));
+        let mut body: Vec<_> = lets.map(|(var, value)| StmtKind::Let(var, value).into()).into();
+        body.push(StmtKind::Return(Some(chosen)).into());
+        Function {
+            comment: "What is too large becomes the largest integer, NaN becomes 0.".to_owned(),
+            name: name.to_owned(),
+            params: vec![x],
+            result: to,
+            body,
+        }
+    })
+}
+
+/// Division by zero gives the dividend and its remainder 0, as in WGSL, and the smallest integer divided by -1 itself; other
+/// languages leave both open. They leave the remainder of negative numbers open too, or give it the sign of the divisor.
+/// `None` where the operator does all that by itself.
+fn guarded(module: &mut Module<'_>, op: BinaryOp, known: Division, ty: Ty, rule: Rule) -> Option<Op> {
+    let signed = ty.kind() == Some(Scalar::I32);
+    let quotient = op == BinaryOp::Div;
+    if known.defined && (quotient || !signed || known.positive) {
+        return None;
+    }
+    let (name, comment) = match (quotient, signed) {
+        (true, _) => ("whole_quotient", "x / y, and x where that is not defined."),
+        (false, true) => (
+            "whole_remainder",
+            "What x / y leaves, with the sign of x, and 0 where it is not defined.",
+        ),
+        (false, false) => ("whole_remainder", "What x / y leaves, and 0 where it is not defined."),
+    };
+    let function = module.function(name, ty, |module| {
+        let [x, y] = ["x", "y"].map(|name| module.variable(name, ty));
+        let [dividend, by] = [x, y].map(|var| module.read(var));
+        let is = |value: &Expr, bits: u32| value.clone().binary(BinaryOp::Eq, Expr::splat(ty, bits));
+        let one = || Expr::splat(ty, 1);
+        let mut divisor = choose(is(&by, 0), one(), by.clone());
+        if signed {
+            let overflows = is(&dividend, i32::MIN as u32).binary(BinaryOp::And, is(&by, -1_i32 as u32));
+            divisor = choose(overflows, one(), divisor);
+        }
+        let divisor = divisor.rewrite(&mut |e| rule(module, e));
+        let var = module.variable("divisor", ty);
+        let by = module.read(var);
+        let sure = Division {
+            defined: true,
+            positive: true,
+        };
+        let divide = |op, x: Expr| Expr::new(Op::Division(op, sure), vec![x, by.clone()], ty);
+        let result = match (quotient, signed) {
+            (true, _) => divide(BinaryOp::Div, dividend),
+            (false, false) => divide(BinaryOp::Rem, dividend),
+            (false, true) => {
+                let back = by
+                    .clone()
+                    .binary(BinaryOp::Mul, divide(BinaryOp::Div, dividend.clone()));
+                dividend.binary(BinaryOp::Sub, back)
+            }
+        };
+        Function {
+            comment: comment.to_owned(),
+            name: name.to_owned(),
+            params: vec![x, y],
+            result: ty,
+            body: vec![
+                StmtKind::Let(var, divisor).into(),
+                StmtKind::Return(Some(result)).into(),
+            ],
+        }
+    });
+    Some(function)
+}
+
+/// A count of bits below 32.
+fn below_32(count: Expr) -> Expr {
+    let ty = count.ty;
+    match count.as_constant() {
+        Some(bits) => Expr::constant(ty, bits.map(|bits| bits & 31)),
+        None => count.binary(BinaryOp::And, Expr::splat(ty, 31)),
+    }
+}

@@ -1,0 +1,80 @@
+//! WGSL: counts of shifts, conversions that saturate, constants that are not finite.
+
+use super::{below_32, by_component, is_non_finite, to_integer};
+use crate::emit::ast::{Block, Expr, Module, Op, StmtKind, Ty, VarId};
+use crate::emit::print::wgsl_type;
+use crate::ir::{self, BinaryOp, Scalar, Type, UnaryOp};
+use std::collections::BTreeMap;
+
+/// Floats without a literal, by their bits: variables that hold them.
+type Specials = BTreeMap<u32, [VarId; 2]>;
+
+/// Rewrites a module for WGSL.
+pub fn legalise(module: &mut Module<'_>) {
+    let mut specials = Specials::new();
+    module.rewrite(&mut |module, expr| {
+        if is_non_finite(&expr) {
+            let half = expr.ty.half;
+            return by_component(&expr, |bits| non_finite(module, &mut specials, bits, half));
+        }
+        rule(module, expr)
+    });
+    let mut body: Block<'_> = Vec::new();
+    for (bits, [value, variable]) in specials {
+        let comment = "A variable, since no constant may be an infinity or a NaN.";
+        let word = Expr::new(Op::Hex(bits), Vec::new(), Type::U32);
+        let read = module.read(variable).bits_as(Type::F32);
+        let ty = module.ty(value);
+        let read = if ty.half { read.to(ty) } else { read };
+        body.push(StmtKind::Comment(comment.to_owned()).into());
+        body.push(StmtKind::Var(variable, Some(word)).into());
+        body.push(StmtKind::Let(value, read).into());
+    }
+    body.append(&mut module.body);
+    module.body = body;
+}
+
+fn rule(module: &mut Module<'_>, mut expr: Expr) -> Expr {
+    match expr.op {
+        // WGSL shifts by unsigned counts, and makes a constant count of 32 or more an error.
+        Op::Ir(ir::Op::Binary(BinaryOp::Shl | BinaryOp::Shr)) => {
+            let count = expr.args.pop().expect("two arguments");
+            let unsigned = count.ty.of(Scalar::U32);
+            let count = match (count.as_constant(), count.ty == unsigned) {
+                (Some(bits), _) => Expr::constant(unsigned, *bits),
+                (None, true) => count,
+                (None, false) => count.to(unsigned),
+            };
+            expr.args.push(below_32(count));
+            expr
+        }
+        // WGSL's own conversion goes to the nearest integer that an `f32` has too, which is not the largest one, and leaves NaN
+        // open.
+        Op::Convert { fits: false } if expr.args[0].ty.is_float() && expr.ty.is_integer() => {
+            let name = format!("to_{}", wgsl_type(expr.ty));
+            expr.op = to_integer(module, &name, expr.ty, false, rule);
+            expr
+        }
+        _ => expr,
+    }
+}
+
+/// An infinity or a NaN. WGSL has no expression for one that is known when the shader is made, and takes the bits of a variable.
+fn non_finite(module: &mut Module<'_>, specials: &mut Specials, bits: u32, half: bool) -> Expr {
+    let ty = Ty { shape: Type::F32, half };
+    if bits == f32::NEG_INFINITY.to_bits() {
+        let infinity = non_finite(module, specials, f32::INFINITY.to_bits(), half);
+        return Expr::new(Op::Ir(ir::Op::Unary(UnaryOp::Neg)), vec![infinity], ty);
+    }
+    let name = match f32::from_bits(bits).is_nan() {
+        true => "nan",
+        false => "infinity",
+    };
+    let [value, _] = *specials.entry(bits).or_insert_with(|| {
+        [
+            module.variable(name, ty),
+            module.variable(format!("{name}_bits"), Type::U32),
+        ]
+    });
+    module.read(value)
+}

@@ -1,0 +1,187 @@
+//! Loops and branches that are left in the shader.
+
+use super::{Lowering, Stale};
+use crate::emit::ast::{Expr, Op, StmtKind, VarId};
+use crate::ir::{self, NodeId};
+use crate::passes::Block;
+
+impl<'g> Lowering<'g> {
+    pub(super) fn looped(&mut self, node: NodeId, body: &'g Block) {
+        let graph = &self.compiled.graph;
+        let args = &graph.node(node).args;
+        let region = graph.region(graph.regions_of(node)[0]);
+        for (param, init) in region.params[1..].iter().zip(&args[2..]) {
+            if graph.ty(*param).is_array() {
+                self.enter_web(*param, *init);
+            } else {
+                let value = self.expr(*init);
+                let var = self.variable(*param);
+                self.statement(*param, StmtKind::Var(var, Some(value)));
+                self.exprs[param.0 as usize] = Some(self.module.read(var));
+            }
+        }
+        let counter = self.variable(region.params[0]);
+        let (start, end) = (self.expr(args[0]), self.expr(args[1]));
+        self.exprs[region.params[0].0 as usize] = Some(self.module.read(counter));
+        let scope = self.webs.snapshot();
+        let body = self.nested(|lowering| {
+            lowering.steps(body);
+            lowering.next_iteration(&region.params[1..], &region.results);
+        });
+        if let Some(version) = self.webs.lost(&scope) {
+            let since = self.webs.replacement(version).map_or(Stale::Unknown, Stale::Since);
+            self.stale.get_or_insert(since);
+        }
+        self.block.push(
+            StmtKind::For {
+                counter,
+                start,
+                end,
+                body,
+            }
+            .into(),
+        );
+        self.webs.leave(&scope);
+        self.results(node, &region.params[1..]);
+    }
+
+    /// Assigns the next iteration's values. One that reads a variable which an assignment before changes is computed before.
+    fn next_iteration(&mut self, params: &[NodeId], results: &[NodeId]) {
+        let graph = &self.compiled.graph;
+        let mut moves: Vec<(NodeId, VarId, Expr)> = Vec::new();
+        for (param, result) in params.iter().zip(results) {
+            let value = self.expr(*result);
+            let var = match graph.ty(*param).is_array() {
+                true => self.webs.variable(*param),
+                false => self.exprs[param.0 as usize].as_ref().and_then(as_var),
+            };
+            let var = var.unwrap_or(VarId::PIXEL);
+            if as_var(&value) != Some(var) {
+                moves.push((*param, var, value));
+            }
+        }
+        for k in 0..moves.len() {
+            let changed: Vec<VarId> = moves[..k].iter().map(|(_, var, _)| *var).collect();
+            let (param, var, value) = &moves[k];
+            if reads(value, &changed) {
+                let (param, ty) = (*param, value.ty);
+                let name = format!("next_{}", self.module.variables[var.0 as usize].name);
+                let next = self.module.variable(name, ty);
+                let value = std::mem::replace(&mut moves[k].2, Expr::var(next, ty));
+                self.statement(param, StmtKind::Let(next, value));
+            }
+        }
+        for (param, var, value) in moves {
+            let place = self.module.read(var);
+            self.statement(param, StmtKind::Assign(place, value));
+        }
+        for param in params.iter().filter(|param| graph.ty(**param).is_array()) {
+            self.webs.advance(*param);
+        }
+    }
+
+    /// After a loop, results go by the variables that were carried.
+    fn results(&mut self, owner: NodeId, variables: &[NodeId]) {
+        for (id, k) in self.results_of(owner) {
+            if self.compiled.graph.ty(id).is_array() {
+                self.webs.advance(id);
+            } else {
+                self.exprs[id.0 as usize] = self.exprs[variables[k].0 as usize].clone();
+            }
+        }
+    }
+
+    /// The nodes that give a loop's or branch's results, with their numbers.
+    fn results_of(&self, owner: NodeId) -> Vec<(NodeId, usize)> {
+        let graph = &self.compiled.graph;
+        let all = graph.ids().skip(owner.0 as usize);
+        all.filter_map(|id| match graph.node(id).op {
+            ir::Op::Result(k) if graph.node(id).args[0] == owner => Some((id, k as usize)),
+            _ => None,
+        })
+        .collect()
+    }
+
+    pub(super) fn branch(&mut self, node: NodeId, then: &'g Block, otherwise: &'g Block) {
+        let graph = &self.compiled.graph;
+        let regions: Vec<_> = graph.regions_of(node).into_iter().map(|r| graph.region(r)).collect();
+        let results = self.results_of(node);
+        // A side that does nothing leaves values that are known before: the variable begins with them.
+        let idle = otherwise.steps.is_empty();
+        let mut changes_array = false;
+        for (id, k) in &results {
+            let kept = regions[1].results[*k];
+            if graph.ty(*id).is_array() {
+                changes_array |= self.prepare_array(*id, kept);
+                continue;
+            }
+            let begin = idle.then(|| self.expr(kept));
+            let var = self.variable(*id);
+            self.statement(*id, StmtKind::Var(var, begin));
+            self.exprs[id.0 as usize] = Some(self.module.read(var));
+        }
+        let condition = self.expr(graph.node(node).args[0]);
+        let before = self.webs.snapshot();
+        let then = self.nested(|lowering| lowering.side(then, &results, &regions[0].results, false));
+        let first = self.webs.snapshot();
+        self.webs.restore(&before);
+        let otherwise = self.nested(|lowering| {
+            if !idle || changes_array {
+                lowering.side(otherwise, &results, &regions[1].results, idle);
+            } else {
+                for (id, k) in results.iter().filter(|(id, _)| graph.ty(*id).is_array()) {
+                    lowering.enter_web(*id, regions[1].results[*k]);
+                }
+            }
+        });
+        self.block.push(
+            StmtKind::If {
+                condition,
+                then,
+                otherwise,
+            }
+            .into(),
+        );
+        self.webs.leave(&before);
+        self.webs.join_sides(&first);
+    }
+
+    /// Sees to it that an array that a branch chooses has its variable before the branch. Gives whether the side that
+    /// leaves `kept` must write it, because the variable holds something else.
+    fn prepare_array(&mut self, id: NodeId, kept: NodeId) -> bool {
+        if self.webs.variable(id).is_none() {
+            let var = self.variable(id);
+            self.statement(id, StmtKind::Var(var, None));
+            // Both sides write it before it is read.
+            self.webs.declare(id, var, id);
+        }
+        self.webs.holder(kept) != self.webs.variable(id)
+    }
+
+    fn side(&mut self, block: &'g Block, results: &[(NodeId, usize)], values: &[NodeId], arrays_only: bool) {
+        self.steps(block);
+        for (id, k) in results {
+            if self.compiled.graph.ty(*id).is_array() {
+                self.enter_web(*id, values[*k]);
+            } else if !arrays_only {
+                let (place, value) = (self.expr(*id), self.expr(values[*k]));
+                self.statement(*id, StmtKind::Assign(place, value));
+            }
+        }
+    }
+}
+
+/// The variable that an expression is.
+fn as_var(expr: &Expr) -> Option<VarId> {
+    match expr.op {
+        Op::Var(var) => Some(var),
+        _ => None,
+    }
+}
+
+/// Whether an expression reads one of some variables.
+fn reads(expr: &Expr, vars: &[VarId]) -> bool {
+    let mut found = false;
+    expr.visit(&mut |e| found |= as_var(e).is_some_and(|var| vars.contains(&var)));
+    found
+}

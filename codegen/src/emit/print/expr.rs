@@ -1,0 +1,127 @@
+//! Expressions: what all languages write alike.
+
+use super::Language;
+use crate::emit::ast::{Expr, Op, Ty};
+use crate::emit::text::{Binds, Text};
+use crate::ir::{self, BinaryOp, Lanes, Scalar, UnaryOp};
+
+/// An expression whose arguments have been printed.
+pub fn print(l: &dyn Language, expr: &Expr, args: &[Text]) -> Text {
+    let all: Vec<&Text> = args.iter().collect();
+    match &expr.op {
+        Op::Ir(op) => operation(l, op, expr, args),
+        Op::Division(op, _) => infix(l, *op, Scalar::I32, args),
+        Op::Convert { .. } => Text::call(&l.ty(expr.ty), &all),
+        Op::Construct => l.construct(expr.ty, &all),
+        Op::Swizzle(components) => {
+            let letters: String = components.iter().map(|k| char::from(b"xyzw"[*k as usize])).collect();
+            Text::member(&args[0], &letters)
+        }
+        Op::Index { .. } => Text::index(&args[0], &args[1]),
+        Op::Builtin(builtin) => l.builtin(*builtin),
+        Op::Any => Text::call("any", &all),
+        Op::All => Text::call("all", &all),
+        Op::Choose => l.choose(&args[0], &args[1], &args[2]),
+        Op::Hex(bits) => match expr.ty.lanes() {
+            1 => Text::name(l.hex(*bits)),
+            _ => Text::call(&l.ty(expr.ty), &[&Text::name(l.hex(*bits))]),
+        },
+        Op::Call(name) => Text::call(name, &all),
+        Op::Function(name) => Text::call(name, &all),
+        Op::Var(_) => unreachable!("variables are printed by their names"),
+    }
+}
+
+fn operation(l: &dyn Language, op: &ir::Op, expr: &Expr, args: &[Text]) -> Text {
+    let all: Vec<&Text> = args.iter().collect();
+    let kind = |k: usize| expr.args[k].ty.kind().unwrap_or(Scalar::F32);
+    match op {
+        ir::Op::Const(bits) => constant(l, expr.ty, bits),
+        ir::Op::Unary(UnaryOp::Neg) => Text::prefix("-", &args[0]),
+        ir::Op::Unary(UnaryOp::Not) => Text::prefix("!", &args[0]),
+        ir::Op::Unary(UnaryOp::BitNot) => Text::prefix("~", &args[0]),
+        ir::Op::Binary(BinaryOp::Min | BinaryOp::Max | BinaryOp::Pow | BinaryOp::Atan2) => {
+            Text::call(l.function(op), &all)
+        }
+        ir::Op::Binary(op) => infix(l, *op, kind(0), args),
+        ir::Op::Unary(_) => Text::call(l.function(op), &all),
+        ir::Op::Dot => Text::call("dot", &all),
+        ir::Op::Cross => Text::call("cross", &all),
+        ir::Op::Clamp => Text::call("clamp", &all),
+        ir::Op::Select => l.select(expr.ty, &args[0], &args[1], &args[2]),
+        ir::Op::Bitcast => l.bitcast(expr.ty, &args[0]),
+        read => l.read(read, args),
+    }
+}
+
+fn infix(l: &dyn Language, op: BinaryOp, kind: Scalar, args: &[Text]) -> Text {
+    use BinaryOp::{Add, And, Atan2, Div, Eq, Ge, Gt, Le, Lt, Max, Min, Mul, Ne, Or, Pow, Rem, Shl, Shr, Sub, Xor};
+    let (spelled, binds) = match op {
+        Add => ("+", Binds::Sum),
+        Sub => ("-", Binds::Sum),
+        Mul => ("*", Binds::Product),
+        Div => ("/", Binds::Product),
+        Rem => ("%", Binds::Product),
+        Eq => ("==", Binds::Comparison),
+        Ne => ("!=", Binds::Comparison),
+        Lt => ("<", Binds::Comparison),
+        Le => ("<=", Binds::Comparison),
+        Gt => (">", Binds::Comparison),
+        Ge => (">=", Binds::Comparison),
+        Xor if kind == Scalar::Bool => ("!=", Binds::Comparison),
+        And | Or => (l.logical(op, kind), Binds::Mixed),
+        Xor => ("^", Binds::Mixed),
+        Shl => ("<<", Binds::Mixed),
+        Shr => (">>", Binds::Mixed),
+        Min | Max | Pow | Atan2 => unreachable!("these are functions"),
+    };
+    Text::infix(&args[0], spelled, &args[1], binds)
+}
+
+/// A constant scalar or vector of finite numbers: a component that is the same in all is written once.
+fn constant(l: &dyn Language, ty: Ty, bits: &Lanes) -> Text {
+    let kind = ty.kind().unwrap_or(Scalar::F32);
+    let lanes = &bits[..ty.lanes() as usize];
+    let parts: Vec<Text> = lanes.iter().map(|bits| l.scalar(kind, ty.half, *bits)).collect();
+    match &parts[..] {
+        [one] => one.clone(),
+        [first, rest @ ..] if rest.iter().all(|part| part == first) => l.construct(ty, &[first]),
+        _ => l.construct(ty, &parts.iter().collect::<Vec<_>>()),
+    }
+}
+
+/// A finite float with few digits that every reader takes for the same bits.
+pub fn float(bits: u32) -> Text {
+    let x = f32::from_bits(bits);
+    Text::literal(digits(x), x.is_sign_negative())
+}
+
+/// The shortest decimal that gives a float back, whether it is read as an `f32` at once or as an `f64` that is then rounded.
+/// Tint and glslang read literals as `f64`, and Tint refuses what is larger than the largest `f32` by less than a rounding:
+/// such numbers, and those that would be rounded twice, have the digits of the `f64` that equals them.
+fn digits(x: f32) -> String {
+    // All digits of whole numbers that have few.
+    if x.fract() == 0.0 && x.abs() < 1e15 {
+        return format!("{:.1}", f64::from(x));
+    }
+    let short = format!("{x:?}");
+    let read = short.parse::<f64>().unwrap_or(f64::NAN);
+    if read as f32 == x && read.abs() <= f64::from(f32::MAX) {
+        short
+    } else {
+        format!("{:?}", f64::from(x))
+    }
+}
+
+/// An integer literal with a suffix.
+pub fn integer(n: i64, suffix: &str) -> Text {
+    Text::literal(format!("{n}{suffix}"), n < 0)
+}
+
+/// Components of a texel that holds `n` of them.
+pub fn components(texel: Text, n: u8) -> Text {
+    match n {
+        4 => texel,
+        n => Text::member(&texel, &"xyzw"[..n as usize]),
+    }
+}

@@ -1,0 +1,176 @@
+//! From a tree to text. Printers decide nothing: they write what the tree says.
+
+mod expr;
+mod glsl;
+mod header;
+mod wgsl;
+
+use super::ast::{Block, Builtin, Expr, Function, Module, Op, Stmt, StmtKind, Ty, VarId};
+use super::text::{Binds, Text};
+use crate::ir::{self, Scalar};
+
+pub use glsl::{GATHER, Glsl, LENGTH, MESSAGES};
+pub use header::{GENERATOR, header};
+pub use wgsl::Wgsl;
+
+/// A type as GLSL spells it.
+pub fn glsl_type(ty: Ty) -> String {
+    glsl::type_name(ty)
+}
+
+/// A type as WGSL spells it.
+pub fn wgsl_type(ty: Ty) -> String {
+    wgsl::type_name(ty)
+}
+
+/// A shading language.
+pub trait Language {
+    /// A type.
+    fn ty(&self, ty: Ty) -> String;
+    /// A scalar constant.
+    fn scalar(&self, kind: Scalar, half: bool, bits: u32) -> Text;
+    /// An unsigned constant by its bits.
+    fn hex(&self, bits: u32) -> String {
+        format!("{bits:#x}u")
+    }
+    /// What the host tells.
+    fn builtin(&self, builtin: Builtin) -> Text;
+    /// The function that stands for an operation of the graph on numbers.
+    fn function(&self, op: &ir::Op) -> &'static str;
+    /// A read of what the host binds, a size of it, or what another lane has.
+    fn read(&self, op: &ir::Op, args: &[Text]) -> Text;
+    /// Selection by a scalar boolean.
+    fn select(&self, ty: Ty, condition: &Text, yes: &Text, no: &Text) -> Text;
+    /// Selection by component.
+    fn choose(&self, condition: &Text, yes: &Text, no: &Text) -> Text;
+    /// The same bits as another type.
+    fn bitcast(&self, to: Ty, x: &Text) -> Text {
+        Text::call(&self.ty(to), &[x])
+    }
+    /// A vector or array from its parts.
+    fn construct(&self, ty: Ty, parts: &[&Text]) -> Text {
+        Text::call(&self.ty(ty), parts)
+    }
+    /// The spelling of `&` and `|` of booleans, or of numbers.
+    fn logical(&self, op: ir::BinaryOp, kind: Scalar) -> &'static str;
+
+    /// An immutable local.
+    fn immutable(&self, name: &str, ty: Ty, value: &str) -> String;
+    /// A mutable local; without a value it is undefined until it is assigned.
+    fn mutable(&self, name: &str, ty: Ty, value: Option<&str>) -> String;
+    /// A constant array at module scope.
+    fn table(&self, name: &str, ty: Ty, value: &str) -> String;
+    /// The head of a loop, up to the opening brace.
+    fn loop_head(&self, counter: &str, ty: Ty, start: &str, bound: &str) -> String;
+    /// The head of a branch, up to the opening brace.
+    fn if_head(&self, condition: &str) -> String;
+    /// The head of a function, up to the opening brace.
+    fn function_head(&self, name: &str, params: &[(&str, Ty)], result: Ty) -> String;
+    /// Writes a texel of the output.
+    fn store(&self, place: &str, colour: &str) -> String;
+    /// Gives the fragment's colour.
+    fn output(&self, colour: &str) -> String;
+    /// Everything before the first function: header, directives, bindings.
+    fn preamble(&self, header: &[String]) -> String;
+    /// The head of the entry point, up to the opening brace.
+    fn entry_head(&self) -> String;
+}
+
+/// A module in a language, under a header.
+pub fn module(language: &dyn Language, module: &Module<'_>, header: &[String]) -> String {
+    let printer = Printer { language, module };
+    let mut out = language.preamble(header);
+    let mut tables = Vec::new();
+    for (var, value) in &module.tables {
+        let value = printer.expr(value).code;
+        tables.push(language.table(printer.name(*var), module.ty(*var), &value));
+    }
+    let mut functions: Vec<String> = module.functions.iter().map(|f| printer.function(f)).collect();
+    functions.sort();
+    tables.append(&mut functions);
+    if !tables.is_empty() {
+        out += &format!("\n{}\n", tables.join("\n"));
+    }
+    out.push('\n');
+    out += &language.entry_head();
+    out.push('\n');
+    out += &printer.block(&module.body, 1);
+    out += "}\n";
+    out
+}
+
+/// Prints what a module's trees say.
+struct Printer<'m> {
+    language: &'m dyn Language,
+    module: &'m Module<'m>,
+}
+
+impl Printer<'_> {
+    fn name(&self, var: VarId) -> &str {
+        &self.module.variables[var.0 as usize].name
+    }
+
+    fn function(&self, function: &Function<'_>) -> String {
+        let params: Vec<(&str, Ty)> = function
+            .params
+            .iter()
+            .map(|var| (self.name(*var), self.module.ty(*var)))
+            .collect();
+        let head = self.language.function_head(&function.name, &params, function.result);
+        format!("// {}\n{head}\n{}}}", function.comment, self.block(&function.body, 1))
+    }
+
+    fn block(&self, block: &Block<'_>, depth: usize) -> String {
+        block.iter().map(|stmt| self.stmt(stmt, depth)).collect()
+    }
+
+    fn stmt(&self, stmt: &Stmt<'_>, depth: usize) -> String {
+        let indent = "    ".repeat(depth);
+        let l = self.language;
+        let code = |expr: &Expr| self.expr(expr).code;
+        let line = match &stmt.kind {
+            StmtKind::Let(var, value) => l.immutable(self.name(*var), self.module.ty(*var), &code(value)),
+            StmtKind::Var(var, value) => {
+                let value = value.as_ref().map(code);
+                l.mutable(self.name(*var), self.module.ty(*var), value.as_deref())
+            }
+            StmtKind::Assign(place, value) => format!("{} = {};", code(place), code(value)),
+            StmtKind::Store(place, colour) => l.store(&code(place), &code(colour)),
+            StmtKind::Output(colour) => l.output(&code(colour)),
+            StmtKind::Return(None) => "return;".to_owned(),
+            StmtKind::Return(Some(value)) => format!("return {};", code(value)),
+            StmtKind::Comment(text) => format!("// {text}"),
+            StmtKind::For {
+                counter,
+                start,
+                end,
+                body,
+            } => {
+                let name = self.name(*counter);
+                let bound = Text::infix(&Text::name(name), "<", &self.expr(end), Binds::Comparison);
+                let head = l.loop_head(name, start.ty, &code(start), &bound.code);
+                format!("{head}\n{}{indent}}}", self.block(body, depth + 1))
+            }
+            StmtKind::If {
+                condition,
+                then,
+                otherwise,
+            } => {
+                let mut text = format!("{}\n{}", l.if_head(&code(condition)), self.block(then, depth + 1));
+                if !otherwise.is_empty() {
+                    text += &format!("{indent}}} else {{\n{}", self.block(otherwise, depth + 1));
+                }
+                format!("{text}{indent}}}")
+            }
+        };
+        format!("{indent}{line}\n")
+    }
+
+    fn expr(&self, expr: &Expr) -> Text {
+        if let Op::Var(var) = expr.op {
+            return Text::name(self.name(var));
+        }
+        let args: Vec<Text> = expr.args.iter().map(|arg| self.expr(arg)).collect();
+        expr::print(self.language, expr, &args)
+    }
+}

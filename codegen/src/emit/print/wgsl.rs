@@ -1,0 +1,338 @@
+//! WGSL as WebGPU and wgpu read it.
+
+use super::expr::{components, float, integer};
+use super::{Language, Text};
+use crate::emit::ast::{Builtin, Ty};
+use crate::emit::resources::{OUTPUT, Resources, UNIFORMS};
+use crate::ir::{self, Axis, BinaryOp, Direction, Scalar, TextureKind, Type, UnaryOp};
+use std::fmt::Write;
+use straightline_manifest::{Precision, REGION, Stage};
+
+/// WGSL.
+pub struct Wgsl<'a> {
+    /// The shader's bindings.
+    pub resources: &'a Resources,
+}
+
+impl Wgsl<'_> {
+    fn names(&self, texture: u32, sampler: u32) -> [Text; 2] {
+        let texture = self.resources.texture(texture).name.as_str();
+        let sampler = self.resources.sampler(sampler).name.as_str();
+        [texture, sampler].map(Text::name)
+    }
+}
+
+impl Language for Wgsl<'_> {
+    fn ty(&self, ty: Ty) -> String {
+        type_name(ty)
+    }
+
+    fn scalar(&self, kind: Scalar, half: bool, bits: u32) -> Text {
+        match kind {
+            Scalar::F32 if half => crate::emit::half::literal(bits),
+            Scalar::F32 => float(bits),
+            Scalar::I32 if bits as i32 == i32::MIN => Text::name("i32(-2147483648)"),
+            Scalar::I32 => integer(i64::from(bits as i32), ""),
+            Scalar::U32 => integer(i64::from(bits), "u"),
+            Scalar::Bool => Text::name(if bits != 0 { "true" } else { "false" }),
+        }
+    }
+
+    fn builtin(&self, builtin: Builtin) -> Text {
+        match builtin {
+            Builtin::Invocation => Text::name("vec2i(id.xy)"),
+            Builtin::Position => Text::name("position.xy"),
+            Builtin::OutputSize => Text::name(format!("vec2i(textureDimensions({OUTPUT}))")),
+            Builtin::RegionFirst => Text::name(format!("{REGION}.first")),
+            Builtin::RegionSize => Text::name(format!("{REGION}.size")),
+            Builtin::RegionPlace => Text::name(format!("{REGION}.place")),
+        }
+    }
+
+    fn function(&self, op: &ir::Op) -> &'static str {
+        use UnaryOp::*;
+        match op {
+            ir::Op::Binary(BinaryOp::Min) => "min",
+            ir::Op::Binary(BinaryOp::Max) => "max",
+            ir::Op::Binary(BinaryOp::Pow) => "pow",
+            ir::Op::Binary(BinaryOp::Atan2) => "atan2",
+            ir::Op::Unary(op) => match op {
+                Abs => "abs",
+                Sign => "sign",
+                Floor => "floor",
+                Ceil => "ceil",
+                Round => "round",
+                Trunc => "trunc",
+                Fract => "fract",
+                Saturate => "saturate",
+                Sqrt => "sqrt",
+                InverseSqrt => "inverseSqrt",
+                Exp => "exp",
+                Exp2 => "exp2",
+                Log => "log",
+                Log2 => "log2",
+                Sin => "sin",
+                Cos => "cos",
+                Tan => "tan",
+                Asin => "asin",
+                Acos => "acos",
+                Atan => "atan",
+                Sinh => "sinh",
+                Cosh => "cosh",
+                Tanh => "tanh",
+                CountOneBits => "countOneBits",
+                ReverseBits => "reverseBits",
+                LeadingZeros => "countLeadingZeros",
+                TrailingZeros => "countTrailingZeros",
+                Neg | Not | BitNot => unreachable!("these are operators"),
+            },
+            other => unreachable!("{other:?} is no function"),
+        }
+    }
+
+    fn read(&self, op: &ir::Op, args: &[Text]) -> Text {
+        match op {
+            ir::Op::Uniform(k) => Text::name(format!("{UNIFORMS}.{}", self.resources.uniform(*k))),
+            ir::Op::Varying(k) => Text::name(self.resources.varying(*k)),
+            ir::Op::TextureSize(texture) => {
+                let name = Text::name(self.resources.texture(*texture).name.as_str());
+                Text::call("vec2i", &[&Text::call("textureDimensions", &[&name])])
+            }
+            ir::Op::Load { texture, .. } => {
+                let texture = self.resources.texture(*texture);
+                let (name, level) = (Text::name(texture.name.as_str()), Text::name("0"));
+                let mut all = vec![&name];
+                all.extend(args);
+                if texture.kind != TextureKind::Multisampled {
+                    all.push(&level);
+                }
+                let texel = Text::call("textureLoad", &all);
+                match texture.kind {
+                    // A depth texture gives a single number.
+                    TextureKind::Depth => texel,
+                    _ => components(texel, texture.components),
+                }
+            }
+            ir::Op::Sample { texture, sampler, .. } => {
+                let [name, sampler] = self.names(*texture, *sampler);
+                let texel = Text::call("textureSampleLevel", &[&name, &sampler, &args[0], &Text::name("0.0")]);
+                components(texel, self.resources.texture(*texture).components)
+            }
+            ir::Op::Gather {
+                texture,
+                sampler,
+                component,
+                ..
+            } => {
+                let [texture, sampler] = self.names(*texture, *sampler);
+                let component = Text::name(component.to_string());
+                Text::call("textureGather", &[&component, &texture, &sampler, &args[0]])
+            }
+            ir::Op::Compare { texture, sampler, .. } => {
+                let [texture, sampler] = self.names(*texture, *sampler);
+                Text::call("textureSampleCompareLevel", &[&texture, &sampler, &args[0], &args[1]])
+            }
+            ir::Op::GatherCompare { texture, sampler, .. } => {
+                let [texture, sampler] = self.names(*texture, *sampler);
+                Text::call("textureGatherCompare", &[&texture, &sampler, &args[0], &args[1]])
+            }
+            ir::Op::BufferLoad { buffer, .. } => {
+                Text::index(&Text::name(self.resources.buffer(*buffer).name.as_str()), &args[0])
+            }
+            ir::Op::BufferLen(buffer) => {
+                let name = Text::name(format!("&{}", self.resources.buffer(*buffer).name));
+                Text::call("i32", &[&Text::call("arrayLength", &[&name])])
+            }
+            ir::Op::Message(direction) => {
+                let function = match direction {
+                    Direction::Horizontal => "quadSwapX",
+                    Direction::Vertical => "quadSwapY",
+                    Direction::Diagonal => "quadSwapDiagonal",
+                };
+                Text::call(function, &[&args[0]])
+            }
+            ir::Op::Derivative(axis) => {
+                let function = if *axis == Axis::X { "dpdxFine" } else { "dpdyFine" };
+                Text::call(function, &[&args[0]])
+            }
+            other => unreachable!("{other:?} is no read"),
+        }
+    }
+
+    fn select(&self, ty: Ty, condition: &Text, yes: &Text, no: &Text) -> Text {
+        if ty.kind() == Some(Scalar::Bool) {
+            // `a < b, c, d > e` would begin a list of template arguments.
+            return Text::call("select", &[&no.in_parentheses(), &yes.in_parentheses(), condition]);
+        }
+        Text::call("select", &[no, yes, condition])
+    }
+
+    fn choose(&self, condition: &Text, yes: &Text, no: &Text) -> Text {
+        Text::call("select", &[no, yes, condition])
+    }
+
+    fn bitcast(&self, to: Ty, x: &Text) -> Text {
+        Text::call(&format!("bitcast<{}>", type_name(to)), &[x])
+    }
+
+    fn construct(&self, ty: Ty, parts: &[&Text]) -> Text {
+        if ty.kind() == Some(Scalar::Bool) && parts.len() > 1 {
+            // `a < b, c > d` would begin a list of template arguments.
+            let parts: Vec<Text> = parts.iter().map(|part| part.in_parentheses()).collect();
+            return Text::call(&type_name(ty), &parts.iter().collect::<Vec<_>>());
+        }
+        Text::call(&type_name(ty), parts)
+    }
+
+    // Operands are pure, and naga makes control flow of `&&` and `||`.
+    fn logical(&self, op: BinaryOp, _: Scalar) -> &'static str {
+        if op == BinaryOp::And { "&" } else { "|" }
+    }
+
+    fn immutable(&self, name: &str, _: Ty, value: &str) -> String {
+        format!("let {name} = {value};")
+    }
+
+    fn mutable(&self, name: &str, ty: Ty, value: Option<&str>) -> String {
+        match value {
+            Some(value) => format!("var {name} = {value};"),
+            None => format!("var {name}: {};", type_name(ty)),
+        }
+    }
+
+    fn table(&self, name: &str, _: Ty, value: &str) -> String {
+        format!("const {name} = {value};")
+    }
+
+    fn loop_head(&self, counter: &str, _: Ty, start: &str, bound: &str) -> String {
+        format!("for (var {counter} = {start}; {bound}; {counter}++) {{")
+    }
+
+    fn if_head(&self, condition: &str) -> String {
+        format!("if {condition} {{")
+    }
+
+    fn function_head(&self, name: &str, params: &[(&str, Ty)], result: Ty) -> String {
+        let params: Vec<String> = params
+            .iter()
+            .map(|(name, ty)| format!("{name}: {}", type_name(*ty)))
+            .collect();
+        format!("fn {name}({}) -> {} {{", params.join(", "), type_name(result))
+    }
+
+    fn store(&self, place: &str, colour: &str) -> String {
+        format!("textureStore({OUTPUT}, {place}, {colour});")
+    }
+
+    fn output(&self, colour: &str) -> String {
+        format!("return {colour};")
+    }
+
+    fn preamble(&self, header: &[String]) -> String {
+        let r = self.resources;
+        let mut out = String::new();
+        if r.options.precision == Precision::F16 {
+            out += "enable f16;\n\n";
+        }
+        for line in header {
+            out += &format!("// {line}\n");
+        }
+        out.push('\n');
+        let mut bind = |binding: u32, what: String| {
+            let _ = writeln!(out, "@group(0) @binding({binding}) var{what};");
+        };
+        for bound in &r.read {
+            let texture = r.texture(bound.index);
+            bind(
+                bound.binding,
+                format!(" {}: {}", texture.name, texture_type(texture.kind)),
+            );
+        }
+        for (k, binding) in &r.read_buffers {
+            let buffer = r.buffer(*k);
+            let element = type_name(buffer.element.into());
+            bind(*binding, format!("<storage, read> {}: array<{element}>", buffer.name));
+        }
+        for (k, binding) in &r.used_samplers {
+            let sampler = r.sampler(*k);
+            let ty = if sampler.comparison {
+                "sampler_comparison"
+            } else {
+                "sampler"
+            };
+            bind(*binding, format!(" {}: {ty}", sampler.name));
+        }
+        if let Some(binding) = r.output_binding() {
+            let format = r.options.format.wgsl();
+            bind(binding, format!(" {OUTPUT}: texture_storage_2d<{format}, write>"));
+        }
+        if let Some(binding) = r.uniform_binding() {
+            out += "\nstruct Parameters {\n";
+            for field in &r.fields {
+                out += &format!("    {}: {},\n", field.name, field.ty);
+            }
+            out += &format!("}}\n\n@group(0) @binding({binding}) var<uniform> {UNIFORMS}: Parameters;\n");
+        }
+        if let Some(binding) = r.region_binding() {
+            out += "\nstruct Region {\n    // The upper left pixel in the inputs, the size, and the upper left pixel in the target.\n    \
+                    first: vec2i,\n    size: vec2i,\n    place: vec2i,\n}\n\n";
+            out += &format!("@group(0) @binding({binding}) var<uniform> {REGION}: Region;\n");
+        }
+        out
+    }
+
+    fn entry_head(&self) -> String {
+        let r = self.resources;
+        let entry = &r.entry;
+        match r.options.stage {
+            Stage::Compute => {
+                let [x, y, z] = r.options.workgroup();
+                format!(
+                    "@compute @workgroup_size({x}, {y}, {z})\nfn {entry}(@builtin(global_invocation_id) id: vec3u) {{"
+                )
+            }
+            Stage::Fragment => {
+                let varyings = r
+                    .varyings()
+                    .map(|v| format!(", @location({}) {}: {}", v.location, v.name, v.ty));
+                let varyings: String = varyings.collect();
+                format!("@fragment\nfn {entry}(@builtin(position) position: vec4f{varyings}) -> @location(0) vec4f {{")
+            }
+        }
+    }
+}
+
+fn texture_type(kind: TextureKind) -> &'static str {
+    match kind {
+        TextureKind::Flat => "texture_2d<f32>",
+        TextureKind::Layers => "texture_2d_array<f32>",
+        TextureKind::Multisampled => "texture_multisampled_2d<f32>",
+        TextureKind::Depth => "texture_depth_2d",
+    }
+}
+
+/// A type as WGSL spells it.
+pub fn type_name(ty: Ty) -> String {
+    match ty.shape {
+        Type::Array { len, .. } => {
+            let element = Ty {
+                shape: ty.element(),
+                ..ty
+            };
+            format!("array<{}, {len}>", type_name(element))
+        }
+        Type::Value { scalar, lanes } => {
+            let scalar = match scalar {
+                Scalar::F32 if ty.half => "h16".to_owned(),
+                other => other.to_string(),
+            };
+            match (lanes, scalar.as_str()) {
+                (1, "h16") => "f16".to_owned(),
+                (1, _) => scalar,
+                (_, "bool") => format!("vec{lanes}<bool>"),
+                _ => format!("vec{lanes}{}", &scalar[..1]),
+            }
+        }
+        Type::Results => "void".to_owned(),
+    }
+}
