@@ -234,8 +234,8 @@ pub enum StmtKind<'g> {
     Let(VarId, Expr),
     /// A mutable variable; without a value it is undefined until it is assigned.
     Var(VarId, Option<Expr>),
-    /// Another value for a variable or an element: `place = value`.
-    Assign(Expr, Expr),
+    /// Another value for a variable or an element: `place = value`, or `place op= value`.
+    Assign(Expr, Option<BinaryOp>, Expr),
     /// Counts from a start up to an end that is not reached.
     For {
         /// The counter.
@@ -275,31 +275,12 @@ impl<'g> From<StmtKind<'g>> for Stmt<'g> {
 impl<'g> Stmt<'g> {
     /// Rewrites every expression of the statement, those of its blocks too.
     pub fn rewrite(&mut self, rule: &mut dyn FnMut(Expr) -> Expr) {
-        let mut each = |expr: &mut Expr| {
+        for expr in self.own_mut() {
             let taken = std::mem::replace(expr, Expr::new(Op::Construct, Vec::new(), Type::BOOL));
             *expr = taken.rewrite(rule);
-        };
-        match &mut self.kind {
-            StmtKind::Let(_, value) | StmtKind::Output(value) => each(value),
-            StmtKind::Var(_, value) | StmtKind::Return(value) => value.iter_mut().for_each(each),
-            StmtKind::Assign(place, value) | StmtKind::Store(place, value) => {
-                each(place);
-                each(value);
-            }
-            StmtKind::For { start, end, body, .. } => {
-                each(start);
-                each(end);
-                body.iter_mut().for_each(|stmt| stmt.rewrite(rule));
-            }
-            StmtKind::If {
-                condition,
-                then,
-                otherwise,
-            } => {
-                each(condition);
-                then.iter_mut().chain(otherwise).for_each(|stmt| stmt.rewrite(rule));
-            }
-            StmtKind::Comment(_) => {}
+        }
+        for block in self.blocks_mut() {
+            block.iter_mut().for_each(|stmt| stmt.rewrite(rule));
         }
     }
 
@@ -308,10 +289,31 @@ impl<'g> Stmt<'g> {
         match &self.kind {
             StmtKind::Let(_, value) | StmtKind::Output(value) => vec![value],
             StmtKind::Var(_, value) | StmtKind::Return(value) => value.iter().collect(),
-            StmtKind::Assign(place, value) | StmtKind::Store(place, value) => vec![place, value],
+            StmtKind::Assign(place, _, value) | StmtKind::Store(place, value) => vec![place, value],
             StmtKind::For { start, end, .. } => vec![start, end],
             StmtKind::If { condition, .. } => vec![condition],
             StmtKind::Comment(_) => Vec::new(),
+        }
+    }
+
+    /// As [`Stmt::own`], to change them.
+    pub fn own_mut(&mut self) -> Vec<&mut Expr> {
+        match &mut self.kind {
+            StmtKind::Let(_, value) | StmtKind::Output(value) => vec![value],
+            StmtKind::Var(_, value) | StmtKind::Return(value) => value.iter_mut().collect(),
+            StmtKind::Assign(place, _, value) | StmtKind::Store(place, value) => vec![place, value],
+            StmtKind::For { start, end, .. } => vec![start, end],
+            StmtKind::If { condition, .. } => vec![condition],
+            StmtKind::Comment(_) => Vec::new(),
+        }
+    }
+
+    /// As [`Stmt::blocks`], to change them.
+    pub fn blocks_mut(&mut self) -> Vec<&mut Block<'g>> {
+        match &mut self.kind {
+            StmtKind::For { body, .. } => vec![body],
+            StmtKind::If { then, otherwise, .. } => vec![then, otherwise],
+            _ => Vec::new(),
         }
     }
 

@@ -15,12 +15,12 @@ mod legalise;
 mod lower;
 mod names;
 mod parameters;
-mod plan;
 mod print;
 mod resources;
 mod spirv;
 mod target;
 mod text;
+mod tidy;
 mod translate;
 mod words;
 
@@ -150,18 +150,21 @@ impl Default for EmitOptions {
     }
 }
 
-/// Statements of a kernel's body, the same in every language.
+/// Statements of a kernel's body, the same in every language and stage.
 pub fn statements(compiled: &Compiled) -> u32 {
-    ast::count(&lower::lower(compiled, &EmitOptions::new()).0.body)
+    let kernel = kernel(compiled, Precision::F32);
+    ast::count(&kernel.body) - compiled.graph.outputs().len() as u32
 }
 
-/// Statements that a kernel will have, those not counted that long expressions are split into: quick to tell.
+/// A number that a kernel's statements do not fall short of: quick to tell.
 pub fn statements_at_least(graph: &Graph, schedule: &Schedule) -> u32 {
-    let plan = plan::Plan::new(graph, schedule);
     let live = graph.ids().filter(|id| schedule.place[id.0 as usize].is_some());
-    live.filter(|id| plan.is_statement(*id) || matches!(graph.node(*id).op, Op::ArraySet | Op::Loop(_) | Op::If(..)))
-        .count() as u32
+    let costs = live.filter(|id| !matches!(graph.node(*id).op, Op::Const(_) | Op::Extract(_) | Op::Splat | Op::Param(..)));
+    costs.count() as u32 / OPERATIONS
 }
+
+/// Nodes of the graph that a line of text may stand for.
+const OPERATIONS: u32 = 32;
 
 /// The kernel as invocations of the stage compute it.
 fn for_stage(compiled: &Compiled, stage: Stage) -> Result<Cow<'_, Compiled>, EmitError> {
@@ -179,15 +182,23 @@ fn for_stage(compiled: &Compiled, stage: Stage) -> Result<Cow<'_, Compiled>, Emi
     }
 }
 
+/// The tree of a kernel's statements, with its outputs at the end.
+fn kernel(compiled: &Compiled, precision: Precision) -> ast::Module<'_> {
+    let half = precision == Precision::F16;
+    let mut module = lower::lower(compiled, half);
+    if half {
+        legalise::half(&mut module);
+    }
+    tidy::tidy(&mut module, &compiled.graph);
+    module
+}
+
 /// The tree of a shader, with comments, before a language's own rules.
 fn tree<'g>(compiled: &'g Compiled, resources: &resources::Resources) -> ast::Module<'g> {
-    let (mut module, mut results) = lower::lower(compiled, &resources.options);
-    if resources.options.precision == Precision::F16 {
-        legalise::half(&mut module, &mut results);
-    }
+    let mut module = kernel(compiled, resources.options.precision);
     let body = std::mem::take(&mut module.body);
     module.body = comments::comment_groups(body, &compiled.graph);
-    lower::entry(&mut module, results, resources);
+    lower::entry(&mut module, resources);
     module
 }
 

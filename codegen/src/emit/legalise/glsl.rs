@@ -35,6 +35,11 @@ pub fn rule(module: &mut Module<'_>, mut expr: Expr) -> Expr {
             expr.args.push(Expr::call("min", vec![index, last], Type::U32));
             expr
         }
+        // A depth texture gives four components here, not one.
+        Op::Ir(ir::Op::Load { .. }) if ty.is_scalar() => {
+            expr.ty = Type::value(Scalar::F32, 4).into();
+            Expr::new(Op::Swizzle(vec![0]), vec![expr], ty)
+        }
         Op::Ir(ir::Op::Unary(op)) => unary(*op, expr),
         Op::Ir(ir::Op::Binary(op)) => binary(*op, expr),
         // glslang makes branches of a choice between more than names and literals, and none of `mix`.

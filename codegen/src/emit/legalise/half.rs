@@ -1,19 +1,21 @@
 //! Half precision: every float of the kernel is an `f16`; what other hardware reads and writes stays in full precision.
 
-use crate::emit::ast::{Expr, Module, Op, Ty};
+use crate::emit::ast::{Expr, Module, Op, StmtKind, Ty};
 use crate::ir;
 
 /// The largest finite number of half precision.
 const LARGEST: f32 = 65504.0;
 
-/// Rewrites a kernel, and the colours that it gives, which are in full precision again.
-pub fn half(module: &mut Module<'_>, results: &mut [Expr]) {
+/// Rewrites a kernel; the colours that it gives are in full precision.
+pub fn half(module: &mut Module<'_>) {
     for variable in &mut module.variables {
         variable.ty = narrow(variable.ty);
     }
     module.rewrite(&mut |_, expr| rule(expr));
-    for result in results {
-        *result = full(result.clone().rewrite(&mut rule));
+    for stmt in &mut module.body {
+        if let StmtKind::Output(colour) = &mut stmt.kind {
+            *colour = full(colour.clone());
+        }
     }
 }
 
@@ -79,6 +81,12 @@ fn rule(mut expr: Expr) -> Expr {
                 let [low, high] = [-LARGEST, LARGEST].map(|x| Expr::splat(ty, x.to_bits()));
                 expr = Expr::new(Op::Ir(ir::Op::Clamp), vec![expr, low, high], ty);
             }
+            halved(expr)
+        }
+        // What is taken of a texel is converted, not the texel.
+        Op::Swizzle(_) if matches!(expr.args[0].op, Op::Convert { .. }) => {
+            let converted = expr.args.pop().expect("a vector");
+            expr.args = converted.args;
             halved(expr)
         }
         _ => {

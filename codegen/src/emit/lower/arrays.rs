@@ -41,7 +41,7 @@ impl Lowering<'_> {
         let var = self.enter_web(id, args[0]);
         let place = self.indexed(id, self.module.read(var), args[1]);
         let value = self.expr(args[2]);
-        self.statement(id, StmtKind::Assign(place, value));
+        self.statement(id, StmtKind::Assign(place, None, value));
     }
 
     /// Makes the web's variable hold `begin`, and takes it to be `version`.
@@ -57,7 +57,7 @@ impl Lowering<'_> {
             Some(var) => {
                 let place = self.module.read(var);
                 if value != place {
-                    self.statement(version, StmtKind::Assign(place, value));
+                    self.statement(version, StmtKind::Assign(place, None, value));
                 }
                 var
             }

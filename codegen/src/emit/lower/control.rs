@@ -73,7 +73,7 @@ impl<'g> Lowering<'g> {
         }
         for (param, var, value) in moves {
             let place = self.module.read(var);
-            self.statement(param, StmtKind::Assign(place, value));
+            self.statement(param, StmtKind::Assign(place, None, value));
         }
         for param in params.iter().filter(|param| graph.ty(**param).is_array()) {
             self.webs.advance(*param);
@@ -165,7 +165,7 @@ impl<'g> Lowering<'g> {
                 self.enter_web(*id, values[*k]);
             } else if !arrays_only {
                 let (place, value) = (self.expr(*id), self.expr(values[*k]));
-                self.statement(*id, StmtKind::Assign(place, value));
+                self.statement(*id, StmtKind::Assign(place, None, value));
             }
         }
     }

@@ -19,22 +19,20 @@ pub fn module<'g>() -> Module<'g> {
     }
 }
 
-/// Puts the statements of an entry point around those of the kernel, whose colours are `results`.
-pub fn entry<'g>(module: &mut Module<'g>, results: Vec<Expr>, resources: &Resources) {
+/// Puts the statements of an entry point around those of the kernel, the last of which are its outputs.
+pub fn entry(module: &mut Module<'_>, resources: &Resources) {
     let compute = resources.options.stage == Stage::Compute;
     let mut body = match compute {
         true => begin_compute(resources),
         false => begin_fragment(resources),
     };
-    body.append(&mut module.body);
+    let (outputs, mut kernel): (Vec<_>, Vec<_>) = std::mem::take(&mut module.body)
+        .into_iter()
+        .partition(|stmt| matches!(stmt.kind, StmtKind::Output(_)));
+    body.append(&mut kernel);
     match compute {
-        true => stores(&mut body, results, resources),
-        false => body.extend(
-            results
-                .into_iter()
-                .take(1)
-                .map(|colour| StmtKind::Output(colour).into()),
-        ),
+        true => stores(&mut body, outputs, resources),
+        false => body.extend(outputs),
     }
     module.body = body;
 }
@@ -119,13 +117,17 @@ fn begin_fragment(resources: &Resources) -> Block<'static> {
 }
 
 /// Stores the colours of a block's pixels; all but the first may lie outside.
-fn stores(body: &mut Block<'_>, results: Vec<Expr>, resources: &Resources) {
+fn stores(body: &mut Block<'_>, outputs: Block<'_>, resources: &Resources) {
     let (within, place, bound) = match resources.options.region {
         true => (VarId::WITHIN, VarId::PLACE, builtin(Builtin::RegionSize)),
         false => (VarId::PIXEL, VarId::PIXEL, local(VarId::FRAME)),
     };
     let width = resources.block[0] as usize;
-    for (k, colour) in results.into_iter().enumerate() {
+    let colours = outputs.into_iter().filter_map(|stmt| match stmt.kind {
+        StmtKind::Output(colour) => Some(colour),
+        _ => None,
+    });
+    for (k, colour) in colours.enumerate() {
         if k == 0 {
             body.push(StmtKind::Store(local(place), colour).into());
             continue;

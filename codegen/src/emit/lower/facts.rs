@@ -23,12 +23,19 @@ pub fn division(graph: &Graph, x: NodeId, y: NodeId) -> Division {
 }
 
 /// Whether every value of a node has its like in the type `to`: for a float an integer where it is cut off, for an integer a
-/// finite number of every precision.
+/// finite number of every precision, or the same integer.
 pub fn converts(graph: &Graph, id: NodeId, to: Type, half: bool) -> bool {
-    match graph.ty(id).is_float() && to.is_integer() {
-        true => has_integer(graph, id, to, half),
-        false => fits_half(graph, id),
+    match (graph.ty(id).is_float(), to.is_integer()) {
+        (true, true) => has_integer(graph, id, to, half),
+        (false, true) => has_no_sign(graph, id),
+        (_, false) => fits_half(graph, id),
     }
+}
+
+/// Whether no component of an integer is negative, or over the largest signed one.
+fn has_no_sign(graph: &Graph, id: NodeId) -> bool {
+    let fits = |k| component_bounds(graph, id, k).is_some_and(|(low, high)| low >= 0 && high <= i64::from(i32::MAX));
+    (0..graph.ty(id).lanes()).all(fits)
 }
 
 /// Whether every float that a value can be has an integer of the type `to` where it is cut off. In half precision the largest

@@ -8,39 +8,32 @@ mod entry;
 mod facts;
 mod webs;
 
-use super::EmitOptions;
 use super::ast::{Block as Statements, Expr, Module, Op, Stmt, StmtKind, VarId};
 use super::names::Wanted;
-use super::plan::Plan;
-use crate::ir::{self, BinaryOp, NodeId};
+use crate::ir::{self, BinaryOp, NodeId, Origin, Scalar, TextureKind, Type};
 use crate::passes::{Block, Step};
 use crate::pipeline::Compiled;
 use std::collections::HashSet;
-use straightline_manifest::Precision;
 use webs::Webs;
 
 pub use entry::entry;
 
-/// Operators and calls that one expression may hold before part of it becomes a statement. Long chains also overflow
-/// the recursive parsers of shader compilers.
-const LONGEST: u32 = 7;
-
 /// Cuts after which every version of an array is given a variable of its own.
 const MAX_CUTS: usize = 16;
 
-/// The statements of a kernel, and the colours of the invocation's pixels.
-pub fn lower<'g>(compiled: &'g Compiled, options: &EmitOptions) -> (Module<'g>, Vec<Expr>) {
+/// The statements of a kernel: one for each value, and at the end an output for each pixel of the invocation.
+pub fn lower<'g>(compiled: &'g Compiled, half: bool) -> Module<'g> {
     let graph = &compiled.graph;
     let mut cut = HashSet::new();
     while cut.len() < MAX_CUTS {
-        match attempt(compiled, options, Webs::new(graph, &cut)) {
-            (lowered, None) => return lowered,
+        match attempt(compiled, half, Webs::new(graph, &cut)) {
+            (module, None) => return module,
             (_, Some(Stale::Since(version))) if cut.insert(version) => {}
             _ => break,
         }
     }
     // No version takes another's place where each has a variable of its own.
-    attempt(compiled, options, Webs::apart(graph)).0
+    attempt(compiled, half, Webs::apart(graph)).0
 }
 
 /// An array's version is needed that its variable no longer holds.
@@ -52,35 +45,49 @@ enum Stale {
     Unknown,
 }
 
-fn attempt<'g>(compiled: &'g Compiled, options: &EmitOptions, webs: Webs) -> ((Module<'g>, Vec<Expr>), Option<Stale>) {
+fn attempt<'g>(compiled: &'g Compiled, half: bool, webs: Webs) -> (Module<'g>, Option<Stale>) {
     let graph = &compiled.graph;
     let mut lowering = Lowering {
         compiled,
-        plan: Plan::new(graph, &compiled.schedule),
+        origins: origins(compiled),
         wanted: Wanted::new(graph),
         webs,
         exprs: vec![None; graph.nodes.len()],
-        sizes: vec![0; graph.nodes.len()],
-        half: options.precision == Precision::F16,
+        half,
         module: entry::module(),
         block: Vec::new(),
         stale: None,
     };
     lowering.steps(&compiled.schedule.body);
-    let results = graph.outputs().iter().map(|output| lowering.expr(*output)).collect();
+    for output in graph.outputs() {
+        let colour = lowering.expr(*output);
+        lowering.block.push(StmtKind::Output(colour).into());
+    }
     lowering.module.body = lowering.block;
-    ((lowering.module, results), lowering.stale)
+    (lowering.module, lowering.stale)
+}
+
+/// Where each node comes from. A tally is what it tallies, so that its name passes on, last to first so that chains do too.
+fn origins(compiled: &Compiled) -> Vec<Option<&Origin>> {
+    let graph = &compiled.graph;
+    let mut origins: Vec<Option<&Origin>> = graph.ids().map(|id| graph.origin(id)).collect();
+    for id in graph.ids().rev() {
+        if let ir::Op::Tally(_) = graph.node(id).op {
+            let arg = graph.node(id).args[0].0 as usize;
+            origins[arg] = origins[arg].or(origins[id.0 as usize]);
+        }
+    }
+    origins
 }
 
 struct Lowering<'g> {
     compiled: &'g Compiled,
-    plan: Plan<'g>,
+    /// By node: where it comes from.
+    origins: Vec<Option<&'g Origin>>,
     wanted: Wanted,
     webs: Webs,
     /// By node: how its value is written, once it has been evaluated.
     exprs: Vec<Option<Expr>>,
-    /// By node: operators and calls in that.
-    sizes: Vec<u32>,
     /// Whether floats are those of half precision.
     half: bool,
     module: Module<'g>,
@@ -117,12 +124,10 @@ impl<'g> Lowering<'g> {
             ir::Op::ArrayGet => self.array_get(id),
             _ => {
                 let expr = self.expression(id);
-                let size = self.size(id);
-                if self.plan.is_statement(id) || size > LONGEST {
-                    self.declare(id, expr);
-                } else {
-                    self.sizes[id.0 as usize] = size;
+                if is_atom(&expr) {
                     self.exprs[id.0 as usize] = Some(expr);
+                } else {
+                    self.declare(id, expr);
                 }
             }
         }
@@ -131,7 +136,7 @@ impl<'g> Lowering<'g> {
     /// A new variable for a node's value.
     fn variable(&mut self, id: NodeId) -> VarId {
         let graph = &self.compiled.graph;
-        let name = self.wanted.of(graph, id, self.plan.origin(id));
+        let name = self.wanted.of(graph, id, self.origins[id.0 as usize]);
         self.module.variable(name, graph.ty(id))
     }
 
@@ -144,7 +149,7 @@ impl<'g> Lowering<'g> {
 
     /// A statement of a node's.
     fn statement(&mut self, id: NodeId, kind: StmtKind<'g>) {
-        let origin = self.plan.origin(id);
+        let origin = self.origins[id.0 as usize];
         self.block.push(Stmt { kind, origin });
     }
 
@@ -178,24 +183,20 @@ impl<'g> Lowering<'g> {
             ir::Op::Binary(op @ (BinaryOp::Div | BinaryOp::Rem)) if node.ty.is_integer() => {
                 Op::Division(*op, facts::division(graph, node.args[0], node.args[1]))
             }
-            ir::Op::Binary(op) => {
-                // A scalar stands for a vector of it; one side stays a vector, or the result would be a scalar.
-                let stands = matches!(op, BinaryOp::Add | BinaryOp::Sub | BinaryOp::Mul | BinaryOp::Div);
-                let splat = |arg: &NodeId| graph.node(*arg).op == ir::Op::Splat;
-                let both = node.args.iter().all(splat);
-                for (k, arg) in node.args.iter().enumerate() {
-                    if stands && splat(arg) && (k > 0 || !both) {
-                        args[k] = self.expr(graph.node(*arg).args[0]);
-                    }
-                }
-                Op::Ir(node.op.clone())
-            }
             ir::Op::Splat | ir::Op::Compose => Op::Construct,
             ir::Op::Extract(component) => Op::Swizzle(vec![*component]),
             ir::Op::Convert => Op::Convert {
                 fits: facts::converts(graph, node.args[0], node.ty, self.half),
             },
             ir::Op::Tally(_) => return args.swap_remove(0),
+            // Texels have four components, of which the kernel takes some.
+            ir::Op::Load { texture, .. } | ir::Op::Sample { texture, .. }
+                if graph.textures[*texture as usize].kind != TextureKind::Depth && node.ty.lanes() < 4 =>
+            {
+                let texel = Expr::new(Op::Ir(node.op.clone()), args, Type::value(Scalar::F32, 4));
+                args = vec![texel];
+                Op::Swizzle((0..node.ty.lanes()).collect())
+            }
             op => Op::Ir(op.clone()),
         };
         if matches!(op, Op::Var(_)) {
@@ -203,15 +204,14 @@ impl<'g> Lowering<'g> {
         }
         Expr::new(op, args, node.ty)
     }
+}
 
-    /// Operators and calls in the expression of a value, down to what has a name.
-    fn size(&self, id: NodeId) -> u32 {
-        use ir::Op::{Extract, FrameSize, Pixel, Splat, Tally, Uniform, Varying};
-        let node = self.compiled.graph.node(id);
-        let own = match node.op {
-            Pixel | FrameSize | Uniform(_) | Varying(_) | Splat | Extract(_) | Tally(_) => 0,
-            _ => 1,
-        };
-        own + node.args.iter().map(|arg| self.sizes[arg.0 as usize]).sum::<u32>()
+/// Whether an expression is so short that it is written wherever it is used.
+fn is_atom(expr: &Expr) -> bool {
+    match &expr.op {
+        Op::Var(_) | Op::Ir(ir::Op::Const(_) | ir::Op::Uniform(_) | ir::Op::Varying(_)) => true,
+        Op::Swizzle(_) => is_atom(&expr.args[0]),
+        Op::Construct => expr.args.len() == 1 && is_atom(&expr.args[0]),
+        _ => false,
     }
 }

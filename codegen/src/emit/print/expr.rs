@@ -55,8 +55,14 @@ fn operation(l: &dyn Language, op: &ir::Op, expr: &Expr, args: &[Text]) -> Text 
 }
 
 fn infix(l: &dyn Language, op: BinaryOp, kind: Scalar, args: &[Text]) -> Text {
+    let (spelled, binds) = operator(l, op, kind);
+    Text::infix(&args[0], spelled, &args[1], binds)
+}
+
+/// How an operator on a kind of operands is written, and how tightly it binds.
+pub fn operator(l: &dyn Language, op: BinaryOp, kind: Scalar) -> (&'static str, Binds) {
     use BinaryOp::{Add, And, Atan2, Div, Eq, Ge, Gt, Le, Lt, Max, Min, Mul, Ne, Or, Pow, Rem, Shl, Shr, Sub, Xor};
-    let (spelled, binds) = match op {
+    match op {
         Add => ("+", Binds::Sum),
         Sub => ("-", Binds::Sum),
         Mul => ("*", Binds::Product),
@@ -74,8 +80,7 @@ fn infix(l: &dyn Language, op: BinaryOp, kind: Scalar, args: &[Text]) -> Text {
         Shl => ("<<", Binds::Mixed),
         Shr => (">>", Binds::Mixed),
         Min | Max | Pow | Atan2 => unreachable!("these are functions"),
-    };
-    Text::infix(&args[0], spelled, &args[1], binds)
+    }
 }
 
 /// A constant scalar or vector of finite numbers: a component that is the same in all is written once.
@@ -116,12 +121,4 @@ fn digits(x: f32) -> String {
 /// An integer literal with a suffix.
 pub fn integer(n: i64, suffix: &str) -> Text {
     Text::literal(format!("{n}{suffix}"), n < 0)
-}
-
-/// Components of a texel that holds `n` of them.
-pub fn components(texel: Text, n: u8) -> Text {
-    match n {
-        4 => texel,
-        n => Text::member(&texel, &"xyzw"[..n as usize]),
-    }
 }

@@ -1,6 +1,6 @@
 //! GLSL 4.50 for Vulkan, with separate textures.
 
-use super::expr::{components, float, integer};
+use super::expr::{float, integer};
 use super::{Language, Text};
 use crate::emit::ast::{Builtin, Ty};
 use crate::emit::resources::{OUTPUT, Resources, SAMPLER, UNIFORMS};
@@ -126,20 +126,18 @@ impl Language for Glsl<'_> {
             ir::Op::Load { texture, .. } => {
                 let entry = self.resources.texture(*texture);
                 let name = self.unfiltered(*texture);
-                let texel = match (args, entry.kind) {
+                match (args, entry.kind) {
                     ([coord, sample], TextureKind::Multisampled) => Text::call("texelFetch", &[&name, coord, sample]),
                     ([coord, layer], _) => {
                         let coord = Text::call("ivec3", &[coord, layer]);
                         Text::call("texelFetch", &[&name, &coord, &zero])
                     }
                     _ => Text::call("texelFetch", &[&name, &args[0], &zero]),
-                };
-                components(texel, entry.components)
+                }
             }
             ir::Op::Sample { texture, sampler, .. } => {
                 let through = self.through("sampler2D", *texture, *sampler);
-                let texel = Text::call("textureLod", &[&through, &args[0], &Text::name("0.0")]);
-                components(texel, self.resources.texture(*texture).components)
+                Text::call("textureLod", &[&through, &args[0], &Text::name("0.0")])
             }
             ir::Op::Gather {
                 texture,

@@ -23,6 +23,16 @@ pub fn wgsl_type(ty: Ty) -> String {
     wgsl::type_name(ty)
 }
 
+/// Columns of a scalar constant.
+pub fn columns_of_number(ty: Ty, bits: u32) -> usize {
+    match ty.kind() {
+        Some(Scalar::F32) => expr::float(bits).code.len() + usize::from(ty.half),
+        Some(Scalar::I32) => (bits as i32).to_string().len(),
+        Some(Scalar::U32) => bits.to_string().len() + 1,
+        _ => 5,
+    }
+}
+
 /// A shading language.
 pub trait Language {
     /// A type.
@@ -134,7 +144,10 @@ impl Printer<'_> {
                 let value = value.as_ref().map(code);
                 l.mutable(self.name(*var), self.module.ty(*var), value.as_deref())
             }
-            StmtKind::Assign(place, value) => format!("{} = {};", code(place), code(value)),
+            StmtKind::Assign(place, op, value) => {
+                let op = op.map_or("", |op| expr::operator(l, op, Scalar::F32).0);
+                format!("{} {op}= {};", code(place), code(value))
+            }
             StmtKind::Store(place, colour) => l.store(&code(place), &code(colour)),
             StmtKind::Output(colour) => l.output(&code(colour)),
             StmtKind::Return(None) => "return;".to_owned(),

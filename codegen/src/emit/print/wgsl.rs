@@ -1,6 +1,6 @@
 //! WGSL as WebGPU and wgpu read it.
 
-use super::expr::{components, float, integer};
+use super::expr::{float, integer};
 use super::{Language, Text};
 use crate::emit::ast::{Builtin, Ty};
 use crate::emit::resources::{OUTPUT, Resources, UNIFORMS};
@@ -106,17 +106,11 @@ impl Language for Wgsl<'_> {
                 if texture.kind != TextureKind::Multisampled {
                     all.push(&level);
                 }
-                let texel = Text::call("textureLoad", &all);
-                match texture.kind {
-                    // A depth texture gives a single number.
-                    TextureKind::Depth => texel,
-                    _ => components(texel, texture.components),
-                }
+                Text::call("textureLoad", &all)
             }
             ir::Op::Sample { texture, sampler, .. } => {
                 let [name, sampler] = self.names(*texture, *sampler);
-                let texel = Text::call("textureSampleLevel", &[&name, &sampler, &args[0], &Text::name("0.0")]);
-                components(texel, self.resources.texture(*texture).components)
+                Text::call("textureSampleLevel", &[&name, &sampler, &args[0], &Text::name("0.0")])
             }
             ir::Op::Gather {
                 texture,

@@ -1,0 +1,107 @@
+//! About how wide a statement is in print. Printers break what turns out too wide.
+
+use super::inline::operations;
+use crate::emit::ast::{Expr, Module, Op, Stmt, StmtKind, Ty};
+use crate::emit::print::{columns_of_number, wgsl_type};
+use crate::ir::{self, BinaryOp, Graph};
+
+/// What widths depend on: names.
+pub struct Columns<'m> {
+    pub module: &'m Module<'m>,
+    pub graph: &'m Graph,
+}
+
+impl Columns<'_> {
+    /// Columns of a statement's own line, without its indentation; operators and calls in it.
+    pub fn of_stmt(&self, stmt: &Stmt<'_>) -> (usize, usize) {
+        let around = match &stmt.kind {
+            StmtKind::Let(var, _) | StmtKind::Var(var, _) => self.module.variables[var.0 as usize].name.len() + 8,
+            StmtKind::Assign(..) => 4,
+            StmtKind::Store(..) => 30,
+            StmtKind::Output(_) | StmtKind::Return(_) => 30,
+            StmtKind::For { .. } => 40,
+            StmtKind::If { .. } => 5,
+            StmtKind::Comment(_) => 0,
+        };
+        let own = stmt.own();
+        (
+            around + own.iter().map(|expr| self.of(expr)).sum::<usize>(),
+            own.iter().map(|expr| operations(expr)).sum(),
+        )
+    }
+
+    /// Columns of an expression.
+    pub fn of(&self, expr: &Expr) -> usize {
+        let args: usize = expr.args.iter().map(|arg| self.of(arg)).sum();
+        let commas = 2 * expr.args.len().saturating_sub(1);
+        let call = |name: usize| name + 2 + args + commas;
+        match &expr.op {
+            Op::Var(var) => self.module.variables[var.0 as usize].name.len(),
+            Op::Swizzle(components) => args + 1 + components.len(),
+            Op::Index { .. } => args + 2,
+            Op::Construct | Op::Convert { .. } => call(wgsl_type(expr.ty).len()),
+            Op::Division(..) => args + 3 + parentheses(expr),
+            Op::Builtin(_) => 20,
+            Op::Any | Op::All => call(3),
+            Op::Choose => call(6),
+            Op::Hex(_) => 11,
+            Op::Call(name) => call(name.len()),
+            Op::Function(name) => call(name.len()),
+            Op::Ir(op) => match op {
+                ir::Op::Const(bits) => self.constant(expr.ty, bits),
+                ir::Op::Uniform(k) => 11 + self.graph.uniforms[*k as usize].name.len(),
+                ir::Op::Varying(k) => self.graph.varyings[*k as usize].name.len(),
+                ir::Op::Unary(ir::UnaryOp::Neg | ir::UnaryOp::Not | ir::UnaryOp::BitNot) => args + 1 + parentheses(expr),
+                ir::Op::Binary(BinaryOp::Min | BinaryOp::Max | BinaryOp::Pow) => call(3),
+                ir::Op::Binary(BinaryOp::Atan2) => call(5),
+                ir::Op::Binary(_) => args + 3 + parentheses(expr),
+                ir::Op::Unary(op) => call(format!("{op:?}").len()),
+                ir::Op::Bitcast => call(8 + wgsl_type(expr.ty).len() + 2),
+                ir::Op::Load { texture, .. } => call(16 + self.texture(*texture)),
+                ir::Op::Sample { texture, sampler, .. } => call(28 + self.texture(*texture) + self.sampler(*sampler)),
+                ir::Op::Gather { texture, sampler, .. } => call(20 + self.texture(*texture) + self.sampler(*sampler)),
+                ir::Op::Compare { texture, sampler, .. } | ir::Op::GatherCompare { texture, sampler, .. } => {
+                    call(29 + self.texture(*texture) + self.sampler(*sampler))
+                }
+                ir::Op::TextureSize(texture) => 26 + self.texture(*texture),
+                ir::Op::BufferLoad { buffer, .. } => args + 2 + self.graph.buffers[*buffer as usize].name.len(),
+                ir::Op::BufferLen(buffer) => 18 + self.graph.buffers[*buffer as usize].name.len(),
+                ir::Op::Message(_) | ir::Op::Derivative(_) => call(12),
+                _ => call(6),
+            },
+        }
+    }
+
+    fn constant(&self, ty: Ty, bits: &ir::Lanes) -> usize {
+        let lanes = &bits[..ty.lanes() as usize];
+        let number = |bits: &u32| columns_of_number(ty, *bits);
+        match lanes {
+            [one] => number(one),
+            [first, rest @ ..] if rest.iter().all(|bits| bits == first) => 7 + number(first),
+            _ => 5 + lanes.iter().map(|bits| number(bits) + 2).sum::<usize>(),
+        }
+    }
+
+    fn texture(&self, index: u32) -> usize {
+        self.graph.textures[index as usize].name.len()
+    }
+
+    fn sampler(&self, index: u32) -> usize {
+        self.graph.samplers[index as usize].name.len()
+    }
+}
+
+/// Parentheses around operands that are operators themselves, where there may be some.
+fn parentheses(expr: &Expr) -> usize {
+    let operator = |arg: &&Expr| match (&arg.op, &expr.op) {
+        (Op::Ir(ir::Op::Binary(inner)), Op::Ir(ir::Op::Binary(outer))) => {
+            !matches!(
+                (inner, outer),
+                (BinaryOp::Mul, BinaryOp::Add | BinaryOp::Sub) | (BinaryOp::Add, BinaryOp::Add)
+            )
+        }
+        (Op::Ir(ir::Op::Binary(_)) | Op::Division(..), _) => true,
+        _ => false,
+    };
+    2 * expr.args.iter().filter(operator).count()
+}

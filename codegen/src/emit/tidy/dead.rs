@@ -1,0 +1,57 @@
+//! No statement for a value that nothing uses.
+
+use crate::emit::ast::{Block, Module, Op, Stmt, StmtKind, VarId};
+
+/// How often each variable is read, by variable.
+pub fn uses(module: &Module<'_>) -> Vec<u32> {
+    let mut uses = vec![0; module.variables.len()];
+    for stmt in &module.body {
+        count(stmt, &mut uses);
+    }
+    for (_, value) in &module.tables {
+        value.visit(&mut |expr| {
+            if let Op::Var(var) = expr.op {
+                uses[var.0 as usize] += 1;
+            }
+        });
+    }
+    uses
+}
+
+fn count(stmt: &Stmt<'_>, uses: &mut [u32]) {
+    for expr in stmt.own() {
+        expr.visit(&mut |expr| {
+            if let Op::Var(var) = expr.op {
+                uses[var.0 as usize] += 1;
+            }
+        });
+    }
+    for block in stmt.blocks() {
+        block.iter().for_each(|stmt| count(stmt, uses));
+    }
+}
+
+/// Removes immutable variables that nothing reads, and tables too.
+pub fn remove(module: &mut Module<'_>) {
+    loop {
+        let uses = uses(module);
+        let is_used = |var: VarId| uses[var.0 as usize] > 0;
+        let mut removed = false;
+        sweep(&mut module.body, &is_used, &mut removed);
+        module.tables.retain(|(var, _)| is_used(*var));
+        if !removed {
+            return;
+        }
+    }
+}
+
+fn sweep(block: &mut Block<'_>, is_used: &dyn Fn(VarId) -> bool, removed: &mut bool) {
+    let before = block.len();
+    block.retain(|stmt| !matches!(&stmt.kind, StmtKind::Let(var, _) if !is_used(*var)));
+    *removed |= block.len() < before;
+    for stmt in block {
+        for inner in stmt.blocks_mut() {
+            sweep(inner, is_used, removed);
+        }
+    }
+}

@@ -1,0 +1,20 @@
+//! Rules that make a tree read as a colleague would have written it. None changes what is computed, by a single bit.
+
+mod columns;
+mod dead;
+mod inline;
+mod simplify;
+
+use super::ast::Module;
+use crate::ir::Graph;
+
+/// Tidies a kernel's statements.
+pub fn tidy(module: &mut Module<'_>, graph: &Graph) {
+    module.rewrite(&mut |_, expr| simplify::simplify(expr));
+    dead::remove(module);
+    inline::inline(module, graph);
+    // What was inlined has new neighbours.
+    module.rewrite(&mut |_, expr| simplify::simplify(expr));
+    dead::remove(module);
+    simplify::compound(&mut module.body);
+}

@@ -1,0 +1,174 @@
+//! Shorter ways to write an expression.
+
+use crate::emit::ast::{Block, Expr, Op, Stmt, StmtKind};
+use crate::ir::{self, BinaryOp, Scalar, Type};
+
+/// Rewrites an expression, whose arguments have been rewritten.
+pub fn simplify(expr: Expr) -> Expr {
+    match &expr.op {
+        Op::Swizzle(_) => swizzle(expr),
+        Op::Construct => construct(expr),
+        Op::Convert { .. } => convert(expr),
+        Op::Ir(ir::Op::Binary(op)) => {
+            let op = *op;
+            subtracted(op, scalar_operands(op, expr))
+        }
+        _ => expr,
+    }
+}
+
+/// `v.zyx.y` is `v.y`, `v.xyz` of a vector of three `v`, `vec2(a, b).y` is `b`.
+fn swizzle(mut expr: Expr) -> Expr {
+    let Op::Swizzle(components) = &expr.op else { return expr };
+    let base = &mut expr.args[0];
+    match &mut base.op {
+        Op::Swizzle(inner) => {
+            let components = components.iter().map(|k| inner[*k as usize]).collect();
+            let base = base.args.swap_remove(0);
+            swizzle(Expr::new(Op::Swizzle(components), vec![base], expr.ty))
+        }
+        Op::Construct if components.len() == 1 && base.args.len() == base.ty.lanes() as usize => {
+            let part = base.args.swap_remove(components[0] as usize);
+            if part.ty == expr.ty {
+                return part;
+            }
+            expr
+        }
+        _ => {
+            let whole = components.iter().copied().eq(0..base.ty.lanes());
+            if whole { expr.args.swap_remove(0) } else { expr }
+        }
+    }
+}
+
+/// `vec3(v.x, v.y, a)` is `vec3(v.xy, a)`.
+fn construct(expr: Expr) -> Expr {
+    if expr.ty.is_array() || expr.args.len() < 2 {
+        return expr;
+    }
+    let mut parts: Vec<Expr> = Vec::new();
+    for part in expr.args {
+        if let Some(last) = parts.last_mut()
+            && let (Op::Swizzle(before), Op::Swizzle(after)) = (&mut last.op, &part.op)
+            && last.args == part.args
+        {
+            before.extend(after);
+            let lanes = before.len() as u8;
+            if let Some(kind) = last.ty.kind() {
+                last.ty.shape = Type::value(kind, lanes);
+            }
+            continue;
+        }
+        parts.push(part);
+    }
+    let parts: Vec<Expr> = parts.into_iter().map(swizzle).collect();
+    match &parts[..] {
+        [one] if one.ty == expr.ty => one.clone(),
+        _ => Expr::new(Op::Construct, parts, expr.ty),
+    }
+}
+
+/// `f32(u32(i))` is `f32(i)` where `i` has no sign; so is `i32(u32(i))` `i`.
+fn convert(mut expr: Expr) -> Expr {
+    let Op::Convert { fits: outer } = expr.op else { return expr };
+    let inner = &mut expr.args[0];
+    if let Op::Convert { fits: true } = inner.op
+        && inner.ty.is_integer()
+        && inner.args[0].ty.is_integer()
+    {
+        let source = inner.args.swap_remove(0);
+        if source.ty == expr.ty {
+            return source;
+        }
+        return Expr::new(Op::Convert { fits: outer }, vec![source], expr.ty);
+    }
+    expr
+}
+
+/// A vector of one number in all components is that number where the other side is a vector.
+fn scalar_operands(op: BinaryOp, mut expr: Expr) -> Expr {
+    if !matches!(op, BinaryOp::Add | BinaryOp::Sub | BinaryOp::Mul | BinaryOp::Div) || expr.ty.is_scalar() {
+        return expr;
+    }
+    for k in [1, 0] {
+        if !expr.args[1 - k].ty.is_scalar()
+            && let Some(scalar) = splatted(&expr.args[k])
+        {
+            expr.args[k] = scalar;
+        }
+    }
+    expr
+}
+
+/// The number that all components of a vector are.
+fn splatted(expr: &Expr) -> Option<Expr> {
+    let kind = expr.ty.kind()?;
+    let lanes = expr.ty.lanes() as usize;
+    let ty = crate::emit::ast::Ty {
+        shape: Type::scalar(kind),
+        ..expr.ty
+    };
+    match &expr.op {
+        Op::Construct if expr.args.len() == 1 && expr.args[0].ty.is_scalar() => Some(expr.args[0].clone()),
+        Op::Ir(ir::Op::Const(bits)) if bits[..lanes].iter().all(|b| *b == bits[0]) => Some(Expr::splat(ty, bits[0])),
+        _ => None,
+    }
+}
+
+/// `x + -1` is `x - 1`, and `x - -1` is `x + 1`.
+fn subtracted(op: BinaryOp, mut expr: Expr) -> Expr {
+    let other = match op {
+        BinaryOp::Add => BinaryOp::Sub,
+        BinaryOp::Sub => BinaryOp::Add,
+        _ => return expr,
+    };
+    let right = &expr.args[1];
+    let (Some(bits), Some(kind)) = (right.as_constant().copied(), right.ty.kind()) else {
+        return expr;
+    };
+    let lanes = right.ty.lanes() as usize;
+    let negative = |bits: u32| match kind {
+        Scalar::F32 => f32::from_bits(bits) < 0.0,
+        Scalar::I32 => (bits as i32) < 0 && bits as i32 != i32::MIN,
+        _ => false,
+    };
+    let negated = |bits: u32| match kind {
+        Scalar::F32 => (-f32::from_bits(bits)).to_bits(),
+        _ => (bits as i32).wrapping_neg() as u32,
+    };
+    if bits[..lanes].iter().all(|bits| negative(*bits)) {
+        let ty = right.ty;
+        expr.args[1] = Expr::constant(ty, bits.map(negated));
+        expr.op = Op::Ir(ir::Op::Binary(other));
+    }
+    expr
+}
+
+/// `x = x + a` is `x += a`.
+pub fn compound(block: &mut Block<'_>) {
+    for stmt in block {
+        if let StmtKind::Assign(place, assigned @ None, value) = &mut stmt.kind
+            && let Op::Ir(ir::Op::Binary(op)) = value.op
+        {
+            let compounds = match op {
+                BinaryOp::Add | BinaryOp::Mul | BinaryOp::Sub | BinaryOp::Div => true,
+                BinaryOp::And | BinaryOp::Or | BinaryOp::Xor => !matches!(value.ty.kind(), Some(Scalar::Bool)),
+                _ => false,
+            };
+            if compounds && value.args[0] == *place {
+                *assigned = Some(op);
+                *value = value.args.swap_remove(1);
+            } else if compounds && op.commutes() && value.args[1] == *place {
+                *assigned = Some(op);
+                *value = value.args.swap_remove(0);
+            }
+        }
+        each_block(stmt);
+    }
+}
+
+fn each_block(stmt: &mut Stmt<'_>) {
+    for inner in stmt.blocks_mut() {
+        compound(inner);
+    }
+}
