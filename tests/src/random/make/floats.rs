@@ -50,6 +50,7 @@ impl Maker {
                 format!("{a}.{name}({b} + 0.03125)")
             }
             14 => format!("{}.clamp(-2.0, 8.5)", self.float_receiver(d)),
+            15 if coarse && self.random.once_in(4) => format!("{}.clamp(-4.5, 4.0).exp2()", self.float_receiver(d)),
             15 if coarse => {
                 let name = self.random.pick(&["sqrt", "recip", "to_radians", "to_degrees"]);
                 format!("({}.abs() + 0.25).{name}()", self.float_receiver(d))
