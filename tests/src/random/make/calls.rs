@@ -13,6 +13,14 @@ impl Maker {
         text
     }
 
+    /// Runs something that may not call what changes variables.
+    pub(super) fn without_effects(&mut self, run: impl FnOnce(&mut Maker) -> String) -> String {
+        let before = std::mem::replace(&mut self.effects, false);
+        let text = run(self);
+        self.effects = before;
+        text
+    }
+
     /// A call of a function that gives a type.
     pub(super) fn call_of(&mut self, ty: &Ty, want: Want) -> Option<String> {
         let fits = |s: &Signature| {
@@ -48,8 +56,8 @@ impl Maker {
             receiver = Some(match hold {
                 Hold::Mutable => {
                     let place = self.writable(Some(ty))?;
-                    // What is called may read the rest of its receiver in its arguments: a two-phase borrow.
-                    let others = signature.params.iter().any(|p| p.hold == Hold::Mutable);
+                    // Arguments may read what the receiver borrows (a two-phase borrow), but not borrow it themselves.
+                    let others = signature.params.iter().any(|p| p.hold != Hold::Value);
                     if self.random.below(3) > 0 || others || place.text.contains('[') {
                         self.freeze(&place.root, true);
                         frozen.push(place.root.clone());
@@ -87,15 +95,14 @@ impl Maker {
                 args[k] = Some(text);
             }
         }
-        let effects = std::mem::replace(&mut self.effects, false);
-        for (k, param) in signature.params.iter().enumerate() {
-            if args[k].is_some() {
+        for (arg, param) in args.iter_mut().zip(&signature.params) {
+            if arg.is_some() {
                 continue;
             }
-            args[k] = Some(match param.known {
+            *arg = Some(match param.known {
                 Some((low, high)) => self.bounded(&param.ty, low, high),
                 None => {
-                    let value = self.expr(&param.ty, d.inferred(true));
+                    let value = self.without_effects(|m| m.expr(&param.ty, d.inferred(true)));
                     match param.hold {
                         Hold::Shared => format!("&{value}"),
                         _ => value,
@@ -103,7 +110,6 @@ impl Maker {
                 }
             });
         }
-        self.effects = effects;
         let mut all: Vec<String> = Vec::new();
         if signature.inputs {
             all.extend(["a", "b", "p", "q", "r", "pixel"].map(str::to_owned));
