@@ -4,7 +4,7 @@
 
 use libfuzzer_sys::fuzz_target;
 use straightline_codegen::{Kernel, Settings};
-use straightline_tests::random::check::is_internal;
+use straightline_tests::random::forms::is_internal;
 
 fuzz_target!(|bytes: &[u8]| {
     let text = String::from_utf8_lossy(bytes);

@@ -1,7 +1,7 @@
 //! What several tests and programs share.
 //!
-//! [`random`]: differential testing of the generator. A random kernel is a tree of this crate's own, printed as text for the generator and evaluated directly by a tree
-//! walker that shares no code with it. The two must agree bit for bit, whatever becomes of loops.
+//! [`random`]: differential testing of the generator. A random kernel is compiled natively by rustc, and by the generator in
+//! every form: all must compute the same bits.
 
 pub use straightline_study::oracle::quads;
 pub mod compilers;

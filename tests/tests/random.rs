@@ -4,15 +4,13 @@
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
-use straightline_codegen::EmitOptions;
-use straightline_tests::random::check::{FORMS, agrees, check, compile, interpret, picture};
-use straightline_tests::random::generate::{Profile, generate};
-use straightline_tests::random::gpu::{Compared, Gpu};
+use straightline_codegen::{EmitOptions, Kernel};
+use straightline_tests::random::forms::FORMS;
 use straightline_tests::random::make::{Features, make};
 use straightline_tests::random::oracle::coverage::{Missing, missing};
 use straightline_tests::random::oracle::same::{CHANGES, apply, same_bits};
-use straightline_tests::random::oracle::{self, Rustc, Tally, World};
-use straightline_tests::random::{Random, Texts, print, survives};
+use straightline_tests::random::oracle::{self, Compared, Driver, Rustc, Tally, Text, World, colors};
+use straightline_tests::random::{Random, Texts, survives};
 
 /// First seed; each test takes those that follow.
 const SEED: u64 = 10_440;
@@ -88,31 +86,27 @@ fn changes_without_meaning_change_no_bit() {
     }
 }
 
+/// What rustc makes of kernels is what shaders compute of what all drivers compute alike.
 #[test]
-fn every_form_agrees_with_the_tree() {
-    (SEED..SEED + 300).into_par_iter().for_each(|seed| {
-        let program = generate(seed, Profile::Exact);
-        if let Err(failure) = check(&program, &picture(seed)) {
-            panic!("{}\nseed {seed}: {failure}", print(&program));
-        }
-    });
-}
-
-#[test]
-fn shaders_agree_with_the_tree() {
-    let gpu = Gpu::new().unwrap_or_else(|why| panic!("{why}"));
+fn shaders_agree_with_rustc() {
+    let rustc = Rustc::find().unwrap_or_else(|why| panic!("{why}"));
+    let driver = Driver::new().unwrap_or_else(|why| panic!("{why}"));
+    let texts: Vec<Text> = (SEED..SEED + 40)
+        .map(|seed| make(seed, Features::exact_on_drivers()))
+        .collect();
+    let world = World::new(SEED);
+    let natives = oracle::run(&rustc, &texts, &world).unwrap_or_else(|why| panic!("{why}"));
     let mut total = Compared::default();
-    for seed in SEED..SEED + 40 {
-        let program = generate(seed, Profile::Gpu);
-        match gpu.check(&program, &picture(seed)) {
-            Ok(compared) => {
-                total.pixels += compared.pixels;
-                total.unsure += compared.unsure;
-            }
-            Err(failure) => panic!("{}\nseed {seed}: {failure}", print(&program)),
+    for (text, native) in texts.iter().zip(natives) {
+        if let Ok(native) = native
+            && let Err(off) = driver.compare(text, &world, &native, &mut total)
+        {
+            panic!("{text}\nworld {SEED}: {off}");
         }
     }
-    assert!(total.pixels > total.unsure, "most pixels are compared: {total:?}");
+    assert!(total.kernels > 30, "most kernels are compared: {total:?}");
+    assert!(total.unsure * 5 < total.pixels, "most pixels are compared: {total:?}");
+    assert!(total.rounded * 5 < total.pixels, "most pixels are exact: {total:?}");
 }
 
 #[test]
@@ -126,37 +120,59 @@ fn no_text_makes_the_front_end_panic() {
     });
 }
 
-/// Kernels that once disagreed: every form agrees, gives what a line `// expect x y: r g b a` says, and can be
-/// emitted.
+/// Kernels that once disagreed: every form computes what rustc makes of them, gives what a line `// expect x y: r g b a`
+/// says, and can be emitted.
 #[test]
 fn the_corpus_agrees() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/corpus");
     let entries = std::fs::read_dir(&folder).expect("the corpus");
-    let paths: Vec<PathBuf> = entries.map(|entry| entry.expect("an entry").path()).collect();
-    for path in paths.iter().filter(|path| path.extension().is_some_and(|e| e == "rs")) {
-        if let Err(why) = kept_promise(path) {
+    let paths: Vec<PathBuf> = entries
+        .map(|entry| entry.expect("an entry").path())
+        .filter(|path| path.extension().is_some_and(|e| e == "rs"))
+        .collect();
+    let texts: Vec<Text> = (0..)
+        .zip(&paths)
+        .map(|(seed, path)| Text {
+            seed,
+            source: std::fs::read_to_string(path).expect("a text"),
+        })
+        .collect();
+    for (path, text) in paths.iter().zip(&texts) {
+        if let Err(why) = kept_promise(text) {
             panic!("{}: {why}", path.display());
         }
     }
+    let rustc = Rustc::find().unwrap_or_else(|why| panic!("{why}"));
+    for world in 0..4 {
+        let (tally, failures) = oracle::check(&rustc, &texts, world).unwrap_or_else(|why| panic!("{why}"));
+        if let Some(failure) = failures.first() {
+            let path = paths[failure.text.seed as usize].display();
+            panic!("{path}: world {world}: {}", failure.difference);
+        }
+        assert_eq!(tally.compared, texts.len() as u64, "all are compared: {tally:?}");
+    }
 }
 
-fn kept_promise(path: &Path) -> Result<(), String> {
-    let text = std::fs::read_to_string(path).map_err(|e| e.to_string())?;
-    for seed in 0..4 {
-        agrees(&text, &picture(seed), None).map_err(|failure| failure.to_string())?;
-    }
+fn kept_promise(text: &Text) -> Result<(), String> {
+    let kernel = Kernel::from_text("corpus.rs", &text.file(), "k");
+    let pixels: Vec<[u32; 2]> = World::pixels().collect();
     for form in FORMS {
-        let compiled = compile(&text, *form).map_err(|refusal| refusal.message)?;
-        for line in text.lines() {
+        let compiled = kernel
+            .compile(&form.settings())
+            .map_err(|errors| format!("{form}: {errors}"))?;
+        let found = colors::<f32>(&compiled, &World::new(0))?;
+        for line in text.source.lines() {
             let Some(promise) = line.strip_prefix("// expect ") else {
                 continue;
             };
             let numbers: Vec<f32> = promise.split([' ', ':']).filter_map(|word| word.parse().ok()).collect();
-            let [x, y, color @ ..] = numbers.as_slice() else {
+            let at = pixels
+                .iter()
+                .position(|[x, y]| numbers.starts_with(&[*x as f32, *y as f32]));
+            let (Some(at), [_, _, color @ ..]) = (at, numbers.as_slice()) else {
                 return Err(format!("not a pixel and a colour: {promise}"));
             };
-            let picture = picture(0);
-            let found = interpret(&compiled, &picture)[*y as usize * picture.size[0] as usize + *x as usize];
+            let found = found[at];
             if found.as_slice() != color {
                 return Err(format!("{form} gives {found:?}, not {promise}"));
             }

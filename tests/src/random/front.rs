@@ -1,6 +1,6 @@
 //! Whether the generator stands whatever text it is given.
 
-use super::check::is_internal;
+use super::forms::is_internal;
 use std::sync::mpsc;
 use std::time::Duration;
 use straightline_codegen::{Kernel, Settings};

@@ -1,9 +1,7 @@
 //! Texts that are nearly kernels.
 
 use super::Random;
-use super::generate::{Profile, generate};
 use super::make::{Features, make};
-use super::print::print;
 use std::path::Path;
 
 /// Deepest nesting that is made.
@@ -168,12 +166,7 @@ impl Texts {
             let function = if text.contains("fn glow") { "glow" } else { "sraa" };
             (text, function)
         } else {
-            let seed = random.bits();
-            let text = match random.once_in(2) {
-                true => print(&generate(seed, Profile::Exact)),
-                false => make(seed, Features::all()).file(),
-            };
-            (text, "k")
+            (make(random.bits(), Features::all()).file(), "k")
         };
         let mut bytes = text.into_bytes();
         // One change leaves much that can still be evaluated; more go deeper into the parser's errors.

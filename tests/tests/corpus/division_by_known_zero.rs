@@ -1,5 +1,5 @@
 // A run-time integer divided by a known zero is written as such, which WGSL refuses.
-// expect 1 3: 3 3 3 3
+// expect 1 1: 1 1 1 1
 
 pub fn k(a: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
     let x = (pixel.x as u32) % 0u32;

@@ -2,14 +2,24 @@
 //! evaluates them; what is tracked is what the generator needs: which values are compile-time constants, which
 //! variables are borrowed, and how much is computed.
 
+mod branches;
+mod calls;
+mod conditions;
 mod exprs;
 mod features;
+mod floats;
+mod functions;
+mod generics;
 mod integers;
 mod items;
+mod kernel;
+mod lets;
 mod loops;
 mod places;
 mod references;
+mod shown;
 mod statements;
+mod structures;
 mod types;
 mod vectors;
 

@@ -133,12 +133,13 @@ impl Maker {
                 if n == 3 && self.random.once_in(3) {
                     let name = self.random.pick(&["transform_point3", "transform_vector3"]);
                     let m = self.expr(&Ty::Mat(4), d);
-                    return format!("({m}).{name}({})", self.expr(&ty, d));
+                    // These methods take a matrix by reference.
+                    return format!("({m}).{name}({})", self.without_effects(|maker| maker.expr(&ty, d)));
                 }
                 let m = self.expr(&Ty::Mat(n), d);
                 match self.random.below(2) {
                     0 => format!("({m} * {})", self.expr(&ty, d)),
-                    _ => format!("({m}).mul_vec{n}({})", self.expr(&ty, d)),
+                    _ => format!("({m}).mul_vec{n}({})", self.without_effects(|maker| maker.expr(&ty, d))),
                 }
             }
             18 if self.on(Feature::Matrices) && lane == Lane::F => {

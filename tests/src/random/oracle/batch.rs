@@ -76,15 +76,22 @@ fn program(modules: String, texts: &[Text], numbers: &[usize], world: &World) ->
     source += "type Kernel = fn(&World, straightline_kernels::prelude::IVec2) -> straightline_kernels::prelude::Vec4;\n\
                static KERNELS: &[Kernel] = &[\n";
     for k in numbers {
-        let cfg = if texts[*k].source.contains("pub fn k(cfg: &Cfg") {
-            "&Default::default(), "
-        } else {
-            ""
-        };
-        let _ = writeln!(source, "|w, at| k{k}::k({cfg}&w.a, &w.b, P, Q, R, at),");
+        let arguments = arguments(&texts[*k].source);
+        let _ = writeln!(source, "|w, at| k{k}::k({arguments}),");
     }
     source += MAIN;
     source
+}
+
+/// What a kernel is called with, by the first parameters that its text states.
+fn arguments(source: &str) -> &'static str {
+    if source.contains("pub fn k(cfg: &Cfg") {
+        "&Default::default(), &w.a, &w.b, P, Q, R, at"
+    } else if source.contains("pub fn k(a: &Frame<Vec4>, pixel") {
+        "&w.a, at"
+    } else {
+        "&w.a, &w.b, P, Q, R, at"
+    }
 }
 
 const MAIN: &str = r#"];

@@ -1,11 +1,12 @@
 //! One kernel in every form, against what rustc's program computes.
 
 use super::{Native, Text, World};
-use crate::random::check::{FORMS, Form, is_internal};
+use crate::random::forms::{FORMS, Form, is_internal, same};
 use std::collections::BTreeMap;
 use std::fmt;
+use straightline_codegen::ir::Real;
 use straightline_codegen::ir::interp::Interpreter;
-use straightline_codegen::{Compiled, Kernel, Settings};
+use straightline_codegen::{Compiled, Kernel};
 
 /// How a kernel is not what rustc makes of it.
 #[derive(Clone, Debug, PartialEq)]
@@ -120,20 +121,25 @@ impl Tally {
 ///
 /// The first error of the generator.
 pub fn interpret(kernel: &Kernel, form: Form, world: &World) -> Result<Vec<[u32; 4]>, String> {
-    let settings = Settings {
-        unroll: form.0,
-        branches: form.1,
-        ..Default::default()
-    };
-    let compiled: Compiled = kernel
-        .compile(&settings)
+    let compiled = kernel
+        .compile(&form.settings())
         .map_err(|errors| errors.diagnostics[0].message.clone())?;
+    let colors = colors::<f32>(&compiled, world)?;
+    Ok(colors.into_iter().map(|color| color.map(f32::to_bits)).collect())
+}
+
+/// The colours of all pixels of a compiled kernel, in a precision.
+///
+/// # Errors
+///
+/// What the kernel reads is not bound.
+pub fn colors<R: Real>(compiled: &Compiled, world: &World) -> Result<Vec<[R; 4]>, String> {
     let image = world.image();
     let bindings = world.bindings(&image);
-    let interpreter = Interpreter::new(&compiled.graph, &compiled.schedule, super::world::SIZE, &bindings);
+    let interpreter = Interpreter::in_precision(&compiled.graph, &compiled.schedule, super::world::SIZE, &bindings);
     let interpreter = interpreter.map_err(|e| e.to_string())?;
     let mut scratch = interpreter.scratch();
-    let pixel = |[x, y]: [u32; 2]| interpreter.pixel(x, y, &mut scratch).map(f32::to_bits);
+    let pixel = |[x, y]: [u32; 2]| interpreter.pixel(x, y, &mut scratch);
     Ok(World::pixels().map(pixel).collect())
 }
 
@@ -162,7 +168,7 @@ pub fn compare(text: &Text, world: &World, native: &Native, tally: &mut Tally) -
             };
             let number = |bits: [u32; 4]| bits.map(f32::from_bits);
             let (expected, found) = (number(*expected), number(found));
-            if !crate::random::check::same(expected, found) {
+            if !same(expected, found) {
                 return Err(Difference::Pixel {
                     form: *form,
                     pixel,

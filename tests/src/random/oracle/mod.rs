@@ -12,7 +12,7 @@ mod world;
 
 pub use batch::{Native, run};
 pub use change::{Lenient, Verdicts, judge_changed};
-pub use compare::{Difference, Reason, Tally, compare, interpret};
+pub use compare::{Difference, Reason, Tally, colors, compare, interpret};
 pub use driver::{Compared, Driver, Off};
 pub use reduce::reduce;
 pub use rustc::{Rustc, Verdict};

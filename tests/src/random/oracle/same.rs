@@ -2,7 +2,7 @@
 
 use super::{Text, World, interpret};
 use crate::random::Random;
-use crate::random::check::FORMS;
+use crate::random::forms::{FORMS, same};
 use straightline_codegen::Kernel;
 
 /// A change that leaves the meaning.
@@ -60,7 +60,7 @@ pub fn same_bits(a: &Text, b: &str, world: &World) -> Result<bool, String> {
         };
         for (pixel, (x, y)) in World::pixels().zip(x.into_iter().zip(y)) {
             let (x, y) = (x.map(f32::from_bits), y.map(f32::from_bits));
-            if !crate::random::check::same(x, y) {
+            if !same(x, y) {
                 return Err(format!("{form}, pixel {pixel:?}: {x:?} became {y:?}"));
             }
         }

@@ -1,0 +1,80 @@
+//! What the program is asked to do.
+
+use straightline_tests::random::make::Features;
+
+/// The options, and what they are without being given.
+pub const USAGE: &str = "\
+usage: agree [--kernels N] [--seed S] [--threads T] [--batch N] [--without FEATURE]... [--accepts N] [--gpu N]
+             [--world W] [--front-minutes M] [--keep-going] [--print]
+  --kernels N        random kernels to compare with what rustc makes of them (1000)
+  --seed S           number of the first (1)
+  --threads T        threads (one for each core)
+  --world W          number of the inputs (that of a batch's first kernel)
+  --batch N          kernels that rustc compiles at once (400)
+  --without FEATURE  leave out a group of constructs
+  --accepts N        kernels with a mistake in them, which rustc and the generator must both refuse (0)
+  --gpu N            random kernels to run on the default adapter, against rustc (0)
+  --front-minutes M  time for mutated texts (0)
+  --keep-going       list every disagreement by its seed, instead of making the first smaller
+  --print            only print the kernel of the seed, and why it is refused if it is";
+
+/// What the program is asked to do.
+pub struct Options {
+    /// Random kernels to compare with rustc.
+    pub kernels: u64,
+    /// The number of the first.
+    pub seed: u64,
+    /// Threads, 0 for one a core.
+    pub threads: usize,
+    /// Kernels that rustc compiles at once.
+    pub batch: u64,
+    /// The number of the inputs, unless it is that of a batch's first kernel.
+    pub world: Option<u64>,
+    /// What kernels are made of.
+    pub features: Features,
+    /// Kernels with a mistake in them.
+    pub accepts: u64,
+    /// Random kernels to run on the default adapter.
+    pub gpu: u64,
+    /// Minutes for mutated texts.
+    pub front_minutes: f64,
+    /// Whether every disagreement is listed.
+    pub keep_going: bool,
+    /// Whether the kernel of the seed is only printed.
+    pub print: bool,
+}
+
+/// The options that the program was called with, unless they are wrong.
+pub fn options() -> Option<Options> {
+    let mut options = Options {
+        kernels: 1000,
+        seed: 1,
+        threads: 0,
+        batch: 400,
+        world: None,
+        features: Features::all(),
+        accepts: 0,
+        gpu: 0,
+        front_minutes: 0.0,
+        keep_going: false,
+        print: false,
+    };
+    let mut words = std::env::args().skip(1);
+    while let Some(word) = words.next() {
+        match word.as_str() {
+            "--kernels" => options.kernels = words.next()?.parse().ok()?,
+            "--seed" => options.seed = words.next()?.parse().ok()?,
+            "--threads" => options.threads = words.next()?.parse().ok()?,
+            "--world" => options.world = Some(words.next()?.parse().ok()?),
+            "--batch" => options.batch = words.next()?.parse().ok().filter(|n| *n > 0)?,
+            "--without" => options.features = options.features.without(Features::named(&words.next()?)?),
+            "--accepts" => options.accepts = words.next()?.parse().ok()?,
+            "--gpu" => options.gpu = words.next()?.parse().ok()?,
+            "--front-minutes" => options.front_minutes = words.next()?.parse().ok()?,
+            "--keep-going" => options.keep_going = true,
+            "--print" => options.print = true,
+            _ => return None,
+        }
+    }
+    Some(options)
+}

@@ -1,0 +1,46 @@
+//! The forms that every kernel is compiled to.
+
+use std::fmt;
+use straightline_codegen::{Branches, Settings, Unroll};
+
+/// What may become of loops and branches; the first is what kernels are made for, and what it takes all must take.
+pub const FORMS: &[Form] = &[
+    Form(Unroll::Full, Branches::AsLoops),
+    Form(Unroll::None, Branches::AsLoops),
+    Form(Unroll::Partial(2), Branches::AsLoops),
+    Form(Unroll::Partial(3), Branches::Select),
+    Form(Unroll::Full, Branches::Keep),
+];
+
+/// What becomes of loops, and of branches on runtime values.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Form(pub Unroll, pub Branches);
+
+impl Form {
+    /// The settings that compile a kernel to this form.
+    pub fn settings(self) -> Settings {
+        Settings {
+            unroll: self.0,
+            branches: self.1,
+            ..Settings::default()
+        }
+    }
+}
+
+impl fmt::Display for Form {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "loops {}, branches {}", self.0, self.1)
+    }
+}
+
+/// Whether two colours are the same bit for bit, where any NaN equals any other.
+pub fn same(a: [f32; 4], b: [f32; 4]) -> bool {
+    a.iter()
+        .zip(b)
+        .all(|(x, y)| x.to_bits() == y.to_bits() || (x.is_nan() && y.is_nan()))
+}
+
+/// Whether an error is the generator's own: a broken rule, or a panic.
+pub fn is_internal(message: &str) -> bool {
+    message.starts_with("the stage `")
+}
