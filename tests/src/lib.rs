@@ -6,6 +6,7 @@
 pub use straightline_study::oracle::quads;
 pub mod compilers;
 pub mod impatient;
+pub mod passthrough;
 pub mod random;
 pub mod readme;
 pub mod sraa;
