@@ -5,6 +5,7 @@
 
 pub use straightline_study::oracle::quads;
 pub mod compilers;
+pub mod gl;
 pub mod impatient;
 pub mod passthrough;
 pub mod random;
