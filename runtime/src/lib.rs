@@ -52,6 +52,7 @@ mod guard;
 mod inputs;
 mod layout;
 mod loops;
+mod module;
 mod pass;
 mod pipeline;
 mod plan;

@@ -4,6 +4,7 @@ use crate::error::ViewProblem;
 use crate::guard::{Pulse, guarded};
 use crate::inputs::{Abilities, arrange, check_inputs, check_target, frame_size, is_one_image, shared, size};
 use crate::layout::{BoundGroup, Layout};
+use crate::module::Source;
 use crate::pipeline::{Pipeline, check_format};
 use crate::plan::Plan;
 use crate::timer::{Span, Timer};
@@ -91,12 +92,27 @@ impl Pass {
     ) -> Result<Self, Error> {
         let plan = Plan::new(manifest)?;
         reflect::check(&plan, wgsl)?;
+        let source = Source::Wgsl {
+            text: wgsl,
+            unbounded_loops: options.unbounded_loops,
+        };
+        Self::made(device, manifest, plan, source, options)
+    }
+
+    /// A pass of a shader that is the manifest's, whose plan is `plan`.
+    pub(crate) fn made(
+        device: &Device,
+        manifest: &Manifest,
+        plan: Plan,
+        source: Source<'_>,
+        options: &PassOptions,
+    ) -> Result<Self, Error> {
         check_features(device, manifest)?;
         let format = check_format(device, &plan, options)?;
         let doing = format!("making a pass of `{}`", plan.kernel);
         let pulse = Pulse::new(device, &doing)?;
         let layout = Layout::new(device, &plan)?;
-        let (pipeline, creation_time) = Pipeline::new(device, &plan, &layout, (wgsl, options.unbounded_loops), format)?;
+        let (pipeline, creation_time) = Pipeline::new(device, &plan, &layout, source, format)?;
         let blocks = plan
             .uniforms
             .iter()

@@ -2,8 +2,9 @@
 
 use crate::guard::{guarded, scoped};
 use crate::layout::{Layout, texture_format};
+use crate::module::Source;
 use crate::plan::{OutputPlan, Plan};
-use crate::{Error, PassOptions, loops};
+use crate::{Error, PassOptions};
 use std::time::{Duration, Instant};
 use wgpu::{Device, TextureFormat};
 
@@ -18,39 +19,22 @@ pub(crate) enum Pipeline {
 }
 
 impl Pipeline {
-    /// Compiles WGSL for a target of `format`, with or without wgpu's bound on loops; and tells how long making the
-    /// pipeline took once the shader was checked.
+    /// Compiles a shader for a target of `format`, and tells how long making the pipeline took once the shader was checked.
     pub(crate) fn new(
         device: &Device,
         plan: &Plan,
         layout: &Layout,
-        (wgsl, unbounded_loops): (&str, bool),
+        source: Source<'_>,
         format: TextureFormat,
     ) -> Result<(Self, Duration), Error> {
         let kernel = &plan.kernel;
         let label = Some(kernel.as_str());
         let doing = format!("compiling `{kernel}`");
-        let shader = |description| Error::Shader {
-            kernel: kernel.clone(),
-            description,
-        };
         let refused = |description| Error::Pipeline {
             kernel: kernel.clone(),
             description,
         };
-
-        if unbounded_loops {
-            loops::check(wgsl).map_err(|problem| Error::UnboundedLoop {
-                kernel: kernel.clone(),
-                problem,
-            })?;
-        }
-        let source = wgpu::ShaderSource::Wgsl(wgsl.into());
-        let descriptor = wgpu::ShaderModuleDescriptor { label, source };
-        let module = guarded(device, &doing, shader, || match unbounded_loops {
-            true => without_bounds_on_loops(device, descriptor),
-            false => device.create_shader_module(descriptor),
-        })?;
+        let module = source.module(device, plan)?;
         let start = Instant::now();
         let pipeline = match plan.output {
             OutputPlan::Storage { workgroup, .. } => {
@@ -96,20 +80,6 @@ impl Pipeline {
         };
         Ok((pipeline, start.elapsed()))
     }
-}
-
-/// A module whose loops have no bound on their rounds; all other checks stay.
-///
-/// wgpu calls this unsafe because a loop that never ends lets the driver's compiler do anything. [`loops::check`] has
-/// shown of this text that each of its loops ends.
-#[allow(unsafe_code)]
-fn without_bounds_on_loops(device: &Device, descriptor: wgpu::ShaderModuleDescriptor<'_>) -> wgpu::ShaderModule {
-    let checks = wgpu::ShaderRuntimeChecks {
-        force_loop_bounding: false,
-        ..wgpu::ShaderRuntimeChecks::checked()
-    };
-    // SAFETY: the only check that is left out is that of loops, and the caller has had `loops::check` pass the text.
-    unsafe { device.create_shader_module_trusted(descriptor, checks) }
 }
 
 /// The format that the pipeline is to write: the one asked for if the shader and the device can.

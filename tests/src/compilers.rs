@@ -71,23 +71,14 @@ pub fn glsl(path: &Path) -> Result<(), String> {
     run("glslangValidator", "glslang-tools", &arguments, path)
 }
 
-/// glslang on HLSL. It knows no `(float[9])0`, which other compilers of HLSL take, and is shown the zeros one by one.
+/// glslang on HLSL.
 ///
 /// # Errors
 ///
 /// What it says of a text that it refuses.
 pub fn hlsl(path: &Path, stage: Stage, entry: &str) -> Result<(), String> {
-    let stage = match stage {
-        Stage::Compute => "comp",
-        Stage::Fragment => "frag",
-    };
-    let folder = Folder::new()?;
-    let shown = folder.0.join("shader.hlsl");
     let text = std::fs::read_to_string(path).map_err(|e| e.to_string())?;
-    std::fs::write(&shown, zeros_one_by_one(&text)).map_err(|e| e.to_string())?;
-    let mut arguments = vec!["-D", "-V", "--target-env", "vulkan1.1", "--quiet", "-o", "/dev/null"];
-    arguments.extend(["-S", stage, "-e", entry]);
-    run("glslangValidator", "glslang-tools", &arguments, &shown)
+    compiled_hlsl(&text, stage, entry).map(drop)
 }
 
 fn zeros_one_by_one(text: &str) -> String {
@@ -153,21 +144,53 @@ impl Drop for Folder {
     }
 }
 
-/// The SPIR-V that glslang makes of GLSL for a stage, `comp` or `frag`, as words.
+/// The SPIR-V that glslang makes of GLSL for a stage, `comp` or `frag`, as words. Its entry point is `main`.
 ///
 /// # Errors
 ///
 /// What glslang says of a text that it refuses.
 pub fn compiled_glsl(text: &str, stage: &str) -> Result<Vec<u32>, String> {
+    compiled(text, &format!("shader.{stage}"), &[])
+}
+
+/// The SPIR-V that glslang makes of HLSL, as words. Register `n` of any class, and of space 0, is binding `n` of set 0, and the
+/// entry point keeps its name.
+///
+/// glslang knows no `(float[9])0`, which other compilers of HLSL take, and is shown the zeros one by one.
+///
+/// # Errors
+///
+/// What glslang says of a text that it refuses.
+pub fn compiled_hlsl(text: &str, stage: Stage, entry: &str) -> Result<Vec<u32>, String> {
+    let stage = match stage {
+        Stage::Compute => "comp",
+        Stage::Fragment => "frag",
+    };
+    let language = ["-D", "-S", stage, "-e", entry];
+    compiled(&zeros_one_by_one(text), "shader.hlsl", &language)
+}
+
+/// The words that glslang makes of a text in a file of this name.
+fn compiled(text: &str, file: &str, language: &[&str]) -> Result<Vec<u32>, String> {
     let folder = Folder::new()?;
-    let (source, made) = (folder.0.join(format!("shader.{stage}")), folder.0.join("shader.spv"));
+    let (source, made) = (folder.0.join(file), folder.0.join("shader.spv"));
     std::fs::write(&source, text).map_err(|e| e.to_string())?;
     let made_name = made.to_string_lossy().into_owned();
-    let arguments = ["-V", "--target-env", "vulkan1.1", "--quiet", "-o", &made_name];
-    run("glslangValidator", "glslang-tools", &arguments, &source)?;
+    let common = ["-V", "--target-env", "vulkan1.1", "--quiet", "-o", &made_name];
+    run(
+        "glslangValidator",
+        "glslang-tools",
+        &[language, &common].concat(),
+        &source,
+    )?;
     let bytes = std::fs::read(&made).map_err(|e| e.to_string())?;
+    Ok(words(&bytes))
+}
+
+/// The words of a SPIR-V file.
+pub fn words(bytes: &[u8]) -> Vec<u32> {
     let words = bytes.chunks_exact(4);
-    Ok(words.map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]])).collect())
+    words.map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]])).collect()
 }
 
 /// `OpLabel`: begins a basic block.

@@ -5,7 +5,9 @@
 
 pub use straightline_study::oracle::quads;
 pub mod compilers;
+pub mod gl;
 pub mod impatient;
+pub mod passthrough;
 pub mod random;
 pub mod readme;
 pub mod sraa;

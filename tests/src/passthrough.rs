@@ -1,0 +1,114 @@
+//! Runs shaders in languages that wgpu does not read: glslang makes SPIR-V of them, which wgpu hands to the Vulkan driver as it
+//! is.
+
+use crate::compilers;
+use glam::Vec4;
+use straightline_codegen::Stage;
+use straightline_codegen::emit::{Emitted, Target};
+use straightline_kernels::prelude::Frame;
+use straightline_runtime::manifest::{Binding, BindingKind, Manifest, SamplerType};
+use straightline_runtime::{Pass, PassOptions};
+use straightline_study::execute::{Bench, Inputs, SamplerState};
+use wgpu::Features;
+
+/// A bench that runs SPIR-V, of any Vulkan adapter, with what kernels can use of it.
+///
+/// # Errors
+///
+/// If there is no such adapter: what to install.
+pub fn bench() -> Result<Bench, String> {
+    let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
+    descriptor.backends = wgpu::Backends::VULKAN;
+    let instance = wgpu::Instance::new(descriptor);
+    let adapter = pollster::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions::default()));
+    let adapter = adapter.map_err(|e| {
+        format!("this test needs a Vulkan adapter; without a GPU install Debian's mesa-vulkan-drivers: {e}")
+    })?;
+    let wanted = Features::FLOAT32_FILTERABLE | Features::SUBGROUP | Features::SHADER_F16;
+    let descriptor = wgpu::DeviceDescriptor {
+        required_features: Features::PASSTHROUGH_SHADERS | (adapter.features() & wanted),
+        ..Default::default()
+    };
+    let device = pollster::block_on(adapter.request_device(&descriptor));
+    let (device, queue) = device.map_err(|e| format!("the adapter {}: {e}", adapter.get_info().name))?;
+    Ok(Bench::new(&device, &queue, false))
+}
+
+/// The picture that the text of one language computes: GLSL 4.50 and HLSL as glslang compiles them, SPIR-V as it is. The shader
+/// is one that writes full floats.
+///
+/// # Errors
+///
+/// What the compiler says of the text; or if it is not among the files, or cannot be run on these inputs.
+pub fn run(bench: &Bench, emitted: &Emitted, target: Target, inputs: &Inputs) -> Result<Frame<Vec4>, String> {
+    let bytes = emitted.files.get(&target);
+    let bytes = bytes.ok_or_else(|| format!("it was not emitted in {target}"))?;
+    let mut manifest = emitted.manifest.clone();
+    let words = words(bytes, target, &mut manifest)?;
+    let inputs = with_language_bindings(&mut manifest, target, inputs)?;
+    pass(bench, &manifest, &words).and_then(|pass| {
+        let bound = bench.bind(&pass, &manifest, &inputs).map_err(|e| e.to_string())?;
+        let picture = bench.picture_of(&pass, &bound, inputs.size);
+        picture.map_err(|e| e.to_string())
+    })
+}
+
+/// The SPIR-V of a file; the manifest then names its entry point.
+fn words(bytes: &[u8], target: Target, manifest: &mut Manifest) -> Result<Vec<u32>, String> {
+    let text = String::from_utf8_lossy(bytes);
+    match target {
+        Target::Glsl450 => {
+            manifest.entry_point = "main".to_owned();
+            let stage = match manifest.stage {
+                Stage::Compute => "comp",
+                Stage::Fragment => "frag",
+            };
+            compilers::compiled_glsl(&text, stage)
+        }
+        Target::Hlsl => compilers::compiled_hlsl(&text, manifest.stage, &manifest.entry_point),
+        Target::Spirv => Ok(compilers::words(bytes)),
+        Target::Wgsl | Target::Msl => Err(format!("no compiler makes SPIR-V of {target} here")),
+    }
+}
+
+/// Lists what the language binds beside the others among the inputs, and adds it to those given.
+fn with_language_bindings(manifest: &mut Manifest, target: Target, inputs: &Inputs) -> Result<Inputs, String> {
+    let mut inputs = inputs.clone();
+    let language = target.to_string();
+    for extra in manifest
+        .language_bindings
+        .iter()
+        .filter(|extra| extra.language == language)
+    {
+        // The only one there is.
+        if !extra.what.starts_with("any sampler") {
+            return Err(format!(
+                "`{}` of {target}: {} is not known here",
+                extra.name, extra.what
+            ));
+        }
+        manifest.bindings.push(Binding {
+            group: 0,
+            binding: extra.binding,
+            name: extra.name.clone(),
+            kind: BindingKind::Sampler {
+                sampler: SamplerType::Filtering,
+            },
+        });
+        let nearest = SamplerState {
+            linear: false,
+            ..SamplerState::default()
+        };
+        inputs = inputs.sampler(&extra.name, nearest);
+    }
+    Ok(inputs)
+}
+
+/// wgpu leaves SPIR-V unchecked. These words come from a compiler, of a text that the generator wrote together with the manifest.
+#[allow(unsafe_code)]
+fn pass(bench: &Bench, manifest: &Manifest, words: &[u32]) -> Result<Pass, String> {
+    // SAFETY: text and manifest are of one run of the generator, whose texts read within bounds and have loops that end, and the
+    // compiler made a valid module of the text.
+    let pass = unsafe { Pass::from_spirv(bench.device(), manifest, words, &PassOptions::default()) };
+    pass.map_err(|e| e.to_string())
+}
