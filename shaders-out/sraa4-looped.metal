@@ -41,19 +41,19 @@ kernel void sraa(
     float nearest_2_ = {};
     float d = {};
     float shaded_depth = {};
-    float chosen = {};
-    float chosen_2_ = {};
+    float bounded = {};
+    float bounded_2_ = {};
     float sum = {};
     type_8 tap_weights = {};
     int tap_2_ = {};
     float sum_2_ = {};
     int tap_3_ = {};
     metal::float4 result = metal::float4(0.0);
-    float sum_4_ = 0.0;
+    float sum_3_ = 0.0;
     int tap_4_ = 0;
     float w_2_ = {};
     metal::float4 result_2_ = {};
-    metal::float4 chosen_3_ = metal::float4(0.0);
+    metal::float4 filtered = metal::float4(0.0);
     metal::int2 frame = static_cast<metal::int2>(metal::uint2(destination.get_width(), destination.get_height()));
     metal::int2 pixel = static_cast<metal::int2>(id.xy);
     if (metal::any(pixel >= frame)) {
@@ -76,8 +76,7 @@ kernel void sraa(
         }
         {
             float _e15 = total;
-            float total_2_ = _e15 + 1.0;
-            total = total_2_;
+            total = _e15 + 1.0;
         }
     }
     float _e21 = total;
@@ -89,8 +88,8 @@ kernel void sraa(
         if (metal::all(loop_bound_1 == uint2(0u))) { break; }
         loop_bound_1 -= uint2(loop_bound_1.y == 0u, 1u);
         if (!loop_init_1) {
-            int _e291 = sample_2_;
-            sample_2_ = as_type<int>(as_type<uint>(_e291) + as_type<uint>(1));
+            int _e289 = sample_2_;
+            sample_2_ = as_type<int>(as_type<uint>(_e289) + as_type<uint>(1));
         }
         loop_init_1 = false;
         int _e40 = sample_2_;
@@ -100,8 +99,7 @@ kernel void sraa(
         }
         {
             int _e44 = sample_2_;
-            metal::int2 texel = table.inner[metal::min(unsigned(_e44), 3u)];
-            metal::float2 place_at = metal::float2(0.0) + (static_cast<metal::float2>(texel) / metal::float2(16.0));
+            metal::float2 place_at = metal::float2(0.0) + (static_cast<metal::float2>(table.inner[metal::min(unsigned(_e44), 3u)]) / metal::float2(16.0));
             int _e54 = sample_2_;
             metal::float4 _e56 = depth.read(metal::uint2(pixel), _e54, 0);
             float depth_2_ = _e56.x;
@@ -113,7 +111,7 @@ kernel void sraa(
             metal::float4 _e66 = normal.read(metal::uint2(pixel), _e64, 0);
             metal::float3 seen_normal = _e66.xyz;
             int _e68 = sample_2_;
-            bool holds = _e68 == 4;
+            bool is_equal = _e68 == 4;
             distances = type_8 {{0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0}};
             nearest = 16.0;
             tap = 0;
@@ -137,50 +135,45 @@ kernel void sraa(
                     int _e94 = tap;
                     metal::int2 pixel_2_ = metal::int2(as_type<int>(as_type<uint>(naga_mod(_e89, 3)) - as_type<uint>(1)), as_type<int>(as_type<uint>(naga_div(_e94, 3)) - as_type<uint>(1)));
                     metal::float2 away = static_cast<metal::float2>(pixel_2_) - place_at;
-                    bool holds_2_ = (metal::max(1.0 - metal::abs(away.x), 0.0) * metal::max(1.0 - metal::abs(away.y), 0.0)) > 0.0;
-                    float _e117 = nearest;
-                    nearest_2_ = _e117;
-                    if (holds_2_) {
-                        metal::bool2 holds_3_ = metal::int2(0) == pixel_2_;
+                    float _e102 = nearest;
+                    nearest_2_ = _e102;
+                    if ((metal::max(1.0 - metal::abs(away.x), 0.0) * metal::max(1.0 - metal::abs(away.y), 0.0)) > 0.0) {
+                        metal::bool2 is_equal_2_ = metal::int2(0) == pixel_2_;
                         d = float {};
-                        if (holds & (holds_3_.x & holds_3_.y)) {
+                        if (is_equal & (is_equal_2_.x & is_equal_2_.y)) {
                             d = 0.0;
                         } else {
-                            metal::int2 texel_2_ = as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(pixel_2_));
-                            metal::int2 texel_3_ = metal::clamp(texel_2_, metal::int2(0), last);
-                            metal::float4 _e136 = depth.read(metal::uint2(texel_3_), 4, 0);
+                            metal::int2 texel = metal::clamp(as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(pixel_2_)), metal::int2(0), last);
+                            metal::float4 _e136 = depth.read(metal::uint2(texel), 4, 0);
                             float depth_3_ = _e136.x;
                             shaded_depth = 1000000000000000000000000000000.0;
                             if (metal::abs(depth_3_) < 1000000000000000000000000000000.0) {
                                 shaded_depth = depth_3_;
                             }
-                            metal::float4 _e146 = normal.read(metal::uint2(texel_3_), 4, 0);
-                            metal::float3 shaded_normal = _e146.xyz;
-                            float _e148 = seen_depth;
-                            float _e149 = shaded_depth;
-                            float step_value = metal::abs(_e148 - _e149);
-                            chosen = 16.0;
+                            float _e143 = seen_depth;
+                            float _e144 = shaded_depth;
+                            float step_value = metal::abs(_e143 - _e144);
+                            bounded = 16.0;
                             if (step_value < 16.0) {
-                                chosen = step_value;
+                                bounded = step_value;
                             }
-                            metal::float3 turn = seen_normal - shaded_normal;
-                            float value = 0.5 * metal::dot(turn, turn);
-                            chosen_2_ = 16.0;
-                            if (value < 16.0) {
-                                chosen_2_ = value;
+                            metal::float4 _e154 = normal.read(metal::uint2(texel), 4, 0);
+                            metal::float3 turn = seen_normal - _e154.xyz;
+                            float difference = 0.5 * metal::dot(turn, turn);
+                            bounded_2_ = 16.0;
+                            if (difference < 16.0) {
+                                bounded_2_ = difference;
                             }
-                            float _e164 = chosen;
-                            float _e165 = chosen_2_;
-                            float larger = metal::max(_e164, _e165);
-                            d = larger;
+                            float _e164 = bounded;
+                            float _e165 = bounded_2_;
+                            d = metal::max(_e164, _e165);
                         }
                         int _e167 = tap;
                         float _e169 = d;
                         distances.inner[metal::min(unsigned(_e167), 8u)] = _e169;
                         float _e170 = nearest;
                         float _e171 = d;
-                        float nearest_3_ = metal::min(_e170, _e171);
-                        nearest_2_ = nearest_3_;
+                        nearest_2_ = metal::min(_e170, _e171);
                     }
                     float _e173 = nearest_2_;
                     nearest = _e173;
@@ -207,22 +200,19 @@ kernel void sraa(
                 {
                     int _e195 = tap_2_;
                     int _e200 = tap_2_;
-                    metal::int2 pixel_3_ = metal::int2(as_type<int>(as_type<uint>(naga_mod(_e195, 3)) - as_type<uint>(1)), as_type<int>(as_type<uint>(naga_div(_e200, 3)) - as_type<uint>(1)));
-                    metal::float2 away_2_ = static_cast<metal::float2>(pixel_3_) - place_at;
-                    float value_2_ = metal::max(1.0 - metal::abs(away_2_.x), 0.0) * metal::max(1.0 - metal::abs(away_2_.y), 0.0);
+                    metal::float2 away_2_ = static_cast<metal::float2>(metal::int2(as_type<int>(as_type<uint>(naga_mod(_e195, 3)) - as_type<uint>(1)), as_type<int>(as_type<uint>(naga_div(_e200, 3)) - as_type<uint>(1)))) - place_at;
+                    float tent = metal::max(1.0 - metal::abs(away_2_.x), 0.0) * metal::max(1.0 - metal::abs(away_2_.y), 0.0);
                     float _e221 = sum;
                     sum_2_ = _e221;
-                    if (value_2_ > 0.0) {
+                    if (tent > 0.0) {
                         int _e225 = tap_2_;
-                        float value_3_ = distances.inner[metal::min(unsigned(_e225), 8u)];
+                        float _e227 = distances.inner[metal::min(unsigned(_e225), 8u)];
                         float _e228 = nearest;
-                        float nearness = metal::exp2(-721.34753 * (value_3_ - _e228));
-                        float w = value_2_ * nearness;
+                        float w = tent * metal::exp2(-721.34753 * (_e227 - _e228));
                         int _e234 = tap_2_;
                         tap_weights.inner[metal::min(unsigned(_e234), 8u)] = w;
                         float _e236 = sum;
-                        float sum_3_ = _e236 + w;
-                        sum_2_ = sum_3_;
+                        sum_2_ = _e236 + w;
                     }
                     float _e238 = sum_2_;
                     sum = _e238;
@@ -237,8 +227,8 @@ kernel void sraa(
                 if (metal::all(loop_bound_4 == uint2(0u))) { break; }
                 loop_bound_4 -= uint2(loop_bound_4.y == 0u, 1u);
                 if (!loop_init_4) {
-                    int _e288 = tap_3_;
-                    tap_3_ = as_type<int>(as_type<uint>(_e288) + as_type<uint>(1));
+                    int _e286 = tap_3_;
+                    tap_3_ = as_type<int>(as_type<uint>(_e286) + as_type<uint>(1));
                 }
                 loop_init_4 = false;
                 int _e246 = tap_3_;
@@ -249,17 +239,13 @@ kernel void sraa(
                 {
                     int _e249 = tap_3_;
                     int _e254 = tap_3_;
-                    metal::int2 pixel_4_ = metal::int2(as_type<int>(as_type<uint>(naga_mod(_e249, 3)) - as_type<uint>(1)), as_type<int>(as_type<uint>(naga_div(_e254, 3)) - as_type<uint>(1)));
-                    metal::float2 away_3_ = static_cast<metal::float2>(pixel_4_) - place_at;
-                    bool holds_4_ = (metal::max(1.0 - metal::abs(away_3_.x), 0.0) * metal::max(1.0 - metal::abs(away_3_.y), 0.0)) > 0.0;
-                    if (holds_4_) {
+                    metal::float2 away_3_ = static_cast<metal::float2>(metal::int2(as_type<int>(as_type<uint>(naga_mod(_e249, 3)) - as_type<uint>(1)), as_type<int>(as_type<uint>(naga_div(_e254, 3)) - as_type<uint>(1)))) - place_at;
+                    if ((metal::max(1.0 - metal::abs(away_3_.x), 0.0) * metal::max(1.0 - metal::abs(away_3_.y), 0.0)) > 0.0) {
                         int _e277 = tap_3_;
-                        float value_4_ = tap_weights.inner[metal::min(unsigned(_e277), 8u)];
+                        float _e279 = weights.inner[metal::min(unsigned(_e277), 8u)];
                         int _e280 = tap_3_;
-                        float value_5_ = weights.inner[metal::min(unsigned(_e280), 8u)];
-                        float weights_2_ = value_5_ + (value_4_ * scale);
-                        int _e285 = tap_3_;
-                        weights.inner[metal::min(unsigned(_e285), 8u)] = weights_2_;
+                        float _e282 = tap_weights.inner[metal::min(unsigned(_e280), 8u)];
+                        weights.inner[metal::min(unsigned(_e277), 8u)] = _e279 + (_e282 * scale);
                     }
                 }
             }
@@ -271,53 +257,48 @@ kernel void sraa(
         if (metal::all(loop_bound_5 == uint2(0u))) { break; }
         loop_bound_5 -= uint2(loop_bound_5.y == 0u, 1u);
         if (!loop_init_5) {
-            int _e353 = tap_4_;
-            tap_4_ = as_type<int>(as_type<uint>(_e353) + as_type<uint>(1));
+            int _e346 = tap_4_;
+            tap_4_ = as_type<int>(as_type<uint>(_e346) + as_type<uint>(1));
         }
         loop_init_5 = false;
-        int _e300 = tap_4_;
-        if (_e300 < 9) {
+        int _e298 = tap_4_;
+        if (_e298 < 9) {
         } else {
             break;
         }
         {
-            int _e303 = tap_4_;
-            int _e308 = tap_4_;
-            metal::int2 pixel_5_ = metal::int2(as_type<int>(as_type<uint>(naga_mod(_e303, 3)) - as_type<uint>(1)), as_type<int>(as_type<uint>(naga_div(_e308, 3)) - as_type<uint>(1)));
-            metal::int2 pixel_6_ = as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(pixel_5_));
-            metal::int2 texel_4_ = metal::clamp(pixel_6_, metal::int2(0), last);
-            metal::float4 shaded = color.read(metal::uint2(texel_4_), 0);
-            metal::uint4 value_6_ = as_type<metal::uint4>(shaded) & metal::uint4(2147483647u);
+            int _e301 = tap_4_;
+            int _e306 = tap_4_;
+            metal::int2 texel_2_ = metal::clamp(as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(metal::int2(as_type<int>(as_type<uint>(naga_mod(_e301, 3)) - as_type<uint>(1)), as_type<int>(as_type<uint>(naga_div(_e306, 3)) - as_type<uint>(1))))), metal::int2(0), last);
+            metal::float4 shaded = color.read(metal::uint2(texel_2_), 0);
             w_2_ = 0.0;
-            if (metal::max(metal::max(metal::max(value_6_.x, value_6_.y), value_6_.z), value_6_.w) < 2139095040u) {
-                int _e336 = tap_4_;
-                float value_7_ = weights.inner[metal::min(unsigned(_e336), 8u)];
-                w_2_ = value_7_;
+            if (metal::all((as_type<metal::uint4>(shaded) & metal::uint4(2147483647u)) < metal::uint4(2139095040u))) {
+                int _e329 = tap_4_;
+                float _e331 = weights.inner[metal::min(unsigned(_e329), 8u)];
+                w_2_ = _e331;
             }
-            metal::float4 _e339 = result;
-            result_2_ = _e339;
-            float _e341 = w_2_;
-            if (_e341 != 0.0) {
-                metal::float4 _e344 = result;
-                float _e345 = w_2_;
-                metal::float4 result_3_ = _e344 + (_e345 * shaded);
-                result_2_ = result_3_;
+            metal::float4 _e332 = result;
+            result_2_ = _e332;
+            float _e334 = w_2_;
+            if (_e334 != 0.0) {
+                metal::float4 _e337 = result;
+                float _e338 = w_2_;
+                result_2_ = _e337 + (_e338 * shaded);
             }
-            float _e348 = sum_4_;
-            float _e349 = w_2_;
-            float sum_5_ = _e348 + _e349;
-            metal::float4 _e351 = result_2_;
-            result = _e351;
-            sum_4_ = sum_5_;
+            metal::float4 _e341 = result_2_;
+            result = _e341;
+            float _e342 = sum_3_;
+            float _e343 = w_2_;
+            sum_3_ = _e342 + _e343;
         }
     }
-    float _e358 = sum_4_;
-    if (_e358 > 0.000000000000000000000000000001) {
-        metal::float4 _e361 = result;
-        float _e362 = sum_4_;
-        chosen_3_ = _e361 / metal::float4(_e362);
+    float _e351 = sum_3_;
+    if (_e351 > 0.000000000000000000000000000001) {
+        metal::float4 _e354 = result;
+        float _e355 = sum_3_;
+        filtered = _e354 / metal::float4(_e355);
     }
-    metal::float4 _e366 = chosen_3_;
-    destination.write(_e366, metal::uint2(pixel));
+    metal::float4 _e359 = filtered;
+    destination.write(_e359, metal::uint2(pixel));
     return;
 }

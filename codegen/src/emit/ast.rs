@@ -21,6 +21,15 @@ impl Ty {
         self.shape.with_scalar(scalar).into()
     }
 
+    /// So many of the same components.
+    pub fn shape_of(self, lanes: usize) -> Ty {
+        let scalar = self.kind().unwrap_or(Scalar::F32);
+        Ty {
+            shape: Type::value(scalar, lanes as u8),
+            ..self
+        }
+    }
+
     /// The same type in full precision.
     pub fn full(self) -> Ty {
         self.shape.into()

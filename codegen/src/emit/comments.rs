@@ -15,7 +15,7 @@ pub fn comment_groups<'g>(block: Block<'g>, graph: &'g Graph) -> Block<'g> {
         }
     }
     let mut groups = Groups {
-        files: &graph.files,
+        graph,
         depth,
         group: Group::default(),
         commented: None,
@@ -24,12 +24,12 @@ pub fn comment_groups<'g>(block: Block<'g>, graph: &'g Graph) -> Block<'g> {
 }
 
 struct Groups<'g> {
-    files: &'g [String],
+    graph: &'g Graph,
     /// By name of a counter, how deep its loop is nested: outer counters come first in comments.
     depth: HashMap<&'g str, usize>,
     group: Group<'g>,
-    /// Place and outer counters of the last comment.
-    commented: Option<((u32, u32), Vec<Counter>)>,
+    /// File and outer counters of the last comment.
+    commented: Option<(u32, Vec<Counter>)>,
 }
 
 /// Statements of one place in the source, under one comment.
@@ -90,20 +90,34 @@ impl<'g> Groups<'g> {
         }
         let mut counters = group.counters;
         counters.sort_by_key(|c| self.depth.get(c.name.as_str()).copied().unwrap_or(0));
-        // The same line for the next innermost counter speaks for itself: the names carry it.
+        // The next value of the innermost counter speaks for itself: names carry it.
         let outer = counters[..counters.len().saturating_sub(1)].to_vec();
-        let place = group.place.map(|place| (place, outer));
-        let repeated = place.is_some() && place == self.commented;
-        if let Some(((file, line), _)) = &place
+        let group_of = group.place.map(|(file, _)| (file, outer));
+        let repeated = group_of.is_some() && group_of == self.commented;
+        if let Some((file, line)) = group.place
             && !repeated
         {
-            let values: Vec<String> = counters.iter().map(|c| format!("{} {}", c.name, c.value)).collect();
-            let file = self.files.get(*file as usize).map_or("", String::as_str);
-            let colon = if values.is_empty() { "" } else { ": " };
-            let said = comment(&format!("{}{colon}{file}:{line}", values.join(", ")));
-            out.push(StmtKind::Comment(said).into());
-            self.commented = place;
+            out.push(StmtKind::Comment(self.said(&counters, file, line)).into());
+            self.commented = group_of;
         }
         out.extend(group.statements);
+    }
+
+    /// `sample 1, tap 2: what the function is for (file:line)`.
+    fn said(&self, counters: &[Counter], file: u32, line: u32) -> String {
+        let values: Vec<String> = counters.iter().map(|c| format!("{} {}", c.name, c.value)).collect();
+        let mut functions = self.graph.purposes.iter().rev();
+        let purpose = functions.find(|function| function.file == file && function.line <= line);
+        let purpose = purpose.map_or("", |purpose| purpose.words.as_str());
+        let place = format!(
+            "{}:{line}",
+            self.graph.files.get(file as usize).map_or("", String::as_str)
+        );
+        let colon = if values.is_empty() { "" } else { ": " };
+        let said = match purpose {
+            "" => format!("{}{colon}{place}", values.join(", ")),
+            purpose => format!("{}{colon}{purpose} ({place})", values.join(", ")),
+        };
+        comment(&said)
     }
 }

@@ -1,8 +1,8 @@
 //! Names of values: from the kernel's own variables and the counters of the loops that they were made in.
 
-use super::ast::{Module, StmtKind, VarId};
+use super::ast::{Module, Stmt, StmtKind, VarId};
 use super::resources::{OUTPUT, Resources, SAMPLER, UNIFORMS};
-use crate::ir::{Counter, Graph, NodeId, Op, Origin, Type};
+use crate::ir::{BinaryOp, Counter, Graph, NodeId, Op, Origin, Scalar, Type, UnaryOp};
 use std::collections::{BTreeSet, HashMap, HashSet};
 use straightline_manifest::REGION;
 
@@ -152,21 +152,26 @@ impl Wanted {
     pub fn of(&self, graph: &Graph, id: NodeId, origin: Option<&Origin>) -> String {
         match origin {
             Some(origin) if !origin.name.is_empty() => {
-                let suffix: String = origin.counters.iter().map(|c| self.counter(c)).collect();
-                format!("{}{suffix}", origin.name)
+                let counters: Vec<String> = origin.counters.iter().map(|c| self.counter(c)).collect();
+                // Many counters stand close together.
+                let between = if counters.len() > 2 { "" } else { "_" };
+                match counters.is_empty() {
+                    true => origin.name.clone(),
+                    false => format!("{}_{}", origin.name, counters.join(between)),
+                }
             }
             _ => plain(graph, id),
         }
     }
 
-    /// `_s2`, or `_jn1` for -1.
+    /// `s2`, or `jn1` for -1.
     fn counter(&self, counter: &Counter) -> String {
         let short = self
             .short
             .get(&counter.name)
             .map_or(counter.name.as_str(), String::as_str);
         let sign = if counter.value < 0 { "n" } else { "" };
-        format!("_{short}{sign}{}", counter.value.unsigned_abs())
+        format!("{short}{sign}{}", counter.value.unsigned_abs())
     }
 }
 
@@ -179,25 +184,36 @@ pub fn assign(module: &mut Module<'_>, resources: &Resources) {
     }
     taken.extend(resources.names().map(str::to_owned));
     taken.extend(module.functions.iter().map(|f| f.name.clone()));
-    let mut local = HashSet::new();
-    for function in &module.functions {
-        let mut scope = taken.clone();
-        let lets = function.body.iter().filter_map(|stmt| match stmt.kind {
-            StmtKind::Let(var, _) | StmtKind::Var(var, _) => Some(var),
-            _ => None,
-        });
-        for var in function.params.iter().copied().chain(lets) {
-            let variable = &mut module.variables[var.0 as usize];
-            variable.name = fresh(&mut scope, &variable.name);
-            local.insert(var);
-        }
+    // Tables are seen by all; what a function declares is its own.
+    for (var, _) in &module.tables {
+        let variable = &mut module.variables[var.0 as usize];
+        variable.name = fresh(&mut taken, &variable.name);
     }
-    // The entry point's own come first, and are named as they are.
-    for k in VarId::PLACE.0 + 1..module.variables.len() as u32 {
-        if !local.contains(&VarId(k)) {
-            let variable = &mut module.variables[k as usize];
-            variable.name = fresh(&mut taken, &variable.name);
+    let mut rename = |scope: &mut HashSet<String>, vars: Vec<VarId>| {
+        for var in vars.into_iter().filter(|var| *var > VarId::PLACE) {
+            let variable = &mut module.variables[var.0 as usize];
+            variable.name = fresh(scope, &variable.name);
         }
+    };
+    for function in &module.functions {
+        let mut vars = function.params.clone();
+        declared(&function.body, &mut vars);
+        rename(&mut taken.clone(), vars);
+    }
+    let mut vars = Vec::new();
+    declared(&module.body, &mut vars);
+    rename(&mut taken, vars);
+}
+
+/// Variables that a block declares, in order.
+fn declared(block: &[Stmt<'_>], out: &mut Vec<VarId>) {
+    for stmt in block {
+        match stmt.kind {
+            StmtKind::Let(var, _) | StmtKind::Var(var, _) => out.push(var),
+            StmtKind::For { counter, .. } => out.push(counter),
+            _ => {}
+        }
+        stmt.blocks().into_iter().for_each(|inner| declared(inner, out));
     }
 }
 
@@ -222,22 +238,82 @@ fn fresh(taken: &mut HashSet<String>, wanted: &str) -> String {
 fn plain(graph: &Graph, id: NodeId) -> String {
     let node = graph.node(id);
     match &node.op {
-        op if op.is_read() && op.texture().is_some() => {
-            let texture = op.texture().map_or("", |t| graph.textures[t as usize].name.as_str());
-            format!("{texture}_texel")
+        Op::Load { texture, .. } | Op::Sample { texture, .. } => graph.textures[*texture as usize].name.clone(),
+        Op::Gather { texture, .. } => format!("{}_around", graph.textures[*texture as usize].name),
+        Op::Compare { texture, .. } | Op::GatherCompare { texture, .. } => {
+            format!("{}_passes", graph.textures[*texture as usize].name)
         }
         Op::BufferLoad { buffer, .. } => graph.buffers[*buffer as usize].name.clone() + "_element",
         Op::TextureSize(texture) => graph.textures[*texture as usize].name.clone() + "_size",
         Op::BufferLen(buffer) => graph.buffers[*buffer as usize].name.clone() + "_len",
-        Op::Binary(op) if op.is_comparison() => "holds".to_owned(),
+        Op::Unary(op) => unary(*op).to_owned(),
+        Op::Binary(op) => binary(*op, node.ty).to_owned(),
         Op::Lane => "lane".to_owned(),
-        Op::Message(_) => "message".to_owned(),
+        Op::Message(_) => "swapped".to_owned(),
         Op::Derivative(_) => "slope".to_owned(),
         Op::Dot => "dotted".to_owned(),
-        Op::Select | Op::Result(_) => "chosen".to_owned(),
+        Op::Cross => "crossed".to_owned(),
+        Op::Clamp => "clamped".to_owned(),
+        Op::Select | Op::Result(_) if node.ty.is_scalar() => "selected".to_owned(),
+        Op::Select | Op::Result(_) => "selection".to_owned(),
         Op::MakeArray => "table".to_owned(),
+        Op::ArrayGet => "element".to_owned(),
+        Op::ArraySet => "array".to_owned(),
+        Op::Convert => match node.ty.kind() {
+            Some(Scalar::F32) => "as_float".to_owned(),
+            _ => "as_integer".to_owned(),
+        },
+        Op::Bitcast => "bits".to_owned(),
         Op::Param(_, 0) => "k".to_owned(),
-        _ if node.ty == Type::value(crate::ir::Scalar::I32, 2) => "texel".to_owned(),
-        _ => "value".to_owned(),
+        Op::Param(..) => "carried".to_owned(),
+        _ => "vector".to_owned(),
+    }
+}
+
+/// What an operation gives.
+fn unary(op: UnaryOp) -> &'static str {
+    use UnaryOp::*;
+    match op {
+        Neg => "negated",
+        Not | BitNot => "inverted",
+        Abs => "magnitude",
+        Sign => "sign_of",
+        Floor | Ceil | Round | Trunc => "rounded",
+        Fract => "fraction",
+        Saturate => "saturated",
+        Sqrt => "root",
+        InverseSqrt => "inverse_root",
+        Exp | Exp2 => "exponential",
+        Log | Log2 => "logarithm",
+        Sin | Sinh => "sine",
+        Cos | Cosh => "cosine",
+        Tan | Tanh => "tangent",
+        Asin | Acos | Atan => "angle",
+        CountOneBits | LeadingZeros | TrailingZeros => "bit_count",
+        ReverseBits => "reversed",
+    }
+}
+
+/// What an operation gives.
+fn binary(op: BinaryOp, ty: Type) -> &'static str {
+    use BinaryOp::*;
+    match op {
+        Add => "sum",
+        Sub => "difference",
+        Mul => "product",
+        Div => "quotient",
+        Rem => "remainder",
+        Min => "smaller",
+        Max => "larger",
+        Pow => "power",
+        Atan2 => "angle",
+        And if ty.kind() == Some(Scalar::Bool) => "both",
+        Or if ty.kind() == Some(Scalar::Bool) => "either",
+        And | Or | Xor => "masked",
+        Shl | Shr => "shifted",
+        Eq => "is_equal",
+        Ne => "differs",
+        Lt | Le => "is_less",
+        Gt | Ge => "is_greater",
     }
 }

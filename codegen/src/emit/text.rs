@@ -29,6 +29,20 @@ pub enum Binds {
     Primary,
 }
 
+/// Columns that a line may have.
+pub const WIDEST: usize = 100;
+
+/// Where an expression may be broken into lines.
+#[derive(Clone, Debug, PartialEq)]
+enum Breaks {
+    /// Nowhere.
+    Nowhere,
+    /// Between the arguments: what stands before, the arguments, what stands behind.
+    Arguments(String, Vec<Text>, String),
+    /// Before the operator: left side, operator, right side.
+    Operator(Box<Text>, String, Box<Text>),
+}
+
 /// An expression as text.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Text {
@@ -36,6 +50,7 @@ pub struct Text {
     pub code: String,
     /// How tightly it binds.
     pub binds: Binds,
+    breaks: Breaks,
 }
 
 impl Text {
@@ -44,89 +59,155 @@ impl Text {
         Text {
             code: code.into(),
             binds: Binds::Primary,
+            breaks: Breaks::Nowhere,
         }
     }
 
     /// A number, which may be negative.
     pub fn literal(code: String, negative: bool) -> Text {
-        let binds = if negative { Binds::Prefix } else { Binds::Primary };
-        Text { code, binds }
+        Text {
+            binds: if negative { Binds::Prefix } else { Binds::Primary },
+            ..Text::name(code)
+        }
     }
 
     /// A call of a function.
     pub fn call(function: &str, args: &[&Text]) -> Text {
+        Text::list(format!("{function}("), args, ")")
+    }
+
+    /// Arguments between what stands before and behind them.
+    pub fn list(open: String, args: &[&Text], close: &str) -> Text {
         let list: Vec<&str> = args.iter().map(|a| a.code.as_str()).collect();
         Text {
-            code: format!("{function}({})", list.join(", ")),
+            code: format!("{open}{}{close}", list.join(", ")),
             binds: Binds::Primary,
+            breaks: Breaks::Arguments(open, args.iter().map(|arg| (*arg).clone()).collect(), close.to_owned()),
         }
     }
 
     /// `left op right`.
     pub fn infix(left: &Text, op: &str, right: &Text, binds: Binds) -> Text {
         // Left to right as evaluated: a right side of the same strength keeps its parentheses, so that no rounding moves.
-        let l = left.inside(binds, false);
-        let r = right.inside(binds, true);
+        let [left, right] = [left.inside(binds, false), right.inside(binds, true)];
         Text {
-            code: format!("{l} {op} {r}"),
+            code: format!("{} {op} {}", left.code, right.code),
             binds,
+            breaks: Breaks::Operator(Box::new(left), op.to_owned(), Box::new(right)),
         }
     }
 
     /// `op x`.
     pub fn prefix(op: &str, operand: &Text) -> Text {
-        let inner = if operand.binds < Binds::Primary {
-            format!("({})", operand.code)
-        } else {
-            operand.code.clone()
-        };
         Text {
-            code: format!("{op}{inner}"),
             binds: Binds::Prefix,
+            ..Text::name(format!("{op}{}", operand.as_primary().code))
         }
     }
 
     /// `x.member`.
     pub fn member(base: &Text, member: &str) -> Text {
-        let inner = if base.binds < Binds::Primary {
-            format!("({})", base.code)
-        } else {
-            base.code.clone()
-        };
-        Text {
-            code: format!("{inner}.{member}"),
-            binds: Binds::Primary,
+        let base = base.as_primary();
+        let code = format!("{}.{member}", base.code);
+        match base.breaks {
+            Breaks::Arguments(open, args, close) => Text {
+                code,
+                binds: Binds::Primary,
+                breaks: Breaks::Arguments(open, args, format!("{close}.{member}")),
+            },
+            _ => Text::name(code),
         }
     }
 
     /// `base[index]`.
     pub fn index(base: &Text, index: &Text) -> Text {
-        Text {
-            code: format!("{}[{}]", base.code, index.code),
-            binds: Binds::Primary,
-        }
+        Text::name(format!("{}[{}]", base.code, index.code))
     }
 
     /// In parentheses if an operator is outermost.
     pub fn in_parentheses(&self) -> Text {
-        if self.binds >= Binds::Prefix {
-            return self.clone();
+        match self.binds >= Binds::Prefix {
+            true => self.clone(),
+            false => Text::list("(".to_owned(), &[self], ")"),
         }
-        Text {
-            code: format!("({})", self.code),
-            binds: Binds::Primary,
+    }
+
+    fn as_primary(&self) -> Text {
+        match self.binds < Binds::Primary {
+            true => Text::list("(".to_owned(), &[self], ")"),
+            false => self.clone(),
         }
     }
 
     /// The text as an operand of an operator that binds so.
-    fn inside(&self, outer: Binds, right: bool) -> String {
+    fn inside(&self, outer: Binds, right: bool) -> Text {
         let loose = self.binds < outer || (right && self.binds == outer);
         let mixed = (outer == Binds::Mixed || self.binds == Binds::Mixed) && self.binds < Binds::Prefix;
         let compared = outer == Binds::Comparison && self.binds == Binds::Comparison;
-        if loose || mixed || compared {
-            format!("({})", self.code)
-        } else {
-            self.code.clone()
+        match loose || mixed || compared {
+            true => Text::list("(".to_owned(), &[self], ")"),
+            false => self.clone(),
         }
     }
+
+    /// The text in lines of at most [`WIDEST`] columns where it can be broken: the first begins at column `at`, and leaves room
+    /// for `rest` columns behind the last; the others are indented by `indent`.
+    pub fn wrapped(&self, at: usize, rest: usize, indent: usize) -> String {
+        if at + self.code.len() + rest <= WIDEST {
+            return self.code.clone();
+        }
+        let deeper = indent + 4;
+        let margin = " ".repeat(deeper);
+        match &self.breaks {
+            Breaks::Nowhere => self.code.clone(),
+            Breaks::Arguments(open, args, close) => {
+                let mut lines = vec![String::new()];
+                for (k, arg) in args.iter().enumerate() {
+                    let comma = usize::from(k + 1 < args.len());
+                    let line = lines.last_mut().expect("begins with one");
+                    let fits = deeper + line.len() + 1 + arg.code.len() + comma <= WIDEST;
+                    if line.is_empty() || fits {
+                        if !line.is_empty() {
+                            line.push(' ');
+                        }
+                    } else {
+                        lines.push(String::new());
+                    }
+                    let line = lines.last_mut().expect("begins with one");
+                    let broken = arg.wrapped(deeper + line.len(), comma, deeper);
+                    *line += &broken;
+                    if comma > 0 {
+                        line.push(',');
+                    }
+                }
+                let lines: Vec<String> = lines.into_iter().map(|line| format!("{margin}{line}")).collect();
+                format!("{open}\n{}\n{}{close}", lines.join("\n"), " ".repeat(indent))
+            }
+            Breaks::Operator(left, op, right) => {
+                let begin = left.wrapped(at, 0, indent);
+                let end = right.wrapped(deeper + op.len() + 1, rest, deeper);
+                format!("{begin}\n{margin}{op} {end}")
+            }
+        }
+    }
+}
+
+/// A comment of one line, in lines of at most [`WIDEST`] columns.
+pub fn wrapped_comment(text: &str, indent: usize) -> String {
+    let margin = " ".repeat(indent);
+    let mut lines = Vec::new();
+    let mut line = String::new();
+    for word in text.split(' ') {
+        if !line.is_empty() && indent + 3 + line.chars().count() + 1 + word.chars().count() > WIDEST {
+            lines.push(format!("{margin}// {line}"));
+            // What goes on is set apart from what follows.
+            line = String::from(" ");
+        }
+        if !line.is_empty() {
+            line.push(' ');
+        }
+        line += word;
+    }
+    lines.push(format!("{margin}// {line}"));
+    lines.join("\n")
 }

@@ -4,7 +4,7 @@ use super::value::{Eval, Exit, Value};
 use super::{Evaluator, MAX_CALLS};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::front::tree::{Expr, ExprKind, Function, Generic, Type as SourceType};
-use crate::ir::{NodeId, Op, Scalar, Type};
+use crate::ir::{Naming, NodeId, Op, Scalar, Type};
 
 pub use crate::ir::vector_named as vector_type;
 
@@ -148,6 +148,7 @@ impl Evaluator<'_> {
                     });
                 }
             };
+            self.name_as(&value, &param.name, Naming::Parameter, span);
             self.scope.bind(&param.name, value);
         }
         self.calls.push(name.to_owned());
@@ -158,6 +159,9 @@ impl Evaluator<'_> {
             other => other,
         };
         self.scope.leave_function(outer);
+        if let Ok(value) = &result {
+            self.name_as(value, &called(name), Naming::Function, span);
+        }
         match result {
             Err(Exit::Break(_) | Exit::Continue(_)) => {
                 Err(Diagnostic::at(function.span, "`break` or `continue` outside of a loop").into())
@@ -385,5 +389,23 @@ fn constructor(path: &[String]) -> Option<(Scalar, u8)> {
             vector_type(&upper)
         }
         _ => None,
+    }
+}
+
+/// What a function's result may be called: by the function, of a constructor by its type.
+fn called(function: &str) -> String {
+    match function.rsplit_once("::") {
+        Some((ty, "new" | "default" | "from" | "make")) => {
+            let mut name = String::new();
+            for c in ty.chars() {
+                if c.is_ascii_uppercase() && !name.is_empty() {
+                    name.push('_');
+                }
+                name.push(c.to_ascii_lowercase());
+            }
+            name
+        }
+        Some((_, method)) => method.to_owned(),
+        None => function.to_owned(),
     }
 }

@@ -6,7 +6,7 @@ use super::value::{Eval, Exit, Place, Step, Value};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::front::assigned;
 use crate::front::tree::{Block, ForLoop, Pattern};
-use crate::ir::{Counter, NodeId, Op, Origin, Type};
+use crate::ir::{Counter, Naming, NodeId, Op, Origin, Type};
 use crate::policy::{Asked, Unroll};
 
 /// What a loop does in each iteration.
@@ -366,16 +366,31 @@ impl Evaluator<'_> {
 
     /// Names a loop's parameters, which are variables in the text.
     pub fn name_params(&mut self, value: &Value, name: &str, span: Span) {
-        let mut nodes = Vec::new();
-        Self::leaves(value, &mut nodes);
-        for id in nodes {
-            let origin = Origin {
-                name: name.to_owned(),
-                file: span.file,
-                line: span.line,
-                counters: self.counters.clone(),
-            };
-            self.builder.set_origin(id, &origin);
+        match value {
+            Value::Node(id) => {
+                let origin = Origin {
+                    name: name.to_owned(),
+                    naming: Naming::Let,
+                    file: span.file,
+                    line: span.line,
+                    counters: self.counters.clone(),
+                };
+                self.builder.set_origin(*id, &origin);
+            }
+            Value::Struct { fields, .. } => {
+                for (field, value) in fields.iter() {
+                    self.name_params(value, &format!("{name}_{field}"), span);
+                }
+            }
+            Value::Tuple(parts) => self.name_params_each(parts, name, span),
+            Value::Array(parts) => self.name_params_each(parts, name, span),
+            _ => {}
+        }
+    }
+
+    fn name_params_each(&mut self, parts: &[Value], name: &str, span: Span) {
+        for (k, part) in parts.iter().enumerate() {
+            self.name_params(part, &format!("{name}_{k}"), span);
         }
     }
 }

@@ -31,7 +31,7 @@ mod whiles;
 
 use crate::diagnostic::{Diagnostic, Errors, File, Span};
 use crate::front::Library;
-use crate::ir::{Builder, Counter, Graph, Invocation, NodeId, Op, Origin, Scalar, Type};
+use crate::ir::{Builder, Counter, Graph, Invocation, Naming, NodeId, Op, Origin, Purpose, Scalar, Type};
 use crate::passes::Exact;
 use crate::policy::Policy;
 use scope::Scope;
@@ -161,6 +161,7 @@ impl<'a> Evaluator<'a> {
     fn new(library: &'a Library, files: &Arc<Vec<File>>, policy: &'a Policy) -> Self {
         let mut builder = Builder::new(&Exact);
         builder.graph_mut().files = files.iter().map(|f| f.path.clone()).collect();
+        builder.graph_mut().purposes = purposes(library);
         Evaluator {
             library,
             builder,
@@ -210,42 +211,51 @@ impl Evaluator<'_> {
 
     /// Gives nodes the name of the variable that they are assigned to.
     fn name(&mut self, value: &Value, name: &str, span: Span) {
+        self.name_as(value, name, Naming::Let, span);
+    }
+
+    /// Names the numbers in a value by what they are known as from now on.
+    fn name_as(&mut self, value: &Value, name: &str, naming: Naming, span: Span) {
         match value {
-            Value::Node(id) => self.name_node(*id, name, span),
+            Value::Node(id) => self.name_node(*id, name, naming, span),
             Value::Struct { fields, .. } => {
                 for (field, value) in fields.iter() {
-                    self.name(value, &format!("{name}_{field}"), span);
+                    self.name_as(value, &format!("{name}_{field}"), naming, span);
                 }
             }
-            Value::Tuple(parts) => self.name_each(parts, name, span),
-            Value::Array(parts) => self.name_each(parts, name, span),
+            Value::Tuple(parts) => self.name_each(parts, name, naming, span),
+            Value::Array(parts) => self.name_each(parts, name, naming, span),
             _ => {}
         }
     }
 
-    fn name_each(&mut self, parts: &[Value], name: &str, span: Span) {
+    fn name_each(&mut self, parts: &[Value], name: &str, naming: Naming, span: Span) {
         // Nobody reads so many names, and an array is named each time that it is copied.
         if parts.len() > MAX_NAMED {
             return;
         }
         for (k, part) in parts.iter().enumerate() {
-            self.name(part, &format!("{name}_{k}"), span);
+            self.name_as(part, &format!("{name}_{k}"), naming, span);
         }
     }
 
-    fn name_node(&mut self, id: NodeId, name: &str, span: Span) {
+    fn name_node(&mut self, id: NodeId, name: &str, naming: Naming, span: Span) {
         if matches!(
             self.builder.graph().node(id).op,
             Op::Const(_) | Op::Pixel | Op::FrameSize | Op::Uniform(_) | Op::Varying(_) | Op::Param(..) | Op::MakeArray
         ) {
             return;
         }
-        let counters = self.counters.clone();
+        let known = self.builder.graph().origin(id);
+        if naming > Naming::Let && known.is_some_and(|origin| !origin.name.is_empty() && origin.naming <= naming) {
+            return;
+        }
         let origin = Origin {
             name: name.to_owned(),
+            naming,
             file: span.file,
             line: span.line,
-            counters,
+            counters: self.counters.clone(),
         };
         self.builder.set_origin(id, &origin);
     }
@@ -319,5 +329,41 @@ impl Evaluator<'_> {
                 .label("too large for a shader")
                 .into()),
         }
+    }
+}
+
+/// What the functions of a library are for, in order of their places.
+fn purposes(library: &Library) -> Vec<Purpose> {
+    let each = library.functions.values().map(|function| Purpose {
+        file: function.span.file,
+        line: function.span.line,
+        words: purpose(&function.docs),
+    });
+    let mut all: Vec<Purpose> = each.collect();
+    all.sort();
+    all
+}
+
+/// The first few words of a documentation that say something by themselves.
+fn purpose(docs: &str) -> String {
+    const LONGEST: usize = 60;
+    let sentence = docs.trim().split(". ").next().unwrap_or_default().trim_end_matches('.');
+    let sentence = sentence.split_whitespace().collect::<Vec<_>>().join(" ");
+    let words = sentence.split([':', ';', ',']).next().unwrap_or_default();
+    let words = if sentence.chars().count() <= LONGEST {
+        &sentence
+    } else {
+        words
+    };
+    if words.chars().count() > LONGEST {
+        return String::new();
+    }
+    let mut chars = words.chars();
+    match chars.next() {
+        // A word in capitals stays one.
+        Some(first) if chars.clone().next().is_none_or(|second| !second.is_uppercase()) => {
+            first.to_lowercase().chain(chars).collect()
+        }
+        _ => words.to_owned(),
     }
 }

@@ -166,6 +166,19 @@ pub struct Graph {
     pub tallies: Vec<String>,
     /// Source files, by the index that origins carry.
     pub files: Vec<String>,
+    /// What the functions of the source are for, by file and first line, in order.
+    pub purposes: Vec<Purpose>,
+}
+
+/// What a function of the source is for: for comments.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Purpose {
+    /// Index into [`Graph::files`].
+    pub file: u32,
+    /// The function's line, from 1.
+    pub line: u32,
+    /// A few words from its documentation; empty if it has none.
+    pub words: String,
 }
 
 impl Graph {

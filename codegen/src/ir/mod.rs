@@ -46,11 +46,11 @@ mod types;
 pub mod verify;
 
 pub use graph::{
-    Buffer, Builder, Event, Graph, Invocation, Node, NodeId, Region, RegionId, Rules, Sampler, Texture, TextureKind,
-    Uniform, Varying,
+    Buffer, Builder, Event, Graph, Invocation, Node, NodeId, Purpose, Region, RegionId, Rules, Sampler, Texture,
+    TextureKind, Uniform, Varying,
 };
 pub use op::{Axis, BinaryOp, Direction, Op, UnaryOp};
-pub use origin::{Counter, Origin};
+pub use origin::{Counter, Naming, Origin};
 pub use parse::{ParseError, parse};
 pub use print::print;
 pub use real::{F16, Real};

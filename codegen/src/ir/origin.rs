@@ -9,11 +9,25 @@ pub struct Counter {
     pub value: i64,
 }
 
-/// The `let` that a node was made for.
+/// What a name was taken from, the best first.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Naming {
+    /// A variable.
+    #[default]
+    Let,
+    /// The parameter that the value was passed as.
+    Parameter,
+    /// The function that gave it.
+    Function,
+}
+
+/// The variable that a node was made for, or else what it was passed as, or what gave it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Origin {
     /// Name of the variable; for a part of a structure `variable_field`. Empty if there is none.
     pub name: String,
+    /// What the name was taken from.
+    pub naming: Naming,
     /// Index into `Graph::files`.
     pub file: u32,
     /// Line, from 1.
@@ -23,9 +37,9 @@ pub struct Origin {
 }
 
 impl Origin {
-    /// The origin of a node that two places share: what both agree on.
+    /// The origin of a node that two places share: the better name, and of one name what both agree on.
     pub fn merge(&mut self, other: &Origin) {
-        if self.name.is_empty() {
+        if self.name.is_empty() || other.naming < self.naming {
             *self = other.clone();
         } else if self.name == other.name {
             self.counters.retain(|c| other.counters.contains(c));

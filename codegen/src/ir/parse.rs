@@ -425,6 +425,7 @@ fn read_origin(text: &str) -> Parsed<Origin> {
     });
     Ok(Origin {
         name,
+        naming: Default::default(),
         file: number(file)?,
         line: number(line)?,
         counters: counters.collect::<Parsed<_>>()?,

@@ -51,6 +51,7 @@ pub fn copy_tables(old: &Graph, new: &mut Graph) {
     new.uniforms.clone_from(&old.uniforms);
     new.tallies.clone_from(&old.tallies);
     new.files.clone_from(&old.files);
+    new.purposes.clone_from(&old.purposes);
     new.varyings.clone_from(&old.varyings);
     new.invocation = old.invocation;
 }

@@ -10,6 +10,7 @@ mod webs;
 
 use super::ast::{Block as Statements, Expr, Module, Op, Stmt, StmtKind, VarId};
 use super::names::Wanted;
+use super::tidy::simplify;
 use crate::ir::{self, BinaryOp, NodeId, Origin, Scalar, TextureKind, Type};
 use crate::passes::{Block, Step};
 use crate::pipeline::Compiled;
@@ -123,7 +124,7 @@ impl<'g> Lowering<'g> {
             ir::Op::ArraySet => self.array_set(id),
             ir::Op::ArrayGet => self.array_get(id),
             _ => {
-                let expr = self.expression(id);
+                let expr = simplify(self.expression(id));
                 if is_atom(&expr) {
                     self.exprs[id.0 as usize] = Some(expr);
                 } else {

@@ -1,7 +1,7 @@
 //! GLSL 4.50 for Vulkan, with separate textures.
 
 use super::expr::{float, integer};
-use super::{Language, Text};
+use super::{Language, Text, wrapped_comment};
 use crate::emit::ast::{Builtin, Ty};
 use crate::emit::resources::{OUTPUT, Resources, SAMPLER, UNIFORMS};
 use crate::ir::{self, Axis, BinaryOp, Direction, Scalar, TextureKind, Type, UnaryOp};
@@ -198,28 +198,24 @@ impl Language for Glsl<'_> {
         }
     }
 
-    fn immutable(&self, name: &str, ty: Ty, value: &str) -> String {
-        self.mutable(name, ty, Some(value))
+    fn immutable(&self, name: &str, ty: Ty) -> String {
+        declared(name, ty)
     }
 
-    fn mutable(&self, name: &str, ty: Ty, value: Option<&str>) -> String {
-        let declared = declared(name, ty);
-        match value {
-            Some(value) => format!("{declared} = {value};"),
-            None => format!("{declared};"),
-        }
+    fn mutable(&self, name: &str, ty: Ty, _: bool) -> String {
+        declared(name, ty)
     }
 
-    fn table(&self, name: &str, ty: Ty, value: &str) -> String {
-        format!("const {} = {value};", declared(name, ty))
+    fn table(&self, name: &str, ty: Ty) -> String {
+        format!("const {}", declared(name, ty))
     }
 
     fn loop_head(&self, counter: &str, ty: Ty, start: &str, bound: &str) -> String {
         format!("for ({} {counter} = {start}; {bound}; {counter}++) {{", type_name(ty))
     }
 
-    fn if_head(&self, condition: &str) -> String {
-        format!("if ({condition}) {{")
+    fn if_head(&self) -> [&'static str; 2] {
+        ["if (", ") {"]
     }
 
     fn function_head(&self, name: &str, params: &[(&str, Ty)], result: Ty) -> String {
@@ -227,12 +223,12 @@ impl Language for Glsl<'_> {
         format!("{} {name}({}) {{", type_name(result), params.join(", "))
     }
 
-    fn store(&self, place: &str, colour: &str) -> String {
-        format!("imageStore({OUTPUT}, {place}, {colour});")
+    fn store(&self, place: &Text, colour: &Text) -> Text {
+        Text::call("imageStore", &[&Text::name(OUTPUT), place, colour])
     }
 
-    fn output(&self, colour: &str) -> String {
-        format!("{OUTPUT} = {colour};")
+    fn output(&self) -> String {
+        format!("{OUTPUT} = ")
     }
 
     fn preamble(&self, header: &[String]) -> String {
@@ -242,7 +238,8 @@ impl Language for Glsl<'_> {
             out += "#extension GL_KHR_shader_subgroup_quad : require\n";
         }
         for line in header {
-            out += &format!("// {line}\n");
+            out += &wrapped_comment(line, 0);
+            out.push('\n');
         }
         if !r.read.is_empty() {
             out +=

@@ -6,7 +6,7 @@ mod header;
 mod wgsl;
 
 use super::ast::{Block, Builtin, Expr, Function, Module, Op, Stmt, StmtKind, Ty, VarId};
-use super::text::{Binds, Text};
+use super::text::{Binds, Text, wrapped_comment};
 use crate::ir::{self, Scalar};
 
 pub use glsl::{GATHER, Glsl, LENGTH, MESSAGES};
@@ -64,22 +64,26 @@ pub trait Language {
     /// The spelling of `&` and `|` of booleans, or of numbers.
     fn logical(&self, op: ir::BinaryOp, kind: Scalar) -> &'static str;
 
-    /// An immutable local.
-    fn immutable(&self, name: &str, ty: Ty, value: &str) -> String;
-    /// A mutable local; without a value it is undefined until it is assigned.
-    fn mutable(&self, name: &str, ty: Ty, value: Option<&str>) -> String;
-    /// A constant array at module scope.
-    fn table(&self, name: &str, ty: Ty, value: &str) -> String;
+    /// What declares an immutable local, before ` = value;`.
+    fn immutable(&self, name: &str, ty: Ty) -> String;
+    /// What declares a mutable local, before its value if it `has_value`, or else `;`.
+    fn mutable(&self, name: &str, ty: Ty, has_value: bool) -> String;
+    /// What declares a constant array at module scope, before its value.
+    fn table(&self, name: &str, ty: Ty) -> String;
+    /// The value of a constant array.
+    fn elements(&self, ty: Ty, parts: &[&Text]) -> Text {
+        self.construct(ty, parts)
+    }
     /// The head of a loop, up to the opening brace.
     fn loop_head(&self, counter: &str, ty: Ty, start: &str, bound: &str) -> String;
-    /// The head of a branch, up to the opening brace.
-    fn if_head(&self, condition: &str) -> String;
+    /// What stands around the condition of a branch.
+    fn if_head(&self) -> [&'static str; 2];
     /// The head of a function, up to the opening brace.
     fn function_head(&self, name: &str, params: &[(&str, Ty)], result: Ty) -> String;
     /// Writes a texel of the output.
-    fn store(&self, place: &str, colour: &str) -> String;
-    /// Gives the fragment's colour.
-    fn output(&self, colour: &str) -> String;
+    fn store(&self, place: &Text, colour: &Text) -> Text;
+    /// What gives the fragment's colour, before the colour.
+    fn output(&self) -> String;
     /// Everything before the first function: header, directives, bindings.
     fn preamble(&self, header: &[String]) -> String;
     /// The head of the entry point, up to the opening brace.
@@ -92,8 +96,10 @@ pub fn module(language: &dyn Language, module: &Module<'_>, header: &[String]) -
     let mut out = language.preamble(header);
     let mut tables = Vec::new();
     for (var, value) in &module.tables {
-        let value = printer.expr(value).code;
-        tables.push(language.table(printer.name(*var), module.ty(*var), &value));
+        let parts: Vec<Text> = value.args.iter().map(|part| printer.expr(part)).collect();
+        let elements = language.elements(value.ty, &parts.iter().collect::<Vec<_>>());
+        let declared = language.table(printer.name(*var), module.ty(*var));
+        tables.push(Printer::line(0, &format!("{declared} = "), &elements, ";"));
     }
     let mut functions: Vec<String> = module.functions.iter().map(|f| printer.function(f)).collect();
     functions.sort();
@@ -134,25 +140,38 @@ impl Printer<'_> {
         block.iter().map(|stmt| self.stmt(stmt, depth)).collect()
     }
 
+    /// A line, or several where it would be too wide.
+    fn line(depth: usize, before: &str, value: &Text, behind: &str) -> String {
+        let indent = 4 * depth;
+        let value = value.wrapped(indent + before.len(), behind.len(), indent);
+        format!("{}{before}{value}{behind}", " ".repeat(indent))
+    }
+
     fn stmt(&self, stmt: &Stmt<'_>, depth: usize) -> String {
         let indent = "    ".repeat(depth);
         let l = self.language;
-        let code = |expr: &Expr| self.expr(expr).code;
-        let line = match &stmt.kind {
-            StmtKind::Let(var, value) => l.immutable(self.name(*var), self.module.ty(*var), &code(value)),
+        let set = |before: &str, value: &Expr| Self::line(depth, &format!("{before} = "), &self.expr(value), ";");
+        let text = match &stmt.kind {
+            StmtKind::Let(var, value) => set(&l.immutable(self.name(*var), self.module.ty(*var)), value),
             StmtKind::Var(var, value) => {
-                let value = value.as_ref().map(code);
-                l.mutable(self.name(*var), self.module.ty(*var), value.as_deref())
+                let declared = l.mutable(self.name(*var), self.module.ty(*var), value.is_some());
+                match value {
+                    Some(value) => set(&declared, value),
+                    None => format!("{indent}{declared};"),
+                }
             }
             StmtKind::Assign(place, op, value) => {
                 let op = op.map_or("", |op| expr::operator(l, op, Scalar::F32).0);
-                format!("{} {op}= {};", code(place), code(value))
+                let before = format!("{} {op}= ", self.expr(place).code);
+                Self::line(depth, &before, &self.expr(value), ";")
             }
-            StmtKind::Store(place, colour) => l.store(&code(place), &code(colour)),
-            StmtKind::Output(colour) => l.output(&code(colour)),
-            StmtKind::Return(None) => "return;".to_owned(),
-            StmtKind::Return(Some(value)) => format!("return {};", code(value)),
-            StmtKind::Comment(text) => format!("// {text}"),
+            StmtKind::Store(place, colour) => {
+                Self::line(depth, "", &l.store(&self.expr(place), &self.expr(colour)), ";")
+            }
+            StmtKind::Output(colour) => Self::line(depth, &l.output(), &self.expr(colour), ";"),
+            StmtKind::Return(None) => format!("{indent}return;"),
+            StmtKind::Return(Some(value)) => Self::line(depth, "return ", &self.expr(value), ";"),
+            StmtKind::Comment(text) => wrapped_comment(text, 4 * depth),
             StmtKind::For {
                 counter,
                 start,
@@ -161,22 +180,24 @@ impl Printer<'_> {
             } => {
                 let name = self.name(*counter);
                 let bound = Text::infix(&Text::name(name), "<", &self.expr(end), Binds::Comparison);
-                let head = l.loop_head(name, start.ty, &code(start), &bound.code);
-                format!("{head}\n{}{indent}}}", self.block(body, depth + 1))
+                let head = l.loop_head(name, start.ty, &self.expr(start).code, &bound.code);
+                format!("{indent}{head}\n{}{indent}}}", self.block(body, depth + 1))
             }
             StmtKind::If {
                 condition,
                 then,
                 otherwise,
             } => {
-                let mut text = format!("{}\n{}", l.if_head(&code(condition)), self.block(then, depth + 1));
+                let [before, behind] = l.if_head();
+                let head = Self::line(depth, before, &self.expr(condition), behind);
+                let mut text = format!("{head}\n{}", self.block(then, depth + 1));
                 if !otherwise.is_empty() {
                     text += &format!("{indent}}} else {{\n{}", self.block(otherwise, depth + 1));
                 }
                 format!("{text}{indent}}}")
             }
         };
-        format!("{indent}{line}\n")
+        text + "\n"
     }
 
     fn expr(&self, expr: &Expr) -> Text {

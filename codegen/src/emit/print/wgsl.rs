@@ -1,7 +1,7 @@
 //! WGSL as WebGPU and wgpu read it.
 
 use super::expr::{float, integer};
-use super::{Language, Text};
+use super::{Language, Text, wrapped_comment};
 use crate::emit::ast::{Builtin, Ty};
 use crate::emit::resources::{OUTPUT, Resources, UNIFORMS};
 use crate::ir::{self, Axis, BinaryOp, Direction, Scalar, TextureKind, Type, UnaryOp};
@@ -183,27 +183,27 @@ impl Language for Wgsl<'_> {
         if op == BinaryOp::And { "&" } else { "|" }
     }
 
-    fn immutable(&self, name: &str, _: Ty, value: &str) -> String {
-        format!("let {name} = {value};")
+    fn immutable(&self, name: &str, _: Ty) -> String {
+        format!("let {name}")
     }
 
-    fn mutable(&self, name: &str, ty: Ty, value: Option<&str>) -> String {
-        match value {
-            Some(value) => format!("var {name} = {value};"),
-            None => format!("var {name}: {};", type_name(ty)),
+    fn mutable(&self, name: &str, ty: Ty, has_value: bool) -> String {
+        match has_value {
+            true => format!("var {name}"),
+            false => format!("var {name}: {}", type_name(ty)),
         }
     }
 
-    fn table(&self, name: &str, _: Ty, value: &str) -> String {
-        format!("const {name} = {value};")
+    fn table(&self, name: &str, _: Ty) -> String {
+        format!("const {name}")
     }
 
     fn loop_head(&self, counter: &str, _: Ty, start: &str, bound: &str) -> String {
         format!("for (var {counter} = {start}; {bound}; {counter}++) {{")
     }
 
-    fn if_head(&self, condition: &str) -> String {
-        format!("if {condition} {{")
+    fn if_head(&self) -> [&'static str; 2] {
+        ["if ", " {"]
     }
 
     fn function_head(&self, name: &str, params: &[(&str, Ty)], result: Ty) -> String {
@@ -214,12 +214,12 @@ impl Language for Wgsl<'_> {
         format!("fn {name}({}) -> {} {{", params.join(", "), type_name(result))
     }
 
-    fn store(&self, place: &str, colour: &str) -> String {
-        format!("textureStore({OUTPUT}, {place}, {colour});")
+    fn store(&self, place: &Text, colour: &Text) -> Text {
+        Text::call("textureStore", &[&Text::name(OUTPUT), place, colour])
     }
 
-    fn output(&self, colour: &str) -> String {
-        format!("return {colour};")
+    fn output(&self) -> String {
+        "return ".to_owned()
     }
 
     fn preamble(&self, header: &[String]) -> String {
@@ -229,7 +229,8 @@ impl Language for Wgsl<'_> {
             out += "enable f16;\n\n";
         }
         for line in header {
-            out += &format!("// {line}\n");
+            out += &wrapped_comment(line, 0);
+            out.push('\n');
         }
         out.push('\n');
         let mut bind = |binding: u32, what: String| {

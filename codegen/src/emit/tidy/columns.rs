@@ -51,7 +51,9 @@ impl Columns<'_> {
                 ir::Op::Const(bits) => self.constant(expr.ty, bits),
                 ir::Op::Uniform(k) => 11 + self.graph.uniforms[*k as usize].name.len(),
                 ir::Op::Varying(k) => self.graph.varyings[*k as usize].name.len(),
-                ir::Op::Unary(ir::UnaryOp::Neg | ir::UnaryOp::Not | ir::UnaryOp::BitNot) => args + 1 + parentheses(expr),
+                ir::Op::Unary(ir::UnaryOp::Neg | ir::UnaryOp::Not | ir::UnaryOp::BitNot) => {
+                    args + 1 + parentheses(expr)
+                }
                 ir::Op::Binary(BinaryOp::Min | BinaryOp::Max | BinaryOp::Pow) => call(3),
                 ir::Op::Binary(BinaryOp::Atan2) => call(5),
                 ir::Op::Binary(_) => args + 3 + parentheses(expr),
@@ -94,12 +96,10 @@ impl Columns<'_> {
 /// Parentheses around operands that are operators themselves, where there may be some.
 fn parentheses(expr: &Expr) -> usize {
     let operator = |arg: &&Expr| match (&arg.op, &expr.op) {
-        (Op::Ir(ir::Op::Binary(inner)), Op::Ir(ir::Op::Binary(outer))) => {
-            !matches!(
-                (inner, outer),
-                (BinaryOp::Mul, BinaryOp::Add | BinaryOp::Sub) | (BinaryOp::Add, BinaryOp::Add)
-            )
-        }
+        (Op::Ir(ir::Op::Binary(inner)), Op::Ir(ir::Op::Binary(outer))) => !matches!(
+            (inner, outer),
+            (BinaryOp::Mul, BinaryOp::Add | BinaryOp::Sub) | (BinaryOp::Add, BinaryOp::Add)
+        ),
         (Op::Ir(ir::Op::Binary(_)) | Op::Division(..), _) => true,
         _ => false,
     };

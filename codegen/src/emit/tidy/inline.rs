@@ -3,14 +3,12 @@
 use super::columns::Columns;
 use super::dead;
 use crate::emit::ast::{Block, Expr, Module, Op, Stmt, StmtKind, VarId};
+use crate::emit::text::WIDEST;
 use crate::ir::Graph;
 use std::collections::{HashMap, HashSet};
 
-/// Columns that a line may have.
-pub const WIDEST: usize = 100;
-
 /// Operators and calls that a line may have, lest it be hard to read; shader compilers also recurse over them.
-const MOST: usize = 12;
+const MOST: usize = 16;
 
 /// Inlines values that are used once.
 pub fn inline(module: &mut Module<'_>, graph: &Graph) {

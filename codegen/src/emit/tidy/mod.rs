@@ -8,13 +8,16 @@ mod simplify;
 use super::ast::Module;
 use crate::ir::Graph;
 
+pub use simplify::simplify;
+
 /// Tidies a kernel's statements.
 pub fn tidy(module: &mut Module<'_>, graph: &Graph) {
-    module.rewrite(&mut |_, expr| simplify::simplify(expr));
+    module.rewrite(&mut |_, expr| simplify(expr));
     dead::remove(module);
     inline::inline(module, graph);
-    // What was inlined has new neighbours.
-    module.rewrite(&mut |_, expr| simplify::simplify(expr));
+    // What was inlined has new neighbours, and what is shorter now may be inlined.
+    module.rewrite(&mut |_, expr| simplify(expr));
     dead::remove(module);
+    inline::inline(module, graph);
     simplify::compound(&mut module.body);
 }

@@ -11,7 +11,7 @@ pub fn simplify(expr: Expr) -> Expr {
         Op::Convert { .. } => convert(expr),
         Op::Ir(ir::Op::Binary(op)) => {
             let op = *op;
-            subtracted(op, scalar_operands(op, expr))
+            together(op, subtracted(op, scalar_operands(op, expr)))
         }
         _ => expr,
     }
@@ -70,7 +70,9 @@ fn construct(expr: Expr) -> Expr {
 
 /// `f32(u32(i))` is `f32(i)` where `i` has no sign; so is `i32(u32(i))` `i`.
 fn convert(mut expr: Expr) -> Expr {
-    let Op::Convert { fits: outer } = expr.op else { return expr };
+    let Op::Convert { fits: outer } = expr.op else {
+        return expr;
+    };
     let inner = &mut expr.args[0];
     if let Op::Convert { fits: true } = inner.op
         && inner.ty.is_integer()
@@ -142,6 +144,92 @@ fn subtracted(op: BinaryOp, mut expr: Expr) -> Expr {
         expr.op = Op::Ir(ir::Op::Binary(other));
     }
     expr
+}
+
+/// `(f(v.x) < a) & (f(v.y) < a)` is `all(f(v.xy) < vec2(a))`, and so is `max(v.x, v.y) < a` of integers.
+fn together(op: BinaryOp, expr: Expr) -> Expr {
+    match op {
+        BinaryOp::And | BinaryOp::Or if expr.ty.shape == Type::BOOL => {
+            let quantifier = if op == BinaryOp::And { Op::All } else { Op::Any };
+            let [left, right] = [&expr.args[0], &expr.args[1]];
+            let joined = match (left.op == quantifier, right.op == quantifier) {
+                (true, true) => joined(&left.args[0], &right.args[0]),
+                (true, false) => joined(&left.args[0], right),
+                (false, true) => joined(left, &right.args[0]),
+                (false, false) => joined(left, right),
+            };
+            match joined {
+                Some(both) if is_comparison(&both) => Expr::new(quantifier, vec![both], Type::BOOL),
+                _ => expr,
+            }
+        }
+        BinaryOp::Lt | BinaryOp::Le | BinaryOp::Gt | BinaryOp::Ge if expr.args[0].ty.is_integer() => {
+            let bound = &expr.args[1];
+            let outermost = match op {
+                BinaryOp::Lt | BinaryOp::Le => BinaryOp::Max,
+                _ => BinaryOp::Min,
+            };
+            let mut parts = Vec::new();
+            chain(&expr.args[0], outermost, &mut parts);
+            let Some(vector) = whole_vector(&parts) else {
+                return expr;
+            };
+            let Some(bits) = bound.as_constant() else { return expr };
+            let every = vector.binary(op, Expr::splat(bound.ty.shape_of(parts.len()), bits[0]));
+            Expr::new(Op::All, vec![every], Type::BOOL)
+        }
+        _ => expr,
+    }
+}
+
+fn is_comparison(expr: &Expr) -> bool {
+    matches!(expr.op, Op::Ir(ir::Op::Binary(op)) if op.is_comparison())
+}
+
+/// Operands of a chain of an operator.
+fn chain<'e>(expr: &'e Expr, op: BinaryOp, out: &mut Vec<&'e Expr>) {
+    if expr.op == Op::Ir(ir::Op::Binary(op)) {
+        expr.args.iter().for_each(|arg| chain(arg, op, out));
+    } else {
+        out.push(expr);
+    }
+}
+
+/// The vector whose components these are, in order.
+fn whole_vector(parts: &[&Expr]) -> Option<Expr> {
+    let first = parts.first()?;
+    let Op::Swizzle(_) = first.op else { return None };
+    let base = &first.args[0];
+    let component = |(k, part): (usize, &&Expr)| part.op == Op::Swizzle(vec![k as u8]) && part.args[0] == *base;
+    let whole = parts.len() == base.ty.lanes() as usize && parts.iter().enumerate().all(component);
+    (whole && parts.len() > 1).then(|| base.clone())
+}
+
+/// Two expressions that differ by the components of one vector alone, as one of more components; both have the shape of the other
+/// but for how many components they are of.
+fn joined(left: &Expr, right: &Expr) -> Option<Expr> {
+    let lanes = left.ty.lanes() + right.ty.lanes();
+    if lanes > 4 || left.ty.is_array() {
+        return None;
+    }
+    let shape = left.ty.shape_of(lanes as usize);
+    match (&left.op, &right.op) {
+        (Op::Swizzle(before), Op::Swizzle(after)) if left.args == right.args => {
+            let components = before.iter().chain(after).copied().collect();
+            Some(swizzle(Expr::new(Op::Swizzle(components), left.args.clone(), shape)))
+        }
+        (Op::Ir(ir::Op::Const(a)), Op::Ir(ir::Op::Const(b))) => {
+            let same = (0..left.ty.lanes() as usize).all(|k| a[k] == b[0])
+                && (0..right.ty.lanes() as usize).all(|k| b[k] == b[0]);
+            (same && left.ty.kind() == right.ty.kind()).then(|| Expr::splat(shape, b[0]))
+        }
+        (Op::Ir(a @ (ir::Op::Unary(_) | ir::Op::Binary(_) | ir::Op::Bitcast)), Op::Ir(b)) if a == b => {
+            let pairs = left.args.iter().zip(&right.args);
+            let args: Option<Vec<Expr>> = pairs.map(|(l, r)| joined(l, r)).collect();
+            Some(Expr::new(left.op.clone(), args?, shape))
+        }
+        _ => None,
+    }
 }
 
 /// `x = x + a` is `x += a`.
