@@ -39,8 +39,8 @@ kernel void downsampling(
     bool is_less_3_ = z_j1_i1_ < nearest_j1_i0_;
     float nearest_j1_i1_ = is_less_3_ ? z_j1_i1_ : nearest_j1_i0_;
     metal::int2 last_2_ = as_type<metal::int2>(as_type<metal::uint2>(static_cast<metal::int2>(metal::uint2(image.get_width(), image.get_height()))) - as_type<metal::uint2>(metal::int2(1)));
-    metal::int2 texel = metal::clamp(is_less_3_ ? at_j1_i1_ : at_j1_i0_2_, metal::int2(0), last_2_);
-    metal::float4 _e79 = image.read(metal::uint2(texel), 0);
+    metal::int2 at = metal::clamp(is_less_3_ ? at_j1_i1_ : at_j1_i0_2_, metal::int2(0), last_2_);
+    metal::float4 _e79 = image.read(metal::uint2(at), 0);
     destination.write(metal::float4(_e79.xyz, nearest_j1_i1_), metal::uint2(pixel));
     return;
 }

@@ -31,7 +31,7 @@ kernel void sraa(
 , metal::texture2d<float, metal::access::write> destination [[texture(3)]]
 ) {
     float total = 0.0;
-    int sample_value = 0;
+    int sample = 0;
     type_8 weights = type_8 {{0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0}};
     int sample_2_ = 0;
     float seen_depth = {};
@@ -65,11 +65,11 @@ kernel void sraa(
         if (metal::all(loop_bound == uint2(0u))) { break; }
         loop_bound -= uint2(loop_bound.y == 0u, 1u);
         if (!loop_init) {
-            int _e19 = sample_value;
-            sample_value = as_type<int>(as_type<uint>(_e19) + as_type<uint>(1));
+            int _e19 = sample;
+            sample = as_type<int>(as_type<uint>(_e19) + as_type<uint>(1));
         }
         loop_init = false;
-        int _e12 = sample_value;
+        int _e12 = sample;
         if (_e12 < 16) {
         } else {
             break;
@@ -143,8 +143,8 @@ kernel void sraa(
                         if (is_equal & (is_equal_2_.x & is_equal_2_.y)) {
                             d = 0.0;
                         } else {
-                            metal::int2 texel = metal::clamp(as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(pixel_2_)), metal::int2(0), last);
-                            metal::float4 _e136 = depth.read(metal::uint2(texel), 16, 0);
+                            metal::int2 at = metal::clamp(as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(pixel_2_)), metal::int2(0), last);
+                            metal::float4 _e136 = depth.read(metal::uint2(at), 16, 0);
                             float depth_3_ = _e136.x;
                             shaded_depth = 1000000000000000000000000000000.0;
                             if (metal::abs(depth_3_) < 1000000000000000000000000000000.0) {
@@ -157,7 +157,7 @@ kernel void sraa(
                             if (step_value < 16.0) {
                                 bounded = step_value;
                             }
-                            metal::float4 _e154 = normal.read(metal::uint2(texel), 16, 0);
+                            metal::float4 _e154 = normal.read(metal::uint2(at), 16, 0);
                             metal::float3 turn = seen_normal - _e154.xyz;
                             float difference = 0.5 * metal::dot(turn, turn);
                             bounded_2_ = 16.0;
@@ -269,8 +269,8 @@ kernel void sraa(
         {
             int _e301 = tap_4_;
             int _e306 = tap_4_;
-            metal::int2 texel_2_ = metal::clamp(as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(metal::int2(as_type<int>(as_type<uint>(naga_mod(_e301, 3)) - as_type<uint>(1)), as_type<int>(as_type<uint>(naga_div(_e306, 3)) - as_type<uint>(1))))), metal::int2(0), last);
-            metal::float4 shaded = color.read(metal::uint2(texel_2_), 0);
+            metal::int2 at_2_ = metal::clamp(as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(metal::int2(as_type<int>(as_type<uint>(naga_mod(_e301, 3)) - as_type<uint>(1)), as_type<int>(as_type<uint>(naga_div(_e306, 3)) - as_type<uint>(1))))), metal::int2(0), last);
+            metal::float4 shaded = color.read(metal::uint2(at_2_), 0);
             w_2_ = 0.0;
             if (metal::all((as_type<metal::uint4>(shaded) & metal::uint4(2147483647u)) < metal::uint4(2139095040u))) {
                 int _e329 = tap_4_;

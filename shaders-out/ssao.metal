@@ -30,12 +30,12 @@ fragment quad_ssaoOutput quad_ssao(
     metal::int2 pixel = naga_f2i32(metal::floor(position.xy));
     metal::int2 frame = static_cast<metal::int2>(metal::uint2(depth.get_width(), depth.get_height()));
     metal::int2 last = as_type<metal::int2>(as_type<metal::uint2>(frame) - as_type<metal::uint2>(metal::int2(1)));
-    metal::int2 texel = metal::clamp(pixel, metal::int2(0), last);
-    metal::float4 _e15 = depth.read(metal::uint2(texel), 0);
+    metal::int2 at = metal::clamp(pixel, metal::int2(0), last);
+    metal::float4 _e15 = depth.read(metal::uint2(at), 0);
     float z = _e15.x;
     metal::float2 place_middle = static_cast<metal::float2>(frame) * 0.5;
     metal::float3 place_from = metal::float3(((static_cast<metal::float2>(pixel) + metal::float2(0.5)) - place_middle) * (z * 0.005), z);
-    metal::float4 _e31 = normal.read(metal::uint2(texel), 0);
+    metal::float4 _e31 = normal.read(metal::uint2(at), 0);
     metal::float3 place_normal = _e31.xyz;
     float place_reach = metal::min(0.5 / (0.005 * z), 48.0);
     metal::int2 lane = pixel & metal::int2(1);

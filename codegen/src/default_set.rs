@@ -133,7 +133,7 @@ pub fn files() -> Result<BTreeMap<String, Vec<u8>>, Error> {
             .map_err(Error::Kernel)?;
         // Metal has no fine derivatives.
         let derivatives = entry.transport == Some(Transport::Derivatives);
-        let targets = Target::ALL.into_iter().filter(|t| !derivatives || *t != Target::Msl);
+        let targets = Target::MODERN.into_iter().filter(|t| !derivatives || *t != Target::Msl);
         let emitted = compiled.emit(&EmitOptions::new().stage(entry.stage).targets(targets))?;
         all.extend(emitted.named(entry.stem));
     }

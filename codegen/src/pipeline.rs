@@ -87,6 +87,8 @@ pub struct Compiled {
     pub summary: String,
     /// Every option with its value.
     pub options: BTreeMap<String, String>,
+    /// Names of the options that are not at their defaults.
+    pub changed: Vec<String>,
     /// What was asked to become of loops and branches.
     pub policy: Policy,
     /// What became of each loop.
@@ -276,6 +278,25 @@ impl Kernel {
         deep(|| self.stages(settings, observer))
     }
 
+    /// Names of the options that were set to something else than their defaults.
+    fn changed(
+        &self,
+        library: &Library,
+        settings: &Settings,
+        values: &BTreeMap<String, String>,
+    ) -> Result<Vec<String>, Errors> {
+        if settings.options.is_empty() {
+            return Ok(Vec::new());
+        }
+        let known = eval::describe(library, &self.files, &self.name)?;
+        let differs = |option: &OptionInfo| {
+            option.uniform || values.get(&option.name).is_none_or(|value| *value != option.default)
+        };
+        let is_set = |option: &&OptionInfo| settings.options.iter().any(|(name, _)| *name == option.name);
+        let changed = known.iter().filter(is_set).filter(|option| differs(option));
+        Ok(changed.map(|option| option.name.clone()).collect())
+    }
+
     fn stages(&self, settings: &Settings, observer: &mut Observer<'_>) -> Result<Compiled, Errors> {
         let library = self.library()?;
         let policy = settings.policy();
@@ -382,6 +403,7 @@ impl Kernel {
         let compiled = Compiled {
             kernel: self.name.clone(),
             summary,
+            changed: self.changed(&library, settings, &evaluated.options)?,
             options: evaluated.options.clone(),
             policy,
             loops: evaluated.loops.clone(),

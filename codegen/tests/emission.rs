@@ -24,7 +24,7 @@ fn compile(text: &str, unroll: Unroll, branches: Branches) -> Compiled {
 
 /// The kernel in every language, each text read by the compilers that there are.
 fn emit(compiled: &Compiled, stage: Stage) -> Emitted {
-    let emitted = compiled.emit(&EmitOptions::new().targets(Target::ALL).stage(stage));
+    let emitted = compiled.emit(&EmitOptions::new().targets(Target::MODERN).stage(stage));
     let emitted = emitted.unwrap_or_else(|e| panic!("{e}"));
     read(&emitted).unwrap_or_else(|e| panic!("{stage:?}: {e}"));
     emitted

@@ -118,7 +118,7 @@ fn every_form_is_emitted_and_is_the_same_picture_on_a_gpu() {
     for (name, ..) in KERNELS {
         for (k, form) in FORMS.into_iter().enumerate() {
             let compiled = compiled(name, form);
-            let emitted = compiled.emit(&EmitOptions::new().targets(Target::ALL));
+            let emitted = compiled.emit(&EmitOptions::new().targets(Target::MODERN));
             let emitted = emitted.unwrap_or_else(|e| panic!("{name} {form:?}: {e}"));
             for (name, contents) in emitted.named(&format!("{name}-{k}")) {
                 let path = folder.join(&name);

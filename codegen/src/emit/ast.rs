@@ -30,6 +30,19 @@ impl Ty {
         }
     }
 
+    /// One component.
+    pub fn element_of(self) -> Type {
+        Type::scalar(self.kind().unwrap_or(Scalar::F32))
+    }
+
+    /// An element of an array; a value is its own.
+    pub fn element_ty(self) -> Ty {
+        Ty {
+            shape: self.shape.element(),
+            ..self
+        }
+    }
+
     /// The same type in full precision.
     pub fn full(self) -> Ty {
         self.shape.into()
@@ -218,7 +231,7 @@ impl Expr {
     }
 
     /// Shows every expression in this one, arguments first.
-    pub fn visit<'e>(&'e self, see: &mut dyn FnMut(&'e Expr)) {
+    pub fn visit(&self, see: &mut dyn FnMut(&Expr)) {
         self.args.iter().for_each(|arg| arg.visit(see));
         see(self);
     }
@@ -302,6 +315,14 @@ impl<'g> Stmt<'g> {
             StmtKind::For { start, end, .. } => vec![start, end],
             StmtKind::If { condition, .. } => vec![condition],
             StmtKind::Comment(_) => Vec::new(),
+        }
+    }
+
+    /// Shows every expression of the statement, those of its blocks too.
+    pub fn visit(&self, see: &mut dyn FnMut(&Expr)) {
+        self.own().into_iter().for_each(|expr| expr.visit(see));
+        for block in self.blocks() {
+            block.iter().for_each(|stmt| stmt.visit(see));
         }
     }
 

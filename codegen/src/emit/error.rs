@@ -43,6 +43,18 @@ pub enum EmitError {
         /// The language.
         target: &'static str,
     },
+    /// Something that a language does not have.
+    #[error("`{kernel}` cannot be written in {target}: it {what}, which {target} does not have; use {instead}")]
+    Missing {
+        /// The kernel.
+        kernel: String,
+        /// The language.
+        target: &'static str,
+        /// What the kernel does.
+        what: &'static str,
+        /// Languages that have it.
+        instead: &'static str,
+    },
     /// Half precision in a language that naga can neither write nor check with it.
     #[error(
         "`{kernel}` in half precision cannot be written in glsl450, where naga knows no f16: use wgsl, spirv, hlsl or msl, or leave the precision at f32"

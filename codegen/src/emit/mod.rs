@@ -13,6 +13,7 @@ mod half;
 mod layout;
 mod legalise;
 mod lower;
+mod missing;
 mod names;
 mod parameters;
 mod print;
@@ -222,7 +223,7 @@ pub fn emit(compiled: &Compiled, options: &EmitOptions) -> Result<Emitted, EmitE
     let wgsl = |counts: &Counts| {
         let mut tree = tree.clone();
         legalise::wgsl(&mut tree);
-        names::assign(&mut tree, &resources);
+        names::assign(&mut tree, &resources, names::Words::Wgsl, &[]);
         let language = print::Wgsl { resources: &resources };
         print::module(&language, &tree, &print::header(compiled, counts, &resources))
     };
@@ -238,22 +239,27 @@ pub fn emit(compiled: &Compiled, options: &EmitOptions) -> Result<Emitted, EmitE
                 format!("enable subgroups;\n{}{wgsl}", gap(options.precision)).into_bytes()
             }
             Target::Wgsl => wgsl.clone().into_bytes(),
-            Target::Glsl450 if options.precision == Precision::F16 => {
-                return Err(EmitError::HalfGlsl {
-                    kernel: compiled.kernel.clone(),
-                });
-            }
-            Target::Glsl450 => {
+            Target::Glsl450 | Target::Glsl430 | Target::Glsl330 | Target::Essl310 | Target::Essl300 => {
+                missing::check(compiled, &resources, *target)?;
                 let mut tree = tree.clone();
-                legalise::glsl(&mut tree);
-                names::assign(&mut tree, &resources);
-                let language = print::Glsl { resources: &resources };
+                legalise::glsl(&mut tree, *target == Target::Glsl450);
+                let language = print::Glsl::new(&resources, *target, &tree);
+                names::assign(&mut tree, &resources, names::Words::Glsl, &language.names());
                 let glsl = print::module(&language, &tree, &print::header(compiled, &counts, &resources));
-                check::check_glsl(&compiled.kernel, options.stage, &glsl, &resources.compared())?;
+                // naga reads no other GLSL.
+                if *target == Target::Glsl450 {
+                    check::check_glsl(&compiled.kernel, options.stage, &glsl, &resources.compared())?;
+                }
                 glsl.into_bytes()
             }
             Target::Spirv => words.iter().flat_map(|word| word.to_le_bytes()).collect(),
-            Target::Hlsl => module.hlsl(&resources)?.into_bytes(),
+            Target::Hlsl => {
+                let mut tree = tree.clone();
+                legalise::hlsl(&mut tree);
+                let language = print::Hlsl::new(&resources, &tree);
+                names::assign(&mut tree, &resources, names::Words::Hlsl, &language.functions());
+                print::module(&language, &tree, &print::header(compiled, &counts, &resources)).into_bytes()
+            }
             Target::Msl if compiled.transport == Some(Transport::Derivatives) => {
                 return Err(EmitError::Derivatives {
                     kernel: compiled.kernel.clone(),

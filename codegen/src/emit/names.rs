@@ -21,33 +21,61 @@ const OWN: [&str; 11] = [
     "position",
 ];
 
+/// Whether the text around a kernel has a use for a name.
+pub fn is_own(name: &str) -> bool {
+    OWN.contains(&name) || OF_REGIONS.contains(&name)
+}
+
 /// Names that it has uses for where the shader filters a rectangle.
 const OF_REGIONS: [&str; 2] = ["within", "place"];
 
 /// Longer names are cut, or refused where hosts use them.
 const LONGEST: usize = 255;
 
-/// Whether a word has a meaning of its own in WGSL or GLSL, or in what the emitter writes of its own.
-pub fn is_reserved(word: &str) -> bool {
-    use naga::keywords::wgsl;
-    wgsl::RESERVED.contains(&word)
-        || wgsl::BUILTIN_IDENTIFIER_SET.contains(word)
-        || super::words::GLSL.contains(&word)
-        || is_glsl_type(word)
-        || word.starts_with("gl_")
-        || word.starts_with("__")
-        || word.starts_with("to_ivec")
-        || word.starts_with("to_uvec")
-        || word.starts_with("to_vec")
-        || [
-            "to_i32",
-            "to_u32",
-            "to_int",
-            "to_uint",
-            "whole_quotient",
-            "whole_remainder",
-        ]
-        .contains(&word)
+/// A language whose words names stay clear of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Words {
+    /// WGSL, and what naga makes of it.
+    Wgsl,
+    /// GLSL of every version.
+    Glsl,
+    /// HLSL.
+    Hlsl,
+}
+
+impl Words {
+    /// Whether a word has a meaning of its own in the language, or in what is written there beside the kernel.
+    pub fn reserve(self, word: &str) -> bool {
+        use naga::keywords::wgsl;
+        let own = ["whole_quotient", "whole_remainder"].contains(&word) || converts(word);
+        own || word.starts_with("__")
+            || match self {
+                Words::Wgsl => wgsl::RESERVED.contains(&word) || wgsl::BUILTIN_IDENTIFIER_SET.contains(word),
+                Words::Glsl => super::words::GLSL.contains(&word) || is_glsl_type(word) || word.starts_with("gl_"),
+                Words::Hlsl => super::words::HLSL.contains(&word) || is_hlsl_type(word),
+            }
+    }
+}
+
+/// Whether a word is like the names of functions that convert: `to_vec2i`, `to_uint`.
+fn converts(word: &str) -> bool {
+    let types = ["i32", "u32", "int", "uint", "vec", "ivec", "uvec"];
+    word.strip_prefix("to_").is_some_and(|ty| {
+        types.iter().any(|t| {
+            ty.trim_end_matches(|c: char| c.is_ascii_digit()) == *t || (t.ends_with("vec") && ty.starts_with(t))
+        })
+    })
+}
+
+/// Whether a word has a meaning of its own in a language that the shader is always written in.
+fn is_reserved(word: &str) -> bool {
+    Words::Wgsl.reserve(word) || Words::Glsl.reserve(word)
+}
+
+/// Types of HLSL that come in families: `float4x3`, `uint2`, `min16float`.
+fn is_hlsl_type(word: &str) -> bool {
+    let bare = word.trim_end_matches(|c: char| c.is_ascii_digit() || c == 'x');
+    ["float", "int", "uint", "bool", "half", "double", "dword"].contains(&bare) || word.starts_with("min1")
 }
 
 /// Types of GLSL that come in families: `mat4x3`, `ivec2`, `usampler2DArray`, `image3D`, ...
@@ -175,9 +203,11 @@ impl Wanted {
     }
 }
 
-/// Gives the variables of a module names that differ from each other and from all others in their scope.
-pub fn assign(module: &mut Module<'_>, resources: &Resources) {
+/// Gives the variables of a module names that differ from each other and from all `others` in their scope, and are no words of
+/// the language.
+pub fn assign(module: &mut Module<'_>, resources: &Resources, words: Words, others: &[String]) {
     let mut taken: HashSet<String> = OWN.map(str::to_owned).into();
+    taken.extend(others.iter().cloned());
     taken.insert(resources.entry.clone());
     if resources.options.region {
         taken.extend(OF_REGIONS.map(str::to_owned));
@@ -187,12 +217,12 @@ pub fn assign(module: &mut Module<'_>, resources: &Resources) {
     // Tables are seen by all; what a function declares is its own.
     for (var, _) in &module.tables {
         let variable = &mut module.variables[var.0 as usize];
-        variable.name = fresh(&mut taken, &variable.name);
+        variable.name = fresh(&mut taken, &variable.name, words);
     }
     let mut rename = |scope: &mut HashSet<String>, vars: Vec<VarId>| {
         for var in vars.into_iter().filter(|var| *var > VarId::PLACE) {
             let variable = &mut module.variables[var.0 as usize];
-            variable.name = fresh(scope, &variable.name);
+            variable.name = fresh(scope, &variable.name, words);
         }
     };
     for function in &module.functions {
@@ -218,13 +248,12 @@ fn declared(block: &[Stmt<'_>], out: &mut Vec<VarId>) {
 }
 
 /// `wanted`, or with a number if that is taken.
-fn fresh(taken: &mut HashSet<String>, wanted: &str) -> String {
+fn fresh(taken: &mut HashSet<String>, wanted: &str, words: Words) -> String {
     // naga keeps a digit at the end of a name for its own suffixes.
     let base = identifier(wanted);
-    let mut name = if is_reserved(&base) {
-        format!("{base}_value")
-    } else {
-        base.clone()
+    let mut name = match words.reserve(&base) {
+        true => format!("{base}_value"),
+        false => base.clone(),
     };
     let mut k = 2;
     while !taken.insert(name.clone()) {

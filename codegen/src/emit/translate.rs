@@ -2,10 +2,10 @@
 
 use super::error::EmitError;
 use super::resources::Resources;
-use naga::back::{hlsl, msl, spv};
+use naga::back::{msl, spv};
 use naga::proc::{BoundsCheckPolicies, BoundsCheckPolicy};
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
-use straightline_manifest::{Precision, Stage};
+use straightline_manifest::Stage;
 
 /// A validated module.
 pub struct Module {
@@ -59,27 +59,6 @@ impl Module {
         let words =
             spv::write_vec(&self.module, &self.info, &options, Some(&pipeline)).map_err(|e| self.failed("spirv", e))?;
         Ok(super::spirv::joined(&words))
-    }
-
-    /// HLSL of shader model 5.1, with quad operations 6.0, in half precision 6.2: group as space, binding as register.
-    pub fn hlsl(&self, resources: &Resources) -> Result<String, EmitError> {
-        let mut text = String::new();
-        let mut options = hlsl::Options {
-            force_loop_bounding: !resources.options.unbounded_loops,
-            ..Default::default()
-        };
-        if resources.subgroups {
-            options.shader_model = hlsl::ShaderModel::V6_0;
-        }
-        if resources.options.precision == Precision::F16 {
-            options.shader_model = hlsl::ShaderModel::V6_2;
-        }
-        let pipeline = hlsl::PipelineOptions::default();
-        let mut writer = hlsl::Writer::new(&mut text, &options, &pipeline);
-        writer
-            .write(&self.module, &self.info, None)
-            .map_err(|e| self.failed("hlsl", e))?;
-        samplers_by_register(&text).ok_or_else(|| self.failed("hlsl", "naga binds samplers in a way that is not known"))
     }
 
     /// Metal: textures and buffers by their binding numbers.
@@ -158,43 +137,4 @@ pub(super) fn validate(module: &naga::Module, text: &str) -> Result<ModuleInfo, 
         Capabilities::SUBGROUP | Capabilities::SHADER_FLOAT16,
     );
     validator.validate(module).map_err(|error| error.emit_to_string(text))
-}
-
-/// A table of constants as a list of its elements, where naga calls a function: no compiler needs to evaluate that then.
-fn table(line: &str) -> String {
-    let parts = line
-        .strip_prefix("static const ")
-        .and_then(|rest| rest.split_once(" = Constructarray"))
-        .and_then(|(declared, call)| Some((declared, call.split_once('(')?.1.strip_suffix(");")?)));
-    match parts {
-        Some((declared, elements)) => format!("static const {declared} = {{ {elements} }};"),
-        None => line.to_owned(),
-    }
-}
-
-/// HLSL in which each sampler is bound by a register of its binding's number. naga writes wgpu's own scheme: an array of all
-/// samplers, and a buffer that says which of them each one is.
-fn samplers_by_register(text: &str) -> Option<String> {
-    let mut out = String::new();
-    for line in text.lines() {
-        let declares = |what: &str| line.starts_with(what);
-        if declares("SamplerState nagaSamplerHeap[")
-            || declares("SamplerComparisonState nagaComparisonSamplerHeap[")
-            || declares("StructuredBuffer<uint> nagaGroup0SamplerIndexArray ")
-        {
-            continue;
-        }
-        match line.strip_prefix("static const Sampler") {
-            Some(rest) => {
-                let (declared, from) = rest.split_once(" = naga")?;
-                let (_, index) = from.split_once("[nagaGroup0SamplerIndexArray[")?;
-                let register: u32 = index.strip_suffix("]];")?.parse().ok()?;
-                out += &format!("Sampler{declared} : register(s{register});");
-            }
-            None => out += &table(line),
-        }
-        out.push('\n');
-    }
-    let known = !out.contains("SamplerHeap[") && !out.contains("SamplerIndexArray");
-    known.then_some(out)
 }

@@ -43,3 +43,33 @@ pub const GLSL: &[&str] = &[
     "union", "unpackDouble2x32", "unpackHalf2x16", "unpackSnorm2x16", "unpackSnorm4x8", "unpackUnorm2x16",
     "unpackUnorm4x8", "unsigned", "using", "usubBorrow", "varying", "void", "volatile", "while", "writeonly",
 ];
+
+/// Keywords, types and intrinsic functions of HLSL. Numeric types, which come in families, are told by their form.
+#[rustfmt::skip]
+pub const HLSL: &[&str] = &[
+    "abort", "abs", "acos", "all", "AllMemoryBarrier", "any", "AppendStructuredBuffer", "asdouble", "asfloat", "asin",
+    "asint", "asm", "asm_fragment", "asuint", "atan", "atan2", "auto", "BlendState", "break", "Buffer",
+    "ByteAddressBuffer", "case", "catch", "cbuffer", "ceil", "centroid", "char", "clamp", "class", "clip", "column_major",
+    "compile", "compile_fragment", "CompileShader", "ComputeShader", "const", "const_cast", "ConstantBuffer",
+    "ConsumeStructuredBuffer", "continue", "cos", "cosh", "countbits", "cross", "D3DCOLORtoUBYTE4", "ddx", "ddx_coarse",
+    "ddx_fine", "ddy", "ddy_coarse", "ddy_fine", "default", "degrees", "delete", "DepthStencilState",
+    "DepthStencilView", "determinant", "discard", "distance", "do", "DomainShader", "dot", "dst", "dynamic_cast",
+    "else", "enum", "EvaluateAttributeAtSample", "exp", "exp2", "explicit", "export", "extern", "f16tof32", "f32tof16",
+    "faceforward", "false", "firstbithigh", "firstbitlow", "floor", "fma", "fmod", "for", "frac", "frexp", "friend",
+    "fwidth", "fxgroup", "GeometryShader", "goto", "groupshared", "Hullshader", "if", "in", "inline", "inout",
+    "InputPatch", "interface", "isfinite", "isinf", "isnan", "ldexp", "length", "lerp", "line", "lineadj", "linear",
+    "LineStream", "lit", "log", "log10", "log2", "long", "mad", "matrix", "max", "min", "modf", "msad4", "mul",
+    "mutable", "namespace", "new", "nointerpolation", "noise", "noperspective", "normalize", "NULL", "operator", "out",
+    "OutputPatch", "packoffset", "pass", "pixelfragment", "PixelShader", "point", "PointStream", "pow", "precise",
+    "printf", "private", "protected", "public", "QuadReadAcrossDiagonal", "QuadReadAcrossX", "QuadReadAcrossY",
+    "radians", "RasterizerState", "rcp", "reflect", "refract", "register", "reinterpret_cast", "RenderTargetView",
+    "return", "reversebits", "round", "row_major", "rsqrt", "RWBuffer", "RWByteAddressBuffer", "RWStructuredBuffer",
+    "RWTexture1D", "RWTexture2D", "RWTexture2DArray", "RWTexture3D", "sample", "sampler", "SamplerComparisonState",
+    "SamplerState", "saturate", "select", "shared", "short", "sign", "signed", "sin", "sincos", "sinh", "sizeof",
+    "smoothstep", "snorm", "sqrt", "stateblock", "static", "static_cast", "step", "string", "struct",
+    "StructuredBuffer", "switch", "tan", "tanh", "tbuffer", "technique", "template", "tex1D", "tex2D", "tex3D",
+    "texCUBE", "texture", "Texture1D", "Texture2D", "Texture2DArray", "Texture2DMS", "Texture3D", "TextureCube", "this",
+    "throw", "transpose", "triangle", "triangleadj", "TriangleStream", "true", "trunc", "try", "typedef", "typename",
+    "uniform", "union", "unorm", "unsigned", "using", "vector", "vertexfragment", "VertexShader", "virtual", "void",
+    "volatile", "while",
+];

@@ -284,7 +284,7 @@ impl Evaluator<'_> {
         let last = self.builder.add(Op::Binary(BinaryOp::Sub), vec![size, one], PAIR);
         self.name(&Value::Node(last), "last", span);
         let inside = self.builder.add(Op::Clamp, vec![coord, zero, last], PAIR);
-        self.name(&Value::Node(inside), "texel", span);
+        self.name(&Value::Node(inside), "at", span);
         let components = self.builder.graph().textures[texture as usize].components;
         let args = std::iter::once(inside).chain(layer).collect();
         let op = Op::Load {

@@ -140,11 +140,11 @@ fn heard(
     corner: Quad<IVec2>,
     share: Quad<Vec2>,
 ) -> [Tap; 4] {
-    let texel = low.load(corner + lane_position());
-    let counts = cfg.counts(texel);
-    let texel = match cfg.reads {
-        Reads::Packed => counts.select(texel.truncate().extend(bounded(texel.w())), of_no_surface()),
-        _ => counts.select(texel, Quad::splat(Vec4::ZERO)),
+    let own = low.load(corner + lane_position());
+    let counts = cfg.counts(own);
+    let counted = match cfg.reads {
+        Reads::Packed => counts.select(own.truncate().extend(bounded(own.w())), of_no_surface()),
+        _ => counts.select(own, Quad::splat(Vec4::ZERO)),
     };
     // The lane's own texel lies in its own direction; for the others the tent is flipped.
     let near = match cfg.factor {
@@ -162,22 +162,22 @@ fn heard(
         far.x() * far.y(),
     ];
     let mut taps = [Tap {
-        color: texel,
-        depth: texel.w(),
+        color: counted,
+        depth: counted.w(),
         normal: Quad::splat(Vec3::ZERO),
         tent: tents[0],
     }; 4];
     match cfg.reads {
         Reads::Packed => match cfg.payload {
             Payload::Scalar => {
-                let messages = Quad::from_xy(texel.x(), texel.w()).gather();
+                let messages = Quad::from_xy(counted.x(), counted.w()).gather();
                 for k in 0..4 {
                     taps[k].color = Vec4::ONE * messages[k].x();
                     taps[k].depth = messages[k].y();
                 }
             }
             Payload::Color => {
-                let messages = texel.gather();
+                let messages = counted.gather();
                 for k in 0..4 {
                     taps[k].color = messages[k].truncate().extend(1.0);
                     taps[k].depth = messages[k].w();
@@ -189,13 +189,13 @@ fn heard(
             let depth = counts.select(bounded(surface.w()), of_no_surface().w());
             match cfg.payload {
                 Payload::Scalar => {
-                    let messages = texel.x().gather();
+                    let messages = counted.x().gather();
                     for k in 0..4 {
                         taps[k].color = Vec4::ONE * messages[k];
                     }
                 }
                 Payload::Color => {
-                    let messages = texel.gather();
+                    let messages = counted.gather();
                     for k in 0..4 {
                         taps[k].color = messages[k];
                     }

@@ -95,10 +95,10 @@ const NO_NORMAL: f32 = 1.0e-4;
 
 /// The surface seen at `place`, from `pixel`: as much of it as the metric compares.
 pub(super) fn surface(cfg: &Sraa, gbuffer: &GBuffer, view: &View, pixel: IVec2, place: Place) -> Surface {
-    let texel = pixel + place.pixel;
+    let at = pixel + place.pixel;
     match cfg.normals {
         Normals::Packed => {
-            let packed = gbuffer.packed(cfg, texel, place);
+            let packed = gbuffer.packed(cfg, at, place);
             Surface {
                 depth: linear(cfg, view, packed.z + packed.w),
                 normal: decoded(cfg, packed),
@@ -107,11 +107,11 @@ pub(super) fn surface(cfg: &Sraa, gbuffer: &GBuffer, view: &View, pixel: IVec2, 
         _ => Surface {
             depth: match cfg.metric {
                 Metric::Normals => 0.0,
-                _ => linear(cfg, view, gbuffer.depth(cfg, texel, place)),
+                _ => linear(cfg, view, gbuffer.depth(cfg, at, place)),
             },
             normal: match cfg.metric {
                 Metric::Depth => Vec3::ZERO,
-                _ => decoded(cfg, gbuffer.normal(cfg, texel, place)),
+                _ => decoded(cfg, gbuffer.normal(cfg, at, place)),
             },
         },
     }

@@ -1,12 +1,24 @@
 //! GLSL: what it has no operator for, what it leaves open, and what glslang would make branches of.
 
-use super::{Rule, below_32, by_component, choose, guarded, is_leaf, is_non_finite, to_integer};
-use crate::emit::ast::{Expr, Module, Op};
+use super::{
+    Rule, below_32, both, by_component, choose, componentwise, guarded, inside, is_leaf, is_non_finite, is_simple,
+    take, to_integer, zeros,
+};
+use crate::emit::ast::{Expr, Module, Op, Ty};
 use crate::emit::print::glsl_type;
 use crate::ir::{self, BinaryOp, Scalar, Type, UnaryOp};
 
-/// Rewrites an expression, whose arguments have been rewritten.
-pub fn rule(module: &mut Module<'_>, mut expr: Expr) -> Expr {
+/// The rule of GLSL for Vulkan.
+pub fn vulkan(module: &mut Module<'_>, expr: Expr) -> Expr {
+    rule(module, expr, true)
+}
+
+/// The rule of GLSL for OpenGL, where `mix` chooses between floats alone.
+pub fn opengl(module: &mut Module<'_>, expr: Expr) -> Expr {
+    rule(module, expr, false)
+}
+
+fn rule(module: &mut Module<'_>, mut expr: Expr, mixes: bool) -> Expr {
     let ty = expr.ty;
     match &expr.op {
         _ if is_non_finite(&expr) => by_component(&expr, |bits| {
@@ -15,26 +27,22 @@ pub fn rule(module: &mut Module<'_>, mut expr: Expr) -> Expr {
         }),
         Op::Division(op, known) => {
             let (op, known) = (*op, *known);
-            if let Some(function) = guarded(module, op, known, ty, rule as Rule) {
-                expr.op = function;
+            let part = if mixes { ty } else { Ty::from(ty.element_of()) };
+            let rule: Rule = if mixes { vulkan } else { opengl };
+            if let Some(function) = guarded(module, op, known, part, rule) {
+                expr.op = componentwise(module, function, ty);
             }
             expr
         }
         Op::Convert { fits: false } if expr.args[0].ty.is_float() && ty.is_integer() => {
-            let name = format!("to_{}", glsl_type(ty));
-            expr.op = to_integer(module, &name, ty, true, rule as Rule);
+            let part = if mixes { ty } else { Ty::from(ty.element_of()) };
+            let rule: Rule = if mixes { vulkan } else { opengl };
+            let name = format!("to_{}", glsl_type(part));
+            let function = to_integer(module, &name, part, true, rule);
+            expr.op = componentwise(module, function, ty);
             expr
         }
-        // GLSL leaves an index outside of an array open.
-        Op::Index { inside: false } => {
-            let Type::Array { len, .. } = expr.args[0].ty.shape else {
-                return expr;
-            };
-            let index = expr.args.pop().expect("an index").to(Type::U32);
-            let last = Expr::splat(Type::U32, len - 1);
-            expr.args.push(Expr::call("min", vec![index, last], Type::U32));
-            expr
-        }
+        Op::Index { inside: false } => inside(expr),
         // A depth texture gives four components here, not one.
         Op::Ir(ir::Op::Load { .. }) if ty.is_scalar() => {
             expr.ty = Type::value(Scalar::F32, 4).into();
@@ -71,10 +79,6 @@ pub fn rule(module: &mut Module<'_>, mut expr: Expr) -> Expr {
     }
 }
 
-fn take<const N: usize>(args: Vec<Expr>) -> [Expr; N] {
-    args.try_into().expect("as many arguments as the operation has")
-}
-
 fn unary(op: UnaryOp, mut expr: Expr) -> Expr {
     let ty = expr.ty;
     match op {
@@ -88,22 +92,8 @@ fn unary(op: UnaryOp, mut expr: Expr) -> Expr {
             Expr::call("clamp", vec![x, low, high], ty)
         }
         UnaryOp::CountOneBits => Expr::call("bitCount", expr.args, ty.of(Scalar::I32)).to(ty),
-        // Numbered from the lowest bit, and -1 for none.
-        UnaryOp::LeadingZeros | UnaryOp::TrailingZeros => {
-            let [x] = take(expr.args);
-            let bits = match ty.kind() {
-                Some(Scalar::I32) => x.to(Type::U32),
-                _ => x,
-            };
-            let number = |n: u32| Expr::splat(Type::I32, n);
-            let find = |name| Expr::call(name, vec![bits.clone()], Type::I32);
-            let zeros = match op {
-                UnaryOp::LeadingZeros => number(31).binary(BinaryOp::Sub, find("findMSB")),
-                _ => find("findLSB"),
-            };
-            let none = bits.clone().binary(BinaryOp::Eq, Expr::splat(Type::U32, 0));
-            choose(none, number(32), zeros).to(ty)
-        }
+        UnaryOp::LeadingZeros => zeros(expr, "findMSB", true),
+        UnaryOp::TrailingZeros => zeros(expr, "findLSB", false),
         _ => expr,
     }
 }
@@ -139,28 +129,12 @@ fn binary(op: BinaryOp, mut expr: Expr) -> Expr {
         }
         // GLSL has no `&` of booleans, and glslang makes branches of `&&` and `||` where the right side is not a name or a
         // comparison of two.
-        And | Or if bools && vector => {
-            let words = ty.of(Scalar::U32);
-            let [x, y] = take(expr.args).map(|side: Expr| side.to(words));
-            x.binary(op, y).to(ty)
-        }
-        And | Or if bools && !is_simple(&expr.args[1]) => {
-            let both = Expr::new(Op::Construct, expr.args, Type::value(Scalar::Bool, 2));
-            Expr::new(if op == And { Op::All } else { Op::Any }, vec![both], Type::BOOL)
-        }
+        And | Or if bools && (vector || !is_simple(&expr.args[1])) => both(op, expr),
         Shl | Shr => {
             let count = expr.args.pop().expect("two arguments");
             expr.args.push(below_32(count));
             expr
         }
         _ => expr,
-    }
-}
-
-/// A leaf, or a comparison of two.
-fn is_simple(expr: &Expr) -> bool {
-    match expr.op {
-        Op::Ir(ir::Op::Binary(op)) => op.is_comparison() && expr.args.iter().all(is_leaf),
-        _ => is_leaf(expr),
     }
 }

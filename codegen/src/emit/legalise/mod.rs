@@ -4,6 +4,7 @@
 
 mod glsl;
 mod half;
+mod hlsl;
 mod wgsl;
 
 use super::ast::{Division, Expr, Function, Module, Op, StmtKind, Ty};
@@ -16,9 +17,14 @@ pub fn wgsl(module: &mut Module<'_>) {
     wgsl::legalise(module);
 }
 
-/// Rewrites a module for GLSL.
-pub fn glsl(module: &mut Module<'_>) {
-    module.rewrite(&mut glsl::rule);
+/// Rewrites a module for GLSL, for Vulkan or for OpenGL.
+pub fn glsl(module: &mut Module<'_>, vulkan: bool) {
+    module.rewrite(&mut if vulkan { glsl::vulkan } else { glsl::opengl });
+}
+
+/// Rewrites a module for HLSL.
+pub fn hlsl(module: &mut Module<'_>) {
+    hlsl::legalise(module);
 }
 
 /// A rule of a language.
@@ -179,4 +185,98 @@ fn below_32(count: Expr) -> Expr {
         Some(bits) => Expr::constant(ty, bits.map(|bits| bits & 31)),
         None => count.binary(BinaryOp::And, Expr::splat(ty, 31)),
     }
+}
+
+fn take<const N: usize>(args: Vec<Expr>) -> [Expr; N] {
+    args.try_into().expect("as many arguments as the operation has")
+}
+
+/// An element of an array at an index that is clamped to the last.
+fn inside(mut expr: Expr) -> Expr {
+    let Type::Array { len, .. } = expr.args[0].ty.shape else {
+        return expr;
+    };
+    let index = expr.args.pop().expect("an index").to(Type::U32);
+    let last = Expr::splat(Type::U32, len - 1);
+    expr.args.push(Expr::call("min", vec![index, last], Type::U32));
+    expr
+}
+
+/// A leaf, or a comparison of two.
+fn is_simple(expr: &Expr) -> bool {
+    match expr.op {
+        Op::Ir(ir::Op::Binary(op)) => op.is_comparison() && expr.args.iter().all(is_leaf),
+        _ => is_leaf(expr),
+    }
+}
+
+/// `&` or `|` of booleans, in a language that has none but those that may branch.
+fn both(op: BinaryOp, expr: Expr) -> Expr {
+    let ty = expr.ty;
+    if ty.is_scalar() {
+        let both = Expr::new(Op::Construct, expr.args, Type::value(Scalar::Bool, 2));
+        let quantifier = if op == BinaryOp::And { Op::All } else { Op::Any };
+        return Expr::new(quantifier, vec![both], Type::BOOL);
+    }
+    let words = ty.of(Scalar::U32);
+    let [x, y] = take(expr.args).map(|side: Expr| side.to(words));
+    x.binary(op, y).to(ty)
+}
+
+/// Zeros before the first bit that is set, or behind the last, by a function that numbers bits from the lowest and gives -1 for
+/// none.
+fn zeros(expr: Expr, find: &'static str, leading: bool) -> Expr {
+    let ty = expr.ty;
+    let [x] = take(expr.args);
+    let bits = match ty.kind() {
+        Some(Scalar::I32) => x.to(Type::U32),
+        _ => x,
+    };
+    let number = |n: u32| Expr::splat(Type::I32, n);
+    let found = Expr::call(find, vec![bits.clone()], Type::I32);
+    let zeros = match leading {
+        true => number(31).binary(BinaryOp::Sub, found),
+        false => found,
+    };
+    let none = bits.binary(BinaryOp::Eq, Expr::splat(Type::U32, 0));
+    choose(none, number(32), zeros).to(ty)
+}
+
+/// A function of scalars, as one of vectors that calls it for each component. Both have one name.
+fn componentwise(module: &mut Module<'_>, function: Op, ty: Ty) -> Op {
+    let Op::Function(name) = &function else { return function };
+    let same = |f: &&Function<'_>| f.name == *name;
+    if module.functions.iter().filter(same).any(|f| f.result == ty) {
+        return function;
+    }
+    let Some(scalar) = module.functions.iter().find(same).cloned() else {
+        return function;
+    };
+    module.function(name, ty, |module| {
+        let params: Vec<_> = scalar
+            .params
+            .iter()
+            .map(|param| {
+                let variable = module.variables[param.0 as usize].clone();
+                let wide = ty.of(variable.ty.kind().unwrap_or(Scalar::F32));
+                module.variable(variable.name, wide)
+            })
+            .collect();
+        let component = |k: u8| {
+            let parts = params.iter().map(|param| {
+                let vector = module.read(*param);
+                let part = Type::scalar(vector.ty.kind().unwrap_or(Scalar::F32));
+                Expr::new(Op::Swizzle(vec![k]), vec![vector], part)
+            });
+            Expr::new(function.clone(), parts.collect(), ty.element_of())
+        };
+        let all = Expr::new(Op::Construct, (0..ty.lanes()).map(component).collect(), ty);
+        Function {
+            comment: scalar.comment.clone(),
+            name: name.clone(),
+            params,
+            result: ty,
+            body: vec![StmtKind::Return(Some(all)).into()],
+        }
+    })
 }

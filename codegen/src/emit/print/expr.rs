@@ -90,7 +90,7 @@ fn constant(l: &dyn Language, ty: Ty, bits: &Lanes) -> Text {
     let parts: Vec<Text> = lanes.iter().map(|bits| l.scalar(kind, ty.half, *bits)).collect();
     match &parts[..] {
         [one] => one.clone(),
-        [first, rest @ ..] if rest.iter().all(|part| part == first) => l.construct(ty, &[first]),
+        [first, rest @ ..] if rest.iter().all(|part| part == first) => l.splat(ty, first),
         _ => l.construct(ty, &parts.iter().collect::<Vec<_>>()),
     }
 }

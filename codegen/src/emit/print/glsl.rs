@@ -1,8 +1,9 @@
-//! GLSL 4.50 for Vulkan, with separate textures.
+//! GLSL 4.50 for Vulkan, with separate textures; GLSL of OpenGL and OpenGL ES, with combined samplers and loose uniforms.
 
 use super::expr::{float, integer};
 use super::{Language, Text, wrapped_comment};
-use crate::emit::ast::{Builtin, Ty};
+use crate::emit::Target;
+use crate::emit::ast::{Builtin, Expr, Module, Op, Ty};
 use crate::emit::resources::{OUTPUT, Resources, SAMPLER, UNIFORMS};
 use crate::ir::{self, Axis, BinaryOp, Direction, Scalar, TextureKind, Type, UnaryOp};
 use straightline_manifest::{REGION, Stage};
@@ -20,28 +21,213 @@ pub const MESSAGES: [&str; 3] = [
     "subgroupQuadSwapDiagonal",
 ];
 
-/// GLSL 4.50.
+/// A GLSL.
 pub struct Glsl<'a> {
-    /// The shader's bindings.
-    pub resources: &'a Resources,
+    resources: &'a Resources,
+    target: Target,
+    /// In OpenGL, textures with the samplers that they are read by.
+    combined: Vec<Combined>,
 }
 
-impl Glsl<'_> {
-    /// A texture with the sampler that filters nothing.
-    fn unfiltered(&self, texture: u32) -> Text {
-        let texture = self.resources.texture(texture);
-        let kind = match texture.kind {
-            TextureKind::Flat | TextureKind::Depth => "sampler2D",
-            TextureKind::Layers => "sampler2DArray",
-            TextureKind::Multisampled => "sampler2DMS",
+/// A texture, and the sampler that it is read by; none for texels and sizes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Combined {
+    texture: u32,
+    sampler: Option<u32>,
+}
+
+impl<'a> Glsl<'a> {
+    /// For a module.
+    pub fn new(resources: &'a Resources, target: Target, module: &Module<'_>) -> Glsl<'a> {
+        let mut combined = Vec::new();
+        let mut see = |expr: &Expr| {
+            if let Op::Ir(op) = &expr.op
+                && let Some(texture) = op.texture()
+            {
+                let sampler = op.sampler();
+                let one = Combined { texture, sampler };
+                if !combined.contains(&one) {
+                    combined.push(one);
+                }
+            }
         };
-        Text::name(format!("{kind}({}, {SAMPLER})", texture.name))
+        module.body.iter().for_each(|stmt| stmt.visit(&mut see));
+        // Texels and sizes are to be had of a texture whatever sampler it is read by, unless that compares.
+        let all = combined.clone();
+        combined.retain(|one| {
+            let other = |other: &Combined| {
+                other.texture == one.texture && other.sampler.is_some_and(|s| !resources.sampler(s).comparison)
+            };
+            one.sampler.is_some() || !all.iter().any(other)
+        });
+        Glsl {
+            resources,
+            target,
+            combined,
+        }
+    }
+
+    fn vulkan(&self) -> bool {
+        self.target == Target::Glsl450
+    }
+
+    /// The combined sampler that a texture is read by.
+    fn found(&self, texture: u32, sampler: Option<u32>) -> Combined {
+        let one = Combined { texture, sampler };
+        let plain =
+            |c: &&Combined| c.texture == texture && c.sampler.is_none_or(|s| !self.resources.sampler(s).comparison);
+        match self.combined.contains(&one) {
+            true => one,
+            false => self.combined.iter().copied().find(|c| plain(&c)).unwrap_or(one),
+        }
+    }
+
+    /// Its name: that of the texture, unless that is read in several ways.
+    fn combined_name(&self, one: Combined) -> String {
+        let texture = &self.resources.texture(one.texture).name;
+        let first = self.combined.iter().find(|c| c.texture == one.texture);
+        match one.sampler {
+            Some(sampler) if first != Some(&one) => format!("{texture}_{}", self.resources.sampler(sampler).name),
+            None if first != Some(&one) => format!("{texture}_texels"),
+            _ => texture.clone(),
+        }
+    }
+
+    /// Names at module scope that this language adds.
+    pub fn names(&self) -> Vec<String> {
+        match self.vulkan() {
+            true => Vec::new(),
+            false => {
+                let uniforms = self.resources.uniforms.iter().map(|u| loose(&u.name));
+                let combined = self.combined.iter().map(|one| self.combined_name(*one));
+                combined
+                    .chain(uniforms)
+                    .chain(["first", "size", "place"].map(region))
+                    .collect()
+            }
+        }
+    }
+
+    /// A texture to take texels of, or the size.
+    fn unfiltered(&self, texture: u32) -> Text {
+        if !self.vulkan() {
+            return Text::name(self.combined_name(self.found(texture, None)));
+        }
+        let texture = self.resources.texture(texture);
+        Text::name(format!("{}({}, {SAMPLER})", plain_sampler(texture.kind), texture.name))
     }
 
     /// A texture with a sampler of the kernel's.
     fn through(&self, kind: &str, texture: u32, sampler: u32) -> Text {
+        if !self.vulkan() {
+            return Text::name(self.combined_name(self.found(texture, Some(sampler))));
+        }
         let texture = &self.resources.texture(texture).name;
         Text::name(format!("{kind}({texture}, {})", self.resources.sampler(sampler).name))
+    }
+
+    /// `layout(set = 0, binding = N)`, with what else a layout says, as far as the version knows of bindings.
+    fn layout(&self, binding: u32, before: &str, behind: &str) -> String {
+        let binding = match self.target {
+            Target::Glsl450 => format!("set = 0, binding = {binding}"),
+            Target::Glsl430 | Target::Essl310 => format!("binding = {binding}"),
+            _ => return String::new(),
+        };
+        format!("layout({before}{binding}{behind}) ")
+    }
+
+    /// Types that have no precision of their own in OpenGL ES.
+    fn opaque(&self) -> Vec<&'static str> {
+        let r = self.resources;
+        let kinds = |kind: TextureKind| self.combined.iter().any(|one| r.texture(one.texture).kind == kind);
+        let compares = self
+            .combined
+            .iter()
+            .any(|one| one.sampler.is_some_and(|s| r.sampler(s).comparison));
+        let all = [
+            (kinds(TextureKind::Flat) || kinds(TextureKind::Depth), "sampler2D"),
+            (kinds(TextureKind::Layers), "sampler2DArray"),
+            (kinds(TextureKind::Multisampled), "sampler2DMS"),
+            (compares, "sampler2DShadow"),
+            (r.output_binding().is_some(), "image2D"),
+        ];
+        all.into_iter().filter(|(used, _)| *used).map(|(_, ty)| ty).collect()
+    }
+
+    /// What is bound in OpenGL.
+    fn opengl(&self) -> String {
+        let r = self.resources;
+        let mut out = String::new();
+        for one in &self.combined {
+            let Some(bound) = r.read.iter().find(|bound| bound.index == one.texture) else {
+                continue;
+            };
+            let ty = match one.sampler.is_some_and(|s| r.sampler(s).comparison) {
+                true => "sampler2DShadow",
+                false => plain_sampler(r.texture(one.texture).kind),
+            };
+            let layout = match self.combined.iter().filter(|c| c.texture == one.texture).count() {
+                1 => self.layout(bound.binding, "", ""),
+                // Two samplers of one texture have two units, which the host numbers.
+                _ => String::new(),
+            };
+            out += &format!("{layout}uniform {ty} {};\n", self.combined_name(*one));
+        }
+        for (k, binding) in &r.read_buffers {
+            let (name, element) = (&r.buffer(*k).name, type_name(r.buffer(*k).element.into()));
+            let layout = self.layout(*binding, "std430, ", "");
+            out += &format!("{layout}readonly buffer {name}_buffer {{ {element} elements[]; }} {name};\n");
+        }
+        match r.output_binding() {
+            Some(binding) => {
+                let layout = self.layout(binding, "", &format!(", {}", r.options.format.glsl()));
+                out += &format!("{layout}uniform writeonly image2D {OUTPUT};\n");
+            }
+            None => {
+                for (k, varying) in r.varyings.iter().enumerate() {
+                    let declared = declared(&varying.name, varying.ty.into());
+                    let layout = match self.target {
+                        Target::Glsl430 | Target::Essl310 => format!("layout(location = {k}) "),
+                        _ => String::new(),
+                    };
+                    out += &format!("{layout}in {declared};\n");
+                }
+                out += &format!("layout(location = 0) out vec4 {OUTPUT};\n");
+            }
+        }
+        if !r.uniforms.is_empty() {
+            out.push('\n');
+        }
+        for uniform in &r.uniforms {
+            out += &format!("uniform {};\n", declared(&loose(&uniform.name), uniform.ty.into()));
+        }
+        if r.options.region {
+            out += "\n// The upper left pixel in the inputs, the size, and the upper left pixel in the target.\n";
+            for name in ["first", "size", "place"] {
+                out += &format!("uniform ivec2 {};\n", region(name));
+            }
+        }
+        out
+    }
+}
+
+/// A uniform that lies in no block.
+fn loose(name: &str) -> String {
+    match crate::emit::names::is_own(name) {
+        true => format!("parameter_{name}"),
+        false => name.to_owned(),
+    }
+}
+
+fn region(name: &str) -> String {
+    format!("{REGION}_{name}")
+}
+
+fn plain_sampler(kind: TextureKind) -> &'static str {
+    match kind {
+        TextureKind::Flat | TextureKind::Depth => "sampler2D",
+        TextureKind::Layers => "sampler2DArray",
+        TextureKind::Multisampled => "sampler2DMS",
     }
 }
 
@@ -66,9 +252,17 @@ impl Language for Glsl<'_> {
             Builtin::Invocation => Text::name("ivec2(gl_GlobalInvocationID.xy)"),
             Builtin::Position => Text::name("gl_FragCoord.xy"),
             Builtin::OutputSize => Text::name(format!("imageSize({OUTPUT})")),
-            Builtin::RegionFirst => Text::name(format!("{REGION}.first")),
-            Builtin::RegionSize => Text::name(format!("{REGION}.size")),
-            Builtin::RegionPlace => Text::name(format!("{REGION}.place")),
+            Builtin::RegionFirst | Builtin::RegionSize | Builtin::RegionPlace => {
+                let field = match builtin {
+                    Builtin::RegionFirst => "first",
+                    Builtin::RegionSize => "size",
+                    _ => "place",
+                };
+                Text::name(match self.vulkan() {
+                    true => format!("{REGION}.{field}"),
+                    false => region(field),
+                })
+            }
         }
     }
 
@@ -113,6 +307,7 @@ impl Language for Glsl<'_> {
     fn read(&self, op: &ir::Op, args: &[Text]) -> Text {
         let zero = Text::name("0");
         match op {
+            ir::Op::Uniform(k) if !self.vulkan() => Text::name(loose(self.resources.uniform(*k))),
             ir::Op::Uniform(k) => Text::name(format!("{UNIFORMS}.{}", self.resources.uniform(*k))),
             ir::Op::Varying(k) => Text::name(self.resources.varying(*k)),
             ir::Op::TextureSize(texture) => {
@@ -186,6 +381,9 @@ impl Language for Glsl<'_> {
     }
 
     fn choose(&self, condition: &Text, yes: &Text, no: &Text) -> Text {
+        if !self.vulkan() {
+            return Text::name(format!("({} ? {} : {})", condition.code, yes.code, no.code));
+        }
         Text::call("mix", &[no, yes, condition])
     }
 
@@ -233,7 +431,7 @@ impl Language for Glsl<'_> {
 
     fn preamble(&self, header: &[String]) -> String {
         let r = self.resources;
-        let mut out = String::from("#version 450\n");
+        let mut out = format!("#version {}\n", self.target.version());
         if r.subgroups {
             out += "#extension GL_KHR_shader_subgroup_quad : require\n";
         }
@@ -241,14 +439,24 @@ impl Language for Glsl<'_> {
             out += &wrapped_comment(line, 0);
             out.push('\n');
         }
-        if !r.read.is_empty() {
+        if !r.read.is_empty() && self.vulkan() {
             out +=
                 "// GLSL names a texture together with a sampler even where it filters nothing: any sampler will do.\n";
         }
         out.push('\n');
+        if matches!(self.target, Target::Essl310 | Target::Essl300) {
+            out += "precision highp float;\nprecision highp int;\n";
+            for ty in self.opaque() {
+                out += &format!("precision highp {ty};\n");
+            }
+            out.push('\n');
+        }
         if r.options.stage == Stage::Compute {
             let [x, y, z] = r.options.workgroup();
             out += &format!("layout(local_size_x = {x}, local_size_y = {y}, local_size_z = {z}) in;\n\n");
+        }
+        if !self.vulkan() {
+            return out + &self.opengl();
         }
         for bound in &r.read {
             let texture = r.texture(bound.index);
@@ -306,13 +514,9 @@ impl Language for Glsl<'_> {
 
 /// A variable with its type: arrays have their extent after the name.
 fn declared(name: &str, ty: Ty) -> String {
-    let element = Ty {
-        shape: ty.element(),
-        ..ty
-    };
     match ty.shape {
-        Type::Array { len, .. } => format!("{} {name}[{len}]", type_name(element)),
-        _ => format!("{} {name}", type_name(element)),
+        Type::Array { len, .. } => format!("{} {name}[{len}]", type_name(ty.element_ty())),
+        _ => format!("{} {name}", type_name(ty)),
     }
 }
 
@@ -344,11 +548,7 @@ pub fn type_name(ty: Ty) -> String {
             format!("{kind}vec{lanes}")
         }
         Type::Array { len, .. } => {
-            let element = Ty {
-                shape: ty.element(),
-                ..ty
-            };
-            format!("{}[{len}]", type_name(element))
+            format!("{}[{len}]", type_name(ty.element_ty()))
         }
         Type::Results => "void".to_owned(),
     }

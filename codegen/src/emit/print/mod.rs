@@ -3,6 +3,7 @@
 mod expr;
 mod glsl;
 mod header;
+mod hlsl;
 mod wgsl;
 
 use super::ast::{Block, Builtin, Expr, Function, Module, Op, Stmt, StmtKind, Ty, VarId};
@@ -11,11 +12,17 @@ use crate::ir::{self, Scalar};
 
 pub use glsl::{GATHER, Glsl, LENGTH, MESSAGES};
 pub use header::{GENERATOR, header};
+pub use hlsl::Hlsl;
 pub use wgsl::Wgsl;
 
 /// A type as GLSL spells it.
 pub fn glsl_type(ty: Ty) -> String {
     glsl::type_name(ty)
+}
+
+/// A type as HLSL spells it.
+pub fn hlsl_type(ty: Ty) -> String {
+    hlsl::type_name(ty)
 }
 
 /// A type as WGSL spells it.
@@ -61,6 +68,10 @@ pub trait Language {
     fn construct(&self, ty: Ty, parts: &[&Text]) -> Text {
         Text::call(&self.ty(ty), parts)
     }
+    /// A vector of one constant in all components.
+    fn splat(&self, ty: Ty, component: &Text) -> Text {
+        self.construct(ty, &[component])
+    }
     /// The spelling of `&` and `|` of booleans, or of numbers.
     fn logical(&self, op: ir::BinaryOp, kind: Scalar) -> &'static str;
 
@@ -96,14 +107,14 @@ pub fn module(language: &dyn Language, module: &Module<'_>, header: &[String]) -
     let mut out = language.preamble(header);
     let mut tables = Vec::new();
     for (var, value) in &module.tables {
-        let parts: Vec<Text> = value.args.iter().map(|part| printer.expr(part)).collect();
-        let elements = language.elements(value.ty, &parts.iter().collect::<Vec<_>>());
+        let elements = printer.elements(value);
         let declared = language.table(printer.name(*var), module.ty(*var));
         tables.push(Printer::line(0, &format!("{declared} = "), &elements, ";"));
     }
     let mut functions: Vec<String> = module.functions.iter().map(|f| printer.function(f)).collect();
     functions.sort();
-    tables.append(&mut functions);
+    let functions = functions.into_iter().map(|f| format!("{f}\n"));
+    tables.extend(functions);
     if !tables.is_empty() {
         out += &format!("\n{}\n", tables.join("\n"));
     }
@@ -156,6 +167,9 @@ impl Printer<'_> {
             StmtKind::Var(var, value) => {
                 let declared = l.mutable(self.name(*var), self.module.ty(*var), value.is_some());
                 match value {
+                    Some(value) if value.op == Op::Construct && value.ty.is_array() => {
+                        Self::line(depth, &format!("{declared} = "), &self.elements(value), ";")
+                    }
                     Some(value) => set(&declared, value),
                     None => format!("{indent}{declared};"),
                 }
@@ -198,6 +212,12 @@ impl Printer<'_> {
             }
         };
         text + "\n"
+    }
+
+    /// The elements of an array where it is declared.
+    fn elements(&self, array: &Expr) -> Text {
+        let parts: Vec<Text> = array.args.iter().map(|part| self.expr(part)).collect();
+        self.language.elements(array.ty, &parts.iter().collect::<Vec<_>>())
     }
 
     fn expr(&self, expr: &Expr) -> Text {

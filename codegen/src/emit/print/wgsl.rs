@@ -310,11 +310,7 @@ fn texture_type(kind: TextureKind) -> &'static str {
 pub fn type_name(ty: Ty) -> String {
     match ty.shape {
         Type::Array { len, .. } => {
-            let element = Ty {
-                shape: ty.element(),
-                ..ty
-            };
-            format!("array<{}, {len}>", type_name(element))
+            format!("array<{}, {len}>", type_name(ty.element_ty()))
         }
         Type::Value { scalar, lanes } => {
             let scalar = match scalar {

@@ -1,0 +1,112 @@
+//! HLSL: what it has no operator for, what it leaves open, and arrays, which it sets element by element.
+
+use super::{
+    Rule, below_32, both, by_component, componentwise, guarded, inside, is_non_finite, is_simple, take, to_integer,
+    zeros,
+};
+use crate::emit::ast::{Block, Expr, Module, Op, Stmt, StmtKind, Ty};
+use crate::emit::print::hlsl_type;
+use crate::ir::{self, BinaryOp, Scalar, Type, UnaryOp};
+
+/// Rewrites a module for HLSL.
+pub fn legalise(module: &mut Module<'_>) {
+    module.rewrite(&mut rule);
+    let body = std::mem::take(&mut module.body);
+    module.body = by_element(body);
+}
+
+fn rule(module: &mut Module<'_>, mut expr: Expr) -> Expr {
+    let ty = expr.ty;
+    match &expr.op {
+        _ if is_non_finite(&expr) => by_component(&expr, |bits| {
+            let word = Expr::new(Op::Hex(bits), Vec::new(), Type::U32);
+            Expr::call("asfloat", vec![word], Type::F32)
+        }),
+        Op::Division(op, known) => {
+            let (op, known) = (*op, *known);
+            let scalar = Ty::from(ty.element_of());
+            if let Some(function) = guarded(module, op, known, scalar, rule as Rule) {
+                expr.op = componentwise(module, function, ty);
+            }
+            expr
+        }
+        Op::Convert { fits: false } if expr.args[0].ty.is_float() && ty.is_integer() => {
+            let scalar = Ty::from(ty.element_of());
+            let name = format!("to_{}", hlsl_type(scalar));
+            let function = to_integer(module, &name, scalar, true, rule as Rule);
+            expr.op = componentwise(module, function, ty);
+            expr
+        }
+        Op::Index { inside: false } => inside(expr),
+        Op::Ir(ir::Op::Unary(op)) => unary(*op, expr),
+        Op::Ir(ir::Op::Binary(op)) => binary(*op, expr),
+        Op::Ir(ir::Op::Bitcast) => {
+            expr.op = Op::Call(match ty.kind() {
+                Some(Scalar::F32) => "asfloat",
+                Some(Scalar::I32) => "asint",
+                _ => "asuint",
+            });
+            expr
+        }
+        _ => expr,
+    }
+}
+
+fn unary(op: UnaryOp, expr: Expr) -> Expr {
+    let ty = expr.ty;
+    match op {
+        // An integer here.
+        UnaryOp::Sign if ty.is_float() => Expr::call("sign", expr.args, ty.of(Scalar::I32)).to(ty),
+        UnaryOp::CountOneBits => Expr::call("countbits", expr.args, ty.of(Scalar::U32)).to(ty),
+        UnaryOp::ReverseBits if ty.kind() == Some(Scalar::I32) => {
+            let [x] = take(expr.args);
+            let bits = x.to(ty.of(Scalar::U32));
+            Expr::call("reversebits", vec![bits], ty.of(Scalar::U32)).to(ty)
+        }
+        UnaryOp::LeadingZeros => zeros(expr, "firstbithigh", true),
+        UnaryOp::TrailingZeros => zeros(expr, "firstbitlow", false),
+        _ => expr,
+    }
+}
+
+fn binary(op: BinaryOp, mut expr: Expr) -> Expr {
+    use BinaryOp::{And, Or, Rem, Shl, Shr};
+    let bools = expr.ty.kind() == Some(Scalar::Bool);
+    match op {
+        Rem if expr.ty.is_float() => {
+            expr.op = Op::Call("fmod");
+            expr
+        }
+        And | Or if bools && (!expr.ty.is_scalar() || !is_simple(&expr.args[1])) => both(op, expr),
+        Shl | Shr => {
+            let count = expr.args.pop().expect("two arguments");
+            expr.args.push(below_32(count));
+            expr
+        }
+        _ => expr,
+    }
+}
+
+/// The statements with arrays of single elements assigned one by one: only where it is declared can an array have a list.
+fn by_element(block: Block<'_>) -> Block<'_> {
+    let mut out = Vec::with_capacity(block.len());
+    for mut stmt in block {
+        for inner in stmt.blocks_mut() {
+            *inner = by_element(std::mem::take(inner));
+        }
+        match stmt.kind {
+            StmtKind::Assign(place, None, value) if value.op == Op::Construct && value.ty.is_array() => {
+                for (k, part) in value.args.into_iter().enumerate() {
+                    let index = Expr::splat(Type::I32, k as u32);
+                    let element = Expr::new(Op::Index { inside: true }, vec![place.clone(), index], part.ty);
+                    out.push(Stmt {
+                        kind: StmtKind::Assign(element, None, part),
+                        origin: stmt.origin,
+                    });
+                }
+            }
+            _ => out.push(stmt),
+        }
+    }
+    out
+}

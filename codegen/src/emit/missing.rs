@@ -1,0 +1,85 @@
+//! What a GLSL does not have, found before anything is written.
+
+use super::error::EmitError;
+use super::resources::Resources;
+use super::target::Target;
+use crate::ir::{Op, TextureKind, UnaryOp};
+use crate::pipeline::Compiled;
+use straightline_manifest::{Precision, Stage};
+
+/// Whether a language has all that a shader needs.
+///
+/// # Errors
+///
+/// The first thing that it does not have, and the languages that do.
+pub fn check(compiled: &Compiled, resources: &Resources, target: Target) -> Result<(), EmitError> {
+    let kernel = || compiled.kernel.clone();
+    if resources.options.precision == Precision::F16 {
+        return Err(EmitError::HalfGlsl { kernel: kernel() });
+    }
+    let (name, old, combined) = match target {
+        Target::Glsl430 => ("glsl430", false, true),
+        Target::Glsl330 => ("glsl330", true, true),
+        Target::Essl310 => ("essl310", false, true),
+        Target::Essl300 => ("essl300", true, true),
+        _ => ("glsl450", false, false),
+    };
+    let graph = &compiled.graph;
+    let live = graph
+        .ids()
+        .filter(|id| compiled.schedule.place[id.0 as usize].is_some());
+    let ops: Vec<&Op> = live.map(|id| &graph.node(id).op).collect();
+    let any = |is: &dyn Fn(&Op) -> bool| ops.iter().any(|op| is(op));
+    let of_kind = |kind: TextureKind| resources.read.iter().any(|t| resources.texture(t.index).kind == kind);
+    let modern = "glsl450, wgsl, spirv, hlsl or msl";
+    let with_compute = "glsl430 or essl310, or any that is newer";
+    let needs = [
+        (
+            combined && any(&|op| matches!(op, Op::Message(_))),
+            "swaps values by quad operations",
+            modern,
+        ),
+        (
+            combined && any(&|op| matches!(op, Op::Derivative(_))),
+            "swaps values by fine derivatives",
+            "glsl450, wgsl, spirv or hlsl",
+        ),
+        (
+            old && resources.options.stage == Stage::Compute,
+            "is a compute shader",
+            "the stage fragment, glsl430 or essl310",
+        ),
+        (
+            old && !resources.read_buffers.is_empty(),
+            "reads a storage buffer",
+            with_compute,
+        ),
+        (
+            old && any(&|op| matches!(op, Op::Gather { .. } | Op::GatherCompare { .. })),
+            "gathers texels",
+            with_compute,
+        ),
+        (
+            old && any(&|op| {
+                use UnaryOp::{CountOneBits, LeadingZeros, ReverseBits, TrailingZeros};
+                matches!(op, Op::Unary(CountOneBits | LeadingZeros | ReverseBits | TrailingZeros))
+            }),
+            "counts or reverses bits",
+            with_compute,
+        ),
+        (
+            target == Target::Essl300 && of_kind(TextureKind::Multisampled),
+            "reads a multisampled texture",
+            "glsl330 or essl310, or any that is newer",
+        ),
+    ];
+    match needs.into_iter().find(|(needed, ..)| *needed) {
+        Some((_, what, instead)) => Err(EmitError::Missing {
+            kernel: kernel(),
+            target: name,
+            what,
+            instead,
+        }),
+        None => Ok(()),
+    }
+}

@@ -1,0 +1,410 @@
+//! HLSL of shader model 5.1 and later.
+
+use super::expr::{float, integer};
+use super::{Language, Text, wrapped_comment};
+use crate::emit::ast::{Builtin, Expr, Module, Op, Ty};
+use crate::emit::resources::{OUTPUT, Resources, UNIFORMS};
+use crate::ir::{self, Axis, BinaryOp, Direction, Scalar, TextureKind, Type, UnaryOp};
+use straightline_manifest::{Format, REGION, Stage};
+
+/// HLSL.
+pub struct Hlsl<'a> {
+    resources: &'a Resources,
+    /// Functions that ask for the size of what is bound.
+    sizes: Vec<Size>,
+}
+
+/// What a shader asks for the size of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Size {
+    Texture(u32),
+    Buffer(u32),
+    Output,
+}
+
+impl Size {
+    fn of(op: &Op) -> Option<Size> {
+        match op {
+            Op::Ir(ir::Op::TextureSize(texture)) => Some(Size::Texture(*texture)),
+            Op::Ir(ir::Op::BufferLen(buffer)) => Some(Size::Buffer(*buffer)),
+            Op::Builtin(Builtin::OutputSize) => Some(Size::Output),
+            _ => None,
+        }
+    }
+}
+
+impl<'a> Hlsl<'a> {
+    /// For a module.
+    pub fn new(resources: &'a Resources, module: &Module<'_>) -> Hlsl<'a> {
+        let mut sizes = Vec::new();
+        let mut see = |expr: &Expr| {
+            if let Some(size) = Size::of(&expr.op)
+                && !sizes.contains(&size)
+            {
+                sizes.push(size);
+            }
+        };
+        module.body.iter().for_each(|stmt| stmt.visit(&mut see));
+        Hlsl { resources, sizes }
+    }
+
+    /// Names of the functions that this language needs.
+    pub fn functions(&self) -> Vec<String> {
+        self.sizes.iter().map(|size| self.size_of(*size)).collect()
+    }
+
+    fn size_of(&self, size: Size) -> String {
+        match size {
+            Size::Texture(texture) => format!("size_of_{}", self.resources.texture(texture).name),
+            Size::Buffer(buffer) => format!("len_of_{}", self.resources.buffer(buffer).name),
+            Size::Output => format!("size_of_{OUTPUT}"),
+        }
+    }
+
+    /// A function that asks for a size: the language gives it by way of variables.
+    fn asks(&self, size: Size) -> String {
+        let name = self.size_of(size);
+        let two = "uint width, height";
+        let (what, variables, arguments) = match size {
+            Size::Output => (OUTPUT, two, "width, height"),
+            Size::Buffer(buffer) => {
+                let buffer = &self.resources.buffer(buffer).name;
+                return format!(
+                    "int {name}() {{\n    uint count, stride;\n    {buffer}.GetDimensions(count, stride);\n    return int(count);\n}}\n"
+                );
+            }
+            Size::Texture(texture) => {
+                let texture = self.resources.texture(texture);
+                let (variables, arguments) = match texture.kind {
+                    TextureKind::Flat | TextureKind::Depth => (two, "width, height"),
+                    TextureKind::Layers => ("uint width, height, layers", "width, height, layers"),
+                    TextureKind::Multisampled => ("uint width, height, samples", "width, height, samples"),
+                };
+                (texture.name.as_str(), variables, arguments)
+            }
+        };
+        format!(
+            "int2 {name}() {{\n    {variables};\n    {what}.GetDimensions({arguments});\n    return int2(width, height);\n}}\n"
+        )
+    }
+
+    /// A method of a texture, with a sampler.
+    fn sampled(&self, texture: u32, method: &str, sampler: u32, args: &[&Text]) -> Text {
+        let texture = &self.resources.texture(texture).name;
+        let sampler = Text::name(self.resources.sampler(sampler).name.as_str());
+        let mut all = vec![&sampler];
+        all.extend(args);
+        Text::call(&format!("{texture}.{method}"), &all)
+    }
+}
+
+impl Language for Hlsl<'_> {
+    fn ty(&self, ty: Ty) -> String {
+        type_name(ty)
+    }
+
+    fn scalar(&self, kind: Scalar, half: bool, bits: u32) -> Text {
+        match kind {
+            Scalar::F32 if half => crate::emit::half::literal(bits),
+            Scalar::F32 => float(bits),
+            // The smallest `int`, which no literal is.
+            Scalar::I32 if bits as i32 == i32::MIN => Text::name("(-2147483647 - 1)"),
+            Scalar::I32 => integer(i64::from(bits as i32), ""),
+            Scalar::U32 => integer(i64::from(bits), "u"),
+            Scalar::Bool => Text::name(if bits != 0 { "true" } else { "false" }),
+        }
+    }
+
+    fn builtin(&self, builtin: Builtin) -> Text {
+        match builtin {
+            Builtin::Invocation => Text::name("int2(id.xy)"),
+            Builtin::Position => Text::name("position.xy"),
+            Builtin::OutputSize => Text::call(&self.size_of(Size::Output), &[]),
+            Builtin::RegionFirst => Text::name(format!("{REGION}.first")),
+            Builtin::RegionSize => Text::name(format!("{REGION}.size")),
+            Builtin::RegionPlace => Text::name(format!("{REGION}.place")),
+        }
+    }
+
+    fn function(&self, op: &ir::Op) -> &'static str {
+        use UnaryOp::*;
+        match op {
+            ir::Op::Binary(BinaryOp::Min) => "min",
+            ir::Op::Binary(BinaryOp::Max) => "max",
+            ir::Op::Binary(BinaryOp::Pow) => "pow",
+            ir::Op::Binary(BinaryOp::Atan2) => "atan2",
+            ir::Op::Unary(op) => match op {
+                Abs => "abs",
+                Sign => "sign",
+                Floor => "floor",
+                Ceil => "ceil",
+                Round => "round",
+                Trunc => "trunc",
+                Fract => "frac",
+                Saturate => "saturate",
+                Sqrt => "sqrt",
+                InverseSqrt => "rsqrt",
+                Exp => "exp",
+                Exp2 => "exp2",
+                Log => "log",
+                Log2 => "log2",
+                Sin => "sin",
+                Cos => "cos",
+                Tan => "tan",
+                Asin => "asin",
+                Acos => "acos",
+                Atan => "atan",
+                Sinh => "sinh",
+                Cosh => "cosh",
+                Tanh => "tanh",
+                ReverseBits => "reversebits",
+                Neg | Not | BitNot => unreachable!("these are operators"),
+                CountOneBits | LeadingZeros | TrailingZeros => unreachable!("rewritten for HLSL"),
+            },
+            other => unreachable!("{other:?} is no function"),
+        }
+    }
+
+    fn read(&self, op: &ir::Op, args: &[Text]) -> Text {
+        let r = self.resources;
+        let zero = Text::name("0");
+        match op {
+            ir::Op::Uniform(k) => Text::name(format!("{UNIFORMS}.{}", r.uniform(*k))),
+            ir::Op::Varying(k) => Text::name(r.varying(*k)),
+            ir::Op::TextureSize(texture) => Text::call(&self.size_of(Size::Texture(*texture)), &[]),
+            ir::Op::BufferLen(buffer) => Text::call(&self.size_of(Size::Buffer(*buffer)), &[]),
+            ir::Op::Load { texture, .. } => {
+                let texture = r.texture(*texture);
+                let load = format!("{}.Load", texture.name);
+                match (args, texture.kind) {
+                    ([coord, sample], TextureKind::Multisampled) => Text::call(&load, &[coord, sample]),
+                    ([coord, layer], _) => Text::call(&load, &[&Text::call("int4", &[coord, layer, &zero])]),
+                    _ => Text::call(&load, &[&Text::call("int3", &[&args[0], &zero])]),
+                }
+            }
+            ir::Op::Sample { texture, sampler, .. } => {
+                self.sampled(*texture, "SampleLevel", *sampler, &[&args[0], &Text::name("0.0")])
+            }
+            ir::Op::Gather {
+                texture,
+                sampler,
+                component,
+                ..
+            } => {
+                let method = ["GatherRed", "GatherGreen", "GatherBlue", "GatherAlpha"][*component as usize & 3];
+                self.sampled(*texture, method, *sampler, &[&args[0]])
+            }
+            ir::Op::Compare { texture, sampler, .. } => {
+                self.sampled(*texture, "SampleCmpLevelZero", *sampler, &[&args[0], &args[1]])
+            }
+            ir::Op::GatherCompare { texture, sampler, .. } => {
+                self.sampled(*texture, "GatherCmp", *sampler, &[&args[0], &args[1]])
+            }
+            ir::Op::BufferLoad { buffer, .. } => Text::index(&Text::name(r.buffer(*buffer).name.as_str()), &args[0]),
+            ir::Op::Message(direction) => {
+                let function = match direction {
+                    Direction::Horizontal => "QuadReadAcrossX",
+                    Direction::Vertical => "QuadReadAcrossY",
+                    Direction::Diagonal => "QuadReadAcrossDiagonal",
+                };
+                Text::call(function, &[&args[0]])
+            }
+            ir::Op::Derivative(axis) => {
+                let function = if *axis == Axis::X { "ddx_fine" } else { "ddy_fine" };
+                Text::call(function, &[&args[0]])
+            }
+            other => unreachable!("{other:?} is no read"),
+        }
+    }
+
+    fn select(&self, _: Ty, condition: &Text, yes: &Text, no: &Text) -> Text {
+        Text::name(format!("({} ? {} : {})", condition.code, yes.code, no.code))
+    }
+
+    // Only of scalars: functions of vectors call those of scalars.
+    fn choose(&self, condition: &Text, yes: &Text, no: &Text) -> Text {
+        Text::name(format!("({} ? {} : {})", condition.code, yes.code, no.code))
+    }
+
+    fn construct(&self, ty: Ty, parts: &[&Text]) -> Text {
+        match parts {
+            // One number for all components is a cast.
+            [one] if ty.lanes() > 1 && !ty.is_array() => Text::prefix(&format!("({})", type_name(ty)), one),
+            _ => Text::call(&type_name(ty), parts),
+        }
+    }
+
+    fn splat(&self, ty: Ty, component: &Text) -> Text {
+        Text::call(&type_name(ty), &vec![component; ty.lanes() as usize])
+    }
+
+    fn elements(&self, _: Ty, parts: &[&Text]) -> Text {
+        Text::list("{ ".to_owned(), parts, " }")
+    }
+
+    fn logical(&self, op: BinaryOp, kind: Scalar) -> &'static str {
+        match (op, kind) {
+            (BinaryOp::And, Scalar::Bool) => "&&",
+            (_, Scalar::Bool) => "||",
+            (BinaryOp::And, _) => "&",
+            _ => "|",
+        }
+    }
+
+    fn immutable(&self, name: &str, ty: Ty) -> String {
+        declared(name, ty)
+    }
+
+    fn mutable(&self, name: &str, ty: Ty, _: bool) -> String {
+        declared(name, ty)
+    }
+
+    fn table(&self, name: &str, ty: Ty) -> String {
+        format!("static const {}", declared(name, ty))
+    }
+
+    fn loop_head(&self, counter: &str, ty: Ty, start: &str, bound: &str) -> String {
+        format!("for ({} {counter} = {start}; {bound}; {counter}++) {{", type_name(ty))
+    }
+
+    fn if_head(&self) -> [&'static str; 2] {
+        ["if (", ") {"]
+    }
+
+    fn function_head(&self, name: &str, params: &[(&str, Ty)], result: Ty) -> String {
+        let params: Vec<String> = params.iter().map(|(name, ty)| declared(name, *ty)).collect();
+        format!("{} {name}({}) {{", type_name(result), params.join(", "))
+    }
+
+    fn store(&self, place: &Text, colour: &Text) -> Text {
+        Text::list(format!("{OUTPUT}[{}] = ", place.code), &[colour], "")
+    }
+
+    fn output(&self) -> String {
+        "return ".to_owned()
+    }
+
+    fn preamble(&self, header: &[String]) -> String {
+        let r = self.resources;
+        let mut out = String::new();
+        for line in header {
+            out += &wrapped_comment(line, 0);
+            out.push('\n');
+        }
+        out.push('\n');
+        for bound in &r.read {
+            let texture = r.texture(bound.index);
+            let (ty, binding) = (texture_type(texture.kind), bound.binding);
+            out += &format!("{ty} {} : register(t{binding});\n", texture.name);
+        }
+        for (k, binding) in &r.read_buffers {
+            let (name, element) = (&r.buffer(*k).name, type_name(r.buffer(*k).element.into()));
+            out += &format!("StructuredBuffer<{element}> {name} : register(t{binding});\n");
+        }
+        for (k, binding) in &r.used_samplers {
+            let sampler = r.sampler(*k);
+            let ty = match sampler.comparison {
+                true => "SamplerComparisonState",
+                false => "SamplerState",
+            };
+            out += &format!("{ty} {} : register(s{binding});\n", sampler.name);
+        }
+        if let Some(binding) = r.output_binding() {
+            let texel = match r.options.format {
+                Format::Rgba8Unorm => "unorm float4",
+                _ => "float4",
+            };
+            out += &format!("RWTexture2D<{texel}> {OUTPUT} : register(u{binding});\n");
+        }
+        if let Some(binding) = r.uniform_binding() {
+            out += "\nstruct Parameters {\n";
+            for line in fields(r) {
+                out += &format!("    {line};\n");
+            }
+            out += &format!(
+                "}};\n\ncbuffer Parameters_buffer : register(b{binding}) {{\n    Parameters {UNIFORMS};\n}}\n"
+            );
+        }
+        if let Some(binding) = r.region_binding() {
+            out += "\nstruct Region {\n    // The upper left pixel in the inputs, the size, and the upper left pixel in the target.\n    \
+                    int2 first;\n    int2 size;\n    int2 place;\n};\n\n";
+            out += &format!("cbuffer Region_buffer : register(b{binding}) {{\n    Region {REGION};\n}}\n");
+        }
+        for size in &self.sizes {
+            out += &format!("\n{}", self.asks(*size));
+        }
+        out
+    }
+
+    fn entry_head(&self) -> String {
+        let r = self.resources;
+        let entry = &r.entry;
+        match r.options.stage {
+            Stage::Compute => {
+                let [x, y, z] = r.options.workgroup();
+                format!("[numthreads({x}, {y}, {z})]\nvoid {entry}(uint3 id : SV_DispatchThreadID) {{")
+            }
+            Stage::Fragment => {
+                let varyings = r.varyings.iter().enumerate().map(|(k, varying)| {
+                    let declared = declared(&varying.name, varying.ty.into());
+                    format!(", {declared} : TEXCOORD{k}")
+                });
+                let varyings: String = varyings.collect();
+                format!("float4 {entry}(float4 position : SV_Position{varyings}) : SV_Target0 {{")
+            }
+        }
+    }
+}
+
+/// Members of the uniform struct, with padding where the language would pack them closer than the buffer has them.
+fn fields(resources: &Resources) -> Vec<String> {
+    let mut lines = Vec::new();
+    let mut at = 0;
+    for (field, uniform) in resources.fields.iter().zip(&resources.uniforms) {
+        // A member begins at the next word, but for one that would cross a row of four.
+        let packed = |at: u32| match at % 16 + field.size > 16 {
+            true => at.next_multiple_of(16),
+            false => at,
+        };
+        while packed(at) < field.offset {
+            lines.push(format!("uint padding_{at}"));
+            at += 4;
+        }
+        lines.push(declared(&uniform.name, uniform.ty.into()));
+        at = field.offset + field.size;
+    }
+    lines
+}
+
+/// A variable with its type: arrays have their extent after the name.
+fn declared(name: &str, ty: Ty) -> String {
+    match ty.shape {
+        Type::Array { len, .. } => format!("{} {name}[{len}]", type_name(ty.element_ty())),
+        _ => format!("{} {name}", type_name(ty)),
+    }
+}
+
+fn texture_type(kind: TextureKind) -> &'static str {
+    match kind {
+        TextureKind::Flat => "Texture2D<float4>",
+        TextureKind::Layers => "Texture2DArray<float4>",
+        TextureKind::Multisampled => "Texture2DMS<float4>",
+        TextureKind::Depth => "Texture2D<float>",
+    }
+}
+
+/// A type as HLSL spells it.
+pub fn type_name(ty: Ty) -> String {
+    let scalar = match ty.kind() {
+        Some(Scalar::F32) if ty.half => "half",
+        Some(Scalar::F32) => "float",
+        Some(Scalar::I32) => "int",
+        Some(Scalar::U32) => "uint",
+        Some(Scalar::Bool) => "bool",
+        None => return "void".to_owned(),
+    };
+    match ty.lanes() {
+        1 => scalar.to_owned(),
+        lanes => format!("{scalar}{lanes}"),
+    }
+}
