@@ -29,7 +29,9 @@ float4 quad_upsampling(float4 position : SV_Position) : SV_Target0 {
     int2 sum = pixel / int2(2, 2) + (pixel & int2(1, 1));
     float4 own = low.Load(int3(clamp(sum, int2(0, 0), size_of_low() - 1), 0));
     float4 vector_value = float4(own.xyz, (abs(own.w) < 1e30 ? own.w : 1e30));
-    float4 counted = (all(abs(own.xyz) < float3(3e38, 3e38, 3e38)) ? vector_value : float4(0.0, 0.0, 0.0, -1e30));
+    float4 counted = (
+        all(abs(own.xyz) < float3(3e38, 3e38, 3e38)) ? vector_value : float4(0.0, 0.0, 0.0, -1e30)
+    );
     float4 messages_1 = QuadReadAcrossX(counted);
     float4 messages_2 = QuadReadAcrossY(counted);
     float4 messages_3 = QuadReadAcrossDiagonal(counted);

@@ -1,11 +1,11 @@
 //! The shaders that are emitted and checked in as `shaders-out/`: SRAA with its default options, for 4 and for 16
-//! samples, in both stages, and with its loops kept; and the filters of quads.
+//! samples, and with its loops left in the shader; an edge filter; and filters of quads.
 
 use crate::diagnostic::Errors;
 use crate::emit::{EmitError, EmitOptions, Target};
-use crate::pipeline::{Kernel, Settings};
+use crate::pipeline::{Compiled, Kernel, Settings};
 use crate::policy::{Transport, Unroll};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use straightline_manifest::Stage;
 
 /// One shader of the set.
@@ -39,47 +39,22 @@ pub enum Error {
 const SAMPLES4: &[(&str, &str)] = &[("pattern", "latin4")];
 const SAMPLES16: &[(&str, &str)] = &[("pattern", "latin16")];
 
-/// Every shader of the set.
+/// Every shader of the set: few, so that each can be read.
 pub const ENTRIES: &[Entry] = &[
-    entry("sraa4", SAMPLES4, Unroll::Full, Stage::Compute),
-    entry("sraa4-fragment", SAMPLES4, Unroll::Full, Stage::Fragment),
-    entry("sraa4-looped", SAMPLES4, Unroll::None, Stage::Compute),
-    entry("sraa16", SAMPLES16, Unroll::Full, Stage::Compute),
-    entry("sraa16-fragment", SAMPLES16, Unroll::Full, Stage::Fragment),
-    entry("sraa16-looped", SAMPLES16, Unroll::None, Stage::Compute),
+    entry("sraa4", "sraa", SAMPLES4, Unroll::Full, Stage::Compute),
+    entry("sraa4-fragment", "sraa", SAMPLES4, Unroll::Full, Stage::Fragment),
+    entry("sraa4-looped", "sraa", SAMPLES4, Unroll::None, Stage::Compute),
+    entry("sraa16", "sraa", SAMPLES16, Unroll::Full, Stage::Compute),
+    entry("tabula-rasa", "tabula_rasa", &[], Unroll::Full, Stage::Fragment),
     quads("convolution3", "quad_convolution", &[], Transport::Subgroup),
-    quads(
-        "convolution3-derivatives",
-        "quad_convolution",
-        &[],
-        Transport::Derivatives,
-    ),
     quads("convolution3-block", "quad_convolution", &[], Transport::Block),
     quads("upsampling", "quad_upsampling", &[], Transport::Subgroup),
-    quads("upsampling-block", "quad_upsampling", &[], Transport::Block),
-    entry_of("downsampling", "downsampling"),
-    quads("bilateral5", "quad_bilateral", &[], Transport::Subgroup),
     quads("bilateral5-block", "quad_bilateral", &[], Transport::Block),
-    quads("pcf4", "pcf", &[("width", "four")], Transport::Subgroup),
-    quads("pcf8", "pcf", PCF8, Transport::Subgroup),
     quads("pcf8-derivatives", "pcf", PCF8, Transport::Derivatives),
     quads("pcss", "pcss", &[], Transport::Subgroup),
-    quads("ssao", "quad_ssao", &[], Transport::Subgroup),
-    quads("ssao-block", "quad_ssao", &[], Transport::Block),
 ];
 
 const PCF8: Options = &[("weights", "quadratic"), ("gradient", "prewitt")];
-
-const fn entry_of(stem: &'static str, kernel: &'static str) -> Entry {
-    Entry {
-        stem,
-        kernel,
-        options: &[],
-        unroll: Unroll::Full,
-        transport: None,
-        stage: Stage::Compute,
-    }
-}
 
 const fn quads(stem: &'static str, kernel: &'static str, options: Options, transport: Transport) -> Entry {
     Entry {
@@ -97,15 +72,10 @@ const fn quads(stem: &'static str, kernel: &'static str, options: Options, trans
 
 type Options = &'static [(&'static str, &'static str)];
 
-const fn entry(
-    stem: &'static str,
-    options: &'static [(&'static str, &'static str)],
-    unroll: Unroll,
-    stage: Stage,
-) -> Entry {
+const fn entry(stem: &'static str, kernel: &'static str, options: Options, unroll: Unroll, stage: Stage) -> Entry {
     Entry {
         stem,
-        kernel: "sraa",
+        kernel,
         options,
         unroll,
         transport: None,
@@ -113,7 +83,20 @@ const fn entry(
     }
 }
 
-/// Every file of the set by name: each shader in every language, and its manifest.
+/// Languages that a shader can be written in.
+fn languages(compiled: &Compiled, options: &EmitOptions) -> Result<BTreeSet<Target>, EmitError> {
+    let mut languages = BTreeSet::new();
+    for target in Target::ALL {
+        match compiled.emit(&options.clone().targets([target])) {
+            Ok(_) => drop(languages.insert(target)),
+            Err(EmitError::Missing { .. } | EmitError::Derivatives { .. }) => {}
+            Err(error) => return Err(error),
+        }
+    }
+    Ok(languages)
+}
+
+/// Every file of the set by name: each shader in every language that has what it needs, and its manifest.
 pub fn files() -> Result<BTreeMap<String, Vec<u8>>, Error> {
     let mut all = BTreeMap::new();
     for entry in ENTRIES {
@@ -131,10 +114,9 @@ pub fn files() -> Result<BTreeMap<String, Vec<u8>>, Error> {
         let compiled = Kernel::builtin(entry.kernel)
             .and_then(|k| k.compile(&settings))
             .map_err(Error::Kernel)?;
-        // Metal has no fine derivatives.
-        let derivatives = entry.transport == Some(Transport::Derivatives);
-        let targets = Target::MODERN.into_iter().filter(|t| !derivatives || *t != Target::Msl);
-        let emitted = compiled.emit(&EmitOptions::new().stage(entry.stage).targets(targets))?;
+        let options = EmitOptions::new().stage(entry.stage);
+        let languages = languages(&compiled, &options)?;
+        let emitted = compiled.emit(&options.targets(languages))?;
         all.extend(emitted.named(entry.stem));
     }
     Ok(all)

@@ -83,6 +83,12 @@ pub struct LanguageBinding {
     pub binding: u32,
     /// What is to be bound, in words.
     pub what: String,
+    /// Of a combined sampler, the texture.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub texture: Option<String>,
+    /// Of a combined sampler, the sampler; without one it is read texel by texel, so that any sampler will do.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sampler: Option<String>,
 }
 
 /// A value that is interpolated for each fragment.

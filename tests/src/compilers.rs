@@ -8,7 +8,7 @@ use std::process::Command;
 use straightline_codegen::Stage;
 use straightline_codegen::emit::{Emitted, Target};
 
-/// Languages that a compiler reads here.
+/// Languages that a compiler reads here, and that every shader can be written in.
 pub const READ: [Target; 4] = [Target::Wgsl, Target::Glsl450, Target::Spirv, Target::Hlsl];
 
 /// Has every text of a shader read by the compiler of its language.
@@ -37,6 +37,7 @@ pub fn read(emitted: &Emitted) -> Result<(), String> {
             // glslang's HLSL has no half precision.
             Target::Hlsl if half => {}
             Target::Hlsl => hlsl(&path, manifest.stage, &manifest.entry_point)?,
+            Target::Glsl430 | Target::Glsl330 | Target::Essl310 | Target::Essl300 => opengl(&path)?,
             Target::Msl => {}
         }
     }
@@ -69,6 +70,15 @@ pub fn has_tint() -> bool {
 pub fn glsl(path: &Path) -> Result<(), String> {
     let arguments = ["-V", "--target-env", "vulkan1.1", "--quiet", "-o", "/dev/null"];
     run("glslangValidator", "glslang-tools", &arguments, path)
+}
+
+/// glslang on GLSL of OpenGL, as the version that the text states.
+///
+/// # Errors
+///
+/// What it says of a text that it refuses.
+pub fn opengl(path: &Path) -> Result<(), String> {
+    run("glslangValidator", "glslang-tools", &["--quiet"], path)
 }
 
 /// glslang on HLSL.

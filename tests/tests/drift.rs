@@ -51,7 +51,32 @@ fn emission_is_deterministic() {
 
 #[test]
 fn glslang_accepts_the_glsl() {
-    check(&["comp", "frag"], compilers::glsl);
+    check(&["comp", "frag"], |path| {
+        let of_opengl = path
+            .file_stem()
+            .is_some_and(|stem| stem.to_string_lossy().contains('.'));
+        if of_opengl { Ok(()) } else { compilers::glsl(path) }
+    });
+}
+
+#[test]
+fn glslang_accepts_the_glsl_of_opengl() {
+    let opengl = |path: &Path| {
+        [".430.", ".330.", ".es310.", ".es300."]
+            .iter()
+            .any(|v| path.to_string_lossy().contains(v))
+    };
+    let checked = std::fs::read_dir(folder())
+        .expect("shaders-out is there")
+        .filter(|entry| {
+            let path = entry.as_ref().expect("a folder entry").path();
+            let checked = opengl(&path);
+            if checked {
+                compilers::opengl(&path).unwrap_or_else(|why| panic!("{}: {why}", path.display()));
+            }
+            checked
+        });
+    assert!(checked.count() >= 12, "some versions are not there");
 }
 
 #[test]

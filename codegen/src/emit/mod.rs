@@ -243,7 +243,7 @@ pub fn emit(compiled: &Compiled, options: &EmitOptions) -> Result<Emitted, EmitE
                 missing::check(compiled, &resources, *target)?;
                 let mut tree = tree.clone();
                 legalise::glsl(&mut tree, *target == Target::Glsl450);
-                let language = print::Glsl::new(&resources, *target, &tree);
+                let language = print::Glsl::new(&resources, *target);
                 names::assign(&mut tree, &resources, names::Words::Glsl, &language.names());
                 let glsl = print::module(&language, &tree, &print::header(compiled, &counts, &resources));
                 // naga reads no other GLSL.

@@ -7,6 +7,7 @@ use super::{EmitOptions, Target};
 use crate::ir::{Buffer, NodeId, Op, Sampler, Texture, TextureKind, Uniform, Varying};
 use crate::passes::layers_read;
 use crate::pipeline::Compiled;
+use std::collections::BTreeSet;
 use straightline_manifest::{
     Access, Binding, BindingKind, Counts, Dimension, Extent, LanguageBinding, Manifest, Output, Precision, REGION,
     REGION_SIZE, SCHEMA, SampleType, SamplerType, Stage, UniformField, region_fields,
@@ -33,6 +34,15 @@ pub struct BoundTexture {
     pub compared: bool,
 }
 
+/// A texture and the sampler that it is read by, which are one in OpenGL; no sampler for texels and sizes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Combined {
+    /// The texture's index in the graph.
+    pub texture: u32,
+    /// The sampler's index in the graph.
+    pub sampler: Option<u32>,
+}
+
 /// A shader's bindings.
 pub struct Resources {
     /// Name of the entry point.
@@ -48,6 +58,8 @@ pub struct Resources {
     varying_names: Vec<String>,
     /// Textures that are read.
     pub read: Vec<BoundTexture>,
+    /// The ways in which they are read.
+    pub combined: Vec<Combined>,
     /// Index and binding number of each buffer that is read.
     pub read_buffers: Vec<(u32, u32)>,
     /// Index and binding number of each sampler that is used.
@@ -111,6 +123,22 @@ impl Resources {
                 ),
             });
         }
+        // Texels and sizes are to be had of a texture whatever sampler it is read by, unless that compares.
+        let mut combined = Vec::new();
+        for bound in &read {
+            let texture = bound.index;
+            let of_texture = |op: &&&Op| op.texture() == Some(texture);
+            let samplers: BTreeSet<u32> = ops.iter().filter(of_texture).filter_map(|op| op.sampler()).collect();
+            let texels = ops.iter().filter(of_texture).any(|op| op.sampler().is_none());
+            let plain = texels || samplers.is_empty() || (needs_size && framed(&texture));
+            if plain && samplers.iter().all(|s| graph.samplers[*s as usize].comparison) {
+                combined.push(Combined { texture, sampler: None });
+            }
+            combined.extend(samplers.into_iter().map(|sampler| Combined {
+                texture,
+                sampler: Some(sampler),
+            }));
+        }
         let mut bound = |len: usize, used: &dyn Fn(u32) -> bool| -> Vec<(u32, u32)> {
             (0..len as u32).filter(|k| used(*k)).map(|k| (k, number())).collect()
         };
@@ -160,6 +188,7 @@ impl Resources {
             varying_names: graph.varyings.iter().map(|v| v.name.clone()).collect(),
             uniforms: uniforms.into_iter().cloned().collect(),
             read,
+            combined,
             read_buffers,
             used_samplers,
             fields,
@@ -267,16 +296,37 @@ impl Resources {
         needed.map(|(_, name)| name.to_owned()).collect()
     }
 
+    /// The name of a combined sampler: that of the texture, unless that is read in several ways.
+    pub fn combined_name(&self, one: Combined) -> String {
+        let texture = &self.texture(one.texture).name;
+        let first = self.combined.iter().find(|other| other.texture == one.texture);
+        match one.sampler {
+            Some(sampler) if first != Some(&one) => format!("{texture}_{}", self.sampler(sampler).name),
+            _ => texture.clone(),
+        }
+    }
+
+    /// Binding number of a texture that is read.
+    pub fn texture_binding(&self, texture: u32) -> Option<u32> {
+        self.read
+            .iter()
+            .find(|bound| bound.index == texture)
+            .map(|bound| bound.binding)
+    }
+
     /// What single languages of the shader bind beside what all of them do.
     fn language_bindings(&self) -> Vec<LanguageBinding> {
         let mut extra = Vec::new();
+        let is_wanted = |target: &Target| self.options.targets.contains(target);
         let mut add = |target: Target, name: &str, what: &str| {
-            if self.options.targets.contains(&target) {
+            if is_wanted(&target) {
                 extra.push(LanguageBinding {
                     language: target.to_string(),
                     name: name.to_owned(),
                     binding: self.sampler_binding(),
                     what: what.to_owned(),
+                    texture: None,
+                    sampler: None,
                 });
             }
         };
@@ -293,6 +343,24 @@ impl Resources {
                 "_buffer_sizes",
                 "a buffer of one u32 for each storage buffer, in order of binding: its length in bytes",
             );
+        }
+        for target in Target::OPENGL.into_iter().filter(is_wanted) {
+            for one in &self.combined {
+                let sampler = one.sampler.map(|sampler| self.sampler(sampler).name.clone());
+                extra.push(LanguageBinding {
+                    language: target.to_string(),
+                    name: self.combined_name(*one),
+                    binding: self.texture_binding(one.texture).unwrap_or_default(),
+                    what: match sampler {
+                        Some(_) => "the texture with the sampler".to_owned(),
+                        None => {
+                            "the texture, with a sampler for the nearest texel and without smaller levels".to_owned()
+                        }
+                    },
+                    texture: Some(self.texture(one.texture).name.clone()),
+                    sampler,
+                });
+            }
         }
         extra
     }

@@ -44,6 +44,9 @@ impl Target {
     /// Languages that every shader can be written in, but for half precision and fine derivatives.
     pub const MODERN: [Target; 5] = [Target::Wgsl, Target::Glsl450, Target::Spirv, Target::Hlsl, Target::Msl];
 
+    /// Languages of OpenGL and OpenGL ES: a texture and its sampler are one there, and uniforms lie in no block.
+    pub const OPENGL: [Target; 4] = [Target::Glsl430, Target::Glsl330, Target::Essl310, Target::Essl300];
+
     /// What files of it end in.
     pub fn extension(self, stage: Stage) -> &'static str {
         match (self, stage) {

@@ -97,6 +97,20 @@ impl Text {
         }
     }
 
+    /// `(condition ? yes : no)`.
+    pub fn choice(condition: &Text, yes: &Text, no: &Text) -> Text {
+        let code = format!("{} ? {}", condition.code, yes.code);
+        let first = Text {
+            breaks: Breaks::Operator(Box::new(condition.clone()), "?".to_owned(), Box::new(yes.clone())),
+            ..Text::name(code)
+        };
+        let whole = Text {
+            breaks: Breaks::Operator(Box::new(first.clone()), ":".to_owned(), Box::new(no.clone())),
+            ..Text::name(format!("{} : {}", first.code, no.code))
+        };
+        Text::list("(".to_owned(), &[&whole], ")")
+    }
+
     /// `op x`.
     pub fn prefix(op: &str, operand: &Text) -> Text {
         Text {

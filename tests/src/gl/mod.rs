@@ -24,8 +24,10 @@
 
 mod context;
 mod draw;
+mod emitted;
 mod link;
 mod program;
 
 pub use context::Context;
+pub use emitted::run as run_emitted;
 pub use program::{Place, Program, Stage, Texture, Uniform, Varying};

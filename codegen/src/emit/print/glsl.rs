@@ -3,7 +3,7 @@
 use super::expr::{float, integer};
 use super::{Language, Text, wrapped_comment};
 use crate::emit::Target;
-use crate::emit::ast::{Builtin, Expr, Module, Op, Ty};
+use crate::emit::ast::{Builtin, Ty};
 use crate::emit::resources::{OUTPUT, Resources, SAMPLER, UNIFORMS};
 use crate::ir::{self, Axis, BinaryOp, Direction, Scalar, TextureKind, Type, UnaryOp};
 use straightline_manifest::{REGION, Stage};
@@ -25,72 +25,26 @@ pub const MESSAGES: [&str; 3] = [
 pub struct Glsl<'a> {
     resources: &'a Resources,
     target: Target,
-    /// In OpenGL, textures with the samplers that they are read by.
-    combined: Vec<Combined>,
-}
-
-/// A texture, and the sampler that it is read by; none for texels and sizes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Combined {
-    texture: u32,
-    sampler: Option<u32>,
 }
 
 impl<'a> Glsl<'a> {
-    /// For a module.
-    pub fn new(resources: &'a Resources, target: Target, module: &Module<'_>) -> Glsl<'a> {
-        let mut combined = Vec::new();
-        let mut see = |expr: &Expr| {
-            if let Op::Ir(op) = &expr.op
-                && let Some(texture) = op.texture()
-            {
-                let sampler = op.sampler();
-                let one = Combined { texture, sampler };
-                if !combined.contains(&one) {
-                    combined.push(one);
-                }
-            }
-        };
-        module.body.iter().for_each(|stmt| stmt.visit(&mut see));
-        // Texels and sizes are to be had of a texture whatever sampler it is read by, unless that compares.
-        let all = combined.clone();
-        combined.retain(|one| {
-            let other = |other: &Combined| {
-                other.texture == one.texture && other.sampler.is_some_and(|s| !resources.sampler(s).comparison)
-            };
-            one.sampler.is_some() || !all.iter().any(other)
-        });
-        Glsl {
-            resources,
-            target,
-            combined,
-        }
+    /// In the GLSL of a target.
+    pub fn new(resources: &'a Resources, target: Target) -> Glsl<'a> {
+        Glsl { resources, target }
     }
 
     fn vulkan(&self) -> bool {
         self.target == Target::Glsl450
     }
 
-    /// The combined sampler that a texture is read by.
-    fn found(&self, texture: u32, sampler: Option<u32>) -> Combined {
-        let one = Combined { texture, sampler };
-        let plain =
-            |c: &&Combined| c.texture == texture && c.sampler.is_none_or(|s| !self.resources.sampler(s).comparison);
-        match self.combined.contains(&one) {
-            true => one,
-            false => self.combined.iter().copied().find(|c| plain(&c)).unwrap_or(one),
-        }
-    }
-
-    /// Its name: that of the texture, unless that is read in several ways.
-    fn combined_name(&self, one: Combined) -> String {
-        let texture = &self.resources.texture(one.texture).name;
-        let first = self.combined.iter().find(|c| c.texture == one.texture);
-        match one.sampler {
-            Some(sampler) if first != Some(&one) => format!("{texture}_{}", self.resources.sampler(sampler).name),
-            None if first != Some(&one) => format!("{texture}_texels"),
-            _ => texture.clone(),
-        }
+    /// Name of the combined sampler that a texture is read by.
+    fn combined(&self, texture: u32, sampler: Option<u32>) -> Text {
+        let r = self.resources;
+        let of_texture = || r.combined.iter().filter(|one| one.texture == texture);
+        let same = of_texture().find(|one| one.sampler == sampler);
+        let plain = || of_texture().find(|one| one.sampler.is_none_or(|s| !r.sampler(s).comparison));
+        let found = same.or_else(plain).or_else(|| of_texture().next());
+        Text::name(found.map_or_else(String::new, |one| r.combined_name(*one)))
     }
 
     /// Names at module scope that this language adds.
@@ -99,7 +53,11 @@ impl<'a> Glsl<'a> {
             true => Vec::new(),
             false => {
                 let uniforms = self.resources.uniforms.iter().map(|u| loose(&u.name));
-                let combined = self.combined.iter().map(|one| self.combined_name(*one));
+                let combined = self
+                    .resources
+                    .combined
+                    .iter()
+                    .map(|one| self.resources.combined_name(*one));
                 combined
                     .chain(uniforms)
                     .chain(["first", "size", "place"].map(region))
@@ -111,7 +69,7 @@ impl<'a> Glsl<'a> {
     /// A texture to take texels of, or the size.
     fn unfiltered(&self, texture: u32) -> Text {
         if !self.vulkan() {
-            return Text::name(self.combined_name(self.found(texture, None)));
+            return self.combined(texture, None);
         }
         let texture = self.resources.texture(texture);
         Text::name(format!("{}({}, {SAMPLER})", plain_sampler(texture.kind), texture.name))
@@ -120,7 +78,7 @@ impl<'a> Glsl<'a> {
     /// A texture with a sampler of the kernel's.
     fn through(&self, kind: &str, texture: u32, sampler: u32) -> Text {
         if !self.vulkan() {
-            return Text::name(self.combined_name(self.found(texture, Some(sampler))));
+            return self.combined(texture, Some(sampler));
         }
         let texture = &self.resources.texture(texture).name;
         Text::name(format!("{kind}({texture}, {})", self.resources.sampler(sampler).name))
@@ -139,8 +97,13 @@ impl<'a> Glsl<'a> {
     /// Types that have no precision of their own in OpenGL ES.
     fn opaque(&self) -> Vec<&'static str> {
         let r = self.resources;
-        let kinds = |kind: TextureKind| self.combined.iter().any(|one| r.texture(one.texture).kind == kind);
-        let compares = self
+        let kinds = |kind: TextureKind| {
+            self.resources
+                .combined
+                .iter()
+                .any(|one| r.texture(one.texture).kind == kind)
+        };
+        let compares = r
             .combined
             .iter()
             .any(|one| one.sampler.is_some_and(|s| r.sampler(s).comparison));
@@ -158,20 +121,24 @@ impl<'a> Glsl<'a> {
     fn opengl(&self) -> String {
         let r = self.resources;
         let mut out = String::new();
-        for one in &self.combined {
-            let Some(bound) = r.read.iter().find(|bound| bound.index == one.texture) else {
-                continue;
-            };
+        for one in &r.combined {
+            let binding = r.texture_binding(one.texture).unwrap_or_default();
             let ty = match one.sampler.is_some_and(|s| r.sampler(s).comparison) {
                 true => "sampler2DShadow",
                 false => plain_sampler(r.texture(one.texture).kind),
             };
-            let layout = match self.combined.iter().filter(|c| c.texture == one.texture).count() {
-                1 => self.layout(bound.binding, "", ""),
+            let layout = match self
+                .resources
+                .combined
+                .iter()
+                .filter(|c| c.texture == one.texture)
+                .count()
+            {
+                1 => self.layout(binding, "", ""),
                 // Two samplers of one texture have two units, which the host numbers.
                 _ => String::new(),
             };
-            out += &format!("{layout}uniform {ty} {};\n", self.combined_name(*one));
+            out += &format!("{layout}uniform {ty} {};\n", r.combined_name(*one));
         }
         for (k, binding) in &r.read_buffers {
             let (name, element) = (&r.buffer(*k).name, type_name(r.buffer(*k).element.into()));
@@ -377,12 +344,12 @@ impl Language for Glsl<'_> {
     }
 
     fn select(&self, _: Ty, condition: &Text, yes: &Text, no: &Text) -> Text {
-        Text::name(format!("({} ? {} : {})", condition.code, yes.code, no.code))
+        Text::choice(condition, yes, no)
     }
 
     fn choose(&self, condition: &Text, yes: &Text, no: &Text) -> Text {
         if !self.vulkan() {
-            return Text::name(format!("({} ? {} : {})", condition.code, yes.code, no.code));
+            return Text::choice(condition, yes, no);
         }
         Text::call("mix", &[no, yes, condition])
     }

@@ -218,12 +218,12 @@ impl Language for Hlsl<'_> {
     }
 
     fn select(&self, _: Ty, condition: &Text, yes: &Text, no: &Text) -> Text {
-        Text::name(format!("({} ? {} : {})", condition.code, yes.code, no.code))
+        Text::choice(condition, yes, no)
     }
 
     // Only of scalars: functions of vectors call those of scalars.
     fn choose(&self, condition: &Text, yes: &Text, no: &Text) -> Text {
-        Text::name(format!("({} ? {} : {})", condition.code, yes.code, no.code))
+        Text::choice(condition, yes, no)
     }
 
     fn construct(&self, ty: Ty, parts: &[&Text]) -> Text {

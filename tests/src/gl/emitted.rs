@@ -1,0 +1,122 @@
+//! Running what the generator emits for OpenGL, by its manifest.
+
+use super::{Context, Program, Texture, Uniform};
+use straightline_codegen::emit::{Emitted, Target};
+use straightline_codegen::{Format, Stage};
+use straightline_kernels::prelude::{Frame, Vec4};
+use straightline_manifest::{BindingKind, Manifest, SampleType, UniformField};
+use straightline_study::execute::{Inputs, SamplerState};
+
+/// The picture that the text of a language of OpenGL computes, row by row from the first; pixel rows count as the kernel's do.
+///
+/// # Errors
+///
+/// It is not among the files, or what the driver says.
+pub fn run(context: &Context, emitted: &Emitted, target: Target, inputs: &Inputs) -> Result<Frame<Vec4>, String> {
+    let bytes = emitted.files.get(&target);
+    let bytes = bytes.ok_or_else(|| format!("it was not emitted in {target}"))?;
+    let text = String::from_utf8_lossy(bytes);
+    let manifest = &emitted.manifest;
+    let size = inputs.size.to_array();
+    let mut program = match (manifest.stage, manifest.workgroup_size) {
+        (Stage::Compute, Some([width, height, _])) => {
+            let covered = [width * manifest.block[0], height * manifest.block[1]];
+            Program::compute(&text, size, covered, manifest.output.binding.unwrap_or_default())
+        }
+        _ => Program::fragment(&text, size),
+    };
+    if manifest.output.format != Format::Rgba32Float {
+        program = program.format(manifest.output.format);
+    }
+    let language = target.to_string();
+    for extra in manifest
+        .language_bindings
+        .iter()
+        .filter(|extra| extra.language == language)
+    {
+        let of = extra.texture.as_deref().ok_or("only textures have samplers")?;
+        program = program.texture(texture(manifest, inputs, &extra.name, of, extra.sampler.as_deref())?);
+    }
+    for binding in &manifest.bindings {
+        match &binding.kind {
+            BindingKind::Uniform { fields, .. } => {
+                for field in fields {
+                    program = program.uniform(&field.name, value(field, inputs)?);
+                }
+            }
+            BindingKind::Buffer { element, .. } => {
+                let elements = inputs.buffers.iter().find(|(name, _)| *name == binding.name);
+                let (_, elements) = elements.ok_or_else(|| format!("no buffer `{}`", binding.name))?;
+                let lanes = element
+                    .strip_prefix("vec")
+                    .map_or(1, |rest| usize::from(rest.as_bytes()[0] - b'0'));
+                let bytes = elements
+                    .iter()
+                    .flat_map(|e| e[..lanes].iter().flat_map(|x| word(element, *x)));
+                program = program.buffer(binding.binding, bytes.collect());
+            }
+            BindingKind::Texture { .. } | BindingKind::Sampler { .. } => {}
+        }
+    }
+    let pixels = context.run(&program)?;
+    Ok(Frame::new(
+        inputs.size,
+        pixels.into_iter().map(Vec4::from_array).collect(),
+    ))
+}
+
+/// The bytes of a number as an element of a buffer.
+fn word(element: &str, x: f64) -> [u8; 4] {
+    match element.chars().last() {
+        Some('f') => (x as f32).to_le_bytes(),
+        _ if element.starts_with('f') => (x as f32).to_le_bytes(),
+        _ if element.contains('u') => (x as u32).to_le_bytes(),
+        _ => (x as i32).to_le_bytes(),
+    }
+}
+
+fn texture(
+    manifest: &Manifest,
+    inputs: &Inputs,
+    name: &str,
+    of: &str,
+    sampler: Option<&str>,
+) -> Result<Texture, String> {
+    let images = inputs.images.iter().find(|(known, _)| known == of);
+    let (_, images) = images.ok_or_else(|| format!("no image `{of}`"))?;
+    let bound = manifest.bindings.iter().find(|binding| binding.name == of);
+    let layered = bound.is_some_and(|binding| {
+        let dimension = |kind: &BindingKind| matches!(kind, BindingKind::Texture { dimension, .. } if *dimension == straightline_manifest::Dimension::D2Array);
+        dimension(&binding.kind)
+    });
+    let mut texture = match layered {
+        true => Texture::array(name, images),
+        false => Texture::image(name, images.first().ok_or("an image has a layer")?),
+    };
+    if let Some(sampler) = sampler {
+        let state = inputs.samplers.iter().find(|(known, _)| known == sampler);
+        texture = texture.sampler(state.map_or_else(SamplerState::default, |(_, state)| *state));
+        let compares = bound.is_some_and(|binding| {
+            matches!(&binding.kind, BindingKind::Texture { sample_type, .. } if *sample_type == SampleType::Depth)
+        });
+        if compares {
+            texture = texture.compares();
+        }
+    }
+    Ok(texture)
+}
+
+fn value(field: &UniformField, inputs: &Inputs) -> Result<Uniform, String> {
+    let given = inputs.uniforms.iter().find(|(name, _)| *name == field.name);
+    let lanes = match (given, field.default) {
+        (Some((_, lanes)), _) => lanes.clone(),
+        (None, Some(default)) => vec![default],
+        (None, None) => return Err(format!("the uniform `{}` is not set", field.name)),
+    };
+    let kind = field.ty.chars().last().unwrap_or('f');
+    Ok(match (field.ty.as_str(), kind) {
+        ("f32", _) | (_, 'f') => Uniform::Float(lanes.iter().map(|x| *x as f32).collect()),
+        ("u32", _) | (_, 'u') => Uniform::Uint(lanes.iter().map(|x| *x as u32).collect()),
+        _ => Uniform::Int(lanes.iter().map(|x| *x as i32).collect()),
+    })
+}
