@@ -14,10 +14,11 @@
 //!
 //! The crate then says `straightline_runtime::include_shaders!();` where it wants the modules.
 
+use crate::compiled::Compiled;
 use crate::diagnostic::Errors;
 use crate::emit::{self, EmitError, EmitOptions, Target};
 use crate::files::{self, WriteError};
-use crate::pipeline::{Compiled, Kernel, Settings};
+use crate::pipeline::{Kernel, Settings};
 use crate::policy::{Branches, Unroll};
 use std::collections::BTreeMap;
 use std::fmt;

@@ -1,9 +1,10 @@
 //! The shaders that are emitted and checked in as `shaders-out/`: SRAA with its default options, for 4 and for 16
 //! samples, and with its loops left in the shader; an edge filter; and filters of quads.
 
+use crate::compiled::Compiled;
 use crate::diagnostic::Errors;
 use crate::emit::{EmitError, EmitOptions, Target};
-use crate::pipeline::{Compiled, Kernel, Settings};
+use crate::pipeline::{Kernel, Settings};
 use crate::policy::{Transport, Unroll};
 use std::collections::{BTreeMap, BTreeSet};
 use straightline_manifest::Stage;

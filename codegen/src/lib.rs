@@ -11,6 +11,7 @@
 //! # Ok::<(), straightline_codegen::diagnostic::Errors>(())
 //! ```
 
+mod compiled;
 pub mod config;
 pub mod default_set;
 pub mod diagnostic;
@@ -19,6 +20,7 @@ mod eval;
 pub mod files;
 mod front;
 mod infer;
+pub mod interp;
 pub mod ir;
 pub mod passes;
 mod pipeline;
@@ -26,10 +28,11 @@ pub mod policy;
 mod shorten;
 mod suggest;
 
+pub use compiled::Compiled;
 pub use config::{Config, compile};
 pub use emit::EmitOptions;
 pub use eval::{LoopReport, OptionInfo, OptionKind};
-pub use pipeline::{Compiled, Kernel, Observer, Settings};
+pub use pipeline::{Kernel, Observer, Settings};
 pub use policy::{Branches, Transport, Unroll};
 pub use shorten::shorten;
 pub use straightline_manifest::{Format, Manifest, Precision, Stage};

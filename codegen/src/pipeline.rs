@@ -1,18 +1,18 @@
 //! The stages from text to graph, in order.
 
+use crate::compiled::Compiled;
 use crate::diagnostic::{Diagnostic, Errors, File};
-use crate::emit::{self, EmitError, EmitOptions, Emitted};
-use crate::eval::{self, LoopReport, OptionInfo};
+use crate::emit;
+use crate::eval::{self, OptionInfo};
 use crate::files;
-use crate::front::{self, Library};
+use crate::front::{self, Library, Parsed};
+use crate::infer;
 use crate::ir::{Graph, Invocation, verify};
-use crate::passes::{self, Schedule};
+use crate::passes;
 use crate::policy::{Branches, LoopPolicy, Policy, Transport, Unroll};
-use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::{Arc, OnceLock};
-use straightline_manifest::Counts;
 
 /// Longest file of a kernel that is read, in bytes.
 const MAX_SOURCE: u64 = 1 << 24;
@@ -78,61 +78,13 @@ impl Default for Settings {
     }
 }
 
-/// A kernel with everything decided, ready to be emitted or interpreted.
-#[derive(Clone, Debug)]
-pub struct Compiled {
-    /// The kernel's name.
-    pub kernel: String,
-    /// What it does, in a line.
-    pub summary: String,
-    /// Every option with its value.
-    pub options: BTreeMap<String, String>,
-    /// Names of the options that are not at their defaults.
-    pub changed: Vec<String>,
-    /// What was asked to become of loops and branches.
-    pub policy: Policy,
-    /// What became of each loop.
-    pub loops: Vec<LoopReport>,
-    /// What is left to compute.
-    pub graph: Graph,
-    /// In which order.
-    pub schedule: Schedule,
-    /// What one invocation executes. `basic_blocks` is what the kernel's own loops and branches make; emission counts them in
-    /// the shader.
-    pub counts: Counts,
-    /// How lanes of quads were asked to hear from each other.
-    pub transport: Option<Transport>,
-    /// Of a kernel whose invocations are lanes, the graph in which one invocation computes the whole quad.
-    pub quad: Option<Arc<Graph>>,
-}
-
 impl Compiled {
-    /// The kernel as a shader, in every language asked for.
-    pub fn emit(&self, options: &EmitOptions) -> Result<Emitted, EmitError> {
-        emit::emit(self, options)
-    }
-
-    /// The kernel with whole quads computed by one invocation, as compute shaders and the interpreter need it; any other
-    /// kernel as it is.
-    pub fn in_blocks(&self) -> Cow<'_, Compiled> {
-        let Some(graph) = &self.quad else {
-            return Cow::Borrowed(self);
-        };
-        let graph = Graph::clone(graph);
-        let schedule = passes::schedule(&graph);
-        let whole = Compiled {
-            counts: passes::count(&graph, &schedule),
-            graph,
-            schedule,
-            quad: None,
-            ..self.clone()
-        };
-        Cow::Owned(whole.with_statements())
-    }
-
     /// With its statements counted.
     fn with_statements(mut self) -> Compiled {
         self.counts.statements = emit::statements(&self);
+        if self.quad.is_some() {
+            self.quad_statements = emit::statements(&self.in_blocks());
+        }
         self
     }
 
@@ -264,7 +216,9 @@ impl Kernel {
         if let Some(library) = self.library.get() {
             return Ok(Arc::clone(library));
         }
-        let library = Arc::new(front::parse(&self.files, &self.name)?);
+        let Parsed { mut library, reached } = front::parse(&self.files, &self.name)?;
+        infer::infer(&mut library, &reached).map_err(|found| Errors::new(found, &self.files))?;
+        let library = Arc::new(library);
         Ok(Arc::clone(self.library.get_or_init(|| library)))
     }
 
@@ -412,6 +366,7 @@ impl Kernel {
             counts,
             transport: settings.transport,
             quad,
+            quad_statements: 0,
         };
         let compiled = compiled.with_statements();
         within_budget(compiled.counts.statements)?;

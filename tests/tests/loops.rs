@@ -9,7 +9,7 @@ use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Duration;
 use straightline_codegen::emit::Target;
-use straightline_codegen::ir::interp::{Bindings, Image, Interpreter, Texels};
+use straightline_codegen::interp::{Bindings, Image, Interpreter, Texels};
 use straightline_codegen::{Branches, Compiled, EmitOptions, Kernel, Settings, Unroll};
 use straightline_runtime::{Error, Pass, PassOptions};
 use straightline_study::execute::{Inputs, interpret, test_inputs};

@@ -6,7 +6,7 @@ mod common;
 use common::bench;
 use glam::{Vec4, uvec2};
 use std::fmt::Write;
-use straightline_codegen::ir::interp::{Bindings, Image, Interpreter};
+use straightline_codegen::interp::{Bindings, Image, Interpreter};
 use straightline_codegen::{Compiled, Kernel, Settings, Stage, Unroll};
 use straightline_kernels::prelude::Frame;
 use straightline_study::execute::Inputs;

@@ -1,7 +1,7 @@
 //! Rust that binds a shader's inputs by name, for the caller's crate.
 
 use super::parameters;
-use crate::pipeline::Compiled;
+use crate::compiled::Compiled;
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 use straightline_manifest::{

@@ -3,8 +3,8 @@
 use super::error::EmitError;
 use super::resources::Resources;
 use super::target::Target;
+use crate::compiled::Compiled;
 use crate::ir::{Op, TextureKind, UnaryOp};
-use crate::pipeline::Compiled;
 use straightline_manifest::{Precision, Stage};
 
 /// Whether a language has all that a shader needs.

@@ -25,9 +25,9 @@ mod tidy;
 mod translate;
 mod words;
 
+use crate::compiled::Compiled;
 use crate::ir::{Graph, Invocation, Op};
 use crate::passes::Schedule;
-use crate::pipeline::Compiled;
 use crate::policy::Transport;
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
@@ -208,8 +208,19 @@ fn tree<'g>(compiled: &'g Compiled, resources: &resources::Resources) -> ast::Mo
     module
 }
 
+impl Compiled {
+    /// The kernel as a shader, in every language asked for.
+    ///
+    /// # Errors
+    ///
+    /// It cannot be written so: what the stage or the language does not have.
+    pub fn emit(&self, options: &EmitOptions) -> Result<Emitted, EmitError> {
+        emit(self, options)
+    }
+}
+
 /// Emits a kernel. Nothing is given out that naga does not validate.
-pub fn emit(compiled: &Compiled, options: &EmitOptions) -> Result<Emitted, EmitError> {
+fn emit(compiled: &Compiled, options: &EmitOptions) -> Result<Emitted, EmitError> {
     if let Some([x, y]) = options.workgroup
         && (x == 0 || y == 0 || x.saturating_mul(y) > 1024)
     {

@@ -4,9 +4,9 @@ use super::error::EmitError;
 use super::layout::{layout, stride};
 use super::print::{GENERATOR, wgsl_type};
 use super::{EmitOptions, Target};
+use crate::compiled::Compiled;
 use crate::ir::{Buffer, NodeId, Op, Sampler, Texture, TextureKind, Uniform, Varying};
 use crate::passes::layers_read;
-use crate::pipeline::Compiled;
 use std::collections::BTreeSet;
 use straightline_manifest::{
     Access, Binding, BindingKind, Counts, Dimension, Extent, LanguageBinding, Manifest, Output, Precision, REGION,

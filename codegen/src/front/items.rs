@@ -1,5 +1,6 @@
 //! Items of a kernel's files.
 
+use super::Parsed;
 use super::cfg::is_test;
 use super::check::Check;
 use super::expr::Lower;
@@ -371,7 +372,7 @@ impl Items {
     }
 
     /// What `entry` needs, or the errors in it.
-    pub fn lower(mut self, entry: &str) -> Result<Library, Vec<Diagnostic>> {
+    pub fn lower(mut self, entry: &str) -> Result<Parsed, Vec<Diagnostic>> {
         // A method of a type itself goes before one of a trait.
         for (name, errors) in std::mem::take(&mut self.of_traits) {
             if !self.library.functions.contains_key(&name) {
@@ -391,9 +392,10 @@ impl Items {
         if !errors.is_empty() {
             return Err(errors);
         }
-        let mut library = self.library;
-        crate::infer::infer(&mut library, &reached)?;
-        Ok(library)
+        Ok(Parsed {
+            library: self.library,
+            reached,
+        })
     }
 }
 

@@ -20,13 +20,23 @@ pub mod tree;
 
 use crate::diagnostic::{Diagnostic, Errors, File, Span};
 use std::borrow::Cow;
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 pub use scan::{assigned, children};
 pub use tree::Library;
 
+/// What the files of a kernel define.
+#[derive(Debug)]
+pub struct Parsed {
+    /// All of it.
+    pub library: Library,
+    /// What the kernel reaches: the rest may hold anything.
+    pub reached: BTreeSet<String>,
+}
+
 /// Reads all files and lowers what `entry` reaches.
-pub fn parse(files: &Arc<Vec<File>>, entry: &str) -> Result<Library, Errors> {
+pub fn parse(files: &Arc<Vec<File>>, entry: &str) -> Result<Parsed, Errors> {
     let mut errors = Vec::new();
     let mut syntax = Vec::new();
     for (index, file) in files.iter().enumerate() {
@@ -47,11 +57,7 @@ pub fn parse(files: &Arc<Vec<File>>, entry: &str) -> Result<Library, Errors> {
     for (file, parsed) in &mut syntax {
         items.file(*file, parsed);
     }
-    let library = items.lower(entry);
-    match library {
-        Ok(library) => Ok(library),
-        Err(found) => Err(Errors::new(found, files)),
-    }
+    items.lower(entry).map_err(|found| Errors::new(found, files))
 }
 
 /// The text with blanks for a byte order mark and a first line `#!/...`, so that what follows stays in its place.

@@ -35,7 +35,6 @@
 
 pub mod arith;
 mod graph;
-pub mod interp;
 mod op;
 mod origin;
 mod parse;

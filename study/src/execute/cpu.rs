@@ -4,7 +4,7 @@ use super::{ExecuteError, Inputs};
 use glam::Vec4;
 use rayon::prelude::*;
 use straightline_codegen::Compiled;
-use straightline_codegen::ir::interp::{Bindings, Image, Interpreter};
+use straightline_codegen::interp::{Bindings, Image, Interpreter};
 use straightline_codegen::ir::{Op, Real};
 use straightline_kernels::prelude::Frame;
 

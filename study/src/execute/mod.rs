@@ -17,7 +17,7 @@ pub use cpu::{Interpreted, interpret};
 pub use forward::{Corner, Forward};
 pub use gpu::{Bench, Bound, texture_bytes};
 pub use shadowed::Shadowed;
-pub use straightline_codegen::ir::interp::{Address, Comparison, SamplerState};
+pub use straightline_codegen::interp::{Address, Comparison, SamplerState};
 pub use synthetic::test_inputs;
 pub use tiles::{Tile, cropped, tiles};
 pub use timing::{Clock, Job, Ratio, Timed, Times};

@@ -11,9 +11,9 @@ mod webs;
 use super::ast::{Block as Statements, Expr, Module, Op, Stmt, StmtKind, VarId};
 use super::names::Wanted;
 use super::tidy::simplify;
+use crate::compiled::Compiled;
 use crate::ir::{self, BinaryOp, NodeId, Origin, Scalar, TextureKind, Type};
 use crate::passes::{Block, Step};
-use crate::pipeline::Compiled;
 use std::collections::HashSet;
 use webs::Webs;
 

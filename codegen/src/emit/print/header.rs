@@ -1,9 +1,9 @@
 //! The comment that a shader begins with.
 
+use crate::compiled::Compiled;
 use crate::emit::resources::Resources;
 use crate::emit::text::comment;
 use crate::ir::Invocation;
-use crate::pipeline::Compiled;
 use crate::policy::Transport;
 use straightline_manifest::{Counts, Precision};
 

@@ -4,8 +4,8 @@ use super::{Native, Text, World};
 use crate::random::forms::{FORMS, Form, is_internal, same};
 use std::collections::BTreeMap;
 use std::fmt;
+use straightline_codegen::interp::Interpreter;
 use straightline_codegen::ir::Real;
-use straightline_codegen::ir::interp::Interpreter;
 use straightline_codegen::{Compiled, Kernel};
 
 /// How a kernel is not what rustc makes of it.

@@ -2,7 +2,7 @@
 
 use crate::random::Random;
 use std::fmt::Write;
-use straightline_codegen::ir::interp::{Bindings, Image};
+use straightline_codegen::interp::{Bindings, Image};
 
 /// Width and height of the picture.
 pub const SIZE: [u32; 2] = [4, 2];

@@ -4,8 +4,8 @@ mod bindings;
 mod finite;
 mod sampling;
 
-use super::arith::{self, Cells};
-use super::{Counter, Graph, Invocation, NodeId, Op, Real, Region, Scalar, Type};
+use crate::ir::arith::{self, Cells};
+use crate::ir::{Counter, Graph, Invocation, NodeId, Op, Real, Region, Scalar, Type};
 use crate::passes::{Block, Schedule, Step};
 use sampling::Sampled;
 use std::marker::PhantomData;

@@ -1,0 +1,62 @@
+//! A kernel with everything decided: what the interpreter computes and emission writes.
+
+use crate::eval::LoopReport;
+use crate::ir::Graph;
+use crate::passes::{self, Schedule};
+use crate::policy::{Policy, Transport};
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+use std::sync::Arc;
+use straightline_manifest::Counts;
+
+/// A kernel with everything decided, ready to be emitted or interpreted.
+#[derive(Clone, Debug)]
+pub struct Compiled {
+    /// The kernel's name.
+    pub kernel: String,
+    /// What it does, in a line.
+    pub summary: String,
+    /// Every option with its value.
+    pub options: BTreeMap<String, String>,
+    /// Names of the options that are not at their defaults.
+    pub changed: Vec<String>,
+    /// What was asked to become of loops and branches.
+    pub policy: Policy,
+    /// What became of each loop.
+    pub loops: Vec<LoopReport>,
+    /// What is left to compute.
+    pub graph: Graph,
+    /// In which order.
+    pub schedule: Schedule,
+    /// What one invocation executes. `basic_blocks` is what the kernel's own loops and branches make; emission counts them in
+    /// the shader.
+    pub counts: Counts,
+    /// How lanes of quads were asked to hear from each other.
+    pub transport: Option<Transport>,
+    /// Of a kernel whose invocations are lanes, the graph in which one invocation computes the whole quad.
+    pub quad: Option<Arc<Graph>>,
+    /// Statements of that.
+    pub quad_statements: u32,
+}
+
+impl Compiled {
+    /// The kernel with whole quads computed by one invocation, as compute shaders and the interpreter need it; any other
+    /// kernel as it is.
+    pub fn in_blocks(&self) -> Cow<'_, Compiled> {
+        let Some(graph) = &self.quad else {
+            return Cow::Borrowed(self);
+        };
+        let graph = Graph::clone(graph);
+        let schedule = passes::schedule(&graph);
+        let mut counts = passes::count(&graph, &schedule);
+        counts.statements = self.quad_statements;
+        let whole = Compiled {
+            counts,
+            graph,
+            schedule,
+            quad: None,
+            ..self.clone()
+        };
+        Cow::Owned(whole)
+    }
+}
