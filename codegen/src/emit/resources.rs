@@ -374,6 +374,23 @@ impl Resources {
                 "a buffer of one u32 for each storage buffer, in order of binding: its length in bytes",
             );
         }
+        if is_wanted(&Target::Hlsl) {
+            let renamed = self.for_hlsl();
+            let numbers = self.read.iter().map(|bound| bound.binding);
+            let numbers = numbers.chain(self.read_buffers.iter().chain(&self.used_samplers).map(|(_, n)| *n));
+            for ((name, other), binding) in self.names().zip(renamed.names()).zip(numbers) {
+                if name != other {
+                    extra.push(LanguageBinding {
+                        language: Target::Hlsl.to_string(),
+                        name: other.to_owned(),
+                        binding,
+                        what: format!("`{name}`, which is a word of HLSL"),
+                        texture: None,
+                        sampler: None,
+                    });
+                }
+            }
+        }
         for target in Target::OPENGL.into_iter().filter(is_wanted) {
             for one in &self.combined {
                 let sampler = one.sampler.map(|sampler| self.sampler(sampler).name.clone());
