@@ -63,7 +63,8 @@ pub struct Manifest {
     pub options: BTreeMap<String, String>,
     /// What one invocation executes.
     pub counts: Counts,
-    /// File of each target that was written, by target name (`wgsl`, `glsl450`, `spirv`, `hlsl`, `msl`).
+    /// File of each target that was written, by target name (`wgsl`, `glsl450`, `glsl430`, `glsl330`,
+    /// `essl310`, `essl300`, `spirv`, `hlsl`, `msl`).
     #[serde(default)]
     pub files: BTreeMap<String, String>,
     /// Of a shader that `straightline tune` chose: what was left out, and what that cost.

@@ -160,7 +160,7 @@ pub struct EmitArgs {
     /// Pipeline stage
     #[arg(long, value_enum, default_value = "compute")]
     pub stage: StageArg,
-    /// Languages to write, separated by commas: wgsl, glsl450, spirv, hlsl, msl
+    /// Languages to write, separated by commas: wgsl, glsl450, glsl430, glsl330, essl310, essl300, spirv, hlsl, msl
     #[arg(long, value_name = "LANGUAGES", value_delimiter = ',', default_value = "wgsl", value_parser = |s: &str| s.parse::<Target>())]
     pub target: Vec<Target>,
     /// Texel format of the output: rgba8unorm, rgba16float or rgba32float

@@ -27,7 +27,7 @@ pub struct TuneArgs {
     /// Give all variants an option; may be given several times. One that is searched is then not
     #[arg(long = "set", value_name = "OPTION=VALUE", value_parser = pair)]
     pub set: Vec<(String, String)>,
-    /// Languages of the shader, separated by commas: wgsl, glsl450, spirv, hlsl, msl
+    /// Languages of the shader, separated by commas: wgsl, glsl450, glsl430, glsl330, essl310, essl300, spirv, hlsl, msl
     #[arg(long, value_name = "LANGUAGES", value_delimiter = ',', default_value = "wgsl", value_parser = |s: &str| s.parse::<Target>())]
     pub target: Vec<Target>,
     /// Texel format of the shader's output: rgba8unorm, rgba16float or rgba32float

@@ -278,7 +278,14 @@ fn emit(compiled: &Compiled, options: &EmitOptions) -> Result<Emitted, EmitError
                     target: "msl",
                 });
             }
-            Target::Msl => module.msl(&resources)?.into_bytes(),
+            Target::Msl => {
+                let mut header = print::header(compiled, &counts, &resources);
+                header.push(
+                    "Translated by naga; resources are bound at the numbers of the manifest, each kind by itself."
+                        .to_owned(),
+                );
+                format!("{}\n{}", print::commented(&header), module.msl(&resources)?).into_bytes()
+            }
         };
         files.insert(*target, bytes);
     }

@@ -1,7 +1,7 @@
 //! GLSL 4.50 for Vulkan, with separate textures; GLSL of OpenGL and OpenGL ES, with combined samplers and loose uniforms.
 
 use super::expr::{float, integer};
-use super::{Language, Text, wrapped_comment};
+use super::{Language, Text, commented};
 use crate::emit::Target;
 use crate::emit::ast::{Builtin, Ty};
 use crate::emit::resources::{OUTPUT, Resources, SAMPLER, UNIFORMS};
@@ -402,10 +402,7 @@ impl Language for Glsl<'_> {
         if r.subgroups {
             out += "#extension GL_KHR_shader_subgroup_quad : require\n";
         }
-        for line in header {
-            out += &wrapped_comment(line, 0);
-            out.push('\n');
-        }
+        out += &commented(header);
         if !r.read.is_empty() && self.vulkan() {
             out +=
                 "// GLSL names a texture together with a sampler even where it filters nothing: any sampler will do.\n";

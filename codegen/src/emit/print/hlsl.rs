@@ -1,7 +1,7 @@
 //! HLSL of shader model 5.1 and later.
 
 use super::expr::{float, integer};
-use super::{Language, Text, wrapped_comment};
+use super::{Language, Text, commented};
 use crate::emit::ast::{Builtin, Expr, Module, Op, Ty};
 use crate::emit::resources::{OUTPUT, Resources, UNIFORMS};
 use crate::ir::{self, Axis, BinaryOp, Direction, Scalar, TextureKind, Type, UnaryOp};
@@ -287,10 +287,7 @@ impl Language for Hlsl<'_> {
     fn preamble(&self, header: &[String]) -> String {
         let r = self.resources;
         let mut out = String::new();
-        for line in header {
-            out += &wrapped_comment(line, 0);
-            out.push('\n');
-        }
+        out += &commented(header);
         out.push('\n');
         for bound in &r.read {
             let texture = r.texture(bound.index);

@@ -127,6 +127,11 @@ pub fn module(language: &dyn Language, module: &Module<'_>, header: &[String]) -
     out
 }
 
+/// A header as comments, a line each.
+pub fn commented(header: &[String]) -> String {
+    header.iter().map(|line| wrapped_comment(line, 0) + "\n").collect()
+}
+
 /// Prints what a module's trees say.
 struct Printer<'m> {
     language: &'m dyn Language,

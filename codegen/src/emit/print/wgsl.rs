@@ -1,7 +1,7 @@
 //! WGSL as WebGPU and wgpu read it.
 
 use super::expr::{float, integer};
-use super::{Language, Text, wrapped_comment};
+use super::{Language, Text, commented};
 use crate::emit::ast::{Builtin, Ty};
 use crate::emit::resources::{OUTPUT, Resources, UNIFORMS};
 use crate::ir::{self, Axis, BinaryOp, Direction, Scalar, TextureKind, Type, UnaryOp};
@@ -228,10 +228,7 @@ impl Language for Wgsl<'_> {
         if r.options.precision == Precision::F16 {
             out += "enable f16;\n\n";
         }
-        for line in header {
-            out += &wrapped_comment(line, 0);
-            out.push('\n');
-        }
+        out += &commented(header);
         out.push('\n');
         let mut bind = |binding: u32, what: String| {
             let _ = writeln!(out, "@group(0) @binding({binding}) var{what};");

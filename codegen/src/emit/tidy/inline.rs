@@ -61,6 +61,12 @@ impl Inliner<'_> {
         assigned: &HashMap<VarId, usize>,
         depth: usize,
     ) {
+        // The end of a loop is computed again for each iteration: what it reads must not change, and be quick to tell.
+        let is_loop = matches!(stmt.kind, StmtKind::For { .. });
+        let mut written = HashSet::new();
+        assignments(stmt, &mut written);
+        let suits =
+            |value: &Expr| !is_loop || (operations(value) <= 2 && !reads_memory(value) && !reads_any(value, &written));
         loop {
             let mut candidates = Vec::new();
             for expr in stmt.own() {
@@ -72,6 +78,7 @@ impl Inliner<'_> {
                             ..
                         }) = &out[*at]
                         && !changed_since(value, *at, assigned)
+                        && suits(value)
                     {
                         candidates.push((self.columns.of(value), var, *at));
                     }
@@ -124,6 +131,26 @@ pub fn operations(expr: &Expr) -> usize {
         count += usize::from(!free);
     });
     count
+}
+
+/// Whether an expression reads an array or what the host binds.
+fn reads_memory(expr: &Expr) -> bool {
+    let mut reads = false;
+    expr.visit(&mut |expr| {
+        reads |= match &expr.op {
+            Op::Index { .. } => true,
+            Op::Ir(op) => op.is_read(),
+            _ => false,
+        };
+    });
+    reads
+}
+
+/// Whether an expression reads one of some variables.
+fn reads_any(expr: &Expr, vars: &HashSet<VarId>) -> bool {
+    let mut reads = false;
+    expr.visit(&mut |expr| reads |= matches!(expr.op, Op::Var(var) if vars.contains(&var)));
+    reads
 }
 
 /// Whether a variable that a value reads was assigned after a statement.
