@@ -1,6 +1,6 @@
 //! Names of values: from the kernel's own variables and the counters of the loops that they were made in.
 
-use super::ast::{Module, Stmt, StmtKind, VarId};
+use super::ast::{Module, Stmt, StmtKind, VarId, Variable};
 use super::resources::{OUTPUT, Resources, SAMPLER, UNIFORMS};
 use crate::ir::{BinaryOp, Counter, Graph, NodeId, Op, Origin, Scalar, Type, UnaryOp};
 use std::collections::{BTreeSet, HashMap, HashSet};
@@ -233,31 +233,58 @@ pub fn assign(module: &mut Module<'_>, resources: &Resources, words: Words, othe
         let variable = &mut module.variables[var.0 as usize];
         variable.name = fresh(&mut taken, &variable.name, words);
     }
-    let mut rename = |scope: &mut HashSet<String>, vars: Vec<VarId>| {
-        for var in vars.into_iter().filter(|var| *var > VarId::PLACE) {
-            let variable = &mut module.variables[var.0 as usize];
-            variable.name = fresh(scope, &variable.name, words);
-        }
+    let mut scopes = Scopes {
+        variables: &mut module.variables,
+        words,
+        taken: &mut taken,
     };
     for function in &module.functions {
-        let mut vars = function.params.clone();
-        declared(&function.body, &mut vars);
-        rename(&mut taken.clone(), vars);
+        let declared: Vec<String> = function.params.iter().map(|param| scopes.declare(*param)).collect();
+        scopes.block(&function.body);
+        scopes.leave(declared);
     }
-    let mut vars = Vec::new();
-    declared(&module.body, &mut vars);
-    rename(&mut taken, vars);
+    scopes.block(&module.body);
 }
 
-/// Variables that a block declares, in order.
-fn declared(block: &[Stmt<'_>], out: &mut Vec<VarId>) {
-    for stmt in block {
-        match stmt.kind {
-            StmtKind::Let(var, _) | StmtKind::Var(var, _) => out.push(var),
-            StmtKind::For { counter, .. } => out.push(counter),
-            _ => {}
+/// Names in scopes: what is declared in a block is free again after it.
+struct Scopes<'m> {
+    variables: &'m mut [Variable],
+    words: Words,
+    taken: &'m mut HashSet<String>,
+}
+
+impl Scopes<'_> {
+    fn block(&mut self, block: &[Stmt<'_>]) {
+        let mut declared = Vec::new();
+        for stmt in block {
+            match stmt.kind {
+                StmtKind::Let(var, _) | StmtKind::Var(var, _) => declared.push(self.declare(var)),
+                StmtKind::For { counter, .. } => {
+                    let name = self.declare(counter);
+                    stmt.blocks().into_iter().for_each(|inner| self.block(inner));
+                    self.leave(vec![name]);
+                }
+                _ => stmt.blocks().into_iter().for_each(|inner| self.block(inner)),
+            }
         }
-        stmt.blocks().into_iter().for_each(|inner| declared(inner, out));
+        self.leave(declared);
+    }
+
+    /// Gives a variable its name. The entry point's own are named as they are.
+    fn declare(&mut self, var: VarId) -> String {
+        let variable = &mut self.variables[var.0 as usize];
+        if var > VarId::PLACE {
+            variable.name = fresh(self.taken, &variable.name, self.words);
+        }
+        variable.name.clone()
+    }
+
+    fn leave(&mut self, declared: Vec<String>) {
+        for name in declared {
+            if !OWN.contains(&name.as_str()) && !OF_REGIONS.contains(&name.as_str()) {
+                self.taken.remove(&name);
+            }
+        }
     }
 }
 

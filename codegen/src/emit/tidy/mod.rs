@@ -1,5 +1,6 @@
 //! Rules that make a tree read as a colleague would have written it. None changes what is computed, by a single bit.
 
+mod coalesce;
 mod columns;
 mod dead;
 mod inline;
@@ -14,6 +15,7 @@ pub use simplify::simplify;
 pub fn tidy(module: &mut Module<'_>, graph: &Graph) {
     module.rewrite(&mut |_, expr| simplify(expr));
     dead::remove(module);
+    coalesce::coalesce(&mut module.body);
     inline::inline(module, graph);
     // What was inlined has new neighbours, and what is shorter now may be inlined.
     module.rewrite(&mut |_, expr| simplify(expr));

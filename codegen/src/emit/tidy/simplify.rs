@@ -159,7 +159,9 @@ fn together(op: BinaryOp, expr: Expr) -> Expr {
                 (false, false) => joined(left, right),
             };
             match joined {
-                Some(both) if is_comparison(&both) => Expr::new(quantifier, vec![both], Type::BOOL),
+                Some(both) if is_comparison(&both) || !both.ty.is_scalar() => {
+                    Expr::new(quantifier, vec![both], Type::BOOL)
+                }
                 _ => expr,
             }
         }

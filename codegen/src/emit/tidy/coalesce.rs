@@ -1,0 +1,118 @@
+//! No second variable for what is copied back: `var b = a; if c { b = f(a); } a = b;` is `if c { a = f(a); }`.
+
+use crate::emit::ast::{Block, Expr, Op, Stmt, StmtKind, VarId};
+
+/// Merges such variables, innermost blocks first.
+pub fn coalesce(block: &mut Block<'_>) {
+    for stmt in &mut *block {
+        stmt.blocks_mut().into_iter().for_each(coalesce);
+    }
+    let mut k = 0;
+    while k < block.len() {
+        match copied_back(block, k) {
+            Some((copy, original, last)) => {
+                block.remove(last);
+                block.remove(k);
+                block[k..last - 1]
+                    .iter_mut()
+                    .for_each(|stmt| rename(stmt, copy, original));
+            }
+            None => k += 1,
+        }
+    }
+}
+
+/// If statement `k` copies a variable which a later one copies back, and none but the copy is changed between: the copy, the
+/// original and the later statement.
+fn copied_back(block: &[Stmt<'_>], k: usize) -> Option<(VarId, VarId, usize)> {
+    let StmtKind::Var(copy, Some(value)) = &block[k].kind else {
+        return None;
+    };
+    let (copy, original) = (*copy, as_var(value)?);
+    let back = |stmt: &Stmt<'_>| match &stmt.kind {
+        StmtKind::Assign(place, None, value) => as_var(place) == Some(original) && as_var(value) == Some(copy),
+        _ => false,
+    };
+    let last = k + 1 + block[k + 1..].iter().position(back)?;
+    let mut changed = false;
+    let kept = block[k + 1..last]
+        .iter()
+        .all(|stmt| keeps(stmt, copy, original, &mut changed));
+    let unused = block[last + 1..].iter().all(|stmt| !mentions(stmt, copy));
+    (kept && unused).then_some((copy, original, last))
+}
+
+/// Whether a statement leaves the original as it is, and does not read it once the copy is `changed`.
+fn keeps(stmt: &Stmt<'_>, copy: VarId, original: VarId, changed: &mut bool) -> bool {
+    let reads = |expr: &Expr| {
+        let mut reads = false;
+        expr.visit(&mut |expr| reads |= as_var(expr) == Some(original));
+        reads
+    };
+    match &stmt.kind {
+        StmtKind::Assign(place, _, value) => {
+            let target = root(place);
+            let index = place.args.iter().skip(1).any(reads);
+            if target == Some(original) || ((reads(value) || index) && *changed) {
+                return false;
+            }
+            *changed |= target == Some(copy);
+            true
+        }
+        StmtKind::If {
+            condition,
+            then,
+            otherwise,
+        } => {
+            if reads(condition) && *changed {
+                return false;
+            }
+            let (mut first, mut second) = (*changed, *changed);
+            let sides = then.iter().all(|stmt| keeps(stmt, copy, original, &mut first))
+                && otherwise.iter().all(|stmt| keeps(stmt, copy, original, &mut second));
+            *changed |= first | second;
+            sides
+        }
+        // Iterations see what those before have changed.
+        StmtKind::For { .. } => {
+            !(mentions(stmt, copy) && mentions(stmt, original)) && !(*changed && mentions(stmt, original)) && {
+                *changed |= mentions(stmt, copy);
+                !assigns(stmt, original)
+            }
+        }
+        _ => !(*changed && stmt.own().into_iter().any(reads)),
+    }
+}
+
+fn as_var(expr: &Expr) -> Option<VarId> {
+    match expr.op {
+        Op::Var(var) => Some(var),
+        _ => None,
+    }
+}
+
+/// The variable that a place is a part of.
+fn root(place: &Expr) -> Option<VarId> {
+    match place.op {
+        Op::Index { .. } | Op::Swizzle(_) => root(&place.args[0]),
+        _ => as_var(place),
+    }
+}
+
+fn mentions(stmt: &Stmt<'_>, var: VarId) -> bool {
+    let mut found = false;
+    stmt.visit(&mut |expr| found |= as_var(expr) == Some(var));
+    found
+}
+
+fn assigns(stmt: &Stmt<'_>, var: VarId) -> bool {
+    matches!(&stmt.kind, StmtKind::Assign(place, ..) if root(place) == Some(var))
+        || stmt.blocks().into_iter().flatten().any(|stmt| assigns(stmt, var))
+}
+
+fn rename(stmt: &mut Stmt<'_>, from: VarId, to: VarId) {
+    stmt.rewrite(&mut |expr| match expr.op {
+        Op::Var(var) if var == from => Expr::var(to, expr.ty),
+        _ => expr,
+    });
+}
