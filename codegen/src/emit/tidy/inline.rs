@@ -61,6 +61,11 @@ impl Inliner<'_> {
         assigned: &HashMap<VarId, usize>,
         depth: usize,
     ) {
+        // A loop evaluates its bound again after what its body assigns.
+        let mut repeated = HashSet::new();
+        if let StmtKind::For { .. } = stmt.kind {
+            assignments(stmt, &mut repeated);
+        }
         loop {
             let mut candidates = Vec::new();
             for expr in stmt.own() {
@@ -71,7 +76,8 @@ impl Inliner<'_> {
                             kind: StmtKind::Let(_, value),
                             ..
                         }) = &out[*at]
-                        && !changed_since(value, *at, assigned)
+                        && !reads(value, |var| assigned.get(&var).is_some_and(|when| when > at))
+                        && !reads(value, |var| repeated.contains(&var))
                     {
                         candidates.push((self.columns.of(value), var, *at));
                     }
@@ -126,15 +132,15 @@ pub fn operations(expr: &Expr) -> usize {
     count
 }
 
-/// Whether a variable that a value reads was assigned after a statement.
-fn changed_since(value: &Expr, at: usize, assigned: &HashMap<VarId, usize>) -> bool {
-    let mut changed = false;
+/// Whether a value reads a variable of some kind.
+fn reads(value: &Expr, is: impl Fn(VarId) -> bool) -> bool {
+    let mut found = false;
     value.visit(&mut |expr| {
         if let Op::Var(var) = expr.op {
-            changed |= assigned.get(&var).is_some_and(|when| *when > at);
+            found |= is(var);
         }
     });
-    changed
+    found
 }
 
 /// Variables that a statement assigns to.
