@@ -1,18 +1,35 @@
-//! The graph as text: passes on `tests/filetests/*.ir`, and printing and parsing there and back.
+//! The graph as text: passes and emission on `tests/filetests/*/*.ir`, and printing and parsing there and back.
 //!
-//! A case says `// run: PASS` and holds, after a line `// gives`, what the pass makes of the graph before it; or
-//! `// verify: TEXT` or `// parse: TEXT`, what is said of it. `STRAIGHTLINE_BLESS=1` writes what passes give now.
+//! A case is a graph of a few nodes, and says in a directive what is done with it:
+//!
+//! - `// run: PASS`: after a line `// gives` stands the graph that the pass makes of it.
+//! - `// emit: TARGET`: after `// gives` stand the statements that are emitted for it, without bindings and without what every
+//!   entry point begins with. `// emit: TARGET fragment` emits a fragment shader, `half` in half precision. The
+//!   language's compiler reads the shader.
+//! - `// verify: TEXT` or `// parse: TEXT`: the error contains the text.
+//!
+//! `STRAIGHTLINE_BLESS=1` rewrites what stands after `// gives`.
 
+use rayon::prelude::*;
 use std::path::{Path, PathBuf};
-use straightline_codegen::ir::{parse, print, verify};
-use straightline_codegen::{Kernel, Settings, Unroll, passes};
+use straightline_codegen::emit::Target;
+use straightline_codegen::ir::{Graph, parse, print, verify};
+use straightline_codegen::{Compiled, EmitOptions, Kernel, Precision, Settings, Stage, Unroll, passes};
+use straightline_tests::compilers;
 
 const GIVES: &str = "// gives\n";
 
+/// Lines that a case of emission may have.
+const LONGEST: usize = 30;
+
 fn cases() -> Vec<PathBuf> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("filetests");
-    let entries = std::fs::read_dir(folder).expect("tests/filetests");
-    let mut paths: Vec<PathBuf> = entries.map(|e| e.expect("an entry").path()).collect();
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("filetests");
+    let entries = |folder: &Path| -> Vec<PathBuf> {
+        let entries = std::fs::read_dir(folder).unwrap_or_else(|e| panic!("{}: {e}", folder.display()));
+        entries.map(|entry| entry.expect("an entry").path()).collect()
+    };
+    let folders = entries(&root);
+    let mut paths: Vec<PathBuf> = folders.iter().flat_map(|folder| entries(folder)).collect();
     paths.sort();
     paths
 }
@@ -23,7 +40,7 @@ fn directive<'t>(text: &'t str, name: &str) -> Option<&'t str> {
 }
 
 /// The case with what it gives now.
-fn now(text: &str) -> Result<String, String> {
+fn now(text: &str, template: &Compiled) -> Result<String, String> {
     let input = text.split(GIVES).next().unwrap_or_default();
     let parsed = parse(input);
     if let Some(expected) = directive(text, "parse") {
@@ -41,6 +58,14 @@ fn now(text: &str) -> Result<String, String> {
         };
     }
     verified?;
+    if let Some(how) = directive(text, "emit") {
+        let case = format!("{input}{GIVES}{}", emitted(graph, how, template)?);
+        let lines = case.lines().count();
+        return match lines < LONGEST {
+            true => Ok(case),
+            false => Err(format!("{lines} lines: a case has less than {LONGEST}\n{case}")),
+        };
+    }
     let made = match directive(text, "run").ok_or("no directive")? {
         "clean" => passes::clean(&graph),
         "share-loads" => passes::share_loads(&graph),
@@ -50,20 +75,97 @@ fn now(text: &str) -> Result<String, String> {
     Ok(format!("{input}{GIVES}{}", print(&made)))
 }
 
-#[test]
-fn passes_give_what_the_files_say() {
-    let bless = std::env::var_os("STRAIGHTLINE_BLESS").is_some();
-    let cases = cases();
-    assert!(cases.len() >= 15);
-    for path in cases {
-        let text = std::fs::read_to_string(&path).expect("a case");
-        let found = now(&text).unwrap_or_else(|why| panic!("{}: {why}", path.display()));
-        if bless {
-            std::fs::write(&path, found).expect("the case is written");
-        } else {
-            assert_eq!(text, found, "{}: bless with STRAIGHTLINE_BLESS=1", path.display());
+/// A kernel whose graph and schedule are replaced by those of the cases.
+fn template() -> Compiled {
+    let text = "pub fn tested(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 { color.load(pixel) }";
+    let kernel = Kernel::from_text("tested.rs", text, "tested");
+    kernel
+        .compile(&Settings::default())
+        .unwrap_or_else(|errors| panic!("{errors}"))
+}
+
+/// The statements that are emitted for a graph.
+fn emitted(graph: Graph, how: &str, template: &Compiled) -> Result<String, String> {
+    let schedule = passes::schedule(&graph);
+    let compiled = Compiled {
+        counts: passes::count(&graph, &schedule),
+        graph,
+        schedule,
+        ..template.clone()
+    };
+    let mut words = how.split(' ');
+    let target: Target = words.next().unwrap_or_default().parse()?;
+    let mut options = EmitOptions::new().targets([target]);
+    for word in words {
+        options = match word {
+            "fragment" => options.stage(Stage::Fragment),
+            "half" => options.precision(Precision::F16),
+            _ => return Err(format!("`{word}` is neither `fragment` nor `half`")),
+        };
+    }
+    let emitted = compiled.emit(&options).map_err(|e| e.to_string())?;
+    compilers::read(&emitted)?;
+    let text = String::from_utf8(emitted.files[&target].clone()).map_err(|e| e.to_string())?;
+    Ok(of_the_kernel(&text))
+}
+
+/// Tables, functions and statements of a shader, without its bindings and without what every entry point begins with.
+fn of_the_kernel(text: &str) -> String {
+    let mut paragraphs: Vec<&str> = text.trim_end().split("\n\n").collect();
+    let entry = paragraphs.pop().unwrap_or_default();
+    let mut out = String::new();
+    for paragraph in paragraphs {
+        let mut code = paragraph.lines().filter(|line| !line.starts_with("//"));
+        let first = code.next().unwrap_or_default();
+        let binds = ["struct", "layout", "cbuffer", "@"]
+            .iter()
+            .any(|word| first.starts_with(word));
+        let table = first.starts_with("const ") || first.starts_with("static const ");
+        if table || (first.ends_with(" {") && !binds) {
+            out += &format!("{paragraph}\n");
         }
     }
+    // The entry point's head, of two lines where the stage stands before it, and its last brace.
+    let mut lines: Vec<&str> = entry.lines().skip_while(|line| !line.ends_with('{')).skip(1).collect();
+    lines.pop();
+    let own = |line: &str| {
+        let mut words = line.split_whitespace().skip(1);
+        matches!(words.next(), Some("frame" | "pixel")) && words.next() == Some("=")
+    };
+    lines.retain(|line| !own(line));
+    if let Some(at) = lines.iter().position(|line| line.trim() == "return;") {
+        // The test whether the pixel lies outside.
+        lines.drain(at - 1..at + 2);
+    }
+    out + &lines.join("\n") + "\n"
+}
+
+#[test]
+fn passes_and_emission_give_what_the_files_say() {
+    let bless = std::env::var_os("STRAIGHTLINE_BLESS").is_some();
+    let template = template();
+    let cases = cases();
+    assert!(cases.len() >= 100);
+    let wrong = cases.par_iter().filter_map(|path| {
+        let text = std::fs::read_to_string(path).expect("a case");
+        match now(&text, &template) {
+            Err(why) => Some(format!("{}: {why}", path.display())),
+            Ok(found) if bless => {
+                std::fs::write(path, found).expect("the case is written");
+                None
+            }
+            Ok(found) if found != text => Some(format!("{}: it gives now\n{found}", path.display())),
+            Ok(_) => None,
+        }
+    });
+    let wrong: Vec<String> = wrong.collect();
+    let help = "bless with STRAIGHTLINE_BLESS=1";
+    assert!(
+        wrong.is_empty(),
+        "{}\n{} cases; {help}",
+        wrong.join("\n\n"),
+        wrong.len()
+    );
 }
 
 /// Every graph of the kernels, after every stage, is the same graph when it is read back.

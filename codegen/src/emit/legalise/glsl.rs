@@ -50,7 +50,8 @@ fn rule(module: &mut Module<'_>, mut expr: Expr, mixes: bool) -> Expr {
         }
         Op::Ir(ir::Op::Unary(op)) => unary(*op, expr),
         Op::Ir(ir::Op::Binary(op)) => binary(*op, expr),
-        // glslang makes branches of a choice between more than names and literals, and none of `mix`.
+        // glslang makes branches of a choice between more than names and literals, and none of `mix`. Where `mix` is of floats
+        // alone, a choice by one boolean stays one, of vectors too.
         Op::Ir(ir::Op::Select)
             if mixes && !(is_leaf(&expr.args[1]) && is_leaf(&expr.args[2])) && ty.kind() != Some(Scalar::Bool) =>
         {

@@ -12,7 +12,10 @@ use crate::ir::{self, BinaryOp, Scalar, Type, UnaryOp};
 pub fn legalise(module: &mut Module<'_>) {
     module.rewrite(&mut rule);
     let body = std::mem::take(&mut module.body);
-    module.body = chosen_before(module, by_element(body));
+    module.body = {
+        let body = by_element(module, body);
+        chosen_before(module, body)
+    };
     for k in 0..module.functions.len() {
         let body = std::mem::take(&mut module.functions[k].body);
         module.functions[k].body = chosen_before(module, body);
@@ -129,15 +132,31 @@ fn binary(op: BinaryOp, mut expr: Expr) -> Expr {
     }
 }
 
-/// The statements with arrays of single elements assigned one by one: only where it is declared can an array have a list.
-fn by_element(block: Block<'_>) -> Block<'_> {
+/// The statements with arrays of single elements assigned one by one: only where it is declared can an array have a list. What
+/// is made of the array's own elements is an array of its own first.
+fn by_element<'g>(module: &mut Module<'g>, block: Block<'g>) -> Block<'g> {
     let mut out = Vec::with_capacity(block.len());
     for mut stmt in block {
         for inner in stmt.blocks_mut() {
-            *inner = by_element(std::mem::take(inner));
+            *inner = by_element(module, std::mem::take(inner));
         }
         match stmt.kind {
             StmtKind::Assign(place, None, value) if value.op == Op::Construct && value.ty.is_array() => {
+                let mut own = false;
+                value.visit(&mut |expr| own |= *expr == place);
+                if own {
+                    let next = module.variable("next", value.ty);
+                    for kind in [
+                        StmtKind::Var(next, Some(value)),
+                        StmtKind::Assign(place, None, module.read(next)),
+                    ] {
+                        out.push(Stmt {
+                            kind,
+                            origin: stmt.origin,
+                        });
+                    }
+                    continue;
+                }
                 for (k, part) in value.args.into_iter().enumerate() {
                     let index = Expr::splat(Type::I32, k as u32);
                     let element = Expr::new(Op::Index { inside: true }, vec![place.clone(), index], part.ty);
