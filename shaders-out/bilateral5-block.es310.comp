@@ -36,10 +36,10 @@ void main() {
     float bounded_l1 = (abs(own_l1.w) < 1e30 ? own_l1.w : 1e30);
     float bounded_l2 = (abs(own_l2.w) < 1e30 ? own_l2.w : 1e30);
     float bounded_l3 = (abs(own_l3.w) < 1e30 ? own_l3.w : 1e30);
-    vec4 centre_l0 = (bvec4(counts_l0) ? vec4(own_l0.xyz, bounded_l0) : vec4(0.0, 0.0, 0.0, -1e30));
-    vec4 centre_l1 = (bvec4(counts_l1) ? vec4(own_l1.xyz, bounded_l1) : vec4(0.0, 0.0, 0.0, -1e30));
-    vec4 centre_l2 = (bvec4(counts_l2) ? vec4(own_l2.xyz, bounded_l2) : vec4(0.0, 0.0, 0.0, -1e30));
-    vec4 centre_l3 = (bvec4(counts_l3) ? vec4(own_l3.xyz, bounded_l3) : vec4(0.0, 0.0, 0.0, -1e30));
+    vec4 centre_l0 = (counts_l0 ? vec4(own_l0.xyz, bounded_l0) : vec4(0.0, 0.0, 0.0, -1e30));
+    vec4 centre_l1 = (counts_l1 ? vec4(own_l1.xyz, bounded_l1) : vec4(0.0, 0.0, 0.0, -1e30));
+    vec4 centre_l2 = (counts_l2 ? vec4(own_l2.xyz, bounded_l2) : vec4(0.0, 0.0, 0.0, -1e30));
+    vec4 centre_l3 = (counts_l3 ? vec4(own_l3.xyz, bounded_l3) : vec4(0.0, 0.0, 0.0, -1e30));
     // j 0, i 0, k 0, lane 0: what a pixel adds (kernels/src/quad/bilateral.rs:76)
     float z_j0i0k0l0 = (centre_l0.w - centre_l0.w) / 0.1;
     float z_j0i0k0l1 = (centre_l1.w - centre_l1.w) / 0.1;
@@ -129,10 +129,10 @@ void main() {
     vec4 counted_j0i1l1 = vec4(texel_j0i1l1.xyz, bounded_j0i1l1);
     vec4 counted_j0i1l2 = vec4(texel_j0i1l2.xyz, bounded_j0i1l2);
     vec4 counted_j0i1l3 = vec4(texel_j0i1l3.xyz, bounded_j0i1l3);
-    vec4 taps_0_j0i1l0 = (bvec4(counts_j0i1l0) ? counted_j0i1l0 : vec4(0.0, 0.0, 0.0, -1e30));
-    vec4 taps_0_j0i1l1 = (bvec4(counts_j0i1l1) ? counted_j0i1l1 : vec4(0.0, 0.0, 0.0, -1e30));
-    vec4 taps_0_j0i1l2 = (bvec4(counts_j0i1l2) ? counted_j0i1l2 : vec4(0.0, 0.0, 0.0, -1e30));
-    vec4 taps_0_j0i1l3 = (bvec4(counts_j0i1l3) ? counted_j0i1l3 : vec4(0.0, 0.0, 0.0, -1e30));
+    vec4 taps_0_j0i1l0 = (counts_j0i1l0 ? counted_j0i1l0 : vec4(0.0, 0.0, 0.0, -1e30));
+    vec4 taps_0_j0i1l1 = (counts_j0i1l1 ? counted_j0i1l1 : vec4(0.0, 0.0, 0.0, -1e30));
+    vec4 taps_0_j0i1l2 = (counts_j0i1l2 ? counted_j0i1l2 : vec4(0.0, 0.0, 0.0, -1e30));
+    vec4 taps_0_j0i1l3 = (counts_j0i1l3 ? counted_j0i1l3 : vec4(0.0, 0.0, 0.0, -1e30));
     // j 0, i 1, k 0, lane 0: what a pixel adds (kernels/src/quad/bilateral.rs:76)
     float z_j0i1k0l0 = (taps_0_j0i1l0.w - centre_l0.w) / 0.1;
     float z_j0i1k0l1 = (taps_0_j0i1l1.w - centre_l1.w) / 0.1;
@@ -226,10 +226,10 @@ void main() {
     vec4 counted_j0i2l1 = vec4(texel_j0i2l1.xyz, bounded_j0i2l1);
     vec4 counted_j0i2l2 = vec4(texel_j0i2l2.xyz, bounded_j0i2l2);
     vec4 counted_j0i2l3 = vec4(texel_j0i2l3.xyz, bounded_j0i2l3);
-    vec4 taps_0_j0i2l0 = (bvec4(counts_j0i2l0) ? counted_j0i2l0 : vec4(0.0, 0.0, 0.0, -1e30));
-    vec4 taps_0_j0i2l1 = (bvec4(counts_j0i2l1) ? counted_j0i2l1 : vec4(0.0, 0.0, 0.0, -1e30));
-    vec4 taps_0_j0i2l2 = (bvec4(counts_j0i2l2) ? counted_j0i2l2 : vec4(0.0, 0.0, 0.0, -1e30));
-    vec4 taps_0_j0i2l3 = (bvec4(counts_j0i2l3) ? counted_j0i2l3 : vec4(0.0, 0.0, 0.0, -1e30));
+    vec4 taps_0_j0i2l0 = (counts_j0i2l0 ? counted_j0i2l0 : vec4(0.0, 0.0, 0.0, -1e30));
+    vec4 taps_0_j0i2l1 = (counts_j0i2l1 ? counted_j0i2l1 : vec4(0.0, 0.0, 0.0, -1e30));
+    vec4 taps_0_j0i2l2 = (counts_j0i2l2 ? counted_j0i2l2 : vec4(0.0, 0.0, 0.0, -1e30));
+    vec4 taps_0_j0i2l3 = (counts_j0i2l3 ? counted_j0i2l3 : vec4(0.0, 0.0, 0.0, -1e30));
     // j 0, i 2, k 0, lane 0: what a pixel adds (kernels/src/quad/bilateral.rs:76)
     float z_j0i2k0l0 = (taps_0_j0i2l0.w - centre_l0.w) / 0.1;
     float z_j0i2k0l1 = (taps_0_j0i2l1.w - centre_l1.w) / 0.1;
@@ -289,10 +289,10 @@ void main() {
     vec4 counted_j1i0l1 = vec4(texel_j1i0l1.xyz, bounded_j1i0l1);
     vec4 counted_j1i0l2 = vec4(texel_j1i0l2.xyz, bounded_j1i0l2);
     vec4 counted_j1i0l3 = vec4(texel_j1i0l3.xyz, bounded_j1i0l3);
-    vec4 taps_0_j1i0l0 = (bvec4(counts_j1i0l0) ? counted_j1i0l0 : vec4(0.0, 0.0, 0.0, -1e30));
-    vec4 taps_0_j1i0l1 = (bvec4(counts_j1i0l1) ? counted_j1i0l1 : vec4(0.0, 0.0, 0.0, -1e30));
-    vec4 taps_0_j1i0l2 = (bvec4(counts_j1i0l2) ? counted_j1i0l2 : vec4(0.0, 0.0, 0.0, -1e30));
-    vec4 taps_0_j1i0l3 = (bvec4(counts_j1i0l3) ? counted_j1i0l3 : vec4(0.0, 0.0, 0.0, -1e30));
+    vec4 taps_0_j1i0l0 = (counts_j1i0l0 ? counted_j1i0l0 : vec4(0.0, 0.0, 0.0, -1e30));
+    vec4 taps_0_j1i0l1 = (counts_j1i0l1 ? counted_j1i0l1 : vec4(0.0, 0.0, 0.0, -1e30));
+    vec4 taps_0_j1i0l2 = (counts_j1i0l2 ? counted_j1i0l2 : vec4(0.0, 0.0, 0.0, -1e30));
+    vec4 taps_0_j1i0l3 = (counts_j1i0l3 ? counted_j1i0l3 : vec4(0.0, 0.0, 0.0, -1e30));
     // j 1, i 0, k 0, lane 0: what a pixel adds (kernels/src/quad/bilateral.rs:76)
     float z_j1i0k0l0 = (taps_0_j1i0l0.w - centre_l0.w) / 0.1;
     float z_j1i0k0l1 = (taps_0_j1i0l1.w - centre_l1.w) / 0.1;
@@ -386,10 +386,10 @@ void main() {
     vec4 counted_j1i1l1 = vec4(texel_j1i1l1.xyz, bounded_j1i1l1);
     vec4 counted_j1i1l2 = vec4(texel_j1i1l2.xyz, bounded_j1i1l2);
     vec4 counted_j1i1l3 = vec4(texel_j1i1l3.xyz, bounded_j1i1l3);
-    vec4 taps_0_j1i1l0 = (bvec4(counts_j1i1l0) ? counted_j1i1l0 : vec4(0.0, 0.0, 0.0, -1e30));
-    vec4 taps_0_j1i1l1 = (bvec4(counts_j1i1l1) ? counted_j1i1l1 : vec4(0.0, 0.0, 0.0, -1e30));
-    vec4 taps_0_j1i1l2 = (bvec4(counts_j1i1l2) ? counted_j1i1l2 : vec4(0.0, 0.0, 0.0, -1e30));
-    vec4 taps_0_j1i1l3 = (bvec4(counts_j1i1l3) ? counted_j1i1l3 : vec4(0.0, 0.0, 0.0, -1e30));
+    vec4 taps_0_j1i1l0 = (counts_j1i1l0 ? counted_j1i1l0 : vec4(0.0, 0.0, 0.0, -1e30));
+    vec4 taps_0_j1i1l1 = (counts_j1i1l1 ? counted_j1i1l1 : vec4(0.0, 0.0, 0.0, -1e30));
+    vec4 taps_0_j1i1l2 = (counts_j1i1l2 ? counted_j1i1l2 : vec4(0.0, 0.0, 0.0, -1e30));
+    vec4 taps_0_j1i1l3 = (counts_j1i1l3 ? counted_j1i1l3 : vec4(0.0, 0.0, 0.0, -1e30));
     // j 1, i 1, k 0, lane 0: what a pixel adds (kernels/src/quad/bilateral.rs:76)
     float z_j1i1k0l0 = (taps_0_j1i1l0.w - centre_l0.w) / 0.1;
     float z_j1i1k0l1 = (taps_0_j1i1l1.w - centre_l1.w) / 0.1;
@@ -483,10 +483,10 @@ void main() {
     vec4 counted_j1i2l1 = vec4(texel_j1i2l1.xyz, bounded_j1i2l1);
     vec4 counted_j1i2l2 = vec4(texel_j1i2l2.xyz, bounded_j1i2l2);
     vec4 counted_j1i2l3 = vec4(texel_j1i2l3.xyz, bounded_j1i2l3);
-    vec4 taps_0_j1i2l0 = (bvec4(counts_j1i2l0) ? counted_j1i2l0 : vec4(0.0, 0.0, 0.0, -1e30));
-    vec4 taps_0_j1i2l1 = (bvec4(counts_j1i2l1) ? counted_j1i2l1 : vec4(0.0, 0.0, 0.0, -1e30));
-    vec4 taps_0_j1i2l2 = (bvec4(counts_j1i2l2) ? counted_j1i2l2 : vec4(0.0, 0.0, 0.0, -1e30));
-    vec4 taps_0_j1i2l3 = (bvec4(counts_j1i2l3) ? counted_j1i2l3 : vec4(0.0, 0.0, 0.0, -1e30));
+    vec4 taps_0_j1i2l0 = (counts_j1i2l0 ? counted_j1i2l0 : vec4(0.0, 0.0, 0.0, -1e30));
+    vec4 taps_0_j1i2l1 = (counts_j1i2l1 ? counted_j1i2l1 : vec4(0.0, 0.0, 0.0, -1e30));
+    vec4 taps_0_j1i2l2 = (counts_j1i2l2 ? counted_j1i2l2 : vec4(0.0, 0.0, 0.0, -1e30));
+    vec4 taps_0_j1i2l3 = (counts_j1i2l3 ? counted_j1i2l3 : vec4(0.0, 0.0, 0.0, -1e30));
     // j 1, i 2, k 0, lane 0: what a pixel adds (kernels/src/quad/bilateral.rs:76)
     float z_j1i2k0l0 = (taps_0_j1i2l0.w - centre_l0.w) / 0.1;
     float z_j1i2k0l1 = (taps_0_j1i2l1.w - centre_l1.w) / 0.1;
@@ -546,10 +546,10 @@ void main() {
     vec4 counted_j2i0l1 = vec4(texel_j2i0l1.xyz, bounded_j2i0l1);
     vec4 counted_j2i0l2 = vec4(texel_j2i0l2.xyz, bounded_j2i0l2);
     vec4 counted_j2i0l3 = vec4(texel_j2i0l3.xyz, bounded_j2i0l3);
-    vec4 taps_0_j2i0l0 = (bvec4(counts_j2i0l0) ? counted_j2i0l0 : vec4(0.0, 0.0, 0.0, -1e30));
-    vec4 taps_0_j2i0l1 = (bvec4(counts_j2i0l1) ? counted_j2i0l1 : vec4(0.0, 0.0, 0.0, -1e30));
-    vec4 taps_0_j2i0l2 = (bvec4(counts_j2i0l2) ? counted_j2i0l2 : vec4(0.0, 0.0, 0.0, -1e30));
-    vec4 taps_0_j2i0l3 = (bvec4(counts_j2i0l3) ? counted_j2i0l3 : vec4(0.0, 0.0, 0.0, -1e30));
+    vec4 taps_0_j2i0l0 = (counts_j2i0l0 ? counted_j2i0l0 : vec4(0.0, 0.0, 0.0, -1e30));
+    vec4 taps_0_j2i0l1 = (counts_j2i0l1 ? counted_j2i0l1 : vec4(0.0, 0.0, 0.0, -1e30));
+    vec4 taps_0_j2i0l2 = (counts_j2i0l2 ? counted_j2i0l2 : vec4(0.0, 0.0, 0.0, -1e30));
+    vec4 taps_0_j2i0l3 = (counts_j2i0l3 ? counted_j2i0l3 : vec4(0.0, 0.0, 0.0, -1e30));
     // j 2, i 0, k 0, lane 0: what a pixel adds (kernels/src/quad/bilateral.rs:76)
     float z_j2i0k0l0 = (taps_0_j2i0l0.w - centre_l0.w) / 0.1;
     float z_j2i0k0l1 = (taps_0_j2i0l1.w - centre_l1.w) / 0.1;
@@ -609,10 +609,10 @@ void main() {
     vec4 counted_j2i1l1 = vec4(texel_j2i1l1.xyz, bounded_j2i1l1);
     vec4 counted_j2i1l2 = vec4(texel_j2i1l2.xyz, bounded_j2i1l2);
     vec4 counted_j2i1l3 = vec4(texel_j2i1l3.xyz, bounded_j2i1l3);
-    vec4 taps_0_j2i1l0 = (bvec4(counts_j2i1l0) ? counted_j2i1l0 : vec4(0.0, 0.0, 0.0, -1e30));
-    vec4 taps_0_j2i1l1 = (bvec4(counts_j2i1l1) ? counted_j2i1l1 : vec4(0.0, 0.0, 0.0, -1e30));
-    vec4 taps_0_j2i1l2 = (bvec4(counts_j2i1l2) ? counted_j2i1l2 : vec4(0.0, 0.0, 0.0, -1e30));
-    vec4 taps_0_j2i1l3 = (bvec4(counts_j2i1l3) ? counted_j2i1l3 : vec4(0.0, 0.0, 0.0, -1e30));
+    vec4 taps_0_j2i1l0 = (counts_j2i1l0 ? counted_j2i1l0 : vec4(0.0, 0.0, 0.0, -1e30));
+    vec4 taps_0_j2i1l1 = (counts_j2i1l1 ? counted_j2i1l1 : vec4(0.0, 0.0, 0.0, -1e30));
+    vec4 taps_0_j2i1l2 = (counts_j2i1l2 ? counted_j2i1l2 : vec4(0.0, 0.0, 0.0, -1e30));
+    vec4 taps_0_j2i1l3 = (counts_j2i1l3 ? counted_j2i1l3 : vec4(0.0, 0.0, 0.0, -1e30));
     // j 2, i 1, k 0, lane 0: what a pixel adds (kernels/src/quad/bilateral.rs:76)
     float z_j2i1k0l0 = (taps_0_j2i1l0.w - centre_l0.w) / 0.1;
     float z_j2i1k0l1 = (taps_0_j2i1l1.w - centre_l1.w) / 0.1;
@@ -672,10 +672,10 @@ void main() {
     vec4 counted_j2i2l1 = vec4(texel_j2i2l1.xyz, bounded_j2i2l1);
     vec4 counted_j2i2l2 = vec4(texel_j2i2l2.xyz, bounded_j2i2l2);
     vec4 counted_j2i2l3 = vec4(texel_j2i2l3.xyz, bounded_j2i2l3);
-    vec4 taps_0_j2i2l0 = (bvec4(counts_j2i2l0) ? counted_j2i2l0 : vec4(0.0, 0.0, 0.0, -1e30));
-    vec4 taps_0_j2i2l1 = (bvec4(counts_j2i2l1) ? counted_j2i2l1 : vec4(0.0, 0.0, 0.0, -1e30));
-    vec4 taps_0_j2i2l2 = (bvec4(counts_j2i2l2) ? counted_j2i2l2 : vec4(0.0, 0.0, 0.0, -1e30));
-    vec4 taps_0_j2i2l3 = (bvec4(counts_j2i2l3) ? counted_j2i2l3 : vec4(0.0, 0.0, 0.0, -1e30));
+    vec4 taps_0_j2i2l0 = (counts_j2i2l0 ? counted_j2i2l0 : vec4(0.0, 0.0, 0.0, -1e30));
+    vec4 taps_0_j2i2l1 = (counts_j2i2l1 ? counted_j2i2l1 : vec4(0.0, 0.0, 0.0, -1e30));
+    vec4 taps_0_j2i2l2 = (counts_j2i2l2 ? counted_j2i2l2 : vec4(0.0, 0.0, 0.0, -1e30));
+    vec4 taps_0_j2i2l3 = (counts_j2i2l3 ? counted_j2i2l3 : vec4(0.0, 0.0, 0.0, -1e30));
     // j 2, i 2, k 0, lane 0: what a pixel adds (kernels/src/quad/bilateral.rs:76)
     float z_j2i2k0l0 = (taps_0_j2i2l0.w - centre_l0.w) / 0.1;
     float z_j2i2k0l1 = (taps_0_j2i2l1.w - centre_l1.w) / 0.1;

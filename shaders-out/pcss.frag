@@ -22,7 +22,6 @@ ivec2 to_ivec2(vec2 x) {
     return mix(saturated, ivec2(0), is_nan);
 }
 
-
 void main() {
     ivec2 pixel = ivec2(floor(gl_FragCoord.xy));
     // k 0: how much light comes to each pixel of a quad (kernels/src/quad/pcss.rs:39)

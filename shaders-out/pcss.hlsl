@@ -15,7 +15,8 @@ int2 size_of_shadow() {
 // What is too large becomes the largest integer, NaN becomes 0.
 int to_int(float x) {
     bool is_nan = (asuint(x) & 0x7fffffffu) > 0x7f800000u;
-    int saturated = (x >= 2147483648.0 ? 2147483647 : int(clamp(x, -2147483648.0, 2147483520.0)));
+    int if_false = int(clamp(x, -2147483648.0, 2147483520.0));
+    int saturated = (x >= 2147483648.0 ? 2147483647 : if_false);
     return (is_nan ? 0 : saturated);
 }
 
@@ -23,7 +24,6 @@ int to_int(float x) {
 int2 to_int(float2 x) {
     return int2(to_int(x.x), to_int(x.y));
 }
-
 
 float4 pcss(float4 position : SV_Position, float3 coord : TEXCOORD0) : SV_Target0 {
     int2 pixel = int2(floor(position.xy));

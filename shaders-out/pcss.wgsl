@@ -13,7 +13,6 @@ fn to_vec2i(x: vec2f) -> vec2i {
     return select(saturated, vec2i(0), is_nan);
 }
 
-
 @fragment
 fn pcss(@builtin(position) position: vec4f, @location(0) coord: vec3f) -> @location(0) vec4f {
     let pixel = vec2i(floor(position.xy));

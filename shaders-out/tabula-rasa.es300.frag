@@ -79,7 +79,7 @@ void main() {
     float reach = min(edges_3 * 0.25, 1.0) * weight;
     vec4 own = texelFetch(color, pixel, 0);
     bool is_less = all(lessThan(floatBitsToUint(own) & uvec4(2147483647u), uvec4(2139095040u)));
-    vec4 own_2 = (bvec4(is_less) ? own : vec4(0.0));
+    vec4 own_2 = (is_less ? own : vec4(0.0));
     vec2 offset = vec2(-1.0) * reach;
     vec2 texel = 1.0 / vec2(frame);
     vec2 sum = vec2(pixel) + 0.5;

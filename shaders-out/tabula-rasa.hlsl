@@ -7,7 +7,7 @@
 Texture2D<float4> depth : register(t0);
 Texture2D<float4> normal : register(t1);
 Texture2D<float4> color : register(t2);
-SamplerState linear : register(s3);
+SamplerState linear_ : register(s3);
 
 struct Parameters {
     float depth_sensibility;
@@ -93,48 +93,48 @@ float4 tabula_rasa(float4 position : SV_Position) : SV_Target0 {
     float2 offset = float2(-1.0, -1.0) * reach;
     float2 texel = 1.0 / float2(frame);
     float2 sum = float2(pixel) + 0.5;
-    float4 tap = color.SampleLevel(linear, (sum + offset) * texel, 0.0);
+    float4 tap = color.SampleLevel(linear_, (sum + offset) * texel, 0.0);
     bool is_less_2 = all(
         (asuint(tap) & uint4(2147483647u, 2147483647u, 2147483647u, 2147483647u))
             < uint4(2139095040u, 2139095040u, 2139095040u, 2139095040u)
     );
-    float4 tap_2 = color.SampleLevel(linear, (sum + -offset) * texel, 0.0);
+    float4 tap_2 = color.SampleLevel(linear_, (sum + -offset) * texel, 0.0);
     bool is_less_3 = all(
         (asuint(tap_2) & uint4(2147483647u, 2147483647u, 2147483647u, 2147483647u))
             < uint4(2139095040u, 2139095040u, 2139095040u, 2139095040u)
     );
     float4 sum_2 = 2.0 * own_2 + (is_less_2 ? tap : own_2) + (is_less_3 ? tap_2 : own_2);
     float2 offset_2 = float2(0.0, -1.0) * reach;
-    float4 tap_3 = color.SampleLevel(linear, (sum + offset_2) * texel, 0.0);
+    float4 tap_3 = color.SampleLevel(linear_, (sum + offset_2) * texel, 0.0);
     bool is_less_4 = all(
         (asuint(tap_3) & uint4(2147483647u, 2147483647u, 2147483647u, 2147483647u))
             < uint4(2139095040u, 2139095040u, 2139095040u, 2139095040u)
     );
-    float4 tap_4 = color.SampleLevel(linear, (sum + -offset_2) * texel, 0.0);
+    float4 tap_4 = color.SampleLevel(linear_, (sum + -offset_2) * texel, 0.0);
     bool is_less_5 = all(
         (asuint(tap_4) & uint4(2147483647u, 2147483647u, 2147483647u, 2147483647u))
             < uint4(2139095040u, 2139095040u, 2139095040u, 2139095040u)
     );
     float4 sum_3 = sum_2 + (is_less_4 ? tap_3 : own_2) + (is_less_5 ? tap_4 : own_2);
     float2 offset_3 = float2(1.0, -1.0) * reach;
-    float4 tap_5 = color.SampleLevel(linear, (sum + offset_3) * texel, 0.0);
+    float4 tap_5 = color.SampleLevel(linear_, (sum + offset_3) * texel, 0.0);
     bool is_less_6 = all(
         (asuint(tap_5) & uint4(2147483647u, 2147483647u, 2147483647u, 2147483647u))
             < uint4(2139095040u, 2139095040u, 2139095040u, 2139095040u)
     );
-    float4 tap_6 = color.SampleLevel(linear, (sum + -offset_3) * texel, 0.0);
+    float4 tap_6 = color.SampleLevel(linear_, (sum + -offset_3) * texel, 0.0);
     bool is_less_7 = all(
         (asuint(tap_6) & uint4(2147483647u, 2147483647u, 2147483647u, 2147483647u))
             < uint4(2139095040u, 2139095040u, 2139095040u, 2139095040u)
     );
     float4 sum_4 = sum_3 + (is_less_6 ? tap_5 : own_2) + (is_less_7 ? tap_6 : own_2);
     float2 offset_4 = float2(1.0, 0.0) * reach;
-    float4 tap_7 = color.SampleLevel(linear, (sum + offset_4) * texel, 0.0);
+    float4 tap_7 = color.SampleLevel(linear_, (sum + offset_4) * texel, 0.0);
     bool is_less_8 = all(
         (asuint(tap_7) & uint4(2147483647u, 2147483647u, 2147483647u, 2147483647u))
             < uint4(2139095040u, 2139095040u, 2139095040u, 2139095040u)
     );
-    float4 tap_8 = color.SampleLevel(linear, (sum + -offset_4) * texel, 0.0);
+    float4 tap_8 = color.SampleLevel(linear_, (sum + -offset_4) * texel, 0.0);
     bool is_less_9 = all(
         (asuint(tap_8) & uint4(2147483647u, 2147483647u, 2147483647u, 2147483647u))
             < uint4(2139095040u, 2139095040u, 2139095040u, 2139095040u)

@@ -50,7 +50,8 @@ float4 quad_upsampling(float4 position : SV_Position) : SV_Target0 {
     float z_k2 = away_k2 / 0.1;
     float weight_k2 = 0.1875 * exp2(z_k2 * z_k2 * -0.7213475);
     bool nearer_k2 = away_k2 < nearest_k1;
-    float4 fallback_k2 = (nearer_k2 ? taps_k2 : (nearer_k1 ? taps_k1 : taps_k0));
+    float4 if_false = (nearer_k1 ? taps_k1 : taps_k0);
+    float4 fallback_k2 = (nearer_k2 ? taps_k2 : if_false);
     float away_k3 = abs(messages_3.w - own_depth);
     float z_k3 = away_k3 / 0.1;
     float weight_k3 = 0.0625 * exp2(z_k3 * z_k3 * -0.7213475);

@@ -81,6 +81,20 @@ pub fn opengl(path: &Path) -> Result<(), String> {
     run("glslangValidator", "glslang-tools", &["--quiet"], path)
 }
 
+/// glslang on many such texts at once.
+///
+/// # Errors
+///
+/// It refuses one of them.
+pub fn opengl_all(paths: &[PathBuf]) -> Result<(), String> {
+    let Some((last, first)) = paths.split_last() else {
+        return Ok(());
+    };
+    let mut arguments = vec!["--quiet"];
+    arguments.extend(first.iter().filter_map(|path| path.to_str()));
+    run("glslangValidator", "glslang-tools", &arguments, last)
+}
+
 /// glslang on HLSL.
 ///
 /// # Errors

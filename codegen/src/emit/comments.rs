@@ -109,10 +109,13 @@ impl<'g> Groups<'g> {
         let mut functions = self.graph.purposes.iter().rev();
         let purpose = functions.find(|function| function.file == file && function.line <= line);
         let purpose = purpose.map_or("", |purpose| purpose.words.as_str());
-        let place = format!(
-            "{}:{line}",
-            self.graph.files.get(file as usize).map_or("", String::as_str)
-        );
+        let path = self.graph.files.get(file as usize).map_or("", String::as_str);
+        // Where a kernel lies on somebody's machine is nobody's business.
+        let shown = match std::path::Path::new(path).is_absolute() {
+            true => path.rsplit(['/', '\\']).next().unwrap_or(path),
+            false => path,
+        };
+        let place = format!("{shown}:{line}");
         let colon = if values.is_empty() { "" } else { ": " };
         let said = match purpose {
             "" => format!("{}{colon}{place}", values.join(", ")),

@@ -267,6 +267,7 @@ fn emit(compiled: &Compiled, options: &EmitOptions) -> Result<Emitted, EmitError
             Target::Hlsl => {
                 let mut tree = tree.clone();
                 legalise::hlsl(&mut tree);
+                let resources = resources.for_hlsl();
                 let language = print::Hlsl::new(&resources, &tree);
                 names::assign(&mut tree, &resources, names::Words::Hlsl, &language.functions());
                 print::module(&language, &tree, &print::header(compiled, &counts, &resources)).into_bytes()

@@ -75,7 +75,21 @@ fn is_reserved(word: &str) -> bool {
 /// Types of HLSL that come in families: `float4x3`, `uint2`, `min16float`.
 fn is_hlsl_type(word: &str) -> bool {
     let bare = word.trim_end_matches(|c: char| c.is_ascii_digit() || c == 'x');
-    ["float", "int", "uint", "bool", "half", "double", "dword"].contains(&bare) || word.starts_with("min1")
+    let scalar = [
+        "float",
+        "int",
+        "uint",
+        "bool",
+        "half",
+        "double",
+        "dword",
+        "min16float",
+        "min16int",
+        "min12int",
+    ];
+    let opaque = ["sampler", "texture", "Texture", "RWTexture", "SamplerState"];
+    let dimension = |rest: &str| rest.starts_with(|c: char| c.is_ascii_digit()) || rest.starts_with("CUBE");
+    scalar.contains(&bare) || opaque.iter().any(|o| word.strip_prefix(o).is_some_and(dimension))
 }
 
 /// Types of GLSL that come in families: `mat4x3`, `ivec2`, `usampler2DArray`, `image3D`, ...
@@ -120,7 +134,7 @@ pub fn refused(name: &str, entry: &str, is_field: bool, of_region: bool) -> Opti
 /// The entry point of a kernel: its name, changed where shading languages would not take it.
 pub fn entry_point(kernel: &str) -> String {
     let name = identifier(kernel.strip_prefix("r#").unwrap_or(kernel));
-    if is_reserved(&name) || OWN.contains(&name.as_str()) {
+    if is_reserved(&name) || Words::Hlsl.reserve(&name) || OWN.contains(&name.as_str()) {
         format!("{name}_kernel")
     } else {
         name

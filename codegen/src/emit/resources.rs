@@ -2,12 +2,13 @@
 
 use super::error::EmitError;
 use super::layout::{layout, stride};
+use super::names::Words;
 use super::print::{GENERATOR, wgsl_type};
 use super::{EmitOptions, Target};
 use crate::compiled::Compiled;
 use crate::ir::{Buffer, NodeId, Op, Sampler, Texture, TextureKind, Uniform, Varying};
 use crate::passes::layers_read;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use straightline_manifest::{
     Access, Binding, BindingKind, Counts, Dimension, Extent, LanguageBinding, Manifest, Output, Precision, REGION,
     REGION_SIZE, SCHEMA, SampleType, SamplerType, Stage, UniformField, region_fields,
@@ -44,6 +45,7 @@ pub struct Combined {
 }
 
 /// A shader's bindings.
+#[derive(Clone, Debug)]
 pub struct Resources {
     /// Name of the entry point.
     pub entry: String,
@@ -296,6 +298,34 @@ impl Resources {
         needed.map(|(_, name)| name.to_owned()).collect()
     }
 
+    /// The bindings by names that are no words of HLSL, and no two of which are one: hosts bind by register there.
+    pub fn for_hlsl(&self) -> Resources {
+        let mut renamed = self.clone();
+        let mut taken: BTreeSet<String> = self.names().map(str::to_owned).collect();
+        let mut given: BTreeMap<String, String> = BTreeMap::new();
+        let mut free = |name: &mut String| {
+            if !Words::Hlsl.reserve(name) {
+                return;
+            }
+            let other = given.entry(name.clone()).or_insert_with(|| {
+                let mut other = format!("{name}_");
+                while Words::Hlsl.reserve(&other) || !taken.insert(other.clone()) {
+                    other.push('_');
+                }
+                other
+            });
+            name.clone_from(other);
+        };
+        renamed.textures.iter_mut().for_each(|texture| free(&mut texture.name));
+        renamed.buffers.iter_mut().for_each(|buffer| free(&mut buffer.name));
+        renamed.samplers.iter_mut().for_each(|sampler| free(&mut sampler.name));
+        renamed.varying_names.iter_mut().for_each(&mut free);
+        renamed.uniform_names.iter_mut().for_each(&mut free);
+        renamed.varyings.iter_mut().for_each(|varying| free(&mut varying.name));
+        renamed.uniforms.iter_mut().for_each(|uniform| free(&mut uniform.name));
+        renamed
+    }
+
     /// The name of a combined sampler: that of the texture, unless that is read in several ways.
     pub fn combined_name(&self, one: Combined) -> String {
         let texture = &self.texture(one.texture).name;
@@ -343,6 +373,23 @@ impl Resources {
                 "_buffer_sizes",
                 "a buffer of one u32 for each storage buffer, in order of binding: its length in bytes",
             );
+        }
+        if is_wanted(&Target::Hlsl) {
+            let renamed = self.for_hlsl();
+            let numbers = self.read.iter().map(|bound| bound.binding);
+            let numbers = numbers.chain(self.read_buffers.iter().chain(&self.used_samplers).map(|(_, n)| *n));
+            for ((name, other), binding) in self.names().zip(renamed.names()).zip(numbers) {
+                if name != other {
+                    extra.push(LanguageBinding {
+                        language: Target::Hlsl.to_string(),
+                        name: other.to_owned(),
+                        binding,
+                        what: format!("`{name}`, which is a word of HLSL"),
+                        texture: None,
+                        sampler: None,
+                    });
+                }
+            }
         }
         for target in Target::OPENGL.into_iter().filter(is_wanted) {
             for one in &self.combined {

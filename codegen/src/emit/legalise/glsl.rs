@@ -52,7 +52,7 @@ fn rule(module: &mut Module<'_>, mut expr: Expr, mixes: bool) -> Expr {
         Op::Ir(ir::Op::Binary(op)) => binary(*op, expr),
         // glslang makes branches of a choice between more than names and literals, and none of `mix`.
         Op::Ir(ir::Op::Select)
-            if !(is_leaf(&expr.args[1]) && is_leaf(&expr.args[2])) && ty.kind() != Some(Scalar::Bool) =>
+            if mixes && !(is_leaf(&expr.args[1]) && is_leaf(&expr.args[2])) && ty.kind() != Some(Scalar::Bool) =>
         {
             let [condition, yes, no] = take(expr.args);
             let condition = match ty.lanes() {

@@ -12,7 +12,49 @@ use crate::ir::{self, BinaryOp, Scalar, Type, UnaryOp};
 pub fn legalise(module: &mut Module<'_>) {
     module.rewrite(&mut rule);
     let body = std::mem::take(&mut module.body);
-    module.body = by_element(body);
+    module.body = chosen_before(module, by_element(body));
+    for k in 0..module.functions.len() {
+        let body = std::mem::take(&mut module.functions[k].body);
+        module.functions[k].body = chosen_before(module, body);
+    }
+}
+
+/// The statements with what a selection computes on either side before it: since HLSL 2021 `?:` evaluates one side alone, and a
+/// compiler makes a branch of that.
+fn chosen_before<'g>(module: &mut Module<'g>, block: Block<'g>) -> Block<'g> {
+    let mut out = Vec::with_capacity(block.len());
+    for mut stmt in block {
+        for inner in stmt.blocks_mut() {
+            *inner = chosen_before(module, std::mem::take(inner));
+        }
+        let origin = stmt.origin;
+        for expr in stmt.own_mut() {
+            *expr = expr.clone().rewrite(&mut |mut expr| {
+                if matches!(expr.op, Op::Ir(ir::Op::Select) | Op::Choose) {
+                    for (side, name) in expr.args[1..].iter_mut().zip(["if_true", "if_false"]) {
+                        if !is_plain(side) {
+                            let var = module.variable(name, side.ty);
+                            let value = std::mem::replace(side, module.read(var));
+                            let kind = StmtKind::Let(var, value);
+                            out.push(Stmt { kind, origin });
+                        }
+                    }
+                }
+                expr
+            });
+        }
+        out.push(stmt);
+    }
+    out
+}
+
+/// Whether an expression computes nothing.
+fn is_plain(expr: &Expr) -> bool {
+    match &expr.op {
+        Op::Var(_) | Op::Ir(ir::Op::Const(_) | ir::Op::Uniform(_) | ir::Op::Varying(_)) => true,
+        Op::Swizzle(_) | Op::Construct => expr.args.iter().all(is_plain),
+        _ => false,
+    }
 }
 
 fn rule(module: &mut Module<'_>, mut expr: Expr) -> Expr {

@@ -30,17 +30,13 @@ pub fn header(compiled: &Compiled, counts: &Counts, resources: &Resources) -> Ve
         resources.options.format
     ));
     let reads = match (counts.texture_reads, counts.colour_reads) {
-        (reads, 0) => format!("{reads} reads"),
-        (0, reads) => format!("{reads} reads of colour"),
-        (reads, colour) => format!("{reads} texture reads + {colour} of colour"),
+        (reads, 0) => many(reads, "read"),
+        (0, reads) => format!("{} of colour", many(reads, "read")),
+        (reads, colour) => format!("{} + {colour} of colour", many(reads, "texture read")),
     };
     let mut figures = vec![
-        format!(
-            "{} basic block{}",
-            counts.basic_blocks,
-            if counts.basic_blocks == 1 { "" } else { "s" }
-        ),
-        format!("{} statements", counts.statements),
+        many(counts.basic_blocks, "basic block"),
+        many(counts.statements, "statement"),
         reads,
     ];
     figures.extend(
@@ -49,9 +45,9 @@ pub fn header(compiled: &Compiled, counts: &Counts, resources: &Resources) -> Ve
             .iter()
             .map(|(name, n)| format!("{n} {}", name.replace('_', " "))),
     );
-    figures.push(format!("{} transcendental calls", counts.transcendentals));
+    figures.push(many(counts.transcendentals, "transcendental call"));
     if counts.messages > 0 {
-        figures.push(format!("{} messages", counts.messages));
+        figures.push(many(counts.messages, "message"));
     }
     let per = match resources.block {
         [1, 1] => "pixel".to_owned(),
@@ -87,4 +83,9 @@ fn precision(precision: Precision) -> &'static str {
         Precision::F32 => "",
         Precision::F16 => "half precision (f16), ",
     }
+}
+
+/// `1 read`, `2 reads`.
+fn many(n: u32, what: &str) -> String {
+    format!("{n} {what}{}", if n == 1 { "" } else { "s" })
 }

@@ -111,12 +111,13 @@ pub fn module(language: &dyn Language, module: &Module<'_>, header: &[String]) -
         let declared = language.table(printer.name(*var), module.ty(*var));
         tables.push(Printer::line(0, &format!("{declared} = "), &elements, ";"));
     }
-    let mut functions: Vec<String> = module.functions.iter().map(|f| printer.function(f)).collect();
-    functions.sort();
-    let functions = functions.into_iter().map(|f| format!("{f}\n"));
-    tables.extend(functions);
     if !tables.is_empty() {
         out += &format!("\n{}\n", tables.join("\n"));
+    }
+    let mut functions: Vec<String> = module.functions.iter().map(|f| printer.function(f)).collect();
+    functions.sort();
+    for function in functions {
+        out += &format!("\n{function}\n");
     }
     out.push('\n');
     out += &language.entry_head();

@@ -3,6 +3,7 @@
 
 mod driver;
 mod kernels;
+mod languages;
 mod mistakes;
 mod options;
 mod texts;
@@ -36,6 +37,7 @@ fn main() -> ExitCode {
     }
     let outcome = kernels::against_rustc(&options)
         .and_then(|()| driver::on_driver(&options))
+        .and_then(|()| languages::languages(&options))
         .and_then(|()| mistakes::mistakes(&options))
         .and_then(|()| texts::texts(&options));
     match outcome {

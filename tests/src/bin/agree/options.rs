@@ -5,7 +5,7 @@ use straightline_tests::random::make::Features;
 /// The options, and what they are without being given.
 pub const USAGE: &str = "\
 usage: agree [--kernels N] [--seed S] [--threads T] [--batch N] [--without FEATURE]... [--accepts N] [--gpu N]
-             [--world W] [--front-minutes M] [--keep-going] [--print]
+             [--languages N] [--world W] [--front-minutes M] [--keep-going] [--print]
   --kernels N        random kernels to compare with what rustc makes of them (1000)
   --seed S           number of the first (1)
   --threads T        threads (one for each core)
@@ -14,6 +14,7 @@ usage: agree [--kernels N] [--seed S] [--threads T] [--batch N] [--without FEATU
   --without FEATURE  leave out a group of constructs
   --accepts N        kernels with a mistake in them, which rustc and the generator must both refuse (0)
   --gpu N            random kernels to run on the default adapter, against rustc (0)
+  --languages N      random kernels to emit in every language, each in one form, for the languages' compilers to read (0)
   --front-minutes M  time for mutated texts (0)
   --keep-going       list every disagreement by its seed, instead of making the first smaller
   --print            only print the kernel of the seed, and why it is refused if it is";
@@ -36,6 +37,8 @@ pub struct Options {
     pub accepts: u64,
     /// Random kernels to run on the default adapter.
     pub gpu: u64,
+    /// Random kernels to emit in every language.
+    pub languages: u64,
     /// Minutes for mutated texts.
     pub front_minutes: f64,
     /// Whether every disagreement is listed.
@@ -55,6 +58,7 @@ pub fn options() -> Option<Options> {
         features: Features::all(),
         accepts: 0,
         gpu: 0,
+        languages: 0,
         front_minutes: 0.0,
         keep_going: false,
         print: false,
@@ -70,6 +74,7 @@ pub fn options() -> Option<Options> {
             "--without" => options.features = options.features.without(Features::named(&words.next()?)?),
             "--accepts" => options.accepts = words.next()?.parse().ok()?,
             "--gpu" => options.gpu = words.next()?.parse().ok()?,
+            "--languages" => options.languages = words.next()?.parse().ok()?,
             "--front-minutes" => options.front_minutes = words.next()?.parse().ok()?,
             "--keep-going" => options.keep_going = true,
             "--print" => options.print = true,

@@ -1,0 +1,132 @@
+//! Kernels in every language, read by the compilers of the languages.
+
+use super::options::Options;
+use rayon::prelude::*;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+use std::time::Instant;
+use straightline_codegen::emit::{EmitError, Target};
+use straightline_codegen::{EmitOptions, Kernel, Stage};
+use straightline_tests::compilers;
+use straightline_tests::random::forms::FORMS;
+use straightline_tests::random::make::make;
+
+/// Kernels whose texts lie in a folder at once.
+const BATCH: u64 = 64;
+
+/// What became of kernels.
+#[derive(Default)]
+struct Counts {
+    kernels: u64,
+    refused: u64,
+    texts: BTreeMap<Target, u64>,
+    failures: u64,
+}
+
+/// Emits kernels in every language, each in one of the forms, and has every text read.
+pub fn languages(options: &Options) -> Result<(), String> {
+    if options.languages == 0 {
+        return Ok(());
+    }
+    let begin = Instant::now();
+    let end = options.seed + options.languages;
+    let starts: Vec<u64> = (options.seed..end).step_by(BATCH as usize).collect();
+    let total = Mutex::new(Counts::default());
+    starts.par_iter().try_for_each(|start| {
+        let folder = std::env::temp_dir().join(format!("straightline-languages-{}-{start}", std::process::id()));
+        let outcome = batch(options, *start..(start + BATCH).min(end), &folder, &total);
+        // What cannot be removed stays behind in the folder for temporary files.
+        let _ = std::fs::remove_dir_all(&folder);
+        outcome
+    })?;
+    let total = total.into_inner().expect("no thread panicked");
+    let texts: Vec<String> = total.texts.iter().map(|(target, n)| format!("{n} {target}")).collect();
+    println!(
+        "{} kernels in every language in {:.1} s, all texts accepted but {}: {}; {} kernels refused",
+        total.kernels,
+        begin.elapsed().as_secs_f64(),
+        total.failures,
+        texts.join(", "),
+        total.refused
+    );
+    match total.failures {
+        0 => Ok(()),
+        n => Err(format!("{n} texts are refused")),
+    }
+}
+
+fn batch(options: &Options, seeds: std::ops::Range<u64>, folder: &Path, total: &Mutex<Counts>) -> Result<(), String> {
+    std::fs::create_dir_all(folder).map_err(|e| format!("{}: {e}", folder.display()))?;
+    let mut counts = Counts::default();
+    let mut opengl: Vec<PathBuf> = Vec::new();
+    for seed in seeds {
+        let text = make(seed, options.features);
+        let form = FORMS[(seed % FORMS.len() as u64) as usize];
+        let Ok(compiled) = Kernel::from_text("random.rs", &text.file(), "k").compile(&form.settings()) else {
+            counts.refused += 1;
+            continue;
+        };
+        counts.kernels += 1;
+        for target in Target::ALL {
+            let stage = match target {
+                Target::Glsl330 | Target::Essl300 => Stage::Fragment,
+                _ => Stage::Compute,
+            };
+            let emitted = match compiled.emit(&EmitOptions::new().stage(stage).targets([target])) {
+                Ok(emitted) => emitted,
+                Err(EmitError::Missing { .. } | EmitError::NoFrame { .. }) => continue,
+                Err(error) => {
+                    println!("seed {seed}: {target} with {form}: {error}");
+                    counts.failures += 1;
+                    continue;
+                }
+            };
+            *counts.texts.entry(target).or_default() += 1;
+            let path = folder.join(format!("{seed}.{}", target.extension(stage)));
+            std::fs::write(&path, &emitted.files[&target]).map_err(|e| format!("{}: {e}", path.display()))?;
+            let read = match target {
+                Target::Wgsl => compilers::tint(&path),
+                Target::Glsl450 => compilers::glsl(&path),
+                Target::Spirv => compilers::spirv(&path),
+                Target::Hlsl => compilers::hlsl(&path, stage, &emitted.manifest.entry_point),
+                Target::Msl => Ok(()),
+                _ => {
+                    opengl.push(path);
+                    Ok(())
+                }
+            };
+            if let Err(why) = read {
+                println!("seed {seed}: {target} with {form}: {}", first_lines(&why));
+                counts.failures += 1;
+            }
+        }
+    }
+    // glslang reads many of these at once.
+    if compilers::opengl_all(&opengl).is_err() {
+        for path in &opengl {
+            if let Err(why) = compilers::opengl(path) {
+                println!(
+                    "{}: {}",
+                    path.file_name().unwrap_or_default().display(),
+                    first_lines(&why)
+                );
+                counts.failures += 1;
+            }
+        }
+    }
+    let mut total = total.lock().expect("no thread panics with it");
+    total.kernels += counts.kernels;
+    total.refused += counts.refused;
+    total.failures += counts.failures;
+    for (target, n) in counts.texts {
+        *total.texts.entry(target).or_default() += n;
+    }
+    eprintln!("{} kernels", total.kernels);
+    Ok(())
+}
+
+/// What a compiler says, without the text that it was given.
+fn first_lines(text: &str) -> String {
+    text.lines().take(6).collect::<Vec<_>>().join("\n  ")
+}
