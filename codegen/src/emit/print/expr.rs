@@ -122,3 +122,13 @@ fn digits(x: f32) -> String {
 pub fn integer(n: i64, suffix: &str) -> Text {
     Text::literal(format!("{n}{suffix}"), n < 0)
 }
+
+/// An unsigned literal: hexadecimal where it is a mask of many bits.
+pub fn unsigned(bits: u32) -> Text {
+    let run = bits.checked_shr(bits.trailing_zeros()).unwrap_or_default();
+    let is_mask = bits > 0xffff && run.count_ones() > 1 && run & run.wrapping_add(1) == 0;
+    match is_mask {
+        true => Text::name(format!("{bits:#x}u")),
+        false => integer(i64::from(bits), "u"),
+    }
+}

@@ -1,6 +1,6 @@
 //! GLSL 4.50 for Vulkan, with separate textures; GLSL of OpenGL and OpenGL ES, with combined samplers and loose uniforms.
 
-use super::expr::{float, integer};
+use super::expr::{float, integer, unsigned};
 use super::{Language, Text, commented};
 use crate::emit::Target;
 use crate::emit::ast::{Builtin, Ty};
@@ -209,7 +209,7 @@ impl Language for Glsl<'_> {
             // The smallest `int`, which no literal is.
             Scalar::I32 if bits as i32 == i32::MIN => Text::name("(-2147483647 - 1)"),
             Scalar::I32 => integer(i64::from(bits as i32), ""),
-            Scalar::U32 => integer(i64::from(bits), "u"),
+            Scalar::U32 => unsigned(bits),
             Scalar::Bool => Text::name(if bits != 0 { "true" } else { "false" }),
         }
     }

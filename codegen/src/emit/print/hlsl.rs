@@ -1,6 +1,6 @@
 //! HLSL of shader model 5.1 and later.
 
-use super::expr::{float, integer};
+use super::expr::{float, integer, unsigned};
 use super::{Language, Text, commented};
 use crate::emit::ast::{Builtin, Expr, Module, Op, Ty};
 use crate::emit::resources::{OUTPUT, Resources, UNIFORMS};
@@ -110,7 +110,7 @@ impl Language for Hlsl<'_> {
             // The smallest `int`, which no literal is.
             Scalar::I32 if bits as i32 == i32::MIN => Text::name("(-2147483647 - 1)"),
             Scalar::I32 => integer(i64::from(bits as i32), ""),
-            Scalar::U32 => integer(i64::from(bits), "u"),
+            Scalar::U32 => unsigned(bits),
             Scalar::Bool => Text::name(if bits != 0 { "true" } else { "false" }),
         }
     }

@@ -1,6 +1,6 @@
 //! WGSL as WebGPU and wgpu read it.
 
-use super::expr::{float, integer};
+use super::expr::{float, integer, unsigned};
 use super::{Language, Text, commented};
 use crate::emit::ast::{Builtin, Ty};
 use crate::emit::resources::{OUTPUT, Resources, UNIFORMS};
@@ -33,7 +33,7 @@ impl Language for Wgsl<'_> {
             Scalar::F32 => float(bits),
             Scalar::I32 if bits as i32 == i32::MIN => Text::name("i32(-2147483648)"),
             Scalar::I32 => integer(i64::from(bits as i32), ""),
-            Scalar::U32 => integer(i64::from(bits), "u"),
+            Scalar::U32 => unsigned(bits),
             Scalar::Bool => Text::name(if bits != 0 { "true" } else { "false" }),
         }
     }
