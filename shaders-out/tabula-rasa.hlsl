@@ -91,50 +91,50 @@ float4 tabula_rasa(float4 position : SV_Position) : SV_Target0 {
     );
     float4 own_2 = (is_less ? own : float4(0.0, 0.0, 0.0, 0.0));
     float2 offset = float2(-1.0, -1.0) * reach;
-    float2 texel = 1.0 / float2(frame);
+    float2 texel_size = 1.0 / float2(frame);
     float2 sum = float2(pixel) + 0.5;
-    float4 tap = color.SampleLevel(linear_, (sum + offset) * texel, 0.0);
+    float4 tap = color.SampleLevel(linear_, (sum + offset) * texel_size, 0.0);
     bool is_less_2 = all(
         (asuint(tap) & uint4(0x7fffffffu, 0x7fffffffu, 0x7fffffffu, 0x7fffffffu))
             < uint4(0x7f800000u, 0x7f800000u, 0x7f800000u, 0x7f800000u)
     );
-    float4 tap_2 = color.SampleLevel(linear_, (sum + -offset) * texel, 0.0);
+    float4 tap_2 = color.SampleLevel(linear_, (sum + -offset) * texel_size, 0.0);
     bool is_less_3 = all(
         (asuint(tap_2) & uint4(0x7fffffffu, 0x7fffffffu, 0x7fffffffu, 0x7fffffffu))
             < uint4(0x7f800000u, 0x7f800000u, 0x7f800000u, 0x7f800000u)
     );
     float4 sum_2 = 2.0 * own_2 + (is_less_2 ? tap : own_2) + (is_less_3 ? tap_2 : own_2);
     float2 offset_2 = float2(0.0, -1.0) * reach;
-    float4 tap_3 = color.SampleLevel(linear_, (sum + offset_2) * texel, 0.0);
+    float4 tap_3 = color.SampleLevel(linear_, (sum + offset_2) * texel_size, 0.0);
     bool is_less_4 = all(
         (asuint(tap_3) & uint4(0x7fffffffu, 0x7fffffffu, 0x7fffffffu, 0x7fffffffu))
             < uint4(0x7f800000u, 0x7f800000u, 0x7f800000u, 0x7f800000u)
     );
-    float4 tap_4 = color.SampleLevel(linear_, (sum + -offset_2) * texel, 0.0);
+    float4 tap_4 = color.SampleLevel(linear_, (sum + -offset_2) * texel_size, 0.0);
     bool is_less_5 = all(
         (asuint(tap_4) & uint4(0x7fffffffu, 0x7fffffffu, 0x7fffffffu, 0x7fffffffu))
             < uint4(0x7f800000u, 0x7f800000u, 0x7f800000u, 0x7f800000u)
     );
     float4 sum_3 = sum_2 + (is_less_4 ? tap_3 : own_2) + (is_less_5 ? tap_4 : own_2);
     float2 offset_3 = float2(1.0, -1.0) * reach;
-    float4 tap_5 = color.SampleLevel(linear_, (sum + offset_3) * texel, 0.0);
+    float4 tap_5 = color.SampleLevel(linear_, (sum + offset_3) * texel_size, 0.0);
     bool is_less_6 = all(
         (asuint(tap_5) & uint4(0x7fffffffu, 0x7fffffffu, 0x7fffffffu, 0x7fffffffu))
             < uint4(0x7f800000u, 0x7f800000u, 0x7f800000u, 0x7f800000u)
     );
-    float4 tap_6 = color.SampleLevel(linear_, (sum + -offset_3) * texel, 0.0);
+    float4 tap_6 = color.SampleLevel(linear_, (sum + -offset_3) * texel_size, 0.0);
     bool is_less_7 = all(
         (asuint(tap_6) & uint4(0x7fffffffu, 0x7fffffffu, 0x7fffffffu, 0x7fffffffu))
             < uint4(0x7f800000u, 0x7f800000u, 0x7f800000u, 0x7f800000u)
     );
     float4 sum_4 = sum_3 + (is_less_6 ? tap_5 : own_2) + (is_less_7 ? tap_6 : own_2);
     float2 offset_4 = float2(1.0, 0.0) * reach;
-    float4 tap_7 = color.SampleLevel(linear_, (sum + offset_4) * texel, 0.0);
+    float4 tap_7 = color.SampleLevel(linear_, (sum + offset_4) * texel_size, 0.0);
     bool is_less_8 = all(
         (asuint(tap_7) & uint4(0x7fffffffu, 0x7fffffffu, 0x7fffffffu, 0x7fffffffu))
             < uint4(0x7f800000u, 0x7f800000u, 0x7f800000u, 0x7f800000u)
     );
-    float4 tap_8 = color.SampleLevel(linear_, (sum + -offset_4) * texel, 0.0);
+    float4 tap_8 = color.SampleLevel(linear_, (sum + -offset_4) * texel_size, 0.0);
     bool is_less_9 = all(
         (asuint(tap_8) & uint4(0x7fffffffu, 0x7fffffffu, 0x7fffffffu, 0x7fffffffu))
             < uint4(0x7f800000u, 0x7f800000u, 0x7f800000u, 0x7f800000u)

@@ -59,8 +59,8 @@ fn own(non_finite: NonFinite, color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
 /// The colour `offset` pixels from the centre of `pixel`, filtered. A sampler reads four texels, and 0 times a bad one is
 /// bad: nothing can be told of the others, and `own` is what is left.
 fn nearby(non_finite: NonFinite, color: &Frame<Vec4>, linear: &Sampler, pixel: IVec2, offset: Vec2, own: Vec4) -> Vec4 {
-    let texel = Vec2::ONE / color.size().as_vec2();
-    let tap = color.sample(linear, (pixel.as_vec2() + 0.5 + offset) * texel);
+    let texel_size = Vec2::ONE / color.size().as_vec2();
+    let tap = color.sample(linear, (pixel.as_vec2() + 0.5 + offset) * texel_size);
     match non_finite {
         NonFinite::Spread => tap,
         NonFinite::Skip => {
