@@ -75,10 +75,10 @@ fn keeps(stmt: &Stmt<'_>, copy: VarId, original: VarId, changed: &mut bool) -> b
         }
         // Iterations see what those before have changed.
         StmtKind::For { .. } => {
-            !(mentions(stmt, copy) && mentions(stmt, original)) && !(*changed && mentions(stmt, original)) && {
-                *changed |= mentions(stmt, copy);
-                !assigns(stmt, original)
-            }
+            let (copied, read) = (mentions(stmt, copy), mentions(stmt, original));
+            let first = *changed;
+            *changed |= copied;
+            !read || !(copied || first || assigns(stmt, original))
         }
         _ => !(*changed && stmt.own().into_iter().any(reads)),
     }
