@@ -359,7 +359,6 @@ impl Evaluator<'_> {
                     .into(),
             );
         };
-        let rest = rest.map(|e| self.value(e)).transpose()?;
         let mut given = Vec::new();
         for (field, value) in fields {
             let Some((_, ty, _)) = definition.fields.iter().find(|(name, ..)| name == field) else {
@@ -368,6 +367,8 @@ impl Evaluator<'_> {
             let given_value = self.expr(value)?;
             given.push((field.clone(), self.ascribe(given_value, Some(ty), value.span)?));
         }
+        // As in Rust the base is read last, with what the fields' values have changed of it.
+        let rest = rest.map(|e| self.value(e)).transpose()?;
         let mut values = Vec::new();
         for (field, _, _) in &definition.fields {
             let value = match given.iter().find(|(name, _)| name == field) {
