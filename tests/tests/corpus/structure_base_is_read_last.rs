@@ -12,7 +12,7 @@ impl Pair {
         2
     }
 }
-pub fn k(a: &Frame<Vec4>, b: &Buffer<f32>, p: i32, q: u32, r: f32, pixel: IVec2) -> Vec4 {
+pub fn k(a: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
     let mut pair = Pair { first: 1.0, second: 0 };
     pair = Pair { second: pair.change(), ..pair };
     vec4(pair.first, 0.0, pair.second as f32, 0.0)
