@@ -75,11 +75,17 @@ fn words(bytes: &[u8], target: Target, manifest: &mut Manifest) -> Result<Vec<u3
 fn with_language_bindings(manifest: &mut Manifest, target: Target, inputs: &Inputs) -> Result<Inputs, String> {
     let mut inputs = inputs.clone();
     let language = target.to_string();
-    for extra in manifest
+    let extras: Vec<_> = manifest
         .language_bindings
         .iter()
         .filter(|extra| extra.language == language)
-    {
+        .cloned()
+        .collect();
+    for extra in extras {
+        // The same under another name.
+        if manifest.bindings.iter().any(|binding| binding.binding == extra.binding) {
+            continue;
+        }
         // The only one there is.
         if !extra.what.starts_with("any sampler") {
             return Err(format!(
