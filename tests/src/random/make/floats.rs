@@ -92,6 +92,8 @@ impl Maker {
                 match n {
                     8 if coarse => format!("inverse_sqrt({}.abs() + 0.5)", self.float_receiver(d)),
                     8 | 9 if !coarse => self.leaf(&Ty::F32, want),
+                    // Which zero a maximum gives of two is open in Rust.
+                    _ if name == "saturate" => format!("saturate({} + 0.0f32)", self.expr(&Ty::F32, d)),
                     9 => format!("smoothstep(-1.0, 3.0, {})", self.expr(&Ty::F32, d)),
                     _ => {
                         let args: Vec<String> = (0..n).map(|_| self.expr(&Ty::F32, d)).collect();

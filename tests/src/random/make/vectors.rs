@@ -111,7 +111,8 @@ impl Maker {
                     format!("mix({a}, {b}, {})", self.expr(&Ty::F32, d))
                 }
                 5 if n == 2 => format!("{}.perp()", self.vector_receiver(lane, n, own)),
-                _ => format!("saturate({})", self.expr(&ty, d)),
+                // Which zero a maximum gives of two is open in Rust.
+                _ => format!("saturate({} + 0.0)", self.expr(&ty, d)),
             },
             15 if lane == Lane::F && self.on(Feature::Coarse) => {
                 let a = self.expr(&ty, d);
