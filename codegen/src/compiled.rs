@@ -31,7 +31,7 @@ pub struct Compiled {
     /// What one invocation executes. `basic_blocks` is what the kernel's own loops and branches make; emission counts them in
     /// the shader.
     pub counts: Counts,
-    /// How lanes of quads were asked to hear from each other.
+    /// How lanes of quads were asked to swap values.
     pub transport: Option<Transport>,
     /// Of a kernel whose invocations are lanes, the graph in which one invocation computes the whole quad.
     pub quad: Option<Arc<Graph>>,

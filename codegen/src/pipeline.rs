@@ -40,7 +40,7 @@ pub struct Settings {
     pub branches: Branches,
     /// Statements that the kernel may have.
     pub budget: u32,
-    /// How lanes of quads hear from each other; `None` leaves it to the stage: subgroup operations in fragment shaders,
+    /// How lanes of quads swap values; `None` leaves it to the stage: subgroup operations in fragment shaders,
     /// blocks in compute.
     pub transport: Option<Transport>,
     /// Pixels that one invocation computes, across and down. A kernel of quads takes them by its transport alone.

@@ -57,7 +57,7 @@ pub enum EmitError {
     },
     /// Half precision in a language that naga can neither write nor check with it.
     #[error(
-        "`{kernel}` in half precision cannot be written in glsl450, where naga knows no f16: use wgsl, spirv, hlsl or msl, or leave the precision at f32"
+        "`{kernel}` in half precision cannot be written in GLSL, where naga knows no f16: use wgsl, spirv, hlsl or msl, or leave the precision at f32"
     )]
     HalfGlsl {
         /// The kernel.
@@ -108,14 +108,6 @@ pub enum EmitError {
         /// The language.
         target: &'static str,
         /// What naga says.
-        message: String,
-    },
-    /// A template did not render: a mistake of the emitter's.
-    #[error("the shell of `{kernel}` did not render; this is a mistake in Straightline, please report it: {message}")]
-    Shell {
-        /// The kernel.
-        kernel: String,
-        /// What tera says.
         message: String,
     },
 }

@@ -13,6 +13,7 @@ mod half;
 mod layout;
 mod legalise;
 mod lower;
+mod manifest;
 mod missing;
 mod names;
 mod parameters;

@@ -59,11 +59,9 @@ impl Words {
 
 /// Whether a word is like the names of functions that convert: `to_vec2i`, `to_uint`.
 fn converts(word: &str) -> bool {
-    let types = ["i32", "u32", "int", "uint", "vec", "ivec", "uvec"];
     word.strip_prefix("to_").is_some_and(|ty| {
-        types.iter().any(|t| {
-            ty.trim_end_matches(|c: char| c.is_ascii_digit()) == *t || (t.ends_with("vec") && ty.starts_with(t))
-        })
+        ["i32", "u32", "int", "uint"].contains(&ty)
+            || ["vec", "ivec", "uvec"].iter().any(|vector| ty.starts_with(vector))
     })
 }
 

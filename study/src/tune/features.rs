@@ -1,7 +1,7 @@
 //! What a shader's static counts say of its time: the columns of the model, a pixel.
 
+use straightline_codegen::Compiled;
 use straightline_codegen::passes::{self, Block, Schedule, Step};
-use straightline_codegen::{Compiled, emit};
 use straightline_manifest::Counts;
 
 /// The columns. What stands behind a branch is counted apart: how many pixels take it is learned, too.
@@ -44,7 +44,7 @@ impl Static {
         let always = passes::count(&compiled.graph, &without_branches(&compiled.schedule));
         let [width, height] = compiled.graph.invocation.pixels();
         let pixels = f64::from(width * height);
-        let statements = f64::from(emit::statements_at_least(&compiled.graph, &compiled.schedule)) / pixels;
+        let statements = f64::from(compiled.counts.statements) / pixels;
         let (depth, normal, colour) = reads(&always);
         let (alu, calls) = (f64::from(always.alu), f64::from(always.transcendentals));
         let behind = f64::from(all.alu + 4 * all.transcendentals) - f64::from(always.alu + 4 * always.transcendentals);

@@ -84,7 +84,7 @@ fn rule(mut expr: Expr) -> Expr {
             halved(expr)
         }
         // What is taken of a texel is converted, not the texel.
-        Op::Swizzle(_) if matches!(expr.args[0].op, Op::Convert { .. }) => {
+        Op::Swizzle(_) if matches!(expr.args[0].op, Op::Convert { .. }) && expr.args[0].ty.half => {
             let converted = expr.args.pop().expect("a vector");
             expr.args = converted.args;
             halved(expr)

@@ -132,3 +132,45 @@ pub fn unsigned(bits: u32) -> Text {
         false => integer(i64::from(bits), "u"),
     }
 }
+
+/// The function of WGSL that stands for an operation on numbers.
+pub fn function(op: &ir::Op) -> &'static str {
+    use UnaryOp::*;
+    match op {
+        ir::Op::Binary(BinaryOp::Min) => "min",
+        ir::Op::Binary(BinaryOp::Max) => "max",
+        ir::Op::Binary(BinaryOp::Pow) => "pow",
+        ir::Op::Binary(BinaryOp::Atan2) => "atan2",
+        ir::Op::Unary(op) => match op {
+            Abs => "abs",
+            Sign => "sign",
+            Floor => "floor",
+            Ceil => "ceil",
+            Round => "round",
+            Trunc => "trunc",
+            Fract => "fract",
+            Saturate => "saturate",
+            Sqrt => "sqrt",
+            InverseSqrt => "inverseSqrt",
+            Exp => "exp",
+            Exp2 => "exp2",
+            Log => "log",
+            Log2 => "log2",
+            Sin => "sin",
+            Cos => "cos",
+            Tan => "tan",
+            Asin => "asin",
+            Acos => "acos",
+            Atan => "atan",
+            Sinh => "sinh",
+            Cosh => "cosh",
+            Tanh => "tanh",
+            CountOneBits => "countOneBits",
+            ReverseBits => "reverseBits",
+            LeadingZeros => "countLeadingZeros",
+            TrailingZeros => "countTrailingZeros",
+            Neg | Not | BitNot => unreachable!("these are operators"),
+        },
+        other => unreachable!("{other:?} is no function"),
+    }
+}

@@ -23,8 +23,8 @@ pub const MESSAGES: [&str; 3] = [
 
 /// A GLSL.
 pub struct Glsl<'a> {
-    resources: &'a Resources,
-    target: Target,
+    pub(super) resources: &'a Resources,
+    pub(super) target: Target,
 }
 
 impl<'a> Glsl<'a> {
@@ -85,7 +85,7 @@ impl<'a> Glsl<'a> {
     }
 
     /// `layout(set = 0, binding = N)`, with what else a layout says, as far as the version knows of bindings.
-    fn layout(&self, binding: u32, before: &str, behind: &str) -> String {
+    pub(super) fn layout(&self, binding: u32, before: &str, behind: &str) -> String {
         let binding = match self.target {
             Target::Glsl450 => format!("set = 0, binding = {binding}"),
             Target::Glsl430 | Target::Essl310 => format!("binding = {binding}"),
@@ -93,104 +93,21 @@ impl<'a> Glsl<'a> {
         };
         format!("layout({before}{binding}{behind}) ")
     }
-
-    /// Types that have no precision of their own in OpenGL ES.
-    fn opaque(&self) -> Vec<&'static str> {
-        let r = self.resources;
-        let kinds = |kind: TextureKind| {
-            self.resources
-                .combined
-                .iter()
-                .any(|one| r.texture(one.texture).kind == kind)
-        };
-        let compares = r
-            .combined
-            .iter()
-            .any(|one| one.sampler.is_some_and(|s| r.sampler(s).comparison));
-        let all = [
-            (kinds(TextureKind::Flat) || kinds(TextureKind::Depth), "sampler2D"),
-            (kinds(TextureKind::Layers), "sampler2DArray"),
-            (kinds(TextureKind::Multisampled), "sampler2DMS"),
-            (compares, "sampler2DShadow"),
-            (r.output_binding().is_some(), "image2D"),
-        ];
-        all.into_iter().filter(|(used, _)| *used).map(|(_, ty)| ty).collect()
-    }
-
-    /// What is bound in OpenGL.
-    fn opengl(&self) -> String {
-        let r = self.resources;
-        let mut out = String::new();
-        for one in &r.combined {
-            let binding = r.texture_binding(one.texture).unwrap_or_default();
-            let ty = match one.sampler.is_some_and(|s| r.sampler(s).comparison) {
-                true => "sampler2DShadow",
-                false => plain_sampler(r.texture(one.texture).kind),
-            };
-            let layout = match self
-                .resources
-                .combined
-                .iter()
-                .filter(|c| c.texture == one.texture)
-                .count()
-            {
-                1 => self.layout(binding, "", ""),
-                // Two samplers of one texture have two units, which the host numbers.
-                _ => String::new(),
-            };
-            out += &format!("{layout}uniform {ty} {};\n", r.combined_name(*one));
-        }
-        for (k, binding) in &r.read_buffers {
-            let (name, element) = (&r.buffer(*k).name, type_name(r.buffer(*k).element.into()));
-            let layout = self.layout(*binding, "std430, ", "");
-            out += &format!("{layout}readonly buffer {name}_buffer {{ {element} elements[]; }} {name};\n");
-        }
-        match r.output_binding() {
-            Some(binding) => {
-                let layout = self.layout(binding, "", &format!(", {}", r.options.format.glsl()));
-                out += &format!("{layout}uniform writeonly image2D {OUTPUT};\n");
-            }
-            None => {
-                for (k, varying) in r.varyings.iter().enumerate() {
-                    let declared = declared(&varying.name, varying.ty.into());
-                    let layout = match self.target {
-                        Target::Glsl430 | Target::Essl310 => format!("layout(location = {k}) "),
-                        _ => String::new(),
-                    };
-                    out += &format!("{layout}in {declared};\n");
-                }
-                out += &format!("layout(location = 0) out vec4 {OUTPUT};\n");
-            }
-        }
-        if !r.uniforms.is_empty() {
-            out.push('\n');
-        }
-        for uniform in &r.uniforms {
-            out += &format!("uniform {};\n", declared(&loose(&uniform.name), uniform.ty.into()));
-        }
-        if r.options.region {
-            out += "\n// The upper left pixel in the inputs, the size, and the upper left pixel in the target.\n";
-            for name in ["first", "size", "place"] {
-                out += &format!("uniform ivec2 {};\n", region(name));
-            }
-        }
-        out
-    }
 }
 
 /// A uniform that lies in no block.
-fn loose(name: &str) -> String {
+pub(super) fn loose(name: &str) -> String {
     match crate::emit::names::is_own(name) {
         true => format!("parameter_{name}"),
         false => name.to_owned(),
     }
 }
 
-fn region(name: &str) -> String {
+pub(super) fn region(name: &str) -> String {
     format!("{REGION}_{name}")
 }
 
-fn plain_sampler(kind: TextureKind) -> &'static str {
+pub(super) fn plain_sampler(kind: TextureKind) -> &'static str {
     match kind {
         TextureKind::Flat | TextureKind::Depth => "sampler2D",
         TextureKind::Layers => "sampler2DArray",
@@ -234,40 +151,12 @@ impl Language for Glsl<'_> {
     }
 
     fn function(&self, op: &ir::Op) -> &'static str {
-        use UnaryOp::*;
         match op {
-            ir::Op::Binary(BinaryOp::Min) => "min",
-            ir::Op::Binary(BinaryOp::Max) => "max",
-            ir::Op::Binary(BinaryOp::Pow) => "pow",
             ir::Op::Binary(BinaryOp::Atan2) => "atan",
-            ir::Op::Unary(op) => match op {
-                Abs => "abs",
-                Sign => "sign",
-                Floor => "floor",
-                Ceil => "ceil",
-                Round => "roundEven",
-                Trunc => "trunc",
-                Fract => "fract",
-                Sqrt => "sqrt",
-                InverseSqrt => "inversesqrt",
-                Exp => "exp",
-                Exp2 => "exp2",
-                Log => "log",
-                Log2 => "log2",
-                Sin => "sin",
-                Cos => "cos",
-                Tan => "tan",
-                Asin => "asin",
-                Acos => "acos",
-                Atan => "atan",
-                Sinh => "sinh",
-                Cosh => "cosh",
-                Tanh => "tanh",
-                ReverseBits => "bitfieldReverse",
-                Neg | Not | BitNot => unreachable!("these are operators"),
-                Saturate | CountOneBits | LeadingZeros | TrailingZeros => unreachable!("rewritten for GLSL"),
-            },
-            other => unreachable!("{other:?} is no function"),
+            ir::Op::Unary(UnaryOp::Round) => "roundEven",
+            ir::Op::Unary(UnaryOp::InverseSqrt) => "inversesqrt",
+            ir::Op::Unary(UnaryOp::ReverseBits) => "bitfieldReverse",
+            other => super::expr::function(other),
         }
     }
 
@@ -477,7 +366,7 @@ impl Language for Glsl<'_> {
 }
 
 /// A variable with its type: arrays have their extent after the name.
-fn declared(name: &str, ty: Ty) -> String {
+pub(super) fn declared(name: &str, ty: Ty) -> String {
     match ty.shape {
         Type::Array { len, .. } => format!("{} {name}[{len}]", type_name(ty.element_ty())),
         _ => format!("{} {name}", type_name(ty)),

@@ -68,7 +68,7 @@ fn shortened(value: &str) -> String {
     }
 }
 
-/// How lanes hear from each other, where there are some.
+/// How lanes of quads swap values, where there are some.
 fn messages(compiled: &Compiled) -> &'static str {
     match compiled.graph.invocation {
         Invocation::Lane if compiled.transport == Some(Transport::Derivatives) => "messages by fine derivatives, ",

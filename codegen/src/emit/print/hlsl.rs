@@ -127,41 +127,11 @@ impl Language for Hlsl<'_> {
     }
 
     fn function(&self, op: &ir::Op) -> &'static str {
-        use UnaryOp::*;
         match op {
-            ir::Op::Binary(BinaryOp::Min) => "min",
-            ir::Op::Binary(BinaryOp::Max) => "max",
-            ir::Op::Binary(BinaryOp::Pow) => "pow",
-            ir::Op::Binary(BinaryOp::Atan2) => "atan2",
-            ir::Op::Unary(op) => match op {
-                Abs => "abs",
-                Sign => "sign",
-                Floor => "floor",
-                Ceil => "ceil",
-                Round => "round",
-                Trunc => "trunc",
-                Fract => "frac",
-                Saturate => "saturate",
-                Sqrt => "sqrt",
-                InverseSqrt => "rsqrt",
-                Exp => "exp",
-                Exp2 => "exp2",
-                Log => "log",
-                Log2 => "log2",
-                Sin => "sin",
-                Cos => "cos",
-                Tan => "tan",
-                Asin => "asin",
-                Acos => "acos",
-                Atan => "atan",
-                Sinh => "sinh",
-                Cosh => "cosh",
-                Tanh => "tanh",
-                ReverseBits => "reversebits",
-                Neg | Not | BitNot => unreachable!("these are operators"),
-                CountOneBits | LeadingZeros | TrailingZeros => unreachable!("rewritten for HLSL"),
-            },
-            other => unreachable!("{other:?} is no function"),
+            ir::Op::Unary(UnaryOp::Fract) => "frac",
+            ir::Op::Unary(UnaryOp::InverseSqrt) => "rsqrt",
+            ir::Op::Unary(UnaryOp::ReverseBits) => "reversebits",
+            other => super::expr::function(other),
         }
     }
 

@@ -4,6 +4,7 @@ mod expr;
 mod glsl;
 mod header;
 mod hlsl;
+mod opengl;
 mod wgsl;
 
 use super::ast::{Block, Builtin, Expr, Function, Module, Op, Stmt, StmtKind, Ty, VarId};
@@ -52,8 +53,10 @@ pub trait Language {
     }
     /// What the host tells.
     fn builtin(&self, builtin: Builtin) -> Text;
-    /// The function that stands for an operation of the graph on numbers.
-    fn function(&self, op: &ir::Op) -> &'static str;
+    /// The function that stands for an operation of the graph on numbers; WGSL's name unless the language has another.
+    fn function(&self, op: &ir::Op) -> &'static str {
+        expr::function(op)
+    }
     /// A read of what the host binds, a size of it, or what another lane has.
     fn read(&self, op: &ir::Op, args: &[Text]) -> Text;
     /// Selection by a scalar boolean.

@@ -4,7 +4,7 @@ use super::expr::{float, integer, unsigned};
 use super::{Language, Text, commented};
 use crate::emit::ast::{Builtin, Ty};
 use crate::emit::resources::{OUTPUT, Resources, UNIFORMS};
-use crate::ir::{self, Axis, BinaryOp, Direction, Scalar, TextureKind, Type, UnaryOp};
+use crate::ir::{self, Axis, BinaryOp, Direction, Scalar, TextureKind, Type};
 use std::fmt::Write;
 use straightline_manifest::{Precision, REGION, Stage};
 
@@ -46,47 +46,6 @@ impl Language for Wgsl<'_> {
             Builtin::RegionFirst => Text::name(format!("{REGION}.first")),
             Builtin::RegionSize => Text::name(format!("{REGION}.size")),
             Builtin::RegionPlace => Text::name(format!("{REGION}.place")),
-        }
-    }
-
-    fn function(&self, op: &ir::Op) -> &'static str {
-        use UnaryOp::*;
-        match op {
-            ir::Op::Binary(BinaryOp::Min) => "min",
-            ir::Op::Binary(BinaryOp::Max) => "max",
-            ir::Op::Binary(BinaryOp::Pow) => "pow",
-            ir::Op::Binary(BinaryOp::Atan2) => "atan2",
-            ir::Op::Unary(op) => match op {
-                Abs => "abs",
-                Sign => "sign",
-                Floor => "floor",
-                Ceil => "ceil",
-                Round => "round",
-                Trunc => "trunc",
-                Fract => "fract",
-                Saturate => "saturate",
-                Sqrt => "sqrt",
-                InverseSqrt => "inverseSqrt",
-                Exp => "exp",
-                Exp2 => "exp2",
-                Log => "log",
-                Log2 => "log2",
-                Sin => "sin",
-                Cos => "cos",
-                Tan => "tan",
-                Asin => "asin",
-                Acos => "acos",
-                Atan => "atan",
-                Sinh => "sinh",
-                Cosh => "cosh",
-                Tanh => "tanh",
-                CountOneBits => "countOneBits",
-                ReverseBits => "reverseBits",
-                LeadingZeros => "countLeadingZeros",
-                TrailingZeros => "countTrailingZeros",
-                Neg | Not | BitNot => unreachable!("these are operators"),
-            },
-            other => unreachable!("{other:?} is no function"),
         }
     }
 

@@ -27,12 +27,12 @@ fn swizzle(mut expr: Expr) -> Expr {
             let base = base.args.swap_remove(0);
             swizzle(Expr::new(Op::Swizzle(components), vec![base], expr.ty))
         }
-        Op::Construct if components.len() == 1 && base.args.len() == base.ty.lanes() as usize => {
-            let part = base.args.swap_remove(components[0] as usize);
-            if part.ty == expr.ty {
-                return part;
-            }
-            expr
+        Op::Construct
+            if components.len() == 1
+                && base.args.len() == base.ty.lanes() as usize
+                && base.args[components[0] as usize].ty == expr.ty =>
+        {
+            base.args.swap_remove(components[0] as usize)
         }
         _ => {
             let whole = components.iter().copied().eq(0..base.ty.lanes());

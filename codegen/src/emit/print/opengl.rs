@@ -1,0 +1,91 @@
+//! What GLSL of OpenGL and OpenGL ES declares: combined samplers, loose uniforms, precisions.
+
+use super::glsl::{Glsl, declared, loose, plain_sampler, region, type_name};
+use crate::emit::Target;
+use crate::emit::resources::OUTPUT;
+use crate::ir::TextureKind;
+
+impl Glsl<'_> {
+    /// Types that have no precision of their own in OpenGL ES.
+    pub(super) fn opaque(&self) -> Vec<&'static str> {
+        let r = self.resources;
+        let kinds = |kind: TextureKind| {
+            self.resources
+                .combined
+                .iter()
+                .any(|one| r.texture(one.texture).kind == kind)
+        };
+        let compares = r
+            .combined
+            .iter()
+            .any(|one| one.sampler.is_some_and(|s| r.sampler(s).comparison));
+        let all = [
+            (kinds(TextureKind::Flat) || kinds(TextureKind::Depth), "sampler2D"),
+            (kinds(TextureKind::Layers), "sampler2DArray"),
+            (kinds(TextureKind::Multisampled), "sampler2DMS"),
+            (compares, "sampler2DShadow"),
+            (r.output_binding().is_some(), "image2D"),
+        ];
+        all.into_iter().filter(|(used, _)| *used).map(|(_, ty)| ty).collect()
+    }
+
+    /// What is bound in OpenGL.
+    pub(super) fn opengl(&self) -> String {
+        let r = self.resources;
+        let mut out = String::new();
+        for one in &r.combined {
+            let binding = r.texture_binding(one.texture).unwrap_or_default();
+            let ty = match one.sampler.is_some_and(|s| r.sampler(s).comparison) {
+                true => "sampler2DShadow",
+                false => plain_sampler(r.texture(one.texture).kind),
+            };
+            let layout = match self
+                .resources
+                .combined
+                .iter()
+                .filter(|c| c.texture == one.texture)
+                .count()
+            {
+                1 => self.layout(binding, "", ""),
+                // Two samplers of one texture have two units, which the host numbers.
+                _ => String::new(),
+            };
+            out += &format!("{layout}uniform {ty} {};\n", r.combined_name(*one));
+        }
+        for (k, binding) in &r.read_buffers {
+            let (name, element) = (&r.buffer(*k).name, type_name(r.buffer(*k).element.into()));
+            let layout = self.layout(*binding, "std430, ", "");
+            out += &format!("{layout}readonly buffer {name}_buffer {{ {element} elements[]; }} {name};\n");
+        }
+        match r.output_binding() {
+            Some(binding) => {
+                let layout = self.layout(binding, "", &format!(", {}", r.options.format.glsl()));
+                out += &format!("{layout}uniform writeonly image2D {OUTPUT};\n");
+            }
+            None => {
+                for (k, varying) in r.varyings.iter().enumerate() {
+                    let declared = declared(&varying.name, varying.ty.into());
+                    let layout = match self.target {
+                        Target::Glsl430 | Target::Essl310 => format!("layout(location = {k}) "),
+                        _ => String::new(),
+                    };
+                    out += &format!("{layout}in {declared};\n");
+                }
+                out += &format!("layout(location = 0) out vec4 {OUTPUT};\n");
+            }
+        }
+        if !r.uniforms.is_empty() {
+            out.push('\n');
+        }
+        for uniform in &r.uniforms {
+            out += &format!("uniform {};\n", declared(&loose(&uniform.name), uniform.ty.into()));
+        }
+        if r.options.region {
+            out += "\n// The upper left pixel in the inputs, the size, and the upper left pixel in the target.\n";
+            for name in ["first", "size", "place"] {
+                out += &format!("uniform ivec2 {};\n", region(name));
+            }
+        }
+        out
+    }
+}
