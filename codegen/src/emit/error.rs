@@ -57,11 +57,13 @@ pub enum EmitError {
     },
     /// Half precision in a language that naga can neither write nor check with it.
     #[error(
-        "`{kernel}` in half precision cannot be written in GLSL, where naga knows no f16: use wgsl, spirv, hlsl or msl, or leave the precision at f32"
+        "`{kernel}` in half precision cannot be written in {target}, where naga knows no f16: use wgsl, spirv, hlsl or msl, or leave the precision at f32"
     )]
     HalfGlsl {
         /// The kernel.
         kernel: String,
+        /// The language.
+        target: &'static str,
     },
     /// A layer or sample whose index nothing bounds.
     #[error(

@@ -14,9 +14,6 @@ use straightline_manifest::{Precision, Stage};
 /// The first thing that it does not have, and the languages that do.
 pub fn check(compiled: &Compiled, resources: &Resources, target: Target) -> Result<(), EmitError> {
     let kernel = || compiled.kernel.clone();
-    if resources.options.precision == Precision::F16 {
-        return Err(EmitError::HalfGlsl { kernel: kernel() });
-    }
     let (name, old, combined) = match target {
         Target::Glsl430 => ("glsl430", false, true),
         Target::Glsl330 => ("glsl330", true, true),
@@ -24,6 +21,12 @@ pub fn check(compiled: &Compiled, resources: &Resources, target: Target) -> Resu
         Target::Essl300 => ("essl300", true, true),
         _ => ("glsl450", false, false),
     };
+    if resources.options.precision == Precision::F16 {
+        return Err(EmitError::HalfGlsl {
+            kernel: kernel(),
+            target: name,
+        });
+    }
     let graph = &compiled.graph;
     let live = graph
         .ids()
