@@ -269,6 +269,10 @@ pub enum StmtKind<'g> {
         /// What is repeated.
         body: Block<'g>,
     },
+    /// Repeats until a [`StmtKind::Break`].
+    Loop(Block<'g>),
+    /// Leaves the innermost loop.
+    Break,
     /// One of two sides.
     If {
         /// A scalar boolean.
@@ -314,7 +318,7 @@ impl<'g> Stmt<'g> {
             StmtKind::Assign(place, _, value) | StmtKind::Store(place, value) => vec![place, value],
             StmtKind::For { start, end, .. } => vec![start, end],
             StmtKind::If { condition, .. } => vec![condition],
-            StmtKind::Comment(_) => Vec::new(),
+            StmtKind::Loop(_) | StmtKind::Break | StmtKind::Comment(_) => Vec::new(),
         }
     }
 
@@ -334,14 +338,14 @@ impl<'g> Stmt<'g> {
             StmtKind::Assign(place, _, value) | StmtKind::Store(place, value) => vec![place, value],
             StmtKind::For { start, end, .. } => vec![start, end],
             StmtKind::If { condition, .. } => vec![condition],
-            StmtKind::Comment(_) => Vec::new(),
+            StmtKind::Loop(_) | StmtKind::Break | StmtKind::Comment(_) => Vec::new(),
         }
     }
 
     /// As [`Stmt::blocks`], to change them.
     pub fn blocks_mut(&mut self) -> Vec<&mut Block<'g>> {
         match &mut self.kind {
-            StmtKind::For { body, .. } => vec![body],
+            StmtKind::For { body, .. } | StmtKind::Loop(body) => vec![body],
             StmtKind::If { then, otherwise, .. } => vec![then, otherwise],
             _ => Vec::new(),
         }
@@ -350,7 +354,7 @@ impl<'g> Stmt<'g> {
     /// Blocks of the statement.
     pub fn blocks(&self) -> Vec<&Block<'g>> {
         match &self.kind {
-            StmtKind::For { body, .. } => vec![body],
+            StmtKind::For { body, .. } | StmtKind::Loop(body) => vec![body],
             StmtKind::If { then, otherwise, .. } => vec![then, otherwise],
             _ => Vec::new(),
         }

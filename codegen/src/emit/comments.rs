@@ -45,7 +45,7 @@ impl<'g> Groups<'g> {
         let mut out = Vec::new();
         for mut stmt in block {
             match &mut stmt.kind {
-                StmtKind::For { body, .. } => {
+                StmtKind::For { body, .. } | StmtKind::Loop(body) => {
                     self.flush(&mut out);
                     *body = self.block(std::mem::take(body));
                     out.push(stmt);

@@ -1,6 +1,7 @@
 //! Calls: the kernel's own functions, inlined, and the prelude's.
 
-use super::value::{Eval, Exit, Value};
+use super::departures::Tail;
+use super::value::{Eval, Exit, Value, Way};
 use super::{Evaluator, MAX_CALLS};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::front::tree::{Expr, ExprKind, Function, Generic, Type as SourceType};
@@ -152,20 +153,24 @@ impl Evaluator<'_> {
             self.scope.bind(&param.name, value);
         }
         self.calls.push(name.to_owned());
-        let result = self.block(&function.body);
+        let pending = std::mem::take(&mut self.departed);
+        let result = self.block_in(&function.body, Tail::Function);
+        let result = self.arrive(0, result, outer.1, &|way| matches!(way, Way::Return(_)), function.span);
+        self.departed = pending;
         self.calls.pop();
-        let result = match result {
-            Ok(value) | Err(Exit::Return(value)) => self.ascribe(value, Some(&function.result), function.span),
-            other => other,
-        };
+        let result = result.and_then(|value| self.ascribe(value, Some(&function.result), function.span));
         self.scope.leave_function(outer);
         if let Ok(value) = &result {
-            self.name_as(value, &called(name), Naming::Function, span);
+            // The kernel's own name says nothing of its result.
+            let result = if self.calls.is_empty() {
+                "result".to_owned()
+            } else {
+                called(name)
+            };
+            self.name_as(value, &result, Naming::Function, span);
         }
         match result {
-            Err(Exit::Break(_) | Exit::Continue(_)) => {
-                Err(Diagnostic::at(function.span, "`break` or `continue` outside of a loop").into())
-            }
+            Err(Exit::Left(_)) => Err(Diagnostic::at(function.span, "`break` or `continue` outside of a loop").into()),
             other => other,
         }
     }

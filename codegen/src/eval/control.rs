@@ -1,6 +1,7 @@
 //! `if`, `match`, and joining what two sides did.
 
 use super::Evaluator;
+use super::departures::{Departure, Side, Tail};
 use super::scope::Scope;
 use super::value::{Eval, Exit, Step, Value};
 use crate::diagnostic::{Diagnostic, Span};
@@ -18,6 +19,33 @@ impl Evaluator<'_> {
         attribute: Option<Branches>,
         span: Span,
     ) -> Eval {
+        self.if_in(condition, then, otherwise, attribute, Tail::Open, span)
+    }
+
+    /// An `if` at the end of a block.
+    pub fn if_in(
+        &mut self,
+        condition: &Expr,
+        then: &Block,
+        otherwise: Option<&Expr>,
+        attribute: Option<Branches>,
+        tail: Tail<'_>,
+        span: Span,
+    ) -> Eval {
+        let id = self.condition(condition)?;
+        let other = |e: &mut Self| otherwise.map_or(Ok(Value::unit()), |o| e.expr_in(o, tail));
+        match self.known_bool(id) {
+            Some(true) => self.block_in(then, tail),
+            Some(false) => other(self),
+            None => {
+                let keep = self.policy.keeps(attribute);
+                self.branch_in(tail, id, keep, span, |e| e.block_in(then, tail), other)
+            }
+        }
+    }
+
+    /// A condition, as a boolean.
+    pub fn condition(&mut self, condition: &Expr) -> Eval<NodeId> {
         let value = self.value(condition)?;
         let id = self.node(&value, condition.span)?;
         if self.ty(id) != Type::BOOL {
@@ -26,14 +54,7 @@ impl Evaluator<'_> {
                 .help("compare it: `!= 0`")
                 .into());
         }
-        match self.known_bool(id) {
-            Some(true) => self.block(then),
-            Some(false) => otherwise.map_or(Ok(Value::unit()), |e| self.expr(e)),
-            None => {
-                let keep = self.policy.keeps(attribute);
-                self.branch(id, then, otherwise, keep, span)
-            }
-        }
+        Ok(id)
     }
 
     /// `assert!`: a condition that is known now and must hold.
@@ -55,47 +76,158 @@ impl Evaluator<'_> {
 
     /// A condition that is known at run time: both sides are evaluated, and what differs is selected, or a branch
     /// is kept.
-    fn branch(&mut self, condition: NodeId, then: &Block, otherwise: Option<&Expr>, keep: bool, span: Span) -> Eval {
+    pub fn branch(
+        &mut self,
+        condition: NodeId,
+        keep: bool,
+        span: Span,
+        then: impl FnOnce(&mut Self) -> Eval,
+        otherwise: impl FnOnce(&mut Self) -> Eval,
+    ) -> Eval {
+        self.branch_in(Tail::Open, condition, keep, span, then, otherwise)
+    }
+
+    /// A branch at the end of a block.
+    pub fn branch_in(
+        &mut self,
+        tail: Tail<'_>,
+        condition: NodeId,
+        keep: bool,
+        span: Span,
+        then: impl FnOnce(&mut Self) -> Eval,
+        otherwise: impl FnOnce(&mut Self) -> Eval,
+    ) -> Eval {
+        let pending = std::mem::take(&mut self.departed);
         let before = self.scope.clone();
-        let untouched = before.clone();
-        let first = keep.then(|| self.builder.open_region(&[]));
-        let left = self.side(span, |e| e.block(then));
-        let after_left = std::mem::replace(&mut self.scope, before);
-        if keep {
-            self.builder.close_region(Vec::new());
-        }
-        let second = keep.then(|| self.builder.open_region(&[]));
-        let right = self.side(span, |e| otherwise.map_or(Ok(Value::unit()), |o| e.expr(o)));
-        if keep {
-            self.builder.close_region(Vec::new());
-        }
-        let regions = first.zip(second);
-        let joined = match (left, right) {
-            (Ok(left), Ok(right)) => self.join(condition, regions, (after_left, left), right, span),
-            (Err(exit), _) | (_, Err(exit)) => Err(exit),
+        let joined = match keep {
+            true => self.kept_branch(tail, condition, span, then, otherwise),
+            false => self.selected(tail, condition, span, then, otherwise),
         };
-        if joined.is_err() {
+        if matches!(joined, Err(Exit::Error(_) | Exit::Noted)) {
             // Values made inside belong to no place outside.
-            self.scope = untouched;
+            self.scope = before;
+            self.departed.clear();
         }
+        self.departed.splice(0..0, pending);
         joined
     }
 
-    /// Evaluates what is only looked at where a run-time condition holds.
-    pub fn side(&mut self, span: Span, evaluate: impl FnOnce(&mut Self) -> Eval) -> Eval {
+    fn selected(
+        &mut self,
+        tail: Tail<'_>,
+        condition: NodeId,
+        span: Span,
+        then: impl FnOnce(&mut Self) -> Eval,
+        otherwise: impl FnOnce(&mut Self) -> Eval,
+    ) -> Eval {
+        let before = self.scope.clone();
+        let left = self.side(tail, span, then);
+        let after_left = std::mem::replace(&mut self.scope, before);
+        let departed_left = std::mem::take(&mut self.departed);
+        let right = self.side(tail, span, otherwise);
+        let departed_right = std::mem::take(&mut self.departed);
+        let negated = self.not(condition);
+        for (side, departed) in [(condition, departed_left), (negated, departed_right)] {
+            for departure in departed {
+                let condition = self.and(side, departure.condition);
+                self.departed.push(Departure {
+                    condition,
+                    group: None,
+                    ..departure
+                });
+            }
+        }
+        match (left, right) {
+            (Ok(left), Ok(right)) => self.join(condition, None, (after_left, left), right, span),
+            (Err(Exit::Left(way)), Ok(right)) => {
+                let scope = after_left;
+                self.departed.push(Departure {
+                    condition,
+                    way,
+                    scope,
+                    group: None,
+                });
+                Ok(right)
+            }
+            (Ok(left), Err(Exit::Left(way))) => {
+                let scope = std::mem::replace(&mut self.scope, after_left);
+                let condition = negated;
+                self.departed.push(Departure {
+                    condition,
+                    way,
+                    scope,
+                    group: None,
+                });
+                Ok(left)
+            }
+            (Err(Exit::Left(left)), Err(Exit::Left(right))) => {
+                let scope = after_left;
+                self.departed.push(Departure {
+                    condition,
+                    way: left,
+                    scope,
+                    group: None,
+                });
+                Err(Exit::Left(right))
+            }
+            (Err(error @ (Exit::Error(_) | Exit::Noted)), _) | (_, Err(error)) => Err(error),
+        }
+    }
+
+    fn kept_branch(
+        &mut self,
+        tail: Tail<'_>,
+        condition: NodeId,
+        span: Span,
+        then: impl FnOnce(&mut Self) -> Eval,
+        otherwise: impl FnOnce(&mut Self) -> Eval,
+    ) -> Eval {
+        let before = self.scope.clone();
+        let negated = self.not(condition);
+        let first = self.builder.open_region(&[]);
+        let left = self.flat_side(tail, span, then);
+        self.builder.close_region(Vec::new());
+        let after_left = std::mem::replace(&mut self.scope, before);
+        let second = self.builder.open_region(&[]);
+        let right = self.flat_side(tail, span, otherwise);
+        self.builder.close_region(Vec::new());
+        self.join_kept(condition, negated, (first, second), (after_left, left?), right?, span)
+    }
+
+    /// One side of a branch that is kept, with all who leave it in one state.
+    fn flat_side(&mut self, tail: Tail<'_>, span: Span, evaluate: impl FnOnce(&mut Self) -> Eval) -> Eval<Side> {
         let mark = self.scope.enter();
+        let outcome = self.side(tail, span, evaluate);
+        let departed = std::mem::take(&mut self.departed);
+        self.flatten(outcome, departed, mark, span)
+    }
+
+    /// Evaluates what is only looked at where a run-time condition holds.
+    fn side(&mut self, tail: Tail<'_>, span: Span, evaluate: impl FnOnce(&mut Self) -> Eval) -> Eval {
+        let (mark, since) = (self.scope.enter(), self.departed.len());
         let outcome = evaluate(self);
+        let outcome = self.arrive(since, outcome, mark, &|way| tail.takes(way), span);
         self.scope.leave(mark);
+        outcome
+    }
+
+    /// The right side of `&&` or `||`, which nobody leaves.
+    pub fn lazy_side(&mut self, right: &Expr) -> Eval {
+        let (mark, since) = (self.scope.enter(), self.departed.len());
+        let outcome = self.value(right);
+        self.scope.leave(mark);
+        let left = self.departed.len() > since;
+        self.departed.truncate(since);
         match outcome {
-            Err(Exit::Break(_) | Exit::Continue(_) | Exit::Return(_)) => Err(Diagnostic::at(
-                span,
-                "`break`, `continue` or `return` under a condition that is only known at run time",
+            Ok(value) if !left => Ok(value),
+            Ok(_) | Err(Exit::Left(_)) => Err(Diagnostic::at(
+                right.span,
+                "`break`, `continue` or `return` on the right side of `&&` or `||`",
             )
-            .label("not known now")
-            .note("both sides of this `if` are part of the shader, and what follows has to come after both")
-            .help("let both sides of the `if` give a value, and go on with that")
+            .label("whether it is reached is a runtime value")
+            .help("write an `if`")
             .into()),
-            other => other,
+            error => error,
         }
     }
 
@@ -108,7 +240,20 @@ impl Evaluator<'_> {
         right: Value,
         span: Span,
     ) -> Eval {
-        let mut pairs = vec![(None, left, right)];
+        let joined = self.join_all(condition, regions, &left_scope, vec![(left, right)], span)?;
+        Ok(joined.into_iter().next().unwrap_or(Value::Poison))
+    }
+
+    /// As [`Evaluator::join`], of several values beside the variables.
+    pub fn join_all(
+        &mut self,
+        condition: NodeId,
+        regions: Option<(RegionId, RegionId)>,
+        left_scope: &Scope,
+        values: Vec<(Value, Value)>,
+        span: Span,
+    ) -> Eval<Vec<Value>> {
+        let mut pairs: Vec<_> = values.into_iter().map(|(left, right)| (None, left, right)).collect();
         let mut compared = 0;
         for slot in 0..self.scope.len() {
             let (a, b) = (left_scope.at(slot).1, self.scope.at(slot).1);
@@ -127,20 +272,17 @@ impl Evaluator<'_> {
         let (mut lefts, mut rights) = (Vec::new(), Vec::new());
         for (slot, a, b) in pairs {
             let (a, b) = self.agree(&a, &b, span)?;
-            let (mut from_a, mut from_b) = (Vec::new(), Vec::new());
-            Self::leaves(&a, &mut from_a);
-            Self::leaves(&b, &mut from_b);
-            joined.push((slot, a, from_a.len()));
-            lefts.extend(from_a);
-            rights.extend(from_b);
+            Self::leaves(&a, &mut lefts);
+            Self::leaves(&b, &mut rights);
+            joined.push((slot, a));
         }
         let nodes = self.merge_nodes(condition, regions, &lefts, &rights);
         let mut nodes = nodes.into_iter();
-        let mut result = Value::unit();
-        for (slot, template, _) in joined {
+        let mut results = Vec::new();
+        for (slot, template) in joined {
             let value = Self::with_leaves(&template, &mut nodes);
             match slot {
-                None => result = value,
+                None => results.push(value),
                 Some(slot) => {
                     let name = self.scope.at(slot).0.to_owned();
                     self.name(&value, &name, span);
@@ -148,7 +290,7 @@ impl Evaluator<'_> {
                 }
             }
         }
-        Ok(result)
+        Ok(results)
     }
 
     fn merge_nodes(

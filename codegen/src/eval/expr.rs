@@ -1,6 +1,7 @@
 //! Expressions and blocks.
 
-use super::value::{Eval, Exit, Step, Value};
+use super::departures::{Tail, has_exits};
+use super::value::{Eval, Exit, Step, Value, Way};
 use super::{Evaluator, MAX_PARTS};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::front::tree::{Block, Expr, ExprKind, IntType, Pattern, Statement, Type as SourceType};
@@ -10,16 +11,32 @@ use std::rc::Rc;
 impl Evaluator<'_> {
     /// A block in a scope of its own. An error in one statement does not hide those in the next.
     pub fn block(&mut self, block: &Block) -> Eval {
+        self.block_in(block, Tail::Open)
+    }
+
+    /// A block, and what ends with it.
+    pub fn block_in(&mut self, block: &Block, tail: Tail<'_>) -> Eval {
         let mark = self.scope.enter();
-        let result = self.statements(block);
+        let result = self.statements(block, 0, tail);
         self.scope.leave(mark);
         result
     }
 
-    fn statements(&mut self, block: &Block) -> Eval {
+    /// A block from a statement on.
+    fn statements(&mut self, block: &Block, from: usize, tail: Tail<'_>) -> Eval {
         let noted = self.errors.len();
-        for statement in &block.statements {
+        for (k, statement) in block.statements.iter().enumerate().skip(from) {
+            let since = self.departed.len();
             match statement {
+                Statement::Expr(Expr {
+                    kind: ExprKind::If(condition, then, otherwise, attribute),
+                    span,
+                }) if self.keeps_exits(*attribute) && has_exits(then, otherwise.as_deref()) => {
+                    let parts = (&**condition, then, otherwise.as_deref());
+                    let outcome = self.guarded(parts, tail, *span, &mut |e| e.statements(block, k + 1, tail));
+                    let failed = self.errors.len() > noted;
+                    return if failed { outcome.and(Err(Exit::Noted)) } else { outcome };
+                }
                 Statement::Let(pattern, ty, init, span) => {
                     self.step(*span)?;
                     let value = match init {
@@ -48,11 +65,35 @@ impl Evaluator<'_> {
                     self.scope.bind(&constant.name, value);
                 }
             }
+            if self.departed.len() > since && self.keeps_exits(None) {
+                let span = match statement {
+                    Statement::Let(.., span) => *span,
+                    Statement::Expr(e) => e.span,
+                    Statement::Const(constant) => constant.value.span,
+                };
+                return self.unless_departed(since, tail, span, |e| e.statements(block, k + 1, tail));
+            }
         }
         if self.errors.len() > noted {
             return Err(Exit::Noted);
         }
-        block.value.as_ref().map_or(Ok(Value::unit()), |e| self.expr(e))
+        block
+            .value
+            .as_ref()
+            .map_or(Ok(Value::unit()), |e| self.expr_in(e, tail))
+    }
+
+    /// An expression at the end of a block.
+    pub fn expr_in(&mut self, expr: &Expr, tail: Tail<'_>) -> Eval {
+        match (&expr.kind, tail) {
+            (_, Tail::Open) => self.expr(expr),
+            (ExprKind::Block(block), _) => self.block_in(block, tail),
+            (ExprKind::If(condition, then, otherwise, attribute), _) => {
+                self.step(expr.span)?;
+                self.if_in(condition, then, otherwise.as_deref(), *attribute, tail, expr.span)
+            }
+            _ => self.expr(expr),
+        }
     }
 
     /// Checks a value against the type that is stated for it, as far as shaders tell types apart, and gives a known
@@ -310,10 +351,10 @@ impl Evaluator<'_> {
             }
             ExprKind::Return(value) => {
                 let value = value.as_ref().map_or(Ok(Value::unit()), |e| self.expr(e))?;
-                Err(Exit::Return(value))
+                Err(Exit::Left(Way::Return(value)))
             }
-            ExprKind::Break(label) => Err(Exit::Break(label.clone())),
-            ExprKind::Continue(label) => Err(Exit::Continue(label.clone())),
+            ExprKind::Break(label) => Err(Exit::Left(Way::Break(label.clone()))),
+            ExprKind::Continue(label) => Err(Exit::Left(Way::Continue(label.clone()))),
             ExprKind::Assert(condition, message) => self.assert(condition, message),
         }
     }
@@ -397,7 +438,7 @@ impl Evaluator<'_> {
             Some(_) => self.value(right),
             None => {
                 let before = self.scope.clone();
-                let value = self.side(span, |e| e.value(right))?;
+                let value = self.lazy_side(right)?;
                 if self.scope == before {
                     let op = if and { BinaryOp::And } else { BinaryOp::Or };
                     return self.binary(op, &Value::Node(left), &value, span);

@@ -1,12 +1,13 @@
 //! `for`, and what all loops have in common: a loop is left in the shader where that is asked for and can be done.
 
 use super::Evaluator;
+use super::departures::{Departure, Side, Tail};
 use super::partial::Count;
-use super::value::{Eval, Exit, Place, Step, Value};
+use super::value::{Eval, Exit, Place, Step, Value, Way};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::front::assigned;
 use crate::front::tree::{Block, ForLoop, Pattern};
-use crate::ir::{Counter, Naming, NodeId, Op, Origin, Type};
+use crate::ir::{Counter, Naming, NodeId, Op, Origin, RegionId, Type};
 use crate::policy::{Asked, Unroll};
 
 /// What a loop does in each iteration.
@@ -21,6 +22,8 @@ pub struct Body<'a> {
     pub label: Option<&'a str>,
     /// Positions of variables that it may write through what it runs over.
     pub written: Vec<usize>,
+    /// Whether its `break` leads just behind the loop of the graph, and not further.
+    pub breaks_here: bool,
 }
 
 /// A loop of which the number of iterations is known, and what is asked of it.
@@ -29,8 +32,6 @@ pub struct Wish {
     pub asked: Asked,
     /// How often its body is evaluated.
     pub iterations: u64,
-    /// Why it cannot be granted whatever its body makes of variables.
-    pub obstacle: Option<&'static str>,
     /// The whole of it, by which it is known.
     pub span: Span,
     /// What an error points at.
@@ -44,9 +45,6 @@ pub enum Granted {
     /// It is to be unrolled. If it was asked for by name, the error that this is.
     Unrolled(Option<Diagnostic>),
 }
-
-/// Why a loop that may be left other than by its end is no loop in the shader.
-pub const LEAVES: &str = "its body has a `break`, `continue` or `return` that leaves an iteration";
 
 impl Evaluator<'_> {
     pub fn for_(&mut self, f: &ForLoop, span: Span) -> Eval {
@@ -65,7 +63,6 @@ impl Evaluator<'_> {
 
     /// Runs a loop as asked, or as it can be; gives what became of it.
     fn run(&mut self, f: &ForLoop, items: Value, asked: Asked, span: Span) -> Eval<Unroll> {
-        let leaves = assigned(&f.body, &self.library.mutating).leaves;
         let counter = match (&f.pattern, &items) {
             (Pattern::Name(name, _, at), Value::Range(_)) => Some((name.as_str(), *at)),
             _ => None,
@@ -76,6 +73,7 @@ impl Evaluator<'_> {
             counter,
             label: f.label.as_deref(),
             written: Vec::new(),
+            breaks_here: true,
         };
         let mut range = None;
         let values = match items {
@@ -83,15 +81,6 @@ impl Evaluator<'_> {
                 Some(values) => {
                     range = Some(items);
                     values
-                }
-                None if leaves => {
-                    return Err(Diagnostic::at(
-                        f.over.span,
-                        "a loop whose bounds are runtime values cannot be left early",
-                    )
-                    .label("a runtime value")
-                    .help("give the loop fixed bounds, or select what is computed in it")
-                    .into());
                 }
                 None if asked.by_name && asked.unroll == Unroll::Full => {
                     return Err(Diagnostic::at(
@@ -136,7 +125,6 @@ impl Evaluator<'_> {
         let wish = Wish {
             asked,
             iterations: values.len() as u64,
-            obstacle: leaves.then_some(LEAVES),
             span,
             head: f.over.span,
         };
@@ -191,9 +179,7 @@ impl Evaluator<'_> {
             }
             return Ok(Granted::Unrolled(None));
         }
-        let why = if let Some(obstacle) = wish.obstacle {
-            Diagnostic::at(wish.head, obstacle)
-        } else if let Some(why) = self.loops.given_up(span) {
+        let why = if let Some(why) = self.loops.given_up(span) {
             why
         } else {
             let before = self.checkpoint();
@@ -221,13 +207,15 @@ impl Evaluator<'_> {
     }
 
     fn unrolled(&mut self, body: &Body<'_>, items: Vec<Value>, span: Span) -> Eval<()> {
+        let (mark, since) = (self.scope.enter(), self.departed.len());
         let noted = self.errors.len();
-        let Some(pattern) = body.pattern else { return Ok(()) };
+        let mut outcome = Ok(Value::unit());
         for item in items {
-            self.step(span)?;
-            self.loops.round();
-            let outcome = self.round(pattern, item, body.block, span);
-            if !again(outcome, body.label)? {
+            outcome = self.unless_departed(since, Tail::Open, span, |e| {
+                e.loops.round();
+                e.body(body, item, span).map(|()| Value::unit())
+            });
+            if outcome.is_err() {
                 break;
             }
             // The next round would only find the same errors again.
@@ -235,11 +223,30 @@ impl Evaluator<'_> {
                 return Err(Exit::Noted);
             }
         }
+        self.arrive(since, outcome, mark, &|way| way.breaks(body.label), span)?;
         Ok(())
     }
 
-    /// The body for one value of the counter.
-    pub fn round(&mut self, pattern: &Pattern, item: Value, body: &Block, span: Span) -> Eval {
+    /// The body for one value of what the loop runs over.
+    pub fn body(&mut self, body: &Body<'_>, item: Value, span: Span) -> Eval<()> {
+        self.step(span)?;
+        let (mark, since) = (self.scope.enter(), self.departed.len());
+        let outcome = match body.pattern {
+            Some(pattern) => self.round(pattern, item, body, span),
+            None => self.block_in(body.block, Tail::Iteration(body.label)),
+        };
+        self.arrive(
+            since,
+            outcome.map(|_| Value::unit()),
+            mark,
+            &|way| way.continues(body.label),
+            span,
+        )?;
+        Ok(())
+    }
+
+    /// The body with a value of the counter bound.
+    fn round(&mut self, pattern: &Pattern, item: Value, body: &Body<'_>, span: Span) -> Eval {
         let mark = self.scope.enter();
         let counter = match (pattern, self.known_int(&item)) {
             (Pattern::Name(name, ..), Some(value)) => Some(Counter {
@@ -250,7 +257,9 @@ impl Evaluator<'_> {
         };
         let counted = counter.is_some();
         self.counters.extend(counter);
-        let outcome = self.bind(pattern, item, span).and_then(|()| self.block(body));
+        let outcome = self
+            .bind(pattern, item, span)
+            .and_then(|()| self.block_in(body.block, Tail::Iteration(body.label)));
         if counted {
             self.counters.pop();
         }
@@ -268,11 +277,16 @@ impl Evaluator<'_> {
         span: Span,
     ) -> Eval<()> {
         let before = self.scope.clone();
+        let pending = std::mem::take(&mut self.departed);
+        self.kept_loops += 1;
         let outcome = self.carry(body, bounds, iteration, span);
+        self.kept_loops -= 1;
         if outcome.is_err() {
             // Values made inside belong to no place outside.
             self.scope = before;
+            self.departed.clear();
         }
+        self.departed.splice(0..0, pending);
         outcome
     }
 
@@ -284,6 +298,7 @@ impl Evaluator<'_> {
         span: Span,
     ) -> Eval<()> {
         let carried = self.carried(body);
+        let mark = self.scope.enter();
         let mut initial = Vec::new();
         let mut types = vec![self.ty(start)];
         for slot in &carried {
@@ -309,7 +324,9 @@ impl Evaluator<'_> {
             self.name_params(&Value::Node(params[0]), name, at);
         }
         self.loops.round();
-        let outcome = iteration(self, params[0]);
+        let outcome = iteration(self, params[0]).map(|()| Value::unit());
+        let departed = std::mem::take(&mut self.departed);
+        let side = self.flatten(outcome, departed, mark, span);
         let mut results = Vec::new();
         let mut changed = None;
         for slot in &carried {
@@ -321,9 +338,17 @@ impl Evaluator<'_> {
             }
         }
         let same = results.iter().map(|id| self.ty(*id)).eq(types[1..].iter().copied());
+        let count = initial.len();
+        let mut exits = Vec::new();
+        if let (true, Ok(side)) = (same && changed.is_none(), &side) {
+            match self.exits_of_loop(region, body, side, &mut initial, &mut results, span) {
+                Ok(ways) => exits = ways,
+                Err(error) => changed = Some(error),
+            }
+        }
         self.builder
             .close_region(if same { results.clone() } else { initial.clone() });
-        outcome?;
+        side?;
         if let Some(error) = changed {
             return Err(error);
         }
@@ -333,9 +358,12 @@ impl Evaluator<'_> {
 
         let args = [vec![start, end], initial].concat();
         let node = self.builder.add(Op::Loop(region), args, Type::Results);
-        let outs: Vec<NodeId> = (0..results.len())
-            .map(|k| self.builder.add(Op::Result(k as u32), vec![node], types[k + 1]))
-            .collect();
+        let result = |e: &mut Self, (k, value): (usize, &NodeId)| {
+            let ty = e.ty(*value);
+            e.builder.add(Op::Result(k as u32), vec![node], ty)
+        };
+        let outs: Vec<NodeId> = results.iter().enumerate().map(|each| result(self, each)).collect();
+        let (outs, mut left) = (outs[..count].to_vec(), outs[count..].iter().copied());
         let mut outs = outs.into_iter();
         for slot in &carried {
             let (name, template) = settled.at(*slot);
@@ -343,7 +371,72 @@ impl Evaluator<'_> {
             self.name(&value, name, span);
             self.scope.set(*slot, value);
         }
+        for way in exits {
+            let Some(condition) = left.next() else { break };
+            let way = match way {
+                Way::Return(value) => Way::Return(Self::with_leaves(&value, &mut left)),
+                other => other,
+            };
+            let scope = self.scope.clone();
+            self.name_exit(condition, &way, span);
+            let group = Some(region);
+            self.departed.push(Departure {
+                condition,
+                way,
+                scope,
+                group,
+            });
+        }
         Ok(())
+    }
+
+    /// Lets a loop that is left in the shader stop where its body leaves it. Who leaves what is around it too is told by
+    /// further results of the loop, a boolean for each way, with the value that is taken along.
+    fn exits_of_loop(
+        &mut self,
+        region: RegionId,
+        body: &Body<'_>,
+        side: &Side,
+        initial: &mut Vec<NodeId>,
+        results: &mut Vec<NodeId>,
+        span: Span,
+    ) -> Eval<Vec<Way>> {
+        let never = self.builder.bool(false);
+        let mut stop = self.builder.bool(side.value.is_none());
+        let mut ways = Vec::new();
+        for (way, flag) in &side.exits {
+            stop = self.or(stop, *flag);
+            if way.breaks(body.label) && body.breaks_here {
+                continue;
+            }
+            let mut leaves = vec![*flag];
+            let way = match way {
+                Way::Return(value) => {
+                    let value = self.settle(value, span)?;
+                    Self::leaves(&value, &mut leaves);
+                    Way::Return(value)
+                }
+                other => other.clone(),
+            };
+            let mut params = Vec::new();
+            for leaf in leaves {
+                let ty = self.ty(leaf);
+                params.push(self.builder.add_param(region, ty));
+                initial.push(if leaf == *flag { never } else { self.unused(ty) });
+                results.push(leaf);
+            }
+            let mut params = params.into_iter();
+            if let Some(flag) = params.next() {
+                let way = match &way {
+                    Way::Return(value) => Way::Return(Self::with_leaves(value, &mut params)),
+                    other => other.clone(),
+                };
+                self.name_exit(flag, &way, span);
+            }
+            ways.push(way);
+        }
+        self.builder.set_stop(region, stop);
+        Ok(ways)
     }
 
     /// Positions of the variables that a body may write: those that it names, and those that mutable references in the
@@ -453,17 +546,6 @@ fn array_behind(values: &[Value]) -> Option<Place> {
         array = Some(of);
     }
     array
-}
-
-/// Whether a loop with this label goes on after a round that ended so.
-pub fn again(outcome: Eval, label: Option<&str>) -> Eval<bool> {
-    let mine = |of: &Option<String>| of.is_none() || of.as_deref() == label;
-    match outcome {
-        Ok(_) => Ok(true),
-        Err(Exit::Continue(of)) if mine(&of) => Ok(true),
-        Err(Exit::Break(of)) if mine(&of) => Ok(false),
-        Err(other) => Err(other),
-    }
 }
 
 fn changes(name: &str, span: Span) -> Exit {

@@ -8,6 +8,7 @@ mod budget;
 mod call;
 mod consts;
 mod control;
+mod departures;
 mod entry;
 mod expr;
 mod functions;
@@ -155,6 +156,10 @@ struct Evaluator<'a> {
     /// Reads made so far.
     sites: u32,
     steps: u64,
+    /// Who has left the blocks that are being evaluated, first to last.
+    departed: Vec<departures::Departure>,
+    /// Loops around that are left in the shader.
+    kept_loops: u32,
 }
 
 impl<'a> Evaluator<'a> {
@@ -176,6 +181,8 @@ impl<'a> Evaluator<'a> {
             consts: HashMap::new(),
             sites: 0,
             steps: 0,
+            departed: Vec::new(),
+            kept_loops: 0,
         }
     }
 }

@@ -1,13 +1,14 @@
 //! Loops that are left in the shader: what they count, and bodies written several times in a row.
 
 use super::Evaluator;
+use super::departures::{Departure, Tail};
 use super::loops::Body;
 use super::ranges::Course;
 use super::scope::Scope;
 use super::sequence::Columns;
-use super::value::{Eval, Exit, Place, Step, Value};
+use super::value::{Eval, Place, Step, Value};
 use crate::diagnostic::Span;
-use crate::ir::{BinaryOp, NodeId, Type};
+use crate::ir::{BinaryOp, Graph, NodeId, Type};
 use crate::policy::Unroll;
 use std::rc::Rc;
 
@@ -17,6 +18,8 @@ pub struct Checkpoint {
     counters: usize,
     errors: usize,
     loops: super::budget::Loops,
+    departed: Vec<Departure>,
+    kept_loops: u32,
 }
 
 impl Checkpoint {
@@ -36,6 +39,8 @@ pub enum Count {
     Places(Place, u32),
     /// Iterations, which the body takes no notice of.
     Times(u32),
+    /// Nothing: it goes on until the body leaves it.
+    Unknown,
 }
 
 impl Evaluator<'_> {
@@ -46,6 +51,8 @@ impl Evaluator<'_> {
             counters: self.counters.len(),
             errors: self.errors.len(),
             loops: self.loops.clone(),
+            departed: self.departed.clone(),
+            kept_loops: self.kept_loops,
         }
     }
 
@@ -53,6 +60,8 @@ impl Evaluator<'_> {
     pub fn return_to(&mut self, before: Checkpoint) -> Option<crate::diagnostic::Diagnostic> {
         self.scope = before.scope;
         self.counters.truncate(before.counters);
+        self.departed = before.departed;
+        self.kept_loops = before.kept_loops;
         self.loops.return_to(before.loops);
         let noted = self.errors.get(before.errors).cloned();
         self.errors.truncate(before.errors);
@@ -66,54 +75,68 @@ impl Evaluator<'_> {
             Count::Elements(columns) => (Type::I32, self.whole(columns.len(), Type::I32)),
             Count::Places(_, len) => (Type::I32, self.whole(*len, Type::I32)),
             Count::Times(times) => (Type::I32, self.whole(*times, Type::I32)),
+            Count::Unknown => (Type::I32, self.builder.i32(Graph::ENDLESS)),
         };
         let zero = self.whole(0, own);
+        let unroll = match count {
+            Count::Unknown => Unroll::None,
+            _ => unroll,
+        };
         let Unroll::Partial(factor) = unroll else {
             if let Count::Range(course) = count
                 && let Some(bounds) = course.plain
             {
                 let index = course.of_indices();
-                self.kept(
-                    body,
-                    bounds,
-                    |e, own| {
-                        let counter = e.as_counter(own, index);
-                        e.body(body, counter, span)
-                    },
-                    span,
-                )?;
+                let iteration = |e: &mut Self, own| {
+                    let counter = e.as_counter(own, index);
+                    e.body(body, counter, span)
+                };
+                self.kept(body, bounds, iteration, span)?;
             } else {
                 self.kept(body, (zero, trips), |e, own| e.iteration(body, count, own, span), span)?;
             }
             return Ok(Unroll::None);
         };
+        let (mark, since) = (self.scope.enter(), self.departed.len());
+        let further = Body {
+            written: body.written.clone(),
+            breaks_here: false,
+            ..*body
+        };
         let whole = self.integer(BinaryOp::Div, trips, factor);
-        self.kept(
-            body,
-            (zero, whole),
-            |e, own| {
-                let from = e.integer(BinaryOp::Mul, own, factor);
-                for k in 0..factor {
-                    let own = e.integer(BinaryOp::Add, from, k);
-                    e.iteration(body, count, own, span)?;
-                }
-                Ok(())
-            },
-            span,
-        )?;
-        let done = self.integer(BinaryOp::Mul, whole, factor);
-        match self
-            .known_int(&Value::Node(trips))
-            .zip(self.known_int(&Value::Node(done)))
-        {
-            Some((trips, done)) => {
-                for k in done..trips {
-                    let own = self.whole(k as u32, own);
-                    self.iteration(body, count, own, span)?;
-                }
+        let rounds = |e: &mut Self, own| {
+            let from = e.integer(BinaryOp::Mul, own, factor);
+            let since = e.departed.len();
+            for k in 0..factor {
+                let own = e.integer(BinaryOp::Add, from, k);
+                let round = |e: &mut Self| e.iteration(body, count, own, span).map(|()| Value::unit());
+                e.unless_departed(since, Tail::Open, span, round)?;
             }
-            None => self.kept(body, (done, trips), |e, own| e.iteration(body, count, own, span), span)?,
-        }
+            Ok(())
+        };
+        self.kept(&further, (zero, whole), rounds, span)?;
+        let done = self.integer(BinaryOp::Mul, whole, factor);
+        let rest = |e: &mut Self| {
+            let since = e.departed.len();
+            match e.known_int(&Value::Node(trips)).zip(e.known_int(&Value::Node(done))) {
+                Some((trips, done)) => {
+                    for k in done..trips {
+                        let own = e.whole(k as u32, own);
+                        let round = |e: &mut Self| e.iteration(body, count, own, span).map(|()| Value::unit());
+                        e.unless_departed(since, Tail::Open, span, round)?;
+                    }
+                }
+                None => e.kept(
+                    &further,
+                    (done, trips),
+                    |e, own| e.iteration(body, count, own, span),
+                    span,
+                )?,
+            }
+            Ok(Value::unit())
+        };
+        let outcome = self.unless_departed(since, Tail::Open, span, rest);
+        self.arrive(since, outcome, mark, &|way| way.breaks(body.label), span)?;
         Ok(unroll)
     }
 
@@ -123,23 +146,9 @@ impl Evaluator<'_> {
             Count::Range(course) => self.counter_at(course, own),
             Count::Elements(columns) => self.element_at(columns, own),
             Count::Places(array, _) => Value::Ref(Rc::new(array.part(Step::Index(self.as_counter(own, true))))),
-            Count::Times(_) => Value::unit(),
+            Count::Times(_) | Count::Unknown => Value::unit(),
         };
         self.name_position(body, &item, own);
         self.body(body, item, span)
-    }
-
-    /// The body for one value of what the loop runs over.
-    fn body(&mut self, body: &Body<'_>, item: Value, span: Span) -> Eval<()> {
-        self.step(span)?;
-        let outcome = match body.pattern {
-            Some(pattern) => self.round(pattern, item, body.block, span),
-            None => self.block(body.block),
-        };
-        match outcome {
-            Ok(_) => Ok(()),
-            Err(exit @ (Exit::Error(_) | Exit::Noted)) => Err(exit),
-            Err(_) => Err(Exit::Noted),
-        }
     }
 }

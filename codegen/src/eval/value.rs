@@ -160,12 +160,48 @@ pub enum Exit {
     Error(Box<Diagnostic>),
     /// With an error that has been noted.
     Noted,
-    /// By `break`, of the loop with a label.
+    /// By leaving the blocks around it.
+    Left(Way),
+}
+
+/// A way out of the blocks around.
+#[derive(Clone, Debug)]
+pub enum Way {
+    /// `break`, of the loop with a label.
     Break(Option<String>),
-    /// By `continue`, of the loop with a label.
+    /// `continue`, of the loop with a label.
     Continue(Option<String>),
-    /// By `return`.
+    /// `return`.
     Return(Value),
+}
+
+impl Way {
+    /// Whether it ends the loop with a label, if it stands in its body.
+    pub fn breaks(&self, label: Option<&str>) -> bool {
+        matches!(self, Way::Break(of) if of.is_none() || of.as_deref() == label)
+    }
+
+    /// Whether it ends an iteration of the loop with a label, if it stands in its body.
+    pub fn continues(&self, label: Option<&str>) -> bool {
+        matches!(self, Way::Continue(of) if of.is_none() || of.as_deref() == label)
+    }
+
+    /// Whether both lead to one place.
+    pub fn is_like(&self, other: &Way) -> bool {
+        match (self, other) {
+            (Way::Break(a), Way::Break(b)) | (Way::Continue(a), Way::Continue(b)) => a == b,
+            (Way::Return(_), Way::Return(_)) => true,
+            _ => false,
+        }
+    }
+
+    /// What is taken along.
+    pub fn value(self) -> Value {
+        match self {
+            Way::Return(value) => value,
+            _ => Value::unit(),
+        }
+    }
 }
 
 impl From<Diagnostic> for Exit {

@@ -1,12 +1,14 @@
 //! `while` and `loop`.
 
 use super::Evaluator;
-use super::loops::{Body, Granted, LEAVES, Wish, again};
+use super::departures::Tail;
+use super::loops::{Body, Granted, Wish};
 use super::partial::Count;
 use super::value::{Eval, Exit, Value};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::front::tree::{Block, Expr, ExprKind, Statement};
-use crate::front::{assigned, children};
+use crate::front::{assigned, breaks, children};
+use crate::ir::UnaryOp;
 use crate::policy::{Asked, Unroll};
 
 impl Evaluator<'_> {
@@ -22,67 +24,57 @@ impl Evaluator<'_> {
         let asked = self.policy.asked(&function, "while", attribute);
         let made = self.builder.graph().nodes.len();
         self.loops.enter(&function, "while", span, made);
+        let outcome = self.run_while(condition, block, label, asked, span);
+        let made = self.builder.graph().nodes.len();
+        let became = match &outcome {
+            Ok((unroll, _)) => *unroll,
+            Err(_) => Unroll::Full,
+        };
+        self.loops.leave(became, made);
+        let (_, ends) = outcome?;
+        ends
+    }
+
+    /// Runs a `while` as asked, or as it can be. Where the iterations can be counted now, as the condition is known in each, a
+    /// loop of so many is left in the shader; where they cannot, one that the body leaves.
+    ///
+    /// Gives what became of it, and how it ends.
+    fn run_while(
+        &mut self,
+        condition: &Expr,
+        block: &Block,
+        label: Option<&str>,
+        asked: Asked,
+        span: Span,
+    ) -> Eval<(Unroll, Eval)> {
         let body = Body {
             block,
             pattern: None,
             counter: None,
             label,
             written: Vec::new(),
+            breaks_here: true,
         };
-        let outcome = self.run_while(condition, &body, asked, span);
-        let made = self.builder.graph().nodes.len();
-        let became = *outcome.as_ref().unwrap_or(&Unroll::Full);
-        self.loops.leave(became, made);
-        outcome.map(|_| Value::unit())
-    }
-
-    /// Runs a `while` as asked, or as it can be. To be left in the shader it is run once to count its iterations: as its
-    /// condition is known in each, a loop of so many does the same.
-    fn run_while(&mut self, condition: &Expr, body: &Body<'_>, asked: Asked, span: Span) -> Eval<Unroll> {
+        let guarded = guarded(condition, block);
+        let until = Body {
+            block: &guarded,
+            written: Vec::new(),
+            ..body
+        };
         let mut refused = None;
         if asked.unroll != Unroll::Full && !self.unrolls_all {
-            let test = Block {
-                statements: vec![Statement::Expr(condition.clone())],
-                value: None,
-            };
-            let mutating = &self.library.mutating;
-            let (test, effects) = (assigned(&test, mutating), assigned(body.block, mutating));
-            let mut behind = Vec::new();
-            for slot in test.mentioned.iter().filter_map(|name| self.scope.slot(name)) {
-                self.targets(self.scope.at(slot).1, &mut behind);
-            }
-            let obstacle = if effects.leaves || test.leaves {
-                Some(LEAVES)
-            } else if !test.assigned.is_empty() || (!behind.is_empty() && has_calls(condition)) {
-                Some("its condition assigns to variables")
-            } else {
-                None
-            };
-            let (mut iterations, mut after) = (u64::MAX, Vec::new());
-            if obstacle.is_none() {
-                let before = self.checkpoint();
-                self.unrolls_all = true;
-                let counted = self.unrolled_while(condition, body, span);
-                self.unrolls_all = false;
-                let noted = self.errors.len() > before.errors();
-                iterations = counted?;
-                if noted {
-                    return Err(Exit::Noted);
-                }
-                after = (0..self.scope.len())
-                    .map(|slot| self.scope.at(slot).1.clone())
-                    .collect();
-                self.return_to(before);
-            }
+            let (iterations, after) = self.counted(condition, &body, span)?;
             let wish = Wish {
                 asked,
-                iterations,
-                obstacle,
+                iterations: iterations.unwrap_or(u64::MAX),
                 span,
                 head: condition.span,
             };
-            let count = |_: &mut Self| Ok(Count::Times(iterations as u32));
-            refused = match self.attempt(body, &wish, count)? {
+            let granted = match iterations {
+                Some(n) => self.attempt(&body, &wish, |_| Ok(Count::Times(n as u32)))?,
+                None => self.attempt(&until, &wish, |_| Ok(Count::Unknown))?,
+            };
+            refused = match granted {
                 Granted::Kept(unroll) => {
                     // What the loop makes of variables is known where it is known without the loop.
                     for (slot, value) in after.into_iter().enumerate() {
@@ -90,13 +82,75 @@ impl Evaluator<'_> {
                             self.scope.set(slot, value);
                         }
                     }
-                    return Ok(unroll);
+                    return Ok((unroll, self.behind(condition, block, label)));
                 }
                 Granted::Unrolled(refused) => refused,
             };
         }
-        self.unrolled_while(condition, body, span)?;
-        refused.map_or(Ok(Unroll::Full), |error| Err(error.into()))
+        let before = self.checkpoint();
+        if let Some(outcome) = self.rounds(condition, &body, &mut 0, span)? {
+            return match refused {
+                Some(error) => Err(error.into()),
+                None => Ok((Unroll::Full, outcome.map(|_| Value::unit()))),
+            };
+        }
+        self.return_to(before);
+        let reason = "its end is a runtime value";
+        if asked.by_name && asked.unroll == Unroll::Full {
+            return Err(
+                Diagnostic::at(condition.span, format!("this loop cannot be unrolled: {reason}"))
+                    .label("how often it goes round is not known")
+                    .help("leave out that it is to be unrolled, or give it fixed bounds with `for`, which may `break`")
+                    .into(),
+            );
+        }
+        self.keep(&until, &Count::Unknown, Unroll::None, span)?;
+        self.loops.because(span, reason.to_owned());
+        Ok((Unroll::None, self.behind(condition, block, label)))
+    }
+
+    /// What comes behind a loop that was left in the shader: nothing, if only `return` or an outer loop's `break` ends it.
+    fn behind(&mut self, condition: &Expr, block: &Block, label: Option<&str>) -> Eval {
+        let endless = matches!(condition.kind, ExprKind::Bool(true)) && !breaks(block, label);
+        match endless.then(|| self.departed.pop()).flatten() {
+            None => Ok(Value::unit()),
+            Some(last) => {
+                self.scope = last.scope;
+                Err(Exit::Left(last.way))
+            }
+        }
+    }
+
+    /// How many iterations a `while` has, if that is known, and what it makes of the variables.
+    fn counted(&mut self, condition: &Expr, body: &Body<'_>, span: Span) -> Eval<(Option<u64>, Vec<Value>)> {
+        let test = Block {
+            statements: vec![Statement::Expr(condition.clone())],
+            value: None,
+        };
+        let mutating = &self.library.mutating;
+        let (test, effects) = (assigned(&test, mutating), assigned(body.block, mutating));
+        let mut behind = Vec::new();
+        for slot in test.mentioned.iter().filter_map(|name| self.scope.slot(name)) {
+            self.targets(self.scope.at(slot).1, &mut behind);
+        }
+        let writes = !test.assigned.is_empty() || (!behind.is_empty() && has_calls(condition));
+        if effects.leaves || test.leaves || writes {
+            return Ok((None, Vec::new()));
+        }
+        let before = self.checkpoint();
+        let unrolls_all = std::mem::replace(&mut self.unrolls_all, true);
+        let mut rounds = 0;
+        let counted = self.rounds(condition, body, &mut rounds, span);
+        self.unrolls_all = unrolls_all;
+        let noted = self.errors.len() > before.errors();
+        let ended = counted?.is_some();
+        if noted {
+            return Err(Exit::Noted);
+        }
+        let after = (0..self.scope.len()).map(|slot| self.scope.at(slot).1.clone());
+        let after = if ended { after.collect() } else { Vec::new() };
+        self.return_to(before);
+        Ok((ended.then_some(rounds), after))
     }
 
     /// Whether all numbers in a value are known.
@@ -106,37 +160,61 @@ impl Evaluator<'_> {
         leaves.iter().all(|id| self.builder.graph().constant(*id).is_some())
     }
 
-    /// Unrolls a `while`; gives how many iterations it had.
-    fn unrolled_while(&mut self, condition: &Expr, body: &Body<'_>, span: Span) -> Eval<u64> {
+    /// Unrolls a `while`; gives how it ends, or `None` if it goes on at run time. Counts its iterations.
+    fn rounds(&mut self, condition: &Expr, body: &Body<'_>, rounds: &mut u64, span: Span) -> Eval<Option<Eval>> {
+        let (mark, since) = (self.scope.enter(), self.departed.len());
         let noted = self.errors.len();
-        let mut iterations = 0;
+        let mut outcome = Ok(Value::unit());
         loop {
             self.step(span)?;
-            let value = self.value(condition)?;
-            let id = self.node(&value, condition.span)?;
+            let id = self.condition(condition)?;
             match self.known_bool(id) {
                 Some(true) => {}
-                Some(false) => return Ok(iterations),
-                None => {
-                    return Err(
-                        Diagnostic::at(condition.span, "the condition of `while` is only known at run time")
-                            .label("not known now")
-                            .note("how often a shader goes round must not hang on what it computes: a GPU would wait for its slowest pixel")
-                            .help("use `for` with fixed bounds, and select what is computed in it")
-                            .into(),
-                    );
-                }
+                Some(false) => break,
+                None => return Ok(None),
             }
-            iterations += 1;
-            self.loops.round();
-            let outcome = self.block(body.block);
-            if !again(outcome, body.label)? {
-                return Ok(iterations);
+            // Some have left: whether the others ever do is not known.
+            if self.departed.len() > since && *rounds >= MAX_GUESSED {
+                return Ok(None);
+            }
+            *rounds += 1;
+            outcome = self.unless_departed(since, Tail::Open, span, |e| {
+                e.loops.round();
+                e.body(body, Value::unit(), span).map(|()| Value::unit())
+            });
+            if outcome.is_err() {
+                break;
             }
             if self.errors.len() > noted {
                 return Err(Exit::Noted);
             }
         }
+        let arrived = self.arrive(since, outcome, mark, &|way| way.breaks(body.label), span);
+        match arrived {
+            Err(error @ (Exit::Error(_) | Exit::Noted)) => Err(error),
+            other => Ok(Some(other)),
+        }
+    }
+}
+
+/// Iterations after which a `while` that some have left is taken to end at run time only.
+const MAX_GUESSED: u64 = 256;
+
+/// `if !condition { break; }`, and the body: what an iteration does that looks first whether it is one.
+fn guarded(condition: &Expr, block: &Block) -> Block {
+    let at = |kind| Expr {
+        kind,
+        span: condition.span,
+    };
+    let leave = Block {
+        statements: vec![Statement::Expr(at(ExprKind::Break(None)))],
+        value: None,
+    };
+    let ends = at(ExprKind::Unary(UnaryOp::Not, Box::new(condition.clone())));
+    let test = Statement::Expr(at(ExprKind::If(Box::new(ends), leave, None, None)));
+    Block {
+        statements: std::iter::once(test).chain(block.statements.iter().cloned()).collect(),
+        value: block.value.clone(),
     }
 }
 

@@ -23,7 +23,7 @@ use std::borrow::Cow;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-pub use scan::{assigned, children};
+pub use scan::{assigned, breaks, children};
 pub use tree::Library;
 
 /// What the files of a kernel define.

@@ -27,6 +27,31 @@ pub fn assigned(body: &Block, mutating: &HashSet<String>) -> Effects {
     effects
 }
 
+/// Whether a loop's body has a `break` of its own loop, which goes by `label`.
+pub fn breaks(body: &Block, label: Option<&str>) -> bool {
+    fn in_block(body: &Block, label: Option<&str>, innermost: bool) -> bool {
+        let of = |e: &Expr| in_expr(e, label, innermost);
+        body.statements.iter().any(|statement| match statement {
+            Statement::Let(_, _, init, _) => init.as_ref().is_some_and(of),
+            Statement::Expr(e) => of(e),
+            Statement::Const(_) => false,
+        }) || body.value.as_deref().is_some_and(of)
+    }
+    fn in_expr(e: &Expr, label: Option<&str>, innermost: bool) -> bool {
+        let inner = match &e.kind {
+            ExprKind::Break(None) => innermost,
+            ExprKind::Break(of) => of.as_deref() == label,
+            ExprKind::For(f) => in_block(&f.body, label, false),
+            ExprKind::While(_, body, ..) => in_block(body, label, false),
+            ExprKind::If(_, then, ..) => in_block(then, label, innermost),
+            ExprKind::Block(block) => in_block(block, label, innermost),
+            _ => false,
+        };
+        inner || children(e).into_iter().any(|child| in_expr(child, label, innermost))
+    }
+    in_block(body, label, true)
+}
+
 /// What has been entered on the way to a place.
 #[derive(Default)]
 struct Around<'b> {

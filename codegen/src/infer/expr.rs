@@ -3,6 +3,7 @@
 use super::Checker;
 use super::types::{Kind, Ty};
 use crate::diagnostic::{Diagnostic, Span};
+use crate::front::breaks;
 use crate::front::tree::{Block, Expr, ExprKind, ForLoop, Statement, Type};
 use crate::ir::UnaryOp;
 
@@ -256,12 +257,17 @@ impl<'l> Checker<'l> {
                 Ty::Range(Box::new(ty))
             }
             ExprKind::For(f) => self.for_(f),
-            ExprKind::While(condition, body, ..) => {
+            ExprKind::While(condition, body, label, _) => {
                 self.against(condition, &Ty::Bool);
                 let found = self.block(body, None);
                 let at = body.value.as_ref().map_or(span, |value| value.span);
                 self.coerce(&Ty::UNIT, &found, at);
-                Ty::UNIT
+                // What only `return` ends, or a loop around it, has no end of its own.
+                if matches!(condition.kind, ExprKind::Bool(true)) && !breaks(body, label.as_deref()) {
+                    Ty::Never
+                } else {
+                    Ty::UNIT
+                }
             }
             ExprKind::Return(value) => {
                 let wanted = self.result.clone();

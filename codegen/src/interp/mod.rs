@@ -190,7 +190,11 @@ impl<'a, R: Real> Interpreter<'a, R> {
             }
             self.block(body, pixel, s);
             s.loops.pop();
+            let stops = region.stop.is_some_and(|stop| s.values[stop.0 as usize][0] != 0);
             carried = self.leaving(region, s);
+            if stops {
+                break;
+            }
         }
         s.arrays[node.0 as usize] = carried.concat();
     }
@@ -224,6 +228,7 @@ impl<'a, R: Real> Interpreter<'a, R> {
         let slot = id.0 as usize;
         match &node.op {
             Op::Const(_) => {}
+            Op::Unused => s.values[slot] = [0; 4],
             Op::Pixel => s.values[slot] = [pixel[0].into(), pixel[1].into(), 0, 0],
             Op::FrameSize => s.values[slot] = [self.frame[0].into(), self.frame[1].into(), 0, 0],
             Op::Uniform(k) => s.values[slot] = self.uniforms[*k as usize],

@@ -31,6 +31,15 @@ pub struct Region {
     pub params: Vec<NodeId>,
     /// Values that leave the region.
     pub results: Vec<NodeId>,
+    /// Of a loop: whether this iteration is the last one, whatever the counter says.
+    pub stop: Option<NodeId>,
+}
+
+impl Region {
+    /// Everything that is computed for use outside of it: its results, and whether it stops.
+    pub fn leaving(&self) -> impl Iterator<Item = NodeId> {
+        self.results.iter().copied().chain(self.stop)
+    }
 }
 
 /// A step in the nesting of regions.
@@ -185,6 +194,9 @@ impl Graph {
     /// The body of the kernel.
     pub const BODY: RegionId = RegionId(0);
 
+    /// The end of a loop, an `i32`, that only its stop ends.
+    pub const ENDLESS: i32 = i32::MAX;
+
     /// A node.
     pub fn node(&self, id: NodeId) -> &Node {
         &self.nodes[id.0 as usize]
@@ -254,6 +266,7 @@ impl<'r> Builder<'r> {
             parent: None,
             params: Vec::new(),
             results: Vec::new(),
+            stop: None,
         };
         let graph = Graph {
             regions: vec![body],
@@ -348,6 +361,7 @@ impl<'r> Builder<'r> {
             parent,
             params: Vec::new(),
             results: Vec::new(),
+            stop: None,
         });
         self.open.push(id);
         self.graph.events.push((self.graph.nodes.len() as u32, Event::Open(id)));
@@ -367,6 +381,20 @@ impl<'r> Builder<'r> {
             .events
             .push((self.graph.nodes.len() as u32, Event::Close(id)));
         self.graph.regions[id.0 as usize].results = results;
+    }
+
+    /// Another parameter for a region that is open, of values that leave a loop and are not looked at in it.
+    pub fn add_param(&mut self, region: RegionId, ty: Type) -> NodeId {
+        let k = self.graph.region(region).params.len() as u32;
+        let param = self.intern(Op::Param(region, k), Vec::new(), ty);
+        self.graph.regions[region.0 as usize].params.push(param);
+        param
+    }
+
+    /// Says when the loop of a region ends before its counter does.
+    pub fn set_stop(&mut self, region: RegionId, stop: NodeId) {
+        let never = self.graph.constant(stop).is_some_and(|bits| bits[0] == 0);
+        self.graph.regions[region.0 as usize].stop = (!never).then_some(stop);
     }
 
     /// Closes the body with its results.

@@ -7,6 +7,8 @@ use super::{Lanes, RegionId};
 pub enum Op {
     /// A known value, by its bits.
     Const(Lanes),
+    /// Any value: nobody looks at it.
+    Unused,
     /// Coordinate of the output pixel, `vec2<i32>`, inside the frame.
     Pixel,
     /// Width and height of the frame, `vec2<i32>`, each at least 1.
@@ -115,7 +117,7 @@ pub enum Op {
     ArrayGet,
     /// array, index (`i32`), element.
     ArraySet,
-    /// start, end (both `i32` or both `u32`), carried values.
+    /// start, end (both `i32` or both `u32`), carried values. It ends early where its region says so.
     Loop(RegionId),
     /// condition (scalar boolean): results of the first region if it holds, else of the second.
     If(RegionId, RegionId),

@@ -217,12 +217,16 @@ impl Reader {
         for part in parts {
             let (region, results) = part.split_once(':').ok_or("results are `yields REGION: %A %B`")?;
             let region: u32 = number(region)?;
+            let (results, stop) = match results.split_once(" stops ") {
+                Some((results, stop)) => (results, Some(self.node_id(stop.trim())?)),
+                None => (results, None),
+            };
             let results = results
                 .split_whitespace()
                 .map(|w| self.node_id(w))
                 .collect::<Parsed<_>>()?;
             let slot = self.graph.regions.get_mut(region as usize).ok_or("no such region")?;
-            slot.results = results;
+            (slot.results, slot.stop) = (results, stop);
         }
         if let Op::Param(region, _) = op {
             let slot = self.graph.regions.get_mut(region.0 as usize).ok_or("no such region")?;
@@ -295,6 +299,7 @@ impl Reader {
             }
             "unary" => Op::Unary(unary(word(0)?).ok_or_else(|| missing("operation"))?),
             "binary" => Op::Binary(binary(word(0)?).ok_or_else(|| missing("operation"))?),
+            "unused" => Op::Unused,
             "dot" => Op::Dot,
             "cross" => Op::Cross,
             "clamp" => Op::Clamp,
@@ -348,6 +353,7 @@ fn empty(parent: Option<RegionId>) -> Region {
         parent,
         params: Vec::new(),
         results: Vec::new(),
+        stop: None,
     }
 }
 

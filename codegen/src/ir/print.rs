@@ -113,6 +113,9 @@ fn line(graph: &Graph, id: NodeId) -> String {
         for result in &graph.region(region).results {
             let _ = write!(line, " %{}", result.0);
         }
+        if let Some(stop) = graph.region(region).stop {
+            let _ = write!(line, " stops %{}", stop.0);
+        }
     }
     if let Some(origin) = graph.origin(id) {
         let _ = write!(line, "    // {} @{}:{}", origin.name, origin.file, origin.line);

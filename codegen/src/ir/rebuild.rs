@@ -94,8 +94,10 @@ impl Walk<'_, '_> {
         for region in self.old.regions_of(owner) {
             let results = self.live.kept(region, &self.old.region(region).results, false);
             let results = results.iter().map(|r| self.new_id(*r)).collect();
+            let stop = self.old.region(region).stop.map(|stop| self.new_id(stop));
             if let Some(new) = self.new_regions[region.0 as usize] {
                 self.builder.graph_mut().regions[new.0 as usize].results = results;
+                stop.iter().for_each(|stop| self.builder.set_stop(new, *stop));
             }
         }
     }
@@ -175,7 +177,7 @@ fn components_read(graph: &Graph, live: &Liveness) -> Vec<u8> {
     }
     graph.outputs().iter().for_each(|id| use_of(*id, ALL));
     for region in &graph.regions {
-        region.results.iter().for_each(|id| use_of(*id, ALL));
+        region.leaving().for_each(|id| use_of(id, ALL));
     }
     for id in graph.ids().filter(|id| live.nodes[id.0 as usize]) {
         if let Op::Gather { texture, component, .. } = graph.node(id).op {
@@ -211,6 +213,7 @@ impl Liveness {
                 Op::Loop(region) => {
                     live.regions[region.0 as usize] = true;
                     pending.extend(&node.args[..2]);
+                    pending.extend(graph.region(region).stop);
                 }
                 Op::If(then, otherwise) => {
                     live.regions[then.0 as usize] = true;

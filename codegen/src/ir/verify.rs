@@ -5,7 +5,8 @@
 //!    2 to 4 components, arrays at least one element; of booleans a constant is 0 or 1.
 //! 3. Indices of textures, buffers, samplers, uniforms, interpolated values, tallies and regions exist. Every region but the
 //!    body belongs to one loop or branch; its parent was opened before it, and its parameters say that they are its own. The
-//!    regions of a branch agree in their results, a loop's carried values in number and type with its results.
+//!    regions of a branch agree in their results, a loop's carried values in number and type with its results; a loop alone
+//!    may have a stop, a boolean.
 //! 4. A parameter is only used inside its region.
 //! 5. The kernel has a result for each pixel of its invocation, each a `vec4<f32>`.
 //! 6. Lanes, messages, derivatives and interpolated values are of kernels whose invocations are lanes of quads.
@@ -44,7 +45,13 @@ fn regions(graph: &Graph) -> Result<(), String> {
             };
             *owned += 1;
             let region = graph.region(region);
-            if region.params.iter().chain(&region.results).any(|inner| *inner >= id) {
+            if region
+                .params
+                .iter()
+                .copied()
+                .chain(region.leaving())
+                .any(|inner| inner >= id)
+            {
                 return Err(format!("%{}: a parameter or result is made after its user", id.0));
             }
         }
@@ -103,6 +110,10 @@ fn check(graph: &Graph, id: NodeId) -> Result<(), String> {
                 *k > 0 || matches!(node.ty, Type::I32 | Type::U32),
                 "a counter is an i32 or a u32",
             )
+        }
+        Op::Unused => {
+            count(0)?;
+            expect(value, "a scalar or a vector")
         }
         Op::Pixel | Op::FrameSize => {
             count(0)?;
@@ -332,12 +343,14 @@ fn check(graph: &Graph, id: NodeId) -> Result<(), String> {
             expect(
                 params == types[2..] && results == types[2..],
                 "carried values, parameters and results agree",
-            )
+            )?;
+            let stops = body.stop.is_none_or(|stop| graph.ty(stop) == Type::BOOL);
+            expect(stops, "a loop is stopped by a boolean")
         }
         Op::If(then, otherwise) => {
             count(1)?;
             let sides = [region(graph, *then)?, region(graph, *otherwise)?];
-            let bare = sides.iter().all(|side| side.params.is_empty());
+            let bare = sides.iter().all(|side| side.params.is_empty() && side.stop.is_none());
             expect(
                 node.ty == Type::Results && bare,
                 "results, of regions without parameters",
@@ -411,7 +424,7 @@ fn scopes(graph: &Graph) -> Result<(), String> {
         }
         for region in graph.regions_of(id) {
             let parent = graph.region(region).parent.unwrap_or(Graph::BODY);
-            for result in &graph.region(region).results {
+            for result in graph.region(region).leaving() {
                 if !inside(region, needs[result.0 as usize]) {
                     return Err(format!("%{}: a result depends on a region outside", id.0));
                 }

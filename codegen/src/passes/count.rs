@@ -16,9 +16,12 @@ pub fn count(graph: &Graph, schedule: &Schedule) -> Counts {
     let reads: BTreeMap<String, u32> = run.reads;
     let colour_reads = reads.get(FILTERED).copied().unwrap_or(0);
     Counts {
-        basic_blocks: basic_blocks(&schedule.body),
+        basic_blocks: basic_blocks(graph, &schedule.body),
         loops: loops(&schedule.body),
-        texture_reads: reads.values().sum::<u32>() - colour_reads,
+        texture_reads: reads
+            .values()
+            .fold(0, |sum: u32, n| sum.saturating_add(*n))
+            .saturating_sub(colour_reads),
         colour_reads,
         reads,
         tallies: run.tallies,
@@ -96,19 +99,24 @@ impl Counter<'_> {
                 let texture = op.texture().map(|t| &self.graph.textures[t as usize].name);
                 let buffer = op.buffer().map(|b| &self.graph.buffers[b as usize].name);
                 if let Some(name) = texture.or(buffer) {
-                    *run.reads.entry(name.clone()).or_default() += 1;
+                    let slot = run.reads.entry(name.clone()).or_default();
+                    *slot = slot.saturating_add(1);
                 }
             }
             Op::Tally(name) => {
-                *run.tallies
+                let slot = run
+                    .tallies
                     .entry(self.graph.tallies[*name as usize].clone())
-                    .or_default() += 1
+                    .or_default();
+                *slot = slot.saturating_add(1);
             }
-            Op::Unary(op) if op.is_transcendental() => run.transcendentals += 1,
-            Op::Binary(crate::ir::BinaryOp::Pow | crate::ir::BinaryOp::Atan2) => run.transcendentals += 1,
-            Op::Message(_) | Op::Derivative(_) => run.messages += 1,
+            Op::Unary(op) if op.is_transcendental() => run.transcendentals = run.transcendentals.saturating_add(1),
+            Op::Binary(crate::ir::BinaryOp::Pow | crate::ir::BinaryOp::Atan2) => {
+                run.transcendentals = run.transcendentals.saturating_add(1)
+            }
+            Op::Message(_) | Op::Derivative(_) => run.messages = run.messages.saturating_add(1),
             Op::Unary(_) | Op::Binary(_) | Op::Dot | Op::Cross | Op::Clamp | Op::Select | Op::Convert | Op::Bitcast => {
-                run.alu += 1
+                run.alu = run.alu.saturating_add(1)
             }
             _ => {}
         }
@@ -134,8 +142,12 @@ pub fn layers_read(graph: &Graph, texture: u32) -> Option<u32> {
     Some(layers)
 }
 
-/// How often a loop runs, where both bounds are known.
+/// How often a loop runs at most, where both bounds are known.
 pub(super) fn trips(graph: &Graph, node: NodeId) -> Option<u32> {
+    let endless = graph.constant(graph.node(node).args[1]) == Some([Graph::ENDLESS as u32, 0, 0, 0]);
+    if endless && graph.region(graph.regions_of(node)[0]).stop.is_some() {
+        return None;
+    }
     let bound = |arg: usize| {
         let id = graph.node(node).args[arg];
         let bits = graph.constant(id)?[0];
@@ -148,13 +160,16 @@ pub(super) fn trips(graph: &Graph, node: NodeId) -> Option<u32> {
     Some((bound(1)? - bound(0)?).max(0) as u32)
 }
 
-fn basic_blocks(block: &Block) -> u32 {
+fn basic_blocks(graph: &Graph, block: &Block) -> u32 {
     let inner = block.steps.iter().map(|step| match step {
         Step::Eval(_) => 0,
         // The test, the body, and what follows.
-        Step::Loop { body, .. } => 2 + basic_blocks(body),
-        Step::If { then, otherwise, .. } if otherwise.steps.is_empty() => 1 + basic_blocks(then),
-        Step::If { then, otherwise, .. } => 1 + basic_blocks(then) + basic_blocks(otherwise),
+        Step::Loop { node, body } => {
+            let stops = graph.region(graph.regions_of(*node)[0]).stop.is_some();
+            2 + u32::from(stops) + basic_blocks(graph, body)
+        }
+        Step::If { then, otherwise, .. } if otherwise.steps.is_empty() => 1 + basic_blocks(graph, then),
+        Step::If { then, otherwise, .. } => 1 + basic_blocks(graph, then) + basic_blocks(graph, otherwise),
     });
     1 + inner.sum::<u32>()
 }
@@ -221,7 +236,7 @@ fn flatten(graph: &Graph, block: &Block, order: &mut Vec<Entry>) {
     };
     let results = |node: NodeId| {
         let regions = graph.regions_of(node);
-        regions.iter().flat_map(|r| graph.region(*r).results.clone()).collect()
+        regions.iter().flat_map(|r| graph.region(*r).leaving()).collect()
     };
     for step in &block.steps {
         match step {

@@ -63,7 +63,7 @@ fn cone(graph: &Graph, from: &[NodeId]) -> Vec<bool> {
         if !std::mem::replace(&mut inside[id.0 as usize], true) {
             pending.extend(&graph.node(id).args);
             for region in graph.regions_of(id) {
-                pending.extend(&graph.region(region).results);
+                pending.extend(graph.region(region).leaving());
             }
         }
     }

@@ -57,7 +57,8 @@ fn shape(b: &mut Builder<'_>, op: &Op, args: &[NodeId], ty: Type) -> Option<Node
                 .all(|(k, part)| node(*part).op == Op::Extract(k as u8) && node(*part).args[0] == whole);
             (parts && b.graph().ty(whole) == ty).then_some(whole)
         }
-        Op::Select if args[1] == args[2] => Some(args[1]),
+        Op::Select if args[1] == args[2] || node(args[2]).op == Op::Unused => Some(args[1]),
+        Op::Select if node(args[1]).op == Op::Unused => Some(args[2]),
         Op::Select => b
             .graph()
             .constant(args[0])
@@ -99,6 +100,7 @@ fn algebra(b: &mut Builder<'_>, op: &Op, args: &[NodeId]) -> Option<NodeId> {
     match op {
         Op::Unary(UnaryOp::Neg) if g.node(args[0]).op == Op::Unary(UnaryOp::Neg) => Some(g.node(args[0]).args[0]),
         Op::Unary(UnaryOp::Not) if g.node(args[0]).op == Op::Unary(UnaryOp::Not) => Some(g.node(args[0]).args[0]),
+        Op::Select if g.ty(args[1]) == Type::BOOL => chosen(b, args[0], args[1], args[2]),
         Op::Binary(op) => {
             let (x, y) = (args[0], args[1]);
             match g.ty(x).kind()? {
@@ -109,6 +111,25 @@ fn algebra(b: &mut Builder<'_>, op: &Op, args: &[NodeId]) -> Option<NodeId> {
         }
         _ => None,
     }
+}
+
+/// A choice of booleans of which one is known is a conjunction or disjunction.
+fn chosen(b: &mut Builder<'_>, condition: NodeId, yes: NodeId, no: NodeId) -> Option<NodeId> {
+    let known = |b: &Builder<'_>, id| b.graph().constant(id).map(|bits| bits[0] != 0);
+    let (op, negated, other) = match (known(b, yes), known(b, no)) {
+        (Some(true), Some(false)) => return Some(condition),
+        (Some(false), Some(true)) => return Some(b.add(Op::Unary(UnaryOp::Not), vec![condition], Type::BOOL)),
+        (Some(true), None) => (BinaryOp::Or, false, no),
+        (Some(false), None) => (BinaryOp::And, true, no),
+        (None, Some(true)) => (BinaryOp::Or, true, yes),
+        (None, Some(false)) => (BinaryOp::And, false, yes),
+        _ => return None,
+    };
+    let condition = match negated {
+        true => b.add(Op::Unary(UnaryOp::Not), vec![condition], Type::BOOL),
+        false => condition,
+    };
+    Some(b.add(Op::Binary(op), vec![condition, other], Type::BOOL))
 }
 
 fn float(g: &Graph, op: BinaryOp, x: NodeId, y: NodeId) -> Option<NodeId> {

@@ -104,6 +104,9 @@ impl Expansion<'_> {
                 for bound in &node.args[..2] {
                     self.alike(*bound, "a loop of which each pixel may run another number of rounds")?;
                 }
+                if let Some(stop) = self.old.region(*body).stop {
+                    self.alike(stop, "a loop that each pixel may leave in another round")?;
+                }
                 let mut args = vec![
                     self.ids[node.args[0].0 as usize][0],
                     self.ids[node.args[1].0 as usize][0],
@@ -136,6 +139,10 @@ impl Expansion<'_> {
         let results = results.flat_map(|r| self.ids[r.0 as usize].clone()).collect();
         let new = self.region(region);
         self.builder.graph_mut().regions[new.0 as usize].results = results;
+        if let Some(stop) = self.old.region(region).stop {
+            let stop = self.ids[stop.0 as usize][0];
+            self.builder.set_stop(new, stop);
+        }
     }
 
     /// Refuses what differs between lanes.

@@ -136,8 +136,8 @@ impl<'g> Places<'g> {
                 self.used(&mut late, *arg, here);
             }
             for region in self.graph.regions_of(id) {
-                for result in &self.graph.region(region).results {
-                    self.used(&mut late, *result, region);
+                for result in self.graph.region(region).leaving() {
+                    self.used(&mut late, result, region);
                 }
                 for param in &self.graph.region(region).params {
                     late[param.0 as usize] = Some(region);

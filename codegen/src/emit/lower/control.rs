@@ -2,8 +2,11 @@
 
 use super::{Lowering, Stale};
 use crate::emit::ast::{Expr, Op, StmtKind, VarId};
-use crate::ir::{self, NodeId};
+use crate::ir::{self, Graph, Lanes, NodeId, Region};
 use crate::passes::Block;
+
+/// Bits of the end of a loop that only its stop ends.
+const ENDLESS: Lanes = [Graph::ENDLESS as u32, 0, 0, 0];
 
 impl<'g> Lowering<'g> {
     pub(super) fn looped(&mut self, node: NodeId, body: &'g Block) {
@@ -14,9 +17,9 @@ impl<'g> Lowering<'g> {
             if graph.ty(*param).is_array() {
                 self.enter_web(*param, *init);
             } else {
-                let value = self.expr(*init);
+                let value = self.looked_at(*init).then(|| self.expr(*init));
                 let var = self.variable(*param);
-                self.statement(*param, StmtKind::Var(var, Some(value)));
+                self.statement(*param, StmtKind::Var(var, value));
                 self.exprs[param.0 as usize] = Some(self.module.read(var));
             }
         }
@@ -26,39 +29,58 @@ impl<'g> Lowering<'g> {
         let scope = self.webs.snapshot();
         let body = self.nested(|lowering| {
             lowering.steps(body);
-            lowering.next_iteration(&region.params[1..], &region.results);
+            lowering.next_iteration(&region.params[1..], region);
         });
         if let Some(version) = self.webs.lost(&scope) {
             let since = self.webs.replacement(version).map_or(Stale::Unknown, Stale::Since);
             self.stale.get_or_insert(since);
         }
-        self.block.push(
-            StmtKind::For {
+        let counted = self.compiled.schedule.uses[region.params[0].0 as usize] > 0
+            || region.stop.is_none()
+            || graph.constant(args[1]) != Some(ENDLESS);
+        let stmt = match counted {
+            true => StmtKind::For {
                 counter,
                 start,
                 end,
                 body,
-            }
-            .into(),
-        );
+            },
+            false => StmtKind::Loop(body),
+        };
+        self.block.push(stmt.into());
         self.webs.leave(&scope);
         self.results(node, &region.params[1..]);
     }
 
-    /// Assigns the next iteration's values. One that reads a variable which an assignment before changes is computed before.
-    fn next_iteration(&mut self, params: &[NodeId], results: &[NodeId]) {
+    /// Whether it matters which value this is.
+    fn looked_at(&self, id: NodeId) -> bool {
+        self.compiled.graph.node(id).op != ir::Op::Unused
+    }
+
+    /// Assigns the next iteration's values, and leaves the loop if this one was the last. What reads a variable which an
+    /// assignment before changes is computed before.
+    fn next_iteration(&mut self, params: &[NodeId], region: &Region) {
         let graph = &self.compiled.graph;
         let mut moves: Vec<(NodeId, VarId, Expr)> = Vec::new();
-        for (param, result) in params.iter().zip(results) {
+        for (param, result) in params.iter().zip(&region.results) {
             let value = self.expr(*result);
             let var = match graph.ty(*param).is_array() {
                 true => self.webs.variable(*param),
                 false => self.exprs[param.0 as usize].as_ref().and_then(as_var),
             };
             let var = var.unwrap_or(VarId::PIXEL);
-            if as_var(&value) != Some(var) {
+            if as_var(&value) != Some(var) && self.looked_at(*result) {
                 moves.push((*param, var, value));
             }
+        }
+        let mut stop = region.stop.map(|stop| (stop, self.expr(stop)));
+        let all: Vec<VarId> = moves.iter().map(|(_, var, _)| *var).collect();
+        if let Some((id, condition)) = &mut stop
+            && reads(condition, &all)
+        {
+            let ends = self.module.variable("ends", condition.ty);
+            let value = std::mem::replace(condition, Expr::var(ends, condition.ty));
+            self.statement(*id, StmtKind::Let(ends, value));
         }
         for k in 0..moves.len() {
             let changed: Vec<VarId> = moves[..k].iter().map(|(_, var, _)| *var).collect();
@@ -77,6 +99,14 @@ impl<'g> Lowering<'g> {
         }
         for param in params.iter().filter(|param| graph.ty(**param).is_array()) {
             self.webs.advance(*param);
+        }
+        if let Some((id, condition)) = stop {
+            let leave = StmtKind::If {
+                condition,
+                then: vec![StmtKind::Break.into()],
+                otherwise: Vec::new(),
+            };
+            self.statement(id, leave);
         }
     }
 
@@ -115,7 +145,7 @@ impl<'g> Lowering<'g> {
                 changes_array |= self.prepare_array(*id, kept);
                 continue;
             }
-            let begin = idle.then(|| self.expr(kept));
+            let begin = (idle && self.looked_at(kept)).then(|| self.expr(kept));
             let var = self.variable(*id);
             self.statement(*id, StmtKind::Var(var, begin));
             self.exprs[id.0 as usize] = Some(self.module.read(var));
@@ -163,7 +193,7 @@ impl<'g> Lowering<'g> {
         for (id, k) in results {
             if self.compiled.graph.ty(*id).is_array() {
                 self.enter_web(*id, values[*k]);
-            } else if !arrays_only {
+            } else if !arrays_only && self.looked_at(values[*k]) {
                 let (place, value) = (self.expr(*id), self.expr(values[*k]));
                 self.statement(*id, StmtKind::Assign(place, None, value));
             }

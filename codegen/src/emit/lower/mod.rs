@@ -120,7 +120,7 @@ impl<'g> Lowering<'g> {
         let node = self.compiled.graph.node(id);
         match &node.op {
             // Written where it is used, first copied or indexed.
-            ir::Op::Const(_) | ir::Op::MakeArray | ir::Op::Result(_) => {}
+            ir::Op::Const(_) | ir::Op::Unused | ir::Op::MakeArray | ir::Op::Result(_) => {}
             ir::Op::ArraySet => self.array_set(id),
             ir::Op::ArrayGet => self.array_get(id),
             _ => {
@@ -166,6 +166,7 @@ impl<'g> Lowering<'g> {
                 Expr::new(Op::Construct, parts, node.ty)
             }
             ir::Op::Const(bits) => Expr::constant(node.ty, *bits),
+            ir::Op::Unused => Expr::splat(node.ty, 0),
             _ => self.version(id),
         }
     }

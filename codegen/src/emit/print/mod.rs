@@ -7,9 +7,9 @@ mod hlsl;
 mod opengl;
 mod wgsl;
 
-use super::ast::{Block, Builtin, Expr, Function, Module, Op, Stmt, StmtKind, Ty, VarId};
+use super::ast::{Builtin, Expr, Function, Module, Op, Stmt, StmtKind, Ty, VarId};
 use super::text::{Binds, Text, wrapped_comment};
-use crate::ir::{self, Scalar};
+use crate::ir::{self, Scalar, UnaryOp};
 
 pub use glsl::{GATHER, Glsl, LENGTH, MESSAGES};
 pub use header::{GENERATOR, header};
@@ -90,6 +90,10 @@ pub trait Language {
     }
     /// The head of a loop, up to the opening brace.
     fn loop_head(&self, counter: &str, ty: Ty, start: &str, bound: &str) -> String;
+    /// The head of a loop that only a `break` ends.
+    fn endless_head(&self) -> &'static str {
+        "while (true) {"
+    }
     /// What stands around the condition of a branch.
     fn if_head(&self) -> [&'static str; 2];
     /// The head of a function, up to the opening brace.
@@ -156,7 +160,7 @@ impl Printer<'_> {
         format!("// {}\n{head}\n{}}}", function.comment, self.block(&function.body, 1))
     }
 
-    fn block(&self, block: &Block<'_>, depth: usize) -> String {
+    fn block(&self, block: &[Stmt<'_>], depth: usize) -> String {
         block.iter().map(|stmt| self.stmt(stmt, depth)).collect()
     }
 
@@ -206,6 +210,18 @@ impl Printer<'_> {
                 let head = l.loop_head(name, start.ty, &self.expr(start).code, &bound.code);
                 format!("{indent}{head}\n{}{indent}}}", self.block(body, depth + 1))
             }
+            StmtKind::Loop(body) => {
+                let [before, behind] = l.if_head();
+                let (head, body) = match body.split_first().map(|(first, rest)| (goes_on(first), rest)) {
+                    Some((Some(condition), rest)) => {
+                        let before = before.replacen("if", "while", 1);
+                        (Self::line(depth, &before, &self.expr(condition), behind), rest)
+                    }
+                    _ => (format!("{indent}{}", l.endless_head()), &body[..]),
+                };
+                format!("{head}\n{}{indent}}}", self.block(body, depth + 1))
+            }
+            StmtKind::Break => format!("{indent}break;"),
             StmtKind::If {
                 condition,
                 then,
@@ -235,5 +251,22 @@ impl Printer<'_> {
         }
         let args: Vec<Text> = expr.args.iter().map(|arg| self.expr(arg)).collect();
         expr::print(self.language, expr, &args)
+    }
+}
+
+/// The condition of a loop whose first statement leaves it where that does not hold.
+fn goes_on<'s>(first: &'s Stmt<'_>) -> Option<&'s Expr> {
+    match &first.kind {
+        StmtKind::If {
+            condition,
+            then,
+            otherwise,
+        } if condition.op == Op::Ir(ir::Op::Unary(UnaryOp::Not))
+            && otherwise.is_empty()
+            && matches!(then.as_slice(), [stmt] if stmt.kind == StmtKind::Break) =>
+        {
+            condition.args.first()
+        }
+        _ => None,
     }
 }

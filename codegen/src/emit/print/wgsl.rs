@@ -161,6 +161,10 @@ impl Language for Wgsl<'_> {
         format!("for (var {counter} = {start}; {bound}; {counter}++) {{")
     }
 
+    fn endless_head(&self) -> &'static str {
+        "loop {"
+    }
+
     fn if_head(&self) -> [&'static str; 2] {
         ["if ", " {"]
     }

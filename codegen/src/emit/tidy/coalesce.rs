@@ -1,4 +1,5 @@
-//! No second variable for what is copied back: `var b = a; if c { b = f(a); } a = b;` is `if c { a = f(a); }`.
+//! No second variable for what is copied back: `var b = a; if c { b = f(a); } a = b;` is `if c { a = f(a); }`, and so where
+//! both sides of the branch give `b` its value.
 
 use crate::emit::ast::{Block, Expr, Op, Stmt, StmtKind, VarId};
 
@@ -25,15 +26,23 @@ pub fn coalesce(block: &mut Block<'_>) {
 /// If statement `k` copies a variable which a later one copies back, and none but the copy is changed between: the copy, the
 /// original and the later statement.
 fn copied_back(block: &[Stmt<'_>], k: usize) -> Option<(VarId, VarId, usize)> {
-    let StmtKind::Var(copy, Some(value)) = &block[k].kind else {
+    let StmtKind::Var(copy, value) = &block[k].kind else {
         return None;
     };
-    let (copy, original) = (*copy, as_var(value)?);
+    let copy = *copy;
     let back = |stmt: &Stmt<'_>| match &stmt.kind {
-        StmtKind::Assign(place, None, value) => as_var(place) == Some(original) && as_var(value) == Some(copy),
-        _ => false,
+        StmtKind::Assign(place, None, value) if as_var(value) == Some(copy) => as_var(place),
+        _ => None,
     };
-    let last = k + 1 + block[k + 1..].iter().position(back)?;
+    let (at, original) = block[k + 1..]
+        .iter()
+        .enumerate()
+        .find_map(|(at, stmt)| Some((at, back(stmt)?)))?;
+    let last = k + 1 + at;
+    let declared = |stmt: &Stmt<'_>| matches!(stmt.kind, StmtKind::Var(var, _) if var == original);
+    if value.as_ref().is_some_and(|value| as_var(value) != Some(original)) || block[k..last].iter().any(declared) {
+        return None;
+    }
     let mut changed = false;
     let kept = block[k + 1..last]
         .iter()
@@ -74,7 +83,7 @@ fn keeps(stmt: &Stmt<'_>, copy: VarId, original: VarId, changed: &mut bool) -> b
             sides
         }
         // Iterations see what those before have changed.
-        StmtKind::For { .. } => {
+        StmtKind::For { .. } | StmtKind::Loop(_) => {
             let (copied, read) = (mentions(stmt, copy), mentions(stmt, original));
             let first = *changed;
             *changed |= copied;

@@ -20,7 +20,7 @@ impl Columns<'_> {
             StmtKind::Store(..) => 30,
             StmtKind::Output(_) | StmtKind::Return(_) => 30,
             StmtKind::For { .. } => 40,
-            StmtKind::If { .. } => 5,
+            StmtKind::If { .. } | StmtKind::Loop(_) | StmtKind::Break => 5,
             StmtKind::Comment(_) => 0,
         };
         let own = stmt.own();

@@ -1,4 +1,4 @@
-//! No statement for a value that nothing uses.
+//! No statement for a value that nothing uses, and none that does nothing.
 
 use crate::emit::ast::{Block, Module, Op, Stmt, StmtKind, VarId};
 
@@ -19,7 +19,12 @@ pub fn uses(module: &Module<'_>) -> Vec<u32> {
 }
 
 fn count(stmt: &Stmt<'_>, uses: &mut [u32]) {
-    for expr in stmt.own() {
+    let own = match &stmt.kind {
+        // Writing is no use.
+        StmtKind::Assign(place, None, value) if matches!(place.op, Op::Var(_)) => vec![value],
+        _ => stmt.own(),
+    };
+    for expr in own {
         expr.visit(&mut |expr| {
             if let Op::Var(var) = expr.op {
                 uses[var.0 as usize] += 1;
@@ -31,7 +36,7 @@ fn count(stmt: &Stmt<'_>, uses: &mut [u32]) {
     }
 }
 
-/// Removes immutable variables that nothing reads, and tables too.
+/// Removes variables that nothing reads with what is assigned to them, branches without statements, and tables.
 pub fn remove(module: &mut Module<'_>) {
     loop {
         let uses = uses(module);
@@ -47,11 +52,19 @@ pub fn remove(module: &mut Module<'_>) {
 
 fn sweep(block: &mut Block<'_>, is_used: &dyn Fn(VarId) -> bool, removed: &mut bool) {
     let before = block.len();
-    block.retain(|stmt| !matches!(&stmt.kind, StmtKind::Let(var, _) if !is_used(*var)));
-    *removed |= block.len() < before;
-    for stmt in block {
+    for stmt in block.iter_mut() {
         for inner in stmt.blocks_mut() {
             sweep(inner, is_used, removed);
         }
     }
+    block.retain(|stmt| match &stmt.kind {
+        StmtKind::Let(var, _) | StmtKind::Var(var, _) => is_used(*var),
+        StmtKind::Assign(place, None, value) => match place.op {
+            Op::Var(var) => is_used(var) && place != value,
+            _ => true,
+        },
+        StmtKind::If { then, otherwise, .. } => !then.is_empty() || !otherwise.is_empty(),
+        _ => true,
+    });
+    *removed |= block.len() < before;
 }

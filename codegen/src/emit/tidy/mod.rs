@@ -1,5 +1,6 @@
 //! Rules that make a tree read as a colleague would have written it. None changes what is computed, by a single bit.
 
+mod breaks;
 mod coalesce;
 mod columns;
 mod dead;
@@ -17,6 +18,7 @@ pub fn tidy(module: &mut Module<'_>, graph: &Graph) {
     dead::remove(module);
     coalesce::coalesce(&mut module.body);
     inline::inline(module, graph);
+    breaks::early(&mut module.body);
     // What was inlined has new neighbours, and what is shorter now may be inlined.
     module.rewrite(&mut |_, expr| simplify(expr));
     dead::remove(module);

@@ -1,7 +1,7 @@
 //! Shorter ways to write an expression.
 
 use crate::emit::ast::{Block, Expr, Op, Stmt, StmtKind};
-use crate::ir::{self, BinaryOp, Scalar, Type};
+use crate::ir::{self, BinaryOp, Scalar, Type, UnaryOp};
 
 /// Rewrites an expression, whose arguments have been rewritten.
 pub fn simplify(expr: Expr) -> Expr {
@@ -15,6 +15,15 @@ pub fn simplify(expr: Expr) -> Expr {
         }
         _ => expr,
     }
+}
+
+/// `!condition`; of `!a`, `a`.
+pub fn not(mut condition: Expr) -> Expr {
+    if condition.op == Op::Ir(ir::Op::Unary(UnaryOp::Not)) {
+        return condition.args.swap_remove(0);
+    }
+    let ty = condition.ty;
+    Expr::new(Op::Ir(ir::Op::Unary(UnaryOp::Not)), vec![condition], ty)
 }
 
 /// `v.zyx.y` is `v.y`, `v.xyz` of a vector of three `v`, `vec2(a, b).y` is `b`.

@@ -53,8 +53,72 @@ impl Maker {
         self.close("}");
     }
 
-    /// `break`, `continue` or `return` under a condition that is known.
+    /// `break`, `continue` or `return`, under a condition that is a runtime value or not.
+    pub(super) fn leave_at_run_time(&mut self) {
+        let innermost = self.loops.len().saturating_sub(1);
+        let free: Vec<(usize, Option<String>)> = self
+            .loops
+            .iter()
+            .enumerate()
+            .filter(|(k, l)| l.label.is_some() || *k == innermost)
+            .map(|(k, l)| (k, l.label.clone()))
+            .collect();
+        let returns = self.result.is_some() && (free.is_empty() || self.random.once_in(4));
+        if free.is_empty() && !returns {
+            return;
+        }
+        if returns {
+            self.loops.iter_mut().for_each(|l| l.left = true);
+            return self.early_return();
+        }
+        let (target, label) = self.random.pick(&free);
+        self.loops[target..].iter_mut().for_each(|l| l.left = true);
+        let label = label.map_or(String::new(), |l| format!(" {l}"));
+        let word = self.random.pick(&["break", "continue"]);
+        let want = self.wish(2);
+        let condition = self.with_effects(|m| m.condition(want));
+        self.open(format!("if {condition} {{"));
+        if self.random.once_in(3) {
+            let mark = self.locals.len();
+            self.assign();
+            self.locals.truncate(mark);
+        }
+        self.line(format!("{word}{label};"));
+        match self.random.below(6) {
+            0 => {
+                self.close("} else {");
+                self.indent += 1;
+                self.dynamic += 1;
+                self.body(1);
+                self.dynamic -= 1;
+            }
+            1 => {
+                let condition = self.condition(want);
+                self.close(&format!("}} else if {condition} {{"));
+                self.indent += 1;
+                let word = self.random.pick(&["break", "continue"]);
+                self.line(format!("{word}{label};"));
+            }
+            _ => {}
+        }
+        self.close("}");
+    }
+
+    /// What has changed in a loop that is left at run time is known no more.
+    pub(super) fn unknown_after(&mut self, left: bool) {
+        if left {
+            self.locals.iter_mut().filter(|l| l.mutable).for_each(|l| {
+                l.known = false;
+                l.range = None;
+            });
+        }
+    }
+
+    /// `break`, `continue` or `return`, mostly under a condition that is known.
     pub(super) fn leave(&mut self) {
+        if self.on(Feature::RuntimeLeaving) && self.random.once_in(2) {
+            return self.leave_at_run_time();
+        }
         let free: Vec<Option<String>> = self
             .loops
             .iter()

@@ -26,6 +26,8 @@ pub enum Feature {
     Nested,
     /// Labelled loops, `break`, `continue`, early `return`.
     Leaving,
+    /// The same under conditions that are runtime values, and in loops that stay loops.
+    RuntimeLeaving,
     /// `while` and `loop`.
     While,
     /// `options!`.
@@ -49,6 +51,7 @@ pub const ALL: &[Feature] = &[
     Feature::Generics,
     Feature::Nested,
     Feature::Leaving,
+    Feature::RuntimeLeaving,
     Feature::While,
     Feature::Options,
     Feature::Coarse,

@@ -128,10 +128,16 @@ impl Maker {
         self.signatures.push(signature);
     }
 
-    /// `return` under a condition that is known.
+    /// `return` under a condition.
     pub(super) fn early_return(&mut self) {
         let Some(ty) = self.result.clone() else { return };
-        let condition = self.known_condition();
+        let condition = match self.on(Feature::RuntimeLeaving) && self.random.below(3) > 0 {
+            true => {
+                let want = self.wish(2);
+                self.condition(want)
+            }
+            false => self.known_condition(),
+        };
         let want = Want {
             depth: 1,
             known: false,

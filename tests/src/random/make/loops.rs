@@ -29,14 +29,22 @@ impl Maker {
         self.loops.push(Around {
             dynamic: self.dynamic,
             label,
+            left: false,
         });
         bind(self);
         let count = 1 + self.random.below(3);
+        let leaves = self.chance(Feature::RuntimeLeaving, 3);
+        self.nesting += u32::from(leaves);
+        if leaves && self.random.once_in(2) {
+            self.leave_at_run_time();
+        }
         self.body(count);
-        self.loops.pop();
+        self.nesting -= u32::from(leaves);
+        let left = self.loops.pop().is_some_and(|l| l.left);
         self.repeats = repeats;
         self.locals.truncate(mark);
         self.close("}");
+        self.unknown_after(left);
     }
 
     /// `for` over a range of any kind.
@@ -166,16 +174,25 @@ impl Maker {
             _ => (Ty::I32, "pixel.x..pixel.x + 3".to_owned()),
         };
         let name = self.fresh("k");
-        let loops = std::mem::take(&mut self.loops);
+        let leaving = self.on(Feature::RuntimeLeaving);
+        let loops = match leaving {
+            true => self.loops.clone(),
+            false => std::mem::take(&mut self.loops),
+        };
         self.dynamic += 1;
-        self.iterate(&format!("for {name} in {range}"), None, 4, |m| {
-            // Nothing leaves it early: how often it runs is a runtime value.
-            m.loops.last_mut().expect("inside of a loop").dynamic = u32::MAX;
+        let label = if leaving { self.label() } else { None };
+        self.iterate(&format!("for {name} in {range}"), label, 4, |m| {
+            if !leaving {
+                // Nothing leaves it early: how often it runs is a runtime value.
+                m.loops.last_mut().expect("inside of a loop").dynamic = u32::MAX;
+            }
             m.bind(&name, &ty, false);
             m.last().counter = true;
         });
         self.dynamic -= 1;
-        self.loops = loops;
+        if !leaving {
+            self.loops = loops;
+        }
     }
 
     /// `for` over an array, in all its ways.
@@ -283,8 +300,18 @@ impl Maker {
         };
         let dynamic = self.dynamic;
         let endless = self.random.once_in(3);
+        let mut ends = false;
         let head = if endless {
             "loop".to_owned()
+        } else if self.chance(Feature::RuntimeLeaving, 3) {
+            // How often it goes round is a runtime value.
+            let want = self.wish(1);
+            ends = true;
+            let condition = self.condition(want);
+            match self.random.once_in(2) {
+                true => format!("while {name} < {end} && {condition}"),
+                false => format!("while {condition} && {name} < {end}"),
+            }
         } else {
             format!("while {name} < {end}")
         };
@@ -299,11 +326,19 @@ impl Maker {
         self.line(step);
         let repeats = self.repeats;
         self.repeats *= 3;
-        self.loops.push(Around { dynamic, label });
+        let left = ends;
+        self.loops.push(Around { dynamic, label, left });
+        if ends {
+            self.unknown_after(true);
+        }
         let count = 1 + self.random.below(2);
+        if self.chance(Feature::RuntimeLeaving, 3) {
+            self.leave_at_run_time();
+        }
         self.body(count);
-        self.loops.pop();
+        let left = self.loops.pop().is_some_and(|l| l.left);
         self.repeats = repeats;
         self.close("}");
+        self.unknown_after(left);
     }
 }

@@ -101,6 +101,8 @@ struct Around {
     /// Runtime conditions around it: under more of them it cannot be left.
     dynamic: u32,
     label: Option<String>,
+    /// Whether it, or an iteration of it, may be left at run time.
+    left: bool,
 }
 
 /// A constant: its name, its type, and the range that an integer lies in.

@@ -102,6 +102,9 @@ impl Maker {
         for _ in 0..statements {
             self.statement();
         }
+        if !self.loops.is_empty() && self.chance(Feature::RuntimeLeaving, 4) {
+            self.leave_at_run_time();
+        }
         // What was computed inside is carried out.
         if self.random.below(3) > 0 && self.locals.len() > mark {
             self.carry();

@@ -1,0 +1,282 @@
+//! A loop is left where that is decided: `if c { a } else { b } if c { break; }` is `if c { a; break; } b`.
+
+use super::simplify::not;
+use crate::emit::ast::{Block, Expr, Op, Stmt, StmtKind, VarId};
+use crate::ir::{self, BinaryOp, Type, UnaryOp};
+
+/// Moves every `break` that ends a loop's body into the branch before it that decides on it.
+pub fn early(block: &mut Block<'_>) {
+    for stmt in &mut *block {
+        stmt.blocks_mut().into_iter().for_each(early);
+        if let StmtKind::For { body, .. } | StmtKind::Loop(body) = &mut stmt.kind {
+            sink(body);
+        }
+    }
+    let mut declared = Vec::new();
+    for stmt in block {
+        match &mut stmt.kind {
+            StmtKind::Var(var, Some(value)) if value.as_constant().is_some() => declared.push((*var, value.clone())),
+            StmtKind::For { body, .. } | StmtKind::Loop(body) => {
+                for (var, value) in &declared {
+                    if stays(body, *var, value) {
+                        drop_assignments(body, *var, value);
+                    }
+                }
+            }
+            _ => {}
+        }
+        declared.retain(|(var, _)| !assigns(stmt, *var));
+    }
+}
+
+/// What a branch knows of the condition on which the loop is left.
+enum Known {
+    /// Whether it holds.
+    Is(bool),
+    /// A branch at its end knows, of what is left of the condition.
+    Within(Expr),
+    /// What is left of the condition tells.
+    Open(Expr),
+}
+
+/// Merges a `break` at the end of a block with the branch before it, as deep as that decides.
+fn sink(block: &mut Block<'_>) {
+    branch_last(block);
+    let [.., branch, leave] = block.as_slice() else { return };
+    let StmtKind::If {
+        condition,
+        then,
+        otherwise,
+    } = &branch.kind
+    else {
+        return;
+    };
+    let Some(leaves) = leaves(leave) else { return };
+    let known = [(true, then), (false, otherwise)].map(|(holds, side)| decided(leaves, condition, holds, side));
+    let [first, second] = known;
+    if matches!((&first, &second), (Known::Open(_), Known::Open(_))) {
+        return;
+    }
+    let Some(leave) = block.pop() else { return };
+    let Some(Stmt {
+        kind: StmtKind::If {
+            mut condition,
+            mut then,
+            mut otherwise,
+        },
+        origin,
+    }) = block.pop()
+    else {
+        return;
+    };
+    let (leaves_first, leaves_second) = (matches!(first, Known::Is(true)), matches!(second, Known::Is(true)));
+    for (side, known) in [(&mut then, first), (&mut otherwise, second)] {
+        match known {
+            Known::Is(true) => side.push(StmtKind::Break.into()),
+            Known::Is(false) => {}
+            Known::Within(condition) | Known::Open(condition) => {
+                let kind = StmtKind::If {
+                    condition,
+                    then: vec![StmtKind::Break.into()],
+                    otherwise: Vec::new(),
+                };
+                side.push(Stmt { kind, ..leave });
+                sink(side);
+            }
+        }
+    }
+    // What follows a side that leaves needs no side of its own.
+    let mut rest = Vec::new();
+    if leaves_first {
+        rest = std::mem::take(&mut otherwise);
+    } else if leaves_second {
+        condition = not(condition);
+        std::mem::swap(&mut then, &mut otherwise);
+        rest = std::mem::take(&mut otherwise);
+    }
+    let kind = StmtKind::If {
+        condition,
+        then,
+        otherwise,
+    };
+    block.push(Stmt { kind, origin });
+    block.extend(rest);
+}
+
+/// The condition of a statement that only leaves the loop.
+fn leaves<'s>(stmt: &'s Stmt<'_>) -> Option<&'s Expr> {
+    match &stmt.kind {
+        StmtKind::If {
+            condition,
+            then,
+            otherwise,
+        } if otherwise.is_empty() && matches!(then.as_slice(), [only] if only.kind == StmtKind::Break) => {
+            Some(condition)
+        }
+        _ => None,
+    }
+}
+
+/// What a side of a branch, taken where `condition` is `holds`, knows of `leaves` at its end.
+fn decided(leaves: &Expr, condition: &Expr, holds: bool, side: &Block<'_>) -> Known {
+    let unchanged = !mentions(condition, &|var| side.iter().any(|stmt| assigns(stmt, var)));
+    let left = leaves.clone().rewrite(&mut |expr| {
+        let of_condition = (unchanged && expr == *condition).then_some(holds);
+        let of_negation = (unchanged && not(expr.clone()) == *condition).then_some(!holds);
+        let assigned = as_var(&expr).and_then(|var| last_value(side, var));
+        match of_condition.or(of_negation) {
+            Some(value) => truth(value),
+            None => reduced(assigned.cloned().unwrap_or(expr)),
+        }
+    });
+    if let Some(bits) = left.as_constant() {
+        return Known::Is(bits[0] != 0);
+    }
+    match side.last().map(|stmt| &stmt.kind) {
+        Some(StmtKind::If {
+            condition,
+            then,
+            otherwise,
+        }) => {
+            let sides = [(true, then), (false, otherwise)].map(|(holds, side)| decided(&left, condition, holds, side));
+            match sides {
+                [Known::Open(_), Known::Open(_)] => Known::Open(left),
+                _ => Known::Within(left),
+            }
+        }
+        _ => Known::Open(left),
+    }
+}
+
+/// What a block leaves in a variable, if that can be told behind it.
+fn last_value<'b>(block: &'b Block<'_>, var: VarId) -> Option<&'b Expr> {
+    let at = block.iter().rposition(|stmt| assigns(stmt, var))?;
+    match &block[at].kind {
+        StmtKind::Assign(place, None, value) if as_var(place) == Some(var) => {
+            let changed = mentions(value, &|read| block[at..].iter().any(|stmt| assigns(stmt, read)));
+            (!changed).then_some(value)
+        }
+        _ => None,
+    }
+}
+
+/// Moves assignments behind a branch that do not depend on it before it, and into its sides where they repeat its condition,
+/// so that the branch stands beside the `break` that it decides on.
+fn branch_last(block: &mut Block<'_>) {
+    let Some(end) = block
+        .len()
+        .checked_sub(1)
+        .filter(|_| block.last().is_some_and(|stmt| leaves(stmt).is_some()))
+    else {
+        return;
+    };
+    let Some(mut at) = block[..end]
+        .iter()
+        .rposition(|stmt| matches!(stmt.kind, StmtKind::If { .. }))
+    else {
+        return;
+    };
+    for k in at + 1..end {
+        let (before, behind) = block.split_at_mut(k);
+        let (branch, stmt) = (&mut before[at], &mut behind[0]);
+        let StmtKind::Assign(place, None, value) = &stmt.kind else {
+            return;
+        };
+        let Some(var) = as_var(place) else { return };
+        let depends = mentions(value, &|read| assigns(branch, read)) || touches(branch, var);
+        if !depends {
+            block[at..=k].rotate_right(1);
+            at += 1;
+            continue;
+        }
+        return;
+    }
+}
+
+/// Whether a statement reads or writes a variable.
+fn touches(stmt: &Stmt<'_>, var: VarId) -> bool {
+    let mut found = false;
+    stmt.visit(&mut |expr| found |= as_var(expr) == Some(var));
+    found
+}
+
+fn truth(holds: bool) -> Expr {
+    Expr::constant(Type::BOOL, [u32::from(holds), 0, 0, 0])
+}
+
+/// A boolean operation of which an argument is known.
+fn reduced(expr: Expr) -> Expr {
+    let known = |k: usize| expr.args.get(k).and_then(Expr::as_constant).map(|bits| bits[0] != 0);
+    let keep = match (&expr.op, known(0), known(1)) {
+        (Op::Ir(ir::Op::Unary(UnaryOp::Not)), Some(value), _) => return truth(!value),
+        (Op::Ir(ir::Op::Binary(BinaryOp::Or)), Some(true), _)
+        | (Op::Ir(ir::Op::Binary(BinaryOp::Or)), _, Some(true)) => {
+            return truth(true);
+        }
+        (Op::Ir(ir::Op::Binary(BinaryOp::And)), Some(false), _)
+        | (Op::Ir(ir::Op::Binary(BinaryOp::And)), _, Some(false)) => return truth(false),
+        (Op::Ir(ir::Op::Binary(BinaryOp::Or | BinaryOp::And)), Some(_), _) => 1,
+        (Op::Ir(ir::Op::Binary(BinaryOp::Or | BinaryOp::And)), _, Some(_)) => 0,
+        _ => return expr,
+    };
+    let mut args = expr.args;
+    args.swap_remove(keep)
+}
+
+/// Whether a variable that begins as `value` still is that wherever a loop's body assigns it again: each other assignment
+/// is on the way out of the loop.
+fn stays(body: &Block<'_>, var: VarId, value: &Expr) -> bool {
+    let leaves = matches!(body.last().map(|stmt| &stmt.kind), Some(StmtKind::Break));
+    body.iter().all(|stmt| match &stmt.kind {
+        StmtKind::Assign(place, op, to) if root(place) == Some(var) => {
+            leaves || (op.is_none() && as_var(place) == Some(var) && to == value)
+        }
+        StmtKind::For { .. } | StmtKind::Loop(_) => !assigns(stmt, var),
+        _ => stmt.blocks().into_iter().all(|inner| stays(inner, var, value)),
+    })
+}
+
+/// Removes the assignments of what a variable is already.
+fn drop_assignments(block: &mut Block<'_>, var: VarId, value: &Expr) {
+    if matches!(block.last().map(|stmt| &stmt.kind), Some(StmtKind::Break)) {
+        // What is assigned on the way out is read behind the loop.
+        let others = |stmt: &Stmt<'_>| matches!(&stmt.kind, StmtKind::Assign(place, _, to) if root(place) == Some(var) && to != value);
+        if block.iter().any(others) {
+            return;
+        }
+    }
+    block.retain(
+        |stmt| !matches!(&stmt.kind, StmtKind::Assign(place, None, to) if as_var(place) == Some(var) && to == value),
+    );
+    for stmt in block {
+        stmt.blocks_mut()
+            .into_iter()
+            .for_each(|inner| drop_assignments(inner, var, value));
+    }
+}
+
+fn mentions(expr: &Expr, of: &dyn Fn(VarId) -> bool) -> bool {
+    let mut found = false;
+    expr.visit(&mut |e| found |= as_var(e).is_some_and(of));
+    found
+}
+
+fn as_var(expr: &Expr) -> Option<VarId> {
+    match expr.op {
+        Op::Var(var) => Some(var),
+        _ => None,
+    }
+}
+
+fn assigns(stmt: &Stmt<'_>, var: VarId) -> bool {
+    matches!(&stmt.kind, StmtKind::Assign(place, ..) if root(place) == Some(var))
+        || stmt.blocks().into_iter().flatten().any(|stmt| assigns(stmt, var))
+}
+
+/// The variable that a place is a part of.
+fn root(place: &Expr) -> Option<VarId> {
+    match place.op {
+        Op::Index { .. } | Op::Swizzle(_) => root(&place.args[0]),
+        _ => as_var(place),
+    }
+}
