@@ -397,6 +397,16 @@ fn a_function_takes_what_it_reads() {
         let glsl = format!("#version {version}\n{}\n{caller}", text(&all, target));
         compiles(&glsl, "caller.frag", compilers::opengl);
     }
+    let buffers = emitted(&kernel(ALL, "all"), &options.clone().targets([Target::Hlsl]));
+    let caller = "Texture2D<float4> c;\nSamplerState s;\nStructuredBuffer<float> w;\nfloat4 main(float4 at : SV_Position) : SV_Target0 {\n    \
+                  return all_of(c, c, w, s, at.xy, 0.5);\n}\n";
+    // `all` is a word of HLSL.
+    let caller = caller.replace("all_of", &buffers.manifest.entry_point);
+    compiles(
+        &format!("{}\n{caller}", text(&buffers, Target::Hlsl)),
+        "buffers.hlsl",
+        hlsl,
+    );
     let manifest = &all.manifest;
     assert_eq!((manifest.form, manifest.stage), (Form::Function, Stage::Fragment));
     let taken = |language: &str| -> Vec<String> {

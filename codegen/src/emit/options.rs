@@ -149,13 +149,13 @@ impl EmitOptions {
         self.form == Form::Function
     }
 
-    pub(super) fn from_below(&self) -> bool {
+    pub(super) fn counts_from_below(&self) -> bool {
         self.origin == Origin::LowerLeft
     }
 
     /// Whether the entry point has a variable for the place that it writes, which is not the pixel then.
     pub(super) fn has_place(&self) -> bool {
-        self.region || self.from_below()
+        self.region || self.counts_from_below()
     }
 }
 

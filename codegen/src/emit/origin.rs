@@ -14,7 +14,7 @@ use straightline_manifest::Precision;
 ///
 /// It has something that cannot be turned exactly.
 pub fn turned<'c>(compiled: &'c Compiled, options: &EmitOptions) -> Result<Cow<'c, Compiled>, EmitError> {
-    if !options.from_below() {
+    if !options.counts_from_below() {
         return Ok(Cow::Borrowed(compiled));
     }
     let refused = |why| EmitError::FromBelow {

@@ -187,7 +187,7 @@ impl Resources {
         let varyings: Vec<Varying> = varyings.map(|(_, v)| v.clone()).collect();
         let (fields, uniform_size) = layout(&uniforms);
         let compute = options.stage == Stage::Compute;
-        let needs_frame = compute || options.from_below() || ops.contains(&&Op::FrameSize);
+        let needs_frame = compute || options.counts_from_below() || ops.contains(&&Op::FrameSize);
         let named = |class: char, name: &str| Named {
             name: name.to_owned(),
             class,
@@ -333,7 +333,7 @@ impl Resources {
 
     /// What the fields of a region are.
     pub fn region_comment(&self) -> String {
-        let corner = match self.options.from_below() {
+        let corner = match self.options.counts_from_below() {
             true => "lower left",
             false => "upper left",
         };

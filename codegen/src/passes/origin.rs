@@ -1,7 +1,7 @@
 //! Rows that count from below.
 
 use super::fold::Exact;
-use crate::ir::{BinaryOp, Builder, Graph, NodeId, Op, Rebuild, Rules, Scalar, Type, rebuild};
+use crate::ir::{BinaryOp, Builder, Graph, NodeId, Op, Origin, Rebuild, Rules, Scalar, Type, rebuild};
 
 const PAIR: Type = Type::value(Scalar::I32, 2);
 const PLACE: Type = Type::value(Scalar::F32, 2);
@@ -58,6 +58,7 @@ impl FromBelow<'_> {
         let height = b.add(Op::Extract(1), vec![size], Type::I32);
         let one = b.constant(Type::I32, [1, 0, 0, 0]);
         let last = b.add(Op::Binary(BinaryOp::Sub), vec![height, one], Type::I32);
+        named(b, last, "last_row", coordinate);
         let [x, y] = [0, 1].map(|k| b.add(Op::Extract(k), vec![coordinate], Type::I32));
         let row = b.add(Op::Binary(BinaryOp::Sub), vec![last, y], Type::I32);
         b.add(Op::Compose, vec![x, row], PAIR)
@@ -69,5 +70,19 @@ fn place(b: &mut Builder<'_>, place: NodeId) -> NodeId {
     let [u, v] = [0, 1].map(|k| b.add(Op::Extract(k), vec![place], Type::F32));
     let one = b.constant(Type::F32, [1.0f32.to_bits(), 0, 0, 0]);
     let turned = b.add(Op::Binary(BinaryOp::Sub), vec![one, v], Type::F32);
-    b.add(Op::Compose, vec![u, turned], PLACE)
+    let at = b.add(Op::Compose, vec![u, turned], PLACE);
+    named(b, at, "from_below", place);
+    at
+}
+
+/// Gives a value a name, at the place in the source that another has.
+fn named(b: &mut Builder<'_>, id: NodeId, name: &str, like: NodeId) {
+    if let Some(origin) = b.graph().origin(like).cloned() {
+        let origin = Origin {
+            name: name.to_owned(),
+            counters: Vec::new(),
+            ..origin
+        };
+        b.set_origin(id, &origin);
+    }
 }

@@ -84,7 +84,7 @@ fn begin_compute(resources: &Resources) -> Block<'static> {
         }
         .into()
     };
-    match (resources.options.region, resources.options.from_below()) {
+    match (resources.options.region, resources.options.counts_from_below()) {
         (false, from_below) => {
             let mut body = vec![
                 is(VarId::FRAME, builtin(Builtin::OutputSize)),
@@ -146,7 +146,7 @@ fn begin_fragment(resources: &Resources) -> Block<'static> {
         pixel = pixel.binary(BinaryOp::Add, builtin(Builtin::RegionFirst));
     }
     let mut body = Vec::new();
-    if resources.options.from_below() {
+    if resources.options.counts_from_below() {
         // Rows of the fragment and of the inputs count from below, those of the kernel from above.
         body.push(is(VarId::FRAME, frame(resources)));
         body.push(is(VarId::PLACE, pixel));
@@ -171,7 +171,7 @@ fn stores(body: &mut Block<'_>, outputs: Block<'_>, resources: &Resources) {
         true => VarId::PLACE,
         false => VarId::PIXEL,
     };
-    let down = if resources.options.from_below() { -1 } else { 1 };
+    let down = if resources.options.counts_from_below() { -1 } else { 1 };
     let width = resources.block[0] as usize;
     let colours = outputs.into_iter().filter_map(|stmt| match stmt.kind {
         StmtKind::Output(colour) => Some(colour),
