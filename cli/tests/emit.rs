@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{fails, is_empty, scratch, write};
+use common::{fails, finishes, is_empty, scratch, write};
 
 #[test]
 fn a_syntax_error_is_shown_with_its_place() {
@@ -144,4 +144,70 @@ fn transports_that_a_stage_does_not_have_are_refused() {
         &["no other blocks"],
     );
     assert!(is_empty(&folder.join("out")));
+}
+
+#[test]
+fn places_names_forms_and_origins_are_the_users() {
+    let folder = scratch("places");
+    let out = folder.join("out");
+    let out_text = out.to_str().unwrap();
+    let given = [
+        "--group",
+        "1",
+        "--binding",
+        "color=4",
+        "--register",
+        "depth=t7,space2",
+        "--entry",
+        "resolve",
+        "--target",
+        "wgsl,hlsl",
+    ];
+    finishes(&[&["emit", "sraa", "--out", out_text], &given[..]].concat());
+    let read = |name: &str| std::fs::read_to_string(out.join(name)).unwrap_or_else(|e| panic!("{name}: {e}"));
+    let (wgsl, hlsl) = (read("sraa.wgsl"), read("sraa.hlsl"));
+    assert!(
+        wgsl.contains("@group(1) @binding(4) var color") && wgsl.contains("fn resolve("),
+        "{wgsl}"
+    );
+    assert!(
+        hlsl.contains("depth : register(t7, space2)") && hlsl.contains("color : register(t4, space1)"),
+        "{hlsl}"
+    );
+    let given = [
+        "--form",
+        "function",
+        "--origin",
+        "lower-left",
+        "--target",
+        "glsl330",
+        "--name",
+        "below",
+    ];
+    finishes(&[&["emit", "stalker", "--out", out_text], &given[..]].concat());
+    assert!(
+        read("below.330.glsl").contains("vec4 stalker(sampler2D "),
+        "{}",
+        read("below.330.glsl")
+    );
+    for (option, value, says) in [
+        ("--binding", "depth", "NAME=NUMBER"),
+        ("--binding", "depth=-1", "NAME=NUMBER"),
+        ("--register", "depth=q1", "is no register"),
+        ("--register", "depth", "NAME=REGISTER"),
+        ("--form", "thing", "one of entry, function"),
+        ("--origin", "left", "one of upper-left, lower-left"),
+        ("--group", "one", "--group"),
+    ] {
+        fails(
+            &["emit", "sraa", "--out", "nowhere", option, value],
+            2,
+            &[value.split('=').next_back().unwrap(), says],
+        );
+    }
+    fails(
+        &["emit", "sraa", "--out", "nowhere", "--binding", "deph=1"],
+        1,
+        &["`sraa`", "nothing called `deph`", "did you mean `depth`"],
+    );
 }

@@ -16,14 +16,14 @@
 
 use crate::compiled::Compiled;
 use crate::diagnostic::Errors;
-use crate::emit::{self, EmitError, EmitOptions, Target};
+use crate::emit::{self, EmitError, EmitOptions, Register, Target};
 use crate::files::{self, WriteError};
 use crate::pipeline::{Kernel, Settings};
-use crate::policy::{Branches, Unroll};
+use crate::policy::{Branches, Transport, Unroll};
 use std::collections::BTreeMap;
 use std::fmt;
 use std::path::{Path, PathBuf};
-use straightline_manifest::{Format, Manifest, Precision, Stage};
+use straightline_manifest::{Form, Format, Manifest, Origin, Precision, Stage};
 
 /// Name of the file with the bindings.
 const BINDINGS: &str = "straightline.rs";
@@ -121,6 +121,19 @@ impl KernelConfig {
         self
     }
 
+    /// How the lanes of a kernel of pixel quads send each other messages; by default by subgroup operations in fragment shaders,
+    /// and in compute one invocation has all four. A kernel of single pixels is refused with any.
+    pub fn transport(mut self, transport: Transport) -> Self {
+        self.settings.transport = Some(transport);
+        self
+    }
+
+    /// Pixels that one compute invocation has, across and down, 1 to 64 together; by default one. Neighbours share reads.
+    pub fn block(mut self, width: u32, height: u32) -> Self {
+        self.settings.block = [width, height];
+        self
+    }
+
     /// A further file that the kernel calls functions of.
     pub fn source(mut self, path: impl AsRef<Path>) -> Self {
         self.sources.push(path.as_ref().to_owned());
@@ -155,6 +168,44 @@ impl KernelConfig {
     /// `SHADER_F16`: see [`EmitOptions::precision`].
     pub fn precision(mut self, precision: Precision) -> Self {
         self.emit.precision = precision;
+        self
+    }
+
+    /// Bind group of everything, 0 to 31; by default 0. Devices promise four groups.
+    pub fn group(mut self, group: u32) -> Self {
+        self.emit.group = group;
+        self
+    }
+
+    /// Binding number, 0 to 999, of what is called `name`: a texture, sampler or buffer, `parameters` (the uniform buffer) or
+    /// `destination` (the output): see [`EmitOptions::bindings`]. All else takes the lowest numbers that are free.
+    pub fn binding(mut self, name: &str, number: u32) -> Self {
+        self.emit = self.emit.binding(name, number);
+        self
+    }
+
+    /// Register of what is called `name` in HLSL; by default that of its binding number, in the space of its group.
+    pub fn register(mut self, name: &str, register: Register) -> Self {
+        self.emit = self.emit.register(name, register);
+        self
+    }
+
+    /// Name of the entry point, or of the function; by default the kernel's.
+    pub fn entry(mut self, name: &str) -> Self {
+        self.emit.entry = Some(name.to_owned());
+        self
+    }
+
+    /// A whole shader, or a function to be put into a fragment shader of one's own, whose module has its text and manifest and
+    /// no `Pass`; by default a whole shader.
+    pub fn form(mut self, form: Form) -> Self {
+        self.emit.form = form;
+        self
+    }
+
+    /// Where row 0 of textures, target and positions is; by default the upper left: see [`EmitOptions::origin`].
+    pub fn origin(mut self, origin: Origin) -> Self {
+        self.emit.origin = origin;
         self
     }
 
@@ -336,34 +387,3 @@ impl fmt::Debug for Error {
 }
 
 impl std::error::Error for Error {}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn said(config: &Config) -> String {
-        config.compile().expect_err("a refusal").to_string()
-    }
-
-    #[test]
-    fn factors_and_folders_that_say_nothing_are_refused() {
-        let out = std::env::temp_dir().join(format!("straightline-config-{}", std::process::id()));
-        let unrolled = |unroll| Config::new().kernel("sraa", |k| k.unroll(unroll)).out_dir(&out);
-        for n in [0, 1, 4096] {
-            let error = said(&unrolled(Unroll::Partial(n)));
-            assert!(error.contains(&format!("cannot be unrolled by {n}")), "{error}");
-        }
-        let of_one = Config::new().kernel("sraa", |k| k.unroll_loop("sraa.tap", Unroll::Partial(0)));
-        let error = said(&of_one.out_dir(&out));
-        assert!(error.contains("the loop `sraa.tap` cannot be unrolled by 0"), "{error}");
-        let twice = Config::new().kernel("sraa", |k| k.set("pattern", "latin4").set("pattern", "latin16"));
-        let error = said(&twice.out_dir(&out));
-        assert!(
-            error.contains("`pattern` is set twice, to `latin4` and to `latin16`"),
-            "{error}"
-        );
-        let error = said(&Config::new().kernel("stalker", |k| k).out_dir(""));
-        assert!(error.contains("the folder to write to is empty"), "{error}");
-        assert!(!out.exists());
-    }
-}

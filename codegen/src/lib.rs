@@ -35,4 +35,4 @@ pub use eval::{LoopReport, OptionInfo, OptionKind};
 pub use pipeline::{Kernel, Observer, Settings};
 pub use policy::{Branches, Transport, Unroll};
 pub use shorten::shorten;
-pub use straightline_manifest::{Format, Manifest, Precision, Stage};
+pub use straightline_manifest::{Form, Format, Manifest, Origin, Precision, Stage};

@@ -3,19 +3,28 @@
 //! The generator writes one manifest beside each shader; the runtime, or any other engine, reads it to
 //! bind the shader without looking inside. Fields are plain data and serialise to JSON.
 
+mod binding;
+mod form;
 mod format;
+mod hash;
 mod precision;
 mod tuned;
 
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
+pub use binding::{
+    Access, Binding, BindingKind, BufferType, Dimension, Extent, LanguageBinding, LanguageKind, REGION, REGION_SIZE,
+    SampleType, SamplerType, UniformField, ViewDimension, region_fields,
+};
+pub use form::{Form, Origin};
 pub use format::Format;
+pub use hash::{hash_of_bytes, hash_of_text};
 pub use precision::Precision;
 pub use tuned::{LeftOut, Tuned};
 
 /// Version of the manifest's layout. A reader refuses a manifest whose schema it does not know.
-pub const SCHEMA: u32 = 2;
+pub const SCHEMA: u32 = 3;
 
 /// Everything a host must know to run one emitted shader.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -34,8 +43,17 @@ pub struct Manifest {
     /// What the shader computes in. Uniforms, buffers and textures are the same in every precision.
     #[serde(default, skip_serializing_if = "Precision::is_default")]
     pub precision: Precision,
-    /// Name of the entry point, the same in every target that keeps names.
+    /// Whether the shader is complete, or a function for another.
+    #[serde(default, skip_serializing_if = "Form::is_default")]
+    pub form: Form,
+    /// Where row 0 of textures, target and positions is.
+    #[serde(default, skip_serializing_if = "Origin::is_default")]
+    pub origin: Origin,
+    /// Name of the entry point, or of the function.
     pub entry_point: String,
+    /// Its name in languages that have it under another, by target name: `main` in GLSL.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub entry_points: BTreeMap<String, String>,
     /// Invocations in a workgroup; compute only.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub workgroup_size: Option<[u32; 3]>,
@@ -52,9 +70,11 @@ pub struct Manifest {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub varyings: Vec<Varying>,
     /// Textures, buffers, samplers and uniform buffers that the shader reads, in binding order. What the options make
-    /// unnecessary is not listed.
+    /// unnecessary is not listed. Together with `output` this is the bind group layout, in WebGPU's words, and all that WGSL
+    /// and SPIR-V bind.
     pub bindings: Vec<Binding>,
-    /// What single languages bind beside that.
+    /// All that the other languages bind, each by its own numbers, registers or names; of functions, their parameters in order,
+    /// in WGSL too.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub language_bindings: Vec<LanguageBinding>,
     /// Where the result goes.
@@ -67,29 +87,13 @@ pub struct Manifest {
     /// `essl310`, `essl300`, `spirv`, `hlsl`, `msl`).
     #[serde(default)]
     pub files: BTreeMap<String, String>,
+    /// Hash of each of those files, by target name: [`hash_of_text`] of all of the text, comments included, and
+    /// [`hash_of_bytes`] of `spirv`. A manifest without one, written by hand say, claims nothing of that file.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub hashes: BTreeMap<String, String>,
     /// Of a shader that `straightline tune` chose: what was left out, and what that cost.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tuned: Option<Tuned>,
-}
-
-/// A resource that one language needs and the others do not.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct LanguageBinding {
-    /// Target name, as in [`Manifest::files`].
-    pub language: String,
-    /// Name in the shader.
-    pub name: String,
-    /// Binding number; of `msl` the index of a buffer.
-    pub binding: u32,
-    /// What is to be bound, in words.
-    pub what: String,
-    /// Of a combined sampler, the texture.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub texture: Option<String>,
-    /// Of a combined sampler, the sampler; without one it is read texel by texel, so that any sampler will do.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub sampler: Option<String>,
 }
 
 /// A value that is interpolated for each fragment.
@@ -125,159 +129,6 @@ impl Stage {
     }
 }
 
-/// One input resource.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Binding {
-    /// Bind group.
-    pub group: u32,
-    /// Binding number in the group.
-    pub binding: u32,
-    /// The name in the kernel's source; also the name in the shader.
-    pub name: String,
-    /// What must be bound.
-    #[serde(flatten)]
-    pub kind: BindingKind,
-}
-
-/// What must be bound at a [`Binding`].
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(tag = "type", rename_all = "kebab-case")]
-pub enum BindingKind {
-    /// A texture.
-    Texture {
-        /// `access` is always `read` for a texture.
-        access: Access,
-        /// 2-D, 2-D array, or 2-D multisampled.
-        dimension: Dimension,
-        /// How texels are read.
-        sample_type: SampleType,
-        /// Components that the kernel uses, 1 to 4. Any float format with at least as many will do.
-        components: u8,
-        /// Layers that the shader can address; 1 unless it is an array.
-        layers: u32,
-        /// Samples of a texel that the shader can address; 1 unless it is multisampled.
-        samples: u32,
-        /// Which size it must have.
-        extent: Extent,
-    },
-    /// A sampler.
-    Sampler {
-        /// What it is used for.
-        sampler: SamplerType,
-    },
-    /// A read-only storage buffer: elements one after the other, at least one.
-    Buffer {
-        /// Always `read`.
-        access: Access,
-        /// Type of an element as WGSL spells it: `f32`, `vec4f`, ...
-        element: String,
-        /// Bytes from one element to the next.
-        stride: u32,
-    },
-    /// A uniform buffer.
-    Uniform {
-        /// Always `read`.
-        access: Access,
-        /// Size of the buffer in bytes, a multiple of 16.
-        size: u32,
-        /// The struct's fields in order of offset.
-        fields: Vec<UniformField>,
-    },
-}
-
-/// Name of the uniform buffer of a shader that filters a rectangle of the image: see [`region_fields`].
-pub const REGION: &str = "region";
-
-/// Fields of the uniform buffer [`REGION`]: the rectangle's upper left pixel in the inputs, its size, and its upper left
-/// pixel in the target.
-pub fn region_fields() -> Vec<UniformField> {
-    let field = |(k, name): (u32, &str)| UniformField {
-        name: name.to_owned(),
-        ty: "vec2i".to_owned(),
-        offset: 8 * k,
-        size: 8,
-        default: None,
-    };
-    (0..).zip(["first", "size", "place"]).map(field).collect()
-}
-
-/// Size in bytes of the uniform buffer [`REGION`].
-pub const REGION_SIZE: u32 = 32;
-
-/// How a shader touches a resource.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Access {
-    /// Read only.
-    Read,
-    /// Write only.
-    Write,
-}
-
-/// Dimension of a texture view.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Dimension {
-    /// One 2-D image.
-    #[serde(rename = "2d")]
-    D2,
-    /// A stack of 2-D images.
-    #[serde(rename = "2d-array")]
-    D2Array,
-    /// One 2-D image with several samples a texel.
-    #[serde(rename = "2d-multisampled")]
-    D2Multisampled,
-}
-
-/// How the texels of a texture are read, which decides the formats that fit.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum SampleType {
-    /// One by one: any float, normalised or depth format.
-    Unfilterable,
-    /// By a filtering sampler too: any float or normalised format that the device can filter.
-    Filterable,
-    /// By a comparison sampler, or one by one from a `texture_depth_2d`: a depth format.
-    Depth,
-}
-
-/// What a sampler is used for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum SamplerType {
-    /// To filter.
-    Filtering,
-    /// To compare with a reference depth.
-    Comparison,
-}
-
-/// Which size a texture must have.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Extent {
-    /// That of the output.
-    Output,
-    /// Any: the shader asks for it.
-    Any,
-}
-
-/// A field of a uniform struct.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct UniformField {
-    /// Name in the kernel's source.
-    pub name: String,
-    /// Type as WGSL spells it: `f32`, `i32`, `u32`, `vec2f`, ...
-    #[serde(rename = "type")]
-    pub ty: String,
-    /// Byte offset from the start of the buffer.
-    pub offset: u32,
-    /// Size in bytes.
-    pub size: u32,
-    /// Value to use unless the caller sets one, where the kernel states it.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub default: Option<f64>,
-}
-
 /// Where the result goes.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -293,8 +144,10 @@ pub struct Output {
     /// Colour attachment location; fragment only.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub location: Option<u32>,
-    /// Always `write`.
+    /// Always `write-only`.
     pub access: Access,
+    /// Dimension of the view that is written: always `2d`.
+    pub view_dimension: ViewDimension,
     /// Texel format of the storage texture. A fragment shader writes to a colour target of any float format,
     /// and this is the one it was generated for.
     pub format: Format,

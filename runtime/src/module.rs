@@ -88,9 +88,11 @@ impl Pass {
     /// entry point of the words, which is `main` for a compiler of GLSL, and its bindings are all that they bind: a
     /// [`LanguageBinding`](straightline_manifest::LanguageBinding) is listed as an input like any other.
     ///
+    /// wgpu numbers what it binds for Vulkan from 0 in each group, so binding numbers must leave none out.
+    ///
     /// # Errors
     ///
-    /// [`Error::MissingFeature`] if the device was created without `PASSTHROUGH_SHADERS`; otherwise those of
+    /// [`Error::Pipeline`] if they do; [`Error::MissingFeature`] if the device was created without `PASSTHROUGH_SHADERS`; otherwise those of
     /// [`with_options`](Self::with_options) but for [`Error::Mismatch`] and [`Error::UnboundedLoop`].
     ///
     /// # Safety
@@ -105,6 +107,16 @@ impl Pass {
         options: &PassOptions,
     ) -> Result<Self, Error> {
         let plan = Plan::new(manifest)?;
+        if let Some((group, binding, free)) = plan.hole() {
+            return Err(Error::Pipeline {
+                kernel: plan.kernel,
+                description: format!(
+                    "it has a binding {binding} in group {group} and none {free}, and wgpu numbers what it binds for Vulkan from 0 \
+                     without holes, which SPIR-V that it leaves as it is does not follow: generate the shader with numbers \
+                     without holes, or make a pass of its WGSL"
+                ),
+            });
+        }
         if !device.features().contains(wgpu::Features::PASSTHROUGH_SHADERS) {
             return Err(Error::MissingFeature {
                 purpose: "a pass of SPIR-V",

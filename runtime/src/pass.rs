@@ -62,8 +62,8 @@ impl Pass {
     ///
     /// # Errors
     ///
-    /// [`Error::BadManifest`], [`Error::Mismatch`] and [`Error::Shader`] if the two are damaged or do not belong
-    /// together; [`Error::Limit`], [`Error::Pipeline`] and [`Error::OutOfMemory`] if the device cannot run the
+    /// [`Error::BadManifest`], [`Error::Hash`], [`Error::Mismatch`] and [`Error::Shader`] if the two are damaged or do not
+    /// belong together; [`Error::Limit`], [`Error::Pipeline`] and [`Error::OutOfMemory`] if the device cannot run the
     /// shader; [`Error::DeviceLost`].
     pub fn new(device: &Device, manifest: &Manifest, wgsl: &str) -> Result<Self, Error> {
         Self::with_options(device, manifest, wgsl, &PassOptions::default())
@@ -91,6 +91,7 @@ impl Pass {
         options: &PassOptions,
     ) -> Result<Self, Error> {
         let plan = Plan::new(manifest)?;
+        check_hash(manifest, wgsl)?;
         reflect::check(&plan, wgsl)?;
         let source = Source::Wgsl {
             text: wgsl,
@@ -426,6 +427,20 @@ struct Prepared {
     rectangle: Region,
     /// Whether what lies around the rectangle stays as it is.
     is_part: bool,
+}
+
+/// Refuses a text that is not the one that the manifest was written for, though it may bind the same. A manifest without a
+/// hash of it claims nothing.
+fn check_hash(manifest: &Manifest, wgsl: &str) -> Result<(), Error> {
+    let found = straightline_manifest::hash_of_text(wgsl);
+    match manifest.hashes.get("wgsl") {
+        Some(wanted) if *wanted != found => Err(Error::Hash {
+            kernel: manifest.kernel.clone(),
+            wanted: wanted.clone(),
+            found,
+        }),
+        _ => Ok(()),
+    }
 }
 
 /// Refuses what a shader needs and the device, or this crate, does not have.

@@ -10,11 +10,11 @@ use std::fmt;
 /// pixels around the rectangle that the filter reads too: for SRAA, one more on each side where the image goes on.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Region {
-    /// The upper left pixel in the inputs.
+    /// The upper left pixel in the inputs; the lower left one for a shader whose rows count from below.
     pub first: [u32; 2],
     /// Width and height in pixels.
     pub size: [u32; 2],
-    /// The upper left pixel in the target.
+    /// The upper left pixel in the target; the lower left one for a shader whose rows count from below.
     pub place: [u32; 2],
 }
 

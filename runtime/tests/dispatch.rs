@@ -144,11 +144,9 @@ fn depth_buffers_are_read_in_place() {
     let size = [3, 5];
     let kernel = Kernel {
         name: "show",
-        bindings: &[
-            r#"{"group": 0, "binding": 1, "name": "depth", "type": "texture", "access": "read",
-            "dimension": "2d", "sample_type": "unfilterable", "components": 1, "layers": 1, "samples": 1,
-            "extent": "output"}"#,
-        ],
+        bindings: &[r#"{"group": 0, "binding": 1, "name": "depth", "type": "texture",
+            "view_dimension": "2d", "multisampled": false, "sample_type": "unfilterable-float", "components": 1, "layers": 1, "samples": 1,
+            "extent": "output"}"#],
         declarations: "@group(0) @binding(1) var depth: texture_2d<f32>;",
         result: "vec4f(textureLoad(depth, pixel, 0).x, 0.0, 0.0, 1.0)",
     };

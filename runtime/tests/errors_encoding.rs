@@ -201,11 +201,9 @@ fn a_stencil_is_not_a_depth() {
     let gpu = Gpu::new();
     let kernel = Kernel {
         name: "show",
-        bindings: &[
-            r#"{"group": 0, "binding": 1, "name": "depth", "type": "texture", "access": "read",
-            "dimension": "2d", "sample_type": "unfilterable", "components": 1, "layers": 1, "samples": 1,
-            "extent": "output"}"#,
-        ],
+        bindings: &[r#"{"group": 0, "binding": 1, "name": "depth", "type": "texture",
+            "view_dimension": "2d", "multisampled": false, "sample_type": "unfilterable-float", "components": 1, "layers": 1, "samples": 1,
+            "extent": "output"}"#],
         declarations: "@group(0) @binding(1) var depth: texture_2d<f32>;",
         result: "textureLoad(depth, pixel, 0)",
     };

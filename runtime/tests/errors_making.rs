@@ -25,7 +25,7 @@ fn a_text_that_is_no_manifest() {
     let gpu = Gpu::new();
     let Fixture { manifest, wgsl } = COPY.emit(Stage::Compute);
     assert!(matches!(refuse(&gpu, "{", &wgsl).0, Error::Manifest(_)));
-    let (_, message) = refuse(&gpu, &edit(&manifest, r#""schema": 2"#, r#""schema": 9"#), &wgsl);
+    let (_, message) = refuse(&gpu, &edit(&manifest, r#""schema": 3"#, r#""schema": 9"#), &wgsl);
     assert!(message.contains("schema 9"), "{message}");
     let mut read = Manifest::from_json(&manifest).expect("a manifest");
     read.schema = 9;
@@ -46,7 +46,7 @@ fn manifests_that_contradict_themselves() {
             r#""binding": 0"#,
             "@group(0) @binding(0) is listed twice",
         ),
-        (r#""access": "write""#, r#""access": "read""#, "only written"),
+        (r#""access": "write-only""#, r#""access": "read-only""#, "only written"),
         (r#""components": 4"#, r#""components": 5"#, "`color`: 5 components"),
         (
             r#""components": 4, "layers": 1"#,
@@ -92,6 +92,18 @@ fn manifests_that_contradict_themselves() {
             "uniform `scale` is listed twice",
         ),
     ];
+    let uniform = uniform.into_iter().chain([
+        (
+            r#""buffer_type": "uniform""#,
+            r#""buffer_type": "read-only-storage""#,
+            "not uniform",
+        ),
+        (
+            r#""stage": "compute""#,
+            r#""form": "function", "stage": "compute""#,
+            "put it into a shader of your own",
+        ),
+    ]);
     for (from, to, wanted) in uniform {
         let Fixture { manifest, wgsl } = ADD.emit(Stage::Compute);
         let (error, message) = refuse(&gpu, &edit(&manifest, from, to), &wgsl);

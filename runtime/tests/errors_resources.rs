@@ -249,7 +249,7 @@ fn buffers_that_cannot_be_bound() {
 #[test]
 fn bindings_that_contradict_themselves() {
     let gpu = Gpu::new();
-    let cases: [(Kernel, &str, &str, &str); 13] = [
+    let cases: [(Kernel, &str, &str, &str); 14] = [
         (COPY, r#""samples": 1"#, r#""samples": 0"#, "`color`: no samples"),
         (
             COPY,
@@ -258,7 +258,7 @@ fn bindings_that_contradict_themselves() {
             "not multisampled, but with 4 samples",
         ),
         (RESOLVE, r#""samples": 4"#, r#""samples": 0"#, "no samples"),
-        (RESOLVE, "unfilterable", "filterable", "multisampled, but filterable"),
+        (RESOLVE, "unfilterable-float", "float", "multisampled, but filterable"),
         (RESOLVE, r#""layers": 1"#, r#""layers": 2"#, "with 2 layers"),
         (
             SHADOW,
@@ -266,7 +266,13 @@ fn bindings_that_contradict_themselves() {
             r#""components": 2"#,
             "a depth, but with 2 components",
         ),
-        (SHADOW, r#""2d""#, r#""2d-array""#, "a depth, but not 2d"),
+        (
+            SHADOW,
+            r#""view_dimension": "2d", "multisampled""#,
+            r#""view_dimension": "2d-array", "multisampled""#,
+            "a depth, but not 2d",
+        ),
+        (TABLE, "read-only-storage", "uniform", "not read-only-storage"),
         (TABLE, r#""stride": 16"#, r#""stride": 0"#, "a stride of 0 bytes"),
         (TABLE, r#""stride": 16"#, r#""stride": 18"#, "a stride of 18 bytes"),
         (
@@ -307,18 +313,18 @@ fn declarations_that_are_not_their_bindings() {
             "comparison",
             "`linear` is not a `sampler_comparison`",
         ),
-        (SCALE, "filterable", "depth", "`small` is not a `texture_depth_2d`"),
+        (SCALE, r#""float""#, r#""depth""#, "`small` is not a `texture_depth_2d`"),
         (SHADOW, "comparison", "filtering", "`compare` is not a `sampler`"),
         (
             SHADOW,
             r#""sample_type": "depth""#,
-            r#""sample_type": "unfilterable""#,
+            r#""sample_type": "unfilterable-float""#,
             "`depth` is not a `texture_2d<f32>`",
         ),
         (
             RESOLVE,
-            r#""2d-multisampled", "sample_type": "unfilterable", "components": 4, "layers": 1, "samples": 4"#,
-            r#""2d", "sample_type": "unfilterable", "components": 4, "layers": 1, "samples": 1"#,
+            r#""multisampled": true, "sample_type": "unfilterable-float", "components": 4, "layers": 1, "samples": 4"#,
+            r#""multisampled": false, "sample_type": "unfilterable-float", "components": 4, "layers": 1, "samples": 1"#,
             "`color` is not a `texture_2d<f32>`",
         ),
         (TABLE, "vec3f", "vec4f", "type array<vec4f>"),
@@ -330,7 +336,7 @@ fn declarations_that_are_not_their_bindings() {
         // A depth has one component.
         let manifest = edit(&manifest, from, to);
         let manifest = match to {
-            "depth" => edit(&manifest, r#""components": 4"#, r#""components": 1"#),
+            r#""depth""# => edit(&manifest, r#""components": 4"#, r#""components": 1"#),
             _ => manifest,
         };
         let (error, message) = refuse_making(&gpu, &manifest, &wgsl);
@@ -351,7 +357,7 @@ fn a_sampler_on_a_texture_that_the_manifest_calls_unfilterable() {
     let gpu = Gpu::new();
     for stage in STAGES {
         let Fixture { manifest, wgsl } = SCALE.emit(stage);
-        let (error, message) = refuse_making(&gpu, &edit(&manifest, "filterable", "unfilterable"), &wgsl);
+        let (error, message) = refuse_making(&gpu, &edit(&manifest, r#""float""#, r#""unfilterable-float""#), &wgsl);
         assert!(matches!(error, Error::Pipeline { .. }), "{message}");
     }
 }

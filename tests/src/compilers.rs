@@ -22,7 +22,9 @@ pub fn read(emitted: &Emitted) -> Result<(), String> {
     let half = manifest.features.iter().any(|f| f == "shader-f16");
     let quads = manifest.features.iter().any(|f| f == "subgroup");
     for (target, bytes) in &emitted.files {
-        let path = folder.0.join(format!("shader.{}", target.extension(manifest.stage)));
+        let path = folder
+            .0
+            .join(format!("shader.{}", target.extension(manifest.stage, manifest.form)));
         let mut bytes = bytes.clone();
         let already = bytes.starts_with(b"enable subgroups;");
         if *target == Target::Wgsl && quads && !already {

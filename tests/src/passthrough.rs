@@ -6,7 +6,7 @@ use glam::Vec4;
 use straightline_codegen::Stage;
 use straightline_codegen::emit::{Emitted, Target};
 use straightline_kernels::prelude::Frame;
-use straightline_runtime::manifest::{Binding, BindingKind, Manifest, SamplerType};
+use straightline_runtime::manifest::{Binding, BindingKind, LanguageKind, Manifest, SamplerType};
 use straightline_runtime::{Pass, PassOptions};
 use straightline_study::execute::{Bench, Inputs, SamplerState};
 use wgpu::Features;
@@ -82,20 +82,19 @@ fn with_language_bindings(manifest: &mut Manifest, target: Target, inputs: &Inpu
         .cloned()
         .collect();
     for extra in extras {
-        // The same under another name.
-        if manifest.bindings.iter().any(|binding| binding.binding == extra.binding) {
+        // The same under another name, or what is no binding there.
+        if extra.of.is_some() {
             continue;
         }
-        // The only one there is.
-        if !extra.what.starts_with("any sampler") {
+        let (Some(group), Some(binding), LanguageKind::Sampler) = (extra.group, extra.binding, extra.kind) else {
             return Err(format!(
-                "`{}` of {target}: {} is not known here",
+                "`{}` of {target} is not known here: {:?}",
                 extra.name, extra.what
             ));
-        }
+        };
         manifest.bindings.push(Binding {
-            group: 0,
-            binding: extra.binding,
+            group,
+            binding,
             name: extra.name.clone(),
             kind: BindingKind::Sampler {
                 sampler: SamplerType::Filtering,

@@ -7,9 +7,9 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use glam::UVec2;
 use std::path::PathBuf;
 use straightline_codegen::diagnostic::Errors;
-use straightline_codegen::emit::Target;
+use straightline_codegen::emit::{Register, Target};
 use straightline_codegen::{Branches, Kernel, Settings, Transport, Unroll, shorten};
-use straightline_manifest::{Format, Precision, Stage};
+use straightline_manifest::{Form, Format, Origin, Precision, Stage};
 
 pub use study::{CommonArgs, ErrorArgs, HardArgs, LoopsArgs, Study, StudyArgs};
 pub use tune::TuneArgs;
@@ -178,6 +178,25 @@ pub struct EmitArgs {
     /// Invocations of a compute workgroup, across and down
     #[arg(long, value_name = "WxH", value_parser = size)]
     pub workgroup: Option<UVec2>,
+    /// Write a whole shader (entry), or a function that takes all it reads, to be put into a fragment shader (function)
+    #[arg(long, value_name = "FORM", default_value = "entry", value_parser = |s: &str| s.parse::<Form>())]
+    pub form: Form,
+    /// Where row 0 of textures, target and positions is: upper-left, or lower-left as in engines on OpenGL
+    #[arg(long, value_name = "ORIGIN", default_value = "upper-left", value_parser = |s: &str| s.parse::<Origin>())]
+    pub origin: Origin,
+    /// Name of the entry point or function; by default the kernel's
+    #[arg(long, value_name = "NAME")]
+    pub entry: Option<String>,
+    /// Bind group, descriptor set or register space of everything
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub group: u32,
+    /// Binding number of a texture, sampler or buffer, of `parameters` (the uniforms) or `destination` (the output); all else
+    /// takes the lowest free numbers. May be given several times
+    #[arg(long, value_name = "NAME=N", value_parser = binding)]
+    pub binding: Vec<(String, u32)>,
+    /// Register in HLSL: NAME=t3, or NAME=t3,space1; by default that of the binding number. May be given several times
+    #[arg(long, value_name = "NAME=REGISTER", value_parser = register)]
+    pub register: Vec<(String, Register)>,
     /// Begin WGSL that has quad operations with `enable subgroups;`, as browsers want it and wgpu does not
     #[arg(long)]
     pub enable_subgroups: bool,
@@ -407,6 +426,22 @@ impl Default for DemoArgs {
             json: false,
             adapter: AdapterArgs::default(),
         }
+    }
+}
+
+fn binding(text: &str) -> Result<(String, u32), String> {
+    let parsed = text.split_once('=').filter(|(name, _)| !name.is_empty());
+    let parsed = parsed.and_then(|(name, number)| Some((name.to_owned(), number.parse().ok()?)));
+    parsed.ok_or_else(|| format!("`{}` is not of the form NAME=NUMBER, such as depth=3", shorten(text)))
+}
+
+fn register(text: &str) -> Result<(String, Register), String> {
+    match text.split_once('=') {
+        Some((name, register)) if !name.is_empty() => Ok((name.to_owned(), register.parse()?)),
+        _ => Err(format!(
+            "`{}` is not of the form NAME=REGISTER, such as depth=t3 or depth=t3,space1",
+            shorten(text)
+        )),
     }
 }
 

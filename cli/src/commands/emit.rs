@@ -24,6 +24,12 @@ pub fn run(args: &EmitArgs) -> Result<(), Failure> {
         .format(args.format)
         .precision(args.precision)
         .targets(args.target.iter().copied());
+    options.form = args.form;
+    options.origin = args.origin;
+    options.entry.clone_from(&args.entry);
+    options.group = args.group;
+    options.bindings.clone_from(&args.binding);
+    options.registers.clone_from(&args.register);
     options.region = args.region;
     options.enable_subgroups = args.enable_subgroups;
     options.workgroup = args.workgroup.map(|size| size.to_array());

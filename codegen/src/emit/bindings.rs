@@ -5,7 +5,8 @@ use crate::compiled::Compiled;
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 use straightline_manifest::{
-    Binding, BindingKind, Dimension, Extent, Format, Manifest, REGION, SampleType, SamplerType, Stage,
+    Binding, BindingKind, Dimension, Extent, Form, Format, Manifest, REGION, SampleType, SamplerType, Stage,
+    ViewDimension,
 };
 
 /// One shader's part of the bindings file.
@@ -32,6 +33,16 @@ fn module(module: &Module<'_>) -> TokenStream {
     let manifest = module.manifest;
     let docs: Vec<String> = documentation(module).iter().map(|line| spaced(line)).collect();
     let constants = constants(module);
+    if manifest.form == Form::Function {
+        return quote! {
+            #(#[doc = #docs])*
+            // A caller uses the part that it needs.
+            #[allow(dead_code)]
+            pub mod #name {
+                #constants
+            }
+        };
+    }
     let inputs: Vec<Input> = manifest.bindings.iter().filter_map(Input::of).collect();
     let fields = inputs.iter().map(|input| {
         let (Input { name, ty, .. }, docs) = (input, spaced(&input.docs));
@@ -174,6 +185,25 @@ fn constants(module: &Module<'_>) -> TokenStream {
     let manifest = module.manifest;
     let (wgsl, json) = (format!("{}.wgsl", module.name), format!("{}.json", module.name));
     let entry = &manifest.entry_point;
+    if manifest.form == Form::Function {
+        return quote! {
+            /// The function, to be put into a fragment shader of one's own.
+            pub const WGSL: &str = include_str!(#wgsl);
+
+            /// What the function takes, as JSON.
+            pub const MANIFEST: &str = include_str!(#json);
+
+            /// Name of the function.
+            pub const FUNCTION: &str = #entry;
+        };
+    }
+    let group = manifest
+        .bindings
+        .first()
+        .map(|b| b.group)
+        .or(manifest.output.group)
+        .unwrap_or_default();
+    let layout_docs = spaced(&format!("Layout of bind group {group}, for a pipeline of one's own."));
     let workgroup = manifest.workgroup_size.map(|size| {
         let [x, y, z] = size.map(Literal::u32_unsuffixed);
         quote! {
@@ -202,7 +232,7 @@ fn constants(module: &Module<'_>) -> TokenStream {
 
         #workgroup
 
-        /// Layout of bind group 0, for a pipeline of one's own.
+        #[doc = #layout_docs]
         pub const BIND_GROUP_LAYOUT: wgpu::BindGroupLayoutDescriptor<'static> =
             wgpu::BindGroupLayoutDescriptor {
                 label: Some(#label),
@@ -237,11 +267,11 @@ fn layout_entry(stage: Stage, binding: &Binding) -> TokenStream {
                 SampleType::Filterable => quote! { #wgpu::TextureSampleType::Float { filterable: true } },
                 SampleType::Depth => quote! { #wgpu::TextureSampleType::Depth },
             };
-            let view = match dimension {
-                Dimension::D2Array => quote! { #wgpu::TextureViewDimension::D2Array },
-                _ => quote! { #wgpu::TextureViewDimension::D2 },
+            let view = match dimension.view() {
+                ViewDimension::D2Array => quote! { #wgpu::TextureViewDimension::D2Array },
+                ViewDimension::D2 => quote! { #wgpu::TextureViewDimension::D2 },
             };
-            let multisampled = *dimension == Dimension::D2Multisampled;
+            let multisampled = dimension.is_multisampled();
             quote! {
                 #wgpu::BindingType::Texture {
                     sample_type: #sample_type,

@@ -5,7 +5,7 @@
 pub enum EmitError {
     /// The size of the frame is needed and nothing tells it.
     #[error(
-        "`{kernel}` asks for the frame's size but reads no texture, so its fragment shader cannot know: emit it for compute"
+        "`{kernel}` asks for the frame's size but reads no texture, so neither a fragment shader nor a function can know: emit it as a whole shader for compute"
     )]
     NoFrame {
         /// The kernel.
@@ -88,6 +88,42 @@ pub enum EmitError {
         /// The input, cut if it is long.
         name: String,
         /// What is wrong with the name.
+        why: &'static str,
+    },
+    /// Binding numbers, registers or a group that the shader cannot have.
+    #[error("`{kernel}` cannot be bound so: {what}; {help}")]
+    Place {
+        /// The kernel.
+        kernel: String,
+        /// What is wrong.
+        what: String,
+        /// What to do.
+        help: String,
+    },
+    /// A name that an entry point or function cannot have.
+    #[error("the entry point of `{kernel}` cannot be called `{name}`, which {why}: give it another name")]
+    Entry {
+        /// The kernel.
+        kernel: String,
+        /// The name, cut if it is long.
+        name: String,
+        /// What is wrong with it.
+        why: String,
+    },
+    /// Something that a function cannot be.
+    #[error("`{kernel}` cannot be a function: {why}")]
+    Function {
+        /// The kernel.
+        kernel: String,
+        /// Why not, and what to do.
+        why: String,
+    },
+    /// A shader that cannot count its rows from below.
+    #[error("`{kernel}` cannot have its origin at the lower left: {why}")]
+    FromBelow {
+        /// The kernel.
+        kernel: String,
+        /// Why not, and what to do.
         why: &'static str,
     },
     /// A validator refused the text: a mistake of the emitter's.

@@ -1,23 +1,31 @@
 //! From a scheduled graph to text that reads as if written by a careful person.
 //!
 //! No decision about the computation is taken here: every step of the schedule becomes a statement or part of one.
-//! WGSL and GLSL come from the emitter of this room; SPIR-V, HLSL and MSL are translated from the WGSL by naga,
-//! which also validates every text before it is given out.
+//! WGSL, GLSL and HLSL come from the printers of this room; SPIR-V and MSL are translated from the WGSL by naga, which
+//! validates that before anything is given out.
 
 mod ast;
 mod bindings;
 mod check;
 mod comments;
+mod entry;
 mod error;
+mod function;
 mod half;
+mod language_bindings;
 mod layout;
 mod legalise;
 mod lower;
 mod manifest;
 mod missing;
 mod names;
+mod options;
+mod origin;
 mod parameters;
+mod places;
 mod print;
+mod register;
+mod renamed;
 mod resources;
 mod spirv;
 mod target;
@@ -31,11 +39,13 @@ use crate::ir::{Graph, Invocation, Op};
 use crate::passes::Schedule;
 use crate::policy::Transport;
 use std::borrow::Cow;
-use std::collections::{BTreeMap, BTreeSet};
-use straightline_manifest::{Counts, Format, Manifest, Precision, Stage};
+use std::collections::BTreeMap;
+use straightline_manifest::{Counts, Form, Manifest, Precision, Stage, hash_of_bytes, hash_of_text};
 
 pub use bindings::{Module, bindings};
 pub use error::EmitError;
+pub use options::EmitOptions;
+pub use register::Register;
 pub use target::Target;
 
 /// One shader in the languages asked for.
@@ -53,102 +63,12 @@ impl Emitted {
         let mut manifest = self.manifest.clone();
         let mut files = BTreeMap::new();
         for (target, bytes) in &self.files {
-            let name = format!("{stem}.{}", target.extension(manifest.stage));
+            let name = format!("{stem}.{}", target.extension(manifest.stage, manifest.form));
             manifest.files.insert(target.to_string(), name.clone());
             files.insert(name, bytes.clone());
         }
         files.insert(format!("{stem}.json"), manifest.to_json().into_bytes());
         files
-    }
-}
-
-/// How a kernel is to be emitted.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct EmitOptions {
-    /// Pipeline stage.
-    pub stage: Stage,
-    /// Texel format of the output.
-    pub format: Format,
-    /// Invocations of a compute workgroup, across and down; `None` for [`EmitOptions::WORKGROUP`].
-    pub workgroup: Option<[u32; 2]>,
-    /// Whether the shader filters a rectangle that the host states, not all of the image: for tiles.
-    pub region: bool,
-    /// What the shader computes in. In half precision every float of the kernel is an `f16`: what is read is rounded once, as
-    /// it comes in, and the result is an `f32` again when it is stored. Not in GLSL.
-    pub precision: Precision,
-    /// Languages.
-    pub targets: BTreeSet<Target>,
-    /// Whether WGSL with quad operations begins with `enable subgroups;`: browsers ask for it, naga and wgpu refuse it.
-    pub enable_subgroups: bool,
-    /// Whether naga leaves out the bound that it otherwise puts on the rounds of every loop of SPIR-V, HLSL and MSL. The
-    /// loops that this generator emits end without one: each counts to an integer that is computed before it.
-    pub unbounded_loops: bool,
-}
-
-impl EmitOptions {
-    /// A row of pixels, as wide as WebGPU's default limits allow. On lavapipe rows were faster than squares of 8x8 or
-    /// 16x16, looped and unrolled; on a GPU this has not been measured yet.
-    pub const WORKGROUP: [u32; 2] = [256, 1];
-
-    /// A compute shader in WGSL with an `rgba16float` output.
-    pub fn new() -> Self {
-        EmitOptions {
-            stage: Stage::Compute,
-            format: Format::default(),
-            workgroup: None,
-            region: false,
-            precision: Precision::default(),
-            targets: BTreeSet::from([Target::Wgsl]),
-            enable_subgroups: false,
-            unbounded_loops: false,
-        }
-    }
-
-    /// For a stage.
-    pub fn stage(mut self, stage: Stage) -> Self {
-        self.stage = stage;
-        self
-    }
-
-    /// With a texel format of the output.
-    pub fn format(mut self, format: Format) -> Self {
-        self.format = format;
-        self
-    }
-
-    /// For a rectangle that the host states: one more uniform buffer says where it lies in the inputs and in the target.
-    pub fn region(mut self, region: bool) -> Self {
-        self.region = region;
-        self
-    }
-
-    /// Computing in a precision.
-    pub fn precision(mut self, precision: Precision) -> Self {
-        self.precision = precision;
-        self
-    }
-
-    /// Whether loops of SPIR-V, HLSL and MSL go without a bound of naga's.
-    pub fn unbounded_loops(mut self, unbounded: bool) -> Self {
-        self.unbounded_loops = unbounded;
-        self
-    }
-
-    /// In these languages.
-    pub fn targets(mut self, targets: impl IntoIterator<Item = Target>) -> Self {
-        self.targets = targets.into_iter().collect();
-        self
-    }
-
-    fn workgroup(&self) -> [u32; 3] {
-        let [x, y] = self.workgroup.unwrap_or(Self::WORKGROUP);
-        [x, y, 1]
-    }
-}
-
-impl Default for EmitOptions {
-    fn default() -> Self {
-        Self::new()
     }
 }
 
@@ -227,52 +147,41 @@ fn emit(compiled: &Compiled, options: &EmitOptions) -> Result<Emitted, EmitError
     {
         return Err(EmitError::Workgroup(x, y));
     }
+    let mut options = options.clone();
+    if options.is_function() {
+        options.stage = Stage::Fragment;
+    }
     let compiled = &*for_stage(compiled, options.stage)?;
-    let resources = resources::Resources::of(compiled, options)?;
+    let compiled = &*origin::turned(compiled, &options)?;
+    let resources = resources::Resources::of(compiled, &options)?;
+    if options.is_function() {
+        function::check(compiled, &resources)?;
+    }
     let tree = tree(compiled, &resources);
+    let shader = Shader {
+        compiled,
+        resources: &resources,
+        tree: &tree,
+    };
     // The header says how many blocks the shader has, and is a comment: what is counted is the same text.
     let mut counts = compiled.counts.clone();
-    let wgsl = |counts: &Counts| {
-        let mut tree = tree.clone();
-        legalise::wgsl(&mut tree);
-        names::assign(&mut tree, &resources, names::Words::Wgsl, &[]);
-        let language = print::Wgsl { resources: &resources };
-        print::module(&language, &tree, &print::header(compiled, counts, &resources))
-    };
-    let module = translate::Module::parse_wgsl(&compiled.kernel, &wgsl(&counts))?;
+    let module = shader.validated(&counts)?;
     let words = module.spirv(&resources)?;
     counts.basic_blocks = spirv::basic_blocks(&words);
-    let wgsl = wgsl(&counts);
-    let manifest = resources.manifest(compiled, &counts);
+    let mut manifest = resources.manifest(compiled, &counts);
     let mut files = BTreeMap::new();
     for target in &options.targets {
         let bytes = match target {
-            Target::Wgsl if options.enable_subgroups && resources.subgroups => {
-                format!("enable subgroups;\n{}{wgsl}", gap(options.precision)).into_bytes()
-            }
-            Target::Wgsl => wgsl.clone().into_bytes(),
+            Target::Wgsl => shader.wgsl(&counts)?.into_bytes(),
             Target::Glsl450 | Target::Glsl430 | Target::Glsl330 | Target::Essl310 | Target::Essl300 => {
                 missing::check(compiled, &resources, *target)?;
-                let mut tree = tree.clone();
-                legalise::glsl(&mut tree, *target == Target::Glsl450);
-                let language = print::Glsl::new(&resources, *target);
-                names::assign(&mut tree, &resources, names::Words::Glsl, &language.names());
-                let glsl = print::module(&language, &tree, &print::header(compiled, &counts, &resources));
-                // naga reads no other GLSL.
-                if *target == Target::Glsl450 {
-                    check::check_glsl(&compiled.kernel, options.stage, &glsl, &resources.compared())?;
+                if !options.is_function() {
+                    manifest.entry_points.insert(target.to_string(), "main".to_owned());
                 }
-                glsl.into_bytes()
+                shader.glsl(*target, &counts)?.into_bytes()
             }
             Target::Spirv => words.iter().flat_map(|word| word.to_le_bytes()).collect(),
-            Target::Hlsl => {
-                let mut tree = tree.clone();
-                legalise::hlsl(&mut tree);
-                let resources = resources.for_hlsl();
-                let language = print::Hlsl::new(&resources, &tree);
-                names::assign(&mut tree, &resources, names::Words::Hlsl, &language.functions());
-                print::module(&language, &tree, &print::header(compiled, &counts, &resources)).into_bytes()
-            }
+            Target::Hlsl => shader.hlsl(&counts).into_bytes(),
             Target::Msl if compiled.transport == Some(Transport::Derivatives) => {
                 return Err(EmitError::Derivatives {
                     kernel: compiled.kernel.clone(),
@@ -280,17 +189,97 @@ fn emit(compiled: &Compiled, options: &EmitOptions) -> Result<Emitted, EmitError
                 });
             }
             Target::Msl => {
+                let (text, name) = module.msl(&resources)?;
+                if name != resources.entry {
+                    manifest.entry_points.insert(target.to_string(), name);
+                }
                 let mut header = print::header(compiled, &counts, &resources);
                 header.push(
                     "Translated by naga; resources are bound at the numbers of the manifest, each kind by itself."
                         .to_owned(),
                 );
-                format!("{}\n{}", print::commented(&header), module.msl(&resources)?).into_bytes()
+                format!("{}\n{text}", print::commented(&header)).into_bytes()
             }
         };
+        let hash = match std::str::from_utf8(&bytes) {
+            Ok(text) if *target != Target::Spirv => hash_of_text(text),
+            _ => hash_of_bytes(&bytes),
+        };
+        manifest.hashes.insert(target.to_string(), hash);
         files.insert(*target, bytes);
     }
     Ok(Emitted { manifest, files })
+}
+
+/// A shader before it is written.
+struct Shader<'s, 'g> {
+    compiled: &'s Compiled,
+    resources: &'s resources::Resources,
+    tree: &'s ast::Module<'g>,
+}
+
+impl Shader<'_, '_> {
+    /// The whole shader as naga has read and validated it; of a function, with the entry point that calls nothing else.
+    fn validated(&self, counts: &Counts) -> Result<translate::Module, EmitError> {
+        let kernel = &self.compiled.kernel;
+        if !self.resources.options.is_function() {
+            return translate::Module::parse_wgsl(kernel, &self.wgsl_of(self.resources, counts));
+        }
+        let whole = EmitOptions {
+            form: Form::Entry,
+            ..self.resources.options.clone()
+        };
+        let whole = resources::Resources::of(self.compiled, &whole)?;
+        translate::Module::parse_wgsl(kernel, &self.wgsl_of(&whole, counts))
+    }
+
+    fn wgsl_of(&self, resources: &resources::Resources, counts: &Counts) -> String {
+        let mut tree = self.tree.clone();
+        legalise::wgsl(&mut tree);
+        let language = print::Wgsl { resources };
+        names::assign(&mut tree, resources, names::Words::Wgsl, &language.names());
+        print::module(&language, &tree, &print::header(self.compiled, counts, resources))
+    }
+
+    fn wgsl(&self, counts: &Counts) -> Result<String, EmitError> {
+        let options = &self.resources.options;
+        let wgsl = self.wgsl_of(self.resources, counts);
+        if options.is_function() {
+            let enabled = match options.precision {
+                Precision::F32 => wgsl.clone(),
+                Precision::F16 => format!("enable f16;\n{wgsl}"),
+            };
+            translate::Module::parse_wgsl(&self.compiled.kernel, &enabled)?;
+        }
+        Ok(match options.enable_subgroups && self.resources.subgroups {
+            true => format!("enable subgroups;\n{}{wgsl}", gap(options.precision)),
+            false => wgsl,
+        })
+    }
+
+    fn glsl(&self, target: Target, counts: &Counts) -> Result<String, EmitError> {
+        let resources = self.resources;
+        let mut tree = self.tree.clone();
+        legalise::glsl(&mut tree, target == Target::Glsl450);
+        let language = print::Glsl::new(resources, target);
+        names::assign(&mut tree, resources, names::Words::Glsl, &language.names());
+        let glsl = print::module(&language, &tree, &print::header(self.compiled, counts, resources));
+        // naga reads no other GLSL, and no text without `main`.
+        if target == Target::Glsl450 && !resources.options.is_function() {
+            let compared = resources.compared();
+            check::check_glsl(&self.compiled.kernel, resources.options.stage, &glsl, &compared)?;
+        }
+        Ok(glsl)
+    }
+
+    fn hlsl(&self, counts: &Counts) -> String {
+        let mut tree = self.tree.clone();
+        legalise::hlsl(&mut tree);
+        let resources = self.resources.for_hlsl();
+        let language = print::Hlsl::new(&resources, &tree);
+        names::assign(&mut tree, &resources, names::Words::Hlsl, &language.names());
+        print::module(&language, &tree, &print::header(self.compiled, counts, &resources))
+    }
 }
 
 /// What stands between a directive and a text that begins with another, or with its header.

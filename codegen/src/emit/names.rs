@@ -26,11 +26,11 @@ pub fn is_own(name: &str) -> bool {
     OWN.contains(&name) || OF_REGIONS.contains(&name)
 }
 
-/// Names that it has uses for where the shader filters a rectangle.
+/// Names that it has uses for where the shader filters a rectangle, or writes another row than that of its pixel.
 const OF_REGIONS: [&str; 2] = ["within", "place"];
 
 /// Longer names are cut, or refused where hosts use them.
-const LONGEST: usize = 255;
+pub const LONGEST: usize = 255;
 
 /// A language whose words names stay clear of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -111,9 +111,9 @@ fn is_glsl_type(word: &str) -> bool {
 
 /// Why a name that hosts use, of an input or a uniform, can be none in every language; names are not changed behind a host's
 /// back. Uniforms are fields, and have only the name of the struct that holds them to stay clear of.
-pub fn refused(name: &str, entry: &str, is_field: bool, of_region: bool) -> Option<&'static str> {
+pub fn refused(name: &str, entry: &str, is_field: bool, has_place: bool) -> Option<&'static str> {
     let plain = |c: char| c.is_ascii_alphanumeric() || c == '_';
-    let own = OWN.contains(&name) || name == entry || (of_region && OF_REGIONS.contains(&name));
+    let own = OWN.contains(&name) || name == entry || (has_place && OF_REGIONS.contains(&name));
     if is_reserved(name) {
         Some("is a word of WGSL or GLSL")
     } else if name == UNIFORMS || (own && !is_field) {
@@ -221,7 +221,7 @@ pub fn assign(module: &mut Module<'_>, resources: &Resources, words: Words, othe
     let mut taken: HashSet<String> = OWN.map(str::to_owned).into();
     taken.extend(others.iter().cloned());
     taken.insert(resources.entry.clone());
-    if resources.options.region {
+    if resources.options.has_place() {
         taken.extend(OF_REGIONS.map(str::to_owned));
     }
     taken.extend(resources.names().map(str::to_owned));

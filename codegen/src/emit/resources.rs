@@ -3,13 +3,14 @@
 use super::EmitOptions;
 use super::error::EmitError;
 use super::layout::layout;
-use super::names::Words;
+use super::places::{Named, Places};
 use super::print::wgsl_type;
+use super::target::Target;
 use crate::compiled::Compiled;
 use crate::ir::{Buffer, NodeId, Op, Sampler, Texture, Uniform, Varying};
 use crate::passes::layers_read;
-use std::collections::{BTreeMap, BTreeSet};
-use straightline_manifest::{Stage, UniformField};
+use std::collections::BTreeSet;
+use straightline_manifest::{REGION, Stage, UniformField};
 
 /// Name of the uniform buffer.
 pub const UNIFORMS: &str = "parameters";
@@ -44,17 +45,19 @@ pub struct Combined {
 /// A shader's bindings.
 #[derive(Clone, Debug)]
 pub struct Resources {
-    /// Name of the entry point.
+    /// Name of the entry point or function.
     pub entry: String,
+    /// Where everything is bound.
+    pub places: Places,
     /// How it is emitted.
     pub options: EmitOptions,
     /// Every texture of the kernel, read or not, by index.
-    textures: Vec<Texture>,
-    buffers: Vec<Buffer>,
-    samplers: Vec<Sampler>,
+    pub(super) textures: Vec<Texture>,
+    pub(super) buffers: Vec<Buffer>,
+    pub(super) samplers: Vec<Sampler>,
     /// Names of every uniform and every varying of the kernel, by index.
-    uniform_names: Vec<String>,
-    varying_names: Vec<String>,
+    pub(super) uniform_names: Vec<String>,
+    pub(super) varying_names: Vec<String>,
     /// Textures that are read.
     pub read: Vec<BoundTexture>,
     /// The ways in which they are read.
@@ -89,8 +92,6 @@ impl Resources {
         if options.region && (compiled.quad.is_some() || compiled.transport.is_some()) {
             return Err(EmitError::QuadsOfRegion { kernel: kernel() });
         }
-        let mut next = 0..;
-        let mut number = || next.next().unwrap_or(u32::MAX);
         let mut read = Vec::new();
         let reads = |index: u32| ops.iter().any(|op| op.texture() == Some(index));
         // A fragment shader that needs the output's size has it from a texture of that size: one that is read, or else any.
@@ -112,7 +113,7 @@ impl Resources {
             })?;
             read.push(BoundTexture {
                 index,
-                binding: number(),
+                binding: 0,
                 layers,
                 compared: ops.iter().any(
                     |op| matches!(op, Op::Compare { texture, .. } | Op::GatherCompare { texture, .. } if *texture == index),
@@ -138,11 +139,11 @@ impl Resources {
                 sampler: Some(sampler),
             }));
         }
-        let mut bound = |len: usize, used: &dyn Fn(u32) -> bool| -> Vec<(u32, u32)> {
-            (0..len as u32).filter(|k| used(*k)).map(|k| (k, number())).collect()
+        let bound = |len: usize, used: &dyn Fn(u32) -> bool| -> Vec<(u32, u32)> {
+            (0..len as u32).filter(|k| used(*k)).map(|k| (k, 0)).collect()
         };
-        let read_buffers = bound(graph.buffers.len(), &|k| ops.iter().any(|op| op.buffer() == Some(k)));
-        let used_samplers = bound(graph.samplers.len(), &|k| ops.iter().any(|op| op.sampler() == Some(k)));
+        let mut read_buffers = bound(graph.buffers.len(), &|k| ops.iter().any(|op| op.buffer() == Some(k)));
+        let mut used_samplers = bound(graph.samplers.len(), &|k| ops.iter().any(|op| op.sampler() == Some(k)));
         let used = |k: u32| ops.iter().any(|op| **op == Op::Uniform(k));
         let uniforms: Vec<&Uniform> = graph
             .uniforms
@@ -154,13 +155,22 @@ impl Resources {
         let names = read.iter().map(|t| &graph.textures[t.index as usize].name);
         let names = names.chain(read_buffers.iter().map(|(k, _)| &graph.buffers[*k as usize].name));
         let names = names.chain(used_samplers.iter().map(|(k, _)| &graph.samplers[*k as usize].name));
-        let entry = super::names::entry_point(&compiled.kernel);
+        let entry = super::entry::name(&compiled.kernel, options)?;
         let names = names.chain(graph.varyings.iter().map(|v| &v.name));
         let mut names = names
             .map(|name| (name, false))
             .chain(uniforms.iter().map(|u| (&u.name, true)));
+        if options.entry.is_some()
+            && let Some((name, _)) = names.clone().find(|(name, is_field)| **name == entry && !is_field)
+        {
+            return Err(EmitError::Entry {
+                kernel: kernel(),
+                name: name.clone(),
+                why: "is the name of an input".to_owned(),
+            });
+        }
         let refused = |(name, is_field): (&String, bool)| {
-            let why = super::names::refused(name, &entry, is_field, options.region)?;
+            let why = super::names::refused(name, &entry, is_field, options.has_place())?;
             Some((name.clone(), why))
         };
         if let Some((name, why)) = names.find_map(refused) {
@@ -176,9 +186,50 @@ impl Resources {
         let varyings = graph.varyings.iter().enumerate().filter(|(k, _)| used(*k));
         let varyings: Vec<Varying> = varyings.map(|(_, v)| v.clone()).collect();
         let (fields, uniform_size) = layout(&uniforms);
-        let needs_frame = options.stage == Stage::Compute || ops.contains(&&Op::FrameSize);
+        let compute = options.stage == Stage::Compute;
+        let needs_frame = compute || options.counts_from_below() || ops.contains(&&Op::FrameSize);
+        let named = |class: char, name: &str| Named {
+            name: name.to_owned(),
+            class,
+        };
+        let all_bound = read.iter().map(|t| named('t', &graph.textures[t.index as usize].name));
+        let all_bound = all_bound.chain(
+            read_buffers
+                .iter()
+                .map(|(k, _)| named('t', &graph.buffers[*k as usize].name)),
+        );
+        let all_bound = all_bound.chain(
+            used_samplers
+                .iter()
+                .map(|(k, _)| named('s', &graph.samplers[*k as usize].name)),
+        );
+        let own = [
+            (compute, 'u', OUTPUT),
+            (!fields.is_empty(), 'b', UNIFORMS),
+            (options.region, 'b', REGION),
+            (
+                !read.is_empty() && options.targets.contains(&Target::Glsl450),
+                's',
+                SAMPLER,
+            ),
+        ];
+        let own = own.into_iter().filter(|(is_bound, ..)| *is_bound);
+        let all_bound: Vec<Named> = all_bound
+            .chain(own.map(|(_, class, name)| named(class, name)))
+            .collect();
+        let places = Places::new(&compiled.kernel, options, &all_bound)?;
+        for bound in &mut read {
+            bound.binding = places.number(&graph.textures[bound.index as usize].name);
+        }
+        for (k, binding) in &mut read_buffers {
+            *binding = places.number(&graph.buffers[*k as usize].name);
+        }
+        for (k, binding) in &mut used_samplers {
+            *binding = places.number(&graph.samplers[*k as usize].name);
+        }
         let resources = Resources {
             entry,
+            places,
             options: options.clone(),
             textures: graph.textures.clone(),
             buffers: graph.buffers.clone(),
@@ -260,59 +311,51 @@ impl Resources {
         compared.map(|bound| self.texture(bound.index).name.as_str()).collect()
     }
 
-    fn inputs(&self) -> u32 {
-        (self.read.len() + self.read_buffers.len() + self.used_samplers.len()) as u32
-    }
-
     /// Binding number of the output, where it is one.
     pub fn output_binding(&self) -> Option<u32> {
-        (self.options.stage == Stage::Compute).then_some(self.inputs())
+        (self.options.stage == Stage::Compute).then(|| self.places.number(OUTPUT))
     }
 
     /// Binding number of the uniform buffer, if there is one.
     pub fn uniform_binding(&self) -> Option<u32> {
-        let next = self.inputs() + u32::from(self.options.stage == Stage::Compute);
-        (!self.fields.is_empty()).then_some(next)
+        (!self.fields.is_empty()).then(|| self.places.number(UNIFORMS))
     }
 
     /// Binding number of the rectangle's uniform buffer, if there is one.
     pub fn region_binding(&self) -> Option<u32> {
-        let before = u32::from(self.options.stage == Stage::Compute) + u32::from(!self.fields.is_empty());
-        self.options.region.then_some(self.inputs() + before)
+        self.options.region.then(|| self.places.number(REGION))
     }
 
-    /// Binding number of the sampler that only GLSL has: the last.
+    /// Binding number of the sampler that only GLSL 4.50 has.
     pub fn sampler_binding(&self) -> u32 {
-        let compute = u32::from(self.options.stage == Stage::Compute);
-        self.inputs() + compute + u32::from(!self.fields.is_empty()) + u32::from(self.options.region)
+        self.places.number(SAMPLER)
     }
 
-    /// The bindings by names that are no words of HLSL, and no two of which are one: hosts bind by register there.
-    pub fn for_hlsl(&self) -> Resources {
-        let mut renamed = self.clone();
-        let mut taken: BTreeSet<String> = self.names().map(str::to_owned).collect();
-        let mut given: BTreeMap<String, String> = BTreeMap::new();
-        let mut free = |name: &mut String| {
-            if !Words::Hlsl.reserve(name) {
-                return;
-            }
-            let other = given.entry(name.clone()).or_insert_with(|| {
-                let mut other = format!("{name}_");
-                while Words::Hlsl.reserve(&other) || !taken.insert(other.clone()) {
-                    other.push('_');
-                }
-                other
-            });
-            name.clone_from(other);
+    /// What the fields of a region are.
+    pub fn region_comment(&self) -> String {
+        let corner = match self.options.counts_from_below() {
+            true => "lower left",
+            false => "upper left",
         };
-        renamed.textures.iter_mut().for_each(|texture| free(&mut texture.name));
-        renamed.buffers.iter_mut().for_each(|buffer| free(&mut buffer.name));
-        renamed.samplers.iter_mut().for_each(|sampler| free(&mut sampler.name));
-        renamed.varying_names.iter_mut().for_each(&mut free);
-        renamed.uniform_names.iter_mut().for_each(&mut free);
-        renamed.varyings.iter_mut().for_each(|varying| free(&mut varying.name));
-        renamed.uniforms.iter_mut().for_each(|uniform| free(&mut uniform.name));
-        renamed
+        format!("// The {corner} pixel in the inputs, the size, and the {corner} pixel in the target.")
+    }
+
+    /// Every binding number but that of the sampler that only GLSL 4.50 has.
+    pub fn binding_numbers(&self) -> Vec<u32> {
+        let read = self.read.iter().map(|bound| bound.binding);
+        let others = self
+            .read_buffers
+            .iter()
+            .chain(&self.used_samplers)
+            .map(|(_, binding)| *binding);
+        let own = [self.output_binding(), self.uniform_binding(), self.region_binding()];
+        read.chain(others).chain(own.into_iter().flatten()).collect()
+    }
+
+    /// Index of the buffer in which MSL is told how long others are: the lowest number that nothing has.
+    pub fn sizes_binding(&self) -> u32 {
+        let taken = self.binding_numbers();
+        (0..).find(|n| !taken.contains(n)).unwrap_or_default()
     }
 
     /// The name of a combined sampler: that of the texture, unless that is read in several ways.

@@ -2,7 +2,7 @@
 
 use std::fmt;
 use std::str::FromStr;
-use straightline_manifest::Stage;
+use straightline_manifest::{Form, Stage};
 
 /// A language.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -48,7 +48,18 @@ impl Target {
     pub const OPENGL: [Target; 4] = [Target::Glsl430, Target::Glsl330, Target::Essl310, Target::Essl300];
 
     /// What files of it end in.
-    pub fn extension(self, stage: Stage) -> &'static str {
+    pub fn extension(self, stage: Stage, form: Form) -> &'static str {
+        if form == Form::Function {
+            // Not to be taken for whole shaders.
+            return match self {
+                Target::Glsl450 => "glsl",
+                Target::Glsl430 => "430.glsl",
+                Target::Glsl330 => "330.glsl",
+                Target::Essl310 => "es310.glsl",
+                Target::Essl300 => "es300.glsl",
+                _ => self.extension(stage, Form::Entry),
+            };
+        }
         match (self, stage) {
             (Target::Wgsl, _) => "wgsl",
             (Target::Glsl450, Stage::Compute) => "comp",
@@ -63,6 +74,11 @@ impl Target {
             (Target::Hlsl, _) => "hlsl",
             (Target::Msl, _) => "metal",
         }
+    }
+
+    /// Whether it is a GLSL.
+    pub fn is_glsl(self) -> bool {
+        self == Target::Glsl450 || Target::OPENGL.contains(&self)
     }
 
     /// The `#version` of a GLSL.

@@ -61,43 +61,52 @@ impl Module {
         Ok(super::spirv::joined(&words))
     }
 
-    /// Metal: textures and buffers by their binding numbers.
-    pub fn msl(&self, resources: &Resources) -> Result<String, EmitError> {
+    /// Metal, and what the entry point is called there: textures, buffers and samplers by their binding numbers, each kind by
+    /// itself.
+    pub fn msl(&self, resources: &Resources) -> Result<(String, String), EmitError> {
         let mut slots = msl::EntryPointResources::default();
-        let at = |binding| naga::ResourceBinding { group: 0, binding };
-        for (_, binding) in &resources.read_buffers {
-            let target = msl::BindTarget {
-                buffer: Some(*binding as u8),
-                ..Default::default()
-            };
-            slots.resources.insert(at(*binding), target);
+        let group = resources.places.group();
+        let mut bind = |binding: u32, target: msl::BindTarget| {
+            slots.resources.insert(naga::ResourceBinding { group, binding }, target);
+        };
+        let textures = resources.read.iter().map(|t| (t.binding, false));
+        for (binding, mutable) in textures.chain(resources.output_binding().map(|b| (b, true))) {
+            let texture = Some(self.slot("texture", binding, LAST_TEXTURE)?);
+            bind(
+                binding,
+                msl::BindTarget {
+                    texture,
+                    mutable,
+                    ..Default::default()
+                },
+            );
         }
         for (_, binding) in &resources.used_samplers {
-            let target = msl::BindTarget {
-                sampler: Some(msl::BindSamplerTarget::Resource(*binding as u8)),
-                ..Default::default()
-            };
-            slots.resources.insert(at(*binding), target);
+            let slot = self.slot("sampler", *binding, LAST_SAMPLER)?;
+            let sampler = Some(msl::BindSamplerTarget::Resource(slot));
+            bind(
+                *binding,
+                msl::BindTarget {
+                    sampler,
+                    ..Default::default()
+                },
+            );
+        }
+        let buffers = resources.read_buffers.iter().map(|(_, binding)| *binding);
+        let uniforms = [resources.uniform_binding(), resources.region_binding()];
+        for binding in buffers.chain(uniforms.into_iter().flatten()) {
+            let buffer = Some(self.slot("buffer", binding, LAST_BUFFER)?);
+            bind(
+                binding,
+                msl::BindTarget {
+                    buffer,
+                    ..Default::default()
+                },
+            );
         }
         if !resources.read_buffers.is_empty() {
             // Metal does not tell a shader how long a buffer is: the host writes the lengths here.
-            slots.sizes_buffer = Some(resources.sampler_binding() as u8);
-        }
-        let textures = resources.read.iter().map(|t| (t.binding, false));
-        for (binding, mutable) in textures.chain(resources.output_binding().map(|b| (b, true))) {
-            let target = msl::BindTarget {
-                texture: Some(binding as u8),
-                mutable,
-                ..Default::default()
-            };
-            slots.resources.insert(at(binding), target);
-        }
-        if let Some(binding) = resources.uniform_binding() {
-            let target = msl::BindTarget {
-                buffer: Some(binding as u8),
-                ..Default::default()
-            };
-            slots.resources.insert(at(binding), target);
+            slots.sizes_buffer = Some(self.slot("buffer", resources.sizes_binding(), LAST_BUFFER)?);
         }
         let entry = resources.entry.clone();
         let options = msl::Options {
@@ -109,11 +118,42 @@ impl Module {
             ..Default::default()
         };
         let pipeline = msl::PipelineOptions::default();
-        let (text, _) =
+        let (text, info) =
             msl::write_string(&self.module, &self.info, &options, &pipeline).map_err(|e| self.failed("msl", e))?;
-        Ok(text)
+        let name = match info.entry_point_names.into_iter().next() {
+            Some(Ok(name)) => name,
+            Some(Err(error)) => return Err(self.failed("msl", error)),
+            None => return Err(self.failed("msl", "it has no entry point")),
+        };
+        // naga puts an underscore behind digits, and behind words of the language.
+        let is_word = name != resources.entry && !resources.entry.ends_with(|c: char| c.is_ascii_digit());
+        if is_word && resources.options.entry.is_some() {
+            return Err(EmitError::Entry {
+                kernel: self.kernel.clone(),
+                name: resources.entry.clone(),
+                why: "is a word of MSL".to_owned(),
+            });
+        }
+        Ok((text, name))
+    }
+
+    /// A number that Metal has a place for.
+    fn slot(&self, kind: &str, binding: u32, last: u32) -> Result<u8, EmitError> {
+        match u8::try_from(binding) {
+            Ok(slot) if binding <= last => Ok(slot),
+            _ => Err(EmitError::Place {
+                kernel: self.kernel.clone(),
+                what: format!("the binding number {binding} is that of a {kind}, and MSL numbers {kind}s 0 to {last}"),
+                help: "give it a lower number, or leave the language msl out".to_owned(),
+            }),
+        }
     }
 }
+
+/// The largest indices that Metal has on Macs.
+const LAST_TEXTURE: u32 = 127;
+const LAST_SAMPLER: u32 = 15;
+const LAST_BUFFER: u32 = 30;
 
 /// An index outside of an array is that of its last element, as it is to who reads the WGSL. Coordinates of texels and indices
 /// of buffers are clamped in the text.

@@ -6,6 +6,7 @@ mod count;
 mod floor;
 mod fold;
 mod lanes;
+mod origin;
 mod ranges;
 mod schedule;
 
@@ -13,6 +14,7 @@ pub use count::{count, layers_read};
 pub use floor::floor;
 pub use fold::Exact;
 pub use lanes::{by_derivatives, expand};
+pub use origin::from_below;
 pub(crate) use ranges::{bounds, component_bounds, float_bounds};
 pub use schedule::{Block, Schedule, Step, schedule};
 

@@ -38,6 +38,20 @@ pub enum Error {
         problem: String,
     },
 
+    /// The WGSL text is another one than the manifest was written with: edited, or of another run of the generator.
+    #[error(
+        "shader of `{kernel}` is not the text that its manifest was written with: hash {found}, where the manifest has {wanted}; use the \
+         two files of one generator run, or take `hashes` out of the manifest of a text that you changed"
+    )]
+    Hash {
+        /// The kernel's name.
+        kernel: String,
+        /// The manifest's hash of the text.
+        wanted: String,
+        /// That of the text given.
+        found: String,
+    },
+
     /// The WGSL text does not parse, does not validate, or needs something that the device lacks.
     #[error("shader of `{kernel}` was refused: {description}")]
     Shader {

@@ -9,7 +9,7 @@ use crate::uniforms::UniformBlock;
 use crate::{Error, Resource};
 use culprit::culprit;
 use limits::check_limits;
-use straightline_manifest::{Dimension, Format, SampleType, SamplerType};
+use straightline_manifest::{Format, SampleType, SamplerType, ViewDimension};
 use wgpu::{BindGroupLayoutEntry, BindingType, ShaderStages, TextureViewDimension};
 
 /// The layouts of a pass, one for each group that it uses.
@@ -188,11 +188,11 @@ fn texture_type(texture: &TexturePlan) -> BindingType {
             SampleType::Filterable => wgpu::TextureSampleType::Float { filterable: true },
             SampleType::Depth => wgpu::TextureSampleType::Depth,
         },
-        view_dimension: match texture.dimension {
-            Dimension::D2 | Dimension::D2Multisampled => TextureViewDimension::D2,
-            Dimension::D2Array => TextureViewDimension::D2Array,
+        view_dimension: match texture.dimension.view() {
+            ViewDimension::D2 => TextureViewDimension::D2,
+            ViewDimension::D2Array => TextureViewDimension::D2Array,
         },
-        multisampled: texture.dimension == Dimension::D2Multisampled,
+        multisampled: texture.dimension.is_multisampled(),
     }
 }
 

@@ -5,8 +5,8 @@ mod binding;
 use crate::uniforms::{UniformType, UniformValue};
 use crate::{Error, ResourceKind};
 use straightline_manifest::{
-    Access, Binding, BindingKind, Dimension, Extent, Format, Manifest, REGION, REGION_SIZE, SampleType, SamplerType,
-    Stage, region_fields,
+    Access, Binding, BindingKind, BufferType, Dimension, Extent, Form, Format, Manifest, REGION, REGION_SIZE,
+    SampleType, SamplerType, Stage, ViewDimension, region_fields,
 };
 
 /// What to bind where. Every number in it has been checked, except against the device.
@@ -116,6 +116,11 @@ impl Plan {
         if manifest.schema != straightline_manifest::SCHEMA {
             return Err(straightline_manifest::Error::Schema { found: manifest.schema }.into());
         }
+        if manifest.form == Form::Function {
+            let problem = "the shader is a function for another one, and no pass runs it: put it into a shader of your own, or emit \
+                           the form `entry`";
+            return Err(bad("form".to_owned(), problem.to_owned()));
+        }
         let mut plan = Plan {
             kernel: manifest.kernel.clone(),
             entry_point: manifest.entry_point.clone(),
@@ -140,7 +145,6 @@ impl Plan {
         let (name, group, binding) = (source.name.clone(), source.group, source.binding);
         let kind = match &source.kind {
             BindingKind::Texture {
-                access,
                 dimension,
                 sample_type,
                 components,
@@ -148,7 +152,6 @@ impl Plan {
                 samples,
                 extent,
             } => {
-                require(*access == Access::Read, || "a texture is only read".to_owned())?;
                 let texture = TexturePlan {
                     dimension: *dimension,
                     sample_type: *sample_type,
@@ -162,15 +165,21 @@ impl Plan {
             }
             BindingKind::Sampler { sampler } => InputKind::Sampler(*sampler),
             BindingKind::Buffer {
-                access,
+                buffer_type,
                 element,
                 stride,
             } => {
-                require(*access == Access::Read, || "a buffer is only read".to_owned())?;
+                let fits = *buffer_type == BufferType::ReadOnlyStorage;
+                require(fits, || "its buffer_type is not read-only-storage".to_owned())?;
                 InputKind::Buffer(binding::buffer(element, *stride)?)
             }
-            BindingKind::Uniform { access, size, fields } => {
-                require(*access == Access::Read, || "a uniform is only read".to_owned())?;
+            BindingKind::Uniform {
+                buffer_type,
+                size,
+                fields,
+            } => {
+                let fits = *buffer_type == BufferType::Uniform;
+                require(fits, || "its buffer_type is not uniform".to_owned())?;
                 require(*size > 0 && size % 16 == 0, || {
                     format!("{size} bytes, not a multiple of 16")
                 })?;
@@ -212,13 +221,30 @@ impl Plan {
         self.uniforms.iter().chain(&self.region)
     }
 
-    /// Each place and each name is used once.
-    fn check_unique(&self) -> Result<(), String> {
+    /// Group and binding number of everything, sorted.
+    fn places(&self) -> Vec<(u32, u32)> {
         let mut places: Vec<(u32, u32)> = self.inputs.iter().map(|i| (i.group, i.binding)).collect();
         places.extend(self.uniform_structs().map(|u| (u.group, u.binding)));
         if let OutputPlan::Storage { group, binding, .. } = &self.output {
             places.push((*group, *binding));
         }
+        places.sort_unstable();
+        places
+    }
+
+    /// The first binding number that leaves one out: group, number, and the number that is left out.
+    pub(crate) fn hole(&self) -> Option<(u32, u32, u32)> {
+        let places = self.places();
+        let mut groups = places.chunk_by(|a, b| a.0 == b.0);
+        groups.find_map(|group| {
+            let mut numbered = group.iter().zip(0..);
+            numbered.find_map(|((group, binding), k)| (*binding != k).then_some((*group, *binding, k)))
+        })
+    }
+
+    /// Each place and each name is used once.
+    fn check_unique(&self) -> Result<(), String> {
+        let mut places = self.places();
         let mut inputs: Vec<&str> = self.inputs.iter().map(|i| i.name.as_str()).collect();
         let mut fields: Vec<&str> = self
             .uniforms
@@ -242,8 +268,11 @@ impl Plan {
 /// The output of `manifest`.
 fn output(manifest: &Manifest) -> Result<OutputPlan, String> {
     let output = &manifest.output;
-    require(output.access == Access::Write, || {
+    require(output.access == Access::WriteOnly, || {
         "the result is only written".to_owned()
+    })?;
+    require(output.view_dimension == ViewDimension::D2, || {
+        "the result is 2d".to_owned()
     })?;
     match manifest.stage {
         Stage::Compute => {

@@ -2,14 +2,14 @@
 
 use super::Kernel;
 
-pub const COLOR: &str = r#"{"group": 0, "binding": 0, "name": "color", "type": "texture", "access": "read",
-    "dimension": "2d", "sample_type": "unfilterable", "components": 4, "layers": 1, "samples": 1,
+pub const COLOR: &str = r#"{"group": 0, "binding": 0, "name": "color", "type": "texture",
+    "view_dimension": "2d", "multisampled": false, "sample_type": "unfilterable-float", "components": 4, "layers": 1, "samples": 1,
     "extent": "output"}"#;
-pub const DEPTH: &str = r#"{"group": 0, "binding": 1, "name": "depth", "type": "texture", "access": "read",
-    "dimension": "2d-array", "sample_type": "unfilterable", "components": 1, "layers": 3, "samples": 1,
+pub const DEPTH: &str = r#"{"group": 0, "binding": 1, "name": "depth", "type": "texture",
+    "view_dimension": "2d-array", "multisampled": false, "sample_type": "unfilterable-float", "components": 1, "layers": 3, "samples": 1,
     "extent": "output"}"#;
 /// In a group of its own, and not the next one.
-pub const PARAMS: &str = r#"{"group": 2, "binding": 4, "name": "params", "type": "uniform", "access": "read",
+pub const PARAMS: &str = r#"{"group": 2, "binding": 4, "name": "params", "type": "uniform", "buffer_type": "uniform",
     "size": 32, "fields": [
         {"name": "offset", "type": "vec4f", "offset": 0, "size": 16},
         {"name": "scale", "type": "f32", "offset": 16, "size": 4, "default": 2.0},
@@ -47,9 +47,9 @@ pub const ADD: Kernel = Kernel {
 pub const SCALE: Kernel = Kernel {
     name: "scale",
     bindings: &[
-        r#"{"group": 0, "binding": 0, "name": "small", "type": "texture", "access": "read",
-    "dimension": "2d", "sample_type": "filterable", "components": 4, "layers": 1, "samples": 1, "extent": "any"}"#,
-        r#"{"group": 0, "binding": 1, "name": "linear", "type": "sampler", "sampler": "filtering"}"#,
+        r#"{"group": 0, "binding": 0, "name": "small", "type": "texture",
+    "view_dimension": "2d", "multisampled": false, "sample_type": "float", "components": 4, "layers": 1, "samples": 1, "extent": "any"}"#,
+        r#"{"group": 0, "binding": 1, "name": "linear", "type": "sampler", "sampler_type": "filtering"}"#,
     ],
     declarations: "@group(0) @binding(0) var small: texture_2d<f32>;
         @group(0) @binding(1) var linear: sampler;",
@@ -60,7 +60,7 @@ pub const SCALE: Kernel = Kernel {
 pub const TABLE: Kernel = Kernel {
     name: "table",
     bindings: &[
-        r#"{"group": 0, "binding": 3, "name": "weights", "type": "buffer", "access": "read",
+        r#"{"group": 0, "binding": 3, "name": "weights", "type": "buffer", "buffer_type": "read-only-storage",
     "element": "vec3f", "stride": 16}"#,
     ],
     declarations: "@group(0) @binding(3) var<storage, read> weights: array<vec3f>;",
@@ -70,11 +70,9 @@ pub const TABLE: Kernel = Kernel {
 /// The mean of a texel's four samples.
 pub const RESOLVE: Kernel = Kernel {
     name: "resolve",
-    bindings: &[
-        r#"{"group": 0, "binding": 0, "name": "color", "type": "texture", "access": "read",
-    "dimension": "2d-multisampled", "sample_type": "unfilterable", "components": 4, "layers": 1, "samples": 4,
-    "extent": "output"}"#,
-    ],
+    bindings: &[r#"{"group": 0, "binding": 0, "name": "color", "type": "texture",
+    "view_dimension": "2d", "multisampled": true, "sample_type": "unfilterable-float", "components": 4, "layers": 1, "samples": 4,
+    "extent": "output"}"#],
     declarations: "@group(0) @binding(0) var color: texture_multisampled_2d<f32>;",
     result: "0.25 * (textureLoad(color, pixel, 0) + textureLoad(color, pixel, 1)
         + textureLoad(color, pixel, 2) + textureLoad(color, pixel, 3))",
@@ -84,9 +82,9 @@ pub const RESOLVE: Kernel = Kernel {
 pub const SHADOW: Kernel = Kernel {
     name: "shadow",
     bindings: &[
-        r#"{"group": 0, "binding": 0, "name": "depth", "type": "texture", "access": "read",
-    "dimension": "2d", "sample_type": "depth", "components": 1, "layers": 1, "samples": 1, "extent": "any"}"#,
-        r#"{"group": 0, "binding": 1, "name": "compare", "type": "sampler", "sampler": "comparison"}"#,
+        r#"{"group": 0, "binding": 0, "name": "depth", "type": "texture",
+    "view_dimension": "2d", "multisampled": false, "sample_type": "depth", "components": 1, "layers": 1, "samples": 1, "extent": "any"}"#,
+        r#"{"group": 0, "binding": 1, "name": "compare", "type": "sampler", "sampler_type": "comparison"}"#,
     ],
     declarations: "@group(0) @binding(0) var depth: texture_depth_2d;
         @group(0) @binding(1) var compare: sampler_comparison;",

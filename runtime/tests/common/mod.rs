@@ -265,7 +265,7 @@ impl Kernel<'_> {
         } = self;
         let (output, workgroup, wgsl) = match stage {
             Stage::Compute => (
-                r#"{"name": "output", "group": 0, "binding": 15, "access": "write", "format": "rgba32float"}"#,
+                r#"{"name": "output", "group": 0, "binding": 15, "access": "write-only", "view_dimension": "2d", "format": "rgba32float"}"#,
                 r#""workgroup_size": [8, 8, 1],"#,
                 format!(
                     "{declarations}
@@ -279,7 +279,7 @@ impl Kernel<'_> {
                 ),
             ),
             Stage::Fragment => (
-                r#"{"name": "output", "location": 0, "access": "write", "format": "rgba32float"}"#,
+                r#"{"name": "output", "location": 0, "access": "write-only", "view_dimension": "2d", "format": "rgba32float"}"#,
                 "",
                 format!(
                     "{declarations}
@@ -293,7 +293,7 @@ impl Kernel<'_> {
         };
         let stage = stage.name();
         let manifest = format!(
-            r#"{{"schema": 2, "generator": "by hand", "kernel": "{name}", "stage": "{stage}", "unroll": "full",
+            r#"{{"schema": 3, "generator": "by hand", "kernel": "{name}", "stage": "{stage}", "unroll": "full",
                 "entry_point": "{name}", {workgroup} "bindings": [{}], "output": {output}, "options": {{}},
                 "counts": {{"basic_blocks": 1, "loops": 0, "texture_reads": 0, "colour_reads": 1, "reads": {{}},
                     "tallies": {{}}, "transcendentals": 0, "alu": 0, "statements": 1, "max_live": 4}}}}"#,

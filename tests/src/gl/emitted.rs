@@ -34,7 +34,10 @@ pub fn run(context: &Context, emitted: &Emitted, target: Target, inputs: &Inputs
         .iter()
         .filter(|extra| extra.language == language)
     {
-        let of = extra.texture.as_deref().ok_or("only textures have samplers")?;
+        // Buffers, uniforms and the output have what the manifest's bindings say of them.
+        let Some(of) = extra.texture.as_deref() else {
+            continue;
+        };
         program = program.texture(texture(manifest, inputs, &extra.name, of, extra.sampler.as_deref())?);
     }
     for binding in &manifest.bindings {

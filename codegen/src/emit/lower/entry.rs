@@ -54,6 +54,21 @@ fn is(var: VarId, value: Expr) -> Stmt<'static> {
     StmtKind::Let(var, value).into()
 }
 
+/// A component of a pair.
+fn part(pair: Expr, component: u8) -> Expr {
+    Expr::new(Op::Swizzle(vec![component]), vec![pair], Type::I32)
+}
+
+fn pair(x: Expr, y: Expr) -> Expr {
+    Expr::new(Op::Construct, vec![x, y], IVEC2)
+}
+
+/// `height - 1 - row`: the row by its number from the other end.
+fn turned(height: Expr, row: Expr) -> Expr {
+    let one = Expr::splat(Type::I32, 1);
+    height.binary(BinaryOp::Sub, one).binary(BinaryOp::Sub, row)
+}
+
 fn begin_compute(resources: &Resources) -> Block<'static> {
     let mut invocation = builtin(Builtin::Invocation);
     if resources.block != [1, 1] {
@@ -69,26 +84,47 @@ fn begin_compute(resources: &Resources) -> Block<'static> {
         }
         .into()
     };
-    if resources.options.region {
-        vec![
-            is(VarId::WITHIN, invocation),
-            outside(VarId::WITHIN, builtin(Builtin::RegionSize)),
-            is(VarId::FRAME, frame(resources)),
-            is(
-                VarId::PIXEL,
-                builtin(Builtin::RegionFirst).binary(BinaryOp::Add, local(VarId::WITHIN)),
-            ),
-            is(
-                VarId::PLACE,
-                builtin(Builtin::RegionPlace).binary(BinaryOp::Add, local(VarId::WITHIN)),
-            ),
-        ]
-    } else {
-        vec![
-            is(VarId::FRAME, builtin(Builtin::OutputSize)),
-            is(VarId::PIXEL, invocation),
-            outside(VarId::PIXEL, local(VarId::FRAME)),
-        ]
+    match (resources.options.region, resources.options.counts_from_below()) {
+        (false, from_below) => {
+            let mut body = vec![
+                is(VarId::FRAME, builtin(Builtin::OutputSize)),
+                is(VarId::PIXEL, invocation),
+                outside(VarId::PIXEL, local(VarId::FRAME)),
+            ];
+            if from_below {
+                let row = turned(part(local(VarId::FRAME), 1), part(local(VarId::PIXEL), 1));
+                body.push(is(VarId::PLACE, pair(part(local(VarId::PIXEL), 0), row)));
+            }
+            body
+        }
+        (true, from_below) => {
+            let [mut first, mut place] = [Builtin::RegionFirst, Builtin::RegionPlace]
+                .map(|corner| builtin(corner).binary(BinaryOp::Add, local(VarId::WITHIN)));
+            if from_below {
+                // `within` counts from the region's upper row, which is the last of those that the host states.
+                let [column, row] = [0, 1].map(|k| part(local(VarId::WITHIN), k));
+                let height = || part(builtin(Builtin::RegionSize), 1);
+                let corner = |of: Builtin, k: u8| part(builtin(of), k);
+                let above = part(local(VarId::FRAME), 1)
+                    .binary(BinaryOp::Sub, corner(Builtin::RegionFirst, 1))
+                    .binary(BinaryOp::Sub, height());
+                first = pair(
+                    corner(Builtin::RegionFirst, 0).binary(BinaryOp::Add, column.clone()),
+                    above.binary(BinaryOp::Add, row.clone()),
+                );
+                place = pair(
+                    corner(Builtin::RegionPlace, 0).binary(BinaryOp::Add, column),
+                    corner(Builtin::RegionPlace, 1).binary(BinaryOp::Add, turned(height(), row)),
+                );
+            }
+            vec![
+                is(VarId::WITHIN, invocation),
+                outside(VarId::WITHIN, builtin(Builtin::RegionSize)),
+                is(VarId::FRAME, frame(resources)),
+                is(VarId::PIXEL, first),
+                is(VarId::PLACE, place),
+            ]
+        }
     }
 }
 
@@ -109,7 +145,16 @@ fn begin_fragment(resources: &Resources) -> Block<'static> {
         pixel = pixel.binary(BinaryOp::Sub, builtin(Builtin::RegionPlace));
         pixel = pixel.binary(BinaryOp::Add, builtin(Builtin::RegionFirst));
     }
-    let mut body = vec![is(VarId::PIXEL, pixel)];
+    let mut body = Vec::new();
+    if resources.options.counts_from_below() {
+        // Rows of the fragment and of the inputs count from below, those of the kernel from above.
+        body.push(is(VarId::FRAME, frame(resources)));
+        body.push(is(VarId::PLACE, pixel));
+        let row = turned(part(local(VarId::FRAME), 1), part(local(VarId::PLACE), 1));
+        body.push(is(VarId::PIXEL, pair(part(local(VarId::PLACE), 0), row)));
+        return body;
+    }
+    body.push(is(VarId::PIXEL, pixel));
     if resources.needs_frame {
         body.push(is(VarId::FRAME, frame(resources)));
     }
@@ -118,10 +163,15 @@ fn begin_fragment(resources: &Resources) -> Block<'static> {
 
 /// Stores the colours of a block's pixels; all but the first may lie outside.
 fn stores(body: &mut Block<'_>, outputs: Block<'_>, resources: &Resources) {
-    let (within, place, bound) = match resources.options.region {
-        true => (VarId::WITHIN, VarId::PLACE, builtin(Builtin::RegionSize)),
-        false => (VarId::PIXEL, VarId::PIXEL, local(VarId::FRAME)),
+    let (within, bound) = match resources.options.region {
+        true => (VarId::WITHIN, builtin(Builtin::RegionSize)),
+        false => (VarId::PIXEL, local(VarId::FRAME)),
     };
+    let place = match resources.options.has_place() {
+        true => VarId::PLACE,
+        false => VarId::PIXEL,
+    };
+    let down = if resources.options.counts_from_below() { -1 } else { 1 };
     let width = resources.block[0] as usize;
     let colours = outputs.into_iter().filter_map(|stmt| match stmt.kind {
         StmtKind::Output(colour) => Some(colour),
@@ -132,11 +182,11 @@ fn stores(body: &mut Block<'_>, outputs: Block<'_>, resources: &Resources) {
             body.push(StmtKind::Store(local(place), colour).into());
             continue;
         }
-        let offset = Expr::ivec2((k % width) as i32, (k / width) as i32);
+        let (x, y) = ((k % width) as i32, (k / width) as i32);
         let inside = local(within)
-            .binary(BinaryOp::Add, offset.clone())
+            .binary(BinaryOp::Add, Expr::ivec2(x, y))
             .binary(BinaryOp::Lt, bound.clone());
-        let there = local(place).binary(BinaryOp::Add, offset);
+        let there = local(place).binary(BinaryOp::Add, Expr::ivec2(x, down * y));
         body.push(
             StmtKind::If {
                 condition: Expr::new(Op::All, vec![inside], Type::BOOL),

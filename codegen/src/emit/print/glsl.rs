@@ -14,6 +14,13 @@ pub const LENGTH: &str = ".elements.length()";
 /// The four texels around a place, or what a comparison gives of them.
 pub const GATHER: &str = "textureGather";
 
+/// The region's uniforms where no block holds them, with the fields that they are otherwise.
+pub const LOOSE_REGION: [(&str, &str); 3] = [
+    ("region_first", "first"),
+    ("region_size", "size"),
+    ("region_place", "place"),
+];
+
 /// Quad operations, horizontal, vertical and diagonal.
 pub const MESSAGES: [&str; 3] = [
     "subgroupQuadSwapHorizontal",
@@ -33,7 +40,11 @@ impl<'a> Glsl<'a> {
         Glsl { resources, target }
     }
 
-    fn vulkan(&self) -> bool {
+    fn is_function(&self) -> bool {
+        self.resources.options.is_function()
+    }
+
+    pub(super) fn vulkan(&self) -> bool {
         self.target == Target::Glsl450
     }
 
@@ -49,10 +60,11 @@ impl<'a> Glsl<'a> {
 
     /// Names at module scope that this language adds.
     pub fn names(&self) -> Vec<String> {
+        let uniforms = self.resources.uniforms.iter().map(|u| loose(&u.name));
         match self.vulkan() {
+            true if self.is_function() => uniforms.collect(),
             true => Vec::new(),
             false => {
-                let uniforms = self.resources.uniforms.iter().map(|u| loose(&u.name));
                 let combined = self
                     .resources
                     .combined
@@ -60,7 +72,7 @@ impl<'a> Glsl<'a> {
                     .map(|one| self.resources.combined_name(*one));
                 combined
                     .chain(uniforms)
-                    .chain(["first", "size", "place"].map(region))
+                    .chain(LOOSE_REGION.map(|(name, _)| name.to_owned()))
                     .collect()
             }
         }
@@ -87,7 +99,7 @@ impl<'a> Glsl<'a> {
     /// `layout(set = 0, binding = N)`, with what else a layout says, as far as the version knows of bindings.
     pub(super) fn layout(&self, binding: u32, before: &str, behind: &str) -> String {
         let binding = match self.target {
-            Target::Glsl450 => format!("set = 0, binding = {binding}"),
+            Target::Glsl450 => format!("set = {}, binding = {binding}", self.resources.places.group()),
             Target::Glsl430 | Target::Essl310 => format!("binding = {binding}"),
             _ => return String::new(),
         };
@@ -96,15 +108,11 @@ impl<'a> Glsl<'a> {
 }
 
 /// A uniform that lies in no block.
-pub(super) fn loose(name: &str) -> String {
+pub fn loose(name: &str) -> String {
     match crate::emit::names::is_own(name) {
         true => format!("parameter_{name}"),
         false => name.to_owned(),
     }
-}
-
-pub(super) fn region(name: &str) -> String {
-    format!("{REGION}_{name}")
 }
 
 pub(super) fn plain_sampler(kind: TextureKind) -> &'static str {
@@ -134,6 +142,7 @@ impl Language for Glsl<'_> {
     fn builtin(&self, builtin: Builtin) -> Text {
         match builtin {
             Builtin::Invocation => Text::name("ivec2(gl_GlobalInvocationID.xy)"),
+            Builtin::Position if self.is_function() => Text::name("position"),
             Builtin::Position => Text::name("gl_FragCoord.xy"),
             Builtin::OutputSize => Text::name(format!("imageSize({OUTPUT})")),
             Builtin::RegionFirst | Builtin::RegionSize | Builtin::RegionPlace => {
@@ -144,7 +153,7 @@ impl Language for Glsl<'_> {
                 };
                 Text::name(match self.vulkan() {
                     true => format!("{REGION}.{field}"),
-                    false => region(field),
+                    false => format!("{REGION}_{field}"),
                 })
             }
         }
@@ -163,7 +172,7 @@ impl Language for Glsl<'_> {
     fn read(&self, op: &ir::Op, args: &[Text]) -> Text {
         let zero = Text::name("0");
         match op {
-            ir::Op::Uniform(k) if !self.vulkan() => Text::name(loose(self.resources.uniform(*k))),
+            ir::Op::Uniform(k) if !self.vulkan() || self.is_function() => Text::name(loose(self.resources.uniform(*k))),
             ir::Op::Uniform(k) => Text::name(format!("{UNIFORMS}.{}", self.resources.uniform(*k))),
             ir::Op::Varying(k) => Text::name(self.resources.varying(*k)),
             ir::Op::TextureSize(texture) => {
@@ -282,14 +291,23 @@ impl Language for Glsl<'_> {
     }
 
     fn output(&self) -> String {
+        if self.is_function() {
+            return "return ".to_owned();
+        }
         format!("{OUTPUT} = ")
     }
 
     fn preamble(&self, header: &[String]) -> String {
         let r = self.resources;
-        let mut out = format!("#version {}\n", self.target.version());
-        if r.subgroups {
-            out += "#extension GL_KHR_shader_subgroup_quad : require\n";
+        let extension = "#extension GL_KHR_shader_subgroup_quad : require\n";
+        let mut out = match (self.is_function(), r.subgroups) {
+            (true, false) => String::new(),
+            // Directives stand before everything else of the host's text.
+            (true, true) => format!("// Needs {extension}"),
+            (false, _) => format!("#version {}\n", self.target.version()),
+        };
+        if r.subgroups && !self.is_function() {
+            out += extension;
         }
         out += &commented(header);
         if !r.read.is_empty() && self.vulkan() {
@@ -304,6 +322,9 @@ impl Language for Glsl<'_> {
             }
             out.push('\n');
         }
+        if self.is_function() {
+            return out.trim_end().to_owned() + "\n";
+        }
         if r.options.stage == Stage::Compute {
             let [x, y, z] = r.options.workgroup();
             out += &format!("layout(local_size_x = {x}, local_size_y = {y}, local_size_z = {z}) in;\n\n");
@@ -311,56 +332,13 @@ impl Language for Glsl<'_> {
         if !self.vulkan() {
             return out + &self.opengl();
         }
-        for bound in &r.read {
-            let texture = r.texture(bound.index);
-            let (binding, ty) = (bound.binding, texture_type(texture.kind));
-            out += &format!("layout(set = 0, binding = {binding}) uniform {ty} {};\n", texture.name);
-        }
-        for (k, binding) in &r.read_buffers {
-            let (name, element) = (&r.buffer(*k).name, type_name(r.buffer(*k).element.into()));
-            out += &format!(
-                "layout(std430, set = 0, binding = {binding}) readonly buffer {name}_buffer {{ {element} elements[]; }} {name};\n"
-            );
-        }
-        for (k, binding) in &r.used_samplers {
-            let sampler = r.sampler(*k);
-            let ty = if sampler.comparison { "samplerShadow" } else { "sampler" };
-            out += &format!("layout(set = 0, binding = {binding}) uniform {ty} {};\n", sampler.name);
-        }
-        match r.output_binding() {
-            Some(binding) => {
-                let format = r.options.format.glsl();
-                out += &format!("layout(set = 0, binding = {binding}, {format}) uniform writeonly image2D {OUTPUT};\n");
-            }
-            None => {
-                for (k, varying) in r.varyings.iter().enumerate() {
-                    let declared = declared(&varying.name, varying.ty.into());
-                    out += &format!("layout(location = {k}) in {declared};\n");
-                }
-                out += &format!("layout(location = 0) out vec4 {OUTPUT};\n");
-            }
-        }
-        if let Some(binding) = r.uniform_binding() {
-            out += &format!("\nlayout(std140, set = 0, binding = {binding}) uniform Parameters {{\n");
-            for uniform in &r.uniforms {
-                out += &format!("    {};\n", declared(&uniform.name, uniform.ty.into()));
-            }
-            out += &format!("}} {UNIFORMS};\n");
-        }
-        if let Some(binding) = r.region_binding() {
-            out += &format!("\nlayout(std140, set = 0, binding = {binding}) uniform Region {{\n");
-            out += "    // The upper left pixel in the inputs, the size, and the upper left pixel in the target.\n    ivec2 \
-                    first;\n    ivec2 size;\n    ivec2 place;\n";
-            out += &format!("}} {REGION};\n");
-        }
-        if !r.read.is_empty() {
-            let binding = r.sampler_binding();
-            out += &format!("layout(set = 0, binding = {binding}) uniform sampler {SAMPLER};\n");
-        }
-        out
+        out + &self.of_vulkan()
     }
 
     fn entry_head(&self) -> String {
+        if self.is_function() {
+            return self.taking();
+        }
         "void main() {".to_owned()
     }
 }
@@ -373,7 +351,14 @@ pub(super) fn declared(name: &str, ty: Ty) -> String {
     }
 }
 
-fn texture_type(kind: TextureKind) -> &'static str {
+pub(super) fn sampler_type(comparison: bool) -> &'static str {
+    match comparison {
+        true => "samplerShadow",
+        false => "sampler",
+    }
+}
+
+pub(super) fn texture_type(kind: TextureKind) -> &'static str {
     match kind {
         TextureKind::Flat | TextureKind::Depth => "texture2D",
         TextureKind::Layers => "texture2DArray",

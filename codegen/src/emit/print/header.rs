@@ -5,7 +5,7 @@ use crate::emit::resources::Resources;
 use crate::emit::text::comment;
 use crate::ir::Invocation;
 use crate::policy::Transport;
-use straightline_manifest::{Counts, Precision};
+use straightline_manifest::{Counts, Form, Origin, Precision};
 
 /// Name and version, for headers and manifests.
 pub const GENERATOR: &str = concat!("straightline ", env!("CARGO_PKG_VERSION"));
@@ -21,13 +21,23 @@ pub fn header(compiled: &Compiled, counts: &Counts, resources: &Resources) -> Ve
         .iter()
         .filter_map(|name| compiled.options.get_key_value(name));
     lines.extend(changed.map(|(name, value)| format!("  {name} = {}", shortened(value))));
+    let options = &resources.options;
+    let (what, output) = match options.form {
+        Form::Entry => (
+            format!("Stage {}", options.stage.name()),
+            format!("output {}", options.format),
+        ),
+        Form::Function => (
+            "Function for a fragment shader".to_owned(),
+            "result a colour".to_owned(),
+        ),
+    };
     lines.push(format!(
-        "Stage {}, unroll {}, {}{}output {}.",
-        resources.options.stage.name(),
+        "{what}, unroll {}, {}{}{}{output}.",
         compiled.policy,
         messages(compiled),
-        precision(resources.options.precision),
-        resources.options.format
+        precision(options.precision),
+        origin(options.origin),
     ));
     let reads = match (counts.texture_reads, counts.colour_reads) {
         (reads, 0) => many(reads, "read"),
@@ -82,6 +92,14 @@ fn precision(precision: Precision) -> &'static str {
     match precision {
         Precision::F32 => "",
         Precision::F16 => "half precision (f16), ",
+    }
+}
+
+/// Where row 0 is, where that is not where most have it.
+fn origin(origin: Origin) -> &'static str {
+    match origin {
+        Origin::UpperLeft => "",
+        Origin::LowerLeft => "rows from below, ",
     }
 }
 

@@ -1,7 +1,7 @@
 //! HLSL of shader model 5.1 and later.
 
 use super::expr::{float, integer, unsigned};
-use super::{Language, Text, commented};
+use super::{Language, Text, commented, loose};
 use crate::emit::ast::{Builtin, Expr, Module, Op, Ty};
 use crate::emit::resources::{OUTPUT, Resources, UNIFORMS};
 use crate::ir::{self, Axis, BinaryOp, Direction, Scalar, TextureKind, Type, UnaryOp};
@@ -9,7 +9,7 @@ use straightline_manifest::{Format, REGION, Stage};
 
 /// HLSL.
 pub struct Hlsl<'a> {
-    resources: &'a Resources,
+    pub(super) resources: &'a Resources,
     /// Functions that ask for the size of what is bound.
     sizes: Vec<Size>,
 }
@@ -48,9 +48,30 @@ impl<'a> Hlsl<'a> {
         Hlsl { resources, sizes }
     }
 
-    /// Names of the functions that this language needs.
-    pub fn functions(&self) -> Vec<String> {
-        self.sizes.iter().map(|size| self.size_of(*size)).collect()
+    /// Names at module scope, or of parameters, that this language adds.
+    pub fn names(&self) -> Vec<String> {
+        let mut names: Vec<String> = self.sizes.iter().map(|size| self.size_of(*size)).collect();
+        if self.is_function() {
+            names.extend(self.resources.uniforms.iter().map(|u| loose(&u.name)));
+        }
+        names
+    }
+
+    fn is_function(&self) -> bool {
+        self.resources.options.is_function()
+    }
+
+    /// What tells the size of something.
+    fn ask(&self, size: Size) -> Text {
+        let name = match size {
+            Size::Texture(texture) => &self.resources.texture(texture).name,
+            Size::Buffer(buffer) => &self.resources.buffer(buffer).name,
+            Size::Output => OUTPUT,
+        };
+        match self.is_function() {
+            true => Text::call(&self.size_of(size), &[&Text::name(name)]),
+            false => Text::call(&self.size_of(size), &[]),
+        }
     }
 
     fn size_of(&self, size: Size) -> String {
@@ -64,13 +85,18 @@ impl<'a> Hlsl<'a> {
     /// A function that asks for a size: the language gives it by way of variables.
     fn asks(&self, size: Size) -> String {
         let name = self.size_of(size);
+        let taken = match (self.is_function(), size) {
+            (true, Size::Texture(texture)) => texture_declared(self.resources, texture),
+            (true, Size::Buffer(buffer)) => buffer_declared(self.resources, buffer),
+            _ => String::new(),
+        };
         let two = "uint width, height";
         let (what, variables, arguments) = match size {
             Size::Output => (OUTPUT, two, "width, height"),
             Size::Buffer(buffer) => {
                 let buffer = &self.resources.buffer(buffer).name;
                 return format!(
-                    "int {name}() {{\n    uint count, stride;\n    {buffer}.GetDimensions(count, stride);\n    return int(count);\n}}\n"
+                    "int {name}({taken}) {{\n    uint count, stride;\n    {buffer}.GetDimensions(count, stride);\n    return int(count);\n}}\n"
                 );
             }
             Size::Texture(texture) => {
@@ -84,7 +110,7 @@ impl<'a> Hlsl<'a> {
             }
         };
         format!(
-            "int2 {name}() {{\n    {variables};\n    {what}.GetDimensions({arguments});\n    return int2(width, height);\n}}\n"
+            "int2 {name}({taken}) {{\n    {variables};\n    {what}.GetDimensions({arguments});\n    return int2(width, height);\n}}\n"
         )
     }
 
@@ -118,8 +144,9 @@ impl Language for Hlsl<'_> {
     fn builtin(&self, builtin: Builtin) -> Text {
         match builtin {
             Builtin::Invocation => Text::name("int2(id.xy)"),
+            Builtin::Position if self.is_function() => Text::name("position"),
             Builtin::Position => Text::name("position.xy"),
-            Builtin::OutputSize => Text::call(&self.size_of(Size::Output), &[]),
+            Builtin::OutputSize => self.ask(Size::Output),
             Builtin::RegionFirst => Text::name(format!("{REGION}.first")),
             Builtin::RegionSize => Text::name(format!("{REGION}.size")),
             Builtin::RegionPlace => Text::name(format!("{REGION}.place")),
@@ -139,10 +166,11 @@ impl Language for Hlsl<'_> {
         let r = self.resources;
         let zero = Text::name("0");
         match op {
+            ir::Op::Uniform(k) if self.is_function() => Text::name(loose(r.uniform(*k))),
             ir::Op::Uniform(k) => Text::name(format!("{UNIFORMS}.{}", r.uniform(*k))),
             ir::Op::Varying(k) => Text::name(r.varying(*k)),
-            ir::Op::TextureSize(texture) => Text::call(&self.size_of(Size::Texture(*texture)), &[]),
-            ir::Op::BufferLen(buffer) => Text::call(&self.size_of(Size::Buffer(*buffer)), &[]),
+            ir::Op::TextureSize(texture) => self.ask(Size::Texture(*texture)),
+            ir::Op::BufferLen(buffer) => self.ask(Size::Buffer(*buffer)),
             ir::Op::Load { texture, .. } => {
                 let texture = r.texture(*texture);
                 let load = format!("{}.Load", texture.name);
@@ -259,43 +287,47 @@ impl Language for Hlsl<'_> {
         let mut out = String::new();
         out += &commented(header);
         out.push('\n');
+        if self.is_function() {
+            for size in &self.sizes {
+                out += &format!("{}\n", self.asks(*size));
+            }
+            return out.trim_end().to_owned() + "\n";
+        }
         for bound in &r.read {
-            let texture = r.texture(bound.index);
-            let (ty, binding) = (texture_type(texture.kind), bound.binding);
-            out += &format!("{ty} {} : register(t{binding});\n", texture.name);
+            let register = r.places.register('t', bound.binding);
+            out += &format!("{} : register({register});\n", texture_declared(r, bound.index));
         }
         for (k, binding) in &r.read_buffers {
-            let (name, element) = (&r.buffer(*k).name, type_name(r.buffer(*k).element.into()));
-            out += &format!("StructuredBuffer<{element}> {name} : register(t{binding});\n");
+            let register = r.places.register('t', *binding);
+            out += &format!("{} : register({register});\n", buffer_declared(r, *k));
         }
         for (k, binding) in &r.used_samplers {
-            let sampler = r.sampler(*k);
-            let ty = match sampler.comparison {
-                true => "SamplerComparisonState",
-                false => "SamplerState",
-            };
-            out += &format!("{ty} {} : register(s{binding});\n", sampler.name);
+            let register = r.places.register('s', *binding);
+            out += &format!("{} : register({register});\n", sampler_declared(r, *k));
         }
         if let Some(binding) = r.output_binding() {
             let texel = match r.options.format {
                 Format::Rgba8Unorm => "unorm float4",
                 _ => "float4",
             };
-            out += &format!("RWTexture2D<{texel}> {OUTPUT} : register(u{binding});\n");
+            let register = r.places.register('u', binding);
+            out += &format!("RWTexture2D<{texel}> {OUTPUT} : register({register});\n");
         }
         if let Some(binding) = r.uniform_binding() {
             out += "\nstruct Parameters {\n";
             for line in fields(r) {
                 out += &format!("    {line};\n");
             }
+            let register = r.places.register('b', binding);
             out += &format!(
-                "}};\n\ncbuffer Parameters_buffer : register(b{binding}) {{\n    Parameters {UNIFORMS};\n}}\n"
+                "}};\n\ncbuffer Parameters_buffer : register({register}) {{\n    Parameters {UNIFORMS};\n}}\n"
             );
         }
         if let Some(binding) = r.region_binding() {
-            out += "\nstruct Region {\n    // The upper left pixel in the inputs, the size, and the upper left pixel in the target.\n    \
-                    int2 first;\n    int2 size;\n    int2 place;\n};\n\n";
-            out += &format!("cbuffer Region_buffer : register(b{binding}) {{\n    Region {REGION};\n}}\n");
+            out += &format!("\nstruct Region {{\n    {}\n", r.region_comment());
+            out += "    int2 first;\n    int2 size;\n    int2 place;\n};\n\n";
+            let register = r.places.register('b', binding);
+            out += &format!("cbuffer Region_buffer : register({register}) {{\n    Region {REGION};\n}}\n");
         }
         for size in &self.sizes {
             out += &format!("\n{}", self.asks(*size));
@@ -304,6 +336,9 @@ impl Language for Hlsl<'_> {
     }
 
     fn entry_head(&self) -> String {
+        if self.is_function() {
+            return self.taking();
+        }
         let r = self.resources;
         let entry = &r.entry;
         match r.options.stage {
@@ -321,6 +356,25 @@ impl Language for Hlsl<'_> {
             }
         }
     }
+}
+
+pub(super) fn texture_declared(resources: &Resources, index: u32) -> String {
+    let texture = resources.texture(index);
+    format!("{} {}", texture_type(texture.kind), texture.name)
+}
+
+pub(super) fn buffer_declared(resources: &Resources, index: u32) -> String {
+    let buffer = resources.buffer(index);
+    format!("StructuredBuffer<{}> {}", type_name(buffer.element.into()), buffer.name)
+}
+
+pub(super) fn sampler_declared(resources: &Resources, index: u32) -> String {
+    let sampler = resources.sampler(index);
+    let ty = match sampler.comparison {
+        true => "SamplerComparisonState",
+        false => "SamplerState",
+    };
+    format!("{ty} {}", sampler.name)
 }
 
 /// Members of the uniform struct, with padding where the language would pack them closer than the buffer has them.
@@ -344,7 +398,7 @@ fn fields(resources: &Resources) -> Vec<String> {
 }
 
 /// A variable with its type: arrays have their extent after the name.
-fn declared(name: &str, ty: Ty) -> String {
+pub(super) fn declared(name: &str, ty: Ty) -> String {
     match ty.shape {
         Type::Array { len, .. } => format!("{} {name}[{len}]", type_name(ty.element_ty())),
         _ => format!("{} {name}", type_name(ty)),

@@ -1,17 +1,19 @@
 //! From a tree to text. Printers decide nothing: they write what the tree says.
 
 mod expr;
+mod function;
 mod glsl;
 mod header;
 mod hlsl;
 mod opengl;
+mod vulkan;
 mod wgsl;
 
 use super::ast::{Builtin, Expr, Function, Module, Op, Stmt, StmtKind, Ty, VarId};
 use super::text::{Binds, Text, wrapped_comment};
 use crate::ir::{self, Scalar, UnaryOp};
 
-pub use glsl::{GATHER, Glsl, LENGTH, MESSAGES};
+pub use glsl::{GATHER, Glsl, LENGTH, LOOSE_REGION, MESSAGES, loose};
 pub use header::{GENERATOR, header};
 pub use hlsl::Hlsl;
 pub use wgsl::Wgsl;
@@ -104,34 +106,45 @@ pub trait Language {
     fn output(&self) -> String;
     /// Everything before the first function: header, directives, bindings.
     fn preamble(&self, header: &[String]) -> String;
-    /// The head of the entry point, up to the opening brace.
+    /// The head of the entry point or function, up to the opening brace.
     fn entry_head(&self) -> String;
+    /// Whether the entry point is a function before which nothing may stand: the header stands in it, and all else behind it.
+    fn leads(&self) -> bool {
+        false
+    }
 }
 
 /// A module in a language, under a header.
 pub fn module(language: &dyn Language, module: &Module<'_>, header: &[String]) -> String {
     let printer = Printer { language, module };
-    let mut out = language.preamble(header);
     let mut tables = Vec::new();
     for (var, value) in &module.tables {
         let elements = printer.elements(value);
         let declared = language.table(printer.name(*var), module.ty(*var));
         tables.push(Printer::line(0, &format!("{declared} = "), &elements, ";"));
     }
+    let mut parts = Vec::new();
     if !tables.is_empty() {
-        out += &format!("\n{}\n", tables.join("\n"));
+        parts.push(format!("{}\n", tables.join("\n")));
     }
     let mut functions: Vec<String> = module.functions.iter().map(|f| printer.function(f)).collect();
     functions.sort();
-    for function in functions {
-        out += &format!("\n{function}\n");
+    parts.extend(functions.into_iter().map(|function| format!("{function}\n")));
+    let entry = |header: String| {
+        format!(
+            "{}\n{header}{}}}\n",
+            language.entry_head(),
+            printer.block(&module.body, 1)
+        )
+    };
+    if language.leads() {
+        let header: String = header.iter().map(|line| wrapped_comment(line, 4) + "\n").collect();
+        parts.insert(0, entry(header + "\n"));
+    } else {
+        parts.insert(0, language.preamble(header));
+        parts.push(entry(String::new()));
     }
-    out.push('\n');
-    out += &language.entry_head();
-    out.push('\n');
-    out += &printer.block(&module.body, 1);
-    out += "}\n";
-    out
+    parts.join("\n")
 }
 
 /// A header as comments, a line each.

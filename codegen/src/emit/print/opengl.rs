@@ -1,8 +1,8 @@
 //! What GLSL of OpenGL and OpenGL ES declares: combined samplers, loose uniforms, precisions.
 
-use super::glsl::{Glsl, declared, loose, plain_sampler, region, type_name};
+use super::glsl::{Glsl, LOOSE_REGION, declared, loose, plain_sampler, type_name};
 use crate::emit::Target;
-use crate::emit::resources::OUTPUT;
+use crate::emit::resources::{Combined, OUTPUT};
 use crate::ir::TextureKind;
 
 impl Glsl<'_> {
@@ -29,16 +29,22 @@ impl Glsl<'_> {
         all.into_iter().filter(|(used, _)| *used).map(|(_, ty)| ty).collect()
     }
 
+    /// The type of a combined sampler.
+    pub(super) fn combined_type(&self, one: Combined) -> &'static str {
+        let r = self.resources;
+        match one.sampler.is_some_and(|s| r.sampler(s).comparison) {
+            true => "sampler2DShadow",
+            false => plain_sampler(r.texture(one.texture).kind),
+        }
+    }
+
     /// What is bound in OpenGL.
     pub(super) fn opengl(&self) -> String {
         let r = self.resources;
         let mut out = String::new();
         for one in &r.combined {
             let binding = r.texture_binding(one.texture).unwrap_or_default();
-            let ty = match one.sampler.is_some_and(|s| r.sampler(s).comparison) {
-                true => "sampler2DShadow",
-                false => plain_sampler(r.texture(one.texture).kind),
-            };
+            let ty = self.combined_type(*one);
             let layout = match self
                 .resources
                 .combined
@@ -81,9 +87,9 @@ impl Glsl<'_> {
             out += &format!("uniform {};\n", declared(&loose(&uniform.name), uniform.ty.into()));
         }
         if r.options.region {
-            out += "\n// The upper left pixel in the inputs, the size, and the upper left pixel in the target.\n";
-            for name in ["first", "size", "place"] {
-                out += &format!("uniform ivec2 {};\n", region(name));
+            out += &format!("\n{}\n", r.region_comment());
+            for (name, _) in LOOSE_REGION {
+                out += &format!("uniform ivec2 {name};\n");
             }
         }
         out

@@ -1,7 +1,7 @@
 //! WGSL as WebGPU and wgpu read it.
 
 use super::expr::{float, integer, unsigned};
-use super::{Language, Text, commented};
+use super::{Language, Text, commented, loose};
 use crate::emit::ast::{Builtin, Ty};
 use crate::emit::resources::{OUTPUT, Resources, UNIFORMS};
 use crate::ir::{self, Axis, BinaryOp, Direction, Scalar, TextureKind, Type};
@@ -15,10 +15,20 @@ pub struct Wgsl<'a> {
 }
 
 impl Wgsl<'_> {
-    fn names(&self, texture: u32, sampler: u32) -> [Text; 2] {
+    fn pair(&self, texture: u32, sampler: u32) -> [Text; 2] {
         let texture = self.resources.texture(texture).name.as_str();
         let sampler = self.resources.sampler(sampler).name.as_str();
         [texture, sampler].map(Text::name)
+    }
+}
+
+impl Wgsl<'_> {
+    /// Names of parameters that are fields of a uniform struct otherwise.
+    pub fn names(&self) -> Vec<String> {
+        match self.resources.options.is_function() {
+            true => self.resources.uniforms.iter().map(|u| loose(&u.name)).collect(),
+            false => Vec::new(),
+        }
     }
 }
 
@@ -41,6 +51,7 @@ impl Language for Wgsl<'_> {
     fn builtin(&self, builtin: Builtin) -> Text {
         match builtin {
             Builtin::Invocation => Text::name("vec2i(id.xy)"),
+            Builtin::Position if self.leads() => Text::name("position"),
             Builtin::Position => Text::name("position.xy"),
             Builtin::OutputSize => Text::name(format!("vec2i(textureDimensions({OUTPUT}))")),
             Builtin::RegionFirst => Text::name(format!("{REGION}.first")),
@@ -51,6 +62,7 @@ impl Language for Wgsl<'_> {
 
     fn read(&self, op: &ir::Op, args: &[Text]) -> Text {
         match op {
+            ir::Op::Uniform(k) if self.leads() => Text::name(loose(self.resources.uniform(*k))),
             ir::Op::Uniform(k) => Text::name(format!("{UNIFORMS}.{}", self.resources.uniform(*k))),
             ir::Op::Varying(k) => Text::name(self.resources.varying(*k)),
             ir::Op::TextureSize(texture) => {
@@ -68,7 +80,7 @@ impl Language for Wgsl<'_> {
                 Text::call("textureLoad", &all)
             }
             ir::Op::Sample { texture, sampler, .. } => {
-                let [name, sampler] = self.names(*texture, *sampler);
+                let [name, sampler] = self.pair(*texture, *sampler);
                 Text::call("textureSampleLevel", &[&name, &sampler, &args[0], &Text::name("0.0")])
             }
             ir::Op::Gather {
@@ -77,16 +89,16 @@ impl Language for Wgsl<'_> {
                 component,
                 ..
             } => {
-                let [texture, sampler] = self.names(*texture, *sampler);
+                let [texture, sampler] = self.pair(*texture, *sampler);
                 let component = Text::name(component.to_string());
                 Text::call("textureGather", &[&component, &texture, &sampler, &args[0]])
             }
             ir::Op::Compare { texture, sampler, .. } => {
-                let [texture, sampler] = self.names(*texture, *sampler);
+                let [texture, sampler] = self.pair(*texture, *sampler);
                 Text::call("textureSampleCompareLevel", &[&texture, &sampler, &args[0], &args[1]])
             }
             ir::Op::GatherCompare { texture, sampler, .. } => {
-                let [texture, sampler] = self.names(*texture, *sampler);
+                let [texture, sampler] = self.pair(*texture, *sampler);
                 Text::call("textureGatherCompare", &[&texture, &sampler, &args[0], &args[1]])
             }
             ir::Op::BufferLoad { buffer, .. } => {
@@ -193,8 +205,9 @@ impl Language for Wgsl<'_> {
         }
         out += &commented(header);
         out.push('\n');
+        let group = r.places.group();
         let mut bind = |binding: u32, what: String| {
-            let _ = writeln!(out, "@group(0) @binding({binding}) var{what};");
+            let _ = writeln!(out, "@group({group}) @binding({binding}) var{what};");
         };
         for bound in &r.read {
             let texture = r.texture(bound.index);
@@ -210,11 +223,7 @@ impl Language for Wgsl<'_> {
         }
         for (k, binding) in &r.used_samplers {
             let sampler = r.sampler(*k);
-            let ty = if sampler.comparison {
-                "sampler_comparison"
-            } else {
-                "sampler"
-            };
+            let ty = sampler_type(sampler.comparison);
             bind(*binding, format!(" {}: {ty}", sampler.name));
         }
         if let Some(binding) = r.output_binding() {
@@ -226,17 +235,20 @@ impl Language for Wgsl<'_> {
             for field in &r.fields {
                 out += &format!("    {}: {},\n", field.name, field.ty);
             }
-            out += &format!("}}\n\n@group(0) @binding({binding}) var<uniform> {UNIFORMS}: Parameters;\n");
+            out += &format!("}}\n\n@group({group}) @binding({binding}) var<uniform> {UNIFORMS}: Parameters;\n");
         }
         if let Some(binding) = r.region_binding() {
-            out += "\nstruct Region {\n    // The upper left pixel in the inputs, the size, and the upper left pixel in the target.\n    \
-                    first: vec2i,\n    size: vec2i,\n    place: vec2i,\n}\n\n";
-            out += &format!("@group(0) @binding({binding}) var<uniform> {REGION}: Region;\n");
+            out += &format!("\nstruct Region {{\n    {}\n", r.region_comment());
+            out += "    first: vec2i,\n    size: vec2i,\n    place: vec2i,\n}\n\n";
+            out += &format!("@group({group}) @binding({binding}) var<uniform> {REGION}: Region;\n");
         }
         out
     }
 
     fn entry_head(&self) -> String {
+        if self.leads() {
+            return self.taking();
+        }
         let r = self.resources;
         let entry = &r.entry;
         match r.options.stage {
@@ -255,9 +267,20 @@ impl Language for Wgsl<'_> {
             }
         }
     }
+
+    fn leads(&self) -> bool {
+        self.resources.options.is_function()
+    }
 }
 
-fn texture_type(kind: TextureKind) -> &'static str {
+pub(super) fn sampler_type(comparison: bool) -> &'static str {
+    match comparison {
+        true => "sampler_comparison",
+        false => "sampler",
+    }
+}
+
+pub(super) fn texture_type(kind: TextureKind) -> &'static str {
     match kind {
         TextureKind::Flat => "texture_2d<f32>",
         TextureKind::Layers => "texture_2d_array<f32>",

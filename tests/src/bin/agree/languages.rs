@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::time::Instant;
 use straightline_codegen::emit::{EmitError, Target};
-use straightline_codegen::{EmitOptions, Kernel, Stage};
+use straightline_codegen::{EmitOptions, Form, Kernel, Stage};
 use straightline_tests::compilers;
 use straightline_tests::random::forms::FORMS;
 use straightline_tests::random::make::make;
@@ -83,7 +83,7 @@ fn batch(options: &Options, seeds: std::ops::Range<u64>, folder: &Path, total: &
                 }
             };
             *counts.texts.entry(target).or_default() += 1;
-            let path = folder.join(format!("{seed}.{}", target.extension(stage)));
+            let path = folder.join(format!("{seed}.{}", target.extension(stage, Form::Entry)));
             std::fs::write(&path, &emitted.files[&target]).map_err(|e| format!("{}: {e}", path.display()))?;
             let read = match target {
                 Target::Wgsl => compilers::tint(&path),

@@ -1,0 +1,63 @@
+//! What the entry point is called.
+
+use super::error::EmitError;
+use super::names::{self, LONGEST, Words};
+use super::options::EmitOptions;
+use super::target::Target;
+use crate::shorten;
+
+/// The name of a kernel's entry point or function: the one that is asked for, or else the kernel's, changed where shading
+/// languages would not take it.
+///
+/// # Errors
+///
+/// The name that is asked for is none in a language that is written.
+pub fn name(kernel: &str, options: &EmitOptions) -> Result<String, EmitError> {
+    let Some(name) = &options.entry else {
+        return Ok(names::entry_point(kernel));
+    };
+    match why_not(name, options) {
+        None => Ok(name.clone()),
+        Some(why) => Err(EmitError::Entry {
+            kernel: kernel.to_owned(),
+            name: shorten(name),
+            why,
+        }),
+    }
+}
+
+fn why_not(name: &str, options: &EmitOptions) -> Option<String> {
+    let is_plain = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    if name.is_empty() || !name.chars().all(is_plain) || !name.starts_with(|c: char| c.is_ascii_alphabetic()) {
+        return Some("is not a letter with letters, digits and underscores after it".to_owned());
+    }
+    if name.contains("__") {
+        return Some("has two underscores in a row, which GLSL keeps for itself".to_owned());
+    }
+    if name.len() > LONGEST {
+        return Some(format!(
+            "is longer than the {LONGEST} letters that every compiler takes"
+        ));
+    }
+    let whole = !options.is_function();
+    // Every text is checked as WGSL. A whole GLSL has `main`, and no other name; of MSL naga tells.
+    let is_written = |target: Target| options.targets.contains(&target);
+    let languages = [
+        (true, Words::Wgsl.reserve(name), "WGSL"),
+        (
+            !whole && Target::ALL.into_iter().any(|t| t.is_glsl() && is_written(t)),
+            Words::Glsl.reserve(name),
+            "GLSL",
+        ),
+        (is_written(Target::Hlsl), Words::Hlsl.reserve(name), "HLSL"),
+    ];
+    if let Some((.., language)) = languages.into_iter().find(|(written, is_word, _)| *written && *is_word) {
+        return Some(format!("is a word of {language}"));
+    }
+    let of_hlsl = ["size_of_", "len_of_"].iter().any(|prefix| name.starts_with(prefix)) || name.ends_with("_buffer");
+    // GLSL alone has a use for `main`, and names it there.
+    if (names::is_own(name) && !(name == "main" && whole)) || (of_hlsl && is_written(Target::Hlsl)) {
+        return Some("is a name that the shader itself has a use for".to_owned());
+    }
+    None
+}

@@ -1,0 +1,185 @@
+//! What each language binds, by its own numbers, registers and names; of functions, what they take.
+
+use super::Target;
+use super::print::{LOOSE_REGION, loose};
+use super::resources::{OUTPUT, Resources, SAMPLER, UNIFORMS};
+use straightline_manifest::{LanguageBinding, LanguageKind as Kind, REGION, Stage};
+
+impl Resources {
+    /// All that the languages that are written bind. WGSL and SPIR-V bind what the manifest's `bindings` and `output` say.
+    pub fn language_bindings(&self) -> Vec<LanguageBinding> {
+        let mut all = Vec::new();
+        for target in &self.options.targets {
+            let mut list = List {
+                language: target.to_string(),
+                bindings: Vec::new(),
+            };
+            let hlsl = self.for_hlsl();
+            match target {
+                Target::Hlsl if self.options.is_function() => hlsl.parameters(self, *target, &mut list),
+                _ if self.options.is_function() => self.parameters(self, *target, &mut list),
+                Target::Wgsl | Target::Spirv => {}
+                Target::Hlsl => hlsl.registers(self, &mut list),
+                Target::Glsl450 => self.sets(&mut list),
+                Target::Msl => self.indices(&mut list),
+                _ => self.units(*target, &mut list),
+            }
+            all.append(&mut list.bindings);
+        }
+        all
+    }
+
+    /// Vulkan's GLSL: numbers in a descriptor set.
+    fn sets(&self, list: &mut List) {
+        let group = Some(self.places.group());
+        self.each(self, |kind, _, name, of, binding| {
+            let bound = list.add(kind, name, Some(of));
+            (bound.group, bound.binding) = (group, Some(binding));
+        });
+        if !self.read.is_empty() {
+            let bound = list.add(Kind::Sampler, SAMPLER, None);
+            (bound.group, bound.binding) = (group, Some(self.sampler_binding()));
+            bound.what = Some("any sampler: texels are named with one, and not filtered".to_owned());
+        }
+        self.interpolated(list, self, true);
+    }
+
+    /// HLSL: registers. `self` has the names there, and `original` those of the manifest.
+    fn registers(&self, original: &Resources, list: &mut List) {
+        self.each(original, |kind, class, name, of, binding| {
+            let register = self.places.register(class, binding);
+            let bound = list.add(kind, name, Some(of));
+            bound.register = Some(format!("{}{}", register.class, register.number));
+            bound.space = register.space.filter(|space| *space != 0);
+        });
+        self.interpolated(list, original, true);
+    }
+
+    /// Metal: indices of textures, buffers and samplers.
+    fn indices(&self, list: &mut List) {
+        self.each(self, |kind, _, name, of, binding| {
+            list.add(kind, name, Some(of)).binding = Some(binding);
+        });
+        if !self.read_buffers.is_empty() {
+            let bound = list.add(Kind::UniformBuffer, "_buffer_sizes", None);
+            bound.binding = Some(self.sizes_binding());
+            bound.what = Some("one u32 for each storage buffer, in order of binding: its length in bytes".to_owned());
+        }
+        self.interpolated(list, self, true);
+    }
+
+    /// The languages of OpenGL: units, where the version numbers them, and names.
+    fn units(&self, target: Target, list: &mut List) {
+        let numbered = matches!(target, Target::Glsl430 | Target::Essl310);
+        self.combined_samplers(numbered, list);
+        for (k, binding) in &self.read_buffers {
+            let name = &self.buffer(*k).name;
+            list.add(Kind::StorageBuffer, name, Some(name)).binding = Some(*binding);
+        }
+        if let Some(binding) = self.output_binding() {
+            list.add(Kind::StorageTexture, OUTPUT, Some(OUTPUT)).binding = Some(binding);
+        }
+        for uniform in &self.uniforms {
+            list.add(Kind::Uniform, &loose(&uniform.name), Some(&uniform.name));
+        }
+        if self.options.region {
+            for (name, of) in LOOSE_REGION {
+                list.add(Kind::Uniform, name, Some(of));
+            }
+        }
+        self.interpolated(list, self, numbered);
+    }
+
+    fn combined_samplers(&self, numbered: bool, list: &mut List) {
+        for one in &self.combined {
+            let alone = self.combined.iter().filter(|c| c.texture == one.texture).count() == 1;
+            let bound = list.add(Kind::CombinedSampler, &self.combined_name(*one), None);
+            // Two samplers of one texture have two units, which the host numbers.
+            bound.binding = self.texture_binding(one.texture).filter(|_| numbered && alone);
+            bound.texture = Some(self.texture(one.texture).name.clone());
+            bound.sampler = one.sampler.map(|sampler| self.sampler(sampler).name.clone());
+        }
+    }
+
+    /// What a function takes, in order. `self` has the names in its language, and `original` those of the manifest.
+    fn parameters(&self, original: &Resources, target: Target, list: &mut List) {
+        if Target::OPENGL.contains(&target) {
+            self.combined_samplers(false, list);
+        } else {
+            self.each(original, |kind, _, name, of, _| {
+                if kind != Kind::UniformBuffer {
+                    list.add(kind, name, Some(of));
+                }
+            });
+            if target == Target::Glsl450 && !self.read.is_empty() {
+                list.add(Kind::Sampler, SAMPLER, None).what =
+                    Some("any sampler: texels are named with one, and not filtered".to_owned());
+            }
+        }
+        list.add(Kind::Position, "position", None);
+        self.interpolated(list, original, false);
+        for (uniform, of) in self.uniforms.iter().zip(&original.uniforms) {
+            list.add(Kind::Uniform, &loose(&uniform.name), Some(&of.name));
+        }
+    }
+
+    fn interpolated(&self, list: &mut List, original: &Resources, numbered: bool) {
+        if self.options.stage == Stage::Fragment {
+            for ((varying, of), location) in self.varyings.iter().zip(&original.varyings).zip(0..) {
+                list.add(Kind::Varying, &varying.name, Some(&of.name)).location = numbered.then_some(location);
+            }
+        }
+    }
+
+    /// Everything that is bound at a number: what it is, the class of its registers, its name here and in the manifest, the
+    /// number.
+    fn each(&self, original: &Resources, mut see: impl FnMut(Kind, char, &str, &str, u32)) {
+        for bound in &self.read {
+            let [name, of] = [self, original].map(|r| &r.texture(bound.index).name);
+            see(Kind::Texture, 't', name, of, bound.binding);
+        }
+        for (k, binding) in &self.read_buffers {
+            let [name, of] = [self, original].map(|r| &r.buffer(*k).name);
+            see(Kind::StorageBuffer, 't', name, of, *binding);
+        }
+        for (k, binding) in &self.used_samplers {
+            let [name, of] = [self, original].map(|r| &r.sampler(*k).name);
+            see(Kind::Sampler, 's', name, of, *binding);
+        }
+        if let Some(binding) = self.output_binding() {
+            see(Kind::StorageTexture, 'u', OUTPUT, OUTPUT, binding);
+        }
+        if let Some(binding) = self.uniform_binding() {
+            see(Kind::UniformBuffer, 'b', UNIFORMS, UNIFORMS, binding);
+        }
+        if let Some(binding) = self.region_binding() {
+            see(Kind::UniformBuffer, 'b', REGION, REGION, binding);
+        }
+    }
+}
+
+/// What one language binds.
+struct List {
+    language: String,
+    bindings: Vec<LanguageBinding>,
+}
+
+impl List {
+    fn add(&mut self, kind: Kind, name: &str, of: Option<&str>) -> &mut LanguageBinding {
+        self.bindings.push(LanguageBinding {
+            language: self.language.clone(),
+            name: name.to_owned(),
+            kind,
+            group: None,
+            binding: None,
+            register: None,
+            space: None,
+            location: None,
+            of: of.map(str::to_owned),
+            texture: None,
+            sampler: None,
+            what: None,
+        });
+        self.bindings.last_mut().expect("just added")
+    }
+}

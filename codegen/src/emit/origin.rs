@@ -1,0 +1,53 @@
+//! Kernels on pictures whose rows count from below.
+
+use super::error::EmitError;
+use super::options::EmitOptions;
+use crate::compiled::Compiled;
+use crate::ir::{Invocation, Op, verify};
+use crate::passes;
+use std::borrow::Cow;
+use straightline_manifest::Precision;
+
+/// The kernel as it is to be written for the origin that is asked for.
+///
+/// # Errors
+///
+/// It has something that cannot be turned exactly.
+pub fn turned<'c>(compiled: &'c Compiled, options: &EmitOptions) -> Result<Cow<'c, Compiled>, EmitError> {
+    if !options.counts_from_below() {
+        return Ok(Cow::Borrowed(compiled));
+    }
+    let refused = |why| EmitError::FromBelow {
+        kernel: compiled.kernel.clone(),
+        why,
+    };
+    let graph = &compiled.graph;
+    if graph.invocation == Invocation::Lane {
+        return Err(refused(
+            "its pixel quads begin at even rows from above, and in a picture of odd height those that a device has begin at odd \
+             ones: use the transport `block`, for compute",
+        ));
+    }
+    let filters = |op: &Op| op.sampler().is_some();
+    if options.precision == Precision::F16 && graph.nodes.iter().any(|node| filters(&node.op)) {
+        return Err(refused(
+            "it filters at places in half precision, and `1 - v` rounds small ones away: leave the precision at f32",
+        ));
+    }
+    let graph = passes::clean(&passes::from_below(graph));
+    verify::verify(&graph).map_err(|message| EmitError::Invalid {
+        kernel: compiled.kernel.clone(),
+        target: "graph",
+        message,
+    })?;
+    let schedule = passes::schedule(&graph);
+    let mut turned = Compiled {
+        counts: passes::count(&graph, &schedule),
+        graph,
+        schedule,
+        quad: None,
+        ..compiled.clone()
+    };
+    turned.counts.statements = super::statements(&turned);
+    Ok(Cow::Owned(turned))
+}

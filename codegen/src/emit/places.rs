@@ -1,0 +1,240 @@
+//! Which numbers and registers everything bound has: those that the user gives, and the lowest free ones.
+
+use super::error::EmitError;
+use super::options::EmitOptions;
+use super::register::{LAST_BINDING, LAST_GROUP, Register};
+use super::resources::{OUTPUT, SAMPLER};
+use super::target::Target;
+use crate::shorten;
+use crate::suggest::suggest;
+use std::collections::BTreeMap;
+use straightline_manifest::Stage;
+
+/// Something that a shader binds.
+#[derive(Clone, Debug)]
+pub struct Named {
+    /// Its name.
+    pub name: String,
+    /// The class of its registers in HLSL.
+    pub class: char,
+}
+
+/// Where everything is bound.
+#[derive(Clone, Debug, Default)]
+pub struct Places {
+    group: u32,
+    /// By name.
+    numbers: BTreeMap<String, u32>,
+    /// Given registers by binding number, which no change of a name changes.
+    registers: BTreeMap<u32, Register>,
+}
+
+impl Places {
+    /// Numbers for what is `bound`, in order; the last of them may be the sampler that one language has.
+    ///
+    /// # Errors
+    ///
+    /// What is wrong with the numbers and registers that were asked for.
+    pub fn new(kernel: &str, options: &EmitOptions, bound: &[Named]) -> Result<Places, EmitError> {
+        let refused = |what: String, help: String| EmitError::Place {
+            kernel: kernel.to_owned(),
+            what,
+            help,
+        };
+        if options.is_function() {
+            return match no_places(options) {
+                None => Ok(Places::in_order(bound)),
+                Some(option) => Err(refused(
+                    format!("a function binds nothing, and {option} is given"),
+                    "leave it out, or emit the form `entry`".to_owned(),
+                )),
+            };
+        }
+        if options.group > LAST_GROUP {
+            return Err(refused(
+                format!("the bind group {} is given", options.group),
+                format!("bind groups are 0 to {LAST_GROUP}, of which devices promise 0 to 3"),
+            ));
+        }
+        let mut places = Places {
+            group: options.group,
+            ..Places::default()
+        };
+        let unknown = |name: &str| unknown(options, bound, name);
+        for (name, number) in &options.bindings {
+            if let Some((what, help)) = unknown(name) {
+                return Err(refused(what, help));
+            }
+            if *number > LAST_BINDING {
+                return Err(refused(
+                    format!("the binding number {number} is given to `{name}`"),
+                    format!("binding numbers are 0 to {LAST_BINDING}"),
+                ));
+            }
+            if let Some((other, _)) = places.numbers.iter().find(|(_, n)| *n == number)
+                && other != name
+            {
+                return Err(refused(
+                    format!("the binding number {number} is given to `{other}` and to `{name}`"),
+                    "give each a number of its own".to_owned(),
+                ));
+            }
+            if let Some(other) = places.numbers.insert(name.clone(), *number)
+                && other != *number
+            {
+                return Err(refused(
+                    format!("`{name}` is given the binding numbers {other} and {number}"),
+                    "give it one".to_owned(),
+                ));
+            }
+        }
+        places.fill(bound);
+        let registers = places.registers(options, bound, &unknown);
+        places.registers = registers.map_err(|(what, help)| refused(what, help))?;
+        Ok(places)
+    }
+
+    fn in_order(bound: &[Named]) -> Places {
+        let mut places = Places::default();
+        places.fill(bound);
+        places
+    }
+
+    /// Gives the lowest free numbers to all that have none.
+    fn fill(&mut self, bound: &[Named]) {
+        let mut next = 0;
+        for Named { name, .. } in bound {
+            if !self.numbers.contains_key(name) {
+                while self.numbers.values().any(|n| *n == next) {
+                    next += 1;
+                }
+                self.numbers.insert(name.clone(), next);
+                next += 1;
+            }
+        }
+    }
+
+    /// The registers that are given.
+    fn registers(
+        &self,
+        options: &EmitOptions,
+        bound: &[Named],
+        unknown: &dyn Fn(&str) -> Option<(String, String)>,
+    ) -> Result<BTreeMap<u32, Register>, (String, String)> {
+        let mut given = BTreeMap::new();
+        if let Some((name, _)) = options.registers.first()
+            && !options.targets.contains(&Target::Hlsl)
+        {
+            let what = format!("a register is given to `{}`, and HLSL is not written", shorten(name));
+            return Err((what, "add the language hlsl, or leave the register out".to_owned()));
+        }
+        for (name, register) in &options.registers {
+            if name == SAMPLER {
+                let what = format!("only GLSL 4.50 has the sampler `{SAMPLER}`, and it has no registers");
+                return Err((what, "leave the register out".to_owned()));
+            }
+            if let Some(error) = unknown(name) {
+                return Err(error);
+            }
+            let class = bound.iter().find(|b| b.name == *name).map_or('t', |b| b.class);
+            if class != register.class {
+                let is = match class {
+                    't' => "a texture or buffer that is read",
+                    's' => "a sampler",
+                    'u' => "written",
+                    _ => "a uniform buffer",
+                };
+                let what = format!("the register {register} is given to `{name}`, which is {is}");
+                return Err((what, format!("give it a register {class}{}", register.number)));
+            }
+            if register.number > LAST_BINDING || register.space.is_some_and(|space| space > LAST_GROUP) {
+                let what = format!("the register {register} is given to `{name}`");
+                return Err((
+                    what,
+                    format!("numbers are 0 to {LAST_BINDING}, and spaces 0 to {LAST_GROUP}"),
+                ));
+            }
+            let space = Some(register.space.unwrap_or(self.group));
+            let register = Register { space, ..*register };
+            if given
+                .insert(self.number(name), register)
+                .is_some_and(|other| other != register)
+            {
+                return Err((format!("`{name}` is given two registers"), "give it one".to_owned()));
+            }
+        }
+        let in_hlsl = || bound.iter().filter(|b| b.name != SAMPLER);
+        let register = |b: &Named| {
+            let number = self.number(&b.name);
+            let default = self.default_register(b.class, number);
+            given.get(&number).copied().unwrap_or(default)
+        };
+        for (k, one) in in_hlsl().enumerate() {
+            if let Some(other) = in_hlsl().take(k).find(|other| register(other) == register(one)) {
+                let what = format!(
+                    "`{}` and `{}` both get the register {}",
+                    other.name,
+                    one.name,
+                    register(one)
+                );
+                let help =
+                    "a register is that of the binding number unless one is given: give both a register".to_owned();
+                return Err((what, help));
+            }
+        }
+        Ok(given)
+    }
+
+    fn default_register(&self, class: char, number: u32) -> Register {
+        let space = Some(self.group);
+        Register { class, number, space }
+    }
+
+    /// The bind group.
+    pub fn group(&self) -> u32 {
+        self.group
+    }
+
+    /// The binding number of a name that is bound.
+    pub fn number(&self, name: &str) -> u32 {
+        self.numbers.get(name).copied().unwrap_or_default()
+    }
+
+    /// The register of what is bound at a number.
+    pub fn register(&self, class: char, number: u32) -> Register {
+        let default = self.default_register(class, number);
+        self.registers.get(&number).copied().unwrap_or(default)
+    }
+}
+
+/// The first option that says where something is bound.
+fn no_places(options: &EmitOptions) -> Option<String> {
+    let binding = options
+        .bindings
+        .first()
+        .map(|(name, _)| format!("a binding number of `{}`", shorten(name)));
+    let register = options
+        .registers
+        .first()
+        .map(|(name, _)| format!("a register of `{}`", shorten(name)));
+    let group = (options.group != 0).then(|| format!("the bind group {}", options.group));
+    binding.or(register).or(group)
+}
+
+/// Why a name is that of nothing bound, and what helps.
+fn unknown(options: &EmitOptions, bound: &[Named], name: &str) -> Option<(String, String)> {
+    if bound.iter().any(|b| b.name == name) {
+        return None;
+    }
+    if name == OUTPUT && options.stage == Stage::Fragment {
+        let what = format!("`{OUTPUT}` is the colour of a fragment shader, and has location 0");
+        return Some((what, "leave it out, or emit for compute".to_owned()));
+    }
+    if name == SAMPLER && !options.targets.contains(&Target::Glsl450) {
+        let what = format!("only GLSL 4.50 has the sampler `{SAMPLER}`, and it is not written");
+        return Some((what, "add the language glsl450, or leave it out".to_owned()));
+    }
+    let known: Vec<&str> = bound.iter().map(|b| b.name.as_str()).collect();
+    let what = format!("the shader binds nothing called `{}`", shorten(name));
+    Some((what, suggest(name, &known, "it binds")))
+}

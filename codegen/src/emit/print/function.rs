@@ -1,0 +1,78 @@
+//! Heads of functions that take all that they read, in every language that has them: bound things, the position, interpolated
+//! values, uniforms.
+
+use super::glsl::{self, Glsl};
+use super::hlsl::{self, Hlsl, buffer_declared, sampler_declared, texture_declared};
+use super::loose;
+use super::wgsl::{self, Wgsl};
+use crate::emit::resources::SAMPLER;
+
+impl Wgsl<'_> {
+    /// The head of a function that takes all that it reads.
+    pub(super) fn taking(&self) -> String {
+        let r = self.resources;
+        let textures = r.read.iter().map(|bound| {
+            let texture = r.texture(bound.index);
+            format!("{}: {}", texture.name, wgsl::texture_type(texture.kind))
+        });
+        let samplers = r.used_samplers.iter().map(|(k, _)| {
+            let sampler = r.sampler(*k);
+            format!("{}: {}", sampler.name, wgsl::sampler_type(sampler.comparison))
+        });
+        let varyings = r.varyings().map(|v| format!("{}: {}", v.name, v.ty));
+        let uniforms = r
+            .uniforms
+            .iter()
+            .map(|u| format!("{}: {}", loose(&u.name), wgsl::type_name(u.ty.into())));
+        let all = textures.chain(samplers).chain(["position: vec2f".to_owned()]);
+        let all: Vec<String> = all.chain(varyings).chain(uniforms).collect();
+        format!("fn {}({}) -> vec4f {{", r.entry, all.join(", "))
+    }
+}
+
+impl Glsl<'_> {
+    /// The head of a function that takes all that it reads.
+    pub(super) fn taking(&self) -> String {
+        let r = self.resources;
+        let mut all = Vec::new();
+        if self.vulkan() {
+            for bound in &r.read {
+                let texture = r.texture(bound.index);
+                all.push(format!("{} {}", glsl::texture_type(texture.kind), texture.name));
+            }
+            for (k, _) in &r.used_samplers {
+                let sampler = r.sampler(*k);
+                all.push(format!("{} {}", glsl::sampler_type(sampler.comparison), sampler.name));
+            }
+            if !r.read.is_empty() {
+                all.push(format!("sampler {SAMPLER}"));
+            }
+        } else {
+            for one in &r.combined {
+                all.push(format!("{} {}", self.combined_type(*one), r.combined_name(*one)));
+            }
+        }
+        all.push("vec2 position".to_owned());
+        all.extend(r.varyings.iter().map(|v| glsl::declared(&v.name, v.ty.into())));
+        all.extend(r.uniforms.iter().map(|u| glsl::declared(&loose(&u.name), u.ty.into())));
+        format!("vec4 {}({}) {{", r.entry, all.join(", "))
+    }
+}
+
+impl Hlsl<'_> {
+    /// The head of a function that takes all that it reads.
+    pub(super) fn taking(&self) -> String {
+        let r = self.resources;
+        let textures = r.read.iter().map(|bound| texture_declared(r, bound.index));
+        let buffers = r.read_buffers.iter().map(|(k, _)| buffer_declared(r, *k));
+        let samplers = r.used_samplers.iter().map(|(k, _)| sampler_declared(r, *k));
+        let varyings = r.varyings.iter().map(|v| hlsl::declared(&v.name, v.ty.into()));
+        let uniforms = r.uniforms.iter().map(|u| hlsl::declared(&loose(&u.name), u.ty.into()));
+        let bound = textures.chain(buffers).chain(samplers);
+        let all = bound
+            .chain(["float2 position".to_owned()])
+            .chain(varyings)
+            .chain(uniforms);
+        format!("float4 {}({}) {{", r.entry, all.collect::<Vec<_>>().join(", "))
+    }
+}

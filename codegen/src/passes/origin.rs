@@ -1,0 +1,88 @@
+//! Rows that count from below.
+
+use super::fold::Exact;
+use crate::ir::{BinaryOp, Builder, Graph, NodeId, Op, Origin, Rebuild, Rules, Scalar, Type, rebuild};
+
+const PAIR: Type = Type::value(Scalar::I32, 2);
+const PLACE: Type = Type::value(Scalar::F32, 2);
+
+/// The same kernel on textures whose row 0 is the lowest: every row that it names is turned into the one that holds it there.
+/// [`Op::Pixel`] goes on counting from above, as does what is computed of it; the entry point turns that.
+///
+/// Texels are those that the kernel means. A filtered place `v` becomes `1 - v`, which is the same place for every address
+/// mode; the four texels of a gather come in the order that the kernel expects.
+pub fn from_below(graph: &Graph) -> Graph {
+    let pass = Rebuild {
+        rules: &FromBelow { graph },
+        share_loads: false,
+    };
+    rebuild(graph, &pass)
+}
+
+struct FromBelow<'g> {
+    graph: &'g Graph,
+}
+
+impl Rules for FromBelow<'_> {
+    fn simplify(&self, b: &mut Builder<'_>, op: &Op, args: &[NodeId], ty: Type) -> Option<NodeId> {
+        match op {
+            Op::Load { texture, .. } => {
+                let coordinate = self.texel(b, *texture, args[0]);
+                let args = [&[coordinate], &args[1..]].concat();
+                Some(b.intern(op.clone(), args, ty))
+            }
+            Op::Sample { .. } | Op::Compare { .. } => {
+                let args = [&[place(b, args[0])], &args[1..]].concat();
+                Some(b.intern(op.clone(), args, ty))
+            }
+            Op::Gather { .. } | Op::GatherCompare { .. } => {
+                let args = [&[place(b, args[0])], &args[1..]].concat();
+                let texels = b.intern(op.clone(), args, ty);
+                // Lower left, lower right, upper right, upper left.
+                let turned = [3, 2, 1, 0].map(|k| b.add(Op::Extract(k), vec![texels], Type::F32));
+                Some(b.add(Op::Compose, turned.to_vec(), ty))
+            }
+            _ => Exact.simplify(b, op, args, ty),
+        }
+    }
+}
+
+impl FromBelow<'_> {
+    /// A texel by its row from below. Coordinates have been clamped into the texture by now.
+    fn texel(&self, b: &mut Builder<'_>, texture: u32, coordinate: NodeId) -> NodeId {
+        let size = match self.graph.textures[texture as usize].framed {
+            true => Op::FrameSize,
+            false => Op::TextureSize(texture),
+        };
+        let size = b.add(size, Vec::new(), PAIR);
+        let height = b.add(Op::Extract(1), vec![size], Type::I32);
+        let one = b.constant(Type::I32, [1, 0, 0, 0]);
+        let last = b.add(Op::Binary(BinaryOp::Sub), vec![height, one], Type::I32);
+        named(b, last, "last_row", coordinate);
+        let [x, y] = [0, 1].map(|k| b.add(Op::Extract(k), vec![coordinate], Type::I32));
+        let row = b.add(Op::Binary(BinaryOp::Sub), vec![last, y], Type::I32);
+        b.add(Op::Compose, vec![x, row], PAIR)
+    }
+}
+
+/// A place between 0 and 1 by its height from below.
+fn place(b: &mut Builder<'_>, place: NodeId) -> NodeId {
+    let [u, v] = [0, 1].map(|k| b.add(Op::Extract(k), vec![place], Type::F32));
+    let one = b.constant(Type::F32, [1.0f32.to_bits(), 0, 0, 0]);
+    let turned = b.add(Op::Binary(BinaryOp::Sub), vec![one, v], Type::F32);
+    let at = b.add(Op::Compose, vec![u, turned], PLACE);
+    named(b, at, "from_below", place);
+    at
+}
+
+/// Gives a value a name, at the place in the source that another has.
+fn named(b: &mut Builder<'_>, id: NodeId, name: &str, like: NodeId) {
+    if let Some(origin) = b.graph().origin(like).cloned() {
+        let origin = Origin {
+            name: name.to_owned(),
+            counters: Vec::new(),
+            ..origin
+        };
+        b.set_origin(id, &origin);
+    }
+}

@@ -1,0 +1,287 @@
+//! What a shader binds: in WebGPU's words, and language by language.
+
+use serde::{Deserialize, Serialize};
+
+/// One input resource. Of a function ([`Form::Function`](crate::Form::Function)) nothing is bound: group and number are those
+/// that the entry point would have.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Binding {
+    /// Bind group.
+    pub group: u32,
+    /// Binding number in the group.
+    pub binding: u32,
+    /// The name in the kernel's source; also the name in the shader.
+    pub name: String,
+    /// What must be bound.
+    #[serde(flatten)]
+    pub kind: BindingKind,
+}
+
+/// What must be bound at a [`Binding`].
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "type", rename_all = "kebab-case")]
+pub enum BindingKind {
+    /// A texture.
+    Texture {
+        /// `view_dimension`, `2d` or `2d-array`, and `multisampled`.
+        #[serde(flatten)]
+        dimension: Dimension,
+        /// How texels are read.
+        sample_type: SampleType,
+        /// Components that the kernel uses, 1 to 4. Any float format with at least as many will do.
+        components: u8,
+        /// Layers that the shader can address; 1 unless it is an array.
+        layers: u32,
+        /// Samples of a texel that the shader can address; 1 unless it is multisampled.
+        samples: u32,
+        /// Which size it must have.
+        extent: Extent,
+    },
+    /// A sampler.
+    Sampler {
+        /// What it is used for.
+        #[serde(rename = "sampler_type")]
+        sampler: SamplerType,
+    },
+    /// A read-only storage buffer: elements one after the other, at least one, so that `stride` is its least size.
+    Buffer {
+        /// Always `read-only-storage`.
+        buffer_type: BufferType,
+        /// Type of an element as WGSL spells it: `f32`, `vec4f`, ...
+        element: String,
+        /// Bytes from one element to the next.
+        stride: u32,
+    },
+    /// A uniform buffer.
+    Uniform {
+        /// Always `uniform`.
+        buffer_type: BufferType,
+        /// Size of the buffer in bytes, a multiple of 16.
+        size: u32,
+        /// The struct's fields in order of offset.
+        fields: Vec<UniformField>,
+    },
+}
+
+/// Name of the uniform buffer of a shader that filters a rectangle of the image: see [`region_fields`].
+pub const REGION: &str = "region";
+
+/// Fields of the uniform buffer [`REGION`]: the rectangle's upper left pixel in the inputs, its size, and its upper left
+/// pixel in the target.
+pub fn region_fields() -> Vec<UniformField> {
+    let field = |(k, name): (u32, &str)| UniformField {
+        name: name.to_owned(),
+        ty: "vec2i".to_owned(),
+        offset: 8 * k,
+        size: 8,
+        default: None,
+    };
+    (0..).zip(["first", "size", "place"]).map(field).collect()
+}
+
+/// Size in bytes of the uniform buffer [`REGION`].
+pub const REGION_SIZE: u32 = 32;
+
+/// How a buffer is bound, in the words of WebGPU's `GPUBufferBindingType`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum BufferType {
+    /// `uniform`.
+    Uniform,
+    /// `read-only-storage`.
+    ReadOnlyStorage,
+}
+
+/// How a storage texture is accessed, in the words of WebGPU's `GPUStorageTextureAccess`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Access {
+    /// `read-only`.
+    ReadOnly,
+    /// `write-only`.
+    WriteOnly,
+}
+
+/// Dimension of a texture view, in the words of WebGPU's `GPUTextureViewDimension`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum ViewDimension {
+    /// `2d`.
+    #[serde(rename = "2d")]
+    D2,
+    /// `2d-array`.
+    #[serde(rename = "2d-array")]
+    D2Array,
+}
+
+/// Shape of a texture. In JSON two fields, as WebGPU has them: `view_dimension` and `multisampled`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(into = "Shape", try_from = "Shape")]
+pub enum Dimension {
+    /// One 2-D image.
+    D2,
+    /// A stack of 2-D images.
+    D2Array,
+    /// One 2-D image with several samples a texel.
+    D2Multisampled,
+}
+
+impl Dimension {
+    /// Dimension of the view that is bound.
+    pub fn view(self) -> ViewDimension {
+        match self {
+            Dimension::D2 | Dimension::D2Multisampled => ViewDimension::D2,
+            Dimension::D2Array => ViewDimension::D2Array,
+        }
+    }
+
+    /// Whether a texel has several samples.
+    pub fn is_multisampled(self) -> bool {
+        self == Dimension::D2Multisampled
+    }
+}
+
+#[derive(Serialize, Deserialize)]
+struct Shape {
+    view_dimension: ViewDimension,
+    multisampled: bool,
+}
+
+impl From<Dimension> for Shape {
+    fn from(dimension: Dimension) -> Shape {
+        Shape {
+            view_dimension: dimension.view(),
+            multisampled: dimension.is_multisampled(),
+        }
+    }
+}
+
+impl TryFrom<Shape> for Dimension {
+    type Error = &'static str;
+
+    fn try_from(shape: Shape) -> Result<Dimension, &'static str> {
+        match (shape.view_dimension, shape.multisampled) {
+            (ViewDimension::D2, false) => Ok(Dimension::D2),
+            (ViewDimension::D2Array, false) => Ok(Dimension::D2Array),
+            (ViewDimension::D2, true) => Ok(Dimension::D2Multisampled),
+            (ViewDimension::D2Array, true) => Err("a texture is 2d-array and multisampled, which WebGPU does not have"),
+        }
+    }
+}
+
+/// How the texels of a texture are read, which decides the formats that fit, in the words of WebGPU's `GPUTextureSampleType`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum SampleType {
+    /// `unfilterable-float`: one by one; any float, normalised or depth format.
+    #[serde(rename = "unfilterable-float")]
+    Unfilterable,
+    /// `float`: by a filtering sampler too; any float or normalised format that the device can filter.
+    #[serde(rename = "float")]
+    Filterable,
+    /// `depth`: by a comparison sampler, or one by one from a `texture_depth_2d`; a depth format.
+    #[serde(rename = "depth")]
+    Depth,
+}
+
+/// What a sampler is used for, in the words of WebGPU's `GPUSamplerBindingType`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum SamplerType {
+    /// To filter.
+    Filtering,
+    /// To compare with a reference depth.
+    Comparison,
+}
+
+/// Which size a texture must have.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Extent {
+    /// That of the output.
+    Output,
+    /// Any: the shader asks for it.
+    Any,
+}
+
+/// A field of a uniform struct.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct UniformField {
+    /// Name in the kernel's source.
+    pub name: String,
+    /// Type as WGSL spells it: `f32`, `i32`, `u32`, `vec2f`, ...
+    #[serde(rename = "type")]
+    pub ty: String,
+    /// Byte offset from the start of the buffer.
+    pub offset: u32,
+    /// Size in bytes.
+    pub size: u32,
+    /// Value to use unless the caller sets one, where the kernel states it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub default: Option<f64>,
+}
+
+/// What a shader binds, or takes as a parameter, in one language.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LanguageBinding {
+    /// Target name, as in [`Manifest::files`](crate::Manifest::files).
+    pub language: String,
+    /// Name in the text.
+    pub name: String,
+    /// What it is there.
+    pub kind: LanguageKind,
+    /// Descriptor set: `glsl450` only.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub group: Option<u32>,
+    /// Binding number in the set; in the languages of OpenGL the unit of a sampler or image, or the binding point of a buffer;
+    /// of `msl` the index among textures, samplers or buffers. Without one, it is bound by name, or a parameter.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub binding: Option<u32>,
+    /// Register of `hlsl`: `t0`, `s1`, `b2`, `u3`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub register: Option<String>,
+    /// Register space of `hlsl`, where it is not 0.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub space: Option<u32>,
+    /// Location of a value that is interpolated, where the language numbers it; of `hlsl` the index of `TEXCOORD`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub location: Option<u32>,
+    /// Name of what it stands for: of a [`Binding`], of [`Output`](crate::Output), of a [`Varying`](crate::Varying), or of a
+    /// field of a uniform struct. Not of what this language alone needs.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub of: Option<String>,
+    /// Of a combined sampler, the texture.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub texture: Option<String>,
+    /// Of a combined sampler, the sampler; without one it is read texel by texel: give it a sampler for the nearest texel, and
+    /// no smaller levels.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sampler: Option<String>,
+    /// What is to be given, in words, where `of` does not tell.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub what: Option<String>,
+}
+
+/// What a [`LanguageBinding`] is in its language.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum LanguageKind {
+    /// A texture without a sampler.
+    Texture,
+    /// A sampler without a texture.
+    Sampler,
+    /// A texture together with a sampler.
+    CombinedSampler,
+    /// A read-only storage buffer.
+    StorageBuffer,
+    /// A uniform buffer.
+    UniformBuffer,
+    /// A uniform that lies in no buffer, or a number that is a parameter.
+    Uniform,
+    /// The image that is written.
+    StorageTexture,
+    /// A value that is interpolated.
+    Varying,
+    /// The position of the fragment, in pixels from the origin: of a function, a parameter.
+    Position,
+}
