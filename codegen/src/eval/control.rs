@@ -1,11 +1,11 @@
-//! `if`, `match`, and joining what two sides did.
+//! `if`, and joining what two sides did.
 
 use super::Evaluator;
 use super::departures::{Departure, Side, Tail};
 use super::scope::Scope;
-use super::value::{Eval, Exit, Step, Value};
+use super::value::{Eval, Exit, Value};
 use crate::diagnostic::{Diagnostic, Span};
-use crate::front::tree::{Arm, Block, Expr, Pattern};
+use crate::front::tree::{Block, Expr};
 use crate::ir::{NodeId, Op, RegionId, Type};
 use crate::policy::Branches;
 use std::rc::Rc;
@@ -212,16 +212,16 @@ impl Evaluator<'_> {
     }
 
     /// The right side of `&&` or `||`, which nobody leaves.
-    pub fn lazy_side(&mut self, right: &Expr) -> Eval {
+    pub fn lazy_side(&mut self, right: impl FnOnce(&mut Self) -> Eval, span: Span) -> Eval {
         let (mark, since) = (self.scope.enter(), self.departed.len());
-        let outcome = self.value(right);
+        let outcome = right(self);
         self.scope.leave(mark);
         let left = self.departed.len() > since;
         self.departed.truncate(since);
         match outcome {
             Ok(value) if !left => Ok(value),
             Ok(_) | Err(Exit::Left(_)) => Err(Diagnostic::at(
-                right.span,
+                span,
                 "`break`, `continue` or `return` on the right side of `&&` or `||`",
             )
             .label("whether it is reached is a runtime value")
@@ -345,102 +345,4 @@ impl Evaluator<'_> {
         let elements = elements.collect();
         self.builder.add(Op::MakeArray, elements, ty)
     }
-
-    pub fn match_(&mut self, subject: &Expr, arms: &[Arm], span: Span) -> Eval {
-        let value = self.expr(subject)?;
-        for arm in arms {
-            let mark = self.scope.enter();
-            if self.matches(&arm.pattern, &value, span)? {
-                let result = self.expr(&arm.body);
-                self.scope.leave(mark);
-                return result;
-            }
-            self.scope.leave(mark);
-        }
-        Err(
-            Diagnostic::at(span, format!("no arm of this `match` takes {}", self.shown(&value)))
-                .help("add an arm for it, or `_`")
-                .into(),
-        )
-    }
-
-    /// Whether a pattern takes a value; binds its names if so.
-    fn matches(&mut self, pattern: &Pattern, value: &Value, span: Span) -> Eval<bool> {
-        match pattern {
-            Pattern::Wild => Ok(true),
-            Pattern::Name(name, ..) => {
-                self.scope.bind(name, value.clone());
-                Ok(true)
-            }
-            Pattern::Ref(inner, at) => {
-                let value = self.loaded(value.clone(), *at)?;
-                self.matches(inner, &value, span)
-            }
-            Pattern::Or(cases) => {
-                for case in cases {
-                    if self.matches(case, value, span)? {
-                        return Ok(true);
-                    }
-                }
-                Ok(false)
-            }
-            Pattern::Tuple(parts, at) => match &self.taken_apart(value.clone(), parts.len(), *at)? {
-                Value::Tuple(values) if values.len() == parts.len() => {
-                    for (part, value) in parts.iter().zip(values) {
-                        if !self.matches(part, value, span)? {
-                            return Ok(false);
-                        }
-                    }
-                    Ok(true)
-                }
-                other => Err(Diagnostic::at(span, format!("a tuple pattern on {}", other.describe())).into()),
-            },
-            Pattern::Array(parts, at) => {
-                let value = self.taken_apart(value.clone(), parts.len(), *at)?;
-                let elements = self.elements(&value, parts.len(), *at)?;
-                for (part, value) in parts.iter().zip(elements) {
-                    if !self.matches(part, &value, span)? {
-                        return Ok(false);
-                    }
-                }
-                Ok(true)
-            }
-            Pattern::Struct(fields, _) => {
-                for (name, pattern) in fields {
-                    let part = self.part(value, Step::Field(name.clone()), span)?;
-                    if !self.matches(pattern, &part, span)? {
-                        return Ok(false);
-                    }
-                }
-                Ok(true)
-            }
-            Pattern::Range(low, high) => {
-                let value = &self.loaded(value.clone(), span)?;
-                let (low, high) = (self.expr(low)?, self.expr(high)?);
-                match (self.known_int(value), self.known_int(&low), self.known_int(&high)) {
-                    (Some(n), Some(low), Some(high)) => Ok((low..=high).contains(&n)),
-                    _ => Err(at_run_time(span)),
-                }
-            }
-            Pattern::Value(expr) => {
-                let expected = self.expr(expr)?;
-                let value = &self.loaded(value.clone(), span)?;
-                match (value, &expected) {
-                    (Value::Enum { .. }, Value::Enum { .. }) => Ok(*value == expected),
-                    _ => {
-                        let same = self.binary(crate::ir::BinaryOp::Eq, value, &expected, expr.span)?;
-                        let id = self.node(&same, expr.span)?;
-                        self.known_bool(id).ok_or_else(|| at_run_time(span))
-                    }
-                }
-            }
-        }
-    }
-}
-
-fn at_run_time(span: Span) -> Exit {
-    Diagnostic::at(span, "`match` on a value that is only known at run time")
-        .label("not known now")
-        .help("use `if`, whose sides are then both computed")
-        .into()
 }

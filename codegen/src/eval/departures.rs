@@ -420,6 +420,7 @@ pub fn leaves(e: &Expr) -> bool {
         ExprKind::Return(_) | ExprKind::Break(_) | ExprKind::Continue(_) => true,
         ExprKind::Block(block) => always_leaves(block),
         ExprKind::If(_, then, Some(otherwise), _) => always_leaves(then) && leaves(otherwise),
+        ExprKind::Match(_, arms, _) => !arms.is_empty() && arms.iter().all(|arm| leaves(&arm.body)),
         _ => false,
     }
 }

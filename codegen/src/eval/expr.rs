@@ -5,7 +5,7 @@ use super::value::{Eval, Exit, Step, Value, Way};
 use super::{Evaluator, MAX_PARTS};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::front::tree::{Block, Expr, ExprKind, IntType, Pattern, Statement, Type as SourceType};
-use crate::ir::{BinaryOp, Op, Scalar, Type};
+use crate::ir::{BinaryOp, NodeId, Op, Scalar, Type};
 use std::rc::Rc;
 
 impl Evaluator<'_> {
@@ -91,6 +91,10 @@ impl Evaluator<'_> {
             (ExprKind::If(condition, then, otherwise, attribute), _) => {
                 self.step(expr.span)?;
                 self.if_in(condition, then, otherwise.as_deref(), *attribute, tail, expr.span)
+            }
+            (ExprKind::Match(subject, arms, attribute), _) => {
+                self.step(expr.span)?;
+                self.match_(subject, arms, *attribute, tail, expr.span)
             }
             _ => self.expr(expr),
         }
@@ -183,10 +187,26 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Binds the names of a pattern to the parts of a value.
+    /// Binds the names of a pattern that takes every value to the parts of a value.
     pub fn bind(&mut self, pattern: &Pattern, value: Value, span: Span) -> Eval<()> {
+        self.bound(pattern, value, false, span)
+    }
+
+    /// Binds the names of a pattern that has taken a value.
+    pub fn bind_matched(&mut self, pattern: &Pattern, value: Value, span: Span) -> Eval<()> {
+        self.bound(pattern, value, true, span)
+    }
+
+    fn bound(&mut self, pattern: &Pattern, value: Value, matched: bool, span: Span) -> Eval<()> {
         match pattern {
             Pattern::Wild => Ok(()),
+            // What it compares with has been compared, and names under a `|` are bound by a pattern for each.
+            Pattern::Value(_) | Pattern::Range(..) | Pattern::Or(_) if matched => Ok(()),
+            Pattern::At(name, _, inner, at) => {
+                self.name(&value, name, *at);
+                self.scope.bind(name, value.clone());
+                self.bound(inner, value, matched, span)
+            }
             Pattern::Name(name, _, at) => {
                 self.name(&value, name, *at);
                 self.scope.bind(name, value);
@@ -194,14 +214,16 @@ impl Evaluator<'_> {
             }
             Pattern::Ref(inner, at) => {
                 let value = self.loaded(value, *at)?;
-                self.bind(inner, value, span)
+                self.bound(inner, value, matched, span)
             }
             Pattern::Tuple(parts, at) => match self.taken_apart(value, parts.len(), *at)? {
                 Value::Tuple(values) if values.len() == parts.len() => parts
                     .iter()
                     .zip(values)
-                    .try_for_each(|(part, value)| self.bind(part, value, span)),
-                Value::Poison => parts.iter().try_for_each(|part| self.bind(part, Value::Poison, span)),
+                    .try_for_each(|(part, value)| self.bound(part, value, matched, span)),
+                Value::Poison => parts
+                    .iter()
+                    .try_for_each(|part| self.bound(part, Value::Poison, matched, span)),
                 other => Err(Diagnostic::at(
                     *at,
                     format!("a pattern of {} parts for {}", parts.len(), other.describe()),
@@ -214,15 +236,15 @@ impl Evaluator<'_> {
                 parts
                     .iter()
                     .zip(elements)
-                    .try_for_each(|(part, value)| self.bind(part, value, span))
+                    .try_for_each(|(part, value)| self.bound(part, value, matched, span))
             }
-            Pattern::Struct(fields, at) => {
+            Pattern::Struct(_, fields, at) => {
                 for (name, pattern) in fields {
                     let part = match &value {
                         Value::Poison => Value::Poison,
                         value => self.part(value, Step::Field(name.clone()), *at)?,
                     };
-                    self.bind(pattern, part, span)?;
+                    self.bound(pattern, part, matched, span)?;
                 }
                 Ok(())
             }
@@ -328,7 +350,7 @@ impl Evaluator<'_> {
             ExprKind::If(condition, then, otherwise, branches) => {
                 self.if_(condition, then, otherwise.as_deref(), *branches, span)
             }
-            ExprKind::Match(subject, arms) => self.match_(subject, arms, span),
+            ExprKind::Match(subject, arms, branches) => self.match_(subject, arms, *branches, Tail::Open, span),
             ExprKind::Block(block) => self.block(block),
             ExprKind::Tuple(parts) => {
                 let value = Value::Tuple(self.all(parts)?);
@@ -433,12 +455,17 @@ impl Evaluator<'_> {
     fn lazy(&mut self, and: bool, left: &Expr, right: &Expr, span: Span) -> Eval {
         let value = self.value(left)?;
         let left = self.node(&value, left.span)?;
+        self.lazily(and, left, |e| e.value(right), span)
+    }
+
+    /// `left && right`, or `left || right`, of which the right side is only looked at where it decides.
+    pub fn lazily(&mut self, and: bool, left: NodeId, right: impl FnOnce(&mut Self) -> Eval, span: Span) -> Eval {
         match self.known_bool(left) {
             Some(known) if known != and => Ok(Value::Node(left)),
-            Some(_) => self.value(right),
+            Some(_) => right(self),
             None => {
                 let before = self.scope.clone();
-                let value = self.lazy_side(right)?;
+                let value = self.lazy_side(right, span)?;
                 if self.scope == before {
                     let op = if and { BinaryOp::And } else { BinaryOp::Or };
                     return self.binary(op, &Value::Node(left), &value, span);

@@ -14,6 +14,7 @@ mod expr;
 mod functions;
 mod integers;
 mod loops;
+mod matching;
 mod math;
 mod matrix;
 mod methods;

@@ -46,7 +46,7 @@ impl Lower {
                     let text = as_written(other);
                     self.bad_attribute(
                         other.span(),
-                        format!("an `if` takes no attribute `{text}`"),
+                        format!("a condition takes no attribute `{text}`"),
                         "write `branch` or `select`",
                     );
                 }

@@ -13,7 +13,7 @@ use syn::spanned::Spanned;
 pub enum Carrier {
     /// `for`, `while` or `loop`: `unroll(..)`.
     Loop,
-    /// `if`, or a `let` that takes its value: `branch` and `select`.
+    /// `if`, `match`, or a `let` that takes its value: `branch` and `select`.
     Branch,
     /// Anything else.
     Other,

@@ -1,8 +1,9 @@
 //! Expressions and statements.
 
+use super::choice::has_let;
 use super::place;
 use super::scan::mentioned_in;
-use super::tree::{Arm, Block, Const, Expr, ExprKind, ForLoop, IntType, Statement};
+use super::tree::{Block, Const, Expr, ExprKind, ForLoop, IntType, Statement};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::ir::{BinaryOp, UnaryOp};
 use std::collections::BTreeSet;
@@ -102,7 +103,7 @@ impl Lower {
         Expr { kind, span }
     }
 
-    fn boxed(&mut self, expr: &syn::Expr) -> Box<Expr> {
+    pub fn boxed(&mut self, expr: &syn::Expr) -> Box<Expr> {
         Box::new(self.expr(expr))
     }
 
@@ -130,6 +131,7 @@ impl Lower {
                 ExprKind::Field(self.boxed(&e.base), name)
             }
             syn::Expr::Index(e) => ExprKind::Index(self.boxed(&e.expr), self.boxed(&e.index)),
+            syn::Expr::If(e) if has_let(&e.cond) => self.if_let(e),
             syn::Expr::If(e) => {
                 let condition = self.boxed(&e.cond);
                 let then = self.block(&e.then_branch);
@@ -154,6 +156,7 @@ impl Lower {
                     body: self.block(&e.body),
                 }))
             }
+            syn::Expr::While(e) if has_let(&e.cond) => self.while_let(e),
             syn::Expr::While(e) => {
                 let label = label(e.label.as_ref().map(|l| &l.name));
                 ExprKind::While(
@@ -188,7 +191,10 @@ impl Lower {
                 "a label on a block",
                 "put the block into a function and `return` from it",
             ),
-            syn::Expr::Let(_) => ("`let` in a condition", "use `match`, or compare with `==`"),
+            syn::Expr::Let(_) => (
+                "a `let` here",
+                "let the condition of an `if` begin with it, and nest another `if` where there is more than one",
+            ),
             syn::Expr::Try(_) => ("`?`", "a kernel has no errors: compute a value for every pixel"),
             syn::Expr::Unsafe(_) => ("`unsafe`", "use the prelude's textures and arrays"),
             syn::Expr::Async(_) | syn::Expr::Await(_) => ("`async`", "a kernel computes its value at once"),
@@ -207,12 +213,15 @@ impl Lower {
         ExprKind::Tuple(Vec::new())
     }
 
-    /// `assert!(condition, "message")`; there are no other macros.
+    /// `assert!(condition, "message")` and `matches!(value, pattern)`; there are no other macros.
     fn macro_call(&mut self, call: &syn::Macro) -> ExprKind {
+        if call.path.is_ident("matches") {
+            return self.matches_macro(call);
+        }
         if !call.path.is_ident("assert") {
             self.unsupported(
                 call.span(),
-                "a macro other than `assert!`",
+                "a macro other than `assert!` and `matches!`",
                 "write out what it stands for",
             );
             return ExprKind::Tuple(Vec::new());
@@ -394,22 +403,6 @@ impl Lower {
         constants
     }
 
-    fn match_(&mut self, e: &syn::ExprMatch) -> ExprKind {
-        let subject = self.boxed(&e.expr);
-        let mut arms = Vec::new();
-        for arm in &e.arms {
-            if let syn::Pat::Guard(guard) = &arm.pat {
-                self.unsupported(guard.span(), "a guard", "use `if` in the arm");
-            } else {
-                arms.push(Arm {
-                    pattern: self.pattern(&arm.pat),
-                    body: self.expr(&arm.body),
-                });
-            }
-        }
-        ExprKind::Match(subject, arms)
-    }
-
     fn struct_(&mut self, e: &syn::ExprStruct) -> ExprKind {
         let name = self.segments(&e.path).pop().unwrap_or_default();
         let mut fields = Vec::new();
@@ -469,12 +462,16 @@ impl Lower {
             syn::Pat::Type(typed) => (self.pattern(&typed.pat), Some(self.ty(&typed.ty))),
             other => (self.pattern(other), None),
         };
+        if let Some(init) = &local.init
+            && let Some((_, other)) = &init.diverge
+        {
+            let value = self.expr(&init.expr);
+            let other = self.expr(other);
+            return self.let_else(pattern, ty, value, other, span);
+        }
         let init = local.init.as_ref().map(|init| {
-            if let Some((_, other)) = &init.diverge {
-                self.unsupported(other.span(), "`let ... else`", "use `if` or `match`");
-            }
             let mut value = self.expr(&init.expr);
-            if let ExprKind::If(_, _, _, branches) = &mut value.kind {
+            if let ExprKind::If(_, _, _, branches) | ExprKind::Match(_, _, branches) = &mut value.kind {
                 *branches = branches.or(self.branch_attribute(&local.attrs));
             }
             value
@@ -519,6 +516,6 @@ pub fn member(member: &syn::Member) -> String {
     }
 }
 
-fn label(label: Option<&syn::Lifetime>) -> Option<String> {
+pub fn label(label: Option<&syn::Lifetime>) -> Option<String> {
     label.map(|l| l.ident.to_string())
 }

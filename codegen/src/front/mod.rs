@@ -6,6 +6,7 @@
 mod attribute;
 mod cfg;
 mod check;
+mod choice;
 mod depth;
 mod expr;
 mod foreign;

@@ -17,6 +17,14 @@ impl Lower {
                     Pattern::Name(name, p.mutability.is_some(), self.span(p.ident.span()))
                 }
             }
+            syn::Pat::Ident(p) if p.by_ref.is_none() => {
+                let inner = match &p.subpat {
+                    Some((_, inner)) => self.pattern(inner),
+                    None => Pattern::Wild,
+                };
+                let (name, span) = (p.ident.to_string(), self.span(p.ident.span()));
+                Pattern::At(name, p.mutability.is_some(), Box::new(inner), span)
+            }
             syn::Pat::Wild(_) => Pattern::Wild,
             syn::Pat::Tuple(p) => {
                 Pattern::Tuple(p.elems.iter().map(|e| self.pattern(e)).collect(), self.span(p.span()))
@@ -40,7 +48,7 @@ impl Lower {
                 for field in &p.fields {
                     fields.push((super::expr::member(&field.member), self.pattern(&field.pat)));
                 }
-                Pattern::Struct(fields, self.span(p.span()))
+                Pattern::Struct(self.segments(&p.path), fields, self.span(p.span()))
             }
             // Fields of a structure without names are named by their numbers.
             syn::Pat::TupleStruct(p) if p.qself.is_none() => {
@@ -50,36 +58,24 @@ impl Lower {
                     .enumerate()
                     .map(|(k, e)| (k.to_string(), self.pattern(e)));
                 let fields = fields.collect();
-                Pattern::Struct(fields, self.span(p.span()))
+                Pattern::Struct(self.segments(&p.path), fields, self.span(p.span()))
             }
-            syn::Pat::Range(p) => match (&p.start, &p.end) {
-                (Some(low), Some(high)) if matches!(p.limits, syn::RangeLimits::Closed(_)) => {
-                    Pattern::Range(Box::new(self.expr(low)), Box::new(self.expr(high)))
-                }
-                (Some(_), Some(_)) => {
-                    self.unsupported(
-                        p.span(),
-                        "a range without its end in a pattern",
-                        "write `0..=3` for `0..4`",
-                    );
-                    Pattern::Wild
-                }
-                _ => {
-                    self.unsupported(p.span(), "a range without both ends", "write both: `0..=3`");
-                    Pattern::Wild
-                }
-            },
+            syn::Pat::Range(p) => {
+                let inclusive = matches!(p.limits, syn::RangeLimits::Closed(_));
+                let mut end = |end: &Option<Box<syn::Expr>>| end.as_ref().map(|e| Box::new(self.expr(e)));
+                let (low, high) = (end(&p.start), end(&p.end));
+                Pattern::Range(low, high, inclusive)
+            }
             other => {
                 let (what, instead) = match other {
                     syn::Pat::Ident(p) if p.by_ref.is_some() => ("`ref`", "leave it out: values are copied"),
-                    syn::Pat::Ident(_) => ("`@` in a pattern", "match on the value, and use its own name"),
                     syn::Pat::Rest(_) => ("`..` in a tuple or array", "write `_` for each part that is not used"),
                     syn::Pat::Const(_) => ("a `const` block in a pattern", "give the constant a name"),
                     syn::Pat::Macro(_) => ("a macro in a pattern", "write the pattern out"),
                     syn::Pat::Type(_) => ("a type inside of a pattern", "state the type of the whole pattern"),
                     _ => (
                         "this pattern",
-                        "match on enum variants, integers, `0..=3`, `a | b` or `_`, and bind names, tuples and fields",
+                        "match on enum variants, numbers, `0..=3`, `a | b` or `_`, and bind names, tuples and fields",
                     ),
                 };
                 self.unsupported(other.span(), what, instead);

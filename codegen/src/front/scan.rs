@@ -97,8 +97,12 @@ fn bound<'b>(pattern: &'b Pattern, out: &mut Vec<&'b str>) {
     match pattern {
         Pattern::Name(name, ..) => out.push(name),
         Pattern::Tuple(all, _) | Pattern::Array(all, _) | Pattern::Or(all) => all.iter().for_each(|p| bound(p, out)),
-        Pattern::Struct(fields, _) => fields.iter().for_each(|(_, p)| bound(p, out)),
+        Pattern::Struct(_, fields, _) => fields.iter().for_each(|(_, p)| bound(p, out)),
         Pattern::Ref(inner, _) => bound(inner, out),
+        Pattern::At(name, _, inner, _) => {
+            out.push(name);
+            bound(inner, out);
+        }
         Pattern::Wild | Pattern::Value(_) | Pattern::Range(..) => {}
     }
 }
@@ -148,11 +152,12 @@ fn expr<'b>(e: &'b Expr, out: &mut Effects, around: &mut Around<'b>) {
             otherwise.iter().for_each(|e| expr(e, out, around));
         }
         ExprKind::Block(b) => block(b, out, around),
-        ExprKind::Match(subject, arms) => {
+        ExprKind::Match(subject, arms, _) => {
             expr(subject, out, around);
             for arm in arms {
                 let mark = around.own.len();
                 bound(&arm.pattern, &mut around.own);
+                arm.guard.iter().for_each(|e| expr(e, out, around));
                 expr(&arm.body, out, around);
                 around.own.truncate(mark);
             }
@@ -195,8 +200,8 @@ pub fn children(e: &Expr) -> Vec<&Expr> {
         ExprKind::Struct(_, fields, rest) => fields.iter().map(|(_, e)| e).chain(rest.as_deref()).collect(),
         ExprKind::Return(value) => value.iter().map(|e| &**e).collect(),
         ExprKind::If(condition, _, otherwise, _) => std::iter::once(&**condition).chain(otherwise.as_deref()).collect(),
-        ExprKind::Match(subject, arms) => std::iter::once(&**subject)
-            .chain(arms.iter().map(|a| &a.body))
+        ExprKind::Match(subject, arms, _) => std::iter::once(&**subject)
+            .chain(arms.iter().flat_map(|a| a.guard.iter().chain([&a.body])))
             .collect(),
         ExprKind::For(f) => vec![&f.over],
         ExprKind::While(condition, ..) => vec![condition],
@@ -232,7 +237,7 @@ pub fn mentioned_in(e: &Expr, out: &mut BTreeSet<String>) {
             mentioned(&f.body, out);
         }
         ExprKind::While(_, body, ..) | ExprKind::Block(body) => mentioned(body, out),
-        ExprKind::Match(_, arms) => arms.iter().for_each(|arm| in_pattern(&arm.pattern, out)),
+        ExprKind::Match(_, arms, _) => arms.iter().for_each(|arm| in_pattern(&arm.pattern, out)),
         _ => {}
     }
     children(e).into_iter().for_each(|child| mentioned_in(child, out));
@@ -244,12 +249,12 @@ fn in_pattern(pattern: &Pattern, out: &mut BTreeSet<String>) {
         Pattern::Or(all) | Pattern::Tuple(all, _) | Pattern::Array(all, _) => {
             all.iter().for_each(|p| in_pattern(p, out))
         }
-        Pattern::Struct(fields, _) => fields.iter().for_each(|(_, p)| in_pattern(p, out)),
-        Pattern::Ref(inner, _) => in_pattern(inner, out),
-        Pattern::Range(low, high) => {
-            mentioned_in(low, out);
-            mentioned_in(high, out);
+        Pattern::Struct(path, fields, _) => {
+            out.extend(path.iter().cloned());
+            fields.iter().for_each(|(_, p)| in_pattern(p, out));
         }
+        Pattern::Ref(inner, _) | Pattern::At(_, _, inner, _) => in_pattern(inner, out),
+        Pattern::Range(low, high, _) => [low, high].into_iter().flatten().for_each(|end| mentioned_in(end, out)),
         Pattern::Name(..) | Pattern::Wild => {}
     }
 }

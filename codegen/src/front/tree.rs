@@ -49,8 +49,8 @@ pub enum ExprKind {
     Index(Box<Expr>, Box<Expr>),
     /// `if`, with what its attribute says.
     If(Box<Expr>, Block, Option<Box<Expr>>, Option<Branches>),
-    /// `match`.
-    Match(Box<Expr>, Vec<Arm>),
+    /// `match`, with what its attribute says. `if let`, `let ... else` and `matches!` are this too.
+    Match(Box<Expr>, Vec<Arm>, Option<Branches>),
     /// `{ ... }`.
     Block(Block),
     /// `(a, b)`; `()` is empty.
@@ -130,6 +130,8 @@ pub enum Statement {
 pub struct Arm {
     /// What it takes.
     pub pattern: Pattern,
+    /// What must hold besides: `if condition`.
+    pub guard: Option<Expr>,
     /// What it gives.
     pub body: Expr,
 }
@@ -151,10 +153,12 @@ pub enum Pattern {
     Array(Vec<Pattern>, Span),
     /// `a | b`.
     Or(Vec<Pattern>),
-    /// `Name { field: pattern, .. }`.
-    Struct(Vec<(String, Pattern)>, Span),
-    /// `low..=high`: integers.
-    Range(Box<Expr>, Box<Expr>),
+    /// `Name { field: pattern, .. }`, `Name(pattern)`, by the last two segments of its path.
+    Struct(Vec<String>, Vec<(String, Pattern)>, Span),
+    /// `low..high`, `low..=high` (true), of which an end may be missing.
+    Range(Option<Box<Expr>>, Option<Box<Expr>>, bool),
+    /// `name @ pattern`, `mut name @ pattern` (true).
+    At(String, bool, Box<Pattern>, Span),
 }
 
 /// A type as written.

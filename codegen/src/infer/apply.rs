@@ -91,10 +91,11 @@ fn expr(e: &mut Expr, literals: &HashMap<Span, IntType>) {
             otherwise.iter_mut().for_each(|e| go(e));
             block(then, literals);
         }
-        ExprKind::Match(subject, arms) => {
+        ExprKind::Match(subject, arms, _) => {
             go(subject);
             for arm in arms {
                 pattern(&mut arm.pattern, literals);
+                arm.guard.iter_mut().for_each(|e| expr(e, literals));
                 expr(&mut arm.body, literals);
             }
         }
@@ -117,13 +118,10 @@ fn pattern(p: &mut Pattern, literals: &HashMap<Span, IntType>) {
         Pattern::Tuple(parts, _) | Pattern::Array(parts, _) | Pattern::Or(parts) => {
             parts.iter_mut().for_each(|part| pattern(part, literals));
         }
-        Pattern::Struct(fields, _) => fields.iter_mut().for_each(|(_, part)| pattern(part, literals)),
-        Pattern::Ref(inner, _) => pattern(inner, literals),
+        Pattern::Struct(_, fields, _) => fields.iter_mut().for_each(|(_, part)| pattern(part, literals)),
+        Pattern::Ref(inner, _) | Pattern::At(_, _, inner, _) => pattern(inner, literals),
         Pattern::Value(e) => expr(e, literals),
-        Pattern::Range(low, high) => {
-            expr(low, literals);
-            expr(high, literals);
-        }
+        Pattern::Range(low, high, _) => [low, high].into_iter().flatten().for_each(|end| expr(end, literals)),
     }
 }
 

@@ -4,7 +4,7 @@ use super::Checker;
 use super::operators::literal;
 use super::types::{Kind, Ty};
 use crate::diagnostic::{Diagnostic, Span};
-use crate::front::tree::{Arm, ExprKind, IntType, Pattern};
+use crate::front::tree::{Arm, Expr, ExprKind, IntType, Pattern};
 
 /// A pattern, or one that takes everything.
 type Cell<'p> = Option<&'p Pattern>;
@@ -12,7 +12,9 @@ type Cell<'p> = Option<&'p Pattern>;
 impl<'l> Checker<'l> {
     /// Notes an error if no arm takes some value of the subject's type.
     pub fn exhaustive(&mut self, subject: &Ty, arms: &'l [Arm], span: Span) {
-        let rows = arms.iter().map(|arm| vec![Some(&arm.pattern)]).collect();
+        // A guard may fail.
+        let arms = arms.iter().filter(|arm| arm.guard.is_none());
+        let rows = arms.map(|arm| vec![Some(&arm.pattern)]).collect();
         if !self.covers(rows, std::slice::from_ref(subject)) {
             self.errors.push(
                 Diagnostic::at(
@@ -25,12 +27,27 @@ impl<'l> Checker<'l> {
         }
     }
 
+    /// Notes an error if a pattern of a `let`, a `for` or a parameter leaves out some value.
+    pub fn irrefutable(&mut self, pattern: &'l Pattern, ty: &Ty, span: Span) {
+        if !self.covers(vec![vec![Some(pattern)]], std::slice::from_ref(ty)) {
+            self.errors.push(
+                Diagnostic::at(span, "refutable pattern: it does not take every value")
+                    .label("some values are left out")
+                    .help("use `if let`, or `let ... else` with what is to happen to the others"),
+            );
+        }
+    }
+
     /// Whether the rows together take all values of some types.
-    fn covers(&self, rows: Vec<Vec<Cell<'_>>>, types: &[Ty]) -> bool {
+    fn covers(&mut self, rows: Vec<Vec<Cell<'_>>>, types: &[Ty]) -> bool {
         let Some((first, rest)) = types.split_first() else {
             return !rows.is_empty();
         };
         let rows = alternatives(rows);
+        // Nothing to tell apart: a type that holds itself, which rustc refuses, has no end.
+        if rows.iter().all(|row| takes_all(row[0])) {
+            return self.covers(with(&rows, |_| false), rest);
+        }
         let ty = self.peeled(first).0;
         let is_integer = matches!(ty, Ty::Int(_)) || self.table.kind(&ty) == Some(Kind::Integer);
         match &ty {
@@ -78,7 +95,43 @@ impl<'l> Checker<'l> {
                 });
                 self.covers(rows.collect(), &[parts.clone(), rest.to_vec()].concat())
             }
-            // Structures, arrays and floats: an arm that names no value of them.
+            Ty::Array(element) => {
+                let len = rows.iter().find_map(|row| match row[0].map(bare) {
+                    Some(Pattern::Array(parts, _)) => Some(parts.len()),
+                    _ => None,
+                });
+                let len = len.unwrap_or(0);
+                let rows = rows.iter().filter_map(|row| {
+                    let cells: Vec<Cell<'_>> = match row[0].map(bare) {
+                        Some(Pattern::Array(patterns, _)) if patterns.len() == len => {
+                            patterns.iter().map(Some).collect()
+                        }
+                        other if takes_all(other) => vec![None; len],
+                        _ => return None,
+                    };
+                    Some([cells, row[1..].to_vec()].concat())
+                });
+                let parts = vec![(**element).clone(); len];
+                self.covers(rows.collect(), &[parts, rest.to_vec()].concat())
+            }
+            Ty::Struct(name) if self.library.structs.contains_key(name) => {
+                let fields = &self.library.structs[name].fields;
+                let rows = rows.iter().filter_map(|row| {
+                    let cells: Vec<Cell<'_>> = match row[0].map(bare) {
+                        Some(Pattern::Struct(_, patterns, _)) => {
+                            let of = |field: &String| patterns.iter().find(|(name, _)| name == field);
+                            fields.iter().map(|(field, ..)| of(field).map(|(_, p)| p)).collect()
+                        }
+                        other if takes_all(other) => vec![None; fields.len()],
+                        _ => return None,
+                    };
+                    Some([cells, row[1..].to_vec()].concat())
+                });
+                let rows: Vec<Vec<Cell<'_>>> = rows.collect();
+                let parts: Vec<Ty> = fields.iter().map(|(_, ty, at)| self.field_type(ty, *at)).collect();
+                self.covers(rows, &[parts, rest.to_vec()].concat())
+            }
+            // Floats and the like: an arm that names no value of them.
             _ => self.covers(with(&rows, |p| !compares(p)), rest),
         }
     }
@@ -114,7 +167,7 @@ fn takes_all(cell: Cell<'_>) -> bool {
 /// A pattern without the `&` before it.
 fn bare(pattern: &Pattern) -> &Pattern {
     match pattern {
-        Pattern::Ref(inner, _) => bare(inner),
+        Pattern::Ref(inner, _) | Pattern::At(_, _, inner, _) => bare(inner),
         other => other,
     }
 }
@@ -123,7 +176,11 @@ fn bare(pattern: &Pattern) -> &Pattern {
 fn range(pattern: &Pattern) -> Option<(i64, i64)> {
     match bare(pattern) {
         Pattern::Value(e) => literal(e).map(|n| (n, n)),
-        Pattern::Range(low, high) => Some((literal(low)?, literal(high)?)),
+        Pattern::Range(low, high, inclusive) => {
+            let end = |end: &Option<Box<Expr>>, open: i64| end.as_ref().map_or(Some(open), |e| literal(e));
+            let past = i64::from(high.is_some() && !inclusive);
+            Some((end(low, i64::MIN)?, end(high, i64::MAX)? - past))
+        }
         _ => None,
     }
 }
@@ -131,9 +188,9 @@ fn range(pattern: &Pattern) -> Option<(i64, i64)> {
 /// Whether a pattern compares with a value anywhere.
 fn compares(pattern: &Pattern) -> bool {
     match bare(pattern) {
-        Pattern::Name(..) | Pattern::Wild | Pattern::Ref(..) => false,
+        Pattern::Name(..) | Pattern::Wild | Pattern::Ref(..) | Pattern::At(..) => false,
         Pattern::Value(_) | Pattern::Range(..) => true,
         Pattern::Tuple(parts, _) | Pattern::Array(parts, _) | Pattern::Or(parts) => parts.iter().any(compares),
-        Pattern::Struct(fields, _) => fields.iter().any(|(_, part)| compares(part)),
+        Pattern::Struct(_, fields, _) => fields.iter().any(|(_, part)| compares(part)),
     }
 }

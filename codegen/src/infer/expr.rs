@@ -121,6 +121,9 @@ impl<'l> Checker<'l> {
                 };
                 let leaves = self.table.shallow(&found) == Ty::Never;
                 self.bind_whole(pattern, &found, init.is_none());
+                if init.is_some() && !leaves {
+                    self.irrefutable(pattern, &found, *span);
+                }
                 if leaves { Ty::Never } else { Ty::UNIT }
             }
             Statement::Expr(expr) => {
@@ -201,12 +204,15 @@ impl<'l> Checker<'l> {
                     }
                 }
             }
-            ExprKind::Match(subject, arms) => {
+            ExprKind::Match(subject, arms, _) => {
                 let subject = self.expr(subject, None);
                 let mut all = Ty::Never;
                 for arm in arms {
                     let mark = self.locals.len();
                     self.bind_whole(&arm.pattern, &subject, false);
+                    if let Some(guard) = &arm.guard {
+                        self.against(guard, &Ty::Bool);
+                    }
                     let found = self.expr(&arm.body, wanted);
                     self.locals.truncate(mark);
                     all = self.joined(all, found, arm.body.span);
@@ -424,6 +430,7 @@ impl<'l> Checker<'l> {
         };
         let mark = self.locals.len();
         self.bind_whole(&f.pattern, &item, false);
+        self.irrefutable(&f.pattern, &item, f.over.span);
         let found = self.block(&f.body, None);
         let at = f.body.value.as_ref().map_or(f.over.span, |value| value.span);
         self.coerce(&Ty::UNIT, &found, at);

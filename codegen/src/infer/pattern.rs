@@ -35,13 +35,17 @@ impl<'l> Checker<'l> {
             };
             return self.bind(inner, &referred, deferred);
         }
+        if let Pattern::At(name, mutable, inner, span) = pattern {
+            self.declare(name, ty.clone(), *mutable, deferred, *span);
+            return self.bind(inner, ty, deferred);
+        }
         let (bare, reference) = self.peeled(ty);
         let through = |part: Ty| match reference {
             Some(mutable) => Ty::Ref(mutable, Box::new(part)),
             None => part,
         };
         match pattern {
-            Pattern::Name(..) | Pattern::Wild | Pattern::Ref(..) => {}
+            Pattern::Name(..) | Pattern::Wild | Pattern::Ref(..) | Pattern::At(..) => {}
             Pattern::Tuple(parts, span) => match &bare {
                 Ty::Tuple(types) if types.len() == parts.len() => {
                     for (part, ty) in parts.iter().zip(types) {
@@ -71,7 +75,7 @@ impl<'l> Checker<'l> {
                         .for_each(|part| self.bind(part, &through(element.clone()), deferred));
                 }
             },
-            Pattern::Struct(fields, span) => {
+            Pattern::Struct(_, fields, span) => {
                 let definition = match &bare {
                     Ty::Struct(name) => self.library.structs.get(name),
                     _ => None,
@@ -111,9 +115,9 @@ impl<'l> Checker<'l> {
                 };
                 self.coerce(&bare, &known, expr.span);
             }
-            Pattern::Range(low, high) => {
-                self.against(low, &bare);
-                self.against(high, &bare);
+            Pattern::Range(low, high, _) => {
+                let ends = [low, high].into_iter().flatten();
+                ends.for_each(|end| self.against(end, &bare));
             }
         }
     }

@@ -1,6 +1,7 @@
 //! Expressions and statements.
 
 use super::super::cfg::Carrier;
+use super::super::choice::MatchesSyntax;
 use super::super::expr::DEPTH;
 use super::Check;
 use crate::diagnostic::Diagnostic;
@@ -49,6 +50,11 @@ impl Check {
                 }
             }
             E::Field(e) => self.expr(&mut e.base),
+            // Where it is no condition, the lowering refuses it.
+            E::Let(e) => {
+                self.pattern(&mut e.pat);
+                self.expr(&mut e.expr);
+            }
             E::ForLoop(e) => {
                 self.pattern(&mut e.pat);
                 self.expr(&mut e.expr);
@@ -109,7 +115,6 @@ impl Check {
             | E::Closure(_)
             | E::Const(_)
             | E::Infer(_)
-            | E::Let(_)
             | E::RawAddr(_)
             | E::Try(_)
             | E::TryBlock(_)
@@ -163,8 +168,16 @@ impl Check {
         }
     }
 
-    /// The expressions in an `assert!`; other macros are refused by the lowering.
+    /// What stands in an `assert!` or a `matches!`; other macros are refused by the lowering.
     fn macro_call(&mut self, call: &mut syn::Macro) {
+        if call.path.is_ident("matches") {
+            if let Ok(mut body) = call.parse_body::<MatchesSyntax>() {
+                self.expr(&mut body.value);
+                self.pattern(&mut body.pattern);
+                body.guard.iter_mut().for_each(|e| self.expr(e));
+            }
+            return;
+        }
         let parser = Punctuated::<syn::Expr, syn::Token![,]>::parse_terminated;
         if !call.path.is_ident("assert") {
             return;
@@ -259,9 +272,11 @@ impl Check {
             }
             other => self.pattern(other),
         }
-        // An `else` is refused by the lowering.
         if let Some(init) = &mut local.init {
             self.expr(&mut init.expr);
+            if let Some((_, other)) = &mut init.diverge {
+                self.expr(other);
+            }
         }
         true
     }
@@ -332,7 +347,7 @@ fn assigns(text: TokenStream, name: &syn::Ident) -> bool {
 fn carrier(expr: &syn::Expr) -> Carrier {
     match expr {
         syn::Expr::ForLoop(_) | syn::Expr::While(_) | syn::Expr::Loop(_) => Carrier::Loop,
-        syn::Expr::If(_) => Carrier::Branch,
+        syn::Expr::If(_) | syn::Expr::Match(_) => Carrier::Branch,
         _ => Carrier::Other,
     }
 }

@@ -13,7 +13,12 @@ impl Check {
             self.lower.keeps_always(&mut taken, super::Carrier::Other);
         }
         match pattern {
-            P::Ident(_) | P::Lit(_) | P::Wild(_) => {}
+            P::Lit(_) | P::Wild(_) => {}
+            P::Ident(p) => p.subpat.iter_mut().for_each(|(_, p)| self.pattern(p)),
+            P::Guard(p) => {
+                self.pattern(&mut p.pat);
+                self.expr(&mut p.guard);
+            }
             P::Or(p) => p.cases.iter_mut().for_each(|p| self.pattern(p)),
             P::Paren(p) => self.pattern(&mut p.pat),
             P::Path(p) => {
@@ -51,7 +56,7 @@ impl Check {
                 p.elems.iter_mut().for_each(|p| self.pattern(p));
             }
             // The lowering refuses these.
-            P::Const(_) | P::Guard(_) | P::Macro(_) | P::Rest(_) | P::Type(_) | P::Verbatim(_) => {}
+            P::Const(_) | P::Macro(_) | P::Rest(_) | P::Type(_) | P::Verbatim(_) => {}
             // And whatever else syn may come to know.
             _ => {}
         }

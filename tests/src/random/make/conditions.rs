@@ -86,6 +86,9 @@ impl Maker {
             return None;
         }
         let d = want.deeper();
+        if !want.known && self.chance(Feature::Matching, 4) {
+            return Some(self.runtime_match_expr(ty, d));
+        }
         if self.on(Feature::Enums) && self.random.once_in(3) {
             return Some(self.match_expr(ty, want));
         }

@@ -20,6 +20,8 @@ pub enum Feature {
     Matrices,
     /// Enums and `match` on them.
     Enums,
+    /// `match` on runtime values, guards, `if let`, `let ... else`, `matches!`, `while let`.
+    Matching,
     /// Generic functions.
     Generics,
     /// Arrays of structures, of tuples and of arrays.
@@ -48,6 +50,7 @@ pub const ALL: &[Feature] = &[
     Feature::Attributes,
     Feature::Matrices,
     Feature::Enums,
+    Feature::Matching,
     Feature::Generics,
     Feature::Nested,
     Feature::Leaving,

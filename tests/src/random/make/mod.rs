@@ -15,6 +15,7 @@ mod items;
 mod kernel;
 mod lets;
 mod loops;
+mod matches;
 mod places;
 mod references;
 mod shown;

@@ -33,6 +33,7 @@ impl Maker {
             27..=30 if self.on(Feature::Mutable) => self.reference(),
             31..=33 => self.some_call(),
             34 if nested && self.on(Feature::Enums) => self.match_statement(),
+            39 if nested && self.on(Feature::Matching) => self.runtime_match(),
             35 => self.destructure(),
             36 if self.on(Feature::Leaving) => self.leave(),
             37 => self.constant_inside(),

@@ -1,0 +1,242 @@
+//! `match`, and what becomes one: `if let`, `let ... else`, `matches!`.
+//!
+//! The arms are a chain of conditions. One that is a compile-time constant decides by itself; of one that is a runtime
+//! value both sides are evaluated, the arm and all that come after it.
+
+use super::Evaluator;
+use super::departures::Tail;
+use super::value::{Eval, Step, Value};
+use crate::diagnostic::{Diagnostic, Span};
+use crate::front::tree::{Arm, Expr, Pattern};
+use crate::ir::{BinaryOp, NodeId};
+use crate::policy::Branches;
+
+/// Alternatives of one pattern that bind names, after which it is refused.
+const MAX_ALTERNATIVES: usize = 64;
+
+/// A pattern in which no `|` binds names, and the arm that it is of.
+struct Case<'a> {
+    pattern: Pattern,
+    arm: &'a Arm,
+}
+
+impl Evaluator<'_> {
+    pub fn match_(
+        &mut self,
+        subject: &Expr,
+        arms: &[Arm],
+        attribute: Option<Branches>,
+        tail: Tail<'_>,
+        span: Span,
+    ) -> Eval {
+        let value = self.expr(subject)?;
+        let mut cases = Vec::new();
+        for arm in arms {
+            let alternatives = alternatives(&arm.pattern);
+            if alternatives.len() > MAX_ALTERNATIVES {
+                return Err(Diagnostic::at(
+                    arm.body.span,
+                    format!("a pattern of more than {MAX_ALTERNATIVES} alternatives that bind names"),
+                )
+                .label("of this arm")
+                .help("write an arm for each, and what they share as a function")
+                .into());
+            }
+            cases.extend(alternatives.into_iter().map(|pattern| Case { pattern, arm }));
+        }
+        let keep = self.policy.keeps(attribute);
+        self.cases(&value, &cases, keep, tail, span)
+    }
+
+    /// What the first case gives that takes the value.
+    fn cases(&mut self, value: &Value, cases: &[Case<'_>], keep: bool, tail: Tail<'_>, span: Span) -> Eval {
+        self.step(span)?;
+        let Some((case, rest)) = cases.split_first() else {
+            return Err(
+                Diagnostic::at(span, format!("no arm of this `match` takes {}", self.shown(value)))
+                    .help("add an arm for it, or `_`")
+                    .into(),
+            );
+        };
+        let mut condition = self.test(&case.pattern, value, span)?;
+        if let Some(guard) = &case.arm.guard
+            && self.known_bool(condition) != Some(false)
+        {
+            let guarded = self.lazily(
+                true,
+                condition,
+                |e| e.with_bound(&case.pattern, value, span, |e| e.value(guard)),
+                span,
+            )?;
+            condition = self.node(&guarded, guard.span)?;
+        }
+        let body = |e: &mut Self| e.with_bound(&case.pattern, value, span, |e| e.expr_in(&case.arm.body, tail));
+        match self.known_bool(condition) {
+            Some(true) => body(self),
+            Some(false) => self.cases(value, rest, keep, tail, span),
+            // The arms take all values together, so the last one takes what the others leave.
+            None if rest.is_empty() && case.arm.guard.is_none() => body(self),
+            None => self.branch_in(tail, condition, keep, span, body, |e| {
+                e.cases(value, rest, keep, tail, span)
+            }),
+        }
+    }
+
+    /// Evaluates what sees the names of a pattern that has taken a value.
+    fn with_bound(
+        &mut self,
+        pattern: &Pattern,
+        value: &Value,
+        span: Span,
+        evaluate: impl FnOnce(&mut Self) -> Eval,
+    ) -> Eval {
+        let mark = self.scope.enter();
+        let bound = self.bind_matched(pattern, value.clone(), span);
+        let result = bound.and_then(|()| evaluate(self));
+        self.scope.leave(mark);
+        result
+    }
+
+    /// Whether a pattern takes a value: a boolean, known or not. Binds nothing.
+    fn test(&mut self, pattern: &Pattern, value: &Value, span: Span) -> Eval<NodeId> {
+        match pattern {
+            Pattern::Wild | Pattern::Name(..) => Ok(self.builder.bool(true)),
+            Pattern::At(_, _, inner, _) => self.test(inner, value, span),
+            Pattern::Ref(inner, at) => {
+                let value = self.loaded(value.clone(), *at)?;
+                self.test(inner, &value, span)
+            }
+            Pattern::Or(cases) => {
+                let mut any = self.builder.bool(false);
+                for case in cases {
+                    if self.known_bool(any) == Some(true) {
+                        break;
+                    }
+                    let takes = self.test(case, value, span)?;
+                    any = self.logical(BinaryOp::Or, any, takes, span)?;
+                }
+                Ok(any)
+            }
+            Pattern::Tuple(parts, at) => match &self.taken_apart(value.clone(), parts.len(), *at)? {
+                Value::Tuple(values) if values.len() == parts.len() => {
+                    let pairs: Vec<(&Pattern, Value)> = parts.iter().zip(values.iter().cloned()).collect();
+                    self.test_all(pairs, span)
+                }
+                other => Err(Diagnostic::at(span, format!("a tuple pattern on {}", other.describe())).into()),
+            },
+            Pattern::Array(parts, at) => {
+                let value = self.taken_apart(value.clone(), parts.len(), *at)?;
+                let elements = self.elements(&value, parts.len(), *at)?;
+                self.test_all(parts.iter().zip(elements).collect(), span)
+            }
+            Pattern::Struct(_, fields, _) => {
+                let mut pairs = Vec::new();
+                for (name, pattern) in fields {
+                    pairs.push((pattern, self.part(value, Step::Field(name.clone()), span)?));
+                }
+                self.test_all(pairs, span)
+            }
+            Pattern::Range(low, high, inclusive) => {
+                let value = self.loaded(value.clone(), span)?;
+                let mut inside = self.builder.bool(true);
+                let below = if *inclusive { BinaryOp::Le } else { BinaryOp::Lt };
+                for (op, end) in [(BinaryOp::Ge, low), (below, high)] {
+                    let Some(end) = end else { continue };
+                    let bound = self.expr(end)?;
+                    let holds = self.binary(op, &value, &bound, end.span)?;
+                    let holds = self.node(&holds, end.span)?;
+                    inside = self.logical(BinaryOp::And, inside, holds, span)?;
+                }
+                Ok(inside)
+            }
+            Pattern::Value(expr) => {
+                let expected = self.expr(expr)?;
+                let value = self.loaded(value.clone(), span)?;
+                let same = self.binary(BinaryOp::Eq, &value, &expected, expr.span)?;
+                self.node(&same, expr.span)
+            }
+        }
+    }
+
+    /// Whether each pattern takes its value; after one that is known not to, none is looked at.
+    fn test_all(&mut self, pairs: Vec<(&Pattern, Value)>, span: Span) -> Eval<NodeId> {
+        let mut all = self.builder.bool(true);
+        for (pattern, value) in pairs {
+            if self.known_bool(all) == Some(false) {
+                break;
+            }
+            let takes = self.test(pattern, &value, span)?;
+            all = self.logical(BinaryOp::And, all, takes, span)?;
+        }
+        Ok(all)
+    }
+
+    fn logical(&mut self, op: BinaryOp, left: NodeId, right: NodeId, span: Span) -> Eval<NodeId> {
+        let value = self.binary(op, &Value::Node(left), &Value::Node(right), span)?;
+        self.node(&value, span)
+    }
+}
+
+/// A pattern as patterns in which no `|` binds names.
+fn alternatives(pattern: &Pattern) -> Vec<Pattern> {
+    if !binds_in_or(pattern) {
+        return vec![pattern.clone()];
+    }
+    let each = |parts: &[Pattern]| {
+        let mut rows: Vec<Vec<Pattern>> = vec![Vec::new()];
+        for part in parts {
+            let choices = alternatives(part);
+            let longer = rows.iter().flat_map(|row| {
+                choices
+                    .iter()
+                    .map(move |choice| [row.as_slice(), std::slice::from_ref(choice)].concat())
+            });
+            rows = longer.take(MAX_ALTERNATIVES + 1).collect();
+        }
+        rows
+    };
+    match pattern {
+        Pattern::Or(cases) => cases.iter().flat_map(alternatives).collect(),
+        Pattern::Tuple(parts, at) => each(parts).into_iter().map(|row| Pattern::Tuple(row, *at)).collect(),
+        Pattern::Array(parts, at) => each(parts).into_iter().map(|row| Pattern::Array(row, *at)).collect(),
+        Pattern::Struct(path, fields, at) => {
+            let parts: Vec<Pattern> = fields.iter().map(|(_, part)| part.clone()).collect();
+            let names = || fields.iter().map(|(name, _)| name.clone());
+            let rows = each(&parts).into_iter();
+            rows.map(|row| Pattern::Struct(path.clone(), names().zip(row).collect(), *at))
+                .collect()
+        }
+        Pattern::Ref(inner, at) => {
+            let inner = alternatives(inner).into_iter();
+            inner.map(|p| Pattern::Ref(Box::new(p), *at)).collect()
+        }
+        Pattern::At(name, mutable, inner, at) => {
+            let inner = alternatives(inner).into_iter();
+            inner
+                .map(|p| Pattern::At(name.clone(), *mutable, Box::new(p), *at))
+                .collect()
+        }
+        Pattern::Name(..) | Pattern::Wild | Pattern::Value(_) | Pattern::Range(..) => vec![pattern.clone()],
+    }
+}
+
+/// Whether a `|` anywhere in a pattern binds names.
+fn binds_in_or(pattern: &Pattern) -> bool {
+    match pattern {
+        Pattern::Or(cases) => cases.iter().any(binds),
+        Pattern::Tuple(parts, _) | Pattern::Array(parts, _) => parts.iter().any(binds_in_or),
+        Pattern::Struct(_, fields, _) => fields.iter().any(|(_, part)| binds_in_or(part)),
+        Pattern::Ref(inner, _) | Pattern::At(_, _, inner, _) => binds_in_or(inner),
+        Pattern::Name(..) | Pattern::Wild | Pattern::Value(_) | Pattern::Range(..) => false,
+    }
+}
+
+fn binds(pattern: &Pattern) -> bool {
+    match pattern {
+        Pattern::Name(..) | Pattern::At(..) => true,
+        Pattern::Or(parts) | Pattern::Tuple(parts, _) | Pattern::Array(parts, _) => parts.iter().any(binds),
+        Pattern::Struct(_, fields, _) => fields.iter().any(|(_, part)| binds(part)),
+        Pattern::Ref(inner, _) => binds(inner),
+        Pattern::Wild | Pattern::Value(_) | Pattern::Range(..) => false,
+    }
+}
