@@ -255,7 +255,8 @@ impl Evaluator<'_> {
     ) -> Eval<Vec<Value>> {
         let mut pairs: Vec<_> = values.into_iter().map(|(left, right)| (None, left, right)).collect();
         let mut compared = 0;
-        for slot in 0..self.scope.len() {
+        // Who left before a variable was made never comes to where it can be seen.
+        for slot in 0..self.scope.len().min(left_scope.len()) {
             let (a, b) = (left_scope.at(slot).1, self.scope.at(slot).1);
             if let (Value::Array(x), Value::Array(y)) = (a, b) {
                 if Rc::ptr_eq(x, y) {
