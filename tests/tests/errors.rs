@@ -1,6 +1,7 @@
 //! Every message of the generator, as a user sees it: `tests/errors/NAME.rs` is refused with `NAME.txt`. Lines
-//! `// set: OPTION=VALUE`, `// unroll: POLICY`, `// unroll-loop: LOOP=POLICY`, `// budget: N`, `// function: NAME` and
-//! `// stage: fragment` at the top of a case say how it is compiled.
+//! `// set: OPTION=VALUE`, `// unroll: POLICY`, `// unroll-loop: LOOP=POLICY`, `// budget: N`, `// function: NAME`,
+//! `// stage: fragment`, `// target: LANGUAGE`, `// binding: NAME=N`, `// register: NAME=REGISTER`, `// entry: NAME`, `// form: FORM` and
+//! `// origin: ORIGIN` at the top of a case say how it is compiled and emitted.
 //!
 //! `STRAIGHTLINE_BLESS=1` writes what the messages are now.
 
@@ -41,6 +42,18 @@ fn message(path: &Path) -> Result<String, String> {
             "budget" => settings.budget = value.parse().map_err(|_| "a number")?,
             "function" => value.clone_into(&mut function),
             "stage" => options.stage = Stage::Fragment,
+            "target" => options = options.targets([value.parse()?]),
+            "binding" => {
+                let (name, number) = pair()?;
+                options = options.binding(name, number.parse().map_err(|_| "a number")?);
+            }
+            "register" => {
+                let (name, register) = pair()?;
+                options = options.register(name, register.parse()?);
+            }
+            "entry" => options = options.entry(value),
+            "form" => options.form = value.parse()?,
+            "origin" => options.origin = value.parse()?,
             other => return Err(format!("no such directive: {other}")),
         }
     }

@@ -5,7 +5,7 @@
 pub enum EmitError {
     /// The size of the frame is needed and nothing tells it.
     #[error(
-        "`{kernel}` asks for the frame's size but reads no texture, so neither a fragment shader nor a function can know: emit it as a whole shader for compute"
+        "`{kernel}` needs the frame's size but reads no texture of that size, so neither a fragment shader nor a function can know it: emit a whole shader for compute"
     )]
     NoFrame {
         /// The kernel.

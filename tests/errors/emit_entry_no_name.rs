@@ -1,0 +1,4 @@
+// entry: two words
+pub fn k(color: &Frame<Vec4>, image: &Texture<Vec4>, pixel: IVec2) -> Vec4 {
+    color.load(pixel) + image.load(pixel)
+}

@@ -1,0 +1,5 @@
+// form: function
+// target: spirv
+pub fn k(color: &Frame<Vec4>, image: &Texture<Vec4>, pixel: IVec2) -> Vec4 {
+    color.load(pixel) + image.load(pixel)
+}
