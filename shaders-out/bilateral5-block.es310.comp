@@ -694,18 +694,18 @@ void main() {
     vec4 sum_j2i2k0l2 = sum_j2i1k1l2 + vec4(product_99, weight_j2i2k0l2);
     vec4 sum_j2i2k0l3 = sum_j2i1k1l3 + vec4(product_100, weight_j2i2k0l3);
     // lane 0: colours of a quad (kernels/src/quad/bilateral.rs:34)
-    vec4 quad_bilateral_l0 = vec4(centre_l0.xyz + sum_j2i2k0l0.xyz / sum_j2i2k0l0.w, bounded_l0);
-    vec4 quad_bilateral_l1 = vec4(centre_l1.xyz + sum_j2i2k0l1.xyz / sum_j2i2k0l1.w, bounded_l1);
-    vec4 quad_bilateral_l2 = vec4(centre_l2.xyz + sum_j2i2k0l2.xyz / sum_j2i2k0l2.w, bounded_l2);
-    vec4 quad_bilateral_l3 = vec4(centre_l3.xyz + sum_j2i2k0l3.xyz / sum_j2i2k0l3.w, bounded_l3);
-    imageStore(destination, pixel, quad_bilateral_l0);
+    vec4 result_l0 = vec4(centre_l0.xyz + sum_j2i2k0l0.xyz / sum_j2i2k0l0.w, bounded_l0);
+    vec4 result_l1 = vec4(centre_l1.xyz + sum_j2i2k0l1.xyz / sum_j2i2k0l1.w, bounded_l1);
+    vec4 result_l2 = vec4(centre_l2.xyz + sum_j2i2k0l2.xyz / sum_j2i2k0l2.w, bounded_l2);
+    vec4 result_l3 = vec4(centre_l3.xyz + sum_j2i2k0l3.xyz / sum_j2i2k0l3.w, bounded_l3);
+    imageStore(destination, pixel, result_l0);
     if (all(lessThan(pixel + ivec2(1, 0), frame))) {
-        imageStore(destination, pixel + ivec2(1, 0), quad_bilateral_l1);
+        imageStore(destination, pixel + ivec2(1, 0), result_l1);
     }
     if (all(lessThan(pixel + ivec2(0, 1), frame))) {
-        imageStore(destination, pixel + ivec2(0, 1), quad_bilateral_l2);
+        imageStore(destination, pixel + ivec2(0, 1), result_l2);
     }
     if (all(lessThan(pixel + ivec2(1), frame))) {
-        imageStore(destination, pixel + ivec2(1), quad_bilateral_l3);
+        imageStore(destination, pixel + ivec2(1), result_l3);
     }
 }

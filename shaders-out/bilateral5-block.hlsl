@@ -697,26 +697,18 @@ void quad_bilateral(uint3 id : SV_DispatchThreadID) {
     float4 sum_j2i2k0l2 = sum_j2i1k1l2 + float4(product_99, weight_j2i2k0l2);
     float4 sum_j2i2k0l3 = sum_j2i1k1l3 + float4(product_100, weight_j2i2k0l3);
     // lane 0: colours of a quad (kernels/src/quad/bilateral.rs:34)
-    float4 quad_bilateral_l0 = float4(
-        centre_l0.xyz + sum_j2i2k0l0.xyz / sum_j2i2k0l0.w, bounded_l0
-    );
-    float4 quad_bilateral_l1 = float4(
-        centre_l1.xyz + sum_j2i2k0l1.xyz / sum_j2i2k0l1.w, bounded_l1
-    );
-    float4 quad_bilateral_l2 = float4(
-        centre_l2.xyz + sum_j2i2k0l2.xyz / sum_j2i2k0l2.w, bounded_l2
-    );
-    float4 quad_bilateral_l3 = float4(
-        centre_l3.xyz + sum_j2i2k0l3.xyz / sum_j2i2k0l3.w, bounded_l3
-    );
-    destination[pixel] = quad_bilateral_l0;
+    float4 result_l0 = float4(centre_l0.xyz + sum_j2i2k0l0.xyz / sum_j2i2k0l0.w, bounded_l0);
+    float4 result_l1 = float4(centre_l1.xyz + sum_j2i2k0l1.xyz / sum_j2i2k0l1.w, bounded_l1);
+    float4 result_l2 = float4(centre_l2.xyz + sum_j2i2k0l2.xyz / sum_j2i2k0l2.w, bounded_l2);
+    float4 result_l3 = float4(centre_l3.xyz + sum_j2i2k0l3.xyz / sum_j2i2k0l3.w, bounded_l3);
+    destination[pixel] = result_l0;
     if (all(pixel + int2(1, 0) < frame)) {
-        destination[pixel + int2(1, 0)] = quad_bilateral_l1;
+        destination[pixel + int2(1, 0)] = result_l1;
     }
     if (all(pixel + int2(0, 1) < frame)) {
-        destination[pixel + int2(0, 1)] = quad_bilateral_l2;
+        destination[pixel + int2(0, 1)] = result_l2;
     }
     if (all(pixel + int2(1, 1) < frame)) {
-        destination[pixel + int2(1, 1)] = quad_bilateral_l3;
+        destination[pixel + int2(1, 1)] = result_l3;
     }
 }

@@ -598,19 +598,19 @@ kernel void quad_bilateral(
     metal::float4 sum_j2i2k0l1_ = sum_j2i1k1l1_ + metal::float4(product_98_, weight_j2i2k0l1_);
     metal::float4 sum_j2i2k0l2_ = sum_j2i1k1l2_ + metal::float4(product_99_, weight_j2i2k0l2_);
     metal::float4 sum_j2i2k0l3_ = sum_j2i1k1l3_ + metal::float4(product_100_, weight_j2i2k0l3_);
-    metal::float4 quad_bilateral_l0_ = metal::float4(centre_l0_.xyz + (sum_j2i2k0l0_.xyz / metal::float3(sum_j2i2k0l0_.w)), bounded_l0_);
-    metal::float4 quad_bilateral_l1_ = metal::float4(centre_l1_.xyz + (sum_j2i2k0l1_.xyz / metal::float3(sum_j2i2k0l1_.w)), bounded_l1_);
-    metal::float4 quad_bilateral_l2_ = metal::float4(centre_l2_.xyz + (sum_j2i2k0l2_.xyz / metal::float3(sum_j2i2k0l2_.w)), bounded_l2_);
-    metal::float4 quad_bilateral_l3_ = metal::float4(centre_l3_.xyz + (sum_j2i2k0l3_.xyz / metal::float3(sum_j2i2k0l3_.w)), bounded_l3_);
-    destination.write(quad_bilateral_l0_, metal::uint2(pixel));
+    metal::float4 result_l0_ = metal::float4(centre_l0_.xyz + (sum_j2i2k0l0_.xyz / metal::float3(sum_j2i2k0l0_.w)), bounded_l0_);
+    metal::float4 result_l1_ = metal::float4(centre_l1_.xyz + (sum_j2i2k0l1_.xyz / metal::float3(sum_j2i2k0l1_.w)), bounded_l1_);
+    metal::float4 result_l2_ = metal::float4(centre_l2_.xyz + (sum_j2i2k0l2_.xyz / metal::float3(sum_j2i2k0l2_.w)), bounded_l2_);
+    metal::float4 result_l3_ = metal::float4(centre_l3_.xyz + (sum_j2i2k0l3_.xyz / metal::float3(sum_j2i2k0l3_.w)), bounded_l3_);
+    destination.write(result_l0_, metal::uint2(pixel));
     if (metal::all(as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(metal::int2(1, 0))) < frame)) {
-        destination.write(quad_bilateral_l1_, metal::uint2(as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(metal::int2(1, 0)))));
+        destination.write(result_l1_, metal::uint2(as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(metal::int2(1, 0)))));
     }
     if (metal::all(as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(metal::int2(0, 1))) < frame)) {
-        destination.write(quad_bilateral_l2_, metal::uint2(as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(metal::int2(0, 1)))));
+        destination.write(result_l2_, metal::uint2(as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(metal::int2(0, 1)))));
     }
     if (metal::all(as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(metal::int2(1))) < frame)) {
-        destination.write(quad_bilateral_l3_, metal::uint2(as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(metal::int2(1)))));
+        destination.write(result_l3_, metal::uint2(as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(metal::int2(1)))));
         return;
     } else {
         return;

@@ -623,18 +623,18 @@ fn quad_bilateral(@builtin(global_invocation_id) id: vec3u) {
     let sum_j2i2k0l2 = sum_j2i1k1l2 + vec4f(product_99, weight_j2i2k0l2);
     let sum_j2i2k0l3 = sum_j2i1k1l3 + vec4f(product_100, weight_j2i2k0l3);
     // lane 0: colours of a quad (kernels/src/quad/bilateral.rs:34)
-    let quad_bilateral_l0 = vec4f(centre_l0.xyz + sum_j2i2k0l0.xyz / sum_j2i2k0l0.w, bounded_l0);
-    let quad_bilateral_l1 = vec4f(centre_l1.xyz + sum_j2i2k0l1.xyz / sum_j2i2k0l1.w, bounded_l1);
-    let quad_bilateral_l2 = vec4f(centre_l2.xyz + sum_j2i2k0l2.xyz / sum_j2i2k0l2.w, bounded_l2);
-    let quad_bilateral_l3 = vec4f(centre_l3.xyz + sum_j2i2k0l3.xyz / sum_j2i2k0l3.w, bounded_l3);
-    textureStore(destination, pixel, quad_bilateral_l0);
+    let result_l0 = vec4f(centre_l0.xyz + sum_j2i2k0l0.xyz / sum_j2i2k0l0.w, bounded_l0);
+    let result_l1 = vec4f(centre_l1.xyz + sum_j2i2k0l1.xyz / sum_j2i2k0l1.w, bounded_l1);
+    let result_l2 = vec4f(centre_l2.xyz + sum_j2i2k0l2.xyz / sum_j2i2k0l2.w, bounded_l2);
+    let result_l3 = vec4f(centre_l3.xyz + sum_j2i2k0l3.xyz / sum_j2i2k0l3.w, bounded_l3);
+    textureStore(destination, pixel, result_l0);
     if all(pixel + vec2i(1, 0) < frame) {
-        textureStore(destination, pixel + vec2i(1, 0), quad_bilateral_l1);
+        textureStore(destination, pixel + vec2i(1, 0), result_l1);
     }
     if all(pixel + vec2i(0, 1) < frame) {
-        textureStore(destination, pixel + vec2i(0, 1), quad_bilateral_l2);
+        textureStore(destination, pixel + vec2i(0, 1), result_l2);
     }
     if all(pixel + vec2i(1) < frame) {
-        textureStore(destination, pixel + vec2i(1), quad_bilateral_l3);
+        textureStore(destination, pixel + vec2i(1), result_l3);
     }
 }

@@ -106,6 +106,6 @@ void main() {
     bool is_less_8 = all(lessThan(floatBitsToUint(tap_7) & uvec4(0x7fffffffu), uvec4(0x7f800000u)));
     vec4 tap_8 = textureLod(sampler2D(color, linear), (sum + -offset_4) * texel_size, 0.0);
     bool is_less_9 = all(lessThan(floatBitsToUint(tap_8) & uvec4(0x7fffffffu), uvec4(0x7f800000u)));
-    vec4 tabula_rasa_2 = (sum_4 + (is_less_8 ? tap_7 : own_2) + (is_less_9 ? tap_8 : own_2)) * 0.1;
-    destination = tabula_rasa_2;
+    vec4 result = (sum_4 + (is_less_8 ? tap_7 : own_2) + (is_less_9 ? tap_8 : own_2)) * 0.1;
+    destination = result;
 }

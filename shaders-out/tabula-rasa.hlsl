@@ -139,7 +139,6 @@ float4 tabula_rasa(float4 position : SV_Position) : SV_Target0 {
         (asuint(tap_8) & uint4(0x7fffffffu, 0x7fffffffu, 0x7fffffffu, 0x7fffffffu))
             < uint4(0x7f800000u, 0x7f800000u, 0x7f800000u, 0x7f800000u)
     );
-    float4 tabula_rasa_2 = (sum_4 + (is_less_8 ? tap_7 : own_2) + (is_less_9 ? tap_8 : own_2))
-        * 0.1;
-    return tabula_rasa_2;
+    float4 result = (sum_4 + (is_less_8 ? tap_7 : own_2) + (is_less_9 ? tap_8 : own_2)) * 0.1;
+    return result;
 }

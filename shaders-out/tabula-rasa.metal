@@ -148,6 +148,6 @@ fragment tabula_rasaOutput tabula_rasa(
     bool is_less_8_ = metal::all((as_type<metal::uint4>(tap_7_) & metal::uint4(2147483647u)) < metal::uint4(2139095040u));
     metal::float4 tap_8_ = color.sample(linear, (sum + -(offset_4_)) * texel_size, metal::level(0.0));
     bool is_less_9_ = metal::all((as_type<metal::uint4>(tap_8_) & metal::uint4(2147483647u)) < metal::uint4(2139095040u));
-    metal::float4 tabula_rasa_2_ = ((sum_4_ + (is_less_8_ ? tap_7_ : own_2_)) + (is_less_9_ ? tap_8_ : own_2_)) * 0.1;
-    return tabula_rasaOutput { tabula_rasa_2_ };
+    metal::float4 result = ((sum_4_ + (is_less_8_ ? tap_7_ : own_2_)) + (is_less_9_ ? tap_8_ : own_2_)) * 0.1;
+    return tabula_rasaOutput { result };
 }

@@ -105,7 +105,6 @@ fn tabula_rasa(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let is_less_8 = all((bitcast<vec4u>(tap_7) & vec4u(0x7fffffffu)) < vec4u(0x7f800000u));
     let tap_8 = textureSampleLevel(color, linear, (sum + -offset_4) * texel_size, 0.0);
     let is_less_9 = all((bitcast<vec4u>(tap_8) & vec4u(0x7fffffffu)) < vec4u(0x7f800000u));
-    let tabula_rasa_2 = (sum_4 + select(own_2, tap_7, is_less_8) + select(own_2, tap_8, is_less_9))
-        * 0.1;
-    return tabula_rasa_2;
+    let result = (sum_4 + select(own_2, tap_7, is_less_8) + select(own_2, tap_8, is_less_9)) * 0.1;
+    return result;
 }

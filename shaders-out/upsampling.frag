@@ -54,10 +54,10 @@ void main() {
     float weight_k3 = 0.0625 * exp2(z_k3 * z_k3 * -0.7213475);
     float total_k3 = 0.5625 * exp2(z_k0 * z_k0 * -0.7213475) + weight_k1 + weight_k2 + weight_k3;
     bool nearer_k3 = away_k3 < (nearer_k2 ? away_k2 : nearest_k1);
-    vec4 fallback_k3 = (nearer_k3 ? taps_k3 : fallback_k2);
     float scale = 1.0 / max(total_k3, 1e-20);
     vec4 color_k1 = taps_k0 + (taps_k1 - taps_k0) * (weight_k1 * scale);
     vec4 color_k2 = color_k1 + (taps_k2 - taps_k0) * (weight_k2 * scale);
     vec4 color_k3 = color_k2 + (taps_k3 - taps_k0) * (weight_k3 * scale);
-    destination = (total_k3 > 1e-20 ? color_k3 : fallback_k3);
+    vec4 result = mix((nearer_k3 ? taps_k3 : fallback_k2), color_k3, bvec4(total_k3 > 1e-20));
+    destination = result;
 }

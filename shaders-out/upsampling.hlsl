@@ -57,10 +57,11 @@ float4 quad_upsampling(float4 position : SV_Position) : SV_Target0 {
     float weight_k3 = 0.0625 * exp2(z_k3 * z_k3 * -0.7213475);
     float total_k3 = 0.5625 * exp2(z_k0 * z_k0 * -0.7213475) + weight_k1 + weight_k2 + weight_k3;
     bool nearer_k3 = away_k3 < (nearer_k2 ? away_k2 : nearest_k1);
-    float4 fallback_k3 = (nearer_k3 ? taps_k3 : fallback_k2);
     float scale = 1.0 / max(total_k3, 1e-20);
     float4 color_k1 = taps_k0 + (taps_k1 - taps_k0) * (weight_k1 * scale);
     float4 color_k2 = color_k1 + (taps_k2 - taps_k0) * (weight_k2 * scale);
     float4 color_k3 = color_k2 + (taps_k3 - taps_k0) * (weight_k3 * scale);
-    return (total_k3 > 1e-20 ? color_k3 : fallback_k3);
+    float4 if_false_2 = (nearer_k3 ? taps_k3 : fallback_k2);
+    float4 result = (total_k3 > 1e-20 ? color_k3 : if_false_2);
+    return result;
 }

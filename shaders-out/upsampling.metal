@@ -64,10 +64,10 @@ fragment quad_upsamplingOutput quad_upsampling(
     float weight_k3_ = 0.0625 * metal::exp2((z_k3_ * z_k3_) * -0.7213475);
     float total_k3_ = (((0.5625 * metal::exp2((z_k0_ * z_k0_) * -0.7213475)) + weight_k1_) + weight_k2_) + weight_k3_;
     bool nearer_k3_ = away_k3_ < (nearer_k2_ ? away_k2_ : nearest_k1_);
-    metal::float4 fallback_k3_ = nearer_k3_ ? taps_k3_ : fallback_k2_;
     float scale = 1.0 / metal::max(total_k3_, 0.00000000000000000001);
     metal::float4 color_k1_ = taps_k0_ + ((taps_k1_ - taps_k0_) * (weight_k1_ * scale));
     metal::float4 color_k2_ = color_k1_ + ((taps_k2_ - taps_k0_) * (weight_k2_ * scale));
     metal::float4 color_k3_ = color_k2_ + ((taps_k3_ - taps_k0_) * (weight_k3_ * scale));
-    return quad_upsamplingOutput { (total_k3_ > 0.00000000000000000001) ? color_k3_ : fallback_k3_ };
+    metal::float4 result = (total_k3_ > 0.00000000000000000001) ? color_k3_ : (nearer_k3_ ? taps_k3_ : fallback_k2_);
+    return quad_upsamplingOutput { result };
 }

@@ -43,10 +43,10 @@ fn quad_upsampling(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let weight_k3 = 0.0625 * exp2(z_k3 * z_k3 * -0.7213475);
     let total_k3 = 0.5625 * exp2(z_k0 * z_k0 * -0.7213475) + weight_k1 + weight_k2 + weight_k3;
     let nearer_k3 = away_k3 < select(nearest_k1, away_k2, nearer_k2);
-    let fallback_k3 = select(fallback_k2, taps_k3, nearer_k3);
     let scale = 1.0 / max(total_k3, 1e-20);
     let color_k1 = taps_k0 + (taps_k1 - taps_k0) * (weight_k1 * scale);
     let color_k2 = color_k1 + (taps_k2 - taps_k0) * (weight_k2 * scale);
     let color_k3 = color_k2 + (taps_k3 - taps_k0) * (weight_k3 * scale);
-    return select(fallback_k3, color_k3, total_k3 > 1e-20);
+    let result = select(select(fallback_k2, taps_k3, nearer_k3), color_k3, total_k3 > 1e-20);
+    return result;
 }

@@ -1,4 +1,5 @@
 // set: radius=uniform
+// unroll-loop: k.x=full
 enum Shape {
     Round,
     Square,
@@ -20,9 +21,6 @@ options! {
 pub fn k(cfg: &Cfg, color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
     let mut sum = Vec4::ZERO;
     for x in -cfg.radius..=cfg.radius {
-        if x == 0 {
-            continue;
-        }
         sum += color.load(pixel + ivec2(x, 0));
     }
     sum

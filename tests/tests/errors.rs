@@ -121,7 +121,7 @@ fn the_page_shows_messages_as_they_are() {
     let chosen = [
         "budget",
         "round_fract_signum",
-        "return_at_run_time",
+        "while_unrolled_by_attribute",
         "argument_of_another_type",
         "array_of_structures_at_run_time",
     ];

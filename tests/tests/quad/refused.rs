@@ -55,6 +55,43 @@ pub fn parts(image: &Frame<Vec4>, pixel: Quad<IVec2>) -> Quad<Vec4> {
         ],
     );
     let text = "
+pub fn leaves(image: &Frame<Vec4>, pixel: Quad<IVec2>) -> Quad<Vec4> {
+    let own = image.load(pixel);
+    let mut sum = own;
+    for k in 0..8 {
+        if own.x() > k as f32 {
+            break;
+        }
+        sum += own.swap_horizontal();
+    }
+    sum
+}
+";
+    says(&error(text, "leaves", &Settings::default()), &["do not run in step"]);
+    let text = "
+pub fn searches(image: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
+    let mut sum = Vec4::ZERO;
+    for k in 0..8 {
+        let there = image.load(pixel + ivec2(k, 0));
+        if there.x > 0.5 {
+            break;
+        }
+        sum += there;
+    }
+    sum
+}
+";
+    let looped = Settings {
+        unroll: straightline_codegen::Unroll::None,
+        branches: straightline_codegen::Branches::Select,
+        block: [2, 1],
+        ..Settings::default()
+    };
+    says(
+        &error(text, "searches", &looped),
+        &["a loop that each pixel may leave in another round"],
+    );
+    let text = "
 pub fn rounds(image: &Frame<Vec4>, pixel: Quad<IVec2>) -> Quad<Vec4> {
     let mut sum = image.load(pixel);
     for k in 0..pixel.x() {

@@ -136,28 +136,33 @@ impl<'g> Lowering<'g> {
         let graph = &self.compiled.graph;
         let regions: Vec<_> = graph.regions_of(node).into_iter().map(|r| graph.region(r)).collect();
         let results = self.results_of(node);
-        // A side that does nothing leaves values that are known before: the variable begins with them.
+        // A side that does nothing leaves values that are known before: the variable begins with them. Not so where the other
+        // side leaves what a loop carries, as it does on the way out: that may be one variable then.
         let idle = otherwise.steps.is_empty();
+        let carried = |id: NodeId| matches!(graph.node(id).op, ir::Op::Param(..));
+        let begins = |k: usize| idle && !carried(regions[0].results[k]);
         let mut changes_array = false;
+        let mut assigns = !idle;
         for (id, k) in &results {
             let kept = regions[1].results[*k];
             if graph.ty(*id).is_array() {
                 changes_array |= self.prepare_array(*id, kept);
                 continue;
             }
-            let begin = (idle && self.looked_at(kept)).then(|| self.expr(kept));
+            assigns |= !begins(*k);
+            let begin = (begins(*k) && self.looked_at(kept)).then(|| self.expr(kept));
             let var = self.variable(*id);
             self.statement(*id, StmtKind::Var(var, begin));
             self.exprs[id.0 as usize] = Some(self.module.read(var));
         }
         let condition = self.expr(graph.node(node).args[0]);
         let before = self.webs.snapshot();
-        let then = self.nested(|lowering| lowering.side(then, &results, &regions[0].results, false));
+        let then = self.nested(|lowering| lowering.side(then, &results, &regions[0].results, &|_| false));
         let first = self.webs.snapshot();
         self.webs.restore(&before);
         let otherwise = self.nested(|lowering| {
-            if !idle || changes_array {
-                lowering.side(otherwise, &results, &regions[1].results, idle);
+            if assigns || changes_array {
+                lowering.side(otherwise, &results, &regions[1].results, &begins);
             } else {
                 for (id, k) in results.iter().filter(|(id, _)| graph.ty(*id).is_array()) {
                     lowering.enter_web(*id, regions[1].results[*k]);
@@ -188,12 +193,19 @@ impl<'g> Lowering<'g> {
         self.webs.holder(kept) != self.webs.variable(id)
     }
 
-    fn side(&mut self, block: &'g Block, results: &[(NodeId, usize)], values: &[NodeId], arrays_only: bool) {
+    /// One side of a branch: its steps, and what it leaves in the branch's variables, but in those that hold it already.
+    fn side(
+        &mut self,
+        block: &'g Block,
+        results: &[(NodeId, usize)],
+        values: &[NodeId],
+        holds: &dyn Fn(usize) -> bool,
+    ) {
         self.steps(block);
         for (id, k) in results {
             if self.compiled.graph.ty(*id).is_array() {
                 self.enter_web(*id, values[*k]);
-            } else if !arrays_only && self.looked_at(values[*k]) {
+            } else if !holds(*k) && self.looked_at(values[*k]) {
                 let (place, value) = (self.expr(*id), self.expr(values[*k]));
                 self.statement(*id, StmtKind::Assign(place, None, value));
             }
