@@ -6,7 +6,7 @@ use crate::diagnostic::{Diagnostic, Span};
 use crate::front::tree::{Expr, ExprKind, Function, Generic, Type as SourceType};
 use crate::ir::{Naming, NodeId, Op, Scalar, Type};
 
-pub use crate::ir::vector_named as vector_type;
+pub use crate::front::tree::vector_named as vector_type;
 
 impl Evaluator<'_> {
     pub fn call(&mut self, path: &[String], constants: &[Expr], args: &[Expr], span: Span) -> Eval {
@@ -23,6 +23,9 @@ impl Evaluator<'_> {
         if self.library.functions.contains_key(last) {
             return self.inline(last, &constants, values, span);
         }
+        if let Some(value) = self.exchange(path, &values, span)? {
+            return Ok(value);
+        }
         let values = values
             .into_iter()
             .map(|v| self.loaded(v, span))
@@ -38,6 +41,12 @@ impl Evaluator<'_> {
         }
         if let Some((kind, lanes)) = constructor(path) {
             return self.compose(kind, lanes, &values, span);
+        }
+        if let ([.., ty, from], [value]) = (path, values.as_slice())
+            && from == "from"
+            && let Some(value) = self.from(ty, value, span)?
+        {
+            return Ok(value);
         }
         match (path, values.as_slice()) {
             ([.., ty, splat], [value]) if splat == "splat" => {
@@ -131,6 +140,7 @@ impl Evaluator<'_> {
             .into());
         }
         let bound = self.constants_of(function, constants, &args, span)?;
+        let of_library = function.span.file == crate::front::std::FILE;
         let outer = self.scope.enter_function();
         for (name, value) in bound {
             self.scope.bind(&name, value);
@@ -148,7 +158,9 @@ impl Evaluator<'_> {
                     });
                 }
             };
-            self.name_as(&value, &param.name, Naming::Parameter, span);
+            if !of_library {
+                self.name_as(&value, &param.name, Naming::Parameter, span);
+            }
             self.scope.bind(&param.name, value);
         }
         self.calls.push(name.to_owned());
@@ -163,6 +175,8 @@ impl Evaluator<'_> {
             self.name_as(value, &called(name), Naming::Function, span);
         }
         match result {
+            // What is wrong is how it was called.
+            Err(Exit::Error(error)) if of_library => Err(error.called_at(span, name).into()),
             Err(Exit::Break(_) | Exit::Continue(_)) => {
                 Err(Diagnostic::at(function.span, "`break` or `continue` outside of a loop").into())
             }
@@ -246,7 +260,7 @@ impl Evaluator<'_> {
     }
 
     /// A vector from its lanes, or from shorter vectors and lanes.
-    fn compose(&mut self, kind: Scalar, lanes: u8, values: &[Value], span: Span) -> Eval {
+    pub fn compose(&mut self, kind: Scalar, lanes: u8, values: &[Value], span: Span) -> Eval {
         let mut parts: Vec<NodeId> = Vec::new();
         for value in values {
             let id = self.lane_node(value, kind, span)?;
@@ -385,6 +399,8 @@ fn constructor(path: &[String]) -> Option<(Scalar, u8)> {
                 upper = format!("I{rest}");
             } else if let Some(rest) = upper.strip_prefix('u') {
                 upper = format!("U{rest}");
+            } else if let Some(rest) = upper.strip_prefix('b') {
+                upper = format!("B{rest}");
             }
             vector_type(&upper)
         }

@@ -3,7 +3,7 @@
 use super::Evaluator;
 use super::value::{Eval, Exit, Place, Step, Value};
 use crate::diagnostic::{Diagnostic, Span};
-use crate::front::tree::Expr;
+use crate::front::tree::{Expr, Function};
 use crate::ir::{BinaryOp, Type};
 use std::rc::Rc;
 
@@ -18,26 +18,23 @@ const INTEGERS: [&str; 7] = [
     "pow",
 ];
 
-impl Evaluator<'_> {
+impl<'a> Evaluator<'a> {
     pub fn method(&mut self, receiver: &Expr, name: &str, args: &[Expr], span: Span) -> Eval {
         let (value, place) = self.receiver(receiver)?;
         let args = self.all(args)?;
         if args.contains(&Value::Poison) {
             return Err(Exit::Noted);
         }
-        if let Value::Struct { ty, .. } | Value::Enum { ty, .. } = &value {
-            let method = format!("{ty}::{name}");
-            if let Some(function) = self.library.functions.get(&method) {
-                let receiver = match function.params.first() {
-                    Some(own) if own.ty.is_mutable_reference() => {
-                        let place = place.unwrap_or_else(|| self.temporary(value.clone()));
-                        Value::Ref(Rc::new(place))
-                    }
-                    _ => value,
-                };
-                let all = std::iter::once(receiver).chain(args).collect();
-                return self.inline(&method, &[], all, span);
-            }
+        if let Some((method, function)) = self.own_method(&value, name) {
+            let receiver = match function.params.first() {
+                Some(own) if own.ty.is_mutable_reference() => {
+                    let place = place.unwrap_or_else(|| self.temporary(value.clone()));
+                    Value::Ref(Rc::new(place))
+                }
+                _ => value,
+            };
+            let all = std::iter::once(receiver).chain(args).collect();
+            return self.inline(&method, &[], all, span);
         }
         let args = args
             .into_iter()
@@ -83,7 +80,7 @@ impl Evaluator<'_> {
             Value::Int(_) | Value::Node(_) if args.len() <= 1 && INTEGERS.contains(&name) => {
                 match self.known_integer_method(&value, name, &args, span)? {
                     Some(result) => Ok(result),
-                    None => self.math(&value, name, &args, span),
+                    None => self.integer_method(value, name, args, span),
                 }
             }
             Value::Poison => Err(Exit::Noted),
@@ -93,6 +90,20 @@ impl Evaluator<'_> {
             }
             _ => self.math(&value, name, &args, span),
         }
+    }
+
+    /// The function of the library that a method of a value stands for: inference has written its path, or it is one of a
+    /// type of the kernel's own. In a generic function only the value tells.
+    fn own_method(&self, value: &Value, name: &str) -> Option<(String, &'a Function)> {
+        let library = self.library;
+        let method = match value {
+            _ if name.contains("::") => name.to_owned(),
+            Value::Struct { ty, .. } | Value::Enum { ty, .. } => format!("{ty}::{name}"),
+            Value::Node(id) if !super::math::has(self.ty(*id), name) => format!("{}::{name}", self.ty(*id).in_rust()),
+            _ => return None,
+        };
+        let function = library.functions.get(&method)?;
+        Some((method, function))
     }
 
     /// The value of a method's receiver and, where it is one, the place that it stands for.
@@ -170,6 +181,24 @@ impl Evaluator<'_> {
             }
             _ => Value::Int(result),
         }))
+    }
+
+    /// A method of integers that are no constants: by the evaluator's own rules, or as the library has it.
+    fn integer_method(&mut self, value: Value, name: &str, args: Vec<Value>, span: Span) -> Eval {
+        let known = args
+            .first()
+            .and_then(|divisor| self.known_int(divisor))
+            .is_some_and(|n| n > 0);
+        let of = match &value {
+            Value::Node(id) => self.ty(*id).in_rust(),
+            _ => "i32".to_owned(),
+        };
+        let function = format!("{of}::{name}");
+        if (name != "rem_euclid" || !known) && self.library.functions.contains_key(&function) {
+            let all = std::iter::once(value).chain(args).collect();
+            return self.inline(&function, &[], all, span);
+        }
+        self.math(&value, name, &args, span)
     }
 
     fn array_method(&mut self, elements: &[Value], name: &str, plain: bool, span: Span) -> Eval {

@@ -12,6 +12,7 @@ mod entry;
 mod expr;
 mod functions;
 mod integers;
+mod library;
 mod loops;
 mod matching;
 mod math;
@@ -241,6 +242,10 @@ impl Evaluator<'_> {
     }
 
     fn name_node(&mut self, id: NodeId, name: &str, naming: Naming, span: Span) {
+        // Variables of the library's own are nobody's names.
+        if span.file == crate::front::std::FILE {
+            return;
+        }
         if matches!(
             self.builder.graph().node(id).op,
             Op::Const(_) | Op::Pixel | Op::FrameSize | Op::Uniform(_) | Op::Varying(_) | Op::Param(..) | Op::MakeArray
@@ -335,7 +340,11 @@ impl Evaluator<'_> {
 
 /// What the functions of a library are for, in order of their places.
 fn purposes(library: &Library) -> Vec<Purpose> {
-    let each = library.functions.values().map(|function| Purpose {
+    let each = library
+        .functions
+        .values()
+        .filter(|f| f.span.file != crate::front::std::FILE);
+    let each = each.map(|function| Purpose {
         file: function.span.file,
         line: function.span.line,
         words: purpose(&function.docs),

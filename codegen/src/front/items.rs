@@ -200,6 +200,9 @@ impl Items {
         };
         let body = lower.block(body);
         let span = lower.span(sig.ident.span());
+        if file == super::std::FILE && self.library.functions.contains_key(&name) {
+            return;
+        }
         if self.library.functions.contains_key(&name) {
             self.duplicate(&lower, sig.ident.span(), &name);
         }
@@ -392,6 +395,9 @@ impl Items {
         if !errors.is_empty() {
             return Err(errors);
         }
+        self.library
+            .functions
+            .retain(|name, function| function.span.file != super::std::FILE || reached.contains(name));
         Ok(Parsed {
             library: self.library,
             reached,

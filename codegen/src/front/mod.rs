@@ -17,13 +17,15 @@ mod options;
 mod pattern;
 mod reach;
 mod scan;
+pub mod std;
 pub mod tree;
 
 use crate::diagnostic::{Diagnostic, Errors, File, Span};
-use std::borrow::Cow;
-use std::collections::BTreeSet;
-use std::sync::Arc;
+use ::std::borrow::Cow;
+use ::std::collections::BTreeSet;
+use ::std::sync::Arc;
 
+pub use foreign::is_prelude_type;
 pub use scan::{assigned, children};
 pub use tree::Library;
 
@@ -57,6 +59,10 @@ pub fn parse(files: &Arc<Vec<File>>, entry: &str) -> Result<Parsed, Errors> {
     let mut items = items::Items::default();
     for (file, parsed) in &mut syntax {
         items.file(*file, parsed);
+    }
+    match syn::parse_file(&std::text(files)) {
+        Ok(mut parsed) => items.file(std::FILE, &mut parsed),
+        Err(error) => return Err(Errors::of(syntax_error(std::FILE, &error))),
     }
     items.lower(entry).map_err(|found| Errors::new(found, files))
 }

@@ -47,6 +47,8 @@ impl Around<'_> {
     }
 
     fn mutates(&self, method: &str) -> bool {
+        // Inference may have found the function that a method stands for.
+        let method = method.rsplit("::").next().unwrap_or(method);
         method == "iter_mut" || self.mutating.is_some_and(|names| names.contains(method))
     }
 }

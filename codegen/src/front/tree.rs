@@ -1,7 +1,7 @@
 //! The tree that kernels are evaluated from: the supported part of Rust, with places.
 
 use crate::diagnostic::Span;
-use crate::ir::{BinaryOp, UnaryOp};
+use crate::ir::{BinaryOp, Scalar, UnaryOp};
 use crate::policy::{Branches, Unroll};
 use std::collections::{HashMap, HashSet};
 
@@ -159,6 +159,16 @@ pub enum Pattern {
     Range(Option<Box<Expr>>, Option<Box<Expr>>, bool),
     /// `name @ pattern`, `mut name @ pattern` (true).
     At(String, bool, Box<Pattern>, Span),
+}
+
+/// The vector that glam calls so, `BVec2` to `BVec4` among them: the kind and the number of its components.
+pub fn vector_named(name: &str) -> Option<(Scalar, u8)> {
+    match name {
+        "BVec2" => Some((Scalar::Bool, 2)),
+        "BVec3" => Some((Scalar::Bool, 3)),
+        "BVec4" => Some((Scalar::Bool, 4)),
+        _ => crate::ir::vector_named(name),
+    }
 }
 
 /// A type as written.

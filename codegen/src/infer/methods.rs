@@ -25,6 +25,19 @@ impl<'l> Checker<'l> {
                 return self.signature(function, &[], Some(&ty), args, span);
             }
         }
+        let settled = self.settled(&bare);
+        if let Some(of) = library_name(&settled) {
+            let (library, function) = (self.library, format!("{of}::{name}"));
+            if let Some(found) = library.functions.get(&function)
+                && !(matches!(settled, Ty::Int(_)) && evaluated(name))
+            {
+                if found.params.first().is_some_and(|own| own.ty.is_mutable_reference()) {
+                    self.borrowed(access, reference, receiver);
+                }
+                self.methods.insert(span, function);
+                return self.signature(found, &[], Some(&ty), args, span);
+            }
+        }
         if name == "iter_mut" {
             self.borrowed(access, reference, receiver);
         }
@@ -139,7 +152,7 @@ impl<'l> Checker<'l> {
     fn of_float(&mut self, name: &str, args: &'l [Expr]) -> Ty {
         let float = Ty::Float;
         match name {
-            "powf" | "atan2" | "min" | "max" | "rem_euclid" | "div_euclid" | "copysign" => self.takes_own(args, float),
+            "powf" | "atan2" | "min" | "max" => self.takes_own(args, float),
             "clamp" | "mul_add" | "lerp" => self.takes(args, &[float.clone(), float.clone()], float),
             "powi" => self.takes(args, &[Ty::I32], float),
             "is_nan" | "is_finite" => self.takes(args, &[], Ty::Bool),
@@ -165,6 +178,13 @@ impl<'l> Checker<'l> {
 
     fn of_vector(&mut self, kind: Scalar, lanes: u8, name: &str, args: &'l [Expr]) -> Ty {
         let (own, part) = (Ty::Vector(kind, lanes), Ty::scalar(kind));
+        if kind == Scalar::Bool {
+            return match name {
+                "any" | "all" => self.takes(args, &[], Ty::Bool),
+                "test" => self.takes(args, &[Ty::USIZE], Ty::Bool),
+                _ => self.unknown_method(args),
+            };
+        }
         if let Some(to) = name.strip_prefix("as_") {
             let target = to.strip_prefix("vec").map(|n| format!("Vec{n}"));
             let target = target.or_else(|| to.strip_prefix("ivec").map(|n| format!("IVec{n}")));
@@ -182,6 +202,9 @@ impl<'l> Checker<'l> {
             "length" | "length_squared" | "length_recip" | "min_element" | "max_element" | "element_sum"
             | "element_product" => self.takes(args, &[], part),
             "min" | "max" | "cross" | "reflect" => self.takes_own(args, own),
+            "cmplt" | "cmple" | "cmpgt" | "cmpge" | "cmpeq" | "cmpne" => {
+                self.takes(args, &[own], Ty::Vector(Scalar::Bool, lanes))
+            }
             "clamp" => self.takes(args, &[own.clone(), own.clone()], own),
             "lerp" => self.takes(args, &[own.clone(), Ty::Float], own),
             "powf" => self.takes(args, &[Ty::Float], own),
@@ -295,4 +318,17 @@ impl<'l> Checker<'l> {
             _ => self.unknown_method(args),
         }
     }
+}
+
+/// The name under which the library has methods of a type that is not of the kernel's files.
+fn library_name(ty: &Ty) -> Option<String> {
+    match ty {
+        Ty::Bool | Ty::Int(_) | Ty::Float | Ty::Vector(..) | Ty::Matrix(_) => Some(ty.to_string()),
+        _ => None,
+    }
+}
+
+/// Methods of integers that the evaluator computes where it knows the numbers, and else takes from the library.
+fn evaluated(name: &str) -> bool {
+    matches!(name, "rem_euclid" | "div_euclid" | "div_ceil" | "is_multiple_of")
 }

@@ -6,7 +6,7 @@ use crate::diagnostic::{Diagnostic, Span};
 use crate::front::tree::{Expr, Function, Generic, Type};
 use std::collections::HashMap;
 
-pub use crate::ir::vector_named as vector;
+pub use crate::front::tree::vector_named as vector;
 
 impl<'l> Checker<'l> {
     /// The type that is written at `span`.

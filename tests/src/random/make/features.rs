@@ -20,6 +20,8 @@ pub enum Feature {
     Matrices,
     /// Enums and `match` on them.
     Enums,
+    /// What the generator has as text of the kernel language.
+    Library,
     /// `match` on runtime values, guards, `if let`, `let ... else`, `matches!`, `while let`.
     Matching,
     /// Generic functions.
@@ -48,6 +50,7 @@ pub const ALL: &[Feature] = &[
     Feature::Attributes,
     Feature::Matrices,
     Feature::Enums,
+    Feature::Library,
     Feature::Matching,
     Feature::Generics,
     Feature::Nested,

@@ -14,6 +14,7 @@ mod integers;
 mod items;
 mod kernel;
 mod lets;
+mod library;
 mod loops;
 mod matches;
 mod places;

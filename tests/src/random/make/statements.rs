@@ -36,6 +36,7 @@ impl Maker {
             39 if nested && self.on(Feature::Matching) => self.runtime_match(),
             35 => self.destructure(),
             36 if self.on(Feature::Leaving) => self.leave(),
+            37 if self.random.once_in(3) && self.on(Feature::Library) => self.exchange(),
             37 => self.constant_inside(),
             38 => self.line("assert!(1 + 1 == 2, \"arithmetic\");"),
             _ => self.let_(),
