@@ -5,23 +5,57 @@ use super::{Evaluator, MAX_CALLS};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::front::tree::{Expr, ExprKind, Function, Generic, Type as SourceType};
 use crate::ir::{Naming, NodeId, Op, Scalar, Type};
+use std::rc::Rc;
 
 pub use crate::front::tree::vector_named as vector_type;
 
 impl Evaluator<'_> {
     pub fn call(&mut self, path: &[String], constants: &[Expr], args: &[Expr], span: Span) -> Eval {
-        let constants = self.all(constants)?;
+        let constants = self.generic_constants(path, constants)?;
         let values = self.all(args)?;
         if values.contains(&Value::Poison) {
             return Err(Exit::Noted);
         }
+        if let [name] = path
+            && let Some(callee) = self.scope.get(name).cloned()
+        {
+            let callee = match callee {
+                Value::Alias(place) => self.read(&place, span)?,
+                other => self.loaded(other, span)?,
+            };
+            if matches!(callee, Value::Closure(_) | Value::Function(_)) {
+                return self.invoke(&callee, values, span);
+            }
+        }
+        self.apply(path, &constants, values, span)
+    }
+
+    /// What stands in `::<>` of a call: the constants; types are found by inference.
+    fn generic_constants(&mut self, path: &[String], stated: &[Expr]) -> Eval<Vec<Value>> {
+        let library = self.library;
+        let method = path.join("::");
+        let function = library.functions.get(&method);
+        let function = function.or_else(|| library.functions.get(path.last()?));
+        let is_type = |k: usize| {
+            let generic = function.and_then(|function| function.generics.get(k));
+            matches!(generic, Some(Generic::Type(_)) | None)
+        };
+        let each = stated.iter().enumerate().map(|(k, expr)| match is_type(k) {
+            true => Ok(Value::unit()),
+            false => self.expr(expr),
+        });
+        each.collect()
+    }
+
+    /// Calls a function by its path.
+    pub fn apply(&mut self, path: &[String], constants: &[Value], values: Vec<Value>, span: Span) -> Eval {
         let last = path.last().map(String::as_str).unwrap_or_default();
         let method = path.join("::");
         if path.len() == 2 && self.library.functions.contains_key(&method) {
-            return self.inline(&method, &constants, values, span);
+            return self.inline(&method, constants, values, span);
         }
         if self.library.functions.contains_key(last) {
-            return self.inline(last, &constants, values, span);
+            return self.inline(last, constants, values, span);
         }
         if let Some(value) = self.exchange(path, &values, span)? {
             return Ok(value);
@@ -322,6 +356,10 @@ impl Evaluator<'_> {
             return match value {
                 Value::Poison => Err(Exit::Noted),
                 Value::Unset => Err(self.unset(last, span)),
+                Value::Alias(place) => {
+                    let place = Rc::clone(place);
+                    self.read(&place, span)
+                }
                 other => Ok(other.clone()),
             };
         }
@@ -353,6 +391,7 @@ impl Evaluator<'_> {
         }
         match self.known_constant(path) {
             Some(value) => Ok(value),
+            None if self.is_function(path) => Ok(Value::Function(path.to_vec())),
             None => {
                 let names = self.scope.names();
                 Err(Diagnostic::at(span, format!("there is no `{}` here", path.join("::")))
@@ -360,6 +399,21 @@ impl Evaluator<'_> {
                     .help(crate::suggest::suggest(last, &names, "variables here are"))
                     .into())
             }
+        }
+    }
+
+    /// Whether a path is that of a function: of the kernel's files, or a method of a number or a vector.
+    fn is_function(&self, path: &[String]) -> bool {
+        let functions = &self.library.functions;
+        match path {
+            [name] => functions.contains_key(name),
+            [.., ty, name] => {
+                functions.contains_key(&path.join("::"))
+                    || functions.contains_key(name)
+                    || ((vector_type(ty).is_some() || matches!(ty.as_str(), "f32" | "i32" | "u32"))
+                        && name.starts_with(char::is_lowercase))
+            }
+            [] => false,
         }
     }
 

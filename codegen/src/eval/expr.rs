@@ -333,6 +333,7 @@ impl Evaluator<'_> {
             ExprKind::Break(label) => Err(Exit::Break(label.clone())),
             ExprKind::Continue(label) => Err(Exit::Continue(label.clone())),
             ExprKind::Assert(condition, message) => self.assert(condition, message),
+            ExprKind::Closure(closure) => self.closure(closure, span),
         }
     }
 

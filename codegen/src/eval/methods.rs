@@ -60,7 +60,10 @@ impl<'a> Evaluator<'a> {
             }
             Value::Texture(index) => self.texture(*index, name, &args, span),
             Value::Buffer(index) => self.buffer(*index, name, &args, span),
-            Value::Range(range) => self.range_method(range, name, &args, span),
+            Value::Range(range) if matches!(name, "rev" | "step_by" | "contains") => {
+                self.range_method(range, name, &args, span)
+            }
+            Value::Range(_) => self.iterator_method(&value, name, &args, span),
             Value::Array(_) | Value::Node(_) if name == "iter_mut" && args.is_empty() => match place {
                 Some(place) => self.elements_mut(&Value::Ref(Rc::new(place)), span),
                 None => {
@@ -68,15 +71,8 @@ impl<'a> Evaluator<'a> {
                     self.elements_mut(&Value::Ref(Rc::new(place)), span)
                 }
             },
-            Value::Array(elements) => self.array_method(elements, name, args.is_empty(), span),
-            Value::Node(id) if self.ty(*id).is_array() => {
-                let Type::Array { len, .. } = self.ty(*id) else {
-                    unreachable!("just matched")
-                };
-                let each = (0..len).map(|k| self.element(&value, &Value::Int(i64::from(k)), span));
-                let elements = each.collect::<Eval<Vec<Value>>>()?;
-                self.array_method(&elements, name, args.is_empty(), span)
-            }
+            Value::Array(_) => self.iterator_method(&value, name, &args, span),
+            Value::Node(id) if self.ty(*id).is_array() => self.iterator_method(&value, name, &args, span),
             Value::Int(_) | Value::Node(_) if args.len() <= 1 && INTEGERS.contains(&name) => {
                 match self.known_integer_method(&value, name, &args, span)? {
                     Some(result) => Ok(result),
@@ -99,7 +95,9 @@ impl<'a> Evaluator<'a> {
         let method = match value {
             _ if name.contains("::") => name.to_owned(),
             Value::Struct { ty, .. } | Value::Enum { ty, .. } => format!("{ty}::{name}"),
-            Value::Node(id) if !super::math::has(self.ty(*id), name) => format!("{}::{name}", self.ty(*id).in_rust()),
+            Value::Node(id) if !crate::front::methods::has(self.ty(*id), name) => {
+                format!("{}::{name}", self.ty(*id).in_rust())
+            }
             _ => return None,
         };
         let function = library.functions.get(&method)?;
@@ -199,21 +197,5 @@ impl<'a> Evaluator<'a> {
             return self.inline(&function, &[], all, span);
         }
         self.math(&value, name, &args, span)
-    }
-
-    fn array_method(&mut self, elements: &[Value], name: &str, plain: bool, span: Span) -> Eval {
-        match (name, plain) {
-            ("len", true) => Ok(Value::Int(elements.len() as i64)),
-            ("iter" | "into_iter" | "copied", true) => Ok(Value::array(elements.to_vec())),
-            ("enumerate", true) => {
-                let pair = |(k, element): (usize, &Value)| Value::Tuple(vec![Value::Int(k as i64), element.clone()]);
-                Ok(Value::array(elements.iter().enumerate().map(pair).collect()))
-            }
-            ("rev", true) => Ok(Value::array(elements.iter().rev().cloned().collect())),
-            _ => Err(Diagnostic::at(span, format!("an array has no method `{name}`"))
-                .label("not supported")
-                .help("arrays have `len`, `iter`, `enumerate` and `rev`")
-                .into()),
-        }
     }
 }

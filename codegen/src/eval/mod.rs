@@ -6,12 +6,14 @@
 mod assign;
 mod budget;
 mod call;
+mod closures;
 mod consts;
 mod control;
 mod entry;
 mod expr;
 mod functions;
 mod integers;
+mod iterators;
 mod library;
 mod loops;
 mod matching;

@@ -162,6 +162,7 @@ impl Items {
     ) {
         let mut lower = Lower::new(file, of.map(str::to_owned));
         let name = qualified(of, &sig.ident);
+        lower.called_parameters(&sig.generics);
         let mut params = Vec::new();
         // Evaluation is on values, so a type parameter is whatever comes; constants are bound by name.
         let generics = sig.generics.params.iter().filter_map(|p| match p {

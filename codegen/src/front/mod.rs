@@ -7,12 +7,14 @@ mod attribute;
 mod cfg;
 mod check;
 mod choice;
+mod closure;
 mod depth;
 mod expr;
 mod foreign;
 #[cfg(test)]
 mod fuzz;
 mod items;
+pub mod methods;
 mod options;
 mod pattern;
 mod reach;
@@ -26,7 +28,7 @@ use ::std::collections::BTreeSet;
 use ::std::sync::Arc;
 
 pub use foreign::is_prelude_type;
-pub use scan::{assigned, children};
+pub use scan::{assigned, children, mentioned_in};
 pub use tree::Library;
 
 /// What the files of a kernel define.

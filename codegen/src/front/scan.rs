@@ -128,6 +128,18 @@ fn expr<'b>(e: &'b Expr, out: &mut Effects, around: &mut Around<'b>) {
             block(then, out, around);
             otherwise.iter().for_each(|e| expr(e, out, around));
         }
+        ExprKind::Closure(closure) => {
+            // A `return` in it leaves the closure alone.
+            let leaves = out.leaves;
+            let mark = around.own.len();
+            closure
+                .params
+                .iter()
+                .for_each(|(pattern, _)| bound(pattern, &mut around.own));
+            expr(&closure.body, out, around);
+            around.own.truncate(mark);
+            out.leaves = leaves;
+        }
         ExprKind::Block(b) => block(b, out, around),
         ExprKind::Match(subject, arms, _) => {
             expr(subject, out, around);
@@ -182,6 +194,7 @@ pub fn children(e: &Expr) -> Vec<&Expr> {
             .collect(),
         ExprKind::For(f) => vec![&f.over],
         ExprKind::While(condition, ..) => vec![condition],
+        ExprKind::Closure(closure) => vec![&closure.body],
         _ => Vec::new(),
     }
 }

@@ -2,6 +2,7 @@
 
 use super::Known;
 use crate::front::tree::{Block, Expr, ExprKind, Library, Pattern, Statement, Type};
+use std::sync::Arc;
 
 /// Gives each literal the type that was found for it, and each method of a number the function that it stands for.
 pub fn apply(library: &mut Library, known: &Known) {
@@ -101,6 +102,15 @@ fn expr(e: &mut Expr, known: &Known) {
                 expr(&mut arm.body, known);
             }
         }
+        ExprKind::Closure(closure) => {
+            let closure = Arc::make_mut(closure);
+            for (p, stated) in &mut closure.params {
+                pattern(p, known);
+                stated.iter_mut().for_each(|t| ty(t, known));
+            }
+            closure.result.iter_mut().for_each(|t| ty(t, known));
+            expr(&mut closure.body, known);
+        }
         ExprKind::Block(b) => block(b, known),
         ExprKind::For(f) => {
             pattern(&mut f.pattern, known);
@@ -131,6 +141,10 @@ fn ty(t: &mut Type, known: &Known) {
     match t {
         Type::Name(_, args) | Type::Tuple(args) => args.iter_mut().for_each(|t| ty(t, known)),
         Type::Ref(_, inner) => ty(inner, known),
+        Type::Fn(params, result) => {
+            params.iter_mut().for_each(|t| ty(t, known));
+            ty(result, known);
+        }
         Type::Array(element, len) => {
             ty(element, known);
             len.iter_mut().for_each(|e| expr(e, known));

@@ -10,6 +10,11 @@ impl<'l> Checker<'l> {
     /// The type of `path::<constants>(args)`.
     pub fn call(&mut self, path: &'l [String], constants: &'l [Expr], args: &'l [Expr], span: Span) -> Ty {
         let last = path.last().map(String::as_str).unwrap_or_default();
+        if let [name] = path
+            && let Some(found) = self.call_of_local(name, args, span)
+        {
+            return found;
+        }
         let library = self.library;
         let own = match path.len() {
             2 => library.functions.get(&path.join("::")),
@@ -44,7 +49,10 @@ impl<'l> Checker<'l> {
         let given = self.instantiate(function, constants);
         let params = &function.params[usize::from(receiver.is_some()).min(function.params.len())..];
         if params.len() == args.len() {
-            for (param, arg) in params.iter().zip(args) {
+            // As rustc, closures last: the other arguments tell their types.
+            let is_closure = |arg: &Expr| matches!(arg.kind, ExprKind::Closure(_));
+            let (closures, values): (Vec<_>, Vec<_>) = params.iter().zip(args).partition(|(_, arg)| is_closure(arg));
+            for (param, arg) in values.into_iter().chain(closures) {
                 let wanted = self.substituted(&param.ty, &given, span);
                 let known = self.errors.len();
                 let found = self.expr(arg, Some(&wanted));

@@ -4,8 +4,9 @@ use super::Checker;
 use super::places::Access;
 use super::types::{Kind, Ty};
 use crate::diagnostic::{Diagnostic, Span};
-use crate::front::tree::Expr;
-use crate::ir::Scalar;
+use crate::front::methods;
+use crate::front::tree::{Expr, IntType};
+use crate::ir::{Scalar, Type};
 
 impl<'l> Checker<'l> {
     /// The type of `receiver.name(args)`.
@@ -40,6 +41,11 @@ impl<'l> Checker<'l> {
         }
         if name == "iter_mut" {
             self.borrowed(access, reference, receiver);
+        }
+        if matches!(bare, Ty::Int(_)) && reference.is_some() && matches!(name, "min" | "max" | "clamp") {
+            // rustc finds `Ord` of the reference before that of the number.
+            let wanted = vec![ty.clone(); if name == "clamp" { 2 } else { 1 }];
+            return self.takes(args, &wanted, ty.clone());
         }
         match (&bare, name) {
             (Ty::Array(element), "iter" | "iter_mut") => {
@@ -85,9 +91,17 @@ impl<'l> Checker<'l> {
     pub fn known_method(&mut self, receiver: &Ty, name: &str, args: &'l [Expr], span: Span) -> Ty {
         let own = receiver.clone();
         match receiver {
-            Ty::Float => self.of_float(name, args),
-            Ty::Int(_) => self.of_integer(receiver, name, args),
-            Ty::Vector(kind, lanes) => self.of_vector(*kind, *lanes, name, args),
+            Ty::Float | Ty::Int(_) | Ty::Vector(..) => {
+                let found = match receiver {
+                    Ty::Vector(kind, lanes) => self.of_vector(*kind, *lanes, name, args),
+                    Ty::Int(_) => self.of_integer(receiver, name, args),
+                    _ => self.of_float(name, args),
+                };
+                if found == Ty::Unknown {
+                    self.no_method(receiver, name, args.len(), span);
+                }
+                found
+            }
             Ty::Matrix(n) => {
                 let column = Ty::Vector(Scalar::F32, *n);
                 match name {
@@ -103,7 +117,27 @@ impl<'l> Checker<'l> {
                 }
             }
             Ty::Array(_) if name == "len" => self.takes(args, &[], Ty::USIZE),
-            Ty::Array(_) if matches!(name, "enumerate" | "rev" | "copied" | "cloned" | "step_by") => {
+            Ty::Array(item) if name == "map" && args.len() == 1 => Ty::Array(Box::new(self.mapped(item, &args[0]))),
+            Ty::Array(_)
+                if matches!(
+                    name,
+                    "all"
+                        | "any"
+                        | "chain"
+                        | "cloned"
+                        | "copied"
+                        | "enumerate"
+                        | "fold"
+                        | "for_each"
+                        | "product"
+                        | "rev"
+                        | "skip"
+                        | "step_by"
+                        | "sum"
+                        | "take"
+                        | "zip"
+                ) =>
+            {
                 self.errors.push(
                     Diagnostic::at(span, format!("an array is no iterator: it has no method `{name}`"))
                         .label("not an iterator")
@@ -125,7 +159,10 @@ impl<'l> Checker<'l> {
                     self.takes(args, &[], Ty::Iter(Box::new(bare)))
                 }
                 "iter" | "into_iter" => self.takes(args, &[], own),
-                _ => self.unknown_method(args),
+                _ => match self.adaptor(item, name, args) {
+                    Some(found) => found,
+                    None => self.unknown_method(args),
+                },
             },
             Ty::Texture(kind, texel) => self.of_texture(kind, texel, name, args),
             Ty::Buffer(element) => match name {
@@ -136,6 +173,24 @@ impl<'l> Checker<'l> {
             Ty::Quad(lane) => self.of_quad(lane, name, args, span),
             Ty::Bool if name == "select" => Ty::Unknown,
             _ => self.unknown_method(args),
+        }
+    }
+
+    /// Notes an error about a method that a number or a vector has not; with other arguments, the evaluator says what it takes.
+    fn no_method(&mut self, receiver: &Ty, name: &str, arguments: usize, span: Span) {
+        let ty = match receiver {
+            Ty::Vector(kind, lanes) => Type::value(*kind, *lanes),
+            Ty::Int(IntType::U32) => Type::U32,
+            Ty::Int(_) => Type::I32,
+            _ => Type::F32,
+        };
+        if !methods::has(ty, name) && methods::UNLIKE.iter().all(|(unlike, ..)| *unlike != name) {
+            let message = format!("there is no method `{name}` with {arguments} arguments on {receiver}");
+            self.errors.push(
+                Diagnostic::at(span, message)
+                    .label("not supported")
+                    .help(methods::known_methods(name, ty)),
+            );
         }
     }
 

@@ -7,6 +7,7 @@
 
 mod apply;
 mod calls;
+mod closures;
 mod exhaustive;
 mod expr;
 mod methods;

@@ -135,6 +135,11 @@ fn by_lane(text: &mut String, lanes: usize) {
             text,
             "    fn select(mask: B{vector}, yes: {own}, no: {own}) -> {own} {{ {own}::new({choices}) }}"
         );
+        let mapped = each(&|l| format!("f(self.{l})"));
+        let _ = writeln!(
+            text,
+            "    fn map(self, f: impl Fn({number}) -> {number}) -> {own} {{ {own}::new({mapped}) }}"
+        );
         text.push_str("}\n");
     }
 }

@@ -20,6 +20,8 @@ pub enum Feature {
     Matrices,
     /// Enums and `match` on them.
     Enums,
+    /// Closures, functions as values, adaptors of iterators.
+    Closures,
     /// What the generator has as text of the kernel language.
     Library,
     /// `match` on runtime values, guards, `if let`, `let ... else`, `matches!`, `while let`.
@@ -50,6 +52,7 @@ pub const ALL: &[Feature] = &[
     Feature::Attributes,
     Feature::Matrices,
     Feature::Enums,
+    Feature::Closures,
     Feature::Library,
     Feature::Matching,
     Feature::Generics,

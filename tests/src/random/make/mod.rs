@@ -4,6 +4,7 @@
 
 mod branches;
 mod calls;
+mod closures;
 mod conditions;
 mod exprs;
 mod features;

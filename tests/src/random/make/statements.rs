@@ -21,7 +21,9 @@ impl Maker {
             return self.assign();
         }
         let nested = self.nesting < NESTING;
-        match self.random.below(40) {
+        match self.random.below(43) {
+            40..=41 if self.on(Feature::Closures) => self.closure_statement(),
+            42 if self.on(Feature::Closures) && self.on(Feature::Mutable) => self.writing_closure(),
             0..=9 => self.let_(),
             10..=15 => self.assign(),
             16..=17 if nested => self.runtime_if(),
