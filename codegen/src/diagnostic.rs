@@ -61,6 +61,21 @@ impl Diagnostic {
         }
     }
 
+    /// The error at the place where a function of the library was called, whose text nobody sees.
+    pub fn called_at(self, span: Span, function: &str) -> Self {
+        if self.span.is_some_and(|at| at.file != crate::front::std::FILE) {
+            return self;
+        }
+        let inside = format!("inside of `{function}`");
+        let label = if self.label.is_empty() { inside } else { self.label };
+        Diagnostic {
+            span: Some(span),
+            label,
+            others: Vec::new(),
+            ..self
+        }
+    }
+
     /// An error that is in no file: an option, say.
     pub fn new(message: impl Into<String>) -> Self {
         Diagnostic {

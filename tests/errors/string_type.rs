@@ -1,4 +1,4 @@
-fn g(x: &dyn Fn() -> f32) -> f32 {
+fn g(x: &dyn Copy) -> f32 {
     1.0
 }
 

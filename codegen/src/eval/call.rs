@@ -6,23 +6,60 @@ use super::{Evaluator, MAX_CALLS};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::front::tree::{Expr, ExprKind, Function, Generic, Type as SourceType};
 use crate::ir::{Naming, NodeId, Op, Scalar, Type};
+use std::rc::Rc;
 
-pub use crate::ir::vector_named as vector_type;
+pub use crate::front::tree::vector_named as vector_type;
 
 impl Evaluator<'_> {
     pub fn call(&mut self, path: &[String], constants: &[Expr], args: &[Expr], span: Span) -> Eval {
-        let constants = self.all(constants)?;
+        let constants = self.generic_constants(path, constants)?;
         let values = self.all(args)?;
         if values.contains(&Value::Poison) {
             return Err(Exit::Noted);
         }
+        if let [name] = path
+            && let Some(callee) = self.scope.get(name).cloned()
+        {
+            let callee = match callee {
+                Value::Alias(place) => self.read(&place, span)?,
+                other => self.loaded(other, span)?,
+            };
+            if matches!(callee, Value::Closure(_) | Value::Function(_)) {
+                return self.invoke(&callee, values, span);
+            }
+        }
+        self.apply(path, &constants, values, span)
+    }
+
+    /// What stands in `::<>` of a call: the constants; types are found by inference.
+    fn generic_constants(&mut self, path: &[String], stated: &[Expr]) -> Eval<Vec<Value>> {
+        let library = self.library;
+        let method = path.join("::");
+        let function = library.functions.get(&method);
+        let function = function.or_else(|| library.functions.get(path.last()?));
+        let is_type = |k: usize| {
+            let generic = function.and_then(|function| function.generics.get(k));
+            matches!(generic, Some(Generic::Type(_)) | None)
+        };
+        let each = stated.iter().enumerate().map(|(k, expr)| match is_type(k) {
+            true => Ok(Value::unit()),
+            false => self.expr(expr),
+        });
+        each.collect()
+    }
+
+    /// Calls a function by its path.
+    pub fn apply(&mut self, path: &[String], constants: &[Value], values: Vec<Value>, span: Span) -> Eval {
         let last = path.last().map(String::as_str).unwrap_or_default();
         let method = path.join("::");
         if path.len() == 2 && self.library.functions.contains_key(&method) {
-            return self.inline(&method, &constants, values, span);
+            return self.inline(&method, constants, values, span);
         }
         if self.library.functions.contains_key(last) {
-            return self.inline(last, &constants, values, span);
+            return self.inline(last, constants, values, span);
+        }
+        if let Some(value) = self.exchange(path, &values, span)? {
+            return Ok(value);
         }
         let values = values
             .into_iter()
@@ -39,6 +76,12 @@ impl Evaluator<'_> {
         }
         if let Some((kind, lanes)) = constructor(path) {
             return self.compose(kind, lanes, &values, span);
+        }
+        if let ([.., ty, from], [value]) = (path, values.as_slice())
+            && from == "from"
+            && let Some(value) = self.from(ty, value, span)?
+        {
+            return Ok(value);
         }
         match (path, values.as_slice()) {
             ([.., ty, splat], [value]) if splat == "splat" => {
@@ -132,6 +175,7 @@ impl Evaluator<'_> {
             .into());
         }
         let bound = self.constants_of(function, constants, &args, span)?;
+        let of_library = function.span.file == crate::front::std::FILE;
         let outer = self.scope.enter_function();
         for (name, value) in bound {
             self.scope.bind(&name, value);
@@ -149,7 +193,9 @@ impl Evaluator<'_> {
                     });
                 }
             };
-            self.name_as(&value, &param.name, Naming::Parameter, span);
+            if !of_library {
+                self.name_as(&value, &param.name, Naming::Parameter, span);
+            }
             self.scope.bind(&param.name, value);
         }
         self.calls.push(name.to_owned());
@@ -170,6 +216,8 @@ impl Evaluator<'_> {
             self.name_as(value, &result, Naming::Function, span);
         }
         match result {
+            // What is wrong is how it was called.
+            Err(Exit::Error(error)) if of_library => Err(error.called_at(span, name).into()),
             Err(Exit::Left(_)) => Err(Diagnostic::at(function.span, "`break` or `continue` outside of a loop").into()),
             other => other,
         }
@@ -251,7 +299,7 @@ impl Evaluator<'_> {
     }
 
     /// A vector from its lanes, or from shorter vectors and lanes.
-    fn compose(&mut self, kind: Scalar, lanes: u8, values: &[Value], span: Span) -> Eval {
+    pub fn compose(&mut self, kind: Scalar, lanes: u8, values: &[Value], span: Span) -> Eval {
         let mut parts: Vec<NodeId> = Vec::new();
         for value in values {
             let id = self.lane_node(value, kind, span)?;
@@ -313,6 +361,10 @@ impl Evaluator<'_> {
             return match value {
                 Value::Poison => Err(Exit::Noted),
                 Value::Unset => Err(self.unset(last, span)),
+                Value::Alias(place) => {
+                    let place = Rc::clone(place);
+                    self.read(&place, span)
+                }
                 other => Ok(other.clone()),
             };
         }
@@ -344,6 +396,7 @@ impl Evaluator<'_> {
         }
         match self.known_constant(path) {
             Some(value) => Ok(value),
+            None if self.is_function(path) => Ok(Value::Function(path.to_vec())),
             None => {
                 let names = self.scope.names();
                 Err(Diagnostic::at(span, format!("there is no `{}` here", path.join("::")))
@@ -351,6 +404,21 @@ impl Evaluator<'_> {
                     .help(crate::suggest::suggest(last, &names, "variables here are"))
                     .into())
             }
+        }
+    }
+
+    /// Whether a path is that of a function: of the kernel's files, or a method of a number or a vector.
+    fn is_function(&self, path: &[String]) -> bool {
+        let functions = &self.library.functions;
+        match path {
+            [name] => functions.contains_key(name),
+            [.., ty, name] => {
+                functions.contains_key(&path.join("::"))
+                    || functions.contains_key(name)
+                    || ((vector_type(ty).is_some() || matches!(ty.as_str(), "f32" | "i32" | "u32"))
+                        && name.starts_with(char::is_lowercase))
+            }
+            [] => false,
         }
     }
 
@@ -390,6 +458,8 @@ fn constructor(path: &[String]) -> Option<(Scalar, u8)> {
                 upper = format!("I{rest}");
             } else if let Some(rest) = upper.strip_prefix('u') {
                 upper = format!("U{rest}");
+            } else if let Some(rest) = upper.strip_prefix('b') {
+                upper = format!("B{rest}");
             }
             vector_type(&upper)
         }

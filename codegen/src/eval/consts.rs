@@ -39,6 +39,10 @@ impl Evaluator<'_> {
             ("f32", "MIN") => f32::MIN,
             ("f32", "MIN_POSITIVE") => f32::MIN_POSITIVE,
             ("f32", "EPSILON") => f32::EPSILON,
+            ("f32", "INFINITY") => f32::INFINITY,
+            ("f32", "NEG_INFINITY") => f32::NEG_INFINITY,
+            ("f32", "NAN") => f32::NAN,
+            ("u32" | "i32", "BITS") => return Some(Value::Node(self.builder.constant(Type::U32, [32, 0, 0, 0]))),
             ("i32", "MAX") => return Some(Value::Int(i64::from(i32::MAX))),
             ("i32", "MIN") => return Some(Value::Int(i64::from(i32::MIN))),
             ("u32", "MIN") => return Some(Value::Node(self.builder.constant(Type::U32, [0; 4]))),
@@ -55,7 +59,10 @@ impl Evaluator<'_> {
         };
         let mut bits = [0; 4];
         let axis = match name {
-            "ZERO" => 0..0,
+            "ZERO" if kind != Scalar::Bool => 0..0,
+            "FALSE" if kind == Scalar::Bool => 0..0,
+            "TRUE" if kind == Scalar::Bool => 0..lanes as usize,
+            _ if kind == Scalar::Bool => return None,
             "ONE" => 0..lanes as usize,
             "X" => 0..1,
             "Y" => 1..2,
@@ -80,6 +87,8 @@ fn named(name: &str) -> Option<f32> {
         "LN_10" => consts::LN_10,
         "LOG2_E" => consts::LOG2_E,
         "LOG2_10" => consts::LOG2_10,
+        "LOG10_2" => consts::LOG10_2,
+        "LOG10_E" => consts::LOG10_E,
         "SQRT_2" => consts::SQRT_2,
         "FRAC_1_SQRT_2" => consts::FRAC_1_SQRT_2,
         "FRAC_1_PI" => consts::FRAC_1_PI,

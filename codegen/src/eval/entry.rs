@@ -1,10 +1,11 @@
 //! The kernel's own parameters and result.
 
 use super::Evaluator;
-use super::call::vector_type;
+// Booleans are in no buffer.
 use super::value::{Eval, Exit, Value};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::front::tree::{Param, Type as SourceType};
+use crate::ir::vector_named as vector_type;
 use crate::ir::{NodeId, Op, Scalar, Type};
 use std::collections::BTreeMap;
 

@@ -378,6 +378,7 @@ impl Evaluator<'_> {
             ExprKind::Break(label) => Err(Exit::Left(Way::Break(label.clone()))),
             ExprKind::Continue(label) => Err(Exit::Left(Way::Continue(label.clone()))),
             ExprKind::Assert(condition, message) => self.assert(condition, message),
+            ExprKind::Closure(closure) => self.closure(closure, span),
         }
     }
 

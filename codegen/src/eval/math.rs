@@ -3,34 +3,8 @@
 use super::Evaluator;
 use super::value::{Eval, Value};
 use crate::diagnostic::{Diagnostic, Span};
+use crate::front::methods::{UNLIKE, known_methods};
 use crate::ir::{BinaryOp, NodeId, Op, Scalar, Type, UnaryOp};
-
-/// Methods of floats, lane by lane.
-const FLOATS: &str = "abs acos asin atan atan2 ceil clamp cos cosh exp exp2 floor is_finite is_nan ln log2 max min powf powi recip \
-    round_ties_even sin sinh sqrt tan tanh to_bits to_degrees to_radians trunc";
-
-/// Further methods of vectors.
-const VECTORS: &str = "cross distance distance_squared dot element_product element_sum extend length length_recip length_squared lerp \
-    max_element min_element normalize perp reflect to_array truncate";
-
-/// Methods of integers.
-const INTEGERS: &str = "abs clamp count_ones leading_zeros max min pow rem_euclid reverse_bits signum trailing_zeros wrapping_add \
-    wrapping_mul wrapping_neg wrapping_shl wrapping_shr wrapping_sub";
-
-/// The way out of a method that there is not.
-fn methods(name: &str, ty: Type) -> String {
-    let lists: &[&str] = match (ty.is_float(), ty.lanes()) {
-        (true, 1) => &[FLOATS],
-        (true, _) => &[FLOATS, VECTORS],
-        (false, _) => &[INTEGERS],
-    };
-    let known: Vec<&str> = lists.iter().flat_map(|list| list.split_whitespace()).collect();
-    let close = crate::suggest::suggest(name, &known, "");
-    if close.starts_with("did you mean") {
-        return close;
-    }
-    format!("{} has {}", ty.in_rust(), known.join(", "))
-}
 
 impl Evaluator<'_> {
     /// A method of a number or vector.
@@ -39,8 +13,15 @@ impl Evaluator<'_> {
             return Ok(value);
         }
         let x = self.node(receiver, span)?;
+        let vectors = ["round", "fract", "signum", "mul_add"].contains(&name);
+        if self.ty(x).is_float()
+            && (vectors || self.ty(x).is_scalar())
+            && let Some((_, why, write)) = UNLIKE.iter().find(|(known, ..)| *known == name)
+        {
+            return Err(instead(span, why, write));
+        }
         let result = match args {
-            [] => self.math_one(x, name, span)?,
+            [] => self.math_one(x, name)?,
             [a] => self.math_two(receiver, x, name, a, span)?,
             [a, b] if name == "clamp" => {
                 let (low, high) = (
@@ -72,12 +53,12 @@ impl Evaluator<'_> {
                 ),
             )
             .label("not supported")
-            .help(methods(name, self.ty(x)))
+            .help(known_methods(name, self.ty(x)))
             .into()),
         }
     }
 
-    fn math_one(&mut self, x: NodeId, name: &str, span: Span) -> Eval<Option<NodeId>> {
+    fn math_one(&mut self, x: NodeId, name: &str) -> Eval<Option<NodeId>> {
         let ty = self.ty(x);
         if let Some(op) = super::integers::bits(name) {
             return Ok(ty.is_integer().then(|| {
@@ -165,6 +146,12 @@ impl Evaluator<'_> {
                 let fold = |a: NodeId, b: &NodeId| self.builder.add(Op::Binary(op), vec![a, *b], part);
                 Some(lanes[1..].iter().fold(lanes[0], fold))
             }
+            "any" | "all" if ty.kind() == Some(Scalar::Bool) && ty.lanes() > 1 => {
+                let op = if name == "any" { BinaryOp::Or } else { BinaryOp::And };
+                let lanes = self.lanes(x);
+                let join = |a: NodeId, b: &NodeId| self.builder.add(Op::Binary(op), vec![a, *b], Type::BOOL);
+                Some(lanes[1..].iter().fold(lanes[0], join))
+            }
             "truncate" if ty.lanes() > 2 => {
                 let lanes = self.lanes(x);
                 let shorter = Type::value(ty.kind().unwrap_or(Scalar::F32), ty.lanes() - 1);
@@ -174,23 +161,6 @@ impl Evaluator<'_> {
                 )
             }
             "signum" if ty.kind() == Some(Scalar::I32) => Some(self.builder.add(Op::Unary(UnaryOp::Sign), vec![x], ty)),
-            "round" => {
-                return Err(instead(
-                    span,
-                    "`round` rounds halves away from zero, and no shader does",
-                    "round(x)",
-                ));
-            }
-            "fract" => {
-                return Err(instead(
-                    span,
-                    "`fract` truncates in Rust and floors in shaders",
-                    "fract(x)",
-                ));
-            }
-            "signum" => {
-                return Err(instead(span, "`signum` of 0 is 1 in Rust and 0 in shaders", "sign(x)"));
-            }
             _ => None,
         })
     }
@@ -199,6 +169,23 @@ impl Evaluator<'_> {
         let ty = self.ty(x);
         let float_vector = ty.is_float() && ty.lanes() > 1;
         Ok(match name {
+            "cmplt" | "cmple" | "cmpgt" | "cmpge" | "cmpeq" | "cmpne" if ty.lanes() > 1 => {
+                let op = match name {
+                    "cmplt" => BinaryOp::Lt,
+                    "cmple" => BinaryOp::Le,
+                    "cmpgt" => BinaryOp::Gt,
+                    "cmpge" => BinaryOp::Ge,
+                    "cmpeq" => BinaryOp::Eq,
+                    _ => BinaryOp::Ne,
+                };
+                let (x, y) = self.same_type(receiver, a, span)?;
+                let mask = Type::value(Scalar::Bool, ty.lanes());
+                Some(self.builder.add(Op::Binary(op), vec![x, y], mask))
+            }
+            "test" if ty.kind() == Some(Scalar::Bool) && ty.lanes() > 1 => {
+                let component = self.element(&Value::Node(x), a, span)?;
+                Some(self.node(&component, span)?)
+            }
             "min" | "max" => {
                 let op = if name == "min" { BinaryOp::Min } else { BinaryOp::Max };
                 return Ok(Some({
@@ -212,7 +199,6 @@ impl Evaluator<'_> {
             {
                 return self.integer_two(receiver, x, name, a, span);
             }
-            "mul_add" => None,
             "reflect" if float_vector => {
                 // As glam computes it: self - 2 * self.dot(normal) * normal.
                 let (v, n) = self.same_type(receiver, a, span)?;

@@ -3,7 +3,7 @@
 use super::Evaluator;
 use super::value::{Eval, Exit, Place, Step, Value};
 use crate::diagnostic::{Diagnostic, Span};
-use crate::front::tree::Expr;
+use crate::front::tree::{Expr, Function};
 use crate::ir::{BinaryOp, Type};
 use std::rc::Rc;
 
@@ -18,26 +18,23 @@ const INTEGERS: [&str; 7] = [
     "pow",
 ];
 
-impl Evaluator<'_> {
+impl<'a> Evaluator<'a> {
     pub fn method(&mut self, receiver: &Expr, name: &str, args: &[Expr], span: Span) -> Eval {
         let (value, place) = self.receiver(receiver)?;
         let args = self.all(args)?;
         if args.contains(&Value::Poison) {
             return Err(Exit::Noted);
         }
-        if let Value::Struct { ty, .. } | Value::Enum { ty, .. } = &value {
-            let method = format!("{ty}::{name}");
-            if let Some(function) = self.library.functions.get(&method) {
-                let receiver = match function.params.first() {
-                    Some(own) if own.ty.is_mutable_reference() => {
-                        let place = place.unwrap_or_else(|| self.temporary(value.clone()));
-                        Value::Ref(Rc::new(place))
-                    }
-                    _ => value,
-                };
-                let all = std::iter::once(receiver).chain(args).collect();
-                return self.inline(&method, &[], all, span);
-            }
+        if let Some((method, function)) = self.own_method(&value, name) {
+            let receiver = match function.params.first() {
+                Some(own) if own.ty.is_mutable_reference() => {
+                    let place = place.unwrap_or_else(|| self.temporary(value.clone()));
+                    Value::Ref(Rc::new(place))
+                }
+                _ => value,
+            };
+            let all = std::iter::once(receiver).chain(args).collect();
+            return self.inline(&method, &[], all, span);
         }
         let args = args
             .into_iter()
@@ -63,7 +60,10 @@ impl Evaluator<'_> {
             }
             Value::Texture(index) => self.texture(*index, name, &args, span),
             Value::Buffer(index) => self.buffer(*index, name, &args, span),
-            Value::Range(range) => self.range_method(range, name, &args, span),
+            Value::Range(range) if matches!(name, "rev" | "step_by" | "contains") => {
+                self.range_method(range, name, &args, span)
+            }
+            Value::Range(_) => self.iterator_method(&value, name, &args, span),
             Value::Array(_) | Value::Node(_) if name == "iter_mut" && args.is_empty() => match place {
                 Some(place) => self.elements_mut(&Value::Ref(Rc::new(place)), span),
                 None => {
@@ -71,19 +71,12 @@ impl Evaluator<'_> {
                     self.elements_mut(&Value::Ref(Rc::new(place)), span)
                 }
             },
-            Value::Array(elements) => self.array_method(elements, name, args.is_empty(), span),
-            Value::Node(id) if self.ty(*id).is_array() => {
-                let Type::Array { len, .. } = self.ty(*id) else {
-                    unreachable!("just matched")
-                };
-                let each = (0..len).map(|k| self.element(&value, &Value::Int(i64::from(k)), span));
-                let elements = each.collect::<Eval<Vec<Value>>>()?;
-                self.array_method(&elements, name, args.is_empty(), span)
-            }
+            Value::Array(_) => self.iterator_method(&value, name, &args, span),
+            Value::Node(id) if self.ty(*id).is_array() => self.iterator_method(&value, name, &args, span),
             Value::Int(_) | Value::Node(_) if args.len() <= 1 && INTEGERS.contains(&name) => {
                 match self.known_integer_method(&value, name, &args, span)? {
                     Some(result) => Ok(result),
-                    None => self.math(&value, name, &args, span),
+                    None => self.integer_method(value, name, args, span),
                 }
             }
             Value::Poison => Err(Exit::Noted),
@@ -93,6 +86,22 @@ impl Evaluator<'_> {
             }
             _ => self.math(&value, name, &args, span),
         }
+    }
+
+    /// The function of the library that a method of a value stands for: inference has written its path, or it is one of a
+    /// type of the kernel's own. In a generic function only the value tells.
+    fn own_method(&self, value: &Value, name: &str) -> Option<(String, &'a Function)> {
+        let library = self.library;
+        let method = match value {
+            _ if name.contains("::") => name.to_owned(),
+            Value::Struct { ty, .. } | Value::Enum { ty, .. } => format!("{ty}::{name}"),
+            Value::Node(id) if !crate::front::methods::has(self.ty(*id), name) => {
+                format!("{}::{name}", self.ty(*id).in_rust())
+            }
+            _ => return None,
+        };
+        let function = library.functions.get(&method)?;
+        Some((method, function))
     }
 
     /// The value of a method's receiver and, where it is one, the place that it stands for.
@@ -172,19 +181,21 @@ impl Evaluator<'_> {
         }))
     }
 
-    fn array_method(&mut self, elements: &[Value], name: &str, plain: bool, span: Span) -> Eval {
-        match (name, plain) {
-            ("len", true) => Ok(Value::Int(elements.len() as i64)),
-            ("iter" | "into_iter" | "copied", true) => Ok(Value::array(elements.to_vec())),
-            ("enumerate", true) => {
-                let pair = |(k, element): (usize, &Value)| Value::Tuple(vec![Value::Int(k as i64), element.clone()]);
-                Ok(Value::array(elements.iter().enumerate().map(pair).collect()))
-            }
-            ("rev", true) => Ok(Value::array(elements.iter().rev().cloned().collect())),
-            _ => Err(Diagnostic::at(span, format!("an array has no method `{name}`"))
-                .label("not supported")
-                .help("arrays have `len`, `iter`, `enumerate` and `rev`")
-                .into()),
+    /// A method of integers that are no constants: by the evaluator's own rules, or as the library has it.
+    fn integer_method(&mut self, value: Value, name: &str, args: Vec<Value>, span: Span) -> Eval {
+        let known = args
+            .first()
+            .and_then(|divisor| self.known_int(divisor))
+            .is_some_and(|n| n > 0);
+        let of = match &value {
+            Value::Node(id) => self.ty(*id).in_rust(),
+            _ => "i32".to_owned(),
+        };
+        let function = format!("{of}::{name}");
+        if (name != "rem_euclid" || !known) && self.library.functions.contains_key(&function) {
+            let all = std::iter::once(value).chain(args).collect();
+            return self.inline(&function, &[], all, span);
         }
+        self.math(&value, name, &args, span)
     }
 }

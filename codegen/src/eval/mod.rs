@@ -6,6 +6,7 @@
 mod assign;
 mod budget;
 mod call;
+mod closures;
 mod consts;
 mod control;
 mod departures;
@@ -13,6 +14,8 @@ mod entry;
 mod expr;
 mod functions;
 mod integers;
+mod iterators;
+mod library;
 mod loops;
 mod matching;
 mod math;
@@ -248,6 +251,10 @@ impl Evaluator<'_> {
     }
 
     fn name_node(&mut self, id: NodeId, name: &str, naming: Naming, span: Span) {
+        // Variables of the library's own are nobody's names.
+        if span.file == crate::front::std::FILE {
+            return;
+        }
         if matches!(
             self.builder.graph().node(id).op,
             Op::Const(_) | Op::Pixel | Op::FrameSize | Op::Uniform(_) | Op::Varying(_) | Op::Param(..) | Op::MakeArray
@@ -342,7 +349,11 @@ impl Evaluator<'_> {
 
 /// What the functions of a library are for, in order of their places.
 fn purposes(library: &Library) -> Vec<Purpose> {
-    let each = library.functions.values().map(|function| Purpose {
+    let each = library
+        .functions
+        .values()
+        .filter(|f| f.span.file != crate::front::std::FILE);
+    let each = each.map(|function| Purpose {
         file: function.span.file,
         line: function.span.line,
         words: purpose(&function.docs),

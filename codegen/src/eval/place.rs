@@ -4,7 +4,7 @@
 //! rules see to it that no two of them overlap and none outlives its variable, so this equals what rustc compiles.
 
 use super::Evaluator;
-use super::value::{Eval, Exit, Place, Step, Value};
+use super::value::{Captured, Eval, Exit, Place, Step, Value};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::front::tree::{Expr, ExprKind};
 use std::rc::Rc;
@@ -32,7 +32,10 @@ impl Evaluator<'_> {
     pub fn place(&mut self, expr: &Expr) -> Eval<Option<Place>> {
         match &expr.kind {
             ExprKind::Path(path) => match path.as_slice() {
-                [name] => Ok(self.scope.slot(name).map(|slot| self.scope.place(slot))),
+                [name] => Ok(self.scope.slot(name).map(|slot| match self.scope.at(slot).1 {
+                    Value::Alias(place) => (**place).clone(),
+                    _ => self.scope.place(slot),
+                })),
                 _ => Ok(None),
             },
             ExprKind::Field(base, field) => {
@@ -153,9 +156,17 @@ impl Evaluator<'_> {
     /// Positions of the variables that references in a value lead to.
     pub fn targets(&self, value: &Value, out: &mut Vec<usize>) {
         match value {
-            Value::Ref(place) if self.scope.holds(place) && !out.contains(&place.slot) => {
+            Value::Ref(place) | Value::Alias(place) if self.scope.holds(place) && !out.contains(&place.slot) => {
                 out.push(place.slot);
                 self.targets(self.scope.at(place.slot).1, out);
+            }
+            Value::Closure(closed) => {
+                for (_, captured) in &closed.captured {
+                    match captured {
+                        Captured::Value(value) => self.targets(value, out),
+                        Captured::Place(place) => self.targets(&Value::Alias(Rc::clone(place)), out),
+                    }
+                }
             }
             Value::Struct { fields, .. } => fields.iter().for_each(|(_, field)| self.targets(field, out)),
             Value::Tuple(parts) => parts.iter().for_each(|part| self.targets(part, out)),

@@ -31,7 +31,7 @@ impl Evaluator<'_> {
         if name == "pixel" && lane == "IVec2" {
             return Ok(Some(Value::Node(self.builder.add(Op::Pixel, Vec::new(), PAIR))));
         }
-        let ty = match super::call::vector_type(lane) {
+        let ty = match crate::ir::vector_named(lane) {
             _ if lane == "f32" => Type::F32,
             Some((Scalar::F32, lanes)) => Type::value(Scalar::F32, lanes),
             _ => {

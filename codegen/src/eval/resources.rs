@@ -1,10 +1,11 @@
 //! Textures, samplers and buffers: the kernel's parameters of these types, and their methods.
 
 use super::Evaluator;
-use super::call::vector_type;
+// Booleans are in no buffer.
 use super::value::{Eval, Exit, Value};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::front::tree::Type as SourceType;
+use crate::ir::vector_named as vector_type;
 use crate::ir::{BinaryOp, Buffer, NodeId, Op, Sampler, Scalar, Texture, TextureKind, Type};
 
 const PAIR: Type = Type::value(Scalar::I32, 2);

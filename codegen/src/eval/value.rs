@@ -1,8 +1,10 @@
 //! What a variable holds while a kernel is evaluated.
 
 use crate::diagnostic::Diagnostic;
+use crate::front::tree::Closure;
 use crate::ir::NodeId;
 use std::rc::Rc;
+use std::sync::Arc;
 
 /// A value of the kernel language. What is known now is known exactly: numbers as constant nodes, all else by itself.
 #[derive(Clone, Debug, PartialEq)]
@@ -42,10 +44,42 @@ pub enum Value {
     /// A mutable reference to a variable or a part of one. A shared reference is the value that it refers to: nothing can
     /// change that meanwhile.
     Ref(Rc<Place>),
+    /// A closure.
+    Closure(Rc<Closed>),
+    /// A function, by the last two segments of its path.
+    Function(Vec<String>),
+    /// What a variable of a closure holds that is a variable around it.
+    Alias(Rc<Place>),
     /// What a variable holds that has been declared and not been given a value.
     Unset,
     /// What an expression with an error gives; using it is no second error.
     Poison,
+}
+
+/// A closure with the variables that it mentions.
+#[derive(Clone, Debug)]
+pub struct Closed {
+    /// What it computes.
+    pub code: Arc<Closure>,
+    /// Its variables by name.
+    pub captured: Vec<(String, Captured)>,
+    /// The function that it is made in, by which its loops are known.
+    pub function: String,
+}
+
+impl PartialEq for Closed {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.code, &other.code) && self.captured == other.captured
+    }
+}
+
+/// A variable of a closure.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Captured {
+    /// One that it only reads.
+    Value(Value),
+    /// One that it writes.
+    Place(Rc<Place>),
 }
 
 /// A variable, or a part of one.
@@ -147,6 +181,9 @@ impl Value {
             Value::Sampler(_) => "a sampler".to_owned(),
             Value::Buffer(_) => "a buffer".to_owned(),
             Value::Ref(_) => "a mutable reference".to_owned(),
+            Value::Closure(_) => "a closure".to_owned(),
+            Value::Function(path) => format!("the function `{}`", path.join("::")),
+            Value::Alias(_) => "a variable".to_owned(),
             Value::Unset => "a variable without a value".to_owned(),
             Value::Poison => "an error".to_owned(),
         }

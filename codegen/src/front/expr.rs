@@ -3,10 +3,10 @@
 use super::choice::has_let;
 use super::place;
 use super::scan::mentioned_in;
-use super::tree::{Block, Const, Expr, ExprKind, ForLoop, IntType, Statement};
+use super::tree::{Block, Const, Expr, ExprKind, ForLoop, IntType, Statement, Type};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::ir::{BinaryOp, UnaryOp};
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashMap};
 use syn::punctuated::Punctuated;
 use syn::spanned::Spanned;
 
@@ -19,6 +19,8 @@ pub struct Lower {
     /// What `Self` stands for.
     self_type: Option<String>,
     depth: u32,
+    /// Type parameters that are called, with their types.
+    pub functions: HashMap<String, Type>,
     /// Everything that was found wrong.
     pub errors: Vec<Diagnostic>,
 }
@@ -30,6 +32,7 @@ impl Lower {
             file,
             self_type,
             depth: 0,
+            functions: HashMap::new(),
             errors: Vec::new(),
         }
     }
@@ -179,13 +182,13 @@ impl Lower {
             syn::Expr::Break(e) if e.expr.is_none() => ExprKind::Break(label(e.label.as_ref())),
             syn::Expr::Continue(e) => ExprKind::Continue(label(e.label.as_ref())),
             syn::Expr::Macro(e) => self.macro_call(&e.mac),
+            syn::Expr::Closure(e) => self.closure(e),
             other => self.refused(other),
         }
     }
 
     fn refused(&mut self, expr: &syn::Expr) -> ExprKind {
         let (what, instead) = match expr {
-            syn::Expr::Closure(_) => ("a closure", "write a function and call it"),
             syn::Expr::Break(_) => ("`break` with a value", "assign the value to a variable before"),
             syn::Expr::Block(_) => (
                 "a label on a block",

@@ -162,6 +162,7 @@ impl Items {
     ) {
         let mut lower = Lower::new(file, of.map(str::to_owned));
         let name = qualified(of, &sig.ident);
+        lower.called_parameters(&sig.generics);
         let mut params = Vec::new();
         // Evaluation is on values, so a type parameter is whatever comes; constants are bound by name.
         let generics = sig.generics.params.iter().filter_map(|p| match p {
@@ -200,6 +201,9 @@ impl Items {
         };
         let body = lower.block(body);
         let span = lower.span(sig.ident.span());
+        if file == super::std::FILE && self.library.functions.contains_key(&name) {
+            return;
+        }
         if self.library.functions.contains_key(&name) {
             self.duplicate(&lower, sig.ident.span(), &name);
         }
@@ -392,6 +396,9 @@ impl Items {
         if !errors.is_empty() {
             return Err(errors);
         }
+        self.library
+            .functions
+            .retain(|name, function| function.span.file != super::std::FILE || reached.contains(name));
         Ok(Parsed {
             library: self.library,
             reached,

@@ -7,24 +7,28 @@ mod attribute;
 mod cfg;
 mod check;
 mod choice;
+mod closure;
 mod depth;
 mod expr;
 mod foreign;
 #[cfg(test)]
 mod fuzz;
 mod items;
+pub mod methods;
 mod options;
 mod pattern;
 mod reach;
 mod scan;
+pub mod std;
 pub mod tree;
 
 use crate::diagnostic::{Diagnostic, Errors, File, Span};
-use std::borrow::Cow;
-use std::collections::BTreeSet;
-use std::sync::Arc;
+use ::std::borrow::Cow;
+use ::std::collections::BTreeSet;
+use ::std::sync::Arc;
 
-pub use scan::{assigned, breaks, children};
+pub use foreign::is_prelude_type;
+pub use scan::{assigned, breaks, children, mentioned_in};
 pub use tree::Library;
 
 /// What the files of a kernel define.
@@ -57,6 +61,10 @@ pub fn parse(files: &Arc<Vec<File>>, entry: &str) -> Result<Parsed, Errors> {
     let mut items = items::Items::default();
     for (file, parsed) in &mut syntax {
         items.file(*file, parsed);
+    }
+    match syn::parse_file(&std::text(files)) {
+        Ok(mut parsed) => items.file(std::FILE, &mut parsed),
+        Err(error) => return Err(Errors::of(syntax_error(std::FILE, &error))),
     }
     items.lower(entry).map_err(|found| Errors::new(found, files))
 }

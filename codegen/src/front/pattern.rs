@@ -93,6 +93,14 @@ impl Lower {
             syn::Type::Array(t) => Type::Array(Box::new(self.ty(&t.elem)), Some(Box::new(self.expr(&t.len)))),
             syn::Type::Slice(t) => Type::Array(Box::new(self.ty(&t.elem)), None),
             syn::Type::Tuple(t) => Type::Tuple(t.elems.iter().map(|e| self.ty(e)).collect()),
+            syn::Type::Path(t)
+                if t.path
+                    .get_ident()
+                    .is_some_and(|name| self.functions.contains_key(&name.to_string())) =>
+            {
+                let name = t.path.segments[0].ident.to_string();
+                self.functions[&name].clone()
+            }
             syn::Type::Path(t) if t.qself.is_none() => {
                 let last = t.path.segments.last().expect("a path has a segment");
                 let mut args = Vec::new();
@@ -105,6 +113,12 @@ impl Lower {
                 }
                 Type::Name(self.self_name(last.ident.to_string()), args)
             }
+            syn::Type::ImplTrait(t) if is_called(&t.bounds) => {
+                self.called(&t.bounds).unwrap_or(Type::Tuple(Vec::new()))
+            }
+            syn::Type::TraitObject(t) if is_called(&t.bounds) => {
+                self.called(&t.bounds).unwrap_or(Type::Tuple(Vec::new()))
+            }
             other => {
                 let text = super::cfg::as_written(other);
                 self.unsupported(
@@ -116,4 +130,15 @@ impl Lower {
             }
         }
     }
+}
+
+/// Whether one of some bounds is of what is called.
+fn is_called<'b>(bounds: impl IntoIterator<Item = &'b syn::TypeParamBound>) -> bool {
+    bounds.into_iter().any(|bound| match bound {
+        syn::TypeParamBound::Trait(bound) => bound.path.segments.last().is_some_and(|last| {
+            matches!(last.arguments, syn::PathArguments::Parenthesized(_))
+                && matches!(last.ident.to_string().as_str(), "Fn" | "FnMut" | "FnOnce")
+        }),
+        _ => false,
+    })
 }

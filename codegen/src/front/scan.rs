@@ -72,6 +72,8 @@ impl Around<'_> {
     }
 
     fn mutates(&self, method: &str) -> bool {
+        // Inference may have found the function that a method stands for.
+        let method = method.rsplit("::").next().unwrap_or(method);
         method == "iter_mut" || self.mutating.is_some_and(|names| names.contains(method))
     }
 }
@@ -151,6 +153,18 @@ fn expr<'b>(e: &'b Expr, out: &mut Effects, around: &mut Around<'b>) {
             block(then, out, around);
             otherwise.iter().for_each(|e| expr(e, out, around));
         }
+        ExprKind::Closure(closure) => {
+            // A `return` in it leaves the closure alone.
+            let leaves = out.leaves;
+            let mark = around.own.len();
+            closure
+                .params
+                .iter()
+                .for_each(|(pattern, _)| bound(pattern, &mut around.own));
+            expr(&closure.body, out, around);
+            around.own.truncate(mark);
+            out.leaves = leaves;
+        }
         ExprKind::Block(b) => block(b, out, around),
         ExprKind::Match(subject, arms, _) => {
             expr(subject, out, around);
@@ -205,6 +219,7 @@ pub fn children(e: &Expr) -> Vec<&Expr> {
             .collect(),
         ExprKind::For(f) => vec![&f.over],
         ExprKind::While(condition, ..) => vec![condition],
+        ExprKind::Closure(closure) => vec![&closure.body],
         _ => Vec::new(),
     }
 }

@@ -1,9 +1,10 @@
 //! The tree that kernels are evaluated from: the supported part of Rust, with places.
 
 use crate::diagnostic::Span;
-use crate::ir::{BinaryOp, UnaryOp};
+use crate::ir::{BinaryOp, Scalar, UnaryOp};
 use crate::policy::{Branches, Unroll};
 use std::collections::{HashMap, HashSet};
+use std::sync::Arc;
 
 /// An expression.
 #[derive(Clone, Debug)]
@@ -77,6 +78,21 @@ pub enum ExprKind {
     Continue(Option<String>),
     /// `assert!(condition, "message")`.
     Assert(Box<Expr>, String),
+    /// `|a, b| value`.
+    Closure(Arc<Closure>),
+}
+
+/// A closure.
+#[derive(Clone, Debug)]
+pub struct Closure {
+    /// What takes its arguments, with types where they are stated.
+    pub params: Vec<(Pattern, Option<Type>)>,
+    /// What it gives, where that is stated.
+    pub result: Option<Type>,
+    /// What it computes.
+    pub body: Expr,
+    /// `move`: it has the values that its variables have where it is made.
+    pub moves: bool,
 }
 
 /// A `for`.
@@ -161,6 +177,16 @@ pub enum Pattern {
     At(String, bool, Box<Pattern>, Span),
 }
 
+/// The vector that glam calls so, `BVec2` to `BVec4` among them: the kind and the number of its components.
+pub fn vector_named(name: &str) -> Option<(Scalar, u8)> {
+    match name {
+        "BVec2" => Some((Scalar::Bool, 2)),
+        "BVec3" => Some((Scalar::Bool, 3)),
+        "BVec4" => Some((Scalar::Bool, 4)),
+        _ => crate::ir::vector_named(name),
+    }
+}
+
 /// A type as written.
 #[derive(Clone, Debug)]
 pub enum Type {
@@ -172,6 +198,8 @@ pub enum Type {
     Tuple(Vec<Type>),
     /// `&T`, `&mut T` (true).
     Ref(bool, Box<Type>),
+    /// What is called: `impl Fn(A) -> B`.
+    Fn(Vec<Type>, Box<Type>),
 }
 
 impl Type {

@@ -1,54 +1,54 @@
-//! Writes into the tree what inference found.
+//! Writes into the tree what inference found: types of literals, and which functions methods stand for.
 
-use crate::diagnostic::Span;
-use crate::front::tree::{Block, Expr, ExprKind, IntType, Library, Pattern, Statement, Type};
-use std::collections::HashMap;
+use super::Known;
+use crate::front::tree::{Block, Expr, ExprKind, Library, Pattern, Statement, Type};
+use std::sync::Arc;
 
-/// Gives each literal the type that was found for it.
-pub fn apply(library: &mut Library, literals: &HashMap<Span, IntType>) {
+/// Gives each literal the type that was found for it, and each method of a number the function that it stands for.
+pub fn apply(library: &mut Library, known: &Known) {
     for function in library.functions.values_mut() {
         for param in &mut function.params {
-            ty(&mut param.ty, literals);
+            ty(&mut param.ty, known);
         }
-        ty(&mut function.result, literals);
-        block(&mut function.body, literals);
+        ty(&mut function.result, known);
+        block(&mut function.body, known);
     }
     for constant in library.consts.values_mut() {
-        ty(&mut constant.ty, literals);
-        expr(&mut constant.value, literals);
+        ty(&mut constant.ty, known);
+        expr(&mut constant.value, known);
     }
     for structure in library.structs.values_mut() {
-        structure.fields.iter_mut().for_each(|(_, t, _)| ty(t, literals));
+        structure.fields.iter_mut().for_each(|(_, t, _)| ty(t, known));
     }
     for field in library.options.values_mut().flatten() {
-        ty(&mut field.ty, literals);
-        expr(&mut field.default, literals);
-        field.range.iter_mut().for_each(|range| expr(range, literals));
+        ty(&mut field.ty, known);
+        expr(&mut field.default, known);
+        field.range.iter_mut().for_each(|range| expr(range, known));
     }
 }
 
-fn block(b: &mut Block, literals: &HashMap<Span, IntType>) {
+fn block(b: &mut Block, known: &Known) {
     for statement in &mut b.statements {
         match statement {
             Statement::Let(p, stated, init, _) => {
-                pattern(p, literals);
-                stated.iter_mut().for_each(|t| ty(t, literals));
-                init.iter_mut().for_each(|e| expr(e, literals));
+                pattern(p, known);
+                stated.iter_mut().for_each(|t| ty(t, known));
+                init.iter_mut().for_each(|e| expr(e, known));
             }
-            Statement::Expr(e) => expr(e, literals),
+            Statement::Expr(e) => expr(e, known),
             Statement::Const(constant) => {
-                ty(&mut constant.ty, literals);
-                expr(&mut constant.value, literals);
+                ty(&mut constant.ty, known);
+                expr(&mut constant.value, known);
             }
         }
     }
-    b.value.iter_mut().for_each(|e| expr(e, literals));
+    b.value.iter_mut().for_each(|e| expr(e, known));
 }
 
-fn expr(e: &mut Expr, literals: &HashMap<Span, IntType>) {
-    let go = |e: &mut Expr| expr(e, literals);
+fn expr(e: &mut Expr, known: &Known) {
+    let go = |e: &mut Expr| expr(e, known);
     match &mut e.kind {
-        ExprKind::Int(_, known) => *known = known.or_else(|| literals.get(&e.span).copied()),
+        ExprKind::Int(_, ty) => *ty = ty.or_else(|| known.literals.get(&e.span).copied()),
         ExprKind::Float(..)
         | ExprKind::Bool(_)
         | ExprKind::Str(_)
@@ -72,7 +72,10 @@ fn expr(e: &mut Expr, literals: &HashMap<Span, IntType>) {
             go(b);
         }
         ExprKind::Call(_, constants, args) => constants.iter_mut().chain(args).for_each(go),
-        ExprKind::Method(receiver, _, args) => {
+        ExprKind::Method(receiver, name, args) => {
+            if let Some(function) = known.methods.get(&e.span) {
+                name.clone_from(function);
+            }
             go(receiver);
             args.iter_mut().for_each(go);
         }
@@ -83,55 +86,68 @@ fn expr(e: &mut Expr, literals: &HashMap<Span, IntType>) {
         }
         ExprKind::Cast(a, t) => {
             go(a);
-            ty(t, literals);
+            ty(t, known);
         }
         ExprKind::Return(value) => value.iter_mut().for_each(|e| go(e)),
         ExprKind::If(condition, then, otherwise, _) => {
             go(condition);
             otherwise.iter_mut().for_each(|e| go(e));
-            block(then, literals);
+            block(then, known);
         }
         ExprKind::Match(subject, arms, _) => {
             go(subject);
             for arm in arms {
-                pattern(&mut arm.pattern, literals);
-                arm.guard.iter_mut().for_each(|e| expr(e, literals));
-                expr(&mut arm.body, literals);
+                pattern(&mut arm.pattern, known);
+                arm.guard.iter_mut().for_each(|e| expr(e, known));
+                expr(&mut arm.body, known);
             }
         }
-        ExprKind::Block(b) => block(b, literals),
+        ExprKind::Closure(closure) => {
+            let closure = Arc::make_mut(closure);
+            for (p, stated) in &mut closure.params {
+                pattern(p, known);
+                stated.iter_mut().for_each(|t| ty(t, known));
+            }
+            closure.result.iter_mut().for_each(|t| ty(t, known));
+            expr(&mut closure.body, known);
+        }
+        ExprKind::Block(b) => block(b, known),
         ExprKind::For(f) => {
-            pattern(&mut f.pattern, literals);
-            expr(&mut f.over, literals);
-            block(&mut f.body, literals);
+            pattern(&mut f.pattern, known);
+            expr(&mut f.over, known);
+            block(&mut f.body, known);
         }
         ExprKind::While(condition, body, ..) => {
             go(condition);
-            block(body, literals);
+            block(body, known);
         }
     }
 }
 
-fn pattern(p: &mut Pattern, literals: &HashMap<Span, IntType>) {
+fn pattern(p: &mut Pattern, known: &Known) {
     match p {
         Pattern::Name(..) | Pattern::Wild => {}
         Pattern::Tuple(parts, _) | Pattern::Array(parts, _) | Pattern::Or(parts) => {
-            parts.iter_mut().for_each(|part| pattern(part, literals));
+            parts.iter_mut().for_each(|part| pattern(part, known));
         }
-        Pattern::Struct(_, fields, _) => fields.iter_mut().for_each(|(_, part)| pattern(part, literals)),
-        Pattern::Ref(inner, _) | Pattern::At(_, _, inner, _) => pattern(inner, literals),
-        Pattern::Value(e) => expr(e, literals),
-        Pattern::Range(low, high, _) => [low, high].into_iter().flatten().for_each(|end| expr(end, literals)),
+        Pattern::Struct(_, fields, _) => fields.iter_mut().for_each(|(_, part)| pattern(part, known)),
+        Pattern::Ref(inner, _) | Pattern::At(_, _, inner, _) => pattern(inner, known),
+        Pattern::Value(e) => expr(e, known),
+        Pattern::Range(low, high, _) => [low, high].into_iter().flatten().for_each(|end| expr(end, known)),
     }
 }
 
-fn ty(t: &mut Type, literals: &HashMap<Span, IntType>) {
+fn ty(t: &mut Type, known: &Known) {
     match t {
-        Type::Name(_, args) | Type::Tuple(args) => args.iter_mut().for_each(|t| ty(t, literals)),
-        Type::Ref(_, inner) => ty(inner, literals),
+        Type::Name(_, args) | Type::Tuple(args) => args.iter_mut().for_each(|t| ty(t, known)),
+        Type::Ref(_, inner) => ty(inner, known),
+        Type::Fn(params, result) => {
+            params.iter_mut().for_each(|t| ty(t, known));
+            ty(result, known);
+        }
         Type::Array(element, len) => {
-            ty(element, literals);
-            len.iter_mut().for_each(|e| expr(e, literals));
+            ty(element, known);
+            len.iter_mut().for_each(|e| expr(e, known));
         }
     }
 }

@@ -3,13 +3,18 @@
 use super::Checker;
 use super::types::{Kind, Ty};
 use crate::diagnostic::{Diagnostic, Span};
-use crate::front::tree::{Expr, Function};
+use crate::front::tree::{Expr, ExprKind, Function};
 use crate::ir::Scalar;
 
 impl<'l> Checker<'l> {
     /// The type of `path::<constants>(args)`.
     pub fn call(&mut self, path: &'l [String], constants: &'l [Expr], args: &'l [Expr], span: Span) -> Ty {
         let last = path.last().map(String::as_str).unwrap_or_default();
+        if let [name] = path
+            && let Some(found) = self.call_of_local(name, args, span)
+        {
+            return found;
+        }
         let library = self.library;
         let own = match path.len() {
             2 => library.functions.get(&path.join("::")),
@@ -44,7 +49,10 @@ impl<'l> Checker<'l> {
         let given = self.instantiate(function, constants);
         let params = &function.params[usize::from(receiver.is_some()).min(function.params.len())..];
         if params.len() == args.len() {
-            for (param, arg) in params.iter().zip(args) {
+            // As rustc, closures last: the other arguments tell their types.
+            let is_closure = |arg: &Expr| matches!(arg.kind, ExprKind::Closure(_));
+            let (closures, values): (Vec<_>, Vec<_>) = params.iter().zip(args).partition(|(_, arg)| is_closure(arg));
+            for (param, arg) in values.into_iter().chain(closures) {
                 let wanted = self.substituted(&param.ty, &given, span);
                 let known = self.errors.len();
                 let found = self.expr(arg, Some(&wanted));
@@ -110,6 +118,7 @@ impl<'l> Checker<'l> {
             return match *name {
                 "splat" => self.takes(args, &[Ty::scalar(kind)], vector),
                 "from_array" => self.takes(args, &[Ty::Array(Box::new(Ty::scalar(kind)))], vector),
+                "from" => self.from(vector, args),
                 _ => self.by_path(&vector, name, args, span),
             };
         }
@@ -125,6 +134,7 @@ impl<'l> Checker<'l> {
                 _ => None,
             };
             match (receiver, *name) {
+                (Some(number), "from") if !matches!(number, Ty::Matrix(_)) => return self.from(number, args),
                 (Some(Ty::Float), "from_bits") => return self.takes(args, &[Ty::U32], Ty::Float),
                 (Some(Ty::Matrix(n)), "from_diagonal") => {
                     return self.takes(args, &[Ty::Vector(Scalar::F32, n)], Ty::Matrix(n));
@@ -134,6 +144,39 @@ impl<'l> Checker<'l> {
             }
         }
         self.prelude(path, args, span)
+    }
+
+    /// `T::from(value)` of a number or a vector.
+    fn from(&mut self, ty: Ty, args: &'l [Expr]) -> Ty {
+        let ([value], Ty::Vector(kind, lanes)) = (args, &ty) else {
+            // A number, of a boolean or of a number of its own type.
+            for arg in args {
+                let found = self.expr(arg, Some(&ty));
+                if self.table.kind(&found).is_some() {
+                    self.table.unify(&ty, &found);
+                }
+            }
+            return ty;
+        };
+        let part = Ty::scalar(*kind);
+        let found = match &value.kind {
+            ExprKind::Tuple(parts) if parts.len() == usize::from(*lanes) => {
+                self.expr(value, Some(&Ty::Tuple(vec![part.clone(); parts.len()])))
+            }
+            _ => self.expr(value, None),
+        };
+        match self.table.shallow(&found) {
+            Ty::Array(element) => self.coerce(&part, &element, value.span),
+            Ty::Tuple(parts) => {
+                for found in &parts {
+                    if !matches!(self.table.shallow(found), Ty::Vector(..)) {
+                        self.coerce(&part, found, value.span);
+                    }
+                }
+            }
+            found => self.coerce(&ty, &found, value.span),
+        }
+        ty
     }
 
     /// A method called by its path: the receiver is the first argument.
@@ -190,14 +233,61 @@ impl<'l> Checker<'l> {
                 self.expr(value, None)
             }
             ([.., "uniform"], [value]) => self.expr(value, None),
+            (["mem", "swap"] | ["swap"], [a, b]) => {
+                let of = Ty::Ref(true, Box::new(self.table.fresh(Kind::Any)));
+                self.takes_both(a, b, &of, &of);
+                Ty::UNIT
+            }
+            (["mem", "replace"] | ["replace"], [place, value]) => {
+                let of = self.table.fresh(Kind::Any);
+                self.takes_both(place, value, &Ty::Ref(true, Box::new(of.clone())), &of);
+                of
+            }
             _ => {
-                if let [name] = path {
-                    self.no_function(name, span);
+                match path {
+                    [name] => self.no_function(name, span),
+                    [.., ty, _] => self.no_type(ty, span),
+                    [] => {}
                 }
                 self.loose(args);
                 Ty::Unknown
             }
         }
+    }
+
+    /// Notes an error about a type that a function is called of, and that is none.
+    fn no_type(&mut self, ty: &str, span: Span) {
+        let library = self.library;
+        let known = !ty.starts_with(char::is_uppercase)
+            || crate::front::is_prelude_type(ty)
+            || library.structs.contains_key(ty)
+            || library.enums.contains_key(ty)
+            || self.params.iter().any(|param| param == ty);
+        if !known {
+            let mut types: Vec<&str> = library
+                .structs
+                .keys()
+                .chain(library.enums.keys())
+                .map(String::as_str)
+                .collect();
+            types.extend([
+                "Vec2", "Vec3", "Vec4", "IVec2", "IVec3", "IVec4", "UVec2", "UVec3", "UVec4",
+            ]);
+            types.sort_unstable();
+            self.errors.push(
+                Diagnostic::at(span, format!("cannot find type `{ty}`"))
+                    .label("not found in the kernel's files")
+                    .help(match types.iter().find(|known| crate::suggest::is_close(ty, known)) {
+                        Some(close) => format!("did you mean `{close}`?"),
+                        None => "define it in one of the kernel's files".to_owned(),
+                    }),
+            );
+        }
+    }
+
+    fn takes_both(&mut self, a: &'l Expr, b: &'l Expr, of_a: &Ty, of_b: &Ty) {
+        self.against(a, of_a);
+        self.against(b, of_b);
     }
 
     /// Notes an error about a name that is called and is no function.
@@ -278,6 +368,9 @@ fn constructed(path: &[&str]) -> Option<Ty> {
         "uvec2" => "UVec2",
         "uvec3" => "UVec3",
         "uvec4" => "UVec4",
+        "bvec2" => "BVec2",
+        "bvec3" => "BVec3",
+        "bvec4" => "BVec4",
         other => other,
     };
     match (super::signature::vector(ty), ty, name) {

@@ -284,6 +284,7 @@ impl<'l> Checker<'l> {
                 Ty::Never
             }
             ExprKind::Break(_) | ExprKind::Continue(_) => Ty::Never,
+            ExprKind::Closure(closure) => self.closure(closure, wanted, span),
             ExprKind::Assert(condition, _) => {
                 self.against(condition, &Ty::Bool);
                 Ty::UNIT

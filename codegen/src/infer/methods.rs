@@ -4,8 +4,9 @@ use super::Checker;
 use super::places::Access;
 use super::types::{Kind, Ty};
 use crate::diagnostic::{Diagnostic, Span};
-use crate::front::tree::Expr;
-use crate::ir::Scalar;
+use crate::front::methods;
+use crate::front::tree::{Expr, IntType};
+use crate::ir::{Scalar, Type};
 
 impl<'l> Checker<'l> {
     /// The type of `receiver.name(args)`.
@@ -25,8 +26,26 @@ impl<'l> Checker<'l> {
                 return self.signature(function, &[], Some(&ty), args, span);
             }
         }
+        let settled = self.settled(&bare);
+        if let Some(of) = library_name(&settled) {
+            let (library, function) = (self.library, format!("{of}::{name}"));
+            if let Some(found) = library.functions.get(&function)
+                && !(matches!(settled, Ty::Int(_)) && evaluated(name))
+            {
+                if found.params.first().is_some_and(|own| own.ty.is_mutable_reference()) {
+                    self.borrowed(access, reference, receiver);
+                }
+                self.methods.insert(span, function);
+                return self.signature(found, &[], Some(&ty), args, span);
+            }
+        }
         if name == "iter_mut" {
             self.borrowed(access, reference, receiver);
+        }
+        if matches!(bare, Ty::Int(_)) && reference.is_some() && matches!(name, "min" | "max" | "clamp") {
+            // rustc finds `Ord` of the reference before that of the number.
+            let wanted = vec![ty.clone(); if name == "clamp" { 2 } else { 1 }];
+            return self.takes(args, &wanted, ty.clone());
         }
         match (&bare, name) {
             (Ty::Array(element), "iter" | "iter_mut") => {
@@ -72,9 +91,17 @@ impl<'l> Checker<'l> {
     pub fn known_method(&mut self, receiver: &Ty, name: &str, args: &'l [Expr], span: Span) -> Ty {
         let own = receiver.clone();
         match receiver {
-            Ty::Float => self.of_float(name, args),
-            Ty::Int(_) => self.of_integer(receiver, name, args),
-            Ty::Vector(kind, lanes) => self.of_vector(*kind, *lanes, name, args),
+            Ty::Float | Ty::Int(_) | Ty::Vector(..) => {
+                let found = match receiver {
+                    Ty::Vector(kind, lanes) => self.of_vector(*kind, *lanes, name, args),
+                    Ty::Int(_) => self.of_integer(receiver, name, args),
+                    _ => self.of_float(name, args),
+                };
+                if found == Ty::Unknown {
+                    self.no_method(receiver, name, args.len(), span);
+                }
+                found
+            }
             Ty::Matrix(n) => {
                 let column = Ty::Vector(Scalar::F32, *n);
                 match name {
@@ -90,7 +117,27 @@ impl<'l> Checker<'l> {
                 }
             }
             Ty::Array(_) if name == "len" => self.takes(args, &[], Ty::USIZE),
-            Ty::Array(_) if matches!(name, "enumerate" | "rev" | "copied" | "cloned" | "step_by") => {
+            Ty::Array(item) if name == "map" && args.len() == 1 => Ty::Array(Box::new(self.mapped(item, &args[0]))),
+            Ty::Array(_)
+                if matches!(
+                    name,
+                    "all"
+                        | "any"
+                        | "chain"
+                        | "cloned"
+                        | "copied"
+                        | "enumerate"
+                        | "fold"
+                        | "for_each"
+                        | "product"
+                        | "rev"
+                        | "skip"
+                        | "step_by"
+                        | "sum"
+                        | "take"
+                        | "zip"
+                ) =>
+            {
                 self.errors.push(
                     Diagnostic::at(span, format!("an array is no iterator: it has no method `{name}`"))
                         .label("not an iterator")
@@ -112,7 +159,10 @@ impl<'l> Checker<'l> {
                     self.takes(args, &[], Ty::Iter(Box::new(bare)))
                 }
                 "iter" | "into_iter" => self.takes(args, &[], own),
-                _ => self.unknown_method(args),
+                _ => match self.adaptor(item, name, args) {
+                    Some(found) => found,
+                    None => self.unknown_method(args),
+                },
             },
             Ty::Texture(kind, texel) => self.of_texture(kind, texel, name, args),
             Ty::Buffer(element) => match name {
@@ -123,6 +173,24 @@ impl<'l> Checker<'l> {
             Ty::Quad(lane) => self.of_quad(lane, name, args, span),
             Ty::Bool if name == "select" => Ty::Unknown,
             _ => self.unknown_method(args),
+        }
+    }
+
+    /// Notes an error about a method that a number or a vector has not; with other arguments, the evaluator says what it takes.
+    fn no_method(&mut self, receiver: &Ty, name: &str, arguments: usize, span: Span) {
+        let ty = match receiver {
+            Ty::Vector(kind, lanes) => Type::value(*kind, *lanes),
+            Ty::Int(IntType::U32) => Type::U32,
+            Ty::Int(_) => Type::I32,
+            _ => Type::F32,
+        };
+        if !methods::has(ty, name) && methods::UNLIKE.iter().all(|(unlike, ..)| *unlike != name) {
+            let message = format!("there is no method `{name}` with {arguments} arguments on {receiver}");
+            self.errors.push(
+                Diagnostic::at(span, message)
+                    .label("not supported")
+                    .help(methods::known_methods(name, ty)),
+            );
         }
     }
 
@@ -139,7 +207,7 @@ impl<'l> Checker<'l> {
     fn of_float(&mut self, name: &str, args: &'l [Expr]) -> Ty {
         let float = Ty::Float;
         match name {
-            "powf" | "atan2" | "min" | "max" | "rem_euclid" | "div_euclid" | "copysign" => self.takes_own(args, float),
+            "powf" | "atan2" | "min" | "max" => self.takes_own(args, float),
             "clamp" | "mul_add" | "lerp" => self.takes(args, &[float.clone(), float.clone()], float),
             "powi" => self.takes(args, &[Ty::I32], float),
             "is_nan" | "is_finite" => self.takes(args, &[], Ty::Bool),
@@ -165,6 +233,13 @@ impl<'l> Checker<'l> {
 
     fn of_vector(&mut self, kind: Scalar, lanes: u8, name: &str, args: &'l [Expr]) -> Ty {
         let (own, part) = (Ty::Vector(kind, lanes), Ty::scalar(kind));
+        if kind == Scalar::Bool {
+            return match name {
+                "any" | "all" => self.takes(args, &[], Ty::Bool),
+                "test" => self.takes(args, &[Ty::USIZE], Ty::Bool),
+                _ => self.unknown_method(args),
+            };
+        }
         if let Some(to) = name.strip_prefix("as_") {
             let target = to.strip_prefix("vec").map(|n| format!("Vec{n}"));
             let target = target.or_else(|| to.strip_prefix("ivec").map(|n| format!("IVec{n}")));
@@ -182,6 +257,9 @@ impl<'l> Checker<'l> {
             "length" | "length_squared" | "length_recip" | "min_element" | "max_element" | "element_sum"
             | "element_product" => self.takes(args, &[], part),
             "min" | "max" | "cross" | "reflect" => self.takes_own(args, own),
+            "cmplt" | "cmple" | "cmpgt" | "cmpge" | "cmpeq" | "cmpne" => {
+                self.takes(args, &[own], Ty::Vector(Scalar::Bool, lanes))
+            }
             "clamp" => self.takes(args, &[own.clone(), own.clone()], own),
             "lerp" => self.takes(args, &[own.clone(), Ty::Float], own),
             "powf" => self.takes(args, &[Ty::Float], own),
@@ -295,4 +373,17 @@ impl<'l> Checker<'l> {
             _ => self.unknown_method(args),
         }
     }
+}
+
+/// The name under which the library has methods of a type that is not of the kernel's files.
+fn library_name(ty: &Ty) -> Option<String> {
+    match ty {
+        Ty::Bool | Ty::Int(_) | Ty::Float | Ty::Vector(..) | Ty::Matrix(_) => Some(ty.to_string()),
+        _ => None,
+    }
+}
+
+/// Methods of integers that the evaluator computes where it knows the numbers, and else takes from the library.
+fn evaluated(name: &str) -> bool {
+    matches!(name, "rem_euclid" | "div_euclid" | "div_ceil" | "is_multiple_of")
 }

@@ -7,6 +7,7 @@
 
 mod apply;
 mod calls;
+mod closures;
 mod exhaustive;
 mod expr;
 mod methods;
@@ -21,15 +22,24 @@ use crate::front::tree::{Const, Expr, Function, Generic, IntType, Library};
 use std::collections::{BTreeSet, HashMap};
 use types::{Kind, Table, Ty};
 
+/// What the evaluator is told of expressions, by their places.
+#[derive(Default)]
+struct Known {
+    /// Types of integer literals.
+    literals: HashMap<Span, IntType>,
+    /// Functions of the library that methods of numbers, vectors and the like stand for.
+    methods: HashMap<Span, String>,
+}
+
 /// Gives every literal of the functions, constants and options that are `reached` its type.
 ///
 /// # Errors
 ///
 /// Everything that rustc would refuse, of all functions.
 pub fn infer(library: &mut Library, reached: &BTreeSet<String>) -> Result<(), Vec<Diagnostic>> {
-    let (literals, mut errors) = found(library, reached);
+    let (known, mut errors) = found(library, reached);
     if errors.is_empty() {
-        apply::apply(library, &literals);
+        apply::apply(library, &known);
         return Ok(());
     }
     errors.sort_by_key(|error| error.span);
@@ -37,29 +47,25 @@ pub fn infer(library: &mut Library, reached: &BTreeSet<String>) -> Result<(), Ve
     Err(errors)
 }
 
-/// The types of the literals, and everything that is wrong.
-fn found(library: &Library, reached: &BTreeSet<String>) -> (HashMap<Span, IntType>, Vec<Diagnostic>) {
-    let (mut literals, mut errors) = (HashMap::new(), Vec::new());
+/// What is known, and everything that is wrong.
+fn found(library: &Library, reached: &BTreeSet<String>) -> (Known, Vec<Diagnostic>) {
+    let (mut known, mut errors) = (Known::default(), Vec::new());
     for name in reached {
         if let Some(function) = library.functions.get(name) {
-            one(library, &mut literals, &mut errors, |checker| {
-                checker.function(function)
-            });
+            one(library, &mut known, &mut errors, |checker| checker.function(function));
         }
         if let Some(constant) = library.consts.get(name) {
-            one(library, &mut literals, &mut errors, |checker| {
-                checker.constant(constant)
-            });
+            one(library, &mut known, &mut errors, |checker| checker.constant(constant));
         }
     }
     for (_, ty, span) in library.structs.values().flat_map(|s| &s.fields) {
         // A structure that the kernel does not reach may hold anything.
-        one(library, &mut literals, &mut Vec::new(), |checker| {
+        one(library, &mut known, &mut Vec::new(), |checker| {
             checker.stated(ty, *span);
         });
     }
     for field in library.options.values().flatten() {
-        one(library, &mut literals, &mut errors, |checker| {
+        one(library, &mut known, &mut errors, |checker| {
             let ty = checker.stated(&field.ty, field.span);
             checker.against(&field.default, &ty);
             if let Some(range) = &field.range {
@@ -74,19 +80,14 @@ fn found(library: &Library, reached: &BTreeSet<String>) -> (HashMap<Span, IntTyp
             }
         });
     }
-    (literals, errors)
+    (known, errors)
 }
 
 /// Looks at one item by itself.
-fn one<'l>(
-    library: &'l Library,
-    literals: &mut HashMap<Span, IntType>,
-    errors: &mut Vec<Diagnostic>,
-    look: impl FnOnce(&mut Checker<'l>),
-) {
+fn one<'l>(library: &'l Library, known: &mut Known, errors: &mut Vec<Diagnostic>, look: impl FnOnce(&mut Checker<'l>)) {
     let mut checker = Checker::new(library);
     look(&mut checker);
-    checker.finish(literals, errors);
+    checker.finish(known, errors);
 }
 
 /// A local variable.
@@ -128,6 +129,8 @@ struct Checker<'l> {
     /// Operators between two literals: where, which, and the literals with the type of the result.
     computed: Vec<(Span, crate::ir::BinaryOp, [i64; 2], Ty)>,
     deferred: Vec<Deferred<'l>>,
+    /// Methods that stand for functions of the library.
+    methods: HashMap<Span, String>,
     errors: Vec<Diagnostic>,
 }
 
@@ -145,6 +148,7 @@ impl<'l> Checker<'l> {
             negated: Vec::new(),
             computed: Vec::new(),
             deferred: Vec::new(),
+            methods: HashMap::new(),
             errors: Vec::new(),
         }
     }
@@ -200,7 +204,7 @@ impl<'l> Checker<'l> {
     }
 
     /// Literals that nothing decides become `i32`, as in Rust; what is left is checked.
-    fn finish(mut self, literals: &mut HashMap<Span, IntType>, errors: &mut Vec<Diagnostic>) {
+    fn finish(mut self, known: &mut Known, errors: &mut Vec<Diagnostic>) {
         self.solve();
         let integers = std::mem::take(&mut self.integers);
         for (_, ty, _) in &integers {
@@ -233,7 +237,7 @@ impl<'l> Checker<'l> {
                         )),
                 );
             }
-            literals.insert(span, kind);
+            known.literals.insert(span, kind);
         }
         for (sign, ty, _) in std::mem::take(&mut self.negated) {
             if let ty @ Ty::Int(IntType::U32 | IntType::Usize) = self.table.shallow(&ty) {
@@ -280,6 +284,7 @@ impl<'l> Checker<'l> {
                 );
             }
         }
+        known.methods.extend(self.methods);
         errors.append(&mut self.errors);
     }
 }

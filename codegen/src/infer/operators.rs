@@ -116,7 +116,7 @@ impl<'l> Checker<'l> {
         }
         match op {
             Add | Sub | Mul | Div | Rem => match (l, r) {
-                (Ty::Vector(a, n), Ty::Vector(b, m)) => (a == b && n == m).then(|| l.clone()),
+                (Ty::Vector(a, n), Ty::Vector(b, m)) => (a == b && n == m && *a != Scalar::Bool).then(|| l.clone()),
                 (Ty::Vector(kind, _), other) if self.is_number(other) => {
                     self.table.unify(&Ty::scalar(*kind), other).then(|| l.clone())
                 }

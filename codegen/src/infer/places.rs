@@ -107,6 +107,9 @@ impl<'l> Checker<'l> {
         if let Some(constant) = library.consts.get(&joined).or_else(|| library.consts.get(last)) {
             return (self.field_type(&constant.ty, constant.value.span), Access::Writable);
         }
+        if let Some(function) = self.function_value(path, span) {
+            return (function, Access::Writable);
+        }
         let known = known_constant(path);
         if let ([name], Ty::Unknown) = (path, &known) {
             let names: Vec<&str> = self.locals.iter().map(|local| local.name.as_str()).collect();
@@ -262,6 +265,7 @@ fn known_constant(path: &[String]) -> Ty {
         "Mat3" => Ty::Matrix(3),
         "Mat4" => Ty::Matrix(4),
         "f32" => Ty::Float,
+        "i32" | "u32" if name == "BITS" => Ty::U32,
         "i32" => Ty::I32,
         "u32" => Ty::U32,
         "usize" => Ty::USIZE,

@@ -3,10 +3,10 @@
 use super::Checker;
 use super::types::{Kind, Ty};
 use crate::diagnostic::{Diagnostic, Span};
-use crate::front::tree::{Expr, Function, Generic, Type};
+use crate::front::tree::{Expr, ExprKind, Function, Generic, Type};
 use std::collections::HashMap;
 
-pub use crate::ir::vector_named as vector;
+pub use crate::front::tree::vector_named as vector;
 
 impl<'l> Checker<'l> {
     /// The type that is written at `span`.
@@ -20,6 +20,10 @@ impl<'l> Checker<'l> {
         match ty {
             Type::Ref(_, inner) => self.lengths(inner),
             Type::Name(_, args) | Type::Tuple(args) => args.iter().for_each(|arg| self.lengths(arg)),
+            Type::Fn(params, result) => {
+                params.iter().for_each(|param| self.lengths(param));
+                self.lengths(result);
+            }
             Type::Array(element, len) => {
                 self.lengths(element);
                 if let Some(len) = len {
@@ -35,6 +39,10 @@ impl<'l> Checker<'l> {
             Type::Ref(mutable, inner) => Ty::Ref(*mutable, Box::new(self.substituted(inner, given, span))),
             Type::Tuple(parts) => Ty::Tuple(parts.iter().map(|p| self.substituted(p, given, span)).collect()),
             Type::Array(element, _) => Ty::Array(Box::new(self.substituted(element, given, span))),
+            Type::Fn(params, result) => Ty::Fn(
+                params.iter().map(|p| self.substituted(p, given, span)).collect(),
+                Box::new(self.substituted(result, given, span)),
+            ),
             Type::Name(name, args) => self.named(name, args, given, span),
         }
     }
@@ -109,7 +117,12 @@ impl<'l> Checker<'l> {
         for (k, generic) in function.generics.iter().enumerate() {
             match generic {
                 Generic::Type(name) => {
-                    let ty = self.table.fresh(Kind::Any);
+                    let ty = match stated.get(k).map(|stated| (&stated.kind, stated.span)) {
+                        Some((ExprKind::Path(path), span)) if path.len() == 1 => {
+                            self.named(&path[0], &[], &HashMap::new(), span)
+                        }
+                        _ => self.table.fresh(Kind::Any),
+                    };
                     given.insert(name.clone(), ty);
                 }
                 Generic::Const(_, ty) => {

@@ -45,6 +45,8 @@ pub enum Ty {
     Buffer(Box<Ty>),
     /// `&T`, `&mut T` (true).
     Ref(bool, Box<Ty>),
+    /// What is called: its parameters and its result.
+    Fn(Vec<Ty>, Box<Ty>),
     /// A type parameter of the function that is looked at.
     Param(String),
     /// Of what never gives a value: `return`, `break`.
@@ -84,6 +86,7 @@ impl Ty {
             Ty::Tuple(parts) => parts.iter().collect(),
             Ty::Array(t) | Ty::Range(t) | Ty::Iter(t) | Ty::Quad(t) | Ty::Texture(_, t) | Ty::Buffer(t) => vec![t],
             Ty::Ref(_, t) => vec![t],
+            Ty::Fn(params, result) => params.iter().chain([&**result]).collect(),
             _ => Vec::new(),
         }
     }
@@ -145,6 +148,7 @@ impl Table {
             Ty::Texture(name, t) => Ty::Texture(name, boxed(&t)),
             Ty::Buffer(t) => Ty::Buffer(boxed(&t)),
             Ty::Ref(mutable, t) => Ty::Ref(mutable, boxed(&t)),
+            Ty::Fn(params, result) => Ty::Fn(params.iter().map(|p| self.deep(p)).collect(), boxed(&result)),
             other => other,
         }
     }
@@ -192,6 +196,9 @@ impl Table {
                 true
             }
             (Ty::Tuple(xs), Ty::Tuple(ys)) => xs.len() == ys.len() && xs.iter().zip(ys).all(|(x, y)| self.unify(x, y)),
+            (Ty::Fn(xs, r), Ty::Fn(ys, s)) => {
+                xs.len() == ys.len() && xs.iter().zip(ys).all(|(x, y)| self.unify(x, y)) && self.unify(r, s)
+            }
             (Ty::Texture(x, s), Ty::Texture(y, t)) => x == y && self.unify(s, t),
             (Ty::Array(s), Ty::Array(t))
             | (Ty::Range(s), Ty::Range(t))
@@ -267,6 +274,14 @@ impl fmt::Display for Ty {
             Ty::Sampler => f.write_str("Sampler"),
             Ty::ComparisonSampler => f.write_str("ComparisonSampler"),
             Ty::Buffer(t) => write!(f, "Buffer<{t}>"),
+            Ty::Fn(params, result) => {
+                let params: Vec<String> = params.iter().map(Ty::to_string).collect();
+                write!(f, "impl Fn({})", params.join(", "))?;
+                match **result == Ty::UNIT {
+                    true => Ok(()),
+                    false => write!(f, " -> {result}"),
+                }
+            }
             Ty::Ref(true, t) => write!(f, "&mut {t}"),
             Ty::Ref(false, t) => write!(f, "&{t}"),
             Ty::Never => f.write_str("!"),

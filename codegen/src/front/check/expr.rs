@@ -42,6 +42,21 @@ impl Check {
                 }
                 self.exprs(&mut e.args);
             }
+            E::Closure(e) => {
+                for input in &mut e.inputs {
+                    match input {
+                        syn::Pat::Type(typed) => {
+                            self.pattern(&mut typed.pat);
+                            self.ty(&mut typed.ty);
+                        }
+                        other => self.pattern(other),
+                    }
+                }
+                if let syn::ReturnType::Type(_, ty) = &mut e.output {
+                    self.ty(ty);
+                }
+                self.expr(&mut e.body);
+            }
             E::Cast(e) => {
                 self.expr(&mut e.expr);
                 match &mut *e.ty {
@@ -89,7 +104,8 @@ impl Check {
             }
             E::MethodCall(e) => {
                 self.expr(&mut e.receiver);
-                if let Some(arguments) = &e.turbofish {
+                let of_numbers = e.method == "sum" || e.method == "product";
+                if let Some(arguments) = e.turbofish.as_ref().filter(|_| !of_numbers) {
                     self.refuse(
                         arguments.span(),
                         "`::<>` of a method",
@@ -112,7 +128,6 @@ impl Check {
             E::Async(_)
             | E::Await(_)
             | E::Break(_)
-            | E::Closure(_)
             | E::Const(_)
             | E::Infer(_)
             | E::RawAddr(_)

@@ -9,7 +9,8 @@ impl Maker {
         if want.known {
             return self.known_condition();
         }
-        match self.random.below(14) {
+        match self.random.below(15) {
+            14 if self.on(Feature::Library) => self.mask_condition(want),
             0..=2 => {
                 let op = self.random.pick(&["<", "<=", ">", ">="]);
                 let (a, b) = (self.float_receiver(d), self.expr(&Ty::F32, d));

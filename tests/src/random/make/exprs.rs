@@ -1,7 +1,7 @@
 //! Expressions of any type.
 
 use super::types::{Lane, Ty};
-use super::{Maker, Want};
+use super::{Feature, Maker, Want};
 
 impl Maker {
     /// An expression of a type. Binary operators stand in parentheses, so that texts can be made smaller.
@@ -27,6 +27,9 @@ impl Maker {
             && let Some(text) = self.call_of(ty, want)
         {
             return text;
+        }
+        if !want.known && self.repeats < 8 && ty.plain() && self.chance(Feature::Closures, 30) {
+            return self.iterator(ty, want);
         }
         match ty {
             Ty::F32 => self.float(want),

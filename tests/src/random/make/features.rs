@@ -20,6 +20,10 @@ pub enum Feature {
     Matrices,
     /// Enums and `match` on them.
     Enums,
+    /// Closures, functions as values, adaptors of iterators.
+    Closures,
+    /// What the generator has as text of the kernel language.
+    Library,
     /// `match` on runtime values, guards, `if let`, `let ... else`, `matches!`, `while let`.
     Matching,
     /// Generic functions.
@@ -50,6 +54,8 @@ pub const ALL: &[Feature] = &[
     Feature::Attributes,
     Feature::Matrices,
     Feature::Enums,
+    Feature::Closures,
+    Feature::Library,
     Feature::Matching,
     Feature::Generics,
     Feature::Nested,

@@ -125,6 +125,7 @@ impl Maker {
                 let other = self.expr(&Ty::F32, d);
                 format!("(if {e}.is_finite() {{ {other} }} else {{ 0.25 }})")
             }
+            28 if self.on(Feature::Library) => self.float_of_library(want),
             _ => self.leaf(&Ty::F32, want),
         }
     }

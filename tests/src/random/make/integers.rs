@@ -57,7 +57,8 @@ impl Maker {
         let d = want.deeper();
         let own = d.inferred(false);
         let signed = *ty == Ty::I32;
-        match self.random.below(32) {
+        match self.random.below(34) {
+            32..=33 if self.on(Feature::Library) => self.integer_of_library(ty, want),
             0..=5 => {
                 let op = self.random.pick(&["+", "-", "*", "+", "-"]);
                 let (a, b) = self.operands(ty, d);

@@ -5,6 +5,9 @@ use super::{Feature, Maker, Want};
 
 impl Maker {
     pub(super) fn items(&mut self) {
+        if self.on(Feature::Closures) {
+            self.appliers();
+        }
         for _ in 0..self.random.below(4) {
             self.constant();
         }

@@ -4,6 +4,7 @@
 
 mod branches;
 mod calls;
+mod closures;
 mod conditions;
 mod exprs;
 mod features;
@@ -14,6 +15,7 @@ mod integers;
 mod items;
 mod kernel;
 mod lets;
+mod library;
 mod loops;
 mod matches;
 mod places;

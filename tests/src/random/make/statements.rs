@@ -21,7 +21,9 @@ impl Maker {
             return self.assign();
         }
         let nested = self.nesting < NESTING;
-        match self.random.below(40) {
+        match self.random.below(43) {
+            40..=41 if self.on(Feature::Closures) => self.closure_statement(),
+            42 if self.on(Feature::Closures) && self.on(Feature::Mutable) => self.writing_closure(),
             0..=9 => self.let_(),
             10..=15 => self.assign(),
             16..=17 if nested => self.runtime_if(),
@@ -36,6 +38,7 @@ impl Maker {
             39 if nested && self.on(Feature::Matching) => self.runtime_match(),
             35 => self.destructure(),
             36 if self.on(Feature::Leaving) => self.leave(),
+            37 if self.random.once_in(3) && self.on(Feature::Library) => self.exchange(),
             37 => self.constant_inside(),
             38 => self.line("assert!(1 + 1 == 2, \"arithmetic\");"),
             _ => self.let_(),

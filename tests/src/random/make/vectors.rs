@@ -35,7 +35,9 @@ impl Maker {
         let scalar = ty.lane().expect("a vector has lanes");
         let d = want.deeper();
         let own = d.inferred(false);
-        match self.random.below(20) {
+        match self.random.below(22) {
+            20 if self.on(Feature::Library) => self.vector_of_library(lane, n, want),
+            21 if self.on(Feature::Library) && lane == Lane::F => self.float_vector_of_library(n, want),
             0..=4 => {
                 let op = self.random.pick(&["+", "-", "*", "+"]);
                 let (a, b) = (self.expr(&ty, d), self.expr(&ty, d));
@@ -199,7 +201,8 @@ impl Maker {
     pub(super) fn matrix(&mut self, n: u8, want: Want) -> String {
         let d = want.deeper();
         let column = Ty::Vec(Lane::F, n);
-        match self.random.below(5) {
+        match self.random.below(6) {
+            5 if self.on(Feature::Library) => self.matrix_of_library(n, want),
             0 => format!("({} * {})", self.expr(&Ty::Mat(n), d), self.leaf(&Ty::Mat(n), d)),
             1 => format!("({}).transpose()", self.expr(&Ty::Mat(n), d)),
             2 => format!("Mat{n}::from_diagonal({})", self.expr(&column, d)),

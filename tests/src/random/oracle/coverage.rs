@@ -26,6 +26,14 @@ pub const NOT_COMPARED: &[&str] = &[
     "length_recip",
     "reflect",
     "distance",
+    "sin_cos",
+    "from_angle",
+    "to_angle",
+    "from_scale_angle",
+    "rotate_x",
+    "rotate_z",
+    "from_rotation_x",
+    "from_rotation_z",
 ];
 
 /// What is missing.

@@ -1,0 +1,130 @@
+//! Closures and functions as values. They are inlined where they are called.
+//!
+//! A closure that only reads a variable has its value from where the closure is made: Rust keeps it from changing while the
+//! closure lives. One that writes a variable has its place.
+
+use super::departures::Tail;
+use super::value::{Captured, Closed, Eval, Exit, Value, Way};
+use super::{Evaluator, MAX_CALLS};
+use crate::diagnostic::{Diagnostic, Span};
+use crate::front::tree::{Block, Closure};
+use crate::front::{assigned, mentioned_in};
+use std::collections::BTreeSet;
+use std::rc::Rc;
+use std::sync::Arc;
+
+impl Evaluator<'_> {
+    /// A closure, with the variables that it mentions.
+    pub fn closure(&mut self, code: &Arc<Closure>, span: Span) -> Eval {
+        let body = Block {
+            statements: Vec::new(),
+            value: Some(Box::new(code.body.clone())),
+        };
+        let written = assigned(&body, &self.library.mutating).assigned;
+        let mut names = BTreeSet::new();
+        mentioned_in(&code.body, &mut names);
+        let mut captured = Vec::new();
+        for name in names {
+            let Some(slot) = self.scope.slot(&name) else { continue };
+            let value = self.scope.at(slot).1.clone();
+            let is_written = written.contains(&name) && !matches!(value, Value::Ref(_));
+            let capture = match value {
+                Value::Alias(place) if is_written => Captured::Place(place),
+                Value::Alias(place) => Captured::Value(self.read(&place, span)?),
+                _ if is_written && code.moves => {
+                    return Err(
+                        Diagnostic::at(span, format!("a `move` closure that changes its own `{name}`"))
+                            .label("not supported")
+                            .help("leave out `move`, so that it changes the variable around it")
+                            .into(),
+                    );
+                }
+                _ if is_written => Captured::Place(Rc::new(self.scope.place(slot))),
+                value => Captured::Value(value),
+            };
+            captured.push((name, capture));
+        }
+        Ok(Value::Closure(Rc::new(Closed {
+            code: Arc::clone(code),
+            captured,
+            function: self.calls.last().cloned().unwrap_or_default(),
+        })))
+    }
+
+    /// Calls what a variable holds: a closure, or a function by its path.
+    pub fn invoke(&mut self, callee: &Value, args: Vec<Value>, span: Span) -> Eval {
+        let closed = match callee {
+            Value::Closure(closed) => Rc::clone(closed),
+            Value::Function(path) => return self.apply(path, &[], args, span),
+            Value::Poison => return Err(Exit::Noted),
+            other => {
+                return Err(Diagnostic::at(span, format!("{} cannot be called", other.describe()))
+                    .label("not a function")
+                    .into());
+            }
+        };
+        let (wanted, given) = (closed.code.params.len(), args.len());
+        if wanted != given {
+            let plural = if wanted == 1 { "" } else { "s" };
+            return Err(Diagnostic::at(
+                span,
+                format!("this closure takes {wanted} argument{plural}, not {given}"),
+            )
+            .label("called here")
+            .into());
+        }
+        if self.calls.len() >= MAX_CALLS {
+            return Err(
+                Diagnostic::at(span, format!("calls are nested more than {MAX_CALLS} deep"))
+                    .label("recursion that does not end?")
+                    .into(),
+            );
+        }
+        let outer = self.scope.enter_function();
+        self.calls.push(closed.function.clone());
+        let pending = std::mem::take(&mut self.departed);
+        let result = self.closed_body(&closed, args, outer.1, span);
+        self.departed = pending;
+        self.calls.pop();
+        self.scope.leave_function(outer);
+        match result {
+            Err(Exit::Left(_)) => Err(Diagnostic::at(span, "`break` or `continue` outside of a loop").into()),
+            other => other,
+        }
+    }
+
+    fn closed_body(&mut self, closed: &Closed, args: Vec<Value>, mark: usize, span: Span) -> Eval {
+        for (name, captured) in &closed.captured {
+            let value = match captured {
+                Captured::Value(value) => value.clone(),
+                Captured::Place(place) => Value::Alias(Rc::clone(place)),
+            };
+            self.scope.bind(name, value);
+        }
+        for ((pattern, ty), value) in closed.code.params.iter().zip(args) {
+            let value = self.ascribe(value, ty.as_ref(), span)?;
+            self.bind(pattern, value, span)?;
+        }
+        let outcome = self.expr_in(&closed.code.body, Tail::Function);
+        let value = self.arrive(0, outcome, mark, &|way| matches!(way, Way::Return(_)), span)?;
+        // A reference to a variable of the closure's own would lead nowhere.
+        match &closed.code.result {
+            Some(ty) => self.ascribe(value, Some(ty), closed.code.body.span),
+            None => Ok(value),
+        }
+    }
+
+    /// Refuses a closure that changes variables, where it is called in another order than natively or not as often.
+    pub fn only_reads(&self, callee: &Value, method: &str, span: Span) -> Eval<()> {
+        match callee {
+            Value::Closure(closed) if closed.captured.iter().any(|(_, c)| matches!(c, Captured::Place(_))) => Err(
+                Diagnostic::at(span, format!("a closure that changes variables, in `{method}`"))
+                    .label("not supported")
+                    .note("how often it is called would depend on what takes the values")
+                    .help("write a `for` loop, or use `fold`")
+                    .into(),
+            ),
+            _ => Ok(()),
+        }
+    }
+}

@@ -1,0 +1,172 @@
+//! Adaptors of iterators over arrays and ranges. An iterator is the list of its values.
+
+use super::Evaluator;
+use super::value::{Eval, Exit, Value};
+use crate::diagnostic::{Diagnostic, Span};
+use crate::ir::{BinaryOp, Op, Type};
+
+/// Methods of iterators.
+pub const METHODS: [&str; 20] = [
+    "all",
+    "any",
+    "chain",
+    "cloned",
+    "copied",
+    "count",
+    "enumerate",
+    "fold",
+    "for_each",
+    "into_iter",
+    "iter",
+    "len",
+    "map",
+    "product",
+    "rev",
+    "skip",
+    "step_by",
+    "sum",
+    "take",
+    "zip",
+];
+
+impl Evaluator<'_> {
+    /// The values that an iterator gives.
+    fn listed(&mut self, value: &Value, span: Span) -> Eval<Vec<Value>> {
+        match value {
+            Value::Array(elements) => Ok(elements.to_vec()),
+            Value::Range(range) => match self.range_values(range, span)? {
+                Some(values) => Ok(values),
+                None => Err(
+                    Diagnostic::at(span, "an iterator over a range whose bounds are runtime values")
+                        .label("a runtime value")
+                        .help("write a `for` loop over the range")
+                        .into(),
+                ),
+            },
+            Value::Node(id) if self.ty(*id).is_array() => {
+                let Type::Array { len, .. } = self.ty(*id) else {
+                    return Err(Exit::Noted);
+                };
+                (0..i64::from(len))
+                    .map(|k| self.element(value, &Value::Int(k), span))
+                    .collect()
+            }
+            Value::Ref(_) => match self.elements_mut(value, span)? {
+                Value::Array(elements) => Ok(elements.to_vec()),
+                _ => Err(Exit::Noted),
+            },
+            other => Err(Diagnostic::at(span, format!("{} is no iterator", other.describe())).into()),
+        }
+    }
+
+    /// A method of an iterator over an array or a range.
+    pub fn iterator_method(&mut self, value: &Value, name: &str, args: &[Value], span: Span) -> Eval {
+        let mut items = self.listed(value, span)?;
+        match (name, args) {
+            ("len" | "count", []) => Ok(Value::Int(items.len() as i64)),
+            ("iter" | "into_iter" | "copied" | "cloned", []) => Ok(Value::array(items)),
+            ("enumerate", []) => {
+                let pair = |(k, item): (usize, Value)| Value::Tuple(vec![Value::Int(k as i64), item]);
+                Ok(Value::array(items.into_iter().enumerate().map(pair).collect()))
+            }
+            ("rev", []) => {
+                items.reverse();
+                Ok(Value::array(items))
+            }
+            ("skip" | "take" | "step_by", [count]) => {
+                let Some(n) = self.known_int(count).and_then(|n| usize::try_from(n).ok()) else {
+                    return Err(Diagnostic::at(span, format!("`{name}` needs a known number"))
+                        .label("not known now")
+                        .help("use a constant, an option, or a loop counter")
+                        .into());
+                };
+                let items: Vec<Value> = match name {
+                    "skip" => items.into_iter().skip(n).collect(),
+                    "take" => items.into_iter().take(n).collect(),
+                    _ if n > 0 => items.into_iter().step_by(n).collect(),
+                    _ => return Err(Diagnostic::at(span, "`step_by` needs a step of at least 1").into()),
+                };
+                Ok(Value::array(items))
+            }
+            ("zip" | "chain", [other]) => {
+                let others = self.listed(other, span)?;
+                let both = match name {
+                    "zip" => {
+                        let pairs = items.into_iter().zip(others);
+                        pairs.map(|(a, b)| Value::Tuple(vec![a, b])).collect()
+                    }
+                    _ => [items, others].concat(),
+                };
+                Ok(Value::array(both))
+            }
+            ("map", [f]) => {
+                self.only_reads(f, name, span)?;
+                let mapped = items.into_iter().map(|item| self.called(f, vec![item], span));
+                Ok(Value::array(mapped.collect::<Eval<_>>()?))
+            }
+            ("for_each", [f]) => {
+                for item in items {
+                    self.called(f, vec![item], span)?;
+                }
+                Ok(Value::unit())
+            }
+            ("fold", [first, f]) => {
+                let mut sum = first.clone();
+                for item in items {
+                    sum = self.called(f, vec![sum, item], span)?;
+                }
+                Ok(sum)
+            }
+            ("all" | "any", [f]) => {
+                self.only_reads(f, name, span)?;
+                let op = if name == "all" { BinaryOp::And } else { BinaryOp::Or };
+                let mut all = Value::Node(self.builder.bool(name == "all"));
+                for item in items {
+                    let holds = self.called(f, vec![item], span)?;
+                    let holds = self.loaded(holds, span)?;
+                    all = self.binary(op, &all, &holds, span)?;
+                }
+                Ok(all)
+            }
+            ("sum" | "product", []) => self.reduced(name, items, span),
+            _ => Err(Diagnostic::at(span, format!("an iterator has no method `{name}` here"))
+                .label("not supported")
+                .help(crate::suggest::suggest(name, &METHODS, "iterators have"))
+                .into()),
+        }
+    }
+
+    fn called(&mut self, f: &Value, args: Vec<Value>, span: Span) -> Eval {
+        self.step(span)?;
+        let value = self.invoke(f, args, span)?;
+        self.loaded(value, span)
+    }
+
+    /// `sum` and `product`, in order: of numbers from the first, which is what Rust's `-0.0 + x`, `0 + x` and `1 * x` are; of
+    /// vectors from glam's zero.
+    fn reduced(&mut self, name: &str, items: Vec<Value>, span: Span) -> Eval {
+        let op = if name == "sum" { BinaryOp::Add } else { BinaryOp::Mul };
+        let mut items = items.into_iter();
+        let Some(first) = items.next() else {
+            return Err(Diagnostic::at(span, format!("the {name} of no values"))
+                .label("empty")
+                .help("give the iterator a value, or write out what it is to be")
+                .into());
+        };
+        let mut all = self.loaded(first, span)?;
+        if let Value::Node(id) = &all
+            && name == "sum"
+            && self.ty(*id).is_float()
+            && self.ty(*id).lanes() > 1
+        {
+            let zero = self.builder.f32(0.0);
+            let zero = self.builder.add(Op::Splat, vec![zero], self.ty(*id));
+            all = self.binary(op, &Value::Node(zero), &all, span)?;
+        }
+        for item in items {
+            let item = self.loaded(item, span)?;
+            all = self.binary(op, &all, &item, span)?;
+        }
+        Ok(all)
+    }
+}

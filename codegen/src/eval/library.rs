@@ -1,0 +1,73 @@
+//! Functions of the standard library that work on places and types: `mem::swap`, `mem::replace`, `T::from`.
+
+use super::Evaluator;
+use super::call::vector_type;
+use super::value::{Eval, Value};
+use crate::diagnostic::{Diagnostic, Span};
+use crate::ir::{Op, Scalar, Type};
+
+impl Evaluator<'_> {
+    /// `mem::swap(&mut a, &mut b)` and `mem::replace(&mut a, b)`; `None` of any other function.
+    pub fn exchange(&mut self, path: &[String], values: &[Value], span: Span) -> Eval<Option<Value>> {
+        let name = path.last().map(String::as_str).unwrap_or_default();
+        match (name, values) {
+            ("swap", [Value::Ref(a), Value::Ref(b)]) => {
+                let (a, b) = (self.followed((**a).clone(), span)?, self.followed((**b).clone(), span)?);
+                let (of_a, of_b) = (self.read(&a, span)?, self.read(&b, span)?);
+                self.write(&a, of_b, span)?;
+                self.write(&b, of_a, span)?;
+                Ok(Some(Value::unit()))
+            }
+            ("replace", [Value::Ref(place), value]) => {
+                let place = self.followed((**place).clone(), span)?;
+                let old = self.read(&place, span)?;
+                let value = self.loaded(value.clone(), span)?;
+                self.write(&place, value, span)?;
+                Ok(Some(old))
+            }
+            _ => Ok(None),
+        }
+    }
+
+    /// `f32::from(x)`, `u32::from(flag)`, `Vec3::from(array)`, `Vec4::from((vector, w))`; `None` if `ty` is no number and no
+    /// vector.
+    pub fn from(&mut self, ty: &str, value: &Value, span: Span) -> Eval<Option<Value>> {
+        if let Some((kind, lanes)) = vector_type(ty) {
+            let parts = match value {
+                Value::Tuple(parts) => parts.clone(),
+                Value::Node(id) if self.ty(*id) == Type::value(kind, lanes) => return Ok(Some(value.clone())),
+                array => self.elements(array, usize::from(lanes), span)?,
+            };
+            return self.compose(kind, lanes, &parts, span).map(Some);
+        }
+        let to = match ty {
+            "f32" => Scalar::F32,
+            "i32" | "usize" => Scalar::I32,
+            "u32" => Scalar::U32,
+            _ => return Ok(None),
+        };
+        if let (Value::Int(_), "usize") = (value, ty) {
+            return Ok(Some(value.clone()));
+        }
+        let id = self.node(value, span)?;
+        let from = self.ty(id);
+        if from == Type::scalar(to) {
+            return Ok(Some(Value::Node(id)));
+        }
+        if from != Type::BOOL {
+            return Err(Diagnostic::at(
+                span,
+                format!("`{ty}::from` takes no {}, whose values it may not hold", from.in_rust()),
+            )
+            .label("not without a loss")
+            .help(format!("convert it with `as {ty}`"))
+            .into());
+        }
+        let whole = self.builder.add(Op::Convert, vec![id], Type::U32);
+        let converted = match ty {
+            "usize" => self.convert(whole, Scalar::I32),
+            _ => self.convert(whole, to),
+        };
+        Ok(Some(Value::Node(converted)))
+    }
+}

@@ -1,0 +1,74 @@
+//! Closures, and the types of what is called: `impl Fn(A) -> B`, `&dyn Fn(A) -> B`, `F` with `F: Fn(A) -> B`.
+
+use super::expr::Lower;
+use super::tree::{Closure, ExprKind, Type};
+use std::sync::Arc;
+use syn::spanned::Spanned;
+
+impl Lower {
+    /// `|x: f32| x * 2.0`.
+    pub fn closure(&mut self, e: &syn::ExprClosure) -> ExprKind {
+        if let Some(token) = &e.asyncness {
+            self.unsupported(token.span(), "an `async` closure", "write `|x| ...` alone");
+        }
+        if let Some(token) = &e.constness {
+            self.unsupported(token.span(), "a `const` closure", "write `|x| ...` alone");
+        }
+        if let Some(lifetimes) = &e.lifetimes {
+            self.unsupported(lifetimes.span(), "`for<..>` before a closure", "leave it out");
+        }
+        let params = e.inputs.iter().map(|input| match input {
+            syn::Pat::Type(typed) => (self.pattern(&typed.pat), Some(self.ty(&typed.ty))),
+            other => (self.pattern(other), None),
+        });
+        let params = params.collect();
+        let result = match &e.output {
+            syn::ReturnType::Default => None,
+            syn::ReturnType::Type(_, ty) => Some(self.ty(ty)),
+        };
+        ExprKind::Closure(Arc::new(Closure {
+            params,
+            result,
+            body: self.expr(&e.body),
+            moves: e.capture.is_some(),
+        }))
+    }
+
+    /// Notes which type parameters are called, by their bounds.
+    pub fn called_parameters(&mut self, generics: &syn::Generics) {
+        let mut found = Vec::new();
+        for param in &generics.params {
+            if let syn::GenericParam::Type(t) = param {
+                found.extend(self.called(&t.bounds).map(|ty| (t.ident.to_string(), ty)));
+            }
+        }
+        for predicate in generics.where_clause.iter().flat_map(|clause| &clause.predicates) {
+            if let syn::WherePredicate::Type(t) = predicate
+                && let syn::Type::Path(path) = &t.bounded_ty
+                && let Some(name) = path.path.get_ident()
+            {
+                found.extend(self.called(&t.bounds).map(|ty| (name.to_string(), ty)));
+            }
+        }
+        self.functions.extend(found);
+    }
+
+    /// The type of functions among bounds: `Fn(A) -> B`, `FnMut`, `FnOnce`.
+    pub fn called<'b>(&mut self, bounds: impl IntoIterator<Item = &'b syn::TypeParamBound>) -> Option<Type> {
+        for bound in bounds {
+            if let syn::TypeParamBound::Trait(bound) = bound
+                && let Some(last) = bound.path.segments.last()
+                && matches!(last.ident.to_string().as_str(), "Fn" | "FnMut" | "FnOnce")
+                && let syn::PathArguments::Parenthesized(list) = &last.arguments
+            {
+                let params = list.inputs.iter().map(|input| self.ty(&input.ty)).collect();
+                let result = match &list.output {
+                    syn::ReturnType::Default => Type::Tuple(Vec::new()),
+                    syn::ReturnType::Type(_, ty) => self.ty(ty),
+                };
+                return Some(Type::Fn(params, Box::new(result)));
+            }
+        }
+        None
+    }
+}

@@ -1,0 +1,91 @@
+//! The methods of numbers and vectors by their names, and those that Rust and shaders compute differently.
+
+use crate::ir::{Scalar, Type};
+
+/// Methods of floats, lane by lane.
+const FLOATS: &str = "abs acos asin atan atan2 ceil clamp cos cosh exp exp2 floor is_finite is_nan ln log2 max min powf powi recip \
+    round_ties_even sin sinh sqrt tan tanh to_bits to_degrees to_radians trunc";
+
+/// Further methods of vectors.
+const VECTORS: &str = "cmpeq cmpge cmpgt cmple cmplt cmpne cross distance distance_squared dot element_product element_sum extend length length_recip length_squared lerp \
+    max_element min_element normalize perp reflect to_array truncate";
+
+/// Methods of floats that Rust and shaders compute differently: why, and what to write.
+pub const UNLIKE: [(&str, &str, &str); 10] = [
+    (
+        "round",
+        "`round` rounds halves away from zero, and no shader does",
+        "round(x)",
+    ),
+    ("fract", "`fract` truncates in Rust and floors in shaders", "fract(x)"),
+    ("signum", "`signum` of 0 is 1 in Rust and 0 in shaders", "sign(x)"),
+    (
+        "mul_add",
+        "`mul_add` rounds once in Rust, and once or twice in shaders",
+        "x * a + b",
+    ),
+    (
+        "cbrt",
+        "`cbrt` takes the root of a negative number, and shaders have no such function",
+        "sign(x) * x.abs().powf(1.0 / 3.0)",
+    ),
+    (
+        "hypot",
+        "`hypot` does not overflow in Rust, and shaders have no such function",
+        "vec2(x, y).length()",
+    ),
+    (
+        "exp_m1",
+        "`exp_m1` is exact near 0 in Rust, and shaders have no such function",
+        "x.exp() - 1.0",
+    ),
+    (
+        "ln_1p",
+        "`ln_1p` is exact near 0 in Rust, and shaders have no such function",
+        "(1.0 + x).ln()",
+    ),
+    (
+        "log10",
+        "`log10` is exact for powers of ten in Rust, and shaders have no such function",
+        "x.log2() * std::f32::consts::LOG10_2",
+    ),
+    ("log", "`log` has no counterpart in shaders", "x.log2() / base.log2()"),
+];
+
+/// Comparisons of vectors, component by component.
+const COMPARISONS: &str = "cmpeq cmpge cmpgt cmple cmplt cmpne extend truncate";
+
+/// Methods of vectors of booleans.
+const MASKS: &str = "all any test";
+
+/// Methods of integers.
+const INTEGERS: &str = "abs clamp count_ones leading_zeros max min pow rem_euclid reverse_bits signum trailing_zeros wrapping_add \
+    wrapping_mul wrapping_neg wrapping_shl wrapping_shr wrapping_sub";
+
+/// The methods of a type by their names.
+fn lists(ty: Type) -> &'static [&'static str] {
+    match (ty.kind(), ty.lanes()) {
+        (Some(Scalar::F32), 1) => &[FLOATS],
+        (Some(Scalar::F32), _) => &[FLOATS, VECTORS],
+        (Some(Scalar::Bool), _) => &[MASKS],
+        (_, 1) => &[INTEGERS],
+        _ => &[INTEGERS, COMPARISONS],
+    }
+}
+
+/// The way out of a method that there is not.
+pub fn known_methods(name: &str, ty: Type) -> String {
+    let known: Vec<&str> = lists(ty).iter().flat_map(|list| list.split_whitespace()).collect();
+    let close = crate::suggest::suggest(name, &known, "");
+    if close.starts_with("did you mean") {
+        return close;
+    }
+    format!("{} has {}", ty.in_rust(), known.join(", "))
+}
+
+/// Whether numbers or vectors of a type have a method here.
+pub fn has(ty: Type, name: &str) -> bool {
+    lists(ty)
+        .iter()
+        .any(|list| list.split_whitespace().any(|known| known == name))
+}

@@ -1,0 +1,47 @@
+impl f32 {
+    fn sin_cos(self) -> (f32, f32) {
+        (self.sin(), self.cos())
+    }
+
+    fn copysign(self, sign: f32) -> f32 {
+        f32::from_bits((self.to_bits() & 0x7fff_ffff) | (sign.to_bits() & 0x8000_0000))
+    }
+
+    fn is_sign_negative(self) -> bool {
+        self.to_bits() >> 31 == 1
+    }
+
+    fn is_sign_positive(self) -> bool {
+        self.to_bits() >> 31 == 0
+    }
+
+    fn is_infinite(self) -> bool {
+        self.to_bits() & 0x7fff_ffff == 0x7f80_0000
+    }
+
+    fn rem_euclid(self, divisor: f32) -> f32 {
+        let rest = self % divisor;
+        if rest < 0.0 { rest + divisor.abs() } else { rest }
+    }
+
+    fn div_euclid(self, divisor: f32) -> f32 {
+        let whole = (self / divisor).trunc();
+        let below = self % divisor < 0.0;
+        if below { if divisor > 0.0 { whole - 1.0 } else { whole + 1.0 } } else { whole }
+    }
+}
+
+fn acos_approx(v: f32) -> f32 {
+    let x = v.abs();
+    let rest = 1.0 - x;
+    let root = (if rest < 0.0 { 0.0 } else { rest }).sqrt();
+    let sum = ((((((-0.001_262_491_1 * x + 0.006_670_09) * x - 0.017_088_126) * x + 0.030_891_88) * x - 0.050_174_303)
+        * x
+        + 0.088_978_99)
+        * x
+        - 0.214_598_8)
+        * x
+        + 1.570_796_3;
+    let angle = sum * root;
+    if v >= 0.0 { angle } else { std::f32::consts::PI - angle }
+}

@@ -1,0 +1,180 @@
+//! Methods of Rust and glam that are made of others, as text of the kernel language: what glam and the standard library
+//! compute, in their order of operations, so that the bits are theirs.
+//!
+//! The texts are read after a kernel's files. Of what they define, only what the files mention is parsed, and only what the
+//! kernel reaches is kept.
+
+use crate::diagnostic::File;
+use std::collections::{BTreeMap, BTreeSet, HashSet};
+use std::fmt::Write;
+use std::sync::OnceLock;
+
+/// The file that places in these texts name: no file of a kernel.
+pub const FILE: u32 = u32::MAX;
+
+/// Component names.
+const LANES: [&str; 4] = ["x", "y", "z", "w"];
+
+/// A function of these texts.
+struct Piece {
+    /// The type that it is a method of; empty if of none.
+    of: String,
+    name: String,
+    text: String,
+}
+
+/// What `files` may call, as one text.
+pub fn text(files: &[File]) -> String {
+    let mut mentioned: HashSet<&str> = files.iter().flat_map(|file| words(&file.text)).collect();
+    let mut taken = BTreeSet::new();
+    loop {
+        let before = taken.len();
+        for (k, piece) in pieces().iter().enumerate() {
+            if mentioned.contains(piece.name.as_str()) && taken.insert(k) {
+                mentioned.extend(words(&piece.text));
+            }
+        }
+        if taken.len() == before {
+            break;
+        }
+    }
+    written(taken.into_iter().map(|k| &pieces()[k]))
+}
+
+/// The functions, those of a type in an `impl` of it.
+fn written<'p>(taken: impl Iterator<Item = &'p Piece>) -> String {
+    let mut by_type: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
+    for piece in taken {
+        by_type.entry(&piece.of).or_default().push(&piece.text);
+    }
+    let mut text = String::new();
+    for (of, functions) in by_type {
+        let functions = functions.concat();
+        let _ = match of {
+            "" => writeln!(text, "{functions}"),
+            of => writeln!(text, "impl {of} {{\n{functions}}}"),
+        };
+    }
+    text
+}
+
+/// The words of a text that may be names.
+fn words(text: &str) -> impl Iterator<Item = &str> {
+    text.split(|c: char| !c.is_alphanumeric() && c != '_')
+        .filter(|word| !word.is_empty())
+}
+
+fn pieces() -> &'static [Piece] {
+    static PIECES: OnceLock<Vec<Piece>> = OnceLock::new();
+    PIECES.get_or_init(|| {
+        let mut text = [
+            include_str!("floats.rs"),
+            include_str!("integers.rs"),
+            include_str!("shapes.rs"),
+        ]
+        .concat();
+        for lanes in 2..=4 {
+            text += &include_str!("vectors.rs").replace("Vec3", &format!("Vec{lanes}"));
+            by_lane(&mut text, lanes);
+        }
+        split(&text)
+    })
+}
+
+/// A text as its functions. Those of an `impl` are indented by four, and what is in them by more.
+fn split(text: &str) -> Vec<Piece> {
+    let mut found: Vec<Piece> = Vec::new();
+    let mut of = "";
+    for line in text.lines() {
+        if let Some(name) = line.strip_prefix("impl ") {
+            of = name.trim_end_matches(" {");
+        } else if line == "}" && !of.is_empty() {
+            of = "";
+        } else if let Some(rest) = line.trim_start().strip_prefix("fn ") {
+            let end = rest.find(['(', '<']).unwrap_or(rest.len());
+            found.push(Piece {
+                of: of.to_owned(),
+                name: rest[..end].to_owned(),
+                text: format!("{line}\n"),
+            });
+        } else if let Some(last) = found.last_mut() {
+            last.text += &format!("{line}\n");
+        }
+    }
+    found
+}
+
+/// What is written out component by component.
+fn by_lane(text: &mut String, lanes: usize) {
+    let vector = format!("Vec{lanes}");
+    let each = |part: &dyn Fn(&str) -> String| LANES[..lanes].iter().map(|l| part(l)).collect::<Vec<_>>().join(", ");
+    let _ = writeln!(text, "impl {vector} {{");
+    for name in ["rem_euclid", "div_euclid", "copysign"] {
+        let parts = each(&|l| format!("self.{l}.{name}(other.{l})"));
+        let _ = writeln!(
+            text,
+            "    fn {name}(self, other: {vector}) -> {vector} {{ {vector}::new({parts}) }}"
+        );
+    }
+    text.push_str("}\n");
+    for (prefix, number) in [("", "f32"), ("I", "i32"), ("U", "u32")] {
+        let own = format!("{prefix}{vector}");
+        let _ = writeln!(text, "impl {own} {{");
+        for changed in &LANES[..lanes] {
+            let parts = each(&|l| match l == *changed {
+                true => "value".to_owned(),
+                false => format!("self.{l}"),
+            });
+            let _ = writeln!(
+                text,
+                "    fn with_{changed}(self, value: {number}) -> {own} {{ {own}::new({parts}) }}"
+            );
+        }
+        let choices = each(&|l| format!("if mask.{l} {{ yes.{l} }} else {{ no.{l} }}"));
+        let _ = writeln!(
+            text,
+            "    fn select(mask: B{vector}, yes: {own}, no: {own}) -> {own} {{ {own}::new({choices}) }}"
+        );
+        let mapped = each(&|l| format!("f(self.{l})"));
+        let _ = writeln!(
+            text,
+            "    fn map(self, f: impl Fn({number}) -> {number}) -> {own} {{ {own}::new({mapped}) }}"
+        );
+        text.push_str("}\n");
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::pieces;
+    use crate::diagnostic::File;
+    use crate::front;
+    use std::fmt::Write;
+    use std::sync::Arc;
+
+    /// What no kernel reaches is looked at by nothing else.
+    #[test]
+    fn every_function_has_its_types() {
+        assert!(pieces().len() > 100, "{} functions", pieces().len());
+        let mut text = String::new();
+        for piece in pieces() {
+            let _ = writeln!(text, "// {}", piece.name);
+        }
+        let kernel = File {
+            path: "kernel.rs".to_owned(),
+            text,
+        };
+        let files = Arc::new(vec![kernel]);
+        for piece in pieces() {
+            let name = match piece.of.as_str() {
+                "" => piece.name.clone(),
+                of => format!("{of}::{}", piece.name),
+            };
+            let mut parsed = front::parse(&files, &name).unwrap_or_else(|e| panic!("{name}:\n{e}"));
+            assert!(parsed.library.functions.contains_key(&name), "{name}");
+            if let Err(errors) = crate::infer::infer(&mut parsed.library, &parsed.reached) {
+                panic!("{name}: {errors:?}");
+            }
+        }
+    }
+}

@@ -1,0 +1,159 @@
+//! Closures, functions as values, and the adaptors of iterators that take them.
+
+use super::Checker;
+use super::types::{Kind, Ty};
+use crate::diagnostic::{Diagnostic, Span};
+use crate::front::tree::{Closure, Expr};
+
+impl<'l> Checker<'l> {
+    /// The type of a closure. What is wanted of it tells the types of its parameters, as in rustc.
+    pub fn closure(&mut self, closure: &'l Closure, wanted: Option<&Ty>, span: Span) -> Ty {
+        let (hints, gives) = match wanted.map(|ty| self.peeled(ty).0) {
+            Some(Ty::Fn(params, result)) if params.len() == closure.params.len() => (params, Some(*result)),
+            _ => (Vec::new(), None),
+        };
+        let mark = self.locals.len();
+        let mut types = Vec::new();
+        for (k, (pattern, stated)) in closure.params.iter().enumerate() {
+            let ty = match (stated, hints.get(k)) {
+                (Some(stated), hint) => {
+                    let ty = self.stated(stated, span);
+                    if let Some(hint) = hint {
+                        self.coerce(hint, &ty, span);
+                    }
+                    ty
+                }
+                (None, Some(hint)) => hint.clone(),
+                (None, None) => self.table.fresh(Kind::Any),
+            };
+            self.bind_whole(pattern, &ty, false);
+            self.irrefutable(pattern, &ty, span);
+            types.push(ty);
+        }
+        let result = match (&closure.result, gives) {
+            (Some(stated), _) => self.stated(stated, span),
+            (None, Some(gives)) => gives,
+            (None, None) => self.table.fresh(Kind::Any),
+        };
+        let outer = std::mem::replace(&mut self.result, result.clone());
+        let found = self.expr(&closure.body, Some(&result));
+        self.coerce(&result, &found, closure.body.span);
+        self.result = outer;
+        self.locals.truncate(mark);
+        Ty::Fn(types, Box::new(result))
+    }
+
+    /// A call of what a variable holds; `None` if there is no such variable, or it is not known to be called.
+    pub fn call_of_local(&mut self, name: &str, args: &'l [Expr], span: Span) -> Option<Ty> {
+        let local = self.locals.iter().rev().find(|local| local.name == name)?;
+        let ty = local.ty.clone();
+        match self.peeled(&ty).0 {
+            Ty::Fn(params, result) => {
+                if params.len() != args.len() {
+                    let (wanted, given) = (params.len(), args.len());
+                    let plural = if wanted == 1 { "" } else { "s" };
+                    self.errors.push(
+                        Diagnostic::at(span, format!("`{name}` takes {wanted} argument{plural}, not {given}"))
+                            .label("called here"),
+                    );
+                }
+                Some(self.takes(args, &params, *result))
+            }
+            Ty::Unknown => {
+                self.loose(args);
+                Some(Ty::Unknown)
+            }
+            _ => None,
+        }
+    }
+
+    /// A function by its path, as a value.
+    pub fn function_value(&mut self, path: &[String], span: Span) -> Option<Ty> {
+        let library = self.library;
+        let joined = path.join("::");
+        if let Some(function) = library
+            .functions
+            .get(&joined)
+            .or_else(|| library.functions.get(path.last()?))
+        {
+            let given = self.instantiate(function, &[]);
+            let params = function.params.iter().map(|p| self.substituted(&p.ty, &given, span));
+            let params = params.collect();
+            let result = self.substituted(&function.result, &given, span);
+            return Some(Ty::Fn(params, Box::new(result)));
+        }
+        let [.., ty, method] = path else { return None };
+        let receiver = match ty.as_str() {
+            "f32" => Ty::Float,
+            "i32" => Ty::I32,
+            "u32" => Ty::U32,
+            other => {
+                let (kind, lanes) = super::signature::vector(other)?;
+                Ty::Vector(kind, lanes)
+            }
+        };
+        // A constant of the type is in capitals.
+        if method.starts_with(char::is_uppercase) {
+            return None;
+        }
+        match self.known_method(&receiver, method, &[], span) {
+            Ty::Unknown => None,
+            result => Some(Ty::Fn(vec![receiver], Box::new(result))),
+        }
+    }
+
+    /// What a value gives that is run over; `None` if it is no iterator, no array and no range.
+    fn items(&self, ty: &Ty) -> Option<Ty> {
+        match self.table.shallow(ty) {
+            Ty::Range(t) | Ty::Iter(t) | Ty::Array(t) => Some(*t),
+            Ty::Ref(mutable, inner) => match self.table.shallow(&inner) {
+                Ty::Array(t) => Some(Ty::Ref(mutable, t)),
+                _ => None,
+            },
+            _ => None,
+        }
+    }
+
+    /// A method of an iterator over items; `None` if it is none of these.
+    pub fn adaptor(&mut self, item: &Ty, name: &str, args: &'l [Expr]) -> Option<Ty> {
+        let iter = |item: Ty| Ty::Iter(Box::new(item));
+        Some(match (name, args) {
+            ("skip" | "take", [_]) => self.takes(args, &[Ty::USIZE], iter(item.clone())),
+            ("count" | "len", []) => Ty::USIZE,
+            ("zip" | "chain", [other]) => {
+                let found = self.expr(other, None);
+                let others = self.items(&found).unwrap_or(Ty::Unknown);
+                match name {
+                    "zip" => iter(Ty::Tuple(vec![item.clone(), others])),
+                    _ => {
+                        self.coerce(item, &others, other.span);
+                        iter(item.clone())
+                    }
+                }
+            }
+            ("map", [f]) => iter(self.mapped(item, f)),
+            ("for_each", [f]) => {
+                self.against(f, &Ty::Fn(vec![item.clone()], Box::new(Ty::UNIT)));
+                Ty::UNIT
+            }
+            ("fold", [first, f]) => {
+                let sum = self.expr(first, None);
+                self.against(f, &Ty::Fn(vec![sum.clone(), item.clone()], Box::new(sum.clone())));
+                sum
+            }
+            ("all" | "any", [f]) => {
+                self.against(f, &Ty::Fn(vec![item.clone()], Box::new(Ty::Bool)));
+                Ty::Bool
+            }
+            ("sum" | "product", []) => self.peeled(item).0,
+            _ => return None,
+        })
+    }
+
+    /// What a closure makes of items.
+    pub fn mapped(&mut self, item: &Ty, f: &'l Expr) -> Ty {
+        let result = self.table.fresh(Kind::Any);
+        self.against(f, &Ty::Fn(vec![item.clone()], Box::new(result.clone())));
+        self.table.shallow(&result)
+    }
+}
