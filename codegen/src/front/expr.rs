@@ -1,6 +1,7 @@
 //! Expressions and statements.
 
 use super::choice::has_let;
+use super::parts::takes_apart;
 use super::place;
 use super::scan::mentioned_in;
 use super::tree::{Block, Const, Expr, ExprKind, ForLoop, IntType, Statement, Type};
@@ -119,6 +120,7 @@ impl Lower {
             syn::Expr::Path(e) if e.qself.is_none() => ExprKind::Path(self.segments(&e.path)),
             syn::Expr::Unary(e) => self.unary(e),
             syn::Expr::Binary(e) => self.binary(e),
+            syn::Expr::Assign(e) if takes_apart(&e.left) => self.destructured(e),
             syn::Expr::Assign(e) => ExprKind::Assign(self.boxed(&e.left), None, self.boxed(&e.right)),
             syn::Expr::Call(e) => self.call(e),
             syn::Expr::MethodCall(e) => {
@@ -386,8 +388,6 @@ impl Lower {
         for arg in &list.args {
             let kind = match arg {
                 syn::GenericArgument::Const(e) => self.expr(e).kind,
-                // A constant by its name looks like a type.
-                syn::GenericArgument::Type(syn::Type::Path(t)) => ExprKind::Path(self.segments(&t.path)),
                 syn::GenericArgument::Type(syn::Type::Infer(_)) => {
                     self.unsupported(
                         arg.span(),
@@ -396,7 +396,7 @@ impl Lower {
                     );
                     ExprKind::Tuple(Vec::new())
                 }
-                syn::GenericArgument::Type(_) => ExprKind::Tuple(Vec::new()),
+                syn::GenericArgument::Type(ty) => self.type_argument(ty),
                 // Lifetimes have no parameter to bind; the others are refused before.
                 _ => continue,
             };
@@ -404,6 +404,26 @@ impl Lower {
             constants.push(Expr { kind, span });
         }
         constants
+    }
+
+    /// A type in `::<>`, written as what has it: a name, which may be a constant's, `[T; n]` or `(A, B)`.
+    fn type_argument(&mut self, ty: &syn::Type) -> ExprKind {
+        match ty {
+            syn::Type::Path(t) => ExprKind::Path(self.segments(&t.path)),
+            syn::Type::Array(t) => {
+                let kind = self.type_argument(&t.elem);
+                let span = self.span(t.elem.span());
+                ExprKind::Repeat(Box::new(Expr { kind, span }), self.boxed(&t.len))
+            }
+            syn::Type::Tuple(t) => {
+                let parts = t.elems.iter().map(|part| Expr {
+                    kind: self.type_argument(part),
+                    span: self.span(part.span()),
+                });
+                ExprKind::Tuple(parts.collect())
+            }
+            _ => ExprKind::Tuple(Vec::new()),
+        }
     }
 
     fn struct_(&mut self, e: &syn::ExprStruct) -> ExprKind {

@@ -163,7 +163,7 @@ impl Items {
         let mut lower = Lower::new(file, of.map(str::to_owned));
         let name = qualified(of, &sig.ident);
         lower.called_parameters(&sig.generics);
-        let mut params = Vec::new();
+        let (mut params, mut parts) = (Vec::new(), Vec::new());
         // Evaluation is on values, so a type parameter is whatever comes; constants are bound by name.
         let generics = sig.generics.params.iter().filter_map(|p| match p {
             syn::GenericParam::Const(c) => Some(Generic::Const(c.ident.to_string(), lower.ty(&c.ty))),
@@ -190,7 +190,11 @@ impl Items {
                             mutable: p.mutability.is_some(),
                             span: lower.span(p.span()),
                         }),
-                        other => lower.unsupported(other.span(), "a pattern as parameter", "give the parameter a name"),
+                        other => {
+                            let (param, taken) = lower.pattern_parameter(other, ty, params.len());
+                            params.push(param);
+                            parts.push(taken);
+                        }
                     }
                 }
             }
@@ -199,8 +203,8 @@ impl Items {
             syn::ReturnType::Default => Type::Tuple(Vec::new()),
             syn::ReturnType::Type(_, ty) => lower.ty(ty),
         };
-        let body = lower.block(body);
         let span = lower.span(sig.ident.span());
+        let body = super::parts::before(parts, lower.block(body), span);
         if file == super::std::FILE && self.library.functions.contains_key(&name) {
             return;
         }

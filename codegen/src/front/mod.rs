@@ -16,6 +16,7 @@ mod fuzz;
 mod items;
 pub mod methods;
 mod options;
+mod parts;
 mod pattern;
 mod reach;
 mod scan;

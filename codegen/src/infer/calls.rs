@@ -256,7 +256,7 @@ impl<'l> Checker<'l> {
     }
 
     /// Notes an error about a type that a function is called of, and that is none.
-    fn no_type(&mut self, ty: &str, span: Span) {
+    pub fn no_type(&mut self, ty: &str, span: Span) {
         let library = self.library;
         let known = !ty.starts_with(char::is_uppercase)
             || crate::front::is_prelude_type(ty)

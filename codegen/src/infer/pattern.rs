@@ -2,7 +2,9 @@
 
 use super::Checker;
 use super::types::Ty;
-use crate::front::tree::{ExprKind, Pattern};
+use crate::diagnostic::Diagnostic;
+use crate::front::tree::{Expr, ExprKind, Pattern};
+use crate::ir::UnaryOp;
 
 impl<'l> Checker<'l> {
     /// Binds the names of a whole pattern, each of which it may have once.
@@ -118,11 +120,36 @@ impl<'l> Checker<'l> {
             Pattern::Range(low, high, _) => {
                 let ends = [low, high].into_iter().flatten();
                 ends.for_each(|end| self.against(end, &bare));
+                self.not_backwards(pattern);
             }
+        }
+    }
+
+    /// Notes an error about a range of literals that takes nothing.
+    fn not_backwards(&mut self, pattern: &'l Pattern) {
+        if let Pattern::Range(Some(low), Some(high), inclusive) = pattern
+            && let (Some(from), Some(to)) = (number(low), number(high))
+            && (from > to || (from == to && !inclusive))
+        {
+            self.errors.push(
+                Diagnostic::at(high.span, "this range pattern takes no value")
+                    .label("not above its lower bound")
+                    .help("write the smaller bound first"),
+            );
         }
     }
 
     fn bind_unknown(&mut self, parts: &'l [Pattern], deferred: bool) {
         parts.iter().for_each(|part| self.bind(part, &Ty::Unknown, deferred));
+    }
+}
+
+/// The value of a literal, which an `f64` holds exactly.
+fn number(expr: &Expr) -> Option<f64> {
+    match &expr.kind {
+        ExprKind::Int(value, _) => Some(*value as f64),
+        ExprKind::Float(value, _) => Some(f64::from(*value)),
+        ExprKind::Unary(UnaryOp::Neg, operand) => number(operand).map(|value| -value),
+        _ => None,
     }
 }

@@ -111,6 +111,9 @@ impl<'l> Checker<'l> {
             return (function, Access::Writable);
         }
         let known = known_constant(path);
+        if let ([.., of, _], Ty::Unknown) = (path, &known) {
+            self.no_type(of, span);
+        }
         if let ([name], Ty::Unknown) = (path, &known) {
             let names: Vec<&str> = self.locals.iter().map(|local| local.name.as_str()).collect();
             self.errors.push(

@@ -111,17 +111,27 @@ impl<'l> Checker<'l> {
         );
     }
 
+    /// A type in `::<>`, written as what has it.
+    fn type_argument(&mut self, stated: &'l Expr) -> Ty {
+        match &stated.kind {
+            ExprKind::Path(path) if path.len() == 1 => self.named(&path[0], &[], &HashMap::new(), stated.span),
+            ExprKind::Repeat(element, _) => Ty::Array(Box::new(self.type_argument(element))),
+            ExprKind::Tuple(parts) if !parts.is_empty() => {
+                Ty::Tuple(parts.iter().map(|part| self.type_argument(part)).collect())
+            }
+            _ => self.table.fresh(Kind::Any),
+        }
+    }
+
     /// Type parameters of a function as variables: those stated in `::<>`, the others to be found.
     pub fn instantiate(&mut self, function: &'l Function, stated: &'l [Expr]) -> HashMap<String, Ty> {
         let mut given = HashMap::new();
         for (k, generic) in function.generics.iter().enumerate() {
             match generic {
                 Generic::Type(name) => {
-                    let ty = match stated.get(k).map(|stated| (&stated.kind, stated.span)) {
-                        Some((ExprKind::Path(path), span)) if path.len() == 1 => {
-                            self.named(&path[0], &[], &HashMap::new(), span)
-                        }
-                        _ => self.table.fresh(Kind::Any),
+                    let ty = match stated.get(k) {
+                        Some(stated) => self.type_argument(stated),
+                        None => self.table.fresh(Kind::Any),
                     };
                     given.insert(name.clone(), ty);
                 }

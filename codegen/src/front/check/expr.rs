@@ -352,8 +352,20 @@ fn assigns(text: TokenStream, name: &syn::Ident) -> bool {
     let tokens: Vec<TokenTree> = text.into_iter().collect();
     let is = |at: usize, wanted: char| matches!(tokens.get(at), Some(TokenTree::Punct(p)) if p.as_char() == wanted);
     tokens.iter().enumerate().any(|(k, token)| match token {
-        TokenTree::Group(group) => assigns(group.stream(), name),
+        TokenTree::Group(group) => {
+            let taken_apart = is(k + 1, '=') && !is(k + 2, '=');
+            (taken_apart && mentions(group.stream(), name)) || assigns(group.stream(), name)
+        }
         TokenTree::Ident(word) => word == name && is(k + 1, '=') && !is(k + 2, '='),
+        TokenTree::Punct(_) | TokenTree::Literal(_) => false,
+    })
+}
+
+/// Whether a text has a name anywhere.
+fn mentions(text: TokenStream, name: &syn::Ident) -> bool {
+    text.into_iter().any(|token| match token {
+        TokenTree::Group(group) => mentions(group.stream(), name),
+        TokenTree::Ident(word) => word == *name,
         TokenTree::Punct(_) | TokenTree::Literal(_) => false,
     })
 }

@@ -140,9 +140,34 @@ impl Maker {
         format!("({last})")
     }
 
+    /// An assignment to two places.
+    pub(super) fn swap_by_assignment(&mut self) {
+        let ty = self.plain_type();
+        let (a, b) = (self.fresh("v"), self.fresh("v"));
+        let text = self.ty(&ty);
+        let values: Vec<String> = (0..3)
+            .map(|_| {
+                let want = self.wish(1).inferred(true);
+                self.expr(&ty, want)
+            })
+            .collect();
+        self.line(format!(
+            "let (mut {a}, mut {b}): ({text}, {text}) = ({}, {});",
+            values[0], values[1]
+        ));
+        self.bind(&a, &ty, true);
+        self.bind(&b, &ty, true);
+        match self.random.below(3) {
+            0 => self.line(format!("({a}, {b}) = ({b}, {});", values[2])),
+            1 => self.line(format!("[{a}, {b}] = [{}, {a}];", values[2])),
+            _ => self.line(format!("(({a}, _), {b}) = ordered(({b}, {}));", values[2])),
+        }
+    }
+
     /// Functions that take closures, which most kernels have.
     pub(super) fn appliers(&mut self) {
         self.line("fn same<T>(x: T) -> T { x }");
+        self.line("fn ordered<T: Copy>((x, y): (T, T)) -> ((T, T), T) { ((y, x), x) }");
         self.line("fn apply<A, B, F: Fn(A) -> B>(f: F, x: A) -> B { f(x) }");
         self.line("fn apply_dyn<A, B>(f: &dyn Fn(A) -> B, x: A) -> B { f(x) }");
         self.line("fn apply_mut<A>(f: &mut impl FnMut(A) -> A, x: A, y: A) -> A { f(x); f(y) }");

@@ -21,7 +21,8 @@ impl Maker {
             return self.assign();
         }
         let nested = self.nesting < NESTING;
-        match self.random.below(43) {
+        match self.random.below(44) {
+            43 if self.on(Feature::Closures) => self.swap_by_assignment(),
             40..=41 if self.on(Feature::Closures) => self.closure_statement(),
             42 if self.on(Feature::Closures) && self.on(Feature::Mutable) => self.writing_closure(),
             0..=9 => self.let_(),

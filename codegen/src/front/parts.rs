@@ -1,0 +1,101 @@
+//! Patterns where a statement takes them apart: assignments to several places at once, and parameters.
+
+use super::expr::Lower;
+use super::tree::{Block, Expr, ExprKind, Param, Pattern, Statement, Type};
+use crate::diagnostic::Span;
+use syn::spanned::Spanned;
+
+/// Whether the left side of an assignment is no place but a pattern of places.
+pub fn takes_apart(left: &syn::Expr) -> bool {
+    match left {
+        syn::Expr::Tuple(_) | syn::Expr::Array(_) | syn::Expr::Infer(_) => true,
+        syn::Expr::Paren(e) => takes_apart(&e.expr),
+        _ => false,
+    }
+}
+
+impl Lower {
+    /// `(a, b) = value`: the parts of the value are given to the places in order, after all of it has been computed.
+    pub fn destructured(&mut self, e: &syn::ExprAssign) -> ExprKind {
+        let span = self.span(e.span());
+        let mut places = Vec::new();
+        let pattern = self.places(&e.left, &mut places);
+        let value = self.expr(&e.right);
+        let mut statements = vec![Statement::Let(pattern, None, Some(value), span)];
+        for (k, place) in places.into_iter().enumerate() {
+            let at = place.span;
+            let part = Expr {
+                kind: ExprKind::Path(vec![hidden(k)]),
+                span: at,
+            };
+            statements.push(Statement::Expr(Expr {
+                kind: ExprKind::Assign(Box::new(place), None, Box::new(part)),
+                span: at,
+            }));
+        }
+        ExprKind::Block(Block {
+            statements,
+            value: None,
+        })
+    }
+
+    /// A pattern that names the parts that places are given, and the places.
+    fn places(&mut self, left: &syn::Expr, out: &mut Vec<Expr>) -> Pattern {
+        let span = self.span(left.span());
+        match left {
+            syn::Expr::Paren(e) => self.places(&e.expr, out),
+            syn::Expr::Infer(_) => Pattern::Wild,
+            syn::Expr::Tuple(e) => {
+                let parts = e.elems.iter().map(|part| self.places(part, out));
+                Pattern::Tuple(parts.collect(), span)
+            }
+            syn::Expr::Array(e) => {
+                let parts = e.elems.iter().map(|part| self.places(part, out));
+                Pattern::Array(parts.collect(), span)
+            }
+            place => {
+                let place = self.expr(place);
+                out.push(place);
+                Pattern::Name(hidden(out.len() - 1), false, span)
+            }
+        }
+    }
+
+    /// A parameter that is a pattern: one with a name that nobody writes, and the `let` that takes it apart.
+    pub fn pattern_parameter(&mut self, pattern: &syn::Pat, ty: Type, position: usize) -> (Param, Statement) {
+        let span = self.span(pattern.span());
+        let name = hidden(position);
+        let value = Expr {
+            kind: ExprKind::Path(vec![name.clone()]),
+            span,
+        };
+        let pattern = self.pattern(pattern);
+        let param = Param {
+            name,
+            ty,
+            mutable: false,
+            span,
+        };
+        (param, Statement::Let(pattern, None, Some(value), span))
+    }
+}
+
+/// A variable's name that nobody writes.
+fn hidden(k: usize) -> String {
+    format!("_{k}")
+}
+
+/// Adds statements before those of a block.
+pub fn before(statements: Vec<Statement>, block: Block, span: Span) -> Block {
+    if statements.is_empty() {
+        return block;
+    }
+    let body = Expr {
+        kind: ExprKind::Block(block),
+        span,
+    };
+    Block {
+        statements,
+        value: Some(Box::new(body)),
+    }
+}
