@@ -36,9 +36,11 @@ impl<'l> Checker<'l> {
             (None, None) => self.table.fresh(Kind::Any),
         };
         let outer = std::mem::replace(&mut self.result, result.clone());
+        let loops = std::mem::take(&mut self.loops);
         let found = self.expr(&closure.body, Some(&result));
         self.coerce(&result, &found, closure.body.span);
         self.result = outer;
+        self.loops = loops;
         self.locals.truncate(mark);
         Ty::Fn(types, Box::new(result))
     }

@@ -264,8 +264,10 @@ impl<'l> Checker<'l> {
             }
             ExprKind::For(f) => self.for_(f),
             ExprKind::While(condition, body, label, _) => {
+                self.loops.push(label.as_deref());
                 self.against(condition, &Ty::Bool);
                 let found = self.block(body, None);
+                self.loops.pop();
                 let at = body.value.as_ref().map_or(span, |value| value.span);
                 self.coerce(&Ty::UNIT, &found, at);
                 // What only `return` ends, or a loop around it, has no end of its own.
@@ -283,7 +285,8 @@ impl<'l> Checker<'l> {
                 }
                 Ty::Never
             }
-            ExprKind::Break(_) | ExprKind::Continue(_) => Ty::Never,
+            ExprKind::Break(label) => self.leaves_loop("break", label.as_deref(), span),
+            ExprKind::Continue(label) => self.leaves_loop("continue", label.as_deref(), span),
             ExprKind::Closure(closure) => self.closure(closure, wanted, span),
             ExprKind::Assert(condition, _) => {
                 self.against(condition, &Ty::Bool);
@@ -417,6 +420,26 @@ impl<'l> Checker<'l> {
         Ty::Struct(name.to_owned())
     }
 
+    /// `break` or `continue`, of a loop that is around it.
+    fn leaves_loop(&mut self, word: &str, label: Option<&str>, span: Span) -> Ty {
+        let error = match label {
+            None if self.loops.is_empty() => Diagnostic::at(span, format!("`{word}` outside of a loop"))
+                .label("no loop is around it")
+                .help("`return` leaves a function"),
+            Some(label) if !self.loops.contains(&Some(label)) => {
+                let known: Vec<String> = self.loops.iter().flatten().map(|label| format!("'{label}")).collect();
+                let known: Vec<&str> = known.iter().map(String::as_str).collect();
+                let help = crate::suggest::suggest(&format!("'{label}"), &known, "labels of loops around it are");
+                Diagnostic::at(span, format!("cannot find the label `'{label}`"))
+                    .label("not found")
+                    .help(help)
+            }
+            _ => return Ty::Never,
+        };
+        self.errors.push(error);
+        Ty::Never
+    }
+
     fn for_(&mut self, f: &'l ForLoop) -> Ty {
         let over = self.expr(&f.over, None);
         self.solve();
@@ -432,7 +455,9 @@ impl<'l> Checker<'l> {
         let mark = self.locals.len();
         self.bind_whole(&f.pattern, &item, false);
         self.irrefutable(&f.pattern, &item, f.over.span);
+        self.loops.push(f.label.as_deref());
         let found = self.block(&f.body, None);
+        self.loops.pop();
         let at = f.body.value.as_ref().map_or(f.over.span, |value| value.span);
         self.coerce(&Ty::UNIT, &found, at);
         self.locals.truncate(mark);

@@ -118,6 +118,8 @@ struct Checker<'l> {
     params: Vec<String>,
     /// What the function gives.
     result: Ty,
+    /// Labels of the loops around, outermost first.
+    loops: Vec<Option<&'l str>>,
     /// Integer literals and their types.
     integers: Vec<(Span, Ty, i64)>,
     /// Float literals and their types.
@@ -141,6 +143,7 @@ impl<'l> Checker<'l> {
             table: Table::default(),
             locals: Vec::new(),
             params: Vec::new(),
+            loops: Vec::new(),
             result: Ty::UNIT,
             integers: Vec::new(),
             floats: Vec::new(),
