@@ -14,9 +14,7 @@ pub fn coalesce(block: &mut Block<'_>) {
             Some((copy, original, last)) => {
                 block.remove(last);
                 block.remove(k);
-                block[k..last - 1]
-                    .iter_mut()
-                    .for_each(|stmt| rename(stmt, copy, original));
+                block[k..].iter_mut().for_each(|stmt| rename(stmt, copy, original));
             }
             None => k += 1,
         }
@@ -47,8 +45,11 @@ fn copied_back(block: &[Stmt<'_>], k: usize) -> Option<(VarId, VarId, usize)> {
     let kept = block[k + 1..last]
         .iter()
         .all(|stmt| keeps(stmt, copy, original, &mut changed));
-    let unused = block[last + 1..].iter().all(|stmt| !mentions(stmt, copy));
-    (kept && unused).then_some((copy, original, last))
+    // From there on both are the same, unless one of them changes.
+    let rest = &block[last + 1..];
+    let unused = rest.iter().all(|stmt| !mentions(stmt, copy));
+    let same = rest.iter().all(|stmt| !assigns(stmt, copy) && !assigns(stmt, original));
+    (kept && (unused || same)).then_some((copy, original, last))
 }
 
 /// Whether a statement leaves the original as it is, and does not read it once the copy is `changed`.
@@ -82,6 +83,8 @@ fn keeps(stmt: &Stmt<'_>, copy: VarId, original: VarId, changed: &mut bool) -> b
             *changed |= first | second;
             sides
         }
+        // Who leaves the loop here does not come to where it is copied back.
+        StmtKind::Break | StmtKind::Return(_) => false,
         // Iterations see what those before have changed.
         StmtKind::For { .. } | StmtKind::Loop(_) => {
             let (copied, read) = (mentions(stmt, copy), mentions(stmt, original));

@@ -19,6 +19,8 @@ pub fn tidy(module: &mut Module<'_>, graph: &Graph) {
     coalesce::coalesce(&mut module.body);
     inline::inline(module, graph);
     breaks::early(&mut module.body);
+    // What a loop's early end stood between is one variable now.
+    coalesce::coalesce(&mut module.body);
     // What was inlined has new neighbours, and what is shorter now may be inlined.
     module.rewrite(&mut |_, expr| simplify(expr));
     dead::remove(module);
