@@ -23,9 +23,11 @@
 //! - A kept loop is one [`Op::Loop`] node with a [`Region`]. Its arguments are the first counter, the end (not
 //!   included) and the initial carried values; the region's parameters are the counter and the carried values,
 //!   and its results the carried values of the next iteration. Counter and bounds have one type, `i32` or `u32`, in
-//!   which they are compared; from an end that is not above the start there are no iterations. If the region has a stop, a boolean, and it holds in
-//!   an iteration, that one is the last: its results are those of the loop. A region may use any node that is computed
-//!   outside it. [`Op::Result`] reads the carried values after the last iteration.
+//!   which they are compared; from an end that is not above the start there are no iterations. If the region has a
+//!   stop, a boolean, and it holds in an iteration, that one is the last: its results are those of the loop. A region
+//!   may use any node that is computed outside it. [`Op::Result`] reads the carried values after the last iteration.
+//! - [`Op::Unused`] is any value, of which nothing that is looked at depends: what a loop gives for those who did not
+//!   leave it early, say.
 //! - A kept branch is one [`Op::If`] node with two regions without parameters.
 //! - Nodes belong to no region by themselves: where a node is evaluated follows from what it depends on and who
 //!   uses it, and is decided in one place, the schedule.
