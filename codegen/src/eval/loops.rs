@@ -195,7 +195,11 @@ impl Evaluator<'_> {
                     self.loops.refuse(span, &why);
                     why
                 }
-                Err(other) => return Err(other),
+                // All have left, for good.
+                Err(other) => {
+                    self.loops.keep(span);
+                    return Err(other);
+                }
                 Ok(unroll) => {
                     self.loops.keep(span);
                     return Ok(Granted::Kept(unroll));

@@ -144,10 +144,7 @@ pub fn left(color: &Frame<Vec4>, n: i32, pixel: IVec2) -> Vec4 {
     for k in 0..4 {
         m += k;
     }
-    s += match m {
-        6 => 1.0,
-        _ => 0.0,
-    };
+    s += 0.5_f32.powi(m);
     vec4(s, 0.0, 0.0, 1.0)
 }
 
