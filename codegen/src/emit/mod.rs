@@ -32,6 +32,7 @@ mod target;
 mod text;
 mod tidy;
 mod translate;
+mod variables;
 mod words;
 
 use crate::compiled::Compiled;

@@ -11,19 +11,8 @@ use crate::policy::Branches;
 use std::rc::Rc;
 
 impl Evaluator<'_> {
+    /// An `if`, and what ends with it.
     pub fn if_(
-        &mut self,
-        condition: &Expr,
-        then: &Block,
-        otherwise: Option<&Expr>,
-        attribute: Option<Branches>,
-        span: Span,
-    ) -> Eval {
-        self.if_in(condition, then, otherwise, attribute, Tail::Open, span)
-    }
-
-    /// An `if` at the end of a block.
-    pub fn if_in(
         &mut self,
         condition: &Expr,
         then: &Block,
@@ -39,7 +28,7 @@ impl Evaluator<'_> {
             Some(false) => other(self),
             None => {
                 let keep = self.policy.keeps(attribute);
-                self.branch_in(tail, id, keep, span, |e| e.block_in(then, tail), other)
+                self.branch(tail, id, keep, span, |e| e.block_in(then, tail), other)
             }
         }
     }
@@ -74,21 +63,8 @@ impl Evaluator<'_> {
         }
     }
 
-    /// A condition that is known at run time: both sides are evaluated, and what differs is selected, or a branch
-    /// is kept.
+    /// A condition that is a runtime value: both sides are evaluated, and what differs is selected, or a branch is kept.
     pub fn branch(
-        &mut self,
-        condition: NodeId,
-        keep: bool,
-        span: Span,
-        then: impl FnOnce(&mut Self) -> Eval,
-        otherwise: impl FnOnce(&mut Self) -> Eval,
-    ) -> Eval {
-        self.branch_in(Tail::Open, condition, keep, span, then, otherwise)
-    }
-
-    /// A branch at the end of a block.
-    pub fn branch_in(
         &mut self,
         tail: Tail<'_>,
         condition: NodeId,
@@ -130,44 +106,23 @@ impl Evaluator<'_> {
         for (side, departed) in [(condition, departed_left), (negated, departed_right)] {
             for departure in departed {
                 let condition = self.and(side, departure.condition);
-                self.departed.push(Departure {
-                    condition,
-                    group: None,
-                    ..departure
-                });
+                self.departed
+                    .push(Departure::of(condition, departure.way, departure.scope));
             }
         }
         match (left, right) {
             (Ok(left), Ok(right)) => self.join(condition, None, (after_left, left), right, span),
             (Err(Exit::Left(way)), Ok(right)) => {
-                let scope = after_left;
-                self.departed.push(Departure {
-                    condition,
-                    way,
-                    scope,
-                    group: None,
-                });
+                self.departed.push(Departure::of(condition, way, after_left));
                 Ok(right)
             }
             (Ok(left), Err(Exit::Left(way))) => {
                 let scope = std::mem::replace(&mut self.scope, after_left);
-                let condition = negated;
-                self.departed.push(Departure {
-                    condition,
-                    way,
-                    scope,
-                    group: None,
-                });
+                self.departed.push(Departure::of(negated, way, scope));
                 Ok(left)
             }
             (Err(Exit::Left(left)), Err(Exit::Left(right))) => {
-                let scope = after_left;
-                self.departed.push(Departure {
-                    condition,
-                    way: left,
-                    scope,
-                    group: None,
-                });
+                self.departed.push(Departure::of(condition, left, after_left));
                 Err(Exit::Left(right))
             }
             (Err(error @ (Exit::Error(_) | Exit::Noted)), _) | (_, Err(error)) => Err(error),

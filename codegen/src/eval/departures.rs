@@ -27,6 +27,18 @@ pub struct Departure {
     pub group: Option<RegionId>,
 }
 
+impl Departure {
+    /// Of those for whom a condition holds.
+    pub fn of(condition: NodeId, way: Way, scope: Scope) -> Departure {
+        Departure {
+            condition,
+            way,
+            scope,
+            group: None,
+        }
+    }
+}
+
 /// What ends with the block that is being evaluated: ways that lead there need no departure.
 #[derive(Clone, Copy, Debug)]
 pub enum Tail<'t> {
@@ -73,7 +85,7 @@ impl Evaluator<'_> {
         let conditions = departed.iter().map(|d| d.condition).collect::<Vec<_>>();
         let left = conditions.into_iter().reduce(|a, b| self.or(a, b));
         let left = left.unwrap_or_else(|| unreachable!("somebody has left"));
-        self.branch_in(tail, left, true, span, |e| e.depart(departed), rest)
+        self.branch(tail, left, true, span, |e| e.depart(departed), rest)
     }
 
     /// Those who left leave again, from the block that is being evaluated now.
@@ -98,7 +110,7 @@ impl Evaluator<'_> {
         match self.known_bool(id) {
             Some(true) => self.followed_by(|e| e.block(then), tail, span, rest),
             Some(false) => self.other_side(otherwise, tail, span, rest),
-            None if always_leaves(then) => self.branch_in(
+            None if always_leaves(then) => self.branch(
                 tail,
                 id,
                 true,
@@ -106,7 +118,7 @@ impl Evaluator<'_> {
                 |e| e.block_in(then, tail),
                 |e| e.other_side(otherwise, tail, span, rest),
             ),
-            None if otherwise.is_some_and(leaves) => self.branch_in(
+            None if otherwise.is_some_and(leaves) => self.branch(
                 tail,
                 id,
                 true,
@@ -116,7 +128,7 @@ impl Evaluator<'_> {
             ),
             None => {
                 let other = |e: &mut Self| otherwise.map_or(Ok(Value::unit()), |other| e.expr(other));
-                let both = |e: &mut Self| e.branch(id, true, span, |e| e.block(then), other);
+                let both = |e: &mut Self| e.branch(Tail::Open, id, true, span, |e| e.block(then), other);
                 self.followed_by(both, tail, span, rest)
             }
         }
@@ -196,12 +208,7 @@ impl Evaluator<'_> {
                         condition = self.and(stays, condition);
                     }
                     let scope = std::mem::replace(&mut self.scope, last.scope);
-                    self.departed.push(Departure {
-                        condition,
-                        way,
-                        scope,
-                        group: None,
-                    });
+                    self.departed.push(Departure::of(condition, way, scope));
                     last.way.value()
                 }
             },

@@ -75,8 +75,8 @@ impl Evaluator<'_> {
             }
             ("skip" | "take" | "step_by", [count]) => {
                 let Some(n) = self.known_int(count).and_then(|n| usize::try_from(n).ok()) else {
-                    return Err(Diagnostic::at(span, format!("`{name}` needs a known number"))
-                        .label("not known now")
+                    return Err(Diagnostic::at(span, format!("`{name}` needs a compile-time constant"))
+                        .label("a runtime value")
                         .help("use a constant, an option, or a loop counter")
                         .into());
                 };

@@ -76,7 +76,7 @@ impl Evaluator<'_> {
             Some(false) => self.cases(value, rest, keep, tail, span),
             // The arms take all values together, so the last one takes what the others leave.
             None if rest.is_empty() && case.arm.guard.is_none() => body(self),
-            None => self.branch_in(tail, condition, keep, span, body, |e| {
+            None => self.branch(tail, condition, keep, span, body, |e| {
                 e.cases(value, rest, keep, tail, span)
             }),
         }

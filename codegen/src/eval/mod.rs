@@ -3,7 +3,10 @@
 //! What is known is computed, as rustc's own code would compute it. What is not becomes a node of the graph.
 //! Loops are run, or kept as loops, as the [`Unroll`] policy says; calls are always inlined.
 
+mod ascribe;
 mod assign;
+mod binding;
+mod blocks;
 mod budget;
 mod call;
 mod closures;
@@ -15,6 +18,7 @@ mod expr;
 mod functions;
 mod integers;
 mod iterators;
+mod kept;
 mod library;
 mod loops;
 mod matching;

@@ -5,7 +5,8 @@
 //! or a table of its own.
 
 use super::Evaluator;
-use super::loops::{Body, same_shape};
+use super::loops::Body;
+use super::shape::same_shape;
 use super::value::{Eval, Value};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::front::tree::Pattern;

@@ -175,3 +175,30 @@ fn kind(element: &Value) -> String {
         other => other.describe(),
     }
 }
+
+/// Whether two settled values differ in their nodes alone.
+pub fn same_shape(a: &Value, b: &Value) -> bool {
+    match (a, b) {
+        (Value::Node(_), Value::Node(_)) => true,
+        (
+            Value::Struct { ty, fields },
+            Value::Struct {
+                ty: other,
+                fields: others,
+            },
+        ) => {
+            ty == other
+                && fields
+                    .iter()
+                    .zip(others.iter())
+                    .all(|((_, a), (_, b))| same_shape(a, b))
+        }
+        (Value::Tuple(a), Value::Tuple(b)) => all_same(a, b),
+        (Value::Array(a), Value::Array(b)) => all_same(a, b),
+        _ => a == b,
+    }
+}
+
+fn all_same(a: &[Value], b: &[Value]) -> bool {
+    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| same_shape(a, b))
+}

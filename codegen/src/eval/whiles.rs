@@ -99,7 +99,7 @@ impl Evaluator<'_> {
         if asked.by_name && asked.unroll == Unroll::Full {
             return Err(
                 Diagnostic::at(condition.span, format!("this loop cannot be unrolled: {reason}"))
-                    .label("how often it goes round is not known")
+                    .label("its trip count is a runtime value")
                     .help("leave out that it is to be unrolled, or give it fixed bounds with `for`, which may `break`")
                     .into(),
             );

@@ -73,7 +73,7 @@ fn lists(ty: Type) -> &'static [&'static str] {
     }
 }
 
-/// The way out of a method that there is not.
+/// What helps where there is no such method.
 pub fn known_methods(name: &str, ty: Type) -> String {
     let known: Vec<&str> = lists(ty).iter().flat_map(|list| list.split_whitespace()).collect();
     let close = crate::suggest::suggest(name, &known, "");

@@ -1,7 +1,7 @@
 //! Loops and branches that are left in the shader.
 
 use super::{Lowering, Stale};
-use crate::emit::ast::{Expr, Op, StmtKind, VarId};
+use crate::emit::ast::{Expr, StmtKind, VarId};
 use crate::ir::{self, Graph, Lanes, NodeId, Region};
 use crate::passes::Block;
 
@@ -66,17 +66,17 @@ impl<'g> Lowering<'g> {
             let value = self.expr(*result);
             let var = match graph.ty(*param).is_array() {
                 true => self.webs.variable(*param),
-                false => self.exprs[param.0 as usize].as_ref().and_then(as_var),
+                false => self.exprs[param.0 as usize].as_ref().and_then(Expr::as_var),
             };
             let var = var.unwrap_or(VarId::PIXEL);
-            if as_var(&value) != Some(var) && self.looked_at(*result) {
+            if value.as_var() != Some(var) && self.looked_at(*result) {
                 moves.push((*param, var, value));
             }
         }
         let mut stop = region.stop.map(|stop| (stop, self.expr(stop)));
         let all: Vec<VarId> = moves.iter().map(|(_, var, _)| *var).collect();
         if let Some((id, condition)) = &mut stop
-            && reads(condition, &all)
+            && condition.mentions(|var| all.contains(&var))
         {
             let ends = self.module.variable("ends", condition.ty);
             let value = std::mem::replace(condition, Expr::var(ends, condition.ty));
@@ -85,7 +85,7 @@ impl<'g> Lowering<'g> {
         for k in 0..moves.len() {
             let changed: Vec<VarId> = moves[..k].iter().map(|(_, var, _)| *var).collect();
             let (param, var, value) = &moves[k];
-            if reads(value, &changed) {
+            if value.mentions(|var| changed.contains(&var)) {
                 let (param, ty) = (*param, value.ty);
                 let name = format!("next_{}", self.module.variables[var.0 as usize].name);
                 let next = self.module.variable(name, ty);
@@ -211,19 +211,4 @@ impl<'g> Lowering<'g> {
             }
         }
     }
-}
-
-/// The variable that an expression is.
-fn as_var(expr: &Expr) -> Option<VarId> {
-    match expr.op {
-        Op::Var(var) => Some(var),
-        _ => None,
-    }
-}
-
-/// Whether an expression reads one of some variables.
-fn reads(expr: &Expr, vars: &[VarId]) -> bool {
-    let mut found = false;
-    expr.visit(&mut |e| found |= as_var(e).is_some_and(|var| vars.contains(&var)));
-    found
 }

@@ -105,6 +105,34 @@ impl<'a> Glsl<'a> {
         };
         format!("layout({before}{binding}{behind}) ")
     }
+
+    /// Storage buffers that are read.
+    pub(super) fn buffers(&self) -> String {
+        let r = self.resources;
+        let each = r.read_buffers.iter().map(|(k, binding)| {
+            let (name, element) = (&r.buffer(*k).name, type_name(r.buffer(*k).element.into()));
+            let layout = self.layout(*binding, "std430, ", "");
+            format!("{layout}readonly buffer {name}_buffer {{ {element} elements[]; }} {name};\n")
+        });
+        each.collect()
+    }
+
+    /// The image that is written; of a fragment what is interpolated, with locations or not, and the colour.
+    pub(super) fn output_and_inputs(&self, located: bool) -> String {
+        let r = self.resources;
+        if let Some(binding) = r.output_binding() {
+            let layout = self.layout(binding, "", &format!(", {}", r.options.format.glsl()));
+            return format!("{layout}uniform writeonly image2D {OUTPUT};\n");
+        }
+        let each = r.varyings.iter().enumerate().map(|(k, varying)| {
+            let declared = declared(&varying.name, varying.ty.into());
+            match located {
+                true => format!("layout(location = {k}) in {declared};\n"),
+                false => format!("in {declared};\n"),
+            }
+        });
+        each.collect::<String>() + &format!("layout(location = 0) out vec4 {OUTPUT};\n")
+    }
 }
 
 /// A uniform that lies in no block.

@@ -1,20 +1,15 @@
 //! What GLSL of OpenGL and OpenGL ES declares: combined samplers, loose uniforms, precisions.
 
-use super::glsl::{Glsl, LOOSE_REGION, declared, loose, plain_sampler, type_name};
+use super::glsl::{Glsl, LOOSE_REGION, declared, loose, plain_sampler};
 use crate::emit::Target;
-use crate::emit::resources::{Combined, OUTPUT};
+use crate::emit::resources::Combined;
 use crate::ir::TextureKind;
 
 impl Glsl<'_> {
     /// Types that have no precision of their own in OpenGL ES.
     pub(super) fn opaque(&self) -> Vec<&'static str> {
         let r = self.resources;
-        let kinds = |kind: TextureKind| {
-            self.resources
-                .combined
-                .iter()
-                .any(|one| r.texture(one.texture).kind == kind)
-        };
+        let kinds = |kind: TextureKind| r.combined.iter().any(|one| r.texture(one.texture).kind == kind);
         let compares = r
             .combined
             .iter()
@@ -45,41 +40,15 @@ impl Glsl<'_> {
         for one in &r.combined {
             let binding = r.texture_binding(one.texture).unwrap_or_default();
             let ty = self.combined_type(*one);
-            let layout = match self
-                .resources
-                .combined
-                .iter()
-                .filter(|c| c.texture == one.texture)
-                .count()
-            {
+            let layout = match r.combined.iter().filter(|c| c.texture == one.texture).count() {
                 1 => self.layout(binding, "", ""),
                 // Two samplers of one texture have two units, which the host numbers.
                 _ => String::new(),
             };
             out += &format!("{layout}uniform {ty} {};\n", r.combined_name(*one));
         }
-        for (k, binding) in &r.read_buffers {
-            let (name, element) = (&r.buffer(*k).name, type_name(r.buffer(*k).element.into()));
-            let layout = self.layout(*binding, "std430, ", "");
-            out += &format!("{layout}readonly buffer {name}_buffer {{ {element} elements[]; }} {name};\n");
-        }
-        match r.output_binding() {
-            Some(binding) => {
-                let layout = self.layout(binding, "", &format!(", {}", r.options.format.glsl()));
-                out += &format!("{layout}uniform writeonly image2D {OUTPUT};\n");
-            }
-            None => {
-                for (k, varying) in r.varyings.iter().enumerate() {
-                    let declared = declared(&varying.name, varying.ty.into());
-                    let layout = match self.target {
-                        Target::Glsl430 | Target::Essl310 => format!("layout(location = {k}) "),
-                        _ => String::new(),
-                    };
-                    out += &format!("{layout}in {declared};\n");
-                }
-                out += &format!("layout(location = 0) out vec4 {OUTPUT};\n");
-            }
-        }
+        out += &self.buffers();
+        out += &self.output_and_inputs(matches!(self.target, Target::Glsl430 | Target::Essl310));
         if !r.uniforms.is_empty() {
             out.push('\n');
         }

@@ -1,7 +1,7 @@
 //! What Vulkan's GLSL declares: separate textures and samplers in descriptor sets.
 
-use super::glsl::{Glsl, declared, sampler_type, texture_type, type_name};
-use crate::emit::resources::{OUTPUT, SAMPLER, UNIFORMS};
+use super::glsl::{Glsl, declared, sampler_type, texture_type};
+use crate::emit::resources::{SAMPLER, UNIFORMS};
 use straightline_manifest::REGION;
 
 impl Glsl<'_> {
@@ -14,29 +14,13 @@ impl Glsl<'_> {
             let (layout, ty) = (self.layout(bound.binding, "", ""), texture_type(texture.kind));
             out += &format!("{layout}uniform {ty} {};\n", texture.name);
         }
-        for (k, binding) in &r.read_buffers {
-            let (name, element) = (&r.buffer(*k).name, type_name(r.buffer(*k).element.into()));
-            let layout = self.layout(*binding, "std430, ", "");
-            out += &format!("{layout}readonly buffer {name}_buffer {{ {element} elements[]; }} {name};\n");
-        }
+        out += &self.buffers();
         for (k, binding) in &r.used_samplers {
             let sampler = r.sampler(*k);
             let (layout, ty) = (self.layout(*binding, "", ""), sampler_type(sampler.comparison));
             out += &format!("{layout}uniform {ty} {};\n", sampler.name);
         }
-        match r.output_binding() {
-            Some(binding) => {
-                let layout = self.layout(binding, "", &format!(", {}", r.options.format.glsl()));
-                out += &format!("{layout}uniform writeonly image2D {OUTPUT};\n");
-            }
-            None => {
-                for (k, varying) in r.varyings.iter().enumerate() {
-                    let declared = declared(&varying.name, varying.ty.into());
-                    out += &format!("layout(location = {k}) in {declared};\n");
-                }
-                out += &format!("layout(location = 0) out vec4 {OUTPUT};\n");
-            }
-        }
+        out += &self.output_and_inputs(true);
         if let Some(binding) = r.uniform_binding() {
             out += &format!("\n{}uniform Parameters {{\n", self.layout(binding, "std140, ", ""));
             for uniform in &r.uniforms {

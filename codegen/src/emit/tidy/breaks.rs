@@ -25,7 +25,7 @@ pub fn early(block: &mut Block<'_>) {
             }
             _ => {}
         }
-        declared.retain(|(var, _)| !assigns(stmt, *var));
+        declared.retain(|(var, _)| !stmt.assigns(*var));
     }
 }
 
@@ -33,10 +33,18 @@ pub fn early(block: &mut Block<'_>) {
 enum Known {
     /// Whether it holds.
     Is(bool),
-    /// A branch at its end knows, of what is left of the condition.
-    Within(Expr),
-    /// What is left of the condition tells.
-    Open(Expr),
+    /// What is left of the condition tells; and whether a branch at the end knows more.
+    Left(Expr, bool),
+}
+
+impl Known {
+    /// Whether something is decided, here or in a branch at the end.
+    fn decides(&self) -> bool {
+        match self {
+            Known::Is(_) => true,
+            Known::Left(_, within) => *within,
+        }
+    }
 }
 
 /// Merges a `break` at the end of a block with the branch before it, as deep as that decides.
@@ -54,7 +62,7 @@ fn sink(block: &mut Block<'_>) {
     let Some(leaves) = leaves(leave) else { return };
     let known = [(true, then), (false, otherwise)].map(|(holds, side)| decided(leaves, condition, holds, side));
     let [first, second] = known;
-    if matches!((&first, &second), (Known::Open(_), Known::Open(_))) {
+    if !first.decides() && !second.decides() {
         return;
     }
     let Some(leave) = block.pop() else { return };
@@ -74,7 +82,7 @@ fn sink(block: &mut Block<'_>) {
         match known {
             Known::Is(true) => side.push(StmtKind::Break.into()),
             Known::Is(false) => {}
-            Known::Within(condition) | Known::Open(condition) => {
+            Known::Left(condition, _) => {
                 let kind = StmtKind::If {
                     condition,
                     then: vec![StmtKind::Break.into()],
@@ -119,11 +127,11 @@ fn leaves<'s>(stmt: &'s Stmt<'_>) -> Option<&'s Expr> {
 
 /// What a side of a branch, taken where `condition` is `holds`, knows of `leaves` at its end.
 fn decided(leaves: &Expr, condition: &Expr, holds: bool, side: &Block<'_>) -> Known {
-    let unchanged = !mentions(condition, &|var| side.iter().any(|stmt| assigns(stmt, var)));
+    let unchanged = !condition.mentions(|var| side.iter().any(|stmt| stmt.assigns(var)));
     let left = leaves.clone().rewrite(&mut |expr| {
         let of_condition = (unchanged && expr == *condition).then_some(holds);
         let of_negation = (unchanged && not(expr.clone()) == *condition).then_some(!holds);
-        let assigned = as_var(&expr).and_then(|var| last_value(side, var));
+        let assigned = expr.as_var().and_then(|var| last_value(side, var));
         match of_condition.or(of_negation) {
             Some(value) => truth(value),
             None => reduced(assigned.cloned().unwrap_or(expr)),
@@ -132,28 +140,26 @@ fn decided(leaves: &Expr, condition: &Expr, holds: bool, side: &Block<'_>) -> Kn
     if let Some(bits) = left.as_constant() {
         return Known::Is(bits[0] != 0);
     }
-    match side.last().map(|stmt| &stmt.kind) {
+    let within = match side.last().map(|stmt| &stmt.kind) {
         Some(StmtKind::If {
             condition,
             then,
             otherwise,
         }) => {
-            let sides = [(true, then), (false, otherwise)].map(|(holds, side)| decided(&left, condition, holds, side));
-            match sides {
-                [Known::Open(_), Known::Open(_)] => Known::Open(left),
-                _ => Known::Within(left),
-            }
+            let side = |holds, side| decided(&left, condition, holds, side).decides();
+            side(true, then) || side(false, otherwise)
         }
-        _ => Known::Open(left),
-    }
+        _ => false,
+    };
+    Known::Left(left, within)
 }
 
 /// What a block leaves in a variable, if that can be told behind it.
 fn last_value<'b>(block: &'b Block<'_>, var: VarId) -> Option<&'b Expr> {
-    let at = block.iter().rposition(|stmt| assigns(stmt, var))?;
+    let at = block.iter().rposition(|stmt| stmt.assigns(var))?;
     match &block[at].kind {
-        StmtKind::Assign(place, None, value) if as_var(place) == Some(var) => {
-            let changed = mentions(value, &|read| block[at..].iter().any(|stmt| assigns(stmt, read)));
+        StmtKind::Assign(place, None, value) if place.as_var() == Some(var) => {
+            let changed = value.mentions(|read| block[at..].iter().any(|stmt| stmt.assigns(read)));
             (!changed).then_some(value)
         }
         _ => None,
@@ -182,8 +188,8 @@ fn branch_last(block: &mut Block<'_>) {
         let StmtKind::Assign(place, None, value) = &stmt.kind else {
             return;
         };
-        let Some(var) = as_var(place) else { return };
-        let depends = mentions(value, &|read| assigns(branch, read)) || touches(branch, var);
+        let Some(var) = place.as_var() else { return };
+        let depends = value.mentions(|read| branch.assigns(read)) || branch.mentions(var);
         if !depends {
             block[at..=k].rotate_right(1);
             at += 1;
@@ -191,13 +197,6 @@ fn branch_last(block: &mut Block<'_>) {
         }
         return;
     }
-}
-
-/// Whether a statement reads or writes a variable.
-fn touches(stmt: &Stmt<'_>, var: VarId) -> bool {
-    let mut found = false;
-    stmt.visit(&mut |expr| found |= as_var(expr) == Some(var));
-    found
 }
 
 fn truth(holds: bool) -> Expr {
@@ -228,10 +227,10 @@ fn reduced(expr: Expr) -> Expr {
 fn stays(body: &Block<'_>, var: VarId, value: &Expr) -> bool {
     let leaves = matches!(body.last().map(|stmt| &stmt.kind), Some(StmtKind::Break));
     body.iter().all(|stmt| match &stmt.kind {
-        StmtKind::Assign(place, op, to) if root(place) == Some(var) => {
-            leaves || (op.is_none() && as_var(place) == Some(var) && to == value)
+        StmtKind::Assign(place, op, to) if place.root() == Some(var) => {
+            leaves || (op.is_none() && place.as_var() == Some(var) && to == value)
         }
-        StmtKind::For { .. } | StmtKind::Loop(_) => !assigns(stmt, var),
+        StmtKind::For { .. } | StmtKind::Loop(_) => !stmt.assigns(var),
         _ => stmt.blocks().into_iter().all(|inner| stays(inner, var, value)),
     })
 }
@@ -240,43 +239,17 @@ fn stays(body: &Block<'_>, var: VarId, value: &Expr) -> bool {
 fn drop_assignments(block: &mut Block<'_>, var: VarId, value: &Expr) {
     if matches!(block.last().map(|stmt| &stmt.kind), Some(StmtKind::Break)) {
         // What is assigned on the way out is read behind the loop.
-        let others = |stmt: &Stmt<'_>| matches!(&stmt.kind, StmtKind::Assign(place, _, to) if root(place) == Some(var) && to != value);
+        let others = |stmt: &Stmt<'_>| matches!(&stmt.kind, StmtKind::Assign(place, _, to) if place.root() == Some(var) && to != value);
         if block.iter().any(others) {
             return;
         }
     }
     block.retain(
-        |stmt| !matches!(&stmt.kind, StmtKind::Assign(place, None, to) if as_var(place) == Some(var) && to == value),
+        |stmt| !matches!(&stmt.kind, StmtKind::Assign(place, None, to) if place.as_var() == Some(var) && to == value),
     );
     for stmt in block {
         stmt.blocks_mut()
             .into_iter()
             .for_each(|inner| drop_assignments(inner, var, value));
-    }
-}
-
-fn mentions(expr: &Expr, of: &dyn Fn(VarId) -> bool) -> bool {
-    let mut found = false;
-    expr.visit(&mut |e| found |= as_var(e).is_some_and(of));
-    found
-}
-
-fn as_var(expr: &Expr) -> Option<VarId> {
-    match expr.op {
-        Op::Var(var) => Some(var),
-        _ => None,
-    }
-}
-
-fn assigns(stmt: &Stmt<'_>, var: VarId) -> bool {
-    matches!(&stmt.kind, StmtKind::Assign(place, ..) if root(place) == Some(var))
-        || stmt.blocks().into_iter().flatten().any(|stmt| assigns(stmt, var))
-}
-
-/// The variable that a place is a part of.
-fn root(place: &Expr) -> Option<VarId> {
-    match place.op {
-        Op::Index { .. } | Op::Swizzle(_) => root(&place.args[0]),
-        _ => as_var(place),
     }
 }

@@ -29,7 +29,7 @@ fn copied_back(block: &[Stmt<'_>], k: usize) -> Option<(VarId, VarId, usize)> {
     };
     let copy = *copy;
     let back = |stmt: &Stmt<'_>| match &stmt.kind {
-        StmtKind::Assign(place, None, value) if as_var(value) == Some(copy) => as_var(place),
+        StmtKind::Assign(place, None, value) if value.as_var() == Some(copy) => place.as_var(),
         _ => None,
     };
     let (at, original) = block[k + 1..]
@@ -38,7 +38,7 @@ fn copied_back(block: &[Stmt<'_>], k: usize) -> Option<(VarId, VarId, usize)> {
         .find_map(|(at, stmt)| Some((at, back(stmt)?)))?;
     let last = k + 1 + at;
     let declared = |stmt: &Stmt<'_>| matches!(stmt.kind, StmtKind::Var(var, _) if var == original);
-    if value.as_ref().is_some_and(|value| as_var(value) != Some(original)) || block[k..last].iter().any(declared) {
+    if value.as_ref().is_some_and(|value| value.as_var() != Some(original)) || block[k..last].iter().any(declared) {
         return None;
     }
     let mut changed = false;
@@ -47,21 +47,17 @@ fn copied_back(block: &[Stmt<'_>], k: usize) -> Option<(VarId, VarId, usize)> {
         .all(|stmt| keeps(stmt, copy, original, &mut changed));
     // From there on both are the same, unless one of them changes.
     let rest = &block[last + 1..];
-    let unused = rest.iter().all(|stmt| !mentions(stmt, copy));
-    let same = rest.iter().all(|stmt| !assigns(stmt, copy) && !assigns(stmt, original));
+    let unused = rest.iter().all(|stmt| !stmt.mentions(copy));
+    let same = rest.iter().all(|stmt| !stmt.assigns(copy) && !stmt.assigns(original));
     (kept && (unused || same)).then_some((copy, original, last))
 }
 
 /// Whether a statement leaves the original as it is, and does not read it once the copy is `changed`.
 fn keeps(stmt: &Stmt<'_>, copy: VarId, original: VarId, changed: &mut bool) -> bool {
-    let reads = |expr: &Expr| {
-        let mut reads = false;
-        expr.visit(&mut |expr| reads |= as_var(expr) == Some(original));
-        reads
-    };
+    let reads = |expr: &Expr| expr.mentions(|var| var == original);
     match &stmt.kind {
         StmtKind::Assign(place, _, value) => {
-            let target = root(place);
+            let target = place.root();
             let index = place.args.iter().skip(1).any(reads);
             if target == Some(original) || ((reads(value) || index) && *changed) {
                 return false;
@@ -87,39 +83,13 @@ fn keeps(stmt: &Stmt<'_>, copy: VarId, original: VarId, changed: &mut bool) -> b
         StmtKind::Break | StmtKind::Return(_) => false,
         // Iterations see what those before have changed.
         StmtKind::For { .. } | StmtKind::Loop(_) => {
-            let (copied, read) = (mentions(stmt, copy), mentions(stmt, original));
+            let (copied, read) = (stmt.mentions(copy), stmt.mentions(original));
             let first = *changed;
             *changed |= copied;
-            !read || !(copied || first || assigns(stmt, original))
+            !read || !(copied || first || stmt.assigns(original))
         }
         _ => !(*changed && stmt.own().into_iter().any(reads)),
     }
-}
-
-fn as_var(expr: &Expr) -> Option<VarId> {
-    match expr.op {
-        Op::Var(var) => Some(var),
-        _ => None,
-    }
-}
-
-/// The variable that a place is a part of.
-fn root(place: &Expr) -> Option<VarId> {
-    match place.op {
-        Op::Index { .. } | Op::Swizzle(_) => root(&place.args[0]),
-        _ => as_var(place),
-    }
-}
-
-fn mentions(stmt: &Stmt<'_>, var: VarId) -> bool {
-    let mut found = false;
-    stmt.visit(&mut |expr| found |= as_var(expr) == Some(var));
-    found
-}
-
-fn assigns(stmt: &Stmt<'_>, var: VarId) -> bool {
-    matches!(&stmt.kind, StmtKind::Assign(place, ..) if root(place) == Some(var))
-        || stmt.blocks().into_iter().flatten().any(|stmt| assigns(stmt, var))
 }
 
 fn rename(stmt: &mut Stmt<'_>, from: VarId, to: VarId) {

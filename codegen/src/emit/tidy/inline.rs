@@ -65,8 +65,10 @@ impl Inliner<'_> {
         let is_loop = matches!(stmt.kind, StmtKind::For { .. });
         let mut written = HashSet::new();
         assignments(stmt, &mut written);
-        let suits =
-            |value: &Expr| !is_loop || (operations(value) <= 2 && !reads_memory(value) && !reads_any(value, &written));
+        let suits = |value: &Expr| {
+            !is_loop
+                || (operations(value) <= 2 && !reads_memory(value) && !value.mentions(|var| written.contains(&var)))
+        };
         loop {
             let mut candidates = Vec::new();
             for expr in stmt.own() {
@@ -146,22 +148,9 @@ fn reads_memory(expr: &Expr) -> bool {
     reads
 }
 
-/// Whether an expression reads one of some variables.
-fn reads_any(expr: &Expr, vars: &HashSet<VarId>) -> bool {
-    let mut reads = false;
-    expr.visit(&mut |expr| reads |= matches!(expr.op, Op::Var(var) if vars.contains(&var)));
-    reads
-}
-
 /// Whether a variable that a value reads was assigned after a statement.
 fn changed_since(value: &Expr, at: usize, assigned: &HashMap<VarId, usize>) -> bool {
-    let mut changed = false;
-    value.visit(&mut |expr| {
-        if let Op::Var(var) = expr.op {
-            changed |= assigned.get(&var).is_some_and(|when| *when > at);
-        }
-    });
-    changed
+    value.mentions(|var| assigned.get(&var).is_some_and(|when| *when > at))
 }
 
 /// Variables that a statement assigns to.

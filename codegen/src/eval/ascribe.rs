@@ -1,0 +1,96 @@
+//! Values where a type is stated.
+
+use super::Evaluator;
+use super::value::{Eval, Value};
+use crate::diagnostic::{Diagnostic, Span};
+use crate::front::tree::Type as SourceType;
+use crate::ir::{Scalar, Type};
+
+impl Evaluator<'_> {
+    /// Checks a value against the type that is stated for it, as far as shaders tell types apart, and gives a known
+    /// integer that type.
+    pub fn ascribe(&mut self, value: Value, ty: Option<&SourceType>, span: Span) -> Eval {
+        let ty = match ty {
+            // A mutable reference goes on being one; where a value or a shared reference is stated, it is read.
+            Some(SourceType::Ref(true, _)) => return self.referring(value, span),
+            Some(ty) => Some(ty.bare()),
+            None => return Ok(value),
+        };
+        let value = self.loaded(value, span)?;
+        if let Some(lane) = ty.and_then(|ty| self.lane_type(ty)) {
+            return self.ascribe(value, Some(lane), span);
+        }
+        match (ty, value) {
+            (Some(SourceType::Name(name, _)), value) => self.ascribe_name(value, name, span),
+            (Some(SourceType::Array(element, _)), Value::Array(elements)) => {
+                let each = elements.iter().map(|e| self.ascribe(e.clone(), Some(element), span));
+                Ok(Value::array(each.collect::<Eval<_>>()?))
+            }
+            (Some(SourceType::Tuple(types)), Value::Tuple(parts)) if types.len() == parts.len() => {
+                let each = parts
+                    .into_iter()
+                    .zip(types)
+                    .map(|(part, ty)| self.ascribe(part, Some(ty), span));
+                Ok(Value::Tuple(each.collect::<Eval<_>>()?))
+            }
+            (_, value) => Ok(value),
+        }
+    }
+
+    /// A value where `&mut T` is stated.
+    fn referring(&mut self, value: Value, span: Span) -> Eval {
+        match value {
+            Value::Ref(_) | Value::Poison => Ok(value),
+            other => Err(Diagnostic::at(
+                span,
+                format!("{} where a mutable reference is stated", other.describe()),
+            )
+            .label("not a reference")
+            .help("write `&mut` before the variable")
+            .into()),
+        }
+    }
+
+    fn ascribe_name(&mut self, value: Value, name: &str, span: Span) -> Eval {
+        let stated = match name {
+            "u32" => Type::U32,
+            "i32" | "usize" => Type::I32,
+            "f32" => Type::F32,
+            "bool" => Type::BOOL,
+            other => match super::call::vector_type(other) {
+                Some((kind, lanes)) => Type::value(kind, lanes),
+                None => return Ok(value),
+            },
+        };
+        match &value {
+            Value::Int(n) if stated == Type::U32 => Ok(Value::Node(self.int_node(*n, Scalar::U32, span)?)),
+            Value::Int(_) if name == "usize" => Ok(value),
+            Value::Int(n) if stated == Type::I32 => Ok(Value::Node(self.int_node(*n, Scalar::I32, span)?)),
+            // An index is signed in a shader, whatever it was made from.
+            Value::Node(id) if self.ty(*id) == Type::U32 && name == "usize" => {
+                Ok(Value::Node(self.convert(*id, Scalar::I32)))
+            }
+            Value::Node(id) if self.ty(*id) == stated => Ok(value),
+            Value::Node(_) | Value::Int(_) => {
+                let found = match &value {
+                    Value::Node(id) => self.ty(*id),
+                    _ => Type::I32,
+                };
+                let help = match (found.lanes(), stated.lanes()) {
+                    (1, 1) => format!("convert it with `as {name}`"),
+                    (a, b) if a == b => format!("convert it with `.as_{}()`", name.to_lowercase()),
+                    (1, _) => format!("write `{name}::splat(...)`"),
+                    (a, b) if a > b => "leave out what is too much with `.truncate()` or `.xy()`".to_owned(),
+                    _ => "add what lacks with `.extend(...)`".to_owned(),
+                };
+                let found = found.in_rust();
+                Err(Diagnostic::at(span, format!("{found} where `{name}` is stated"))
+                    .label("of another type")
+                    .help(help)
+                    .into())
+            }
+            Value::Poison => Ok(value),
+            other => Err(Diagnostic::at(span, format!("{} where `{name}` is stated", other.describe())).into()),
+        }
+    }
+}

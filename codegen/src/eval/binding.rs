@@ -1,0 +1,119 @@
+//! Patterns that bind names to the parts of a value.
+
+use super::Evaluator;
+use super::value::{Eval, Step, Value};
+use crate::diagnostic::{Diagnostic, Span};
+use crate::front::tree::Pattern;
+use std::rc::Rc;
+
+impl Evaluator<'_> {
+    /// Binds the names of a pattern that takes every value to the parts of a value.
+    pub fn bind(&mut self, pattern: &Pattern, value: Value, span: Span) -> Eval<()> {
+        self.bound(pattern, value, false, span)
+    }
+
+    /// Binds the names of a pattern that has taken a value.
+    pub fn bind_matched(&mut self, pattern: &Pattern, value: Value, span: Span) -> Eval<()> {
+        self.bound(pattern, value, true, span)
+    }
+
+    fn bound(&mut self, pattern: &Pattern, value: Value, matched: bool, span: Span) -> Eval<()> {
+        match pattern {
+            Pattern::Wild => Ok(()),
+            // What it compares with has been compared, and names under a `|` are bound by a pattern for each.
+            Pattern::Value(_) | Pattern::Range(..) | Pattern::Or(_) if matched => Ok(()),
+            Pattern::At(name, _, inner, at) => {
+                self.name(&value, name, *at);
+                self.scope.bind(name, value.clone());
+                self.bound(inner, value, matched, span)
+            }
+            Pattern::Name(name, _, at) => {
+                self.name(&value, name, *at);
+                self.scope.bind(name, value);
+                Ok(())
+            }
+            Pattern::Ref(inner, at) => {
+                let value = self.loaded(value, *at)?;
+                self.bound(inner, value, matched, span)
+            }
+            Pattern::Tuple(parts, at) => match self.taken_apart(value, parts.len(), *at)? {
+                Value::Tuple(values) if values.len() == parts.len() => parts
+                    .iter()
+                    .zip(values)
+                    .try_for_each(|(part, value)| self.bound(part, value, matched, span)),
+                Value::Poison => parts
+                    .iter()
+                    .try_for_each(|part| self.bound(part, Value::Poison, matched, span)),
+                other => Err(Diagnostic::at(
+                    *at,
+                    format!("a pattern of {} parts for {}", parts.len(), other.describe()),
+                )
+                .into()),
+            },
+            Pattern::Array(parts, at) => {
+                let value = self.taken_apart(value, parts.len(), *at)?;
+                let elements = self.elements(&value, parts.len(), *at)?;
+                parts
+                    .iter()
+                    .zip(elements)
+                    .try_for_each(|(part, value)| self.bound(part, value, matched, span))
+            }
+            Pattern::Struct(_, fields, at) => {
+                for (name, pattern) in fields {
+                    let part = match &value {
+                        Value::Poison => Value::Poison,
+                        value => self.part(value, Step::Field(name.clone()), *at)?,
+                    };
+                    self.bound(pattern, part, matched, span)?;
+                }
+                Ok(())
+            }
+            Pattern::Range(..) => Err(Diagnostic::at(span, "a `let` cannot compare")
+                .help("use `match`")
+                .into()),
+            Pattern::Value(expr) => Err(Diagnostic::at(expr.span, "a `let` cannot compare")
+                .help("use `match`")
+                .into()),
+            Pattern::Or(_) => Err(Diagnostic::at(span, "a `let` cannot choose").help("use `match`").into()),
+        }
+    }
+
+    /// A part of a value; through a mutable reference, a reference to the part.
+    pub fn part(&mut self, value: &Value, step: Step, span: Span) -> Eval {
+        match (value, &step) {
+            (Value::Ref(place), _) => {
+                let place = self.followed((**place).clone(), span)?.part(step);
+                self.read(&place, span)?;
+                Ok(Value::Ref(Rc::new(place)))
+            }
+            (value, Step::Field(name)) => self.field(value, name, span),
+            (value, Step::Index(index)) => self.element(value, index, span),
+        }
+    }
+
+    /// What a pattern of some parts takes apart: of a reference to a tuple or an array, references to their parts.
+    pub fn taken_apart(&mut self, value: Value, parts: usize, span: Span) -> Eval {
+        let Value::Ref(place) = &value else {
+            return Ok(value);
+        };
+        let place = self.followed((**place).clone(), span)?;
+        let step = |tuple: bool, k: usize| match tuple {
+            true => Step::Field(k.to_string()),
+            false => Step::Index(Value::Int(k as i64)),
+        };
+        let whole = self.read(&place, span)?;
+        let tuple = matches!(whole, Value::Tuple(_));
+        let count = match &whole {
+            Value::Tuple(parts) => parts.len(),
+            other => self.elements(other, parts, span)?.len(),
+        };
+        let parts = (0..count)
+            .map(|k| Value::Ref(Rc::new(place.part(step(tuple, k)))))
+            .collect();
+        Ok(if tuple {
+            Value::Tuple(parts)
+        } else {
+            Value::array(parts)
+        })
+    }
+}

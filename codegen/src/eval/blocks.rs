@@ -1,0 +1,99 @@
+//! Blocks and their statements, with what ends where they end.
+
+use super::Evaluator;
+use super::departures::{Tail, has_exits};
+use super::value::{Eval, Exit, Value};
+use crate::front::tree::{Block, Expr, ExprKind, Statement};
+
+impl Evaluator<'_> {
+    /// A block in a scope of its own. An error in one statement does not hide those in the next.
+    pub fn block(&mut self, block: &Block) -> Eval {
+        self.block_in(block, Tail::Open)
+    }
+
+    /// A block, and what ends with it.
+    pub fn block_in(&mut self, block: &Block, tail: Tail<'_>) -> Eval {
+        let mark = self.scope.enter();
+        let result = self.statements(block, 0, tail);
+        self.scope.leave(mark);
+        result
+    }
+
+    /// A block from a statement on.
+    fn statements(&mut self, block: &Block, from: usize, tail: Tail<'_>) -> Eval {
+        let noted = self.errors.len();
+        for (k, statement) in block.statements.iter().enumerate().skip(from) {
+            let since = self.departed.len();
+            match statement {
+                Statement::Expr(Expr {
+                    kind: ExprKind::If(condition, then, otherwise, attribute),
+                    span,
+                }) if self.keeps_exits(*attribute) && has_exits(then, otherwise.as_deref()) => {
+                    let parts = (&**condition, then, otherwise.as_deref());
+                    let outcome = self.guarded(parts, tail, *span, &mut |e| e.statements(block, k + 1, tail));
+                    let failed = self.errors.len() > noted;
+                    return if failed { outcome.and(Err(Exit::Noted)) } else { outcome };
+                }
+                Statement::Let(pattern, ty, init, span) => {
+                    self.step(*span)?;
+                    let value = match init {
+                        Some(init) => match self.expr(init).and_then(|v| self.ascribe(v, ty.as_ref(), init.span)) {
+                            Ok(value) => value,
+                            Err(exit @ (Exit::Error(_) | Exit::Noted)) => {
+                                self.note(exit);
+                                Value::Poison
+                            }
+                            Err(leave) => return Err(leave),
+                        },
+                        None => Value::Unset,
+                    };
+                    self.bind(pattern, value, *span)?;
+                }
+                Statement::Expr(expr) => match self.expr(expr) {
+                    Ok(_) => {}
+                    Err(exit @ (Exit::Error(_) | Exit::Noted)) => {
+                        self.note(exit);
+                    }
+                    Err(leave) => return Err(leave),
+                },
+                Statement::Const(constant) => {
+                    let value = self.expr(&constant.value)?;
+                    let value = self.ascribe(value, Some(&constant.ty), constant.value.span)?;
+                    self.scope.bind(&constant.name, value);
+                }
+            }
+            if self.departed.len() > since && self.keeps_exits(None) {
+                let span = match statement {
+                    Statement::Let(.., span) => *span,
+                    Statement::Expr(e) => e.span,
+                    Statement::Const(constant) => constant.value.span,
+                };
+                return self.unless_departed(since, tail, span, |e| e.statements(block, k + 1, tail));
+            }
+        }
+        if self.errors.len() > noted {
+            return Err(Exit::Noted);
+        }
+        block
+            .value
+            .as_ref()
+            .map_or(Ok(Value::unit()), |e| self.expr_in(e, tail))
+    }
+
+    /// An expression at the end of a block.
+    pub fn expr_in(&mut self, expr: &Expr, tail: Tail<'_>) -> Eval {
+        match (&expr.kind, tail) {
+            (_, Tail::Open) => self.expr(expr),
+            (ExprKind::Block(block), _) => self.block_in(block, tail),
+            (ExprKind::If(condition, then, otherwise, attribute), _) => {
+                self.step(expr.span)?;
+                self.if_(condition, then, otherwise.as_deref(), *attribute, tail, expr.span)
+            }
+            (ExprKind::Match(subject, arms, attribute), _) => {
+                self.step(expr.span)?;
+                self.match_(subject, arms, *attribute, tail, expr.span)
+            }
+            _ => self.expr(expr),
+        }
+    }
+}

@@ -1,0 +1,242 @@
+//! Loops that are left in the shader: what they carry from one iteration to the next, and how they are left.
+
+use super::Evaluator;
+use super::departures::{Departure, Side};
+use super::loops::Body;
+use super::shape::same_shape;
+use super::value::{Eval, Exit, Value, Way};
+use crate::diagnostic::{Diagnostic, Span};
+use crate::front::assigned;
+use crate::ir::{Naming, NodeId, Op, Origin, RegionId, Type};
+
+impl Evaluator<'_> {
+    /// A loop of the graph that goes from `start` to `end` by one, both of type `i32` or `u32`: variables that its body
+    /// assigns are carried from one iteration to the next. `iteration` is given the counter.
+    pub fn kept(
+        &mut self,
+        body: &Body<'_>,
+        bounds: (NodeId, NodeId),
+        iteration: impl FnOnce(&mut Self, NodeId) -> Eval<()>,
+        span: Span,
+    ) -> Eval<()> {
+        let before = self.scope.clone();
+        let pending = std::mem::take(&mut self.departed);
+        self.kept_loops += 1;
+        let outcome = self.carry(body, bounds, iteration, span);
+        self.kept_loops -= 1;
+        if outcome.is_err() {
+            // Values made inside belong to no place outside.
+            self.scope = before;
+            self.departed.clear();
+        }
+        self.departed.splice(0..0, pending);
+        outcome
+    }
+
+    fn carry(
+        &mut self,
+        body: &Body<'_>,
+        (start, end): (NodeId, NodeId),
+        iteration: impl FnOnce(&mut Self, NodeId) -> Eval<()>,
+        span: Span,
+    ) -> Eval<()> {
+        let carried = self.carried(body);
+        let mark = self.scope.enter();
+        let mut initial = Vec::new();
+        let mut types = vec![self.ty(start)];
+        for slot in &carried {
+            let value = self.scope.at(*slot).1.clone();
+            let value = self.settle(&value, span)?;
+            Self::leaves(&value, &mut initial);
+            self.scope.set(*slot, value);
+        }
+        types.extend(initial.iter().map(|id| self.ty(*id)));
+        let settled = self.scope.clone();
+
+        let region = self.builder.open_region(&types);
+        let params = self.builder.graph().region(region).params.clone();
+        let mut inner = params[1..].iter().copied();
+        for slot in &carried {
+            let (name, template) = self.scope.at(*slot);
+            let name = name.to_owned();
+            let value = Self::with_leaves(&template.clone(), &mut inner);
+            self.name_params(&value, &name, span);
+            self.scope.set(*slot, value);
+        }
+        if let Some((name, at)) = body.counter {
+            self.name_params(&Value::Node(params[0]), name, at);
+        }
+        self.loops.round();
+        let outcome = iteration(self, params[0]).map(|()| Value::unit());
+        let departed = std::mem::take(&mut self.departed);
+        let side = self.flatten(outcome, departed, mark, span);
+        let mut results = Vec::new();
+        let mut changed = None;
+        for slot in &carried {
+            let value = self.scope.at(*slot).1.clone();
+            match self.settle(&value, span) {
+                Ok(value) if same_shape(&value, settled.at(*slot).1) => Self::leaves(&value, &mut results),
+                Ok(_) => changed = Some(changes(settled.at(*slot).0, span)),
+                Err(error) => changed = Some(error),
+            }
+        }
+        let same = results.iter().map(|id| self.ty(*id)).eq(types[1..].iter().copied());
+        let count = initial.len();
+        let mut exits = Vec::new();
+        if let (true, Ok(side)) = (same && changed.is_none(), &side) {
+            match self.exits_of_loop(region, body, side, &mut initial, &mut results, span) {
+                Ok(ways) => exits = ways,
+                Err(error) => changed = Some(error),
+            }
+        }
+        self.builder
+            .close_region(if same { results.clone() } else { initial.clone() });
+        side?;
+        if let Some(error) = changed {
+            return Err(error);
+        }
+        if !same {
+            return Err(changes("a variable", span));
+        }
+
+        let args = [vec![start, end], initial].concat();
+        let node = self.builder.add(Op::Loop(region), args, Type::Results);
+        let result = |e: &mut Self, (k, value): (usize, &NodeId)| {
+            let ty = e.ty(*value);
+            e.builder.add(Op::Result(k as u32), vec![node], ty)
+        };
+        let outs: Vec<NodeId> = results.iter().enumerate().map(|each| result(self, each)).collect();
+        let (outs, mut left) = (outs[..count].to_vec(), outs[count..].iter().copied());
+        let mut outs = outs.into_iter();
+        for slot in &carried {
+            let (name, template) = settled.at(*slot);
+            let value = Self::with_leaves(template, &mut outs);
+            self.name(&value, name, span);
+            self.scope.set(*slot, value);
+        }
+        for way in exits {
+            let Some(condition) = left.next() else { break };
+            let way = match way {
+                Way::Return(value) => Way::Return(Self::with_leaves(&value, &mut left)),
+                other => other,
+            };
+            let scope = self.scope.clone();
+            self.name_exit(condition, &way, span);
+            let group = Some(region);
+            self.departed.push(Departure {
+                condition,
+                way,
+                scope,
+                group,
+            });
+        }
+        Ok(())
+    }
+
+    /// Lets a loop that is left in the shader stop where its body leaves it. Who leaves what is around it too is told by
+    /// further results of the loop, a boolean for each way, with the value that is taken along.
+    fn exits_of_loop(
+        &mut self,
+        region: RegionId,
+        body: &Body<'_>,
+        side: &Side,
+        initial: &mut Vec<NodeId>,
+        results: &mut Vec<NodeId>,
+        span: Span,
+    ) -> Eval<Vec<Way>> {
+        let never = self.builder.bool(false);
+        let mut stop = self.builder.bool(side.value.is_none());
+        let mut ways = Vec::new();
+        for (way, flag) in &side.exits {
+            stop = self.or(stop, *flag);
+            if way.breaks(body.label) && body.breaks_here {
+                continue;
+            }
+            let mut leaves = vec![*flag];
+            let way = match way {
+                Way::Return(value) => {
+                    let value = self.settle(value, span)?;
+                    Self::leaves(&value, &mut leaves);
+                    Way::Return(value)
+                }
+                other => other.clone(),
+            };
+            let mut params = Vec::new();
+            for leaf in leaves {
+                let ty = self.ty(leaf);
+                params.push(self.builder.add_param(region, ty));
+                initial.push(if leaf == *flag { never } else { self.unused(ty) });
+                results.push(leaf);
+            }
+            let mut params = params.into_iter();
+            if let Some(flag) = params.next() {
+                let way = match &way {
+                    Way::Return(value) => Way::Return(Self::with_leaves(value, &mut params)),
+                    other => other.clone(),
+                };
+                self.name_exit(flag, &way, span);
+            }
+            ways.push(way);
+        }
+        self.builder.set_stop(region, stop);
+        Ok(ways)
+    }
+
+    /// Positions of the variables that a body may write: those that it names, and those that mutable references in the
+    /// variables that it mentions lead to.
+    fn carried(&self, body: &Body<'_>) -> Vec<usize> {
+        let effects = assigned(body.block, &self.library.mutating);
+        let mut carried = body.written.clone();
+        for slot in effects.assigned.iter().filter_map(|name| self.scope.slot(name)) {
+            if !carried.contains(&slot) {
+                carried.push(slot);
+            }
+        }
+        for slot in effects.mentioned.iter().filter_map(|name| self.scope.slot(name)) {
+            self.targets(self.scope.at(slot).1, &mut carried);
+        }
+        // A reference itself stays what it is.
+        carried.retain(|slot| !matches!(self.scope.at(*slot).1, Value::Ref(_)));
+        carried
+    }
+
+    /// Names a loop's parameters, which are variables in the text.
+    pub fn name_params(&mut self, value: &Value, name: &str, span: Span) {
+        match value {
+            Value::Node(id) => {
+                let origin = Origin {
+                    name: name.to_owned(),
+                    naming: Naming::Let,
+                    file: span.file,
+                    line: span.line,
+                    counters: self.counters.clone(),
+                };
+                self.builder.set_origin(*id, &origin);
+            }
+            Value::Struct { fields, .. } => {
+                for (field, value) in fields.iter() {
+                    self.name_params(value, &format!("{name}_{field}"), span);
+                }
+            }
+            Value::Tuple(parts) => self.name_params_each(parts, name, span),
+            Value::Array(parts) => self.name_params_each(parts, name, span),
+            _ => {}
+        }
+    }
+
+    fn name_params_each(&mut self, parts: &[Value], name: &str, span: Span) {
+        for (k, part) in parts.iter().enumerate() {
+            self.name_params(part, &format!("{name}_{k}"), span);
+        }
+    }
+}
+
+fn changes(name: &str, span: Span) -> Exit {
+    Diagnostic::at(
+        span,
+        format!("`{name}` changes its type in a loop that is left in the shader"),
+    )
+    .label("in this loop")
+    .help("give it one type, or unroll the loop")
+    .into()
+}
