@@ -9,8 +9,8 @@ use wgpu::naga::{
 };
 
 /// Checks that each loop of `wgsl` counts up by one, from an `i32` that nothing else in it writes, to a limit that does not
-/// change in it. Such a loop ends: the counter meets every limit that an `i32` can hold before it could wrap. Loops of
-/// emitted shaders are such.
+/// change in it. Such a loop ends: the counter meets every limit that an `i32` can hold before it could wrap. Emitted
+/// shaders have such loops, but for a `while` whose trip count is a runtime value, which is refused here.
 ///
 /// # Errors
 ///

@@ -39,7 +39,7 @@ pub struct EmitOptions {
     /// Whether WGSL with quad operations begins with `enable subgroups;`: browsers ask for it, naga and wgpu refuse it.
     pub enable_subgroups: bool,
     /// Whether naga leaves out the bound that it otherwise puts on the rounds of every loop of SPIR-V, HLSL and MSL. The
-    /// loops that this generator emits end without one: each counts to an integer that is computed before it.
+    /// loops that count end without one; a `while` whose trip count is a runtime value ends as the kernel sees to it.
     pub unbounded_loops: bool,
 }
 

@@ -80,9 +80,9 @@ impl Lower {
     }
 }
 
-/// A variable's name that nobody writes.
+/// A variable's name that nobody can write.
 fn hidden(k: usize) -> String {
-    format!("_{k}")
+    format!("#{k}")
 }
 
 /// Adds statements before those of a block.

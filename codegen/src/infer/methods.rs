@@ -184,9 +184,11 @@ impl<'l> Checker<'l> {
             Ty::Int(_) => Type::I32,
             _ => Type::F32,
         };
-        // Of a quad's methods the evaluator says what they need.
-        let of_quads = name.starts_with("swap_") || matches!(name, "gather" | "sum" | "average");
-        if !of_quads && !methods::has(ty, name) && methods::UNLIKE.iter().all(|(unlike, ..)| *unlike != name) {
+        // Of a quad's messages the evaluator says what they need.
+        if !name.starts_with("swap_")
+            && !methods::has(ty, name)
+            && methods::UNLIKE.iter().all(|(unlike, ..)| *unlike != name)
+        {
             let message = format!("there is no method `{name}` with {arguments} arguments on {receiver}");
             self.errors.push(
                 Diagnostic::at(span, message)
