@@ -69,9 +69,9 @@ void main() {
                     if (difference < 16.0) {
                         bounded_2 = difference;
                     }
-                    // kernels/src/sraa/mod.rs:98
                     d = max(bounded, bounded_2);
                 }
+                // kernels/src/sraa/mod.rs:99
                 distances[tap] = d;
                 nearest = min(nearest, d);
             }

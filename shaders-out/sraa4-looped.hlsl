@@ -73,9 +73,9 @@ void sraa(uint3 id : SV_DispatchThreadID) {
                     if (difference < 16.0) {
                         bounded_2 = difference;
                     }
-                    // kernels/src/sraa/mod.rs:98
                     d = max(bounded, bounded_2);
                 }
+                // kernels/src/sraa/mod.rs:99
                 distances[tap] = d;
                 nearest = min(nearest, d);
             }

@@ -67,9 +67,9 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
                     if difference < 16.0 {
                         bounded_2 = difference;
                     }
-                    // kernels/src/sraa/mod.rs:98
                     d = max(bounded, bounded_2);
                 }
+                // kernels/src/sraa/mod.rs:99
                 distances[tap] = d;
                 nearest = min(nearest, d);
             }

@@ -27,94 +27,23 @@ mod sobel;
 #[path = "../../examples/kernels/ssao.rs"]
 mod ssao;
 
-use common::{bench, same_bits};
-use std::path::Path;
-use straightline_codegen::{Branches, Compiled, Kernel, Settings, Stage, Unroll};
+use common::forms::{Example, first, image, save, texture};
+use straightline_codegen::Settings;
 use straightline_kernels::prelude::*;
-use straightline_study::execute::{Inputs, interpret, test_inputs};
-use straightline_study::picture;
+use straightline_study::execute::{Inputs, test_inputs};
 
 const SIZE: UVec2 = uvec2(96, 64);
 
-fn kernel(name: &str) -> Kernel {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../examples/kernels/{name}.rs"));
-    Kernel::from_file(&path, None).unwrap_or_else(|e| panic!("{e}"))
+fn inputs(example: &Example) -> Inputs {
+    test_inputs(&example.compile(&Settings::default()).graph, SIZE)
 }
 
-fn compile(kernel: &Kernel, settings: &Settings) -> Compiled {
-    kernel.compile(settings).unwrap_or_else(|e| panic!("{e}"))
-}
-
-/// One image of the inputs, by its name.
-fn image<'a>(inputs: &'a Inputs, name: &str) -> &'a Frame<Vec4> {
-    let (_, layers) = inputs
-        .images
-        .iter()
-        .find(|(n, _)| n == name)
-        .expect("an image of this name");
-    &layers[0]
-}
-
-fn texture(inputs: &Inputs, name: &str) -> Texture<Vec4> {
-    let image = image(inputs, name);
-    Texture::new(image.size(), image.texels().to_vec())
-}
-
-fn first<T>(inputs: &Inputs, name: &str, make: impl Fn(UVec2, Vec<f32>) -> T) -> T {
-    let image = image(inputs, name);
-    make(image.size(), image.texels().iter().map(|t| t.x).collect())
-}
-
-/// Runs one kernel in every form. `native` is given the inputs and a pixel. On the GPU a share of pixels, `unsure`, may be
-/// off by more than `tolerance`: those on which a decision hangs on the last bit.
-fn check(name: &str, tolerance: f32, unsure: f64, native: impl Fn(&Inputs, IVec2) -> Vec4) {
-    let kernel = kernel(name);
-    let inputs = test_inputs(&compile(&kernel, &Settings::default()).graph, SIZE);
-    let pixels = (0..SIZE.y as i32).flat_map(|y| (0..SIZE.x as i32).map(move |x| ivec2(x, y)));
-    let expected: Vec<[f32; 4]> = pixels.map(|at| native(&inputs, at).to_array()).collect();
-    let forms = [
-        (Unroll::Full, Branches::AsLoops),
-        (Unroll::None, Branches::AsLoops),
-        (Unroll::Partial(2), Branches::AsLoops),
-        (Unroll::Partial(4), Branches::AsLoops),
-        (Unroll::Full, Branches::Keep),
-    ];
-    let gpu = bench();
-    for (unroll, branches) in forms {
-        let settings = Settings {
-            unroll,
-            branches,
-            ..Settings::default()
-        };
-        let compiled = compile(&kernel, &settings);
-        let found = interpret::<f32>(&compiled, &inputs, false).unwrap_or_else(|e| panic!("{name}: {e}"));
-        same_bits(&expected, &found.texels).unwrap_or_else(|e| panic!("{name} {unroll}, branches {branches}: {e}"));
-        let shown = gpu
-            .run(&compiled, Stage::Compute, &inputs)
-            .unwrap_or_else(|e| panic!("{name} {unroll}: {e}"));
-        let off = |(a, b): &(&Vec4, &[f32; 4])| (**a - Vec4::from_array(**b)).abs().max_element() > tolerance;
-        let off = shown.texels().iter().zip(&expected).filter(off).count();
-        let share = off as f64 / expected.len() as f64;
-        assert!(
-            share <= unsure,
-            "{name} {unroll}: {off} pixels are off by more than {tolerance} on the GPU"
-        );
-        if unroll == Unroll::Full && branches == Branches::AsLoops {
-            save(name, &inputs, &shown);
-        }
-    }
-}
-
-fn save(name: &str, inputs: &Inputs, shown: &Frame<Vec4>) {
-    let Some(folder) = std::env::var_os("STRAIGHTLINE_PICTURES") else {
-        return;
-    };
-    let folder = Path::new(&folder);
-    std::fs::create_dir_all(folder).expect("a folder for pictures");
-    for (input, layers) in &inputs.images {
-        picture::write(&folder.join(format!("{name}-{input}.png")), &layers[0]).expect("a picture is written");
-    }
-    picture::write(&folder.join(format!("{name}.png")), shown).expect("a picture is written");
+/// Runs one kernel in every form. `native` is given the inputs and a pixel.
+fn check(name: &'static str, tolerance: f32, unsure: f64, native: impl Fn(&Inputs, IVec2) -> Vec4) {
+    let example = Example::new("kernels", name);
+    let inputs = inputs(&example);
+    let shown = example.check(&inputs, tolerance, unsure, |at| native(&inputs, at));
+    save(name, &inputs, &shown);
 }
 
 #[test]
@@ -143,7 +72,7 @@ fn median() {
 /// The network against sorting, on every component.
 #[test]
 fn the_network_finds_the_median() {
-    let inputs = test_inputs(&compile(&kernel("median"), &Settings::default()).graph, SIZE);
+    let inputs = inputs(&Example::new("kernels", "median"));
     let color = image(&inputs, "color");
     for at in [ivec2(0, 0), ivec2(40, 30), ivec2(95, 63)] {
         let found = median::median(color, at);
@@ -231,13 +160,13 @@ fn convolution() {
 /// A weight of zero is not in the shader: neither its product nor its read.
 #[test]
 fn zero_weights_cost_nothing() {
-    let kernel = kernel("convolution");
+    let example = Example::new("kernels", "convolution");
     let reads = |weights: &str| {
         let settings = Settings {
             options: vec![("weights".to_owned(), weights.to_owned())],
             ..Settings::default()
         };
-        compile(&kernel, &settings).counts.colour_reads
+        example.compile(&settings).counts.colour_reads
     };
     let cross = "0,0,0,0,0, 0,0,1,0,0, 0,1,-4,1,0, 0,0,1,0,0, 0,0,0,0,0";
     assert_eq!(reads(cross), 5);

@@ -47,7 +47,8 @@ impl Words {
     /// Whether a word has a meaning of its own in the language, or in what is written there beside the kernel.
     pub fn reserve(self, word: &str) -> bool {
         use naga::keywords::wgsl;
-        let own = ["whole_quotient", "whole_remainder"].contains(&word) || converts(word);
+        let own =
+            ["whole_quotient", "whole_remainder"].contains(&word) || word.starts_with("cube_root") || converts(word);
         own || word.starts_with("__")
             || match self {
                 Words::Wgsl => wgsl::RESERVED.contains(&word) || wgsl::BUILTIN_IDENTIFIER_SET.contains(word),
@@ -351,6 +352,7 @@ fn unary(op: UnaryOp) -> &'static str {
         Saturate => "saturated",
         Sqrt => "root",
         InverseSqrt => "inverse_root",
+        Cbrt => "cube_root",
         Exp | Exp2 => "exponential",
         Log | Log2 => "logarithm",
         Sin | Sinh => "sine",

@@ -326,6 +326,7 @@ fn unary(name: &str) -> Option<UnaryOp> {
         "trunc" => Trunc,
         "round_ties_even" => Round,
         "sqrt" => Sqrt,
+        "cbrt" => Cbrt,
         "exp" => Exp,
         "exp2" => Exp2,
         "ln" => Log,

@@ -3,7 +3,7 @@
 use crate::ir::{Scalar, Type};
 
 /// Methods of floats, lane by lane.
-const FLOATS: &str = "abs acos asin atan atan2 ceil clamp cos cosh exp exp2 floor is_finite is_nan ln log2 max min powf powi recip \
+const FLOATS: &str = "abs acos asin atan atan2 cbrt ceil clamp cos cosh exp exp2 floor is_finite is_nan ln log2 max min powf powi recip \
     round_ties_even sin sinh sqrt tan tanh to_bits to_degrees to_radians trunc";
 
 /// Further methods of vectors.
@@ -11,7 +11,7 @@ const VECTORS: &str = "cmpeq cmpge cmpgt cmple cmplt cmpne cross distance distan
     max_element min_element normalize perp reflect to_array truncate";
 
 /// Methods of floats that Rust and shaders compute differently: why, and what to write.
-pub const UNLIKE: [(&str, &str, &str); 10] = [
+pub const UNLIKE: [(&str, &str, &str); 9] = [
     (
         "round",
         "`round` rounds halves away from zero, and no shader does",
@@ -23,11 +23,6 @@ pub const UNLIKE: [(&str, &str, &str); 10] = [
         "mul_add",
         "`mul_add` rounds once in Rust, and once or twice in shaders",
         "x * a + b",
-    ),
-    (
-        "cbrt",
-        "`cbrt` takes the root of a negative number, and shaders have no such function",
-        "sign(x) * x.abs().powf(1.0 / 3.0)",
     ),
     (
         "hypot",

@@ -176,6 +176,8 @@ pub enum UnaryOp {
     Saturate,
     Sqrt,
     InverseSqrt,
+    /// Of a negative number a negative one.
+    Cbrt,
     Exp,
     Exp2,
     Log,
@@ -245,7 +247,7 @@ impl BinaryOp {
 
 impl UnaryOp {
     /// Every operation.
-    pub const ALL: [UnaryOp; 30] = {
+    pub const ALL: [UnaryOp; 31] = {
         use UnaryOp::*;
         [
             Neg,
@@ -261,6 +263,7 @@ impl UnaryOp {
             Saturate,
             Sqrt,
             InverseSqrt,
+            Cbrt,
             Exp,
             Exp2,
             Log,
@@ -286,7 +289,21 @@ impl UnaryOp {
         use UnaryOp::*;
         matches!(
             self,
-            Sqrt | InverseSqrt | Exp | Exp2 | Log | Log2 | Sin | Cos | Tan | Asin | Acos | Atan | Sinh | Cosh | Tanh
+            Sqrt | InverseSqrt
+                | Cbrt
+                | Exp
+                | Exp2
+                | Log
+                | Log2
+                | Sin
+                | Cos
+                | Tan
+                | Asin
+                | Acos
+                | Atan
+                | Sinh
+                | Cosh
+                | Tanh
         )
     }
 }

@@ -72,6 +72,7 @@ macro_rules! real {
                     Saturate => x.min(1.0).max(0.0),
                     Sqrt => x.sqrt(),
                     InverseSqrt => 1.0 / x.sqrt(),
+                    Cbrt => x.cbrt(),
                     Exp => x.exp(),
                     Exp2 => x.exp2(),
                     Log => x.ln(),

@@ -18,8 +18,8 @@ pub(super) fn encode(path: &Path, file: &mut impl Write, frame: &Frame<Vec4>) ->
         .map_err(|error| failure("write", path, error))
 }
 
-/// Reads a PNG file as linear colour.
-pub(super) fn decode(path: &Path) -> Result<Frame<Vec4>, PictureError> {
+/// Reads a PNG file, each texel as `texel` has it of numbers between 0 and 1.
+fn decode(path: &Path, texel: fn(Vec4) -> Vec4) -> Result<Frame<Vec4>, PictureError> {
     let file = files::open(path, MAX_BYTES).map_err(|source| PictureError::Io {
         action: "read",
         path: path.to_owned(),
@@ -32,9 +32,19 @@ pub(super) fn decode(path: &Path) -> Result<Frame<Vec4>, PictureError> {
     let texels = image
         .into_rgba32f()
         .pixels()
-        .map(|pixel| from_srgb(Vec4::from_array(pixel.0)))
+        .map(|pixel| texel(Vec4::from_array(pixel.0)))
         .collect();
     Ok(Frame::new(size, texels))
+}
+
+/// Reads a PNG file as linear colour.
+pub(super) fn decode_color(path: &Path) -> Result<Frame<Vec4>, PictureError> {
+    decode(path, from_srgb)
+}
+
+/// Reads a PNG file of numbers that are no colours.
+pub(super) fn decode_data(path: &Path) -> Result<Frame<Vec4>, PictureError> {
+    decode(path, |texel| texel)
 }
 
 /// Clamped, with 0 for what is not a number. Alpha is linear.

@@ -2,6 +2,8 @@
 
 #![allow(dead_code)] // each test uses a part
 
+pub mod forms;
+
 use std::path::PathBuf;
 use std::process::Command;
 use straightline_study::execute;

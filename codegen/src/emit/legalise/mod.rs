@@ -8,22 +8,33 @@ mod hlsl;
 mod wgsl;
 
 use super::ast::{Division, Expr, Function, Module, Op, StmtKind, Ty};
-use crate::ir::{self, BinaryOp, Scalar, Type};
+use crate::ir::{self, BinaryOp, Scalar, Type, UnaryOp};
 
 pub use half::half;
 
 /// Rewrites a module for WGSL.
 pub fn wgsl(module: &mut Module<'_>) {
+    // One name is that of one function.
+    let name = |ty: Ty| match ty.is_scalar() {
+        true => "cube_root".to_owned(),
+        false => format!("cube_root_{}", super::print::wgsl_type(ty)),
+    };
+    module.rewrite(&mut |module, expr| {
+        let name = name(expr.ty);
+        cube_root(module, expr, &name)
+    });
     wgsl::legalise(module);
 }
 
 /// Rewrites a module for GLSL, for Vulkan or for OpenGL.
 pub fn glsl(module: &mut Module<'_>, vulkan: bool) {
+    module.rewrite(&mut |module, expr| cube_root(module, expr, "cube_root"));
     module.rewrite(&mut if vulkan { glsl::vulkan } else { glsl::opengl });
 }
 
 /// Rewrites a module for HLSL.
 pub fn hlsl(module: &mut Module<'_>) {
+    module.rewrite(&mut |module, expr| cube_root(module, expr, "cube_root"));
     hlsl::legalise(module);
 }
 
@@ -75,6 +86,29 @@ fn by_component(expr: &Expr, mut scalar: impl FnMut(u32) -> Expr) -> Expr {
             expr.ty,
         ),
     }
+}
+
+/// The cube root, for which no shader language has a function, by a power, which none has of negative numbers.
+fn cube_root(module: &mut Module<'_>, mut expr: Expr, name: &str) -> Expr {
+    if !matches!(expr.op, Op::Ir(ir::Op::Unary(UnaryOp::Cbrt))) {
+        return expr;
+    }
+    let ty = expr.ty;
+    expr.op = module.function(name, ty, |module| {
+        let x = module.variable("x", ty);
+        let unary = |op, x| Expr::new(Op::Ir(ir::Op::Unary(op)), vec![x], ty);
+        let third = Expr::splat(ty, (1.0_f32 / 3.0).to_bits());
+        let power = unary(UnaryOp::Abs, module.read(x)).binary(BinaryOp::Pow, third);
+        let root = unary(UnaryOp::Sign, module.read(x)).binary(BinaryOp::Mul, power);
+        Function {
+            comment: "The real root, of negative numbers too.".to_owned(),
+            name: name.to_owned(),
+            params: vec![x],
+            result: ty,
+            body: vec![StmtKind::Return(Some(root)).into()],
+        }
+    });
+    expr
 }
 
 /// A function that converts floats to integers as Rust does: to the nearest integer there is, and a NaN to 0. Where the language

@@ -152,6 +152,7 @@ pub fn function(op: &ir::Op) -> &'static str {
             Saturate => "saturate",
             Sqrt => "sqrt",
             InverseSqrt => "inverseSqrt",
+            Cbrt => "cube_root",
             Exp => "exp",
             Exp2 => "exp2",
             Log => "log",

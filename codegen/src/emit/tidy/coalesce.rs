@@ -1,23 +1,96 @@
 //! No second variable for what is copied back: `var b = a; if c { b = f(a); } a = b;` is `if c { a = f(a); }`, and so where
-//! both sides of the branch give `b` its value.
+//! both sides of the branch give `b` its value; `let b = f(a); g(b); a = b;` is `a = f(a); g(a);`,
+//! and `let a = f(); var b = a; if c { b = g(b); }` is `var a = f(); if c { a = g(a); }`.
 
-use crate::emit::ast::{Block, Expr, Op, Stmt, StmtKind, VarId};
+use crate::emit::ast::{Block, Expr, Module, Op, Stmt, StmtKind, VarId, Variable};
 
 /// Merges such variables, innermost blocks first.
-pub fn coalesce(block: &mut Block<'_>) {
+pub fn coalesce(module: &mut Module<'_>) {
+    merge(&mut module.body, &module.variables);
+}
+
+fn merge(block: &mut Block<'_>, variables: &[Variable]) {
     for stmt in &mut *block {
-        stmt.blocks_mut().into_iter().for_each(coalesce);
+        stmt.blocks_mut().into_iter().for_each(|inner| merge(inner, variables));
     }
     let mut k = 0;
     while k < block.len() {
-        match copied_back(block, k) {
-            Some((copy, original, last)) => {
-                block.remove(last);
-                block.remove(k);
-                block[k..].iter_mut().for_each(|stmt| rename(stmt, copy, original));
-            }
-            None => k += 1,
+        if let Some((copy, original, last)) = copied_back(block, k) {
+            block.remove(last);
+            block.remove(k);
+            block[k..].iter_mut().for_each(|stmt| rename(stmt, copy, original));
+            continue;
         }
+        if let Some((copy, original, declared)) = goes_on(block, k, variables) {
+            let kind = std::mem::replace(&mut block[declared].kind, StmtKind::Break);
+            block[declared].kind = match kind {
+                StmtKind::Let(var, value) => StmtKind::Var(var, Some(value)),
+                kind => kind,
+            };
+            block.remove(k);
+            block[k..].iter_mut().for_each(|stmt| rename(stmt, copy, original));
+            continue;
+        }
+        if let Some((copy, original, last)) = moved_on(block, k)
+            && let StmtKind::Let(_, value) = &block[k].kind
+        {
+            let place = Expr::var(original, value.ty);
+            block[k].kind = StmtKind::Assign(place, None, value.clone());
+            block.remove(last);
+            block[k + 1..].iter_mut().for_each(|stmt| rename(stmt, copy, original));
+        }
+        k += 1;
+    }
+}
+
+/// If statement `k` makes a variable of a value of the same name that nobody looks at once the variable is changed: the variable,
+/// the value and the statement that made it.
+fn goes_on(block: &[Stmt<'_>], k: usize, variables: &[Variable]) -> Option<(VarId, VarId, usize)> {
+    let StmtKind::Var(copy, Some(value)) = &block[k].kind else {
+        return None;
+    };
+    let (copy, original) = (*copy, value.as_var()?);
+    let [name, known] = [copy, original].map(|var| &variables[var.0 as usize].name);
+    if name != known {
+        return None;
+    }
+    let makes = |stmt: &Stmt<'_>| matches!(stmt.kind, StmtKind::Let(var, _) | StmtKind::Var(var, _) if var == original);
+    let declared = block[..k].iter().position(makes)?;
+    let mut changed = false;
+    let kept = block[k + 1..]
+        .iter()
+        .all(|stmt| keeps(stmt, copy, original, &mut changed));
+    kept.then_some((copy, original, declared))
+}
+
+/// If statement `k` makes the value that a later one of the block gives to a variable of which nobody reads the old one between:
+/// the value's name, the variable and the later statement.
+fn moved_on(block: &[Stmt<'_>], k: usize) -> Option<(VarId, VarId, usize)> {
+    let StmtKind::Let(copy, _) = block[k].kind else {
+        return None;
+    };
+    let given = |stmt: &Stmt<'_>| match &stmt.kind {
+        StmtKind::Assign(place, None, value) if value.as_var() == Some(copy) => place.as_var(),
+        _ => None,
+    };
+    let rest = &block[k + 1..];
+    let (at, original) = rest
+        .iter()
+        .enumerate()
+        .find_map(|(at, stmt)| Some((at, given(stmt)?)))?;
+    let declares = |stmt: &Stmt<'_>| matches!(stmt.kind, StmtKind::Var(var, _) if var == original);
+    let unread = rest[..at]
+        .iter()
+        .all(|stmt| !stmt.mentions(original) && !declares(stmt) && !leaves(stmt));
+    let same = rest[at + 1..].iter().all(|stmt| !stmt.assigns(original));
+    (unread && same).then_some((copy, original, k + 1 + at))
+}
+
+/// Whether a statement may leave the block that it stands in.
+fn leaves(stmt: &Stmt<'_>) -> bool {
+    match &stmt.kind {
+        StmtKind::Break | StmtKind::Return(_) => true,
+        _ => stmt.blocks().into_iter().any(|inner| inner.iter().any(leaves)),
     }
 }
 

@@ -6,6 +6,7 @@ mod columns;
 mod dead;
 mod inline;
 mod simplify;
+mod statements;
 
 use super::ast::Module;
 use crate::ir::Graph;
@@ -16,14 +17,14 @@ pub use simplify::simplify;
 pub fn tidy(module: &mut Module<'_>, graph: &Graph) {
     module.rewrite(&mut |_, expr| simplify(expr));
     dead::remove(module);
-    coalesce::coalesce(&mut module.body);
+    coalesce::coalesce(module);
     inline::inline(module, graph);
     breaks::early(&mut module.body);
     // What a loop's early end stood between is one variable now.
-    coalesce::coalesce(&mut module.body);
+    coalesce::coalesce(module);
     // What was inlined has new neighbours, and what is shorter now may be inlined.
     module.rewrite(&mut |_, expr| simplify(expr));
     dead::remove(module);
     inline::inline(module, graph);
-    simplify::compound(&mut module.body);
+    statements::shorten(&mut module.body);
 }

@@ -1,6 +1,6 @@
 //! Shorter ways to write an expression.
 
-use crate::emit::ast::{Block, Expr, Op, Stmt, StmtKind};
+use crate::emit::ast::{Expr, Op};
 use crate::ir::{self, BinaryOp, Scalar, Type, UnaryOp};
 
 /// Rewrites an expression, whose arguments have been rewritten.
@@ -17,10 +17,23 @@ pub fn simplify(expr: Expr) -> Expr {
     }
 }
 
-/// `!condition`; of `!a`, `a`.
+/// `!condition`: of `!a`, `a`, and of `a == b`, `a != b`.
 pub fn not(mut condition: Expr) -> Expr {
-    if condition.op == Op::Ir(ir::Op::Unary(UnaryOp::Not)) {
-        return condition.args.swap_remove(0);
+    let opposite = |op| match op {
+        BinaryOp::Eq => Some(BinaryOp::Ne),
+        BinaryOp::Ne => Some(BinaryOp::Eq),
+        _ => None,
+    };
+    match condition.op {
+        Op::Ir(ir::Op::Unary(UnaryOp::Not)) => return condition.args.swap_remove(0),
+        Op::Ir(ir::Op::Binary(op)) => {
+            // Of other comparisons the opposite does not hold of a NaN.
+            if let Some(opposite) = opposite(op) {
+                condition.op = Op::Ir(ir::Op::Binary(opposite));
+                return condition;
+            }
+        }
+        _ => {}
     }
     let ty = condition.ty;
     Expr::new(Op::Ir(ir::Op::Unary(UnaryOp::Not)), vec![condition], ty)
@@ -240,34 +253,5 @@ fn joined(left: &Expr, right: &Expr) -> Option<Expr> {
             Some(Expr::new(left.op.clone(), args?, shape))
         }
         _ => None,
-    }
-}
-
-/// `x = x + a` is `x += a`.
-pub fn compound(block: &mut Block<'_>) {
-    for stmt in block {
-        if let StmtKind::Assign(place, assigned @ None, value) = &mut stmt.kind
-            && let Op::Ir(ir::Op::Binary(op)) = value.op
-        {
-            let compounds = match op {
-                BinaryOp::Add | BinaryOp::Mul | BinaryOp::Sub | BinaryOp::Div => true,
-                BinaryOp::And | BinaryOp::Or | BinaryOp::Xor => !matches!(value.ty.kind(), Some(Scalar::Bool)),
-                _ => false,
-            };
-            if compounds && value.args[0] == *place {
-                *assigned = Some(op);
-                *value = value.args.swap_remove(1);
-            } else if compounds && op.commutes() && value.args[1] == *place {
-                *assigned = Some(op);
-                *value = value.args.swap_remove(0);
-            }
-        }
-        each_block(stmt);
-    }
-}
-
-fn each_block(stmt: &mut Stmt<'_>) {
-    for inner in stmt.blocks_mut() {
-        compound(inner);
     }
 }
