@@ -29,7 +29,7 @@ void main() {
     ivec2 at = max(pixel - 1, ivec2(0));
     float depth_3 = texelFetch(depth, at, 0).x;
     float before = abs((abs(depth_3) < 1e30 ? depth_3 : 1e30) - here);
-    ivec2 at_2 = clamp(pixel + 1, ivec2(0), last);
+    ivec2 at_2 = min(pixel + 1, last);
     float depth_4 = texelFetch(depth, at_2, 0).x;
     float after = abs((abs(depth_4) < 1e30 ? depth_4 : 1e30) - here);
     float product = max(min(before, after), 1e-5) * depth_sensibility;
@@ -40,7 +40,7 @@ void main() {
     ivec2 at_3 = max(pixel + ivec2(0, -1), ivec2(0));
     float depth_5 = texelFetch(depth, at_3, 0).x;
     float before_2 = abs((abs(depth_5) < 1e30 ? depth_5 : 1e30) - here);
-    ivec2 at_4 = clamp(pixel - ivec2(0, -1), ivec2(0), last);
+    ivec2 at_4 = min(pixel + ivec2(0, 1), last);
     float depth_6 = texelFetch(depth, at_4, 0).x;
     float after_2 = abs((abs(depth_6) < 1e30 ? depth_6 : 1e30) - here);
     float product_2 = max(min(before_2, after_2), 1e-5) * depth_sensibility;
@@ -53,7 +53,7 @@ void main() {
     ivec2 at_5 = clamp(pixel + ivec2(1, -1), ivec2(0), last);
     float depth_7 = texelFetch(depth, at_5, 0).x;
     float before_3 = abs((abs(depth_7) < 1e30 ? depth_7 : 1e30) - here);
-    ivec2 at_6 = clamp(pixel - ivec2(1, -1), ivec2(0), last);
+    ivec2 at_6 = clamp(pixel + ivec2(-1, 1), ivec2(0), last);
     float depth_8 = texelFetch(depth, at_6, 0).x;
     float after_3 = abs((abs(depth_8) < 1e30 ? depth_8 : 1e30) - here);
     float product_3 = max(min(before_3, after_3), 1e-5) * depth_sensibility;
@@ -66,7 +66,7 @@ void main() {
     ivec2 at_7 = min(pixel + ivec2(1, 0), last);
     float depth_9 = texelFetch(depth, at_7, 0).x;
     float before_4 = abs((abs(depth_9) < 1e30 ? depth_9 : 1e30) - here);
-    ivec2 at_8 = clamp(pixel - ivec2(1, 0), ivec2(0), last);
+    ivec2 at_8 = max(pixel + ivec2(-1, 0), ivec2(0));
     float depth_10 = texelFetch(depth, at_8, 0).x;
     float after_4 = abs((abs(depth_10) < 1e30 ? depth_10 : 1e30) - here);
     float product_4 = max(min(before_4, after_4), 1e-5) * depth_sensibility;

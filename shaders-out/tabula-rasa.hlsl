@@ -36,7 +36,7 @@ float4 tabula_rasa(float4 position : SV_Position) : SV_Target0 {
     int2 at = max(pixel - 1, int2(0, 0));
     float depth_3 = depth.Load(int3(at, 0)).x;
     float before = abs((abs(depth_3) < 1e30 ? depth_3 : 1e30) - here);
-    int2 at_2 = clamp(pixel + 1, int2(0, 0), last);
+    int2 at_2 = min(pixel + 1, last);
     float depth_4 = depth.Load(int3(at_2, 0)).x;
     float after = abs((abs(depth_4) < 1e30 ? depth_4 : 1e30) - here);
     float product = max(min(before, after), 1e-5) * parameters.depth_sensibility;
@@ -47,7 +47,7 @@ float4 tabula_rasa(float4 position : SV_Position) : SV_Target0 {
     int2 at_3 = max(pixel + int2(0, -1), int2(0, 0));
     float depth_5 = depth.Load(int3(at_3, 0)).x;
     float before_2 = abs((abs(depth_5) < 1e30 ? depth_5 : 1e30) - here);
-    int2 at_4 = clamp(pixel - int2(0, -1), int2(0, 0), last);
+    int2 at_4 = min(pixel + int2(0, 1), last);
     float depth_6 = depth.Load(int3(at_4, 0)).x;
     float after_2 = abs((abs(depth_6) < 1e30 ? depth_6 : 1e30) - here);
     float product_2 = max(min(before_2, after_2), 1e-5) * parameters.depth_sensibility;
@@ -60,7 +60,7 @@ float4 tabula_rasa(float4 position : SV_Position) : SV_Target0 {
     int2 at_5 = clamp(pixel + int2(1, -1), int2(0, 0), last);
     float depth_7 = depth.Load(int3(at_5, 0)).x;
     float before_3 = abs((abs(depth_7) < 1e30 ? depth_7 : 1e30) - here);
-    int2 at_6 = clamp(pixel - int2(1, -1), int2(0, 0), last);
+    int2 at_6 = clamp(pixel + int2(-1, 1), int2(0, 0), last);
     float depth_8 = depth.Load(int3(at_6, 0)).x;
     float after_3 = abs((abs(depth_8) < 1e30 ? depth_8 : 1e30) - here);
     float product_3 = max(min(before_3, after_3), 1e-5) * parameters.depth_sensibility;
@@ -73,7 +73,7 @@ float4 tabula_rasa(float4 position : SV_Position) : SV_Target0 {
     int2 at_7 = min(pixel + int2(1, 0), last);
     float depth_9 = depth.Load(int3(at_7, 0)).x;
     float before_4 = abs((abs(depth_9) < 1e30 ? depth_9 : 1e30) - here);
-    int2 at_8 = clamp(pixel - int2(1, 0), int2(0, 0), last);
+    int2 at_8 = max(pixel + int2(-1, 0), int2(0, 0));
     float depth_10 = depth.Load(int3(at_8, 0)).x;
     float after_4 = abs((abs(depth_10) < 1e30 ? depth_10 : 1e30) - here);
     float product_4 = max(min(before_4, after_4), 1e-5) * parameters.depth_sensibility;

@@ -29,7 +29,7 @@ fn tabula_rasa(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let at = max(pixel - 1, vec2i(0));
     let depth_3 = textureLoad(depth, at, 0).x;
     let before = abs(select(1e30, depth_3, abs(depth_3) < 1e30) - here);
-    let at_2 = clamp(pixel + 1, vec2i(0), last);
+    let at_2 = min(pixel + 1, last);
     let depth_4 = textureLoad(depth, at_2, 0).x;
     let after = abs(select(1e30, depth_4, abs(depth_4) < 1e30) - here);
     let product = max(min(before, after), 1e-5) * parameters.depth_sensibility;
@@ -40,7 +40,7 @@ fn tabula_rasa(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let at_3 = max(pixel + vec2i(0, -1), vec2i(0));
     let depth_5 = textureLoad(depth, at_3, 0).x;
     let before_2 = abs(select(1e30, depth_5, abs(depth_5) < 1e30) - here);
-    let at_4 = clamp(pixel - vec2i(0, -1), vec2i(0), last);
+    let at_4 = min(pixel + vec2i(0, 1), last);
     let depth_6 = textureLoad(depth, at_4, 0).x;
     let after_2 = abs(select(1e30, depth_6, abs(depth_6) < 1e30) - here);
     let product_2 = max(min(before_2, after_2), 1e-5) * parameters.depth_sensibility;
@@ -53,7 +53,7 @@ fn tabula_rasa(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let at_5 = clamp(pixel + vec2i(1, -1), vec2i(0), last);
     let depth_7 = textureLoad(depth, at_5, 0).x;
     let before_3 = abs(select(1e30, depth_7, abs(depth_7) < 1e30) - here);
-    let at_6 = clamp(pixel - vec2i(1, -1), vec2i(0), last);
+    let at_6 = clamp(pixel + vec2i(-1, 1), vec2i(0), last);
     let depth_8 = textureLoad(depth, at_6, 0).x;
     let after_3 = abs(select(1e30, depth_8, abs(depth_8) < 1e30) - here);
     let product_3 = max(min(before_3, after_3), 1e-5) * parameters.depth_sensibility;
@@ -66,7 +66,7 @@ fn tabula_rasa(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let at_7 = min(pixel + vec2i(1, 0), last);
     let depth_9 = textureLoad(depth, at_7, 0).x;
     let before_4 = abs(select(1e30, depth_9, abs(depth_9) < 1e30) - here);
-    let at_8 = clamp(pixel - vec2i(1, 0), vec2i(0), last);
+    let at_8 = max(pixel + vec2i(-1, 0), vec2i(0));
     let depth_10 = textureLoad(depth, at_8, 0).x;
     let after_4 = abs(select(1e30, depth_10, abs(depth_10) < 1e30) - here);
     let product_4 = max(min(before_4, after_4), 1e-5) * parameters.depth_sensibility;

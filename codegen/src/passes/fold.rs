@@ -64,6 +64,15 @@ fn shape(b: &mut Builder<'_>, op: &Op, args: &[NodeId], ty: Type) -> Option<Node
             .constant(args[0])
             .map(|c| if c[0] != 0 { args[1] } else { args[2] }),
         Op::Convert if b.graph().ty(args[0]) == ty => Some(args[0]),
+        // From a signed integer to an unsigned one and back, bits stay.
+        Op::Convert
+            if ty.is_integer()
+                && node(args[0]).op == Op::Convert
+                && node(args[0]).ty.is_integer()
+                && b.graph().ty(node(args[0]).args[0]) == ty =>
+        {
+            Some(node(args[0]).args[0])
+        }
         // What is known is known in every lane; a message and its answer are no message.
         Op::Message(_) if matches!(node(args[0]).op, Op::Const(_) | Op::Uniform(_)) => Some(args[0]),
         Op::Message(_) if node(args[0]).op == *op => Some(node(args[0]).args[0]),
@@ -100,13 +109,14 @@ fn algebra(b: &mut Builder<'_>, op: &Op, args: &[NodeId]) -> Option<NodeId> {
     match op {
         Op::Unary(UnaryOp::Neg) if g.node(args[0]).op == Op::Unary(UnaryOp::Neg) => Some(g.node(args[0]).args[0]),
         Op::Unary(UnaryOp::Not) if g.node(args[0]).op == Op::Unary(UnaryOp::Not) => Some(g.node(args[0]).args[0]),
+        Op::Clamp if g.node(args[0]).op == Op::Clamp && g.node(args[0]).args[1..] == args[1..] => Some(args[0]),
         Op::Select if g.ty(args[1]) == Type::BOOL => chosen(b, args[0], args[1], args[2]),
         Op::Binary(op) => {
             let (x, y) = (args[0], args[1]);
             match g.ty(x).kind()? {
                 Scalar::F32 => float(g, *op, x, y),
                 Scalar::I32 | Scalar::U32 => integer(b, *op, x, y),
-                Scalar::Bool => boolean(g, *op, x, y),
+                Scalar::Bool => boolean(b, *op, x, y),
             }
         }
         _ => None,
@@ -184,6 +194,14 @@ fn integer(b: &mut Builder<'_>, op: BinaryOp, x: NodeId, y: NodeId) -> Option<No
         && let Some(sum) = steps(b, x, y)
     {
         return Some(sum);
+    }
+    if op == BinaryOp::Sub
+        && let (Some(step), Op::Pixel) = (b.graph().constant(y), &b.graph().node(x).op)
+    {
+        // One way to say where a neighbour lies.
+        let ty = b.graph().ty(y);
+        let back = b.constant(ty, step.map(u32::wrapping_neg));
+        return Some(b.add(Op::Binary(BinaryOp::Add), vec![x, back], ty));
     }
     let g = b.graph();
     let is = |id: NodeId, value: u32| all_lanes(g, id, value);
@@ -265,9 +283,18 @@ fn without_zeros(b: &mut Builder<'_>, y: NodeId) -> Option<NodeId> {
     }
 }
 
-fn boolean(g: &Graph, op: BinaryOp, x: NodeId, y: NodeId) -> Option<NodeId> {
+fn boolean(b: &mut Builder<'_>, op: BinaryOp, x: NodeId, y: NodeId) -> Option<NodeId> {
+    let g = b.graph();
     let is = |id: NodeId, value: u32| all_lanes(g, id, value);
     match op {
+        BinaryOp::Eq if is(y, 1) => Some(x),
+        BinaryOp::Eq if is(x, 1) => Some(y),
+        BinaryOp::Ne if is(y, 0) => Some(x),
+        BinaryOp::Ne if is(x, 0) => Some(y),
+        BinaryOp::Eq if is(y, 0) => Some(not(b, x)),
+        BinaryOp::Eq if is(x, 0) => Some(not(b, y)),
+        BinaryOp::Ne if is(y, 1) => Some(not(b, x)),
+        BinaryOp::Ne if is(x, 1) => Some(not(b, y)),
         BinaryOp::And if is(x, 1) => Some(y),
         BinaryOp::And if is(y, 1) => Some(x),
         BinaryOp::And if is(x, 0) => Some(x),
@@ -279,6 +306,11 @@ fn boolean(g: &Graph, op: BinaryOp, x: NodeId, y: NodeId) -> Option<NodeId> {
         BinaryOp::And | BinaryOp::Or if x == y => Some(x),
         _ => None,
     }
+}
+
+fn not(b: &mut Builder<'_>, x: NodeId) -> NodeId {
+    let ty = b.graph().ty(x);
+    b.add(Op::Unary(UnaryOp::Not), vec![x], ty)
 }
 
 /// Whether `id` is a constant with `bits` in every lane.

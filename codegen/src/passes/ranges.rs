@@ -269,6 +269,17 @@ pub fn clamp(b: &mut Builder<'_>, op: &Op, args: &[NodeId], ty: Type) -> Option<
                 None
             }
         }
+        // What has been brought inside already: a step to the right or down was at most the last, one back at least 0.
+        Op::Binary(side @ (BinaryOp::Min | BinaryOp::Max)) => {
+            let [moved, bound] = [node.args[0], node.args[1]];
+            let inner = [moved, args[1], args[2]];
+            let again = match side {
+                BinaryOp::Min => bound == args[2],
+                _ => bound == args[1],
+            };
+            let brought = again.then(|| clamp(b, op, &inner, ty)).flatten();
+            (brought == Some(args[0])).then_some(args[0])
+        }
         _ => None,
     }
 }

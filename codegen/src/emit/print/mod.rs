@@ -243,8 +243,26 @@ impl Printer<'_> {
                 let [before, behind] = l.if_head();
                 let head = Self::line(depth, before, &self.expr(condition), behind);
                 let mut text = format!("{head}\n{}", self.block(then, depth + 1));
-                if !otherwise.is_empty() {
-                    text += &format!("{indent}}} else {{\n{}", self.block(otherwise, depth + 1));
+                let mut last = otherwise;
+                while let [
+                    Stmt {
+                        kind:
+                            StmtKind::If {
+                                condition,
+                                then,
+                                otherwise,
+                            },
+                        ..
+                    },
+                ] = last.as_slice()
+                {
+                    let before = format!("}} else {before}");
+                    let head = Self::line(depth, &before, &self.expr(condition), behind);
+                    text += &format!("{head}\n{}", self.block(then, depth + 1));
+                    last = otherwise;
+                }
+                if !last.is_empty() {
+                    text += &format!("{indent}}} else {{\n{}", self.block(last, depth + 1));
                 }
                 format!("{text}{indent}}}")
             }

@@ -3,6 +3,7 @@
 //! and `let a = f(); var b = a; if c { b = g(b); }` is `var a = f(); if c { a = g(a); }`.
 
 use crate::emit::ast::{Block, Expr, Module, Op, Stmt, StmtKind, VarId, Variable};
+use std::collections::BTreeSet;
 
 /// Merges such variables, innermost blocks first.
 pub fn coalesce(module: &mut Module<'_>) {
@@ -13,8 +14,24 @@ fn merge(block: &mut Block<'_>, variables: &[Variable]) {
     for stmt in &mut *block {
         stmt.blocks_mut().into_iter().for_each(|inner| merge(inner, variables));
     }
+    // What is given to a variable whole: few values of a long block are.
+    let passed_on: BTreeSet<VarId> = block
+        .iter()
+        .filter_map(|stmt| match &stmt.kind {
+            StmtKind::Assign(_, None, value) => value.as_var(),
+            _ => None,
+        })
+        .collect();
     let mut k = 0;
     while k < block.len() {
+        if let StmtKind::Var(copy, _) = block[k].kind
+            && passed_on.contains(&copy)
+            && let Some((original, last)) = given_back(block, k, copy)
+        {
+            block[k + 1..last]
+                .iter_mut()
+                .for_each(|stmt| read_first(stmt, copy, original));
+        }
         if let Some((copy, original, last)) = copied_back(block, k) {
             block.remove(last);
             block.remove(k);
@@ -31,13 +48,21 @@ fn merge(block: &mut Block<'_>, variables: &[Variable]) {
             block[k..].iter_mut().for_each(|stmt| rename(stmt, copy, original));
             continue;
         }
-        if let Some((copy, original, last)) = moved_on(block, k)
-            && let StmtKind::Let(_, value) = &block[k].kind
-        {
-            let place = Expr::var(original, value.ty);
-            block[k].kind = StmtKind::Assign(place, None, value.clone());
+        let made = match block[k].kind {
+            StmtKind::Let(var, _) | StmtKind::Var(var, _) => passed_on.contains(&var),
+            _ => false,
+        };
+        if made && let Some((copy, original, last)) = moved_on(block, k) {
             block.remove(last);
-            block[k + 1..].iter_mut().for_each(|stmt| rename(stmt, copy, original));
+            let declaration = block.remove(k);
+            block[k..].iter_mut().for_each(|stmt| rename(stmt, copy, original));
+            if let StmtKind::Let(_, value) | StmtKind::Var(_, Some(value)) = declaration.kind {
+                let place = Expr::var(original, value.ty);
+                let kind = StmtKind::Assign(place, None, value);
+                block.insert(k, Stmt { kind, ..declaration });
+                k += 1;
+            }
+            continue;
         }
         k += 1;
     }
@@ -66,7 +91,7 @@ fn goes_on(block: &[Stmt<'_>], k: usize, variables: &[Variable]) -> Option<(VarI
 /// If statement `k` makes the value that a later one of the block gives to a variable of which nobody reads the old one between:
 /// the value's name, the variable and the later statement.
 fn moved_on(block: &[Stmt<'_>], k: usize) -> Option<(VarId, VarId, usize)> {
-    let StmtKind::Let(copy, _) = block[k].kind else {
+    let (StmtKind::Let(copy, _) | StmtKind::Var(copy, _)) = block[k].kind else {
         return None;
     };
     let given = |stmt: &Stmt<'_>| match &stmt.kind {
@@ -82,8 +107,10 @@ fn moved_on(block: &[Stmt<'_>], k: usize) -> Option<(VarId, VarId, usize)> {
     let unread = rest[..at]
         .iter()
         .all(|stmt| !stmt.mentions(original) && !declares(stmt) && !leaves(stmt));
-    let same = rest[at + 1..].iter().all(|stmt| !stmt.assigns(original));
-    (unread && same).then_some((copy, original, k + 1 + at))
+    let behind = &rest[at + 1..];
+    let unused = behind.iter().all(|stmt| !stmt.mentions(copy));
+    let same = behind.iter().all(|stmt| !stmt.assigns(original) && !stmt.assigns(copy));
+    (unread && (unused || same)).then_some((copy, original, k + 1 + at))
 }
 
 /// Whether a statement may leave the block that it stands in.
@@ -101,15 +128,7 @@ fn copied_back(block: &[Stmt<'_>], k: usize) -> Option<(VarId, VarId, usize)> {
         return None;
     };
     let copy = *copy;
-    let back = |stmt: &Stmt<'_>| match &stmt.kind {
-        StmtKind::Assign(place, None, value) if value.as_var() == Some(copy) => place.as_var(),
-        _ => None,
-    };
-    let (at, original) = block[k + 1..]
-        .iter()
-        .enumerate()
-        .find_map(|(at, stmt)| Some((at, back(stmt)?)))?;
-    let last = k + 1 + at;
+    let (original, last) = given_back(block, k, copy)?;
     let declared = |stmt: &Stmt<'_>| matches!(stmt.kind, StmtKind::Var(var, _) if var == original);
     if value.as_ref().is_some_and(|value| value.as_var() != Some(original)) || block[k..last].iter().any(declared) {
         return None;
@@ -123,6 +142,42 @@ fn copied_back(block: &[Stmt<'_>], k: usize) -> Option<(VarId, VarId, usize)> {
     let unused = rest.iter().all(|stmt| !stmt.mentions(copy));
     let same = rest.iter().all(|stmt| !stmt.assigns(copy) && !stmt.assigns(original));
     (kept && (unused || same)).then_some((copy, original, last))
+}
+
+/// The variable that is given the copy which statement `k` makes, and the statement that gives it.
+fn given_back(block: &[Stmt<'_>], k: usize, copy: VarId) -> Option<(VarId, usize)> {
+    let back = |stmt: &Stmt<'_>| match &stmt.kind {
+        StmtKind::Assign(place, None, value) if value.as_var() == Some(copy) => place.as_var(),
+        _ => None,
+    };
+    let rest = block.iter().enumerate().skip(k + 1);
+    rest.filter_map(|(at, stmt)| Some((back(stmt)?, at))).next()
+}
+
+/// Moves what reads the original before what changes the copy beside it, on every side of a branch: `b = x; c = a;` is
+/// `c = a; b = x;`.
+fn read_first(stmt: &mut Stmt<'_>, copy: VarId, original: VarId) {
+    let StmtKind::If { then, otherwise, .. } = &mut stmt.kind else {
+        return;
+    };
+    for side in [then, otherwise] {
+        for k in 1..side.len() {
+            let (before, behind) = side.split_at_mut(k);
+            let (StmtKind::Assign(changed, None, value), StmtKind::Assign(place, None, read)) =
+                (&before[k - 1].kind, &behind[0].kind)
+            else {
+                continue;
+            };
+            let reads = read.mentions(|var| var == original) && !read.mentions(|var| var == copy);
+            let apart = place
+                .as_var()
+                .is_some_and(|var| var != copy && !value.mentions(|other| other == var));
+            if changed.as_var() == Some(copy) && reads && apart {
+                side.swap(k - 1, k);
+            }
+        }
+        side.iter_mut().for_each(|inner| read_first(inner, copy, original));
+    }
 }
 
 /// Whether a statement leaves the original as it is, and does not read it once the copy is `changed`.
