@@ -420,6 +420,9 @@ impl Evaluator<'_> {
         } else {
             last
         };
+        if self.library.structs.get(last).is_some_and(|s| s.fields.is_empty()) {
+            return Ok(Value::structure(last, Vec::new()));
+        }
         if let Some(value) = self.constant(name, span)? {
             return Ok(value);
         }

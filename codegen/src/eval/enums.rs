@@ -301,7 +301,7 @@ impl Evaluator<'_> {
     }
 
     /// The names of the numbers in a value of an enum, by the name of the whole: its tag, and what each variant holds.
-    pub fn choice_names(&self, choice: &Choice, name: &str) -> (Option<(NodeId, String)>, Vec<(Value, String)>) {
+    pub fn choice_names(&self, choice: &Choice, name: &str) -> ChoiceNames {
         let library = self.library;
         let variants = library.enums.get(&choice.ty).map_or(&[][..], |e| &e.variants);
         let tag = match choice.tag {
@@ -330,6 +330,9 @@ impl Evaluator<'_> {
         (tag, inside)
     }
 }
+
+/// A tag with its name, if it is a number, and values with their names.
+type ChoiceNames = (Option<(NodeId, String)>, Vec<(Value, String)>);
 
 /// `TwoWords` as `two_words`.
 fn snake(name: &str) -> String {

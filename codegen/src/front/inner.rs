@@ -103,18 +103,17 @@ fn of_expr(e: &mut syn::Expr, out: &mut Vec<syn::Item>) {
     }
 }
 
+/// The segments of a path but the last, and the name there and here; no names of `*`.
+pub type Brought = (Vec<syn::Ident>, Option<(syn::Ident, syn::Ident)>);
+
 /// What a path of a `use` brings in: the segments before, and each name with what it goes by here; `None` of `*`.
-pub fn imports(tree: &syn::UseTree) -> Vec<(Vec<syn::Ident>, Option<(syn::Ident, syn::Ident)>)> {
+pub fn imports(tree: &syn::UseTree) -> Vec<Brought> {
     let mut found = Vec::new();
     walk(tree, &mut Vec::new(), &mut found);
     found
 }
 
-fn walk(
-    tree: &syn::UseTree,
-    path: &mut Vec<syn::Ident>,
-    out: &mut Vec<(Vec<syn::Ident>, Option<(syn::Ident, syn::Ident)>)>,
-) {
+fn walk(tree: &syn::UseTree, path: &mut Vec<syn::Ident>, out: &mut Vec<Brought>) {
     match tree {
         syn::UseTree::Path(p) => {
             path.push(p.ident.clone());

@@ -127,6 +127,11 @@ impl<'l> Checker<'l> {
             };
             return (made, Access::Writable);
         }
+        if library.structs.get(last).is_some_and(|s| s.fields.is_empty())
+            && let Some((ty, ..)) = self.made_by(path)
+        {
+            return (ty, Access::Writable);
+        }
         if let Some(constant) = library.consts.get(&joined).or_else(|| library.consts.get(last)) {
             return (self.field_type(&constant.ty, constant.value.span), Access::Writable);
         }

@@ -1,7 +1,7 @@
 //! Options, enums that hold values, blocks and loops that give values, operators and methods of traits.
 
 use super::types::{Choice, Lane, Ty};
-use super::{Feature, Maker, Want};
+use super::{Maker, Want};
 
 impl Maker {
     /// An enum that holds values.
