@@ -1,3 +1,4 @@
+#[derive(Clone, Copy, PartialEq)]
 enum Shape {
     Round,
     Square,

@@ -1,10 +1,12 @@
 //! Values where a type is stated.
 
 use super::Evaluator;
+use super::enums::Choice;
 use super::value::{Eval, Value};
 use crate::diagnostic::{Diagnostic, Span};
-use crate::front::tree::Type as SourceType;
+use crate::front::tree::{Generic, Type as SourceType};
 use crate::ir::{Scalar, Type};
+use std::rc::Rc;
 
 impl Evaluator<'_> {
     /// Checks a value against the type that is stated for it, as far as shaders tell types apart, and gives a known
@@ -21,7 +23,26 @@ impl Evaluator<'_> {
             return self.ascribe(value, Some(lane), span);
         }
         match (ty, value) {
+            (Some(SourceType::Name(_, args)), Value::Enum(choice)) => self.ascribe_choice(&choice, args, span),
             (Some(SourceType::Name(name, _)), value) => self.ascribe_name(value, name, span),
+            (Some(SourceType::Array(element, Some(len))), Value::Elements(f)) => {
+                let len = self.expr(len)?;
+                let Some(len @ 1..=65536) = self.known_int(&len) else {
+                    return Err(
+                        Diagnostic::at(span, "the length of this array is no compile-time constant above 0")
+                            .label("made here")
+                            .help("use a constant, an option, or a loop counter")
+                            .into(),
+                    );
+                };
+                let mut elements = Vec::new();
+                for k in 0..len {
+                    self.step(span)?;
+                    let value = self.invoke(&f, vec![Value::Int(k)], span)?;
+                    elements.push(self.ascribe(value, Some(element), span)?);
+                }
+                Ok(Value::array(elements))
+            }
             (Some(SourceType::Array(element, _)), Value::Array(elements)) => {
                 let each = elements.iter().map(|e| self.ascribe(e.clone(), Some(element), span));
                 Ok(Value::array(each.collect::<Eval<_>>()?))
@@ -35,6 +56,28 @@ impl Evaluator<'_> {
             }
             (_, value) => Ok(value),
         }
+    }
+
+    /// What an enum holds, by the types of its fields.
+    fn ascribe_choice(&mut self, choice: &Choice, args: &[SourceType], span: Span) -> Eval {
+        let Some(definition) = self.library.enums.get(&choice.ty) else {
+            return Ok(Value::Enum(Rc::new(choice.clone())));
+        };
+        let mut ascribed = choice.clone();
+        for (variant, fields) in definition.variants.iter().zip(&mut ascribed.held) {
+            let values = fields.iter_mut().flatten();
+            for ((_, ty, _), (_, value)) in variant.fields.iter().zip(values) {
+                let parameter = definition.generics.iter().position(
+                    |generic| matches!((generic, ty), (Generic::Type(name), SourceType::Name(of, _)) if name == of),
+                );
+                let ty = match parameter {
+                    Some(k) => args.get(k),
+                    None => Some(ty),
+                };
+                *value = self.ascribe(value.clone(), ty, span)?;
+            }
+        }
+        Ok(Value::Enum(Rc::new(ascribed)))
     }
 
     /// A value where `&mut T` is stated.

@@ -12,7 +12,7 @@ impl Evaluator<'_> {
     /// `place = value` or `place op= value`. As in Rust the value is evaluated before the place.
     pub fn assign(&mut self, target: &Expr, op: Option<BinaryOp>, value: &Expr, span: Span) -> Eval {
         let mut value = self.expr(value)?;
-        let Some(mut place) = self.place(target)? else {
+        let Some(mut place) = self.written_place(target)? else {
             return Err(not_a_place(target).into());
         };
         if let Some(op) = op {
@@ -20,6 +20,9 @@ impl Evaluator<'_> {
             place = self.followed(place, target.span)?;
             let old = self.read(&place, target.span)?;
             let right = self.loaded(value, span)?;
+            if self.assigned_by_trait(op, &place, &right, span)? {
+                return Ok(Value::unit());
+            }
             value = self.binary(op, &old, &right, span)?;
         }
         self.write(&place, value, span)?;
@@ -45,6 +48,14 @@ impl Evaluator<'_> {
                     None => return Err(Diagnostic::at(span, format!("a tuple has no `.{name}`")).into()),
                 }
                 Ok(Value::Tuple(parts))
+            }
+            (Value::Enum(mut choice), Step::Held(k, name)) => {
+                let held = Rc::make_mut(&mut choice).held.get_mut(*k).and_then(Option::as_mut);
+                match held.and_then(|fields| fields.iter_mut().find(|(field, _)| field == name)) {
+                    Some((_, slot)) => *slot = self.replace(std::mem::replace(slot, Value::Poison), rest, new, span)?,
+                    None => return Err(Diagnostic::at(span, format!("the variant has no field `{name}`")).into()),
+                }
+                Ok(Value::Enum(choice))
             }
             (Value::Array(mut elements), Step::Index(index)) if self.known_int(index).is_some() => {
                 let (len, k) = (elements.len(), self.known_int(index).unwrap_or(-1));

@@ -1,7 +1,7 @@
 //! Patterns that bind names to the parts of a value.
 
 use super::Evaluator;
-use super::value::{Eval, Step, Value};
+use super::value::{Eval, Exit, Step, Value};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::front::tree::Pattern;
 use std::rc::Rc;
@@ -58,11 +58,16 @@ impl Evaluator<'_> {
                     .zip(elements)
                     .try_for_each(|(part, value)| self.bound(part, value, matched, span))
             }
-            Pattern::Struct(_, fields, at) => {
+            Pattern::Struct(path, fields, at) => {
+                let variant = self.library.variant(path).map(|(_, k, _)| k);
                 for (name, pattern) in fields {
+                    let step = match variant {
+                        Some(k) => Step::Held(k, name.clone()),
+                        None => Step::Field(name.clone()),
+                    };
                     let part = match &value {
                         Value::Poison => Value::Poison,
-                        value => self.part(value, Step::Field(name.clone()), *at)?,
+                        value => self.part(value, step, *at)?,
                     };
                     self.bound(pattern, part, matched, span)?;
                 }
@@ -88,6 +93,29 @@ impl Evaluator<'_> {
             }
             (value, Step::Field(name)) => self.field(value, name, span),
             (value, Step::Index(index)) => self.element(value, index, span),
+            (value, Step::Held(k, name)) => self.held(value, *k, name, span),
+        }
+    }
+
+    /// A field of a variant that a value may be.
+    pub fn held(&mut self, value: &Value, variant: usize, name: &str, span: Span) -> Eval {
+        let Value::Enum(choice) = value else {
+            return match value {
+                Value::Poison => Err(Exit::Noted),
+                other => Err(Diagnostic::at(span, format!("a pattern of an enum for {}", other.describe())).into()),
+            };
+        };
+        let fields = choice.fields(variant).unwrap_or_default();
+        match fields.iter().find(|(field, _)| field == name) {
+            Some((_, value)) => Ok(value.clone()),
+            None => Err(Diagnostic::at(
+                span,
+                format!(
+                    "`{}` is not this variant, or the variant has no field `{name}`",
+                    choice.ty
+                ),
+            )
+            .into()),
         }
     }
 

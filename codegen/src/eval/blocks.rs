@@ -2,8 +2,9 @@
 
 use super::Evaluator;
 use super::departures::{Tail, has_exits};
-use super::value::{Eval, Exit, Value};
-use crate::front::tree::{Block, Expr, ExprKind, Statement};
+use super::value::{Eval, Exit, Value, Way};
+use crate::diagnostic::Span;
+use crate::front::tree::{Block, Expr, ExprKind, Pattern, Statement};
 
 impl Evaluator<'_> {
     /// A block in a scope of its own. An error in one statement does not hide those in the next.
@@ -45,6 +46,8 @@ impl Evaluator<'_> {
                             }
                             Err(leave) => return Err(leave),
                         },
+                        // What a `break` gives: it has a value wherever it is looked at.
+                        None if matches!(pattern, Pattern::Name(name, ..) if name.starts_with('#')) => Value::Blank,
                         None => Value::Unset,
                     };
                     self.bind(pattern, value, *span)?;
@@ -78,6 +81,14 @@ impl Evaluator<'_> {
             .value
             .as_ref()
             .map_or(Ok(Value::unit()), |e| self.expr_in(e, tail))
+    }
+
+    /// A block that a `break` of its label leaves.
+    pub fn labelled(&mut self, label: &str, block: &Block, span: Span) -> Eval {
+        let (mark, since) = (self.scope.enter(), self.departed.len());
+        let outcome = self.block(block);
+        let leads_here = |way: &Way| matches!(way, Way::Break(Some(of)) if of == label);
+        self.arrive(since, outcome, mark, &leads_here, span)
     }
 
     /// An expression at the end of a block.

@@ -1,6 +1,7 @@
 //! Calls: the kernel's own functions, inlined, and the prelude's.
 
 use super::departures::Tail;
+use super::enums::Choice;
 use super::value::{Eval, Exit, Value, Way};
 use super::{Evaluator, MAX_CALLS};
 use crate::diagnostic::{Diagnostic, Span};
@@ -17,6 +18,8 @@ impl Evaluator<'_> {
         if values.contains(&Value::Poison) {
             return Err(Exit::Noted);
         }
+        let resolved = self.resolved(path, &values, span)?;
+        let path = resolved.as_deref().unwrap_or(path);
         if let [name] = path
             && let Some(callee) = self.scope.get(name).cloned()
         {
@@ -42,7 +45,15 @@ impl Evaluator<'_> {
             matches!(generic, Some(Generic::Type(_)) | None)
         };
         let each = stated.iter().enumerate().map(|(k, expr)| match is_type(k) {
-            true => Ok(Value::unit()),
+            true => Ok(match &expr.kind {
+                ExprKind::Path(path) if path.len() == 1 => match self.scope.get(&path[0]) {
+                    Some(ty @ Value::Type(_)) => ty.clone(),
+                    // A type parameter that is not known either.
+                    Some(_) => Value::unit(),
+                    None => Value::Type(path[0].clone()),
+                },
+                _ => Value::unit(),
+            }),
             false => self.expr(expr),
         });
         each.collect()
@@ -65,6 +76,14 @@ impl Evaluator<'_> {
             .into_iter()
             .map(|v| self.loaded(v, span))
             .collect::<Eval<Vec<_>>>()?;
+        if let ([.., name], [f @ (Value::Closure(_) | Value::Function(_))]) = (path, values.as_slice())
+            && name == "from_fn"
+        {
+            return Ok(Value::Elements(Rc::new(f.clone())));
+        }
+        if self.library.variant(path).is_some() {
+            return Ok(self.variant_of(path, values, span)?.unwrap_or(Value::Poison));
+        }
         if let Some(value) = self.tuple_struct(last, &values, span)? {
             return Ok(value);
         }
@@ -174,7 +193,8 @@ impl Evaluator<'_> {
             .help("let the recursion end by a condition that is known")
             .into());
         }
-        let bound = self.constants_of(function, constants, &args, span)?;
+        let mut bound = self.constants_of(function, constants, &args, span)?;
+        bound.extend(self.types_of(function, constants, &args, span)?);
         let of_library = function.span.file == crate::front::std::FILE;
         let outer = self.scope.enter_function();
         for (name, value) in bound {
@@ -247,7 +267,8 @@ impl Evaluator<'_> {
                     }
                 })
             };
-            match given.get(k).cloned().or_else(from_array) {
+            let stated = given.get(k).filter(|value| **value != Value::unit());
+            match stated.cloned().or_else(from_array) {
                 Some(value) => {
                     let value = self.ascribe(value, Some(ty), span)?;
                     bound.push((name.clone(), value));
@@ -354,6 +375,14 @@ impl Evaluator<'_> {
 
     /// A variable, a constant or a variant.
     pub fn path(&mut self, path: &[String], span: Span) -> Eval {
+        let of_parameter = match path {
+            [of, name] => match self.scope.get(of) {
+                Some(Value::Type(ty)) => Some(vec![ty.clone(), name.clone()]),
+                _ => None,
+            },
+            _ => None,
+        };
+        let path = of_parameter.as_deref().unwrap_or(path);
         let last = path.last().map(String::as_str).unwrap_or_default();
         if path.len() == 1
             && let Some(value) = self.scope.get(last)
@@ -371,14 +400,14 @@ impl Evaluator<'_> {
         if let [.., ty, variant] = path
             && let Some(found) = self.library.enums.get(ty)
         {
-            if found.variants.iter().any(|(name, _)| name == variant) {
-                return Ok(Value::Enum {
-                    ty: ty.clone(),
-                    variant: variant.clone(),
+            if let Some(k) = found.position(variant) {
+                return Ok(match found.variants[k].fields.is_empty() {
+                    true => Choice::known(ty, found, k, Vec::new()),
+                    false => Value::Function(path.to_vec()),
                 });
             }
             if !self.library.consts.contains_key(&path.join("::")) {
-                let names: Vec<&str> = found.variants.iter().map(|(name, _)| name.as_str()).collect();
+                let names: Vec<&str> = found.variants.iter().map(|v| v.name.as_str()).collect();
                 return Err(Diagnostic::at(span, format!("`{ty}` has no variant `{variant}`"))
                     .label("not there")
                     .help(crate::suggest::suggest(variant, &names, "it has"))
@@ -391,6 +420,9 @@ impl Evaluator<'_> {
         } else {
             last
         };
+        if self.library.structs.get(last).is_some_and(|s| s.fields.is_empty()) {
+            return Ok(Value::structure(last, Vec::new()));
+        }
         if let Some(value) = self.constant(name, span)? {
             return Ok(value);
         }

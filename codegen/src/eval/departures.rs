@@ -357,7 +357,7 @@ impl Evaluator<'_> {
     }
 
     /// A value of the same shape that nobody looks at.
-    fn blank(&mut self, value: &Value) -> Value {
+    pub fn blank(&mut self, value: &Value) -> Value {
         let mut leaves = Vec::new();
         Self::leaves(value, &mut leaves);
         let blanks: Vec<NodeId> = leaves.into_iter().map(|id| self.unused(self.ty(id))).collect();

@@ -1,7 +1,8 @@
 //! Expressions.
 
 use super::departures::Tail;
-use super::value::{Eval, Exit, Value, Way};
+use super::enums::Choice;
+use super::value::{Eval, Exit, Step, Value, Way};
 use super::{Evaluator, MAX_PARTS};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::front::tree::{Expr, ExprKind, IntType};
@@ -50,11 +51,21 @@ impl Evaluator<'_> {
             }
             ExprKind::Index(base, index) => {
                 // Rust reads an element when the index is known, which may have changed the array.
-                match self.place(expr)? {
-                    Some(place) => self.read(&place, span),
+                match self.base(base)? {
+                    Some(place) => {
+                        let index = self.expr(index)?;
+                        let whole = self.read(&place, span)?;
+                        match self.index_of_trait(&whole, None, &index, span)? {
+                            Some(value) => Ok(value),
+                            None => self.read(&place.part(Step::Index(index)), span),
+                        }
+                    }
                     None => {
                         let (base, index) = (self.value(base)?, self.value(index)?);
-                        self.element(&base, &index, span)
+                        match self.index_of_trait(&base, None, &index, span)? {
+                            Some(value) => Ok(value),
+                            None => self.element(&base, &index, span),
+                        }
                     }
                 }
             }
@@ -63,6 +74,7 @@ impl Evaluator<'_> {
             }
             ExprKind::Match(subject, arms, branches) => self.match_(subject, arms, *branches, Tail::Open, span),
             ExprKind::Block(block) => self.block(block),
+            ExprKind::Labelled(label, block) => self.labelled(label, block, span),
             ExprKind::Tuple(parts) => {
                 let value = Value::Tuple(self.all(parts)?);
                 self.bounded(value, span)
@@ -72,7 +84,7 @@ impl Evaluator<'_> {
                 self.bounded(value, span)
             }
             ExprKind::Repeat(value, len) => self.repeat(value, len),
-            ExprKind::Struct(name, fields, rest) => self.structure(name, fields, rest.as_deref(), span),
+            ExprKind::Struct(path, fields, rest) => self.structure(path, fields, rest.as_deref(), span),
             ExprKind::Cast(value, ty) => {
                 let value = self.value(value)?;
                 self.cast(&value, ty, span)
@@ -82,6 +94,7 @@ impl Evaluator<'_> {
             ExprKind::While(condition, body, label, unroll) => {
                 self.while_(condition, body, label.as_deref(), *unroll, span)
             }
+            ExprKind::Try(value) => self.tried(value, span),
             ExprKind::Return(value) => {
                 let value = value.as_ref().map_or(Ok(Value::unit()), |e| self.expr(e))?;
                 Err(Exit::Left(Way::Return(value)))
@@ -124,8 +137,12 @@ impl Evaluator<'_> {
         Ok(value)
     }
 
-    fn structure(&mut self, name: &str, fields: &[(String, Expr)], rest: Option<&Expr>, span: Span) -> Eval {
-        let Some(definition) = self.library.structs.get(name) else {
+    fn structure(&mut self, path: &[String], fields: &[(String, Expr)], rest: Option<&Expr>, span: Span) -> Eval {
+        let library = self.library;
+        let name = path.last().map(String::as_str).unwrap_or_default();
+        let variant = library.variant(path);
+        let stated = variant.map(|(_, _, variant)| &variant.fields);
+        let Some(stated) = stated.or_else(|| library.structs.get(name).map(|s| &s.fields)) else {
             let known: Vec<&str> = self.library.structs.keys().map(String::as_str).collect();
             return Err(
                 Diagnostic::at(span, format!("there is no structure `{name}` in the kernel's files"))
@@ -136,7 +153,7 @@ impl Evaluator<'_> {
         };
         let mut given = Vec::new();
         for (field, value) in fields {
-            let Some((_, ty, _)) = definition.fields.iter().find(|(name, ..)| name == field) else {
+            let Some((_, ty, _)) = stated.iter().find(|(name, ..)| name == field) else {
                 return Err(Diagnostic::at(value.span, format!("`{name}` has no field `{field}`")).into());
             };
             let given_value = self.expr(value)?;
@@ -145,7 +162,7 @@ impl Evaluator<'_> {
         // As in Rust the base is read last, with what the fields' values have changed of it.
         let rest = rest.map(|e| self.value(e)).transpose()?;
         let mut values = Vec::new();
-        for (field, _, _) in &definition.fields {
+        for (field, _, _) in stated {
             let value = match given.iter().find(|(name, _)| name == field) {
                 Some((_, value)) => value.clone(),
                 None => match &rest {
@@ -160,7 +177,11 @@ impl Evaluator<'_> {
             };
             values.push((field.clone(), value));
         }
-        self.bounded(Value::structure(name, values), span)
+        let made = match variant {
+            Some((ty, k, _)) => Choice::known(ty, &library.enums[ty], k, values),
+            None => Value::structure(name, values),
+        };
+        self.bounded(made, span)
     }
 
     /// `&&` and `||`.

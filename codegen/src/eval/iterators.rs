@@ -129,6 +129,32 @@ impl Evaluator<'_> {
                 Ok(all)
             }
             ("sum" | "product", []) => self.reduced(name, items, span),
+            ("windows" | "chunks" | "chunks_exact", [count]) => {
+                let Some(n) = self
+                    .known_int(count)
+                    .and_then(|n| usize::try_from(n).ok())
+                    .filter(|n| *n > 0)
+                else {
+                    return Err(
+                        Diagnostic::at(span, format!("`{name}` needs a compile-time constant above 0"))
+                            .label("a runtime value, or 0")
+                            .help("use a constant, an option, or a loop counter")
+                            .into(),
+                    );
+                };
+                let parts: Vec<&[Value]> = match name {
+                    "windows" => items.windows(n).collect(),
+                    "chunks" => items.chunks(n).collect(),
+                    _ => items.chunks_exact(n).collect(),
+                };
+                Ok(Value::array(
+                    parts.into_iter().map(|part| Value::array(part.to_vec())).collect(),
+                ))
+            }
+            _ if self.library.functions.contains_key(&format!("Iterator::{name}")) => {
+                let all = std::iter::once(Value::array(items)).chain(args.iter().cloned());
+                self.inline(&format!("Iterator::{name}"), &[], all.collect(), span)
+            }
             _ => Err(Diagnostic::at(span, format!("an iterator has no method `{name}` here"))
                 .label("not supported")
                 .help(crate::suggest::suggest(name, &METHODS, "iterators have"))
@@ -145,6 +171,12 @@ impl Evaluator<'_> {
     /// `sum` and `product`, in order: of numbers from the first, which is what Rust's `-0.0 + x`, `0 + x` and `1 * x` are; of
     /// vectors from glam's zero.
     fn reduced(&mut self, name: &str, items: Vec<Value>, span: Span) -> Eval {
+        if let Some(Value::Struct { ty, .. }) = items.first()
+            && let [key, ..] = self.library.methods(ty, name).as_slice()
+        {
+            let key = (*key).to_owned();
+            return self.inline(&key, &[], vec![Value::array(items)], span);
+        }
         let op = if name == "sum" { BinaryOp::Add } else { BinaryOp::Mul };
         let mut items = items.into_iter();
         let Some(first) = items.next() else {

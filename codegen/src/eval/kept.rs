@@ -16,13 +16,13 @@ impl Evaluator<'_> {
         &mut self,
         body: &Body<'_>,
         bounds: (NodeId, NodeId),
-        iteration: impl FnOnce(&mut Self, NodeId) -> Eval<()>,
+        iteration: impl Fn(&mut Self, NodeId) -> Eval<()>,
         span: Span,
     ) -> Eval<()> {
         let before = self.scope.clone();
         let pending = std::mem::take(&mut self.departed);
         self.kept_loops += 1;
-        let outcome = self.carry(body, bounds, iteration, span);
+        let outcome = self.carry_widened(body, bounds, iteration, span);
         self.kept_loops -= 1;
         if outcome.is_err() {
             // Values made inside belong to no place outside.
@@ -33,13 +33,38 @@ impl Evaluator<'_> {
         outcome
     }
 
+    /// Carries values of enums as all the variants that they may be in any iteration, which only the body shows: it is
+    /// evaluated again with what it has assigned, until it assigns nothing new.
+    fn carry_widened(
+        &mut self,
+        body: &Body<'_>,
+        bounds: (NodeId, NodeId),
+        iteration: impl Fn(&mut Self, NodeId) -> Eval<()>,
+        span: Span,
+    ) -> Eval<()> {
+        let before = self.checkpoint();
+        let mut wider = Vec::new();
+        for _ in 0..MAX_WIDENED {
+            for (slot, value) in wider {
+                self.scope.set(slot, value);
+            }
+            wider = self.carry(body, bounds, &iteration, span)?;
+            if wider.is_empty() {
+                return Ok(());
+            }
+            self.return_to(before.clone());
+        }
+        Err(changes("a variable", span))
+    }
+
+    /// One attempt; gives the variables that have to be carried as more than they are, with the values to begin with.
     fn carry(
         &mut self,
         body: &Body<'_>,
         (start, end): (NodeId, NodeId),
-        iteration: impl FnOnce(&mut Self, NodeId) -> Eval<()>,
+        iteration: &impl Fn(&mut Self, NodeId) -> Eval<()>,
         span: Span,
-    ) -> Eval<()> {
+    ) -> Eval<Vec<(usize, Value)>> {
         let carried = self.carried(body);
         let mark = self.scope.enter();
         let mut initial = Vec::new();
@@ -72,13 +97,25 @@ impl Evaluator<'_> {
         let side = self.flatten(outcome, departed, mark, span);
         let mut results = Vec::new();
         let mut changed = None;
+        let mut wider = Vec::new();
         for slot in &carried {
             let value = self.scope.at(*slot).1.clone();
             match self.settle(&value, span) {
                 Ok(value) if same_shape(&value, settled.at(*slot).1) => Self::leaves(&value, &mut results),
-                Ok(_) => changed = Some(changes(settled.at(*slot).0, span)),
+                Ok(value) => match self.agree(settled.at(*slot).1, &value, span) {
+                    // It is less than what is carried, or what is carried has to be more.
+                    Ok((first, value)) if same_shape(&first, settled.at(*slot).1) && same_shape(&first, &value) => {
+                        Self::leaves(&value, &mut results);
+                    }
+                    Ok((first, _)) if !same_shape(&first, settled.at(*slot).1) => wider.push((*slot, first)),
+                    _ => changed = Some(changes(settled.at(*slot).0, span)),
+                },
                 Err(error) => changed = Some(error),
             }
+        }
+        if !wider.is_empty() && changed.is_none() && side.is_ok() {
+            self.builder.close_region(initial);
+            return Ok(wider);
         }
         let same = results.iter().map(|id| self.ty(*id)).eq(types[1..].iter().copied());
         let count = initial.len();
@@ -130,7 +167,7 @@ impl Evaluator<'_> {
                 group,
             });
         }
-        Ok(())
+        Ok(Vec::new())
     }
 
     /// Lets a loop that is left in the shader stop where its body leaves it. Who leaves what is around it too is told by
@@ -205,7 +242,7 @@ impl Evaluator<'_> {
         match value {
             Value::Node(id) => {
                 let origin = Origin {
-                    name: name.to_owned(),
+                    name: readable(name),
                     naming: Naming::Let,
                     file: span.file,
                     line: span.line,
@@ -220,6 +257,15 @@ impl Evaluator<'_> {
             }
             Value::Tuple(parts) => self.name_params_each(parts, name, span),
             Value::Array(parts) => self.name_params_each(parts, name, span),
+            Value::Enum(choice) => {
+                let (tag, inside) = self.choice_names(choice, name);
+                if let Some((id, name)) = tag {
+                    self.name_params(&Value::Node(id), &name, span);
+                }
+                for (value, name) in inside {
+                    self.name_params(&value, &name, span);
+                }
+            }
             _ => {}
         }
     }
@@ -230,6 +276,17 @@ impl Evaluator<'_> {
         }
     }
 }
+
+/// A variable's name; of one that no kernel can name, `value`.
+fn readable(name: &str) -> String {
+    match name.strip_prefix('#') {
+        Some(hidden) => format!("value{}", &hidden[hidden.find('_').unwrap_or(hidden.len())..]),
+        None => name.to_owned(),
+    }
+}
+
+/// Attempts after which a variable is taken to change without end.
+const MAX_WIDENED: usize = 16;
 
 fn changes(name: &str, span: Span) -> Exit {
     Diagnostic::at(

@@ -5,9 +5,10 @@
 
 use super::Evaluator;
 use super::departures::Tail;
-use super::value::{Eval, Step, Value};
+use super::sequence::has_choices;
+use super::value::{Eval, Exit, Step, Value};
 use crate::diagnostic::{Diagnostic, Span};
-use crate::front::tree::{Arm, Expr, Pattern};
+use crate::front::tree::{Arm, Expr, ExprKind, Pattern};
 use crate::ir::{BinaryOp, NodeId};
 use crate::policy::Branches;
 
@@ -75,11 +76,28 @@ impl Evaluator<'_> {
             Some(true) => body(self),
             Some(false) => self.cases(value, rest, keep, tail, span),
             // The arms take all values together, so the last one takes what the others leave.
-            None if rest.is_empty() && case.arm.guard.is_none() => body(self),
+            None if case.arm.guard.is_none() && self.is_last(value, rest, span)? => body(self),
             None => self.branch(tail, condition, keep, span, body, |e| {
                 e.cases(value, rest, keep, tail, span)
             }),
         }
+    }
+
+    /// Whether no other case may take a value: there is none, or all are of variants that it is known not to be.
+    fn is_last(&mut self, value: &Value, rest: &[Case<'_>], span: Span) -> Eval<bool> {
+        if rest.is_empty() {
+            return Ok(true);
+        }
+        if !has_choices(value) {
+            return Ok(false);
+        }
+        for case in rest {
+            let takes = self.test(&case.pattern, value, span)?;
+            if self.known_bool(takes) != Some(false) {
+                return Ok(false);
+            }
+        }
+        Ok(true)
     }
 
     /// Evaluates what sees the names of a pattern that has taken a value.
@@ -129,12 +147,25 @@ impl Evaluator<'_> {
                 let elements = self.elements(&value, parts.len(), *at)?;
                 self.test_all(parts.iter().zip(elements).collect(), span)
             }
-            Pattern::Struct(_, fields, _) => {
+            Pattern::Struct(path, fields, _) => {
+                let variant = self.library.variant(path).map(|(_, k, _)| k);
+                let mut is = self.builder.bool(true);
+                if let Some(k) = variant {
+                    is = self.test_variant(value, k, span)?;
+                    if self.known_bool(is) == Some(false) {
+                        return Ok(is);
+                    }
+                }
                 let mut pairs = Vec::new();
                 for (name, pattern) in fields {
-                    pairs.push((pattern, self.part(value, Step::Field(name.clone()), span)?));
+                    let step = match variant {
+                        Some(k) => Step::Held(k, name.clone()),
+                        None => Step::Field(name.clone()),
+                    };
+                    pairs.push((pattern, self.part(value, step, span)?));
                 }
-                self.test_all(pairs, span)
+                let fields = self.test_all(pairs, span)?;
+                Ok(self.and(is, fields))
             }
             Pattern::Range(low, high, inclusive) => {
                 let value = self.loaded(value.clone(), span)?;
@@ -150,11 +181,25 @@ impl Evaluator<'_> {
                 Ok(inside)
             }
             Pattern::Value(expr) => {
+                if let ExprKind::Path(path) = &expr.kind
+                    && let Some((_, k, _)) = self.library.variant(path)
+                {
+                    return self.test_variant(value, k, span);
+                }
                 let expected = self.expr(expr)?;
                 let value = self.loaded(value.clone(), span)?;
                 let same = self.binary(BinaryOp::Eq, &value, &expected, expr.span)?;
                 self.node(&same, expr.span)
             }
+        }
+    }
+
+    /// Whether a value is a variant.
+    fn test_variant(&mut self, value: &Value, variant: usize, span: Span) -> Eval<NodeId> {
+        match self.loaded(value.clone(), span)? {
+            Value::Enum(choice) => Ok(self.is_variant(&choice, variant)),
+            Value::Poison => Err(Exit::Noted),
+            other => Err(Diagnostic::at(span, format!("a pattern of an enum for {}", other.describe())).into()),
         }
     }
 

@@ -20,12 +20,17 @@ const INTEGERS: [&str; 7] = [
 
 impl<'a> Evaluator<'a> {
     pub fn method(&mut self, receiver: &Expr, name: &str, args: &[Expr], span: Span) -> Eval {
-        let (value, place) = self.receiver(receiver)?;
+        let writing = name == "iter_mut" || self.library.mutating.contains(name.rsplit("::").next().unwrap_or(name));
+        let (value, place) = self.receiver(receiver, writing)?;
         let args = self.all(args)?;
         if args.contains(&Value::Poison) {
             return Err(Exit::Noted);
         }
-        if let Some((method, function)) = self.own_method(&value, name) {
+        let own = match self.own_method(&value, name) {
+            None if !name.contains("::") => self.method_of_trait(&value, name, &args, span)?,
+            own => own,
+        };
+        if let Some((method, function)) = own {
             let receiver = match function.params.first() {
                 Some(own) if own.ty.is_mutable_reference() => {
                     let place = place.unwrap_or_else(|| self.temporary(value.clone()));
@@ -40,8 +45,24 @@ impl<'a> Evaluator<'a> {
             .into_iter()
             .map(|v| self.loaded(v, span))
             .collect::<Eval<Vec<_>>>()?;
+        if let Some(value) = self.conversion(name, &value, span)? {
+            return Ok(value);
+        }
+        if name == "clone" && args.is_empty() && !matches!(value, Value::Texture(_) | Value::Buffer(_)) {
+            return Ok(value);
+        }
         match &value {
-            Value::Struct { ty, .. } | Value::Enum { ty, .. } => {
+            Value::Enum(choice)
+                if matches!(name, "unwrap" | "expect") && matches!(choice.ty.as_str(), "Option" | "Result") =>
+            {
+                self.unwrapped(choice, name, span)
+            }
+            Value::Struct { .. } | Value::Enum(_) => {
+                let ty = match &value {
+                    Value::Struct { ty, .. } => ty,
+                    Value::Enum(choice) => &choice.ty,
+                    _ => return Err(Exit::Noted),
+                };
                 if super::matrix::size(ty).is_some() {
                     return self.matrix_method(&value, name, &args, span);
                 }
@@ -94,7 +115,8 @@ impl<'a> Evaluator<'a> {
         let library = self.library;
         let method = match value {
             _ if name.contains("::") => name.to_owned(),
-            Value::Struct { ty, .. } | Value::Enum { ty, .. } => format!("{ty}::{name}"),
+            Value::Struct { ty, .. } => format!("{ty}::{name}"),
+            Value::Enum(choice) => format!("{}::{name}", choice.ty),
             Value::Node(id) if !crate::front::methods::has(self.ty(*id), name) => {
                 format!("{}::{name}", self.ty(*id).in_rust())
             }
@@ -105,8 +127,11 @@ impl<'a> Evaluator<'a> {
     }
 
     /// The value of a method's receiver and, where it is one, the place that it stands for.
-    fn receiver(&mut self, receiver: &Expr) -> Eval<(Value, Option<Place>)> {
-        if let Some(place) = self.place(receiver)? {
+    fn receiver(&mut self, receiver: &Expr, writing: bool) -> Eval<(Value, Option<Place>)> {
+        let before = std::mem::replace(&mut self.writing, writing);
+        let place = self.place(receiver);
+        self.writing = before;
+        if let Some(place) = place? {
             let place = self.followed(place, receiver.span)?;
             return Ok((self.read(&place, receiver.span)?, Some(place)));
         }

@@ -14,6 +14,7 @@ mod consts;
 mod control;
 mod departures;
 mod entry;
+mod enums;
 mod expr;
 mod functions;
 mod integers;
@@ -35,6 +36,7 @@ mod resources;
 mod scope;
 mod sequence;
 mod shape;
+mod traits;
 mod value;
 mod whiles;
 
@@ -168,6 +170,8 @@ struct Evaluator<'a> {
     departed: Vec<departures::Departure>,
     /// Loops around that are left in the shader.
     kept_loops: u32,
+    /// Whether the place that is being found is to be written.
+    writing: bool,
 }
 
 impl<'a> Evaluator<'a> {
@@ -191,6 +195,7 @@ impl<'a> Evaluator<'a> {
             steps: 0,
             departed: Vec::new(),
             kept_loops: 0,
+            writing: false,
         }
     }
 }
@@ -240,6 +245,15 @@ impl Evaluator<'_> {
             }
             Value::Tuple(parts) => self.name_each(parts, name, naming, span),
             Value::Array(parts) => self.name_each(parts, name, naming, span),
+            Value::Enum(choice) => {
+                let (tag, inside) = self.choice_names(choice, name);
+                if let Some((id, name)) = tag {
+                    self.name_node(id, &name, naming, span);
+                }
+                for (value, name) in inside {
+                    self.name_as(&value, &name, naming, span);
+                }
+            }
             _ => {}
         }
     }
@@ -256,7 +270,7 @@ impl Evaluator<'_> {
 
     fn name_node(&mut self, id: NodeId, name: &str, naming: Naming, span: Span) {
         // Variables of the library's own are nobody's names.
-        if span.file == crate::front::std::FILE {
+        if span.file == crate::front::std::FILE || name.starts_with('#') {
             return;
         }
         if matches!(
@@ -283,6 +297,10 @@ impl Evaluator<'_> {
     fn shown(&self, value: &Value) -> String {
         match (self.known_int(value), value) {
             (Some(n), _) => n.to_string(),
+            (None, Value::Enum(choice)) => match self.known_variant(choice) {
+                Some(k) => format!("`{}::{}`", choice.ty, self.library.enums[&choice.ty].variants[k].name),
+                None => value.describe(),
+            },
             (None, Value::Tuple(parts)) if !parts.is_empty() => {
                 let parts: Vec<String> = parts.iter().map(|part| self.shown(part)).collect();
                 format!("({})", parts.join(", "))

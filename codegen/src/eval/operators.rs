@@ -8,6 +8,9 @@ use crate::ir::{BinaryOp, NodeId, Op, Scalar, Type, UnaryOp};
 
 impl Evaluator<'_> {
     pub fn unary(&mut self, op: UnaryOp, value: &Value, span: Span) -> Eval {
+        if let Some(value) = self.unary_of_trait(op, value, span)? {
+            return Ok(value);
+        }
         if let (UnaryOp::Not, Value::Int(_)) = (op, value) {
             return Err(too_large(span));
         }
@@ -22,21 +25,11 @@ impl Evaluator<'_> {
     }
 
     pub fn binary(&mut self, op: BinaryOp, left: &Value, right: &Value, span: Span) -> Eval {
+        if let Some(value) = self.operator_of_trait(op, left, right, span)? {
+            return Ok(value);
+        }
         match (left, right) {
             (Value::Int(a), Value::Int(b)) => return self.integers(op, *a, *b, span),
-            (
-                Value::Enum { ty, variant },
-                Value::Enum {
-                    ty: other,
-                    variant: second,
-                },
-            ) if ty == other => {
-                return match op {
-                    BinaryOp::Eq => Ok(Value::Node(self.builder.bool(variant == second))),
-                    BinaryOp::Ne => Ok(Value::Node(self.builder.bool(variant != second))),
-                    _ => Err(Diagnostic::at(span, "variants can be compared with `==` and `!=` only").into()),
-                };
-            }
             (Value::Struct { ty, .. }, _) | (_, Value::Struct { ty, .. }) if super::matrix::size(ty).is_some() => {
                 return match op {
                     BinaryOp::Mul => self.matrix_product(left, right, span),
@@ -44,7 +37,20 @@ impl Evaluator<'_> {
                     _ => Err(Diagnostic::at(span, format!("this operator does not take a `{ty}`")).into()),
                 };
             }
+            (Value::Enum(choice), _) if !matches!(op, BinaryOp::Eq | BinaryOp::Ne) => {
+                let ty = &choice.ty;
+                return Err(Diagnostic::at(span, format!("this operator does not take a `{ty}`"))
+                    .label("not for this type")
+                    .help("values of enums can be compared with `==` and `!=`")
+                    .into());
+            }
             _ => {}
+        }
+        if matches!(op, BinaryOp::Eq | BinaryOp::Ne)
+            && let Some(same) = self.equal(left, right, span)?
+        {
+            let found = if op == BinaryOp::Eq { same } else { self.not(same) };
+            return Ok(Value::Node(found));
         }
         let (a, b) = match op {
             // A shift's count may be of another integer type.

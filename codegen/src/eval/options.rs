@@ -1,6 +1,7 @@
 //! A kernel's options: what there are, and the values of one setting.
 
 use super::Evaluator;
+use super::enums::Choice;
 use super::value::{Eval, Exit, Value};
 use crate::diagnostic::{Diagnostic, Errors, File};
 use crate::front::Library;
@@ -183,18 +184,14 @@ impl Evaluator<'_> {
                 in_range(field, &[number], min, max)?;
                 (OptionKind::Number { integer, min, max }, shortest(number))
             }
-            (_, Value::Enum { ty, variant }) => {
-                let variants = self
-                    .library
-                    .enums
-                    .get(ty)
-                    .map(|e| e.variants.as_slice())
-                    .unwrap_or_default();
-                let choices = variants
-                    .iter()
-                    .map(|(name, docs)| (kebab(name), docs.clone()))
-                    .collect();
-                (OptionKind::Choice(choices), kebab(variant))
+            (_, Value::Enum(choice)) => {
+                let definition = self.library.enums.get(&choice.ty);
+                let variants = definition.map_or(&[][..], |e| &e.variants);
+                let holds = variants.iter().any(|variant| !variant.fields.is_empty());
+                let variant = self.known_variant(choice).filter(|_| !holds);
+                let variant = variant.ok_or_else(|| self.bad_type(field))?;
+                let choices = variants.iter().map(|v| (kebab(&v.name), v.docs.clone())).collect();
+                (OptionKind::Choice(choices), kebab(&variants[variant].name))
             }
             _ => return Err(self.bad_type(field)),
         };
@@ -322,17 +319,10 @@ impl Evaluator<'_> {
                 let SourceType::Name(ty, _) = &field.ty else {
                     return Err(self.bad_type(field));
                 };
-                let variants = self
-                    .library
-                    .enums
-                    .get(ty)
-                    .map(|e| e.variants.as_slice())
-                    .unwrap_or_default();
-                match variants.iter().find(|(name, _)| kebab(name) == text) {
-                    Some((variant, _)) => Ok(Value::Enum {
-                        ty: ty.clone(),
-                        variant: variant.clone(),
-                    }),
+                let library = self.library;
+                let definition = library.enums.get(ty).ok_or_else(|| self.bad_type(field))?;
+                match definition.variants.iter().position(|v| kebab(&v.name) == text) {
+                    Some(k) => Ok(Choice::known(ty, definition, k, Vec::new())),
                     None => {
                         let names: Vec<&str> = choices.iter().map(|(name, _)| name.as_str()).collect();
                         Err(refuse(format!("use one of {}", names.join(", "))))

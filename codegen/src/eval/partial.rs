@@ -13,6 +13,7 @@ use crate::policy::Unroll;
 use std::rc::Rc;
 
 /// What an attempt may change, to go back to.
+#[derive(Clone)]
 pub struct Checkpoint {
     scope: Scope,
     counters: usize,

@@ -12,7 +12,7 @@ use std::rc::Rc;
 impl Evaluator<'_> {
     /// `&mut place`; of what is no place, a reference to a variable of its own.
     pub fn borrow_mutably(&mut self, operand: &Expr) -> Eval {
-        let place = match self.place(operand)? {
+        let place = match self.written_place(operand)? {
             Some(place) => place,
             None => {
                 let value = self.expr(operand)?;
@@ -20,6 +20,14 @@ impl Evaluator<'_> {
             }
         };
         Ok(Value::Ref(Rc::new(place)))
+    }
+
+    /// What a place expression stands for that is to be written.
+    pub fn written_place(&mut self, expr: &Expr) -> Eval<Option<Place>> {
+        let before = std::mem::replace(&mut self.writing, true);
+        let place = self.place(expr);
+        self.writing = before;
+        place
     }
 
     /// A variable without a name that holds a value, for as long as the block around it is evaluated.
@@ -46,8 +54,16 @@ impl Evaluator<'_> {
                 let Some(base) = self.base(base)? else {
                     return Ok(None);
                 };
-                let index = self.expr(index)?;
-                Ok(Some(base.part(Step::Index(index))))
+                let writing = std::mem::take(&mut self.writing);
+                let index = self.expr(index);
+                self.writing = writing;
+                let (index, whole) = (index?, self.read(&base, expr.span)?);
+                let written = writing.then_some(&base);
+                match self.index_of_trait(&whole, written, &index, expr.span)? {
+                    Some(Value::Ref(place)) => self.followed((*place).clone(), expr.span).map(Some),
+                    Some(value) => Ok(Some(self.temporary(value))),
+                    None => Ok(Some(base.part(Step::Index(index)))),
+                }
             }
             ExprKind::Deref(reference) => {
                 let Some(place) = self.place(reference)? else {
@@ -64,7 +80,7 @@ impl Evaluator<'_> {
     }
 
     /// The place that a field or element is a part of: references on the way are followed.
-    fn base(&mut self, expr: &Expr) -> Eval<Option<Place>> {
+    pub fn base(&mut self, expr: &Expr) -> Eval<Option<Place>> {
         match self.place(expr)? {
             Some(place) => self.followed(place, expr.span).map(Some),
             None if matches!(expr.kind, ExprKind::Method(..) | ExprKind::Call(..)) => self.referred(expr),
@@ -97,6 +113,7 @@ impl Evaluator<'_> {
             value = match step {
                 Step::Field(field) => self.field(&value, field, span)?,
                 Step::Index(index) => self.element(&value, index, span)?,
+                Step::Held(k, field) => self.held(&value, *k, field, span)?,
             };
         }
         match value {
@@ -170,10 +187,11 @@ impl Evaluator<'_> {
             }
             Value::Struct { fields, .. } => fields.iter().for_each(|(_, field)| self.targets(field, out)),
             Value::Tuple(parts) => parts.iter().for_each(|part| self.targets(part, out)),
+            Value::Enum(choice) => choice.all().for_each(|(_, value)| self.targets(value, out)),
             Value::Array(parts)
                 if matches!(
                     parts.first(),
-                    Some(Value::Ref(_) | Value::Struct { .. } | Value::Tuple(_))
+                    Some(Value::Ref(_) | Value::Struct { .. } | Value::Tuple(_) | Value::Enum(_))
                 ) =>
             {
                 parts.iter().for_each(|part| self.targets(part, out));

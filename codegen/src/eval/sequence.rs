@@ -11,6 +11,18 @@ use super::value::{Eval, Value};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::front::tree::Pattern;
 use crate::ir::{BinaryOp, NodeId, Op, Scalar, Type};
+use std::rc::Rc;
+
+/// Whether a value has values of enums in it.
+pub fn has_choices(value: &Value) -> bool {
+    match value {
+        Value::Enum(_) => true,
+        Value::Struct { fields, .. } => fields.iter().any(|(_, part)| has_choices(part)),
+        Value::Tuple(parts) => parts.iter().any(has_choices),
+        Value::Array(parts) => parts.iter().any(has_choices),
+        _ => false,
+    }
+}
 
 /// Numbers of one value after which a list of such values is no table.
 const MAX_COLUMNS: usize = 64;
@@ -53,6 +65,7 @@ impl Evaluator<'_> {
         for value in values {
             rows.push(self.known_integers(value, &values[0]));
         }
+        self.with_all_variants(&mut rows, span)?;
         let unlike = rows.iter().find(|row| !same_shape(row, &rows[0]));
         if let Some(unlike) = unlike {
             return Err(Diagnostic::at(
@@ -132,8 +145,26 @@ impl Evaluator<'_> {
                 let parts = parts.collect();
                 Value::array(parts)
             }
+            (Value::Enum(choice), _) => {
+                Value::Enum(Rc::new(choice.with_fields(|value| self.known_integers(value, value))))
+            }
             _ => value.clone(),
         }
+    }
+
+    /// Lets values of enums have one shape: that of all variants that any of them may be.
+    fn with_all_variants(&mut self, rows: &mut [Value], span: Span) -> Eval<()> {
+        if !rows.first().is_some_and(has_choices) {
+            return Ok(());
+        }
+        let mut widest = rows[0].clone();
+        for row in rows.iter() {
+            widest = self.agree(&widest, row, span)?.0;
+        }
+        for row in rows.iter_mut() {
+            *row = self.agree(row, &widest, span)?.0;
+        }
+        Ok(())
     }
 
     fn column(&mut self, nodes: &[NodeId], span: Span) -> Eval<Column> {
@@ -221,7 +252,7 @@ impl Evaluator<'_> {
                 let columns = self.by_columns(elements, span)?;
                 Ok(Some(self.element_at(&columns, index)))
             }
-            Some(Value::Struct { .. } | Value::Tuple(_)) => {
+            Some(Value::Struct { .. } | Value::Tuple(_) | Value::Enum(_)) => {
                 let columns = self.by_columns(elements, span)?;
                 Ok(Some(self.element_at(&columns, index)))
             }

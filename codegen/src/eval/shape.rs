@@ -1,9 +1,11 @@
 //! Values as lists of nodes, for crossing the border of a kept loop or branch.
 
 use super::Evaluator;
+use super::enums::Tag;
 use super::value::{Eval, Value};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::ir::{NodeId, Op, Scalar, Type};
+use std::rc::Rc;
 
 impl Evaluator<'_> {
     /// The value with every integer a node and every array of numbers one node, as a kept loop needs it.
@@ -22,6 +24,14 @@ impl Evaluator<'_> {
                 Value::Tuple(parts?)
             }
             Value::Array(_) => Value::Node(self.array_node(value, span)?),
+            Value::Enum(choice) => {
+                let mut settled = (**choice).clone();
+                for (_, value) in settled.held.iter_mut().flatten().flatten() {
+                    *value = self.settle(value, span)?;
+                }
+                settled.tag = Tag::Node(self.tag_node(choice));
+                Value::Enum(Rc::new(settled))
+            }
             other => other.clone(),
         })
     }
@@ -31,6 +41,14 @@ impl Evaluator<'_> {
         let elements = match value {
             Value::Node(id) if self.ty(*id).is_array() => return Ok(*id),
             Value::Array(elements) if !elements.is_empty() => elements.to_vec(),
+            Value::Elements(_) => {
+                return Err(
+                    Diagnostic::at(span, "the length of this array is not known: no type states it")
+                        .label("of which length?")
+                        .help("state the type of its variable: `let list: [f32; 4] = ...`")
+                        .into(),
+                );
+            }
             other => {
                 return Err(Diagnostic::at(span, format!("{} cannot be indexed", other.describe())).into());
             }
@@ -76,6 +94,12 @@ impl Evaluator<'_> {
             Value::Struct { fields, .. } => fields.iter().for_each(|(_, field)| Self::leaves(field, out)),
             Value::Tuple(parts) => parts.iter().for_each(|part| Self::leaves(part, out)),
             Value::Array(parts) => parts.iter().for_each(|part| Self::leaves(part, out)),
+            Value::Enum(choice) => {
+                if let Tag::Node(id) = choice.tag {
+                    out.push(id);
+                }
+                choice.all().for_each(|(_, value)| Self::leaves(value, out));
+            }
             _ => {}
         }
     }
@@ -92,6 +116,15 @@ impl Evaluator<'_> {
             }
             Value::Tuple(parts) => Value::Tuple(parts.iter().map(|p| Self::with_leaves(p, nodes)).collect()),
             Value::Array(parts) => Value::array(parts.iter().map(|p| Self::with_leaves(p, nodes)).collect()),
+            Value::Enum(choice) => {
+                let tag = match choice.tag {
+                    Tag::Node(id) => Tag::Node(nodes.next().unwrap_or(id)),
+                    known => known,
+                };
+                let mut changed = choice.with_fields(|value| Self::with_leaves(value, nodes));
+                changed.tag = tag;
+                Value::Enum(Rc::new(changed))
+            }
             other => other.clone(),
         }
     }
@@ -133,6 +166,11 @@ impl Evaluator<'_> {
                 let (l, r) = self.agree_all(left, right, span)?;
                 (Value::array(l), Value::array(r))
             }
+            (Value::Enum(left), Value::Enum(right)) if left.ty == right.ty => {
+                return self.agree_choices(left, right, span);
+            }
+            (Value::Blank, other) => (self.blank(other), other.clone()),
+            (other, Value::Blank) => (other.clone(), self.blank(other)),
             // Given a value on one side alone, a variable has none afterwards.
             (Value::Unset, _) | (_, Value::Unset) => (Value::Unset, Value::Unset),
             (Value::Ref(_), Value::Ref(_)) => {
@@ -169,7 +207,8 @@ impl Evaluator<'_> {
 /// What an array is of, for a message.
 fn kind(element: &Value) -> String {
     match element {
-        Value::Struct { ty, .. } | Value::Enum { ty, .. } => format!("`{ty}`"),
+        Value::Struct { ty, .. } => format!("`{ty}`"),
+        Value::Enum(choice) => format!("`{}`", choice.ty),
         Value::Tuple(_) => "tuples".to_owned(),
         Value::Array(_) => "arrays".to_owned(),
         other => other.describe(),
@@ -195,6 +234,18 @@ pub fn same_shape(a: &Value, b: &Value) -> bool {
         }
         (Value::Tuple(a), Value::Tuple(b)) => all_same(a, b),
         (Value::Array(a), Value::Array(b)) => all_same(a, b),
+        (Value::Enum(a), Value::Enum(b)) => {
+            let tags = match (a.tag, b.tag) {
+                (Tag::Node(_), Tag::Node(_)) => true,
+                (a, b) => a == b,
+            };
+            a.ty == b.ty
+                && tags
+                && a.held.iter().zip(&b.held).all(|pair| match pair {
+                    (Some(a), Some(b)) => a.iter().zip(b).all(|((_, a), (_, b))| same_shape(a, b)),
+                    (a, b) => a.is_none() && b.is_none(),
+                })
+        }
         _ => a == b,
     }
 }

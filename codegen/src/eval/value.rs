@@ -1,5 +1,6 @@
 //! What a variable holds while a kernel is evaluated.
 
+use super::enums::Choice;
 use crate::diagnostic::Diagnostic;
 use crate::front::tree::Closure;
 use crate::ir::NodeId;
@@ -13,13 +14,8 @@ pub enum Value {
     Int(i64),
     /// A scalar or vector, or in a kept loop an array; known if the node is a constant.
     Node(NodeId),
-    /// A variant of an enum.
-    Enum {
-        /// The enum.
-        ty: String,
-        /// The variant.
-        variant: String,
-    },
+    /// A value of an enum; shared until it is changed.
+    Enum(Rc<Choice>),
     /// A structure.
     Struct {
         /// Its type.
@@ -48,10 +44,16 @@ pub enum Value {
     Closure(Rc<Closed>),
     /// A function, by the last two segments of its path.
     Function(Vec<String>),
+    /// `array::from_fn(f)`, of which only the type that is stated for it tells the length.
+    Elements(Rc<Value>),
+    /// What a type parameter stands for, by the name of the type.
+    Type(String),
     /// What a variable of a closure holds that is a variable around it.
     Alias(Rc<Place>),
     /// What a variable holds that has been declared and not been given a value.
     Unset,
+    /// Any value of any type: what nobody looks at before it is given another one.
+    Blank,
     /// What an expression with an error gives; using it is no second error.
     Poison,
 }
@@ -100,6 +102,8 @@ pub enum Step {
     Field(String),
     /// An element of an array, a component of a vector; the index may be a runtime value.
     Index(Value),
+    /// A field of the variant of an enum at a position.
+    Held(usize, String),
 }
 
 impl Place {
@@ -153,6 +157,7 @@ impl Value {
             Value::Struct { fields, .. } => Box::new(fields.iter().map(|(_, value)| value)),
             Value::Tuple(parts) => Box::new(parts.iter()),
             Value::Array(parts) => Box::new(parts.iter()),
+            Value::Enum(choice) => Box::new(choice.all().map(|(_, value)| value)),
             _ => return 1,
         };
         let mut sum = 1;
@@ -170,7 +175,7 @@ impl Value {
         match self {
             Value::Int(_) => "an integer".to_owned(),
             Value::Node(_) => "a number".to_owned(),
-            Value::Enum { ty, variant } => format!("`{ty}::{variant}`"),
+            Value::Enum(choice) => format!("a `{}`", choice.ty),
             Value::Struct { ty, .. } => format!("a `{ty}`"),
             Value::Tuple(parts) if parts.is_empty() => "`()`".to_owned(),
             Value::Tuple(parts) => format!("a tuple of {}", parts.len()),
@@ -183,7 +188,10 @@ impl Value {
             Value::Ref(_) => "a mutable reference".to_owned(),
             Value::Closure(_) => "a closure".to_owned(),
             Value::Function(path) => format!("the function `{}`", path.join("::")),
+            Value::Elements(_) => "an array of which no type states the length".to_owned(),
+            Value::Type(ty) => format!("the type `{ty}`"),
             Value::Alias(_) => "a variable".to_owned(),
+            Value::Blank => "any value".to_owned(),
             Value::Unset => "a variable without a value".to_owned(),
             Value::Poison => "an error".to_owned(),
         }

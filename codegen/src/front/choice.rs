@@ -1,6 +1,7 @@
 //! `match`, and what is written in other ways and means one: `if let`, `while let`, `let ... else`, `matches!`.
 
 use super::expr::{Lower, label};
+use super::targets::Kind;
 use super::tree::{Arm, Block, Expr, ExprKind, Pattern, Statement, Type};
 use crate::diagnostic::Span;
 use syn::parse::{Parse, ParseStream};
@@ -80,8 +81,9 @@ impl Lower {
     /// `while let pattern = value { .. }`: a loop that ends where the pattern does not take the value.
     pub fn while_let(&mut self, e: &syn::ExprWhile) -> ExprKind {
         let (subject, pattern, guard) = self.let_condition(&e.cond);
-        let body = ExprKind::Block(self.block(&e.body));
-        let body = self.at(body, e.body.span());
+        let name = label(e.label.as_ref().map(|l| &l.name));
+        let (body, _) = self.inside(name.clone(), Kind::Other("while"), |lower| lower.block(&e.body));
+        let body = self.at(ExprKind::Block(body), e.body.span());
         let end = self.at(ExprKind::Break(None), e.while_token.span());
         let arms = vec![taken(pattern, guard, body), taken(Pattern::Wild, None, end)];
         let choice = self.at(ExprKind::Match(Box::new(subject), arms, None), e.span());
@@ -90,7 +92,6 @@ impl Lower {
             statements: vec![Statement::Expr(choice)],
             value: None,
         };
-        let name = label(e.label.as_ref().map(|l| &l.name));
         ExprKind::While(Box::new(always), block, name, self.unroll_attribute(&e.attrs))
     }
 

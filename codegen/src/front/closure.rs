@@ -26,10 +26,13 @@ impl Lower {
             syn::ReturnType::Default => None,
             syn::ReturnType::Type(_, ty) => Some(self.ty(ty)),
         };
+        let targets = std::mem::take(&mut self.targets);
+        let body = self.expr(&e.body);
+        self.targets = targets;
         ExprKind::Closure(Arc::new(Closure {
             params,
             result,
-            body: self.expr(&e.body),
+            body,
             moves: e.capture.is_some(),
         }))
     }

@@ -1,13 +1,16 @@
 //! Expressions and statements.
 
 use super::choice::has_let;
+use super::names::Names;
 use super::parts::takes_apart;
 use super::place;
 use super::scan::mentioned_in;
-use super::tree::{Block, Const, Expr, ExprKind, ForLoop, IntType, Statement, Type};
+use super::targets::{Kind, Target};
+use super::tree::{Block, Const, Expr, ExprKind, ForLoop, Generic, IntType, Statement, Type};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::ir::{BinaryOp, UnaryOp};
 use std::collections::{BTreeSet, HashMap};
+use std::rc::Rc;
 use syn::punctuated::Punctuated;
 use syn::spanned::Spanned;
 
@@ -18,8 +21,21 @@ pub const DEPTH: u32 = 128;
 pub struct Lower {
     file: u32,
     /// What `Self` stands for.
-    self_type: Option<String>,
+    self_type: Option<Type>,
+    names: Rc<Names>,
+    /// Names of types that were followed to come here.
+    pub aliases: u32,
+    /// Types that other names stand for: `Self::Output` of an implementation, a type parameter of its trait.
+    pub stands: HashMap<String, Type>,
+    /// Parameters of a type that a trait alone tells, `impl Trait`: names for those types, and the traits.
+    pub anonymous: Vec<(String, Vec<String>)>,
+    /// Type parameters around.
+    pub parameters: Vec<String>,
+    /// Whether types are those of a function's parameters.
+    pub in_parameters: bool,
     depth: u32,
+    /// What a `break` may lead out of, outermost first.
+    pub targets: Vec<Target>,
     /// Type parameters that are called, with their types.
     pub functions: HashMap<String, Type>,
     /// Everything that was found wrong.
@@ -28,14 +44,26 @@ pub struct Lower {
 
 impl Lower {
     /// For items of `file`, inside `impl self_type`.
-    pub fn new(file: u32, self_type: Option<String>) -> Self {
+    pub fn new(file: u32, self_type: Option<Type>, names: Rc<Names>) -> Self {
         Lower {
             file,
             self_type,
+            names,
+            aliases: 0,
+            stands: HashMap::new(),
+            anonymous: Vec::new(),
+            parameters: Vec::new(),
+            in_parameters: false,
             depth: 0,
+            targets: Vec::new(),
             functions: HashMap::new(),
             errors: Vec::new(),
         }
+    }
+
+    /// What names stand for.
+    pub fn names(&self) -> Rc<Names> {
+        Rc::clone(&self.names)
     }
 
     /// The file that the items are of.
@@ -60,20 +88,63 @@ impl Lower {
 
     /// `Self` by its name.
     pub fn self_name(&self, name: String) -> String {
-        match &self.self_type {
-            Some(ty) if name == "Self" => ty.clone(),
+        match self.self_type.as_ref().map(Type::bare) {
+            Some(Type::Name(ty, _)) if name == "Self" => ty.clone(),
             _ => name,
         }
     }
 
-    /// The last two segments of a path, without generic arguments.
+    /// What `Self` stands for, with its arguments.
+    pub fn self_type(&self) -> Option<&Type> {
+        self.self_type.as_ref()
+    }
+
+    /// Lets `Self` stand for a type.
+    pub fn stands_in(&mut self, ty: &Type) {
+        self.self_type = Some(ty.clone());
+    }
+
+    /// The last two segments of a path, without generic arguments; of a name that stands for a path, that path.
     pub fn segments(&mut self, path: &syn::Path) -> Vec<String> {
         let names: Vec<String> = path
             .segments
             .iter()
             .map(|s| self.self_name(s.ident.to_string()))
             .collect();
-        names[names.len().saturating_sub(2)..].to_vec()
+        match names.as_slice() {
+            [name] => match self.names.path(name) {
+                Some(path) => path.to_vec(),
+                None => vec![self.type_name(name.clone())],
+            },
+            [.., of, name] => vec![self.type_name(of.clone()), name.clone()],
+            [] => names,
+        }
+    }
+
+    /// The last two segments of a path; of `<Type as Trait>::name` the type and the name. `None` if the type has no name.
+    fn of_type(&mut self, e: &syn::ExprPath) -> Option<Vec<String>> {
+        let Some(own) = &e.qself else {
+            return Some(self.segments(&e.path));
+        };
+        let Type::Name(ty, _) = self.ty(&own.ty) else {
+            return None;
+        };
+        Some(vec![ty, e.path.segments.last()?.ident.to_string()])
+    }
+
+    /// Generic parameters; lifetimes are dropped.
+    pub fn generics(&mut self, generics: &syn::Generics) -> Vec<Generic> {
+        let types = generics.params.iter().filter_map(|p| match p {
+            syn::GenericParam::Type(t) => Some(t.ident.to_string()),
+            _ => None,
+        });
+        self.parameters.extend(types);
+        let each = generics.params.iter().filter_map(|p| match p {
+            syn::GenericParam::Const(c) => Some(Generic::Const(c.ident.to_string(), self.ty(&c.ty))),
+            syn::GenericParam::Type(t) => Some(Generic::Type(t.ident.to_string())),
+            syn::GenericParam::Lifetime(_) => None,
+        });
+        each.collect()
     }
 
     /// A path as an expression.
@@ -117,7 +188,10 @@ impl Lower {
             syn::Expr::Group(e) => self.kind(&e.expr),
             syn::Expr::Reference(e) => ExprKind::Ref(e.mutability.is_some(), self.boxed(&e.expr)),
             syn::Expr::Lit(e) => self.literal(&e.lit, e.span()).kind,
-            syn::Expr::Path(e) if e.qself.is_none() => ExprKind::Path(self.segments(&e.path)),
+            syn::Expr::Path(e) => match self.of_type(e) {
+                Some(path) => ExprKind::Path(path),
+                None => self.refused(expr),
+            },
             syn::Expr::Unary(e) => self.unary(e),
             syn::Expr::Binary(e) => self.binary(e),
             syn::Expr::Assign(e) if takes_apart(&e.left) => self.destructured(e),
@@ -145,6 +219,7 @@ impl Lower {
             }
             syn::Expr::Match(e) => self.match_(e),
             syn::Expr::Block(e) if e.label.is_none() => ExprKind::Block(self.block(&e.block)),
+            syn::Expr::Block(e) => self.labelled(e),
             syn::Expr::Tuple(e) => ExprKind::Tuple(e.elems.iter().map(|e| self.expr(e)).collect()),
             syn::Expr::Array(e) => ExprKind::Array(e.elems.iter().map(|e| self.expr(e)).collect()),
             syn::Expr::Repeat(e) => ExprKind::Repeat(self.boxed(&e.expr), self.boxed(&e.len)),
@@ -153,35 +228,28 @@ impl Lower {
             syn::Expr::Range(e) => self.range(e),
             syn::Expr::ForLoop(e) => {
                 let over = self.expr(&e.expr);
+                let label = label(e.label.as_ref().map(|l| &l.name));
+                let (unroll, pattern) = (self.unroll_attribute(&e.attrs), self.pattern(&e.pat));
+                let (body, _) = self.inside(label.clone(), Kind::Other("for"), |lower| lower.block(&e.body));
                 ExprKind::For(Box::new(ForLoop {
-                    label: label(e.label.as_ref().map(|l| &l.name)),
-                    unroll: self.unroll_attribute(&e.attrs),
-                    pattern: self.pattern(&e.pat),
+                    label,
+                    unroll,
+                    pattern,
                     over,
-                    body: self.block(&e.body),
+                    body,
                 }))
             }
             syn::Expr::While(e) if has_let(&e.cond) => self.while_let(e),
             syn::Expr::While(e) => {
                 let label = label(e.label.as_ref().map(|l| &l.name));
-                ExprKind::While(
-                    self.boxed(&e.cond),
-                    self.block(&e.body),
-                    label,
-                    self.unroll_attribute(&e.attrs),
-                )
+                let condition = self.boxed(&e.cond);
+                let (body, _) = self.inside(label.clone(), Kind::Other("while"), |lower| lower.block(&e.body));
+                ExprKind::While(condition, body, label, self.unroll_attribute(&e.attrs))
             }
-            syn::Expr::Loop(e) => {
-                let label = label(e.label.as_ref().map(|l| &l.name));
-                let always = Expr {
-                    kind: ExprKind::Bool(true),
-                    span: self.span(e.loop_token.span()),
-                };
-                let unroll = self.unroll_attribute(&e.attrs);
-                ExprKind::While(Box::new(always), self.block(&e.body), label, unroll)
-            }
+            syn::Expr::Loop(e) => self.loop_(e),
+            syn::Expr::Try(e) => ExprKind::Try(self.boxed(&e.expr)),
             syn::Expr::Return(e) => ExprKind::Return(e.expr.as_ref().map(|e| self.boxed(e))),
-            syn::Expr::Break(e) if e.expr.is_none() => ExprKind::Break(label(e.label.as_ref())),
+            syn::Expr::Break(e) => self.break_(e),
             syn::Expr::Continue(e) => ExprKind::Continue(label(e.label.as_ref())),
             syn::Expr::Macro(e) => self.macro_call(&e.mac),
             syn::Expr::Closure(e) => self.closure(e),
@@ -191,16 +259,10 @@ impl Lower {
 
     fn refused(&mut self, expr: &syn::Expr) -> ExprKind {
         let (what, instead) = match expr {
-            syn::Expr::Break(_) => ("`break` with a value", "assign the value to a variable before"),
-            syn::Expr::Block(_) => (
-                "a label on a block",
-                "put the block into a function and `return` from it",
-            ),
             syn::Expr::Let(_) => (
                 "a `let` here",
                 "let the condition of an `if` begin with it, and nest another `if` where there is more than one",
             ),
-            syn::Expr::Try(_) => ("`?`", "a kernel has no errors: compute a value for every pixel"),
             syn::Expr::Unsafe(_) => ("`unsafe`", "use the prelude's textures and arrays"),
             syn::Expr::Async(_) | syn::Expr::Await(_) => ("`async`", "a kernel computes its value at once"),
             syn::Expr::Const(_) => ("a `const` block", "name the constant: `const NAME: f32 = ...;`"),
@@ -368,9 +430,9 @@ impl Lower {
     fn call(&mut self, e: &syn::ExprCall) -> ExprKind {
         let args = e.args.iter().map(|a| self.expr(a)).collect();
         match &*e.func {
-            syn::Expr::Path(path) if path.qself.is_none() => {
+            syn::Expr::Path(path) if self.of_type(path).is_some() => {
                 let constants = self.generic_arguments(&path.path);
-                ExprKind::Call(self.segments(&path.path), constants, args)
+                ExprKind::Call(self.of_type(path).unwrap_or_default(), constants, args)
             }
             other => {
                 self.unsupported(other.span(), "calling a value", "call functions by their names");
@@ -427,12 +489,12 @@ impl Lower {
     }
 
     fn struct_(&mut self, e: &syn::ExprStruct) -> ExprKind {
-        let name = self.segments(&e.path).pop().unwrap_or_default();
+        let path = self.segments(&e.path);
         let mut fields = Vec::new();
         for field in &e.fields {
             fields.push((member(&field.member), self.expr(&field.expr)));
         }
-        ExprKind::Struct(name, fields, e.rest.as_ref().map(|rest| self.boxed(rest)))
+        ExprKind::Struct(path, fields, e.rest.as_ref().map(|rest| self.boxed(rest)))
     }
 
     fn range(&mut self, e: &syn::ExprRange) -> ExprKind {
@@ -459,7 +521,7 @@ impl Lower {
                 syn::Stmt::Local(local) => statements.push(self.local(local)),
                 syn::Stmt::Expr(expr, None) if k + 1 == block.stmts.len() => value = Some(self.boxed(expr)),
                 syn::Stmt::Expr(expr, _) => statements.push(Statement::Expr(self.expr(expr))),
-                syn::Stmt::Item(syn::Item::Const(item)) => constants.push(self.constant(item, None)),
+                syn::Stmt::Item(syn::Item::Const(item)) => constants.push(self.constant(item)),
                 syn::Stmt::Item(syn::Item::Use(_)) => {}
                 syn::Stmt::Item(item) => {
                     self.unsupported(
@@ -502,14 +564,20 @@ impl Lower {
         Statement::Let(pattern, ty, init, span)
     }
 
-    /// A constant, of a type if it is an associated one.
-    pub fn constant(&mut self, item: &syn::ItemConst, of: Option<&str>) -> Const {
-        let name = match of {
-            Some(ty) => format!("{ty}::{}", item.ident),
-            None => item.ident.to_string(),
-        };
+    /// A constant that belongs to no type.
+    pub fn constant(&mut self, item: &syn::ItemConst) -> Const {
+        if self.names.has(&item.ident.to_string()) {
+            let name = &item.ident;
+            let error = Diagnostic::at(
+                self.span(name.span()),
+                format!("`{name}` is a name that stands for something else"),
+            )
+            .label("defined again")
+            .help("give it another name");
+            self.errors.push(error);
+        }
         Const {
-            name,
+            name: item.ident.to_string(),
             value: self.expr(&item.expr),
             ty: self.ty(&item.ty),
         }

@@ -2,16 +2,17 @@
 
 use super::check::Check;
 use super::items::Items;
-use super::tree::{Library, Type};
+use super::tree::Library;
 use crate::diagnostic::{Diagnostic, Span};
 use proc_macro2::{TokenStream, TokenTree};
 use quote::ToTokens;
-use syn::spanned::Spanned;
 
 /// A name that a `use` brings in.
 pub struct Import {
     /// First segment of its path.
     root: String,
+    /// The segment before the name: an enum, of one of its variants.
+    of: String,
     /// Whether it comes out of a module `prelude`.
     prelude: bool,
     /// The name there, and the name here.
@@ -23,22 +24,17 @@ impl Import {
     /// The name and why the kernel may not use it, if what it stands for is not in the kernel's files.
     pub fn refused(self, library: &Library) -> Option<(String, Diagnostic)> {
         let (there, here) = self.name;
-        if there != here {
-            let error = Diagnostic::at(self.span, format!("`{there}` is imported by another name, `{here}`"))
-                .label("not supported")
-                .help(format!("import it as `{there}`, and use that name"));
-            return Some((here, error));
-        }
-        let given = library.functions.contains_key(&here)
-            || library.consts.contains_key(&here)
-            || library.structs.contains_key(&here)
-            || library.enums.contains_key(&here)
-            || library.functions.keys().any(|name| method_of(name, &here));
+        let given = library.functions.contains_key(&there)
+            || library.consts.contains_key(&there)
+            || library.has_type(&there)
+            || library.traits.contains_key(&there)
+            || library.enums.contains_key(&self.of)
+            || library.functions.keys().any(|name| method_of(name, &there));
         let known = ["std", "core", "alloc", "glam", "straightline_kernels"].contains(&self.root.as_str());
         if given || known || self.prelude {
             return None;
         }
-        let error = Diagnostic::at(self.span, format!("`{here}` is not among the kernel's files"))
+        let error = Diagnostic::at(self.span, format!("`{there}` is not among the kernel's files"))
             .label("imported here")
             .help("give the file that defines it too, or define it here");
         Some((here, error))
@@ -102,35 +98,8 @@ impl Items {
             }};
         }
         match item {
-            syn::Item::Static(i) => named!(i, "a `static`", "write `const`"),
-            syn::Item::Type(i) => named!(i, "another name for a type", "write the type itself"),
             syn::Item::Union(i) => named!(i, "a `union`", "write a structure, and convert with `to_bits`"),
             syn::Item::TraitAlias(i) => named!(i, "a trait", "write functions of the types themselves"),
-            syn::Item::Trait(i) => {
-                if !check.keeps(&mut i.attrs) {
-                    return;
-                }
-                let of = i.ident.to_string();
-                for inner in &i.items {
-                    let name = match inner {
-                        syn::TraitItem::Fn(f) => &f.sig.ident,
-                        syn::TraitItem::Const(c) => &c.ident,
-                        syn::TraitItem::Type(t) => &t.ident,
-                        // A macro, or unstable syntax.
-                        _ => {
-                            self.hidden(inner.to_token_stream(), check.beside());
-                            continue;
-                        }
-                    };
-                    let mut check = check.beside();
-                    check.refuse(
-                        name.span(),
-                        &format!("`{name}` of a trait"),
-                        "write it as a function, or in an `impl` of the type itself",
-                    );
-                    self.note(&format!("{of}::{name}"), TokenStream::new(), check);
-                }
-            }
             syn::Item::ForeignMod(i) => {
                 if !check.keeps(&mut i.attrs) {
                     return;
@@ -174,49 +143,6 @@ impl Items {
             // Another crate's name only stands before `::`.
             syn::Item::ExternCrate(_) => {}
             other => self.hidden(other.to_token_stream(), check),
-        }
-    }
-
-    /// Functions of an implementation of a trait.
-    pub(super) fn trait_implementation(
-        &mut self,
-        path: &syn::Path,
-        ty: &Type,
-        items: &[syn::ImplItem],
-        mut check: Check,
-    ) {
-        let of = match ty {
-            Type::Name(name, _) => name.as_str(),
-            _ => "impl",
-        };
-        let name = path.segments.last().map(|s| s.ident.to_string()).unwrap_or_default();
-        // What an operator or the end of a scope calls has no mention by its name.
-        if matches!(name.as_str(), "PartialEq" | "PartialOrd" | "Drop") {
-            check.refuse(
-                path.span(),
-                &format!("`{name}` written by hand"),
-                "derive it, or compare the fields yourself",
-            );
-            self.note(of, TokenStream::new(), check.taken());
-        }
-        for item in items {
-            let ident = match item {
-                syn::ImplItem::Fn(f) => &f.sig.ident,
-                syn::ImplItem::Const(c) => &c.ident,
-                syn::ImplItem::Type(t) => &t.ident,
-                // A macro, or unstable syntax.
-                _ => {
-                    self.hidden(item.to_token_stream(), check.beside());
-                    continue;
-                }
-            };
-            let mut check = check.beside();
-            check.refuse(
-                ident.span(),
-                &format!("`{ident}` of the trait `{name}`"),
-                &format!("write it in an `impl {of}` without a trait, or as a function"),
-            );
-            self.of_trait(format!("{of}::{ident}"), check.errors());
         }
     }
 
@@ -270,6 +196,7 @@ impl Items {
         }
         self.takes(Import {
             root: path.first().cloned().unwrap_or_default(),
+            of: path.last().cloned().unwrap_or_default(),
             prelude: path.iter().any(|segment| segment == "prelude"),
             name: (there, name),
             span: check.span(here.span()),

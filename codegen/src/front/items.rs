@@ -5,29 +5,62 @@ use super::cfg::is_test;
 use super::check::Check;
 use super::expr::Lower;
 use super::foreign::{Import, is_prelude_type};
+use super::names::Names;
 use super::options::{OptionsSyntax, at_run_time};
 use super::reach::Mentions;
-use super::tree::{Enum, Function, Generic, Library, OptionField, Param, Struct, Type};
+use super::tree::{Enum, Fields, Function, Generic, Library, OptionField, Param, Struct, Type, Variant};
 use crate::diagnostic::Diagnostic;
 use proc_macro2::{Span, TokenStream};
 use quote::ToTokens;
 use std::collections::HashMap;
+use std::rc::Rc;
+use syn::punctuated::Punctuated;
 use syn::spanned::Spanned;
 
 /// Items lowered so far, and the errors of each by its name.
 #[derive(Default)]
 pub struct Items {
-    library: Library,
+    pub(super) library: Library,
     errors: HashMap<String, Vec<Diagnostic>>,
     duplicates: Vec<Diagnostic>,
-    mentions: Mentions,
+    pub(super) mentions: Mentions,
     /// Names that files import.
     imports: Vec<Import>,
-    /// Functions of implementations of traits, as `Type::name`.
+    pub(super) names: Rc<Names>,
+    /// Traits as they are written, with their files.
+    pub(super) traits: HashMap<String, (u32, syn::ItemTrait)>,
+    /// Implementations of traits, with their files.
+    pub(super) implementations: Vec<(u32, syn::ItemImpl)>,
+    /// Functions of implementations of traits that are refused, as `Type::name`.
     of_traits: Vec<(String, Vec<Diagnostic>)>,
 }
 
+/// The type that an `impl` is of.
+pub(super) struct Owner {
+    pub name: String,
+    pub generics: Vec<Generic>,
+    /// The traits that its type parameters have.
+    pub bounds: HashMap<String, Vec<String>>,
+    /// The type with its arguments.
+    pub ty: Type,
+    /// Types that other names stand for in it.
+    pub stands: HashMap<String, Type>,
+}
+
 impl Items {
+    /// For files whose names are known.
+    pub fn new(files: &[(u32, syn::File)]) -> Self {
+        let (names, wrong) = Names::of(files);
+        let mut items = Items {
+            names: Rc::new(names),
+            ..Items::default()
+        };
+        for (name, error) in wrong {
+            items.blame(&name, vec![error]);
+        }
+        items
+    }
+
     /// Takes a file. Tests and what `cfg` removes are passed over; items that are not part of the kernel language are noted by their
     /// names, and refused where the kernel reaches them.
     pub fn file(&mut self, file: u32, parsed: &mut syn::File) {
@@ -42,6 +75,15 @@ impl Items {
     fn collect(&mut self, file: u32, items: &mut [syn::Item]) {
         for item in items {
             let mut check = Check::new(file);
+            let attrs = match item {
+                syn::Item::Struct(s) => &s.attrs,
+                syn::Item::Enum(e) => &e.attrs,
+                _ => &Vec::new(),
+            };
+            if derives(attrs).iter().any(|derived| derived == "Default") {
+                let written = super::traits::derived_default(item);
+                self.implementations.extend(written.map(|written| (file, written)));
+            }
             match item {
                 syn::Item::Fn(f) => {
                     if is_test(&f.attrs) || !check.keeps(&mut f.attrs) {
@@ -59,8 +101,28 @@ impl Items {
                     check.constant_name(&c.ident);
                     check.constant(&mut c.generics, &mut c.ty, &mut c.expr);
                     let name = c.ident.to_string();
-                    self.constant(file, c, None);
+                    self.constant(file, c);
                     self.note(&name, c.to_token_stream(), check);
+                }
+                syn::Item::Static(s) => {
+                    if !check.keeps(&mut s.attrs) {
+                        continue;
+                    }
+                    self.variable(file, s, check);
+                }
+                syn::Item::Type(t) => {
+                    if check.keeps(&mut t.attrs) {
+                        check.generics(&mut t.generics);
+                        check.ty(&mut t.ty);
+                        if let Some(first) = t.generics.params.first() {
+                            check.refuse(
+                                first.span(),
+                                "a name for a type with parameters",
+                                "write the type itself",
+                            );
+                        }
+                        self.note(&t.ident.to_string(), t.ty.to_token_stream(), check);
+                    }
                 }
                 syn::Item::Struct(s) => {
                     if !check.keeps(&mut s.attrs) {
@@ -78,18 +140,25 @@ impl Items {
                     }
                     self.type_name(&mut check, &e.ident);
                     check.variants(e);
-                    let variants = e
-                        .variants
-                        .iter()
-                        .map(|v| (v.ident.to_string(), docs(&v.attrs)))
-                        .collect();
                     let name = e.ident.to_string();
-                    self.library.enums.insert(name.clone(), Enum { variants });
+                    if file == super::std::FILE && self.library.has_type(&name) {
+                        continue;
+                    }
+                    self.enumeration(file, e);
                     self.note(&name, e.to_token_stream(), check);
                 }
                 syn::Item::Impl(i) => {
-                    if check.keeps(&mut i.attrs) {
-                        self.implementation(file, i, check);
+                    if !check.keeps(&mut i.attrs) {
+                        continue;
+                    }
+                    match i.trait_.is_some() {
+                        true => self.implementations.push((file, i.clone())),
+                        false => self.implementation(file, i, check),
+                    }
+                }
+                syn::Item::Trait(t) => {
+                    if check.keeps(&mut t.attrs) {
+                        self.trait_(file, t, check);
                     }
                 }
                 syn::Item::Mod(m) => {
@@ -133,7 +202,7 @@ impl Items {
         self.duplicates.extend(check.errors());
     }
 
-    fn blame(&mut self, name: &str, errors: Vec<Diagnostic>) {
+    pub(super) fn blame(&mut self, name: &str, errors: Vec<Diagnostic>) {
         self.errors.entry(name.to_owned()).or_default().extend(errors);
     }
 
@@ -147,7 +216,7 @@ impl Items {
                 "give it another name",
             );
         }
-        if self.library.structs.contains_key(&shown) || self.library.enums.contains_key(&shown) {
+        if self.library.has_type(&shown) {
             check.twice(name);
         }
     }
@@ -158,31 +227,61 @@ impl Items {
         sig: &syn::Signature,
         body: &syn::Block,
         attrs: &[syn::Attribute],
-        of: Option<&str>,
+        of: Option<&Owner>,
     ) {
-        let mut lower = Lower::new(file, of.map(str::to_owned));
-        let name = qualified(of, &sig.ident);
+        let name = qualified(of.map(|of| of.name.as_str()), &sig.ident);
+        let (function, errors) = self.lowered(file, sig, body, attrs, of);
+        if file == super::std::FILE && self.library.functions.contains_key(&name) {
+            return;
+        }
+        if self.library.functions.contains_key(&name) {
+            self.duplicate(&self.lower_of(file), sig.ident.span(), &name);
+        }
+        self.insert(&name, &sig.ident, function);
+        self.blame(&name, errors);
+    }
+
+    /// Adds a function.
+    pub(super) fn insert(&mut self, key: &str, name: &syn::Ident, function: Function) {
+        let own = function.params.first();
+        if own.is_some_and(|p| p.name == "self" && p.ty.is_mutable_reference()) {
+            self.library.mutating.insert(name.to_string());
+        }
+        self.library.functions.insert(key.to_owned(), function);
+    }
+
+    /// A function, and what is wrong with it.
+    pub(super) fn lowered(
+        &self,
+        file: u32,
+        sig: &syn::Signature,
+        body: &syn::Block,
+        attrs: &[syn::Attribute],
+        of: Option<&Owner>,
+    ) -> (Function, Vec<Diagnostic>) {
+        let mut lower = match of {
+            Some(of) => self.lower_within(file, of),
+            None => self.lower_of(file),
+        };
         lower.called_parameters(&sig.generics);
         let (mut params, mut parts) = (Vec::new(), Vec::new());
         // Evaluation is on values, so a type parameter is whatever comes; constants are bound by name.
-        let generics = sig.generics.params.iter().filter_map(|p| match p {
-            syn::GenericParam::Const(c) => Some(Generic::Const(c.ident.to_string(), lower.ty(&c.ty))),
-            syn::GenericParam::Type(t) => Some(Generic::Type(t.ident.to_string())),
-            syn::GenericParam::Lifetime(_) => None,
-        });
-        let generics = generics.collect();
+        let mut generics = lower.generics(&sig.generics);
+        let mut bounds = lower.bounds(&sig.generics);
         for input in &sig.inputs {
             match input {
                 syn::FnArg::Receiver(receiver) => {
                     params.push(Param {
                         name: "self".to_owned(),
-                        ty: receiver_type(&mut lower, receiver, of.unwrap_or_default()),
+                        ty: receiver_type(&mut lower, receiver),
                         mutable: receiver.mutability.is_some(),
                         span: lower.span(receiver.span()),
                     });
                 }
                 syn::FnArg::Typed(typed) => {
+                    lower.in_parameters = true;
                     let ty = lower.ty(&typed.ty);
+                    lower.in_parameters = false;
                     match &*typed.pat {
                         syn::Pat::Ident(p) => params.push(Param {
                             name: p.ident.to_string(),
@@ -199,41 +298,53 @@ impl Items {
                 }
             }
         }
+        for (name, traits) in std::mem::take(&mut lower.anonymous) {
+            generics.push(Generic::Type(name.clone()));
+            bounds.insert(name, traits);
+        }
+        if let Some(of) = of {
+            generics.extend(of.generics.iter().cloned());
+            bounds.extend(of.bounds.clone());
+        }
         let result = match &sig.output {
             syn::ReturnType::Default => Type::Tuple(Vec::new()),
             syn::ReturnType::Type(_, ty) => lower.ty(ty),
         };
         let span = lower.span(sig.ident.span());
         let body = super::parts::before(parts, lower.block(body), span);
-        if file == super::std::FILE && self.library.functions.contains_key(&name) {
-            return;
-        }
-        if self.library.functions.contains_key(&name) {
-            self.duplicate(&lower, sig.ident.span(), &name);
-        }
-        let mutates = params
-            .first()
-            .is_some_and(|p| p.name == "self" && p.ty.is_mutable_reference());
-        if mutates {
-            self.library.mutating.insert(sig.ident.to_string());
-        }
-        self.library.functions.insert(
-            name.clone(),
-            Function {
-                docs: docs(attrs),
-                generics,
-                params,
-                result,
-                body,
-                span,
-            },
-        );
-        self.blame(&name, lower.errors);
+        let function = Function {
+            docs: docs(attrs),
+            generics,
+            bounds,
+            params,
+            result,
+            body,
+            span,
+        };
+        (function, lower.errors)
     }
 
-    fn constant(&mut self, file: u32, item: &syn::ItemConst, of: Option<&str>) {
-        let mut lower = Lower::new(file, of.map(str::to_owned));
-        let constant = lower.constant(item, of);
+    /// A `static`, which is a constant where nothing changes it.
+    fn variable(&mut self, file: u32, item: &mut syn::ItemStatic, mut check: Check) {
+        if let syn::StaticMutability::Mut(token) = &item.mutability {
+            check.refuse(
+                token.span(),
+                "a `static` that is changed",
+                "give the value to the functions that need it",
+            );
+        }
+        check.constant_name(&item.ident);
+        check.constant(&mut syn::Generics::default(), &mut item.ty, &mut item.expr);
+        let (name, ty, value) = (&item.ident, &item.ty, &item.expr);
+        if let Ok(constant) = syn::parse2(quote::quote!(const #name: #ty = #value;)) {
+            self.constant(file, &constant);
+        }
+        self.note(&name.to_string(), item.to_token_stream(), check);
+    }
+
+    fn constant(&mut self, file: u32, item: &syn::ItemConst) {
+        let mut lower = self.lower_of(file);
+        let constant = lower.constant(item);
         if self.library.consts.contains_key(&constant.name) {
             self.duplicate(&lower, item.ident.span(), &constant.name);
         }
@@ -242,24 +353,51 @@ impl Items {
     }
 
     fn structure(&mut self, file: u32, item: &syn::ItemStruct) {
-        let mut lower = Lower::new(file, None);
-        let fields = item.fields.iter().enumerate().map(|(k, field)| {
-            let name = field.ident.as_ref().map_or(k.to_string(), syn::Ident::to_string);
-            (name, lower.ty(&field.ty), lower.span(field.span()))
-        });
-        let fields = fields.collect();
-        self.library.structs.insert(item.ident.to_string(), Struct { fields });
+        let mut lower = self.lower_of(file);
+        let definition = Struct {
+            generics: lower.generics(&item.generics),
+            fields: fields(&mut lower, &item.fields),
+            derives: derives(&item.attrs),
+        };
+        self.library.structs.insert(item.ident.to_string(), definition);
         self.blame(&item.ident.to_string(), lower.errors);
     }
 
+    fn enumeration(&mut self, file: u32, item: &syn::ItemEnum) {
+        let name = item.ident.to_string();
+        let mut lower = self.lower_of(file);
+        let variants = item.variants.iter().map(|variant| Variant {
+            name: variant.ident.to_string(),
+            docs: docs(&variant.attrs),
+            fields: fields(&mut lower, &variant.fields),
+        });
+        let variants = variants.collect();
+        let definition = Enum {
+            generics: lower.generics(&item.generics),
+            variants,
+            derives: derives(&item.attrs),
+        };
+        self.library.enums.insert(name.clone(), definition);
+        self.blame(&name, lower.errors);
+    }
+
+    /// Lowers an item that stands by itself.
+    pub(super) fn lower_of(&self, file: u32) -> Lower {
+        Lower::new(file, None, Rc::clone(&self.names))
+    }
+
     fn implementation(&mut self, file: u32, item: &mut syn::ItemImpl, mut check: Check) {
-        let mut lower = Lower::new(file, None);
+        let mut lower = self.lower_of(file);
         let ty = lower.ty(&item.self_ty);
-        if let Some((path, _)) = &item.trait_ {
-            return self.trait_implementation(path, &ty, &item.items, check);
-        }
-        let Type::Name(of, _) = ty else {
+        let Type::Name(of, _) = &ty else {
             return self.duplicates.extend(lower.errors);
+        };
+        let of = Owner {
+            name: of.clone(),
+            generics: lower.generics(&item.generics),
+            bounds: lower.bounds(&item.generics),
+            ty: ty.clone(),
+            stands: HashMap::new(),
         };
         if let Some(default) = &item.modifiers.defaultness {
             check.refuse(default.span(), "`default`", "leave it out");
@@ -283,8 +421,8 @@ impl Items {
                     }
                     check.constant_name(&c.ident);
                     check.constant(&mut c.generics, &mut c.ty, &mut c.expr);
-                    let mut lower = Lower::new(file, Some(of.clone()));
-                    let name = format!("{of}::{}", c.ident);
+                    let mut lower = self.lower_within(file, &of);
+                    let name = format!("{}::{}", of.name, c.ident);
                     let value = lower.expr(&c.expr);
                     let ty = lower.ty(&c.ty);
                     if self.library.consts.contains_key(&name) {
@@ -308,7 +446,7 @@ impl Items {
                     continue;
                 }
             };
-            let name = qualified(Some(&of), name);
+            let name = qualified(Some(&of.name), name);
             let mut text = item.self_ty.to_token_stream();
             text.extend(inner.to_token_stream());
             self.blame(&name, of_all.clone());
@@ -317,7 +455,7 @@ impl Items {
     }
 
     fn options(&mut self, file: u32, mac: &syn::Macro) {
-        let mut lower = Lower::new(file, None);
+        let mut lower = self.lower_of(file);
         match mac.parse_body::<OptionsSyntax>() {
             Ok(mut syntax) => {
                 let name = syntax.name.to_string();
@@ -354,7 +492,12 @@ impl Items {
                 });
                 let fields: Vec<OptionField> = fields.collect();
                 let plain = fields.iter().map(|f| (f.name.clone(), f.ty.clone(), f.span)).collect();
-                self.library.structs.insert(name.clone(), Struct { fields: plain });
+                let plain = Struct {
+                    generics: Vec::new(),
+                    fields: plain,
+                    derives: Vec::new(),
+                };
+                self.library.structs.insert(name.clone(), plain);
                 self.library.options.insert(name, fields);
             }
             Err(error) => {
@@ -368,19 +511,19 @@ impl Items {
         self.duplicates.extend(lower.errors);
     }
 
-    fn duplicate(&mut self, lower: &Lower, span: Span, name: &str) {
-        self.duplicates.push(
-            Diagnostic::at(
-                lower.span(span),
-                format!("`{name}` is defined twice among the kernel's files"),
-            )
-            .label("second definition")
-            .help("modules are not told apart: give it another name"),
-        );
+    pub(super) fn duplicate(&mut self, lower: &Lower, span: Span, name: &str) {
+        let error = Diagnostic::at(
+            lower.span(span),
+            format!("`{name}` is defined twice among the kernel's files"),
+        )
+        .label("second definition")
+        .help("modules and functions are not told apart: give it another name");
+        self.blame(name, vec![error]);
     }
 
     /// What `entry` needs, or the errors in it.
     pub fn lower(mut self, entry: &str) -> Result<Parsed, Vec<Diagnostic>> {
+        self.implement_all();
         // A method of a type itself goes before one of a trait.
         for (name, errors) in std::mem::take(&mut self.of_traits) {
             if !self.library.functions.contains_key(&name) {
@@ -411,8 +554,8 @@ impl Items {
 }
 
 /// The type of `self`, `&self`, `&mut self` or `self: T`.
-fn receiver_type(lower: &mut Lower, receiver: &syn::Receiver, of: &str) -> Type {
-    let own = Type::Name(of.to_owned(), Vec::new());
+fn receiver_type(lower: &mut Lower, receiver: &syn::Receiver) -> Type {
+    let own = lower.self_type().cloned().unwrap_or(Type::Tuple(Vec::new()));
     match &receiver.kind {
         syn::ReceiverKind::Value => own,
         syn::ReceiverKind::Reference(_, _, mutability) => Type::Ref(mutability.is_some(), Box::new(own)),
@@ -424,7 +567,29 @@ fn receiver_type(lower: &mut Lower, receiver: &syn::Receiver, of: &str) -> Type 
     }
 }
 
-fn qualified(of: Option<&str>, name: &syn::Ident) -> String {
+/// The fields of a structure or of a variant.
+fn fields(lower: &mut Lower, fields: &syn::Fields) -> Fields {
+    let each = fields.iter().enumerate().map(|(k, field)| {
+        let name = field.ident.as_ref().map_or(k.to_string(), syn::Ident::to_string);
+        (name, lower.ty(&field.ty), lower.span(field.span()))
+    });
+    each.collect()
+}
+
+/// The traits that attributes derive, by the last segments of their paths.
+fn derives(attrs: &[syn::Attribute]) -> Vec<String> {
+    let mut names = Vec::new();
+    for attr in attrs.iter().filter(|attr| attr.path().is_ident("derive")) {
+        let parser = Punctuated::<syn::Path, syn::Token![,]>::parse_terminated;
+        for path in attr.parse_args_with(parser).into_iter().flatten() {
+            names.extend(path.segments.last().map(|last| last.ident.to_string()));
+        }
+    }
+    names
+}
+
+/// A function's name, of a type's with the type before it.
+pub(super) fn qualified(of: Option<&str>, name: &syn::Ident) -> String {
     match of {
         Some(ty) => format!("{ty}::{name}"),
         None => name.to_string(),

@@ -84,3 +84,16 @@ pub fn has(ty: Type, name: &str) -> bool {
         .iter()
         .any(|list| list.split_whitespace().any(|known| known == name))
 }
+
+/// Whether numbers or vectors have a method themselves, which goes before one of a trait.
+pub fn is_inherent(ty: &str, name: &str) -> bool {
+    let ty = match (ty, crate::front::tree::vector_named(ty)) {
+        (_, Some((kind, lanes))) => Type::value(kind, lanes),
+        ("f32", _) => Type::F32,
+        ("i32" | "usize", _) => Type::I32,
+        ("u32", _) => Type::U32,
+        ("bool", _) => Type::BOOL,
+        _ => return false,
+    };
+    has(ty, name)
+}

@@ -13,14 +13,18 @@ mod expr;
 mod foreign;
 #[cfg(test)]
 mod fuzz;
+mod inner;
 mod items;
 pub mod methods;
+mod names;
 mod options;
 mod parts;
 mod pattern;
 mod reach;
 mod scan;
 pub mod std;
+mod targets;
+mod traits;
 pub mod tree;
 
 use crate::diagnostic::{Diagnostic, Errors, File, Span};
@@ -59,7 +63,10 @@ pub fn parse(files: &Arc<Vec<File>>, entry: &str) -> Result<Parsed, Errors> {
     if !errors.is_empty() {
         return Err(Errors::new(errors, files));
     }
-    let mut items = items::Items::default();
+    for (_, parsed) in &mut syntax {
+        inner::take_all(&mut parsed.items);
+    }
+    let mut items = items::Items::new(&syntax);
     for (file, parsed) in &mut syntax {
         items.file(*file, parsed);
     }

@@ -2,6 +2,7 @@
 
 use super::expr::Lower;
 use super::tree::{Pattern, Type};
+use std::collections::HashMap;
 use syn::spanned::Spanned;
 
 impl Lower {
@@ -12,7 +13,8 @@ impl Lower {
                 let name = p.ident.to_string();
                 // A name in capitals is a constant, as everywhere in Rust.
                 if name.chars().next().is_some_and(char::is_uppercase) {
-                    Pattern::Value(Box::new(self.path_expr(vec![name], p.span())))
+                    let path = self.segments(&syn::Path::from(p.ident.clone()));
+                    Pattern::Value(Box::new(self.path_expr(path, p.span())))
                 } else {
                     Pattern::Name(name, p.mutability.is_some(), self.span(p.ident.span()))
                 }
@@ -52,9 +54,12 @@ impl Lower {
             }
             // Fields of a structure without names are named by their numbers.
             syn::Pat::TupleStruct(p) if p.qself.is_none() => {
+                // Those that `..` leaves out may be anything.
+                let rest = p.elems.last().is_some_and(|last| matches!(last, syn::Pat::Rest(_)));
                 let fields = p
                     .elems
                     .iter()
+                    .take(p.elems.len() - usize::from(rest))
                     .enumerate()
                     .map(|(k, e)| (k.to_string(), self.pattern(e)));
                 let fields = fields.collect();
@@ -101,23 +106,47 @@ impl Lower {
                 let name = t.path.segments[0].ident.to_string();
                 self.functions[&name].clone()
             }
-            syn::Type::Path(t) if t.qself.is_none() => {
+            syn::Type::Path(t) if self.stand_in(t).is_some() => self.stand_in(t).unwrap_or(Type::Tuple(Vec::new())),
+            // What belongs to a type parameter is found by inference.
+            syn::Type::Path(t) if self.belongs_to_a_parameter(t) => Type::Name("_".to_owned(), Vec::new()),
+            syn::Type::Path(t) if t.qself.is_none() && !belongs_to_a_type(t) => {
                 let last = t.path.segments.last().expect("a path has a segment");
                 let mut args = Vec::new();
                 if let syn::PathArguments::AngleBracketed(list) = &last.arguments {
                     for arg in &list.args {
-                        if let syn::GenericArgument::Type(t) = arg {
-                            args.push(self.ty(t));
+                        match arg {
+                            syn::GenericArgument::Type(syn::Type::Infer(_)) => {
+                                args.push(Type::Name("_".to_owned(), Vec::new()));
+                            }
+                            syn::GenericArgument::Type(t) => args.push(self.ty(t)),
+                            // No type depends on it: lengths are the evaluator's.
+                            syn::GenericArgument::Const(_) => args.push(Type::Name("_".to_owned(), Vec::new())),
+                            _ => {}
                         }
                     }
                 }
-                Type::Name(self.self_name(last.ident.to_string()), args)
+                let name = last.ident.to_string();
+                match self.self_type() {
+                    Some(own) if name == "Self" => own.clone(),
+                    _ => match self.alias(&name) {
+                        Some(ty) => ty,
+                        None => Type::Name(self.type_name(name), args),
+                    },
+                }
             }
             syn::Type::ImplTrait(t) if is_called(&t.bounds) => {
                 self.called(&t.bounds).unwrap_or(Type::Tuple(Vec::new()))
             }
             syn::Type::TraitObject(t) if is_called(&t.bounds) => {
                 self.called(&t.bounds).unwrap_or(Type::Tuple(Vec::new()))
+            }
+            syn::Type::ImplTrait(t) if self.in_parameters => self.anonymous_parameter("impl", &t.bounds),
+            syn::Type::TraitObject(t) if self.in_parameters => self.anonymous_parameter("dyn", &t.bounds),
+            // What a function gives, and what is of one type or another: the values tell.
+            syn::Type::ImplTrait(_) => Type::Name("_".to_owned(), Vec::new()),
+            syn::Type::TraitObject(t) => {
+                let traits: Vec<String> = t.bounds.iter().filter_map(super::traits::trait_name).collect();
+                Type::Name(format!("dyn {}", traits.join(" + ")), Vec::new())
             }
             other => {
                 let text = super::cfg::as_written(other);
@@ -130,6 +159,81 @@ impl Lower {
             }
         }
     }
+}
+
+impl Lower {
+    /// What a name of a type stands for: `Self::Output`, or a type parameter of a trait that is implemented.
+    fn stand_in(&self, ty: &syn::TypePath) -> Option<Type> {
+        let names: Vec<String> = ty.path.segments.iter().map(|s| s.ident.to_string()).collect();
+        match names.as_slice() {
+            [name] if ty.qself.is_none() => self.stands.get(name).cloned(),
+            [.., own, name] if ty.qself.is_some() || own == "Self" => {
+                self.stands.get(&format!("Self::{name}")).cloned()
+            }
+            _ => None,
+        }
+    }
+
+    /// Whether a path is of what belongs to a type parameter: `S::Scalar`, `<S as Trait>::Scalar`.
+    fn belongs_to_a_parameter(&self, ty: &syn::TypePath) -> bool {
+        let first = match &ty.qself {
+            Some(own) => match &*own.ty {
+                syn::Type::Path(own) => own.path.get_ident().map(ToString::to_string),
+                _ => None,
+            },
+            None => ty.path.segments.first().map(|s| s.ident.to_string()),
+        };
+        let known = |name: String| name == "Self" || self.parameters.contains(&name);
+        belongs_to_a_type(ty) && first.is_some_and(known)
+    }
+
+    /// A parameter of any type that has some traits.
+    fn anonymous_parameter<'b>(
+        &mut self,
+        word: &str,
+        bounds: impl IntoIterator<Item = &'b syn::TypeParamBound>,
+    ) -> Type {
+        let traits: Vec<String> = bounds.into_iter().filter_map(super::traits::trait_name).collect();
+        let name = match self.anonymous.len() {
+            0 => format!("{word} {}", traits.join(" + ")),
+            k => format!("{word} {} #{k}", traits.join(" + ")),
+        };
+        self.anonymous.push((name.clone(), traits));
+        Type::Name(name, Vec::new())
+    }
+
+    /// The traits that type parameters are bound by.
+    pub fn bounds(&mut self, generics: &syn::Generics) -> HashMap<String, Vec<String>> {
+        let mut found: HashMap<String, Vec<String>> = HashMap::new();
+        for param in &generics.params {
+            if let syn::GenericParam::Type(t) = param {
+                let traits = t.bounds.iter().filter_map(super::traits::trait_name);
+                found.entry(t.ident.to_string()).or_default().extend(traits);
+            }
+        }
+        for predicate in generics.where_clause.iter().flat_map(|clause| &clause.predicates) {
+            if let syn::WherePredicate::Type(t) = predicate
+                && let syn::Type::Path(path) = &t.bounded_ty
+                && let Some(name) = path.path.get_ident()
+            {
+                let traits = t.bounds.iter().filter_map(super::traits::trait_name);
+                found.entry(name.to_string()).or_default().extend(traits);
+            }
+        }
+        found
+    }
+}
+
+/// Whether a path of two names is of what belongs to a type.
+fn belongs_to_a_type(ty: &syn::TypePath) -> bool {
+    let first = ty
+        .path
+        .segments
+        .first()
+        .map(|s| s.ident.to_string())
+        .unwrap_or_default();
+    // Modules are in lower case.
+    ty.qself.is_some() || (ty.path.segments.len() > 1 && first.starts_with(char::is_uppercase))
 }
 
 /// Whether one of some bounds is of what is called.

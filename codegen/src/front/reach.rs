@@ -12,6 +12,8 @@ enum Mention {
     Qualified(String),
     /// `.name(..)`: a method of some type.
     Method(String),
+    /// What goes by this whole name, which no text mentions.
+    Whole(String),
 }
 
 /// The words that the text of items mentions, by the items' names.
@@ -24,6 +26,12 @@ impl Mentions {
     /// Adds the text of an item. What is added twice counts together.
     pub fn add(&mut self, item: &str, text: TokenStream) {
         scan(text, self.words.entry(item.to_owned()).or_default());
+    }
+
+    /// Lets an item need another, though its text does not mention it.
+    pub fn needs(&mut self, item: &str, other: &str) {
+        let needed = Mention::Whole(other.to_owned());
+        self.words.entry(item.to_owned()).or_default().insert(needed);
     }
 
     /// Names of the items that `entry` reaches by any mention. Coarse, never too small.
@@ -48,6 +56,7 @@ impl Mentions {
             for mention in self.words.get(&name).into_iter().flatten() {
                 match mention {
                     Mention::Plain(word) => pending.extend(of(&plain, word)),
+                    Mention::Whole(name) => pending.push(name.clone()),
                     Mention::Method(word) => pending.extend(of(&members, word)),
                     Mention::Qualified(word) => {
                         pending.extend(of(&plain, word));

@@ -44,7 +44,7 @@ pub fn breaks(body: &Block, label: Option<&str>) -> bool {
             ExprKind::For(f) => in_block(&f.body, label, false),
             ExprKind::While(_, body, ..) => in_block(body, label, false),
             ExprKind::If(_, then, ..) => in_block(then, label, innermost),
-            ExprKind::Block(block) => in_block(block, label, innermost),
+            ExprKind::Block(block) | ExprKind::Labelled(_, block) => in_block(block, label, innermost),
             _ => false,
         };
         inner || children(e).into_iter().any(|child| in_expr(child, label, innermost))
@@ -127,6 +127,10 @@ fn expr<'b>(e: &'b Expr, out: &mut Effects, around: &mut Around<'b>) {
             expr(receiver, out, around);
             args.iter().for_each(|e| expr(e, out, around));
         }
+        ExprKind::Try(value) => {
+            out.leaves = true;
+            expr(value, out, around);
+        }
         ExprKind::Return(value) => {
             out.leaves = true;
             value.iter().for_each(|e| expr(e, out, around));
@@ -166,6 +170,11 @@ fn expr<'b>(e: &'b Expr, out: &mut Effects, around: &mut Around<'b>) {
             out.leaves = leaves;
         }
         ExprKind::Block(b) => block(b, out, around),
+        ExprKind::Labelled(label, b) => {
+            around.loops.push(Some(label));
+            block(b, out, around);
+            around.loops.pop();
+        }
         ExprKind::Match(subject, arms, _) => {
             expr(subject, out, around);
             for arm in arms {
@@ -200,6 +209,7 @@ pub fn children(e: &Expr) -> Vec<&Expr> {
         | ExprKind::Field(a, _)
         | ExprKind::Cast(a, _)
         | ExprKind::Assert(a, _)
+        | ExprKind::Try(a)
         | ExprKind::Ref(_, a)
         | ExprKind::Deref(a) => vec![a],
         ExprKind::Binary(_, a, b)
@@ -243,15 +253,13 @@ pub fn mentioned_in(e: &Expr, out: &mut BTreeSet<String>) {
         ExprKind::Method(_, name, _) => {
             out.insert(name.clone());
         }
-        ExprKind::Struct(name, ..) => {
-            out.insert(name.clone());
-        }
+        ExprKind::Struct(path, ..) => out.extend(path.iter().cloned()),
         ExprKind::If(_, then, ..) => mentioned(then, out),
         ExprKind::For(f) => {
             in_pattern(&f.pattern, out);
             mentioned(&f.body, out);
         }
-        ExprKind::While(_, body, ..) | ExprKind::Block(body) => mentioned(body, out),
+        ExprKind::While(_, body, ..) | ExprKind::Block(body) | ExprKind::Labelled(_, body) => mentioned(body, out),
         ExprKind::Match(_, arms, _) => arms.iter().for_each(|arm| in_pattern(&arm.pattern, out)),
         _ => {}
     }

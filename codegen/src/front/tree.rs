@@ -54,14 +54,16 @@ pub enum ExprKind {
     Match(Box<Expr>, Vec<Arm>, Option<Branches>),
     /// `{ ... }`.
     Block(Block),
+    /// `'label: { ... }`, which a `break` may leave.
+    Labelled(String, Block),
     /// `(a, b)`; `()` is empty.
     Tuple(Vec<Expr>),
     /// `[a, b]`.
     Array(Vec<Expr>),
     /// `[value; len]`.
     Repeat(Box<Expr>, Box<Expr>),
-    /// `Name { field: value }`.
-    Struct(String, Vec<(String, Expr)>, Option<Box<Expr>>),
+    /// `Name { field: value }`, of a structure or a variant, by the last two segments of its path.
+    Struct(Vec<String>, Vec<(String, Expr)>, Option<Box<Expr>>),
     /// `value as type`.
     Cast(Box<Expr>, Type),
     /// `a..b`, `a..=b` (true).
@@ -70,6 +72,8 @@ pub enum ExprKind {
     For(Box<ForLoop>),
     /// `while`, or `loop` as `while true`, with its label and what its attribute says.
     While(Box<Expr>, Block, Option<String>, Option<Unroll>),
+    /// `value?`: what an `Option` or a `Result` holds, or the function ends with what it has instead.
+    Try(Box<Expr>),
     /// `return`.
     Return(Option<Box<Expr>>),
     /// `break`, of the loop with a label.
@@ -226,6 +230,15 @@ pub enum Generic {
     Const(String, Type),
 }
 
+impl Generic {
+    /// Its name.
+    pub fn name(&self) -> &str {
+        match self {
+            Generic::Type(name) | Generic::Const(name, _) => name,
+        }
+    }
+}
+
 /// A parameter of a function.
 #[derive(Clone, Debug)]
 pub struct Param {
@@ -244,8 +257,10 @@ pub struct Param {
 pub struct Function {
     /// Documentation.
     pub docs: String,
-    /// Generic parameters in order.
+    /// Generic parameters in order, those of its `impl` last.
     pub generics: Vec<Generic>,
+    /// The traits that type parameters have, by their names.
+    pub bounds: HashMap<String, Vec<String>>,
     /// Parameters in order.
     pub params: Vec<Param>,
     /// What it gives; `()` is an empty tuple.
@@ -267,18 +282,69 @@ pub struct Const {
     pub ty: Type,
 }
 
+/// Name and type of each field; fields without names go by their numbers.
+pub type Fields = Vec<(String, Type, Span)>;
+
 /// A structure.
 #[derive(Clone, Debug)]
 pub struct Struct {
-    /// Name and type of each field.
-    pub fields: Vec<(String, Type, Span)>,
+    /// Generic parameters in order.
+    pub generics: Vec<Generic>,
+    /// Its fields in order.
+    pub fields: Fields,
+    /// The traits that it derives.
+    pub derives: Vec<String>,
 }
 
-/// An enum without data.
+/// An enum.
 #[derive(Clone, Debug)]
 pub struct Enum {
-    /// Name and documentation of each variant.
-    pub variants: Vec<(String, String)>,
+    /// Generic parameters in order.
+    pub generics: Vec<Generic>,
+    /// Its variants in order.
+    pub variants: Vec<Variant>,
+    /// The traits that it derives.
+    pub derives: Vec<String>,
+}
+
+/// A variant of an enum.
+#[derive(Clone, Debug)]
+pub struct Variant {
+    /// Its name.
+    pub name: String,
+    /// Documentation.
+    pub docs: String,
+    /// What it holds.
+    pub fields: Fields,
+}
+
+impl Enum {
+    /// The position of a variant.
+    pub fn position(&self, variant: &str) -> Option<usize> {
+        self.variants.iter().position(|known| known.name == variant)
+    }
+}
+
+/// A trait of the kernel's files: what its functions take and give, with `Self` as a type parameter.
+#[derive(Clone, Debug)]
+pub struct Trait {
+    /// Its functions, without bodies.
+    pub functions: HashMap<String, Function>,
+    /// Types of its constants.
+    pub consts: HashMap<String, Type>,
+    /// The traits that a type needs to have it.
+    pub supers: Vec<String>,
+}
+
+/// A function that an implementation of a trait gives a type.
+#[derive(Clone, Debug)]
+pub struct Implemented {
+    /// The trait.
+    pub of: String,
+    /// The trait's type arguments.
+    pub args: Vec<Type>,
+    /// What the function goes by.
+    pub key: String,
 }
 
 /// One line of `options!`.
@@ -315,4 +381,56 @@ pub struct Library {
     pub enums: HashMap<String, Enum>,
     /// Structures declared by `options!`.
     pub options: HashMap<String, Vec<OptionField>>,
+    /// Traits.
+    pub traits: HashMap<String, Trait>,
+    /// Functions that implementations of traits give types, by `Type::name`.
+    pub implemented: HashMap<String, Vec<Implemented>>,
+    /// Types and traits that they implement.
+    pub implements: HashSet<(String, String)>,
+}
+
+impl Library {
+    /// Whether a structure or an enum goes by this name.
+    pub fn has_type(&self, name: &str) -> bool {
+        self.structs.contains_key(name) || self.enums.contains_key(name)
+    }
+
+    /// What `Type::name` may be: a function of the type itself alone, or functions of traits.
+    pub fn methods(&self, ty: &str, name: &str) -> Vec<&str> {
+        let plain = format!("{ty}::{name}");
+        let of_traits = self.implemented.get(&plain).map_or(&[][..], Vec::as_slice);
+        match self.functions.get_key_value(&plain) {
+            Some((key, _)) if of_traits.iter().all(|i| i.key != plain) => vec![key],
+            _ => of_traits.iter().map(|i| i.key.as_str()).collect(),
+        }
+    }
+
+    /// The functions of an operator's trait that a type has.
+    pub fn operators(&self, ty: &str, of: &str, name: &str) -> Vec<&str> {
+        let of_traits = self.implemented.get(&format!("{ty}::{name}"));
+        let of_traits = of_traits.into_iter().flatten().filter(|i| i.of == of);
+        of_traits.map(|i| i.key.as_str()).collect()
+    }
+
+    /// The function of a trait, or of one that it needs.
+    pub fn declared(&self, of: &str, name: &str) -> Option<&Function> {
+        let found = self.traits.get(of)?;
+        let supers = || found.supers.iter().find_map(|of| self.declared(of, name));
+        found.functions.get(name).or_else(supers)
+    }
+
+    /// The type of a constant of a trait, or of one that it needs.
+    pub fn declared_const(&self, of: &str, name: &str) -> Option<&Type> {
+        let found = self.traits.get(of)?;
+        let supers = || found.supers.iter().find_map(|of| self.declared_const(of, name));
+        found.consts.get(name).or_else(supers)
+    }
+
+    /// The enum and the variant that a path ends with, and the variant's position.
+    pub fn variant<'l>(&'l self, path: &'l [String]) -> Option<(&'l str, usize, &'l Variant)> {
+        let [.., ty, name] = path else { return None };
+        let definition = self.enums.get(ty)?;
+        let k = definition.position(name)?;
+        Some((ty, k, &definition.variants[k]))
+    }
 }

@@ -1,25 +1,32 @@
 //! Writes into the tree what inference found: types of literals, and which functions methods stand for.
 
-use super::Known;
+use super::{Known, KnownItems};
+use crate::diagnostic::Span;
 use crate::front::tree::{Block, Expr, ExprKind, Library, Pattern, Statement, Type};
 use std::sync::Arc;
 
 /// Gives each literal the type that was found for it, and each method of a number the function that it stands for.
-pub fn apply(library: &mut Library, known: &Known) {
-    for function in library.functions.values_mut() {
+pub fn apply(library: &mut Library, items: &KnownItems) {
+    let nothing = Known::default();
+    let of = |name: &str| items.get(name).unwrap_or(&nothing);
+    for (name, function) in &mut library.functions {
+        let known = of(name);
         for param in &mut function.params {
             ty(&mut param.ty, known);
         }
         ty(&mut function.result, known);
         block(&mut function.body, known);
     }
-    for constant in library.consts.values_mut() {
+    for (name, constant) in &mut library.consts {
+        let known = of(name);
         ty(&mut constant.ty, known);
         expr(&mut constant.value, known);
     }
-    for structure in library.structs.values_mut() {
-        structure.fields.iter_mut().for_each(|(_, t, _)| ty(t, known));
-    }
+    let known = of("");
+    let of_structures = library.structs.values_mut().flat_map(|s| &mut s.fields);
+    let variants = library.enums.values_mut().flat_map(|e| &mut e.variants);
+    let of_variants = variants.flat_map(|variant| &mut variant.fields);
+    of_structures.chain(of_variants).for_each(|(_, t, _)| ty(t, known));
     for field in library.options.values_mut().flatten() {
         ty(&mut field.ty, known);
         expr(&mut field.default, known);
@@ -59,7 +66,8 @@ fn expr(e: &mut Expr, known: &Known) {
         | ExprKind::Ref(_, a)
         | ExprKind::Deref(a)
         | ExprKind::Field(a, _)
-        | ExprKind::Assert(a, _) => {
+        | ExprKind::Assert(a, _)
+        | ExprKind::Try(a) => {
             go(a);
         }
         ExprKind::Binary(_, a, b)
@@ -71,13 +79,27 @@ fn expr(e: &mut Expr, known: &Known) {
             go(a);
             go(b);
         }
-        ExprKind::Call(_, constants, args) => constants.iter_mut().chain(args).for_each(go),
+        ExprKind::Call(path, constants, args) => {
+            constants.iter_mut().chain(args).for_each(go);
+            if let Some(function) = known.methods.get(&e.span) {
+                *path = vec![function.clone()];
+            }
+            if let Some((_, types)) = known.instances.get(&e.span) {
+                *constants = arguments(std::mem::take(constants), types, e.span);
+            }
+        }
         ExprKind::Method(receiver, name, args) => {
             if let Some(function) = known.methods.get(&e.span) {
                 name.clone_from(function);
             }
             go(receiver);
             args.iter_mut().for_each(go);
+            // Only a call has a place for types.
+            if let Some((key, types)) = known.instances.get(&e.span) {
+                let constants = arguments(Vec::new(), types, e.span);
+                let all = std::iter::once((**receiver).clone()).chain(args.drain(..)).collect();
+                e.kind = ExprKind::Call(vec![key.clone()], constants, all);
+            }
         }
         ExprKind::Tuple(parts) | ExprKind::Array(parts) => parts.iter_mut().for_each(go),
         ExprKind::Struct(_, fields, rest) => {
@@ -111,7 +133,7 @@ fn expr(e: &mut Expr, known: &Known) {
             closure.result.iter_mut().for_each(|t| ty(t, known));
             expr(&mut closure.body, known);
         }
-        ExprKind::Block(b) => block(b, known),
+        ExprKind::Block(b) | ExprKind::Labelled(_, b) => block(b, known),
         ExprKind::For(f) => {
             pattern(&mut f.pattern, known);
             expr(&mut f.over, known);
@@ -122,6 +144,21 @@ fn expr(e: &mut Expr, known: &Known) {
             block(body, known);
         }
     }
+}
+
+/// Generic arguments with the types that were found: those that are stated, then the others. What is not known is `()`.
+fn arguments(stated: Vec<Expr>, types: &[Option<String>], span: Span) -> Vec<Expr> {
+    let mut stated = stated.into_iter();
+    let each = types.iter().map(|ty| {
+        let given = stated.next();
+        let kind = match (ty, given) {
+            (Some(name), _) => ExprKind::Path(vec![name.clone()]),
+            (None, Some(given)) => return given,
+            (None, None) => ExprKind::Tuple(Vec::new()),
+        };
+        Expr { kind, span }
+    });
+    each.collect()
 }
 
 fn pattern(p: &mut Pattern, known: &Known) {

@@ -5,6 +5,7 @@ use super::types::{Kind, Ty};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::front::tree::{Expr, ExprKind, Function};
 use crate::ir::Scalar;
+use std::collections::HashMap;
 
 impl<'l> Checker<'l> {
     /// The type of `path::<constants>(args)`.
@@ -16,30 +17,81 @@ impl<'l> Checker<'l> {
             return found;
         }
         let library = self.library;
-        let own = match path.len() {
-            2 => library.functions.get(&path.join("::")),
-            _ => None,
-        };
-        if let Some(function) = own.or_else(|| library.functions.get(last)) {
-            return self.signature(function, constants, None, args, span);
+        if let [of, name] = path {
+            if let Some(found) = self.of_type(of, name, args, span) {
+                return found;
+            }
+            if let Some(function) = library.functions.get(&path.join("::")) {
+                return self.signature(&path.join("::"), function, constants, None, args, span);
+            }
         }
-        if let Some(definition) = library.structs.get(last)
-            && definition.fields.iter().all(|(name, ..)| name.parse::<usize>().is_ok())
-        {
-            let types: Vec<Ty> = definition
-                .fields
-                .iter()
-                .map(|(_, ty, at)| self.field_type(ty, *at))
-                .collect();
-            return self.takes(args, &types, Ty::Struct(last.to_owned()));
+        if let Some(function) = library.functions.get(last) {
+            return self.signature(last, function, constants, None, args, span);
+        }
+        if let Some(made) = self.constructed_by(path, args, span) {
+            return made;
         }
         let names: Vec<&str> = path.iter().map(String::as_str).collect();
         self.known_call(&names, args, span)
     }
 
+    /// `Type::name(args)` of a type parameter, of a trait, or where several functions go by the name.
+    fn of_type(&mut self, of: &str, name: &str, args: &'l [Expr], span: Span) -> Option<Ty> {
+        let library = self.library;
+        if self.params.iter().any(|param| param == of) {
+            let Some(function) = self.declared_of(of, name) else {
+                self.loose(args);
+                self.no_member(of, name, span);
+                return Some(match name {
+                    "default" | "from" | "new" => Ty::Param(of.to_owned()),
+                    _ => Ty::Unknown,
+                });
+            };
+            return Some(self.of_parameter(of, function, None, args, span));
+        }
+        if of == "Default" && name == "default" && args.is_empty() {
+            return Some(self.given_back(None, span));
+        }
+        let declared = library.declared(of, name);
+        if let (Some(function), false) = (declared, library.has_type(of)) {
+            let own = function.params.first().is_some_and(|own| own.name == "self");
+            let found: Vec<Ty> = args.iter().map(|arg| self.expr(arg, None)).collect();
+            let first = found.first().map(|first| self.peeled(first).0);
+            return Some(match first.filter(|_| own) {
+                Some(Ty::Param(parameter)) => {
+                    let mut given = self.instantiate(function, &[]);
+                    given.insert("Self".to_owned(), Ty::Param(parameter));
+                    self.substituted(&function.result, &given, span)
+                }
+                Some(first) => match self.type_name(&first) {
+                    Some(ty) => self.overloaded(&library.methods(&ty, name), &found, name, span),
+                    None => Ty::Unknown,
+                },
+                None => {
+                    self.errors.push(
+                        Diagnostic::at(
+                            span,
+                            format!("cannot call `{of}::{name}` without the type that it is of"),
+                        )
+                        .label("of which type?")
+                        .help(format!("write the type: `Type::{name}(...)`")),
+                    );
+                    Ty::Unknown
+                }
+            });
+        }
+        let keys = library.methods(of, name);
+        if keys.len() < 2 {
+            return None;
+        }
+        let found: Vec<Ty> = args.iter().map(|arg| self.expr(arg, None)).collect();
+        Some(self.overloaded(&keys, &found, name, span))
+    }
+
     /// A function of the kernel's files: each argument against its parameter. A method's receiver has been looked at.
     pub fn signature(
         &mut self,
+        key: &str,
         function: &'l Function,
         constants: &'l [Expr],
         receiver: Option<&Ty>,
@@ -47,6 +99,27 @@ impl<'l> Checker<'l> {
         span: Span,
     ) -> Ty {
         let given = self.instantiate(function, constants);
+        self.instance(key, function, &given, span);
+        self.with_given(function, given, receiver, args, span)
+    }
+
+    /// As [`Checker::signature`], with the types of the function's parameters.
+    pub fn with_given(
+        &mut self,
+        function: &'l Function,
+        given: HashMap<String, Ty>,
+        receiver: Option<&Ty>,
+        args: &'l [Expr],
+        span: Span,
+    ) -> Ty {
+        if let (Some(found), Some(own)) = (receiver, function.params.first()) {
+            // What the receiver is tells the type parameters of its `impl`.
+            let own = self.substituted(&own.ty, &given, span);
+            let (own, found) = (self.peeled(&own).0, self.peeled(found).0);
+            if matches!(own, Ty::Enum(..) | Ty::Struct(..) | Ty::Array(_)) {
+                self.coerce(&own, &found, span);
+            }
+        }
         let params = &function.params[usize::from(receiver.is_some()).min(function.params.len())..];
         if params.len() == args.len() {
             // As rustc, closures last: the other arguments tell their types.
@@ -233,6 +306,10 @@ impl<'l> Checker<'l> {
                 self.expr(value, None)
             }
             ([.., "uniform"], [value]) => self.expr(value, None),
+            (["array", "from_fn"] | ["from_fn"], [f]) => {
+                let item = self.mapped(&Ty::USIZE, f);
+                Ty::Array(Box::new(item))
+            }
             (["mem", "swap"] | ["swap"], [a, b]) => {
                 let of = Ty::Ref(true, Box::new(self.table.fresh(Kind::Any)));
                 self.takes_both(a, b, &of, &of);

@@ -53,17 +53,31 @@ impl<'l> Checker<'l> {
         match &ty {
             Ty::Unknown | Ty::Param(_) | Ty::Never => true,
             Ty::Bool => [true, false].iter().all(|value| {
-                let takes = |p: &Pattern| matches!(p, Pattern::Value(e) if matches!(&e.kind, ExprKind::Bool(b) if b == value));
+                let takes =
+                    |p: &Pattern| matches!(p, Pattern::Value(e) if matches!(&e.kind, ExprKind::Bool(b) if b == value));
                 self.covers(with(&rows, takes), rest)
             }),
-            Ty::Enum(name) => self.library.enums.get(name).is_none_or(|definition| {
-                definition.variants.iter().all(|(variant, _)| {
-                    let takes = |p: &Pattern| {
-                        matches!(p, Pattern::Value(e) if matches!(&e.kind, ExprKind::Path(path) if path.last() == Some(variant)))
-                    };
-                    self.covers(with(&rows, takes), rest)
+            Ty::Enum(name, _) => {
+                let library = self.library;
+                let variants = library.enums.get(name).map_or(&[][..], |e| &e.variants);
+                variants.iter().enumerate().all(|(k, variant)| {
+                    let (fields, types) = self.fields_of(&ty, Some(k)).unwrap_or((&variant.fields, Vec::new()));
+                    let rows = rows.iter().filter_map(|row| {
+                        let cells: Vec<Cell<'_>> = match row[0].map(bare) {
+                            Some(Pattern::Value(e)) if is_path_to(e, &variant.name) => vec![None; fields.len()],
+                            Some(Pattern::Struct(path, patterns, _)) if path.last() == Some(&variant.name) => {
+                                let of = |field: &String| patterns.iter().find(|(name, _)| name == field);
+                                fields.iter().map(|(field, ..)| of(field).map(|(_, p)| p)).collect()
+                            }
+                            other if takes_all(other) => vec![None; fields.len()],
+                            _ => return None,
+                        };
+                        Some([cells, row[1..].to_vec()].concat())
+                    });
+                    let rows = rows.collect();
+                    self.covers(rows, &[types, rest.to_vec()].concat())
                 })
-            }),
+            }
             _ if is_integer => {
                 // Between two ends of the arms' ranges all values are alike.
                 let mut ends: Vec<i64> = match ty {
@@ -114,8 +128,10 @@ impl<'l> Checker<'l> {
                 let parts = vec![(**element).clone(); len];
                 self.covers(rows.collect(), &[parts, rest.to_vec()].concat())
             }
-            Ty::Struct(name) if self.library.structs.contains_key(name) => {
-                let fields = &self.library.structs[name].fields;
+            Ty::Struct(name, _) if self.library.structs.contains_key(name) => {
+                let Some((fields, parts)) = self.fields_of(&ty, None) else {
+                    return true;
+                };
                 let rows = rows.iter().filter_map(|row| {
                     let cells: Vec<Cell<'_>> = match row[0].map(bare) {
                         Some(Pattern::Struct(_, patterns, _)) => {
@@ -128,7 +144,6 @@ impl<'l> Checker<'l> {
                     Some([cells, row[1..].to_vec()].concat())
                 });
                 let rows: Vec<Vec<Cell<'_>>> = rows.collect();
-                let parts: Vec<Ty> = fields.iter().map(|(_, ty, at)| self.field_type(ty, *at)).collect();
                 self.covers(rows, &[parts, rest.to_vec()].concat())
             }
             // Floats and the like: an arm that names no value of them.
@@ -158,6 +173,11 @@ fn with<'p>(rows: &[Vec<Cell<'p>>], takes: impl Fn(&Pattern) -> bool) -> Vec<Vec
         .iter()
         .filter(|row| takes_all(row[0]) || row[0].map(bare).is_some_and(&takes));
     taken.map(|row| row[1..].to_vec()).collect()
+}
+
+/// Whether an expression is a path that ends with a name.
+fn is_path_to(e: &Expr, name: &String) -> bool {
+    matches!(&e.kind, ExprKind::Path(path) if path.last() == Some(name))
 }
 
 fn takes_all(cell: Cell<'_>) -> bool {

@@ -1,7 +1,7 @@
 //! Expressions and statements.
 
-use super::Checker;
 use super::types::{Kind, Ty};
+use super::{Around, Checker};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::front::breaks;
 use crate::front::tree::{Block, Expr, ExprKind, ForLoop, Statement, Type};
@@ -221,6 +221,17 @@ impl<'l> Checker<'l> {
                 all
             }
             ExprKind::Block(block) => self.block(block, wanted),
+            ExprKind::Labelled(label, block) => {
+                let label = Some(label.as_str());
+                self.loops.push(Around { label, block: true });
+                let found = self.block(block, wanted);
+                self.loops.pop();
+                // Who leaves it comes to what follows.
+                match self.table.shallow(&found) {
+                    Ty::Never if breaks(block, label) => Ty::UNIT,
+                    _ => found,
+                }
+            }
             ExprKind::Tuple(parts) => {
                 let hints = match wanted.map(|ty| self.table.shallow(ty)) {
                     Some(Ty::Tuple(types)) if types.len() == parts.len() => types,
@@ -254,7 +265,7 @@ impl<'l> Checker<'l> {
                 self.against(len, &Ty::USIZE);
                 Ty::Array(Box::new(element))
             }
-            ExprKind::Struct(name, fields, rest) => self.structure(name, fields, rest.as_deref(), span),
+            ExprKind::Struct(path, fields, rest) => self.structure(path, fields, rest.as_deref()),
             ExprKind::Cast(value, ty) => self.cast(value, ty, span),
             ExprKind::Range(start, end, _) => {
                 let ty = self.expr(start, None);
@@ -264,7 +275,10 @@ impl<'l> Checker<'l> {
             }
             ExprKind::For(f) => self.for_(f),
             ExprKind::While(condition, body, label, _) => {
-                self.loops.push(label.as_deref());
+                self.loops.push(Around {
+                    label: label.as_deref(),
+                    block: false,
+                });
                 self.against(condition, &Ty::Bool);
                 let found = self.block(body, None);
                 self.loops.pop();
@@ -277,6 +291,7 @@ impl<'l> Checker<'l> {
                     Ty::UNIT
                 }
             }
+            ExprKind::Try(value) => self.tried(value, span),
             ExprKind::Return(value) => {
                 let wanted = self.result.clone();
                 match value {
@@ -324,10 +339,13 @@ impl<'l> Checker<'l> {
     fn unary(&mut self, op: UnaryOp, operand: &'l Expr, wanted: Option<&Ty>, span: Span) -> Ty {
         let found = self.expr(operand, wanted);
         let (bare, _) = self.peeled(&found);
+        if let Some(result) = self.unary_of(op, &bare) {
+            return result;
+        }
         let fits = match (op, &bare) {
-            (UnaryOp::Neg, Ty::Bool | Ty::Array(_) | Ty::Tuple(_) | Ty::Struct(_) | Ty::Enum(_)) => false,
+            (UnaryOp::Neg, Ty::Bool | Ty::Array(_) | Ty::Tuple(_) | Ty::Struct(..) | Ty::Enum(..)) => false,
             (UnaryOp::Neg, Ty::Vector(kind, _)) => *kind != crate::ir::Scalar::U32,
-            (UnaryOp::Not, Ty::Float | Ty::Array(_) | Ty::Tuple(_) | Ty::Struct(_) | Ty::Enum(_) | Ty::Matrix(_)) => {
+            (UnaryOp::Not, Ty::Float | Ty::Array(_) | Ty::Tuple(_) | Ty::Struct(..) | Ty::Enum(..) | Ty::Matrix(_)) => {
                 false
             }
             (UnaryOp::Not, Ty::Vector(kind, _)) => *kind != crate::ir::Scalar::F32,
@@ -369,7 +387,13 @@ impl<'l> Checker<'l> {
                         .help("cast through an integer: `as u32 as f32`"),
                 );
             }
-            found @ (Ty::Vector(..) | Ty::Matrix(_) | Ty::Array(_) | Ty::Tuple(_) | Ty::Struct(_) | Ty::Ref(..)) => {
+            found @ (Ty::Vector(..)
+            | Ty::Matrix(_)
+            | Ty::Array(_)
+            | Ty::Tuple(_)
+            | Ty::Struct(..)
+            | Ty::Enum(..)
+            | Ty::Ref(..)) => {
                 let help = match found {
                     Ty::Vector(..) => "vectors convert with `.as_vec2()`, `.as_ivec3()`, ...",
                     Ty::Ref(..) => "read what it refers to: `*`",
@@ -396,40 +420,30 @@ impl<'l> Checker<'l> {
         }
     }
 
-    fn structure(&mut self, name: &str, fields: &'l [(String, Expr)], rest: Option<&'l Expr>, span: Span) -> Ty {
-        let Some(definition) = self.library.structs.get(name) else {
-            fields.iter().for_each(|(_, value)| {
-                self.expr(value, None);
-            });
-            return Ty::Unknown;
-        };
-        for (field, value) in fields {
-            match definition.fields.iter().find(|(known, ..)| known == field) {
-                Some((_, ty, _)) => {
-                    let ty = self.field_type(ty, span);
-                    self.against(value, &ty);
-                }
-                None => {
-                    self.expr(value, None);
-                }
-            }
-        }
-        if let Some(rest) = rest {
-            self.against(rest, &Ty::Struct(name.to_owned()));
-        }
-        Ty::Struct(name.to_owned())
-    }
-
     /// `break` or `continue`, of a loop that is around it.
     fn leaves_loop(&mut self, word: &str, label: Option<&str>, span: Span) -> Ty {
+        let target = match label {
+            None => self.loops.last(),
+            Some(_) => self.loops.iter().rev().find(|around| around.label == label),
+        };
+        let in_block = target.is_some_and(|around| around.block);
         let error = match label {
+            None if in_block => Diagnostic::at(span, format!("`{word}` without a label in a block with a label"))
+                .label("of the loop, or of the block?")
+                .help("write the label of what it is to leave"),
+            Some(label) if in_block && word == "continue" => {
+                Diagnostic::at(span, format!("`continue` of the block `'{label}`, which is no loop"))
+                    .label("a block has no next iteration")
+                    .help(format!("write `break '{label}`"))
+            }
             None if self.loops.is_empty() => Diagnostic::at(span, format!("`{word}` outside of a loop"))
                 .label("no loop is around it")
                 .help("`return` leaves a function"),
-            Some(label) if !self.loops.contains(&Some(label)) => {
-                let known: Vec<String> = self.loops.iter().flatten().map(|label| format!("'{label}")).collect();
+            Some(label) if target.is_none() => {
+                let labels = self.loops.iter().filter_map(|around| around.label);
+                let known: Vec<String> = labels.map(|label| format!("'{label}")).collect();
                 let known: Vec<&str> = known.iter().map(String::as_str).collect();
-                let help = crate::suggest::suggest(&format!("'{label}"), &known, "labels of loops around it are");
+                let help = crate::suggest::suggest(&format!("'{label}"), &known, "labels around it are");
                 Diagnostic::at(span, format!("cannot find the label `'{label}`"))
                     .label("not found")
                     .help(help)
@@ -455,7 +469,10 @@ impl<'l> Checker<'l> {
         let mark = self.locals.len();
         self.bind_whole(&f.pattern, &item, false);
         self.irrefutable(&f.pattern, &item, f.over.span);
-        self.loops.push(f.label.as_deref());
+        self.loops.push(Around {
+            label: f.label.as_deref(),
+            block: false,
+        });
         let found = self.block(&f.body, None);
         self.loops.pop();
         let at = f.body.value.as_ref().map_or(f.over.span, |value| value.span);

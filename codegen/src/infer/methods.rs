@@ -16,28 +16,43 @@ impl<'l> Checker<'l> {
             self.solve();
         }
         let (bare, reference) = self.peeled(&ty);
-        if let Ty::Struct(of) | Ty::Enum(of) = &bare {
+        if let Ty::Param(parameter) = &bare
+            && let Some(function) = self.declared_of(parameter, name)
+        {
+            if function.params.first().is_some_and(|own| own.ty.is_mutable_reference()) {
+                self.borrowed(access, reference, receiver);
+            }
+            return self.of_parameter(parameter, function, Some(&ty), args, span);
+        }
+        let settled = match &bare {
+            Ty::Struct(..) | Ty::Enum(..) => bare.clone(),
+            _ => self.settled(&bare),
+        };
+        let of = self.type_name(&settled).filter(|_| self.table.kind(&settled).is_none());
+        if let Some(of) = of.filter(|_| !(matches!(settled, Ty::Int(_)) && evaluated(name))) {
             let library = self.library;
-            if let Some(function) = library.functions.get(&format!("{of}::{name}")) {
-                let mutable = function.params.first().is_some_and(|own| own.ty.is_mutable_reference());
-                if mutable {
+            let keys = library.methods(&of, name);
+            if let Some(function) = keys.first().map(|key| &library.functions[*key]) {
+                if function.params.first().is_some_and(|own| own.ty.is_mutable_reference()) {
                     self.borrowed(access, reference, receiver);
                 }
-                return self.signature(function, &[], Some(&ty), args, span);
+                if let [key] = keys.as_slice() {
+                    // The value tells which type the method is of, but not what several traits call the same.
+                    if !matches!(settled, Ty::Struct(..) | Ty::Enum(..)) || key.starts_with('<') {
+                        self.methods.insert(span, (*key).to_owned());
+                    }
+                    return self.signature(key, function, &[], Some(&ty), args, span);
+                }
+                let mut found = vec![settled];
+                found.extend(args.iter().map(|arg| self.expr(arg, None)));
+                return self.overloaded(&keys, &found, name, span);
             }
         }
-        let settled = self.settled(&bare);
-        if let Some(of) = library_name(&settled) {
-            let (library, function) = (self.library, format!("{of}::{name}"));
-            if let Some(found) = library.functions.get(&function)
-                && !(matches!(settled, Ty::Int(_)) && evaluated(name))
-            {
-                if found.params.first().is_some_and(|own| own.ty.is_mutable_reference()) {
-                    self.borrowed(access, reference, receiver);
-                }
-                self.methods.insert(span, function);
-                return self.signature(found, &[], Some(&ty), args, span);
-            }
+        if name == "into" && args.is_empty() {
+            return self.given_back(Some(ty), span);
+        }
+        if name == "clone" && args.is_empty() && !matches!(bare, Ty::Iter(_) | Ty::Texture(..)) {
+            return bare;
         }
         if name == "iter_mut" {
             self.borrowed(access, reference, receiver);
@@ -116,6 +131,16 @@ impl<'l> Checker<'l> {
                     _ => self.unknown_method(args),
                 }
             }
+            Ty::Array(_) if self.library.functions.contains_key(&format!("Array::{name}")) => {
+                let key = format!("Array::{name}");
+                let function = &self.library.functions[&key];
+                self.methods.insert(span, key.clone());
+                self.signature(&key, function, &[], Some(receiver), args, span)
+            }
+            Ty::Array(item) if matches!(name, "windows" | "chunks" | "chunks_exact") => {
+                let part = Ty::Array(item.clone()).shared();
+                self.takes(args, &[Ty::USIZE], Ty::Iter(Box::new(part)))
+            }
             Ty::Array(_) if name == "len" => self.takes(args, &[], Ty::USIZE),
             Ty::Array(item) if name == "map" && args.len() == 1 => Ty::Array(Box::new(self.mapped(item, &args[0]))),
             Ty::Array(_)
@@ -159,6 +184,12 @@ impl<'l> Checker<'l> {
                     self.takes(args, &[], Ty::Iter(Box::new(bare)))
                 }
                 "iter" | "into_iter" => self.takes(args, &[], own),
+                _ if self.library.functions.contains_key(&format!("Iterator::{name}")) => {
+                    let key = format!("Iterator::{name}");
+                    let function = &self.library.functions[&key];
+                    let items = Ty::Array(item.clone());
+                    self.signature(&key, function, &[], Some(&items), args, span)
+                }
                 _ => match self.adaptor(item, name, args) {
                     Some(found) => found,
                     None => self.unknown_method(args),
@@ -171,6 +202,11 @@ impl<'l> Checker<'l> {
                 _ => self.unknown_method(args),
             },
             Ty::Quad(lane) => self.of_quad(lane, name, args, span),
+            Ty::Enum(of, parts) if matches!(of.as_str(), "Option" | "Result") => match (name, parts.first()) {
+                ("unwrap", Some(held)) => self.takes(args, &[], held.clone()),
+                ("expect", Some(held)) => self.takes(args, &[Ty::Str.shared()], held.clone()),
+                _ => self.unknown_method(args),
+            },
             Ty::Bool if name == "select" => Ty::Unknown,
             _ => self.unknown_method(args),
         }
@@ -376,14 +412,6 @@ impl<'l> Checker<'l> {
             }
             _ => self.unknown_method(args),
         }
-    }
-}
-
-/// The name under which the library has methods of a type that is not of the kernel's files.
-fn library_name(ty: &Ty) -> Option<String> {
-    match ty {
-        Ty::Bool | Ty::Int(_) | Ty::Float | Ty::Vector(..) | Ty::Matrix(_) => Some(ty.to_string()),
-        _ => None,
     }
 }
 

@@ -14,7 +14,9 @@ mod methods;
 mod operators;
 mod pattern;
 mod places;
+mod shapes;
 mod signature;
+mod traits;
 mod types;
 
 use crate::diagnostic::{Diagnostic, Span};
@@ -22,14 +24,23 @@ use crate::front::tree::{Const, Expr, Function, Generic, IntType, Library};
 use std::collections::{BTreeSet, HashMap};
 use types::{Kind, Table, Ty};
 
-/// What the evaluator is told of expressions, by their places.
+pub use traits::trait_of;
+
+/// What the evaluator is told of expressions of an item, by their places.
 #[derive(Default)]
 struct Known {
     /// Types of integer literals.
     literals: HashMap<Span, IntType>,
-    /// Functions of the library that methods of numbers, vectors and the like stand for.
+    /// Functions of the library that methods of numbers, vectors and the like stand for, and calls that are told apart by
+    /// their types.
     methods: HashMap<Span, String>,
+    /// Calls of functions with type parameters: what the function goes by, and the names of the types.
+    instances: HashMap<Span, (String, Vec<Option<String>>)>,
 }
+
+/// What is known of each item, by its name; of what is no item that the kernel reaches, by no name. Functions that traits
+/// give several types stand at one place.
+type KnownItems = HashMap<String, Known>;
 
 /// Gives every literal of the functions, constants and options that are `reached` its type.
 ///
@@ -48,21 +59,32 @@ pub fn infer(library: &mut Library, reached: &BTreeSet<String>) -> Result<(), Ve
 }
 
 /// What is known, and everything that is wrong.
-fn found(library: &Library, reached: &BTreeSet<String>) -> (Known, Vec<Diagnostic>) {
-    let (mut known, mut errors) = (Known::default(), Vec::new());
+fn found(library: &Library, reached: &BTreeSet<String>) -> (KnownItems, Vec<Diagnostic>) {
+    let (mut items, mut errors) = (KnownItems::new(), Vec::new());
     for name in reached {
         if let Some(function) = library.functions.get(name) {
-            one(library, &mut known, &mut errors, |checker| checker.function(function));
+            let known = items.entry(name.clone()).or_default();
+            one(library, known, &mut errors, |checker| checker.function(function));
         }
         if let Some(constant) = library.consts.get(name) {
-            one(library, &mut known, &mut errors, |checker| checker.constant(constant));
+            let known = items.entry(name.clone()).or_default();
+            one(library, known, &mut errors, |checker| checker.constant(constant));
         }
     }
-    for (_, ty, span) in library.structs.values().flat_map(|s| &s.fields) {
-        // A structure that the kernel does not reach may hold anything.
-        one(library, &mut known, &mut Vec::new(), |checker| {
-            checker.stated(ty, *span);
-        });
+    let mut known = Known::default();
+    let of_structures = library.structs.values().map(|s| (&s.generics, &s.fields));
+    let variants = library
+        .enums
+        .values()
+        .flat_map(|e| e.variants.iter().map(move |v| (&e.generics, &v.fields)));
+    for (generics, fields) in of_structures.chain(variants) {
+        for (_, ty, span) in fields {
+            // A type that the kernel does not reach may hold anything.
+            one(library, &mut known, &mut Vec::new(), |checker| {
+                checker.generics(generics, *span);
+                checker.stated(ty, *span);
+            });
+        }
     }
     for field in library.options.values().flatten() {
         one(library, &mut known, &mut errors, |checker| {
@@ -80,7 +102,8 @@ fn found(library: &Library, reached: &BTreeSet<String>) -> (Known, Vec<Diagnosti
             }
         });
     }
-    (known, errors)
+    items.insert(String::new(), known);
+    (items, errors)
 }
 
 /// Looks at one item by itself.
@@ -100,6 +123,14 @@ struct Local {
     span: Span,
 }
 
+/// What a `break` may lead out of.
+#[derive(Clone, Copy)]
+struct Around<'l> {
+    label: Option<&'l str>,
+    /// Whether it is a block, which `break` without a label and `continue` do not know.
+    block: bool,
+}
+
 /// An operator whose operands were not known yet.
 struct Deferred<'l> {
     op: crate::ir::BinaryOp,
@@ -116,10 +147,18 @@ struct Checker<'l> {
     locals: Vec<Local>,
     /// Type parameters of the function.
     params: Vec<String>,
+    /// The traits that they have.
+    bounds: Option<&'l HashMap<String, Vec<String>>>,
+    /// Calls of which the function follows from what it has to give.
+    pending: Vec<traits::Pending>,
+    /// Type parameters of calls that have to have traits.
+    bounded: Vec<traits::Bound>,
+    /// Calls of functions with type parameters.
+    instances: Vec<traits::Instance>,
     /// What the function gives.
     result: Ty,
-    /// Labels of the loops around, outermost first.
-    loops: Vec<Option<&'l str>>,
+    /// The loops around, and blocks with labels, outermost first.
+    loops: Vec<Around<'l>>,
     /// Integer literals and their types.
     integers: Vec<(Span, Ty, i64)>,
     /// Float literals and their types.
@@ -143,6 +182,10 @@ impl<'l> Checker<'l> {
             table: Table::default(),
             locals: Vec::new(),
             params: Vec::new(),
+            bounds: None,
+            pending: Vec::new(),
+            bounded: Vec::new(),
+            instances: Vec::new(),
             loops: Vec::new(),
             result: Ty::UNIT,
             integers: Vec::new(),
@@ -157,14 +200,10 @@ impl<'l> Checker<'l> {
     }
 
     fn function(&mut self, function: &'l Function) {
-        for generic in &function.generics {
-            match generic {
-                Generic::Type(name) => self.params.push(name.clone()),
-                Generic::Const(name, ty) => {
-                    let ty = self.stated(ty, function.span);
-                    self.declare(name, ty, false, false, function.span);
-                }
-            }
+        self.bounds = Some(&function.bounds);
+        self.generics(&function.generics, function.span);
+        for name in function.bounds.keys().filter(|name| name.starts_with("dyn ")) {
+            self.object(name, function.span);
         }
         for (k, param) in function.params.iter().enumerate() {
             if function.params[..k].iter().any(|other| other.name == param.name) {
@@ -178,6 +217,19 @@ impl<'l> Checker<'l> {
         let found = self.block(&function.body, Some(&wanted));
         let at = function.body.value.as_ref().map_or(function.span, |value| value.span);
         self.coerce(&wanted, &found, at);
+    }
+
+    /// Declares type parameters and constants.
+    fn generics(&mut self, generics: &'l [Generic], span: Span) {
+        for generic in generics {
+            match generic {
+                Generic::Type(name) => self.params.push(name.clone()),
+                Generic::Const(name, ty) => {
+                    let ty = self.stated(ty, span);
+                    self.declare(name, ty, false, false, span);
+                }
+            }
+        }
     }
 
     fn bound_twice(&mut self, name: &str, span: Span, list: &str) {
@@ -287,6 +339,8 @@ impl<'l> Checker<'l> {
                 );
             }
         }
+        self.settle_traits();
+        known.instances.extend(self.named_instances());
         known.methods.extend(self.methods);
         errors.append(&mut self.errors);
     }

@@ -76,6 +76,11 @@ impl<'l> Checker<'l> {
         if op.is_comparison() {
             return self.compared(op, left, right).then_some(Ty::Bool);
         }
+        if let Some(of) = super::traits::trait_of(op)
+            && let Some(result) = self.operator_of(of, left, right)
+        {
+            return Some(result);
+        }
         // Numbers and vectors have operators on shared references too; on `&mut` there are none.
         let ((l, left_ref), (r, right_ref)) = (self.peeled(left), self.peeled(right));
         if left_ref == Some(true) && !matches!(l, Ty::Unknown | Ty::Param(_)) {
@@ -160,12 +165,39 @@ impl<'l> Checker<'l> {
             return false;
         }
         self.observed.push(left.clone());
+        if matches!(op, BinaryOp::Eq | BinaryOp::Ne) && self.not_comparable(left).is_some() {
+            return false;
+        }
         match self.peeled(left).0 {
-            Ty::Vector(..) | Ty::Matrix(_) | Ty::Enum(_) | Ty::Struct(_) | Ty::Quad(_) => {
+            Ty::Vector(..) | Ty::Matrix(_) | Ty::Enum(..) | Ty::Struct(..) | Ty::Quad(_) => {
                 matches!(op, BinaryOp::Eq | BinaryOp::Ne)
             }
             _ => true,
         }
+    }
+
+    /// The first structure or enum in a type that has no `PartialEq`.
+    fn not_comparable(&mut self, ty: &Ty) -> Option<String> {
+        let library = self.library;
+        let bare = self.peeled(ty).0;
+        let (name, derives) = match &bare {
+            Ty::Struct(name, _) => (name, library.structs.get(name).map(|s| &s.derives)),
+            Ty::Enum(name, _) => (name, library.enums.get(name).map(|e| &e.derives)),
+            Ty::Tuple(parts) => return parts.iter().find_map(|part| self.not_comparable(part)),
+            Ty::Array(element) => return self.not_comparable(element),
+            _ => return None,
+        };
+        let known = derives.is_none_or(|derives| derives.iter().any(|derived| derived == "PartialEq"))
+            || library.implements.contains(&(name.clone(), "PartialEq".to_owned()));
+        match (known, &bare) {
+            (false, _) => Some(name.clone()),
+            (true, Ty::Struct(_, args) | Ty::Enum(_, args)) => args.iter().find_map(|arg| self.not_comparable(arg)),
+            _ => None,
+        }
+    }
+
+    fn is_own(&self, ty: &Ty) -> bool {
+        matches!(self.peeled(ty).0, Ty::Struct(..) | Ty::Enum(..))
     }
 
     fn is_number(&self, ty: &Ty) -> bool {
@@ -194,6 +226,21 @@ impl<'l> Checker<'l> {
         };
         let mut error = Diagnostic::at(expr.span, message).label(label);
         let help = match (&left, &right) {
+            _ if op.is_comparison() && left == right && self.is_own(&left) => Some(match self.not_comparable(&left) {
+                Some(name) if matches!(op, BinaryOp::Eq | BinaryOp::Ne) => {
+                    format!("write `#[derive(PartialEq)]` before `{name}`, or compare what it holds")
+                }
+                _ => "compare what it holds".to_owned(),
+            }),
+            _ if !op.is_comparison() && (self.is_own(&left) || self.is_own(&right)) => {
+                let of = super::traits::trait_of(op).map(|(of, _)| of).unwrap_or_default();
+                let named = |ty: &Ty| self.type_name(ty).filter(|name| name != "_");
+                match (named(&left), named(&right)) {
+                    (Some(l), Some(r)) if l == r => Some(format!("write an `impl {of} for {l}`")),
+                    (Some(l), Some(r)) => Some(format!("write an `impl {of}<{r}> for {l}`")),
+                    _ => None,
+                }
+            }
             (Ty::Quad(_), _) | (_, Ty::Quad(_)) if op.is_comparison() => {
                 error =
                     error.note("the lanes of a quad do not run in step where one goes to another side than the next");

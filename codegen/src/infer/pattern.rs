@@ -2,8 +2,8 @@
 
 use super::Checker;
 use super::types::Ty;
-use crate::diagnostic::Diagnostic;
-use crate::front::tree::{Expr, ExprKind, Pattern};
+use crate::diagnostic::{Diagnostic, Span};
+use crate::front::tree::{Expr, ExprKind, Pattern, Variant};
 use crate::ir::UnaryOp;
 
 impl<'l> Checker<'l> {
@@ -77,18 +77,9 @@ impl<'l> Checker<'l> {
                         .for_each(|part| self.bind(part, &through(element.clone()), deferred));
                 }
             },
-            Pattern::Struct(_, fields, span) => {
-                let definition = match &bare {
-                    Ty::Struct(name) => self.library.structs.get(name),
-                    _ => None,
-                };
-                for (field, part) in fields {
-                    let stated = definition.and_then(|d| d.fields.iter().find(|(name, ..)| name == field));
-                    let ty = match (stated, &bare) {
-                        (Some((_, ty, _)), _) => self.field_type(ty, *span),
-                        (None, Ty::Vector(kind, _)) => Ty::scalar(*kind),
-                        _ => Ty::Unknown,
-                    };
+            Pattern::Struct(path, fields, span) => {
+                let parts = self.parts_of_pattern(path, fields, &bare, *span);
+                for ((_, part), ty) in fields.iter().zip(parts) {
                     self.bind(part, &through(ty), deferred);
                 }
             }
@@ -112,7 +103,15 @@ impl<'l> Checker<'l> {
             Pattern::Value(expr) => {
                 let known = match &expr.kind {
                     // A constant or a variant.
-                    ExprKind::Path(_) => self.expr(expr, None),
+                    ExprKind::Path(path) => {
+                        if let Some((_, _, variant)) = self.library.variant(path)
+                            && !variant.fields.is_empty()
+                        {
+                            self.holds_data(path, variant, expr.span);
+                            return;
+                        }
+                        self.expr(expr, None)
+                    }
                     _ => self.expr(expr, Some(&bare)),
                 };
                 self.coerce(&bare, &known, expr.span);
@@ -123,6 +122,82 @@ impl<'l> Checker<'l> {
                 self.not_backwards(pattern);
             }
         }
+    }
+
+    /// The types of what the fields of a pattern `Name { field: part }` or `Name(part)` take.
+    fn parts_of_pattern(
+        &mut self,
+        path: &'l [String],
+        fields: &'l [(String, Pattern)],
+        bare: &Ty,
+        span: Span,
+    ) -> Vec<Ty> {
+        let Some((ty, known, types)) = self.made_by(path) else {
+            let of = |field: &(String, Pattern)| match bare {
+                Ty::Vector(kind, lanes) if lane_of(&field.0) < usize::from(*lanes) => Ty::scalar(*kind),
+                _ => Ty::Unknown,
+            };
+            if let [.., enumeration, _] = path
+                && self.library.enums.contains_key(enumeration)
+            {
+                self.no_variant(path, span);
+            }
+            return fields.iter().map(of).collect();
+        };
+        self.coerce(bare, &ty, span);
+        let counted = known.iter().all(|(name, ..)| name.parse::<usize>().is_ok());
+        let mut found = Vec::new();
+        for (field, _) in fields {
+            let k = known.iter().position(|(name, ..)| name == field);
+            if k.is_none() {
+                let name = path.join("::");
+                let names: Vec<&str> = known.iter().map(|(name, ..)| name.as_str()).collect();
+                let plural = if known.len() == 1 { "" } else { "s" };
+                self.errors.push(match counted && field.parse::<usize>().is_ok() {
+                    true => Diagnostic::at(
+                        span,
+                        format!(
+                            "this pattern has more fields than `{name}`, which has {} field{plural}",
+                            known.len()
+                        ),
+                    )
+                    .label("too many"),
+                    false => Diagnostic::at(span, format!("`{name}` has no field `{field}`"))
+                        .label("not there")
+                        .help(crate::suggest::suggest(field, &names, "it has")),
+                });
+            }
+            found.push(k.map_or(Ty::Unknown, |k| types[k].clone()));
+        }
+        found
+    }
+
+    /// Notes an error about a pattern that leaves out what a variant holds.
+    fn holds_data(&mut self, path: &[String], variant: &Variant, span: Span) {
+        let name = path.join("::");
+        let named = variant.fields.iter().any(|(name, ..)| name.parse::<usize>().is_err());
+        let rest = if named { " { .. }" } else { "(..)" };
+        self.errors.push(
+            Diagnostic::at(
+                span,
+                format!("expected unit variant, found variant `{name}`, which holds values"),
+            )
+            .label("its fields are left out")
+            .help(format!("write `{name}{rest}`, or give the fields names")),
+        );
+    }
+
+    /// Notes an error about a variant that an enum does not have.
+    pub fn no_variant(&mut self, path: &[String], span: Span) {
+        let [.., ty, variant] = path else { return };
+        let library = self.library;
+        let variants = library.enums.get(ty).map_or(&[][..], |e| &e.variants);
+        let names: Vec<&str> = variants.iter().map(|v| v.name.as_str()).collect();
+        self.errors.push(
+            Diagnostic::at(span, format!("`{ty}` has no variant `{variant}`"))
+                .label("not there")
+                .help(crate::suggest::suggest(variant, &names, "it has")),
+        );
     }
 
     /// Notes an error about a range of literals that takes nothing.
@@ -142,6 +217,14 @@ impl<'l> Checker<'l> {
     fn bind_unknown(&mut self, parts: &'l [Pattern], deferred: bool) {
         parts.iter().for_each(|part| self.bind(part, &Ty::Unknown, deferred));
     }
+}
+
+/// The position of a component of a vector by its name.
+fn lane_of(name: &str) -> usize {
+    ["x", "y", "z", "w"]
+        .iter()
+        .position(|lane| *lane == name)
+        .unwrap_or(usize::MAX)
 }
 
 /// The value of a literal, which an `f64` holds exactly.

@@ -85,7 +85,7 @@ impl<'l> Checker<'l> {
     }
 
     /// A variable, a constant or a variant.
-    fn path(&mut self, path: &[String], span: Span) -> (Ty, Access) {
+    fn path(&mut self, path: &'l [String], span: Span) -> (Ty, Access) {
         if let [name] = path
             && let Some(local) = self.locals.iter().rev().find(|local| local.name == *name)
         {
@@ -95,14 +95,42 @@ impl<'l> Checker<'l> {
             };
             return (local.ty.clone(), access);
         }
+        if let [of, name] = path
+            && self.params.iter().any(|param| param == of)
+        {
+            let found = self.constant_of(of, name, span);
+            if found.is_none() {
+                self.no_member(of, name, span);
+            }
+            return (found.unwrap_or(Ty::Unknown), Access::Writable);
+        }
         let joined = path.join("::");
         let last = path.last().map(String::as_str).unwrap_or_default();
         let library = self.library;
-        if let [.., ty, variant] = path
-            && let Some(found) = library.enums.get(ty)
-            && found.variants.iter().any(|(name, _)| name == variant)
+        if library.variant(path).is_some()
+            && let Some((ty, fields, types)) = self.made_by(path)
         {
-            return (Ty::Enum(ty.clone()), Access::Writable);
+            if let Some((field, ..)) = fields.first().filter(|(name, ..)| name.parse::<usize>().is_err()) {
+                self.errors.push(
+                    Diagnostic::at(
+                        span,
+                        format!("expected value, found struct variant `{}`", path.join("::")),
+                    )
+                    .label("not a value")
+                    .help(format!("write `{} {{ {field}: ... }}`", path.join("::"))),
+                );
+            }
+            // A variant that holds values is a function of them.
+            let made = match types.is_empty() {
+                true => ty,
+                false => Ty::Fn(types, Box::new(ty)),
+            };
+            return (made, Access::Writable);
+        }
+        if library.structs.get(last).is_some_and(|s| s.fields.is_empty())
+            && let Some((ty, ..)) = self.made_by(path)
+        {
+            return (ty, Access::Writable);
         }
         if let Some(constant) = library.consts.get(&joined).or_else(|| library.consts.get(last)) {
             return (self.field_type(&constant.ty, constant.value.span), Access::Writable);
@@ -134,13 +162,13 @@ impl<'l> Checker<'l> {
     }
 
     fn field(&mut self, base: &Ty, name: &str, span: Span) -> Ty {
-        let found = self.known_field(base, name, span);
+        let found = self.known_field(base, name);
         let fields = match base {
             Ty::Var(_) if self.table.kind(base) == Some(Kind::Any) => return found,
             Ty::Unknown | Ty::Param(_) | Ty::Never => return found,
             Ty::Vector(_, lanes) => ["x", "y", "z", "w"][..usize::from(*lanes)].to_vec(),
             Ty::Matrix(n) => ["x_axis", "y_axis", "z_axis", "w_axis"][..usize::from(*n)].to_vec(),
-            Ty::Struct(of) => match self.library.structs.get(of) {
+            Ty::Struct(of, _) => match self.library.structs.get(of) {
                 Some(definition) => definition.fields.iter().map(|(field, ..)| field.as_str()).collect(),
                 None => return found,
             },
@@ -161,15 +189,13 @@ impl<'l> Checker<'l> {
         found
     }
 
-    fn known_field(&mut self, base: &Ty, name: &str, span: Span) -> Ty {
+    fn known_field(&mut self, base: &Ty, name: &str) -> Ty {
         match base {
-            Ty::Struct(of) => match self
-                .library
-                .structs
-                .get(of)
-                .and_then(|s| s.fields.iter().find(|f| f.0 == name))
-            {
-                Some((_, ty, _)) => self.field_type(ty, span),
+            Ty::Struct(..) => match self.fields_of(base, None) {
+                Some((fields, types)) => {
+                    let k = fields.iter().position(|(field, ..)| field == name);
+                    k.map_or(Ty::Unknown, |k| types[k].clone())
+                }
                 None => Ty::Unknown,
             },
             Ty::Tuple(parts) => match name.parse::<usize>().ok().and_then(|k| parts.get(k)) {
@@ -186,6 +212,10 @@ impl<'l> Checker<'l> {
         let element = match base {
             Ty::Array(element) => (**element).clone(),
             Ty::Vector(kind, _) => Ty::scalar(*kind),
+            Ty::Struct(..) => match self.indexed(base, index) {
+                Some(element) => return element,
+                None => return Ty::Unknown,
+            },
             _ => return Ty::Unknown,
         };
         if let Ty::Range(_) = self.table.shallow(index) {
@@ -214,6 +244,15 @@ impl<'l> Checker<'l> {
             None => self.against(value, &ty),
             Some(op) => {
                 let found = self.expr(value, None);
+                if let Some((of, name)) = super::traits::trait_of(op)
+                    && matches!(self.peeled(&ty).0, Ty::Struct(..) | Ty::Enum(..))
+                {
+                    let assigned = (format!("{of}Assign"), format!("{name}_assign"));
+                    if self.operator_of((&assigned.0, &assigned.1), &ty, &found).is_none() {
+                        self.not_assigned(op, &ty, &assigned.0, expr.span);
+                    }
+                    return Ty::UNIT;
+                }
                 let result = self.operator(op, &ty, &found, expr);
                 if let Ty::Ref(true, _) = self.table.shallow(&ty) {
                     let shown = self.table.deep(&ty);
@@ -231,6 +270,20 @@ impl<'l> Checker<'l> {
             }
         }
         Ty::UNIT
+    }
+
+    /// Notes an error about `+=` and its like on a type that has no such operator.
+    fn not_assigned(&mut self, op: BinaryOp, ty: &Ty, of: &str, span: Span) {
+        let shown = self.table.deep(ty);
+        let sign = super::operators::symbol(op);
+        self.errors.push(
+            Diagnostic::at(
+                span,
+                format!("binary assignment operation `{sign}=` cannot be applied to type `{shown}`"),
+            )
+            .label("not for these types")
+            .help(format!("write an `impl {of} for {shown}`, or `a = a {sign} b`")),
+        );
     }
 
     /// Notes an error if a place may not be written. `first` is a whole assignment, which may give a variable its first value.

@@ -54,11 +54,12 @@ impl<'l> Checker<'l> {
         if self.params.iter().any(|param| param == name) {
             return Ty::Param(name.to_owned());
         }
-        if self.library.enums.contains_key(name) {
-            return Ty::Enum(name.to_owned());
+        let library = self.library;
+        if let Some(definition) = library.enums.get(name) {
+            return Ty::Enum(name.to_owned(), self.arguments(&definition.generics, args, given, span));
         }
-        if self.library.structs.contains_key(name) {
-            return Ty::Struct(name.to_owned());
+        if let Some(definition) = library.structs.get(name) {
+            return Ty::Struct(name.to_owned(), self.arguments(&definition.generics, args, given, span));
         }
         if let Some((kind, lanes)) = vector(name) {
             return Ty::Vector(kind, lanes);
@@ -87,11 +88,34 @@ impl<'l> Checker<'l> {
             "Sampler" => Ty::Sampler,
             "ComparisonSampler" => Ty::ComparisonSampler,
             "_" => self.table.fresh(Kind::Any),
+            // A value of one type or another, which the values tell.
+            _ if name.starts_with("dyn ") => {
+                self.object(name, span);
+                Ty::Unknown
+            }
             _ => {
                 self.unknown_type(name, span);
                 Ty::Unknown
             }
         }
+    }
+
+    /// The type arguments of a structure or an enum; those that are not written are to be found.
+    fn arguments(
+        &mut self,
+        generics: &[Generic],
+        args: &'l [Type],
+        given: &HashMap<String, Ty>,
+        span: Span,
+    ) -> Vec<Ty> {
+        let each = generics
+            .iter()
+            .enumerate()
+            .map(|(k, generic)| match (generic, args.get(k)) {
+                (Generic::Type(_), Some(ty)) => self.substituted(ty, given, span),
+                _ => self.table.fresh(Kind::Any),
+            });
+        each.collect()
     }
 
     fn unknown_type(&mut self, name: &str, span: Span) {

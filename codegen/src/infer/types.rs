@@ -29,10 +29,10 @@ pub enum Ty {
     Range(Box<Ty>),
     /// What `.iter()` and its like give.
     Iter(Box<Ty>),
-    /// A structure of the kernel's files.
-    Struct(String),
-    /// An enum of the kernel's files.
-    Enum(String),
+    /// A structure of the kernel's files, with its type arguments.
+    Struct(String, Vec<Ty>),
+    /// An enum of the kernel's files or of Rust, with its type arguments.
+    Enum(String, Vec<Ty>),
     /// A value in each lane of a pixel quad.
     Quad(Box<Ty>),
     /// A texture of the prelude by its name, and its texel.
@@ -83,7 +83,7 @@ impl Ty {
     /// Its parts, to be looked at one by one.
     fn parts(&self) -> Vec<&Ty> {
         match self {
-            Ty::Tuple(parts) => parts.iter().collect(),
+            Ty::Tuple(parts) | Ty::Struct(_, parts) | Ty::Enum(_, parts) => parts.iter().collect(),
             Ty::Array(t) | Ty::Range(t) | Ty::Iter(t) | Ty::Quad(t) | Ty::Texture(_, t) | Ty::Buffer(t) => vec![t],
             Ty::Ref(_, t) => vec![t],
             Ty::Fn(params, result) => params.iter().chain([&**result]).collect(),
@@ -104,7 +104,7 @@ pub enum Kind {
 }
 
 /// All variables of a function.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub struct Table {
     variables: Vec<Result<Ty, Kind>>,
 }
@@ -141,6 +141,8 @@ impl Table {
         let boxed = |t: &Ty| Box::new(self.deep(t));
         match self.shallow(ty) {
             Ty::Tuple(parts) => Ty::Tuple(parts.iter().map(|p| self.deep(p)).collect()),
+            Ty::Struct(name, args) => Ty::Struct(name, args.iter().map(|p| self.deep(p)).collect()),
+            Ty::Enum(name, args) => Ty::Enum(name, args.iter().map(|p| self.deep(p)).collect()),
             Ty::Array(t) => Ty::Array(boxed(&t)),
             Ty::Range(t) => Ty::Range(boxed(&t)),
             Ty::Iter(t) => Ty::Iter(boxed(&t)),
@@ -196,6 +198,9 @@ impl Table {
                 true
             }
             (Ty::Tuple(xs), Ty::Tuple(ys)) => xs.len() == ys.len() && xs.iter().zip(ys).all(|(x, y)| self.unify(x, y)),
+            (Ty::Struct(x, xs), Ty::Struct(y, ys)) | (Ty::Enum(x, xs), Ty::Enum(y, ys)) => {
+                x == y && xs.len() == ys.len() && xs.iter().zip(ys).all(|(x, y)| self.unify(x, y))
+            }
             (Ty::Fn(xs, r), Ty::Fn(ys, s)) => {
                 xs.len() == ys.len() && xs.iter().zip(ys).all(|(x, y)| self.unify(x, y)) && self.unify(r, s)
             }
@@ -267,7 +272,12 @@ impl fmt::Display for Ty {
             Ty::Array(t) => write!(f, "[{t}]"),
             Ty::Range(t) => write!(f, "Range<{t}>"),
             Ty::Iter(t) => write!(f, "an iterator over {t}"),
-            Ty::Struct(name) | Ty::Enum(name) | Ty::Param(name) => f.write_str(name),
+            Ty::Param(name) => f.write_str(name),
+            Ty::Struct(name, args) | Ty::Enum(name, args) if args.is_empty() => f.write_str(name),
+            Ty::Struct(name, args) | Ty::Enum(name, args) => {
+                let args: Vec<String> = args.iter().map(Ty::to_string).collect();
+                write!(f, "{name}<{}>", args.join(", "))
+            }
             Ty::Quad(t) => write!(f, "Quad<{t}>"),
             Ty::Texture("DepthTexture", _) => f.write_str("DepthTexture"),
             Ty::Texture(name, t) => write!(f, "{name}<{t}>"),

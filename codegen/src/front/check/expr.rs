@@ -119,19 +119,19 @@ impl Check {
                 .into_iter()
                 .flatten()
                 .for_each(|end| self.expr(end)),
+            E::Break(e) => e.expr.iter_mut().for_each(|e| self.expr(e)),
+            E::Try(e) => self.expr(&mut e.expr),
             E::Return(e) => e.expr.iter_mut().for_each(|e| self.expr(e)),
             E::Struct(e) => self.structure_literal(e),
             E::Tuple(e) => self.exprs(&mut e.elems),
             // Nothing in them.
             E::Continue(_) | E::Lit(_) => {}
-            // The lowering refuses these, `break` if it has a value.
+            // The lowering refuses these.
             E::Async(_)
             | E::Await(_)
-            | E::Break(_)
             | E::Const(_)
             | E::Infer(_)
             | E::RawAddr(_)
-            | E::Try(_)
             | E::TryBlock(_)
             | E::Unsafe(_)
             | E::Verbatim(_)

@@ -11,14 +11,13 @@ use super::cfg::Carrier;
 use super::expr::Lower;
 use crate::diagnostic::{Diagnostic, Span};
 use proc_macro2::{TokenStream, TokenTree};
+use std::rc::Rc;
 use syn::punctuated::Punctuated;
 use syn::spanned::Spanned;
 
 /// Looks through one item, gathering errors.
 pub struct Check {
     lower: Lower,
-    /// Names of type parameters in scope.
-    type_parameters: Vec<String>,
     depth: u32,
 }
 
@@ -26,8 +25,7 @@ impl Check {
     /// For an item of `file`.
     pub fn new(file: u32) -> Self {
         Check {
-            lower: Lower::new(file, None),
-            type_parameters: Vec::new(),
+            lower: Lower::new(file, None, Rc::default()),
             depth: 0,
         }
     }
@@ -69,7 +67,7 @@ impl Check {
         self.lower.errors.push(
             Diagnostic::at(span, format!("`{name}` is defined twice among the kernel's files"))
                 .label("second definition")
-                .help("modules are not told apart: give it another name"),
+                .help("modules and functions are not told apart: give it another name"),
         );
     }
 
@@ -161,8 +159,7 @@ impl Check {
                 continue;
             }
             match &param {
-                syn::GenericParam::Lifetime(_) => {}
-                syn::GenericParam::Type(p) => self.type_parameters.push(p.ident.to_string()),
+                syn::GenericParam::Lifetime(_) | syn::GenericParam::Type(_) => {}
                 syn::GenericParam::Const(p) => {
                     if let Some((_, value)) = &p.default {
                         self.refuse(
@@ -219,7 +216,7 @@ impl Check {
         *fields = kept;
     }
 
-    /// An enum's variants, none of which may hold data.
+    /// An enum's variants and what they hold.
     pub fn variants(&mut self, item: &mut syn::ItemEnum) {
         self.generics(&mut item.generics);
         let mut kept = Punctuated::new();
@@ -227,13 +224,10 @@ impl Check {
             if !self.keeps(&mut variant.attrs) {
                 continue;
             }
-            match &variant.fields {
+            match &mut variant.fields {
+                syn::Fields::Named(fields) => self.fields(&mut fields.named),
+                syn::Fields::Unnamed(fields) => self.fields(&mut fields.unnamed),
                 syn::Fields::Unit => {}
-                syn::Fields::Named(_) | syn::Fields::Unnamed(_) => self.refuse(
-                    variant.span(),
-                    "a variant with data",
-                    "keep the data in a structure beside the enum",
-                ),
             }
             if let Some((_, value)) = &variant.discriminant {
                 self.refuse(

@@ -112,16 +112,6 @@ impl Check {
     /// A path, of which the last two segments count; `last` tells whether the last may have generic arguments.
     pub fn path(&mut self, path: &mut syn::Path, last: bool) {
         let count = path.segments.len();
-        if count > 1 {
-            let first = path.segments[0].ident.to_string();
-            if self.type_parameters.contains(&first) {
-                self.refuse(
-                    path.span(),
-                    &format!("what belongs to the type parameter `{first}`"),
-                    "write the function for each type, or give the value as an argument",
-                );
-            }
-        }
         for (k, segment) in path.segments.iter_mut().enumerate() {
             let list = match &mut segment.arguments {
                 syn::PathArguments::None => continue,

@@ -15,11 +15,12 @@ pub const FILE: u32 = u32::MAX;
 /// Component names.
 const LANES: [&str; 4] = ["x", "y", "z", "w"];
 
-/// A function of these texts.
+/// A function of these texts, or an enum.
 struct Piece {
-    /// The type that it is a method of; empty if of none.
+    /// What stands between `impl` and the braces around it; empty of what is in none.
     of: String,
-    name: String,
+    /// Words that ask for it: its name, of an enum the names of its variants too.
+    names: Vec<String>,
     text: String,
 }
 
@@ -30,7 +31,10 @@ pub fn text(files: &[File]) -> String {
     loop {
         let before = taken.len();
         for (k, piece) in pieces().iter().enumerate() {
-            if mentioned.contains(piece.name.as_str()) && taken.insert(k) {
+            let asked = piece.names.iter().any(|name| mentioned.contains(name.as_str()));
+            // What a type has to begin with has no mention by its name where it is derived.
+            let derived = piece.names == ["default"] && mentioned.contains("Default");
+            if (asked || derived) && taken.insert(k) {
                 mentioned.extend(words(&piece.text));
             }
         }
@@ -52,7 +56,7 @@ fn written<'p>(taken: impl Iterator<Item = &'p Piece>) -> String {
         let functions = functions.concat();
         let _ = match of {
             "" => writeln!(text, "{functions}"),
-            of => writeln!(text, "impl {of} {{\n{functions}}}"),
+            of => writeln!(text, "impl{of} {{\n{functions}}}"),
         };
     }
     text
@@ -71,6 +75,9 @@ fn pieces() -> &'static [Piece] {
             include_str!("floats.rs"),
             include_str!("integers.rs"),
             include_str!("shapes.rs"),
+            include_str!("option.rs"),
+            include_str!("defaults.rs"),
+            include_str!("iterators.rs"),
         ]
         .concat();
         for lanes in 2..=4 {
@@ -84,20 +91,30 @@ fn pieces() -> &'static [Piece] {
 /// A text as its functions. Those of an `impl` are indented by four, and what is in them by more.
 fn split(text: &str) -> Vec<Piece> {
     let mut found: Vec<Piece> = Vec::new();
-    let mut of = "";
+    let (mut of, mut attributes) = ("", String::new());
     for line in text.lines() {
-        if let Some(name) = line.strip_prefix("impl ") {
-            of = name.trim_end_matches(" {");
+        let piece = |names: Vec<String>, attributes: &mut String| Piece {
+            of: of.to_owned(),
+            names,
+            text: format!("{}{line}\n", std::mem::take(attributes)),
+        };
+        if let Some(header) = line.strip_prefix("impl") {
+            of = header.trim_end_matches(" {");
         } else if line == "}" && !of.is_empty() {
             of = "";
+        } else if line.starts_with("#[") {
+            attributes = format!("{line}\n");
         } else if let Some(rest) = line.trim_start().strip_prefix("fn ") {
             let end = rest.find(['(', '<']).unwrap_or(rest.len());
-            found.push(Piece {
-                of: of.to_owned(),
-                name: rest[..end].to_owned(),
-                text: format!("{line}\n"),
-            });
+            found.push(piece(vec![rest[..end].to_owned()], &mut attributes));
+        } else if let Some(rest) = line.strip_prefix("enum ") {
+            let end = rest.find(['<', ' ']).unwrap_or(rest.len());
+            found.push(piece(vec![rest[..end].to_owned()], &mut attributes));
         } else if let Some(last) = found.last_mut() {
+            if last.text.lines().any(|line| line.starts_with("enum ")) {
+                let variant = words(line).next().filter(|word| word.starts_with(char::is_uppercase));
+                last.names.extend(variant.map(str::to_owned));
+            }
             last.text += &format!("{line}\n");
         }
     }
@@ -117,6 +134,10 @@ fn by_lane(text: &mut String, lanes: usize) {
         );
     }
     text.push_str("}\n");
+    let _ = writeln!(
+        text,
+        "impl B{vector} {{\n    fn default() -> B{vector} {{ B{vector}::FALSE }}\n}}"
+    );
     for (prefix, number) in [("", "f32"), ("I", "i32"), ("U", "u32")] {
         let own = format!("{prefix}{vector}");
         let _ = writeln!(text, "impl {own} {{");
@@ -135,6 +156,7 @@ fn by_lane(text: &mut String, lanes: usize) {
             text,
             "    fn select(mask: B{vector}, yes: {own}, no: {own}) -> {own} {{ {own}::new({choices}) }}"
         );
+        let _ = writeln!(text, "    fn default() -> {own} {{ {own}::ZERO }}");
         let mapped = each(&|l| format!("f(self.{l})"));
         let _ = writeln!(
             text,
@@ -158,17 +180,23 @@ mod tests {
         assert!(pieces().len() > 100, "{} functions", pieces().len());
         let mut text = String::new();
         for piece in pieces() {
-            let _ = writeln!(text, "// {}", piece.name);
+            let _ = writeln!(text, "// {}", piece.names.join(" "));
         }
         let kernel = File {
             path: "kernel.rs".to_owned(),
             text,
         };
         let files = Arc::new(vec![kernel]);
-        for piece in pieces() {
-            let name = match piece.of.as_str() {
-                "" => piece.name.clone(),
-                of => format!("{of}::{}", piece.name),
+        for piece in pieces().iter().filter(|piece| piece.text.contains("fn ")) {
+            // Of `<T> Option<T>` the type's name.
+            let of = piece
+                .of
+                .rsplit_once("> ")
+                .map_or(piece.of.as_str(), |(_, of)| of)
+                .trim();
+            let name = match of.split('<').next() {
+                None | Some("") => piece.names[0].clone(),
+                Some(of) => format!("{of}::{}", piece.names[0]),
             };
             let mut parsed = front::parse(&files, &name).unwrap_or_else(|e| panic!("{name}:\n{e}"));
             assert!(parsed.library.functions.contains_key(&name), "{name}");

@@ -10,6 +10,7 @@ impl Maker {
             return self.known_condition();
         }
         match self.random.below(15) {
+            13 if self.on(Feature::Choices) && d.depth > 0 => self.same(want),
             14 if self.on(Feature::Library) => self.mask_condition(want),
             0..=2 => {
                 let op = self.random.pick(&["<", "<=", ">", ">="]);

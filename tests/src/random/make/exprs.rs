@@ -31,6 +31,15 @@ impl Maker {
         if !want.known && self.repeats < 8 && ty.plain() && self.chance(Feature::Closures, 30) {
             return self.iterator(ty, want);
         }
+        if !want.known && ty.plain() && self.repeats < 20 && self.chance(Feature::Choices, 12) {
+            return self.out_of_choice(ty, want);
+        }
+        if let Ty::Struct(k) = ty
+            && !want.known
+            && let Some(text) = self.operated(*k, want)
+        {
+            return text;
+        }
         match ty {
             Ty::F32 => self.float(want),
             Ty::I32 | Ty::U32 => self.integer(ty, want),
@@ -170,6 +179,8 @@ impl Maker {
                     false => format!("({} {{ {} }})", structure.name, fields.join(", ")),
                 }
             }
+            Ty::Option(of) => self.option(of, want),
+            Ty::Choice(k) => self.chosen(*k, want),
             Ty::Enum(_) => self.leaf(ty, want),
             _ => self.leaf(ty, want),
         }

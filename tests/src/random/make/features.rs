@@ -42,6 +42,10 @@ pub enum Feature {
     Coarse,
     /// Ranges that end at the largest numbers.
     Edges,
+    /// `Option`, enums that hold values, blocks with labels and loops that give values.
+    Choices,
+    /// Traits, operators of structures.
+    Traits,
 }
 
 /// All features.
@@ -65,6 +69,8 @@ pub const ALL: &[Feature] = &[
     Feature::Options,
     Feature::Coarse,
     Feature::Edges,
+    Feature::Choices,
+    Feature::Traits,
 ];
 
 /// A set of features.

@@ -14,8 +14,14 @@ impl Maker {
         if self.chance(Feature::Enums, 2) {
             self.enumeration();
         }
+        if self.chance(Feature::Choices, 2) {
+            self.choice();
+        }
         for _ in 0..self.random.below(3) {
             self.structure();
+        }
+        if self.chance(Feature::Traits, 2) {
+            self.traits();
         }
         for k in 0..self.structures.len() {
             self.methods(k);

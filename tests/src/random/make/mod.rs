@@ -4,6 +4,7 @@
 
 mod branches;
 mod calls;
+mod choices;
 mod closures;
 mod conditions;
 mod exprs;
@@ -30,7 +31,7 @@ pub use features::{Feature, Features};
 
 use super::Random;
 use super::oracle::Text;
-use types::{Enumeration, Signature, Structure, Ty};
+use types::{Choice, Enumeration, Signature, Structure, Ty};
 
 /// Bound on what a kernel computes with all loops unrolled, in nodes of its expressions.
 const BUDGET: u32 = 420;
@@ -118,6 +119,9 @@ struct Maker {
     indent: usize,
     structures: Vec<Structure>,
     enumerations: Vec<Enumeration>,
+    choices: Vec<Choice>,
+    /// Whether the trait is there.
+    traits: bool,
     signatures: Vec<Signature>,
     /// Names, types and bounds of constants.
     constants: Vec<Constant>,
@@ -149,6 +153,8 @@ impl Maker {
             indent: 0,
             structures: Vec::new(),
             enumerations: Vec::new(),
+            choices: Vec::new(),
+            traits: false,
             signatures: Vec::new(),
             constants: Vec::new(),
             locals: Vec::new(),

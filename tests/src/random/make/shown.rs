@@ -59,6 +59,26 @@ impl Maker {
                 let (field, ty) = self.random.pick(&self.structures[*k].fields.clone());
                 self.shown(&format!("{text}.{field}"), &ty)
             }
+            Ty::Option(of) => {
+                let inside = self.shown("x", of);
+                format!("{text}.map_or(0.25, |x| {inside})")
+            }
+            Ty::Choice(k) => {
+                let choice = self.choices[*k].clone();
+                let mut arms = Vec::new();
+                for (n, (variant, held, named)) in choice.variants.iter().enumerate() {
+                    let path = format!("{}::{variant}", choice.name);
+                    arms.push(match (held.first(), named) {
+                        (None, _) => format!("{path} => {n}.5"),
+                        (Some(ty), false) => {
+                            let rest = if held.len() > 1 { ", .." } else { "" };
+                            format!("{path}(x{rest}) => {}", self.shown("x", ty))
+                        }
+                        (Some(ty), true) => format!("{path} {{ h0: x, .. }} => {}", self.shown("x", ty)),
+                    });
+                }
+                format!("(match {text}.clone() {{ {} }})", arms.join(", "))
+            }
             Ty::Enum(k) => {
                 let e = &self.enumerations[*k];
                 format!("(({text} == {}::{}) as u32 as f32)", e.name, e.variants[0])

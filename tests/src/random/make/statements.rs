@@ -37,6 +37,7 @@ impl Maker {
             31..=33 => self.some_call(),
             34 if nested && self.on(Feature::Enums) => self.match_statement(),
             39 if nested && self.on(Feature::Matching) => self.runtime_match(),
+            35 if nested && self.chance(Feature::Choices, 2) => self.if_some(),
             35 => self.destructure(),
             36 if self.on(Feature::Leaving) => self.leave(),
             37 if self.random.once_in(3) && self.on(Feature::Library) => self.exchange(),

@@ -34,6 +34,7 @@ impl Maker {
             fields,
             tuple,
             copy,
+            operators: false,
         });
     }
 

@@ -24,6 +24,9 @@ pub enum Ty {
     Tuple(Vec<Ty>),
     Struct(usize),
     Enum(usize),
+    Option(Box<Ty>),
+    /// An enum that holds values.
+    Choice(usize),
 }
 
 /// A structure with its methods.
@@ -35,6 +38,16 @@ pub struct Structure {
     pub tuple: bool,
     /// Whether it is `Copy`.
     pub copy: bool,
+    /// Whether it has operators.
+    pub operators: bool,
+}
+
+/// An enum that holds values.
+#[derive(Clone, Debug)]
+pub struct Choice {
+    pub name: String,
+    /// Name of each variant, what it holds, and whether its fields have names.
+    pub variants: Vec<(String, Vec<Ty>, bool)>,
 }
 
 /// An enum.
@@ -119,6 +132,8 @@ impl Maker {
             }
             Ty::Struct(k) => self.structures[*k].name.clone(),
             Ty::Enum(k) => self.enumerations[*k].name.clone(),
+            Ty::Option(of) => format!("Option<{}>", self.ty(of)),
+            Ty::Choice(k) => self.choices[*k].name.clone(),
         }
     }
 
@@ -151,6 +166,7 @@ impl Maker {
             0..=6 => self.plain_type(),
             7 => Ty::Bool,
             8 => Ty::Usize,
+            10 if self.on(Feature::Choices) => Ty::Option(Box::new(self.plain_type())),
             9 if self.on(Feature::Nested) => self.copyable_structure().unwrap_or(Ty::F32),
             _ => {
                 let of = self.plain_type();
@@ -190,6 +206,10 @@ impl Maker {
                 Ty::Tuple((0..parts).map(|_| self.part_type()).collect())
             }
             20 if self.on(Feature::Matrices) => Ty::Mat(self.random.between(2, 4) as u8),
+            21 if self.on(Feature::Choices) => match self.choices.len() {
+                n if n > 0 && self.random.once_in(2) => Ty::Choice(self.random.below(n)),
+                _ => Ty::Option(Box::new(self.plain_type())),
+            },
             _ if self.structures.is_empty() => Ty::F32,
             _ => Ty::Struct(self.random.below(self.structures.len())),
         }

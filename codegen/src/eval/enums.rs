@@ -1,0 +1,347 @@
+//! Values of enums. Which variant one is may be a runtime value, its tag; then it has the fields of all variants that it may
+//! be, side by side, of which those of the others are any values that nobody looks at.
+
+use super::Evaluator;
+use super::departures::Tail;
+use super::value::{Eval, Exit, Value, Way};
+use crate::diagnostic::{Diagnostic, Span};
+use crate::front::tree::{Enum, Expr};
+use crate::ir::{BinaryOp, NodeId, Op, Type};
+use crate::policy::Branches;
+use std::rc::Rc;
+
+/// A value of an enum.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Choice {
+    /// The enum.
+    pub ty: String,
+    /// Which variant it is.
+    pub tag: Tag,
+    /// What each variant holds, by the names of its fields; `None` of those that it is known not to be.
+    pub held: Vec<Option<Vec<(String, Value)>>>,
+}
+
+/// Which variant a value is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Tag {
+    /// The one at this position.
+    Known(usize),
+    /// A number: of an enum of two variants whether it is the second, else the position as an `i32`.
+    Node(NodeId),
+}
+
+impl Choice {
+    /// A variant that is known.
+    pub fn known(ty: &str, definition: &Enum, variant: usize, fields: Vec<(String, Value)>) -> Value {
+        let mut held = vec![None; definition.variants.len()];
+        held[variant] = Some(fields);
+        Value::Enum(Rc::new(Choice {
+            ty: ty.to_owned(),
+            tag: Tag::Known(variant),
+            held,
+        }))
+    }
+
+    /// What it holds if it is the variant at a position.
+    pub fn fields(&self, variant: usize) -> Option<&[(String, Value)]> {
+        self.held.get(variant)?.as_deref()
+    }
+
+    /// All fields of all variants that it may be.
+    pub fn all(&self) -> impl Iterator<Item = &(String, Value)> {
+        self.held.iter().flatten().flatten()
+    }
+
+    /// The same with other fields.
+    pub fn with_fields(&self, mut change: impl FnMut(&Value) -> Value) -> Choice {
+        let one = |(name, value): &(String, Value)| (name.clone(), change(value));
+        let mut one = one;
+        let held = self
+            .held
+            .iter()
+            .map(|fields| fields.as_ref().map(|fields| fields.iter().map(&mut one).collect()));
+        Choice {
+            ty: self.ty.clone(),
+            tag: self.tag,
+            held: held.collect(),
+        }
+    }
+}
+
+impl Evaluator<'_> {
+    /// The variant that a value is, if that is known.
+    pub fn known_variant(&self, choice: &Choice) -> Option<usize> {
+        let known = match choice.tag {
+            Tag::Known(k) => Some(k),
+            Tag::Node(id) => self.builder.graph().constant(id).map(|bits| bits[0] as usize),
+        };
+        known.or_else(|| {
+            let mut possible = (0..choice.held.len()).filter(|k| choice.held[*k].is_some());
+            possible.next().filter(|_| possible.next().is_none())
+        })
+    }
+
+    /// The tag as a node.
+    pub fn tag_node(&mut self, choice: &Choice) -> NodeId {
+        match choice.tag {
+            Tag::Node(id) => id,
+            Tag::Known(k) if choice.held.len() == 2 => self.builder.bool(k == 1),
+            Tag::Known(k) => self.builder.i32(k as i32),
+        }
+    }
+
+    /// Whether a value is the variant at a position.
+    pub fn is_variant(&mut self, choice: &Choice, variant: usize) -> NodeId {
+        if let Some(known) = self.known_variant(choice) {
+            return self.builder.bool(known == variant);
+        }
+        if choice.held.get(variant).is_none_or(Option::is_none) {
+            return self.builder.bool(false);
+        }
+        let tag = self.tag_node(choice);
+        if choice.held.len() == 2 {
+            return if variant == 1 { tag } else { self.not(tag) };
+        }
+        let wanted = self.builder.i32(variant as i32);
+        self.builder
+            .add(Op::Binary(BinaryOp::Eq), vec![tag, wanted], Type::BOOL)
+    }
+
+    /// The variant that a path names, with what it holds; `None` of a path that is none. Errors are of the number of values.
+    pub fn variant_of(&mut self, path: &[String], values: Vec<Value>, span: Span) -> Eval<Option<Value>> {
+        let library = self.library;
+        let Some((ty, k, variant)) = library.variant(path) else {
+            return Ok(None);
+        };
+        if variant.fields.len() != values.len() {
+            let (wanted, found) = (variant.fields.len(), values.len());
+            let plural = if wanted == 1 { "" } else { "s" };
+            return Err(Diagnostic::at(
+                span,
+                format!("`{}` takes {wanted} argument{plural}, not {found}", path.join("::")),
+            )
+            .label("made here")
+            .into());
+        }
+        let mut fields = Vec::new();
+        for ((name, ty, _), value) in variant.fields.iter().zip(values) {
+            fields.push((name.clone(), self.ascribe(value, Some(ty), span)?));
+        }
+        Ok(Some(Choice::known(ty, &library.enums[ty], k, fields)))
+    }
+
+    /// Two values of one enum in one shape: both may be what either may be.
+    pub fn agree_choices(&mut self, a: &Choice, b: &Choice, span: Span) -> Eval<(Value, Value)> {
+        let (mut left, mut right) = (a.clone(), b.clone());
+        if a.tag != b.tag {
+            left.tag = Tag::Node(self.tag_node(a));
+            right.tag = Tag::Node(self.tag_node(b));
+        }
+        for (x, y) in left.held.iter_mut().zip(&mut right.held) {
+            match (x.as_mut(), y.as_mut()) {
+                (Some(x), Some(y)) => {
+                    for ((_, x), (_, y)) in x.iter_mut().zip(y) {
+                        (*x, *y) = self.agree(x, y, span)?;
+                    }
+                }
+                (Some(x), None) => *y = Some(self.blank_fields(x)),
+                (None, Some(y)) => *x = Some(self.blank_fields(y)),
+                (None, None) => {}
+            }
+        }
+        Ok((Value::Enum(Rc::new(left)), Value::Enum(Rc::new(right))))
+    }
+
+    fn blank_fields(&mut self, fields: &[(String, Value)]) -> Vec<(String, Value)> {
+        let each = fields.iter().map(|(name, value)| (name.clone(), self.blank(value)));
+        each.collect()
+    }
+
+    /// Whether two values of one type are equal, part by part, as `#[derive(PartialEq)]` has it; `None` if they are no
+    /// structures, tuples, arrays or enums.
+    pub fn equal(&mut self, a: &Value, b: &Value, span: Span) -> Eval<Option<NodeId>> {
+        let pairs: Vec<(Value, Value)> = match (a, b) {
+            (Value::Enum(a), Value::Enum(b)) if a.ty == b.ty => return self.equal_choices(a, b, span).map(Some),
+            (
+                Value::Struct { ty, fields },
+                Value::Struct {
+                    ty: other,
+                    fields: others,
+                },
+            ) if ty == other => {
+                let pairs = fields.iter().zip(others.iter());
+                pairs.map(|((_, a), (_, b))| (a.clone(), b.clone())).collect()
+            }
+            (Value::Tuple(a), Value::Tuple(b)) if a.len() == b.len() => {
+                a.iter().cloned().zip(b.iter().cloned()).collect()
+            }
+            (Value::Array(_), _) | (_, Value::Array(_)) => {
+                let (a, b) = (self.listed_array(a, span)?, self.listed_array(b, span)?);
+                if a.len() != b.len() {
+                    return Ok(None);
+                }
+                a.into_iter().zip(b).collect()
+            }
+            (Value::Node(x), Value::Node(y)) if self.ty(*x).is_array() && self.ty(*y).is_array() => {
+                let (a, b) = (self.listed_array(a, span)?, self.listed_array(b, span)?);
+                a.into_iter().zip(b).collect()
+            }
+            _ => return Ok(None),
+        };
+        self.all_equal(pairs, span).map(Some)
+    }
+
+    fn all_equal(&mut self, pairs: Vec<(Value, Value)>, span: Span) -> Eval<NodeId> {
+        let mut all = self.builder.bool(true);
+        for (a, b) in pairs {
+            if self.known_bool(all) == Some(false) {
+                break;
+            }
+            let same = self.binary(BinaryOp::Eq, &a, &b, span)?;
+            let same = self.node(&same, span)?;
+            all = self.and(all, same);
+        }
+        Ok(all)
+    }
+
+    fn equal_choices(&mut self, a: &Choice, b: &Choice, span: Span) -> Eval<NodeId> {
+        let mut any = self.builder.bool(false);
+        for k in 0..a.held.len() {
+            let (Some(x), Some(y)) = (a.fields(k), b.fields(k)) else {
+                continue;
+            };
+            let (of_a, of_b) = (self.is_variant(a, k), self.is_variant(b, k));
+            let both = self.and(of_a, of_b);
+            if self.known_bool(both) == Some(false) {
+                continue;
+            }
+            let pairs = x.iter().zip(y).map(|((_, x), (_, y))| (x.clone(), y.clone()));
+            let fields = self.all_equal(pairs.collect(), span)?;
+            let same = self.and(both, fields);
+            any = self.or(any, same);
+        }
+        Ok(any)
+    }
+
+    fn listed_array(&mut self, value: &Value, span: Span) -> Eval<Vec<Value>> {
+        let len = match value {
+            Value::Array(elements) => elements.len(),
+            Value::Node(id) => match self.ty(*id) {
+                Type::Array { len, .. } => len as usize,
+                _ => 0,
+            },
+            _ => 0,
+        };
+        self.elements(value, len, span)
+    }
+
+    /// `value?`.
+    pub fn tried(&mut self, value: &Expr, span: Span) -> Eval {
+        let found = self.value(value)?;
+        let Value::Enum(choice) = &found else {
+            return match found {
+                Value::Poison => Err(Exit::Noted),
+                other => Err(Diagnostic::at(
+                    span,
+                    format!(
+                        "the `?` operator on {}, which is neither an `Option` nor a `Result`",
+                        other.describe()
+                    ),
+                )
+                .label("not an `Option`")
+                .help("leave out the `?`")
+                .into()),
+            };
+        };
+        let good = usize::from(choice.ty == "Option");
+        let holds = self.is_variant(choice, good);
+        let inside = choice
+            .fields(good)
+            .and_then(<[_]>::first)
+            .map(|(_, value)| value.clone());
+        let library = self.library;
+        let other = Choice::known(
+            &choice.ty,
+            &library.enums[&choice.ty],
+            1 - good,
+            choice.fields(1 - good).unwrap_or_default().to_vec(),
+        );
+        match (self.known_bool(holds), inside) {
+            (Some(true), Some(inside)) => Ok(inside),
+            (None, Some(inside)) => {
+                let keep = self.keeps_exits(None::<Branches>);
+                let leave = |_: &mut Self| Err(Exit::Left(Way::Return(other)));
+                self.branch(Tail::Open, holds, keep, span, |_| Ok(inside), leave)
+            }
+            _ => Err(Exit::Left(Way::Return(other))),
+        }
+    }
+
+    /// `unwrap()` and `expect(..)` of a value that is known to hold something.
+    pub fn unwrapped(&mut self, choice: &Choice, name: &str, span: Span) -> Eval {
+        let good = usize::from(choice.ty == "Option");
+        let empty = if choice.ty == "Option" { "None" } else { "Err" };
+        let inside = choice
+            .fields(good)
+            .and_then(<[_]>::first)
+            .map(|(_, value)| value.clone());
+        match (self.known_variant(choice), inside) {
+            (Some(k), Some(inside)) if k == good => Ok(inside),
+            (Some(_), _) => Err(Diagnostic::at(span, format!("`{name}` of what is always `{empty}`"))
+                .label("Rust panics here")
+                .help("give what is to be there instead: `unwrap_or(..)`")
+                .into()),
+            (None, _) => Err(
+                Diagnostic::at(span, format!("`{name}` of what may be `{empty}` at run time"))
+                    .label("Rust would panic for some pixels, and a shader has no way to fail")
+                    .help("give what is to be there instead with `unwrap_or(..)`, or take it apart with `if let`")
+                    .into(),
+            ),
+        }
+    }
+
+    /// The names of the numbers in a value of an enum, by the name of the whole: its tag, and what each variant holds.
+    pub fn choice_names(&self, choice: &Choice, name: &str) -> ChoiceNames {
+        let library = self.library;
+        let variants = library.enums.get(&choice.ty).map_or(&[][..], |e| &e.variants);
+        let tag = match choice.tag {
+            Tag::Known(_) => None,
+            Tag::Node(id) => Some((
+                id,
+                match variants {
+                    [_, second] => format!("{name}_is_{}", snake(&second.name)),
+                    _ => format!("{name}_kind"),
+                },
+            )),
+        };
+        let mut inside = Vec::new();
+        for (variant, fields) in variants.iter().zip(&choice.held) {
+            for (field, value) in fields.iter().flatten() {
+                let only = choice.held.iter().flatten().filter(|fields| !fields.is_empty()).count() == 1
+                    && fields.iter().flatten().count() == 1;
+                let name = match (only, field.parse::<usize>().is_ok(), fields.iter().flatten().count()) {
+                    (true, ..) => name.to_owned(),
+                    (false, true, 1) => format!("{name}_{}", snake(&variant.name)),
+                    (false, _, _) => format!("{name}_{}_{field}", snake(&variant.name)),
+                };
+                inside.push((value.clone(), name));
+            }
+        }
+        (tag, inside)
+    }
+}
+
+/// A tag with its name, if it is a number, and values with their names.
+type ChoiceNames = (Option<(NodeId, String)>, Vec<(Value, String)>);
+
+/// `TwoWords` as `two_words`.
+fn snake(name: &str) -> String {
+    let mut out = String::new();
+    for c in name.chars() {
+        if c.is_ascii_uppercase() && !out.is_empty() {
+            out.push('_');
+        }
+        out.push(c.to_ascii_lowercase());
+    }
+    out
+}

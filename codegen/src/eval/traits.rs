@@ -1,0 +1,276 @@
+//! What traits give values: operators of structures, methods told apart by what they are given, what belongs to a type
+//! parameter. A value knows its type, so that a call finds its function by the values alone.
+
+use super::Evaluator;
+use super::value::{Eval, Exit, Place, Value};
+use crate::diagnostic::{Diagnostic, Span};
+use crate::front::tree::{Function, Generic, Type as SourceType};
+use crate::ir::{BinaryOp, Type, UnaryOp};
+use std::rc::Rc;
+
+/// The trait of an operator and its function.
+fn trait_of(op: BinaryOp) -> Option<(&'static str, &'static str)> {
+    match op {
+        BinaryOp::Eq | BinaryOp::Ne => Some(("PartialEq", "eq")),
+        other => crate::infer::trait_of(other),
+    }
+}
+
+impl<'a> Evaluator<'a> {
+    /// What functions of a value's type go by. A `usize` at run time is an `i32` here, and a known integer is of any type.
+    fn type_names(&self, value: &Value) -> Vec<String> {
+        match value {
+            Value::Struct { ty, .. } => vec![ty.clone()],
+            Value::Enum(choice) => vec![choice.ty.clone()],
+            Value::Int(_) => vec!["usize".to_owned(), "i32".to_owned(), "u32".to_owned()],
+            Value::Node(id) if self.ty(*id).is_array() => Vec::new(),
+            Value::Node(id) if self.ty(*id) == Type::I32 => vec!["i32".to_owned(), "usize".to_owned()],
+            Value::Node(id) => vec![self.ty(*id).in_rust()],
+            _ => Vec::new(),
+        }
+    }
+
+    /// Whether a value may be of a type that is stated. References have been followed.
+    fn is_of(&self, value: &Value, ty: &SourceType, generics: &[Generic]) -> bool {
+        match (ty.bare(), value) {
+            (SourceType::Name(name, _), _) if generics.iter().any(|generic| generic.name() == name) => true,
+            (SourceType::Name(name, _), Value::Array(_)) => self.is_unknown_name(name),
+            (SourceType::Name(name, _), _) => {
+                let names = self.type_names(value);
+                names.is_empty() || names.contains(name) || self.is_unknown_name(name)
+            }
+            (SourceType::Tuple(types), Value::Tuple(parts)) => {
+                types.len() == parts.len() && parts.iter().zip(types).all(|(part, ty)| self.is_of(part, ty, generics))
+            }
+            (SourceType::Array(..), Value::Array(_)) => true,
+            (SourceType::Array(..), Value::Node(id)) => self.ty(*id).is_array(),
+            (SourceType::Fn(..), Value::Closure(_) | Value::Function(_)) => true,
+            _ => false,
+        }
+    }
+
+    /// Whether a name is none of a type: what inference has found there the values tell.
+    fn is_unknown_name(&self, name: &str) -> bool {
+        matches!(name, "_" | "Self") || !(self.library.has_type(name) || crate::front::is_prelude_type(name))
+    }
+
+    /// The function among several that takes some values.
+    pub fn taking(&mut self, keys: &[&'a str], values: &[Value], span: Span) -> Eval<Option<&'a str>> {
+        if keys.len() < 2 {
+            return Ok(keys.first().copied());
+        }
+        let mut loaded = Vec::new();
+        for value in values {
+            loaded.push(self.loaded(value.clone(), span)?);
+        }
+        let library = self.library;
+        let fits = |key: &&&str| {
+            let function = &library.functions[**key];
+            function.params.len() == loaded.len()
+                && function
+                    .params
+                    .iter()
+                    .zip(&loaded)
+                    .all(|(param, value)| self.is_of(value, &param.ty, &function.generics))
+        };
+        let found: Vec<&&str> = keys.iter().filter(fits).collect();
+        match found.as_slice() {
+            [] => Ok(None),
+            [key] => Ok(Some(**key)),
+            [first, second, ..] => Err(Diagnostic::at(
+                span,
+                format!("`{first}` or `{second}`: the values do not tell which"),
+            )
+            .label("called here, in a generic function")
+            .help("write the function for each type")
+            .into()),
+        }
+    }
+
+    /// An operator that a trait gives its operands; `None` if they are numbers, or what Rust compares by itself.
+    pub fn operator_of_trait(&mut self, op: BinaryOp, left: &Value, right: &Value, span: Span) -> Eval<Option<Value>> {
+        let own = |value: &Value| matches!(value, Value::Struct { .. } | Value::Enum(_));
+        if !own(left) && !own(right) {
+            return Ok(None);
+        }
+        let Some((of, name)) = trait_of(op) else {
+            return Ok(None);
+        };
+        let library = self.library;
+        let keys: Vec<&str> = self
+            .type_names(left)
+            .iter()
+            .flat_map(|ty| library.operators(ty, of, name))
+            .collect();
+        let values = vec![left.clone(), right.clone()];
+        let Some(key) = self.taking(&keys, &values, span)? else {
+            return Ok(None);
+        };
+        let value = self.inline(key, &[], values, span)?;
+        match op {
+            BinaryOp::Ne => self.unary(UnaryOp::Not, &value, span).map(Some),
+            _ => Ok(Some(value)),
+        }
+    }
+
+    /// `place op= value` of a structure or an enum; whether there is such an operator.
+    pub fn assigned_by_trait(&mut self, op: BinaryOp, place: &Place, value: &Value, span: Span) -> Eval<bool> {
+        let old = self.read(place, span)?;
+        let (Value::Struct { .. } | Value::Enum(_), Some((of, name))) = (&old, trait_of(op)) else {
+            return Ok(false);
+        };
+        let (of, name) = (format!("{of}Assign"), format!("{name}_assign"));
+        let library = self.library;
+        let names = self.type_names(&old);
+        let keys: Vec<&str> = names.iter().flat_map(|ty| library.operators(ty, &of, &name)).collect();
+        let values = vec![Value::Ref(Rc::new(place.clone())), value.clone()];
+        let Some(key) = self.taking(&keys, &values, span)? else {
+            return Ok(false);
+        };
+        self.inline(key, &[], values, span)?;
+        Ok(true)
+    }
+
+    /// `-value`, `!value` of a structure or an enum.
+    pub fn unary_of_trait(&mut self, op: UnaryOp, value: &Value, span: Span) -> Eval<Option<Value>> {
+        let (of, name) = match op {
+            UnaryOp::Neg => ("Neg", "neg"),
+            UnaryOp::Not => ("Not", "not"),
+            _ => return Ok(None),
+        };
+        let ty = match value {
+            Value::Struct { ty, .. } => ty,
+            Value::Enum(choice) => &choice.ty,
+            _ => return Ok(None),
+        };
+        let library = self.library;
+        match library.operators(ty, of, name).first() {
+            Some(key) => self.inline(key, &[], vec![value.clone()], span).map(Some),
+            None => Ok(None),
+        }
+    }
+
+    /// `base[index]` of a structure; with its place, if the element is to be written.
+    pub fn index_of_trait(
+        &mut self,
+        base: &Value,
+        place: Option<&Place>,
+        index: &Value,
+        span: Span,
+    ) -> Eval<Option<Value>> {
+        let Value::Struct { ty, .. } = base else {
+            return Ok(None);
+        };
+        if super::matrix::size(ty).is_some() {
+            return Ok(None);
+        }
+        let library = self.library;
+        let (own, keys) = match place {
+            Some(place) => (
+                Value::Ref(Rc::new(place.clone())),
+                library.operators(ty, "IndexMut", "index_mut"),
+            ),
+            None => (base.clone(), library.operators(ty, "Index", "index")),
+        };
+        let values = vec![own, index.clone()];
+        match self.taking(&keys, &values, span)? {
+            Some(key) => self.inline(key, &[], values, span).map(Some),
+            None => Ok(None),
+        }
+    }
+
+    /// A method that several traits give a value's type, or that a trait gives numbers.
+    pub fn method_of_trait(
+        &mut self,
+        value: &Value,
+        name: &str,
+        args: &[Value],
+        span: Span,
+    ) -> Eval<Option<(String, &'a Function)>> {
+        let library = self.library;
+        let mut names = self.type_names(value);
+        // What numbers have themselves goes before what a trait gives them.
+        names.retain(|ty| !crate::front::methods::is_inherent(ty, name));
+        let keys = names
+            .iter()
+            .map(|ty| library.methods(ty, name))
+            .find(|keys| !keys.is_empty());
+        let Some(keys) = keys else { return Ok(None) };
+        let values: Vec<Value> = std::iter::once(value.clone()).chain(args.iter().cloned()).collect();
+        match self.taking(&keys, &values, span)? {
+            Some(key) => Ok(Some((key.to_owned(), &library.functions[key]))),
+            None => Err(Diagnostic::at(span, format!("no `{name}` takes these values"))
+                .label("called here")
+                .into()),
+        }
+    }
+
+    /// What a path of two names goes by: of a type parameter by its type, of a trait by the type of the first value.
+    pub fn resolved(&mut self, path: &[String], values: &[Value], span: Span) -> Eval<Option<Vec<String>>> {
+        let [of, name] = path else { return Ok(None) };
+        if let Some(Value::Type(ty)) = self.scope.get(of) {
+            return Ok(Some(vec![ty.clone(), name.clone()]));
+        }
+        let library = self.library;
+        if library.has_type(of)
+            || !library.functions.contains_key(&path.join("::")) && library.declared(of, name).is_none()
+        {
+            let keys = library.methods(of, name);
+            if keys.len() > 1 {
+                let key = self.taking(&keys, values, span)?;
+                return Ok(key.map(|key| vec![key.to_owned()]));
+            }
+            return Ok(None);
+        }
+        let (Some(first), true) = (values.first(), library.declared(of, name).is_some()) else {
+            return Ok(None);
+        };
+        let first = self.loaded(first.clone(), span)?;
+        let found = self.method_of_trait(&first, name, &values[1..], span)?;
+        Ok(found.map(|(key, _)| vec![key]))
+    }
+
+    /// The types of type parameters: those given, or those of the values that are given for parameters of these types.
+    pub fn types_of(
+        &mut self,
+        function: &Function,
+        given: &[Value],
+        args: &[Value],
+        span: Span,
+    ) -> Eval<Vec<(String, Value)>> {
+        let mut bound = Vec::new();
+        for (k, generic) in function.generics.iter().enumerate() {
+            let Generic::Type(name) = generic else { continue };
+            if let Some(ty @ Value::Type(_)) = given.get(k) {
+                bound.push((name.clone(), ty.clone()));
+                continue;
+            }
+            for (param, value) in function.params.iter().zip(args) {
+                let is_it = matches!(param.ty.bare(), SourceType::Name(of, args) if of == name && args.is_empty());
+                if is_it {
+                    let value = self.loaded(value.clone(), span)?;
+                    if let Some(ty) = self.type_names(&value).into_iter().next() {
+                        bound.push((name.clone(), Value::Type(ty)));
+                        break;
+                    }
+                }
+            }
+        }
+        Ok(bound)
+    }
+
+    /// `into()` and `default()` of what the generator itself knows.
+    pub fn conversion(&mut self, key: &str, value: &Value, span: Span) -> Eval<Option<Value>> {
+        let Some(ty) = key.strip_suffix("::from") else {
+            return Ok(None);
+        };
+        if self.type_names(value).iter().any(|name| name == ty) {
+            return Ok(Some(value.clone()));
+        }
+        match self.from(ty, value, span)? {
+            Some(value) => Ok(Some(value)),
+            None if matches!(value, Value::Poison) => Err(Exit::Noted),
+            None => Ok(None),
+        }
+    }
+}

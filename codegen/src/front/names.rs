@@ -1,0 +1,202 @@
+//! Names that stand for others: `Some` of the standard prelude, variants that a `use` brings in, names that a `use` or a
+//! `type` gives what has another one. They hold in all of a kernel's files, so that one that would stand for two things is
+//! refused.
+
+use super::cfg::Carrier;
+use super::expr::Lower;
+use super::inner::imports;
+use super::tree::Type;
+use crate::diagnostic::Diagnostic;
+use std::collections::HashMap;
+use std::rc::Rc;
+use syn::spanned::Spanned;
+
+/// Aliases of aliases after which they are taken to go round.
+const MAX_ALIASES: u32 = 32;
+
+/// What is wrong with names.
+pub type Wrong = Vec<(String, Diagnostic)>;
+
+/// What names stand for.
+#[derive(Debug)]
+pub struct Names {
+    paths: HashMap<String, Vec<String>>,
+    /// Types by other names, with the files that they are written in.
+    types: HashMap<String, (u32, syn::Type)>,
+}
+
+impl Default for Names {
+    fn default() -> Self {
+        let mut names = Names {
+            paths: HashMap::new(),
+            types: HashMap::new(),
+        };
+        for (ty, variant) in [
+            ("Option", "Some"),
+            ("Option", "None"),
+            ("Result", "Ok"),
+            ("Result", "Err"),
+        ] {
+            let path = vec![ty.to_owned(), variant.to_owned()];
+            names.paths.insert(variant.to_owned(), path);
+        }
+        names
+    }
+}
+
+impl Names {
+    /// The names that files give, and what is wrong with each.
+    pub fn of(files: &[(u32, syn::File)]) -> (Names, Wrong) {
+        let (mut names, mut errors) = (Names::default(), Wrong::new());
+        let mut enums = HashMap::new();
+        for (_, file) in files {
+            definitions(&file.items, &mut enums);
+        }
+        for (file, parsed) in files {
+            names.take(*file, &parsed.items, &enums, &mut errors);
+        }
+        (names, errors)
+    }
+
+    fn take(&mut self, file: u32, items: &[syn::Item], enums: &HashMap<String, Vec<String>>, errors: &mut Wrong) {
+        for item in items.iter().filter(|item| is_there(file, item)) {
+            match item {
+                syn::Item::Type(t) if t.generics.params.is_empty() => {
+                    let name = t.ident.to_string();
+                    let alias = (file, (*t.ty).clone());
+                    if self.types.get(&name).is_some_and(|known| known.1 != alias.1) {
+                        errors.push((name.clone(), twice(file, &t.ident)));
+                    }
+                    self.types.insert(name, alias);
+                }
+                syn::Item::Mod(m) => {
+                    if let Some((_, items)) = &m.content {
+                        self.take(file, items, enums, errors);
+                    }
+                }
+                syn::Item::Use(u) => {
+                    for (path, name) in imports(&u.tree) {
+                        self.import(file, &path, name, enums, errors);
+                    }
+                }
+                _ => {}
+            }
+        }
+    }
+
+    fn import(
+        &mut self,
+        file: u32,
+        path: &[syn::Ident],
+        name: Option<(syn::Ident, syn::Ident)>,
+        enums: &HashMap<String, Vec<String>>,
+        errors: &mut Wrong,
+    ) {
+        let of = path.last().map(ToString::to_string).unwrap_or_default();
+        let variants = enums.get(&of);
+        let Some((there, here)) = name else {
+            for variant in variants.into_iter().flatten() {
+                self.paths.insert(variant.clone(), vec![of.clone(), variant.clone()]);
+            }
+            return;
+        };
+        let is_variant = variants.is_some_and(|variants| variants.contains(&there.to_string()));
+        if !is_variant && there == here || here == "_" {
+            return;
+        }
+        if here.to_string().starts_with(|c: char| c.is_lowercase()) {
+            // A variable may have the name too.
+            let mut lower = Lower::new(file, None, Rc::default());
+            let instead = format!("use it as `{there}`");
+            lower.unsupported(here.span(), "`use` of a function by another name", &instead);
+            errors.extend(lower.errors.into_iter().map(|error| (here.to_string(), error)));
+            return;
+        }
+        let stands = vec![of, there.to_string()];
+        let known = self.paths.insert(here.to_string(), stands.clone());
+        if known.is_some_and(|known| known != stands) {
+            errors.push((here.to_string(), twice(file, &here)));
+        }
+    }
+
+    /// The path that a name stands for.
+    pub fn path(&self, name: &str) -> Option<&[String]> {
+        self.paths.get(name).map(Vec::as_slice)
+    }
+
+    /// Whether a name stands for anything.
+    pub fn has(&self, name: &str) -> bool {
+        self.paths.contains_key(name) || self.types.contains_key(name)
+    }
+}
+
+impl Lower {
+    /// The type that a name stands for.
+    pub fn alias(&mut self, name: &str) -> Option<Type> {
+        let names = self.names();
+        let (file, ty) = names.types.get(name)?;
+        if self.aliases >= MAX_ALIASES {
+            let error = Diagnostic::at(self.span(ty.span()), format!("the type `{name}` stands for itself"))
+                .label("a type that goes round")
+                .help("write the type itself");
+            self.errors.push(error);
+            return Some(Type::Tuple(Vec::new()));
+        }
+        let mut there = Lower::new(*file, None, Rc::clone(&names));
+        there.aliases = self.aliases + 1;
+        let lowered = there.ty(ty);
+        self.errors.extend(there.errors);
+        Some(lowered)
+    }
+
+    /// A type's own name where another one stands for it.
+    pub fn type_name(&mut self, name: String) -> String {
+        if let Some(Type::Name(of, _)) = self.alias(&name) {
+            return of;
+        }
+        match self.names().path(&name) {
+            Some([.., of]) => of.clone(),
+            _ => name,
+        }
+    }
+}
+
+/// Enums with their variants.
+fn definitions(items: &[syn::Item], enums: &mut HashMap<String, Vec<String>>) {
+    for item in items {
+        match item {
+            syn::Item::Enum(e) => {
+                let variants = e.variants.iter().map(|v| v.ident.to_string());
+                enums.insert(e.ident.to_string(), variants.collect());
+            }
+            syn::Item::Mod(m) => {
+                if let Some((_, items)) = &m.content {
+                    definitions(items, enums);
+                }
+            }
+            _ => {}
+        }
+    }
+}
+
+/// Whether `cfg` leaves an item there.
+fn is_there(file: u32, item: &syn::Item) -> bool {
+    let attrs = match item {
+        syn::Item::Mod(m) => &m.attrs,
+        syn::Item::Type(t) => &t.attrs,
+        syn::Item::Use(u) => &u.attrs,
+        _ => return true,
+    };
+    // What is wrong with them is said where the item is taken.
+    Lower::new(file, None, Rc::default()).keeps(&mut attrs.clone(), Carrier::Other)
+}
+
+fn twice(file: u32, name: &syn::Ident) -> Diagnostic {
+    let lower = Lower::new(file, None, Rc::default());
+    Diagnostic::at(
+        lower.span(name.span()),
+        format!("`{name}` stands for two things among the kernel's files"),
+    )
+    .label("another one")
+    .help("names hold in all of the files: give one of them another name")
+}

@@ -1,0 +1,135 @@
+//! `break` with a value, of a `loop` or a block with a label: what it gives is a variable that the `break` assigns.
+
+use super::expr::{Lower, label};
+use super::tree::{Block, Expr, ExprKind, Pattern, Statement};
+use crate::diagnostic::{Diagnostic, Span};
+use syn::spanned::Spanned;
+
+/// What a `break` may lead out of.
+pub struct Target {
+    label: Option<String>,
+    kind: Kind,
+    /// Whether a `break` of it has a value.
+    valued: bool,
+}
+
+/// Kinds of what a `break` may lead out of.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// `loop`.
+    Loop,
+    /// `for`, `while`, which give no value.
+    Other(&'static str),
+    /// A block with a label.
+    Block,
+}
+
+impl Lower {
+    /// Lowers what stands in a loop or in a block with a label; tells whether a `break` of it has a value.
+    pub fn inside<T>(&mut self, label: Option<String>, kind: Kind, lower: impl FnOnce(&mut Self) -> T) -> (T, bool) {
+        self.targets.push(Target {
+            label,
+            kind,
+            valued: false,
+        });
+        let lowered = lower(self);
+        let valued = self.targets.pop().is_some_and(|target| target.valued);
+        (lowered, valued)
+    }
+
+    /// The name of the variable that a `break` of the innermost target assigns, once that is left.
+    fn name_within(&self, depth: usize) -> String {
+        format!("#break{depth}")
+    }
+
+    /// `loop`.
+    pub fn loop_(&mut self, e: &syn::ExprLoop) -> ExprKind {
+        let name = label(e.label.as_ref().map(|l| &l.name));
+        let span = self.span(e.span());
+        let always = Expr {
+            kind: ExprKind::Bool(true),
+            span: self.span(e.loop_token.span()),
+        };
+        let unroll = self.unroll_attribute(&e.attrs);
+        let (body, valued) = self.inside(name.clone(), Kind::Loop, |lower| lower.block(&e.body));
+        let kind = ExprKind::While(Box::new(always), body, name, unroll);
+        match valued {
+            true => self.given(Expr { kind, span }),
+            false => kind,
+        }
+    }
+
+    /// `'label: { .. }`.
+    pub fn labelled(&mut self, e: &syn::ExprBlock) -> ExprKind {
+        let name = label(e.label.as_ref().map(|l| &l.name)).unwrap_or_default();
+        let span = self.span(e.span());
+        let (mut body, valued) = self.inside(Some(name.clone()), Kind::Block, |lower| lower.block(&e.block));
+        if valued && let Some(value) = body.value.take() {
+            let at = value.span;
+            let assigned = self.assigned(self.targets.len(), *value, at);
+            body.statements.push(Statement::Expr(assigned));
+        }
+        let kind = ExprKind::Labelled(name, body);
+        match valued {
+            true => self.given(Expr { kind, span }),
+            false => kind,
+        }
+    }
+
+    /// What is left with a value: the variable that has it then.
+    fn given(&self, left: Expr) -> ExprKind {
+        let (span, name) = (left.span, self.name_within(self.targets.len()));
+        let value = Expr {
+            kind: ExprKind::Path(vec![name.clone()]),
+            span,
+        };
+        ExprKind::Block(Block {
+            statements: vec![
+                Statement::Let(Pattern::Name(name, true, span), None, None, span),
+                Statement::Expr(left),
+            ],
+            value: Some(Box::new(value)),
+        })
+    }
+
+    fn assigned(&self, depth: usize, value: Expr, span: Span) -> Expr {
+        let place = Expr {
+            kind: ExprKind::Path(vec![self.name_within(depth)]),
+            span,
+        };
+        Expr {
+            kind: ExprKind::Assign(Box::new(place), None, Box::new(value)),
+            span,
+        }
+    }
+
+    /// `break`, with a value or without.
+    pub fn break_(&mut self, e: &syn::ExprBreak) -> ExprKind {
+        let name = label(e.label.as_ref());
+        let leave = ExprKind::Break(name.clone());
+        let Some(value) = &e.expr else { return leave };
+        let value = self.expr(value);
+        let span = self.span(e.span());
+        let found = self.targets.iter().rposition(|target| match &name {
+            Some(_) => target.label == name,
+            None => target.kind != Kind::Block,
+        });
+        // That there is none is said by inference.
+        let Some(depth) = found else { return leave };
+        if let Kind::Other(word) = self.targets[depth].kind {
+            self.errors.push(
+                Diagnostic::at(span, format!("`break` with a value from a `{word}` loop"))
+                    .label("only `loop` and blocks with a label have a value")
+                    .help("assign the value to a variable before, or write `loop`"),
+            );
+            return leave;
+        }
+        self.targets[depth].valued = true;
+        let assigned = self.assigned(depth, value, span);
+        let leave = Expr { kind: leave, span };
+        ExprKind::Block(Block {
+            statements: vec![Statement::Expr(assigned)],
+            value: Some(Box::new(leave)),
+        })
+    }
+}

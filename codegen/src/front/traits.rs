@@ -1,0 +1,545 @@
+//! Traits and their implementations. A function of an implementation is a method of its type like any other, and a default
+//! one is lowered for each type that takes it, with `Self` for that type. Where several implementations give a type a
+//! function of one name, each has a name of its own, as rustc writes it: `<Complex as Mul<f32>>::mul`.
+
+use super::check::Check;
+use super::expr::Lower;
+use super::items::{Items, Owner, qualified};
+use super::tree::{Implemented, Trait, Type};
+use crate::diagnostic::Diagnostic;
+use proc_macro2::{Span, TokenStream};
+use quote::ToTokens;
+use std::collections::{BTreeSet, HashMap};
+use std::rc::Rc;
+use syn::spanned::Spanned;
+
+/// Traits of Rust whose functions nothing calls by their names: operators, and the end of a scope.
+const OPERATORS: [&str; 30] = [
+    "Add",
+    "AddAssign",
+    "BitAnd",
+    "BitAndAssign",
+    "BitOr",
+    "BitOrAssign",
+    "BitXor",
+    "BitXorAssign",
+    "Div",
+    "DivAssign",
+    "From",
+    "Index",
+    "IndexMut",
+    "Mul",
+    "MulAssign",
+    "Neg",
+    "Not",
+    "PartialEq",
+    "Product",
+    "Rem",
+    "RemAssign",
+    "Shl",
+    "ShlAssign",
+    "Shr",
+    "ShrAssign",
+    "Sub",
+    "SubAssign",
+    "Sum",
+    "Into",
+    "Default",
+];
+
+/// Traits of Rust that the generator gives a meaning of its own, so that none can be given by hand.
+const OWN: [&str; 6] = ["Drop", "PartialOrd", "Ord", "Deref", "DerefMut", "Iterator"];
+
+impl Items {
+    /// Notes a trait of the kernel's files.
+    pub(super) fn trait_(&mut self, file: u32, item: &mut syn::ItemTrait, mut check: Check) {
+        check.generics(&mut item.generics);
+        let name = item.ident.to_string();
+        let declared = Type::Name("Self".to_owned(), Vec::new());
+        let owner = Owner {
+            name: name.clone(),
+            generics: self.lower_of(file).generics(&item.generics),
+            bounds: HashMap::new(),
+            ty: declared,
+            stands: HashMap::new(),
+        };
+        let mut of_trait = Trait {
+            functions: HashMap::new(),
+            consts: HashMap::new(),
+            supers: item.supertraits.iter().filter_map(trait_name).collect(),
+        };
+        for inner in &mut item.items {
+            match inner {
+                syn::TraitItem::Fn(f) => {
+                    if !check.keeps(&mut f.attrs) {
+                        continue;
+                    }
+                    // What a default function holds is looked at for each type that takes it.
+                    let mut of_signature = check.beside();
+                    of_signature.function(
+                        &mut f.sig,
+                        &mut syn::Block {
+                            brace_token: syn::token::Brace::default(),
+                            stmts: Vec::new(),
+                        },
+                    );
+                    let empty = syn::Block {
+                        brace_token: syn::token::Brace::default(),
+                        stmts: Vec::new(),
+                    };
+                    let (function, errors) = self.lowered(file, &f.sig, &empty, &f.attrs, Some(&owner));
+                    self.blame(&name, errors);
+                    if f.default.is_none() {
+                        self.note(&name, f.to_token_stream(), of_signature);
+                    }
+                    of_trait.functions.insert(f.sig.ident.to_string(), function);
+                }
+                syn::TraitItem::Const(c) => {
+                    if check.keeps(&mut c.attrs) {
+                        check.constant_name(&c.ident);
+                        check.ty(&mut c.ty);
+                        let mut lower = self.lower_within(file, &owner);
+                        of_trait.consts.insert(c.ident.to_string(), lower.ty(&c.ty));
+                        self.blame(&name, lower.errors);
+                    }
+                }
+                syn::TraitItem::Type(t) => {
+                    if check.keeps(&mut t.attrs)
+                        && let Some(first) = t.generics.params.first()
+                    {
+                        check.refuse(first.span(), "a generic type of a trait", "write a trait for each");
+                    }
+                }
+                // A macro, or unstable syntax.
+                other => self.hidden(other.to_token_stream(), check.beside()),
+            }
+        }
+        if self.library.traits.insert(name.clone(), of_trait).is_some() {
+            check.twice(&item.ident);
+        }
+        let text = item.supertraits.to_token_stream();
+        self.note(&name, text, check);
+        self.traits.insert(name, (file, item.clone()));
+    }
+
+    /// Takes the implementations of traits, after all that types have themselves.
+    pub(super) fn implement_all(&mut self) {
+        for (file, mut item) in std::mem::take(&mut self.implementations) {
+            self.implement(file, &mut item);
+        }
+    }
+
+    fn implement(&mut self, file: u32, item: &mut syn::ItemImpl) {
+        let mut check = Check::new(file);
+        let Some((path, _)) = item.trait_.clone() else { return };
+        let mut lower = self.lower_of(file);
+        let ty = lower.ty(&item.self_ty);
+        lower.stands_in(&ty);
+        let generics = lower.generics(&item.generics);
+        let bounds = lower.bounds(&item.generics);
+        let trait_name = path.segments.last().map(|s| s.ident.to_string()).unwrap_or_default();
+        let args = arguments(&mut lower, &path);
+        let own: BTreeSet<&str> = generics.iter().map(super::tree::Generic::name).collect();
+        let of = match ty.bare() {
+            Type::Name(of, _) if !own.contains(of.as_str()) => of.clone(),
+            other => {
+                let (what, instead) = match other {
+                    Type::Name(..) => ("an implementation of a trait for every type", "write one for each type"),
+                    _ => (
+                        "an implementation of a trait for a tuple or an array",
+                        "write it for a structure that holds it",
+                    ),
+                };
+                check.refuse(item.self_ty.span(), what, instead);
+                return self.refuse_functions(item, "impl", &check.errors());
+            }
+        };
+        if OWN.contains(&trait_name.as_str()) {
+            check.refuse(
+                path.span(),
+                &format!("`{trait_name}` written by hand"),
+                "derive it where it can be derived, or write a method of the type and call it by its name",
+            );
+            self.note(&of, TokenStream::new(), check.taken());
+            return self.refuse_functions(item, &of, &[]);
+        }
+        let mut stands = HashMap::new();
+        for inner in &item.items {
+            if let syn::ImplItem::Type(t) = inner {
+                stands.insert(format!("Self::{}", t.ident), lower.ty(&t.ty));
+            }
+        }
+        let declared = self.traits.get(&trait_name).cloned();
+        if let Some((_, declared)) = &declared {
+            let types = declared.generics.params.iter().filter_map(|param| match param {
+                syn::GenericParam::Type(t) => Some(t.ident.to_string()),
+                _ => None,
+            });
+            stands.extend(types.zip(args.iter().cloned()));
+        }
+        check.generics(&mut item.generics);
+        let owner = Owner {
+            name: of.clone(),
+            generics,
+            bounds,
+            ty: ty.clone(),
+            stands,
+        };
+        self.library.implements.insert((of.clone(), trait_name.clone()));
+        let mut errors = lower.errors;
+        errors.extend(check.errors());
+        let given: BTreeSet<String> = item.items.iter().filter_map(item_name).collect();
+        let mut all: Vec<(u32, syn::ImplItem)> = item.items.iter().map(|inner| (file, inner.clone())).collect();
+        if let Some((at, declared)) = &declared {
+            errors.extend(self.missing(file, &path, declared, &given));
+            let taken = declared.items.iter().filter_map(default_of);
+            let taken = taken.filter(|inner| item_name(inner).is_some_and(|name| !given.contains(&name)));
+            all.extend(taken.map(|inner| (*at, inner)));
+            errors.extend(self.not_members(file, &trait_name, declared, &item.items));
+        }
+        let named = Named {
+            trait_name: &trait_name,
+            args: &args,
+            shown: shown(&path),
+        };
+        for (file, mut inner) in all {
+            self.member(file, &mut inner, &owner, &named, item, &errors);
+        }
+        if errors.is_empty() {
+            self.reached_by(&of, &named, &owner);
+        }
+    }
+
+    /// A function or a constant of an implementation.
+    fn member(
+        &mut self,
+        file: u32,
+        inner: &mut syn::ImplItem,
+        owner: &Owner,
+        named: &Named<'_>,
+        item: &syn::ItemImpl,
+        errors: &[Diagnostic],
+    ) {
+        let mut check = Check::new(file);
+        check.generics(&mut item.generics.clone());
+        let text = inner.to_token_stream();
+        let key = match inner {
+            syn::ImplItem::Fn(f) => {
+                if !check.keeps(&mut f.attrs) {
+                    return;
+                }
+                check.function(&mut f.sig, &mut f.block);
+                let plain = qualified(Some(&owner.name), &f.sig.ident);
+                let key = self.key(&plain, owner, named);
+                if self.implemented_twice(&plain, named) {
+                    self.duplicate(&self.lower_of(file), f.sig.ident.span(), &plain);
+                    return;
+                }
+                let (function, lowered) = self.lowered(file, &f.sig, &f.block, &f.attrs, Some(owner));
+                self.blame(&key, lowered);
+                self.insert(&key, &f.sig.ident, function);
+                self.library.implemented.entry(plain).or_default().push(Implemented {
+                    of: named.trait_name.to_owned(),
+                    args: named.args.to_vec(),
+                    key: key.clone(),
+                });
+                key
+            }
+            syn::ImplItem::Const(c) => {
+                if !check.keeps(&mut c.attrs) {
+                    return;
+                }
+                check.constant_name(&c.ident);
+                check.constant(&mut c.generics, &mut c.ty, &mut c.expr);
+                let mut lower = self.lower_within(file, owner);
+                let name = qualified(Some(&owner.name), &c.ident);
+                let value = lower.expr(&c.expr);
+                let ty = lower.ty(&c.ty);
+                if self.library.consts.contains_key(&name) {
+                    self.duplicate(&lower, c.ident.span(), &name);
+                }
+                self.blame(&name, lower.errors);
+                let constant = super::tree::Const {
+                    name: name.clone(),
+                    value,
+                    ty,
+                };
+                self.library.consts.insert(name.clone(), constant);
+                name
+            }
+            syn::ImplItem::Type(_) => return,
+            other => return self.hidden(other.to_token_stream(), check),
+        };
+        let mut mentioned = item.self_ty.to_token_stream();
+        mentioned.extend(text);
+        self.blame(&key, errors.to_vec());
+        self.note(&key, mentioned, check);
+    }
+
+    /// What a function of an implementation goes by: its type and its name where that is free.
+    fn key(&self, plain: &str, owner: &Owner, named: &Named<'_>) -> String {
+        let name = plain.rsplit("::").next().unwrap_or(plain);
+        // A method of the type itself goes before one of a trait.
+        let taken = self.library.functions.contains_key(plain) || super::methods::is_inherent(&owner.name, name);
+        match taken {
+            true => format!("<{} as {}>::{name}", owner.name, named.shown),
+            false => plain.to_owned(),
+        }
+    }
+
+    /// Whether there is an implementation of the trait for the type already, but for references.
+    fn implemented_twice(&self, plain: &str, named: &Named<'_>) -> bool {
+        let alike = |a: &[Type], b: &[Type]| a.len() == b.len() && a.iter().zip(b).all(|(a, b)| bare(a) == bare(b));
+        let known = self.library.implemented.get(plain);
+        known.is_some_and(|known| {
+            known
+                .iter()
+                .any(|i| i.of == named.trait_name && alike(&i.args, named.args))
+        })
+    }
+
+    /// Lets functions that operators call be reached by the types that they are of.
+    fn reached_by(&mut self, of: &str, named: &Named<'_>, owner: &Owner) {
+        if !OPERATORS.contains(&named.trait_name) {
+            return;
+        }
+        let keys = self
+            .library
+            .implemented
+            .iter()
+            .filter(|(plain, _)| plain.starts_with(&format!("{of}::")));
+        let keys = keys.flat_map(|(_, all)| all).filter(|i| i.of == named.trait_name);
+        let keys: Vec<String> = keys.map(|i| i.key.clone()).collect();
+        let arguments = named.args.iter().filter_map(|ty| match ty.bare() {
+            Type::Name(name, _) => Some(name.clone()),
+            _ => None,
+        });
+        let types: Vec<String> = std::iter::once(owner.name.clone()).chain(arguments).collect();
+        for ty in types.iter().filter(|ty| !super::foreign::is_prelude_type(ty)) {
+            for key in &keys {
+                self.mentions.needs(ty, key);
+            }
+        }
+    }
+
+    fn refuse_functions(&mut self, item: &syn::ItemImpl, of: &str, errors: &[Diagnostic]) {
+        for name in item.items.iter().filter_map(item_name) {
+            self.of_trait(format!("{of}::{name}"), errors.to_vec());
+        }
+    }
+
+    /// Functions and constants that an implementation lacks.
+    fn missing(
+        &self,
+        file: u32,
+        path: &syn::Path,
+        declared: &syn::ItemTrait,
+        given: &BTreeSet<String>,
+    ) -> Option<Diagnostic> {
+        let needed = declared.items.iter().filter(|item| default_of(item).is_none());
+        let needed = needed.filter_map(|item| match item {
+            syn::TraitItem::Fn(f) => Some(f.sig.ident.to_string()),
+            syn::TraitItem::Const(c) => Some(c.ident.to_string()),
+            syn::TraitItem::Type(t) if t.default.is_none() => Some(t.ident.to_string()),
+            _ => None,
+        });
+        let lacking: Vec<String> = needed
+            .filter(|name| !given.contains(name))
+            .map(|n| format!("`{n}`"))
+            .collect();
+        if lacking.is_empty() {
+            return None;
+        }
+        let lower = self.lower_of(file);
+        Some(
+            Diagnostic::at(
+                lower.span(path.span()),
+                format!("not all items of the trait `{}` are implemented", declared.ident),
+            )
+            .label(format!("missing: {}", lacking.join(", ")))
+            .help("write them in this `impl`"),
+        )
+    }
+
+    /// Functions and constants that are not of the trait.
+    fn not_members(
+        &self,
+        file: u32,
+        trait_name: &str,
+        declared: &syn::ItemTrait,
+        items: &[syn::ImplItem],
+    ) -> Vec<Diagnostic> {
+        let known: Vec<String> = declared
+            .items
+            .iter()
+            .filter_map(|item| match item {
+                syn::TraitItem::Fn(f) => Some(f.sig.ident.to_string()),
+                syn::TraitItem::Const(c) => Some(c.ident.to_string()),
+                syn::TraitItem::Type(t) => Some(t.ident.to_string()),
+                _ => None,
+            })
+            .collect();
+        let known: Vec<&str> = known.iter().map(String::as_str).collect();
+        let lower = self.lower_of(file);
+        let others = items
+            .iter()
+            .filter_map(|item| Some((item_name(item)?, item_span(item)?)));
+        let others = others.filter(|(name, _)| !known.contains(&name.as_str()));
+        let each = others.map(|(name, span)| {
+            Diagnostic::at(
+                lower.span(span),
+                format!("`{name}` is not a member of the trait `{trait_name}`"),
+            )
+            .label("not of this trait")
+            .help(crate::suggest::suggest(&name, &known, "it has"))
+        });
+        each.collect()
+    }
+
+    /// Lowers what stands in an `impl`.
+    pub(super) fn lower_within(&self, file: u32, of: &Owner) -> Lower {
+        let mut lower = Lower::new(file, Some(of.ty.clone()), Rc::clone(&self.names));
+        lower.stands.clone_from(&of.stands);
+        lower
+            .parameters
+            .extend(of.generics.iter().map(|generic| generic.name().to_owned()));
+        lower
+    }
+}
+
+/// What `#[derive(Default)]` writes for a structure, or for an enum whose variant is marked; `None` of others.
+pub fn derived_default(item: &syn::Item) -> Option<syn::ItemImpl> {
+    let (name, generics, value) = match item {
+        syn::Item::Struct(s) => {
+            let name = &s.ident;
+            let fields = s.fields.iter().enumerate().map(|(k, field)| {
+                let member = match &field.ident {
+                    Some(name) => syn::Member::Named(name.clone()),
+                    None => syn::Member::Unnamed(syn::Index::from(k)),
+                };
+                let value = default_of_type(&field.ty);
+                quote::quote!(#member: #value)
+            });
+            (name, &s.generics, quote::quote!(#name { #(#fields),* }))
+        }
+        syn::Item::Enum(e) => {
+            let name = &e.ident;
+            let marked = |v: &&syn::Variant| v.attrs.iter().any(|attr| attr.path().is_ident("default"));
+            let variant = &e.variants.iter().find(marked)?.ident;
+            (name, &e.generics, quote::quote!(#name::#variant))
+        }
+        _ => return None,
+    };
+    let (before, after, condition) = generics.split_for_impl();
+    syn::parse2(quote::quote!(impl #before Default for #name #after #condition { fn default() -> Self { #value } }))
+        .ok()
+}
+
+/// The default of a type, as an expression.
+fn default_of_type(ty: &syn::Type) -> TokenStream {
+    match ty {
+        syn::Type::Tuple(t) => {
+            let parts = t.elems.iter().map(default_of_type);
+            quote::quote!((#(#parts,)*))
+        }
+        syn::Type::Array(t) => {
+            let (element, len) = (default_of_type(&t.elem), &t.len);
+            quote::quote!([#element; #len])
+        }
+        syn::Type::Path(t) => {
+            let mut path = t.path.clone();
+            if let Some(last) = path.segments.last_mut() {
+                last.arguments = syn::PathArguments::None;
+            }
+            quote::quote!(#path::default())
+        }
+        _ => quote::quote!(Default::default()),
+    }
+}
+
+/// The trait of an implementation.
+struct Named<'t> {
+    trait_name: &'t str,
+    args: &'t [Type],
+    /// As it is written.
+    shown: String,
+}
+
+/// The last segment of a bound that is a trait.
+pub fn trait_name(bound: &syn::TypeParamBound) -> Option<String> {
+    match bound {
+        syn::TypeParamBound::Trait(bound) => bound.path.segments.last().map(|s| s.ident.to_string()),
+        _ => None,
+    }
+}
+
+/// The type arguments of a trait.
+fn arguments(lower: &mut Lower, path: &syn::Path) -> Vec<Type> {
+    let Some(syn::PathArguments::AngleBracketed(list)) = path.segments.last().map(|s| &s.arguments) else {
+        return Vec::new();
+    };
+    let each = list.args.iter().filter_map(|arg| match arg {
+        syn::GenericArgument::Type(ty) => Some(lower.ty(ty)),
+        _ => None,
+    });
+    each.collect()
+}
+
+/// A trait with its arguments, for names and messages.
+fn shown(path: &syn::Path) -> String {
+    let last = path.segments.last().map(super::cfg::as_written).unwrap_or_default();
+    last.replace(' ', "")
+}
+
+/// A type without the references in it.
+fn bare(ty: &Type) -> String {
+    match ty.bare() {
+        Type::Name(name, args) => {
+            let args: Vec<String> = args.iter().map(bare).collect();
+            format!("{name}<{}>", args.join(","))
+        }
+        Type::Tuple(parts) => {
+            let parts: Vec<String> = parts.iter().map(bare).collect();
+            format!("({})", parts.join(","))
+        }
+        Type::Array(element, _) => format!("[{}]", bare(element)),
+        Type::Fn(..) => "fn".to_owned(),
+        Type::Ref(_, inner) => bare(inner),
+    }
+}
+
+/// What a trait gives a type that does not write it.
+fn default_of(item: &syn::TraitItem) -> Option<syn::ImplItem> {
+    match item {
+        syn::TraitItem::Fn(f) => {
+            let mut tokens = f.attrs.iter().map(ToTokens::to_token_stream).collect::<TokenStream>();
+            tokens.extend(f.sig.to_token_stream());
+            tokens.extend(f.default.as_ref()?.to_token_stream());
+            syn::parse2(tokens).ok()
+        }
+        syn::TraitItem::Const(c) => {
+            let (_, value) = c.default.as_ref()?;
+            let (name, ty) = (&c.ident, &c.ty);
+            syn::parse2(quote::quote!(const #name: #ty = #value;)).ok()
+        }
+        _ => None,
+    }
+}
+
+fn item_name(item: &syn::ImplItem) -> Option<String> {
+    match item {
+        syn::ImplItem::Fn(f) => Some(f.sig.ident.to_string()),
+        syn::ImplItem::Const(c) => Some(c.ident.to_string()),
+        syn::ImplItem::Type(t) => Some(t.ident.to_string()),
+        _ => None,
+    }
+}
+
+fn item_span(item: &syn::ImplItem) -> Option<Span> {
+    match item {
+        syn::ImplItem::Fn(f) => Some(f.sig.ident.span()),
+        syn::ImplItem::Const(c) => Some(c.ident.span()),
+        syn::ImplItem::Type(t) => Some(t.ident.span()),
+        _ => None,
+    }
+}

@@ -1,0 +1,154 @@
+//! Structures and enums of the kernel's files: what their fields are, with their type parameters replaced.
+
+use super::Checker;
+use super::types::{Kind, Ty};
+use crate::diagnostic::{Diagnostic, Span};
+use crate::front::tree::{Expr, Fields, Generic};
+use std::collections::HashMap;
+
+impl<'l> Checker<'l> {
+    /// The type arguments of a structure or an enum as variables.
+    pub fn fresh_arguments(&mut self, generics: &[Generic]) -> Vec<Ty> {
+        generics.iter().map(|_| self.table.fresh(Kind::Any)).collect()
+    }
+
+    /// Fields with their types, of a type with these arguments.
+    pub fn fields_with(&mut self, generics: &[Generic], args: &[Ty], fields: &'l Fields) -> Vec<Ty> {
+        let named = generics.iter().zip(args).filter_map(|(generic, ty)| match generic {
+            Generic::Type(name) => Some((name.clone(), ty.clone())),
+            Generic::Const(..) => None,
+        });
+        let given: HashMap<String, Ty> = named.collect();
+        let errors = self.errors.len();
+        let types = fields.iter().map(|(_, ty, at)| self.substituted(ty, &given, *at));
+        let types = types.collect();
+        // They are those of the item that states the fields.
+        self.errors.truncate(errors);
+        types
+    }
+
+    /// Fields of a structure, or of a variant of an enum, with their types.
+    pub fn fields_of(&mut self, ty: &Ty, variant: Option<usize>) -> Option<(&'l Fields, Vec<Ty>)> {
+        let library = self.library;
+        let (generics, args, fields) = match (ty, variant) {
+            (Ty::Struct(name, args), None) => {
+                let definition = library.structs.get(name)?;
+                (&definition.generics, args, &definition.fields)
+            }
+            (Ty::Enum(name, args), Some(k)) => {
+                let definition = library.enums.get(name)?;
+                (&definition.generics, args, &definition.variants.get(k)?.fields)
+            }
+            _ => return None,
+        };
+        Some((fields, self.fields_with(generics, args, fields)))
+    }
+
+    /// The type that a path makes: a structure, or an enum by a variant of it; with its fields, and a name for messages.
+    pub fn made_by(&mut self, path: &'l [String]) -> Option<(Ty, &'l Fields, Vec<Ty>)> {
+        let library = self.library;
+        if let Some((name, k, _)) = library.variant(path) {
+            let args = self.fresh_arguments(&library.enums[name].generics);
+            let ty = Ty::Enum(name.to_owned(), args);
+            let (fields, types) = self.fields_of(&ty, Some(k))?;
+            return Some((ty, fields, types));
+        }
+        let name = path.last()?;
+        let definition = library.structs.get(name)?;
+        let args = self.fresh_arguments(&definition.generics);
+        let ty = Ty::Struct(name.clone(), args);
+        let (fields, types) = self.fields_of(&ty, None)?;
+        Some((ty, fields, types))
+    }
+
+    /// `Name(a, b)`, of a structure or a variant without field names; `None` of anything else.
+    pub fn constructed_by(&mut self, path: &'l [String], args: &'l [Expr], span: Span) -> Option<Ty> {
+        let (ty, fields, types) = self.made_by(path)?;
+        if fields.iter().any(|(name, ..)| name.parse::<usize>().is_err()) {
+            return None;
+        }
+        if args.len() != types.len() {
+            let (wanted, given) = (types.len(), args.len());
+            let plural = if wanted == 1 { "" } else { "s" };
+            let name = path.join("::");
+            let error = match wanted {
+                0 => Diagnostic::at(span, format!("expected function, found unit variant `{name}`"))
+                    .label("it holds nothing")
+                    .help(format!("write `{name}`")),
+                _ => Diagnostic::at(span, format!("`{name}` takes {wanted} argument{plural}, not {given}"))
+                    .label("made here"),
+            };
+            self.errors.push(error);
+        }
+        Some(self.takes(args, &types, ty))
+    }
+
+    /// `Name { field: value }`, of a structure or a variant.
+    pub fn structure(&mut self, path: &'l [String], fields: &'l [(String, Expr)], rest: Option<&'l Expr>) -> Ty {
+        let Some((ty, known, types)) = self.made_by(path) else {
+            fields.iter().for_each(|(_, value)| {
+                self.expr(value, None);
+            });
+            return Ty::Unknown;
+        };
+        for (field, value) in fields {
+            match known.iter().position(|(name, ..)| name == field) {
+                Some(k) => self.against(value, &types[k]),
+                None => {
+                    self.expr(value, None);
+                }
+            }
+        }
+        if let Some(rest) = rest {
+            self.against(rest, &ty);
+        }
+        ty
+    }
+
+    /// `value?`: what it holds, where the function may end with what it has instead.
+    pub fn tried(&mut self, value: &'l Expr, span: Span) -> Ty {
+        let found = self.expr(value, None);
+        if self.table.kind(&found) == Some(Kind::Any) {
+            self.solve();
+        }
+        let result = self.table.shallow(&self.result.clone());
+        match self.table.shallow(&found) {
+            Ty::Enum(name, args) if name == "Option" && args.len() == 1 => {
+                let other = self.table.fresh(Kind::Any);
+                self.ends_with(&result, Ty::Enum(name, vec![other]), span);
+                args[0].clone()
+            }
+            Ty::Enum(name, args) if name == "Result" && args.len() == 2 => {
+                let other = self.table.fresh(Kind::Any);
+                self.ends_with(&result, Ty::Enum(name, vec![other, args[1].clone()]), span);
+                args[0].clone()
+            }
+            Ty::Unknown | Ty::Param(_) | Ty::Never | Ty::Var(_) => Ty::Unknown,
+            other => {
+                let shown = self.table.deep(&other);
+                self.errors.push(
+                    Diagnostic::at(
+                        span,
+                        format!("the `?` operator can only be applied to an `Option` or a `Result`, not to `{shown}`"),
+                    )
+                    .label("not an `Option`")
+                    .help("leave out the `?`"),
+                );
+                Ty::Unknown
+            }
+        }
+    }
+
+    /// What `?` gives back where there is no value.
+    fn ends_with(&mut self, result: &Ty, wanted: Ty, span: Span) {
+        if self.table.unify(result, &wanted) {
+            return;
+        }
+        let (result, wanted) = (self.table.deep(result), self.table.deep(&wanted));
+        self.errors.push(
+            Diagnostic::at(span, format!("the `?` operator in a function that gives `{result}`"))
+                .label(format!("the function would have to give `{wanted}`"))
+                .help("take the value apart with `let ... else`, or give what is to be there instead with `unwrap_or(..)`"),
+        );
+    }
+}

@@ -1,0 +1,417 @@
+//! What traits give types: methods of type parameters, operators on structures, functions that several implementations
+//! give under one name.
+
+use super::Checker;
+use super::types::{Kind, Ty};
+use crate::diagnostic::{Diagnostic, Span};
+use crate::front::tree::{Expr, Function, Generic};
+use crate::ir::{BinaryOp, UnaryOp};
+use std::collections::HashMap;
+
+/// A call of which the function follows from what it has to give.
+pub struct Pending {
+    span: Span,
+    /// What it has to give.
+    wanted: Ty,
+    /// What it is given; nothing of `Default::default()`.
+    from: Option<Ty>,
+}
+
+/// A type parameter of a call, and the traits that its type has to have.
+pub struct Bound {
+    span: Span,
+    ty: Ty,
+    traits: Vec<String>,
+}
+
+/// A call of a function with type parameters, and what they are.
+pub struct Instance {
+    span: Span,
+    /// What the function goes by.
+    key: String,
+    /// The types in the order of the parameters; nothing of constants.
+    types: Vec<Option<Ty>>,
+}
+
+/// The trait of an operator and its function.
+pub fn trait_of(op: BinaryOp) -> Option<(&'static str, &'static str)> {
+    Some(match op {
+        BinaryOp::Add => ("Add", "add"),
+        BinaryOp::Sub => ("Sub", "sub"),
+        BinaryOp::Mul => ("Mul", "mul"),
+        BinaryOp::Div => ("Div", "div"),
+        BinaryOp::Rem => ("Rem", "rem"),
+        BinaryOp::And => ("BitAnd", "bitand"),
+        BinaryOp::Or => ("BitOr", "bitor"),
+        BinaryOp::Xor => ("BitXor", "bitxor"),
+        BinaryOp::Shl => ("Shl", "shl"),
+        BinaryOp::Shr => ("Shr", "shr"),
+        _ => return None,
+    })
+}
+
+impl<'l> Checker<'l> {
+    /// What functions of a type go by; `None` of a type that has no name, or is not known yet.
+    pub fn type_name(&self, ty: &Ty) -> Option<String> {
+        match self.table.shallow(ty) {
+            Ty::Struct(name, _) | Ty::Enum(name, _) => Some(name),
+            ty @ (Ty::Bool | Ty::Int(_) | Ty::Float | Ty::Vector(..) | Ty::Matrix(_)) => Some(ty.to_string()),
+            ty => match self.table.kind(&ty)? {
+                Kind::Float => Some("f32".to_owned()),
+                Kind::Integer => Some("i32".to_owned()),
+                Kind::Any => None,
+            },
+        }
+    }
+
+    /// The function among several that takes some types, which are those of all its parameters.
+    pub fn taking(&mut self, keys: &[&'l str], found: &[Ty]) -> Option<(&'l str, &'l Function)> {
+        let library = self.library;
+        for key in keys {
+            let function = &library.functions[*key];
+            if function.params.len() != found.len() {
+                continue;
+            }
+            let (table, errors) = (self.table.clone(), self.errors.len());
+            let given = self.instantiate(function, &[]);
+            let fits = function.params.iter().zip(found).all(|(param, found)| {
+                let wanted = self.substituted(&param.ty, &given, param.span);
+                self.fits(&wanted, found)
+            });
+            self.table = table;
+            self.errors.truncate(errors);
+            if fits {
+                return Some((key, function));
+            }
+        }
+        None
+    }
+
+    /// Whether a value of a type does for a parameter. What is not known does for anything.
+    fn fits(&mut self, wanted: &Ty, found: &Ty) -> bool {
+        match (self.table.shallow(wanted), self.table.shallow(found)) {
+            (Ty::Ref(..), found @ (Ty::Struct(..) | Ty::Enum(..) | Ty::Float | Ty::Int(_) | Ty::Vector(..))) => {
+                // Of a method's own `&self`.
+                let inner = self.peeled(wanted).0;
+                self.table.unify(&inner, &found)
+            }
+            _ => self.table.unify(wanted, found),
+        }
+    }
+
+    /// A call of one of several functions of one name, by the types of all arguments, of which the receiver is the first.
+    pub fn overloaded(&mut self, keys: &[&'l str], found: &[Ty], name: &str, span: Span) -> Ty {
+        if let ([], Some(first)) = (keys, found.first()) {
+            let shown = self.table.deep(&self.peeled(first).0).to_string();
+            self.errors.push(
+                Diagnostic::at(span, format!("no `{name}` for `{shown}`"))
+                    .label(format!("`{shown}` has no such function"))
+                    .help(format!("write an `impl` of the trait for `{shown}`")),
+            );
+            return Ty::Unknown;
+        }
+        let Some((key, function)) = self.taking(keys, found) else {
+            let shown: Vec<String> = found.iter().map(|ty| format!("`{}`", self.table.deep(ty))).collect();
+            let known: Vec<String> = keys.iter().map(|key| format!("`{key}`")).collect();
+            self.errors.push(
+                Diagnostic::at(span, format!("no `{name}` takes {}", shown.join(" and ")))
+                    .label("not of these types")
+                    .help(format!("there are {}", known.join(", "))),
+            );
+            return Ty::Unknown;
+        };
+        self.methods.insert(span, key.to_owned());
+        self.called_with(function, key, found, span)
+    }
+
+    /// What a function gives for arguments of some types.
+    fn called_with(&mut self, function: &'l Function, key: &str, found: &[Ty], span: Span) -> Ty {
+        let given = self.instantiate(function, &[]);
+        for (param, found) in function.params.iter().zip(found) {
+            let wanted = self.substituted(&param.ty, &given, span);
+            self.fits(&wanted, found);
+        }
+        self.instance(key, function, &given, span);
+        self.substituted(&function.result, &given, span)
+    }
+
+    /// Notes what the type parameters of a call are, and what they have to be.
+    pub fn instance(&mut self, key: &str, function: &'l Function, given: &HashMap<String, Ty>, span: Span) {
+        for (name, traits) in &function.bounds {
+            if let Some(ty) = given.get(name) {
+                self.bounded.push(Bound {
+                    span,
+                    ty: ty.clone(),
+                    traits: traits.clone(),
+                });
+            }
+        }
+        let own = function.params.first();
+        if own.is_some_and(|own| own.name == "self" && own.ty.is_mutable_reference()) {
+            // Its receiver is a place, which a call does not take.
+            return;
+        }
+        // What an iterator has is given the list of its values.
+        if key.starts_with("Iterator::") {
+            return;
+        }
+        if function
+            .generics
+            .iter()
+            .any(|generic| matches!(generic, Generic::Type(_)))
+        {
+            let types = function
+                .generics
+                .iter()
+                .map(|generic| given.get(generic.name()).cloned());
+            self.instances.push(Instance {
+                span,
+                key: key.to_owned(),
+                types: types.collect(),
+            });
+        }
+    }
+
+    /// The function of a trait that a type parameter has.
+    pub fn declared_of(&self, parameter: &str, name: &str) -> Option<&'l Function> {
+        let library = self.library;
+        let traits = self.bounds?.get(parameter)?;
+        traits.iter().find_map(|of| library.declared(of, name))
+    }
+
+    /// The type of a constant of a type parameter.
+    pub fn constant_of(&mut self, parameter: &str, name: &str, span: Span) -> Option<Ty> {
+        let library = self.library;
+        let traits = self.bounds?.get(parameter)?;
+        let ty = traits.iter().find_map(|of| library.declared_const(of, name))?;
+        let given = HashMap::from([("Self".to_owned(), Ty::Param(parameter.to_owned()))]);
+        Some(self.substituted(ty, &given, span))
+    }
+
+    /// Notes an error about `dyn Trait` of a trait that is not the kernel's, or of which Rust makes no such type.
+    pub fn object(&mut self, name: &str, span: Span) {
+        let library = self.library;
+        let of = name
+            .trim_start_matches("dyn ")
+            .split([' ', '#'])
+            .next()
+            .unwrap_or_default();
+        let error = match library.traits.get(of) {
+            None => Diagnostic::at(span, format!("the type `{name}` is not part of the kernel language"))
+                .label("not supported")
+                .help("take a reference to a trait of the kernel's own, or the value itself"),
+            Some(found) => {
+                let takes_self = |f: &Function| f.params.first().is_some_and(|own| own.name == "self");
+                if found.consts.is_empty() && found.functions.values().all(takes_self) {
+                    return;
+                }
+                Diagnostic::at(span, format!("the trait `{of}` is not dyn compatible"))
+                    .label("it has a constant, or a function without `self`")
+                    .help(format!(
+                        "take `&impl {of}`, or put what has no `self` into a trait of its own"
+                    ))
+            }
+        };
+        self.errors.push(error);
+    }
+
+    /// Notes an error about what a type parameter does not have; of traits that are not the kernel's nothing is known.
+    pub fn no_member(&mut self, parameter: &str, name: &str, span: Span) {
+        let library = self.library;
+        let traits = self
+            .bounds
+            .and_then(|bounds| bounds.get(parameter))
+            .map_or(&[][..], Vec::as_slice);
+        let known = |of: &String| library.traits.contains_key(of) || matches!(of.as_str(), "Copy" | "Clone" | "Sized");
+        if traits.iter().all(known) {
+            self.errors.push(
+                Diagnostic::at(span, format!("no `{name}` for the type parameter `{parameter}`"))
+                    .label("no trait that it has gives it one")
+                    .help(format!("bound it by a trait that does: `{parameter}: Trait`")),
+            );
+        }
+    }
+
+    /// A call of a function of a type parameter's trait.
+    pub fn of_parameter(
+        &mut self,
+        parameter: &str,
+        function: &'l Function,
+        receiver: Option<&Ty>,
+        args: &'l [Expr],
+        span: Span,
+    ) -> Ty {
+        let mut given = self.instantiate(function, &[]);
+        given.insert("Self".to_owned(), Ty::Param(parameter.to_owned()));
+        self.with_given(function, given, receiver, args, span)
+    }
+
+    /// What an operator's trait gives for two types; `None` if neither is a structure or an enum with that trait.
+    pub fn operator_of(&mut self, (of, name): (&str, &str), left: &Ty, right: &Ty) -> Option<Ty> {
+        let own = |ty: Ty| matches!(ty, Ty::Struct(..) | Ty::Enum(..));
+        if !own(self.peeled(left).0) && !own(self.peeled(right).0) {
+            return None;
+        }
+        let library = self.library;
+        let keys = library.operators(&self.type_name(&self.peeled(left).0)?, of, name);
+        for key in keys {
+            let function = &library.functions[key];
+            let [own, other] = function.params.as_slice() else {
+                continue;
+            };
+            let (table, errors) = (self.table.clone(), self.errors.len());
+            let given = self.instantiate(function, &[]);
+            let of_own = self.substituted(&own.ty, &given, own.span);
+            let of_other = self.substituted(&other.ty, &given, other.span);
+            let is_place = function.params[0].ty.is_mutable_reference();
+            let taken = match is_place {
+                true => self.peeled(left).0,
+                false => left.clone(),
+            };
+            let of_own = if is_place { self.peeled(&of_own).0 } else { of_own };
+            if self.table.unify(&of_own, &taken) && self.table.unify(&of_other, right) {
+                return Some(self.substituted(&function.result, &given, own.span));
+            }
+            self.table = table;
+            self.errors.truncate(errors);
+        }
+        None
+    }
+
+    /// What `-` or `!` before a structure or an enum gives.
+    pub fn unary_of(&mut self, op: UnaryOp, operand: &Ty) -> Option<Ty> {
+        let (of, name) = match op {
+            UnaryOp::Neg => ("Neg", "neg"),
+            _ => ("Not", "not"),
+        };
+        let library = self.library;
+        let (Ty::Struct(ty, _) | Ty::Enum(ty, _)) = self.table.shallow(operand) else {
+            return None;
+        };
+        let function = &library.functions[*library.operators(&ty, of, name).first()?];
+        let given = self.instantiate(function, &[]);
+        let own = self.substituted(&function.params.first()?.ty, &given, function.span);
+        self.table.unify(&own, operand);
+        Some(self.substituted(&function.result, &given, function.span))
+    }
+
+    /// What an index of a structure gives.
+    pub fn indexed(&mut self, base: &Ty, index: &Ty) -> Option<Ty> {
+        let Ty::Struct(ty, _) = base else { return None };
+        let library = self.library;
+        let keys = library.operators(ty, "Index", "index");
+        let (key, function) = self.taking(&keys, &[base.clone(), index.clone()])?;
+        let _ = key;
+        let given = self.instantiate(function, &[]);
+        for (param, found) in function.params.iter().zip([base, index]) {
+            let wanted = self.substituted(&param.ty, &given, param.span);
+            self.fits(&wanted, found);
+        }
+        let result = self.substituted(&function.result, &given, function.span);
+        Some(match self.table.shallow(&result) {
+            Ty::Ref(_, inner) => *inner,
+            other => other,
+        })
+    }
+
+    /// `x.into()`, or `Default::default()`: which function that is, what it has to give tells.
+    pub fn given_back(&mut self, from: Option<Ty>, span: Span) -> Ty {
+        let wanted = self.table.fresh(Kind::Any);
+        self.pending.push(Pending {
+            span,
+            wanted: wanted.clone(),
+            from,
+        });
+        wanted
+    }
+
+    /// Finds the functions that what they have to give tells, and checks the traits of type parameters.
+    pub fn settle_traits(&mut self) {
+        for Pending { span, wanted, from } in std::mem::take(&mut self.pending) {
+            let Some(of) = self.type_name(&wanted) else {
+                if !matches!(self.table.shallow(&wanted), Ty::Unknown | Ty::Param(_)) {
+                    self.errors.push(
+                        Diagnostic::at(span, "type annotations needed: nothing says what this is to give")
+                            .label("of which type?")
+                            .help("state the type of its variable: `let x: Type = ...`"),
+                    );
+                }
+                continue;
+            };
+            let library = self.library;
+            let key = match &from {
+                None => library.methods(&of, "default").first().map(|key| (*key).to_owned()),
+                Some(from) => {
+                    let keys = library.methods(&of, "from");
+                    let found = self.taking(&keys, std::slice::from_ref(from));
+                    let builtin =
+                        crate::front::is_prelude_type(&of) || self.peeled(from).0 == self.table.shallow(&wanted);
+                    found
+                        .map(|(key, _)| key.to_owned())
+                        .or_else(|| builtin.then(|| format!("{of}::from")))
+                }
+            };
+            match key {
+                Some(key) => drop(self.methods.insert(span, key)),
+                None => {
+                    let what = match &from {
+                        None => "Default".to_owned(),
+                        Some(from) => format!("From<{}>", self.table.deep(from)),
+                    };
+                    self.unsatisfied(&of, &what, span);
+                }
+            }
+        }
+        for Bound { span, ty, traits } in std::mem::take(&mut self.bounded) {
+            let found = self.table.shallow(&ty);
+            let of_parameter = match &found {
+                Ty::Param(name) => self.bounds.and_then(|bounds| bounds.get(name)).cloned(),
+                _ => None,
+            };
+            for of in traits.iter().filter(|of| self.library.traits.contains_key(*of)) {
+                let satisfied = match (&found, self.type_name(&found)) {
+                    (Ty::Param(_), _) => of_parameter.iter().flatten().any(|known| self.has_trait(known, of)),
+                    (_, Some(name)) => self.library.implements.contains(&(name, of.clone())),
+                    (Ty::Ref(..) | Ty::Tuple(_) | Ty::Array(_), None) => false,
+                    _ => true,
+                };
+                if !satisfied {
+                    let shown = match self.table.kind(&found) {
+                        Some(_) => self.type_name(&found).unwrap_or_default(),
+                        None => self.table.deep(&found).to_string(),
+                    };
+                    self.unsatisfied(&shown, of, span);
+                }
+            }
+        }
+    }
+
+    /// Whether a trait is another, or needs it.
+    fn has_trait(&self, known: &str, of: &str) -> bool {
+        let supers = self.library.traits.get(known).map_or(&[][..], |known| &known.supers);
+        known == of || supers.iter().any(|known| self.has_trait(known, of))
+    }
+
+    fn unsatisfied(&mut self, ty: &str, of: &str, span: Span) {
+        self.errors.push(
+            Diagnostic::at(span, format!("the trait bound `{ty}: {of}` is not satisfied"))
+                .label(format!("`{of}` is not implemented for `{ty}`"))
+                .help(format!(
+                    "write an `impl {of} for {ty}`, or give a value of a type that has it"
+                )),
+        );
+    }
+
+    /// The types of calls with type parameters, by their places: what each function goes by, and the names of the types.
+    pub fn named_instances(&mut self) -> HashMap<Span, (String, Vec<Option<String>>)> {
+        let mut named = HashMap::new();
+        for Instance { span, key, types } in std::mem::take(&mut self.instances) {
+            let names = types.iter().map(|ty| match self.table.shallow(ty.as_ref()?) {
+                Ty::Param(name) => Some(name),
+                other => self.type_name(&other),
+            });
+            named.insert(span, (key, names.collect()));
+        }
+        named
+    }
+}

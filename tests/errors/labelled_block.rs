@@ -1,6 +1,0 @@
-pub fn k(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
-    let x = 'a: {
-        1.0
-    };
-    color.load(pixel) * x
-}

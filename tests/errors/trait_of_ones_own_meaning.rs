@@ -1,0 +1,38 @@
+use std::cmp::Ordering;
+use std::ops::Mul;
+
+#[derive(Clone, Copy, PartialEq)]
+struct Level(f32);
+
+impl PartialOrd for Level {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        self.0.partial_cmp(&other.0)
+    }
+}
+
+trait Doubled {
+    fn doubled(self) -> Self;
+}
+
+impl Doubled for [f32; 2] {
+    fn doubled(self) -> Self {
+        [self[0] * 2.0, self[1] * 2.0]
+    }
+}
+
+trait Halved {
+    fn halved(self) -> Self;
+}
+
+impl<T: Mul<f32, Output = T>> Halved for T {
+    fn halved(self) -> T {
+        self * 0.5
+    }
+}
+
+pub fn k(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
+    let here = color.load(pixel);
+    let a = [here.x, here.y].doubled();
+    let b = here.halved();
+    if Level(here.x) < Level(here.y) { here * a[0] } else { b }
+}
