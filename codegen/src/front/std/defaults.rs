@@ -50,7 +50,9 @@ impl<T> Option<T> {
     fn default() -> Option<T> {
         None
     }
+}
 
+impl<T: Default> Option<T> {
     fn unwrap_or_default(self) -> T {
         match self {
             Some(x) => x,
