@@ -25,6 +25,7 @@ fn whole() -> Graph {
     let texture = |name: &str, kind, components| Texture {
         name: name.to_owned(),
         kind,
+        scalar: Scalar::F32,
         components,
         framed: true,
     };
@@ -153,7 +154,27 @@ fn every_rule_is_checked() {
             node(g, 6).op = Op::Const([2, 0, 0, 0]);
         }),
         ("a vec2<f32>", |g| node(g, 18).args[0] = NodeId(2)),
-        ("a vec2<f32>", |g| node(g, 19).args[1] = NodeId(6)),
+        ("a place and a reference", |g| node(g, 19).args[1] = NodeId(6)),
+        ("a coordinate is a vec3<i32>", |g| {
+            g.textures[0].kind = TextureKind::Volume
+        }),
+        ("a coordinate", |g| g.textures[0].kind = TextureKind::Cube),
+        ("wrong number", |g| g.textures[0].kind = TextureKind::Layers),
+        ("a texel of the texture's", |g| g.textures[0].scalar = Scalar::U32),
+        ("a layer and a level", |g| node(g, 1).args.push(NodeId(0))),
+        ("a number of layers", |g| node(g, 6).op = Op::TextureLayers(0)),
+        ("a number of levels", |g| {
+            g.textures[0].kind = TextureKind::Multisampled;
+            node(g, 6).op = Op::TextureLevels(0);
+            node(g, 1).args.push(NodeId(0));
+        }),
+        ("a texture of floats", |g| {
+            node(g, 18).op = Op::Sample {
+                texture: 1,
+                sampler: 0,
+                site: 0,
+            };
+        }),
         ("a component that", |g| {
             node(g, 18).op = Op::Gather {
                 texture: 0,

@@ -269,7 +269,7 @@ fn bindings_that_contradict_themselves() {
         (
             SHADOW,
             r#""view_dimension": "2d", "multisampled""#,
-            r#""view_dimension": "2d-array", "multisampled""#,
+            r#""view_dimension": "3d", "multisampled""#,
             "a depth, but not 2d",
         ),
         (TABLE, "read-only-storage", "uniform", "not read-only-storage"),

@@ -266,10 +266,14 @@ fn layout_entry(stage: Stage, binding: &Binding) -> TokenStream {
                 SampleType::Unfilterable => quote! { #wgpu::TextureSampleType::Float { filterable: false } },
                 SampleType::Filterable => quote! { #wgpu::TextureSampleType::Float { filterable: true } },
                 SampleType::Depth => quote! { #wgpu::TextureSampleType::Depth },
+                SampleType::Sint => quote! { #wgpu::TextureSampleType::Sint },
+                SampleType::Uint => quote! { #wgpu::TextureSampleType::Uint },
             };
             let view = match dimension.view() {
                 ViewDimension::D2Array => quote! { #wgpu::TextureViewDimension::D2Array },
                 ViewDimension::D2 => quote! { #wgpu::TextureViewDimension::D2 },
+                ViewDimension::D3 => quote! { #wgpu::TextureViewDimension::D3 },
+                ViewDimension::Cube => quote! { #wgpu::TextureViewDimension::Cube },
             };
             let multisampled = dimension.is_multisampled();
             quote! {
@@ -339,7 +343,10 @@ impl Input {
             } => {
                 let shape = match dimension {
                     Dimension::D2 => "A 2-D texture".to_owned(),
+                    Dimension::D2Array if *extent == Extent::Any => "A 2-D array texture".to_owned(),
                     Dimension::D2Array => format!("A 2-D array texture of at least {layers} layers"),
+                    Dimension::D3 => "A 3-D texture".to_owned(),
+                    Dimension::Cube => "A cube texture".to_owned(),
                     Dimension::D2Multisampled => format!("A multisampled 2-D texture of at least {samples} samples"),
                 };
                 let size = match extent {
@@ -351,6 +358,8 @@ impl Input {
                     SampleType::Depth => "a depth format".to_owned(),
                     SampleType::Filterable => format!("a filterable float format with at least {components} {plural}"),
                     SampleType::Unfilterable => format!("a float format with at least {components} {plural}"),
+                    SampleType::Sint => format!("a format of signed integers with at least {components} {plural}"),
+                    SampleType::Uint => format!("a format of unsigned integers with at least {components} {plural}"),
                 };
                 (format!("{shape} of {size}, of {format}."), "TextureView")
             }

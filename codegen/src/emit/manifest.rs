@@ -4,7 +4,7 @@ use super::layout::stride;
 use super::print::{GENERATOR, wgsl_type};
 use super::resources::{BoundTexture, OUTPUT, Resources, UNIFORMS};
 use crate::compiled::Compiled;
-use crate::ir::{Texture, TextureKind};
+use crate::ir::{Scalar, Texture, TextureKind};
 use straightline_manifest::{
     Access, Binding, BindingKind, BufferType, Counts, Dimension, Extent, Manifest, Output, Precision, REGION,
     REGION_SIZE, SCHEMA, SampleType, SamplerType, Stage, ViewDimension, region_fields,
@@ -113,28 +113,25 @@ impl Resources {
 }
 
 fn texture_kind(texture: &Texture, bound: &BoundTexture) -> BindingKind {
+    let counted = |kind: TextureKind| if texture.kind == kind { bound.layers } else { 1 };
     BindingKind::Texture {
         dimension: match texture.kind {
             TextureKind::Flat | TextureKind::Depth => Dimension::D2,
-            TextureKind::Layers => Dimension::D2Array,
+            TextureKind::Layers | TextureKind::DepthLayers => Dimension::D2Array,
+            TextureKind::Volume => Dimension::D3,
+            TextureKind::Cube | TextureKind::DepthCube => Dimension::Cube,
             TextureKind::Multisampled => Dimension::D2Multisampled,
         },
-        sample_type: match texture.kind {
-            TextureKind::Depth => SampleType::Depth,
-            _ if bound.filtered => SampleType::Filterable,
-            _ => SampleType::Unfilterable,
+        sample_type: match texture.scalar {
+            Scalar::I32 => SampleType::Sint,
+            Scalar::U32 | Scalar::Bool => SampleType::Uint,
+            Scalar::F32 if texture.kind.is_depth() => SampleType::Depth,
+            Scalar::F32 if bound.filtered => SampleType::Filterable,
+            Scalar::F32 => SampleType::Unfilterable,
         },
         components: texture.components,
-        layers: if texture.kind == TextureKind::Layers {
-            bound.layers
-        } else {
-            1
-        },
-        samples: if texture.kind == TextureKind::Multisampled {
-            bound.layers
-        } else {
-            1
-        },
+        layers: counted(TextureKind::Layers),
+        samples: counted(TextureKind::Multisampled),
         extent: if texture.framed { Extent::Output } else { Extent::Any },
     }
 }

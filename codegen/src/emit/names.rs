@@ -313,6 +313,8 @@ fn plain(graph: &Graph, id: NodeId) -> String {
         }
         Op::BufferLoad { buffer, .. } => graph.buffers[*buffer as usize].name.clone() + "_element",
         Op::TextureSize(texture) => graph.textures[*texture as usize].name.clone() + "_size",
+        Op::TextureLevels(texture) => graph.textures[*texture as usize].name.clone() + "_levels",
+        Op::TextureLayers(texture) => graph.textures[*texture as usize].name.clone() + "_layers",
         Op::BufferLen(buffer) => graph.buffers[*buffer as usize].name.clone() + "_len",
         Op::Unary(op) => unary(*op).to_owned(),
         Op::Binary(op) => binary(*op, node.ty).to_owned(),

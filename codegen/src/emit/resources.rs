@@ -305,10 +305,13 @@ impl Resources {
             })
     }
 
-    /// Names of the textures that samplers compare.
-    pub fn compared(&self) -> Vec<&str> {
+    /// Names of the textures that samplers compare, and what GLSL calls their kinds.
+    pub fn compared(&self) -> Vec<(&str, &'static str)> {
         let compared = self.read.iter().filter(|bound| bound.compared);
-        compared.map(|bound| self.texture(bound.index).name.as_str()).collect()
+        let texture = compared.map(|bound| self.texture(bound.index));
+        texture
+            .map(|t| (t.name.as_str(), super::print::glsl_shape(t.kind)))
+            .collect()
     }
 
     /// Binding number of the output, where it is one.

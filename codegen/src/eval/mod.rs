@@ -35,6 +35,7 @@ mod resources;
 mod scope;
 mod sequence;
 mod shape;
+mod textures;
 mod value;
 mod whiles;
 

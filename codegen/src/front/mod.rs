@@ -21,6 +21,7 @@ mod pattern;
 mod reach;
 mod scan;
 pub mod std;
+pub mod textures;
 pub mod tree;
 
 use crate::diagnostic::{Diagnostic, Errors, File, Span};

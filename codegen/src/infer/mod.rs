@@ -15,6 +15,7 @@ mod operators;
 mod pattern;
 mod places;
 mod signature;
+mod textures;
 mod types;
 
 use crate::diagnostic::{Diagnostic, Span};

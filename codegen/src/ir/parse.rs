@@ -105,19 +105,17 @@ impl Reader {
     fn texture(&mut self, text: &str) -> Parsed {
         let (name, rest) = named(text)?;
         let words: Vec<&str> = rest.split_whitespace().collect();
-        let [kind, components, size] = words[..] else {
-            return Err("a texture is `texture NAME: KIND COMPONENTS frame|own`".to_owned());
+        let (kind, components, size, kind_of_number) = match words[..] {
+            [kind, components, size] => (kind, components, size, Scalar::F32),
+            [kind, components, size, number] => (kind, components, size, scalar(number)?),
+            _ => return Err("a texture is `texture NAME: KIND COMPONENTS frame|own`, and `i32` or `u32`".to_owned()),
         };
-        let kinds = [
-            TextureKind::Flat,
-            TextureKind::Layers,
-            TextureKind::Multisampled,
-            TextureKind::Depth,
-        ];
-        let kind = kinds.into_iter().find(|k| super::print::kind_name(*k) == kind);
+        let found = TextureKind::ALL.into_iter().find(|(_, word)| *word == kind);
+        let (kind, _) = found.ok_or_else(|| format!("`{kind}` is no kind of texture"))?;
         self.graph.textures.push(Texture {
             name,
-            kind: kind.ok_or("a texture is flat, layers, multisampled or depth")?,
+            kind,
+            scalar: kind_of_number,
             components: number(components)?,
             framed: size == "frame",
         });
@@ -310,6 +308,8 @@ impl Reader {
             "convert" => Op::Convert,
             "bitcast" => Op::Bitcast,
             "texturesize" => Op::TextureSize(texture()?),
+            "texturelevels" => Op::TextureLevels(texture()?),
+            "texturelayers" => Op::TextureLayers(texture()?),
             "load" => Op::Load {
                 texture: texture()?,
                 site,

@@ -13,7 +13,7 @@
 //! output %7
 //! ```
 
-use super::{Event, Graph, Invocation, NodeId, Op, Scalar, TextureKind, Type};
+use super::{Event, Graph, Invocation, NodeId, Op, Scalar, Type};
 use std::fmt::Write;
 
 /// The whole graph.
@@ -42,11 +42,15 @@ fn tables(graph: &Graph) -> String {
     }
     for t in &graph.textures {
         let size = if t.framed { "frame" } else { "own" };
+        let number = match t.scalar {
+            Scalar::F32 => String::new(),
+            integer => format!(" {integer}"),
+        };
         let _ = writeln!(
             text,
-            "texture {}: {} {} {size}",
+            "texture {}: {} {} {size}{number}",
             t.name,
-            kind_name(t.kind),
+            t.kind.word(),
             t.components
         );
     }
@@ -76,16 +80,6 @@ fn tables(graph: &Graph) -> String {
         let _ = writeln!(text, "tally {name}");
     }
     text
-}
-
-/// The word for a kind of texture.
-pub(super) fn kind_name(kind: TextureKind) -> &'static str {
-    match kind {
-        TextureKind::Flat => "flat",
-        TextureKind::Layers => "layers",
-        TextureKind::Multisampled => "multisampled",
-        TextureKind::Depth => "depth",
-    }
 }
 
 fn print_event(text: &mut String, depth: usize, event: &Event) -> usize {
@@ -144,6 +138,8 @@ fn op(graph: &Graph, op: &Op, ty: Type) -> String {
         Op::Binary(op) => format!("binary {op:?}"),
         Op::Extract(lane) => format!("extract {lane}"),
         Op::TextureSize(k) => format!("texturesize {}", texture(k)),
+        Op::TextureLevels(k) => format!("texturelevels {}", texture(k)),
+        Op::TextureLayers(k) => format!("texturelayers {}", texture(k)),
         Op::Load { texture: t, .. } => format!("load {}{at}", texture(t)),
         Op::Sample {
             texture: t, sampler: s, ..

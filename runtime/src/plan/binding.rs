@@ -19,20 +19,21 @@ pub(super) fn check_texture(plan: &TexturePlan) -> Result<(), String> {
     })?;
     require(layers >= 1, || "no layers".to_owned())?;
     require(dimension == Dimension::D2Array || layers == 1, || {
-        format!("2d, but with {layers} layers")
+        format!("no 2d-array, but with {layers} layers")
     })?;
     require(samples >= 1, || "no samples".to_owned())?;
     require(dimension == Dimension::D2Multisampled || samples == 1, || {
         format!("not multisampled, but with {samples} samples")
     })?;
     match sample_type {
-        SampleType::Unfilterable => Ok(()),
+        SampleType::Unfilterable | SampleType::Sint | SampleType::Uint => Ok(()),
         // Neither a device nor a shading language can filter the samples of a texel.
         SampleType::Filterable => require(dimension != Dimension::D2Multisampled, || {
             "multisampled, but filterable".to_owned()
         }),
         SampleType::Depth => {
-            require(dimension == Dimension::D2, || "a depth, but not 2d".to_owned())?;
+            let shaped = matches!(dimension, Dimension::D2 | Dimension::D2Array | Dimension::Cube);
+            require(shaped, || "a depth, but not 2d, 2d-array or cube".to_owned())?;
             require(components == 1, || format!("a depth, but with {components} components"))
         }
     }

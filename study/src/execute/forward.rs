@@ -338,10 +338,14 @@ fn texture_type(dimension: Dimension, sample_type: SampleType) -> wgpu::BindingT
             SampleType::Depth => wgpu::TextureSampleType::Depth,
             SampleType::Filterable => wgpu::TextureSampleType::Float { filterable: true },
             SampleType::Unfilterable => wgpu::TextureSampleType::Float { filterable: false },
+            SampleType::Sint => wgpu::TextureSampleType::Sint,
+            SampleType::Uint => wgpu::TextureSampleType::Uint,
         },
         view_dimension: match dimension {
             Dimension::D2Array => wgpu::TextureViewDimension::D2Array,
-            _ => wgpu::TextureViewDimension::D2,
+            Dimension::D3 => wgpu::TextureViewDimension::D3,
+            Dimension::Cube => wgpu::TextureViewDimension::Cube,
+            Dimension::D2 | Dimension::D2Multisampled => wgpu::TextureViewDimension::D2,
         },
         multisampled: dimension == Dimension::D2Multisampled,
     }

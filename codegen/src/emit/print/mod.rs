@@ -23,6 +23,11 @@ pub fn glsl_type(ty: Ty) -> String {
     glsl::type_name(ty)
 }
 
+/// What GLSL calls a kind of texture, behind `texture` and `sampler`.
+pub fn glsl_shape(kind: ir::TextureKind) -> &'static str {
+    glsl::shape(kind)
+}
+
 /// A type as HLSL spells it.
 pub fn hlsl_type(ty: Ty) -> String {
     hlsl::type_name(ty)

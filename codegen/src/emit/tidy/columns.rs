@@ -66,6 +66,7 @@ impl Columns<'_> {
                     call(29 + self.texture(*texture) + self.sampler(*sampler))
                 }
                 ir::Op::TextureSize(texture) => 26 + self.texture(*texture),
+                ir::Op::TextureLevels(texture) | ir::Op::TextureLayers(texture) => 23 + self.texture(*texture),
                 ir::Op::BufferLoad { buffer, .. } => args + 2 + self.graph.buffers[*buffer as usize].name.len(),
                 ir::Op::BufferLen(buffer) => 18 + self.graph.buffers[*buffer as usize].name.len(),
                 ir::Op::Message(_) | ir::Op::Derivative(_) => call(12),
