@@ -48,10 +48,13 @@ pub enum BindingKind {
     Buffer {
         /// Always `read-only-storage`.
         buffer_type: BufferType,
-        /// Type of an element as WGSL spells it: `f32`, `vec4f`, ...
+        /// Type of an element as WGSL spells it: `f32`, `vec4f`, ...; of a structure its name.
         element: String,
         /// Bytes from one element to the next.
         stride: u32,
+        /// Fields of a structure in order of offset; none of other elements.
+        #[serde(default, skip_serializing_if = "Vec::is_empty")]
+        fields: Vec<UniformField>,
     },
     /// A uniform buffer.
     Uniform {
@@ -223,16 +226,16 @@ pub enum Extent {
     Any,
 }
 
-/// A field of a uniform struct.
+/// A field of a uniform struct, or of the elements of a buffer.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct UniformField {
     /// Name in the kernel's source.
     pub name: String,
-    /// Type as WGSL spells it: `f32`, `i32`, `u32`, `vec2f`, ...
+    /// Type as WGSL spells it: `f32`, `i32`, `u32`, `vec2f`, ..., and in elements of buffers `array<vec4f, 3>`.
     #[serde(rename = "type")]
     pub ty: String,
-    /// Byte offset from the start of the buffer.
+    /// Byte offset from the start of the buffer, or of the element.
     pub offset: u32,
     /// Size in bytes.
     pub size: u32,

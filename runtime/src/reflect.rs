@@ -110,7 +110,13 @@ fn check_input(module: &Module, plan: &InputPlan) -> Result<(), String> {
         }
         InputKind::Buffer(buffer) => (
             is_buffer(module, variable, buffer),
-            format!("var<storage, read> of type array<{}>", buffer.element),
+            match buffer.element {
+                Some(element) => format!("var<storage, read> of type array<{element}>"),
+                None => format!(
+                    "var<storage, read> of an array of structures of {} bytes",
+                    buffer.stride
+                ),
+            },
         ),
     };
     if fits {
@@ -160,7 +166,11 @@ fn is_buffer(module: &Module, variable: &GlobalVariable, plan: &BufferPlan) -> b
     variable.space == read_only
         && size == naga::ArraySize::Dynamic
         && stride == plan.stride
-        && is_type(&module.types[base].inner, plan.element)
+        && match (&module.types[base].inner, plan.element) {
+            (inner, Some(element)) => is_type(inner, element),
+            (TypeInner::Struct { span, .. }, None) => *span == plan.stride,
+            (_, None) => false,
+        }
 }
 
 fn check_storage(module: &Module, name: &str, group: u32, binding: u32, format: Format) -> Result<(), String> {

@@ -30,9 +30,12 @@ pub struct World {
     pub linear: Sampler,
     pub less: ComparisonSampler,
     pub weights: Buffer<f32>,
+    /// Numbers of which a page's lights are made.
+    pub lights: Vec<Vec4>,
     pub grade: Mat3,
     pub strength: f32,
     pub tint: Vec4,
+    pub palette: [Vec3; 4],
     pub taps: i32,
     pub resolution: UVec2,
 }
@@ -120,13 +123,29 @@ impl World {
             ),
             linear: Sampler::default(),
             less: ComparisonSampler::default(),
+            lights: image(uvec2(3, 1))
+                .iter()
+                .map(|t| *t * vec4(1.0, 1.0, 1.0, 3.0))
+                .collect(),
             weights: Buffer::new(vec![0.25, 0.5, 0.25]),
             grade: Mat3::from_cols(vec3(0.9, 0.1, 0.0), vec3(0.0, 0.8, 0.1), vec3(0.2, 0.0, 0.7)),
             strength: 1.5,
             tint: vec4(0.5, 0.6, 0.7, 1.0),
+            palette: [0.125, 0.25, 0.5, 0.75].map(|x| vec3(x, 1.0 - x, x * 0.5)),
             taps: 5,
             resolution: SIZE,
         }
+    }
+
+    /// A page's light of such numbers, all that is in it one after the other.
+    fn light(&self, l: Vec4) -> Vec<[f64; 4]> {
+        let one = |x: f32| [f64::from(x), 0.0, 0.0, 0.0];
+        let three = |v: Vec3| v.extend(0.0).to_array().map(f64::from);
+        let falloff = [8.0 + l.x, l.y, l.z, 0.5].map(one);
+        let columns = [self.grade.x_axis, self.grade.y_axis, self.grade.z_axis].map(three);
+        let tints = [three(l.yxz()), three(l.zzy())];
+        let first = [three(l.xyz()), one(l.w.floor())];
+        [&first[..], &falloff[..], &columns[..], &tints[..]].concat()
     }
 
     fn inputs(&self) -> execute::Inputs {
@@ -136,7 +155,11 @@ impl World {
         let bits = |v: &IVec2| uvec4(v.x as u32, v.y as u32, 0, 0);
         let sample = |s: &Texture<Vec4>| Frame::new(s.size(), s.texels().to_vec());
         let column = |v: Vec3| v.to_array().map(f64::from);
-        execute::Inputs::new(SIZE)
+        let mut inputs = execute::Inputs::new(SIZE);
+        for (k, colour) in self.palette.iter().enumerate() {
+            inputs = inputs.uniform(&format!("palette_{k}"), &column(*colour));
+        }
+        inputs
             .image("color", self.color.clone())
             .layers("layers", self.layers.layers().iter().map(layer).collect())
             .image("image", sample(&self.image))
@@ -172,6 +195,7 @@ impl World {
                     .map(|w| [f64::from(*w), 0.0, 0.0, 0.0])
                     .collect(),
             )
+            .buffer("lights", self.lights.iter().flat_map(|l| self.light(*l)).collect())
             .uniform("grade_x_axis", &column(self.grade.x_axis))
             .uniform("grade_y_axis", &column(self.grade.y_axis))
             .uniform("grade_z_axis", &column(self.grade.z_axis))

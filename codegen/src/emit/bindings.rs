@@ -64,6 +64,7 @@ fn module(module: &Module<'_>) -> TokenStream {
         ),
     };
     let (structure, setters) = parameters::parameters(manifest);
+    let elements = parameters::elements(manifest);
     let region = manifest.bindings.iter().any(|b| b.name == REGION).then(|| {
         quote! {
             /// Records the shader for a rectangle: from `region.first` of `inputs` to `region.place` of `target`.
@@ -99,6 +100,8 @@ fn module(module: &Module<'_>) -> TokenStream {
             }
 
             #structure
+
+            #elements
 
             /// The shader on a device: make it once, encode it every frame.
             #[derive(Debug)]
@@ -367,8 +370,19 @@ impl Input {
                 SamplerType::Filtering => ("A sampler that may filter.".to_owned(), "Sampler"),
                 SamplerType::Comparison => ("A comparison sampler.".to_owned(), "Sampler"),
             },
-            BindingKind::Buffer { element, stride, .. } => (
-                format!("A storage buffer of `{element}`, {stride} bytes each, at least one."),
+            BindingKind::Buffer {
+                element,
+                stride,
+                fields,
+                ..
+            } => (
+                match fields.is_empty() {
+                    true => format!("A storage buffer of `{element}`, {stride} bytes each, at least one."),
+                    false => format!(
+                        "A storage buffer of [`{}`], {stride} bytes each, at least one.",
+                        parameters::structure_name(element)
+                    ),
+                },
                 "Buffer",
             ),
             BindingKind::Uniform { .. } => return None,

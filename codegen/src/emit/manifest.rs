@@ -1,13 +1,12 @@
 //! What a host is told of a shader: the manifest.
 
-use super::layout::stride;
 use super::print::{GENERATOR, wgsl_type};
 use super::resources::{BoundTexture, OUTPUT, Resources, UNIFORMS};
 use crate::compiled::Compiled;
-use crate::ir::{Scalar, Texture, TextureKind};
+use crate::ir::{Element, Field, Scalar, Texture, TextureKind};
 use straightline_manifest::{
     Access, Binding, BindingKind, BufferType, Counts, Dimension, Extent, Manifest, Output, Precision, REGION,
-    REGION_SIZE, SCHEMA, SampleType, SamplerType, Stage, ViewDimension, region_fields,
+    REGION_SIZE, SCHEMA, SampleType, SamplerType, Stage, UniformField, ViewDimension, region_fields,
 };
 
 impl Resources {
@@ -39,8 +38,15 @@ impl Resources {
             let buffer = self.buffer(*index);
             let kind = BindingKind::Buffer {
                 buffer_type: BufferType::ReadOnlyStorage,
-                element: wgsl_type(buffer.element.into()),
-                stride: stride(buffer.element),
+                element: match &buffer.element {
+                    Element::Value(ty) => wgsl_type((*ty).into()),
+                    Element::Struct(structure) => structure.name.clone(),
+                },
+                stride: buffer.element.stride(),
+                fields: match &buffer.element {
+                    Element::Value(_) => Vec::new(),
+                    Element::Struct(structure) => structure.fields.iter().map(field).collect(),
+                },
             };
             add(*binding, &buffer.name, kind);
         }
@@ -109,6 +115,17 @@ impl Resources {
             hashes: Default::default(),
             tuned: None,
         }
+    }
+}
+
+/// A field of a structure, as a host is told.
+fn field(field: &Field) -> UniformField {
+    UniformField {
+        name: field.name.clone(),
+        ty: wgsl_type(field.ty.into()),
+        offset: field.offset,
+        size: field.ty.layout().1,
+        default: None,
     }
 }
 

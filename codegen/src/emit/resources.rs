@@ -7,7 +7,7 @@ use super::places::{Named, Places};
 use super::print::wgsl_type;
 use super::target::Target;
 use crate::compiled::Compiled;
-use crate::ir::{Buffer, NodeId, Op, Sampler, Texture, Uniform, Varying};
+use crate::ir::{Buffer, Element, NodeId, Op, Sampler, Structure, Texture, Uniform, Varying};
 use crate::passes::layers_read;
 use std::collections::BTreeSet;
 use straightline_manifest::{REGION, Stage, UniformField};
@@ -157,8 +157,17 @@ impl Resources {
         let names = names.chain(used_samplers.iter().map(|(k, _)| &graph.samplers[*k as usize].name));
         let entry = super::entry::name(&compiled.kernel, options)?;
         let names = names.chain(graph.varyings.iter().map(|v| &v.name));
+        let structures = read_buffers
+            .iter()
+            .filter_map(|(k, _)| match &graph.buffers[*k as usize].element {
+                Element::Struct(structure) => Some(structure),
+                Element::Value(_) => None,
+            });
+        let fields = structures.clone().flat_map(|structure| &structure.fields);
         let mut names = names
+            .chain(structures.map(|structure| &structure.name))
             .map(|name| (name, false))
+            .chain(fields.map(|field| (&field.name, true)))
             .chain(uniforms.iter().map(|u| (&u.name, true)));
         if options.entry.is_some()
             && let Some((name, _)) = names.clone().find(|(name, is_field)| **name == entry && !is_field)
@@ -262,6 +271,27 @@ impl Resources {
     /// A buffer by its index in the graph.
     pub fn buffer(&self, index: u32) -> &Buffer {
         &self.buffers[index as usize]
+    }
+
+    /// The structures of buffers that are read, each once.
+    pub fn structures(&self) -> Vec<&Structure> {
+        let mut all: Vec<&Structure> = Vec::new();
+        for (k, _) in &self.read_buffers {
+            if let Element::Struct(structure) = &self.buffer(*k).element
+                && all.iter().all(|other| other.name != structure.name)
+            {
+                all.push(structure);
+            }
+        }
+        all
+    }
+
+    /// Names of the structures of buffers that are read.
+    pub fn structure_names(&self) -> Vec<String> {
+        self.structures()
+            .iter()
+            .map(|structure| structure.name.clone())
+            .collect()
     }
 
     /// A sampler by its index in the graph.

@@ -163,7 +163,8 @@ impl<'a> Bindings<'a> {
         self
     }
 
-    /// The elements of a buffer, each in as many lanes as it has.
+    /// The elements of a buffer, each in as many lanes as it has; of structures all their numbers and vectors, one after the
+    /// other.
     pub fn buffer(mut self, name: &str, elements: &'a [[f64; 4]]) -> Self {
         self.buffers.push((name.to_owned(), elements));
         self
@@ -237,8 +238,14 @@ pub(super) fn check(
     }
     for (index, buffer) in graph.buffers.iter().enumerate() {
         let read = ops.iter().any(|op| op.buffer() == Some(index as u32));
-        if read && find(&bindings.buffers, &buffer.name).is_none_or(|b| b.is_empty()) {
+        let found = find(&bindings.buffers, &buffer.name).map_or(0, |values| values.len());
+        if read && found == 0 {
             return Err(InputError::MissingBuffer(buffer.name.clone()));
+        }
+        let each = buffer.element.values().len();
+        if read && !found.is_multiple_of(each) {
+            let name = buffer.name.clone();
+            return Err(InputError::Elements { name, found, each });
         }
     }
     Ok(())
@@ -269,6 +276,15 @@ pub enum InputError {
     Missing(String),
     /// No elements were given for a buffer that is read.
     MissingBuffer(String),
+    /// The values make no whole number of a buffer's structures.
+    Elements {
+        /// The buffer.
+        name: String,
+        /// Numbers and vectors that there are.
+        found: usize,
+        /// Those of one structure.
+        each: usize,
+    },
     /// The image has fewer layers, or samples a texel, than the graph reads.
     Layers {
         /// The texture.
@@ -314,6 +330,10 @@ impl fmt::Display for InputError {
             ),
             InputError::Missing(name) => write!(f, "no image for the texture `{name}`"),
             InputError::MissingBuffer(name) => write!(f, "no elements for the buffer `{name}`: it needs at least one"),
+            InputError::Elements { name, found, each } => write!(
+                f,
+                "{found} numbers and vectors for the buffer `{name}`, each element of which has {each}"
+            ),
             InputError::Layers { name, found, needed } => {
                 write!(
                     f,

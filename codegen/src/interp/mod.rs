@@ -88,7 +88,13 @@ impl<'a, R: Real> Interpreter<'a, R> {
             let elements = bindings::find(&bindings.buffers, &buffer.name)
                 .copied()
                 .unwrap_or_default();
-            elements.iter().map(|lanes| cells(buffer.element, lanes)).collect()
+            let types = buffer.element.values();
+            let types = types.iter().cycle();
+            elements
+                .iter()
+                .zip(types)
+                .map(|(lanes, ty)| cells(*ty, lanes))
+                .collect()
         });
         let uniforms = graph.uniforms.iter().map(|uniform| {
             let given = bindings::find(&bindings.uniforms, &uniform.name).map(Vec::as_slice);
@@ -288,10 +294,18 @@ impl<'a, R: Real> Interpreter<'a, R> {
         let inner = |x: R::Sampled| R::from_f64(x.to_f64()).to_bits();
         let vector = |k: usize| [0, 1, 2].map(|lane| outer(k, lane));
         if let Some(buffer) = op.buffer() {
-            let elements = &self.buffers[buffer as usize];
+            let (values, element) = (
+                &self.buffers[buffer as usize],
+                &self.graph.buffers[buffer as usize].element,
+            );
+            let each = element.values().len();
             return match op {
-                Op::BufferLen(_) => [elements.len() as u64, 0, 0, 0],
-                _ => elements[(word(0, 0) as usize).min(elements.len() - 1)],
+                Op::BufferLoad { field, .. } => {
+                    let part = element.field(*field).map_or(1, Type::len);
+                    let within = element.first_value(*field) + word(1, 0).min(part - 1) as usize;
+                    values[(word(0, 0) as usize).min(values.len() / each - 1) * each + within]
+                }
+                _ => [(values.len() / each) as u64, 0, 0, 0],
             };
         }
         let Some(index) = op.texture() else { return [0; 4] };

@@ -1,6 +1,6 @@
 //! The graph and its builder.
 
-use super::{Lanes, Op, Origin, Texture, Type};
+use super::{Buffer, Lanes, Op, Origin, Texture, Type};
 use std::collections::HashMap;
 
 /// Index of a node. A node's arguments have smaller indices.
@@ -49,15 +49,6 @@ pub enum Event {
     Open(RegionId),
     /// The innermost open region ends.
     Close(RegionId),
-}
-
-/// A read-only array that the host fills.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Buffer {
-    /// Its name in the kernel.
-    pub name: String,
-    /// Scalar, or vector of 2 or 4.
-    pub element: Type,
 }
 
 /// A sampler.

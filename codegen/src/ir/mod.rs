@@ -37,6 +37,7 @@
 //! A graph is not changed once built: a pass builds another.
 
 pub mod arith;
+mod buffer;
 mod graph;
 mod op;
 mod origin;
@@ -48,9 +49,9 @@ mod texture;
 mod types;
 pub mod verify;
 
+pub use buffer::{Buffer, Element, Field, Structure};
 pub use graph::{
-    Buffer, Builder, Event, Graph, Invocation, Node, NodeId, Purpose, Region, RegionId, Rules, Sampler, Uniform,
-    Varying,
+    Builder, Event, Graph, Invocation, Node, NodeId, Purpose, Region, RegionId, Rules, Sampler, Uniform, Varying,
 };
 pub use op::{Axis, BinaryOp, Direction, Op, UnaryOp};
 pub use origin::{Counter, Naming, Origin};

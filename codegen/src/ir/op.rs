@@ -111,10 +111,13 @@ pub enum Op {
     },
     /// Number of elements of a buffer (index into `Graph::buffers`), `i32`, at least 1.
     BufferLen(u32),
-    /// An element of a buffer: index (`i32`, inside the buffer).
+    /// A part of an element of a buffer: index (`i32`, inside the buffer), and of an array in it the index there (`i32`, inside
+    /// the array).
     BufferLoad {
         /// Index into `Graph::buffers`.
         buffer: u32,
+        /// Number of the element's field; 0 of an element that is a value.
+        field: u32,
         /// As of `Load`.
         site: u32,
     },

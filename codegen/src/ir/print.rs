@@ -13,7 +13,7 @@
 //! output %7
 //! ```
 
-use super::{Event, Graph, Invocation, NodeId, Op, Scalar, Type};
+use super::{Element, Event, Field, Graph, Invocation, NodeId, Op, Scalar, Type};
 use std::fmt::Write;
 
 /// The whole graph.
@@ -55,7 +55,15 @@ fn tables(graph: &Graph) -> String {
         );
     }
     for b in &graph.buffers {
-        let _ = writeln!(text, "buffer {}: {}", b.name, b.element);
+        let element = match &b.element {
+            Element::Value(ty) => ty.to_string(),
+            Element::Struct(structure) => {
+                let field = |f: &Field| format!("{}: {}", f.name, f.ty);
+                let fields: Vec<String> = structure.fields.iter().map(field).collect();
+                format!("struct {} {{ {} }}", structure.name, fields.join("; "))
+            }
+        };
+        let _ = writeln!(text, "buffer {}: {element}", b.name);
     }
     for s in &graph.samplers {
         let kind = if s.comparison { "comparison" } else { "filtering" };
@@ -160,7 +168,13 @@ fn op(graph: &Graph, op: &Op, ty: Type) -> String {
         Op::Derivative(axis) => format!("derivative {axis:?}"),
         Op::Varying(k) => format!("varying {}", graph.varyings[*k as usize].name),
         Op::BufferLen(k) => format!("bufferlen {}", buffer(k)),
-        Op::BufferLoad { buffer: b, .. } => format!("bufferload {}{at}", buffer(b)),
+        Op::BufferLoad { buffer: b, field, .. } => match &graph.buffers[*b as usize].element {
+            Element::Value(_) => format!("bufferload {}{at}", buffer(b)),
+            Element::Struct(of) => {
+                let field = of.fields.get(*field as usize).map_or("", |f| f.name.as_str());
+                format!("bufferload {}.{field}{at}", buffer(b))
+            }
+        },
         Op::Tally(name) => format!("tally {}", graph.tallies[*name as usize]),
         Op::Loop(region) => format!("loop region={}", region.0),
         Op::If(then, otherwise) => format!("if region={} region={}", then.0, otherwise.0),

@@ -356,11 +356,12 @@ fn check(graph: &Graph, id: NodeId) -> Result<(), String> {
             expect((*buffer as usize) < graph.buffers.len(), "no such buffer")?;
             expect(node.ty == Type::I32, "a length is an i32")
         }
-        Op::BufferLoad { buffer, .. } => {
+        Op::BufferLoad { buffer, field, .. } => {
             let entry = graph.buffers.get(*buffer as usize).ok_or("no such buffer")?;
-            count(1)?;
+            let part = entry.element.field(*field).ok_or("no such field")?;
+            count(1 + usize::from(part.is_array()))?;
             expect(
-                types[0] == Type::I32 && node.ty == entry.element,
+                types.iter().all(|t| *t == Type::I32) && node.ty == part.element(),
                 "an index to an element",
             )
         }

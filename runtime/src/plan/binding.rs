@@ -39,8 +39,23 @@ pub(super) fn check_texture(plan: &TexturePlan) -> Result<(), String> {
     }
 }
 
-/// A storage buffer of elements of the type that WGSL spells `element`, `stride` bytes apart.
-pub(super) fn buffer(element: &str, stride: u32) -> Result<BufferPlan, String> {
+/// A storage buffer of elements of the type that WGSL spells `element`, or of structures of `fields`, `stride` bytes apart.
+pub(super) fn buffer(element: &str, stride: u32, fields: &[UniformField]) -> Result<BufferPlan, String> {
+    if !fields.is_empty() {
+        require(stride > 0 && stride.is_multiple_of(4), || {
+            format!("a stride of {stride} bytes, not a positive multiple of 4")
+        })?;
+        for field in fields {
+            let inside = field.offset.checked_add(field.size).is_some_and(|end| end <= stride);
+            require(inside && field.offset % 4 == 0, || {
+                format!(
+                    "field `{}` does not lie inside the {stride} bytes of an element",
+                    field.name
+                )
+            })?;
+        }
+        return Ok(BufferPlan { element: None, stride });
+    }
     let ty = UniformType::from_wgsl(element)
         .ok_or_else(|| format!("elements of type `{element}`, not a 32-bit scalar or vector"))?;
     require(stride > 0 && stride.is_multiple_of(4), || {
@@ -52,7 +67,10 @@ pub(super) fn buffer(element: &str, stride: u32) -> Result<BufferPlan, String> {
             ty.size()
         )
     })?;
-    Ok(BufferPlan { element: ty, stride })
+    Ok(BufferPlan {
+        element: Some(ty),
+        stride,
+    })
 }
 
 /// A field of a struct of `block` bytes.

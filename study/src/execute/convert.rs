@@ -209,6 +209,35 @@ pub fn write_uniform(
     Ok(written?)
 }
 
+/// Structures as they lie in a buffer: their numbers and vectors are one after the other, those of an array too.
+pub fn structure_bytes(values: &[[f64; 4]], fields: &[UniformField], stride: u32) -> Vec<u8> {
+    let of = |field: &UniformField| -> (String, u32) {
+        let inner = field.ty.strip_prefix("array<").and_then(|ty| ty.strip_suffix('>'));
+        match inner.and_then(|inner| inner.split_once(", ")) {
+            Some((ty, count)) => (ty.to_owned(), count.parse().unwrap_or(1)),
+            None => (field.ty.clone(), 1),
+        }
+    };
+    let each: u32 = fields.iter().map(|field| of(field).1).sum();
+    let mut bytes = Vec::new();
+    for element in values.chunks_exact(each as usize) {
+        let (start, mut rest) = (bytes.len(), element);
+        bytes.resize(start + stride as usize, 0);
+        for field in fields {
+            let (ty, count) = of(field);
+            let (own, others) = rest.split_at(count as usize);
+            rest = others;
+            let room = field.size / count;
+            for (k, value) in (0..).zip(own) {
+                let at = start + (field.offset + k * room) as usize;
+                let part = element_bytes(std::slice::from_ref(value), &ty);
+                bytes[at..at + part.len()].copy_from_slice(&part);
+            }
+        }
+    }
+    bytes
+}
+
 /// Elements of a buffer as they lie in it.
 pub fn element_bytes(elements: &[[f64; 4]], element: &str) -> Vec<u8> {
     let (lanes, kind) = match element.strip_prefix("vec") {

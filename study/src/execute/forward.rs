@@ -193,10 +193,16 @@ impl Bench {
                         Owned::Sampler(self.sampler(state, compares)),
                     )
                 }
-                BindingKind::Buffer { element, .. } => {
+                BindingKind::Buffer {
+                    element,
+                    stride,
+                    fields,
+                    ..
+                } => {
                     let elements = Inputs::find(&inputs.buffers, name).ok_or_else(|| missing(name))?;
                     let ty = wgpu::BufferBindingType::Storage { read_only: true };
-                    (buffer_type(ty), Owned::Buffer(self.buffer(elements, element)))
+                    let buffer = self.buffer(elements, element, fields, *stride);
+                    (buffer_type(ty), Owned::Buffer(buffer))
                 }
                 BindingKind::Uniform { size, fields, .. } => {
                     let mut bytes = vec![0; *size as usize];

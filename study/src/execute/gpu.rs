@@ -7,7 +7,7 @@ use glam::{UVec2, Vec4, uvec2};
 use straightline_codegen::emit::{Emitted, Target};
 use straightline_codegen::{Compiled, EmitOptions, Format, Precision, Stage};
 use straightline_kernels::prelude::Frame;
-use straightline_manifest::{BindingKind, Manifest, REGION};
+use straightline_manifest::{BindingKind, Manifest, REGION, UniformField};
 use straightline_runtime::{Pass, PassOptions, Resource};
 use wgpu::{TextureFormat, TextureUsages};
 
@@ -182,10 +182,15 @@ impl Bench {
                     );
                     Owned::Sampler(self.sampler(state, compares))
                 }
-                BindingKind::Buffer { element, .. } => {
+                BindingKind::Buffer {
+                    element,
+                    stride,
+                    fields,
+                    ..
+                } => {
                     let elements =
                         Inputs::find(&inputs.buffers, name).ok_or_else(|| missing("list of elements", name))?;
-                    Owned::Buffer(self.buffer(elements, element))
+                    Owned::Buffer(self.buffer(elements, element, fields, *stride))
                 }
                 BindingKind::Uniform { .. } => continue,
             };
@@ -302,8 +307,18 @@ impl Bench {
         })
     }
 
-    pub(super) fn buffer(&self, elements: &[[f64; 4]], element: &str) -> wgpu::Buffer {
-        let bytes = convert::element_bytes(elements, element);
+    /// A storage buffer of elements, or of structures of fields.
+    pub(super) fn buffer(
+        &self,
+        elements: &[[f64; 4]],
+        element: &str,
+        fields: &[UniformField],
+        stride: u32,
+    ) -> wgpu::Buffer {
+        let bytes = match fields.is_empty() {
+            true => convert::element_bytes(elements, element),
+            false => convert::structure_bytes(elements, fields, stride),
+        };
         let buffer = self.device.create_buffer(&wgpu::BufferDescriptor {
             label: None,
             size: bytes.len() as u64,

@@ -38,7 +38,7 @@ pub struct Inputs {
     pub integers: Vec<(String, Vec<Frame<UVec4>>)>,
     /// Samplers; one that is not named filters linearly, clamps, and compares by `<=`.
     pub samplers: Vec<(String, SamplerState)>,
-    /// Elements of buffers, each in as many lanes as it has.
+    /// Elements of buffers, each in as many lanes as it has; of structures all their numbers and vectors, one after the other.
     pub buffers: Vec<(String, Vec<[f64; 4]>)>,
     /// Lanes of uniforms; one that is not named keeps its default.
     pub uniforms: Vec<(String, Vec<f64>)>,

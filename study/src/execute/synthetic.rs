@@ -42,7 +42,8 @@ pub fn test_inputs(graph: &Graph, size: UVec2) -> Inputs {
     }
     for buffer in &graph.buffers {
         let element = |k: u32| [0, 1, 2, 3].map(|lane| f64::from(noise(k * 4 + lane)));
-        inputs = inputs.buffer(&buffer.name, (0..64).map(element).collect());
+        let values = 64 * buffer.element.values().len() as u32;
+        inputs = inputs.buffer(&buffer.name, (0..values).map(element).collect());
     }
     for uniform in graph.uniforms.iter().filter(|u| u.default.is_none()) {
         let axis = ["_x_axis", "_y_axis", "_z_axis", "_w_axis"];

@@ -47,6 +47,12 @@ pub fn run(context: &Context, emitted: &Emitted, target: Target, inputs: &Inputs
                     program = program.uniform(&field.name, value(field, inputs)?);
                 }
             }
+            BindingKind::Buffer { fields, .. } if !fields.is_empty() => {
+                return Err(format!(
+                    "`{}` holds structures, which are not laid out here",
+                    binding.name
+                ));
+            }
             BindingKind::Buffer { element, .. } => {
                 let elements = inputs.buffers.iter().find(|(name, _)| *name == binding.name);
                 let (_, elements) = elements.ok_or_else(|| format!("no buffer `{}`", binding.name))?;

@@ -68,7 +68,7 @@ pub fn inputs(args: &RunArgs, compiled: &Compiled) -> Result<Inputs, Failure> {
         if inputs.buffers.iter().any(|(known, _)| known == name) {
             return Err(Failure::Usage(format!("the buffer `{name}` is given twice")));
         }
-        inputs = inputs.buffer(name, values::buffer(name, buffer.element, text)?);
+        inputs = inputs.buffer(name, values::buffer(name, &buffer.element, text)?);
     }
     inputs.size = args.size.or_else(|| size(graph, &inputs)).ok_or_else(|| {
         Failure::Usage(

@@ -5,7 +5,7 @@ use super::{Language, Text, commented};
 use crate::emit::Target;
 use crate::emit::ast::{Builtin, Ty};
 use crate::emit::resources::{OUTPUT, Resources, SAMPLER, UNIFORMS};
-use crate::ir::{self, Axis, BinaryOp, Direction, Scalar, Texture, TextureKind, Type, UnaryOp};
+use crate::ir::{self, Axis, BinaryOp, Direction, Element, Scalar, Texture, TextureKind, Type, UnaryOp};
 use straightline_manifest::{REGION, Stage};
 
 /// What follows a buffer's name to ask for its length.
@@ -63,7 +63,7 @@ impl<'a> Glsl<'a> {
         let uniforms = self.resources.uniforms.iter().map(|u| loose(&u.name));
         match self.vulkan() {
             true if self.is_function() => uniforms.collect(),
-            true => Vec::new(),
+            true => self.resources.structure_names(),
             false => {
                 let combined = self
                     .resources
@@ -73,6 +73,7 @@ impl<'a> Glsl<'a> {
                 combined
                     .chain(uniforms)
                     .chain(LOOSE_REGION.map(|(name, _)| name.to_owned()))
+                    .chain(self.resources.structure_names())
                     .collect()
             }
         }
@@ -129,11 +130,22 @@ impl<'a> Glsl<'a> {
     pub(super) fn buffers(&self) -> String {
         let r = self.resources;
         let each = r.read_buffers.iter().map(|(k, binding)| {
-            let (name, element) = (&r.buffer(*k).name, type_name(r.buffer(*k).element.into()));
+            let name = &r.buffer(*k).name;
+            let element = match &r.buffer(*k).element {
+                Element::Value(ty) => type_name((*ty).into()),
+                Element::Struct(structure) => structure.name.clone(),
+            };
             let layout = self.layout(*binding, "std430, ", "");
             format!("{layout}readonly buffer {name}_buffer {{ {element} elements[]; }} {name};\n")
         });
-        each.collect()
+        let structures = r.structures().into_iter().map(|structure| {
+            let fields = structure
+                .fields
+                .iter()
+                .map(|f| format!("    {};\n", declared(&f.name, f.ty.into())));
+            format!("\nstruct {} {{\n{}}};\n\n", structure.name, fields.collect::<String>())
+        });
+        structures.collect::<String>() + &each.collect::<String>()
     }
 
     /// The image that is written; of a fragment what is interpolated, with locations or not, and the colour.
@@ -310,9 +322,11 @@ impl Language for Glsl<'_> {
                 let through = self.through(*texture, *sampler);
                 Text::call(GATHER, &[&through, &args[0], &args[1]])
             }
-            ir::Op::BufferLoad { buffer, .. } => {
-                let elements = Text::name(format!("{}.elements", self.resources.buffer(*buffer).name));
-                Text::index(&elements, &args[0])
+            ir::Op::BufferLoad { buffer, field, .. } => {
+                let buffer = self.resources.buffer(*buffer);
+                let elements = Text::name(format!("{}.elements", buffer.name));
+                let element = Text::index(&elements, &args[0]);
+                super::part(&element, &buffer.element, *field, args.get(1))
             }
             ir::Op::BufferLen(buffer) => {
                 let length = Text::name(format!("{}{LENGTH}", self.resources.buffer(*buffer).name));

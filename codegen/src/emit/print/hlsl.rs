@@ -4,7 +4,7 @@ use super::expr::{float, integer, unsigned};
 use super::{Language, Text, commented, loose};
 use crate::emit::ast::{Builtin, Expr, Module, Op, Ty};
 use crate::emit::resources::{OUTPUT, Resources, UNIFORMS};
-use crate::ir::{self, Axis, BinaryOp, Direction, Scalar, Texture, TextureKind, Type, UnaryOp};
+use crate::ir::{self, Axis, BinaryOp, Direction, Element, Scalar, Texture, TextureKind, Type, UnaryOp};
 use straightline_manifest::{Format, REGION, Stage};
 
 /// HLSL.
@@ -55,6 +55,7 @@ impl<'a> Hlsl<'a> {
     /// Names at module scope, or of parameters, that this language adds.
     pub fn names(&self) -> Vec<String> {
         let mut names: Vec<String> = self.sizes.iter().map(|size| self.size_of(*size)).collect();
+        names.extend(self.resources.structure_names());
         if self.is_function() {
             names.extend(self.resources.uniforms.iter().map(|u| loose(&u.name)));
         }
@@ -246,7 +247,16 @@ impl Language for Hlsl<'_> {
             ir::Op::GatherCompare { texture, sampler, .. } => {
                 self.sampled(*texture, "GatherCmp", *sampler, &[&args[0], &args[1]])
             }
-            ir::Op::BufferLoad { buffer, .. } => Text::index(&Text::name(r.buffer(*buffer).name.as_str()), &args[0]),
+            ir::Op::BufferLoad { buffer, field, .. } => {
+                let buffer = r.buffer(*buffer);
+                let element = Text::index(&Text::name(buffer.name.as_str()), &args[0]);
+                let part = super::part(&element, &buffer.element, *field, args.get(1));
+                match (buffer.element.field(*field), args.len()) {
+                    // Its elements take the room of four.
+                    (Some(ty), 2) if ty.lanes() == 3 => Text::member(&part, "xyz"),
+                    _ => part,
+                }
+            }
             ir::Op::Message(direction) => {
                 let function = match direction {
                     Direction::Horizontal => "QuadReadAcrossX",
@@ -335,6 +345,7 @@ impl Language for Hlsl<'_> {
         let mut out = String::new();
         out += &commented(header);
         out.push('\n');
+        out += &structures(r);
         if self.is_function() {
             for size in &self.sizes {
                 out += &format!("{}\n", self.asks(*size));
@@ -413,7 +424,11 @@ pub(super) fn texture_declared(resources: &Resources, index: u32) -> String {
 
 pub(super) fn buffer_declared(resources: &Resources, index: u32) -> String {
     let buffer = resources.buffer(index);
-    format!("StructuredBuffer<{}> {}", type_name(buffer.element.into()), buffer.name)
+    let element = match &buffer.element {
+        Element::Value(ty) => type_name((*ty).into()),
+        Element::Struct(structure) => structure.name.clone(),
+    };
+    format!("StructuredBuffer<{element}> {}", buffer.name)
 }
 
 pub(super) fn sampler_declared(resources: &Resources, index: u32) -> String {
@@ -423,6 +438,34 @@ pub(super) fn sampler_declared(resources: &Resources, index: u32) -> String {
         false => "SamplerState",
     };
     format!("{ty} {}", sampler.name)
+}
+
+/// Structures of buffers, with padding where the language would pack them closer than the buffer has them: it knows no
+/// alignment but that of a number.
+fn structures(resources: &Resources) -> String {
+    let mut out = String::new();
+    for structure in resources.structures() {
+        out += &format!("struct {} {{\n", structure.name);
+        let mut at = 0;
+        let pad = |out: &mut String, at: &mut u32, to: u32| {
+            while *at < to {
+                *out += &format!("    uint padding_{at};\n");
+                *at += 4;
+            }
+        };
+        for field in &structure.fields {
+            pad(&mut out, &mut at, field.offset);
+            let ty = match field.ty {
+                Type::Array { scalar, lanes: 3, len } => Type::Array { scalar, lanes: 4, len },
+                other => other,
+            };
+            out += &format!("    {};\n", declared(&field.name, ty.into()));
+            at = field.offset + field.ty.layout().1;
+        }
+        pad(&mut out, &mut at, structure.stride());
+        out += "};\n\n";
+    }
+    out
 }
 
 /// Members of the uniform struct, with padding where the language would pack them closer than the buffer has them.

@@ -38,6 +38,16 @@ pub fn wgsl_type(ty: Ty) -> String {
     wgsl::type_name(ty)
 }
 
+/// A part of an element of a buffer.
+fn part(element: &Text, of: &ir::Element, field: u32, within: Option<&Text>) -> Text {
+    let ir::Element::Struct(of) = of else {
+        return element.clone();
+    };
+    let name = of.fields.get(field as usize).map_or("", |field| field.name.as_str());
+    let field = Text::member(element, name);
+    within.map_or(field.clone(), |within| Text::index(&field, within))
+}
+
 /// Columns of a scalar constant.
 pub fn columns_of_number(ty: Ty, bits: u32) -> usize {
     match ty.kind() {

@@ -4,7 +4,7 @@ use super::expr::{float, integer, unsigned};
 use super::{Language, Text, commented, loose};
 use crate::emit::ast::{Builtin, Ty};
 use crate::emit::resources::{OUTPUT, Resources, UNIFORMS};
-use crate::ir::{self, Axis, BinaryOp, Direction, Scalar, Texture, TextureKind, Type};
+use crate::ir::{self, Axis, BinaryOp, Direction, Element, Scalar, Texture, TextureKind, Type};
 use std::fmt::Write;
 use straightline_manifest::{Precision, REGION, Stage};
 
@@ -29,11 +29,11 @@ impl Wgsl<'_> {
 }
 
 impl Wgsl<'_> {
-    /// Names of parameters that are fields of a uniform struct otherwise.
+    /// Names at module scope that this language adds, or of parameters that are fields of a uniform struct otherwise.
     pub fn names(&self) -> Vec<String> {
         match self.resources.options.is_function() {
             true => self.resources.uniforms.iter().map(|u| loose(&u.name)).collect(),
-            false => Vec::new(),
+            false => self.resources.structure_names(),
         }
     }
 }
@@ -121,8 +121,10 @@ impl Language for Wgsl<'_> {
                 let [texture, sampler] = self.pair(*texture, *sampler);
                 Text::call("textureGatherCompare", &[&texture, &sampler, &args[0], &args[1]])
             }
-            ir::Op::BufferLoad { buffer, .. } => {
-                Text::index(&Text::name(self.resources.buffer(*buffer).name.as_str()), &args[0])
+            ir::Op::BufferLoad { buffer, field, .. } => {
+                let buffer = self.resources.buffer(*buffer);
+                let element = Text::index(&Text::name(buffer.name.as_str()), &args[0]);
+                super::part(&element, &buffer.element, *field, args.get(1))
             }
             ir::Op::BufferLen(buffer) => {
                 let name = Text::name(format!("&{}", self.resources.buffer(*buffer).name));
@@ -225,6 +227,13 @@ impl Language for Wgsl<'_> {
         }
         out += &commented(header);
         out.push('\n');
+        for structure in r.structures() {
+            out += &format!("struct {} {{\n", structure.name);
+            for field in &structure.fields {
+                out += &format!("    {}: {},\n", field.name, type_name(field.ty.into()));
+            }
+            out += "}\n\n";
+        }
         let group = r.places.group();
         let mut bind = |binding: u32, what: String| {
             let _ = writeln!(out, "@group({group}) @binding({binding}) var{what};");
@@ -235,7 +244,10 @@ impl Language for Wgsl<'_> {
         }
         for (k, binding) in &r.read_buffers {
             let buffer = r.buffer(*k);
-            let element = type_name(buffer.element.into());
+            let element = match &buffer.element {
+                Element::Value(ty) => type_name((*ty).into()),
+                Element::Struct(structure) => structure.name.clone(),
+            };
             bind(*binding, format!("<storage, read> {}: array<{element}>", buffer.name));
         }
         for (k, binding) in &r.used_samplers {
