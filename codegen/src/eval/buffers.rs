@@ -179,7 +179,7 @@ impl Evaluator<'_> {
             SourceType::Array(..) => {
                 let field = *next;
                 let of = self.builder.graph().buffers[buffer as usize].element.field(field);
-                let parts = (0..of.map_or(1, Type::len)).map(|k| {
+                let parts = (0..of.map_or(1, Type::parts)).map(|k| {
                     *next = field;
                     Value::Node(self.read_field(buffer, element, next, Some(k)))
                 });

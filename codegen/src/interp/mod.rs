@@ -301,7 +301,7 @@ impl<'a, R: Real> Interpreter<'a, R> {
             let each = element.values().len();
             return match op {
                 Op::BufferLoad { field, .. } => {
-                    let part = element.field(*field).map_or(1, Type::len);
+                    let part = element.field(*field).map_or(1, Type::parts);
                     let within = element.first_value(*field) + word(1, 0).min(part - 1) as usize;
                     values[(word(0, 0) as usize).min(values.len() / each - 1) * each + within]
                 }

@@ -88,7 +88,7 @@ impl Element {
         match self {
             Element::Value(ty) => vec![*ty],
             Element::Struct(structure) => {
-                let of = |field: &Field| vec![field.ty.element(); field.ty.len() as usize];
+                let of = |field: &Field| vec![field.ty.element(); field.ty.parts() as usize];
                 structure.fields.iter().flat_map(of).collect()
             }
         }
@@ -100,7 +100,7 @@ impl Element {
             Element::Value(_) => 0,
             Element::Struct(structure) => {
                 let before = structure.fields.iter().take(field as usize);
-                before.map(|field| field.ty.len() as usize).sum()
+                before.map(|field| field.ty.parts() as usize).sum()
             }
         }
     }

@@ -94,8 +94,8 @@ impl Type {
         }
     }
 
-    /// Elements of an array; 1 of a value.
-    pub fn len(self) -> u32 {
+    /// Scalars or vectors that it is made of: elements of an array; 1 of a value.
+    pub fn parts(self) -> u32 {
         match self {
             Type::Array { len, .. } => len,
             _ => 1,
