@@ -273,3 +273,89 @@ fn sized(kernel: &str, folder: &Path) {
         );
     }
 }
+
+/// A picture of a colour for each pixel, as a file.
+fn picture(folder: &Path, name: &str, size: glam::UVec2, of: impl Fn(u32, u32) -> glam::Vec4) -> String {
+    let of = &of;
+    let texels = (0..size.y).flat_map(|y| (0..size.x).map(move |x| of(x, y)));
+    let path = folder.join(name);
+    let frame = straightline_kernels::prelude::Frame::new(size, texels.collect());
+    straightline_study::picture::write(&path, &frame).unwrap();
+    path.to_str().unwrap().to_owned()
+}
+
+#[test]
+fn volumes_cubes_and_integers_come_from_files() {
+    use glam::{UVec2, Vec4, uvec2, vec4};
+    let folder = scratch("run-textures");
+    let kernel = write(
+        &folder,
+        "kernel.rs",
+        "pub fn kernel(color: &Frame<Vec4>, table: &Texture3D<Vec3>, around: &TextureCube<Vec4>, ids: &Texture<UVec2>, linear: &Sampler, \
+         pixel: IVec2) -> Vec4 {\n    let here = color.load(pixel).truncate();\n    let size = table.size().x as f32;\n    let graded = \
+         table.sample(linear, (here * (size - 1.0) + 0.5) / size);\n    let up = around.sample(linear, vec3(0.0, 1.0, 0.0)).x;\n    \
+         (graded * up).extend(ids.load(ivec2(0, 0)).y as f32 / 128.0)\n}\n",
+    );
+    let out = folder.join("out.exr");
+    let out = out.to_str().unwrap();
+    let color = picture(&folder, "color.exr", uvec2(4, 2), |x, y| {
+        vec4(x as f32 / 4.0, y as f32, 0.5, 1.0)
+    });
+    // One that swaps red and blue, as a table and as a strip of its slices.
+    let swapped = |r: u32, g: u32, b: u32| vec4(b as f32, g as f32, r as f32, 1.0);
+    let mut table = "LUT_3D_SIZE 2\n".to_owned();
+    for k in 0..8 {
+        let colour = swapped(k & 1, k >> 1 & 1, k >> 2);
+        table += &format!("{} {} {}\n", colour.x, colour.y, colour.z);
+    }
+    let table = write(&folder, "swap.cube", &table);
+    let strip = picture(&folder, "strip.exr", uvec2(4, 2), |x, y| swapped(x & 1, y, x >> 1));
+    let faces: Vec<String> = (0..6)
+        .map(|k| {
+            let value = if k == 2 { 0.5 } else { 0.0 };
+            picture(&folder, &format!("face{k}.exr"), UVec2::splat(3), |_, _| {
+                Vec4::splat(value)
+            })
+        })
+        .collect();
+    let faces = faces.join(",");
+    let ids = picture(&folder, "ids.png", uvec2(2, 2), |_, _| vec4(1.0, 0.0, 1.0, 1.0));
+    let run = |table: &str, around: &str, ids: &str, executor: &str| {
+        let inputs = [
+            format!("color={color}"),
+            format!("table={table}"),
+            format!("around={around}"),
+            format!("ids={ids}"),
+        ];
+        let mut words = vec!["run", kernel.as_str(), "--executor", executor, "--out", out];
+        inputs.iter().for_each(|input| words.extend(["--input", input]));
+        straightline(&words)
+    };
+    for executor in ["cpu", "gpu"] {
+        for table in [&table, &strip] {
+            let finished = run(table, &faces, &ids, executor);
+            let said = String::from_utf8_lossy(&finished.stderr).into_owned();
+            assert!(finished.status.success(), "{said}");
+            let found = straightline_study::picture::read(Path::new(out)).unwrap();
+            for (k, texel) in found.texels().iter().enumerate() {
+                let (x, y) = ((k % 4) as f32 / 4.0, (k / 4) as f32);
+                let expected = vec4(0.25, y * 0.5, x * 0.5, 0.0);
+                assert!((*texel - expected).abs().max_element() < 0.01, "{k}: {texel}");
+            }
+            std::fs::remove_file(out).unwrap();
+        }
+    }
+    let broken = write(&folder, "broken.cube", "LUT_3D_SIZE 2\n0 0 0\n");
+    for (table, around, ids, says) in [
+        (&table, "nowhere.exr", &ids, "nowhere.exr"),
+        (&table, color.as_str(), &ids, "six square pictures"),
+        (&color, faces.as_str(), &color, "texels of integers are read from PNG"),
+        (&broken, faces.as_str(), &ids, "1 colours, and 2 steps a side need 8"),
+        (&ids, faces.as_str(), &ids, "is no volume `table`"),
+    ] {
+        let finished = run(table, around, ids, "cpu");
+        let said = String::from_utf8_lossy(&finished.stderr).into_owned();
+        assert!(!finished.status.success() && said.contains(says), "{says}: {said}");
+        assert!(!Path::new(out).exists());
+    }
+}

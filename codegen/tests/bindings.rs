@@ -19,13 +19,19 @@ pub mod wgpu {
     pub enum BindingType {
         Buffer { ty: BufferBindingType, has_dynamic_offset: bool, min_binding_size: Option<BufferSize> },
         Texture { sample_type: TextureSampleType, view_dimension: TextureViewDimension, multisampled: bool },
+        Sampler(SamplerBindingType),
         StorageTexture { access: StorageTextureAccess, format: TextureFormat, view_dimension: TextureViewDimension },
     }
-    pub enum BufferBindingType { Uniform } pub enum TextureSampleType { Float { filterable: bool } }
-    pub enum TextureViewDimension { D2 } pub enum StorageTextureAccess { WriteOnly } pub enum TextureFormat { Rgba16Float }
+    pub enum BufferBindingType { Uniform, Storage { read_only: bool } }
+    pub enum TextureSampleType { Float { filterable: bool }, Depth, Sint, Uint }
+    pub enum TextureViewDimension { D2, D2Array, D3, Cube }
+    pub enum SamplerBindingType { Filtering, Comparison }
+    pub enum StorageTextureAccess { WriteOnly } pub enum TextureFormat { Rgba16Float }
 }
 #[derive(Debug)] pub struct Error;
 pub struct Resource<'a>(pub &'a ());
+impl<'a> From<&'a wgpu::Buffer> for Resource<'a> { fn from(_: &'a wgpu::Buffer) -> Self { Resource(&()) } }
+impl<'a> From<&'a wgpu::Sampler> for Resource<'a> { fn from(_: &'a wgpu::Sampler) -> Self { Resource(&()) } }
 impl<'a> From<&'a wgpu::TextureView> for Resource<'a> { fn from(_: &'a wgpu::TextureView) -> Self { Resource(&()) } }
 #[derive(Debug)] pub struct Pass;
 impl Pass {
@@ -58,21 +64,73 @@ fn rustc(folder: &Path, file: &str, arguments: &[&str]) {
     assert!(run.status.success(), "{said}\n{text}");
 }
 
-fn folder() -> PathBuf {
-    let folder = std::env::temp_dir().join(format!("straightline-bindings-{}", std::process::id()));
+fn folder(name: &str) -> PathBuf {
+    let folder = std::env::temp_dir().join(format!("straightline-bindings-{name}-{}", std::process::id()));
     std::fs::create_dir_all(&folder).expect("a folder");
     folder
 }
 
-#[test]
-fn bindings_compile_whatever_uniforms_are_called() {
-    let folder = folder();
+/// The runtime that bindings are compiled against, in a folder.
+fn runtime(folder: &Path) {
     std::fs::write(folder.join("straightline_runtime.rs"), RUNTIME).expect("written");
     rustc(
-        &folder,
+        folder,
         "straightline_runtime.rs",
         &["--crate-name", "straightline_runtime"],
     );
+}
+
+/// Has rustc compile the bindings of a kernel `k`, unless its text is refused before.
+fn compiles(folder: &Path, file: &str, text: &str) -> Result<(), String> {
+    let compiled = Kernel::from_text("kernel.rs", text, "k").compile(&Settings::default());
+    let compiled = compiled.map_err(|e| e.to_string())?;
+    let emitted = compiled.emit(&EmitOptions::new()).map_err(|e| e.to_string())?;
+    let module = Module {
+        name: "shader",
+        compiled: &compiled,
+        manifest: &emitted.manifest,
+    };
+    for (file, contents) in emitted.named("shader") {
+        std::fs::write(folder.join(file), contents).expect("written");
+    }
+    std::fs::write(folder.join(file), emit::bindings(&[module])).expect("written");
+    rustc(
+        folder,
+        file,
+        &["--extern", "straightline_runtime=libstraightline_runtime.rmeta"],
+    );
+    Ok(())
+}
+
+/// Elements of buffers are structures of the layout that rustc checks; textures of every kind are in the layout.
+#[test]
+fn bindings_compile_whatever_is_read() {
+    let folder = folder("read");
+    runtime(&folder);
+    let reads = [
+        "pub struct Inputs { position: Vec3, kind: u32, powers: [f32; 3], turned: Mat3, tints: [Vec3; 2], last: IVec2 }
+        pub fn k(lights: &Buffer<Inputs>, others: &Buffer<Inputs>, gain: f32, pixel: IVec2) -> Vec4 {
+            let light = lights.load(1);
+            let tint = light.tints[pixel.x as usize] + light.turned * light.position;
+            tint.extend(others.load(2).powers[1] * gain)
+        }",
+        "pub fn k(a: &Texture3D<Vec4>, b: &TextureCube<f32>, c: &TextureArray<i32>, d: &DepthTextureArray, e: &DepthCube, f: &Texture<UVec2>,
+            s: &Sampler, t: &ComparisonSampler, pixel: IVec2) -> Vec4 {
+            let place = pixel.as_vec2().extend(1.0);
+            let shadow = d.compare(t, place.xy(), 1, 0.5) + e.compare(t, place, 0.5);
+            a.load(pixel.extend(0)) + b.sample(s, place) + c.load(pixel, 1) as f32 + shadow + f.load(pixel).y as f32
+        }",
+    ];
+    for (k, text) in reads.into_iter().enumerate() {
+        compiles(&folder, &format!("bindings_{k}.rs"), text).unwrap_or_else(|e| panic!("{e}"));
+    }
+    std::fs::remove_dir_all(&folder).expect("removed");
+}
+
+#[test]
+fn bindings_compile_whatever_uniforms_are_called() {
+    let folder = folder("names");
+    runtime(&folder);
     let names = [
         "Pass",
         "Some",
@@ -107,27 +165,7 @@ fn bindings_compile_whatever_uniforms_are_called() {
             }}"
         );
         // Some are no names of Rust's, or of a shading language's: those are refused before.
-        let Ok(compiled) = Kernel::from_text("kernel.rs", &text, "k").compile(&Settings::default()) else {
-            continue;
-        };
-        let Ok(emitted) = compiled.emit(&EmitOptions::new()) else {
-            continue;
-        };
-        let module = Module {
-            name: "shader",
-            compiled: &compiled,
-            manifest: &emitted.manifest,
-        };
-        for (file, contents) in emitted.named("shader") {
-            std::fs::write(folder.join(file), contents).expect("written");
-        }
-        let file = format!("bindings_{k}.rs");
-        std::fs::write(folder.join(&file), emit::bindings(&[module])).expect("written");
-        rustc(
-            &folder,
-            &file,
-            &["--extern", "straightline_runtime=libstraightline_runtime.rmeta"],
-        );
+        let _ = compiles(&folder, &format!("bindings_{k}.rs"), &text);
     }
     std::fs::remove_dir_all(&folder).expect("removed");
 }

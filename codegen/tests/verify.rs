@@ -3,8 +3,8 @@
 #![allow(missing_docs)]
 
 use straightline_codegen::ir::{
-    BinaryOp, Buffer, Builder, Direction, Graph, Invocation, Node, NodeId, Op, RegionId, Rules, Sampler, Scalar,
-    Texture, TextureKind, Type, UnaryOp, Uniform, verify::verify,
+    BinaryOp, Buffer, Builder, Direction, Element, Graph, Invocation, Node, NodeId, Op, RegionId, Rules, Sampler,
+    Scalar, Texture, TextureKind, Type, UnaryOp, Uniform, verify::verify,
 };
 
 struct Nothing;
@@ -25,6 +25,7 @@ fn whole() -> Graph {
     let texture = |name: &str, kind, components| Texture {
         name: name.to_owned(),
         kind,
+        scalar: Scalar::F32,
         components,
         framed: true,
     };
@@ -37,7 +38,7 @@ fn whole() -> Graph {
     graph.samplers = vec![sampler("s", false), sampler("c", true)];
     graph.buffers = vec![Buffer {
         name: "b".to_owned(),
-        element: Type::F32,
+        element: Element::Value(Type::F32),
     }];
     graph.uniforms = vec![Uniform {
         name: "u".to_owned(),
@@ -97,7 +98,16 @@ fn whole() -> Graph {
         &[texel, element],
         Type::F32,
     ); // 19
-    let read = add(&mut b, Op::BufferLoad { buffer: 0, site: 0 }, &[zero], Type::F32); // 20
+    let read = add(
+        &mut b,
+        Op::BufferLoad {
+            buffer: 0,
+            field: 0,
+            site: 0,
+        },
+        &[zero],
+        Type::F32,
+    ); // 20
     let vector = add(&mut b, Op::Compose, &[compared, read, element, x], VEC4); // 21
     let clamped = add(&mut b, Op::Clamp, &[vector, gathered, vector], VEC4); // 22
     let whole = add(&mut b, Op::Convert, &[clamped], Type::value(Scalar::I32, 4)); // 23
@@ -153,7 +163,26 @@ fn every_rule_is_checked() {
             node(g, 6).op = Op::Const([2, 0, 0, 0]);
         }),
         ("a vec2<f32>", |g| node(g, 18).args[0] = NodeId(2)),
-        ("a vec2<f32>", |g| node(g, 19).args[1] = NodeId(6)),
+        ("a place and a reference", |g| node(g, 19).args[1] = NodeId(6)),
+        ("a coordinate is a vec3<i32>", |g| {
+            g.textures[0].kind = TextureKind::Volume
+        }),
+        ("a coordinate", |g| g.textures[0].kind = TextureKind::Cube),
+        ("wrong number", |g| g.textures[0].kind = TextureKind::Layers),
+        ("a texel of the texture's", |g| g.textures[0].scalar = Scalar::U32),
+        ("a layer and a level", |g| node(g, 1).args.push(NodeId(0))),
+        ("a number of layers", |g| node(g, 6).op = Op::TextureLayers(0)),
+        ("a number of levels", |g| {
+            node(g, 6).op = Op::TextureLevels(0);
+            node(g, 6).ty = Type::U32;
+        }),
+        ("a texture of floats", |g| {
+            node(g, 18).op = Op::Sample {
+                texture: 1,
+                sampler: 0,
+                site: 0,
+            };
+        }),
         ("a component that", |g| {
             node(g, 18).op = Op::Gather {
                 texture: 0,
@@ -189,7 +218,11 @@ fn every_rule_is_checked() {
             }
         }),
         ("no such buffer", |g| {
-            node(g, 20).op = Op::BufferLoad { buffer: 9, site: 0 }
+            node(g, 20).op = Op::BufferLoad {
+                buffer: 9,
+                field: 0,
+                site: 0,
+            }
         }),
         ("no such uniform", |g| node(g, 3).op = Op::Uniform(9)),
         ("no such varying", |g| node(g, 3).op = Op::Varying(0)),

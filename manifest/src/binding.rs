@@ -23,14 +23,15 @@ pub struct Binding {
 pub enum BindingKind {
     /// A texture.
     Texture {
-        /// `view_dimension`, `2d` or `2d-array`, and `multisampled`.
+        /// `view_dimension`, `2d`, `2d-array`, `3d` or `cube`, and `multisampled`.
         #[serde(flatten)]
         dimension: Dimension,
         /// How texels are read.
         sample_type: SampleType,
-        /// Components that the kernel uses, 1 to 4. Any float format with at least as many will do.
+        /// Components that the kernel uses, 1 to 4. Any format of the sample type with at least as many will do.
         components: u8,
-        /// Layers that the shader can address; 1 unless it is an array.
+        /// Layers that the shader can address; 1 unless it is an array of the output's size: of other arrays the shader asks how
+        /// many there are.
         layers: u32,
         /// Samples of a texel that the shader can address; 1 unless it is multisampled.
         samples: u32,
@@ -47,10 +48,13 @@ pub enum BindingKind {
     Buffer {
         /// Always `read-only-storage`.
         buffer_type: BufferType,
-        /// Type of an element as WGSL spells it: `f32`, `vec4f`, ...
+        /// Type of an element as WGSL spells it: `f32`, `vec4f`, ...; of a structure its name.
         element: String,
         /// Bytes from one element to the next.
         stride: u32,
+        /// Fields of a structure in order of offset; none of other elements.
+        #[serde(default, skip_serializing_if = "Vec::is_empty")]
+        fields: Vec<UniformField>,
     },
     /// A uniform buffer.
     Uniform {
@@ -111,6 +115,12 @@ pub enum ViewDimension {
     /// `2d-array`.
     #[serde(rename = "2d-array")]
     D2Array,
+    /// `3d`.
+    #[serde(rename = "3d")]
+    D3,
+    /// `cube`: six layers, +X, -X, +Y, -Y, +Z, -Z.
+    #[serde(rename = "cube")]
+    Cube,
 }
 
 /// Shape of a texture. In JSON two fields, as WebGPU has them: `view_dimension` and `multisampled`.
@@ -121,6 +131,10 @@ pub enum Dimension {
     D2,
     /// A stack of 2-D images.
     D2Array,
+    /// A volume.
+    D3,
+    /// Six square 2-D images around a point.
+    Cube,
     /// One 2-D image with several samples a texel.
     D2Multisampled,
 }
@@ -131,6 +145,8 @@ impl Dimension {
         match self {
             Dimension::D2 | Dimension::D2Multisampled => ViewDimension::D2,
             Dimension::D2Array => ViewDimension::D2Array,
+            Dimension::D3 => ViewDimension::D3,
+            Dimension::Cube => ViewDimension::Cube,
         }
     }
 
@@ -163,7 +179,9 @@ impl TryFrom<Shape> for Dimension {
             (ViewDimension::D2, false) => Ok(Dimension::D2),
             (ViewDimension::D2Array, false) => Ok(Dimension::D2Array),
             (ViewDimension::D2, true) => Ok(Dimension::D2Multisampled),
-            (ViewDimension::D2Array, true) => Err("a texture is 2d-array and multisampled, which WebGPU does not have"),
+            (ViewDimension::D3, false) => Ok(Dimension::D3),
+            (ViewDimension::Cube, false) => Ok(Dimension::Cube),
+            (_, true) => Err("a texture is multisampled and not 2d, which WebGPU does not have"),
         }
     }
 }
@@ -180,6 +198,12 @@ pub enum SampleType {
     /// `depth`: by a comparison sampler, or one by one from a `texture_depth_2d`; a depth format.
     #[serde(rename = "depth")]
     Depth,
+    /// `sint`: one by one; a format of signed integers, whose bits arrive as they are.
+    #[serde(rename = "sint")]
+    Sint,
+    /// `uint`: one by one; a format of unsigned integers, whose bits arrive as they are.
+    #[serde(rename = "uint")]
+    Uint,
 }
 
 /// What a sampler is used for, in the words of WebGPU's `GPUSamplerBindingType`.
@@ -202,16 +226,16 @@ pub enum Extent {
     Any,
 }
 
-/// A field of a uniform struct.
+/// A field of a uniform struct, or of the elements of a buffer.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct UniformField {
     /// Name in the kernel's source.
     pub name: String,
-    /// Type as WGSL spells it: `f32`, `i32`, `u32`, `vec2f`, ...
+    /// Type as WGSL spells it: `f32`, `i32`, `u32`, `vec2f`, ..., and in elements of buffers `array<vec4f, 3>`.
     #[serde(rename = "type")]
     pub ty: String,
-    /// Byte offset from the start of the buffer.
+    /// Byte offset from the start of the buffer, or of the element.
     pub offset: u32,
     /// Size in bytes.
     pub size: u32,

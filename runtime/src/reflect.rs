@@ -99,7 +99,7 @@ fn check_input(module: &Module, plan: &InputPlan) -> Result<(), String> {
     let (fits, wanted) = match &plan.kind {
         InputKind::Texture(texture) => {
             let (inner, text) = texture_type(texture);
-            (*found == inner, text.to_owned())
+            (*found == inner, text)
         }
         InputKind::Sampler(sampler) => {
             let (comparison, text) = match sampler {
@@ -110,7 +110,13 @@ fn check_input(module: &Module, plan: &InputPlan) -> Result<(), String> {
         }
         InputKind::Buffer(buffer) => (
             is_buffer(module, variable, buffer),
-            format!("var<storage, read> of type array<{}>", buffer.element),
+            match buffer.element {
+                Some(element) => format!("var<storage, read> of type array<{element}>"),
+                None => format!(
+                    "var<storage, read> of an array of structures of {} bytes",
+                    buffer.stride
+                ),
+            },
         ),
     };
     if fits {
@@ -121,21 +127,32 @@ fn check_input(module: &Module, plan: &InputPlan) -> Result<(), String> {
 }
 
 /// The type of a texture, and how WGSL spells it.
-fn texture_type(plan: &TexturePlan) -> (TypeInner, &'static str) {
-    let kind = ScalarKind::Float;
-    let sampled = ImageClass::Sampled { kind, multi: false };
-    let (arrayed, class, text) = match (plan.sample_type, plan.dimension) {
-        // Checked by then: a depth is neither an array nor multisampled.
-        (SampleType::Depth, _) => (false, ImageClass::Depth { multi: false }, "texture_depth_2d"),
-        (_, Dimension::D2) => (false, sampled, "texture_2d<f32>"),
-        (_, Dimension::D2Array) => (true, sampled, "texture_2d_array<f32>"),
-        (_, Dimension::D2Multisampled) => {
-            let multi = ImageClass::Sampled { kind, multi: true };
-            (false, multi, "texture_multisampled_2d<f32>")
-        }
+fn texture_type(plan: &TexturePlan) -> (TypeInner, String) {
+    use naga::ImageDimension::{Cube, D2, D3};
+    let (dim, arrayed, multi, shape) = match plan.dimension {
+        Dimension::D2 => (D2, false, false, "2d"),
+        Dimension::D2Array => (D2, true, false, "2d_array"),
+        Dimension::D3 => (D3, false, false, "3d"),
+        Dimension::Cube => (Cube, false, false, "cube"),
+        Dimension::D2Multisampled => (D2, false, true, "multisampled_2d"),
     };
-    let dim = naga::ImageDimension::D2;
-    (TypeInner::Image { dim, arrayed, class }, text)
+    let (kind, texel) = match plan.sample_type {
+        SampleType::Depth => {
+            let class = ImageClass::Depth { multi };
+            return (
+                TypeInner::Image { dim, arrayed, class },
+                format!("texture_depth_{shape}"),
+            );
+        }
+        SampleType::Unfilterable | SampleType::Filterable => (ScalarKind::Float, "f32"),
+        SampleType::Sint => (ScalarKind::Sint, "i32"),
+        SampleType::Uint => (ScalarKind::Uint, "u32"),
+    };
+    let class = ImageClass::Sampled { kind, multi };
+    (
+        TypeInner::Image { dim, arrayed, class },
+        format!("texture_{shape}<{texel}>"),
+    )
 }
 
 /// Whether `variable` is a read-only storage buffer of `plan`'s elements.
@@ -149,7 +166,11 @@ fn is_buffer(module: &Module, variable: &GlobalVariable, plan: &BufferPlan) -> b
     variable.space == read_only
         && size == naga::ArraySize::Dynamic
         && stride == plan.stride
-        && is_type(&module.types[base].inner, plan.element)
+        && match (&module.types[base].inner, plan.element) {
+            (inner, Some(element)) => is_type(inner, element),
+            (TypeInner::Struct { span, .. }, None) => *span == plan.stride,
+            (_, None) => false,
+        }
 }
 
 fn check_storage(module: &Module, name: &str, group: u32, binding: u32, format: Format) -> Result<(), String> {

@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{COPY, Fixture, Gpu, Kernel, RESOLVE, SCALE, SHADOW, STAGES, Stage, TABLE, array_view, view};
+use common::{COPY, Fixture, Gpu, Kernel, RESOLVE, SCALE, SHADOW, SHAPES, STAGES, Stage, TABLE, array_view, view};
 use straightline_runtime::manifest::SamplerType;
 use straightline_runtime::{BufferProblem, Error, Pass, Resource, ResourceKind, SamplerProblem, ViewProblem, wgpu};
 use wgpu::{BufferUsages, TextureFormat, TextureUsages, TextureView};
@@ -190,6 +190,84 @@ fn colours_are_not_depths() {
 }
 
 #[test]
+fn textures_of_another_shape_or_of_other_numbers() {
+    let gpu = Gpu::new();
+    let linear = gpu.sampler(None);
+    let square = |layers| gpu.texture([4, 4], layers, TextureFormat::Rgba8Unorm, READ);
+    let cube = |texture: &wgpu::Texture| {
+        texture.create_view(&wgpu::TextureViewDescriptor {
+            dimension: Some(wgpu::TextureViewDimension::Cube),
+            ..Default::default()
+        })
+    };
+    let volume = gpu.device.create_texture(&wgpu::TextureDescriptor {
+        label: None,
+        size: wgpu::Extent3d {
+            width: 2,
+            height: 2,
+            depth_or_array_layers: 2,
+        },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D3,
+        format: TextureFormat::Rgba8Unorm,
+        usage: READ,
+        view_formats: &[],
+    });
+    let ids = gpu.texture([4, 4], 1, TextureFormat::R32Uint, READ);
+    let six = square(6);
+    let (six_view, volume_view, ids_view) = (cube(&six), view(&volume), view(&ids));
+    for stage in STAGES {
+        let pass = pass(&gpu, &SHAPES, stage);
+        let with = |around: &TextureView, volume: &TextureView, ids: &TextureView, wanted: &str| {
+            let inputs = [
+                ("around", around.into()),
+                ("volume", volume.into()),
+                ("ids", ids.into()),
+                ("linear", (&linear).into()),
+            ];
+            view_problem(refuse(&gpu, &pass, &inputs), wanted)
+        };
+        let target = view(&gpu.target(SIZE));
+        let mut encoder = gpu.encoder();
+        let fitting: [(&str, Resource); 4] = [
+            ("around", (&six_view).into()),
+            ("volume", (&volume_view).into()),
+            ("ids", (&ids_view).into()),
+            ("linear", (&linear).into()),
+        ];
+        pass.encode(&mut encoder, &fitting, &target).expect("all fits");
+        gpu.submit(encoder);
+        let one = view(&square(1));
+        let found = with(&one, &volume_view, &ids_view, "around");
+        assert_eq!(found, ViewProblem::Layers { needed: 6, found: 1 });
+        let flat = array_view(&six);
+        let found = with(&flat, &volume_view, &ids_view, "around").to_string();
+        assert!(
+            found.contains("needs a view of dimension cube") && found.contains("2d-array"),
+            "{found}"
+        );
+        let wide = array_view(&gpu.texture([8, 4], 6, TextureFormat::Rgba8Unorm, READ));
+        let found = with(&wide, &volume_view, &ids_view, "around");
+        assert_eq!(found, ViewProblem::NotSquare { size: [8, 4] });
+        let found = with(&six_view, &one, &ids_view, "volume").to_string();
+        assert!(
+            found.contains("dimension 3d") && found.contains("a 2d texture"),
+            "{found}"
+        );
+        let found = with(&volume_view, &volume_view, &ids_view, "around").to_string();
+        assert!(found.contains("a 3d texture"), "{found}");
+        for format in [TextureFormat::R32Sint, TextureFormat::R32Float] {
+            let other = view(&gpu.texture([4, 4], 1, format, READ));
+            let found = with(&six_view, &volume_view, &other, "ids").to_string();
+            assert!(found.contains("reads unsigned integers"), "{found}");
+        }
+        let found = with(&ids_view, &volume_view, &ids_view, "around");
+        assert_eq!(found, ViewProblem::Layers { needed: 6, found: 1 });
+    }
+}
+
+#[test]
 fn samplers_for_another_use() {
     let gpu = Gpu::new();
     let other = gpu.sibling();
@@ -249,7 +327,7 @@ fn buffers_that_cannot_be_bound() {
 #[test]
 fn bindings_that_contradict_themselves() {
     let gpu = Gpu::new();
-    let cases: [(Kernel, &str, &str, &str); 14] = [
+    let cases: [(Kernel, &str, &str, &str); 15] = [
         (COPY, r#""samples": 1"#, r#""samples": 0"#, "`color`: no samples"),
         (
             COPY,
@@ -269,10 +347,16 @@ fn bindings_that_contradict_themselves() {
         (
             SHADOW,
             r#""view_dimension": "2d", "multisampled""#,
-            r#""view_dimension": "2d-array", "multisampled""#,
+            r#""view_dimension": "3d", "multisampled""#,
             "a depth, but not 2d",
         ),
         (TABLE, "read-only-storage", "uniform", "not read-only-storage"),
+        (
+            TABLE,
+            r#""stride": 16"#,
+            r#""stride": 16, "fields": [{"name": "x", "type": "f32", "offset": 16, "size": 4}]"#,
+            "field `x` does not lie inside the 16 bytes",
+        ),
         (TABLE, r#""stride": 16"#, r#""stride": 0"#, "a stride of 0 bytes"),
         (TABLE, r#""stride": 16"#, r#""stride": 18"#, "a stride of 18 bytes"),
         (

@@ -111,6 +111,8 @@ fn entry(binding: &Value, visibility: wgpu::ShaderStages) -> wgpu::BindGroupLayo
     let dimension = || match word("view_dimension") {
         "2d" => wgpu::TextureViewDimension::D2,
         "2d-array" => wgpu::TextureViewDimension::D2Array,
+        "3d" => wgpu::TextureViewDimension::D3,
+        "cube" => wgpu::TextureViewDimension::Cube,
         other => panic!("{other} is none of WebGPU's that kernels read"),
     };
     let ty = match word("type") {
@@ -119,6 +121,8 @@ fn entry(binding: &Value, visibility: wgpu::ShaderStages) -> wgpu::BindGroupLayo
                 "float" => wgpu::TextureSampleType::Float { filterable: true },
                 "unfilterable-float" => wgpu::TextureSampleType::Float { filterable: false },
                 "depth" => wgpu::TextureSampleType::Depth,
+                "sint" => wgpu::TextureSampleType::Sint,
+                "uint" => wgpu::TextureSampleType::Uint,
                 other => panic!("{other} is no sample type that kernels read"),
             },
             view_dimension: dimension(),

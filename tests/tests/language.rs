@@ -19,12 +19,23 @@ pub struct World {
     pub image: Texture<Vec4>,
     pub samples: Multisampled<Vec4>,
     pub shadow: DepthTexture,
+    pub mips: Texture<Vec4>,
+    pub volume: Texture3D<Vec4>,
+    pub environment: TextureCube<Vec4>,
+    pub stack: TextureArray<Vec4>,
+    pub cascades: DepthTextureArray,
+    pub around: DepthCube,
+    pub ids: Frame<u32>,
+    pub tiles: Texture<IVec2>,
     pub linear: Sampler,
     pub less: ComparisonSampler,
     pub weights: Buffer<f32>,
+    /// Numbers of which a page's lights are made.
+    pub lights: Vec<Vec4>,
     pub grade: Mat3,
     pub strength: f32,
     pub tint: Vec4,
+    pub palette: [Vec3; 4],
     pub taps: i32,
     pub resolution: UVec2,
 }
@@ -38,6 +49,40 @@ pub struct Example {
 include!(concat!(env!("OUT_DIR"), "/examples.rs"));
 
 const SIZE: UVec2 = uvec2(13, 9);
+
+/// The texels of a texture of so many texels and of its three smaller levels.
+fn levels(size: UVec3, image: &mut impl FnMut(UVec2) -> Vec<Vec4>) -> Vec<Vec<Vec4>> {
+    let half = |side: u32, level: u32| (side >> level).max(1);
+    let mut of_level = |k| image(uvec2(half(size.x, k), half(size.y, k) * half(size.z, k)));
+    let last = size.max_element().ilog2();
+    (0..=last).map(&mut of_level).collect()
+}
+
+/// The number of an object, with bits that no float holds.
+fn id(texel: Vec4) -> u32 {
+    let object = (texel.x * 3.0) as u32;
+    object << 24 | 0x00a5_c3f0 | object
+}
+
+/// Textures as the layers of each level.
+fn stacked(layers: &[&Texture<Vec4>]) -> Vec<Vec<Frame<Vec4>>> {
+    let level = |k| {
+        let of = |t: &&Texture<Vec4>| Frame::new(t.size_of_level(k), t.texels_of_level(k).to_vec());
+        layers.iter().map(of).collect()
+    };
+    (0..layers[0].levels()).map(level).collect()
+}
+
+/// A volume as the slices of each level.
+fn slices(volume: &Texture3D<Vec4>) -> Vec<Vec<Frame<Vec4>>> {
+    let level = |k: usize| {
+        let size = volume.size();
+        let size = uvec2((size.x >> k).max(1), (size.y >> k).max(1));
+        let texels = volume.texels_of_level(k).chunks((size.x * size.y) as usize);
+        texels.map(|slice| Frame::new(size, slice.to_vec())).collect()
+    };
+    (0..volume.levels()).map(level).collect()
+}
 
 impl World {
     fn new() -> World {
@@ -57,28 +102,89 @@ impl World {
             image: Texture::new(small, image(small)),
             samples: Multisampled::new((0..4).map(|_| Texture::new(SIZE, image(SIZE))).collect()),
             shadow: DepthTexture::new(small, depths(image(small))),
+            mips: Texture::with_levels(uvec2(8, 5), levels(uvec3(8, 5, 1), &mut image)),
+            volume: Texture3D::with_levels(uvec3(4, 4, 3), levels(uvec3(4, 4, 3), &mut image)),
+            environment: TextureCube::new(std::array::from_fn(|_| {
+                Texture::with_levels(uvec2(4, 4), levels(uvec3(4, 4, 1), &mut image))
+            })),
+            stack: TextureArray::new(
+                (0..3)
+                    .map(|_| Texture::with_levels(uvec2(6, 4), levels(uvec3(6, 4, 1), &mut image)))
+                    .collect(),
+            ),
+            cascades: DepthTextureArray::new((0..2).map(|_| DepthTexture::new(small, depths(image(small)))).collect()),
+            around: DepthCube::new(std::array::from_fn(|_| {
+                DepthTexture::new(uvec2(3, 3), depths(image(uvec2(3, 3))))
+            })),
+            ids: Frame::new(SIZE, image(SIZE).iter().map(|t| id(*t)).collect()),
+            tiles: Texture::new(
+                small,
+                image(small).iter().map(|t| (t.xy() * 8.0).as_ivec2() - 4).collect(),
+            ),
             linear: Sampler::default(),
             less: ComparisonSampler::default(),
+            lights: image(uvec2(3, 1))
+                .iter()
+                .map(|t| *t * vec4(1.0, 1.0, 1.0, 3.0))
+                .collect(),
             weights: Buffer::new(vec![0.25, 0.5, 0.25]),
             grade: Mat3::from_cols(vec3(0.9, 0.1, 0.0), vec3(0.0, 0.8, 0.1), vec3(0.2, 0.0, 0.7)),
             strength: 1.5,
             tint: vec4(0.5, 0.6, 0.7, 1.0),
+            palette: [0.125, 0.25, 0.5, 0.75].map(|x| vec3(x, 1.0 - x, x * 0.5)),
             taps: 5,
             resolution: SIZE,
         }
     }
 
+    /// A page's light of such numbers, all that is in it one after the other.
+    fn light(&self, l: Vec4) -> Vec<[f64; 4]> {
+        let one = |x: f32| [f64::from(x), 0.0, 0.0, 0.0];
+        let three = |v: Vec3| v.extend(0.0).to_array().map(f64::from);
+        let falloff = [8.0 + l.x, l.y, l.z, 0.5].map(one);
+        let columns = [self.grade.x_axis, self.grade.y_axis, self.grade.z_axis].map(three);
+        let tints = [three(l.yxz()), three(l.zzy())];
+        let first = [three(l.xyz()), one(l.w.floor())];
+        [&first[..], &falloff[..], &columns[..], &tints[..]].concat()
+    }
+
     fn inputs(&self) -> execute::Inputs {
         let grey = |texels: &[f32]| texels.iter().map(|d| vec4(*d, 0.0, 0.0, 0.0)).collect();
         let layer = |l: &Frame<f32>| Frame::new(SIZE, grey(l.texels()));
+        let depth = |d: &DepthTexture| Frame::new(d.size(), grey(d.texels()));
+        let bits = |v: &IVec2| uvec4(v.x as u32, v.y as u32, 0, 0);
         let sample = |s: &Texture<Vec4>| Frame::new(s.size(), s.texels().to_vec());
         let column = |v: Vec3| v.to_array().map(f64::from);
-        execute::Inputs::new(SIZE)
+        let mut inputs = execute::Inputs::new(SIZE);
+        for (k, colour) in self.palette.iter().enumerate() {
+            inputs = inputs.uniform(&format!("palette_{k}"), &column(*colour));
+        }
+        inputs
             .image("color", self.color.clone())
             .layers("layers", self.layers.layers().iter().map(layer).collect())
             .image("image", sample(&self.image))
             .layers("samples", self.samples.samples().iter().map(sample).collect())
-            .image("shadow", Frame::new(self.shadow.size(), grey(self.shadow.texels())))
+            .image("shadow", depth(&self.shadow))
+            .levels("mips", stacked(&[&self.mips]))
+            .levels("volume", slices(&self.volume))
+            .levels("environment", stacked(&self.environment.faces().each_ref()))
+            .levels("stack", stacked(&[0, 1, 2].map(|k| self.stack.layer(k))))
+            .layers("cascades", (0..2).map(|k| depth(self.cascades.layer(k))).collect())
+            .layers("around", self.around.faces().iter().map(depth).collect())
+            .integers(
+                "ids",
+                vec![Frame::new(
+                    SIZE,
+                    self.ids.texels().iter().map(|id| uvec4(*id, 0, 0, 0)).collect(),
+                )],
+            )
+            .integers(
+                "tiles",
+                vec![Frame::new(
+                    self.tiles.size(),
+                    self.tiles.texels().iter().map(bits).collect(),
+                )],
+            )
             .sampler("linear", SamplerState::default())
             .sampler("less", SamplerState::default())
             .buffer(
@@ -89,6 +195,7 @@ impl World {
                     .map(|w| [f64::from(*w), 0.0, 0.0, 0.0])
                     .collect(),
             )
+            .buffer("lights", self.lights.iter().flat_map(|l| self.light(*l)).collect())
             .uniform("grade_x_axis", &column(self.grade.x_axis))
             .uniform("grade_y_axis", &column(self.grade.y_axis))
             .uniform("grade_z_axis", &column(self.grade.z_axis))

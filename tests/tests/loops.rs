@@ -61,15 +61,15 @@ struct Tampered<'a> {
 }
 
 impl Texels for Tampered<'_> {
-    fn extent(&self) -> [u32; 3] {
-        self.image.extent()
+    fn extent(&self, level: u32) -> [u32; 3] {
+        self.image.extent(level)
     }
 
-    fn texel(&self, x: u32, y: u32, layer: u32) -> [f32; 4] {
-        let own = self.image.texel(x, y, layer);
+    fn texel(&self, x: u32, y: u32, layer: u32, level: u32) -> [u32; 4] {
+        let own = self.image.texel(x, y, layer, level);
         match self.reads.fetch_add(1, Ordering::Relaxed) == self.tampered {
             // Beyond all depths that it is compared with, to either side.
-            true => own.map(|v| if v > 0.5 { -64.0 } else { 64.0 }),
+            true => own.map(|v| if f32::from_bits(v) > 0.5 { -64.0_f32 } else { 64.0 }.to_bits()),
             false => own,
         }
     }

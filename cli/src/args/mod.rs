@@ -237,8 +237,10 @@ pub struct RunArgs {
     pub kernel: KernelArgs,
     /// Picture for a texture of the kernel, NAME=FILE; NAME may be left out where it has one texture. May be given several
     /// times. PNG or EXR; FILE.exr:LAYER is one layer of a file, such as depth.exr:centre of a capture; files given for a
-    /// texture with layers, in order, are its layers
-    #[arg(long, value_name = "[NAME=]FILE")]
+    /// texture with layers, in order, are its layers, those of a cube its six faces +X, -X, +Y, -Y, +Z, -Z, those of a volume its
+    /// slices; a volume may be a .cube table or one picture of its slices side by side. Texels of integers are the numbers of a
+    /// PNG as they are stored
+    #[arg(long, value_name = "[NAME=]FILE[,FILE...]")]
     pub input: Vec<String>,
     /// Value of a uniform: NAME=NUMBER, or NAME=X,Y,Z for a vector. May be given several times
     #[arg(long, value_name = "NAME=NUMBERS", value_parser = pair)]

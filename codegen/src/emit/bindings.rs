@@ -64,6 +64,7 @@ fn module(module: &Module<'_>) -> TokenStream {
         ),
     };
     let (structure, setters) = parameters::parameters(manifest);
+    let elements = parameters::elements(manifest);
     let region = manifest.bindings.iter().any(|b| b.name == REGION).then(|| {
         quote! {
             /// Records the shader for a rectangle: from `region.first` of `inputs` to `region.place` of `target`.
@@ -99,6 +100,8 @@ fn module(module: &Module<'_>) -> TokenStream {
             }
 
             #structure
+
+            #elements
 
             /// The shader on a device: make it once, encode it every frame.
             #[derive(Debug)]
@@ -266,10 +269,14 @@ fn layout_entry(stage: Stage, binding: &Binding) -> TokenStream {
                 SampleType::Unfilterable => quote! { #wgpu::TextureSampleType::Float { filterable: false } },
                 SampleType::Filterable => quote! { #wgpu::TextureSampleType::Float { filterable: true } },
                 SampleType::Depth => quote! { #wgpu::TextureSampleType::Depth },
+                SampleType::Sint => quote! { #wgpu::TextureSampleType::Sint },
+                SampleType::Uint => quote! { #wgpu::TextureSampleType::Uint },
             };
             let view = match dimension.view() {
                 ViewDimension::D2Array => quote! { #wgpu::TextureViewDimension::D2Array },
                 ViewDimension::D2 => quote! { #wgpu::TextureViewDimension::D2 },
+                ViewDimension::D3 => quote! { #wgpu::TextureViewDimension::D3 },
+                ViewDimension::Cube => quote! { #wgpu::TextureViewDimension::Cube },
             };
             let multisampled = dimension.is_multisampled();
             quote! {
@@ -339,7 +346,10 @@ impl Input {
             } => {
                 let shape = match dimension {
                     Dimension::D2 => "A 2-D texture".to_owned(),
+                    Dimension::D2Array if *extent == Extent::Any => "A 2-D array texture".to_owned(),
                     Dimension::D2Array => format!("A 2-D array texture of at least {layers} layers"),
+                    Dimension::D3 => "A 3-D texture".to_owned(),
+                    Dimension::Cube => "A cube texture".to_owned(),
                     Dimension::D2Multisampled => format!("A multisampled 2-D texture of at least {samples} samples"),
                 };
                 let size = match extent {
@@ -351,6 +361,8 @@ impl Input {
                     SampleType::Depth => "a depth format".to_owned(),
                     SampleType::Filterable => format!("a filterable float format with at least {components} {plural}"),
                     SampleType::Unfilterable => format!("a float format with at least {components} {plural}"),
+                    SampleType::Sint => format!("a format of signed integers with at least {components} {plural}"),
+                    SampleType::Uint => format!("a format of unsigned integers with at least {components} {plural}"),
                 };
                 (format!("{shape} of {size}, of {format}."), "TextureView")
             }
@@ -358,8 +370,19 @@ impl Input {
                 SamplerType::Filtering => ("A sampler that may filter.".to_owned(), "Sampler"),
                 SamplerType::Comparison => ("A comparison sampler.".to_owned(), "Sampler"),
             },
-            BindingKind::Buffer { element, stride, .. } => (
-                format!("A storage buffer of `{element}`, {stride} bytes each, at least one."),
+            BindingKind::Buffer {
+                element,
+                stride,
+                fields,
+                ..
+            } => (
+                match fields.is_empty() {
+                    true => format!("A storage buffer of `{element}`, {stride} bytes each, at least one."),
+                    false => format!(
+                        "A storage buffer of [`{}`], {stride} bytes each, at least one.",
+                        parameters::structure_name(element)
+                    ),
+                },
                 "Buffer",
             ),
             BindingKind::Uniform { .. } => return None,

@@ -8,22 +8,23 @@ use straightline_manifest::Stage;
 
 /// Parses and validates GLSL. naga's reader makes an invalid module of the length of a storage buffer, so it is shown a
 /// number in its place; it knows no quad operations, so it is shown what they are called with; it knows no gathers, so it is
-/// shown samples; and it takes a texture that is `compared` for one of depths alone, so that its texels are shown to it as
-/// another texture's.
-pub fn check_glsl(kernel: &str, of: Stage, text: &str, compared: &[&str]) -> Result<(), EmitError> {
+/// shown samples; and it takes a texture that is `compared`, given by name and shape, for one of depths alone, so that its
+/// texels are shown to it as another texture's.
+pub fn check_glsl(kernel: &str, of: Stage, text: &str, compared: &[(&str, &str)]) -> Result<(), EmitError> {
     let mut text = gathers_as_samples(&lengths_as_numbers(text));
     for message in MESSAGES {
         text = text.replace(message, "");
     }
     let mut text = text.replace("#extension GL_KHR_shader_subgroup_quad : require\n", "");
-    for (k, name) in compared.iter().enumerate() {
+    for (k, (name, shape)) in compared.iter().enumerate() {
         let sampler = super::resources::SAMPLER;
         text = text.replace(
-            &format!("sampler2D({name}, {sampler})"),
-            &format!("sampler2D({name}_texels, {sampler})"),
+            &format!("sampler{shape}({name}, {sampler})"),
+            &format!("sampler{shape}({name}_texels, {sampler})"),
         );
         let binding = 1000 + k;
-        let other = format!("#version 450\nlayout(set = 0, binding = {binding}) uniform texture2D {name}_texels;\n");
+        let other =
+            format!("#version 450\nlayout(set = 0, binding = {binding}) uniform texture{shape} {name}_texels;\n");
         text = text.replacen("#version 450\n", &other, 1);
     }
     let text = &text;

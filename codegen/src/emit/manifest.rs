@@ -1,13 +1,12 @@
 //! What a host is told of a shader: the manifest.
 
-use super::layout::stride;
 use super::print::{GENERATOR, wgsl_type};
 use super::resources::{BoundTexture, OUTPUT, Resources, UNIFORMS};
 use crate::compiled::Compiled;
-use crate::ir::{Texture, TextureKind};
+use crate::ir::{Element, Field, Scalar, Texture, TextureKind};
 use straightline_manifest::{
     Access, Binding, BindingKind, BufferType, Counts, Dimension, Extent, Manifest, Output, Precision, REGION,
-    REGION_SIZE, SCHEMA, SampleType, SamplerType, Stage, ViewDimension, region_fields,
+    REGION_SIZE, SCHEMA, SampleType, SamplerType, Stage, UniformField, ViewDimension, region_fields,
 };
 
 impl Resources {
@@ -39,8 +38,15 @@ impl Resources {
             let buffer = self.buffer(*index);
             let kind = BindingKind::Buffer {
                 buffer_type: BufferType::ReadOnlyStorage,
-                element: wgsl_type(buffer.element.into()),
-                stride: stride(buffer.element),
+                element: match &buffer.element {
+                    Element::Value(ty) => wgsl_type((*ty).into()),
+                    Element::Struct(structure) => structure.name.clone(),
+                },
+                stride: buffer.element.stride(),
+                fields: match &buffer.element {
+                    Element::Value(_) => Vec::new(),
+                    Element::Struct(structure) => structure.fields.iter().map(field).collect(),
+                },
             };
             add(*binding, &buffer.name, kind);
         }
@@ -112,29 +118,37 @@ impl Resources {
     }
 }
 
+/// A field of a structure, as a host is told.
+fn field(field: &Field) -> UniformField {
+    UniformField {
+        name: field.name.clone(),
+        ty: wgsl_type(field.ty.into()),
+        offset: field.offset,
+        size: field.ty.layout().1,
+        default: None,
+    }
+}
+
 fn texture_kind(texture: &Texture, bound: &BoundTexture) -> BindingKind {
+    let counted = |kind: TextureKind| if texture.kind == kind { bound.layers } else { 1 };
     BindingKind::Texture {
         dimension: match texture.kind {
             TextureKind::Flat | TextureKind::Depth => Dimension::D2,
-            TextureKind::Layers => Dimension::D2Array,
+            TextureKind::Layers | TextureKind::DepthLayers => Dimension::D2Array,
+            TextureKind::Volume => Dimension::D3,
+            TextureKind::Cube | TextureKind::DepthCube => Dimension::Cube,
             TextureKind::Multisampled => Dimension::D2Multisampled,
         },
-        sample_type: match texture.kind {
-            TextureKind::Depth => SampleType::Depth,
-            _ if bound.filtered => SampleType::Filterable,
-            _ => SampleType::Unfilterable,
+        sample_type: match texture.scalar {
+            Scalar::I32 => SampleType::Sint,
+            Scalar::U32 | Scalar::Bool => SampleType::Uint,
+            Scalar::F32 if texture.kind.is_depth() => SampleType::Depth,
+            Scalar::F32 if bound.filtered => SampleType::Filterable,
+            Scalar::F32 => SampleType::Unfilterable,
         },
         components: texture.components,
-        layers: if texture.kind == TextureKind::Layers {
-            bound.layers
-        } else {
-            1
-        },
-        samples: if texture.kind == TextureKind::Multisampled {
-            bound.layers
-        } else {
-            1
-        },
+        layers: counted(TextureKind::Layers),
+        samples: counted(TextureKind::Multisampled),
         extent: if texture.framed { Extent::Output } else { Extent::Any },
     }
 }

@@ -58,6 +58,11 @@ pub fn check(compiled: &Compiled, resources: &Resources, target: Target) -> Resu
             with_compute,
         ),
         (
+            combined && target != Target::Glsl430 && any(&|op| matches!(op, Op::TextureLevels(_))),
+            "asks how many levels a texture has",
+            "glsl430, or read it by `sample_level`",
+        ),
+        (
             old && any(&|op| matches!(op, Op::Gather { .. } | Op::GatherCompare { .. })),
             "gathers texels",
             with_compute,

@@ -2,7 +2,7 @@
 
 use super::ast::{Module, Stmt, StmtKind, VarId, Variable};
 use super::resources::{OUTPUT, Resources, SAMPLER, UNIFORMS};
-use crate::ir::{BinaryOp, Counter, Graph, NodeId, Op, Origin, Scalar, Type, UnaryOp};
+use crate::ir::{BinaryOp, Counter, Element, Graph, NodeId, Op, Origin, Scalar, Type, UnaryOp};
 use std::collections::{BTreeSet, HashMap, HashSet};
 use straightline_manifest::REGION;
 
@@ -312,8 +312,16 @@ fn plain(graph: &Graph, id: NodeId) -> String {
         Op::Compare { texture, .. } | Op::GatherCompare { texture, .. } => {
             format!("{}_passes", graph.textures[*texture as usize].name)
         }
-        Op::BufferLoad { buffer, .. } => graph.buffers[*buffer as usize].name.clone() + "_element",
+        Op::BufferLoad { buffer, field, .. } => match &graph.buffers[*buffer as usize].element {
+            Element::Value(_) => graph.buffers[*buffer as usize].name.clone() + "_element",
+            Element::Struct(of) => of
+                .fields
+                .get(*field as usize)
+                .map_or_else(String::new, |f| f.name.clone()),
+        },
         Op::TextureSize(texture) => graph.textures[*texture as usize].name.clone() + "_size",
+        Op::TextureLevels(texture) => graph.textures[*texture as usize].name.clone() + "_levels",
+        Op::TextureLayers(texture) => graph.textures[*texture as usize].name.clone() + "_layers",
         Op::BufferLen(buffer) => graph.buffers[*buffer as usize].name.clone() + "_len",
         Op::Unary(op) => unary(*op).to_owned(),
         Op::Binary(op) => binary(*op, node.ty).to_owned(),

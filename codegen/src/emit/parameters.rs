@@ -12,12 +12,47 @@ pub fn parameters(manifest: &Manifest) -> (TokenStream, TokenStream) {
         _ => None,
     });
     match uniforms {
-        Some((fields, size)) => (structure(fields, size), setters(fields)),
+        Some((fields, size)) => {
+            let docs = " Values that are set at run time, as they lie in the shader's uniform buffer.";
+            (structure("Parameters", docs, fields, size), setters(fields))
+        }
         None => (TokenStream::new(), TokenStream::new()),
     }
 }
 
-fn structure(fields: &[UniformField], size: u32) -> TokenStream {
+/// The structures that buffers hold, each once.
+pub fn elements(manifest: &Manifest) -> TokenStream {
+    let mut made: Vec<&str> = Vec::new();
+    let mut all = TokenStream::new();
+    for binding in &manifest.bindings {
+        if let BindingKind::Buffer {
+            element,
+            stride,
+            fields,
+            ..
+        } = &binding.kind
+            && !fields.is_empty()
+            && !made.contains(&element.as_str())
+        {
+            made.push(element);
+            let docs = " An element of a storage buffer, as it lies there.";
+            all.extend(structure(&structure_name(element), docs, fields, *stride));
+        }
+    }
+    all
+}
+
+/// The name of a structure that a buffer holds: its own, unless the module has another use for it.
+pub fn structure_name(element: &str) -> String {
+    match element {
+        "Inputs" | "Parameters" | "Pass" | "Error" | "Resource" => format!("{element}Element"),
+        other => other.to_owned(),
+    }
+}
+
+fn structure(of: &str, docs: &str, fields: &[UniformField], size: u32) -> TokenStream {
+    let of = format_ident!("{of}");
+    let of_docs = docs;
     let mut members = Vec::new();
     let mut pads = Vec::new();
     let mut at = 0;
@@ -43,7 +78,20 @@ fn structure(fields: &[UniformField], size: u32) -> TokenStream {
         let name = identifier(&field.name);
         let start = Literal::u32_unsuffixed(field.offset);
         let end = Literal::u32_unsuffixed(field.offset + field.size);
-        if field.ty.starts_with("vec") {
+        if let Some((_, count)) = array_of(&field.ty) {
+            let step = Literal::usize_unsuffixed(field.size as usize / count);
+            let flat = match lanes_of(&field.ty) {
+                1 => quote! { [*part] },
+                _ => quote! { *part },
+            };
+            quote! {
+                for (room, part) in bytes[#start..#end].chunks_exact_mut(#step).zip(&self.#name) {
+                    for (place, lane) in room.chunks_exact_mut(4).zip(#flat) {
+                        place.copy_from_slice(&lane.to_le_bytes());
+                    }
+                }
+            }
+        } else if field.ty.starts_with("vec") {
             quote! {
                 for (place, lane) in bytes[#start..#end].chunks_exact_mut(4).zip(self.#name) {
                     place.copy_from_slice(&lane.to_le_bytes());
@@ -63,7 +111,7 @@ fn structure(fields: &[UniformField], size: u32) -> TokenStream {
     let new = match fields.len() {
         // More would only be told apart by their order.
         0..=7 => quote! {
-            impl Parameters {
+            impl #of {
                 /// All values, in order.
                 #[must_use]
                 pub const fn new(#(#arguments: #types),*) -> Self {
@@ -76,7 +124,7 @@ fn structure(fields: &[UniformField], size: u32) -> TokenStream {
     let defaults: Option<Vec<TokenStream>> = fields.iter().map(default).collect();
     let default = defaults.map(|values| {
         quote! {
-            impl Default for Parameters {
+            impl Default for #of {
                 fn default() -> Self {
                     Self { #(#names: #values,)* #(#pads,)* }
                 }
@@ -84,24 +132,24 @@ fn structure(fields: &[UniformField], size: u32) -> TokenStream {
         }
     });
     quote! {
-        /// Values that are set at run time, as they lie in the shader's uniform buffer.
+        #[doc = #of_docs]
         #[repr(C)]
         #[derive(Clone, Copy, Debug, PartialEq)]
-        pub struct Parameters {
+        pub struct #of {
             #(#members,)*
         }
 
         // Laid out as in the shader, or this does not compile.
         const _: () = {
-            #(assert!(core::mem::offset_of!(Parameters, #names) == #offsets);)*
-            assert!(core::mem::size_of::<Parameters>() == #total);
+            #(assert!(core::mem::offset_of!(#of, #names) == #offsets);)*
+            assert!(core::mem::size_of::<#of>() == #total);
         };
 
         #new
 
         #default
 
-        impl Parameters {
+        impl #of {
             /// The values as they lie in the buffer.
             #[must_use]
             pub fn to_bytes(self) -> [u8; #total] {
@@ -207,8 +255,28 @@ fn default(field: &UniformField) -> Option<TokenStream> {
     })
 }
 
-/// `f32`, or an array of lanes.
+/// What an array is of, and of how many.
+fn array_of(wgsl: &str) -> Option<(&str, usize)> {
+    let inner = wgsl.strip_prefix("array<")?.strip_suffix('>')?;
+    let (of, count) = inner.split_once(", ")?;
+    Some((of, count.parse().ok()?))
+}
+
+/// Components of a type, or of an array's elements.
+fn lanes_of(wgsl: &str) -> usize {
+    let of = array_of(wgsl).map_or(wgsl, |(of, _)| of);
+    of.strip_prefix("vec")
+        .and_then(|rest| rest[..1].parse().ok())
+        .unwrap_or(1)
+}
+
+/// `f32`, or an array of lanes, or an array of those; an element of three has the room of four.
 fn rust_type(wgsl: &str) -> TokenStream {
+    if let Some((of, count)) = array_of(wgsl) {
+        let of = rust_type(&of.replace("vec3", "vec4"));
+        let count = Literal::usize_unsuffixed(count);
+        return quote! { [#of; #count] };
+    }
     if !wgsl.starts_with("vec") {
         let ident = format_ident!("{wgsl}");
         return quote! { #ident };

@@ -2,6 +2,7 @@
 
 use super::names::Words;
 use super::resources::Resources;
+use crate::ir::Element;
 use std::collections::{BTreeMap, BTreeSet};
 
 impl Resources {
@@ -26,6 +27,12 @@ impl Resources {
         renamed.textures.iter_mut().for_each(|texture| free(&mut texture.name));
         renamed.buffers.iter_mut().for_each(|buffer| free(&mut buffer.name));
         renamed.samplers.iter_mut().for_each(|sampler| free(&mut sampler.name));
+        for buffer in &mut renamed.buffers {
+            if let Element::Struct(structure) = &mut buffer.element {
+                free(&mut structure.name);
+                structure.fields.iter_mut().for_each(|field| free(&mut field.name));
+            }
+        }
         renamed.varying_names.iter_mut().for_each(&mut free);
         renamed.uniform_names.iter_mut().for_each(&mut free);
         renamed.varyings.iter_mut().for_each(|varying| free(&mut varying.name));

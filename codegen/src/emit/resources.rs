@@ -7,7 +7,7 @@ use super::places::{Named, Places};
 use super::print::wgsl_type;
 use super::target::Target;
 use crate::compiled::Compiled;
-use crate::ir::{Buffer, NodeId, Op, Sampler, Texture, Uniform, Varying};
+use crate::ir::{Buffer, Element, NodeId, Op, Sampler, Structure, Texture, Uniform, Varying};
 use crate::passes::layers_read;
 use std::collections::BTreeSet;
 use straightline_manifest::{REGION, Stage, UniformField};
@@ -157,8 +157,17 @@ impl Resources {
         let names = names.chain(used_samplers.iter().map(|(k, _)| &graph.samplers[*k as usize].name));
         let entry = super::entry::name(&compiled.kernel, options)?;
         let names = names.chain(graph.varyings.iter().map(|v| &v.name));
+        let structures = read_buffers
+            .iter()
+            .filter_map(|(k, _)| match &graph.buffers[*k as usize].element {
+                Element::Struct(structure) => Some(structure),
+                Element::Value(_) => None,
+            });
+        let fields = structures.clone().flat_map(|structure| &structure.fields);
         let mut names = names
+            .chain(structures.map(|structure| &structure.name))
             .map(|name| (name, false))
+            .chain(fields.map(|field| (&field.name, true)))
             .chain(uniforms.iter().map(|u| (&u.name, true)));
         if options.entry.is_some()
             && let Some((name, _)) = names.clone().find(|(name, is_field)| **name == entry && !is_field)
@@ -264,6 +273,27 @@ impl Resources {
         &self.buffers[index as usize]
     }
 
+    /// The structures of buffers that are read, each once.
+    pub fn structures(&self) -> Vec<&Structure> {
+        let mut all: Vec<&Structure> = Vec::new();
+        for (k, _) in &self.read_buffers {
+            if let Element::Struct(structure) = &self.buffer(*k).element
+                && all.iter().all(|other| other.name != structure.name)
+            {
+                all.push(structure);
+            }
+        }
+        all
+    }
+
+    /// Names of the structures of buffers that are read.
+    pub fn structure_names(&self) -> Vec<String> {
+        self.structures()
+            .iter()
+            .map(|structure| structure.name.clone())
+            .collect()
+    }
+
     /// A sampler by its index in the graph.
     pub fn sampler(&self, index: u32) -> &Sampler {
         &self.samplers[index as usize]
@@ -305,10 +335,13 @@ impl Resources {
             })
     }
 
-    /// Names of the textures that samplers compare.
-    pub fn compared(&self) -> Vec<&str> {
+    /// Names of the textures that samplers compare, and what GLSL calls their kinds.
+    pub fn compared(&self) -> Vec<(&str, &'static str)> {
         let compared = self.read.iter().filter(|bound| bound.compared);
-        compared.map(|bound| self.texture(bound.index).name.as_str()).collect()
+        let texture = compared.map(|bound| self.texture(bound.index));
+        texture
+            .map(|t| (t.name.as_str(), super::print::glsl_shape(t.kind)))
+            .collect()
     }
 
     /// Binding number of the output, where it is one.

@@ -85,6 +85,10 @@ impl Evaluator<'_> {
         if let Some(resource) = self.resource(name, ty, span)? {
             return Ok(resource);
         }
+        if matches!(ty, SourceType::Array(..)) {
+            let array = self.uniform_part(name, ty, span)?;
+            return array.ok_or_else(|| bad_parameter(name, span));
+        }
         if let Some(uniform) = self.uniform_parameter(name, ty, span)? {
             return Ok(uniform);
         }
@@ -103,15 +107,15 @@ impl Evaluator<'_> {
             let ty = ty.bare();
             let value = match self.resource(field, ty, *at)? {
                 Some(value) => Some(value),
-                None => self.uniform_parameter(field, ty, *at)?,
+                None => self.uniform_part(field, ty, *at)?,
             };
             let Some(value) = value else {
                 return Err(
                     Diagnostic::at(*at, format!("`{field}` is neither a resource nor a number"))
                         .label("not supported")
                         .help(
-                            "a structure that a kernel takes holds textures, samplers, buffers, numbers, vectors and matrices; options \
-                             are declared by `options!`",
+                            "a structure that a kernel takes holds textures, samplers, buffers, numbers, vectors and matrices, and arrays \
+                             and structures of numbers; options are declared by `options!`",
                         )
                         .into(),
                 );
@@ -119,6 +123,35 @@ impl Evaluator<'_> {
             fields.push((field.clone(), value));
         }
         Ok(Value::structure(type_name.clone(), fields))
+    }
+
+    /// What is set at run time of a parameter: of an array its elements, by name and number, of a structure inside another its
+    /// fields, by both names; `None` if that is no number.
+    fn uniform_part(&mut self, name: &str, ty: &SourceType, span: Span) -> Eval<Option<Value>> {
+        let library = self.library;
+        match ty {
+            SourceType::Array(element, Some(len)) => {
+                let mut elements = Vec::new();
+                for k in 0..self.known_length(len)? {
+                    match self.uniform_part(&format!("{name}_{k}"), element, span)? {
+                        Some(element) => elements.push(element),
+                        None => return Ok(None),
+                    }
+                }
+                Ok(Some(Value::array(elements)))
+            }
+            SourceType::Name(of, _) if library.structs.contains_key(of) => {
+                let mut fields = Vec::new();
+                for (field, ty, at) in &library.structs[of].fields {
+                    match self.uniform_part(&format!("{name}_{field}"), ty, *at)? {
+                        Some(value) => fields.push((field.clone(), value)),
+                        None => return Ok(None),
+                    }
+                }
+                Ok(Some(Value::structure(of.clone(), fields)))
+            }
+            _ => self.uniform_parameter(name, ty, span),
+        }
     }
 
     /// A parameter that is set at run time, or built in; `None` if its type is no number.
@@ -167,7 +200,7 @@ fn bad_parameter(name: &str, span: Span) -> Exit {
         .label("not supported")
         .help(
             "a kernel takes options (`options!`), textures, samplers and buffers of the prelude, numbers, vectors and matrices, \
-             structures of these, `pixel: IVec2` and `resolution: UVec2`",
+             structures and arrays of these, `pixel: IVec2` and `resolution: UVec2`; of many values take a `&Buffer<T>`",
         )
         .into()
 }

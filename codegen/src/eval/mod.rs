@@ -8,6 +8,7 @@ mod assign;
 mod binding;
 mod blocks;
 mod budget;
+mod buffers;
 mod call;
 mod closures;
 mod consts;
@@ -36,6 +37,7 @@ mod resources;
 mod scope;
 mod sequence;
 mod shape;
+mod textures;
 mod traits;
 mod value;
 mod whiles;
@@ -165,6 +167,8 @@ struct Evaluator<'a> {
     consts: HashMap<String, Value>,
     /// Reads made so far.
     sites: u32,
+    /// Types of the elements of buffers, by buffer.
+    elements: Vec<crate::front::tree::Type>,
     steps: u64,
     /// Who has left the blocks that are being evaluated, first to last.
     departed: Vec<departures::Departure>,
@@ -192,6 +196,7 @@ impl<'a> Evaluator<'a> {
             errors: Vec::new(),
             consts: HashMap::new(),
             sites: 0,
+            elements: Vec::new(),
             steps: 0,
             departed: Vec::new(),
             kept_loops: 0,

@@ -2,6 +2,7 @@
 
 use super::check::Check;
 use super::items::Items;
+use super::textures::TextureType;
 use super::tree::Library;
 use crate::diagnostic::{Diagnostic, Span};
 use proc_macro2::{TokenStream, TokenTree};
@@ -54,14 +55,10 @@ pub fn is_prelude_type(name: &str) -> bool {
             .is_some_and(|n| matches!(n, "2" | "3" | "4" | "3A"))
     };
     vector.iter().any(numbered)
+        || TextureType::named(name).is_some()
         || matches!(
             name,
-            "Frame"
-                | "FrameLayers"
-                | "Texture"
-                | "Multisampled"
-                | "DepthTexture"
-                | "Sampler"
+            "Sampler"
                 | "ComparisonSampler"
                 | "Buffer"
                 | "Quad"

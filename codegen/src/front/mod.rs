@@ -24,6 +24,7 @@ mod reach;
 mod scan;
 pub mod std;
 mod targets;
+pub mod textures;
 mod traits;
 pub mod tree;
 

@@ -7,6 +7,26 @@ use crate::front::tree::{Expr, ExprKind, Function};
 use crate::ir::Scalar;
 use std::collections::HashMap;
 
+/// What shading languages call differences between the pixels of a quad.
+const DERIVATIVES: [&str; 16] = [
+    "dpdx",
+    "dpdy",
+    "fwidth",
+    "dpdxFine",
+    "dpdyFine",
+    "fwidthFine",
+    "dpdxCoarse",
+    "dpdyCoarse",
+    "fwidthCoarse",
+    "dFdx",
+    "dFdy",
+    "ddx",
+    "ddy",
+    "ddx_fine",
+    "ddy_fine",
+    "dpdx_fine",
+];
+
 impl<'l> Checker<'l> {
     /// The type of `path::<constants>(args)`.
     pub fn call(&mut self, path: &'l [String], constants: &'l [Expr], args: &'l [Expr], span: Span) -> Ty {
@@ -394,6 +414,16 @@ impl<'l> Checker<'l> {
             )
             .label("not a function")
             .other(local.span, format!("`{name}` is declared here")),
+            None if DERIVATIVES.contains(&name) => Diagnostic::at(
+                span,
+                format!("`{name}` asks the pixels beside this one, and a kernel computes one pixel"),
+            )
+            .label("needs a quad")
+            .note("natively, and in a compute shader, there is no other pixel to ask")
+            .help(
+                "take `pixel: Quad<IVec2>`, whose lanes send each other values: `x.swap_horizontal() - x`; or read the texel beside: \
+                 `color.load(pixel + ivec2(1, 0))`",
+            ),
             None => {
                 let mut known: Vec<&str> = self.library.functions.keys().map(String::as_str).collect();
                 known.extend(PRELUDE);

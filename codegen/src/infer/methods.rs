@@ -313,59 +313,6 @@ impl<'l> Checker<'l> {
         }
     }
 
-    fn of_texture(&mut self, kind: &str, texel: &Ty, name: &str, args: &'l [Expr]) -> Ty {
-        let (layered, uv) = (
-            matches!(kind, "FrameLayers" | "Multisampled"),
-            Ty::Vector(Scalar::F32, 2),
-        );
-        let sampler = Ty::Sampler.shared();
-        let comparison = Ty::ComparisonSampler.shared();
-        match (name, args) {
-            ("size", []) => Ty::Vector(Scalar::U32, 2),
-            ("load", [coord]) if !layered => self.per_lane(coord, &Ty::Vector(Scalar::I32, 2), texel),
-            ("load", [coord, layer]) if layered => {
-                let found = self.per_lane(coord, &Ty::Vector(Scalar::I32, 2), texel);
-                self.against(layer, &Ty::USIZE);
-                found
-            }
-            ("sample", [with, at]) => {
-                self.against(with, &sampler);
-                self.per_lane(at, &uv, texel)
-            }
-            ("gather", [component, with, at]) => {
-                self.against(component, &Ty::USIZE);
-                self.against(with, &sampler);
-                self.per_lane(at, &uv, &Ty::Vector(Scalar::F32, 4))
-            }
-            ("compare" | "gather_compare", [with, at, reference]) => {
-                self.against(with, &comparison);
-                let result = match name {
-                    "compare" => Ty::Float,
-                    _ => Ty::Vector(Scalar::F32, 4),
-                };
-                let found = self.per_lane(at, &uv, &result);
-                self.lane(reference, &Ty::Float);
-                found
-            }
-            _ => self.unknown_method(args),
-        }
-    }
-
-    /// What comes of a coordinate, or in each lane of one in each lane.
-    fn per_lane(&mut self, coord: &'l Expr, wanted: &Ty, result: &Ty) -> Ty {
-        let found = self.expr(coord, Some(wanted));
-        match self.table.shallow(&found) {
-            Ty::Quad(lane) => {
-                self.coerce(wanted, &lane, coord.span);
-                Ty::Quad(Box::new(result.clone()))
-            }
-            _ => {
-                self.coerce(wanted, &found, coord.span);
-                result.clone()
-            }
-        }
-    }
-
     fn of_quad(&mut self, lane: &Ty, name: &str, args: &'l [Expr], span: Span) -> Ty {
         let lane = self.table.shallow(lane);
         let own = Ty::Quad(Box::new(lane.clone()));

@@ -16,6 +16,7 @@ mod pattern;
 mod places;
 mod shapes;
 mod signature;
+mod textures;
 mod traits;
 mod types;
 

@@ -3,6 +3,7 @@
 use super::Checker;
 use super::types::{Kind, Ty};
 use crate::diagnostic::{Diagnostic, Span};
+use crate::front::textures::TextureType;
 use crate::front::tree::{Expr, ExprKind, Function, Generic, Type};
 use std::collections::HashMap;
 
@@ -79,11 +80,6 @@ impl<'l> Checker<'l> {
             "Mat3" => Ty::Matrix(3),
             "Mat4" => Ty::Matrix(4),
             "Quad" => Ty::Quad(Box::new(texel())),
-            "Frame" => Ty::Texture("Frame", Box::new(texel())),
-            "FrameLayers" => Ty::Texture("FrameLayers", Box::new(texel())),
-            "Texture" => Ty::Texture("Texture", Box::new(texel())),
-            "Multisampled" => Ty::Texture("Multisampled", Box::new(texel())),
-            "DepthTexture" => Ty::Texture("DepthTexture", Box::new(Ty::Float)),
             "Buffer" => Ty::Buffer(Box::new(texel())),
             "Sampler" => Ty::Sampler,
             "ComparisonSampler" => Ty::ComparisonSampler,
@@ -93,10 +89,14 @@ impl<'l> Checker<'l> {
                 self.object(name, span);
                 Ty::Unknown
             }
-            _ => {
-                self.unknown_type(name, span);
-                Ty::Unknown
-            }
+            _ => match TextureType::named(name) {
+                Some(of) if of.kind.is_depth() => Ty::Texture(of, Box::new(Ty::Float)),
+                Some(of) => Ty::Texture(of, Box::new(texel())),
+                None => {
+                    self.unknown_type(name, span);
+                    Ty::Unknown
+                }
+            },
         }
     }
 

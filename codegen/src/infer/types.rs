@@ -1,5 +1,6 @@
 //! Types, and variables that stand for those not found yet.
 
+use crate::front::textures::TextureType;
 use crate::front::tree::IntType;
 use crate::ir::Scalar;
 use std::fmt;
@@ -36,7 +37,7 @@ pub enum Ty {
     /// A value in each lane of a pixel quad.
     Quad(Box<Ty>),
     /// A texture of the prelude by its name, and its texel.
-    Texture(&'static str, Box<Ty>),
+    Texture(&'static TextureType, Box<Ty>),
     /// `Sampler`.
     Sampler,
     /// `ComparisonSampler`.
@@ -204,7 +205,7 @@ impl Table {
             (Ty::Fn(xs, r), Ty::Fn(ys, s)) => {
                 xs.len() == ys.len() && xs.iter().zip(ys).all(|(x, y)| self.unify(x, y)) && self.unify(r, s)
             }
-            (Ty::Texture(x, s), Ty::Texture(y, t)) => x == y && self.unify(s, t),
+            (Ty::Texture(x, s), Ty::Texture(y, t)) => x.name == y.name && self.unify(s, t),
             (Ty::Array(s), Ty::Array(t))
             | (Ty::Range(s), Ty::Range(t))
             | (Ty::Iter(s), Ty::Iter(t))
@@ -279,8 +280,8 @@ impl fmt::Display for Ty {
                 write!(f, "{name}<{}>", args.join(", "))
             }
             Ty::Quad(t) => write!(f, "Quad<{t}>"),
-            Ty::Texture("DepthTexture", _) => f.write_str("DepthTexture"),
-            Ty::Texture(name, t) => write!(f, "{name}<{t}>"),
+            Ty::Texture(of, _) if of.kind.is_depth() => f.write_str(of.name),
+            Ty::Texture(of, t) => write!(f, "{}<{t}>", of.name),
             Ty::Sampler => f.write_str("Sampler"),
             Ty::ComparisonSampler => f.write_str("ComparisonSampler"),
             Ty::Buffer(t) => write!(f, "Buffer<{t}>"),

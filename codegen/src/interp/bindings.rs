@@ -1,41 +1,91 @@
 //! What a graph is run on.
 
-use crate::ir::{Graph, Scalar, Type};
+use crate::ir::{Graph, Lanes, Scalar, Texture, TextureKind, Type};
 use crate::passes::{Schedule, layers_read};
 use std::fmt;
 
 /// An image that a graph can read.
 pub trait Texels: Sync {
-    /// Width and height in texels, and number of layers, or of samples a texel.
-    fn extent(&self) -> [u32; 3];
-    /// The texel at a coordinate inside the extent; components that the image lacks are 0.
-    fn texel(&self, x: u32, y: u32, layer: u32) -> [f32; 4];
+    /// What a component of a texel is: a float, or an integer.
+    fn scalar(&self) -> Scalar {
+        Scalar::F32
+    }
+    /// Number of levels, at least 1.
+    fn levels(&self) -> u32 {
+        1
+    }
+    /// Width and height of a level in texels, and number of its layers, slices or faces, or of samples a texel.
+    fn extent(&self, level: u32) -> [u32; 3];
+    /// The bits of the texel at a coordinate inside the level's extent; components that the image lacks are 0.
+    fn texel(&self, x: u32, y: u32, layer: u32, level: u32) -> Lanes;
 }
 
 /// An image in memory.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Image {
+    scalar: Scalar,
+    levels: Vec<Level>,
+}
+
+/// Layers, slices or faces of a size, their texels by their bits.
+#[derive(Clone, Debug, PartialEq)]
+struct Level {
     size: [u32; 2],
-    layers: Vec<Vec<[f32; 4]>>,
+    layers: Vec<Vec<Lanes>>,
 }
 
 impl Image {
-    /// An image of `size` texels from layers of rows; `None` unless there is a layer and each has all its texels.
+    /// An image of `size` texels from layers of rows, also of the slices of a volume, or the faces of a cube +X, -X, +Y, -Y, +Z,
+    /// -Z; `None` unless there is a layer and each has all its texels.
     pub fn new(size: [u32; 2], layers: Vec<Vec<[f32; 4]>>) -> Option<Image> {
+        let layers = layers.into_iter();
+        let bits = layers.map(|layer| layer.into_iter().map(|texel| texel.map(f32::to_bits)).collect());
+        let levels = vec![Level::new(size, bits.collect())?];
+        Some(Image {
+            scalar: Scalar::F32,
+            levels,
+        })
+    }
+
+    /// An image of integers, by their bits; else as [`new`](Self::new).
+    pub fn of_integers(scalar: Scalar, size: [u32; 2], layers: Vec<Vec<Lanes>>) -> Option<Image> {
+        let levels = vec![Level::new(size, layers)?];
+        Some(Image { scalar, levels })
+    }
+
+    /// With another one as its next smaller level.
+    pub fn with_smaller(mut self, level: Image) -> Image {
+        self.levels.extend(level.levels);
+        self
+    }
+}
+
+impl Level {
+    fn new(size: [u32; 2], layers: Vec<Vec<Lanes>>) -> Option<Level> {
         let texels = size[0] as usize * size[1] as usize;
         let whole = texels > 0 && !layers.is_empty() && layers.iter().all(|layer| layer.len() == texels);
-        whole.then_some(Image { size, layers })
+        whole.then_some(Level { size, layers })
     }
 }
 
 impl Texels for Image {
-    fn extent(&self) -> [u32; 3] {
-        [self.size[0], self.size[1], self.layers.len() as u32]
+    fn scalar(&self) -> Scalar {
+        self.scalar
     }
 
-    fn texel(&self, x: u32, y: u32, layer: u32) -> [f32; 4] {
-        let layer = (layer as usize).min(self.layers.len() - 1);
-        self.layers[layer][(y * self.size[0] + x) as usize]
+    fn levels(&self) -> u32 {
+        self.levels.len() as u32
+    }
+
+    fn extent(&self, level: u32) -> [u32; 3] {
+        let level = &self.levels[level as usize];
+        [level.size[0], level.size[1], level.layers.len() as u32]
+    }
+
+    fn texel(&self, x: u32, y: u32, layer: u32, level: u32) -> Lanes {
+        let level = &self.levels[level as usize];
+        let layer = (layer as usize).min(level.layers.len() - 1);
+        level.layers[layer][(y * level.size[0] + x) as usize]
     }
 }
 
@@ -69,6 +119,8 @@ pub struct SamplerState {
     pub linear: bool,
     /// What lies beyond the border.
     pub address: Address,
+    /// Whether the two levels between which one falls are weighed; else the nearest counts alone.
+    pub linear_mip: bool,
     /// For a comparison sampler, when a texel passes.
     pub comparison: Comparison,
 }
@@ -78,6 +130,7 @@ impl Default for SamplerState {
         SamplerState {
             linear: true,
             address: Address::default(),
+            linear_mip: true,
             comparison: Comparison::default(),
         }
     }
@@ -110,7 +163,8 @@ impl<'a> Bindings<'a> {
         self
     }
 
-    /// The elements of a buffer, each in as many lanes as it has.
+    /// The elements of a buffer, each in as many lanes as it has; of structures all their numbers and vectors, one after the
+    /// other.
     pub fn buffer(mut self, name: &str, elements: &'a [[f64; 4]]) -> Self {
         self.buffers.push((name.to_owned(), elements));
         self
@@ -164,7 +218,14 @@ pub(super) fn check(
         let Some(image) = find(&bindings.textures, &name) else {
             return Err(InputError::Missing(name));
         };
-        let [width, height, found] = image.extent();
+        let [width, height, found] = image.extent(0);
+        if image.scalar() != texture.scalar {
+            let (found, needed) = (image.scalar(), texture.scalar);
+            return Err(InputError::Scalar { name, found, needed });
+        }
+        if let Some(needed) = misshapen(texture, *image) {
+            return Err(InputError::Shape { name, needed });
+        }
         // Where nothing bounds the index it is clamped to what there is.
         let needed = layers_read(graph, index as u32).unwrap_or(1);
         if found < needed {
@@ -177,11 +238,33 @@ pub(super) fn check(
     }
     for (index, buffer) in graph.buffers.iter().enumerate() {
         let read = ops.iter().any(|op| op.buffer() == Some(index as u32));
-        if read && find(&bindings.buffers, &buffer.name).is_none_or(|b| b.is_empty()) {
+        let found = find(&bindings.buffers, &buffer.name).map_or(0, |values| values.len());
+        if read && found == 0 {
             return Err(InputError::MissingBuffer(buffer.name.clone()));
+        }
+        let each = buffer.element.values().len();
+        if read && !found.is_multiple_of(each) {
+            let name = buffer.name.clone();
+            return Err(InputError::Elements { name, found, each });
         }
     }
     Ok(())
+}
+
+/// What an image is to be for a texture that it does not fit, or whose levels do not.
+fn misshapen(texture: &Texture, image: &dyn Texels) -> Option<&'static str> {
+    let half = |side: u32, level: u32| side.checked_shr(level).unwrap_or(0).max(1);
+    let [width, height, depth] = image.extent(0);
+    let volume = texture.kind == TextureKind::Volume;
+    let shrinks = (1..image.levels()).all(|level| {
+        let layers = if volume { half(depth, level) } else { depth };
+        image.extent(level) == [half(width, level), half(height, level), layers]
+    });
+    match () {
+        () if texture.kind.is_cube() && (depth != 6 || width != height) => Some("six square faces"),
+        () if !shrinks => Some("levels each of which has half the size of the one before, rounded down"),
+        () => None,
+    }
 }
 
 /// Why a graph cannot be run on the given inputs.
@@ -193,6 +276,15 @@ pub enum InputError {
     Missing(String),
     /// No elements were given for a buffer that is read.
     MissingBuffer(String),
+    /// The values make no whole number of a buffer's structures.
+    Elements {
+        /// The buffer.
+        name: String,
+        /// Numbers and vectors that there are.
+        found: usize,
+        /// Those of one structure.
+        each: usize,
+    },
     /// The image has fewer layers, or samples a texel, than the graph reads.
     Layers {
         /// The texture.
@@ -201,6 +293,22 @@ pub enum InputError {
         found: u32,
         /// Layers that are read.
         needed: u32,
+    },
+    /// The image has texels of another kind.
+    Scalar {
+        /// The texture.
+        name: String,
+        /// What its components are.
+        found: Scalar,
+        /// What components are read.
+        needed: Scalar,
+    },
+    /// The image has another shape.
+    Shape {
+        /// The texture.
+        name: String,
+        /// The shape that it needs.
+        needed: &'static str,
     },
     /// The image has another size than the frame.
     Size {
@@ -222,12 +330,20 @@ impl fmt::Display for InputError {
             ),
             InputError::Missing(name) => write!(f, "no image for the texture `{name}`"),
             InputError::MissingBuffer(name) => write!(f, "no elements for the buffer `{name}`: it needs at least one"),
+            InputError::Elements { name, found, each } => write!(
+                f,
+                "{found} numbers and vectors for the buffer `{name}`, each element of which has {each}"
+            ),
             InputError::Layers { name, found, needed } => {
                 write!(
                     f,
                     "`{name}` has {found} layers but {needed} are read: one for each geometry sample"
                 )
             }
+            InputError::Scalar { name, found, needed } => {
+                write!(f, "`{name}` has texels of {found}, and the kernel reads {needed}")
+            }
+            InputError::Shape { name, needed } => write!(f, "`{name}` needs {needed}"),
             InputError::Size { name, found, frame } => write!(
                 f,
                 "`{name}` is {}x{} but the output is {}x{}: a `Frame` has the output's size",

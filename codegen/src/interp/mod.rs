@@ -1,13 +1,14 @@
 //! Running a graph on the CPU, in the precision asked for.
 
 mod bindings;
+mod cube;
 mod finite;
 mod sampling;
 
 use crate::ir::arith::{self, Cells};
-use crate::ir::{Counter, Graph, Invocation, NodeId, Op, Real, Region, Scalar, Type};
+use crate::ir::{Counter, Graph, Invocation, NodeId, Op, Real, Region, Scalar, TextureKind, Type};
 use crate::passes::{Block, Schedule, Step};
-use sampling::Sampled;
+use sampling::{Detail, Sampled};
 use std::marker::PhantomData;
 
 pub use bindings::{Address, Bindings, Comparison, Image, InputError, SamplerState, Texels};
@@ -87,7 +88,13 @@ impl<'a, R: Real> Interpreter<'a, R> {
             let elements = bindings::find(&bindings.buffers, &buffer.name)
                 .copied()
                 .unwrap_or_default();
-            elements.iter().map(|lanes| cells(buffer.element, lanes)).collect()
+            let types = buffer.element.values();
+            let types = types.iter().cycle();
+            elements
+                .iter()
+                .zip(types)
+                .map(|(lanes, ty)| cells(*ty, lanes))
+                .collect()
         });
         let uniforms = graph.uniforms.iter().map(|uniform| {
             let given = bindings::find(&bindings.uniforms, &uniform.name).map(Vec::as_slice);
@@ -285,32 +292,69 @@ impl<'a, R: Real> Interpreter<'a, R> {
         // A sampler is other hardware, and reads and gives what it computes in.
         let outer = |k: usize, lane: usize| R::Sampled::from_f64(real(k, lane).to_f64());
         let inner = |x: R::Sampled| R::from_f64(x.to_f64()).to_bits();
-        let uv = || [outer(0, 0), outer(0, 1)];
+        let vector = |k: usize| [0, 1, 2].map(|lane| outer(k, lane));
         if let Some(buffer) = op.buffer() {
-            let elements = &self.buffers[buffer as usize];
+            let (values, element) = (
+                &self.buffers[buffer as usize],
+                &self.graph.buffers[buffer as usize].element,
+            );
+            let each = element.values().len();
             return match op {
-                Op::BufferLen(_) => [elements.len() as u64, 0, 0, 0],
-                _ => elements[(word(0, 0) as usize).min(elements.len() - 1)],
+                Op::BufferLoad { field, .. } => {
+                    let part = element.field(*field).map_or(1, Type::parts);
+                    let within = element.first_value(*field) + word(1, 0).min(part - 1) as usize;
+                    values[(word(0, 0) as usize).min(values.len() / each - 1) * each + within]
+                }
+                _ => [(values.len() / each) as u64, 0, 0, 0],
             };
         }
-        let texture = op.texture().and_then(|t| self.textures[t as usize]);
-        let Some(image) = texture else { return [0; 4] };
+        let Some(index) = op.texture() else { return [0; 4] };
+        let (texture, Some(image)) = (&self.graph.textures[index as usize], self.textures[index as usize]) else {
+            return [0; 4];
+        };
         let state = op
             .sampler()
             .map_or_else(SamplerState::default, |k| self.samplers[k as usize]);
-        let through = Sampled { image, state };
+        let signed = |k: usize| i64::from(word(k, 0) as i32);
+        let indexed = usize::from(texture.kind.is_indexed());
+        let through = Sampled {
+            image,
+            kind: texture.kind,
+            state,
+            layer: signed(1).clamp(0, i64::from(image.extent(0)[2]) - 1) as u32 * indexed as u32,
+        };
         match op {
             Op::TextureSize(_) => {
-                let [width, height, _] = image.extent();
-                [width.into(), height.into(), 0, 0]
+                let [width, height, depth] = image.extent(0).map(u64::from);
+                let depth = if texture.kind == TextureKind::Volume { depth } else { 0 };
+                [width, height, depth, 0]
             }
-            Op::Load { .. } => image
-                .texel(word(0, 0), word(0, 1), word(1, 0))
-                .map(|v| R::from_f64(v.into()).to_bits()),
-            Op::Gather { component, .. } => through.gather(*component, uv()).map(inner),
-            Op::GatherCompare { .. } => through.gather_compare(uv(), outer(1, 0)).map(inner),
-            Op::Compare { .. } => [inner(through.compare(uv(), outer(1, 0))), 0, 0, 0],
-            _ => through.sample(uv()).map(inner),
+            Op::TextureLevels(_) => [image.levels().into(), 0, 0, 0],
+            Op::TextureLayers(_) => [image.extent(0)[2].into(), 0, 0, 0],
+            Op::Load { .. } => {
+                let level = word(1 + indexed, 0).min(image.levels() - 1);
+                let layer = if texture.kind == TextureKind::Volume {
+                    word(0, 2)
+                } else {
+                    word(1, 0) * indexed as u32
+                };
+                let bits = image.texel(word(0, 0), word(0, 1), layer, level);
+                match texture.scalar {
+                    Scalar::F32 => bits.map(|v| R::from_f64(f32::from_bits(v).into()).to_bits()),
+                    _ => bits.map(u64::from),
+                }
+            }
+            Op::Gather { component, .. } => through.gather(*component, vector(0)).map(inner),
+            Op::GatherCompare { .. } => through.gather_compare(vector(0), outer(1, 0)).map(inner),
+            Op::Compare { .. } => [inner(through.compare(vector(0), outer(1 + indexed, 0))), 0, 0, 0],
+            _ => {
+                let detail = match args.len() - indexed {
+                    1 => Detail::Finest,
+                    2 => Detail::Level(outer(1 + indexed, 0)),
+                    _ => Detail::Steps([vector(1 + indexed), vector(2 + indexed)]),
+                };
+                through.sample(vector(0), &detail).map(inner)
+            }
         }
     }
 

@@ -1,42 +1,103 @@
 //! Reading between texels, as the prelude's textures do natively.
 
 use super::bindings::{Address, Comparison, SamplerState, Texels};
-use crate::ir::{Real, UnaryOp};
+use super::cube;
+use crate::ir::{Real, TextureKind, UnaryOp};
 
 /// A texture seen through a sampler.
 pub struct Sampled<'a> {
     /// The image.
     pub image: &'a dyn Texels,
+    /// What it is to the kernel.
+    pub kind: TextureKind,
     /// How it is read.
     pub state: SamplerState,
+    /// The layer that is read, where there are several.
+    pub layer: u32,
+}
+
+/// Which of a texture's levels are read.
+pub enum Detail<R> {
+    /// The finest.
+    Finest,
+    /// One, or between two of them.
+    Level(R),
+    /// That at which the longer of two steps is one texel.
+    Steps([[R; 3]; 2]),
 }
 
 impl Sampled<'_> {
-    fn texel<R: Real>(&self, x: i64, y: i64) -> [R; 4] {
-        let [width, height, _] = self.image.extent();
-        let (x, y) = (wrap(self.state.address, x, width), wrap(self.state.address, y, height));
-        self.image.texel(x, y, 0).map(|v| R::from_f64(v.into()))
+    /// Texels through the sampler at a place, of which a third component counts where there is one.
+    pub fn sample<R: Real>(&self, place: [R; 3], detail: &Detail<R>) -> [R; 4] {
+        let level = match detail {
+            Detail::Finest => return self.of_level(place, 0),
+            Detail::Level(level) => *level,
+            Detail::Steps(steps) => self.level_of(steps),
+        };
+        let (zero, one) = (R::from_f64(0.0), R::from_f64(1.0));
+        let last = self.image.levels() - 1;
+        // A NaN is the finest level.
+        let level = if level > zero { level } else { zero };
+        let level = if level < R::from_f64(last.into()) {
+            level
+        } else {
+            R::from_f64(last.into())
+        };
+        if !self.state.linear_mip {
+            let up = unary(UnaryOp::Ceil, level + R::from_f64(0.5));
+            return self.of_level(place, (up - one).to_f64() as u32);
+        }
+        let finer = floor(level);
+        let (t, k) = (level - finer, finer.to_f64() as u32);
+        let fine = self.of_level(place, k);
+        if t > zero {
+            return between(fine, self.of_level(place, (k + 1).min(last)), t);
+        }
+        fine
     }
 
-    /// Texels through the sampler at `uv`.
-    pub fn sample<R: Real>(&self, uv: [R; 2]) -> [R; 4] {
-        self.filtered(uv, |x, y| self.texel(x, y))
+    fn level_of<R: Real>(&self, steps: &[[R; 3]; 2]) -> R {
+        let [width, height, _] = self.image.extent(0);
+        let length = |step: &[R; 3]| {
+            let (x, y) = (
+                step[0] * R::from_f64(width.into()),
+                step[1] * R::from_f64(height.into()),
+            );
+            unary(UnaryOp::Sqrt, x * x + y * y)
+        };
+        let [across, down] = [length(&steps[0]), length(&steps[1])];
+        let longer = match down.to_f64().is_nan() || across > down {
+            true => across,
+            false => down,
+        };
+        unary(UnaryOp::Log2, longer)
     }
 
-    /// The share of depths at `uv` that pass the comparison with `reference`.
-    pub fn compare<R: Real>(&self, uv: [R; 2], reference: R) -> R {
-        self.filtered(uv, |x, y| [self.passes(x, y, reference); 4])[0]
+    fn of_level<R: Real>(&self, place: [R; 3], level: u32) -> [R; 4] {
+        let texel = |x: u32, y: u32, layer: u32| {
+            let bits = self.image.texel(x, y, layer, level);
+            bits.map(|v| R::from_f64(f32::from_bits(v).into()))
+        };
+        self.filtered(place, level, texel)
+    }
+
+    /// The share of depths at a place that pass the comparison with `reference`.
+    pub fn compare<R: Real>(&self, place: [R; 3], reference: R) -> R {
+        self.filtered(place, 0, |x, y, layer| [self.passes(x, y, layer, reference); 4])[0]
     }
 
     /// 1 for each of the four depths around `uv` that passes the comparison with `reference`.
-    pub fn gather_compare<R: Real>(&self, uv: [R; 2], reference: R) -> [R; 4] {
-        let ([x, y], _) = self.footprint(uv);
-        let tap = |dx, dy| self.passes(x + dx, y + dy, reference);
+    pub fn gather_compare<R: Real>(&self, uv: [R; 3], reference: R) -> [R; 4] {
+        let ([x, y], _) = self.footprint(uv, 0);
+        let tap = |dx, dy| {
+            let [x, y] = self.inside([x + dx, y + dy], 0);
+            self.passes(x, y, self.layer, reference)
+        };
         [tap(0, 1), tap(1, 1), tap(1, 0), tap(0, 0)]
     }
 
-    fn passes<R: Real>(&self, x: i64, y: i64, reference: R) -> R {
-        let depth = self.texel::<R>(x, y)[0];
+    fn passes<R: Real>(&self, x: u32, y: u32, layer: u32, reference: R) -> R {
+        let depth = R::from_f64(f32::from_bits(self.image.texel(x, y, layer, 0)[0]).into());
         let holds = match self.state.comparison {
             Comparison::Less => reference < depth,
             Comparison::LessEqual => reference <= depth,
@@ -47,44 +108,92 @@ impl Sampled<'_> {
     }
 
     /// A component of the four texels around `uv`.
-    pub fn gather<R: Real>(&self, component: u8, uv: [R; 2]) -> [R; 4] {
-        let ([x, y], _) = self.footprint(uv);
-        let tap = |dx, dy| self.texel::<R>(x + dx, y + dy)[component as usize & 3];
+    pub fn gather<R: Real>(&self, component: u8, uv: [R; 3]) -> [R; 4] {
+        let ([x, y], _) = self.footprint(uv, 0);
+        let tap = |dx, dy| {
+            let [x, y] = self.inside([x + dx, y + dy], 0);
+            let bits = self.image.texel(x, y, self.layer, 0)[component as usize & 3];
+            R::from_f64(f32::from_bits(bits).into())
+        };
         [tap(0, 1), tap(1, 1), tap(1, 0), tap(0, 0)]
     }
 
-    fn filtered<R: Real>(&self, uv: [R; 2], texel: impl Fn(i64, i64) -> [R; 4]) -> [R; 4] {
-        if !self.state.linear {
-            let at = self.place(uv).map(|v| floor(v).to_f64() as i64);
-            return texel(at[0], at[1]);
+    /// What the filter makes of a level's texels: `texel` gives those inside by column, row and layer, slice or face.
+    fn filtered<R: Real>(&self, place: [R; 3], level: u32, texel: impl Fn(u32, u32, u32) -> [R; 4]) -> [R; 4] {
+        let linear = self.state.linear;
+        if self.kind.is_cube() {
+            return cube::filtered(self.image.extent(level)[0], linear, place, texel);
         }
-        let ([x, y], [tx, ty]) = self.footprint(uv);
-        let one = R::from_f64(1.0);
-        let between = |a: [R; 4], b: [R; 4], t: R| {
-            let lane = |k: usize| a[k] * (one - t) + b[k] * t;
-            [lane(0), lane(1), lane(2), lane(3)]
+        let flat = |layer: u32| {
+            let texel = |at: [i64; 2]| {
+                let [x, y] = self.inside(at, level);
+                texel(x, y, layer)
+            };
+            if !linear {
+                let at = self.at(place, level).map(|v| floor(v).to_f64() as i64);
+                return texel([at[0], at[1]]);
+            }
+            let ([x, y], [tx, ty]) = self.footprint(place, level);
+            let upper = between(texel([x, y]), texel([x + 1, y]), tx);
+            let lower = between(texel([x, y + 1]), texel([x + 1, y + 1]), tx);
+            between(upper, lower, ty)
         };
-        let upper = between(texel(x, y), texel(x + 1, y), tx);
-        let lower = between(texel(x, y + 1), texel(x + 1, y + 1), tx);
-        between(upper, lower, ty)
+        if self.kind != TextureKind::Volume {
+            return flat(self.layer.min(self.image.extent(level)[2] - 1));
+        }
+        let depth = self.image.extent(level)[2];
+        let (at, wrapped) = (self.at(place, level)[2], |k| wrap(self.state.address, k, depth));
+        if !linear {
+            return flat(wrapped(floor(at).to_f64() as i64));
+        }
+        let from = at - R::from_f64(0.5);
+        let slice = floor(from);
+        let k = slice.to_f64() as i64;
+        between(flat(wrapped(k)), flat(wrapped(k + 1)), from - slice)
+    }
+
+    fn inside(&self, at: [i64; 2], level: u32) -> [u32; 2] {
+        let [width, height, _] = self.image.extent(level);
+        let address = self.state.address;
+        [wrap(address, at[0], width), wrap(address, at[1], height)]
     }
 
     /// The upper left of the four texels around a place, and the weights of those to the right and below.
-    fn footprint<R: Real>(&self, uv: [R; 2]) -> ([i64; 2], [R; 2]) {
-        let from = self.place(uv).map(|v| v - R::from_f64(0.5));
-        let corner = from.map(floor);
-        let t = [from[0] - corner[0], from[1] - corner[1]];
-        (corner.map(|v| v.to_f64() as i64), t)
+    fn footprint<R: Real>(&self, place: [R; 3], level: u32) -> ([i64; 2], [R; 2]) {
+        let at = self.at(place, level);
+        footprint([at[0], at[1]])
     }
 
-    fn place<R: Real>(&self, uv: [R; 2]) -> [R; 2] {
-        let [width, height, _] = self.image.extent();
-        [uv[0] * R::from_f64(width.into()), uv[1] * R::from_f64(height.into())]
+    /// A place in texels of a level.
+    fn at<R: Real>(&self, place: [R; 3], level: u32) -> [R; 3] {
+        let extent = self.image.extent(level);
+        [0, 1, 2].map(|k| place[k] * R::from_f64(extent[k].into()))
     }
 }
 
-fn floor<R: Real>(x: R) -> R {
-    x.unary(UnaryOp::Floor).unwrap_or(x)
+/// The upper left of the four texels around a place in texels, and the weights of those to the right and below.
+pub fn footprint<R: Real>(at: [R; 2]) -> ([i64; 2], [R; 2]) {
+    let from = at.map(|v| v - R::from_f64(0.5));
+    let corner = from.map(floor);
+    let t = [from[0] - corner[0], from[1] - corner[1]];
+    (corner.map(|v| v.to_f64() as i64), t)
+}
+
+/// From `a` to `b` as `t` goes from 0 to 1.
+pub fn between<R: Real>(a: [R; 4], b: [R; 4], t: R) -> [R; 4] {
+    let one = R::from_f64(1.0);
+    let lane = |k: usize| a[k] * (one - t) + b[k] * t;
+    [lane(0), lane(1), lane(2), lane(3)]
+}
+
+/// The largest integer that is not above.
+pub fn floor<R: Real>(x: R) -> R {
+    unary(UnaryOp::Floor, x)
+}
+
+/// An operation on one number.
+pub fn unary<R: Real>(op: UnaryOp, x: R) -> R {
+    x.unary(op).unwrap_or(x)
 }
 
 fn wrap(address: Address, k: i64, size: u32) -> u32 {

@@ -1,6 +1,6 @@
 //! The graph and its builder.
 
-use super::{Lanes, Op, Origin, Type};
+use super::{Buffer, Lanes, Op, Origin, Texture, Type};
 use std::collections::HashMap;
 
 /// Index of a node. A node's arguments have smaller indices.
@@ -49,48 +49,6 @@ pub enum Event {
     Open(RegionId),
     /// The innermost open region ends.
     Close(RegionId),
-}
-
-/// What a texture is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum TextureKind {
-    /// One image.
-    Flat,
-    /// A stack of images.
-    Layers,
-    /// One image with several samples a texel.
-    Multisampled,
-    /// One image of depths to compare.
-    Depth,
-}
-
-impl TextureKind {
-    /// Whether a read names a layer or sample beside the coordinate.
-    pub fn is_indexed(self) -> bool {
-        matches!(self, TextureKind::Layers | TextureKind::Multisampled)
-    }
-}
-
-/// A texture that the kernel reads.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Texture {
-    /// Its name in the kernel.
-    pub name: String,
-    /// What it is.
-    pub kind: TextureKind,
-    /// Components of a texel that the kernel uses, 1 to 4.
-    pub components: u8,
-    /// Whether it has the output's size; else it has one of its own.
-    pub framed: bool,
-}
-
-/// A read-only array that the host fills.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Buffer {
-    /// Its name in the kernel.
-    pub name: String,
-    /// Scalar, or vector of 2 or 4.
-    pub element: Type,
 }
 
 /// A sampler.

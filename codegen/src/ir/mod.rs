@@ -37,6 +37,7 @@
 //! A graph is not changed once built: a pass builds another.
 
 pub mod arith;
+mod buffer;
 mod graph;
 mod op;
 mod origin;
@@ -44,12 +45,13 @@ mod parse;
 mod print;
 mod real;
 mod rebuild;
+mod texture;
 mod types;
 pub mod verify;
 
+pub use buffer::{Buffer, Element, Field, Structure};
 pub use graph::{
-    Buffer, Builder, Event, Graph, Invocation, Node, NodeId, Purpose, Region, RegionId, Rules, Sampler, Texture,
-    TextureKind, Uniform, Varying,
+    Builder, Event, Graph, Invocation, Node, NodeId, Purpose, Region, RegionId, Rules, Sampler, Uniform, Varying,
 };
 pub use op::{Axis, BinaryOp, Direction, Op, UnaryOp};
 pub use origin::{Counter, Naming, Origin};
@@ -57,4 +59,5 @@ pub use parse::{ParseError, parse};
 pub use print::print;
 pub use real::{F16, Real};
 pub use rebuild::{Rebuild, copy_tables, rebuild};
+pub use texture::{Texture, TextureKind};
 pub use types::{Lanes, Scalar, Type, vector_named};

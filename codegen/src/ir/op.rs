@@ -50,9 +50,15 @@ pub enum Op {
     Convert,
     /// The same bits as another kind of number, lane by lane.
     Bitcast,
-    /// Width and height of a texture (index into `Graph::textures`), `vec2<i32>`, each at least 1.
+    /// Width and height of a texture's finest level (index into `Graph::textures`), and depth of a volume: a vector of `i32`,
+    /// each at least 1.
     TextureSize(u32),
-    /// A texel: coordinate (`vec2<i32>`, inside the texture), and the layer or sample (`i32`) where there are several.
+    /// Number of levels of a texture (index into `Graph::textures`), `i32`, at least 1.
+    TextureLevels(u32),
+    /// Number of layers of a texture (index into `Graph::textures`), `i32`, at least 1.
+    TextureLayers(u32),
+    /// A texel: coordinate (a vector of `i32`, inside the texture), the layer or sample (`i32`) where there are several, and the
+    /// level (`i32`, inside the texture) where it is not the finest.
     /// `site` keeps reads of different calls apart until load sharing sets it to 0.
     Load {
         /// Index into `Graph::textures`.
@@ -60,7 +66,9 @@ pub enum Op {
         /// The call that it stands for, or 0.
         site: u32,
     },
-    /// A texture between its texels, at its finest level: coordinate (`vec2<f32>`, 0 to 1).
+    /// A texture between its texels: place (floats from 0 to 1, or a direction), and the layer (`i32`, outside the nearest one)
+    /// where there are several. At its finest level; or at that of one more argument, an `f32`; or at that of two more, steps
+    /// along which it is read, of the place's type.
     Sample {
         /// Index into `Graph::textures`.
         texture: u32,
@@ -81,7 +89,8 @@ pub enum Op {
         /// As of `Load`.
         site: u32,
     },
-    /// How much of a depth texture around a coordinate (`vec2<f32>`) passes a comparison with a reference (`f32`).
+    /// How much of a depth texture around a place, and in a layer where there are several, both as of `Sample`, passes a
+    /// comparison with a reference (`f32`).
     Compare {
         /// Index into `Graph::textures`.
         texture: u32,
@@ -102,10 +111,13 @@ pub enum Op {
     },
     /// Number of elements of a buffer (index into `Graph::buffers`), `i32`, at least 1.
     BufferLen(u32),
-    /// An element of a buffer: index (`i32`, inside the buffer).
+    /// A part of an element of a buffer: index (`i32`, inside the buffer), and of an array in it the index there (`i32`, inside
+    /// the array).
     BufferLoad {
         /// Index into `Graph::buffers`.
         buffer: u32,
+        /// Number of the element's field; 0 of an element that is a value.
+        field: u32,
         /// As of `Load`.
         site: u32,
     },
@@ -322,7 +334,9 @@ impl Op {
             | Op::Gather { texture, .. }
             | Op::Compare { texture, .. }
             | Op::GatherCompare { texture, .. }
-            | Op::TextureSize(texture) => Some(*texture),
+            | Op::TextureSize(texture)
+            | Op::TextureLevels(texture)
+            | Op::TextureLayers(texture) => Some(*texture),
             _ => None,
         }
     }

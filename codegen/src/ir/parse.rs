@@ -1,8 +1,8 @@
 //! The graph from its text.
 
 use super::{
-    Axis, BinaryOp, Buffer, Counter, Direction, Event, Graph, Invocation, Node, NodeId, Op, Origin, Region, RegionId,
-    Sampler, Scalar, Texture, TextureKind, Type, UnaryOp, Uniform, Varying,
+    Axis, BinaryOp, Buffer, Counter, Direction, Element, Event, Graph, Invocation, Node, NodeId, Op, Origin, Region,
+    RegionId, Sampler, Scalar, Structure, Texture, TextureKind, Type, UnaryOp, Uniform, Varying,
 };
 
 /// Why a text is not a graph.
@@ -105,19 +105,17 @@ impl Reader {
     fn texture(&mut self, text: &str) -> Parsed {
         let (name, rest) = named(text)?;
         let words: Vec<&str> = rest.split_whitespace().collect();
-        let [kind, components, size] = words[..] else {
-            return Err("a texture is `texture NAME: KIND COMPONENTS frame|own`".to_owned());
+        let (kind, components, size, kind_of_number) = match words[..] {
+            [kind, components, size] => (kind, components, size, Scalar::F32),
+            [kind, components, size, number] => (kind, components, size, scalar(number)?),
+            _ => return Err("a texture is `texture NAME: KIND COMPONENTS frame|own`, and `i32` or `u32`".to_owned()),
         };
-        let kinds = [
-            TextureKind::Flat,
-            TextureKind::Layers,
-            TextureKind::Multisampled,
-            TextureKind::Depth,
-        ];
-        let kind = kinds.into_iter().find(|k| super::print::kind_name(*k) == kind);
+        let found = TextureKind::ALL.into_iter().find(|(_, word)| *word == kind);
+        let (kind, _) = found.ok_or_else(|| format!("`{kind}` is no kind of texture"))?;
         self.graph.textures.push(Texture {
             name,
-            kind: kind.ok_or("a texture is flat, layers, multisampled or depth")?,
+            kind,
+            scalar: kind_of_number,
             components: number(components)?,
             framed: size == "frame",
         });
@@ -126,7 +124,18 @@ impl Reader {
 
     fn buffer(&mut self, text: &str) -> Parsed {
         let (name, rest) = named(text)?;
-        let element = ty(rest)?;
+        let element = match rest.strip_prefix("struct ") {
+            None => Element::Value(ty(rest)?),
+            Some(rest) => {
+                let body = rest.strip_suffix(" }").and_then(|rest| rest.split_once(" { "));
+                let (of, fields) = body.ok_or("a structure is `struct NAME { FIELD: TYPE; ... }`")?;
+                let fields = fields.split("; ").map(|field| {
+                    let (name, kind) = named(field)?;
+                    Ok((name, ty(kind)?))
+                });
+                Element::Struct(Structure::new(of.to_owned(), fields.collect::<Parsed<_>>()?))
+            }
+        };
         self.graph.buffers.push(Buffer { name, element });
         Ok(())
     }
@@ -251,7 +260,8 @@ impl Reader {
             found.ok_or_else(|| missing("sampler"))
         };
         let buffer = || -> Parsed<u32> {
-            let found = position(g.buffers.iter().map(|b| &b.name), word(0)?);
+            let name = word(0)?.split('.').next().unwrap_or_default();
+            let found = position(g.buffers.iter().map(|b| &b.name), name);
             found.ok_or_else(|| missing("buffer"))
         };
         let site = match words.iter().find_map(|w| w.strip_prefix("site=")) {
@@ -310,6 +320,8 @@ impl Reader {
             "convert" => Op::Convert,
             "bitcast" => Op::Bitcast,
             "texturesize" => Op::TextureSize(texture()?),
+            "texturelevels" => Op::TextureLevels(texture()?),
+            "texturelayers" => Op::TextureLayers(texture()?),
             "load" => Op::Load {
                 texture: texture()?,
                 site,
@@ -333,6 +345,13 @@ impl Reader {
             "bufferlen" => Op::BufferLen(buffer()?),
             "bufferload" => Op::BufferLoad {
                 buffer: buffer()?,
+                field: match (word(0)?.split_once('.'), &g.buffers[buffer()? as usize].element) {
+                    (Some((_, field)), Element::Struct(of)) => {
+                        let found = position(of.fields.iter().map(|f| &f.name), field);
+                        found.ok_or_else(|| missing("field"))?
+                    }
+                    _ => 0,
+                },
                 site,
             },
             "tally" => Op::Tally(position(g.tallies.iter(), word(0)?).ok_or_else(|| missing("tally"))?),

@@ -13,7 +13,7 @@
 //! output %7
 //! ```
 
-use super::{Event, Graph, Invocation, NodeId, Op, Scalar, TextureKind, Type};
+use super::{Element, Event, Field, Graph, Invocation, NodeId, Op, Scalar, Type};
 use std::fmt::Write;
 
 /// The whole graph.
@@ -42,16 +42,28 @@ fn tables(graph: &Graph) -> String {
     }
     for t in &graph.textures {
         let size = if t.framed { "frame" } else { "own" };
+        let number = match t.scalar {
+            Scalar::F32 => String::new(),
+            integer => format!(" {integer}"),
+        };
         let _ = writeln!(
             text,
-            "texture {}: {} {} {size}",
+            "texture {}: {} {} {size}{number}",
             t.name,
-            kind_name(t.kind),
+            t.kind.word(),
             t.components
         );
     }
     for b in &graph.buffers {
-        let _ = writeln!(text, "buffer {}: {}", b.name, b.element);
+        let element = match &b.element {
+            Element::Value(ty) => ty.to_string(),
+            Element::Struct(structure) => {
+                let field = |f: &Field| format!("{}: {}", f.name, f.ty);
+                let fields: Vec<String> = structure.fields.iter().map(field).collect();
+                format!("struct {} {{ {} }}", structure.name, fields.join("; "))
+            }
+        };
+        let _ = writeln!(text, "buffer {}: {element}", b.name);
     }
     for s in &graph.samplers {
         let kind = if s.comparison { "comparison" } else { "filtering" };
@@ -76,16 +88,6 @@ fn tables(graph: &Graph) -> String {
         let _ = writeln!(text, "tally {name}");
     }
     text
-}
-
-/// The word for a kind of texture.
-pub(super) fn kind_name(kind: TextureKind) -> &'static str {
-    match kind {
-        TextureKind::Flat => "flat",
-        TextureKind::Layers => "layers",
-        TextureKind::Multisampled => "multisampled",
-        TextureKind::Depth => "depth",
-    }
 }
 
 fn print_event(text: &mut String, depth: usize, event: &Event) -> usize {
@@ -144,6 +146,8 @@ fn op(graph: &Graph, op: &Op, ty: Type) -> String {
         Op::Binary(op) => format!("binary {op:?}"),
         Op::Extract(lane) => format!("extract {lane}"),
         Op::TextureSize(k) => format!("texturesize {}", texture(k)),
+        Op::TextureLevels(k) => format!("texturelevels {}", texture(k)),
+        Op::TextureLayers(k) => format!("texturelayers {}", texture(k)),
         Op::Load { texture: t, .. } => format!("load {}{at}", texture(t)),
         Op::Sample {
             texture: t, sampler: s, ..
@@ -164,7 +168,13 @@ fn op(graph: &Graph, op: &Op, ty: Type) -> String {
         Op::Derivative(axis) => format!("derivative {axis:?}"),
         Op::Varying(k) => format!("varying {}", graph.varyings[*k as usize].name),
         Op::BufferLen(k) => format!("bufferlen {}", buffer(k)),
-        Op::BufferLoad { buffer: b, .. } => format!("bufferload {}{at}", buffer(b)),
+        Op::BufferLoad { buffer: b, field, .. } => match &graph.buffers[*b as usize].element {
+            Element::Value(_) => format!("bufferload {}{at}", buffer(b)),
+            Element::Struct(of) => {
+                let field = of.fields.get(*field as usize).map_or("", |f| f.name.as_str());
+                format!("bufferload {}.{field}{at}", buffer(b))
+            }
+        },
         Op::Tally(name) => format!("tally {}", graph.tallies[*name as usize]),
         Op::Loop(region) => format!("loop region={}", region.0),
         Op::If(then, otherwise) => format!("if region={} region={}", then.0, otherwise.0),

@@ -1,6 +1,6 @@
 //! Building a graph again, without what is not used: the frame of every pass.
 
-use super::{Builder, Event, Graph, NodeId, Op, RegionId, Rules, Scalar, Type};
+use super::{Builder, Event, Graph, NodeId, Op, RegionId, Rules};
 
 /// What a pass changes while the graph is built again.
 pub struct Rebuild<'a> {
@@ -133,8 +133,7 @@ impl Walk<'_, '_> {
         let args: Vec<NodeId> = args.iter().map(|a| self.new_id(*a)).collect();
         let ty = match (&op, op.texture()) {
             (Op::Load { .. } | Op::Sample { .. }, Some(texture)) => {
-                let components = self.builder.graph().textures[texture as usize].components;
-                Type::value(Scalar::F32, components)
+                self.builder.graph().textures[texture as usize].texel()
             }
             _ => node.ty,
         };

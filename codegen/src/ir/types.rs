@@ -94,6 +94,28 @@ impl Type {
         }
     }
 
+    /// Scalars or vectors that it is made of: elements of an array; 1 of a value.
+    pub fn parts(self) -> u32 {
+        match self {
+            Type::Array { len, .. } => len,
+            _ => 1,
+        }
+    }
+
+    /// Alignment and size in bytes as WGSL and GLSL's std430 have them in memory.
+    pub fn layout(self) -> (u32, u32) {
+        let (alignment, size) = match self.lanes() {
+            1 => (4, 4),
+            2 => (8, 8),
+            3 => (16, 12),
+            _ => (16, 16),
+        };
+        match self {
+            Type::Array { len, .. } => (alignment, alignment.max(size) * len),
+            _ => (alignment, size),
+        }
+    }
+
     /// Whether this is an array.
     pub fn is_array(self) -> bool {
         matches!(self, Type::Array { .. })

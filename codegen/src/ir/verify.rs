@@ -11,7 +11,7 @@
 //! 5. The kernel has a result for each pixel of its invocation, each a `vec4<f32>`.
 //! 6. Lanes, messages, derivatives and interpolated values are of kernels whose invocations are lanes of quads.
 
-use super::{BinaryOp, Graph, Invocation, NodeId, Op, RegionId, Scalar, TextureKind, Type, UnaryOp};
+use super::{BinaryOp, Graph, Invocation, NodeId, Op, RegionId, Scalar, Texture, TextureKind, Type, UnaryOp};
 
 /// Checks a graph; the message names the node that breaks a rule.
 pub fn verify(graph: &Graph) -> Result<(), String> {
@@ -248,62 +248,120 @@ fn check(graph: &Graph, id: NodeId) -> Result<(), String> {
             expect(alike && !types[0].is_array() && value, "numbers of as many lanes")
         }
         Op::TextureSize(texture) => {
+            let entry = textures(graph, *texture)?;
             count(0)?;
-            expect((*texture as usize) < graph.textures.len(), "no such texture")?;
-            expect(node.ty == Type::value(Scalar::I32, 2), "a size is a vec2<i32>")
+            expect(node.ty == entry.kind.coordinate(), "a size is a vector of i32")
+        }
+        Op::TextureLevels(texture) => {
+            let entry = textures(graph, *texture)?;
+            count(0)?;
+            let levels = entry.kind != TextureKind::Multisampled;
+            expect(levels && node.ty == Type::I32, "a number of levels is an i32")
+        }
+        Op::TextureLayers(texture) => {
+            let entry = textures(graph, *texture)?;
+            count(0)?;
+            let layers = entry.kind.has_layers();
+            expect(layers && node.ty == Type::I32, "a number of layers is an i32")
         }
         Op::Load { texture, .. } => {
-            let entry = graph.textures.get(*texture as usize).ok_or("no such texture")?;
-            count(1 + usize::from(entry.kind.is_indexed()))?;
-            expect(types[0] == Type::value(Scalar::I32, 2), "a coordinate is a vec2<i32>")?;
-            expect(types.get(1).is_none_or(|t| *t == Type::I32), "a layer is an i32")?;
+            let entry = textures(graph, *texture)?;
+            let least = 1 + usize::from(entry.kind.is_indexed());
+            let levels = usize::from(entry.kind != TextureKind::Multisampled);
             expect(
-                node.ty == Type::value(Scalar::F32, entry.components),
-                "a texel of the texture's components",
-            )
+                (least..=least + levels).contains(&types.len()),
+                "wrong number of arguments",
+            )?;
+            expect(
+                types[0] == entry.kind.coordinate() && !entry.kind.is_cube(),
+                &format!("a coordinate is a {}", entry.kind.coordinate()),
+            )?;
+            expect(
+                types[1..].iter().all(|t| *t == Type::I32),
+                "a layer and a level are an i32",
+            )?;
+            expect(node.ty == entry.texel(), "a texel of the texture's components")
         }
-        Op::Sample { texture, sampler, .. } | Op::Gather { texture, sampler, .. } => {
-            let entry = graph.textures.get(*texture as usize).ok_or("no such texture")?;
+        Op::Sample { texture, sampler, .. } => {
+            let entry = textures(graph, *texture)?;
+            let through = graph.samplers.get(*sampler as usize).ok_or("no such sampler")?;
+            expect(
+                entry.kind.is_filtered() && entry.scalar == Scalar::F32 && !through.comparison,
+                "a texture of floats and a filtering sampler",
+            )?;
+            let (place, layers) = (entry.kind.place(), usize::from(entry.kind.has_layers()));
+            let least = 1 + layers;
+            expect((least..=least + 2).contains(&types.len()), "wrong number of arguments")?;
+            let placed = types[0] == place && types[1..least].iter().all(|t| *t == Type::I32);
+            expect(placed && node.ty == entry.texel(), "a place to what the texture holds")?;
+            match types[least..] {
+                [] => Ok(()),
+                [level] => expect(level == Type::F32, "a level is an f32"),
+                _ => expect(
+                    types[least..].iter().all(|t| *t == place),
+                    "steps are of the place's type",
+                ),
+            }
+        }
+        Op::Gather {
+            texture,
+            sampler,
+            component,
+            ..
+        } => {
+            let entry = textures(graph, *texture)?;
             let through = graph.samplers.get(*sampler as usize).ok_or("no such sampler")?;
             count(1)?;
             expect(
-                entry.kind == TextureKind::Flat && !through.comparison,
-                "a flat texture and a filtering sampler",
+                entry.kind == TextureKind::Flat && entry.scalar == Scalar::F32 && !through.comparison,
+                "a flat texture of floats and a filtering sampler",
             )?;
-            let components = if matches!(node.op, Op::Gather { .. }) {
-                4
-            } else {
-                entry.components
-            };
-            let fits = types[0] == Type::value(Scalar::F32, 2) && node.ty == Type::value(Scalar::F32, components);
-            expect(fits, "a vec2<f32> to what the texture holds")?;
-            let component = matches!(node.op, Op::Gather { component, .. } if component >= entry.components);
-            expect(!component, "a component that the texture does not have")
+            let fits = types[0] == Type::value(Scalar::F32, 2) && node.ty == Type::value(Scalar::F32, 4);
+            expect(fits, "a vec2<f32> to a component of four texels")?;
+            expect(
+                *component < entry.components,
+                "a component that the texture does not have",
+            )
         }
-        Op::Compare { texture, sampler, .. } | Op::GatherCompare { texture, sampler, .. } => {
-            let entry = graph.textures.get(*texture as usize).ok_or("no such texture")?;
+        Op::Compare { texture, sampler, .. } => {
+            let entry = textures(graph, *texture)?;
+            let through = graph.samplers.get(*sampler as usize).ok_or("no such sampler")?;
+            let layers = usize::from(entry.kind.has_layers());
+            count(2 + layers)?;
+            expect(
+                entry.kind.is_depth() && through.comparison,
+                "a depth texture and a comparison sampler",
+            )?;
+            let placed = types[0] == entry.kind.place() && types[1..=layers].iter().all(|t| *t == Type::I32);
+            expect(
+                placed && types.last() == Some(&Type::F32) && node.ty == Type::F32,
+                "a place and a reference, an f32, to an f32",
+            )
+        }
+        Op::GatherCompare { texture, sampler, .. } => {
+            let entry = textures(graph, *texture)?;
             let through = graph.samplers.get(*sampler as usize).ok_or("no such sampler")?;
             count(2)?;
             expect(
                 entry.kind == TextureKind::Depth && through.comparison,
                 "a depth texture and a comparison sampler",
             )?;
-            let lanes = if matches!(node.op, Op::Compare { .. }) { 1 } else { 4 };
             let fits = types[0] == Type::value(Scalar::F32, 2)
                 && types[1] == Type::F32
-                && node.ty == Type::value(Scalar::F32, lanes);
-            expect(fits, "a vec2<f32> and an f32 to an f32, or a vec4<f32> of a gather")
+                && node.ty == Type::value(Scalar::F32, 4);
+            expect(fits, "a vec2<f32> and an f32 to a vec4<f32>")
         }
         Op::BufferLen(buffer) => {
             count(0)?;
             expect((*buffer as usize) < graph.buffers.len(), "no such buffer")?;
             expect(node.ty == Type::I32, "a length is an i32")
         }
-        Op::BufferLoad { buffer, .. } => {
+        Op::BufferLoad { buffer, field, .. } => {
             let entry = graph.buffers.get(*buffer as usize).ok_or("no such buffer")?;
-            count(1)?;
+            let part = entry.element.field(*field).ok_or("no such field")?;
+            count(1 + usize::from(part.is_array()))?;
             expect(
-                types[0] == Type::I32 && node.ty == entry.element,
+                types.iter().all(|t| *t == Type::I32) && node.ty == part.element(),
                 "an index to an element",
             )
         }
@@ -383,6 +441,11 @@ fn takes(op: UnaryOp, kind: Scalar) -> bool {
         Abs => kind != Scalar::Bool,
         _ => kind == Scalar::F32,
     }
+}
+
+fn textures(graph: &Graph, index: u32) -> Result<&Texture, String> {
+    let found = graph.textures.get(index as usize);
+    found.ok_or_else(|| "no such texture".to_owned())
 }
 
 fn region(graph: &Graph, id: RegionId) -> Result<&super::Region, String> {

@@ -126,10 +126,14 @@ impl Counter<'_> {
 /// Layers that the textures of the largest GPUs have; an index that is only known to be smaller than more is not bounded.
 const MAX_LAYERS: i64 = 2048;
 
-/// Layers, or samples, of a texture that reads can reach: one more than the largest index. `None` if an index is not
+/// Layers, or samples, of a texture that reads can reach: one more than the largest index; 1 of a texture that is asked how
+/// many it has. `None` if an index is not
 /// bounded by what is known now.
 pub fn layers_read(graph: &Graph, texture: u32) -> Option<u32> {
     let mut layers = 1;
+    if !graph.textures[texture as usize].is_counted() {
+        return Some(layers);
+    }
     for id in graph.ids() {
         let node = graph.node(id);
         if matches!(node.op, Op::Load { texture: t, .. } if t == texture)

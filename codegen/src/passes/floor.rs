@@ -192,12 +192,32 @@ impl Floor<'_> {
         self.builder.add(Op::Select, vec![is_large, far, near], PAIR)
     }
 
+    /// Width and height.
     fn size(&mut self, texture: Option<u32>) -> NodeId {
-        let op = match texture {
-            Some(texture) if !self.old.textures[texture as usize].framed => Op::TextureSize(texture),
-            _ => Op::FrameSize,
-        };
-        self.builder.add(op, Vec::new(), PAIR)
+        match texture {
+            Some(texture) if !self.old.textures[texture as usize].framed => {
+                let ty = self.old.textures[texture as usize].kind.coordinate();
+                let size = self.builder.add(Op::TextureSize(texture), Vec::new(), ty);
+                match ty {
+                    PAIR => size,
+                    _ => {
+                        let [x, y] = [0, 1].map(|k| self.builder.add(Op::Extract(k), vec![size], Type::I32));
+                        self.builder.add(Op::Compose, vec![x, y], PAIR)
+                    }
+                }
+            }
+            _ => self.builder.add(Op::FrameSize, Vec::new(), PAIR),
+        }
+    }
+
+    /// A pair with as many components as `ty` has, the third of them `last`.
+    fn extended(&mut self, pair: NodeId, last: NodeId, ty: Type) -> NodeId {
+        if ty.lanes() == 2 {
+            return pair;
+        }
+        let part = Type::scalar(ty.kind().unwrap_or(Scalar::F32));
+        let [x, y] = [0, 1].map(|k| self.builder.add(Op::Extract(k), vec![pair], part));
+        self.builder.add(Op::Compose, vec![x, y, last], ty)
     }
 
     fn binary(&mut self, op: BinaryOp, x: NodeId, y: NodeId) -> NodeId {
@@ -218,7 +238,9 @@ impl Floor<'_> {
         let zero = self.builder.constant(PAIR, [0; 4]);
         let last = self.binary(BinaryOp::Sub, size, one);
         let at = self.binary(BinaryOp::Add, pixel, step);
-        self.builder.add(Op::Clamp, vec![at, zero, last], PAIR)
+        let inside = self.builder.add(Op::Clamp, vec![at, zero, last], PAIR);
+        let slice = self.builder.i32(0);
+        self.extended(inside, slice, self.old.textures[texture as usize].kind.coordinate())
     }
 
     /// A place near the pixel, from 0 to 1.
@@ -232,7 +254,10 @@ impl Floor<'_> {
         let centre = self.binary(BinaryOp::Add, pixel, half);
         let own = self.binary(BinaryOp::Div, centre, frame);
         let away = self.binary(BinaryOp::Div, step, size);
-        self.binary(BinaryOp::Add, own, away)
+        let place = self.binary(BinaryOp::Add, own, away);
+        let ty = texture.map_or(PLACE, |texture| self.old.textures[texture as usize].kind.place());
+        let middle = self.builder.f32(0.5);
+        self.extended(place, middle, ty)
     }
 
     /// An index inside a buffer.

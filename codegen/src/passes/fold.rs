@@ -85,7 +85,9 @@ fn array(b: &mut Builder<'_>, op: &Op, args: &[NodeId], ty: Type) -> Option<Node
     if *op != Op::ArrayGet {
         return None;
     }
-    let index = b.graph().constant(args[1])?[0];
+    let Some(index) = b.graph().constant(args[1]).map(|bits| bits[0]) else {
+        return read_in_order(b, args[0], args[1], ty);
+    };
     let node = b.graph().node(args[0]).clone();
     match node.op {
         Op::MakeArray => Some(*node.args.get(index as usize).or(node.args.last())?),
@@ -102,6 +104,49 @@ fn array(b: &mut Builder<'_>, op: &Op, args: &[NodeId], ty: Type) -> Option<Node
         }
         _ => None,
     }
+}
+
+/// An element of an array whose elements are parts of one element of a buffer, in order: that part.
+fn read_in_order(b: &mut Builder<'_>, array: NodeId, index: NodeId, ty: Type) -> Option<NodeId> {
+    let g = b.graph();
+    let parts = g.node(array).args.clone();
+    let first = g.node(*parts.first()?).clone();
+    let (Op::MakeArray, Op::BufferLoad { .. }, [element, from]) = (&g.node(array).op, &first.op, &first.args[..])
+    else {
+        return None;
+    };
+    let (element, from) = (*element, g.constant(*from)?[0]);
+    let at = |part: &NodeId| {
+        let node = g.node(*part);
+        let same = node.op.clone().shared() == first.op.clone().shared() && node.args[0] == element;
+        if same {
+            g.constant(*node.args.get(1)?).map(|bits| bits[0])
+        } else {
+            None
+        }
+    };
+    let step = at(parts.get(1)?)?.checked_sub(from).filter(|step| *step > 0)?;
+    let ordered = (0..).zip(&parts).all(|(k, part)| at(part) == Some(from + k * step));
+    if !ordered {
+        return None;
+    }
+    // An index outside is that of the last element, a negative one too.
+    let last = parts.len() as u32 - 1;
+    let inside = ranges::bounds(g, index).is_some_and(|(low, high)| low >= 0 && high <= i64::from(last));
+    let index = match inside {
+        true => index,
+        false => {
+            let unsigned = b.add(Op::Bitcast, vec![index], Type::U32);
+            let last = b.constant(Type::U32, [last, 0, 0, 0]);
+            let least = b.add(Op::Binary(BinaryOp::Min), vec![unsigned, last], Type::U32);
+            b.add(Op::Bitcast, vec![least], Type::I32)
+        }
+    };
+    let step = b.i32(step as i32);
+    let steps = b.add(Op::Binary(BinaryOp::Mul), vec![index, step], Type::I32);
+    let from = b.i32(from as i32);
+    let at = b.add(Op::Binary(BinaryOp::Add), vec![steps, from], Type::I32);
+    Some(b.add(first.op, vec![element, at], ty))
 }
 
 fn algebra(b: &mut Builder<'_>, op: &Op, args: &[NodeId]) -> Option<NodeId> {

@@ -26,6 +26,7 @@ pub fn expand(graph: &Graph, size: [u32; 2]) -> Result<Graph, String> {
         tables.textures.push(Texture {
             name: varying.name,
             kind: TextureKind::Flat,
+            scalar: Scalar::F32,
             components: varying.ty.lanes(),
             framed: true,
         });

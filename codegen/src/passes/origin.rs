@@ -1,7 +1,7 @@
 //! Rows that count from below.
 
 use super::fold::Exact;
-use crate::ir::{BinaryOp, Builder, Graph, NodeId, Op, Origin, Rebuild, Rules, Scalar, Type, rebuild};
+use crate::ir::{BinaryOp, Builder, Graph, NodeId, Op, Origin, Rebuild, Rules, Scalar, TextureKind, Type, rebuild};
 
 const PAIR: Type = Type::value(Scalar::I32, 2);
 const PLACE: Type = Type::value(Scalar::F32, 2);
@@ -10,7 +10,8 @@ const PLACE: Type = Type::value(Scalar::F32, 2);
 /// [`Op::Pixel`] goes on counting from above, as does what is computed of it; the entry point turns that.
 ///
 /// Texels are those that the kernel means. A filtered place `v` becomes `1 - v`, which is the same place for every address
-/// mode; the four texels of a gather come in the order that the kernel expects.
+/// mode; the four texels of a gather come in the order that the kernel expects. Volumes and cubes are no pictures: they are
+/// the same for every host.
 pub fn from_below(graph: &Graph) -> Graph {
     let pass = Rebuild {
         rules: &FromBelow { graph },
@@ -25,9 +26,14 @@ struct FromBelow<'g> {
 
 impl Rules for FromBelow<'_> {
     fn simplify(&self, b: &mut Builder<'_>, op: &Op, args: &[NodeId], ty: Type) -> Option<NodeId> {
+        let kind = op.texture().map(|texture| self.graph.textures[texture as usize].kind);
+        if kind.is_some_and(|kind| !kind.has_rows()) {
+            return Exact.simplify(b, op, args, ty);
+        }
         match op {
             Op::Load { texture, .. } => {
-                let coordinate = self.texel(b, *texture, args[0]);
+                let indexed = usize::from(kind.is_some_and(TextureKind::is_indexed));
+                let coordinate = self.texel(b, *texture, args[0], args.get(1 + indexed));
                 let args = [&[coordinate], &args[1..]].concat();
                 Some(b.intern(op.clone(), args, ty))
             }
@@ -49,14 +55,18 @@ impl Rules for FromBelow<'_> {
 
 impl FromBelow<'_> {
     /// A texel by its row from below. Coordinates have been clamped into the texture by now.
-    fn texel(&self, b: &mut Builder<'_>, texture: u32, coordinate: NodeId) -> NodeId {
+    fn texel(&self, b: &mut Builder<'_>, texture: u32, coordinate: NodeId, level: Option<&NodeId>) -> NodeId {
         let size = match self.graph.textures[texture as usize].framed {
             true => Op::FrameSize,
             false => Op::TextureSize(texture),
         };
         let size = b.add(size, Vec::new(), PAIR);
-        let height = b.add(Op::Extract(1), vec![size], Type::I32);
+        let mut height = b.add(Op::Extract(1), vec![size], Type::I32);
         let one = b.constant(Type::I32, [1, 0, 0, 0]);
+        if let Some(level) = level {
+            let halved = b.add(Op::Binary(BinaryOp::Shr), vec![height, *level], Type::I32);
+            height = b.add(Op::Binary(BinaryOp::Max), vec![halved, one], Type::I32);
+        }
         let last = b.add(Op::Binary(BinaryOp::Sub), vec![height, one], Type::I32);
         named(b, last, "last_row", coordinate);
         let [x, y] = [0, 1].map(|k| b.add(Op::Extract(k), vec![coordinate], Type::I32));

@@ -92,7 +92,7 @@ fn bounds_at(g: &Graph, id: NodeId, component: u8, depth: u32) -> Option<(i64, i
         Op::Const(_) => known(id).map(|n| (n, n)),
         // A pixel of a block may lie outside of the frame, but never before it.
         Op::Pixel => Some((0, LARGEST_FRAME)),
-        Op::FrameSize | Op::TextureSize(_) => Some((1, LARGEST_FRAME)),
+        Op::FrameSize | Op::TextureSize(_) | Op::TextureLayers(_) | Op::TextureLevels(_) => Some((1, LARGEST_FRAME)),
         Op::BufferLen(_) => Some((1, largest)),
         Op::Lane => Some((0, 1)),
         Op::Param(region, 0) => {

@@ -1,12 +1,14 @@
 //! Images with one texel for each pixel of the output.
 
 use super::quad::PerLane;
-use super::texture::{self, Sampler, Texel};
+use super::texture::{self, Filterable, Sampler};
 use glam::{IVec2, UVec2, Vec2, Vec4};
 
-/// A single-sampled image with one texel for each pixel of the output. Bound as a `texture_2d<f32>`.
+/// A single-sampled image with one texel for each pixel of the output. Bound as a `texture_2d` of `f32`, `i32`
+/// or `u32`.
 ///
-/// `T` is `f32`, `Vec2`, `Vec3` or `Vec4`: the components that the kernel uses.
+/// `T` is `f32`, `Vec2`, `Vec3` or `Vec4`, or their like of `i32` or `u32`: the components that the kernel uses. Integers are
+/// read texel by texel alone.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Frame<T> {
     size: UVec2,
@@ -48,7 +50,7 @@ impl<T: Copy> Frame<T> {
     }
 }
 
-impl<T: Texel> Frame<T> {
+impl<T: Filterable> Frame<T> {
     /// The image at `uv`, (0, 0) its upper left and (1, 1) its lower right corner, as `sampler` reads it.
     /// A GPU weighs texels in steps of 1/256.
     pub fn sample<P: PerLane<Vec2>>(&self, sampler: &Sampler, uv: P) -> P::Of<T> {

@@ -27,7 +27,8 @@ pub use frame::{Frame, FrameLayers};
 pub use maths::{fract, inverse_sqrt, mix, round, saturate, sign, smoothstep, step};
 pub use quad::{PerLane, Quad, lane_position, quad_select, quad_vector};
 pub use texture::{
-    Address, Comparison, ComparisonSampler, DepthTexture, Filter, Multisampled, Sampler, Texel, Texture,
+    Address, Comparison, ComparisonSampler, DepthCube, DepthTexture, DepthTextureArray, Filter, Filterable,
+    Multisampled, Sampler, Texel, Texture, Texture3D, TextureArray, TextureCube,
 };
 
 pub use crate::options;

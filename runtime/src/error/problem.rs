@@ -10,7 +10,7 @@ use wgpu::TextureFormat;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ViewProblem {
-    /// Not a 2-D texture, or a view of the wrong dimension.
+    /// A texture or a view of the wrong dimension.
     #[error("needs a view of dimension {}, but was given one of {found}", dimension_name(*.needed))]
     Dimension {
         /// The dimension that is needed.
@@ -63,6 +63,22 @@ pub enum ViewProblem {
     NotFloat {
         /// The texture's format.
         format: TextureFormat,
+    },
+    /// A format of other numbers, where integers are read.
+    #[error("is {format:?}, but the kernel reads {needed} integers: use a format such as {example:?}")]
+    NotInteger {
+        /// The texture's format.
+        format: TextureFormat,
+        /// `signed` or `unsigned`.
+        needed: &'static str,
+        /// A format that fits.
+        example: TextureFormat,
+    },
+    /// The faces of a cube are not square.
+    #[error("is {}x{}, but the faces of a cube are square", .size[0], .size[1])]
+    NotSquare {
+        /// Width and height.
+        size: [u32; 2],
     },
     /// A format without depth, where depths are compared.
     #[error("is {format:?}, but the kernel reads a depth: use a depth format")]
@@ -200,6 +216,8 @@ fn dimension_name(dimension: Dimension) -> &'static str {
     match dimension {
         Dimension::D2 => "2d",
         Dimension::D2Array => "2d-array (`TextureViewDescriptor::dimension: Some(TextureViewDimension::D2Array)`)",
+        Dimension::D3 => "3d",
+        Dimension::Cube => "cube (`TextureViewDescriptor::dimension: Some(TextureViewDimension::Cube)`)",
         Dimension::D2Multisampled => "2d with several samples a texel",
     }
 }

@@ -15,19 +15,28 @@ pub(super) fn check_texture(
     frame: [u32; 2],
 ) -> Result<(), ViewProblem> {
     check_shape(plan.dimension, plan.samples, texture)?;
-    if texture.depth_or_array_layers() < plan.layers {
-        return Err(ViewProblem::Layers {
-            needed: plan.layers,
-            found: texture.depth_or_array_layers(),
-        });
+    let (found, cube) = (texture.depth_or_array_layers(), plan.dimension == Dimension::Cube);
+    let needed = if cube { 6 } else { plan.layers };
+    if found < needed {
+        return Err(ViewProblem::Layers { needed, found });
+    }
+    if cube && texture.width() != texture.height() {
+        return Err(ViewProblem::NotSquare { size: size(texture) });
     }
     let format = texture.format();
-    check_float(format)?;
     match plan.sample_type {
-        SampleType::Unfilterable => {}
-        SampleType::Filterable => check_filterable(format, abilities.features)?,
+        SampleType::Unfilterable => check_float(format)?,
+        SampleType::Filterable => {
+            check_float(format)?;
+            check_filterable(format, abilities.features)?;
+        }
         SampleType::Depth if format.has_depth_aspect() => {}
-        SampleType::Depth => return Err(ViewProblem::NotDepth { format }),
+        SampleType::Depth => {
+            check_float(format)?;
+            return Err(ViewProblem::NotDepth { format });
+        }
+        SampleType::Sint => check_integer(format, TextureSampleType::Sint)?,
+        SampleType::Uint => check_integer(format, TextureSampleType::Uint)?,
     }
     if components(format) < plan.components {
         let (needed, found) = (plan.components, components(format));
@@ -53,10 +62,12 @@ pub(crate) fn is_one_image(texture: &Texture) -> bool {
 
 /// `samples` is the least number that will do where `needed` is multisampled.
 pub(super) fn check_shape(needed: Dimension, samples: u32, texture: &Texture) -> Result<(), ViewProblem> {
-    let found = match texture.dimension() {
-        TextureDimension::D1 => "a 1d texture",
-        TextureDimension::D3 => "a 3d texture",
-        TextureDimension::D2 => return check_samples(needed, samples, texture.sample_count()),
+    let found = match (texture.dimension(), needed) {
+        (TextureDimension::D3, Dimension::D3) => return Ok(()),
+        (TextureDimension::D1, _) => "a 1d texture",
+        (TextureDimension::D3, _) => "a 3d texture",
+        (TextureDimension::D2, Dimension::D3) => "a 2d texture",
+        (TextureDimension::D2, _) => return check_samples(needed, samples, texture.sample_count()),
     };
     Err(ViewProblem::Dimension {
         needed,
@@ -68,8 +79,8 @@ fn check_samples(needed: Dimension, samples: u32, found: u32) -> Result<(), View
     match (needed, found) {
         (Dimension::D2Multisampled, 1) => Err(ViewProblem::SingleSampled { needed: samples.max(2) }),
         (Dimension::D2Multisampled, _) if found < samples => Err(ViewProblem::Samples { needed: samples, found }),
-        (Dimension::D2Multisampled, _) | (Dimension::D2 | Dimension::D2Array, 1) => Ok(()),
-        (Dimension::D2 | Dimension::D2Array, _) => Err(ViewProblem::Multisampled { samples: found }),
+        (Dimension::D2Multisampled, _) | (_, 1) => Ok(()),
+        (_, _) => Err(ViewProblem::Multisampled { samples: found }),
     }
 }
 
@@ -87,6 +98,22 @@ fn check_float(format: TextureFormat) -> Result<(), ViewProblem> {
     match format.sample_type(Some(TextureAspect::DepthOnly), None) {
         Some(TextureSampleType::Float { .. } | TextureSampleType::Depth) => Ok(()),
         _ => Err(ViewProblem::NotFloat { format }),
+    }
+}
+
+/// Formats of integers of one kind.
+fn check_integer(format: TextureFormat, needed: TextureSampleType) -> Result<(), ViewProblem> {
+    let (words, example) = match needed {
+        TextureSampleType::Sint => ("signed", TextureFormat::R32Sint),
+        _ => ("unsigned", TextureFormat::R32Uint),
+    };
+    match format.sample_type(None, None) == Some(needed) {
+        true => Ok(()),
+        false => Err(ViewProblem::NotInteger {
+            format,
+            needed: words,
+            example,
+        }),
     }
 }
 

@@ -53,21 +53,28 @@ pub(super) fn culprit(
 
 /// `fits` tells whether the view can be bound as a type.
 fn view_problem(texture: &TexturePlan, description: String, fits: impl Fn(BindingType) -> bool) -> ViewProblem {
-    let (other, found) = match texture.dimension {
-        Dimension::D2 => (Dimension::D2Array, "2d-array"),
-        Dimension::D2Array => (Dimension::D2, "2d"),
-        // Views of multisampled textures are of one dimension only.
-        Dimension::D2Multisampled => return ViewProblem::Refused { description },
-    };
-    let mut changed = *texture;
-    changed.dimension = other;
-    if fits(texture_type(&changed)) {
-        ViewProblem::Dimension {
+    // Views of multisampled textures, and of volumes, are of one dimension only.
+    let others = [
+        (Dimension::D2, "2d"),
+        (Dimension::D2Array, "2d-array"),
+        (Dimension::Cube, "cube"),
+    ];
+    let flat = others.iter().any(|(other, _)| *other == texture.dimension);
+    let mut others = others
+        .into_iter()
+        .filter(|(other, _)| flat && *other != texture.dimension);
+    let found = others.find(|(other, _)| {
+        fits(texture_type(&TexturePlan {
+            dimension: *other,
+            ..*texture
+        }))
+    });
+    match found {
+        Some((_, found)) => ViewProblem::Dimension {
             needed: texture.dimension,
             found: found.to_owned(),
-        }
-    } else {
-        ViewProblem::Refused { description }
+        },
+        None => ViewProblem::Refused { description },
     }
 }
 

@@ -187,10 +187,14 @@ fn texture_type(texture: &TexturePlan) -> BindingType {
             SampleType::Unfilterable => wgpu::TextureSampleType::Float { filterable: false },
             SampleType::Filterable => wgpu::TextureSampleType::Float { filterable: true },
             SampleType::Depth => wgpu::TextureSampleType::Depth,
+            SampleType::Sint => wgpu::TextureSampleType::Sint,
+            SampleType::Uint => wgpu::TextureSampleType::Uint,
         },
         view_dimension: match texture.dimension.view() {
             ViewDimension::D2 => TextureViewDimension::D2,
             ViewDimension::D2Array => TextureViewDimension::D2Array,
+            ViewDimension::D3 => TextureViewDimension::D3,
+            ViewDimension::Cube => TextureViewDimension::Cube,
         },
         multisampled: texture.dimension.is_multisampled(),
     }

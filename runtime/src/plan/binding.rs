@@ -19,27 +19,43 @@ pub(super) fn check_texture(plan: &TexturePlan) -> Result<(), String> {
     })?;
     require(layers >= 1, || "no layers".to_owned())?;
     require(dimension == Dimension::D2Array || layers == 1, || {
-        format!("2d, but with {layers} layers")
+        format!("no 2d-array, but with {layers} layers")
     })?;
     require(samples >= 1, || "no samples".to_owned())?;
     require(dimension == Dimension::D2Multisampled || samples == 1, || {
         format!("not multisampled, but with {samples} samples")
     })?;
     match sample_type {
-        SampleType::Unfilterable => Ok(()),
+        SampleType::Unfilterable | SampleType::Sint | SampleType::Uint => Ok(()),
         // Neither a device nor a shading language can filter the samples of a texel.
         SampleType::Filterable => require(dimension != Dimension::D2Multisampled, || {
             "multisampled, but filterable".to_owned()
         }),
         SampleType::Depth => {
-            require(dimension == Dimension::D2, || "a depth, but not 2d".to_owned())?;
+            let shaped = matches!(dimension, Dimension::D2 | Dimension::D2Array | Dimension::Cube);
+            require(shaped, || "a depth, but not 2d, 2d-array or cube".to_owned())?;
             require(components == 1, || format!("a depth, but with {components} components"))
         }
     }
 }
 
-/// A storage buffer of elements of the type that WGSL spells `element`, `stride` bytes apart.
-pub(super) fn buffer(element: &str, stride: u32) -> Result<BufferPlan, String> {
+/// A storage buffer of elements of the type that WGSL spells `element`, or of structures of `fields`, `stride` bytes apart.
+pub(super) fn buffer(element: &str, stride: u32, fields: &[UniformField]) -> Result<BufferPlan, String> {
+    if !fields.is_empty() {
+        require(stride > 0 && stride.is_multiple_of(4), || {
+            format!("a stride of {stride} bytes, not a positive multiple of 4")
+        })?;
+        for field in fields {
+            let inside = field.offset.checked_add(field.size).is_some_and(|end| end <= stride);
+            require(inside && field.offset % 4 == 0, || {
+                format!(
+                    "field `{}` does not lie inside the {stride} bytes of an element",
+                    field.name
+                )
+            })?;
+        }
+        return Ok(BufferPlan { element: None, stride });
+    }
     let ty = UniformType::from_wgsl(element)
         .ok_or_else(|| format!("elements of type `{element}`, not a 32-bit scalar or vector"))?;
     require(stride > 0 && stride.is_multiple_of(4), || {
@@ -51,7 +67,10 @@ pub(super) fn buffer(element: &str, stride: u32) -> Result<BufferPlan, String> {
             ty.size()
         )
     })?;
-    Ok(BufferPlan { element: ty, stride })
+    Ok(BufferPlan {
+        element: Some(ty),
+        stride,
+    })
 }
 
 /// A field of a struct of `block` bytes.

@@ -67,7 +67,8 @@ pub(crate) struct TexturePlan {
 /// A storage buffer that the shader reads.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct BufferPlan {
-    pub(crate) element: UniformType,
+    /// Of structures none: they are known by their size.
+    pub(crate) element: Option<UniformType>,
     pub(crate) stride: u32,
 }
 
@@ -168,10 +169,11 @@ impl Plan {
                 buffer_type,
                 element,
                 stride,
+                fields,
             } => {
                 let fits = *buffer_type == BufferType::ReadOnlyStorage;
                 require(fits, || "its buffer_type is not read-only-storage".to_owned())?;
-                InputKind::Buffer(binding::buffer(element, *stride)?)
+                InputKind::Buffer(binding::buffer(element, *stride, fields)?)
             }
             BindingKind::Uniform {
                 buffer_type,

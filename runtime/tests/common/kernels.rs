@@ -91,3 +91,24 @@ pub const SHADOW: Kernel = Kernel {
     result: "vec4f(textureSampleCompareLevel(depth, compare, vec2f(0.5), f32(pixel.x) / 4.0),
         textureLoad(depth, vec2i(0), 0), 0.0, 1.0)",
 };
+
+/// A cube, a volume, and integers.
+pub const SHAPES: Kernel = Kernel {
+    name: "shapes",
+    bindings: &[
+        r#"{"group": 0, "binding": 0, "name": "around", "type": "texture",
+    "view_dimension": "cube", "multisampled": false, "sample_type": "float", "components": 4, "layers": 1, "samples": 1, "extent": "any"}"#,
+        r#"{"group": 0, "binding": 1, "name": "volume", "type": "texture",
+    "view_dimension": "3d", "multisampled": false, "sample_type": "unfilterable-float", "components": 4, "layers": 1, "samples": 1,
+    "extent": "any"}"#,
+        r#"{"group": 0, "binding": 2, "name": "ids", "type": "texture",
+    "view_dimension": "2d", "multisampled": false, "sample_type": "uint", "components": 1, "layers": 1, "samples": 1, "extent": "any"}"#,
+        r#"{"group": 0, "binding": 3, "name": "linear", "type": "sampler", "sampler_type": "filtering"}"#,
+    ],
+    declarations: "@group(0) @binding(0) var around: texture_cube<f32>;
+        @group(0) @binding(1) var volume: texture_3d<f32>;
+        @group(0) @binding(2) var ids: texture_2d<u32>;
+        @group(0) @binding(3) var linear: sampler;",
+    result: "textureSampleLevel(around, linear, vec3f(1.0, 0.0, 0.0), 0.0) + textureLoad(volume, vec3i(0), 0)
+        + f32(textureLoad(ids, vec2i(0), 0).x)",
+};

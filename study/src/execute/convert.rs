@@ -37,10 +37,9 @@ impl<'a> Converters<'a> {
         Converters { device, queue }
     }
 
-    /// The first component of an image as depths.
-    pub fn depth(&self, source: &wgpu::TextureView, size: UVec2) -> wgpu::TextureView {
-        let target = self.draw(source, size, 1, TextureFormat::Depth32Float, "depth");
-        target.create_view(&wgpu::TextureViewDescriptor::default())
+    /// The first components of images as the layers of a texture of depths.
+    pub fn depths(&self, sources: &[wgpu::TextureView], size: UVec2) -> wgpu::Texture {
+        self.draw(sources, size, 1, TextureFormat::Depth32Float, "depth")
     }
 
     /// Layers as the samples of an image: single numbers in full precision, more in half, which every device can
@@ -56,13 +55,14 @@ impl<'a> Converters<'a> {
             1 => TextureFormat::R32Float,
             _ => TextureFormat::Rgba16Float,
         };
-        let target = self.draw(source, size, samples, format, "samples");
+        let sources = std::slice::from_ref(source);
+        let target = self.draw(sources, size, samples, format, "samples");
         target.create_view(&wgpu::TextureViewDescriptor::default())
     }
 
     fn draw(
         &self,
-        source: &wgpu::TextureView,
+        sources: &[wgpu::TextureView],
         size: UVec2,
         samples: u32,
         format: TextureFormat,
@@ -73,7 +73,7 @@ impl<'a> Converters<'a> {
             size: wgpu::Extent3d {
                 width: size.x,
                 height: size.y,
-                depth_or_array_layers: 1,
+                depth_or_array_layers: sources.len() as u32,
             },
             mip_level_count: 1,
             sample_count: samples,
@@ -122,6 +122,20 @@ impl<'a> Converters<'a> {
             multiview_mask: None,
             cache: None,
         });
+        for (layer, source) in (0..).zip(sources) {
+            self.draw_layer(&pipeline, source, &target, layer);
+        }
+        target
+    }
+
+    fn draw_layer(
+        &self,
+        pipeline: &wgpu::RenderPipeline,
+        source: &wgpu::TextureView,
+        target: &wgpu::Texture,
+        layer: u32,
+    ) {
+        let is_depth = target.format().is_depth_stencil_format();
         let group = self.device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: None,
             layout: &pipeline.get_bind_group_layout(0),
@@ -130,7 +144,12 @@ impl<'a> Converters<'a> {
                 resource: wgpu::BindingResource::TextureView(source),
             }],
         });
-        let view = target.create_view(&wgpu::TextureViewDescriptor::default());
+        let view = target.create_view(&wgpu::TextureViewDescriptor {
+            dimension: Some(wgpu::TextureViewDimension::D2),
+            base_array_layer: layer,
+            array_layer_count: Some(1),
+            ..Default::default()
+        });
         let colour = wgpu::RenderPassColorAttachment {
             view: &view,
             depth_slice: None,
@@ -156,12 +175,11 @@ impl<'a> Converters<'a> {
             occlusion_query_set: None,
             multiview_mask: None,
         });
-        pass.set_pipeline(&pipeline);
+        pass.set_pipeline(pipeline);
         pass.set_bind_group(0, &group, &[]);
         pass.draw(0..3, 0..1);
         drop(pass);
         self.queue.submit([encoder.finish()]);
-        target
     }
 }
 
@@ -189,6 +207,35 @@ pub fn write_uniform(
         _ => pass.write_uniform(queue, name, [0, 1, 2, 3].map(|k| lane(k) as u32)),
     };
     Ok(written?)
+}
+
+/// Structures as they lie in a buffer: their numbers and vectors are one after the other, those of an array too.
+pub fn structure_bytes(values: &[[f64; 4]], fields: &[UniformField], stride: u32) -> Vec<u8> {
+    let of = |field: &UniformField| -> (String, u32) {
+        let inner = field.ty.strip_prefix("array<").and_then(|ty| ty.strip_suffix('>'));
+        match inner.and_then(|inner| inner.split_once(", ")) {
+            Some((ty, count)) => (ty.to_owned(), count.parse().unwrap_or(1)),
+            None => (field.ty.clone(), 1),
+        }
+    };
+    let each: u32 = fields.iter().map(|field| of(field).1).sum();
+    let mut bytes = Vec::new();
+    for element in values.chunks_exact(each as usize) {
+        let (start, mut rest) = (bytes.len(), element);
+        bytes.resize(start + stride as usize, 0);
+        for field in fields {
+            let (ty, count) = of(field);
+            let (own, others) = rest.split_at(count as usize);
+            rest = others;
+            let room = field.size / count;
+            for (k, value) in (0..).zip(own) {
+                let at = start + (field.offset + k * room) as usize;
+                let part = element_bytes(std::slice::from_ref(value), &ty);
+                bytes[at..at + part.len()].copy_from_slice(&part);
+            }
+        }
+    }
+    bytes
 }
 
 /// Elements of a buffer as they lie in it.

@@ -5,7 +5,7 @@ use glam::Vec4;
 use rayon::prelude::*;
 use straightline_codegen::Compiled;
 use straightline_codegen::interp::{Bindings, Image, Interpreter};
-use straightline_codegen::ir::{Op, Real};
+use straightline_codegen::ir::{Op, Real, Scalar};
 use straightline_kernels::prelude::Frame;
 
 /// What the interpreter computed.
@@ -41,10 +41,23 @@ pub fn interpret<R: Real>(compiled: &Compiled, inputs: &Inputs, watch: bool) -> 
     let compiled = &*compiled.in_blocks();
     let mut images = Vec::new();
     for (name, layers) in &inputs.images {
-        let size = layers.first().map_or([0, 0], |l| l.size().to_array());
-        let texels = layers.iter().map(|l| l.texels().iter().map(|t| t.to_array()).collect());
-        let image = Image::new(size, texels.collect())
-            .ok_or_else(|| ExecuteError::Input(format!("the layers of `{name}` have different sizes")))?;
+        let mut image = level(name, layers)?;
+        for smaller in Inputs::find(&inputs.smaller, name).into_iter().flatten() {
+            image = image.with_smaller(level(name, smaller)?);
+        }
+        images.push((name, image));
+    }
+    for (name, layers) in &inputs.integers {
+        let scalar = compiled
+            .graph
+            .textures
+            .iter()
+            .find(|t| t.name == *name)
+            .map(|t| t.scalar);
+        let (size, bits) = plain(layers, |texel| texel.to_array());
+        // Bits of a texture that the kernel reads as floats are refused as such.
+        let scalar = scalar.filter(|s| *s != Scalar::F32).unwrap_or(Scalar::U32);
+        let image = Image::of_integers(scalar, size, bits).ok_or_else(|| of_sizes(name))?;
         images.push((name, image));
     }
     let mut bindings = Bindings::new();
@@ -99,6 +112,23 @@ pub fn interpret<R: Real>(compiled: &Compiled, inputs: &Inputs, watch: bool) -> 
         not_finite: births.first().cloned(),
         births,
     })
+}
+
+/// A level of an image.
+fn level(name: &str, layers: &[Frame<Vec4>]) -> Result<Image, ExecuteError> {
+    let (size, texels) = plain(layers, |texel| texel.to_array());
+    Image::new(size, texels).ok_or_else(|| of_sizes(name))
+}
+
+fn of_sizes(name: &str) -> ExecuteError {
+    ExecuteError::Input(format!("the layers of `{name}` have different sizes"))
+}
+
+/// The size of the first layer, and all texels as `of` has them.
+fn plain<T: Copy, U>(layers: &[Frame<T>], of: impl Fn(&T) -> [U; 4]) -> ([u32; 2], Vec<Vec<[U; 4]>>) {
+    let size = layers.first().map_or([0, 0], |l| l.size().to_array());
+    let texels = layers.iter().map(|l| l.texels().iter().map(&of).collect());
+    (size, texels.collect())
 }
 
 /// A uniform that is read, has no default and was not given: on a GPU its pass is refused too.

@@ -193,10 +193,16 @@ impl Bench {
                         Owned::Sampler(self.sampler(state, compares)),
                     )
                 }
-                BindingKind::Buffer { element, .. } => {
+                BindingKind::Buffer {
+                    element,
+                    stride,
+                    fields,
+                    ..
+                } => {
                     let elements = Inputs::find(&inputs.buffers, name).ok_or_else(|| missing(name))?;
                     let ty = wgpu::BufferBindingType::Storage { read_only: true };
-                    (buffer_type(ty), Owned::Buffer(self.buffer(elements, element)))
+                    let buffer = self.buffer(elements, element, fields, *stride);
+                    (buffer_type(ty), Owned::Buffer(buffer))
                 }
                 BindingKind::Uniform { size, fields, .. } => {
                     let mut bytes = vec![0; *size as usize];
@@ -338,10 +344,14 @@ fn texture_type(dimension: Dimension, sample_type: SampleType) -> wgpu::BindingT
             SampleType::Depth => wgpu::TextureSampleType::Depth,
             SampleType::Filterable => wgpu::TextureSampleType::Float { filterable: true },
             SampleType::Unfilterable => wgpu::TextureSampleType::Float { filterable: false },
+            SampleType::Sint => wgpu::TextureSampleType::Sint,
+            SampleType::Uint => wgpu::TextureSampleType::Uint,
         },
         view_dimension: match dimension {
             Dimension::D2Array => wgpu::TextureViewDimension::D2Array,
-            _ => wgpu::TextureViewDimension::D2,
+            Dimension::D3 => wgpu::TextureViewDimension::D3,
+            Dimension::Cube => wgpu::TextureViewDimension::Cube,
+            Dimension::D2 | Dimension::D2Multisampled => wgpu::TextureViewDimension::D2,
         },
         multisampled: dimension == Dimension::D2Multisampled,
     }

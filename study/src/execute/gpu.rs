@@ -1,17 +1,15 @@
 //! Emitted shaders on a device: images up, the pass, the picture down.
 
-use super::convert::{self, Converters};
+use super::convert;
+use super::textures::integers_of;
 use super::{Address, Comparison, ExecuteError, Inputs, SamplerState};
 use glam::{UVec2, Vec4, uvec2};
 use straightline_codegen::emit::{Emitted, Target};
 use straightline_codegen::{Compiled, EmitOptions, Format, Precision, Stage};
 use straightline_kernels::prelude::Frame;
-use straightline_manifest::{BindingKind, Dimension, Manifest, REGION, SampleType};
+use straightline_manifest::{BindingKind, Manifest, REGION, UniformField};
 use straightline_runtime::{Pass, PassOptions, Resource};
 use wgpu::{TextureFormat, TextureUsages};
-
-/// Samples of a multisampled texel that WebGPU promises.
-const MULTISAMPLES: usize = 4;
 
 /// A device to run shaders on.
 #[derive(Clone, Debug)]
@@ -164,8 +162,15 @@ impl Bench {
                     components,
                     ..
                 } => {
-                    let layers = Inputs::find(&inputs.images, name).ok_or_else(|| missing("image", name))?;
-                    Owned::Texture(self.texture(layers, *dimension, *sample_type, *components)?)
+                    if let Some(scalar) = integers_of(*sample_type) {
+                        let layers =
+                            Inputs::find(&inputs.integers, name).ok_or_else(|| missing("image of integers", name))?;
+                        Owned::Texture(self.integers(layers, *dimension, scalar)?)
+                    } else {
+                        let layers = Inputs::find(&inputs.images, name).ok_or_else(|| missing("image", name))?;
+                        let smaller = Inputs::find(&inputs.smaller, name).map_or(&[][..], Vec::as_slice);
+                        Owned::Texture(self.levels(layers, smaller, *dimension, *sample_type, *components)?)
+                    }
                 }
                 BindingKind::Sampler { .. } => {
                     let state = Inputs::find(&inputs.samplers, name).copied().unwrap_or_default();
@@ -177,10 +182,15 @@ impl Bench {
                     );
                     Owned::Sampler(self.sampler(state, compares))
                 }
-                BindingKind::Buffer { element, .. } => {
+                BindingKind::Buffer {
+                    element,
+                    stride,
+                    fields,
+                    ..
+                } => {
                     let elements =
                         Inputs::find(&inputs.buffers, name).ok_or_else(|| missing("list of elements", name))?;
-                    Owned::Buffer(self.buffer(elements, element))
+                    Owned::Buffer(self.buffer(elements, element, fields, *stride))
                 }
                 BindingKind::Uniform { .. } => continue,
             };
@@ -265,100 +275,6 @@ impl Bench {
         self.download(&target)
     }
 
-    /// A texture of `layers`, of the shape and kind that a shader asks for, holding the `components` that it reads.
-    ///
-    /// # Errors
-    ///
-    /// If it is larger than the device holds.
-    pub fn texture(
-        &self,
-        layers: &[Frame<Vec4>],
-        dimension: Dimension,
-        sample_type: SampleType,
-        components: u8,
-    ) -> Result<wgpu::TextureView, ExecuteError> {
-        let size = layers.first().map_or(UVec2::ONE, Frame::size);
-        let limits = self.device.limits();
-        let largest = limits.max_texture_dimension_2d;
-        if size.max_element() > largest || layers.len() as u32 > limits.max_texture_array_layers {
-            return Err(ExecuteError::Input(format!(
-                "a picture of {}x{} with {} layers is more than this adapter holds ({largest}x{largest}, {} layers)",
-                size.x,
-                size.y,
-                layers.len(),
-                limits.max_texture_array_layers
-            )));
-        }
-        if dimension == Dimension::D2Multisampled && layers.len() != MULTISAMPLES {
-            return Err(ExecuteError::Input(format!(
-                "a texture of {} samples a texel, where every device has {MULTISAMPLES}: use a pattern of {MULTISAMPLES} samples, \
-                 or another layout",
-                layers.len()
-            )));
-        }
-        let filterable = self.device.features().contains(wgpu::Features::FLOAT32_FILTERABLE);
-        let half = sample_type == SampleType::Filterable && !filterable;
-        let format = match (half, components) {
-            (true, _) => TextureFormat::Rgba16Float,
-            (false, 1) => TextureFormat::R32Float,
-            (false, 2) => TextureFormat::Rg32Float,
-            (false, _) => TextureFormat::Rgba32Float,
-        };
-        let plain = self.upload(size, layers, format);
-        let view = |dimension| {
-            plain.create_view(&wgpu::TextureViewDescriptor {
-                dimension: Some(dimension),
-                ..Default::default()
-            })
-        };
-        Ok(match (dimension, sample_type) {
-            (_, SampleType::Depth) => {
-                Converters::new(&self.device, &self.queue).depth(&view(wgpu::TextureViewDimension::D2), size)
-            }
-            (Dimension::D2, _) => view(wgpu::TextureViewDimension::D2),
-            (Dimension::D2Array, _) => view(wgpu::TextureViewDimension::D2Array),
-            (Dimension::D2Multisampled, _) => Converters::new(&self.device, &self.queue).multisampled(
-                &view(wgpu::TextureViewDimension::D2Array),
-                size,
-                layers.len() as u32,
-                components,
-            ),
-        })
-    }
-
-    fn upload(&self, size: UVec2, layers: &[Frame<Vec4>], format: TextureFormat) -> wgpu::Texture {
-        let extent = wgpu::Extent3d {
-            width: size.x,
-            height: size.y,
-            depth_or_array_layers: layers.len() as u32,
-        };
-        let texture = self.device.create_texture(&wgpu::TextureDescriptor {
-            label: None,
-            size: extent,
-            mip_level_count: 1,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format,
-            usage: TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_DST,
-            view_formats: &[],
-        });
-        let components = usize::from(format.components());
-        let texels = layers.iter().flat_map(Frame::texels);
-        let lanes = texels.flat_map(|t| t.to_array().into_iter().take(components));
-        let bytes: Vec<u8> = match format {
-            TextureFormat::Rgba16Float => lanes.flat_map(|v| half::f16::from_f32(v).to_le_bytes()).collect(),
-            _ => lanes.flat_map(f32::to_le_bytes).collect(),
-        };
-        let layout = wgpu::TexelCopyBufferLayout {
-            offset: 0,
-            bytes_per_row: Some(size.x * format.block_copy_size(None).unwrap_or(16)),
-            rows_per_image: Some(size.y),
-        };
-        self.queue
-            .write_texture(texture.as_image_copy(), &bytes, layout, extent);
-        texture
-    }
-
     pub(super) fn sampler(&self, state: SamplerState, compares: bool) -> wgpu::Sampler {
         let filter = if state.linear {
             wgpu::FilterMode::Linear
@@ -379,15 +295,30 @@ impl Bench {
         self.device.create_sampler(&wgpu::SamplerDescriptor {
             address_mode_u: address,
             address_mode_v: address,
+            address_mode_w: address,
             mag_filter: filter,
             min_filter: filter,
+            mipmap_filter: match state.linear_mip {
+                true => wgpu::MipmapFilterMode::Linear,
+                false => wgpu::MipmapFilterMode::Nearest,
+            },
             compare: compares.then_some(compare),
             ..Default::default()
         })
     }
 
-    pub(super) fn buffer(&self, elements: &[[f64; 4]], element: &str) -> wgpu::Buffer {
-        let bytes = convert::element_bytes(elements, element);
+    /// A storage buffer of elements, or of structures of fields.
+    pub(super) fn buffer(
+        &self,
+        elements: &[[f64; 4]],
+        element: &str,
+        fields: &[UniformField],
+        stride: u32,
+    ) -> wgpu::Buffer {
+        let bytes = match fields.is_empty() {
+            true => convert::element_bytes(elements, element),
+            false => convert::structure_bytes(elements, fields, stride),
+        };
         let buffer = self.device.create_buffer(&wgpu::BufferDescriptor {
             label: None,
             size: bytes.len() as u64,

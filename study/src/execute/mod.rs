@@ -6,11 +6,12 @@ mod forward;
 mod gpu;
 mod shadowed;
 mod synthetic;
+mod textures;
 mod tiles;
 mod timing;
 mod work;
 
-use glam::{UVec2, Vec4};
+use glam::{UVec2, UVec4, Vec4};
 use straightline_kernels::prelude::Frame;
 
 pub use cpu::{Interpreted, interpret};
@@ -28,11 +29,16 @@ pub use work::Work;
 pub struct Inputs {
     /// Width and height of the output.
     pub size: UVec2,
-    /// Images: one for a plain texture, several for layers or for the samples of a texel.
+    /// Images: one for a plain texture, several for layers, for the samples of a texel, for the slices of a volume, or for the
+    /// faces of a cube +X, -X, +Y, -Y, +Z, -Z.
     pub images: Vec<(String, Vec<Frame<Vec4>>)>,
+    /// Further levels of those images, each half as large as the one before, rounded down.
+    pub smaller: Vec<(String, Vec<Vec<Frame<Vec4>>>)>,
+    /// Images of integers by their bits, otherwise as `images`.
+    pub integers: Vec<(String, Vec<Frame<UVec4>>)>,
     /// Samplers; one that is not named filters linearly, clamps, and compares by `<=`.
     pub samplers: Vec<(String, SamplerState)>,
-    /// Elements of buffers, each in as many lanes as it has.
+    /// Elements of buffers, each in as many lanes as it has; of structures all their numbers and vectors, one after the other.
     pub buffers: Vec<(String, Vec<[f64; 4]>)>,
     /// Lanes of uniforms; one that is not named keeps its default.
     pub uniforms: Vec<(String, Vec<f64>)>,
@@ -55,6 +61,19 @@ impl Inputs {
     /// With a stack of images.
     pub fn layers(mut self, name: &str, layers: Vec<Frame<Vec4>>) -> Self {
         self.images.push((name.to_owned(), layers));
+        self
+    }
+
+    /// With a texture of several levels, the finest first, each of as many layers, or of the slices of a volume.
+    pub fn levels(mut self, name: &str, mut levels: Vec<Vec<Frame<Vec4>>>) -> Self {
+        let smaller = levels.split_off(levels.len().min(1));
+        self.smaller.push((name.to_owned(), smaller));
+        self.layers(name, levels.pop().unwrap_or_default())
+    }
+
+    /// With a stack of images of integers, by their bits.
+    pub fn integers(mut self, name: &str, layers: Vec<Frame<UVec4>>) -> Self {
+        self.integers.push((name.to_owned(), layers));
         self
     }
 

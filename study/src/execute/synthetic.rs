@@ -1,37 +1,49 @@
 //! Something for any kernel to read.
 
 use super::Inputs;
-use glam::{UVec2, Vec2, Vec3, Vec4, vec2, vec3};
-use straightline_codegen::ir::{Graph, Texture};
+use glam::{UVec2, UVec4, Vec2, Vec3, Vec4, vec2, vec3};
+use straightline_codegen::ir::{Graph, Scalar, Texture, TextureKind};
 use straightline_kernels::prelude::Frame;
 
 /// Inputs for whatever a kernel reads, the same for the same kernel and size. Textures of the output's size show a test
 /// card of edges, fine lines and noise; those of any size show it at half the resolution. What is called `depth` in some
 /// way holds distances from 1 to 8 with steps between surfaces, what is called `normal` unit vectors. Buffers hold 64
-/// numbers between 0 and 1; uniforms without a default are 1, or the identity.
+/// numbers between 0 and 1; texels of integers are those of 0 to 255; uniforms without a default are 1, or the identity.
 pub fn test_inputs(graph: &Graph, size: UVec2) -> Inputs {
     let mut inputs = Inputs::new(size);
     for texture in &graph.textures {
-        let own = if texture.framed {
-            size
-        } else {
-            (size / 2).max(UVec2::ONE)
+        let own = match texture.framed {
+            true => size,
+            false if texture.kind.is_cube() => UVec2::splat(size.min_element()),
+            false => (size / 2).max(UVec2::ONE),
         };
         let layers = (0..4).map(|k| layer(texture, own, k));
-        let layers: Vec<Frame<Vec4>> = match texture.kind.is_indexed() {
-            true => layers.chain((4..17).map(|k| layer(texture, own, k))).collect(),
-            false => layers.take(1).collect(),
-        };
-        // A texel has 4 samples, an array as many layers as any pattern and the pixel's centre.
+        // A texel has 4 samples, an array as many layers as any pattern and the pixel's centre, a cube its faces.
         let count = match texture.kind {
-            straightline_codegen::ir::TextureKind::Multisampled => 4,
-            _ => layers.len(),
+            TextureKind::Flat | TextureKind::Depth => 1,
+            TextureKind::Multisampled => 4,
+            TextureKind::Cube | TextureKind::DepthCube => 6,
+            TextureKind::Layers | TextureKind::DepthLayers | TextureKind::Volume => 17,
         };
-        inputs = inputs.layers(&texture.name, layers.into_iter().take(count).collect());
+        let layers: Vec<Frame<Vec4>> = layers
+            .chain((4..17).map(|k| layer(texture, own, k)))
+            .take(count)
+            .collect();
+        inputs = match texture.scalar {
+            Scalar::F32 => inputs.layers(&texture.name, layers),
+            _ => {
+                let bits = |t: &Vec4| UVec4::from_array(t.to_array().map(|v| (v * 255.0) as u32));
+                let integers = layers
+                    .iter()
+                    .map(|l| Frame::new(l.size(), l.texels().iter().map(bits).collect()));
+                inputs.integers(&texture.name, integers.collect())
+            }
+        };
     }
     for buffer in &graph.buffers {
         let element = |k: u32| [0, 1, 2, 3].map(|lane| f64::from(noise(k * 4 + lane)));
-        inputs = inputs.buffer(&buffer.name, (0..64).map(element).collect());
+        let values = 64 * buffer.element.values().len() as u32;
+        inputs = inputs.buffer(&buffer.name, (0..values).map(element).collect());
     }
     for uniform in graph.uniforms.iter().filter(|u| u.default.is_none()) {
         let axis = ["_x_axis", "_y_axis", "_z_axis", "_w_axis"];

@@ -6,16 +6,18 @@
 mod error;
 pub(crate) mod exr;
 pub(crate) mod layout;
+mod lut;
 mod png;
 pub mod srgb;
 
-use glam::{UVec2, Vec4};
+use glam::{UVec2, UVec4, Vec4};
 use std::path::Path;
 use straightline_codegen::files;
 use straightline_kernels::prelude::Frame;
 
 pub use error::PictureError;
 pub use layout::{detail, montage};
+pub use lut::{read_cube, strip};
 
 /// Widest and tallest picture that is read or written, in pixels.
 pub const MAX_SIDE: u32 = 16_384;
@@ -113,6 +115,21 @@ pub fn read_data(path: &Path) -> Result<Frame<Vec4>, PictureError> {
     match Format::of(path)? {
         Format::Png => png::decode_data(path),
         Format::Exr => exr::read_color(path, None),
+    }
+}
+
+/// Reads the numbers of a PNG as they are stored, 0 to 255 or to 65535; components that it lacks are 0, and alpha the largest.
+///
+/// # Errors
+///
+/// If the file cannot be read, or is no PNG.
+pub fn read_integers(path: &Path) -> Result<Frame<UVec4>, PictureError> {
+    match Format::of(path)? {
+        Format::Png => png::integers(path),
+        Format::Exr => Err(PictureError::Unusable {
+            path: path.to_owned(),
+            problem: "texels of integers are read from PNG files, as they are stored there".to_owned(),
+        }),
     }
 }
 

@@ -1,7 +1,7 @@
 //! PNG files, in sRGB.
 
 use super::{MAX_BYTES, PictureError, check_size, srgb};
-use glam::{UVec2, Vec4};
+use glam::{UVec2, UVec4, Vec4};
 use image::codecs::png::{PngDecoder, PngEncoder};
 use image::{DynamicImage, ExtendedColorType, ImageDecoder, ImageEncoder, ImageError};
 use std::io::{self, BufReader, Write};
@@ -18,8 +18,49 @@ pub(super) fn encode(path: &Path, file: &mut impl Write, frame: &Frame<Vec4>) ->
         .map_err(|error| failure("write", path, error))
 }
 
+/// Reads a PNG file as linear colour.
+pub(super) fn decode_color(path: &Path) -> Result<Frame<Vec4>, PictureError> {
+    decode(path, from_srgb)
+}
+
+/// Reads a PNG file of numbers that are no colours.
+pub(super) fn decode_data(path: &Path) -> Result<Frame<Vec4>, PictureError> {
+    decode(path, |texel| texel)
+}
+
 /// Reads a PNG file, each texel as `texel` has it of numbers between 0 and 1.
 fn decode(path: &Path, texel: fn(Vec4) -> Vec4) -> Result<Frame<Vec4>, PictureError> {
+    let (size, image) = image(path)?;
+    let texels = image
+        .into_rgba32f()
+        .pixels()
+        .map(|pixel| texel(Vec4::from_array(pixel.0)))
+        .collect();
+    Ok(Frame::new(size, texels))
+}
+
+/// Reads the numbers of a PNG file as they are stored.
+pub(super) fn integers(path: &Path) -> Result<Frame<UVec4>, PictureError> {
+    let (size, image) = image(path)?;
+    // Grey is in one component, and what the file lacks is 0.
+    let stored = image.color().has_color();
+    let texel = |[r, g, b, a]: [u32; 4]| match stored {
+        true => UVec4::new(r, g, b, a),
+        false => UVec4::new(r, 0, 0, a),
+    };
+    let deep = image.color().bytes_per_pixel() / image.color().channel_count() > 1;
+    let texels = match deep {
+        true => image
+            .into_rgba16()
+            .pixels()
+            .map(|p| texel(p.0.map(u32::from)))
+            .collect(),
+        false => image.into_rgba8().pixels().map(|p| texel(p.0.map(u32::from))).collect(),
+    };
+    Ok(Frame::new(size, texels))
+}
+
+fn image(path: &Path) -> Result<(UVec2, DynamicImage), PictureError> {
     let file = files::open(path, MAX_BYTES).map_err(|source| PictureError::Io {
         action: "read",
         path: path.to_owned(),
@@ -29,22 +70,7 @@ fn decode(path: &Path, texel: fn(Vec4) -> Vec4) -> Result<Frame<Vec4>, PictureEr
     let size = UVec2::from(decoder.dimensions());
     check_size(path, size)?;
     let image = DynamicImage::from_decoder(decoder).map_err(|error| failure("read", path, error))?;
-    let texels = image
-        .into_rgba32f()
-        .pixels()
-        .map(|pixel| texel(Vec4::from_array(pixel.0)))
-        .collect();
-    Ok(Frame::new(size, texels))
-}
-
-/// Reads a PNG file as linear colour.
-pub(super) fn decode_color(path: &Path) -> Result<Frame<Vec4>, PictureError> {
-    decode(path, from_srgb)
-}
-
-/// Reads a PNG file of numbers that are no colours.
-pub(super) fn decode_data(path: &Path) -> Result<Frame<Vec4>, PictureError> {
-    decode(path, |texel| texel)
+    Ok((size, image))
 }
 
 /// Clamped, with 0 for what is not a number. Alpha is linear.

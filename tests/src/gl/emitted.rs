@@ -4,7 +4,7 @@ use super::{Context, Program, Texture, Uniform};
 use straightline_codegen::emit::{Emitted, Target};
 use straightline_codegen::{Format, Stage};
 use straightline_kernels::prelude::{Frame, Vec4};
-use straightline_manifest::{BindingKind, Manifest, SampleType, UniformField};
+use straightline_manifest::{BindingKind, Dimension, Manifest, SampleType, UniformField};
 use straightline_study::execute::{Inputs, SamplerState};
 
 /// The picture that the text of a language of OpenGL computes, row by row from the first; pixel rows count as the kernel's do.
@@ -47,6 +47,12 @@ pub fn run(context: &Context, emitted: &Emitted, target: Target, inputs: &Inputs
                     program = program.uniform(&field.name, value(field, inputs)?);
                 }
             }
+            BindingKind::Buffer { fields, .. } if !fields.is_empty() => {
+                return Err(format!(
+                    "`{}` holds structures, which are not laid out here",
+                    binding.name
+                ));
+            }
             BindingKind::Buffer { element, .. } => {
                 let elements = inputs.buffers.iter().find(|(name, _)| *name == binding.name);
                 let (_, elements) = elements.ok_or_else(|| format!("no buffer `{}`", binding.name))?;
@@ -88,13 +94,14 @@ fn texture(
     let images = inputs.images.iter().find(|(known, _)| known == of);
     let (_, images) = images.ok_or_else(|| format!("no image `{of}`"))?;
     let bound = manifest.bindings.iter().find(|binding| binding.name == of);
-    let layered = bound.is_some_and(|binding| {
-        let dimension = |kind: &BindingKind| matches!(kind, BindingKind::Texture { dimension, .. } if *dimension == straightline_manifest::Dimension::D2Array);
-        dimension(&binding.kind)
+    let dimension = bound.and_then(|binding| match binding.kind {
+        BindingKind::Texture { dimension, .. } => Some(dimension),
+        _ => None,
     });
-    let mut texture = match layered {
-        true => Texture::array(name, images),
-        false => Texture::image(name, images.first().ok_or("an image has a layer")?),
+    let mut texture = match dimension {
+        Some(Dimension::D2Array) => Texture::array(name, images),
+        Some(Dimension::D2) => Texture::image(name, images.first().ok_or("an image has a layer")?),
+        other => return Err(format!("`{of}` is {other:?}, which is not bound here")),
     };
     if let Some(sampler) = sampler {
         let state = inputs.samplers.iter().find(|(known, _)| known == sampler);

@@ -5,7 +5,7 @@ use crate::args::{Executor, RunArgs, StageArg};
 use crate::failure::Failure;
 use glam::{UVec2, Vec4};
 use std::path::Path;
-use straightline_codegen::ir::{Graph, Texture, TextureKind};
+use straightline_codegen::ir::{Graph, Scalar, Texture, TextureKind};
 use straightline_codegen::{Compiled, shorten};
 use straightline_kernels::prelude::Frame;
 use straightline_study::execute::Inputs;
@@ -25,9 +25,22 @@ pub fn inputs(args: &RunArgs, compiled: &Compiled) -> Result<Inputs, Failure> {
     let mut inputs = Inputs::default();
     for text in &args.input {
         let (texture, path) = texture_and_path(&compiled, text)?;
-        for picture in pictures(path, texture)? {
-            put(&mut inputs, texture, picture)?;
+        for path in paths(path) {
+            match texture.scalar {
+                Scalar::F32 => {
+                    for picture in pictures(path, texture)? {
+                        put(&mut inputs.images, texture, picture)?;
+                    }
+                }
+                _ => {
+                    let picture = picture::read_integers(Path::new(path)).map_err(Failure::of)?;
+                    put(&mut inputs.integers, texture, picture)?;
+                }
+            }
         }
+    }
+    for texture in &graph.textures {
+        complete(&mut inputs, texture)?;
     }
     for (name, text) in &args.uniform {
         let Some(uniform) = graph.uniforms.iter().find(|u| u.name == *name) else {
@@ -55,7 +68,7 @@ pub fn inputs(args: &RunArgs, compiled: &Compiled) -> Result<Inputs, Failure> {
         if inputs.buffers.iter().any(|(known, _)| known == name) {
             return Err(Failure::Usage(format!("the buffer `{name}` is given twice")));
         }
-        inputs = inputs.buffer(name, values::buffer(name, buffer.element, text)?);
+        inputs = inputs.buffer(name, values::buffer(name, &buffer.element, text)?);
     }
     inputs.size = args.size.or_else(|| size(graph, &inputs)).ok_or_else(|| {
         Failure::Usage(
@@ -80,9 +93,14 @@ fn refuse_varyings(compiled: &Compiled) -> Result<(), Failure> {
 /// The size of the first picture for a texture that has the output's size, else of the first picture.
 fn size(graph: &Graph, inputs: &Inputs) -> Option<UVec2> {
     let framed = |name: &str| graph.textures.iter().any(|t| t.framed && t.name == name);
-    let images = || inputs.images.iter();
-    let chosen = images().find(|(name, _)| framed(name)).or_else(|| images().next());
-    chosen.and_then(|(_, layers)| layers.first()).map(Frame::size)
+    let sizes = |name: &String, size: Option<UVec2>| size.map(|size| (framed(name), size));
+    let images = inputs.images.iter();
+    let images = images.filter_map(|(name, layers)| sizes(name, layers.first().map(Frame::size)));
+    let integers = inputs.integers.iter();
+    let integers = integers.filter_map(|(name, layers)| sizes(name, layers.first().map(Frame::size)));
+    let all: Vec<(bool, UVec2)> = images.chain(integers).collect();
+    let chosen = all.iter().find(|(framed, _)| *framed).or_else(|| all.first());
+    chosen.map(|(_, size)| *size)
 }
 
 /// What `NAME=FILE` or `FILE` says.
@@ -122,11 +140,17 @@ fn pictures(path: &str, texture: &Texture) -> Result<Vec<Frame<Vec4>>, Failure> 
         return Ok(vec![picture::read_layer(Path::new(file), layer).map_err(Failure::of)?]);
     }
     let path = Path::new(path);
+    let table = path
+        .extension()
+        .is_some_and(|extension| extension.eq_ignore_ascii_case("cube"));
+    if table && texture.kind == TextureKind::Volume {
+        return picture::read_cube(path).map_err(Failure::of);
+    }
     let layers = picture::layers(path).map_err(Failure::of)?;
     if layers.is_empty() {
         return Ok(vec![picture::read(path).map_err(Failure::of)?]);
     }
-    if layers.len() > 1 && !texture.kind.is_indexed() {
+    if layers.len() > 1 && !takes_several(texture) {
         return Err(Failure::Usage(format!(
             "the texture `{}` takes one layer, and {} has {}: name one, as {}:{}",
             texture.name,
@@ -140,10 +164,54 @@ fn pictures(path: &str, texture: &Texture) -> Result<Vec<Frame<Vec4>>, Failure> 
     layers.iter().map(read).collect()
 }
 
-fn put(inputs: &mut Inputs, texture: &Texture, picture: Frame<Vec4>) -> Result<(), Failure> {
+/// The files of a list, unless its commas are those of one file's name.
+fn paths(text: &str) -> Vec<&str> {
+    match text.contains(',') && !Path::new(text).exists() {
+        true => text.split(',').collect(),
+        false => vec![text],
+    }
+}
+
+/// Whether several pictures make one texture.
+fn takes_several(texture: &Texture) -> bool {
+    texture.kind.is_indexed() || texture.kind.is_cube() || texture.kind == TextureKind::Volume
+}
+
+/// Takes a strip of a volume's slices apart, and refuses faces that make no cube.
+fn complete(inputs: &mut Inputs, texture: &Texture) -> Result<(), Failure> {
+    let Some((name, layers)) = inputs.images.iter_mut().find(|(name, _)| *name == texture.name) else {
+        return Ok(());
+    };
+    let size = layers.first().map_or(UVec2::ZERO, Frame::size);
+    if texture.kind == TextureKind::Volume && layers.len() == 1 {
+        *layers = picture::strip(&layers[0]).ok_or_else(|| {
+            Failure::Usage(format!(
+                "one picture of {}x{} is no volume `{name}`: give a .cube table, its slices in order, or a picture of them side by \
+                 side, as wide as its height squared",
+                size.x, size.y
+            ))
+        })?;
+    }
+    if texture.kind.is_cube() && (layers.len() != 6 || size.x != size.y) {
+        return Err(Failure::Usage(format!(
+            "`{name}` is a cube, and takes six square pictures, +X, -X, +Y, -Y, +Z, -Z, not {} of {}x{}",
+            layers.len(),
+            size.x,
+            size.y
+        )));
+    }
+    Ok(())
+}
+
+/// A picture behind those that are there of a texture.
+fn put<T: Copy>(
+    images: &mut Vec<(String, Vec<Frame<T>>)>,
+    texture: &Texture,
+    picture: Frame<T>,
+) -> Result<(), Failure> {
     let name = &texture.name;
-    match inputs.images.iter_mut().find(|(known, _)| known == name) {
-        Some((_, layers)) if TextureKind::is_indexed(texture.kind) => {
+    match images.iter_mut().find(|(known, _)| known == name) {
+        Some((_, layers)) if takes_several(texture) => {
             if layers[0].size() != picture.size() {
                 return Err(Failure::Usage(format!(
                     "the layers of `{name}` have different sizes: {} and {}",
@@ -154,7 +222,7 @@ fn put(inputs: &mut Inputs, texture: &Texture, picture: Frame<Vec4>) -> Result<(
             layers.push(picture);
         }
         Some(_) => return Err(Failure::Usage(format!("the texture `{name}` takes one picture"))),
-        None => inputs.images.push((name.clone(), vec![picture])),
+        None => images.push((name.clone(), vec![picture])),
     }
     Ok(())
 }

@@ -1,7 +1,7 @@
 //! Numbers from the command line, as uniforms and elements of buffers hold them.
 
 use crate::failure::Failure;
-use straightline_codegen::ir::{Scalar, Type};
+use straightline_codegen::ir::{Element, Scalar, Type};
 use straightline_codegen::shorten;
 
 /// The components of a uniform: as many numbers as it has, or one for all of them.
@@ -22,19 +22,33 @@ pub fn uniform(name: &str, ty: Type, text: &str) -> Result<Vec<f64>, Failure> {
     )))
 }
 
-/// The elements of a buffer.
-pub fn buffer(name: &str, element: Type, text: &str) -> Result<Vec<[f64; 4]>, Failure> {
-    let numbers = numbers(name, element, text)?;
-    let components = element.lanes() as usize;
-    if numbers.len() % components != 0 {
+/// The elements of a buffer; of structures all their numbers in order, those of vectors and arrays too.
+pub fn buffer(name: &str, element: &Element, text: &str) -> Result<Vec<[f64; 4]>, Failure> {
+    let types = element.values();
+    let components = types.iter().map(|ty| ty.lanes() as usize).sum::<usize>();
+    let texts: Vec<&str> = text.split(',').map(str::trim).collect();
+    if texts.len() % components != 0 {
+        let held = match element {
+            Element::Value(ty) => ty.in_rust(),
+            Element::Struct(of) => format!("{} of {components} numbers", of.name),
+        };
         return Err(Failure::Usage(format!(
-            "`{name}` holds {}, and {} numbers are no whole number of them",
-            element.in_rust(),
-            numbers.len()
+            "`{name}` holds {held}, and {} numbers are no whole number of them",
+            texts.len()
         )));
     }
-    let element = |c: &[f64]| std::array::from_fn(|k| c.get(k).copied().unwrap_or(0.0));
-    Ok(numbers.chunks_exact(components).map(element).collect())
+    let mut rest = texts.into_iter();
+    let mut values = Vec::new();
+    let mut types = types.into_iter().cycle();
+    while rest.len() > 0 {
+        let ty = types.next().unwrap_or(Type::F32);
+        let mut value = [0.0; 4];
+        for (slot, text) in value.iter_mut().zip(rest.by_ref().take(ty.lanes() as usize)) {
+            *slot = number(name, ty, text)?;
+        }
+        values.push(value);
+    }
+    Ok(values)
 }
 
 /// Numbers separated by commas, each of which a component of `ty` can hold.

@@ -56,7 +56,7 @@ fn has_integer(graph: &Graph, id: NodeId, to: Type, half: bool) -> bool {
 fn fits_half(graph: &Graph, id: NodeId) -> bool {
     let node = graph.node(id);
     match node.op {
-        Op::Pixel | Op::FrameSize | Op::TextureSize(_) | Op::Lane => true,
+        Op::Pixel | Op::FrameSize | Op::TextureSize(_) | Op::TextureLevels(_) | Op::TextureLayers(_) | Op::Lane => true,
         Op::Extract(_) | Op::Splat | Op::Compose | Op::Tally(_) => node.args.iter().all(|arg| fits_half(graph, *arg)),
         _ if node.ty.is_scalar() => bounds(graph, id).is_some_and(|(low, high)| low >= -65504 && high <= 65504),
         _ => false,

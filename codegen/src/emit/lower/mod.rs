@@ -12,7 +12,7 @@ use super::ast::{Block as Statements, Expr, Module, Op, Stmt, StmtKind, VarId};
 use super::names::Wanted;
 use super::tidy::simplify;
 use crate::compiled::Compiled;
-use crate::ir::{self, BinaryOp, NodeId, Origin, Scalar, TextureKind, Type};
+use crate::ir::{self, BinaryOp, NodeId, Origin, Type};
 use crate::passes::{Block, Step};
 use std::collections::HashSet;
 use webs::Webs;
@@ -193,9 +193,10 @@ impl<'g> Lowering<'g> {
             ir::Op::Tally(_) => return args.swap_remove(0),
             // Texels have four components, of which the kernel takes some.
             ir::Op::Load { texture, .. } | ir::Op::Sample { texture, .. }
-                if graph.textures[*texture as usize].kind != TextureKind::Depth && node.ty.lanes() < 4 =>
+                if !graph.textures[*texture as usize].kind.is_depth() && node.ty.lanes() < 4 =>
             {
-                let texel = Expr::new(Op::Ir(node.op.clone()), args, Type::value(Scalar::F32, 4));
+                let whole = Type::value(graph.textures[*texture as usize].scalar, 4);
+                let texel = Expr::new(Op::Ir(node.op.clone()), args, whole);
                 args = vec![texel];
                 Op::Swizzle((0..node.ty.lanes()).collect())
             }

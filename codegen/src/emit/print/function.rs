@@ -13,7 +13,7 @@ impl Wgsl<'_> {
         let r = self.resources;
         let textures = r.read.iter().map(|bound| {
             let texture = r.texture(bound.index);
-            format!("{}: {}", texture.name, wgsl::texture_type(texture.kind))
+            format!("{}: {}", texture.name, wgsl::texture_type(texture))
         });
         let samplers = r.used_samplers.iter().map(|(k, _)| {
             let sampler = r.sampler(*k);
@@ -38,7 +38,7 @@ impl Glsl<'_> {
         if self.vulkan() {
             for bound in &r.read {
                 let texture = r.texture(bound.index);
-                all.push(format!("{} {}", glsl::texture_type(texture.kind), texture.name));
+                all.push(format!("{} {}", glsl::texture_type(texture), texture.name));
             }
             for (k, _) in &r.used_samplers {
                 let sampler = r.sampler(*k);

@@ -5,7 +5,7 @@ use super::{Language, Text, commented};
 use crate::emit::Target;
 use crate::emit::ast::{Builtin, Ty};
 use crate::emit::resources::{OUTPUT, Resources, SAMPLER, UNIFORMS};
-use crate::ir::{self, Axis, BinaryOp, Direction, Scalar, TextureKind, Type, UnaryOp};
+use crate::ir::{self, Axis, BinaryOp, Direction, Element, Scalar, Texture, TextureKind, Type, UnaryOp};
 use straightline_manifest::{REGION, Stage};
 
 /// What follows a buffer's name to ask for its length.
@@ -63,7 +63,7 @@ impl<'a> Glsl<'a> {
         let uniforms = self.resources.uniforms.iter().map(|u| loose(&u.name));
         match self.vulkan() {
             true if self.is_function() => uniforms.collect(),
-            true => Vec::new(),
+            true => self.resources.structure_names(),
             false => {
                 let combined = self
                     .resources
@@ -73,6 +73,7 @@ impl<'a> Glsl<'a> {
                 combined
                     .chain(uniforms)
                     .chain(LOOSE_REGION.map(|(name, _)| name.to_owned()))
+                    .chain(self.resources.structure_names())
                     .collect()
             }
         }
@@ -84,16 +85,35 @@ impl<'a> Glsl<'a> {
             return self.combined(texture, None);
         }
         let texture = self.resources.texture(texture);
-        Text::name(format!("{}({}, {SAMPLER})", plain_sampler(texture.kind), texture.name))
+        Text::name(format!("{}({}, {SAMPLER})", plain_sampler(texture), texture.name))
     }
 
     /// A texture with a sampler of the kernel's.
-    fn through(&self, kind: &str, texture: u32, sampler: u32) -> Text {
+    fn through(&self, texture: u32, sampler: u32) -> Text {
         if !self.vulkan() {
             return self.combined(texture, Some(sampler));
         }
-        let texture = &self.resources.texture(texture).name;
-        Text::name(format!("{kind}({texture}, {})", self.resources.sampler(sampler).name))
+        let (texture, sampler) = (self.resources.texture(texture), self.resources.sampler(sampler));
+        let kind = sampler_of(texture, sampler.comparison);
+        Text::name(format!("{kind}({}, {})", texture.name, sampler.name))
+    }
+
+    /// A place with the layer and the reference behind it, in one vector, and what else there is; and how many components the
+    /// vector has.
+    fn packed(&self, texture: u32, args: &[Text], compares: bool) -> (Text, usize) {
+        let kind = self.resources.texture(texture).kind;
+        let layers = usize::from(kind.has_layers());
+        let parts = 1 + layers + usize::from(compares);
+        let components = usize::from(kind.place().lanes()) + parts - 1;
+        if parts == 1 {
+            return (args[0].clone(), components);
+        }
+        let mut all = args[..parts].to_vec();
+        if layers == 1 {
+            all[1] = Text::call("float", &[&all[1]]);
+        }
+        let all: Vec<&Text> = all.iter().collect();
+        (Text::call(&format!("vec{components}"), &all), components)
     }
 
     /// `layout(set = 0, binding = N)`, with what else a layout says, as far as the version knows of bindings.
@@ -110,11 +130,22 @@ impl<'a> Glsl<'a> {
     pub(super) fn buffers(&self) -> String {
         let r = self.resources;
         let each = r.read_buffers.iter().map(|(k, binding)| {
-            let (name, element) = (&r.buffer(*k).name, type_name(r.buffer(*k).element.into()));
+            let name = &r.buffer(*k).name;
+            let element = match &r.buffer(*k).element {
+                Element::Value(ty) => type_name((*ty).into()),
+                Element::Struct(structure) => structure.name.clone(),
+            };
             let layout = self.layout(*binding, "std430, ", "");
             format!("{layout}readonly buffer {name}_buffer {{ {element} elements[]; }} {name};\n")
         });
-        each.collect()
+        let structures = r.structures().into_iter().map(|structure| {
+            let fields = structure
+                .fields
+                .iter()
+                .map(|f| format!("    {};\n", declared(&f.name, f.ty.into())));
+            format!("\nstruct {} {{\n{}}};\n\n", structure.name, fields.collect::<String>())
+        });
+        structures.collect::<String>() + &each.collect::<String>()
     }
 
     /// The image that is written; of a fragment what is interpolated, with locations or not, and the colour.
@@ -143,12 +174,34 @@ pub fn loose(name: &str) -> String {
     }
 }
 
-pub(super) fn plain_sampler(kind: TextureKind) -> &'static str {
+/// What a kind of texture is called behind `sampler` and `texture`.
+pub fn shape(kind: TextureKind) -> &'static str {
     match kind {
-        TextureKind::Flat | TextureKind::Depth => "sampler2D",
-        TextureKind::Layers => "sampler2DArray",
-        TextureKind::Multisampled => "sampler2DMS",
+        TextureKind::Flat | TextureKind::Depth => "2D",
+        TextureKind::Layers | TextureKind::DepthLayers => "2DArray",
+        TextureKind::Volume => "3D",
+        TextureKind::Cube | TextureKind::DepthCube => "Cube",
+        TextureKind::Multisampled => "2DMS",
     }
+}
+
+/// What types of integers begin with.
+fn prefix(scalar: Scalar) -> &'static str {
+    match scalar {
+        Scalar::I32 => "i",
+        Scalar::U32 => "u",
+        Scalar::F32 | Scalar::Bool => "",
+    }
+}
+
+pub(super) fn plain_sampler(texture: &Texture) -> String {
+    format!("{}sampler{}", prefix(texture.scalar), shape(texture.kind))
+}
+
+/// The type of a texture with a sampler that compares or not.
+pub(super) fn sampler_of(texture: &Texture, compares: bool) -> String {
+    let shadow = if compares { "Shadow" } else { "" };
+    plain_sampler(texture) + shadow
 }
 
 impl Language for Glsl<'_> {
@@ -207,25 +260,41 @@ impl Language for Glsl<'_> {
                 let name = self.unfiltered(*texture);
                 match self.resources.texture(*texture).kind {
                     TextureKind::Multisampled => Text::call("textureSize", &[&name]),
-                    TextureKind::Layers => Text::member(&Text::call("textureSize", &[&name, &zero]), "xy"),
+                    TextureKind::Layers | TextureKind::DepthLayers => {
+                        Text::member(&Text::call("textureSize", &[&name, &zero]), "xy")
+                    }
                     _ => Text::call("textureSize", &[&name, &zero]),
                 }
             }
+            ir::Op::TextureLevels(texture) => Text::call("textureQueryLevels", &[&self.unfiltered(*texture)]),
+            ir::Op::TextureLayers(texture) => {
+                Text::member(&Text::call("textureSize", &[&self.unfiltered(*texture), &zero]), "z")
+            }
             ir::Op::Load { texture, .. } => {
-                let entry = self.resources.texture(*texture);
+                let kind = self.resources.texture(*texture).kind;
                 let name = self.unfiltered(*texture);
-                match (args, entry.kind) {
-                    ([coord, sample], TextureKind::Multisampled) => Text::call("texelFetch", &[&name, coord, sample]),
-                    ([coord, layer], _) => {
-                        let coord = Text::call("ivec3", &[coord, layer]);
-                        Text::call("texelFetch", &[&name, &coord, &zero])
+                if kind == TextureKind::Multisampled {
+                    return Text::call("texelFetch", &[&name, &args[0], &args[1]]);
+                }
+                let indexed = usize::from(kind.is_indexed());
+                let level = args.get(1 + indexed).unwrap_or(&zero);
+                match indexed {
+                    0 => Text::call("texelFetch", &[&name, &args[0], level]),
+                    _ => {
+                        let coord = Text::call("ivec3", &[&args[0], &args[1]]);
+                        Text::call("texelFetch", &[&name, &coord, level])
                     }
-                    _ => Text::call("texelFetch", &[&name, &args[0], &zero]),
                 }
             }
             ir::Op::Sample { texture, sampler, .. } => {
-                let through = self.through("sampler2D", *texture, *sampler);
-                Text::call("textureLod", &[&through, &args[0], &Text::name("0.0")])
+                let through = self.through(*texture, *sampler);
+                let (place, _) = self.packed(*texture, args, false);
+                let layers = usize::from(self.resources.texture(*texture).kind.has_layers());
+                match &args[1 + layers..] {
+                    [] => Text::call("textureLod", &[&through, &place, &Text::name("0.0")]),
+                    [level] => Text::call("textureLod", &[&through, &place, level]),
+                    [across, down, ..] => Text::call("textureGrad", &[&through, &place, across, down]),
+                }
             }
             ir::Op::Gather {
                 texture,
@@ -233,21 +302,31 @@ impl Language for Glsl<'_> {
                 component,
                 ..
             } => {
-                let through = self.through("sampler2D", *texture, *sampler);
+                let through = self.through(*texture, *sampler);
                 Text::call(GATHER, &[&through, &args[0], &Text::name(component.to_string())])
             }
             ir::Op::Compare { texture, sampler, .. } => {
-                let through = self.through("sampler2DShadow", *texture, *sampler);
-                let place = Text::call("vec3", &[&args[0], &args[1]]);
-                Text::call("textureLod", &[&through, &place, &Text::name("0.0")])
+                let through = self.through(*texture, *sampler);
+                let (place, components) = self.packed(*texture, args, true);
+                if components == 3 {
+                    return Text::call("textureLod", &[&through, &place, &Text::name("0.0")]);
+                }
+                // No `textureLod` takes these; steps of no length are those of the finest level.
+                let step = Text::name(match self.resources.texture(*texture).kind.place().lanes() {
+                    2 => "vec2(0.0)",
+                    _ => "vec3(0.0)",
+                });
+                Text::call("textureGrad", &[&through, &place, &step, &step])
             }
             ir::Op::GatherCompare { texture, sampler, .. } => {
-                let through = self.through("sampler2DShadow", *texture, *sampler);
+                let through = self.through(*texture, *sampler);
                 Text::call(GATHER, &[&through, &args[0], &args[1]])
             }
-            ir::Op::BufferLoad { buffer, .. } => {
-                let elements = Text::name(format!("{}.elements", self.resources.buffer(*buffer).name));
-                Text::index(&elements, &args[0])
+            ir::Op::BufferLoad { buffer, field, .. } => {
+                let buffer = self.resources.buffer(*buffer);
+                let elements = Text::name(format!("{}.elements", buffer.name));
+                let element = Text::index(&elements, &args[0]);
+                super::part(&element, &buffer.element, *field, args.get(1))
             }
             ir::Op::BufferLen(buffer) => {
                 let length = Text::name(format!("{}{LENGTH}", self.resources.buffer(*buffer).name));
@@ -386,12 +465,8 @@ pub(super) fn sampler_type(comparison: bool) -> &'static str {
     }
 }
 
-pub(super) fn texture_type(kind: TextureKind) -> &'static str {
-    match kind {
-        TextureKind::Flat | TextureKind::Depth => "texture2D",
-        TextureKind::Layers => "texture2DArray",
-        TextureKind::Multisampled => "texture2DMS",
-    }
+pub(super) fn texture_type(texture: &Texture) -> String {
+    format!("{}texture{}", prefix(texture.scalar), shape(texture.kind))
 }
 
 /// A type as GLSL spells it.

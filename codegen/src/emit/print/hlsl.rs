@@ -4,7 +4,7 @@ use super::expr::{float, integer, unsigned};
 use super::{Language, Text, commented, loose};
 use crate::emit::ast::{Builtin, Expr, Module, Op, Ty};
 use crate::emit::resources::{OUTPUT, Resources, UNIFORMS};
-use crate::ir::{self, Axis, BinaryOp, Direction, Scalar, TextureKind, Type, UnaryOp};
+use crate::ir::{self, Axis, BinaryOp, Direction, Element, Scalar, Texture, TextureKind, Type, UnaryOp};
 use straightline_manifest::{Format, REGION, Stage};
 
 /// HLSL.
@@ -18,6 +18,8 @@ pub struct Hlsl<'a> {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Size {
     Texture(u32),
+    Levels(u32),
+    Layers(u32),
     Buffer(u32),
     Output,
 }
@@ -26,6 +28,8 @@ impl Size {
     fn of(op: &Op) -> Option<Size> {
         match op {
             Op::Ir(ir::Op::TextureSize(texture)) => Some(Size::Texture(*texture)),
+            Op::Ir(ir::Op::TextureLevels(texture)) => Some(Size::Levels(*texture)),
+            Op::Ir(ir::Op::TextureLayers(texture)) => Some(Size::Layers(*texture)),
             Op::Ir(ir::Op::BufferLen(buffer)) => Some(Size::Buffer(*buffer)),
             Op::Builtin(Builtin::OutputSize) => Some(Size::Output),
             _ => None,
@@ -51,6 +55,7 @@ impl<'a> Hlsl<'a> {
     /// Names at module scope, or of parameters, that this language adds.
     pub fn names(&self) -> Vec<String> {
         let mut names: Vec<String> = self.sizes.iter().map(|size| self.size_of(*size)).collect();
+        names.extend(self.resources.structure_names());
         if self.is_function() {
             names.extend(self.resources.uniforms.iter().map(|u| loose(&u.name)));
         }
@@ -64,19 +69,23 @@ impl<'a> Hlsl<'a> {
     /// What tells the size of something.
     fn ask(&self, size: Size) -> Text {
         let name = match size {
-            Size::Texture(texture) => &self.resources.texture(texture).name,
+            Size::Texture(texture) | Size::Levels(texture) | Size::Layers(texture) => {
+                &self.resources.texture(texture).name
+            }
             Size::Buffer(buffer) => &self.resources.buffer(buffer).name,
             Size::Output => OUTPUT,
         };
-        match self.is_function() {
-            true => Text::call(&self.size_of(size), &[&Text::name(name)]),
-            false => Text::call(&self.size_of(size), &[]),
-        }
+        let name = Text::name(name);
+        let given = self.is_function().then_some(&name);
+        Text::call(&self.size_of(size), &given.into_iter().collect::<Vec<_>>())
     }
 
     fn size_of(&self, size: Size) -> String {
+        let name = |texture: u32| &self.resources.texture(texture).name;
         match size {
-            Size::Texture(texture) => format!("size_of_{}", self.resources.texture(texture).name),
+            Size::Texture(texture) => format!("size_of_{}", name(texture)),
+            Size::Levels(texture) => format!("levels_of_{}", name(texture)),
+            Size::Layers(texture) => format!("layers_of_{}", name(texture)),
             Size::Buffer(buffer) => format!("len_of_{}", self.resources.buffer(buffer).name),
             Size::Output => format!("size_of_{OUTPUT}"),
         }
@@ -86,32 +95,57 @@ impl<'a> Hlsl<'a> {
     fn asks(&self, size: Size) -> String {
         let name = self.size_of(size);
         let taken = match (self.is_function(), size) {
-            (true, Size::Texture(texture)) => texture_declared(self.resources, texture),
-            (true, Size::Buffer(buffer)) => buffer_declared(self.resources, buffer),
-            _ => String::new(),
-        };
-        let two = "uint width, height";
-        let (what, variables, arguments) = match size {
-            Size::Output => (OUTPUT, two, "width, height"),
-            Size::Buffer(buffer) => {
-                let buffer = &self.resources.buffer(buffer).name;
-                return format!(
-                    "int {name}({taken}) {{\n    uint count, stride;\n    {buffer}.GetDimensions(count, stride);\n    return int(count);\n}}\n"
-                );
+            (false, _) | (_, Size::Output) => None,
+            (_, Size::Buffer(buffer)) => Some(buffer_declared(self.resources, buffer)),
+            (_, Size::Texture(texture) | Size::Levels(texture) | Size::Layers(texture)) => {
+                Some(texture_declared(self.resources, texture))
             }
-            Size::Texture(texture) => {
+        };
+        let taken = taken.unwrap_or_default();
+        let (what, mut variables, result) = match size {
+            Size::Output => (OUTPUT, vec!["width", "height"], "int2(width, height)"),
+            Size::Buffer(buffer) => (
+                self.resources.buffer(buffer).name.as_str(),
+                vec!["count", "stride"],
+                "int(count)",
+            ),
+            Size::Texture(texture) | Size::Levels(texture) | Size::Layers(texture) => {
                 let texture = self.resources.texture(texture);
-                let (variables, arguments) = match texture.kind {
-                    TextureKind::Flat | TextureKind::Depth => (two, "width, height"),
-                    TextureKind::Layers => ("uint width, height, layers", "width, height, layers"),
-                    TextureKind::Multisampled => ("uint width, height, samples", "width, height, samples"),
+                let mut variables = vec!["width", "height"];
+                variables.extend(match texture.kind {
+                    TextureKind::Volume => Some("depth"),
+                    TextureKind::Layers | TextureKind::DepthLayers => Some("layers"),
+                    TextureKind::Multisampled => Some("samples"),
+                    TextureKind::Flat | TextureKind::Depth | TextureKind::Cube | TextureKind::DepthCube => None,
+                });
+                let result = match (size, texture.kind) {
+                    (Size::Levels(_), _) => "int(levels)",
+                    (Size::Layers(_), _) => "int(layers)",
+                    (_, TextureKind::Volume) => "int3(width, height, depth)",
+                    _ => "int2(width, height)",
                 };
-                (texture.name.as_str(), variables, arguments)
+                (texture.name.as_str(), variables, result)
             }
         };
+        let level = matches!(size, Size::Levels(_)).then_some("0");
+        if level.is_some() {
+            variables.push("levels");
+        }
+        let ty = result.split('(').next().unwrap_or_default();
+        let arguments: Vec<&str> = level.into_iter().chain(variables.iter().copied()).collect();
         format!(
-            "int2 {name}({taken}) {{\n    {variables};\n    {what}.GetDimensions({arguments});\n    return int2(width, height);\n}}\n"
+            "{ty} {name}({taken}) {{\n    uint {};\n    {what}.GetDimensions({});\n    return {result};\n}}\n",
+            variables.join(", "),
+            arguments.join(", ")
         )
+    }
+
+    /// A place with the layer behind it, in one vector.
+    fn packed(&self, texture: u32, args: &[Text]) -> Text {
+        match self.resources.texture(texture).kind.has_layers() {
+            true => Text::call("float3", &[&args[0], &Text::call("float", &[&args[1]])]),
+            false => args[0].clone(),
+        }
     }
 
     /// A method of a texture, with a sampler.
@@ -170,18 +204,31 @@ impl Language for Hlsl<'_> {
             ir::Op::Uniform(k) => Text::name(format!("{UNIFORMS}.{}", r.uniform(*k))),
             ir::Op::Varying(k) => Text::name(r.varying(*k)),
             ir::Op::TextureSize(texture) => self.ask(Size::Texture(*texture)),
+            ir::Op::TextureLevels(texture) => self.ask(Size::Levels(*texture)),
+            ir::Op::TextureLayers(texture) => self.ask(Size::Layers(*texture)),
             ir::Op::BufferLen(buffer) => self.ask(Size::Buffer(*buffer)),
             ir::Op::Load { texture, .. } => {
                 let texture = r.texture(*texture);
                 let load = format!("{}.Load", texture.name);
-                match (args, texture.kind) {
-                    ([coord, sample], TextureKind::Multisampled) => Text::call(&load, &[coord, sample]),
-                    ([coord, layer], _) => Text::call(&load, &[&Text::call("int4", &[coord, layer, &zero])]),
-                    _ => Text::call(&load, &[&Text::call("int3", &[&args[0], &zero])]),
+                if texture.kind == TextureKind::Multisampled {
+                    return Text::call(&load, &[&args[0], &args[1]]);
                 }
+                let levelled = args.len() > 1 + usize::from(texture.kind.is_indexed());
+                let mut parts: Vec<&Text> = args.iter().collect();
+                if !levelled {
+                    parts.push(&zero);
+                }
+                let lanes = usize::from(texture.kind.dimensions()) + parts.len() - 1;
+                Text::call(&load, &[&Text::call(&format!("int{lanes}"), &parts)])
             }
             ir::Op::Sample { texture, sampler, .. } => {
-                self.sampled(*texture, "SampleLevel", *sampler, &[&args[0], &Text::name("0.0")])
+                let place = self.packed(*texture, args);
+                let layers = usize::from(r.texture(*texture).kind.has_layers());
+                match &args[1 + layers..] {
+                    [] => self.sampled(*texture, "SampleLevel", *sampler, &[&place, &Text::name("0.0")]),
+                    [level] => self.sampled(*texture, "SampleLevel", *sampler, &[&place, level]),
+                    [across, down, ..] => self.sampled(*texture, "SampleGrad", *sampler, &[&place, across, down]),
+                }
             }
             ir::Op::Gather {
                 texture,
@@ -193,12 +240,23 @@ impl Language for Hlsl<'_> {
                 self.sampled(*texture, method, *sampler, &[&args[0]])
             }
             ir::Op::Compare { texture, sampler, .. } => {
-                self.sampled(*texture, "SampleCmpLevelZero", *sampler, &[&args[0], &args[1]])
+                let place = self.packed(*texture, args);
+                let reference = args.last().unwrap_or(&zero);
+                self.sampled(*texture, "SampleCmpLevelZero", *sampler, &[&place, reference])
             }
             ir::Op::GatherCompare { texture, sampler, .. } => {
                 self.sampled(*texture, "GatherCmp", *sampler, &[&args[0], &args[1]])
             }
-            ir::Op::BufferLoad { buffer, .. } => Text::index(&Text::name(r.buffer(*buffer).name.as_str()), &args[0]),
+            ir::Op::BufferLoad { buffer, field, .. } => {
+                let buffer = r.buffer(*buffer);
+                let element = Text::index(&Text::name(buffer.name.as_str()), &args[0]);
+                let part = super::part(&element, &buffer.element, *field, args.get(1));
+                match (buffer.element.field(*field), args.len()) {
+                    // Its elements take the room of four.
+                    (Some(ty), 2) if ty.lanes() == 3 => Text::member(&part, "xyz"),
+                    _ => part,
+                }
+            }
             ir::Op::Message(direction) => {
                 let function = match direction {
                     Direction::Horizontal => "QuadReadAcrossX",
@@ -287,6 +345,7 @@ impl Language for Hlsl<'_> {
         let mut out = String::new();
         out += &commented(header);
         out.push('\n');
+        out += &structures(r);
         if self.is_function() {
             for size in &self.sizes {
                 out += &format!("{}\n", self.asks(*size));
@@ -360,12 +419,16 @@ impl Language for Hlsl<'_> {
 
 pub(super) fn texture_declared(resources: &Resources, index: u32) -> String {
     let texture = resources.texture(index);
-    format!("{} {}", texture_type(texture.kind), texture.name)
+    format!("{} {}", texture_type(texture), texture.name)
 }
 
 pub(super) fn buffer_declared(resources: &Resources, index: u32) -> String {
     let buffer = resources.buffer(index);
-    format!("StructuredBuffer<{}> {}", type_name(buffer.element.into()), buffer.name)
+    let element = match &buffer.element {
+        Element::Value(ty) => type_name((*ty).into()),
+        Element::Struct(structure) => structure.name.clone(),
+    };
+    format!("StructuredBuffer<{element}> {}", buffer.name)
 }
 
 pub(super) fn sampler_declared(resources: &Resources, index: u32) -> String {
@@ -375,6 +438,34 @@ pub(super) fn sampler_declared(resources: &Resources, index: u32) -> String {
         false => "SamplerState",
     };
     format!("{ty} {}", sampler.name)
+}
+
+/// Structures of buffers, with padding where the language would pack them closer than the buffer has them: it knows no
+/// alignment but that of a number.
+fn structures(resources: &Resources) -> String {
+    let mut out = String::new();
+    for structure in resources.structures() {
+        out += &format!("struct {} {{\n", structure.name);
+        let mut at = 0;
+        let pad = |out: &mut String, at: &mut u32, to: u32| {
+            while *at < to {
+                *out += &format!("    uint padding_{at};\n");
+                *at += 4;
+            }
+        };
+        for field in &structure.fields {
+            pad(&mut out, &mut at, field.offset);
+            let ty = match field.ty {
+                Type::Array { scalar, lanes: 3, len } => Type::Array { scalar, lanes: 4, len },
+                other => other,
+            };
+            out += &format!("    {};\n", declared(&field.name, ty.into()));
+            at = field.offset + field.ty.layout().1;
+        }
+        pad(&mut out, &mut at, structure.stride());
+        out += "};\n\n";
+    }
+    out
 }
 
 /// Members of the uniform struct, with padding where the language would pack them closer than the buffer has them.
@@ -405,13 +496,16 @@ pub(super) fn declared(name: &str, ty: Ty) -> String {
     }
 }
 
-fn texture_type(kind: TextureKind) -> &'static str {
-    match kind {
-        TextureKind::Flat => "Texture2D<float4>",
-        TextureKind::Layers => "Texture2DArray<float4>",
-        TextureKind::Multisampled => "Texture2DMS<float4>",
-        TextureKind::Depth => "Texture2D<float>",
-    }
+fn texture_type(texture: &Texture) -> String {
+    let shape = match texture.kind {
+        TextureKind::Flat | TextureKind::Depth => "2D",
+        TextureKind::Layers | TextureKind::DepthLayers => "2DArray",
+        TextureKind::Volume => "3D",
+        TextureKind::Cube | TextureKind::DepthCube => "Cube",
+        TextureKind::Multisampled => "2DMS",
+    };
+    let texel = Type::value(texture.scalar, if texture.kind.is_depth() { 1 } else { 4 });
+    format!("Texture{shape}<{}>", type_name(texel.into()))
 }
 
 /// A type as HLSL spells it.

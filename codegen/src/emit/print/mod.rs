@@ -23,6 +23,11 @@ pub fn glsl_type(ty: Ty) -> String {
     glsl::type_name(ty)
 }
 
+/// What GLSL calls a kind of texture, behind `texture` and `sampler`.
+pub fn glsl_shape(kind: ir::TextureKind) -> &'static str {
+    glsl::shape(kind)
+}
+
 /// A type as HLSL spells it.
 pub fn hlsl_type(ty: Ty) -> String {
     hlsl::type_name(ty)
@@ -31,6 +36,16 @@ pub fn hlsl_type(ty: Ty) -> String {
 /// A type as WGSL spells it.
 pub fn wgsl_type(ty: Ty) -> String {
     wgsl::type_name(ty)
+}
+
+/// A part of an element of a buffer.
+fn part(element: &Text, of: &ir::Element, field: u32, within: Option<&Text>) -> Text {
+    let ir::Element::Struct(of) = of else {
+        return element.clone();
+    };
+    let name = of.fields.get(field as usize).map_or("", |field| field.name.as_str());
+    let field = Text::member(element, name);
+    within.map_or(field.clone(), |within| Text::index(&field, within))
 }
 
 /// Columns of a scalar constant.

@@ -1,36 +1,32 @@
 //! What GLSL of OpenGL and OpenGL ES declares: combined samplers, loose uniforms, precisions.
 
-use super::glsl::{Glsl, LOOSE_REGION, declared, loose, plain_sampler};
+use super::glsl::{Glsl, LOOSE_REGION, declared, loose, sampler_of};
 use crate::emit::Target;
 use crate::emit::resources::Combined;
-use crate::ir::TextureKind;
 
 impl Glsl<'_> {
     /// Types that have no precision of their own in OpenGL ES.
-    pub(super) fn opaque(&self) -> Vec<&'static str> {
+    pub(super) fn opaque(&self) -> Vec<String> {
         let r = self.resources;
-        let kinds = |kind: TextureKind| r.combined.iter().any(|one| r.texture(one.texture).kind == kind);
-        let compares = r
-            .combined
-            .iter()
-            .any(|one| one.sampler.is_some_and(|s| r.sampler(s).comparison));
-        let all = [
-            (kinds(TextureKind::Flat) || kinds(TextureKind::Depth), "sampler2D"),
-            (kinds(TextureKind::Layers), "sampler2DArray"),
-            (kinds(TextureKind::Multisampled), "sampler2DMS"),
-            (compares, "sampler2DShadow"),
-            (r.output_binding().is_some(), "image2D"),
-        ];
-        all.into_iter().filter(|(used, _)| *used).map(|(_, ty)| ty).collect()
+        let mut all: Vec<String> = Vec::new();
+        for ty in r.combined.iter().map(|one| self.combined_type(*one)) {
+            if !all.contains(&ty) {
+                all.push(ty);
+            }
+        }
+        // In one order, whatever is read first.
+        all.sort_by_key(|ty| (ty.ends_with("Shadow"), ty.len(), ty.clone()));
+        if r.output_binding().is_some() {
+            all.push("image2D".to_owned());
+        }
+        all
     }
 
     /// The type of a combined sampler.
-    pub(super) fn combined_type(&self, one: Combined) -> &'static str {
+    pub(super) fn combined_type(&self, one: Combined) -> String {
         let r = self.resources;
-        match one.sampler.is_some_and(|s| r.sampler(s).comparison) {
-            true => "sampler2DShadow",
-            false => plain_sampler(r.texture(one.texture).kind),
-        }
+        let compares = one.sampler.is_some_and(|s| r.sampler(s).comparison);
+        sampler_of(r.texture(one.texture), compares)
     }
 
     /// What is bound in OpenGL.

@@ -11,7 +11,7 @@ impl Glsl<'_> {
         let mut out = String::new();
         for bound in &r.read {
             let texture = r.texture(bound.index);
-            let (layout, ty) = (self.layout(bound.binding, "", ""), texture_type(texture.kind));
+            let (layout, ty) = (self.layout(bound.binding, "", ""), texture_type(texture));
             out += &format!("{layout}uniform {ty} {};\n", texture.name);
         }
         out += &self.buffers();

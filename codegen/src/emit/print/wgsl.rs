@@ -4,7 +4,7 @@ use super::expr::{float, integer, unsigned};
 use super::{Language, Text, commented, loose};
 use crate::emit::ast::{Builtin, Ty};
 use crate::emit::resources::{OUTPUT, Resources, UNIFORMS};
-use crate::ir::{self, Axis, BinaryOp, Direction, Scalar, TextureKind, Type};
+use crate::ir::{self, Axis, BinaryOp, Direction, Element, Scalar, Texture, TextureKind, Type};
 use std::fmt::Write;
 use straightline_manifest::{Precision, REGION, Stage};
 
@@ -20,14 +20,20 @@ impl Wgsl<'_> {
         let sampler = self.resources.sampler(sampler).name.as_str();
         [texture, sampler].map(Text::name)
     }
+
+    /// How many levels or layers a texture has.
+    fn count(&self, function: &str, texture: u32) -> Text {
+        let name = Text::name(self.resources.texture(texture).name.as_str());
+        Text::call("i32", &[&Text::call(function, &[&name])])
+    }
 }
 
 impl Wgsl<'_> {
-    /// Names of parameters that are fields of a uniform struct otherwise.
+    /// Names at module scope that this language adds, or of parameters that are fields of a uniform struct otherwise.
     pub fn names(&self) -> Vec<String> {
         match self.resources.options.is_function() {
             true => self.resources.uniforms.iter().map(|u| loose(&u.name)).collect(),
-            false => Vec::new(),
+            false => self.resources.structure_names(),
         }
     }
 }
@@ -67,21 +73,34 @@ impl Language for Wgsl<'_> {
             ir::Op::Varying(k) => Text::name(self.resources.varying(*k)),
             ir::Op::TextureSize(texture) => {
                 let name = Text::name(self.resources.texture(*texture).name.as_str());
-                Text::call("vec2i", &[&Text::call("textureDimensions", &[&name])])
+                let ty = type_name(self.resources.texture(*texture).kind.coordinate().into());
+                Text::call(&ty, &[&Text::call("textureDimensions", &[&name])])
             }
+            ir::Op::TextureLevels(texture) => self.count("textureNumLevels", *texture),
+            ir::Op::TextureLayers(texture) => self.count("textureNumLayers", *texture),
             ir::Op::Load { texture, .. } => {
                 let texture = self.resources.texture(*texture);
                 let (name, level) = (Text::name(texture.name.as_str()), Text::name("0"));
                 let mut all = vec![&name];
                 all.extend(args);
-                if texture.kind != TextureKind::Multisampled {
+                let levelled = args.len() > 1 + usize::from(texture.kind.is_indexed());
+                if texture.kind != TextureKind::Multisampled && !levelled {
                     all.push(&level);
                 }
                 Text::call("textureLoad", &all)
             }
             ir::Op::Sample { texture, sampler, .. } => {
+                let behind = args.len() - usize::from(self.resources.texture(*texture).kind.has_layers());
                 let [name, sampler] = self.pair(*texture, *sampler);
-                Text::call("textureSampleLevel", &[&name, &sampler, &args[0], &Text::name("0.0")])
+                let finest = Text::name("0.0");
+                let mut all = vec![&name, &sampler];
+                all.extend(args);
+                match behind {
+                    1 => all.push(&finest),
+                    2 => {}
+                    _ => return Text::call("textureSampleGrad", &all),
+                }
+                Text::call("textureSampleLevel", &all)
             }
             ir::Op::Gather {
                 texture,
@@ -95,14 +114,17 @@ impl Language for Wgsl<'_> {
             }
             ir::Op::Compare { texture, sampler, .. } => {
                 let [texture, sampler] = self.pair(*texture, *sampler);
-                Text::call("textureSampleCompareLevel", &[&texture, &sampler, &args[0], &args[1]])
+                let all: Vec<&Text> = [&texture, &sampler].into_iter().chain(args).collect();
+                Text::call("textureSampleCompareLevel", &all)
             }
             ir::Op::GatherCompare { texture, sampler, .. } => {
                 let [texture, sampler] = self.pair(*texture, *sampler);
                 Text::call("textureGatherCompare", &[&texture, &sampler, &args[0], &args[1]])
             }
-            ir::Op::BufferLoad { buffer, .. } => {
-                Text::index(&Text::name(self.resources.buffer(*buffer).name.as_str()), &args[0])
+            ir::Op::BufferLoad { buffer, field, .. } => {
+                let buffer = self.resources.buffer(*buffer);
+                let element = Text::index(&Text::name(buffer.name.as_str()), &args[0]);
+                super::part(&element, &buffer.element, *field, args.get(1))
             }
             ir::Op::BufferLen(buffer) => {
                 let name = Text::name(format!("&{}", self.resources.buffer(*buffer).name));
@@ -205,20 +227,27 @@ impl Language for Wgsl<'_> {
         }
         out += &commented(header);
         out.push('\n');
+        for structure in r.structures() {
+            out += &format!("struct {} {{\n", structure.name);
+            for field in &structure.fields {
+                out += &format!("    {}: {},\n", field.name, type_name(field.ty.into()));
+            }
+            out += "}\n\n";
+        }
         let group = r.places.group();
         let mut bind = |binding: u32, what: String| {
             let _ = writeln!(out, "@group({group}) @binding({binding}) var{what};");
         };
         for bound in &r.read {
             let texture = r.texture(bound.index);
-            bind(
-                bound.binding,
-                format!(" {}: {}", texture.name, texture_type(texture.kind)),
-            );
+            bind(bound.binding, format!(" {}: {}", texture.name, texture_type(texture)));
         }
         for (k, binding) in &r.read_buffers {
             let buffer = r.buffer(*k);
-            let element = type_name(buffer.element.into());
+            let element = match &buffer.element {
+                Element::Value(ty) => type_name((*ty).into()),
+                Element::Struct(structure) => structure.name.clone(),
+            };
             bind(*binding, format!("<storage, read> {}: array<{element}>", buffer.name));
         }
         for (k, binding) in &r.used_samplers {
@@ -280,13 +309,18 @@ pub(super) fn sampler_type(comparison: bool) -> &'static str {
     }
 }
 
-pub(super) fn texture_type(kind: TextureKind) -> &'static str {
-    match kind {
-        TextureKind::Flat => "texture_2d<f32>",
-        TextureKind::Layers => "texture_2d_array<f32>",
-        TextureKind::Multisampled => "texture_multisampled_2d<f32>",
-        TextureKind::Depth => "texture_depth_2d",
-    }
+pub(super) fn texture_type(texture: &Texture) -> String {
+    let shape = match texture.kind {
+        TextureKind::Flat => "2d",
+        TextureKind::Layers => "2d_array",
+        TextureKind::Volume => "3d",
+        TextureKind::Cube => "cube",
+        TextureKind::Multisampled => "multisampled_2d",
+        TextureKind::Depth => return "texture_depth_2d".to_owned(),
+        TextureKind::DepthLayers => return "texture_depth_2d_array".to_owned(),
+        TextureKind::DepthCube => return "texture_depth_cube".to_owned(),
+    };
+    format!("texture_{shape}<{}>", texture.scalar)
 }
 
 /// A type as WGSL spells it.

@@ -66,7 +66,15 @@ impl Columns<'_> {
                     call(29 + self.texture(*texture) + self.sampler(*sampler))
                 }
                 ir::Op::TextureSize(texture) => 26 + self.texture(*texture),
-                ir::Op::BufferLoad { buffer, .. } => args + 2 + self.graph.buffers[*buffer as usize].name.len(),
+                ir::Op::TextureLevels(texture) | ir::Op::TextureLayers(texture) => 23 + self.texture(*texture),
+                ir::Op::BufferLoad { buffer, field, .. } => {
+                    let buffer = &self.graph.buffers[*buffer as usize];
+                    let field = match &buffer.element {
+                        ir::Element::Value(_) => 0,
+                        ir::Element::Struct(of) => of.fields.get(*field as usize).map_or(0, |f| f.name.len() + 1),
+                    };
+                    args + 2 * expr.args.len() + buffer.name.len() + field
+                }
                 ir::Op::BufferLen(buffer) => 18 + self.graph.buffers[*buffer as usize].name.len(),
                 ir::Op::Message(_) | ir::Op::Derivative(_) => call(12),
                 _ => call(6),

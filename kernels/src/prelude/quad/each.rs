@@ -1,7 +1,7 @@
 //! One value, or one in each lane: what textures can be asked for.
 
 use super::Quad;
-use glam::{IVec2, Vec2};
+use glam::{IVec2, IVec3, Vec2, Vec3};
 
 /// A `V`, or a [`Quad`] of them.
 pub trait PerLane<V>: Copy {
@@ -43,4 +43,4 @@ macro_rules! per_lane {
     )* };
 }
 
-per_lane! { IVec2 Vec2 }
+per_lane! { IVec2 IVec3 Vec2 Vec3 }

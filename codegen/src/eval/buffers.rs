@@ -1,0 +1,217 @@
+//! Buffers: parameters of that type, and what is read of an element.
+
+use super::Evaluator;
+use super::value::{Eval, Exit, Value};
+use crate::diagnostic::{Diagnostic, Span};
+use crate::front::tree::{Expr, Type as SourceType};
+use crate::ir::vector_named as vector_type;
+use crate::ir::{BinaryOp, Buffer, Element, NodeId, Op, Scalar, Structure, Type};
+
+/// Elements of an array that a host fills, at most: vectors that fill a uniform buffer everywhere.
+const LONGEST: i64 = 1024;
+
+impl Evaluator<'_> {
+    /// A parameter that is a buffer.
+    pub(super) fn buffer_parameter(&mut self, name: &str, args: &[SourceType], span: Span) -> Eval {
+        let element = self.element_type(name, args, span)?;
+        self.unused_name(name, span)?;
+        self.elements.extend(args.first().cloned());
+        let buffers = &mut self.builder.graph_mut().buffers;
+        buffers.push(Buffer {
+            name: name.to_owned(),
+            element,
+        });
+        Ok(Value::Buffer(buffers.len() as u32 - 1))
+    }
+
+    /// Elements that are values lie one after the other natively and in a shader; those that are structures as shaders have them.
+    fn element_type(&mut self, name: &str, args: &[SourceType], span: Span) -> Eval<Element> {
+        let refused = || -> Exit {
+            Diagnostic::at(
+                span,
+                format!("the buffer `{name}` has no elements that a shader can read"),
+            )
+            .label("of this type")
+            .note("a vector of 3 takes the room of 4 in a shader's array, and of 3 in Rust's")
+            .help("elements are f32, i32, u32, vectors of 2 or 4 of them, or structures of numbers, vectors, matrices and arrays")
+            .into()
+        };
+        let [element @ SourceType::Name(of, _)] = args else {
+            return Err(refused());
+        };
+        if self.library.structs.contains_key(of) {
+            let mut fields = Vec::new();
+            self.fields_of(of, "", element, span, &mut fields)?;
+            if fields.is_empty() {
+                return Err(refused());
+            }
+            let twice = (1..fields.len()).find(|k| fields[..*k].iter().any(|(name, _)| *name == fields[*k].0));
+            if let Some(k) = twice {
+                let message = format!("two fields of `{of}` are called `{}`", fields[k].0);
+                return Err(Diagnostic::at(span, message)
+                    .label("of this type")
+                    .note("fields of a structure inside another are called by both names, joined by `_`")
+                    .help("rename one")
+                    .into());
+            }
+            return Ok(Element::Struct(Structure::new(of.clone(), fields)));
+        }
+        match value_named(of).filter(|ty| ty.lanes() != 3) {
+            Some(ty) => Ok(Element::Value(ty)),
+            None => Err(refused()),
+        }
+    }
+
+    /// The fields that a type takes in a structure `of`: one of a number, of a structure those of its fields behind its name.
+    fn fields_of(
+        &mut self,
+        of: &str,
+        name: &str,
+        ty: &SourceType,
+        span: Span,
+        fields: &mut Vec<(String, Type)>,
+    ) -> Eval<()> {
+        let library = self.library;
+        let inner = |field: &str| match name {
+            // Of a tuple structure.
+            "" if field.starts_with(|c: char| c.is_ascii_digit()) => format!("part_{field}"),
+            "" => field.to_owned(),
+            outer => format!("{outer}_{field}"),
+        };
+        let refused = || -> Exit {
+            Diagnostic::at(span, format!("`{name}` is nothing that a buffer of `{of}` can hold"))
+                .label("of this type")
+                .help("fields are f32, i32, u32, vectors, matrices, arrays of numbers or vectors, and structures of these")
+                .into()
+        };
+        match ty {
+            SourceType::Name(type_name, _) if library.structs.contains_key(type_name) => {
+                for (field, ty, at) in &library.structs[type_name].fields {
+                    self.fields_of(of, &inner(field), ty, *at, fields)?;
+                }
+            }
+            SourceType::Name(type_name, _) => match (value_named(type_name), super::matrix::size(type_name)) {
+                (Some(ty), _) => fields.push((name.to_owned(), ty)),
+                (None, Some(n)) => {
+                    let column = Type::value(Scalar::F32, n);
+                    fields.extend(super::matrix::axes(n).iter().map(|axis| (inner(axis), column)));
+                }
+                (None, None) => return Err(refused()),
+            },
+            SourceType::Array(element, Some(len)) => {
+                let SourceType::Name(type_name, _) = &**element else {
+                    return Err(refused());
+                };
+                let Some(Type::Value { scalar, lanes }) = value_named(type_name) else {
+                    return Err(refused());
+                };
+                let len = self.known_length(len)?;
+                fields.push((name.to_owned(), Type::Array { scalar, lanes, len }));
+            }
+            _ => return Err(refused()),
+        }
+        Ok(())
+    }
+
+    /// The length of an array that a host fills.
+    pub(super) fn known_length(&mut self, len: &Expr) -> Eval<u32> {
+        let count = self.expr(len)?;
+        match self.known_int(&count) {
+            Some(n) if (1..=LONGEST).contains(&n) => Ok(n as u32),
+            _ => Err(Diagnostic::at(
+                len.span,
+                format!("an array that a host fills has 1 to {LONGEST} elements"),
+            )
+            .label("not this many")
+            .help("keep what is longer in a buffer of its own")
+            .into()),
+        }
+    }
+
+    /// A method of a buffer.
+    pub fn buffer(&mut self, index: u32, name: &str, args: &[Value], span: Span) -> Eval {
+        match (name, args) {
+            ("len", []) => Ok(Value::Node(self.builder.add(
+                Op::BufferLen(index),
+                Vec::new(),
+                Type::I32,
+            ))),
+            ("load", [at]) => {
+                let at = self.index_node(at, span)?;
+                let len = self.builder.add(Op::BufferLen(index), Vec::new(), Type::I32);
+                let (zero, one) = (self.builder.i32(0), self.builder.i32(1));
+                let last = self.builder.add(Op::Binary(BinaryOp::Sub), vec![len, one], Type::I32);
+                self.name(&Value::Node(last), "last", span);
+                let inside = self.builder.add(Op::Clamp, vec![at, zero, last], Type::I32);
+                let mut next = 0;
+                match self.elements[index as usize].clone() {
+                    SourceType::Name(of, _) => {
+                        self.read_part(index, inside, &SourceType::Name(of, Vec::new()), &mut next, span)
+                    }
+                    _ => Err(Exit::Noted),
+                }
+            }
+            _ => Err(Diagnostic::at(span, format!("a buffer has no method `{name}`"))
+                .label("not supported")
+                .help("buffers have `load` and `len`")
+                .into()),
+        }
+    }
+
+    /// What a type takes of an element, from the field `next` on.
+    fn read_part(&mut self, buffer: u32, element: NodeId, ty: &SourceType, next: &mut u32, span: Span) -> Eval {
+        let library = self.library;
+        match ty {
+            SourceType::Name(of, _) if library.structs.contains_key(of) => {
+                let mut fields = Vec::new();
+                for (field, ty, _) in &library.structs[of].fields {
+                    fields.push((field.clone(), self.read_part(buffer, element, ty, next, span)?));
+                }
+                Ok(Value::structure(of.clone(), fields))
+            }
+            SourceType::Name(of, _) => match super::matrix::size(of) {
+                Some(n) => {
+                    let columns: Vec<NodeId> = (0..n).map(|_| self.read_field(buffer, element, next, None)).collect();
+                    Ok(super::matrix::matrix(&columns))
+                }
+                None => Ok(Value::Node(self.read_field(buffer, element, next, None))),
+            },
+            SourceType::Array(..) => {
+                let field = *next;
+                let of = self.builder.graph().buffers[buffer as usize].element.field(field);
+                let parts = (0..of.map_or(1, Type::parts)).map(|k| {
+                    *next = field;
+                    Value::Node(self.read_field(buffer, element, next, Some(k)))
+                });
+                let parts = parts.collect();
+                Ok(Value::array(parts))
+            }
+            _ => Err(Exit::Noted),
+        }
+    }
+
+    /// A field of an element, or a part of one that is an array.
+    fn read_field(&mut self, buffer: u32, element: NodeId, next: &mut u32, part: Option<u32>) -> NodeId {
+        let field = *next;
+        *next += 1;
+        let ty = self.builder.graph().buffers[buffer as usize].element.field(field);
+        let part = part.map(|k| self.builder.i32(k as i32));
+        let op = Op::BufferLoad {
+            buffer,
+            field,
+            site: self.site(),
+        };
+        let ty = ty.map_or(Type::F32, Type::element);
+        self.builder.add(op, std::iter::once(element).chain(part).collect(), ty)
+    }
+}
+
+/// A number or a vector by its name.
+fn value_named(name: &str) -> Option<Type> {
+    match name {
+        "f32" => Some(Type::F32),
+        "i32" => Some(Type::I32),
+        "u32" => Some(Type::U32),
+        vector => vector_type(vector).map(|(kind, lanes)| Type::value(kind, lanes)),
+    }
+}

@@ -1,0 +1,262 @@
+//! The prelude's textures: their names, what they are to a shader, and their methods.
+
+use crate::ir::{Scalar, Texture, TextureKind};
+
+/// A type of the prelude that is bound as a texture.
+#[derive(Debug, PartialEq, Eq)]
+pub struct TextureType {
+    /// Its name.
+    pub name: &'static str,
+    /// What it is to a shader.
+    pub kind: TextureKind,
+    /// Whether it has the output's size.
+    pub framed: bool,
+    /// Whether its texels may be integers.
+    pub integers: bool,
+    methods: &'static [Method],
+}
+
+/// A method of a texture.
+#[derive(Debug, PartialEq, Eq)]
+pub struct Method {
+    /// Its name.
+    pub name: &'static str,
+    /// What it takes.
+    pub params: &'static [Param],
+    /// What it gives.
+    pub gives: Gives,
+}
+
+/// What a method of a texture takes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Param {
+    /// A texel's coordinate, in integers.
+    Coordinate,
+    /// A place that a sampler reads at, in floats.
+    Place,
+    /// The number of a layer.
+    Layer,
+    /// The number of a sample of a texel.
+    Sample,
+    /// The number of a level.
+    Level,
+    /// A level, or what is between two of them.
+    Detail,
+    /// How far the place is from that of the next pixel.
+    Step(&'static str),
+    /// A sampler that filters.
+    Filtering,
+    /// A sampler that compares.
+    Comparing,
+    /// The number of a component, known when the shader is made.
+    Component,
+    /// What is compared.
+    Reference,
+}
+
+impl Param {
+    fn name(self) -> &'static str {
+        match self {
+            Param::Coordinate => "coord",
+            Param::Place => "uv",
+            Param::Layer => "layer",
+            Param::Sample => "sample",
+            Param::Level | Param::Detail => "level",
+            Param::Step(name) => name,
+            Param::Filtering | Param::Comparing => "sampler",
+            Param::Component => "component",
+            Param::Reference => "reference",
+        }
+    }
+}
+
+/// What a method of a texture gives.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Gives {
+    /// A texel.
+    Texel,
+    /// A number for each of four texels.
+    Four,
+    /// A number from 0 to 1.
+    Share,
+    /// Width and height, and depth where there is one.
+    Size,
+    /// How many there are.
+    Count,
+}
+
+const fn method(name: &'static str, params: &'static [Param], gives: Gives) -> Method {
+    Method { name, params, gives }
+}
+
+use Param::{Comparing, Component, Coordinate, Detail, Filtering, Layer, Level, Place, Reference, Sample, Step};
+
+const SIZE: Method = method("size", &[], Gives::Size);
+const LEVELS: Method = method("levels", &[], Gives::Count);
+const LAYERS: Method = method("layers", &[], Gives::Count);
+const LOAD: Method = method("load", &[Coordinate], Gives::Texel);
+const LOAD_LAYER: Method = method("load", &[Coordinate, Layer], Gives::Texel);
+const SAMPLE: Method = method("sample", &[Filtering, Place], Gives::Texel);
+const SAMPLE_LEVEL: Method = method("sample_level", &[Filtering, Place, Detail], Gives::Texel);
+const GATHER: Method = method("gather", &[Component, Filtering, Place], Gives::Four);
+const COMPARE: Method = method("compare", &[Comparing, Place, Reference], Gives::Share);
+
+/// Every texture of the prelude.
+pub const TEXTURES: [TextureType; 10] = [
+    TextureType {
+        name: "Frame",
+        kind: TextureKind::Flat,
+        framed: true,
+        integers: true,
+        methods: &[LOAD, SAMPLE, GATHER, SIZE],
+    },
+    TextureType {
+        name: "FrameLayers",
+        kind: TextureKind::Layers,
+        framed: true,
+        integers: true,
+        methods: &[LOAD_LAYER],
+    },
+    TextureType {
+        name: "Texture",
+        kind: TextureKind::Flat,
+        framed: false,
+        integers: true,
+        methods: &[
+            LOAD,
+            method("load_level", &[Coordinate, Level], Gives::Texel),
+            SAMPLE,
+            SAMPLE_LEVEL,
+            method(
+                "sample_grad",
+                &[Filtering, Place, Step("ddx"), Step("ddy")],
+                Gives::Texel,
+            ),
+            GATHER,
+            SIZE,
+            method("size_of_level", &[Level], Gives::Size),
+            LEVELS,
+        ],
+    },
+    TextureType {
+        name: "TextureArray",
+        kind: TextureKind::Layers,
+        framed: false,
+        integers: true,
+        methods: &[
+            LOAD_LAYER,
+            method("sample", &[Filtering, Place, Layer], Gives::Texel),
+            method("sample_level", &[Filtering, Place, Layer, Detail], Gives::Texel),
+            SIZE,
+            LAYERS,
+            LEVELS,
+        ],
+    },
+    TextureType {
+        name: "Texture3D",
+        kind: TextureKind::Volume,
+        framed: false,
+        integers: true,
+        methods: &[LOAD, SAMPLE, SAMPLE_LEVEL, SIZE, LEVELS],
+    },
+    TextureType {
+        name: "TextureCube",
+        kind: TextureKind::Cube,
+        framed: false,
+        integers: false,
+        methods: &[SAMPLE, SAMPLE_LEVEL, SIZE, LEVELS],
+    },
+    TextureType {
+        name: "Multisampled",
+        kind: TextureKind::Multisampled,
+        framed: false,
+        integers: false,
+        methods: &[method("load", &[Coordinate, Sample], Gives::Texel), SIZE],
+    },
+    TextureType {
+        name: "DepthTexture",
+        kind: TextureKind::Depth,
+        framed: false,
+        integers: false,
+        methods: &[
+            LOAD,
+            COMPARE,
+            method("gather_compare", &[Comparing, Place, Reference], Gives::Four),
+            SIZE,
+        ],
+    },
+    TextureType {
+        name: "DepthTextureArray",
+        kind: TextureKind::DepthLayers,
+        framed: false,
+        integers: false,
+        methods: &[
+            LOAD_LAYER,
+            method("compare", &[Comparing, Place, Layer, Reference], Gives::Share),
+            SIZE,
+            LAYERS,
+        ],
+    },
+    TextureType {
+        name: "DepthCube",
+        kind: TextureKind::DepthCube,
+        framed: false,
+        integers: false,
+        methods: &[COMPARE, SIZE],
+    },
+];
+
+impl TextureType {
+    /// The one that is called so.
+    pub fn named(name: &str) -> Option<&'static TextureType> {
+        TEXTURES.iter().find(|ty| ty.name == name)
+    }
+
+    /// That of a texture.
+    pub fn of(texture: &Texture) -> &'static TextureType {
+        let found = TEXTURES
+            .iter()
+            .find(|ty| ty.kind == texture.kind && ty.framed == texture.framed);
+        // Interpolated values of quads alone are textures that no kernel declares: they are frames.
+        found.unwrap_or(&TEXTURES[0])
+    }
+
+    /// A method by its name and the number of its arguments.
+    pub fn method(&self, name: &str, arguments: usize) -> Option<&'static Method> {
+        let mut methods = self.methods.iter();
+        methods.find(|method| method.name == name && method.params.len() == arguments)
+    }
+
+    /// A method by its name.
+    pub fn method_named(&self, name: &str) -> Option<&'static Method> {
+        self.methods.iter().find(|method| method.name == name)
+    }
+
+    /// The methods that it has for texels of a kind, as a list for people.
+    pub fn described(&self, texel: Scalar) -> String {
+        let of_kind = |method: &&Method| texel == Scalar::F32 || !method.filters();
+        let methods: Vec<String> = self.methods.iter().filter(of_kind).map(|m| self.shown(m)).collect();
+        match methods.split_last() {
+            Some((last, [])) => last.clone(),
+            Some((last, others)) => format!("{} and {last}", others.join(", ")),
+            None => String::new(),
+        }
+    }
+
+    /// A method as it is called.
+    pub fn shown(&self, method: &Method) -> String {
+        let names = method.params.iter().map(|param| match param {
+            Param::Place if self.kind.is_cube() => "direction",
+            Param::Place if self.kind == TextureKind::Volume => "place",
+            other => other.name(),
+        });
+        format!("`{}({})`", method.name, names.collect::<Vec<_>>().join(", "))
+    }
+}
+
+impl Method {
+    /// Whether a sampler weighs texels.
+    pub fn filters(&self) -> bool {
+        self.params.contains(&Param::Filtering)
+    }
+}

@@ -1,0 +1,107 @@
+//! Buffers: what their elements are, and where each part of one lies.
+
+use super::Type;
+
+/// A read-only array that the host fills.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Buffer {
+    /// Its name in the kernel.
+    pub name: String,
+    /// What it holds.
+    pub element: Element,
+}
+
+/// An element of a buffer.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Element {
+    /// A scalar, or a vector of 2 or 4.
+    Value(Type),
+    /// Several numbers under their names.
+    Struct(Structure),
+}
+
+/// A structure in memory: its fields in order, each at the next multiple of its alignment, as WGSL and GLSL's std430 lay it
+/// out.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Structure {
+    /// Its name in the kernel.
+    pub name: String,
+    /// Its fields.
+    pub fields: Vec<Field>,
+}
+
+/// A field of a structure.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Field {
+    /// Its name; those of what lies in it are joined by `_`.
+    pub name: String,
+    /// A scalar or vector, or an array of them.
+    pub ty: Type,
+    /// Bytes from the structure's beginning.
+    pub offset: u32,
+}
+
+impl Structure {
+    /// With fields of these names and types.
+    pub fn new(name: String, fields: Vec<(String, Type)>) -> Structure {
+        let mut at = 0u32;
+        let placed = fields.into_iter().map(|(name, ty)| {
+            let (alignment, size) = ty.layout();
+            let offset = at.next_multiple_of(alignment);
+            at = offset + size;
+            Field { name, ty, offset }
+        });
+        let fields = placed.collect();
+        Structure { name, fields }
+    }
+
+    /// Bytes from one structure to the next: its size, to a multiple of its largest alignment.
+    pub fn stride(&self) -> u32 {
+        let end = self.fields.last().map_or(4, |field| field.offset + field.ty.layout().1);
+        let alignment = self.fields.iter().map(|field| field.ty.layout().0).max();
+        end.next_multiple_of(alignment.unwrap_or(4))
+    }
+}
+
+impl Element {
+    /// The type of a field by its number, 0 of a single value.
+    pub fn field(&self, k: u32) -> Option<Type> {
+        match self {
+            Element::Value(ty) => (k == 0).then_some(*ty),
+            Element::Struct(structure) => structure.fields.get(k as usize).map(|field| field.ty),
+        }
+    }
+
+    /// Bytes from one element to the next.
+    pub fn stride(&self) -> u32 {
+        match self {
+            Element::Value(ty) => {
+                let (alignment, size) = ty.layout();
+                size.next_multiple_of(alignment)
+            }
+            Element::Struct(structure) => structure.stride(),
+        }
+    }
+
+    /// The types of all scalars and vectors of an element, in order: elements of arrays one by one.
+    pub fn values(&self) -> Vec<Type> {
+        match self {
+            Element::Value(ty) => vec![*ty],
+            Element::Struct(structure) => {
+                let of = |field: &Field| vec![field.ty.element(); field.ty.parts() as usize];
+                structure.fields.iter().flat_map(of).collect()
+            }
+        }
+    }
+
+    /// Where among [`values`](Self::values) a field begins.
+    pub fn first_value(&self, field: u32) -> usize {
+        match self {
+            Element::Value(_) => 0,
+            Element::Struct(structure) => {
+                let before = structure.fields.iter().take(field as usize);
+                before.map(|field| field.ty.parts() as usize).sum()
+            }
+        }
+    }
+}

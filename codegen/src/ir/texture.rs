@@ -1,0 +1,120 @@
+//! Textures: what kinds there are, and how each is addressed.
+
+use super::{Scalar, Type};
+
+/// What a texture is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum TextureKind {
+    /// One image.
+    Flat,
+    /// A stack of images.
+    Layers,
+    /// A volume.
+    Volume,
+    /// The six faces of a cube, which a direction finds.
+    Cube,
+    /// One image with several samples a texel.
+    Multisampled,
+    /// One image of depths to compare.
+    Depth,
+    /// A stack of images of depths to compare.
+    DepthLayers,
+    /// Six faces of depths to compare.
+    DepthCube,
+}
+
+impl TextureKind {
+    /// Every kind, with the word for it in the text of a graph.
+    pub const ALL: [(TextureKind, &'static str); 8] = [
+        (TextureKind::Flat, "flat"),
+        (TextureKind::Layers, "layers"),
+        (TextureKind::Volume, "volume"),
+        (TextureKind::Cube, "cube"),
+        (TextureKind::Multisampled, "multisampled"),
+        (TextureKind::Depth, "depth"),
+        (TextureKind::DepthLayers, "depthlayers"),
+        (TextureKind::DepthCube, "depthcube"),
+    ];
+
+    /// The word for it in the text of a graph.
+    pub fn word(self) -> &'static str {
+        let found = TextureKind::ALL.iter().find(|(kind, _)| *kind == self);
+        found.expect("every kind is listed").1
+    }
+
+    /// Whether a texel is read by its layer or sample too.
+    pub fn is_indexed(self) -> bool {
+        self.has_layers() || self == TextureKind::Multisampled
+    }
+
+    /// Whether it is a stack of images.
+    pub fn has_layers(self) -> bool {
+        matches!(self, TextureKind::Layers | TextureKind::DepthLayers)
+    }
+
+    /// Whether its texels are depths, to be compared.
+    pub fn is_depth(self) -> bool {
+        matches!(
+            self,
+            TextureKind::Depth | TextureKind::DepthLayers | TextureKind::DepthCube
+        )
+    }
+
+    /// Whether a direction finds its texels, which have no coordinates.
+    pub fn is_cube(self) -> bool {
+        matches!(self, TextureKind::Cube | TextureKind::DepthCube)
+    }
+
+    /// Whether a sampler can filter it.
+    pub fn is_filtered(self) -> bool {
+        !self.is_depth() && self != TextureKind::Multisampled
+    }
+
+    /// Whether its rows are those of a picture, which some hosts count from below.
+    pub fn has_rows(self) -> bool {
+        !self.is_cube() && self != TextureKind::Volume
+    }
+
+    /// Components of a size and of a texel's coordinate, without a layer.
+    pub fn dimensions(self) -> u8 {
+        if self == TextureKind::Volume { 3 } else { 2 }
+    }
+
+    /// A place that a sampler reads at: two or three floats.
+    pub fn place(self) -> Type {
+        let three = self.is_cube() || self == TextureKind::Volume;
+        Type::value(Scalar::F32, if three { 3 } else { 2 })
+    }
+
+    /// A texel's coordinate, and a size, as the graph has them.
+    pub fn coordinate(self) -> Type {
+        Type::value(Scalar::I32, self.dimensions())
+    }
+}
+
+/// A texture that the kernel reads.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Texture {
+    /// Its name in the kernel.
+    pub name: String,
+    /// What it is.
+    pub kind: TextureKind,
+    /// What a component of a texel is: a float, or an integer, which no sampler reads.
+    pub scalar: Scalar,
+    /// Components of a texel that the kernel uses, 1 to 4.
+    pub components: u8,
+    /// Whether it has the output's size; else it has one of its own.
+    pub framed: bool,
+}
+
+impl Texture {
+    /// A texel as the kernel has it.
+    pub fn texel(&self) -> Type {
+        Type::value(self.scalar, self.components)
+    }
+
+    /// Whether the largest index that is read says how many layers, or samples of a texel, there must be. Others are asked.
+    pub fn is_counted(&self) -> bool {
+        self.kind == TextureKind::Multisampled || (self.framed && self.kind == TextureKind::Layers)
+    }
+}
