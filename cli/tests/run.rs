@@ -273,3 +273,48 @@ fn sized(kernel: &str, folder: &Path) {
         );
     }
 }
+
+/// A kernel that gives three values.
+const SEVERAL: &str = "pub struct GBuffer {\n    pub albedo: Vec4,\n    pub normal: Vec3,\n    pub depth: f32,\n}\npub fn g(color: &Frame<Vec4>, pixel: IVec2) -> GBuffer {\n    let here = color.load(pixel);\n    GBuffer { albedo: here, normal: here.zyx(), depth: here.w * 0.5 }\n}\n";
+
+#[test]
+fn every_value_of_a_kernel_is_written_where_it_is_named() {
+    let folder = scratch("run-several");
+    let kernel = write(&folder, "g.rs", SEVERAL);
+    let picture = here("docs/detail.png");
+    let path = |name: &str| folder.join(name).display().to_string();
+    let (albedo, normal, depth) = (path("albedo.exr"), path("normal.exr"), path("depth.exr"));
+    let named = [format!("normal={normal}"), format!("depth={depth}")];
+    for executor in [["--executor", "cpu"], ["--executor", "gpu"]] {
+        let mut words = vec![
+            "run",
+            kernel.as_str(),
+            "--input",
+            picture.as_str(),
+            "--out",
+            albedo.as_str(),
+        ];
+        words.extend(named.iter().flat_map(|out| ["--out", out.as_str()]));
+        words.extend(executor);
+        let said = common::finishes(&words);
+        for path in [&albedo, &normal, &depth] {
+            assert!(said.contains(path.as_str()), "{said}");
+            std::fs::remove_file(path).expect("it was written");
+        }
+    }
+    let run = |outs: &[&str], says: &[&str]| {
+        let mut words = vec!["run", kernel.as_str(), "--input", picture.as_str()];
+        words.extend(outs.iter().flat_map(|out| ["--out", out]));
+        fails(&words, 2, says);
+    };
+    let other = format!("colour={normal}");
+    run(&[&other], &["gives no `colour`; it gives albedo, normal, depth"]);
+    let again = format!("albedo={normal}");
+    run(&[&albedo, &again], &["`albedo` is to be written twice"]);
+    run(
+        &[&albedo, &format!("depth={albedo}")],
+        &["give each target a file of its own"],
+    );
+    run(&["depth=depth.txt"], &["neither .png nor .exr"]);
+    assert!(!Path::new(&albedo).exists());
+}

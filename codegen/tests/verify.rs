@@ -4,7 +4,7 @@
 
 use straightline_codegen::ir::{
     BinaryOp, Buffer, Builder, Direction, Graph, Invocation, Node, NodeId, Op, RegionId, Rules, Sampler, Scalar,
-    Texture, TextureKind, Type, UnaryOp, Uniform, verify::verify,
+    Target, Texture, TextureKind, Type, UnaryOp, Uniform, verify::verify,
 };
 
 struct Nothing;
@@ -205,8 +205,23 @@ fn every_rule_is_checked() {
         // 4: parameters inside their regions.
         ("depends on a region", |g| node(g, 21).args[3] = NodeId(9)),
         // 5: results.
-        ("one result for each pixel", |g| g.regions[0].results.clear()),
-        ("one result for each pixel", |g| g.regions[0].results[0] = NodeId(2)),
+        ("results for each pixel", |g| g.regions[0].results.clear()),
+        ("results for each pixel", |g| g.regions[0].results[0] = NodeId(2)),
+        ("results for each pixel: vec4<f32>, i32", |g| {
+            g.targets.push(Target {
+                name: "k".to_owned(),
+                ty: Type::I32,
+            })
+        }),
+        ("the target k is of no numbers", |g| {
+            g.targets[0] = Target {
+                name: "k".to_owned(),
+                ty: Type::BOOL,
+            }
+        }),
+        ("the target destination is of no numbers, or there are two of it", |g| {
+            g.targets.push(Target::colour())
+        }),
         // 6: lanes.
         ("no lane", |g| {
             node(g, 25).op = Op::Message(Direction::Vertical);

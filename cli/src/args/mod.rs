@@ -249,9 +249,10 @@ pub struct RunArgs {
     /// Width and height of the output; by default those of the first input that has the output's size
     #[arg(long, value_name = "WxH", value_parser = size)]
     pub size: Option<UVec2>,
-    /// Picture to write: .png (8 bits, sRGB) or .exr (linear floats)
-    #[arg(long, value_name = "FILE")]
-    pub out: PathBuf,
+    /// Picture to write, [NAME=]FILE: .png (8 bits, sRGB) or .exr (linear floats); of a kernel that gives several values, the
+    /// first one without a NAME. May be given several times
+    #[arg(long, value_name = "[NAME=]FILE", required = true)]
+    pub out: Vec<String>,
     /// What computes the pixels
     #[arg(long, value_enum, default_value = "gpu")]
     pub executor: Executor,

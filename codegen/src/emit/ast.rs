@@ -282,10 +282,10 @@ pub enum StmtKind<'g> {
         /// If not.
         otherwise: Block<'g>,
     },
-    /// Writes a texel of the output: place, colour.
-    Store(Expr, Expr),
-    /// The fragment's colour.
-    Output(Expr),
+    /// Writes a texel of an output: which one, place, value.
+    Store(usize, Expr, Expr),
+    /// What is given for a pixel: a value for each output.
+    Output(Vec<Expr>),
     /// Leaves the function, with its value if it has one.
     Return(Option<Expr>),
     /// A line for the reader.
@@ -313,9 +313,10 @@ impl<'g> Stmt<'g> {
     /// Expressions of the statement itself, without those of its blocks.
     pub fn own(&self) -> Vec<&Expr> {
         match &self.kind {
-            StmtKind::Let(_, value) | StmtKind::Output(value) => vec![value],
+            StmtKind::Let(_, value) => vec![value],
+            StmtKind::Output(values) => values.iter().collect(),
             StmtKind::Var(_, value) | StmtKind::Return(value) => value.iter().collect(),
-            StmtKind::Assign(place, _, value) | StmtKind::Store(place, value) => vec![place, value],
+            StmtKind::Assign(place, _, value) | StmtKind::Store(_, place, value) => vec![place, value],
             StmtKind::For { start, end, .. } => vec![start, end],
             StmtKind::If { condition, .. } => vec![condition],
             StmtKind::Loop(_) | StmtKind::Break | StmtKind::Comment(_) => Vec::new(),
@@ -333,9 +334,10 @@ impl<'g> Stmt<'g> {
     /// As [`Stmt::own`], to change them.
     pub fn own_mut(&mut self) -> Vec<&mut Expr> {
         match &mut self.kind {
-            StmtKind::Let(_, value) | StmtKind::Output(value) => vec![value],
+            StmtKind::Let(_, value) => vec![value],
+            StmtKind::Output(values) => values.iter_mut().collect(),
             StmtKind::Var(_, value) | StmtKind::Return(value) => value.iter_mut().collect(),
-            StmtKind::Assign(place, _, value) | StmtKind::Store(place, value) => vec![place, value],
+            StmtKind::Assign(place, _, value) | StmtKind::Store(_, place, value) => vec![place, value],
             StmtKind::For { start, end, .. } => vec![start, end],
             StmtKind::If { condition, .. } => vec![condition],
             StmtKind::Loop(_) | StmtKind::Break | StmtKind::Comment(_) => Vec::new(),

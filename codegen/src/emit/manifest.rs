@@ -2,7 +2,7 @@
 
 use super::layout::stride;
 use super::print::{GENERATOR, wgsl_type};
-use super::resources::{BoundTexture, OUTPUT, Resources, UNIFORMS};
+use super::resources::{BoundTexture, Resources, UNIFORMS};
 use crate::compiled::Compiled;
 use crate::ir::{Texture, TextureKind};
 use straightline_manifest::{
@@ -77,6 +77,16 @@ impl Resources {
         }
         bindings.sort_by_key(|binding: &Binding| binding.binding);
         let compute = self.options.stage == Stage::Compute;
+        let outputs = self.outputs.iter().zip(0..).map(|(output, location)| Output {
+            name: output.name.clone(),
+            group: compute.then_some(group),
+            binding: output.binding,
+            location: (!compute).then_some(location),
+            access: Access::WriteOnly,
+            view_dimension: ViewDimension::D2,
+            format: output.format,
+            ty: output.type_name(),
+        });
         Manifest {
             schema: SCHEMA,
             generator: GENERATOR.to_owned(),
@@ -94,15 +104,7 @@ impl Resources {
             varyings: self.varyings().collect(),
             bindings,
             language_bindings: self.language_bindings(),
-            output: Output {
-                name: OUTPUT.to_owned(),
-                group: compute.then_some(group),
-                binding: self.output_binding(),
-                location: (!compute).then_some(0),
-                access: Access::WriteOnly,
-                view_dimension: ViewDimension::D2,
-                format: self.options.format,
-            },
+            outputs: outputs.collect(),
             options: compiled.options.clone(),
             counts: counts.clone(),
             files: Default::default(),

@@ -71,6 +71,15 @@ pub fn check(compiled: &Compiled, resources: &Resources, target: Target) -> Resu
             with_compute,
         ),
         (
+            target == Target::Essl310
+                && resources
+                    .outputs
+                    .iter()
+                    .any(|o| o.binding.is_some() && o.format.components() == 2),
+            "stores values of two components",
+            "glsl430, any that is newer, or vectors of four",
+        ),
+        (
             target == Target::Essl300 && of_kind(TextureKind::Multisampled),
             "reads a multisampled texture",
             "glsl330 or essl310, or any that is newer",

@@ -26,6 +26,7 @@ impl Resources {
         renamed.textures.iter_mut().for_each(|texture| free(&mut texture.name));
         renamed.buffers.iter_mut().for_each(|buffer| free(&mut buffer.name));
         renamed.samplers.iter_mut().for_each(|sampler| free(&mut sampler.name));
+        renamed.outputs.iter_mut().for_each(|output| free(&mut output.name));
         renamed.varying_names.iter_mut().for_each(&mut free);
         renamed.uniform_names.iter_mut().for_each(&mut free);
         renamed.varyings.iter_mut().for_each(|varying| free(&mut varying.name));

@@ -3,6 +3,7 @@
 use super::EmitOptions;
 use super::error::EmitError;
 use super::layout::layout;
+use super::outputs::BoundOutput;
 use super::places::{Named, Places};
 use super::print::wgsl_type;
 use super::target::Target;
@@ -16,8 +17,11 @@ use straightline_manifest::{REGION, Stage, UniformField};
 pub const UNIFORMS: &str = "parameters";
 /// Name of the sampler that GLSL needs to name a texture; no filtering is ever asked of it.
 pub const SAMPLER: &str = "unfiltered";
-/// Name of the storage texture or colour that is written.
-pub const OUTPUT: &str = "destination";
+/// Name of what is written by a kernel that gives one value.
+pub const OUTPUT: &str = crate::ir::Target::ALONE;
+/// Name of the structure of several outputs.
+pub const OUTPUTS: &str = "Outputs";
+
 /// A texture that is read.
 #[derive(Clone, Debug)]
 pub struct BoundTexture {
@@ -47,6 +51,8 @@ pub struct Combined {
 pub struct Resources {
     /// Name of the entry point or function.
     pub entry: String,
+    /// What it gives for each pixel.
+    pub outputs: Vec<BoundOutput>,
     /// Where everything is bound.
     pub places: Places,
     /// How it is emitted.
@@ -157,8 +163,14 @@ impl Resources {
         let names = names.chain(used_samplers.iter().map(|(k, _)| &graph.samplers[*k as usize].name));
         let entry = super::entry::name(&compiled.kernel, options)?;
         let names = names.chain(graph.varyings.iter().map(|v| &v.name));
+        let mut outputs: Vec<BoundOutput> = graph
+            .targets
+            .iter()
+            .map(|t| BoundOutput::new(t, options.format))
+            .collect();
         let mut names = names
             .map(|name| (name, false))
+            .chain(outputs.iter().filter(|o| o.name != OUTPUT).map(|o| (&o.name, false)))
             .chain(uniforms.iter().map(|u| (&u.name, true)));
         if options.entry.is_some()
             && let Some((name, _)) = names.clone().find(|(name, is_field)| **name == entry && !is_field)
@@ -174,9 +186,14 @@ impl Resources {
             Some((name.clone(), why))
         };
         if let Some((name, why)) = names.find_map(refused) {
+            let what = match outputs.iter().any(|output| output.name == name) {
+                true => "output",
+                false => "input",
+            };
             let name = shortened(&name);
             return Err(EmitError::Name {
                 kernel: kernel(),
+                what,
                 name,
                 why,
             });
@@ -204,7 +221,6 @@ impl Resources {
                 .map(|(k, _)| named('s', &graph.samplers[*k as usize].name)),
         );
         let own = [
-            (compute, 'u', OUTPUT),
             (!fields.is_empty(), 'b', UNIFORMS),
             (options.region, 'b', REGION),
             (
@@ -214,10 +230,16 @@ impl Resources {
             ),
         ];
         let own = own.into_iter().filter(|(is_bound, ..)| *is_bound);
+        let written = outputs.iter().filter(|_| compute).map(|o| named('u', &o.name));
+        let all_bound = all_bound.chain(written);
         let all_bound: Vec<Named> = all_bound
             .chain(own.map(|(_, class, name)| named(class, name)))
             .collect();
-        let places = Places::new(&compiled.kernel, options, &all_bound)?;
+        let given: Vec<&str> = outputs.iter().map(|o| o.name.as_str()).collect();
+        let places = Places::new(&compiled.kernel, options, &all_bound, &given)?;
+        for output in outputs.iter_mut().filter(|_| compute) {
+            output.binding = Some(places.number(&output.name));
+        }
         for bound in &mut read {
             bound.binding = places.number(&graph.textures[bound.index as usize].name);
         }
@@ -229,6 +251,7 @@ impl Resources {
         }
         let resources = Resources {
             entry,
+            outputs,
             places,
             options: options.clone(),
             textures: graph.textures.clone(),
@@ -290,7 +313,21 @@ impl Resources {
         let buffers = self.read_buffers.iter().map(|(k, _)| self.buffer(*k).name.as_str());
         let samplers = self.used_samplers.iter().map(|(k, _)| self.sampler(*k).name.as_str());
         let varyings = self.varyings.iter().map(|v| v.name.as_str());
-        textures.chain(buffers).chain(samplers).chain(varyings)
+        let outputs = self.outputs.iter().map(|o| o.name.as_str());
+        textures.chain(buffers).chain(samplers).chain(varyings).chain(outputs)
+    }
+
+    /// Name of the output whose size is that of the frame.
+    pub fn sized_output(&self) -> &str {
+        self.outputs.first().map_or(OUTPUT, |output| output.name.as_str())
+    }
+
+    /// The type that holds all outputs, where there are several and the language gives them as one.
+    pub fn outputs_type(&self) -> String {
+        match self.options.is_function() {
+            true => format!("{}_{OUTPUTS}", self.entry),
+            false => OUTPUTS.to_owned(),
+        }
     }
 
     /// Interpolated values that are used, as a host is told.
@@ -309,11 +346,6 @@ impl Resources {
     pub fn compared(&self) -> Vec<&str> {
         let compared = self.read.iter().filter(|bound| bound.compared);
         compared.map(|bound| self.texture(bound.index).name.as_str()).collect()
-    }
-
-    /// Binding number of the output, where it is one.
-    pub fn output_binding(&self) -> Option<u32> {
-        (self.options.stage == Stage::Compute).then(|| self.places.number(OUTPUT))
     }
 
     /// Binding number of the uniform buffer, if there is one.
@@ -348,8 +380,12 @@ impl Resources {
             .iter()
             .chain(&self.used_samplers)
             .map(|(_, binding)| *binding);
-        let own = [self.output_binding(), self.uniform_binding(), self.region_binding()];
-        read.chain(others).chain(own.into_iter().flatten()).collect()
+        let own = [self.uniform_binding(), self.region_binding()];
+        let outputs = self.outputs.iter().filter_map(|output| output.binding);
+        read.chain(others)
+            .chain(outputs)
+            .chain(own.into_iter().flatten())
+            .collect()
     }
 
     /// Index of the buffer in which MSL is told how long others are: the lowest number that nothing has.

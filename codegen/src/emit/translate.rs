@@ -70,7 +70,8 @@ impl Module {
             slots.resources.insert(naga::ResourceBinding { group, binding }, target);
         };
         let textures = resources.read.iter().map(|t| (t.binding, false));
-        for (binding, mutable) in textures.chain(resources.output_binding().map(|b| (b, true))) {
+        let written = resources.outputs.iter().filter_map(|output| output.binding);
+        for (binding, mutable) in textures.chain(written.map(|binding| (binding, true))) {
             let texture = Some(self.slot("texture", binding, LAST_TEXTURE)?);
             bind(
                 binding,

@@ -32,6 +32,7 @@ mod place;
 mod quad;
 mod ranges;
 mod resources;
+mod results;
 mod scope;
 mod sequence;
 mod shape;
@@ -106,10 +107,10 @@ pub fn evaluate(
             evaluator.errors.extend(deferred);
         }
         return match result {
-            Ok((output, options, docs)) if evaluator.errors.is_empty() => Ok(Evaluated {
+            Ok((outputs, options, docs)) if evaluator.errors.is_empty() => Ok(Evaluated {
                 loops: evaluator.loops.reports(),
                 span: library.functions[entry].span,
-                graph: evaluator.builder.finish(vec![output]),
+                graph: evaluator.builder.finish(outputs),
                 options,
                 docs,
             }),

@@ -129,22 +129,46 @@ impl<'a, R: Real> Interpreter<'a, R> {
         }
     }
 
-    /// The colour of a pixel inside the frame.
+    /// What the first target of a pixel inside the frame holds: see [`Interpreter::invocation`].
     pub fn pixel(&self, x: u32, y: u32, scratch: &mut Scratch) -> [R; 4] {
         let [width, height] = self.graph.invocation.pixels();
         let (left, upper) = (x % width, y % height);
         self.invocation(x - left, y - upper, scratch)[(upper * width + left) as usize]
     }
 
-    /// The colours of all pixels of the invocation whose upper left one is given, row by row; those outside of the frame
-    /// are of no account.
+    /// What the first target holds of all pixels of the invocation whose upper left one is given, row by row; those outside of
+    /// the frame are of no account. Components that a value lacks are 0, and the fourth is 1. Of the other targets
+    /// [`Interpreter::target`] tells.
     pub fn invocation(&self, x: u32, y: u32, scratch: &mut Scratch) -> Vec<[R; 4]> {
         scratch.birth = None;
         self.block(&self.schedule.body, [x, y], scratch);
-        let outputs = self.graph.outputs().iter();
-        outputs
-            .map(|id| scratch.values[id.0 as usize].map(R::from_bits))
+        self.given(0, scratch)
+            .map(|(ty, cells)| match ty.is_float() {
+                true => {
+                    let lane = |k: usize| match k < ty.lanes() as usize {
+                        true => R::from_bits(cells[k]),
+                        false => R::from_f64(f64::from(u8::from(k == 3))),
+                    };
+                    [lane(0), lane(1), lane(2), lane(3)]
+                }
+                false => texel::<R>(ty, cells).map(R::from_f64),
+            })
             .collect()
+    }
+
+    /// What a target, by its index in [`Graph::targets`], holds of all pixels of the last invocation, in the order of
+    /// [`Interpreter::invocation`]: floats and integers as they are.
+    pub fn target(&self, index: usize, scratch: &Scratch) -> Vec<[f64; 4]> {
+        self.given(index, scratch)
+            .map(|(ty, cells)| texel::<R>(ty, cells))
+            .collect()
+    }
+
+    /// Type and value of a target, pixel by pixel.
+    fn given(&self, target: usize, scratch: &Scratch) -> impl Iterator<Item = (Type, Cells)> {
+        let ids = self.graph.outputs().iter().skip(target);
+        let ids = ids.step_by(self.graph.targets.len().max(1));
+        ids.map(|id| (self.graph.ty(*id), scratch.values[id.0 as usize]))
     }
 
     fn block(&self, block: &Block, pixel: [u32; 2], s: &mut Scratch) {
@@ -346,6 +370,16 @@ impl<'a, R: Real> Interpreter<'a, R> {
         let from: usize = sizes[..k].iter().sum();
         s.arrays[owner.0 as usize][from..from + sizes[k]].to_vec()
     }
+}
+
+/// A value as a texel holds it.
+fn texel<R: Real>(ty: Type, cells: Cells) -> [f64; 4] {
+    std::array::from_fn(|k| match ty.kind() {
+        _ if k >= ty.lanes() as usize => f64::from(u8::from(k == 3)),
+        Some(Scalar::F32) => R::from_bits(cells[k]).to_f64(),
+        Some(Scalar::I32) => f64::from(cells[k] as u32 as i32),
+        _ => f64::from(cells[k] as u32),
+    })
 }
 
 fn size(ty: Type) -> usize {

@@ -1,6 +1,6 @@
 //! The graph and its builder.
 
-use super::{Lanes, Op, Origin, Type};
+use super::{Lanes, Op, Origin, Scalar, Type};
 use std::collections::HashMap;
 
 /// Index of a node. A node's arguments have smaller indices.
@@ -102,6 +102,28 @@ pub struct Sampler {
     pub comparison: bool,
 }
 
+/// One of the values that a kernel gives for a pixel.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Target {
+    /// Its name: [`Target::ALONE`], or that of a field of the kernel's structure.
+    pub name: String,
+    /// A float or integer, or a vector of them.
+    pub ty: Type,
+}
+
+impl Target {
+    /// Name of the target of a kernel that gives one value.
+    pub const ALONE: &'static str = "destination";
+
+    /// What a kernel gives that says nothing else: one colour.
+    pub fn colour() -> Target {
+        Target {
+            name: Target::ALONE.to_owned(),
+            ty: Type::value(Scalar::F32, 4),
+        }
+    }
+}
+
 /// A value set at run time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Uniform {
@@ -169,6 +191,8 @@ pub struct Graph {
     pub uniforms: Vec<Uniform>,
     /// Interpolated values, by the index that `Op::Varying` carries.
     pub varyings: Vec<Varying>,
+    /// What the kernel gives for each pixel.
+    pub targets: Vec<Target>,
     /// What one invocation computes.
     pub invocation: Invocation,
     /// Names of tallies, by the index that `Op::Tally` carries.
@@ -217,7 +241,7 @@ impl Graph {
         self.origins[id.0 as usize].as_ref()
     }
 
-    /// The colours of the invocation's pixels, row by row, each a `vec4<f32>`: the kernel's results.
+    /// The kernel's results: for each of the invocation's pixels, row by row, a value for each of [`Graph::targets`].
     pub fn outputs(&self) -> &[NodeId] {
         &self.regions[0].results
     }
@@ -270,6 +294,7 @@ impl<'r> Builder<'r> {
         };
         let graph = Graph {
             regions: vec![body],
+            targets: vec![Target::colour()],
             ..Graph::default()
         };
         Builder {

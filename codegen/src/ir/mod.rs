@@ -2,8 +2,8 @@
 //!
 //! # Semantics
 //!
-//! - A [`Graph`] computes a colour for each pixel that one invocation has: one, or those of a block, row by row
-//!   ([`Graph::outputs`]). It has no side effects; what a host stores, and where, is the shell's affair.
+//! - A [`Graph`] computes values for each pixel that one invocation has: one pixel, or those of a block, row by row; of each
+//!   pixel a value for each of [`Graph::targets`], a colour say ([`Graph::outputs`]). It has no side effects; what a host stores, and where, is the shell's affair.
 //! - What an invocation computes is stated in [`Graph::invocation`]. Of a block, [`Op::Pixel`] is the upper left pixel,
 //!   inside the frame and a multiple of the block's size; others may lie outside, and are not stored.
 //! - The invocations of a kernel of quads are [`Invocation::Lane`]s: four of them, at even coordinates, compute in step.
@@ -48,8 +48,8 @@ mod types;
 pub mod verify;
 
 pub use graph::{
-    Buffer, Builder, Event, Graph, Invocation, Node, NodeId, Purpose, Region, RegionId, Rules, Sampler, Texture,
-    TextureKind, Uniform, Varying,
+    Buffer, Builder, Event, Graph, Invocation, Node, NodeId, Purpose, Region, RegionId, Rules, Sampler, Target,
+    Texture, TextureKind, Uniform, Varying,
 };
 pub use op::{Axis, BinaryOp, Direction, Op, UnaryOp};
 pub use origin::{Counter, Naming, Origin};

@@ -2,7 +2,7 @@
 
 use super::{
     Axis, BinaryOp, Buffer, Counter, Direction, Event, Graph, Invocation, Node, NodeId, Op, Origin, Region, RegionId,
-    Sampler, Scalar, Texture, TextureKind, Type, UnaryOp, Uniform, Varying,
+    Sampler, Scalar, Target, Texture, TextureKind, Type, UnaryOp, Uniform, Varying,
 };
 
 /// Why a text is not a graph.
@@ -44,6 +44,9 @@ pub fn parse(text: &str) -> Result<Graph, ParseError> {
         });
     }
     reader.event(Event::Close(Graph::BODY));
+    if reader.graph.targets.is_empty() {
+        reader.graph.targets.push(Target::colour());
+    }
     Ok(reader.graph)
 }
 
@@ -81,6 +84,12 @@ impl Reader {
                 let (name, kind) = named(rest)?;
                 let ty = ty(kind)?;
                 self.graph.varyings.push(Varying { name, ty });
+                Ok(())
+            }
+            "target" => {
+                let (name, kind) = named(rest)?;
+                let ty = ty(kind)?;
+                self.graph.targets.push(Target { name, ty });
                 Ok(())
             }
             "invocation" => self.invocation(rest),

@@ -1,6 +1,7 @@
 //! The graph as text, for people and for tests; [`super::parse`] reads it back.
 //!
-//! Tables first, then one node a line, indented by region, and the kernel's result last:
+//! Tables first, then one node a line, indented by region, and the kernel's results last. A kernel without a `target` gives one
+//! colour:
 //!
 //! ```text
 //! file kernels/src/glow.rs
@@ -13,7 +14,7 @@
 //! output %7
 //! ```
 
-use super::{Event, Graph, Invocation, NodeId, Op, Scalar, TextureKind, Type};
+use super::{Event, Graph, Invocation, NodeId, Op, Scalar, Target, TextureKind, Type};
 use std::fmt::Write;
 
 /// The whole graph.
@@ -63,6 +64,11 @@ fn tables(graph: &Graph) -> String {
     }
     for v in &graph.varyings {
         let _ = writeln!(text, "varying {}: {}", v.name, v.ty);
+    }
+    if graph.targets != [Target::colour()] {
+        for t in &graph.targets {
+            let _ = writeln!(text, "target {}: {}", t.name, t.ty);
+        }
     }
     match graph.invocation {
         Invocation::Pixel => {}

@@ -53,6 +53,7 @@ pub fn copy_tables(old: &Graph, new: &mut Graph) {
     new.files.clone_from(&old.files);
     new.purposes.clone_from(&old.purposes);
     new.varyings.clone_from(&old.varyings);
+    new.targets.clone_from(&old.targets);
     new.invocation = old.invocation;
 }
 

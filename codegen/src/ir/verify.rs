@@ -8,22 +8,15 @@
 //!    regions of a branch agree in their results, a loop's carried values in number and type with its results; a loop alone
 //!    may have a stop, a boolean.
 //! 4. A parameter is only used inside its region.
-//! 5. The kernel has a result for each pixel of its invocation, each a `vec4<f32>`.
+//! 5. The kernel has a result for each target of each pixel of its invocation, of the target's type: a float, an integer or a
+//!    vector of them. No two targets have one name.
 //! 6. Lanes, messages, derivatives and interpolated values are of kernels whose invocations are lanes of quads.
 
 use super::{BinaryOp, Graph, Invocation, NodeId, Op, RegionId, Scalar, TextureKind, Type, UnaryOp};
 
 /// Checks a graph; the message names the node that breaks a rule.
 pub fn verify(graph: &Graph) -> Result<(), String> {
-    let outputs = &graph.regions.first().ok_or("no body")?.results;
-    let [width, height] = graph.invocation.pixels();
-    let known = |id: &NodeId| (id.0 as usize) < graph.nodes.len();
-    if outputs.len() != (width * height) as usize
-        || !outputs.iter().all(known)
-        || outputs.iter().any(|id| graph.ty(*id) != Type::value(Scalar::F32, 4))
-    {
-        return Err("the body must have one result for each pixel, a vec4<f32>".to_owned());
-    }
+    results(graph)?;
     regions(graph)?;
     for id in graph.ids() {
         let node = graph.node(id);
@@ -33,6 +26,35 @@ pub fn verify(graph: &Graph) -> Result<(), String> {
         check(graph, id).map_err(|why| format!("%{} ({:?} -> {}): {why}", id.0, node.op, node.ty))?;
     }
     scopes(graph)
+}
+
+/// Rule 5.
+fn results(graph: &Graph) -> Result<(), String> {
+    let outputs = &graph.regions.first().ok_or("no body")?.results;
+    let [width, height] = graph.invocation.pixels();
+    for (k, target) in graph.targets.iter().enumerate() {
+        let numbers =
+            matches!(target.ty, Type::Value { scalar, lanes } if scalar != Scalar::Bool && (1..=4).contains(&lanes));
+        if !numbers || graph.targets[..k].iter().any(|other| other.name == target.name) {
+            return Err(format!(
+                "the target {} is of no numbers, or there are two of it",
+                target.name
+            ));
+        }
+    }
+    let known = |id: &NodeId| (id.0 as usize) < graph.nodes.len();
+    let wanted = graph.targets.iter().map(|target| target.ty).cycle();
+    if outputs.len() != (width * height) as usize * graph.targets.len()
+        || !outputs.iter().all(known)
+        || outputs.iter().zip(wanted).any(|(id, ty)| graph.ty(*id) != ty)
+    {
+        let targets: Vec<String> = graph.targets.iter().map(|t| t.ty.to_string()).collect();
+        return Err(format!(
+            "the body must have results for each pixel: {}",
+            targets.join(", ")
+        ));
+    }
+    Ok(())
 }
 
 /// Rules 1 and 3, as far as they are of regions.

@@ -54,7 +54,11 @@ pub fn expand(graph: &Graph, size: [u32; 2]) -> Result<Graph, String> {
             expansion.event(*event);
         }
     }
-    let outputs = expansion.ids[graph.outputs()[0].0 as usize].clone();
+    let of_lane = |lane: usize| graph.outputs().iter().map(move |output| (output, lane));
+    let outputs = (0..lanes).flat_map(of_lane);
+    let outputs = outputs
+        .map(|(output, lane)| expansion.ids[output.0 as usize][lane])
+        .collect();
     Ok(expansion.builder.finish(outputs))
 }
 

@@ -1,6 +1,6 @@
 //! The interpreter, on all processors.
 
-use super::{ExecuteError, Inputs};
+use super::{ExecuteError, Inputs, Written};
 use glam::Vec4;
 use rayon::prelude::*;
 use straightline_codegen::Compiled;
@@ -11,8 +11,11 @@ use straightline_kernels::prelude::Frame;
 /// What the interpreter computed.
 #[derive(Clone, Debug)]
 pub struct Interpreted<R> {
-    /// Colours, row by row from the top.
+    /// What the first target holds, row by row from the top: a colour, or a value of fewer components, the others 0 and the
+    /// fourth 1.
     pub texels: Vec<[R; 4]>,
+    /// Every target.
+    pub targets: Vec<Written>,
     /// For the first pixel that had a NaN or an infinity: its coordinate and where that came from.
     pub not_finite: Option<([u32; 2], String)>,
     /// Pixels that had one.
@@ -29,8 +32,24 @@ impl<R: Real> Interpreted<R> {
     }
 }
 
-/// A row of colours, and of each pixel that had a NaN or an infinity where that came from.
-type Row<R> = (Vec<[R; 4]>, Vec<([u32; 2], String)>);
+/// Rows of an image that were computed together.
+#[derive(Default)]
+struct Row<R> {
+    /// Of the first target.
+    texels: Vec<[R; 4]>,
+    /// Of every target.
+    targets: Vec<Vec<[f64; 4]>>,
+    /// Of each pixel that had a NaN or an infinity where that came from.
+    births: Vec<([u32; 2], String)>,
+}
+
+/// Puts the texels of an invocation, row by row, behind those to their left; none beyond `width`.
+fn put<T: Copy>(lines: &mut [Vec<T>], texels: &[T], across: usize, width: u32) {
+    for (line, texels) in lines.iter_mut().zip(texels.chunks(across)) {
+        let room = width as usize - line.len();
+        line.extend(texels.iter().take(room));
+    }
+}
 
 /// Computes every pixel of a kernel in the precision `R`; with `watch`, notes where NaNs and infinities come from.
 ///
@@ -72,6 +91,7 @@ pub fn interpret<R: Real>(compiled: &Compiled, inputs: &Inputs, watch: bool) -> 
         .map_err(|e| ExecuteError::Input(e.to_string()))?;
     let interpreter = if watch { interpreter.watch() } else { interpreter };
     let [across, down] = compiled.graph.invocation.pixels();
+    let names = &compiled.graph.targets;
     let rows: Vec<Row<R>> = (0..height.div_ceil(down))
         .into_par_iter()
         .map_init(
@@ -79,22 +99,39 @@ pub fn interpret<R: Real>(compiled: &Compiled, inputs: &Inputs, watch: bool) -> 
             |scratch, row| {
                 let (y, mut births) = (row * down, Vec::new());
                 let mut lines = vec![Vec::with_capacity(width as usize); down as usize];
+                let mut targets = vec![vec![Vec::with_capacity(width as usize); down as usize]; names.len()];
                 for x in (0..width).step_by(across as usize) {
                     let texels = interpreter.invocation(x, y, scratch);
                     births.extend(scratch.birth().map(|b| ([x, y], b.describe(&compiled.graph))));
-                    for (line, texels) in lines.iter_mut().zip(texels.chunks(across as usize)) {
-                        line.extend(texels.iter().take((width - x) as usize));
+                    put(&mut lines, &texels, across as usize, width);
+                    for (k, lines) in targets.iter_mut().enumerate() {
+                        put(lines, &interpreter.target(k, scratch), across as usize, width);
                     }
                 }
-                lines.truncate((height - y) as usize);
-                (lines.concat(), births)
+                let inside = (height - y) as usize;
+                lines.truncate(inside);
+                let targets = targets.into_iter().map(|mut lines| {
+                    lines.truncate(inside);
+                    lines.concat()
+                });
+                Row {
+                    texels: lines.concat(),
+                    targets: targets.collect(),
+                    births,
+                }
             },
         )
         .collect();
-    let (texels, births): (Vec<_>, Vec<_>) = rows.into_iter().unzip();
-    let births = births.concat();
+    let targets = names.iter().enumerate().map(|(k, target)| Written {
+        name: target.name.clone(),
+        size: inputs.size,
+        texels: rows.iter().flat_map(|row| &row.targets[k]).copied().collect(),
+    });
+    let targets = targets.collect();
+    let births: Vec<_> = rows.iter().flat_map(|row| row.births.clone()).collect();
     Ok(Interpreted {
-        texels: texels.concat(),
+        texels: rows.into_iter().flat_map(|row| row.texels).collect(),
+        targets,
         not_finite_pixels: births.len(),
         not_finite: births.first().cloned(),
         births,

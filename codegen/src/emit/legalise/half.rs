@@ -13,8 +13,10 @@ pub fn half(module: &mut Module<'_>) {
     }
     module.rewrite(&mut |_, expr| rule(expr));
     for stmt in &mut module.body {
-        if let StmtKind::Output(colour) = &mut stmt.kind {
-            *colour = full(colour.clone());
+        if let StmtKind::Output(values) = &mut stmt.kind {
+            for value in values {
+                *value = full(value.clone());
+            }
         }
     }
 }

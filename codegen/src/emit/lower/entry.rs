@@ -1,6 +1,7 @@
 //! The entry point around a kernel's statements: which pixel it is, where it may write, what it stores.
 
 use crate::emit::ast::{Block, Builtin, Expr, Module, Op, Stmt, StmtKind, VarId, Variable};
+use crate::emit::outputs::whole_texel;
 use crate::emit::resources::Resources;
 use crate::ir::{self, BinaryOp, Scalar, Type, UnaryOp};
 use straightline_manifest::Stage;
@@ -26,10 +27,15 @@ pub fn entry(module: &mut Module<'_>, resources: &Resources) {
         true => begin_compute(resources),
         false => begin_fragment(resources),
     };
-    let (outputs, mut kernel): (Vec<_>, Vec<_>) = std::mem::take(&mut module.body)
+    let (mut outputs, mut kernel): (Vec<_>, Vec<_>) = std::mem::take(&mut module.body)
         .into_iter()
         .partition(|stmt| matches!(stmt.kind, StmtKind::Output(_)));
     body.append(&mut kernel);
+    if !resources.options.is_function() {
+        for value in outputs.iter_mut().flat_map(Stmt::own_mut) {
+            *value = whole_texel(value.clone());
+        }
+    }
     match compute {
         true => stores(&mut body, outputs, resources),
         false => body.extend(outputs),
@@ -161,7 +167,7 @@ fn begin_fragment(resources: &Resources) -> Block<'static> {
     body
 }
 
-/// Stores the colours of a block's pixels; all but the first may lie outside.
+/// Stores what is given for a block's pixels; all but the first may lie outside.
 fn stores(body: &mut Block<'_>, outputs: Block<'_>, resources: &Resources) {
     let (within, bound) = match resources.options.region {
         true => (VarId::WITHIN, builtin(Builtin::RegionSize)),
@@ -173,13 +179,19 @@ fn stores(body: &mut Block<'_>, outputs: Block<'_>, resources: &Resources) {
     };
     let down = if resources.options.counts_from_below() { -1 } else { 1 };
     let width = resources.block[0] as usize;
-    let colours = outputs.into_iter().filter_map(|stmt| match stmt.kind {
-        StmtKind::Output(colour) => Some(colour),
+    let pixels = outputs.into_iter().filter_map(|stmt| match stmt.kind {
+        StmtKind::Output(values) => Some(values),
         _ => None,
     });
-    for (k, colour) in colours.enumerate() {
+    for (k, values) in pixels.enumerate() {
+        let stored = |there: &Expr| -> Block<'_> {
+            let stores = values.iter().enumerate();
+            stores
+                .map(|(output, value)| StmtKind::Store(output, there.clone(), value.clone()).into())
+                .collect()
+        };
         if k == 0 {
-            body.push(StmtKind::Store(local(place), colour).into());
+            body.extend(stored(&local(place)));
             continue;
         }
         let (x, y) = ((k % width) as i32, (k / width) as i32);
@@ -190,7 +202,7 @@ fn stores(body: &mut Block<'_>, outputs: Block<'_>, resources: &Resources) {
         body.push(
             StmtKind::If {
                 condition: Expr::new(Op::All, vec![inside], Type::BOOL),
-                then: vec![StmtKind::Store(there, colour).into()],
+                then: stored(&there),
                 otherwise: Vec::new(),
             }
             .into(),

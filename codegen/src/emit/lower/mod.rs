@@ -60,9 +60,9 @@ fn attempt<'g>(compiled: &'g Compiled, half: bool, webs: Webs) -> (Module<'g>, O
         stale: None,
     };
     lowering.steps(&compiled.schedule.body);
-    for output in graph.outputs() {
-        let colour = lowering.expr(*output);
-        lowering.block.push(StmtKind::Output(colour).into());
+    for pixel in graph.outputs().chunks(graph.targets.len().max(1)) {
+        let values = pixel.iter().map(|output| lowering.expr(*output)).collect();
+        lowering.block.push(StmtKind::Output(values).into());
     }
     lowering.module.body = lowering.block;
     (lowering.module, lowering.stale)

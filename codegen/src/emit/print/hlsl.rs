@@ -3,7 +3,7 @@
 use super::expr::{float, integer, unsigned};
 use super::{Language, Text, commented, loose};
 use crate::emit::ast::{Builtin, Expr, Module, Op, Ty};
-use crate::emit::resources::{OUTPUT, Resources, UNIFORMS};
+use crate::emit::resources::{OUTPUTS, Resources, UNIFORMS};
 use crate::ir::{self, Axis, BinaryOp, Direction, Scalar, TextureKind, Type, UnaryOp};
 use straightline_manifest::{Format, REGION, Stage};
 
@@ -51,6 +51,7 @@ impl<'a> Hlsl<'a> {
     /// Names at module scope, or of parameters, that this language adds.
     pub fn names(&self) -> Vec<String> {
         let mut names: Vec<String> = self.sizes.iter().map(|size| self.size_of(*size)).collect();
+        names.extend([self.resources.outputs_type(), VARIABLE.to_owned(), OUTPUTS.to_owned()]);
         if self.is_function() {
             names.extend(self.resources.uniforms.iter().map(|u| loose(&u.name)));
         }
@@ -66,7 +67,7 @@ impl<'a> Hlsl<'a> {
         let name = match size {
             Size::Texture(texture) => &self.resources.texture(texture).name,
             Size::Buffer(buffer) => &self.resources.buffer(buffer).name,
-            Size::Output => OUTPUT,
+            Size::Output => self.resources.sized_output(),
         };
         match self.is_function() {
             true => Text::call(&self.size_of(size), &[&Text::name(name)]),
@@ -78,7 +79,7 @@ impl<'a> Hlsl<'a> {
         match size {
             Size::Texture(texture) => format!("size_of_{}", self.resources.texture(texture).name),
             Size::Buffer(buffer) => format!("len_of_{}", self.resources.buffer(buffer).name),
-            Size::Output => format!("size_of_{OUTPUT}"),
+            Size::Output => format!("size_of_{}", self.resources.sized_output()),
         }
     }
 
@@ -92,7 +93,7 @@ impl<'a> Hlsl<'a> {
         };
         let two = "uint width, height";
         let (what, variables, arguments) = match size {
-            Size::Output => (OUTPUT, two, "width, height"),
+            Size::Output => (self.resources.sized_output(), two, "width, height"),
             Size::Buffer(buffer) => {
                 let buffer = &self.resources.buffer(buffer).name;
                 return format!(
@@ -274,12 +275,24 @@ impl Language for Hlsl<'_> {
         format!("{} {name}({}) {{", type_name(result), params.join(", "))
     }
 
-    fn store(&self, place: &Text, colour: &Text) -> Text {
-        Text::list(format!("{OUTPUT}[{}] = ", place.code), &[colour], "")
+    fn store(&self, output: usize, place: &Text, value: &Text) -> Text {
+        let name = &self.resources.outputs[output].name;
+        Text::list(format!("{name}[{}] = ", place.code), &[value], "")
     }
 
-    fn output(&self) -> String {
-        "return ".to_owned()
+    fn outputs(&self, values: &[Text]) -> Vec<(String, Text)> {
+        let returned = |value: Text| ("return ".to_owned(), value);
+        match values {
+            [one] => vec![returned(one.clone())],
+            several => {
+                let r = self.resources;
+                let mut lines = vec![(format!("{} ", r.outputs_type()), Text::name(VARIABLE))];
+                let assigned = r.outputs.iter().zip(several);
+                lines.extend(assigned.map(|(o, value)| (format!("{VARIABLE}.{} = ", o.name), value.clone())));
+                lines.push(returned(Text::name(VARIABLE)));
+                lines
+            }
+        }
     }
 
     fn preamble(&self, header: &[String]) -> String {
@@ -288,6 +301,9 @@ impl Language for Hlsl<'_> {
         out += &commented(header);
         out.push('\n');
         if self.is_function() {
+            if r.outputs.len() > 1 {
+                out += &format!("{}\n", self.outputs_structure());
+            }
             for size in &self.sizes {
                 out += &format!("{}\n", self.asks(*size));
             }
@@ -305,13 +321,16 @@ impl Language for Hlsl<'_> {
             let register = r.places.register('s', *binding);
             out += &format!("{} : register({register});\n", sampler_declared(r, *k));
         }
-        if let Some(binding) = r.output_binding() {
-            let texel = match r.options.format {
-                Format::Rgba8Unorm => "unorm float4",
-                _ => "float4",
+        for output in &r.outputs {
+            let Some(binding) = output.binding else { continue };
+            let unorm = if output.format == Format::Rgba8Unorm {
+                "unorm "
+            } else {
+                ""
             };
+            let texel = type_name(output.texel().into());
             let register = r.places.register('u', binding);
-            out += &format!("RWTexture2D<{texel}> {OUTPUT} : register({register});\n");
+            out += &format!("RWTexture2D<{unorm}{texel}> {} : register({register});\n", output.name);
         }
         if let Some(binding) = r.uniform_binding() {
             out += "\nstruct Parameters {\n";
@@ -331,6 +350,9 @@ impl Language for Hlsl<'_> {
         }
         for size in &self.sizes {
             out += &format!("\n{}", self.asks(*size));
+        }
+        if r.options.stage == Stage::Fragment && r.outputs.len() > 1 {
+            out += &format!("\n{}", self.outputs_structure());
         }
         out
     }
@@ -352,11 +374,45 @@ impl Language for Hlsl<'_> {
                     format!(", {declared} : TEXCOORD{k}")
                 });
                 let varyings: String = varyings.collect();
-                format!("float4 {entry}(float4 position : SV_Position{varyings}) : SV_Target0 {{")
+                let (result, semantic) = match &r.outputs[..] {
+                    [one] => (type_name(one.texel().into()), " : SV_Target0"),
+                    _ => (r.outputs_type(), ""),
+                };
+                format!("{result} {entry}(float4 position : SV_Position{varyings}){semantic} {{")
             }
         }
     }
 }
+
+impl Hlsl<'_> {
+    /// The structure of several outputs: of an entry point with their locations.
+    fn outputs_structure(&self) -> String {
+        let r = self.resources;
+        let fields = r
+            .outputs
+            .iter()
+            .enumerate()
+            .map(|(k, output)| match self.is_function() {
+                true => format!("    {};\n", declared(&output.name, output.ty.into())),
+                false => format!(
+                    "    {} : SV_Target{k};\n",
+                    declared(&output.name, output.texel().into())
+                ),
+            });
+        format!("struct {} {{\n{}}};\n", r.outputs_type(), fields.collect::<String>())
+    }
+
+    /// The type that a function gives.
+    pub(super) fn result_type(&self) -> String {
+        match &self.resources.outputs[..] {
+            [one] => type_name(one.ty.into()),
+            _ => self.resources.outputs_type(),
+        }
+    }
+}
+
+/// The variable that holds several outputs.
+const VARIABLE: &str = "outputs";
 
 pub(super) fn texture_declared(resources: &Resources, index: u32) -> String {
     let texture = resources.texture(index);

@@ -1,6 +1,6 @@
 //! What GLSL of OpenGL and OpenGL ES declares: combined samplers, loose uniforms, precisions.
 
-use super::glsl::{Glsl, LOOSE_REGION, declared, loose, plain_sampler};
+use super::glsl::{Glsl, LOOSE_REGION, declared, image_type, loose, plain_sampler};
 use crate::emit::Target;
 use crate::emit::resources::Combined;
 use crate::ir::TextureKind;
@@ -9,6 +9,7 @@ impl Glsl<'_> {
     /// Types that have no precision of their own in OpenGL ES.
     pub(super) fn opaque(&self) -> Vec<&'static str> {
         let r = self.resources;
+        let writes = |ty: &str| r.outputs.iter().any(|o| o.binding.is_some() && image_type(o) == ty);
         let kinds = |kind: TextureKind| r.combined.iter().any(|one| r.texture(one.texture).kind == kind);
         let compares = r
             .combined
@@ -19,7 +20,9 @@ impl Glsl<'_> {
             (kinds(TextureKind::Layers), "sampler2DArray"),
             (kinds(TextureKind::Multisampled), "sampler2DMS"),
             (compares, "sampler2DShadow"),
-            (r.output_binding().is_some(), "image2D"),
+            (writes("image2D"), "image2D"),
+            (writes("iimage2D"), "iimage2D"),
+            (writes("uimage2D"), "uimage2D"),
         ];
         all.into_iter().filter(|(used, _)| *used).map(|(_, ty)| ty).collect()
     }
