@@ -156,6 +156,9 @@ pub struct Counts {
     /// Messages between the lanes of a quad, or the derivatives that carry them.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub messages: u32,
+    /// Atomic operations on buffers, and stores into them.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub writes: u32,
     /// All other arithmetic, comparison and selection operations, a vector operation counting once.
     pub alu: u32,
     /// Statements of the emitted body.

@@ -153,7 +153,7 @@ impl Pass {
         self.plan.inputs.iter().map(|input| input.name.as_str())
     }
 
-    /// The format that the target must have; of several, the first one.
+    /// The format that the target must have; of several, the first one. Panics if the kernel has none.
     pub fn target_format(&self) -> TextureFormat {
         self.formats[0]
     }
@@ -212,7 +212,8 @@ impl Pass {
     ///   or, where the kernel reads samples, at least as many as the manifest says.
     /// - A sampler has a comparison function exactly if the kernel compares with it.
     /// - A buffer has [`STORAGE`](wgpu::BufferUsages::STORAGE) usage and room for one element at least. All of it is
-    ///   bound, so that its size says how many elements there are.
+    ///   bound, so that its size says how many elements there are. One that the kernel writes keeps what is not written, and is
+    ///   none that it reads. A kernel that only writes buffers is given no targets, `&[]`, and runs over its inputs.
     ///
     /// Targets have one size. Each has the format that [`targets`](Self::targets) says, and
     /// [`STORAGE_BINDING`](wgpu::TextureUsages::STORAGE_BINDING) usage for compute or
@@ -291,7 +292,7 @@ impl Pass {
             .check(&self.device, &format!("encoding `{}`", self.plan.kernel))?;
         let resources = arrange(&self.plan, inputs)?;
         check_targets(&self.plan, &self.formats, &self.abilities, targets)?;
-        let whole = size(targets[0].texture());
+        let whole = self.whole(&resources, targets)?;
         let rectangle = self.rectangle(&resources, whole, region)?;
         let frame = match self.plan.region {
             Some(_) => frame_size(&self.plan, &resources),
@@ -330,6 +331,17 @@ impl Pass {
                 }
             }
             (error, _) => error,
+        })
+    }
+
+    /// The size of what is computed: that of the targets, or of a kernel that has none, of its inputs.
+    fn whole(&self, resources: &[Resource<'_>], targets: &[&TextureView]) -> Result<[u32; 2], Error> {
+        let of_inputs = || frame_size(&self.plan, resources);
+        let whole = targets.first().map(|target| size(target.texture())).or_else(of_inputs);
+        whole.ok_or_else(|| Error::BadManifest {
+            kernel: self.plan.kernel.clone(),
+            place: "output".to_owned(),
+            problem: "nothing is given, and no input has a size that tells how many pixels there are".to_owned(),
         })
     }
 

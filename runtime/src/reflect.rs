@@ -182,18 +182,25 @@ fn texture_type(plan: &TexturePlan) -> (TypeInner, &'static str) {
     (TypeInner::Image { dim, arrayed, class }, text)
 }
 
-/// Whether `variable` is a read-only storage buffer of `plan`'s elements.
+/// Whether `variable` is a storage buffer of `plan`'s elements, atomic ones among them, accessed as `plan` says.
 fn is_buffer(module: &Module, variable: &GlobalVariable, plan: &BufferPlan) -> bool {
-    let read_only = AddressSpace::Storage {
-        access: naga::StorageAccess::LOAD,
+    let access = AddressSpace::Storage {
+        access: match plan.written {
+            true => naga::StorageAccess::LOAD | naga::StorageAccess::STORE,
+            false => naga::StorageAccess::LOAD,
+        },
     };
     let TypeInner::Array { base, size, stride } = module.types[variable.ty].inner else {
         return false;
     };
-    variable.space == read_only
+    let element = match module.types[base].inner {
+        TypeInner::Atomic(scalar) if plan.written => TypeInner::Scalar(scalar),
+        ref other => other.clone(),
+    };
+    variable.space == access
         && size == naga::ArraySize::Dynamic
         && stride == plan.stride
-        && is_type(&module.types[base].inner, plan.element)
+        && is_type(&element, plan.element)
 }
 
 fn check_storage(module: &Module, name: &str, group: u32, binding: u32, format: Format) -> Result<(), String> {

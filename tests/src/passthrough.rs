@@ -8,7 +8,7 @@ use straightline_codegen::emit::{Emitted, Target};
 use straightline_kernels::prelude::Frame;
 use straightline_runtime::manifest::{Binding, BindingKind, LanguageKind, Manifest, SamplerType};
 use straightline_runtime::{Pass, PassOptions};
-use straightline_study::execute::{Bench, Inputs, SamplerState, Written};
+use straightline_study::execute::{Bench, Buffers, Inputs, SamplerState, Written};
 use wgpu::Features;
 
 /// A bench that runs SPIR-V, of any Vulkan adapter, with what kernels can use of it.
@@ -66,6 +66,25 @@ pub fn run_all(bench: &Bench, emitted: &Emitted, target: Target, inputs: &Inputs
         let written = bench.written_by(&pass, &bound, inputs.size);
         written.map_err(|e| e.to_string())
     })
+}
+
+/// As [`run`], of the buffers that the kernel writes.
+///
+/// # Errors
+///
+/// Those of [`run`].
+pub fn run_buffers(bench: &Bench, emitted: &Emitted, target: Target, inputs: &Inputs) -> Result<Buffers, String> {
+    let bytes = emitted.files.get(&target);
+    let bytes = bytes.ok_or_else(|| format!("it was not emitted in {target}"))?;
+    let mut manifest = emitted.manifest.clone();
+    let words = words(bytes, target, &mut manifest)?;
+    let inputs = with_language_bindings(&mut manifest, target, inputs)?;
+    let pass = pass(bench, &manifest, &words)?;
+    let bound = bench.bind(&pass, &manifest, &inputs).map_err(|e| e.to_string())?;
+    bench
+        .written_by(&pass, &bound, inputs.size)
+        .map_err(|e| e.to_string())?;
+    bench.buffers(&manifest, &bound).map_err(|e| e.to_string())
 }
 
 /// The SPIR-V of a file; the manifest then names its entry point.

@@ -5,8 +5,8 @@ use crate::compiled::Compiled;
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 use straightline_manifest::{
-    Binding, BindingKind, Dimension, Extent, Form, Format, Manifest, REGION, SampleType, SamplerType, Stage,
-    ViewDimension,
+    Binding, BindingKind, BufferType, Dimension, Extent, Form, Format, Manifest, REGION, SampleType, SamplerType,
+    Stage, ViewDimension,
 };
 
 /// One shader's part of the bindings file.
@@ -163,6 +163,13 @@ impl Targets {
             return Targets {
                 ty: quote! { target: &wgpu::TextureView },
                 given: quote! { target },
+                structure: TokenStream::new(),
+            };
+        }
+        if manifest.outputs.is_empty() {
+            return Targets {
+                ty: TokenStream::new(),
+                given: quote! { &[] as &[(&str, &wgpu::TextureView)] },
                 structure: TokenStream::new(),
             };
         }
@@ -330,8 +337,13 @@ fn layout_entry(stage: Stage, binding: &Binding) -> TokenStream {
             SamplerType::Filtering => quote! { #wgpu::BindingType::Sampler(#wgpu::SamplerBindingType::Filtering) },
             SamplerType::Comparison => quote! { #wgpu::BindingType::Sampler(#wgpu::SamplerBindingType::Comparison) },
         },
-        BindingKind::Buffer { stride, .. } => buffer(
-            quote! { #wgpu::BufferBindingType::Storage { read_only: true } },
+        BindingKind::Buffer {
+            stride, buffer_type, ..
+        } => buffer(
+            match buffer_type {
+                BufferType::Storage => quote! { #wgpu::BufferBindingType::Storage { read_only: false } },
+                _ => quote! { #wgpu::BufferBindingType::Storage { read_only: true } },
+            },
             *stride,
         ),
         BindingKind::Uniform { size, .. } => buffer(quote! { #wgpu::BufferBindingType::Uniform }, *size),

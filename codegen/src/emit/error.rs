@@ -5,9 +5,15 @@
 pub enum EmitError {
     /// The size of the frame is needed and nothing tells it.
     #[error(
-        "`{kernel}` needs the frame's size but reads no texture of that size, so neither a fragment shader nor a function can know it: emit a whole shader for compute"
+        "`{kernel}` needs the frame's size but reads no texture of that size, so only a compute shader with an output can know it: emit a whole shader for compute, or take a `Frame`"
     )]
     NoFrame {
+        /// The kernel.
+        kernel: String,
+    },
+    /// A fragment shader without a colour.
+    #[error("`{kernel}` gives nothing for a pixel, and a fragment shader gives a colour: emit it for compute")]
+    NoColour {
         /// The kernel.
         kernel: String,
     },

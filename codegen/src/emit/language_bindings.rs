@@ -140,7 +140,7 @@ impl Resources {
         }
         for (k, binding) in &self.read_buffers {
             let [name, of] = [self, original].map(|r| &r.buffer(*k).name);
-            see(Kind::StorageBuffer, 't', name, of, *binding);
+            see(Kind::StorageBuffer, self.buffer_class(*k), name, of, *binding);
         }
         for (k, binding) in &self.used_samplers {
             let [name, of] = [self, original].map(|r| &r.sampler(*k).name);

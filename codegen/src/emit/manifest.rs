@@ -38,7 +38,10 @@ impl Resources {
         for (index, binding) in &self.read_buffers {
             let buffer = self.buffer(*index);
             let kind = BindingKind::Buffer {
-                buffer_type: BufferType::ReadOnlyStorage,
+                buffer_type: match self.is_written(*index) {
+                    true => BufferType::Storage,
+                    false => BufferType::ReadOnlyStorage,
+                },
                 element: wgsl_type(buffer.element.into()),
                 stride: stride(buffer.element),
             };

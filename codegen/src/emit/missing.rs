@@ -54,7 +54,7 @@ pub fn check(compiled: &Compiled, resources: &Resources, target: Target) -> Resu
         ),
         (
             old && !resources.read_buffers.is_empty(),
-            "reads a storage buffer",
+            "has a storage buffer",
             with_compute,
         ),
         (

@@ -273,8 +273,8 @@ impl Shader<'_, '_> {
         let language = print::Glsl::new(resources, target);
         names::assign(&mut tree, resources, names::Words::Glsl, &language.names());
         let glsl = print::module(&language, &tree, &print::header(self.compiled, counts, resources));
-        // naga reads no other GLSL, and no text without `main`.
-        if target == Target::Glsl450 && !resources.options.is_function() {
+        // naga reads no other GLSL, no text without `main`, and no atomic operations.
+        if target == Target::Glsl450 && !resources.options.is_function() && !self.compiled.graph.has_effects() {
             let compared = resources.compared();
             check::check_glsl(&self.compiled.kernel, resources.options.stage, &glsl, &compared)?;
         }

@@ -8,7 +8,7 @@ use super::places::{Named, Places};
 use super::print::wgsl_type;
 use super::target::Target;
 use crate::compiled::Compiled;
-use crate::ir::{Buffer, NodeId, Op, Sampler, Texture, Uniform, Varying};
+use crate::ir::{Access, Buffer, NodeId, Op, Sampler, Texture, Uniform, Varying};
 use crate::passes::layers_read;
 use std::collections::BTreeSet;
 use straightline_manifest::{REGION, Stage, UniformField};
@@ -68,7 +68,7 @@ pub struct Resources {
     pub read: Vec<BoundTexture>,
     /// The ways in which they are read.
     pub combined: Vec<Combined>,
-    /// Index and binding number of each buffer that is read.
+    /// Index and binding number of each buffer that is read or written.
     pub read_buffers: Vec<(u32, u32)>,
     /// Index and binding number of each sampler that is used.
     pub used_samplers: Vec<(u32, u32)>,
@@ -103,7 +103,10 @@ impl Resources {
         // A fragment shader that needs the output's size has it from a texture of that size: one that is read, or else any.
         let framed = |index: &u32| graph.textures[*index as usize].framed;
         let all = || 0..graph.textures.len() as u32;
-        let needs_size = options.stage == Stage::Fragment && ops.contains(&&Op::FrameSize);
+        let sized_by_output = options.stage == Stage::Compute && !graph.targets.is_empty();
+        // A shader without outputs that could tell needs it anyway: pixels outside of the frame do nothing.
+        let needs_size =
+            !sized_by_output && (ops.contains(&&Op::FrameSize) || (options.stage == Stage::Compute && !options.region));
         let sized = match needs_size && !all().any(|index| framed(&index) && reads(index)) {
             true => all().find(framed),
             false => None,
@@ -213,7 +216,7 @@ impl Resources {
         let all_bound = all_bound.chain(
             read_buffers
                 .iter()
-                .map(|(k, _)| named('t', &graph.buffers[*k as usize].name)),
+                .map(|(k, _)| named(class(&graph.buffers[*k as usize]), &graph.buffers[*k as usize].name)),
         );
         let all_bound = all_bound.chain(
             used_samplers
@@ -271,7 +274,14 @@ impl Resources {
             varyings,
             block: graph.invocation.pixels(),
         };
-        if needs_frame && options.stage == Stage::Fragment && resources.framed().is_none() {
+        if options.stage == Stage::Fragment && resources.outputs.is_empty() {
+            return Err(EmitError::NoColour { kernel: kernel() });
+        }
+        let told = resources.framed().is_some() || sized_by_output;
+        if needs_frame
+            && !told
+            && (options.stage == Stage::Fragment || !options.region || ops.contains(&&Op::FrameSize))
+        {
             return Err(EmitError::NoFrame { kernel: kernel() });
         }
         Ok(resources)
@@ -285,6 +295,16 @@ impl Resources {
     /// A buffer by its index in the graph.
     pub fn buffer(&self, index: u32) -> &Buffer {
         &self.buffers[index as usize]
+    }
+
+    /// The class of a buffer's registers in HLSL, by its index in the graph.
+    pub fn buffer_class(&self, index: u32) -> char {
+        class(self.buffer(index))
+    }
+
+    /// Whether a buffer is written, by its index in the graph.
+    pub fn is_written(&self, index: u32) -> bool {
+        self.buffer(index).access != Access::Read
     }
 
     /// A sampler by its index in the graph.
@@ -410,6 +430,14 @@ impl Resources {
             .iter()
             .find(|bound| bound.index == texture)
             .map(|bound| bound.binding)
+    }
+}
+
+/// The class of a buffer's registers in HLSL.
+fn class(buffer: &Buffer) -> char {
+    match buffer.access {
+        Access::Read => 't',
+        Access::Write | Access::Atomic => 'u',
     }
 }
 

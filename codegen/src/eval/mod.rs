@@ -13,6 +13,7 @@ mod closures;
 mod consts;
 mod control;
 mod departures;
+mod effects;
 mod entry;
 mod expr;
 mod functions;
@@ -169,6 +170,9 @@ struct Evaluator<'a> {
     departed: Vec<departures::Departure>,
     /// Loops around that are left in the shader.
     kept_loops: u32,
+    /// Conditions, with what they are, of those for whom the place that is being evaluated is reached: of sides that are
+    /// selected, and of those who left before the branches and loops around.
+    reach: Vec<(NodeId, bool)>,
 }
 
 impl<'a> Evaluator<'a> {
@@ -192,6 +196,7 @@ impl<'a> Evaluator<'a> {
             steps: 0,
             departed: Vec::new(),
             kept_loops: 0,
+            reach: Vec::new(),
         }
     }
 }

@@ -6,7 +6,7 @@ use super::value::{Eval, Exit, Value};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::front::tree::Type as SourceType;
 use crate::ir::vector_named as vector_type;
-use crate::ir::{BinaryOp, Buffer, NodeId, Op, Sampler, Scalar, Texture, TextureKind, Type};
+use crate::ir::{Access, BinaryOp, Buffer, NodeId, Op, Sampler, Scalar, Texture, TextureKind, Type};
 
 const PAIR: Type = Type::value(Scalar::I32, 2);
 
@@ -31,13 +31,28 @@ impl Evaluator<'_> {
                 });
                 return Ok(Some(Value::Sampler(samplers.len() as u32 - 1)));
             }
-            "Buffer" => {
+            "Buffer" | "StorageBuffer" | "AtomicBuffer" => {
                 let element = self.element_type(name, args, span)?;
+                let access = match type_name.as_str() {
+                    "AtomicBuffer" => Access::Atomic,
+                    "StorageBuffer" => Access::Write,
+                    _ => Access::Read,
+                };
+                if access == Access::Atomic && !matches!(element, Type::I32 | Type::U32) {
+                    return Err(Diagnostic::at(
+                        span,
+                        format!("the buffer `{name}` has no elements that are changed at once"),
+                    )
+                    .label("of this type")
+                    .help("elements of an `AtomicBuffer` are u32 or i32")
+                    .into());
+                }
                 self.unused_name(name, span)?;
                 let buffers = &mut self.builder.graph_mut().buffers;
                 buffers.push(Buffer {
                     name: name.to_owned(),
                     element,
+                    access,
                 });
                 return Ok(Some(Value::Buffer(buffers.len() as u32 - 1)));
             }
@@ -203,6 +218,9 @@ impl Evaluator<'_> {
 
     /// A method of a buffer.
     pub fn buffer(&mut self, index: u32, name: &str, args: &[Value], span: Span) -> Eval {
+        if self.builder.graph().buffers[index as usize].access != Access::Read {
+            return self.written_buffer(index, name, args, span);
+        }
         match (name, args) {
             ("len", []) => Ok(Value::Node(self.builder.add(
                 Op::BufferLen(index),

@@ -50,6 +50,7 @@ impl Evaluator<'_> {
         let span = function.span;
         let numbered = |k: usize| format!("{}_{k}", Target::ALONE);
         match value {
+            Value::Tuple(parts) if parts.is_empty() && self.builder.graph().has_effects() => Ok(Vec::new()),
             Value::Tuple(parts) if !parts.is_empty() => {
                 let parts = parts.iter().enumerate();
                 Ok(parts.map(|(k, part)| (numbered(k), part.clone(), span)).collect())
@@ -86,6 +87,10 @@ impl Evaluator<'_> {
             other => other.describe(),
         };
         let (what, label) = match name == Target::ALONE {
+            true if matches!(value, Value::Tuple(parts) if parts.is_empty()) => (
+                "a kernel that gives nothing and writes nothing".to_owned(),
+                "the kernel",
+            ),
             true => (format!("a kernel gives numbers and vectors, not {found}"), "the kernel"),
             false => (
                 format!("`{name}` is one of the values that the kernel gives, and is {found}"),
@@ -97,6 +102,9 @@ impl Evaluator<'_> {
                 "a target holds numbers: choose one, `if condition { 1.0 } else { 0.0 }`"
             }
             Value::Int(_) => "convert it with `as i32` or `as u32`",
+            Value::Tuple(parts) if parts.is_empty() => {
+                "give a value for each pixel, or write to an `&AtomicBuffer` or a `&StorageBuffer`"
+            }
             _ => {
                 "give f32, i32, u32, a vector of 2 to 4 of them, or a structure or tuple of such values, each of which has a target \
                  of its own"

@@ -84,6 +84,8 @@ impl<'l> Checker<'l> {
             "Multisampled" => Ty::Texture("Multisampled", Box::new(texel())),
             "DepthTexture" => Ty::Texture("DepthTexture", Box::new(Ty::Float)),
             "Buffer" => Ty::Buffer(Box::new(texel())),
+            "AtomicBuffer" => Ty::Storage("AtomicBuffer", Box::new(texel())),
+            "StorageBuffer" => Ty::Storage("StorageBuffer", Box::new(texel())),
             "Sampler" => Ty::Sampler,
             "ComparisonSampler" => Ty::ComparisonSampler,
             "_" => self.table.fresh(Kind::Any),

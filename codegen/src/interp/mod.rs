@@ -5,7 +5,7 @@ mod finite;
 mod sampling;
 
 use crate::ir::arith::{self, Cells};
-use crate::ir::{Counter, Graph, Invocation, NodeId, Op, Real, Region, Scalar, Type};
+use crate::ir::{Access, Counter, Graph, Invocation, NodeId, Op, Real, Region, Scalar, Type};
 use crate::passes::{Block, Schedule, Step};
 use sampling::Sampled;
 use std::marker::PhantomData;
@@ -33,6 +33,8 @@ pub struct Scratch {
     /// Counters of the kept loops around, outer ones first.
     loops: Vec<(NodeId, i64)>,
     birth: Option<Birth>,
+    /// Buffers that are written, by index; of those that are not, nothing.
+    written: Vec<Vec<Cells>>,
 }
 
 impl Scratch {
@@ -126,6 +128,7 @@ impl<'a, R: Real> Interpreter<'a, R> {
             arrays: vec![Vec::new(); self.graph.nodes.len()],
             loops: Vec::new(),
             birth: None,
+            written: self.written(),
         }
     }
 
@@ -169,6 +172,45 @@ impl<'a, R: Real> Interpreter<'a, R> {
         let ids = self.graph.outputs().iter().skip(target);
         let ids = ids.step_by(self.graph.targets.len().max(1));
         ids.map(|id| (self.graph.ty(*id), scratch.values[id.0 as usize]))
+    }
+
+    /// Buffers that are written as they are at first.
+    fn written(&self) -> Vec<Vec<Cells>> {
+        let buffers = self.graph.buffers.iter().zip(&self.buffers);
+        let first = buffers.map(|(buffer, elements)| match buffer.access {
+            Access::Read => Vec::new(),
+            Access::Write | Access::Atomic => elements.clone(),
+        });
+        first.collect()
+    }
+
+    /// What a buffer that is written holds now, by its index in [`Graph::buffers`]: each element in as many lanes as it has.
+    pub fn buffer(&self, index: usize, scratch: &Scratch) -> Vec<[f64; 4]> {
+        let ty = self.graph.buffers[index].element;
+        let lanes = ty.lanes() as usize;
+        let elements = scratch.written[index].iter().map(|cells| {
+            let all = texel::<R>(ty, *cells);
+            std::array::from_fn(|k| if k < lanes { all[k] } else { 0.0 })
+        });
+        elements.collect()
+    }
+
+    /// Does what an effect does, and gives what was there before.
+    fn effect(&self, id: NodeId, s: &mut Scratch) -> Cells {
+        let node = self.graph.node(id);
+        let arg = |k: usize| s.values[node.args[k].0 as usize];
+        let Some(buffer) = node.op.buffer() else { return [0; 4] };
+        let (holds, index) = (arg(0)[0] != 0, arg(1)[0] as u32 as usize);
+        let value = node.args.get(2).map_or([0; 4], |id| s.values[id.0 as usize]);
+        let Some(place) = s.written[buffer as usize].get_mut(index).filter(|_| holds) else {
+            return [0; 4];
+        };
+        let before = *place;
+        *place = match node.op {
+            Op::Atomic { op, .. } => [arith::atomic(op, node.ty, before[0], value[0]), 0, 0, 0],
+            _ => value,
+        };
+        before
     }
 
     fn block(&self, block: &Block, pixel: [u32; 2], s: &mut Scratch) {
@@ -256,6 +298,7 @@ impl<'a, R: Real> Interpreter<'a, R> {
             Op::Pixel => s.values[slot] = [pixel[0].into(), pixel[1].into(), 0, 0],
             Op::FrameSize => s.values[slot] = [self.frame[0].into(), self.frame[1].into(), 0, 0],
             Op::Uniform(k) => s.values[slot] = self.uniforms[*k as usize],
+            op if op.is_effect() => s.values[slot] = self.effect(id, s),
             op if op.is_read() || op.texture().is_some() || op.buffer().is_some() => {
                 s.values[slot] = self.read(op, &node.args, s);
             }

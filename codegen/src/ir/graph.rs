@@ -33,6 +33,8 @@ pub struct Region {
     pub results: Vec<NodeId>,
     /// Of a loop: whether this iteration is the last one, whatever the counter says.
     pub stop: Option<NodeId>,
+    /// What happens in it, in order: effects, and loops and branches that have some.
+    pub effects: Vec<NodeId>,
 }
 
 impl Region {
@@ -84,13 +86,27 @@ pub struct Texture {
     pub framed: bool,
 }
 
-/// A read-only array that the host fills.
+/// An array that the host fills.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Buffer {
     /// Its name in the kernel.
     pub name: String,
     /// Scalar, or vector of 2 or 4.
     pub element: Type,
+    /// What the kernel does with it.
+    pub access: Access,
+}
+
+/// What a kernel does with a buffer.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Access {
+    /// It only reads, and nothing changes the buffer meanwhile.
+    #[default]
+    Read,
+    /// It only writes.
+    Write,
+    /// It changes elements by atomic operations.
+    Atomic,
 }
 
 /// A sampler.
@@ -246,6 +262,11 @@ impl Graph {
         &self.regions[0].results
     }
 
+    /// Whether the kernel does more than give values.
+    pub fn has_effects(&self) -> bool {
+        !self.regions[0].effects.is_empty()
+    }
+
     /// All nodes in order.
     pub fn ids(&self) -> impl DoubleEndedIterator<Item = NodeId> + use<> {
         (0..self.nodes.len() as u32).map(NodeId)
@@ -291,6 +312,7 @@ impl<'r> Builder<'r> {
             params: Vec::new(),
             results: Vec::new(),
             stop: None,
+            effects: Vec::new(),
         };
         let graph = Graph {
             regions: vec![body],
@@ -330,14 +352,53 @@ impl<'r> Builder<'r> {
         if let Some(&id) = self.known.get(&node) {
             return id;
         }
+        let id = self.push(node.clone());
+        self.known.insert(node, id);
+        let regions = self.graph.regions_of(id);
+        if regions
+            .iter()
+            .any(|region| !self.graph.region(*region).effects.is_empty())
+        {
+            self.happens(id);
+        }
+        id
+    }
+
+    /// An effect, behind all others of the region that is open.
+    pub fn effect(&mut self, op: Op, args: Vec<NodeId>, ty: Type) -> NodeId {
+        let id = self.push(Node { op, args, ty });
+        self.happens(id);
+        id
+    }
+
+    fn push(&mut self, node: Node) -> NodeId {
         let id = NodeId(self.graph.nodes.len() as u32);
-        self.known.insert(node.clone(), id);
         self.graph.nodes.push(node);
         self.graph.origins.push(None);
-        self.graph
-            .homes
-            .push(*self.open.last().expect("the body is always open"));
+        self.graph.homes.push(self.innermost());
         id
+    }
+
+    fn innermost(&self) -> RegionId {
+        *self.open.last().expect("the body is always open")
+    }
+
+    fn happens(&mut self, id: NodeId) {
+        let region = self.innermost();
+        self.graph.regions[region.0 as usize].effects.push(id);
+    }
+
+    /// How many effects each open region has.
+    pub fn effects(&self) -> Vec<usize> {
+        let open = self.open.iter();
+        open.map(|region| self.graph.region(*region).effects.len()).collect()
+    }
+
+    /// Takes back the effects since the open regions had so many.
+    pub fn take_back(&mut self, effects: &[usize]) {
+        for (region, count) in self.open.iter().zip(effects) {
+            self.graph.regions[region.0 as usize].effects.truncate(*count);
+        }
     }
 
     /// The node that computes `op` of `args`, if there is one already.
@@ -387,6 +448,7 @@ impl<'r> Builder<'r> {
             params: Vec::new(),
             results: Vec::new(),
             stop: None,
+            effects: Vec::new(),
         });
         self.open.push(id);
         self.graph.events.push((self.graph.nodes.len() as u32, Event::Open(id)));

@@ -1,8 +1,8 @@
 //! The graph from its text.
 
 use super::{
-    Axis, BinaryOp, Buffer, Counter, Direction, Event, Graph, Invocation, Node, NodeId, Op, Origin, Region, RegionId,
-    Sampler, Scalar, Target, Texture, TextureKind, Type, UnaryOp, Uniform, Varying,
+    Access, AtomicOp, Axis, BinaryOp, Buffer, Counter, Direction, Event, Graph, Invocation, Node, NodeId, Op, Origin,
+    Region, RegionId, Sampler, Scalar, Target, Texture, TextureKind, Type, UnaryOp, Uniform, Varying,
 };
 
 /// Why a text is not a graph.
@@ -31,7 +31,7 @@ pub fn parse(text: &str) -> Result<Graph, ParseError> {
             .map_err(|problem| ParseError { line: k + 1, problem })?;
     }
     let last = text.lines().count();
-    if reader.graph.regions[0].results.is_empty() {
+    if !reader.has_output {
         return Err(ParseError {
             line: last,
             problem: "there is no `output %N` at the end".to_owned(),
@@ -44,7 +44,7 @@ pub fn parse(text: &str) -> Result<Graph, ParseError> {
         });
     }
     reader.event(Event::Close(Graph::BODY));
-    if reader.graph.targets.is_empty() {
+    if reader.graph.targets.is_empty() && !reader.gives_nothing {
         reader.graph.targets.push(Target::colour());
     }
     Ok(reader.graph)
@@ -53,6 +53,8 @@ pub fn parse(text: &str) -> Result<Graph, ParseError> {
 #[derive(Default)]
 struct Reader {
     graph: Graph,
+    has_output: bool,
+    gives_nothing: bool,
     open: Vec<RegionId>,
 }
 
@@ -86,6 +88,10 @@ impl Reader {
                 self.graph.varyings.push(Varying { name, ty });
                 Ok(())
             }
+            "target" if rest == "none" => {
+                self.gives_nothing = true;
+                Ok(())
+            }
             "target" => {
                 let (name, kind) = named(rest)?;
                 let ty = ty(kind)?;
@@ -104,6 +110,7 @@ impl Reader {
             "output" => {
                 let outputs = rest.split_whitespace().map(|word| self.node_id(word));
                 self.graph.regions[0].results = outputs.collect::<Parsed<_>>()?;
+                self.has_output = true;
                 Ok(())
             }
             _ if word.starts_with('%') => self.node(line),
@@ -135,8 +142,13 @@ impl Reader {
 
     fn buffer(&mut self, text: &str) -> Parsed {
         let (name, rest) = named(text)?;
-        let element = ty(rest)?;
-        self.graph.buffers.push(Buffer { name, element });
+        let (kind, access) = match rest.rsplit_once(' ') {
+            Some((kind, "write")) => (kind, Access::Write),
+            Some((kind, "atomic")) => (kind, Access::Atomic),
+            _ => (rest, Access::Read),
+        };
+        let element = ty(kind)?;
+        self.graph.buffers.push(Buffer { name, element, access });
         Ok(())
     }
 
@@ -245,6 +257,15 @@ impl Reader {
         self.graph.origins.push(origin);
         let home = self.open.last().copied().unwrap_or(Graph::BODY);
         self.graph.homes.push(home);
+        let has = |region: &RegionId| {
+            self.graph
+                .regions
+                .get(region.0 as usize)
+                .is_some_and(|r| !r.effects.is_empty())
+        };
+        if self.graph.node(here).op.is_effect() || self.graph.regions_of(here).iter().any(has) {
+            self.graph.regions[home.0 as usize].effects.push(here);
+        }
         Ok(())
     }
 
@@ -259,10 +280,11 @@ impl Reader {
             let found = position(g.samplers.iter().map(|s| &s.name), word(1)?);
             found.ok_or_else(|| missing("sampler"))
         };
-        let buffer = || -> Parsed<u32> {
-            let found = position(g.buffers.iter().map(|b| &b.name), word(0)?);
+        let buffer_at = |k: usize| -> Parsed<u32> {
+            let found = position(g.buffers.iter().map(|b| &b.name), word(k)?);
             found.ok_or_else(|| missing("buffer"))
         };
+        let buffer = || buffer_at(0);
         let site = match words.iter().find_map(|w| w.strip_prefix("site=")) {
             Some(site) => number(site)?,
             None => 0,
@@ -344,6 +366,15 @@ impl Reader {
                 buffer: buffer()?,
                 site,
             },
+            "atomic" => {
+                let spelled = word(0)?;
+                let found = AtomicOp::ALL.into_iter().find(|op| format!("{op:?}") == spelled);
+                Op::Atomic {
+                    buffer: buffer_at(1)?,
+                    op: found.ok_or_else(|| missing("operation"))?,
+                }
+            }
+            "store" => Op::Store(buffer()?),
             "tally" => Op::Tally(position(g.tallies.iter(), word(0)?).ok_or_else(|| missing("tally"))?),
             "makearray" => Op::MakeArray,
             "arrayget" => Op::ArrayGet,
@@ -363,6 +394,7 @@ fn empty(parent: Option<RegionId>) -> Region {
         params: Vec::new(),
         results: Vec::new(),
         stop: None,
+        effects: Vec::new(),
     }
 }
 

@@ -14,7 +14,7 @@
 //! output %7
 //! ```
 
-use super::{Event, Graph, Invocation, NodeId, Op, Scalar, Target, TextureKind, Type};
+use super::{Access, Event, Graph, Invocation, NodeId, Op, Scalar, Target, TextureKind, Type};
 use std::fmt::Write;
 
 /// The whole graph.
@@ -31,8 +31,8 @@ pub fn print(graph: &Graph) -> String {
     for (_, event) in events {
         depth = print_event(&mut text, depth, event);
     }
-    let outputs: Vec<String> = graph.outputs().iter().map(|id| format!("%{}", id.0)).collect();
-    let _ = writeln!(text, "output {}", outputs.join(" "));
+    let outputs: String = graph.outputs().iter().map(|id| format!(" %{}", id.0)).collect();
+    let _ = writeln!(text, "output{outputs}");
     text
 }
 
@@ -52,7 +52,12 @@ fn tables(graph: &Graph) -> String {
         );
     }
     for b in &graph.buffers {
-        let _ = writeln!(text, "buffer {}: {}", b.name, b.element);
+        let access = match b.access {
+            Access::Read => "",
+            Access::Write => " write",
+            Access::Atomic => " atomic",
+        };
+        let _ = writeln!(text, "buffer {}: {}{access}", b.name, b.element);
     }
     for s in &graph.samplers {
         let kind = if s.comparison { "comparison" } else { "filtering" };
@@ -65,7 +70,9 @@ fn tables(graph: &Graph) -> String {
     for v in &graph.varyings {
         let _ = writeln!(text, "varying {}: {}", v.name, v.ty);
     }
-    if graph.targets != [Target::colour()] {
+    if graph.targets.is_empty() {
+        text += "target none\n";
+    } else if graph.targets != [Target::colour()] {
         for t in &graph.targets {
             let _ = writeln!(text, "target {}: {}", t.name, t.ty);
         }
@@ -170,6 +177,8 @@ fn op(graph: &Graph, op: &Op, ty: Type) -> String {
         Op::Derivative(axis) => format!("derivative {axis:?}"),
         Op::Varying(k) => format!("varying {}", graph.varyings[*k as usize].name),
         Op::BufferLen(k) => format!("bufferlen {}", buffer(k)),
+        Op::Atomic { buffer: b, op } => format!("atomic {op:?} {}", buffer(b)),
+        Op::Store(b) => format!("store {}", buffer(b)),
         Op::BufferLoad { buffer: b, .. } => format!("bufferload {}{at}", buffer(b)),
         Op::Tally(name) => format!("tally {}", graph.tallies[*name as usize]),
         Op::Loop(region) => format!("loop region={}", region.0),

@@ -10,7 +10,7 @@ pub struct Rebuild<'a> {
     pub share_loads: bool,
 }
 
-/// The same kernel built again: unused nodes, unused carried values and unused components of texels vanish, the pass's
+/// The same kernel built again, with the effects that it has: unused nodes, unused carried values and unused components of texels vanish, the pass's
 /// rules apply.
 pub fn rebuild(old: &Graph, pass: &Rebuild<'_>) -> Graph {
     let live = Liveness::of(old);
@@ -140,6 +140,15 @@ impl Walk<'_, '_> {
             _ => node.ty,
         };
         let new = match op {
+            effect if effect.is_effect() => {
+                // What never happens is no effect, and gives 0.
+                let never = self.builder.graph().constant(args[0]).is_some_and(|bits| bits[0] == 0);
+                match (never, ty) {
+                    (false, _) => self.builder.effect(effect, args, ty),
+                    (true, Type::Results) => return,
+                    (true, _) => self.builder.constant(ty, [0; 4]),
+                }
+            }
             Op::Const(_) => self.builder.intern(op, args, ty),
             // Of a texel that has become a number.
             Op::Extract(0) if self.builder.graph().ty(args[0]) == ty => args[0],
@@ -204,7 +213,7 @@ impl Liveness {
             results: graph.regions.iter().map(|r| vec![false; r.results.len()]).collect(),
         };
         live.regions[0] = true;
-        let mut pending = graph.outputs().to_vec();
+        let mut pending = [graph.outputs(), &graph.regions[0].effects].concat();
         while let Some(id) = pending.pop() {
             if std::mem::replace(&mut live.nodes[id.0 as usize], true) {
                 continue;
@@ -215,11 +224,14 @@ impl Liveness {
                     live.regions[region.0 as usize] = true;
                     pending.extend(&node.args[..2]);
                     pending.extend(graph.region(region).stop);
+                    pending.extend(&graph.region(region).effects);
                 }
                 Op::If(then, otherwise) => {
                     live.regions[then.0 as usize] = true;
                     live.regions[otherwise.0 as usize] = true;
                     pending.push(node.args[0]);
+                    pending.extend(&graph.region(then).effects);
+                    pending.extend(&graph.region(otherwise).effects);
                 }
                 Op::Result(k) => {
                     pending.push(node.args[0]);

@@ -23,6 +23,9 @@ const LARGE: f32 = 1.0e30;
 /// If a loop or branch is left: how often its reads happen is not known.
 pub fn floor(graph: &Graph) -> Result<Graph, String> {
     let is_kept = |op: &Op| matches!(op, Op::Loop(_) | Op::If(..));
+    if graph.has_effects() {
+        return Err("it writes more than its results, and how often depends on what it computes".to_owned());
+    }
     let live = cone(graph, graph.outputs());
     if graph.ids().any(|id| live[id.0 as usize] && is_kept(&graph.node(id).op)) {
         return Err("a loop or branch is left, and how often its reads happen is not known".to_owned());

@@ -173,7 +173,9 @@ fn binding_type(kind: &InputKind) -> BindingType {
         InputKind::Texture(texture) => texture_type(texture),
         InputKind::Sampler(sampler) => sampler_type(*sampler),
         InputKind::Buffer(buffer) => BindingType::Buffer {
-            ty: wgpu::BufferBindingType::Storage { read_only: true },
+            ty: wgpu::BufferBindingType::Storage {
+                read_only: !buffer.written,
+            },
             has_dynamic_offset: false,
             // Of an empty array, even a read that is clamped into it would have nothing to yield.
             min_binding_size: wgpu::BufferSize::new(u64::from(buffer.stride)),

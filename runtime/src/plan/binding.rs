@@ -39,7 +39,7 @@ pub(super) fn check_texture(plan: &TexturePlan) -> Result<(), String> {
 }
 
 /// A storage buffer of elements of the type that WGSL spells `element`, `stride` bytes apart.
-pub(super) fn buffer(element: &str, stride: u32) -> Result<BufferPlan, String> {
+pub(super) fn buffer(element: &str, stride: u32, written: bool) -> Result<BufferPlan, String> {
     let ty = UniformType::from_wgsl(element)
         .ok_or_else(|| format!("elements of type `{element}`, not a 32-bit scalar or vector"))?;
     require(stride > 0 && stride.is_multiple_of(4), || {
@@ -51,7 +51,11 @@ pub(super) fn buffer(element: &str, stride: u32) -> Result<BufferPlan, String> {
             ty.size()
         )
     })?;
-    Ok(BufferPlan { element: ty, stride })
+    Ok(BufferPlan {
+        element: ty,
+        stride,
+        written,
+    })
 }
 
 /// A field of a struct of `block` bytes.

@@ -71,6 +71,8 @@ pub(crate) struct TexturePlan {
 pub(crate) struct BufferPlan {
     pub(crate) element: UniformType,
     pub(crate) stride: u32,
+    /// Whether the shader writes to it.
+    pub(crate) written: bool,
 }
 
 /// A uniform struct.
@@ -181,9 +183,11 @@ impl Plan {
                 element,
                 stride,
             } => {
-                let fits = *buffer_type == BufferType::ReadOnlyStorage;
-                require(fits, || "its buffer_type is not read-only-storage".to_owned())?;
-                InputKind::Buffer(binding::buffer(element, *stride)?)
+                let fits = matches!(buffer_type, BufferType::ReadOnlyStorage | BufferType::Storage);
+                require(fits, || {
+                    "its buffer_type is neither read-only-storage nor storage".to_owned()
+                })?;
+                InputKind::Buffer(binding::buffer(element, *stride, *buffer_type == BufferType::Storage)?)
             }
             BindingKind::Uniform {
                 buffer_type,
@@ -287,7 +291,11 @@ impl Plan {
 
 /// The stage of `manifest`.
 fn stage(manifest: &Manifest) -> Result<StagePlan, String> {
-    require(!manifest.outputs.is_empty(), || "nothing is written".to_owned())?;
+    let writes = |binding: &Binding| matches!(&binding.kind, BindingKind::Buffer { buffer_type, .. } if *buffer_type == BufferType::Storage);
+    let given = !manifest.outputs.is_empty();
+    require(given || manifest.bindings.iter().any(writes), || {
+        "nothing is written".to_owned()
+    })?;
     match manifest.stage {
         Stage::Compute => {
             let Some(workgroup) = manifest.workgroup_size else {
@@ -298,6 +306,7 @@ fn stage(manifest: &Manifest) -> Result<StagePlan, String> {
             Ok(StagePlan::Compute { workgroup })
         }
         Stage::Fragment => {
+            require(given, || "the stage is fragment, but no colour is given".to_owned())?;
             require(manifest.workgroup_size.is_none(), || {
                 "the stage is fragment, but has a workgroup_size".to_owned()
             })?;

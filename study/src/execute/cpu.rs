@@ -4,8 +4,8 @@ use super::{ExecuteError, Inputs, Written};
 use glam::Vec4;
 use rayon::prelude::*;
 use straightline_codegen::Compiled;
-use straightline_codegen::interp::{Bindings, Image, Interpreter};
-use straightline_codegen::ir::{Op, Real};
+use straightline_codegen::interp::{Bindings, Image, Interpreter, Scratch};
+use straightline_codegen::ir::{Access, Op, Real};
 use straightline_kernels::prelude::Frame;
 
 /// What the interpreter computed.
@@ -16,6 +16,8 @@ pub struct Interpreted<R> {
     pub texels: Vec<[R; 4]>,
     /// Every target.
     pub targets: Vec<Written>,
+    /// Every buffer that the kernel writes, by name, as it is afterwards.
+    pub buffers: Vec<(String, Vec<[f64; 4]>)>,
     /// For the first pixel that had a NaN or an infinity: its coordinate and where that came from.
     pub not_finite: Option<([u32; 2], String)>,
     /// Pixels that had one.
@@ -92,36 +94,44 @@ pub fn interpret<R: Real>(compiled: &Compiled, inputs: &Inputs, watch: bool) -> 
     let interpreter = if watch { interpreter.watch() } else { interpreter };
     let [across, down] = compiled.graph.invocation.pixels();
     let names = &compiled.graph.targets;
-    let rows: Vec<Row<R>> = (0..height.div_ceil(down))
-        .into_par_iter()
-        .map_init(
-            || interpreter.scratch(),
-            |scratch, row| {
-                let (y, mut births) = (row * down, Vec::new());
-                let mut lines = vec![Vec::with_capacity(width as usize); down as usize];
-                let mut targets = vec![vec![Vec::with_capacity(width as usize); down as usize]; names.len()];
-                for x in (0..width).step_by(across as usize) {
-                    let texels = interpreter.invocation(x, y, scratch);
-                    births.extend(scratch.birth().map(|b| ([x, y], b.describe(&compiled.graph))));
-                    put(&mut lines, &texels, across as usize, width);
-                    for (k, lines) in targets.iter_mut().enumerate() {
-                        put(lines, &interpreter.target(k, scratch), across as usize, width);
-                    }
-                }
-                let inside = (height - y) as usize;
-                lines.truncate(inside);
-                let targets = targets.into_iter().map(|mut lines| {
-                    lines.truncate(inside);
-                    lines.concat()
-                });
-                Row {
-                    texels: lines.concat(),
-                    targets: targets.collect(),
-                    births,
-                }
-            },
-        )
-        .collect();
+    let row = |scratch: &mut Scratch, row: u32| {
+        let (y, mut births) = (row * down, Vec::new());
+        let mut lines = vec![Vec::with_capacity(width as usize); down as usize];
+        let mut targets = vec![vec![Vec::with_capacity(width as usize); down as usize]; names.len()];
+        for x in (0..width).step_by(across as usize) {
+            let texels = interpreter.invocation(x, y, scratch);
+            births.extend(scratch.birth().map(|b| ([x, y], b.describe(&compiled.graph))));
+            put(&mut lines, &texels, across as usize, width);
+            for (k, lines) in targets.iter_mut().enumerate() {
+                put(lines, &interpreter.target(k, scratch), across as usize, width);
+            }
+        }
+        let inside = (height - y) as usize;
+        lines.truncate(inside);
+        let targets = targets.into_iter().map(|mut lines| {
+            lines.truncate(inside);
+            lines.concat()
+        });
+        Row {
+            texels: lines.concat(),
+            targets: targets.collect(),
+            births,
+        }
+    };
+    let numbers = 0..height.div_ceil(down);
+    let mut last = interpreter.scratch();
+    // What pixels write they write one after the other, row by row.
+    let rows: Vec<Row<R>> = match compiled.graph.has_effects() {
+        true => numbers.map(|number| row(&mut last, number)).collect(),
+        false => numbers
+            .into_par_iter()
+            .map_init(|| interpreter.scratch(), row)
+            .collect(),
+    };
+    let written = compiled.graph.buffers.iter().enumerate();
+    let written = written.filter(|(_, buffer)| buffer.access != Access::Read);
+    let buffers = written.map(|(k, buffer)| (buffer.name.clone(), interpreter.buffer(k, &last)));
+    let buffers = buffers.collect();
     let targets = names.iter().enumerate().map(|(k, target)| Written {
         name: target.name.clone(),
         size: inputs.size,
@@ -132,6 +142,7 @@ pub fn interpret<R: Real>(compiled: &Compiled, inputs: &Inputs, watch: bool) -> 
     Ok(Interpreted {
         texels: rows.into_iter().flat_map(|row| row.texels).collect(),
         targets,
+        buffers,
         not_finite_pixels: births.len(),
         not_finite: births.first().cloned(),
         births,

@@ -6,7 +6,7 @@ use glam::{UVec2, Vec4, uvec2};
 use straightline_codegen::emit::{Emitted, Target};
 use straightline_codegen::{Compiled, EmitOptions, Format, Precision, Stage};
 use straightline_kernels::prelude::Frame;
-use straightline_manifest::{BindingKind, Dimension, Manifest, REGION, SampleType};
+use straightline_manifest::{BindingKind, BufferType, Dimension, Manifest, REGION, SampleType};
 use straightline_runtime::{Pass, PassOptions, Resource};
 use wgpu::{TextureFormat, TextureUsages};
 
@@ -23,6 +23,12 @@ pub struct Bench {
     /// What shaders compute in.
     precision: Precision,
 }
+
+/// Elements of buffers by name, each in as many lanes as it has.
+pub type Buffers = Vec<(String, Vec<[f64; 4]>)>;
+
+/// What a kernel writes: its targets, and its buffers.
+pub type AllWritten = (Vec<Written>, Buffers);
 
 /// A shader's inputs on a device.
 #[derive(Debug)]
@@ -249,6 +255,63 @@ impl Bench {
         self.written_by(&pass, &bound, inputs.size)
     }
 
+    /// What a kernel leaves in the buffers that it writes, by name, and its targets.
+    ///
+    /// # Errors
+    ///
+    /// If it cannot be emitted or run on these inputs.
+    pub fn all_written(&self, compiled: &Compiled, stage: Stage, inputs: &Inputs) -> Result<AllWritten, ExecuteError> {
+        let (pass, manifest) = self.pass(compiled, stage)?;
+        let bound = self.bind(&pass, &manifest, inputs)?;
+        let targets = self.written_by(&pass, &bound, inputs.size)?;
+        Ok((targets, self.buffers(&manifest, &bound)?))
+    }
+
+    /// What the buffers hold now that a shader writes, by name.
+    ///
+    /// # Errors
+    ///
+    /// If the device fails.
+    pub fn buffers(&self, manifest: &Manifest, bound: &Bound) -> Result<Buffers, ExecuteError> {
+        let mut buffers = Vec::new();
+        for binding in &manifest.bindings {
+            if let BindingKind::Buffer {
+                buffer_type: BufferType::Storage,
+                element,
+                ..
+            } = &binding.kind
+                && let Some((name, Owned::Buffer(buffer))) =
+                    bound.resources.iter().find(|(name, _)| *name == binding.name)
+            {
+                let bytes = self.bytes_of(buffer)?;
+                buffers.push((name.clone(), convert::elements(&bytes, element)));
+            }
+        }
+        Ok(buffers)
+    }
+
+    /// The bytes of a buffer, read back.
+    fn bytes_of(&self, buffer: &wgpu::Buffer) -> Result<Vec<u8>, ExecuteError> {
+        let copy = self.device.create_buffer(&wgpu::BufferDescriptor {
+            label: None,
+            size: buffer.size(),
+            usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        });
+        let mut encoder = self
+            .device
+            .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        encoder.copy_buffer_to_buffer(buffer, 0, &copy, 0, buffer.size());
+        self.queue.submit([encoder.finish()]);
+        copy.map_async(wgpu::MapMode::Read, .., |_| {});
+        self.wait()?;
+        let mapped = copy.get_mapped_range(..).map_err(|e| ExecuteError::Device {
+            doing: "reading a buffer back",
+            message: e.to_string(),
+        })?;
+        Ok(mapped.to_vec())
+    }
+
     /// What a pass makes of its inputs, target by target.
     ///
     /// # Errors
@@ -434,7 +497,7 @@ impl Bench {
         let buffer = self.device.create_buffer(&wgpu::BufferDescriptor {
             label: None,
             size: bytes.len() as u64,
-            usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST,
+            usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::COPY_SRC,
             mapped_at_creation: false,
         });
         self.queue.write_buffer(&buffer, 0, &bytes);

@@ -10,7 +10,7 @@ use crate::gpu::Gpu;
 use straightline_codegen::files;
 use straightline_codegen::ir::{F16, Real};
 use straightline_codegen::{Compiled, Precision};
-use straightline_study::execute::{Inputs, Written, interpret};
+use straightline_study::execute::{AllWritten, Inputs, interpret};
 
 /// Runs a kernel once and writes what it makes.
 pub fn run(args: &RunArgs) -> Result<(), Failure> {
@@ -33,7 +33,7 @@ pub fn run(args: &RunArgs) -> Result<(), Failure> {
                 )));
             }
             let bench = gpu.bench().precision(precision);
-            let targets = bench.targets(&compiled, args.stage.into(), &inputs);
+            let targets = bench.all_written(&compiled, args.stage.into(), &inputs);
             let by = match precision {
                 Precision::F32 => gpu.describe(),
                 Precision::F16 => format!("{}, f16", gpu.describe()),
@@ -62,7 +62,7 @@ fn check(args: &RunArgs) -> Result<(), Failure> {
     Ok(())
 }
 
-fn on_cpu<R: Real>(args: &RunArgs, compiled: &Compiled, inputs: &Inputs) -> Result<Vec<Written>, Failure> {
+fn on_cpu<R: Real>(args: &RunArgs, compiled: &Compiled, inputs: &Inputs) -> Result<AllWritten, Failure> {
     let result = interpret::<R>(compiled, inputs, args.check_finite).map_err(Failure::of)?;
     if let Some(([x, y], birth)) = &result.not_finite {
         return Err(Failure::Failed(format!(
@@ -70,5 +70,5 @@ fn on_cpu<R: Real>(args: &RunArgs, compiled: &Compiled, inputs: &Inputs) -> Resu
             result.not_finite_pixels
         )));
     }
-    Ok(result.targets)
+    Ok((result.targets, result.buffers))
 }

@@ -81,6 +81,10 @@ fn begin_compute(resources: &Resources) -> Block<'static> {
         let [width, height] = resources.block.map(|side| side as i32);
         invocation = invocation.binary(BinaryOp::Mul, Expr::ivec2(width, height));
     }
+    let size = match resources.outputs.is_empty() {
+        true => frame(resources),
+        false => builtin(Builtin::OutputSize),
+    };
     let outside = |place: VarId, size: Expr| {
         let outside = local(place).binary(BinaryOp::Ge, size);
         StmtKind::If {
@@ -93,11 +97,11 @@ fn begin_compute(resources: &Resources) -> Block<'static> {
     match (resources.options.region, resources.options.counts_from_below()) {
         (false, from_below) => {
             let mut body = vec![
-                is(VarId::FRAME, builtin(Builtin::OutputSize)),
+                is(VarId::FRAME, size),
                 is(VarId::PIXEL, invocation),
                 outside(VarId::PIXEL, local(VarId::FRAME)),
             ];
-            if from_below {
+            if from_below && !resources.outputs.is_empty() {
                 let row = turned(part(local(VarId::FRAME), 1), part(local(VarId::PIXEL), 1));
                 body.push(is(VarId::PLACE, pair(part(local(VarId::PIXEL), 0), row)));
             }
@@ -123,13 +127,19 @@ fn begin_compute(resources: &Resources) -> Block<'static> {
                     corner(Builtin::RegionPlace, 1).binary(BinaryOp::Add, turned(height(), row)),
                 );
             }
-            vec![
+            let mut body = vec![
                 is(VarId::WITHIN, invocation),
                 outside(VarId::WITHIN, builtin(Builtin::RegionSize)),
-                is(VarId::FRAME, frame(resources)),
-                is(VarId::PIXEL, first),
-                is(VarId::PLACE, place),
-            ]
+            ];
+            // Nothing tells the frame's size where nothing asks for it.
+            if resources.framed().is_some() || !resources.outputs.is_empty() {
+                body.push(is(VarId::FRAME, frame(resources)));
+            }
+            body.push(is(VarId::PIXEL, first));
+            if !resources.outputs.is_empty() {
+                body.push(is(VarId::PLACE, place));
+            }
+            body
         }
     }
 }

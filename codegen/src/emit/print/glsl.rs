@@ -4,10 +4,10 @@ use super::expr::{float, integer, unsigned};
 use super::wgsl::four;
 use super::{Language, Text, commented};
 use crate::emit::Target;
-use crate::emit::ast::{Builtin, Ty};
+use crate::emit::ast::{Builtin, Effect, Ty};
 use crate::emit::outputs::BoundOutput;
 use crate::emit::resources::{OUTPUTS, Resources, SAMPLER, UNIFORMS};
-use crate::ir::{self, Axis, BinaryOp, Direction, Scalar, TextureKind, Type, UnaryOp};
+use crate::ir::{self, Access, AtomicOp, Axis, BinaryOp, Direction, Scalar, TextureKind, Type, UnaryOp};
 use straightline_manifest::{REGION, Stage};
 
 /// What follows a buffer's name to ask for its length.
@@ -109,13 +109,18 @@ impl<'a> Glsl<'a> {
         format!("layout({before}{binding}{behind}) ")
     }
 
-    /// Storage buffers that are read.
+    /// Storage buffers.
     pub(super) fn buffers(&self) -> String {
         let r = self.resources;
         let each = r.read_buffers.iter().map(|(k, binding)| {
             let (name, element) = (&r.buffer(*k).name, type_name(r.buffer(*k).element.into()));
             let layout = self.layout(*binding, "std430, ", "");
-            format!("{layout}readonly buffer {name}_buffer {{ {element} elements[]; }} {name};\n")
+            let qualifier = match r.buffer(*k).access {
+                Access::Read => "readonly ",
+                Access::Write => "writeonly ",
+                Access::Atomic => "",
+            };
+            format!("{layout}{qualifier}buffer {name}_buffer {{ {element} elements[]; }} {name};\n")
         });
         each.collect()
     }
@@ -359,6 +364,25 @@ impl Language for Glsl<'_> {
         let output = &self.resources.outputs[output];
         let name = Text::name(output.name.as_str());
         Text::call("imageStore", &[&name, place, &four(self, output, value)])
+    }
+
+    fn effect(&self, effect: &Effect, args: &[Text], before: Option<&str>) -> (String, Text) {
+        let elements = Text::name(format!("{}.elements", self.resources.buffer(effect.buffer).name));
+        let place = Text::index(&elements, &args[0]);
+        let Some(op) = effect.op else {
+            return (format!("{} = ", place.code), args[1].clone());
+        };
+        // There is no atomic load, and a bit that is set to what it is changes nothing.
+        let (function, value) = match op {
+            AtomicOp::Load => ("atomicOr".to_owned(), Text::name("0")),
+            op => (format!("atomic{op:?}"), args[1].clone()),
+        };
+        let value = match (op, self.resources.buffer(effect.buffer).element) {
+            (AtomicOp::Load, Type::U32) => Text::name("0u"),
+            _ => value,
+        };
+        let call = Text::call(&function, &[&place, &value]);
+        (before.map_or_else(String::new, |var| format!("{var} = ")), call)
     }
 
     fn outputs(&self, values: &[Text]) -> Vec<(String, Text)> {

@@ -64,6 +64,7 @@ pub fn header(compiled: &Compiled, counts: &Counts, resources: &Resources) -> Ve
 /// What is written, in which formats.
 fn outputs(resources: &Resources) -> String {
     match &resources.outputs[..] {
+        [] => "no output".to_owned(),
         [one] => format!("output {}", one.format),
         several => {
             let each = several

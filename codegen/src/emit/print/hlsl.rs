@@ -2,9 +2,9 @@
 
 use super::expr::{float, integer, unsigned};
 use super::{Language, Text, commented, loose};
-use crate::emit::ast::{Builtin, Expr, Module, Op, Ty};
+use crate::emit::ast::{Builtin, Effect, Expr, Module, Op, Ty};
 use crate::emit::resources::{OUTPUTS, Resources, UNIFORMS};
-use crate::ir::{self, Axis, BinaryOp, Direction, Scalar, TextureKind, Type, UnaryOp};
+use crate::ir::{self, Access, AtomicOp, Axis, BinaryOp, Direction, Scalar, TextureKind, Type, UnaryOp};
 use straightline_manifest::{Format, REGION, Stage};
 
 /// HLSL.
@@ -280,6 +280,22 @@ impl Language for Hlsl<'_> {
         Text::list(format!("{name}[{}] = ", place.code), &[value], "")
     }
 
+    fn effect(&self, effect: &Effect, args: &[Text], before: Option<&str>) -> (String, Text) {
+        let name = self.resources.buffer(effect.buffer).name.as_str();
+        let place = Text::index(&Text::name(name), &args[0]);
+        let Some(op) = effect.op else {
+            return (format!("{} = ", place.code), args[1].clone());
+        };
+        // There is no atomic load, and a bit that is set to what it is changes nothing.
+        let (function, value) = match op {
+            AtomicOp::Load => ("InterlockedOr".to_owned(), Text::name("0")),
+            op => (format!("Interlocked{op:?}"), args[1].clone()),
+        };
+        let before = before.map(Text::name);
+        let all: Vec<&Text> = [&place, &value].into_iter().chain(&before).collect();
+        (String::new(), Text::call(&function, &all))
+    }
+
     fn outputs(&self, values: &[Text]) -> Vec<(String, Text)> {
         let returned = |value: Text| ("return ".to_owned(), value);
         match values {
@@ -314,7 +330,7 @@ impl Language for Hlsl<'_> {
             out += &format!("{} : register({register});\n", texture_declared(r, bound.index));
         }
         for (k, binding) in &r.read_buffers {
-            let register = r.places.register('t', *binding);
+            let register = r.places.register(r.buffer_class(*k), *binding);
             out += &format!("{} : register({register});\n", buffer_declared(r, *k));
         }
         for (k, binding) in &r.used_samplers {
@@ -421,7 +437,15 @@ pub(super) fn texture_declared(resources: &Resources, index: u32) -> String {
 
 pub(super) fn buffer_declared(resources: &Resources, index: u32) -> String {
     let buffer = resources.buffer(index);
-    format!("StructuredBuffer<{}> {}", type_name(buffer.element.into()), buffer.name)
+    let access = match buffer.access {
+        Access::Read => "",
+        Access::Write | Access::Atomic => "RW",
+    };
+    format!(
+        "{access}StructuredBuffer<{}> {}",
+        type_name(buffer.element.into()),
+        buffer.name
+    )
 }
 
 pub(super) fn sampler_declared(resources: &Resources, index: u32) -> String {

@@ -9,7 +9,7 @@ mod opengl;
 mod vulkan;
 mod wgsl;
 
-use super::ast::{Builtin, Expr, Function, Module, Op, Stmt, StmtKind, Ty, VarId};
+use super::ast::{Builtin, Effect, Expr, Function, Module, Op, Stmt, StmtKind, Ty, VarId};
 use super::text::{Binds, Text, wrapped_comment};
 use crate::ir::{self, Scalar, UnaryOp};
 
@@ -102,6 +102,8 @@ pub trait Language {
     fn function_head(&self, name: &str, params: &[(&str, Ty)], result: Ty) -> String;
     /// Writes a texel of an output.
     fn store(&self, output: usize, place: &Text, value: &Text) -> Text;
+    /// Writes to a buffer: statements without their semicolons. `before` is the variable that takes what was there before.
+    fn effect(&self, effect: &Effect, args: &[Text], before: Option<&str>) -> (String, Text);
     /// What gives the fragment's values, one for each output: statements without their semicolons.
     fn outputs(&self, values: &[Text]) -> Vec<(String, Text)>;
     /// Everything before the first function: header, directives, bindings.
@@ -212,6 +214,11 @@ impl Printer<'_> {
             }
             StmtKind::Store(output, place, value) => {
                 Self::line(depth, "", &l.store(*output, &self.expr(place), &self.expr(value)), ";")
+            }
+            StmtKind::Effect(effect) => {
+                let args: Vec<Text> = effect.args.iter().map(|arg| self.expr(arg)).collect();
+                let (before, text) = l.effect(effect, &args, effect.before.map(|var| self.name(var)));
+                Self::line(depth, &before, &text, ";")
             }
             StmtKind::Output(values) => {
                 let values: Vec<Text> = values.iter().map(|value| self.expr(value)).collect();

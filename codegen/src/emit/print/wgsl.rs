@@ -2,10 +2,10 @@
 
 use super::expr::{float, integer, unsigned};
 use super::{Language, Text, commented, loose};
-use crate::emit::ast::{Builtin, Ty};
+use crate::emit::ast::{Builtin, Effect, Ty};
 use crate::emit::outputs::{BoundOutput, one};
 use crate::emit::resources::{OUTPUTS, Resources, UNIFORMS};
-use crate::ir::{self, Axis, BinaryOp, Direction, Scalar, TextureKind, Type};
+use crate::ir::{self, Access, Axis, BinaryOp, Direction, Scalar, TextureKind, Type};
 use std::fmt::Write;
 use straightline_manifest::{Precision, REGION, Stage};
 
@@ -199,6 +199,18 @@ impl Language for Wgsl<'_> {
         Text::call("textureStore", &[&name, place, &four(self, output, value)])
     }
 
+    fn effect(&self, effect: &Effect, args: &[Text], before: Option<&str>) -> (String, Text) {
+        let name = self.resources.buffer(effect.buffer).name.as_str();
+        let place = Text::index(&Text::name(name), &args[0]);
+        let Some(op) = effect.op else {
+            return (format!("{} = ", place.code), args[1].clone());
+        };
+        let place = Text::name(format!("&{}", place.code));
+        let all: Vec<&Text> = std::iter::once(&place).chain(&args[1..]).collect();
+        let call = Text::call(&format!("atomic{op:?}"), &all);
+        (before.map_or_else(String::new, |var| format!("{var} = ")), call)
+    }
+
     fn outputs(&self, values: &[Text]) -> Vec<(String, Text)> {
         let value = match values {
             [one] => one.clone(),
@@ -229,7 +241,15 @@ impl Language for Wgsl<'_> {
         for (k, binding) in &r.read_buffers {
             let buffer = r.buffer(*k);
             let element = type_name(buffer.element.into());
-            bind(*binding, format!("<storage, read> {}: array<{element}>", buffer.name));
+            let (access, element) = match buffer.access {
+                Access::Read => ("read", element),
+                Access::Write => ("read_write", element),
+                Access::Atomic => ("read_write", format!("atomic<{element}>")),
+            };
+            bind(
+                *binding,
+                format!("<storage, {access}> {}: array<{element}>", buffer.name),
+            );
         }
         for (k, binding) in &r.used_samplers {
             let sampler = r.sampler(*k);
