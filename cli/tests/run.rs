@@ -318,3 +318,53 @@ fn every_value_of_a_kernel_is_written_where_it_is_named() {
     run(&["depth=depth.txt"], &["neither .png nor .exr"]);
     assert!(!Path::new(&albedo).exists());
 }
+
+/// A kernel that only counts.
+const COUNTS: &str = "pub fn h(color: &Frame<Vec4>, bins: &AtomicBuffer<u32>, pixel: IVec2) {\n    bins.add((color.load(pixel).x * 15.0) as usize, 1);\n}\n";
+
+#[test]
+fn buffers_that_a_kernel_writes_are_written_as_text() {
+    let folder = scratch("run-counts");
+    let kernel = write(&folder, "h.rs", COUNTS);
+    let picture = here("docs/detail.png");
+    let bins = folder.join("bins.csv").display().to_string();
+    let out = format!("bins={bins}");
+    let mut texts = Vec::new();
+    for executor in ["cpu", "gpu"] {
+        let words = [
+            "run",
+            &kernel,
+            "--input",
+            &picture,
+            "--buffer",
+            "bins=0*16",
+            "--out",
+            &out,
+            "--executor",
+            executor,
+        ];
+        common::finishes(&words);
+        texts.push(std::fs::read_to_string(&bins).expect("the counts"));
+    }
+    assert_eq!(texts[0], texts[1]);
+    let counts: Vec<u64> = texts[0].lines().map(|line| line.parse().expect("a count")).collect();
+    assert!(counts.len() == 16 && counts.iter().sum::<u64>() > 1000, "{counts:?}");
+    let run = |out: &str, says: &[&str]| {
+        fails(
+            &[
+                "run",
+                &kernel,
+                "--input",
+                &picture,
+                "--buffer",
+                "bins=0*16",
+                "--out",
+                out,
+            ],
+            2,
+            says,
+        );
+    };
+    run("picture.png", &["gives no picture, and writes bins: say NAME=FILE.csv"]);
+    run("bins=bins.png", &["neither .csv nor .txt"]);
+}

@@ -3,8 +3,8 @@
 #![allow(missing_docs)]
 
 use straightline_codegen::ir::{
-    BinaryOp, Buffer, Builder, Direction, Graph, Invocation, Node, NodeId, Op, RegionId, Rules, Sampler, Scalar,
-    Target, Texture, TextureKind, Type, UnaryOp, Uniform, verify::verify,
+    Access, AtomicOp, BinaryOp, Buffer, Builder, Direction, Graph, Invocation, Node, NodeId, Op, RegionId, Rules,
+    Sampler, Scalar, Target, Texture, TextureKind, Type, UnaryOp, Uniform, verify::verify,
 };
 
 struct Nothing;
@@ -38,6 +38,7 @@ fn whole() -> Graph {
     graph.buffers = vec![Buffer {
         name: "b".to_owned(),
         element: Type::F32,
+        access: Access::Read,
     }];
     graph.uniforms = vec![Uniform {
         name: "u".to_owned(),
@@ -239,4 +240,79 @@ fn every_rule_is_checked() {
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// A branch in which a buffer of atomics is added to: nodes 0 to 5, the effect in region 1 of the branch, node 5.
+fn writing() -> Graph {
+    let mut b = Builder::new(&Nothing);
+    b.graph_mut().targets.clear();
+    b.graph_mut().buffers = vec![Buffer {
+        name: "bins".to_owned(),
+        element: Type::U32,
+        access: Access::Atomic,
+    }];
+    let holds = b.intern(Op::Const([1, 0, 0, 0]), Vec::new(), Type::BOOL);
+    let (index, value) = (b.i32(3), b.constant(Type::U32, [1, 0, 0, 0]));
+    let first = b.open_region(&[]);
+    let op = AtomicOp::Add;
+    b.effect(Op::Atomic { buffer: 0, op }, vec![holds, index, value], Type::U32);
+    b.close_region(Vec::new());
+    let second = b.open_region(&[]);
+    b.close_region(Vec::new());
+    b.intern(Op::If(first, second), vec![holds], Type::Results);
+    b.finish(Vec::new())
+}
+
+#[test]
+fn rules_of_effects_are_checked() {
+    verify(&writing()).unwrap_or_else(|why| panic!("{why}"));
+    type Change = fn(&mut Graph);
+    let cases: [(&str, Change); 8] = [
+        ("no effect of the region", |g| g.regions[1].effects.clear()),
+        ("an effect of two regions", |g| {
+            g.regions[2].effects = g.regions[1].effects.clone()
+        }),
+        ("out of order", |g| g.regions[1].effects.push(NodeId(0))),
+        ("several pixels", |g| g.invocation = Invocation::Lane),
+        ("a condition, an index and an element", |g| {
+            node(g, 3).args[0] = NodeId(1)
+        }),
+        ("wrong number of arguments", |g| {
+            node(g, 3).op = Op::Atomic {
+                buffer: 0,
+                op: AtomicOp::Load,
+            }
+        }),
+        ("an integer of a buffer of atomics", |g| {
+            g.buffers[0].access = Access::Write
+        }),
+        ("only written", |g| {
+            node(g, 3).op = Op::Store(0);
+            node(g, 3).ty = Type::Results;
+        }),
+    ];
+    for (expected, change) in cases {
+        let mut graph = writing();
+        change(&mut graph);
+        let said = match verify(&graph) {
+            Err(said) => said,
+            Ok(()) => panic!("`{expected}` is not refused"),
+        };
+        assert!(said.contains(expected), "`{expected}`: {said}");
+    }
+}
+
+/// A pass keeps every effect, in order, and drops what never happens.
+#[test]
+fn passes_keep_effects() {
+    let mut graph = writing();
+    graph.regions[0].effects.clear();
+    let passes = straightline_codegen::passes::clean;
+    assert_eq!(passes(&graph).nodes.len(), 0, "what happens nowhere is dropped");
+    let kept = passes(&writing());
+    assert_eq!(kept.nodes.iter().filter(|n| n.op.is_effect()).count(), 1);
+    verify(&kept).unwrap_or_else(|why| panic!("{why}"));
+    let mut never = writing();
+    node(&mut never, 0).op = Op::Const([0; 4]);
+    assert!(!passes(&passes(&never)).has_effects());
 }

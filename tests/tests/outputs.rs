@@ -104,7 +104,9 @@ fn inputs() -> Inputs {
 type Native = fn(&Frame<Vec4>, IVec2) -> Vec<[f64; 4]>;
 
 /// Name, text, what rustc makes of it, and the names and formats of its targets where colours have 32 bits.
-const KERNELS: [(&str, &str, Native, &[(&str, Format)]); 4] = [
+type Case = (&'static str, &'static str, Native, &'static [(&'static str, Format)]);
+
+const KERNELS: [Case; 4] = [
     (
         "gbuffer",
         GBUFFER,

@@ -215,7 +215,9 @@ impl World {
 type Native = fn(&World, IVec2) -> Vec<[f64; 4]>;
 
 /// Name, text, what rustc makes of it, its buffers, and whether the order of pixels matters.
-const KERNELS: [(&str, &str, Native, &[&str], bool); 4] = [
+type Case = (&'static str, &'static str, Native, &'static [&'static str], bool);
+
+const KERNELS: [Case; 4] = [
     (
         "histogram",
         HISTOGRAM,
@@ -433,4 +435,22 @@ fn regions_count_their_own_pixels() {
         histogram::histogram(&world.color, &world.bins, at);
     }
     same_buffers("region", &world, &["bins"], &found);
+}
+
+/// Pixels that lie outside of the frame would write too.
+#[test]
+fn blocks_of_pixels_write_nothing() {
+    let (name, text, ..) = KERNELS[0];
+    let settings = Settings {
+        block: [2, 2],
+        ..Settings::default()
+    };
+    let refused = Kernel::from_text("kernel.rs", text, name)
+        .compile(&settings)
+        .expect_err("a block");
+    let said = refused.to_string();
+    assert!(
+        said.contains("an invocation of several pixels writes to `bins`") && said.contains("leave the block out"),
+        "{said}"
+    );
 }

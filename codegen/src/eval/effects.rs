@@ -139,19 +139,19 @@ impl Evaluator<'_> {
 fn no_such_method(buffer: &str, access: Access, name: &str, span: Span) -> Exit {
     let (ty, methods, help) = match access {
         Access::Atomic => (
-            "AtomicBuffer",
+            "an `AtomicBuffer`",
             "`add`, `max`, `min`, `and`, `or`, `xor`, `exchange`, each of an index and a value, `load` of an index, and `len`",
             "",
         ),
         _ => (
-            "StorageBuffer",
+            "a `StorageBuffer`",
             "`store` of an index and a value, and `len`",
             "; take a `&Buffer` to read, or an `&AtomicBuffer` for both",
         ),
     };
     Diagnostic::at(
         span,
-        format!("`{buffer}` is a `{ty}`, which has no method `{name}` with such arguments"),
+        format!("`{buffer}` is {ty}, which has no method `{name}` with such arguments"),
     )
     .label("not supported")
     .help(format!("it has {methods}{help}"))
