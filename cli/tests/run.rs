@@ -311,10 +311,7 @@ fn every_value_of_a_kernel_is_written_where_it_is_named() {
     run(&[&other], &["gives no `colour`; it gives albedo, normal, depth"]);
     let again = format!("albedo={normal}");
     run(&[&albedo, &again], &["`albedo` is to be written twice"]);
-    run(
-        &[&albedo, &format!("depth={albedo}")],
-        &["give each target a file of its own"],
-    );
+    run(&[&albedo, &format!("depth={albedo}")], &["give each a file of its own"]);
     run(&["depth=depth.txt"], &["neither .png nor .exr"]);
     assert!(!Path::new(&albedo).exists());
 }
