@@ -24,8 +24,9 @@ fn main() {
         let _ = write!(
             modules,
             "pub mod {name} {{\n#![allow(dead_code, unused, clippy::all)]\nuse straightline_kernels::prelude::*;\n{source}\n\
-             pub fn native(w: &super::World, at: IVec2) -> Vec4 {{ {name}({}) }}\n}}\n",
-            arguments.join(", ")
+             pub fn native(w: &super::World, at: IVec2) -> Vec<[f64; 4]> {{ let given = {name}({}); {} }}\n}}\n",
+            arguments.join(", "),
+            texels(&file, &kernel.sig.output)
         );
         let _ = writeln!(
             table,
@@ -50,6 +51,32 @@ fn blocks(page: &str) -> Vec<String> {
         }
     }
     found
+}
+
+/// What makes texels of what a kernel gives: of each field of a structure one, of a value itself.
+fn texels(file: &syn::File, output: &syn::ReturnType) -> String {
+    let texel = |value: &str| format!("crate::Texel::texel(&{value})");
+    let syn::ReturnType::Type(_, ty) = output else {
+        panic!("a kernel gives something")
+    };
+    if let syn::Type::Tuple(parts) = &**ty {
+        let parts: Vec<String> = (0..parts.elems.len()).map(|k| texel(&format!("given.{k}"))).collect();
+        return format!("vec![{}]", parts.join(", "));
+    }
+    let named = match &**ty {
+        syn::Type::Path(path) => path.path.get_ident(),
+        _ => None,
+    };
+    let structure = file.items.iter().find_map(|item| match item {
+        syn::Item::Struct(s) if Some(&s.ident) == named => Some(s),
+        _ => None,
+    });
+    let Some(structure) = structure else {
+        return format!("vec![{}]", texel("given"));
+    };
+    let fields = structure.fields.iter().filter_map(|field| field.ident.as_ref());
+    let parts: Vec<String> = fields.map(|field| texel(&format!("given.{field}"))).collect();
+    format!("vec![{}]", parts.join(", "))
 }
 
 /// What a parameter is given, by its name and type.

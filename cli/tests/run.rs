@@ -359,3 +359,95 @@ fn volumes_cubes_and_integers_come_from_files() {
         assert!(!Path::new(out).exists());
     }
 }
+
+/// A kernel that gives three values.
+const SEVERAL: &str = "pub struct GBuffer {\n    pub albedo: Vec4,\n    pub normal: Vec3,\n    pub depth: f32,\n}\npub fn g(color: &Frame<Vec4>, pixel: IVec2) -> GBuffer {\n    let here = color.load(pixel);\n    GBuffer { albedo: here, normal: here.zyx(), depth: here.w * 0.5 }\n}\n";
+
+#[test]
+fn every_value_of_a_kernel_is_written_where_it_is_named() {
+    let folder = scratch("run-several");
+    let kernel = write(&folder, "g.rs", SEVERAL);
+    let picture = here("docs/detail.png");
+    let path = |name: &str| folder.join(name).display().to_string();
+    let (albedo, normal, depth) = (path("albedo.exr"), path("normal.exr"), path("depth.exr"));
+    let named = [format!("normal={normal}"), format!("depth={depth}")];
+    for executor in [["--executor", "cpu"], ["--executor", "gpu"]] {
+        let mut words = vec![
+            "run",
+            kernel.as_str(),
+            "--input",
+            picture.as_str(),
+            "--out",
+            albedo.as_str(),
+        ];
+        words.extend(named.iter().flat_map(|out| ["--out", out.as_str()]));
+        words.extend(executor);
+        let said = common::finishes(&words);
+        for path in [&albedo, &normal, &depth] {
+            assert!(said.contains(path.as_str()), "{said}");
+            std::fs::remove_file(path).expect("it was written");
+        }
+    }
+    let run = |outs: &[&str], says: &[&str]| {
+        let mut words = vec!["run", kernel.as_str(), "--input", picture.as_str()];
+        words.extend(outs.iter().flat_map(|out| ["--out", out]));
+        fails(&words, 2, says);
+    };
+    let other = format!("colour={normal}");
+    run(&[&other], &["gives no `colour`; it gives albedo, normal, depth"]);
+    let again = format!("albedo={normal}");
+    run(&[&albedo, &again], &["`albedo` is to be written twice"]);
+    run(&[&albedo, &format!("depth={albedo}")], &["give each a file of its own"]);
+    run(&["depth=depth.txt"], &["neither .png nor .exr"]);
+    assert!(!Path::new(&albedo).exists());
+}
+
+/// A kernel that only counts.
+const COUNTS: &str = "pub fn h(color: &Frame<Vec4>, bins: &AtomicBuffer<u32>, pixel: IVec2) {\n    bins.add((color.load(pixel).x * 15.0) as usize, 1);\n}\n";
+
+#[test]
+fn buffers_that_a_kernel_writes_are_written_as_text() {
+    let folder = scratch("run-counts");
+    let kernel = write(&folder, "h.rs", COUNTS);
+    let picture = here("docs/detail.png");
+    let bins = folder.join("bins.csv").display().to_string();
+    let out = format!("bins={bins}");
+    let mut texts = Vec::new();
+    for executor in ["cpu", "gpu"] {
+        let words = [
+            "run",
+            &kernel,
+            "--input",
+            &picture,
+            "--buffer",
+            "bins=0*16",
+            "--out",
+            &out,
+            "--executor",
+            executor,
+        ];
+        common::finishes(&words);
+        texts.push(std::fs::read_to_string(&bins).expect("the counts"));
+    }
+    assert_eq!(texts[0], texts[1]);
+    let counts: Vec<u64> = texts[0].lines().map(|line| line.parse().expect("a count")).collect();
+    assert!(counts.len() == 16 && counts.iter().sum::<u64>() > 1000, "{counts:?}");
+    let run = |out: &str, says: &[&str]| {
+        fails(
+            &[
+                "run",
+                &kernel,
+                "--input",
+                &picture,
+                "--buffer",
+                "bins=0*16",
+                "--out",
+                out,
+            ],
+            2,
+            says,
+        );
+    };
+    run("picture.png", &["gives no picture, and writes bins: say NAME=FILE.csv"]);
+    run("bins=bins.png", &["neither .csv nor .txt"]);
+}

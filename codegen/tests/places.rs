@@ -147,7 +147,10 @@ fn every_language_has_the_numbers() {
         ("color", 2, 7),
     ];
     assert_eq!(numbers, expected);
-    assert_eq!((manifest.output.group, manifest.output.binding), (Some(2), Some(4)));
+    assert_eq!(
+        (manifest.outputs[0].group, manifest.outputs[0].binding),
+        (Some(2), Some(4))
+    );
     assert_eq!(manifest.entry_point, "filter_all");
     let names: Vec<_> = manifest
         .entry_points

@@ -3,8 +3,8 @@
 #![allow(missing_docs)]
 
 use straightline_codegen::ir::{
-    BinaryOp, Buffer, Builder, Direction, Element, Graph, Invocation, Node, NodeId, Op, RegionId, Rules, Sampler,
-    Scalar, Texture, TextureKind, Type, UnaryOp, Uniform, verify::verify,
+    Access, AtomicOp, BinaryOp, Buffer, Builder, Direction, Element, Graph, Invocation, Node, NodeId, Op, RegionId,
+    Rules, Sampler, Scalar, Target, Texture, TextureKind, Type, UnaryOp, Uniform, verify::verify,
 };
 
 struct Nothing;
@@ -39,6 +39,7 @@ fn whole() -> Graph {
     graph.buffers = vec![Buffer {
         name: "b".to_owned(),
         element: Element::Value(Type::F32),
+        access: Access::Read,
     }];
     graph.uniforms = vec![Uniform {
         name: "u".to_owned(),
@@ -238,8 +239,23 @@ fn every_rule_is_checked() {
         // 4: parameters inside their regions.
         ("depends on a region", |g| node(g, 21).args[3] = NodeId(9)),
         // 5: results.
-        ("one result for each pixel", |g| g.regions[0].results.clear()),
-        ("one result for each pixel", |g| g.regions[0].results[0] = NodeId(2)),
+        ("results for each pixel", |g| g.regions[0].results.clear()),
+        ("results for each pixel", |g| g.regions[0].results[0] = NodeId(2)),
+        ("results for each pixel: vec4<f32>, i32", |g| {
+            g.targets.push(Target {
+                name: "k".to_owned(),
+                ty: Type::I32,
+            })
+        }),
+        ("the target k is of no numbers", |g| {
+            g.targets[0] = Target {
+                name: "k".to_owned(),
+                ty: Type::BOOL,
+            }
+        }),
+        ("the target destination is of no numbers, or there are two of it", |g| {
+            g.targets.push(Target::colour())
+        }),
         // 6: lanes.
         ("no lane", |g| {
             node(g, 25).op = Op::Message(Direction::Vertical);
@@ -257,4 +273,79 @@ fn every_rule_is_checked() {
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// A branch in which a buffer of atomics is added to: nodes 0 to 5, the effect in region 1 of the branch, node 5.
+fn writing() -> Graph {
+    let mut b = Builder::new(&Nothing);
+    b.graph_mut().targets.clear();
+    b.graph_mut().buffers = vec![Buffer {
+        name: "bins".to_owned(),
+        element: Element::Value(Type::U32),
+        access: Access::Atomic,
+    }];
+    let holds = b.intern(Op::Const([1, 0, 0, 0]), Vec::new(), Type::BOOL);
+    let (index, value) = (b.i32(3), b.constant(Type::U32, [1, 0, 0, 0]));
+    let first = b.open_region(&[]);
+    let op = AtomicOp::Add;
+    b.effect(Op::Atomic { buffer: 0, op }, vec![holds, index, value], Type::U32);
+    b.close_region(Vec::new());
+    let second = b.open_region(&[]);
+    b.close_region(Vec::new());
+    b.intern(Op::If(first, second), vec![holds], Type::Results);
+    b.finish(Vec::new())
+}
+
+#[test]
+fn rules_of_effects_are_checked() {
+    verify(&writing()).unwrap_or_else(|why| panic!("{why}"));
+    type Change = fn(&mut Graph);
+    let cases: [(&str, Change); 8] = [
+        ("no effect of the region", |g| g.regions[1].effects.clear()),
+        ("an effect of two regions", |g| {
+            g.regions[2].effects = g.regions[1].effects.clone()
+        }),
+        ("out of order", |g| g.regions[1].effects.push(NodeId(0))),
+        ("several pixels", |g| g.invocation = Invocation::Lane),
+        ("a condition, an index and an element", |g| {
+            node(g, 3).args[0] = NodeId(1)
+        }),
+        ("wrong number of arguments", |g| {
+            node(g, 3).op = Op::Atomic {
+                buffer: 0,
+                op: AtomicOp::Load,
+            }
+        }),
+        ("an integer of a buffer of atomics", |g| {
+            g.buffers[0].access = Access::Write
+        }),
+        ("only written", |g| {
+            node(g, 3).op = Op::Store(0);
+            node(g, 3).ty = Type::Results;
+        }),
+    ];
+    for (expected, change) in cases {
+        let mut graph = writing();
+        change(&mut graph);
+        let said = match verify(&graph) {
+            Err(said) => said,
+            Ok(()) => panic!("`{expected}` is not refused"),
+        };
+        assert!(said.contains(expected), "`{expected}`: {said}");
+    }
+}
+
+/// A pass keeps every effect, in order, and drops what never happens.
+#[test]
+fn passes_keep_effects() {
+    let mut graph = writing();
+    graph.regions[0].effects.clear();
+    let passes = straightline_codegen::passes::clean;
+    assert_eq!(passes(&graph).nodes.len(), 0, "what happens nowhere is dropped");
+    let kept = passes(&writing());
+    assert_eq!(kept.nodes.iter().filter(|n| n.op.is_effect()).count(), 1);
+    verify(&kept).unwrap_or_else(|why| panic!("{why}"));
+    let mut never = writing();
+    node(&mut never, 0).op = Op::Const([0; 4]);
+    assert!(!passes(&passes(&never)).has_effects());
 }

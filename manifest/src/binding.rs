@@ -44,9 +44,9 @@ pub enum BindingKind {
         #[serde(rename = "sampler_type")]
         sampler: SamplerType,
     },
-    /// A read-only storage buffer: elements one after the other, at least one, so that `stride` is its least size.
+    /// A storage buffer: elements one after the other, at least one, so that `stride` is its least size.
     Buffer {
-        /// Always `read-only-storage`.
+        /// `read-only-storage`, or `storage` of one that the shader writes to.
         buffer_type: BufferType,
         /// Type of an element as WGSL spells it: `f32`, `vec4f`, ...; of a structure its name.
         element: String,
@@ -94,6 +94,8 @@ pub enum BufferType {
     Uniform,
     /// `read-only-storage`.
     ReadOnlyStorage,
+    /// `storage`: the shader writes to it.
+    Storage,
 }
 
 /// How a storage texture is accessed, in the words of WebGPU's `GPUStorageTextureAccess`.
@@ -296,7 +298,7 @@ pub enum LanguageKind {
     Sampler,
     /// A texture together with a sampler.
     CombinedSampler,
-    /// A read-only storage buffer.
+    /// A storage buffer.
     StorageBuffer,
     /// A uniform buffer.
     UniformBuffer,

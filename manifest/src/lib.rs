@@ -7,6 +7,7 @@ mod binding;
 mod form;
 mod format;
 mod hash;
+mod output;
 mod precision;
 mod tuned;
 
@@ -18,8 +19,9 @@ pub use binding::{
     SampleType, SamplerType, UniformField, ViewDimension, region_fields,
 };
 pub use form::{Form, Origin};
-pub use format::Format;
+pub use format::{Component, Format};
 pub use hash::{hash_of_bytes, hash_of_text};
+pub use output::Output;
 pub use precision::Precision;
 pub use tuned::{LeftOut, Tuned};
 
@@ -70,15 +72,17 @@ pub struct Manifest {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub varyings: Vec<Varying>,
     /// Textures, buffers, samplers and uniform buffers that the shader reads, in binding order. What the options make
-    /// unnecessary is not listed. Together with `output` this is the bind group layout, in WebGPU's words, and all that WGSL
+    /// unnecessary is not listed. Together with `outputs` this is the bind group layout, in WebGPU's words, and all that WGSL
     /// and SPIR-V bind.
     pub bindings: Vec<Binding>,
     /// All that the other languages bind, each by its own numbers, registers or names; of functions, their parameters in order,
     /// in WGSL too.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub language_bindings: Vec<LanguageBinding>,
-    /// Where the result goes.
-    pub output: Output,
+    /// Where the results go: in JSON an object where there is one, else a list. A kernel that gives a structure or a tuple has
+    /// an output for each of its fields.
+    #[serde(rename = "output", with = "output")]
+    pub outputs: Vec<Output>,
     /// Every option of the kernel with the value it was generated for; `uniform` for one that is set at run time.
     pub options: BTreeMap<String, String>,
     /// What one invocation executes.
@@ -129,30 +133,6 @@ impl Stage {
     }
 }
 
-/// Where the result goes.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Output {
-    /// Name in the shader.
-    pub name: String,
-    /// Bind group; compute only.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub group: Option<u32>,
-    /// Binding number of the write-only storage texture; compute only.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub binding: Option<u32>,
-    /// Colour attachment location; fragment only.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub location: Option<u32>,
-    /// Always `write-only`.
-    pub access: Access,
-    /// Dimension of the view that is written: always `2d`.
-    pub view_dimension: ViewDimension,
-    /// Texel format of the storage texture. A fragment shader writes to a colour target of any float format,
-    /// and this is the one it was generated for.
-    pub format: Format,
-}
-
 /// What one invocation executes, counted on the generated graph. Loops count as often as they run; of the
 /// two sides of a branch the larger counts.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -176,6 +156,9 @@ pub struct Counts {
     /// Messages between the lanes of a quad, or the derivatives that carry them.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub messages: u32,
+    /// Atomic operations on buffers, and stores into them.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub writes: u32,
     /// All other arithmetic, comparison and selection operations, a vector operation counting once.
     pub alu: u32,
     /// Statements of the emitted body.

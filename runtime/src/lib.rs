@@ -60,6 +60,7 @@ mod quads;
 mod reflect;
 mod region;
 mod resource;
+mod targets;
 mod timer;
 mod uniforms;
 
@@ -69,6 +70,7 @@ pub use quads::{Arrivals, DerivativeControl, DerivativeKind, QuadTransport, Quad
 pub use region::Region;
 pub use resource::{Resource, ResourceKind};
 pub use straightline_manifest as manifest;
+pub use targets::Targets;
 pub use timer::{Span, Timer};
 pub use uniforms::{UniformType, UniformValue};
 

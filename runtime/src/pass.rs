@@ -2,11 +2,12 @@
 
 use crate::error::ViewProblem;
 use crate::guard::{Pulse, guarded};
-use crate::inputs::{Abilities, arrange, check_inputs, check_target, frame_size, is_one_image, shared, size};
+use crate::inputs::{Abilities, arrange, check_inputs, check_targets, frame_size, is_one_image, shared, size};
 use crate::layout::{BoundGroup, Layout};
 use crate::module::Source;
-use crate::pipeline::{Pipeline, check_format};
+use crate::pipeline::{Pipeline, check_formats};
 use crate::plan::Plan;
+use crate::targets::Targets;
 use crate::timer::{Span, Timer};
 use crate::uniforms::{self, UniformBlock, UniformValue};
 use crate::{Error, Region, Resource, reflect};
@@ -21,6 +22,8 @@ pub struct PassOptions {
     /// Format of the colour target of a fragment pass, where it is not the manifest's; a swap chain's, say.
     /// For compute, the shader's text fixes the format, and another one here is an error.
     pub target_format: Option<TextureFormat>,
+    /// The same of a kernel that writes several targets, by their names.
+    pub formats: Vec<(String, TextureFormat)>,
     /// Whether loops go without the bound that wgpu otherwise puts on the rounds of each, by a counter that costs time. Only
     /// for shaders whose text shows that every loop ends, as that of emitted shaders does; all others are refused.
     pub unbounded_loops: bool,
@@ -30,6 +33,12 @@ impl PassOptions {
     /// Draws to targets of `format`.
     pub fn target_format(mut self, format: TextureFormat) -> Self {
         self.target_format = Some(format);
+        self
+    }
+
+    /// Draws what the kernel calls `name` to targets of `format`.
+    pub fn format_of(mut self, name: &str, format: TextureFormat) -> Self {
+        self.formats.push((name.to_owned(), format));
         self
     }
 
@@ -52,7 +61,7 @@ pub struct Pass {
     pipeline: Pipeline,
     creation_time: Duration,
     uniforms: Vec<UniformBlock>,
-    format: TextureFormat,
+    formats: Vec<TextureFormat>,
     abilities: Abilities,
     pulse: Pulse,
 }
@@ -109,11 +118,11 @@ impl Pass {
         options: &PassOptions,
     ) -> Result<Self, Error> {
         check_features(device, manifest)?;
-        let format = check_format(device, &plan, options)?;
+        let formats = check_formats(device, &plan, options)?;
         let doing = format!("making a pass of `{}`", plan.kernel);
         let pulse = Pulse::new(device, &doing)?;
         let layout = Layout::new(device, &plan)?;
-        let (pipeline, creation_time) = Pipeline::new(device, &plan, &layout, source, format)?;
+        let (pipeline, creation_time) = Pipeline::new(device, &plan, &layout, source, &formats)?;
         let blocks = plan
             .uniforms
             .iter()
@@ -128,7 +137,7 @@ impl Pass {
             pipeline,
             creation_time,
             uniforms,
-            format,
+            formats,
             abilities: Abilities::new(device),
             pulse,
         })
@@ -144,9 +153,16 @@ impl Pass {
         self.plan.inputs.iter().map(|input| input.name.as_str())
     }
 
-    /// The format that the target must have.
+    /// The format that the target must have; of several, the first one. Panics if the kernel has none.
     pub fn target_format(&self) -> TextureFormat {
-        self.format
+        self.formats[0]
+    }
+
+    /// Names of the targets that [`encode`](Self::encode) wants, with the format that each must have, in the order of the
+    /// kernel's fields.
+    pub fn targets(&self) -> impl ExactSizeIterator<Item = (&str, TextureFormat)> {
+        let names = self.plan.outputs.iter().map(|output| output.name.as_str());
+        names.zip(self.formats.iter().copied())
     }
 
     /// How long the device took to make the pipeline: wgpu's translation of the checked shader into the backend's language,
@@ -181,7 +197,8 @@ impl Pass {
         uniforms::write_all(&self.uniforms, &self.plan.kernel, queue, bytes)
     }
 
-    /// Records the pass into `encoder`: reads `inputs`, given by name in any order, and writes every pixel of `target`.
+    /// Records the pass into `encoder`: reads `inputs`, given by name in any order, and writes every pixel of `targets`: `&view`,
+    /// or `&[("albedo", &albedo), ("depth", &depth)]` for a kernel that gives a structure of these fields.
     ///
     /// Where all inputs are textures, `inputs` can be a slice of views, `&[("color", &view)]`; otherwise each is made
     /// a [`Resource`]: `&[("color", Resource::from(&view)), ("linear", (&sampler).into())]`. A kernel without inputs
@@ -195,9 +212,10 @@ impl Pass {
     ///   or, where the kernel reads samples, at least as many as the manifest says.
     /// - A sampler has a comparison function exactly if the kernel compares with it.
     /// - A buffer has [`STORAGE`](wgpu::BufferUsages::STORAGE) usage and room for one element at least. All of it is
-    ///   bound, so that its size says how many elements there are.
+    ///   bound, so that its size says how many elements there are. One that the kernel writes keeps what is not written, and is
+    ///   none that it reads. A kernel that only writes buffers is given no targets, `&[]`, and runs over its inputs.
     ///
-    /// The target has the format [`target_format`](Self::target_format), and
+    /// Targets have one size. Each has the format that [`targets`](Self::targets) says, and
     /// [`STORAGE_BINDING`](wgpu::TextureUsages::STORAGE_BINDING) usage for compute or
     /// [`RENDER_ATTACHMENT`](wgpu::TextureUsages::RENDER_ATTACHMENT) for fragment.
     ///
@@ -207,17 +225,19 @@ impl Pass {
     /// # Errors
     ///
     /// [`Error::MissingInput`], [`Error::UnknownInput`], [`Error::DuplicateInput`] and [`Error::InputKind`];
+    /// [`Error::TargetNames`], [`Error::MissingTarget`], [`Error::UnknownTarget`] and [`Error::DuplicateTarget`];
     /// [`Error::Input`], [`Error::InputSampler`], [`Error::InputBuffer`], [`Error::Target`] and
     /// [`Error::Combination`] for unfit resources; [`Error::UniformUnset`]; [`Error::DeviceLost`] and
     /// [`Error::OutOfMemory`]. Nothing has been recorded then.
-    pub fn encode<'r, R: Into<Resource<'r>> + Copy>(
+    pub fn encode<'r, 't, R: Into<Resource<'r>> + Copy>(
         &self,
         encoder: &mut CommandEncoder,
         inputs: &[(&str, R)],
-        target: &TextureView,
+        targets: impl Into<Targets<'t>>,
     ) -> Result<(), Error> {
-        let prepared = self.prepare(&resources(inputs), target, None)?;
-        self.record(encoder, &prepared, target, None);
+        let targets = targets.into().arranged(&self.plan)?;
+        let prepared = self.prepare(&resources(inputs), &targets, None)?;
+        self.record(encoder, &prepared, &targets, None);
         Ok(())
     }
 
@@ -229,15 +249,16 @@ impl Pass {
     ///
     /// Those of [`encode`](Self::encode), and [`Error::Region`] if the shader filters whole images only, or the rectangle
     /// leaves the inputs or the target.
-    pub fn encode_region<'r, R: Into<Resource<'r>> + Copy>(
+    pub fn encode_region<'r, 't, R: Into<Resource<'r>> + Copy>(
         &self,
         encoder: &mut CommandEncoder,
         inputs: &[(&str, R)],
-        target: &TextureView,
+        targets: impl Into<Targets<'t>>,
         region: Region,
     ) -> Result<(), Error> {
-        let prepared = self.prepare(&resources(inputs), target, Some(region))?;
-        self.record(encoder, &prepared, target, None);
+        let targets = targets.into().arranged(&self.plan)?;
+        let prepared = self.prepare(&resources(inputs), &targets, Some(region))?;
+        self.record(encoder, &prepared, &targets, None);
         Ok(())
     }
 
@@ -246,16 +267,17 @@ impl Pass {
     /// # Errors
     ///
     /// Those of [`encode`](Self::encode), and [`Error::TimerFull`]. No span is used up then.
-    pub fn encode_timed<'r, R: Into<Resource<'r>> + Copy>(
+    pub fn encode_timed<'r, 't, R: Into<Resource<'r>> + Copy>(
         &self,
         encoder: &mut CommandEncoder,
         inputs: &[(&str, R)],
-        target: &TextureView,
+        targets: impl Into<Targets<'t>>,
         timer: &mut Timer,
     ) -> Result<(), Error> {
-        let prepared = self.prepare(&resources(inputs), target, None)?;
+        let targets = targets.into().arranged(&self.plan)?;
+        let prepared = self.prepare(&resources(inputs), &targets, None)?;
         let span = timer.span()?;
-        self.record(encoder, &prepared, target, Some(&span));
+        self.record(encoder, &prepared, &targets, Some(&span));
         Ok(())
     }
 
@@ -263,34 +285,30 @@ impl Pass {
     fn prepare(
         &self,
         inputs: &[(&str, Resource<'_>)],
-        target: &TextureView,
+        targets: &[&TextureView],
         region: Option<Region>,
     ) -> Result<Prepared, Error> {
         self.pulse
             .check(&self.device, &format!("encoding `{}`", self.plan.kernel))?;
         let resources = arrange(&self.plan, inputs)?;
-        check_target(&self.plan, self.format, &self.abilities, target)?;
-        let rectangle = self.rectangle(&resources, target, region)?;
+        check_targets(&self.plan, &self.formats, &self.abilities, targets)?;
+        let whole = self.whole(&resources, targets)?;
+        let rectangle = self.rectangle(&resources, whole, region)?;
         let frame = match self.plan.region {
             Some(_) => frame_size(&self.plan, &resources),
             None => None,
         };
-        check_inputs(
-            &self.plan,
-            &self.abilities,
-            &resources,
-            frame.unwrap_or(size(target.texture())),
-        )?;
+        check_inputs(&self.plan, &self.abilities, &resources, frame.unwrap_or(whole))?;
         uniforms::check_set(&self.uniforms, &self.plan.kernel)?;
         let buffer = match self.plan.region {
             Some(_) => Some(rectangle.buffer(&self.device, &self.plan.kernel)?),
             None => None,
         };
-        let bound = (target, buffer.as_ref());
+        let bound = (targets, buffer.as_ref());
         let groups = self
             .layout
             .bind(&self.device, &self.plan, &self.uniforms, &resources, bound);
-        let shared = shared(&self.plan, &resources, target);
+        let shared = shared(&self.plan, &resources, targets);
         let prepared = groups.and_then(|groups| {
             let prepared = Prepared {
                 groups,
@@ -300,28 +318,35 @@ impl Pass {
             match (&self.pipeline, shared) {
                 // Binding has judged every resource.
                 (Pipeline::Compute { .. }, None) => Ok(prepared),
-                _ => self.rehearse(&prepared, target, shared.is_some()).map(|()| prepared),
+                _ => self.rehearse(&prepared, targets, shared.is_some()).map(|()| prepared),
             }
         });
         prepared.map_err(|error| match (error, shared) {
             // A texture of one image has no other part to show.
-            (Error::Combination { kernel, .. }, Some(input)) if is_one_image(target.texture()) => Error::Input {
-                kernel,
-                name: input.name.clone(),
-                problem: ViewProblem::IsTarget,
-            },
+            (Error::Combination { kernel, .. }, Some((input, target))) if is_one_image(target.texture()) => {
+                Error::Input {
+                    kernel,
+                    name: input.name.clone(),
+                    problem: ViewProblem::IsTarget,
+                }
+            }
             (error, _) => error,
         })
     }
 
+    /// The size of what is computed: that of the targets, or of a kernel that has none, of its inputs.
+    fn whole(&self, resources: &[Resource<'_>], targets: &[&TextureView]) -> Result<[u32; 2], Error> {
+        let of_inputs = || frame_size(&self.plan, resources);
+        let whole = targets.first().map(|target| size(target.texture())).or_else(of_inputs);
+        whole.ok_or_else(|| Error::BadManifest {
+            kernel: self.plan.kernel.clone(),
+            place: "output".to_owned(),
+            problem: "nothing is given, and no input has a size that tells how many pixels there are".to_owned(),
+        })
+    }
+
     /// The rectangle to filter: the one asked for, or all of the inputs.
-    fn rectangle(
-        &self,
-        resources: &[Resource<'_>],
-        target: &TextureView,
-        region: Option<Region>,
-    ) -> Result<Region, Error> {
-        let whole = size(target.texture());
+    fn rectangle(&self, resources: &[Resource<'_>], whole: [u32; 2], region: Option<Region>) -> Result<Region, Error> {
         match (&self.plan.region, region) {
             (None, None) => Ok(Region::at([0, 0], whole)),
             (None, Some(region)) => Err(Error::Region {
@@ -342,7 +367,7 @@ impl Pass {
     /// reading and writing the same image, it says only when an encoder is finished; that must not be the caller's.
     ///
     /// Inputs have been bound by now, so the fault is the target's, unless that is `shared` with an input.
-    fn rehearse(&self, prepared: &Prepared, target: &TextureView, shared: bool) -> Result<(), Error> {
+    fn rehearse(&self, prepared: &Prepared, targets: &[&TextureView], shared: bool) -> Result<(), Error> {
         let kernel = &self.plan.kernel;
         let refused = |description| match shared {
             true => Error::Combination {
@@ -351,6 +376,7 @@ impl Pass {
             },
             false => Error::Target {
                 kernel: kernel.clone(),
+                name: None,
                 problem: ViewProblem::Refused { description },
             },
         };
@@ -358,12 +384,12 @@ impl Pass {
             let mut encoder = self
                 .device
                 .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-            self.record(&mut encoder, prepared, target, None);
+            self.record(&mut encoder, prepared, targets, None);
             drop(encoder.finish());
         })
     }
 
-    fn record(&self, encoder: &mut CommandEncoder, prepared: &Prepared, target: &TextureView, span: Option<&Span>) {
+    fn record(&self, encoder: &mut CommandEncoder, prepared: &Prepared, targets: &[&TextureView], span: Option<&Span>) {
         let Prepared {
             groups,
             rectangle,
@@ -389,10 +415,9 @@ impl Pass {
                 );
             }
             Pipeline::Render(pipeline) => {
-                let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-                    label,
-                    color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                        view: target,
+                let attachments = targets.iter().map(|view| {
+                    Some(wgpu::RenderPassColorAttachment {
+                        view,
                         depth_slice: None,
                         resolve_target: None,
                         ops: wgpu::Operations {
@@ -403,7 +428,12 @@ impl Pass {
                             },
                             store: wgpu::StoreOp::Store,
                         },
-                    })],
+                    })
+                });
+                let attachments: Vec<_> = attachments.collect();
+                let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                    label,
+                    color_attachments: &attachments,
                     depth_stencil_attachment: None,
                     timestamp_writes: span.map(Span::render_writes),
                     occlusion_query_set: None,

@@ -1,11 +1,13 @@
 //! Compiling a shader, and choosing the format that it writes.
 
+use crate::error::Names;
 use crate::guard::{guarded, scoped};
 use crate::layout::{Layout, texture_format};
 use crate::module::Source;
-use crate::plan::{OutputPlan, Plan};
+use crate::plan::{OutputPlan, Plan, StagePlan};
 use crate::{Error, PassOptions};
 use std::time::{Duration, Instant};
+use straightline_manifest::Component;
 use wgpu::{Device, TextureFormat};
 
 /// A pipeline of either stage.
@@ -19,13 +21,13 @@ pub(crate) enum Pipeline {
 }
 
 impl Pipeline {
-    /// Compiles a shader for a target of `format`, and tells how long making the pipeline took once the shader was checked.
+    /// Compiles a shader for targets of `formats`, and tells how long making the pipeline took once the shader was checked.
     pub(crate) fn new(
         device: &Device,
         plan: &Plan,
         layout: &Layout,
         source: Source<'_>,
-        format: TextureFormat,
+        formats: &[TextureFormat],
     ) -> Result<(Self, Duration), Error> {
         let kernel = &plan.kernel;
         let label = Some(kernel.as_str());
@@ -36,8 +38,8 @@ impl Pipeline {
         };
         let module = source.module(device, plan)?;
         let start = Instant::now();
-        let pipeline = match plan.output {
-            OutputPlan::Storage { workgroup, .. } => {
+        let pipeline = match plan.stage {
+            StagePlan::Compute { workgroup } => {
                 let pipeline = guarded(device, &doing, refused, || {
                     device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
                         label,
@@ -50,7 +52,8 @@ impl Pipeline {
                 })?;
                 Pipeline::Compute { pipeline, workgroup }
             }
-            OutputPlan::Attachment { .. } => {
+            StagePlan::Fragment => {
+                let targets: Vec<_> = formats.iter().map(|format| Some((*format).into())).collect();
                 let pipeline = guarded(device, &doing, refused, || {
                     let fullscreen = device.create_shader_module(wgpu::include_wgsl!("fullscreen.wgsl"));
                     device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
@@ -69,7 +72,7 @@ impl Pipeline {
                             module: &module,
                             entry_point: Some(&plan.entry_point),
                             compilation_options: wgpu::PipelineCompilationOptions::default(),
-                            targets: &[Some(format.into())],
+                            targets: &targets,
                         }),
                         multiview_mask: None,
                         cache: None,
@@ -82,62 +85,139 @@ impl Pipeline {
     }
 }
 
-/// The format that the pipeline is to write: the one asked for if the shader and the device can.
-pub(crate) fn check_format(device: &Device, plan: &Plan, options: &PassOptions) -> Result<TextureFormat, Error> {
-    let refuse = |format, reason| {
-        Err(Error::TargetFormat {
-            kernel: plan.kernel.clone(),
-            format,
-            reason,
-        })
+/// The formats that the pipeline is to write: those asked for, if the shader and the device can.
+pub(crate) fn check_formats(device: &Device, plan: &Plan, options: &PassOptions) -> Result<Vec<TextureFormat>, Error> {
+    let refuse = |format, reason| Error::TargetFormat {
+        kernel: plan.kernel.clone(),
+        format,
+        reason,
     };
-    match plan.output {
-        OutputPlan::Storage { format, .. } => {
-            let written = texture_format(format);
-            match options.target_format {
-                Some(asked) if asked != written => refuse(
-                    asked,
-                    format!("its compute shader writes {written:?}; generate it for another format, or as fragment"),
-                ),
-                _ => Ok(written),
-            }
+    let known = || {
+        plan.outputs
+            .iter()
+            .map(|output| output.name.as_str())
+            .collect::<Names>()
+    };
+    for (name, format) in &options.formats {
+        if plan.outputs.iter().all(|output| output.name != *name) {
+            return Err(refuse(*format, format!("it writes no `{name}`; it writes {}", known())));
         }
-        OutputPlan::Attachment { format } => {
-            let format = options.target_format.unwrap_or_else(|| texture_format(format));
-            if !matches!(
-                format.sample_type(None, None),
-                Some(wgpu::TextureSampleType::Float { .. })
-            ) {
-                return refuse(
-                    format,
-                    "the result is a colour of floats; use a float or normalised format".to_owned(),
-                );
-            }
-            let missing = format.required_features() - device.features();
-            if !missing.is_empty() {
-                return refuse(
-                    format,
-                    format!("the device was created without the feature {missing:?}"),
-                );
-            }
-            let target = wgpu::TextureDescriptor {
-                label: None,
-                size: wgpu::Extent3d::default(),
-                mip_level_count: 1,
-                sample_count: 1,
-                dimension: wgpu::TextureDimension::D2,
-                format,
-                usage: wgpu::TextureUsages::RENDER_ATTACHMENT,
-                view_formats: &[],
-            };
-            // One texel tells better than any table what this adapter can draw to.
-            match scoped(device, || device.create_texture(&target)) {
-                Ok(_) => Ok(format),
-                Err(wgpu::Error::OutOfMemory { .. }) => Err(Error::OutOfMemory {
-                    doing: format!("making a pass of `{}`", plan.kernel),
-                }),
-                Err(error) => refuse(format, error.to_string().trim().to_owned()),
-            }
-        }
+    }
+    if let Some(format) = options.target_format
+        && plan.outputs.len() > 1
+    {
+        let reason = format!("it writes {}: say with `format_of` which is meant", known());
+        return Err(refuse(format, reason));
+    }
+    let asked = |output: &OutputPlan| {
+        let named = options.formats.iter().rev().find(|(name, _)| *name == output.name);
+        named.map(|(_, format)| *format).or(options.target_format)
+    };
+    let formats = plan.outputs.iter().map(|output| {
+        let format = check_format(device, plan, output, asked(output));
+        format.map_err(|refused| match refused {
+            Refused::As(format, reason) => refuse(format, reason),
+            Refused::Memory => Error::OutOfMemory {
+                doing: format!("making a pass of `{}`", plan.kernel),
+            },
+        })
+    });
+    let formats = formats.collect::<Result<Vec<_>, _>>()?;
+    if let StagePlan::Fragment = plan.stage {
+        check_bytes(device, plan, &formats)?;
+    }
+    Ok(formats)
+}
+
+/// Refuses colours that together are more than a tile of the device holds.
+fn check_bytes(device: &Device, plan: &Plan, formats: &[TextureFormat]) -> Result<(), Error> {
+    let mut needed = 0;
+    for format in formats {
+        let (bytes, alignment) = (format.target_pixel_byte_cost(), format.target_component_alignment());
+        needed = u32::next_multiple_of(needed, alignment.unwrap_or(1)) + bytes.unwrap_or(0);
+    }
+    let available = device.limits().max_color_attachment_bytes_per_sample;
+    match needed > available {
+        true => Err(Error::Limit {
+            kernel: plan.kernel.clone(),
+            limit: "max_color_attachment_bytes_per_sample",
+            needed: u64::from(needed),
+            available: u64::from(available),
+        }),
+        false => Ok(()),
+    }
+}
+
+/// Why a format cannot be written.
+enum Refused {
+    As(TextureFormat, String),
+    Memory,
+}
+
+fn check_format(
+    device: &Device,
+    plan: &Plan,
+    output: &OutputPlan,
+    asked: Option<TextureFormat>,
+) -> Result<TextureFormat, Refused> {
+    let written = texture_format(output.format);
+    if let StagePlan::Compute { .. } = plan.stage {
+        return match asked {
+            Some(asked) if asked != written => Err(Refused::As(
+                asked,
+                format!("its compute shader writes {written:?}; generate it for another format, or as fragment"),
+            )),
+            _ => Ok(written),
+        };
+    }
+    let format = asked.unwrap_or(written);
+    let refuse = |reason: String| Err(Refused::As(format, reason));
+    let (fits, what, use_instead) = match (output.format.component(), format.sample_type(None, None)) {
+        (Component::Float, found) => (
+            matches!(found, Some(wgpu::TextureSampleType::Float { .. })),
+            "a colour of floats",
+            "a float or normalised format",
+        ),
+        (Component::Uint, found) => (
+            found == Some(wgpu::TextureSampleType::Uint),
+            "of u32",
+            "a format of u32",
+        ),
+        (Component::Sint, found) => (
+            found == Some(wgpu::TextureSampleType::Sint),
+            "of i32",
+            "a format of i32",
+        ),
+    };
+    if !fits {
+        return refuse(format!("the result is {what}; use {use_instead}"));
+    }
+    if format.components() > output.format.components() {
+        return refuse(format!(
+            "`{}` has {} of the format's {} components; use one such as {written:?}",
+            output.name,
+            output.format.components(),
+            format.components()
+        ));
+    }
+    let missing = format.required_features() - device.features();
+    if !missing.is_empty() {
+        return refuse(format!("the device was created without the feature {missing:?}"));
+    }
+    let target = wgpu::TextureDescriptor {
+        label: None,
+        size: wgpu::Extent3d::default(),
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format,
+        usage: wgpu::TextureUsages::RENDER_ATTACHMENT,
+        view_formats: &[],
+    };
+    // One texel tells better than any table what this adapter can draw to.
+    match scoped(device, || device.create_texture(&target)) {
+        Ok(_) => Ok(format),
+        Err(wgpu::Error::OutOfMemory { .. }) => Err(Refused::Memory),
+        Err(error) => refuse(error.to_string().trim().to_owned()),
     }
 }

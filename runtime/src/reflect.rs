@@ -5,9 +5,9 @@
 //! would run and give a wrong picture.
 
 use crate::Error;
-use crate::plan::{BufferPlan, InputKind, InputPlan, OutputPlan, Plan, TexturePlan, UniformPlan};
+use crate::plan::{BufferPlan, InputKind, InputPlan, OutputPlan, Plan, StagePlan, TexturePlan, UniformPlan};
 use crate::uniforms::{Kind, UniformType};
-use straightline_manifest::{Dimension, Format, SampleType, SamplerType};
+use straightline_manifest::{Component, Dimension, Format, SampleType, SamplerType};
 use wgpu::naga::{self, AddressSpace, GlobalVariable, ImageClass, Module, ScalarKind, ShaderStage, TypeInner};
 
 /// Parses `wgsl` and checks that it is the shader that `plan` describes.
@@ -30,23 +30,18 @@ pub(crate) fn check(plan: &Plan, wgsl: &str) -> Result<(), Error> {
     for uniform in plan.uniform_structs() {
         check_uniform(&module, uniform).map_err(mismatch)?;
     }
-    if let OutputPlan::Storage {
-        name,
-        group,
-        binding,
-        format,
-        ..
-    } = &plan.output
-    {
-        check_storage(&module, name, *group, *binding, *format).map_err(mismatch)?;
+    for output in &plan.outputs {
+        if let Some((group, binding)) = output.place {
+            check_storage(&module, &output.name, group, binding, output.format).map_err(mismatch)?;
+        }
     }
     nothing_else(plan, &module).map_err(mismatch)
 }
 
 fn entry_point(plan: &Plan, module: &Module) -> Result<(), String> {
-    let wanted = match plan.output {
-        OutputPlan::Storage { .. } => ShaderStage::Compute,
-        OutputPlan::Attachment { .. } => ShaderStage::Fragment,
+    let wanted = match plan.stage {
+        StagePlan::Compute { .. } => ShaderStage::Compute,
+        StagePlan::Fragment => ShaderStage::Fragment,
     };
     let name = &plan.entry_point;
     let Some(entry) = module.entry_points.iter().find(|entry| entry.name == *name) else {
@@ -63,12 +58,61 @@ fn entry_point(plan: &Plan, module: &Module) -> Result<(), String> {
             entry.stage
         ));
     }
-    match plan.output {
-        OutputPlan::Storage { workgroup, .. } if entry.workgroup_size != workgroup => Err(format!(
+    match plan.stage {
+        StagePlan::Compute { workgroup } if entry.workgroup_size != workgroup => Err(format!(
             "its workgroup size is {:?}, the manifest says {workgroup:?}",
             entry.workgroup_size
         )),
-        _ => Ok(()),
+        StagePlan::Compute { .. } => Ok(()),
+        StagePlan::Fragment => colours(plan, module, entry),
+    }
+}
+
+/// The locations of a fragment shader's colours are those of the manifest, and of the same kind and number of components.
+fn colours(plan: &Plan, module: &Module, entry: &naga::EntryPoint) -> Result<(), String> {
+    let mut found: Vec<(u32, naga::Handle<naga::Type>)> = Vec::new();
+    let mut see = |binding: &Option<naga::Binding>, ty| {
+        if let Some(naga::Binding::Location { location, .. }) = binding {
+            found.push((*location, ty));
+        }
+    };
+    if let Some(result) = &entry.function.result {
+        see(&result.binding, result.ty);
+        if let TypeInner::Struct { members, .. } = &module.types[result.ty].inner {
+            members.iter().for_each(|member| see(&member.binding, member.ty));
+        }
+    }
+    found.sort_unstable_by_key(|(location, _)| *location);
+    let fits = |(k, output): (usize, &OutputPlan)| {
+        let Some((location, ty)) = found.get(k) else {
+            return false;
+        };
+        let (components, kind) = match module.types[*ty].inner {
+            TypeInner::Scalar(scalar) => (1, scalar.kind),
+            TypeInner::Vector { size, scalar } => (size as u8, scalar.kind),
+            _ => return false,
+        };
+        *location as usize == k && components == output.format.components() && kind == scalar_kind(output.format)
+    };
+    match plan.outputs.iter().enumerate().find(|(k, output)| !fits((*k, output))) {
+        Some((k, output)) => Err(format!(
+            "it gives no `{}` for {} at location {k}",
+            output.name, output.format
+        )),
+        None if found.len() > plan.outputs.len() => Err(format!(
+            "it gives {} colours, and the manifest lists {}",
+            found.len(),
+            plan.outputs.len()
+        )),
+        None => Ok(()),
+    }
+}
+
+fn scalar_kind(format: Format) -> ScalarKind {
+    match format.component() {
+        Component::Float => ScalarKind::Float,
+        Component::Uint => ScalarKind::Uint,
+        Component::Sint => ScalarKind::Sint,
     }
 }
 
@@ -155,18 +199,25 @@ fn texture_type(plan: &TexturePlan) -> (TypeInner, String) {
     )
 }
 
-/// Whether `variable` is a read-only storage buffer of `plan`'s elements.
+/// Whether `variable` is a storage buffer of `plan`'s elements, atomic ones among them, accessed as `plan` says.
 fn is_buffer(module: &Module, variable: &GlobalVariable, plan: &BufferPlan) -> bool {
-    let read_only = AddressSpace::Storage {
-        access: naga::StorageAccess::LOAD,
+    let access = AddressSpace::Storage {
+        access: match plan.written {
+            true => naga::StorageAccess::LOAD | naga::StorageAccess::STORE,
+            false => naga::StorageAccess::LOAD,
+        },
     };
     let TypeInner::Array { base, size, stride } = module.types[variable.ty].inner else {
         return false;
     };
-    variable.space == read_only
+    let element = match module.types[base].inner {
+        TypeInner::Atomic(scalar) if plan.written => TypeInner::Scalar(scalar),
+        ref other => other.clone(),
+    };
+    variable.space == access
         && size == naga::ArraySize::Dynamic
         && stride == plan.stride
-        && match (&module.types[base].inner, plan.element) {
+        && match (&element, plan.element) {
             (inner, Some(element)) => is_type(inner, element),
             (TypeInner::Struct { span, .. }, None) => *span == plan.stride,
             (_, None) => false,
@@ -183,6 +234,14 @@ fn check_storage(module: &Module, name: &str, group: u32, binding: u32, format: 
                 Format::Rgba8Unorm => naga::StorageFormat::Rgba8Unorm,
                 Format::Rgba16Float => naga::StorageFormat::Rgba16Float,
                 Format::Rgba32Float => naga::StorageFormat::Rgba32Float,
+                Format::R32Float => naga::StorageFormat::R32Float,
+                Format::Rg32Float => naga::StorageFormat::Rg32Float,
+                Format::R32Uint => naga::StorageFormat::R32Uint,
+                Format::Rg32Uint => naga::StorageFormat::Rg32Uint,
+                Format::Rgba32Uint => naga::StorageFormat::Rgba32Uint,
+                Format::R32Sint => naga::StorageFormat::R32Sint,
+                Format::Rg32Sint => naga::StorageFormat::Rg32Sint,
+                Format::Rgba32Sint => naga::StorageFormat::Rgba32Sint,
             },
             access: naga::StorageAccess::STORE,
         },
@@ -252,9 +311,7 @@ fn is_type(inner: &TypeInner, ty: UniformType) -> bool {
 fn nothing_else(plan: &Plan, module: &Module) -> Result<(), String> {
     let mut known: Vec<(u32, u32)> = plan.inputs.iter().map(|i| (i.group, i.binding)).collect();
     known.extend(plan.uniform_structs().map(|u| (u.group, u.binding)));
-    if let OutputPlan::Storage { group, binding, .. } = &plan.output {
-        known.push((*group, *binding));
-    }
+    known.extend(plan.outputs.iter().filter_map(|output| output.place));
     for (_, variable) in module.global_variables.iter() {
         if let Some(place) = &variable.binding
             && !known.contains(&(place.group, place.binding))

@@ -8,7 +8,7 @@ use straightline_codegen::emit::{Emitted, Target};
 use straightline_kernels::prelude::Frame;
 use straightline_runtime::manifest::{Binding, BindingKind, LanguageKind, Manifest, SamplerType};
 use straightline_runtime::{Pass, PassOptions};
-use straightline_study::execute::{Bench, Inputs, SamplerState};
+use straightline_study::execute::{Bench, Buffers, Inputs, SamplerState, Written};
 use wgpu::Features;
 
 /// A bench that runs SPIR-V, of any Vulkan adapter, with what kernels can use of it.
@@ -27,6 +27,11 @@ pub fn bench() -> Result<Bench, String> {
     let wanted = Features::FLOAT32_FILTERABLE | Features::SUBGROUP | Features::SHADER_F16;
     let descriptor = wgpu::DeviceDescriptor {
         required_features: Features::PASSTHROUGH_SHADERS | (adapter.features() & wanted),
+        // Several targets of full floats are more than WebGPU promises.
+        required_limits: wgpu::Limits {
+            max_color_attachment_bytes_per_sample: adapter.limits().max_color_attachment_bytes_per_sample,
+            ..wgpu::Limits::default()
+        },
         ..Default::default()
     };
     let device = pollster::block_on(adapter.request_device(&descriptor));
@@ -41,6 +46,16 @@ pub fn bench() -> Result<Bench, String> {
 ///
 /// What the compiler says of the text; or if it is not among the files, or cannot be run on these inputs.
 pub fn run(bench: &Bench, emitted: &Emitted, target: Target, inputs: &Inputs) -> Result<Frame<Vec4>, String> {
+    let mut written = run_all(bench, emitted, target, inputs)?;
+    Ok(written.swap_remove(0).frame())
+}
+
+/// As [`run`], of everything that the kernel gives.
+///
+/// # Errors
+///
+/// Those of [`run`].
+pub fn run_all(bench: &Bench, emitted: &Emitted, target: Target, inputs: &Inputs) -> Result<Vec<Written>, String> {
     let bytes = emitted.files.get(&target);
     let bytes = bytes.ok_or_else(|| format!("it was not emitted in {target}"))?;
     let mut manifest = emitted.manifest.clone();
@@ -48,9 +63,28 @@ pub fn run(bench: &Bench, emitted: &Emitted, target: Target, inputs: &Inputs) ->
     let inputs = with_language_bindings(&mut manifest, target, inputs)?;
     pass(bench, &manifest, &words).and_then(|pass| {
         let bound = bench.bind(&pass, &manifest, &inputs).map_err(|e| e.to_string())?;
-        let picture = bench.picture_of(&pass, &bound, inputs.size);
-        picture.map_err(|e| e.to_string())
+        let written = bench.written_by(&pass, &bound, inputs.size);
+        written.map_err(|e| e.to_string())
     })
+}
+
+/// As [`run`], of the buffers that the kernel writes.
+///
+/// # Errors
+///
+/// Those of [`run`].
+pub fn run_buffers(bench: &Bench, emitted: &Emitted, target: Target, inputs: &Inputs) -> Result<Buffers, String> {
+    let bytes = emitted.files.get(&target);
+    let bytes = bytes.ok_or_else(|| format!("it was not emitted in {target}"))?;
+    let mut manifest = emitted.manifest.clone();
+    let words = words(bytes, target, &mut manifest)?;
+    let inputs = with_language_bindings(&mut manifest, target, inputs)?;
+    let pass = pass(bench, &manifest, &words)?;
+    let bound = bench.bind(&pass, &manifest, &inputs).map_err(|e| e.to_string())?;
+    bench
+        .written_by(&pass, &bound, inputs.size)
+        .map_err(|e| e.to_string())?;
+    bench.buffers(&manifest, &bound).map_err(|e| e.to_string())
 }
 
 /// The SPIR-V of a file; the manifest then names its entry point.

@@ -4,7 +4,7 @@
 
 mod common;
 
-use common::{bench, other_compilers, same_bits};
+use common::{Texel, bench, other_compilers, same_texels};
 use std::path::PathBuf;
 use straightline_codegen::ir::F16;
 use straightline_codegen::{Branches, Compiled, EmitOptions, Kernel, Precision, Settings, Stage, Unroll, emit::Target};
@@ -43,7 +43,8 @@ pub struct World {
 pub struct Example {
     pub name: &'static str,
     pub source: &'static str,
-    pub native: fn(&World, IVec2) -> Vec4,
+    /// What is given for a pixel, a texel for each target.
+    pub native: fn(&World, IVec2) -> Vec<[f64; 4]>,
 }
 
 include!(concat!(env!("OUT_DIR"), "/examples.rs"));
@@ -219,7 +220,7 @@ fn every_example_means_the_same_in_every_form() {
     assert!(EXAMPLES.len() >= 30, "{} examples", EXAMPLES.len());
     for example in EXAMPLES {
         let pixels = (0..SIZE.y as i32).flat_map(|y| (0..SIZE.x as i32).map(move |x| ivec2(x, y)));
-        let native: Vec<[f32; 4]> = pixels.map(|at| (example.native)(&world, at).to_array()).collect();
+        let native: Vec<Vec<[f64; 4]>> = pixels.map(|at| (example.native)(&world, at)).collect();
         for unroll in [Unroll::Full, Unroll::None, Unroll::Partial(2), Unroll::Partial(3)] {
             for branches in [Branches::AsLoops, Branches::Keep, Branches::Select] {
                 let settings = Settings {
@@ -228,9 +229,17 @@ fn every_example_means_the_same_in_every_form() {
                     ..Settings::default()
                 };
                 let compiled = compile(example, &settings);
-                let result = interpret(&compiled, &inputs, false).unwrap_or_else(|e| panic!("{}: {e}", example.name));
-                same_bits(&native, &result.texels)
-                    .unwrap_or_else(|e| panic!("{} with {unroll}, branches {branches}: {e}", example.name));
+                let result =
+                    interpret::<f32>(&compiled, &inputs, false).unwrap_or_else(|e| panic!("{}: {e}", example.name));
+                for (k, target) in result.targets.iter().enumerate() {
+                    let native: Vec<[f64; 4]> = native.iter().map(|texels| texels[k]).collect();
+                    same_texels(&native, &target.texels).unwrap_or_else(|e| {
+                        panic!(
+                            "{} with {unroll}, branches {branches}, {}: {e}",
+                            example.name, target.name
+                        )
+                    });
+                }
             }
         }
     }
@@ -289,17 +298,22 @@ fn every_example_is_the_same_picture_on_a_gpu() {
             let compiled = compile(example, &settings);
             let expected = interpret::<f32>(&compiled, &inputs, false).expect("ran before");
             let found = bench
-                .run(&compiled, Stage::Compute, &inputs)
+                .targets(&compiled, Stage::Compute, &inputs)
                 .unwrap_or_else(|e| panic!("{} {unroll}: {e}", example.name));
+            assert_eq!(found.len(), expected.targets.len(), "{}", example.name);
             // A GPU weighs filtered texels in steps of 1/256.
             let bound = if example.source.contains("Sampler") {
                 1.0 / 128.0
             } else {
                 1.0e-4
             };
-            for (k, (a, b)) in found.texels().iter().zip(&expected.texels).enumerate() {
-                let off = (*a - Vec4::from_array(*b)).abs().max_element();
-                assert!(off <= bound, "{} {unroll}, pixel {k}: {a} and {b:?}", example.name);
+            for (found, expected) in found.iter().zip(&expected.targets) {
+                assert_eq!(found.name, expected.name);
+                for (k, (a, b)) in found.texels.iter().zip(&expected.texels).enumerate() {
+                    let off = (0..4).map(|c| (a[c] - b[c]).abs()).fold(0.0, f64::max);
+                    let (name, target) = (example.name, &found.name);
+                    assert!(off <= bound, "{name} {unroll}, {target}, pixel {k}: {a:?} and {b:?}");
+                }
             }
         }
     }
@@ -327,12 +341,20 @@ fn every_example_works_in_half_precision() {
             spirv.push(path);
             let expected = interpret::<F16>(&compiled, &inputs, false).expect("ran before");
             let found = bench
-                .run(&compiled, Stage::Compute, &inputs)
+                .targets(&compiled, Stage::Compute, &inputs)
                 .unwrap_or_else(|e| panic!("{} {unroll}: {e}", example.name));
-            for (k, (a, b)) in found.texels().iter().zip(expected.frame(&inputs).texels()).enumerate() {
-                // A GPU weighs filtered texels in steps of 1/256, and may truncate what comes in.
-                let off = ((*a - *b).abs() / b.abs().max(Vec4::ONE)).max_element();
-                assert!(off <= 1.0 / 64.0, "{} {unroll}, pixel {k}: {a} and {b}", example.name);
+            for (found, expected) in found.iter().zip(&expected.targets) {
+                for (k, (a, b)) in found.texels.iter().zip(&expected.texels).enumerate() {
+                    // A GPU weighs filtered texels in steps of 1/256, and may truncate what comes in.
+                    let off = (0..4)
+                        .map(|c| (a[c] - b[c]).abs() / b[c].abs().max(1.0))
+                        .fold(0.0, f64::max);
+                    let (name, target) = (example.name, &found.name);
+                    assert!(
+                        off <= 1.0 / 64.0,
+                        "{name} {unroll}, {target}, pixel {k}: {a:?} and {b:?}"
+                    );
+                }
             }
         }
     }

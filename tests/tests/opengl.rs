@@ -113,3 +113,52 @@ fn quads_are_refused_by_name() {
         );
     }
 }
+
+/// Kernels that give several values, target by target: floats, and integers that an `f32` holds.
+const SEVERAL: [&str; 2] = [
+    "pub struct GBuffer {\n    pub albedo: Vec4,\n    pub normal: Vec3,\n    pub depth: f32,\n}\npub fn k(color: &Frame<Vec4>, \
+     pixel: IVec2) -> GBuffer {\n    let here = color.load(pixel);\n    let there = color.load(pixel + ivec2(1, 0));\n    GBuffer { \
+     albedo: here * 0.5, normal: (there - here).truncate(), depth: here.w }\n}\n",
+    "pub fn k(color: &Frame<Vec4>, pixel: IVec2) -> (Vec4, u32, IVec2) {\n    let here = color.load(pixel);\n    (here, (here.x * \
+     200.0) as u32, pixel - ivec2((here.y * 90.0) as i32, 7))\n}\n",
+];
+
+#[test]
+fn several_values() {
+    for (text, has_pairs) in SEVERAL.into_iter().zip([false, true]) {
+        let compiled = Kernel::from_text("kernel.rs", text, "k").compile(&Settings::default());
+        let compiled = compiled.unwrap_or_else(|e| panic!("{e}"));
+        let inputs = test_inputs(&compiled.graph, SIZE);
+        let expected = interpret::<f32>(&compiled, &inputs, false).unwrap_or_else(|e| panic!("{e}"));
+        for (stage, target) in [Stage::Compute, Stage::Fragment]
+            .into_iter()
+            .flat_map(|s| Target::OPENGL.map(|t| (s, t)))
+        {
+            let options = EmitOptions::new()
+                .stage(stage)
+                .format(Format::Rgba32Float)
+                .targets([target]);
+            let es = matches!(target, Target::Essl310 | Target::Essl300);
+            // OpenGL ES has no images of two components.
+            let is_there = stage == Stage::Fragment || (COMPUTE.contains(&target) && !(es && has_pairs));
+            let emitted = match compiled.emit(&options) {
+                Err(EmitError::Missing { .. }) if !is_there => continue,
+                emitted => emitted.unwrap_or_else(|e| panic!("{target}: {e}")),
+            };
+            assert!(is_there, "{stage:?} {target} is not refused");
+            let context = if es { Context::es() } else { Context::desktop() };
+            let context = context.unwrap_or_else(|e| panic!("this test needs OpenGL: {e}"));
+            for (k, expected) in expected.targets.iter().enumerate() {
+                let found = gl::run_output(&context, &emitted, target, &inputs, k);
+                let found = found.unwrap_or_else(|e| panic!("{stage:?} {target} {}: {e}", expected.name));
+                for (pixel, (found, expected)) in found.texels().iter().zip(expected.frame().texels()).enumerate() {
+                    let off = (*found - *expected).abs().max_element();
+                    assert!(
+                        off <= BOUND,
+                        "{stage:?} {target} {k}, pixel {pixel}: {found}, expected {expected}"
+                    );
+                }
+            }
+        }
+    }
+}

@@ -279,7 +279,7 @@ fn opengl_computes_the_same() {
                   loads(color, image, gl_FragCoord.xy);\n}\n";
     let whole = format!("#version 330\n{function}\n{caller}");
     emitted.files.insert(Target::Glsl330, whole.into_bytes());
-    emitted.manifest.output.format = Format::Rgba32Float;
+    emitted.manifest.outputs[0].format = Format::Rgba32Float;
     let found =
         gl::run_emitted(&context, &emitted, Target::Glsl330, &all_turned(&inputs)).unwrap_or_else(|e| panic!("{e}"));
     same_bits(&texels(&found), &texels(&expected)).unwrap_or_else(|e| panic!("function: {e}"));

@@ -245,15 +245,16 @@ pub struct RunArgs {
     /// Value of a uniform: NAME=NUMBER, or NAME=X,Y,Z for a vector. May be given several times
     #[arg(long, value_name = "NAME=NUMBERS", value_parser = pair)]
     pub uniform: Vec<(String, String)>,
-    /// Elements of a buffer: NAME=A,B,C. May be given several times
+    /// Elements of a buffer: NAME=A,B,C, or NAME=0*256 for so many alike. May be given several times
     #[arg(long, value_name = "NAME=NUMBERS", value_parser = pair)]
     pub buffer: Vec<(String, String)>,
     /// Width and height of the output; by default those of the first input that has the output's size
     #[arg(long, value_name = "WxH", value_parser = size)]
     pub size: Option<UVec2>,
-    /// Picture to write: .png (8 bits, sRGB) or .exr (linear floats)
-    #[arg(long, value_name = "FILE")]
-    pub out: PathBuf,
+    /// Picture to write, [NAME=]FILE: .png (8 bits, sRGB) or .exr (linear floats); of a kernel that gives several values, the
+    /// first one without a NAME; .csv or .txt for a buffer that the kernel writes, an element a line. May be given several times
+    #[arg(long, value_name = "[NAME=]FILE", required = true)]
+    pub out: Vec<String>,
     /// What computes the pixels
     #[arg(long, value_enum, default_value = "gpu")]
     pub executor: Executor,

@@ -3,7 +3,7 @@
 //! [`super::lower`] makes it, [`super::legalise`] rewrites what a language says in another way, [`super::names`] gives its
 //! variables names, and [`super::print`] writes it. No stage asks a text what it means.
 
-use crate::ir::{self, BinaryOp, Lanes, Origin, Scalar, Type};
+use crate::ir::{self, AtomicOp, BinaryOp, Lanes, Origin, Scalar, Type};
 use std::ops::Deref;
 
 /// Type of an expression.
@@ -282,14 +282,36 @@ pub enum StmtKind<'g> {
         /// If not.
         otherwise: Block<'g>,
     },
-    /// Writes a texel of the output: place, colour.
-    Store(Expr, Expr),
-    /// The fragment's colour.
-    Output(Expr),
+    /// Writes a texel of an output: which one, place, value.
+    Store(usize, Expr, Expr),
+    /// What is given for a pixel: a value for each output.
+    Output(Vec<Expr>),
+    /// Writes to a buffer.
+    Effect(Effect),
     /// Leaves the function, with its value if it has one.
     Return(Option<Expr>),
     /// A line for the reader.
     Comment(String),
+}
+
+/// A write to a buffer, whose index is inside of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Effect {
+    /// Index of the buffer in the graph.
+    pub buffer: u32,
+    /// The atomic operation; a plain store has none.
+    pub op: Option<AtomicOp>,
+    /// Index and value; a load has no value.
+    pub args: Vec<Expr>,
+    /// The variable that takes what was there before.
+    pub before: Option<VarId>,
+}
+
+impl Effect {
+    /// Whether a language has no way to do it without a variable for what was there before.
+    pub fn needs_variable(&self) -> bool {
+        matches!(self.op, Some(AtomicOp::Exchange | AtomicOp::Load))
+    }
 }
 
 impl<'g> From<StmtKind<'g>> for Stmt<'g> {
@@ -313,9 +335,11 @@ impl<'g> Stmt<'g> {
     /// Expressions of the statement itself, without those of its blocks.
     pub fn own(&self) -> Vec<&Expr> {
         match &self.kind {
-            StmtKind::Let(_, value) | StmtKind::Output(value) => vec![value],
+            StmtKind::Let(_, value) => vec![value],
+            StmtKind::Output(values) => values.iter().collect(),
+            StmtKind::Effect(effect) => effect.args.iter().collect(),
             StmtKind::Var(_, value) | StmtKind::Return(value) => value.iter().collect(),
-            StmtKind::Assign(place, _, value) | StmtKind::Store(place, value) => vec![place, value],
+            StmtKind::Assign(place, _, value) | StmtKind::Store(_, place, value) => vec![place, value],
             StmtKind::For { start, end, .. } => vec![start, end],
             StmtKind::If { condition, .. } => vec![condition],
             StmtKind::Loop(_) | StmtKind::Break | StmtKind::Comment(_) => Vec::new(),
@@ -333,9 +357,11 @@ impl<'g> Stmt<'g> {
     /// As [`Stmt::own`], to change them.
     pub fn own_mut(&mut self) -> Vec<&mut Expr> {
         match &mut self.kind {
-            StmtKind::Let(_, value) | StmtKind::Output(value) => vec![value],
+            StmtKind::Let(_, value) => vec![value],
+            StmtKind::Output(values) => values.iter_mut().collect(),
+            StmtKind::Effect(effect) => effect.args.iter_mut().collect(),
             StmtKind::Var(_, value) | StmtKind::Return(value) => value.iter_mut().collect(),
-            StmtKind::Assign(place, _, value) | StmtKind::Store(place, value) => vec![place, value],
+            StmtKind::Assign(place, _, value) | StmtKind::Store(_, place, value) => vec![place, value],
             StmtKind::For { start, end, .. } => vec![start, end],
             StmtKind::If { condition, .. } => vec![condition],
             StmtKind::Loop(_) | StmtKind::Break | StmtKind::Comment(_) => Vec::new(),

@@ -5,8 +5,8 @@ use crate::compiled::Compiled;
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 use straightline_manifest::{
-    Binding, BindingKind, Dimension, Extent, Form, Format, Manifest, REGION, SampleType, SamplerType, Stage,
-    ViewDimension,
+    Binding, BindingKind, BufferType, Dimension, Extent, Form, Format, Manifest, REGION, SampleType, SamplerType,
+    Stage, ViewDimension,
 };
 
 /// One shader's part of the bindings file.
@@ -63,6 +63,8 @@ fn module(module: &Module<'_>) -> TokenStream {
             "What the shader reads.",
         ),
     };
+    let targets = Targets::of(manifest);
+    let (target_ty, target, targets_struct) = (&targets.ty, &targets.given, &targets.structure);
     let (structure, setters) = parameters::parameters(manifest);
     let elements = parameters::elements(manifest);
     let region = manifest.bindings.iter().any(|b| b.name == REGION).then(|| {
@@ -76,11 +78,11 @@ fn module(module: &Module<'_>) -> TokenStream {
                 &self,
                 encoder: &mut wgpu::CommandEncoder,
                 #used,
-                target: &wgpu::TextureView,
+                #target_ty,
                 region: straightline_runtime::Region,
             ) -> Result<(), Error> {
                 let inputs: [(&str, Resource<'_>); #count] = [#(#pairs),*];
-                self.0.encode_region(encoder, &inputs, target, region)
+                self.0.encode_region(encoder, &inputs, #target, region)
             }
         }
     });
@@ -98,6 +100,8 @@ fn module(module: &Module<'_>) -> TokenStream {
             pub struct Inputs #life {
                 #(#fields,)*
             }
+
+            #targets_struct
 
             #structure
 
@@ -126,10 +130,10 @@ fn module(module: &Module<'_>) -> TokenStream {
                     &self,
                     encoder: &mut wgpu::CommandEncoder,
                     #used,
-                    target: &wgpu::TextureView,
+                    #target_ty,
                 ) -> Result<(), Error> {
                     let inputs: [(&str, Resource<'_>); #count] = [#(#pairs),*];
-                    self.0.encode(encoder, &inputs, target)
+                    self.0.encode(encoder, &inputs, #target)
                 }
 
                 #region
@@ -142,6 +146,55 @@ fn module(module: &Module<'_>) -> TokenStream {
                     &self.0
                 }
             }
+        }
+    }
+}
+
+/// How a pass is given what it writes.
+struct Targets {
+    /// The parameter.
+    ty: TokenStream,
+    /// What is passed on.
+    given: TokenStream,
+    /// The structure of several.
+    structure: TokenStream,
+}
+
+impl Targets {
+    fn of(manifest: &Manifest) -> Targets {
+        if manifest.outputs.len() == 1 {
+            return Targets {
+                ty: quote! { target: &wgpu::TextureView },
+                given: quote! { target },
+                structure: TokenStream::new(),
+            };
+        }
+        if manifest.outputs.is_empty() {
+            return Targets {
+                ty: TokenStream::new(),
+                given: quote! { &[] as &[(&str, &wgpu::TextureView)] },
+                structure: TokenStream::new(),
+            };
+        }
+        let names: Vec<&str> = manifest.outputs.iter().map(|o| o.name.as_str()).collect();
+        let fields: Vec<_> = names.iter().map(|name| identifier(name)).collect();
+        let docs = manifest.outputs.iter().map(|output| {
+            let at = output.location.map_or(String::new(), |k| format!(" at location {k}"));
+            spaced(&format!(
+                "The target of `{}`{at}, generated for `{}`.",
+                output.name, output.format
+            ))
+        });
+        Targets {
+            ty: quote! { targets: &Targets<'_> },
+            given: quote! { &[#((#names, targets.#fields)),*] },
+            structure: quote! {
+                /// What the shader writes: textures of one size.
+                #[derive(Clone, Copy, Debug)]
+                pub struct Targets<'a> {
+                    #(#[doc = #docs] pub #fields: &'a wgpu::TextureView,)*
+                }
+            },
         }
     }
 }
@@ -204,7 +257,7 @@ fn constants(module: &Module<'_>) -> TokenStream {
         .bindings
         .first()
         .map(|b| b.group)
-        .or(manifest.output.group)
+        .or(manifest.outputs.first().and_then(|output| output.group))
         .unwrap_or_default();
     let layout_docs = spaced(&format!("Layout of bind group {group}, for a pipeline of one's own."));
     let workgroup = manifest.workgroup_size.map(|size| {
@@ -219,8 +272,8 @@ fn constants(module: &Module<'_>) -> TokenStream {
         .iter()
         .map(|b| layout_entry(manifest.stage, b))
         .collect();
-    if let Some(binding) = manifest.output.binding {
-        entries.push(output_entry(binding, manifest.output.format));
+    for output in &manifest.outputs {
+        entries.extend(output.binding.map(|binding| output_entry(binding, output.format)));
     }
     let label = &manifest.kernel;
     quote! {
@@ -291,8 +344,13 @@ fn layout_entry(stage: Stage, binding: &Binding) -> TokenStream {
             SamplerType::Filtering => quote! { #wgpu::BindingType::Sampler(#wgpu::SamplerBindingType::Filtering) },
             SamplerType::Comparison => quote! { #wgpu::BindingType::Sampler(#wgpu::SamplerBindingType::Comparison) },
         },
-        BindingKind::Buffer { stride, .. } => buffer(
-            quote! { #wgpu::BufferBindingType::Storage { read_only: true } },
+        BindingKind::Buffer {
+            stride, buffer_type, ..
+        } => buffer(
+            match buffer_type {
+                BufferType::Storage => quote! { #wgpu::BufferBindingType::Storage { read_only: false } },
+                _ => quote! { #wgpu::BufferBindingType::Storage { read_only: true } },
+            },
             *stride,
         ),
         BindingKind::Uniform { size, .. } => buffer(quote! { #wgpu::BufferBindingType::Uniform }, *size),
@@ -304,11 +362,8 @@ fn layout_entry(stage: Stage, binding: &Binding) -> TokenStream {
 
 fn output_entry(binding: u32, format: Format) -> TokenStream {
     let number = Literal::u32_unsuffixed(binding);
-    let format = match format {
-        Format::Rgba8Unorm => format_ident!("Rgba8Unorm"),
-        Format::Rgba16Float => format_ident!("Rgba16Float"),
-        Format::Rgba32Float => format_ident!("Rgba32Float"),
-    };
+    // wgpu names formats as the manifest does.
+    let format = format_ident!("{format:?}");
     let wgpu = quote! { wgpu };
     quote! {
         #wgpu::BindGroupLayoutEntry {

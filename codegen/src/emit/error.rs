@@ -5,9 +5,15 @@
 pub enum EmitError {
     /// The size of the frame is needed and nothing tells it.
     #[error(
-        "`{kernel}` needs the frame's size but reads no texture of that size, so neither a fragment shader nor a function can know it: emit a whole shader for compute"
+        "`{kernel}` needs the frame's size but reads no texture of that size, so only a compute shader with an output can know it: emit a whole shader for compute, or take a `Frame`"
     )]
     NoFrame {
+        /// The kernel.
+        kernel: String,
+    },
+    /// A fragment shader without a colour.
+    #[error("`{kernel}` gives nothing for a pixel, and a fragment shader gives a colour: emit it for compute")]
+    NoColour {
         /// The kernel.
         kernel: String,
     },
@@ -80,12 +86,14 @@ pub enum EmitError {
         "a workgroup of {0}x{1} is not possible: each side is at least 1, and both together at most 1024 invocations"
     )]
     Workgroup(u32, u32),
-    /// A binding or a uniform whose name cannot be one in every language.
-    #[error("`{kernel}` calls an input `{name}`, which {why}: give the parameter another name")]
+    /// A binding, a uniform or an output whose name cannot be one in every language.
+    #[error("`{kernel}` calls an {what} `{name}`, which {why}: give {} another name", if *.what == "input" { "the parameter" } else { "the field" })]
     Name {
         /// The kernel.
         kernel: String,
-        /// The input, cut if it is long.
+        /// `input` or `output`.
+        what: &'static str,
+        /// The input or output, cut if it is long.
         name: String,
         /// What is wrong with the name.
         why: &'static str,

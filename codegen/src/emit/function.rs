@@ -42,6 +42,12 @@ pub fn check(compiled: &Compiled, resources: &Resources) -> Result<(), EmitError
             "{whole} is written as a whole shader: leave it out, or emit the form `entry`"
         ));
     }
+    if let Some((buffer, _)) = resources.read_buffers.iter().find(|(k, _)| resources.is_written(*k)) {
+        let name = &resources.buffer(*buffer).name;
+        return refused(format!(
+            "it writes to `{name}`, and a function only gives values: emit the form `entry`"
+        ));
+    }
     let takes_no_buffers = targets.iter().find(|t| **t != Target::Hlsl);
     if let (Some((buffer, _)), Some(target)) = (resources.read_buffers.first(), takes_no_buffers) {
         let name = &resources.buffer(*buffer).name;

@@ -2,7 +2,7 @@
 
 use super::Target;
 use super::print::{LOOSE_REGION, loose};
-use super::resources::{OUTPUT, Resources, SAMPLER, UNIFORMS};
+use super::resources::{Resources, SAMPLER, UNIFORMS};
 use straightline_manifest::{LanguageBinding, LanguageKind as Kind, REGION, Stage};
 
 impl Resources {
@@ -76,8 +76,8 @@ impl Resources {
             let name = &self.buffer(*k).name;
             list.add(Kind::StorageBuffer, name, Some(name)).binding = Some(*binding);
         }
-        if let Some(binding) = self.output_binding() {
-            list.add(Kind::StorageTexture, OUTPUT, Some(OUTPUT)).binding = Some(binding);
+        for output in self.outputs.iter().filter(|output| output.binding.is_some()) {
+            list.add(Kind::StorageTexture, &output.name, Some(&output.name)).binding = output.binding;
         }
         for uniform in &self.uniforms {
             list.add(Kind::Uniform, &loose(&uniform.name), Some(&uniform.name));
@@ -140,14 +140,16 @@ impl Resources {
         }
         for (k, binding) in &self.read_buffers {
             let [name, of] = [self, original].map(|r| &r.buffer(*k).name);
-            see(Kind::StorageBuffer, 't', name, of, *binding);
+            see(Kind::StorageBuffer, self.buffer_class(*k), name, of, *binding);
         }
         for (k, binding) in &self.used_samplers {
             let [name, of] = [self, original].map(|r| &r.sampler(*k).name);
             see(Kind::Sampler, 's', name, of, *binding);
         }
-        if let Some(binding) = self.output_binding() {
-            see(Kind::StorageTexture, 'u', OUTPUT, OUTPUT, binding);
+        for (output, of) in self.outputs.iter().zip(&original.outputs) {
+            if let Some(binding) = output.binding {
+                see(Kind::StorageTexture, 'u', &output.name, &of.name, binding);
+            }
         }
         if let Some(binding) = self.uniform_binding() {
             see(Kind::UniformBuffer, 'b', UNIFORMS, UNIFORMS, binding);

@@ -1,7 +1,7 @@
 //! What a host is told of a shader: the manifest.
 
 use super::print::{GENERATOR, wgsl_type};
-use super::resources::{BoundTexture, OUTPUT, Resources, UNIFORMS};
+use super::resources::{BoundTexture, Resources, UNIFORMS};
 use crate::compiled::Compiled;
 use crate::ir::{Element, Field, Scalar, Texture, TextureKind};
 use straightline_manifest::{
@@ -37,7 +37,10 @@ impl Resources {
         for (index, binding) in &self.read_buffers {
             let buffer = self.buffer(*index);
             let kind = BindingKind::Buffer {
-                buffer_type: BufferType::ReadOnlyStorage,
+                buffer_type: match self.is_written(*index) {
+                    true => BufferType::Storage,
+                    false => BufferType::ReadOnlyStorage,
+                },
                 element: match &buffer.element {
                     Element::Value(ty) => wgsl_type((*ty).into()),
                     Element::Struct(structure) => structure.name.clone(),
@@ -83,6 +86,16 @@ impl Resources {
         }
         bindings.sort_by_key(|binding: &Binding| binding.binding);
         let compute = self.options.stage == Stage::Compute;
+        let outputs = self.outputs.iter().zip(0..).map(|(output, location)| Output {
+            name: output.name.clone(),
+            group: compute.then_some(group),
+            binding: output.binding,
+            location: (!compute).then_some(location),
+            access: Access::WriteOnly,
+            view_dimension: ViewDimension::D2,
+            format: output.format,
+            ty: output.type_name(),
+        });
         Manifest {
             schema: SCHEMA,
             generator: GENERATOR.to_owned(),
@@ -100,15 +113,7 @@ impl Resources {
             varyings: self.varyings().collect(),
             bindings,
             language_bindings: self.language_bindings(),
-            output: Output {
-                name: OUTPUT.to_owned(),
-                group: compute.then_some(group),
-                binding: self.output_binding(),
-                location: (!compute).then_some(0),
-                access: Access::WriteOnly,
-                view_dimension: ViewDimension::D2,
-                format: self.options.format,
-            },
+            outputs: outputs.collect(),
             options: compiled.options.clone(),
             counts: counts.clone(),
             files: Default::default(),

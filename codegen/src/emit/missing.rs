@@ -54,7 +54,7 @@ pub fn check(compiled: &Compiled, resources: &Resources, target: Target) -> Resu
         ),
         (
             old && !resources.read_buffers.is_empty(),
-            "reads a storage buffer",
+            "has a storage buffer",
             with_compute,
         ),
         (
@@ -74,6 +74,15 @@ pub fn check(compiled: &Compiled, resources: &Resources, target: Target) -> Resu
             }),
             "counts or reverses bits",
             with_compute,
+        ),
+        (
+            target == Target::Essl310
+                && resources
+                    .outputs
+                    .iter()
+                    .any(|o| o.binding.is_some() && o.format.components() == 2),
+            "stores values of two components",
+            "glsl430, any that is newer, or vectors of four",
         ),
         (
             target == Target::Essl300 && of_kind(TextureKind::Multisampled),

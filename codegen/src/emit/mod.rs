@@ -21,6 +21,7 @@ mod missing;
 mod names;
 mod options;
 mod origin;
+mod outputs;
 mod parameters;
 mod places;
 mod print;
@@ -76,7 +77,12 @@ impl Emitted {
 /// Statements of a kernel's body, the same in every language and stage.
 pub fn statements(compiled: &Compiled) -> u32 {
     let kernel = kernel(compiled, Precision::F32);
-    ast::count(&kernel.body) - compiled.graph.outputs().len() as u32
+    // Results are no statements: how they are written is the entry point's affair.
+    let results = kernel
+        .body
+        .iter()
+        .filter(|stmt| matches!(stmt.kind, ast::StmtKind::Output(_)));
+    ast::count(&kernel.body) - results.count() as u32
 }
 
 /// A number that a kernel's statements do not fall short of: quick to tell.
@@ -224,18 +230,20 @@ impl Shader<'_, '_> {
     fn validated(&self, counts: &Counts) -> Result<translate::Module, EmitError> {
         let kernel = &self.compiled.kernel;
         if !self.resources.options.is_function() {
-            return translate::Module::parse_wgsl(kernel, &self.wgsl_of(self.resources, counts));
+            return translate::Module::parse_wgsl(kernel, &self.wgsl_of(self.resources, self.tree, counts));
         }
         let whole = EmitOptions {
             form: Form::Entry,
             ..self.resources.options.clone()
         };
         let whole = resources::Resources::of(self.compiled, &whole)?;
-        translate::Module::parse_wgsl(kernel, &self.wgsl_of(&whole, counts))
+        // Entry points give whole texels, and functions what the kernel gives.
+        let tree = tree(self.compiled, &whole);
+        translate::Module::parse_wgsl(kernel, &self.wgsl_of(&whole, &tree, counts))
     }
 
-    fn wgsl_of(&self, resources: &resources::Resources, counts: &Counts) -> String {
-        let mut tree = self.tree.clone();
+    fn wgsl_of(&self, resources: &resources::Resources, tree: &ast::Module<'_>, counts: &Counts) -> String {
+        let mut tree = tree.clone();
         legalise::wgsl(&mut tree);
         let language = print::Wgsl { resources };
         names::assign(&mut tree, resources, names::Words::Wgsl, &language.names());
@@ -244,7 +252,7 @@ impl Shader<'_, '_> {
 
     fn wgsl(&self, counts: &Counts) -> Result<String, EmitError> {
         let options = &self.resources.options;
-        let wgsl = self.wgsl_of(self.resources, counts);
+        let wgsl = self.wgsl_of(self.resources, self.tree, counts);
         if options.is_function() {
             let enabled = match options.precision {
                 Precision::F32 => wgsl.clone(),
@@ -265,8 +273,8 @@ impl Shader<'_, '_> {
         let language = print::Glsl::new(resources, target);
         names::assign(&mut tree, resources, names::Words::Glsl, &language.names());
         let glsl = print::module(&language, &tree, &print::header(self.compiled, counts, resources));
-        // naga reads no other GLSL, and no text without `main`.
-        if target == Target::Glsl450 && !resources.options.is_function() {
+        // naga reads no other GLSL, no text without `main`, and no atomic operations.
+        if target == Target::Glsl450 && !resources.options.is_function() && !self.compiled.graph.has_effects() {
             let compared = resources.compared();
             check::check_glsl(&self.compiled.kernel, resources.options.stage, &glsl, &compared)?;
         }

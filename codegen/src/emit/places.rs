@@ -3,7 +3,7 @@
 use super::error::EmitError;
 use super::options::EmitOptions;
 use super::register::{LAST_BINDING, LAST_GROUP, Register};
-use super::resources::{OUTPUT, SAMPLER};
+use super::resources::SAMPLER;
 use super::target::Target;
 use crate::shorten;
 use crate::suggest::suggest;
@@ -30,12 +30,13 @@ pub struct Places {
 }
 
 impl Places {
-    /// Numbers for what is `bound`, in order; the last of them may be the sampler that one language has.
+    /// Numbers for what is `bound`, in order; the last of them may be the sampler that one language has. `outputs` is what the
+    /// shader gives, which a fragment shader does not bind.
     ///
     /// # Errors
     ///
     /// What is wrong with the numbers and registers that were asked for.
-    pub fn new(kernel: &str, options: &EmitOptions, bound: &[Named]) -> Result<Places, EmitError> {
+    pub fn new(kernel: &str, options: &EmitOptions, bound: &[Named], outputs: &[&str]) -> Result<Places, EmitError> {
         let refused = |what: String, help: String| EmitError::Place {
             kernel: kernel.to_owned(),
             what,
@@ -60,7 +61,7 @@ impl Places {
             group: options.group,
             ..Places::default()
         };
-        let unknown = |name: &str| unknown(options, bound, name);
+        let unknown = |name: &str| unknown(options, bound, outputs, name);
         for (name, number) in &options.bindings {
             if let Some((what, help)) = unknown(name) {
                 return Err(refused(what, help));
@@ -222,12 +223,14 @@ fn no_places(options: &EmitOptions) -> Option<String> {
 }
 
 /// Why a name is that of nothing bound, and what helps.
-fn unknown(options: &EmitOptions, bound: &[Named], name: &str) -> Option<(String, String)> {
+fn unknown(options: &EmitOptions, bound: &[Named], outputs: &[&str], name: &str) -> Option<(String, String)> {
     if bound.iter().any(|b| b.name == name) {
         return None;
     }
-    if name == OUTPUT && options.stage == Stage::Fragment {
-        let what = format!("`{OUTPUT}` is the colour of a fragment shader, and has location 0");
+    if options.stage == Stage::Fragment
+        && let Some(location) = outputs.iter().position(|output| *output == name)
+    {
+        let what = format!("`{name}` is the colour of a fragment shader, and has location {location}");
         return Some((what, "leave it out, or emit for compute".to_owned()));
     }
     if name == SAMPLER && !options.targets.contains(&Target::Glsl450) {

@@ -33,6 +33,7 @@ impl Resources {
                 structure.fields.iter_mut().for_each(|field| free(&mut field.name));
             }
         }
+        renamed.outputs.iter_mut().for_each(|output| free(&mut output.name));
         renamed.varying_names.iter_mut().for_each(&mut free);
         renamed.uniform_names.iter_mut().for_each(&mut free);
         renamed.varyings.iter_mut().for_each(|varying| free(&mut varying.name));

@@ -3,11 +3,12 @@
 use super::EmitOptions;
 use super::error::EmitError;
 use super::layout::layout;
+use super::outputs::BoundOutput;
 use super::places::{Named, Places};
 use super::print::wgsl_type;
 use super::target::Target;
 use crate::compiled::Compiled;
-use crate::ir::{Buffer, Element, NodeId, Op, Sampler, Structure, Texture, Uniform, Varying};
+use crate::ir::{Access, Buffer, Element, NodeId, Op, Sampler, Structure, Texture, Uniform, Varying};
 use crate::passes::layers_read;
 use std::collections::BTreeSet;
 use straightline_manifest::{REGION, Stage, UniformField};
@@ -16,8 +17,11 @@ use straightline_manifest::{REGION, Stage, UniformField};
 pub const UNIFORMS: &str = "parameters";
 /// Name of the sampler that GLSL needs to name a texture; no filtering is ever asked of it.
 pub const SAMPLER: &str = "unfiltered";
-/// Name of the storage texture or colour that is written.
-pub const OUTPUT: &str = "destination";
+/// Name of what is written by a kernel that gives one value.
+pub const OUTPUT: &str = crate::ir::Target::ALONE;
+/// Name of the structure of several outputs.
+pub const OUTPUTS: &str = "Outputs";
+
 /// A texture that is read.
 #[derive(Clone, Debug)]
 pub struct BoundTexture {
@@ -47,6 +51,8 @@ pub struct Combined {
 pub struct Resources {
     /// Name of the entry point or function.
     pub entry: String,
+    /// What it gives for each pixel.
+    pub outputs: Vec<BoundOutput>,
     /// Where everything is bound.
     pub places: Places,
     /// How it is emitted.
@@ -62,7 +68,7 @@ pub struct Resources {
     pub read: Vec<BoundTexture>,
     /// The ways in which they are read.
     pub combined: Vec<Combined>,
-    /// Index and binding number of each buffer that is read.
+    /// Index and binding number of each buffer that is read or written.
     pub read_buffers: Vec<(u32, u32)>,
     /// Index and binding number of each sampler that is used.
     pub used_samplers: Vec<(u32, u32)>,
@@ -97,7 +103,10 @@ impl Resources {
         // A fragment shader that needs the output's size has it from a texture of that size: one that is read, or else any.
         let framed = |index: &u32| graph.textures[*index as usize].framed;
         let all = || 0..graph.textures.len() as u32;
-        let needs_size = options.stage == Stage::Fragment && ops.contains(&&Op::FrameSize);
+        let sized_by_output = options.stage == Stage::Compute && !graph.targets.is_empty();
+        // A shader without outputs that could tell needs it anyway: pixels outside of the frame do nothing.
+        let needs_size =
+            !sized_by_output && (ops.contains(&&Op::FrameSize) || (options.stage == Stage::Compute && !options.region));
         let sized = match needs_size && !all().any(|index| framed(&index) && reads(index)) {
             true => all().find(framed),
             false => None,
@@ -164,10 +173,16 @@ impl Resources {
                 Element::Value(_) => None,
             });
         let fields = structures.clone().flat_map(|structure| &structure.fields);
+        let mut outputs: Vec<BoundOutput> = graph
+            .targets
+            .iter()
+            .map(|t| BoundOutput::new(t, options.format))
+            .collect();
         let mut names = names
             .chain(structures.map(|structure| &structure.name))
             .map(|name| (name, false))
             .chain(fields.map(|field| (&field.name, true)))
+            .chain(outputs.iter().filter(|o| o.name != OUTPUT).map(|o| (&o.name, false)))
             .chain(uniforms.iter().map(|u| (&u.name, true)));
         if options.entry.is_some()
             && let Some((name, _)) = names.clone().find(|(name, is_field)| **name == entry && !is_field)
@@ -183,9 +198,14 @@ impl Resources {
             Some((name.clone(), why))
         };
         if let Some((name, why)) = names.find_map(refused) {
+            let what = match outputs.iter().any(|output| output.name == name) {
+                true => "output",
+                false => "input",
+            };
             let name = shortened(&name);
             return Err(EmitError::Name {
                 kernel: kernel(),
+                what,
                 name,
                 why,
             });
@@ -205,7 +225,7 @@ impl Resources {
         let all_bound = all_bound.chain(
             read_buffers
                 .iter()
-                .map(|(k, _)| named('t', &graph.buffers[*k as usize].name)),
+                .map(|(k, _)| named(class(&graph.buffers[*k as usize]), &graph.buffers[*k as usize].name)),
         );
         let all_bound = all_bound.chain(
             used_samplers
@@ -213,7 +233,6 @@ impl Resources {
                 .map(|(k, _)| named('s', &graph.samplers[*k as usize].name)),
         );
         let own = [
-            (compute, 'u', OUTPUT),
             (!fields.is_empty(), 'b', UNIFORMS),
             (options.region, 'b', REGION),
             (
@@ -223,10 +242,16 @@ impl Resources {
             ),
         ];
         let own = own.into_iter().filter(|(is_bound, ..)| *is_bound);
+        let written = outputs.iter().filter(|_| compute).map(|o| named('u', &o.name));
+        let all_bound = all_bound.chain(written);
         let all_bound: Vec<Named> = all_bound
             .chain(own.map(|(_, class, name)| named(class, name)))
             .collect();
-        let places = Places::new(&compiled.kernel, options, &all_bound)?;
+        let given: Vec<&str> = outputs.iter().map(|o| o.name.as_str()).collect();
+        let places = Places::new(&compiled.kernel, options, &all_bound, &given)?;
+        for output in outputs.iter_mut().filter(|_| compute) {
+            output.binding = Some(places.number(&output.name));
+        }
         for bound in &mut read {
             bound.binding = places.number(&graph.textures[bound.index as usize].name);
         }
@@ -238,6 +263,7 @@ impl Resources {
         }
         let resources = Resources {
             entry,
+            outputs,
             places,
             options: options.clone(),
             textures: graph.textures.clone(),
@@ -257,7 +283,14 @@ impl Resources {
             varyings,
             block: graph.invocation.pixels(),
         };
-        if needs_frame && options.stage == Stage::Fragment && resources.framed().is_none() {
+        if options.stage == Stage::Fragment && resources.outputs.is_empty() {
+            return Err(EmitError::NoColour { kernel: kernel() });
+        }
+        let told = resources.framed().is_some() || sized_by_output;
+        if needs_frame
+            && !told
+            && (options.stage == Stage::Fragment || !options.region || ops.contains(&&Op::FrameSize))
+        {
             return Err(EmitError::NoFrame { kernel: kernel() });
         }
         Ok(resources)
@@ -294,6 +327,16 @@ impl Resources {
             .collect()
     }
 
+    /// The class of a buffer's registers in HLSL, by its index in the graph.
+    pub fn buffer_class(&self, index: u32) -> char {
+        class(self.buffer(index))
+    }
+
+    /// Whether a buffer is written, by its index in the graph.
+    pub fn is_written(&self, index: u32) -> bool {
+        self.buffer(index).access != Access::Read
+    }
+
     /// A sampler by its index in the graph.
     pub fn sampler(&self, index: u32) -> &Sampler {
         &self.samplers[index as usize]
@@ -320,7 +363,21 @@ impl Resources {
         let buffers = self.read_buffers.iter().map(|(k, _)| self.buffer(*k).name.as_str());
         let samplers = self.used_samplers.iter().map(|(k, _)| self.sampler(*k).name.as_str());
         let varyings = self.varyings.iter().map(|v| v.name.as_str());
-        textures.chain(buffers).chain(samplers).chain(varyings)
+        let outputs = self.outputs.iter().map(|o| o.name.as_str());
+        textures.chain(buffers).chain(samplers).chain(varyings).chain(outputs)
+    }
+
+    /// Name of the output whose size is that of the frame.
+    pub fn sized_output(&self) -> &str {
+        self.outputs.first().map_or(OUTPUT, |output| output.name.as_str())
+    }
+
+    /// The type that holds all outputs, where there are several and the language gives them as one.
+    pub fn outputs_type(&self) -> String {
+        match self.options.is_function() {
+            true => format!("{}_{OUTPUTS}", self.entry),
+            false => OUTPUTS.to_owned(),
+        }
     }
 
     /// Interpolated values that are used, as a host is told.
@@ -342,11 +399,6 @@ impl Resources {
         texture
             .map(|t| (t.name.as_str(), super::print::glsl_shape(t.kind)))
             .collect()
-    }
-
-    /// Binding number of the output, where it is one.
-    pub fn output_binding(&self) -> Option<u32> {
-        (self.options.stage == Stage::Compute).then(|| self.places.number(OUTPUT))
     }
 
     /// Binding number of the uniform buffer, if there is one.
@@ -381,8 +433,12 @@ impl Resources {
             .iter()
             .chain(&self.used_samplers)
             .map(|(_, binding)| *binding);
-        let own = [self.output_binding(), self.uniform_binding(), self.region_binding()];
-        read.chain(others).chain(own.into_iter().flatten()).collect()
+        let own = [self.uniform_binding(), self.region_binding()];
+        let outputs = self.outputs.iter().filter_map(|output| output.binding);
+        read.chain(others)
+            .chain(outputs)
+            .chain(own.into_iter().flatten())
+            .collect()
     }
 
     /// Index of the buffer in which MSL is told how long others are: the lowest number that nothing has.
@@ -407,6 +463,14 @@ impl Resources {
             .iter()
             .find(|bound| bound.index == texture)
             .map(|bound| bound.binding)
+    }
+}
+
+/// The class of a buffer's registers in HLSL.
+fn class(buffer: &Buffer) -> char {
+    match buffer.access {
+        Access::Read => 't',
+        Access::Write | Access::Atomic => 'u',
     }
 }
 

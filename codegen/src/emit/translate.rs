@@ -70,7 +70,8 @@ impl Module {
             slots.resources.insert(naga::ResourceBinding { group, binding }, target);
         };
         let textures = resources.read.iter().map(|t| (t.binding, false));
-        for (binding, mutable) in textures.chain(resources.output_binding().map(|b| (b, true))) {
+        let written = resources.outputs.iter().filter_map(|output| output.binding);
+        for (binding, mutable) in textures.chain(written.map(|binding| (binding, true))) {
             let texture = Some(self.slot("texture", binding, LAST_TEXTURE)?);
             bind(
                 binding,
@@ -92,14 +93,19 @@ impl Module {
                 },
             );
         }
-        let buffers = resources.read_buffers.iter().map(|(_, binding)| *binding);
+        let buffers = resources
+            .read_buffers
+            .iter()
+            .map(|(k, binding)| (*binding, resources.is_written(*k)));
         let uniforms = [resources.uniform_binding(), resources.region_binding()];
-        for binding in buffers.chain(uniforms.into_iter().flatten()) {
+        let uniforms = uniforms.into_iter().flatten().map(|binding| (binding, false));
+        for (binding, mutable) in buffers.chain(uniforms) {
             let buffer = Some(self.slot("buffer", binding, LAST_BUFFER)?);
             bind(
                 binding,
                 msl::BindTarget {
                     buffer,
+                    mutable,
                     ..Default::default()
                 },
             );

@@ -38,6 +38,7 @@ impl Stmt<'_> {
     /// Whether it, or a statement of its blocks, assigns to a variable or a part of it.
     pub fn assigns(&self, var: VarId) -> bool {
         matches!(&self.kind, StmtKind::Assign(place, ..) if place.root() == Some(var))
+            || matches!(&self.kind, StmtKind::Effect(effect) if effect.before == Some(var))
             || self.blocks().into_iter().flatten().any(|stmt| stmt.assigns(var))
     }
 }

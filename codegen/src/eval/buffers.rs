@@ -5,21 +5,46 @@ use super::value::{Eval, Exit, Value};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::front::tree::{Expr, Type as SourceType};
 use crate::ir::vector_named as vector_type;
-use crate::ir::{BinaryOp, Buffer, Element, NodeId, Op, Scalar, Structure, Type};
+use crate::ir::{Access, BinaryOp, Buffer, Element, NodeId, Op, Scalar, Structure, Type};
 
 /// Elements of an array that a host fills, at most: vectors that fill a uniform buffer everywhere.
 const LONGEST: i64 = 1024;
 
 impl Evaluator<'_> {
     /// A parameter that is a buffer.
-    pub(super) fn buffer_parameter(&mut self, name: &str, args: &[SourceType], span: Span) -> Eval {
+    pub(super) fn buffer_parameter(&mut self, name: &str, of: &str, args: &[SourceType], span: Span) -> Eval {
         let element = self.element_type(name, args, span)?;
+        let access = match of {
+            "AtomicBuffer" => Access::Atomic,
+            "StorageBuffer" => Access::Write,
+            _ => Access::Read,
+        };
+        let whole = [Element::Value(Type::I32), Element::Value(Type::U32)];
+        if access == Access::Atomic && !whole.contains(&element) {
+            return Err(Diagnostic::at(
+                span,
+                format!("the buffer `{name}` has no elements that are changed at once"),
+            )
+            .label("of this type")
+            .help("elements of an `AtomicBuffer` are u32 or i32")
+            .into());
+        }
+        if access == Access::Write && matches!(element, Element::Struct(_)) {
+            return Err(Diagnostic::at(
+                span,
+                format!("the buffer `{name}` has no elements that a shader can write"),
+            )
+            .label("of this type")
+            .help("elements of a `StorageBuffer` are f32, i32, u32, or vectors of 2 or 4 of them")
+            .into());
+        }
         self.unused_name(name, span)?;
         self.elements.extend(args.first().cloned());
         let buffers = &mut self.builder.graph_mut().buffers;
         buffers.push(Buffer {
             name: name.to_owned(),
             element,
+            access,
         });
         Ok(Value::Buffer(buffers.len() as u32 - 1))
     }
@@ -130,6 +155,9 @@ impl Evaluator<'_> {
 
     /// A method of a buffer.
     pub fn buffer(&mut self, index: u32, name: &str, args: &[Value], span: Span) -> Eval {
+        if self.builder.graph().buffers[index as usize].access != Access::Read {
+            return self.written_buffer(index, name, args, span);
+        }
         match (name, args) {
             ("len", []) => Ok(Value::Node(self.builder.add(
                 Op::BufferLen(index),
@@ -146,7 +174,7 @@ impl Evaluator<'_> {
                 let mut next = 0;
                 match self.elements[index as usize].clone() {
                     SourceType::Name(of, _) => {
-                        self.read_part(index, inside, &SourceType::Name(of, Vec::new()), &mut next, span)
+                        self.read_part(index, inside, &SourceType::Name(of, Vec::new()), &mut next)
                     }
                     _ => Err(Exit::Noted),
                 }
@@ -159,13 +187,13 @@ impl Evaluator<'_> {
     }
 
     /// What a type takes of an element, from the field `next` on.
-    fn read_part(&mut self, buffer: u32, element: NodeId, ty: &SourceType, next: &mut u32, span: Span) -> Eval {
+    fn read_part(&mut self, buffer: u32, element: NodeId, ty: &SourceType, next: &mut u32) -> Eval {
         let library = self.library;
         match ty {
             SourceType::Name(of, _) if library.structs.contains_key(of) => {
                 let mut fields = Vec::new();
                 for (field, ty, _) in &library.structs[of].fields {
-                    fields.push((field.clone(), self.read_part(buffer, element, ty, next, span)?));
+                    fields.push((field.clone(), self.read_part(buffer, element, ty, next)?));
                 }
                 Ok(Value::structure(of.clone(), fields))
             }

@@ -219,10 +219,10 @@ impl Evaluator<'_> {
             self.scope.bind(&param.name, value);
         }
         self.calls.push(name.to_owned());
-        let pending = std::mem::take(&mut self.departed);
-        let result = self.block_in(&function.body, Tail::Function);
-        let result = self.arrive(0, result, outer.1, &|way| matches!(way, Way::Return(_)), function.span);
-        self.departed = pending;
+        let result = self.called_by_others(|e| {
+            let result = e.block_in(&function.body, Tail::Function);
+            e.arrive(0, result, outer.1, &|way| matches!(way, Way::Return(_)), function.span)
+        });
         self.calls.pop();
         let result = result.and_then(|value| self.ascribe(value, Some(&function.result), function.span));
         self.scope.leave_function(outer);

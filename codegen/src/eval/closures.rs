@@ -82,9 +82,7 @@ impl Evaluator<'_> {
         }
         let outer = self.scope.enter_function();
         self.calls.push(closed.function.clone());
-        let pending = std::mem::take(&mut self.departed);
-        let result = self.closed_body(&closed, args, outer.1, span);
-        self.departed = pending;
+        let result = self.called_by_others(|e| e.closed_body(&closed, args, outer.1, span));
         self.calls.pop();
         self.scope.leave_function(outer);
         match result {

@@ -75,10 +75,11 @@ impl Evaluator<'_> {
     ) -> Eval {
         let pending = std::mem::take(&mut self.departed);
         let before = self.scope.clone();
-        let joined = match keep {
-            true => self.kept_branch(tail, condition, span, then, otherwise),
-            false => self.selected(tail, condition, span, then, otherwise),
-        };
+        let gone: Vec<_> = pending.iter().map(|departure| (departure.condition, false)).collect();
+        let joined = self.narrowed(&gone, |e| match keep {
+            true => e.kept_branch(tail, condition, span, then, otherwise),
+            false => e.selected(tail, condition, span, then, otherwise),
+        });
         if matches!(joined, Err(Exit::Error(_) | Exit::Noted)) {
             // Values made inside belong to no place outside.
             self.scope = before;
@@ -97,10 +98,10 @@ impl Evaluator<'_> {
         otherwise: impl FnOnce(&mut Self) -> Eval,
     ) -> Eval {
         let before = self.scope.clone();
-        let left = self.side(tail, span, then);
+        let left = self.narrowed(&[(condition, true)], |e| e.side(tail, span, then));
         let after_left = std::mem::replace(&mut self.scope, before);
         let departed_left = std::mem::take(&mut self.departed);
-        let right = self.side(tail, span, otherwise);
+        let right = self.narrowed(&[(condition, false)], |e| e.side(tail, span, otherwise));
         let departed_right = std::mem::take(&mut self.departed);
         let negated = self.not(condition);
         for (side, departed) in [(condition, departed_left), (negated, departed_right)] {
@@ -262,10 +263,13 @@ impl Evaluator<'_> {
         };
         // Only what differs leaves the branch.
         let differing: Vec<(NodeId, NodeId)> = pairs.clone().filter(|(a, b)| a != b).map(|(a, b)| (*a, *b)).collect();
-        if differing.is_empty() {
+        let graph = self.builder.graph_mut();
+        let happens = [first, second]
+            .iter()
+            .any(|region| !graph.region(*region).effects.is_empty());
+        if differing.is_empty() && !happens {
             return lefts.to_vec();
         }
-        let graph = self.builder.graph_mut();
         graph.regions[first.0 as usize].results = differing.iter().map(|(a, _)| *a).collect();
         graph.regions[second.0 as usize].results = differing.iter().map(|(_, b)| *b).collect();
         let node = self.builder.add(Op::If(first, second), vec![condition], Type::Results);

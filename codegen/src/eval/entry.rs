@@ -10,12 +10,12 @@ use crate::ir::{NodeId, Op, Scalar, Type};
 use std::collections::BTreeMap;
 
 impl Evaluator<'_> {
-    /// Evaluates the kernel `entry`: its colour, the options chosen, its documentation.
+    /// Evaluates the kernel `entry`: its results, the options chosen, its documentation.
     pub fn kernel(
         &mut self,
         entry: &str,
         settings: &[(String, String)],
-    ) -> Eval<(NodeId, BTreeMap<String, String>, String)> {
+    ) -> Eval<(Vec<NodeId>, BTreeMap<String, String>, String)> {
         let library = self.library;
         let Some(function) = library.functions.get(entry) else {
             let mut names: Vec<&str> = library
@@ -61,17 +61,8 @@ impl Evaluator<'_> {
         }
         let value = self.inline(entry, &[], args, function.span)?;
         let value = self.loaded(value, function.span)?;
-        let output = self.node(&value, function.span)?;
-        if self.ty(output) != Type::value(Scalar::F32, 4) {
-            return Err(Diagnostic::at(
-                function.span,
-                format!("a kernel gives a Vec4, not {}", self.ty(output).in_rust()),
-            )
-            .label("the kernel")
-            .help("for a Vec3 write `.extend(1.0)`, for a number `Vec4::splat(x)`")
-            .into());
-        }
-        Ok((output, options, function.docs.clone()))
+        let outputs = self.results(&value, function)?;
+        Ok((outputs, options, function.docs.clone()))
     }
 
     fn parameter(

@@ -198,7 +198,7 @@ impl Evaluator<'_> {
             Some(_) => right(self),
             None => {
                 let before = self.scope.clone();
-                let value = self.lazy_side(right, span)?;
+                let value = self.narrowed(&[(left, and)], |e| e.lazy_side(right, span))?;
                 if self.scope == before {
                     let op = if and { BinaryOp::And } else { BinaryOp::Or };
                     return self.binary(op, &Value::Node(left), &value, span);

@@ -21,8 +21,9 @@ impl Evaluator<'_> {
     ) -> Eval<()> {
         let before = self.scope.clone();
         let pending = std::mem::take(&mut self.departed);
+        let gone: Vec<_> = pending.iter().map(|departure| (departure.condition, false)).collect();
         self.kept_loops += 1;
-        let outcome = self.carry_widened(body, bounds, iteration, span);
+        let outcome = self.narrowed(&gone, |e| e.carry_widened(body, bounds, iteration, span));
         self.kept_loops -= 1;
         if outcome.is_err() {
             // Values made inside belong to no place outside.

@@ -14,6 +14,7 @@ mod closures;
 mod consts;
 mod control;
 mod departures;
+mod effects;
 mod entry;
 mod enums;
 mod expr;
@@ -34,6 +35,7 @@ mod place;
 mod quad;
 mod ranges;
 mod resources;
+mod results;
 mod scope;
 mod sequence;
 mod shape;
@@ -110,10 +112,10 @@ pub fn evaluate(
             evaluator.errors.extend(deferred);
         }
         return match result {
-            Ok((output, options, docs)) if evaluator.errors.is_empty() => Ok(Evaluated {
+            Ok((outputs, options, docs)) if evaluator.errors.is_empty() => Ok(Evaluated {
                 loops: evaluator.loops.reports(),
                 span: library.functions[entry].span,
-                graph: evaluator.builder.finish(vec![output]),
+                graph: evaluator.builder.finish(outputs),
                 options,
                 docs,
             }),
@@ -176,6 +178,9 @@ struct Evaluator<'a> {
     kept_loops: u32,
     /// Whether the place that is being found is to be written.
     writing: bool,
+    /// Conditions, with what they are, of those for whom the place that is being evaluated is reached: of sides that are
+    /// selected, and of those who left before the branches and loops around.
+    reach: Vec<(NodeId, bool)>,
 }
 
 impl<'a> Evaluator<'a> {
@@ -201,6 +206,7 @@ impl<'a> Evaluator<'a> {
             departed: Vec::new(),
             kept_loops: 0,
             writing: false,
+            reach: Vec::new(),
         }
     }
 }

@@ -21,6 +21,8 @@ pub struct Checkpoint {
     loops: super::budget::Loops,
     departed: Vec<Departure>,
     kept_loops: u32,
+    /// Of each region that is open.
+    effects: Vec<usize>,
 }
 
 impl Checkpoint {
@@ -54,6 +56,7 @@ impl Evaluator<'_> {
             loops: self.loops.clone(),
             departed: self.departed.clone(),
             kept_loops: self.kept_loops,
+            effects: self.builder.effects(),
         }
     }
 
@@ -63,6 +66,7 @@ impl Evaluator<'_> {
         self.counters.truncate(before.counters);
         self.departed = before.departed;
         self.kept_loops = before.kept_loops;
+        self.builder.take_back(&before.effects);
         self.loops.return_to(before.loops);
         let noted = self.errors.get(before.errors).cloned();
         self.errors.truncate(before.errors);

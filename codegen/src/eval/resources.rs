@@ -22,7 +22,7 @@ impl Evaluator<'_> {
                 });
                 Ok(Some(Value::Sampler(samplers.len() as u32 - 1)))
             }
-            "Buffer" => self.buffer_parameter(name, args, span).map(Some),
+            "Buffer" | "StorageBuffer" | "AtomicBuffer" => self.buffer_parameter(name, type_name, args, span).map(Some),
             _ => self.texture_parameter(name, type_name, args, span),
         }
     }

@@ -61,6 +61,8 @@ pub fn is_prelude_type(name: &str) -> bool {
             "Sampler"
                 | "ComparisonSampler"
                 | "Buffer"
+                | "AtomicBuffer"
+                | "StorageBuffer"
                 | "Quad"
                 | "bool"
                 | "char"

@@ -201,6 +201,15 @@ impl<'l> Checker<'l> {
                 "len" => self.takes(args, &[], Ty::USIZE),
                 _ => self.unknown_method(args),
             },
+            Ty::Storage(kind, element) => match (*kind, name) {
+                (_, "len") => self.takes(args, &[], Ty::USIZE),
+                ("StorageBuffer", "store") => self.takes(args, &[Ty::USIZE, (**element).clone()], Ty::UNIT),
+                ("AtomicBuffer", "load") => self.takes(args, &[Ty::USIZE], (**element).clone()),
+                ("AtomicBuffer", "add" | "max" | "min" | "and" | "or" | "xor" | "exchange") => {
+                    self.takes(args, &[Ty::USIZE, (**element).clone()], (**element).clone())
+                }
+                _ => self.unknown_method(args),
+            },
             Ty::Quad(lane) => self.of_quad(lane, name, args, span),
             Ty::Enum(of, parts) if matches!(of.as_str(), "Option" | "Result") => match (name, parts.first()) {
                 ("unwrap", Some(held)) => self.takes(args, &[], held.clone()),

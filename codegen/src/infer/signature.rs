@@ -81,6 +81,8 @@ impl<'l> Checker<'l> {
             "Mat4" => Ty::Matrix(4),
             "Quad" => Ty::Quad(Box::new(texel())),
             "Buffer" => Ty::Buffer(Box::new(texel())),
+            "AtomicBuffer" => Ty::Storage("AtomicBuffer", Box::new(texel())),
+            "StorageBuffer" => Ty::Storage("StorageBuffer", Box::new(texel())),
             "Sampler" => Ty::Sampler,
             "ComparisonSampler" => Ty::ComparisonSampler,
             "_" => self.table.fresh(Kind::Any),

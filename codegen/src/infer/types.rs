@@ -44,6 +44,8 @@ pub enum Ty {
     ComparisonSampler,
     /// `Buffer<T>`.
     Buffer(Box<Ty>),
+    /// A buffer that is written, by the name of its type in the prelude, and its element.
+    Storage(&'static str, Box<Ty>),
     /// `&T`, `&mut T` (true).
     Ref(bool, Box<Ty>),
     /// What is called: its parameters and its result.
@@ -86,6 +88,7 @@ impl Ty {
         match self {
             Ty::Tuple(parts) | Ty::Struct(_, parts) | Ty::Enum(_, parts) => parts.iter().collect(),
             Ty::Array(t) | Ty::Range(t) | Ty::Iter(t) | Ty::Quad(t) | Ty::Texture(_, t) | Ty::Buffer(t) => vec![t],
+            Ty::Storage(_, t) => vec![t],
             Ty::Ref(_, t) => vec![t],
             Ty::Fn(params, result) => params.iter().chain([&**result]).collect(),
             _ => Vec::new(),
@@ -150,6 +153,7 @@ impl Table {
             Ty::Quad(t) => Ty::Quad(boxed(&t)),
             Ty::Texture(name, t) => Ty::Texture(name, boxed(&t)),
             Ty::Buffer(t) => Ty::Buffer(boxed(&t)),
+            Ty::Storage(name, t) => Ty::Storage(name, boxed(&t)),
             Ty::Ref(mutable, t) => Ty::Ref(mutable, boxed(&t)),
             Ty::Fn(params, result) => Ty::Fn(params.iter().map(|p| self.deep(p)).collect(), boxed(&result)),
             other => other,
@@ -206,6 +210,7 @@ impl Table {
                 xs.len() == ys.len() && xs.iter().zip(ys).all(|(x, y)| self.unify(x, y)) && self.unify(r, s)
             }
             (Ty::Texture(x, s), Ty::Texture(y, t)) => x.name == y.name && self.unify(s, t),
+            (Ty::Storage(x, s), Ty::Storage(y, t)) => x == y && self.unify(s, t),
             (Ty::Array(s), Ty::Array(t))
             | (Ty::Range(s), Ty::Range(t))
             | (Ty::Iter(s), Ty::Iter(t))
@@ -285,6 +290,7 @@ impl fmt::Display for Ty {
             Ty::Sampler => f.write_str("Sampler"),
             Ty::ComparisonSampler => f.write_str("ComparisonSampler"),
             Ty::Buffer(t) => write!(f, "Buffer<{t}>"),
+            Ty::Storage(name, t) => write!(f, "{name}<{t}>"),
             Ty::Fn(params, result) => {
                 let params: Vec<String> = params.iter().map(Ty::to_string).collect();
                 write!(f, "impl Fn({})", params.join(", "))?;

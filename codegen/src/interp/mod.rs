@@ -6,7 +6,7 @@ mod finite;
 mod sampling;
 
 use crate::ir::arith::{self, Cells};
-use crate::ir::{Counter, Graph, Invocation, NodeId, Op, Real, Region, Scalar, TextureKind, Type};
+use crate::ir::{Access, Counter, Graph, Invocation, NodeId, Op, Real, Region, Scalar, TextureKind, Type};
 use crate::passes::{Block, Schedule, Step};
 use sampling::{Detail, Sampled};
 use std::marker::PhantomData;
@@ -34,6 +34,8 @@ pub struct Scratch {
     /// Counters of the kept loops around, outer ones first.
     loops: Vec<(NodeId, i64)>,
     birth: Option<Birth>,
+    /// Buffers that are written, by index; of those that are not, nothing.
+    written: Vec<Vec<Cells>>,
 }
 
 impl Scratch {
@@ -133,25 +135,89 @@ impl<'a, R: Real> Interpreter<'a, R> {
             arrays: vec![Vec::new(); self.graph.nodes.len()],
             loops: Vec::new(),
             birth: None,
+            written: self.written(),
         }
     }
 
-    /// The colour of a pixel inside the frame.
+    /// What the first target of a pixel inside the frame holds: see [`Interpreter::invocation`].
     pub fn pixel(&self, x: u32, y: u32, scratch: &mut Scratch) -> [R; 4] {
         let [width, height] = self.graph.invocation.pixels();
         let (left, upper) = (x % width, y % height);
         self.invocation(x - left, y - upper, scratch)[(upper * width + left) as usize]
     }
 
-    /// The colours of all pixels of the invocation whose upper left one is given, row by row; those outside of the frame
-    /// are of no account.
+    /// What the first target holds of all pixels of the invocation whose upper left one is given, row by row; those outside of
+    /// the frame are of no account. Components that a value lacks are 0, and the fourth is 1. Of the other targets
+    /// [`Interpreter::target`] tells.
     pub fn invocation(&self, x: u32, y: u32, scratch: &mut Scratch) -> Vec<[R; 4]> {
         scratch.birth = None;
         self.block(&self.schedule.body, [x, y], scratch);
-        let outputs = self.graph.outputs().iter();
-        outputs
-            .map(|id| scratch.values[id.0 as usize].map(R::from_bits))
+        self.given(0, scratch)
+            .map(|(ty, cells)| match ty.is_float() {
+                true => {
+                    let lane = |k: usize| match k < ty.lanes() as usize {
+                        true => R::from_bits(cells[k]),
+                        false => R::from_f64(f64::from(u8::from(k == 3))),
+                    };
+                    [lane(0), lane(1), lane(2), lane(3)]
+                }
+                false => texel::<R>(ty, cells).map(R::from_f64),
+            })
             .collect()
+    }
+
+    /// What a target, by its index in [`Graph::targets`], holds of all pixels of the last invocation, in the order of
+    /// [`Interpreter::invocation`]: floats and integers as they are.
+    pub fn target(&self, index: usize, scratch: &Scratch) -> Vec<[f64; 4]> {
+        self.given(index, scratch)
+            .map(|(ty, cells)| texel::<R>(ty, cells))
+            .collect()
+    }
+
+    /// Type and value of a target, pixel by pixel.
+    fn given(&self, target: usize, scratch: &Scratch) -> impl Iterator<Item = (Type, Cells)> {
+        let ids = self.graph.outputs().iter().skip(target);
+        let ids = ids.step_by(self.graph.targets.len().max(1));
+        ids.map(|id| (self.graph.ty(*id), scratch.values[id.0 as usize]))
+    }
+
+    /// Buffers that are written as they are at first.
+    fn written(&self) -> Vec<Vec<Cells>> {
+        let buffers = self.graph.buffers.iter().zip(&self.buffers);
+        let first = buffers.map(|(buffer, elements)| match buffer.access {
+            Access::Read => Vec::new(),
+            Access::Write | Access::Atomic => elements.clone(),
+        });
+        first.collect()
+    }
+
+    /// What a buffer that is written holds now, by its index in [`Graph::buffers`]: each element in as many lanes as it has.
+    pub fn buffer(&self, index: usize, scratch: &Scratch) -> Vec<[f64; 4]> {
+        let ty = self.graph.buffers[index].value();
+        let lanes = ty.lanes() as usize;
+        let elements = scratch.written[index].iter().map(|cells| {
+            let all = texel::<R>(ty, *cells);
+            std::array::from_fn(|k| if k < lanes { all[k] } else { 0.0 })
+        });
+        elements.collect()
+    }
+
+    /// Does what an effect does, and gives what was there before.
+    fn effect(&self, id: NodeId, s: &mut Scratch) -> Cells {
+        let node = self.graph.node(id);
+        let arg = |k: usize| s.values[node.args[k].0 as usize];
+        let Some(buffer) = node.op.buffer() else { return [0; 4] };
+        let (holds, index) = (arg(0)[0] != 0, arg(1)[0] as u32 as usize);
+        let value = node.args.get(2).map_or([0; 4], |id| s.values[id.0 as usize]);
+        let Some(place) = s.written[buffer as usize].get_mut(index).filter(|_| holds) else {
+            return [0; 4];
+        };
+        let before = *place;
+        *place = match node.op {
+            Op::Atomic { op, .. } => [arith::atomic(op, node.ty, before[0], value[0]), 0, 0, 0],
+            _ => value,
+        };
+        before
     }
 
     fn block(&self, block: &Block, pixel: [u32; 2], s: &mut Scratch) {
@@ -239,6 +305,7 @@ impl<'a, R: Real> Interpreter<'a, R> {
             Op::Pixel => s.values[slot] = [pixel[0].into(), pixel[1].into(), 0, 0],
             Op::FrameSize => s.values[slot] = [self.frame[0].into(), self.frame[1].into(), 0, 0],
             Op::Uniform(k) => s.values[slot] = self.uniforms[*k as usize],
+            op if op.is_effect() => s.values[slot] = self.effect(id, s),
             op if op.is_read() || op.texture().is_some() || op.buffer().is_some() => {
                 s.values[slot] = self.read(op, &node.args, s);
             }
@@ -390,6 +457,16 @@ impl<'a, R: Real> Interpreter<'a, R> {
         let from: usize = sizes[..k].iter().sum();
         s.arrays[owner.0 as usize][from..from + sizes[k]].to_vec()
     }
+}
+
+/// A value as a texel holds it.
+fn texel<R: Real>(ty: Type, cells: Cells) -> [f64; 4] {
+    std::array::from_fn(|k| match ty.kind() {
+        _ if k >= ty.lanes() as usize => f64::from(u8::from(k == 3)),
+        Some(Scalar::F32) => R::from_bits(cells[k]).to_f64(),
+        Some(Scalar::I32) => f64::from(cells[k] as u32 as i32),
+        _ => f64::from(cells[k] as u32),
+    })
 }
 
 fn size(ty: Type) -> usize {

@@ -1,6 +1,6 @@
 //! What operations do: the one place, used to fold constants and to interpret, in any precision.
 
-use super::{BinaryOp, Lanes, Op, Real, Scalar, Type, UnaryOp};
+use super::{AtomicOp, BinaryOp, Lanes, Op, Real, Scalar, Type, UnaryOp};
 
 /// A scalar or up to four lanes of a vector, each the bits of an integer or of an `R`; unused lanes are 0.
 pub type Cells = [u64; 4];
@@ -213,4 +213,22 @@ fn bitcast<R: Real>(cell: u64, from: Scalar, to: Scalar) -> Option<u64> {
         (F32, F32) | (I32 | U32, I32 | U32) => cell,
         _ => return None,
     })
+}
+/// What an atomic operation leaves of an integer and a value.
+pub fn atomic(op: AtomicOp, ty: Type, before: u64, value: u64) -> u64 {
+    let (a, b) = (before as u32, value as u32);
+    let signed = ty.kind() == Some(Scalar::I32);
+    let after = match op {
+        AtomicOp::Add => a.wrapping_add(b),
+        AtomicOp::Max if signed => (a as i32).max(b as i32) as u32,
+        AtomicOp::Min if signed => (a as i32).min(b as i32) as u32,
+        AtomicOp::Max => a.max(b),
+        AtomicOp::Min => a.min(b),
+        AtomicOp::And => a & b,
+        AtomicOp::Or => a | b,
+        AtomicOp::Xor => a ^ b,
+        AtomicOp::Exchange => b,
+        AtomicOp::Load => a,
+    };
+    u64::from(after)
 }

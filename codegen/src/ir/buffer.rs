@@ -2,13 +2,37 @@
 
 use super::Type;
 
-/// A read-only array that the host fills.
+/// An array that the host fills.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Buffer {
     /// Its name in the kernel.
     pub name: String,
     /// What it holds.
     pub element: Element,
+    /// What the kernel does with it.
+    pub access: Access,
+}
+
+impl Buffer {
+    /// The type of its elements; of structures, which are only read field by field, `Type::Results`.
+    pub fn value(&self) -> Type {
+        match self.element {
+            Element::Value(ty) => ty,
+            Element::Struct(_) => Type::Results,
+        }
+    }
+}
+
+/// What a kernel does with a buffer.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Access {
+    /// It only reads, and nothing changes the buffer meanwhile.
+    #[default]
+    Read,
+    /// It only writes.
+    Write,
+    /// It changes elements by atomic operations.
+    Atomic,
 }
 
 /// An element of a buffer.

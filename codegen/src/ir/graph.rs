@@ -1,6 +1,6 @@
 //! The graph and its builder.
 
-use super::{Buffer, Lanes, Op, Origin, Texture, Type};
+use super::{Buffer, Lanes, Op, Origin, Scalar, Texture, Type};
 use std::collections::HashMap;
 
 /// Index of a node. A node's arguments have smaller indices.
@@ -33,6 +33,8 @@ pub struct Region {
     pub results: Vec<NodeId>,
     /// Of a loop: whether this iteration is the last one, whatever the counter says.
     pub stop: Option<NodeId>,
+    /// What happens in it, in order: effects, and loops and branches that have some.
+    pub effects: Vec<NodeId>,
 }
 
 impl Region {
@@ -58,6 +60,28 @@ pub struct Sampler {
     pub name: String,
     /// Whether it compares with a reference; else it filters.
     pub comparison: bool,
+}
+
+/// One of the values that a kernel gives for a pixel.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Target {
+    /// Its name: [`Target::ALONE`], or that of a field of the kernel's structure.
+    pub name: String,
+    /// A float or integer, or a vector of them.
+    pub ty: Type,
+}
+
+impl Target {
+    /// Name of the target of a kernel that gives one value.
+    pub const ALONE: &'static str = "destination";
+
+    /// What a kernel gives that says nothing else: one colour.
+    pub fn colour() -> Target {
+        Target {
+            name: Target::ALONE.to_owned(),
+            ty: Type::value(Scalar::F32, 4),
+        }
+    }
 }
 
 /// A value set at run time.
@@ -127,6 +151,8 @@ pub struct Graph {
     pub uniforms: Vec<Uniform>,
     /// Interpolated values, by the index that `Op::Varying` carries.
     pub varyings: Vec<Varying>,
+    /// What the kernel gives for each pixel.
+    pub targets: Vec<Target>,
     /// What one invocation computes.
     pub invocation: Invocation,
     /// Names of tallies, by the index that `Op::Tally` carries.
@@ -175,9 +201,14 @@ impl Graph {
         self.origins[id.0 as usize].as_ref()
     }
 
-    /// The colours of the invocation's pixels, row by row, each a `vec4<f32>`: the kernel's results.
+    /// The kernel's results: for each of the invocation's pixels, row by row, a value for each of [`Graph::targets`].
     pub fn outputs(&self) -> &[NodeId] {
         &self.regions[0].results
+    }
+
+    /// Whether the kernel does more than give values.
+    pub fn has_effects(&self) -> bool {
+        !self.regions[0].effects.is_empty()
     }
 
     /// All nodes in order.
@@ -225,9 +256,11 @@ impl<'r> Builder<'r> {
             params: Vec::new(),
             results: Vec::new(),
             stop: None,
+            effects: Vec::new(),
         };
         let graph = Graph {
             regions: vec![body],
+            targets: vec![Target::colour()],
             ..Graph::default()
         };
         Builder {
@@ -263,14 +296,53 @@ impl<'r> Builder<'r> {
         if let Some(&id) = self.known.get(&node) {
             return id;
         }
+        let id = self.push(node.clone());
+        self.known.insert(node, id);
+        let regions = self.graph.regions_of(id);
+        if regions
+            .iter()
+            .any(|region| !self.graph.region(*region).effects.is_empty())
+        {
+            self.happens(id);
+        }
+        id
+    }
+
+    /// An effect, behind all others of the region that is open.
+    pub fn effect(&mut self, op: Op, args: Vec<NodeId>, ty: Type) -> NodeId {
+        let id = self.push(Node { op, args, ty });
+        self.happens(id);
+        id
+    }
+
+    fn push(&mut self, node: Node) -> NodeId {
         let id = NodeId(self.graph.nodes.len() as u32);
-        self.known.insert(node.clone(), id);
         self.graph.nodes.push(node);
         self.graph.origins.push(None);
-        self.graph
-            .homes
-            .push(*self.open.last().expect("the body is always open"));
+        self.graph.homes.push(self.innermost());
         id
+    }
+
+    fn innermost(&self) -> RegionId {
+        *self.open.last().expect("the body is always open")
+    }
+
+    fn happens(&mut self, id: NodeId) {
+        let region = self.innermost();
+        self.graph.regions[region.0 as usize].effects.push(id);
+    }
+
+    /// How many effects each open region has.
+    pub fn effects(&self) -> Vec<usize> {
+        let open = self.open.iter();
+        open.map(|region| self.graph.region(*region).effects.len()).collect()
+    }
+
+    /// Takes back the effects since the open regions had so many.
+    pub fn take_back(&mut self, effects: &[usize]) {
+        for (region, count) in self.open.iter().zip(effects) {
+            self.graph.regions[region.0 as usize].effects.truncate(*count);
+        }
     }
 
     /// The node that computes `op` of `args`, if there is one already.
@@ -320,6 +392,7 @@ impl<'r> Builder<'r> {
             params: Vec::new(),
             results: Vec::new(),
             stop: None,
+            effects: Vec::new(),
         });
         self.open.push(id);
         self.graph.events.push((self.graph.nodes.len() as u32, Event::Open(id)));

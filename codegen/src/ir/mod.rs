@@ -2,8 +2,8 @@
 //!
 //! # Semantics
 //!
-//! - A [`Graph`] computes a colour for each pixel that one invocation has: one, or those of a block, row by row
-//!   ([`Graph::outputs`]). It has no side effects; what a host stores, and where, is the shell's affair.
+//! - A [`Graph`] computes values for each pixel that one invocation has: one pixel, or those of a block, row by row; of each
+//!   pixel a value for each of [`Graph::targets`], a colour say ([`Graph::outputs`]). What a host stores of these, and where, is the entry point's affair.
 //! - What an invocation computes is stated in [`Graph::invocation`]. Of a block, [`Op::Pixel`] is the upper left pixel,
 //!   inside the frame and a multiple of the block's size; others may lie outside, and are not stored.
 //! - The invocations of a kernel of quads are [`Invocation::Lane`]s: four of them, at even coordinates, compute in step.
@@ -31,7 +31,10 @@
 //! - A kept branch is one [`Op::If`] node with two regions without parameters.
 //! - Nodes belong to no region by themselves: where a node is evaluated follows from what it depends on and who
 //!   uses it, and is decided in one place, the schedule.
-//! - Equal nodes are one node (hash-consing). Reads carry the site of their call so that they are only shared by
+//! - Effects ([`Op::is_effect`]) are not pure: each happens once wherever its region is evaluated, after those before it in
+//!   [`Region::effects`], if its condition holds. What it writes, no node reads but atomic operations. Effects of different
+//!   invocations come in any order.
+//! - Equal nodes are one node (hash-consing), but for effects. Reads carry the site of their call so that they are only shared by
 //!   the pass that is there for it.
 //!
 //! A graph is not changed once built: a pass builds another.
@@ -49,11 +52,12 @@ mod texture;
 mod types;
 pub mod verify;
 
-pub use buffer::{Buffer, Element, Field, Structure};
+pub use buffer::{Access, Buffer, Element, Field, Structure};
 pub use graph::{
-    Builder, Event, Graph, Invocation, Node, NodeId, Purpose, Region, RegionId, Rules, Sampler, Uniform, Varying,
+    Builder, Event, Graph, Invocation, Node, NodeId, Purpose, Region, RegionId, Rules, Sampler, Target, Uniform,
+    Varying,
 };
-pub use op::{Axis, BinaryOp, Direction, Op, UnaryOp};
+pub use op::{AtomicOp, Axis, BinaryOp, Direction, Op, UnaryOp};
 pub use origin::{Counter, Naming, Origin};
 pub use parse::{ParseError, parse};
 pub use print::print;

@@ -121,6 +121,17 @@ pub enum Op {
         /// As of `Load`.
         site: u32,
     },
+    /// Changes an element of a buffer at once, as no other invocation can come between: condition (scalar boolean), index (`i32`,
+    /// inside the buffer where the condition holds), and a value of the element's type but for `AtomicOp::Load`. Gives what was
+    /// there before, and 0 where the condition does not hold, for which nothing is done. An effect.
+    Atomic {
+        /// Index into `Graph::buffers`.
+        buffer: u32,
+        /// What it does.
+        op: AtomicOp,
+    },
+    /// Writes an element of a buffer (index into `Graph::buffers`): condition, index, value, as of `Atomic`. An effect.
+    Store(u32),
     /// A value counted by name (index into `Graph::tallies`); the value itself.
     Tally(u32),
     /// An array from its elements.
@@ -137,6 +148,29 @@ pub enum Op {
     Result(u32),
     /// A parameter of a region: 0 is a loop's counter, then the carried values.
     Param(RegionId, u32),
+}
+
+/// What an atomic operation makes of an element and a value.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[allow(missing_docs)] // named as in WGSL
+pub enum AtomicOp {
+    Add,
+    Max,
+    Min,
+    And,
+    Or,
+    Xor,
+    Exchange,
+    /// Only reads.
+    Load,
+}
+
+impl AtomicOp {
+    /// Every operation.
+    pub const ALL: [AtomicOp; 8] = {
+        use AtomicOp::*;
+        [Add, Max, Min, And, Or, Xor, Exchange, Load]
+    };
 }
 
 /// From which lane of a quad a message comes.
@@ -321,7 +355,13 @@ impl UnaryOp {
 }
 
 impl Op {
-    /// Whether it reads memory that a host fills.
+    /// Whether it does more than give a value: it happens as often as the kernel says, in the order of the source, and no two
+    /// of it are one.
+    pub fn is_effect(&self) -> bool {
+        matches!(self, Op::Atomic { .. } | Op::Store(_))
+    }
+
+    /// Whether it reads memory that a host fills, which nothing changes meanwhile.
     pub fn is_read(&self) -> bool {
         self.site().is_some()
     }
@@ -352,10 +392,12 @@ impl Op {
         }
     }
 
-    /// The buffer that it reads or asks the length of.
+    /// The buffer that it reads, writes or asks the length of.
     pub fn buffer(&self) -> Option<u32> {
         match self {
-            Op::BufferLoad { buffer, .. } | Op::BufferLen(buffer) => Some(*buffer),
+            Op::BufferLoad { buffer, .. } | Op::Atomic { buffer, .. } | Op::BufferLen(buffer) | Op::Store(buffer) => {
+                Some(*buffer)
+            }
             _ => None,
         }
     }

@@ -1,8 +1,9 @@
 //! The graph from its text.
 
 use super::{
-    Axis, BinaryOp, Buffer, Counter, Direction, Element, Event, Graph, Invocation, Node, NodeId, Op, Origin, Region,
-    RegionId, Sampler, Scalar, Structure, Texture, TextureKind, Type, UnaryOp, Uniform, Varying,
+    Access, AtomicOp, Axis, BinaryOp, Buffer, Counter, Direction, Element, Event, Graph, Invocation, Node, NodeId, Op,
+    Origin, Region, RegionId, Sampler, Scalar, Structure, Target, Texture, TextureKind, Type, UnaryOp, Uniform,
+    Varying,
 };
 
 /// Why a text is not a graph.
@@ -31,7 +32,7 @@ pub fn parse(text: &str) -> Result<Graph, ParseError> {
             .map_err(|problem| ParseError { line: k + 1, problem })?;
     }
     let last = text.lines().count();
-    if reader.graph.regions[0].results.is_empty() {
+    if !reader.has_output {
         return Err(ParseError {
             line: last,
             problem: "there is no `output %N` at the end".to_owned(),
@@ -44,12 +45,17 @@ pub fn parse(text: &str) -> Result<Graph, ParseError> {
         });
     }
     reader.event(Event::Close(Graph::BODY));
+    if reader.graph.targets.is_empty() && !reader.gives_nothing {
+        reader.graph.targets.push(Target::colour());
+    }
     Ok(reader.graph)
 }
 
 #[derive(Default)]
 struct Reader {
     graph: Graph,
+    has_output: bool,
+    gives_nothing: bool,
     open: Vec<RegionId>,
 }
 
@@ -83,6 +89,16 @@ impl Reader {
                 self.graph.varyings.push(Varying { name, ty });
                 Ok(())
             }
+            "target" if rest == "none" => {
+                self.gives_nothing = true;
+                Ok(())
+            }
+            "target" => {
+                let (name, kind) = named(rest)?;
+                let ty = ty(kind)?;
+                self.graph.targets.push(Target { name, ty });
+                Ok(())
+            }
             "invocation" => self.invocation(rest),
             "region" => self.open(rest),
             "}" => match self.open.pop() {
@@ -95,6 +111,7 @@ impl Reader {
             "output" => {
                 let outputs = rest.split_whitespace().map(|word| self.node_id(word));
                 self.graph.regions[0].results = outputs.collect::<Parsed<_>>()?;
+                self.has_output = true;
                 Ok(())
             }
             _ if word.starts_with('%') => self.node(line),
@@ -124,6 +141,11 @@ impl Reader {
 
     fn buffer(&mut self, text: &str) -> Parsed {
         let (name, rest) = named(text)?;
+        let (rest, access) = match rest.rsplit_once(' ') {
+            Some((rest, "write")) => (rest, Access::Write),
+            Some((rest, "atomic")) => (rest, Access::Atomic),
+            _ => (rest, Access::Read),
+        };
         let element = match rest.strip_prefix("struct ") {
             None => Element::Value(ty(rest)?),
             Some(rest) => {
@@ -136,7 +158,7 @@ impl Reader {
                 Element::Struct(Structure::new(of.to_owned(), fields.collect::<Parsed<_>>()?))
             }
         };
-        self.graph.buffers.push(Buffer { name, element });
+        self.graph.buffers.push(Buffer { name, element, access });
         Ok(())
     }
 
@@ -245,6 +267,15 @@ impl Reader {
         self.graph.origins.push(origin);
         let home = self.open.last().copied().unwrap_or(Graph::BODY);
         self.graph.homes.push(home);
+        let has = |region: &RegionId| {
+            self.graph
+                .regions
+                .get(region.0 as usize)
+                .is_some_and(|r| !r.effects.is_empty())
+        };
+        if self.graph.node(here).op.is_effect() || self.graph.regions_of(here).iter().any(has) {
+            self.graph.regions[home.0 as usize].effects.push(here);
+        }
         Ok(())
     }
 
@@ -259,11 +290,12 @@ impl Reader {
             let found = position(g.samplers.iter().map(|s| &s.name), word(1)?);
             found.ok_or_else(|| missing("sampler"))
         };
-        let buffer = || -> Parsed<u32> {
-            let name = word(0)?.split('.').next().unwrap_or_default();
+        let buffer_at = |k: usize| -> Parsed<u32> {
+            let name = word(k)?.split('.').next().unwrap_or_default();
             let found = position(g.buffers.iter().map(|b| &b.name), name);
             found.ok_or_else(|| missing("buffer"))
         };
+        let buffer = || buffer_at(0);
         let site = match words.iter().find_map(|w| w.strip_prefix("site=")) {
             Some(site) => number(site)?,
             None => 0,
@@ -354,6 +386,15 @@ impl Reader {
                 },
                 site,
             },
+            "atomic" => {
+                let spelled = word(0)?;
+                let found = AtomicOp::ALL.into_iter().find(|op| format!("{op:?}") == spelled);
+                Op::Atomic {
+                    buffer: buffer_at(1)?,
+                    op: found.ok_or_else(|| missing("operation"))?,
+                }
+            }
+            "store" => Op::Store(buffer()?),
             "tally" => Op::Tally(position(g.tallies.iter(), word(0)?).ok_or_else(|| missing("tally"))?),
             "makearray" => Op::MakeArray,
             "arrayget" => Op::ArrayGet,
@@ -373,6 +414,7 @@ fn empty(parent: Option<RegionId>) -> Region {
         params: Vec::new(),
         results: Vec::new(),
         stop: None,
+        effects: Vec::new(),
     }
 }
 

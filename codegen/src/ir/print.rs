@@ -1,6 +1,7 @@
 //! The graph as text, for people and for tests; [`super::parse`] reads it back.
 //!
-//! Tables first, then one node a line, indented by region, and the kernel's result last:
+//! Tables first, then one node a line, indented by region, and the kernel's results last. A kernel without a `target` gives one
+//! colour:
 //!
 //! ```text
 //! file kernels/src/glow.rs
@@ -13,7 +14,7 @@
 //! output %7
 //! ```
 
-use super::{Element, Event, Field, Graph, Invocation, NodeId, Op, Scalar, Type};
+use super::{Access, Element, Event, Field, Graph, Invocation, NodeId, Op, Scalar, Target, Type};
 use std::fmt::Write;
 
 /// The whole graph.
@@ -30,8 +31,8 @@ pub fn print(graph: &Graph) -> String {
     for (_, event) in events {
         depth = print_event(&mut text, depth, event);
     }
-    let outputs: Vec<String> = graph.outputs().iter().map(|id| format!("%{}", id.0)).collect();
-    let _ = writeln!(text, "output {}", outputs.join(" "));
+    let outputs: String = graph.outputs().iter().map(|id| format!(" %{}", id.0)).collect();
+    let _ = writeln!(text, "output{outputs}");
     text
 }
 
@@ -63,7 +64,12 @@ fn tables(graph: &Graph) -> String {
                 format!("struct {} {{ {} }}", structure.name, fields.join("; "))
             }
         };
-        let _ = writeln!(text, "buffer {}: {element}", b.name);
+        let access = match b.access {
+            Access::Read => "",
+            Access::Write => " write",
+            Access::Atomic => " atomic",
+        };
+        let _ = writeln!(text, "buffer {}: {}{access}", b.name, element);
     }
     for s in &graph.samplers {
         let kind = if s.comparison { "comparison" } else { "filtering" };
@@ -75,6 +81,13 @@ fn tables(graph: &Graph) -> String {
     }
     for v in &graph.varyings {
         let _ = writeln!(text, "varying {}: {}", v.name, v.ty);
+    }
+    if graph.targets.is_empty() {
+        text += "target none\n";
+    } else if graph.targets != [Target::colour()] {
+        for t in &graph.targets {
+            let _ = writeln!(text, "target {}: {}", t.name, t.ty);
+        }
     }
     match graph.invocation {
         Invocation::Pixel => {}
@@ -168,6 +181,8 @@ fn op(graph: &Graph, op: &Op, ty: Type) -> String {
         Op::Derivative(axis) => format!("derivative {axis:?}"),
         Op::Varying(k) => format!("varying {}", graph.varyings[*k as usize].name),
         Op::BufferLen(k) => format!("bufferlen {}", buffer(k)),
+        Op::Atomic { buffer: b, op } => format!("atomic {op:?} {}", buffer(b)),
+        Op::Store(b) => format!("store {}", buffer(b)),
         Op::BufferLoad { buffer: b, field, .. } => match &graph.buffers[*b as usize].element {
             Element::Value(_) => format!("bufferload {}{at}", buffer(b)),
             Element::Struct(of) => {

@@ -1,6 +1,6 @@
 //! Building a graph again, without what is not used: the frame of every pass.
 
-use super::{Builder, Event, Graph, NodeId, Op, RegionId, Rules};
+use super::{Builder, Event, Graph, NodeId, Op, RegionId, Rules, Type};
 
 /// What a pass changes while the graph is built again.
 pub struct Rebuild<'a> {
@@ -10,7 +10,7 @@ pub struct Rebuild<'a> {
     pub share_loads: bool,
 }
 
-/// The same kernel built again: unused nodes, unused carried values and unused components of texels vanish, the pass's
+/// The same kernel built again, with the effects that it has: unused nodes, unused carried values and unused components of texels vanish, the pass's
 /// rules apply.
 pub fn rebuild(old: &Graph, pass: &Rebuild<'_>) -> Graph {
     let live = Liveness::of(old);
@@ -53,6 +53,7 @@ pub fn copy_tables(old: &Graph, new: &mut Graph) {
     new.files.clone_from(&old.files);
     new.purposes.clone_from(&old.purposes);
     new.varyings.clone_from(&old.varyings);
+    new.targets.clone_from(&old.targets);
     new.invocation = old.invocation;
 }
 
@@ -138,6 +139,15 @@ impl Walk<'_, '_> {
             _ => node.ty,
         };
         let new = match op {
+            effect if effect.is_effect() => {
+                // What never happens is no effect, and gives 0.
+                let never = self.builder.graph().constant(args[0]).is_some_and(|bits| bits[0] == 0);
+                match (never, ty) {
+                    (false, _) => self.builder.effect(effect, args, ty),
+                    (true, Type::Results) => return,
+                    (true, _) => self.builder.constant(ty, [0; 4]),
+                }
+            }
             Op::Const(_) => self.builder.intern(op, args, ty),
             // Of a texel that has become a number.
             Op::Extract(0) if self.builder.graph().ty(args[0]) == ty => args[0],
@@ -202,7 +212,7 @@ impl Liveness {
             results: graph.regions.iter().map(|r| vec![false; r.results.len()]).collect(),
         };
         live.regions[0] = true;
-        let mut pending = graph.outputs().to_vec();
+        let mut pending = [graph.outputs(), &graph.regions[0].effects].concat();
         while let Some(id) = pending.pop() {
             if std::mem::replace(&mut live.nodes[id.0 as usize], true) {
                 continue;
@@ -213,11 +223,14 @@ impl Liveness {
                     live.regions[region.0 as usize] = true;
                     pending.extend(&node.args[..2]);
                     pending.extend(graph.region(region).stop);
+                    pending.extend(&graph.region(region).effects);
                 }
                 Op::If(then, otherwise) => {
                     live.regions[then.0 as usize] = true;
                     live.regions[otherwise.0 as usize] = true;
                     pending.push(node.args[0]);
+                    pending.extend(&graph.region(then).effects);
+                    pending.extend(&graph.region(otherwise).effects);
                 }
                 Op::Result(k) => {
                     pending.push(node.args[0]);

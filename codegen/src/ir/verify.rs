@@ -8,23 +8,23 @@
 //!    regions of a branch agree in their results, a loop's carried values in number and type with its results; a loop alone
 //!    may have a stop, a boolean.
 //! 4. A parameter is only used inside its region.
-//! 5. The kernel has a result for each pixel of its invocation, each a `vec4<f32>`.
+//! 5. The kernel has a result for each target of each pixel of its invocation, of the target's type: a float, an integer or a
+//!    vector of them. No two targets have one name.
 //! 6. Lanes, messages, derivatives and interpolated values are of kernels whose invocations are lanes of quads.
+//! 7. Every effect that something depends on is one of one region, on whose evaluation it happens, and each loop or branch with effects is one of the region
+//!    that it was written in; a region has them in the order in which they were made. Only there their values are used. What is
+//!    written is no buffer that is read. A kernel whose invocations are blocks or lanes has none.
 
-use super::{BinaryOp, Graph, Invocation, NodeId, Op, RegionId, Scalar, Texture, TextureKind, Type, UnaryOp};
+use super::{
+    Access, AtomicOp, BinaryOp, Graph, Invocation, NodeId, Op, RegionId, Scalar, Texture, TextureKind, Type, UnaryOp,
+};
+use std::collections::HashMap;
 
 /// Checks a graph; the message names the node that breaks a rule.
 pub fn verify(graph: &Graph) -> Result<(), String> {
-    let outputs = &graph.regions.first().ok_or("no body")?.results;
-    let [width, height] = graph.invocation.pixels();
-    let known = |id: &NodeId| (id.0 as usize) < graph.nodes.len();
-    if outputs.len() != (width * height) as usize
-        || !outputs.iter().all(known)
-        || outputs.iter().any(|id| graph.ty(*id) != Type::value(Scalar::F32, 4))
-    {
-        return Err("the body must have one result for each pixel, a vec4<f32>".to_owned());
-    }
+    results(graph)?;
     regions(graph)?;
+    effects(graph)?;
     for id in graph.ids() {
         let node = graph.node(id);
         if node.args.iter().any(|arg| *arg >= id) {
@@ -33,6 +33,94 @@ pub fn verify(graph: &Graph) -> Result<(), String> {
         check(graph, id).map_err(|why| format!("%{} ({:?} -> {}): {why}", id.0, node.op, node.ty))?;
     }
     scopes(graph)
+}
+
+/// Rule 5.
+fn results(graph: &Graph) -> Result<(), String> {
+    let outputs = &graph.regions.first().ok_or("no body")?.results;
+    let [width, height] = graph.invocation.pixels();
+    for (k, target) in graph.targets.iter().enumerate() {
+        let numbers =
+            matches!(target.ty, Type::Value { scalar, lanes } if scalar != Scalar::Bool && (1..=4).contains(&lanes));
+        if !numbers || graph.targets[..k].iter().any(|other| other.name == target.name) {
+            return Err(format!(
+                "the target {} is of no numbers, or there are two of it",
+                target.name
+            ));
+        }
+    }
+    let known = |id: &NodeId| (id.0 as usize) < graph.nodes.len();
+    let wanted = graph.targets.iter().map(|target| target.ty).cycle();
+    if outputs.len() != (width * height) as usize * graph.targets.len()
+        || !outputs.iter().all(known)
+        || outputs.iter().zip(wanted).any(|(id, ty)| graph.ty(*id) != ty)
+    {
+        let targets: Vec<String> = graph.targets.iter().map(|t| t.ty.to_string()).collect();
+        return Err(format!(
+            "the body must have results for each pixel: {}",
+            targets.join(", ")
+        ));
+    }
+    Ok(())
+}
+
+/// Rule 7, but for where values are used.
+fn effects(graph: &Graph) -> Result<(), String> {
+    let mut of: Vec<Option<RegionId>> = vec![None; graph.nodes.len()];
+    for (k, region) in graph.regions.iter().enumerate() {
+        let known = region.effects.iter().all(|id| (id.0 as usize) < graph.nodes.len());
+        if !known || !region.effects.is_sorted_by(|a, b| a < b) {
+            return Err(format!("region {k} has effects that are out of order"));
+        }
+        for id in &region.effects {
+            if of[id.0 as usize].replace(RegionId(k as u32)).is_some() {
+                return Err(format!("%{} is an effect of two regions", id.0));
+            }
+        }
+    }
+    let alone = matches!(graph.invocation, Invocation::Pixel);
+    let live = live(graph);
+    for id in graph.ids() {
+        let op = &graph.node(id).op;
+        let within = graph.regions_of(id);
+        let has = |region: &RegionId| !graph.region(*region).effects.is_empty();
+        let wanted = match within.first() {
+            Some(region) if within.iter().any(has) => graph.region(*region).parent,
+            None if op.is_effect() => of[id.0 as usize],
+            _ => None,
+        };
+        // What was tried and taken back happens nowhere, and nothing looks at it.
+        let missing = of[id.0 as usize].is_none() && (op.is_effect() || wanted.is_some());
+        if (missing && live[id.0 as usize]) || (!missing && of[id.0 as usize] != wanted) {
+            return Err(format!("%{} is no effect of the region that it happens in", id.0));
+        }
+        if op.is_effect() && !alone {
+            return Err(format!("%{}: an effect of an invocation that has several pixels", id.0));
+        }
+        if within
+            .iter()
+            .any(|region| graph.region(*region).effects.last().is_some_and(|last| *last >= id))
+        {
+            return Err(format!("%{}: an effect is made after its user", id.0));
+        }
+    }
+    Ok(())
+}
+
+/// By node, whether results or effects depend on it.
+fn live(graph: &Graph) -> Vec<bool> {
+    let mut live = vec![false; graph.nodes.len()];
+    let mut pending: Vec<NodeId> = [graph.outputs(), &graph.regions[0].effects].concat();
+    while let Some(id) = pending.pop() {
+        if !std::mem::replace(&mut live[id.0 as usize], true) {
+            pending.extend(&graph.node(id).args);
+            for region in graph.regions_of(id) {
+                pending.extend(graph.region(region).leaving());
+                pending.extend(&graph.region(region).effects);
+            }
+        }
+    }
+    live
 }
 
 /// Rules 1 and 3, as far as they are of regions.
@@ -88,7 +176,7 @@ fn check(graph: &Graph, id: NodeId) -> Result<(), String> {
     let shaped = match node.ty {
         Type::Value { lanes, .. } => (1..=4).contains(&lanes),
         Type::Array { lanes, len, .. } => (1..=4).contains(&lanes) && len >= 1,
-        Type::Results => matches!(node.op, Op::Loop(_) | Op::If(..)),
+        Type::Results => matches!(node.op, Op::Loop(_) | Op::If(..) | Op::Store(_)),
     };
     expect(shaped, "a type that no value has")?;
     let value = !node.ty.is_array() && node.ty != Type::Results;
@@ -363,6 +451,32 @@ fn check(graph: &Graph, id: NodeId) -> Result<(), String> {
             expect(
                 types.iter().all(|t| *t == Type::I32) && node.ty == part.element(),
                 "an index to an element",
+            )?;
+            expect(entry.access == Access::Read, "a buffer that is only read")
+        }
+        Op::Atomic { buffer, op } => {
+            let entry = graph.buffers.get(*buffer as usize).ok_or("no such buffer")?;
+            count(if *op == AtomicOp::Load { 2 } else { 3 })?;
+            expect(
+                types[0] == Type::BOOL && types[1] == Type::I32 && types.get(2).is_none_or(|t| *t == node.ty),
+                "a condition, an index and an element",
+            )?;
+            let integer = matches!(node.ty, Type::I32 | Type::U32);
+            expect(
+                integer && node.ty == entry.value() && entry.access == Access::Atomic,
+                "an integer of a buffer of atomics",
+            )
+        }
+        Op::Store(buffer) => {
+            let entry = graph.buffers.get(*buffer as usize).ok_or("no such buffer")?;
+            count(3)?;
+            expect(
+                types == [Type::BOOL, Type::I32, entry.value()],
+                "a condition, an index and an element",
+            )?;
+            expect(
+                entry.access == Access::Write && node.ty == Type::Results,
+                "a buffer that is only written",
             )
         }
         Op::MakeArray => {
@@ -466,13 +580,17 @@ fn scopes(graph: &Graph) -> Result<(), String> {
             None => return false,
         }
     };
+    let mut happens = HashMap::new();
+    for (k, region) in graph.regions.iter().enumerate() {
+        let effects = region.effects.iter().filter(|id| graph.node(**id).op.is_effect());
+        happens.extend(effects.map(|id| (*id, RegionId(k as u32))));
+    }
     let mut needs: Vec<RegionId> = Vec::with_capacity(graph.nodes.len());
     for id in graph.ids() {
         let node = graph.node(id);
-        let mut need = if let Op::Param(region, _) = node.op {
-            region
-        } else {
-            Graph::BODY
+        let mut need = match node.op {
+            Op::Param(region, _) => region,
+            _ => happens.get(&id).copied().unwrap_or(Graph::BODY),
         };
         for arg in &node.args {
             let other = needs[arg.0 as usize];

@@ -27,6 +27,7 @@ pub fn count(graph: &Graph, schedule: &Schedule) -> Counts {
         tallies: run.tallies,
         transcendentals: run.transcendentals,
         messages: run.messages,
+        writes: run.writes,
         alu: run.alu,
         statements: 0,
         max_live: max_live(graph, schedule),
@@ -39,6 +40,7 @@ struct Run {
     tallies: BTreeMap<String, u32>,
     transcendentals: u32,
     messages: u32,
+    writes: u32,
     alu: u32,
 }
 
@@ -56,6 +58,7 @@ impl Run {
             .transcendentals
             .saturating_add(other.transcendentals.saturating_mul(times));
         self.messages = self.messages.saturating_add(other.messages.saturating_mul(times));
+        self.writes = self.writes.saturating_add(other.writes.saturating_mul(times));
         self.alu = self.alu.saturating_add(other.alu.saturating_mul(times));
     }
 
@@ -71,6 +74,7 @@ impl Run {
         }
         self.transcendentals = self.transcendentals.max(other.transcendentals);
         self.messages = self.messages.max(other.messages);
+        self.writes = self.writes.max(other.writes);
         self.alu = self.alu.max(other.alu);
         self
     }
@@ -114,6 +118,7 @@ impl Counter<'_> {
             Op::Binary(crate::ir::BinaryOp::Pow | crate::ir::BinaryOp::Atan2) => {
                 run.transcendentals = run.transcendentals.saturating_add(1)
             }
+            effect if effect.is_effect() => run.writes = run.writes.saturating_add(1),
             Op::Message(_) | Op::Derivative(_) => run.messages = run.messages.saturating_add(1),
             Op::Unary(_) | Op::Binary(_) | Op::Dot | Op::Cross | Op::Clamp | Op::Select | Op::Convert | Op::Bitcast => {
                 run.alu = run.alu.saturating_add(1)

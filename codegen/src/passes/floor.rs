@@ -23,6 +23,9 @@ const LARGE: f32 = 1.0e30;
 /// If a loop or branch is left: how often its reads happen is not known.
 pub fn floor(graph: &Graph) -> Result<Graph, String> {
     let is_kept = |op: &Op| matches!(op, Op::Loop(_) | Op::If(..));
+    if graph.has_effects() {
+        return Err("it writes more than its results, and how often depends on what it computes".to_owned());
+    }
     let live = cone(graph, graph.outputs());
     if graph.ids().any(|id| live[id.0 as usize] && is_kept(&graph.node(id).op)) {
         return Err("a loop or branch is left, and how often its reads happen is not known".to_owned());
@@ -50,7 +53,8 @@ pub fn floor(graph: &Graph) -> Result<Graph, String> {
     for output in graph.outputs() {
         let needed = cone(graph, &[*output]);
         let summed: Vec<NodeId> = reads.iter().filter(|id| needed[id.0 as usize]).copied().collect();
-        outputs.push(floor.sum(&summed));
+        let sum = floor.sum(&summed);
+        outputs.push(floor.shaped(sum, graph.ty(*output)));
     }
     Ok(floor.builder.finish(outputs))
 }
@@ -305,6 +309,27 @@ impl Floor<'_> {
             });
         }
         total.unwrap_or_else(|| self.builder.constant(COLOUR, [0; 4]))
+    }
+
+    /// A colour's first components as a result of another type.
+    fn shaped(&mut self, colour: NodeId, ty: Type) -> NodeId {
+        let lanes = ty.lanes();
+        let floats = Type::value(Scalar::F32, lanes);
+        let mut value = colour;
+        if lanes < 4 {
+            let mut parts = Vec::new();
+            for lane in 0..lanes {
+                parts.push(self.builder.add(Op::Extract(lane), vec![colour], Type::F32));
+            }
+            value = match parts[..] {
+                [one] => one,
+                _ => self.builder.add(Op::Compose, parts, floats),
+            };
+        }
+        match ty.is_float() {
+            true => value,
+            false => self.builder.add(Op::Convert, vec![value], ty),
+        }
     }
 
     /// A value of so many lanes in the lanes of a colour.

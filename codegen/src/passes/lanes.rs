@@ -15,6 +15,9 @@ const PAIR: Type = Type::value(Scalar::I32, 2);
 ///
 /// Why the kernel's pixels cannot run in step: a kept loop or branch that they may take differently.
 pub fn expand(graph: &Graph, size: [u32; 2]) -> Result<Graph, String> {
+    if graph.has_effects() {
+        return Err("it writes to buffers, and pixels that lie outside of the frame would too".to_owned());
+    }
     let lanes = (size[0] * size[1]) as usize;
     let mut builder = Builder::new(&Exact);
     copy_tables(graph, builder.graph_mut());
@@ -55,7 +58,11 @@ pub fn expand(graph: &Graph, size: [u32; 2]) -> Result<Graph, String> {
             expansion.event(*event);
         }
     }
-    let outputs = expansion.ids[graph.outputs()[0].0 as usize].clone();
+    let of_lane = |lane: usize| graph.outputs().iter().map(move |output| (output, lane));
+    let outputs = (0..lanes).flat_map(of_lane);
+    let outputs = outputs
+        .map(|(output, lane)| expansion.ids[output.0 as usize][lane])
+        .collect();
     Ok(expansion.builder.finish(outputs))
 }
 

@@ -3,7 +3,7 @@
 //! A node goes as far out of loops as its arguments allow, and as far into branches as its uses allow (Click's
 //! global code motion). Within a block nodes keep the order in which they were made, which is the order of the
 //! source. Reads and writes of arrays stay where they were made, so that an array can be one variable that is
-//! changed in place.
+//! changed in place. Effects stay in their regions, and so in their order.
 
 use crate::ir::{Graph, NodeId, Op, RegionId};
 
@@ -91,6 +91,8 @@ struct Places<'g> {
     /// Depth of nesting of each region, and of loops alone.
     depth: Vec<u32>,
     loops: Vec<u32>,
+    /// Where an effect happens, by node.
+    happens: Vec<Option<RegionId>>,
     /// The region that owns a loop's or branch's regions is where it was written.
     early: Vec<RegionId>,
     place: Vec<Option<RegionId>>,
@@ -107,10 +109,17 @@ impl<'g> Places<'g> {
             loops[k] = loops[parent] + u32::from(!region.params.is_empty());
         }
         let nodes = graph.nodes.len();
+        let mut happens = vec![None; nodes];
+        for (k, region) in graph.regions.iter().enumerate() {
+            for id in &region.effects {
+                happens[id.0 as usize] = Some(RegionId(k as u32));
+            }
+        }
         Places {
             graph,
             depth,
             loops,
+            happens,
             early: vec![Graph::BODY; nodes],
             place: vec![None; nodes],
             uses: vec![0; nodes],
@@ -128,6 +137,9 @@ impl<'g> Places<'g> {
             late[output.0 as usize] = Some(Graph::BODY);
             self.uses[output.0 as usize] += 1;
         }
+        for effect in &self.graph.regions[0].effects {
+            late[effect.0 as usize] = Some(Graph::BODY);
+        }
         for id in self.graph.ids().rev() {
             let Some(latest) = late[id.0 as usize] else { continue };
             let here = self.choose(id, latest);
@@ -138,6 +150,9 @@ impl<'g> Places<'g> {
             for region in self.graph.regions_of(id) {
                 for result in self.graph.region(region).leaving() {
                     self.used(&mut late, result, region);
+                }
+                for effect in &self.graph.region(region).effects {
+                    late[effect.0 as usize].get_or_insert(region);
                 }
                 for param in &self.graph.region(region).params {
                     late[param.0 as usize] = Some(region);
@@ -161,6 +176,9 @@ impl<'g> Places<'g> {
         if let Op::Param(region, _) = node.op {
             return region;
         }
+        if let (true, Some(region)) = (node.op.is_effect(), self.happens[id.0 as usize]) {
+            return region;
+        }
         if let Some(first) = self.graph.regions_of(id).first() {
             return self.graph.region(*first).parent.unwrap_or(Graph::BODY);
         }
@@ -181,7 +199,7 @@ impl<'g> Places<'g> {
     fn choose(&self, id: NodeId, latest: RegionId) -> RegionId {
         let early = self.early[id.0 as usize];
         let node = self.graph.node(id);
-        if !self.graph.regions_of(id).is_empty() || matches!(node.op, Op::Param(..)) {
+        if !self.graph.regions_of(id).is_empty() || matches!(node.op, Op::Param(..)) || node.op.is_effect() {
             return early;
         }
         if matches!(node.op, Op::Result(_)) {

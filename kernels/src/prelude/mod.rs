@@ -15,6 +15,7 @@ mod buffer;
 mod frame;
 pub mod maths;
 mod quad;
+mod storage;
 mod texture;
 
 pub use glam::{
@@ -26,6 +27,7 @@ pub use buffer::Buffer;
 pub use frame::{Frame, FrameLayers};
 pub use maths::{fract, inverse_sqrt, mix, round, saturate, sign, smoothstep, step};
 pub use quad::{PerLane, Quad, lane_position, quad_select, quad_vector};
+pub use storage::{AtomicBuffer, AtomicElement, StorageBuffer};
 pub use texture::{
     Address, Comparison, ComparisonSampler, DepthCube, DepthTexture, DepthTextureArray, Filter, Filterable,
     Multisampled, Sampler, Texel, Texture, Texture3D, TextureArray, TextureCube,

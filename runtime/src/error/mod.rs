@@ -207,11 +207,53 @@ pub enum Error {
         problem: BufferProblem,
     },
 
+    /// A kernel that gives several values was given one target.
+    #[error("`{kernel}` writes {known}: give each its target by name, as in `&[(\"{}\", &view), ...]`", .known.0.first().map_or("", String::as_str))]
+    TargetNames {
+        /// The kernel's name.
+        kernel: String,
+        /// All values that the kernel gives.
+        known: Names,
+    },
+
+    /// A target of the kernel was not given.
+    #[error("`{kernel}` was not given the target `{name}`; it writes {known}")]
+    MissingTarget {
+        /// The kernel's name.
+        kernel: String,
+        /// The target.
+        name: String,
+        /// All values that the kernel gives.
+        known: Names,
+    },
+
+    /// A target was given that the kernel does not have.
+    #[error("`{kernel}` has no target `{name}`; it writes {known}")]
+    UnknownTarget {
+        /// The kernel's name.
+        kernel: String,
+        /// The name that was given.
+        name: String,
+        /// All values that the kernel gives.
+        known: Names,
+    },
+
+    /// A target was given twice.
+    #[error("`{kernel}` was given its target `{name}` more than once")]
+    DuplicateTarget {
+        /// The kernel's name.
+        kernel: String,
+        /// The target.
+        name: String,
+    },
+
     /// The view given as target cannot be written by the kernel.
-    #[error("target of `{kernel}`: {problem}")]
+    #[error("target{} of `{kernel}`: {problem}", .name.as_ref().map_or_else(String::new, |name| format!(" `{name}`")))]
     Target {
         /// The kernel's name.
         kernel: String,
+        /// The target, where the kernel has several and it is known which is meant.
+        name: Option<String>,
         /// What is wrong with the view.
         problem: ViewProblem,
     },

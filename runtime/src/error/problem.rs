@@ -128,6 +128,20 @@ pub enum ViewProblem {
         /// The constant of [`wgpu::TextureUsages`].
         missing: &'static str,
     },
+    /// Of another size than the first target.
+    #[error("is {}x{}, but the first target is {}x{}: all targets have one size", .size[0], .size[1], .first[0], .first[1])]
+    TargetSize {
+        /// Width and height of the target.
+        size: [u32; 2],
+        /// Width and height of the first one.
+        first: [u32; 2],
+    },
+    /// The same view is given for two targets.
+    #[error("is the target `{other}` too: give each a texture of its own")]
+    IsOtherTarget {
+        /// The other target.
+        other: String,
+    },
     /// The same image is read and written.
     #[error("is the target itself, which cannot be read while it is written: use two textures")]
     IsTarget,

@@ -10,7 +10,7 @@ use straightline_manifest::Extent;
 use texture::check_texture;
 use wgpu::{Buffer, BufferUsages, Device, Features, TextureView};
 
-pub(crate) use target::check_target;
+pub(crate) use target::check_targets;
 pub(crate) use texture::{is_one_image, size};
 
 /// What WebGPU wants the size of a storage binding to be a multiple of.
@@ -134,10 +134,18 @@ fn check_buffer(plan: &BufferPlan, abilities: &Abilities, buffer: &Buffer) -> Re
     Ok(())
 }
 
-/// The first input that is of the target's texture. Whether it shows the same part of it, only wgpu knows.
-pub(crate) fn shared<'p>(plan: &'p Plan, resources: &[Resource<'_>], target: &TextureView) -> Option<&'p InputPlan> {
+/// The first input that is of a target's texture, and which target that is. Whether it shows the same part of it, only wgpu knows.
+pub(crate) fn shared<'p, 't>(
+    plan: &'p Plan,
+    resources: &[Resource<'_>],
+    targets: &[&'t TextureView],
+) -> Option<(&'p InputPlan, &'t TextureView)> {
     let mut pairs = plan.inputs.iter().zip(resources);
-    pairs
-        .find(|(_, resource)| matches!(resource, Resource::Texture(view) if view.texture() == target.texture()))
-        .map(|(input, _)| input)
+    pairs.find_map(|(input, resource)| match resource {
+        Resource::Texture(view) => {
+            let target = targets.iter().find(|target| target.texture() == view.texture());
+            target.map(|target| (input, *target))
+        }
+        _ => None,
+    })
 }

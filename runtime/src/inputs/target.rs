@@ -1,61 +1,84 @@
-//! Checks the target.
+//! Checks the targets.
 
 use super::Abilities;
 use super::texture::{check_shape, check_usage, size};
 use crate::error::{Error, ViewProblem};
-use crate::plan::{OutputPlan, Plan};
+use crate::plan::{Plan, StagePlan};
 use straightline_manifest::Dimension;
 use wgpu::{TextureFormat, TextureUsages, TextureView};
 
-/// Checks `target` against the stage: usage, format, shape, and for compute that one dispatch can cover it.
-/// `format` is the one that the pipeline writes.
-pub(crate) fn check_target(
+/// Checks `targets` against the stage: usage, format, shape, that all have one size, and for compute that one dispatch can
+/// cover it. `formats` are those that the pipeline writes.
+pub(crate) fn check_targets(
     plan: &Plan,
-    format: TextureFormat,
+    formats: &[TextureFormat],
     abilities: &Abilities,
-    target: &TextureView,
+    targets: &[&TextureView],
 ) -> Result<(), Error> {
+    for (k, (view, format)) in targets.iter().zip(formats).enumerate() {
+        let checked = check(plan, *format, abilities, view).and_then(|()| beside(plan, targets, k));
+        checked.map_err(|problem| Error::Target {
+            kernel: plan.kernel.clone(),
+            name: plan.target_name(k),
+            problem,
+        })?;
+    }
+    Ok(())
+}
+
+/// Checks a target against those before it.
+fn beside(plan: &Plan, targets: &[&TextureView], k: usize) -> Result<(), ViewProblem> {
+    let [own, first] = [k, 0].map(|k| size(targets[k].texture()));
+    if own != first {
+        return Err(ViewProblem::TargetSize { size: own, first });
+    }
+    match targets[..k].iter().position(|other| *other == targets[k]) {
+        Some(other) => Err(ViewProblem::IsOtherTarget {
+            other: plan.outputs[other].name.clone(),
+        }),
+        None => Ok(()),
+    }
+}
+
+fn check(plan: &Plan, format: TextureFormat, abilities: &Abilities, target: &TextureView) -> Result<(), ViewProblem> {
     let texture = target.texture();
-    let check = || {
-        check_shape(Dimension::D2, 1, texture)?;
-        let found = texture.format();
-        match plan.output {
-            OutputPlan::Storage { workgroup, .. } => {
-                if found != format {
-                    let remedy = "use a texture of that format, or generate the shader for this one";
-                    return Err(ViewProblem::Format {
-                        needed: format,
-                        found,
-                        remedy,
-                    });
-                }
-                check_usage(texture, TextureUsages::STORAGE_BINDING, "STORAGE_BINDING")?;
-                for (size, workgroup) in size(texture).into_iter().zip(workgroup) {
-                    if size.div_ceil(workgroup) > abilities.max_workgroups {
-                        return Err(ViewProblem::TooLarge {
-                            size,
-                            max: abilities.max_workgroups.saturating_mul(workgroup),
-                        });
-                    }
-                }
+    check_shape(Dimension::D2, 1, texture)?;
+    let found = texture.format();
+    match plan.stage {
+        StagePlan::Compute { workgroup } => {
+            if found != format {
+                let remedy = "use a texture of that format, or generate the shader for this one";
+                return Err(ViewProblem::Format {
+                    needed: format,
+                    found,
+                    remedy,
+                });
             }
-            OutputPlan::Attachment { .. } => {
-                // A view may differ from its texture in the sRGB suffix alone; the rehearsal has wgpu look at it.
-                if found.remove_srgb_suffix() != format.remove_srgb_suffix() {
-                    let remedy = "name the target's format with `PassOptions::target_format`";
-                    return Err(ViewProblem::Format {
-                        needed: format,
-                        found,
-                        remedy,
+            check_usage(texture, TextureUsages::STORAGE_BINDING, "STORAGE_BINDING")?;
+            for (size, workgroup) in size(texture).into_iter().zip(workgroup) {
+                if size.div_ceil(workgroup) > abilities.max_workgroups {
+                    return Err(ViewProblem::TooLarge {
+                        size,
+                        max: abilities.max_workgroups.saturating_mul(workgroup),
                     });
                 }
-                check_usage(texture, TextureUsages::RENDER_ATTACHMENT, "RENDER_ATTACHMENT")?;
             }
         }
-        Ok(())
-    };
-    check().map_err(|problem| Error::Target {
-        kernel: plan.kernel.clone(),
-        problem,
-    })
+        StagePlan::Fragment => {
+            // A view may differ from its texture in the sRGB suffix alone; the rehearsal has wgpu look at it.
+            if found.remove_srgb_suffix() != format.remove_srgb_suffix() {
+                let remedy = match plan.outputs.len() {
+                    1 => "name the target's format with `PassOptions::target_format`",
+                    _ => "name the target's format with `PassOptions::format_of`",
+                };
+                return Err(ViewProblem::Format {
+                    needed: format,
+                    found,
+                    remedy,
+                });
+            }
+            check_usage(texture, TextureUsages::RENDER_ATTACHMENT, "RENDER_ATTACHMENT")?;
+        }
+    }
+    Ok(())
 }

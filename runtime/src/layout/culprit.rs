@@ -4,7 +4,7 @@ use super::{binding_type, sampler_type, storage_type, texture_type};
 use crate::Resource;
 use crate::error::{BufferProblem, Error, SamplerProblem, ViewProblem};
 use crate::guard::scoped;
-use crate::plan::{InputKind, OutputPlan, Plan, TexturePlan};
+use crate::plan::{InputKind, Plan, TexturePlan};
 use straightline_manifest::{Dimension, SamplerType};
 use wgpu::{BindGroupLayoutEntry, BindingResource, BindingType, ShaderStages};
 
@@ -14,7 +14,7 @@ pub(super) fn culprit(
     device: &wgpu::Device,
     plan: &Plan,
     resources: &[Resource<'_>],
-    target: &wgpu::TextureView,
+    targets: &[&wgpu::TextureView],
     whole: String,
 ) -> Error {
     for (input, resource) in plan.inputs.iter().zip(resources) {
@@ -39,11 +39,17 @@ pub(super) fn culprit(
         };
     }
     let kernel = plan.kernel.clone();
-    if let OutputPlan::Storage { format, .. } = plan.output
-        && let Err(description) = bind_alone(device, storage_type(format), BindingResource::TextureView(target))
-    {
-        let problem = ViewProblem::Refused { description };
-        return Error::Target { kernel, problem };
+    for (k, (output, target)) in plan.outputs.iter().zip(targets).enumerate() {
+        if output.place.is_some()
+            && let Err(description) = bind_alone(
+                device,
+                storage_type(output.format),
+                BindingResource::TextureView(target),
+            )
+        {
+            let (name, problem) = (plan.target_name(k), ViewProblem::Refused { description });
+            return Error::Target { kernel, name, problem };
+        }
     }
     Error::Combination {
         kernel,

@@ -1,6 +1,6 @@
 //! Limits of the device that a pass can exceed.
 
-use crate::plan::{InputKind, OutputPlan, Plan};
+use crate::plan::{InputKind, Plan, StagePlan};
 use crate::{Error, ResourceKind};
 
 /// The limits that a pass can exceed, each by its own name; wgpu names some of them only in passing.
@@ -49,15 +49,20 @@ pub(super) fn check_limits(device: &wgpu::Device, plan: &Plan, last_group: u32) 
             limits.max_uniform_buffer_binding_size,
         ),
     ];
-    if let OutputPlan::Storage {
-        workgroup: [x, y, _], ..
-    } = plan.output
-    {
+    let outputs = plan.outputs.len() as u64;
+    if let StagePlan::Fragment = plan.stage {
+        wanted.push((
+            "max_color_attachments",
+            outputs,
+            u64::from(limits.max_color_attachments),
+        ));
+    }
+    if let StagePlan::Compute { workgroup: [x, y, _] } = plan.stage {
         let invocations = u64::from(x) * u64::from(y);
         wanted.extend([
             (
                 "max_storage_textures_per_shader_stage",
-                1,
+                outputs,
                 u64::from(limits.max_storage_textures_per_shader_stage),
             ),
             (

@@ -4,7 +4,7 @@ mod culprit;
 mod limits;
 
 use crate::guard::{guarded, scoped};
-use crate::plan::{InputKind, OutputPlan, Plan, TexturePlan};
+use crate::plan::{InputKind, Plan, StagePlan, TexturePlan};
 use crate::uniforms::UniformBlock;
 use crate::{Error, Resource};
 use culprit::culprit;
@@ -69,7 +69,7 @@ impl Layout {
         })
     }
 
-    /// Bind groups of `resources`, which are in the order of `plan.inputs`, and of `target` if it is a storage texture, and of
+    /// Bind groups of `resources`, which are in the order of `plan.inputs`, and of `targets` that are storage textures, and of
     /// the region's buffer if the shader has one.
     pub(crate) fn bind(
         &self,
@@ -77,7 +77,7 @@ impl Layout {
         plan: &Plan,
         uniforms: &[UniformBlock],
         resources: &[Resource<'_>],
-        (target, region): (&wgpu::TextureView, Option<&wgpu::Buffer>),
+        (targets, region): (&[&wgpu::TextureView], Option<&wgpu::Buffer>),
     ) -> Result<Vec<BoundGroup>, Error> {
         let made = scoped(device, || {
             self.groups
@@ -85,7 +85,7 @@ impl Layout {
                 .map(|group| {
                     (
                         group.index,
-                        group.bind(device, plan, uniforms, resources, (target, region)),
+                        group.bind(device, plan, uniforms, resources, (targets, region)),
                     )
                 })
                 .collect()
@@ -94,7 +94,7 @@ impl Layout {
             wgpu::Error::OutOfMemory { .. } => Error::OutOfMemory {
                 doing: format!("binding `{}`", plan.kernel),
             },
-            other => culprit(device, plan, resources, target, other.to_string()),
+            other => culprit(device, plan, resources, targets, other.to_string()),
         })
     }
 }
@@ -106,7 +106,7 @@ impl Group {
         plan: &Plan,
         uniforms: &[UniformBlock],
         resources: &[Resource<'_>],
-        (target, region): (&wgpu::TextureView, Option<&wgpu::Buffer>),
+        (targets, region): (&[&wgpu::TextureView], Option<&wgpu::Buffer>),
     ) -> wgpu::BindGroup {
         let mut entries = Vec::with_capacity(plan.inputs.len() + uniforms.len() + 1);
         let mut add = |group: u32, binding: u32, resource| {
@@ -123,8 +123,10 @@ impl Group {
         if let (Some(plan), Some(buffer)) = (&plan.region, region) {
             add(plan.group, plan.binding, buffer.as_entire_binding());
         }
-        if let OutputPlan::Storage { group, binding, .. } = plan.output {
-            add(group, binding, wgpu::BindingResource::TextureView(target));
+        for (output, target) in plan.outputs.iter().zip(targets) {
+            if let Some((group, binding)) = output.place {
+                add(group, binding, wgpu::BindingResource::TextureView(target));
+            }
         }
         device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some(&plan.kernel),
@@ -136,9 +138,9 @@ impl Group {
 
 /// Every entry with its group.
 fn entries(plan: &Plan) -> Vec<(u32, BindGroupLayoutEntry)> {
-    let visibility = match plan.output {
-        OutputPlan::Storage { .. } => ShaderStages::COMPUTE,
-        OutputPlan::Attachment { .. } => ShaderStages::FRAGMENT,
+    let visibility = match plan.stage {
+        StagePlan::Compute { .. } => ShaderStages::COMPUTE,
+        StagePlan::Fragment => ShaderStages::FRAGMENT,
     };
     let entry = |binding, ty| BindGroupLayoutEntry {
         binding,
@@ -158,11 +160,10 @@ fn entries(plan: &Plan) -> Vec<(u32, BindGroupLayoutEntry)> {
         };
         entries.push((uniform.group, entry(uniform.binding, ty)));
     }
-    if let OutputPlan::Storage {
-        group, binding, format, ..
-    } = plan.output
-    {
-        entries.push((group, entry(binding, storage_type(format))));
+    for output in &plan.outputs {
+        if let Some((group, binding)) = output.place {
+            entries.push((group, entry(binding, storage_type(output.format))));
+        }
     }
     entries
 }
@@ -172,7 +173,9 @@ fn binding_type(kind: &InputKind) -> BindingType {
         InputKind::Texture(texture) => texture_type(texture),
         InputKind::Sampler(sampler) => sampler_type(*sampler),
         InputKind::Buffer(buffer) => BindingType::Buffer {
-            ty: wgpu::BufferBindingType::Storage { read_only: true },
+            ty: wgpu::BufferBindingType::Storage {
+                read_only: !buffer.written,
+            },
             has_dynamic_offset: false,
             // Of an empty array, even a read that is clamped into it would have nothing to yield.
             min_binding_size: wgpu::BufferSize::new(u64::from(buffer.stride)),
@@ -221,5 +224,13 @@ pub(crate) fn texture_format(format: Format) -> wgpu::TextureFormat {
         Format::Rgba8Unorm => wgpu::TextureFormat::Rgba8Unorm,
         Format::Rgba16Float => wgpu::TextureFormat::Rgba16Float,
         Format::Rgba32Float => wgpu::TextureFormat::Rgba32Float,
+        Format::R32Float => wgpu::TextureFormat::R32Float,
+        Format::Rg32Float => wgpu::TextureFormat::Rg32Float,
+        Format::R32Uint => wgpu::TextureFormat::R32Uint,
+        Format::Rg32Uint => wgpu::TextureFormat::Rg32Uint,
+        Format::Rgba32Uint => wgpu::TextureFormat::Rgba32Uint,
+        Format::R32Sint => wgpu::TextureFormat::R32Sint,
+        Format::Rg32Sint => wgpu::TextureFormat::Rg32Sint,
+        Format::Rgba32Sint => wgpu::TextureFormat::Rgba32Sint,
     }
 }

@@ -40,7 +40,7 @@ pub(super) fn check_texture(plan: &TexturePlan) -> Result<(), String> {
 }
 
 /// A storage buffer of elements of the type that WGSL spells `element`, or of structures of `fields`, `stride` bytes apart.
-pub(super) fn buffer(element: &str, stride: u32, fields: &[UniformField]) -> Result<BufferPlan, String> {
+pub(super) fn buffer(element: &str, stride: u32, fields: &[UniformField], written: bool) -> Result<BufferPlan, String> {
     if !fields.is_empty() {
         require(stride > 0 && stride.is_multiple_of(4), || {
             format!("a stride of {stride} bytes, not a positive multiple of 4")
@@ -54,7 +54,11 @@ pub(super) fn buffer(element: &str, stride: u32, fields: &[UniformField]) -> Res
                 )
             })?;
         }
-        return Ok(BufferPlan { element: None, stride });
+        return Ok(BufferPlan {
+            element: None,
+            stride,
+            written,
+        });
     }
     let ty = UniformType::from_wgsl(element)
         .ok_or_else(|| format!("elements of type `{element}`, not a 32-bit scalar or vector"))?;
@@ -70,6 +74,7 @@ pub(super) fn buffer(element: &str, stride: u32, fields: &[UniformField]) -> Res
     Ok(BufferPlan {
         element: Some(ty),
         stride,
+        written,
     })
 }
 

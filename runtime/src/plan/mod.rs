@@ -5,7 +5,7 @@ mod binding;
 use crate::uniforms::{UniformType, UniformValue};
 use crate::{Error, ResourceKind};
 use straightline_manifest::{
-    Access, Binding, BindingKind, BufferType, Dimension, Extent, Form, Format, Manifest, REGION, REGION_SIZE,
+    Access, Binding, BindingKind, BufferType, Dimension, Extent, Form, Format, Manifest, Output, REGION, REGION_SIZE,
     SampleType, SamplerType, Stage, ViewDimension, region_fields,
 };
 
@@ -22,7 +22,9 @@ pub(crate) struct Plan {
     pub(crate) uniforms: Vec<UniformPlan>,
     /// Of a shader that filters a rectangle.
     pub(crate) region: Option<UniformPlan>,
-    pub(crate) output: OutputPlan,
+    pub(crate) stage: StagePlan,
+    /// In the order of their locations.
+    pub(crate) outputs: Vec<OutputPlan>,
 }
 
 /// A resource that the caller gives by name.
@@ -70,6 +72,8 @@ pub(crate) struct BufferPlan {
     /// Of structures none: they are known by their size.
     pub(crate) element: Option<UniformType>,
     pub(crate) stride: u32,
+    /// Whether the shader writes to it.
+    pub(crate) written: bool,
 }
 
 /// A uniform struct.
@@ -91,19 +95,20 @@ pub(crate) struct FieldPlan {
     pub(crate) default: Option<UniformValue>,
 }
 
-/// Where the result goes, and with it the stage.
+/// The stage.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum StagePlan {
+    Compute { workgroup: [u32; 3] },
+    Fragment,
+}
+
+/// Where a result goes.
 #[derive(Debug)]
-pub(crate) enum OutputPlan {
-    /// Compute.
-    Storage {
-        name: String,
-        group: u32,
-        binding: u32,
-        format: Format,
-        workgroup: [u32; 3],
-    },
-    /// Fragment, at location 0.
-    Attachment { format: Format },
+pub(crate) struct OutputPlan {
+    pub(crate) name: String,
+    /// Group and binding number of a storage texture; of a colour attachment there are none.
+    pub(crate) place: Option<(u32, u32)>,
+    pub(crate) format: Format,
 }
 
 impl Plan {
@@ -129,8 +134,17 @@ impl Plan {
             inputs: Vec::new(),
             uniforms: Vec::new(),
             region: None,
-            output: output(manifest).map_err(|problem| bad("output".to_owned(), problem))?,
+            stage: stage(manifest).map_err(|problem| bad("output".to_owned(), problem))?,
+            outputs: Vec::new(),
         };
+        for (location, source) in (0..).zip(&manifest.outputs) {
+            let read = output(manifest, source, location);
+            let place = match manifest.outputs.len() {
+                1 => "output".to_owned(),
+                _ => format!("output `{}`", source.name),
+            };
+            plan.outputs.push(read.map_err(|problem| bad(place, problem))?);
+        }
         for binding in &manifest.bindings {
             let read = plan.add(binding);
             read.map_err(|problem| bad(format!("binding `{}`", binding.name), problem))?;
@@ -171,9 +185,16 @@ impl Plan {
                 stride,
                 fields,
             } => {
-                let fits = *buffer_type == BufferType::ReadOnlyStorage;
-                require(fits, || "its buffer_type is not read-only-storage".to_owned())?;
-                InputKind::Buffer(binding::buffer(element, *stride, fields)?)
+                let fits = matches!(buffer_type, BufferType::ReadOnlyStorage | BufferType::Storage);
+                require(fits, || {
+                    "its buffer_type is neither read-only-storage nor storage".to_owned()
+                })?;
+                InputKind::Buffer(binding::buffer(
+                    element,
+                    *stride,
+                    fields,
+                    *buffer_type == BufferType::Storage,
+                )?)
             }
             BindingKind::Uniform {
                 buffer_type,
@@ -218,6 +239,12 @@ impl Plan {
         Ok(())
     }
 
+    /// What an error calls an output: nothing where it is the only one.
+    pub(crate) fn target_name(&self, output: usize) -> Option<String> {
+        let named = self.outputs.get(output).filter(|_| self.outputs.len() > 1);
+        named.map(|output| output.name.clone())
+    }
+
     /// The structs of values set at run time, that of the region among them.
     pub(crate) fn uniform_structs(&self) -> impl Iterator<Item = &UniformPlan> {
         self.uniforms.iter().chain(&self.region)
@@ -227,9 +254,7 @@ impl Plan {
     fn places(&self) -> Vec<(u32, u32)> {
         let mut places: Vec<(u32, u32)> = self.inputs.iter().map(|i| (i.group, i.binding)).collect();
         places.extend(self.uniform_structs().map(|u| (u.group, u.binding)));
-        if let OutputPlan::Storage { group, binding, .. } = &self.output {
-            places.push((*group, *binding));
-        }
+        places.extend(self.outputs.iter().filter_map(|output| output.place));
         places.sort_unstable();
         places
     }
@@ -248,6 +273,7 @@ impl Plan {
     fn check_unique(&self) -> Result<(), String> {
         let mut places = self.places();
         let mut inputs: Vec<&str> = self.inputs.iter().map(|i| i.name.as_str()).collect();
+        let mut outputs: Vec<&str> = self.outputs.iter().map(|o| o.name.as_str()).collect();
         let mut fields: Vec<&str> = self
             .uniforms
             .iter()
@@ -260,6 +286,9 @@ impl Plan {
         if let Some(name) = repeated(&mut inputs) {
             return Err(format!("input `{name}` is listed twice"));
         }
+        if let Some(name) = repeated(&mut outputs) {
+            return Err(format!("output `{name}` is listed twice"));
+        }
         if let Some(name) = repeated(&mut fields) {
             return Err(format!("uniform `{name}` is listed twice"));
         }
@@ -267,16 +296,41 @@ impl Plan {
     }
 }
 
-/// The output of `manifest`.
-fn output(manifest: &Manifest) -> Result<OutputPlan, String> {
-    let output = &manifest.output;
+/// The stage of `manifest`.
+fn stage(manifest: &Manifest) -> Result<StagePlan, String> {
+    let writes = |binding: &Binding| matches!(&binding.kind, BindingKind::Buffer { buffer_type, .. } if *buffer_type == BufferType::Storage);
+    let given = !manifest.outputs.is_empty();
+    require(given || manifest.bindings.iter().any(writes), || {
+        "nothing is written".to_owned()
+    })?;
+    match manifest.stage {
+        Stage::Compute => {
+            let Some(workgroup) = manifest.workgroup_size else {
+                return Err("the stage is compute, but no workgroup_size is given".to_owned());
+            };
+            let whole = workgroup[0] > 0 && workgroup[1] > 0 && workgroup[2] == 1;
+            require(whole, || format!("workgroup_size {workgroup:?} does not tile an image"))?;
+            Ok(StagePlan::Compute { workgroup })
+        }
+        Stage::Fragment => {
+            require(given, || "the stage is fragment, but no colour is given".to_owned())?;
+            require(manifest.workgroup_size.is_none(), || {
+                "the stage is fragment, but has a workgroup_size".to_owned()
+            })?;
+            Ok(StagePlan::Fragment)
+        }
+    }
+}
+
+/// An output of `manifest`, which is to be at `location` in a fragment shader.
+fn output(manifest: &Manifest, output: &Output, location: u32) -> Result<OutputPlan, String> {
     require(output.access == Access::WriteOnly, || {
         "the result is only written".to_owned()
     })?;
     require(output.view_dimension == ViewDimension::D2, || {
         "the result is 2d".to_owned()
     })?;
-    match manifest.stage {
+    let place = match manifest.stage {
         Stage::Compute => {
             let (Some(group), Some(binding)) = (output.group, output.binding) else {
                 return Err("the stage is compute, but group and binding are not both given".to_owned());
@@ -284,33 +338,24 @@ fn output(manifest: &Manifest) -> Result<OutputPlan, String> {
             require(output.location.is_none(), || {
                 "the stage is compute, but a location is given".to_owned()
             })?;
-            let Some(workgroup) = manifest.workgroup_size else {
-                return Err("the stage is compute, but no workgroup_size is given".to_owned());
-            };
-            let whole = workgroup[0] > 0 && workgroup[1] > 0 && workgroup[2] == 1;
-            require(whole, || format!("workgroup_size {workgroup:?} does not tile an image"))?;
-            Ok(OutputPlan::Storage {
-                name: output.name.clone(),
-                group,
-                binding,
-                format: output.format,
-                workgroup,
-            })
+            Some((group, binding))
         }
         Stage::Fragment => {
             let bound = output.group.is_some() || output.binding.is_some();
             require(!bound, || {
                 "the stage is fragment, but a group or binding is given".to_owned()
             })?;
-            require(output.location == Some(0), || {
-                "the stage is fragment, but the location is not 0".to_owned()
+            require(output.location == Some(location), || {
+                format!("the stage is fragment, but the location is not {location}")
             })?;
-            require(manifest.workgroup_size.is_none(), || {
-                "the stage is fragment, but has a workgroup_size".to_owned()
-            })?;
-            Ok(OutputPlan::Attachment { format: output.format })
+            None
         }
-    }
+    };
+    Ok(OutputPlan {
+        name: output.name.clone(),
+        place,
+        format: output.format,
+    })
 }
 
 fn require(holds: bool, problem: impl FnOnce() -> String) -> Result<(), String> {

@@ -254,3 +254,24 @@ pub fn element_bytes(elements: &[[f64; 4]], element: &str) -> Vec<u8> {
         .flat_map(|e| e[..lanes].iter().flat_map(word).collect::<Vec<u8>>())
         .collect()
 }
+
+/// The elements that lie in the bytes of a buffer, each in as many lanes as it has.
+pub fn elements(bytes: &[u8], element: &str) -> Vec<[f64; 4]> {
+    let (lanes, kind) = match element.strip_prefix("vec") {
+        Some(rest) => (rest[..1].parse().unwrap_or(4), &rest[1..]),
+        None => (1, &element[..1]),
+    };
+    let number = |word: &[u8]| {
+        let word = [word[0], word[1], word[2], word[3]];
+        match kind {
+            "f" => f64::from(f32::from_le_bytes(word)),
+            "i" => f64::from(i32::from_le_bytes(word)),
+            _ => f64::from(u32::from_le_bytes(word)),
+        }
+    };
+    let element = |bytes: &[u8]| {
+        let mut lanes = bytes.chunks_exact(4).map(number);
+        std::array::from_fn(|_| lanes.next().unwrap_or(0.0))
+    };
+    bytes.chunks_exact(4 * lanes).map(element).collect()
+}

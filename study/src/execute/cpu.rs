@@ -1,18 +1,23 @@
 //! The interpreter, on all processors.
 
-use super::{ExecuteError, Inputs};
+use super::{ExecuteError, Inputs, Written};
 use glam::Vec4;
 use rayon::prelude::*;
 use straightline_codegen::Compiled;
-use straightline_codegen::interp::{Bindings, Image, Interpreter};
-use straightline_codegen::ir::{Op, Real, Scalar};
+use straightline_codegen::interp::{Bindings, Image, Interpreter, Scratch};
+use straightline_codegen::ir::{Access, Op, Real, Scalar};
 use straightline_kernels::prelude::Frame;
 
 /// What the interpreter computed.
 #[derive(Clone, Debug)]
 pub struct Interpreted<R> {
-    /// Colours, row by row from the top.
+    /// What the first target holds, row by row from the top: a colour, or a value of fewer components, the others 0 and the
+    /// fourth 1.
     pub texels: Vec<[R; 4]>,
+    /// Every target.
+    pub targets: Vec<Written>,
+    /// Every buffer that the kernel writes, by name, as it is afterwards.
+    pub buffers: Vec<(String, Vec<[f64; 4]>)>,
     /// For the first pixel that had a NaN or an infinity: its coordinate and where that came from.
     pub not_finite: Option<([u32; 2], String)>,
     /// Pixels that had one.
@@ -29,8 +34,24 @@ impl<R: Real> Interpreted<R> {
     }
 }
 
-/// A row of colours, and of each pixel that had a NaN or an infinity where that came from.
-type Row<R> = (Vec<[R; 4]>, Vec<([u32; 2], String)>);
+/// Rows of an image that were computed together.
+#[derive(Default)]
+struct Row<R> {
+    /// Of the first target.
+    texels: Vec<[R; 4]>,
+    /// Of every target.
+    targets: Vec<Vec<[f64; 4]>>,
+    /// Of each pixel that had a NaN or an infinity where that came from.
+    births: Vec<([u32; 2], String)>,
+}
+
+/// Puts the texels of an invocation, row by row, behind those to their left; none beyond `width`.
+fn put<T: Copy>(lines: &mut [Vec<T>], texels: &[T], across: usize, width: u32) {
+    for (line, texels) in lines.iter_mut().zip(texels.chunks(across)) {
+        let room = width as usize - line.len();
+        line.extend(texels.iter().take(room));
+    }
+}
 
 /// Computes every pixel of a kernel in the precision `R`; with `watch`, notes where NaNs and infinities come from.
 ///
@@ -85,29 +106,56 @@ pub fn interpret<R: Real>(compiled: &Compiled, inputs: &Inputs, watch: bool) -> 
         .map_err(|e| ExecuteError::Input(e.to_string()))?;
     let interpreter = if watch { interpreter.watch() } else { interpreter };
     let [across, down] = compiled.graph.invocation.pixels();
-    let rows: Vec<Row<R>> = (0..height.div_ceil(down))
-        .into_par_iter()
-        .map_init(
-            || interpreter.scratch(),
-            |scratch, row| {
-                let (y, mut births) = (row * down, Vec::new());
-                let mut lines = vec![Vec::with_capacity(width as usize); down as usize];
-                for x in (0..width).step_by(across as usize) {
-                    let texels = interpreter.invocation(x, y, scratch);
-                    births.extend(scratch.birth().map(|b| ([x, y], b.describe(&compiled.graph))));
-                    for (line, texels) in lines.iter_mut().zip(texels.chunks(across as usize)) {
-                        line.extend(texels.iter().take((width - x) as usize));
-                    }
-                }
-                lines.truncate((height - y) as usize);
-                (lines.concat(), births)
-            },
-        )
-        .collect();
-    let (texels, births): (Vec<_>, Vec<_>) = rows.into_iter().unzip();
-    let births = births.concat();
+    let names = &compiled.graph.targets;
+    let row = |scratch: &mut Scratch, row: u32| {
+        let (y, mut births) = (row * down, Vec::new());
+        let mut lines = vec![Vec::with_capacity(width as usize); down as usize];
+        let mut targets = vec![vec![Vec::with_capacity(width as usize); down as usize]; names.len()];
+        for x in (0..width).step_by(across as usize) {
+            let texels = interpreter.invocation(x, y, scratch);
+            births.extend(scratch.birth().map(|b| ([x, y], b.describe(&compiled.graph))));
+            put(&mut lines, &texels, across as usize, width);
+            for (k, lines) in targets.iter_mut().enumerate() {
+                put(lines, &interpreter.target(k, scratch), across as usize, width);
+            }
+        }
+        let inside = (height - y) as usize;
+        lines.truncate(inside);
+        let targets = targets.into_iter().map(|mut lines| {
+            lines.truncate(inside);
+            lines.concat()
+        });
+        Row {
+            texels: lines.concat(),
+            targets: targets.collect(),
+            births,
+        }
+    };
+    let numbers = 0..height.div_ceil(down);
+    let mut last = interpreter.scratch();
+    // What pixels write they write one after the other, row by row.
+    let rows: Vec<Row<R>> = match compiled.graph.has_effects() {
+        true => numbers.map(|number| row(&mut last, number)).collect(),
+        false => numbers
+            .into_par_iter()
+            .map_init(|| interpreter.scratch(), row)
+            .collect(),
+    };
+    let written = compiled.graph.buffers.iter().enumerate();
+    let written = written.filter(|(_, buffer)| buffer.access != Access::Read);
+    let buffers = written.map(|(k, buffer)| (buffer.name.clone(), interpreter.buffer(k, &last)));
+    let buffers = buffers.collect();
+    let targets = names.iter().enumerate().map(|(k, target)| Written {
+        name: target.name.clone(),
+        size: inputs.size,
+        texels: rows.iter().flat_map(|row| &row.targets[k]).copied().collect(),
+    });
+    let targets = targets.collect();
+    let births: Vec<_> = rows.iter().flat_map(|row| row.births.clone()).collect();
     Ok(Interpreted {
-        texels: texels.concat(),
+        texels: rows.into_iter().flat_map(|row| row.texels).collect(),
+        targets,
+        buffers,
         not_finite_pixels: births.len(),
         not_finite: births.first().cloned(),
         births,

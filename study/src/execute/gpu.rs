@@ -2,12 +2,12 @@
 
 use super::convert;
 use super::textures::integers_of;
-use super::{Address, Comparison, ExecuteError, Inputs, SamplerState};
+use super::{Address, Comparison, ExecuteError, Inputs, SamplerState, Written};
 use glam::{UVec2, Vec4, uvec2};
 use straightline_codegen::emit::{Emitted, Target};
 use straightline_codegen::{Compiled, EmitOptions, Format, Precision, Stage};
 use straightline_kernels::prelude::Frame;
-use straightline_manifest::{BindingKind, Manifest, REGION, UniformField};
+use straightline_manifest::{BindingKind, BufferType, Manifest, REGION, UniformField};
 use straightline_runtime::{Pass, PassOptions, Resource};
 use wgpu::{TextureFormat, TextureUsages};
 
@@ -21,6 +21,12 @@ pub struct Bench {
     /// What shaders compute in.
     precision: Precision,
 }
+
+/// Elements of buffers by name, each in as many lanes as it has.
+pub type Buffers = Vec<(String, Vec<[f64; 4]>)>;
+
+/// What a kernel writes: its targets, and its buffers.
+pub type AllWritten = (Vec<Written>, Buffers);
 
 /// A shader's inputs on a device.
 #[derive(Debug)]
@@ -248,18 +254,118 @@ impl Bench {
         Ok(())
     }
 
-    /// Every pixel of a kernel.
+    /// Every pixel of every target of a kernel, in the order of the kernel's fields.
+    ///
+    /// # Errors
+    ///
+    /// If it cannot be emitted or run on these inputs.
+    pub fn targets(&self, compiled: &Compiled, stage: Stage, inputs: &Inputs) -> Result<Vec<Written>, ExecuteError> {
+        let (pass, manifest) = self.pass(compiled, stage)?;
+        let bound = self.bind(&pass, &manifest, inputs)?;
+        self.written_by(&pass, &bound, inputs.size)
+    }
+
+    /// What a kernel leaves in the buffers that it writes, by name, and its targets.
+    ///
+    /// # Errors
+    ///
+    /// If it cannot be emitted or run on these inputs.
+    pub fn all_written(&self, compiled: &Compiled, stage: Stage, inputs: &Inputs) -> Result<AllWritten, ExecuteError> {
+        let (pass, manifest) = self.pass(compiled, stage)?;
+        let bound = self.bind(&pass, &manifest, inputs)?;
+        let targets = self.written_by(&pass, &bound, inputs.size)?;
+        Ok((targets, self.buffers(&manifest, &bound)?))
+    }
+
+    /// What the buffers hold now that a shader writes, by name.
+    ///
+    /// # Errors
+    ///
+    /// If the device fails.
+    pub fn buffers(&self, manifest: &Manifest, bound: &Bound) -> Result<Buffers, ExecuteError> {
+        let mut buffers = Vec::new();
+        for binding in &manifest.bindings {
+            if let BindingKind::Buffer {
+                buffer_type: BufferType::Storage,
+                element,
+                ..
+            } = &binding.kind
+                && let Some((name, Owned::Buffer(buffer))) =
+                    bound.resources.iter().find(|(name, _)| *name == binding.name)
+            {
+                let bytes = self.bytes_of(buffer)?;
+                buffers.push((name.clone(), convert::elements(&bytes, element)));
+            }
+        }
+        Ok(buffers)
+    }
+
+    /// The bytes of a buffer, read back.
+    fn bytes_of(&self, buffer: &wgpu::Buffer) -> Result<Vec<u8>, ExecuteError> {
+        let copy = self.device.create_buffer(&wgpu::BufferDescriptor {
+            label: None,
+            size: buffer.size(),
+            usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        });
+        let mut encoder = self
+            .device
+            .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        encoder.copy_buffer_to_buffer(buffer, 0, &copy, 0, buffer.size());
+        self.queue.submit([encoder.finish()]);
+        copy.map_async(wgpu::MapMode::Read, .., |_| {});
+        self.wait()?;
+        let mapped = copy.get_mapped_range(..).map_err(|e| ExecuteError::Device {
+            doing: "reading a buffer back",
+            message: e.to_string(),
+        })?;
+        Ok(mapped.to_vec())
+    }
+
+    /// What a pass makes of its inputs, target by target.
+    ///
+    /// # Errors
+    ///
+    /// If it cannot be encoded, or the device fails.
+    pub fn written_by(&self, pass: &Pass, bound: &Bound, size: UVec2) -> Result<Vec<Written>, ExecuteError> {
+        let textures: Vec<_> = pass
+            .targets()
+            .map(|(name, format)| (name, self.target(size, format)))
+            .collect();
+        let views: Vec<_> = textures
+            .iter()
+            .map(|(name, texture)| (*name, texture.create_view(&wgpu::TextureViewDescriptor::default())))
+            .collect();
+        let targets: Vec<(&str, &wgpu::TextureView)> = views.iter().map(|(name, view)| (*name, view)).collect();
+        let mut encoder = self
+            .device
+            .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        pass.encode(&mut encoder, &bound.resources(), targets.as_slice())?;
+        self.queue.submit([encoder.finish()]);
+        let written = textures.iter().map(|(name, texture)| {
+            Ok(Written {
+                name: (*name).to_owned(),
+                size,
+                texels: self.read(texture)?,
+            })
+        });
+        written.collect()
+    }
+
+    /// The first target of a kernel, every pixel: its picture, where it gives a colour.
     ///
     /// # Errors
     ///
     /// If it cannot be emitted or run on these inputs.
     pub fn run(&self, compiled: &Compiled, stage: Stage, inputs: &Inputs) -> Result<Frame<Vec4>, ExecuteError> {
-        let (pass, manifest) = self.pass(compiled, stage)?;
-        let bound = self.bind(&pass, &manifest, inputs)?;
-        self.picture_of(&pass, &bound, inputs.size)
+        let mut written = self.targets(compiled, stage, inputs)?;
+        match written.len() {
+            0 => Err(ExecuteError::Input(format!("`{}` gives no picture", compiled.kernel))),
+            _ => Ok(written.swap_remove(0).frame()),
+        }
     }
 
-    /// What a pass that writes full floats makes of its inputs.
+    /// What a pass that writes one target of full floats makes of its inputs.
     ///
     /// # Errors
     ///
@@ -322,7 +428,7 @@ impl Bench {
         let buffer = self.device.create_buffer(&wgpu::BufferDescriptor {
             label: None,
             size: bytes.len() as u64,
-            usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST,
+            usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::COPY_SRC,
             mapped_at_creation: false,
         });
         self.queue.write_buffer(&buffer, 0, &bytes);
@@ -354,10 +460,46 @@ impl Bench {
     /// If the device fails.
     pub fn download(&self, texture: &wgpu::Texture) -> Result<Frame<Vec4>, ExecuteError> {
         let size = uvec2(texture.width(), texture.height());
-        let row = (size.x * 16).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
+        let rows = self.rows(texture)?;
+        let texels = rows
+            .iter()
+            .flat_map(|line| bytemuck::pod_collect_to_vec::<u8, Vec4>(line));
+        Ok(Frame::new(size, texels.collect()))
+    }
+
+    /// Texels of 32-bit components, read back: components that the format lacks are 0, and the fourth is 1.
+    ///
+    /// # Errors
+    ///
+    /// If the device fails.
+    pub fn read(&self, texture: &wgpu::Texture) -> Result<Vec<[f64; 4]>, ExecuteError> {
+        let format = texture.format();
+        let components = usize::from(format.components());
+        let component = |bytes: [u8; 4]| match format.sample_type(None, None) {
+            Some(wgpu::TextureSampleType::Uint) => f64::from(u32::from_le_bytes(bytes)),
+            Some(wgpu::TextureSampleType::Sint) => f64::from(i32::from_le_bytes(bytes)),
+            _ => f64::from(f32::from_le_bytes(bytes)),
+        };
+        let texel = |bytes: &[u8]| {
+            std::array::from_fn(|k| match bytes.get(4 * k..4 * k + 4) {
+                Some(&[a, b, c, d]) => component([a, b, c, d]),
+                _ => f64::from(u8::from(k == 3)),
+            })
+        };
+        let rows = self.rows(texture)?;
+        Ok(rows
+            .iter()
+            .flat_map(|line| line.chunks_exact(4 * components).map(texel).collect::<Vec<_>>())
+            .collect())
+    }
+
+    /// The bytes of a texture, row by row.
+    fn rows(&self, texture: &wgpu::Texture) -> Result<Vec<Vec<u8>>, ExecuteError> {
+        let bytes = texture.width() * texture.format().block_copy_size(None).unwrap_or(16);
+        let row = bytes.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
         let buffer = self.device.create_buffer(&wgpu::BufferDescriptor {
             label: None,
-            size: u64::from(row) * u64::from(size.y),
+            size: u64::from(row) * u64::from(texture.height()),
             usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
             mapped_at_creation: false,
         });
@@ -382,8 +524,7 @@ impl Bench {
             message: e.to_string(),
         })?;
         let rows = mapped.chunks_exact(row as usize);
-        let texels = rows.flat_map(|line| bytemuck::pod_collect_to_vec::<u8, Vec4>(&line[..size.x as usize * 16]));
-        Ok(Frame::new(size, texels.collect()))
+        Ok(rows.map(|line| line[..bytes as usize].to_vec()).collect())
     }
 
     /// Waits until everything submitted is done.

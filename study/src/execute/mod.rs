@@ -16,13 +16,33 @@ use straightline_kernels::prelude::Frame;
 
 pub use cpu::{Interpreted, interpret};
 pub use forward::{Corner, Forward};
-pub use gpu::{Bench, Bound, texture_bytes};
+pub use gpu::{AllWritten, Bench, Bound, Buffers, texture_bytes};
 pub use shadowed::Shadowed;
 pub use straightline_codegen::interp::{Address, Comparison, SamplerState};
 pub use synthetic::test_inputs;
 pub use tiles::{Tile, cropped, tiles};
 pub use timing::{Clock, Job, Ratio, Timed, Times};
 pub use work::Work;
+
+/// What a kernel gives for each pixel in one of its targets.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Written {
+    /// Name of the target: `destination`, or that of a field of the structure that the kernel gives.
+    pub name: String,
+    /// Width and height.
+    pub size: UVec2,
+    /// Texels, row by row from the top: floats and integers as they are. Components that the value lacks are 0, and the fourth
+    /// is 1.
+    pub texels: Vec<[f64; 4]>,
+}
+
+impl Written {
+    /// The target as a picture of floats; integers beyond 2^24 are rounded.
+    pub fn frame(&self) -> Frame<Vec4> {
+        let texel = |t: &[f64; 4]| Vec4::from_array(t.map(|v| v as f32));
+        Frame::new(self.size, self.texels.iter().map(texel).collect())
+    }
+}
 
 /// What a kernel is run on, by the names that it calls them.
 #[derive(Clone, Debug, Default)]

@@ -4,6 +4,7 @@ use super::link::link;
 use super::program::{Place, Program, Stage, Texture, Uniform};
 use glow::HasContext;
 use straightline_codegen::Format;
+use straightline_manifest::Component;
 use straightline_study::execute::{Address, Comparison};
 
 /// The picture that a program computes. The context must be current.
@@ -41,11 +42,19 @@ fn picture(objects: &mut Objects<'_>, program: &Program<'_>) -> Result<Vec<[f32;
     let gl = objects.gl;
     let [width, height] = program.size.map(|side| side as i32);
     let (target, framebuffer, vertices) = (objects.texture()?, objects.framebuffer()?, objects.vertex_array()?);
-    let format = match program.format {
-        Format::Rgba8Unorm => glow::RGBA8,
-        Format::Rgba16Float => glow::RGBA16F,
-        Format::Rgba32Float => glow::RGBA32F,
-    };
+    let format = internal(program.format);
+    let mut others = Vec::new();
+    for (_, format) in &program.other_images {
+        let texture = objects.texture()?;
+        // SAFETY: see the module.
+        unsafe {
+            gl.active_texture(glow::TEXTURE0 + program.textures.len() as u32);
+            gl.bind_texture(glow::TEXTURE_2D, Some(texture));
+            gl.tex_storage_2d(glow::TEXTURE_2D, 1, internal(*format), width, height);
+        }
+        others.push(texture);
+    }
+    let attachment = glow::COLOR_ATTACHMENT0 + program.location;
     // SAFETY: see the module.
     let status = unsafe {
         // A unit that no input is on, so that binding the target takes none away.
@@ -53,13 +62,12 @@ fn picture(objects: &mut Objects<'_>, program: &Program<'_>) -> Result<Vec<[f32;
         gl.bind_texture(glow::TEXTURE_2D, Some(target));
         gl.tex_storage_2d(glow::TEXTURE_2D, 1, format, width, height);
         gl.bind_framebuffer(glow::FRAMEBUFFER, Some(framebuffer));
-        gl.framebuffer_texture_2d(
-            glow::FRAMEBUFFER,
-            glow::COLOR_ATTACHMENT0,
-            glow::TEXTURE_2D,
-            Some(target),
-            0,
-        );
+        gl.framebuffer_texture_2d(glow::FRAMEBUFFER, attachment, glow::TEXTURE_2D, Some(target), 0);
+        // Of all that a fragment shader gives, the one at this location.
+        let mut drawn = vec![glow::NONE; program.location as usize];
+        drawn.push(attachment);
+        gl.draw_buffers(&drawn);
+        gl.read_buffer(attachment);
         gl.check_framebuffer_status(glow::FRAMEBUFFER)
     };
     if status != glow::FRAMEBUFFER_COMPLETE {
@@ -69,8 +77,10 @@ fn picture(objects: &mut Objects<'_>, program: &Program<'_>) -> Result<Vec<[f32;
     unsafe {
         gl.viewport(0, 0, width, height);
         gl.disable(glow::DITHER);
-        gl.clear_color(0.0, 0.0, 0.0, 0.0);
-        gl.clear(glow::COLOR_BUFFER_BIT);
+        if program.format.component() == Component::Float {
+            gl.clear_color(0.0, 0.0, 0.0, 0.0);
+            gl.clear(glow::COLOR_BUFFER_BIT);
+        }
         match program.stage {
             Stage::Fragment => {
                 gl.bind_vertex_array(Some(vertices));
@@ -78,6 +88,17 @@ fn picture(objects: &mut Objects<'_>, program: &Program<'_>) -> Result<Vec<[f32;
             }
             Stage::Compute { covered, image } => {
                 gl.bind_image_texture(image, Some(target), 0, false, 0, glow::WRITE_ONLY, format);
+                for ((binding, format), texture) in program.other_images.iter().zip(&others) {
+                    gl.bind_image_texture(
+                        *binding,
+                        Some(*texture),
+                        0,
+                        false,
+                        0,
+                        glow::WRITE_ONLY,
+                        internal(*format),
+                    );
+                }
                 let [x, y] = [0, 1].map(|k| program.size[k].div_ceil(covered[k].max(1)));
                 gl.dispatch_compute(x, y, 1);
                 gl.memory_barrier(glow::ALL_BARRIER_BITS);
@@ -89,14 +110,23 @@ fn picture(objects: &mut Objects<'_>, program: &Program<'_>) -> Result<Vec<[f32;
     let picture = match program.format {
         // ES reads what is not float as bytes only.
         Format::Rgba8Unorm => {
-            let bytes = read(gl, program.size, glow::UNSIGNED_BYTE, texels * 4);
+            let bytes = read(gl, program.size, glow::RGBA, glow::UNSIGNED_BYTE, texels * 4);
             bytes.iter().map(|byte| f32::from(*byte) / 255.0).collect()
         }
-        Format::Rgba16Float | Format::Rgba32Float => {
-            let bytes = read(gl, program.size, glow::FLOAT, texels * 16);
-            let components = bytes.chunks_exact(4);
+        format => {
+            let (layout, ty) = match format.component() {
+                Component::Float => (glow::RGBA, glow::FLOAT),
+                Component::Uint => (glow::RGBA_INTEGER, glow::UNSIGNED_INT),
+                Component::Sint => (glow::RGBA_INTEGER, glow::INT),
+            };
+            let bytes = read(gl, program.size, layout, ty, texels * 16);
+            let components = bytes.chunks_exact(4).map(|b| [b[0], b[1], b[2], b[3]]);
             components
-                .map(|b| f32::from_ne_bytes([b[0], b[1], b[2], b[3]]))
+                .map(|b| match format.component() {
+                    Component::Float => f32::from_ne_bytes(b),
+                    Component::Uint => u32::from_ne_bytes(b) as f32,
+                    Component::Sint => i32::from_ne_bytes(b) as f32,
+                })
                 .collect::<Vec<f32>>()
         }
     };
@@ -104,12 +134,29 @@ fn picture(objects: &mut Objects<'_>, program: &Program<'_>) -> Result<Vec<[f32;
     Ok(picture.chunks_exact(4).map(|c| [c[0], c[1], c[2], c[3]]).collect())
 }
 
+/// A format as OpenGL numbers it.
+fn internal(format: Format) -> u32 {
+    match format {
+        Format::Rgba8Unorm => glow::RGBA8,
+        Format::Rgba16Float => glow::RGBA16F,
+        Format::Rgba32Float => glow::RGBA32F,
+        Format::R32Float => glow::R32F,
+        Format::Rg32Float => glow::RG32F,
+        Format::R32Uint => glow::R32UI,
+        Format::Rg32Uint => glow::RG32UI,
+        Format::Rgba32Uint => glow::RGBA32UI,
+        Format::R32Sint => glow::R32I,
+        Format::Rg32Sint => glow::RG32I,
+        Format::Rgba32Sint => glow::RGBA32I,
+    }
+}
+
 /// The bytes of the framebuffer's texels, which are so many.
-fn read(gl: &glow::Context, [width, height]: [u32; 2], ty: u32, length: usize) -> Vec<u8> {
+fn read(gl: &glow::Context, [width, height]: [u32; 2], layout: u32, ty: u32, length: usize) -> Vec<u8> {
     let mut bytes = vec![0; length];
     let pixels = glow::PixelPackData::Slice(Some(&mut bytes));
     // SAFETY: four components of `ty` a texel are as many bytes as there are; rows of them need no padding to 4 bytes.
-    unsafe { gl.read_pixels(0, 0, width as i32, height as i32, glow::RGBA, ty, pixels) };
+    unsafe { gl.read_pixels(0, 0, width as i32, height as i32, layout, ty, pixels) };
     bytes
 }
 

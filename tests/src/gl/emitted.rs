@@ -13,20 +13,40 @@ use straightline_study::execute::{Inputs, SamplerState};
 ///
 /// It is not among the files, or what the driver says.
 pub fn run(context: &Context, emitted: &Emitted, target: Target, inputs: &Inputs) -> Result<Frame<Vec4>, String> {
+    run_output(context, emitted, target, inputs, 0)
+}
+
+/// As [`run`], of one of the values that the kernel gives, by its index in the manifest.
+///
+/// # Errors
+///
+/// Those of [`run`].
+pub fn run_output(
+    context: &Context,
+    emitted: &Emitted,
+    target: Target,
+    inputs: &Inputs,
+    output: usize,
+) -> Result<Frame<Vec4>, String> {
     let bytes = emitted.files.get(&target);
     let bytes = bytes.ok_or_else(|| format!("it was not emitted in {target}"))?;
     let text = String::from_utf8_lossy(bytes);
     let manifest = &emitted.manifest;
-    let size = inputs.size.to_array();
+    let (size, output) = (inputs.size.to_array(), &manifest.outputs[output]);
     let mut program = match (manifest.stage, manifest.workgroup_size) {
         (Stage::Compute, Some([width, height, _])) => {
             let covered = [width * manifest.block[0], height * manifest.block[1]];
-            Program::compute(&text, size, covered, manifest.output.binding.unwrap_or_default())
+            Program::compute(&text, size, covered, output.binding.unwrap_or_default())
         }
-        _ => Program::fragment(&text, size),
+        _ => Program::fragment(&text, size).location(output.location.unwrap_or_default()),
     };
-    if manifest.output.format != Format::Rgba32Float {
-        program = program.format(manifest.output.format);
+    for other in manifest.outputs.iter().filter(|other| other.name != output.name) {
+        if let Some(binding) = other.binding {
+            program = program.other_image(binding, other.format);
+        }
+    }
+    if output.format != Format::Rgba32Float {
+        program = program.format(output.format);
     }
     let language = target.to_string();
     for extra in manifest

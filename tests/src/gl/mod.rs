@@ -29,5 +29,5 @@ mod link;
 mod program;
 
 pub use context::Context;
-pub use emitted::run as run_emitted;
+pub use emitted::{run as run_emitted, run_output};
 pub use program::{Place, Program, Stage, Texture, Uniform, Varying};

@@ -15,6 +15,10 @@ pub struct Program<'a> {
     pub size: [u32; 2],
     /// What the picture's texels are stored as; 32 bits a component unless stated.
     pub format: Format,
+    /// Images that a compute shader writes too, by their bindings.
+    pub other_images: Vec<(u32, Format)>,
+    /// Location of the value of a fragment shader that the picture shows.
+    pub location: u32,
     /// Textures by the names of their samplers.
     pub textures: Vec<Texture>,
     /// Uniforms outside of blocks.
@@ -108,6 +112,8 @@ impl<'a> Program<'a> {
             stage,
             size,
             format: Format::Rgba32Float,
+            location: 0,
+            other_images: Vec::new(),
             textures: Vec::new(),
             uniforms: Vec::new(),
             blocks: Vec::new(),
@@ -119,6 +125,18 @@ impl<'a> Program<'a> {
     /// With a picture of another format; of a compute shader, that which the image's `layout` names.
     pub fn format(mut self, format: Format) -> Self {
         self.format = format;
+        self
+    }
+
+    /// With another image that a compute shader writes, at a binding.
+    pub fn other_image(mut self, binding: u32, format: Format) -> Self {
+        self.other_images.push((binding, format));
+        self
+    }
+
+    /// With the picture that a fragment shader gives at a location.
+    pub fn location(mut self, location: u32) -> Self {
+        self.location = location;
         self
     }
 

@@ -6,6 +6,7 @@ pub mod forms;
 
 use std::path::PathBuf;
 use std::process::Command;
+use straightline_kernels::prelude::{IVec2, IVec3, IVec4, UVec2, UVec3, UVec4, Vec2, Vec3, Vec4};
 use straightline_study::execute;
 #[allow(unused_imports)] // each test uses a part
 pub use straightline_tests::sraa::Random;
@@ -26,6 +27,11 @@ pub fn device() -> (wgpu::Device, wgpu::Queue) {
     let descriptor = wgpu::DeviceDescriptor {
         required_features: adapter.features()
             & (wgpu::Features::FLOAT32_FILTERABLE | wgpu::Features::SUBGROUP | wgpu::Features::SHADER_F16),
+        // Several targets of full floats are more than WebGPU promises.
+        required_limits: wgpu::Limits {
+            max_color_attachment_bytes_per_sample: adapter.limits().max_color_attachment_bytes_per_sample,
+            ..wgpu::Limits::default()
+        },
         ..Default::default()
     };
     let device = pollster::block_on(adapter.request_device(&descriptor));
@@ -43,6 +49,47 @@ pub fn same_bits(a: &[[f32; 4]], b: &[[f32; 4]]) -> Result<(), String> {
     }
     Ok(())
 }
+
+/// The same, bit for bit; any NaN equals any other.
+pub fn same_texels(a: &[[f64; 4]], b: &[[f64; 4]]) -> Result<(), String> {
+    if a.len() != b.len() {
+        return Err(format!("{} pixels and {}", a.len(), b.len()));
+    }
+    for (k, (x, y)) in a.iter().zip(b).enumerate() {
+        for (p, q) in x.iter().zip(y) {
+            if p.to_bits() != q.to_bits() && !(p.is_nan() && q.is_nan()) {
+                return Err(format!("pixel {k}: {x:?} and {y:?}"));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// What a target holds of a value: components that it lacks are 0, and the fourth is 1.
+pub trait Texel {
+    fn texel(&self) -> [f64; 4];
+}
+
+fn whole(components: &[f64]) -> [f64; 4] {
+    std::array::from_fn(|k| components.get(k).copied().unwrap_or(f64::from(u8::from(k == 3))))
+}
+
+macro_rules! texel_of {
+    ($($number:ty),*; $($vector:ty),*) => {
+        $(impl Texel for $number {
+            fn texel(&self) -> [f64; 4] {
+                whole(&[f64::from(*self)])
+            }
+        })*
+        $(impl Texel for $vector {
+            fn texel(&self) -> [f64; 4] {
+                whole(&self.to_array().map(f64::from))
+            }
+        })*
+    };
+}
+
+texel_of!(f32, i32, u32; Vec2, Vec3, Vec4, IVec2, IVec3, IVec4, UVec2, UVec3, UVec4);
 
 /// Has two compilers that share nothing with naga read GLSL and SPIR-V files.
 pub fn other_compilers(glsl: &[PathBuf], spirv: &[PathBuf]) {

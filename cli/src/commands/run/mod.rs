@@ -1,26 +1,27 @@
 //! `run`: any kernel on pictures.
 
 mod inputs;
+mod outputs;
 mod values;
 
 use crate::args::{Executor, RunArgs};
 use crate::failure::Failure;
 use crate::gpu::Gpu;
-use glam::Vec4;
 use straightline_codegen::files;
 use straightline_codegen::ir::{F16, Real};
 use straightline_codegen::{Compiled, Precision};
-use straightline_kernels::prelude::Frame;
-use straightline_study::execute::{Inputs, interpret};
-use straightline_study::picture;
+use straightline_study::execute::{AllWritten, Inputs, interpret};
 
 /// Runs a kernel once and writes what it makes.
 pub fn run(args: &RunArgs) -> Result<(), Failure> {
     check(args)?;
     let compiled = args.kernel.locate()?.compile(&args.kernel.options.settings())?;
+    let outs = outputs::outs(args, &compiled)?;
     let inputs = inputs::inputs(args, &compiled)?;
-    files::try_file(&args.out, false).map_err(Failure::of)?;
-    let (frame, by) = match args.executor {
+    for out in &outs {
+        files::try_file(&out.path, false).map_err(Failure::of)?;
+    }
+    let (targets, by) = match args.executor {
         Executor::Gpu => {
             let gpu = Gpu::require(&args.adapter)?;
             let precision = args.precision.parse::<Precision>().map_err(Failure::Usage)?;
@@ -32,41 +33,27 @@ pub fn run(args: &RunArgs) -> Result<(), Failure> {
                 )));
             }
             let bench = gpu.bench().precision(precision);
-            let frame = bench.run(&compiled, args.stage.into(), &inputs);
+            let targets = bench.all_written(&compiled, args.stage.into(), &inputs);
             let by = match precision {
                 Precision::F32 => gpu.describe(),
                 Precision::F16 => format!("{}, f16", gpu.describe()),
             };
-            (frame.map_err(Failure::of)?, by)
+            (targets.map_err(Failure::of)?, by)
         }
         Executor::Cpu => {
-            let frame = match args.precision.as_str() {
+            let targets = match args.precision.as_str() {
                 "f16" => on_cpu::<F16>(args, &compiled, &inputs)?,
                 "f64" => on_cpu::<f64>(args, &compiled, &inputs)?,
                 _ => on_cpu::<f32>(args, &compiled, &inputs)?,
             };
-            (frame, format!("CPU interpreter, {}", args.precision))
+            (targets, format!("CPU interpreter, {}", args.precision))
         }
     };
-    picture::write(&args.out, &frame).map_err(Failure::of)?;
-    outln!("{} ({by})", args.out.display());
-    Ok(())
+    outputs::write(&outs, &targets, &by)
 }
 
 /// What would otherwise be found only after all the work.
 fn check(args: &RunArgs) -> Result<(), Failure> {
-    let extension = args
-        .out
-        .extension()
-        .and_then(|e| e.to_str())
-        .unwrap_or_default()
-        .to_ascii_lowercase();
-    if !picture::EXTENSIONS.contains(&extension.as_str()) {
-        return Err(Failure::Usage(format!(
-            "`{}` is neither .png nor .exr",
-            args.out.display()
-        )));
-    }
     if args.executor == Executor::Gpu && (args.check_finite || args.precision == "f64") {
         return Err(Failure::Usage(
             "--check-finite and --precision f64 are for the interpreter: add --executor cpu".to_owned(),
@@ -75,7 +62,7 @@ fn check(args: &RunArgs) -> Result<(), Failure> {
     Ok(())
 }
 
-fn on_cpu<R: Real>(args: &RunArgs, compiled: &Compiled, inputs: &Inputs) -> Result<Frame<Vec4>, Failure> {
+fn on_cpu<R: Real>(args: &RunArgs, compiled: &Compiled, inputs: &Inputs) -> Result<AllWritten, Failure> {
     let result = interpret::<R>(compiled, inputs, args.check_finite).map_err(Failure::of)?;
     if let Some(([x, y], birth)) = &result.not_finite {
         return Err(Failure::Failed(format!(
@@ -83,5 +70,5 @@ fn on_cpu<R: Real>(args: &RunArgs, compiled: &Compiled, inputs: &Inputs) -> Resu
             result.not_finite_pixels
         )));
     }
-    Ok(result.frame(inputs))
+    Ok((result.targets, result.buffers))
 }

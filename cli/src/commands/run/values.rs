@@ -51,10 +51,28 @@ pub fn buffer(name: &str, element: &Element, text: &str) -> Result<Vec<[f64; 4]>
     Ok(values)
 }
 
-/// Numbers separated by commas, each of which a component of `ty` can hold.
+/// Numbers separated by commas, each of which a component of `ty` can hold; `0*256` is a number so many times.
 fn numbers(name: &str, ty: Type, text: &str) -> Result<Vec<f64>, Failure> {
-    text.split(',').map(|text| number(name, ty, text.trim())).collect()
+    let mut numbers = Vec::new();
+    for part in text.split(',') {
+        let (one, times) = match part.split_once('*') {
+            Some((one, times)) => (one, times.trim().parse().ok().filter(|n| (1..=MOST).contains(n))),
+            None => (part, Some(1)),
+        };
+        let one = number(name, ty, one.trim())?;
+        let times = times.filter(|n| numbers.len() + n <= MOST).ok_or_else(|| {
+            Failure::Usage(format!(
+                "`{}` for `{name}` is no number so many times: write 0*256, of at most {MOST} numbers",
+                shorten(part)
+            ))
+        })?;
+        numbers.extend(std::iter::repeat_n(one, times));
+    }
+    Ok(numbers)
 }
+
+/// Numbers that a buffer may have.
+const MOST: usize = 1 << 24;
 
 fn number(name: &str, ty: Type, text: &str) -> Result<f64, Failure> {
     let refuse = |why: &str| Failure::Usage(format!("`{}` for `{name}` {why}", shorten(text)));
@@ -113,5 +131,11 @@ mod tests {
         );
         assert!(matches!(buffer("b", Type::U32, "1,-1"), Err(Failure::Usage(_))));
         assert_eq!(buffer("b", Type::F32, "1,2").unwrap().len(), 2);
+        assert_eq!(buffer("b", Type::U32, "7, 0*255").unwrap().len(), 256);
+        assert!(matches!(buffer("b", Type::U32, "0*x"), Err(Failure::Usage(_))));
+        assert!(matches!(
+            buffer("b", Type::U32, "0*99999999999"),
+            Err(Failure::Usage(_))
+        ));
     }
 }

@@ -1,6 +1,6 @@
 //! Half precision: every float of the kernel is an `f16`; what other hardware reads and writes stays in full precision.
 
-use crate::emit::ast::{Expr, Module, Op, StmtKind, Ty};
+use crate::emit::ast::{Expr, Module, Op, Stmt, StmtKind, Ty};
 use crate::ir;
 
 /// The largest finite number of half precision.
@@ -12,11 +12,24 @@ pub fn half(module: &mut Module<'_>) {
         variable.ty = narrow(variable.ty);
     }
     module.rewrite(&mut |_, expr| rule(expr));
+    module.body.iter_mut().for_each(stored);
     for stmt in &mut module.body {
-        if let StmtKind::Output(colour) = &mut stmt.kind {
-            *colour = full(colour.clone());
+        if let StmtKind::Output(values) = &mut stmt.kind {
+            for value in values {
+                *value = full(value.clone());
+            }
         }
     }
+}
+
+/// What is written to buffers is in full precision too.
+fn stored(stmt: &mut Stmt<'_>) {
+    if let StmtKind::Effect(effect) = &mut stmt.kind {
+        for arg in &mut effect.args {
+            *arg = full(arg.clone());
+        }
+    }
+    stmt.blocks_mut().into_iter().flatten().for_each(stored);
 }
 
 fn narrow(ty: Ty) -> Ty {

@@ -1,6 +1,7 @@
 //! The entry point around a kernel's statements: which pixel it is, where it may write, what it stores.
 
 use crate::emit::ast::{Block, Builtin, Expr, Module, Op, Stmt, StmtKind, VarId, Variable};
+use crate::emit::outputs::whole_texel;
 use crate::emit::resources::Resources;
 use crate::ir::{self, BinaryOp, Scalar, Type, UnaryOp};
 use straightline_manifest::Stage;
@@ -26,10 +27,15 @@ pub fn entry(module: &mut Module<'_>, resources: &Resources) {
         true => begin_compute(resources),
         false => begin_fragment(resources),
     };
-    let (outputs, mut kernel): (Vec<_>, Vec<_>) = std::mem::take(&mut module.body)
+    let (mut outputs, mut kernel): (Vec<_>, Vec<_>) = std::mem::take(&mut module.body)
         .into_iter()
         .partition(|stmt| matches!(stmt.kind, StmtKind::Output(_)));
     body.append(&mut kernel);
+    if !resources.options.is_function() {
+        for value in outputs.iter_mut().flat_map(Stmt::own_mut) {
+            *value = whole_texel(value.clone());
+        }
+    }
     match compute {
         true => stores(&mut body, outputs, resources),
         false => body.extend(outputs),
@@ -75,6 +81,10 @@ fn begin_compute(resources: &Resources) -> Block<'static> {
         let [width, height] = resources.block.map(|side| side as i32);
         invocation = invocation.binary(BinaryOp::Mul, Expr::ivec2(width, height));
     }
+    let size = match resources.outputs.is_empty() {
+        true => frame(resources),
+        false => builtin(Builtin::OutputSize),
+    };
     let outside = |place: VarId, size: Expr| {
         let outside = local(place).binary(BinaryOp::Ge, size);
         StmtKind::If {
@@ -87,11 +97,11 @@ fn begin_compute(resources: &Resources) -> Block<'static> {
     match (resources.options.region, resources.options.counts_from_below()) {
         (false, from_below) => {
             let mut body = vec![
-                is(VarId::FRAME, builtin(Builtin::OutputSize)),
+                is(VarId::FRAME, size),
                 is(VarId::PIXEL, invocation),
                 outside(VarId::PIXEL, local(VarId::FRAME)),
             ];
-            if from_below {
+            if from_below && !resources.outputs.is_empty() {
                 let row = turned(part(local(VarId::FRAME), 1), part(local(VarId::PIXEL), 1));
                 body.push(is(VarId::PLACE, pair(part(local(VarId::PIXEL), 0), row)));
             }
@@ -117,13 +127,19 @@ fn begin_compute(resources: &Resources) -> Block<'static> {
                     corner(Builtin::RegionPlace, 1).binary(BinaryOp::Add, turned(height(), row)),
                 );
             }
-            vec![
+            let mut body = vec![
                 is(VarId::WITHIN, invocation),
                 outside(VarId::WITHIN, builtin(Builtin::RegionSize)),
-                is(VarId::FRAME, frame(resources)),
-                is(VarId::PIXEL, first),
-                is(VarId::PLACE, place),
-            ]
+            ];
+            // Nothing tells the frame's size where nothing asks for it.
+            if resources.framed().is_some() || !resources.outputs.is_empty() {
+                body.push(is(VarId::FRAME, frame(resources)));
+            }
+            body.push(is(VarId::PIXEL, first));
+            if !resources.outputs.is_empty() {
+                body.push(is(VarId::PLACE, place));
+            }
+            body
         }
     }
 }
@@ -161,7 +177,7 @@ fn begin_fragment(resources: &Resources) -> Block<'static> {
     body
 }
 
-/// Stores the colours of a block's pixels; all but the first may lie outside.
+/// Stores what is given for a block's pixels; all but the first may lie outside.
 fn stores(body: &mut Block<'_>, outputs: Block<'_>, resources: &Resources) {
     let (within, bound) = match resources.options.region {
         true => (VarId::WITHIN, builtin(Builtin::RegionSize)),
@@ -173,13 +189,19 @@ fn stores(body: &mut Block<'_>, outputs: Block<'_>, resources: &Resources) {
     };
     let down = if resources.options.counts_from_below() { -1 } else { 1 };
     let width = resources.block[0] as usize;
-    let colours = outputs.into_iter().filter_map(|stmt| match stmt.kind {
-        StmtKind::Output(colour) => Some(colour),
+    let pixels = outputs.into_iter().filter_map(|stmt| match stmt.kind {
+        StmtKind::Output(values) => Some(values),
         _ => None,
     });
-    for (k, colour) in colours.enumerate() {
+    for (k, values) in pixels.enumerate() {
+        let stored = |there: &Expr| -> Block<'_> {
+            let stores = values.iter().enumerate();
+            stores
+                .map(|(output, value)| StmtKind::Store(output, there.clone(), value.clone()).into())
+                .collect()
+        };
         if k == 0 {
-            body.push(StmtKind::Store(local(place), colour).into());
+            body.extend(stored(&local(place)));
             continue;
         }
         let (x, y) = ((k % width) as i32, (k / width) as i32);
@@ -190,7 +212,7 @@ fn stores(body: &mut Block<'_>, outputs: Block<'_>, resources: &Resources) {
         body.push(
             StmtKind::If {
                 condition: Expr::new(Op::All, vec![inside], Type::BOOL),
-                then: vec![StmtKind::Store(there, colour).into()],
+                then: stored(&there),
                 otherwise: Vec::new(),
             }
             .into(),

@@ -8,7 +8,7 @@ mod entry;
 mod facts;
 mod webs;
 
-use super::ast::{Block as Statements, Expr, Module, Op, Stmt, StmtKind, VarId};
+use super::ast::{Block as Statements, Effect, Expr, Module, Op, Stmt, StmtKind, VarId};
 use super::names::Wanted;
 use super::tidy::simplify;
 use crate::compiled::Compiled;
@@ -60,9 +60,9 @@ fn attempt<'g>(compiled: &'g Compiled, half: bool, webs: Webs) -> (Module<'g>, O
         stale: None,
     };
     lowering.steps(&compiled.schedule.body);
-    for output in graph.outputs() {
-        let colour = lowering.expr(*output);
-        lowering.block.push(StmtKind::Output(colour).into());
+    for pixel in graph.outputs().chunks(graph.targets.len().max(1)) {
+        let values = pixel.iter().map(|output| lowering.expr(*output)).collect();
+        lowering.block.push(StmtKind::Output(values).into());
     }
     lowering.module.body = lowering.block;
     (lowering.module, lowering.stale)
@@ -123,6 +123,7 @@ impl<'g> Lowering<'g> {
             ir::Op::Const(_) | ir::Op::Unused | ir::Op::MakeArray | ir::Op::Result(_) => {}
             ir::Op::ArraySet => self.array_set(id),
             ir::Op::ArrayGet => self.array_get(id),
+            op if op.is_effect() => self.effect(id),
             _ => {
                 let expr = simplify(self.expression(id));
                 if is_atom(&expr) {
@@ -130,6 +131,47 @@ impl<'g> Lowering<'g> {
                 } else {
                     self.declare(id, expr);
                 }
+            }
+        }
+    }
+
+    /// A write to a buffer, under its condition.
+    fn effect(&mut self, id: NodeId) {
+        let graph = &self.compiled.graph;
+        let node = graph.node(id);
+        let (buffer, op) = match node.op {
+            ir::Op::Atomic { buffer, op } => (buffer, Some(op)),
+            ir::Op::Store(buffer) => (buffer, None),
+            _ => return,
+        };
+        let condition = simplify(self.expr(node.args[0]));
+        let args = node.args[1..].iter().map(|arg| simplify(self.expr(*arg))).collect();
+        let mut effect = Effect {
+            buffer,
+            op,
+            args,
+            before: None,
+        };
+        let never = condition.as_constant().is_some_and(|bits| bits[0] == 0);
+        let always = condition.as_constant().is_some_and(|bits| bits[0] != 0);
+        if op.is_some() && (self.compiled.schedule.uses[id.0 as usize] > 0 || effect.needs_variable()) {
+            let var = self.variable(id);
+            let zero = (!always).then(|| Expr::splat(node.ty, 0));
+            self.statement(id, StmtKind::Var(var, zero));
+            self.exprs[id.0 as usize] = Some(self.module.read(var));
+            effect.before = Some(var);
+        }
+        match (never, always) {
+            (true, _) => {}
+            (_, true) => self.statement(id, StmtKind::Effect(effect)),
+            _ => {
+                let then = self.nested(|lowering| lowering.statement(id, StmtKind::Effect(effect)));
+                let kind = StmtKind::If {
+                    condition,
+                    then,
+                    otherwise: Vec::new(),
+                };
+                self.statement(id, kind);
             }
         }
     }

@@ -26,7 +26,7 @@ impl Wgsl<'_> {
             .map(|u| format!("{}: {}", loose(&u.name), wgsl::type_name(u.ty.into())));
         let all = textures.chain(samplers).chain(["position: vec2f".to_owned()]);
         let all: Vec<String> = all.chain(varyings).chain(uniforms).collect();
-        format!("fn {}({}) -> vec4f {{", r.entry, all.join(", "))
+        format!("fn {}({}) -> {} {{", r.entry, all.join(", "), self.result_type())
     }
 }
 
@@ -55,7 +55,7 @@ impl Glsl<'_> {
         all.push("vec2 position".to_owned());
         all.extend(r.varyings.iter().map(|v| glsl::declared(&v.name, v.ty.into())));
         all.extend(r.uniforms.iter().map(|u| glsl::declared(&loose(&u.name), u.ty.into())));
-        format!("vec4 {}({}) {{", r.entry, all.join(", "))
+        format!("{} {}({}) {{", self.result_type(), r.entry, all.join(", "))
     }
 }
 
@@ -73,6 +73,7 @@ impl Hlsl<'_> {
             .chain(["float2 position".to_owned()])
             .chain(varyings)
             .chain(uniforms);
-        format!("float4 {}({}) {{", r.entry, all.collect::<Vec<_>>().join(", "))
+        let all: Vec<String> = all.collect();
+        format!("{} {}({}) {{", self.result_type(), r.entry, all.join(", "))
     }
 }

@@ -1,11 +1,15 @@
 //! GLSL 4.50 for Vulkan, with separate textures; GLSL of OpenGL and OpenGL ES, with combined samplers and loose uniforms.
 
 use super::expr::{float, integer, unsigned};
+use super::wgsl::four;
 use super::{Language, Text, commented};
 use crate::emit::Target;
-use crate::emit::ast::{Builtin, Ty};
-use crate::emit::resources::{OUTPUT, Resources, SAMPLER, UNIFORMS};
-use crate::ir::{self, Axis, BinaryOp, Direction, Element, Scalar, Texture, TextureKind, Type, UnaryOp};
+use crate::emit::ast::{Builtin, Effect, Ty};
+use crate::emit::outputs::BoundOutput;
+use crate::emit::resources::{OUTPUTS, Resources, SAMPLER, UNIFORMS};
+use crate::ir::{
+    self, Access, AtomicOp, Axis, BinaryOp, Direction, Element, Scalar, Texture, TextureKind, Type, UnaryOp,
+};
 use straightline_manifest::{REGION, Stage};
 
 /// What follows a buffer's name to ask for its length.
@@ -62,8 +66,11 @@ impl<'a> Glsl<'a> {
     pub fn names(&self) -> Vec<String> {
         let uniforms = self.resources.uniforms.iter().map(|u| loose(&u.name));
         match self.vulkan() {
-            true if self.is_function() => uniforms.collect(),
-            true => self.resources.structure_names(),
+            true if self.is_function() => uniforms.chain([self.resources.outputs_type()]).collect(),
+            true => {
+                let structures = self.resources.structure_names();
+                structures.into_iter().chain([OUTPUTS.to_owned()]).collect()
+            }
             false => {
                 let combined = self
                     .resources
@@ -74,6 +81,7 @@ impl<'a> Glsl<'a> {
                     .chain(uniforms)
                     .chain(LOOSE_REGION.map(|(name, _)| name.to_owned()))
                     .chain(self.resources.structure_names())
+                    .chain([self.resources.outputs_type()])
                     .collect()
             }
         }
@@ -126,7 +134,7 @@ impl<'a> Glsl<'a> {
         format!("layout({before}{binding}{behind}) ")
     }
 
-    /// Storage buffers that are read.
+    /// Storage buffers.
     pub(super) fn buffers(&self) -> String {
         let r = self.resources;
         let each = r.read_buffers.iter().map(|(k, binding)| {
@@ -136,7 +144,12 @@ impl<'a> Glsl<'a> {
                 Element::Struct(structure) => structure.name.clone(),
             };
             let layout = self.layout(*binding, "std430, ", "");
-            format!("{layout}readonly buffer {name}_buffer {{ {element} elements[]; }} {name};\n")
+            let qualifier = match r.buffer(*k).access {
+                Access::Read => "readonly ",
+                Access::Write => "writeonly ",
+                Access::Atomic => "",
+            };
+            format!("{layout}{qualifier}buffer {name}_buffer {{ {element} elements[]; }} {name};\n")
         });
         let structures = r.structures().into_iter().map(|structure| {
             let fields = structure
@@ -148,12 +161,16 @@ impl<'a> Glsl<'a> {
         structures.collect::<String>() + &each.collect::<String>()
     }
 
-    /// The image that is written; of a fragment what is interpolated, with locations or not, and the colour.
+    /// The images that are written; of a fragment what is interpolated, with locations or not, and the colours.
     pub(super) fn output_and_inputs(&self, located: bool) -> String {
         let r = self.resources;
-        if let Some(binding) = r.output_binding() {
-            let layout = self.layout(binding, "", &format!(", {}", r.options.format.glsl()));
-            return format!("{layout}uniform writeonly image2D {OUTPUT};\n");
+        if r.options.stage == Stage::Compute {
+            let images = r.outputs.iter().map(|output| {
+                let format = format!(", {}", output.format.glsl());
+                let layout = self.layout(output.binding.unwrap_or_default(), "", &format);
+                format!("{layout}uniform writeonly {} {};\n", image_type(output), output.name)
+            });
+            return images.collect();
         }
         let each = r.varyings.iter().enumerate().map(|(k, varying)| {
             let declared = declared(&varying.name, varying.ty.into());
@@ -162,7 +179,41 @@ impl<'a> Glsl<'a> {
                 false => format!("in {declared};\n"),
             }
         });
-        each.collect::<String>() + &format!("layout(location = 0) out vec4 {OUTPUT};\n")
+        let outputs = r.outputs.iter().enumerate();
+        let outputs = outputs.map(|(k, output)| {
+            let declared = declared(&output.name, output.texel().into());
+            format!("layout(location = {k}) out {declared};\n")
+        });
+        each.collect::<String>() + &outputs.collect::<String>()
+    }
+}
+
+impl Glsl<'_> {
+    /// The structure of several outputs, which a function gives.
+    fn outputs_structure(&self) -> String {
+        let r = self.resources;
+        let fields = r
+            .outputs
+            .iter()
+            .map(|o| format!("    {};\n", declared(&o.name, o.ty.into())));
+        format!("struct {} {{\n{}}};\n", r.outputs_type(), fields.collect::<String>())
+    }
+
+    /// The type that a function gives.
+    pub(super) fn result_type(&self) -> String {
+        match &self.resources.outputs[..] {
+            [one] => type_name(one.ty.into()),
+            _ => self.resources.outputs_type(),
+        }
+    }
+}
+
+/// The type of an image that is written.
+pub(super) fn image_type(output: &BoundOutput) -> &'static str {
+    match output.ty.kind() {
+        Some(Scalar::I32) => "iimage2D",
+        Some(Scalar::U32) => "uimage2D",
+        _ => "image2D",
     }
 }
 
@@ -225,7 +276,7 @@ impl Language for Glsl<'_> {
             Builtin::Invocation => Text::name("ivec2(gl_GlobalInvocationID.xy)"),
             Builtin::Position if self.is_function() => Text::name("position"),
             Builtin::Position => Text::name("gl_FragCoord.xy"),
-            Builtin::OutputSize => Text::name(format!("imageSize({OUTPUT})")),
+            Builtin::OutputSize => Text::name(format!("imageSize({})", self.resources.sized_output())),
             Builtin::RegionFirst | Builtin::RegionSize | Builtin::RegionPlace => {
                 let field = match builtin {
                     Builtin::RegionFirst => "first",
@@ -393,15 +444,46 @@ impl Language for Glsl<'_> {
         format!("{} {name}({}) {{", type_name(result), params.join(", "))
     }
 
-    fn store(&self, place: &Text, colour: &Text) -> Text {
-        Text::call("imageStore", &[&Text::name(OUTPUT), place, colour])
+    fn store(&self, output: usize, place: &Text, value: &Text) -> Text {
+        let output = &self.resources.outputs[output];
+        let name = Text::name(output.name.as_str());
+        Text::call("imageStore", &[&name, place, &four(self, output, value)])
     }
 
-    fn output(&self) -> String {
-        if self.is_function() {
-            return "return ".to_owned();
+    fn effect(&self, effect: &Effect, args: &[Text], before: Option<&str>) -> (String, Text) {
+        let elements = Text::name(format!("{}.elements", self.resources.buffer(effect.buffer).name));
+        let place = Text::index(&elements, &args[0]);
+        let Some(op) = effect.op else {
+            return (format!("{} = ", place.code), args[1].clone());
+        };
+        // There is no atomic load, and a bit that is set to what it is changes nothing.
+        let (function, value) = match op {
+            AtomicOp::Load => ("atomicOr".to_owned(), Text::name("0")),
+            op => (format!("atomic{op:?}"), args[1].clone()),
+        };
+        let value = match (op, self.resources.buffer(effect.buffer).value()) {
+            (AtomicOp::Load, Type::U32) => Text::name("0u"),
+            _ => value,
+        };
+        let call = Text::call(&function, &[&place, &value]);
+        (before.map_or_else(String::new, |var| format!("{var} = ")), call)
+    }
+
+    fn outputs(&self, values: &[Text]) -> Vec<(String, Text)> {
+        let r = self.resources;
+        match values {
+            [one] if self.is_function() => vec![("return ".to_owned(), one.clone())],
+            several if self.is_function() => {
+                let all = Text::call(&r.outputs_type(), &several.iter().collect::<Vec<_>>());
+                vec![("return ".to_owned(), all)]
+            }
+            values => {
+                let assigned = r.outputs.iter().zip(values);
+                assigned
+                    .map(|(output, value)| (format!("{} = ", output.name), value.clone()))
+                    .collect()
+            }
         }
-        format!("{OUTPUT} = ")
     }
 
     fn preamble(&self, header: &[String]) -> String {
@@ -430,6 +512,9 @@ impl Language for Glsl<'_> {
             out.push('\n');
         }
         if self.is_function() {
+            if r.outputs.len() > 1 {
+                out += &self.outputs_structure();
+            }
             return out.trim_end().to_owned() + "\n";
         }
         if r.options.stage == Stage::Compute {

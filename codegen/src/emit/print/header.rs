@@ -3,7 +3,7 @@
 use crate::compiled::Compiled;
 use crate::emit::resources::Resources;
 use crate::emit::text::comment;
-use crate::ir::Invocation;
+use crate::ir::{Invocation, Scalar, Type};
 use crate::policy::Transport;
 use straightline_manifest::{Counts, Form, Origin, Precision};
 
@@ -26,14 +26,8 @@ pub fn header(compiled: &Compiled, counts: &Counts, resources: &Resources) -> Ve
     lines.extend(changed.map(|(name, value)| format!("  {name} = {}", shortened(value))));
     let options = &resources.options;
     let (what, output) = match options.form {
-        Form::Entry => (
-            format!("Stage {}", options.stage.name()),
-            format!("output {}", options.format),
-        ),
-        Form::Function => (
-            "Function for a fragment shader".to_owned(),
-            "result a colour".to_owned(),
-        ),
+        Form::Entry => (format!("Stage {}", options.stage.name()), outputs(resources)),
+        Form::Function => ("Function for a fragment shader".to_owned(), results(resources)),
     };
     lines.push(format!(
         "{what}, unroll {}, {}{}{}{output}.",
@@ -68,6 +62,32 @@ pub fn header(compiled: &Compiled, counts: &Counts, resources: &Resources) -> Ve
     };
     lines.push(format!("Per {per}: {}.", figures.join(", ")));
     lines.iter().map(|line| comment(line)).collect()
+}
+
+/// What is written, in which formats.
+fn outputs(resources: &Resources) -> String {
+    match &resources.outputs[..] {
+        [] => "no output".to_owned(),
+        [one] => format!("output {}", one.format),
+        several => {
+            let each = several
+                .iter()
+                .map(|output| format!("{} {}", output.name, output.format));
+            format!("outputs {}", each.collect::<Vec<_>>().join(", "))
+        }
+    }
+}
+
+/// What a function gives.
+fn results(resources: &Resources) -> String {
+    match &resources.outputs[..] {
+        [one] if one.ty == Type::value(Scalar::F32, 4) => "result a colour".to_owned(),
+        [one] => format!("result of type {}", one.type_name()),
+        several => {
+            let each = several.iter().map(|output| output.name.as_str());
+            format!("results {}", each.collect::<Vec<_>>().join(", "))
+        }
+    }
 }
 
 /// A list of many numbers that are all alike by one of them.

@@ -2,9 +2,11 @@
 
 use super::expr::{float, integer, unsigned};
 use super::{Language, Text, commented, loose};
-use crate::emit::ast::{Builtin, Expr, Module, Op, Ty};
-use crate::emit::resources::{OUTPUT, Resources, UNIFORMS};
-use crate::ir::{self, Axis, BinaryOp, Direction, Element, Scalar, Texture, TextureKind, Type, UnaryOp};
+use crate::emit::ast::{Builtin, Effect, Expr, Module, Op, Ty};
+use crate::emit::resources::{OUTPUTS, Resources, UNIFORMS};
+use crate::ir::{
+    self, Access, AtomicOp, Axis, BinaryOp, Direction, Element, Scalar, Texture, TextureKind, Type, UnaryOp,
+};
 use straightline_manifest::{Format, REGION, Stage};
 
 /// HLSL.
@@ -56,6 +58,7 @@ impl<'a> Hlsl<'a> {
     pub fn names(&self) -> Vec<String> {
         let mut names: Vec<String> = self.sizes.iter().map(|size| self.size_of(*size)).collect();
         names.extend(self.resources.structure_names());
+        names.extend([self.resources.outputs_type(), VARIABLE.to_owned(), OUTPUTS.to_owned()]);
         if self.is_function() {
             names.extend(self.resources.uniforms.iter().map(|u| loose(&u.name)));
         }
@@ -73,7 +76,7 @@ impl<'a> Hlsl<'a> {
                 &self.resources.texture(texture).name
             }
             Size::Buffer(buffer) => &self.resources.buffer(buffer).name,
-            Size::Output => OUTPUT,
+            Size::Output => self.resources.sized_output(),
         };
         let name = Text::name(name);
         let given = self.is_function().then_some(&name);
@@ -87,7 +90,7 @@ impl<'a> Hlsl<'a> {
             Size::Levels(texture) => format!("levels_of_{}", name(texture)),
             Size::Layers(texture) => format!("layers_of_{}", name(texture)),
             Size::Buffer(buffer) => format!("len_of_{}", self.resources.buffer(buffer).name),
-            Size::Output => format!("size_of_{OUTPUT}"),
+            Size::Output => format!("size_of_{}", self.resources.sized_output()),
         }
     }
 
@@ -103,7 +106,11 @@ impl<'a> Hlsl<'a> {
         };
         let taken = taken.unwrap_or_default();
         let (what, mut variables, result) = match size {
-            Size::Output => (OUTPUT, vec!["width", "height"], "int2(width, height)"),
+            Size::Output => (
+                self.resources.sized_output(),
+                vec!["width", "height"],
+                "int2(width, height)",
+            ),
             Size::Buffer(buffer) => (
                 self.resources.buffer(buffer).name.as_str(),
                 vec!["count", "stride"],
@@ -332,12 +339,40 @@ impl Language for Hlsl<'_> {
         format!("{} {name}({}) {{", type_name(result), params.join(", "))
     }
 
-    fn store(&self, place: &Text, colour: &Text) -> Text {
-        Text::list(format!("{OUTPUT}[{}] = ", place.code), &[colour], "")
+    fn store(&self, output: usize, place: &Text, value: &Text) -> Text {
+        let name = &self.resources.outputs[output].name;
+        Text::list(format!("{name}[{}] = ", place.code), &[value], "")
     }
 
-    fn output(&self) -> String {
-        "return ".to_owned()
+    fn effect(&self, effect: &Effect, args: &[Text], before: Option<&str>) -> (String, Text) {
+        let name = self.resources.buffer(effect.buffer).name.as_str();
+        let place = Text::index(&Text::name(name), &args[0]);
+        let Some(op) = effect.op else {
+            return (format!("{} = ", place.code), args[1].clone());
+        };
+        // There is no atomic load, and a bit that is set to what it is changes nothing.
+        let (function, value) = match op {
+            AtomicOp::Load => ("InterlockedOr".to_owned(), Text::name("0")),
+            op => (format!("Interlocked{op:?}"), args[1].clone()),
+        };
+        let before = before.map(Text::name);
+        let all: Vec<&Text> = [&place, &value].into_iter().chain(&before).collect();
+        (String::new(), Text::call(&function, &all))
+    }
+
+    fn outputs(&self, values: &[Text]) -> Vec<(String, Text)> {
+        let returned = |value: Text| ("return ".to_owned(), value);
+        match values {
+            [one] => vec![returned(one.clone())],
+            several => {
+                let r = self.resources;
+                let mut lines = vec![(format!("{} ", r.outputs_type()), Text::name(VARIABLE))];
+                let assigned = r.outputs.iter().zip(several);
+                lines.extend(assigned.map(|(o, value)| (format!("{VARIABLE}.{} = ", o.name), value.clone())));
+                lines.push(returned(Text::name(VARIABLE)));
+                lines
+            }
+        }
     }
 
     fn preamble(&self, header: &[String]) -> String {
@@ -347,6 +382,9 @@ impl Language for Hlsl<'_> {
         out.push('\n');
         out += &structures(r);
         if self.is_function() {
+            if r.outputs.len() > 1 {
+                out += &format!("{}\n", self.outputs_structure());
+            }
             for size in &self.sizes {
                 out += &format!("{}\n", self.asks(*size));
             }
@@ -357,20 +395,23 @@ impl Language for Hlsl<'_> {
             out += &format!("{} : register({register});\n", texture_declared(r, bound.index));
         }
         for (k, binding) in &r.read_buffers {
-            let register = r.places.register('t', *binding);
+            let register = r.places.register(r.buffer_class(*k), *binding);
             out += &format!("{} : register({register});\n", buffer_declared(r, *k));
         }
         for (k, binding) in &r.used_samplers {
             let register = r.places.register('s', *binding);
             out += &format!("{} : register({register});\n", sampler_declared(r, *k));
         }
-        if let Some(binding) = r.output_binding() {
-            let texel = match r.options.format {
-                Format::Rgba8Unorm => "unorm float4",
-                _ => "float4",
+        for output in &r.outputs {
+            let Some(binding) = output.binding else { continue };
+            let unorm = if output.format == Format::Rgba8Unorm {
+                "unorm "
+            } else {
+                ""
             };
+            let texel = type_name(output.texel().into());
             let register = r.places.register('u', binding);
-            out += &format!("RWTexture2D<{texel}> {OUTPUT} : register({register});\n");
+            out += &format!("RWTexture2D<{unorm}{texel}> {} : register({register});\n", output.name);
         }
         if let Some(binding) = r.uniform_binding() {
             out += "\nstruct Parameters {\n";
@@ -390,6 +431,9 @@ impl Language for Hlsl<'_> {
         }
         for size in &self.sizes {
             out += &format!("\n{}", self.asks(*size));
+        }
+        if r.options.stage == Stage::Fragment && r.outputs.len() > 1 {
+            out += &format!("\n{}", self.outputs_structure());
         }
         out
     }
@@ -411,11 +455,45 @@ impl Language for Hlsl<'_> {
                     format!(", {declared} : TEXCOORD{k}")
                 });
                 let varyings: String = varyings.collect();
-                format!("float4 {entry}(float4 position : SV_Position{varyings}) : SV_Target0 {{")
+                let (result, semantic) = match &r.outputs[..] {
+                    [one] => (type_name(one.texel().into()), " : SV_Target0"),
+                    _ => (r.outputs_type(), ""),
+                };
+                format!("{result} {entry}(float4 position : SV_Position{varyings}){semantic} {{")
             }
         }
     }
 }
+
+impl Hlsl<'_> {
+    /// The structure of several outputs: of an entry point with their locations.
+    fn outputs_structure(&self) -> String {
+        let r = self.resources;
+        let fields = r
+            .outputs
+            .iter()
+            .enumerate()
+            .map(|(k, output)| match self.is_function() {
+                true => format!("    {};\n", declared(&output.name, output.ty.into())),
+                false => format!(
+                    "    {} : SV_Target{k};\n",
+                    declared(&output.name, output.texel().into())
+                ),
+            });
+        format!("struct {} {{\n{}}};\n", r.outputs_type(), fields.collect::<String>())
+    }
+
+    /// The type that a function gives.
+    pub(super) fn result_type(&self) -> String {
+        match &self.resources.outputs[..] {
+            [one] => type_name(one.ty.into()),
+            _ => self.resources.outputs_type(),
+        }
+    }
+}
+
+/// The variable that holds several outputs.
+const VARIABLE: &str = "outputs";
 
 pub(super) fn texture_declared(resources: &Resources, index: u32) -> String {
     let texture = resources.texture(index);
@@ -428,7 +506,11 @@ pub(super) fn buffer_declared(resources: &Resources, index: u32) -> String {
         Element::Value(ty) => type_name((*ty).into()),
         Element::Struct(structure) => structure.name.clone(),
     };
-    format!("StructuredBuffer<{element}> {}", buffer.name)
+    let access = match buffer.access {
+        Access::Read => "",
+        Access::Write | Access::Atomic => "RW",
+    };
+    format!("{access}StructuredBuffer<{element}> {}", buffer.name)
 }
 
 pub(super) fn sampler_declared(resources: &Resources, index: u32) -> String {

@@ -9,7 +9,7 @@ mod opengl;
 mod vulkan;
 mod wgsl;
 
-use super::ast::{Builtin, Expr, Function, Module, Op, Stmt, StmtKind, Ty, VarId};
+use super::ast::{Builtin, Effect, Expr, Function, Module, Op, Stmt, StmtKind, Ty, VarId};
 use super::text::{Binds, Text, wrapped_comment};
 use crate::ir::{self, Scalar, UnaryOp};
 
@@ -115,14 +115,20 @@ pub trait Language {
     fn if_head(&self) -> [&'static str; 2];
     /// The head of a function, up to the opening brace.
     fn function_head(&self, name: &str, params: &[(&str, Ty)], result: Ty) -> String;
-    /// Writes a texel of the output.
-    fn store(&self, place: &Text, colour: &Text) -> Text;
-    /// What gives the fragment's colour, before the colour.
-    fn output(&self) -> String;
+    /// Writes a texel of an output.
+    fn store(&self, output: usize, place: &Text, value: &Text) -> Text;
+    /// Writes to a buffer: statements without their semicolons. `before` is the variable that takes what was there before.
+    fn effect(&self, effect: &Effect, args: &[Text], before: Option<&str>) -> (String, Text);
+    /// What gives the fragment's values, one for each output: statements without their semicolons.
+    fn outputs(&self, values: &[Text]) -> Vec<(String, Text)>;
     /// Everything before the first function: header, directives, bindings.
     fn preamble(&self, header: &[String]) -> String;
     /// The head of the entry point or function, up to the opening brace.
     fn entry_head(&self) -> String;
+    /// What stands behind a function that leads.
+    fn behind(&self) -> Option<String> {
+        None
+    }
     /// Whether the entry point is a function before which nothing may stand: the header stands in it, and all else behind it.
     fn leads(&self) -> bool {
         false
@@ -155,6 +161,7 @@ pub fn module(language: &dyn Language, module: &Module<'_>, header: &[String]) -
     if language.leads() {
         let header: String = header.iter().map(|line| wrapped_comment(line, 4) + "\n").collect();
         parts.insert(0, entry(header + "\n"));
+        parts.extend(language.behind());
     } else {
         parts.insert(0, language.preamble(header));
         parts.push(entry(String::new()));
@@ -220,10 +227,22 @@ impl Printer<'_> {
                 let before = format!("{} {op}= ", self.expr(place).code);
                 Self::line(depth, &before, &self.expr(value), ";")
             }
-            StmtKind::Store(place, colour) => {
-                Self::line(depth, "", &l.store(&self.expr(place), &self.expr(colour)), ";")
+            StmtKind::Store(output, place, value) => {
+                Self::line(depth, "", &l.store(*output, &self.expr(place), &self.expr(value)), ";")
             }
-            StmtKind::Output(colour) => Self::line(depth, &l.output(), &self.expr(colour), ";"),
+            StmtKind::Effect(effect) => {
+                let args: Vec<Text> = effect.args.iter().map(|arg| self.expr(arg)).collect();
+                let (before, text) = l.effect(effect, &args, effect.before.map(|var| self.name(var)));
+                Self::line(depth, &before, &text, ";")
+            }
+            StmtKind::Output(values) => {
+                let values: Vec<Text> = values.iter().map(|value| self.expr(value)).collect();
+                let lines = l.outputs(&values);
+                let lines = lines
+                    .iter()
+                    .map(|(before, value)| Self::line(depth, before, value, ";"));
+                lines.collect::<Vec<_>>().join("\n")
+            }
             StmtKind::Return(None) => format!("{indent}return;"),
             StmtKind::Return(Some(value)) => Self::line(depth, "return ", &self.expr(value), ";"),
             StmtKind::Comment(text) => wrapped_comment(text, 4 * depth),

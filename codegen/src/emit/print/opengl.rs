@@ -1,6 +1,6 @@
 //! What GLSL of OpenGL and OpenGL ES declares: combined samplers, loose uniforms, precisions.
 
-use super::glsl::{Glsl, LOOSE_REGION, declared, loose, sampler_of};
+use super::glsl::{Glsl, LOOSE_REGION, declared, image_type, loose, sampler_of};
 use crate::emit::Target;
 use crate::emit::resources::Combined;
 
@@ -16,9 +16,9 @@ impl Glsl<'_> {
         }
         // In one order, whatever is read first.
         all.sort_by_key(|ty| (ty.ends_with("Shadow"), ty.len(), ty.clone()));
-        if r.output_binding().is_some() {
-            all.push("image2D".to_owned());
-        }
+        let writes = |ty: &&str| r.outputs.iter().any(|o| o.binding.is_some() && image_type(o) == *ty);
+        let written = ["image2D", "iimage2D", "uimage2D"].into_iter().filter(writes);
+        all.extend(written.map(str::to_owned));
         all
     }
 

@@ -2,9 +2,10 @@
 
 use super::expr::{float, integer, unsigned};
 use super::{Language, Text, commented, loose};
-use crate::emit::ast::{Builtin, Ty};
-use crate::emit::resources::{OUTPUT, Resources, UNIFORMS};
-use crate::ir::{self, Axis, BinaryOp, Direction, Element, Scalar, Texture, TextureKind, Type};
+use crate::emit::ast::{Builtin, Effect, Ty};
+use crate::emit::outputs::{BoundOutput, one};
+use crate::emit::resources::{OUTPUTS, Resources, UNIFORMS};
+use crate::ir::{self, Access, Axis, BinaryOp, Direction, Element, Scalar, Texture, TextureKind, Type};
 use std::fmt::Write;
 use straightline_manifest::{Precision, REGION, Stage};
 
@@ -32,8 +33,14 @@ impl Wgsl<'_> {
     /// Names at module scope that this language adds, or of parameters that are fields of a uniform struct otherwise.
     pub fn names(&self) -> Vec<String> {
         match self.resources.options.is_function() {
-            true => self.resources.uniforms.iter().map(|u| loose(&u.name)).collect(),
-            false => self.resources.structure_names(),
+            true => {
+                let uniforms = self.resources.uniforms.iter().map(|u| loose(&u.name));
+                uniforms.chain([self.resources.outputs_type()]).collect()
+            }
+            false => {
+                let structures = self.resources.structure_names();
+                structures.into_iter().chain([OUTPUTS.to_owned()]).collect()
+            }
         }
     }
 }
@@ -59,7 +66,7 @@ impl Language for Wgsl<'_> {
             Builtin::Invocation => Text::name("vec2i(id.xy)"),
             Builtin::Position if self.leads() => Text::name("position"),
             Builtin::Position => Text::name("position.xy"),
-            Builtin::OutputSize => Text::name(format!("vec2i(textureDimensions({OUTPUT}))")),
+            Builtin::OutputSize => Text::name(format!("vec2i(textureDimensions({}))", self.resources.sized_output())),
             Builtin::RegionFirst => Text::name(format!("{REGION}.first")),
             Builtin::RegionSize => Text::name(format!("{REGION}.size")),
             Builtin::RegionPlace => Text::name(format!("{REGION}.place")),
@@ -211,12 +218,30 @@ impl Language for Wgsl<'_> {
         format!("fn {name}({}) -> {} {{", params.join(", "), type_name(result))
     }
 
-    fn store(&self, place: &Text, colour: &Text) -> Text {
-        Text::call("textureStore", &[&Text::name(OUTPUT), place, colour])
+    fn store(&self, output: usize, place: &Text, value: &Text) -> Text {
+        let output = &self.resources.outputs[output];
+        let name = Text::name(output.name.as_str());
+        Text::call("textureStore", &[&name, place, &four(self, output, value)])
     }
 
-    fn output(&self) -> String {
-        "return ".to_owned()
+    fn effect(&self, effect: &Effect, args: &[Text], before: Option<&str>) -> (String, Text) {
+        let name = self.resources.buffer(effect.buffer).name.as_str();
+        let place = Text::index(&Text::name(name), &args[0]);
+        let Some(op) = effect.op else {
+            return (format!("{} = ", place.code), args[1].clone());
+        };
+        let place = Text::name(format!("&{}", place.code));
+        let all: Vec<&Text> = std::iter::once(&place).chain(&args[1..]).collect();
+        let call = Text::call(&format!("atomic{op:?}"), &all);
+        (before.map_or_else(String::new, |var| format!("{var} = ")), call)
+    }
+
+    fn outputs(&self, values: &[Text]) -> Vec<(String, Text)> {
+        let value = match values {
+            [one] => one.clone(),
+            several => Text::call(&self.resources.outputs_type(), &several.iter().collect::<Vec<_>>()),
+        };
+        vec![("return ".to_owned(), value)]
     }
 
     fn preamble(&self, header: &[String]) -> String {
@@ -248,16 +273,26 @@ impl Language for Wgsl<'_> {
                 Element::Value(ty) => type_name((*ty).into()),
                 Element::Struct(structure) => structure.name.clone(),
             };
-            bind(*binding, format!("<storage, read> {}: array<{element}>", buffer.name));
+            let (access, element) = match buffer.access {
+                Access::Read => ("read", element),
+                Access::Write => ("read_write", element),
+                Access::Atomic => ("read_write", format!("atomic<{element}>")),
+            };
+            bind(
+                *binding,
+                format!("<storage, {access}> {}: array<{element}>", buffer.name),
+            );
         }
         for (k, binding) in &r.used_samplers {
             let sampler = r.sampler(*k);
             let ty = sampler_type(sampler.comparison);
             bind(*binding, format!(" {}: {ty}", sampler.name));
         }
-        if let Some(binding) = r.output_binding() {
-            let format = r.options.format.wgsl();
-            bind(binding, format!(" {OUTPUT}: texture_storage_2d<{format}, write>"));
+        for output in &r.outputs {
+            let (name, format) = (&output.name, output.format.wgsl());
+            if let Some(binding) = output.binding {
+                bind(binding, format!(" {name}: texture_storage_2d<{format}, write>"));
+            }
         }
         if let Some(binding) = r.uniform_binding() {
             out += "\nstruct Parameters {\n";
@@ -270,6 +305,9 @@ impl Language for Wgsl<'_> {
             out += &format!("\nstruct Region {{\n    {}\n", r.region_comment());
             out += "    first: vec2i,\n    size: vec2i,\n    place: vec2i,\n}\n\n";
             out += &format!("@group({group}) @binding({binding}) var<uniform> {REGION}: Region;\n");
+        }
+        if r.options.stage == Stage::Fragment && r.outputs.len() > 1 {
+            out += &format!("\n{}", self.outputs_structure());
         }
         out
     }
@@ -292,13 +330,59 @@ impl Language for Wgsl<'_> {
                     .varyings()
                     .map(|v| format!(", @location({}) {}: {}", v.location, v.name, v.ty));
                 let varyings: String = varyings.collect();
-                format!("@fragment\nfn {entry}(@builtin(position) position: vec4f{varyings}) -> @location(0) vec4f {{")
+                let result = match &r.outputs[..] {
+                    [one] => format!("@location(0) {}", type_name(one.texel().into())),
+                    _ => r.outputs_type(),
+                };
+                format!("@fragment\nfn {entry}(@builtin(position) position: vec4f{varyings}) -> {result} {{")
             }
         }
     }
 
     fn leads(&self) -> bool {
         self.resources.options.is_function()
+    }
+
+    fn behind(&self) -> Option<String> {
+        let r = self.resources;
+        (self.leads() && r.outputs.len() > 1).then(|| self.outputs_structure())
+    }
+}
+
+impl Wgsl<'_> {
+    /// The structure of several outputs: of an entry point with their locations.
+    fn outputs_structure(&self) -> String {
+        let r = self.resources;
+        let fields = r.outputs.iter().enumerate().map(|(k, output)| match self.leads() {
+            true => format!("    {}: {},\n", output.name, type_name(output.ty.into())),
+            false => format!(
+                "    @location({k}) {}: {},\n",
+                output.name,
+                type_name(output.texel().into())
+            ),
+        });
+        format!("struct {} {{\n{}}}\n", r.outputs_type(), fields.collect::<String>())
+    }
+
+    /// The type that a function gives.
+    pub(super) fn result_type(&self) -> String {
+        match &self.resources.outputs[..] {
+            [one] => type_name(one.ty.into()),
+            _ => self.resources.outputs_type(),
+        }
+    }
+}
+
+/// A texel of four components, as texels are stored whatever their format.
+pub(super) fn four(language: &dyn Language, output: &BoundOutput, value: &Text) -> Text {
+    let texel = output.texel();
+    let kind = texel.kind().unwrap_or(Scalar::F32);
+    let whole = language.ty(Type::value(kind, 4).into());
+    let [zero, one] = [0, one(Some(kind))].map(|bits| language.scalar(kind, false, bits));
+    match texel.lanes() {
+        1 => Text::call(&whole, &[value, &zero, &zero, &one]),
+        2 => Text::call(&whole, &[value, &zero, &one]),
+        _ => value.clone(),
     }
 }
 

@@ -207,6 +207,7 @@ fn keeps(stmt: &Stmt<'_>, copy: VarId, original: VarId, changed: &mut bool) -> b
             *changed |= first | second;
             sides
         }
+        StmtKind::Effect(effect) if effect.before.is_some_and(|var| var == copy || var == original) => false,
         // Who leaves the loop here does not come to where it is copied back.
         StmtKind::Break | StmtKind::Return(_) => false,
         // Iterations see what those before have changed.

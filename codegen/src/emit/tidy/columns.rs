@@ -18,6 +18,7 @@ impl Columns<'_> {
             StmtKind::Let(var, _) | StmtKind::Var(var, _) => self.module.variables[var.0 as usize].name.len() + 8,
             StmtKind::Assign(..) => 4,
             StmtKind::Store(..) => 30,
+            StmtKind::Effect(effect) => 20 + self.graph.buffers[effect.buffer as usize].name.len(),
             StmtKind::Output(_) | StmtKind::Return(_) => 30,
             StmtKind::For { .. } => 40,
             StmtKind::If { .. } | StmtKind::Loop(_) | StmtKind::Break => 5,

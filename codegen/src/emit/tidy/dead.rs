@@ -1,5 +1,6 @@
 //! No statement for a value that nothing uses, and none that does nothing.
 
+use super::simplify::not;
 use crate::emit::ast::{Block, Module, Op, Stmt, StmtKind, VarId};
 
 /// How often each variable is read, by variable.
@@ -52,13 +53,17 @@ pub fn remove(module: &mut Module<'_>) {
 
 fn sweep(block: &mut Block<'_>, is_used: &dyn Fn(VarId) -> bool, removed: &mut bool) {
     let before = block.len();
+    let mut needed = Vec::new();
+    for stmt in block.iter() {
+        variables_of_effects(stmt, &mut needed);
+    }
     for stmt in block.iter_mut() {
         for inner in stmt.blocks_mut() {
             sweep(inner, is_used, removed);
         }
     }
     block.retain(|stmt| match &stmt.kind {
-        StmtKind::Let(var, _) | StmtKind::Var(var, _) => is_used(*var),
+        StmtKind::Let(var, _) | StmtKind::Var(var, _) => is_used(*var) || needed.contains(var),
         StmtKind::Assign(place, None, value) => match place.op {
             Op::Var(var) => is_used(var) && place != value,
             _ => true,
@@ -66,5 +71,33 @@ fn sweep(block: &mut Block<'_>, is_used: &dyn Fn(VarId) -> bool, removed: &mut b
         StmtKind::If { then, otherwise, .. } => !then.is_empty() || !otherwise.is_empty(),
         _ => true,
     });
+    for stmt in block.iter_mut() {
+        if let StmtKind::If {
+            condition,
+            then,
+            otherwise,
+        } = &mut stmt.kind
+            && then.is_empty()
+        {
+            *condition = not(condition.clone());
+            std::mem::swap(then, otherwise);
+        }
+        // What happens goes on happening.
+        if let StmtKind::Effect(effect) = &mut stmt.kind {
+            effect.before = effect.before.filter(|var| is_used(*var) || effect.needs_variable());
+        }
+    }
     *removed |= block.len() < before;
+}
+
+/// Variables without which what happens in a statement cannot be written in every language.
+fn variables_of_effects(stmt: &Stmt<'_>, out: &mut Vec<VarId>) {
+    if let StmtKind::Effect(effect) = &stmt.kind
+        && effect.needs_variable()
+    {
+        out.extend(effect.before);
+    }
+    for block in stmt.blocks() {
+        block.iter().for_each(|stmt| variables_of_effects(stmt, out));
+    }
 }

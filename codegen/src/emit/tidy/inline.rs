@@ -162,6 +162,9 @@ fn assignments(stmt: &Stmt<'_>, out: &mut HashSet<VarId>) {
             }
         });
     }
+    if let StmtKind::Effect(effect) = &stmt.kind {
+        out.extend(effect.before);
+    }
     for block in stmt.blocks() {
         block.iter().for_each(|stmt| assignments(stmt, out));
     }

@@ -1,0 +1,87 @@
+//! What a shader gives: a value for each target of a pixel.
+
+use super::ast::{Expr, Op, Ty};
+use super::print::wgsl_type;
+use crate::ir::{Scalar, Target, Type};
+use straightline_manifest::{Component, Format};
+
+/// A value that a shader gives for each pixel.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct BoundOutput {
+    /// Its name.
+    pub name: String,
+    /// Its type in the kernel.
+    pub ty: Type,
+    /// Texel format of the storage texture, or of the colour target.
+    pub format: Format,
+    /// Binding number, where it is a storage texture.
+    pub binding: Option<u32>,
+}
+
+impl BoundOutput {
+    /// A target of a kernel, with the format that colours have.
+    pub fn new(target: &Target, colour: Format) -> BoundOutput {
+        BoundOutput {
+            name: target.name.clone(),
+            ty: target.ty,
+            format: format(target.ty, colour),
+            binding: None,
+        }
+    }
+
+    /// Its type as WGSL spells it.
+    pub fn type_name(&self) -> String {
+        wgsl_type(self.ty.into())
+    }
+
+    /// Its type as an entry point gives it: with all components of the texel.
+    pub fn texel(&self) -> Type {
+        widened(self.ty)
+    }
+}
+
+/// The texel format of a value: of 3 or 4 floats that of colours.
+fn format(ty: Type, colour: Format) -> Format {
+    let component = match ty.kind() {
+        Some(Scalar::I32) => Component::Sint,
+        Some(Scalar::U32) => Component::Uint,
+        _ => Component::Float,
+    };
+    let components = widened(ty).lanes();
+    match (component, components) {
+        (Component::Float, 4) => colour,
+        _ => {
+            let mut all = Format::ALL.into_iter();
+            let wide = |f: &Format| !Format::COLOURS.contains(f) && f.component() == component;
+            let found = all.find(|f| wide(f) && f.components() == components);
+            found.expect("there is a format of 1, 2 and 4 components of each kind")
+        }
+    }
+}
+
+/// Texels have 1, 2 or 4 components.
+fn widened(ty: Type) -> Type {
+    match ty {
+        Type::Value { scalar, lanes: 3 } => Type::value(scalar, 4),
+        other => other,
+    }
+}
+
+/// A value with all components of its texel: the fourth is 1.
+pub fn whole_texel(value: Expr) -> Expr {
+    let shape = widened(value.ty.shape);
+    if shape == value.ty.shape {
+        return value;
+    }
+    let ty = Ty { shape, ..value.ty };
+    let one = Expr::splat(value.ty.element_of(), one(value.ty.kind()));
+    Expr::new(Op::Construct, vec![value, one], ty)
+}
+
+/// The bits of 1.
+pub fn one(kind: Option<Scalar>) -> u32 {
+    match kind {
+        Some(Scalar::F32) => 1.0f32.to_bits(),
+        _ => 1,
+    }
+}

@@ -1,0 +1,159 @@
+//! What a kernel does besides giving values: it writes to buffers.
+//!
+//! Both sides of a condition that is selected are evaluated, and those who have left a loop or function are evaluated along; so
+//! an effect has a condition of its own, which says for whom it happens: those on whose side it stands who have not left. Of
+//! branches and loops that are left in the shader, the region that it is in says the rest.
+
+use super::Evaluator;
+use super::value::{Eval, Exit, Value};
+use crate::diagnostic::{Diagnostic, Span};
+use crate::ir::{Access, AtomicOp, BinaryOp, Invocation, NodeId, Op, Scalar, Type};
+
+/// Method and operation of what a buffer of atomics has.
+const ATOMICS: [(&str, AtomicOp); 8] = [
+    ("add", AtomicOp::Add),
+    ("max", AtomicOp::Max),
+    ("min", AtomicOp::Min),
+    ("and", AtomicOp::And),
+    ("or", AtomicOp::Or),
+    ("xor", AtomicOp::Xor),
+    ("exchange", AtomicOp::Exchange),
+    ("load", AtomicOp::Load),
+];
+
+impl Evaluator<'_> {
+    /// Evaluates what happens only for those for whom all of `conditions` are as stated, and who have not left.
+    pub fn narrowed<T>(&mut self, conditions: &[(NodeId, bool)], evaluate: impl FnOnce(&mut Self) -> T) -> T {
+        let mark = self.reach.len();
+        self.reach.extend(conditions);
+        let outcome = evaluate(self);
+        self.reach.truncate(mark);
+        outcome
+    }
+
+    /// Evaluates what is called, where nobody has left yet; it is reached by those who have not left where it is called.
+    pub fn called_by_others<T>(&mut self, evaluate: impl FnOnce(&mut Self) -> T) -> T {
+        let pending = std::mem::take(&mut self.departed);
+        let gone: Vec<_> = pending.iter().map(|departure| (departure.condition, false)).collect();
+        let outcome = self.narrowed(&gone, evaluate);
+        self.departed = pending;
+        outcome
+    }
+
+    /// For whom the place that is being evaluated is reached, as far as no region says it.
+    fn reached(&mut self) -> NodeId {
+        let mut conditions = self.reach.clone();
+        conditions.extend(self.departed.iter().map(|departure| (departure.condition, false)));
+        let mut all = self.builder.bool(true);
+        for (condition, holds) in conditions {
+            let holds = if holds { condition } else { self.not(condition) };
+            all = self.and(all, holds);
+        }
+        all
+    }
+
+    /// A method of a buffer that the kernel writes.
+    pub fn written_buffer(&mut self, index: u32, name: &str, args: &[Value], span: Span) -> Eval {
+        let buffer = self.builder.graph().buffers[index as usize].clone();
+        let atomic = ATOMICS.iter().find(|(method, _)| *method == name).map(|(_, op)| *op);
+        let op = match (buffer.access, atomic, args) {
+            (_, _, []) if name == "len" => {
+                return Ok(Value::Node(self.builder.add(
+                    Op::BufferLen(index),
+                    Vec::new(),
+                    Type::I32,
+                )));
+            }
+            (Access::Atomic, Some(AtomicOp::Load), [_]) | (Access::Atomic, Some(_), [_, _]) => {
+                let op = atomic.unwrap_or(AtomicOp::Load);
+                if op == AtomicOp::Load && args.len() > 1 {
+                    return Err(no_such_method(&buffer.name, buffer.access, name, span));
+                }
+                Op::Atomic { buffer: index, op }
+            }
+            (Access::Write, _, [_, _]) if name == "store" => Op::Store(index),
+            _ => return Err(no_such_method(&buffer.name, buffer.access, name, span)),
+        };
+        self.alone(&buffer.name, span)?;
+        let at = self.index_node(&args[0], span)?;
+        let mut given = vec![at];
+        if let Some(value) = args.get(1) {
+            let value = match buffer.value() {
+                Type::Value { scalar, lanes: 1 } => self.int_or_node(value, scalar, span)?,
+                _ => self.node(value, span)?,
+            };
+            if self.ty(value) != buffer.value() {
+                let (wanted, found) = (buffer.value().in_rust(), self.ty(value).in_rust());
+                return Err(
+                    Diagnostic::at(span, format!("`{}` holds {wanted}, not {found}", buffer.name))
+                        .label("of this value")
+                        .help(format!("convert it to {wanted}"))
+                        .into(),
+                );
+            }
+            given.push(value);
+        }
+        let condition = self.inside(index, at, span);
+        let args = [&[condition], &given[..]].concat();
+        Ok(match op {
+            Op::Atomic { .. } => Value::Node(self.builder.effect(op, args, buffer.value())),
+            _ => {
+                self.builder.effect(op, args, Type::Results);
+                Value::unit()
+            }
+        })
+    }
+
+    /// Whether the place is reached and an index is inside a buffer.
+    fn inside(&mut self, buffer: u32, index: NodeId, span: Span) -> NodeId {
+        let len = self.builder.add(Op::BufferLen(buffer), Vec::new(), Type::I32);
+        // A negative index is a large one.
+        let name = self.builder.graph().buffers[buffer as usize].name.clone();
+        let [at, len] = [index, len].map(|id| self.convert(id, Scalar::U32));
+        self.name(&Value::Node(len), &format!("{name}_len"), span);
+        let inside = self.builder.add(Op::Binary(BinaryOp::Lt), vec![at, len], Type::BOOL);
+        let reached = self.reached();
+        self.and(reached, inside)
+    }
+
+    /// Effects are of invocations that compute one pixel, inside the frame.
+    fn alone(&mut self, name: &str, span: Span) -> Eval<()> {
+        let (what, help) = match self.builder.graph().invocation {
+            Invocation::Pixel => return Ok(()),
+            Invocation::Lane => (
+                "a kernel of quads",
+                "lanes that lie outside of the frame compute too: take `pixel: IVec2`",
+            ),
+            Invocation::Outlying | Invocation::Block(_) => (
+                "an invocation of several pixels",
+                "pixels that lie outside of the frame compute too: leave the block out",
+            ),
+        };
+        Err(Diagnostic::at(span, format!("{what} writes to `{name}`"))
+            .label("not supported")
+            .help(help)
+            .into())
+    }
+}
+
+fn no_such_method(buffer: &str, access: Access, name: &str, span: Span) -> Exit {
+    let (ty, methods, help) = match access {
+        Access::Atomic => (
+            "an `AtomicBuffer`",
+            "`add`, `max`, `min`, `and`, `or`, `xor`, `exchange`, each of an index and a value, `load` of an index, and `len`",
+            "",
+        ),
+        _ => (
+            "a `StorageBuffer`",
+            "`store` of an index and a value, and `len`",
+            "; take a `&Buffer` to read, or an `&AtomicBuffer` for both",
+        ),
+    };
+    Diagnostic::at(
+        span,
+        format!("`{buffer}` is {ty}, which has no method `{name}` with such arguments"),
+    )
+    .label("not supported")
+    .help(format!("it has {methods}{help}"))
+    .into()
+}

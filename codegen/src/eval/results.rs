@@ -1,0 +1,115 @@
+//! What a kernel gives: one value for each pixel, or a structure or tuple of them, each with a target of its own.
+
+use super::Evaluator;
+use super::value::{Eval, Exit, Value};
+use crate::diagnostic::{Diagnostic, Span};
+use crate::front::tree::Function;
+use crate::ir::{NodeId, Scalar, Target, Type};
+
+/// Colour attachments that WebGPU promises.
+const MOST: usize = 8;
+
+impl Evaluator<'_> {
+    /// Takes a kernel's value apart: gives the results, whose targets are noted in the graph.
+    pub fn results(&mut self, value: &Value, function: &Function) -> Eval<Vec<NodeId>> {
+        let span = function.span;
+        let parts = self.parts_of_result(value, function)?;
+        let (mut targets, mut results) = (Vec::new(), Vec::new());
+        for (name, part, at) in parts {
+            let id = match &part {
+                Value::Node(id) if self.is_target(*id) => *id,
+                Value::Poison => return Err(Exit::Noted),
+                _ => return Err(self.no_target(&name, &part, at)),
+            };
+            if name != Target::ALONE {
+                self.unused_name(&name, at).map_err(|_| {
+                    let what = format!("an input and a value that the kernel gives are both called `{name}`");
+                    let error = Diagnostic::at(at, what).label("the value that is given");
+                    Exit::from(error.help("bindings go by name: rename one"))
+                })?;
+            }
+            let ty = self.ty(id);
+            targets.push(Target { name, ty });
+            results.push(id);
+        }
+        if targets.len() > MOST {
+            let what = format!("a kernel that gives {} values for each pixel", targets.len());
+            return Err(Diagnostic::at(span, what)
+                .label("the kernel")
+                .help(format!(
+                    "a shader writes {MOST} targets at most: pack numbers into vectors"
+                ))
+                .into());
+        }
+        self.builder.graph_mut().targets = targets;
+        Ok(results)
+    }
+
+    /// The values that go to targets, with their names and places in the source.
+    fn parts_of_result(&self, value: &Value, function: &Function) -> Eval<Vec<(String, Value, Span)>> {
+        let span = function.span;
+        let numbered = |k: usize| format!("{}_{k}", Target::ALONE);
+        match value {
+            Value::Tuple(parts) if parts.is_empty() && self.builder.graph().has_effects() => Ok(Vec::new()),
+            Value::Tuple(parts) if !parts.is_empty() => {
+                let parts = parts.iter().enumerate();
+                Ok(parts.map(|(k, part)| (numbered(k), part.clone(), span)).collect())
+            }
+            Value::Struct { ty, fields } => {
+                let Some(structure) = self.library.structs.get(ty) else {
+                    return Err(self.no_target(Target::ALONE, value, span));
+                };
+                let mut parts = Vec::new();
+                for (k, (name, part)) in fields.iter().enumerate() {
+                    let at = structure.fields.iter().find(|(field, ..)| field == name);
+                    let at = at.map_or(span, |(.., at)| *at);
+                    let is_numbered = name.starts_with(|c: char| c.is_ascii_digit());
+                    let name = if is_numbered { numbered(k) } else { name.clone() };
+                    parts.push((name, part.clone(), at));
+                }
+                match parts.is_empty() {
+                    true => Err(self.no_target(Target::ALONE, value, span)),
+                    false => Ok(parts),
+                }
+            }
+            other => Ok(vec![(Target::ALONE.to_owned(), other.clone(), span)]),
+        }
+    }
+
+    fn is_target(&self, id: NodeId) -> bool {
+        matches!(self.ty(id), Type::Value { scalar, .. } if scalar != Scalar::Bool)
+    }
+
+    fn no_target(&self, name: &str, value: &Value, span: Span) -> Exit {
+        let found = match value {
+            Value::Node(id) => self.ty(*id).in_rust(),
+            Value::Int(_) => "a `usize`".to_owned(),
+            other => other.describe(),
+        };
+        let (what, label) = match name == Target::ALONE {
+            true if matches!(value, Value::Tuple(parts) if parts.is_empty()) => (
+                "a kernel that gives nothing and writes nothing".to_owned(),
+                "the kernel",
+            ),
+            true => (format!("a kernel gives numbers and vectors, not {found}"), "the kernel"),
+            false => (
+                format!("`{name}` is one of the values that the kernel gives, and is {found}"),
+                "not supported",
+            ),
+        };
+        let help = match value {
+            Value::Node(id) if self.ty(*id).kind() == Some(Scalar::Bool) => {
+                "a target holds numbers: choose one, `if condition { 1.0 } else { 0.0 }`"
+            }
+            Value::Int(_) => "convert it with `as i32` or `as u32`",
+            Value::Tuple(parts) if parts.is_empty() => {
+                "give a value for each pixel, or write to an `&AtomicBuffer` or a `&StorageBuffer`"
+            }
+            _ => {
+                "give f32, i32, u32, a vector of 2 to 4 of them, or a structure or tuple of such values, each of which has a target \
+                 of its own"
+            }
+        };
+        Diagnostic::at(span, what).label(label).help(help).into()
+    }
+}

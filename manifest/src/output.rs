@@ -1,0 +1,72 @@
+//! Where results go.
+
+use crate::{Access, Format, ViewDimension};
+use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
+use serde::de::{Deserializer, MapAccess, SeqAccess, Visitor};
+use serde::{Deserialize, Serialize, Serializer};
+use std::fmt;
+
+/// Where a result goes: a storage texture of a compute shader, a colour of a fragment shader, what a function gives.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Output {
+    /// Name in the shader: `destination`, or that of a field of the structure that the kernel gives.
+    pub name: String,
+    /// Bind group; compute only.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub group: Option<u32>,
+    /// Binding number of the write-only storage texture; compute only.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub binding: Option<u32>,
+    /// Colour attachment location; fragment only.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub location: Option<u32>,
+    /// Always `write-only`.
+    pub access: Access,
+    /// Dimension of the view that is written: always `2d`.
+    pub view_dimension: ViewDimension,
+    /// Texel format of the storage texture. A fragment shader writes to a colour target of any format with components of the
+    /// same kind and no more of them, and this is the one it was generated for.
+    pub format: Format,
+    /// Type of the value as WGSL spells it: `f32`, `vec2f`, `vec4u`, ... Components of the texel that it lacks are 0, and the
+    /// fourth is 1.
+    #[serde(rename = "type", default = "colour", skip_serializing_if = "is_colour")]
+    pub ty: String,
+}
+
+fn colour() -> String {
+    "vec4f".to_owned()
+}
+
+fn is_colour(ty: &str) -> bool {
+    ty == "vec4f"
+}
+
+/// One output as itself, and any other number of them as a list.
+pub(crate) fn serialize<S: Serializer>(outputs: &[Output], to: S) -> Result<S::Ok, S::Error> {
+    match outputs {
+        [one] => one.serialize(to),
+        several => several.serialize(to),
+    }
+}
+
+/// Reads what [`serialize`] writes.
+pub(crate) fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<Output>, D::Error> {
+    struct OneOrSeveral;
+    impl<'de> Visitor<'de> for OneOrSeveral {
+        type Value = Vec<Output>;
+
+        fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+            f.write_str("an output or a list of outputs")
+        }
+
+        fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Vec<Output>, A::Error> {
+            Output::deserialize(MapAccessDeserializer::new(map)).map(|output| vec![output])
+        }
+
+        fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<Vec<Output>, A::Error> {
+            Vec::deserialize(SeqAccessDeserializer::new(list))
+        }
+    }
+    from.deserialize_any(OneOrSeveral)
+}

@@ -1,0 +1,3 @@
+pub fn k(color: &Frame<Vec4>, bins: &AtomicBuffer<f32>, pixel: IVec2) {
+    bins.add(0, color.load(pixel).x);
+}

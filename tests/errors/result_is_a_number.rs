@@ -1,3 +1,0 @@
-pub fn k(color: &Frame<Vec4>, pixel: IVec2) -> f32 {
-    color.load(pixel).x
-}

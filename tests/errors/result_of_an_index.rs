@@ -1,0 +1,3 @@
+pub fn k(pixel: IVec2) -> usize {
+    7
+}
