@@ -26,8 +26,8 @@ pub fn uniform(name: &str, ty: Type, text: &str) -> Result<Vec<f64>, Failure> {
 pub fn buffer(name: &str, element: &Element, text: &str) -> Result<Vec<[f64; 4]>, Failure> {
     let types = element.values();
     let components = types.iter().map(|ty| ty.lanes() as usize).sum::<usize>();
-    let texts: Vec<&str> = text.split(',').map(str::trim).collect();
-    if texts.len() % components != 0 {
+    let texts = texts(name, text)?;
+    if !texts.len().is_multiple_of(components) {
         let held = match element {
             Element::Value(ty) => ty.in_rust(),
             Element::Struct(of) => format!("{} of {components} numbers", of.name),
@@ -51,28 +51,33 @@ pub fn buffer(name: &str, element: &Element, text: &str) -> Result<Vec<[f64; 4]>
     Ok(values)
 }
 
-/// Numbers separated by commas, each of which a component of `ty` can hold; `0*256` is a number so many times.
+/// Numbers separated by commas, each of which a component of `ty` can hold.
 fn numbers(name: &str, ty: Type, text: &str) -> Result<Vec<f64>, Failure> {
-    let mut numbers = Vec::new();
+    let texts = texts(name, text)?;
+    texts.into_iter().map(|text| number(name, ty, text)).collect()
+}
+
+/// Numbers that a buffer may have.
+const MOST: usize = 1 << 24;
+
+/// What stands between commas; `0*256` is a number so many times.
+fn texts<'t>(name: &str, text: &'t str) -> Result<Vec<&'t str>, Failure> {
+    let mut texts = Vec::new();
     for part in text.split(',') {
         let (one, times) = match part.split_once('*') {
             Some((one, times)) => (one, times.trim().parse().ok().filter(|n| (1..=MOST).contains(n))),
             None => (part, Some(1)),
         };
-        let one = number(name, ty, one.trim())?;
-        let times = times.filter(|n| numbers.len() + n <= MOST).ok_or_else(|| {
+        let times = times.filter(|n| texts.len() + n <= MOST).ok_or_else(|| {
             Failure::Usage(format!(
                 "`{}` for `{name}` is no number so many times: write 0*256, of at most {MOST} numbers",
                 shorten(part)
             ))
         })?;
-        numbers.extend(std::iter::repeat_n(one, times));
+        texts.extend(std::iter::repeat_n(one.trim(), times));
     }
-    Ok(numbers)
+    Ok(texts)
 }
-
-/// Numbers that a buffer may have.
-const MOST: usize = 1 << 24;
 
 fn number(name: &str, ty: Type, text: &str) -> Result<f64, Failure> {
     let refuse = |why: &str| Failure::Usage(format!("`{}` for `{name}` {why}", shorten(text)));
@@ -129,12 +134,18 @@ mod tests {
             uniform("n", Type::value(Scalar::I32, 2), " -1, 2 ").unwrap(),
             [-1.0, 2.0]
         );
-        assert!(matches!(buffer("b", Type::U32, "1,-1"), Err(Failure::Usage(_))));
-        assert_eq!(buffer("b", Type::F32, "1,2").unwrap().len(), 2);
-        assert_eq!(buffer("b", Type::U32, "7, 0*255").unwrap().len(), 256);
-        assert!(matches!(buffer("b", Type::U32, "0*x"), Err(Failure::Usage(_))));
         assert!(matches!(
-            buffer("b", Type::U32, "0*99999999999"),
+            buffer("b", &Element::Value(Type::U32), "1,-1"),
+            Err(Failure::Usage(_))
+        ));
+        assert_eq!(buffer("b", &Element::Value(Type::F32), "1,2").unwrap().len(), 2);
+        assert_eq!(buffer("b", &Element::Value(Type::U32), "7, 0*255").unwrap().len(), 256);
+        assert!(matches!(
+            buffer("b", &Element::Value(Type::U32), "0*x"),
+            Err(Failure::Usage(_))
+        ));
+        assert!(matches!(
+            buffer("b", &Element::Value(Type::U32), "0*99999999999"),
             Err(Failure::Usage(_))
         ));
     }
