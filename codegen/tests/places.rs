@@ -360,7 +360,7 @@ fn a_function_takes_what_it_reads() {
     let wgsl = text(&all, Target::Wgsl);
     // three.js finds the function by what a text begins with.
     let head = "fn takes(color: texture_2d<f32>, image: texture_2d<f32>, linear: sampler, position: vec2f, tau: f32, \
-                parameter_frame: vec2f) -> vec4f {\n    // takes: ";
+                parameter_frame: vec2f) -> vec4f {\n    // takes\n";
     assert!(wgsl.starts_with(head), "{wgsl}");
     let caller = "@group(0) @binding(0) var c: texture_2d<f32>;\n@group(0) @binding(1) var s: sampler;\n@fragment\nfn main(@builtin(position) \
                   at: vec4f) -> @location(0) vec4f {\n    return takes(c, c, s, at.xy, 0.5, vec2f(2.0));\n}\n";

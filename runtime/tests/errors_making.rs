@@ -51,7 +51,7 @@ fn manifests_that_contradict_themselves() {
         (
             r#""components": 4, "layers": 1"#,
             r#""components": 4, "layers": 2"#,
-            "`color`: 2d, but with 2 layers",
+            "`color`: not a 2d-array, but with 2 layers",
         ),
         (r#""layers": 3"#, r#""layers": 0"#, "`depth`: no layers"),
         (

@@ -350,7 +350,12 @@ fn bindings_that_contradict_themselves() {
             r#""view_dimension": "3d", "multisampled""#,
             "a depth, but not 2d",
         ),
-        (TABLE, "read-only-storage", "uniform", "not read-only-storage"),
+        (
+            TABLE,
+            "read-only-storage",
+            "uniform",
+            "neither read-only-storage nor storage",
+        ),
         (
             TABLE,
             r#""stride": 16"#,

@@ -215,9 +215,7 @@ impl Evaluator<'_> {
                 Some(self.builder.add(Op::Binary(op), vec![x, y], ty))
             }
             "powi" if ty.is_float() => match self.known_int(a) {
-                Some(n @ 1..=64) => Some((1..n).fold(x, |power, _| {
-                    self.builder.add(Op::Binary(BinaryOp::Mul), vec![power, x], ty)
-                })),
+                Some(n @ 1..=64) => Some(self.power(x, n)),
                 _ => {
                     return Err(Diagnostic::at(span, "`powi` needs a known power from 1 to 64")
                         .help("use `powf`")
@@ -250,6 +248,25 @@ impl Evaluator<'_> {
             }
             _ => None,
         })
+    }
+
+    /// `x` to a power of at least 1 by squares, the lowest first, as Rust multiplies.
+    fn power(&mut self, x: NodeId, mut n: i64) -> NodeId {
+        let ty = self.ty(x);
+        let (mut square, mut power) = (x, None);
+        loop {
+            if n % 2 == 1 {
+                power = Some(match power {
+                    None => square,
+                    Some(power) => self.builder.add(Op::Binary(BinaryOp::Mul), vec![power, square], ty),
+                });
+            }
+            n /= 2;
+            match power {
+                Some(power) if n == 0 => return power,
+                _ => square = self.builder.add(Op::Binary(BinaryOp::Mul), vec![square, square], ty),
+            }
+        }
     }
 
     fn dot(&mut self, a: NodeId, b: NodeId) -> NodeId {

@@ -35,6 +35,7 @@ use ::std::sync::Arc;
 
 pub use foreign::is_prelude_type;
 pub use scan::{assigned, breaks, children, mentioned_in};
+pub use traits::is_of_rust;
 pub use tree::Library;
 
 /// What the files of a kernel define.

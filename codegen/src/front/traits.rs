@@ -50,6 +50,24 @@ const OPERATORS: [&str; 30] = [
 /// Traits of Rust that the generator gives a meaning of its own, so that none can be given by hand.
 const OWN: [&str; 6] = ["Drop", "PartialOrd", "Ord", "Deref", "DerefMut", "Iterator"];
 
+/// Whether a trait is one of Rust's that functions of kernels are bounded by.
+pub fn is_of_rust(name: &str) -> bool {
+    OPERATORS.contains(&name)
+        || OWN.contains(&name)
+        || [
+            "Copy",
+            "Clone",
+            "Sized",
+            "Eq",
+            "Debug",
+            "Fn",
+            "FnMut",
+            "FnOnce",
+            "IntoIterator",
+        ]
+        .contains(&name)
+}
+
 impl Items {
     /// Notes a trait of the kernel's files.
     pub(super) fn trait_(&mut self, file: u32, item: &mut syn::ItemTrait, mut check: Check) {

@@ -72,6 +72,19 @@ fn found(library: &Library, reached: &BTreeSet<String>) -> (KnownItems, Vec<Diag
             one(library, known, &mut errors, |checker| checker.constant(constant));
         }
     }
+    for (key, implemented) in &library.implemented {
+        let Some((ty, name)) = key.split_once("::") else {
+            continue;
+        };
+        for one_of in implemented.iter().filter(|one_of| reached.contains(&one_of.key)) {
+            let declared = library.traits.get(&one_of.of).and_then(|of| of.functions.get(name));
+            if let (Some(declared), Some(function)) = (declared, library.functions.get(&one_of.key)) {
+                one(library, &mut Known::default(), &mut errors, |checker| {
+                    checker.as_declared((&one_of.of, declared), (ty, function), name);
+                });
+            }
+        }
+    }
     let mut known = Known::default();
     let of_structures = library.structs.values().map(|s| (&s.generics, &s.fields));
     let variants = library

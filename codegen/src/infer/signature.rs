@@ -48,7 +48,7 @@ impl<'l> Checker<'l> {
         }
     }
 
-    fn named(&mut self, name: &str, args: &'l [Type], given: &HashMap<String, Ty>, span: Span) -> Ty {
+    pub fn named(&mut self, name: &str, args: &'l [Type], given: &HashMap<String, Ty>, span: Span) -> Ty {
         if let Some(ty) = given.get(name) {
             return ty.clone();
         }

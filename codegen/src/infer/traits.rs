@@ -135,6 +135,60 @@ impl<'l> Checker<'l> {
         self.substituted(&function.result, &given, span)
     }
 
+    /// Notes where a function is unlike what its trait says of it. Functions with type parameters, and of traits with types of
+    /// their own, are left to their calls.
+    pub fn as_declared(
+        &mut self,
+        (of, declared): (&str, &'l Function),
+        (ty, function): (&str, &'l Function),
+        name: &str,
+    ) {
+        let span = function.span;
+        let (wanted, found) = (declared.params.len(), function.params.len());
+        if wanted != found {
+            self.errors.push(
+                Diagnostic::at(
+                    span,
+                    format!("`{name}` has {found} parameters, but {wanted} in the trait `{of}`"),
+                )
+                .label(format!("expected {wanted} parameters"))
+                .help("give it those that the trait declares"),
+            );
+            return;
+        }
+        let plain = |f: &Function| f.generics.iter().all(|generic| generic.name() == "Self");
+        if !plain(declared) || !plain(function) {
+            return;
+        }
+        let known = self.errors.len();
+        let own = self.named(ty, &[], &HashMap::new(), span);
+        let given = HashMap::from([("Self".to_owned(), own)]);
+        let types = declared.params.iter().map(|p| &p.ty).chain([&declared.result]);
+        let types: Vec<Ty> = types.map(|ty| self.substituted(ty, &given, span)).collect();
+        // What names types of the trait's own cannot be compared here.
+        self.errors.truncate(known);
+        let own_types = function.params.iter().map(|p| &p.ty).chain([&function.result]);
+        for (k, (wanted, found)) in types.iter().zip(own_types).enumerate() {
+            let found = self.substituted(found, &HashMap::new(), span);
+            if matches!(wanted, Ty::Unknown) || self.table.unify(wanted, &found) {
+                continue;
+            }
+            let [wanted, found] = [wanted, &found].map(|ty| self.table.deep(ty).to_string());
+            let what = match function.params.get(k) {
+                Some(param) => format!("`{}`", param.name),
+                None => "the result".to_owned(),
+            };
+            self.errors.push(
+                Diagnostic::at(
+                    span,
+                    format!("`{name}` is not as the trait `{of}` declares it: {what} is `{found}`"),
+                )
+                .label(format!("expected `{wanted}`"))
+                .help(format!("write `{wanted}`")),
+            );
+        }
+    }
+
     /// Notes what the type parameters of a call are, and what they have to be.
     pub fn instance(&mut self, key: &str, function: &'l Function, given: &HashMap<String, Ty>, span: Span) {
         for (name, traits) in &function.bounds {
@@ -223,7 +277,17 @@ impl<'l> Checker<'l> {
             .and_then(|bounds| bounds.get(parameter))
             .map_or(&[][..], Vec::as_slice);
         let known = |of: &String| library.traits.contains_key(of) || matches!(of.as_str(), "Copy" | "Clone" | "Sized");
-        if traits.iter().all(known) {
+        let unknown = traits.iter().find(|of| !known(of) && !crate::front::is_of_rust(of));
+        if let Some(of) = unknown {
+            self.errors.push(
+                Diagnostic::at(
+                    span,
+                    format!("cannot find trait `{of}`, which `{parameter}` has to have"),
+                )
+                .label(format!("`{name}` of it"))
+                .help("define it in one of the kernel's files"),
+            );
+        } else if traits.iter().all(known) {
             self.errors.push(
                 Diagnostic::at(span, format!("no `{name}` for the type parameter `{parameter}`"))
                     .label("no trait that it has gives it one")

@@ -19,7 +19,7 @@ pub(super) fn check_texture(plan: &TexturePlan) -> Result<(), String> {
     })?;
     require(layers >= 1, || "no layers".to_owned())?;
     require(dimension == Dimension::D2Array || layers == 1, || {
-        format!("no 2d-array, but with {layers} layers")
+        format!("not a 2d-array, but with {layers} layers")
     })?;
     require(samples >= 1, || "no samples".to_owned())?;
     require(dimension == Dimension::D2Multisampled || samples == 1, || {

@@ -69,7 +69,11 @@ impl Maker {
     pub(super) fn option(&mut self, of: &Ty, want: Want) -> String {
         let d = want.deeper();
         let own = Ty::Option(Box::new(of.clone()));
-        match self.random.below(7) {
+        match self.random.below(8) {
+            7 if self.tries && *of == Ty::F32 && !want.known && d.depth > 0 => {
+                let [a, b] = [0, 1].map(|_| self.expr(&own, d.inferred(true)));
+                format!("both({a}, {b})")
+            }
             0 if want.inferred => "None".to_owned(),
             1 if !want.known => {
                 let (condition, value) = (self.condition(d), self.expr(of, d.inferred(false)));

@@ -52,13 +52,13 @@ impl Maker {
             14 => format!("{}.clamp(-2.0, 8.5)", self.float_receiver(d)),
             15 if coarse && self.random.once_in(4) => format!("{}.clamp(-4.5, 4.0).exp2()", self.float_receiver(d)),
             15 if coarse => {
-                let name = self.random.pick(&["sqrt", "recip", "to_radians", "to_degrees"]);
+                let name = self.random.pick(&["sqrt", "cbrt", "recip", "to_radians", "to_degrees"]);
                 format!("({}.abs() + 0.25).{name}()", self.float_receiver(d))
             }
             16 => format!(
                 "{}.clamp(-3.0, 3.0).powi({})",
                 self.float_receiver(d),
-                self.random.between(1, 3)
+                self.random.between(1, 7)
             ),
             17 => {
                 let from = self.random.pick(&[Ty::I32, Ty::U32, Ty::Usize]);

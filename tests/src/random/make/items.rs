@@ -16,6 +16,13 @@ impl Maker {
         }
         if self.chance(Feature::Choices, 2) {
             self.choice();
+            self.tries = self.random.once_in(2);
+            if self.tries {
+                self.open("fn both(a: Option<f32>, b: Option<f32>) -> Option<f32> {");
+                self.line("let a = a?;");
+                self.line("Some(a * 0.5 + b?)");
+                self.close("}");
+            }
         }
         for _ in 0..self.random.below(3) {
             self.structure();

@@ -120,6 +120,8 @@ struct Maker {
     structures: Vec<Structure>,
     enumerations: Vec<Enumeration>,
     choices: Vec<Choice>,
+    /// Whether there is a function with `?`.
+    tries: bool,
     /// Whether the trait is there.
     traits: bool,
     signatures: Vec<Signature>,
@@ -154,6 +156,7 @@ impl Maker {
             structures: Vec::new(),
             enumerations: Vec::new(),
             choices: Vec::new(),
+            tries: false,
             traits: false,
             signatures: Vec::new(),
             constants: Vec::new(),

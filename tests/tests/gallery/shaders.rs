@@ -1,0 +1,67 @@
+//! The shaders, as rustc compiles them.
+
+// As their authors wrote them, with constants as they are published.
+#![allow(clippy::needless_range_loop, clippy::excessive_precision)]
+
+#[path = "../../../examples/gallery/aces.rs"]
+pub mod aces;
+#[path = "../../../examples/gallery/atrous.rs"]
+pub mod atrous;
+#[path = "../../../examples/gallery/bokeh.rs"]
+pub mod bokeh;
+#[path = "../../../examples/gallery/canny.rs"]
+pub mod canny;
+#[path = "../../../examples/gallery/cas.rs"]
+pub mod cas;
+#[path = "../../../examples/gallery/dual_kawase.rs"]
+pub mod dual_kawase;
+#[path = "../../../examples/gallery/easu.rs"]
+pub mod easu;
+#[path = "../../../examples/gallery/environment_prefilter.rs"]
+pub mod environment_prefilter;
+#[path = "../../../examples/gallery/fxaa.rs"]
+pub mod fxaa;
+#[path = "../../../examples/gallery/gtao.rs"]
+pub mod gtao;
+#[path = "../../../examples/gallery/lanczos.rs"]
+pub mod lanczos;
+#[path = "../../../examples/gallery/lens.rs"]
+pub mod lens;
+#[path = "../../../examples/gallery/life.rs"]
+pub mod life;
+#[path = "../../../examples/gallery/mandelbrot.rs"]
+pub mod mandelbrot;
+#[path = "../../../examples/gallery/motion_blur.rs"]
+pub mod motion_blur;
+#[path = "../../../examples/gallery/nlm.rs"]
+pub mod nlm;
+#[path = "../../../examples/gallery/normal_from_depth.rs"]
+pub mod normal_from_depth;
+#[path = "../../../examples/gallery/oklab_grade.rs"]
+pub mod oklab_grade;
+#[path = "../../../examples/gallery/ordered_dither.rs"]
+pub mod ordered_dither;
+#[path = "../../../examples/gallery/parallax_occlusion.rs"]
+pub mod parallax_occlusion;
+#[path = "../../../examples/gallery/pcss.rs"]
+pub mod pcss;
+#[path = "../../../examples/gallery/perlin.rs"]
+pub mod perlin;
+#[path = "../../../examples/gallery/rcas.rs"]
+pub mod rcas;
+#[path = "../../../examples/gallery/scale2x.rs"]
+pub mod scale2x;
+#[path = "../../../examples/gallery/screen_space_reflections.rs"]
+pub mod screen_space_reflections;
+#[path = "../../../examples/gallery/smaa_blend.rs"]
+pub mod smaa_blend;
+#[path = "../../../examples/gallery/smaa_edges.rs"]
+pub mod smaa_edges;
+#[path = "../../../examples/gallery/smaa_weights.rs"]
+pub mod smaa_weights;
+#[path = "../../../examples/gallery/sphere_tracing.rs"]
+pub mod sphere_tracing;
+#[path = "../../../examples/gallery/taa.rs"]
+pub mod taa;
+#[path = "../../../examples/gallery/worley.rs"]
+pub mod worley;
