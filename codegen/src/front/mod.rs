@@ -37,6 +37,9 @@ pub use foreign::is_prelude_type;
 pub use scan::{assigned, breaks, children, mentioned_in};
 pub use tree::Library;
 
+/// Functions of the prelude that take a float or a vector and give one of its type, and do for a closure by their names.
+pub const UNARY: [&str; 5] = ["fract", "inverse_sqrt", "round", "saturate", "sign"];
+
 /// What the files of a kernel define.
 #[derive(Debug)]
 pub struct Parsed {
