@@ -71,6 +71,14 @@ impl Evaluator<'_> {
                 }
                 Ok(Value::Array(elements))
             }
+            // A vector is an array of its components meanwhile.
+            (Value::Node(id), Step::Index(_)) if !self.ty(id).is_array() && self.ty(id).lanes() > 1 => {
+                let (kind, lanes) = (self.ty(id).kind().unwrap_or(Scalar::F32), self.ty(id).lanes());
+                let parts = self.lanes(id).into_iter().map(Value::Node).collect();
+                let parts = self.replace(Value::array(parts), path, new, span)?;
+                let parts = self.elements(&parts, usize::from(lanes), span)?;
+                self.compose(kind, lanes, &parts, span)
+            }
             (old @ (Value::Array(_) | Value::Node(_)), Step::Index(index)) => {
                 self.set_element(&old, index, rest, new, span)
             }

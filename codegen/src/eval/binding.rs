@@ -4,6 +4,7 @@ use super::Evaluator;
 use super::value::{Eval, Exit, Step, Value};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::front::tree::Pattern;
+use crate::ir::Type;
 use std::rc::Rc;
 
 impl Evaluator<'_> {
@@ -19,7 +20,7 @@ impl Evaluator<'_> {
 
     fn bound(&mut self, pattern: &Pattern, value: Value, matched: bool, span: Span) -> Eval<()> {
         match pattern {
-            Pattern::Wild => Ok(()),
+            Pattern::Wild | Pattern::Rest => Ok(()),
             // What it compares with has been compared, and names under a `|` are bound by a pattern for each.
             Pattern::Value(_) | Pattern::Range(..) | Pattern::Or(_) if matched => Ok(()),
             Pattern::At(name, _, inner, at) => {
@@ -36,11 +37,10 @@ impl Evaluator<'_> {
                 let value = self.loaded(value, *at)?;
                 self.bound(inner, value, matched, span)
             }
-            Pattern::Tuple(parts, at) => match self.taken_apart(value, parts.len(), *at)? {
-                Value::Tuple(values) if values.len() == parts.len() => parts
-                    .iter()
-                    .zip(values)
-                    .try_for_each(|(part, value)| self.bound(part, value, matched, span)),
+            Pattern::Tuple(parts, at) => match self.taken_apart(value, parts, *at)? {
+                Value::Tuple(values) if Pattern::shared(parts, values.len()).is_some() => {
+                    self.each_bound(parts, &values, matched, span)
+                }
                 Value::Poison => parts
                     .iter()
                     .try_for_each(|part| self.bound(part, Value::Poison, matched, span)),
@@ -51,12 +51,8 @@ impl Evaluator<'_> {
                 .into()),
             },
             Pattern::Array(parts, at) => {
-                let value = self.taken_apart(value, parts.len(), *at)?;
-                let elements = self.elements(&value, parts.len(), *at)?;
-                parts
-                    .iter()
-                    .zip(elements)
-                    .try_for_each(|(part, value)| self.bound(part, value, matched, span))
+                let elements = self.elements_of_pattern(value, parts, *at)?;
+                self.each_bound(parts, &elements, matched, span)
             }
             Pattern::Struct(path, fields, at) => {
                 let variant = self.library.variant(path).map(|(_, k, _)| k);
@@ -80,6 +76,55 @@ impl Evaluator<'_> {
                 .help("use `match`")
                 .into()),
             Pattern::Or(_) => Err(Diagnostic::at(span, "a `let` cannot choose").help("use `match`").into()),
+        }
+    }
+
+    /// Binds patterns to the parts of a tuple or an array, `name @ ..` to an array of what the others leave.
+    fn each_bound(&mut self, patterns: &[Pattern], parts: &[Value], matched: bool, span: Span) -> Eval<()> {
+        for (pattern, taken) in Pattern::shared(patterns, parts.len()).into_iter().flatten() {
+            match pattern {
+                Pattern::At(name, _, _, at) if pattern.is_rest() => {
+                    let rest = &parts[taken];
+                    if rest.is_empty() || matches!(rest[0], Value::Ref(_)) {
+                        let what = if rest.is_empty() {
+                            "no part"
+                        } else {
+                            "parts of what is borrowed mutably"
+                        };
+                        return Err(Diagnostic::at(*at, format!("`{name} @ ..` of {what}"))
+                            .label("not supported")
+                            .help("give each part a name, or leave the name of `..` out")
+                            .into());
+                    }
+                    self.scope.bind(name, Value::array(rest.to_vec()));
+                }
+                Pattern::Rest => {}
+                _ => self.bound(pattern, parts[taken.start].clone(), matched, span)?,
+            }
+        }
+        Ok(())
+    }
+
+    /// The elements of an array that patterns take apart, as many as it has.
+    pub fn elements_of_pattern(&mut self, value: Value, patterns: &[Pattern], at: Span) -> Eval<Vec<Value>> {
+        let value = self.taken_apart(value, patterns, at)?;
+        let len = self.length_for(&value, patterns);
+        self.elements(&value, len, at)
+    }
+
+    /// How many parts a value is to have so that patterns take it apart.
+    fn length_for(&self, value: &Value, patterns: &[Pattern]) -> usize {
+        let has = match value {
+            Value::Array(elements) => elements.len(),
+            Value::Node(id) => match self.ty(*id) {
+                Type::Array { len, .. } => len as usize,
+                _ => 0,
+            },
+            _ => 0,
+        };
+        match Pattern::shared(patterns, has) {
+            Some(_) => has,
+            None => patterns.iter().filter(|pattern| !pattern.is_rest()).count(),
         }
     }
 
@@ -120,7 +165,7 @@ impl Evaluator<'_> {
     }
 
     /// What a pattern of some parts takes apart: of a reference to a tuple or an array, references to their parts.
-    pub fn taken_apart(&mut self, value: Value, parts: usize, span: Span) -> Eval {
+    pub fn taken_apart(&mut self, value: Value, patterns: &[Pattern], span: Span) -> Eval {
         let Value::Ref(place) = &value else {
             return Ok(value);
         };
@@ -133,7 +178,7 @@ impl Evaluator<'_> {
         let tuple = matches!(whole, Value::Tuple(_));
         let count = match &whole {
             Value::Tuple(parts) => parts.len(),
-            other => self.elements(other, parts, span)?.len(),
+            other => self.elements(other, self.length_for(other, patterns), span)?.len(),
         };
         let parts = (0..count)
             .map(|k| Value::Ref(Rc::new(place.part(step(tuple, k)))))

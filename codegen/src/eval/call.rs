@@ -27,7 +27,7 @@ impl Evaluator<'_> {
                 Value::Alias(place) => self.read(&place, span)?,
                 other => self.loaded(other, span)?,
             };
-            if matches!(callee, Value::Closure(_) | Value::Function(_)) {
+            if callee.is_called() {
                 return self.invoke(&callee, values, span);
             }
         }
@@ -76,8 +76,9 @@ impl Evaluator<'_> {
             .into_iter()
             .map(|v| self.loaded(v, span))
             .collect::<Eval<Vec<_>>>()?;
-        if let ([.., name], [f @ (Value::Closure(_) | Value::Function(_))]) = (path, values.as_slice())
+        if let ([.., name], [f]) = (path, values.as_slice())
             && name == "from_fn"
+            && f.is_called()
         {
             return Ok(Value::Elements(Rc::new(f.clone())));
         }
@@ -443,7 +444,7 @@ impl Evaluator<'_> {
     fn is_function(&self, path: &[String]) -> bool {
         let functions = &self.library.functions;
         match path {
-            [name] => functions.contains_key(name),
+            [name] => functions.contains_key(name) || crate::front::UNARY.contains(&name.as_str()),
             [.., ty, name] => {
                 functions.contains_key(&path.join("::"))
                     || functions.contains_key(name)

@@ -9,6 +9,7 @@ use super::{Evaluator, MAX_CALLS};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::front::tree::{Block, Closure};
 use crate::front::{assigned, mentioned_in};
+use crate::ir::{BinaryOp, NodeId, Op, Type};
 use std::collections::BTreeSet;
 use std::rc::Rc;
 use std::sync::Arc;
@@ -56,6 +57,7 @@ impl Evaluator<'_> {
         let closed = match callee {
             Value::Closure(closed) => Rc::clone(closed),
             Value::Function(path) => return self.apply(path, &[], args, span),
+            Value::OneOf(number, all) => return self.invoke_one(*number, all, 0, args, span),
             Value::Poison => return Err(Exit::Noted),
             other => {
                 return Err(Diagnostic::at(span, format!("{} cannot be called", other.describe()))
@@ -91,6 +93,85 @@ impl Evaluator<'_> {
         }
     }
 
+    /// Calls one of several functions, from the one at a position on: a chain of conditions, as of an `if`.
+    fn invoke_one(&mut self, number: NodeId, all: &[Value], k: usize, args: Vec<Value>, span: Span) -> Eval {
+        if k + 1 == all.len() {
+            return self.invoke(&all[k], args, span);
+        }
+        let is = self.is_number(number, all.len(), k);
+        match self.known_bool(is) {
+            Some(true) => self.invoke(&all[k], args, span),
+            Some(false) => self.invoke_one(number, all, k + 1, args, span),
+            None => {
+                let (keep, same) = (self.policy.keeps(None), args.clone());
+                self.branch(
+                    Tail::Open,
+                    is,
+                    keep,
+                    span,
+                    |e| e.invoke(&all[k], args, span),
+                    |e| e.invoke_one(number, all, k + 1, same, span),
+                )
+            }
+        }
+    }
+
+    /// Two functions as numbers of one list, so that a condition can choose between them.
+    pub fn one_of(&mut self, a: &Value, b: &Value) -> (Value, Value) {
+        let mut all: Vec<Value> = Vec::new();
+        let each = |value: &Value| match value {
+            Value::OneOf(_, all) => all.to_vec(),
+            other => vec![other.clone()],
+        };
+        for value in each(a).into_iter().chain(each(b)) {
+            if !all.contains(&value) {
+                all.push(value);
+            }
+        }
+        let all = Rc::new(all);
+        let mut numbered = |value: &Value| {
+            let mut own = each(value)
+                .into_iter()
+                .map(|one| all.iter().position(|other| *other == one));
+            let own: Vec<NodeId> = own
+                .by_ref()
+                .flatten()
+                .map(|k| self.function_number(k, all.len()))
+                .collect();
+            let mut found = own[own.len() - 1];
+            if let Value::OneOf(number, _) = value {
+                let ty = self.ty(found);
+                for (k, place) in own.iter().enumerate().rev().skip(1) {
+                    let is = self.is_number(*number, own.len(), k);
+                    found = self.builder.add(Op::Select, vec![is, *place, found], ty);
+                }
+            }
+            Value::OneOf(found, Rc::clone(&all))
+        };
+        (numbered(a), numbered(b))
+    }
+
+    /// The number of one of several functions.
+    fn function_number(&mut self, k: usize, count: usize) -> NodeId {
+        match count {
+            2 => self.builder.bool(k == 1),
+            _ => self.builder.i32(k as i32),
+        }
+    }
+
+    /// Whether the number of one of several functions is that of the one at a position.
+    fn is_number(&mut self, number: NodeId, count: usize, k: usize) -> NodeId {
+        match (count, k) {
+            (2, 1) => number,
+            (2, _) => self.not(number),
+            _ => {
+                let wanted = self.function_number(k, count);
+                let is = Op::Binary(BinaryOp::Eq);
+                self.builder.add(is, vec![number, wanted], Type::BOOL)
+            }
+        }
+    }
+
     fn closed_body(&mut self, closed: &Closed, args: Vec<Value>, mark: usize, span: Span) -> Eval {
         for (name, captured) in &closed.captured {
             let value = match captured {
@@ -115,6 +196,7 @@ impl Evaluator<'_> {
     /// Refuses a closure that changes variables, where it is called in another order than natively or not as often.
     pub fn only_reads(&self, callee: &Value, method: &str, span: Span) -> Eval<()> {
         match callee {
+            Value::OneOf(_, all) => all.iter().try_for_each(|each| self.only_reads(each, method, span)),
             Value::Closure(closed) if closed.captured.iter().any(|(_, c)| matches!(c, Captured::Place(_))) => Err(
                 Diagnostic::at(span, format!("a closure that changes variables, in `{method}`"))
                     .label("not supported")

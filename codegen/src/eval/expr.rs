@@ -44,6 +44,11 @@ impl Evaluator<'_> {
             ExprKind::Lazy(and, left, right) => self.lazy(*and, left, right, span),
             ExprKind::Assign(place, op, value) => self.assign(place, *op, value, span),
             ExprKind::Call(path, constants, args) => self.call(path, constants, args, span),
+            ExprKind::Invoke(callee, args) => {
+                let callee = self.value(callee)?;
+                let values = self.all(args)?;
+                self.invoke(&callee, values, span)
+            }
             ExprKind::Method(receiver, name, args) => self.method(receiver, name, args, span),
             ExprKind::Field(base, name) => {
                 let base = self.value(base)?;

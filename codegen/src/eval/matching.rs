@@ -118,7 +118,7 @@ impl Evaluator<'_> {
     /// Whether a pattern takes a value: a boolean, known or not. Binds nothing.
     fn test(&mut self, pattern: &Pattern, value: &Value, span: Span) -> Eval<NodeId> {
         match pattern {
-            Pattern::Wild | Pattern::Name(..) => Ok(self.builder.bool(true)),
+            Pattern::Wild | Pattern::Rest | Pattern::Name(..) => Ok(self.builder.bool(true)),
             Pattern::At(_, _, inner, _) => self.test(inner, value, span),
             Pattern::Ref(inner, at) => {
                 let value = self.loaded(value.clone(), *at)?;
@@ -135,17 +135,15 @@ impl Evaluator<'_> {
                 }
                 Ok(any)
             }
-            Pattern::Tuple(parts, at) => match &self.taken_apart(value.clone(), parts.len(), *at)? {
-                Value::Tuple(values) if values.len() == parts.len() => {
-                    let pairs: Vec<(&Pattern, Value)> = parts.iter().zip(values.iter().cloned()).collect();
-                    self.test_all(pairs, span)
+            Pattern::Tuple(parts, at) => match &self.taken_apart(value.clone(), parts, *at)? {
+                Value::Tuple(values) if Pattern::shared(parts, values.len()).is_some() => {
+                    self.test_all(tested(parts, values), span)
                 }
                 other => Err(Diagnostic::at(span, format!("a tuple pattern on {}", other.describe())).into()),
             },
             Pattern::Array(parts, at) => {
-                let value = self.taken_apart(value.clone(), parts.len(), *at)?;
-                let elements = self.elements(&value, parts.len(), *at)?;
-                self.test_all(parts.iter().zip(elements).collect(), span)
+                let elements = self.elements_of_pattern(value.clone(), parts, *at)?;
+                self.test_all(tested(parts, &elements), span)
             }
             Pattern::Struct(path, fields, _) => {
                 let variant = self.library.variant(path).map(|(_, k, _)| k);
@@ -222,6 +220,14 @@ impl Evaluator<'_> {
     }
 }
 
+/// Patterns with the parts that they take; `..` takes any.
+fn tested<'p>(patterns: &'p [Pattern], parts: &[Value]) -> Vec<(&'p Pattern, Value)> {
+    let each = Pattern::shared(patterns, parts.len()).into_iter().flatten();
+    let each = each.filter(|(pattern, _)| !pattern.is_rest());
+    each.map(|(pattern, taken)| (pattern, parts[taken.start].clone()))
+        .collect()
+}
+
 /// A pattern as patterns in which no `|` binds names.
 fn alternatives(pattern: &Pattern) -> Vec<Pattern> {
     if !binds_in_or(pattern) {
@@ -261,7 +267,9 @@ fn alternatives(pattern: &Pattern) -> Vec<Pattern> {
                 .map(|p| Pattern::At(name.clone(), *mutable, Box::new(p), *at))
                 .collect()
         }
-        Pattern::Name(..) | Pattern::Wild | Pattern::Value(_) | Pattern::Range(..) => vec![pattern.clone()],
+        Pattern::Name(..) | Pattern::Wild | Pattern::Rest | Pattern::Value(_) | Pattern::Range(..) => {
+            vec![pattern.clone()]
+        }
     }
 }
 
@@ -272,7 +280,7 @@ fn binds_in_or(pattern: &Pattern) -> bool {
         Pattern::Tuple(parts, _) | Pattern::Array(parts, _) => parts.iter().any(binds_in_or),
         Pattern::Struct(_, fields, _) => fields.iter().any(|(_, part)| binds_in_or(part)),
         Pattern::Ref(inner, _) | Pattern::At(_, _, inner, _) => binds_in_or(inner),
-        Pattern::Name(..) | Pattern::Wild | Pattern::Value(_) | Pattern::Range(..) => false,
+        Pattern::Name(..) | Pattern::Wild | Pattern::Rest | Pattern::Value(_) | Pattern::Range(..) => false,
     }
 }
 
@@ -282,6 +290,6 @@ fn binds(pattern: &Pattern) -> bool {
         Pattern::Or(parts) | Pattern::Tuple(parts, _) | Pattern::Array(parts, _) => parts.iter().any(binds),
         Pattern::Struct(_, fields, _) => fields.iter().any(|(_, part)| binds(part)),
         Pattern::Ref(inner, _) => binds(inner),
-        Pattern::Wild | Pattern::Value(_) | Pattern::Range(..) => false,
+        Pattern::Wild | Pattern::Rest | Pattern::Value(_) | Pattern::Range(..) => false,
     }
 }

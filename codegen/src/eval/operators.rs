@@ -224,6 +224,9 @@ impl Evaluator<'_> {
     /// `value as type`.
     pub fn cast(&mut self, value: &Value, ty: &SourceType, span: Span) -> Eval {
         let SourceType::Name(name, _) = ty else {
+            if matches!(ty, SourceType::Fn(..)) && value.is_called() {
+                return Ok(value.clone());
+            }
             return Err(Diagnostic::at(span, "a cast to something that is not a number").into());
         };
         let kind = match name.as_str() {

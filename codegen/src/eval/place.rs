@@ -185,6 +185,7 @@ impl Evaluator<'_> {
                     }
                 }
             }
+            Value::OneOf(_, all) => all.iter().for_each(|each| self.targets(each, out)),
             Value::Struct { fields, .. } => fields.iter().for_each(|(_, field)| self.targets(field, out)),
             Value::Tuple(parts) => parts.iter().for_each(|part| self.targets(part, out)),
             Value::Enum(choice) => choice.all().for_each(|(_, value)| self.targets(value, out)),

@@ -90,7 +90,7 @@ impl Evaluator<'_> {
     /// The nodes that a settled value is made of, in order.
     pub fn leaves(value: &Value, out: &mut Vec<NodeId>) {
         match value {
-            Value::Node(id) => out.push(*id),
+            Value::Node(id) | Value::OneOf(id, _) => out.push(*id),
             Value::Struct { fields, .. } => fields.iter().for_each(|(_, field)| Self::leaves(field, out)),
             Value::Tuple(parts) => parts.iter().for_each(|part| Self::leaves(part, out)),
             Value::Array(parts) => parts.iter().for_each(|part| Self::leaves(part, out)),
@@ -108,6 +108,7 @@ impl Evaluator<'_> {
     pub fn with_leaves(value: &Value, nodes: &mut impl Iterator<Item = NodeId>) -> Value {
         match value {
             Value::Node(id) => Value::Node(nodes.next().unwrap_or(*id)),
+            Value::OneOf(id, all) => Value::OneOf(nodes.next().unwrap_or(*id), Rc::clone(all)),
             Value::Struct { ty, fields } => {
                 let fields = fields
                     .iter()
@@ -169,6 +170,7 @@ impl Evaluator<'_> {
             (Value::Enum(left), Value::Enum(right)) if left.ty == right.ty => {
                 return self.agree_choices(left, right, span);
             }
+            (a, b) if a.is_called() && b.is_called() => self.one_of(a, b),
             (Value::Blank, other) => (self.blank(other), other.clone()),
             (other, Value::Blank) => (other.clone(), self.blank(other)),
             // Given a value on one side alone, a variable has none afterwards.
@@ -219,6 +221,7 @@ fn kind(element: &Value) -> String {
 pub fn same_shape(a: &Value, b: &Value) -> bool {
     match (a, b) {
         (Value::Node(_), Value::Node(_)) => true,
+        (Value::OneOf(_, all), Value::OneOf(_, others)) => all == others,
         (
             Value::Struct { ty, fields },
             Value::Struct {

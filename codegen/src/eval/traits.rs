@@ -44,7 +44,7 @@ impl<'a> Evaluator<'a> {
             }
             (SourceType::Array(..), Value::Array(_)) => true,
             (SourceType::Array(..), Value::Node(id)) => self.ty(*id).is_array(),
-            (SourceType::Fn(..), Value::Closure(_) | Value::Function(_)) => true,
+            (SourceType::Fn(..), value) => value.is_called(),
             _ => false,
         }
     }

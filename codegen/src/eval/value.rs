@@ -44,6 +44,9 @@ pub enum Value {
     Closure(Rc<Closed>),
     /// A function, by the last two segments of its path.
     Function(Vec<String>),
+    /// One of several functions and closures, by a number that is only known at run time: of two a boolean, `true` for the
+    /// second, of more an `i32`.
+    OneOf(NodeId, Rc<Vec<Value>>),
     /// `array::from_fn(f)`, of which only the type that is stated for it tells the length.
     Elements(Rc<Value>),
     /// What a type parameter stands for, by the name of the type.
@@ -151,6 +154,11 @@ impl Value {
         }
     }
 
+    /// Whether it can be called.
+    pub fn is_called(&self) -> bool {
+        matches!(self, Value::Closure(_) | Value::Function(_) | Value::OneOf(..))
+    }
+
     /// Numbers and other parts in it, counted up to `limit`.
     pub fn parts(&self, limit: usize) -> usize {
         let parts: Box<dyn Iterator<Item = &Value>> = match self {
@@ -188,6 +196,7 @@ impl Value {
             Value::Ref(_) => "a mutable reference".to_owned(),
             Value::Closure(_) => "a closure".to_owned(),
             Value::Function(path) => format!("the function `{}`", path.join("::")),
+            Value::OneOf(..) => "one of several functions".to_owned(),
             Value::Elements(_) => "an array of which no type states the length".to_owned(),
             Value::Type(ty) => format!("the type `{ty}`"),
             Value::Alias(_) => "a variable".to_owned(),

@@ -214,6 +214,6 @@ fn bound(pattern: &Pattern, out: &mut Vec<(String, bool, Span)>) {
         }
         Pattern::Struct(_, fields, _) => fields.iter().for_each(|(_, part)| bound(part, out)),
         Pattern::Ref(inner, _) => bound(inner, out),
-        Pattern::Wild | Pattern::Value(_) | Pattern::Range(..) => {}
+        Pattern::Wild | Pattern::Rest | Pattern::Value(_) | Pattern::Range(..) => {}
     }
 }

@@ -434,10 +434,7 @@ impl Lower {
                 let constants = self.generic_arguments(&path.path);
                 ExprKind::Call(self.of_type(path).unwrap_or_default(), constants, args)
             }
-            other => {
-                self.unsupported(other.span(), "calling a value", "call functions by their names");
-                ExprKind::Tuple(Vec::new())
-            }
+            other => ExprKind::Invoke(self.boxed(other), args),
         }
     }
 

@@ -1,6 +1,10 @@
 //! Items inside of functions: functions, types, implementations and imports are taken out and stand beside the function, as
-//! items of the file do. Constants stay, since a block may have one of a name that the file has too.
+//! items of the file do. Constants stay, since a block may have one of a name that the file has too; a function that is taken out
+//! has those of the blocks around it that it mentions as its own.
 
+use proc_macro2::{TokenStream, TokenTree};
+use quote::ToTokens;
+use std::collections::HashSet;
 use syn::punctuated::Punctuated;
 
 /// Takes the items out of all functions of a list, and adds them to it.
@@ -18,13 +22,13 @@ pub fn take_all(items: &mut Vec<syn::Item>) {
 
 fn of_item(item: &mut syn::Item, out: &mut Vec<syn::Item>) {
     match item {
-        syn::Item::Fn(f) if is_plain(&f.attrs) => of_block(&mut f.block, out),
+        syn::Item::Fn(f) if is_plain(&f.attrs) => of_block(&mut f.block, &[], out),
         syn::Item::Impl(i) if is_plain(&i.attrs) => {
             for inner in &mut i.items {
                 if let syn::ImplItem::Fn(f) = inner
                     && is_plain(&f.attrs)
                 {
-                    of_block(&mut f.block, out);
+                    of_block(&mut f.block, &[], out);
                 }
             }
         }
@@ -34,7 +38,7 @@ fn of_item(item: &mut syn::Item, out: &mut Vec<syn::Item>) {
                     && is_plain(&f.attrs)
                     && let Some(block) = &mut f.default
                 {
-                    of_block(block, out);
+                    of_block(block, &[], out);
                 }
             }
         }
@@ -54,12 +58,24 @@ fn is_plain(attrs: &[syn::Attribute]) -> bool {
         .all(|attr| !attr.path().is_ident("cfg") && !attr.path().is_ident("test"))
 }
 
-fn of_block(block: &mut syn::Block, out: &mut Vec<syn::Item>) {
+fn of_block(block: &mut syn::Block, around: &[syn::ItemConst], out: &mut Vec<syn::Item>) {
+    let own = block.stmts.iter().filter_map(|statement| match statement {
+        syn::Stmt::Item(syn::Item::Const(constant)) => Some(constant.clone()),
+        _ => None,
+    });
+    let mut constants: Vec<syn::ItemConst> = own.collect();
+    // Where one hides another, what is made of the hidden one cannot be said inside: no function is given any.
+    let hides = |c: &syn::ItemConst| around.iter().any(|other| other.ident == c.ident);
+    match constants.iter().any(hides) {
+        true => constants.clear(),
+        false => constants.extend(around.iter().cloned()),
+    }
+    let constants = constants.as_slice();
     let mut kept = Vec::new();
     for mut statement in std::mem::take(&mut block.stmts) {
         match statement {
             syn::Stmt::Item(
-                item @ (syn::Item::Enum(_)
+                mut item @ (syn::Item::Enum(_)
                 | syn::Item::Fn(_)
                 | syn::Item::Impl(_)
                 | syn::Item::Static(_)
@@ -68,13 +84,14 @@ fn of_block(block: &mut syn::Block, out: &mut Vec<syn::Item>) {
                 | syn::Item::Type(_)
                 | syn::Item::Use(_)),
             ) => {
+                give(&mut item, constants);
                 out.push(item);
                 continue;
             }
-            syn::Stmt::Expr(ref mut e, _) => of_expr(e, out),
+            syn::Stmt::Expr(ref mut e, _) => of_expr(e, constants, out),
             syn::Stmt::Local(ref mut local) => {
                 if let Some(init) = &mut local.init {
-                    of_expr(&mut init.expr, out);
+                    of_expr(&mut init.expr, constants, out);
                 }
             }
             _ => {}
@@ -85,21 +102,83 @@ fn of_block(block: &mut syn::Block, out: &mut Vec<syn::Item>) {
 }
 
 /// Blocks where items may be expected; what stands elsewhere is refused by the lowering.
-fn of_expr(e: &mut syn::Expr, out: &mut Vec<syn::Item>) {
+fn of_expr(e: &mut syn::Expr, constants: &[syn::ItemConst], out: &mut Vec<syn::Item>) {
     match e {
-        syn::Expr::Block(e) => of_block(&mut e.block, out),
-        syn::Expr::ForLoop(e) => of_block(&mut e.body, out),
-        syn::Expr::Loop(e) => of_block(&mut e.body, out),
-        syn::Expr::While(e) => of_block(&mut e.body, out),
+        syn::Expr::Block(e) => of_block(&mut e.block, constants, out),
+        syn::Expr::ForLoop(e) => of_block(&mut e.body, constants, out),
+        syn::Expr::Loop(e) => of_block(&mut e.body, constants, out),
+        syn::Expr::While(e) => of_block(&mut e.body, constants, out),
         syn::Expr::If(e) => {
-            of_block(&mut e.then_branch, out);
+            of_block(&mut e.then_branch, constants, out);
             if let Some((_, other)) = &mut e.else_branch {
-                of_expr(other, out);
+                of_expr(other, constants, out);
             }
         }
-        syn::Expr::Match(e) => e.arms.iter_mut().for_each(|arm| of_expr(&mut arm.body, out)),
-        syn::Expr::Closure(e) => of_expr(&mut e.body, out),
+        syn::Expr::Match(e) => e.arms.iter_mut().for_each(|arm| of_expr(&mut arm.body, constants, out)),
+        syn::Expr::Closure(e) => of_expr(&mut e.body, constants, out),
         _ => {}
+    }
+}
+
+/// Gives the functions of an item the constants of the blocks around it.
+fn give(item: &mut syn::Item, constants: &[syn::ItemConst]) {
+    match item {
+        syn::Item::Fn(f) => prepend(&mut f.block, constants),
+        syn::Item::Impl(i) => i.items.iter_mut().for_each(|inner| {
+            if let syn::ImplItem::Fn(f) = inner {
+                prepend(&mut f.block, constants);
+            }
+        }),
+        syn::Item::Trait(t) => t.items.iter_mut().for_each(|inner| {
+            if let syn::TraitItem::Fn(f) = inner
+                && let Some(block) = &mut f.default
+            {
+                prepend(block, constants);
+            }
+        }),
+        _ => {}
+    }
+}
+
+/// Lets a block begin with those of some constants that it mentions, and those that they are made of; with none, where it has one
+/// of its own of such a name.
+fn prepend(block: &mut syn::Block, constants: &[syn::ItemConst]) {
+    if constants.is_empty() {
+        return;
+    }
+    let own = block.stmts.iter().filter_map(|statement| match statement {
+        syn::Stmt::Item(syn::Item::Const(constant)) => Some(constant.ident.to_string()),
+        _ => None,
+    });
+    let own: HashSet<String> = own.collect();
+    let mut mentioned = HashSet::new();
+    names(block.to_token_stream(), &mut mentioned);
+    mentioned.retain(|name| !own.contains(name));
+    let mut given: Vec<&syn::ItemConst> = Vec::new();
+    while let Some(next) = constants.iter().find(|constant| {
+        mentioned.contains(&constant.ident.to_string()) && given.iter().all(|known| known.ident != constant.ident)
+    }) {
+        names(next.expr.to_token_stream(), &mut mentioned);
+        names(next.ty.to_token_stream(), &mut mentioned);
+        given.push(next);
+    }
+    if given.iter().any(|constant| own.contains(&constant.ident.to_string())) {
+        return;
+    }
+    let given = given.into_iter().cloned().map(|c| syn::Stmt::Item(syn::Item::Const(c)));
+    block.stmts.splice(0..0, given.collect::<Vec<_>>());
+}
+
+/// Every name in a text.
+fn names(text: TokenStream, out: &mut HashSet<String>) {
+    for token in text {
+        match token {
+            TokenTree::Group(group) => names(group.stream(), out),
+            TokenTree::Ident(name) => {
+                out.insert(name.to_string());
+            }
+            TokenTree::Punct(_) | TokenTree::Literal(_) => {}
+        }
     }
 }
 

@@ -38,6 +38,9 @@ pub use scan::{assigned, breaks, children, mentioned_in};
 pub use traits::is_of_rust;
 pub use tree::Library;
 
+/// Functions of the prelude that take a float or a vector and give one of its type, and do for a closure by their names.
+pub const UNARY: [&str; 5] = ["fract", "inverse_sqrt", "round", "saturate", "sign"];
+
 /// What the files of a kernel define.
 #[derive(Debug)]
 pub struct Parsed {

@@ -2,6 +2,7 @@
 
 use super::expr::Lower;
 use super::tree::{Pattern, Type};
+use crate::diagnostic::Diagnostic;
 use std::collections::HashMap;
 use syn::spanned::Spanned;
 
@@ -29,10 +30,26 @@ impl Lower {
             }
             syn::Pat::Wild(_) => Pattern::Wild,
             syn::Pat::Tuple(p) => {
-                Pattern::Tuple(p.elems.iter().map(|e| self.pattern(e)).collect(), self.span(p.span()))
+                let parts = p.elems.iter().map(|e| match e {
+                    syn::Pat::Rest(_) => Pattern::Rest,
+                    other => self.pattern(other),
+                });
+                let parts = parts.collect();
+                self.one_rest(&p.elems);
+                Pattern::Tuple(parts, self.span(p.span()))
             }
             syn::Pat::Slice(p) => {
-                Pattern::Array(p.elems.iter().map(|e| self.pattern(e)).collect(), self.span(p.span()))
+                let parts = p.elems.iter().map(|e| match e {
+                    syn::Pat::Rest(_) => Pattern::Rest,
+                    syn::Pat::Ident(named) if is_rest(e) && named.by_ref.is_none() => {
+                        let (name, span) = (named.ident.to_string(), self.span(named.ident.span()));
+                        Pattern::At(name, named.mutability.is_some(), Box::new(Pattern::Rest), span)
+                    }
+                    other => self.pattern(other),
+                });
+                let parts = parts.collect();
+                self.one_rest(&p.elems);
+                Pattern::Array(parts, self.span(p.span()))
             }
             syn::Pat::Paren(p) => self.pattern(&p.pat),
             syn::Pat::Reference(p) => Pattern::Ref(Box::new(self.pattern(&p.pat)), self.span(p.span())),
@@ -74,7 +91,10 @@ impl Lower {
             other => {
                 let (what, instead) = match other {
                     syn::Pat::Ident(p) if p.by_ref.is_some() => ("`ref`", "leave it out: values are copied"),
-                    syn::Pat::Rest(_) => ("`..` in a tuple or array", "write `_` for each part that is not used"),
+                    syn::Pat::Rest(_) => (
+                        "`..` here",
+                        "of a structure without field names, let it stand last; of an array, `rest @ ..` may name it",
+                    ),
                     syn::Pat::Const(_) => ("a `const` block in a pattern", "give the constant a name"),
                     syn::Pat::Macro(_) => ("a macro in a pattern", "write the pattern out"),
                     syn::Pat::Type(_) => ("a type inside of a pattern", "state the type of the whole pattern"),
@@ -86,6 +106,18 @@ impl Lower {
                 self.unsupported(other.span(), what, instead);
                 Pattern::Wild
             }
+        }
+    }
+
+    /// Refuses a second `..` among the parts of a tuple or an array.
+    fn one_rest(&mut self, parts: &syn::punctuated::Punctuated<syn::Pat, syn::Token![,]>) {
+        if let Some(second) = parts.iter().filter(|part| is_rest(part)).nth(1) {
+            let span = self.span(second.span());
+            self.errors.push(
+                Diagnostic::at(span, "`..` can be used once in a pattern of a tuple or an array")
+                    .label("the second")
+                    .help("write `_` for each part that is not used"),
+            );
         }
     }
 
@@ -142,6 +174,14 @@ impl Lower {
             }
             syn::Type::ImplTrait(t) if self.in_parameters => self.anonymous_parameter("impl", &t.bounds),
             syn::Type::TraitObject(t) if self.in_parameters => self.anonymous_parameter("dyn", &t.bounds),
+            syn::Type::FnPtr(t) if t.unsafety.is_none() && t.abi.is_none() && t.variadic.is_none() => {
+                let params = t.inputs.iter().map(|input| self.ty(&input.ty)).collect();
+                let result = match &t.output {
+                    syn::ReturnType::Default => Type::Tuple(Vec::new()),
+                    syn::ReturnType::Type(_, ty) => self.ty(ty),
+                };
+                Type::Fn(params, Box::new(result))
+            }
             // What a function gives, and what is of one type or another: the values tell.
             syn::Type::ImplTrait(_) => Type::Name("_".to_owned(), Vec::new()),
             syn::Type::TraitObject(t) => {
@@ -221,6 +261,18 @@ impl Lower {
             }
         }
         found
+    }
+}
+
+/// Whether a pattern is `..` or `name @ ..`.
+fn is_rest(pattern: &syn::Pat) -> bool {
+    match pattern {
+        syn::Pat::Rest(_) => true,
+        syn::Pat::Ident(p) => p
+            .subpat
+            .as_ref()
+            .is_some_and(|(_, inner)| matches!(**inner, syn::Pat::Rest(_))),
+        _ => false,
     }
 }
 

@@ -105,7 +105,7 @@ fn bound<'b>(pattern: &'b Pattern, out: &mut Vec<&'b str>) {
             out.push(name);
             bound(inner, out);
         }
-        Pattern::Wild | Pattern::Value(_) | Pattern::Range(..) => {}
+        Pattern::Wild | Pattern::Rest | Pattern::Value(_) | Pattern::Range(..) => {}
     }
 }
 
@@ -220,7 +220,9 @@ pub fn children(e: &Expr) -> Vec<&Expr> {
         | ExprKind::Assign(a, _, b) => vec![a, b],
         ExprKind::Call(_, constants, args) => constants.iter().chain(args).collect(),
         ExprKind::Tuple(args) | ExprKind::Array(args) => args.iter().collect(),
-        ExprKind::Method(receiver, _, args) => std::iter::once(&**receiver).chain(args).collect(),
+        ExprKind::Method(first, _, args) | ExprKind::Invoke(first, args) => {
+            std::iter::once(&**first).chain(args).collect()
+        }
         ExprKind::Struct(_, fields, rest) => fields.iter().map(|(_, e)| e).chain(rest.as_deref()).collect(),
         ExprKind::Return(value) => value.iter().map(|e| &**e).collect(),
         ExprKind::If(condition, _, otherwise, _) => std::iter::once(&**condition).chain(otherwise.as_deref()).collect(),
@@ -278,6 +280,6 @@ fn in_pattern(pattern: &Pattern, out: &mut BTreeSet<String>) {
         }
         Pattern::Ref(inner, _) | Pattern::At(_, _, inner, _) => in_pattern(inner, out),
         Pattern::Range(low, high, _) => [low, high].into_iter().flatten().for_each(|end| mentioned_in(end, out)),
-        Pattern::Name(..) | Pattern::Wild => {}
+        Pattern::Name(..) | Pattern::Wild | Pattern::Rest => {}
     }
 }

@@ -4,6 +4,7 @@ use crate::diagnostic::Span;
 use crate::ir::{BinaryOp, Scalar, UnaryOp};
 use crate::policy::{Branches, Unroll};
 use std::collections::{HashMap, HashSet};
+use std::ops::Range;
 use std::sync::Arc;
 
 /// An expression.
@@ -42,6 +43,8 @@ pub enum ExprKind {
     Assign(Box<Expr>, Option<BinaryOp>, Box<Expr>),
     /// `function::<constants>(arguments)` by the path's last two segments.
     Call(Vec<String>, Vec<Expr>, Vec<Expr>),
+    /// `(callee)(arguments)`: a call of what an expression gives.
+    Invoke(Box<Expr>, Vec<Expr>),
     /// `receiver.method(arguments)`.
     Method(Box<Expr>, String, Vec<Expr>),
     /// `base.field`, `base.0`.
@@ -179,6 +182,36 @@ pub enum Pattern {
     Range(Option<Box<Expr>>, Option<Box<Expr>>, bool),
     /// `name @ pattern`, `mut name @ pattern` (true).
     At(String, bool, Box<Pattern>, Span),
+    /// `..` among the parts of a tuple or an array: those that the others leave.
+    Rest,
+}
+
+impl Pattern {
+    /// Whether it takes the parts that the others of a tuple or an array leave: `..`, `name @ ..`.
+    pub fn is_rest(&self) -> bool {
+        match self {
+            Pattern::Rest => true,
+            Pattern::At(_, _, inner, _) => matches!(**inner, Pattern::Rest),
+            _ => false,
+        }
+    }
+
+    /// The parts that each of some patterns takes of `count`: one, or what `..` takes. `None` if they are not of so many.
+    pub fn shared(patterns: &[Pattern], count: usize) -> Option<Vec<(&Pattern, Range<usize>)>> {
+        let rest = patterns.iter().position(Pattern::is_rest);
+        let left = match rest {
+            Some(_) => (count + 1).checked_sub(patterns.len())?,
+            None if patterns.len() == count => 0,
+            None => return None,
+        };
+        let mut at = 0;
+        let each = patterns.iter().enumerate().map(|(k, pattern)| {
+            let from = at;
+            at += if Some(k) == rest { left } else { 1 };
+            (pattern, from..at)
+        });
+        Some(each.collect())
+    }
 }
 
 /// The vector that glam calls so, `BVec2` to `BVec4` among them: the kind and the number of its components.
@@ -202,7 +235,7 @@ pub enum Type {
     Tuple(Vec<Type>),
     /// `&T`, `&mut T` (true).
     Ref(bool, Box<Type>),
-    /// What is called: `impl Fn(A) -> B`.
+    /// What is called: `impl Fn(A) -> B`, `fn(A) -> B`.
     Fn(Vec<Type>, Box<Type>),
 }
 

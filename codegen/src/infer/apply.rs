@@ -101,6 +101,10 @@ fn expr(e: &mut Expr, known: &Known) {
                 e.kind = ExprKind::Call(vec![key.clone()], constants, all);
             }
         }
+        ExprKind::Invoke(callee, args) => {
+            go(callee);
+            args.iter_mut().for_each(go);
+        }
         ExprKind::Tuple(parts) | ExprKind::Array(parts) => parts.iter_mut().for_each(go),
         ExprKind::Struct(_, fields, rest) => {
             fields.iter_mut().for_each(|(_, e)| go(e));
@@ -163,7 +167,7 @@ fn arguments(stated: Vec<Expr>, types: &[Option<String>], span: Span) -> Vec<Exp
 
 fn pattern(p: &mut Pattern, known: &Known) {
     match p {
-        Pattern::Name(..) | Pattern::Wild => {}
+        Pattern::Name(..) | Pattern::Wild | Pattern::Rest => {}
         Pattern::Tuple(parts, _) | Pattern::Array(parts, _) | Pattern::Or(parts) => {
             parts.iter_mut().for_each(|part| pattern(part, known));
         }

@@ -3,6 +3,7 @@
 use super::Checker;
 use super::types::{Kind, Ty};
 use crate::diagnostic::{Diagnostic, Span};
+use crate::front::UNARY;
 use crate::front::tree::{Closure, Expr};
 
 impl<'l> Checker<'l> {
@@ -49,19 +50,40 @@ impl<'l> Checker<'l> {
     pub fn call_of_local(&mut self, name: &str, args: &'l [Expr], span: Span) -> Option<Ty> {
         let local = self.locals.iter().rev().find(|local| local.name == name)?;
         let ty = local.ty.clone();
-        match self.peeled(&ty).0 {
+        self.call_of(&ty, &format!("`{name}`"), args, span)
+    }
+
+    /// A call of what an expression gives.
+    pub fn invoked(&mut self, callee: &'l Expr, args: &'l [Expr], span: Span) -> Ty {
+        let found = self.expr(callee, None);
+        if let Some(result) = self.call_of(&found, "what is called", args, span) {
+            return result;
+        }
+        let found = self.table.deep(&found);
+        self.errors.push(
+            Diagnostic::at(callee.span, format!("expected function, found `{found}`"))
+                .label("not a function")
+                .help("call a function, a closure, or a variable or field that holds one"),
+        );
+        self.loose(args);
+        Ty::Unknown
+    }
+
+    /// A call of a value of a type; `None` if it is not known to be called.
+    fn call_of(&mut self, ty: &Ty, name: &str, args: &'l [Expr], span: Span) -> Option<Ty> {
+        match self.peeled(ty).0 {
             Ty::Fn(params, result) => {
                 if params.len() != args.len() {
                     let (wanted, given) = (params.len(), args.len());
                     let plural = if wanted == 1 { "" } else { "s" };
                     self.errors.push(
-                        Diagnostic::at(span, format!("`{name}` takes {wanted} argument{plural}, not {given}"))
+                        Diagnostic::at(span, format!("{name} takes {wanted} argument{plural}, not {given}"))
                             .label("called here"),
                     );
                 }
                 Some(self.takes(args, &params, *result))
             }
-            Ty::Unknown => {
+            Ty::Unknown | Ty::Never => {
                 self.loose(args);
                 Some(Ty::Unknown)
             }
@@ -84,6 +106,12 @@ impl<'l> Checker<'l> {
             let result = self.substituted(&function.result, &given, span);
             return Some(Ty::Fn(params, Box::new(result)));
         }
+        if let [name] = path
+            && UNARY.contains(&name.as_str())
+        {
+            let of = self.table.fresh(Kind::Any);
+            return Some(Ty::Fn(vec![of.clone()], Box::new(of)));
+        }
         let [.., ty, method] = path else { return None };
         let receiver = match ty.as_str() {
             "f32" => Ty::Float,
@@ -99,7 +127,8 @@ impl<'l> Checker<'l> {
             return None;
         }
         match self.known_method(&receiver, method, &[], span) {
-            Ty::Unknown => None,
+            // Of other numbers of arguments the evaluator knows.
+            Ty::Unknown => Some(Ty::Unknown),
             result => Some(Ty::Fn(vec![receiver], Box::new(result))),
         }
     }

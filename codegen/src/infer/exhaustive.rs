@@ -99,9 +99,7 @@ impl<'l> Checker<'l> {
             Ty::Tuple(parts) => {
                 let rows = rows.iter().filter_map(|row| {
                     let cells: Vec<Cell<'_>> = match row[0].map(bare) {
-                        Some(Pattern::Tuple(patterns, _)) if patterns.len() == parts.len() => {
-                            patterns.iter().map(Some).collect()
-                        }
+                        Some(Pattern::Tuple(patterns, _)) => cells(patterns, parts.len())?,
                         other if takes_all(other) => vec![None; parts.len()],
                         _ => return None,
                     };
@@ -111,15 +109,18 @@ impl<'l> Checker<'l> {
             }
             Ty::Array(element) => {
                 let len = rows.iter().find_map(|row| match row[0].map(bare) {
+                    Some(Pattern::Array(parts, _)) if !parts.iter().any(Pattern::is_rest) => Some(parts.len()),
+                    _ => None,
+                });
+                // Where all have `..`, no part of the longest one is left out.
+                let named = rows.iter().filter_map(|row| match row[0].map(bare) {
                     Some(Pattern::Array(parts, _)) => Some(parts.len()),
                     _ => None,
                 });
-                let len = len.unwrap_or(0);
+                let len = len.or_else(|| named.max().map(|most| 2 * most)).unwrap_or(0);
                 let rows = rows.iter().filter_map(|row| {
                     let cells: Vec<Cell<'_>> = match row[0].map(bare) {
-                        Some(Pattern::Array(patterns, _)) if patterns.len() == len => {
-                            patterns.iter().map(Some).collect()
-                        }
+                        Some(Pattern::Array(patterns, _)) => cells(patterns, len)?,
                         other if takes_all(other) => vec![None; len],
                         _ => return None,
                     };
@@ -152,6 +153,17 @@ impl<'l> Checker<'l> {
     }
 }
 
+/// What the patterns of a tuple or an array take of each of its parts; `None` if they are not of so many.
+fn cells(patterns: &[Pattern], count: usize) -> Option<Vec<Cell<'_>>> {
+    let mut cells = vec![None; count];
+    for (pattern, taken) in Pattern::shared(patterns, count)? {
+        if !pattern.is_rest() {
+            cells[taken.start] = Some(pattern);
+        }
+    }
+    Some(cells)
+}
+
 /// Rows without `|` in their first cell.
 fn alternatives(rows: Vec<Vec<Cell<'_>>>) -> Vec<Vec<Cell<'_>>> {
     let mut out = Vec::new();
@@ -181,7 +193,7 @@ fn is_path_to(e: &Expr, name: &String) -> bool {
 }
 
 fn takes_all(cell: Cell<'_>) -> bool {
-    cell.is_none_or(|p| matches!(bare(p), Pattern::Name(..) | Pattern::Wild))
+    cell.is_none_or(|p| matches!(bare(p), Pattern::Name(..) | Pattern::Wild | Pattern::Rest))
 }
 
 /// A pattern without the `&` before it.
@@ -208,7 +220,7 @@ fn range(pattern: &Pattern) -> Option<(i64, i64)> {
 /// Whether a pattern compares with a value anywhere.
 fn compares(pattern: &Pattern) -> bool {
     match bare(pattern) {
-        Pattern::Name(..) | Pattern::Wild | Pattern::Ref(..) | Pattern::At(..) => false,
+        Pattern::Name(..) | Pattern::Wild | Pattern::Rest | Pattern::Ref(..) | Pattern::At(..) => false,
         Pattern::Value(_) | Pattern::Range(..) => true,
         Pattern::Tuple(parts, _) | Pattern::Array(parts, _) | Pattern::Or(parts) => parts.iter().any(compares),
         Pattern::Struct(_, fields, _) => fields.iter().any(|(_, part)| compares(part)),

@@ -188,6 +188,7 @@ impl<'l> Checker<'l> {
             }
             ExprKind::Assign(target, op, value) => self.assign(target, *op, value, expr),
             ExprKind::Call(path, constants, args) => self.call(path, constants, args, span),
+            ExprKind::Invoke(callee, args) => self.invoked(callee, args, span),
             ExprKind::Method(receiver, name, args) => self.method(receiver, name, args, span),
             ExprKind::If(condition, then, otherwise, _) => {
                 self.against(condition, &Ty::Bool);
@@ -368,6 +369,10 @@ impl<'l> Checker<'l> {
 
     fn cast(&mut self, value: &'l Expr, ty: &'l Type, span: Span) -> Ty {
         let target = self.stated(ty, span);
+        if matches!(target, Ty::Fn(..)) {
+            self.against(value, &target);
+            return target;
+        }
         let found = self.expr(value, Some(&target));
         self.observed.push(found.clone());
         // A literal under a cast is of that type, if it can be.

@@ -47,11 +47,13 @@ impl<'l> Checker<'l> {
             None => part,
         };
         match pattern {
-            Pattern::Name(..) | Pattern::Wild | Pattern::Ref(..) | Pattern::At(..) => {}
+            Pattern::Name(..) | Pattern::Wild | Pattern::Rest | Pattern::Ref(..) | Pattern::At(..) => {}
             Pattern::Tuple(parts, span) => match &bare {
-                Ty::Tuple(types) if types.len() == parts.len() => {
-                    for (part, ty) in parts.iter().zip(types) {
-                        self.bind(part, &through(ty.clone()), deferred);
+                Ty::Tuple(types) if Pattern::shared(parts, types.len()).is_some() => {
+                    for (part, taken) in Pattern::shared(parts, types.len()).into_iter().flatten() {
+                        if !part.is_rest() {
+                            self.bind(part, &through(types[taken.start].clone()), deferred);
+                        }
                     }
                 }
                 Ty::Unknown | Ty::Param(_) | Ty::Never => self.bind_unknown(parts, deferred),
@@ -65,8 +67,11 @@ impl<'l> Checker<'l> {
             },
             Pattern::Array(parts, span) => match &bare {
                 Ty::Array(element) => {
-                    let element = through((**element).clone());
-                    parts.iter().for_each(|part| self.bind(part, &element, deferred));
+                    let one = through((**element).clone());
+                    let rest = through(Ty::Array(element.clone()));
+                    for part in parts {
+                        self.bind(part, if part.is_rest() { &rest } else { &one }, deferred);
+                    }
                 }
                 Ty::Unknown | Ty::Param(_) | Ty::Never => self.bind_unknown(parts, deferred),
                 other => {

@@ -36,9 +36,9 @@ impl Check {
             E::Repeat(e) => self.pair(&mut e.expr, &mut e.len),
             E::Block(e) => self.block(&mut e.block),
             E::Call(e) => {
-                // Calling a value is refused by the lowering.
-                if let E::Path(path) = &mut *e.func {
-                    self.path(&mut path.path, true);
+                match &mut *e.func {
+                    E::Path(path) => self.path(&mut path.path, true),
+                    other => self.expr(other),
                 }
                 self.exprs(&mut e.args);
             }

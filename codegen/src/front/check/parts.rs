@@ -75,13 +75,18 @@ impl Check {
             T::Reference(t) => self.ty(&mut t.elem),
             T::Slice(t) => self.ty(&mut t.elem),
             T::Tuple(t) => t.elems.iter_mut().for_each(|t| self.ty(t)),
+            T::FnPtr(t) => {
+                t.inputs.iter_mut().for_each(|input| self.ty(&mut input.ty));
+                if let syn::ReturnType::Type(_, ty) = &mut t.output {
+                    self.ty(ty);
+                }
+            }
             T::Path(t) if t.qself.is_none() => {
                 self.number(&t.path);
                 self.path(&mut t.path, true);
             }
             // The lowering refuses these.
-            T::FnPtr(_)
-            | T::ImplTrait(_)
+            T::ImplTrait(_)
             | T::Infer(_)
             | T::Macro(_)
             | T::Never(_)
