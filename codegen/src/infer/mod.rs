@@ -72,11 +72,14 @@ fn found(library: &Library, reached: &BTreeSet<String>) -> (KnownItems, Vec<Diag
             one(library, known, &mut errors, |checker| checker.constant(constant));
         }
     }
+    // A trait of which the kernel reaches something is what it is for every type.
+    let all = || library.implemented.values().flatten();
+    let traits: BTreeSet<&String> = all().filter(|i| reached.contains(&i.key)).map(|i| &i.of).collect();
     for (key, implemented) in &library.implemented {
         let Some((ty, name)) = key.split_once("::") else {
             continue;
         };
-        for one_of in implemented.iter().filter(|one_of| reached.contains(&one_of.key)) {
+        for one_of in implemented.iter().filter(|one_of| traits.contains(&one_of.of)) {
             let declared = library.traits.get(&one_of.of).and_then(|of| of.functions.get(name));
             if let (Some(declared), Some(function)) = (declared, library.functions.get(&one_of.key)) {
                 one(library, &mut Known::default(), &mut errors, |checker| {

@@ -29,6 +29,13 @@ impl Maker {
     pub(super) fn float(&mut self, want: Want) -> String {
         let d = want.deeper();
         let coarse = self.on(Feature::Coarse);
+        if self.tries && !want.known && d.depth > 0 && self.random.once_in(12) {
+            let [a, b] = [0, 1].map(|_| self.expr(&Ty::F32, d));
+            return match self.random.once_in(2) {
+                true => format!("scaling({a})({b})"),
+                false => format!("ends([{a}, 0.5, {b}])"),
+            };
+        }
         match self.random.below(30) {
             0..=8 => {
                 let op = self.random.pick(&["+", "-", "*", "+", "-"]);

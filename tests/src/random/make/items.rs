@@ -22,6 +22,11 @@ impl Maker {
                 self.line("let a = a?;");
                 self.line("Some(a * 0.5 + b?)");
                 self.close("}");
+                self.line("fn scaling(by: f32) -> impl Fn(f32) -> f32 { move |x| x * by }");
+                self.open("fn ends(v: [f32; 3]) -> f32 {");
+                self.line("let [first, .., last] = v;");
+                self.line("first - last");
+                self.close("}");
             }
         }
         for _ in 0..self.random.below(3) {

@@ -120,7 +120,7 @@ struct Maker {
     structures: Vec<Structure>,
     enumerations: Vec<Enumeration>,
     choices: Vec<Choice>,
-    /// Whether there is a function with `?`.
+    /// Whether there are functions with `?`, with `..` in a pattern, and one that gives a closure.
     tries: bool,
     /// Whether the trait is there.
     traits: bool,
