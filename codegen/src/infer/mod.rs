@@ -74,7 +74,26 @@ fn found(library: &Library, reached: &BTreeSet<String>) -> (KnownItems, Vec<Diag
     }
     // A trait of which the kernel reaches something is what it is for every type.
     let all = || library.implemented.values().flatten();
-    let traits: BTreeSet<&String> = all().filter(|i| reached.contains(&i.key)).map(|i| &i.of).collect();
+    let mut traits: BTreeSet<&String> = all().filter(|i| reached.contains(&i.key)).map(|i| &i.of).collect();
+    let constants = || {
+        library.implements.iter().flat_map(|(ty, of)| {
+            let declared = library.traits.get(of).into_iter().flat_map(|of| &of.consts);
+            declared.filter_map(move |(name, declared)| {
+                let given = library.consts.get(&format!("{ty}::{name}"))?;
+                Some((of, declared, given))
+            })
+        })
+    };
+    traits.extend(
+        constants()
+            .filter(|(_, _, given)| reached.contains(&given.name))
+            .map(|(of, ..)| of),
+    );
+    for (of, declared, given) in constants().filter(|(of, ..)| traits.contains(of)) {
+        one(library, &mut Known::default(), &mut errors, |checker| {
+            checker.constant_as_declared(of, declared, given);
+        });
+    }
     for (key, implemented) in &library.implemented {
         let Some((ty, name)) = key.split_once("::") else {
             continue;

@@ -4,7 +4,7 @@
 use super::Checker;
 use super::types::{Kind, Ty};
 use crate::diagnostic::{Diagnostic, Span};
-use crate::front::tree::{Expr, Function, Generic};
+use crate::front::tree::{Const, Expr, Function, Generic, Type};
 use crate::ir::{BinaryOp, UnaryOp};
 use std::collections::HashMap;
 
@@ -187,6 +187,28 @@ impl<'l> Checker<'l> {
                 .help(format!("write `{wanted}`")),
             );
         }
+    }
+
+    /// Notes where a constant is of another type than its trait says.
+    pub fn constant_as_declared(&mut self, of: &str, declared: &'l Type, given: &'l Const) {
+        let span = given.value.span;
+        let known = self.errors.len();
+        let wanted = self.substituted(declared, &HashMap::new(), span);
+        // What names types of the trait's own cannot be compared here.
+        self.errors.truncate(known);
+        let found = self.substituted(&given.ty, &HashMap::new(), span);
+        if matches!(wanted, Ty::Unknown) || self.table.unify(&wanted, &found) {
+            return;
+        }
+        let name = given.name.rsplit("::").next().unwrap_or_default();
+        self.errors.push(
+            Diagnostic::at(
+                span,
+                format!("`{name}` is not as the trait `{of}` declares it: it is `{found}`"),
+            )
+            .label(format!("expected `{wanted}`"))
+            .help(format!("write `const {name}: {wanted}`")),
+        );
     }
 
     /// Notes what the type parameters of a call are, and what they have to be.

@@ -109,9 +109,25 @@ fn reached(source: &str) -> String {
         });
         match gone {
             Some(gone) => drop(lines.drain(gone)),
-            None => return lines.join("\n") + "\n",
+            None => {
+                if !calls_the_trait(&lines) {
+                    lines.retain(|line| !line.starts_with("impl Tr for"));
+                }
+                return lines.join("\n") + "\n";
+            }
         }
     }
+}
+
+/// Whether something besides the trait itself and its implementations, a line each, mentions the trait or its functions.
+fn calls_the_trait(lines: &[&str]) -> bool {
+    let own = |line: &str| {
+        let start = line.trim_start();
+        let beginnings = ["impl Tr for", "trait Tr", "fn tr(", "fn twice("];
+        beginnings.iter().any(|beginning| start.starts_with(beginning))
+    };
+    let mentions = |line: &str| [".tr(", ".twice(", "Tr"].iter().any(|word| line.contains(word));
+    lines.iter().any(|line| !own(line) && mentions(line))
 }
 
 /// What is written instead of what, where it stands.
