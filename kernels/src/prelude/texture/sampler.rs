@@ -48,7 +48,7 @@ impl Address {
     }
 }
 
-/// How a [`Texture`] is read between its texels. Bound as a `sampler`, which the host makes.
+/// How a [`Texture`](super::Texture) is read between its texels. Bound as a `sampler`, which the host makes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Sampler {
     /// How texels are weighed.
@@ -86,7 +86,7 @@ impl Comparison {
     }
 }
 
-/// How a [`DepthTexture`] is compared. Bound as a `sampler_comparison`, which the host makes.
+/// How a [`DepthTexture`](super::DepthTexture) is compared. Bound as a `sampler_comparison`, which the host makes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ComparisonSampler {
     /// When a texel counts as 1.
