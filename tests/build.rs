@@ -13,29 +13,64 @@ fn main() {
     let mut modules = String::new();
     let mut table = String::from("pub const EXAMPLES: &[Example] = &[\n");
     for source in blocks(&text) {
-        let file = syn::parse_file(&source).unwrap_or_else(|e| panic!("an example is not Rust: {e}\n{source}"));
-        let kernel = file.items.iter().find_map(|item| match item {
-            syn::Item::Fn(f) if matches!(f.vis, syn::Visibility::Public(_)) => Some(f),
-            _ => None,
-        });
-        let kernel = kernel.unwrap_or_else(|| panic!("an example has no `pub fn`:\n{source}"));
-        let name = &kernel.sig.ident;
-        let arguments: Vec<String> = kernel.sig.inputs.iter().map(argument).collect();
-        let _ = write!(
-            modules,
-            "pub mod {name} {{\n#![allow(dead_code, unused, clippy::all)]\nuse straightline_kernels::prelude::*;\n{source}\n\
-             pub fn native(w: &super::World, at: IVec2) -> Vec<[f64; 4]> {{ let given = {name}({}); {} }}\n}}\n",
-            arguments.join(", "),
-            texels(&file, &kernel.sig.output)
-        );
+        let (module, example) = example(&source);
+        modules += &module;
+        let _ = writeln!(table, "    {example},");
+    }
+    table += "];\n";
+    modules += "pub mod features {\n";
+    table += "pub const FEATURES: &[(&str, Example)] = &[\n";
+    for (title, source) in features() {
+        let (module, example) = example(&source);
+        modules += &module;
         let _ = writeln!(
             table,
-            "    Example {{ name: \"{name}\", source: {source:?}, native: {name}::native }},"
+            "    ({title:?}, {}),",
+            example.replace("native: ", "native: features::")
         );
     }
+    modules += "}\n";
     table += "];\n";
     let out = Path::new(&std::env::var_os("OUT_DIR").expect("set by cargo")).join("examples.rs");
     std::fs::write(out, modules + &table).expect("the build folder can be written");
+}
+
+/// A module of an example, and how a table has it.
+fn example(source: &str) -> (String, String) {
+    let file = syn::parse_file(source).unwrap_or_else(|e| panic!("an example is not Rust: {e}\n{source}"));
+    let kernel = file.items.iter().find_map(|item| match item {
+        syn::Item::Fn(f) if matches!(f.vis, syn::Visibility::Public(_)) => Some(f),
+        _ => None,
+    });
+    let kernel = kernel.unwrap_or_else(|| panic!("an example has no `pub fn`:\n{source}"));
+    let name = &kernel.sig.ident;
+    let arguments: Vec<String> = kernel.sig.inputs.iter().map(argument).collect();
+    let module = format!(
+        "pub mod {name} {{\n#![allow(dead_code, unused, unsafe_code, static_mut_refs, clippy::all)]\nuse straightline_kernels::prelude::*;\n{source}\n\
+         pub fn native(w: &crate::World, at: IVec2) -> Vec<[f64; 4]> {{ let given = {name}({}); {} }}\n}}\n",
+        arguments.join(", "),
+        texels(&file, &kernel.sig.output)
+    );
+    let example = format!("Example {{ name: \"{name}\", source: {source:?}, native: {name}::native }}");
+    (module, example)
+}
+
+/// The constructs of `features/` by their titles.
+fn features() -> Vec<(String, String)> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("features");
+    println!("cargo::rerun-if-changed={}", folder.display());
+    let mut found = Vec::new();
+    // In the order of a page.
+    for name in ["control", "patterns", "closures", "values", "items", "refused"] {
+        let path = folder.join(format!("{name}.rs"));
+        println!("cargo::rerun-if-changed={}", path.display());
+        let text = std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+        for part in text.split("//// ").skip(1) {
+            let (title, source) = part.split_once('\n').expect("a title has a line of its own");
+            found.push((title.to_owned(), source.to_owned()));
+        }
+    }
+    found
 }
 
 /// The text of every block that is marked as Rust.

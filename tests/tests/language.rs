@@ -361,3 +361,48 @@ fn every_example_works_in_half_precision() {
     assert!(spirv.len() > 60);
     other_compilers(&[], &spirv);
 }
+
+const BEGIN: &str = "<!-- features -->\n";
+const END: &str = "<!-- end of features -->";
+
+/// What becomes of each construct of `features/`: the same as rustc makes of it, in every form, or a message. The page has the table.
+#[test]
+fn the_page_says_which_constructs_are_taken() {
+    let world = World::new();
+    let inputs = world.inputs();
+    let mut table = String::from("| construct | standing |\n| --- | --- |\n");
+    let mut taken = 0;
+    for (title, example) in FEATURES {
+        let text = format!("use straightline_kernels::prelude::*;\n{}", example.source);
+        let kernel = Kernel::from_text("feature.rs", &text, example.name);
+        if let Err(errors) = kernel.compile(&Settings::default()) {
+            let why = &errors.diagnostics[0].message;
+            table += &format!("| {title} | refused: {why} |\n");
+            continue;
+        }
+        taken += 1;
+        table += &format!("| {title} | taken |\n");
+        let pixels = (0..SIZE.y as i32).flat_map(|y| (0..SIZE.x as i32).map(move |x| ivec2(x, y)));
+        let native: Vec<[f64; 4]> = pixels.map(|at| (example.native)(&world, at)[0]).collect();
+        for unroll in [Unroll::Full, Unroll::None, Unroll::Partial(2)] {
+            let settings = Settings {
+                unroll,
+                ..Settings::default()
+            };
+            let compiled = compile(example, &settings);
+            let found = interpret::<f32>(&compiled, &inputs, false).unwrap_or_else(|e| panic!("{title}: {e}"));
+            same_texels(&native, &found.targets[0].texels).unwrap_or_else(|e| panic!("{title} with {unroll}: {e}"));
+        }
+    }
+    assert!(taken >= 60, "{taken} constructs are taken");
+    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../docs/kernel-language.md");
+    let page = std::fs::read_to_string(&path).expect("the page");
+    let (before, rest) = page.split_once(BEGIN).expect("where the table begins");
+    let (old, behind) = rest.split_once(END).expect("where it ends");
+    let now = format!("\n{table}\n");
+    if std::env::var_os("STRAIGHTLINE_BLESS").is_some() {
+        std::fs::write(&path, format!("{before}{BEGIN}{now}{END}{behind}")).expect("the page is written");
+    } else {
+        assert_eq!(old, now, "STRAIGHTLINE_BLESS=1 writes the table anew");
+    }
+}

@@ -1,0 +1,78 @@
+//// Closures that read and write what is around them
+pub fn closures(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
+    let mut sum = Vec4::ZERO;
+    let mut add = |x, y| sum += color.load(pixel + ivec2(x, y));
+    add(0, 0);
+    add(1, 0);
+    sum
+}
+
+//// Closures as parameters: `impl Fn`, `&dyn Fn`, `F: FnMut`
+fn once(f: impl Fn(f32) -> f32, x: f32) -> f32 {
+    f(x)
+}
+
+fn twice<F: FnMut(f32)>(mut f: F, x: f32) {
+    f(x);
+    f(x);
+}
+
+pub fn closures_as_parameters(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
+    let here = color.load(pixel);
+    let mut sum = 0.0;
+    twice(|x| sum += x, here.x);
+    Vec4::splat(once(|x| x * x, sum))
+}
+
+//// Closures that functions return
+fn scaled(by: f32) -> impl Fn(f32) -> f32 {
+    move |x| x * by
+}
+
+pub fn closures_returned(color: &Frame<Vec4>, strength: f32, pixel: IVec2) -> Vec4 {
+    Vec4::splat(scaled(strength)(color.load(pixel).x))
+}
+
+//// Functions as values
+fn blend(curve: fn(f32) -> f32, x: f32) -> f32 {
+    curve(x)
+}
+
+pub fn functions_as_values(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
+    let here = color.load(pixel);
+    let curve = if pixel.x < 0 { f32::sqrt } else { f32::abs };
+    Vec4::splat(blend(f32::floor, here.x * 4.0) + blend(curve, here.y))
+}
+
+//// `map`, `zip`, `sum`, `fold` of iterators
+pub fn iterators(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
+    let weights = [0.25, 0.5, 0.25];
+    let taps = (-1..=1).map(|k| color.load(pixel + ivec2(k, 0)));
+    taps.zip(weights).map(|(tap, weight)| tap * weight).sum()
+}
+
+//// `filter` of iterators
+pub fn filtered(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
+    let taps = (0..6).map(|k| color.load(pixel + ivec2(k, 0)).x);
+    Vec4::splat(taps.filter(|x| *x > 0.5).sum())
+}
+
+//// `any`, `all` and `position` of iterators
+pub fn searched_iterators(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
+    let taps = [0, 1, 2, 3].map(|k| color.load(pixel + ivec2(k, 0)).x);
+    let any = taps.iter().any(|x| *x > 0.9);
+    let at = taps.iter().position(|x| *x > 0.5).unwrap_or(4);
+    vec4(f32::from(any), at as f32, 0.0, 1.0)
+}
+
+//// `map` of arrays and vectors
+pub fn mapped(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
+    let reds = [-1, 0, 1].map(|k| color.load(pixel + ivec2(k, 0)).x);
+    vec4(reds[0], reds[1], reds[2], 1.0).map(f32::sqrt)
+}
+
+//// `array::from_fn`
+pub fn arrays_from_functions(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
+    let taps: [f32; 4] = std::array::from_fn(|k| color.load(pixel + ivec2(k as i32, 0)).x);
+    Vec4::from_array(taps)
+}
