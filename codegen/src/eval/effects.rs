@@ -64,11 +64,7 @@ impl Evaluator<'_> {
                     Type::I32,
                 )));
             }
-            (Access::Atomic, Some(AtomicOp::Load), [_]) | (Access::Atomic, Some(_), [_, _]) => {
-                let op = atomic.unwrap_or(AtomicOp::Load);
-                if op == AtomicOp::Load && args.len() > 1 {
-                    return Err(no_such_method(&buffer.name, buffer.access, name, span));
-                }
+            (Access::Atomic, Some(op), _) if args.len() == if op == AtomicOp::Load { 1 } else { 2 } => {
                 Op::Atomic { buffer: index, op }
             }
             (Access::Write, _, [_, _]) if name == "store" => Op::Store(index),

@@ -11,7 +11,7 @@ use std::collections::HashMap;
 use std::rc::Rc;
 use syn::spanned::Spanned;
 
-/// Aliases of aliases after which they are taken to go round.
+/// Aliases of aliases after which they are taken for a cycle.
 const MAX_ALIASES: u32 = 32;
 
 /// What is wrong with names.
@@ -137,7 +137,7 @@ impl Lower {
         let (file, ty) = names.types.get(name)?;
         if self.aliases >= MAX_ALIASES {
             let error = Diagnostic::at(self.span(ty.span()), format!("the type `{name}` stands for itself"))
-                .label("a type that goes round")
+                .label("a cycle of names")
                 .help("write the type itself");
             self.errors.push(error);
             return Some(Type::Tuple(Vec::new()));

@@ -8,6 +8,7 @@
 mod apply;
 mod calls;
 mod closures;
+mod declared;
 mod exhaustive;
 mod expr;
 mod methods;
@@ -72,41 +73,7 @@ fn found(library: &Library, reached: &BTreeSet<String>) -> (KnownItems, Vec<Diag
             one(library, known, &mut errors, |checker| checker.constant(constant));
         }
     }
-    // A trait of which the kernel reaches something is what it is for every type.
-    let all = || library.implemented.values().flatten();
-    let mut traits: BTreeSet<&String> = all().filter(|i| reached.contains(&i.key)).map(|i| &i.of).collect();
-    let constants = || {
-        library.implements.iter().flat_map(|(ty, of)| {
-            let declared = library.traits.get(of).into_iter().flat_map(|of| &of.consts);
-            declared.filter_map(move |(name, declared)| {
-                let given = library.consts.get(&format!("{ty}::{name}"))?;
-                Some((of, declared, given))
-            })
-        })
-    };
-    traits.extend(
-        constants()
-            .filter(|(_, _, given)| reached.contains(&given.name))
-            .map(|(of, ..)| of),
-    );
-    for (of, declared, given) in constants().filter(|(of, ..)| traits.contains(of)) {
-        one(library, &mut Known::default(), &mut errors, |checker| {
-            checker.constant_as_declared(of, declared, given);
-        });
-    }
-    for (key, implemented) in &library.implemented {
-        let Some((ty, name)) = key.split_once("::") else {
-            continue;
-        };
-        for one_of in implemented.iter().filter(|one_of| traits.contains(&one_of.of)) {
-            let declared = library.traits.get(&one_of.of).and_then(|of| of.functions.get(name));
-            if let (Some(declared), Some(function)) = (declared, library.functions.get(&one_of.key)) {
-                one(library, &mut Known::default(), &mut errors, |checker| {
-                    checker.as_declared((&one_of.of, declared), (ty, function), name);
-                });
-            }
-        }
-    }
+    declared::check(library, reached, &mut errors);
     let mut known = Known::default();
     let of_structures = library.structs.values().map(|s| (&s.generics, &s.fields));
     let variants = library

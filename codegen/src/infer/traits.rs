@@ -4,7 +4,7 @@
 use super::Checker;
 use super::types::{Kind, Ty};
 use crate::diagnostic::{Diagnostic, Span};
-use crate::front::tree::{Const, Expr, Function, Generic, Type};
+use crate::front::tree::{Expr, Function, Generic};
 use crate::ir::{BinaryOp, UnaryOp};
 use std::collections::HashMap;
 
@@ -133,82 +133,6 @@ impl<'l> Checker<'l> {
         }
         self.instance(key, function, &given, span);
         self.substituted(&function.result, &given, span)
-    }
-
-    /// Notes where a function is unlike what its trait says of it. Functions with type parameters, and of traits with types of
-    /// their own, are left to their calls.
-    pub fn as_declared(
-        &mut self,
-        (of, declared): (&str, &'l Function),
-        (ty, function): (&str, &'l Function),
-        name: &str,
-    ) {
-        let span = function.span;
-        let (wanted, found) = (declared.params.len(), function.params.len());
-        if wanted != found {
-            self.errors.push(
-                Diagnostic::at(
-                    span,
-                    format!("`{name}` has {found} parameters, but {wanted} in the trait `{of}`"),
-                )
-                .label(format!("expected {wanted} parameters"))
-                .help("give it those that the trait declares"),
-            );
-            return;
-        }
-        let plain = |f: &Function| f.generics.iter().all(|generic| generic.name() == "Self");
-        if !plain(declared) || !plain(function) {
-            return;
-        }
-        let known = self.errors.len();
-        let own = self.named(ty, &[], &HashMap::new(), span);
-        let given = HashMap::from([("Self".to_owned(), own)]);
-        let types = declared.params.iter().map(|p| &p.ty).chain([&declared.result]);
-        let types: Vec<Ty> = types.map(|ty| self.substituted(ty, &given, span)).collect();
-        // What names types of the trait's own cannot be compared here.
-        self.errors.truncate(known);
-        let own_types = function.params.iter().map(|p| &p.ty).chain([&function.result]);
-        for (k, (wanted, found)) in types.iter().zip(own_types).enumerate() {
-            let found = self.substituted(found, &HashMap::new(), span);
-            if matches!(wanted, Ty::Unknown) || self.table.unify(wanted, &found) {
-                continue;
-            }
-            let [wanted, found] = [wanted, &found].map(|ty| self.table.deep(ty).to_string());
-            let what = match function.params.get(k) {
-                Some(param) => format!("`{}`", param.name),
-                None => "the result".to_owned(),
-            };
-            self.errors.push(
-                Diagnostic::at(
-                    span,
-                    format!("`{name}` is not as the trait `{of}` declares it: {what} is `{found}`"),
-                )
-                .label(format!("expected `{wanted}`"))
-                .help(format!("write `{wanted}`")),
-            );
-        }
-    }
-
-    /// Notes where a constant is of another type than its trait says.
-    pub fn constant_as_declared(&mut self, of: &str, declared: &'l Type, given: &'l Const) {
-        let span = given.value.span;
-        let known = self.errors.len();
-        let wanted = self.substituted(declared, &HashMap::new(), span);
-        // What names types of the trait's own cannot be compared here.
-        self.errors.truncate(known);
-        let found = self.substituted(&given.ty, &HashMap::new(), span);
-        if matches!(wanted, Ty::Unknown) || self.table.unify(&wanted, &found) {
-            return;
-        }
-        let name = given.name.rsplit("::").next().unwrap_or_default();
-        self.errors.push(
-            Diagnostic::at(
-                span,
-                format!("`{name}` is not as the trait `{of}` declares it: it is `{found}`"),
-            )
-            .label(format!("expected `{wanted}`"))
-            .help(format!("write `const {name}: {wanted}`")),
-        );
     }
 
     /// Notes what the type parameters of a call are, and what they have to be.

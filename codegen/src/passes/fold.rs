@@ -332,14 +332,16 @@ fn boolean(b: &mut Builder<'_>, op: BinaryOp, x: NodeId, y: NodeId) -> Option<No
     let g = b.graph();
     let is = |id: NodeId, value: u32| all_lanes(g, id, value);
     match op {
-        BinaryOp::Eq if is(y, 1) => Some(x),
-        BinaryOp::Eq if is(x, 1) => Some(y),
-        BinaryOp::Ne if is(y, 0) => Some(x),
-        BinaryOp::Ne if is(x, 0) => Some(y),
-        BinaryOp::Eq if is(y, 0) => Some(not(b, x)),
-        BinaryOp::Eq if is(x, 0) => Some(not(b, y)),
-        BinaryOp::Ne if is(y, 1) => Some(not(b, x)),
-        BinaryOp::Ne if is(x, 1) => Some(not(b, y)),
+        BinaryOp::Eq | BinaryOp::Ne => {
+            let known = |id| [0, 1].into_iter().find(|value| is(id, *value));
+            let (value, other) = match (known(x), known(y)) {
+                (Some(value), _) => (value, y),
+                (_, Some(value)) => (value, x),
+                _ => return None,
+            };
+            let same = (value == 1) == (op == BinaryOp::Eq);
+            Some(if same { other } else { not(b, other) })
+        }
         BinaryOp::And if is(x, 1) => Some(y),
         BinaryOp::And if is(y, 1) => Some(x),
         BinaryOp::And if is(x, 0) => Some(x),

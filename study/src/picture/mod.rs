@@ -100,20 +100,7 @@ pub fn write_exr(path: &Path, frame: &Frame<Vec4>) -> Result<(), PictureError> {
 /// the display window.
 pub fn read(path: &Path) -> Result<Frame<Vec4>, PictureError> {
     match Format::of(path)? {
-        Format::Png => png::decode_color(path),
-        Format::Exr => exr::read_color(path, None),
-    }
-}
-
-/// Reads a picture whose numbers are no colours, such as normals or a table: those of a PNG as they are, divided by the largest that
-/// its bits can hold.
-///
-/// # Errors
-///
-/// As [`read`].
-pub fn read_data(path: &Path) -> Result<Frame<Vec4>, PictureError> {
-    match Format::of(path)? {
-        Format::Png => png::decode_data(path),
+        Format::Png => png::decode(path),
         Format::Exr => exr::read_color(path, None),
     }
 }

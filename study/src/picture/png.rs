@@ -19,22 +19,12 @@ pub(super) fn encode(path: &Path, file: &mut impl Write, frame: &Frame<Vec4>) ->
 }
 
 /// Reads a PNG file as linear colour.
-pub(super) fn decode_color(path: &Path) -> Result<Frame<Vec4>, PictureError> {
-    decode(path, from_srgb)
-}
-
-/// Reads a PNG file of numbers that are no colours.
-pub(super) fn decode_data(path: &Path) -> Result<Frame<Vec4>, PictureError> {
-    decode(path, |texel| texel)
-}
-
-/// Reads a PNG file, each texel as `texel` has it of numbers between 0 and 1.
-fn decode(path: &Path, texel: fn(Vec4) -> Vec4) -> Result<Frame<Vec4>, PictureError> {
+pub(super) fn decode(path: &Path) -> Result<Frame<Vec4>, PictureError> {
     let (size, image) = image(path)?;
     let texels = image
         .into_rgba32f()
         .pixels()
-        .map(|pixel| texel(Vec4::from_array(pixel.0)))
+        .map(|pixel| from_srgb(Vec4::from_array(pixel.0)))
         .collect();
     Ok(Frame::new(size, texels))
 }

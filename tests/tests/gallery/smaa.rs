@@ -14,7 +14,9 @@ use wgpu::{TextureFormat, TextureUsages, TextureView};
 /// A table of the reference implementation.
 pub fn table(name: &str) -> Frame<Vec4> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../examples/gallery/{name}.png"));
-    picture::read_data(&path).unwrap_or_else(|e| panic!("{e}"))
+    let stored = picture::read_integers(&path).unwrap_or_else(|e| panic!("{e}"));
+    let texels = stored.texels().iter().map(|texel| texel.as_vec4() / 255.0);
+    Frame::new(stored.size(), texels.collect())
 }
 
 /// A device, and the textures that passes have drawn so far.

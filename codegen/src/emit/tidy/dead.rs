@@ -1,6 +1,5 @@
 //! No statement for a value that nothing uses, and none that does nothing.
 
-use super::simplify::not;
 use crate::emit::ast::{Block, Module, Op, Stmt, StmtKind, VarId};
 
 /// How often each variable is read, by variable.
@@ -72,16 +71,6 @@ fn sweep(block: &mut Block<'_>, is_used: &dyn Fn(VarId) -> bool, removed: &mut b
         _ => true,
     });
     for stmt in block.iter_mut() {
-        if let StmtKind::If {
-            condition,
-            then,
-            otherwise,
-        } = &mut stmt.kind
-            && then.is_empty()
-        {
-            *condition = not(condition.clone());
-            std::mem::swap(then, otherwise);
-        }
         // What happens goes on happening.
         if let StmtKind::Effect(effect) = &mut stmt.kind {
             effect.before = effect.before.filter(|var| is_used(*var) || effect.needs_variable());

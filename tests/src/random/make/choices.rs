@@ -156,7 +156,7 @@ impl Maker {
                 format!("({label}: {{ if {condition} {{ break {label} {early}; }} {late} }})")
             }
             6 => {
-                // rustc takes it that a loop goes round.
+                // rustc assumes that a loop has a second iteration.
                 self.repeats *= 2;
                 let (condition, early, late) = (self.condition(d), self.expr(ty, d), self.expr(ty, d));
                 self.repeats /= 2;

@@ -1,0 +1,129 @@
+//! Whether implementations are what their traits declare.
+
+use super::types::Ty;
+use super::{Checker, Known, one};
+use crate::diagnostic::{Diagnostic, Span};
+use crate::front::tree::{Const, Function, Library, Type};
+use std::collections::{BTreeSet, HashMap};
+
+/// Notes where functions and constants are unlike what their traits say of them. A trait of which the kernel reaches something is
+/// looked at for every type.
+pub fn check(library: &Library, reached: &BTreeSet<String>, errors: &mut Vec<Diagnostic>) {
+    let functions = || {
+        library.implemented.iter().flat_map(|(key, implemented)| {
+            let (ty, name) = key.split_once("::").unwrap_or_default();
+            implemented.iter().filter_map(move |i| {
+                let declared = library.traits.get(&i.of)?.functions.get(name)?;
+                Some((&i.of, ty, name, declared, &i.key, library.functions.get(&i.key)?))
+            })
+        })
+    };
+    let constants = || {
+        library.implements.iter().flat_map(|(ty, of)| {
+            let declared = library.traits.get(of).into_iter().flat_map(|of| &of.consts);
+            declared.filter_map(move |(name, declared)| {
+                let given = library.consts.get(&format!("{ty}::{name}"))?;
+                Some((of, declared, given))
+            })
+        })
+    };
+    let called = functions()
+        .filter(|(.., key, _)| reached.contains(*key))
+        .map(|(of, ..)| of);
+    let read = constants()
+        .filter(|(.., given)| reached.contains(&given.name))
+        .map(|(of, ..)| of);
+    let traits: BTreeSet<&String> = called.chain(read).collect();
+    for (of, ty, name, declared, _, function) in functions().filter(|(of, ..)| traits.contains(of)) {
+        one(library, &mut Known::default(), errors, |checker| {
+            checker.as_declared((of, declared), (ty, function), name);
+        });
+    }
+    for (of, declared, given) in constants().filter(|(of, ..)| traits.contains(of)) {
+        one(library, &mut Known::default(), errors, |checker| {
+            checker.constant_as_declared(of, declared, given);
+        });
+    }
+}
+
+impl<'l> Checker<'l> {
+    /// Of functions with type parameters calls alone tell.
+    fn as_declared(&mut self, (of, declared): (&str, &'l Function), (ty, function): (&str, &'l Function), name: &str) {
+        let span = function.span;
+        let (wanted, found) = (declared.params.len(), function.params.len());
+        if wanted != found {
+            self.errors.push(
+                Diagnostic::at(
+                    span,
+                    format!("`{name}` has {found} parameters, but {wanted} in the trait `{of}`"),
+                )
+                .label(format!("expected {wanted} parameters"))
+                .help("give it those that the trait declares"),
+            );
+            return;
+        }
+        let plain = |f: &Function| f.generics.iter().all(|generic| generic.name() == "Self");
+        if !plain(declared) || !plain(function) {
+            return;
+        }
+        let own = self.quietly(|c| c.named(ty, &[], &HashMap::new(), span));
+        let given = HashMap::from([("Self".to_owned(), own)]);
+        let types = |f: &'l Function| f.params.iter().map(|p| &p.ty).chain([&f.result]);
+        for (k, (wanted, found)) in types(declared).zip(types(function)).enumerate() {
+            let Some((wanted, found)) = self.unlike(wanted, found, &given, span) else {
+                continue;
+            };
+            let what = match function.params.get(k) {
+                Some(param) => format!("`{}`", param.name),
+                None => "the result".to_owned(),
+            };
+            self.errors.push(
+                Diagnostic::at(
+                    span,
+                    format!("`{name}` is not as the trait `{of}` declares it: {what} is `{found}`"),
+                )
+                .label(format!("expected `{wanted}`"))
+                .help(format!("write `{wanted}`")),
+            );
+        }
+    }
+
+    fn constant_as_declared(&mut self, of: &str, declared: &'l Type, given: &'l Const) {
+        let span = given.value.span;
+        let Some((wanted, found)) = self.unlike(declared, &given.ty, &HashMap::new(), span) else {
+            return;
+        };
+        let name = given.name.rsplit("::").next().unwrap_or_default();
+        self.errors.push(
+            Diagnostic::at(
+                span,
+                format!("`{name}` is not as the trait `{of}` declares it: it is `{found}`"),
+            )
+            .label(format!("expected `{wanted}`"))
+            .help(format!("write `const {name}: {wanted}`")),
+        );
+    }
+
+    /// The type that a trait declares and the one that is given, where they differ. Types that are not known here, such as those
+    /// that a trait has of its own, do for any.
+    fn unlike(
+        &mut self,
+        declared: &'l Type,
+        given: &'l Type,
+        types: &HashMap<String, Ty>,
+        span: Span,
+    ) -> Option<(Ty, Ty)> {
+        let wanted = self.quietly(|c| c.substituted(declared, types, span));
+        let found = self.quietly(|c| c.substituted(given, &HashMap::new(), span));
+        let same = matches!(wanted, Ty::Unknown) || self.table.unify(&wanted, &found);
+        (!same).then(|| (self.table.deep(&wanted), self.table.deep(&found)))
+    }
+
+    /// Leaves out what is wrong with a type: it may belong to a function that the kernel does not reach.
+    fn quietly<T>(&mut self, look: impl FnOnce(&mut Self) -> T) -> T {
+        let known = self.errors.len();
+        let found = look(self);
+        self.errors.truncate(known);
+        found
+    }
+}
