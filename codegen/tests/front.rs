@@ -140,6 +140,10 @@ fn what_is_not_reached_may_hold_anything() {
                  #[cfg(feature = \"window\")] fn draw() {} #[tokio::main] fn main() {} const _: () = (); const _: () = (); \
                  impl std::ops::Add for V { type Output = V; fn add(self, o: V) -> V { self } } enum E { a(f64) = 3 }";
     assert_eq!(value(items, "Vec4::splat(1.0)"), Ok(1.0));
+    // Nor a function of a trait of which another is called.
+    let items = "trait Shade { fn shade(self) -> f32; fn exact(self, x: f64) -> f64; } \
+                 impl Shade for f32 { fn shade(self) -> f32 { self } fn exact(self, x: f64) -> f64 { x } }";
+    assert_eq!(value(items, "Vec4::splat(2.0f32.shade())"), Ok(2.0));
 }
 
 /// A method of a type goes before one of the same name in a trait.

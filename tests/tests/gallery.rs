@@ -15,6 +15,8 @@ mod light;
 mod motion;
 #[path = "gallery/patterns.rs"]
 mod patterns;
+#[path = "gallery/shader.rs"]
+mod shader;
 #[path = "gallery/shaders.rs"]
 mod shaders;
 #[path = "gallery/smaa.rs"]
@@ -22,119 +24,16 @@ mod smaa;
 #[path = "gallery/world.rs"]
 mod world;
 
-use common::forms::{Example, first, image, pixels, save, texture};
-use glam::DVec4;
+use common::forms::{first, pixels, save};
 use rayon::prelude::*;
+use shader::{Shader, Within};
 use std::path::{Path, PathBuf};
 use straightline_codegen::emit::{EmitError, Target};
 use straightline_codegen::{Branches, EmitOptions, Form, Kernel, Settings, Stage, Unroll};
 use straightline_kernels::prelude::*;
-use straightline_study::execute::{Inputs, test_inputs};
+use straightline_study::execute::Inputs;
 use straightline_study::peers;
 use straightline_tests::compilers;
-use world::World;
-
-/// A shader with what it reads.
-struct Shader {
-    example: Example,
-    inputs: Inputs,
-}
-
-/// How far something may be off, and for which share of the pixels it may be more, since a decision hangs on the last bit.
-#[derive(Clone, Copy)]
-struct Within(f64, f64);
-
-impl Shader {
-    fn new(name: &'static str, size: UVec2) -> Shader {
-        let example = Example::new("gallery", name);
-        let inputs = test_inputs(&example.compile(&Settings::default()).graph, size);
-        Shader { example, inputs }
-    }
-
-    fn number(mut self, name: &str, value: f64) -> Shader {
-        self.inputs = self.inputs.uniform(name, &[value]);
-        self
-    }
-
-    fn vector(mut self, name: &str, value: &[f64]) -> Shader {
-        self.inputs = self.inputs.uniform(name, value);
-        self
-    }
-
-    /// With another image, of a place in 0 to 1.
-    fn image(mut self, name: &str, texel: impl Fn(Vec2) -> Vec4) -> Shader {
-        let given = self.inputs.images.iter_mut().find(|(n, _)| n == name);
-        let (_, layers) = given.expect("an image of this name");
-        let size = layers[0].size();
-        let texels = pixels(size).map(|at| texel((at.as_vec2() + 0.5) / size.as_vec2()));
-        layers[0] = Frame::new(size, texels.collect());
-        self
-    }
-
-    fn float(&self, name: &str) -> f32 {
-        self.components(name)[0]
-    }
-
-    fn components(&self, name: &str) -> Vec<f32> {
-        let numbers = self.inputs.uniforms.iter().rev().find(|(n, _)| n == name);
-        numbers.expect("a uniform").1.iter().map(|v| *v as f32).collect()
-    }
-
-    fn frame(&self, name: &str) -> &Frame<Vec4> {
-        image(&self.inputs, name)
-    }
-
-    fn texture(&self, name: &str) -> Texture<Vec4> {
-        texture(&self.inputs, name)
-    }
-
-    fn flat(&self, name: &str) -> Frame<f32> {
-        first(&self.inputs, name, Frame::new)
-    }
-
-    fn pairs(&self, name: &str) -> Frame<Vec2> {
-        let image = self.frame(name);
-        Frame::new(image.size(), image.texels().iter().map(|t| t.xy()).collect())
-    }
-
-    fn normals(&self, name: &str) -> Frame<Vec3> {
-        let image = self.frame(name);
-        Frame::new(image.size(), image.texels().iter().map(|t| t.truncate()).collect())
-    }
-
-    /// Every check of a shader. `native` is the kernel as rustc has compiled it.
-    fn check(
-        &self,
-        gpu: Within,
-        by_definition: Within,
-        native: impl Fn(IVec2) -> Vec4,
-        oracle: impl Fn(&World, i64, i64) -> DVec4,
-    ) {
-        let name = self.example.name;
-        let world = World(&self.inputs);
-        let (mut off, mut worst) = (0, 0.0f64);
-        for at in pixels(self.inputs.size) {
-            let expected = oracle(&world, at.x.into(), at.y.into());
-            let found = native(at).as_dvec4();
-            let error = (found - expected).abs().max_element();
-            worst = worst.max(error);
-            assert!(found.is_finite(), "{name} is {found} at {at}");
-            off += usize::from(error > by_definition.0);
-        }
-        let share = off as f64 / f64::from(self.inputs.size.element_product());
-        assert!(
-            share <= by_definition.1,
-            "{name}: {off} pixels, a share of {share:.4}, are off by more than {} of their definition, by at most {worst}",
-            by_definition.0
-        );
-        println!(
-            "{name}: a share of {share:.4} is off by more than {}, by at most {worst:.2e}",
-            by_definition.0
-        );
-        let shown = self.example.check(&self.inputs, gpu.0 as f32, gpu.1, native);
-        save(name, &self.inputs, &shown);
-    }
-}
 
 const SIZE: UVec2 = uvec2(96, 64);
 

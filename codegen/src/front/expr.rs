@@ -4,12 +4,11 @@ use super::choice::has_let;
 use super::names::Names;
 use super::parts::takes_apart;
 use super::place;
-use super::scan::mentioned_in;
 use super::targets::{Kind, Target};
-use super::tree::{Block, Const, Expr, ExprKind, ForLoop, Generic, IntType, Statement, Type};
+use super::tree::{Expr, ExprKind, ForLoop, Generic, Type};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::ir::{BinaryOp, UnaryOp};
-use std::collections::{BTreeSet, HashMap};
+use std::collections::HashMap;
 use std::rc::Rc;
 use syn::punctuated::Punctuated;
 use syn::spanned::Spanned;
@@ -281,7 +280,7 @@ impl Lower {
     }
 
     /// `assert!(condition, "message")` and `matches!(value, pattern)`; there are no other macros.
-    fn macro_call(&mut self, call: &syn::Macro) -> ExprKind {
+    pub(super) fn macro_call(&mut self, call: &syn::Macro) -> ExprKind {
         if call.path.is_ident("matches") {
             return self.matches_macro(call);
         }
@@ -314,62 +313,6 @@ impl Lower {
                     "give a condition and a message without values: `assert!(radius > 0, \"no radius\")`",
                 );
                 ExprKind::Tuple(Vec::new())
-            }
-        }
-    }
-
-    /// A literal.
-    pub fn literal(&mut self, lit: &syn::Lit, span: proc_macro2::Span) -> Expr {
-        let kind = match lit {
-            syn::Lit::Int(lit) if matches!(lit.suffix(), "f32") => self.float(lit.base10_digits(), true, span),
-            syn::Lit::Int(lit) => {
-                let ty = match lit.suffix() {
-                    "" => None,
-                    "i32" => Some(IntType::I32),
-                    "u32" => Some(IntType::U32),
-                    "usize" => Some(IntType::Usize),
-                    other => {
-                        self.unsupported(span, &format!("the integer type `{other}`"), "use i32, u32 or usize");
-                        None
-                    }
-                };
-                // In a pattern the sign belongs to the literal.
-                match lit.base10_parse::<i64>() {
-                    Ok(value) if (i64::from(i32::MIN)..=i64::from(u32::MAX)).contains(&value) => {
-                        ExprKind::Int(value, ty)
-                    }
-                    _ => {
-                        self.unsupported(span, "an integer of more than 32 bits", "shaders have 32-bit integers");
-                        ExprKind::Int(0, ty)
-                    }
-                }
-            }
-            syn::Lit::Float(lit) if matches!(lit.suffix(), "" | "f32") => {
-                self.float(lit.base10_digits(), !lit.suffix().is_empty(), span)
-            }
-            syn::Lit::Float(lit) => {
-                self.unsupported(span, &format!("the type `{}`", lit.suffix()), "use f32");
-                ExprKind::Float(0.0, true)
-            }
-            syn::Lit::Bool(lit) => ExprKind::Bool(lit.value),
-            syn::Lit::Str(lit) => ExprKind::Str(lit.value()),
-            _ => {
-                self.unsupported(span, "this literal", "use numbers and booleans");
-                ExprKind::Tuple(Vec::new())
-            }
-        };
-        Expr {
-            kind,
-            span: self.span(span),
-        }
-    }
-
-    fn float(&mut self, digits: &str, suffixed: bool, span: proc_macro2::Span) -> ExprKind {
-        match digits.parse::<f32>() {
-            Ok(value) if value.is_finite() => ExprKind::Float(value, suffixed),
-            _ => {
-                self.unsupported(span, "a number beyond the range of f32", "keep it below 3.4e38");
-                ExprKind::Float(0.0, true)
             }
         }
     }
@@ -506,94 +449,6 @@ impl Lower {
             }
         }
     }
-
-    /// A block.
-    pub fn block(&mut self, block: &syn::Block) -> Block {
-        // A constant holds in all of its block, before its line too.
-        let mut constants = Vec::new();
-        let mut statements = Vec::new();
-        let mut value = None;
-        for (k, statement) in block.stmts.iter().enumerate() {
-            match statement {
-                syn::Stmt::Local(local) => statements.push(self.local(local)),
-                syn::Stmt::Expr(expr, None) if k + 1 == block.stmts.len() => value = Some(self.boxed(expr)),
-                syn::Stmt::Expr(expr, _) => statements.push(Statement::Expr(self.expr(expr))),
-                syn::Stmt::Item(syn::Item::Const(item)) => constants.push(self.constant(item)),
-                syn::Stmt::Item(syn::Item::Use(_)) => {}
-                syn::Stmt::Item(item) => {
-                    self.unsupported(
-                        item.span(),
-                        "an item inside a function",
-                        "move it to the top of the file",
-                    );
-                }
-                syn::Stmt::Macro(m) => {
-                    let kind = self.macro_call(&m.mac);
-                    let span = self.span(m.span());
-                    statements.push(Statement::Expr(Expr { kind, span }));
-                }
-            }
-        }
-        statements.splice(0..0, in_order(constants).into_iter().map(Statement::Const));
-        Block { statements, value }
-    }
-
-    fn local(&mut self, local: &syn::Local) -> Statement {
-        let span = self.span(local.span());
-        let (pattern, ty) = match &local.pat {
-            syn::Pat::Type(typed) => (self.pattern(&typed.pat), Some(self.ty(&typed.ty))),
-            other => (self.pattern(other), None),
-        };
-        if let Some(init) = &local.init
-            && let Some((_, other)) = &init.diverge
-        {
-            let value = self.expr(&init.expr);
-            let other = self.expr(other);
-            return self.let_else(pattern, ty, value, other, span);
-        }
-        let init = local.init.as_ref().map(|init| {
-            let mut value = self.expr(&init.expr);
-            if let ExprKind::If(_, _, _, branches) | ExprKind::Match(_, _, branches) = &mut value.kind {
-                *branches = branches.or(self.branch_attribute(&local.attrs));
-            }
-            value
-        });
-        Statement::Let(pattern, ty, init, span)
-    }
-
-    /// A constant that belongs to no type.
-    pub fn constant(&mut self, item: &syn::ItemConst) -> Const {
-        if self.names.has(&item.ident.to_string()) {
-            let name = &item.ident;
-            let error = Diagnostic::at(
-                self.span(name.span()),
-                format!("`{name}` is a name that stands for something else"),
-            )
-            .label("defined again")
-            .help("give it another name");
-            self.errors.push(error);
-        }
-        Const {
-            name: item.ident.to_string(),
-            value: self.expr(&item.expr),
-            ty: self.ty(&item.ty),
-        }
-    }
-}
-
-/// Constants so that each stands after those that it is made of. Those that need each other stay as they are, and are not found.
-fn in_order(mut constants: Vec<Const>) -> Vec<Const> {
-    let mut ordered = Vec::new();
-    while !constants.is_empty() {
-        let needs = |c: &Const| {
-            let mut names = BTreeSet::new();
-            mentioned_in(&c.value, &mut names);
-            constants.iter().any(|other| names.contains(&other.name))
-        };
-        let next = constants.iter().position(|c| !needs(c)).unwrap_or(0);
-        ordered.push(constants.remove(next));
-    }
-    ordered
 }
 
 /// The name of a field, or its number.

@@ -6,9 +6,8 @@ use super::check::Check;
 use super::expr::Lower;
 use super::foreign::{Import, is_prelude_type};
 use super::names::Names;
-use super::options::{OptionsSyntax, at_run_time};
 use super::reach::Mentions;
-use super::tree::{Enum, Fields, Function, Generic, Library, OptionField, Param, Struct, Type, Variant};
+use super::tree::{Enum, Fields, Function, Generic, Library, Param, Struct, Type, Variant};
 use crate::diagnostic::Diagnostic;
 use proc_macro2::{Span, TokenStream};
 use quote::ToTokens;
@@ -22,7 +21,7 @@ use syn::spanned::Spanned;
 pub struct Items {
     pub(super) library: Library,
     errors: HashMap<String, Vec<Diagnostic>>,
-    duplicates: Vec<Diagnostic>,
+    pub(super) duplicates: Vec<Diagnostic>,
     pub(super) mentions: Mentions,
     /// Names that files import.
     imports: Vec<Import>,
@@ -81,7 +80,7 @@ impl Items {
                 _ => &Vec::new(),
             };
             if derives(attrs).iter().any(|derived| derived == "Default") {
-                let written = super::traits::derived_default(item);
+                let written = super::derived::derived_default(item);
                 self.implementations.extend(written.map(|written| (file, written)));
             }
             match item {
@@ -207,7 +206,7 @@ impl Items {
     }
 
     /// Checks that a type's name is its alone.
-    fn type_name(&mut self, check: &mut Check, name: &syn::Ident) {
+    pub(super) fn type_name(&mut self, check: &mut Check, name: &syn::Ident) {
         let shown = name.to_string();
         if is_prelude_type(&shown) {
             check.refuse(
@@ -454,63 +453,6 @@ impl Items {
         }
     }
 
-    fn options(&mut self, file: u32, mac: &syn::Macro) {
-        let mut lower = self.lower_of(file);
-        match mac.parse_body::<OptionsSyntax>() {
-            Ok(mut syntax) => {
-                let name = syntax.name.to_string();
-                let mut check = Check::new(file);
-                check.keeps(&mut syntax.attrs);
-                self.type_name(&mut check, &syntax.name);
-                syntax.fields.retain_mut(|field| {
-                    let kept = check.keeps(&mut field.attrs);
-                    if kept {
-                        check.ty(&mut field.ty);
-                        field.range.iter_mut().for_each(|range| check.expr(range));
-                        check.expr(&mut field.default);
-                    }
-                    kept
-                });
-                let twice = |k: &usize| syntax.fields[..*k].iter().any(|f| f.name == syntax.fields[*k].name);
-                if let Some(k) = (0..syntax.fields.len()).find(twice) {
-                    check.twice(&syntax.fields[k].name);
-                }
-                check.raw_names(mac.tokens.clone());
-                self.mentions.add(&name, mac.tokens.clone());
-                self.duplicates.extend(check.errors());
-                let fields = syntax.fields.iter().map(|field| {
-                    let (default, uniform) = at_run_time(lower.expr(&field.default));
-                    OptionField {
-                        name: field.name.to_string(),
-                        docs: docs(&field.attrs),
-                        ty: lower.ty(&field.ty),
-                        range: field.range.as_ref().map(|r| lower.expr(r)),
-                        default,
-                        uniform,
-                        span: lower.span(field.name.span()),
-                    }
-                });
-                let fields: Vec<OptionField> = fields.collect();
-                let plain = fields.iter().map(|f| (f.name.clone(), f.ty.clone(), f.span)).collect();
-                let plain = Struct {
-                    generics: Vec::new(),
-                    fields: plain,
-                    derives: Vec::new(),
-                };
-                self.library.structs.insert(name.clone(), plain);
-                self.library.options.insert(name, fields);
-            }
-            Err(error) => {
-                let span = lower.span(error.span());
-                lower.errors.push(
-                    Diagnostic::at(span, format!("not a list of options: {error}"))
-                        .help("write `pub name: type = default,`, with the range of a number as `pub name: f32 [0.0..=1.0] = 0.5,`"),
-                );
-            }
-        }
-        self.duplicates.extend(lower.errors);
-    }
-
     pub(super) fn duplicate(&mut self, lower: &Lower, span: Span, name: &str) {
         let error = Diagnostic::at(
             lower.span(span),
@@ -597,7 +539,7 @@ pub(super) fn qualified(of: Option<&str>, name: &syn::Ident) -> String {
 }
 
 /// Documentation comments as one text.
-fn docs(attrs: &[syn::Attribute]) -> String {
+pub(super) fn docs(attrs: &[syn::Attribute]) -> String {
     let mut lines = Vec::new();
     for attr in attrs {
         if attr.path().is_ident("doc")

@@ -4,17 +4,20 @@
 //! anything.
 
 mod attribute;
+mod block;
 mod cfg;
 mod check;
 mod choice;
 mod closure;
 mod depth;
+mod derived;
 mod expr;
 mod foreign;
 #[cfg(test)]
 mod fuzz;
 mod inner;
 mod items;
+mod literal;
 pub mod methods;
 mod names;
 mod options;

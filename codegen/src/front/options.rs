@@ -1,6 +1,9 @@
-//! The syntax of `options!`.
+//! `options!`: its syntax, and what becomes of it.
 
-use super::tree::{Expr, ExprKind};
+use super::check::Check;
+use super::items::{Items, docs};
+use super::tree::{Expr, ExprKind, OptionField, Struct};
+use crate::diagnostic::Diagnostic;
 use syn::parse::{Parse, ParseStream};
 
 /// What stands in `options!`.
@@ -70,5 +73,65 @@ pub fn at_run_time(default: Expr) -> (Expr, bool) {
             (arguments.remove(0), true)
         }
         kind => (Expr { kind, ..default }, false),
+    }
+}
+
+impl Items {
+    /// Notes the options of a kernel.
+    pub(super) fn options(&mut self, file: u32, mac: &syn::Macro) {
+        let mut lower = self.lower_of(file);
+        match mac.parse_body::<OptionsSyntax>() {
+            Ok(mut syntax) => {
+                let name = syntax.name.to_string();
+                let mut check = Check::new(file);
+                check.keeps(&mut syntax.attrs);
+                self.type_name(&mut check, &syntax.name);
+                syntax.fields.retain_mut(|field| {
+                    let kept = check.keeps(&mut field.attrs);
+                    if kept {
+                        check.ty(&mut field.ty);
+                        field.range.iter_mut().for_each(|range| check.expr(range));
+                        check.expr(&mut field.default);
+                    }
+                    kept
+                });
+                let twice = |k: &usize| syntax.fields[..*k].iter().any(|f| f.name == syntax.fields[*k].name);
+                if let Some(k) = (0..syntax.fields.len()).find(twice) {
+                    check.twice(&syntax.fields[k].name);
+                }
+                check.raw_names(mac.tokens.clone());
+                self.mentions.add(&name, mac.tokens.clone());
+                self.duplicates.extend(check.errors());
+                let fields = syntax.fields.iter().map(|field| {
+                    let (default, uniform) = at_run_time(lower.expr(&field.default));
+                    OptionField {
+                        name: field.name.to_string(),
+                        docs: docs(&field.attrs),
+                        ty: lower.ty(&field.ty),
+                        range: field.range.as_ref().map(|r| lower.expr(r)),
+                        default,
+                        uniform,
+                        span: lower.span(field.name.span()),
+                    }
+                });
+                let fields: Vec<OptionField> = fields.collect();
+                let plain = fields.iter().map(|f| (f.name.clone(), f.ty.clone(), f.span)).collect();
+                let plain = Struct {
+                    generics: Vec::new(),
+                    fields: plain,
+                    derives: Vec::new(),
+                };
+                self.library.structs.insert(name.clone(), plain);
+                self.library.options.insert(name, fields);
+            }
+            Err(error) => {
+                let span = lower.span(error.span());
+                lower.errors.push(
+                    Diagnostic::at(span, format!("not a list of options: {error}"))
+                        .help("write `pub name: type = default,`, with the range of a number as `pub name: f32 [0.0..=1.0] = 0.5,`"),
+                );
+            }
+        }
+        self.duplicates.extend(lower.errors);
     }
 }

@@ -15,9 +15,9 @@
 //!    that it was written in; a region has them in the order in which they were made. Only there their values are used. What is
 //!    written is no buffer that is read. A kernel whose invocations are blocks or lanes has none.
 
-use super::{
-    Access, AtomicOp, BinaryOp, Graph, Invocation, NodeId, Op, RegionId, Scalar, Texture, TextureKind, Type, UnaryOp,
-};
+mod resources;
+
+use super::{BinaryOp, Graph, Invocation, NodeId, Op, RegionId, Scalar, Type, UnaryOp};
 use std::collections::HashMap;
 
 /// Checks a graph; the message names the node that breaks a rule.
@@ -162,16 +162,17 @@ fn regions(graph: &Graph) -> Result<(), String> {
     Ok(())
 }
 
+fn expect(holds: bool, what: &str, types: &[Type]) -> Result<(), String> {
+    match holds {
+        true => Ok(()),
+        false => Err(format!("{what}, got {types:?}")),
+    }
+}
+
 fn check(graph: &Graph, id: NodeId) -> Result<(), String> {
     let node = graph.node(id);
     let types: Vec<Type> = node.args.iter().map(|a| graph.ty(*a)).collect();
-    let expect = |holds: bool, what: &str| {
-        if holds {
-            Ok(())
-        } else {
-            Err(format!("{what}, got {types:?}"))
-        }
-    };
+    let expect = |holds: bool, what: &str| expect(holds, what, &types);
     let count = |n: usize| expect(types.len() == n, "wrong number of arguments");
     let shaped = match node.ty {
         Type::Value { lanes, .. } => (1..=4).contains(&lanes),
@@ -335,150 +336,7 @@ fn check(graph: &Graph, id: NodeId) -> Result<(), String> {
             let alike = types[0].lanes() == node.ty.lanes() && number(types[0]) && number(node.ty);
             expect(alike && !types[0].is_array() && value, "numbers of as many lanes")
         }
-        Op::TextureSize(texture) => {
-            let entry = textures(graph, *texture)?;
-            count(0)?;
-            expect(node.ty == entry.kind.coordinate(), "a size is a vector of i32")
-        }
-        Op::TextureLevels(texture) => {
-            let entry = textures(graph, *texture)?;
-            count(0)?;
-            let levels = entry.kind != TextureKind::Multisampled;
-            expect(levels && node.ty == Type::I32, "a number of levels is an i32")
-        }
-        Op::TextureLayers(texture) => {
-            let entry = textures(graph, *texture)?;
-            count(0)?;
-            let layers = entry.kind.has_layers();
-            expect(layers && node.ty == Type::I32, "a number of layers is an i32")
-        }
-        Op::Load { texture, .. } => {
-            let entry = textures(graph, *texture)?;
-            let least = 1 + usize::from(entry.kind.is_indexed());
-            let levels = usize::from(entry.kind != TextureKind::Multisampled);
-            expect(
-                (least..=least + levels).contains(&types.len()),
-                "wrong number of arguments",
-            )?;
-            expect(
-                types[0] == entry.kind.coordinate() && !entry.kind.is_cube(),
-                &format!("a coordinate is a {}", entry.kind.coordinate()),
-            )?;
-            expect(
-                types[1..].iter().all(|t| *t == Type::I32),
-                "a layer and a level are an i32",
-            )?;
-            expect(node.ty == entry.texel(), "a texel of the texture's components")
-        }
-        Op::Sample { texture, sampler, .. } => {
-            let entry = textures(graph, *texture)?;
-            let through = graph.samplers.get(*sampler as usize).ok_or("no such sampler")?;
-            expect(
-                entry.kind.is_filtered() && entry.scalar == Scalar::F32 && !through.comparison,
-                "a texture of floats and a filtering sampler",
-            )?;
-            let (place, layers) = (entry.kind.place(), usize::from(entry.kind.has_layers()));
-            let least = 1 + layers;
-            expect((least..=least + 2).contains(&types.len()), "wrong number of arguments")?;
-            let placed = types[0] == place && types[1..least].iter().all(|t| *t == Type::I32);
-            expect(placed && node.ty == entry.texel(), "a place to what the texture holds")?;
-            match types[least..] {
-                [] => Ok(()),
-                [level] => expect(level == Type::F32, "a level is an f32"),
-                _ => expect(
-                    types[least..].iter().all(|t| *t == place),
-                    "steps are of the place's type",
-                ),
-            }
-        }
-        Op::Gather {
-            texture,
-            sampler,
-            component,
-            ..
-        } => {
-            let entry = textures(graph, *texture)?;
-            let through = graph.samplers.get(*sampler as usize).ok_or("no such sampler")?;
-            count(1)?;
-            expect(
-                entry.kind == TextureKind::Flat && entry.scalar == Scalar::F32 && !through.comparison,
-                "a flat texture of floats and a filtering sampler",
-            )?;
-            let fits = types[0] == Type::value(Scalar::F32, 2) && node.ty == Type::value(Scalar::F32, 4);
-            expect(fits, "a vec2<f32> to a component of four texels")?;
-            expect(
-                *component < entry.components,
-                "a component that the texture does not have",
-            )
-        }
-        Op::Compare { texture, sampler, .. } => {
-            let entry = textures(graph, *texture)?;
-            let through = graph.samplers.get(*sampler as usize).ok_or("no such sampler")?;
-            let layers = usize::from(entry.kind.has_layers());
-            count(2 + layers)?;
-            expect(
-                entry.kind.is_depth() && through.comparison,
-                "a depth texture and a comparison sampler",
-            )?;
-            let placed = types[0] == entry.kind.place() && types[1..=layers].iter().all(|t| *t == Type::I32);
-            expect(
-                placed && types.last() == Some(&Type::F32) && node.ty == Type::F32,
-                "a place and a reference, an f32, to an f32",
-            )
-        }
-        Op::GatherCompare { texture, sampler, .. } => {
-            let entry = textures(graph, *texture)?;
-            let through = graph.samplers.get(*sampler as usize).ok_or("no such sampler")?;
-            count(2)?;
-            expect(
-                entry.kind == TextureKind::Depth && through.comparison,
-                "a depth texture and a comparison sampler",
-            )?;
-            let fits = types[0] == Type::value(Scalar::F32, 2)
-                && types[1] == Type::F32
-                && node.ty == Type::value(Scalar::F32, 4);
-            expect(fits, "a vec2<f32> and an f32 to a vec4<f32>")
-        }
-        Op::BufferLen(buffer) => {
-            count(0)?;
-            expect((*buffer as usize) < graph.buffers.len(), "no such buffer")?;
-            expect(node.ty == Type::I32, "a length is an i32")
-        }
-        Op::BufferLoad { buffer, field, .. } => {
-            let entry = graph.buffers.get(*buffer as usize).ok_or("no such buffer")?;
-            let part = entry.element.field(*field).ok_or("no such field")?;
-            count(1 + usize::from(part.is_array()))?;
-            expect(
-                types.iter().all(|t| *t == Type::I32) && node.ty == part.element(),
-                "an index to an element",
-            )?;
-            expect(entry.access == Access::Read, "a buffer that is only read")
-        }
-        Op::Atomic { buffer, op } => {
-            let entry = graph.buffers.get(*buffer as usize).ok_or("no such buffer")?;
-            count(if *op == AtomicOp::Load { 2 } else { 3 })?;
-            expect(
-                types[0] == Type::BOOL && types[1] == Type::I32 && types.get(2).is_none_or(|t| *t == node.ty),
-                "a condition, an index and an element",
-            )?;
-            let integer = matches!(node.ty, Type::I32 | Type::U32);
-            expect(
-                integer && node.ty == entry.value() && entry.access == Access::Atomic,
-                "an integer of a buffer of atomics",
-            )
-        }
-        Op::Store(buffer) => {
-            let entry = graph.buffers.get(*buffer as usize).ok_or("no such buffer")?;
-            count(3)?;
-            expect(
-                types == [Type::BOOL, Type::I32, entry.value()],
-                "a condition, an index and an element",
-            )?;
-            expect(
-                entry.access == Access::Write && node.ty == Type::Results,
-                "a buffer that is only written",
-            )
-        }
+
         Op::MakeArray => {
             let Type::Array { len, .. } = node.ty else {
                 return Err("not an array".to_owned());
@@ -542,6 +400,18 @@ fn check(graph: &Graph, id: NodeId) -> Result<(), String> {
             let result = graph.region(first).results.get(*k as usize).ok_or("no such result")?;
             expect(graph.ty(*result) == node.ty, "wrong type")
         }
+        Op::TextureSize(_)
+        | Op::TextureLevels(_)
+        | Op::TextureLayers(_)
+        | Op::Load { .. }
+        | Op::Sample { .. }
+        | Op::Gather { .. }
+        | Op::Compare { .. }
+        | Op::GatherCompare { .. }
+        | Op::BufferLen(_)
+        | Op::BufferLoad { .. }
+        | Op::Atomic { .. }
+        | Op::Store(_) => resources::check(graph, node, &types),
     }
 }
 
@@ -555,11 +425,6 @@ fn takes(op: UnaryOp, kind: Scalar) -> bool {
         Abs => kind != Scalar::Bool,
         _ => kind == Scalar::F32,
     }
-}
-
-fn textures(graph: &Graph, index: u32) -> Result<&Texture, String> {
-    let found = graph.textures.get(index as usize);
-    found.ok_or_else(|| "no such texture".to_owned())
 }
 
 fn region(graph: &Graph, id: RegionId) -> Result<&super::Region, String> {

@@ -1,19 +1,19 @@
 //! What the shaders of the gallery read, in f64: nothing of this is shared with what it judges.
 
-use glam::{DVec2, DVec3, DVec4};
+use glam::{DVec2, DVec3, DVec4, Vec4};
 use straightline_study::execute::Inputs;
 
 /// The inputs of a shader.
 pub struct World<'a>(pub &'a Inputs);
 
 /// An image; beyond its border lie its border's texels.
-pub struct Picture {
+pub struct Picture<'a> {
     width: i64,
     height: i64,
-    texels: Vec<DVec4>,
+    texels: &'a [Vec4],
 }
 
-impl World<'_> {
+impl<'a> World<'a> {
     pub fn width(&self) -> f64 {
         f64::from(self.0.size.x)
     }
@@ -26,12 +26,12 @@ impl World<'_> {
         DVec2::new(self.width(), self.height())
     }
 
-    pub fn picture(&self, name: &str) -> Picture {
+    pub fn picture(&self, name: &str) -> Picture<'a> {
         let (_, layers) = self.0.images.iter().find(|(n, _)| n == name).expect("an image");
         Picture {
             width: layers[0].size().x.into(),
             height: layers[0].size().y.into(),
-            texels: layers[0].texels().iter().map(|t| t.as_dvec4()).collect(),
+            texels: layers[0].texels(),
         }
     }
 
@@ -52,7 +52,7 @@ impl World<'_> {
     }
 }
 
-impl Picture {
+impl Picture<'_> {
     pub fn width(&self) -> i64 {
         self.width
     }
@@ -67,7 +67,7 @@ impl Picture {
 
     pub fn rgba(&self, x: i64, y: i64) -> DVec4 {
         let (x, y) = (x.clamp(0, self.width - 1), y.clamp(0, self.height - 1));
-        self.texels[(y * self.width + x) as usize]
+        self.texels[(y * self.width + x) as usize].as_dvec4()
     }
 
     pub fn rgb(&self, x: i64, y: i64) -> DVec3 {

@@ -1,16 +1,17 @@
 //! GLSL 4.50 for Vulkan, with separate textures; GLSL of OpenGL and OpenGL ES, with combined samplers and loose uniforms.
 
+mod types;
+
 use super::expr::{float, integer, unsigned};
 use super::wgsl::four;
 use super::{Language, Text, commented};
 use crate::emit::Target;
 use crate::emit::ast::{Builtin, Effect, Ty};
-use crate::emit::outputs::BoundOutput;
 use crate::emit::resources::{OUTPUTS, Resources, SAMPLER, UNIFORMS};
-use crate::ir::{
-    self, Access, AtomicOp, Axis, BinaryOp, Direction, Element, Scalar, Texture, TextureKind, Type, UnaryOp,
-};
+use crate::ir::{self, Access, AtomicOp, Axis, BinaryOp, Direction, Element, Scalar, TextureKind, Type, UnaryOp};
 use straightline_manifest::{REGION, Stage};
+
+pub use types::{declared, image_type, plain_sampler, sampler_of, sampler_type, shape, texture_type, type_name};
 
 /// What follows a buffer's name to ask for its length.
 pub const LENGTH: &str = ".elements.length()";
@@ -208,51 +209,12 @@ impl Glsl<'_> {
     }
 }
 
-/// The type of an image that is written.
-pub(super) fn image_type(output: &BoundOutput) -> &'static str {
-    match output.ty.kind() {
-        Some(Scalar::I32) => "iimage2D",
-        Some(Scalar::U32) => "uimage2D",
-        _ => "image2D",
-    }
-}
-
 /// A uniform that lies in no block.
 pub fn loose(name: &str) -> String {
     match crate::emit::names::is_own(name) {
         true => format!("parameter_{name}"),
         false => name.to_owned(),
     }
-}
-
-/// What a kind of texture is called behind `sampler` and `texture`.
-pub fn shape(kind: TextureKind) -> &'static str {
-    match kind {
-        TextureKind::Flat | TextureKind::Depth => "2D",
-        TextureKind::Layers | TextureKind::DepthLayers => "2DArray",
-        TextureKind::Volume => "3D",
-        TextureKind::Cube | TextureKind::DepthCube => "Cube",
-        TextureKind::Multisampled => "2DMS",
-    }
-}
-
-/// What types of integers begin with.
-fn prefix(scalar: Scalar) -> &'static str {
-    match scalar {
-        Scalar::I32 => "i",
-        Scalar::U32 => "u",
-        Scalar::F32 | Scalar::Bool => "",
-    }
-}
-
-pub(super) fn plain_sampler(texture: &Texture) -> String {
-    format!("{}sampler{}", prefix(texture.scalar), shape(texture.kind))
-}
-
-/// The type of a texture with a sampler that compares or not.
-pub(super) fn sampler_of(texture: &Texture, compares: bool) -> String {
-    let shadow = if compares { "Shadow" } else { "" };
-    plain_sampler(texture) + shadow
 }
 
 impl Language for Glsl<'_> {
@@ -532,50 +494,5 @@ impl Language for Glsl<'_> {
             return self.taking();
         }
         "void main() {".to_owned()
-    }
-}
-
-/// A variable with its type: arrays have their extent after the name.
-pub(super) fn declared(name: &str, ty: Ty) -> String {
-    match ty.shape {
-        Type::Array { len, .. } => format!("{} {name}[{len}]", type_name(ty.element_ty())),
-        _ => format!("{} {name}", type_name(ty)),
-    }
-}
-
-pub(super) fn sampler_type(comparison: bool) -> &'static str {
-    match comparison {
-        true => "samplerShadow",
-        false => "sampler",
-    }
-}
-
-pub(super) fn texture_type(texture: &Texture) -> String {
-    format!("{}texture{}", prefix(texture.scalar), shape(texture.kind))
-}
-
-/// A type as GLSL spells it.
-pub fn type_name(ty: Ty) -> String {
-    match ty.shape {
-        Type::Value { scalar, lanes: 1 } => match scalar {
-            Scalar::F32 => "float",
-            Scalar::I32 => "int",
-            Scalar::U32 => "uint",
-            Scalar::Bool => "bool",
-        }
-        .to_owned(),
-        Type::Value { scalar, lanes } => {
-            let kind = match scalar {
-                Scalar::F32 => "",
-                Scalar::I32 => "i",
-                Scalar::U32 => "u",
-                Scalar::Bool => "b",
-            };
-            format!("{kind}vec{lanes}")
-        }
-        Type::Array { len, .. } => {
-            format!("{}[{len}]", type_name(ty.element_ty()))
-        }
-        Type::Results => "void".to_owned(),
     }
 }

@@ -1,13 +1,16 @@
 //! HLSL of shader model 5.1 and later.
 
+mod declarations;
+
 use super::expr::{float, integer, unsigned};
 use super::{Language, Text, commented, loose};
 use crate::emit::ast::{Builtin, Effect, Expr, Module, Op, Ty};
 use crate::emit::resources::{OUTPUTS, Resources, UNIFORMS};
-use crate::ir::{
-    self, Access, AtomicOp, Axis, BinaryOp, Direction, Element, Scalar, Texture, TextureKind, Type, UnaryOp,
-};
+use crate::ir::{self, AtomicOp, Axis, BinaryOp, Direction, Scalar, TextureKind, UnaryOp};
+use declarations::{fields, structures};
 use straightline_manifest::{Format, REGION, Stage};
+
+pub use declarations::{buffer_declared, declared, sampler_declared, texture_declared, type_name};
 
 /// HLSL.
 pub struct Hlsl<'a> {
@@ -494,114 +497,3 @@ impl Hlsl<'_> {
 
 /// The variable that holds several outputs.
 const VARIABLE: &str = "outputs";
-
-pub(super) fn texture_declared(resources: &Resources, index: u32) -> String {
-    let texture = resources.texture(index);
-    format!("{} {}", texture_type(texture), texture.name)
-}
-
-pub(super) fn buffer_declared(resources: &Resources, index: u32) -> String {
-    let buffer = resources.buffer(index);
-    let element = match &buffer.element {
-        Element::Value(ty) => type_name((*ty).into()),
-        Element::Struct(structure) => structure.name.clone(),
-    };
-    let access = match buffer.access {
-        Access::Read => "",
-        Access::Write | Access::Atomic => "RW",
-    };
-    format!("{access}StructuredBuffer<{element}> {}", buffer.name)
-}
-
-pub(super) fn sampler_declared(resources: &Resources, index: u32) -> String {
-    let sampler = resources.sampler(index);
-    let ty = match sampler.comparison {
-        true => "SamplerComparisonState",
-        false => "SamplerState",
-    };
-    format!("{ty} {}", sampler.name)
-}
-
-/// Structures of buffers, with padding where the language would pack them closer than the buffer has them: it knows no
-/// alignment but that of a number.
-fn structures(resources: &Resources) -> String {
-    let mut out = String::new();
-    for structure in resources.structures() {
-        out += &format!("struct {} {{\n", structure.name);
-        let mut at = 0;
-        let pad = |out: &mut String, at: &mut u32, to: u32| {
-            while *at < to {
-                *out += &format!("    uint padding_{at};\n");
-                *at += 4;
-            }
-        };
-        for field in &structure.fields {
-            pad(&mut out, &mut at, field.offset);
-            let ty = match field.ty {
-                Type::Array { scalar, lanes: 3, len } => Type::Array { scalar, lanes: 4, len },
-                other => other,
-            };
-            out += &format!("    {};\n", declared(&field.name, ty.into()));
-            at = field.offset + field.ty.layout().1;
-        }
-        pad(&mut out, &mut at, structure.stride());
-        out += "};\n\n";
-    }
-    out
-}
-
-/// Members of the uniform struct, with padding where the language would pack them closer than the buffer has them.
-fn fields(resources: &Resources) -> Vec<String> {
-    let mut lines = Vec::new();
-    let mut at = 0;
-    for (field, uniform) in resources.fields.iter().zip(&resources.uniforms) {
-        // A member begins at the next word, but for one that would cross a row of four.
-        let packed = |at: u32| match at % 16 + field.size > 16 {
-            true => at.next_multiple_of(16),
-            false => at,
-        };
-        while packed(at) < field.offset {
-            lines.push(format!("uint padding_{at}"));
-            at += 4;
-        }
-        lines.push(declared(&uniform.name, uniform.ty.into()));
-        at = field.offset + field.size;
-    }
-    lines
-}
-
-/// A variable with its type: arrays have their extent after the name.
-pub(super) fn declared(name: &str, ty: Ty) -> String {
-    match ty.shape {
-        Type::Array { len, .. } => format!("{} {name}[{len}]", type_name(ty.element_ty())),
-        _ => format!("{} {name}", type_name(ty)),
-    }
-}
-
-fn texture_type(texture: &Texture) -> String {
-    let shape = match texture.kind {
-        TextureKind::Flat | TextureKind::Depth => "2D",
-        TextureKind::Layers | TextureKind::DepthLayers => "2DArray",
-        TextureKind::Volume => "3D",
-        TextureKind::Cube | TextureKind::DepthCube => "Cube",
-        TextureKind::Multisampled => "2DMS",
-    };
-    let texel = Type::value(texture.scalar, if texture.kind.is_depth() { 1 } else { 4 });
-    format!("Texture{shape}<{}>", type_name(texel.into()))
-}
-
-/// A type as HLSL spells it.
-pub fn type_name(ty: Ty) -> String {
-    let scalar = match ty.kind() {
-        Some(Scalar::F32) if ty.half => "half",
-        Some(Scalar::F32) => "float",
-        Some(Scalar::I32) => "int",
-        Some(Scalar::U32) => "uint",
-        Some(Scalar::Bool) => "bool",
-        None => return "void".to_owned(),
-    };
-    match ty.lanes() {
-        1 => scalar.to_owned(),
-        lanes => format!("{scalar}{lanes}"),
-    }
-}

@@ -1,0 +1,92 @@
+//! How GLSL calls types.
+
+use crate::emit::ast::Ty;
+use crate::emit::outputs::BoundOutput;
+use crate::ir::{Scalar, Texture, TextureKind, Type};
+
+/// The type of an image that is written.
+pub fn image_type(output: &BoundOutput) -> &'static str {
+    match output.ty.kind() {
+        Some(Scalar::I32) => "iimage2D",
+        Some(Scalar::U32) => "uimage2D",
+        _ => "image2D",
+    }
+}
+
+/// What a kind of texture is called behind `sampler` and `texture`.
+pub fn shape(kind: TextureKind) -> &'static str {
+    match kind {
+        TextureKind::Flat | TextureKind::Depth => "2D",
+        TextureKind::Layers | TextureKind::DepthLayers => "2DArray",
+        TextureKind::Volume => "3D",
+        TextureKind::Cube | TextureKind::DepthCube => "Cube",
+        TextureKind::Multisampled => "2DMS",
+    }
+}
+
+/// What types of integers begin with.
+fn prefix(scalar: Scalar) -> &'static str {
+    match scalar {
+        Scalar::I32 => "i",
+        Scalar::U32 => "u",
+        Scalar::F32 | Scalar::Bool => "",
+    }
+}
+
+/// The type of a texture with a sampler.
+pub fn plain_sampler(texture: &Texture) -> String {
+    format!("{}sampler{}", prefix(texture.scalar), shape(texture.kind))
+}
+
+/// The type of a texture with a sampler that compares or not.
+pub fn sampler_of(texture: &Texture, compares: bool) -> String {
+    let shadow = if compares { "Shadow" } else { "" };
+    plain_sampler(texture) + shadow
+}
+
+/// A variable with its type: arrays have their extent after the name.
+pub fn declared(name: &str, ty: Ty) -> String {
+    match ty.shape {
+        Type::Array { len, .. } => format!("{} {name}[{len}]", type_name(ty.element_ty())),
+        _ => format!("{} {name}", type_name(ty)),
+    }
+}
+
+/// The type of a sampler by itself.
+pub fn sampler_type(comparison: bool) -> &'static str {
+    match comparison {
+        true => "samplerShadow",
+        false => "sampler",
+    }
+}
+
+/// The type of a texture by itself.
+pub fn texture_type(texture: &Texture) -> String {
+    format!("{}texture{}", prefix(texture.scalar), shape(texture.kind))
+}
+
+/// A type as GLSL spells it.
+pub fn type_name(ty: Ty) -> String {
+    match ty.shape {
+        Type::Value { scalar, lanes: 1 } => match scalar {
+            Scalar::F32 => "float",
+            Scalar::I32 => "int",
+            Scalar::U32 => "uint",
+            Scalar::Bool => "bool",
+        }
+        .to_owned(),
+        Type::Value { scalar, lanes } => {
+            let kind = match scalar {
+                Scalar::F32 => "",
+                Scalar::I32 => "i",
+                Scalar::U32 => "u",
+                Scalar::Bool => "b",
+            };
+            format!("{kind}vec{lanes}")
+        }
+        Type::Array { len, .. } => {
+            format!("{}[{len}]", type_name(ty.element_ty()))
+        }
+        Type::Results => "void".to_owned(),
+    }
+}

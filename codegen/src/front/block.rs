@@ -1,0 +1,98 @@
+//! Blocks: their statements, and the constants that hold in all of one.
+
+use super::expr::Lower;
+use super::mentioned_in;
+use super::tree::{Block, Const, Expr, ExprKind, Statement};
+use crate::diagnostic::Diagnostic;
+use std::collections::BTreeSet;
+use syn::spanned::Spanned;
+
+impl Lower {
+    /// A block.
+    pub fn block(&mut self, block: &syn::Block) -> Block {
+        // A constant holds in all of its block, before its line too.
+        let mut constants = Vec::new();
+        let mut statements = Vec::new();
+        let mut value = None;
+        for (k, statement) in block.stmts.iter().enumerate() {
+            match statement {
+                syn::Stmt::Local(local) => statements.push(self.local(local)),
+                syn::Stmt::Expr(expr, None) if k + 1 == block.stmts.len() => value = Some(self.boxed(expr)),
+                syn::Stmt::Expr(expr, _) => statements.push(Statement::Expr(self.expr(expr))),
+                syn::Stmt::Item(syn::Item::Const(item)) => constants.push(self.constant(item)),
+                syn::Stmt::Item(syn::Item::Use(_)) => {}
+                syn::Stmt::Item(item) => {
+                    self.unsupported(
+                        item.span(),
+                        "an item inside a function",
+                        "move it to the top of the file",
+                    );
+                }
+                syn::Stmt::Macro(m) => {
+                    let kind = self.macro_call(&m.mac);
+                    let span = self.span(m.span());
+                    statements.push(Statement::Expr(Expr { kind, span }));
+                }
+            }
+        }
+        statements.splice(0..0, in_order(constants).into_iter().map(Statement::Const));
+        Block { statements, value }
+    }
+
+    fn local(&mut self, local: &syn::Local) -> Statement {
+        let span = self.span(local.span());
+        let (pattern, ty) = match &local.pat {
+            syn::Pat::Type(typed) => (self.pattern(&typed.pat), Some(self.ty(&typed.ty))),
+            other => (self.pattern(other), None),
+        };
+        if let Some(init) = &local.init
+            && let Some((_, other)) = &init.diverge
+        {
+            let value = self.expr(&init.expr);
+            let other = self.expr(other);
+            return self.let_else(pattern, ty, value, other, span);
+        }
+        let init = local.init.as_ref().map(|init| {
+            let mut value = self.expr(&init.expr);
+            if let ExprKind::If(_, _, _, branches) | ExprKind::Match(_, _, branches) = &mut value.kind {
+                *branches = branches.or(self.branch_attribute(&local.attrs));
+            }
+            value
+        });
+        Statement::Let(pattern, ty, init, span)
+    }
+
+    /// A constant that belongs to no type.
+    pub fn constant(&mut self, item: &syn::ItemConst) -> Const {
+        if self.names().has(&item.ident.to_string()) {
+            let name = &item.ident;
+            let error = Diagnostic::at(
+                self.span(name.span()),
+                format!("`{name}` is a name that stands for something else"),
+            )
+            .label("defined again")
+            .help("give it another name");
+            self.errors.push(error);
+        }
+        Const {
+            name: item.ident.to_string(),
+            value: self.expr(&item.expr),
+            ty: self.ty(&item.ty),
+        }
+    }
+}
+
+/// Constants so that each stands after those that it is made of. Those that need each other stay as they are, and are not found.
+fn in_order(mut constants: Vec<Const>) -> Vec<Const> {
+    let mut ordered = Vec::new();
+    while !constants.is_empty() {
+        let needs = |c: &Const| {
+            let mut names = BTreeSet::new();
+            mentioned_in(&c.value, &mut names);
+            constants.iter().any(|other| names.contains(&other.name))
+        };
+        let next = constants.iter().position(|c| !needs(c)).unwrap_or(0);
+        ordered.push(constants.remove(next));
+    }
+    ordered
+}

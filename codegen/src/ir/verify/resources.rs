@@ -1,0 +1,161 @@
+//! What reads and writes take and give.
+
+use crate::ir::{Access, AtomicOp, Graph, Node, Op, Scalar, Texture, TextureKind, Type};
+
+/// Checks an operation on a texture or a buffer, whose arguments are of `types`.
+pub fn check(graph: &Graph, node: &Node, types: &[Type]) -> Result<(), String> {
+    let expect = |holds: bool, what: &str| super::expect(holds, what, types);
+    let count = |n: usize| expect(types.len() == n, "wrong number of arguments");
+    match &node.op {
+        Op::TextureSize(texture) => {
+            let entry = textures(graph, *texture)?;
+            count(0)?;
+            expect(node.ty == entry.kind.coordinate(), "a size is a vector of i32")
+        }
+        Op::TextureLevels(texture) => {
+            let entry = textures(graph, *texture)?;
+            count(0)?;
+            let levels = entry.kind != TextureKind::Multisampled;
+            expect(levels && node.ty == Type::I32, "a number of levels is an i32")
+        }
+        Op::TextureLayers(texture) => {
+            let entry = textures(graph, *texture)?;
+            count(0)?;
+            let layers = entry.kind.has_layers();
+            expect(layers && node.ty == Type::I32, "a number of layers is an i32")
+        }
+        Op::Load { texture, .. } => {
+            let entry = textures(graph, *texture)?;
+            let least = 1 + usize::from(entry.kind.is_indexed());
+            let levels = usize::from(entry.kind != TextureKind::Multisampled);
+            expect(
+                (least..=least + levels).contains(&types.len()),
+                "wrong number of arguments",
+            )?;
+            expect(
+                types[0] == entry.kind.coordinate() && !entry.kind.is_cube(),
+                &format!("a coordinate is a {}", entry.kind.coordinate()),
+            )?;
+            expect(
+                types[1..].iter().all(|t| *t == Type::I32),
+                "a layer and a level are an i32",
+            )?;
+            expect(node.ty == entry.texel(), "a texel of the texture's components")
+        }
+        Op::Sample { texture, sampler, .. } => {
+            let entry = textures(graph, *texture)?;
+            let through = graph.samplers.get(*sampler as usize).ok_or("no such sampler")?;
+            expect(
+                entry.kind.is_filtered() && entry.scalar == Scalar::F32 && !through.comparison,
+                "a texture of floats and a filtering sampler",
+            )?;
+            let (place, layers) = (entry.kind.place(), usize::from(entry.kind.has_layers()));
+            let least = 1 + layers;
+            expect((least..=least + 2).contains(&types.len()), "wrong number of arguments")?;
+            let placed = types[0] == place && types[1..least].iter().all(|t| *t == Type::I32);
+            expect(placed && node.ty == entry.texel(), "a place to what the texture holds")?;
+            match types[least..] {
+                [] => Ok(()),
+                [level] => expect(level == Type::F32, "a level is an f32"),
+                _ => expect(
+                    types[least..].iter().all(|t| *t == place),
+                    "steps are of the place's type",
+                ),
+            }
+        }
+        Op::Gather {
+            texture,
+            sampler,
+            component,
+            ..
+        } => {
+            let entry = textures(graph, *texture)?;
+            let through = graph.samplers.get(*sampler as usize).ok_or("no such sampler")?;
+            count(1)?;
+            expect(
+                entry.kind == TextureKind::Flat && entry.scalar == Scalar::F32 && !through.comparison,
+                "a flat texture of floats and a filtering sampler",
+            )?;
+            let fits = types[0] == Type::value(Scalar::F32, 2) && node.ty == Type::value(Scalar::F32, 4);
+            expect(fits, "a vec2<f32> to a component of four texels")?;
+            expect(
+                *component < entry.components,
+                "a component that the texture does not have",
+            )
+        }
+        Op::Compare { texture, sampler, .. } => {
+            let entry = textures(graph, *texture)?;
+            let through = graph.samplers.get(*sampler as usize).ok_or("no such sampler")?;
+            let layers = usize::from(entry.kind.has_layers());
+            count(2 + layers)?;
+            expect(
+                entry.kind.is_depth() && through.comparison,
+                "a depth texture and a comparison sampler",
+            )?;
+            let placed = types[0] == entry.kind.place() && types[1..=layers].iter().all(|t| *t == Type::I32);
+            expect(
+                placed && types.last() == Some(&Type::F32) && node.ty == Type::F32,
+                "a place and a reference, an f32, to an f32",
+            )
+        }
+        Op::GatherCompare { texture, sampler, .. } => {
+            let entry = textures(graph, *texture)?;
+            let through = graph.samplers.get(*sampler as usize).ok_or("no such sampler")?;
+            count(2)?;
+            expect(
+                entry.kind == TextureKind::Depth && through.comparison,
+                "a depth texture and a comparison sampler",
+            )?;
+            let fits = types[0] == Type::value(Scalar::F32, 2)
+                && types[1] == Type::F32
+                && node.ty == Type::value(Scalar::F32, 4);
+            expect(fits, "a vec2<f32> and an f32 to a vec4<f32>")
+        }
+        Op::BufferLen(buffer) => {
+            count(0)?;
+            expect((*buffer as usize) < graph.buffers.len(), "no such buffer")?;
+            expect(node.ty == Type::I32, "a length is an i32")
+        }
+        Op::BufferLoad { buffer, field, .. } => {
+            let entry = graph.buffers.get(*buffer as usize).ok_or("no such buffer")?;
+            let part = entry.element.field(*field).ok_or("no such field")?;
+            count(1 + usize::from(part.is_array()))?;
+            expect(
+                types.iter().all(|t| *t == Type::I32) && node.ty == part.element(),
+                "an index to an element",
+            )?;
+            expect(entry.access == Access::Read, "a buffer that is only read")
+        }
+        Op::Atomic { buffer, op } => {
+            let entry = graph.buffers.get(*buffer as usize).ok_or("no such buffer")?;
+            count(if *op == AtomicOp::Load { 2 } else { 3 })?;
+            expect(
+                types[0] == Type::BOOL && types[1] == Type::I32 && types.get(2).is_none_or(|t| *t == node.ty),
+                "a condition, an index and an element",
+            )?;
+            let integer = matches!(node.ty, Type::I32 | Type::U32);
+            expect(
+                integer && node.ty == entry.value() && entry.access == Access::Atomic,
+                "an integer of a buffer of atomics",
+            )
+        }
+        Op::Store(buffer) => {
+            let entry = graph.buffers.get(*buffer as usize).ok_or("no such buffer")?;
+            count(3)?;
+            expect(
+                types == [Type::BOOL, Type::I32, entry.value()],
+                "a condition, an index and an element",
+            )?;
+            expect(
+                entry.access == Access::Write && node.ty == Type::Results,
+                "a buffer that is only written",
+            )
+        }
+        _ => Err("an operation without a rule".to_owned()),
+    }
+}
+
+fn textures(graph: &Graph, index: u32) -> Result<&Texture, String> {
+    let found = graph.textures.get(index as usize);
+    found.ok_or_else(|| "no such texture".to_owned())
+}
