@@ -97,3 +97,17 @@ fn only_runs_of_the_same_study_can_agree() {
         assert!(error.contains(expected), "{error}");
     }
 }
+
+/// The text that the README shows is one of those that are emitted.
+#[test]
+fn the_shader_shown_is_emitted() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let read = |name: &str| std::fs::read_to_string(root.join(name)).unwrap_or_else(|error| panic!("{name}: {error}"));
+    let (page, shader) = (read("README.md"), read("shaders-out/sraa4.wgsl"));
+    let (_, behind) = page.split_once("```wgsl\n").expect("a shader in the README");
+    let (shown, _) = behind.split_once("```").expect("its end");
+    assert!(
+        shown.lines().count() > 3 && shader.contains(shown),
+        "sraa4.wgsl does not have:\n{shown}"
+    );
+}
