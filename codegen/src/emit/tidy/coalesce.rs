@@ -94,23 +94,15 @@ fn moved_on(block: &[Stmt<'_>], k: usize) -> Option<(VarId, VarId, usize)> {
     let (StmtKind::Let(copy, _) | StmtKind::Var(copy, _)) = block[k].kind else {
         return None;
     };
-    let given = |stmt: &Stmt<'_>| match &stmt.kind {
-        StmtKind::Assign(place, None, value) if value.as_var() == Some(copy) => place.as_var(),
-        _ => None,
-    };
-    let rest = &block[k + 1..];
-    let (at, original) = rest
-        .iter()
-        .enumerate()
-        .find_map(|(at, stmt)| Some((at, given(stmt)?)))?;
+    let (original, last) = given_back(block, k, copy)?;
     let declares = |stmt: &Stmt<'_>| matches!(stmt.kind, StmtKind::Var(var, _) if var == original);
-    let unread = rest[..at]
+    let unread = block[k + 1..last]
         .iter()
         .all(|stmt| !stmt.mentions(original) && !declares(stmt) && !leaves(stmt));
-    let behind = &rest[at + 1..];
+    let behind = &block[last + 1..];
     let unused = behind.iter().all(|stmt| !stmt.mentions(copy));
     let same = behind.iter().all(|stmt| !stmt.assigns(original) && !stmt.assigns(copy));
-    (unread && (unused || same)).then_some((copy, original, k + 1 + at))
+    (unread && (unused || same)).then_some((copy, original, last))
 }
 
 /// Whether a statement may leave the block that it stands in.
