@@ -3,8 +3,8 @@
 #![allow(missing_docs)]
 
 use straightline_codegen::ir::{
-    Access, AtomicOp, BinaryOp, Buffer, Builder, Direction, Element, Graph, Invocation, Node, NodeId, Op, RegionId,
-    Rules, Sampler, Scalar, Target, Texture, TextureKind, Type, UnaryOp, Uniform, verify::verify,
+    Access, AtomicOp, BinaryOp, Buffer, Builder, Direction, Element, Graph, Invocation, Memory, Node, NodeId, Op,
+    RegionId, Rules, Sampler, Scalar, Shared, Target, Texture, TextureKind, Type, UnaryOp, Uniform, verify::verify,
 };
 
 struct Nothing;
@@ -288,7 +288,8 @@ fn writing() -> Graph {
     let (index, value) = (b.i32(3), b.constant(Type::U32, [1, 0, 0, 0]));
     let first = b.open_region(&[]);
     let op = AtomicOp::Add;
-    b.effect(Op::Atomic { buffer: 0, op }, vec![holds, index, value], Type::U32);
+    let memory = Memory::Buffer(0);
+    b.effect(Op::Atomic { memory, op }, vec![holds, index, value], Type::U32);
     b.close_region(Vec::new());
     let second = b.open_region(&[]);
     b.close_region(Vec::new());
@@ -300,7 +301,7 @@ fn writing() -> Graph {
 fn rules_of_effects_are_checked() {
     verify(&writing()).unwrap_or_else(|why| panic!("{why}"));
     type Change = fn(&mut Graph);
-    let cases: [(&str, Change); 8] = [
+    let cases: [(&str, Change); 9] = [
         ("no effect of the region", |g| g.regions[1].effects.clear()),
         ("an effect of two regions", |g| {
             g.regions[2].effects = g.regions[1].effects.clone()
@@ -312,15 +313,19 @@ fn rules_of_effects_are_checked() {
         }),
         ("wrong number of arguments", |g| {
             node(g, 3).op = Op::Atomic {
-                buffer: 0,
+                memory: Memory::Buffer(0),
                 op: AtomicOp::Load,
             }
         }),
-        ("an integer of a buffer of atomics", |g| {
+        ("an integer of memory of atomics", |g| {
             g.buffers[0].access = Access::Write
         }),
-        ("only written", |g| {
-            node(g, 3).op = Op::Store(0);
+        ("no such memory", |g| {
+            node(g, 3).op = Op::Store(Memory::Shared(0));
+            node(g, 3).ty = Type::Results;
+        }),
+        ("memory that is written", |g| {
+            node(g, 3).op = Op::Store(Memory::Buffer(0));
             node(g, 3).ty = Type::Results;
         }),
     ];
@@ -348,4 +353,53 @@ fn passes_keep_effects() {
     let mut never = writing();
     node(&mut never, 0).op = Op::Const([0; 4]);
     assert!(!passes(&passes(&never)).has_effects());
+}
+
+/// Two threads that change what they share: nodes 0 to 5.
+fn sharing() -> Graph {
+    let mut b = Builder::new(&Nothing);
+    b.graph_mut().targets.clear();
+    b.graph_mut().invocation = Invocation::Group([2, 1]);
+    b.graph_mut().shared = vec![Shared {
+        name: "sums".to_owned(),
+        element: Type::F32,
+        len: 2,
+        atomic: false,
+    }];
+    let (holds, index, value) = (b.bool(true), b.i32(1), b.f32(0.5));
+    let memory = Memory::Shared(0);
+    b.effect(Op::Store(memory), vec![holds, index, value], Type::Results);
+    b.effect(Op::Barrier { buffers: false }, Vec::new(), Type::Results);
+    b.effect(Op::SharedLoad(0), vec![holds, index], Type::F32);
+    b.finish(Vec::new())
+}
+
+#[test]
+fn rules_of_workgroups_are_checked() {
+    verify(&sharing()).unwrap_or_else(|why| panic!("{why}"));
+    type Change = fn(&mut Graph);
+    let cases: [(&str, Change); 7] = [
+        ("no such memory", |g| g.invocation = Invocation::Pixel),
+        ("no array of numbers", |g| g.shared[0].len = 0),
+        ("no array of numbers", |g| g.shared[0].atomic = true),
+        ("no array of numbers", |g| g.shared[0].element = Type::BOOL),
+        ("a condition, an index and an element", |g| {
+            g.shared[0].element = Type::I32
+        }),
+        ("invocations of a workgroup", |g| node(g, 4).ty = Type::F32),
+        ("a condition and an index", |g| node(g, 5).args[0] = NodeId(1)),
+    ];
+    for (expected, change) in cases {
+        let mut graph = sharing();
+        change(&mut graph);
+        let said = match verify(&graph) {
+            Err(said) => said,
+            Ok(()) => panic!("`{expected}` is not refused"),
+        };
+        assert!(said.contains(expected), "`{expected}`: {said}");
+    }
+    // What nobody uses of what is shared is not read.
+    let clean = straightline_codegen::passes::clean(&sharing());
+    assert!(!clean.nodes.iter().any(|n| n.op == Op::SharedLoad(0)));
+    assert!(clean.nodes.iter().any(|n| n.op == Op::Barrier { buffers: false }));
 }

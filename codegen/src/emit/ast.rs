@@ -3,7 +3,7 @@
 //! [`super::lower`] makes it, [`super::legalise`] rewrites what a language says in another way, [`super::names`] gives its
 //! variables names, and [`super::print`] writes it. No stage asks a text what it means.
 
-use crate::ir::{self, AtomicOp, BinaryOp, Lanes, Origin, Scalar, Type};
+use crate::ir::{self, AtomicOp, BinaryOp, Lanes, Memory, Origin, Scalar, Type};
 use std::ops::Deref;
 
 /// Type of an expression.
@@ -76,6 +76,14 @@ impl VarId {
     pub const WITHIN: VarId = VarId(2);
     /// The pixel in the target of a region.
     pub const PLACE: VarId = VarId(3);
+    /// The pixel of the workgroup's first invocation.
+    pub const ORIGIN: VarId = VarId(4);
+    /// Whether the pixel is one that is computed.
+    pub const INSIDE: VarId = VarId(5);
+    /// Where the invocation lies in its workgroup.
+    pub const LOCAL: VarId = VarId(6);
+    /// What stands for the memory of a workgroup where statements are asked which variables they change.
+    pub const MEMORY: VarId = VarId(u32::MAX);
 }
 
 /// A variable.
@@ -92,6 +100,12 @@ pub struct Variable {
 pub enum Builtin {
     /// Position of the invocation in the dispatch, `vec2<i32>`.
     Invocation,
+    /// Position of the invocation in its workgroup, `vec2<i32>`.
+    Local,
+    /// Number of the invocation in its workgroup, row by row, `i32`.
+    LocalIndex,
+    /// Position of the workgroup in the dispatch, `vec2<i32>`.
+    Group,
     /// Position of the fragment, `vec2<f32>`, at a pixel's centre.
     Position,
     /// Width and height of the storage texture that is written, `vec2<i32>`.
@@ -286,19 +300,24 @@ pub enum StmtKind<'g> {
     Store(usize, Expr, Expr),
     /// What is given for a pixel: a value for each output.
     Output(Vec<Expr>),
-    /// Writes to a buffer.
+    /// Writes to memory.
     Effect(Effect),
+    /// Waits for the other invocations of the workgroup, whose writes are seen behind it.
+    Barrier {
+        /// Those to buffers, too.
+        buffers: bool,
+    },
     /// Leaves the function, with its value if it has one.
     Return(Option<Expr>),
     /// A line for the reader.
     Comment(String),
 }
 
-/// A write to a buffer, whose index is inside of it.
+/// A write to memory, whose index is inside of it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Effect {
-    /// Index of the buffer in the graph.
-    pub buffer: u32,
+    /// Where.
+    pub memory: Memory,
     /// The atomic operation; a plain store has none.
     pub op: Option<AtomicOp>,
     /// Index and value; a load has no value.
@@ -342,7 +361,7 @@ impl<'g> Stmt<'g> {
             StmtKind::Assign(place, _, value) | StmtKind::Store(_, place, value) => vec![place, value],
             StmtKind::For { start, end, .. } => vec![start, end],
             StmtKind::If { condition, .. } => vec![condition],
-            StmtKind::Loop(_) | StmtKind::Break | StmtKind::Comment(_) => Vec::new(),
+            StmtKind::Loop(_) | StmtKind::Break | StmtKind::Comment(_) | StmtKind::Barrier { .. } => Vec::new(),
         }
     }
 
@@ -364,7 +383,7 @@ impl<'g> Stmt<'g> {
             StmtKind::Assign(place, _, value) | StmtKind::Store(_, place, value) => vec![place, value],
             StmtKind::For { start, end, .. } => vec![start, end],
             StmtKind::If { condition, .. } => vec![condition],
-            StmtKind::Loop(_) | StmtKind::Break | StmtKind::Comment(_) => Vec::new(),
+            StmtKind::Loop(_) | StmtKind::Break | StmtKind::Comment(_) | StmtKind::Barrier { .. } => Vec::new(),
         }
     }
 

@@ -81,6 +81,25 @@ pub enum EmitError {
         /// The texture.
         texture: String,
     },
+    /// A workgroup of another size than the kernel's.
+    #[error(
+        "`{kernel}` is a kernel of workgroups of {}x{}, and {}x{} are asked for: leave `workgroup` out, or change the kernel",
+        own[0], own[1], asked[0], asked[1]
+    )]
+    Group {
+        /// The kernel.
+        kernel: String,
+        /// The kernel's.
+        own: [u32; 2],
+        /// What is asked for.
+        asked: [u32; 2],
+    },
+    /// A kernel of workgroups in a stage that has none.
+    #[error("`{kernel}` is a kernel of workgroups, which fragments and functions are not in: emit it for compute")]
+    GroupStage {
+        /// The kernel.
+        kernel: String,
+    },
     /// A workgroup that no device runs.
     #[error(
         "a workgroup of {0}x{1} is not possible: each side is at least 1, and both together at most 1024 invocations"

@@ -107,7 +107,7 @@ impl Resources {
             origin: self.options.origin,
             entry_point: self.entry.clone(),
             entry_points: Default::default(),
-            workgroup_size: compute.then_some(self.options.workgroup()),
+            workgroup_size: compute.then_some(self.workgroup()),
             block: self.block,
             features: self.features(),
             varyings: self.varyings().collect(),

@@ -111,6 +111,7 @@ fn for_stage(compiled: &Compiled, stage: Stage) -> Result<Cow<'_, Compiled>, Emi
                 transport: transport.to_string(),
             }),
         },
+        (Invocation::Group(_), Stage::Fragment) => Err(EmitError::GroupStage { kernel: kernel() }),
         (Invocation::Block(size), Stage::Fragment) if size != [1, 1] => Err(EmitError::OnePixel { kernel: kernel() }),
         _ => Ok(Cow::Borrowed(compiled)),
     }
@@ -269,7 +270,7 @@ impl Shader<'_, '_> {
     fn glsl(&self, target: Target, counts: &Counts) -> Result<String, EmitError> {
         let resources = self.resources;
         let mut tree = self.tree.clone();
-        legalise::glsl(&mut tree, target == Target::Glsl450);
+        legalise::glsl(&mut tree, self.resources, target == Target::Glsl450);
         let language = print::Glsl::new(resources, target);
         names::assign(&mut tree, resources, names::Words::Glsl, &language.names());
         let glsl = print::module(&language, &tree, &print::header(self.compiled, counts, resources));
@@ -283,7 +284,7 @@ impl Shader<'_, '_> {
 
     fn hlsl(&self, counts: &Counts) -> String {
         let mut tree = self.tree.clone();
-        legalise::hlsl(&mut tree);
+        legalise::hlsl(&mut tree, self.resources);
         let resources = self.resources.for_hlsl();
         let language = print::Hlsl::new(&resources, &tree);
         names::assign(&mut tree, &resources, names::Words::Hlsl, &language.names());

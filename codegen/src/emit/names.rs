@@ -23,11 +23,14 @@ const OWN: [&str; 11] = [
 
 /// Whether the text around a kernel has a use for a name.
 pub fn is_own(name: &str) -> bool {
-    OWN.contains(&name) || OF_REGIONS.contains(&name)
+    OWN.contains(&name) || OF_REGIONS.contains(&name) || OF_GROUPS.contains(&name)
 }
 
 /// Names that it has uses for where the shader filters a rectangle, or writes another row than that of its pixel.
 const OF_REGIONS: [&str; 2] = ["within", "place"];
+
+/// Names that it has uses for where invocations are those of a workgroup.
+const OF_GROUPS: [&str; 3] = ["local_id", "group_id", "local_index"];
 
 /// Longer names are cut, or refused where hosts use them.
 pub const LONGEST: usize = 255;
@@ -112,9 +115,12 @@ fn is_glsl_type(word: &str) -> bool {
 
 /// Why a name that hosts use, of an input or a uniform, can be none in every language; names are not changed behind a host's
 /// back. Uniforms are fields, and have only the name of the struct that holds them to stay clear of.
-pub fn refused(name: &str, entry: &str, is_field: bool, has_place: bool) -> Option<&'static str> {
+pub fn refused(name: &str, entry: &str, is_field: bool, has_place: bool, in_group: bool) -> Option<&'static str> {
     let plain = |c: char| c.is_ascii_alphanumeric() || c == '_';
-    let own = OWN.contains(&name) || name == entry || (has_place && OF_REGIONS.contains(&name));
+    let own = OWN.contains(&name)
+        || name == entry
+        || (has_place && OF_REGIONS.contains(&name))
+        || (in_group && OF_GROUPS.contains(&name));
     if is_reserved(name) {
         Some("is a word of WGSL or GLSL")
     } else if name == UNIFORMS || (own && !is_field) {
@@ -225,6 +231,9 @@ pub fn assign(module: &mut Module<'_>, resources: &Resources, words: Words, othe
     if resources.options.has_place() {
         taken.extend(OF_REGIONS.map(str::to_owned));
     }
+    if resources.group.is_some() {
+        taken.extend(OF_GROUPS.map(str::to_owned));
+    }
     taken.extend(resources.names().map(str::to_owned));
     taken.extend(module.functions.iter().map(|f| f.name.clone()));
     // Tables are seen by all; what a function declares is its own.
@@ -280,7 +289,7 @@ impl Scopes<'_> {
 
     fn leave(&mut self, declared: Vec<String>) {
         for name in declared {
-            if !OWN.contains(&name.as_str()) && !OF_REGIONS.contains(&name.as_str()) {
+            if !is_own(&name) {
                 self.taken.remove(&name);
             }
         }
@@ -319,6 +328,7 @@ fn plain(graph: &Graph, id: NodeId) -> String {
                 .get(*field as usize)
                 .map_or_else(String::new, |f| f.name.clone()),
         },
+        Op::SharedLoad(shared) => graph.shared[*shared as usize].name.clone() + "_element",
         Op::TextureSize(texture) => graph.textures[*texture as usize].name.clone() + "_size",
         Op::TextureLevels(texture) => graph.textures[*texture as usize].name.clone() + "_levels",
         Op::TextureLayers(texture) => graph.textures[*texture as usize].name.clone() + "_layers",

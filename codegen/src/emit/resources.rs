@@ -8,7 +8,10 @@ use super::places::{Named, Places};
 use super::print::wgsl_type;
 use super::target::Target;
 use crate::compiled::Compiled;
-use crate::ir::{Access, Buffer, Element, NodeId, Op, Sampler, Structure, Texture, Uniform, Varying};
+use crate::ir::{
+    Access, Buffer, Element, Invocation, Memory, NodeId, Op, Sampler, Shared, Structure, Texture, Type, Uniform,
+    Varying,
+};
 use crate::passes::layers_read;
 use std::collections::BTreeSet;
 use straightline_manifest::{REGION, Stage, UniformField};
@@ -86,6 +89,16 @@ pub struct Resources {
     pub varyings: Vec<Varying>,
     /// Pixels that one invocation computes, across and down.
     pub block: [u32; 2],
+    /// Invocations of a workgroup, across and down, where the kernel says it.
+    pub group: Option<[u32; 2]>,
+    /// Whether the shader asks where an invocation lies in its workgroup.
+    pub asks_local: bool,
+    /// Whether it asks which workgroup it is.
+    pub asks_group: bool,
+    /// What workgroups share, used or not, by index.
+    pub(super) shared: Vec<Shared>,
+    /// Index of each that is used.
+    pub used_shared: Vec<u32>,
 }
 
 impl Resources {
@@ -97,6 +110,19 @@ impl Resources {
         let kernel = || compiled.kernel.clone();
         if options.region && (compiled.quad.is_some() || compiled.transport.is_some()) {
             return Err(EmitError::QuadsOfRegion { kernel: kernel() });
+        }
+        let group = match graph.invocation {
+            Invocation::Group(size) => Some(size),
+            _ => None,
+        };
+        if let (Some(own), Some(asked)) = (group, options.workgroup)
+            && own != asked
+        {
+            return Err(EmitError::Group {
+                kernel: kernel(),
+                own,
+                asked,
+            });
         }
         let mut read = Vec::new();
         let reads = |index: u32| ops.iter().any(|op| op.texture() == Some(index));
@@ -163,6 +189,9 @@ impl Resources {
             .collect();
         let names = read.iter().map(|t| &graph.textures[t.index as usize].name);
         let names = names.chain(read_buffers.iter().map(|(k, _)| &graph.buffers[*k as usize].name));
+        let uses = |k: u32| ops.iter().any(|op| op.memory() == Some(Memory::Shared(k)));
+        let used_shared: Vec<u32> = (0..graph.shared.len() as u32).filter(|k| uses(*k)).collect();
+        let names = names.chain(used_shared.iter().map(|k| &graph.shared[*k as usize].name));
         let names = names.chain(used_samplers.iter().map(|(k, _)| &graph.samplers[*k as usize].name));
         let entry = super::entry::name(&compiled.kernel, options)?;
         let names = names.chain(graph.varyings.iter().map(|v| &v.name));
@@ -194,7 +223,7 @@ impl Resources {
             });
         }
         let refused = |(name, is_field): (&String, bool)| {
-            let why = super::names::refused(name, &entry, is_field, options.has_place())?;
+            let why = super::names::refused(name, &entry, is_field, options.has_place(), group.is_some())?;
             Some((name.clone(), why))
         };
         if let Some((name, why)) = names.find_map(refused) {
@@ -282,6 +311,11 @@ impl Resources {
             subgroups,
             varyings,
             block: graph.invocation.pixels(),
+            group,
+            asks_local: ops.contains(&&Op::Thread),
+            asks_group: ops.contains(&&Op::GroupOrigin),
+            shared: graph.shared.clone(),
+            used_shared,
         };
         if options.stage == Stage::Fragment && resources.outputs.is_empty() {
             return Err(EmitError::NoColour { kernel: kernel() });
@@ -337,6 +371,27 @@ impl Resources {
         self.buffer(index).access != Access::Read
     }
 
+    /// The type of the elements of memory, and its name.
+    pub fn memory(&self, memory: Memory) -> (Type, &str) {
+        match memory {
+            Memory::Buffer(k) => (self.buffer(k).value(), &self.buffer(k).name),
+            Memory::Shared(k) => (self.shared[k as usize].element, &self.shared[k as usize].name),
+        }
+    }
+
+    /// What workgroups share that is used.
+    pub fn shared(&self) -> impl Iterator<Item = &Shared> {
+        self.used_shared.iter().map(|k| &self.shared[*k as usize])
+    }
+
+    /// Invocations of a compute workgroup.
+    pub fn workgroup(&self) -> [u32; 3] {
+        match self.group {
+            Some([x, y]) => [x, y, 1],
+            None => self.options.workgroup(),
+        }
+    }
+
     /// A sampler by its index in the graph.
     pub fn sampler(&self, index: u32) -> &Sampler {
         &self.samplers[index as usize]
@@ -364,7 +419,13 @@ impl Resources {
         let samplers = self.used_samplers.iter().map(|(k, _)| self.sampler(*k).name.as_str());
         let varyings = self.varyings.iter().map(|v| v.name.as_str());
         let outputs = self.outputs.iter().map(|o| o.name.as_str());
-        textures.chain(buffers).chain(samplers).chain(varyings).chain(outputs)
+        let shared = self.used_shared.iter().map(|k| self.shared[*k as usize].name.as_str());
+        textures
+            .chain(buffers)
+            .chain(shared)
+            .chain(samplers)
+            .chain(varyings)
+            .chain(outputs)
     }
 
     /// Name of the output whose size is that of the frame.

@@ -171,6 +171,21 @@ impl Evaluator<'_> {
         let Some(function) = library.functions.get(name) else {
             return Err(Diagnostic::at(span, format!("there is no function `{name}`")).into());
         };
+        match name == Self::PHASE && function.span.file == crate::front::std::FILE {
+            true => self.phase(function, args, span),
+            false => self.inlined(name, function, constants, args, span),
+        }
+    }
+
+    /// The same of a function that is known to be there, and is no phase of a workgroup.
+    pub(super) fn inlined(
+        &mut self,
+        name: &str,
+        function: &Function,
+        constants: &[Value],
+        args: Vec<Value>,
+        span: Span,
+    ) -> Eval {
         if args.len() != function.params.len() {
             return Err(Diagnostic::at(
                 span,

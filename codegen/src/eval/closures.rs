@@ -195,16 +195,15 @@ impl Evaluator<'_> {
 
     /// Refuses a closure that changes variables, where it is called in another order than natively or not as often.
     pub fn only_reads(&self, callee: &Value, method: &str, span: Span) -> Eval<()> {
-        match callee {
-            Value::OneOf(_, all) => all.iter().try_for_each(|each| self.only_reads(each, method, span)),
-            Value::Closure(closed) if closed.captured.iter().any(|(_, c)| matches!(c, Captured::Place(_))) => Err(
+        match callee.changes_variables() {
+            true => Err(
                 Diagnostic::at(span, format!("a closure that changes variables, in `{method}`"))
                     .label("not supported")
                     .note("how often it is called would depend on what takes the values")
                     .help("write a `for` loop, or use `fold`")
                     .into(),
             ),
-            _ => Ok(()),
+            false => Ok(()),
         }
     }
 }

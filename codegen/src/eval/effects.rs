@@ -7,7 +7,7 @@
 use super::Evaluator;
 use super::value::{Eval, Exit, Value};
 use crate::diagnostic::{Diagnostic, Span};
-use crate::ir::{Access, AtomicOp, BinaryOp, Invocation, NodeId, Op, Scalar, Type};
+use crate::ir::{Access, AtomicOp, BinaryOp, Invocation, Memory, NodeId, Op, Scalar, Type};
 
 /// Method and operation of what a buffer of atomics has.
 const ATOMICS: [(&str, AtomicOp); 8] = [
@@ -20,6 +20,25 @@ const ATOMICS: [(&str, AtomicOp); 8] = [
     ("exchange", AtomicOp::Exchange),
     ("load", AtomicOp::Load),
 ];
+
+/// What has atomics, for messages.
+pub const ATOMIC_METHODS: &str =
+    "`add`, `max`, `min`, `and`, `or`, `xor`, `exchange`, each of an index and a value, `load` of an index, and `len`";
+
+/// What is done to memory.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Effects {
+    /// An element is changed at once.
+    Atomic(AtomicOp),
+    /// An element is written.
+    Store,
+}
+
+/// The atomic operation that a method with so many arguments is.
+pub fn atomic_named(name: &str, arguments: usize) -> Option<AtomicOp> {
+    let (_, op) = ATOMICS.iter().find(|(method, _)| *method == name)?;
+    (arguments == if *op == AtomicOp::Load { 1 } else { 2 }).then_some(*op)
+}
 
 impl Evaluator<'_> {
     /// Evaluates what happens only for those for whom all of `conditions` are as stated, and who have not left.
@@ -41,7 +60,7 @@ impl Evaluator<'_> {
     }
 
     /// For whom the place that is being evaluated is reached, as far as no region says it.
-    fn reached(&mut self) -> NodeId {
+    pub(super) fn reached(&mut self) -> NodeId {
         let mut conditions = self.reach.clone();
         conditions.extend(self.departed.iter().map(|departure| (departure.condition, false)));
         let mut all = self.builder.bool(true);
@@ -55,8 +74,7 @@ impl Evaluator<'_> {
     /// A method of a buffer that the kernel writes.
     pub fn written_buffer(&mut self, index: u32, name: &str, args: &[Value], span: Span) -> Eval {
         let buffer = self.builder.graph().buffers[index as usize].clone();
-        let atomic = ATOMICS.iter().find(|(method, _)| *method == name).map(|(_, op)| *op);
-        let op = match (buffer.access, atomic, args) {
+        let effect = match (buffer.access, atomic_named(name, args.len()), args) {
             (_, _, []) if name == "len" => {
                 return Ok(Value::Node(self.builder.add(
                     Op::BufferLen(index),
@@ -64,58 +82,78 @@ impl Evaluator<'_> {
                     Type::I32,
                 )));
             }
-            (Access::Atomic, Some(op), _) if args.len() == if op == AtomicOp::Load { 1 } else { 2 } => {
-                Op::Atomic { buffer: index, op }
-            }
-            (Access::Write, _, [_, _]) if name == "store" => Op::Store(index),
+            (Access::Atomic, Some(op), _) => Effects::Atomic(op),
+            (Access::Write, _, [_, _]) if name == "store" => Effects::Store,
             _ => return Err(no_such_method(&buffer.name, buffer.access, name, span)),
         };
         self.alone(&buffer.name, span)?;
+        self.effect_on(Memory::Buffer(index), effect, args, span)
+    }
+
+    /// Writes to memory at an index, the first of `args`, what the second is.
+    pub fn effect_on(&mut self, memory: Memory, effect: Effects, args: &[Value], span: Span) -> Eval {
+        let (element, name) = self.builder.graph().memory(memory);
+        let name = name.to_owned();
         let at = self.index_node(&args[0], span)?;
         let mut given = vec![at];
         if let Some(value) = args.get(1) {
-            let value = match buffer.value() {
+            let value = match element {
                 Type::Value { scalar, lanes: 1 } => self.int_or_node(value, scalar, span)?,
                 _ => self.node(value, span)?,
             };
-            if self.ty(value) != buffer.value() {
-                let (wanted, found) = (buffer.value().in_rust(), self.ty(value).in_rust());
-                return Err(
-                    Diagnostic::at(span, format!("`{}` holds {wanted}, not {found}", buffer.name))
-                        .label("of this value")
-                        .help(format!("convert it to {wanted}"))
-                        .into(),
-                );
+            if self.ty(value) != element {
+                let (wanted, found) = (element.in_rust(), self.ty(value).in_rust());
+                return Err(Diagnostic::at(span, format!("`{name}` holds {wanted}, not {found}"))
+                    .label("of this value")
+                    .help(format!("convert it to {wanted}"))
+                    .into());
             }
             given.push(value);
         }
-        let condition = self.inside(index, at, span);
+        let inside = self.inside(memory, at, span);
+        let reached = self.reached();
+        let condition = self.and(reached, inside);
         let args = [&[condition], &given[..]].concat();
-        Ok(match op {
-            Op::Atomic { .. } => Value::Node(self.builder.effect(op, args, buffer.value())),
-            _ => {
-                self.builder.effect(op, args, Type::Results);
+        Ok(match effect {
+            Effects::Atomic(op) => Value::Node(self.builder.effect(Op::Atomic { memory, op }, args, element)),
+            Effects::Store => {
+                self.builder.effect(Op::Store(memory), args, Type::Results);
                 Value::unit()
             }
         })
     }
 
-    /// Whether the place is reached and an index is inside a buffer.
-    fn inside(&mut self, buffer: u32, index: NodeId, span: Span) -> NodeId {
-        let len = self.builder.add(Op::BufferLen(buffer), Vec::new(), Type::I32);
+    /// Whether an index is inside of memory.
+    fn inside(&mut self, memory: Memory, index: NodeId, span: Span) -> NodeId {
+        let len = match memory {
+            Memory::Buffer(buffer) => self.builder.add(Op::BufferLen(buffer), Vec::new(), Type::I32),
+            Memory::Shared(shared) => {
+                let len = self.builder.graph().shared[shared as usize].len;
+                let bounds = crate::passes::bounds(self.builder.graph(), index);
+                if bounds.is_some_and(|(low, high)| low >= 0 && high < i64::from(len)) {
+                    return self.builder.bool(true);
+                }
+                self.builder.i32(len as i32)
+            }
+        };
         // A negative index is a large one.
-        let name = self.builder.graph().buffers[buffer as usize].name.clone();
         let [at, len] = [index, len].map(|id| self.convert(id, Scalar::U32));
-        self.name(&Value::Node(len), &format!("{name}_len"), span);
-        let inside = self.builder.add(Op::Binary(BinaryOp::Lt), vec![at, len], Type::BOOL);
-        let reached = self.reached();
-        self.and(reached, inside)
+        if let Memory::Buffer(_) = memory {
+            let name = self.builder.graph().memory(memory).1.to_owned();
+            self.name(&Value::Node(len), &format!("{name}_len"), span);
+        }
+        self.builder.add(Op::Binary(BinaryOp::Lt), vec![at, len], Type::BOOL)
     }
 
     /// Effects are of invocations that compute one pixel, inside the frame.
     fn alone(&mut self, name: &str, span: Span) -> Eval<()> {
         let (what, help) = match self.builder.graph().invocation {
             Invocation::Pixel => return Ok(()),
+            Invocation::Group(_) if self.in_phase => return Ok(()),
+            Invocation::Group(_) => (
+                "a kernel of workgroups, outside of its phases,",
+                "put it into a `group.each(|thread| ...)`, or every thread would do it",
+            ),
             Invocation::Lane => (
                 "a kernel of quads",
                 "lanes that lie outside of the frame compute too: take `pixel: IVec2`",
@@ -134,11 +172,7 @@ impl Evaluator<'_> {
 
 fn no_such_method(buffer: &str, access: Access, name: &str, span: Span) -> Exit {
     let (ty, methods, help) = match access {
-        Access::Atomic => (
-            "an `AtomicBuffer`",
-            "`add`, `max`, `min`, `and`, `or`, `xor`, `exchange`, each of an index and a value, `load` of an index, and `len`",
-            "",
-        ),
+        Access::Atomic => ("an `AtomicBuffer`", ATOMIC_METHODS, ""),
         _ => (
             "a `StorageBuffer`",
             "`store` of an index and a value, and `len`",

@@ -6,7 +6,7 @@ use super::value::{Eval, Exit, Value};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::front::tree::{Param, Type as SourceType};
 use crate::ir::vector_named as vector_type;
-use crate::ir::{NodeId, Op, Scalar, Type};
+use crate::ir::{Invocation, NodeId, Op, Scalar, Type};
 use std::collections::BTreeMap;
 
 impl Evaluator<'_> {
@@ -44,6 +44,14 @@ impl Evaluator<'_> {
             }
             args.push(self.parameter(name, ty.bare(), *span, settings, &mut options)?);
         }
+        let of_group = matches!(self.builder.graph().invocation, Invocation::Group(_));
+        let pixel = function.params.iter().find(|param| param.name == "pixel");
+        if let (true, Some(pixel)) = (of_group, pixel) {
+            let error = Diagnostic::at(pixel.span, "a kernel of workgroups has a pixel for each thread")
+                .label("of which thread?")
+                .help("leave it out, and take `thread.pixel` in a `group.each(|thread| ...)`");
+            self.note(error.into());
+        }
         for (name, _) in settings {
             if !options.contains_key(name) {
                 let known: Vec<&str> = options.keys().map(String::as_str).collect();
@@ -75,6 +83,9 @@ impl Evaluator<'_> {
     ) -> Eval {
         if let Some(resource) = self.resource(name, ty, span)? {
             return Ok(resource);
+        }
+        if let Some(group) = self.workgroup_parameter(name, ty, span)? {
+            return Ok(group);
         }
         if matches!(ty, SourceType::Array(..)) {
             let array = self.uniform_part(name, ty, span)?;

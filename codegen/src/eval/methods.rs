@@ -48,7 +48,10 @@ impl<'a> Evaluator<'a> {
         if let Some(value) = self.conversion(name, &value, span)? {
             return Ok(value);
         }
-        if name == "clone" && args.is_empty() && !matches!(value, Value::Texture(_) | Value::Buffer(_)) {
+        if name == "clone"
+            && args.is_empty()
+            && !matches!(value, Value::Texture(_) | Value::Buffer(_) | Value::Shared(_))
+        {
             return Ok(value);
         }
         match &value {
@@ -81,6 +84,7 @@ impl<'a> Evaluator<'a> {
             }
             Value::Texture(index) => self.texture(*index, name, &args, span),
             Value::Buffer(index) => self.buffer(*index, name, &args, span),
+            Value::Shared(index) => self.shared_memory(*index, name, &args, span),
             Value::Range(range) if matches!(name, "rev" | "step_by" | "contains") => {
                 self.range_method(range, name, &args, span)
             }

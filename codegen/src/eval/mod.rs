@@ -43,6 +43,7 @@ mod textures;
 mod traits;
 mod value;
 mod whiles;
+mod workgroups;
 
 use crate::diagnostic::{Diagnostic, Errors, File, Span};
 use crate::front::Library;
@@ -169,6 +170,8 @@ struct Evaluator<'a> {
     consts: HashMap<String, Value>,
     /// Reads made so far.
     sites: u32,
+    /// Whether the threads of a workgroup run what is being evaluated.
+    in_phase: bool,
     /// Types of the elements of buffers, by buffer.
     elements: Vec<crate::front::tree::Type>,
     steps: u64,
@@ -201,6 +204,7 @@ impl<'a> Evaluator<'a> {
             errors: Vec::new(),
             consts: HashMap::new(),
             sites: 0,
+            in_phase: false,
             elements: Vec::new(),
             steps: 0,
             departed: Vec::new(),

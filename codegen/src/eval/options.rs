@@ -170,7 +170,9 @@ impl Evaluator<'_> {
         let ty = match field.ty.bare() {
             SourceType::Name(ty, _) => ty,
             SourceType::Array(..) => return self.list_info(field, &default),
-            SourceType::Tuple(_) | SourceType::Ref(..) | SourceType::Fn(..) => return Err(self.bad_type(field)),
+            SourceType::Tuple(_) | SourceType::Ref(..) | SourceType::Fn(..) | SourceType::Const(_) => {
+                return Err(self.bad_type(field));
+            }
         };
         let (kind, default) = match (ty.as_str(), &default) {
             ("bool", Value::Node(id)) => {

@@ -4,7 +4,7 @@ use super::Evaluator;
 use super::value::{Eval, Exit, Value};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::front::tree::Function;
-use crate::ir::{NodeId, Scalar, Target, Type};
+use crate::ir::{Invocation, NodeId, Scalar, Target, Type};
 
 /// Colour attachments that WebGPU promises.
 const MOST: usize = 8;
@@ -48,6 +48,20 @@ impl Evaluator<'_> {
     /// The values that go to targets, with their names and places in the source.
     fn parts_of_result(&self, value: &Value, function: &Function) -> Eval<Vec<(String, Value, Span)>> {
         let span = function.span;
+        let of_group = matches!(self.builder.graph().invocation, Invocation::Group(_));
+        let value = match value {
+            // Of each thread that of its pixel.
+            Value::Struct { ty, fields } if of_group && ty == "PerThread" => &fields[0].1,
+            Value::Tuple(parts) if of_group && parts.is_empty() => value,
+            _ if of_group => {
+                let what = format!("a kernel of workgroups gives {}", value.describe());
+                return Err(Diagnostic::at(span, what)
+                    .label("one for all threads")
+                    .help("give what a phase gives, a value for each of its threads: `-> PerThread<Vec4>`")
+                    .into());
+            }
+            _ => value,
+        };
         let numbered = |k: usize| format!("{}_{k}", Target::ALONE);
         match value {
             Value::Tuple(parts) if parts.is_empty() && self.builder.graph().has_effects() => Ok(Vec::new()),

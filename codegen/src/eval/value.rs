@@ -37,6 +37,8 @@ pub enum Value {
     Sampler(u32),
     /// A buffer, by its index in the graph.
     Buffer(u32),
+    /// What a workgroup shares, by its index in the graph.
+    Shared(u32),
     /// A mutable reference to a variable or a part of one. A shared reference is the value that it refers to: nothing can
     /// change that meanwhile.
     Ref(Rc<Place>),
@@ -159,6 +161,15 @@ impl Value {
         matches!(self, Value::Closure(_) | Value::Function(_) | Value::OneOf(..))
     }
 
+    /// Whether it is a closure that changes variables around it, or may be one.
+    pub fn changes_variables(&self) -> bool {
+        match self {
+            Value::OneOf(_, all) => all.iter().any(Value::changes_variables),
+            Value::Closure(closed) => closed.captured.iter().any(|(_, c)| matches!(c, Captured::Place(_))),
+            _ => false,
+        }
+    }
+
     /// Numbers and other parts in it, counted up to `limit`.
     pub fn parts(&self, limit: usize) -> usize {
         let parts: Box<dyn Iterator<Item = &Value>> = match self {
@@ -193,6 +204,7 @@ impl Value {
             Value::Texture(_) => "a texture".to_owned(),
             Value::Sampler(_) => "a sampler".to_owned(),
             Value::Buffer(_) => "a buffer".to_owned(),
+            Value::Shared(_) => "memory of a workgroup".to_owned(),
             Value::Ref(_) => "a mutable reference".to_owned(),
             Value::Closure(_) => "a closure".to_owned(),
             Value::Function(path) => format!("the function `{}`", path.join("::")),

@@ -64,6 +64,8 @@ pub fn is_prelude_type(name: &str) -> bool {
                 | "AtomicBuffer"
                 | "StorageBuffer"
                 | "Quad"
+                | "Shared"
+                | "AtomicShared"
                 | "bool"
                 | "char"
                 | "str"

@@ -151,8 +151,9 @@ impl Lower {
                                 args.push(Type::Name("_".to_owned(), Vec::new()));
                             }
                             syn::GenericArgument::Type(t) => args.push(self.ty(t)),
-                            // No type depends on it: lengths are the evaluator's.
-                            syn::GenericArgument::Const(_) => args.push(Type::Name("_".to_owned(), Vec::new())),
+                            syn::GenericArgument::Const(value) => {
+                                args.push(Type::Const(Box::new(self.expr(value))));
+                            }
                             _ => {}
                         }
                     }

@@ -472,6 +472,7 @@ fn bare(ty: &Type) -> String {
         }
         Type::Array(element, _) => format!("[{}]", bare(element)),
         Type::Fn(..) => "fn".to_owned(),
+        Type::Const(_) => "_".to_owned(),
         Type::Ref(_, inner) => bare(inner),
     }
 }

@@ -237,6 +237,8 @@ pub enum Type {
     Ref(bool, Box<Type>),
     /// What is called: `impl Fn(A) -> B`, `fn(A) -> B`.
     Fn(Vec<Type>, Box<Type>),
+    /// A constant where an argument stands: the 3 of `Window<3>`.
+    Const(Box<Expr>),
 }
 
 impl Type {

@@ -182,6 +182,7 @@ fn ty(t: &mut Type, known: &Known) {
     match t {
         Type::Name(_, args) | Type::Tuple(args) => args.iter_mut().for_each(|t| ty(t, known)),
         Type::Ref(_, inner) => ty(inner, known),
+        Type::Const(value) => expr(value, known),
         Type::Fn(params, result) => {
             params.iter_mut().for_each(|t| ty(t, known));
             ty(result, known);

@@ -203,9 +203,11 @@ impl<'l> Checker<'l> {
             },
             Ty::Storage(kind, element) => match (*kind, name) {
                 (_, "len") => self.takes(args, &[], Ty::USIZE),
-                ("StorageBuffer", "store") => self.takes(args, &[Ty::USIZE, (**element).clone()], Ty::UNIT),
-                ("AtomicBuffer", "load") => self.takes(args, &[Ty::USIZE], (**element).clone()),
-                ("AtomicBuffer", "add" | "max" | "min" | "and" | "or" | "xor" | "exchange") => {
+                ("StorageBuffer" | "Shared", "store") => self.takes(args, &[Ty::USIZE, (**element).clone()], Ty::UNIT),
+                ("AtomicBuffer" | "Shared" | "AtomicShared", "load") => {
+                    self.takes(args, &[Ty::USIZE], (**element).clone())
+                }
+                ("AtomicBuffer" | "AtomicShared", "add" | "max" | "min" | "and" | "or" | "xor" | "exchange") => {
                     self.takes(args, &[Ty::USIZE, (**element).clone()], (**element).clone())
                 }
                 _ => self.unknown_method(args),

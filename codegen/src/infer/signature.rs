@@ -25,6 +25,8 @@ impl<'l> Checker<'l> {
                 params.iter().for_each(|param| self.lengths(param));
                 self.lengths(result);
             }
+            // No type depends on it.
+            Type::Const(_) => {}
             Type::Array(element, len) => {
                 self.lengths(element);
                 if let Some(len) = len {
@@ -45,6 +47,7 @@ impl<'l> Checker<'l> {
                 Box::new(self.substituted(result, given, span)),
             ),
             Type::Name(name, args) => self.named(name, args, given, span),
+            Type::Const(_) => Ty::Unknown,
         }
     }
 
@@ -81,6 +84,14 @@ impl<'l> Checker<'l> {
             "Mat4" => Ty::Matrix(4),
             "Quad" => Ty::Quad(Box::new(texel())),
             "Buffer" => Ty::Buffer(Box::new(texel())),
+            "Shared" | "AtomicShared" => {
+                let element = match texel() {
+                    Ty::Array(element) => element,
+                    _ => Box::new(Ty::Unknown),
+                };
+                let kind = if name == "Shared" { "Shared" } else { "AtomicShared" };
+                Ty::Storage(kind, element)
+            }
             "AtomicBuffer" => Ty::Storage("AtomicBuffer", Box::new(texel())),
             "StorageBuffer" => Ty::Storage("StorageBuffer", Box::new(texel())),
             "Sampler" => Ty::Sampler,

@@ -3,16 +3,20 @@
 mod bindings;
 mod cube;
 mod finite;
+mod group;
+mod memory;
 mod sampling;
 
 use crate::ir::arith::{self, Cells};
-use crate::ir::{Access, Counter, Graph, Invocation, NodeId, Op, Real, Region, Scalar, TextureKind, Type};
+use crate::ir::{Counter, Graph, Invocation, NodeId, Op, Real, Region, Scalar, TextureKind, Type};
 use crate::passes::{Block, Schedule, Step};
+use memory::Memories;
 use sampling::{Detail, Sampled};
 use std::marker::PhantomData;
 
 pub use bindings::{Address, Bindings, Comparison, Image, InputError, SamplerState, Texels};
 pub use finite::Birth;
+pub use memory::Disorder;
 
 /// A graph with its inputs, ready to compute any pixel. `R` is the precision of its floats.
 pub struct Interpreter<'a, R: Real = f32> {
@@ -28,20 +32,30 @@ pub struct Interpreter<'a, R: Real = f32> {
 }
 
 /// Room for the values of one pixel at a time: make one a thread and use it again.
+#[derive(Clone)]
 pub struct Scratch {
     values: Vec<Cells>,
     arrays: Vec<Vec<Cells>>,
     /// Counters of the kept loops around, outer ones first.
     loops: Vec<(NodeId, i64)>,
     birth: Option<Birth>,
-    /// Buffers that are written, by index; of those that are not, nothing.
-    written: Vec<Vec<Cells>>,
+    /// What is written.
+    memory: Memories,
+    /// Where the invocation lies in its workgroup.
+    local: [u32; 2],
+    /// Those of a workgroup, row by row; empty of other invocations.
+    threads: Vec<Scratch>,
 }
 
 impl Scratch {
     /// Where the last pixel first had a NaN or an infinity, if the interpreter watches for them.
     pub fn birth(&self) -> Option<&Birth> {
         self.birth.as_ref()
+    }
+
+    /// What the invocations of a workgroup did that has no defined result, the first time.
+    pub fn disorder(&self) -> Option<&Disorder> {
+        self.memory.disorder()
     }
 }
 
@@ -130,28 +144,45 @@ impl<'a, R: Real> Interpreter<'a, R> {
                 values[id.0 as usize] = arith::constant::<R>(self.graph.ty(id), &bits);
             }
         }
-        Scratch {
+        let one = Scratch {
             values,
             arrays: vec![Vec::new(); self.graph.nodes.len()],
             loops: Vec::new(),
             birth: None,
-            written: self.written(),
+            memory: Memories::default(),
+            local: [0, 0],
+            threads: Vec::new(),
+        };
+        let threads = match self.graph.invocation {
+            Invocation::Group([width, height]) => {
+                let places = (0..height).flat_map(|y| (0..width).map(move |x| [x, y]));
+                places.map(|local| Scratch { local, ..one.clone() }).collect()
+            }
+            _ => Vec::new(),
+        };
+        Scratch {
+            memory: Memories::new(self.graph, &self.buffers),
+            threads,
+            ..one
         }
     }
 
     /// What the first target of a pixel inside the frame holds: see [`Interpreter::invocation`].
     pub fn pixel(&self, x: u32, y: u32, scratch: &mut Scratch) -> [R; 4] {
-        let [width, height] = self.graph.invocation.pixels();
+        let [width, height] = self.graph.invocation.tile();
         let (left, upper) = (x % width, y % height);
         self.invocation(x - left, y - upper, scratch)[(upper * width + left) as usize]
     }
 
-    /// What the first target holds of all pixels of the invocation whose upper left one is given, row by row; those outside of
-    /// the frame are of no account. Components that a value lacks are 0, and the fourth is 1. Of the other targets
+    /// What the first target holds of all pixels of the invocation whose upper left one is given, or of all of its workgroup, row
+    /// by row; those outside of the frame are of no account. Components that a value lacks are 0, and the fourth is 1. Of the other targets
     /// [`Interpreter::target`] tells.
     pub fn invocation(&self, x: u32, y: u32, scratch: &mut Scratch) -> Vec<[R; 4]> {
         scratch.birth = None;
-        self.block(&self.schedule.body, [x, y], scratch);
+        match scratch.threads.is_empty() {
+            true => self.block(&self.schedule.body, [x, y], scratch),
+            false => self.workgroup([x, y], scratch),
+        }
         self.given(0, scratch)
             .map(|(ty, cells)| match ty.is_float() {
                 true => {
@@ -175,27 +206,23 @@ impl<'a, R: Real> Interpreter<'a, R> {
     }
 
     /// Type and value of a target, pixel by pixel.
-    fn given(&self, target: usize, scratch: &Scratch) -> impl Iterator<Item = (Type, Cells)> {
-        let ids = self.graph.outputs().iter().skip(target);
-        let ids = ids.step_by(self.graph.targets.len().max(1));
-        ids.map(|id| (self.graph.ty(*id), scratch.values[id.0 as usize]))
-    }
-
-    /// Buffers that are written as they are at first.
-    fn written(&self) -> Vec<Vec<Cells>> {
-        let buffers = self.graph.buffers.iter().zip(&self.buffers);
-        let first = buffers.map(|(buffer, elements)| match buffer.access {
-            Access::Read => Vec::new(),
-            Access::Write | Access::Atomic => elements.clone(),
-        });
-        first.collect()
+    fn given<'s>(&'s self, target: usize, scratch: &'s Scratch) -> impl Iterator<Item = (Type, Cells)> + 's {
+        let all = match scratch.threads.is_empty() {
+            true => std::slice::from_ref(scratch),
+            false => &scratch.threads,
+        };
+        all.iter().flat_map(move |scratch| {
+            let ids = self.graph.outputs().iter().skip(target);
+            let ids = ids.step_by(self.graph.targets.len().max(1));
+            ids.map(|id| (self.graph.ty(*id), scratch.values[id.0 as usize]))
+        })
     }
 
     /// What a buffer that is written holds now, by its index in [`Graph::buffers`]: each element in as many lanes as it has.
     pub fn buffer(&self, index: usize, scratch: &Scratch) -> Vec<[f64; 4]> {
         let ty = self.graph.buffers[index].value();
         let lanes = ty.lanes() as usize;
-        let elements = scratch.written[index].iter().map(|cells| {
+        let elements = scratch.memory.buffer(index).iter().map(|cells| {
             let all = texel::<R>(ty, *cells);
             std::array::from_fn(|k| if k < lanes { all[k] } else { 0.0 })
         });
@@ -206,45 +233,55 @@ impl<'a, R: Real> Interpreter<'a, R> {
     fn effect(&self, id: NodeId, s: &mut Scratch) -> Cells {
         let node = self.graph.node(id);
         let arg = |k: usize| s.values[node.args[k].0 as usize];
-        let Some(buffer) = node.op.buffer() else { return [0; 4] };
+        let Some(memory) = node.op.memory() else { return [0; 4] };
         let (holds, index) = (arg(0)[0] != 0, arg(1)[0] as u32 as usize);
         let value = node.args.get(2).map_or([0; 4], |id| s.values[id.0 as usize]);
-        let Some(place) = s.written[buffer as usize].get_mut(index).filter(|_| holds) else {
+        if !holds {
             return [0; 4];
-        };
-        let before = *place;
-        *place = match node.op {
-            Op::Atomic { op, .. } => [arith::atomic(op, node.ty, before[0], value[0]), 0, 0, 0],
-            _ => value,
-        };
-        before
+        }
+        match node.op {
+            Op::SharedLoad(_) => s.memory.look(memory, index),
+            Op::Atomic { op, .. } => {
+                let change = |before: Cells| [arith::atomic(op, node.ty, before[0], value[0]), 0, 0, 0];
+                s.memory.change(memory, index, change)
+            }
+            _ => s.memory.store(memory, index, value),
+        }
     }
 
     fn block(&self, block: &Block, pixel: [u32; 2], s: &mut Scratch) {
-        for step in &block.steps {
+        self.steps(&block.steps, pixel, s);
+    }
+
+    fn steps(&self, steps: &[Step], pixel: [u32; 2], s: &mut Scratch) {
+        for step in steps {
             match step {
                 Step::Eval(id) => self.eval(*id, pixel, s),
                 Step::Loop { node, body } => self.run_loop(*node, body, pixel, s),
                 Step::If { node, then, otherwise } => {
-                    let regions = self.graph.regions_of(*node);
-                    let holds = s.values[self.graph.node(*node).args[0].0 as usize][0] != 0;
-                    let (side, region) = if holds {
-                        (then, regions[0])
-                    } else {
-                        (otherwise, regions[1])
-                    };
-                    self.block(side, pixel, s);
-                    let results = &self.graph.region(region).results;
-                    let slot = node.0 as usize;
-                    s.arrays[slot] = results.iter().flat_map(|r| whole(self.graph, s, *r)).collect();
+                    let holds = self.holds(*node, s);
+                    self.block(if holds { then } else { otherwise }, pixel, s);
+                    self.leave_branch(*node, holds, s);
                 }
             }
         }
     }
 
-    fn run_loop(&self, node: NodeId, body: &Block, pixel: [u32; 2], s: &mut Scratch) {
+    /// Whether the condition of a branch holds.
+    fn holds(&self, node: NodeId, s: &Scratch) -> bool {
+        s.values[self.graph.node(node).args[0].0 as usize][0] != 0
+    }
+
+    /// Gives a branch what the side gave that was run.
+    fn leave_branch(&self, node: NodeId, holds: bool, s: &mut Scratch) {
+        let region = self.graph.regions_of(node)[usize::from(!holds)];
+        let results = &self.graph.region(region).results;
+        s.arrays[node.0 as usize] = results.iter().flat_map(|r| whole(self.graph, s, *r)).collect();
+    }
+
+    /// The first counter of a loop and its end.
+    fn course(&self, node: NodeId, s: &Scratch) -> std::ops::Range<i64> {
         let args = &self.graph.node(node).args;
-        let region = self.graph.region(self.graph.regions_of(node)[0]);
         let signed = self.graph.ty(args[0]) == Type::I32;
         let [start, end] = [args[0], args[1]].map(|id| {
             let bits = s.values[id.0 as usize][0] as u32;
@@ -254,17 +291,39 @@ impl<'a, R: Real> Interpreter<'a, R> {
                 i64::from(bits)
             }
         });
-        let mut carried: Vec<Vec<Cells>> = args[2..].iter().map(|a| whole(self.graph, s, *a)).collect();
-        for counter in start..end {
-            s.values[region.params[0].0 as usize] = [u64::from(counter as u32), 0, 0, 0];
-            s.loops.push((region.params[0], counter));
-            for (param, value) in region.params[1..].iter().zip(carried) {
-                store(self.graph, s, *param, value);
-            }
+        start..end
+    }
+
+    /// What a loop carries into its first iteration.
+    fn entering(&self, node: NodeId, s: &Scratch) -> Vec<Vec<Cells>> {
+        let args = &self.graph.node(node).args;
+        args[2..].iter().map(|a| whole(self.graph, s, *a)).collect()
+    }
+
+    /// Gives the parameters of a loop's body their values.
+    fn begin_iteration(&self, region: &Region, counter: i64, carried: Vec<Vec<Cells>>, s: &mut Scratch) {
+        s.values[region.params[0].0 as usize] = [u64::from(counter as u32), 0, 0, 0];
+        s.loops.push((region.params[0], counter));
+        for (param, value) in region.params[1..].iter().zip(carried) {
+            store(self.graph, s, *param, value);
+        }
+    }
+
+    /// What a loop carries on, and whether this iteration was the last one.
+    fn end_iteration(&self, region: &Region, s: &mut Scratch) -> (Vec<Vec<Cells>>, bool) {
+        s.loops.pop();
+        let stops = region.stop.is_some_and(|stop| s.values[stop.0 as usize][0] != 0);
+        (self.leaving(region, s), stops)
+    }
+
+    fn run_loop(&self, node: NodeId, body: &Block, pixel: [u32; 2], s: &mut Scratch) {
+        let region = self.graph.region(self.graph.regions_of(node)[0]);
+        let mut carried = self.entering(node, s);
+        for counter in self.course(node, s) {
+            self.begin_iteration(region, counter, carried, s);
             self.block(body, pixel, s);
-            s.loops.pop();
-            let stops = region.stop.is_some_and(|stop| s.values[stop.0 as usize][0] != 0);
-            carried = self.leaving(region, s);
+            let stops;
+            (carried, stops) = self.end_iteration(region, s);
             if stops {
                 break;
             }
@@ -303,6 +362,12 @@ impl<'a, R: Real> Interpreter<'a, R> {
             Op::Const(_) => {}
             Op::Unused => s.values[slot] = [0; 4],
             Op::Pixel => s.values[slot] = [pixel[0].into(), pixel[1].into(), 0, 0],
+            Op::Thread => s.values[slot] = [s.local[0].into(), s.local[1].into(), 0, 0],
+            Op::GroupOrigin => {
+                let [x, y] = [0, 1].map(|k| u64::from(pixel[k] - s.local[k]));
+                s.values[slot] = [x, y, 0, 0];
+            }
+            Op::Inside => s.values[slot] = [(0..2).all(|k| pixel[k] < self.frame[k]).into(), 0, 0, 0],
             Op::FrameSize => s.values[slot] = [self.frame[0].into(), self.frame[1].into(), 0, 0],
             Op::Uniform(k) => s.values[slot] = self.uniforms[*k as usize],
             op if op.is_effect() => s.values[slot] = self.effect(id, s),

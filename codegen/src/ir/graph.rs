@@ -1,6 +1,6 @@
 //! The graph and its builder.
 
-use super::{Buffer, Lanes, Op, Origin, Scalar, Texture, Type};
+use super::{Buffer, Lanes, Memory, Op, Origin, Scalar, Shared, Texture, Type};
 use std::collections::HashMap;
 
 /// Index of a node. A node's arguments have smaller indices.
@@ -114,6 +114,8 @@ pub enum Invocation {
     Outlying,
     /// One pixel, in step with the three others of its quad; it may lie outside the frame.
     Lane,
+    /// One pixel, together with the others of its workgroup, so many across and down; it may lie outside the frame.
+    Group([u32; 2]),
     /// A block of pixels, so many across and down, its upper left one inside the frame.
     Block([u32; 2]),
 }
@@ -122,8 +124,16 @@ impl Invocation {
     /// Pixels across and down.
     pub fn pixels(self) -> [u32; 2] {
         match self {
-            Invocation::Pixel | Invocation::Outlying | Invocation::Lane => [1, 1],
+            Invocation::Pixel | Invocation::Outlying | Invocation::Lane | Invocation::Group(_) => [1, 1],
             Invocation::Block(size) => size,
+        }
+    }
+
+    /// Pixels across and down that are computed together: those of an invocation, or of all invocations of a workgroup.
+    pub fn tile(self) -> [u32; 2] {
+        match self {
+            Invocation::Group(size) => size,
+            other => other.pixels(),
         }
     }
 }
@@ -145,6 +155,8 @@ pub struct Graph {
     pub textures: Vec<Texture>,
     /// Buffers, by the index that `Op::BufferLoad` carries.
     pub buffers: Vec<Buffer>,
+    /// What workgroups share, by the index that `Memory::Shared` carries.
+    pub shared: Vec<Shared>,
     /// Samplers, by the index that `Op::Sample` carries.
     pub samplers: Vec<Sampler>,
     /// Run-time parameters, by the index that `Op::Uniform` carries.
@@ -209,6 +221,20 @@ impl Graph {
     /// Whether the kernel does more than give values.
     pub fn has_effects(&self) -> bool {
         !self.regions[0].effects.is_empty()
+    }
+
+    /// The type of the elements of memory, and its name.
+    pub fn memory(&self, memory: Memory) -> (Type, &str) {
+        match memory {
+            Memory::Buffer(k) => {
+                let buffer = &self.buffers[k as usize];
+                (buffer.value(), &buffer.name)
+            }
+            Memory::Shared(k) => {
+                let shared = &self.shared[k as usize];
+                (shared.element, &shared.name)
+            }
+        }
     }
 
     /// All nodes in order.
@@ -330,6 +356,11 @@ impl<'r> Builder<'r> {
     fn happens(&mut self, id: NodeId) {
         let region = self.innermost();
         self.graph.regions[region.0 as usize].effects.push(id);
+    }
+
+    /// The regions that are open, the body first.
+    pub fn open_regions(&self) -> &[RegionId] {
+        &self.open
     }
 
     /// How many effects each open region has.

@@ -10,6 +10,10 @@
 //!   Each stores its own pixel; one that lies outside of the frame computes as the others do, and its [`Op::Pixel`] is
 //!   outside. [`Op::Message`] gives the other lane's bits as they are. A condition, or a bound of a kept loop, is the
 //!   same in all lanes of a quad, so that all of them come to every message.
+//! - The invocations of a kernel of workgroups ([`Invocation::Group`]) are those of a workgroup, each with its pixel, which may
+//!   lie outside of the frame: all of them compute, and what is given for a pixel outside is not stored. Conditions and bounds
+//!   around an [`Op::Barrier`] are the same in all of them, so that all come to it. Between two barriers no invocation reads or
+//!   writes what another one writes of what they share, but by atomic operations.
 //! - A node is a pure, total function of its arguments. It may be evaluated never, once or often, early or
 //!   late, with the same result. This holds for reads too: textures and buffers do not change during a dispatch,
 //!   and coordinates and indices are clamped by nodes of their own.
@@ -32,8 +36,8 @@
 //! - Nodes belong to no region by themselves: where a node is evaluated follows from what it depends on and who
 //!   uses it, and is decided in one place, the schedule.
 //! - Effects ([`Op::is_effect`]) are not pure: each happens once wherever its region is evaluated, after those before it in
-//!   [`Region::effects`], if its condition holds. What it writes, no node reads but atomic operations. Effects of different
-//!   invocations come in any order.
+//!   [`Region::effects`], if its condition holds. What it writes, no node reads but effects. Effects of different
+//!   invocations come in any order, but for barriers.
 //! - Equal nodes are one node (hash-consing), but for effects. Reads carry the site of their call so that they are only shared by
 //!   the pass that is there for it.
 //!
@@ -42,6 +46,7 @@
 pub mod arith;
 mod buffer;
 mod graph;
+mod memory;
 mod op;
 mod origin;
 mod parse;
@@ -57,6 +62,7 @@ pub use graph::{
     Builder, Event, Graph, Invocation, Node, NodeId, Purpose, Region, RegionId, Rules, Sampler, Target, Uniform,
     Varying,
 };
+pub use memory::{Memory, Shared};
 pub use op::{AtomicOp, Axis, BinaryOp, Direction, Op, UnaryOp};
 pub use origin::{Counter, Naming, Origin};
 pub use parse::{ParseError, parse};

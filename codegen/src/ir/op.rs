@@ -1,6 +1,6 @@
 //! Operations.
 
-use super::{Lanes, RegionId};
+use super::{Lanes, Memory, RegionId};
 
 /// What a node does with its arguments.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -15,6 +15,12 @@ pub enum Op {
     FrameSize,
     /// Where the lane lies in its quad, `vec2<i32>`, each 0 or 1.
     Lane,
+    /// Where the invocation lies in its workgroup, `vec2<i32>`, each at least 0 and below the workgroup's size.
+    Thread,
+    /// The pixel of a workgroup's first invocation, `vec2<i32>`, the same in all of them.
+    GroupOrigin,
+    /// Whether the pixel of an invocation of a workgroup is one that is computed: inside the frame.
+    Inside,
     /// The argument as the lane beside, above or below, or across has it, bit for bit.
     Message(Direction),
     /// The argument's fine derivative, of floats: in both lanes of a row the right one's less the left one's, in both of
@@ -121,17 +127,26 @@ pub enum Op {
         /// As of `Load`.
         site: u32,
     },
-    /// Changes an element of a buffer at once, as no other invocation can come between: condition (scalar boolean), index (`i32`,
-    /// inside the buffer where the condition holds), and a value of the element's type but for `AtomicOp::Load`. Gives what was
+    /// Changes an element at once, as no other invocation can come between: condition (scalar boolean), index (`i32`,
+    /// inside the memory where the condition holds), and a value of the element's type but for `AtomicOp::Load`. Gives what was
     /// there before, and 0 where the condition does not hold, for which nothing is done. An effect.
     Atomic {
-        /// Index into `Graph::buffers`.
-        buffer: u32,
+        /// Where.
+        memory: Memory,
         /// What it does.
         op: AtomicOp,
     },
-    /// Writes an element of a buffer (index into `Graph::buffers`): condition, index, value, as of `Atomic`. An effect.
-    Store(u32),
+    /// Writes an element: condition, index, value, as of `Atomic`. An effect.
+    Store(Memory),
+    /// An element of what a workgroup shares (index into `Graph::shared`): condition (scalar boolean), index (`i32`, inside). Any
+    /// value where the condition does not hold. An effect, for it has its place among the others.
+    SharedLoad(u32),
+    /// Waits for the other invocations of the workgroup; what any of them has done to what they share is seen by all of them
+    /// behind it. An effect.
+    Barrier {
+        /// Whether what they have done to buffers is seen, too.
+        buffers: bool,
+    },
     /// A value counted by name (index into `Graph::tallies`); the value itself.
     Tally(u32),
     /// An array from its elements.
@@ -358,7 +373,10 @@ impl Op {
     /// Whether it does more than give a value: it happens as often as the kernel says, in the order of the source, and no two
     /// of it are one.
     pub fn is_effect(&self) -> bool {
-        matches!(self, Op::Atomic { .. } | Op::Store(_))
+        matches!(
+            self,
+            Op::Atomic { .. } | Op::Store(_) | Op::SharedLoad(_) | Op::Barrier { .. }
+        )
     }
 
     /// Whether it reads memory that a host fills, which nothing changes meanwhile.
@@ -395,11 +413,26 @@ impl Op {
     /// The buffer that it reads, writes or asks the length of.
     pub fn buffer(&self) -> Option<u32> {
         match self {
-            Op::BufferLoad { buffer, .. } | Op::Atomic { buffer, .. } | Op::BufferLen(buffer) | Op::Store(buffer) => {
-                Some(*buffer)
-            }
+            Op::BufferLoad { buffer, .. } | Op::BufferLen(buffer) => Some(*buffer),
+            _ => match self.memory() {
+                Some(Memory::Buffer(buffer)) => Some(buffer),
+                _ => None,
+            },
+        }
+    }
+
+    /// The memory that an effect works on.
+    pub fn memory(&self) -> Option<Memory> {
+        match self {
+            Op::Atomic { memory, .. } | Op::Store(memory) => Some(*memory),
+            Op::SharedLoad(shared) => Some(Memory::Shared(*shared)),
             _ => None,
         }
+    }
+
+    /// Whether it changes nothing: an effect because of its place alone, that goes if nothing uses it.
+    pub fn only_looks(&self) -> bool {
+        matches!(self, Op::SharedLoad(_))
     }
 
     /// The call that a read stands for, 0 for all of them.

@@ -1,9 +1,9 @@
 //! The graph from its text.
 
 use super::{
-    Access, AtomicOp, Axis, BinaryOp, Buffer, Counter, Direction, Element, Event, Graph, Invocation, Node, NodeId, Op,
-    Origin, Region, RegionId, Sampler, Scalar, Structure, Target, Texture, TextureKind, Type, UnaryOp, Uniform,
-    Varying,
+    Access, AtomicOp, Axis, BinaryOp, Buffer, Counter, Direction, Element, Event, Graph, Invocation, Memory, Node,
+    NodeId, Op, Origin, Region, RegionId, Sampler, Scalar, Shared, Structure, Target, Texture, TextureKind, Type,
+    UnaryOp, Uniform, Varying,
 };
 
 /// Why a text is not a graph.
@@ -81,6 +81,7 @@ impl Reader {
             }
             "texture" => self.texture(rest),
             "buffer" => self.buffer(rest),
+            "shared" => self.shared(rest),
             "sampler" => self.sampler(rest),
             "uniform" => self.uniform(rest),
             "varying" => {
@@ -162,6 +163,23 @@ impl Reader {
         Ok(())
     }
 
+    fn shared(&mut self, text: &str) -> Parsed {
+        let (name, rest) = named(text)?;
+        let (element, len, atomic) = match rest.split_whitespace().collect::<Vec<_>>()[..] {
+            [element, len] => (element, len, false),
+            [element, len, "atomic"] => (element, len, true),
+            _ => return Err("what is shared is `shared NAME: TYPE LENGTH`, and `atomic`".to_owned()),
+        };
+        let (element, len) = (ty(element)?, number(len)?);
+        self.graph.shared.push(Shared {
+            name,
+            element,
+            len,
+            atomic,
+        });
+        Ok(())
+    }
+
     fn sampler(&mut self, text: &str) -> Parsed {
         let (name, rest) = named(text)?;
         let comparison = match rest {
@@ -190,7 +208,12 @@ impl Reader {
             ["outlying"] => Invocation::Outlying,
             ["lane"] => Invocation::Lane,
             ["block", width, height] => Invocation::Block([number(width)?, number(height)?]),
-            _ => return Err("an invocation is `outlying`, `lane` or `block WIDTH HEIGHT`".to_owned()),
+            ["group", width, height] => Invocation::Group([number(width)?, number(height)?]),
+            _ => {
+                return Err(
+                    "an invocation is `outlying`, `lane`, `block WIDTH HEIGHT` or `group WIDTH HEIGHT`".to_owned(),
+                );
+            }
         };
         Ok(())
     }
@@ -296,6 +319,16 @@ impl Reader {
             found.ok_or_else(|| missing("buffer"))
         };
         let buffer = || buffer_at(0);
+        let shared = |k: usize| -> Parsed<u32> {
+            let found = position(g.shared.iter().map(|s| &s.name), word(k)?);
+            found.ok_or_else(|| missing("memory"))
+        };
+        let memory = |k: usize| -> Parsed<Memory> {
+            match buffer_at(k) {
+                Ok(buffer) => Ok(Memory::Buffer(buffer)),
+                Err(_) => shared(k).map(Memory::Shared),
+            }
+        };
         let site = match words.iter().find_map(|w| w.strip_prefix("site=")) {
             Some(site) => number(site)?,
             None => 0,
@@ -318,6 +351,9 @@ impl Reader {
             "pixel" => Op::Pixel,
             "framesize" => Op::FrameSize,
             "lane" => Op::Lane,
+            "thread" => Op::Thread,
+            "grouporigin" => Op::GroupOrigin,
+            "inside" => Op::Inside,
             "message" => {
                 let found = Direction::ALL.into_iter().find(|d| format!("{d:?}") == words.concat());
                 Op::Message(found.ok_or_else(|| missing("direction"))?)
@@ -390,11 +426,15 @@ impl Reader {
                 let spelled = word(0)?;
                 let found = AtomicOp::ALL.into_iter().find(|op| format!("{op:?}") == spelled);
                 Op::Atomic {
-                    buffer: buffer_at(1)?,
+                    memory: memory(1)?,
                     op: found.ok_or_else(|| missing("operation"))?,
                 }
             }
-            "store" => Op::Store(buffer()?),
+            "store" => Op::Store(memory(0)?),
+            "sharedload" => Op::SharedLoad(shared(0)?),
+            "barrier" => Op::Barrier {
+                buffers: words.first() == Some(&"buffers"),
+            },
             "tally" => Op::Tally(position(g.tallies.iter(), word(0)?).ok_or_else(|| missing("tally"))?),
             "makearray" => Op::MakeArray,
             "arrayget" => Op::ArrayGet,

@@ -71,6 +71,10 @@ fn tables(graph: &Graph) -> String {
         };
         let _ = writeln!(text, "buffer {}: {}{access}", b.name, element);
     }
+    for s in &graph.shared {
+        let atomic = if s.atomic { " atomic" } else { "" };
+        let _ = writeln!(text, "shared {}: {} {}{atomic}", s.name, s.element, s.len);
+    }
     for s in &graph.samplers {
         let kind = if s.comparison { "comparison" } else { "filtering" };
         let _ = writeln!(text, "sampler {}: {kind}", s.name);
@@ -93,6 +97,9 @@ fn tables(graph: &Graph) -> String {
         Invocation::Pixel => {}
         Invocation::Outlying => text += "invocation outlying\n",
         Invocation::Lane => text += "invocation lane\n",
+        Invocation::Group([width, height]) => {
+            let _ = writeln!(text, "invocation group {width} {height}");
+        }
         Invocation::Block([width, height]) => {
             let _ = writeln!(text, "invocation block {width} {height}");
         }
@@ -181,8 +188,11 @@ fn op(graph: &Graph, op: &Op, ty: Type) -> String {
         Op::Derivative(axis) => format!("derivative {axis:?}"),
         Op::Varying(k) => format!("varying {}", graph.varyings[*k as usize].name),
         Op::BufferLen(k) => format!("bufferlen {}", buffer(k)),
-        Op::Atomic { buffer: b, op } => format!("atomic {op:?} {}", buffer(b)),
-        Op::Store(b) => format!("store {}", buffer(b)),
+        Op::Atomic { memory, op } => format!("atomic {op:?} {}", graph.memory(*memory).1),
+        Op::Store(memory) => format!("store {}", graph.memory(*memory).1),
+        Op::SharedLoad(k) => format!("sharedload {}", graph.shared[*k as usize].name),
+        Op::Barrier { buffers: true } => "barrier buffers".to_owned(),
+        Op::Barrier { buffers: false } => "barrier".to_owned(),
         Op::BufferLoad { buffer: b, field, .. } => match &graph.buffers[*b as usize].element {
             Element::Value(_) => format!("bufferload {}{at}", buffer(b)),
             Element::Struct(of) => {

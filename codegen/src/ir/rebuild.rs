@@ -1,6 +1,6 @@
 //! Building a graph again, without what is not used: the frame of every pass.
 
-use super::{Builder, Event, Graph, NodeId, Op, RegionId, Rules, Type};
+use super::{Builder, Event, Graph, NodeId, Op, Region, RegionId, Rules, Type};
 
 /// What a pass changes while the graph is built again.
 pub struct Rebuild<'a> {
@@ -47,6 +47,7 @@ pub fn rebuild(old: &Graph, pass: &Rebuild<'_>) -> Graph {
 pub fn copy_tables(old: &Graph, new: &mut Graph) {
     new.textures.clone_from(&old.textures);
     new.buffers.clone_from(&old.buffers);
+    new.shared.clone_from(&old.shared);
     new.samplers.clone_from(&old.samplers);
     new.uniforms.clone_from(&old.uniforms);
     new.tallies.clone_from(&old.tallies);
@@ -141,7 +142,10 @@ impl Walk<'_, '_> {
         let new = match op {
             effect if effect.is_effect() => {
                 // What never happens is no effect, and gives 0.
-                let never = self.builder.graph().constant(args[0]).is_some_and(|bits| bits[0] == 0);
+                let never = args
+                    .first()
+                    .and_then(|id| self.builder.graph().constant(*id))
+                    .is_some_and(|bits| bits[0] == 0);
                 match (never, ty) {
                     (false, _) => self.builder.effect(effect, args, ty),
                     (true, Type::Results) => return,
@@ -212,7 +216,11 @@ impl Liveness {
             results: graph.regions.iter().map(|r| vec![false; r.results.len()]).collect(),
         };
         live.regions[0] = true;
-        let mut pending = [graph.outputs(), &graph.regions[0].effects].concat();
+        let happens = |region: &Region| -> Vec<NodeId> {
+            let all = region.effects.iter().copied();
+            all.filter(|id| !graph.node(*id).op.only_looks()).collect()
+        };
+        let mut pending = [graph.outputs(), &happens(&graph.regions[0])].concat();
         while let Some(id) = pending.pop() {
             if std::mem::replace(&mut live.nodes[id.0 as usize], true) {
                 continue;
@@ -223,14 +231,14 @@ impl Liveness {
                     live.regions[region.0 as usize] = true;
                     pending.extend(&node.args[..2]);
                     pending.extend(graph.region(region).stop);
-                    pending.extend(&graph.region(region).effects);
+                    pending.extend(happens(graph.region(region)));
                 }
                 Op::If(then, otherwise) => {
                     live.regions[then.0 as usize] = true;
                     live.regions[otherwise.0 as usize] = true;
                     pending.push(node.args[0]);
-                    pending.extend(&graph.region(then).effects);
-                    pending.extend(&graph.region(otherwise).effects);
+                    pending.extend(happens(graph.region(then)));
+                    pending.extend(happens(graph.region(otherwise)));
                 }
                 Op::Result(k) => {
                     pending.push(node.args[0]);

@@ -11,7 +11,8 @@
 //! 5. The kernel has a result for each target of each pixel of its invocation, of the target's type: a float, an integer or a
 //!    vector of them. No two targets have one name.
 //! 6. Lanes, messages, derivatives and interpolated values are of kernels whose invocations are lanes of quads.
-//! 7. Every effect that something depends on is one of one region, on whose evaluation it happens, and each loop or branch with effects is one of the region
+//! 7. What is of workgroups is of kernels whose invocations are theirs; what they share are arrays of at least one number or vector, of atomics of integers.
+//! 8. Every effect that something depends on is one of one region, on whose evaluation it happens, and each loop or branch with effects is one of the region
 //!    that it was written in; a region has them in the order in which they were made. Only there their values are used. What is
 //!    written is no buffer that is read. A kernel whose invocations are blocks or lanes has none.
 
@@ -24,6 +25,7 @@ use std::collections::HashMap;
 pub fn verify(graph: &Graph) -> Result<(), String> {
     results(graph)?;
     regions(graph)?;
+    shared(graph)?;
     effects(graph)?;
     for id in graph.ids() {
         let node = graph.node(id);
@@ -64,7 +66,20 @@ fn results(graph: &Graph) -> Result<(), String> {
     Ok(())
 }
 
-/// Rule 7, but for where values are used.
+/// Rule 7, but for operations.
+fn shared(graph: &Graph) -> Result<(), String> {
+    let wrong = graph.shared.iter().find(|shared| {
+        let numbers = matches!(shared.element, Type::Value { scalar, .. } if scalar != Scalar::Bool);
+        let atomic = matches!(shared.element, Type::I32 | Type::U32);
+        shared.len == 0 || !numbers || (shared.atomic && !atomic)
+    });
+    match wrong {
+        None => Ok(()),
+        Some(shared) => Err(format!("{} is shared, but is no array of numbers", shared.name)),
+    }
+}
+
+/// Rule 8, but for where values are used.
 fn effects(graph: &Graph) -> Result<(), String> {
     let mut of: Vec<Option<RegionId>> = vec![None; graph.nodes.len()];
     for (k, region) in graph.regions.iter().enumerate() {
@@ -78,7 +93,7 @@ fn effects(graph: &Graph) -> Result<(), String> {
             }
         }
     }
-    let alone = matches!(graph.invocation, Invocation::Pixel);
+    let alone = matches!(graph.invocation, Invocation::Pixel | Invocation::Group(_));
     let live = live(graph);
     for id in graph.ids() {
         let op = &graph.node(id).op;
@@ -177,7 +192,7 @@ fn check(graph: &Graph, id: NodeId) -> Result<(), String> {
     let shaped = match node.ty {
         Type::Value { lanes, .. } => (1..=4).contains(&lanes),
         Type::Array { lanes, len, .. } => (1..=4).contains(&lanes) && len >= 1,
-        Type::Results => matches!(node.op, Op::Loop(_) | Op::If(..) | Op::Store(_)),
+        Type::Results => matches!(node.op, Op::Loop(_) | Op::If(..) | Op::Store(_) | Op::Barrier { .. }),
     };
     expect(shaped, "a type that no value has")?;
     let value = !node.ty.is_array() && node.ty != Type::Results;
@@ -212,6 +227,21 @@ fn check(graph: &Graph, id: NodeId) -> Result<(), String> {
             count(0)?;
             expect(graph.invocation == Invocation::Lane, "the invocation is no lane")?;
             expect(node.ty == Type::value(Scalar::I32, 2), "a position is a vec2<i32>")
+        }
+        Op::Thread | Op::GroupOrigin | Op::Inside => {
+            count(0)?;
+            expect(
+                matches!(graph.invocation, Invocation::Group(_)),
+                "the invocation is of no workgroup",
+            )?;
+            let wanted = match node.op {
+                Op::Inside => Type::BOOL,
+                _ => Type::value(Scalar::I32, 2),
+            };
+            expect(
+                node.ty == wanted,
+                "a position is a vec2<i32>, and whether it is inside a boolean",
+            )
         }
         Op::Varying(k) => {
             let varying = graph.varyings.get(*k as usize).ok_or("no such varying")?;
@@ -411,7 +441,9 @@ fn check(graph: &Graph, id: NodeId) -> Result<(), String> {
         | Op::BufferLen(_)
         | Op::BufferLoad { .. }
         | Op::Atomic { .. }
-        | Op::Store(_) => resources::check(graph, node, &types),
+        | Op::Store(_)
+        | Op::SharedLoad(_)
+        | Op::Barrier { .. } => resources::check(graph, node, &types),
     }
 }
 

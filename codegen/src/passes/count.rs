@@ -118,6 +118,7 @@ impl Counter<'_> {
             Op::Binary(crate::ir::BinaryOp::Pow | crate::ir::BinaryOp::Atan2) => {
                 run.transcendentals = run.transcendentals.saturating_add(1)
             }
+            Op::SharedLoad(_) | Op::Barrier { .. } => {}
             effect if effect.is_effect() => run.writes = run.writes.saturating_add(1),
             Op::Message(_) | Op::Derivative(_) => run.messages = run.messages.saturating_add(1),
             Op::Unary(_) | Op::Binary(_) | Op::Dot | Op::Cross | Op::Clamp | Op::Select | Op::Convert | Op::Bitcast => {

@@ -14,6 +14,7 @@ impl Rules for Exact {
         constant(b, op, args, ty)
             .or_else(|| shape(b, op, args, ty))
             .or_else(|| array(b, op, args, ty))
+            .or_else(|| ranges::within(b.graph(), op, args, ty))
             .or_else(|| ranges::clamp(b, op, args, ty))
             .or_else(|| algebra(b, op, args))
     }

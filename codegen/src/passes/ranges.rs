@@ -95,6 +95,11 @@ fn bounds_at(g: &Graph, id: NodeId, component: u8, depth: u32) -> Option<(i64, i
         Op::FrameSize | Op::TextureSize(_) | Op::TextureLayers(_) | Op::TextureLevels(_) => Some((1, LARGEST_FRAME)),
         Op::BufferLen(_) => Some((1, largest)),
         Op::Lane => Some((0, 1)),
+        Op::GroupOrigin => Some((0, LARGEST_FRAME)),
+        Op::Thread => match g.invocation {
+            Invocation::Group(size) => Some((0, i64::from(size[component as usize]) - 1)),
+            _ => None,
+        },
         Op::Param(region, 0) => {
             let owner = g.ids().find(|id| g.node(*id).op == Op::Loop(*region))?;
             let bound = |k: usize| bounds_at(g, g.node(owner).args[k], 0, depth - 1);
@@ -240,6 +245,20 @@ fn floats_at(g: &Graph, id: NodeId, component: u8, depth: u32) -> Option<(f32, f
     }
 }
 
+/// Clamping of an integer that is inside already.
+pub fn within(g: &Graph, op: &Op, args: &[NodeId], ty: Type) -> Option<NodeId> {
+    if *op != Op::Clamp || !ty.is_integer() || ty.is_array() {
+        return None;
+    }
+    let inside = |component: u8| {
+        let bounds = |k: usize| component_bounds(g, args[k], component);
+        let ((low, high), (_, least), (most, _)) = (bounds(0)?, bounds(1)?, bounds(2)?);
+        Some(low >= least && high <= most)
+    };
+    let all = (0..ty.lanes()).all(|component| inside(component) == Some(true));
+    all.then_some(args[0])
+}
+
 /// Clamping of a neighbour's coordinate to the frame: the pixel itself is inside, so a step to the right can only
 /// leave on the right.
 pub fn clamp(b: &mut Builder<'_>, op: &Op, args: &[NodeId], ty: Type) -> Option<NodeId> {
@@ -250,7 +269,13 @@ pub fn clamp(b: &mut Builder<'_>, op: &Op, args: &[NodeId], ty: Type) -> Option<
     let node = g.node(args[0]);
     match node.op {
         // What is one of several pixels may lie outside.
-        _ if matches!(g.invocation, Invocation::Outlying | Invocation::Lane) => None,
+        _ if matches!(
+            g.invocation,
+            Invocation::Outlying | Invocation::Lane | Invocation::Group(_)
+        ) =>
+        {
+            None
+        }
         Op::Pixel => Some(args[0]),
         Op::Binary(BinaryOp::Add) => {
             let (x, y) = (node.args[0], node.args[1]);

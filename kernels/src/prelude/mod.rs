@@ -17,6 +17,7 @@ pub mod maths;
 mod quad;
 mod storage;
 mod texture;
+mod workgroup;
 
 pub use glam::{
     BVec2, BVec3, BVec4, IVec2, IVec3, IVec4, Mat2, Mat3, Mat4, UVec2, UVec3, UVec4, Vec2, Vec2Swizzles, Vec3,
@@ -32,6 +33,7 @@ pub use texture::{
     Address, Comparison, ComparisonSampler, DepthCube, DepthTexture, DepthTextureArray, Filter, Filterable,
     Multisampled, Sampler, Texel, Texture, Texture3D, TextureArray, TextureCube,
 };
+pub use workgroup::{AtomicShared, PerThread, Shared, SharedAtomics, Thread, Workgroup};
 
 pub use crate::options;
 

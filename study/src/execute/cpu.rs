@@ -105,7 +105,7 @@ pub fn interpret<R: Real>(compiled: &Compiled, inputs: &Inputs, watch: bool) -> 
     let interpreter = Interpreter::<R>::in_precision(&compiled.graph, &compiled.schedule, frame, &bindings)
         .map_err(|e| ExecuteError::Input(e.to_string()))?;
     let interpreter = if watch { interpreter.watch() } else { interpreter };
-    let [across, down] = compiled.graph.invocation.pixels();
+    let [across, down] = compiled.graph.invocation.tile();
     let names = &compiled.graph.targets;
     let row = |scratch: &mut Scratch, row: u32| {
         let (y, mut births) = (row * down, Vec::new());
@@ -141,6 +141,9 @@ pub fn interpret<R: Real>(compiled: &Compiled, inputs: &Inputs, watch: bool) -> 
             .map_init(|| interpreter.scratch(), row)
             .collect(),
     };
+    if let Some(disorder) = last.disorder() {
+        return Err(ExecuteError::Input(format!("`{}`: {disorder}", compiled.kernel)));
+    }
     let written = compiled.graph.buffers.iter().enumerate();
     let written = written.filter(|(_, buffer)| buffer.access != Access::Read);
     let buffers = written.map(|(k, buffer)| (buffer.name.clone(), interpreter.buffer(k, &last)));

@@ -1,12 +1,14 @@
 //! The shaders, as rustc compiles them.
 
 // As their authors wrote them, with constants as they are published.
-#![allow(clippy::needless_range_loop, clippy::excessive_precision)]
+#![allow(clippy::needless_range_loop, clippy::excessive_precision, clippy::too_many_arguments)]
 
 #[path = "../../../examples/gallery/aces.rs"]
 pub mod aces;
 #[path = "../../../examples/gallery/atrous.rs"]
 pub mod atrous;
+#[path = "../../../examples/gallery/average_luminance.rs"]
+pub mod average_luminance;
 #[path = "../../../examples/gallery/bokeh.rs"]
 pub mod bokeh;
 #[path = "../../../examples/gallery/canny.rs"]
@@ -21,6 +23,8 @@ pub mod easu;
 pub mod environment_prefilter;
 #[path = "../../../examples/gallery/fxaa.rs"]
 pub mod fxaa;
+#[path = "../../../examples/gallery/global_histogram.rs"]
+pub mod global_histogram;
 #[path = "../../../examples/gallery/gtao.rs"]
 pub mod gtao;
 #[path = "../../../examples/gallery/lanczos.rs"]
@@ -29,6 +33,8 @@ pub mod lanczos;
 pub mod lens;
 #[path = "../../../examples/gallery/life.rs"]
 pub mod life;
+#[path = "../../../examples/gallery/luminance_histogram.rs"]
+pub mod luminance_histogram;
 #[path = "../../../examples/gallery/mandelbrot.rs"]
 pub mod mandelbrot;
 #[path = "../../../examples/gallery/motion_blur.rs"]

@@ -63,7 +63,8 @@ fn halved(expr: Expr) -> Expr {
 
 fn rule(mut expr: Expr) -> Expr {
     use ir::Op::{
-        Bitcast, BufferLoad, Compare, Derivative, Gather, GatherCompare, Load, Message, Sample, Uniform, Varying,
+        Bitcast, BufferLoad, Compare, Derivative, Gather, GatherCompare, Load, Message, Sample, SharedLoad, Uniform,
+        Varying,
     };
     match &expr.op {
         // Bits are those of an `f32` in every precision.
@@ -74,6 +75,7 @@ fn rule(mut expr: Expr) -> Expr {
             | Compare { .. }
             | GatherCompare { .. }
             | BufferLoad { .. }
+            | SharedLoad(_)
             | Message(_)
             | Derivative(_)
             | Uniform(_)

@@ -6,8 +6,10 @@ mod glsl;
 mod half;
 mod hlsl;
 mod wgsl;
+mod zeroed;
 
 use super::ast::{Division, Expr, Function, Module, Op, StmtKind, Ty};
+use super::resources::Resources;
 use crate::ir::{self, BinaryOp, Scalar, Type, UnaryOp};
 
 pub use half::half;
@@ -27,13 +29,15 @@ pub fn wgsl(module: &mut Module<'_>) {
 }
 
 /// Rewrites a module for GLSL, for Vulkan or for OpenGL.
-pub fn glsl(module: &mut Module<'_>, vulkan: bool) {
+pub fn glsl(module: &mut Module<'_>, resources: &Resources, vulkan: bool) {
+    zeroed::begin(module, resources);
     module.rewrite(&mut |module, expr| cube_root(module, expr, "cube_root"));
     module.rewrite(&mut if vulkan { glsl::vulkan } else { glsl::opengl });
 }
 
 /// Rewrites a module for HLSL.
-pub fn hlsl(module: &mut Module<'_>) {
+pub fn hlsl(module: &mut Module<'_>, resources: &Resources) {
+    zeroed::begin(module, resources);
     module.rewrite(&mut |module, expr| cube_root(module, expr, "cube_root"));
     hlsl::legalise(module);
 }

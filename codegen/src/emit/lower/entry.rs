@@ -10,12 +10,14 @@ const IVEC2: Type = Type::value(Scalar::I32, 2);
 
 /// A module with the variables that entry points declare.
 pub fn module<'g>() -> Module<'g> {
-    let variables = ["pixel", "frame", "within", "place"].map(|name| Variable {
+    let pairs = ["pixel", "frame", "within", "place", "origin"].map(|name| (name, IVEC2));
+    let variables = pairs.into_iter().chain([("inside", Type::BOOL), ("local", IVEC2)]);
+    let variables = variables.map(|(name, ty)| Variable {
         name: name.to_owned(),
-        ty: IVEC2.into(),
+        ty: ty.into(),
     });
     Module {
-        variables: variables.into(),
+        variables: variables.collect(),
         ..Module::default()
     }
 }
@@ -24,12 +26,13 @@ pub fn module<'g>() -> Module<'g> {
 pub fn entry(module: &mut Module<'_>, resources: &Resources) {
     let compute = resources.options.stage == Stage::Compute;
     let mut body = match compute {
-        true => begin_compute(resources),
+        true => begin_compute(module, resources),
         false => begin_fragment(resources),
     };
     let (mut outputs, mut kernel): (Vec<_>, Vec<_>) = std::mem::take(&mut module.body)
         .into_iter()
         .partition(|stmt| matches!(stmt.kind, StmtKind::Output(_)));
+    let begun = body.len();
     body.append(&mut kernel);
     if !resources.options.is_function() {
         for value in outputs.iter_mut().flat_map(Stmt::own_mut) {
@@ -40,7 +43,21 @@ pub fn entry(module: &mut Module<'_>, resources: &Resources) {
         true => stores(&mut body, outputs, resources),
         false => body.extend(outputs),
     }
+    if resources.group.is_some() {
+        for k in (0..begun).rev() {
+            if let StmtKind::Let(var, _) = body[k].kind
+                && !body[k + 1..].iter().any(|stmt| stmt.mentions(var))
+            {
+                body.remove(k);
+            }
+        }
+    }
     module.body = body;
+}
+
+/// Whether a kernel's statements name a variable of the entry point's.
+fn mentions(module: &Module<'_>, var: VarId) -> bool {
+    module.body.iter().any(|stmt| stmt.mentions(var))
 }
 
 fn builtin(builtin: Builtin) -> Expr {
@@ -75,7 +92,7 @@ fn turned(height: Expr, row: Expr) -> Expr {
     height.binary(BinaryOp::Sub, one).binary(BinaryOp::Sub, row)
 }
 
-fn begin_compute(resources: &Resources) -> Block<'static> {
+fn begin_compute(module: &Module<'_>, resources: &Resources) -> Block<'static> {
     let mut invocation = builtin(Builtin::Invocation);
     if resources.block != [1, 1] {
         let [width, height] = resources.block.map(|side| side as i32);
@@ -85,22 +102,40 @@ fn begin_compute(resources: &Resources) -> Block<'static> {
         true => frame(resources),
         false => builtin(Builtin::OutputSize),
     };
-    let outside = |place: VarId, size: Expr| {
+    // Pixels outside have nothing to do, but in a workgroup, which all of its invocations go through together.
+    let outside = |place: VarId, size: Expr| -> Option<Stmt<'static>> {
+        if resources.group.is_some() {
+            let inside = Expr::new(Op::All, vec![local(place).binary(BinaryOp::Lt, size)], Type::BOOL);
+            let asked = !resources.outputs.is_empty() || mentions(module, VarId::INSIDE);
+            return asked.then(|| is(VarId::INSIDE, inside));
+        }
         let outside = local(place).binary(BinaryOp::Ge, size);
-        StmtKind::If {
+        let stmt = StmtKind::If {
             condition: Expr::new(Op::Any, vec![outside], Type::BOOL),
             then: vec![StmtKind::Return(None).into()],
             otherwise: Vec::new(),
-        }
-        .into()
+        };
+        Some(stmt.into())
+    };
+    // The workgroup's first invocation.
+    let first_of_group = resources.group.map(|size| {
+        let [width, height] = size.map(|side| side as i32);
+        builtin(Builtin::Group).binary(BinaryOp::Mul, Expr::ivec2(width, height))
+    });
+    let of_group = |origin: &dyn Fn(Expr) -> Expr| -> Block<'static> {
+        let origin = first_of_group.clone().map(|first| is(VarId::ORIGIN, origin(first)));
+        let own = [
+            (VarId::ORIGIN, origin),
+            (VarId::LOCAL, Some(is(VarId::LOCAL, builtin(Builtin::Local)))),
+        ];
+        let asked = own.into_iter().filter(|(var, _)| mentions(module, *var));
+        asked.filter_map(|(_, stmt)| stmt).collect()
     };
     match (resources.options.region, resources.options.counts_from_below()) {
         (false, from_below) => {
-            let mut body = vec![
-                is(VarId::FRAME, size),
-                is(VarId::PIXEL, invocation),
-                outside(VarId::PIXEL, local(VarId::FRAME)),
-            ];
+            let mut body = vec![is(VarId::FRAME, size), is(VarId::PIXEL, invocation)];
+            body.extend(outside(VarId::PIXEL, local(VarId::FRAME)));
+            body.extend(of_group(&|first| first));
             if from_below && !resources.outputs.is_empty() {
                 let row = turned(part(local(VarId::FRAME), 1), part(local(VarId::PIXEL), 1));
                 body.push(is(VarId::PLACE, pair(part(local(VarId::PIXEL), 0), row)));
@@ -108,34 +143,39 @@ fn begin_compute(resources: &Resources) -> Block<'static> {
             body
         }
         (true, from_below) => {
-            let [mut first, mut place] = [Builtin::RegionFirst, Builtin::RegionPlace]
-                .map(|corner| builtin(corner).binary(BinaryOp::Add, local(VarId::WITHIN)));
+            let height = || part(builtin(Builtin::RegionSize), 1);
+            let corner = |of: Builtin, k: u8| part(builtin(of), k);
+            // The pixel at a place within the region.
+            let pixel = |within: Expr| match from_below {
+                false => builtin(Builtin::RegionFirst).binary(BinaryOp::Add, within),
+                true => {
+                    // `within` counts from the region's upper row, which is the last of those that the host states.
+                    let [column, row] = [0, 1].map(|k| part(within.clone(), k));
+                    let above = part(local(VarId::FRAME), 1)
+                        .binary(BinaryOp::Sub, corner(Builtin::RegionFirst, 1))
+                        .binary(BinaryOp::Sub, height());
+                    pair(
+                        corner(Builtin::RegionFirst, 0).binary(BinaryOp::Add, column),
+                        above.binary(BinaryOp::Add, row),
+                    )
+                }
+            };
+            let mut place = builtin(Builtin::RegionPlace).binary(BinaryOp::Add, local(VarId::WITHIN));
             if from_below {
-                // `within` counts from the region's upper row, which is the last of those that the host states.
                 let [column, row] = [0, 1].map(|k| part(local(VarId::WITHIN), k));
-                let height = || part(builtin(Builtin::RegionSize), 1);
-                let corner = |of: Builtin, k: u8| part(builtin(of), k);
-                let above = part(local(VarId::FRAME), 1)
-                    .binary(BinaryOp::Sub, corner(Builtin::RegionFirst, 1))
-                    .binary(BinaryOp::Sub, height());
-                first = pair(
-                    corner(Builtin::RegionFirst, 0).binary(BinaryOp::Add, column.clone()),
-                    above.binary(BinaryOp::Add, row.clone()),
-                );
                 place = pair(
                     corner(Builtin::RegionPlace, 0).binary(BinaryOp::Add, column),
                     corner(Builtin::RegionPlace, 1).binary(BinaryOp::Add, turned(height(), row)),
                 );
             }
-            let mut body = vec![
-                is(VarId::WITHIN, invocation),
-                outside(VarId::WITHIN, builtin(Builtin::RegionSize)),
-            ];
+            let mut body = vec![is(VarId::WITHIN, invocation)];
+            body.extend(outside(VarId::WITHIN, builtin(Builtin::RegionSize)));
             // Nothing tells the frame's size where nothing asks for it.
             if resources.framed().is_some() || !resources.outputs.is_empty() {
                 body.push(is(VarId::FRAME, frame(resources)));
             }
-            body.push(is(VarId::PIXEL, first));
+            body.push(is(VarId::PIXEL, pixel(local(VarId::WITHIN))));
+            body.extend(of_group(&pixel));
             if !resources.outputs.is_empty() {
                 body.push(is(VarId::PLACE, place));
             }
@@ -200,6 +240,18 @@ fn stores(body: &mut Block<'_>, outputs: Block<'_>, resources: &Resources) {
                 .map(|(output, value)| StmtKind::Store(output, there.clone(), value.clone()).into())
                 .collect()
         };
+        if resources.group.is_some() {
+            let stored = stored(&local(place));
+            body.push(
+                StmtKind::If {
+                    condition: Expr::var(VarId::INSIDE, Type::BOOL),
+                    then: stored,
+                    otherwise: Vec::new(),
+                }
+                .into(),
+            );
+            continue;
+        }
         if k == 0 {
             body.extend(stored(&local(place)));
             continue;

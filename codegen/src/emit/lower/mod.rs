@@ -123,6 +123,12 @@ impl<'g> Lowering<'g> {
             ir::Op::Const(_) | ir::Op::Unused | ir::Op::MakeArray | ir::Op::Result(_) => {}
             ir::Op::ArraySet => self.array_set(id),
             ir::Op::ArrayGet => self.array_get(id),
+            ir::Op::SharedLoad(_) => {
+                let mut expr = self.expression(id);
+                // What is read where the condition does not hold nobody uses.
+                expr.args.remove(0);
+                self.declare(id, simplify(expr));
+            }
             op if op.is_effect() => self.effect(id),
             _ => {
                 let expr = simplify(self.expression(id));
@@ -135,19 +141,20 @@ impl<'g> Lowering<'g> {
         }
     }
 
-    /// A write to a buffer, under its condition.
+    /// A write to memory, under its condition.
     fn effect(&mut self, id: NodeId) {
         let graph = &self.compiled.graph;
         let node = graph.node(id);
-        let (buffer, op) = match node.op {
-            ir::Op::Atomic { buffer, op } => (buffer, Some(op)),
-            ir::Op::Store(buffer) => (buffer, None),
+        let (memory, op) = match node.op {
+            ir::Op::Atomic { memory, op } => (memory, Some(op)),
+            ir::Op::Store(memory) => (memory, None),
+            ir::Op::Barrier { buffers } => return self.statement(id, StmtKind::Barrier { buffers }),
             _ => return,
         };
         let condition = simplify(self.expr(node.args[0]));
         let args = node.args[1..].iter().map(|arg| simplify(self.expr(*arg))).collect();
         let mut effect = Effect {
-            buffer,
+            memory,
             op,
             args,
             before: None,
@@ -220,6 +227,9 @@ impl<'g> Lowering<'g> {
         let op = match &node.op {
             ir::Op::Pixel => Op::Var(VarId::PIXEL),
             ir::Op::FrameSize => Op::Var(VarId::FRAME),
+            ir::Op::Thread => Op::Var(VarId::LOCAL),
+            ir::Op::GroupOrigin => Op::Var(VarId::ORIGIN),
+            ir::Op::Inside => Op::Var(VarId::INSIDE),
             ir::Op::Lane => {
                 args = vec![Expr::var(VarId::PIXEL, node.ty), Expr::splat(node.ty, 1)];
                 Op::Ir(ir::Op::Binary(BinaryOp::And))

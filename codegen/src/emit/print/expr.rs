@@ -3,7 +3,7 @@
 use super::Language;
 use crate::emit::ast::{Expr, Op, Ty};
 use crate::emit::text::{Binds, Text};
-use crate::ir::{self, BinaryOp, Lanes, Scalar, UnaryOp};
+use crate::ir::{self, BinaryOp, Lanes, Scalar, Type, UnaryOp};
 
 /// An expression whose arguments have been printed.
 pub fn print(l: &dyn Language, expr: &Expr, args: &[Text]) -> Text {
@@ -11,7 +11,10 @@ pub fn print(l: &dyn Language, expr: &Expr, args: &[Text]) -> Text {
     match &expr.op {
         Op::Ir(op) => operation(l, op, expr, args),
         Op::Division(op, _) => infix(l, *op, Scalar::I32, args),
-        Op::Convert { .. } => Text::call(&l.ty(expr.ty), &all),
+        Op::Convert { .. } => match (&expr.args[0].op, expr.ty.shape) {
+            (Op::Ir(ir::Op::BufferLen(buffer)), Type::U32) => l.unsigned_length(*buffer),
+            _ => Text::call(&l.ty(expr.ty), &all),
+        },
         Op::Construct => l.construct(expr.ty, &all),
         Op::Swizzle(components) => {
             let letters: String = components.iter().map(|k| char::from(b"xyzw"[*k as usize])).collect();

@@ -8,7 +8,9 @@ use super::{Language, Text, commented};
 use crate::emit::Target;
 use crate::emit::ast::{Builtin, Effect, Ty};
 use crate::emit::resources::{OUTPUTS, Resources, SAMPLER, UNIFORMS};
-use crate::ir::{self, Access, AtomicOp, Axis, BinaryOp, Direction, Element, Scalar, TextureKind, Type, UnaryOp};
+use crate::ir::{
+    self, Access, AtomicOp, Axis, BinaryOp, Direction, Element, Memory, Scalar, TextureKind, Type, UnaryOp,
+};
 use straightline_manifest::{REGION, Stage};
 
 pub use types::{declared, image_type, plain_sampler, sampler_of, sampler_type, shape, texture_type, type_name};
@@ -236,6 +238,9 @@ impl Language for Glsl<'_> {
     fn builtin(&self, builtin: Builtin) -> Text {
         match builtin {
             Builtin::Invocation => Text::name("ivec2(gl_GlobalInvocationID.xy)"),
+            Builtin::Local => Text::name("ivec2(gl_LocalInvocationID.xy)"),
+            Builtin::LocalIndex => Text::name("int(gl_LocalInvocationIndex)"),
+            Builtin::Group => Text::name("ivec2(gl_WorkGroupID.xy)"),
             Builtin::Position if self.is_function() => Text::name("position"),
             Builtin::Position => Text::name("gl_FragCoord.xy"),
             Builtin::OutputSize => Text::name(format!("imageSize({})", self.resources.sized_output())),
@@ -335,6 +340,10 @@ impl Language for Glsl<'_> {
                 let through = self.through(*texture, *sampler);
                 Text::call(GATHER, &[&through, &args[0], &args[1]])
             }
+            ir::Op::SharedLoad(shared) => Text::index(
+                &Text::name(self.resources.shared[*shared as usize].name.as_str()),
+                &args[0],
+            ),
             ir::Op::BufferLoad { buffer, field, .. } => {
                 let buffer = self.resources.buffer(*buffer);
                 let elements = Text::name(format!("{}.elements", buffer.name));
@@ -413,7 +422,11 @@ impl Language for Glsl<'_> {
     }
 
     fn effect(&self, effect: &Effect, args: &[Text], before: Option<&str>) -> (String, Text) {
-        let elements = Text::name(format!("{}.elements", self.resources.buffer(effect.buffer).name));
+        let (element, name) = self.resources.memory(effect.memory);
+        let elements = match effect.memory {
+            Memory::Buffer(_) => Text::name(format!("{name}.elements")),
+            Memory::Shared(_) => Text::name(name),
+        };
         let place = Text::index(&elements, &args[0]);
         let Some(op) = effect.op else {
             return (format!("{} = ", place.code), args[1].clone());
@@ -423,12 +436,24 @@ impl Language for Glsl<'_> {
             AtomicOp::Load => ("atomicOr".to_owned(), Text::name("0")),
             op => (format!("atomic{op:?}"), args[1].clone()),
         };
-        let value = match (op, self.resources.buffer(effect.buffer).value()) {
+        let value = match (op, element) {
             (AtomicOp::Load, Type::U32) => Text::name("0u"),
             _ => value,
         };
         let call = Text::call(&function, &[&place, &value]);
         (before.map_or_else(String::new, |var| format!("{var} = ")), call)
+    }
+
+    fn unsigned_length(&self, buffer: u32) -> Text {
+        let length = Text::name(format!("{}{LENGTH}", self.resources.buffer(buffer).name));
+        Text::call("uint", &[&length])
+    }
+
+    fn barrier(&self, buffers: bool) -> &'static [&'static str] {
+        match buffers {
+            true => &["memoryBarrierBuffer();", "memoryBarrierShared();", "barrier();"],
+            false => &["memoryBarrierShared();", "barrier();"],
+        }
     }
 
     fn outputs(&self, values: &[Text]) -> Vec<(String, Text)> {
@@ -480,13 +505,18 @@ impl Language for Glsl<'_> {
             return out.trim_end().to_owned() + "\n";
         }
         if r.options.stage == Stage::Compute {
-            let [x, y, z] = r.options.workgroup();
+            let [x, y, z] = r.workgroup();
             out += &format!("layout(local_size_x = {x}, local_size_y = {y}, local_size_z = {z}) in;\n\n");
         }
-        if !self.vulkan() {
-            return out + &self.opengl();
+        out += &match self.vulkan() {
+            true => self.of_vulkan(),
+            false => self.opengl(),
+        };
+        for shared in r.shared() {
+            let element = type_name(shared.element.into());
+            out += &format!("shared {element} {}[{}];\n", shared.name, shared.len);
         }
-        out + &self.of_vulkan()
+        out
     }
 
     fn entry_head(&self) -> String {

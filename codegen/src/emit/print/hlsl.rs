@@ -188,6 +188,9 @@ impl Language for Hlsl<'_> {
     fn builtin(&self, builtin: Builtin) -> Text {
         match builtin {
             Builtin::Invocation => Text::name("int2(id.xy)"),
+            Builtin::Local => Text::name("int2(local_id.xy)"),
+            Builtin::LocalIndex => Text::name("int(local_index)"),
+            Builtin::Group => Text::name("int2(group_id.xy)"),
             Builtin::Position if self.is_function() => Text::name("position"),
             Builtin::Position => Text::name("position.xy"),
             Builtin::OutputSize => self.ask(Size::Output),
@@ -257,6 +260,7 @@ impl Language for Hlsl<'_> {
             ir::Op::GatherCompare { texture, sampler, .. } => {
                 self.sampled(*texture, "GatherCmp", *sampler, &[&args[0], &args[1]])
             }
+            ir::Op::SharedLoad(shared) => Text::index(&Text::name(r.shared[*shared as usize].name.as_str()), &args[0]),
             ir::Op::BufferLoad { buffer, field, .. } => {
                 let buffer = r.buffer(*buffer);
                 let element = Text::index(&Text::name(buffer.name.as_str()), &args[0]);
@@ -348,7 +352,7 @@ impl Language for Hlsl<'_> {
     }
 
     fn effect(&self, effect: &Effect, args: &[Text], before: Option<&str>) -> (String, Text) {
-        let name = self.resources.buffer(effect.buffer).name.as_str();
+        let name = self.resources.memory(effect.memory).1;
         let place = Text::index(&Text::name(name), &args[0]);
         let Some(op) = effect.op else {
             return (format!("{} = ", place.code), args[1].clone());
@@ -361,6 +365,21 @@ impl Language for Hlsl<'_> {
         let before = before.map(Text::name);
         let all: Vec<&Text> = [&place, &value].into_iter().chain(&before).collect();
         (String::new(), Text::call(&function, &all))
+    }
+
+    fn unsigned_length(&self, buffer: u32) -> Text {
+        Text::call("uint", &[&self.ask(Size::Buffer(buffer))])
+    }
+
+    fn gives_before(&self) -> bool {
+        false
+    }
+
+    fn barrier(&self, buffers: bool) -> &'static [&'static str] {
+        match buffers {
+            true => &["AllMemoryBarrierWithGroupSync();"],
+            false => &["GroupMemoryBarrierWithGroupSync();"],
+        }
     }
 
     fn outputs(&self, values: &[Text]) -> Vec<(String, Text)> {
@@ -432,6 +451,10 @@ impl Language for Hlsl<'_> {
             let register = r.places.register('b', binding);
             out += &format!("cbuffer Region_buffer : register({register}) {{\n    Region {REGION};\n}}\n");
         }
+        for shared in r.shared() {
+            let element = type_name(shared.element.into());
+            out += &format!("groupshared {element} {}[{}];\n", shared.name, shared.len);
+        }
         for size in &self.sizes {
             out += &format!("\n{}", self.asks(*size));
         }
@@ -449,8 +472,13 @@ impl Language for Hlsl<'_> {
         let entry = &r.entry;
         match r.options.stage {
             Stage::Compute => {
-                let [x, y, z] = r.options.workgroup();
-                format!("[numthreads({x}, {y}, {z})]\nvoid {entry}(uint3 id : SV_DispatchThreadID) {{")
+                let [x, y, z] = r.workgroup();
+                let mut told = vec!["uint3 id : SV_DispatchThreadID"];
+                let zeroes = !r.used_shared.is_empty();
+                told.extend(r.asks_local.then_some("uint3 local_id : SV_GroupThreadID"));
+                told.extend(zeroes.then_some("uint local_index : SV_GroupIndex"));
+                told.extend(r.asks_group.then_some("uint3 group_id : SV_GroupID"));
+                format!("[numthreads({x}, {y}, {z})]\nvoid {entry}({}) {{", told.join(", "))
             }
             Stage::Fragment => {
                 let varyings = r.varyings.iter().enumerate().map(|(k, varying)| {

@@ -117,8 +117,16 @@ pub trait Language {
     fn function_head(&self, name: &str, params: &[(&str, Ty)], result: Ty) -> String;
     /// Writes a texel of an output.
     fn store(&self, output: usize, place: &Text, value: &Text) -> Text;
-    /// Writes to a buffer: statements without their semicolons. `before` is the variable that takes what was there before.
+    /// Writes to memory: statements without their semicolons. `before` is the variable that takes what was there before.
     fn effect(&self, effect: &Effect, args: &[Text], before: Option<&str>) -> (String, Text);
+    /// Number of elements of a buffer, unsigned.
+    fn unsigned_length(&self, buffer: u32) -> Text;
+    /// Whether what was there before an atomic operation is the value of a call.
+    fn gives_before(&self) -> bool {
+        true
+    }
+    /// Waits for the other invocations of the workgroup: statements, each a line.
+    fn barrier(&self, buffers: bool) -> &'static [&'static str];
     /// What gives the fragment's values, one for each output: statements without their semicolons.
     fn outputs(&self, values: &[Text]) -> Vec<(String, Text)>;
     /// Everything before the first function: header, directives, bindings.
@@ -196,7 +204,34 @@ impl Printer<'_> {
     }
 
     fn block(&self, block: &[Stmt<'_>], depth: usize) -> String {
-        block.iter().map(|stmt| self.stmt(stmt, depth)).collect()
+        let mut out = String::new();
+        let mut rest = block;
+        while let [stmt, behind @ ..] = rest {
+            rest = behind;
+            // What takes what an atomic operation gives is declared there.
+            if let (StmtKind::Var(var, None), [next, after @ ..]) = (&stmt.kind, behind)
+                && let StmtKind::Effect(effect) = &next.kind
+                && effect.before == Some(*var)
+                && self.language.gives_before()
+            {
+                let declared = match after.iter().any(|stmt| stmt.assigns(*var)) {
+                    true => self.language.mutable(self.name(*var), self.module.ty(*var), true),
+                    false => self.language.immutable(self.name(*var), self.module.ty(*var)),
+                };
+                out += &(self.effect(effect, Some(&declared), depth) + "\n");
+                rest = after;
+                continue;
+            }
+            out += &self.stmt(stmt, depth);
+        }
+        out
+    }
+
+    /// A write to memory; `before` is what takes what was there.
+    fn effect(&self, effect: &Effect, before: Option<&str>, depth: usize) -> String {
+        let args: Vec<Text> = effect.args.iter().map(|arg| self.expr(arg)).collect();
+        let (before, text) = self.language.effect(effect, &args, before);
+        Self::line(depth, &before, &text, ";")
     }
 
     /// A line, or several where it would be too wide.
@@ -230,10 +265,10 @@ impl Printer<'_> {
             StmtKind::Store(output, place, value) => {
                 Self::line(depth, "", &l.store(*output, &self.expr(place), &self.expr(value)), ";")
             }
-            StmtKind::Effect(effect) => {
-                let args: Vec<Text> = effect.args.iter().map(|arg| self.expr(arg)).collect();
-                let (before, text) = l.effect(effect, &args, effect.before.map(|var| self.name(var)));
-                Self::line(depth, &before, &text, ";")
+            StmtKind::Effect(effect) => self.effect(effect, effect.before.map(|var| self.name(var)), depth),
+            StmtKind::Barrier { buffers } => {
+                let lines = l.barrier(*buffers).iter().map(|line| format!("{indent}{line}"));
+                lines.collect::<Vec<_>>().join("\n")
             }
             StmtKind::Output(values) => {
                 let values: Vec<Text> = values.iter().map(|value| self.expr(value)).collect();

@@ -64,6 +64,9 @@ impl Language for Wgsl<'_> {
     fn builtin(&self, builtin: Builtin) -> Text {
         match builtin {
             Builtin::Invocation => Text::name("vec2i(id.xy)"),
+            Builtin::Local => Text::name("vec2i(local_id.xy)"),
+            Builtin::LocalIndex => Text::name("i32(local_index)"),
+            Builtin::Group => Text::name("vec2i(group_id.xy)"),
             Builtin::Position if self.leads() => Text::name("position"),
             Builtin::Position => Text::name("position.xy"),
             Builtin::OutputSize => Text::name(format!("vec2i(textureDimensions({}))", self.resources.sized_output())),
@@ -133,9 +136,13 @@ impl Language for Wgsl<'_> {
                 let element = Text::index(&Text::name(buffer.name.as_str()), &args[0]);
                 super::part(&element, &buffer.element, *field, args.get(1))
             }
+            ir::Op::SharedLoad(shared) => Text::index(
+                &Text::name(self.resources.shared[*shared as usize].name.as_str()),
+                &args[0],
+            ),
             ir::Op::BufferLen(buffer) => {
-                let name = Text::name(format!("&{}", self.resources.buffer(*buffer).name));
-                Text::call("i32", &[&Text::call("arrayLength", &[&name])])
+                let length = self.unsigned_length(*buffer);
+                Text::call("i32", &[&length])
             }
             ir::Op::Message(direction) => {
                 let function = match direction {
@@ -225,7 +232,7 @@ impl Language for Wgsl<'_> {
     }
 
     fn effect(&self, effect: &Effect, args: &[Text], before: Option<&str>) -> (String, Text) {
-        let name = self.resources.buffer(effect.buffer).name.as_str();
+        let name = self.resources.memory(effect.memory).1;
         let place = Text::index(&Text::name(name), &args[0]);
         let Some(op) = effect.op else {
             return (format!("{} = ", place.code), args[1].clone());
@@ -234,6 +241,18 @@ impl Language for Wgsl<'_> {
         let all: Vec<&Text> = std::iter::once(&place).chain(&args[1..]).collect();
         let call = Text::call(&format!("atomic{op:?}"), &all);
         (before.map_or_else(String::new, |var| format!("{var} = ")), call)
+    }
+
+    fn unsigned_length(&self, buffer: u32) -> Text {
+        let name = Text::name(format!("&{}", self.resources.buffer(buffer).name));
+        Text::call("arrayLength", &[&name])
+    }
+
+    fn barrier(&self, buffers: bool) -> &'static [&'static str] {
+        match buffers {
+            true => &["storageBarrier();", "workgroupBarrier();"],
+            false => &["workgroupBarrier();"],
+        }
     }
 
     fn outputs(&self, values: &[Text]) -> Vec<(String, Text)> {
@@ -306,6 +325,15 @@ impl Language for Wgsl<'_> {
             out += "    first: vec2i,\n    size: vec2i,\n    place: vec2i,\n}\n\n";
             out += &format!("@group({group}) @binding({binding}) var<uniform> {REGION}: Region;\n");
         }
+        for shared in r.shared() {
+            let element = type_name(shared.element.into());
+            let element = if shared.atomic {
+                format!("atomic<{element}>")
+            } else {
+                element
+            };
+            let _ = writeln!(out, "var<workgroup> {}: array<{element}, {}>;", shared.name, shared.len);
+        }
         if r.options.stage == Stage::Fragment && r.outputs.len() > 1 {
             out += &format!("\n{}", self.outputs_structure());
         }
@@ -320,10 +348,18 @@ impl Language for Wgsl<'_> {
         let entry = &r.entry;
         match r.options.stage {
             Stage::Compute => {
-                let [x, y, z] = r.options.workgroup();
-                format!(
-                    "@compute @workgroup_size({x}, {y}, {z})\nfn {entry}(@builtin(global_invocation_id) id: vec3u) {{"
-                )
+                let [x, y, z] = r.workgroup();
+                let mut told = vec!["@builtin(global_invocation_id) id: vec3u"];
+                told.extend(r.asks_local.then_some("@builtin(local_invocation_id) local_id: vec3u"));
+                told.extend(r.asks_group.then_some("@builtin(workgroup_id) group_id: vec3u"));
+                let start = format!("@compute @workgroup_size({x}, {y}, {z})\nfn {entry}(");
+                match &told[..] {
+                    [one] => format!("{start}{one}) {{"),
+                    several => {
+                        let lines: String = several.iter().map(|one| format!("    {one},\n")).collect();
+                        format!("{start}\n{lines}) {{")
+                    }
+                }
             }
             Stage::Fragment => {
                 let varyings = r

@@ -18,11 +18,11 @@ impl Columns<'_> {
             StmtKind::Let(var, _) | StmtKind::Var(var, _) => self.module.variables[var.0 as usize].name.len() + 8,
             StmtKind::Assign(..) => 4,
             StmtKind::Store(..) => 30,
-            StmtKind::Effect(effect) => 20 + self.graph.buffers[effect.buffer as usize].name.len(),
+            StmtKind::Effect(effect) => 20 + self.graph.memory(effect.memory).1.len(),
             StmtKind::Output(_) | StmtKind::Return(_) => 30,
             StmtKind::For { .. } => 40,
             StmtKind::If { .. } | StmtKind::Loop(_) | StmtKind::Break => 5,
-            StmtKind::Comment(_) => 0,
+            StmtKind::Comment(_) | StmtKind::Barrier { .. } => 0,
         };
         let own = stmt.own();
         (
@@ -76,6 +76,7 @@ impl Columns<'_> {
                     };
                     args + 2 * expr.args.len() + buffer.name.len() + field
                 }
+                ir::Op::SharedLoad(shared) => args + 2 + self.graph.shared[*shared as usize].name.len(),
                 ir::Op::BufferLen(buffer) => 18 + self.graph.buffers[*buffer as usize].name.len(),
                 ir::Op::Message(_) | ir::Op::Derivative(_) => call(12),
                 _ => call(6),

@@ -4,7 +4,7 @@ use super::columns::Columns;
 use super::dead;
 use crate::emit::ast::{Block, Expr, Module, Op, Stmt, StmtKind, VarId};
 use crate::emit::text::WIDEST;
-use crate::ir::Graph;
+use crate::ir::{Graph, Memory};
 use std::collections::{HashMap, HashSet};
 
 /// Operators and calls that a line may have, lest it be hard to read; shader compilers also recurse over them.
@@ -135,13 +135,20 @@ pub fn operations(expr: &Expr) -> usize {
     count
 }
 
+/// Whether an expression reads what a workgroup shares.
+fn reads_shared(expr: &Expr) -> bool {
+    let mut reads = false;
+    expr.visit(&mut |expr| reads |= matches!(expr.op, Op::Ir(crate::ir::Op::SharedLoad(_))));
+    reads
+}
+
 /// Whether an expression reads an array or what the host binds.
 fn reads_memory(expr: &Expr) -> bool {
     let mut reads = false;
     expr.visit(&mut |expr| {
         reads |= match &expr.op {
             Op::Index { .. } => true,
-            Op::Ir(op) => op.is_read(),
+            Op::Ir(op) => op.is_read() || op.only_looks(),
             _ => false,
         };
     });
@@ -150,7 +157,8 @@ fn reads_memory(expr: &Expr) -> bool {
 
 /// Whether a variable that a value reads was assigned after a statement.
 fn changed_since(value: &Expr, at: usize, assigned: &HashMap<VarId, usize>) -> bool {
-    value.mentions(|var| assigned.get(&var).is_some_and(|when| *when > at))
+    let changed = |var: VarId| assigned.get(&var).is_some_and(|when| *when > at);
+    value.mentions(changed) || (reads_shared(value) && changed(VarId::MEMORY))
 }
 
 /// Variables that a statement assigns to.
@@ -164,6 +172,11 @@ fn assignments(stmt: &Stmt<'_>, out: &mut HashSet<VarId>) {
     }
     if let StmtKind::Effect(effect) = &stmt.kind {
         out.extend(effect.before);
+    }
+    if matches!(&stmt.kind, StmtKind::Effect(effect) if matches!(effect.memory, Memory::Shared(_)))
+        || matches!(stmt.kind, StmtKind::Barrier { .. })
+    {
+        out.insert(VarId::MEMORY);
     }
     for block in stmt.blocks() {
         block.iter().for_each(|stmt| assignments(stmt, out));

@@ -15,7 +15,7 @@ pub const FILE: u32 = u32::MAX;
 /// Component names.
 const LANES: [&str; 4] = ["x", "y", "z", "w"];
 
-/// A function of these texts, or an enum.
+/// A function of these texts, a structure, or an enum.
 struct Piece {
     /// What stands between `impl` and the braces around it; empty of what is in none.
     of: String,
@@ -78,6 +78,7 @@ fn pieces() -> &'static [Piece] {
             include_str!("option.rs"),
             include_str!("defaults.rs"),
             include_str!("iterators.rs"),
+            include_str!("workgroups.rs"),
         ]
         .concat();
         for lanes in 2..=4 {
@@ -107,7 +108,7 @@ fn split(text: &str) -> Vec<Piece> {
         } else if let Some(rest) = line.trim_start().strip_prefix("fn ") {
             let end = rest.find(['(', '<']).unwrap_or(rest.len());
             found.push(piece(vec![rest[..end].to_owned()], &mut attributes));
-        } else if let Some(rest) = line.strip_prefix("enum ") {
+        } else if let Some(rest) = line.strip_prefix("enum ").or_else(|| line.strip_prefix("struct ")) {
             let end = rest.find(['<', ' ']).unwrap_or(rest.len());
             found.push(piece(vec![rest[..end].to_owned()], &mut attributes));
         } else if let Some(last) = found.last_mut() {

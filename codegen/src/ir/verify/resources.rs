@@ -1,6 +1,6 @@
 //! What reads and writes take and give.
 
-use crate::ir::{Access, AtomicOp, Graph, Node, Op, Scalar, Texture, TextureKind, Type};
+use crate::ir::{Access, AtomicOp, Graph, Invocation, Memory, Node, Op, Scalar, Texture, TextureKind, Type};
 
 /// Checks an operation on a texture or a buffer, whose arguments are of `types`.
 pub fn check(graph: &Graph, node: &Node, types: &[Type]) -> Result<(), String> {
@@ -126,8 +126,8 @@ pub fn check(graph: &Graph, node: &Node, types: &[Type]) -> Result<(), String> {
             )?;
             expect(entry.access == Access::Read, "a buffer that is only read")
         }
-        Op::Atomic { buffer, op } => {
-            let entry = graph.buffers.get(*buffer as usize).ok_or("no such buffer")?;
+        Op::Atomic { memory, op } => {
+            let (element, access) = memory_of(graph, *memory)?;
             count(if *op == AtomicOp::Load { 2 } else { 3 })?;
             expect(
                 types[0] == Type::BOOL && types[1] == Type::I32 && types.get(2).is_none_or(|t| *t == node.ty),
@@ -135,20 +135,35 @@ pub fn check(graph: &Graph, node: &Node, types: &[Type]) -> Result<(), String> {
             )?;
             let integer = matches!(node.ty, Type::I32 | Type::U32);
             expect(
-                integer && node.ty == entry.value() && entry.access == Access::Atomic,
-                "an integer of a buffer of atomics",
+                integer && node.ty == element && access == Access::Atomic,
+                "an integer of memory of atomics",
             )
         }
-        Op::Store(buffer) => {
-            let entry = graph.buffers.get(*buffer as usize).ok_or("no such buffer")?;
+        Op::Store(memory) => {
+            let (element, access) = memory_of(graph, *memory)?;
             count(3)?;
             expect(
-                types == [Type::BOOL, Type::I32, entry.value()],
+                types == [Type::BOOL, Type::I32, element],
                 "a condition, an index and an element",
             )?;
             expect(
-                entry.access == Access::Write && node.ty == Type::Results,
-                "a buffer that is only written",
+                access == Access::Write && node.ty == Type::Results,
+                "memory that is written",
+            )
+        }
+        Op::SharedLoad(shared) => {
+            let (element, access) = memory_of(graph, Memory::Shared(*shared))?;
+            count(2)?;
+            expect(
+                types == [Type::BOOL, Type::I32] && node.ty == element && access == Access::Write,
+                "a condition and an index to an element that is no atomic one",
+            )
+        }
+        Op::Barrier { .. } => {
+            count(0)?;
+            expect(
+                matches!(graph.invocation, Invocation::Group(_)) && node.ty == Type::Results,
+                "invocations of a workgroup",
             )
         }
         _ => Err("an operation without a rule".to_owned()),
@@ -158,4 +173,20 @@ pub fn check(graph: &Graph, node: &Node, types: &[Type]) -> Result<(), String> {
 fn textures(graph: &Graph, index: u32) -> Result<&Texture, String> {
     let found = graph.textures.get(index as usize);
     found.ok_or_else(|| "no such texture".to_owned())
+}
+
+/// What memory has of elements, and what effects do with it.
+fn memory_of(graph: &Graph, memory: Memory) -> Result<(Type, Access), String> {
+    let group = matches!(graph.invocation, Invocation::Group(_));
+    let found = match memory {
+        Memory::Buffer(k) => graph
+            .buffers
+            .get(k as usize)
+            .map(|buffer| (buffer.value(), buffer.access)),
+        Memory::Shared(k) => graph.shared.get(k as usize).filter(|_| group).map(|shared| {
+            let access = if shared.atomic { Access::Atomic } else { Access::Write };
+            (shared.element, access)
+        }),
+    };
+    found.ok_or_else(|| "no such memory".to_owned())
 }

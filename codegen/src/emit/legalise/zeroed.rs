@@ -1,0 +1,69 @@
+//! What a workgroup shares is 0 at first in WGSL, and anything in GLSL and HLSL: they write it.
+
+use crate::emit::ast::{Block, Builtin, Effect, Expr, Module, Op, Stmt, StmtKind};
+use crate::emit::resources::Resources;
+use crate::ir::{BinaryOp, Memory, Shared, Type};
+
+/// Writes zeros before the first statement that is the kernel's.
+pub fn begin(module: &mut Module<'_>, resources: &Resources) {
+    let Some([width, height]) = resources.group else { return };
+    if resources.used_shared.is_empty() {
+        return;
+    }
+    let threads = width * height;
+    let index = module.variable("index", Type::I32);
+    let position = Expr::new(Op::Builtin(Builtin::LocalIndex), Vec::new(), Type::I32);
+    let comment = "What the workgroup shares is 0 at first.".to_owned();
+    let mut stmts: Block<'_> = vec![StmtKind::Comment(comment).into(), StmtKind::Let(index, position).into()];
+    for (k, shared) in resources.used_shared.iter().zip(resources.shared()) {
+        // Threads take turns: each has every element that is as many behind its last one as there are threads.
+        let turns = shared.len.div_ceil(threads);
+        let at = Expr::var(index, Type::I32);
+        match turns {
+            1 => stmts.push(guarded(*k, shared, at, threads)),
+            _ => {
+                let turn = module.variable("turn", Type::I32);
+                let step = Expr::splat(Type::I32, threads);
+                let at = Expr::var(turn, Type::I32)
+                    .binary(BinaryOp::Mul, step)
+                    .binary(BinaryOp::Add, at);
+                let element = module.variable("element", Type::I32);
+                let mut body: Block<'_> = vec![StmtKind::Let(element, at).into()];
+                body.push(guarded(*k, shared, Expr::var(element, Type::I32), turns * threads));
+                stmts.push(
+                    StmtKind::For {
+                        counter: turn,
+                        start: Expr::splat(Type::I32, 0),
+                        end: Expr::splat(Type::I32, turns),
+                        body,
+                    }
+                    .into(),
+                );
+            }
+        }
+    }
+    stmts.push(StmtKind::Barrier { buffers: false }.into());
+    module.body.splice(0..0, stmts);
+}
+
+/// Writes an element where there is one: of `reached` places.
+fn guarded<'g>(k: u32, shared: &Shared, at: Expr, reached: u32) -> Stmt<'g> {
+    let zero = Expr::splat(shared.element, 0);
+    let write: Stmt<'g> = StmtKind::Effect(Effect {
+        memory: Memory::Shared(k),
+        op: None,
+        args: vec![at.clone(), zero],
+        before: None,
+    })
+    .into();
+    if shared.len >= reached {
+        return write;
+    }
+    let condition = at.binary(BinaryOp::Lt, Expr::splat(Type::I32, shared.len));
+    StmtKind::If {
+        condition,
+        then: vec![write],
+        otherwise: Vec::new(),
+    }
+    .into()
+}

@@ -1,0 +1,280 @@
+//! Kernels of workgroups: phases that all threads run, and what they share.
+//!
+//! A kernel of a workgroup says once what the whole of it does; each of its phases, `group.each(|thread| ...)`, says what one
+//! thread does. Outside of the phases all threads compute the same, so that conditions and loops around a phase are decided
+//! alike by all of them. Between two phases lies a barrier, unless nothing has been written before.
+
+use super::Evaluator;
+use super::effects::{Effects, atomic_named};
+use super::value::{Eval, Exit, Value};
+use crate::diagnostic::{Diagnostic, Span};
+use crate::front::tree::{Function, Type as SourceType};
+use crate::ir::{Access, BinaryOp, Invocation, Memory, NodeId, Op, Scalar, Shared, Type, vector_named};
+
+const PAIR: Type = Type::value(Scalar::I32, 2);
+
+/// Bytes that every device has for what a workgroup shares.
+const MOST_BYTES: u64 = 16_384;
+
+/// Threads that every device has in a workgroup.
+const MOST_THREADS: i64 = 256;
+
+impl Evaluator<'_> {
+    /// The method that runs a phase.
+    pub(super) const PHASE: &'static str = "Workgroup::each";
+
+    /// A parameter that is the workgroup, `&Workgroup<WIDTH, HEIGHT>`; `None` of any other type.
+    pub(super) fn workgroup_parameter(&mut self, name: &str, ty: &SourceType, span: Span) -> Eval<Option<Value>> {
+        let found = self.library.structs.get("Workgroup");
+        let first = found.and_then(|structure| structure.fields.first());
+        let own = first.is_some_and(|(.., at)| at.file == crate::front::std::FILE);
+        let SourceType::Name(of, args) = ty else {
+            return Ok(None);
+        };
+        if of != "Workgroup" || !own {
+            return Ok(None);
+        }
+        let invocation = self.builder.graph().invocation;
+        if invocation != Invocation::Pixel {
+            return Err(Diagnostic::at(
+                span,
+                format!("`{name}` is a workgroup, in a kernel of several pixels an invocation"),
+            )
+            .label("not supported")
+            .help("take one or the other: no `Quad`, no block of pixels, and one `Workgroup`")
+            .into());
+        }
+        let size = self.workgroup_size(name, args, span)?;
+        self.builder.graph_mut().invocation = Invocation::Group(size);
+        let mut add = |op: Op, ty: Type| self.builder.add(op, Vec::new(), ty);
+        let [pixel, local, origin] = [Op::Pixel, Op::Thread, Op::GroupOrigin].map(|op| add(op, PAIR));
+        let inside = add(Op::Inside, Type::BOOL);
+        let [x, y] = [0, 1].map(|k| self.builder.add(Op::Extract(k), vec![local], Type::I32));
+        let width = self.builder.i32(size[0] as i32);
+        let row = self.builder.add(Op::Binary(BinaryOp::Mul), vec![y, width], Type::I32);
+        let index = self.builder.add(Op::Binary(BinaryOp::Add), vec![row, x], Type::I32);
+        for (id, called) in [
+            (local, "local"),
+            (origin, "origin"),
+            (inside, "inside"),
+            (index, "index"),
+        ] {
+            self.name(&Value::Node(id), called, span);
+        }
+        let fields = [("local", local), ("index", index), ("pixel", pixel), ("inside", inside)];
+        let fields = fields.map(|(name, id)| (name.to_owned(), Value::Node(id)));
+        let thread = Value::structure("Thread", fields.to_vec());
+        let fields = vec![
+            ("origin".to_owned(), Value::Node(origin)),
+            ("thread".to_owned(), thread),
+        ];
+        Ok(Some(Value::structure(of.clone(), fields)))
+    }
+
+    fn workgroup_size(&mut self, name: &str, args: &[SourceType], span: Span) -> Eval<[u32; 2]> {
+        let refused = |what: String| -> Exit {
+            Diagnostic::at(span, what)
+                .label("of this type")
+                .help(format!(
+                    "write `{name}: &Workgroup<16, 16>`: {MOST_THREADS} threads at most"
+                ))
+                .into()
+        };
+        let [width, height] = args else {
+            return Err(refused(format!("`{name}` states no size")));
+        };
+        let mut sides = [0; 2];
+        for (side, arg) in sides.iter_mut().zip([width, height]) {
+            let value = match arg {
+                SourceType::Const(value) => self.expr(value)?,
+                SourceType::Name(constant, args) if args.is_empty() => {
+                    self.path(std::slice::from_ref(constant), span)?
+                }
+                _ => return Err(refused(format!("`{name}` states no size"))),
+            };
+            *side = self.known_int(&value).unwrap_or(0);
+        }
+        match sides {
+            [width, height] if width > 0 && height > 0 && width.saturating_mul(height) <= MOST_THREADS => {
+                Ok([width as u32, height as u32])
+            }
+            [width, height] => Err(refused(format!("a workgroup of {width} by {height} threads"))),
+        }
+    }
+
+    /// A parameter that all threads of a workgroup share.
+    pub(super) fn shared_parameter(&mut self, name: &str, of: &str, args: &[SourceType], span: Span) -> Eval {
+        let atomic = of == "AtomicShared";
+        let refused = |what: String| -> Exit {
+            Diagnostic::at(span, what)
+                .label("of this type")
+                .help(match atomic {
+                    true => "write `&AtomicShared<[u32; 256]>`: u32 or i32",
+                    false => "write `&Shared<[Vec4; 64]>`: f32, i32, u32, or vectors of 2 or 4 of them",
+                })
+                .into()
+        };
+        let [SourceType::Array(element, Some(len))] = args else {
+            return Err(refused(format!("`{name}` is no array of a length")));
+        };
+        let element = match &**element {
+            SourceType::Name(of, _) => match (of.as_str(), vector_named(of)) {
+                ("f32", _) => Some(Type::F32),
+                ("i32", _) => Some(Type::I32),
+                ("u32", _) => Some(Type::U32),
+                (_, Some((kind, lanes))) if lanes != 3 && kind != Scalar::Bool => Some(Type::value(kind, lanes)),
+                _ => None,
+            },
+            _ => None,
+        };
+        let element = element.filter(|ty| !atomic || matches!(*ty, Type::I32 | Type::U32));
+        let Some(element) = element else {
+            return Err(refused(format!("`{name}` has no elements that threads can share")));
+        };
+        let count = self.expr(len)?;
+        let count = self.known_int(&count).unwrap_or(0);
+        let bytes = |len: i64| (len as u64).saturating_mul(4 * u64::from(element.lanes()));
+        if count < 1 {
+            return Err(refused(format!("`{name}` is an array without elements")));
+        }
+        let others = self.builder.graph().shared.iter();
+        let others: u64 = others
+            .map(|s| u64::from(s.len) * 4 * u64::from(s.element.lanes()))
+            .sum();
+        if bytes(count).saturating_add(others) > MOST_BYTES {
+            let total = bytes(count).saturating_add(others);
+            let what = format!("the workgroup shares {total} bytes, and devices promise {MOST_BYTES}");
+            return Err(Diagnostic::at(span, what)
+                .label("with these")
+                .help("share fewer elements, or vectors of fewer components")
+                .into());
+        }
+        self.unused_name(name, span)?;
+        let shared = &mut self.builder.graph_mut().shared;
+        shared.push(Shared {
+            name: name.to_owned(),
+            element,
+            len: count as u32,
+            atomic,
+        });
+        Ok(Value::Shared(shared.len() as u32 - 1))
+    }
+
+    /// `group.each(f)`: what every thread does, once all of them have done what comes before.
+    pub(super) fn phase(&mut self, function: &Function, args: Vec<Value>, span: Span) -> Eval {
+        if self.in_phase {
+            return Err(Diagnostic::at(span, "a phase inside a phase")
+                .label("each thread would run all of them")
+                .help("end the `each` around it first")
+                .into());
+        }
+        if args.get(1).is_some_and(Value::changes_variables) {
+            return Err(Diagnostic::at(span, "a phase that changes variables")
+                .label("all threads would change them")
+                .help("give the value from the phase, and take it in a later one by `of(thread)`; what threads tell each other lies in a `&Shared`")
+                .into());
+        }
+        if let Some(buffers) = self.awaits() {
+            self.builder.effect(Op::Barrier { buffers }, Vec::new(), Type::Results);
+        }
+        self.in_phase = true;
+        let result = self.inlined(Self::PHASE, function, &[], args, span);
+        self.in_phase = false;
+        result
+    }
+
+    /// Whether something has been done to memory since the last barrier, and if so whether to buffers that are read too.
+    fn awaits(&self) -> Option<bool> {
+        let graph = self.builder.graph();
+        let atomics = graph.buffers.iter().any(|b| b.access == Access::Atomic);
+        let mut found = None;
+        for region in self.builder.open_regions().iter().rev() {
+            for id in graph.region(*region).effects.iter().rev() {
+                let buffers = match graph.node(*id).op {
+                    Op::Barrier { .. } => return found,
+                    Op::Atomic { memory, .. } => matches!(memory, Memory::Buffer(_)),
+                    Op::Loop(_) | Op::If(..) => atomics,
+                    _ => false,
+                };
+                found = Some(found.unwrap_or(false) || buffers);
+            }
+            // The end of the iteration before comes first.
+            if !graph.region(*region).params.is_empty() {
+                return Some(atomics);
+            }
+        }
+        found
+    }
+
+    /// A method of what a workgroup shares.
+    pub(super) fn shared_memory(&mut self, index: u32, name: &str, args: &[Value], span: Span) -> Eval {
+        let shared = self.builder.graph().shared[index as usize].clone();
+        let effect = match (shared.atomic, name, args) {
+            (_, "len", []) => return Ok(Value::Int(i64::from(shared.len))),
+            (false, "load", [_]) => None,
+            (false, "store", [_, _]) => Some(Effects::Store),
+            (true, ..) => match atomic_named(name, args.len()) {
+                Some(op) => Some(Effects::Atomic(op)),
+                None => return Err(no_such_method(&shared, name, span)),
+            },
+            _ => return Err(no_such_method(&shared, name, span)),
+        };
+        if !matches!(self.builder.graph().invocation, Invocation::Group(_)) {
+            return Err(Diagnostic::at(
+                span,
+                format!("`{}` is shared by the threads of no workgroup", shared.name),
+            )
+            .label("not in this kernel")
+            .help("take the workgroup instead of the pixel: `group: &Workgroup<16, 16>`")
+            .into());
+        }
+        if !self.in_phase {
+            return Err(
+                Diagnostic::at(span, format!("`{}` is used outside of the phases", shared.name))
+                    .label("by which thread?")
+                    .help("put it into a `group.each(|thread| ...)`")
+                    .into(),
+            );
+        }
+        match effect {
+            Some(effect) => self.effect_on(Memory::Shared(index), effect, args, span),
+            None => {
+                let at = self.index_node(&args[0], span)?;
+                let at = self.held_inside(at, shared.len);
+                let reached = self.reached();
+                let load = Op::SharedLoad(index);
+                Ok(Value::Node(self.builder.effect(
+                    load,
+                    vec![reached, at],
+                    shared.element,
+                )))
+            }
+        }
+    }
+
+    /// An index, or that of the last element beyond the end.
+    fn held_inside(&mut self, at: NodeId, len: u32) -> NodeId {
+        let (zero, last) = (self.builder.i32(0), self.builder.i32(len as i32 - 1));
+        self.builder.add(Op::Clamp, vec![at, zero, last], Type::I32)
+    }
+}
+
+fn no_such_method(shared: &Shared, name: &str, span: Span) -> Exit {
+    let (ty, methods) = match shared.atomic {
+        true => ("AtomicShared", super::effects::ATOMIC_METHODS),
+        false => (
+            "Shared",
+            "`load` of an index, `store` of an index and a value, and `len`",
+        ),
+    };
+    Diagnostic::at(
+        span,
+        format!(
+            "`{}` is of type `{ty}`, which has no method `{name}` with such arguments",
+            shared.name
+        ),
+    )
+    .label("not supported")
+    .help(format!("it has {methods}"))
+    .into()
+}

@@ -1,0 +1,25 @@
+//! Memory that a kernel writes: buffers of the host's, and what the invocations of a workgroup share.
+
+use super::Type;
+
+/// Memory that an effect works on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Memory {
+    /// A buffer, by index into `Graph::buffers`.
+    Buffer(u32),
+    /// What a workgroup shares, by index into `Graph::shared`.
+    Shared(u32),
+}
+
+/// An array that the invocations of a workgroup share; all 0 when they begin. It is bound by no host.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Shared {
+    /// Its name in the kernel.
+    pub name: String,
+    /// A scalar or a vector, of numbers.
+    pub element: Type,
+    /// Number of its elements, at least 1.
+    pub len: u32,
+    /// Whether its elements are changed by atomic operations alone.
+    pub atomic: bool,
+}
