@@ -10,7 +10,7 @@ pub fn comment_groups<'g>(block: Block<'g>, graph: &'g Graph) -> Block<'g> {
     let mut depth: HashMap<&str, usize> = HashMap::new();
     for origin in graph.origins.iter().flatten() {
         for (k, counter) in origin.counters.iter().enumerate() {
-            let slot = depth.entry(counter.name.as_str()).or_default();
+            let slot = depth.entry(&*counter.name).or_default();
             *slot = k.max(*slot);
         }
     }
@@ -89,7 +89,7 @@ impl<'g> Groups<'g> {
             return;
         }
         let mut counters = group.counters;
-        counters.sort_by_key(|c| self.depth.get(c.name.as_str()).copied().unwrap_or(0));
+        counters.sort_by_key(|c| self.depth.get(&*c.name).copied().unwrap_or(0));
         // The next value of the innermost counter speaks for itself: names carry it.
         let outer = counters[..counters.len().saturating_sub(1)].to_vec();
         let group_of = group.place.map(|(file, _)| (file, outer));

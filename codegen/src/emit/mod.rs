@@ -41,6 +41,7 @@ use crate::ir::{Graph, Invocation, Op};
 use crate::passes::Schedule;
 use crate::policy::Transport;
 use std::borrow::Cow;
+use std::cell::OnceCell;
 use std::collections::BTreeMap;
 use straightline_manifest::{Counts, Form, Manifest, Precision, Stage, hash_of_bytes, hash_of_text};
 
@@ -170,6 +171,7 @@ fn emit(compiled: &Compiled, options: &EmitOptions) -> Result<Emitted, EmitError
         compiled,
         resources: &resources,
         tree: &tree,
+        for_wgsl: OnceCell::new(),
     };
     // The header says how many blocks the shader has, and is a comment: what is counted is the same text.
     let mut counts = compiled.counts.clone();
@@ -224,14 +226,16 @@ struct Shader<'s, 'g> {
     compiled: &'s Compiled,
     resources: &'s resources::Resources,
     tree: &'s ast::Module<'g>,
+    /// The tree as WGSL is written of it, once it has been.
+    for_wgsl: OnceCell<ast::Module<'g>>,
 }
 
-impl Shader<'_, '_> {
+impl<'g> Shader<'_, 'g> {
     /// The whole shader as naga has read and validated it; of a function, with the entry point that calls nothing else.
     fn validated(&self, counts: &Counts) -> Result<translate::Module, EmitError> {
         let kernel = &self.compiled.kernel;
         if !self.resources.options.is_function() {
-            return translate::Module::parse_wgsl(kernel, &self.wgsl_of(self.resources, self.tree, counts));
+            return translate::Module::parse_wgsl(kernel, &self.own_wgsl(counts));
         }
         let whole = EmitOptions {
             form: Form::Entry,
@@ -240,20 +244,25 @@ impl Shader<'_, '_> {
         let whole = resources::Resources::of(self.compiled, &whole)?;
         // Entry points give whole texels, and functions what the kernel gives.
         let tree = tree(self.compiled, &whole);
-        translate::Module::parse_wgsl(kernel, &self.wgsl_of(&whole, &tree, counts))
+        translate::Module::parse_wgsl(kernel, &self.wgsl_of(&whole, &for_wgsl(&tree, &whole), counts))
     }
 
     fn wgsl_of(&self, resources: &resources::Resources, tree: &ast::Module<'_>, counts: &Counts) -> String {
-        let mut tree = tree.clone();
-        legalise::wgsl(&mut tree);
-        let language = print::Wgsl { resources };
-        names::assign(&mut tree, resources, names::Words::Wgsl, &language.names());
-        print::module(&language, &tree, &print::header(self.compiled, counts, resources))
+        print::module(
+            &print::Wgsl { resources },
+            tree,
+            &print::header(self.compiled, counts, resources),
+        )
+    }
+
+    fn own_wgsl(&self, counts: &Counts) -> String {
+        let tree = self.for_wgsl.get_or_init(|| for_wgsl(self.tree, self.resources));
+        self.wgsl_of(self.resources, tree, counts)
     }
 
     fn wgsl(&self, counts: &Counts) -> Result<String, EmitError> {
         let options = &self.resources.options;
-        let wgsl = self.wgsl_of(self.resources, self.tree, counts);
+        let wgsl = self.own_wgsl(counts);
         if options.is_function() {
             let enabled = match options.precision {
                 Precision::F32 => wgsl.clone(),
@@ -290,6 +299,14 @@ impl Shader<'_, '_> {
         names::assign(&mut tree, &resources, names::Words::Hlsl, &language.names());
         print::module(&language, &tree, &print::header(self.compiled, counts, &resources))
     }
+}
+
+/// The tree as WGSL is written of it.
+fn for_wgsl<'g>(tree: &ast::Module<'g>, resources: &resources::Resources) -> ast::Module<'g> {
+    let mut tree = tree.clone();
+    legalise::wgsl(&mut tree);
+    names::assign(&mut tree, resources, names::Words::Wgsl, &print::Wgsl { resources }.names());
+    tree
 }
 
 /// What stands between a directive and a text that begins with another, or with its header.

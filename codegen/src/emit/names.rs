@@ -181,7 +181,7 @@ impl Wanted {
     /// For the values of a graph.
     pub fn new(graph: &Graph) -> Wanted {
         let origins = graph.origins.iter().flatten();
-        let counters: BTreeSet<&str> = origins.flat_map(|o| &o.counters).map(|c| c.name.as_str()).collect();
+        let counters: BTreeSet<&str> = origins.flat_map(|o| &o.counters).map(|c| &*c.name).collect();
         let initial = |name: &str| name.chars().next().unwrap_or('k');
         let short = |name: &&str| {
             let alone = counters.iter().filter(|other| initial(other) == initial(name)).count() == 1;
@@ -203,7 +203,7 @@ impl Wanted {
                 // Many counters stand close together.
                 let between = if counters.len() > 2 { "" } else { "_" };
                 match counters.is_empty() {
-                    true => origin.name.clone(),
+                    true => origin.name.to_string(),
                     false => format!("{}_{}", origin.name, counters.join(between)),
                 }
             }
@@ -215,8 +215,8 @@ impl Wanted {
     fn counter(&self, counter: &Counter) -> String {
         let short = self
             .short
-            .get(&counter.name)
-            .map_or(counter.name.as_str(), String::as_str);
+            .get(&*counter.name)
+            .map_or(&*counter.name, String::as_str);
         let sign = if counter.value < 0 { "n" } else { "" };
         format!("{short}{sign}{}", counter.value.unsigned_abs())
     }

@@ -243,7 +243,7 @@ impl Evaluator<'_> {
         match value {
             Value::Node(id) => {
                 let origin = Origin {
-                    name: readable(name),
+                    name: readable(name).into(),
                     naming: Naming::Let,
                     file: span.file,
                     line: span.line,

@@ -253,7 +253,7 @@ impl Evaluator<'_> {
         let mark = self.scope.enter();
         let counter = match (pattern, self.known_int(&item)) {
             (Pattern::Name(name, ..), Some(value)) => Some(Counter {
-                name: name.clone(),
+                name: name.as_str().into(),
                 value,
             }),
             _ => None,

@@ -251,43 +251,46 @@ impl Evaluator<'_> {
 
     /// Names the numbers in a value by what they are known as from now on.
     fn name_as(&mut self, value: &Value, name: &str, naming: Naming, span: Span) {
+        // Variables of the library's own are nobody's names.
+        if span.file != crate::front::std::FILE && !name.starts_with('#') {
+            self.name_parts(value, &Called::Whole(name), naming, span);
+        }
+    }
+
+    fn name_parts(&mut self, value: &Value, called: &Called<'_>, naming: Naming, span: Span) {
         match value {
-            Value::Node(id) => self.name_node(*id, name, naming, span),
+            Value::Node(id) => self.name_node(*id, called, naming, span),
             Value::Struct { fields, .. } => {
                 for (field, value) in fields.iter() {
-                    self.name_as(value, &format!("{name}_{field}"), naming, span);
+                    self.name_parts(value, &Called::Field(called, field), naming, span);
                 }
             }
-            Value::Tuple(parts) => self.name_each(parts, name, naming, span),
-            Value::Array(parts) => self.name_each(parts, name, naming, span),
+            Value::Tuple(parts) => self.name_each(parts, called, naming, span),
+            Value::Array(parts) => self.name_each(parts, called, naming, span),
             Value::Enum(choice) => {
-                let (tag, inside) = self.choice_names(choice, name);
+                let (tag, inside) = self.choice_names(choice, &called.to_string());
                 if let Some((id, name)) = tag {
-                    self.name_node(id, &name, naming, span);
+                    self.name_node(id, &Called::Whole(&name), naming, span);
                 }
                 for (value, name) in inside {
-                    self.name_as(&value, &name, naming, span);
+                    self.name_parts(&value, &Called::Whole(&name), naming, span);
                 }
             }
             _ => {}
         }
     }
 
-    fn name_each(&mut self, parts: &[Value], name: &str, naming: Naming, span: Span) {
+    fn name_each(&mut self, parts: &[Value], called: &Called<'_>, naming: Naming, span: Span) {
         // Nobody reads so many names, and an array is named each time that it is copied.
         if parts.len() > MAX_NAMED {
             return;
         }
         for (k, part) in parts.iter().enumerate() {
-            self.name_as(part, &format!("{name}_{k}"), naming, span);
+            self.name_parts(part, &Called::Number(called, k), naming, span);
         }
     }
 
-    fn name_node(&mut self, id: NodeId, name: &str, naming: Naming, span: Span) {
-        // Variables of the library's own are nobody's names.
-        if span.file == crate::front::std::FILE || name.starts_with('#') {
-            return;
-        }
+    fn name_node(&mut self, id: NodeId, called: &Called<'_>, naming: Naming, span: Span) {
         if matches!(
             self.builder.graph().node(id).op,
             Op::Const(_) | Op::Pixel | Op::FrameSize | Op::Uniform(_) | Op::Varying(_) | Op::Param(..) | Op::MakeArray
@@ -295,11 +298,14 @@ impl Evaluator<'_> {
             return;
         }
         let known = self.builder.graph().origin(id);
-        if naming > Naming::Let && known.is_some_and(|origin| !origin.name.is_empty() && origin.naming <= naming) {
-            return;
+        if let Some(known) = known.filter(|origin| !origin.name.is_empty() && origin.naming <= naming) {
+            // It has a name that is as good; of the same one what both agree on is kept.
+            if naming > Naming::Let || !called.is(&known.name) {
+                return;
+            }
         }
         let origin = Origin {
-            name: name.to_owned(),
+            name: called.to_string().into(),
             naming,
             file: span.file,
             line: span.line,
@@ -421,5 +427,39 @@ fn purpose(docs: &str) -> String {
             first.to_lowercase().chain(chars).collect()
         }
         _ => words.to_owned(),
+    }
+}
+
+/// The name of a part of a value, put together only where one is given.
+enum Called<'n> {
+    Whole(&'n str),
+    Field(&'n Called<'n>, &'n str),
+    Number(&'n Called<'n>, usize),
+}
+
+impl Called<'_> {
+    /// Whether this is the name.
+    fn is(&self, name: &str) -> bool {
+        match self {
+            Called::Whole(whole) => *whole == name,
+            Called::Field(whole, field) => {
+                let rest = name.strip_suffix(field).and_then(|rest| rest.strip_suffix('_'));
+                rest.is_some_and(|rest| whole.is(rest))
+            }
+            Called::Number(whole, k) => {
+                let (rest, number) = name.rsplit_once('_').unwrap_or_default();
+                number.parse() == Ok(*k) && whole.is(rest)
+            }
+        }
+    }
+}
+
+impl std::fmt::Display for Called<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Called::Whole(name) => f.write_str(name),
+            Called::Field(whole, field) => write!(f, "{whole}_{field}"),
+            Called::Number(whole, k) => write!(f, "{whole}_{k}"),
+        }
     }
 }

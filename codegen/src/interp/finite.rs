@@ -19,7 +19,7 @@ impl Birth {
         let lanes: Vec<String> = self.value.iter().map(f64::to_string).collect();
         let value = lanes.join(", ");
         let origin = self.origin(graph);
-        let name = origin.map_or("a value", |o| o.name.as_str());
+        let name = origin.map_or("a value", |o| &*o.name);
         let mut text = match &graph.node(self.node).op {
             Op::Const(_) => format!("`{name}` is the constant {value}"),
             Op::Unary(op) => format!("`{name}` became {value} in `{}`", format!("{op:?}").to_lowercase()),

@@ -504,7 +504,7 @@ impl<'a, R: Real> Interpreter<'a, R> {
         }
         let lanes = &s.values[id.0 as usize][..self.graph.ty(id).lanes() as usize];
         let kept = s.loops.iter().map(|(param, value)| Counter {
-            name: self.graph.origin(*param).map_or("k", |o| o.name.as_str()).to_owned(),
+            name: self.graph.origin(*param).map_or("k", |o| &*o.name).into(),
             value: *value,
         });
         let unrolled = self.graph.origin(id).into_iter().flat_map(|o| o.counters.clone());

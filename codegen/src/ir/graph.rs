@@ -1,7 +1,7 @@
 //! The graph and its builder.
 
 use super::{Buffer, Lanes, Memory, Op, Origin, Scalar, Shared, Texture, Type};
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 /// Index of a node. A node's arguments have smaller indices.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -269,7 +269,7 @@ pub trait Rules {
 /// Makes a graph node by node; equal nodes are made once.
 pub struct Builder<'r> {
     graph: Graph,
-    known: HashMap<Node, NodeId>,
+    known: FxHashMap<Node, NodeId>,
     rules: &'r dyn Rules,
     open: Vec<RegionId>,
 }
@@ -291,7 +291,7 @@ impl<'r> Builder<'r> {
         };
         Builder {
             graph,
-            known: HashMap::new(),
+            known: FxHashMap::default(),
             rules,
             open: vec![Graph::BODY],
         }

@@ -1,10 +1,12 @@
 //! Where a node comes from: what emitted names and comments are made of.
 
+use std::sync::Arc;
+
 /// A loop counter's value at the time a node was made.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Counter {
     /// The counter's name in the source.
-    pub name: String,
+    pub name: Arc<str>,
     /// Its value.
     pub value: i64,
 }
@@ -25,7 +27,7 @@ pub enum Naming {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Origin {
     /// Name of the variable; for a part of a structure `variable_field`. Empty if there is none.
-    pub name: String,
+    pub name: Arc<str>,
     /// What the name was taken from.
     pub naming: Naming,
     /// Index into `Graph::files`.

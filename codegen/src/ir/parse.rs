@@ -526,12 +526,12 @@ fn read_origin(text: &str) -> Parsed<Origin> {
     let counters = words.map(|word| {
         let (name, value) = word.split_once('=').ok_or("a counter is `NAME=VALUE`")?;
         Ok(Counter {
-            name: name.to_owned(),
+            name: name.into(),
             value: number(value)?,
         })
     });
     Ok(Origin {
-        name,
+        name: name.into(),
         naming: Default::default(),
         file: number(file)?,
         line: number(line)?,

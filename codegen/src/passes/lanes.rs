@@ -237,7 +237,7 @@ impl Expansion<'_> {
                 let mut origin = origin.clone();
                 if !alike {
                     origin.counters.push(Counter {
-                        name: "lane".to_owned(),
+                        name: "lane".into(),
                         value: lane as i64,
                     });
                 }
@@ -297,7 +297,7 @@ fn across(b: &mut Builder<'_>, axis: Axis, value: NodeId, ty: Type) -> NodeId {
     let twice = b.add(Op::Binary(BinaryOp::Mul), vec![lane, two], pair);
     let towards = b.add(Op::Binary(BinaryOp::Sub), vec![one, twice], pair);
     let origin = b.graph().origin(value).cloned();
-    let named = |name: String| origin.clone().map(|origin| Origin { name, ..origin });
+    let named = |name: String| origin.clone().map(|origin| Origin { name: name.into(), ..origin });
     if let Some(origin) = named("towards".to_owned()) {
         b.set_origin(towards, &origin);
     }
@@ -309,7 +309,7 @@ fn across(b: &mut Builder<'_>, axis: Axis, value: NodeId, ty: Type) -> NodeId {
     let step = b.add(Op::Binary(BinaryOp::Mul), vec![sign, slope], ty);
     let message = b.add(Op::Binary(BinaryOp::Add), vec![value, step], ty);
     let from = if axis == Axis::X { "beside" } else { "below" };
-    let whose = origin.as_ref().map_or("", |o| o.name.as_str());
+    let whose = origin.as_ref().map_or("", |o| &*o.name);
     if let Some(origin) = named(format!("{whose}_{from}")) {
         b.set_origin(message, &origin);
     }

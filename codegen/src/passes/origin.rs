@@ -89,7 +89,7 @@ fn place(b: &mut Builder<'_>, place: NodeId) -> NodeId {
 fn named(b: &mut Builder<'_>, id: NodeId, name: &str, like: NodeId) {
     if let Some(origin) = b.graph().origin(like).cloned() {
         let origin = Origin {
-            name: name.to_owned(),
+            name: name.into(),
             counters: Vec::new(),
             ..origin
         };

@@ -5,7 +5,7 @@ use super::dead;
 use crate::emit::ast::{Block, Expr, Module, Op, Stmt, StmtKind, VarId};
 use crate::emit::text::WIDEST;
 use crate::ir::{Graph, Memory};
-use std::collections::{HashMap, HashSet};
+use rustc_hash::{FxHashMap, FxHashSet};
 
 /// Operators and calls that a line may have, lest it be hard to read; shader compilers also recurse over them.
 const MOST: usize = 16;
@@ -31,15 +31,15 @@ impl Inliner<'_> {
     fn block(&self, block: &mut Block<'_>, depth: usize) {
         let mut out: Vec<Option<Stmt<'_>>> = Vec::with_capacity(block.len());
         // Where each candidate stands, and when each mutable variable was last assigned.
-        let mut defined: HashMap<VarId, usize> = HashMap::new();
-        let mut assigned: HashMap<VarId, usize> = HashMap::new();
+        let mut defined: FxHashMap<VarId, usize> = FxHashMap::default();
+        let mut assigned: FxHashMap<VarId, usize> = FxHashMap::default();
         for mut stmt in block.drain(..) {
             self.absorb(&mut stmt, &mut out, &defined, &assigned, depth);
             for inner in stmt.blocks_mut() {
                 self.block(inner, depth + 1);
             }
             let at = out.len();
-            let mut written = HashSet::new();
+            let mut written = FxHashSet::default();
             assignments(&stmt, &mut written);
             assigned.extend(written.into_iter().map(|var| (var, at)));
             if let StmtKind::Let(var, _) = stmt.kind
@@ -57,13 +57,13 @@ impl Inliner<'_> {
         &self,
         stmt: &mut Stmt<'g>,
         out: &mut [Option<Stmt<'g>>],
-        defined: &HashMap<VarId, usize>,
-        assigned: &HashMap<VarId, usize>,
+        defined: &FxHashMap<VarId, usize>,
+        assigned: &FxHashMap<VarId, usize>,
         depth: usize,
     ) {
         // The end of a loop is computed again for each iteration: what it reads must not change, and be quick to tell.
         let is_loop = matches!(stmt.kind, StmtKind::For { .. });
-        let mut written = HashSet::new();
+        let mut written = FxHashSet::default();
         assignments(stmt, &mut written);
         let suits = |value: &Expr| {
             !is_loop
@@ -156,13 +156,13 @@ fn reads_memory(expr: &Expr) -> bool {
 }
 
 /// Whether a variable that a value reads was assigned after a statement.
-fn changed_since(value: &Expr, at: usize, assigned: &HashMap<VarId, usize>) -> bool {
+fn changed_since(value: &Expr, at: usize, assigned: &FxHashMap<VarId, usize>) -> bool {
     let changed = |var: VarId| assigned.get(&var).is_some_and(|when| *when > at);
     value.mentions(changed) || (reads_shared(value) && changed(VarId::MEMORY))
 }
 
 /// Variables that a statement assigns to.
-fn assignments(stmt: &Stmt<'_>, out: &mut HashSet<VarId>) {
+fn assignments(stmt: &Stmt<'_>, out: &mut FxHashSet<VarId>) {
     if let StmtKind::Assign(place, ..) = &stmt.kind {
         place.visit(&mut |expr| {
             if let Op::Var(var) = expr.op {
