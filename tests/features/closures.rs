@@ -57,6 +57,31 @@ pub fn filtered(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
     Vec4::splat(taps.filter(|x| *x > 0.5).sum())
 }
 
+//// `filter_map`, `take_while`, `skip_while`, and `count`, `fold`, `any` behind them
+pub fn filtered_otherwise(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
+    let taps = [0, 1, 2, 3, 4].map(|k| color.load(pixel + ivec2(k, 0)));
+    let bright: Vec4 = taps
+        .iter()
+        .filter_map(|tap| if tap.x > 0.4 { Some(*tap * tap.y) } else { None })
+        .map(|tap| tap + 0.25)
+        .sum();
+    let before = taps.iter().take_while(|tap| tap.z < 0.8).count();
+    let behind = taps.iter().skip_while(|tap| tap.z < 0.5).filter(|tap| tap.w > 0.2);
+    let mixed = behind.fold(0.5, |sum, tap| sum * 0.5 + tap.y);
+    let any = taps.iter().filter(|tap| tap.x < 0.5).any(|tap| tap.y > 0.7);
+    bright + vec4(before as f32, mixed, f32::from(any), 0.0)
+}
+
+//// `min`, `max` and `reduce` of iterators
+pub fn extremes(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
+    let taps = [0, 1, 2, 3].map(|k| color.load(pixel + ivec2(k, 0)));
+    let levels = taps.map(|tap| (tap.x * 16.0) as i32);
+    let least = levels.iter().min().unwrap_or(&0);
+    let largest = levels.into_iter().max().unwrap_or(0);
+    let widest = taps.iter().map(|tap| tap.length()).reduce(f32::max).unwrap_or(0.0);
+    vec4(*least as f32, largest as f32, widest, 1.0)
+}
+
 //// `any`, `all` and `position` of iterators
 pub fn searched_iterators(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
     let taps = [0, 1, 2, 3].map(|k| color.load(pixel + ivec2(k, 0)).x);

@@ -305,7 +305,12 @@ impl<'g> Shader<'_, 'g> {
 fn for_wgsl<'g>(tree: &ast::Module<'g>, resources: &resources::Resources) -> ast::Module<'g> {
     let mut tree = tree.clone();
     legalise::wgsl(&mut tree);
-    names::assign(&mut tree, resources, names::Words::Wgsl, &print::Wgsl { resources }.names());
+    names::assign(
+        &mut tree,
+        resources,
+        names::Words::Wgsl,
+        &print::Wgsl { resources }.names(),
+    );
     tree
 }
 

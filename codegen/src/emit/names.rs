@@ -213,10 +213,7 @@ impl Wanted {
 
     /// `s2`, or `jn1` for -1.
     fn counter(&self, counter: &Counter) -> String {
-        let short = self
-            .short
-            .get(&*counter.name)
-            .map_or(&*counter.name, String::as_str);
+        let short = self.short.get(&*counter.name).map_or(&*counter.name, String::as_str);
         let sign = if counter.value < 0 { "n" } else { "" };
         format!("{short}{sign}{}", counter.value.unsigned_abs())
     }

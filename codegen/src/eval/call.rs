@@ -82,6 +82,12 @@ impl Evaluator<'_> {
         {
             return Ok(Value::Elements(Rc::new(f.clone())));
         }
+        if let ([name], [items]) = (path, values.as_slice())
+            && let Some(name) = name.strip_suffix("_of_some")
+        {
+            let items = self.listed(items, span)?;
+            return self.reduced_some(name, &items, span);
+        }
         if self.library.variant(path).is_some() {
             return Ok(self.variant_of(path, values, span)?.unwrap_or(Value::Poison));
         }
@@ -206,7 +212,9 @@ impl Evaluator<'_> {
                 format!("calls are nested more than {MAX_CALLS} deep, in `{name}`"),
             )
             .label("recursion that does not end?")
-            .help("let the recursion end by a condition that is known")
+            .help(
+                "let it end by a condition that is a compile-time constant; where runtime values decide, write a loop",
+            )
             .into());
         }
         let mut bound = self.constants_of(function, constants, &args, span)?;
@@ -482,7 +490,7 @@ impl Evaluator<'_> {
         if self.calls.len() >= MAX_CALLS {
             return Err(Diagnostic::at(span, format!("the constant `{name}` needs itself"))
                 .label("used here")
-                .help("write out one of the values that go round")
+                .help("write out one of the values in the cycle")
                 .into());
         }
         let outer = self.scope.enter_function();

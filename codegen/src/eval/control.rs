@@ -55,7 +55,7 @@ impl Evaluator<'_> {
             Some(false) => Err(Diagnostic::at(condition.span, message).label("does not hold").into()),
             None => Err(
                 Diagnostic::at(condition.span, "an assertion about what is only known at run time")
-                    .label("not known now")
+                    .label("not a compile-time constant")
                     .note("a shader has no way to fail")
                     .help("assert what follows from options and counters, and let run-time values choose with `if`")
                     .into(),

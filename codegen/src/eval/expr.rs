@@ -127,10 +127,12 @@ impl Evaluator<'_> {
             Some(n) => Err(Diagnostic::at(len.span, format!("an array of {n} elements"))
                 .help("use 1 to 65536")
                 .into()),
-            None => Err(Diagnostic::at(len.span, "the length of an array must be known")
-                .label("not known now")
-                .help("use a constant, an option, or a loop counter")
-                .into()),
+            None => Err(
+                Diagnostic::at(len.span, "the length of an array must be a compile-time constant")
+                    .label("a runtime value")
+                    .help("use a constant, an option, or a loop counter")
+                    .into(),
+            ),
         }
     }
 

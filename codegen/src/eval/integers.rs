@@ -44,7 +44,12 @@ impl Evaluator<'_> {
                             |e: &mut Self, power, _| e.builder.add(Op::Binary(BinaryOp::Mul), vec![power, x], ty);
                         Ok(Some((0..n).fold(one, |power, k| times(self, power, k))))
                     }
-                    _ => Err(Diagnostic::at(span, "`pow` needs a known power from 0 to 31").into()),
+                    _ => Err(
+                        Diagnostic::at(span, "the power of `pow` must be a compile-time constant from 0 to 31")
+                            .label("a runtime value, or another number")
+                            .help("multiply in a loop")
+                            .into(),
+                    ),
                 };
             }
             // ((x % n) + n) % n, which for a positive n is what Rust computes.

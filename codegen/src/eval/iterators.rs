@@ -31,7 +31,7 @@ pub const METHODS: [&str; 20] = [
 
 impl Evaluator<'_> {
     /// The values that an iterator gives.
-    fn listed(&mut self, value: &Value, span: Span) -> Eval<Vec<Value>> {
+    pub(super) fn listed(&mut self, value: &Value, span: Span) -> Eval<Vec<Value>> {
         match value {
             Value::Array(elements) => Ok(elements.to_vec()),
             Value::Range(range) => match self.range_values(range, span)? {
@@ -166,6 +166,41 @@ impl Evaluator<'_> {
         self.step(span)?;
         let value = self.invoke(f, args, span)?;
         self.loaded(value, span)
+    }
+
+    /// `sum` and `product` of those that there are of some options. The others add -0, which changes no sum, or multiply by 1.
+    pub(super) fn reduced_some(&mut self, name: &str, items: &[Value], span: Span) -> Eval {
+        let mut terms = Vec::new();
+        for item in items {
+            let Value::Enum(choice) = item else {
+                return Err(Exit::Noted);
+            };
+            let is_some = self.is_variant(choice, 1);
+            let held = choice
+                .fields(1)
+                .and_then(|fields| fields.first())
+                .map(|(_, value)| value.clone());
+            // It is known to be nothing.
+            let Some(held) = held else { continue };
+            let value = self.node(&held, span)?;
+            let ty = self.ty(value);
+            let unit = match (ty.is_float(), name) {
+                (true, "sum") => (-0.0f32).to_bits(),
+                (true, _) => 1.0f32.to_bits(),
+                (false, "sum") => 0,
+                (false, _) => 1,
+            };
+            let unit = self.builder.constant(
+                ty,
+                std::array::from_fn(|k| if k < ty.lanes() as usize { unit } else { 0 }),
+            );
+            terms.push(Value::Node(self.builder.add(
+                Op::Select,
+                vec![is_some, value, unit],
+                ty,
+            )));
+        }
+        self.reduced(name, terms, span)
     }
 
     /// `sum` and `product`, in order: of numbers from the first, which is what Rust's `-0.0 + x`, `0 + x` and `1 * x` are; of

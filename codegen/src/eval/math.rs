@@ -47,8 +47,9 @@ impl Evaluator<'_> {
             None => Err(Diagnostic::at(
                 span,
                 format!(
-                    "there is no method `{name}` with {} arguments on {}",
+                    "there is no method `{name}` with {} argument{} on {}",
                     args.len(),
+                    if args.len() == 1 { "" } else { "s" },
                     self.ty(x).in_rust()
                 ),
             )
@@ -217,9 +218,13 @@ impl Evaluator<'_> {
             "powi" if ty.is_float() => match self.known_int(a) {
                 Some(n @ 1..=64) => Some(self.power(x, n)),
                 _ => {
-                    return Err(Diagnostic::at(span, "`powi` needs a known power from 1 to 64")
-                        .help("use `powf`")
-                        .into());
+                    return Err(Diagnostic::at(
+                        span,
+                        "the power of `powi` must be a compile-time constant from 1 to 64",
+                    )
+                    .label("a runtime value, or another number")
+                    .help("write `powf`, which takes any power of what is not negative")
+                    .into());
                 }
             },
             "dot" if float_vector => {

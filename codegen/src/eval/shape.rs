@@ -62,7 +62,7 @@ impl Evaluator<'_> {
                         span,
                         format!("an array of {} cannot be indexed at run time", kind(other)),
                     )
-                    .label("the index is not known now")
+                    .label("the index is a runtime value")
                     .help("unroll the loop, or keep an array for each number in it")
                     .into());
                 }

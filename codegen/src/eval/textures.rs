@@ -217,11 +217,13 @@ impl Evaluator<'_> {
     fn component(&mut self, texture: &Texture, component: &Value, span: Span) -> Eval<u8> {
         match self.known_int(component) {
             Some(k) if (0..i64::from(texture.components)).contains(&k) => Ok(k as u8),
-            _ => Err(
-                Diagnostic::at(span, "the component to gather must be known and in the texture")
-                    .help(format!("use 0 to {}", texture.components - 1))
-                    .into(),
-            ),
+            _ => Err(Diagnostic::at(
+                span,
+                "the component to gather must be a compile-time constant, and one of the texture's",
+            )
+            .label("a runtime value, or out of range")
+            .help(format!("use 0 to {}", texture.components - 1))
+            .into()),
         }
     }
 

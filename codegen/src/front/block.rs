@@ -24,7 +24,7 @@ impl Lower {
                 syn::Stmt::Item(item) => {
                     self.unsupported(
                         item.span(),
-                        "an item inside a function",
+                        "an item inside an expression",
                         "move it to the top of the file",
                     );
                 }

@@ -5,6 +5,7 @@ use super::types::{Kind, Ty};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::front::UNARY;
 use crate::front::tree::{Closure, Expr};
+use crate::ir::Scalar;
 
 impl<'l> Checker<'l> {
     /// The type of a closure. What is wanted of it tells the types of its parameters, as in rustc.
@@ -125,6 +126,22 @@ impl<'l> Checker<'l> {
         // A constant of the type is in capitals.
         if method.starts_with(char::is_uppercase) {
             return None;
+        }
+        let own = || receiver.clone();
+        let of_several = match (method.as_str(), &receiver) {
+            ("min" | "max", _) | ("powf" | "atan2", Ty::Float) | ("cross", Ty::Vector(Scalar::F32, 3)) => {
+                Some((vec![own(), own()], own()))
+            }
+            ("rem_euclid" | "div_euclid" | "wrapping_add" | "wrapping_sub" | "wrapping_mul", Ty::Int(_)) => {
+                Some((vec![own(), own()], own()))
+            }
+            ("dot", Ty::Vector(kind, _)) => Some((vec![own(), own()], Ty::scalar(*kind))),
+            ("distance", Ty::Vector(Scalar::F32, _)) => Some((vec![own(), own()], Ty::Float)),
+            ("clamp", _) => Some((vec![own(), own(), own()], own())),
+            _ => None,
+        };
+        if let Some((params, result)) = of_several {
+            return Some(Ty::Fn(params, Box::new(result)));
         }
         match self.known_method(&receiver, method, &[], span) {
             // Of other numbers of arguments the evaluator knows.

@@ -55,9 +55,9 @@ impl<'l> Checker<'l> {
             self.errors.push(
                 Diagnostic::at(
                     span,
-                    format!("`{name}` has {found} parameters, but {wanted} in the trait `{of}`"),
+                    format!("`{name}` has {}, but {wanted} in the trait `{of}`", parameters(found)),
                 )
-                .label(format!("expected {wanted} parameters"))
+                .label(format!("expected {}", parameters(wanted)))
                 .help("give it those that the trait declares"),
             );
             return;
@@ -126,4 +126,8 @@ impl<'l> Checker<'l> {
         self.errors.truncate(known);
         found
     }
+}
+
+fn parameters(count: usize) -> String {
+    format!("{count} parameter{}", if count == 1 { "" } else { "s" })
 }

@@ -184,6 +184,17 @@ impl<'l> Checker<'l> {
                     self.takes(args, &[], Ty::Iter(Box::new(bare)))
                 }
                 "iter" | "into_iter" => self.takes(args, &[], own),
+                "min" | "max" if matches!(self.peeled(item).0, Ty::Float | Ty::Vector(..)) => {
+                    let of = self.peeled(item).0;
+                    let first = if name == "min" { "INFINITY" } else { "NEG_INFINITY" };
+                    let error = Diagnostic::at(span, format!("the trait bound `{of}: Ord` is not satisfied"))
+                        .label(format!("`Ord` is not implemented for `{of}`"));
+                    self.errors.push(error.help(match of {
+                        Ty::Float => format!("fold it: `.fold(f32::{first}, f32::{name})`"),
+                        _ => "fold it from the first one on".to_owned(),
+                    }));
+                    self.unknown_method(args)
+                }
                 _ if self.library.functions.contains_key(&format!("Iterator::{name}")) => {
                     let key = format!("Iterator::{name}");
                     let function = &self.library.functions[&key];
@@ -236,7 +247,8 @@ impl<'l> Checker<'l> {
             && !methods::has(ty, name)
             && methods::UNLIKE.iter().all(|(unlike, ..)| *unlike != name)
         {
-            let message = format!("there is no method `{name}` with {arguments} arguments on {receiver}");
+            let plural = if arguments == 1 { "" } else { "s" };
+            let message = format!("there is no method `{name}` with {arguments} argument{plural} on {receiver}");
             self.errors.push(
                 Diagnostic::at(span, message)
                     .label("not supported")

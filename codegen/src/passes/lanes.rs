@@ -297,7 +297,12 @@ fn across(b: &mut Builder<'_>, axis: Axis, value: NodeId, ty: Type) -> NodeId {
     let twice = b.add(Op::Binary(BinaryOp::Mul), vec![lane, two], pair);
     let towards = b.add(Op::Binary(BinaryOp::Sub), vec![one, twice], pair);
     let origin = b.graph().origin(value).cloned();
-    let named = |name: String| origin.clone().map(|origin| Origin { name: name.into(), ..origin });
+    let named = |name: String| {
+        origin.clone().map(|origin| Origin {
+            name: name.into(),
+            ..origin
+        })
+    };
     if let Some(origin) = named("towards".to_owned()) {
         b.set_origin(towards, &origin);
     }

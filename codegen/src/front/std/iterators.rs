@@ -1,4 +1,172 @@
+struct Filtered<T> {
+    items: [Option<T>],
+}
+
+impl<T> Filtered<T> {
+    fn filter(self, f: impl Fn(&T) -> bool) -> Filtered<T> {
+        Filtered { items: self.items.map(|x| x.filter(|x| f(x))) }
+    }
+
+    fn map<U>(self, f: impl Fn(T) -> U) -> Filtered<U> {
+        Filtered { items: self.items.map(|x| x.map(|x| f(x))) }
+    }
+
+    fn filter_map<U>(self, f: impl Fn(T) -> Option<U>) -> Filtered<U> {
+        Filtered { items: self.items.map(|x| x.and_then(|x| f(x))) }
+    }
+
+    fn copied(self) -> Filtered<T> {
+        self
+    }
+
+    fn cloned(self) -> Filtered<T> {
+        self
+    }
+
+    fn count(self) -> usize {
+        let mut n = 0;
+        for x in self.items {
+            if x.is_some() {
+                n += 1;
+            }
+        }
+        n
+    }
+
+    fn sum(self) -> T {
+        sum_of_some(self.items)
+    }
+
+    fn product(self) -> T {
+        product_of_some(self.items)
+    }
+
+    fn fold<U>(self, first: U, f: impl Fn(U, T) -> U) -> U {
+        let mut sum = first;
+        for x in self.items {
+            if let Some(x) = x {
+                sum = f(sum, x);
+            }
+        }
+        sum
+    }
+
+    fn for_each(self, f: impl Fn(T)) {
+        for x in self.items {
+            if let Some(x) = x {
+                f(x);
+            }
+        }
+    }
+
+    fn any(self, f: impl Fn(T) -> bool) -> bool {
+        for x in self.items {
+            if let Some(x) = x {
+                if f(x) {
+                    return true;
+                }
+            }
+        }
+        false
+    }
+
+    fn all(self, f: impl Fn(T) -> bool) -> bool {
+        for x in self.items {
+            if let Some(x) = x {
+                if !f(x) {
+                    return false;
+                }
+            }
+        }
+        true
+    }
+
+    fn next(self) -> Option<T> {
+        for x in self.items {
+            if x.is_some() {
+                return x;
+            }
+        }
+        None
+    }
+
+    fn last(self) -> Option<T> {
+        let mut last = None;
+        for x in self.items {
+            if x.is_some() {
+                last = x;
+            }
+        }
+        last
+    }
+}
+
 impl Iterator {
+    fn filter<T>(items: [T], f: impl Fn(&T) -> bool) -> Filtered<T> {
+        Filtered { items: items.map(|x| if f(&x) { Some(x) } else { None }) }
+    }
+
+    fn filter_map<T, U>(items: [T], f: impl Fn(T) -> Option<U>) -> Filtered<U> {
+        Filtered { items: items.map(|x| f(x)) }
+    }
+
+    fn take_while<T>(items: [T], f: impl Fn(&T) -> bool) -> Filtered<T> {
+        let mut goes_on = true;
+        let mut left = items.map(|x| Some(x));
+        for k in 0..left.len() {
+            goes_on = goes_on && f(&items[k]);
+            if !goes_on {
+                left[k] = None;
+            }
+        }
+        Filtered { items: left }
+    }
+
+    fn skip_while<T>(items: [T], f: impl Fn(&T) -> bool) -> Filtered<T> {
+        let mut skips = true;
+        let mut left = items.map(|x| Some(x));
+        for k in 0..left.len() {
+            skips = skips && f(&items[k]);
+            if skips {
+                left[k] = None;
+            }
+        }
+        Filtered { items: left }
+    }
+
+    fn min<T>(items: [T]) -> Option<T> {
+        let mut least = None;
+        for x in items {
+            least = match least {
+                None => Some(x),
+                Some(other) => Some(if x < other { x } else { other }),
+            };
+        }
+        least
+    }
+
+    fn max<T>(items: [T]) -> Option<T> {
+        let mut largest = None;
+        for x in items {
+            largest = match largest {
+                None => Some(x),
+                Some(other) => Some(if x < other { other } else { x }),
+            };
+        }
+        largest
+    }
+
+    fn reduce<T>(items: [T], f: impl Fn(T, T) -> T) -> Option<T> {
+        let mut all = None;
+        for x in items {
+            all = match all {
+                None => Some(x),
+                Some(all) => Some(f(all, x)),
+            };
+        }
+        all
+    }
+
     fn position<T>(items: [T], f: impl Fn(T) -> bool) -> Option<usize> {
         for (k, x) in items.into_iter().enumerate() {
             if f(x) {

@@ -28,10 +28,18 @@ struct Piece {
 pub fn text(files: &[File]) -> String {
     let mut mentioned: HashSet<&str> = files.iter().flat_map(|file| words(&file.text)).collect();
     let mut taken = BTreeSet::new();
+    let structures: HashSet<&str> = pieces()
+        .iter()
+        .filter(|piece| piece.text.lines().any(|line| line.starts_with("struct ")))
+        .flat_map(|piece| piece.names.iter().map(String::as_str))
+        .collect();
     loop {
         let before = taken.len();
         for (k, piece) in pieces().iter().enumerate() {
-            let asked = piece.names.iter().any(|name| mentioned.contains(name.as_str()));
+            // A structure of the library's own is made by its functions alone, or written by its name.
+            let own = words(&piece.of).find(|word| structures.contains(word));
+            let there = own.is_none_or(|name| mentioned.contains(name));
+            let asked = there && piece.names.iter().any(|name| mentioned.contains(name.as_str()));
             // What a type has to begin with has no mention by its name where it is derived.
             let derived = piece.names == ["default"] && mentioned.contains("Default");
             if (asked || derived) && taken.insert(k) {
