@@ -102,8 +102,18 @@ pub const ENTRIES: &[Entry] = &[
         number("high", &[0.6], 0.0, 4.0)
     ),
     example!("Edges and sharpening", "kernels", "convolution"),
-    example!("Edges and sharpening", "gallery", "cas", number("sharpness", &[0.8], 0.0, 1.0)),
-    example!("Edges and sharpening", "gallery", "rcas", number("stops", &[0.0], 0.0, 4.0)),
+    example!(
+        "Edges and sharpening",
+        "gallery",
+        "cas",
+        number("sharpness", &[0.8], 0.0, 1.0)
+    ),
+    example!(
+        "Edges and sharpening",
+        "gallery",
+        "rcas",
+        number("stops", &[0.0], 0.0, 4.0)
+    ),
     example!("Scaling", "kernels", "catmull_rom"; scale 2),
     example!("Scaling", "gallery", "lanczos"; scale 2),
     example!("Scaling", "gallery", "easu"; scale 2),
@@ -143,7 +153,12 @@ pub const ENTRIES: &[Entry] = &[
         number("chroma", &[1.2], 0.0, 3.0),
         number("lightness", &[1.0], 0.0, 2.0)
     ),
-    example!("Colour", "gallery", "ordered_dither", number("levels", &[3.0], 2.0, 16.0)),
+    example!(
+        "Colour",
+        "gallery",
+        "ordered_dither",
+        number("levels", &[3.0], 2.0, 16.0)
+    ),
     example!(
         "Places",
         "gallery",
@@ -171,7 +186,12 @@ pub const ENTRIES: &[Entry] = &[
         number("centre", &[-0.6, 0.0], -2.0, 2.0),
         number("scale", &[2.4], 0.001, 4.0)
     ),
-    example!("Of nothing", "gallery", "sphere_tracing", number("angle", &[0.7], 0.0, 6.3)),
+    example!(
+        "Of nothing",
+        "gallery",
+        "sphere_tracing",
+        number("angle", &[0.7], 0.0, 6.3)
+    ),
     example!(
         "Of nothing",
         "gallery",

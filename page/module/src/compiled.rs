@@ -86,7 +86,9 @@ impl Asked {
     /// As the generator takes them.
     pub fn settings(&self) -> Result<Settings, Refusal> {
         fn parsed<T: std::str::FromStr<Err = String>>(text: &Option<String>) -> Result<Option<T>, Refusal> {
-            text.as_ref().map(|text| text.parse().map_err(|why: String| Refusal::of(&why))).transpose()
+            text.as_ref()
+                .map(|text| text.parse().map_err(|why: String| Refusal::of(&why)))
+                .transpose()
         }
         let options = self.options.iter();
         Ok(Settings {
@@ -130,9 +132,10 @@ fn paper(asked: &Asked, compiled: &Compiled) -> Value {
     let alone = compiled.graph.invocation.pixels() == [1, 1];
     let entry = catalogue::builtin(&asked.kernel.id).filter(|_| alone && asked.kernel.files.is_none());
     let counts = entry.and_then(|entry| (entry.paper)(&|option| compiled.options.get(option).cloned()));
-    counts.map_or(Value::Null, |counts| {
-        json!({ "texture_reads": counts.texture_reads, "weight_evaluations": counts.weight_evaluations })
-    })
+    counts.map_or(
+        Value::Null,
+        |counts| json!({ "texture_reads": counts.texture_reads, "weight_evaluations": counts.weight_evaluations }),
+    )
 }
 
 /// One shader: its manifest and texts, and the languages that cannot have it with the reason.

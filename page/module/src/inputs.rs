@@ -126,7 +126,9 @@ pub fn planes(state: &mut State, asked: &Asked, size: [u32; 2]) -> Result<Vec<Pl
                     SampleType::Filterable => true,
                     SampleType::Unfilterable => false,
                     SampleType::Depth => return refuse("a shadow map, which only drawing can fill"),
-                    SampleType::Sint | SampleType::Uint => return refuse("a texture of integers, and the page has none"),
+                    SampleType::Sint | SampleType::Uint => {
+                        return refuse("a texture of integers, and the page has none");
+                    }
                 };
                 wanted.push(Wanted {
                     name: &binding.name,
@@ -138,7 +140,10 @@ pub fn planes(state: &mut State, asked: &Asked, size: [u32; 2]) -> Result<Vec<Pl
                 });
             }
             BindingKind::Buffer { .. } => {
-                return Err(Refusal::of(&format!("`{}` is a buffer, and the page has none to fill it with", binding.name)));
+                return Err(Refusal::of(&format!(
+                    "`{}` is a buffer, and the page has none to fill it with",
+                    binding.name
+                )));
             }
             BindingKind::Sampler { .. } | BindingKind::Uniform { .. } => {}
         }
@@ -205,6 +210,11 @@ pub fn reference(state: &mut State, samples: u32) -> Message {
     };
     Message {
         json: json!({ "width": picture.size[0], "height": picture.size[1] }),
-        bytes: picture.texels.iter().flatten().flat_map(|value| value.to_le_bytes()).collect(),
+        bytes: picture
+            .texels
+            .iter()
+            .flatten()
+            .flat_map(|value| value.to_le_bytes())
+            .collect(),
     }
 }

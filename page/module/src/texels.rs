@@ -112,7 +112,9 @@ mod tests {
     #[test]
     fn srgb_becomes_linear_light() {
         let picture = Picture::from_srgb([2, 1], &[0, 255, 188, 255, 10, 10, 10, 0]);
-        let [first, second] = picture.texels[..] else { panic!("two texels") };
+        let [first, second] = picture.texels[..] else {
+            panic!("two texels")
+        };
         assert_eq!((first[0], first[1], first[3]), (0.0, 1.0, 1.0));
         assert!((first[2] - 0.5029).abs() < 1.0e-3, "{first:?}");
         assert!((second[0] - 10.0 / 255.0 / 12.92).abs() < 1.0e-5 && second[3] == 0.0);

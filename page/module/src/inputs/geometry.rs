@@ -61,7 +61,9 @@ pub fn plane(state: &mut State, wanted: &Wanted<'_>, size: [u32; 2]) -> Option<P
 
 /// The numbers of an option that is a list.
 fn list(text: &str) -> Vec<f32> {
-    text.split(',').filter_map(|number| number.trim().parse().ok()).collect()
+    text.split(',')
+        .filter_map(|number| number.trim().parse().ok())
+        .collect()
 }
 
 /// Offsets of the geometry samples from a pixel's centre; last the centre, where that is shaded. Of kernels without a pattern
@@ -119,7 +121,10 @@ fn grid(state: &mut State, wanted: &Wanted<'_>, size: [u32; 2]) -> ([u32; 2], Ve
     let mut texels = vec![[0.0; 4]; width * columns * height * rows];
     for (k, offset) in offsets.iter().enumerate() {
         for (place, surface) in state.scene.surfaces(size, *offset).iter().enumerate() {
-            let (x, y) = (place % width * columns + k % columns, place / width * rows + k / columns);
+            let (x, y) = (
+                place % width * columns + k % columns,
+                place / width * rows + k / columns,
+            );
             texels[y * width * columns + x] = encoded(wanted, surface);
         }
     }
@@ -172,7 +177,11 @@ fn octahedral(normal: Vec3) -> Vec2 {
 
 /// How far each pixel has moved: to the side for what shows motion, and not at all for what hides it.
 fn motion(kernel: &str, size: [u32; 2]) -> Vec<[f32; 4]> {
-    let moved = if kernel == "motion_blur" { [18.0, 4.0, 0.0, 0.0] } else { [0.0; 4] };
+    let moved = if kernel == "motion_blur" {
+        [18.0, 4.0, 0.0, 0.0]
+    } else {
+        [0.0; 4]
+    };
     vec![moved; (size[0] * size[1]) as usize]
 }
 
@@ -197,7 +206,10 @@ fn low(state: &mut State, wanted: &Wanted<'_>, size: [u32; 2]) -> ([u32; 2], Vec
         let picture: std::sync::Arc<Picture> = state.scene.picture(half, 1);
         let surfaces = state.scene.surfaces(half, Vec2::ZERO);
         let texels = picture.texels.iter().zip(surfaces.iter());
-        return (half, vec![texels.map(|(colour, surface)| texel(*colour, surface)).collect()]);
+        return (
+            half,
+            vec![texels.map(|(colour, surface)| texel(*colour, surface)).collect()],
+        );
     }
     let factor = if wanted.option("factor") == "four-times" { 4 } else { 2 };
     let corners = size.map(|n| n.div_ceil(factor) + 1);

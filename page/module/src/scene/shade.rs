@@ -46,7 +46,11 @@ fn material(at: Vec3, met: &Hit) -> (Vec3, f32) {
             (if odd == 1 { base } else { base * 0.72 }, 0.02)
         }
         Material::Wall => {
-            let across = if met.normal.x.abs() > met.normal.z.abs() { at.z } else { at.x };
+            let across = if met.normal.x.abs() > met.normal.z.abs() {
+                at.z
+            } else {
+                at.x
+            };
             let (column, row) = ((across * 2.6).rem_euclid(1.0), (at.y * 1.9).rem_euclid(1.0));
             let window = (0.3..0.7).contains(&column) && (0.25..0.75).contains(&row) && met.normal.y.abs() < 0.5;
             match window {

@@ -71,8 +71,18 @@ const SOLIDS: [Solid; 12] = [
     sphere(vec3(-1.45, 0.8, 0.6), 0.8, plain(0.62, 0.06, 0.04, 0.6)),
     sphere(vec3(0.15, 0.5, -0.35), 0.5, plain(0.80, 0.48, 0.10, 0.8)),
     sphere(vec3(-0.55, 0.28, -1.15), 0.28, plain(0.04, 0.36, 0.38, 0.5)),
-    block(vec3(1.75, 0.7, 0.9), vec3(0.62, 0.7, 0.62), TURNED, plain(0.16, 0.26, 0.52, 0.1)),
-    block(vec3(1.8, 1.68, 0.95), vec3(0.36, 0.28, 0.36), ASKEW, plain(0.70, 0.66, 0.58, 0.1)),
+    block(
+        vec3(1.75, 0.7, 0.9),
+        vec3(0.62, 0.7, 0.62),
+        TURNED,
+        plain(0.16, 0.26, 0.52, 0.1),
+    ),
+    block(
+        vec3(1.8, 1.68, 0.95),
+        vec3(0.36, 0.28, 0.36),
+        ASKEW,
+        plain(0.70, 0.66, 0.58, 0.1),
+    ),
     block(vec3(-3.4, 1.9, 6.0), vec3(0.9, 1.9, 0.9), TURNED, Material::Wall),
     block(vec3(3.9, 1.3, 7.0), vec3(1.3, 1.3, 0.9), ASKEW, Material::Wall),
     block(vec3(0.0, 0.92, 3.2), vec3(5.2, 0.03, 0.02), STRAIGHT, WOOD),
@@ -137,7 +147,10 @@ fn on_block(from: Vec3, direction: Vec3, half: Vec3, [sine, cosine]: [f32; 2]) -
     let turned = |v: Vec3| vec3(cosine * v.x - sine * v.z, v.y, sine * v.x + cosine * v.z);
     let (from, direction) = (turned(from), turned(direction));
     let inverse = direction.recip();
-    let (near, far) = ((-half * direction.signum() - from) * inverse, (half * direction.signum() - from) * inverse);
+    let (near, far) = (
+        (-half * direction.signum() - from) * inverse,
+        (half * direction.signum() - from) * inverse,
+    );
     let distance = near.max_element();
     if distance > far.min_element() || distance <= LEAST {
         return None;
@@ -146,7 +159,11 @@ fn on_block(from: Vec3, direction: Vec3, half: Vec3, [sine, cosine]: [f32; 2]) -
     let mut normal = Vec3::ZERO;
     normal[axis] = -direction[axis].signum();
     // Back, by the turn the other way.
-    let normal = vec3(cosine * normal.x + sine * normal.z, normal.y, cosine * normal.z - sine * normal.x);
+    let normal = vec3(
+        cosine * normal.x + sine * normal.z,
+        normal.y,
+        cosine * normal.z - sine * normal.x,
+    );
     Some((distance, normal))
 }
 
