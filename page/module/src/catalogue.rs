@@ -17,6 +17,8 @@ pub struct Entry {
     pub uniforms: &'static [UniformRange],
     /// Width of the result over that of the picture.
     pub scale: u32,
+    /// What becomes of its loops unless the visitor says otherwise: of long marches they stay.
+    pub unroll: &'static str,
 }
 
 /// A number that is set at run time.
@@ -37,7 +39,7 @@ const fn number(name: &'static str, value: &'static [f64], min: f64, max: f64) -
 }
 
 macro_rules! example {
-    ($group:literal, $folder:literal, $name:literal $(; scale $scale:literal)? $(, $($uniform:expr),+)?) => {
+    ($group:literal, $folder:literal, $name:literal $(; scale $scale:literal)? $(; unroll $unroll:literal)? $(, $($uniform:expr),+)?) => {
         Entry {
             id: concat!($folder, "/", $name),
             group: $group,
@@ -47,6 +49,7 @@ macro_rules! example {
             )),
             uniforms: &[$($($uniform),+)?],
             scale: 1 $( * $scale)?,
+            unroll: [$($unroll,)? "full"][0],
         }
     };
 }
@@ -58,6 +61,7 @@ const fn builtin_entry(group: &'static str, id: &'static str) -> Entry {
         example: None,
         uniforms: &[],
         scale: 1,
+        unroll: "full",
     }
 }
 
@@ -182,7 +186,7 @@ pub const ENTRIES: &[Entry] = &[
     example!(
         "Of nothing",
         "gallery",
-        "mandelbrot",
+        "mandelbrot"; unroll "none",
         number("centre", &[-0.6, 0.0], -2.0, 2.0),
         number("scale", &[2.4], 0.001, 4.0)
     ),
@@ -250,7 +254,7 @@ pub fn to_json() -> Value {
         let uniforms = uniforms.map(|u| json!({ "name": u.name, "value": u.value, "min": u.min, "max": u.max }));
         json!({
             "id": entry.id, "name": entry.function(), "group": entry.group, "summary": entry.summary(),
-            "example": entry.example.map(|(path, _)| path), "scale": entry.scale,
+            "example": entry.example.map(|(path, _)| path), "scale": entry.scale, "unroll": entry.unroll,
             "uniforms": uniforms.collect::<Vec<_>>(),
         })
     });

@@ -7,7 +7,7 @@ use crate::state::State;
 use serde::Deserialize;
 use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;
-use straightline_codegen::emit::{EmitError, Emitted, Target};
+use straightline_codegen::emit::{EmitError, Target};
 use straightline_codegen::{Compiled, EmitOptions, Settings, Stage};
 
 /// A kernel: one of the catalogue, or the text that the page's visitor has made of it.
@@ -147,29 +147,39 @@ fn shader(compiled: &Compiled, asked: &ShaderAsked) -> Result<Value, Refusal> {
             .format(asked.format.parse().map_err(|why: String| Refusal::of(&why))?)
     };
     let emitted = |targets: &[Target]| compiled.emit(&options.clone().targets(targets.iter().copied()));
+    let parsed = asked.targets.iter().map(|name| name.parse());
+    let targets = parsed.collect::<Result<Vec<Target>, String>>();
+    let targets = targets.map_err(|why| Refusal::of(&why))?;
     let (mut texts, mut refused) = (Map::new(), Map::new());
-    let mut manifest = match emitted(&[]) {
-        Ok(emitted) => emitted.manifest,
-        Err(why) => {
-            let all = asked.targets.iter();
-            let all: Map<String, Value> = all.map(|target| (target.clone(), json!(said(&why)))).collect();
-            return Ok(json!({ "stage": asked.stage, "manifest": null, "texts": {}, "refused": all }));
+    let mut take = |files: BTreeMap<Target, Vec<u8>>| {
+        for (target, text) in files {
+            texts.insert(target.to_string(), json!(String::from_utf8_lossy(&text)));
         }
     };
-    for name in &asked.targets {
-        let target: Target = name.parse().map_err(|why: String| Refusal::of(&why))?;
-        match emitted(&[target]) {
-            Ok(Emitted { manifest: own, files }) => {
-                manifest.entry_points.extend(own.entry_points);
-                manifest.hashes.extend(own.hashes);
-                let text = files.into_values().next().unwrap_or_default();
-                texts.insert(name.clone(), json!(String::from_utf8_lossy(&text)));
-            }
-            Err(why) => {
-                refused.insert(name.clone(), json!(said(&why)));
-            }
+    // All at once, which is quick; one by one where a language does not have what the kernel needs.
+    let manifest = match emitted(&targets) {
+        Ok(all) => {
+            take(all.files);
+            json!(all.manifest)
         }
-    }
+        Err(_) => {
+            let mut common = emitted(&[]).ok().map(|all| all.manifest);
+            for target in &targets {
+                match (emitted(&[*target]), &mut common) {
+                    (Ok(one), Some(manifest)) => {
+                        manifest.entry_points.extend(one.manifest.entry_points);
+                        manifest.hashes.extend(one.manifest.hashes);
+                        take(one.files);
+                    }
+                    (Ok(_), None) => {}
+                    (Err(why), _) => {
+                        refused.insert(target.to_string(), json!(said(&why)));
+                    }
+                }
+            }
+            json!(common)
+        }
+    };
     Ok(json!({ "stage": asked.stage, "manifest": manifest, "texts": texts, "refused": refused }))
 }
 

@@ -10,7 +10,7 @@ use crate::state::State;
 use crate::texels::{Picture, TexelFormat};
 use serde::Deserialize;
 use serde_json::{Map, Value, json};
-use straightline_codegen::{Compiled, EmitOptions};
+use straightline_codegen::Compiled;
 use straightline_manifest::{BindingKind, Dimension, Extent, SampleType};
 
 /// For which kernel, and at which size of its result.
@@ -31,6 +31,8 @@ pub struct Plane {
     pub format: TexelFormat,
     /// Layers of rows from the top.
     pub layers: Vec<Vec<[f32; 4]>>,
+    /// Whether it is an array of layers, be it of one.
+    pub layered: bool,
     /// Whether it is the scene's geometry, which a visitor's picture does not have.
     pub geometry: bool,
 }
@@ -66,7 +68,7 @@ pub fn inputs(state: &mut State, request: &InputsRequest) -> Result<Message, Ref
         }
         textures.push(json!({
             "name": plane.name, "width": plane.size[0], "height": plane.size[1], "layers": plane.layers.len(),
-            "format": plane.format.name(), "offset": offset, "length": bytes.len() - offset,
+            "layered": plane.layered, "format": plane.format.name(), "offset": offset, "length": bytes.len() - offset,
         }));
         // Textures are aligned for views of floats.
         bytes.resize(bytes.len().next_multiple_of(8), 0);
@@ -102,8 +104,7 @@ fn uniforms(size: [u32; 2]) -> Map<String, Value> {
 /// The first texture of a kind that the page cannot fill, by name.
 pub fn planes(state: &mut State, asked: &Asked, size: [u32; 2]) -> Result<Vec<Plane>, Refusal> {
     let compiled = state.compiled(asked)?;
-    let emitted = compiled.emit(&EmitOptions::new().targets([]));
-    let manifest = emitted.map_err(|why| Refusal::of(&why.to_string()))?.manifest;
+    let manifest = state.manifest(asked)?;
     let mut wanted = Vec::new();
     for binding in &manifest.bindings {
         match &binding.kind {
@@ -198,6 +199,7 @@ fn pictured(wanted: &Wanted<'_>, picture: Picture) -> Plane {
         size: picture.size,
         format,
         layers: vec![layer],
+        layered: false,
         geometry: false,
     }
 }

@@ -6,7 +6,7 @@ use crate::errors::Refusal;
 use crate::scene::Scene;
 use crate::texels::Picture;
 use std::sync::Arc;
-use straightline_codegen::{Compiled, Kernel};
+use straightline_codegen::{Compiled, EmitOptions, Kernel, Manifest};
 
 /// Kernels and compiled forms that are kept: as many as a page shows, and one more that is being edited.
 const KEPT: usize = 6;
@@ -19,6 +19,7 @@ const MOST_PIXELS: u64 = 1 << 24;
 pub struct State {
     kernels: Vec<(KernelText, Arc<Kernel>)>,
     compiled: Vec<(Asked, Arc<Compiled>)>,
+    manifests: Vec<(Asked, Arc<Manifest>)>,
     /// The visitor's picture, if there is one.
     pub picture: Option<Picture>,
     /// The built-in scene, with what has been traced of it.
@@ -56,6 +57,17 @@ impl State {
         let compiled = Arc::new(kernel.compile(&asked.settings()?)?);
         keep(&mut self.compiled, asked.clone(), Arc::clone(&compiled));
         Ok(compiled)
+    }
+
+    /// What a kernel's compute shader binds.
+    pub fn manifest(&mut self, asked: &Asked) -> Result<Arc<Manifest>, Refusal> {
+        if let Some((_, manifest)) = self.manifests.iter().find(|(known, _)| known == asked) {
+            return Ok(Arc::clone(manifest));
+        }
+        let emitted = self.compiled(asked)?.emit(&EmitOptions::new().targets([]));
+        let manifest = Arc::new(emitted.map_err(|why| Refusal::of(&why.to_string()))?.manifest);
+        keep(&mut self.manifests, asked.clone(), Arc::clone(&manifest));
+        Ok(manifest)
     }
 
     /// Takes a picture of 8-bit sRGB and alpha, or forgets the one that is there.

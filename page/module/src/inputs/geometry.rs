@@ -55,6 +55,7 @@ pub fn plane(state: &mut State, wanted: &Wanted<'_>, size: [u32; 2]) -> Option<P
         size,
         format,
         layers,
+        layered: wanted.layered,
         geometry: true,
     })
 }
