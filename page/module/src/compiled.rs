@@ -122,6 +122,7 @@ pub fn compile(state: &mut State, request: &CompileRequest) -> Result<Value, Ref
         "values": compiled.options,
         "paper": paper(&request.asked, &compiled),
         "loops": loops.collect::<Vec<_>>(),
+        "quad": compiled.quad.is_some() || compiled.transport.is_some(),
         "pixels": compiled.graph.invocation.pixels(),
         "shaders": shaders,
     }))

@@ -204,19 +204,15 @@ fn pictured(wanted: &Wanted<'_>, picture: Picture) -> Plane {
     }
 }
 
-/// The picture that is filtered, or the scene with so many samples a pixel: four floats a pixel.
-pub fn reference(state: &mut State, samples: u32) -> Message {
+/// The picture that is filtered; or the scene, with so many samples a pixel: four floats a pixel.
+pub fn reference(state: &mut State, samples: u32, scene: bool) -> Message {
     let picture = match &state.picture {
-        Some(picture) if samples <= 1 => picture.clone(),
+        Some(picture) if !scene => picture.clone(),
         _ => Picture::clone(&state.scene.picture(scene::SIZE, samples)),
     };
+    let values = picture.texels.iter().flatten();
     Message {
         json: json!({ "width": picture.size[0], "height": picture.size[1] }),
-        bytes: picture
-            .texels
-            .iter()
-            .flatten()
-            .flat_map(|value| value.to_le_bytes())
-            .collect(),
+        bytes: values.flat_map(|value| value.to_le_bytes()).collect(),
     }
 }

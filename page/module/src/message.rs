@@ -64,8 +64,12 @@ enum Request {
     Interpret(InterpretRequest),
     /// The visitor's picture: `width` × `height` pixels of 8-bit sRGB and alpha. Of no pixels, the built-in scene again.
     Picture { width: u32, height: u32 },
-    /// The picture that is filtered, or the scene with so many samples a pixel.
-    Reference { samples: u32 },
+    /// The picture that is filtered; or the scene, with so many samples a pixel.
+    Reference {
+        samples: u32,
+        #[serde(default)]
+        scene: bool,
+    },
 }
 
 thread_local! {
@@ -100,6 +104,6 @@ fn act(state: &mut State, message: Message) -> Result<Message, Refusal> {
             state.set_picture(width, height, &message.bytes)?;
             Ok(Message::of(Value::Null))
         }
-        Request::Reference { samples } => Ok(reference(state, samples)),
+        Request::Reference { samples, scene } => Ok(reference(state, samples, scene)),
     }
 }

@@ -220,7 +220,7 @@ fn a_visitors_picture_is_filtered() {
     let wrong = ask(json!({ "do": "picture", "width": 9, "height": 4 }), &pixels).expect_err("too few bytes");
     assert!(reason(&wrong).contains("9x4"), "{wrong}");
     ask(json!({ "do": "picture", "width": 0, "height": 0 }), &[]).expect("the scene again");
-    let scene = ask(json!({ "do": "reference", "samples": 4 }), &[]).expect("the scene");
+    let scene = ask(json!({ "do": "reference", "samples": 4, "scene": true }), &[]).expect("the scene");
     assert_eq!(scene.json["width"], 480);
 }
 

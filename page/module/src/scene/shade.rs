@@ -5,9 +5,9 @@ use glam::{Vec3, vec3};
 
 /// Towards the sun, of length 1.
 const SUN: Vec3 = vec3(-0.46, 0.69, -0.559);
-const SUNLIGHT: Vec3 = vec3(1.9, 1.7, 1.4);
-const ZENITH: Vec3 = vec3(0.10, 0.24, 0.52);
-const HORIZON: Vec3 = vec3(0.62, 0.70, 0.76);
+const SUNLIGHT: Vec3 = vec3(1.75, 1.5, 1.18);
+const ZENITH: Vec3 = vec3(0.07, 0.20, 0.48);
+const HORIZON: Vec3 = vec3(0.55, 0.66, 0.76);
 
 /// The sky in a direction.
 pub fn sky(direction: Vec3) -> Vec3 {
@@ -25,14 +25,14 @@ pub fn shade(at: Vec3, direction: Vec3, met: &Hit) -> Vec3 {
         true => SUNLIGHT * towards,
         false => Vec3::ZERO,
     };
-    let around = ZENITH.lerp(HORIZON, 0.5) * (0.45 + 0.35 * normal.y) + vec3(0.05, 0.045, 0.04);
+    let around = ZENITH.lerp(HORIZON, 0.5) * (0.36 + 0.30 * normal.y) + vec3(0.05, 0.045, 0.04);
     let mirrored = direction.normalize() - 2.0 * direction.normalize().dot(normal) * normal;
     let glint = match lit {
         true => SUNLIGHT * mirrored.dot(SUN).max(0.0).powi(48) * shine,
         false => Vec3::ZERO,
     };
     let reflected = sky(mirrored) * shine * 0.18;
-    let fog = 1.0 - (-0.02 * met.distance).exp();
+    let fog = 1.0 - (-0.012 * met.distance).exp();
     (albedo * (sun + around) + glint + reflected).lerp(HORIZON, fog)
 }
 
