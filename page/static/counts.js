@@ -49,7 +49,7 @@ export function showCounts(table, right, left, paper) {
 /** Fills the table of loops, and hides it where there is none. */
 export function showLoops(details, loops) {
   details.hidden = loops.length === 0;
-  details.querySelector("summary").textContent = loops.length === 1 ? "1 loop" : `${loops.length} loops`;
+  details.querySelector("summary").textContent = loops.length === 1 ? "What became of 1 loop" : `What became of ${loops.length} loops`;
   const head = document.createElement("thead");
   const title = head.insertRow();
   for (const name of ["loop", "unroll", "iterations evaluated", "operations"]) cell(title, name, "th");

@@ -46,13 +46,21 @@ fn every_reference_leads_to_a_file_of_the_page() {
         for part in text.split("\"./").skip(1) {
             let end = part.find('"').expect("an end");
             let target = &part[..end];
-            assert!(target == MODULE || FILES.iter().any(|(known, _)| *known == target), "{name}: {target}");
+            assert!(
+                target == MODULE || FILES.iter().any(|(known, _)| *known == target),
+                "{name}: {target}"
+            );
             found += 1;
         }
     }
     assert!(found > 20, "{found}");
-    for (name, _) in FILES.iter().filter(|(name, _)| name.ends_with(".js") && *name != "worker.js" && *name != "main.js") {
-        let imported = FILES.iter().any(|(other, _)| text(other).contains(&format!("from \"./{name}\"")));
+    for (name, _) in FILES
+        .iter()
+        .filter(|(name, _)| name.ends_with(".js") && *name != "worker.js" && *name != "main.js")
+    {
+        let imported = FILES
+            .iter()
+            .any(|(other, _)| text(other).contains(&format!("from \"./{name}\"")));
         assert!(imported, "nothing imports {name}");
     }
 }
@@ -65,7 +73,10 @@ fn nothing_leads_out_of_the_page() {
             assert!(!text.contains(outside), "{name} has {outside}");
         }
     }
-    assert!(text("index.html").contains("default-src 'none'"), "the browser holds it to that");
+    assert!(
+        text("index.html").contains("default-src 'none'"),
+        "the browser holds it to that"
+    );
 }
 
 #[test]
@@ -94,8 +105,14 @@ fn the_generator_is_part_of_the_files() {
 fn what_is_not_the_generator_is_refused() {
     assert_eq!(files(Vec::new()), Err(ModuleError::NotWasm));
     assert_eq!(files(b"#!/bin/sh".to_vec()), Err(ModuleError::NotWasm));
-    assert_eq!(files(b"\0asm\x01\0\0\0".to_vec()), Err(ModuleError::NotThePages("memory")));
-    assert_eq!(files(module(&["memory", "call"])), Err(ModuleError::NotThePages("request")));
+    assert_eq!(
+        files(b"\0asm\x01\0\0\0".to_vec()),
+        Err(ModuleError::NotThePages("memory"))
+    );
+    assert_eq!(
+        files(module(&["memory", "call"])),
+        Err(ModuleError::NotThePages("request"))
+    );
     let whole = module(&["memory", "request", "call", "answered"]);
     for end in 9..whole.len() {
         assert!(files(whole[..end].to_vec()).is_err(), "cut at {end}");

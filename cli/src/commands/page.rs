@@ -19,7 +19,10 @@ pub fn run(args: &PageArgs) -> Result<(), Failure> {
     let module = files::read(&path, LARGEST)
         .map_err(|why| Failure::Failed(format!("cannot read the module `{}`: {why}", path.display())))?;
     let all = straightline_page::files(module).map_err(|why| {
-        Failure::Failed(format!("`{}` is not the page's generator: {why}; page/build makes it", path.display()))
+        Failure::Failed(format!(
+            "`{}` is not the page's generator: {why}; page/build makes it",
+            path.display()
+        ))
     })?;
     files::write_all(&args.out, &all).map_err(Failure::of)?;
     outln!("{}", args.out.join("index.html").display());
@@ -43,7 +46,14 @@ fn built() -> Result<PathBuf, Failure> {
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let status = Command::new(cargo)
         .current_dir(&root)
-        .args(["rustc", "--package", "straightline-page-module", "--lib", "--profile", "page"])
+        .args([
+            "rustc",
+            "--package",
+            "straightline-page-module",
+            "--lib",
+            "--profile",
+            "page",
+        ])
         .args(["--crate-type", "cdylib", "--target", TARGET])
         .env(RUSTFLAGS, STACK)
         .stdout(Stdio::null())
