@@ -7,7 +7,7 @@ use std::fs;
 use std::process::Command;
 
 /// The smallest module that has what the page calls.
-const MODULE: &[u8] = b"\0asm\x01\0\0\0\x07\x2a\x04\x06memory\x02\0\x07request\0\0\x04call\0\x01\x08answered\0\x02";
+const MODULE: &[u8] = b"\0asm\x01\0\0\0\x07\x26\x04\x06memory\x02\0\x07request\0\0\x04call\0\x01\x08answered\0\x02";
 
 #[test]
 fn the_whole_page_is_written() {

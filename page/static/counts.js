@@ -4,7 +4,7 @@ const ROWS = [
   ["basic blocks", (c) => c.basic_blocks],
   ["loops", (c) => c.loops],
   ["texture reads", (c) => c.texture_reads, (paper) => paper.texture_reads],
-  ["reads of color", (c) => c.colour_reads],
+  ["reads of `color`", (c) => c.colour_reads],
   ["weight evaluations", (c) => c.tallies.weight_evaluations, (paper) => paper.weight_evaluations || undefined],
   ["quad operations", (c) => c.messages],
   ["transcendental calls", (c) => c.transcendentals],
@@ -14,7 +14,7 @@ const ROWS = [
 ];
 
 /** Rows of which nothing need be said where there is none of it. */
-const RARE = new Set(["reads of color", "weight evaluations", "quad operations"]);
+const RARE = new Set(["reads of `color`", "weight evaluations", "quad operations"]);
 
 const cell = (row, text, tag = "td") => {
   const made = document.createElement(tag);
@@ -23,11 +23,11 @@ const cell = (row, text, tag = "td") => {
   row.append(made);
 };
 
-/** Fills the table: `right` and `left` are `{ name, counts, pixels }`, `left` and `paper` may be null. */
+/** Fills the table: `right` is `{ name, counts, block }`, `left` the same without a block; `left` and `paper` may be null. */
 export function showCounts(table, right, left, paper) {
   const head = document.createElement("thead");
   const title = head.insertRow();
-  const [across, down] = right.pixels;
+  const [across, down] = right.block;
   cell(title, across * down === 1 ? "per pixel" : `per ${across}×${down} pixels`, "th");
   if (left) cell(title, left.name, "th");
   cell(title, right.name, "th");

@@ -8,7 +8,7 @@ const KEYWORDS = new Set(
 const TYPES =
   /^(bool|float|half|int|uint|[fiu](8|16|32|64)|usize|[IUB]?Vec[234]|Mat[234]|vec[234][fiuh]?|[iub]?vec[234]|mat[234](x[234])?f?|(float|int|uint|half)[1234](x[1234])?|texture\w*|sampler\w*|[iu]?sampler\w+|image2D|Texture\w*|SamplerState|RWTexture\w*|array|ptr|Frame\w*|Quad|Sampler)$/;
 const TOKEN =
-  /(\/\/[^\n]*|\/\*[\s\S]*?\*\/)|(^[ \t]*#[^\n]*|@\w+(?:\([^)\n]*\))?)|(\b(?:0x[\da-f]+|\d[\d_]*\.?[\d_]*(?:e[+-]?\d+)?)\w*)|("(?:[^"\\\n]|\\.)*")|([A-Za-z_]\w*)(?=(\s*\()?)/gim;
+  /(\/\/[^\n]*|\/\*[\s\S]*?\*\/)|(^[ \t]*#[^\n]*|@\w+(?:\([^)\n]*\))?)|(\b(?:0x[\da-f]+|\d[\d_]*(?:\.(?!\.)[\d_]*)?(?:e[+-]?\d+)?)\w*)|("(?:[^"\\\n]|\\.)*")|([A-Za-z_]\w*)(?=(\s*\()?)/gim;
 
 const escape = (text) => text.replace(/[&<>]/g, (c) => ({ "&": "&amp;", "<": "&lt;", ">": "&gt;" })[c]);
 

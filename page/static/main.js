@@ -94,9 +94,16 @@ async function leftSide(right) {
   return (sides[state.left] ?? sides.picture)();
 }
 
+/** The last form that stood on the left, which need not be drawn again while only the right one changes. */
+let last = { key: "", side: null };
+
 async function formed(made, name, uniforms) {
-  const { pixels, compiled } = await drawn(made, uniforms);
-  return { pixels, name, counts: compiled.manifest.counts, pixelsEach: compiled.pixels };
+  const key = JSON.stringify([made, uniforms, state.picture, drawing.executor.name]);
+  if (key !== last.key) {
+    const { pixels, compiled } = await drawn(made, uniforms);
+    last = { key, side: { pixels, name, counts: compiled.manifest.counts } };
+  }
+  return last.side;
 }
 
 let busy = false;
@@ -119,15 +126,14 @@ async function update() {
 async function once() {
   const made = form();
   const start = performance.now();
-  let right = null;
+  let compiled = null;
   try {
-    const compiled = await drawing.compile(made);
+    compiled = await drawing.compile(made);
     const generated = performance.now() - start;
     shown.manifest = compiled.manifest;
-    showAbout(compiled, null);
     code.showErrors([]);
     await code.update();
-    right = await drawn(made, state.uniforms);
+    const right = await drawn(made, state.uniforms);
     showAbout(compiled, right);
     const left = await leftSide(right).catch((error) => ({ pixels: null, name: "", failed: error }));
     await view.show(left?.pixels ?? null, right.pixels);
@@ -135,9 +141,7 @@ async function once() {
     const name = formName();
     find("left-name").textContent = left?.pixels ? left.name : "";
     find("right-name").textContent = name;
-    const counts = { name, counts: compiled.manifest.counts, pixels: compiled.pixels };
-    showCounts(find("counts"), counts, left?.counts ? { name: left.name, counts: left.counts } : null, compiled.paper);
-    showLoops(find("loops"), compiled.loops);
+    showFigures(compiled, left?.counts ? left : null);
     find("overlay").hidden = true;
     const about = right.why ? ` ${right.why}` : "";
     find("status").textContent = left?.failed
@@ -145,9 +149,16 @@ async function once() {
       : `${size(right.pixels)}, compiled in ${time(generated)}, drawn in ${time(right.milliseconds)} by ${by(right.by)}.${about}`;
     document.body.dataset.drawn ??= String(Math.round(performance.now()));
   } catch (error) {
-    await showFailure(error, right);
+    await showFailure(error, compiled);
   }
   history.replaceState(null, "", link.write(state));
+}
+
+/** The counts of the form on the right, and of that on the left if it is one. */
+function showFigures(compiled, left) {
+  const { counts, block } = compiled.manifest;
+  showCounts(find("counts"), { name: formName(), counts, block: block ?? [1, 1] }, left, block ? null : compiled.paper);
+  showLoops(find("loops"), compiled.loops);
 }
 
 const size = ({ width, height }) => `${width} × ${height}`;
@@ -161,24 +172,20 @@ function formName() {
 }
 
 /** What went wrong: errors of the kernel below its text, all else over the picture, which stays. */
-async function showFailure(error, right) {
+async function showFailure(error, compiled) {
   if (!(error instanceof Refused)) console.error(error);
   const errors = error instanceof Refused ? error.errors : refusal(error.message).errors;
-  const compiles = shown.manifest && !errors.some((error) => error.place);
-  code.showErrors(errors);
+  // What keeps a kernel that compiles from being drawn is no error of its text.
+  code.showErrors(compiled ? [] : errors);
   await code.update().catch(() => {});
   const overlay = find("overlay");
   overlay.hidden = false;
-  overlay.textContent = compiles ? `Not drawn: ${errors[0].message}.` : "Does not compile: see the errors below the text.";
+  overlay.textContent = compiled ? `Not drawn: ${errors[0].message}.` : "Does not compile: the errors stand below the text.";
   find("status").textContent = errors.length === 1 ? errors[0].message : `${errors.length} errors`;
-  if (!right && compiles) {
-    const compiled = await drawing.compile(form()).catch(() => null);
-    if (!compiled) return;
-    await view.show(null, null);
-    const counts = { name: formName(), counts: compiled.manifest.counts, pixels: compiled.pixels };
-    showCounts(find("counts"), counts, null, compiled.paper);
-    showLoops(find("loops"), compiled.loops);
-  }
+  if (!compiled) return;
+  showAbout(compiled, null);
+  await view.show(null, null);
+  showFigures(compiled, null);
 }
 
 /** Controls are made anew only when there are others. */
@@ -188,7 +195,7 @@ function showAbout(compiled, right) {
   const live = compiled.manifest.bindings.filter((b) => b.type === "uniform").flatMap((b) => b.fields.map((f) => f.name));
   find("reset").hidden = Object.keys(state.options).length === 0;
   const names = visible(compiled.options, state.options).map(({ name }) => [name, state.options[name] === "uniform"]);
-  const key = JSON.stringify([state.entry.id, compiled.options, names, live, state.form, compiled.quad, !!right?.inputs.geometry]);
+  const key = JSON.stringify([state.entry.id, compiled.options, names, live, state.form, compiled.quad, !right]);
   if (key === controlled) return;
   controlled = key;
   const focused = document.activeElement?.dataset?.name;
@@ -291,6 +298,7 @@ async function setPicture(picture) {
   state.picture = picture?.size ?? null;
   find("scene").hidden = !state.picture;
   drawing.forget();
+  last = { key: "", side: null };
   await update();
   if (picture && state.entry && shown.right && !isShown(picture.size)) {
     find("status").textContent = `${title(state.entry)} reads depths and normals, which a picture does not have: the built-in scene stays. Choose a filter such as kuwahara.`;

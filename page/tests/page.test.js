@@ -113,6 +113,27 @@ async function choosesAndChanges(page) {
   await settled(page);
   assert.match(await text(page, "counts"), /194/, "the paper's reads for 16 samples");
   assert.match(await text(page, "command"), /--set pattern=latin16/);
+  // A slider is the same one while it moves, or a drag would end.
+  await page.$eval('[data-name="tau"]', (slider) => {
+    slider.kept = true;
+    slider.value = "900";
+    slider.dispatchEvent(new Event("input"));
+  });
+  await settled(page);
+  assert.ok(await page.$eval('[data-name="tau"]', (slider) => slider.kept));
+  assert.match(await text(page, "command"), /--set tau=900/);
+  // Left to run time, it moves without another shader.
+  await page.$eval('[data-name="tau"] ~ .toggle input', (box) => box.click());
+  await settled(page);
+  assert.match(await text(page, "command"), /--set tau=uniform/);
+  const sharp = await page.evaluate(() => [...globalThis.straightline.shown.right.data]);
+  await page.$eval('#uniforms [data-name="tau"]', (slider) => {
+    slider.value = slider.min;
+    slider.dispatchEvent(new Event("input"));
+  });
+  await settled(page);
+  const blurred = await page.evaluate(() => [...globalThis.straightline.shown.right.data]);
+  assert.notDeepEqual(blurred, sharp);
   await choose(page, "kernel", "kernels/kuwahara");
   const wgsl = () => page.$eval("#panel textarea", (area) => area.value);
   const before = await wgsl();

@@ -123,7 +123,6 @@ pub fn compile(state: &mut State, request: &CompileRequest) -> Result<Value, Ref
         "paper": paper(&request.asked, &compiled),
         "loops": loops.collect::<Vec<_>>(),
         "quad": compiled.quad.is_some() || compiled.transport.is_some(),
-        "pixels": compiled.graph.invocation.pixels(),
         "shaders": shaders,
     }))
 }
