@@ -46,15 +46,19 @@ export async function executors(generator, only) {
 
 export class Drawing {
   #generator;
-  #executors;
+  #executors = [];
+  #plain = new Map();
   #compiled = new Map();
   #inputs = new Map();
   #references = new Map();
 
+  /** `executors` is a promise: a driver takes as long to start as the generator. */
   constructor(generator, executors) {
     this.#generator = generator;
-    this.#executors = executors;
-    this.#watch();
+    this.ready = executors.then((executors) => {
+      this.#executors = executors;
+      this.#watch();
+    });
   }
 
   /** What draws first. */
@@ -89,8 +93,19 @@ export class Drawing {
     return known.get(key);
   }
 
-  /** Options, counts and the shader of a form that the executor runs. Throws `Refused`. */
-  compile({ asked, stage }) {
+  /** Begins what needs no executor. */
+  begin({ asked }, size) {
+    for (const begun of [this.#compile(asked), this.inputs(asked, size)]) begun.catch(() => {});
+  }
+
+  #compile(asked) {
+    return this.#once(this.#plain, JSON.stringify(asked), () => this.#generator.ask({ do: "compile", ...asked }));
+  }
+
+  /** Options, counts and the shader of a form that the executor runs, and how long that took. Throws `Refused`. */
+  async compile({ asked, stage }) {
+    const plain = this.#compile(asked);
+    await Promise.all([plain, this.ready]);
     const executor = this.executor;
     const first = executor.stages.includes(stage) ? stage : executor.stages[0];
     const target = executor.name === "WebGL2" ? "essl300" : "wgsl";
@@ -98,9 +113,10 @@ export class Drawing {
     // Where the stage cannot be had, counts and manifest are still those of compute.
     if (first === "fragment") shaders.push({ stage: "compute", format: FORMAT, targets: [] });
     return this.#once(this.#compiled, JSON.stringify([asked, stage, executor.name]), async () => {
-      const { json } = await this.#generator.ask({ do: "compile", ...asked, shaders });
+      const { json, milliseconds } = await this.#generator.ask({ do: "compile", ...asked, shaders });
       const [shader, other] = json.shaders;
-      return { ...json, shader, manifest: shader.manifest ?? other?.manifest };
+      const all = milliseconds + (await plain).milliseconds;
+      return { ...json, shader, manifest: shader.manifest ?? other?.manifest, milliseconds: all };
     });
   }
 

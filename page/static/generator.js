@@ -31,7 +31,7 @@ export class Generator {
     };
   }
 
-  #settle({ id, answer, stopped }) {
+  #settle({ id, answer, milliseconds, stopped }) {
     const waiting = this.#waiting.get(id);
     if (!waiting) return;
     this.#waiting.delete(id);
@@ -46,7 +46,7 @@ export class Generator {
     const json = JSON.parse(new TextDecoder().decode(answer.subarray(4, 4 + length)));
     if ("ok" in json) {
       // From a place of its own, so that floats are aligned.
-      waiting.resolve({ json: json.ok, bytes: answer.slice(4 + length) });
+      waiting.resolve({ json: json.ok, bytes: answer.slice(4 + length), milliseconds });
     } else {
       waiting.reject(new Refused(json.refused));
     }
@@ -74,7 +74,7 @@ export class Generator {
     for (const id of all) this.#settle({ id, stopped: `it took longer than ${PATIENCE / 1000} seconds` });
   }
 
-  /** Asks; gives `{ json, bytes }`, or throws `Refused`. */
+  /** Asks; gives `{ json, bytes, milliseconds }`, or throws `Refused`. */
   ask(request, bytes) {
     return this.#send(request, bytes);
   }

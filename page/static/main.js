@@ -16,10 +16,8 @@ const parameters = new URLSearchParams(location.search);
 showThemes(find("theme"));
 const generator = new Generator();
 const view = new View(find("picture"), find("canvas"));
-const [drawing, catalogue] = await Promise.all([
-  executors(generator, parameters.get("executor")).then((all) => new Drawing(generator, all)),
-  generator.ask({ do: "catalogue" }).then(({ json }) => json),
-]).catch((error) => {
+const drawing = new Drawing(generator, executors(generator, parameters.get("executor")));
+const { json: catalogue } = await generator.ask({ do: "catalogue" }).catch((error) => {
   find("status").textContent = error.message;
   throw error;
 });
@@ -63,15 +61,19 @@ function plainForm(entry) {
   return { asked: { kernel: { id: entry.id }, options: {}, unroll: entry.unroll }, stage: state.form.stage, entry };
 }
 
+/** Size of a form's result: of the visitor's picture, or of the scene. */
+function sizeOf(made, picture = state.picture) {
+  const base = picture ? [picture.width, picture.height] : catalogue.size;
+  return base.map((n) => n * made.entry.scale);
+}
+
 /** Compiles, reads and draws a form; gives all of it. */
 async function drawn(made, given) {
   const compiled = await drawing.compile(made);
-  const base = state.picture ? [state.picture.width, state.picture.height] : catalogue.size;
-  const sized = (size) => size.map((n) => n * made.entry.scale);
-  let size = sized(base);
+  let size = sizeOf(made);
   let inputs = await drawing.inputs(made.asked, size);
   if (inputs.geometry && state.picture) {
-    size = sized(catalogue.size);
+    size = sizeOf(made, null);
     inputs = await drawing.inputs(made.asked, size);
   }
   const uniforms = drawing.uniforms(compiled.manifest, inputs, made.entry.uniforms, given);
@@ -125,11 +127,10 @@ async function update() {
 
 async function once() {
   const made = form();
-  const start = performance.now();
   let compiled = null;
   try {
+    drawing.begin(made, sizeOf(made));
     compiled = await drawing.compile(made);
-    const generated = performance.now() - start;
     shown.manifest = compiled.manifest;
     code.showErrors([]);
     await code.update();
@@ -146,7 +147,7 @@ async function once() {
     const about = right.why ? ` ${right.why}` : "";
     find("status").textContent = left?.failed
       ? `The left side: ${left.failed.errors?.[0]?.message ?? left.failed.message}`
-      : `${size(right.pixels)}, compiled in ${time(generated)}, drawn in ${time(right.milliseconds)} by ${by(right.by)}.${about}`;
+      : `${size(right.pixels)}, compiled in ${time(compiled.milliseconds)}, drawn in ${time(right.milliseconds)} by ${by(right.by)}.${about}`;
     document.body.dataset.drawn ??= String(Math.round(performance.now()));
   } catch (error) {
     await showFailure(error, compiled);
@@ -347,8 +348,9 @@ find("zoom").addEventListener("change", ({ target }) => (view.zoom = target.valu
 find("scene").addEventListener("click", () => setPicture(null));
 listen(find("file"), setPicture, (message) => (find("status").textContent = message));
 showSides();
-find("executor").textContent = drawing.executor.name;
+drawing.begin(form(), sizeOf(form()));
 await choose(state.entry);
+drawing.ready.then(() => (find("executor").textContent = drawing.executor.name));
 
 /** For the console, and for the tests: what is shown, and what the interpreter makes of it. */
 globalThis.straightline = {

@@ -37,8 +37,9 @@ const ready = load(new URL("./straightline.wasm", import.meta.url));
 self.onmessage = async ({ data: { id, message } }) => {
   try {
     await ready;
+    const start = performance.now();
     const answer = call(message);
-    self.postMessage({ id, answer }, [answer.buffer]);
+    self.postMessage({ id, answer, milliseconds: performance.now() - start }, [answer.buffer]);
   } catch (error) {
     const deep = error instanceof RangeError || /call stack|out of bounds/i.test(error.message);
     self.postMessage({ id, stopped: deep ? "it is nested too deep for a browser's stack" : String(error.message) });
