@@ -3,8 +3,9 @@
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import { mkdtemp, readFile, readdir, rm } from "node:fs/promises";
-import { tmpdir } from "node:os";
+import { homedir, tmpdir } from "node:os";
 import { join } from "node:path";
+import { fileURLToPath } from "node:url";
 import { browse, open, serve, settled } from "./browser.js";
 
 const folder = process.env.STRAIGHTLINE_PAGE;
@@ -250,6 +251,13 @@ test("every kernel is drawn, or says why not", async () => {
   }
   assert.deepEqual(page.problems, []);
   await page.close();
+});
+
+test("the generator tells nothing of where it was built", async () => {
+  const module = await readFile(join(folder, "straightline.wasm"), "latin1");
+  const repository = fileURLToPath(new URL("../../", import.meta.url));
+  for (const place of [homedir(), repository]) assert.ok(!module.includes(`${place.replace(/\/$/, "")}/`), place);
+  assert.ok(module.includes("/cargo/"), "it does tell where in a crate something stopped");
 });
 
 test("it fits 400 pixels, in light and dark", async () => {

@@ -2,6 +2,7 @@
 
 use crate::args::PageArgs;
 use crate::failure::Failure;
+use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use straightline_codegen::files;
@@ -55,7 +56,7 @@ fn built() -> Result<PathBuf, Failure> {
             "page",
         ])
         .args(["--crate-type", "cdylib", "--target", TARGET])
-        .env(RUSTFLAGS, STACK)
+        .env("CARGO_ENCODED_RUSTFLAGS", flags(&root))
         .stdout(Stdio::null())
         .status()
         .map_err(|why| Failure::Failed(format!("cannot run cargo: {why}; page/build names the other ways")))?;
@@ -65,14 +66,33 @@ fn built() -> Result<PathBuf, Failure> {
              without rustup, page/build uses rust-web's"
         )));
     }
-    let target = std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root.join("target"), PathBuf::from);
+    // A relative one is taken from the root, where cargo runs.
+    let target = root.join(std::env::var_os("CARGO_TARGET_DIR").unwrap_or_else(|| "target".into()));
     Ok(target.join(TARGET).join("page").join("straightline_page_module.wasm"))
 }
 
 const TARGET: &str = "wasm32-unknown-unknown";
-const RUSTFLAGS: &str = "CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUSTFLAGS";
-/// The linker puts the stack first, so that what overflows it stops. In bytes, as in page/build.
-const STACK: &str = "-C link-arg=-zstack-size=4194304";
+
+/// Flags of the compiler, as in page/build. The linker puts the stack first, so that what overflows it stops; its size is in bytes.
+/// What is hosted tells nothing of the folders that it was built in.
+fn flags(root: &Path) -> OsString {
+    let home = |name: &str| std::env::var_os(name).map(PathBuf::from);
+    let cargo = home("CARGO_HOME").or_else(|| {
+        home("HOME")
+            .or_else(|| home("USERPROFILE"))
+            .map(|home| home.join(".cargo"))
+    });
+    let mut flags = OsString::from("-Clink-arg=-zstack-size=4194304");
+    for (folder, name) in [(cargo.as_deref(), "/cargo"), (Some(root), "/straightline")] {
+        if let Some(folder) = folder {
+            flags.push("\x1f--remap-path-prefix=");
+            flags.push(folder);
+            flags.push("=");
+            flags.push(name);
+        }
+    }
+    flags
+}
 
 /// The folder of the source checkout around the working directory.
 fn checkout() -> Option<PathBuf> {

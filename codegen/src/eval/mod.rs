@@ -151,7 +151,7 @@ const MAX_CALLS: usize = 200;
 
 /// Depth of expressions, those of the functions around them counted: WebAssembly has its host's stack, of about a megabyte, and
 /// everywhere else the stack is deep enough for all that the front end and [`MAX_CALLS`] let through.
-const MAX_EXPRESSIONS: u32 = if cfg!(target_arch = "wasm32") { 700 } else { u32::MAX };
+const MAX_EXPRESSIONS: u32 = if cfg!(target_arch = "wasm32") { 700 } else { 100_000 };
 
 struct Evaluator<'a> {
     library: &'a Library,
