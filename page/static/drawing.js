@@ -52,6 +52,9 @@ export class Drawing {
   #inputs = new Map();
   #references = new Map();
 
+  /** Called when an executor is gone, and another has taken over. */
+  lost = () => {};
+
   /** `executors` is a promise: a driver takes as long to start as the generator. */
   constructor(generator, executors) {
     this.#generator = generator;
@@ -73,6 +76,7 @@ export class Drawing {
       this.#executors = this.#executors.filter((executor) => executor !== first);
       this.#inputs.clear();
       this.#watch();
+      this.lost();
     });
   }
 

@@ -46,6 +46,7 @@ export class Editor {
   /** Shows a text; `label` is what a screen reader calls it. */
   show(text, { editable, label }) {
     this.#area.readOnly = !editable;
+    this.#area.title = editable ? "Tab indents; Escape, then Tab, leaves the text" : "";
     this.#area.ariaLabel = label;
     if (this.#area.value !== text) {
       this.#area.value = text;

@@ -152,8 +152,12 @@ async function once() {
   } catch (error) {
     await showFailure(error, compiled);
   }
-  history.replaceState(null, "", link.write(state));
+  // Browsers allow only so many changes of the address in a while.
+  clearTimeout(written);
+  written = setTimeout(() => history.replaceState(null, "", link.write(state)), 200);
 }
+let written = 0;
+addEventListener("hashchange", () => location.reload());
 
 /** The counts of the form on the right, and of that on the left if it is one. */
 function showFigures(compiled, left) {
@@ -287,7 +291,10 @@ const code = new Code({
     const branches = form.branches === "as-loops" ? "" : ` --branches ${form.branches}`;
     const block = form.block === "1x1" ? "" : ` --block ${form.block}`;
     const transport = form.transport ? ` --transport ${form.transport}` : "";
-    const file = entry.example ?? entry.id;
+    // An edited text is to be saved where it came from.
+    const [first, ...others] = state.files.map(({ path }) => path);
+    const sources = state.edited ? others.map((path) => ` --source ${path}`).join("") : "";
+    const file = state.edited ? `${first}::${entry.name}${sources}` : (entry.example ?? entry.id);
     const staged = stage === "compute" ? "" : ` --stage ${stage}`;
     return `straightline emit ${file}${set.join("")}${unroll}${branches}${block}${transport}${staged} --target ${target} --out shaders/`;
   },
@@ -350,7 +357,12 @@ listen(find("file"), setPicture, (message) => (find("status").textContent = mess
 showSides();
 drawing.begin(form(), sizeOf(form()));
 await choose(state.entry);
-drawing.ready.then(() => (find("executor").textContent = drawing.executor.name));
+const showExecutor = () => (find("executor").textContent = drawing.executor.name);
+drawing.ready.then(showExecutor);
+drawing.lost = () => {
+  showExecutor();
+  update();
+};
 
 /** For the console, and for the tests: what is shown, and what the interpreter makes of it. */
 globalThis.straightline = {

@@ -147,7 +147,7 @@ async function choosesAndChanges(page) {
   await settled(page);
   assert.equal(await page.$eval('[data-name="radius"]', (slider) => slider.value), "5");
   assert.ok((await wgsl()).length > before.length, "a larger radius has more statements");
-  assert.match(await page.evaluate(() => location.hash), /set-radius=5/);
+  await page.waitForFunction(() => location.hash.includes("set-radius=5"), { timeout: 2000 });
   // Looped against unrolled, with counts for both.
   await choose(page, "left", "looped");
   assert.match(await text(page, "counts"), /looped/);
@@ -193,6 +193,36 @@ async function breaksAndMends(page) {
   await settled(page);
   assert.doesNotMatch(await text(page, "right-name"), /edited/);
 }
+
+test("what is nested too deep for a browser is an error, and no end of it", async () => {
+  const page = await open(browser, server.url, { hash: "#kernel=kernels/sobel" });
+  await page.click("#tab-kernel");
+  await settled(page);
+  const write = (expression, depth) =>
+    page.$eval(
+      "#panel textarea",
+      (area, text) => {
+        area.value = text;
+        area.dispatchEvent(new Event("input"));
+      },
+      `fn f(n: i32, c: f32) -> f32 { if n == 0 { c } else { ${"{ let y = (".repeat(depth)}f(n - 1, c)${"); y }".repeat(depth)} } }
+pub fn sobel(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 { let c = color.load(pixel).x; Vec4::splat(${expression}) }`,
+    );
+  for (const [expression, depth, says] of [
+    ["f(150, c)", 50, /nested more than 700 deep/],
+    [`${"(c + ".repeat(127)}c${")".repeat(127)}`, 1, /nested more than 128 deep/],
+    [`${"(".repeat(5000)}c${")".repeat(5000)}`, 1, /nested more than 200 deep/],
+  ]) {
+    await write(expression, depth);
+    await settled(page);
+    assert.match(await text(page, "errors"), says);
+  }
+  await write("f(20, c) + 0.25", 5);
+  await settled(page);
+  assert.match(await text(page, "status"), /by WebGPU/);
+  assert.deepEqual(page.problems, []);
+  await page.close();
+});
 
 async function drops(page) {
   await page.evaluate(async () => {
