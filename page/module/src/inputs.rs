@@ -63,6 +63,8 @@ pub fn inputs(state: &mut State, request: &InputsRequest) -> Result<Message, Ref
     let (mut bytes, mut textures) = (Vec::new(), Vec::new());
     for plane in &planes {
         let offset = bytes.len();
+        let texels: usize = plane.layers.iter().map(Vec::len).sum();
+        bytes.reserve(texels * plane.format.size() + 8);
         for texel in plane.layers.iter().flatten() {
             plane.format.put(*texel, &mut bytes);
         }

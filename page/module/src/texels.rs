@@ -81,6 +81,11 @@ impl TexelFormat {
         }
     }
 
+    /// Bytes of a texel.
+    pub fn size(self) -> usize {
+        self.components() * if self.is_half() { 2 } else { 4 }
+    }
+
     fn is_half(self) -> bool {
         !matches!(self, TexelFormat::R32 | TexelFormat::Rgba32)
     }

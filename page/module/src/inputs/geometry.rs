@@ -21,6 +21,7 @@ pub fn is(wanted: &Wanted<'_>) -> bool {
 pub fn plane(state: &mut State, wanted: &Wanted<'_>, size: [u32; 2]) -> Option<Plane> {
     let base = if wanted.framed { size } else { scene::SIZE };
     let kernel = wanted.compiled.kernel.as_str();
+    let encoding = Encoding::of(wanted);
     let (size, layers) = match wanted.name {
         "low" | "low_depth" | "low_surface" => low(state, wanted, size),
         "velocities" | "most" => (base, vec![motion(kernel, base)]),
@@ -29,7 +30,7 @@ pub fn plane(state: &mut State, wanted: &Wanted<'_>, size: [u32; 2]) -> Option<P
         name if is(wanted) => {
             let at = |offset: Vec2, state: &mut State| -> Vec<[f32; 4]> {
                 let surfaces = state.scene.surfaces(base, offset);
-                surfaces.iter().map(|surface| encoded(wanted, surface)).collect()
+                surfaces.iter().map(|surface| encoding.texel(surface)).collect()
             };
             match (wanted.layered, name.ends_with("_grid")) {
                 (true, _) => {
@@ -115,6 +116,7 @@ fn colours(size: [u32; 2], offset: Vec2) -> Vec<[f32; 4]> {
 
 /// All samples of a pixel side by side: sample s of c columns at column s % c and row s / c.
 fn grid(state: &mut State, wanted: &Wanted<'_>, size: [u32; 2]) -> ([u32; 2], Vec<Vec<[f32; 4]>>) {
+    let encoding = Encoding::of(wanted);
     let offsets = samples(wanted);
     let columns = (1..).find(|n| n * n >= offsets.len()).unwrap_or(1);
     let rows = offsets.len().div_ceil(columns);
@@ -126,44 +128,74 @@ fn grid(state: &mut State, wanted: &Wanted<'_>, size: [u32; 2]) -> ([u32; 2], Ve
                 place % width * columns + k % columns,
                 place / width * rows + k / columns,
             );
-            texels[y * width * columns + x] = encoded(wanted, surface);
+            texels[y * width * columns + x] = encoding.texel(surface);
         }
     }
     ([(width * columns) as u32, (height * rows) as u32], vec![texels])
 }
 
-/// A surface as the texture holds it.
-fn encoded(wanted: &Wanted<'_>, surface: &Surface) -> [f32; 4] {
-    let depth = stored_depth(wanted.option("depth"), surface.depth);
-    let name = wanted.name;
-    if name.contains("depth") {
-        return [depth, 0.0, 0.0, 0.0];
-    }
-    let [x, y, z] = surface.normal.to_array();
-    let half = |v: f32| 0.5 + 0.5 * v;
-    match wanted.option("normals") {
-        "packed" => {
-            let folded = octahedral(surface.normal);
-            [folded.x, folded.y, depth, 0.0]
-        }
-        "octahedral" => {
-            let folded = octahedral(surface.normal);
-            [half(folded.x), half(folded.y), 0.0, 0.0]
-        }
-        "unorm" => [half(x), half(y), half(z), 0.0],
-        _ => [x, y, z, 0.0],
-    }
+/// How a texture holds a surface, found once: there are a million of them.
+#[derive(Clone, Copy)]
+struct Encoding {
+    /// Of depths: factor and summand of the nearness, near plane over depth; `None` of depths as they are.
+    depth: Option<[f32; 2]>,
+    holds: Holds,
 }
 
-/// A depth in the encoding that an option names.
-fn stored_depth(encoding: &str, depth: f32) -> f32 {
-    let nearness = NEAR / depth;
-    let share = NEAR / FAR;
-    match encoding {
-        "perspective" => (1.0 - nearness) / (1.0 - share),
-        "reversed" | "projected" => (nearness - share) / (1.0 - share),
-        "reversed-infinite" => nearness,
-        _ => depth,
+/// What a texel holds.
+#[derive(Clone, Copy)]
+enum Holds {
+    Depth,
+    Normal,
+    /// A normal as 0.5 + 0.5 n.
+    Unorm,
+    Octahedral,
+    /// An octahedral normal, and the depth.
+    Packed,
+}
+
+impl Encoding {
+    /// As the kernel's options say.
+    fn of(wanted: &Wanted<'_>) -> Encoding {
+        let share = NEAR / FAR;
+        let scale = 1.0 / (1.0 - share);
+        let depth = match wanted.option("depth") {
+            "perspective" => Some([-scale, scale]),
+            "reversed" | "projected" => Some([scale, -share * scale]),
+            "reversed-infinite" => Some([1.0, 0.0]),
+            _ => None,
+        };
+        let holds = match wanted.option("normals") {
+            _ if wanted.name.contains("depth") => Holds::Depth,
+            "packed" => Holds::Packed,
+            "octahedral" => Holds::Octahedral,
+            "unorm" => Holds::Unorm,
+            _ => Holds::Normal,
+        };
+        Encoding { depth, holds }
+    }
+
+    /// A surface's texel.
+    fn texel(self, surface: &Surface) -> [f32; 4] {
+        let depth = match self.depth {
+            None => surface.depth,
+            Some([factor, summand]) => NEAR / surface.depth * factor + summand,
+        };
+        let half = |v: f32| 0.5 + 0.5 * v;
+        let normal = surface.normal;
+        match self.holds {
+            Holds::Depth => [depth, 0.0, 0.0, 0.0],
+            Holds::Normal => [normal.x, normal.y, normal.z, 0.0],
+            Holds::Unorm => [half(normal.x), half(normal.y), half(normal.z), 0.0],
+            Holds::Octahedral => {
+                let folded = octahedral(normal);
+                [half(folded.x), half(folded.y), 0.0, 0.0]
+            }
+            Holds::Packed => {
+                let folded = octahedral(normal);
+                [folded.x, folded.y, depth, 0.0]
+            }
+        }
     }
 }
 

@@ -118,19 +118,33 @@ pub fn hit(from: Vec3, direction: Vec3, farthest: f32) -> Option<Hit> {
     for solid in &SOLIDS {
         let found = match &solid.shape {
             Shape::Sphere(centre, radius) => on_sphere(from - *centre, direction, *radius),
-            Shape::Block(centre, half, turn) => on_block(from - *centre, direction, *half, *turn),
+            Shape::Block(centre, half, turn) => match passes(from - *centre, direction, *half) {
+                true => None,
+                false => on_block(from - *centre, direction, *half, *turn),
+            },
             Shape::Wire(start, end, radius) => on_wire(from, direction, *start, *end, *radius),
         };
         offer(found, solid.material);
     }
     let all = vec3(BARS as f32 * BAR_STEP + BAR.x, BAR.y, BAR.z);
-    if on_block(from - FENCE, direction, all, STRAIGHT).is_some() {
-        for k in -BARS..=BARS {
-            let bar = FENCE + vec3(k as f32 * BAR_STEP, 0.0, 0.0);
-            offer(on_block(from - bar, direction, BAR, STRAIGHT), WOOD);
+    if let Some((distance, _)) = on_block(from - FENCE, direction, all, STRAIGHT) {
+        // The fence is thin: a ray that enters it meets the nearest bar, one of those beside it, or none.
+        let across = (from.x + direction.x * distance - FENCE.x) / BAR_STEP;
+        for k in [-1.0, 0.0, 1.0] {
+            let index = across.round() + k;
+            let bar = FENCE + vec3(index * BAR_STEP, 0.0, 0.0);
+            if index.abs() <= BARS as f32 && !passes(from - bar, direction, BAR) {
+                offer(on_block(from - bar, direction, BAR, STRAIGHT), WOOD);
+            }
         }
     }
     nearest
+}
+
+/// Whether a ray passes by the sphere around a block, which is quickly told.
+fn passes(from: Vec3, direction: Vec3, half: Vec3) -> bool {
+    let (a, b) = (direction.length_squared(), from.dot(direction));
+    b * b < a * (from.length_squared() - half.length_squared())
 }
 
 /// Nothing nearer than this is met: a ray that begins on a surface leaves it.
