@@ -4,7 +4,7 @@ const ROWS = [
   ["basic blocks", (c) => c.basic_blocks],
   ["loops", (c) => c.loops],
   ["texture reads", (c) => c.texture_reads, (paper) => paper.texture_reads],
-  ["reads of `color`", (c) => c.colour_reads],
+  ["reads of color", (c) => c.colour_reads],
   ["weight evaluations", (c) => c.tallies.weight_evaluations, (paper) => paper.weight_evaluations || undefined],
   ["quad operations", (c) => c.messages],
   ["transcendental calls", (c) => c.transcendentals],
@@ -14,7 +14,7 @@ const ROWS = [
 ];
 
 /** Rows of which nothing need be said where there is none of it. */
-const RARE = new Set(["reads of `color`", "weight evaluations", "quad operations"]);
+const RARE = new Set(["reads of color", "weight evaluations", "quad operations"]);
 
 const cell = (row, text, tag = "td") => {
   const made = document.createElement(tag);
