@@ -42,6 +42,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         Command::Quads(args) => commands::quads::run(&args),
         Command::Study(args) => commands::study::run(&args),
         Command::Tune(args) => commands::tune::run(&args),
+        Command::Page(args) => commands::page::run(&args),
         Command::Resolve(args) => commands::resolve::run(&args),
         Command::Capture(args) => commands::capture::run(&args),
         Command::Scenes(args) => commands::scenes::run(&args),

@@ -179,6 +179,16 @@ impl Kernel {
         Ok(self)
     }
 
+    /// The same kernel with the text of a further file that it calls functions of. `path` is only shown.
+    pub fn with_text(mut self, path: &str, text: &str) -> Kernel {
+        Arc::make_mut(&mut self.files).push(File {
+            path: path.to_owned(),
+            text: text.to_owned(),
+        });
+        self.library = OnceLock::new();
+        self
+    }
+
     /// What a command line or a `build.rs` calls a kernel: a built-in name, `FILE.rs` or `FILE.rs::FUNCTION`.
     pub fn locate(text: &str) -> Result<Kernel, Errors> {
         match text.split_once(".rs::") {
@@ -395,7 +405,9 @@ fn first_sentence(docs: &str) -> String {
 }
 
 /// Runs on a stack that is deep enough for every nesting that the front end lets through.
+#[cfg(not(target_arch = "wasm32"))]
 fn deep<T: Send>(work: impl FnOnce() -> Result<T, Errors> + Send) -> Result<T, Errors> {
+    const STACK: usize = 256 << 20;
     std::thread::scope(|scope| {
         let thread = std::thread::Builder::new().stack_size(STACK).spawn_scoped(scope, work);
         match thread {
@@ -405,4 +417,9 @@ fn deep<T: Send>(work: impl FnOnce() -> Result<T, Errors> + Send) -> Result<T, E
     })
 }
 
-const STACK: usize = 256 << 20;
+/// Runs on the host's stack: WebAssembly has no threads of its own, and the front end lets less nesting through there
+/// (`front/depth.rs`).
+#[cfg(target_arch = "wasm32")]
+fn deep<T: Send>(work: impl FnOnce() -> Result<T, Errors> + Send) -> Result<T, Errors> {
+    work()
+}

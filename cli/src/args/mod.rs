@@ -45,6 +45,8 @@ pub enum Command {
     Study(StudyArgs),
     /// Find and emit the cheapest SRAA shader that a scene needs, within a budget of error
     Tune(TuneArgs),
+    /// Write the web page in which kernels are chosen, edited and seen
+    Page(PageArgs),
     /// Antialias a captured frame
     Resolve(ResolveArgs),
     /// Render a scene or a model to a capture: the frame that `resolve` reads
@@ -269,6 +271,16 @@ pub struct RunArgs {
     pub stage: StageArg,
     #[command(flatten)]
     pub adapter: AdapterArgs,
+}
+
+#[derive(Debug, Args)]
+pub struct PageArgs {
+    /// Folder to write to; made if it is not there. A static host serves it as it is
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
+    /// The generator as WebAssembly, as page/build makes it; without one, it is built from the source checkout around
+    #[arg(long, value_name = "FILE.wasm")]
+    pub module: Option<PathBuf>,
 }
 
 #[derive(Debug, Args)]

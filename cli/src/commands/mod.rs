@@ -7,6 +7,7 @@ pub mod demo;
 pub mod emit;
 pub mod explain;
 pub mod list;
+pub mod page;
 pub mod quads;
 pub mod resolve;
 pub mod run;

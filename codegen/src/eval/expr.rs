@@ -3,7 +3,7 @@
 use super::departures::Tail;
 use super::enums::Choice;
 use super::value::{Eval, Exit, Step, Value, Way};
-use super::{Evaluator, MAX_PARTS};
+use super::{Evaluator, MAX_EXPRESSIONS, MAX_PARTS};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::front::tree::{Expr, ExprKind, IntType};
 use crate::ir::{BinaryOp, NodeId, Op, Scalar, Type};
@@ -17,6 +17,18 @@ impl Evaluator<'_> {
 
     pub fn expr(&mut self, expr: &Expr) -> Eval {
         self.step(expr.span)?;
+        if self.depth >= MAX_EXPRESSIONS {
+            let what = format!("calls and expressions are nested more than {MAX_EXPRESSIONS} deep");
+            let error = Diagnostic::at(expr.span, what).label("reached here");
+            return Err(error.help("the command line goes deeper than a browser can").into());
+        }
+        self.depth += 1;
+        let value = self.evaluated(expr);
+        self.depth -= 1;
+        value
+    }
+
+    fn evaluated(&mut self, expr: &Expr) -> Eval {
         let span = expr.span;
         match &expr.kind {
             ExprKind::Int(n, None | Some(IntType::Usize)) => Ok(Value::Int(*n)),

@@ -150,6 +150,10 @@ const MAX_NAMED: usize = 1024;
 /// Depth of calls after which a recursion is taken not to end.
 const MAX_CALLS: usize = 200;
 
+/// Depth of expressions, those of the functions around them counted: WebAssembly has its host's stack, of about a megabyte, and
+/// everywhere else the stack is deep enough for all that the front end and [`MAX_CALLS`] let through.
+const MAX_EXPRESSIONS: u32 = if cfg!(target_arch = "wasm32") { 700 } else { 100_000 };
+
 struct Evaluator<'a> {
     library: &'a Library,
     builder: Builder<'a>,
@@ -175,6 +179,8 @@ struct Evaluator<'a> {
     /// Types of the elements of buffers, by buffer.
     elements: Vec<crate::front::tree::Type>,
     steps: u64,
+    /// Expressions that are being evaluated, one inside of the other.
+    depth: u32,
     /// Who has left the blocks that are being evaluated, first to last.
     departed: Vec<departures::Departure>,
     /// Loops around that are left in the shader.
@@ -207,6 +213,7 @@ impl<'a> Evaluator<'a> {
             in_phase: false,
             elements: Vec::new(),
             steps: 0,
+            depth: 0,
             departed: Vec::new(),
             kept_loops: 0,
             writing: false,

@@ -1,0 +1,102 @@
+//! `page`: the web page.
+
+use crate::args::PageArgs;
+use crate::failure::Failure;
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use straightline_codegen::files;
+
+/// Most bytes of a module.
+const LARGEST: u64 = 1 << 28;
+
+/// Writes the page's files, or none of them.
+pub fn run(args: &PageArgs) -> Result<(), Failure> {
+    files::try_folder(&args.out).map_err(Failure::of)?;
+    let path = match &args.module {
+        Some(path) => path.clone(),
+        None => built()?,
+    };
+    let module = files::read(&path, LARGEST)
+        .map_err(|why| Failure::Failed(format!("cannot read the module `{}`: {why}", path.display())))?;
+    let all = straightline_page::files(module).map_err(|why| {
+        Failure::Failed(format!(
+            "`{}` is not the page's generator: {why}; page/build makes it",
+            path.display()
+        ))
+    })?;
+    files::write_all(&args.out, &all).map_err(Failure::of)?;
+    outln!("{}", args.out.join("index.html").display());
+    errln!(
+        "note: browsers open it from a server, not from a file: python3 -m http.server --directory {}",
+        args.out.display()
+    );
+    Ok(())
+}
+
+/// The generator, built by cargo from the source checkout that the command runs in.
+fn built() -> Result<PathBuf, Failure> {
+    let root = checkout().ok_or_else(|| {
+        Failure::Failed(
+            "the page needs the generator as WebAssembly, and this is no checkout of Straightline's source to build it from: run it in one, \
+             or give a module that page/build has made, --module straightline.wasm"
+                .to_owned(),
+        )
+    })?;
+    errln!("note: building the generator for wasm32-unknown-unknown, which takes some minutes the first time");
+    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    let status = Command::new(cargo)
+        .current_dir(&root)
+        .args([
+            "rustc",
+            "--package",
+            "straightline-page-module",
+            "--lib",
+            "--profile",
+            "page",
+        ])
+        .args(["--crate-type", "cdylib", "--target", TARGET])
+        .env("CARGO_ENCODED_RUSTFLAGS", flags(&root))
+        .stdout(Stdio::null())
+        .status()
+        .map_err(|why| Failure::Failed(format!("cannot run cargo: {why}; page/build names the other ways")))?;
+    if !status.success() {
+        return Err(Failure::Failed(format!(
+            "the generator was not built for {TARGET} (above cargo says why). If the target is missing: rustup target add {TARGET}; on Debian \
+             without rustup, page/build uses rust-web's"
+        )));
+    }
+    // A relative one is taken from the root, where cargo runs.
+    let target = root.join(std::env::var_os("CARGO_TARGET_DIR").unwrap_or_else(|| "target".into()));
+    Ok(target.join(TARGET).join("page").join("straightline_page_module.wasm"))
+}
+
+const TARGET: &str = "wasm32-unknown-unknown";
+
+/// Flags of the compiler, as in page/build. The linker puts the stack first, so that what overflows it stops; its size is in bytes.
+/// What is hosted tells nothing of the folders that it was built in.
+fn flags(root: &Path) -> OsString {
+    let home = |name: &str| std::env::var_os(name).map(PathBuf::from);
+    let cargo = home("CARGO_HOME").or_else(|| {
+        home("HOME")
+            .or_else(|| home("USERPROFILE"))
+            .map(|home| home.join(".cargo"))
+    });
+    let mut flags = OsString::from("-Clink-arg=-zstack-size=4194304");
+    for (folder, name) in [(cargo.as_deref(), "/cargo"), (Some(root), "/straightline")] {
+        if let Some(folder) = folder {
+            flags.push("\x1f--remap-path-prefix=");
+            flags.push(folder);
+            flags.push("=");
+            flags.push(name);
+        }
+    }
+    flags
+}
+
+/// The folder of the source checkout around the working directory.
+fn checkout() -> Option<PathBuf> {
+    let here = std::env::current_dir().ok()?;
+    let is_root = |folder: &&Path| folder.join("page/module/Cargo.toml").is_file();
+    here.ancestors().find(is_root).map(Path::to_owned)
+}
