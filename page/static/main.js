@@ -128,6 +128,8 @@ async function update() {
 async function once() {
   const made = form();
   let compiled = null;
+  // Also where a value that an address names is none: this is the way back.
+  find("reset").hidden = Object.keys(state.options).length === 0;
   try {
     drawing.begin(made, sizeOf(made));
     compiled = await drawing.compile(made);
@@ -198,7 +200,6 @@ let controlled = "";
 
 function showAbout(compiled, right) {
   const live = compiled.manifest.bindings.filter((b) => b.type === "uniform").flatMap((b) => b.fields.map((f) => f.name));
-  find("reset").hidden = Object.keys(state.options).length === 0;
   const names = visible(compiled.options, state.options).map(({ name }) => [name, state.options[name] === "uniform"]);
   const key = JSON.stringify([state.entry.id, compiled.options, names, live, state.form, compiled.quad, !right]);
   if (key === controlled) return;

@@ -283,6 +283,21 @@ test("every kernel is drawn, or says why not", async () => {
   await page.close();
 });
 
+test("a link shows the same, and one with a mistake can be left", async () => {
+  const hash = "#kernel=kernels/kuwahara&unroll=none&set-radius=2&left=kernel:kernels/median";
+  const page = await open(browser, server.url, { hash });
+  assert.equal(await text(page, "right-name"), "kuwahara, looped");
+  assert.equal(await text(page, "left-name"), "median");
+  assert.match(await text(page, "command"), /--set radius=2 --unroll none/);
+  await page.close();
+  const wrong = await open(browser, server.url, { hash: "#kernel=sraa&set-pattern=round" });
+  assert.match(await text(wrong, "errors"), /`round` is not a value/);
+  await wrong.click("#reset");
+  await settled(wrong);
+  assert.match(await text(wrong, "status"), /by WebGPU\.$/);
+  await wrong.close();
+});
+
 test("the generator tells nothing of where it was built", async () => {
   const module = await readFile(join(folder, "straightline.wasm"), "latin1");
   const repository = fileURLToPath(new URL("../../", import.meta.url));
