@@ -249,7 +249,9 @@ fn native_scan() -> Given {
 }
 
 /// Name, text, what rustc makes of it.
-const KERNELS: [(&str, &str, fn() -> Given); 4] = [
+type Case = (&'static str, &'static str, fn() -> Given);
+
+const KERNELS: [Case; 4] = [
     ("histogram", HISTOGRAM, native_histogram),
     ("blur", BLUR, native_blur),
     ("reduction", REDUCTION, native_reduction),
@@ -391,9 +393,9 @@ fn races_are_found_where_they_happen() {
         group.each(|t| a.load(t.index))
     }";
     let found = interpret::<f32>(&compiled("race", race, &Settings::default()), &inputs(), false);
-    let error = found.err().expect("a race").to_string();
+    let Err(error) = found else { panic!("a race") };
     assert_eq!(
-        error,
+        error.to_string(),
         "`race`: threads [0, 1] of the workgroup at [0, 0] both use `a[1]` in one phase, and one of them writes it"
     );
     let same = "pub fn same(color: &Frame<Vec4>, any: &Shared<[u32; 1]>, group: &Workgroup<4, 4>) -> PerThread<u32> {
