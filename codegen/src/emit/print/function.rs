@@ -35,7 +35,9 @@ impl Glsl<'_> {
     pub(super) fn taking(&self) -> String {
         let r = self.resources;
         let mut all = Vec::new();
-        if self.vulkan() {
+        if r.options.calls_host() {
+            // The host's functions read its textures.
+        } else if self.vulkan() {
             for bound in &r.read {
                 let texture = r.texture(bound.index);
                 all.push(format!("{} {}", glsl::texture_type(texture), texture.name));
@@ -69,6 +71,8 @@ impl Hlsl<'_> {
         let varyings = r.varyings.iter().map(|v| hlsl::declared(&v.name, v.ty.into()));
         let uniforms = r.uniforms.iter().map(|u| hlsl::declared(&loose(&u.name), u.ty.into()));
         let bound = textures.chain(buffers).chain(samplers);
+        // Where the host's functions read textures, none is given.
+        let bound = bound.filter(|_| !r.options.calls_host());
         let all = bound
             .chain(["float2 position".to_owned()])
             .chain(varyings)
