@@ -265,7 +265,7 @@ pub fn uniforms(manifest: &Manifest, options: &[OptionInfo]) -> (Vec<UniformCont
         let [min, max] = range.map(|bound| bound.map(|bound| spelling::number(bound, kind)));
         UniformContext {
             name: field.name.clone(),
-            docs: option.map(|option| option.docs.clone()).unwrap_or_default(),
+            docs: option.map(|option| one_line(&option.docs)).unwrap_or_default(),
             wgsl: field.ty.clone(),
             glsl: spelling::glsl(&field.ty),
             hlsl: spelling::hlsl(&field.ty),
@@ -363,4 +363,9 @@ pub fn shader(text: String, manifest: &Manifest) -> ShaderContext {
         workgroup: manifest.workgroup_size,
         manifest: serde_json::to_value(manifest).unwrap_or_default(),
     }
+}
+
+/// A text without its line breaks.
+fn one_line(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
