@@ -1,5 +1,5 @@
 import * as THREE from "three";
-import { EffectComposer, EffectPass, TextureEffect, CopyPass, BlendFunction } from "postprocessing";
+import { EffectComposer, EffectPass, TextureEffect, BlendFunction } from "postprocessing";
 import { textureOf } from "./three-webgl.js";
 import { turned } from "./rows.js";
 
@@ -18,11 +18,9 @@ export async function run({ module, className, picture, inputs, layered, uniform
     for (const [name, texture] of Object.entries(textures)) if (name !== picture) effect.uniforms.get(name).value = texture;
     for (const [name, value] of Object.entries(uniforms)) effect.uniforms.get(name).value = value;
     composer.addPass(new EffectPass(camera, effect));
-    const target = new THREE.WebGLRenderTarget(width, height, { type: THREE.FloatType });
-    const copy = new CopyPass(target);
-    composer.addPass(copy);
     composer.render();
+    // Two passes: the second one wrote to the first one's input.
     const rgba = new Float32Array(4 * width * height);
-    renderer.readRenderTargetPixels(target, 0, 0, width, height, rgba);
+    renderer.readRenderTargetPixels(composer.inputBuffer, 0, 0, width, height, rgba);
     return turned(rgba, width, height);
 }

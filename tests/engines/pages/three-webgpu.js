@@ -2,7 +2,7 @@ import * as THREE from "three/webgpu";
 import { texture } from "three/tsl";
 import { stacked } from "./rows.js";
 
-export async function run({ modules, functionName, inputs, layered, uniforms, width, height }) {
+export async function run({ modules, functionName, filtered, inputs, layered, uniforms, width, height }) {
     const { [functionName]: filter } = await import(modules.node);
     const renderer = new THREE.WebGPURenderer();
     await renderer.init();
@@ -16,6 +16,7 @@ export async function run({ modules, functionName, inputs, layered, uniforms, wi
             : new THREE.DataTexture(texels, width, height);
         made.type = THREE.FloatType;
         made.format = THREE.RGBAFormat;
+        if (name === filtered) made.minFilter = made.magFilter = THREE.LinearFilter;
         made.needsUpdate = true;
         nodes[name] = texture(made);
     }

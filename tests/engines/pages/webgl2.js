@@ -3,6 +3,8 @@ import { stacked, turned } from "./rows.js";
 export async function run({ module, inputs, layered, uniforms, width, height }) {
     const gl = document.createElement("canvas").getContext("webgl2");
     if (!gl.getExtension("EXT_color_buffer_float")) throw new Error("no targets of floats");
+    // Textures of floats can be filtered.
+    gl.getExtension("OES_texture_float_linear");
     const { create } = await import(module);
     const filter = create(gl);
     const textures = {};

@@ -1,7 +1,7 @@
 export async function run({ module, inputs, layered, uniforms, width, height }) {
     const adapter = await navigator.gpu.requestAdapter();
     if (!adapter) throw new Error("no WebGPU adapter");
-    const device = await adapter.requestDevice();
+    const device = await adapter.requestDevice({ requiredFeatures: ["float32-filterable"] });
     const errors = [];
     device.onuncapturederror = ({ error }) => errors.push(error.message);
     const { create } = await import(module);

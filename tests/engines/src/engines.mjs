@@ -1,7 +1,8 @@
 // How each engine is run: what is emitted is given to the engine itself, and its pixels are read back.
 
 import { execFileSync } from "node:child_process";
-import { readdirSync, readFileSync, writeFileSync } from "node:fs";
+import { appendFileSync, readdirSync, readFileSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { PNG } from "pngjs";
 import { HEIGHT, WIDTH, inputs } from "./kernels.mjs";
@@ -17,6 +18,8 @@ function page(name, files) {
             className,
             functionName,
             picture,
+            // The texture that the kernel reads through a sampler.
+            filtered: kernel.filtered,
             layered: Object.keys(layers).filter((key) => layers[key].length > 1),
             inputs: Object.fromEntries(Object.entries(layers).map(([key, each]) => [key, each.map((_, k) => `/inputs/${kernel.name}-${key}-${k}.f32`)])),
             uniforms: kernel.uniforms,
@@ -46,8 +49,10 @@ function png(rgba) {
     return made;
 }
 
-function run(program, args, environment = {}) {
-    execFileSync(program, args, { stdio: ["ignore", "pipe", "pipe"], env: { ...process.env, ...environment } });
+function run(program, args) {
+    // Drivers complain where it is not set.
+    const env = { XDG_RUNTIME_DIR: tmpdir(), ...process.env };
+    execFileSync(program, args, { stdio: ["ignore", "pipe", "pipe"], env });
 }
 
 /** The file of a folder that ends so. */
@@ -57,24 +62,32 @@ function ending(folder, end) {
     return join(folder, found);
 }
 
-const ffmpeg = withPng(({ kernel, folder }, from, to) => {
-    // libplacebo sees the picture as it is: no dithering, no change of its gamma or its primaries.
-    const placebo = `libplacebo=custom_shader_path=${ending(folder, ".glsl")}:dithering=none:format=gbrp`;
-    run("ffmpeg", ["-hide_banner", "-loglevel", "error", "-y", "-init_hw_device", "vulkan", "-i", from,
-        "-vf", `format=gbrp,${placebo},format=rgba`, to], { XDG_RUNTIME_DIR: "/tmp" });
+const ffmpeg = withPng(({ folder }, from, to) => {
+    // Without dithering, which would hide differences of a level.
+    const hook = `libplacebo=custom_shader_path=${ending(folder, ".glsl")}:dithering=none`;
+    run("ffmpeg", ["-hide_banner", "-loglevel", "error", "-y", "-init_hw_device", "vulkan=device", "-filter_hw_device", "device", "-i", from,
+        "-vf", `format=rgba,hwupload,${hook},hwdownload,format=rgba`, "-frames:v", "1", "-update", "1", to]);
 });
 
-const librashader = (program) => withPng(({ folder }, from, to) => {
-    run(program, ["render", "-p", ending(folder, ".slangp"), "-i", from, "-o", to, "-r", "wgpu"], { XDG_RUNTIME_DIR: "/tmp" });
+const librashader = (program) => withPng(({ kernel, folder }, from, to) => {
+    const preset = ending(folder, ".slangp");
+    // A preset sets parameters as RetroArch's menu does.
+    const values = Object.entries(kernel.uniforms).map(([name, value]) => `${name} = "${value}"`);
+    if (values.length) appendFileSync(preset, `parameters = "${Object.keys(kernel.uniforms).join(";")}"\n${values.join("\n")}\n`);
+    run(program, ["render", "-p", preset, "-i", from, "-o", to, "-r", "wgpu"]);
 });
 
-/** Name of the test, the engine that is emitted for, how it is run, and what it needs. */
+/**
+ * Name of the test, the engine that is emitted for, how it is run, and what it needs. Where uniforms are `fixed`, nothing here
+ * can set them: the kernel is emitted with their values. `slack` is added to
+ * the bound: libplacebo keeps pictures in floats of 16 bits between its steps.
+ */
 export const ENGINES = [
     { name: "webgl2", engine: "webgl2", needs: ["chromium"], run: page("webgl2", (k) => ({ module: `${k}.js` })) },
     { name: "webgpu", engine: "webgpu", needs: ["chromium"], run: page("webgpu", (k) => ({ module: `${k}.js` })) },
     { name: "three, WebGLRenderer", engine: "three", needs: ["chromium"], run: page("three-webgl", (k) => ({ pass: `${k}-pass.js` })) },
     { name: "three, WebGPURenderer", engine: "three", needs: ["chromium"], run: page("three-webgpu", (k) => ({ node: `${k}-node.js` })) },
     { name: "postprocessing", engine: "postprocessing", needs: ["chromium"], run: page("postprocessing", (k) => ({ module: `${k}-effect.js` })) },
-    { name: "mpv (libplacebo)", engine: "mpv", needs: ["ffmpeg"], run: ffmpeg },
+    { name: "mpv (libplacebo)", engine: "mpv", needs: ["ffmpeg"], fixed: true, slack: 2 ** -10, run: ffmpeg },
     { name: "libretro (librashader)", engine: "libretro", needs: ["librashader"], run: librashader(process.env.LIBRASHADER ?? "librashader-cli") },
 ];
