@@ -88,6 +88,10 @@ export const ENGINES = [
     { name: "three, WebGLRenderer", engine: "three", needs: ["chromium"], run: page("three-webgl", (k) => ({ pass: `${k}-pass.js` })) },
     { name: "three, WebGPURenderer", engine: "three", needs: ["chromium"], run: page("three-webgpu", (k) => ({ node: `${k}-node.js` })) },
     { name: "postprocessing", engine: "postprocessing", needs: ["chromium"], run: page("postprocessing", (k) => ({ module: `${k}-effect.js` })) },
+    { name: "babylon, WebGL 2", engine: "babylon", needs: ["chromium"], run: page("babylon", (k) => ({ module: `${k}-post-process.js` })) },
+    { name: "babylon, WebGPU", engine: "babylon", needs: ["chromium"], run: page("babylon-webgpu", (k) => ({ module: `${k}-post-process.js` })) },
+    { name: "playcanvas, WebGL 2", engine: "playcanvas", needs: ["chromium"], run: page("playcanvas", (k) => ({ module: `${k}-effect.mjs` })) },
+    { name: "playcanvas, WebGPU", engine: "playcanvas", needs: ["chromium"], run: page("playcanvas-webgpu", (k) => ({ module: `${k}-effect.mjs` })) },
     { name: "mpv (libplacebo)", engine: "mpv", needs: ["ffmpeg"], fixed: true, slack: 2 ** -10, run: ffmpeg },
     { name: "libretro (librashader)", engine: "libretro", needs: ["librashader"], run: librashader(process.env.LIBRASHADER ?? "librashader-cli") },
 ];
