@@ -4,7 +4,7 @@ use serde::Deserialize;
 use std::collections::BTreeMap;
 use straightline_codegen::EmitOptions;
 use straightline_codegen::emit::{Reads, Target};
-use straightline_manifest::{Form, Origin, Stage};
+use straightline_manifest::{BindingKind, Form, Manifest, Origin, Stage};
 
 /// An engine: `engine.toml`.
 #[derive(Clone, Debug, Deserialize)]
@@ -61,9 +61,41 @@ pub struct ShaderDescription {
     /// Whether WGSL with quad operations begins with `enable subgroups;`, as browsers want it.
     #[serde(default)]
     pub enable_subgroups: bool,
+    /// Binding numbers that the engine gives.
+    #[serde(default)]
+    pub numbers: Option<Numbers>,
     /// Name of the entry point or function; the kernel's by default.
     #[serde(default)]
     pub entry: Option<String>,
+}
+
+/// Binding numbers that an engine gives: of the first of each, and one more for each that follows.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Numbers {
+    /// The first texture.
+    pub textures: u32,
+    /// The first sampler.
+    pub samplers: u32,
+    /// The uniform buffer.
+    pub parameters: u32,
+}
+
+impl Numbers {
+    /// The number of each binding by name.
+    pub fn of(self, manifest: &Manifest) -> Vec<(String, u32)> {
+        let (mut textures, mut samplers) = (self.textures.., self.samplers..);
+        let each = manifest.bindings.iter().filter_map(|binding| {
+            let number = match &binding.kind {
+                BindingKind::Texture { .. } => textures.next(),
+                BindingKind::Sampler { .. } => samplers.next(),
+                BindingKind::Uniform { .. } => Some(self.parameters),
+                BindingKind::Buffer { .. } => None,
+            };
+            Some((binding.name.clone(), number?))
+        });
+        each.collect()
+    }
 }
 
 fn fragment() -> Stage {

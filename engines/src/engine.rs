@@ -170,7 +170,7 @@ impl Engine {
             return Err(Unfit::Limits(why));
         }
         let each = self.description.shaders.iter().map(|(name, description)| {
-            let shader = Shader::of(description, request)?;
+            let shader = Shader::of(description, request, &manifest)?;
             Ok((name.clone(), shader))
         });
         each.collect()
@@ -252,10 +252,12 @@ struct Shader {
 }
 
 impl Shader {
-    fn of(description: &ShaderDescription, request: &Request<'_>) -> Result<Shader, Unfit> {
+    /// `bound` is the manifest of the kernel for any engine.
+    fn of(description: &ShaderDescription, request: &Request<'_>, bound: &Manifest) -> Result<Shader, Unfit> {
         let unknown = |why: String| Unfit::Limits(why);
         let options = description.options().map_err(unknown)?;
-        let options = options.precision(request.precision).format(request.format);
+        let mut options = options.precision(request.precision).format(request.format);
+        options.bindings = description.numbers.map_or_else(Vec::new, |numbers| numbers.of(bound));
         let emitted = request.compiled.emit(&options).map_err(Unfit::Emit)?;
         let target = description.target().map_err(unknown)?;
         Ok(Shader {
