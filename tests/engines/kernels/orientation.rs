@@ -10,7 +10,7 @@ options! {
     }
 }
 
-/// The pixel itself, the one to the right, and the one two rows below, in red, green and blue; the row's number in alpha.
+/// A mixture of the pixel, the one to its right and the one two rows below.
 pub fn orientation(cfg: &Orientation, color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
     let here = color.load(pixel);
     let right = color.load(pixel + ivec2(1, 0));

@@ -3,9 +3,13 @@
 import { execFileSync } from "node:child_process";
 import { appendFileSync, readdirSync, readFileSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
-import { join } from "node:path";
+import { dirname, join } from "node:path";
+import { fileURLToPath } from "node:url";
 import { PNG } from "pngjs";
+import { turned } from "../pages/rows.js";
 import { HEIGHT, WIDTH, inputs } from "./kernels.mjs";
+
+const native = join(dirname(dirname(fileURLToPath(import.meta.url))), "native");
 
 /** A page of the browser; `files` are those of the folder by what the page calls them. */
 function page(name, files) {
@@ -51,7 +55,7 @@ function png(rgba) {
 
 function run(program, args) {
     // Drivers complain where it is not set.
-    const env = { XDG_RUNTIME_DIR: tmpdir(), ...process.env };
+    const env = { XDG_RUNTIME_DIR: tmpdir(), EGL_PLATFORM: "surfaceless", ...process.env };
     execFileSync(program, args, { stdio: ["ignore", "pipe", "pipe"], env });
 }
 
@@ -77,6 +81,28 @@ const librashader = (program) => withPng(({ kernel, folder }, from, to) => {
     run(program, ["render", "-p", preset, "-i", from, "-o", to, "-r", "wgpu"]);
 });
 
+/** A C program with the emitted header in it, on EGL. OpenGL counts rows from below. */
+function opengl({ kernel, folder, functionName }) {
+    const program = join(folder, "program");
+    const header = ending(folder, ".h");
+    run("cc", ["-std=c99", "-Wall", "-Werror", "-o", program, join(native, "opengl.c"), `-DHEADER="${header}"`, `-DVERTEX=${functionName}_vertex`,
+        `-DFRAGMENT=${functionName}_fragment`, `-DSAMPLERS=${functionName}_samplers`, "-Wno-unused-variable", "-lEGL", "-lOpenGL"]);
+    const given = Object.entries(inputs(kernel)).map(([name, layers]) => {
+        const files = layers.map((rgba, k) => {
+            const file = join(folder, `${name}-${k}.f32`);
+            writeFileSync(file, new Uint8Array(turned(rgba, WIDTH, HEIGHT).buffer));
+            return file;
+        });
+        return `${name}=${files.join(",")}`;
+    });
+    const uniforms = Object.entries(kernel.uniforms).map(([name, value]) => `uniform:${name}=${value}`);
+    const out = join(folder, "out.f32");
+    run(program, [WIDTH, HEIGHT, out, ...given, ...uniforms].map(String));
+    const bytes = readFileSync(out);
+    const rgba = new Float32Array(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.length));
+    return { rgba: turned(rgba, WIDTH, HEIGHT), bits: 32 };
+}
+
 /**
  * Name of the test, the engine that is emitted for, how it is run, and what it needs. Where uniforms are `fixed`, nothing here
  * can set them: the kernel is emitted with their values. `slack` is added to
@@ -92,6 +118,7 @@ export const ENGINES = [
     { name: "babylon, WebGPU", engine: "babylon", needs: ["chromium"], run: page("babylon-webgpu", (k) => ({ module: `${k}-post-process.js` })) },
     { name: "playcanvas, WebGL 2", engine: "playcanvas", needs: ["chromium"], run: page("playcanvas", (k) => ({ module: `${k}-effect.mjs` })) },
     { name: "playcanvas, WebGPU", engine: "playcanvas", needs: ["chromium"], run: page("playcanvas-webgpu", (k) => ({ module: `${k}-effect.mjs` })) },
+    { name: "opengl", engine: "opengl", needs: ["cc"], run: opengl },
     { name: "mpv (libplacebo)", engine: "mpv", needs: ["ffmpeg"], fixed: true, slack: 2 ** -10, run: ffmpeg },
     { name: "libretro (librashader)", engine: "libretro", needs: ["librashader"], run: librashader(process.env.LIBRASHADER ?? "librashader-cli") },
 ];

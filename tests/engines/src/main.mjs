@@ -25,6 +25,7 @@ function found(program) {
 const PROGRAMS = {
     chromium: { program: process.env.CHROMIUM ?? found("chromium"), version: ["--version"], install: "apt-get install chromium" },
     ffmpeg: { program: "ffmpeg", version: ["-version"], install: "apt-get install ffmpeg mesa-vulkan-drivers" },
+    cc: { program: "cc", version: ["--version"], install: "apt-get install gcc libegl-dev libopengl-dev libgl1-mesa-dri" },
     librashader: {
         program: process.env.LIBRASHADER ?? "librashader-cli",
         version: ["--version"],
