@@ -7,6 +7,7 @@ import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { PNG } from "pngjs";
 import { turned } from "../pages/rows.js";
+import { pack } from "./godot.mjs";
 import { HEIGHT, WIDTH, inputs } from "./kernels.mjs";
 
 const native = join(dirname(dirname(fileURLToPath(import.meta.url))), "native");
@@ -81,6 +82,14 @@ const librashader = (program) => withPng(({ kernel, folder }, from, to) => {
     run(program, ["render", "-p", preset, "-i", from, "-o", to, "-r", "wgpu"]);
 });
 
+/** Godot's web template in the browser, with a project of ours. */
+async function godot({ kernel, folder, url, browser }) {
+    const shader = readFileSync(ending(folder, ".gdshader"), "utf8");
+    writeFileSync(join(folder, "filter.pck"), pack(shader, PNG.sync.write(png(inputs(kernel).color[0])), kernel.uniforms));
+    const { rgba, said } = await browser.run("godot", { pack: `${url}/filter.pck`, inputs: {} });
+    return { rgba, bits: 8, said };
+}
+
 /** A C program with the emitted header in it, on EGL. OpenGL counts rows from below. */
 function opengl({ kernel, folder, functionName }) {
     const program = join(folder, "program");
@@ -118,6 +127,7 @@ export const ENGINES = [
     { name: "babylon, WebGPU", engine: "babylon", needs: ["chromium"], run: page("babylon-webgpu", (k) => ({ module: `${k}-post-process.js` })) },
     { name: "playcanvas, WebGL 2", engine: "playcanvas", needs: ["chromium"], run: page("playcanvas", (k) => ({ module: `${k}-effect.mjs` })) },
     { name: "playcanvas, WebGPU", engine: "playcanvas", needs: ["chromium"], run: page("playcanvas-webgpu", (k) => ({ module: `${k}-effect.mjs` })) },
+    { name: "godot, Compatibility", engine: "godot", needs: ["chromium"], run: godot },
     { name: "opengl", engine: "opengl", needs: ["cc"], run: opengl },
     { name: "mpv (libplacebo)", engine: "mpv", needs: ["ffmpeg"], fixed: true, slack: 2 ** -10, run: ffmpeg },
     { name: "libretro (librashader)", engine: "libretro", needs: ["librashader"], run: librashader(process.env.LIBRASHADER ?? "librashader-cli") },
