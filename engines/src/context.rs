@@ -87,6 +87,8 @@ pub struct UniformContext {
     pub name: String,
     /// What it is for, in the kernel's words, or nothing.
     pub docs: String,
+    /// Name where it lies in no block: that of the kernel, unless the shader has a use for that.
+    pub loose: String,
     /// Type in WGSL.
     pub wgsl: String,
     /// Type in GLSL.
@@ -263,8 +265,13 @@ pub fn uniforms(manifest: &Manifest, options: &[OptionInfo]) -> (Vec<UniformCont
             _ => [None, None],
         };
         let [min, max] = range.map(|bound| bound.map(|bound| spelling::number(bound, kind)));
+        let loose = manifest
+            .language_bindings
+            .iter()
+            .find(|b| b.kind == LanguageKind::Uniform && b.of.as_ref() == Some(&field.name));
         UniformContext {
             name: field.name.clone(),
+            loose: loose.map_or(&field.name, |b| &b.name).clone(),
             docs: option.map(|option| one_line(&option.docs)).unwrap_or_default(),
             wgsl: field.ty.clone(),
             glsl: spelling::glsl(&field.ty),
@@ -292,8 +299,8 @@ pub fn outputs(manifest: &Manifest) -> Vec<OutputContext> {
     each.collect()
 }
 
-/// A shader, by its manifest.
-pub fn shader(text: String, manifest: &Manifest) -> ShaderContext {
+/// A shader, by its manifest; whether it takes uniforms, or has them declared before it.
+pub fn shader(text: String, takes_uniforms: bool, manifest: &Manifest) -> ShaderContext {
     let bindings = &manifest.language_bindings;
     let combined = bindings.iter().filter(|b| b.kind == LanguageKind::CombinedSampler);
     let combined = combined.map(|b| {
@@ -331,7 +338,7 @@ pub fn shader(text: String, manifest: &Manifest) -> ShaderContext {
             LanguageKind::Sampler => "sampler",
             LanguageKind::Position => "position",
             LanguageKind::Varying => "varying",
-            LanguageKind::Uniform => "uniform",
+            LanguageKind::Uniform if takes_uniforms => "uniform",
             _ => return None,
         };
         let of =

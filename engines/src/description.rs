@@ -58,6 +58,9 @@ pub struct ShaderDescription {
     /// `textures`, or `functions` where a template defines `load_NAME`, `sample_NAME` and `size_of_NAME`.
     #[serde(default)]
     pub reads: HowReads,
+    /// Whether a function reads uniforms by their names, which a template declares, and takes none.
+    #[serde(default)]
+    pub global_uniforms: bool,
     /// Whether WGSL with quad operations begins with `enable subgroups;`, as browsers want it.
     #[serde(default)]
     pub enable_subgroups: bool,
@@ -144,6 +147,7 @@ impl ShaderDescription {
                 HowReads::Functions => Reads::Functions,
             })
             .targets([self.target()?]);
+        options.global_uniforms = self.global_uniforms;
         options.enable_subgroups = self.enable_subgroups;
         options.entry.clone_from(&self.entry);
         Ok(options)

@@ -213,7 +213,12 @@ impl Engine {
         context.changed = changed.map(|(name, value)| format!("{name}={value}")).collect();
         context.shaders = shaders
             .into_iter()
-            .map(|(name, shader)| (name, context::shader(shader.text, &shader.manifest)))
+            .map(|(name, shader)| {
+                (
+                    name,
+                    context::shader(shader.text, shader.takes_uniforms, &shader.manifest),
+                )
+            })
             .collect();
         if context.shaders.len() == 1 {
             context.shader = context.shaders.values().next().cloned();
@@ -248,6 +253,7 @@ fn described(name: &str, text: &str) -> Result<Description, EngineError> {
 /// A shader of a kernel.
 struct Shader {
     text: String,
+    takes_uniforms: bool,
     manifest: Manifest,
 }
 
@@ -262,6 +268,7 @@ impl Shader {
         let target = description.target().map_err(unknown)?;
         Ok(Shader {
             text: text(&emitted, target),
+            takes_uniforms: !description.global_uniforms,
             manifest: emitted.manifest,
         })
     }

@@ -99,20 +99,24 @@ pub fn call(resources: &Resources, op: &Op, args: &[Text]) -> Option<Text> {
 ///
 /// The first read or language that they do not have.
 pub fn check(compiled: &Compiled, resources: &Resources) -> Result<(), EmitError> {
-    if !resources.options.calls_host() {
-        return Ok(());
-    }
     let refused = |why: String| {
         Err(EmitError::Function {
             kernel: compiled.kernel.clone(),
             why,
         })
     };
+    let options = &resources.options;
+    if !(options.calls_host() || options.global_uniforms) {
+        return Ok(());
+    }
     let has = |target: &Target| *target == Target::Hlsl || Target::OPENGL.contains(target);
-    if let Some(target) = resources.options.targets.iter().find(|target| !has(target)) {
+    if let Some(target) = options.targets.iter().find(|target| !has(target)) {
         return refused(format!(
-            "functions of the host's read its textures, which {target} does not have: write glsl430, glsl330, essl310, essl300 or hlsl"
+            "the host declares what it reads, which {target} does not have: write glsl430, glsl330, essl310, essl300 or hlsl"
         ));
+    }
+    if !options.calls_host() {
+        return Ok(());
     }
     for bound in &resources.read {
         let texture = resources.texture(bound.index);

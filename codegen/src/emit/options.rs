@@ -26,6 +26,9 @@ pub struct EmitOptions {
     pub form: Form,
     /// How a function comes by its texels; of no account for a whole shader.
     pub reads: Reads,
+    /// Whether a function in GLSL of OpenGL or HLSL reads uniforms by their names, which the host declares before it, and takes
+    /// none. For hosts that do not let a parameter have the name of a uniform.
+    pub global_uniforms: bool,
     /// Where row 0 of textures, target and positions is. From the lower left, the shader turns every row that it names, so that
     /// the kernel computes on the upright picture; shaders that cannot are refused.
     pub origin: Origin,
@@ -68,6 +71,7 @@ impl EmitOptions {
             stage: Stage::Compute,
             form: Form::default(),
             reads: Reads::default(),
+            global_uniforms: false,
             origin: Origin::default(),
             format: Format::default(),
             workgroup: None,

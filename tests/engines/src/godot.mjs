@@ -8,6 +8,8 @@ func _ready() -> void:
 	var viewport := SubViewport.new()
 	viewport.size = image.get_size()
 	viewport.disable_3d = true
+	# Or its texels have 10 bits, and those of the picture 8.
+	viewport.transparent_bg = true
 	viewport.render_target_update_mode = SubViewport.UPDATE_ALWAYS
 	viewport.canvas_item_default_texture_filter = Viewport.DEFAULT_CANVAS_ITEM_TEXTURE_FILTER_NEAREST
 	add_child(viewport)

@@ -56,7 +56,8 @@ impl Glsl<'_> {
         }
         all.push("vec2 position".to_owned());
         all.extend(r.varyings.iter().map(|v| glsl::declared(&v.name, v.ty.into())));
-        all.extend(r.uniforms.iter().map(|u| glsl::declared(&loose(&u.name), u.ty.into())));
+        let uniforms = r.uniforms.iter().filter(|_| !r.options.global_uniforms);
+        all.extend(uniforms.map(|u| glsl::declared(&loose(&u.name), u.ty.into())));
         format!("{} {}({}) {{", self.result_type(), r.entry, all.join(", "))
     }
 }
@@ -69,7 +70,8 @@ impl Hlsl<'_> {
         let buffers = r.read_buffers.iter().map(|(k, _)| buffer_declared(r, *k));
         let samplers = r.used_samplers.iter().map(|(k, _)| sampler_declared(r, *k));
         let varyings = r.varyings.iter().map(|v| hlsl::declared(&v.name, v.ty.into()));
-        let uniforms = r.uniforms.iter().map(|u| hlsl::declared(&loose(&u.name), u.ty.into()));
+        let uniforms = r.uniforms.iter().filter(|_| !r.options.global_uniforms);
+        let uniforms = uniforms.map(|u| hlsl::declared(&loose(&u.name), u.ty.into()));
         let bound = textures.chain(buffers).chain(samplers);
         // Where the host's functions read textures, none is given.
         let bound = bound.filter(|_| !r.options.calls_host());
