@@ -223,3 +223,56 @@ fn engines_that_are_not_there_are_named() {
         "{message}"
     );
 }
+
+/// The table of `docs/engines.md` is that of the record of `tests/engines/run`.
+#[test]
+fn the_table_is_that_of_the_record() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let read = |path: &str| std::fs::read_to_string(root.join(path)).unwrap_or_else(|e| panic!("{path}: {e}"));
+    let record: serde_json::Value = serde_json::from_str(&read("tests/engines/record.json")).expect("a record");
+    let rows = record["rows"].as_array().expect("rows");
+    let text = |row: &serde_json::Value, key: &str| row[key].as_str().unwrap_or_default().to_owned();
+    let mut kernels: Vec<String> = Vec::new();
+    let mut engines: Vec<String> = Vec::new();
+    for row in rows {
+        for (list, key) in [(&mut kernels, "kernel"), (&mut engines, "engine")] {
+            let name = text(row, key);
+            if !list.contains(&name) {
+                list.push(name);
+            }
+        }
+    }
+    let line = |first: &str, cells: &[String]| format!("| {first} | {} |\n", cells.join(" | "));
+    let mut table = line("engine", &kernels) + &line("---", &vec!["---".to_owned(); kernels.len()]);
+    for engine in &engines {
+        let cell = |kernel: &String| {
+            let row = rows
+                .iter()
+                .find(|row| text(row, "engine") == *engine && text(row, "kernel") == *kernel);
+            let row = row.unwrap_or_else(|| panic!("the record has no {kernel} on {engine}"));
+            match text(row, "state").as_str() {
+                "same" => format!("{:.0e}", row["most"].as_f64().expect("a number")),
+                "refused" => {
+                    let why = text(row, "why");
+                    let why = why.split_once(": it ").map_or(why.as_str(), |(_, why)| why);
+                    format!("refused: {}", why.split("; ").next().unwrap_or_default())
+                }
+                other => panic!("{kernel} on {engine}: {other}: a record is of a run that passes"),
+            }
+        };
+        table += &line(engine, &kernels.iter().map(cell).collect::<Vec<_>>());
+    }
+    let path = "docs/engines.md";
+    let document = read(path);
+    let (before, rest) = document.split_once("<!-- engines record.json -->\n").expect("the mark");
+    let (found, behind) = rest.split_once("<!-- end -->").expect("the end");
+    if blesses() {
+        let written = format!("{before}<!-- engines record.json -->\n{table}<!-- end -->{behind}");
+        std::fs::write(root.join(path), written).unwrap_or_else(|e| panic!("{path}: {e}"));
+        return;
+    }
+    assert_eq!(
+        found, table,
+        "{path} is not what the record says (STRAIGHTLINE_BLESS=1 writes it)"
+    );
+}
