@@ -538,13 +538,13 @@ fn hosts_read_their_textures() {
         (Target::Wgsl, source, "which wgsl does not have"),
         (
             Target::Glsl330,
-            "pub fn k(color: &Frame<Vec4>, map: &Texture3d<Vec4>, pixel: IVec2) -> Vec4 {\n    color.load(pixel) + map.load(ivec3(0, 0, 0))\n}\n",
+            "pub fn k(color: &Frame<Vec4>, map: &Texture3D<Vec4>, pixel: IVec2) -> Vec4 {\n    color.load(pixel) + map.load(ivec3(0, 0, 0))\n}\n",
             "`map` is none",
         ),
         (
             Target::Glsl330,
             "pub fn k(color: &Frame<Vec4>, map: &Texture<Vec4>, pixel: IVec2) -> Vec4 {\n    color.load(pixel) + map.load_level(ivec2(0, 0), 1)\n}\n",
-            "it reads `map` of a level that it names",
+            "it reads `map` and asks how many levels",
         ),
     ] {
         let compiled = compile(source, Unroll::Full, Branches::Select);

@@ -177,7 +177,7 @@ pub struct Limits {
     /// At most so many uniforms.
     #[serde(default)]
     pub uniforms: Option<u32>,
-    /// Types of uniforms, as WGSL spells them.
+    /// Types of uniforms, as WGSL spells them; numbers and vectors by default.
     #[serde(default)]
     pub uniform_types: Option<Vec<String>>,
     /// At most so many outputs; 1 by default.

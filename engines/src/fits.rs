@@ -58,13 +58,12 @@ pub fn why_not(manifest: &Manifest, limits: &Limits, title: &str) -> Option<Stri
             BindingKind::Buffer { .. } => {}
             BindingKind::Uniform { fields, .. } => {
                 uniforms += fields.len() as u32;
-                if let Some(types) = &limits.uniform_types
-                    && let Some(field) = fields.iter().find(|field| !holds(types, &field.ty))
-                {
+                let types = limits.uniform_types.clone().unwrap_or_else(vectors);
+                if let Some(field) = fields.iter().find(|field| !holds(&types, &field.ty)) {
                     let (field, ty) = (&field.name, &field.ty);
                     return Some(format!(
-                        "has the uniform `{field}` of type {ty}, and {}",
-                        gives(&listed(types))
+                        "has the uniform `{field}` of type {ty}, and {title} takes {}",
+                        listed(&types)
                     ));
                 }
             }
@@ -89,6 +88,17 @@ pub fn why_not(manifest: &Manifest, limits: &Limits, title: &str) -> Option<Stri
         .iter()
         .find(|feature| !limits.features.contains(feature));
     feature.map(|feature| format!("needs the device feature `{feature}`, which {title} is not asked for"))
+}
+
+/// Types of uniforms that every template can set: numbers and vectors of them.
+fn vectors() -> Vec<String> {
+    let lanes = ["vec2", "vec3", "vec4"].into_iter();
+    let vectors = lanes.flat_map(|vector| ["f", "i", "u"].map(|kind| format!("{vector}{kind}")));
+    ["f32", "i32", "u32"]
+        .map(str::to_owned)
+        .into_iter()
+        .chain(vectors)
+        .collect()
 }
 
 fn holds(known: &[String], name: &str) -> bool {

@@ -140,7 +140,7 @@ pub fn check(compiled: &Compiled, resources: &Resources) -> Result<(), EmitError
             Op::Load { .. } | Op::Sample { .. } => "of a level that it names",
             Op::Gather { .. } | Op::GatherCompare { .. } => "four at a time",
             Op::Compare { .. } => "by comparison",
-            _ => "and asks for more than its size",
+            _ => "and asks how many levels or layers it has",
         };
         return refused(format!(
             "it reads `{name}` {how}, for which the host has no function: give it as a texture"
