@@ -29,7 +29,7 @@ const PROGRAMS = {
     librashader: {
         program: process.env.LIBRASHADER ?? "librashader-cli",
         version: ["--version"],
-        install: "cargo install librashader-cli --version 0.12.0 --locked, and its path in LIBRASHADER",
+        install: "cargo install librashader-cli --version 0.12.0 --locked --no-default-features --features wgpu,vulkan, and its path in LIBRASHADER",
     },
 };
 
