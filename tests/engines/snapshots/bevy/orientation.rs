@@ -1,4 +1,4 @@
-//! Orientation for Bevy 0.19: The pixel itself, the one to the right, and the one two rows below, in red, green and blue; the row's number in alpha.
+//! Orientation for Bevy 0.19: A mixture of the pixel, the one to its right and the one two rows below.
 //!
 //! Written by straightline 0.1.0; do not edit. See README.md.
 

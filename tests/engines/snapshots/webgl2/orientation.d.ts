@@ -1,4 +1,4 @@
-// Orientation for WebGL 2: The pixel itself, the one to the right, and the one two rows below, in red, green and blue; the row's number in alpha.
+// Orientation for WebGL 2: A mixture of the pixel, the one to its right and the one two rows below.
 
 /** What the filter reads. */
 export interface Inputs {

@@ -1,4 +1,4 @@
-// Orientation for WebGPU: The pixel itself, the one to the right, and the one two rows below, in red, green and blue; the row's number in alpha.
+// Orientation for WebGPU: A mixture of the pixel, the one to its right and the one two rows below.
 /// <reference types="@webgpu/types" />
 
 /** What the filter reads. */
