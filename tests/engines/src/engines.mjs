@@ -10,7 +10,9 @@ import { turned } from "../pages/rows.js";
 import { pack } from "./godot.mjs";
 import { HEIGHT, WIDTH, inputs } from "./kernels.mjs";
 
-const native = join(dirname(dirname(fileURLToPath(import.meta.url))), "native");
+const here = dirname(dirname(fileURLToPath(import.meta.url)));
+const native = join(here, "native");
+const root = dirname(dirname(here));
 
 /** A page of the browser; `files` are those of the folder by what the page calls them. */
 function page(name, files) {
@@ -132,3 +134,10 @@ export const ENGINES = [
     { name: "mpv (libplacebo)", engine: "mpv", needs: ["ffmpeg"], fixed: true, slack: 2 ** -10, run: ffmpeg },
     { name: "libretro (librashader)", engine: "libretro", needs: ["librashader"], run: librashader(process.env.LIBRASHADER ?? "librashader-cli") },
 ];
+
+/** Engines that render a scene of their own, and where `engine.toml` has row 0 of each of their shaders: above or below. */
+export const UPRIGHT = ["three", "babylon", "playcanvas"].flatMap((engine) => [false, true].map((webgpu) => {
+    const description = readFileSync(join(root, "engines", "templates", engine, "engine.toml"), "utf8");
+    const shader = description.split("[shaders.").find((part) => part.startsWith(webgpu ? "wgsl]" : "glsl]")).split("\n[")[0];
+    return { engine, webgpu, origin: /^origin = "lower-left"$/m.test(shader) ? "below" : "above" };
+}));

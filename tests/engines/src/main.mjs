@@ -7,7 +7,7 @@ import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { open } from "./browser.mjs";
 import { compare } from "./compare.mjs";
-import { ENGINES } from "./engines.mjs";
+import { ENGINES, UPRIGHT } from "./engines.mjs";
 import { readExr, writeExr } from "./exr.mjs";
 import { HEIGHT, KERNELS, WIDTH, inputs } from "./kernels.mjs";
 
@@ -92,6 +92,13 @@ try {
             console.log(`${engine.name}: ${kernel.name}: ${result.state}${figures}${result.why ? `: ${result.why}` : ""}`);
         }
     }
+    if (!onlyKernel && browser) {
+        for (const scene of UPRIGHT.filter(({ engine }) => !only || only === engine || only.startsWith(`${engine},`))) {
+            const why = await upright(scene);
+            if (why) failed += 1;
+            console.log(`${scene.engine}${scene.webgpu ? ", WebGPU" : ", WebGL"}: rows of a rendered scene: ${why ?? `from ${scene.origin}, as engine.toml says`}`);
+        }
+    }
 } finally {
     await browser?.close();
     rmSync(work, { recursive: true, force: true });
@@ -104,6 +111,21 @@ if (record) {
 }
 console.log(failed ? `${failed} of ${rows.length} failed` : `${rows.length} passed`);
 process.exitCode = failed ? 1 : 0;
+
+/**
+ * Whether the engine itself renders with its rows as the shader expects them: of a scene whose upper half is red, row 0 is red
+ * where rows count from above. Gives what is wrong.
+ */
+async function upright({ engine, webgpu, origin }) {
+    try {
+        const { rgba } = await browser.run(`upright-${engine}`, { webgpu, inputs: {} });
+        const [first, last] = rgba;
+        const expected = origin === "above" ? [1, 0] : [0, 1];
+        return first === expected[0] && last === expected[1] ? null : `row 0 is ${first} and the last ${last}, not ${expected}`;
+    } catch (error) {
+        return error.message.slice(0, 2000);
+    }
+}
 
 /** Emits, runs and compares. */
 async function tried(engine, kernel, expected) {
