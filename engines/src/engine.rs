@@ -164,7 +164,7 @@ impl Engine {
         let limits = &self.description.limits;
         let manifest = match request.compiled.emit(&probe.precision(request.precision)) {
             Ok(emitted) => emitted.manifest,
-            Err(error) => return Err(Unfit::Emit(error)),
+            Err(error) => return Err(error.into()),
         };
         if let Some(why) = fits::why_not(&manifest, limits, &self.description.title) {
             return Err(Unfit::Limits(why));
@@ -264,7 +264,7 @@ impl Shader {
         let options = description.options().map_err(unknown)?;
         let mut options = options.precision(request.precision).format(request.format);
         options.bindings = description.numbers.map_or_else(Vec::new, |numbers| numbers.of(bound));
-        let emitted = request.compiled.emit(&options).map_err(Unfit::Emit)?;
+        let emitted = request.compiled.emit(&options)?;
         let target = description.target().map_err(unknown)?;
         Ok(Shader {
             text: text(&emitted, target),
@@ -284,7 +284,13 @@ enum Unfit {
     /// The engine cannot bind what it binds.
     Limits(String),
     /// The generator cannot write it so.
-    Emit(EmitError),
+    Emit(Box<EmitError>),
+}
+
+impl From<EmitError> for Unfit {
+    fn from(error: EmitError) -> Unfit {
+        Unfit::Emit(Box::new(error))
+    }
 }
 
 impl Unfit {

@@ -63,7 +63,7 @@ pub enum EngineError {
         /// The engine.
         title: String,
         /// What the generator says.
-        source: EmitError,
+        source: Box<EmitError>,
         /// What would fit.
         instead: String,
     },
