@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{fails, finishes, is_empty, scratch, write};
+use common::{example, fails, finishes, is_empty, scratch, write};
 
 #[test]
 fn a_syntax_error_is_shown_with_its_place() {
@@ -209,4 +209,41 @@ fn places_names_forms_and_origins_are_the_users() {
         1,
         &["`sraa`", "nothing called `deph`", "did you mean `depth`"],
     );
+}
+
+#[test]
+fn engines_get_their_folder_or_the_reason() {
+    let folder = scratch("engines");
+    let out = folder.join("out");
+    let out_text = out.to_str().unwrap();
+    let kuwahara = example("kuwahara");
+    let said = finishes(&[
+        "emit", &kuwahara, "--engine", "mpv", "--name", "painted", "--out", out_text,
+    ]);
+    let names = ["README.md", "painted.glsl"];
+    for name in names {
+        assert!(said.contains(name) && out.join(name).is_file(), "{said}");
+    }
+    let none = folder.join("none");
+    let none_text = none.to_str().unwrap();
+    fails(
+        &["emit", "sraa", "--engine", "mpv", "--out", none_text],
+        1,
+        &["`sraa` does not fit mpv: it binds 3 textures, and mpv gives one picture; these engines take it: babylon, "],
+    );
+    fails(
+        &["emit", "sraa", "--engine", "gdot", "--out", none_text],
+        2,
+        &["there is no engine `gdot`: one of babylon, bevy"],
+    );
+    fails(
+        &[
+            "emit", "sraa", "--engine", "three", "--target", "wgsl", "--out", none_text,
+        ],
+        2,
+        &["--engine"],
+    );
+    assert!(is_empty(&none));
+    let list = finishes(&["list"]);
+    assert!(list.contains("  godot: Godot: a .gdshader"), "{list}");
 }

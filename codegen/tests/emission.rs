@@ -6,8 +6,9 @@
 mod compilers;
 
 use compilers::{LABEL, instructions, read};
-use straightline_codegen::emit::{EmitError, Emitted, Target};
-use straightline_codegen::{Branches, Compiled, EmitOptions, Kernel, Settings, Stage, Unroll};
+use straightline_codegen::emit::{EmitError, Emitted, Reads, Target};
+use straightline_codegen::{Branches, Compiled, EmitOptions, Form, Kernel, Settings, Stage, Unroll};
+use straightline_manifest::LanguageKind;
 
 fn settings(unroll: Unroll, branches: Branches) -> Settings {
     Settings {
@@ -481,4 +482,74 @@ fn indices_outside_of_arrays_are_clamped() {
     let glsl = text(&emit_all(kernel), Target::Glsl450);
     assert_eq!(glsl.matches("min(uint(parameters.n), 3u)").count(), 2, "{glsl}");
     assert!(!glsl.contains("min(uint(pixel"), "{glsl}");
+}
+
+/// Functions whose host reads the textures: what they call, what they take, and what they refuse.
+#[test]
+fn hosts_read_their_textures() {
+    let source = "pub fn k(color: &Frame<Vec4>, linear: &Sampler, gain: f32, pixel: IVec2) -> Vec4 {\n    \
+        gain * color.load(pixel + ivec2(1, 0)) + color.sample(linear, vec2(0.5, 0.25))\n}\n";
+    let compiled = compile(source, Unroll::Full, Branches::Select);
+    let mut options = EmitOptions::new()
+        .form(Form::Function)
+        .reads(Reads::Functions)
+        .targets([Target::Glsl330, Target::Hlsl]);
+    let emitted = compiled.emit(&options).unwrap_or_else(|e| panic!("{e}"));
+    let glsl = text(&emitted, Target::Glsl330);
+    for part in [
+        "vec4 k(vec2 position, float gain) {",
+        "load_color(",
+        "sample_color(vec2(0.5, 0.25))",
+        "size_of_color()",
+    ] {
+        assert!(glsl.contains(part), "no {part}:\n{glsl}");
+    }
+    let around = "#version 330\nuniform sampler2D picture;\nout vec4 colour;\nuniform float gain;\n\
+        vec4 load_color(ivec2 p) { return texelFetch(picture, p, 0); }\n\
+        vec4 sample_color(vec2 p) { return textureLod(picture, p, 0.0); }\n\
+        ivec2 size_of_color() { return textureSize(picture, 0); }\n";
+    let read = |body: &str, call: &str| {
+        let whole = format!("{around}{body}void main() {{ colour = {call}; }}\n");
+        let path = std::env::temp_dir().join(format!("straightline-host-{}.frag", std::process::id()));
+        std::fs::write(&path, whole).expect("a file");
+        compilers::opengl(&path).unwrap_or_else(|e| panic!("{e}"));
+        std::fs::remove_file(&path).expect("the file");
+    };
+    read(&glsl, "k(gl_FragCoord.xy, gain)");
+    let hlsl = text(&emitted, Target::Hlsl);
+    assert!(hlsl.contains("float4 k(float2 position, float gain) {"), "{hlsl}");
+    // What it calls is declared before it, and not in it.
+    assert!(!hlsl.contains("GetDimensions"), "{hlsl}");
+    let host = emitted
+        .manifest
+        .language_bindings
+        .iter()
+        .filter(|b| b.kind == LanguageKind::Function);
+    let host: Vec<&str> = host.filter(|b| b.language == "hlsl").map(|b| b.name.as_str()).collect();
+    assert_eq!(host, ["load_color", "sample_color", "size_of_color"]);
+
+    options.global_uniforms = true;
+    let emitted = compiled.emit(&options).unwrap_or_else(|e| panic!("{e}"));
+    let glsl = text(&emitted, Target::Glsl330);
+    assert!(glsl.contains("vec4 k(vec2 position) {"), "{glsl}");
+    read(&glsl, "k(gl_FragCoord.xy)");
+
+    for (targets, source, said) in [
+        (Target::Wgsl, source, "which wgsl does not have"),
+        (
+            Target::Glsl330,
+            "pub fn k(color: &Frame<Vec4>, map: &Texture3D<Vec4>, pixel: IVec2) -> Vec4 {\n    color.load(pixel) + map.load(ivec3(0, 0, 0))\n}\n",
+            "`map` is none",
+        ),
+        (
+            Target::Glsl330,
+            "pub fn k(color: &Frame<Vec4>, map: &Texture<Vec4>, pixel: IVec2) -> Vec4 {\n    color.load(pixel) + map.load_level(ivec2(0, 0), 1)\n}\n",
+            "it reads `map` and asks how many levels",
+        ),
+    ] {
+        let compiled = compile(source, Unroll::Full, Branches::Select);
+        let refused = compiled.emit(&options.clone().targets([targets]));
+        let message = refused.expect_err("the host cannot").to_string();
+        assert!(message.contains(said), "{message}");
+    }
 }

@@ -306,6 +306,8 @@ pub enum LanguageKind {
     Uniform,
     /// The image that is written.
     StorageTexture,
+    /// A function of the host's that reads a texture: it stands before the shader's.
+    Function,
     /// A value that is interpolated.
     Varying,
     /// The position of the fragment, in pixels from the origin: of a function, a parameter.

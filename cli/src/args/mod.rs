@@ -202,6 +202,10 @@ pub struct EmitArgs {
     /// Begin WGSL that has quad operations with `enable subgroups;`, as browsers want it and wgpu does not
     #[arg(long)]
     pub enable_subgroups: bool,
+    /// Write what a user of an engine drops in: NAME (see `list`), or a folder with an `engine.toml`. It says the language,
+    /// the form and the origin itself
+    #[arg(long, value_name = "NAME|FOLDER", conflicts_with_all = ["stage", "target", "region", "workgroup", "form", "origin", "entry", "group", "binding", "register", "enable_subgroups"])]
+    pub engine: Option<String>,
     /// Folder to write to; made if it is not there
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,

@@ -2,10 +2,12 @@
 
 use crate::args::EmitArgs;
 use crate::failure::Failure;
-use straightline_codegen::{EmitOptions, Precision, files};
+use std::collections::BTreeMap;
+use straightline_codegen::{Compiled, EmitOptions, Kernel, Precision, files};
+use straightline_engines::{Engine, EngineError, Request};
 use straightline_study::hard::{self, HardError};
 
-/// Writes the shader in every language asked for, and its manifest, or nothing.
+/// Writes the shader in every language asked for and its manifest, or what an engine's user drops in, or nothing.
 pub fn run(args: &EmitArgs) -> Result<(), Failure> {
     if args.accept_loss && args.precision != Precision::F16 {
         return Err(Failure::Usage("--accept-loss goes with --precision f16".to_owned()));
@@ -18,6 +20,10 @@ pub fn run(args: &EmitArgs) -> Result<(), Failure> {
         return Err(Failure::Usage(format!(
             "`{name}` cannot name files: use letters, digits, `_`, `-` and `.`"
         )));
+    }
+    if let Some(engine) = &args.engine {
+        let files = for_engine(args, &kernel, &compiled, engine, name)?;
+        return write(args, &files);
     }
     let mut options = EmitOptions::new()
         .stage(args.stage.into())
@@ -34,10 +40,37 @@ pub fn run(args: &EmitArgs) -> Result<(), Failure> {
     options.enable_subgroups = args.enable_subgroups;
     options.workgroup = args.workgroup.map(|size| size.to_array());
     let emitted = compiled.emit(&options).map_err(Failure::of)?;
+    write(args, &emitted.named(name))
+}
+
+/// The files for an engine.
+fn for_engine(
+    args: &EmitArgs,
+    kernel: &Kernel,
+    compiled: &Compiled,
+    engine: &str,
+    name: &str,
+) -> Result<BTreeMap<String, Vec<u8>>, Failure> {
+    let engine = Engine::find(engine).map_err(|error| match error {
+        EngineError::Unknown { .. } => Failure::Usage(error.to_string()),
+        error => Failure::of(error),
+    })?;
+    let options = kernel.options()?;
+    let request = Request {
+        name: name.to_owned(),
+        precision: args.precision,
+        format: args.format,
+        ..Request::new(compiled, &options)
+    };
+    engine.files(&request).map_err(Failure::of)
+}
+
+/// Writes the files, or none, and prints their paths.
+fn write(args: &EmitArgs, named: &BTreeMap<String, Vec<u8>>) -> Result<(), Failure> {
     if args.precision == Precision::F16 && !args.accept_loss {
         refuse_visible_loss(args)?;
     }
-    let written = files::write_all(&args.out, &emitted.named(name)).map_err(Failure::of)?;
+    let written = files::write_all(&args.out, named).map_err(Failure::of)?;
     for file in written {
         outln!("{}", file.display());
     }

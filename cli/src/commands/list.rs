@@ -4,6 +4,7 @@ use crate::args::ListArgs;
 use crate::failure::Failure;
 use serde_json::json;
 use straightline_codegen::{Kernel, OptionInfo, OptionKind};
+use straightline_engines::{Engine, names};
 use straightline_kernels::CATALOGUE;
 
 /// Prints every kernel with its options.
@@ -20,7 +21,11 @@ pub fn run(args: &ListArgs) -> Result<(), Failure> {
                 json!({ "name": entry.name, "summary": entry.summary, "options": options })
             })
             .collect();
-        outln!("{:#}", json!({ "kernels": list }));
+        let engines: Vec<_> = engines()?
+            .iter()
+            .map(|engine| json!({ "name": engine.name(), "title": engine.description().title, "about": engine.description().about }))
+            .collect();
+        outln!("{:#}", json!({ "kernels": list, "engines": engines }));
         return Ok(());
     }
     for (entry, options) in &kernels {
@@ -29,8 +34,19 @@ pub fn run(args: &ListArgs) -> Result<(), Failure> {
             print_option(option);
         }
     }
+    outln!("Engines, for `emit --engine NAME`:");
+    for engine in engines()? {
+        let description = engine.description();
+        outln!("  {}: {}: {}", engine.name(), description.title, description.about);
+    }
+    outln!();
     outln!("Set an option with --set OPTION=VALUE. A kernel of your own: FILE.rs::FUNCTION in place of the name.");
     Ok(())
+}
+
+/// The built-in engines.
+fn engines() -> Result<Vec<Engine>, Failure> {
+    names().map(|name| Engine::find(name).map_err(Failure::of)).collect()
 }
 
 fn print_option(option: &OptionInfo) {

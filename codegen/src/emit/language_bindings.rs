@@ -103,7 +103,13 @@ impl Resources {
 
     /// What a function takes, in order. `self` has the names in its language, and `original` those of the manifest.
     fn parameters(&self, original: &Resources, target: Target, list: &mut List) {
-        if Target::OPENGL.contains(&target) {
+        if self.options.calls_host() {
+            for function in &self.host {
+                let of = function.texture(original);
+                let bound = list.add(Kind::Function, &function.name(self), Some(of));
+                bound.what = Some(function.gives().to_owned());
+            }
+        } else if Target::OPENGL.contains(&target) {
             self.combined_samplers(false, list);
         } else {
             self.each(original, |kind, _, name, of, _| {

@@ -12,6 +12,7 @@ mod entry;
 mod error;
 mod function;
 mod half;
+mod host;
 mod language_bindings;
 mod layout;
 mod legalise;
@@ -47,7 +48,7 @@ use straightline_manifest::{Counts, Form, Manifest, Precision, Stage, hash_of_by
 
 pub use bindings::{Module, bindings};
 pub use error::EmitError;
-pub use options::EmitOptions;
+pub use options::{EmitOptions, Reads};
 pub use register::Register;
 pub use target::Target;
 
@@ -165,6 +166,7 @@ fn emit(compiled: &Compiled, options: &EmitOptions) -> Result<Emitted, EmitError
     let resources = resources::Resources::of(compiled, &options)?;
     if options.is_function() {
         function::check(compiled, &resources)?;
+        host::check(compiled, &resources)?;
     }
     let tree = tree(compiled, &resources);
     let shader = Shader {

@@ -5,6 +5,18 @@ use super::target::Target;
 use std::collections::BTreeSet;
 use straightline_manifest::{Form, Format, Origin, Precision, Stage};
 
+/// How a function ([`Form::Function`]) comes by the texels that it reads.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Reads {
+    /// Of textures and samplers, which are its parameters.
+    #[default]
+    Textures,
+    /// By functions of the host's, defined before it: `load_NAME` gives the texel at a pixel, `sample_NAME` the filtered colour
+    /// at a place from 0 to 1, `size_of_NAME` width and height. For hosts that give no texture, only a way to read one. In
+    /// GLSL of OpenGL and HLSL; of two-dimensional textures of floats, at their finest level.
+    Functions,
+}
+
 /// How a kernel is to be emitted.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct EmitOptions {
@@ -12,6 +24,11 @@ pub struct EmitOptions {
     pub stage: Stage,
     /// Whether the shader is complete, or a function to be put into another.
     pub form: Form,
+    /// How a function comes by its texels; of no account for a whole shader.
+    pub reads: Reads,
+    /// Whether a function in GLSL of OpenGL or HLSL reads uniforms by their names, which the host declares before it, and takes
+    /// none. For hosts that do not let a parameter have the name of a uniform.
+    pub global_uniforms: bool,
     /// Where row 0 of textures, target and positions is. From the lower left, the shader turns every row that it names, so that
     /// the kernel computes on the upright picture; shaders that cannot are refused.
     pub origin: Origin,
@@ -53,6 +70,8 @@ impl EmitOptions {
         EmitOptions {
             stage: Stage::Compute,
             form: Form::default(),
+            reads: Reads::default(),
+            global_uniforms: false,
             origin: Origin::default(),
             format: Format::default(),
             workgroup: None,
@@ -77,6 +96,12 @@ impl EmitOptions {
     /// Complete, or a function.
     pub fn form(mut self, form: Form) -> Self {
         self.form = form;
+        self
+    }
+
+    /// With textures as parameters, or functions of the host's.
+    pub fn reads(mut self, reads: Reads) -> Self {
+        self.reads = reads;
         self
     }
 
@@ -147,6 +172,11 @@ impl EmitOptions {
 
     pub(super) fn is_function(&self) -> bool {
         self.form == Form::Function
+    }
+
+    /// Whether texels come from functions of the host's.
+    pub(super) fn calls_host(&self) -> bool {
+        self.is_function() && self.reads == Reads::Functions
     }
 
     pub(super) fn counts_from_below(&self) -> bool {

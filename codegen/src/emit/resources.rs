@@ -2,6 +2,7 @@
 
 use super::EmitOptions;
 use super::error::EmitError;
+use super::host::{self, HostFunction};
 use super::layout::layout;
 use super::outputs::BoundOutput;
 use super::places::{Named, Places};
@@ -69,6 +70,8 @@ pub struct Resources {
     pub(super) varying_names: Vec<String>,
     /// Textures that are read.
     pub read: Vec<BoundTexture>,
+    /// The host's functions that read them, where these are no parameters.
+    pub host: Vec<HostFunction>,
     /// The ways in which they are read.
     pub combined: Vec<Combined>,
     /// Index and binding number of each buffer that is read or written.
@@ -290,6 +293,14 @@ impl Resources {
         for (k, binding) in &mut used_samplers {
             *binding = places.number(&graph.samplers[*k as usize].name);
         }
+        let framed = read
+            .iter()
+            .map(|t| t.index)
+            .find(|t| graph.textures[*t as usize].framed);
+        let host = match options.calls_host() {
+            true => host::functions(&ops, framed.filter(|_| needs_frame)),
+            false => Vec::new(),
+        };
         let resources = Resources {
             entry,
             outputs,
@@ -302,6 +313,7 @@ impl Resources {
             varying_names: graph.varyings.iter().map(|v| v.name.clone()).collect(),
             uniforms: uniforms.into_iter().cloned().collect(),
             read,
+            host,
             combined,
             read_buffers,
             used_samplers,

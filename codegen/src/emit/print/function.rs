@@ -35,7 +35,9 @@ impl Glsl<'_> {
     pub(super) fn taking(&self) -> String {
         let r = self.resources;
         let mut all = Vec::new();
-        if self.vulkan() {
+        if r.options.calls_host() {
+            // The host's functions read its textures.
+        } else if self.vulkan() {
             for bound in &r.read {
                 let texture = r.texture(bound.index);
                 all.push(format!("{} {}", glsl::texture_type(texture), texture.name));
@@ -54,7 +56,8 @@ impl Glsl<'_> {
         }
         all.push("vec2 position".to_owned());
         all.extend(r.varyings.iter().map(|v| glsl::declared(&v.name, v.ty.into())));
-        all.extend(r.uniforms.iter().map(|u| glsl::declared(&loose(&u.name), u.ty.into())));
+        let uniforms = r.uniforms.iter().filter(|_| !r.options.global_uniforms);
+        all.extend(uniforms.map(|u| glsl::declared(&loose(&u.name), u.ty.into())));
         format!("{} {}({}) {{", self.result_type(), r.entry, all.join(", "))
     }
 }
@@ -67,8 +70,11 @@ impl Hlsl<'_> {
         let buffers = r.read_buffers.iter().map(|(k, _)| buffer_declared(r, *k));
         let samplers = r.used_samplers.iter().map(|(k, _)| sampler_declared(r, *k));
         let varyings = r.varyings.iter().map(|v| hlsl::declared(&v.name, v.ty.into()));
-        let uniforms = r.uniforms.iter().map(|u| hlsl::declared(&loose(&u.name), u.ty.into()));
+        let uniforms = r.uniforms.iter().filter(|_| !r.options.global_uniforms);
+        let uniforms = uniforms.map(|u| hlsl::declared(&loose(&u.name), u.ty.into()));
         let bound = textures.chain(buffers).chain(samplers);
+        // Where the host's functions read textures, none is given.
+        let bound = bound.filter(|_| !r.options.calls_host());
         let all = bound
             .chain(["float2 position".to_owned()])
             .chain(varyings)

@@ -7,6 +7,7 @@ use super::wgsl::four;
 use super::{Language, Text, commented};
 use crate::emit::Target;
 use crate::emit::ast::{Builtin, Effect, Ty};
+use crate::emit::host;
 use crate::emit::resources::{OUTPUTS, Resources, SAMPLER, UNIFORMS};
 use crate::ir::{
     self, Access, AtomicOp, Axis, BinaryOp, Direction, Element, Memory, Scalar, TextureKind, Type, UnaryOp,
@@ -80,8 +81,10 @@ impl<'a> Glsl<'a> {
                     .combined
                     .iter()
                     .map(|one| self.resources.combined_name(*one));
+                let host = self.resources.host.iter().map(|f| f.name(self.resources));
                 combined
                     .chain(uniforms)
+                    .chain(host)
                     .chain(LOOSE_REGION.map(|(name, _)| name.to_owned()))
                     .chain(self.resources.structure_names())
                     .chain([self.resources.outputs_type()])
@@ -269,6 +272,9 @@ impl Language for Glsl<'_> {
     }
 
     fn read(&self, op: &ir::Op, args: &[Text]) -> Text {
+        if let Some(call) = host::call(self.resources, op, args) {
+            return call;
+        }
         let zero = Text::name("0");
         match op {
             ir::Op::Uniform(k) if !self.vulkan() || self.is_function() => Text::name(loose(self.resources.uniform(*k))),
@@ -491,7 +497,8 @@ impl Language for Glsl<'_> {
                 "// GLSL names a texture together with a sampler even where it filters nothing: any sampler will do.\n";
         }
         out.push('\n');
-        if matches!(self.target, Target::Essl310 | Target::Essl300) {
+        // A function whose host reads its textures stands below what the host has said of precision.
+        if matches!(self.target, Target::Essl310 | Target::Essl300) && !r.options.calls_host() {
             out += "precision highp float;\nprecision highp int;\n";
             for ty in self.opaque() {
                 out += &format!("precision highp {ty};\n");

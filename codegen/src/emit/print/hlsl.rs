@@ -5,6 +5,7 @@ mod declarations;
 use super::expr::{float, integer, unsigned};
 use super::{Language, Text, commented, loose};
 use crate::emit::ast::{Builtin, Effect, Expr, Module, Op, Ty};
+use crate::emit::host;
 use crate::emit::resources::{OUTPUTS, Resources, UNIFORMS};
 use crate::ir::{self, AtomicOp, Axis, BinaryOp, Direction, Scalar, TextureKind, UnaryOp};
 use declarations::{fields, structures};
@@ -62,6 +63,7 @@ impl<'a> Hlsl<'a> {
         let mut names: Vec<String> = self.sizes.iter().map(|size| self.size_of(*size)).collect();
         names.extend(self.resources.structure_names());
         names.extend([self.resources.outputs_type(), VARIABLE.to_owned(), OUTPUTS.to_owned()]);
+        names.extend(self.resources.host.iter().map(|f| f.name(self.resources)));
         if self.is_function() {
             names.extend(self.resources.uniforms.iter().map(|u| loose(&u.name)));
         }
@@ -210,6 +212,9 @@ impl Language for Hlsl<'_> {
     }
 
     fn read(&self, op: &ir::Op, args: &[Text]) -> Text {
+        if let Some(call) = host::call(self.resources, op, args) {
+            return call;
+        }
         let r = self.resources;
         let zero = Text::name("0");
         match op {
@@ -407,7 +412,7 @@ impl Language for Hlsl<'_> {
             if r.outputs.len() > 1 {
                 out += &format!("{}\n", self.outputs_structure());
             }
-            for size in &self.sizes {
+            for size in self.sizes.iter().filter(|_| !r.options.calls_host()) {
                 out += &format!("{}\n", self.asks(*size));
             }
             return out.trim_end().to_owned() + "\n";

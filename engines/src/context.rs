@@ -1,0 +1,378 @@
+//! What templates are given: a kernel's name, what it binds, and its shaders.
+
+use crate::fits;
+use crate::spelling;
+use serde::Serialize;
+use std::collections::BTreeMap;
+use straightline_codegen::{OptionInfo, OptionKind};
+use straightline_manifest::{BindingKind, Extent, LanguageKind, Manifest, SamplerType};
+
+/// All that a template is given.
+#[derive(Clone, Debug, Serialize)]
+pub struct Context {
+    /// Name of the files, without extension.
+    pub name: String,
+    /// The kernel's name.
+    pub kernel: String,
+    /// The name as that of a type: `JointBilateral`.
+    pub class: String,
+    /// The name in words: `Joint bilateral`.
+    pub title: String,
+    /// The first sentence of the kernel's documentation, or nothing.
+    pub summary: String,
+    /// Name and version of the generator.
+    pub generator: String,
+    /// The engine's name, as it was asked for.
+    pub engine: String,
+    /// Textures, in order of binding.
+    pub textures: Vec<TextureContext>,
+    /// The texture that is filtered: the one called `color`, or else the first two-dimensional one of the output's size, or else
+    /// the first.
+    pub picture: Option<TextureContext>,
+    /// Samplers, in order of binding.
+    pub samplers: Vec<SamplerContext>,
+    /// Uniforms, in order of offset.
+    pub uniforms: Vec<UniformContext>,
+    /// The buffer that uniforms lie in where the language has one.
+    pub block: Option<BlockContext>,
+    /// What is given for a pixel.
+    pub outputs: Vec<OutputContext>,
+    /// Shaders, by the names of `engine.toml`.
+    pub shaders: BTreeMap<String, ShaderContext>,
+    /// The shader, where there is one.
+    pub shader: Option<ShaderContext>,
+    /// Options that differ from their defaults, as the command line has them: `radius=4`.
+    pub changed: Vec<String>,
+}
+
+/// A texture.
+#[derive(Clone, Debug, Serialize)]
+pub struct TextureContext {
+    /// Name in the kernel.
+    pub name: String,
+    /// Group and number of WGSL.
+    pub binding: u32,
+    /// `2d`, `2d-array`, `3d`, `cube` or `multisampled`.
+    pub shape: &'static str,
+    /// `view_dimension`, as WebGPU has it.
+    pub view_dimension: &'static str,
+    /// Whether a texel has several samples.
+    pub multisampled: bool,
+    /// `sample_type`, as WebGPU has it.
+    pub sample_type: &'static str,
+    /// `float`, `depth`, `sint` or `uint`.
+    pub holds: &'static str,
+    /// Type in HLSL.
+    pub hlsl: String,
+    /// Whether it has the output's size.
+    pub framed: bool,
+}
+
+/// A sampler.
+#[derive(Clone, Debug, Serialize)]
+pub struct SamplerContext {
+    /// Name in the kernel.
+    pub name: String,
+    /// Number in WGSL.
+    pub binding: u32,
+    /// `filtering` or `comparison`.
+    #[serde(rename = "type")]
+    pub ty: &'static str,
+}
+
+/// A uniform.
+#[derive(Clone, Debug, Serialize)]
+pub struct UniformContext {
+    /// Name in the kernel.
+    pub name: String,
+    /// What it is for, in the kernel's words, or nothing.
+    pub docs: String,
+    /// Name where it lies in no block: that of the kernel, unless the shader has a use for that.
+    pub loose: String,
+    /// Type in WGSL.
+    pub wgsl: String,
+    /// Type in GLSL.
+    pub glsl: String,
+    /// Type in HLSL.
+    pub hlsl: String,
+    /// `f`, `i` or `u`.
+    pub kind: char,
+    /// Components, 1 to 4.
+    pub components: u32,
+    /// Byte offset in the buffer.
+    pub offset: u32,
+    /// The value until another is set, in every component, as a literal; 0 where the kernel states none.
+    pub default: String,
+    /// Whether the kernel states it.
+    pub has_default: bool,
+    /// Least value, as a literal, where the kernel states it.
+    pub min: Option<String>,
+    /// Greatest value, as a literal, where the kernel states it.
+    pub max: Option<String>,
+}
+
+/// The buffer of uniforms.
+#[derive(Clone, Debug, Serialize)]
+pub struct BlockContext {
+    /// Number in WGSL.
+    pub binding: u32,
+    /// Bytes.
+    pub size: u32,
+}
+
+/// An output.
+#[derive(Clone, Debug, Serialize)]
+pub struct OutputContext {
+    /// Name in the shader.
+    pub name: String,
+    /// Type in WGSL.
+    pub wgsl: String,
+    /// Type in GLSL.
+    pub glsl: String,
+    /// Format that it was generated for, as WebGPU has it.
+    pub format: &'static str,
+}
+
+/// A shader.
+#[derive(Clone, Debug, Serialize)]
+pub struct ShaderContext {
+    /// The text.
+    pub text: String,
+    /// Name of the entry point or function.
+    pub function: String,
+    /// Combined samplers of the languages of OpenGL.
+    pub combined: Vec<CombinedContext>,
+    /// What a function takes, in order.
+    pub arguments: Vec<ArgumentContext>,
+    /// Functions that a template defines before the text, where the shader reads by them.
+    pub reads: Vec<ReadContext>,
+    /// Invocations of a workgroup, of a compute shader.
+    pub workgroup: Option<[u32; 3]>,
+    /// The manifest of this text, as `emit --target` writes it.
+    pub manifest: serde_json::Value,
+}
+
+/// A combined sampler.
+#[derive(Clone, Debug, Serialize)]
+pub struct CombinedContext {
+    /// Name in the shader.
+    pub name: String,
+    /// Name of the texture in the kernel.
+    pub texture: String,
+    /// Name of the sampler in the kernel, where there is one.
+    pub sampler: Option<String>,
+    /// `nearest`, `linear` or `comparison`.
+    pub filter: &'static str,
+    /// Type: `sampler2D`.
+    pub glsl: String,
+}
+
+/// What a function takes.
+#[derive(Clone, Debug, Serialize)]
+pub struct ArgumentContext {
+    /// `texture`, `sampler`, `position`, `varying` or `uniform`.
+    pub kind: &'static str,
+    /// Name in the function.
+    pub name: String,
+    /// Name in the kernel.
+    pub of: String,
+}
+
+/// A function by which the shader reads a texture.
+#[derive(Clone, Debug, Serialize)]
+pub struct ReadContext {
+    /// Its name.
+    pub name: String,
+    /// The texture.
+    pub texture: String,
+    /// `load`, `sample` or `size`.
+    pub does: &'static str,
+}
+
+/// Textures of a manifest.
+pub fn textures(manifest: &Manifest) -> Vec<TextureContext> {
+    let each = manifest.bindings.iter().filter_map(|binding| match &binding.kind {
+        BindingKind::Texture {
+            dimension,
+            sample_type,
+            extent,
+            ..
+        } => Some(TextureContext {
+            name: binding.name.clone(),
+            binding: binding.binding,
+            shape: fits::shape(*dimension),
+            view_dimension: match fits::shape(*dimension) {
+                "multisampled" => "2d",
+                shape => shape,
+            },
+            multisampled: dimension.is_multisampled(),
+            sample_type: match sample_type {
+                straightline_manifest::SampleType::Unfilterable => "unfilterable-float",
+                other => fits::texels(*other),
+            },
+            holds: fits::texels(*sample_type),
+            hlsl: spelling::hlsl_texture(*dimension, *sample_type),
+            framed: *extent == Extent::Output,
+        }),
+        _ => None,
+    });
+    each.collect()
+}
+
+/// The texture that is filtered.
+pub fn picture(textures: &[TextureContext]) -> Option<TextureContext> {
+    let named = || textures.iter().find(|texture| texture.name == "color");
+    let framed = || {
+        textures
+            .iter()
+            .find(|texture| texture.framed && texture.shape == "2d" && texture.holds == "float")
+    };
+    named().or_else(framed).or_else(|| textures.first()).cloned()
+}
+
+/// Samplers of a manifest.
+pub fn samplers(manifest: &Manifest) -> Vec<SamplerContext> {
+    let each = manifest.bindings.iter().filter_map(|binding| match &binding.kind {
+        BindingKind::Sampler { sampler } => Some(SamplerContext {
+            name: binding.name.clone(),
+            binding: binding.binding,
+            ty: match sampler {
+                SamplerType::Filtering => "filtering",
+                SamplerType::Comparison => "comparison",
+            },
+        }),
+        _ => None,
+    });
+    each.collect()
+}
+
+/// Uniforms of a manifest, with what the kernel's options say of them.
+pub fn uniforms(manifest: &Manifest, options: &[OptionInfo]) -> (Vec<UniformContext>, Option<BlockContext>) {
+    let block = manifest.bindings.iter().find_map(|binding| match &binding.kind {
+        BindingKind::Uniform { size, fields, .. } => Some((binding.binding, *size, fields)),
+        _ => None,
+    });
+    let Some((binding, size, fields)) = block else {
+        return (Vec::new(), None);
+    };
+    let each = fields.iter().map(|field| {
+        let (kind, components) = spelling::parts(&field.ty);
+        let option = options
+            .iter()
+            .find(|option| option.name.replace('-', "_") == field.name);
+        let range = match option.map(|option| &option.kind) {
+            Some(OptionKind::Number { min, max, .. }) => [*min, *max],
+            _ => [None, None],
+        };
+        let [min, max] = range.map(|bound| bound.map(|bound| spelling::number(bound, kind)));
+        let loose = manifest
+            .language_bindings
+            .iter()
+            .find(|b| b.kind == LanguageKind::Uniform && b.of.as_ref() == Some(&field.name));
+        UniformContext {
+            name: field.name.clone(),
+            loose: loose.map_or(&field.name, |b| &b.name).clone(),
+            docs: option.map(|option| one_line(&option.docs)).unwrap_or_default(),
+            wgsl: field.ty.clone(),
+            glsl: spelling::glsl(&field.ty),
+            hlsl: spelling::hlsl(&field.ty),
+            kind,
+            components,
+            offset: field.offset,
+            default: spelling::number(field.default.unwrap_or_default(), kind),
+            has_default: field.default.is_some(),
+            min,
+            max,
+        }
+    });
+    (each.collect(), Some(BlockContext { binding, size }))
+}
+
+/// Outputs of a manifest.
+pub fn outputs(manifest: &Manifest) -> Vec<OutputContext> {
+    let each = manifest.outputs.iter().map(|output| OutputContext {
+        name: output.name.clone(),
+        wgsl: output.ty.clone(),
+        glsl: spelling::glsl(&output.ty),
+        format: output.format.wgsl(),
+    });
+    each.collect()
+}
+
+/// A shader, by its manifest; whether it takes uniforms, or has them declared before it.
+pub fn shader(text: String, takes_uniforms: bool, manifest: &Manifest) -> ShaderContext {
+    let bindings = &manifest.language_bindings;
+    let combined = bindings.iter().filter(|b| b.kind == LanguageKind::CombinedSampler);
+    let combined = combined.map(|b| {
+        let texture = b.texture.clone().unwrap_or_default();
+        let compares = b.sampler.as_ref().is_some_and(|sampler| {
+            let kind = manifest.binding(sampler).map(|binding| &binding.kind);
+            matches!(
+                kind,
+                Some(BindingKind::Sampler {
+                    sampler: SamplerType::Comparison
+                })
+            )
+        });
+        let glsl = match manifest.binding(&texture).map(|binding| &binding.kind) {
+            Some(BindingKind::Texture {
+                dimension, sample_type, ..
+            }) => spelling::glsl_sampler(*dimension, *sample_type, compares),
+            _ => "sampler2D".to_owned(),
+        };
+        CombinedContext {
+            name: b.name.clone(),
+            filter: match (&b.sampler, compares) {
+                (_, true) => "comparison",
+                (Some(_), false) => "linear",
+                (None, false) => "nearest",
+            },
+            texture,
+            sampler: b.sampler.clone(),
+            glsl,
+        }
+    });
+    let arguments = bindings.iter().filter_map(|b| {
+        let kind = match b.kind {
+            LanguageKind::Texture | LanguageKind::CombinedSampler => "texture",
+            LanguageKind::Sampler => "sampler",
+            LanguageKind::Position => "position",
+            LanguageKind::Varying => "varying",
+            LanguageKind::Uniform if takes_uniforms => "uniform",
+            _ => return None,
+        };
+        let of =
+            b.of.clone()
+                .or_else(|| b.texture.clone())
+                .unwrap_or_else(|| b.name.clone());
+        Some(ArgumentContext {
+            kind,
+            name: b.name.clone(),
+            of,
+        })
+    });
+    let reads = bindings.iter().filter(|b| b.kind == LanguageKind::Function);
+    let reads = reads.map(|b| ReadContext {
+        name: b.name.clone(),
+        texture: b.of.clone().unwrap_or_default(),
+        does: match b.name.split('_').next() {
+            Some("load") => "load",
+            Some("sample") => "sample",
+            _ => "size",
+        },
+    });
+    ShaderContext {
+        text,
+        function: manifest.entry_point.clone(),
+        combined: combined.collect(),
+        arguments: arguments.collect(),
+        reads: reads.collect(),
+        workgroup: manifest.workgroup_size,
+        manifest: serde_json::to_value(manifest).unwrap_or_default(),
+    }
+}
+
+/// A text without its line breaks.
+fn one_line(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}

@@ -1,0 +1,195 @@
+//! What `engine.toml` says of an engine.
+
+use serde::Deserialize;
+use std::collections::BTreeMap;
+use straightline_codegen::EmitOptions;
+use straightline_codegen::emit::{Reads, Target};
+use straightline_manifest::{BindingKind, Form, Manifest, Origin, Stage};
+
+/// An engine: `engine.toml`.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Description {
+    /// What the engine is called in sentences: `three.js`.
+    pub title: String,
+    /// What is written, in a few words.
+    pub about: String,
+    /// How far it has been tried: `pixels` where the tests compare pixels, `compiled` where a compiler of its language reads the
+    /// text, and `untested`.
+    #[serde(default)]
+    pub tried: Tried,
+    /// The shaders that templates put in, by the name that they have there.
+    pub shaders: BTreeMap<String, ShaderDescription>,
+    /// What the engine can bind.
+    #[serde(default)]
+    pub limits: Limits,
+    /// Template and the file that it makes, whose name is a template too.
+    pub files: BTreeMap<String, String>,
+}
+
+/// How far an engine has been tried.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Tried {
+    /// Not in the engine, and by no compiler.
+    #[default]
+    Untested,
+    /// Read by a compiler of the engine's language, not in the engine.
+    Compiled,
+    /// Run in the engine, and compared with the interpreter.
+    Pixels,
+}
+
+/// A shader that an engine wants.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ShaderDescription {
+    /// `wgsl`, `glsl450`, `glsl430`, `glsl330`, `essl310`, `essl300` or `hlsl`.
+    pub language: String,
+    /// `entry` for a whole shader, `function` for one that a template calls.
+    #[serde(default)]
+    pub form: Form,
+    /// `fragment` or `compute`.
+    #[serde(default = "fragment")]
+    pub stage: Stage,
+    /// `upper-left`, or `lower-left` where rows count from below.
+    #[serde(default)]
+    pub origin: Origin,
+    /// `textures`, or `functions` where a template defines `load_NAME`, `sample_NAME` and `size_of_NAME`.
+    #[serde(default)]
+    pub reads: HowReads,
+    /// Whether a function reads uniforms by their names, which a template declares, and takes none.
+    #[serde(default)]
+    pub global_uniforms: bool,
+    /// Whether WGSL with quad operations begins with `enable subgroups;`, as browsers want it.
+    #[serde(default)]
+    pub enable_subgroups: bool,
+    /// Binding numbers that the engine gives.
+    #[serde(default)]
+    pub numbers: Option<Numbers>,
+    /// Name of the entry point or function; the kernel's by default.
+    #[serde(default)]
+    pub entry: Option<String>,
+}
+
+/// Binding numbers that an engine gives: of the first of each, and one more for each that follows.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Numbers {
+    /// The first texture.
+    pub textures: u32,
+    /// The first sampler.
+    pub samplers: u32,
+    /// The uniform buffer.
+    pub parameters: u32,
+}
+
+impl Numbers {
+    /// The number of each binding by name.
+    pub fn of(self, manifest: &Manifest) -> Vec<(String, u32)> {
+        let (mut textures, mut samplers) = (self.textures.., self.samplers..);
+        let each = manifest.bindings.iter().filter_map(|binding| {
+            let number = match &binding.kind {
+                BindingKind::Texture { .. } => textures.next(),
+                BindingKind::Sampler { .. } => samplers.next(),
+                BindingKind::Uniform { .. } => Some(self.parameters),
+                BindingKind::Buffer { .. } => None,
+            };
+            Some((binding.name.clone(), number?))
+        });
+        each.collect()
+    }
+}
+
+fn fragment() -> Stage {
+    Stage::Fragment
+}
+
+/// How a function comes by its texels.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum HowReads {
+    /// Textures are parameters.
+    #[default]
+    Textures,
+    /// A template defines functions that read them.
+    Functions,
+}
+
+impl ShaderDescription {
+    /// The language.
+    ///
+    /// # Errors
+    ///
+    /// It is none that is text, with those that are.
+    pub fn target(&self) -> Result<Target, String> {
+        let target = self.language.parse::<Target>()?;
+        match target {
+            Target::Spirv | Target::Msl => Err(format!(
+                "`{target}` is no language of engines: use wgsl, hlsl or a GLSL"
+            )),
+            _ => Ok(target),
+        }
+    }
+
+    /// What the generator is asked for.
+    ///
+    /// # Errors
+    ///
+    /// As [`ShaderDescription::target`].
+    pub fn options(&self) -> Result<EmitOptions, String> {
+        let mut options = EmitOptions::new()
+            .stage(self.stage)
+            .form(self.form)
+            .origin(self.origin)
+            .reads(match self.reads {
+                HowReads::Textures => Reads::Textures,
+                HowReads::Functions => Reads::Functions,
+            })
+            .targets([self.target()?]);
+        options.global_uniforms = self.global_uniforms;
+        options.enable_subgroups = self.enable_subgroups;
+        options.entry.clone_from(&self.entry);
+        Ok(options)
+    }
+}
+
+/// What an engine can bind. What is left out is not limited, but for buffers, interpolated values and what not every device
+/// can do, which an engine must name.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Limits {
+    /// What the engine gives a shader, for messages: `one picture`.
+    #[serde(default)]
+    pub gives: Option<String>,
+    /// At most so many textures.
+    #[serde(default)]
+    pub textures: Option<u32>,
+    /// Shapes of textures: `2d`, `2d-array`, `3d`, `cube`, `multisampled`.
+    #[serde(default)]
+    pub dimensions: Option<Vec<String>>,
+    /// What textures hold: `float`, `depth`, `sint`, `uint`.
+    #[serde(default)]
+    pub holds: Option<Vec<String>>,
+    /// Samplers: `filtering`, `comparison`.
+    #[serde(default)]
+    pub samplers: Option<Vec<String>>,
+    /// At most so many uniforms.
+    #[serde(default)]
+    pub uniforms: Option<u32>,
+    /// Types of uniforms, as WGSL spells them; numbers and vectors by default.
+    #[serde(default)]
+    pub uniform_types: Option<Vec<String>>,
+    /// At most so many outputs; 1 by default.
+    #[serde(default)]
+    pub outputs: Option<u32>,
+    /// Whether storage buffers can be bound.
+    #[serde(default)]
+    pub buffers: bool,
+    /// Whether the host's vertex shader gives interpolated values.
+    #[serde(default)]
+    pub varyings: bool,
+    /// What not every device can do and this engine asks for: `subgroup`, `shader-f16`.
+    #[serde(default)]
+    pub features: Vec<String>,
+}

@@ -1,0 +1,342 @@
+//! An engine: its folder, and the files that it makes of a kernel.
+
+use crate::context::{self, Context};
+use crate::description::{Description, ShaderDescription};
+use crate::error::EngineError;
+use crate::{builtin, filters, fits, names, spelling};
+use std::collections::BTreeMap;
+use std::path::Path;
+use straightline_codegen::emit::{EmitError, Emitted, Target};
+use straightline_codegen::{Compiled, EmitOptions, Format, OptionInfo, Precision, Stage, files};
+use straightline_manifest::Manifest;
+use tera::Tera;
+
+/// Bytes that a file of an engine's folder may have.
+const LONGEST: u64 = 1 << 20;
+
+/// What is written for an engine.
+#[derive(Clone, Debug)]
+pub struct Request<'a> {
+    /// The kernel.
+    pub compiled: &'a Compiled,
+    /// The kernel's options, which say of uniforms what they are for.
+    pub options: &'a [OptionInfo],
+    /// Name of the files, without extension.
+    pub name: String,
+    /// What the shader computes in.
+    pub precision: Precision,
+    /// Texel format of the output, where the language names it.
+    pub format: Format,
+}
+
+impl<'a> Request<'a> {
+    /// A kernel in full precision, in files of its name.
+    pub fn new(compiled: &'a Compiled, options: &'a [OptionInfo]) -> Request<'a> {
+        Request {
+            compiled,
+            options,
+            name: compiled.kernel.clone(),
+            precision: Precision::default(),
+            format: Format::default(),
+        }
+    }
+}
+
+/// An engine.
+#[derive(Clone, Debug)]
+pub struct Engine {
+    name: String,
+    description: Description,
+    templates: BTreeMap<String, String>,
+}
+
+impl Engine {
+    /// The built-in engine of this name, or else the one in the folder of this path.
+    ///
+    /// # Errors
+    ///
+    /// There is neither, or the folder holds no engine.
+    pub fn find(name: &str) -> Result<Engine, EngineError> {
+        if let Some((name, sources)) = builtin::ENGINES.iter().find(|(known, _)| *known == name) {
+            let sources = sources
+                .iter()
+                .map(|(file, text)| ((*file).to_owned(), (*text).to_owned()));
+            return Engine::new(name, sources.collect());
+        }
+        let folder = Path::new(name);
+        if folder.join("engine.toml").exists() {
+            return Engine::folder(folder);
+        }
+        Err(EngineError::Unknown {
+            name: name.to_owned(),
+            known: names().collect::<Vec<_>>().join(", "),
+        })
+    }
+
+    /// The engine in a folder: `engine.toml`, and the templates that it names.
+    fn folder(folder: &Path) -> Result<Engine, EngineError> {
+        let name = folder
+            .file_name()
+            .map_or_else(|| "engine".into(), |name| name.to_string_lossy());
+        let read = |file: &str| {
+            let path = folder.join(file);
+            files::read_text(&path, LONGEST).map_err(|source| EngineError::Read { path, source })
+        };
+        let text = read("engine.toml")?;
+        let description = described(&name, &text)?;
+        let mut sources = BTreeMap::from([("engine.toml".to_owned(), text)]);
+        for template in description.files.keys() {
+            sources.insert(template.clone(), read(template)?);
+        }
+        Engine::new(&name, sources)
+    }
+
+    fn new(name: &str, mut sources: BTreeMap<String, String>) -> Result<Engine, EngineError> {
+        let text = sources.remove("engine.toml").unwrap_or_default();
+        let description = described(name, &text)?;
+        let engine = Engine {
+            name: name.to_owned(),
+            description,
+            templates: sources,
+        };
+        if let Some(template) = engine
+            .description
+            .files
+            .keys()
+            .find(|file| !engine.templates.contains_key(*file))
+        {
+            return Err(engine.wrong(format!("there is no template `{template}`")));
+        }
+        Ok(engine)
+    }
+
+    /// Its name: that of its folder.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// What `engine.toml` says.
+    pub fn description(&self) -> &Description {
+        &self.description
+    }
+
+    /// The files of a kernel, by name.
+    ///
+    /// # Errors
+    ///
+    /// The kernel does not fit, with what would; a template fails.
+    pub fn files(&self, request: &Request<'_>) -> Result<BTreeMap<String, Vec<u8>>, EngineError> {
+        let shaders = self.shaders(request).map_err(|unfit| unfit.told(self, request))?;
+        let context = self.context(request, shaders);
+        let context = tera::Context::from_serialize(context).map_err(|e| self.wrong(e.to_string()))?;
+        let mut tera = Tera::default();
+        filters::register(&mut tera);
+        tera.autoescape_on(Vec::new());
+        let mut made = BTreeMap::new();
+        for (template, file) in &self.description.files {
+            let failed = |error: tera::Error| EngineError::Template {
+                engine: self.name.clone(),
+                template: template.clone(),
+                message: causes(&error),
+            };
+            tera.add_raw_template(template, &self.templates[template])
+                .map_err(failed)?;
+            let text = tera.render(template, &context).map_err(failed)?;
+            let file = tera.render_str(file, &context).map_err(failed)?;
+            if !is_plain(&file) {
+                return Err(self.wrong(format!("`{file}` is no name of a file in the folder that is written")));
+            }
+            made.insert(file, text.into_bytes());
+        }
+        Ok(made)
+    }
+
+    /// Whether a kernel fits: every shader can be emitted, and all that it binds can be bound.
+    pub fn fits(&self, request: &Request<'_>) -> bool {
+        self.shaders(request).is_ok()
+    }
+
+    /// The shaders of a kernel, by the names of `engine.toml`.
+    fn shaders(&self, request: &Request<'_>) -> Result<BTreeMap<String, Shader>, Unfit> {
+        // What it binds is told before what a language lacks: it is what a user can understand.
+        let stage = self.description.shaders.values().next().map(|shader| shader.stage);
+        let probe = EmitOptions::new().stage(stage.unwrap_or(Stage::Fragment));
+        let limits = &self.description.limits;
+        let manifest = match request.compiled.emit(&probe.precision(request.precision)) {
+            Ok(emitted) => emitted.manifest,
+            Err(error) => return Err(error.into()),
+        };
+        if let Some(why) = fits::why_not(&manifest, limits, &self.description.title) {
+            return Err(Unfit::Limits(why));
+        }
+        let each = self.description.shaders.iter().map(|(name, description)| {
+            let shader = Shader::of(description, request, &manifest)?;
+            Ok((name.clone(), shader))
+        });
+        each.collect()
+    }
+
+    fn context(&self, request: &Request<'_>, shaders: BTreeMap<String, Shader>) -> Context {
+        let (compiled, name) = (request.compiled, &request.name);
+        let first = shaders.values().next();
+        let mut context = Context {
+            name: name.clone(),
+            kernel: compiled.kernel.clone(),
+            class: spelling::class(name),
+            title: spelling::title(name),
+            summary: compiled.summary.clone(),
+            generator: String::new(),
+            engine: self.name.clone(),
+            textures: Vec::new(),
+            picture: None,
+            samplers: Vec::new(),
+            uniforms: Vec::new(),
+            block: None,
+            outputs: Vec::new(),
+            shaders: BTreeMap::new(),
+            shader: None,
+            changed: Vec::new(),
+        };
+        // What is bound is the same for every shader of a kernel.
+        if let Some(Shader { manifest, .. }) = first {
+            context.generator.clone_from(&manifest.generator);
+            context.textures = context::textures(manifest);
+            context.picture = context::picture(&context.textures);
+            context.samplers = context::samplers(manifest);
+            (context.uniforms, context.block) = context::uniforms(manifest, request.options);
+            context.outputs = context::outputs(manifest);
+        }
+        let changed = compiled
+            .changed
+            .iter()
+            .filter_map(|name| compiled.options.get_key_value(name));
+        context.changed = changed.map(|(name, value)| format!("{name}={value}")).collect();
+        context.shaders = shaders
+            .into_iter()
+            .map(|(name, shader)| {
+                (
+                    name,
+                    context::shader(shader.text, shader.takes_uniforms, &shader.manifest),
+                )
+            })
+            .collect();
+        if context.shaders.len() == 1 {
+            context.shader = context.shaders.values().next().cloned();
+        }
+        context
+    }
+
+    fn wrong(&self, message: String) -> EngineError {
+        EngineError::Description {
+            engine: self.name.clone(),
+            message,
+        }
+    }
+}
+
+fn described(name: &str, text: &str) -> Result<Description, EngineError> {
+    let wrong = |message: String| EngineError::Description {
+        engine: name.to_owned(),
+        message,
+    };
+    let description: Description = toml::from_str(text).map_err(|error| wrong(error.to_string()))?;
+    for (shader, described) in &description.shaders {
+        let target = described.target();
+        target.map_err(|why| wrong(format!("shader `{shader}`: {why}")))?;
+    }
+    if description.shaders.is_empty() || description.files.is_empty() {
+        return Err(wrong("it names no shader, or no file".to_owned()));
+    }
+    Ok(description)
+}
+
+/// A shader of a kernel.
+struct Shader {
+    text: String,
+    takes_uniforms: bool,
+    manifest: Manifest,
+}
+
+impl Shader {
+    /// `bound` is the manifest of the kernel for any engine.
+    fn of(description: &ShaderDescription, request: &Request<'_>, bound: &Manifest) -> Result<Shader, Unfit> {
+        let unknown = |why: String| Unfit::Limits(why);
+        let options = description.options().map_err(unknown)?;
+        let mut options = options.precision(request.precision).format(request.format);
+        options.bindings = description.numbers.map_or_else(Vec::new, |numbers| numbers.of(bound));
+        let emitted = request.compiled.emit(&options)?;
+        let target = description.target().map_err(unknown)?;
+        Ok(Shader {
+            text: text(&emitted, target),
+            takes_uniforms: !description.global_uniforms,
+            manifest: emitted.manifest,
+        })
+    }
+}
+
+fn text(emitted: &Emitted, target: Target) -> String {
+    let bytes = emitted.files.get(&target).cloned().unwrap_or_default();
+    String::from_utf8(bytes).unwrap_or_default()
+}
+
+/// Why a kernel does not fit.
+enum Unfit {
+    /// The engine cannot bind what it binds.
+    Limits(String),
+    /// The generator cannot write it so.
+    Emit(Box<EmitError>),
+}
+
+impl From<EmitError> for Unfit {
+    fn from(error: EmitError) -> Unfit {
+        Unfit::Emit(Box::new(error))
+    }
+}
+
+impl Unfit {
+    /// As an error that says what would fit.
+    fn told(self, engine: &Engine, request: &Request<'_>) -> EngineError {
+        let kernel = request.compiled.kernel.clone();
+        let title = engine.description.title.clone();
+        let others = names().filter(|name| *name != engine.name);
+        let fitting = others.filter(|name| Engine::find(name).is_ok_and(|other| other.fits(request)));
+        let instead = match fitting.collect::<Vec<_>>().join(", ") {
+            none if none.is_empty() => "no built-in engine takes it: `--target` writes the shader alone".to_owned(),
+            some => format!("these engines take it: {some}"),
+        };
+        match self {
+            Unfit::Limits(why) => EngineError::Unfit {
+                kernel,
+                title,
+                why,
+                instead,
+            },
+            Unfit::Emit(source) => EngineError::Emit {
+                kernel,
+                title,
+                source,
+                instead,
+            },
+        }
+    }
+}
+
+/// Whether a name stays in its folder: relative, without `..`.
+fn is_plain(file: &str) -> bool {
+    let path = Path::new(file);
+    !file.is_empty()
+        && path
+            .components()
+            .all(|part| matches!(part, std::path::Component::Normal(_)))
+}
+
+/// An error of tera with what caused it, in a line.
+fn causes(error: &tera::Error) -> String {
+    let mut text = error.to_string();
+    let mut next = std::error::Error::source(error);
+    while let Some(cause) = next {
+        text += &format!(": {cause}");
+        next = cause.source();
+    }
+    text
+}

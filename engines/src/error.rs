@@ -1,0 +1,76 @@
+//! Why an engine does not get a kernel.
+
+use std::io;
+use std::path::PathBuf;
+use straightline_codegen::diagnostic::Errors;
+use straightline_codegen::emit::EmitError;
+use straightline_codegen::files::WriteError;
+
+/// Why there are no files for an engine.
+#[derive(Debug, thiserror::Error)]
+pub enum EngineError {
+    /// Neither a built-in engine nor a folder with one.
+    #[error("there is no engine `{name}`: one of {known}, or the path of a folder with an `engine.toml`")]
+    Unknown {
+        /// What was asked for.
+        name: String,
+        /// Names of the built-in engines.
+        known: String,
+    },
+    /// A file of a user's engine cannot be read.
+    #[error("cannot read `{path}`: {source}")]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        source: io::Error,
+    },
+    /// An `engine.toml` that says something wrong.
+    #[error("`engine.toml` of the engine `{engine}` is wrong: {message}")]
+    Description {
+        /// The engine.
+        engine: String,
+        /// What, and where.
+        message: String,
+    },
+    /// A template that cannot be rendered.
+    #[error("the template `{template}` of the engine `{engine}` fails: {message}")]
+    Template {
+        /// The engine.
+        engine: String,
+        /// The template.
+        template: String,
+        /// What, and where.
+        message: String,
+    },
+    /// The kernel needs what the engine does not give.
+    #[error("`{kernel}` does not fit {title}: it {why}; {instead}")]
+    Unfit {
+        /// The kernel.
+        kernel: String,
+        /// The engine.
+        title: String,
+        /// What the kernel does, and what the engine gives.
+        why: String,
+        /// What would fit.
+        instead: String,
+    },
+    /// The generator cannot write what the engine takes.
+    #[error("`{kernel}` does not fit {title}: {source}; {instead}")]
+    Emit {
+        /// The kernel.
+        kernel: String,
+        /// The engine.
+        title: String,
+        /// What the generator says.
+        source: Box<EmitError>,
+        /// What would fit.
+        instead: String,
+    },
+    /// The kernel, or a setting of it, is wrong.
+    #[error("{}", .0.render(false))]
+    Kernel(#[from] Errors),
+    /// The files cannot be written.
+    #[error(transparent)]
+    Write(#[from] WriteError),
+}

@@ -1,0 +1,136 @@
+//! Whether a kernel fits an engine.
+
+use crate::description::Limits;
+use straightline_manifest::{BindingKind, Dimension, Manifest, SampleType, SamplerType};
+
+/// Why a kernel that binds what its manifest says does not fit an engine: what it does, and what the engine gives.
+pub fn why_not(manifest: &Manifest, limits: &Limits, title: &str) -> Option<String> {
+    let gives = |what: &str| match &limits.gives {
+        Some(gives) => format!("{title} gives {gives}"),
+        None => format!("{title} takes {what}"),
+    };
+    let textures = manifest
+        .bindings
+        .iter()
+        .filter(|b| matches!(b.kind, BindingKind::Texture { .. }));
+    let count = textures.count() as u32;
+    if let Some(most) = limits.textures.filter(|most| count > *most) {
+        return Some(format!(
+            "binds {}, and {}",
+            many(count, "texture"),
+            gives(&format!("at most {most}"))
+        ));
+    }
+    let mut uniforms = 0;
+    for binding in &manifest.bindings {
+        let name = &binding.name;
+        match &binding.kind {
+            BindingKind::Texture {
+                dimension, sample_type, ..
+            } => {
+                let shape = shape(*dimension);
+                if let Some(known) = limits.dimensions.as_ref().filter(|known| !holds(known, shape)) {
+                    return Some(format!(
+                        "binds `{name}`, a {shape} texture, and {}",
+                        gives(&listed(known))
+                    ));
+                }
+                let what = texels(*sample_type);
+                if let Some(known) = limits.holds.as_ref().filter(|known| !holds(known, what)) {
+                    return Some(format!(
+                        "binds `{name}`, a texture of {what}, and {}",
+                        gives(&format!("textures of {}", listed(known)))
+                    ));
+                }
+            }
+            BindingKind::Sampler { sampler } => {
+                let what = match sampler {
+                    SamplerType::Filtering => "filtering",
+                    SamplerType::Comparison => "comparison",
+                };
+                if limits.samplers.as_ref().is_some_and(|known| !holds(known, what)) {
+                    return Some(format!("binds `{name}`, a {what} sampler, which {title} does not give"));
+                }
+            }
+            BindingKind::Buffer { .. } if !limits.buffers => {
+                return Some(format!("binds `{name}`, a storage buffer, which {title} does not give"));
+            }
+            BindingKind::Buffer { .. } => {}
+            BindingKind::Uniform { fields, .. } => {
+                uniforms += fields.len() as u32;
+                let types = limits.uniform_types.clone().unwrap_or_else(vectors);
+                if let Some(field) = fields.iter().find(|field| !holds(&types, &field.ty)) {
+                    let (field, ty) = (&field.name, &field.ty);
+                    return Some(format!(
+                        "has the uniform `{field}` of type {ty}, and {title} takes {}",
+                        listed(&types)
+                    ));
+                }
+            }
+        }
+    }
+    if let Some(most) = limits.uniforms.filter(|most| uniforms > *most) {
+        let most = many(most, "uniform");
+        return Some(format!("has {}, and {title} gives {most}", many(uniforms, "uniform")));
+    }
+    let (outputs, most) = (manifest.outputs.len() as u32, limits.outputs.unwrap_or(1));
+    if outputs > most {
+        return Some(format!("gives {}, and {title} takes {most}", many(outputs, "value")));
+    }
+    if let Some(varying) = manifest.varyings.first().filter(|_| !limits.varyings) {
+        return Some(format!(
+            "reads the interpolated value `{}`, which {title} does not give",
+            varying.name
+        ));
+    }
+    let feature = manifest
+        .features
+        .iter()
+        .find(|feature| !limits.features.contains(feature));
+    feature.map(|feature| format!("needs the device feature `{feature}`, which {title} is not asked for"))
+}
+
+/// Types of uniforms that every template can set: numbers and vectors of them.
+fn vectors() -> Vec<String> {
+    let lanes = ["vec2", "vec3", "vec4"].into_iter();
+    let vectors = lanes.flat_map(|vector| ["f", "i", "u"].map(|kind| format!("{vector}{kind}")));
+    ["f32", "i32", "u32"]
+        .map(str::to_owned)
+        .into_iter()
+        .chain(vectors)
+        .collect()
+}
+
+fn holds(known: &[String], name: &str) -> bool {
+    known.iter().any(|one| one == name)
+}
+
+fn listed(known: &[String]) -> String {
+    known.join(", ")
+}
+
+/// `1 texture`, `2 textures`.
+fn many(n: u32, what: &str) -> String {
+    format!("{n} {what}{}", if n == 1 { "" } else { "s" })
+}
+
+/// What `engine.toml` calls a shape.
+pub fn shape(dimension: Dimension) -> &'static str {
+    match dimension {
+        Dimension::D2 => "2d",
+        Dimension::D2Array => "2d-array",
+        Dimension::D3 => "3d",
+        Dimension::Cube => "cube",
+        Dimension::D2Multisampled => "multisampled",
+    }
+}
+
+/// What `engine.toml` calls the texels of a texture.
+pub fn texels(sample_type: SampleType) -> &'static str {
+    match sample_type {
+        SampleType::Unfilterable | SampleType::Filterable => "float",
+        SampleType::Depth => "depth",
+        SampleType::Sint => "sint",
+        SampleType::Uint => "uint",
+    }
+}

@@ -1,0 +1,53 @@
+//! What a user of an engine drops in: the shader in the engine's dialect, the lines of host code or resource that bind it, and
+//! a README.
+//!
+//! An engine is a folder: `engine.toml` says which shaders it wants of the generator and what it can bind
+//! ([`description`]), and templates of tera write the files around them ([`context`] is what templates are given). The built-in
+//! ones lie in `templates/`; a user's own is given by its path. No template computes anything: all that differs in a shader
+//! comes from the generator.
+//!
+//! In a `build.rs`:
+//!
+//! ```no_run
+//! use straightline_codegen::{Kernel, Settings};
+//! use straightline_engines::write;
+//!
+//! let kernel = Kernel::from_file("src/kernels/glow.rs".as_ref(), None)?;
+//! println!("cargo:rerun-if-changed=src/kernels/glow.rs");
+//! write(&kernel, &Settings::default(), "godot", "assets/shaders".as_ref())?;
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod builtin;
+pub mod context;
+pub mod description;
+mod engine;
+mod error;
+mod filters;
+mod fits;
+mod spelling;
+
+pub use engine::{Engine, Request};
+pub use error::EngineError;
+
+use std::path::{Path, PathBuf};
+use straightline_codegen::{Kernel, Settings, files};
+
+/// Names of the built-in engines, in order.
+pub fn names() -> impl Iterator<Item = &'static str> {
+    builtin::ENGINES.iter().map(|(name, _)| *name)
+}
+
+/// Writes a kernel for an engine, built in or a folder, into `out`, which is made if it is not there; all files or none. Returns
+/// their paths. For a `build.rs`, which says itself what it is to be run again for.
+///
+/// # Errors
+///
+/// The kernel is wrong, it does not fit the engine, or the files cannot be written.
+pub fn write(kernel: &Kernel, settings: &Settings, engine: &str, out: &Path) -> Result<Vec<PathBuf>, EngineError> {
+    let engine = Engine::find(engine)?;
+    let compiled = kernel.compile(settings)?;
+    let options = kernel.options()?;
+    let request = Request::new(&compiled, &options);
+    Ok(files::write_all(out, &engine.files(&request)?)?)
+}

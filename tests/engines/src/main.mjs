@@ -1,0 +1,151 @@
+// Emits every kernel for every engine, runs it there, and compares pixels with the interpreter. See README.md.
+
+import { execFileSync, spawnSync } from "node:child_process";
+import { mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { dirname, join } from "node:path";
+import { fileURLToPath } from "node:url";
+import { open } from "./browser.mjs";
+import { compare } from "./compare.mjs";
+import { ENGINES, UPRIGHT } from "./engines.mjs";
+import { readExr, writeExr } from "./exr.mjs";
+import { HEIGHT, KERNELS, WIDTH, inputs } from "./kernels.mjs";
+
+const here = dirname(dirname(fileURLToPath(import.meta.url)));
+const root = dirname(dirname(here));
+const straightline = process.env.STRAIGHTLINE ?? join(root, "target", "debug", "straightline");
+const [only, onlyKernel] = process.argv.slice(2).filter((argument) => !argument.startsWith("--"));
+const record = process.argv.find((argument) => argument.startsWith("--record="))?.slice("--record=".length);
+
+/** The path of a program. */
+function found(program) {
+    return spawnSync("sh", ["-c", `command -v ${program}`], { encoding: "utf8" }).stdout.trim() || program;
+}
+
+const PROGRAMS = {
+    chromium: { program: process.env.CHROMIUM ?? found("chromium"), version: ["--version"], install: "apt-get install chromium" },
+    ffmpeg: { program: "ffmpeg", version: ["-version"], install: "apt-get install ffmpeg mesa-vulkan-drivers" },
+    cc: { program: "cc", version: ["--version"], install: "apt-get install gcc libegl-dev libopengl-dev libgl1-mesa-dri" },
+    librashader: {
+        program: process.env.LIBRASHADER ?? "librashader-cli",
+        version: ["--version"],
+        install: "cargo install librashader-cli --version 0.12.0 --locked --no-default-features --features wgpu,vulkan, and its path in LIBRASHADER",
+    },
+};
+
+/** The first line of what a program says of itself, or nothing if it is not there. */
+function version({ program, version }) {
+    const ran = spawnSync(program, version, { encoding: "utf8" });
+    return ran.status === 0 ? (ran.stdout || ran.stderr).split("\n")[0].trim() : null;
+}
+
+function emitted(kernel, { engine, fixed }, folder) {
+    const values = fixed ? Object.entries(kernel.uniforms).map(([name, value]) => `${name}=${value}`) : [];
+    const options = [...kernel.options.filter((option) => !fixed || !option.endsWith("=uniform")), ...values].flatMap((option) => ["--set", option]);
+    const ran = spawnSync(straightline, ["emit", kernel.kernel, ...options, "--engine", engine, "--name", kernel.name, "--out", folder],
+        { cwd: root, encoding: "utf8" });
+    return ran.status === 0 ? null : ran.stderr.trim().replace(/^error: /, "");
+}
+
+/** What the interpreter makes of a kernel. */
+function reference(kernel, work) {
+    const given = [];
+    for (const [name, layers] of Object.entries(inputs(kernel))) {
+        const files = layers.map((rgba, k) => {
+            const stem = join(work, `${kernel.name}-${name}-${k}`);
+            writeExr(`${stem}.exr`, WIDTH, HEIGHT, rgba);
+            writeFileSync(`${stem}.f32`, new Uint8Array(rgba.buffer));
+            return `${stem}.exr`;
+        });
+        given.push("--input", `${name}=${files.join(",")}`);
+    }
+    const options = kernel.options.flatMap((option) => ["--set", option]);
+    const uniforms = Object.entries(kernel.uniforms).flatMap(([name, value]) => ["--uniform", `${name}=${value}`]);
+    const out = join(work, `${kernel.name}.exr`);
+    execFileSync(straightline, ["run", kernel.kernel, ...options, ...uniforms, ...given, "--executor", "cpu", "--out", out],
+        { cwd: root, stdio: ["ignore", "ignore", "pipe"] });
+    return readExr(out).rgba;
+}
+
+const work = mkdtempSync(join(tmpdir(), "straightline-engines-"));
+const rows = [];
+const versions = {};
+let failed = 0;
+let browser;
+try {
+    for (const [name, program] of Object.entries(PROGRAMS)) versions[name] = version(program);
+    const kernels = KERNELS.filter(({ name }) => !onlyKernel || name === onlyKernel);
+    const references = {};
+    for (const kernel of kernels) {
+        // Kernels that need more than pictures fit no engine here, which is what is tested of them.
+        references[kernel.name] = kernel.refused ? null : reference(kernel, work);
+    }
+    browser = versions.chromium && (await open(PROGRAMS.chromium.program, {
+        pages: join(here, "pages"), modules: join(here, "node_modules"), emitted: work, inputs: work,
+    }));
+    for (const engine of ENGINES.filter(({ name, engine }) => !only || name === only || engine === only)) {
+        for (const kernel of kernels) {
+            const result = await tried(engine, kernel, references[kernel.name]);
+            rows.push({ engine: engine.name, kernel: kernel.name, ...result });
+            if (!["same", "refused"].includes(result.state)) failed += 1;
+            const figures = result.most === undefined ? "" : ` most ${result.most.toExponential(1)}, ${(100 * result.within).toFixed(2)} % within ${result.limit.toExponential(1)}`;
+            console.log(`${engine.name}: ${kernel.name}: ${result.state}${figures}${result.why ? `: ${result.why}` : ""}`);
+        }
+    }
+    if (!onlyKernel && browser) {
+        for (const scene of UPRIGHT.filter(({ engine }) => !only || only === engine || only.startsWith(`${engine},`))) {
+            const why = await upright(scene);
+            if (why) failed += 1;
+            console.log(`${scene.engine}${scene.webgpu ? ", WebGPU" : ", WebGL"}: rows of a rendered scene: ${why ?? `from ${scene.origin}, as engine.toml says`}`);
+        }
+    }
+} finally {
+    await browser?.close();
+    rmSync(work, { recursive: true, force: true });
+}
+if (record) {
+    const lock = JSON.parse(readFileSync(join(here, "package.json"), "utf8"));
+    const text = JSON.stringify({ command: "tests/engines/run --record=FILE", size: [WIDTH, HEIGHT], versions: { ...versions, ...lock.dependencies }, rows }, null, 1);
+    mkdirSync(dirname(record), { recursive: true });
+    writeFileSync(record, `${text}\n`);
+}
+console.log(failed ? `${failed} of ${rows.length} failed` : `${rows.length} passed`);
+process.exitCode = failed ? 1 : 0;
+
+/**
+ * Whether the engine itself renders with its rows as the shader expects them: of a scene whose upper half is red, row 0 is red
+ * where rows count from above. Gives what is wrong.
+ */
+async function upright({ engine, webgpu, origin }) {
+    try {
+        const { rgba } = await browser.run(`upright-${engine}`, { webgpu, inputs: {} });
+        const [first, last] = rgba;
+        const expected = origin === "above" ? [1, 0] : [0, 1];
+        return first === expected[0] && last === expected[1] ? null : `row 0 is ${first} and the last ${last}, not ${expected}`;
+    } catch (error) {
+        return error.message.slice(0, 2000);
+    }
+}
+
+/** Emits, runs and compares. */
+async function tried(engine, kernel, expected) {
+    const folder = join(work, `${engine.engine}-${kernel.name}`);
+    const refused = emitted(kernel, engine, folder);
+    if (refused) return { state: refused.includes("does not fit") ? "refused" : "failed", why: refused };
+    if (!expected) return { state: "failed", why: "emitted, and nothing to compare with" };
+    for (const need of engine.needs) {
+        if (!versions[need]) return { state: "missing", why: `${PROGRAMS[need].program} is not there: ${PROGRAMS[need].install}` };
+    }
+    try {
+        const className = kernel.name.split("_").map((word) => word[0].toUpperCase() + word.slice(1)).join("");
+        const functionName = kernel.kernel.split("/").at(-1).replace(".rs", "");
+        const { rgba, bits } = await engine.run({
+            kernel, folder, browser, className, functionName, picture: "color", url: `/emitted/${engine.engine}-${kernel.name}`,
+        });
+        const found = compare(rgba, expected, bits, kernel.bound + (engine.slack ?? 0));
+        return { state: found.within >= kernel.share ? "same" : "differs", ...found };
+    } catch (error) {
+        const said = `${error.message}${error.stderr ? `\n${error.stderr}` : ""}`;
+        return { state: "failed", why: said.slice(0, 2000) };
+    }
+}

@@ -1,0 +1,221 @@
+//! Has compilers read the shaders of an engine's folder, in what the engine puts around them.
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+use straightline_codegen::Stage;
+use straightline_tests::compilers;
+
+type Files = BTreeMap<String, String>;
+
+/// Has the shaders of a folder read; says how many there are.
+///
+/// # Errors
+///
+/// What the first compiler that refuses one says of it.
+pub fn check(engine: &str, files: &Files) -> Result<usize, String> {
+    let ending = |end: &str| {
+        let found = files.iter().find(|(name, _)| name.ends_with(end));
+        found.map(|(_, text)| text.as_str()).ok_or(format!("no file *{end}"))
+    };
+    let es = "#version 300 es\n";
+    match engine {
+        "webgl2" => essl(&literal(ending(".js")?, "FRAGMENT")?)?,
+        "webgpu" => wgsl(&format!(
+            "{}{}",
+            literal(ending(".js")?, "VERTEX")?,
+            literal(ending(".js")?, "FRAGMENT")?
+        ))?,
+        "three" => {
+            essl(&format!("{es}{}", literal(ending("-pass.js")?, "FRAGMENT")?))?;
+            wgsl(&between(ending("-node.js")?, "wgslFn(`", "`);")?)?;
+        }
+        "postprocessing" => {
+            let effect = literal(ending(".js")?, "FRAGMENT")?;
+            let around = "precision highp float;\nuniform highp sampler2D inputBuffer;\nout vec4 colour;\n";
+            let main = "void main() { mainImage(vec4(0.0), vec2(0.0), colour); }\n";
+            essl(&format!("{es}{around}{effect}{main}"))?;
+        }
+        "babylon" => essl(&between(ending(".js")?, "FragmentShader\"] = `", "`;")?)?,
+        "playcanvas" => {
+            let around = "precision highp float;\nlayout(location = 0) out highp vec4 pc_fragColor;\n#define gl_FragColor pc_fragColor\n";
+            essl(&format!("{es}{around}{}", literal(ending(".mjs")?, "FRAGMENT_GLSL")?))?;
+        }
+        "opengl" => c(files)?,
+        "mpv" => mpv(ending(".glsl")?)?,
+        "libretro" => slang(ending(".slang")?)?,
+        "godot" => godot(ending(".gdshader")?)?,
+        "bevy" => wgsl(ending(".wgsl")?)?,
+        "unity" => unity(ending(".shader")?, ending(".hlsl")?)?,
+        "reshade" => reshade(ending(".fx")?)?,
+        "unreal" => unreal(ending(".usf")?)?,
+        other => return Err(format!("no compiler for `{other}`")),
+    }
+    Ok(1)
+}
+
+/// What stands between two texts, the last of which ends it first.
+fn between(text: &str, before: &str, behind: &str) -> Result<String, String> {
+    let rest = text.split_once(before).ok_or(format!("no `{before}`"))?.1;
+    let found = rest.split_once(behind).ok_or(format!("no `{behind}`"))?.0;
+    // As JavaScript reads what is between backquotes.
+    Ok(found.replace("\\`", "`").replace("\\${", "${").replace("\\\\", "\\"))
+}
+
+/// The value of a constant of JavaScript.
+fn literal(text: &str, name: &str) -> Result<String, String> {
+    between(text, &format!("const {name} = `"), "`;")
+}
+
+fn essl(text: &str) -> Result<(), String> {
+    opengl(text, "frag")
+}
+
+/// glslang on GLSL of OpenGL.
+fn opengl(text: &str, ending: &str) -> Result<(), String> {
+    use std::sync::atomic::{AtomicU32, Ordering};
+    static NEXT: AtomicU32 = AtomicU32::new(0);
+    let number = NEXT.fetch_add(1, Ordering::Relaxed);
+    let path = temporary(&format!("{number}.{ending}"));
+    std::fs::write(&path, text).map_err(|e| e.to_string())?;
+    let read = compilers::opengl(&path);
+    std::fs::remove_file(&path).map_err(|e| e.to_string())?;
+    read
+}
+
+fn temporary(name: &str) -> PathBuf {
+    std::env::temp_dir().join(format!("straightline-engines-{}-{name}", std::process::id()))
+}
+
+/// naga on WGSL.
+fn wgsl(text: &str) -> Result<(), String> {
+    // Browsers ask for the line, and naga does not know it.
+    let text = text.replace("enable subgroups;", "");
+    let parsed = naga::front::wgsl::parse_str(&text);
+    parsed.map(drop).map_err(|error| error.emit_to_string(&text))
+}
+
+/// A C compiler on the header, with all its warnings.
+fn c(files: &Files) -> Result<(), String> {
+    let (name, text) = files.iter().find(|(name, _)| name.ends_with(".h")).ok_or("no header")?;
+    let function = name.trim_end_matches(".h");
+    let uses = format!(
+        "int main(void) {{ return {function}_vertex[0] + {function}_fragment[0] + !{function}_samplers[0].name; }}\n"
+    );
+    let path = temporary("header.c");
+    std::fs::write(&path, format!("{text}{text}{uses}")).map_err(|e| e.to_string())?;
+    let flags = [
+        "-std=c99",
+        "-Wall",
+        "-Wextra",
+        "-Werror",
+        "-Wno-unused-const-variable",
+        "-pedantic",
+        "-Wno-overlength-strings",
+        "-fsyntax-only",
+    ];
+    let ran = std::process::Command::new("cc").args(flags).arg(&path).output();
+    let ran = ran.map_err(|e| format!("cannot run cc ({e}): install Debian's gcc"))?;
+    std::fs::remove_file(&path).map_err(|e| e.to_string())?;
+    match ran.status.success() {
+        true => Ok(()),
+        false => Err(String::from_utf8_lossy(&ran.stderr).into_owned()),
+    }
+}
+
+/// What mpv and libplacebo define, and their `main`.
+fn mpv(text: &str) -> Result<(), String> {
+    let hook = text.split_once("//!HOOK MAIN").ok_or("no hook")?.1;
+    let parameters = text.lines().filter_map(|line| line.strip_prefix("//!PARAM "));
+    let parameters: String = parameters.map(|name| format!("const float {name} = 1.0;\n")).collect();
+    let around = "#version 450\nlayout(set = 0, binding = 0) uniform sampler2D HOOKED_raw;\nlayout(location = 0) in vec2 HOOKED_pos;\n\
+        #define HOOKED_tex(pos) textureLod(HOOKED_raw, pos, 0.0)\n#define HOOKED_size vec2(64.0)\n#define HOOKED_pt vec2(0.015625)\n\
+        layout(location = 0) out vec4 colour;\n";
+    let main = "void main() { colour = hook(); }\n";
+    compilers::compiled_glsl(&format!("{around}{parameters}{hook}{main}"), "frag").map(drop)
+}
+
+/// A slang file is two shaders: what stands before the first stage is in both.
+fn slang(text: &str) -> Result<(), String> {
+    let (common, stages) = text.split_once("#pragma stage vertex").ok_or("no vertex stage")?;
+    let (vertex, fragment) = stages.split_once("#pragma stage fragment").ok_or("no fragment stage")?;
+    compilers::compiled_glsl(&format!("{common}{vertex}"), "vert")?;
+    compilers::compiled_glsl(&format!("{common}{fragment}"), "frag").map(drop)
+}
+
+/// Godot's language, after its own words are taken out of it: hints, the type of shader, the names of what it gives.
+fn godot(text: &str) -> Result<(), String> {
+    let line = |line: &str| match line.split_once(" : ") {
+        Some((declared, hints)) if declared.starts_with("uniform") => match hints.split_once(" = ") {
+            Some((_, value)) => format!("{declared} = {value}\n"),
+            None => format!("{declared};\n"),
+        },
+        _ if line.starts_with("shader_type") || line.starts_with("render_mode") => String::new(),
+        _ => format!("{line}\n"),
+    };
+    let body: String = text.lines().map(line).collect();
+    let around = "#version 330\nout vec4 COLOR;\n#define FRAGCOORD gl_FragCoord\n#define fragment main\n";
+    opengl(&format!("{around}{body}"), "frag")
+}
+
+/// The program of URP's shader, with the include in its place.
+fn unity(shader: &str, include: &str) -> Result<(), String> {
+    let program = between(shader, "HLSLPROGRAM", "ENDHLSL")?;
+    let lines = program.lines().filter(|line| !line.trim_start().starts_with('#'));
+    let blit = "Texture2D<float4> _BlitTexture;\nSamplerState sampler_LinearClamp;\nstruct Varyings { float4 positionCS : SV_POSITION; };\n";
+    let body = lines.collect::<Vec<_>>().join("\n");
+    compilers::compiled_hlsl(&format!("{blit}{include}{body}"), Stage::Fragment, "Frag").map(drop)
+}
+
+/// ReShade's effect up to its technique, which is no HLSL.
+fn reshade(text: &str) -> Result<(), String> {
+    let (body, technique) = text.split_once("\ntechnique ").ok_or("no technique")?;
+    let shader = between(technique, "PixelShader = ", ";")?;
+    let mut annotated = false;
+    let lines = body.lines().filter(|line| {
+        let begins = line.starts_with("uniform") && line.ends_with('<');
+        annotated |= begins;
+        let ends = line.starts_with('>');
+        annotated &= !ends;
+        begins || !(annotated || ends || line.starts_with("#include"))
+    });
+    let lines = lines.map(|line| match line.starts_with("uniform") && line.ends_with('<') {
+        true => line.trim_end_matches([' ', '<']).to_owned() + ";",
+        false => line.to_owned(),
+    });
+    let body = lines.collect::<Vec<_>>().join("\n");
+    let around = "#define BUFFER_WIDTH 64\n#define BUFFER_HEIGHT 64\nTexture2D<float4> back;\nSamplerState state;\n\
+        namespace ReShade { static const int BackBuffer = 0; }\n\
+        float4 tex2Dfetch(int s, int2 p) { return back.Load(int3(p, 0)); }\n\
+        float4 tex2Dlod(int s, float4 p) { return back.SampleLevel(state, p.xy, p.w); }\n";
+    compilers::compiled_hlsl(&format!("{around}{body}"), Stage::Fragment, &shader).map(drop)
+}
+
+/// What a material of Unreal's gives to its Custom node.
+fn unreal(text: &str) -> Result<(), String> {
+    let head = text
+        .lines()
+        .find(|line| line.starts_with("float4 ") && line.contains("(float2 position"));
+    let head = head.ok_or("no function")?;
+    let function = between(head, "float4 ", "(")?;
+    let given = head.matches(", ").count();
+    let around = "struct Views { float4 ViewSizeAndInvSize; };\nstatic const Views View = { float4(64.0, 64.0, 0.015625, 0.015625) };\n\
+        Texture2D<float4> post;\nSamplerState state;\nfloat2 ViewportUVToSceneTextureUV(float2 uv, uint id) { return uv; }\n\
+        float4 SceneTextureLookup(float2 uv, int id, bool filtered) { return post.SampleLevel(state, uv, 0.0); }\n";
+    let main = format!(
+        "float4 node(float4 place : SV_Position) : SV_Target {{ return {function}(place.xy{}); }}\n",
+        ", 1.0".repeat(given)
+    );
+    let body = text.replace("#pragma once", "");
+    compilers::compiled_hlsl(&format!("{around}{body}{main}"), Stage::Fragment, "node").map(drop)
+}
+
+/// What Shadertoy puts around an image.
+///
+/// # Errors
+///
+/// What the compiler says.
+pub fn shadertoy(text: &str) -> Result<(), String> {
+    let around = "#version 300 es\nprecision highp float;\nprecision highp int;\nuniform sampler2D iChannel0;\nuniform vec3 iResolution;\nout vec4 colour;\n";
+    let main = "void main() { mainImage(colour, gl_FragCoord.xy); }\n";
+    essl(&format!("{around}{text}{main}"))
+}
