@@ -16,6 +16,7 @@ macro_rules! files {
 
 /// The page's files but for the generator, by name.
 pub const FILES: &[(&str, &[u8])] = files![
+    "archive.js",
     "code.js",
     "controls.js",
     "counts.js",

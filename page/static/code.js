@@ -1,5 +1,6 @@
 // The texts: the kernel's, and the shader's in every language; copy, download, and the same from a shell.
 
+import { archive } from "./archive.js";
 import { element } from "./controls.js";
 import { Editor } from "./editor.js";
 
@@ -34,9 +35,9 @@ function extension(target, stage) {
   return `${version}${stage === "compute" ? "comp" : "frag"}`;
 }
 
-/** Gives a text to the visitor as a file. */
-export function save(name, text, type = "text/plain") {
-  const url = URL.createObjectURL(new Blob([text], { type }));
+/** Gives a text, or a blob, to the visitor as a file. */
+export function save(name, content, type = "text/plain") {
+  const url = URL.createObjectURL(content instanceof Blob ? content : new Blob([content], { type }));
   element("a", { href: url, download: name }).click();
   setTimeout(() => URL.revokeObjectURL(url), 10_000);
 }
@@ -64,7 +65,8 @@ export class Code {
 
   /**
    * `host` gives: `files()`, what the kernel's files are now; `edit(index, text)`; `restore()`; `isEdited()`;
-   * `text(target)`, a promise of `{ text, refused, manifest }`; `name()`, for files; `command(target)`.
+   * `text(target)`, a promise of `{ text, refused, manifest }`; `engine(name)`, one of an engine's files by name or `{ refused }`;
+   * `name()`, for files; `command(target)`.
    */
   constructor(host) {
     this.#host = host;
@@ -191,7 +193,20 @@ export class Code {
     this.#editor.mark(here.map((error) => ({ ...error.place, message: error.message })));
   }
 
-  /** The list of what can be taken along. Folders for engines will stand here too, an entry each. */
+  /** The engines that a folder can be had for, each with `name`, `title` and `about`. */
+  offer(engines) {
+    const choice = this.#find("engine");
+    const entries = engines.map(({ name, title, about }) => element("option", { value: name, textContent: title, title: about }));
+    choice.replaceChildren(...entries);
+    this.#find("take-engine").addEventListener("click", async () => {
+      const { files, refused } = await this.#host.engine(choice.value);
+      const folder = `${this.#host.name()}-${choice.value}`;
+      if (files) save(`${folder}.zip`, archive(folder, files));
+      this.showErrors(files ? [] : [{ message: refused, label: "", notes: [], help: null, place: null }]);
+    });
+  }
+
+  /** The list of what can be taken along. */
   #downloads() {
     const entry = (label, what) => {
       const button = element("button", { type: "button", className: "link", textContent: label });

@@ -283,6 +283,13 @@ const code = new Code({
     made.stage = stageOf(target, made.stage);
     return drawing.text(made, target).catch((error) => ({ refused: error.errors?.[0]?.message ?? error.message, stage: made.stage }));
   },
+  async engine(name) {
+    try {
+      return { files: (await generator.ask({ do: "engine", engine: name, ...form().asked })).json };
+    } catch (error) {
+      return { refused: error.errors?.[0]?.message ?? error.message };
+    }
+  },
   name: () => state.entry.name,
   command(target) {
     const { entry, options, form } = state;
@@ -300,6 +307,8 @@ const code = new Code({
     return `straightline emit ${file}${set.join("")}${unroll}${branches}${block}${transport}${staged} --target ${target} --out shaders/`;
   },
 });
+
+code.offer(catalogue.engines);
 
 /** Another picture, or without one the scene again. */
 async function setPicture(picture) {

@@ -267,6 +267,21 @@ async function downloadsAll(page, downloads) {
   assert.match(await readFile(join(downloads, "kuwahara.es300.frag"), "utf8"), /^#version 300 es/);
   const manifest = JSON.parse(await readFile(join(downloads, "kuwahara.json"), "utf8"));
   assert.equal(manifest.kernel, "kuwahara");
+  // Folders for engines, as archives that hold their files as they are.
+  const folders = { three: "class KuwaharaPass", mpv: "//!HOOK MAIN", godot: "shader_type canvas_item" };
+  for (const [engine, holds] of Object.entries(folders)) {
+    await page.select("#engine", engine);
+    await page.click("#take-engine");
+    const path = join(downloads, `kuwahara-${engine}.zip`);
+    while (!(await readFile(path).catch(() => null))) await new Promise((resolve) => setTimeout(resolve, 100));
+    const text = (await readFile(path)).toString("latin1");
+    assert.ok(text.startsWith("PK\x03\x04") && text.includes(`kuwahara-${engine}/README.md`), engine);
+    assert.ok(text.includes(holds), `${engine} holds no ${holds}`);
+  }
+  await choose(page, "kernel", "sraa");
+  await page.select("#engine", "mpv");
+  await page.click("#take-engine");
+  await page.waitForFunction(() => document.getElementById("errors").textContent.includes("does not fit mpv"), { timeout: 5000 });
 }
 
 test("every kernel is drawn, or says why not", async () => {

@@ -260,6 +260,7 @@ pub fn to_json() -> Value {
     });
     json!({
         "kernels": kernels.collect::<Vec<_>>(), "size": crate::scene::SIZE, "version": env!("CARGO_PKG_VERSION"),
+        "engines": crate::engines::to_json(),
     })
 }
 

@@ -8,6 +8,7 @@
 mod abi;
 mod catalogue;
 mod compiled;
+mod engines;
 mod errors;
 mod inputs;
 mod interpret;

@@ -1,10 +1,10 @@
 //! Messages between the page and the generator: four bytes of length (little endian), as much JSON, then bytes.
 
-use crate::compiled::{CompileRequest, KernelText, compile};
+use crate::compiled::{Asked, CompileRequest, KernelText, compile};
 use crate::inputs::{InputsRequest, inputs, reference};
 use crate::interpret::{InterpretRequest, interpret};
 use crate::state::State;
-use crate::{catalogue, errors::Refusal};
+use crate::{catalogue, engines, errors::Refusal};
 use serde::Deserialize;
 use serde_json::{Value, json};
 use std::cell::RefCell;
@@ -58,6 +58,12 @@ enum Request {
     Source { kernel: KernelText },
     /// Shaders, manifest, counts and options of a kernel.
     Compile(CompileRequest),
+    /// The folder of a kernel for an engine.
+    Engine {
+        engine: String,
+        #[serde(flatten)]
+        asked: Asked,
+    },
     /// What a kernel's textures hold.
     Inputs(InputsRequest),
     /// A kernel's picture, computed here.
@@ -98,6 +104,7 @@ fn act(state: &mut State, message: Message) -> Result<Message, Refusal> {
         Request::Catalogue => Ok(Message::of(catalogue::to_json())),
         Request::Source { kernel } => Ok(Message::of(kernel.source(state)?)),
         Request::Compile(request) => compile(state, &request).map(Message::of),
+        Request::Engine { engine, asked } => engines::folder(state, &engine, &asked).map(Message::of),
         Request::Inputs(request) => inputs(state, &request),
         Request::Interpret(request) => interpret(state, &request),
         Request::Picture { width, height } => {

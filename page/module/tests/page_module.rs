@@ -240,3 +240,29 @@ fn nonsense_is_refused() {
             .contains("round")
     );
 }
+
+#[test]
+fn a_kernel_is_had_as_the_folder_of_an_engine() {
+    let catalogue = ask(json!({ "do": "catalogue" }), &[]).expect("a catalogue").json;
+    let engines = catalogue["engines"].as_array().expect("a list");
+    assert!(engines.len() >= 14 && engines.iter().any(|e| e["title"] == "three.js"));
+    let folder = |engine: &str, id: &str| {
+        let asked = json!({ "do": "engine", "engine": engine, "kernel": { "id": id }, "unroll": unroll(id) });
+        ask(asked, &[]).map(|message| message.json)
+    };
+    for engine in engines {
+        let name = engine["name"].as_str().expect("a name");
+        let files = folder(name, "kernels/kuwahara").unwrap_or_else(|refused| panic!("{name}: {refused}"));
+        assert!(files["README.md"].is_string(), "{name}: {files}");
+    }
+    let three = folder("three", "kernels/kuwahara").expect("a folder");
+    let pass = three["kuwahara-pass.js"].as_str().expect("a pass");
+    assert!(
+        pass.contains("class KuwaharaPass") && pass.contains("RawShaderMaterial"),
+        "{pass}"
+    );
+    let refused = folder("mpv", "sraa").expect_err("three textures");
+    assert!(reason(&refused).contains("does not fit mpv"), "{refused}");
+    let nobody = folder("../secrets", "sraa").expect_err("no engine");
+    assert!(reason(&nobody).contains("there is no engine"), "{nobody}");
+}
