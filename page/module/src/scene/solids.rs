@@ -194,5 +194,7 @@ fn on_wire(from: Vec3, direction: Vec3, start: Vec3, end: Vec3, radius: f32) -> 
     }
     let distance = (-b - root.sqrt()) / a;
     let share = (from + direction * distance - start).dot(along) / square;
-    (distance > LEAST && (0.0..=1.0).contains(&share)).then(|| (distance, (offset + sideways * distance) / radius))
+    // A wire is thin and far away: what is left of large numbers is no longer exactly as long as its radius.
+    let normal = (offset + sideways * distance).normalize_or(-direction.normalize());
+    (distance > LEAST && (0.0..=1.0).contains(&share)).then_some((distance, normal))
 }
