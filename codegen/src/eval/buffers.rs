@@ -235,7 +235,7 @@ impl Evaluator<'_> {
 }
 
 /// A number or a vector by its name.
-fn value_named(name: &str) -> Option<Type> {
+pub(super) fn value_named(name: &str) -> Option<Type> {
     match name {
         "f32" => Some(Type::F32),
         "i32" => Some(Type::I32),

@@ -83,7 +83,7 @@ impl Evaluator<'_> {
             return Ok(Value::Elements(Rc::new(f.clone())));
         }
         if let ([name], [items]) = (path, values.as_slice())
-            && let Some(name) = name.strip_suffix("_of_some")
+            && let Some(name @ ("sum" | "product")) = name.strip_suffix("_of_some")
         {
             let items = self.listed(items, span)?;
             return self.reduced_some(name, &items, span);

@@ -5,11 +5,12 @@
 //! alike by all of them. Between two phases lies a barrier, unless nothing has been written before.
 
 use super::Evaluator;
+use super::buffers::value_named;
 use super::effects::{Effects, atomic_named};
 use super::value::{Eval, Exit, Value};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::front::tree::{Function, Type as SourceType};
-use crate::ir::{Access, BinaryOp, Invocation, Memory, NodeId, Op, Scalar, Shared, Type, vector_named};
+use crate::ir::{Access, BinaryOp, Invocation, Memory, NodeId, Op, Scalar, Shared, Type};
 
 const PAIR: Type = Type::value(Scalar::I32, 2);
 
@@ -118,13 +119,7 @@ impl Evaluator<'_> {
             return Err(refused(format!("`{name}` is no array of a length")));
         };
         let element = match &**element {
-            SourceType::Name(of, _) => match (of.as_str(), vector_named(of)) {
-                ("f32", _) => Some(Type::F32),
-                ("i32", _) => Some(Type::I32),
-                ("u32", _) => Some(Type::U32),
-                (_, Some((kind, lanes))) if lanes != 3 && kind != Scalar::Bool => Some(Type::value(kind, lanes)),
-                _ => None,
-            },
+            SourceType::Name(of, _) => value_named(of).filter(|ty| ty.lanes() != 3 && ty.kind() != Some(Scalar::Bool)),
             _ => None,
         };
         let element = element.filter(|ty| !atomic || matches!(*ty, Type::I32 | Type::U32));

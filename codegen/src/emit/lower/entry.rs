@@ -26,7 +26,7 @@ pub fn module<'g>() -> Module<'g> {
 pub fn entry(module: &mut Module<'_>, resources: &Resources) {
     let compute = resources.options.stage == Stage::Compute;
     let mut body = match compute {
-        true => begin_compute(module, resources),
+        true => begin_compute(resources),
         false => begin_fragment(resources),
     };
     let (mut outputs, mut kernel): (Vec<_>, Vec<_>) = std::mem::take(&mut module.body)
@@ -44,6 +44,7 @@ pub fn entry(module: &mut Module<'_>, resources: &Resources) {
         false => body.extend(outputs),
     }
     if resources.group.is_some() {
+        // A workgroup's entry point has all that a kernel may ask for; what it does not ask goes, last to first.
         for k in (0..begun).rev() {
             if let StmtKind::Let(var, _) = body[k].kind
                 && !body[k + 1..].iter().any(|stmt| stmt.mentions(var))
@@ -53,11 +54,6 @@ pub fn entry(module: &mut Module<'_>, resources: &Resources) {
         }
     }
     module.body = body;
-}
-
-/// Whether a kernel's statements name a variable of the entry point's.
-fn mentions(module: &Module<'_>, var: VarId) -> bool {
-    module.body.iter().any(|stmt| stmt.mentions(var))
 }
 
 fn builtin(builtin: Builtin) -> Expr {
@@ -92,7 +88,7 @@ fn turned(height: Expr, row: Expr) -> Expr {
     height.binary(BinaryOp::Sub, one).binary(BinaryOp::Sub, row)
 }
 
-fn begin_compute(module: &Module<'_>, resources: &Resources) -> Block<'static> {
+fn begin_compute(resources: &Resources) -> Block<'static> {
     let mut invocation = builtin(Builtin::Invocation);
     if resources.block != [1, 1] {
         let [width, height] = resources.block.map(|side| side as i32);
@@ -103,38 +99,36 @@ fn begin_compute(module: &Module<'_>, resources: &Resources) -> Block<'static> {
         false => builtin(Builtin::OutputSize),
     };
     // Pixels outside have nothing to do, but in a workgroup, which all of its invocations go through together.
-    let outside = |place: VarId, size: Expr| -> Option<Stmt<'static>> {
+    let outside = |place: VarId, size: Expr| -> Stmt<'static> {
         if resources.group.is_some() {
             let inside = Expr::new(Op::All, vec![local(place).binary(BinaryOp::Lt, size)], Type::BOOL);
-            let asked = !resources.outputs.is_empty() || mentions(module, VarId::INSIDE);
-            return asked.then(|| is(VarId::INSIDE, inside));
+            return is(VarId::INSIDE, inside);
         }
         let outside = local(place).binary(BinaryOp::Ge, size);
-        let stmt = StmtKind::If {
+        StmtKind::If {
             condition: Expr::new(Op::Any, vec![outside], Type::BOOL),
             then: vec![StmtKind::Return(None).into()],
             otherwise: Vec::new(),
-        };
-        Some(stmt.into())
+        }
+        .into()
     };
-    // The workgroup's first invocation.
-    let first_of_group = resources.group.map(|size| {
+    // Of a workgroup: the pixel of its first invocation, and where this one lies in it.
+    let of_group = |pixel: &dyn Fn(Expr) -> Expr| -> Block<'static> {
+        let Some(size) = resources.group else { return Vec::new() };
         let [width, height] = size.map(|side| side as i32);
-        builtin(Builtin::Group).binary(BinaryOp::Mul, Expr::ivec2(width, height))
-    });
-    let of_group = |origin: &dyn Fn(Expr) -> Expr| -> Block<'static> {
-        let origin = first_of_group.clone().map(|first| is(VarId::ORIGIN, origin(first)));
-        let own = [
-            (VarId::ORIGIN, origin),
-            (VarId::LOCAL, Some(is(VarId::LOCAL, builtin(Builtin::Local)))),
-        ];
-        let asked = own.into_iter().filter(|(var, _)| mentions(module, *var));
-        asked.filter_map(|(_, stmt)| stmt).collect()
+        let first = builtin(Builtin::Group).binary(BinaryOp::Mul, Expr::ivec2(width, height));
+        vec![
+            is(VarId::ORIGIN, pixel(first)),
+            is(VarId::LOCAL, builtin(Builtin::Local)),
+        ]
     };
     match (resources.options.region, resources.options.counts_from_below()) {
         (false, from_below) => {
-            let mut body = vec![is(VarId::FRAME, size), is(VarId::PIXEL, invocation)];
-            body.extend(outside(VarId::PIXEL, local(VarId::FRAME)));
+            let mut body = vec![
+                is(VarId::FRAME, size),
+                is(VarId::PIXEL, invocation),
+                outside(VarId::PIXEL, local(VarId::FRAME)),
+            ];
             body.extend(of_group(&|first| first));
             if from_below && !resources.outputs.is_empty() {
                 let row = turned(part(local(VarId::FRAME), 1), part(local(VarId::PIXEL), 1));
@@ -168,8 +162,10 @@ fn begin_compute(module: &Module<'_>, resources: &Resources) -> Block<'static> {
                     corner(Builtin::RegionPlace, 1).binary(BinaryOp::Add, turned(height(), row)),
                 );
             }
-            let mut body = vec![is(VarId::WITHIN, invocation)];
-            body.extend(outside(VarId::WITHIN, builtin(Builtin::RegionSize)));
+            let mut body = vec![
+                is(VarId::WITHIN, invocation),
+                outside(VarId::WITHIN, builtin(Builtin::RegionSize)),
+            ];
             // Nothing tells the frame's size where nothing asks for it.
             if resources.framed().is_some() || !resources.outputs.is_empty() {
                 body.push(is(VarId::FRAME, frame(resources)));

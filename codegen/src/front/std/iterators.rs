@@ -135,25 +135,11 @@ impl Iterator {
     }
 
     fn min<T>(items: [T]) -> Option<T> {
-        let mut least = None;
-        for x in items {
-            least = match least {
-                None => Some(x),
-                Some(other) => Some(if x < other { x } else { other }),
-            };
-        }
-        least
+        Iterator::reduce(items, |least, x| if x < least { x } else { least })
     }
 
     fn max<T>(items: [T]) -> Option<T> {
-        let mut largest = None;
-        for x in items {
-            largest = match largest {
-                None => Some(x),
-                Some(other) => Some(if x < other { other } else { x }),
-            };
-        }
-        largest
+        Iterator::reduce(items, |largest, x| if x < largest { largest } else { x })
     }
 
     fn reduce<T>(items: [T], f: impl Fn(T, T) -> T) -> Option<T> {
