@@ -11,3 +11,4 @@ pub mod passthrough;
 pub mod random;
 pub mod readme;
 pub mod sraa;
+pub mod texts;

@@ -8,26 +8,12 @@ mod common;
 use common::{Texel, bench, same_texels};
 use straightline_codegen::emit::Target;
 use straightline_codegen::ir::F16;
-use straightline_codegen::{
-    Branches, Compiled, EmitOptions, Form, Format, Kernel, Origin, Precision, Settings, Stage, Unroll,
-};
+use straightline_codegen::{Branches, EmitOptions, Form, Format, Origin, Precision, Settings, Stage, Unroll};
 use straightline_kernels::prelude::*;
 use straightline_runtime::{Error, PassOptions, Region, wgpu};
 use straightline_study::execute::{Bench, Inputs, Written, interpret};
-use straightline_tests::compilers;
-use straightline_tests::passthrough;
-
-/// A kernel's text, which rustc compiles here too.
-macro_rules! kernel {
-    ($text:ident, $module:ident, { $($source:tt)* }) => {
-        #[allow(dead_code)]
-        mod $module {
-            use straightline_kernels::prelude::*;
-            $($source)*
-        }
-        const $text: &str = stringify!($($source)*);
-    };
-}
+use straightline_tests::texts::{compiled, texels};
+use straightline_tests::{compilers, kernel, passthrough};
 
 kernel!(GBUFFER, gbuffer, {
     pub struct GBuffer {
@@ -88,11 +74,7 @@ const SIZE: UVec2 = uvec2(13, 9);
 const FAR: f32 = 100.0;
 
 fn color() -> Frame<Vec4> {
-    let mut random = common::Random(11);
-    // Multiples of 1/64, so that half precision has them too.
-    let mut lane = || (random.unit() * 64.0).floor() / 64.0;
-    let texels = (0..SIZE.x * SIZE.y).map(|_| vec4(lane(), lane(), lane(), lane()));
-    Frame::new(SIZE, texels.collect())
+    texels(SIZE, 11)
 }
 
 fn inputs() -> Inputs {
@@ -153,11 +135,6 @@ const KERNELS: [Case; 4] = [
         &[("destination", Format::Rgba32Float)],
     ),
 ];
-
-fn compiled(name: &str, text: &str, settings: &Settings) -> Compiled {
-    let compiled = Kernel::from_text("kernel.rs", text, name).compile(settings);
-    compiled.unwrap_or_else(|e| panic!("{name}:\n{e}"))
-}
 
 /// What rustc's code gives, target by target.
 fn native(kernel: Native, targets: usize) -> Vec<Vec<[f64; 4]>> {

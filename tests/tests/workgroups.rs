@@ -6,23 +6,12 @@ mod common;
 
 use common::{Texel, bench, same_texels};
 use straightline_codegen::emit::{EmitError, Target};
-use straightline_codegen::{Branches, Compiled, EmitOptions, Form, Kernel, Settings, Stage, Unroll};
+use straightline_codegen::{Branches, EmitOptions, Form, Kernel, Settings, Stage, Unroll};
 use straightline_kernels::prelude::*;
 use straightline_runtime::{Region, wgpu};
 use straightline_study::execute::{Inputs, interpret};
-use straightline_tests::{compilers, passthrough};
-
-/// A kernel's text, which rustc compiles here too.
-macro_rules! kernel {
-    ($text:ident, $module:ident, { $($source:tt)* }) => {
-        #[allow(dead_code, clippy::all)]
-        mod $module {
-            use straightline_kernels::prelude::*;
-            $($source)*
-        }
-        const $text: &str = stringify!($($source)*);
-    };
-}
+use straightline_tests::texts::{compiled, texels};
+use straightline_tests::{compilers, kernel, passthrough};
 
 // Counts in memory of the workgroup first, and adds up what it has counted.
 kernel!(HISTOGRAM, histogram, {
@@ -156,10 +145,7 @@ const SIZE: UVec2 = uvec2(37, 19);
 const STEPS: i32 = 5;
 
 fn color() -> Frame<Vec4> {
-    let mut random = common::Random(5);
-    let mut lane = || (random.unit() * 64.0).floor() / 64.0;
-    let texels = (0..SIZE.x * SIZE.y).map(|_| vec4(lane(), lane(), lane(), lane()));
-    Frame::new(SIZE, texels.collect())
+    texels(SIZE, 5)
 }
 
 /// What every kernel is run on.
@@ -257,11 +243,6 @@ const KERNELS: [Case; 4] = [
     ("reduction", REDUCTION, native_reduction),
     ("scan", SCAN, native_scan),
 ];
-
-fn compiled(name: &str, text: &str, settings: &Settings) -> Compiled {
-    let compiled = Kernel::from_text("kernel.rs", text, name).compile(settings);
-    compiled.unwrap_or_else(|e| panic!("{name}:\n{e}"))
-}
 
 fn forms() -> Vec<Settings> {
     let mut forms = Vec::new();

@@ -6,23 +6,12 @@ mod common;
 
 use common::{Texel, bench, same_texels};
 use straightline_codegen::emit::Target;
-use straightline_codegen::{Branches, Compiled, EmitOptions, Kernel, Settings, Stage, Unroll};
+use straightline_codegen::{Branches, EmitOptions, Kernel, Settings, Stage, Unroll};
 use straightline_kernels::prelude::*;
 use straightline_runtime::{Region, wgpu};
 use straightline_study::execute::{Buffers, Inputs, interpret};
-use straightline_tests::{compilers, passthrough};
-
-/// A kernel's text, which rustc compiles here too.
-macro_rules! kernel {
-    ($text:ident, $module:ident, { $($source:tt)* }) => {
-        #[allow(dead_code, clippy::all)]
-        mod $module {
-            use straightline_kernels::prelude::*;
-            $($source)*
-        }
-        const $text: &str = stringify!($($source)*);
-    };
-}
+use straightline_tests::texts::{compiled, texels};
+use straightline_tests::{compilers, kernel, passthrough};
 
 kernel!(HISTOGRAM, histogram, {
     pub fn histogram(color: &Frame<Vec4>, bins: &AtomicBuffer<u32>, pixel: IVec2) {
@@ -160,10 +149,7 @@ kernel!(STORED, stored, {
 const SIZE: UVec2 = uvec2(13, 9);
 
 fn color() -> Frame<Vec4> {
-    let mut random = common::Random(5);
-    let mut lane = || (random.unit() * 64.0).floor() / 64.0;
-    let texels = (0..SIZE.x * SIZE.y).map(|_| vec4(lane(), lane(), lane(), lane()));
-    Frame::new(SIZE, texels.collect())
+    texels(SIZE, 5)
 }
 
 fn numbers(count: usize, first: f64) -> Vec<[f64; 4]> {
@@ -256,11 +242,6 @@ const KERNELS: [Case; 4] = [
         false,
     ),
 ];
-
-fn compiled(name: &str, text: &str, settings: &Settings) -> Compiled {
-    let compiled = Kernel::from_text("kernel.rs", text, name).compile(settings);
-    compiled.unwrap_or_else(|e| panic!("{name}:\n{e}"))
-}
 
 fn native(kernel: Native) -> (World, Vec<Vec<[f64; 4]>>) {
     let world = World::new();

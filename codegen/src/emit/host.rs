@@ -128,9 +128,7 @@ pub fn check(compiled: &Compiled, resources: &Resources) -> Result<(), EmitError
         }
     }
     let graph = &compiled.graph;
-    let live = graph
-        .ids()
-        .filter(|id| compiled.schedule.place[id.0 as usize].is_some());
+    let live = graph.ids().filter(|id| compiled.schedule.has(*id));
     for node in live.map(|id| graph.node(id)) {
         let Some(texture) = node.op.texture() else { continue };
         let name = &resources.texture(texture).name;

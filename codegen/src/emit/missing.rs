@@ -28,9 +28,7 @@ pub fn check(compiled: &Compiled, resources: &Resources, target: Target) -> Resu
         });
     }
     let graph = &compiled.graph;
-    let live = graph
-        .ids()
-        .filter(|id| compiled.schedule.place[id.0 as usize].is_some());
+    let live = graph.ids().filter(|id| compiled.schedule.has(*id));
     let ops: Vec<&Op> = live.map(|id| &graph.node(id).op).collect();
     let any = |is: &dyn Fn(&Op) -> bool| ops.iter().any(|op| is(op));
     let of_kind = |kind: TextureKind| resources.read.iter().any(|t| resources.texture(t.index).kind == kind);

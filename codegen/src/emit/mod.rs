@@ -89,7 +89,7 @@ pub fn statements(compiled: &Compiled) -> u32 {
 
 /// A number that a kernel's statements do not fall short of: quick to tell.
 pub fn statements_at_least(graph: &Graph, schedule: &Schedule) -> u32 {
-    let live = graph.ids().filter(|id| schedule.place[id.0 as usize].is_some());
+    let live = graph.ids().filter(|id| schedule.has(*id));
     let costs = live.filter(|id| {
         !matches!(
             graph.node(*id).op,

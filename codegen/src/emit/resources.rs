@@ -108,7 +108,7 @@ impl Resources {
     /// What the scheduled graph reads.
     pub fn of(compiled: &Compiled, options: &EmitOptions) -> Result<Resources, EmitError> {
         let graph = &compiled.graph;
-        let live = |id: &NodeId| compiled.schedule.place[id.0 as usize].is_some();
+        let live = |id: &NodeId| compiled.schedule.has(*id);
         let ops: Vec<&Op> = graph.ids().filter(live).map(|id| &graph.node(id).op).collect();
         let kernel = || compiled.kernel.clone();
         if options.region && (compiled.quad.is_some() || compiled.transport.is_some()) {

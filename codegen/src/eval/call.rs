@@ -1,7 +1,6 @@
 //! Calls: the kernel's own functions, inlined, and the prelude's.
 
 use super::departures::Tail;
-use super::enums::Choice;
 use super::value::{Eval, Exit, Value, Way};
 use super::{Evaluator, MAX_CALLS};
 use crate::diagnostic::{Diagnostic, Span};
@@ -395,112 +394,6 @@ impl Evaluator<'_> {
         });
         let ty = self.ty(id);
         Ok(Value::Node(self.builder.add(Op::Tally(index as u32), vec![id], ty)))
-    }
-
-    /// A variable, a constant or a variant.
-    pub fn path(&mut self, path: &[String], span: Span) -> Eval {
-        let of_parameter = match path {
-            [of, name] => match self.scope.get(of) {
-                Some(Value::Type(ty)) => Some(vec![ty.clone(), name.clone()]),
-                _ => None,
-            },
-            _ => None,
-        };
-        let path = of_parameter.as_deref().unwrap_or(path);
-        let last = path.last().map(String::as_str).unwrap_or_default();
-        if path.len() == 1
-            && let Some(value) = self.scope.get(last)
-        {
-            return match value {
-                Value::Poison => Err(Exit::Noted),
-                Value::Unset => Err(self.unset(last, span)),
-                Value::Alias(place) => {
-                    let place = Rc::clone(place);
-                    self.read(&place, span)
-                }
-                other => Ok(other.clone()),
-            };
-        }
-        if let [.., ty, variant] = path
-            && let Some(found) = self.library.enums.get(ty)
-        {
-            if let Some(k) = found.position(variant) {
-                return Ok(match found.variants[k].fields.is_empty() {
-                    true => Choice::known(ty, found, k, Vec::new()),
-                    false => Value::Function(path.to_vec()),
-                });
-            }
-            if !self.library.consts.contains_key(&path.join("::")) {
-                let names: Vec<&str> = found.variants.iter().map(|v| v.name.as_str()).collect();
-                return Err(Diagnostic::at(span, format!("`{ty}` has no variant `{variant}`"))
-                    .label("not there")
-                    .help(crate::suggest::suggest(variant, &names, "it has"))
-                    .into());
-            }
-        }
-        let joined = path.join("::");
-        let name = if self.library.consts.contains_key(&joined) {
-            joined.as_str()
-        } else {
-            last
-        };
-        if self.library.structs.get(last).is_some_and(|s| s.fields.is_empty()) {
-            return Ok(Value::structure(last, Vec::new()));
-        }
-        if let Some(value) = self.constant(name, span)? {
-            return Ok(value);
-        }
-        match self.known_constant(path) {
-            Some(value) => Ok(value),
-            None if self.is_function(path) => Ok(Value::Function(path.to_vec())),
-            None => {
-                let names = self.scope.names();
-                Err(Diagnostic::at(span, format!("there is no `{}` here", path.join("::")))
-                    .label("not found")
-                    .help(crate::suggest::suggest(last, &names, "variables here are"))
-                    .into())
-            }
-        }
-    }
-
-    /// Whether a path is that of a function: of the kernel's files, or a method of a number or a vector.
-    fn is_function(&self, path: &[String]) -> bool {
-        let functions = &self.library.functions;
-        match path {
-            [name] => functions.contains_key(name) || crate::front::UNARY.contains(&name.as_str()),
-            [.., ty, name] => {
-                functions.contains_key(&path.join("::"))
-                    || functions.contains_key(name)
-                    || ((vector_type(ty).is_some() || matches!(ty.as_str(), "f32" | "i32" | "u32"))
-                        && name.starts_with(char::is_lowercase))
-            }
-            [] => false,
-        }
-    }
-
-    /// A constant of the kernel's files, evaluated once.
-    fn constant(&mut self, name: &str, span: Span) -> Eval<Option<Value>> {
-        if let Some(value) = self.consts.get(name) {
-            return Ok(Some(value.clone()));
-        }
-        let library = self.library;
-        let Some(constant) = library.consts.get(name) else {
-            return Ok(None);
-        };
-        if self.calls.len() >= MAX_CALLS {
-            return Err(Diagnostic::at(span, format!("the constant `{name}` needs itself"))
-                .label("used here")
-                .help("write out one of the values in the cycle")
-                .into());
-        }
-        let outer = self.scope.enter_function();
-        self.calls.push(name.to_owned());
-        let value = self.expr(&constant.value);
-        self.calls.pop();
-        self.scope.leave_function(outer);
-        let value = self.ascribe(value?, Some(&constant.ty), constant.value.span)?;
-        self.consts.insert(name.to_owned(), value.clone());
-        Ok(Some(value))
     }
 }
 

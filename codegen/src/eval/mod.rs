@@ -31,6 +31,7 @@ mod methods;
 mod operators;
 mod options;
 mod partial;
+mod paths;
 mod place;
 mod quad;
 mod ranges;

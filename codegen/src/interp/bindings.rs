@@ -208,7 +208,7 @@ pub(super) fn check(
     frame: [u32; 2],
     bindings: &Bindings<'_>,
 ) -> Result<(), InputError> {
-    let live = graph.ids().filter(|id| schedule.place[id.0 as usize].is_some());
+    let live = graph.ids().filter(|id| schedule.has(*id));
     let ops: Vec<_> = live.map(|id| &graph.node(id).op).collect();
     for (index, texture) in graph.textures.iter().enumerate() {
         if !ops.iter().any(|op| op.texture() == Some(index as u32)) {

@@ -18,6 +18,13 @@ pub struct Schedule {
     pub place: Vec<Option<RegionId>>,
 }
 
+impl Schedule {
+    /// Whether a node is evaluated.
+    pub fn has(&self, id: NodeId) -> bool {
+        self.place[id.0 as usize].is_some()
+    }
+}
+
 /// Steps of one region, in order.
 #[derive(Clone, Debug, Default)]
 pub struct Block {

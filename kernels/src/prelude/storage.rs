@@ -61,6 +61,41 @@ macro_rules! element {
 element!(u32, AtomicU32);
 element!(i32, AtomicI32);
 
+/// What is done to an element of atomics at once: methods of an index and a value, which give what was there before.
+macro_rules! operations {
+    ({ $($of:tt)* } $element:ty) => {
+        operations! { { $($of)* } $element;
+            /// Puts `value` there.
+            exchange;
+            /// Adds `value`, around the ends of the type.
+            add;
+            /// Leaves the larger of what is there and `value`.
+            max;
+            /// Leaves the smaller of what is there and `value`.
+            min;
+            /// Leaves the bits that both have.
+            and;
+            /// Leaves the bits that either has.
+            or;
+            /// Leaves the bits that one alone has.
+            xor;
+        }
+    };
+    ({ $($of:tt)* } $element:ty; $($(#[$doc:meta])* $name:ident;)*) => {
+        $($of)* {
+            $(
+                $(#[$doc])*
+                pub fn $name(&self, index: usize, value: $element) -> $element {
+                    self.at(index, |cell| <$element>::$name(cell, value))
+                }
+            )*
+        }
+    };
+}
+pub(super) use operations;
+
+operations!({ impl<T: AtomicElement> AtomicBuffer<T> } T);
+
 /// A list of `u32` or `i32`, at least one, that all pixels change together, each change at once. Bound as a
 /// `var<storage, read_write>` of `array<atomic<T>>`.
 ///
@@ -102,41 +137,6 @@ impl<T: AtomicElement> AtomicBuffer<T> {
     /// What is at `index` now.
     pub fn load(&self, index: usize) -> T {
         self.at(index, T::load)
-    }
-
-    /// Puts `value` there.
-    pub fn exchange(&self, index: usize, value: T) -> T {
-        self.at(index, |cell| T::exchange(cell, value))
-    }
-
-    /// Adds `value`, around the ends of the type.
-    pub fn add(&self, index: usize, value: T) -> T {
-        self.at(index, |cell| T::add(cell, value))
-    }
-
-    /// Leaves the larger of what is there and `value`.
-    pub fn max(&self, index: usize, value: T) -> T {
-        self.at(index, |cell| T::max(cell, value))
-    }
-
-    /// Leaves the smaller of what is there and `value`.
-    pub fn min(&self, index: usize, value: T) -> T {
-        self.at(index, |cell| T::min(cell, value))
-    }
-
-    /// Leaves the bits that both have.
-    pub fn and(&self, index: usize, value: T) -> T {
-        self.at(index, |cell| T::and(cell, value))
-    }
-
-    /// Leaves the bits that either has.
-    pub fn or(&self, index: usize, value: T) -> T {
-        self.at(index, |cell| T::or(cell, value))
-    }
-
-    /// Leaves the bits that one alone has.
-    pub fn xor(&self, index: usize, value: T) -> T {
-        self.at(index, |cell| T::xor(cell, value))
     }
 }
 

@@ -1,6 +1,6 @@
 //! Workgroups: invocations that go through a kernel together and share memory.
 
-use super::storage::AtomicElement;
+use super::storage::{AtomicElement, operations};
 use glam::{IVec2, UVec2};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -179,35 +179,7 @@ impl<A: SharedAtomics> Default for AtomicShared<A> {
     }
 }
 
-macro_rules! operations {
-    ($($(#[$doc:meta])* $name:ident;)*) => {
-        impl<A: SharedAtomics> AtomicShared<A> {
-            $(
-                $(#[$doc])*
-                pub fn $name(&self, index: usize, value: A::Element) -> A::Element {
-                    self.at(index, |cell| A::Element::$name(cell, value))
-                }
-            )*
-        }
-    };
-}
-
-operations! {
-    /// Puts `value` there.
-    exchange;
-    /// Adds `value`, around the ends of the type.
-    add;
-    /// Leaves the larger of what is there and `value`.
-    max;
-    /// Leaves the smaller of what is there and `value`.
-    min;
-    /// Leaves the bits that both have.
-    and;
-    /// Leaves the bits that either has.
-    or;
-    /// Leaves the bits that one alone has.
-    xor;
-}
+operations!({ impl<A: SharedAtomics> AtomicShared<A> } A::Element);
 
 impl<A: SharedAtomics> AtomicShared<A> {
     /// An array of zeros, for one workgroup.

@@ -185,9 +185,7 @@ fn plain<T: Copy, U>(layers: &[Frame<T>], of: impl Fn(&T) -> [U; 4]) -> ([u32; 2
 /// A uniform that is read, has no default and was not given: on a GPU its pass is refused too.
 fn unset<'a>(compiled: &'a Compiled, inputs: &Inputs) -> Option<&'a str> {
     let graph = &compiled.graph;
-    let scheduled = graph
-        .ids()
-        .filter(|id| compiled.schedule.place[id.0 as usize].is_some());
+    let scheduled = graph.ids().filter(|id| compiled.schedule.has(*id));
     let mut read = scheduled.filter_map(|id| match graph.node(id).op {
         Op::Uniform(index) => Some(&graph.uniforms[index as usize]),
         _ => None,
