@@ -84,8 +84,9 @@ impl Maker {
                 format!("{value}.filter(|_| {limit})")
             }
             3 if !want.known && d.depth > 0 => {
-                let (a, b) = (self.receiver(&own, d), self.expr(&own, d.inferred(true)));
                 let word = self.random.pick(&["or", "xor", "and"]);
+                // What comes after `and` may be of any type.
+                let (a, b) = (self.receiver(&own, d), self.expr(&own, d.inferred(word != "and")));
                 format!("{a}.{word}({b})")
             }
             _ => format!("Some({})", self.expr(of, d.inferred(want.inferred))),

@@ -1,7 +1,7 @@
 //! Closures, functions that take them, and the adaptors of iterators.
 
 use super::types::Ty;
-use super::{Maker, Want};
+use super::{Hold, Maker, Want};
 
 impl Maker {
     /// A closure that is called where it is, or given to a function.
@@ -21,7 +21,7 @@ impl Maker {
             m.expr(&of, want)
         });
         let result = self.name();
-        let moves = if self.random.once_in(4) { "move " } else { "" };
+        let moves = if self.random.once_in(4) && !self.would_move(&body) { "move " } else { "" };
         match self.random.below(4) {
             0 => {
                 self.line(format!(
@@ -43,6 +43,15 @@ impl Maker {
             }
         }
         self.bind(&result, &ty, false);
+    }
+
+    /// Whether a closure that takes what it mentions along would leave less behind.
+    fn would_move(&self, body: &str) -> bool {
+        let mut words = body.split(|c: char| !c.is_alphanumeric() && c != '_');
+        words.any(|word| {
+            let local = self.locals.iter().rev().find(|l| l.name == word);
+            local.is_some_and(|l| matches!(l.hold, Hold::Mutable) || !self.copies(&l.ty))
+        })
     }
 
     /// A closure that changes a variable.

@@ -211,7 +211,7 @@ impl Maker {
             return self.assign();
         }
         let (counter, name) = (self.fresh("w"), self.fresh("n"));
-        self.line(format!("let mut {counter} = 0;"));
+        self.line(format!("let mut {counter} = 0i32;"));
         self.open(format!("while let {name} @ 0..3 = {counter} {{"));
         let (mark, loops) = (self.locals.len(), std::mem::take(&mut self.loops));
         self.bind(&name, &Ty::I32, false);
