@@ -46,6 +46,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         Command::Resolve(args) => commands::resolve::run(&args),
         Command::Capture(args) => commands::capture::run(&args),
         Command::Scenes(args) => commands::scenes::run(&args),
+        Command::ServeIsa => straightline_isa::serve().map_err(Failure::of),
         Command::Adapters(args) => commands::adapters::run(&args),
     }
 }

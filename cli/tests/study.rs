@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{example, fails, here, is_empty, scratch, straightline, write};
+use common::{example, fails, finishes, here, is_empty, scratch, straightline, write};
 use std::path::{Path, PathBuf};
 
 #[test]
@@ -193,4 +193,44 @@ fn what_errors_cannot_be_measured_of_is_refused_before_any_work() {
     std::fs::write(&description, &text).expect("written");
     std::fs::remove_file(capture.join("reference.exr")).expect("removed");
     with_capture(&["has no reference.exr", "--reference 256"]);
+}
+
+#[test]
+fn a_compiler_is_asked_without_its_gpu() {
+    let explained = |kernel: &str| -> serde_json::Value {
+        let text = finishes(&["explain", kernel, "--isa", "navi21", "--json"]);
+        serde_json::from_str(&text).expect("JSON")
+    };
+    let found = explained("sraa");
+    let figure = |name: &str| found["isa"]["figures"][name].as_u64().expect("a figure");
+    assert!(figure("inverse_throughput") > 0 && figure("vector") > 0);
+    assert!(figure("vector") + figure("memory") <= figure("instructions"));
+
+    // What is read and written is counted twice: in the text by the generator, in machine code by the compiler.
+    let found = explained(&format!("{}::sobel", example("sobel")));
+    let reads = found["reads"].as_object().expect("reads").values();
+    let reads: u64 = reads.filter_map(serde_json::Value::as_u64).sum();
+    assert_eq!(found["isa"]["figures"]["memory"], reads + 1);
+}
+
+#[test]
+fn compilers_are_compared_and_recorded() {
+    let out = scratch("isa").join("out");
+    let (out, sobel) = (out.to_str().unwrap(), format!("{}::sobel", example("sobel")));
+    let table = finishes(&["study", "isa", "--from", &sobel, "--family", "navi21", "--out", out]);
+    for row in [
+        "sobel, unrolled, naga",
+        "sobel, looped, naga",
+        "sobel, unrolled, 2x2 pixels, naga",
+    ] {
+        assert!(table.contains(row), "{row} is not in {table}");
+    }
+    for file in ["isa.json", "isa.csv", "report.html"] {
+        assert!(Path::new(out).join(file).is_file(), "{file}");
+    }
+    fails(
+        &["study", "isa", "--family", "navi99", "--out", out],
+        2,
+        &["navi99", "navi21"],
+    );
 }

@@ -8,6 +8,7 @@ pub mod encode;
 pub mod execute;
 pub mod gbuffer;
 pub mod hard;
+pub mod isa;
 pub mod loops;
 pub mod metrics;
 pub mod oracle;

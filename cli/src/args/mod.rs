@@ -9,9 +9,10 @@ use std::path::PathBuf;
 use straightline_codegen::diagnostic::Errors;
 use straightline_codegen::emit::{Register, Target};
 use straightline_codegen::{Branches, Kernel, Settings, Transport, Unroll, shorten};
+use straightline_isa::Family;
 use straightline_manifest::{Form, Format, Origin, Precision, Stage};
 
-pub use study::{CommonArgs, ErrorArgs, HardArgs, LoopsArgs, Study, StudyArgs};
+pub use study::{CommonArgs, ErrorArgs, HardArgs, IsaArgs, LoopsArgs, Study, StudyArgs};
 pub use tune::TuneArgs;
 
 /// Image filters written once, as ordinary Rust with ordinary loops, emitted as straight-line shaders.
@@ -53,6 +54,9 @@ pub enum Command {
     Capture(CaptureArgs),
     /// List the built-in scenes, and what each is for
     Scenes(ScenesArgs),
+    /// Compile for a GPU that is not there, as the process that asks says
+    #[command(hide = true)]
+    ServeIsa,
     /// List the GPUs and drivers that wgpu sees, and what each can do
     Adapters(AdaptersArgs),
 }
@@ -224,9 +228,12 @@ pub struct ExplainArgs {
     /// Print JSON
     #[arg(long)]
     pub json: bool,
-    /// Also print the graph after each stage of the pipeline
+    /// Also print the graph after each stage of the pipeline, and with --isa the machine code
     #[arg(long)]
     pub dump: bool,
+    /// Also what Mesa's compiler makes of it for an AMD GPU, which need not be there: polaris10, vega10, navi10, navi21 or navi31
+    #[arg(long, value_name = "FAMILY")]
+    pub isa: Option<Family>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]

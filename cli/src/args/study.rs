@@ -5,6 +5,7 @@ use clap::{Args, Subcommand};
 use glam::UVec2;
 use std::path::PathBuf;
 use straightline_codegen::Precision;
+use straightline_isa::Family;
 
 #[derive(Debug, Args)]
 pub struct StudyArgs {
@@ -57,6 +58,8 @@ pub enum Study {
     Error(ErrorArgs),
     /// Numerical stability: hard cases, in every precision, by shader and interpreter
     Hard(HardArgs),
+    /// What GPU compilers make of the forms of each kernel, asked without a GPU
+    Isa(IsaArgs),
     /// Make the page anew from the records that are there
     Report,
 }
@@ -73,6 +76,20 @@ pub struct LoopsArgs {
     /// Also write what each kernel makes to this folder, and all of it in one picture, `all.png`
     #[arg(long, value_name = "DIR")]
     pub pictures: Option<PathBuf>,
+}
+
+#[derive(Clone, Debug, Default, Args)]
+pub struct IsaArgs {
+    /// A kernel of your own instead of the built-in choice: FILE.rs or FILE.rs::FUNCTION, or a built-in name. May be given
+    /// several times
+    #[arg(long, value_name = "KERNEL")]
+    pub from: Vec<String>,
+    /// The same kernel written by hand with its loops: one for each --from, in order
+    #[arg(long, value_name = "KERNEL", requires = "from")]
+    pub by_hand: Vec<String>,
+    /// A family of AMD GPUs: polaris10, vega10, navi10, navi21 or navi31; may be given several times. By default all of them
+    #[arg(long, value_name = "NAME")]
+    pub family: Vec<Family>,
 }
 
 #[derive(Clone, Debug, Default, Args)]

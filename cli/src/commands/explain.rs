@@ -1,11 +1,14 @@
 //! `explain`: what a kernel does for each pixel.
 
+use super::study::isa;
 use crate::args::ExplainArgs;
 use crate::failure::Failure;
 use crate::table;
 use serde_json::{Map, Value, json};
+use straightline_codegen::emit::{Emitted, Target};
 use straightline_codegen::ir::Invocation;
 use straightline_codegen::{Compiled, EmitOptions, Stage};
+use straightline_isa::{Compiler, Family, Report};
 use straightline_kernels::PaperCounts;
 use straightline_manifest::{BindingKind, Counts, Manifest, Precision};
 
@@ -22,8 +25,13 @@ pub fn run(args: &ExplainArgs) -> Result<(), Failure> {
         Invocation::Lane => Stage::Fragment,
         _ => Stage::Compute,
     };
-    let options = EmitOptions::new().stage(stage).precision(args.precision).targets([]);
+    let targets = args.isa.map(|_| Target::Spirv);
+    let options = EmitOptions::new()
+        .stage(stage)
+        .precision(args.precision)
+        .targets(targets);
     let emitted = compiled.emit(&options).map_err(Failure::of)?;
+    let isa = args.isa.map(|family| machine_code(&emitted, family)).transpose()?;
     let bound = bound(&emitted.manifest);
     let features = emitted.manifest.features.join(", ");
     let counts = emitted.manifest.counts;
@@ -31,14 +39,55 @@ pub fn run(args: &ExplainArgs) -> Result<(), Failure> {
     if args.json {
         let mut out = to_json(&compiled, &counts, &bound, paper);
         out.insert("precision".into(), json!(args.precision));
+        if let Some((device, report)) = &isa {
+            out.insert("isa".into(), json!({ "device": device, "figures": report.figures }));
+        }
         outln!("{:#}", Value::Object(out));
     } else {
         print(&compiled, &counts, &bound, paper);
         if args.precision != Precision::default() {
             outln!("\nin {}: the device needs {features}", args.precision);
         }
+        if let Some((device, report)) = &isa {
+            print_isa(device, report, args.dump);
+        }
     }
     Ok(())
+}
+
+/// What the compiler for a family makes of the shader, and what it calls its GPU.
+fn machine_code(emitted: &Emitted, family: Family) -> Result<(String, Report), Failure> {
+    let program = std::env::current_exe().map_err(Failure::of)?;
+    let mut compiler = Compiler::start(&program, &[isa::SERVE], family).map_err(Failure::of)?;
+    let bytes = emitted.files[&Target::Spirv].as_chunks::<4>().0;
+    let words: Vec<u32> = bytes.iter().map(|word| u32::from_le_bytes(*word)).collect();
+    let report = compiler
+        .compile(&words, &emitted.manifest.entry_point)
+        .map_err(Failure::of)?;
+    Ok((compiler.device().to_owned(), report))
+}
+
+fn print_isa(device: &str, report: &Report, dump: bool) {
+    let f = &report.figures;
+    let rows = [
+        ("instructions", f.instructions),
+        ("  vector", f.vector),
+        ("  scalar", f.scalar),
+        ("  memory", f.memory),
+        ("  branches", f.branches),
+        ("vector registers", f.vector_registers),
+        ("scalar registers", f.scalar_registers),
+        ("spilled registers", f.spilled),
+        ("waves a SIMD unit", f.occupancy),
+        ("bytes of machine code", f.code_size),
+        ("cycles, alone", f.latency),
+        ("cycles, among others", f.inverse_throughput),
+    ];
+    let rows = rows.map(|(name, figure)| vec![name.to_owned(), figure.to_string()]);
+    out!("\n{}", table::render(&[device, "a wave"], &rows));
+    if dump {
+        out!("\n{}", report.assembly);
+    }
 }
 
 /// Names of the inputs and of the uniforms that the shader has: what a scene must give it, and no more.

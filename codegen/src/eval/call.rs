@@ -242,10 +242,13 @@ impl Evaluator<'_> {
             self.scope.bind(&param.name, value);
         }
         self.calls.push(name.to_owned());
+        let unroll = self.policy.unroll;
+        self.policy.unroll = function.unroll.unwrap_or(unroll);
         let result = self.called_by_others(|e| {
             let result = e.block_in(&function.body, Tail::Function);
             e.arrive(0, result, outer.1, &|way| matches!(way, Way::Return(_)), function.span)
         });
+        self.policy.unroll = unroll;
         self.calls.pop();
         let result = result.and_then(|value| self.ascribe(value, Some(&function.result), function.span));
         self.scope.leave_function(outer);

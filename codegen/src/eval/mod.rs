@@ -158,7 +158,8 @@ const MAX_EXPRESSIONS: u32 = if cfg!(target_arch = "wasm32") { 700 } else { 100_
 struct Evaluator<'a> {
     library: &'a Library,
     builder: Builder<'a>,
-    policy: &'a Policy,
+    /// What becomes of loops and branches, in the function that is being evaluated.
+    policy: Policy,
     /// Loops that what follows them needs unrolled, whatever the policy says,
     /// with the error that what follows gave.
     unrolled: HashMap<Span, Diagnostic>,
@@ -194,14 +195,14 @@ struct Evaluator<'a> {
 }
 
 impl<'a> Evaluator<'a> {
-    fn new(library: &'a Library, files: &Arc<Vec<File>>, policy: &'a Policy) -> Self {
+    fn new(library: &'a Library, files: &Arc<Vec<File>>, policy: &Policy) -> Self {
         let mut builder = Builder::new(&Exact);
         builder.graph_mut().files = files.iter().map(|f| f.path.clone()).collect();
         builder.graph_mut().purposes = purposes(library);
         Evaluator {
             library,
             builder,
-            policy,
+            policy: policy.clone(),
             unrolled: HashMap::new(),
             unrolls_all: false,
             loops: budget::Loops::default(),

@@ -8,31 +8,41 @@ use quote::ToTokens;
 use syn::punctuated::Punctuated;
 use syn::spanned::Spanned;
 
+/// What may stand before loops.
+const UNROLL: &str = "write `unroll(full)`, `unroll(none)` or `unroll(4)`";
+
 impl Lower {
     /// `unroll(full)`, `unroll(none)` or `unroll(4)` before a loop.
     pub fn unroll_attribute(&mut self, attrs: &[syn::Attribute]) -> Option<Unroll> {
         let mut found = None;
         for meta in self.attributes(attrs) {
-            match &meta {
-                syn::Meta::List(list) if list.path.is_ident("unroll") => match list.tokens.to_string().parse() {
-                    Ok(unroll) => found = Some(unroll),
-                    Err(error) => self.bad_attribute(
-                        meta.span(),
-                        error,
-                        "write `unroll(full)`, `unroll(none)` or `unroll(4)`",
-                    ),
-                },
-                other => {
-                    let text = as_written(other);
-                    self.bad_attribute(
-                        other.span(),
-                        format!("a loop takes no attribute `{text}`"),
-                        "write `unroll(full)`, `unroll(none)` or `unroll(4)`",
-                    );
-                }
+            if let syn::Meta::List(list) = &meta
+                && list.path.is_ident("unroll")
+            {
+                found = self.unroll(list).or(found);
+            } else {
+                let text = as_written(&meta);
+                self.bad_attribute(meta.span(), format!("a loop takes no attribute `{text}`"), UNROLL);
             }
         }
         found
+    }
+
+    /// The same before a function, where other attributes are not looked at here.
+    pub fn unroll_of_function(&mut self, attrs: &[syn::Attribute]) -> Option<Unroll> {
+        let all = self.attributes(attrs);
+        let lists = all.iter().filter_map(|meta| meta.require_list().ok());
+        lists
+            .filter(|list| list.path.is_ident("unroll"))
+            .filter_map(|list| self.unroll(list))
+            .next_back()
+    }
+
+    fn unroll(&mut self, list: &syn::MetaList) -> Option<Unroll> {
+        let unroll = list.tokens.to_string().parse();
+        unroll
+            .map_err(|error| self.bad_attribute(list.span(), error, UNROLL))
+            .ok()
     }
 
     /// `branch` or `select` before an `if`.

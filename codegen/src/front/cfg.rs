@@ -15,8 +15,22 @@ pub enum Carrier {
     Loop,
     /// `if`, `match`, or a `let` that takes its value: `branch` and `select`.
     Branch,
+    /// A function: `unroll(..)`, which is said of all loops in it.
+    Function,
     /// Anything else.
     Other,
+}
+
+impl Carrier {
+    /// Whether one of the generator's own attributes may stand before it. Those that loops and conditions take from each other are
+    /// looked at where they are lowered.
+    fn takes(self, attribute: &str) -> bool {
+        match self {
+            Carrier::Loop | Carrier::Branch => true,
+            Carrier::Function => attribute == "unroll",
+            Carrier::Other => false,
+        }
+    }
 }
 
 /// Attributes that neither remove nor change the code after them.
@@ -128,9 +142,12 @@ impl Lower {
                     &format!("`{name}` under another condition than `false`"),
                     &format!("write `#[cfg_attr(false, {})]`", as_written(&part)),
                 ),
-                Some(false) if own && carrier == Carrier::Other => {
+                Some(false) if own && !carrier.takes(&name) => {
                     let (of, help) = match name.as_str() {
-                        "unroll" => ("a loop", "put it right before a `for`, `while` or `loop`"),
+                        "unroll" => (
+                            "a loop or a function",
+                            "put it right before a `for`, `while`, `loop` or `fn`",
+                        ),
                         _ => (
                             "an `if`",
                             "put it right before an `if`, or before the `let` that takes its value",

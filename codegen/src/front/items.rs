@@ -85,7 +85,7 @@ impl Items {
             }
             match item {
                 syn::Item::Fn(f) => {
-                    if is_test(&f.attrs) || !check.keeps(&mut f.attrs) {
+                    if is_test(&f.attrs) || !check.keeps_function(&mut f.attrs) {
                         continue;
                     }
                     check.function(&mut f.sig, &mut f.block);
@@ -313,6 +313,7 @@ impl Items {
         let body = super::parts::before(parts, lower.block(body), span);
         let function = Function {
             docs: docs(attrs),
+            unroll: lower.unroll_of_function(attrs),
             generics,
             bounds,
             params,
@@ -407,7 +408,7 @@ impl Items {
             check.generics(&mut item.generics);
             let name = match inner {
                 syn::ImplItem::Fn(f) => {
-                    if !check.keeps(&mut f.attrs) {
+                    if !check.keeps_function(&mut f.attrs) {
                         continue;
                     }
                     check.function(&mut f.sig, &mut f.block);

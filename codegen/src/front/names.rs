@@ -188,7 +188,7 @@ fn is_there(file: u32, item: &syn::Item) -> bool {
         _ => return true,
     };
     // What is wrong with them is said where the item is taken.
-    Lower::new(file, None, Rc::default()).keeps(&mut attrs.clone(), Carrier::Other)
+    Lower::new(file, None, Rc::default()).keeps(&mut attrs.clone(), Carrier::Function)
 }
 
 fn twice(file: u32, name: &syn::Ident) -> Diagnostic {

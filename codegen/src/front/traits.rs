@@ -89,7 +89,7 @@ impl Items {
         for inner in &mut item.items {
             match inner {
                 syn::TraitItem::Fn(f) => {
-                    if !check.keeps(&mut f.attrs) {
+                    if !check.keeps_function(&mut f.attrs) {
                         continue;
                     }
                     // What a default function holds is looked at for each type that takes it.
@@ -243,7 +243,7 @@ impl Items {
         let text = inner.to_token_stream();
         let key = match inner {
             syn::ImplItem::Fn(f) => {
-                if !check.keeps(&mut f.attrs) {
+                if !check.keeps_function(&mut f.attrs) {
                     return;
                 }
                 check.function(&mut f.sig, &mut f.block);

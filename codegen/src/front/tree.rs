@@ -292,6 +292,8 @@ pub struct Param {
 pub struct Function {
     /// Documentation.
     pub docs: String,
+    /// What becomes of its loops and of those of the functions that it calls, of which nothing else is said.
+    pub unroll: Option<Unroll>,
     /// Generic parameters in order, those of its `impl` last.
     pub generics: Vec<Generic>,
     /// The traits that type parameters have, by their names.

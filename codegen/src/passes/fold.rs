@@ -208,22 +208,28 @@ fn float(g: &Graph, op: BinaryOp, x: NodeId, y: NodeId) -> Option<NodeId> {
     }
 }
 
-/// Whether `id` is the smaller of something and the non-zero constant `bound`.
+/// Whether `id` is never more than the non-zero constant `bound`, and never a NaN.
 fn bounded_by(g: &Graph, id: NodeId, bound: NodeId) -> bool {
+    let is_bound = g.constant(bound).is_some() && !all_lanes(g, bound, 0) && !all_lanes(g, bound, 1 << 31);
+    is_bound && at_most(g, id, bound)
+}
+
+fn at_most(g: &Graph, id: NodeId, bound: NodeId) -> bool {
     let node = g.node(id);
     match node.op {
-        Op::Tally(_) => bounded_by(g, node.args[0], bound),
-        Op::Binary(BinaryOp::Min) => {
-            // Of vectors the last argument stands for a NaN in the first.
-            let bounds = if node.ty.is_scalar() {
-                &node.args[..]
-            } else {
-                &node.args[1..]
-            };
-            bounds.contains(&bound)
-                && g.constant(bound).is_some()
-                && !all_lanes(g, bound, 0)
-                && !all_lanes(g, bound, 1 << 31)
+        _ if id == bound => !g
+            .constant(bound)
+            .is_some_and(|lanes| lanes.iter().any(|x| f32::from_bits(*x).is_nan())),
+        Op::Tally(_) => at_most(g, node.args[0], bound),
+        // Of vectors the last argument stands for a NaN in the first.
+        Op::Binary(BinaryOp::Min) if node.ty.is_scalar() => node.args.iter().any(|arg| *arg == bound),
+        Op::Binary(BinaryOp::Min) => node.args[1] == bound,
+        Op::Binary(BinaryOp::Max) => node.args.iter().all(|arg| at_most(g, *arg, bound)),
+        // What is compared with the bound before it is taken.
+        Op::Select if node.ty.is_scalar() => {
+            let (condition, [yes, no]) = (g.node(node.args[0]), [node.args[1], node.args[2]]);
+            let compared = condition.op == Op::Binary(BinaryOp::Lt) && condition.args == [yes, bound];
+            (compared || at_most(g, yes, bound)) && at_most(g, no, bound)
         }
         _ => false,
     }

@@ -1,7 +1,7 @@
 //! What the G-buffer holds, and how: depth and normals at every geometry sample.
 
 use super::metric::Metric;
-use super::options::Sraa;
+use super::options::{Guards, Sraa};
 use super::pattern::Place;
 use super::view::View;
 use crate::prelude::*;
@@ -185,8 +185,17 @@ fn linear(cfg: &Sraa, view: &View, stored: f32) -> f32 {
         Depth::Reversed => near / (stored + near / far * (1.0 - stored)),
         Depth::ReversedInfinite => near / if stored > SHORTEST { stored } else { SHORTEST },
     };
-    // What is infinite or not a number is as deep as the sky. `min` may give either of its operands if one is a NaN.
-    if depth.abs() < DEEPEST { depth } else { DEEPEST }
+    match cfg.guards {
+        Guards::None => depth.min(DEEPEST),
+        // What is infinite or not a number is as deep as the sky. `min` may give either of its operands if one is a NaN.
+        _ => {
+            if depth.abs() < DEEPEST {
+                depth
+            } else {
+                DEEPEST
+            }
+        }
+    }
 }
 
 /// The unit normal that a texel holds.

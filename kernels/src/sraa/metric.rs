@@ -1,7 +1,7 @@
 //! What tells two surfaces apart (paper §3.2, Table 1).
 
 use super::gbuffer::Surface;
-use super::options::Sraa;
+use super::options::{Guards, Sraa};
 use super::view::View;
 use crate::prelude::*;
 
@@ -70,18 +70,28 @@ const NEAREST: f32 = 1.0e-30;
 /// How different the surface at a tap is from that at a geometry sample: 0 for the same, 1 or more for unrelated ones.
 pub(super) fn distance(cfg: &Sraa, sample: &Sample, tap: &Surface, at: Vec2) -> f32 {
     let larger = match cfg.metric {
-        Metric::PlanesNormals => bounded(off_plane(cfg, sample, tap, at)).max(bounded(turned(sample, tap))),
-        Metric::DepthNormals => bounded(deeper(cfg, sample, tap)).max(bounded(turned(sample, tap))),
-        Metric::Normals => bounded(turned(sample, tap)),
-        Metric::Depth => bounded(deeper(cfg, sample, tap)),
+        Metric::PlanesNormals => number(cfg, off_plane(cfg, sample, tap, at)).max(number(cfg, turned(sample, tap))),
+        // Depths are numbers, and so is how far they are apart.
+        Metric::DepthNormals => deeper(cfg, sample, tap).max(number(cfg, turned(sample, tap))),
+        Metric::Normals => number(cfg, turned(sample, tap)),
+        Metric::Depth => deeper(cfg, sample, tap),
     };
-    tally("weight_evaluations", larger)
+    tally("weight_evaluations", larger.min(FAR))
 }
 
-/// At most [`FAR`]. What is not a number, as of a normal that was divided by its length of zero, is of no surface at all:
+/// A difference, or [`FAR`]: what is not a number, as of a normal that was divided by its length of zero, is of no surface at all.
 /// `min` and `max` would leave to the device what becomes of it.
-fn bounded(difference: f32) -> f32 {
-    if difference < FAR { difference } else { FAR }
+fn number(cfg: &Sraa, difference: f32) -> f32 {
+    match cfg.guards {
+        Guards::None => difference,
+        _ => {
+            if difference < FAR {
+                difference
+            } else {
+                FAR
+            }
+        }
+    }
 }
 
 /// σp |(pₜ - pₛ)·nₛ|. The points are their depths along their rays, so (pₜ - pₛ)·nₛ is

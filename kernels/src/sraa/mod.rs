@@ -17,7 +17,7 @@ use pattern::{Place, tent};
 
 pub use gbuffer::{Depth, GBuffer, Layout, Normals, Surface};
 pub use metric::{Difference, Metric};
-pub use options::{Falloff, Mask, NonFinite, Normalisation, Resolve, Sraa};
+pub use options::{Falloff, Guards, Mask, NonFinite, Normalisation, Resolve, Sraa};
 pub use pattern::{Pattern, Shading};
 pub use view::View;
 
@@ -108,8 +108,9 @@ fn filtered<const TAPS: usize, const SIDE: usize>(cfg: &Sraa, inputs: &Inputs) -
             let mut sum = 0.0;
             for tap in 0..TAPS {
                 if falloff(cfg, place, cfg.tap(tap, SIDE)) > 0.0 {
-                    let nearness = (-steepness * (distances[tap] - origin)).exp2();
-                    let w = falloff(cfg, place, cfg.tap(tap, SIDE)) * nearness;
+                    // The falloff as an exponent: it is added, not multiplied with.
+                    let w =
+                        (steepness * (origin - distances[tap]) + falloff(cfg, place, cfg.tap(tap, SIDE)).log2()).exp2();
                     tap_weights[tap] = w;
                     sum += w;
                 }
@@ -125,10 +126,43 @@ fn filtered<const TAPS: usize, const SIDE: usize>(cfg: &Sraa, inputs: &Inputs) -
             }
         }
     }
+    match (cfg.guards, cfg.normalisation) {
+        (Guards::None, _) => mean(cfg, inputs, &weights, SIDE),
+        // The weights of `epsilon` need not sum to one.
+        (Guards::Inline, _) | (_, Normalisation::Epsilon) => mean_of_kept(cfg, inputs, &weights, SIDE),
+        (Guards::Fallback, _) => {
+            let of_all = mean(cfg, inputs, &weights, SIDE);
+            #[cfg_attr(false, branch)]
+            if of_all.is_finite() {
+                of_all
+            } else {
+                without_spoilt(cfg, inputs, &weights, SIDE)
+            }
+        }
+    }
+}
+
+/// The taps' colours by their weights, which sum to one.
+fn mean<const TAPS: usize>(cfg: &Sraa, inputs: &Inputs, weights: &[f32; TAPS], side: usize) -> Vec4 {
+    let mut result = Vec4::ZERO;
+    for tap in 0..TAPS {
+        result += weights[tap] * color(cfg, inputs, tap, side);
+    }
+    result
+}
+
+/// The mean of what may count, for the few pixels in which something may not: so its loop stays a loop.
+#[cfg_attr(false, unroll(none))]
+fn without_spoilt<const TAPS: usize>(cfg: &Sraa, inputs: &Inputs, weights: &[f32; TAPS], side: usize) -> Vec4 {
+    mean_of_kept(cfg, inputs, weights, side)
+}
+
+/// The mean of the taps' colours that may count.
+fn mean_of_kept<const TAPS: usize>(cfg: &Sraa, inputs: &Inputs, weights: &[f32; TAPS], side: usize) -> Vec4 {
     let mut result = Vec4::ZERO;
     let mut sum = 0.0;
     for tap in 0..TAPS {
-        let shaded = color(cfg, inputs, tap, SIDE);
+        let shaded = color(cfg, inputs, tap, side);
         let w = if is_kept(cfg, shaded) { weights[tap] } else { 0.0 };
         // A tap that no sample wants must not be counted: 0 times an infinite colour is not 0.
         if w != 0.0 {

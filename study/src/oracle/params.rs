@@ -305,6 +305,8 @@ impl SraaParams {
             "mask" => self.mask = choice(option, value, Mask::ALL, Mask::name)?,
             "mask-threshold" => self.mask_threshold = number(option, value)?,
             "non-finite" => self.non_finite = choice(option, value, NonFinite::ALL, NonFinite::name)?,
+            // How what is no number is found changes nothing of what comes of it.
+            "guards" => {}
             "tau" => self.tau = number(option, value)?,
             "depth-scale" => self.depth_scale = number(option, value)?,
             _ => {

@@ -1,6 +1,7 @@
 //! What a study found, as files: JSON with its circumstances, CSV beside it. `README.md` and the report cite these.
 
 mod hard;
+mod isa;
 mod loops;
 mod quality;
 mod tune;
@@ -13,6 +14,7 @@ use std::path::{Path, PathBuf};
 use straightline_codegen::files;
 
 pub use hard::{Executor, HalfVerdict, HardCase, HardRecord, HardResult};
+pub use isa::{Asked, IsaForm, IsaRecord, SpirvPath};
 pub use loops::{Form, FormKind, KernelForms, LoopsRecord};
 pub use quality::{Family, Gap, MOST_DB, MethodErrors, QualityRecord, SceneErrors, Shares};
 pub use tune::{Candidate, LeftOut, Model, Refused, TermWorth, TuneRecord};

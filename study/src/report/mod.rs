@@ -1,13 +1,16 @@
 //! One page of all records in a folder: plots, tables, pictures to compare. It needs nothing beside itself.
 
 mod hard;
+mod isa;
 mod loops;
 mod pictures;
 mod plot;
 mod quality;
 mod tune;
 
-use crate::record::{Circumstances, HardRecord, LoopsRecord, QualityRecord, Record, RecordError, TuneRecord};
+use crate::record::{
+    Circumstances, HardRecord, IsaRecord, LoopsRecord, QualityRecord, Record, RecordError, TuneRecord,
+};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -28,7 +31,7 @@ pub enum ReportError {
     #[error(transparent)]
     Picture(#[from] crate::picture::PictureError),
     /// There is no record.
-    #[error("there is no record in `{}`: run `study loops`, `study error`, `study hard` or `tune` with this --out first", .0.display())]
+    #[error("there is no record in `{}`: run `study loops`, `study error`, `study hard`, `study isa` or `tune` with this --out first", .0.display())]
     Empty(PathBuf),
     /// Figures that cannot be drawn.
     #[error("a plot cannot be drawn: {0}")]
@@ -38,7 +41,7 @@ pub enum ReportError {
     Template(String),
 }
 
-/// Makes `report.html` in `folder` from every record that lies there: `loops*.json`, `error*.json`, `hard*.json` and
+/// Makes `report.html` in `folder` from every record that lies there: `loops*.json`, `error*.json`, `hard*.json`, `isa*.json` and
 /// `tune*.json`, with the pictures that they name. Returns its path.
 ///
 /// # Errors
@@ -62,14 +65,16 @@ pub fn page(folder: &Path) -> Result<String, ReportError> {
         quality::section(&record, folder, &mut pictures)
     })?;
     let hard = sections(folder, |record: HardRecord| Ok(hard::section(&record)))?;
+    let isa = sections(folder, |record: IsaRecord| Ok(isa::section(&record)))?;
     let tune = sections(folder, |record: TuneRecord| tune::section(&record))?;
-    if loops.is_empty() && quality.is_empty() && hard.is_empty() && tune.is_empty() {
+    if loops.is_empty() && quality.is_empty() && hard.is_empty() && isa.is_empty() && tune.is_empty() {
         return Err(ReportError::Empty(folder.to_owned()));
     }
     let mut context = Context::new();
     context.insert("loops", &loops);
     context.insert("quality", &quality);
     context.insert("hard", &hard);
+    context.insert("isa", &isa);
     context.insert("tune", &tune);
     context.insert("pictures", &pictures.css());
     context.insert("style", include_str!("page/style.css"));
@@ -93,6 +98,7 @@ fn render(context: &Context) -> Result<String, ReportError> {
         ("loops.html", include_str!("page/loops.html")),
         ("error.html", include_str!("page/error.html")),
         ("hard.html", include_str!("page/hard.html")),
+        ("isa.html", include_str!("page/isa.html")),
         ("tune.html", include_str!("page/tune.html")),
         ("page.html", include_str!("page/page.html")),
     ])

@@ -20,7 +20,7 @@ const LEAST: Duration = Duration::from_millis(40);
 
 /// Measures, writes the record, prints it.
 pub fn run(common: &CommonArgs, args: &LoopsArgs, progress: &mut Progress) -> Result<(), Failure> {
-    let subjects = chosen(common, args)?;
+    let subjects = chosen(common, &args.from, &args.by_hand)?;
     if let Some(folder) = &args.pictures {
         files::try_folder(folder).map_err(Failure::of)?;
     }
@@ -46,21 +46,21 @@ pub fn run(common: &CommonArgs, args: &LoopsArgs, progress: &mut Progress) -> Re
     Ok(())
 }
 
-/// The kernels asked for, or the built-in choice.
-fn chosen(common: &CommonArgs, args: &LoopsArgs) -> Result<Vec<Subject>, Failure> {
-    if !args.by_hand.is_empty() && args.by_hand.len() != args.from.len() {
+/// The kernels asked for, each with what was written by hand for it, or the built-in choice.
+pub fn chosen(common: &CommonArgs, from: &[String], by_hand: &[String]) -> Result<Vec<Subject>, Failure> {
+    if !by_hand.is_empty() && by_hand.len() != from.len() {
         return Err(Failure::Usage(format!(
             "{} kernels by hand for {} kernels: give one --by-hand for each --from, in the same order, or none",
-            args.by_hand.len(),
-            args.from.len()
+            by_hand.len(),
+            from.len()
         )));
     }
-    if args.from.is_empty() {
+    if from.is_empty() {
         return Ok(subjects(common.quick)?);
     }
     let mut own = Vec::new();
-    for (k, kernel) in args.from.iter().enumerate() {
-        let by_hand = args.by_hand.get(k).map(|text| Kernel::locate(text)).transpose()?;
+    for (k, kernel) in from.iter().enumerate() {
+        let by_hand = by_hand.get(k).map(|text| Kernel::locate(text)).transpose()?;
         own.push(Subject::own(Kernel::locate(kernel)?, by_hand));
     }
     Ok(own)

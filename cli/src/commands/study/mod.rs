@@ -2,6 +2,7 @@
 
 mod error;
 mod hard;
+pub mod isa;
 mod loops;
 mod watch;
 
@@ -32,6 +33,7 @@ pub fn run(args: &StudyArgs) -> Result<(), Failure> {
         Some(Study::Error(error)) => error::run(common, error, &mut progress)?,
         Some(Study::Hard(args)) if args.list => return hard::list(args),
         Some(Study::Hard(args)) => hard::run(common, args, &mut progress)?,
+        Some(Study::Isa(args)) => isa::run(common, args, &mut progress)?,
         Some(Study::Report) => {}
         None => all(common, &mut progress)?,
     }
@@ -86,7 +88,7 @@ pub fn circumstances_of(gpu: &Gpu, size: UVec2, rounds: u32) -> Circumstances {
 pub fn on_processor(size: UVec2, rounds: u32) -> Circumstances {
     Circumstances {
         command: command(),
-        date: humantime::format_rfc3339_seconds(SystemTime::now()).to_string(),
+        date: now(),
         adapter: "none: interpreter only".to_owned(),
         processor: processor(),
         clock: Clock::WallClock,
@@ -94,6 +96,11 @@ pub fn on_processor(size: UVec2, rounds: u32) -> Circumstances {
         rounds,
         complete: true,
     }
+}
+
+/// The time, as records have it: RFC 3339, UTC.
+fn now() -> String {
+    humantime::format_rfc3339_seconds(SystemTime::now()).to_string()
 }
 
 /// The command as it was given, with the program's name for its path.

@@ -273,7 +273,7 @@ impl Check {
         let carrier = match &local.init {
             Some(init) => match carrier(&init.expr) {
                 Carrier::Branch => Carrier::Branch,
-                Carrier::Loop | Carrier::Other => Carrier::Other,
+                _ => Carrier::Other,
             },
             None => Carrier::Other,
         };

@@ -61,6 +61,11 @@ impl Check {
         self.lower.keeps(attrs, Carrier::Other)
     }
 
+    /// Whether a function with these attributes is there.
+    pub fn keeps_function(&mut self, attrs: &mut Vec<syn::Attribute>) -> bool {
+        self.lower.keeps(attrs, Carrier::Function)
+    }
+
     /// Notes a second definition of a name.
     pub fn twice(&mut self, name: &syn::Ident) {
         let span = self.lower.span(name.span());

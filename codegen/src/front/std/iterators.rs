@@ -1,25 +1,25 @@
-struct Filtered<T> {
+struct __Filtered<T> {
     items: [Option<T>],
 }
 
-impl<T> Filtered<T> {
-    fn filter(self, f: impl Fn(&T) -> bool) -> Filtered<T> {
-        Filtered { items: self.items.map(|x| x.filter(|x| f(x))) }
+impl<T> __Filtered<T> {
+    fn filter(self, f: impl Fn(&T) -> bool) -> __Filtered<T> {
+        __Filtered { items: self.items.map(|x| x.filter(|x| f(x))) }
     }
 
-    fn map<U>(self, f: impl Fn(T) -> U) -> Filtered<U> {
-        Filtered { items: self.items.map(|x| x.map(|x| f(x))) }
+    fn map<U>(self, f: impl Fn(T) -> U) -> __Filtered<U> {
+        __Filtered { items: self.items.map(|x| x.map(|x| f(x))) }
     }
 
-    fn filter_map<U>(self, f: impl Fn(T) -> Option<U>) -> Filtered<U> {
-        Filtered { items: self.items.map(|x| x.and_then(|x| f(x))) }
+    fn filter_map<U>(self, f: impl Fn(T) -> Option<U>) -> __Filtered<U> {
+        __Filtered { items: self.items.map(|x| x.and_then(|x| f(x))) }
     }
 
-    fn copied(self) -> Filtered<T> {
+    fn copied(self) -> __Filtered<T> {
         self
     }
 
-    fn cloned(self) -> Filtered<T> {
+    fn cloned(self) -> __Filtered<T> {
         self
     }
 
@@ -102,15 +102,15 @@ impl<T> Filtered<T> {
 }
 
 impl Iterator {
-    fn filter<T>(items: [T], f: impl Fn(&T) -> bool) -> Filtered<T> {
-        Filtered { items: items.map(|x| if f(&x) { Some(x) } else { None }) }
+    fn filter<T>(items: [T], f: impl Fn(&T) -> bool) -> __Filtered<T> {
+        __Filtered { items: items.map(|x| if f(&x) { Some(x) } else { None }) }
     }
 
-    fn filter_map<T, U>(items: [T], f: impl Fn(T) -> Option<U>) -> Filtered<U> {
-        Filtered { items: items.map(|x| f(x)) }
+    fn filter_map<T, U>(items: [T], f: impl Fn(T) -> Option<U>) -> __Filtered<U> {
+        __Filtered { items: items.map(|x| f(x)) }
     }
 
-    fn take_while<T>(items: [T], f: impl Fn(&T) -> bool) -> Filtered<T> {
+    fn take_while<T>(items: [T], f: impl Fn(&T) -> bool) -> __Filtered<T> {
         let mut goes_on = true;
         let mut left = items.map(|x| Some(x));
         for k in 0..left.len() {
@@ -119,10 +119,10 @@ impl Iterator {
                 left[k] = None;
             }
         }
-        Filtered { items: left }
+        __Filtered { items: left }
     }
 
-    fn skip_while<T>(items: [T], f: impl Fn(&T) -> bool) -> Filtered<T> {
+    fn skip_while<T>(items: [T], f: impl Fn(&T) -> bool) -> __Filtered<T> {
         let mut skips = true;
         let mut left = items.map(|x| Some(x));
         for k in 0..left.len() {
@@ -131,7 +131,7 @@ impl Iterator {
                 left[k] = None;
             }
         }
-        Filtered { items: left }
+        __Filtered { items: left }
     }
 
     fn min<T>(items: [T]) -> Option<T> {

@@ -1,0 +1,89 @@
+//! `study isa`: what GPU compilers make of shaders, without the GPUs.
+
+use super::{Progress, command, loops, now};
+use crate::args::{CommonArgs, IsaArgs};
+use crate::failure::Failure;
+use crate::table;
+use std::path::PathBuf;
+use straightline_study::isa::{self, IsaStudyError, Question};
+use straightline_study::record::{IsaRecord, Record};
+
+/// The hidden command that a compiler's process runs.
+pub const SERVE: &str = "serve-isa";
+
+/// Asks, prints, writes the record.
+pub fn run(common: &CommonArgs, args: &IsaArgs, progress: &mut Progress) -> Result<(), Failure> {
+    let subjects = loops::chosen(common, &args.from, &args.by_hand)?;
+    let glslang = glslang();
+    if glslang.is_none() {
+        errln!("there is no glslangValidator, so GLSL is not asked about; on Debian: apt-get install glslang-tools");
+    }
+    let question = Question {
+        families: args.family.clone(),
+        program: (std::env::current_exe().map_err(Failure::of)?, vec![SERVE.to_owned()]),
+        glslang,
+    };
+    let asked = isa::ask(&question, &subjects, command(), now(), progress);
+    progress.done();
+    let record = asked.map_err(|error| match error {
+        IsaStudyError::Kernel { errors, .. } => Failure::Kernel(errors),
+        other => Failure::of(other),
+    })?;
+    record.write(&common.out).map_err(Failure::of)?;
+    print(&record);
+    Ok(())
+}
+
+/// glslang's program on the path.
+fn glslang() -> Option<PathBuf> {
+    let path = std::env::var_os("PATH")?;
+    let programs = std::env::split_paths(&path).map(|folder| folder.join("glslangValidator"));
+    programs.into_iter().find(|program| program.is_file())
+}
+
+fn print(record: &IsaRecord) {
+    let head = [
+        "kernel, form",
+        "instructions",
+        "vector",
+        "memory",
+        "branches",
+        "registers",
+        "occupancy",
+        "latency",
+        "cycles",
+    ];
+    for (family, device) in &record.devices {
+        let rows = record.shaders.iter().filter_map(|asked| {
+            let f = asked.figures.get(family)?;
+            let figures = [
+                f.instructions,
+                f.vector,
+                f.memory,
+                f.branches,
+                f.vector_registers,
+                f.occupancy,
+                f.latency,
+                f.inverse_throughput,
+            ];
+            let name = format!("{}, {}, {}", asked.kernel, asked.form.name(), asked.path.name());
+            Some(
+                std::iter::once(name)
+                    .chain(figures.map(|figure| figure.to_string()))
+                    .collect(),
+            )
+        });
+        outln!(
+            "{family}: {device}\n\n{}",
+            table::render(&head, &rows.collect::<Vec<_>>())
+        );
+    }
+    for why in record.absent.values() {
+        outln!("{why}");
+    }
+    for asked in &record.shaders {
+        if let Some(why) = &asked.refused {
+            outln!("{}, {}, {}: {why}", asked.kernel, asked.form.name(), asked.path.name());
+        }
+    }
+}

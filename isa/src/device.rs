@@ -1,0 +1,122 @@
+//! The GPU that is not there.
+#![expect(
+    unsafe_code,
+    reason = "Vulkan's functions are foreign; each handle is made, used and destroyed by this crate alone"
+)]
+
+use ash::{Entry, Instance, khr, vk};
+use std::ffi::CStr;
+
+/// A device of the driver that the environment names.
+pub struct Device {
+    instance: Instance,
+    /// Makes pipelines.
+    pub device: ash::Device,
+    /// Says what became of them.
+    pub properties: khr::pipeline_executable_properties::Device,
+    /// The GPU's name and the driver's version.
+    pub name: String,
+    // Unloads the driver's library when it goes, so it goes last.
+    _entry: Entry,
+}
+
+impl Device {
+    /// Opens the first device.
+    pub fn open() -> Result<Device, String> {
+        let entry = unsafe { Entry::load() }.map_err(|e| format!("no Vulkan loader: {e}"))?;
+        let application = vk::ApplicationInfo::default().api_version(vk::API_VERSION_1_3);
+        let info = vk::InstanceCreateInfo::default().application_info(&application);
+        let instance = unsafe { entry.create_instance(&info, None) }.map_err(|e| format!("no Vulkan driver: {e}"))?;
+        match unsafe { opened(&instance) } {
+            Ok((device, name)) => Ok(Device {
+                properties: khr::pipeline_executable_properties::Device::new(&instance, &device),
+                instance,
+                device,
+                name,
+                _entry: entry,
+            }),
+            Err(why) => {
+                unsafe { instance.destroy_instance(None) };
+                Err(why)
+            }
+        }
+    }
+}
+
+impl Drop for Device {
+    fn drop(&mut self) {
+        unsafe {
+            self.device.destroy_device(None);
+            self.instance.destroy_instance(None);
+        }
+    }
+}
+
+unsafe fn opened(instance: &Instance) -> Result<(ash::Device, String), String> {
+    let all = unsafe { instance.enumerate_physical_devices() }.map_err(|e| format!("no devices: {e}"))?;
+    let physical = *all.first().ok_or("the driver has no device of this family")?;
+    let mut driver = vk::PhysicalDeviceDriverProperties::default();
+    let mut about = vk::PhysicalDeviceProperties2::default().push_next(&mut driver);
+    unsafe { instance.get_physical_device_properties2(physical, &mut about) };
+    let about = about.properties;
+    let text = |bytes: &[std::ffi::c_char]| unsafe { CStr::from_ptr(bytes.as_ptr()) }.to_string_lossy().into_owned();
+    let name = format!("{} ({})", text(&about.device_name), text(&driver.driver_info));
+
+    let queues = [vk::DeviceQueueCreateInfo::default()
+        .queue_family_index(0)
+        .queue_priorities(&[1.0])];
+    let extensions = [khr::pipeline_executable_properties::NAME.as_ptr()];
+    let mut reports =
+        vk::PhysicalDevicePipelineExecutablePropertiesFeaturesKHR::default().pipeline_executable_info(true);
+    // All that the driver has: which of it a shader uses is not this crate's business.
+    let (mut v11, mut v12, mut v13) = (
+        vk::PhysicalDeviceVulkan11Features::default(),
+        vk::PhysicalDeviceVulkan12Features::default(),
+        vk::PhysicalDeviceVulkan13Features::default(),
+    );
+    let mut features = vk::PhysicalDeviceFeatures2::default()
+        .push_next(&mut v11)
+        .push_next(&mut v12)
+        .push_next(&mut v13);
+    unsafe { instance.get_physical_device_features2(physical, &mut features) };
+    let core = features.features;
+    let mut features = vk::PhysicalDeviceFeatures2::default()
+        .features(core)
+        .push_next(&mut reports);
+    let (mut v11, mut v12, mut v13) = (fresh(v11), fresh(v12), fresh(v13));
+    features = features.push_next(&mut v11).push_next(&mut v12).push_next(&mut v13);
+    let info = vk::DeviceCreateInfo::default()
+        .queue_create_infos(&queues)
+        .enabled_extension_names(&extensions)
+        .push_next(&mut features);
+    let device = unsafe { instance.create_device(physical, &info, None) };
+    device
+        .map(|device| (device, name))
+        .map_err(|e| format!("no device: {e}"))
+}
+
+/// A structure that lies in no chain any more.
+trait Chained: Sized {
+    fn unchained(self) -> Self;
+}
+
+macro_rules! chained {
+    ($($ty:ident),*) => {
+        $(impl Chained for vk::$ty<'_> {
+            fn unchained(mut self) -> Self {
+                self.p_next = std::ptr::null_mut();
+                self
+            }
+        })*
+    };
+}
+
+chained!(
+    PhysicalDeviceVulkan11Features,
+    PhysicalDeviceVulkan12Features,
+    PhysicalDeviceVulkan13Features
+);
+
+fn fresh<T: Chained>(features: T) -> T {
+    features.unchained()
+}

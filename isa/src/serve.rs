@@ -1,0 +1,64 @@
+//! The process that the driver is loaded into: requests in, figures out, a line each.
+
+use super::device::Device;
+use super::figures::Report;
+use serde::{Deserialize, Serialize};
+use std::io::{BufRead, Write};
+
+/// A shader to compile.
+#[derive(Serialize, Deserialize)]
+pub(crate) struct Request {
+    /// The SPIR-V.
+    pub words: Vec<u32>,
+    /// Its entry point.
+    pub entry: String,
+}
+
+/// What the process says: first its device's name, then the figures of each request.
+#[derive(Serialize, Deserialize)]
+pub(crate) enum Answer {
+    /// The GPU that is compiled for, and the driver's version.
+    Device(String),
+    /// Of the shader that was asked about.
+    Report(Report),
+    /// Why there is neither.
+    Error(String),
+}
+
+/// Answers the requests of a [`Compiler`](super::Compiler) in the process that started this one, until it asks no more.
+///
+/// # Errors
+///
+/// That process cannot be read from or written to.
+pub fn serve() -> std::io::Result<()> {
+    let mut out = std::io::stdout().lock();
+    let mut say = |answer: Answer| {
+        writeln!(out, "{}", serde_json::to_string(&answer)?)?;
+        out.flush()
+    };
+    let device = match Device::open() {
+        Ok(device) => device,
+        Err(why) => return say(Answer::Error(why)),
+    };
+    say(Answer::Device(device.name.clone()))?;
+    for line in std::io::stdin().lock().lines() {
+        let request: Request = serde_json::from_str(&line?)?;
+        say(match device.compile(&request.words, &request.entry) {
+            Ok(report) => Answer::Report(report),
+            Err(why) => Answer::Error(why),
+        })?;
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn answers_read_as_they_were_written() {
+        let figures = Report::default();
+        let text = serde_json::to_string(&Answer::Figures(figures.clone())).unwrap();
+        assert!(matches!(serde_json::from_str(&text).unwrap(), Answer::Figures(found) if found == figures));
+    }
+}

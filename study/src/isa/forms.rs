@@ -1,0 +1,125 @@
+//! The SPIR-V of each form of a kernel.
+
+use super::IsaStudyError;
+use crate::loops::Subject;
+use crate::record::{IsaForm, SpirvPath};
+use std::path::Path;
+use std::process::Command;
+use straightline_codegen::emit::{Emitted, Target};
+use straightline_codegen::ir::Invocation;
+use straightline_codegen::{Compiled, EmitOptions, Kernel, Settings, Stage, Unroll};
+
+/// A form by one way to SPIR-V.
+pub struct Words {
+    pub kind: IsaForm,
+    pub path: SpirvPath,
+    pub entry: String,
+    /// The SPIR-V, or why there is none.
+    pub words: Result<Vec<u32>, String>,
+}
+
+/// All forms of a kernel, by naga and, where it is there, by glslang.
+pub fn forms(subject: &Subject, glslang: Option<&Path>) -> Result<Vec<Words>, IsaStudyError> {
+    let mut all = Vec::new();
+    for kind in IsaForm::ALL {
+        let Some(compiled) = compiled(subject, kind)? else {
+            continue;
+        };
+        for path in SpirvPath::ALL {
+            let is_asked = match path {
+                SpirvPath::Naga => true,
+                SpirvPath::NagaBounded => compiled.in_blocks().counts.loops > 0,
+                SpirvPath::Glslang => glslang.is_some(),
+            };
+            if is_asked {
+                all.push(by(path, kind, &compiled, glslang));
+            }
+        }
+    }
+    Ok(all)
+}
+
+fn by(path: SpirvPath, kind: IsaForm, compiled: &Compiled, glslang: Option<&Path>) -> Words {
+    let stage = match compiled.graph.invocation {
+        Invocation::Lane => Stage::Fragment,
+        _ => Stage::Compute,
+    };
+    let options = EmitOptions::new()
+        .stage(stage)
+        .unbounded_loops(path != SpirvPath::NagaBounded);
+    let emitted = compiled.emit(&options.targets([Target::Spirv, Target::Glsl450]));
+    let (entry, words) = match (emitted, path, glslang) {
+        (Err(error), ..) => (String::new(), Err(error.to_string())),
+        (Ok(emitted), SpirvPath::Glslang, Some(program)) => ("main".to_owned(), by_glslang(program, &emitted)),
+        (Ok(emitted), ..) => {
+            let words = words(&emitted.files[&Target::Spirv]);
+            (emitted.manifest.entry_point, Ok(words))
+        }
+    };
+    Words {
+        kind,
+        path,
+        entry,
+        words,
+    }
+}
+
+fn compiled(subject: &Subject, kind: IsaForm) -> Result<Option<Compiled>, IsaStudyError> {
+    let settings = |unroll, options: &[(String, String)]| Settings {
+        unroll,
+        options: options.to_vec(),
+        ..Settings::default()
+    };
+    let compile = |kernel: &Kernel, settings: &Settings| {
+        kernel.compile(settings).map_err(|errors| IsaStudyError::Kernel {
+            name: subject.name.clone(),
+            errors,
+        })
+    };
+    let ours = |settings: Settings| compile(&subject.kernel, &settings).map(Some);
+    match (kind, &subject.by_hand) {
+        (IsaForm::Unrolled, _) => ours(settings(Unroll::Full, &subject.options)),
+        (IsaForm::Looped, _) => {
+            let looped = compile(&subject.kernel, &settings(Unroll::None, &subject.options))?;
+            Ok((looped.in_blocks().counts.loops > 0).then_some(looped))
+        }
+        (IsaForm::ByHand, Ok(hand)) => compile(&hand.kernel, &settings(Unroll::None, &hand.options)).map(Some),
+        (IsaForm::ByHand, Err(_)) => Ok(None),
+        (IsaForm::Block, _) => {
+            let block = Settings {
+                block: [2, 2],
+                ..settings(Unroll::Full, &subject.options)
+            };
+            // Some kernels have no such form, and say so where it is asked for.
+            Ok(subject.kernel.compile(&block).ok())
+        }
+    }
+}
+
+fn words(bytes: &[u8]) -> Vec<u32> {
+    let words = bytes.as_chunks::<4>().0;
+    words.iter().map(|word| u32::from_le_bytes(*word)).collect()
+}
+
+/// What glslang makes of the GLSL.
+fn by_glslang(program: &Path, emitted: &Emitted) -> Result<Vec<u32>, String> {
+    let folder = std::env::temp_dir().join(format!("straightline-isa-{}", std::process::id()));
+    let failed = |e: std::io::Error| e.to_string();
+    std::fs::create_dir_all(&folder).map_err(failed)?;
+    let stage = match emitted.manifest.stage {
+        Stage::Compute => "comp",
+        Stage::Fragment => "frag",
+    };
+    let (from, to) = (folder.join(format!("shader.{stage}")), folder.join("shader.spv"));
+    let made = std::fs::write(&from, &emitted.files[&Target::Glsl450]).and_then(|()| {
+        let mut command = Command::new(program);
+        command.args(["-V", "--target-env", "vulkan1.3", "-S", stage, "-o"]);
+        let output = command.arg(&to).arg(&from).output()?;
+        Ok((output.status.success(), output.stdout, std::fs::read(&to)))
+    });
+    let _ = std::fs::remove_dir_all(&folder);
+    match made.map_err(failed)? {
+        (true, _, bytes) => Ok(words(&bytes.map_err(failed)?)),
+        (false, said, _) => Err(String::from_utf8_lossy(&said).trim().to_owned()),
+    }
+}

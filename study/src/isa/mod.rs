@@ -1,0 +1,108 @@
+//! What GPU compilers make of shaders, without the GPUs (`straightline-isa`): unrolled and looped, as naga writes their SPIR-V and
+//! as glslang does.
+
+mod forms;
+
+use crate::loops::Subject;
+use crate::record::{Asked, IsaRecord};
+use crate::watch::Watch;
+use forms::forms;
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+use straightline_codegen::diagnostic::Errors;
+use straightline_isa::{Compiler, Family, IsaError};
+
+/// Why there is no record.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum IsaStudyError {
+    /// A kernel is not one.
+    #[error("{name}: {errors}")]
+    Kernel {
+        /// Its name.
+        name: String,
+        /// What is wrong with it.
+        errors: Errors,
+    },
+    /// A compiler cannot be asked.
+    #[error(transparent)]
+    Compiler(#[from] IsaError),
+}
+
+/// What is asked.
+#[derive(Clone, Debug)]
+pub struct Question {
+    /// Of whose GPUs; of all that the driver compiles for, if none is named.
+    pub families: Vec<Family>,
+    /// The program that loads the driver, and what it is called with, so that it calls [`straightline_isa::serve`].
+    pub program: (PathBuf, Vec<String>),
+    /// glslang's program, where GLSL is to go through it too.
+    pub glslang: Option<PathBuf>,
+}
+
+/// Asks the compilers for each family about each form of each kernel. Stopped, it gives what it has.
+///
+/// # Errors
+///
+/// [`IsaStudyError`]; a form that a compiler refuses is part of the record, with the reason.
+pub fn ask(
+    question: &Question,
+    subjects: &[Subject],
+    command: String,
+    date: String,
+    watch: &mut dyn Watch,
+) -> Result<IsaRecord, IsaStudyError> {
+    let (program, arguments) = &question.program;
+    let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    let start = |family: &Family| Compiler::start(program, &arguments, *family);
+    let (mut compilers, mut absent) = (Vec::new(), BTreeMap::new());
+    if question.families.is_empty() {
+        for family in Family::ALL {
+            match start(&family) {
+                Ok(compiler) => compilers.push(compiler),
+                Err(IsaError::NoDriver) => return Err(IsaError::NoDriver.into()),
+                Err(why) => drop(absent.insert(family, why.to_string())),
+            }
+        }
+    } else {
+        compilers = question.families.iter().map(start).collect::<Result<_, _>>()?;
+    }
+    let mut record = IsaRecord {
+        command,
+        date,
+        devices: compilers.iter().map(|c| (c.family(), c.device().to_owned())).collect(),
+        absent,
+        shaders: Vec::new(),
+    };
+    watch.begin("kernels", subjects.len());
+    for subject in subjects {
+        if watch.stopped() {
+            break;
+        }
+        for form in forms(subject, question.glslang.as_deref())? {
+            let mut asked = Asked {
+                kernel: subject.name.clone(),
+                options: subject.options.clone(),
+                form: form.kind,
+                path: form.path,
+                figures: Default::default(),
+                refused: None,
+            };
+            match form.words {
+                Err(why) => asked.refused = Some(why),
+                Ok(words) => {
+                    for compiler in &mut compilers {
+                        match compiler.compile(&words, &form.entry) {
+                            Ok(report) => drop(asked.figures.insert(compiler.family(), report.figures)),
+                            Err(IsaError::Shader(_, why)) => asked.refused = Some(why),
+                            Err(error) => return Err(error.into()),
+                        }
+                    }
+                }
+            }
+            record.shaders.push(asked);
+        }
+        watch.step();
+    }
+    Ok(record)
+}

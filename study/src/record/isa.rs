@@ -1,0 +1,148 @@
+//! What GPU compilers make of shaders.
+
+use super::Record;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use straightline_isa::{Family, Figures};
+
+/// A form of a kernel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum IsaForm {
+    /// One straight line.
+    Unrolled,
+    /// The kernel with its loops.
+    Looped,
+    /// Loops as somebody wrote them by hand.
+    ByHand,
+    /// One straight line for 2×2 pixels; the figures are of all four.
+    Block,
+}
+
+impl IsaForm {
+    /// Every form.
+    pub const ALL: [IsaForm; 4] = [IsaForm::Unrolled, IsaForm::Looped, IsaForm::ByHand, IsaForm::Block];
+
+    /// What people call it.
+    pub fn name(self) -> &'static str {
+        match self {
+            IsaForm::Unrolled => "unrolled",
+            IsaForm::Looped => "looped",
+            IsaForm::ByHand => "looped, by hand",
+            IsaForm::Block => "unrolled, 2x2 pixels",
+        }
+    }
+}
+
+/// How a shader comes to SPIR-V.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum SpirvPath {
+    /// From WGSL, as wgpu does it for shaders that the runtime has shown to end.
+    Naga,
+    /// From WGSL, with a counter in every loop that ends it, as wgpu does it for others.
+    NagaBounded,
+    /// From GLSL, as most engines on Vulkan do it.
+    Glslang,
+}
+
+impl SpirvPath {
+    /// Every path.
+    pub const ALL: [SpirvPath; 3] = [SpirvPath::Naga, SpirvPath::NagaBounded, SpirvPath::Glslang];
+
+    /// What people call it.
+    pub fn name(self) -> &'static str {
+        match self {
+            SpirvPath::Naga => "naga",
+            SpirvPath::NagaBounded => "naga, bounded",
+            SpirvPath::Glslang => "glslang",
+        }
+    }
+}
+
+/// A form of a kernel, and what became of it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Asked {
+    /// The kernel.
+    pub kernel: String,
+    /// Options that are not its default.
+    pub options: Vec<(String, String)>,
+    /// The form.
+    pub form: IsaForm,
+    /// How it came to SPIR-V.
+    pub path: SpirvPath,
+    /// What each compiler says of it.
+    pub figures: BTreeMap<Family, Figures>,
+    /// Why one of them says nothing.
+    pub refused: Option<String>,
+}
+
+/// What the compilers say of all.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct IsaRecord {
+    /// The command that asks again.
+    pub command: String,
+    /// When it began: RFC 3339, UTC.
+    pub date: String,
+    /// What each compiler calls its GPU, with the driver's version.
+    pub devices: BTreeMap<Family, String>,
+    /// Families that this driver does not compile for, and what became of the attempt.
+    pub absent: BTreeMap<Family, String>,
+    /// Every form of every kernel.
+    pub shaders: Vec<Asked>,
+}
+
+impl Record for IsaRecord {
+    const STEM: &'static str = "isa";
+
+    fn table(&self) -> (Vec<&'static str>, Vec<Vec<String>>) {
+        let head = vec![
+            "kernel",
+            "options",
+            "form",
+            "SPIR-V by",
+            "family",
+            "instructions",
+            "vector",
+            "scalar",
+            "memory",
+            "branches",
+            "vector registers",
+            "scalar registers",
+            "spilled",
+            "occupancy",
+            "code size",
+            "latency",
+            "inverse throughput",
+        ];
+        let row = |asked: &Asked, family: &Family, f: &Figures| {
+            let options: Vec<String> = asked.options.iter().map(|(k, v)| format!("{k}={v}")).collect();
+            let words = [
+                &*asked.kernel,
+                &options.join(" "),
+                asked.form.name(),
+                asked.path.name(),
+                family.name(),
+            ];
+            let figures = [
+                f.instructions,
+                f.vector,
+                f.scalar,
+                f.memory,
+                f.branches,
+                f.vector_registers,
+                f.scalar_registers,
+                f.spilled,
+                f.occupancy,
+                f.code_size,
+                f.latency,
+                f.inverse_throughput,
+            ];
+            let words = words.map(str::to_owned).into_iter();
+            words.chain(figures.map(|figure| figure.to_string())).collect()
+        };
+        let shaders = self.shaders.iter();
+        let rows = shaders.flat_map(|asked| asked.figures.iter().map(move |(family, f)| row(asked, family, f)));
+        (head, rows.collect())
+    }
+}

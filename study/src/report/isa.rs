@@ -1,0 +1,66 @@
+//! What GPU compilers make of shaders.
+
+use crate::record::{Asked, IsaRecord};
+use serde::Serialize;
+use straightline_isa::{Family, Figures};
+
+#[derive(Debug, Serialize)]
+pub(super) struct Isa {
+    command: String,
+    date: String,
+    families: Vec<OfFamily>,
+    /// Why a family has no table.
+    absent: Vec<String>,
+    /// Kernel, form, and why a compiler says nothing of it.
+    refused: Vec<[String; 3]>,
+}
+
+/// A table of one family's figures.
+#[derive(Debug, Serialize)]
+struct OfFamily {
+    device: String,
+    rows: Vec<Vec<String>>,
+}
+
+pub(super) fn section(record: &IsaRecord) -> Isa {
+    let row = |asked: &Asked, figures: &Figures| {
+        let words = [
+            asked.kernel.clone(),
+            asked.form.name().to_owned(),
+            asked.path.name().to_owned(),
+        ];
+        let figures = [
+            figures.instructions,
+            figures.vector,
+            figures.memory,
+            figures.branches,
+            figures.vector_registers,
+            figures.occupancy,
+            figures.latency,
+            figures.inverse_throughput,
+        ];
+        words
+            .into_iter()
+            .chain(figures.map(|figure| figure.to_string()))
+            .collect()
+    };
+    let of_family = |(family, device): (&Family, &String)| OfFamily {
+        device: format!("{family}: {device}"),
+        rows: record
+            .shaders
+            .iter()
+            .filter_map(|asked| Some(row(asked, asked.figures.get(family)?)))
+            .collect(),
+    };
+    let refused = record.shaders.iter().filter_map(|asked| {
+        let why = asked.refused.clone()?;
+        Some([asked.kernel.clone(), asked.form.name().to_owned(), why])
+    });
+    Isa {
+        command: record.command.clone(),
+        date: record.date.clone(),
+        families: record.devices.iter().map(of_family).collect(),
+        absent: record.absent.values().cloned().collect(),
+        refused: refused.collect(),
+    }
+}
