@@ -1,25 +1,35 @@
-//! Makes the table of built-in engines from the folders in `templates/`: every file of each, embedded as text.
+//! Makes the tables of built-in engines from the folders in `templates/`: what each `engine.toml` says, and the other files as text. They
+//! are two, so that a program that renders no template holds none.
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::{env, fs, io};
 
+/// What says of a folder that it is an engine.
+const DESCRIPTION: &str = "engine.toml";
+
 fn main() -> io::Result<()> {
     let templates = Path::new(&env::var("CARGO_MANIFEST_DIR").map_err(io::Error::other)?).join("templates");
     println!("cargo:rerun-if-changed={}", templates.display());
-    let mut table = String::from("&[\n");
+    let mut descriptions = String::from("&[\n");
+    let mut sources = descriptions.clone();
     for engine in sorted(&templates)? {
         println!("cargo:rerun-if-changed={}", engine.display());
-        writeln!(table, "    ({:?}, &[", name(&engine)).map_err(io::Error::other)?;
-        for file in sorted(&engine)? {
+        let description = fs::read_to_string(engine.join(DESCRIPTION))?;
+        // Read here, a program needs no reader of TOML for it.
+        let description: serde_json::Value = toml::from_str(&description).map_err(io::Error::other)?;
+        let description = description.to_string();
+        writeln!(descriptions, "    ({:?}, {description:?}),", name(&engine)).map_err(io::Error::other)?;
+        writeln!(sources, "    ({:?}, &[", name(&engine)).map_err(io::Error::other)?;
+        for file in sorted(&engine)?.iter().filter(|file| name(file) != DESCRIPTION) {
             let path = file.display().to_string();
-            writeln!(table, "        ({:?}, include_str!({path:?})),", name(&file)).map_err(io::Error::other)?;
+            writeln!(sources, "        ({:?}, include_str!({path:?})),", name(file)).map_err(io::Error::other)?;
         }
-        table += "    ]),\n";
+        sources += "    ]),\n";
     }
-    table += "]\n";
     let out = PathBuf::from(env::var("OUT_DIR").map_err(io::Error::other)?);
-    fs::write(out.join("builtin.rs"), table)
+    fs::write(out.join("descriptions.rs"), descriptions + "]\n")?;
+    fs::write(out.join("templates.rs"), sources + "]\n")
 }
 
 /// What a folder holds, in order of name.

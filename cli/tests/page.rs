@@ -21,18 +21,19 @@ fn the_whole_page_is_written() {
         out.to_str().unwrap(),
         "--module",
         module.to_str().unwrap(),
+        "--templates",
+        module.to_str().unwrap(),
     ];
     let said = finishes(&arguments);
     assert_eq!(said.trim_end(), out.join("index.html").display().to_string());
     for (name, bytes) in straightline_page::FILES {
         assert_eq!(fs::read(out.join(name)).expect(name), *bytes);
     }
-    assert_eq!(
-        fs::read(out.join(straightline_page::MODULE)).expect("the module"),
-        MODULE
-    );
+    for name in [straightline_page::GENERATOR, straightline_page::TEMPLATES] {
+        assert_eq!(fs::read(out.join(name)).expect("the module"), MODULE);
+    }
     let count = fs::read_dir(&out).expect("the page").count();
-    assert_eq!(count, straightline_page::FILES.len() + 1);
+    assert_eq!(count, straightline_page::FILES.len() + 2);
     // Once more changes nothing.
     let before = fs::metadata(out.join("main.js"))
         .and_then(|m| m.modified())
@@ -53,15 +54,24 @@ fn without_the_generator_nothing_is_written() {
     let out_text = out.to_str().unwrap();
     let text = write(&folder, "text.wasm", "no module");
     fails(
-        &["page", "--out", out_text, "--module", &text],
+        &["page", "--out", out_text, "--module", &text, "--templates", &text],
         1,
         &["text.wasm", "no WebAssembly module", "page/build"],
     );
     fails(
-        &["page", "--out", out_text, "--module", "missing.wasm"],
+        &[
+            "page",
+            "--out",
+            out_text,
+            "--module",
+            "missing.wasm",
+            "--templates",
+            &text,
+        ],
         1,
         &["cannot read the module `missing.wasm`"],
     );
+    fails(&["page", "--out", out_text, "--module", &text], 2, &["--templates"]);
     fails(&["page"], 2, &["--out"]);
     assert!(is_empty(&out));
     // A folder in which nothing can be written is told of before anything is built.
@@ -99,6 +109,8 @@ fn what_was_there_stays_after_an_error() {
         "--out",
         out.to_str().unwrap(),
         "--module",
+        module.to_str().unwrap(),
+        "--templates",
         module.to_str().unwrap(),
     ];
     let output = straightline(&arguments);

@@ -493,8 +493,13 @@ fn hosts_read_their_textures() {
     let mut options = EmitOptions::new()
         .form(Form::Function)
         .reads(Reads::Functions)
-        .targets([Target::Glsl330, Target::Hlsl]);
+        .targets([Target::Glsl330, Target::Hlsl, Target::Wgsl]);
     let emitted = compiled.emit(&options).unwrap_or_else(|e| panic!("{e}"));
+    let wgsl = text(&emitted, Target::Wgsl);
+    assert!(wgsl.contains("fn k(position: vec2f, gain: f32) -> vec4f {"), "{wgsl}");
+    assert!(wgsl.contains("sample_color(vec2f(0.5, 0.25))"), "{wgsl}");
+    // The host's functions are read along with it, and not written.
+    assert!(!wgsl.contains("fn load_color"), "{wgsl}");
     let glsl = text(&emitted, Target::Glsl330);
     for part in [
         "vec4 k(vec2 position, float gain) {",
@@ -529,7 +534,8 @@ fn hosts_read_their_textures() {
     assert_eq!(host, ["load_color", "sample_color", "size_of_color"]);
 
     options.global_uniforms = true;
-    let emitted = compiled.emit(&options).unwrap_or_else(|e| panic!("{e}"));
+    let emitted = compiled.emit(&options.clone().targets([Target::Glsl330]));
+    let emitted = emitted.unwrap_or_else(|e| panic!("{e}"));
     let glsl = text(&emitted, Target::Glsl330);
     assert!(glsl.contains("vec4 k(vec2 position) {"), "{glsl}");
     read(&glsl, "k(gl_FragCoord.xy)");

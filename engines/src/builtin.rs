@@ -1,7 +1,10 @@
-//! The engines that are built in: the folders of `templates/`, as text.
+//! The engines that are built in: the folders of `templates/`.
 
-/// A file of an engine's folder: name and text.
+/// A template of an engine's folder: name and text.
 pub type Source = (&'static str, &'static str);
 
-/// Name and files of each engine, in order.
-pub static ENGINES: &[(&str, &[Source])] = include!(concat!(env!("OUT_DIR"), "/builtin.rs"));
+/// Name of each engine, in order, and what its `engine.toml` says, as JSON.
+pub static DESCRIPTIONS: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/descriptions.rs"));
+
+/// Name and templates of each.
+pub static TEMPLATES: &[(&str, &[Source])] = include!(concat!(env!("OUT_DIR"), "/templates.rs"));

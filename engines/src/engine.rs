@@ -3,13 +3,12 @@
 use crate::context::{self, Context};
 use crate::description::{Description, ShaderDescription};
 use crate::error::EngineError;
-use crate::{builtin, filters, fits, names, spelling};
+use crate::{builtin, fits, names, spelling};
 use std::collections::BTreeMap;
 use std::path::Path;
 use straightline_codegen::emit::{EmitError, Emitted, Target};
 use straightline_codegen::{Compiled, EmitOptions, Format, OptionInfo, Precision, Stage, files};
 use straightline_manifest::Manifest;
-use tera::Tera;
 
 /// Bytes that a file of an engine's folder may have.
 const LONGEST: u64 = 1 << 20;
@@ -45,9 +44,10 @@ impl<'a> Request<'a> {
 /// An engine.
 #[derive(Clone, Debug)]
 pub struct Engine {
-    name: String,
-    description: Description,
-    templates: BTreeMap<String, String>,
+    pub(crate) name: String,
+    pub(crate) description: Description,
+    /// Those of a folder; a built-in engine's are looked up when they are rendered.
+    pub(crate) templates: Option<BTreeMap<String, String>>,
 }
 
 impl Engine {
@@ -57,11 +57,8 @@ impl Engine {
     ///
     /// There is neither, or the folder holds no engine.
     pub fn find(name: &str) -> Result<Engine, EngineError> {
-        if let Some((name, sources)) = builtin::ENGINES.iter().find(|(known, _)| *known == name) {
-            let sources = sources
-                .iter()
-                .map(|(file, text)| ((*file).to_owned(), (*text).to_owned()));
-            return Engine::new(name, sources.collect());
+        if let Some(engine) = Engine::builtin(name) {
+            return Ok(engine);
         }
         let folder = Path::new(name);
         if folder.join("engine.toml").exists() {
@@ -70,6 +67,16 @@ impl Engine {
         Err(EngineError::Unknown {
             name: name.to_owned(),
             known: names().collect::<Vec<_>>().join(", "),
+        })
+    }
+
+    /// The built-in engine of this name.
+    pub fn builtin(name: &str) -> Option<Engine> {
+        let (name, description) = builtin::DESCRIPTIONS.iter().find(|(known, _)| *known == name)?;
+        Some(Engine {
+            name: (*name).to_owned(),
+            description: serde_json::from_str(description).ok()?,
+            templates: None,
         })
     }
 
@@ -82,32 +89,17 @@ impl Engine {
             let path = folder.join(file);
             files::read_text(&path, LONGEST).map_err(|source| EngineError::Read { path, source })
         };
-        let text = read("engine.toml")?;
-        let description = described(&name, &text)?;
-        let mut sources = BTreeMap::from([("engine.toml".to_owned(), text)]);
-        for template in description.files.keys() {
-            sources.insert(template.clone(), read(template)?);
-        }
-        Engine::new(&name, sources)
-    }
-
-    fn new(name: &str, mut sources: BTreeMap<String, String>) -> Result<Engine, EngineError> {
-        let text = sources.remove("engine.toml").unwrap_or_default();
-        let description = described(name, &text)?;
-        let engine = Engine {
-            name: name.to_owned(),
-            description,
-            templates: sources,
-        };
-        if let Some(template) = engine
-            .description
+        let description = described(&name, &read("engine.toml")?)?;
+        let each = description
             .files
             .keys()
-            .find(|file| !engine.templates.contains_key(*file))
-        {
-            return Err(engine.wrong(format!("there is no template `{template}`")));
-        }
-        Ok(engine)
+            .map(|template| Ok((template.clone(), read(template)?)));
+        let templates = each.collect::<Result<_, EngineError>>()?;
+        Ok(Engine {
+            name: name.into_owned(),
+            description,
+            templates: Some(templates),
+        })
     }
 
     /// Its name: that of its folder.
@@ -126,29 +118,18 @@ impl Engine {
     ///
     /// The kernel does not fit, with what would; a template fails.
     pub fn files(&self, request: &Request<'_>) -> Result<BTreeMap<String, Vec<u8>>, EngineError> {
+        let context = serde_json::to_value(self.context(request)?);
+        self.render(context.map_err(|e| self.wrong(e.to_string()))?)
+    }
+
+    /// What the templates are given of a kernel.
+    ///
+    /// # Errors
+    ///
+    /// The kernel does not fit, with what would.
+    pub fn context(&self, request: &Request<'_>) -> Result<Context, EngineError> {
         let shaders = self.shaders(request).map_err(|unfit| unfit.told(self, request))?;
-        let context = self.context(request, shaders);
-        let context = tera::Context::from_serialize(context).map_err(|e| self.wrong(e.to_string()))?;
-        let mut tera = Tera::default();
-        filters::register(&mut tera);
-        tera.autoescape_on(Vec::new());
-        let mut made = BTreeMap::new();
-        for (template, file) in &self.description.files {
-            let failed = |error: tera::Error| EngineError::Template {
-                engine: self.name.clone(),
-                template: template.clone(),
-                message: causes(&error),
-            };
-            tera.add_raw_template(template, &self.templates[template])
-                .map_err(failed)?;
-            let text = tera.render(template, &context).map_err(failed)?;
-            let file = tera.render_str(file, &context).map_err(failed)?;
-            if !is_plain(&file) {
-                return Err(self.wrong(format!("`{file}` is no name of a file in the folder that is written")));
-            }
-            made.insert(file, text.into_bytes());
-        }
-        Ok(made)
+        Ok(self.context_of(request, shaders))
     }
 
     /// Whether a kernel fits: every shader can be emitted, and all that it binds can be bound.
@@ -176,7 +157,7 @@ impl Engine {
         each.collect()
     }
 
-    fn context(&self, request: &Request<'_>, shaders: BTreeMap<String, Shader>) -> Context {
+    fn context_of(&self, request: &Request<'_>, shaders: BTreeMap<String, Shader>) -> Context {
         let (compiled, name) = (request.compiled, &request.name);
         let first = shaders.values().next();
         let mut context = Context {
@@ -226,7 +207,7 @@ impl Engine {
         context
     }
 
-    fn wrong(&self, message: String) -> EngineError {
+    pub(crate) fn wrong(&self, message: String) -> EngineError {
         EngineError::Description {
             engine: self.name.clone(),
             message,
@@ -299,7 +280,7 @@ impl Unfit {
         let kernel = request.compiled.kernel.clone();
         let title = engine.description.title.clone();
         let others = names().filter(|name| *name != engine.name);
-        let fitting = others.filter(|name| Engine::find(name).is_ok_and(|other| other.fits(request)));
+        let fitting = others.filter(|name| Engine::builtin(name).is_some_and(|other| other.fits(request)));
         let instead = match fitting.collect::<Vec<_>>().join(", ") {
             none if none.is_empty() => "no built-in engine takes it: `--target` writes the shader alone".to_owned(),
             some => format!("these engines take it: {some}"),
@@ -319,24 +300,4 @@ impl Unfit {
             },
         }
     }
-}
-
-/// Whether a name stays in its folder: relative, without `..`.
-fn is_plain(file: &str) -> bool {
-    let path = Path::new(file);
-    !file.is_empty()
-        && path
-            .components()
-            .all(|part| matches!(part, std::path::Component::Normal(_)))
-}
-
-/// An error of tera with what caused it, in a line.
-fn causes(error: &tera::Error) -> String {
-    let mut text = error.to_string();
-    let mut next = std::error::Error::source(error);
-    while let Some(cause) = next {
-        text += &format!(": {cause}");
-        next = cause.source();
-    }
-    text
 }

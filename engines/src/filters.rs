@@ -7,6 +7,7 @@ use tera::{Error, Result, Tera, Value};
 pub fn register(tera: &mut Tera) {
     tera.register_filter("template_literal", text(template_literal));
     tera.register_filter("c_string", text(c_string));
+    tera.register_filter("python_string", text(python_string));
     tera.register_filter("comment", comment);
 }
 
@@ -35,6 +36,11 @@ fn c_string(text: &str) -> String {
     text.lines().map(line).collect::<Vec<_>>().join("\n")
 }
 
+/// Between three quotation marks of Python.
+fn python_string(text: &str) -> String {
+    text.replace('\\', "\\\\").replace('"', "\\\"")
+}
+
 /// Every line behind a mark: `{{ text | comment(mark="//") }}`.
 fn comment(value: &Value, args: &HashMap<String, Value>) -> Result<Value> {
     let mark = args.get("mark").and_then(Value::as_str).unwrap_or("//");
@@ -51,6 +57,7 @@ mod tests {
     #[test]
     fn texts_stay_what_they_are() {
         assert_eq!(template_literal("a `b` ${c} \\d"), "a \\`b\\` \\${c} \\\\d");
+        assert_eq!(python_string("a \"\"\"b\"\nc\\d"), "a \\\"\\\"\\\"b\\\"\nc\\\\d");
         assert_eq!(c_string("a \"b\"\nc??/"), "    \"a \\\"b\\\"\\n\"\n    \"c\\?\\?/\\n\"");
     }
 }

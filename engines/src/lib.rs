@@ -6,6 +6,9 @@
 //! ones lie in `templates/`; a user's own is given by its path. No template computes anything: all that differs in a shader
 //! comes from the generator.
 //!
+//! [`Engine::files`] is two steps: [`Engine::context`] has the generator emit what templates are given, and [`Engine::render`] renders them. A
+//! program that takes one of the two holds nothing of the other.
+//!
 //! In a `build.rs`:
 //!
 //! ```no_run
@@ -25,6 +28,7 @@ mod engine;
 mod error;
 mod filters;
 mod fits;
+mod render;
 mod spelling;
 
 pub use engine::{Engine, Request};
@@ -35,7 +39,7 @@ use straightline_codegen::{Kernel, Settings, files};
 
 /// Names of the built-in engines, in order.
 pub fn names() -> impl Iterator<Item = &'static str> {
-    builtin::ENGINES.iter().map(|(name, _)| *name)
+    builtin::DESCRIPTIONS.iter().map(|(name, _)| *name)
 }
 
 /// Writes a kernel for an engine, built in or a folder, into `out`, which is made if it is not there; all files or none. Returns

@@ -1,12 +1,16 @@
 //! The web page in which kernels are chosen, edited and seen: its files, as they are hosted.
 //!
-//! The generator in it, `straightline.wasm`, is `page/module` compiled to WebAssembly; it is made apart, since a library cannot
-//! hold what is compiled for another machine. `page/build` makes both in one go.
+//! The generator in it, `straightline.wasm`, is `page/module` compiled to WebAssembly, and `templates.wasm`, which renders folders for
+//! engines and is loaded when one is asked for, is `page/templates`. They are made apart, since a library cannot hold what is compiled for
+//! another machine. `page/build` makes all in one go.
 
 use std::collections::BTreeMap;
 
 /// Name of the generator among the page's files.
-pub const MODULE: &str = "straightline.wasm";
+pub const GENERATOR: &str = "straightline.wasm";
+
+/// Name of what renders folders for engines.
+pub const TEMPLATES: &str = "templates.wasm";
 
 macro_rules! files {
     ($($name:literal),+ $(,)?) => {
@@ -14,7 +18,7 @@ macro_rules! files {
     };
 }
 
-/// The page's files but for the generator, by name.
+/// The page's files but for the modules, by name.
 pub const FILES: &[(&str, &[u8])] = files![
     "archive.js",
     "code.js",
@@ -38,7 +42,7 @@ pub const FILES: &[(&str, &[u8])] = files![
     "worker.js",
 ];
 
-/// Why bytes are not the page's generator.
+/// Why bytes are no module of the page.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ModuleError {
     /// They are not WebAssembly.
@@ -49,21 +53,34 @@ pub enum ModuleError {
     NotThePages(&'static str),
 }
 
-/// What the page calls in the generator.
+/// What the page calls in a module.
 const EXPORTS: [&str; 4] = ["memory", "request", "call", "answered"];
 
-/// Every file of the page by name, the generator among them.
-///
-/// # Errors
-///
-/// `module` is not the generator compiled for the page.
-pub fn files(module: Vec<u8>) -> Result<BTreeMap<String, Vec<u8>>, ModuleError> {
-    let exported = exports(&module).ok_or(ModuleError::NotWasm)?;
-    if let Some(missing) = EXPORTS.into_iter().find(|name| !exported.contains(&name.as_bytes())) {
-        return Err(ModuleError::NotThePages(missing));
+/// A WebAssembly module that has what the page calls.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Module(Vec<u8>);
+
+impl Module {
+    /// Takes the bytes of one.
+    ///
+    /// # Errors
+    ///
+    /// They are none, or lack what the page calls.
+    pub fn new(bytes: Vec<u8>) -> Result<Module, ModuleError> {
+        let exported = exports(&bytes).ok_or(ModuleError::NotWasm)?;
+        match EXPORTS.into_iter().find(|name| !exported.contains(&name.as_bytes())) {
+            Some(missing) => Err(ModuleError::NotThePages(missing)),
+            None => Ok(Module(bytes)),
+        }
     }
+}
+
+/// Every file of the page by name, the modules among them.
+pub fn files(generator: Module, templates: Module) -> BTreeMap<String, Vec<u8>> {
     let own = FILES.iter().map(|(name, bytes)| ((*name).to_owned(), bytes.to_vec()));
-    Ok(own.chain([(MODULE.to_owned(), module)]).collect())
+    let modules = [(GENERATOR, generator), (TEMPLATES, templates)];
+    own.chain(modules.map(|(name, Module(bytes))| (name.to_owned(), bytes)))
+        .collect()
 }
 
 /// Names that a module exports; `None` if it is none.

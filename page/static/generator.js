@@ -52,7 +52,7 @@ export class Generator {
     }
   }
 
-  #send(request, bytes) {
+  #send(request, bytes, name = "generator") {
     const json = new TextEncoder().encode(JSON.stringify(request));
     const message = new Uint8Array(4 + json.length + (bytes?.length ?? 0));
     new DataView(message.buffer).setUint32(0, json.length, true);
@@ -62,7 +62,7 @@ export class Generator {
     return new Promise((resolve, reject) => {
       const timer = setTimeout(() => this.#giveUp(), PATIENCE);
       this.#waiting.set(id, { resolve, reject, timer });
-      this.#worker.postMessage({ id, message }, [message.buffer]);
+      this.#worker.postMessage({ id, name, message }, [message.buffer]);
     });
   }
 
@@ -77,6 +77,12 @@ export class Generator {
   /** Asks; gives `{ json, bytes, milliseconds }`, or throws `Refused`. */
   ask(request, bytes) {
     return this.#send(request, bytes);
+  }
+
+  /** The files of a kernel for an engine, by name. What renders them is loaded the first time. */
+  async folder(engine, asked) {
+    const { json: context } = await this.ask({ do: "engine", engine, ...asked });
+    return (await this.#send({ engine, context }, undefined, "templates")).json;
   }
 
   /** The visitor's picture: `{ width, height }` and bytes of sRGB and alpha; without one, the built-in scene again. */

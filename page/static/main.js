@@ -285,7 +285,7 @@ const code = new Code({
   },
   async engine(name) {
     try {
-      return { files: (await generator.ask({ do: "engine", engine: name, ...form().asked })).json };
+      return { files: await generator.folder(name, form().asked) };
     } catch (error) {
       return { refused: error.errors?.[0]?.message ?? error.message };
     }

@@ -268,6 +268,8 @@ async function downloadsAll(page, downloads) {
   const manifest = JSON.parse(await readFile(join(downloads, "kuwahara.json"), "utf8"));
   assert.equal(manifest.kernel, "kuwahara");
   // Folders for engines, as archives that hold their files as they are.
+  const renders = () => page.requests.filter((url) => url.endsWith("/templates.wasm")).length;
+  assert.equal(renders(), 0, "what renders folders is loaded before one is asked for");
   const folders = { three: "class KuwaharaPass", mpv: "//!HOOK MAIN", godot: "shader_type canvas_item" };
   for (const [engine, holds] of Object.entries(folders)) {
     await page.select("#engine", engine);
@@ -278,6 +280,7 @@ async function downloadsAll(page, downloads) {
     assert.ok(text.startsWith("PK\x03\x04") && text.includes(`kuwahara-${engine}/README.md`), engine);
     assert.ok(text.includes(holds), `${engine} holds no ${holds}`);
   }
+  assert.equal(renders(), 1);
   await choose(page, "kernel", "sraa");
   await page.select("#engine", "mpv");
   await page.click("#take-engine");
@@ -313,11 +316,13 @@ test("a link shows the same, and one with a mistake can be left", async () => {
   await wrong.close();
 });
 
-test("the generator tells nothing of where it was built", async () => {
-  const module = await readFile(join(folder, "straightline.wasm"), "latin1");
+test("the modules tell nothing of where they were built", async () => {
   const repository = fileURLToPath(new URL("../../", import.meta.url));
-  for (const place of [homedir(), repository]) assert.ok(!module.includes(`${place.replace(/\/$/, "")}/`), place);
-  assert.ok(module.includes("/cargo/"), "it does tell where in a crate something stopped");
+  for (const name of ["straightline.wasm", "templates.wasm"]) {
+    const module = await readFile(join(folder, name), "latin1");
+    for (const place of [homedir(), repository]) assert.ok(!module.includes(`${place.replace(/\/$/, "")}/`), `${name}: ${place}`);
+    assert.ok(module.includes("/cargo/"), `${name} does tell where in a crate something stopped`);
+  }
 });
 
 test("it fits 400 pixels, in light and dark", async () => {

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
-use straightline_page::{FILES, MODULE, ModuleError, files};
+use straightline_page::{FILES, GENERATOR, Module, ModuleError, TEMPLATES, files};
 
 fn text(name: &str) -> &'static str {
     let (_, bytes) = FILES.iter().find(|(known, _)| *known == name).expect(name);
@@ -47,7 +47,7 @@ fn every_reference_leads_to_a_file_of_the_page() {
             let end = part.find('"').expect("an end");
             let target = &part[..end];
             assert!(
-                target == MODULE || FILES.iter().any(|(known, _)| *known == target),
+                [GENERATOR, TEMPLATES].contains(&target) || FILES.iter().any(|(known, _)| *known == target),
                 "{name}: {target}"
             );
             found += 1;
@@ -94,27 +94,29 @@ fn every_element_that_is_looked_up_is_there() {
 }
 
 #[test]
-fn the_generator_is_part_of_the_files() {
+fn the_modules_are_part_of_the_files() {
     let whole = module(&["memory", "request", "call", "answered"]);
-    let all = files(whole.clone()).expect("the page's");
-    assert_eq!(all.len(), FILES.len() + 1);
-    assert_eq!(all[MODULE], whole);
+    let taken = Module::new(whole.clone()).expect("the page's");
+    let all = files(taken.clone(), taken);
+    assert_eq!(all.len(), FILES.len() + 2);
+    assert_eq!(all[GENERATOR], whole);
+    assert_eq!(all[TEMPLATES], whole);
 }
 
 #[test]
-fn what_is_not_the_generator_is_refused() {
-    assert_eq!(files(Vec::new()), Err(ModuleError::NotWasm));
-    assert_eq!(files(b"#!/bin/sh".to_vec()), Err(ModuleError::NotWasm));
+fn what_is_no_module_of_the_page_is_refused() {
+    assert_eq!(Module::new(Vec::new()), Err(ModuleError::NotWasm));
+    assert_eq!(Module::new(b"#!/bin/sh".to_vec()), Err(ModuleError::NotWasm));
     assert_eq!(
-        files(b"\0asm\x01\0\0\0".to_vec()),
+        Module::new(b"\0asm\x01\0\0\0".to_vec()),
         Err(ModuleError::NotThePages("memory"))
     );
     assert_eq!(
-        files(module(&["memory", "call"])),
+        Module::new(module(&["memory", "call"])),
         Err(ModuleError::NotThePages("request"))
     );
     let whole = module(&["memory", "request", "call", "answered"]);
     for end in 9..whole.len() {
-        assert!(files(whole[..end].to_vec()).is_err(), "cut at {end}");
+        assert!(Module::new(whole[..end].to_vec()).is_err(), "cut at {end}");
     }
 }

@@ -289,9 +289,12 @@ pub struct PageArgs {
     /// Folder to write to; made if it is not there. A static host serves it as it is
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
-    /// The generator as WebAssembly, as page/build makes it; without one, it is built from the source checkout around
-    #[arg(long, value_name = "FILE.wasm")]
+    /// The generator as WebAssembly, as page/build makes it; without one, both modules are built from the source checkout around
+    #[arg(long, value_name = "FILE.wasm", requires = "templates")]
     pub module: Option<PathBuf>,
+    /// The templates of engines as WebAssembly, which are made along with the generator
+    #[arg(long, value_name = "FILE.wasm", requires = "module")]
+    pub templates: Option<PathBuf>,
 }
 
 #[derive(Debug, Args)]

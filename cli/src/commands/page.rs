@@ -6,6 +6,7 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use straightline_codegen::files;
+use straightline_page::Module;
 
 /// Most bytes of a module.
 const LARGEST: u64 = 1 << 28;
@@ -13,18 +14,11 @@ const LARGEST: u64 = 1 << 28;
 /// Writes the page's files, or none of them.
 pub fn run(args: &PageArgs) -> Result<(), Failure> {
     files::try_folder(&args.out).map_err(Failure::of)?;
-    let path = match &args.module {
-        Some(path) => path.clone(),
-        None => built()?,
+    let [generator, templates] = match (&args.module, &args.templates) {
+        (Some(generator), Some(templates)) => [generator.clone(), templates.clone()],
+        _ => built()?,
     };
-    let module = files::read(&path, LARGEST)
-        .map_err(|why| Failure::Failed(format!("cannot read the module `{}`: {why}", path.display())))?;
-    let all = straightline_page::files(module).map_err(|why| {
-        Failure::Failed(format!(
-            "`{}` is not the page's generator: {why}; page/build makes it",
-            path.display()
-        ))
-    })?;
+    let all = straightline_page::files(module(&generator)?, module(&templates)?);
     files::write_all(&args.out, &all).map_err(Failure::of)?;
     outln!("{}", args.out.join("index.html").display());
     errln!(
@@ -34,41 +28,58 @@ pub fn run(args: &PageArgs) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The generator, built by cargo from the source checkout that the command runs in.
-fn built() -> Result<PathBuf, Failure> {
+/// A module, read and found to be one of the page's.
+fn module(path: &Path) -> Result<Module, Failure> {
+    let bytes = files::read(path, LARGEST)
+        .map_err(|why| Failure::Failed(format!("cannot read the module `{}`: {why}", path.display())))?;
+    Module::new(bytes).map_err(|why| {
+        Failure::Failed(format!(
+            "`{}` is no module of the page: {why}; page/build makes them",
+            path.display()
+        ))
+    })
+}
+
+/// The crates of the generator and of the templates.
+const CRATES: [&str; 2] = ["straightline-page-module", "straightline-page-templates"];
+
+/// Both modules, built by cargo from the source checkout that the command runs in.
+fn built() -> Result<[PathBuf; 2], Failure> {
     let root = checkout().ok_or_else(|| {
         Failure::Failed(
             "the page needs the generator as WebAssembly, and this is no checkout of Straightline's source to build it from: run it in one, \
-             or give a module that page/build has made, --module straightline.wasm"
+             or give the modules that page/build has made, --module straightline.wasm --templates templates.wasm"
                 .to_owned(),
         )
     })?;
     errln!("note: building the generator for wasm32-unknown-unknown, which takes some minutes the first time");
-    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-    let status = Command::new(cargo)
-        .current_dir(&root)
-        .args([
-            "rustc",
-            "--package",
-            "straightline-page-module",
-            "--lib",
-            "--profile",
-            "page",
-        ])
-        .args(["--crate-type", "cdylib", "--target", TARGET])
-        .env("CARGO_ENCODED_RUSTFLAGS", flags(&root))
-        .stdout(Stdio::null())
-        .status()
-        .map_err(|why| Failure::Failed(format!("cannot run cargo: {why}; page/build names the other ways")))?;
-    if !status.success() {
-        return Err(Failure::Failed(format!(
-            "the generator was not built for {TARGET} (above cargo says why). If the target is missing: rustup target add {TARGET}; on Debian \
-             without rustup, page/build uses rust-web's"
-        )));
+    for name in CRATES {
+        build(&root, name)?;
     }
     // A relative one is taken from the root, where cargo runs.
     let target = root.join(std::env::var_os("CARGO_TARGET_DIR").unwrap_or_else(|| "target".into()));
-    Ok(target.join(TARGET).join("page").join("straightline_page_module.wasm"))
+    let folder = target.join(TARGET).join("page");
+    Ok(CRATES.map(|name| folder.join(format!("{}.wasm", name.replace('-', "_")))))
+}
+
+/// Has cargo make the module of a crate.
+fn build(root: &Path, name: &str) -> Result<(), Failure> {
+    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    let status = Command::new(cargo)
+        .current_dir(root)
+        .args(["rustc", "--package", name, "--lib", "--profile", "page"])
+        .args(["--crate-type", "cdylib", "--target", TARGET])
+        .env("CARGO_ENCODED_RUSTFLAGS", flags(root))
+        .stdout(Stdio::null())
+        .status()
+        .map_err(|why| Failure::Failed(format!("cannot run cargo: {why}; page/build names the other ways")))?;
+    match status.success() {
+        true => Ok(()),
+        false => Err(Failure::Failed(format!(
+            "`{name}` was not built for {TARGET} (above cargo says why). If the target is missing: rustup target add {TARGET}; on Debian \
+             without rustup, page/build uses rust-web's"
+        ))),
+    }
 }
 
 const TARGET: &str = "wasm32-unknown-unknown";

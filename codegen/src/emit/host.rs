@@ -55,6 +55,19 @@ impl HostFunction {
         &resources.texture(self.texture).name
     }
 
+    /// As WGSL declares it, of a body that only has its type: for who reads a text that calls it before the host's is there.
+    fn stub(self, resources: &Resources) -> String {
+        let (takes, gives) = match self.what {
+            What::Load => ("pixel: vec2i", "vec4f"),
+            What::Sample => ("place: vec2f", "vec4f"),
+            What::Size => ("", "vec2i"),
+        };
+        format!(
+            "fn {}({takes}) -> {gives} {{ return {gives}(); }}\n",
+            self.name(resources)
+        )
+    }
+
     /// What it gives, in words.
     pub fn gives(self) -> &'static str {
         self.what.gives()
@@ -84,6 +97,11 @@ pub fn functions(ops: &[&Op], sized: Option<u32>) -> Vec<HostFunction> {
     all
 }
 
+/// Stubs of WGSL for all functions of the host's.
+pub fn stubs(resources: &Resources) -> String {
+    resources.host.iter().map(|function| function.stub(resources)).collect()
+}
+
 /// The call of a host's function that stands for a read.
 pub fn call(resources: &Resources, op: &Op, args: &[Text]) -> Option<Text> {
     if !resources.options.calls_host() {
@@ -109,10 +127,12 @@ pub fn check(compiled: &Compiled, resources: &Resources) -> Result<(), EmitError
     if !(options.calls_host() || options.global_uniforms) {
         return Ok(());
     }
-    let has = |target: &Target| *target == Target::Hlsl || Target::OPENGL.contains(target);
+    let declares = |target: &Target| *target == Target::Hlsl || Target::OPENGL.contains(target);
+    let has = |target: &Target| declares(target) || (*target == Target::Wgsl && !options.global_uniforms);
     if let Some(target) = options.targets.iter().find(|target| !has(target)) {
+        let also = if options.global_uniforms { "" } else { "wgsl, " };
         return refused(format!(
-            "the host declares what it reads, which {target} does not have: write glsl430, glsl330, essl310, essl300 or hlsl"
+            "the host declares what it reads, which {target} does not have: write {also}glsl430, glsl330, essl310, essl300 or hlsl"
         ));
     }
     if !options.calls_host() {

@@ -270,7 +270,8 @@ impl<'g> Shader<'_, 'g> {
                 Precision::F32 => wgsl.clone(),
                 Precision::F16 => format!("enable f16;\n{wgsl}"),
             };
-            translate::Module::parse_wgsl(&self.compiled.kernel, &enabled)?;
+            let read = enabled + &host::stubs(self.resources);
+            translate::Module::parse_wgsl(&self.compiled.kernel, &read)?;
         }
         Ok(match options.enable_subgroups && self.resources.subgroups {
             true => format!("enable subgroups;\n{}{wgsl}", gap(options.precision)),

@@ -4,7 +4,6 @@ mod geometry;
 
 use crate::compiled::Asked;
 use crate::errors::Refusal;
-use crate::message::Message;
 use crate::scene::{self, FAR, NEAR};
 use crate::state::State;
 use crate::texels::{Picture, TexelFormat};
@@ -12,6 +11,7 @@ use serde::Deserialize;
 use serde_json::{Map, Value, json};
 use straightline_codegen::Compiled;
 use straightline_manifest::{BindingKind, Dimension, Extent, SampleType};
+use straightline_page_abi::Message;
 
 /// For which kernel, and at which size of its result.
 #[derive(Deserialize)]

@@ -4,12 +4,12 @@
 use crate::compiled::Asked;
 use crate::errors::Refusal;
 use crate::inputs::{self, Plane};
-use crate::message::Message;
 use crate::state::State;
 use serde::Deserialize;
 use serde_json::json;
 use std::collections::BTreeMap;
 use straightline_codegen::interp::{Bindings, Image, Interpreter};
+use straightline_page_abi::Message;
 
 /// What to compute.
 #[derive(Deserialize)]

@@ -1,11 +1,9 @@
 //! The generator as a web page calls it: a request in JSON, and where it needs them bytes, in; an answer in JSON, and where
 //! it has them bytes, out.
 //!
-//! Everything here runs natively too, which is how it is tested; only `abi` is of WebAssembly. A module holds one page's
+//! Everything here runs natively too, which is how it is tested; only what `export!` makes is of WebAssembly. A module holds one page's
 //! state: the kernels it has read and compiled lately, the visitor's picture, the traced scene.
 
-#[cfg(target_arch = "wasm32")]
-mod abi;
 mod catalogue;
 mod compiled;
 mod engines;
@@ -19,4 +17,7 @@ mod state;
 mod texels;
 
 pub use catalogue::{Entry, UniformRange, entries};
-pub use message::{Message, answer};
+pub use message::answer;
+pub use straightline_page_abi::Message;
+
+straightline_page_abi::export!(crate::answer);

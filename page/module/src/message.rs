@@ -1,4 +1,4 @@
-//! Messages between the page and the generator: four bytes of length (little endian), as much JSON, then bytes.
+//! What the page asks of the generator, and what it is told.
 
 use crate::compiled::{Asked, CompileRequest, KernelText, compile};
 use crate::inputs::{InputsRequest, inputs, reference};
@@ -8,45 +8,7 @@ use crate::{catalogue, engines, errors::Refusal};
 use serde::Deserialize;
 use serde_json::{Value, json};
 use std::cell::RefCell;
-
-/// A request or an answer.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Message {
-    /// What is asked or told.
-    pub json: Value,
-    /// Pixels, where the JSON speaks of some.
-    pub bytes: Vec<u8>,
-}
-
-impl Message {
-    /// Without bytes.
-    pub fn of(json: Value) -> Message {
-        Message {
-            json,
-            bytes: Vec::new(),
-        }
-    }
-
-    /// As bytes.
-    pub fn encode(&self) -> Vec<u8> {
-        let json = self.json.to_string();
-        let mut all = Vec::with_capacity(4 + json.len() + self.bytes.len());
-        all.extend((json.len() as u32).to_le_bytes());
-        all.extend(json.as_bytes());
-        all.extend(&self.bytes);
-        all
-    }
-
-    /// From bytes; `None` if they are no message.
-    pub fn decode(bytes: &[u8]) -> Option<Message> {
-        let (length, rest) = bytes.split_first_chunk::<4>()?;
-        let (json, bytes) = rest.split_at_checked(u32::from_le_bytes(*length) as usize)?;
-        Some(Message {
-            json: serde_json::from_slice(json).ok()?,
-            bytes: bytes.to_vec(),
-        })
-    }
-}
+use straightline_page_abi::Message;
 
 /// What can be asked.
 #[derive(Deserialize)]
@@ -58,7 +20,7 @@ enum Request {
     Source { kernel: KernelText },
     /// Shaders, manifest, counts and options of a kernel.
     Compile(CompileRequest),
-    /// The folder of a kernel for an engine.
+    /// What the templates of an engine are given of a kernel.
     Engine {
         engine: String,
         #[serde(flatten)]
@@ -104,7 +66,7 @@ fn act(state: &mut State, message: Message) -> Result<Message, Refusal> {
         Request::Catalogue => Ok(Message::of(catalogue::to_json())),
         Request::Source { kernel } => Ok(Message::of(kernel.source(state)?)),
         Request::Compile(request) => compile(state, &request).map(Message::of),
-        Request::Engine { engine, asked } => engines::folder(state, &engine, &asked).map(Message::of),
+        Request::Engine { engine, asked } => engines::context(state, &engine, &asked).map(Message::of),
         Request::Inputs(request) => inputs(state, &request),
         Request::Interpret(request) => interpret(state, &request),
         Request::Picture { width, height } => {

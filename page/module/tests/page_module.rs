@@ -245,10 +245,13 @@ fn nonsense_is_refused() {
 fn a_kernel_is_had_as_the_folder_of_an_engine() {
     let catalogue = ask(json!({ "do": "catalogue" }), &[]).expect("a catalogue").json;
     let engines = catalogue["engines"].as_array().expect("a list");
-    assert!(engines.len() >= 14 && engines.iter().any(|e| e["title"] == "three.js"));
+    assert!(engines.len() >= 16 && engines.iter().any(|e| e["title"] == "three.js"));
     let folder = |engine: &str, id: &str| {
         let asked = json!({ "do": "engine", "engine": engine, "kernel": { "id": id }, "unroll": unroll(id) });
-        ask(asked, &[]).map(|message| message.json)
+        let context = ask(asked, &[])?.json;
+        let request = Message::of(json!({ "engine": engine, "context": context })).encode();
+        let made = Message::decode(&straightline_page_templates::answer(&request)).expect("an answer is a message");
+        Ok::<Value, Value>(made.json["ok"].clone())
     };
     for engine in engines {
         let name = engine["name"].as_str().expect("a name");
@@ -265,4 +268,11 @@ fn a_kernel_is_had_as_the_folder_of_an_engine() {
     assert!(reason(&refused).contains("does not fit mpv"), "{refused}");
     let nobody = folder("../secrets", "sraa").expect_err("no engine");
     assert!(reason(&nobody).contains("there is no engine"), "{nobody}");
+    for request in [
+        Message::of(json!({ "engine": "../secrets", "context": {} })).encode(),
+        Vec::new(),
+    ] {
+        let made = Message::decode(&straightline_page_templates::answer(&request)).expect("an answer is a message");
+        assert!(made.json["refused"]["text"].is_string(), "{}", made.json);
+    }
 }

@@ -14,8 +14,11 @@ const here = dirname(dirname(fileURLToPath(import.meta.url)));
 const native = join(here, "native");
 const root = dirname(dirname(here));
 
-/** A page of the browser; `files` are those of the folder by what the page calls them. */
-function page(name, files) {
+/** Python, which finds what `run` installs. */
+export const PYTHON = process.env.PYTHON ?? "python3";
+
+/** A page of the browser; `files` are those of the folder by what the page calls them, `bits` what its picture has. */
+function page(name, files, bits = 32) {
     return async ({ kernel, folder, url, browser, className, functionName, picture }) => {
         const found = Object.fromEntries(Object.entries(files(kernel.name)).map(([key, file]) => [key, `${url}/${file}`]));
         const layers = inputs(kernel);
@@ -33,7 +36,7 @@ function page(name, files) {
             width: WIDTH,
             height: HEIGHT,
         });
-        return { rgba, bits: 32, said };
+        return { rgba, bits, said };
     };
 }
 
@@ -58,7 +61,7 @@ function png(rgba) {
 
 function run(program, args) {
     // Drivers complain where it is not set.
-    const env = { XDG_RUNTIME_DIR: tmpdir(), EGL_PLATFORM: "surfaceless", ...process.env };
+    const env = { XDG_RUNTIME_DIR: tmpdir(), EGL_PLATFORM: "surfaceless", PYTHONPATH: join(here, "python"), ...process.env };
     execFileSync(program, args, { stdio: ["ignore", "pipe", "pipe"], env });
 }
 
@@ -92,12 +95,8 @@ async function godot({ kernel, folder, url, browser }) {
     return { rgba, bits: 8, said };
 }
 
-/** A C program with the emitted header in it, on EGL. OpenGL counts rows from below. */
-function opengl({ kernel, folder, functionName }) {
-    const program = join(folder, "program");
-    const header = ending(folder, ".h");
-    run("cc", ["-std=c99", "-Wall", "-Werror", "-o", program, join(native, "opengl.c"), `-DHEADER="${header}"`, `-DVERTEX=${functionName}_vertex`,
-        `-DFRAGMENT=${functionName}_fragment`, `-DSAMPLERS=${functionName}_samplers`, "-Wno-unused-variable", "-lEGL", "-lOpenGL"]);
+/** A program that is given files of floats, rows from below, and writes one. */
+function withFloats(kernel, folder, program) {
     const given = Object.entries(inputs(kernel)).map(([name, layers]) => {
         const files = layers.map((rgba, k) => {
             const file = join(folder, `${name}-${k}.f32`);
@@ -108,10 +107,25 @@ function opengl({ kernel, folder, functionName }) {
     });
     const uniforms = Object.entries(kernel.uniforms).map(([name, value]) => `uniform:${name}=${value}`);
     const out = join(folder, "out.f32");
-    run(program, [WIDTH, HEIGHT, out, ...given, ...uniforms].map(String));
+    program([WIDTH, HEIGHT, out, ...given, ...uniforms].map(String));
     const bytes = readFileSync(out);
     const rgba = new Float32Array(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.length));
     return { rgba: turned(rgba, WIDTH, HEIGHT), bits: 32 };
+}
+
+/** A C program with the emitted header in it, on EGL. OpenGL counts rows from below. */
+function opengl({ kernel, folder, functionName }) {
+    const program = join(folder, "program");
+    const header = ending(folder, ".h");
+    run("cc", ["-std=c99", "-Wall", "-Werror", "-o", program, join(native, "opengl.c"), `-DHEADER="${header}"`, `-DVERTEX=${functionName}_vertex`,
+        `-DFRAGMENT=${functionName}_fragment`, `-DSAMPLERS=${functionName}_samplers`, "-Wno-unused-variable", "-lEGL", "-lOpenGL"]);
+    return withFloats(kernel, folder, (given) => run(program, given));
+}
+
+/** The emitted module in Panda3D, without a display: the picture is drawn there. */
+function panda3d({ kernel, folder, className }) {
+    const module = ending(folder, ".py");
+    return withFloats(kernel, folder, (given) => run(PYTHON, [join(native, "in_panda3d.py"), module, `${className}Filter`, ...given]));
 }
 
 /**
@@ -129,8 +143,11 @@ export const ENGINES = [
     { name: "babylon, WebGPU", engine: "babylon", needs: ["chromium"], run: page("babylon-webgpu", (k) => ({ module: `${k}-post-process.js` })) },
     { name: "playcanvas, WebGL 2", engine: "playcanvas", needs: ["chromium"], run: page("playcanvas", (k) => ({ module: `${k}-effect.mjs` })) },
     { name: "playcanvas, WebGPU", engine: "playcanvas", needs: ["chromium"], run: page("playcanvas-webgpu", (k) => ({ module: `${k}-effect.mjs` })) },
+    { name: "pixi, WebGL 2", engine: "pixi", needs: ["chromium"], run: page("pixi", (k) => ({ module: `${k}-filter.js` }), 8) },
+    { name: "pixi, WebGPU", engine: "pixi", needs: ["chromium"], run: page("pixi-webgpu", (k) => ({ module: `${k}-filter.js` }), 8) },
     { name: "godot, Compatibility", engine: "godot", needs: ["chromium"], run: godot },
     { name: "opengl", engine: "opengl", needs: ["cc"], run: opengl },
+    { name: "panda3d", engine: "panda3d", needs: ["panda3d"], run: panda3d },
     { name: "mpv (libplacebo)", engine: "mpv", needs: ["ffmpeg"], fixed: true, slack: 2 ** -10, run: ffmpeg },
     { name: "libretro (librashader)", engine: "libretro", needs: ["librashader"], run: librashader(process.env.LIBRASHADER ?? "librashader-cli") },
 ];

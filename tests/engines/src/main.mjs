@@ -7,7 +7,7 @@ import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { open } from "./browser.mjs";
 import { compare } from "./compare.mjs";
-import { ENGINES, UPRIGHT } from "./engines.mjs";
+import { ENGINES, PYTHON, UPRIGHT } from "./engines.mjs";
 import { readExr, writeExr } from "./exr.mjs";
 import { HEIGHT, KERNELS, WIDTH, inputs } from "./kernels.mjs";
 
@@ -26,6 +26,12 @@ const PROGRAMS = {
     chromium: { program: process.env.CHROMIUM ?? found("chromium"), version: ["--version"], install: "apt-get install chromium" },
     ffmpeg: { program: "ffmpeg", version: ["-version"], install: "apt-get install ffmpeg mesa-vulkan-drivers" },
     cc: { program: "cc", version: ["--version"], install: "apt-get install gcc libegl-dev libopengl-dev libgl1-mesa-dri" },
+    panda3d: {
+        program: PYTHON,
+        version: ["-c", "import panda3d; print('Panda3D', panda3d.__version__)"],
+        install: "python3 -m pip install --target tests/engines/python -r tests/engines/requirements.txt",
+        called: "panda3d",
+    },
     librashader: {
         program: process.env.LIBRASHADER ?? "librashader-cli",
         version: ["--version"],
@@ -35,7 +41,8 @@ const PROGRAMS = {
 
 /** The first line of what a program says of itself, or nothing if it is not there. */
 function version({ program, version }) {
-    const ran = spawnSync(program, version, { encoding: "utf8" });
+    const env = { PYTHONPATH: join(here, "python"), ...process.env };
+    const ran = spawnSync(program, version, { encoding: "utf8", env });
     return ran.status === 0 ? (ran.stdout || ran.stderr).split("\n")[0].trim() : null;
 }
 
@@ -134,7 +141,7 @@ async function tried(engine, kernel, expected) {
     if (refused) return { state: refused.includes("does not fit") ? "refused" : "failed", why: refused };
     if (!expected) return { state: "failed", why: "emitted, and nothing to compare with" };
     for (const need of engine.needs) {
-        if (!versions[need]) return { state: "missing", why: `${PROGRAMS[need].program} is not there: ${PROGRAMS[need].install}` };
+        if (!versions[need]) return { state: "missing", why: `${PROGRAMS[need].called ?? PROGRAMS[need].program} is not there: ${PROGRAMS[need].install}` };
     }
     try {
         const className = kernel.name.split("_").map((word) => word[0].toUpperCase() + word.slice(1)).join("");

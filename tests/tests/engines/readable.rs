@@ -40,7 +40,12 @@ pub fn check(engine: &str, files: &Files) -> Result<usize, String> {
             let around = "precision highp float;\nlayout(location = 0) out highp vec4 pc_fragColor;\n#define gl_FragColor pc_fragColor\n";
             essl(&format!("{es}{around}{}", literal(ending(".mjs")?, "FRAGMENT_GLSL")?))?;
         }
+        "pixi" => {
+            essl(&literal(ending(".js")?, "FRAGMENT")?)?;
+            wgsl(&literal(ending(".js")?, "WGSL")?)?;
+        }
         "opengl" => c(files)?,
+        "panda3d" => python(ending(".py")?)?,
         "mpv" => mpv(ending(".glsl")?)?,
         "libretro" => slang(ending(".slang")?)?,
         "godot" => godot(ending(".gdshader")?)?,
@@ -120,6 +125,16 @@ fn c(files: &Files) -> Result<(), String> {
         true => Ok(()),
         false => Err(String::from_utf8_lossy(&ran.stderr).into_owned()),
     }
+}
+
+/// Both shaders of a module of Python.
+fn python(text: &str) -> Result<(), String> {
+    for (name, stage) in [("VERTEX", "vert"), ("FRAGMENT", "frag")] {
+        let (_, rest) = text.split_once(&format!("{name} = \"\"\"")).ok_or("no shader")?;
+        let (shader, _) = rest.split_once("\"\"\"").ok_or("no end of the shader")?;
+        opengl(&shader.replace("\\\"", "\"").replace("\\\\", "\\"), stage)?;
+    }
+    Ok(())
 }
 
 /// What mpv and libplacebo define, and their `main`.

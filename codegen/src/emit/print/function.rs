@@ -11,11 +11,13 @@ impl Wgsl<'_> {
     /// The head of a function that takes all that it reads.
     pub(super) fn taking(&self) -> String {
         let r = self.resources;
-        let textures = r.read.iter().map(|bound| {
+        // Where the host's functions read its textures, it takes none of them.
+        let calls_host = r.options.calls_host();
+        let textures = r.read.iter().filter(|_| !calls_host).map(|bound| {
             let texture = r.texture(bound.index);
             format!("{}: {}", texture.name, wgsl::texture_type(texture))
         });
-        let samplers = r.used_samplers.iter().map(|(k, _)| {
+        let samplers = r.used_samplers.iter().filter(|_| !calls_host).map(|(k, _)| {
             let sampler = r.sampler(*k);
             format!("{}: {}", sampler.name, wgsl::sampler_type(sampler.comparison))
         });

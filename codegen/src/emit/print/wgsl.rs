@@ -3,6 +3,7 @@
 use super::expr::{float, integer, unsigned};
 use super::{Language, Text, commented, loose};
 use crate::emit::ast::{Builtin, Effect, Ty};
+use crate::emit::host;
 use crate::emit::outputs::{BoundOutput, one};
 use crate::emit::resources::{OUTPUTS, Resources, UNIFORMS};
 use crate::ir::{self, Access, Axis, BinaryOp, Direction, Element, Scalar, Texture, TextureKind, Type};
@@ -35,7 +36,8 @@ impl Wgsl<'_> {
         match self.resources.options.is_function() {
             true => {
                 let uniforms = self.resources.uniforms.iter().map(|u| loose(&u.name));
-                uniforms.chain([self.resources.outputs_type()]).collect()
+                let host = self.resources.host.iter().map(|f| f.name(self.resources));
+                uniforms.chain(host).chain([self.resources.outputs_type()]).collect()
             }
             false => {
                 let structures = self.resources.structure_names();
@@ -77,6 +79,9 @@ impl Language for Wgsl<'_> {
     }
 
     fn read(&self, op: &ir::Op, args: &[Text]) -> Text {
+        if let Some(call) = host::call(self.resources, op, args) {
+            return call;
+        }
         match op {
             ir::Op::Uniform(k) if self.leads() => Text::name(loose(self.resources.uniform(*k))),
             ir::Op::Uniform(k) => Text::name(format!("{UNIFORMS}.{}", self.resources.uniform(*k))),

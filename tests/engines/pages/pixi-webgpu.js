@@ -1,0 +1,1 @@
+export { runWebGpu as run } from "./pixi.js";
