@@ -21,7 +21,11 @@ impl Maker {
             m.expr(&of, want)
         });
         let result = self.name();
-        let moves = if self.random.once_in(4) && !self.would_move(&body) { "move " } else { "" };
+        let moves = if self.random.once_in(4) && !self.would_move(&body) {
+            "move "
+        } else {
+            ""
+        };
         match self.random.below(4) {
             0 => {
                 self.line(format!(
