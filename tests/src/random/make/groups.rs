@@ -199,6 +199,10 @@ impl Maker {
                 _ => self.change_memory(),
             }
         }
+        // A kernel that gives nothing writes something.
+        if last && ty == unit {
+            self.write();
+        }
         if ty != unit {
             let want = self.wish(2).inferred(true);
             let value = if last { self.given(&ty) } else { self.expr(&ty, want) };
