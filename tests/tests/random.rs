@@ -9,7 +9,7 @@ use straightline_tests::random::forms::FORMS;
 use straightline_tests::random::make::{Features, make};
 use straightline_tests::random::oracle::coverage::{Missing, missing};
 use straightline_tests::random::oracle::same::{CHANGES, apply, same_bits};
-use straightline_tests::random::oracle::{self, Compared, Driver, Rustc, Tally, Text, World, colors};
+use straightline_tests::random::oracle::{self, Compared, Driver, Rustc, Tally, Text, World, computed};
 use straightline_tests::random::{Random, Texts, survives};
 
 /// First seed; each test takes those that follow.
@@ -61,6 +61,21 @@ fn what_rustc_refuses_is_refused() {
 fn random_kernels_have_every_construct() {
     let missing = missing(0..3000).unwrap_or_else(|why| panic!("{why}"));
     assert_eq!(missing, Missing::default());
+}
+
+/// What `tests/mutants/run` puts defects into: each line stands once in its file.
+#[test]
+fn lines_of_mutants_stand_once() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let list = std::fs::read_to_string(root.join("tests/mutants/list.txt")).expect("the list");
+    for block in list.split("\n\n") {
+        let lines: Vec<&str> = block.lines().filter(|line| !line.starts_with('#')).collect();
+        let [file, old, _] = lines[..] else { continue };
+        let text = std::fs::read_to_string(root.join(file)).unwrap_or_default();
+        let old = old.trim_start_matches("- ");
+        let count = text.lines().filter(|line| line.trim() == old).count();
+        assert_eq!(count, 1, "{file}: {old}");
+    }
 }
 
 /// Changes that leave a kernel's meaning leave its bits.
@@ -160,19 +175,20 @@ fn kept_promise(text: &Text) -> Result<(), String> {
         let compiled = kernel
             .compile(&form.settings())
             .map_err(|errors| format!("{form}: {errors}"))?;
-        let found = colors::<f32>(&compiled, &World::new(0))?;
+        let found = computed::<f32>(&compiled, &World::new(0))?;
         for line in text.source.lines() {
             let Some(promise) = line.strip_prefix("// expect ") else {
                 continue;
             };
-            let numbers: Vec<f32> = promise.split([' ', ':']).filter_map(|word| word.parse().ok()).collect();
+            let number = |word: &str| word.parse().ok().map(f32::into);
+            let numbers: Vec<f64> = promise.split([' ', ':']).filter_map(number).collect();
             let at = pixels
                 .iter()
-                .position(|[x, y]| numbers.starts_with(&[*x as f32, *y as f32]));
+                .position(|[x, y]| numbers.starts_with(&[f64::from(*x), f64::from(*y)]));
             let (Some(at), [_, _, color @ ..]) = (at, numbers.as_slice()) else {
                 return Err(format!("not a pixel and a colour: {promise}"));
             };
-            let found = found[at];
+            let found = found.pixels[at].as_ref().map_or([f64::NAN; 4], |targets| targets[0]);
             if found.as_slice() != color {
                 return Err(format!("{form} gives {found:?}, not {promise}"));
             }

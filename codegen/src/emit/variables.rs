@@ -32,13 +32,19 @@ impl Stmt<'_> {
     pub fn mentions(&self, var: VarId) -> bool {
         let mut found = false;
         self.visit(&mut |expr| found |= expr.as_var() == Some(var));
-        found
+        found || self.gives(var)
+    }
+
+    /// Whether what is there before an effect in it, or in its blocks, goes to a variable.
+    fn gives(&self, var: VarId) -> bool {
+        matches!(&self.kind, StmtKind::Effect(effect) if effect.before == Some(var))
+            || self.blocks().into_iter().flatten().any(|stmt| stmt.gives(var))
     }
 
     /// Whether it, or a statement of its blocks, assigns to a variable or a part of it.
     pub fn assigns(&self, var: VarId) -> bool {
         matches!(&self.kind, StmtKind::Assign(place, ..) if place.root() == Some(var))
-            || matches!(&self.kind, StmtKind::Effect(effect) if effect.before == Some(var))
+            || self.gives(var)
             || self.blocks().into_iter().flatten().any(|stmt| stmt.assigns(var))
     }
 }

@@ -64,7 +64,7 @@ impl Evaluator<'_> {
         };
         let numbered = |k: usize| format!("{}_{k}", Target::ALONE);
         match value {
-            Value::Tuple(parts) if parts.is_empty() && self.builder.graph().has_effects() => Ok(Vec::new()),
+            Value::Tuple(parts) if parts.is_empty() && self.builder.graph().has_lasting_effects() => Ok(Vec::new()),
             Value::Tuple(parts) if !parts.is_empty() => {
                 let parts = parts.iter().enumerate();
                 Ok(parts.map(|(k, part)| (numbered(k), part.clone(), span)).collect())

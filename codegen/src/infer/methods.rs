@@ -70,6 +70,11 @@ impl<'l> Checker<'l> {
                 Some(mutable) => Box::new(Ty::Ref(mutable, element.clone())),
                 None => element.clone(),
             }),
+            // Methods of `Ord` are those of every integer, so that rustc need not know of which.
+            (Ty::Int(_) | Ty::Var(_), "min" | "max" | "clamp") if self.table.kind(&bare) == Some(Kind::Integer) => {
+                let wanted = vec![bare.clone(); if name == "clamp" { 2 } else { 1 }];
+                self.takes(args, &wanted, bare)
+            }
             (Ty::Int(_) | Ty::Var(_), _) if self.table.kind(&bare) == Some(Kind::Integer) => {
                 self.ambiguous(name, receiver);
                 self.loose(args);

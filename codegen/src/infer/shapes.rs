@@ -3,7 +3,7 @@
 use super::Checker;
 use super::types::{Kind, Ty};
 use crate::diagnostic::{Diagnostic, Span};
-use crate::front::tree::{Expr, Fields, Generic};
+use crate::front::tree::{Expr, Fields, Generic, Type};
 use std::collections::HashMap;
 
 impl<'l> Checker<'l> {
@@ -21,9 +21,18 @@ impl<'l> Checker<'l> {
         let given: HashMap<String, Ty> = named.collect();
         let errors = self.errors.len();
         let types = fields.iter().map(|(_, ty, at)| self.substituted(ty, &given, *at));
-        let types = types.collect();
+        let types: Vec<Ty> = types.collect();
         // They are those of the item that states the fields.
         self.errors.truncate(errors);
+        for ((_, ty, at), found) in fields.iter().zip(&types) {
+            if let Type::Name(name, _) = ty
+                && *found == Ty::Unknown
+                && !given.contains_key(name)
+                && !self.errors.iter().any(|error| error.span == Some(*at))
+            {
+                self.no_type(name, *at);
+            }
+        }
         types
     }
 

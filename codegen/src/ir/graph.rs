@@ -223,6 +223,12 @@ impl Graph {
         !self.regions[0].effects.is_empty()
     }
 
+    /// Whether something is done to a buffer: what a workgroup shares nobody sees afterwards.
+    pub fn has_lasting_effects(&self) -> bool {
+        let mut effects = self.regions.iter().flat_map(|region| &region.effects);
+        effects.any(|id| matches!(self.node(*id).op.memory(), Some(Memory::Buffer(_))))
+    }
+
     /// The type of the elements of memory, and its name.
     pub fn memory(&self, memory: Memory) -> (Type, &str) {
         match memory {

@@ -33,8 +33,8 @@ impl fmt::Display for Form {
     }
 }
 
-/// Whether two colours are the same bit for bit, where any NaN equals any other.
-pub fn same(a: [f32; 4], b: [f32; 4]) -> bool {
+/// Whether two texels are the same bit for bit, where any NaN equals any other.
+pub fn same(a: [f64; 4], b: [f64; 4]) -> bool {
     a.iter()
         .zip(b)
         .all(|(x, y)| x.to_bits() == y.to_bits() || (x.is_nan() && y.is_nan()))

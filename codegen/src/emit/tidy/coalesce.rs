@@ -218,4 +218,17 @@ fn rename(stmt: &mut Stmt<'_>, from: VarId, to: VarId) {
         Op::Var(var) if var == from => Expr::var(to, expr.ty),
         _ => expr,
     });
+    rename_before(stmt, from, to);
+}
+
+/// What was there before an effect goes to a variable too.
+fn rename_before(stmt: &mut Stmt<'_>, from: VarId, to: VarId) {
+    if let StmtKind::Effect(effect) = &mut stmt.kind
+        && effect.before == Some(from)
+    {
+        effect.before = Some(to);
+    }
+    for inner in stmt.blocks_mut() {
+        inner.iter_mut().for_each(|stmt| rename_before(stmt, from, to));
+    }
 }

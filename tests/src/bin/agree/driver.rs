@@ -2,7 +2,7 @@
 
 use super::options::Options;
 use std::time::Instant;
-use straightline_tests::random::make::{Feature, make};
+use straightline_tests::random::make::make;
 use straightline_tests::random::oracle::{self, Compared, Driver, Rustc, World};
 
 /// Batches of random kernels on the default adapter, against rustc.
@@ -12,21 +12,24 @@ pub fn on_driver(options: &Options) -> Result<(), String> {
     }
     let begin = Instant::now();
     let (rustc, driver) = (Rustc::find()?, Driver::new()?);
-    let features = options.features.without(Feature::Coarse);
+    let features = options.features.on_drivers();
     let end = options.seed + options.gpu;
     let (mut total, mut failures) = (Compared::default(), 0);
     for start in (options.seed..end).step_by(options.batch as usize) {
         let texts: Vec<_> = (start..(start + options.batch).min(end))
             .map(|seed| make(seed, features))
             .collect();
-        let world = World::new(start);
+        let number = options.world.unwrap_or(start);
+        let world = World::new(number);
         for (text, native) in texts.iter().zip(oracle::run(&rustc, &texts, &world)?) {
             let Ok(native) = native else { continue };
             if let Err(off) = driver.compare(text, &world, &native, &mut total) {
                 if !options.keep_going {
-                    return Err(format!("{text}\nworld {start}: {off}"));
+                    eprintln!("{text}\n{off}; making it smaller");
+                    let small = oracle::reduce_on_driver(&rustc, &driver, text, number);
+                    return Err(format!("{small}\nworld {number}: {off}"));
                 }
-                println!("seed {}, world {start}: {off}", text.seed);
+                println!("seed {}, world {number}: {off}", text.seed);
                 failures += 1;
             }
         }
@@ -37,7 +40,7 @@ pub fn on_driver(options: &Options) -> Result<(), String> {
         );
     }
     println!(
-        "{} kernels agree with rustc on {} in {:.1} s: {} pixels compared, {} of them off by rounding, {} not sure, \
+        "{} kernels agree with rustc on {} in {:.1} s: {} values compared, {} of them off by rounding, {} not sure, \
          {} forms refused",
         total.kernels,
         driver.name,

@@ -57,11 +57,13 @@ pub fn against_rustc(options: &Options) -> Result<(), String> {
         }
     }
     println!(
-        "{} kernels agree with rustc in every form in {:.1} s: {} pixels compared, {} empty, {} panic natively; \
+        "{} kernels agree with rustc in every form in {:.1} s: {} values of pixels and {} of buffers compared, \
+         {} empty, {} panic natively; \
          {} kernels refused, {} texts not Rust",
         total.compared,
         begin.elapsed().as_secs_f64(),
         total.pixels,
+        total.written,
         total.empty,
         total.panics,
         total.refusals(),

@@ -75,7 +75,7 @@ fn batch(options: &Options, seeds: std::ops::Range<u64>, folder: &Path, total: &
             };
             let emitted = match compiled.emit(&EmitOptions::new().stage(stage).targets([target])) {
                 Ok(emitted) => emitted,
-                Err(EmitError::Missing { .. } | EmitError::NoFrame { .. }) => continue,
+                Err(error) if has_no_such_text(&error) => continue,
                 Err(error) => {
                     println!("seed {seed}: {target} with {form}: {error}");
                     counts.failures += 1;
@@ -124,6 +124,17 @@ fn batch(options: &Options, seeds: std::ops::Range<u64>, folder: &Path, total: &
     }
     eprintln!("{} kernels", total.kernels);
     Ok(())
+}
+
+/// Whether a kernel is nothing that a language or a stage has, whatever is in it.
+fn has_no_such_text(error: &EmitError) -> bool {
+    matches!(
+        error,
+        EmitError::Missing { .. }
+            | EmitError::NoFrame { .. }
+            | EmitError::NoColour { .. }
+            | EmitError::GroupStage { .. }
+    )
 }
 
 /// What a compiler says, without the text that it was given.

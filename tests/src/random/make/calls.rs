@@ -112,7 +112,8 @@ impl Maker {
         }
         let mut all: Vec<String> = Vec::new();
         if signature.inputs {
-            all.extend(["a", "b", "p", "q", "r", "pixel"].map(str::to_owned));
+            all.extend(self.shape.named());
+            all.push("pixel".to_owned());
         }
         all.extend(args.into_iter().flatten());
         let args = all.join(", ");

@@ -104,6 +104,15 @@ impl Maker {
 
     /// What the kernel reads.
     fn input(&mut self, ty: &Ty) -> Option<String> {
+        let further = match self.random.below(6) {
+            0..=1 => self.further(ty),
+            2 => self.atomic_read(ty),
+            3 => self.memory_read(ty),
+            _ => None,
+        };
+        if further.is_some() {
+            return further;
+        }
         Some(match ty {
             Ty::F32 => match self.random.below(5) {
                 0 => "r".to_owned(),

@@ -46,6 +46,18 @@ pub enum Feature {
     Choices,
     /// Traits, operators of structures.
     Traits,
+    /// Kernels of one frame, one buffer and one colour; without it all kernels take further shapes.
+    Plain,
+    /// Buffers and textures of every kind, samplers, uniforms that are structures and arrays.
+    Inputs,
+    /// Several values for each pixel, or one that is no colour.
+    Outputs,
+    /// Writes to buffers.
+    Writes,
+    /// Writes whose result depends on which pixel comes first.
+    Ordered,
+    /// Workgroups.
+    Workgroups,
 }
 
 /// All features.
@@ -71,6 +83,12 @@ pub const ALL: &[Feature] = &[
     Feature::Edges,
     Feature::Choices,
     Feature::Traits,
+    Feature::Plain,
+    Feature::Inputs,
+    Feature::Outputs,
+    Feature::Writes,
+    Feature::Ordered,
+    Feature::Workgroups,
 ];
 
 /// A set of features.
@@ -85,7 +103,12 @@ impl Features {
 
     /// What all drivers compute in the same bits.
     pub fn exact_on_drivers() -> Features {
-        Features::all().without(Feature::Coarse)
+        Features::all().on_drivers()
+    }
+
+    /// The set without what drivers may compute in other bits.
+    pub fn on_drivers(self) -> Features {
+        self.without(Feature::Coarse).without(Feature::Ordered)
     }
 
     /// The set without one of its features.

@@ -37,17 +37,8 @@ impl Maker {
             None => {}
         }
         if signature.inputs {
-            all.extend(
-                [
-                    "a: &Frame<Vec4>",
-                    "b: &Buffer<f32>",
-                    "p: i32",
-                    "q: u32",
-                    "r: f32",
-                    "pixel: IVec2",
-                ]
-                .map(str::to_owned),
-            );
+            all.extend(self.shape.stated());
+            all.push("pixel: IVec2".to_owned());
         }
         for param in &signature.params {
             let sign = match param.hold {

@@ -12,6 +12,7 @@ mod features;
 mod floats;
 mod functions;
 mod generics;
+mod groups;
 mod integers;
 mod items;
 mod kernel;
@@ -21,17 +22,22 @@ mod loops;
 mod matches;
 mod places;
 mod references;
+mod resources;
+mod shape;
 mod shown;
 mod statements;
 mod structures;
 mod types;
 mod vectors;
+mod writes;
 
 pub use features::{Feature, Features};
 
 use super::Random;
 use super::oracle::Text;
-use types::{Choice, Enumeration, Signature, Structure, Ty};
+use groups::{Kept, Memory};
+use shape::Shape;
+use types::{Choice, Enumeration, Lane, Signature, Structure, Ty};
 
 /// Bound on what a kernel computes with all loops unrolled, in nodes of its expressions.
 const BUDGET: u32 = 420;
@@ -39,6 +45,7 @@ const BUDGET: u32 = 420;
 /// The kernel of a seed, made of the given features.
 pub fn make(seed: u64, features: Features) -> Text {
     let mut maker = Maker::new(seed, features);
+    maker.shape();
     maker.items();
     maker.kernel();
     Text {
@@ -139,8 +146,15 @@ struct Maker {
     loops: Vec<Around>,
     /// What the function returns that is being made.
     result: Option<Ty>,
-    /// Whether `a`, `b`, `p`, `q`, `r` and `pixel` are in reach.
+    /// What the kernel takes and gives.
+    shape: Shape,
+    /// What threads of a workgroup share, and what each of them keeps.
+    memories: Vec<Memory>,
+    kept: Vec<Kept>,
+    /// Whether `a`, `b`, `p`, `q`, `r`, further inputs and `pixel` are in reach.
     inputs: bool,
+    /// Whether what is made is an index or a value for a further input, which reads no other.
+    reading: bool,
     /// Whether an expression may call what changes variables.
     effects: bool,
     options: bool,
@@ -169,7 +183,11 @@ impl Maker {
             budget: BUDGET,
             loops: Vec::new(),
             result: None,
+            shape: Shape::plain(),
+            memories: Vec::new(),
+            kept: Vec::new(),
             inputs: false,
+            reading: false,
             effects: false,
             options: false,
         }

@@ -21,6 +21,12 @@ impl Maker {
             return self.assign();
         }
         let nested = self.nesting < NESTING;
+        if self.writes() && self.random.once_in(6) {
+            return self.write();
+        }
+        if self.inputs && self.shape.is_wide() && self.random.once_in(10) {
+            return self.read_further();
+        }
         match self.random.below(44) {
             43 if self.on(Feature::Closures) => self.swap_by_assignment(),
             40..=41 if self.on(Feature::Closures) => self.closure_statement(),

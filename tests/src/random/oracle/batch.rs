@@ -1,28 +1,33 @@
 //! Running many kernels natively.
 
+use super::given::{Given, Texel};
+use super::interface::Interface;
 use super::rustc::{modules, refuse};
 use super::{Rustc, Text, Verdict, World};
 use std::fmt::Write;
 use std::path::Path;
 use std::process::Command;
 
-/// The colour of each pixel as rustc's program computes it; `None` where it panics, so that Rust says nothing.
-pub type Native = Vec<Option<[u32; 4]>>;
-
-/// Compiles the texts as one program and gives the pixels of each, or why rustc refuses it.
+/// Compiles the texts as one program and gives what each of them gives, or why rustc refuses it.
 ///
 /// # Errors
 ///
 /// rustc cannot be run, or the program does not end well: what was said.
-pub fn run(rustc: &Rustc, texts: &[Text], world: &World) -> Result<Vec<Result<Native, String>>, String> {
-    let mut verdicts = vec![Verdict::Accepted; texts.len()];
+pub fn run(rustc: &Rustc, texts: &[Text], world: &World) -> Result<Vec<Result<Given, String>>, String> {
+    let callers: Vec<Result<String, String>> = texts.iter().map(caller).collect();
+    let verdict = |caller: &Result<String, String>| match caller {
+        Ok(_) => Verdict::Accepted,
+        Err(why) => Verdict::Refused(why.clone()),
+    };
+    let mut verdicts: Vec<Verdict> = callers.iter().map(verdict).collect();
     let program = loop {
-        let (modules, lines) = modules(texts, &verdicts);
+        let caller = |k: usize| callers[k].clone().unwrap_or_default();
+        let (modules, lines) = modules(texts, &verdicts, caller);
         if lines.is_empty() {
             break None;
         }
         let numbers: Vec<usize> = lines.iter().map(|(_, k)| *k).collect();
-        let source = program(modules, texts, &numbers, world);
+        let source = program(modules, &numbers, world);
         match rustc.compile(&source, &["--crate-type=bin", "-Ccodegen-units=1"]) {
             Ok(program) => break Some((program, numbers)),
             Err(errors) => refuse(&errors, &lines, &mut verdicts)?,
@@ -40,8 +45,14 @@ pub fn run(rustc: &Rustc, texts: &[Text], world: &World) -> Result<Vec<Result<Na
     Ok(each.collect())
 }
 
+/// The function that calls a text's kernel.
+fn caller(text: &Text) -> Result<String, String> {
+    let interface = Interface::of(&text.source).ok_or("no function `k`")?;
+    interface.caller()
+}
+
 /// Runs a program of some kernels.
-fn execute(program: &Path, kernels: usize) -> Result<Vec<Native>, String> {
+fn execute(program: &Path, kernels: usize) -> Result<Vec<Given>, String> {
     let output = Command::new(program).output();
     let _ = std::fs::remove_file(program);
     let output = output.map_err(|e| format!("{}: {e}", program.display()))?;
@@ -50,18 +61,7 @@ fn execute(program: &Path, kernels: usize) -> Result<Vec<Native>, String> {
         return Err(format!("the native kernels end with {}: {said}", output.status));
     }
     let text = String::from_utf8_lossy(&output.stdout);
-    let mut all = Vec::new();
-    for line in text.lines() {
-        let mut pixels = Vec::new();
-        for pixel in line.split(';').filter(|pixel| !pixel.is_empty()) {
-            let words: Vec<u32> = pixel
-                .split(',')
-                .filter_map(|w| u32::from_str_radix(w, 16).ok())
-                .collect();
-            pixels.push(words.try_into().ok());
-        }
-        all.push(pixels);
-    }
+    let all: Vec<Given> = text.lines().map(given).collect();
     if all.len() == kernels {
         Ok(all)
     } else {
@@ -69,63 +69,37 @@ fn execute(program: &Path, kernels: usize) -> Result<Vec<Native>, String> {
     }
 }
 
-/// The crate of a batch.
-fn program(modules: String, texts: &[Text], numbers: &[usize], world: &World) -> String {
-    let mut source = modules;
-    source += &world.native();
-    source += "type Kernel = fn(&World, straightline_kernels::prelude::IVec2) -> straightline_kernels::prelude::Vec4;\n\
-               static KERNELS: &[Kernel] = &[\n";
-    for k in numbers {
-        let arguments = arguments(&texts[*k].source);
-        let _ = writeln!(source, "|w, at| k{k}::k({arguments}),");
+/// A line that the program prints: pixels that end in `;`, then `|name=` and the elements of each buffer.
+fn given(line: &str) -> Given {
+    let mut parts = line.split('|');
+    let pixels = parts.next().unwrap_or_default().split_terminator(';');
+    let pixels = pixels.map(|pixel| (pixel != "-").then(|| texels(pixel)));
+    Given {
+        pixels: pixels.collect(),
+        buffers: parts
+            .filter_map(|part| part.split_once('='))
+            .map(|(name, elements)| (name.to_owned(), texels(elements)))
+            .collect(),
     }
-    source += MAIN;
+}
+
+fn texels(text: &str) -> Vec<Texel> {
+    let lanes = text.split_terminator(',').map(|bits| u64::from_str_radix(bits, 16));
+    let lanes: Vec<f64> = lanes.map(|bits| bits.map_or(f64::NAN, f64::from_bits)).collect();
+    lanes.as_chunks().0.to_vec()
+}
+
+/// The crate of a batch.
+fn program(modules: String, numbers: &[usize], world: &World) -> String {
+    let mut source = modules;
+    source += "use straightline_kernels::prelude::*;\n";
+    let _ = writeln!(source, "mod resources {{\n{}\n}}", include_str!("native/resources.rs"));
+    source += &world.native();
+    source += "type Kernel = fn(&World, &mut Vec<u8>);\nstatic KERNELS: &[Kernel] = &[\n";
+    for k in numbers {
+        let _ = writeln!(source, "k{k}::straightline_native,");
+    }
+    source += "];\n";
+    source += include_str!("native/harness.rs");
     source
 }
-
-/// What a kernel is called with, by the first parameters that its text states.
-fn arguments(source: &str) -> &'static str {
-    if source.contains("pub fn k(cfg: &Cfg") {
-        "&Default::default(), &w.a, &w.b, P, Q, R, at"
-    } else if source.contains("pub fn k(a: &Frame<Vec4>, pixel") {
-        "&w.a, at"
-    } else {
-        "&w.a, &w.b, P, Q, R, at"
-    }
-}
-
-const MAIN: &str = r#"];
-struct World {
-    a: straightline_kernels::prelude::Frame<straightline_kernels::prelude::Vec4>,
-    b: straightline_kernels::prelude::Buffer<f32>,
-}
-fn main() {
-    use straightline_kernels::prelude::*;
-    use std::io::Write;
-    std::panic::set_hook(Box::new(|_| {}));
-    // A text that is being made smaller may never end.
-    std::thread::spawn(|| {
-        std::thread::sleep(std::time::Duration::from_secs(30));
-        std::process::exit(3);
-    });
-    let texels = TEXELS.chunks(4).map(|t| vec4(t[0], t[1], t[2], t[3])).collect();
-    let world = World { a: Frame::new(uvec2(SIZE[0], SIZE[1]), texels), b: Buffer::new(BUFFER.to_vec()) };
-    let mut out = Vec::new();
-    for kernel in KERNELS {
-        for y in 0..SIZE[1] as i32 {
-            for x in 0..SIZE[0] as i32 {
-                let run = std::panic::AssertUnwindSafe(|| kernel(&world, ivec2(x, y)));
-                match std::panic::catch_unwind(run) {
-                    Ok(c) => {
-                        let [r, g, b, a] = c.to_array().map(f32::to_bits);
-                        let _ = write!(out, "{r:x},{g:x},{b:x},{a:x};");
-                    }
-                    Err(_) => out.extend_from_slice(b"-;"),
-                }
-            }
-        }
-        out.push(b'\n');
-    }
-    std::io::stdout().write_all(&out).unwrap();
-}
-"#;

@@ -1,27 +1,27 @@
 //! One kernel in every form, against what rustc's program computes.
 
-use super::{Native, Text, World};
+use super::{Given, Place, Texel, Text, World, computed};
 use crate::random::forms::{FORMS, Form, is_internal, same};
 use std::collections::BTreeMap;
 use std::fmt;
-use straightline_codegen::interp::Interpreter;
-use straightline_codegen::ir::Real;
-use straightline_codegen::{Compiled, Kernel};
+use straightline_codegen::Kernel;
 
 /// How a kernel is not what rustc makes of it.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Difference {
-    /// A pixel of a form is not the native one.
-    Pixel {
+    /// A value of a form is not the native one.
+    Value {
         /// The form.
         form: Form,
-        /// The pixel.
-        pixel: [u32; 2],
-        /// The native colour.
-        expected: [f32; 4],
+        /// Where it lies.
+        place: Place,
+        /// The native value.
+        expected: Texel,
         /// The interpreter's.
-        found: [f32; 4],
+        found: Texel,
     },
+    /// A form cannot be run, or gives another number of values.
+    Broken(Form, String),
     /// The generator made a mistake and says so.
     Internal(Form, String),
     /// The generator or the interpreter panicked.
@@ -32,7 +32,8 @@ impl Difference {
     /// Whether two are of one sort, so that the smaller text shows the same defect.
     pub fn like(&self, other: &Difference) -> bool {
         match (self, other) {
-            (Difference::Pixel { form: a, .. }, Difference::Pixel { form: b, .. }) => a == b,
+            (Difference::Value { form: a, .. }, Difference::Value { form: b, .. }) => a == b,
+            (Difference::Broken(..), Difference::Broken(..)) => true,
             (Difference::Internal(..), Difference::Internal(..)) => true,
             (Difference::Panicked(a), Difference::Panicked(b)) => a == b,
             _ => false,
@@ -43,13 +44,13 @@ impl Difference {
 impl fmt::Display for Difference {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Difference::Pixel {
+            Difference::Value {
                 form,
-                pixel,
+                place,
                 expected,
                 found,
-            } => write!(f, "pixel {pixel:?}: rustc gives {expected:?}, {form} gives {found:?}"),
-            Difference::Internal(form, what) => write!(f, "with {form}: {what}"),
+            } => write!(f, "{place}: rustc gives {expected:?}, {form} gives {found:?}"),
+            Difference::Internal(form, what) | Difference::Broken(form, what) => write!(f, "with {form}: {what}"),
             Difference::Panicked(what) => write!(f, "panicked: {what}"),
         }
     }
@@ -77,8 +78,10 @@ impl Reason {
 pub struct Tally {
     /// Kernels that were compared in all forms.
     pub compared: u64,
-    /// Pixels that were compared, over all forms.
+    /// Texels of targets that were compared, over all forms.
     pub pixels: u64,
+    /// Elements of buffers that were compared, of those that the native program has changed.
+    pub written: u64,
     /// Pixels at which the native program panics, so that they are not compared.
     pub panics: u64,
     /// Pixels that are not a number in every component, so that they show little.
@@ -94,6 +97,7 @@ impl Tally {
     pub fn add(&mut self, other: &Tally) {
         self.compared += other.compared;
         self.pixels += other.pixels;
+        self.written += other.written;
         self.panics += other.panics;
         self.empty += other.empty;
         for (why, reason) in &other.refused {
@@ -115,70 +119,67 @@ impl Tally {
     }
 }
 
-/// The colours of all pixels, as bits.
+/// Why a form gives nothing.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum NotRun {
+    /// The generator refuses the kernel, by its first error.
+    Refused(String),
+    /// The interpreter cannot run it.
+    Failed(String),
+}
+
+/// What a kernel gives in a form.
 ///
 /// # Errors
 ///
-/// The first error of the generator.
-pub fn interpret(kernel: &Kernel, form: Form, world: &World) -> Result<Vec<[u32; 4]>, String> {
+/// The generator refuses it, or the interpreter cannot run it.
+pub fn interpret(kernel: &Kernel, form: Form, world: &World) -> Result<Given, NotRun> {
     let compiled = kernel
         .compile(&form.settings())
-        .map_err(|errors| errors.diagnostics[0].message.clone())?;
-    let colors = colors::<f32>(&compiled, world)?;
-    Ok(colors.into_iter().map(|color| color.map(f32::to_bits)).collect())
+        .map_err(|errors| NotRun::Refused(errors.diagnostics[0].message.clone()))?;
+    computed::<f32>(&compiled, world).map_err(NotRun::Failed)
 }
 
-/// The colours of all pixels of a compiled kernel, in a precision.
-///
-/// # Errors
-///
-/// What the kernel reads is not bound.
-pub fn colors<R: Real>(compiled: &Compiled, world: &World) -> Result<Vec<[R; 4]>, String> {
-    let image = world.image();
-    let bindings = world.bindings(&image);
-    let interpreter = Interpreter::in_precision(&compiled.graph, &compiled.schedule, super::world::SIZE, &bindings);
-    let interpreter = interpreter.map_err(|e| e.to_string())?;
-    let mut scratch = interpreter.scratch();
-    let pixel = |[x, y]: [u32; 2]| interpreter.pixel(x, y, &mut scratch);
-    Ok(World::pixels().map(pixel).collect())
-}
-
-/// Compares every form with the native pixels; what was seen is added to the tally.
+/// Compares what every form gives with what the native program does; what was seen is added to the tally.
 ///
 /// # Errors
 ///
 /// The first difference.
-pub fn compare(text: &Text, world: &World, native: &Native, tally: &mut Tally) -> Result<(), Difference> {
+pub fn compare(text: &Text, world: &World, native: &Given, tally: &mut Tally) -> Result<(), Difference> {
     let kernel = Kernel::from_text("random.rs", &text.file(), "k");
     for form in FORMS {
         let run = || interpret(&kernel, *form, world);
         let found = std::panic::catch_unwind(std::panic::AssertUnwindSafe(run));
         let found = match found.map_err(|panic| Difference::Panicked(said(&*panic)))? {
             Ok(found) => found,
-            Err(why) if is_internal(&why) => return Err(Difference::Internal(*form, why)),
-            Err(why) => {
+            Err(NotRun::Refused(why)) if is_internal(&why) => return Err(Difference::Internal(*form, why)),
+            Err(NotRun::Refused(why)) => {
                 Reason::note(&mut tally.refused, why, 1, text.seed);
                 return Ok(());
             }
+            Err(NotRun::Failed(why)) => return Err(Difference::Broken(*form, why)),
         };
-        for ((pixel, expected), found) in World::pixels().zip(native).zip(found) {
-            let Some(expected) = expected else {
-                tally.panics += 1;
-                continue;
-            };
-            let number = |bits: [u32; 4]| bits.map(f32::from_bits);
-            let (expected, found) = (number(*expected), number(found));
+        let pairs = native
+            .pairs(&found, world)
+            .map_err(|why| Difference::Broken(*form, why))?;
+        for (place, expected, found) in pairs {
             if !same(expected, found) {
-                return Err(Difference::Pixel {
+                return Err(Difference::Value {
                     form: *form,
-                    pixel,
+                    place,
                     expected,
                     found,
                 });
             }
-            tally.pixels += 1;
-            tally.empty += u64::from(expected.iter().all(|x| x.is_nan()));
+            match place {
+                Place::Pixel(..) => {
+                    tally.pixels += 1;
+                    tally.empty += u64::from(expected.iter().all(|x| x.is_nan()));
+                }
+                Place::Buffer(name, k) => tally.written += u64::from(!same(expected, world.initial(&name)[k])),
+            }
         }
+        tally.panics += native.pixels.iter().filter(|pixel| pixel.is_none()).count() as u64;
     }
     tally.compared += 1;
     Ok(())

@@ -36,6 +36,18 @@ pub const NOT_COMPARED: &[&str] = &[
     "from_rotation_z",
 ];
 
+/// Names in the page's sections on what kernels read and write that are of the host, of shaders, or of an example.
+const NOT_OF_KERNELS: &[&str] = &[
+    "coord",
+    "csv",
+    "grade_x_axis",
+    "lights_0_position",
+    "palette_0",
+    "rs",
+    "storageBarrier",
+    "workgroupBarrier",
+];
+
 /// What is missing.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Missing {
@@ -113,35 +125,47 @@ fn has(tree: &str, variant: &str) -> bool {
     }
 }
 
-/// The names in backticks of the sections that list methods and functions.
+/// The names in backticks of the sections that list methods, functions and types.
 fn names(page: &str) -> BTreeSet<String> {
     let mut found = BTreeSet::new();
-    let mut lists = false;
+    let mut section = "";
     let mut code = false;
     for line in page.lines() {
-        if let Some(title) = line.strip_prefix("## ") {
-            lists = ["Mathematics", "Integers and bits", "Matrices", "Loops"].contains(&title);
-        }
+        section = line.strip_prefix("## ").unwrap_or(section);
         if line.starts_with("```") {
             code = !code;
         }
-        if !lists || code {
+        if code {
             continue;
         }
-        let parts: Vec<&str> = line.split('`').collect();
-        for word in parts.iter().skip(1).step_by(2) {
-            let word = word.trim_start_matches('.').trim_end_matches("()");
-            let name = !word.is_empty()
-                && word
-                    .chars()
-                    .all(|c| c.is_ascii_lowercase() || c == '_' || c.is_ascii_digit());
-            // Refused, or a lane's name.
-            if name && !["signum", "for", "while", "loop"].contains(&word) {
-                found.insert(word.to_owned());
-            }
+        for word in line.split('`').skip(1).step_by(2) {
+            let name = match section {
+                "Mathematics" | "Integers and bits" | "Matrices" | "Loops" => method(word),
+                "What a kernel reads" | "What a kernel writes" | "Workgroups" => method_or_type(word),
+                _ => None,
+            };
+            found.extend(name.map(str::to_owned));
         }
     }
     found
+}
+
+/// A word that is the name of a method or function, and nothing else.
+fn method(word: &str) -> Option<&str> {
+    let word = word.trim_start_matches('.').trim_end_matches("()");
+    let of_name = |c: char| c.is_ascii_lowercase() || c == '_' || c.is_ascii_digit();
+    // Refused, or a lane's name.
+    let name = !word.is_empty() && word.chars().all(of_name) && !["signum", "for", "while", "loop"].contains(&word);
+    name.then_some(word)
+}
+
+/// The method of a text like `sample(sampler, uv)` or `thread.index`, or the type of one like `&Frame<T>`.
+fn method_or_type(text: &str) -> Option<&str> {
+    let text = text.trim_start_matches('&');
+    let end = text.find(['(', '<']).unwrap_or(text.len());
+    let name = text[..end].rsplit('.').next()?;
+    let of_name = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    (name.len() > 1 && name.chars().all(of_name) && !NOT_OF_KERNELS.contains(&name)).then_some(name)
 }
 
 /// Whether a text has a name as a word.

@@ -1,18 +1,16 @@
 //! Kernels on a real driver, against what rustc makes of them.
 
-use super::{Native, Text, World, colors};
+use super::{Given, Place, Texel, Text, World, computed};
 use crate::random::forms::{FORMS, Form};
-use glam::{UVec2, Vec4};
 use std::fmt;
 use straightline_codegen::{Kernel, Stage};
-use straightline_kernels::prelude::Frame;
-use straightline_study::execute::{Bench, Inputs};
+use straightline_study::execute::Bench;
 
 /// Most that a driver may be off the native value where rounding shows, relative to its size (and to 1 below that): it
 /// may round the sum of a product once instead of twice.
-const TOLERANCE: f32 = 1.0e-3;
+const TOLERANCE: f64 = 1.0e-3;
 
-/// Most that all rounding may change a pixel that is compared, relative to its size: beyond, a decision hangs on it.
+/// Most that all rounding may change a value that is compared, relative to its size: beyond, a decision hangs on it.
 const SURE: f64 = 1.0e-4;
 
 /// A device to run kernels on.
@@ -28,7 +26,7 @@ pub struct Driver {
 pub struct Compared {
     /// Kernels compared in every form.
     pub kernels: u64,
-    /// Pixels that were compared.
+    /// Texels of targets, and elements of buffers, that were compared.
     pub pixels: u64,
     /// Those of them that are not the native ones bit for bit, but where rounding shows.
     pub rounded: u64,
@@ -42,33 +40,41 @@ pub struct Compared {
 /// How a driver's picture is not the native one.
 #[derive(Clone, Debug)]
 pub enum Off {
-    /// A pixel.
-    Pixel {
+    /// A value.
+    Value {
         /// The form.
         form: Form,
-        /// The pixel.
-        pixel: [u32; 2],
-        /// The native colour.
-        expected: [f32; 4],
+        /// Where it lies.
+        place: Place,
+        /// The native value.
+        expected: Texel,
         /// The driver's.
-        found: [f32; 4],
+        found: Texel,
     },
     /// The shader cannot be made or run.
     Broken(Form, String),
 }
 
+impl Off {
+    /// Whether two are of one sort, so that the smaller text shows the same defect.
+    pub fn like(&self, other: &Off) -> bool {
+        match (self, other) {
+            (Off::Value { form: a, .. }, Off::Value { form: b, .. }) => a == b,
+            (Off::Broken(a, _), Off::Broken(b, _)) => a == b,
+            _ => false,
+        }
+    }
+}
+
 impl fmt::Display for Off {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Off::Pixel {
+            Off::Value {
                 form,
-                pixel,
+                place,
                 expected,
                 found,
-            } => write!(
-                f,
-                "pixel {pixel:?}: rustc gives {expected:?}, the driver with {form} {found:?}"
-            ),
+            } => write!(f, "{place}: rustc gives {expected:?}, the driver with {form} {found:?}"),
             Off::Broken(form, why) => write!(f, "with {form}: {why}"),
         }
     }
@@ -94,38 +100,46 @@ impl Driver {
         })
     }
 
-    /// Compares a kernel's pixels in some forms with the native ones.
+    /// Compares what a kernel gives in every form with what the native program does.
     ///
     /// # Errors
     ///
     /// The first difference.
-    pub fn compare(&self, text: &Text, world: &World, native: &Native, total: &mut Compared) -> Result<(), Off> {
+    pub fn compare(&self, text: &Text, world: &World, native: &Given, total: &mut Compared) -> Result<(), Off> {
         let kernel = Kernel::from_text("random.rs", &text.file(), "k");
-        let inputs = inputs(world);
+        let inputs = world.inputs();
+        total.unsure += native.pixels.iter().filter(|pixel| pixel.is_none()).count() as u64;
         for form in FORMS {
+            let broken = |why: String| Off::Broken(*form, why);
             let Ok(compiled) = kernel.compile(&form.settings()) else {
                 total.refused += 1;
                 continue;
             };
-            let picture = match self.bench.run(&compiled, Stage::Compute, &inputs) {
-                Ok(picture) => picture,
-                Err(why) => return Err(Off::Broken(*form, why.to_string())),
-            };
-            let found = picture.texels().iter().map(|t| t.to_array());
-            let mut exact: Option<Vec<[f64; 4]>> = None;
-            for (k, ((pixel, expected), found)) in World::pixels().zip(native).zip(found).enumerate() {
-                let expected = expected.map(|bits| bits.map(f32::from_bits));
-                let Some(expected) = expected.filter(|c| c.iter().all(|x| x.is_finite() && !x.is_subnormal())) else {
+            // What is written under a condition that never holds is not in the shader, and one that does nothing is not run.
+            if compiled.graph.targets.is_empty() && !compiled.graph.has_lasting_effects() {
+                total.refused += 1;
+                continue;
+            }
+            let run = self.bench.all_written(&compiled, Stage::Compute, &inputs);
+            let (targets, buffers) = run.map_err(|why| broken(why.to_string()))?;
+            let found = Given::of_run(&targets, buffers);
+            let pairs = native.pairs(&found, world).map_err(broken)?;
+            let mut exact: Option<Vec<Texel>> = None;
+            for (k, (place, expected, found)) in pairs.into_iter().enumerate() {
+                let number = |x: &f64| x.is_finite() && !(*x as f32).is_subnormal();
+                if !expected.iter().all(number) {
                     total.unsure += 1;
                     continue;
-                };
+                }
                 // Shaders may lose the sign of a zero.
                 if expected == found {
                     total.pixels += 1;
                     continue;
                 }
                 if exact.is_none() {
-                    exact = Some(colors(&compiled, world).map_err(|why| Off::Broken(*form, why))?);
+                    let run = computed::<f64>(&compiled, world).map_err(broken)?;
+                    let pairs = native.pairs(&run, world).map_err(broken)?;
+                    exact = Some(pairs.into_iter().map(|(_, _, exact)| exact).collect());
                 }
                 let exact = exact.as_ref().map_or([f64::NAN; 4], |exact| exact[k]);
                 match Rounding::of(expected, exact, found) {
@@ -135,9 +149,9 @@ impl Driver {
                         total.rounded += 1;
                     }
                     Rounding::No => {
-                        return Err(Off::Pixel {
+                        return Err(Off::Value {
                             form: *form,
-                            pixel,
+                            place,
                             expected,
                             found,
                         });
@@ -162,34 +176,20 @@ enum Rounding {
 }
 
 impl Rounding {
-    /// From a pixel's native value, what it is in `f64`, and the driver's value.
-    fn of(expected: [f32; 4], exact: [f64; 4], found: [f32; 4]) -> Rounding {
+    /// From a native value, what it is in `f64`, and the driver's value.
+    fn of(expected: Texel, exact: Texel, found: Texel) -> Rounding {
         let mut all = Rounding::Shows;
         for ((expected, exact), found) in expected.into_iter().zip(exact).zip(found) {
-            let (native, size) = (f64::from(expected), expected.abs().max(1.0));
-            let sure = (native - exact).abs() <= SURE * f64::from(size);
+            let size = expected.abs().max(1.0);
+            let sure = (expected - exact).abs() <= SURE * size;
             if !sure {
                 return Rounding::Decides;
             }
             let off = expected != found;
-            if off && (native == exact || (expected - found).abs() > TOLERANCE * size || found.is_nan()) {
+            if off && (expected == exact || (expected - found).abs() > TOLERANCE * size || found.is_nan()) {
                 all = Rounding::No;
             }
         }
         all
     }
-}
-
-fn inputs(world: &World) -> Inputs {
-    let texels = world.texels.iter().map(|t| Vec4::from_array(*t)).collect();
-    let size = UVec2::from_array(super::world::SIZE);
-    Inputs::new(size)
-        .image("a", Frame::new(size, texels))
-        .buffer(
-            "b",
-            world.buffer.iter().map(|x| [f64::from(*x), 0.0, 0.0, 0.0]).collect(),
-        )
-        .uniform("p", &[f64::from(world.p)])
-        .uniform("q", &[f64::from(world.q)])
-        .uniform("r", &[f64::from(world.r)])
 }

@@ -5,16 +5,19 @@ mod change;
 mod compare;
 pub mod coverage;
 mod driver;
+mod given;
+mod interface;
 mod reduce;
 mod rustc;
 pub mod same;
 mod world;
 
-pub use batch::{Native, run};
+pub use batch::run;
 pub use change::{Lenient, Verdicts, judge_changed};
-pub use compare::{Difference, Reason, Tally, colors, compare, interpret};
+pub use compare::{Difference, Reason, Tally, compare, interpret};
 pub use driver::{Compared, Driver, Off};
-pub use reduce::reduce;
+pub use given::{Given, Place, Texel, computed};
+pub use reduce::{reduce, reduce_on_driver};
 pub use rustc::{Rustc, Verdict};
 pub use world::World;
 

@@ -1,18 +1,58 @@
 //! Making a failing kernel smaller: on its text, since rustc says what is still a kernel.
 
-use super::{Failure, Rustc, Text, check};
+use super::{Driver, Failure, Given, Rustc, Text, World, check, run};
 use rayon::prelude::*;
 use straightline_codegen::{Kernel, Settings};
 
 /// Candidates that are tried at once.
 const TOGETHER: usize = 80;
 
+/// Which of some candidates differ as the first text does.
+type Alike<'a> = dyn Fn(&[Text]) -> Result<Vec<Text>, String> + 'a;
+
 /// The smallest text found that differs in the same manner.
 pub fn reduce(rustc: &Rustc, failure: &Failure) -> Failure {
     let mut best = failure.clone();
+    let alike = |texts: &[Text]| {
+        let (_, failures) = check(rustc, texts, failure.world)?;
+        let alike = failures.into_iter().filter(|f| f.difference.like(&failure.difference));
+        Ok(alike.map(|f| f.text).collect())
+    };
+    best.text = smallest(&failure.text, &alike);
+    if let Ok((_, mut failures)) = check(rustc, std::slice::from_ref(&best.text), failure.world)
+        && let Some(failure) = failures.pop()
+    {
+        best.difference = failure.difference;
+    }
+    best
+}
+
+/// The smallest text found with which a driver does not do what rustc's program does, in the same form and manner.
+pub fn reduce_on_driver(rustc: &Rustc, driver: &Driver, text: &Text, world: u64) -> Text {
+    let inputs = World::new(world);
+    let off = |text: &Text, native: &Given| driver.compare(text, &inputs, native, &mut Default::default()).err();
+    let natives = run(rustc, std::slice::from_ref(text), &inputs).unwrap_or_default();
+    let Some(first) = natives.iter().flatten().find_map(|native| off(text, native)) else {
+        return text.clone();
+    };
+    let alike = |texts: &[Text]| {
+        let natives = run(rustc, texts, &inputs)?;
+        let both = texts.iter().zip(natives);
+        let alike = both.filter(|(text, native)| {
+            let found = native.as_ref().ok().and_then(|native| off(text, native));
+            found.is_some_and(|found| found.like(&first))
+        });
+        Ok(alike.map(|(text, _)| text.clone()).collect())
+    };
+    smallest(text, &alike)
+}
+
+/// The smallest text found that is one of those that `alike` gives of some candidates.
+fn smallest(text: &Text, alike: &Alike<'_>) -> Text {
+    let mut best = text.clone();
     let mut skip = 0;
     loop {
-        let candidates = candidates(&best.text.source);
+        let candidates = candidates(&best.source);
         if skip >= candidates.len() {
             return best;
         }
@@ -21,7 +61,7 @@ pub fn reduce(rustc: &Rustc, failure: &Failure) -> Failure {
             .par_iter()
             .take(TOGETHER)
             .map(|source| Text {
-                seed: failure.text.seed,
+                seed: text.seed,
                 source: source.clone(),
             })
             .filter(|text| {
@@ -30,12 +70,11 @@ pub fn reduce(rustc: &Rustc, failure: &Failure) -> Failure {
             })
             .collect();
         let mut found = Vec::new();
-        differences(rustc, &texts, best.world, &mut found);
-        let smaller = found.into_iter().filter(|f| f.difference.like(&best.difference));
-        match smaller.min_by_key(|f| f.text.source.len()) {
+        all_alike(&texts, alike, &mut found);
+        match found.into_iter().min_by_key(|text| text.source.len()) {
             Some(smaller) => {
                 best = smaller;
-                eprintln!("{} bytes", best.text.source.len());
+                eprintln!("{} bytes", best.source.len());
                 skip = 0;
             }
             None => skip += TOGETHER,
@@ -43,14 +82,14 @@ pub fn reduce(rustc: &Rustc, failure: &Failure) -> Failure {
     }
 }
 
-/// The texts that differ. Some may not end, or take all of the stack: those are tried apart from the others.
-fn differences(rustc: &Rustc, texts: &[Text], world: u64, found: &mut Vec<Failure>) {
-    match check(rustc, texts, world) {
-        Ok((_, failures)) => found.extend(failures),
+/// The texts that differ alike. Some may not end, or take all of the stack: those are tried apart from the others.
+fn all_alike(texts: &[Text], alike: &Alike<'_>, found: &mut Vec<Text>) {
+    match alike(texts) {
+        Ok(texts) => found.extend(texts),
         Err(_) if texts.len() > 1 => {
             let (left, right) = texts.split_at(texts.len() / 2);
-            differences(rustc, left, world, found);
-            differences(rustc, right, world, found);
+            all_alike(left, alike, found);
+            all_alike(right, alike, found);
         }
         Err(_) => {}
     }

@@ -125,7 +125,7 @@ impl Rustc {
         let mut verdicts = vec![Verdict::Accepted; texts.len()];
         // An error in one module can hide those of another, so the rest is tried again until nothing is left to say.
         loop {
-            let (source, lines) = modules(texts, &verdicts);
+            let (source, lines) = modules(texts, &verdicts, |_| String::new());
             if lines.is_empty() {
                 return Ok(verdicts);
             }
@@ -164,8 +164,12 @@ pub(super) fn refuse(errors: &str, lines: &[(usize, usize)], verdicts: &mut [Ver
     }
 }
 
-/// One module for each text that is not refused yet; the first line of each and its number.
-pub(super) fn modules(texts: &[Text], verdicts: &[Verdict]) -> (String, Vec<(usize, usize)>) {
+/// One module for each text that is not refused yet, each with what is added to it; the first line of each and its number.
+pub(super) fn modules(
+    texts: &[Text],
+    verdicts: &[Verdict],
+    added: impl Fn(usize) -> String,
+) -> (String, Vec<(usize, usize)>) {
     let mut source = String::new();
     let mut lines = Vec::new();
     let mut line = 1;
@@ -173,7 +177,7 @@ pub(super) fn modules(texts: &[Text], verdicts: &[Verdict]) -> (String, Vec<(usi
         if verdicts[k] != Verdict::Accepted {
             continue;
         }
-        let module = module(k, text);
+        let module = module(k, text, &added(k));
         lines.push((line, k));
         line += module.lines().count();
         source += &module;
@@ -182,9 +186,9 @@ pub(super) fn modules(texts: &[Text], verdicts: &[Verdict]) -> (String, Vec<(usi
 }
 
 /// The module of a text.
-fn module(k: usize, text: &Text) -> String {
+fn module(k: usize, text: &Text, added: &str) -> String {
     format!(
-        "pub mod k{k} {{\nuse straightline_kernels::prelude::*;\n{}\n}}\n",
+        "pub mod k{k} {{\nuse straightline_kernels::prelude::*;\n{}\n{added}\n}}\n",
         text.source
     )
 }

@@ -58,10 +58,9 @@ pub fn same_bits(a: &Text, b: &str, world: &World) -> Result<bool, String> {
         let (Ok(x), Ok(y)) = (interpret(&first, *form, world), interpret(&second, *form, world)) else {
             continue;
         };
-        for (pixel, (x, y)) in World::pixels().zip(x.into_iter().zip(y)) {
-            let (x, y) = (x.map(f32::from_bits), y.map(f32::from_bits));
+        for (place, x, y) in x.pairs(&y, world)? {
             if !same(x, y) {
-                return Err(format!("{form}, pixel {pixel:?}: {x:?} became {y:?}"));
+                return Err(format!("{form}, {place}: {x:?} became {y:?}"));
             }
         }
         compared = true;

@@ -1,0 +1,103 @@
+//! What a kernel gives and writes.
+
+use straightline_codegen::Compiled;
+use straightline_codegen::ir::Real;
+use straightline_study::execute::{self, Written};
+
+use super::World;
+
+/// What a target or a buffer holds of a value; in targets components that it lacks are 0 and the fourth is 1, in buffers all are 0.
+pub type Texel = [f64; 4];
+
+/// What a kernel gives each pixel, and the buffers that it writes as they are afterwards.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Given {
+    /// Of each pixel, row by row, the texel of each target; `None` where rustc's program panics, so that Rust says nothing.
+    pub pixels: Vec<Option<Vec<Texel>>>,
+    /// Each buffer by its name.
+    pub buffers: Vec<(String, Vec<Texel>)>,
+}
+
+/// Where a value lies that a kernel gives.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// A pixel, and the number of the target.
+    Pixel([u32; 2], usize),
+    /// A buffer, and the number of the element.
+    Buffer(String, usize),
+}
+
+impl std::fmt::Display for Place {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Place::Pixel(pixel, 0) => write!(f, "pixel {pixel:?}"),
+            Place::Pixel(pixel, target) => write!(f, "pixel {pixel:?}, target {target}"),
+            Place::Buffer(name, index) => write!(f, "`{name}[{index}]`"),
+        }
+    }
+}
+
+/// A value as rustc's program has it, and as something else does.
+pub type Pair = (Place, Texel, Texel);
+
+impl Given {
+    /// Of what was run for every pixel: what targets hold, and what was written.
+    pub fn of_run(targets: &[Written], buffers: Vec<(String, Vec<Texel>)>) -> Given {
+        let pixels =
+            (0..World::pixels().count()).map(|k| Some(targets.iter().map(|target| target.texels[k]).collect()));
+        Given {
+            pixels: pixels.collect(),
+            buffers,
+        }
+    }
+
+    /// Whether rustc's program panics at a pixel, so that nothing is known of what it writes.
+    pub fn panics(&self) -> bool {
+        self.pixels.iter().any(Option::is_none)
+    }
+
+    /// Every value of this, which rustc's program gave, with that of another run. A buffer that the other one does not have is
+    /// compared with what it holds before: nothing writes it.
+    ///
+    /// # Errors
+    ///
+    /// The other one has not as many values.
+    pub fn pairs(&self, other: &Given, world: &World) -> Result<Vec<Pair>, String> {
+        let mut pairs = Vec::new();
+        for ((pixel, own), other) in World::pixels().zip(&self.pixels).zip(&other.pixels) {
+            let (Some(own), Some(other)) = (own, other) else {
+                continue;
+            };
+            if own.len() != other.len() {
+                return Err(format!("{} targets, where rustc has {}", other.len(), own.len()));
+            }
+            let both = own.iter().zip(other).enumerate();
+            pairs.extend(both.map(|(k, (own, other))| (Place::Pixel(pixel, k), *own, *other)));
+        }
+        for (name, own) in self.buffers.iter().filter(|_| !self.panics()) {
+            let found = other.buffers.iter().find(|(other, _)| other == name);
+            let untouched = || world.initial(name);
+            let other = found.map_or_else(untouched, |(_, elements)| elements.clone());
+            if own.len() != other.len() {
+                return Err(format!(
+                    "`{name}` has {} elements, where rustc has {}",
+                    other.len(),
+                    own.len()
+                ));
+            }
+            let both = own.iter().zip(other).enumerate();
+            pairs.extend(both.map(|(k, (own, other))| (Place::Buffer(name.clone(), k), *own, other)));
+        }
+        Ok(pairs)
+    }
+}
+
+/// What a compiled kernel gives, in a precision.
+///
+/// # Errors
+///
+/// What the kernel reads is not bound, or threads of a workgroup race.
+pub fn computed<R: Real>(compiled: &Compiled, world: &World) -> Result<Given, String> {
+    let found = execute::interpret::<R>(compiled, &world.inputs(), false).map_err(|e| e.to_string())?;
+    Ok(Given::of_run(&found.targets, found.buffers))
+}
