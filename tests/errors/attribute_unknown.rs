@@ -5,6 +5,8 @@ fn half(x: f32) -> f32 {
 
 #[cfg_attr(feature = "serde", derive(Serialize))]
 #[cfg_attr(false, unroll(4))]
+const N: u32 = 4;
+
 pub fn k(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
     #[unroll(none)]
     for y in 0..4 {}

@@ -282,13 +282,12 @@ impl Evaluator<'_> {
             let Generic::Const(name, ty) = generic else { continue };
             let from_array = || {
                 function.params.iter().zip(args).find_map(|(param, value)| {
-                    match (param.ty.bare(), &self.loaded_array(value)) {
-                        (SourceType::Array(_, Some(len)), Value::Array(elements)) => match &len.kind {
-                            ExprKind::Path(path) if path == std::slice::from_ref(name) => {
-                                Some(Value::Int(elements.len() as i64))
-                            }
-                            _ => None,
-                        },
+                    let SourceType::Array(_, Some(stated)) = param.ty.bare() else {
+                        return None;
+                    };
+                    let len = self.array_length(value)?;
+                    match &stated.kind {
+                        ExprKind::Path(path) if path == std::slice::from_ref(name) => Some(Value::Int(len as i64)),
                         _ => None,
                     }
                 })
@@ -313,11 +312,19 @@ impl Evaluator<'_> {
         Ok(bound)
     }
 
-    /// The value of an array, through a reference too.
-    fn loaded_array(&mut self, value: &Value) -> Value {
+    /// How many elements an array has, through a reference too.
+    fn array_length(&mut self, value: &Value) -> Option<usize> {
         match value {
-            Value::Ref(place) => self.read(&place.clone(), Span::default()).unwrap_or(Value::Poison),
-            other => other.clone(),
+            Value::Ref(place) => {
+                let value = self.read(&place.clone(), Span::default()).ok()?;
+                self.array_length(&value)
+            }
+            Value::Array(elements) => Some(elements.len()),
+            Value::Node(id) => match self.ty(*id) {
+                Type::Array { len, .. } => Some(len as usize),
+                _ => None,
+            },
+            _ => None,
         }
     }
 

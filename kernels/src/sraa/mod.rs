@@ -163,9 +163,14 @@ fn mean_of_kept<const TAPS: usize>(cfg: &Sraa, inputs: &Inputs, weights: &[f32; 
     let mut sum = 0.0;
     for tap in 0..TAPS {
         let shaded = color(cfg, inputs, tap, side);
-        let w = if is_kept(cfg, shaded) { weights[tap] } else { 0.0 };
-        // A tap that no sample wants must not be counted: 0 times an infinite colour is not 0.
-        if w != 0.0 {
+        let kept = is_kept(cfg, shaded);
+        let w = if kept { weights[tap] } else { 0.0 };
+        // 0 times an infinite colour is not 0.
+        let counts = match cfg.non_finite {
+            NonFinite::Skip => kept,
+            NonFinite::Spread => w != 0.0,
+        };
+        if counts {
             result += w * shaded;
         }
         sum += w;

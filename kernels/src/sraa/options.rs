@@ -44,7 +44,7 @@ options! {
         /// What a colour that is infinite or not a number does.
         pub non_finite: NonFinite = NonFinite::Skip,
         /// What keeps values that are infinite or not a number from the pixel.
-        pub guards: Guards = Guards::Fallback,
+        pub guards: Guards = Guards::Inline,
         /// How sharply a weight falls as surfaces differ: exp(-tau * difference).
         pub tau: f32 [0.0..=1.0e6] = 500.0,
         /// Difference per unit of depth, or per share of it: large enough that a step between two surfaces counts as 1 or
@@ -108,7 +108,7 @@ pub enum NonFinite {
 /// What keeps values that are infinite or not a number from the pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Guards {
-    /// Each that is read is tested.
+    /// Each that is read is tested, in one basic block.
     Inline,
     /// Each depth and normal is; of the colours only their mean, which is taken again, of each by itself, where it is no number.
     Fallback,

@@ -71,7 +71,7 @@ impl Form {
         use Family::*;
         vec![
             Form::new("sraa", Sraa, &[]).taking_options(),
-            Form::new("sraa inline", Sraa, &[("guards", "inline")]).taking_options(),
+            Form::new("sraa fallback", Sraa, &[("guards", "fallback")]).taking_options(),
             Form::new("sraa 16", Sraa, &[("pattern", "latin16")]),
             Form::new("sraa planes-normals", Sraa, &[("metric", "planes-normals")]).taking_options(),
             Form::new("sraa normals", Sraa, &[("metric", "normals")]),

@@ -196,7 +196,11 @@ impl Space {
             ],
             vec![
                 Value::of("finite test", "finite test", &[("non-finite", "skip")]),
-                Value::of("no finite test", "no finite test", &[("non-finite", "spread")]),
+                Value::of(
+                    "no finite test",
+                    "no finite test",
+                    &[("non-finite", "spread"), ("guards", "none")],
+                ),
             ],
             precision,
             vec![

@@ -5,12 +5,13 @@
 
 mod budget;
 mod hard;
+mod isa;
 mod loops;
 mod quality;
 mod tune;
 
 use std::path::Path;
-use straightline_study::record::{LoopsRecord, QualityRecord, Record, RecordError, TuneRecord};
+use straightline_study::record::{IsaRecord, LoopsRecord, QualityRecord, Record, RecordError, TuneRecord};
 
 pub use quality::GEOMETRIC;
 
@@ -66,13 +67,14 @@ fn table(name: &str, files: &[&Path]) -> Result<String, String> {
         "scenes" => Ok(quality::scenes(&QualityRecord::read(first).map_err(why)?)),
         "gaps" => Ok(quality::gaps(&QualityRecord::read(first).map_err(why)?)),
         "hard" => hard::kernels(files),
+        "isa" => isa::cycles(&IsaRecord::read(first).map_err(why)?),
         "tune" => {
             let all: Result<Vec<_>, _> = files.iter().map(|file| TuneRecord::read(file)).collect();
             Ok(tune::scenes(&all.map_err(why)?))
         }
         "budget" => budget::metrics(files),
         _ => Err(format!(
-            "there is no table `{name}`; there are speed, loops, agreement, quality, methods, scenes, gaps, hard, tune and budget"
+            "there is no table `{name}`; there are speed, loops, agreement, quality, methods, scenes, gaps, hard, isa, tune and budget"
         )),
     }
 }

@@ -1,0 +1,57 @@
+//! What GPU compilers say.
+
+use super::markdown;
+use straightline_isa::{Family, Figures};
+use straightline_study::record::{Asked, IsaForm, IsaRecord, SpirvPath};
+
+/// Each kernel on one family: the unrolled form in full, of looped forms cycles and branches.
+pub fn cycles(record: &IsaRecord) -> Result<String, String> {
+    let Some(family) = record.devices.keys().next() else {
+        return Err("the record has no family".to_owned());
+    };
+    let head = [
+        "kernel",
+        "instructions",
+        "memory",
+        "registers",
+        "**unrolled**",
+        "looped",
+        "bounded",
+        "by glslang",
+        "by hand",
+        "bounded",
+    ];
+    let mut names: Vec<&str> = record.shaders.iter().map(|asked| asked.kernel.as_str()).collect();
+    names.dedup();
+    let rows = names.into_iter().map(|name| row(record, *family, name));
+    Ok(markdown(&head, rows.collect()))
+}
+
+fn row(record: &IsaRecord, family: Family, name: &str) -> Vec<String> {
+    let of = |form, path| -> Option<&Figures> {
+        let is = |asked: &&Asked| asked.kernel == name && asked.form == form && asked.path == path;
+        record.shaders.iter().find(is)?.figures.get(&family)
+    };
+    let looped = |form, path| match of(form, path) {
+        None => "–".to_owned(),
+        Some(figures) => format!("{}, {}", figures.inverse_throughput, figures.branches),
+    };
+    let mut cells = vec![name.to_owned()];
+    cells.extend(match of(IsaForm::Unrolled, SpirvPath::Naga) {
+        None => vec!["–".to_owned(); 4],
+        Some(f) => vec![
+            f.instructions.to_string(),
+            f.memory.to_string(),
+            f.vector_registers.to_string(),
+            format!("**{}**", f.inverse_throughput),
+        ],
+    });
+    cells.extend([
+        looped(IsaForm::Looped, SpirvPath::Naga),
+        looped(IsaForm::Looped, SpirvPath::NagaBounded),
+        looped(IsaForm::Looped, SpirvPath::Glslang),
+        looped(IsaForm::ByHand, SpirvPath::Naga),
+        looped(IsaForm::ByHand, SpirvPath::NagaBounded),
+    ]);
+    cells
+}
