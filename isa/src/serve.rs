@@ -57,8 +57,8 @@ mod tests {
 
     #[test]
     fn answers_read_as_they_were_written() {
-        let figures = Report::default();
-        let text = serde_json::to_string(&Answer::Figures(figures.clone())).unwrap();
-        assert!(matches!(serde_json::from_str(&text).unwrap(), Answer::Figures(found) if found == figures));
+        let report = Report::default();
+        let text = serde_json::to_string(&Answer::Report(report.clone())).unwrap();
+        assert!(matches!(serde_json::from_str(&text).unwrap(), Answer::Report(found) if found == report));
     }
 }

@@ -222,7 +222,7 @@ fn at_most(g: &Graph, id: NodeId, bound: NodeId) -> bool {
             .is_some_and(|lanes| lanes.iter().any(|x| f32::from_bits(*x).is_nan())),
         Op::Tally(_) => at_most(g, node.args[0], bound),
         // Of vectors the last argument stands for a NaN in the first.
-        Op::Binary(BinaryOp::Min) if node.ty.is_scalar() => node.args.iter().any(|arg| *arg == bound),
+        Op::Binary(BinaryOp::Min) if node.ty.is_scalar() => node.args.contains(&bound),
         Op::Binary(BinaryOp::Min) => node.args[1] == bound,
         Op::Binary(BinaryOp::Max) => node.args.iter().all(|arg| at_most(g, *arg, bound)),
         // What is compared with the bound before it is taken.
