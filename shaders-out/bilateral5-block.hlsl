@@ -52,7 +52,7 @@ void quad_bilateral(uint3 id : SV_DispatchThreadID) {
     float3 product_2 = (centre_l1.xyz - centre_l1.xyz) * weight_j0i0k0l1;
     float3 product_3 = (centre_l2.xyz - centre_l2.xyz) * weight_j0i0k0l2;
     float3 product_4 = (centre_l3.xyz - centre_l3.xyz) * weight_j0i0k0l3;
-    // j 0, i 0, k 1, lane 0: what a pixel adds (kernels/src/quad/bilateral.rs:76)
+    // j 0, i 0, k 1
     float z_j0i0k1l0 = (centre_l1.w - centre_l0.w) / 0.1;
     float z_j0i0k1l1 = (centre_l0.w - centre_l1.w) / 0.1;
     float z_j0i0k1l2 = (centre_l3.w - centre_l2.w) / 0.1;
@@ -73,7 +73,7 @@ void quad_bilateral(uint3 id : SV_DispatchThreadID) {
         + float4(product_7, weight_j0i0k1l2);
     float4 sum_j0i0k1l3 = 0.0 + float4(product_4, weight_j0i0k0l3)
         + float4(product_8, weight_j0i0k1l3);
-    // j 0, i 0, k 2, lane 0: what a pixel adds (kernels/src/quad/bilateral.rs:76)
+    // j 0, i 0, k 2
     float z_j0i0k2l0 = (centre_l2.w - centre_l0.w) / 0.1;
     float z_j0i0k2l1 = (centre_l3.w - centre_l1.w) / 0.1;
     float z_j0i0k2l2 = (centre_l0.w - centre_l2.w) / 0.1;
@@ -90,7 +90,7 @@ void quad_bilateral(uint3 id : SV_DispatchThreadID) {
     float4 sum_j0i0k2l1 = sum_j0i0k1l1 + float4(product_10, weight_j0i0k2l1);
     float4 sum_j0i0k2l2 = sum_j0i0k1l2 + float4(product_11, weight_j0i0k2l2);
     float4 sum_j0i0k2l3 = sum_j0i0k1l3 + float4(product_12, weight_j0i0k2l3);
-    // j 0, i 0, k 3, lane 0: what a pixel adds (kernels/src/quad/bilateral.rs:76)
+    // j 0, i 0, k 3
     float z_j0i0k3l0 = (centre_l3.w - centre_l0.w) / 0.1;
     float z_j0i0k3l1 = (centre_l2.w - centre_l1.w) / 0.1;
     float z_j0i0k3l2 = (centre_l1.w - centre_l2.w) / 0.1;
@@ -136,7 +136,7 @@ void quad_bilateral(uint3 id : SV_DispatchThreadID) {
     float4 taps_0_j0i1l1 = (counts_j0i1l1 ? counted_j0i1l1 : float4(0.0, 0.0, 0.0, -1e30));
     float4 taps_0_j0i1l2 = (counts_j0i1l2 ? counted_j0i1l2 : float4(0.0, 0.0, 0.0, -1e30));
     float4 taps_0_j0i1l3 = (counts_j0i1l3 ? counted_j0i1l3 : float4(0.0, 0.0, 0.0, -1e30));
-    // j 0, i 1, k 0, lane 0: what a pixel adds (kernels/src/quad/bilateral.rs:76)
+    // j 0, i 1, k 0
     float z_j0i1k0l0 = (taps_0_j0i1l0.w - centre_l0.w) / 0.1;
     float z_j0i1k0l1 = (taps_0_j0i1l1.w - centre_l1.w) / 0.1;
     float z_j0i1k0l2 = (taps_0_j0i1l2.w - centre_l2.w) / 0.1;
@@ -153,7 +153,7 @@ void quad_bilateral(uint3 id : SV_DispatchThreadID) {
     float4 sum_j0i1k0l1 = sum_j0i0k3l1 + float4(product_18, weight_j0i1k0l1);
     float4 sum_j0i1k0l2 = sum_j0i0k3l2 + float4(product_19, weight_j0i1k0l2);
     float4 sum_j0i1k0l3 = sum_j0i0k3l3 + float4(product_20, weight_j0i1k0l3);
-    // j 0, i 1, k 1, lane 0: what a pixel adds (kernels/src/quad/bilateral.rs:76)
+    // j 0, i 1, k 1
     float z_j0i1k1l0 = (taps_0_j0i1l1.w - centre_l0.w) / 0.1;
     float z_j0i1k1l1 = (taps_0_j0i1l0.w - centre_l1.w) / 0.1;
     float z_j0i1k1l2 = (taps_0_j0i1l3.w - centre_l2.w) / 0.1;
@@ -170,7 +170,7 @@ void quad_bilateral(uint3 id : SV_DispatchThreadID) {
     float4 sum_j0i1k1l1 = sum_j0i1k0l1 + float4(product_22, weight_j0i1k1l1);
     float4 sum_j0i1k1l2 = sum_j0i1k0l2 + float4(product_23, weight_j0i1k1l2);
     float4 sum_j0i1k1l3 = sum_j0i1k0l3 + float4(product_24, weight_j0i1k1l3);
-    // j 0, i 1, k 2, lane 0: what a pixel adds (kernels/src/quad/bilateral.rs:76)
+    // j 0, i 1, k 2
     float z_j0i1k2l0 = (taps_0_j0i1l2.w - centre_l0.w) / 0.1;
     float z_j0i1k2l1 = (taps_0_j0i1l3.w - centre_l1.w) / 0.1;
     float z_j0i1k2l2 = (taps_0_j0i1l0.w - centre_l2.w) / 0.1;
@@ -187,7 +187,7 @@ void quad_bilateral(uint3 id : SV_DispatchThreadID) {
     float4 sum_j0i1k2l1 = sum_j0i1k1l1 + float4(product_26, weight_j0i1k2l1);
     float4 sum_j0i1k2l2 = sum_j0i1k1l2 + float4(product_27, weight_j0i1k2l2);
     float4 sum_j0i1k2l3 = sum_j0i1k1l3 + float4(product_28, weight_j0i1k2l3);
-    // j 0, i 1, k 3, lane 0: what a pixel adds (kernels/src/quad/bilateral.rs:76)
+    // j 0, i 1, k 3
     float z_j0i1k3l0 = (taps_0_j0i1l3.w - centre_l0.w) / 0.1;
     float z_j0i1k3l1 = (taps_0_j0i1l2.w - centre_l1.w) / 0.1;
     float z_j0i1k3l2 = (taps_0_j0i1l1.w - centre_l2.w) / 0.1;
@@ -204,7 +204,7 @@ void quad_bilateral(uint3 id : SV_DispatchThreadID) {
     float4 sum_j0i1k3l1 = sum_j0i1k2l1 + float4(product_30, weight_j0i1k3l1);
     float4 sum_j0i1k3l2 = sum_j0i1k2l2 + float4(product_31, weight_j0i1k3l2);
     float4 sum_j0i1k3l3 = sum_j0i1k2l3 + float4(product_32, weight_j0i1k3l3);
-    // j 0, i 2, lane 0: colours of a quad (kernels/src/quad/bilateral.rs:43)
+    // j 0, i 2
     float4 texel_j0i2l0 = image.Load(int3(max(pixel + int2(-2, 0), int2(0, 0)), 0));
     float4 texel_j0i2l1 = image.Load(int3(min(pixel + int2(3, 0), last), 0));
     float4 texel_j0i2l2 = image.Load(int3(clamp(pixel + int2(-2, 1), int2(0, 0), last), 0));
@@ -233,7 +233,7 @@ void quad_bilateral(uint3 id : SV_DispatchThreadID) {
     float4 taps_0_j0i2l1 = (counts_j0i2l1 ? counted_j0i2l1 : float4(0.0, 0.0, 0.0, -1e30));
     float4 taps_0_j0i2l2 = (counts_j0i2l2 ? counted_j0i2l2 : float4(0.0, 0.0, 0.0, -1e30));
     float4 taps_0_j0i2l3 = (counts_j0i2l3 ? counted_j0i2l3 : float4(0.0, 0.0, 0.0, -1e30));
-    // j 0, i 2, k 0, lane 0: what a pixel adds (kernels/src/quad/bilateral.rs:76)
+    // j 0, i 2, k 0
     float z_j0i2k0l0 = (taps_0_j0i2l0.w - centre_l0.w) / 0.1;
     float z_j0i2k0l1 = (taps_0_j0i2l1.w - centre_l1.w) / 0.1;
     float z_j0i2k0l2 = (taps_0_j0i2l2.w - centre_l2.w) / 0.1;
@@ -250,7 +250,7 @@ void quad_bilateral(uint3 id : SV_DispatchThreadID) {
     float4 sum_j0i2k0l1 = sum_j0i1k3l1 + float4(product_34, weight_j0i2k0l1);
     float4 sum_j0i2k0l2 = sum_j0i1k3l2 + float4(product_35, weight_j0i2k0l2);
     float4 sum_j0i2k0l3 = sum_j0i1k3l3 + float4(product_36, weight_j0i2k0l3);
-    // j 0, i 2, k 2, lane 0: what a pixel adds (kernels/src/quad/bilateral.rs:76)
+    // j 0, i 2, k 2
     float z_j0i2k2l0 = (taps_0_j0i2l2.w - centre_l0.w) / 0.1;
     float z_j0i2k2l1 = (taps_0_j0i2l3.w - centre_l1.w) / 0.1;
     float z_j0i2k2l2 = (taps_0_j0i2l0.w - centre_l2.w) / 0.1;
@@ -267,7 +267,7 @@ void quad_bilateral(uint3 id : SV_DispatchThreadID) {
     float4 sum_j0i2k2l1 = sum_j0i2k0l1 + float4(product_38, weight_j0i2k2l1);
     float4 sum_j0i2k2l2 = sum_j0i2k0l2 + float4(product_39, weight_j0i2k2l2);
     float4 sum_j0i2k2l3 = sum_j0i2k0l3 + float4(product_40, weight_j0i2k2l3);
-    // j 1, i 0, lane 0: colours of a quad (kernels/src/quad/bilateral.rs:43)
+    // j 1, i 0
     float4 texel_j1i0l0 = image.Load(int3(max(pixel + int2(0, -1), int2(0, 0)), 0));
     float4 texel_j1i0l1 = image.Load(int3(clamp(pixel + int2(1, -1), int2(0, 0), last), 0));
     float4 texel_j1i0l2 = image.Load(int3(min(pixel + int2(0, 2), last), 0));
@@ -296,7 +296,7 @@ void quad_bilateral(uint3 id : SV_DispatchThreadID) {
     float4 taps_0_j1i0l1 = (counts_j1i0l1 ? counted_j1i0l1 : float4(0.0, 0.0, 0.0, -1e30));
     float4 taps_0_j1i0l2 = (counts_j1i0l2 ? counted_j1i0l2 : float4(0.0, 0.0, 0.0, -1e30));
     float4 taps_0_j1i0l3 = (counts_j1i0l3 ? counted_j1i0l3 : float4(0.0, 0.0, 0.0, -1e30));
-    // j 1, i 0, k 0, lane 0: what a pixel adds (kernels/src/quad/bilateral.rs:76)
+    // j 1, i 0, k 0
     float z_j1i0k0l0 = (taps_0_j1i0l0.w - centre_l0.w) / 0.1;
     float z_j1i0k0l1 = (taps_0_j1i0l1.w - centre_l1.w) / 0.1;
     float z_j1i0k0l2 = (taps_0_j1i0l2.w - centre_l2.w) / 0.1;
@@ -313,7 +313,7 @@ void quad_bilateral(uint3 id : SV_DispatchThreadID) {
     float4 sum_j1i0k0l1 = sum_j0i2k2l1 + float4(product_42, weight_j1i0k0l1);
     float4 sum_j1i0k0l2 = sum_j0i2k2l2 + float4(product_43, weight_j1i0k0l2);
     float4 sum_j1i0k0l3 = sum_j0i2k2l3 + float4(product_44, weight_j1i0k0l3);
-    // j 1, i 0, k 1, lane 0: what a pixel adds (kernels/src/quad/bilateral.rs:76)
+    // j 1, i 0, k 1
     float z_j1i0k1l0 = (taps_0_j1i0l1.w - centre_l0.w) / 0.1;
     float z_j1i0k1l1 = (taps_0_j1i0l0.w - centre_l1.w) / 0.1;
     float z_j1i0k1l2 = (taps_0_j1i0l3.w - centre_l2.w) / 0.1;
@@ -330,7 +330,7 @@ void quad_bilateral(uint3 id : SV_DispatchThreadID) {
     float4 sum_j1i0k1l1 = sum_j1i0k0l1 + float4(product_46, weight_j1i0k1l1);
     float4 sum_j1i0k1l2 = sum_j1i0k0l2 + float4(product_47, weight_j1i0k1l2);
     float4 sum_j1i0k1l3 = sum_j1i0k0l3 + float4(product_48, weight_j1i0k1l3);
-    // j 1, i 0, k 2, lane 0: what a pixel adds (kernels/src/quad/bilateral.rs:76)
+    // j 1, i 0, k 2
     float z_j1i0k2l0 = (taps_0_j1i0l2.w - centre_l0.w) / 0.1;
     float z_j1i0k2l1 = (taps_0_j1i0l3.w - centre_l1.w) / 0.1;
     float z_j1i0k2l2 = (taps_0_j1i0l0.w - centre_l2.w) / 0.1;
@@ -347,7 +347,7 @@ void quad_bilateral(uint3 id : SV_DispatchThreadID) {
     float4 sum_j1i0k2l1 = sum_j1i0k1l1 + float4(product_50, weight_j1i0k2l1);
     float4 sum_j1i0k2l2 = sum_j1i0k1l2 + float4(product_51, weight_j1i0k2l2);
     float4 sum_j1i0k2l3 = sum_j1i0k1l3 + float4(product_52, weight_j1i0k2l3);
-    // j 1, i 0, k 3, lane 0: what a pixel adds (kernels/src/quad/bilateral.rs:76)
+    // j 1, i 0, k 3
     float z_j1i0k3l0 = (taps_0_j1i0l3.w - centre_l0.w) / 0.1;
     float z_j1i0k3l1 = (taps_0_j1i0l2.w - centre_l1.w) / 0.1;
     float z_j1i0k3l2 = (taps_0_j1i0l1.w - centre_l2.w) / 0.1;
@@ -364,7 +364,7 @@ void quad_bilateral(uint3 id : SV_DispatchThreadID) {
     float4 sum_j1i0k3l1 = sum_j1i0k2l1 + float4(product_54, weight_j1i0k3l1);
     float4 sum_j1i0k3l2 = sum_j1i0k2l2 + float4(product_55, weight_j1i0k3l2);
     float4 sum_j1i0k3l3 = sum_j1i0k2l3 + float4(product_56, weight_j1i0k3l3);
-    // j 1, i 1, lane 0: colours of a quad (kernels/src/quad/bilateral.rs:43)
+    // j 1, i 1
     float4 texel_j1i1l0 = image.Load(int3(max(pixel - 1, int2(0, 0)), 0));
     float4 texel_j1i1l1 = image.Load(int3(clamp(pixel + int2(2, -1), int2(0, 0), last), 0));
     float4 texel_j1i1l2 = image.Load(int3(clamp(pixel + int2(-1, 2), int2(0, 0), last), 0));
@@ -393,7 +393,7 @@ void quad_bilateral(uint3 id : SV_DispatchThreadID) {
     float4 taps_0_j1i1l1 = (counts_j1i1l1 ? counted_j1i1l1 : float4(0.0, 0.0, 0.0, -1e30));
     float4 taps_0_j1i1l2 = (counts_j1i1l2 ? counted_j1i1l2 : float4(0.0, 0.0, 0.0, -1e30));
     float4 taps_0_j1i1l3 = (counts_j1i1l3 ? counted_j1i1l3 : float4(0.0, 0.0, 0.0, -1e30));
-    // j 1, i 1, k 0, lane 0: what a pixel adds (kernels/src/quad/bilateral.rs:76)
+    // j 1, i 1, k 0
     float z_j1i1k0l0 = (taps_0_j1i1l0.w - centre_l0.w) / 0.1;
     float z_j1i1k0l1 = (taps_0_j1i1l1.w - centre_l1.w) / 0.1;
     float z_j1i1k0l2 = (taps_0_j1i1l2.w - centre_l2.w) / 0.1;
@@ -410,7 +410,7 @@ void quad_bilateral(uint3 id : SV_DispatchThreadID) {
     float4 sum_j1i1k0l1 = sum_j1i0k3l1 + float4(product_58, weight_j1i1k0l1);
     float4 sum_j1i1k0l2 = sum_j1i0k3l2 + float4(product_59, weight_j1i1k0l2);
     float4 sum_j1i1k0l3 = sum_j1i0k3l3 + float4(product_60, weight_j1i1k0l3);
-    // j 1, i 1, k 1, lane 0: what a pixel adds (kernels/src/quad/bilateral.rs:76)
+    // j 1, i 1, k 1
     float z_j1i1k1l0 = (taps_0_j1i1l1.w - centre_l0.w) / 0.1;
     float z_j1i1k1l1 = (taps_0_j1i1l0.w - centre_l1.w) / 0.1;
     float z_j1i1k1l2 = (taps_0_j1i1l3.w - centre_l2.w) / 0.1;
@@ -427,7 +427,7 @@ void quad_bilateral(uint3 id : SV_DispatchThreadID) {
     float4 sum_j1i1k1l1 = sum_j1i1k0l1 + float4(product_62, weight_j1i1k1l1);
     float4 sum_j1i1k1l2 = sum_j1i1k0l2 + float4(product_63, weight_j1i1k1l2);
     float4 sum_j1i1k1l3 = sum_j1i1k0l3 + float4(product_64, weight_j1i1k1l3);
-    // j 1, i 1, k 2, lane 0: what a pixel adds (kernels/src/quad/bilateral.rs:76)
+    // j 1, i 1, k 2
     float z_j1i1k2l0 = (taps_0_j1i1l2.w - centre_l0.w) / 0.1;
     float z_j1i1k2l1 = (taps_0_j1i1l3.w - centre_l1.w) / 0.1;
     float z_j1i1k2l2 = (taps_0_j1i1l0.w - centre_l2.w) / 0.1;
@@ -444,7 +444,7 @@ void quad_bilateral(uint3 id : SV_DispatchThreadID) {
     float4 sum_j1i1k2l1 = sum_j1i1k1l1 + float4(product_66, weight_j1i1k2l1);
     float4 sum_j1i1k2l2 = sum_j1i1k1l2 + float4(product_67, weight_j1i1k2l2);
     float4 sum_j1i1k2l3 = sum_j1i1k1l3 + float4(product_68, weight_j1i1k2l3);
-    // j 1, i 1, k 3, lane 0: what a pixel adds (kernels/src/quad/bilateral.rs:76)
+    // j 1, i 1, k 3
     float z_j1i1k3l0 = (taps_0_j1i1l3.w - centre_l0.w) / 0.1;
     float z_j1i1k3l1 = (taps_0_j1i1l2.w - centre_l1.w) / 0.1;
     float z_j1i1k3l2 = (taps_0_j1i1l1.w - centre_l2.w) / 0.1;
@@ -461,7 +461,7 @@ void quad_bilateral(uint3 id : SV_DispatchThreadID) {
     float4 sum_j1i1k3l1 = sum_j1i1k2l1 + float4(product_70, weight_j1i1k3l1);
     float4 sum_j1i1k3l2 = sum_j1i1k2l2 + float4(product_71, weight_j1i1k3l2);
     float4 sum_j1i1k3l3 = sum_j1i1k2l3 + float4(product_72, weight_j1i1k3l3);
-    // j 1, i 2, lane 0: colours of a quad (kernels/src/quad/bilateral.rs:43)
+    // j 1, i 2
     float4 texel_j1i2l0 = image.Load(int3(max(pixel - int2(2, 1), int2(0, 0)), 0));
     float4 texel_j1i2l1 = image.Load(int3(clamp(pixel + int2(3, -1), int2(0, 0), last), 0));
     float4 texel_j1i2l2 = image.Load(int3(clamp(pixel + int2(-2, 2), int2(0, 0), last), 0));
@@ -490,7 +490,7 @@ void quad_bilateral(uint3 id : SV_DispatchThreadID) {
     float4 taps_0_j1i2l1 = (counts_j1i2l1 ? counted_j1i2l1 : float4(0.0, 0.0, 0.0, -1e30));
     float4 taps_0_j1i2l2 = (counts_j1i2l2 ? counted_j1i2l2 : float4(0.0, 0.0, 0.0, -1e30));
     float4 taps_0_j1i2l3 = (counts_j1i2l3 ? counted_j1i2l3 : float4(0.0, 0.0, 0.0, -1e30));
-    // j 1, i 2, k 0, lane 0: what a pixel adds (kernels/src/quad/bilateral.rs:76)
+    // j 1, i 2, k 0
     float z_j1i2k0l0 = (taps_0_j1i2l0.w - centre_l0.w) / 0.1;
     float z_j1i2k0l1 = (taps_0_j1i2l1.w - centre_l1.w) / 0.1;
     float z_j1i2k0l2 = (taps_0_j1i2l2.w - centre_l2.w) / 0.1;
@@ -507,7 +507,7 @@ void quad_bilateral(uint3 id : SV_DispatchThreadID) {
     float4 sum_j1i2k0l1 = sum_j1i1k3l1 + float4(product_74, weight_j1i2k0l1);
     float4 sum_j1i2k0l2 = sum_j1i1k3l2 + float4(product_75, weight_j1i2k0l2);
     float4 sum_j1i2k0l3 = sum_j1i1k3l3 + float4(product_76, weight_j1i2k0l3);
-    // j 1, i 2, k 2, lane 0: what a pixel adds (kernels/src/quad/bilateral.rs:76)
+    // j 1, i 2, k 2
     float z_j1i2k2l0 = (taps_0_j1i2l2.w - centre_l0.w) / 0.1;
     float z_j1i2k2l1 = (taps_0_j1i2l3.w - centre_l1.w) / 0.1;
     float z_j1i2k2l2 = (taps_0_j1i2l0.w - centre_l2.w) / 0.1;
@@ -524,7 +524,7 @@ void quad_bilateral(uint3 id : SV_DispatchThreadID) {
     float4 sum_j1i2k2l1 = sum_j1i2k0l1 + float4(product_78, weight_j1i2k2l1);
     float4 sum_j1i2k2l2 = sum_j1i2k0l2 + float4(product_79, weight_j1i2k2l2);
     float4 sum_j1i2k2l3 = sum_j1i2k0l3 + float4(product_80, weight_j1i2k2l3);
-    // j 2, i 0, lane 0: colours of a quad (kernels/src/quad/bilateral.rs:43)
+    // j 2, i 0
     float4 texel_j2i0l0 = image.Load(int3(max(pixel + int2(0, -2), int2(0, 0)), 0));
     float4 texel_j2i0l1 = image.Load(int3(clamp(pixel + int2(1, -2), int2(0, 0), last), 0));
     float4 texel_j2i0l2 = image.Load(int3(min(pixel + int2(0, 3), last), 0));
@@ -553,7 +553,7 @@ void quad_bilateral(uint3 id : SV_DispatchThreadID) {
     float4 taps_0_j2i0l1 = (counts_j2i0l1 ? counted_j2i0l1 : float4(0.0, 0.0, 0.0, -1e30));
     float4 taps_0_j2i0l2 = (counts_j2i0l2 ? counted_j2i0l2 : float4(0.0, 0.0, 0.0, -1e30));
     float4 taps_0_j2i0l3 = (counts_j2i0l3 ? counted_j2i0l3 : float4(0.0, 0.0, 0.0, -1e30));
-    // j 2, i 0, k 0, lane 0: what a pixel adds (kernels/src/quad/bilateral.rs:76)
+    // j 2, i 0, k 0
     float z_j2i0k0l0 = (taps_0_j2i0l0.w - centre_l0.w) / 0.1;
     float z_j2i0k0l1 = (taps_0_j2i0l1.w - centre_l1.w) / 0.1;
     float z_j2i0k0l2 = (taps_0_j2i0l2.w - centre_l2.w) / 0.1;
@@ -570,7 +570,7 @@ void quad_bilateral(uint3 id : SV_DispatchThreadID) {
     float4 sum_j2i0k0l1 = sum_j1i2k2l1 + float4(product_82, weight_j2i0k0l1);
     float4 sum_j2i0k0l2 = sum_j1i2k2l2 + float4(product_83, weight_j2i0k0l2);
     float4 sum_j2i0k0l3 = sum_j1i2k2l3 + float4(product_84, weight_j2i0k0l3);
-    // j 2, i 0, k 1, lane 0: what a pixel adds (kernels/src/quad/bilateral.rs:76)
+    // j 2, i 0, k 1
     float z_j2i0k1l0 = (taps_0_j2i0l1.w - centre_l0.w) / 0.1;
     float z_j2i0k1l1 = (taps_0_j2i0l0.w - centre_l1.w) / 0.1;
     float z_j2i0k1l2 = (taps_0_j2i0l3.w - centre_l2.w) / 0.1;
@@ -587,7 +587,7 @@ void quad_bilateral(uint3 id : SV_DispatchThreadID) {
     float4 sum_j2i0k1l1 = sum_j2i0k0l1 + float4(product_86, weight_j2i0k1l1);
     float4 sum_j2i0k1l2 = sum_j2i0k0l2 + float4(product_87, weight_j2i0k1l2);
     float4 sum_j2i0k1l3 = sum_j2i0k0l3 + float4(product_88, weight_j2i0k1l3);
-    // j 2, i 1, lane 0: colours of a quad (kernels/src/quad/bilateral.rs:43)
+    // j 2, i 1
     float4 texel_j2i1l0 = image.Load(int3(max(pixel - int2(1, 2), int2(0, 0)), 0));
     float4 texel_j2i1l1 = image.Load(int3(clamp(pixel + int2(2, -2), int2(0, 0), last), 0));
     float4 texel_j2i1l2 = image.Load(int3(clamp(pixel + int2(-1, 3), int2(0, 0), last), 0));
@@ -616,7 +616,7 @@ void quad_bilateral(uint3 id : SV_DispatchThreadID) {
     float4 taps_0_j2i1l1 = (counts_j2i1l1 ? counted_j2i1l1 : float4(0.0, 0.0, 0.0, -1e30));
     float4 taps_0_j2i1l2 = (counts_j2i1l2 ? counted_j2i1l2 : float4(0.0, 0.0, 0.0, -1e30));
     float4 taps_0_j2i1l3 = (counts_j2i1l3 ? counted_j2i1l3 : float4(0.0, 0.0, 0.0, -1e30));
-    // j 2, i 1, k 0, lane 0: what a pixel adds (kernels/src/quad/bilateral.rs:76)
+    // j 2, i 1, k 0
     float z_j2i1k0l0 = (taps_0_j2i1l0.w - centre_l0.w) / 0.1;
     float z_j2i1k0l1 = (taps_0_j2i1l1.w - centre_l1.w) / 0.1;
     float z_j2i1k0l2 = (taps_0_j2i1l2.w - centre_l2.w) / 0.1;
@@ -633,7 +633,7 @@ void quad_bilateral(uint3 id : SV_DispatchThreadID) {
     float4 sum_j2i1k0l1 = sum_j2i0k1l1 + float4(product_90, weight_j2i1k0l1);
     float4 sum_j2i1k0l2 = sum_j2i0k1l2 + float4(product_91, weight_j2i1k0l2);
     float4 sum_j2i1k0l3 = sum_j2i0k1l3 + float4(product_92, weight_j2i1k0l3);
-    // j 2, i 1, k 1, lane 0: what a pixel adds (kernels/src/quad/bilateral.rs:76)
+    // j 2, i 1, k 1
     float z_j2i1k1l0 = (taps_0_j2i1l1.w - centre_l0.w) / 0.1;
     float z_j2i1k1l1 = (taps_0_j2i1l0.w - centre_l1.w) / 0.1;
     float z_j2i1k1l2 = (taps_0_j2i1l3.w - centre_l2.w) / 0.1;
@@ -650,7 +650,7 @@ void quad_bilateral(uint3 id : SV_DispatchThreadID) {
     float4 sum_j2i1k1l1 = sum_j2i1k0l1 + float4(product_94, weight_j2i1k1l1);
     float4 sum_j2i1k1l2 = sum_j2i1k0l2 + float4(product_95, weight_j2i1k1l2);
     float4 sum_j2i1k1l3 = sum_j2i1k0l3 + float4(product_96, weight_j2i1k1l3);
-    // j 2, i 2, lane 0: colours of a quad (kernels/src/quad/bilateral.rs:43)
+    // j 2, i 2
     float4 texel_j2i2l0 = image.Load(int3(max(pixel - 2, int2(0, 0)), 0));
     float4 texel_j2i2l1 = image.Load(int3(clamp(pixel + int2(3, -2), int2(0, 0), last), 0));
     float4 texel_j2i2l2 = image.Load(int3(clamp(pixel + int2(-2, 3), int2(0, 0), last), 0));
@@ -679,7 +679,7 @@ void quad_bilateral(uint3 id : SV_DispatchThreadID) {
     float4 taps_0_j2i2l1 = (counts_j2i2l1 ? counted_j2i2l1 : float4(0.0, 0.0, 0.0, -1e30));
     float4 taps_0_j2i2l2 = (counts_j2i2l2 ? counted_j2i2l2 : float4(0.0, 0.0, 0.0, -1e30));
     float4 taps_0_j2i2l3 = (counts_j2i2l3 ? counted_j2i2l3 : float4(0.0, 0.0, 0.0, -1e30));
-    // j 2, i 2, k 0, lane 0: what a pixel adds (kernels/src/quad/bilateral.rs:76)
+    // j 2, i 2, k 0
     float z_j2i2k0l0 = (taps_0_j2i2l0.w - centre_l0.w) / 0.1;
     float z_j2i2k0l1 = (taps_0_j2i2l1.w - centre_l1.w) / 0.1;
     float z_j2i2k0l2 = (taps_0_j2i2l2.w - centre_l2.w) / 0.1;

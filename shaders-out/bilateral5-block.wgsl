@@ -46,7 +46,7 @@ fn quad_bilateral(@builtin(global_invocation_id) id: vec3u) {
     let product_2 = (centre_l1.xyz - centre_l1.xyz) * weight_j0i0k0l1;
     let product_3 = (centre_l2.xyz - centre_l2.xyz) * weight_j0i0k0l2;
     let product_4 = (centre_l3.xyz - centre_l3.xyz) * weight_j0i0k0l3;
-    // j 0, i 0, k 1, lane 0: what a pixel adds (kernels/src/quad/bilateral.rs:76)
+    // j 0, i 0, k 1
     let z_j0i0k1l0 = (centre_l1.w - centre_l0.w) / 0.1;
     let z_j0i0k1l1 = (centre_l0.w - centre_l1.w) / 0.1;
     let z_j0i0k1l2 = (centre_l3.w - centre_l2.w) / 0.1;
@@ -63,7 +63,7 @@ fn quad_bilateral(@builtin(global_invocation_id) id: vec3u) {
     let sum_j0i0k1l1 = 0.0 + vec4f(product_2, weight_j0i0k0l1) + vec4f(product_6, weight_j0i0k1l1);
     let sum_j0i0k1l2 = 0.0 + vec4f(product_3, weight_j0i0k0l2) + vec4f(product_7, weight_j0i0k1l2);
     let sum_j0i0k1l3 = 0.0 + vec4f(product_4, weight_j0i0k0l3) + vec4f(product_8, weight_j0i0k1l3);
-    // j 0, i 0, k 2, lane 0: what a pixel adds (kernels/src/quad/bilateral.rs:76)
+    // j 0, i 0, k 2
     let z_j0i0k2l0 = (centre_l2.w - centre_l0.w) / 0.1;
     let z_j0i0k2l1 = (centre_l3.w - centre_l1.w) / 0.1;
     let z_j0i0k2l2 = (centre_l0.w - centre_l2.w) / 0.1;
@@ -80,7 +80,7 @@ fn quad_bilateral(@builtin(global_invocation_id) id: vec3u) {
     let sum_j0i0k2l1 = sum_j0i0k1l1 + vec4f(product_10, weight_j0i0k2l1);
     let sum_j0i0k2l2 = sum_j0i0k1l2 + vec4f(product_11, weight_j0i0k2l2);
     let sum_j0i0k2l3 = sum_j0i0k1l3 + vec4f(product_12, weight_j0i0k2l3);
-    // j 0, i 0, k 3, lane 0: what a pixel adds (kernels/src/quad/bilateral.rs:76)
+    // j 0, i 0, k 3
     let z_j0i0k3l0 = (centre_l3.w - centre_l0.w) / 0.1;
     let z_j0i0k3l1 = (centre_l2.w - centre_l1.w) / 0.1;
     let z_j0i0k3l2 = (centre_l1.w - centre_l2.w) / 0.1;
@@ -118,7 +118,7 @@ fn quad_bilateral(@builtin(global_invocation_id) id: vec3u) {
     let taps_0_j0i1l1 = select(vec4f(0.0, 0.0, 0.0, -1e30), counted_j0i1l1, counts_j0i1l1);
     let taps_0_j0i1l2 = select(vec4f(0.0, 0.0, 0.0, -1e30), counted_j0i1l2, counts_j0i1l2);
     let taps_0_j0i1l3 = select(vec4f(0.0, 0.0, 0.0, -1e30), counted_j0i1l3, counts_j0i1l3);
-    // j 0, i 1, k 0, lane 0: what a pixel adds (kernels/src/quad/bilateral.rs:76)
+    // j 0, i 1, k 0
     let z_j0i1k0l0 = (taps_0_j0i1l0.w - centre_l0.w) / 0.1;
     let z_j0i1k0l1 = (taps_0_j0i1l1.w - centre_l1.w) / 0.1;
     let z_j0i1k0l2 = (taps_0_j0i1l2.w - centre_l2.w) / 0.1;
@@ -135,7 +135,7 @@ fn quad_bilateral(@builtin(global_invocation_id) id: vec3u) {
     let sum_j0i1k0l1 = sum_j0i0k3l1 + vec4f(product_18, weight_j0i1k0l1);
     let sum_j0i1k0l2 = sum_j0i0k3l2 + vec4f(product_19, weight_j0i1k0l2);
     let sum_j0i1k0l3 = sum_j0i0k3l3 + vec4f(product_20, weight_j0i1k0l3);
-    // j 0, i 1, k 1, lane 0: what a pixel adds (kernels/src/quad/bilateral.rs:76)
+    // j 0, i 1, k 1
     let z_j0i1k1l0 = (taps_0_j0i1l1.w - centre_l0.w) / 0.1;
     let z_j0i1k1l1 = (taps_0_j0i1l0.w - centre_l1.w) / 0.1;
     let z_j0i1k1l2 = (taps_0_j0i1l3.w - centre_l2.w) / 0.1;
@@ -152,7 +152,7 @@ fn quad_bilateral(@builtin(global_invocation_id) id: vec3u) {
     let sum_j0i1k1l1 = sum_j0i1k0l1 + vec4f(product_22, weight_j0i1k1l1);
     let sum_j0i1k1l2 = sum_j0i1k0l2 + vec4f(product_23, weight_j0i1k1l2);
     let sum_j0i1k1l3 = sum_j0i1k0l3 + vec4f(product_24, weight_j0i1k1l3);
-    // j 0, i 1, k 2, lane 0: what a pixel adds (kernels/src/quad/bilateral.rs:76)
+    // j 0, i 1, k 2
     let z_j0i1k2l0 = (taps_0_j0i1l2.w - centre_l0.w) / 0.1;
     let z_j0i1k2l1 = (taps_0_j0i1l3.w - centre_l1.w) / 0.1;
     let z_j0i1k2l2 = (taps_0_j0i1l0.w - centre_l2.w) / 0.1;
@@ -169,7 +169,7 @@ fn quad_bilateral(@builtin(global_invocation_id) id: vec3u) {
     let sum_j0i1k2l1 = sum_j0i1k1l1 + vec4f(product_26, weight_j0i1k2l1);
     let sum_j0i1k2l2 = sum_j0i1k1l2 + vec4f(product_27, weight_j0i1k2l2);
     let sum_j0i1k2l3 = sum_j0i1k1l3 + vec4f(product_28, weight_j0i1k2l3);
-    // j 0, i 1, k 3, lane 0: what a pixel adds (kernels/src/quad/bilateral.rs:76)
+    // j 0, i 1, k 3
     let z_j0i1k3l0 = (taps_0_j0i1l3.w - centre_l0.w) / 0.1;
     let z_j0i1k3l1 = (taps_0_j0i1l2.w - centre_l1.w) / 0.1;
     let z_j0i1k3l2 = (taps_0_j0i1l1.w - centre_l2.w) / 0.1;
@@ -186,7 +186,7 @@ fn quad_bilateral(@builtin(global_invocation_id) id: vec3u) {
     let sum_j0i1k3l1 = sum_j0i1k2l1 + vec4f(product_30, weight_j0i1k3l1);
     let sum_j0i1k3l2 = sum_j0i1k2l2 + vec4f(product_31, weight_j0i1k3l2);
     let sum_j0i1k3l3 = sum_j0i1k2l3 + vec4f(product_32, weight_j0i1k3l3);
-    // j 0, i 2, lane 0: colours of a quad (kernels/src/quad/bilateral.rs:43)
+    // j 0, i 2
     let texel_j0i2l0 = textureLoad(image, max(pixel + vec2i(-2, 0), vec2i(0)), 0);
     let texel_j0i2l1 = textureLoad(image, min(pixel + vec2i(3, 0), last), 0);
     let texel_j0i2l2 = textureLoad(image, clamp(pixel + vec2i(-2, 1), vec2i(0), last), 0);
@@ -207,7 +207,7 @@ fn quad_bilateral(@builtin(global_invocation_id) id: vec3u) {
     let taps_0_j0i2l1 = select(vec4f(0.0, 0.0, 0.0, -1e30), counted_j0i2l1, counts_j0i2l1);
     let taps_0_j0i2l2 = select(vec4f(0.0, 0.0, 0.0, -1e30), counted_j0i2l2, counts_j0i2l2);
     let taps_0_j0i2l3 = select(vec4f(0.0, 0.0, 0.0, -1e30), counted_j0i2l3, counts_j0i2l3);
-    // j 0, i 2, k 0, lane 0: what a pixel adds (kernels/src/quad/bilateral.rs:76)
+    // j 0, i 2, k 0
     let z_j0i2k0l0 = (taps_0_j0i2l0.w - centre_l0.w) / 0.1;
     let z_j0i2k0l1 = (taps_0_j0i2l1.w - centre_l1.w) / 0.1;
     let z_j0i2k0l2 = (taps_0_j0i2l2.w - centre_l2.w) / 0.1;
@@ -224,7 +224,7 @@ fn quad_bilateral(@builtin(global_invocation_id) id: vec3u) {
     let sum_j0i2k0l1 = sum_j0i1k3l1 + vec4f(product_34, weight_j0i2k0l1);
     let sum_j0i2k0l2 = sum_j0i1k3l2 + vec4f(product_35, weight_j0i2k0l2);
     let sum_j0i2k0l3 = sum_j0i1k3l3 + vec4f(product_36, weight_j0i2k0l3);
-    // j 0, i 2, k 2, lane 0: what a pixel adds (kernels/src/quad/bilateral.rs:76)
+    // j 0, i 2, k 2
     let z_j0i2k2l0 = (taps_0_j0i2l2.w - centre_l0.w) / 0.1;
     let z_j0i2k2l1 = (taps_0_j0i2l3.w - centre_l1.w) / 0.1;
     let z_j0i2k2l2 = (taps_0_j0i2l0.w - centre_l2.w) / 0.1;
@@ -241,7 +241,7 @@ fn quad_bilateral(@builtin(global_invocation_id) id: vec3u) {
     let sum_j0i2k2l1 = sum_j0i2k0l1 + vec4f(product_38, weight_j0i2k2l1);
     let sum_j0i2k2l2 = sum_j0i2k0l2 + vec4f(product_39, weight_j0i2k2l2);
     let sum_j0i2k2l3 = sum_j0i2k0l3 + vec4f(product_40, weight_j0i2k2l3);
-    // j 1, i 0, lane 0: colours of a quad (kernels/src/quad/bilateral.rs:43)
+    // j 1, i 0
     let texel_j1i0l0 = textureLoad(image, max(pixel + vec2i(0, -1), vec2i(0)), 0);
     let texel_j1i0l1 = textureLoad(image, clamp(pixel + vec2i(1, -1), vec2i(0), last), 0);
     let texel_j1i0l2 = textureLoad(image, min(pixel + vec2i(0, 2), last), 0);
@@ -262,7 +262,7 @@ fn quad_bilateral(@builtin(global_invocation_id) id: vec3u) {
     let taps_0_j1i0l1 = select(vec4f(0.0, 0.0, 0.0, -1e30), counted_j1i0l1, counts_j1i0l1);
     let taps_0_j1i0l2 = select(vec4f(0.0, 0.0, 0.0, -1e30), counted_j1i0l2, counts_j1i0l2);
     let taps_0_j1i0l3 = select(vec4f(0.0, 0.0, 0.0, -1e30), counted_j1i0l3, counts_j1i0l3);
-    // j 1, i 0, k 0, lane 0: what a pixel adds (kernels/src/quad/bilateral.rs:76)
+    // j 1, i 0, k 0
     let z_j1i0k0l0 = (taps_0_j1i0l0.w - centre_l0.w) / 0.1;
     let z_j1i0k0l1 = (taps_0_j1i0l1.w - centre_l1.w) / 0.1;
     let z_j1i0k0l2 = (taps_0_j1i0l2.w - centre_l2.w) / 0.1;
@@ -279,7 +279,7 @@ fn quad_bilateral(@builtin(global_invocation_id) id: vec3u) {
     let sum_j1i0k0l1 = sum_j0i2k2l1 + vec4f(product_42, weight_j1i0k0l1);
     let sum_j1i0k0l2 = sum_j0i2k2l2 + vec4f(product_43, weight_j1i0k0l2);
     let sum_j1i0k0l3 = sum_j0i2k2l3 + vec4f(product_44, weight_j1i0k0l3);
-    // j 1, i 0, k 1, lane 0: what a pixel adds (kernels/src/quad/bilateral.rs:76)
+    // j 1, i 0, k 1
     let z_j1i0k1l0 = (taps_0_j1i0l1.w - centre_l0.w) / 0.1;
     let z_j1i0k1l1 = (taps_0_j1i0l0.w - centre_l1.w) / 0.1;
     let z_j1i0k1l2 = (taps_0_j1i0l3.w - centre_l2.w) / 0.1;
@@ -296,7 +296,7 @@ fn quad_bilateral(@builtin(global_invocation_id) id: vec3u) {
     let sum_j1i0k1l1 = sum_j1i0k0l1 + vec4f(product_46, weight_j1i0k1l1);
     let sum_j1i0k1l2 = sum_j1i0k0l2 + vec4f(product_47, weight_j1i0k1l2);
     let sum_j1i0k1l3 = sum_j1i0k0l3 + vec4f(product_48, weight_j1i0k1l3);
-    // j 1, i 0, k 2, lane 0: what a pixel adds (kernels/src/quad/bilateral.rs:76)
+    // j 1, i 0, k 2
     let z_j1i0k2l0 = (taps_0_j1i0l2.w - centre_l0.w) / 0.1;
     let z_j1i0k2l1 = (taps_0_j1i0l3.w - centre_l1.w) / 0.1;
     let z_j1i0k2l2 = (taps_0_j1i0l0.w - centre_l2.w) / 0.1;
@@ -313,7 +313,7 @@ fn quad_bilateral(@builtin(global_invocation_id) id: vec3u) {
     let sum_j1i0k2l1 = sum_j1i0k1l1 + vec4f(product_50, weight_j1i0k2l1);
     let sum_j1i0k2l2 = sum_j1i0k1l2 + vec4f(product_51, weight_j1i0k2l2);
     let sum_j1i0k2l3 = sum_j1i0k1l3 + vec4f(product_52, weight_j1i0k2l3);
-    // j 1, i 0, k 3, lane 0: what a pixel adds (kernels/src/quad/bilateral.rs:76)
+    // j 1, i 0, k 3
     let z_j1i0k3l0 = (taps_0_j1i0l3.w - centre_l0.w) / 0.1;
     let z_j1i0k3l1 = (taps_0_j1i0l2.w - centre_l1.w) / 0.1;
     let z_j1i0k3l2 = (taps_0_j1i0l1.w - centre_l2.w) / 0.1;
@@ -330,7 +330,7 @@ fn quad_bilateral(@builtin(global_invocation_id) id: vec3u) {
     let sum_j1i0k3l1 = sum_j1i0k2l1 + vec4f(product_54, weight_j1i0k3l1);
     let sum_j1i0k3l2 = sum_j1i0k2l2 + vec4f(product_55, weight_j1i0k3l2);
     let sum_j1i0k3l3 = sum_j1i0k2l3 + vec4f(product_56, weight_j1i0k3l3);
-    // j 1, i 1, lane 0: colours of a quad (kernels/src/quad/bilateral.rs:43)
+    // j 1, i 1
     let texel_j1i1l0 = textureLoad(image, max(pixel - 1, vec2i(0)), 0);
     let texel_j1i1l1 = textureLoad(image, clamp(pixel + vec2i(2, -1), vec2i(0), last), 0);
     let texel_j1i1l2 = textureLoad(image, clamp(pixel + vec2i(-1, 2), vec2i(0), last), 0);
@@ -351,7 +351,7 @@ fn quad_bilateral(@builtin(global_invocation_id) id: vec3u) {
     let taps_0_j1i1l1 = select(vec4f(0.0, 0.0, 0.0, -1e30), counted_j1i1l1, counts_j1i1l1);
     let taps_0_j1i1l2 = select(vec4f(0.0, 0.0, 0.0, -1e30), counted_j1i1l2, counts_j1i1l2);
     let taps_0_j1i1l3 = select(vec4f(0.0, 0.0, 0.0, -1e30), counted_j1i1l3, counts_j1i1l3);
-    // j 1, i 1, k 0, lane 0: what a pixel adds (kernels/src/quad/bilateral.rs:76)
+    // j 1, i 1, k 0
     let z_j1i1k0l0 = (taps_0_j1i1l0.w - centre_l0.w) / 0.1;
     let z_j1i1k0l1 = (taps_0_j1i1l1.w - centre_l1.w) / 0.1;
     let z_j1i1k0l2 = (taps_0_j1i1l2.w - centre_l2.w) / 0.1;
@@ -368,7 +368,7 @@ fn quad_bilateral(@builtin(global_invocation_id) id: vec3u) {
     let sum_j1i1k0l1 = sum_j1i0k3l1 + vec4f(product_58, weight_j1i1k0l1);
     let sum_j1i1k0l2 = sum_j1i0k3l2 + vec4f(product_59, weight_j1i1k0l2);
     let sum_j1i1k0l3 = sum_j1i0k3l3 + vec4f(product_60, weight_j1i1k0l3);
-    // j 1, i 1, k 1, lane 0: what a pixel adds (kernels/src/quad/bilateral.rs:76)
+    // j 1, i 1, k 1
     let z_j1i1k1l0 = (taps_0_j1i1l1.w - centre_l0.w) / 0.1;
     let z_j1i1k1l1 = (taps_0_j1i1l0.w - centre_l1.w) / 0.1;
     let z_j1i1k1l2 = (taps_0_j1i1l3.w - centre_l2.w) / 0.1;
@@ -385,7 +385,7 @@ fn quad_bilateral(@builtin(global_invocation_id) id: vec3u) {
     let sum_j1i1k1l1 = sum_j1i1k0l1 + vec4f(product_62, weight_j1i1k1l1);
     let sum_j1i1k1l2 = sum_j1i1k0l2 + vec4f(product_63, weight_j1i1k1l2);
     let sum_j1i1k1l3 = sum_j1i1k0l3 + vec4f(product_64, weight_j1i1k1l3);
-    // j 1, i 1, k 2, lane 0: what a pixel adds (kernels/src/quad/bilateral.rs:76)
+    // j 1, i 1, k 2
     let z_j1i1k2l0 = (taps_0_j1i1l2.w - centre_l0.w) / 0.1;
     let z_j1i1k2l1 = (taps_0_j1i1l3.w - centre_l1.w) / 0.1;
     let z_j1i1k2l2 = (taps_0_j1i1l0.w - centre_l2.w) / 0.1;
@@ -402,7 +402,7 @@ fn quad_bilateral(@builtin(global_invocation_id) id: vec3u) {
     let sum_j1i1k2l1 = sum_j1i1k1l1 + vec4f(product_66, weight_j1i1k2l1);
     let sum_j1i1k2l2 = sum_j1i1k1l2 + vec4f(product_67, weight_j1i1k2l2);
     let sum_j1i1k2l3 = sum_j1i1k1l3 + vec4f(product_68, weight_j1i1k2l3);
-    // j 1, i 1, k 3, lane 0: what a pixel adds (kernels/src/quad/bilateral.rs:76)
+    // j 1, i 1, k 3
     let z_j1i1k3l0 = (taps_0_j1i1l3.w - centre_l0.w) / 0.1;
     let z_j1i1k3l1 = (taps_0_j1i1l2.w - centre_l1.w) / 0.1;
     let z_j1i1k3l2 = (taps_0_j1i1l1.w - centre_l2.w) / 0.1;
@@ -419,7 +419,7 @@ fn quad_bilateral(@builtin(global_invocation_id) id: vec3u) {
     let sum_j1i1k3l1 = sum_j1i1k2l1 + vec4f(product_70, weight_j1i1k3l1);
     let sum_j1i1k3l2 = sum_j1i1k2l2 + vec4f(product_71, weight_j1i1k3l2);
     let sum_j1i1k3l3 = sum_j1i1k2l3 + vec4f(product_72, weight_j1i1k3l3);
-    // j 1, i 2, lane 0: colours of a quad (kernels/src/quad/bilateral.rs:43)
+    // j 1, i 2
     let texel_j1i2l0 = textureLoad(image, max(pixel - vec2i(2, 1), vec2i(0)), 0);
     let texel_j1i2l1 = textureLoad(image, clamp(pixel + vec2i(3, -1), vec2i(0), last), 0);
     let texel_j1i2l2 = textureLoad(image, clamp(pixel + vec2i(-2, 2), vec2i(0), last), 0);
@@ -440,7 +440,7 @@ fn quad_bilateral(@builtin(global_invocation_id) id: vec3u) {
     let taps_0_j1i2l1 = select(vec4f(0.0, 0.0, 0.0, -1e30), counted_j1i2l1, counts_j1i2l1);
     let taps_0_j1i2l2 = select(vec4f(0.0, 0.0, 0.0, -1e30), counted_j1i2l2, counts_j1i2l2);
     let taps_0_j1i2l3 = select(vec4f(0.0, 0.0, 0.0, -1e30), counted_j1i2l3, counts_j1i2l3);
-    // j 1, i 2, k 0, lane 0: what a pixel adds (kernels/src/quad/bilateral.rs:76)
+    // j 1, i 2, k 0
     let z_j1i2k0l0 = (taps_0_j1i2l0.w - centre_l0.w) / 0.1;
     let z_j1i2k0l1 = (taps_0_j1i2l1.w - centre_l1.w) / 0.1;
     let z_j1i2k0l2 = (taps_0_j1i2l2.w - centre_l2.w) / 0.1;
@@ -457,7 +457,7 @@ fn quad_bilateral(@builtin(global_invocation_id) id: vec3u) {
     let sum_j1i2k0l1 = sum_j1i1k3l1 + vec4f(product_74, weight_j1i2k0l1);
     let sum_j1i2k0l2 = sum_j1i1k3l2 + vec4f(product_75, weight_j1i2k0l2);
     let sum_j1i2k0l3 = sum_j1i1k3l3 + vec4f(product_76, weight_j1i2k0l3);
-    // j 1, i 2, k 2, lane 0: what a pixel adds (kernels/src/quad/bilateral.rs:76)
+    // j 1, i 2, k 2
     let z_j1i2k2l0 = (taps_0_j1i2l2.w - centre_l0.w) / 0.1;
     let z_j1i2k2l1 = (taps_0_j1i2l3.w - centre_l1.w) / 0.1;
     let z_j1i2k2l2 = (taps_0_j1i2l0.w - centre_l2.w) / 0.1;
@@ -474,7 +474,7 @@ fn quad_bilateral(@builtin(global_invocation_id) id: vec3u) {
     let sum_j1i2k2l1 = sum_j1i2k0l1 + vec4f(product_78, weight_j1i2k2l1);
     let sum_j1i2k2l2 = sum_j1i2k0l2 + vec4f(product_79, weight_j1i2k2l2);
     let sum_j1i2k2l3 = sum_j1i2k0l3 + vec4f(product_80, weight_j1i2k2l3);
-    // j 2, i 0, lane 0: colours of a quad (kernels/src/quad/bilateral.rs:43)
+    // j 2, i 0
     let texel_j2i0l0 = textureLoad(image, max(pixel + vec2i(0, -2), vec2i(0)), 0);
     let texel_j2i0l1 = textureLoad(image, clamp(pixel + vec2i(1, -2), vec2i(0), last), 0);
     let texel_j2i0l2 = textureLoad(image, min(pixel + vec2i(0, 3), last), 0);
@@ -495,7 +495,7 @@ fn quad_bilateral(@builtin(global_invocation_id) id: vec3u) {
     let taps_0_j2i0l1 = select(vec4f(0.0, 0.0, 0.0, -1e30), counted_j2i0l1, counts_j2i0l1);
     let taps_0_j2i0l2 = select(vec4f(0.0, 0.0, 0.0, -1e30), counted_j2i0l2, counts_j2i0l2);
     let taps_0_j2i0l3 = select(vec4f(0.0, 0.0, 0.0, -1e30), counted_j2i0l3, counts_j2i0l3);
-    // j 2, i 0, k 0, lane 0: what a pixel adds (kernels/src/quad/bilateral.rs:76)
+    // j 2, i 0, k 0
     let z_j2i0k0l0 = (taps_0_j2i0l0.w - centre_l0.w) / 0.1;
     let z_j2i0k0l1 = (taps_0_j2i0l1.w - centre_l1.w) / 0.1;
     let z_j2i0k0l2 = (taps_0_j2i0l2.w - centre_l2.w) / 0.1;
@@ -512,7 +512,7 @@ fn quad_bilateral(@builtin(global_invocation_id) id: vec3u) {
     let sum_j2i0k0l1 = sum_j1i2k2l1 + vec4f(product_82, weight_j2i0k0l1);
     let sum_j2i0k0l2 = sum_j1i2k2l2 + vec4f(product_83, weight_j2i0k0l2);
     let sum_j2i0k0l3 = sum_j1i2k2l3 + vec4f(product_84, weight_j2i0k0l3);
-    // j 2, i 0, k 1, lane 0: what a pixel adds (kernels/src/quad/bilateral.rs:76)
+    // j 2, i 0, k 1
     let z_j2i0k1l0 = (taps_0_j2i0l1.w - centre_l0.w) / 0.1;
     let z_j2i0k1l1 = (taps_0_j2i0l0.w - centre_l1.w) / 0.1;
     let z_j2i0k1l2 = (taps_0_j2i0l3.w - centre_l2.w) / 0.1;
@@ -529,7 +529,7 @@ fn quad_bilateral(@builtin(global_invocation_id) id: vec3u) {
     let sum_j2i0k1l1 = sum_j2i0k0l1 + vec4f(product_86, weight_j2i0k1l1);
     let sum_j2i0k1l2 = sum_j2i0k0l2 + vec4f(product_87, weight_j2i0k1l2);
     let sum_j2i0k1l3 = sum_j2i0k0l3 + vec4f(product_88, weight_j2i0k1l3);
-    // j 2, i 1, lane 0: colours of a quad (kernels/src/quad/bilateral.rs:43)
+    // j 2, i 1
     let texel_j2i1l0 = textureLoad(image, max(pixel - vec2i(1, 2), vec2i(0)), 0);
     let texel_j2i1l1 = textureLoad(image, clamp(pixel + vec2i(2, -2), vec2i(0), last), 0);
     let texel_j2i1l2 = textureLoad(image, clamp(pixel + vec2i(-1, 3), vec2i(0), last), 0);
@@ -550,7 +550,7 @@ fn quad_bilateral(@builtin(global_invocation_id) id: vec3u) {
     let taps_0_j2i1l1 = select(vec4f(0.0, 0.0, 0.0, -1e30), counted_j2i1l1, counts_j2i1l1);
     let taps_0_j2i1l2 = select(vec4f(0.0, 0.0, 0.0, -1e30), counted_j2i1l2, counts_j2i1l2);
     let taps_0_j2i1l3 = select(vec4f(0.0, 0.0, 0.0, -1e30), counted_j2i1l3, counts_j2i1l3);
-    // j 2, i 1, k 0, lane 0: what a pixel adds (kernels/src/quad/bilateral.rs:76)
+    // j 2, i 1, k 0
     let z_j2i1k0l0 = (taps_0_j2i1l0.w - centre_l0.w) / 0.1;
     let z_j2i1k0l1 = (taps_0_j2i1l1.w - centre_l1.w) / 0.1;
     let z_j2i1k0l2 = (taps_0_j2i1l2.w - centre_l2.w) / 0.1;
@@ -567,7 +567,7 @@ fn quad_bilateral(@builtin(global_invocation_id) id: vec3u) {
     let sum_j2i1k0l1 = sum_j2i0k1l1 + vec4f(product_90, weight_j2i1k0l1);
     let sum_j2i1k0l2 = sum_j2i0k1l2 + vec4f(product_91, weight_j2i1k0l2);
     let sum_j2i1k0l3 = sum_j2i0k1l3 + vec4f(product_92, weight_j2i1k0l3);
-    // j 2, i 1, k 1, lane 0: what a pixel adds (kernels/src/quad/bilateral.rs:76)
+    // j 2, i 1, k 1
     let z_j2i1k1l0 = (taps_0_j2i1l1.w - centre_l0.w) / 0.1;
     let z_j2i1k1l1 = (taps_0_j2i1l0.w - centre_l1.w) / 0.1;
     let z_j2i1k1l2 = (taps_0_j2i1l3.w - centre_l2.w) / 0.1;
@@ -584,7 +584,7 @@ fn quad_bilateral(@builtin(global_invocation_id) id: vec3u) {
     let sum_j2i1k1l1 = sum_j2i1k0l1 + vec4f(product_94, weight_j2i1k1l1);
     let sum_j2i1k1l2 = sum_j2i1k0l2 + vec4f(product_95, weight_j2i1k1l2);
     let sum_j2i1k1l3 = sum_j2i1k0l3 + vec4f(product_96, weight_j2i1k1l3);
-    // j 2, i 2, lane 0: colours of a quad (kernels/src/quad/bilateral.rs:43)
+    // j 2, i 2
     let texel_j2i2l0 = textureLoad(image, max(pixel - 2, vec2i(0)), 0);
     let texel_j2i2l1 = textureLoad(image, clamp(pixel + vec2i(3, -2), vec2i(0), last), 0);
     let texel_j2i2l2 = textureLoad(image, clamp(pixel + vec2i(-2, 3), vec2i(0), last), 0);
@@ -605,7 +605,7 @@ fn quad_bilateral(@builtin(global_invocation_id) id: vec3u) {
     let taps_0_j2i2l1 = select(vec4f(0.0, 0.0, 0.0, -1e30), counted_j2i2l1, counts_j2i2l1);
     let taps_0_j2i2l2 = select(vec4f(0.0, 0.0, 0.0, -1e30), counted_j2i2l2, counts_j2i2l2);
     let taps_0_j2i2l3 = select(vec4f(0.0, 0.0, 0.0, -1e30), counted_j2i2l3, counts_j2i2l3);
-    // j 2, i 2, k 0, lane 0: what a pixel adds (kernels/src/quad/bilateral.rs:76)
+    // j 2, i 2, k 0
     let z_j2i2k0l0 = (taps_0_j2i2l0.w - centre_l0.w) / 0.1;
     let z_j2i2k0l1 = (taps_0_j2i2l1.w - centre_l1.w) / 0.1;
     let z_j2i2k0l2 = (taps_0_j2i2l2.w - centre_l2.w) / 0.1;

@@ -27,7 +27,7 @@ void main() {
         + texelFetch(sampler2D(image, unfiltered), min(pixel + ivec2(0, 1), last), 0) * 0.11111111;
     vec4 own_j0i0l3 = 0.0
         + texelFetch(sampler2D(image, unfiltered), min(pixel + 1, last), 0) * 0.11111111;
-    // j 0, i 1, lane 0: kernels/src/quad/convolution.rs:85
+    // j 0, i 1
     vec4 product = texelFetch(sampler2D(image, unfiltered), max(pixel + ivec2(-1, 0), ivec2(0)), 0)
         * 0.11111111;
     vec4 product_2 = texelFetch(sampler2D(image, unfiltered), min(pixel + ivec2(2, 0), last), 0)
@@ -42,7 +42,7 @@ void main() {
     vec4 own_j0i1l1 = own_j0i0l1 + product_2;
     vec4 own_j0i1l2 = own_j0i0l2 + product_3;
     vec4 own_j0i1l3 = own_j0i0l3 + product_4;
-    // j 1, i 0, lane 0: kernels/src/quad/convolution.rs:85
+    // j 1, i 0
     vec4 product_5 = texelFetch(
         sampler2D(image, unfiltered), max(pixel + ivec2(0, -1), ivec2(0)), 0
     )
@@ -55,7 +55,7 @@ void main() {
         * 0.11111111;
     vec4 product_8 = texelFetch(sampler2D(image, unfiltered), min(pixel + ivec2(1, 2), last), 0)
         * 0.11111111;
-    // j 1, i 1, lane 0: kernels/src/quad/convolution.rs:85
+    // j 1, i 1
     vec4 product_9 = texelFetch(sampler2D(image, unfiltered), max(pixel - 1, ivec2(0)), 0)
         * 0.11111111;
     vec4 product_10 = texelFetch(

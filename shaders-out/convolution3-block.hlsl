@@ -26,7 +26,7 @@ void quad_convolution(uint3 id : SV_DispatchThreadID) {
     float4 own_j0i0l1 = 0.0 + image.Load(int3(min(pixel + int2(1, 0), last), 0)) * 0.11111111;
     float4 own_j0i0l2 = 0.0 + image.Load(int3(min(pixel + int2(0, 1), last), 0)) * 0.11111111;
     float4 own_j0i0l3 = 0.0 + image.Load(int3(min(pixel + 1, last), 0)) * 0.11111111;
-    // j 0, i 1, lane 0: kernels/src/quad/convolution.rs:85
+    // j 0, i 1
     float4 product = image.Load(int3(max(pixel + int2(-1, 0), int2(0, 0)), 0)) * 0.11111111;
     float4 product_2 = image.Load(int3(min(pixel + int2(2, 0), last), 0)) * 0.11111111;
     float4 product_3 = image.Load(int3(clamp(pixel + int2(-1, 1), int2(0, 0), last), 0))
@@ -36,13 +36,13 @@ void quad_convolution(uint3 id : SV_DispatchThreadID) {
     float4 own_j0i1l1 = own_j0i0l1 + product_2;
     float4 own_j0i1l2 = own_j0i0l2 + product_3;
     float4 own_j0i1l3 = own_j0i0l3 + product_4;
-    // j 1, i 0, lane 0: kernels/src/quad/convolution.rs:85
+    // j 1, i 0
     float4 product_5 = image.Load(int3(max(pixel + int2(0, -1), int2(0, 0)), 0)) * 0.11111111;
     float4 product_6 = image.Load(int3(clamp(pixel + int2(1, -1), int2(0, 0), last), 0))
         * 0.11111111;
     float4 product_7 = image.Load(int3(min(pixel + int2(0, 2), last), 0)) * 0.11111111;
     float4 product_8 = image.Load(int3(min(pixel + int2(1, 2), last), 0)) * 0.11111111;
-    // j 1, i 1, lane 0: kernels/src/quad/convolution.rs:85
+    // j 1, i 1
     float4 product_9 = image.Load(int3(max(pixel - 1, int2(0, 0)), 0)) * 0.11111111;
     float4 product_10 = image.Load(int3(clamp(pixel + int2(2, -1), int2(0, 0), last), 0))
         * 0.11111111;

@@ -20,7 +20,7 @@ fn quad_convolution(@builtin(global_invocation_id) id: vec3u) {
     let own_j0i0l1 = 0.0 + textureLoad(image, min(pixel + vec2i(1, 0), last), 0) * 0.11111111;
     let own_j0i0l2 = 0.0 + textureLoad(image, min(pixel + vec2i(0, 1), last), 0) * 0.11111111;
     let own_j0i0l3 = 0.0 + textureLoad(image, min(pixel + 1, last), 0) * 0.11111111;
-    // j 0, i 1, lane 0: kernels/src/quad/convolution.rs:85
+    // j 0, i 1
     let product = textureLoad(image, max(pixel + vec2i(-1, 0), vec2i(0)), 0) * 0.11111111;
     let product_2 = textureLoad(image, min(pixel + vec2i(2, 0), last), 0) * 0.11111111;
     let product_3 = textureLoad(image, clamp(pixel + vec2i(-1, 1), vec2i(0), last), 0) * 0.11111111;
@@ -29,12 +29,12 @@ fn quad_convolution(@builtin(global_invocation_id) id: vec3u) {
     let own_j0i1l1 = own_j0i0l1 + product_2;
     let own_j0i1l2 = own_j0i0l2 + product_3;
     let own_j0i1l3 = own_j0i0l3 + product_4;
-    // j 1, i 0, lane 0: kernels/src/quad/convolution.rs:85
+    // j 1, i 0
     let product_5 = textureLoad(image, max(pixel + vec2i(0, -1), vec2i(0)), 0) * 0.11111111;
     let product_6 = textureLoad(image, clamp(pixel + vec2i(1, -1), vec2i(0), last), 0) * 0.11111111;
     let product_7 = textureLoad(image, min(pixel + vec2i(0, 2), last), 0) * 0.11111111;
     let product_8 = textureLoad(image, min(pixel + vec2i(1, 2), last), 0) * 0.11111111;
-    // j 1, i 1, lane 0: kernels/src/quad/convolution.rs:85
+    // j 1, i 1
     let product_9 = textureLoad(image, max(pixel - 1, vec2i(0)), 0) * 0.11111111;
     let product_10 = textureLoad(image, clamp(pixel + vec2i(2, -1), vec2i(0), last), 0)
         * 0.11111111;

@@ -99,14 +99,12 @@ void main() {
     float number_s1_t4 = (difference_s1_t4 < 16.0 ? difference_s1_t4 : 16.0);
     float d_s1_t4 = min(max(abs(seen_depth_s1 - shaded_depth_t4), number_s1_t4), 16.0);
     float nearest_s1_t4 = min(min(min(d_s1_t0, d_s1_t1), d_s1_t3), d_s1_t4);
-    // sample 1, tap 0: kernels/src/sraa/mod.rs:112
     float w_s1_t0 = exp2(721.34753 * (nearest_s1_t4 - d_s1_t0) - 6.4150376);
     float w_s1_t1 = exp2(721.34753 * (nearest_s1_t4 - d_s1_t1) - 2.508147);
     float w_s1_t3 = exp2(721.34753 * (nearest_s1_t4 - d_s1_t3) - 4.29956);
     float w_s1_t4 = exp2(721.34753 * (nearest_s1_t4 - d_s1_t4) - 0.39266968);
     float scale_s1 = 0.0625 / (w_s1_t0 + w_s1_t1 + w_s1_t3 + w_s1_t4);
-    // sample 2, tap 3: depth along the view direction, in scene units
-    //   (kernels/src/sraa/gbuffer.rs:180)
+    // sample 2
     float depth_s2 = texelFetch(sampler2DArray(depth, unfiltered), ivec3(pixel, 2), 0).x;
     float seen_depth_s2 = (abs(depth_s2) < 1e30 ? depth_s2 : 1e30);
     vec3 seen_normal_s2 = texelFetch(sampler2DArray(normal, unfiltered), ivec3(pixel, 2), 0).xyz;
@@ -114,12 +112,10 @@ void main() {
     float difference_s2_t3 = 0.5 * dot(turn_s2_t3, turn_s2_t3);
     float number_s2_t3 = (difference_s2_t3 < 16.0 ? difference_s2_t3 : 16.0);
     float d_s2_t3 = min(max(abs(seen_depth_s2 - shaded_depth_t3), number_s2_t3), 16.0);
-    // sample 2, tap 4: 1 - a·b of two unit vectors (kernels/src/sraa/metric.rs:121)
     vec3 turn_s2_t4 = seen_normal_s2 - shaded_normal_t4;
     float difference_s2_t4 = 0.5 * dot(turn_s2_t4, turn_s2_t4);
     float number_s2_t4 = (difference_s2_t4 < 16.0 ? difference_s2_t4 : 16.0);
     float d_s2_t4 = min(max(abs(seen_depth_s2 - shaded_depth_t4), number_s2_t4), 16.0);
-    // sample 2, tap 6: kernels/src/sraa/gbuffer.rs:123
     ivec2 at_t6 = clamp(pixel + ivec2(-1, 1), ivec2(0), last);
     float depth_t6 = texelFetch(sampler2DArray(depth, unfiltered), ivec3(at_t6, 16), 0).x;
     float shaded_depth_t6 = (abs(depth_t6) < 1e30 ? depth_t6 : 1e30);
@@ -128,21 +124,18 @@ void main() {
     float difference_s2_t6 = 0.5 * dot(turn_s2_t6, turn_s2_t6);
     float number_s2_t6 = (difference_s2_t6 < 16.0 ? difference_s2_t6 : 16.0);
     float d_s2_t6 = min(max(abs(seen_depth_s2 - shaded_depth_t6), number_s2_t6), 16.0);
-    // sample 2, tap 7: 1 - a·b of two unit vectors (kernels/src/sraa/metric.rs:121)
     vec3 turn_s2_t7 = seen_normal_s2 - shaded_normal_t7;
     float difference_s2_t7 = 0.5 * dot(turn_s2_t7, turn_s2_t7);
     float number_s2_t7 = (difference_s2_t7 < 16.0 ? difference_s2_t7 : 16.0);
     float d_s2_t7 = min(max(abs(seen_depth_s2 - shaded_depth_t7), number_s2_t7), 16.0);
     float nearest_s2_t7 = min(min(min(d_s2_t3, d_s2_t4), d_s2_t6), d_s2_t7);
-    // sample 2, tap 3: kernels/src/sraa/mod.rs:112
     float w_s2_t3 = exp2(721.34753 * (nearest_s2_t7 - d_s2_t3) - 2.6076825);
     float w_s2_t4 = exp2(721.34753 * (nearest_s2_t7 - d_s2_t4) - 0.49220535);
     float w_s2_t6 = exp2(721.34753 * (nearest_s2_t7 - d_s2_t6) - 5.4150376);
     float w_s2_t7 = exp2(721.34753 * (nearest_s2_t7 - d_s2_t7) - 3.2995603);
     float scale_s2 = 0.0625 / (w_s2_t3 + w_s2_t4 + w_s2_t6 + w_s2_t7);
     float weights_s2_t4 = w_s0_t4 * scale_s0 + w_s1_t4 * scale_s1 + w_s2_t4 * scale_s2;
-    // sample 3, tap 1: depth along the view direction, in scene units
-    //   (kernels/src/sraa/gbuffer.rs:180)
+    // sample 3
     float depth_s3 = texelFetch(sampler2DArray(depth, unfiltered), ivec3(pixel, 3), 0).x;
     float seen_depth_s3 = (abs(depth_s3) < 1e30 ? depth_s3 : 1e30);
     vec3 seen_normal_s3 = texelFetch(sampler2DArray(normal, unfiltered), ivec3(pixel, 3), 0).xyz;
@@ -158,7 +151,6 @@ void main() {
     float difference_s3_t2 = 0.5 * dot(turn_s3_t2, turn_s3_t2);
     float number_s3_t2 = (difference_s3_t2 < 16.0 ? difference_s3_t2 : 16.0);
     float d_s3_t2 = min(max(abs(seen_depth_s3 - shaded_depth_t2), number_s3_t2), 16.0);
-    // sample 3, tap 4: 1 - a·b of two unit vectors (kernels/src/sraa/metric.rs:121)
     vec3 turn_s3_t4 = seen_normal_s3 - shaded_normal_t4;
     float difference_s3_t4 = 0.5 * dot(turn_s3_t4, turn_s3_t4);
     float number_s3_t4 = (difference_s3_t4 < 16.0 ? difference_s3_t4 : 16.0);
@@ -168,14 +160,12 @@ void main() {
     float number_s3_t5 = (difference_s3_t5 < 16.0 ? difference_s3_t5 : 16.0);
     float d_s3_t5 = min(max(abs(seen_depth_s3 - shaded_depth_t5), number_s3_t5), 16.0);
     float nearest_s3_t5 = min(min(min(d_s3_t1, d_s3_t2), d_s3_t4), d_s3_t5);
-    // sample 3, tap 1: kernels/src/sraa/mod.rs:112
     float w_s3_t1 = exp2(721.34753 * (nearest_s3_t5 - d_s3_t1) - 4.4150376);
     float w_s3_t2 = exp2(721.34753 * (nearest_s3_t5 - d_s3_t2) - 6.0);
     float w_s3_t4 = exp2(721.34753 * (nearest_s3_t5 - d_s3_t4) - 0.5081469);
     float w_s3_t5 = exp2(721.34753 * (nearest_s3_t5 - d_s3_t5) - 2.0931094);
     float scale_s3 = 0.0625 / (w_s3_t1 + w_s3_t2 + w_s3_t4 + w_s3_t5);
-    // sample 4, tap 0: depth along the view direction, in scene units
-    //   (kernels/src/sraa/gbuffer.rs:180)
+    // sample 4
     float depth_s4 = texelFetch(sampler2DArray(depth, unfiltered), ivec3(pixel, 4), 0).x;
     float seen_depth_s4 = (abs(depth_s4) < 1e30 ? depth_s4 : 1e30);
     vec3 seen_normal_s4 = texelFetch(sampler2DArray(normal, unfiltered), ivec3(pixel, 4), 0).xyz;
@@ -183,7 +173,6 @@ void main() {
     float difference_s4_t0 = 0.5 * dot(turn_s4_t0, turn_s4_t0);
     float number_s4_t0 = (difference_s4_t0 < 16.0 ? difference_s4_t0 : 16.0);
     float d_s4_t0 = min(max(abs(seen_depth_s4 - shaded_depth_t0), number_s4_t0), 16.0);
-    // sample 4, tap 1: 1 - a·b of two unit vectors (kernels/src/sraa/metric.rs:121)
     vec3 turn_s4_t1 = seen_normal_s4 - shaded_normal_t1;
     float difference_s4_t1 = 0.5 * dot(turn_s4_t1, turn_s4_t1);
     float number_s4_t1 = (difference_s4_t1 < 16.0 ? difference_s4_t1 : 16.0);
@@ -197,7 +186,6 @@ void main() {
     float number_s4_t4 = (difference_s4_t4 < 16.0 ? difference_s4_t4 : 16.0);
     float d_s4_t4 = min(max(abs(seen_depth_s4 - shaded_depth_t4), number_s4_t4), 16.0);
     float nearest_s4_t4 = min(min(min(d_s4_t0, d_s4_t1), d_s4_t3), d_s4_t4);
-    // sample 4, tap 0: kernels/src/sraa/mod.rs:112
     float w_s4_t0 = exp2(721.34753 * (nearest_s4_t4 - d_s4_t0) - 4.678072);
     float w_s4_t1 = exp2(721.34753 * (nearest_s4_t4 - d_s4_t1) - 3.5405684);
     float w_s4_t3 = exp2(721.34753 * (nearest_s4_t4 - d_s4_t3) - 1.8707169);
@@ -206,8 +194,7 @@ void main() {
     float weights_s4_t1 = w_s1_t1 * scale_s1 + w_s3_t1 * scale_s3 + w_s4_t1 * scale_s4;
     float weights_s4_t3 = w_s1_t3 * scale_s1 + w_s2_t3 * scale_s2 + w_s4_t3 * scale_s4;
     float weights_s4_t4 = weights_s2_t4 + w_s3_t4 * scale_s3 + w_s4_t4 * scale_s4;
-    // sample 5, tap 4: depth along the view direction, in scene units
-    //   (kernels/src/sraa/gbuffer.rs:180)
+    // sample 5
     float depth_s5 = texelFetch(sampler2DArray(depth, unfiltered), ivec3(pixel, 5), 0).x;
     float seen_depth_s5 = (abs(depth_s5) < 1e30 ? depth_s5 : 1e30);
     vec3 seen_normal_s5 = texelFetch(sampler2DArray(normal, unfiltered), ivec3(pixel, 5), 0).xyz;
@@ -215,7 +202,6 @@ void main() {
     float difference_s5_t4 = 0.5 * dot(turn_s5_t4, turn_s5_t4);
     float number_s5_t4 = (difference_s5_t4 < 16.0 ? difference_s5_t4 : 16.0);
     float d_s5_t4 = min(max(abs(seen_depth_s5 - shaded_depth_t4), number_s5_t4), 16.0);
-    // sample 5, tap 5: 1 - a·b of two unit vectors (kernels/src/sraa/metric.rs:121)
     vec3 turn_s5_t5 = seen_normal_s5 - shaded_normal_t5;
     float difference_s5_t5 = 0.5 * dot(turn_s5_t5, turn_s5_t5);
     float number_s5_t5 = (difference_s5_t5 < 16.0 ? difference_s5_t5 : 16.0);
@@ -229,7 +215,6 @@ void main() {
     float number_s5_t8 = (difference_s5_t8 < 16.0 ? difference_s5_t8 : 16.0);
     float d_s5_t8 = min(max(abs(seen_depth_s5 - shaded_depth_t8), number_s5_t8), 16.0);
     float nearest_s5_t8 = min(min(min(d_s5_t4, d_s5_t5), d_s5_t7), d_s5_t8);
-    // sample 5, tap 4: kernels/src/sraa/mod.rs:112
     float w_s5_t4 = exp2(721.34753 * (nearest_s5_t8 - d_s5_t4) - 0.7332135);
     float w_s5_t5 = exp2(721.34753 * (nearest_s5_t8 - d_s5_t5) - 3.5405684);
     float w_s5_t7 = exp2(721.34753 * (nearest_s5_t8 - d_s5_t7) - 1.8707169);
@@ -237,8 +222,7 @@ void main() {
     float scale_s5 = 0.0625 / (w_s5_t4 + w_s5_t5 + w_s5_t7 + w_s5_t8);
     float weights_s5_t5 = w_s0_t5 * scale_s0 + w_s3_t5 * scale_s3 + w_s5_t5 * scale_s5;
     float weights_s5_t7 = w_s0_t7 * scale_s0 + w_s2_t7 * scale_s2 + w_s5_t7 * scale_s5;
-    // sample 6, tap 4: depth along the view direction, in scene units
-    //   (kernels/src/sraa/gbuffer.rs:180)
+    // sample 6
     float depth_s6 = texelFetch(sampler2DArray(depth, unfiltered), ivec3(pixel, 6), 0).x;
     float seen_depth_s6 = (abs(depth_s6) < 1e30 ? depth_s6 : 1e30);
     vec3 seen_normal_s6 = texelFetch(sampler2DArray(normal, unfiltered), ivec3(pixel, 6), 0).xyz;
@@ -246,7 +230,6 @@ void main() {
     float difference_s6_t4 = 0.5 * dot(turn_s6_t4, turn_s6_t4);
     float number_s6_t4 = (difference_s6_t4 < 16.0 ? difference_s6_t4 : 16.0);
     float d_s6_t4 = min(max(abs(seen_depth_s6 - shaded_depth_t4), number_s6_t4), 16.0);
-    // sample 6, tap 5: 1 - a·b of two unit vectors (kernels/src/sraa/metric.rs:121)
     vec3 turn_s6_t5 = seen_normal_s6 - shaded_normal_t5;
     float difference_s6_t5 = 0.5 * dot(turn_s6_t5, turn_s6_t5);
     float number_s6_t5 = (difference_s6_t5 < 16.0 ? difference_s6_t5 : 16.0);
@@ -260,7 +243,6 @@ void main() {
     float number_s6_t8 = (difference_s6_t8 < 16.0 ? difference_s6_t8 : 16.0);
     float d_s6_t8 = min(max(abs(seen_depth_s6 - shaded_depth_t8), number_s6_t8), 16.0);
     float nearest_s6_t8 = min(min(min(d_s6_t4, d_s6_t5), d_s6_t7), d_s6_t8);
-    // sample 6, tap 4: kernels/src/sraa/mod.rs:112
     float w_s6_t4 = exp2(721.34753 * (nearest_s6_t8 - d_s6_t4) - 0.84012866);
     float w_s6_t5 = exp2(721.34753 * (nearest_s6_t8 - d_s6_t5) - 1.9776322);
     float w_s6_t7 = exp2(721.34753 * (nearest_s6_t8 - d_s6_t7) - 2.955606);
@@ -268,8 +250,7 @@ void main() {
     float scale_s6 = 0.0625 / (w_s6_t4 + w_s6_t5 + w_s6_t7 + w_s6_t8);
     float weights_s6_t4 = weights_s4_t4 + w_s5_t4 * scale_s5 + w_s6_t4 * scale_s6;
     float weights_s6_t8 = w_s0_t8 * scale_s0 + w_s5_t8 * scale_s5 + w_s6_t8 * scale_s6;
-    // sample 7, tap 1: depth along the view direction, in scene units
-    //   (kernels/src/sraa/gbuffer.rs:180)
+    // sample 7
     float depth_s7 = texelFetch(sampler2DArray(depth, unfiltered), ivec3(pixel, 7), 0).x;
     float seen_depth_s7 = (abs(depth_s7) < 1e30 ? depth_s7 : 1e30);
     vec3 seen_normal_s7 = texelFetch(sampler2DArray(normal, unfiltered), ivec3(pixel, 7), 0).xyz;
@@ -277,7 +258,6 @@ void main() {
     float difference_s7_t1 = 0.5 * dot(turn_s7_t1, turn_s7_t1);
     float number_s7_t1 = (difference_s7_t1 < 16.0 ? difference_s7_t1 : 16.0);
     float d_s7_t1 = min(max(abs(seen_depth_s7 - shaded_depth_t1), number_s7_t1), 16.0);
-    // sample 7, tap 2: 1 - a·b of two unit vectors (kernels/src/sraa/metric.rs:121)
     vec3 turn_s7_t2 = seen_normal_s7 - shaded_normal_t2;
     float difference_s7_t2 = 0.5 * dot(turn_s7_t2, turn_s7_t2);
     float number_s7_t2 = (difference_s7_t2 < 16.0 ? difference_s7_t2 : 16.0);
@@ -291,15 +271,13 @@ void main() {
     float number_s7_t5 = (difference_s7_t5 < 16.0 ? difference_s7_t5 : 16.0);
     float d_s7_t5 = min(max(abs(seen_depth_s7 - shaded_depth_t5), number_s7_t5), 16.0);
     float nearest_s7_t5 = min(min(min(d_s7_t1, d_s7_t2), d_s7_t4), d_s7_t5);
-    // sample 7, tap 1: kernels/src/sraa/mod.rs:112
     float w_s7_t1 = exp2(721.34753 * (nearest_s7_t5 - d_s7_t1) - 1.9776322);
     float w_s7_t2 = exp2(721.34753 * (nearest_s7_t5 - d_s7_t2) - 4.0931096);
     float w_s7_t4 = exp2(721.34753 * (nearest_s7_t5 - d_s7_t4) - 0.84012866);
     float w_s7_t5 = exp2(721.34753 * (nearest_s7_t5 - d_s7_t5) - 2.955606);
     float scale_s7 = 0.0625 / (w_s7_t1 + w_s7_t2 + w_s7_t4 + w_s7_t5);
     float weights_s7_t5 = weights_s5_t5 + w_s6_t5 * scale_s6 + w_s7_t5 * scale_s7;
-    // sample 8, tap 3: depth along the view direction, in scene units
-    //   (kernels/src/sraa/gbuffer.rs:180)
+    // sample 8
     float depth_s8 = texelFetch(sampler2DArray(depth, unfiltered), ivec3(pixel, 8), 0).x;
     float seen_depth_s8 = (abs(depth_s8) < 1e30 ? depth_s8 : 1e30);
     vec3 seen_normal_s8 = texelFetch(sampler2DArray(normal, unfiltered), ivec3(pixel, 8), 0).xyz;
@@ -307,7 +285,6 @@ void main() {
     float difference_s8_t3 = 0.5 * dot(turn_s8_t3, turn_s8_t3);
     float number_s8_t3 = (difference_s8_t3 < 16.0 ? difference_s8_t3 : 16.0);
     float d_s8_t3 = min(max(abs(seen_depth_s8 - shaded_depth_t3), number_s8_t3), 16.0);
-    // sample 8, tap 4: 1 - a·b of two unit vectors (kernels/src/sraa/metric.rs:121)
     vec3 turn_s8_t4 = seen_normal_s8 - shaded_normal_t4;
     float difference_s8_t4 = 0.5 * dot(turn_s8_t4, turn_s8_t4);
     float number_s8_t4 = (difference_s8_t4 < 16.0 ? difference_s8_t4 : 16.0);
@@ -321,7 +298,6 @@ void main() {
     float number_s8_t7 = (difference_s8_t7 < 16.0 ? difference_s8_t7 : 16.0);
     float d_s8_t7 = min(max(abs(seen_depth_s8 - shaded_depth_t7), number_s8_t7), 16.0);
     float nearest_s8_t7 = min(min(min(d_s8_t3, d_s8_t4), d_s8_t6), d_s8_t7);
-    // sample 8, tap 3: kernels/src/sraa/mod.rs:112
     float w_s8_t3 = exp2(721.34753 * (nearest_s8_t7 - d_s8_t3) - 3.678072);
     float w_s8_t4 = exp2(721.34753 * (nearest_s8_t7 - d_s8_t4) - 0.870717);
     float w_s8_t6 = exp2(721.34753 * (nearest_s8_t7 - d_s8_t6) - 4.4150376);
@@ -329,8 +305,7 @@ void main() {
     float scale_s8 = 0.0625 / (w_s8_t3 + w_s8_t4 + w_s8_t6 + w_s8_t7);
     float weights_s8_t4 = weights_s6_t4 + w_s7_t4 * scale_s7 + w_s8_t4 * scale_s8;
     float weights_s8_t7 = weights_s5_t7 + w_s6_t7 * scale_s6 + w_s8_t7 * scale_s8;
-    // sample 9, tap 1: depth along the view direction, in scene units
-    //   (kernels/src/sraa/gbuffer.rs:180)
+    // sample 9
     float depth_s9 = texelFetch(sampler2DArray(depth, unfiltered), ivec3(pixel, 9), 0).x;
     float seen_depth_s9 = (abs(depth_s9) < 1e30 ? depth_s9 : 1e30);
     vec3 seen_normal_s9 = texelFetch(sampler2DArray(normal, unfiltered), ivec3(pixel, 9), 0).xyz;
@@ -338,19 +313,16 @@ void main() {
     float difference_s9_t1 = 0.5 * dot(turn_s9_t1, turn_s9_t1);
     float number_s9_t1 = (difference_s9_t1 < 16.0 ? difference_s9_t1 : 16.0);
     float d_s9_t1 = min(max(abs(seen_depth_s9 - shaded_depth_t1), number_s9_t1), 16.0);
-    // sample 9, tap 4: 1 - a·b of two unit vectors (kernels/src/sraa/metric.rs:121)
     vec3 turn_s9_t4 = seen_normal_s9 - shaded_normal_t4;
     float difference_s9_t4 = 0.5 * dot(turn_s9_t4, turn_s9_t4);
     float number_s9_t4 = (difference_s9_t4 < 16.0 ? difference_s9_t4 : 16.0);
     float d_s9_t4 = min(max(abs(seen_depth_s9 - shaded_depth_t4), number_s9_t4), 16.0);
     float nearest_s9_t4 = min(d_s9_t1, d_s9_t4);
-    // sample 9, tap 1: kernels/src/sraa/mod.rs:112
     float w_s9_t1 = exp2(721.34753 * (nearest_s9_t4 - d_s9_t1) - 1.1926451);
     float w_s9_t4 = exp2(721.34753 * (nearest_s9_t4 - d_s9_t4) - 0.830075);
     float scale_s9 = 0.0625 / (w_s9_t1 + w_s9_t4);
     float weights_s9_t1 = weights_s4_t1 + w_s7_t1 * scale_s7 + w_s9_t1 * scale_s9;
-    // sample 10, tap 0: depth along the view direction, in scene units
-    //   (kernels/src/sraa/gbuffer.rs:180)
+    // sample 10
     float depth_s10 = texelFetch(sampler2DArray(depth, unfiltered), ivec3(pixel, 10), 0).x;
     float seen_depth_s10 = (abs(depth_s10) < 1e30 ? depth_s10 : 1e30);
     vec3 seen_normal_s10 = texelFetch(sampler2DArray(normal, unfiltered), ivec3(pixel, 10), 0).xyz;
@@ -358,7 +330,6 @@ void main() {
     float difference_s10_t0 = 0.5 * dot(turn_s10_t0, turn_s10_t0);
     float number_s10_t0 = (difference_s10_t0 < 16.0 ? difference_s10_t0 : 16.0);
     float d_s10_t0 = min(max(abs(seen_depth_s10 - shaded_depth_t0), number_s10_t0), 16.0);
-    // sample 10, tap 1: 1 - a·b of two unit vectors (kernels/src/sraa/metric.rs:121)
     vec3 turn_s10_t1 = seen_normal_s10 - shaded_normal_t1;
     float difference_s10_t1 = 0.5 * dot(turn_s10_t1, turn_s10_t1);
     float number_s10_t1 = (difference_s10_t1 < 16.0 ? difference_s10_t1 : 16.0);
@@ -372,7 +343,6 @@ void main() {
     float number_s10_t4 = (difference_s10_t4 < 16.0 ? difference_s10_t4 : 16.0);
     float d_s10_t4 = min(max(abs(seen_depth_s10 - shaded_depth_t4), number_s10_t4), 16.0);
     float nearest_s10_t4 = min(min(min(d_s10_t0, d_s10_t1), d_s10_t3), d_s10_t4);
-    // sample 10, tap 0: kernels/src/sraa/mod.rs:112
     float w_s10_t0 = exp2(721.34753 * (nearest_s10_t4 - d_s10_t0) - 3.4150374);
     float w_s10_t1 = exp2(721.34753 * (nearest_s10_t4 - d_s10_t1) - 1.830075);
     float w_s10_t3 = exp2(721.34753 * (nearest_s10_t4 - d_s10_t3) - 2.678072);
@@ -381,8 +351,7 @@ void main() {
     float weights_s10_t0 = w_s1_t0 * scale_s1 + w_s4_t0 * scale_s4 + w_s10_t0 * scale_s10;
     float weights_s10_t3 = weights_s4_t3 + w_s8_t3 * scale_s8 + w_s10_t3 * scale_s10;
     float weights_s10_t4 = weights_s8_t4 + w_s9_t4 * scale_s9 + w_s10_t4 * scale_s10;
-    // sample 11, tap 3: depth along the view direction, in scene units
-    //   (kernels/src/sraa/gbuffer.rs:180)
+    // sample 11
     float depth_s11 = texelFetch(sampler2DArray(depth, unfiltered), ivec3(pixel, 11), 0).x;
     float seen_depth_s11 = (abs(depth_s11) < 1e30 ? depth_s11 : 1e30);
     vec3 seen_normal_s11 = texelFetch(sampler2DArray(normal, unfiltered), ivec3(pixel, 11), 0).xyz;
@@ -390,7 +359,6 @@ void main() {
     float difference_s11_t3 = 0.5 * dot(turn_s11_t3, turn_s11_t3);
     float number_s11_t3 = (difference_s11_t3 < 16.0 ? difference_s11_t3 : 16.0);
     float d_s11_t3 = min(max(abs(seen_depth_s11 - shaded_depth_t3), number_s11_t3), 16.0);
-    // sample 11, tap 4: 1 - a·b of two unit vectors (kernels/src/sraa/metric.rs:121)
     vec3 turn_s11_t4 = seen_normal_s11 - shaded_normal_t4;
     float difference_s11_t4 = 0.5 * dot(turn_s11_t4, turn_s11_t4);
     float number_s11_t4 = (difference_s11_t4 < 16.0 ? difference_s11_t4 : 16.0);
@@ -404,14 +372,12 @@ void main() {
     float number_s11_t7 = (difference_s11_t7 < 16.0 ? difference_s11_t7 : 16.0);
     float d_s11_t7 = min(max(abs(seen_depth_s11 - shaded_depth_t7), number_s11_t7), 16.0);
     float nearest_s11_t7 = min(min(min(d_s11_t3, d_s11_t4), d_s11_t6), d_s11_t7);
-    // sample 11, tap 3: kernels/src/sraa/mod.rs:112
     float w_s11_t3 = exp2(721.34753 * (nearest_s11_t7 - d_s11_t3) - 1.830075);
     float w_s11_t4 = exp2(721.34753 * (nearest_s11_t7 - d_s11_t4) - 1.0931094);
     float w_s11_t6 = exp2(721.34753 * (nearest_s11_t7 - d_s11_t6) - 3.4150374);
     float w_s11_t7 = exp2(721.34753 * (nearest_s11_t7 - d_s11_t7) - 2.678072);
     float scale_s11 = 0.0625 / (w_s11_t3 + w_s11_t4 + w_s11_t6 + w_s11_t7);
-    // sample 12, tap 3: depth along the view direction, in scene units
-    //   (kernels/src/sraa/gbuffer.rs:180)
+    // sample 12
     float depth_s12 = texelFetch(sampler2DArray(depth, unfiltered), ivec3(pixel, 12), 0).x;
     float seen_depth_s12 = (abs(depth_s12) < 1e30 ? depth_s12 : 1e30);
     vec3 seen_normal_s12 = texelFetch(sampler2DArray(normal, unfiltered), ivec3(pixel, 12), 0).xyz;
@@ -419,20 +385,17 @@ void main() {
     float difference_s12_t3 = 0.5 * dot(turn_s12_t3, turn_s12_t3);
     float number_s12_t3 = (difference_s12_t3 < 16.0 ? difference_s12_t3 : 16.0);
     float d_s12_t3 = min(max(abs(seen_depth_s12 - shaded_depth_t3), number_s12_t3), 16.0);
-    // sample 12, tap 4: 1 - a·b of two unit vectors (kernels/src/sraa/metric.rs:121)
     vec3 turn_s12_t4 = seen_normal_s12 - shaded_normal_t4;
     float difference_s12_t4 = 0.5 * dot(turn_s12_t4, turn_s12_t4);
     float number_s12_t4 = (difference_s12_t4 < 16.0 ? difference_s12_t4 : 16.0);
     float d_s12_t4 = min(max(abs(seen_depth_s12 - shaded_depth_t4), number_s12_t4), 16.0);
     float nearest_s12_t4 = min(d_s12_t3, d_s12_t4);
-    // sample 12, tap 3: kernels/src/sraa/mod.rs:112
     float w_s12_t3 = exp2(721.34753 * (nearest_s12_t4 - d_s12_t3) - 1.0);
     float w_s12_t4 = exp2(721.34753 * (nearest_s12_t4 - d_s12_t4) - 1.0);
     float scale_s12 = 0.0625 / (w_s12_t3 + w_s12_t4);
     float weights_s12_t3 = weights_s10_t3 + w_s11_t3 * scale_s11 + w_s12_t3 * scale_s12;
     float weights_s12_t4 = weights_s10_t4 + w_s11_t4 * scale_s11 + w_s12_t4 * scale_s12;
-    // sample 13, tap 1: depth along the view direction, in scene units
-    //   (kernels/src/sraa/gbuffer.rs:180)
+    // sample 13
     float depth_s13 = texelFetch(sampler2DArray(depth, unfiltered), ivec3(pixel, 13), 0).x;
     float seen_depth_s13 = (abs(depth_s13) < 1e30 ? depth_s13 : 1e30);
     vec3 seen_normal_s13 = texelFetch(sampler2DArray(normal, unfiltered), ivec3(pixel, 13), 0).xyz;
@@ -440,7 +403,6 @@ void main() {
     float difference_s13_t1 = 0.5 * dot(turn_s13_t1, turn_s13_t1);
     float number_s13_t1 = (difference_s13_t1 < 16.0 ? difference_s13_t1 : 16.0);
     float d_s13_t1 = min(max(abs(seen_depth_s13 - shaded_depth_t1), number_s13_t1), 16.0);
-    // sample 13, tap 2: 1 - a·b of two unit vectors (kernels/src/sraa/metric.rs:121)
     vec3 turn_s13_t2 = seen_normal_s13 - shaded_normal_t2;
     float difference_s13_t2 = 0.5 * dot(turn_s13_t2, turn_s13_t2);
     float number_s13_t2 = (difference_s13_t2 < 16.0 ? difference_s13_t2 : 16.0);
@@ -454,15 +416,13 @@ void main() {
     float number_s13_t5 = (difference_s13_t5 < 16.0 ? difference_s13_t5 : 16.0);
     float d_s13_t5 = min(max(abs(seen_depth_s13 - shaded_depth_t5), number_s13_t5), 16.0);
     float nearest_s13_t5 = min(min(min(d_s13_t1, d_s13_t2), d_s13_t4), d_s13_t5);
-    // sample 13, tap 1: kernels/src/sraa/mod.rs:112
     float w_s13_t1 = exp2(721.34753 * (nearest_s13_t5 - d_s13_t1) - 2.830075);
     float w_s13_t2 = exp2(721.34753 * (nearest_s13_t5 - d_s13_t2) - 3.192645);
     float w_s13_t4 = exp2(721.34753 * (nearest_s13_t5 - d_s13_t4) - 1.2451125);
     float w_s13_t5 = exp2(721.34753 * (nearest_s13_t5 - d_s13_t5) - 1.6076826);
     float scale_s13 = 0.0625 / (w_s13_t1 + w_s13_t2 + w_s13_t4 + w_s13_t5);
     float weights_s13_t1 = weights_s9_t1 + w_s10_t1 * scale_s10 + w_s13_t1 * scale_s13;
-    // sample 14, tap 4: depth along the view direction, in scene units
-    //   (kernels/src/sraa/gbuffer.rs:180)
+    // sample 14
     float depth_s14 = texelFetch(sampler2DArray(depth, unfiltered), ivec3(pixel, 14), 0).x;
     float seen_depth_s14 = (abs(depth_s14) < 1e30 ? depth_s14 : 1e30);
     vec3 seen_normal_s14 = texelFetch(sampler2DArray(normal, unfiltered), ivec3(pixel, 14), 0).xyz;
@@ -470,7 +430,6 @@ void main() {
     float difference_s14_t4 = 0.5 * dot(turn_s14_t4, turn_s14_t4);
     float number_s14_t4 = (difference_s14_t4 < 16.0 ? difference_s14_t4 : 16.0);
     float d_s14_t4 = min(max(abs(seen_depth_s14 - shaded_depth_t4), number_s14_t4), 16.0);
-    // sample 14, tap 5: 1 - a·b of two unit vectors (kernels/src/sraa/metric.rs:121)
     vec3 turn_s14_t5 = seen_normal_s14 - shaded_normal_t5;
     float difference_s14_t5 = 0.5 * dot(turn_s14_t5, turn_s14_t5);
     float number_s14_t5 = (difference_s14_t5 < 16.0 ? difference_s14_t5 : 16.0);
@@ -484,15 +443,13 @@ void main() {
     float number_s14_t8 = (difference_s14_t8 < 16.0 ? difference_s14_t8 : 16.0);
     float d_s14_t8 = min(max(abs(seen_depth_s14 - shaded_depth_t8), number_s14_t8), 16.0);
     float nearest_s14_t8 = min(min(min(d_s14_t4, d_s14_t5), d_s14_t7), d_s14_t8);
-    // sample 14, tap 4: kernels/src/sraa/mod.rs:112
     float w_s14_t4 = exp2(721.34753 * (nearest_s14_t8 - d_s14_t4) - 1.5081469);
     float w_s14_t5 = exp2(721.34753 * (nearest_s14_t8 - d_s14_t5) - 2.2451124);
     float w_s14_t7 = exp2(721.34753 * (nearest_s14_t8 - d_s14_t7) - 1.8707169);
     float w_s14_t8 = exp2(721.34753 * (nearest_s14_t8 - d_s14_t8) - 2.6076825);
     float scale_s14 = 0.0625 / (w_s14_t4 + w_s14_t5 + w_s14_t7 + w_s14_t8);
     float weights_s14_t4 = weights_s12_t4 + w_s13_t4 * scale_s13 + w_s14_t4 * scale_s14;
-    // sample 15, tap 0: depth along the view direction, in scene units
-    //   (kernels/src/sraa/gbuffer.rs:180)
+    // sample 15
     float depth_s15 = texelFetch(sampler2DArray(depth, unfiltered), ivec3(pixel, 15), 0).x;
     float seen_depth_s15 = (abs(depth_s15) < 1e30 ? depth_s15 : 1e30);
     vec3 seen_normal_s15 = texelFetch(sampler2DArray(normal, unfiltered), ivec3(pixel, 15), 0).xyz;
@@ -500,7 +457,6 @@ void main() {
     float difference_s15_t0 = 0.5 * dot(turn_s15_t0, turn_s15_t0);
     float number_s15_t0 = (difference_s15_t0 < 16.0 ? difference_s15_t0 : 16.0);
     float d_s15_t0 = min(max(abs(seen_depth_s15 - shaded_depth_t0), number_s15_t0), 16.0);
-    // sample 15, tap 1: 1 - a·b of two unit vectors (kernels/src/sraa/metric.rs:121)
     vec3 turn_s15_t1 = seen_normal_s15 - shaded_normal_t1;
     float difference_s15_t1 = 0.5 * dot(turn_s15_t1, turn_s15_t1);
     float number_s15_t1 = (difference_s15_t1 < 16.0 ? difference_s15_t1 : 16.0);
@@ -514,7 +470,6 @@ void main() {
     float number_s15_t4 = (difference_s15_t4 < 16.0 ? difference_s15_t4 : 16.0);
     float d_s15_t4 = min(max(abs(seen_depth_s15 - shaded_depth_t4), number_s15_t4), 16.0);
     float nearest_s15_t4 = min(min(min(d_s15_t0, d_s15_t1), d_s15_t3), d_s15_t4);
-    // sample 15, tap 0: kernels/src/sraa/mod.rs:112
     float w_s15_t0 = exp2(721.34753 * (nearest_s15_t4 - d_s15_t0) - 2.192645);
     float w_s15_t1 = exp2(721.34753 * (nearest_s15_t4 - d_s15_t1) - 1.830075);
     float w_s15_t3 = exp2(721.34753 * (nearest_s15_t4 - d_s15_t3) - 2.192645);

@@ -95,14 +95,12 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let number_s1_t4 = select(16.0, difference_s1_t4, difference_s1_t4 < 16.0);
     let d_s1_t4 = min(max(abs(seen_depth_s1 - shaded_depth_t4), number_s1_t4), 16.0);
     let nearest_s1_t4 = min(min(min(d_s1_t0, d_s1_t1), d_s1_t3), d_s1_t4);
-    // sample 1, tap 0: kernels/src/sraa/mod.rs:112
     let w_s1_t0 = exp2(721.34753 * (nearest_s1_t4 - d_s1_t0) - 6.4150376);
     let w_s1_t1 = exp2(721.34753 * (nearest_s1_t4 - d_s1_t1) - 2.508147);
     let w_s1_t3 = exp2(721.34753 * (nearest_s1_t4 - d_s1_t3) - 4.29956);
     let w_s1_t4 = exp2(721.34753 * (nearest_s1_t4 - d_s1_t4) - 0.39266968);
     let scale_s1 = 0.0625 / (w_s1_t0 + w_s1_t1 + w_s1_t3 + w_s1_t4);
-    // sample 2, tap 3: depth along the view direction, in scene units
-    //   (kernels/src/sraa/gbuffer.rs:180)
+    // sample 2
     let depth_s2 = textureLoad(depth, pixel, 2, 0).x;
     let seen_depth_s2 = select(1e30, depth_s2, abs(depth_s2) < 1e30);
     let seen_normal_s2 = textureLoad(normal, pixel, 2, 0).xyz;
@@ -110,12 +108,10 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let difference_s2_t3 = 0.5 * dot(turn_s2_t3, turn_s2_t3);
     let number_s2_t3 = select(16.0, difference_s2_t3, difference_s2_t3 < 16.0);
     let d_s2_t3 = min(max(abs(seen_depth_s2 - shaded_depth_t3), number_s2_t3), 16.0);
-    // sample 2, tap 4: 1 - a·b of two unit vectors (kernels/src/sraa/metric.rs:121)
     let turn_s2_t4 = seen_normal_s2 - shaded_normal_t4;
     let difference_s2_t4 = 0.5 * dot(turn_s2_t4, turn_s2_t4);
     let number_s2_t4 = select(16.0, difference_s2_t4, difference_s2_t4 < 16.0);
     let d_s2_t4 = min(max(abs(seen_depth_s2 - shaded_depth_t4), number_s2_t4), 16.0);
-    // sample 2, tap 6: kernels/src/sraa/gbuffer.rs:123
     let at_t6 = clamp(pixel + vec2i(-1, 1), vec2i(0), last);
     let depth_t6 = textureLoad(depth, at_t6, 16, 0).x;
     let shaded_depth_t6 = select(1e30, depth_t6, abs(depth_t6) < 1e30);
@@ -124,21 +120,18 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let difference_s2_t6 = 0.5 * dot(turn_s2_t6, turn_s2_t6);
     let number_s2_t6 = select(16.0, difference_s2_t6, difference_s2_t6 < 16.0);
     let d_s2_t6 = min(max(abs(seen_depth_s2 - shaded_depth_t6), number_s2_t6), 16.0);
-    // sample 2, tap 7: 1 - a·b of two unit vectors (kernels/src/sraa/metric.rs:121)
     let turn_s2_t7 = seen_normal_s2 - shaded_normal_t7;
     let difference_s2_t7 = 0.5 * dot(turn_s2_t7, turn_s2_t7);
     let number_s2_t7 = select(16.0, difference_s2_t7, difference_s2_t7 < 16.0);
     let d_s2_t7 = min(max(abs(seen_depth_s2 - shaded_depth_t7), number_s2_t7), 16.0);
     let nearest_s2_t7 = min(min(min(d_s2_t3, d_s2_t4), d_s2_t6), d_s2_t7);
-    // sample 2, tap 3: kernels/src/sraa/mod.rs:112
     let w_s2_t3 = exp2(721.34753 * (nearest_s2_t7 - d_s2_t3) - 2.6076825);
     let w_s2_t4 = exp2(721.34753 * (nearest_s2_t7 - d_s2_t4) - 0.49220535);
     let w_s2_t6 = exp2(721.34753 * (nearest_s2_t7 - d_s2_t6) - 5.4150376);
     let w_s2_t7 = exp2(721.34753 * (nearest_s2_t7 - d_s2_t7) - 3.2995603);
     let scale_s2 = 0.0625 / (w_s2_t3 + w_s2_t4 + w_s2_t6 + w_s2_t7);
     let weights_s2_t4 = w_s0_t4 * scale_s0 + w_s1_t4 * scale_s1 + w_s2_t4 * scale_s2;
-    // sample 3, tap 1: depth along the view direction, in scene units
-    //   (kernels/src/sraa/gbuffer.rs:180)
+    // sample 3
     let depth_s3 = textureLoad(depth, pixel, 3, 0).x;
     let seen_depth_s3 = select(1e30, depth_s3, abs(depth_s3) < 1e30);
     let seen_normal_s3 = textureLoad(normal, pixel, 3, 0).xyz;
@@ -154,7 +147,6 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let difference_s3_t2 = 0.5 * dot(turn_s3_t2, turn_s3_t2);
     let number_s3_t2 = select(16.0, difference_s3_t2, difference_s3_t2 < 16.0);
     let d_s3_t2 = min(max(abs(seen_depth_s3 - shaded_depth_t2), number_s3_t2), 16.0);
-    // sample 3, tap 4: 1 - a·b of two unit vectors (kernels/src/sraa/metric.rs:121)
     let turn_s3_t4 = seen_normal_s3 - shaded_normal_t4;
     let difference_s3_t4 = 0.5 * dot(turn_s3_t4, turn_s3_t4);
     let number_s3_t4 = select(16.0, difference_s3_t4, difference_s3_t4 < 16.0);
@@ -164,14 +156,12 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let number_s3_t5 = select(16.0, difference_s3_t5, difference_s3_t5 < 16.0);
     let d_s3_t5 = min(max(abs(seen_depth_s3 - shaded_depth_t5), number_s3_t5), 16.0);
     let nearest_s3_t5 = min(min(min(d_s3_t1, d_s3_t2), d_s3_t4), d_s3_t5);
-    // sample 3, tap 1: kernels/src/sraa/mod.rs:112
     let w_s3_t1 = exp2(721.34753 * (nearest_s3_t5 - d_s3_t1) - 4.4150376);
     let w_s3_t2 = exp2(721.34753 * (nearest_s3_t5 - d_s3_t2) - 6.0);
     let w_s3_t4 = exp2(721.34753 * (nearest_s3_t5 - d_s3_t4) - 0.5081469);
     let w_s3_t5 = exp2(721.34753 * (nearest_s3_t5 - d_s3_t5) - 2.0931094);
     let scale_s3 = 0.0625 / (w_s3_t1 + w_s3_t2 + w_s3_t4 + w_s3_t5);
-    // sample 4, tap 0: depth along the view direction, in scene units
-    //   (kernels/src/sraa/gbuffer.rs:180)
+    // sample 4
     let depth_s4 = textureLoad(depth, pixel, 4, 0).x;
     let seen_depth_s4 = select(1e30, depth_s4, abs(depth_s4) < 1e30);
     let seen_normal_s4 = textureLoad(normal, pixel, 4, 0).xyz;
@@ -179,7 +169,6 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let difference_s4_t0 = 0.5 * dot(turn_s4_t0, turn_s4_t0);
     let number_s4_t0 = select(16.0, difference_s4_t0, difference_s4_t0 < 16.0);
     let d_s4_t0 = min(max(abs(seen_depth_s4 - shaded_depth_t0), number_s4_t0), 16.0);
-    // sample 4, tap 1: 1 - a·b of two unit vectors (kernels/src/sraa/metric.rs:121)
     let turn_s4_t1 = seen_normal_s4 - shaded_normal_t1;
     let difference_s4_t1 = 0.5 * dot(turn_s4_t1, turn_s4_t1);
     let number_s4_t1 = select(16.0, difference_s4_t1, difference_s4_t1 < 16.0);
@@ -193,7 +182,6 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let number_s4_t4 = select(16.0, difference_s4_t4, difference_s4_t4 < 16.0);
     let d_s4_t4 = min(max(abs(seen_depth_s4 - shaded_depth_t4), number_s4_t4), 16.0);
     let nearest_s4_t4 = min(min(min(d_s4_t0, d_s4_t1), d_s4_t3), d_s4_t4);
-    // sample 4, tap 0: kernels/src/sraa/mod.rs:112
     let w_s4_t0 = exp2(721.34753 * (nearest_s4_t4 - d_s4_t0) - 4.678072);
     let w_s4_t1 = exp2(721.34753 * (nearest_s4_t4 - d_s4_t1) - 3.5405684);
     let w_s4_t3 = exp2(721.34753 * (nearest_s4_t4 - d_s4_t3) - 1.8707169);
@@ -202,8 +190,7 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let weights_s4_t1 = w_s1_t1 * scale_s1 + w_s3_t1 * scale_s3 + w_s4_t1 * scale_s4;
     let weights_s4_t3 = w_s1_t3 * scale_s1 + w_s2_t3 * scale_s2 + w_s4_t3 * scale_s4;
     let weights_s4_t4 = weights_s2_t4 + w_s3_t4 * scale_s3 + w_s4_t4 * scale_s4;
-    // sample 5, tap 4: depth along the view direction, in scene units
-    //   (kernels/src/sraa/gbuffer.rs:180)
+    // sample 5
     let depth_s5 = textureLoad(depth, pixel, 5, 0).x;
     let seen_depth_s5 = select(1e30, depth_s5, abs(depth_s5) < 1e30);
     let seen_normal_s5 = textureLoad(normal, pixel, 5, 0).xyz;
@@ -211,7 +198,6 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let difference_s5_t4 = 0.5 * dot(turn_s5_t4, turn_s5_t4);
     let number_s5_t4 = select(16.0, difference_s5_t4, difference_s5_t4 < 16.0);
     let d_s5_t4 = min(max(abs(seen_depth_s5 - shaded_depth_t4), number_s5_t4), 16.0);
-    // sample 5, tap 5: 1 - a·b of two unit vectors (kernels/src/sraa/metric.rs:121)
     let turn_s5_t5 = seen_normal_s5 - shaded_normal_t5;
     let difference_s5_t5 = 0.5 * dot(turn_s5_t5, turn_s5_t5);
     let number_s5_t5 = select(16.0, difference_s5_t5, difference_s5_t5 < 16.0);
@@ -225,7 +211,6 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let number_s5_t8 = select(16.0, difference_s5_t8, difference_s5_t8 < 16.0);
     let d_s5_t8 = min(max(abs(seen_depth_s5 - shaded_depth_t8), number_s5_t8), 16.0);
     let nearest_s5_t8 = min(min(min(d_s5_t4, d_s5_t5), d_s5_t7), d_s5_t8);
-    // sample 5, tap 4: kernels/src/sraa/mod.rs:112
     let w_s5_t4 = exp2(721.34753 * (nearest_s5_t8 - d_s5_t4) - 0.7332135);
     let w_s5_t5 = exp2(721.34753 * (nearest_s5_t8 - d_s5_t5) - 3.5405684);
     let w_s5_t7 = exp2(721.34753 * (nearest_s5_t8 - d_s5_t7) - 1.8707169);
@@ -233,8 +218,7 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let scale_s5 = 0.0625 / (w_s5_t4 + w_s5_t5 + w_s5_t7 + w_s5_t8);
     let weights_s5_t5 = w_s0_t5 * scale_s0 + w_s3_t5 * scale_s3 + w_s5_t5 * scale_s5;
     let weights_s5_t7 = w_s0_t7 * scale_s0 + w_s2_t7 * scale_s2 + w_s5_t7 * scale_s5;
-    // sample 6, tap 4: depth along the view direction, in scene units
-    //   (kernels/src/sraa/gbuffer.rs:180)
+    // sample 6
     let depth_s6 = textureLoad(depth, pixel, 6, 0).x;
     let seen_depth_s6 = select(1e30, depth_s6, abs(depth_s6) < 1e30);
     let seen_normal_s6 = textureLoad(normal, pixel, 6, 0).xyz;
@@ -242,7 +226,6 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let difference_s6_t4 = 0.5 * dot(turn_s6_t4, turn_s6_t4);
     let number_s6_t4 = select(16.0, difference_s6_t4, difference_s6_t4 < 16.0);
     let d_s6_t4 = min(max(abs(seen_depth_s6 - shaded_depth_t4), number_s6_t4), 16.0);
-    // sample 6, tap 5: 1 - a·b of two unit vectors (kernels/src/sraa/metric.rs:121)
     let turn_s6_t5 = seen_normal_s6 - shaded_normal_t5;
     let difference_s6_t5 = 0.5 * dot(turn_s6_t5, turn_s6_t5);
     let number_s6_t5 = select(16.0, difference_s6_t5, difference_s6_t5 < 16.0);
@@ -256,7 +239,6 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let number_s6_t8 = select(16.0, difference_s6_t8, difference_s6_t8 < 16.0);
     let d_s6_t8 = min(max(abs(seen_depth_s6 - shaded_depth_t8), number_s6_t8), 16.0);
     let nearest_s6_t8 = min(min(min(d_s6_t4, d_s6_t5), d_s6_t7), d_s6_t8);
-    // sample 6, tap 4: kernels/src/sraa/mod.rs:112
     let w_s6_t4 = exp2(721.34753 * (nearest_s6_t8 - d_s6_t4) - 0.84012866);
     let w_s6_t5 = exp2(721.34753 * (nearest_s6_t8 - d_s6_t5) - 1.9776322);
     let w_s6_t7 = exp2(721.34753 * (nearest_s6_t8 - d_s6_t7) - 2.955606);
@@ -264,8 +246,7 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let scale_s6 = 0.0625 / (w_s6_t4 + w_s6_t5 + w_s6_t7 + w_s6_t8);
     let weights_s6_t4 = weights_s4_t4 + w_s5_t4 * scale_s5 + w_s6_t4 * scale_s6;
     let weights_s6_t8 = w_s0_t8 * scale_s0 + w_s5_t8 * scale_s5 + w_s6_t8 * scale_s6;
-    // sample 7, tap 1: depth along the view direction, in scene units
-    //   (kernels/src/sraa/gbuffer.rs:180)
+    // sample 7
     let depth_s7 = textureLoad(depth, pixel, 7, 0).x;
     let seen_depth_s7 = select(1e30, depth_s7, abs(depth_s7) < 1e30);
     let seen_normal_s7 = textureLoad(normal, pixel, 7, 0).xyz;
@@ -273,7 +254,6 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let difference_s7_t1 = 0.5 * dot(turn_s7_t1, turn_s7_t1);
     let number_s7_t1 = select(16.0, difference_s7_t1, difference_s7_t1 < 16.0);
     let d_s7_t1 = min(max(abs(seen_depth_s7 - shaded_depth_t1), number_s7_t1), 16.0);
-    // sample 7, tap 2: 1 - a·b of two unit vectors (kernels/src/sraa/metric.rs:121)
     let turn_s7_t2 = seen_normal_s7 - shaded_normal_t2;
     let difference_s7_t2 = 0.5 * dot(turn_s7_t2, turn_s7_t2);
     let number_s7_t2 = select(16.0, difference_s7_t2, difference_s7_t2 < 16.0);
@@ -287,15 +267,13 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let number_s7_t5 = select(16.0, difference_s7_t5, difference_s7_t5 < 16.0);
     let d_s7_t5 = min(max(abs(seen_depth_s7 - shaded_depth_t5), number_s7_t5), 16.0);
     let nearest_s7_t5 = min(min(min(d_s7_t1, d_s7_t2), d_s7_t4), d_s7_t5);
-    // sample 7, tap 1: kernels/src/sraa/mod.rs:112
     let w_s7_t1 = exp2(721.34753 * (nearest_s7_t5 - d_s7_t1) - 1.9776322);
     let w_s7_t2 = exp2(721.34753 * (nearest_s7_t5 - d_s7_t2) - 4.0931096);
     let w_s7_t4 = exp2(721.34753 * (nearest_s7_t5 - d_s7_t4) - 0.84012866);
     let w_s7_t5 = exp2(721.34753 * (nearest_s7_t5 - d_s7_t5) - 2.955606);
     let scale_s7 = 0.0625 / (w_s7_t1 + w_s7_t2 + w_s7_t4 + w_s7_t5);
     let weights_s7_t5 = weights_s5_t5 + w_s6_t5 * scale_s6 + w_s7_t5 * scale_s7;
-    // sample 8, tap 3: depth along the view direction, in scene units
-    //   (kernels/src/sraa/gbuffer.rs:180)
+    // sample 8
     let depth_s8 = textureLoad(depth, pixel, 8, 0).x;
     let seen_depth_s8 = select(1e30, depth_s8, abs(depth_s8) < 1e30);
     let seen_normal_s8 = textureLoad(normal, pixel, 8, 0).xyz;
@@ -303,7 +281,6 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let difference_s8_t3 = 0.5 * dot(turn_s8_t3, turn_s8_t3);
     let number_s8_t3 = select(16.0, difference_s8_t3, difference_s8_t3 < 16.0);
     let d_s8_t3 = min(max(abs(seen_depth_s8 - shaded_depth_t3), number_s8_t3), 16.0);
-    // sample 8, tap 4: 1 - a·b of two unit vectors (kernels/src/sraa/metric.rs:121)
     let turn_s8_t4 = seen_normal_s8 - shaded_normal_t4;
     let difference_s8_t4 = 0.5 * dot(turn_s8_t4, turn_s8_t4);
     let number_s8_t4 = select(16.0, difference_s8_t4, difference_s8_t4 < 16.0);
@@ -317,7 +294,6 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let number_s8_t7 = select(16.0, difference_s8_t7, difference_s8_t7 < 16.0);
     let d_s8_t7 = min(max(abs(seen_depth_s8 - shaded_depth_t7), number_s8_t7), 16.0);
     let nearest_s8_t7 = min(min(min(d_s8_t3, d_s8_t4), d_s8_t6), d_s8_t7);
-    // sample 8, tap 3: kernels/src/sraa/mod.rs:112
     let w_s8_t3 = exp2(721.34753 * (nearest_s8_t7 - d_s8_t3) - 3.678072);
     let w_s8_t4 = exp2(721.34753 * (nearest_s8_t7 - d_s8_t4) - 0.870717);
     let w_s8_t6 = exp2(721.34753 * (nearest_s8_t7 - d_s8_t6) - 4.4150376);
@@ -325,8 +301,7 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let scale_s8 = 0.0625 / (w_s8_t3 + w_s8_t4 + w_s8_t6 + w_s8_t7);
     let weights_s8_t4 = weights_s6_t4 + w_s7_t4 * scale_s7 + w_s8_t4 * scale_s8;
     let weights_s8_t7 = weights_s5_t7 + w_s6_t7 * scale_s6 + w_s8_t7 * scale_s8;
-    // sample 9, tap 1: depth along the view direction, in scene units
-    //   (kernels/src/sraa/gbuffer.rs:180)
+    // sample 9
     let depth_s9 = textureLoad(depth, pixel, 9, 0).x;
     let seen_depth_s9 = select(1e30, depth_s9, abs(depth_s9) < 1e30);
     let seen_normal_s9 = textureLoad(normal, pixel, 9, 0).xyz;
@@ -334,19 +309,16 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let difference_s9_t1 = 0.5 * dot(turn_s9_t1, turn_s9_t1);
     let number_s9_t1 = select(16.0, difference_s9_t1, difference_s9_t1 < 16.0);
     let d_s9_t1 = min(max(abs(seen_depth_s9 - shaded_depth_t1), number_s9_t1), 16.0);
-    // sample 9, tap 4: 1 - a·b of two unit vectors (kernels/src/sraa/metric.rs:121)
     let turn_s9_t4 = seen_normal_s9 - shaded_normal_t4;
     let difference_s9_t4 = 0.5 * dot(turn_s9_t4, turn_s9_t4);
     let number_s9_t4 = select(16.0, difference_s9_t4, difference_s9_t4 < 16.0);
     let d_s9_t4 = min(max(abs(seen_depth_s9 - shaded_depth_t4), number_s9_t4), 16.0);
     let nearest_s9_t4 = min(d_s9_t1, d_s9_t4);
-    // sample 9, tap 1: kernels/src/sraa/mod.rs:112
     let w_s9_t1 = exp2(721.34753 * (nearest_s9_t4 - d_s9_t1) - 1.1926451);
     let w_s9_t4 = exp2(721.34753 * (nearest_s9_t4 - d_s9_t4) - 0.830075);
     let scale_s9 = 0.0625 / (w_s9_t1 + w_s9_t4);
     let weights_s9_t1 = weights_s4_t1 + w_s7_t1 * scale_s7 + w_s9_t1 * scale_s9;
-    // sample 10, tap 0: depth along the view direction, in scene units
-    //   (kernels/src/sraa/gbuffer.rs:180)
+    // sample 10
     let depth_s10 = textureLoad(depth, pixel, 10, 0).x;
     let seen_depth_s10 = select(1e30, depth_s10, abs(depth_s10) < 1e30);
     let seen_normal_s10 = textureLoad(normal, pixel, 10, 0).xyz;
@@ -354,7 +326,6 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let difference_s10_t0 = 0.5 * dot(turn_s10_t0, turn_s10_t0);
     let number_s10_t0 = select(16.0, difference_s10_t0, difference_s10_t0 < 16.0);
     let d_s10_t0 = min(max(abs(seen_depth_s10 - shaded_depth_t0), number_s10_t0), 16.0);
-    // sample 10, tap 1: 1 - a·b of two unit vectors (kernels/src/sraa/metric.rs:121)
     let turn_s10_t1 = seen_normal_s10 - shaded_normal_t1;
     let difference_s10_t1 = 0.5 * dot(turn_s10_t1, turn_s10_t1);
     let number_s10_t1 = select(16.0, difference_s10_t1, difference_s10_t1 < 16.0);
@@ -368,7 +339,6 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let number_s10_t4 = select(16.0, difference_s10_t4, difference_s10_t4 < 16.0);
     let d_s10_t4 = min(max(abs(seen_depth_s10 - shaded_depth_t4), number_s10_t4), 16.0);
     let nearest_s10_t4 = min(min(min(d_s10_t0, d_s10_t1), d_s10_t3), d_s10_t4);
-    // sample 10, tap 0: kernels/src/sraa/mod.rs:112
     let w_s10_t0 = exp2(721.34753 * (nearest_s10_t4 - d_s10_t0) - 3.4150374);
     let w_s10_t1 = exp2(721.34753 * (nearest_s10_t4 - d_s10_t1) - 1.830075);
     let w_s10_t3 = exp2(721.34753 * (nearest_s10_t4 - d_s10_t3) - 2.678072);
@@ -377,8 +347,7 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let weights_s10_t0 = w_s1_t0 * scale_s1 + w_s4_t0 * scale_s4 + w_s10_t0 * scale_s10;
     let weights_s10_t3 = weights_s4_t3 + w_s8_t3 * scale_s8 + w_s10_t3 * scale_s10;
     let weights_s10_t4 = weights_s8_t4 + w_s9_t4 * scale_s9 + w_s10_t4 * scale_s10;
-    // sample 11, tap 3: depth along the view direction, in scene units
-    //   (kernels/src/sraa/gbuffer.rs:180)
+    // sample 11
     let depth_s11 = textureLoad(depth, pixel, 11, 0).x;
     let seen_depth_s11 = select(1e30, depth_s11, abs(depth_s11) < 1e30);
     let seen_normal_s11 = textureLoad(normal, pixel, 11, 0).xyz;
@@ -386,7 +355,6 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let difference_s11_t3 = 0.5 * dot(turn_s11_t3, turn_s11_t3);
     let number_s11_t3 = select(16.0, difference_s11_t3, difference_s11_t3 < 16.0);
     let d_s11_t3 = min(max(abs(seen_depth_s11 - shaded_depth_t3), number_s11_t3), 16.0);
-    // sample 11, tap 4: 1 - a·b of two unit vectors (kernels/src/sraa/metric.rs:121)
     let turn_s11_t4 = seen_normal_s11 - shaded_normal_t4;
     let difference_s11_t4 = 0.5 * dot(turn_s11_t4, turn_s11_t4);
     let number_s11_t4 = select(16.0, difference_s11_t4, difference_s11_t4 < 16.0);
@@ -400,14 +368,12 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let number_s11_t7 = select(16.0, difference_s11_t7, difference_s11_t7 < 16.0);
     let d_s11_t7 = min(max(abs(seen_depth_s11 - shaded_depth_t7), number_s11_t7), 16.0);
     let nearest_s11_t7 = min(min(min(d_s11_t3, d_s11_t4), d_s11_t6), d_s11_t7);
-    // sample 11, tap 3: kernels/src/sraa/mod.rs:112
     let w_s11_t3 = exp2(721.34753 * (nearest_s11_t7 - d_s11_t3) - 1.830075);
     let w_s11_t4 = exp2(721.34753 * (nearest_s11_t7 - d_s11_t4) - 1.0931094);
     let w_s11_t6 = exp2(721.34753 * (nearest_s11_t7 - d_s11_t6) - 3.4150374);
     let w_s11_t7 = exp2(721.34753 * (nearest_s11_t7 - d_s11_t7) - 2.678072);
     let scale_s11 = 0.0625 / (w_s11_t3 + w_s11_t4 + w_s11_t6 + w_s11_t7);
-    // sample 12, tap 3: depth along the view direction, in scene units
-    //   (kernels/src/sraa/gbuffer.rs:180)
+    // sample 12
     let depth_s12 = textureLoad(depth, pixel, 12, 0).x;
     let seen_depth_s12 = select(1e30, depth_s12, abs(depth_s12) < 1e30);
     let seen_normal_s12 = textureLoad(normal, pixel, 12, 0).xyz;
@@ -415,20 +381,17 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let difference_s12_t3 = 0.5 * dot(turn_s12_t3, turn_s12_t3);
     let number_s12_t3 = select(16.0, difference_s12_t3, difference_s12_t3 < 16.0);
     let d_s12_t3 = min(max(abs(seen_depth_s12 - shaded_depth_t3), number_s12_t3), 16.0);
-    // sample 12, tap 4: 1 - a·b of two unit vectors (kernels/src/sraa/metric.rs:121)
     let turn_s12_t4 = seen_normal_s12 - shaded_normal_t4;
     let difference_s12_t4 = 0.5 * dot(turn_s12_t4, turn_s12_t4);
     let number_s12_t4 = select(16.0, difference_s12_t4, difference_s12_t4 < 16.0);
     let d_s12_t4 = min(max(abs(seen_depth_s12 - shaded_depth_t4), number_s12_t4), 16.0);
     let nearest_s12_t4 = min(d_s12_t3, d_s12_t4);
-    // sample 12, tap 3: kernels/src/sraa/mod.rs:112
     let w_s12_t3 = exp2(721.34753 * (nearest_s12_t4 - d_s12_t3) - 1.0);
     let w_s12_t4 = exp2(721.34753 * (nearest_s12_t4 - d_s12_t4) - 1.0);
     let scale_s12 = 0.0625 / (w_s12_t3 + w_s12_t4);
     let weights_s12_t3 = weights_s10_t3 + w_s11_t3 * scale_s11 + w_s12_t3 * scale_s12;
     let weights_s12_t4 = weights_s10_t4 + w_s11_t4 * scale_s11 + w_s12_t4 * scale_s12;
-    // sample 13, tap 1: depth along the view direction, in scene units
-    //   (kernels/src/sraa/gbuffer.rs:180)
+    // sample 13
     let depth_s13 = textureLoad(depth, pixel, 13, 0).x;
     let seen_depth_s13 = select(1e30, depth_s13, abs(depth_s13) < 1e30);
     let seen_normal_s13 = textureLoad(normal, pixel, 13, 0).xyz;
@@ -436,7 +399,6 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let difference_s13_t1 = 0.5 * dot(turn_s13_t1, turn_s13_t1);
     let number_s13_t1 = select(16.0, difference_s13_t1, difference_s13_t1 < 16.0);
     let d_s13_t1 = min(max(abs(seen_depth_s13 - shaded_depth_t1), number_s13_t1), 16.0);
-    // sample 13, tap 2: 1 - a·b of two unit vectors (kernels/src/sraa/metric.rs:121)
     let turn_s13_t2 = seen_normal_s13 - shaded_normal_t2;
     let difference_s13_t2 = 0.5 * dot(turn_s13_t2, turn_s13_t2);
     let number_s13_t2 = select(16.0, difference_s13_t2, difference_s13_t2 < 16.0);
@@ -450,15 +412,13 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let number_s13_t5 = select(16.0, difference_s13_t5, difference_s13_t5 < 16.0);
     let d_s13_t5 = min(max(abs(seen_depth_s13 - shaded_depth_t5), number_s13_t5), 16.0);
     let nearest_s13_t5 = min(min(min(d_s13_t1, d_s13_t2), d_s13_t4), d_s13_t5);
-    // sample 13, tap 1: kernels/src/sraa/mod.rs:112
     let w_s13_t1 = exp2(721.34753 * (nearest_s13_t5 - d_s13_t1) - 2.830075);
     let w_s13_t2 = exp2(721.34753 * (nearest_s13_t5 - d_s13_t2) - 3.192645);
     let w_s13_t4 = exp2(721.34753 * (nearest_s13_t5 - d_s13_t4) - 1.2451125);
     let w_s13_t5 = exp2(721.34753 * (nearest_s13_t5 - d_s13_t5) - 1.6076826);
     let scale_s13 = 0.0625 / (w_s13_t1 + w_s13_t2 + w_s13_t4 + w_s13_t5);
     let weights_s13_t1 = weights_s9_t1 + w_s10_t1 * scale_s10 + w_s13_t1 * scale_s13;
-    // sample 14, tap 4: depth along the view direction, in scene units
-    //   (kernels/src/sraa/gbuffer.rs:180)
+    // sample 14
     let depth_s14 = textureLoad(depth, pixel, 14, 0).x;
     let seen_depth_s14 = select(1e30, depth_s14, abs(depth_s14) < 1e30);
     let seen_normal_s14 = textureLoad(normal, pixel, 14, 0).xyz;
@@ -466,7 +426,6 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let difference_s14_t4 = 0.5 * dot(turn_s14_t4, turn_s14_t4);
     let number_s14_t4 = select(16.0, difference_s14_t4, difference_s14_t4 < 16.0);
     let d_s14_t4 = min(max(abs(seen_depth_s14 - shaded_depth_t4), number_s14_t4), 16.0);
-    // sample 14, tap 5: 1 - a·b of two unit vectors (kernels/src/sraa/metric.rs:121)
     let turn_s14_t5 = seen_normal_s14 - shaded_normal_t5;
     let difference_s14_t5 = 0.5 * dot(turn_s14_t5, turn_s14_t5);
     let number_s14_t5 = select(16.0, difference_s14_t5, difference_s14_t5 < 16.0);
@@ -480,15 +439,13 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let number_s14_t8 = select(16.0, difference_s14_t8, difference_s14_t8 < 16.0);
     let d_s14_t8 = min(max(abs(seen_depth_s14 - shaded_depth_t8), number_s14_t8), 16.0);
     let nearest_s14_t8 = min(min(min(d_s14_t4, d_s14_t5), d_s14_t7), d_s14_t8);
-    // sample 14, tap 4: kernels/src/sraa/mod.rs:112
     let w_s14_t4 = exp2(721.34753 * (nearest_s14_t8 - d_s14_t4) - 1.5081469);
     let w_s14_t5 = exp2(721.34753 * (nearest_s14_t8 - d_s14_t5) - 2.2451124);
     let w_s14_t7 = exp2(721.34753 * (nearest_s14_t8 - d_s14_t7) - 1.8707169);
     let w_s14_t8 = exp2(721.34753 * (nearest_s14_t8 - d_s14_t8) - 2.6076825);
     let scale_s14 = 0.0625 / (w_s14_t4 + w_s14_t5 + w_s14_t7 + w_s14_t8);
     let weights_s14_t4 = weights_s12_t4 + w_s13_t4 * scale_s13 + w_s14_t4 * scale_s14;
-    // sample 15, tap 0: depth along the view direction, in scene units
-    //   (kernels/src/sraa/gbuffer.rs:180)
+    // sample 15
     let depth_s15 = textureLoad(depth, pixel, 15, 0).x;
     let seen_depth_s15 = select(1e30, depth_s15, abs(depth_s15) < 1e30);
     let seen_normal_s15 = textureLoad(normal, pixel, 15, 0).xyz;
@@ -496,7 +453,6 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let difference_s15_t0 = 0.5 * dot(turn_s15_t0, turn_s15_t0);
     let number_s15_t0 = select(16.0, difference_s15_t0, difference_s15_t0 < 16.0);
     let d_s15_t0 = min(max(abs(seen_depth_s15 - shaded_depth_t0), number_s15_t0), 16.0);
-    // sample 15, tap 1: 1 - a·b of two unit vectors (kernels/src/sraa/metric.rs:121)
     let turn_s15_t1 = seen_normal_s15 - shaded_normal_t1;
     let difference_s15_t1 = 0.5 * dot(turn_s15_t1, turn_s15_t1);
     let number_s15_t1 = select(16.0, difference_s15_t1, difference_s15_t1 < 16.0);
@@ -510,7 +466,6 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let number_s15_t4 = select(16.0, difference_s15_t4, difference_s15_t4 < 16.0);
     let d_s15_t4 = min(max(abs(seen_depth_s15 - shaded_depth_t4), number_s15_t4), 16.0);
     let nearest_s15_t4 = min(min(min(d_s15_t0, d_s15_t1), d_s15_t3), d_s15_t4);
-    // sample 15, tap 0: kernels/src/sraa/mod.rs:112
     let w_s15_t0 = exp2(721.34753 * (nearest_s15_t4 - d_s15_t0) - 2.192645);
     let w_s15_t1 = exp2(721.34753 * (nearest_s15_t4 - d_s15_t1) - 1.830075);
     let w_s15_t3 = exp2(721.34753 * (nearest_s15_t4 - d_s15_t3) - 2.192645);

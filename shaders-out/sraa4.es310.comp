@@ -87,7 +87,6 @@ void main() {
     float difference_s1_t4 = 0.5 * dot(turn_s1_t4, turn_s1_t4);
     float number_s1_t4 = (difference_s1_t4 < 16.0 ? difference_s1_t4 : 16.0);
     float d_s1_t4 = min(max(abs(seen_depth_s1 - shaded_depth_t4), number_s1_t4), 16.0);
-    // sample 1, tap 5: kernels/src/sraa/gbuffer.rs:123
     ivec2 at_t5 = min(pixel + ivec2(1, 0), last);
     float depth_t5 = texelFetch(depth, ivec3(at_t5, 4), 0).x;
     float shaded_depth_t5 = (abs(depth_t5) < 1e30 ? depth_t5 : 1e30);
@@ -97,14 +96,12 @@ void main() {
     float number_s1_t5 = (difference_s1_t5 < 16.0 ? difference_s1_t5 : 16.0);
     float d_s1_t5 = min(max(abs(seen_depth_s1 - shaded_depth_t5), number_s1_t5), 16.0);
     float nearest_s1_t5 = min(min(min(d_s1_t1, d_s1_t2), d_s1_t4), d_s1_t5);
-    // sample 1, tap 1: kernels/src/sraa/mod.rs:112
     float w_s1_t1 = exp2(721.34753 * (nearest_s1_t5 - d_s1_t1) - 3.678072);
     float w_s1_t2 = exp2(721.34753 * (nearest_s1_t5 - d_s1_t2) - 4.4150376);
     float w_s1_t4 = exp2(721.34753 * (nearest_s1_t5 - d_s1_t4) - 0.870717);
     float w_s1_t5 = exp2(721.34753 * (nearest_s1_t5 - d_s1_t5) - 1.6076826);
     float scale_s1 = 0.25 / (w_s1_t1 + w_s1_t2 + w_s1_t4 + w_s1_t5);
-    // sample 2, tap 3: depth along the view direction, in scene units
-    //   (kernels/src/sraa/gbuffer.rs:180)
+    // sample 2
     float depth_s2 = texelFetch(depth, ivec3(pixel, 2), 0).x;
     float seen_depth_s2 = (abs(depth_s2) < 1e30 ? depth_s2 : 1e30);
     vec3 seen_normal_s2 = texelFetch(normal, ivec3(pixel, 2), 0).xyz;
@@ -112,12 +109,10 @@ void main() {
     float difference_s2_t3 = 0.5 * dot(turn_s2_t3, turn_s2_t3);
     float number_s2_t3 = (difference_s2_t3 < 16.0 ? difference_s2_t3 : 16.0);
     float d_s2_t3 = min(max(abs(seen_depth_s2 - shaded_depth_t3), number_s2_t3), 16.0);
-    // sample 2, tap 4: 1 - a·b of two unit vectors (kernels/src/sraa/metric.rs:121)
     vec3 turn_s2_t4 = seen_normal_s2 - shaded_normal_t4;
     float difference_s2_t4 = 0.5 * dot(turn_s2_t4, turn_s2_t4);
     float number_s2_t4 = (difference_s2_t4 < 16.0 ? difference_s2_t4 : 16.0);
     float d_s2_t4 = min(max(abs(seen_depth_s2 - shaded_depth_t4), number_s2_t4), 16.0);
-    // sample 2, tap 6: kernels/src/sraa/gbuffer.rs:123
     ivec2 at_t6 = clamp(pixel + ivec2(-1, 1), ivec2(0), last);
     float depth_s2_t6 = texelFetch(depth, ivec3(at_t6, 4), 0).x;
     float step_s2_t6 = abs(seen_depth_s2 - (abs(depth_s2_t6) < 1e30 ? depth_s2_t6 : 1e30));
@@ -134,15 +129,13 @@ void main() {
     float number_s2_t7 = (difference_s2_t7 < 16.0 ? difference_s2_t7 : 16.0);
     float d_s2_t7 = min(max(abs(seen_depth_s2 - shaded_depth_t7), number_s2_t7), 16.0);
     float nearest_s2_t7 = min(min(min(d_s2_t3, d_s2_t4), d_s2_t6), d_s2_t7);
-    // sample 2, tap 3: kernels/src/sraa/mod.rs:112
     float w_s2_t3 = exp2(721.34753 * (nearest_s2_t7 - d_s2_t3) - 1.6076826);
     float w_s2_t4 = exp2(721.34753 * (nearest_s2_t7 - d_s2_t4) - 0.870717);
     float w_s2_t6 = exp2(721.34753 * (nearest_s2_t7 - d_s2_t6) - 4.4150376);
     float w_s2_t7 = exp2(721.34753 * (nearest_s2_t7 - d_s2_t7) - 3.678072);
     float scale_s2 = 0.25 / (w_s2_t3 + w_s2_t4 + w_s2_t6 + w_s2_t7);
     float weights_s2_t4 = w_s0_t4 * scale_s0 + w_s1_t4 * scale_s1 + w_s2_t4 * scale_s2;
-    // sample 3, tap 4: depth along the view direction, in scene units
-    //   (kernels/src/sraa/gbuffer.rs:180)
+    // sample 3
     float depth_s3 = texelFetch(depth, ivec3(pixel, 3), 0).x;
     float seen_depth_s3 = (abs(depth_s3) < 1e30 ? depth_s3 : 1e30);
     vec3 seen_normal_s3 = texelFetch(normal, ivec3(pixel, 3), 0).xyz;
@@ -150,7 +143,6 @@ void main() {
     float difference_s3_t4 = 0.5 * dot(turn_s3_t4, turn_s3_t4);
     float number_s3_t4 = (difference_s3_t4 < 16.0 ? difference_s3_t4 : 16.0);
     float d_s3_t4 = min(max(abs(seen_depth_s3 - shaded_depth_t4), number_s3_t4), 16.0);
-    // sample 3, tap 5: 1 - a·b of two unit vectors (kernels/src/sraa/metric.rs:121)
     vec3 turn_s3_t5 = seen_normal_s3 - shaded_normal_t5;
     float difference_s3_t5 = 0.5 * dot(turn_s3_t5, turn_s3_t5);
     float number_s3_t5 = (difference_s3_t5 < 16.0 ? difference_s3_t5 : 16.0);
@@ -159,7 +151,6 @@ void main() {
     float difference_s3_t7 = 0.5 * dot(turn_s3_t7, turn_s3_t7);
     float number_s3_t7 = (difference_s3_t7 < 16.0 ? difference_s3_t7 : 16.0);
     float d_s3_t7 = min(max(abs(seen_depth_s3 - shaded_depth_t7), number_s3_t7), 16.0);
-    // sample 3, tap 8: kernels/src/sraa/gbuffer.rs:123
     ivec2 at_t8 = min(pixel + 1, last);
     float depth_s3_t8 = texelFetch(depth, ivec3(at_t8, 4), 0).x;
     float step_s3_t8 = abs(seen_depth_s3 - (abs(depth_s3_t8) < 1e30 ? depth_s3_t8 : 1e30));
@@ -168,7 +159,6 @@ void main() {
     float larger_s3_t8 = max(step_s3_t8, (difference_s3_t8 < 16.0 ? difference_s3_t8 : 16.0));
     float d_s3_t8 = min(larger_s3_t8, 16.0);
     float nearest_s3_t8 = min(min(min(d_s3_t4, d_s3_t5), d_s3_t7), d_s3_t8);
-    // sample 3, tap 4: kernels/src/sraa/mod.rs:112
     float w_s3_t4 = exp2(721.34753 * (nearest_s3_t8 - d_s3_t4) - 0.870717);
     float w_s3_t5 = exp2(721.34753 * (nearest_s3_t8 - d_s3_t5) - 3.678072);
     float w_s3_t7 = exp2(721.34753 * (nearest_s3_t8 - d_s3_t7) - 1.6076826);

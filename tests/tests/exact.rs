@@ -77,9 +77,13 @@ fn one_block_and_no_more_reads_than_distinct_texels() {
             continue;
         };
         let blocks = compiled.counts.basic_blocks;
-        let branch = options.iter().any(|(_, value)| value == "branch" || value == "fallback");
-        assert!(branch || blocks == 1, "{options:?}: {blocks} blocks");
-        assert_eq!(compiled.counts.loops, 0, "{options:?}");
+        // These keep a branch, and `fallback` the loop behind it.
+        let has = |word: &str| options.iter().any(|(_, value)| value == word);
+        assert!(
+            has("branch") || has("fallback") || blocks == 1,
+            "{options:?}: {blocks} blocks"
+        );
+        assert_eq!(compiled.counts.loops, u32::from(has("fallback")), "{options:?}");
     }
     let counts = |set: &[(&str, &str)]| {
         let counts = form(&options(set), Unroll::Full).counts;

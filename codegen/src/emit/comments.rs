@@ -3,7 +3,7 @@
 use super::ast::{Block, Stmt, StmtKind};
 use super::text::comment;
 use crate::ir::{Counter, Graph};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 /// The statements with a comment before each group.
 pub fn comment_groups<'g>(block: Block<'g>, graph: &'g Graph) -> Block<'g> {
@@ -19,6 +19,7 @@ pub fn comment_groups<'g>(block: Block<'g>, graph: &'g Graph) -> Block<'g> {
         depth,
         group: Group::default(),
         commented: None,
+        places: HashSet::new(),
     };
     groups.block(block)
 }
@@ -30,6 +31,8 @@ struct Groups<'g> {
     group: Group<'g>,
     /// File and outer counters of the last comment.
     commented: Option<(u32, Vec<Counter>)>,
+    /// Files and lines that comments have named.
+    places: HashSet<(u32, u32)>,
 }
 
 /// Statements of one place in the source, under one comment.
@@ -92,20 +95,24 @@ impl<'g> Groups<'g> {
         counters.sort_by_key(|c| self.depth.get(&*c.name).copied().unwrap_or(0));
         // The next value of the innermost counter speaks for itself: names carry it.
         let outer = counters[..counters.len().saturating_sub(1)].to_vec();
-        let group_of = group.place.map(|(file, _)| (file, outer));
-        let repeated = group_of.is_some() && group_of == self.commented;
         if let Some((file, line)) = group.place
-            && !repeated
+            && self.commented.as_ref() != Some(&(file, outer.clone()))
         {
-            out.push(StmtKind::Comment(self.said(&counters, file, line)).into());
-            self.commented = group_of;
+            let before = self.commented.take().map(|(_, outer)| outer);
+            // What a place is for is said once, and after that only which round of the loops around comes next.
+            if self.places.insert((file, line)) {
+                out.push(StmtKind::Comment(self.said(&counters, file, line)).into());
+            } else if before.is_none_or(|before| !before.starts_with(&outer)) && !outer.is_empty() {
+                out.push(StmtKind::Comment(values(&outer)).into());
+            }
+            self.commented = Some((file, outer));
         }
         out.extend(group.statements);
     }
 
     /// `sample 1, tap 2: what the function is for (file:line)`.
     fn said(&self, counters: &[Counter], file: u32, line: u32) -> String {
-        let values: Vec<String> = counters.iter().map(|c| format!("{} {}", c.name, c.value)).collect();
+        let values = values(counters);
         let mut functions = self.graph.purposes.iter().rev();
         let purpose = functions.find(|function| function.file == file && function.line <= line);
         let purpose = purpose.map_or("", |purpose| purpose.words.as_str());
@@ -118,9 +125,15 @@ impl<'g> Groups<'g> {
         let place = format!("{shown}:{line}");
         let colon = if values.is_empty() { "" } else { ": " };
         let said = match purpose {
-            "" => format!("{}{colon}{place}", values.join(", ")),
-            purpose => format!("{}{colon}{purpose} ({place})", values.join(", ")),
+            "" => format!("{values}{colon}{place}"),
+            purpose => format!("{values}{colon}{purpose} ({place})"),
         };
         comment(&said)
     }
+}
+
+/// `sample 1, tap 2`.
+fn values(counters: &[Counter]) -> String {
+    let values: Vec<String> = counters.iter().map(|c| format!("{} {}", c.name, c.value)).collect();
+    values.join(", ")
 }
