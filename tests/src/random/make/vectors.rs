@@ -186,11 +186,17 @@ impl Maker {
             0 => format!("{e}.dot({})", self.expr(ty, want)),
             1 => format!("{e}.length_squared()"),
             2 if self.on(Feature::Coarse) => format!("{e}.length()"),
-            3 => format!(
-                "{e}.{}()",
-                self.random
-                    .pick(&["element_sum", "element_product", "min_element", "max_element"])
-            ),
+            3 => match self
+                .random
+                .pick(&["element_sum", "element_product", "min_element", "max_element"])
+            {
+                // Which of two zeros these give, and of a NaN, is open.
+                name @ ("min_element" | "max_element") => {
+                    let vec = self.ty(ty);
+                    format!("({e}.clamp({vec}::splat(-64.0), {vec}::splat(64.0)) + 0.0).{name}()")
+                }
+                name => format!("{e}.{name}()"),
+            },
             4 => format!("{e}.distance_squared({})", self.expr(ty, want)),
             5 => format!("{e}[{}]", self.random.below(*n as usize)),
             6 => format!("{e}.to_array()[{}]", self.random.below(*n as usize)),
