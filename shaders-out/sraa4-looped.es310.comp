@@ -49,7 +49,7 @@ void main() {
             // tap `tap` of a square of `side` × `side` pixels (kernels/src/sraa/pattern.rs:186)
             ivec2 pixel_2 = ivec2(tap % 3 - 1, tap / 3 - 1);
             vec2 away = vec2(pixel_2) - place_at;
-            if (max(1.0 - abs(away.x), 0.0) * max(1.0 - abs(away.y), 0.0) > 0.0) {
+            if (max(1.0 - abs(away.x), 0.0) * max(1.0 - abs(away.y), 0.0) > 1e-6) {
                 // kernels/src/sraa/mod.rs:98
                 float d;
                 if (all(bvec2(is_equal, all(equal(ivec2(0), pixel_2))))) {
@@ -82,7 +82,7 @@ void main() {
         for (int tap = 0; tap < 9; tap++) {
             vec2 away = vec2(ivec2(tap % 3 - 1, tap / 3 - 1)) - place_at;
             float tent = max(1.0 - abs(away.x), 0.0) * max(1.0 - abs(away.y), 0.0);
-            if (tent > 0.0) {
+            if (tent > 1e-6) {
                 float w = exp2(721.34753 * (nearest - distances[tap]) + log2(tent));
                 tap_weights[tap] = w;
                 sum += w;
@@ -91,7 +91,7 @@ void main() {
         float scale = share / sum;
         for (int tap = 0; tap < 9; tap++) {
             vec2 away = vec2(ivec2(tap % 3 - 1, tap / 3 - 1)) - place_at;
-            if (max(1.0 - abs(away.x), 0.0) * max(1.0 - abs(away.y), 0.0) > 0.0) {
+            if (max(1.0 - abs(away.x), 0.0) * max(1.0 - abs(away.y), 0.0) > 1e-6) {
                 weights[tap] += tap_weights[tap] * scale;
             }
         }

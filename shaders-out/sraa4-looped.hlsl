@@ -47,7 +47,7 @@ void sraa(uint3 id : SV_DispatchThreadID) {
             // tap `tap` of a square of `side` × `side` pixels (kernels/src/sraa/pattern.rs:186)
             int2 pixel_2 = int2(tap % 3 - 1, tap / 3 - 1);
             float2 away = float2(pixel_2) - place_at;
-            if (max(1.0 - abs(away.x), 0.0) * max(1.0 - abs(away.y), 0.0) > 0.0) {
+            if (max(1.0 - abs(away.x), 0.0) * max(1.0 - abs(away.y), 0.0) > 1e-6) {
                 // kernels/src/sraa/mod.rs:98
                 float d;
                 if (all(bool2(is_equal, all(int2(0, 0) == pixel_2)))) {
@@ -80,7 +80,7 @@ void sraa(uint3 id : SV_DispatchThreadID) {
         for (int tap = 0; tap < 9; tap++) {
             float2 away = float2(int2(tap % 3 - 1, tap / 3 - 1)) - place_at;
             float tent = max(1.0 - abs(away.x), 0.0) * max(1.0 - abs(away.y), 0.0);
-            if (tent > 0.0) {
+            if (tent > 1e-6) {
                 float w = exp2(721.34753 * (nearest - distances[tap]) + log2(tent));
                 tap_weights[tap] = w;
                 sum += w;
@@ -89,7 +89,7 @@ void sraa(uint3 id : SV_DispatchThreadID) {
         float scale = share / sum;
         for (int tap = 0; tap < 9; tap++) {
             float2 away = float2(int2(tap % 3 - 1, tap / 3 - 1)) - place_at;
-            if (max(1.0 - abs(away.x), 0.0) * max(1.0 - abs(away.y), 0.0) > 0.0) {
+            if (max(1.0 - abs(away.x), 0.0) * max(1.0 - abs(away.y), 0.0) > 1e-6) {
                 weights[tap] += tap_weights[tap] * scale;
             }
         }

@@ -138,7 +138,7 @@ kernel void sraa(
                     int _e94 = tap;
                     metal::int2 pixel_2_ = metal::int2(as_type<int>(as_type<uint>(naga_mod(_e89, 3)) - as_type<uint>(1)), as_type<int>(as_type<uint>(naga_div(_e94, 3)) - as_type<uint>(1)));
                     metal::float2 away = static_cast<metal::float2>(pixel_2_) - place_at;
-                    if ((metal::max(1.0 - metal::abs(away.x), 0.0) * metal::max(1.0 - metal::abs(away.y), 0.0)) > 0.0) {
+                    if ((metal::max(1.0 - metal::abs(away.x), 0.0) * metal::max(1.0 - metal::abs(away.y), 0.0)) > 0.000001) {
                         d = float {};
                         if (is_equal & metal::all(metal::int2(0) == pixel_2_)) {
                             d = 0.0;
@@ -194,7 +194,7 @@ kernel void sraa(
                     int _e192 = tap_1;
                     metal::float2 away_1 = static_cast<metal::float2>(metal::int2(as_type<int>(as_type<uint>(naga_mod(_e187, 3)) - as_type<uint>(1)), as_type<int>(as_type<uint>(naga_div(_e192, 3)) - as_type<uint>(1)))) - place_at;
                     float tent = metal::max(1.0 - metal::abs(away_1.x), 0.0) * metal::max(1.0 - metal::abs(away_1.y), 0.0);
-                    if (tent > 0.0) {
+                    if (tent > 0.000001) {
                         float _e215 = nearest;
                         int _e216 = tap_1;
                         float _e218 = distances.inner[metal::min(unsigned(_e216), 8u)];
@@ -228,7 +228,7 @@ kernel void sraa(
                     int _e239 = tap_2;
                     int _e244 = tap_2;
                     metal::float2 away_2 = static_cast<metal::float2>(metal::int2(as_type<int>(as_type<uint>(naga_mod(_e239, 3)) - as_type<uint>(1)), as_type<int>(as_type<uint>(naga_div(_e244, 3)) - as_type<uint>(1)))) - place_at;
-                    if ((metal::max(1.0 - metal::abs(away_2.x), 0.0) * metal::max(1.0 - metal::abs(away_2.y), 0.0)) > 0.0) {
+                    if ((metal::max(1.0 - metal::abs(away_2.x), 0.0) * metal::max(1.0 - metal::abs(away_2.y), 0.0)) > 0.000001) {
                         int _e267 = tap_2;
                         float _e269 = weights.inner[metal::min(unsigned(_e267), 8u)];
                         int _e270 = tap_2;

@@ -41,7 +41,7 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
             // tap `tap` of a square of `side` × `side` pixels (kernels/src/sraa/pattern.rs:186)
             let pixel_2 = vec2i(tap % 3 - 1, tap / 3 - 1);
             let away = vec2f(pixel_2) - place_at;
-            if max(1.0 - abs(away.x), 0.0) * max(1.0 - abs(away.y), 0.0) > 0.0 {
+            if max(1.0 - abs(away.x), 0.0) * max(1.0 - abs(away.y), 0.0) > 1e-6 {
                 // kernels/src/sraa/mod.rs:98
                 var d: f32;
                 if is_equal & all(vec2i(0) == pixel_2) {
@@ -74,7 +74,7 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
         for (var tap = 0; tap < 9; tap++) {
             let away = vec2f(vec2i(tap % 3 - 1, tap / 3 - 1)) - place_at;
             let tent = max(1.0 - abs(away.x), 0.0) * max(1.0 - abs(away.y), 0.0);
-            if tent > 0.0 {
+            if tent > 1e-6 {
                 let w = exp2(721.34753 * (nearest - distances[tap]) + log2(tent));
                 tap_weights[tap] = w;
                 sum += w;
@@ -83,7 +83,7 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
         let scale = share / sum;
         for (var tap = 0; tap < 9; tap++) {
             let away = vec2f(vec2i(tap % 3 - 1, tap / 3 - 1)) - place_at;
-            if max(1.0 - abs(away.x), 0.0) * max(1.0 - abs(away.y), 0.0) > 0.0 {
+            if max(1.0 - abs(away.x), 0.0) * max(1.0 - abs(away.y), 0.0) > 1e-6 {
                 weights[tap] += tap_weights[tap] * scale;
             }
         }

@@ -94,7 +94,7 @@ fn filtered<const TAPS: usize, const SIDE: usize>(cfg: &Sraa, inputs: &Inputs) -
             let mut distances = [0.0; TAPS];
             let mut nearest = FAR;
             for tap in 0..TAPS {
-                if falloff(cfg, place, cfg.tap(tap, SIDE)) > 0.0 {
+                if falloff(cfg, place, cfg.tap(tap, SIDE)) > least(cfg) {
                     let d = difference(cfg, inputs, place, &centre, cfg.tap(tap, SIDE));
                     distances[tap] = d;
                     nearest = nearest.min(d);
@@ -107,7 +107,7 @@ fn filtered<const TAPS: usize, const SIDE: usize>(cfg: &Sraa, inputs: &Inputs) -
             let mut tap_weights = [0.0; TAPS];
             let mut sum = 0.0;
             for tap in 0..TAPS {
-                if falloff(cfg, place, cfg.tap(tap, SIDE)) > 0.0 {
+                if falloff(cfg, place, cfg.tap(tap, SIDE)) > least(cfg) {
                     // The falloff as an exponent: it is added, not multiplied with.
                     let w =
                         (steepness * (origin - distances[tap]) + falloff(cfg, place, cfg.tap(tap, SIDE)).log2()).exp2();
@@ -120,7 +120,7 @@ fn filtered<const TAPS: usize, const SIDE: usize>(cfg: &Sraa, inputs: &Inputs) -
                 Normalisation::Epsilon => share / sum.max(EPSILON),
             };
             for tap in 0..TAPS {
-                if falloff(cfg, place, cfg.tap(tap, SIDE)) > 0.0 {
+                if falloff(cfg, place, cfg.tap(tap, SIDE)) > least(cfg) {
                     weights[tap] += tap_weights[tap] * scale;
                 }
             }
@@ -210,7 +210,7 @@ fn is_even<const TAPS: usize, const SIDE: usize>(cfg: &Sraa, inputs: &Inputs) ->
             let place = cfg.place(sample);
             let centre = geometry_sample(cfg, inputs, place);
             for tap in 0..TAPS {
-                if falloff(cfg, place, cfg.tap(tap, SIDE)) > 0.0 {
+                if falloff(cfg, place, cfg.tap(tap, SIDE)) > least(cfg) {
                     largest = largest.max(difference(cfg, inputs, place, &centre, cfg.tap(tap, SIDE)));
                 }
             }
@@ -255,6 +255,14 @@ fn falloff(cfg: &Sraa, sample: Place, tap: Place) -> f32 {
                 0.0
             }
         }
+    }
+}
+
+/// What weighs no more is not looked at. A tent ends where a tap may lie, and of that a rounding would make a weight.
+fn least(cfg: &Sraa) -> f32 {
+    match cfg.falloff {
+        Falloff::Tent => 1.0e-6,
+        Falloff::None | Falloff::Gaussian => 0.0,
     }
 }
 

@@ -245,7 +245,9 @@ impl<'a> Definition<'a> {
         }
         match self.params.falloff {
             Falloff::None => 1.0,
-            Falloff::Tent => tent(away[0]) * tent(away[1]),
+            Falloff::Tent => Some(tent(away[0]) * tent(away[1]))
+                .filter(|weight| *weight > LEAST)
+                .unwrap_or(0.0),
             Falloff::Gaussian => {
                 let square: f64 = away.iter().map(|axis| axis * axis).sum();
                 (-square / (2.0 * self.params.sigma.powi(2))).exp()
@@ -287,6 +289,9 @@ impl<'a> Definition<'a> {
 fn bounded(difference: f64) -> f64 {
     if difference < FAR { difference } else { FAR }
 }
+
+/// What a tent gives no more than counts as nothing.
+const LEAST: f64 = 1.0e-6;
 
 fn tent(away: f64) -> f64 {
     (1.0 - away.abs()).max(0.0)
