@@ -59,7 +59,7 @@ const FAR: f32 = 16.0;
 const STEEPNESS: f32 = 500.0 * std::f32::consts::LOG2_E;
 const EPSILON: f32 = 1.0e-30;
 
-/// Antialiased colour of `pixel`, as `sraa` gives it, bit for bit.
+/// Antialiased colour of `pixel`, as `sraa` gives it but for roundings: it multiplies with the falloff.
 pub fn sraa(
     cfg: &Sraa,
     depth: &FrameLayers<f32>,
