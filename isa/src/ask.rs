@@ -111,9 +111,10 @@ impl Compiler {
     /// # Errors
     ///
     /// The driver refuses it, or ended.
-    pub fn compile(&mut self, words: &[u32], entry: &str) -> Result<Report, IsaError> {
+    pub fn compile(&mut self, spirv: &[u8], entry: &str) -> Result<Report, IsaError> {
+        let words = spirv.as_chunks::<4>().0.iter();
         let request = Request {
-            words: words.to_vec(),
+            words: words.map(|word| u32::from_le_bytes(*word)).collect(),
             entry: entry.to_owned(),
         };
         let failed = |e| IsaError::Process(self.family, e);

@@ -83,7 +83,8 @@ unsafe fn opened(instance: &Instance) -> Result<(ash::Device, String), String> {
     let mut features = vk::PhysicalDeviceFeatures2::default()
         .features(core)
         .push_next(&mut reports);
-    let (mut v11, mut v12, mut v13) = (fresh(v11), fresh(v12), fresh(v13));
+    // They lie in the chain of the question still.
+    (v11.p_next, v12.p_next, v13.p_next) = (std::ptr::null_mut(), std::ptr::null_mut(), std::ptr::null_mut());
     features = features.push_next(&mut v11).push_next(&mut v12).push_next(&mut v13);
     let info = vk::DeviceCreateInfo::default()
         .queue_create_infos(&queues)
@@ -93,30 +94,4 @@ unsafe fn opened(instance: &Instance) -> Result<(ash::Device, String), String> {
     device
         .map(|device| (device, name))
         .map_err(|e| format!("no device: {e}"))
-}
-
-/// A structure that lies in no chain any more.
-trait Chained: Sized {
-    fn unchained(self) -> Self;
-}
-
-macro_rules! chained {
-    ($($ty:ident),*) => {
-        $(impl Chained for vk::$ty<'_> {
-            fn unchained(mut self) -> Self {
-                self.p_next = std::ptr::null_mut();
-                self
-            }
-        })*
-    };
-}
-
-chained!(
-    PhysicalDeviceVulkan11Features,
-    PhysicalDeviceVulkan12Features,
-    PhysicalDeviceVulkan13Features
-);
-
-fn fresh<T: Chained>(features: T) -> T {
-    features.unchained()
 }

@@ -43,6 +43,31 @@ pub struct Figures {
 }
 
 impl Figures {
+    /// Each with its name for people, in the order of the fields.
+    pub fn named(&self) -> [(&'static str, u64); 13] {
+        [
+            ("instructions", self.instructions),
+            ("vector", self.vector),
+            ("scalar", self.scalar),
+            ("memory", self.memory),
+            ("branches", self.branches),
+            ("vector registers", self.vector_registers),
+            ("scalar registers", self.scalar_registers),
+            ("spilled", self.spilled),
+            ("occupancy", self.occupancy),
+            ("code size", self.code_size),
+            ("shared memory", self.shared_memory),
+            ("latency", self.latency),
+            ("cycles", self.inverse_throughput),
+        ]
+    }
+
+    /// Those that fit beside each other on a line.
+    pub fn in_short(&self) -> [(&'static str, u64); 8] {
+        let all = self.named();
+        [0, 1, 3, 4, 5, 8, 11, 12].map(|k| all[k])
+    }
+
     /// Takes one of the compiler's own figures, by its own name for it.
     pub(crate) fn take(&mut self, name: &str, value: u64) {
         match name {

@@ -8,9 +8,9 @@
 //! ```no_run
 //! use straightline_isa::{Compiler, Family};
 //!
-//! # let words: Vec<u32> = Vec::new();
+//! # let spirv: Vec<u8> = Vec::new();
 //! let mut compiler = Compiler::start(&std::env::current_exe()?, &["serve"], Family::Navi21)?;
-//! let figures = compiler.compile(&words, "main")?.figures;
+//! let figures = compiler.compile(&spirv, "main")?.figures;
 //! println!("{} instructions, {} cycles", figures.instructions, figures.inverse_throughput);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```

@@ -59,31 +59,17 @@ pub fn run(args: &ExplainArgs) -> Result<(), Failure> {
 fn machine_code(emitted: &Emitted, family: Family) -> Result<(String, Report), Failure> {
     let program = std::env::current_exe().map_err(Failure::of)?;
     let mut compiler = Compiler::start(&program, &[isa::SERVE], family).map_err(Failure::of)?;
-    let bytes = emitted.files[&Target::Spirv].as_chunks::<4>().0;
-    let words: Vec<u32> = bytes.iter().map(|word| u32::from_le_bytes(*word)).collect();
     let report = compiler
-        .compile(&words, &emitted.manifest.entry_point)
+        .compile(&emitted.files[&Target::Spirv], &emitted.manifest.entry_point)
         .map_err(Failure::of)?;
     Ok((compiler.device().to_owned(), report))
 }
 
 fn print_isa(device: &str, report: &Report, dump: bool) {
-    let f = &report.figures;
-    let rows = [
-        ("instructions", f.instructions),
-        ("  vector", f.vector),
-        ("  scalar", f.scalar),
-        ("  memory", f.memory),
-        ("  branches", f.branches),
-        ("vector registers", f.vector_registers),
-        ("scalar registers", f.scalar_registers),
-        ("spilled registers", f.spilled),
-        ("waves a SIMD unit", f.occupancy),
-        ("bytes of machine code", f.code_size),
-        ("cycles, alone", f.latency),
-        ("cycles, among others", f.inverse_throughput),
-    ];
-    let rows = rows.map(|(name, figure)| vec![name.to_owned(), figure.to_string()]);
+    let rows = report
+        .figures
+        .named()
+        .map(|(name, figure)| vec![name.to_owned(), figure.to_string()]);
     out!("\n{}", table::render(&[device, "a wave"], &rows));
     if dump {
         out!("\n{}", report.assembly);

@@ -10,16 +10,16 @@ use straightline_codegen::ir::Invocation;
 use straightline_codegen::{Compiled, EmitOptions, Kernel, Settings, Stage, Unroll};
 
 /// A form by one way to SPIR-V.
-pub struct Words {
+pub struct Spirv {
     pub kind: IsaForm,
     pub path: SpirvPath,
     pub entry: String,
-    /// The SPIR-V, or why there is none.
-    pub words: Result<Vec<u32>, String>,
+    /// The module, or why there is none.
+    pub module: Result<Vec<u8>, String>,
 }
 
 /// All forms of a kernel, by naga and, where it is there, by glslang.
-pub fn forms(subject: &Subject, glslang: Option<&Path>) -> Result<Vec<Words>, IsaStudyError> {
+pub fn forms(subject: &Subject, glslang: Option<&Path>) -> Result<Vec<Spirv>, IsaStudyError> {
     let mut all = Vec::new();
     for kind in IsaForm::ALL {
         let Some(compiled) = compiled(subject, kind)? else {
@@ -39,7 +39,7 @@ pub fn forms(subject: &Subject, glslang: Option<&Path>) -> Result<Vec<Words>, Is
     Ok(all)
 }
 
-fn by(path: SpirvPath, kind: IsaForm, compiled: &Compiled, glslang: Option<&Path>) -> Words {
+fn by(path: SpirvPath, kind: IsaForm, compiled: &Compiled, glslang: Option<&Path>) -> Spirv {
     let stage = match compiled.graph.invocation {
         Invocation::Lane => Stage::Fragment,
         _ => Stage::Compute,
@@ -48,19 +48,19 @@ fn by(path: SpirvPath, kind: IsaForm, compiled: &Compiled, glslang: Option<&Path
         .stage(stage)
         .unbounded_loops(path != SpirvPath::NagaBounded);
     let emitted = compiled.emit(&options.targets([Target::Spirv, Target::Glsl450]));
-    let (entry, words) = match (emitted, path, glslang) {
+    let (entry, module) = match (emitted, path, glslang) {
         (Err(error), ..) => (String::new(), Err(error.to_string())),
         (Ok(emitted), SpirvPath::Glslang, Some(program)) => ("main".to_owned(), by_glslang(program, &emitted)),
-        (Ok(emitted), ..) => {
-            let words = words(&emitted.files[&Target::Spirv]);
-            (emitted.manifest.entry_point, Ok(words))
+        (Ok(mut emitted), ..) => {
+            let module = emitted.files.remove(&Target::Spirv).unwrap_or_default();
+            (emitted.manifest.entry_point, Ok(module))
         }
     };
-    Words {
+    Spirv {
         kind,
         path,
         entry,
-        words,
+        module,
     }
 }
 
@@ -96,13 +96,8 @@ fn compiled(subject: &Subject, kind: IsaForm) -> Result<Option<Compiled>, IsaStu
     }
 }
 
-fn words(bytes: &[u8]) -> Vec<u32> {
-    let words = bytes.as_chunks::<4>().0;
-    words.iter().map(|word| u32::from_le_bytes(*word)).collect()
-}
-
 /// What glslang makes of the GLSL.
-fn by_glslang(program: &Path, emitted: &Emitted) -> Result<Vec<u32>, String> {
+fn by_glslang(program: &Path, emitted: &Emitted) -> Result<Vec<u8>, String> {
     let folder = std::env::temp_dir().join(format!("straightline-isa-{}", std::process::id()));
     let failed = |e: std::io::Error| e.to_string();
     std::fs::create_dir_all(&folder).map_err(failed)?;
@@ -119,7 +114,7 @@ fn by_glslang(program: &Path, emitted: &Emitted) -> Result<Vec<u32>, String> {
     });
     let _ = std::fs::remove_dir_all(&folder);
     match made.map_err(failed)? {
-        (true, _, bytes) => Ok(words(&bytes.map_err(failed)?)),
+        (true, _, module) => module.map_err(failed),
         (false, said, _) => Err(String::from_utf8_lossy(&said).trim().to_owned()),
     }
 }

@@ -88,11 +88,11 @@ pub fn ask(
                 figures: Default::default(),
                 refused: None,
             };
-            match form.words {
+            match form.module {
                 Err(why) => asked.refused = Some(why),
-                Ok(words) => {
+                Ok(module) => {
                     for compiler in &mut compilers {
-                        match compiler.compile(&words, &form.entry) {
+                        match compiler.compile(&module, &form.entry) {
                             Ok(report) => drop(asked.figures.insert(compiler.family(), report.figures)),
                             Err(IsaError::Shader(_, why)) => asked.refused = Some(why),
                             Err(error) => return Err(error.into()),

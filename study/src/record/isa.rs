@@ -96,26 +96,9 @@ impl Record for IsaRecord {
     const STEM: &'static str = "isa";
 
     fn table(&self) -> (Vec<&'static str>, Vec<Vec<String>>) {
-        let head = vec![
-            "kernel",
-            "options",
-            "form",
-            "SPIR-V by",
-            "family",
-            "instructions",
-            "vector",
-            "scalar",
-            "memory",
-            "branches",
-            "vector registers",
-            "scalar registers",
-            "spilled",
-            "occupancy",
-            "code size",
-            "latency",
-            "inverse throughput",
-        ];
-        let row = |asked: &Asked, family: &Family, f: &Figures| {
+        let mut head = vec!["kernel", "options", "form", "SPIR-V by", "family"];
+        head.extend(Figures::default().named().map(|(name, _)| name));
+        let row = |asked: &Asked, family: &Family, figures: &Figures| {
             let options: Vec<String> = asked.options.iter().map(|(k, v)| format!("{k}={v}")).collect();
             let words = [
                 &*asked.kernel,
@@ -124,22 +107,10 @@ impl Record for IsaRecord {
                 asked.path.name(),
                 family.name(),
             ];
-            let figures = [
-                f.instructions,
-                f.vector,
-                f.scalar,
-                f.memory,
-                f.branches,
-                f.vector_registers,
-                f.scalar_registers,
-                f.spilled,
-                f.occupancy,
-                f.code_size,
-                f.latency,
-                f.inverse_throughput,
-            ];
             let words = words.map(str::to_owned).into_iter();
-            words.chain(figures.map(|figure| figure.to_string())).collect()
+            words
+                .chain(figures.named().map(|(_, figure)| figure.to_string()))
+                .collect()
         };
         let shaders = self.shaders.iter();
         let rows = shaders.flat_map(|asked| asked.figures.iter().map(move |(family, f)| row(asked, family, f)));

@@ -8,6 +8,8 @@ use straightline_isa::{Family, Figures};
 pub(super) struct Isa {
     command: String,
     date: String,
+    /// What the figures are called.
+    figures: Vec<&'static str>,
     families: Vec<OfFamily>,
     /// Why a family has no table.
     absent: Vec<String>,
@@ -29,20 +31,8 @@ pub(super) fn section(record: &IsaRecord) -> Isa {
             asked.form.name().to_owned(),
             asked.path.name().to_owned(),
         ];
-        let figures = [
-            figures.instructions,
-            figures.vector,
-            figures.memory,
-            figures.branches,
-            figures.vector_registers,
-            figures.occupancy,
-            figures.latency,
-            figures.inverse_throughput,
-        ];
-        words
-            .into_iter()
-            .chain(figures.map(|figure| figure.to_string()))
-            .collect()
+        let figures = figures.in_short().map(|(_, figure)| figure.to_string());
+        words.into_iter().chain(figures).collect()
     };
     let of_family = |(family, device): (&Family, &String)| OfFamily {
         device: format!("{family}: {device}"),
@@ -59,6 +49,7 @@ pub(super) fn section(record: &IsaRecord) -> Isa {
     Isa {
         command: record.command.clone(),
         date: record.date.clone(),
+        figures: Figures::default().in_short().map(|(name, _)| name).into(),
         families: record.devices.iter().map(of_family).collect(),
         absent: record.absent.values().cloned().collect(),
         refused: refused.collect(),

@@ -5,6 +5,7 @@ use crate::args::{CommonArgs, IsaArgs};
 use crate::failure::Failure;
 use crate::table;
 use std::path::PathBuf;
+use straightline_isa::Figures;
 use straightline_study::isa::{self, IsaStudyError, Question};
 use straightline_study::record::{IsaRecord, Record};
 
@@ -42,36 +43,14 @@ fn glslang() -> Option<PathBuf> {
 }
 
 fn print(record: &IsaRecord) {
-    let head = [
-        "kernel, form",
-        "instructions",
-        "vector",
-        "memory",
-        "branches",
-        "registers",
-        "occupancy",
-        "latency",
-        "cycles",
-    ];
+    let mut head = vec!["kernel, form"];
+    head.extend(Figures::default().in_short().map(|(name, _)| name));
     for (family, device) in &record.devices {
         let rows = record.shaders.iter().filter_map(|asked| {
-            let f = asked.figures.get(family)?;
-            let figures = [
-                f.instructions,
-                f.vector,
-                f.memory,
-                f.branches,
-                f.vector_registers,
-                f.occupancy,
-                f.latency,
-                f.inverse_throughput,
-            ];
+            let figures = asked.figures.get(family)?.in_short();
             let name = format!("{}, {}, {}", asked.kernel, asked.form.name(), asked.path.name());
-            Some(
-                std::iter::once(name)
-                    .chain(figures.map(|figure| figure.to_string()))
-                    .collect(),
-            )
+            let cells = std::iter::once(name).chain(figures.map(|(_, figure)| figure.to_string()));
+            Some(cells.collect())
         });
         outln!(
             "{family}: {device}\n\n{}",
