@@ -26,7 +26,7 @@ void main() {
     if (any(greaterThanEqual(pixel, frame))) {
         return;
     }
-    // sum of the shares of all reconstructed samples (kernels/src/sraa/mod.rs:199)
+    // sum of the shares of all reconstructed samples (kernels/src/sraa/mod.rs:212)
     float total = 0.0;
     for (int sample_value = 0; sample_value < 4; sample_value++) {
         total += 1.0;
@@ -41,16 +41,17 @@ void main() {
         if (abs(depth_2) < 1e30) {
             seen_depth = depth_2;
         }
-        vec3 seen_normal = texelFetch(normal, ivec3(pixel, sample_value), 0).xyz;
+        // the surface seen at `place` (kernels/src/sraa/gbuffer.rs:114)
+        vec3 n = texelFetch(normal, ivec3(pixel, sample_value), 0).xyz;
         bool is_equal = sample_value == 4;
         float distances[9] = float[9](0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
-        float nearest = 16.0;
+        float nearest = 3e38;
         for (int tap = 0; tap < 9; tap++) {
             // tap `tap` of a square of `side` × `side` pixels (kernels/src/sraa/pattern.rs:186)
             ivec2 pixel_2 = ivec2(tap % 3 - 1, tap / 3 - 1);
             vec2 away = vec2(pixel_2) - place_at;
             if (max(1.0 - abs(away.x), 0.0) * max(1.0 - abs(away.y), 0.0) > 1e-6) {
-                // kernels/src/sraa/mod.rs:98
+                // the mean of the geometry samples (kernels/src/sraa/mod.rs:124)
                 float d;
                 if (all(bvec2(is_equal, all(equal(ivec2(0), pixel_2))))) {
                     d = 0.0;
@@ -60,19 +61,19 @@ void main() {
                     float depth_3 = texelFetch(depth, ivec3(at, 4), 0).x;
                     float shaded_depth = 1e30;
                     if (abs(depth_3) < 1e30) {
-                        // kernels/src/sraa/mod.rs:233
+                        // kernels/src/sraa/mod.rs:246
                         shaded_depth = depth_3;
                     }
-                    // 1 - a·b of two unit vectors (kernels/src/sraa/metric.rs:121)
-                    vec3 turn = seen_normal - texelFetch(normal, ivec3(at, 4), 0).xyz;
-                    float difference = 0.5 * dot(turn, turn);
-                    float number = 16.0;
-                    if (difference < 16.0) {
-                        number = difference;
+                    vec3 n_2 = texelFetch(normal, ivec3(at, 4), 0).xyz;
+                    float d_2 = 1.0 - n.x * n_2.x - n.y * n_2.y - n.z * n_2.z;
+                    float number = 3e38;
+                    if (d_2 < 3e38) {
+                        // kernels/src/sraa/metric.rs:76
+                        number = d_2;
                     }
-                    // kernels/src/sraa/mod.rs:234
-                    d = min(max(abs(seen_depth - shaded_depth), number), 16.0);
+                    d = max(abs(seen_depth - shaded_depth), number);
                 }
+                // the mean of the geometry samples (kernels/src/sraa/mod.rs:125)
                 distances[tap] = d;
                 nearest = min(nearest, d);
             }

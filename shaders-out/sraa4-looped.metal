@@ -91,8 +91,8 @@ kernel void sraa(
         if (metal::all(loop_bound_1 == uint2(0u))) { break; }
         loop_bound_1 -= uint2(loop_bound_1.y == 0u, 1u);
         if (!loop_init_1) {
-            int _e279 = sample_1;
-            sample_1 = as_type<int>(as_type<uint>(_e279) + as_type<uint>(1));
+            int _e286 = sample_1;
+            sample_1 = as_type<int>(as_type<uint>(_e286) + as_type<uint>(1));
         }
         loop_init_1 = false;
         int _e40 = sample_1;
@@ -112,11 +112,11 @@ kernel void sraa(
             }
             int _e64 = sample_1;
             metal::float4 _e66 = normal.read(metal::uint2(pixel), _e64, 0);
-            metal::float3 seen_normal = _e66.xyz;
+            metal::float3 n = _e66.xyz;
             int _e68 = sample_1;
             bool is_equal = _e68 == 4;
             distances = type_8 {{0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0}};
-            nearest = 16.0;
+            nearest = 300000000000000000000000000000000000000.0;
             tap = 0;
             uint2 loop_bound_2 = uint2(4294967295u);
             bool loop_init_2 = true;
@@ -124,8 +124,8 @@ kernel void sraa(
                 if (metal::all(loop_bound_2 == uint2(0u))) { break; }
                 loop_bound_2 -= uint2(loop_bound_2.y == 0u, 1u);
                 if (!loop_init_2) {
-                    int _e167 = tap;
-                    tap = as_type<int>(as_type<uint>(_e167) + as_type<uint>(1));
+                    int _e174 = tap;
+                    tap = as_type<int>(as_type<uint>(_e174) + as_type<uint>(1));
                 }
                 loop_init_2 = false;
                 int _e86 = tap;
@@ -151,23 +151,23 @@ kernel void sraa(
                                 shaded_depth = depth_3_;
                             }
                             metal::float4 _e142 = normal.read(metal::uint2(at), 4, 0);
-                            metal::float3 turn = seen_normal - _e142.xyz;
-                            float difference = 0.5 * metal::dot(turn, turn);
-                            number = 16.0;
-                            if (difference < 16.0) {
-                                number = difference;
+                            metal::float3 n_2_ = _e142.xyz;
+                            float d_2_ = ((1.0 - (n.x * n_2_.x)) - (n.y * n_2_.y)) - (n.z * n_2_.z);
+                            number = 300000000000000000000000000000000000000.0;
+                            if (d_2_ < 300000000000000000000000000000000000000.0) {
+                                number = d_2_;
                             }
-                            float _e152 = seen_depth;
-                            float _e153 = shaded_depth;
-                            float _e156 = number;
-                            d = metal::min(metal::max(metal::abs(_e152 - _e153), _e156), 16.0);
+                            float _e161 = seen_depth;
+                            float _e162 = shaded_depth;
+                            float _e165 = number;
+                            d = metal::max(metal::abs(_e161 - _e162), _e165);
                         }
-                        int _e160 = tap;
-                        float _e162 = d;
-                        distances.inner[metal::min(unsigned(_e160), 8u)] = _e162;
-                        float _e163 = nearest;
-                        float _e164 = d;
-                        nearest = metal::min(_e163, _e164);
+                        int _e167 = tap;
+                        float _e169 = d;
+                        distances.inner[metal::min(unsigned(_e167), 8u)] = _e169;
+                        float _e170 = nearest;
+                        float _e171 = d;
+                        nearest = metal::min(_e170, _e171);
                     }
                 }
             }
@@ -180,34 +180,34 @@ kernel void sraa(
                 if (metal::all(loop_bound_3 == uint2(0u))) { break; }
                 loop_bound_3 -= uint2(loop_bound_3.y == 0u, 1u);
                 if (!loop_init_3) {
-                    int _e230 = tap_1;
-                    tap_1 = as_type<int>(as_type<uint>(_e230) + as_type<uint>(1));
+                    int _e237 = tap_1;
+                    tap_1 = as_type<int>(as_type<uint>(_e237) + as_type<uint>(1));
                 }
                 loop_init_3 = false;
-                int _e184 = tap_1;
-                if (_e184 < 9) {
+                int _e191 = tap_1;
+                if (_e191 < 9) {
                 } else {
                     break;
                 }
                 {
-                    int _e187 = tap_1;
-                    int _e192 = tap_1;
-                    metal::float2 away_1 = static_cast<metal::float2>(metal::int2(as_type<int>(as_type<uint>(naga_mod(_e187, 3)) - as_type<uint>(1)), as_type<int>(as_type<uint>(naga_div(_e192, 3)) - as_type<uint>(1)))) - place_at;
+                    int _e194 = tap_1;
+                    int _e199 = tap_1;
+                    metal::float2 away_1 = static_cast<metal::float2>(metal::int2(as_type<int>(as_type<uint>(naga_mod(_e194, 3)) - as_type<uint>(1)), as_type<int>(as_type<uint>(naga_div(_e199, 3)) - as_type<uint>(1)))) - place_at;
                     float tent = metal::max(1.0 - metal::abs(away_1.x), 0.0) * metal::max(1.0 - metal::abs(away_1.y), 0.0);
                     if (tent > 0.000001) {
-                        float _e215 = nearest;
-                        int _e216 = tap_1;
-                        float _e218 = distances.inner[metal::min(unsigned(_e216), 8u)];
-                        float w_1 = metal::exp2((721.34753 * (_e215 - _e218)) + metal::log2(tent));
-                        int _e225 = tap_1;
-                        tap_weights.inner[metal::min(unsigned(_e225), 8u)] = w_1;
-                        float _e227 = sum;
-                        sum = _e227 + w_1;
+                        float _e222 = nearest;
+                        int _e223 = tap_1;
+                        float _e225 = distances.inner[metal::min(unsigned(_e223), 8u)];
+                        float w_1 = metal::exp2((721.34753 * (_e222 - _e225)) + metal::log2(tent));
+                        int _e232 = tap_1;
+                        tap_weights.inner[metal::min(unsigned(_e232), 8u)] = w_1;
+                        float _e234 = sum;
+                        sum = _e234 + w_1;
                     }
                 }
             }
-            float _e232 = sum;
-            float scale = share / _e232;
+            float _e239 = sum;
+            float scale = share / _e239;
             tap_2 = 0;
             uint2 loop_bound_4 = uint2(4294967295u);
             bool loop_init_4 = true;
@@ -215,25 +215,25 @@ kernel void sraa(
                 if (metal::all(loop_bound_4 == uint2(0u))) { break; }
                 loop_bound_4 -= uint2(loop_bound_4.y == 0u, 1u);
                 if (!loop_init_4) {
-                    int _e276 = tap_2;
-                    tap_2 = as_type<int>(as_type<uint>(_e276) + as_type<uint>(1));
+                    int _e283 = tap_2;
+                    tap_2 = as_type<int>(as_type<uint>(_e283) + as_type<uint>(1));
                 }
                 loop_init_4 = false;
-                int _e236 = tap_2;
-                if (_e236 < 9) {
+                int _e243 = tap_2;
+                if (_e243 < 9) {
                 } else {
                     break;
                 }
                 {
-                    int _e239 = tap_2;
-                    int _e244 = tap_2;
-                    metal::float2 away_2 = static_cast<metal::float2>(metal::int2(as_type<int>(as_type<uint>(naga_mod(_e239, 3)) - as_type<uint>(1)), as_type<int>(as_type<uint>(naga_div(_e244, 3)) - as_type<uint>(1)))) - place_at;
+                    int _e246 = tap_2;
+                    int _e251 = tap_2;
+                    metal::float2 away_2 = static_cast<metal::float2>(metal::int2(as_type<int>(as_type<uint>(naga_mod(_e246, 3)) - as_type<uint>(1)), as_type<int>(as_type<uint>(naga_div(_e251, 3)) - as_type<uint>(1)))) - place_at;
                     if ((metal::max(1.0 - metal::abs(away_2.x), 0.0) * metal::max(1.0 - metal::abs(away_2.y), 0.0)) > 0.000001) {
-                        int _e267 = tap_2;
-                        float _e269 = weights.inner[metal::min(unsigned(_e267), 8u)];
-                        int _e270 = tap_2;
-                        float _e272 = tap_weights.inner[metal::min(unsigned(_e270), 8u)];
-                        weights.inner[metal::min(unsigned(_e267), 8u)] = _e269 + (_e272 * scale);
+                        int _e274 = tap_2;
+                        float _e276 = weights.inner[metal::min(unsigned(_e274), 8u)];
+                        int _e277 = tap_2;
+                        float _e279 = tap_weights.inner[metal::min(unsigned(_e277), 8u)];
+                        weights.inner[metal::min(unsigned(_e274), 8u)] = _e276 + (_e279 * scale);
                     }
                 }
             }
@@ -245,44 +245,44 @@ kernel void sraa(
         if (metal::all(loop_bound_5 == uint2(0u))) { break; }
         loop_bound_5 -= uint2(loop_bound_5.y == 0u, 1u);
         if (!loop_init_5) {
-            int _e330 = tap_3;
-            tap_3 = as_type<int>(as_type<uint>(_e330) + as_type<uint>(1));
+            int _e337 = tap_3;
+            tap_3 = as_type<int>(as_type<uint>(_e337) + as_type<uint>(1));
         }
         loop_init_5 = false;
-        int _e288 = tap_3;
-        if (_e288 < 9) {
+        int _e295 = tap_3;
+        if (_e295 < 9) {
         } else {
             break;
         }
         {
-            int _e291 = tap_3;
-            int _e296 = tap_3;
-            metal::int2 at_1 = metal::clamp(as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(metal::int2(as_type<int>(as_type<uint>(naga_mod(_e291, 3)) - as_type<uint>(1)), as_type<int>(as_type<uint>(naga_div(_e296, 3)) - as_type<uint>(1))))), metal::int2(0), last);
+            int _e298 = tap_3;
+            int _e303 = tap_3;
+            metal::int2 at_1 = metal::clamp(as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(metal::int2(as_type<int>(as_type<uint>(naga_mod(_e298, 3)) - as_type<uint>(1)), as_type<int>(as_type<uint>(naga_div(_e303, 3)) - as_type<uint>(1))))), metal::int2(0), last);
             metal::float4 shaded = color.read(metal::uint2(at_1), 0);
             bool kept = metal::all((as_type<metal::uint4>(shaded) & metal::uint4(2147483647u)) < metal::uint4(2139095040u));
             w = 0.0;
             if (kept) {
-                int _e319 = tap_3;
-                float _e321 = weights.inner[metal::min(unsigned(_e319), 8u)];
-                w = _e321;
+                int _e326 = tap_3;
+                float _e328 = weights.inner[metal::min(unsigned(_e326), 8u)];
+                w = _e328;
             }
             if (kept) {
-                metal::float4 _e322 = result;
-                float _e323 = w;
-                result = _e322 + (_e323 * shaded);
+                metal::float4 _e329 = result;
+                float _e330 = w;
+                result = _e329 + (_e330 * shaded);
             }
-            float _e326 = sum_1;
-            float _e327 = w;
-            sum_1 = _e326 + _e327;
+            float _e333 = sum_1;
+            float _e334 = w;
+            sum_1 = _e333 + _e334;
         }
     }
-    float _e335 = sum_1;
-    if (_e335 > 0.000000000000000000000000000001) {
-        metal::float4 _e338 = result;
-        float _e339 = sum_1;
-        mean_of_kept = _e338 / metal::float4(_e339);
+    float _e342 = sum_1;
+    if (_e342 > 0.000000000000000000000000000001) {
+        metal::float4 _e345 = result;
+        float _e346 = sum_1;
+        mean_of_kept = _e345 / metal::float4(_e346);
     }
-    metal::float4 _e343 = mean_of_kept;
-    destination.write(_e343, metal::uint2(pixel));
+    metal::float4 _e350 = mean_of_kept;
+    destination.write(_e350, metal::uint2(pixel));
     return;
 }

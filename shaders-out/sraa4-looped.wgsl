@@ -18,7 +18,7 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     if any(pixel >= frame) {
         return;
     }
-    // sum of the shares of all reconstructed samples (kernels/src/sraa/mod.rs:199)
+    // sum of the shares of all reconstructed samples (kernels/src/sraa/mod.rs:212)
     var total = 0.0;
     for (var sample = 0; sample < 4; sample++) {
         total += 1.0;
@@ -33,16 +33,17 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
         if abs(depth_2) < 1e30 {
             seen_depth = depth_2;
         }
-        let seen_normal = textureLoad(normal, pixel, sample, 0).xyz;
+        // the surface seen at `place` (kernels/src/sraa/gbuffer.rs:114)
+        let n = textureLoad(normal, pixel, sample, 0).xyz;
         let is_equal = sample == 4;
         var distances = array<f32, 9>(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
-        var nearest = 16.0;
+        var nearest = 3e38;
         for (var tap = 0; tap < 9; tap++) {
             // tap `tap` of a square of `side` × `side` pixels (kernels/src/sraa/pattern.rs:186)
             let pixel_2 = vec2i(tap % 3 - 1, tap / 3 - 1);
             let away = vec2f(pixel_2) - place_at;
             if max(1.0 - abs(away.x), 0.0) * max(1.0 - abs(away.y), 0.0) > 1e-6 {
-                // kernels/src/sraa/mod.rs:98
+                // the mean of the geometry samples (kernels/src/sraa/mod.rs:124)
                 var d: f32;
                 if is_equal & all(vec2i(0) == pixel_2) {
                     d = 0.0;
@@ -52,19 +53,19 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
                     let depth_3 = textureLoad(depth, at, 4, 0).x;
                     var shaded_depth = 1e30;
                     if abs(depth_3) < 1e30 {
-                        // kernels/src/sraa/mod.rs:233
+                        // kernels/src/sraa/mod.rs:246
                         shaded_depth = depth_3;
                     }
-                    // 1 - a·b of two unit vectors (kernels/src/sraa/metric.rs:121)
-                    let turn = seen_normal - textureLoad(normal, at, 4, 0).xyz;
-                    let difference = 0.5 * dot(turn, turn);
-                    var number = 16.0;
-                    if difference < 16.0 {
-                        number = difference;
+                    let n_2 = textureLoad(normal, at, 4, 0).xyz;
+                    let d_2 = 1.0 - n.x * n_2.x - n.y * n_2.y - n.z * n_2.z;
+                    var number = 3e38;
+                    if d_2 < 3e38 {
+                        // kernels/src/sraa/metric.rs:76
+                        number = d_2;
                     }
-                    // kernels/src/sraa/mod.rs:234
-                    d = min(max(abs(seen_depth - shaded_depth), number), 16.0);
+                    d = max(abs(seen_depth - shaded_depth), number);
                 }
+                // the mean of the geometry samples (kernels/src/sraa/mod.rs:125)
                 distances[tap] = d;
                 nearest = min(nearest, d);
             }

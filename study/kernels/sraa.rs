@@ -55,7 +55,7 @@ const LATIN16: [IVec2; 16] = [
 ];
 
 const DEEPEST: f32 = 1.0e30;
-const FAR: f32 = 16.0;
+const FAR: f32 = 3.0e38;
 const STEEPNESS: f32 = 500.0 * std::f32::consts::LOG2_E;
 const EPSILON: f32 = 1.0e-30;
 
@@ -115,18 +115,18 @@ fn filtered<const SAMPLES: usize>(
             let deeper = (seen_depth - depths[tap]).abs();
             let larger = match cfg.metric {
                 Metric::DepthNormals => {
-                    let turn = seen_normal - normals[tap];
-                    deeper.max(0.5 * turn.dot(turn))
+                    let (a, b) = (seen_normal, normals[tap]);
+                    deeper.max(1.0 - a.x * b.x - a.y * b.y - a.z * b.z)
                 }
                 Metric::Depth => deeper,
             };
             // Samples on an axis reach two taps of the four: the others must not be the nearest.
             let d = match cfg.pattern {
-                Pattern::Latin4 => larger.min(FAR),
+                Pattern::Latin4 => larger,
                 Pattern::Latin16 => {
                     #[cfg_attr(false, select)]
                     if falloff > 0.0 {
-                        larger.min(FAR)
+                        larger
                     } else {
                         FAR
                     }

@@ -11,7 +11,7 @@ const CENTRE = 4;
 // As deep as anything counts; the sky is infinitely deep.
 const DEEPEST = 1e30;
 // Differences from here on are alike.
-const FAR = 16.0;
+const FAR = 3e38;
 // tau * log2(e)
 const STEEPNESS = 721.34753;
 const EPSILON = 1e-30;
@@ -36,10 +36,7 @@ fn bounded(difference: f32) -> f32 {
 
 // 0 for the same surface, 1 or more for unrelated ones.
 fn difference(a: Surface, b: Surface) -> f32 {
-    let deeper = abs(a.depth - b.depth);
-    let turn = a.normal - b.normal;
-    let turned = 0.5 * dot(turn, turn);
-    return max(bounded(deeper), bounded(turned));
+    return max(abs(a.depth - b.depth), bounded(1.0 - dot(a.normal, b.normal)));
 }
 
 // Linear from 1 at zero to 0 at one, on each axis.

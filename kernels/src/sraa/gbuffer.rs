@@ -24,7 +24,7 @@ pub enum Depth {
 pub enum Normals {
     /// As unit vectors, in a float format.
     Float,
-    /// As 0.5 + 0.5 n, in a normalised format such as RGB8 or RGB10A2; renormalised when read.
+    /// As 0.5 + 0.5 n, in a normalised format such as RGB8 or RGB10A2; renormalised if `renormalise` says so.
     Unorm,
     /// Unfolded to a square, each axis as 0.5 + 0.5 n, in a normalised format of two components such as RG8 or RG16.
     Octahedral,
@@ -80,7 +80,7 @@ pub struct GBuffer {
 pub struct Surface {
     /// Linear depth, at most 1e30.
     pub depth: f32,
-    /// Unit normal.
+    /// Unit normal; of normals=unorm that are compared as they are stored, half of it and 0.5.
     pub normal: Vec3,
 }
 
@@ -186,9 +186,9 @@ fn linear(cfg: &Sraa, view: &View, stored: f32) -> f32 {
         Depth::ReversedInfinite => near / if stored > SHORTEST { stored } else { SHORTEST },
     };
     match cfg.guards {
-        Guards::None => depth.min(DEEPEST),
+        Guards::Fallback | Guards::None => depth.min(DEEPEST),
         // What is infinite or not a number is as deep as the sky. `min` may give either of its operands if one is a NaN.
-        _ => {
+        Guards::Inline => {
             if depth.abs() < DEEPEST {
                 depth
             } else {
@@ -198,13 +198,15 @@ fn linear(cfg: &Sraa, view: &View, stored: f32) -> f32 {
     }
 }
 
-/// The unit normal that a texel holds.
-fn decoded(cfg: &Sraa, texel: Vec4) -> Vec3 {
+/// The normal that a texel `n` holds, as [`Surface`] has it.
+fn decoded(cfg: &Sraa, n: Vec4) -> Vec3 {
     match cfg.normals {
-        Normals::Float => texel.xyz(),
-        Normals::Unorm => unit(2.0 * texel.xyz() - 1.0),
-        Normals::Octahedral => folded(2.0 * texel.xy() - 1.0),
-        Normals::Packed => folded(texel.xy()),
+        Normals::Float => n.xyz(),
+        Normals::Unorm if cfg.renormalise => unit(2.0 * n.xyz() - 1.0),
+        Normals::Unorm if cfg.metric == Metric::PlanesNormals => 2.0 * n.xyz() - 1.0,
+        Normals::Unorm => n.xyz(),
+        Normals::Octahedral => folded(2.0 * n.xy() - 1.0),
+        Normals::Packed => folded(n.xy()),
     }
 }
 

@@ -1,7 +1,7 @@
 //! What tells two surfaces apart (paper §3.2, Table 1).
 
-use super::gbuffer::Surface;
-use super::options::{Guards, Sraa};
+use super::gbuffer::{Normals, Surface};
+use super::options::{Guards, Sraa, Turn};
 use super::view::View;
 use crate::prelude::*;
 
@@ -59,34 +59,35 @@ impl Sample {
     }
 }
 
-/// Differences from here on are alike: nothing that a weight could tell apart, whatever tau. The bound keeps a
-/// difference exact enough to be shifted by the smallest one: of two that are a million apart, f32 would lose all that
-/// the exponential needs.
-pub(super) const FAR: f32 = 16.0;
+/// What cannot be told: more than any difference, and finite, so that it can be shifted by the smallest one.
+pub(super) const FAR: f32 = 3.0e38;
 
 /// The least depth that another is divided by.
 const NEAREST: f32 = 1.0e-30;
 
-/// How different the surface at a tap is from that at a geometry sample: 0 for the same, 1 or more for unrelated ones.
+/// How different the surface at a tap is from that at a geometry sample: 0 for the same, 1 or more for unrelated ones, at
+/// most [`FAR`].
 pub(super) fn distance(cfg: &Sraa, sample: &Sample, tap: &Surface, at: Vec2) -> f32 {
     let larger = match cfg.metric {
-        Metric::PlanesNormals => number(cfg, off_plane(cfg, sample, tap, at)).max(number(cfg, turned(sample, tap))),
+        Metric::PlanesNormals => {
+            number(cfg, off_plane(cfg, sample, tap, at)).max(number(cfg, turned(cfg, sample, tap)))
+        }
         // Depths are numbers, and so is how far they are apart.
-        Metric::DepthNormals => deeper(cfg, sample, tap).max(number(cfg, turned(sample, tap))),
-        Metric::Normals => number(cfg, turned(sample, tap)),
+        Metric::DepthNormals => deeper(cfg, sample, tap).max(number(cfg, turned(cfg, sample, tap))),
+        Metric::Normals => number(cfg, turned(cfg, sample, tap)),
         Metric::Depth => deeper(cfg, sample, tap),
     };
-    tally("weight_evaluations", larger.min(FAR))
+    tally("weight_evaluations", larger)
 }
 
 /// A difference, or [`FAR`]: what is not a number, as of a normal that was divided by its length of zero, is of no surface at all.
 /// `min` and `max` would leave to the device what becomes of it.
-fn number(cfg: &Sraa, difference: f32) -> f32 {
+fn number(cfg: &Sraa, d: f32) -> f32 {
     match cfg.guards {
-        Guards::None => difference,
-        _ => {
-            if difference < FAR {
-                difference
+        Guards::Fallback | Guards::None => d,
+        Guards::Inline => {
+            if d < FAR {
+                d
             } else {
                 FAR
             }
@@ -116,8 +117,19 @@ fn deeper(cfg: &Sraa, sample: &Sample, tap: &Surface) -> f32 {
     }
 }
 
-/// 1 - a·b of two unit vectors, as ½|a - b|²: the same number without the cancellation.
-fn turned(sample: &Sample, tap: &Surface) -> f32 {
-    let turn = sample.surface.normal - tap.normal;
-    0.5 * turn.dot(turn)
+/// 1 - a·b of two normals.
+fn turned(cfg: &Sraa, sample: &Sample, tap: &Surface) -> f32 {
+    let (a, b) = (sample.surface.normal, tap.normal);
+    let turn = a - b;
+    match (cfg.normals, cfg.metric) {
+        // Half as long, so that the square is a quarter.
+        (Normals::Unorm, Metric::DepthNormals | Metric::Normals) if !cfg.renormalise => 2.0 * turn.dot(turn),
+        (Normals::Unorm, _) if !cfg.renormalise => 0.5 * turn.dot(turn),
+        (_, Metric::Normals) => 0.5 * turn.dot(turn),
+        _ => match cfg.turn {
+            Turn::Chord => 0.5 * turn.dot(turn),
+            // Term by term, each of which a GPU fuses with the last.
+            Turn::Cosine => 1.0 - a.x * b.x - a.y * b.y - a.z * b.z,
+        },
+    }
 }

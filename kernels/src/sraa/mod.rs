@@ -17,7 +17,7 @@ use pattern::{Place, tent};
 
 pub use gbuffer::{Depth, GBuffer, Layout, Normals, Surface};
 pub use metric::{Difference, Metric};
-pub use options::{Falloff, Guards, Mask, NonFinite, Normalisation, Resolve, Sraa};
+pub use options::{Falloff, Guards, Mask, NonFinite, Normalisation, Resolve, Sraa, Turn};
 pub use pattern::{Pattern, Shading};
 pub use view::View;
 
@@ -83,6 +83,32 @@ fn masked<const TAPS: usize, const SIDE: usize>(cfg: &Sraa, inputs: &Inputs) -> 
 
 /// The pixel's colour from the `TAPS` shading samples of the `SIDE` × `SIDE` pixels around it.
 fn filtered<const TAPS: usize, const SIDE: usize>(cfg: &Sraa, inputs: &Inputs) -> Vec4 {
+    match cfg.guards {
+        Guards::Inline | Guards::None => reconstructed::<TAPS, SIDE>(cfg, inputs),
+        Guards::Fallback => {
+            let color = reconstructed::<TAPS, SIDE>(cfg, inputs);
+            #[cfg_attr(false, branch)]
+            if color.is_finite() {
+                color
+            } else {
+                again::<TAPS, SIDE>(cfg, inputs)
+            }
+        }
+    }
+}
+
+/// The same with every test, for the few pixels that need one: so its loops stay loops.
+#[cfg_attr(false, unroll(none))]
+fn again<const TAPS: usize, const SIDE: usize>(cfg: &Sraa, inputs: &Inputs) -> Vec4 {
+    let guarded = Sraa {
+        guards: Guards::Inline,
+        ..*cfg
+    };
+    reconstructed::<TAPS, SIDE>(&guarded, inputs)
+}
+
+/// The mean of the geometry samples, each with its colour from the taps around it.
+fn reconstructed<const TAPS: usize, const SIDE: usize>(cfg: &Sraa, inputs: &Inputs) -> Vec4 {
     let steepness = (cfg.tau * std::f32::consts::LOG2_E).min(STEEPEST);
     let total = total_share(cfg);
     let mut weights = [0.0; TAPS];
@@ -100,17 +126,20 @@ fn filtered<const TAPS: usize, const SIDE: usize>(cfg: &Sraa, inputs: &Inputs) -
                     nearest = nearest.min(d);
                 }
             }
-            let origin = match cfg.normalisation {
-                Normalisation::Paper | Normalisation::Epsilon => 0.0,
-                Normalisation::Shifted => nearest,
-            };
             let mut tap_weights = [0.0; TAPS];
             let mut sum = 0.0;
             for tap in 0..TAPS {
                 if falloff(cfg, place, cfg.tap(tap, SIDE)) > least(cfg) {
-                    // The falloff as an exponent: it is added, not multiplied with.
-                    let w =
-                        (steepness * (origin - distances[tap]) + falloff(cfg, place, cfg.tap(tap, SIDE)).log2()).exp2();
+                    let exponent = steepness
+                        * match cfg.normalisation {
+                            Normalisation::Paper | Normalisation::Epsilon => -distances[tap],
+                            Normalisation::Shifted => nearest - distances[tap],
+                        };
+                    let w = match cfg.falloff {
+                        Falloff::None => exponent.exp2(),
+                        // The falloff as an exponent: it is added, not multiplied with.
+                        _ => (exponent + falloff(cfg, place, cfg.tap(tap, SIDE)).log2()).exp2(),
+                    };
                     tap_weights[tap] = w;
                     sum += w;
                 }
@@ -126,35 +155,19 @@ fn filtered<const TAPS: usize, const SIDE: usize>(cfg: &Sraa, inputs: &Inputs) -
             }
         }
     }
-    match (cfg.guards, cfg.normalisation) {
-        (Guards::None, _) => mean(cfg, inputs, &weights, SIDE),
-        // The weights of `epsilon` need not sum to one.
-        (Guards::Inline, _) | (_, Normalisation::Epsilon) => mean_of_kept(cfg, inputs, &weights, SIDE),
-        (Guards::Fallback, _) => {
-            let of_all = mean(cfg, inputs, &weights, SIDE);
-            #[cfg_attr(false, branch)]
-            if of_all.is_finite() {
-                of_all
-            } else {
-                without_spoilt(cfg, inputs, &weights, SIDE)
-            }
-        }
+    match cfg.guards {
+        Guards::Inline => mean_of_kept(cfg, inputs, &weights, SIDE),
+        Guards::Fallback | Guards::None => mean(cfg, inputs, &weights, SIDE),
     }
 }
 
-/// The taps' colours by their weights, which sum to one.
+/// The taps' colours by their weights.
 fn mean<const TAPS: usize>(cfg: &Sraa, inputs: &Inputs, weights: &[f32; TAPS], side: usize) -> Vec4 {
     let mut result = Vec4::ZERO;
     for tap in 0..TAPS {
         result += weights[tap] * color(cfg, inputs, tap, side);
     }
     result
-}
-
-/// The mean of what may count, for the few pixels in which something may not: so its loop stays a loop.
-#[cfg_attr(false, unroll(none))]
-fn without_spoilt<const TAPS: usize>(cfg: &Sraa, inputs: &Inputs, weights: &[f32; TAPS], side: usize) -> Vec4 {
-    mean_of_kept(cfg, inputs, weights, side)
 }
 
 /// The mean of the taps' colours that may count.

@@ -43,6 +43,10 @@ options! {
         pub mask_threshold: f32 [0.0..=16.0] = 0.01,
         /// What a colour that is infinite or not a number does.
         pub non_finite: NonFinite = NonFinite::Skip,
+        /// How far apart two normals are.
+        pub turn: Turn = Turn::Cosine,
+        /// Of normals=unorm: whether each is made as long as 1 first. If not, they are compared as they are stored, by their chord.
+        pub renormalise: bool = false,
         /// What keeps values that are infinite or not a number from the pixel.
         pub guards: Guards = Guards::Inline,
         /// How sharply a weight falls as surfaces differ: exp(-tau * difference).
@@ -105,12 +109,24 @@ pub enum NonFinite {
     Skip,
 }
 
+/// How far apart two normals are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Turn {
+    /// 1 - a·b: three operations, and of normals of length 1 the same to a rounding. Normals that are compared alone are
+    /// compared by their chord even so: a cleared texel, of length 0, would be as far from itself as from anything.
+    Cosine,
+    /// ½|a - b|²: exactly 0 for the same normal, whatever its length. For half precision, and for normals that are not of
+    /// length 1.
+    Chord,
+}
+
 /// What keeps values that are infinite or not a number from the pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Guards {
     /// Each that is read is tested, in one basic block.
     Inline,
-    /// Each depth and normal is; of the colours only their mean, which is taken again, of each by itself, where it is no number.
+    /// Only the pixel is: where it is not finite, it is filtered again, with all tests, in loops. A depth or a normal that is not
+    /// a number may escape, as `max` may drop it: then the other of the two decides.
     Fallback,
     /// Nothing is: who calls promises finite colours and normals, and depths that are numbers.
     None,

@@ -11,10 +11,10 @@
 //! colour cannot move it, and nothing moves it out of the range of its colours. So where two surfaces cannot be told apart
 //! in the bits that there are, the bound is as large as their colours differ, and no larger.
 
-use super::gbuffer::DEEPEST;
+use super::gbuffer::{DEEPEST, Point, Reading};
 use super::{
     Definition, Difference, EPSILON, Mask, Metric, NEAREST, NonFinite, Normalisation, OracleError, SraaParams, bounded,
-    is_finite,
+    is_finite, turned,
 };
 use crate::execute::Inputs;
 use rayon::prelude::*;
@@ -242,6 +242,15 @@ impl Definition<'_> {
         };
         let (s, t) = (self.point(pixel, at), self.point(pixel, tap));
         let (rs, rt) = (reading(at), reading(tap));
+        let two = matches!(self.params.metric, Metric::PlanesNormals | Metric::DepthNormals);
+        let is_nan = |point: &Point, read: &Reading| read.is_nan || point.normal.iter().any(|axis| axis.is_nan());
+        if self.params.escapes && two && (is_nan(&s, &rs) || is_nan(&t, &rt)) {
+            // `max` of the two may drop it.
+            return Range {
+                low: 0.0,
+                high: bounded(f64::INFINITY),
+            };
+        }
         let step = s.depth - t.depth;
         let beyond = |depth: f64| depth.abs() > rounding.largest && depth < DEEPEST;
         let same_depth = rs.stored == rt.stored || (s.depth == DEEPEST && t.depth == DEEPEST);
@@ -265,14 +274,34 @@ impl Definition<'_> {
             let value = scale * value.abs();
             Range::around(value, scale * off + value * scale_off + 4.0 * rounding.smallest)
         };
-        let by_depth = || scaled(step, step_off);
+        let by_depth = || match (s.depth == DEEPEST, t.depth == DEEPEST) {
+            // In f32 the sky less a surface is the sky, to the bit.
+            (true, false) | (false, true) if s.depth.min(t.depth).abs() < DEEPEST * u / 4.0 => {
+                let value = bounded(scale * DEEPEST);
+                match rounding.largest < DEEPEST && s.depth == DEEPEST {
+                    // In f16 it is less than that.
+                    true => Range { low: 0.0, high: value },
+                    false => Range {
+                        low: value,
+                        high: value,
+                    },
+                }
+            }
+            _ => scaled(step, step_off),
+        };
         let by_normal = || {
+            let each = rs.normal + rt.normal;
+            if self.params.by_cosine() {
+                let products: f64 = (0..3).map(|axis| (s.normal[axis] * t.normal[axis]).abs()).sum();
+                let sizes: f64 = (0..3).map(|axis| s.normal[axis].abs() + t.normal[axis].abs()).sum();
+                let off = each * sizes + 3.0 * each * each + 6.0 * u * (1.0 + products) + 4.0 * rounding.smallest;
+                return Range::around(turned(self.params, s.normal, t.normal), off);
+            }
             let turn = [0, 1, 2].map(|axis| s.normal[axis] - t.normal[axis]);
-            let value = turn.iter().map(|axis| axis * axis).sum::<f64>() / 2.0;
+            let value = turned(self.params, s.normal, t.normal);
             if (0..4).all(|lane| rs.texel[lane].to_bits() == rt.texel[lane].to_bits()) {
                 return Range::around(value, 0.0);
             }
-            let each = rs.normal + rt.normal;
             let across: f64 = turn.iter().map(|axis| axis.abs()).sum();
             let off = across * each + 1.5 * each * each + 8.0 * u * value + 4.0 * rounding.smallest;
             Range::around(value, off)

@@ -27,8 +27,10 @@ const NO_NORMAL: f64 = 0.01;
 /// How far a point may be read from where it is.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Reading {
-    /// Depth as it is stored; 0 where none is read.
+    /// Depth as it is stored; 0 where none is read, and infinite where it is not a number.
     pub stored: f64,
+    /// Whether depth is not a number.
+    pub is_nan: bool,
     /// The texel of the normal.
     pub texel: [f64; 4],
     /// Most that linear depth is off, as a share of it.
@@ -145,6 +147,7 @@ impl<'a> GBuffer<'a> {
         let mut reading = Reading::default();
         if let Some(stored) = &self.depth {
             let value = self.stored_depth(self.texel(stored, pixel, sample));
+            reading.is_nan = value.is_nan();
             // What is taken for the same depth is the same number.
             reading.stored = match self.params.depth {
                 // `max` gives the number of a number and a NaN.
@@ -181,6 +184,7 @@ impl<'a> GBuffer<'a> {
             let signed = texel.map(|axis| 2.0 * axis - 1.0);
             reading.normal = match self.params.normals {
                 Normals::Float => read * largest,
+                Normals::Unorm if self.params.as_stored() => 2.0 * read + 2.0 * unit,
                 Normals::Unorm => normalised([signed[0], signed[1], signed[2]], 2.0 * read + 2.0 * unit),
                 // No point of the octahedron is nearer to its middle than 1/√3.
                 Normals::Octahedral | Normals::Packed => 4.0 * (2.0 * read + 4.0 * unit) + 10.0 * unit,
@@ -226,6 +230,7 @@ impl<'a> GBuffer<'a> {
         let signed = texel.map(|axis| 2.0 * axis - 1.0);
         match self.params.normals {
             Normals::Float => [texel[0], texel[1], texel[2]],
+            Normals::Unorm if self.params.as_stored() => [signed[0], signed[1], signed[2]],
             Normals::Unorm => unit([signed[0], signed[1], signed[2]]),
             Normals::Octahedral => folded([signed[0], signed[1]]),
             Normals::Packed => folded([texel[0], texel[1]]),

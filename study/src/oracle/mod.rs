@@ -18,12 +18,12 @@ mod pattern;
 pub mod quads;
 
 use crate::execute::Inputs;
-use gbuffer::{GBuffer, Point};
+use gbuffer::{DEEPEST, GBuffer, Point};
 use rayon::prelude::*;
 
 pub use params::{
     Depth, Difference, Falloff, Layout, Mask, Metric, NonFinite, Normalisation, Normals, OracleError, Pattern, Resolve,
-    Shading, SraaParams,
+    Shading, SraaParams, Turn,
 };
 
 /// What the definition gives for a pixel.
@@ -39,9 +39,8 @@ pub struct Resolved {
 /// The smallest normal `f32`, 2⁻¹²⁶: what is below is 0 on hardware that flushes subnormal numbers.
 const SMALLEST_NORMAL: f64 = f32::MIN_POSITIVE as f64;
 
-/// Differences from here on are alike, by definition of the filter: surfaces are unrelated from 1 on. So is one that is
-/// not a number.
-const FAR: f64 = 16.0;
+/// How far is what is not a number, by definition of the filter, and the most that a difference can be.
+const FAR: f64 = 3.0e38_f32 as f64;
 
 /// Weights that sum to no more are none, by definition of the filter.
 const EPSILON: f64 = 1.0e-30;
@@ -262,26 +261,34 @@ impl<'a> Definition<'a> {
             Difference::Relative => 1.0 / sample.depth.max(NEAREST),
         };
         let scale = self.params.depth_scale * per_depth;
-        // Two skies are equally deep.
-        let depths = || scale * (sample.depth - tap.depth).abs();
+        // Two skies are equally deep, and one is as far from any surface as from any other.
+        let step = match (sample.depth == DEEPEST, tap.depth == DEEPEST) {
+            (true, false) | (false, true) => DEEPEST,
+            _ => sample.depth - tap.depth,
+        };
+        let depths = || scale * step.abs();
         let plane = || {
             let apart: f64 = (0..3)
                 .map(|axis| (tap.depth * tap.ray[axis] - sample.depth * sample.ray[axis]) * sample.normal[axis])
                 .sum();
             scale * apart.abs()
         };
-        let turned = || {
-            (0..3)
-                .map(|axis| (sample.normal[axis] - tap.normal[axis]).powi(2))
-                .sum::<f64>()
-                / 2.0
-        };
+        let turned = || turned(self.params, sample.normal, tap.normal);
         match self.params.metric {
             Metric::PlanesNormals => bounded(plane()).max(bounded(turned())),
             Metric::DepthNormals => bounded(depths()).max(bounded(turned())),
             Metric::Normals => bounded(turned()),
             Metric::Depth => bounded(depths()),
         }
+    }
+}
+
+/// How far apart two normals are.
+fn turned(params: &SraaParams, a: [f64; 3], b: [f64; 3]) -> f64 {
+    if params.by_cosine() {
+        1.0 - (0..3).map(|axis| a[axis] * b[axis]).sum::<f64>()
+    } else {
+        (0..3).map(|axis| (a[axis] - b[axis]).powi(2)).sum::<f64>() / 2.0
     }
 }
 

@@ -128,6 +128,16 @@ choices! {
 }
 
 choices! {
+    /// How far apart two normals are.
+    Turn {
+        /// 1 - a·b.
+        Cosine = "cosine",
+        /// ½|a - b|².
+        Chord = "chord",
+    }
+}
+
+choices! {
     /// How the weights of a sample are made to sum to one. The same number in exact arithmetic where there is any weight.
     Normalisation {
         /// w / Σw: 0/0, and so NaN, where every weight is below the smallest number.
@@ -206,6 +216,12 @@ pub struct SraaParams {
     pub mask_threshold: f64,
     /// What a colour that is not finite does.
     pub non_finite: NonFinite,
+    /// How far apart two normals are.
+    pub turn: Turn,
+    /// Whether normals of [`Normals::Unorm`] are made as long as 1.
+    pub renormalise: bool,
+    /// Whether a depth or a normal that is not a number may go unnoticed, so that the other of the two decides.
+    pub escapes: bool,
     /// How sharply a weight falls as surfaces differ; 0 or more.
     pub tau: f64,
     /// Difference per unit of depth; 0 or more.
@@ -231,6 +247,9 @@ impl Default for SraaParams {
             mask: Mask::None,
             mask_threshold: 0.01,
             non_finite: NonFinite::Skip,
+            turn: Turn::Cosine,
+            renormalise: false,
+            escapes: false,
             tau: 500.0,
             depth_scale: 1.0,
         }
@@ -305,8 +324,10 @@ impl SraaParams {
             "mask" => self.mask = choice(option, value, Mask::ALL, Mask::name)?,
             "mask-threshold" => self.mask_threshold = number(option, value)?,
             "non-finite" => self.non_finite = choice(option, value, NonFinite::ALL, NonFinite::name)?,
-            // How what is no number is found changes nothing of what comes of it.
-            "guards" => {}
+            "turn" => self.turn = choice(option, value, Turn::ALL, Turn::name)?,
+            "renormalise" => self.renormalise = value == "true",
+            // How what is no number is found changes nothing of what comes of it, but that some of it may escape.
+            "guards" => self.escapes = value != "inline",
             "tau" => self.tau = number(option, value)?,
             "depth-scale" => self.depth_scale = number(option, value)?,
             _ => {
@@ -321,6 +342,16 @@ impl SraaParams {
     /// τ; from 10⁷ / log₂ e on the filter makes no difference, so that an infinite one is a number.
     pub fn steepness(&self) -> f64 {
         self.tau.min(1.0e7 / std::f64::consts::LOG2_E)
+    }
+
+    /// Whether normals that are stored as 0.5 + 0.5 n are compared as they are.
+    pub(super) fn as_stored(&self) -> bool {
+        self.normals == Normals::Unorm && !self.renormalise
+    }
+
+    /// Whether normals are compared by 1 - a·b, which of the same normal is 0 only as far as its length is 1.
+    pub(super) fn by_cosine(&self) -> bool {
+        self.turn == Turn::Cosine && self.metric != Metric::Normals && !self.as_stored()
     }
 
     /// Offsets of the geometry samples from the pixel's centre, in pixels, y down.

@@ -5,7 +5,7 @@ use glam::{Vec3, ivec2};
 use straightline_kernels::prelude::{Frame, FrameLayers, Multisampled, Texture, Vec4};
 use straightline_kernels::sraa::{
     Colors, Depth, Difference, Falloff, GBuffer, Guards, Layout, Mask, Metric, NonFinite, Normalisation, Normals,
-    Pattern, Resolve, Shading, Sraa, View, sraa,
+    Pattern, Resolve, Shading, Sraa, Turn, View, sraa,
 };
 use straightline_study::execute::Inputs;
 
@@ -73,6 +73,8 @@ fn set(cfg: &mut Sraa, name: &str, value: &str) {
         "resolve" => cfg.resolve = one_of!(value, Resolve: "box" => Box, "tent" => Tent),
         "mask" => cfg.mask = one_of!(value, Mask: "none" => None, "select" => Select, "branch" => Branch),
         "guards" => cfg.guards = one_of!(value, Guards: "inline" => Inline, "fallback" => Fallback, "none" => None),
+        "turn" => cfg.turn = one_of!(value, Turn: "cosine" => Cosine, "chord" => Chord),
+        "renormalise" => cfg.renormalise = value == "true",
         "non-finite" => cfg.non_finite = one_of!(value, NonFinite: "spread" => Spread, "skip" => Skip),
         "tau" => cfg.tau = number(value),
         "depth-scale" => cfg.depth_scale = number(value),
