@@ -44,12 +44,13 @@ pub fn sampled_at(capture: &Capture) -> Vec<(String, String)> {
             vec![("pattern", "listed".to_owned()), ("offsets", numbers.join(","))]
         }
     };
-    match capture.shading {
+    match &capture.shading {
         ShadingSample::Centre => options.push(("shading", "centre".to_owned())),
         ShadingSample::Sample(0) => options.push(("shading", "sample0".to_owned())),
-        ShadingSample::Sample(k) => {
+        ShadingSample::Sample(_) | ShadingSample::Samples(_) => {
+            let shaded: Vec<String> = capture.shaded_layers().iter().map(usize::to_string).collect();
             options.push(("shading", "listed".to_owned()));
-            options.push(("shaded", k.to_string()));
+            options.push(("shaded", shaded.join(",")));
         }
     }
     options

@@ -205,7 +205,12 @@ fn of_the_picture(capture: &Capture, transfer: Transfer) -> Inputs {
 /// Depth and normals where the picture was shaded. Depth as a projection without a far plane stores it, reversed: what both
 /// edge filters are set for.
 fn one_a_pixel(capture: &Capture) -> Result<Inputs, QualityError> {
-    let layer = capture.shaded_layer();
+    let layers = capture.shaded_layers();
+    let [layer] = layers[..] else {
+        return Err(QualityError::Capture(
+            "the capture is shaded several times a pixel, and edge filters read one sample".to_owned(),
+        ));
+    };
     let missing =
         || QualityError::Capture("the capture has no normals (normal.exr), which edge filters need".to_owned());
     let normals = capture.normal.as_ref().ok_or_else(missing)?;

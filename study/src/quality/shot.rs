@@ -1,9 +1,8 @@
 //! Everything that methods read of one picture.
 
-use super::bounds::mean;
 use super::methods::{Kind, Method};
 use super::{QualityError, check};
-use crate::capture::{Capture, ShadingSample};
+use crate::capture::{Capture, ShadingSample, mean};
 use crate::gbuffer;
 use crate::render::{self, Renderer};
 use crate::watch::Watch;
