@@ -16,7 +16,8 @@ pub fn run(args: &CompareArgs) -> Result<(), Failure> {
     let read = |path: &Path| picture::read(path).map_err(Failure::of);
     let (mut test, mut reference) = (read(&args.picture)?, read(&args.reference)?);
     if test.size() != reference.size() {
-        let said = |path: &Path, frame: &Frame<Vec4>| format!("{} is {}x{}", path.display(), frame.size().x, frame.size().y);
+        let said =
+            |path: &Path, frame: &Frame<Vec4>| format!("{} is {}x{}", path.display(), frame.size().x, frame.size().y);
         return Err(Failure::Failed(format!(
             "{} and {}: pictures of different sizes cannot be compared pixel by pixel; scale or crop one of them",
             said(&args.picture, &test),
@@ -57,5 +58,6 @@ pub fn run(args: &CompareArgs) -> Result<(), Failure> {
 }
 
 fn is_png(path: &Path) -> bool {
-    path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("png"))
+    path.extension()
+        .is_some_and(|extension| extension.eq_ignore_ascii_case("png"))
 }

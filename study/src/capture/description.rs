@@ -261,7 +261,10 @@ mod tests {
         let mut description = parse(documented()).unwrap();
         (description.shading, description.normals) = (ShadingSample::Samples(vec![0, 3]), NormalSpace::World);
         let json = description.to_json().unwrap();
-        assert!(json.contains("\"samples\": [\n      0") && json.contains("\"normals\": \"world\""), "{json}");
+        assert!(
+            json.contains("\"samples\": [\n      0") && json.contains("\"normals\": \"world\""),
+            "{json}"
+        );
         assert_eq!(parse(&json).unwrap(), description);
     }
 
@@ -319,7 +322,11 @@ mod tests {
             ("\"centre\"", "{\"sample\": 4}", &["sample 4", "0 to 3"]),
             ("\"centre\"", "{\"samples\": [0, 4]}", &["sample 4", "0 to 3"]),
             ("\"centre\"", "{\"samples\": [1, 1]}", &["sample 1 twice"]),
-            ("\"centre\"", "{\"samples\": [0, 1, 2]}", &["lists 3 samples", "two or four"]),
+            (
+                "\"centre\"",
+                "{\"samples\": [0, 1, 2]}",
+                &["lists 3 samples", "two or four"],
+            ),
             ("\"centre\"", "\"corner\"", &["corner", "line 5 column"]),
             ("\"near\"", "\"nearest\"", &["unknown field `nearest`", "line 9 column"]),
             ("\"linear\"", "\"reversed-z\"", &["`reversed-z`", "`linear`"]),

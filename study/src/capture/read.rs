@@ -138,7 +138,10 @@ impl Layout<'_> {
         let samples = self.description.samples().len();
         let names: Vec<String> = shaded.iter().map(|sample| layer_name(*sample, samples)).collect();
         let wanted = "channels R, G and B";
-        let path = self.required(COLOR, &format!("the shading of {} with {wanted} each", in_words(&names)))?;
+        let path = self.required(
+            COLOR,
+            &format!("the shading of {} with {wanted} each", in_words(&names)),
+        )?;
         let source = Source::open(&path)?;
         self.refuse_surplus(&path, &source, &names)?;
         let found = source.layer_channels();

@@ -49,7 +49,10 @@ impl Capture {
             return Err(CaptureError::Value {
                 path: dir.join(DESCRIPTION),
                 field: "shading",
-                problem: format!("it lists {several} samples, and there are colours of {}", self.colors.len()),
+                problem: format!(
+                    "it lists {several} samples, and there are colours of {}",
+                    self.colors.len()
+                ),
             });
         }
         for color in &self.colors {

@@ -1,7 +1,7 @@
 //! What an SRAA shader reads, made from a capture: the G-buffer in the layout and the encodings that its options name.
 
-mod facing;
 mod pattern;
+mod space;
 
 use crate::capture::Capture;
 use crate::encode::{self, DepthEncoding, DepthStorage, NormalEncoding};
@@ -10,8 +10,8 @@ use glam::{UVec2, Vec2, Vec3, Vec4};
 use std::collections::BTreeMap;
 use straightline_kernels::prelude::{Frame, FrameLayers};
 
-pub(crate) use facing::face_the_camera;
 pub use pattern::{PATTERNS, sampled_at, samples};
+pub(crate) use space::has_planes;
 
 /// Why a capture cannot feed a shader.
 #[derive(Debug, thiserror::Error)]
@@ -29,17 +29,18 @@ pub enum GBufferError {
     },
     /// Normals are in another space than the capture says.
     #[error(
-        "{away:.0} % of the capture's normals look away from the camera, as no surface that is seen can, if they are in {stated} space,          and {other_away:.0} % in {other} space; metric=planes-normals needs to know which: write \"normals\": \"{other}\" into capture.json, or          use metric=depth-normals"
+        "the capture's normals cannot be in {stated} space: {off:.0} % of them are off the planes that its depths make, and {other_off:.0} % in \
+         {other} space; write \"normals\": \"{other}\" into capture.json, or use metric=depth-normals"
     )]
     NormalSpace {
         /// The space that the capture says.
         stated: &'static str,
-        /// Share of normals that look away in it, in percent.
-        away: f64,
+        /// Share of normals that are off planes in it, in percent.
+        off: f64,
         /// The other space.
         other: &'static str,
-        /// Share of normals that look away in that, in percent.
-        other_away: f64,
+        /// Share of those that are off in that, in percent.
+        other_off: f64,
     },
     /// The options ask for samples that the capture does not have.
     #[error("the shader needs {needed} geometry samples a pixel, and the capture has {found}")]
@@ -133,7 +134,7 @@ pub fn inputs(capture: &Capture, options: &BTreeMap<String, String>) -> Result<I
     match (capture.rays(), metric) {
         (Some(rays), _) => {
             if metric == "planes-normals" {
-                facing::check(capture)?;
+                space::check(capture)?;
             }
             Ok(with_rays(inputs, rays))
         }

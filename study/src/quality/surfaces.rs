@@ -6,7 +6,7 @@
 //! themselves instead of planes; without normals depth alone counts. The sky is one surface.
 
 use crate::capture::Capture;
-use crate::gbuffer::face_the_camera;
+use crate::gbuffer::has_planes;
 use crate::scene::SKY_DEPTH;
 use glam::{IVec2, UVec2, Vec2, Vec3};
 use straightline_kernels::prelude::Frame;
@@ -79,8 +79,7 @@ impl<'a> Surfaces<'a> {
                 });
             }
         }
-        // Normals of another space look away from the camera somewhere.
-        let rays = first.rays().filter(|_| face_the_camera(first));
+        let rays = first.rays().filter(|_| has_planes(first));
         Some(Surfaces {
             size: first.size,
             layers,

@@ -80,9 +80,15 @@ fn a_viewpoint_is_in_the_models_own_space() {
     };
     let camera = load_seen(&path, &viewpoint).expect("a scene").camera;
     let near = |a: [f32; 3], b: [f32; 3]| (Vec3::from(a) - Vec3::from(b)).length() < 1.0e-5;
-    assert!(near(camera.position, [0.0, 0.0, 6.0]) && near(camera.target, [3.0, 0.0, 0.0]), "{camera:?}");
+    assert!(
+        near(camera.position, [0.0, 0.0, 6.0]) && near(camera.target, [3.0, 0.0, 0.0]),
+        "{camera:?}"
+    );
     assert_eq!(camera.vertical_fov, 0.5);
-    let nowhere = Viewpoint { target: viewpoint.eye, ..viewpoint };
+    let nowhere = Viewpoint {
+        target: viewpoint.eye,
+        ..viewpoint
+    };
     let refused = load_seen(&path, &nowhere).expect_err("a refusal").to_string();
     assert!(refused.contains("view direction"), "{refused}");
 }
@@ -94,9 +100,16 @@ fn gltf_of_the_first_version_is_named() {
     // The version was optional then.
     let unnamed = r#"{"scene": "s", "scenes": {"s": {"nodes": []}}, "meshes": {"m": {"primitives": []}}}"#;
     let binary = [&b"glTF"[..], &1u32.to_le_bytes(), &20u32.to_le_bytes(), &[0; 8]].concat();
-    for (file, bytes) in [("a.gltf", named.as_bytes()), ("b.gltf", unnamed.as_bytes()), ("c.glb", &binary)] {
+    for (file, bytes) in [
+        ("a.gltf", named.as_bytes()),
+        ("b.gltf", unnamed.as_bytes()),
+        ("c.glb", &binary),
+    ] {
         let refused = refusal(&scratch.file(file, bytes));
-        assert!(refused.contains("glTF 1.0") && refused.contains("gltf-pipeline"), "{refused}");
+        assert!(
+            refused.contains("glTF 1.0") && refused.contains("gltf-pipeline"),
+            "{refused}"
+        );
     }
     let other = refusal(&scratch.file("d.gltf", "{"));
     assert!(!other.contains("glTF 1.0"), "{other}");
