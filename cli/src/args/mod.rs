@@ -400,8 +400,8 @@ pub struct CaptureArgs {
     /// Width and height in pixels
     #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = size)]
     pub size: UVec2,
-    /// Where in a pixel geometry is sampled: ordered4, latin4, standard8, ordered16, latin16, or x and y of each sample in
-    /// pixels from the centre: -0.25,0.1,0.25,-0.1
+    /// Where in a pixel geometry is sampled: ordered4, latin4, standard8, ordered16, latin16, standard16, or x and y of each
+    /// sample in pixels from the centre: -0.25,0.1,0.25,-0.1
     #[arg(long, value_name = "PATTERN", default_value = "latin4", allow_hyphen_values = true)]
     pub pattern: String,
     /// Where in a pixel shading is sampled: centre, sample0, or listed in --shaded

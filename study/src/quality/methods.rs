@@ -135,6 +135,7 @@ pub fn methods(quick: bool) -> Vec<Method> {
             ),
             sraa("SRAA 4, ordered", &[("pattern", "ordered4")]),
             sraa("SRAA 8, standard", &[("pattern", "standard8")]),
+            sraa("SRAA 16, standard", &[("pattern", "standard16")]),
             sraa("SRAA 16, ordered", &[("pattern", "ordered16")]),
         ]);
         all.extend(falloffs());
