@@ -174,13 +174,9 @@ fn methods_on_a_scene() {
         assert_eq!(metrics::flip(&shown, &reference), method(name).flip, "{name}");
     }
     std::fs::remove_dir_all(&folder).expect("the folder goes");
-    // A second shading sample does not make it worse, and its picture is not the one of the first.
+    // A second shading sample is worth what it costs.
     let two = method("SRAA 4, two shading samples");
-    assert!(
-        two.psnr > method("SRAA 4").psnr && two.bytes > method("SRAA 4").bytes,
-        "{}",
-        two.psnr
-    );
+    assert!(two.psnr > method("SRAA 4").psnr + 0.5, "{}", two.psnr);
     println!("{:#?}", losses(scene));
 }
 

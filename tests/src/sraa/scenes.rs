@@ -97,7 +97,7 @@ pub fn of_scene(bench: &Bench, scene: &str, pattern: &str, sets: &[Options]) -> 
             let off = pairs.map(|(a, b)| (f64::from(a) - b).abs());
             // A NaN is further off than any bound.
             let off = off.fold(0.0, |most, off| if off > most || off.is_nan() { off } else { most });
-            row.beyond += usize::from(!(off <= bound));
+            row.beyond += usize::from(off.is_nan() || off > bound);
             row.largest = row.largest.max(off);
             row.bound = row.bound.max(bound);
         }
