@@ -33,9 +33,13 @@ fn what_is_said_of_roundings_is_so() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let read = |name: &str| std::fs::read_to_string(root.join(name)).unwrap_or_else(|error| panic!("{name}: {error}"));
     let document = read("docs/sraa.md").replace('\n', " ");
-    let record: serde_json::Value =
-        serde_json::from_str(&read("study/records/sraa-error-lavapipe.json")).expect("a record");
-    let rows = |name: &str| record[name].as_array().expect("rows").clone();
+    let records = ["lavapipe", "swiftshader"].map(|driver| -> serde_json::Value {
+        serde_json::from_str(&read(&format!("study/records/sraa-error-{driver}.json"))).expect("a record")
+    });
+    let rows = |name: &str| -> Vec<serde_json::Value> {
+        let all = records.iter().flat_map(|record| record[name].as_array().expect("rows"));
+        all.cloned().collect()
+    };
     let number = |row: &serde_json::Value, name: &str| row[name].as_f64();
     let largest =
         |rows: &[serde_json::Value], name: &str| rows.iter().filter_map(|row| number(row, name)).fold(0.0, f64::max);
@@ -49,9 +53,9 @@ fn what_is_said_of_roundings_is_so() {
         .collect();
     let off = "largest_difference_to_f64";
     for said in [
-        format!("{run} shaders on each"),
+        format!("{} shaders on each of two", run / 2),
         format!("off by {:.1e} at most for colours", largest(&all, off)),
-        format!("and {} that are refused", all.len() - run),
+        format!("and {} that are refused", (all.len() - run) / 2),
         format!(
             "off by {:.1e} at most: planes with absolute depths",
             largest(&scenes, off)
