@@ -41,7 +41,7 @@ void main() {
         float distances[9] = float[9](0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
         float nearest = 3e38;
         for (int tap = 0; tap < 9; tap++) {
-            // tap `tap` of a square of `side` × `side` pixels (kernels/src/sraa/pattern.rs:186)
+            // tap `tap` of a square of `side` × `side` pixels (kernels/src/sraa/pattern.rs:191)
             ivec2 pixel_2 = ivec2(tap % 3 - 1, tap / 3 - 1);
             vec2 away = vec2(pixel_2) - place_at;
             if (max(1.0 - abs(away.x), 0.0) * max(1.0 - abs(away.y), 0.0) > 1e-6) {

@@ -39,7 +39,7 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
         var distances = array<f32, 9>(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
         var nearest = 3e38;
         for (var tap = 0; tap < 9; tap++) {
-            // tap `tap` of a square of `side` × `side` pixels (kernels/src/sraa/pattern.rs:186)
+            // tap `tap` of a square of `side` × `side` pixels (kernels/src/sraa/pattern.rs:191)
             let pixel_2 = vec2i(tap % 3 - 1, tap / 3 - 1);
             let away = vec2f(pixel_2) - place_at;
             if max(1.0 - abs(away.x), 0.0) * max(1.0 - abs(away.y), 0.0) > 1e-6 {

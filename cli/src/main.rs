@@ -45,6 +45,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         Command::Page(args) => commands::page::run(&args),
         Command::Resolve(args) => commands::resolve::run(&args),
         Command::Capture(args) => commands::capture::run(&args),
+        Command::Compare(args) => commands::compare::run(&args),
         Command::Scenes(args) => commands::scenes::run(&args),
         Command::ServeIsa => straightline_isa::serve().map_err(Failure::of),
         Command::Adapters(args) => commands::adapters::run(&args),

@@ -8,13 +8,23 @@ use std::path::Path;
 use straightline_study::capture::ShadingSample;
 use straightline_study::gbuffer;
 use straightline_study::render::{CpuRenderer, GpuRenderer, Renderer};
-use straightline_study::scene::{self, Scene};
+use straightline_study::scene::{self, Scene, Viewpoint};
 
 /// A model, or else the built-in scene of a name.
 pub fn load(mesh: Option<&Path>, name: &str) -> Result<Scene, Failure> {
+    load_seen(mesh, name, &Viewpoint::default())
+}
+
+/// The same from a place of one's own choice.
+pub fn load_seen(mesh: Option<&Path>, name: &str, viewpoint: &Viewpoint) -> Result<Scene, Failure> {
     match mesh {
-        Some(path) => scene::load(path).map_err(Failure::of),
-        None => Scene::named(name).map_err(|error| Failure::Usage(error.to_string())),
+        Some(path) => scene::load_seen(path, viewpoint).map_err(Failure::of),
+        None => {
+            let mut scene = Scene::named(name).map_err(|error| Failure::Usage(error.to_string()))?;
+            scene.camera = viewpoint.camera(|_| scene.camera, |point| point);
+            scene.check().map_err(Failure::of)?;
+            Ok(scene)
+        }
     }
 }
 
@@ -36,13 +46,22 @@ pub fn pattern(name: &str) -> Result<Vec<Vec2>, Failure> {
     })
 }
 
-/// A shading sample by its name on the command line.
-pub fn shading(name: &str) -> Result<ShadingSample, Failure> {
-    match name {
-        "centre" => Ok(ShadingSample::Centre),
-        "sample0" => Ok(ShadingSample::Sample(0)),
+/// Where shading is sampled by its name on the command line; `shaded` are the geometry samples of `listed`.
+pub fn shading(name: &str, shaded: &[usize]) -> Result<ShadingSample, Failure> {
+    match (name, shaded) {
+        ("centre", []) => Ok(ShadingSample::Centre),
+        ("sample0", []) => Ok(ShadingSample::Sample(0)),
+        ("centre" | "sample0", _) => Err(Failure::Usage(format!(
+            "--shaded lists the samples of --shading listed, and --shading is {name}"
+        ))),
+        ("listed", [only]) => Ok(ShadingSample::Sample(*only)),
+        ("listed", several) if matches!(several.len(), 2 | 4) => Ok(ShadingSample::Samples(several.to_vec())),
+        ("listed", several) => Err(Failure::Usage(format!(
+            "--shading listed needs one, two or four samples in --shaded, such as --shaded 0,3, and there are {}",
+            several.len()
+        ))),
         _ => Err(Failure::Usage(format!(
-            "shading cannot be at `{name}`; use centre or sample0"
+            "shading cannot be at `{name}`; use centre, sample0 or listed"
         ))),
     }
 }

@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{fails, scratch, straightline};
+use common::{fails, finishes, scratch, straightline, write};
 use std::path::Path;
 
 #[test]
@@ -79,4 +79,103 @@ fn broken_captures_are_refused() {
     ]);
     assert!(good.status.success(), "{}", String::from_utf8_lossy(&good.stderr));
     assert!(picture.exists());
+}
+
+#[test]
+fn a_capture_is_shaded_where_it_is_asked() {
+    let folder = scratch("capture-shading");
+    let path = |name: &str| folder.join(name).display().to_string();
+    let (two, picture) = (path("two"), path("two.png"));
+    let capture = |more: &[&str]| -> Vec<String> {
+        let words = ["capture", "--size", "48x27", "--out", &two];
+        words.iter().chain(more).map(|word| (*word).to_owned()).collect()
+    };
+    let refused = |more: &[&str], says: &[&str]| {
+        let words = capture(more);
+        fails(&words.iter().map(String::as_str).collect::<Vec<_>>(), 2, says);
+    };
+    refused(&["--shading", "listed"], &["--shaded 0,3", "there are 0"]);
+    refused(
+        &["--shading", "listed", "--shaded", "0,1,2"],
+        &["one, two or four", "there are 3"],
+    );
+    refused(&["--shaded", "0,3"], &["--shading listed", "--shading is centre"]);
+    refused(&["--shading", "corner"], &["`corner`", "centre, sample0 or listed"]);
+    let words = capture(&["--shading", "listed", "--shaded", "0,3", "--reference", "16"]);
+    finishes(&words.iter().map(String::as_str).collect::<Vec<_>>());
+    let resolve = [
+        "resolve",
+        "--capture",
+        &two,
+        "--out",
+        &picture,
+        "--executor",
+        "cpu",
+        "--reference",
+        "--json",
+    ];
+    let said: serde_json::Value = serde_json::from_str(&finishes(&resolve)).expect("JSON");
+    assert_eq!(
+        (&said["options"]["shading"], &said["options"]["shaded"]),
+        (&"listed".into(), &"0,3".into())
+    );
+    let db = |name: &str| said[name].as_f64().expect("a number");
+    assert!(db("psnr_db") > db("psnr_1x_db") + 1.0, "{said}");
+    // A capture says where it was shaded; what it was not cannot be asked of it.
+    fails(
+        &[&resolve[..], &["--set", "shaded=0,1"]].concat(),
+        2,
+        &["shaded=0,1", "shaded=0,3"],
+    );
+}
+
+#[test]
+fn a_model_is_seen_from_where_it_is_asked() {
+    let folder = scratch("capture-camera");
+    let model = write(
+        &folder,
+        "quad.obj",
+        "v 100 0 0\nv 103 0 0\nv 103 4 0\nv 100 4 0\nf 1 2 3 4\n",
+    );
+    let out = folder.join("frame");
+    let words = [
+        "capture",
+        "--mesh",
+        &model,
+        "--size",
+        "16x9",
+        "--out",
+        out.to_str().unwrap(),
+    ];
+    let seen = ["--eye", "101.5,2,-3", "--target", "101.5,2,0", "--fov", "60"];
+    finishes(&[&words[..], &seen].concat());
+    let text = std::fs::read_to_string(out.join("capture.json")).expect("a description");
+    let camera = &serde_json::from_str::<serde_json::Value>(&text).expect("JSON")["camera"];
+    // The model's diagonal of 5 has become 10 around the origin.
+    let place = camera["position"].as_array().expect("a place");
+    let place: Vec<f64> = place.iter().map(|axis| axis.as_f64().expect("a number")).collect();
+    assert!(
+        place[0].abs() + place[1].abs() + (place[2] + 6.0).abs() < 1e-5,
+        "{camera}"
+    );
+    assert!((camera["vertical_fov"].as_f64().expect("an angle") - 60f64.to_radians()).abs() < 1e-6);
+    for (more, says) in [
+        (["--eye", "1,2"], "`1,2` is not a point"),
+        (["--eye", "1,2,inf"], "`1,2,inf` is not a point"),
+        (["--fov", "180"], "degrees from 1 to 170"),
+    ] {
+        fails(&[&words[..], &more].concat(), 2, &[says]);
+    }
+    let same = ["--eye", "1,1,1", "--target", "1,1,1"];
+    fails(&[&words[..], &same].concat(), 1, &["view direction"]);
+    let old = write(
+        &folder,
+        "old.gltf",
+        r#"{"asset": {"version": "1.0"}, "meshes": {}, "scenes": {}}"#,
+    );
+    fails(
+        &["capture", "--mesh", &old, "--out", out.to_str().unwrap()],
+        1,
+        &["old.gltf", "glTF 1.0"],
+    );
 }

@@ -176,7 +176,7 @@ fn sraa_paper(option: &OptionValue<'_>) -> Option<PaperCounts> {
             weight_evaluations: 25,
             texture_reads: 58,
         }),
-        "ordered16" | "latin16" => Some(PaperCounts {
+        "ordered16" | "latin16" | "standard16" => Some(PaperCounts {
             weight_evaluations: 81,
             texture_reads: 194,
         }),

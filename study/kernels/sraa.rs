@@ -8,7 +8,7 @@ use straightline_kernels::prelude::*;
 pub enum Pattern {
     /// Direct3D's standard pattern of 4.
     Latin4,
-    /// Direct3D's standard pattern of 16.
+    /// Direct3D's standard pattern of 16, moved so that its mean is the pixel's centre.
     Latin16,
 }
 
@@ -31,27 +31,27 @@ options! {
     }
 }
 
-/// In sixteenths of a pixel.
-const LATIN4: [IVec2; 4] = [ivec2(-2, -6), ivec2(6, -2), ivec2(-6, 2), ivec2(2, 6)];
+/// In thirty-seconds of a pixel.
+const LATIN4: [IVec2; 4] = [ivec2(-4, -12), ivec2(12, -4), ivec2(-12, 4), ivec2(4, 12)];
 
-/// In sixteenths of a pixel.
+/// In thirty-seconds of a pixel.
 const LATIN16: [IVec2; 16] = [
-    ivec2(1, 1),
-    ivec2(-1, -3),
-    ivec2(-3, 2),
-    ivec2(4, -1),
-    ivec2(-5, -2),
-    ivec2(2, 5),
-    ivec2(5, 3),
-    ivec2(3, -5),
-    ivec2(-2, 6),
-    ivec2(0, -7),
-    ivec2(-4, -6),
-    ivec2(-6, 4),
-    ivec2(-8, 0),
-    ivec2(7, -4),
-    ivec2(6, 7),
-    ivec2(-7, -8),
+    ivec2(3, 3),
+    ivec2(-1, -5),
+    ivec2(-5, 5),
+    ivec2(9, -1),
+    ivec2(-9, -3),
+    ivec2(5, 11),
+    ivec2(11, 7),
+    ivec2(7, -9),
+    ivec2(-3, 13),
+    ivec2(1, -13),
+    ivec2(-7, -11),
+    ivec2(-11, 9),
+    ivec2(-15, 1),
+    ivec2(15, -7),
+    ivec2(13, 15),
+    ivec2(-13, -15),
 ];
 
 const DEEPEST: f32 = 1.0e30;
@@ -101,7 +101,7 @@ fn filtered<const SAMPLES: usize>(
             Metric::Depth => Vec3::ZERO,
         };
         // The upper left of the four taps that its tent reaches.
-        let place = places[sample].as_vec2() / 16.0;
+        let place = places[sample].as_vec2() / 32.0;
         let left = if place.x < 0.0 { 0 } else { 1 };
         let top = if place.y < 0.0 { 0 } else { 1 };
         let first = top * 3 + left;
@@ -113,24 +113,12 @@ fn filtered<const SAMPLES: usize>(
             let away = (vec2((left + k % 2) as f32 - 1.0, (top + k / 2) as f32 - 1.0) - place).abs();
             let falloff = (1.0 - away.x) * (1.0 - away.y);
             let deeper = (seen_depth - depths[tap]).abs();
-            let larger = match cfg.metric {
+            let d = match cfg.metric {
                 Metric::DepthNormals => {
                     let (a, b) = (seen_normal, normals[tap]);
                     deeper.max(1.0 - a.x * b.x - a.y * b.y - a.z * b.z)
                 }
                 Metric::Depth => deeper,
-            };
-            // Samples on an axis reach two taps of the four: the others must not be the nearest.
-            let d = match cfg.pattern {
-                Pattern::Latin4 => larger,
-                Pattern::Latin16 => {
-                    #[cfg_attr(false, select)]
-                    if falloff > 0.0 {
-                        larger
-                    } else {
-                        FAR
-                    }
-                }
             };
             falloffs[k] = falloff;
             distances[k] = d;

@@ -10,7 +10,7 @@ use glam::{UVec2, Vec2, Vec3, Vec4, uvec2, vec2, vec4};
 use std::fs;
 use std::path::Path;
 use straightline_kernels::prelude::{Frame, FrameLayers};
-use straightline_study::capture::{Capture, CaptureError, ShadingSample};
+use straightline_study::capture::{Capture, CaptureError, NormalSpace, ShadingSample};
 use straightline_study::picture::{self, PictureError};
 
 const SIZE: UVec2 = uvec2(19, 13);
@@ -34,7 +34,9 @@ fn example(shading: ShadingSample) -> Capture {
     Capture {
         size: SIZE,
         samples,
+        colors: Vec::new(),
         shading,
+        normal_space: NormalSpace::View,
         camera: None,
         color: frame(SIZE, |i| vec4(i.sin(), i * 100.0, 1.0 / (i + 1.0), 1.0)),
         depth: FrameLayers::new(depth),
@@ -77,8 +79,8 @@ fn what_is_written_is_read() {
     let scratch = Scratch::new("capture-round-trip");
     let full = example(ShadingSample::Centre);
     assert_eq!(
-        (full.layer_count(), full.shaded_layer(), full.shaded_offset()),
-        (5, 4, Some(Vec2::ZERO))
+        (full.layer_count(), full.shaded_layers(), full.shaded_offsets()),
+        (5, vec![4], Some(vec![Vec2::ZERO]))
     );
     let small = Capture {
         normal: None,
@@ -86,8 +88,8 @@ fn what_is_written_is_read() {
         ..example(ShadingSample::Sample(2))
     };
     assert_eq!(
-        (small.layer_count(), small.shaded_layer(), small.shaded_offset()),
-        (4, 2, Some(vec2(-0.375, 0.125)))
+        (small.layer_count(), small.shaded_layers(), small.shaded_offsets()),
+        (4, vec![2], Some(vec![vec2(-0.375, 0.125)]))
     );
     for (name, capture) in [("full", full), ("small", small)] {
         let dir = scratch.join("deeper").join(name);

@@ -194,6 +194,16 @@ fn the_larger_of_both_differences_counts() {
     assert!(!flushed(1.748e6, 0.0, Metric::Depth));
 }
 
+/// One pixel of which no sample lies on a surface that a tap has.
+fn alone() -> Inputs {
+    inputs(
+        uvec2(3, 3),
+        |_| vec4(0.25, 0.5, 0.75, 1.0),
+        |layer, i| if layer < 4 && i == 4 { 9.0 } else { 1.0 },
+        |_, _| Vec3::Z,
+    )
+}
+
 /// One pixel whose sample 1 lies on a surface that no tap has.
 #[test]
 fn a_lonely_sample_is_lost_in_the_listing_only() {
@@ -219,6 +229,15 @@ fn a_lonely_sample_is_lost_in_the_listing_only() {
         ..paper.clone()
     };
     assert!((sraa(&inputs, &epsilon)[4][1] - 0.375).abs() < 1e-12);
+    // Left out, as what is not finite is, it takes nothing from the others; a pixel of such samples alone is transparent black.
+    let left_out = SraaParams {
+        non_finite: NonFinite::Skip,
+        ..epsilon
+    };
+    assert!((sraa(&inputs, &left_out)[4][1] - 0.5).abs() < 1e-12);
+    let alone = alone();
+    assert_eq!(sraa(&alone, &left_out)[4], [0.0; 4]);
+    assert!((sraa(&alone, &SraaParams::default())[4][1] - 0.5).abs() < 1e-12);
     let shifted = sraa(&inputs, &SraaParams::default());
     let expected = [0.25, 0.5, 0.75, 1.0];
     assert!(

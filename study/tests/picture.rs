@@ -63,6 +63,26 @@ fn png_is_srgb_and_clamped() {
 }
 
 #[test]
+fn at_eight_bits_is_what_a_png_gives_back() {
+    let scratch = Scratch::new("picture-rounded");
+    let path = scratch.join("picture.png");
+    let frame = gradient(uvec2(40, 30));
+    picture::write(&path, &frame).unwrap();
+    assert_eq!(picture::read(&path).unwrap(), picture::at_eight_bits(&frame));
+    // What no PNG holds is not made black.
+    let spoilt = Frame::new(
+        uvec2(2, 1),
+        vec![vec4(f32::NAN, 0.5, 0.5, 1.0), vec4(0.5, 0.5, f32::INFINITY, 1.0)],
+    );
+    assert!(
+        picture::at_eight_bits(&spoilt)
+            .texels()
+            .iter()
+            .all(|texel| !texel.is_finite())
+    );
+}
+
+#[test]
 fn an_extension_that_is_unknown_is_refused() {
     let scratch = Scratch::new("picture-extension");
     for name in ["picture.jpg", "picture", ".png"] {

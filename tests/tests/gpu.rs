@@ -8,7 +8,7 @@ use straightline_kernels::prelude::*;
 use straightline_study::execute::{Bench, Inputs, interpret};
 use straightline_study::oracle::{self, SraaParams};
 use straightline_tests::sraa::options::{one_at_a_time, options, random, refusal, samples_needed};
-use straightline_tests::sraa::{Difference, Options, compiled, difference, surfaces};
+use straightline_tests::sraa::{Difference, Options, compiled, difference, scenes, surfaces};
 
 /// Most that a result may be off, for colours in 0..1 and before output rounding.
 const BOUND: f64 = 1.0 / 1024.0;
@@ -152,4 +152,32 @@ fn the_mask_keeps_even_ground_bit_for_bit() {
 fn image<'a>(inputs: &'a Inputs, name: &str) -> &'a Frame<Vec4> {
     let found = inputs.images.iter().rev().find(|(known, _)| known == name);
     &found.expect("it is there").1[0]
+}
+
+/// Planes at a grazing angle, far away, where depths are large and so are their roundings.
+#[test]
+fn planes_on_grazing_ground_are_within_the_bounds_of_the_error_analysis() {
+    for scene in ["floor", "terrain"] {
+        let sets = [
+            options(&[("metric", "planes-normals")]),
+            options(&[
+                ("metric", "planes-normals"),
+                ("difference", "relative"),
+                ("depth-scale", "3"),
+            ]),
+            options(&[
+                ("metric", "depth-normals"),
+                ("difference", "relative"),
+                ("depth-scale", "3"),
+            ]),
+        ];
+        for row in scenes::of_scene(&bench(), scene, "latin4", &sets).unwrap_or_else(|e| panic!("{e}")) {
+            println!(
+                "{scene} {:?}: {:.1e}, bound {:.1e}",
+                row.options, row.largest, row.bound
+            );
+            assert_eq!(row.beyond, 0, "{row:?}");
+            assert!(row.largest > 0.0 && row.largest < BOUND, "{row:?}");
+        }
+    }
 }

@@ -27,6 +27,47 @@ fn tables_are_what_their_records_say() {
     assert!(tables >= 4, "the documents cite {tables} records");
 }
 
+/// What `docs/sraa.md` says of roundings.
+#[test]
+fn what_is_said_of_roundings_is_so() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let read = |name: &str| std::fs::read_to_string(root.join(name)).unwrap_or_else(|error| panic!("{name}: {error}"));
+    let document = read("docs/sraa.md").replace('\n', " ");
+    let records = ["lavapipe", "swiftshader"].map(|driver| -> serde_json::Value {
+        serde_json::from_str(&read(&format!("study/records/sraa-error-{driver}.json"))).expect("a record")
+    });
+    let rows = |name: &str| -> Vec<serde_json::Value> {
+        let all = records.iter().flat_map(|record| record[name].as_array().expect("rows"));
+        all.cloned().collect()
+    };
+    let number = |row: &serde_json::Value, name: &str| row[name].as_f64();
+    let largest =
+        |rows: &[serde_json::Value], name: &str| rows.iter().filter_map(|row| number(row, name)).fold(0.0, f64::max);
+    let (all, scenes) = (rows("rows"), rows("scenes"));
+    let run = all.iter().filter(|row| row["not_run"].is_null()).count();
+    let relative_floor: Vec<_> = scenes
+        .iter()
+        .filter(|row| row["scene"] == "floor" && row["options"]["metric"] == "planes-normals")
+        .filter(|row| row["options"]["difference"] == "relative")
+        .cloned()
+        .collect();
+    let off = "largest_difference_to_f64";
+    for said in [
+        format!("{} shaders on each of two", run / 2),
+        format!("off by {:.1e} at most for colours", largest(&all, off)),
+        format!("and {} that are refused", (all.len() - run) / 2),
+        format!(
+            "off by {:.1e} at most: planes with absolute depths",
+            largest(&scenes, off)
+        ),
+        format!("`difference=relative` it is {:.1e}", largest(&relative_floor, off)),
+        format!("the largest of a pixel is {:.1},", largest(&scenes, "largest_bound")),
+    ] {
+        assert!(document.contains(&said), "docs/sraa.md does not say `{said}`");
+    }
+    assert_eq!(largest(&scenes, "pixels_beyond_their_bound"), 0.0);
+}
+
 /// What `docs/study.md` and `docs/sraa.md` say in words.
 #[test]
 fn what_is_said_of_sraa_is_so() {

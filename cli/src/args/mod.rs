@@ -1,5 +1,6 @@
 //! The command line.
 
+mod capture;
 mod study;
 mod tune;
 
@@ -12,6 +13,7 @@ use straightline_codegen::{Branches, Kernel, Settings, Transport, Unroll, shorte
 use straightline_isa::Family;
 use straightline_manifest::{Form, Format, Origin, Precision, Stage};
 
+pub use capture::{CaptureArgs, CompareArgs, ResolveArgs};
 pub use study::{CommonArgs, ErrorArgs, HardArgs, IsaArgs, LoopsArgs, Study, StudyArgs};
 pub use tune::TuneArgs;
 
@@ -52,6 +54,8 @@ pub enum Command {
     Resolve(ResolveArgs),
     /// Render a scene or a model to a capture: the frame that `resolve` reads
     Capture(CaptureArgs),
+    /// Say how far two pictures are apart: PSNR, SSIM and FLIP
+    Compare(CompareArgs),
     /// List the built-in scenes, and what each is for
     Scenes(ScenesArgs),
     /// Compile for a GPU that is not there, as the process that asks says
@@ -345,65 +349,11 @@ pub struct QuadsArgs {
     pub adapter: AdapterArgs,
 }
 
-#[derive(Debug, Args)]
-pub struct ResolveArgs {
-    /// Folder of the captured frame (see docs/captures.md)
-    #[arg(long, value_name = "DIR")]
-    pub capture: PathBuf,
-    /// Picture to write: .png (8 bits, sRGB) or .exr (linear floats)
-    #[arg(long, value_name = "FILE")]
-    pub out: PathBuf,
-    #[command(flatten)]
-    pub options: OptionArgs,
-    /// What computes the pixels
-    #[arg(long, value_enum, default_value = "gpu")]
-    pub executor: Executor,
-    /// Pipeline stage, on the GPU
-    #[arg(long, value_enum, default_value = "compute")]
-    pub stage: StageArg,
-    /// Print the error against the capture's reference
-    #[arg(long)]
-    pub reference: bool,
-    /// Print JSON
-    #[arg(long)]
-    pub json: bool,
-    #[command(flatten)]
-    pub adapter: AdapterArgs,
-}
-
 #[derive(Debug, Clone, Default, Args)]
 pub struct AdapterArgs {
     /// Use the first adapter whose name or driver contains this (see `adapters`)
     #[arg(long, value_name = "TEXT", global = true)]
     pub adapter: Option<String>,
-}
-
-#[derive(Debug, Args)]
-pub struct CaptureArgs {
-    /// Built-in scene to render; `scenes` lists them
-    #[arg(long, value_name = "NAME", default_value = "roof")]
-    pub scene: String,
-    /// Model to render instead of a built-in scene: .gltf, .glb or .obj
-    #[arg(long, value_name = "FILE", conflicts_with = "scene")]
-    pub mesh: Option<PathBuf>,
-    /// Width and height in pixels
-    #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = size)]
-    pub size: UVec2,
-    /// Where in a pixel geometry is sampled: ordered4, latin4, standard8, ordered16, latin16, or x and y of each sample in
-    /// pixels from the centre: -0.25,0.1,0.25,-0.1
-    #[arg(long, value_name = "PATTERN", default_value = "latin4", allow_hyphen_values = true)]
-    pub pattern: String,
-    /// Where in a pixel shading is sampled: centre or sample0
-    #[arg(long, value_name = "WHERE", default_value = "centre")]
-    pub shading: String,
-    /// Also render the reference: this many shaded samples a pixel, 16 or 256
-    #[arg(long, value_name = "SAMPLES", value_parser = ["16", "256"])]
-    pub reference: Option<String>,
-    /// Folder to write
-    #[arg(long, value_name = "DIR")]
-    pub out: PathBuf,
-    #[command(flatten)]
-    pub adapter: AdapterArgs,
 }
 
 #[derive(Debug, Args)]

@@ -3,6 +3,7 @@
 pub mod adapters;
 pub mod budget;
 pub mod capture;
+pub mod compare;
 pub mod demo;
 pub mod emit;
 pub mod explain;

@@ -16,8 +16,10 @@ pub enum Pattern {
     Standard8,
     /// A regular 4×4 grid.
     Ordered16,
-    /// Sixteen distinct rows and columns of a 16×16 grid (D3D's standard pattern).
+    /// Sixteen distinct rows and columns of a 16×16 grid, in the middle of their cells: the mean of all is the pixel's centre.
     Latin16,
+    /// What graphics hardware uses for 16× multisampling (D3D's standard pattern): the same, 1/32 pixel up and to the left.
+    Standard16,
     /// Where the option `offsets` says.
     Listed,
 }
@@ -54,7 +56,7 @@ impl Sraa {
             Pattern::Latin4 => 4,
             Pattern::Standard8 => 8,
             Pattern::Ordered16 => 16,
-            Pattern::Latin16 => 16,
+            Pattern::Latin16 | Pattern::Standard16 => 16,
             Pattern::Listed => self.offsets.len() / 2,
         }
     }
@@ -66,7 +68,8 @@ impl Sraa {
             Pattern::Latin4 => LATIN4[sample].as_vec2() / 16.0,
             Pattern::Standard8 => STANDARD8[sample].as_vec2() / 16.0,
             Pattern::Ordered16 => ordered(sample, 4),
-            Pattern::Latin16 => LATIN16[sample].as_vec2() / 16.0,
+            Pattern::Latin16 => (STANDARD16[sample].as_vec2() + 0.5) / 16.0,
+            Pattern::Standard16 => STANDARD16[sample].as_vec2() / 16.0,
             Pattern::Listed => vec2(self.offsets[2 * sample], self.offsets[2 * sample + 1]),
         }
     }
@@ -139,9 +142,11 @@ impl Sraa {
         }
         if self.layout == Layout::Multisampled {
             assert!(
-                self.pattern != Pattern::Ordered4 && self.pattern != Pattern::Ordered16,
-                "layout=multisampled needs a pattern that hardware samples: latin4, standard8 or latin16, or listed for one \
-                 of your device's own"
+                self.pattern != Pattern::Ordered4
+                    && self.pattern != Pattern::Ordered16
+                    && self.pattern != Pattern::Latin16,
+                "layout=multisampled needs a pattern that hardware samples: latin4, standard8 or standard16, or listed for \
+                 one of your device's own"
             );
             assert!(samples >= 2, "layout=multisampled needs two samples at least");
         }
@@ -247,7 +252,7 @@ const STANDARD8: [IVec2; 8] = [
 ];
 
 /// In sixteenths of a pixel.
-const LATIN16: [IVec2; 16] = [
+const STANDARD16: [IVec2; 16] = [
     ivec2(1, 1),
     ivec2(-1, -3),
     ivec2(-3, 2),

@@ -3,7 +3,7 @@
 use super::{Capture, CaptureError, DESCRIPTION, MAX_GEOMETRY_TEXELS, MAX_SAMPLES, layer_count};
 use crate::picture;
 use crate::scene::Camera;
-use glam::{UVec2, Vec2};
+use glam::{Mat3, UVec2, Vec2, Vec3, vec3};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
@@ -14,13 +14,68 @@ pub const SCHEMA: u32 = 1;
 const LINEAR: &str = "linear";
 
 /// Where in a pixel shading was sampled.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum ShadingSample {
     /// At the geometry sample of this index: `{"sample": 0}`.
     Sample(usize),
+    /// Several times a pixel, at the geometry samples of these indices, two or four: `{"samples": [0, 3]}`.
+    Samples(Vec<usize>),
     /// At the pixel's centre: `"centre"`. The geometry there is one more layer, the last.
     Centre,
+}
+
+/// Numbers of shading samples that can be listed: what SRAA reads.
+pub const SEVERAL: [usize; 2] = [2, 4];
+
+/// What directions normals are given by.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum NormalSpace {
+    /// The camera's: x right, y up, z towards the viewer.
+    #[default]
+    View,
+    /// The world's, which the camera is in.
+    World,
+}
+
+impl NormalSpace {
+    /// The rays of a camera through a picture of `size` pixels, in this space: from the eye to depth 1 through the upper left
+    /// corner, and how they change from pixel to pixel to the right and down.
+    pub fn rays(self, camera: &Camera, size: UVec2) -> [Vec3; 3] {
+        let extent = camera.half_extent(size);
+        let step = 2.0 * extent / size.as_vec2();
+        let rays = [
+            vec3(-extent.x, extent.y, -1.0),
+            vec3(step.x, 0.0, 0.0),
+            vec3(0.0, -step.y, 0.0),
+        ];
+        match self {
+            NormalSpace::View => rays,
+            // The inverse of a rotation is its transpose.
+            NormalSpace::World => rays.map(|ray| Mat3::from_mat4(camera.view()).transpose() * ray),
+        }
+    }
+
+    /// The other one.
+    pub(crate) fn other(self) -> NormalSpace {
+        match self {
+            NormalSpace::View => NormalSpace::World,
+            NormalSpace::World => NormalSpace::View,
+        }
+    }
+
+    /// As it stands in `capture.json`.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            NormalSpace::View => "view",
+            NormalSpace::World => "world",
+        }
+    }
+
+    fn is_view(&self) -> bool {
+        *self == NormalSpace::View
+    }
 }
 
 /// The contents of `capture.json`.
@@ -32,6 +87,8 @@ pub(super) struct Description {
     samples: Vec<[f32; 2]>,
     shading: ShadingSample,
     depth: String,
+    #[serde(default, skip_serializing_if = "NormalSpace::is_view")]
+    pub(super) normals: NormalSpace,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) camera: Option<Camera>,
 }
@@ -43,8 +100,9 @@ impl Description {
             schema: SCHEMA,
             size: capture.size.to_array(),
             samples: capture.samples.iter().map(|sample| sample.to_array()).collect(),
-            shading: capture.shading,
+            shading: capture.shading.clone(),
             depth: LINEAR.to_owned(),
+            normals: capture.normal_space,
             camera: capture.camera,
         }
     }
@@ -85,7 +143,7 @@ impl Description {
     }
 
     pub(super) fn shading(&self) -> ShadingSample {
-        self.shading
+        self.shading.clone()
     }
 
     /// Refuses what no capture can be, before anything is allocated for it.
@@ -120,9 +178,23 @@ impl Description {
                 );
             }
         }
-        if let ShadingSample::Sample(index) = self.shading
-            && index >= count
-        {
+        let shaded = match &self.shading {
+            ShadingSample::Centre => &[][..],
+            ShadingSample::Sample(index) => std::slice::from_ref(index),
+            ShadingSample::Samples(indices) => {
+                if !SEVERAL.contains(&indices.len()) {
+                    return value(
+                        "shading",
+                        format!("it lists {} samples, and there must be two or four", indices.len()),
+                    );
+                }
+                if let Some(twice) = (1..indices.len()).find(|k| indices[..*k].contains(&indices[*k])) {
+                    return value("shading", format!("it lists sample {} twice", indices[twice]));
+                }
+                indices
+            }
+        };
+        if let Some(index) = shaded.iter().find(|index| **index >= count) {
             return value(
                 "shading",
                 format!("it names sample {index}, and there are 0 to {}", count - 1),
@@ -130,9 +202,9 @@ impl Description {
         }
         let size = self.size();
         picture::check_size(path, size)?;
-        let texels = u64::from(size.x) * u64::from(size.y) * layer_count(count, self.shading) as u64;
+        let texels = u64::from(size.x) * u64::from(size.y) * layer_count(count, &self.shading) as u64;
         if texels > MAX_GEOMETRY_TEXELS {
-            let layers = layer_count(count, self.shading);
+            let layers = layer_count(count, &self.shading);
             let problem = format!(
                 "{}×{} with {layers} layers are over {MAX_GEOMETRY_TEXELS} texels",
                 size.x, size.y
@@ -184,6 +256,34 @@ mod tests {
         assert_eq!(parse(&json).unwrap(), description);
     }
 
+    #[test]
+    fn several_shading_samples_and_the_world_are_written_and_read() {
+        let mut description = parse(documented()).unwrap();
+        (description.shading, description.normals) = (ShadingSample::Samples(vec![0, 3]), NormalSpace::World);
+        let json = description.to_json().unwrap();
+        assert!(
+            json.contains("\"samples\": [\n      0") && json.contains("\"normals\": \"world\""),
+            "{json}"
+        );
+        assert_eq!(parse(&json).unwrap(), description);
+    }
+
+    #[test]
+    fn rays_of_the_world_are_those_of_the_view_turned() {
+        let camera = Camera {
+            position: [3.0, 2.0, 1.0],
+            target: [-1.0, 0.5, 4.0],
+            ..parse(documented()).unwrap().camera.unwrap()
+        };
+        let size = UVec2::new(64, 48);
+        let [corner, right, down] = NormalSpace::World.rays(&camera, size);
+        let towards = Vec3::from(camera.target) - Vec3::from(camera.position);
+        // Through the middle of the picture, to depth 1.
+        let middle = corner + 32.0 * right + 24.0 * down;
+        assert!((middle - towards.normalize()).length() < 1.0e-6, "{middle}");
+        assert!(right.y.abs() < 1.0e-7 && down.y < 0.0, "{right} {down}");
+    }
+
     /// The error for the documented example with `from` replaced by `to`.
     fn broken(from: &str, to: &str) -> String {
         assert!(documented().contains(from), "{from}");
@@ -220,6 +320,13 @@ mod tests {
                 &["there are 0", "1 to 64"],
             ),
             ("\"centre\"", "{\"sample\": 4}", &["sample 4", "0 to 3"]),
+            ("\"centre\"", "{\"samples\": [0, 4]}", &["sample 4", "0 to 3"]),
+            ("\"centre\"", "{\"samples\": [1, 1]}", &["sample 1 twice"]),
+            (
+                "\"centre\"",
+                "{\"samples\": [0, 1, 2]}",
+                &["lists 3 samples", "two or four"],
+            ),
             ("\"centre\"", "\"corner\"", &["corner", "line 5 column"]),
             ("\"near\"", "\"nearest\"", &["unknown field `nearest`", "line 9 column"]),
             ("\"linear\"", "\"reversed-z\"", &["`reversed-z`", "`linear`"]),

@@ -1,6 +1,6 @@
 //! Captures: the exchange format with renderers that are not ours.
 //!
-//! A capture is a folder with `capture.json` and EXR files: one shading sample a pixel, the geometry at several
+//! A capture is a folder with `capture.json` and EXR files: one shading sample a pixel or a few, the geometry at several
 //! samples in it, and optionally what the picture should look like. `docs/captures.md` describes it for those
 //! who write one with another program.
 
@@ -13,7 +13,7 @@ use crate::scene::Camera;
 use glam::{UVec2, Vec2};
 use straightline_kernels::prelude::{Frame, FrameLayers, Vec3, Vec4};
 
-pub use description::{SCHEMA, ShadingSample};
+pub use description::{NormalSpace, SCHEMA, ShadingSample};
 pub use error::CaptureError;
 
 /// Most geometry samples of a pixel.
@@ -40,10 +40,14 @@ pub struct Capture {
     pub samples: Vec<Vec2>,
     /// Where in the pixel shading was sampled.
     pub shading: ShadingSample,
+    /// What directions the normals are given by; of no meaning without them.
+    pub normal_space: NormalSpace,
     /// What the scene was seen with: metrics that compare planes, and projected depths, need it.
     pub camera: Option<Camera>,
-    /// Linear colour, one shading sample a pixel.
+    /// Linear colour of each pixel: of its shading sample, or the mean of several.
     pub color: Frame<Vec4>,
+    /// Where there are several shading samples a pixel, linear colour at each, in the order of `shading`; else none.
+    pub colors: Vec<Frame<Vec4>>,
     /// Linear depth along the view direction in scene units: layer `s` at geometry sample `s`, and with shading
     /// at the pixel's centre one more layer, the last, there.
     pub depth: FrameLayers<f32>,
@@ -56,30 +60,47 @@ pub struct Capture {
 impl Capture {
     /// Layers that `depth` and `normal` have.
     pub fn layer_count(&self) -> usize {
-        layer_count(self.samples.len(), self.shading)
+        layer_count(self.samples.len(), &self.shading)
     }
 
-    /// Layer of `depth` and `normal` that holds the geometry of the shading sample.
-    pub fn shaded_layer(&self) -> usize {
-        match self.shading {
-            ShadingSample::Sample(sample) => sample,
-            ShadingSample::Centre => self.samples.len(),
+    /// Layers of `depth` and `normal` that hold the geometry of the shading samples: one, or several in their order.
+    pub fn shaded_layers(&self) -> Vec<usize> {
+        match &self.shading {
+            ShadingSample::Sample(sample) => vec![*sample],
+            ShadingSample::Samples(samples) => samples.clone(),
+            ShadingSample::Centre => vec![self.samples.len()],
         }
     }
 
-    /// Offset of the shading sample from the pixel's centre, in pixels, y down; `None` if it names a sample that
-    /// there is not.
-    pub fn shaded_offset(&self) -> Option<Vec2> {
-        match self.shading {
-            ShadingSample::Sample(sample) => self.samples.get(sample).copied(),
-            ShadingSample::Centre => Some(Vec2::ZERO),
+    /// Offsets of the shading samples from the pixel's centre, in pixels, y down; `None` if a sample is named that there is
+    /// not.
+    pub fn shaded_offsets(&self) -> Option<Vec<Vec2>> {
+        let offset = |sample: &usize| self.samples.get(*sample).copied();
+        match &self.shading {
+            ShadingSample::Sample(sample) => offset(sample).map(|offset| vec![offset]),
+            ShadingSample::Samples(samples) => samples.iter().map(offset).collect(),
+            ShadingSample::Centre => Some(vec![Vec2::ZERO]),
         }
+    }
+
+    /// The rays through the pixels, in the space that normals are in: from the eye to depth 1 through the picture's upper left
+    /// corner, and how they change from pixel to pixel to the right and down. `None` without a camera.
+    pub fn rays(&self) -> Option<[Vec3; 3]> {
+        self.camera.map(|camera| self.normal_space.rays(&camera, self.size))
     }
 }
 
-fn layer_count(samples: usize, shading: ShadingSample) -> usize {
+/// The mean of pictures of one size; `None` of none.
+pub(crate) fn mean(frames: &[Frame<Vec4>]) -> Option<Frame<Vec4>> {
+    let size = frames.first()?.size();
+    let share = 1.0 / frames.len() as f32;
+    let texel = |k: usize| frames.iter().map(|frame| frame.texels()[k]).sum::<Vec4>() * share;
+    Some(Frame::new(size, (0..(size.x * size.y) as usize).map(texel).collect()))
+}
+
+fn layer_count(samples: usize, shading: &ShadingSample) -> usize {
     match shading {
-        ShadingSample::Sample(_) => samples,
+        ShadingSample::Sample(_) | ShadingSample::Samples(_) => samples,
         ShadingSample::Centre => samples + 1,
     }
 }

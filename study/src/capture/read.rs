@@ -1,10 +1,12 @@
 //! Reading a capture from its folder.
 
 use super::description::{Description, STATED_BY};
-use super::{COLOR, Capture, CaptureError, DEPTH, DESCRIPTION, NORMAL, REFERENCE, layer_count, layer_name};
+use super::{
+    COLOR, Capture, CaptureError, DEPTH, DESCRIPTION, NORMAL, REFERENCE, ShadingSample, layer_count, layer_name, mean,
+};
 use crate::picture::PictureError;
 use crate::picture::exr::{Source, read_color};
-use glam::{UVec2, Vec3};
+use glam::{UVec2, Vec3, Vec4};
 use std::collections::BTreeSet;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
@@ -24,7 +26,7 @@ impl Capture {
             dir,
             description: &description,
         };
-        let color = layout.color(COLOR, "the shading, one sample a pixel, in channels R, G and B")?;
+        let (color, colors) = layout.shading()?;
         let depth = layout.layers(DEPTH, ["Z"], "channel Z", |[z]| z)?;
         let normal = match layout.optional(NORMAL) {
             Some(path) => {
@@ -49,7 +51,9 @@ impl Capture {
             size: description.size(),
             samples: description.samples(),
             shading: description.shading(),
+            normal_space: description.normals,
             color,
+            colors,
             depth,
             normal,
             reference,
@@ -120,9 +124,49 @@ impl Layout<'_> {
         })
     }
 
-    fn color(&self, file: &str, contents: &str) -> Result<Frame<glam::Vec4>, CaptureError> {
+    fn color(&self, file: &str, contents: &str) -> Result<Frame<Vec4>, CaptureError> {
         let path = self.required(file, contents)?;
         Ok(read_color(&path, Some((self.size(), STATED_BY)))?)
+    }
+
+    /// The colour of each pixel, and of several shading samples a pixel each by itself.
+    fn shading(&self) -> Result<(Frame<Vec4>, Vec<Frame<Vec4>>), CaptureError> {
+        let ShadingSample::Samples(shaded) = self.description.shading() else {
+            let one = "the shading, one sample a pixel, in channels R, G and B";
+            return Ok((self.color(COLOR, one)?, Vec::new()));
+        };
+        let samples = self.description.samples().len();
+        let names: Vec<String> = shaded.iter().map(|sample| layer_name(*sample, samples)).collect();
+        let wanted = "channels R, G and B";
+        let path = self.required(
+            COLOR,
+            &format!("the shading of {} with {wanted} each", in_words(&names)),
+        )?;
+        let source = Source::open(&path)?;
+        self.refuse_surplus(&path, &source, &names)?;
+        let found = source.layer_channels();
+        let (mut planes, mut alphas) = (Vec::new(), Vec::new());
+        for name in &names {
+            let alpha = found.iter().any(|(layer, channel)| layer == name && channel == "A");
+            alphas.push(alpha);
+            for channel in ["R", "G", "B"].into_iter().chain(alpha.then_some("A")) {
+                let plane = source.find(name, channel, wanted)?;
+                source.check(plane, &format!("layer `{name}`"), self.size(), STATED_BY)?;
+                planes.push(plane);
+            }
+        }
+        let mut values = source.read(&planes)?.into_iter();
+        let mut colors = Vec::new();
+        for alpha in alphas {
+            let own: Vec<Vec<f32>> = values.by_ref().take(3 + usize::from(alpha)).collect();
+            let texel = |i: usize| Vec4::new(own[0][i], own[1][i], own[2][i], own.get(3).map_or(1.0, |a| a[i]));
+            colors.push(Frame::new(self.size(), (0..own[0].len()).map(texel).collect()));
+        }
+        let color = mean(&colors).ok_or_else(|| CaptureError::MissingFile {
+            path,
+            contents: "the shading".to_owned(),
+        })?;
+        Ok((color, colors))
     }
 
     /// Reads `channels` of every layer of `file`, and makes a texel of each set of values.
@@ -134,15 +178,15 @@ impl Layout<'_> {
         texel: impl Fn([f32; N]) -> T,
     ) -> Result<FrameLayers<T>, CaptureError> {
         let samples = self.description.samples().len();
-        let count = layer_count(samples, self.description.shading());
+        let count = layer_count(samples, &self.description.shading());
         let path = self.required(file, &format!("a layer a sample with {wanted}"))?;
         let source = Source::open(&path)?;
-        self.refuse_surplus(&path, &source, samples)?;
+        let names: Vec<String> = (0..count).map(|layer| layer_name(layer, samples)).collect();
+        self.refuse_surplus(&path, &source, &names)?;
         let mut planes = Vec::with_capacity(count * N);
-        for layer in 0..count {
-            let name = layer_name(layer, samples);
+        for name in &names {
             for channel in channels {
-                let plane = source.find(&name, channel, wanted)?;
+                let plane = source.find(name, channel, wanted)?;
                 source.check(plane, &format!("layer `{name}`"), self.size(), STATED_BY)?;
                 planes.push(plane);
             }
@@ -157,9 +201,7 @@ impl Layout<'_> {
 
     /// A layer that `capture.json` does not ask for is a sign that the two do not belong together, and of two layers of one
     /// name nobody can tell which is meant.
-    fn refuse_surplus(&self, path: &Path, source: &Source, samples: usize) -> Result<(), CaptureError> {
-        let count = layer_count(samples, self.description.shading());
-        let expected: Vec<String> = (0..count).map(|layer| layer_name(layer, samples)).collect();
+    fn refuse_surplus(&self, path: &Path, source: &Source, expected: &[String]) -> Result<(), CaptureError> {
         let found = source.layer_channels();
         let mut seen = BTreeSet::new();
         let surplus = found.iter().find_map(|(layer, channel)| {
@@ -173,23 +215,31 @@ impl Layout<'_> {
             Some(problem) => Err(CaptureError::Layers {
                 path: path.to_owned(),
                 problem,
-                samples,
-                expected: expected_layers(samples, count),
+                samples: self.description.samples().len(),
+                expected: in_words(expected),
             }),
             None => Ok(()),
         }
     }
 }
 
-/// The names of all layers, in words.
+/// The names of all layers of a capture's geometry, in words.
 pub(super) fn expected_layers(samples: usize, count: usize) -> String {
-    let names = match samples {
-        1 => "layer `sample0`".to_owned(),
-        _ => format!("layers `sample0` to `sample{}`", samples.saturating_sub(1)),
-    };
-    if count > samples {
-        names + " and `centre`"
-    } else {
-        names
+    let names: Vec<String> = (0..count).map(|layer| layer_name(layer, samples)).collect();
+    in_words(&names)
+}
+
+/// Names of layers: of more than three in a row the first and the last.
+fn in_words(names: &[String]) -> String {
+    let samples = names.iter().filter(|name| *name != "centre").count();
+    let in_a_row = (0..samples).all(|k| names[k] == layer_name(k, samples));
+    let quoted = |name: &String| format!("`{name}`");
+    match names {
+        [only] => format!("layer {}", quoted(only)),
+        [first, ..] if in_a_row && samples > 1 => {
+            let rest = if names.len() > samples { " and `centre`" } else { "" };
+            format!("layers {} to {}{rest}", quoted(first), quoted(&names[samples - 1]))
+        }
+        _ => format!("layers {}", names.iter().map(quoted).collect::<Vec<_>>().join(" and ")),
     }
 }

@@ -2,7 +2,7 @@
 
 use super::description::{Description, STATED_BY};
 use super::read::expected_layers;
-use super::{COLOR, Capture, CaptureError, DEPTH, DESCRIPTION, FILES, NORMAL, REFERENCE, layer_name};
+use super::{COLOR, Capture, CaptureError, DEPTH, DESCRIPTION, FILES, NORMAL, REFERENCE, ShadingSample, layer_name};
 use crate::picture::exr::{self, Layer};
 use crate::picture::{self, PictureError};
 use glam::UVec2;
@@ -41,6 +41,23 @@ impl Capture {
     fn check(&self, description: &Description, dir: &Path) -> Result<(), CaptureError> {
         description.check(&dir.join(DESCRIPTION))?;
         self.check_size(dir, COLOR, "its colour", self.color.size())?;
+        let several = match &self.shading {
+            ShadingSample::Samples(shaded) => shaded.len(),
+            ShadingSample::Sample(_) | ShadingSample::Centre => 0,
+        };
+        if self.colors.len() != several {
+            return Err(CaptureError::Value {
+                path: dir.join(DESCRIPTION),
+                field: "shading",
+                problem: format!(
+                    "it lists {several} samples, and there are colours of {}",
+                    self.colors.len()
+                ),
+            });
+        }
+        for color in &self.colors {
+            self.check_size(dir, COLOR, "each layer", color.size())?;
+        }
         self.check_layers(dir, DEPTH, &self.depth)?;
         if let Some(normal) = &self.normal {
             self.check_layers(dir, NORMAL, normal)?;
@@ -90,7 +107,15 @@ impl Capture {
             path,
             source,
         })?;
-        picture::write_exr(&dir.join(COLOR), &self.color)?;
+        match &self.shading {
+            ShadingSample::Samples(shaded) => {
+                let name = |sample: &usize| layer_name(*sample, self.samples.len());
+                let layers = shaded.iter().zip(&self.colors);
+                let layers = layers.map(|(sample, frame)| Layer::new(name(sample), picture::color_channels(frame)));
+                exr::write(&dir.join(COLOR), self.size, layers.collect())?;
+            }
+            ShadingSample::Sample(_) | ShadingSample::Centre => picture::write_exr(&dir.join(COLOR), &self.color)?,
+        }
         self.write_layers(&dir.join(DEPTH), &self.depth, |depth| vec![("Z", plane(depth, |z| z))])?;
         if let Some(normal) = &self.normal {
             self.write_layers(&dir.join(NORMAL), normal, |normal| {

@@ -1,16 +1,17 @@
 //! What an SRAA shader reads, made from a capture: the G-buffer in the layout and the encodings that its options name.
 
 mod pattern;
+mod space;
 
 use crate::capture::Capture;
 use crate::encode::{self, DepthEncoding, DepthStorage, NormalEncoding};
 use crate::execute::Inputs;
-use crate::scene::Camera;
-use glam::{IVec2, UVec2, Vec2, Vec4, vec3};
+use glam::{UVec2, Vec2, Vec3, Vec4};
 use std::collections::BTreeMap;
 use straightline_kernels::prelude::{Frame, FrameLayers};
 
 pub use pattern::{PATTERNS, sampled_at, samples};
+pub(crate) use space::has_planes;
 
 /// Why a capture cannot feed a shader.
 #[derive(Debug, thiserror::Error)]
@@ -25,6 +26,21 @@ pub enum GBufferError {
         option: String,
         /// What to do instead.
         way_out: &'static str,
+    },
+    /// Normals are in another space than the capture says.
+    #[error(
+        "the capture's normals cannot be in {stated} space: {off:.0} % of them are off the planes that its depths make, and {other_off:.0} % in \
+         {other} space; write \"normals\": \"{other}\" into capture.json, or use metric=depth-normals"
+    )]
+    NormalSpace {
+        /// The space that the capture says.
+        stated: &'static str,
+        /// Share of normals that are off planes in it, in percent.
+        off: f64,
+        /// The other space.
+        other: &'static str,
+        /// Share of those that are off in that, in percent.
+        other_off: f64,
     },
     /// The options ask for samples that the capture does not have.
     #[error("the shader needs {needed} geometry samples a pixel, and the capture has {found}")]
@@ -92,6 +108,9 @@ pub fn inputs(capture: &Capture, options: &BTreeMap<String, String>) -> Result<I
         }
     }
     let mut inputs = Inputs::new(capture.size).image("color", capture.color.clone());
+    if !capture.colors.is_empty() {
+        inputs = inputs.layers("colors", capture.colors.clone());
+    }
     let apart = capture.layer_count() > capture.samples.len();
     for (name, stack) in images {
         // What every device can multisample: a single component in whole floats, more in half.
@@ -112,8 +131,13 @@ pub fn inputs(capture: &Capture, options: &BTreeMap<String, String>) -> Result<I
     let inputs = inputs
         .uniform("near", &[f64::from(planes.x)])
         .uniform("far", &[f64::from(planes.y)]);
-    match (&capture.camera, metric) {
-        (Some(camera), _) => Ok(with_rays(inputs, camera, capture.size, IVec2::ZERO)),
+    match (capture.rays(), metric) {
+        (Some(rays), _) => {
+            if metric == "planes-normals" {
+                space::check(capture)?;
+            }
+            Ok(with_rays(inputs, rays))
+        }
         (None, "planes-normals") => Err(GBufferError::Missing {
             what: "camera",
             option: "metric=planes-normals".to_owned(),
@@ -123,16 +147,14 @@ pub fn inputs(capture: &Capture, options: &BTreeMap<String, String>) -> Result<I
     }
 }
 
-/// The rays through the pixels of an image of `size`, of which the inputs show the part from `origin` on, in view space.
-pub fn with_rays(inputs: Inputs, camera: &Camera, size: UVec2, origin: IVec2) -> Inputs {
-    let extent = camera.half_extent(size);
-    let step = 2.0 * extent / size.as_vec2();
-    let numbers = |v: glam::Vec3| v.to_array().map(f64::from);
+/// With the rays through the pixels of the whole picture.
+fn with_rays(inputs: Inputs, [corner, right, down]: [Vec3; 3]) -> Inputs {
+    let numbers = |v: Vec3| v.to_array().map(f64::from);
     inputs
-        .uniform("ray_corner", &numbers(vec3(-extent.x, extent.y, -1.0)))
-        .uniform("ray_right", &numbers(vec3(step.x, 0.0, 0.0)))
-        .uniform("ray_down", &numbers(vec3(0.0, -step.y, 0.0)))
-        .uniform("origin", &[f64::from(origin.x), f64::from(origin.y)])
+        .uniform("ray_corner", &numbers(corner))
+        .uniform("ray_right", &numbers(right))
+        .uniform("ray_down", &numbers(down))
+        .uniform("origin", &[0.0, 0.0])
 }
 
 /// Near and far plane that depth is encoded with.

@@ -5,7 +5,7 @@ use glam::Vec2;
 use straightline_kernels::sraa::{Pattern, Sraa};
 
 /// Names of the patterns that have one.
-pub const PATTERNS: [&str; 5] = ["ordered4", "latin4", "standard8", "ordered16", "latin16"];
+pub const PATTERNS: [&str; 6] = ["ordered4", "latin4", "standard8", "ordered16", "latin16", "standard16"];
 
 /// Offsets of the geometry samples of a pattern, in pixels from the pixel's centre, y down: of one of [`PATTERNS`], or of
 /// numbers separated by commas, x and y in turn. `None` for any other text, and for places outside the pixel.
@@ -16,6 +16,7 @@ pub fn samples(pattern: &str) -> Option<Vec<Vec2>> {
         "standard8" => Pattern::Standard8,
         "ordered16" => Pattern::Ordered16,
         "latin16" => Pattern::Latin16,
+        "standard16" => Pattern::Standard16,
         listed => {
             let numbers: Option<Vec<f32>> = listed.split(',').map(|part| part.trim().parse().ok()).collect();
             let numbers = numbers.filter(|n| n.len() % 2 == 0 && n.iter().all(|axis| axis.abs() <= 0.5))?;
@@ -44,16 +45,35 @@ pub fn sampled_at(capture: &Capture) -> Vec<(String, String)> {
             vec![("pattern", "listed".to_owned()), ("offsets", numbers.join(","))]
         }
     };
-    match capture.shading {
+    match &capture.shading {
         ShadingSample::Centre => options.push(("shading", "centre".to_owned())),
         ShadingSample::Sample(0) => options.push(("shading", "sample0".to_owned())),
-        ShadingSample::Sample(k) => {
+        ShadingSample::Sample(_) | ShadingSample::Samples(_) => {
+            let shaded: Vec<String> = capture.shaded_layers().iter().map(usize::to_string).collect();
             options.push(("shading", "listed".to_owned()));
-            options.push(("shaded", k.to_string()));
+            options.push(("shaded", shaded.join(",")));
         }
     }
     options
         .into_iter()
         .map(|(name, value)| (name.to_owned(), value))
         .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn patterns_are_centred_but_for_the_hardwares_sixteen() {
+        for name in PATTERNS {
+            let offsets = samples(name).expect("a pattern");
+            let mean = offsets.iter().sum::<Vec2>() / offsets.len() as f32;
+            let expected = match name {
+                "standard16" => Vec2::splat(-1.0 / 32.0),
+                _ => Vec2::ZERO,
+            };
+            assert_eq!(mean, expected, "{name}");
+        }
+    }
 }

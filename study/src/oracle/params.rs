@@ -32,8 +32,10 @@ choices! {
         Standard8 = "standard8",
         /// A regular 4×4 grid, row by row.
         Ordered16 = "ordered16",
-        /// Direct3D's standard pattern of 16.
+        /// Direct3D's standard pattern of 16, its mean moved to the pixel's centre.
         Latin16 = "latin16",
+        /// Direct3D's standard pattern of 16.
+        Standard16 = "standard16",
         /// As listed.
         Listed = "listed",
     }

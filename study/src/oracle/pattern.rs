@@ -1,5 +1,6 @@
 //! Sample positions, typed from the documentation of Direct3D (`D3D11_STANDARD_MULTISAMPLE_QUALITY_LEVELS`) and
-//! checked in the tests against the table in Vulkan's specification (*Standard sample locations*).
+//! checked in the tests against the table in Vulkan's specification (*Standard sample locations*). Those of
+//! [`Pattern::Latin16`] are these from their mean on, as they should be by definition.
 
 use super::params::Pattern;
 
@@ -21,7 +22,7 @@ fn sixteenths(pattern: Pattern) -> &'static [[i32; 2]] {
             [-6,  6], [-2,  6], [2,  6], [6,  6],
         ],
         #[rustfmt::skip]
-        Pattern::Latin16 => &[
+        Pattern::Latin16 | Pattern::Standard16 => &[
             [ 1,  1], [-1, -3], [-3,  2], [ 4, -1],
             [-5, -2], [ 2,  5], [ 5,  3], [ 3, -5],
             [-2,  6], [ 0, -7], [-4, -6], [-6,  4],
@@ -35,10 +36,17 @@ fn sixteenths(pattern: Pattern) -> &'static [[i32; 2]] {
 pub(super) fn samples(pattern: Pattern, listed: &[f64]) -> Vec<[f64; 2]> {
     match pattern {
         Pattern::Listed => listed.chunks_exact(2).map(|pair| [pair[0], pair[1]]).collect(),
-        _ => sixteenths(pattern)
-            .iter()
-            .map(|offset| offset.map(|axis| f64::from(axis) / 16.0))
-            .collect(),
+        _ => {
+            let hardware: Vec<[f64; 2]> = sixteenths(pattern)
+                .iter()
+                .map(|offset| offset.map(|axis| f64::from(axis) / 16.0))
+                .collect();
+            let mean = match pattern {
+                Pattern::Latin16 => [0, 1].map(|axis| hardware.iter().map(|at| at[axis]).sum::<f64>() / 16.0),
+                _ => [0.0; 2],
+            };
+            hardware.iter().map(|at| [at[0] - mean[0], at[1] - mean[1]]).collect()
+        }
     }
 }
 
@@ -73,12 +81,20 @@ mod tests {
             [0.375, 0.875], [0.5, 0.0625], [0.25, 0.125], [0.125, 0.75],
             [0.0, 0.5], [0.9375, 0.25], [0.875, 0.9375], [0.0625, 0.0],
         ];
-        assert_eq!(from_corner(Pattern::Latin16), sixteen);
+        assert_eq!(from_corner(Pattern::Standard16), sixteen);
+        // 1/32 further down and to the right: in the middle of sixteen rows and columns.
+        let centred = sixteen.map(|at| at.map(|axis| axis + 0.03125));
+        assert_eq!(from_corner(Pattern::Latin16), centred);
     }
 
     #[test]
     fn latin_squares_share_no_row_and_no_column() {
-        for pattern in [Pattern::Latin4, Pattern::Standard8, Pattern::Latin16] {
+        for pattern in [
+            Pattern::Latin4,
+            Pattern::Standard8,
+            Pattern::Latin16,
+            Pattern::Standard16,
+        ] {
             let samples = samples(pattern, &[]);
             for axis in 0..2 {
                 let mut cells: Vec<i64> = samples

@@ -87,6 +87,16 @@ pub fn png_bytes(frame: &Frame<Vec4>) -> Result<Vec<u8>, PictureError> {
     Ok(bytes)
 }
 
+/// Linear colour as a PNG of [`write_png`] would give it back: clamped to 0..=1 and rounded to 8 bits of sRGB. A pixel that is
+/// not finite stays as it is, so that no comparison takes it for black.
+pub fn at_eight_bits(frame: &Frame<Vec4>) -> Frame<Vec4> {
+    let texels = frame.texels().iter().map(|texel| match texel.is_finite() {
+        true => png::rounded(*texel),
+        false => *texel,
+    });
+    Frame::new(frame.size(), texels.collect())
+}
+
 /// Writes linear colour as it is: an EXR file of 32-bit float channels R, G, B and A, compressed without loss.
 /// Whole or not at all, as [`write()`].
 pub fn write_exr(path: &Path, frame: &Frame<Vec4>) -> Result<(), PictureError> {

@@ -6,14 +6,6 @@ use glam::{UVec2, Vec4, ivec2};
 use rayon::prelude::*;
 use straightline_kernels::prelude::Frame;
 
-/// The mean of pictures of one size; `None` of none.
-pub fn mean(frames: &[Frame<Vec4>]) -> Option<Frame<Vec4>> {
-    let size = frames.first()?.size();
-    let share = 1.0 / frames.len() as f32;
-    let texel = |k: usize| frames.iter().map(|frame| frame.texels()[k]).sum::<Vec4>() * share;
-    Some(Frame::new(size, (0..(size.x * size.y) as usize).map(texel).collect()))
-}
-
 /// As multisampling does it: each sample of a pixel takes the colour of the first sample that sees its surface, so that each
 /// surface is shaded once. `shaded` holds the picture at each sample.
 pub fn once_a_surface(surfaces: &Surfaces<'_>, shaded: &[Frame<Vec4>]) -> Frame<Vec4> {

@@ -79,7 +79,7 @@ fn look(surfaces: &Surfaces<'_>, pixel: UVec2) -> (bool, bool) {
 /// What the shading samples of a pixel and its neighbours see, its own first.
 pub(super) fn seen_around(surfaces: &Surfaces<'_>, pixel: UVec2) -> Vec<super::surfaces::Point> {
     let places = std::iter::once(IVec2::ZERO).chain(neighbours());
-    places.filter_map(|by| surfaces.shaded(pixel.as_ivec2() + by)).collect()
+    places.flat_map(|by| surfaces.shaded(pixel.as_ivec2() + by)).collect()
 }
 
 /// The eight pixels around a pixel.
@@ -111,11 +111,11 @@ pub fn varies_around(color: &Frame<Vec4>, surfaces: &Surfaces<'_>) -> Vec<bool> 
         .into_par_iter()
         .map(|k| {
             let pixel = IVec2::new((k % size.x) as i32, (k / size.x) as i32);
-            let Some(own) = surfaces.shaded(pixel) else {
+            let Some(own) = surfaces.shaded(pixel).next() else {
                 return false;
             };
             [IVec2::X, IVec2::NEG_X, IVec2::Y, IVec2::NEG_Y].into_iter().any(|by| {
-                let near = surfaces.shaded(pixel + by);
+                let near = surfaces.shaded(pixel + by).next();
                 near.is_some_and(|near| surfaces.same(&own, &near))
                     && (at(pixel) - at(pixel + by)).abs().max_element() > STEP
             })

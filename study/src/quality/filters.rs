@@ -9,6 +9,7 @@ use crate::capture::Capture;
 use crate::execute::{Bench, Bound, ExecuteError, Inputs, Job, Timed, Work, texture_bytes};
 use crate::gbuffer;
 use crate::peers::{Smaa, Transfer, fxaa};
+use crate::picture;
 use crate::watch::Watch;
 use glam::{UVec2, Vec4};
 use std::time::Duration;
@@ -68,7 +69,7 @@ impl<'a> Filters<'a> {
     pub fn run(&mut self, k: usize, shot: &Shot) -> Result<Frame<Vec4>, QualityError> {
         let method = &self.methods[k];
         match (&mut self.runners[k], method.kind) {
-            (Runner::Smaa(smaa), _) => Ok(smaa.run(&shot.any()?.color)?),
+            (Runner::Smaa(smaa), _) => Ok(smaa.run(&shown(shot.any()?))?),
             (Runner::Kernel(shader), kind) => {
                 let (inputs, bound) = shader.bound(self.bench, method, shot)?;
                 let target = self.bench.target(inputs.size, shader.pass.target_format());
@@ -129,7 +130,7 @@ impl<'a> Filters<'a> {
             bounds.push(match runner {
                 Runner::Kernel(shader) => Some(shader.bound(self.bench, method, shot)?),
                 Runner::Smaa(smaa) => {
-                    smaa.run(&shot.any()?.color)?;
+                    smaa.run(&shown(shot.any()?))?;
                     None
                 }
                 Runner::None => None,
@@ -199,13 +200,24 @@ impl Shader {
 }
 
 fn of_the_picture(capture: &Capture, transfer: Transfer) -> Inputs {
-    Inputs::new(capture.size).image("color", transfer.given(&capture.color))
+    Inputs::new(capture.size).image("color", transfer.given(&shown(capture)))
+}
+
+/// The picture that a display is sent, which filters of pictures read: then their 16 bits, or whatever they compute in, give
+/// back the bytes of what they do not change.
+fn shown(capture: &Capture) -> Frame<Vec4> {
+    picture::at_eight_bits(&capture.color)
 }
 
 /// Depth and normals where the picture was shaded. Depth as a projection without a far plane stores it, reversed: what both
 /// edge filters are set for.
 fn one_a_pixel(capture: &Capture) -> Result<Inputs, QualityError> {
-    let layer = capture.shaded_layer();
+    let layers = capture.shaded_layers();
+    let [layer] = layers[..] else {
+        return Err(QualityError::Capture(
+            "the capture is shaded several times a pixel, and edge filters read one sample".to_owned(),
+        ));
+    };
     let missing =
         || QualityError::Capture("the capture has no normals (normal.exr), which edge filters need".to_owned());
     let normals = capture.normal.as_ref().ok_or_else(missing)?;

@@ -1,6 +1,6 @@
 //! The methods that are compared.
 
-use crate::capture::Capture;
+use crate::capture::{Capture, ShadingSample};
 use crate::gbuffer;
 use crate::peers::Transfer;
 use crate::record::Family;
@@ -84,6 +84,26 @@ impl Method {
         }
     }
 
+    /// Where its picture is shaded.
+    pub fn shading(&self) -> ShadingSample {
+        let asked = self.options.iter().find(|(name, _)| name == "shaded");
+        let listed = asked.map(|(_, list)| list.split(',').filter_map(|k| k.parse().ok()).collect::<Vec<usize>>());
+        match listed.as_deref() {
+            None => ShadingSample::Centre,
+            Some([only]) => ShadingSample::Sample(*only),
+            Some(several) => ShadingSample::Samples(several.to_vec()),
+        }
+    }
+
+    /// What names the capture that it reads, of all that a scene is drawn in: its pattern, and where it is shaded unless that is
+    /// the pixel's centre.
+    pub fn reads(&self) -> String {
+        match self.options.iter().find(|(name, _)| name == "shaded") {
+            Some((_, list)) => format!("{} shaded at {list}", self.pattern()),
+            None => self.pattern().to_owned(),
+        }
+    }
+
     /// Name of its picture's file, without extension.
     pub fn stem(&self) -> String {
         stem(&self.name)
@@ -106,6 +126,7 @@ pub fn methods(quick: bool) -> Vec<Method> {
         sraa("SRAA 16", &[("pattern", "latin16")]).main(),
     ];
     all.extend(metrics());
+    all.push(sraa("SRAA 4, two shading samples", &[LISTED, ("shaded", "0,3")]));
     if !quick {
         all.extend([
             sraa(
@@ -114,9 +135,20 @@ pub fn methods(quick: bool) -> Vec<Method> {
             ),
             sraa("SRAA 4, ordered", &[("pattern", "ordered4")]),
             sraa("SRAA 8, standard", &[("pattern", "standard8")]),
+            sraa("SRAA 16, standard", &[("pattern", "standard16")]),
             sraa("SRAA 16, ordered", &[("pattern", "ordered16")]),
         ]);
         all.extend(falloffs());
+        all.extend([
+            sraa(
+                "SRAA 16, two shading samples",
+                &[("pattern", "latin16"), LISTED, ("shaded", "7,8")],
+            ),
+            sraa(
+                "SRAA 16, four shading samples",
+                &[("pattern", "latin16"), LISTED, ("shaded", "10,3,11,5")],
+            ),
+        ]);
     }
     all.extend([
         Method::new("S.T.A.L.K.E.R.", Kind::Edge("stalker"), &[]),
@@ -130,6 +162,9 @@ pub fn methods(quick: bool) -> Vec<Method> {
     ]);
     all
 }
+
+/// Shading at more than one place of a pixel: samples opposite to each other, and of sixteen four near those of `latin4`.
+const LISTED: (&str, &str) = ("shading", "listed");
 
 fn metrics() -> Vec<Method> {
     let sraa = |name, metric| Method::new(name, Kind::Sraa, &[("metric", metric)]);
@@ -199,8 +234,13 @@ pub fn methods_of(capture: &Capture) -> (Vec<Method>, Vec<(String, String)>) {
             let reason = "capture.json has no camera".to_owned();
             absent.push((format!("SRAA {samples}, planes and normals"), reason));
         }
-        all.push(Method::new("S.T.A.L.K.E.R.", Kind::Edge("stalker"), &[]));
-        all.push(Method::new("Tabula Rasa", Kind::Edge("tabula_rasa"), &[]));
+        if capture.colors.is_empty() {
+            all.push(Method::new("S.T.A.L.K.E.R.", Kind::Edge("stalker"), &[]));
+            all.push(Method::new("Tabula Rasa", Kind::Edge("tabula_rasa"), &[]));
+        } else {
+            let reason = "the capture is shaded several times a pixel".to_owned();
+            absent.push(("S.T.A.L.K.E.R., Tabula Rasa".to_owned(), reason));
+        }
     } else {
         absent.push((format!("SRAA {samples} with normals"), no_normals.to_owned()));
         absent.push(("S.T.A.L.K.E.R., Tabula Rasa".to_owned(), no_normals.to_owned()));
@@ -210,7 +250,7 @@ pub fn methods_of(capture: &Capture) -> (Vec<Method>, Vec<(String, String)>) {
         ..sraa(", depth", &[("metric", "depth")])
     });
     all.extend(of_the_picture());
-    let once = "a capture is shaded once a pixel";
+    let once = "a capture is not shaded at every sample";
     absent.push((
         "MSAA 4, 4x, 16x, and the share of the gap to 16x".to_owned(),
         once.to_owned(),
@@ -232,5 +272,18 @@ mod tests {
             assert_eq!(stems.len(), all.len());
         }
         assert_eq!(stem("SRAA 4, no falloff"), "sraa-4-no-falloff");
+    }
+
+    #[test]
+    fn what_is_read_follows_the_options() {
+        let all = methods(false);
+        let of = |name: &str| all.iter().find(|method| method.name == name).expect("a method");
+        assert_eq!(
+            (of("SRAA 16").reads(), of("SRAA 16").shading()),
+            ("latin16".to_owned(), ShadingSample::Centre)
+        );
+        let two = of("SRAA 16, two shading samples");
+        assert_eq!(two.reads(), "latin16 shaded at 7,8");
+        assert_eq!(two.shading(), ShadingSample::Samples(vec![7, 8]));
     }
 }

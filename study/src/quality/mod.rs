@@ -1,5 +1,8 @@
 //! Methods of antialiasing against references of 256 samples a pixel: how wrong each is and where, what it costs, and what
 //! SRAA is short of.
+//!
+//! All pictures, the reference among them, are judged as a display shows them: at 8 bits of sRGB ([`picture::at_eight_bits`]),
+//! whatever they were computed in.
 
 mod bounds;
 mod classes;
@@ -233,6 +236,7 @@ impl Wanted<'_> {
         watch: &mut dyn Watch,
     ) -> Result<SceneErrors, QualityError> {
         let classes = classes(shot)?;
+        let reference = &picture::at_eight_bits(reference);
         let bytes = filters.bytes(shot)?;
         let mut errors = SceneErrors {
             reference: self.picture("reference", reference)?,
@@ -246,7 +250,7 @@ impl Wanted<'_> {
         let mut reconstructed = Vec::new();
         for (k, method) in listed.iter().enumerate() {
             check(watch)?;
-            let made = filters.run(k, shot)?;
+            let made = picture::at_eight_bits(&filters.run(k, shot)?);
             let picture = match method.pictured {
                 true => self.picture(&method.stem(), &made)?,
                 false => None,

@@ -4,6 +4,7 @@ use super::QualityError;
 use super::filters::Filters;
 use super::methods::Method;
 use super::shot::{Shifted, Shot, supersampled};
+use crate::picture;
 use crate::render::Renderer;
 use crate::watch::Watch;
 use glam::{Vec2, Vec3, Vec4, vec2};
@@ -16,7 +17,7 @@ const STEP: Vec2 = vec2(0.125, 0.0625);
 pub const SIDE: u32 = 8;
 
 /// For each method, the root of the mean squared error of what changes from a frame to the next, in colours clamped to
-/// 0..=1, against what changes in a reference of 64 samples a pixel; `None` for methods that are not watched.
+/// 0..=1 at 8 bits of sRGB, against what changes in a reference of 64 samples a pixel; `None` for methods that are not watched.
 pub fn pan(
     renderer: &dyn Renderer,
     methods: &[Method],
@@ -32,11 +33,11 @@ pub fn pan(
         let moved = Shifted { renderer, by };
         let shot = Shot::draw(&moved, &panned, watch)?;
         // What is wrong in this frame: what changes in that is what changes wrongly.
-        let reference = supersampled(renderer, SIDE, by, watch)?;
+        let reference = picture::at_eight_bits(&supersampled(renderer, SIDE, by, watch)?);
         let mut wrong = Vec::new();
         for (k, method) in methods.iter().enumerate() {
             wrong.push(match method.panned {
-                true => Some(apart(&filters.run(k, &shot)?, &reference)),
+                true => Some(apart(&picture::at_eight_bits(&filters.run(k, &shot)?), &reference)),
                 false => None,
             });
         }

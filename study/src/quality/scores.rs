@@ -7,6 +7,7 @@ use super::methods::Method;
 use super::shot::Shot;
 use super::surfaces::Surfaces;
 use crate::metrics;
+use crate::picture;
 use crate::record::{Gap, MOST_DB, MethodErrors};
 use glam::Vec4;
 use straightline_kernels::prelude::Frame;
@@ -56,7 +57,7 @@ pub fn share_of_gap(methods: &mut [MethodErrors]) {
     }
 }
 
-/// What SRAA with 4 and with 16 samples, whose pictures are given, is short of 4x and 16x.
+/// What SRAA with 4 and with 16 samples, whose pictures are given at 8 bits as the reference is, is short of 4x and 16x.
 pub fn gaps(
     shot: &Shot,
     made: [&Frame<Vec4>; 2],
@@ -68,8 +69,8 @@ pub fn gaps(
         let missing = || QualityError::NotDrawn(format!("SRAA {samples}"));
         let capture = shot.captures.get(&format!("latin{samples}")).ok_or_else(missing)?;
         let surfaces = Surfaces::of(&[capture]).ok_or_else(missing)?;
-        let best = ideal(&surfaces, shot.shaded(samples)?, &capture.color);
-        let bound = shot.supersampled(samples)?;
+        let best = picture::at_eight_bits(&ideal(&surfaces, shot.shaded(samples)?, &capture.color));
+        let bound = picture::at_eight_bits(&shot.supersampled(samples)?);
         let seen = |k: usize| !classes.unseen[k];
         let pixels = made.texels().len();
         let unseen = classes.unseen.iter().filter(|is| **is).count();

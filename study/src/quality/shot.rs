@@ -1,9 +1,8 @@
 //! Everything that methods read of one picture.
 
-use super::bounds::mean;
 use super::methods::{Kind, Method};
 use super::{QualityError, check};
-use crate::capture::{Capture, ShadingSample};
+use crate::capture::{Capture, ShadingSample, mean};
 use crate::gbuffer;
 use crate::render::{self, Renderer};
 use crate::watch::Watch;
@@ -14,7 +13,7 @@ use straightline_kernels::prelude::Frame;
 
 /// A picture shaded once a pixel, its geometry in several patterns, and the same shaded at every sample.
 pub struct Shot {
-    /// By the pattern's name.
+    /// By what methods read: the pattern's name, and where shading is sampled unless at the pixel's centre.
     pub captures: BTreeMap<String, Capture>,
     /// Shaded at each sample of `latin4`, and of `latin16`; none of a capture.
     pub shaded: BTreeMap<usize, Vec<Frame<Vec4>>>,
@@ -28,12 +27,10 @@ impl Shot {
             shaded: BTreeMap::new(),
         };
         for method in methods {
-            let pattern = method.pattern();
-            if !shot.captures.contains_key(pattern) {
+            if let Entry::Vacant(vacant) = shot.captures.entry(method.reads()) {
                 check(watch)?;
-                let samples = gbuffer::samples(pattern).unwrap_or_default();
-                let capture = render::capture(renderer, &samples, ShadingSample::Centre)?;
-                shot.captures.insert(pattern.to_owned(), capture);
+                let samples = gbuffer::samples(method.pattern()).unwrap_or_default();
+                vacant.insert(render::capture(renderer, &samples, method.shading())?);
             }
             let several = match method.kind {
                 Kind::Multisampled => 4,
@@ -60,13 +57,17 @@ impl Shot {
 
     /// The capture for a method.
     pub fn capture(&self, method: &Method) -> Result<&Capture, QualityError> {
-        let found = self.captures.get(method.pattern()).or_else(|| self.captures.get(""));
+        let found = self.captures.get(&method.reads()).or_else(|| self.captures.get(""));
         found.ok_or_else(|| QualityError::NotDrawn(method.name.clone()))
     }
 
-    /// Any capture: all have the same picture.
+    /// Any capture that is shaded at the pixels' centres, or else any: all of those have the same picture.
     pub fn any(&self) -> Result<&Capture, QualityError> {
-        let first = self.captures.values().next();
+        let mut captures = self.captures.values();
+        let centred = captures
+            .clone()
+            .find(|capture| capture.shading == ShadingSample::Centre);
+        let first = centred.or_else(|| captures.next());
         first.ok_or_else(|| QualityError::NotDrawn("1x".to_owned()))
     }
 

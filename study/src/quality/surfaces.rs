@@ -2,12 +2,13 @@
 //!
 //! Two samples see one surface if their normals are within ten degrees of each other and each point lies on the other's
 //! tangent plane, to within a tenth of a pixel for each pixel that they are apart on the screen. What is only painted
-//! differently is one surface. Without a camera, or without normals in view space, depths must agree to a hundredth of
+//! differently is one surface. Without a camera, or with normals of another space than is said, depths must agree to a hundredth of
 //! themselves instead of planes; without normals depth alone counts. The sky is one surface.
 
 use crate::capture::Capture;
+use crate::gbuffer::has_planes;
 use crate::scene::SKY_DEPTH;
-use glam::{IVec2, UVec2, Vec2, Vec3, vec3};
+use glam::{IVec2, UVec2, Vec2, Vec3};
 use straightline_kernels::prelude::Frame;
 
 /// Cosine of the angle between two normals of one surface: ten degrees.
@@ -26,7 +27,7 @@ pub struct Point {
     place: Vec2,
     depth: f32,
     normal: Option<Vec3>,
-    /// In view space.
+    /// From the eye, in the space of normals.
     position: Option<Vec3>,
 }
 
@@ -56,9 +57,10 @@ struct Layer<'a> {
 pub struct Surfaces<'a> {
     size: UVec2,
     layers: Vec<Layer<'a>>,
-    shaded: usize,
-    /// Half of what is seen at depth 1, if planes can be told.
-    extent: Option<Vec2>,
+    /// Layers of the shading samples.
+    shaded: Vec<usize>,
+    /// The rays through the pixels in the space of normals, if planes can be told: see [`Capture::rays`].
+    rays: Option<[Vec3; 3]>,
     /// A pixel at depth 1.
     pixel: f32,
 }
@@ -77,23 +79,14 @@ impl<'a> Surfaces<'a> {
                 });
             }
         }
-        let mut surfaces = Surfaces {
+        let rays = first.rays().filter(|_| has_planes(first));
+        Some(Surfaces {
             size: first.size,
             layers,
-            shaded: first.shaded_layer(),
-            extent: None,
-            pixel: 0.0,
-        };
-        if let Some(camera) = first.camera.filter(|_| first.normal.is_some()) {
-            let extent = camera.half_extent(first.size);
-            surfaces.pixel = 2.0 * extent.y / first.size.y as f32;
-            surfaces.extent = Some(extent);
-            // Normals of another space look away from the camera somewhere.
-            if !surfaces.face_the_camera() {
-                surfaces.extent = None;
-            }
-        }
-        Some(surfaces)
+            shaded: first.shaded_layers(),
+            rays,
+            pixel: rays.map_or(0.0, |[_, _, down]| down.length()),
+        })
     }
 
     /// Width and height in pixels.
@@ -106,10 +99,11 @@ impl<'a> Surfaces<'a> {
         self.layers.len()
     }
 
-    /// What the shading sample of a pixel sees; `None` outside the picture.
-    pub fn shaded(&self, pixel: IVec2) -> Option<Point> {
+    /// What each shading sample of a pixel sees; nothing outside the picture.
+    pub fn shaded(&self, pixel: IVec2) -> impl Iterator<Item = Point> {
         let inside = pixel.cmpge(IVec2::ZERO).all() && pixel.cmplt(self.size.as_ivec2()).all();
-        inside.then(|| self.point(pixel.as_uvec2(), self.shaded))
+        let shaded = if inside { &self.shaded[..] } else { &[] };
+        shaded.iter().map(move |layer| self.point(pixel.as_uvec2(), *layer))
     }
 
     /// What a sample of a pixel inside the picture sees.
@@ -118,15 +112,13 @@ impl<'a> Surfaces<'a> {
         let at = (pixel.y * self.size.x + pixel.x) as usize;
         let depth = layer.depth.texels()[at];
         let place = pixel.as_vec2() + 0.5 + layer.offset;
-        let ray = |extent: Vec2| {
-            let seen = place / self.size.as_vec2() * 2.0 - 1.0;
-            vec3(seen.x * extent.x, -seen.y * extent.y, -1.0)
-        };
         Point {
             place,
             depth,
             normal: layer.normal.map(|normals| normals.texels()[at]),
-            position: self.extent.map(|extent| ray(extent) * depth),
+            position: self
+                .rays
+                .map(|[corner, right, down]| (corner + place.x * right + place.y * down) * depth),
         }
     }
 
@@ -152,21 +144,5 @@ impl<'a> Surfaces<'a> {
             }
             _ => (a.depth - b.depth).abs() <= OFF_DEPTH * nearer.abs(),
         }
-    }
-
-    /// Whether next to no normal at the shading samples looks away from the camera, as in view space none can.
-    fn face_the_camera(&self) -> bool {
-        let (mut seen, mut away) = (0usize, 0usize);
-        for y in 0..self.size.y {
-            for x in 0..self.size.x {
-                let point = self.point(UVec2::new(x, y), self.shaded);
-                if let (Some(position), Some(normal), true) = (point.position, point.normal, point.depth < SKY_DEPTH) {
-                    seen += 1;
-                    // Interpolated normals may look away a little.
-                    away += usize::from(position.normalize_or_zero().dot(normal) > 0.3);
-                }
-            }
-        }
-        away * 100 <= seen
     }
 }

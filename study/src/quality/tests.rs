@@ -1,9 +1,9 @@
 //! Kinds of pixels and bounds, on pictures whose surfaces are known.
 
-use super::bounds::{ideal, mean, once_a_surface};
+use super::bounds::{ideal, once_a_surface};
 use super::classes::{Classes, varies_within};
 use super::surfaces::Surfaces;
-use crate::capture::{Capture, ShadingSample};
+use crate::capture::{Capture, NormalSpace, ShadingSample, mean};
 use crate::scene::{Camera, SKY_DEPTH};
 use glam::{UVec2, Vec2, Vec3, Vec4, uvec2, vec3};
 use straightline_kernels::prelude::{Frame, FrameLayers};
@@ -61,6 +61,8 @@ fn captured(seen: impl Fn(Vec2) -> Option<Plane>) -> (Capture, Vec<Frame<Vec4>>)
         size: SIZE,
         samples,
         shading: ShadingSample::Centre,
+        normal_space: NormalSpace::View,
+        colors: Vec::new(),
         camera: Some(CAMERA),
         color: colors(&layers[4]),
         depth: FrameLayers::new(

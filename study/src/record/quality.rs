@@ -23,7 +23,7 @@ pub enum Family {
     Supersampling,
 }
 
-/// Errors of a method on a scene, against 256 samples a pixel. PSNR over linear RGB clamped to 0..=1, in dB, at most
+/// Errors of a method on a scene, against 256 samples a pixel, both as a display shows them: at 8 bits of sRGB. PSNR over linear RGB clamped to 0..=1, in dB, at most
 /// [`MOST_DB`]; a class of pixels that the scene has none of has `None`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MethodErrors {

@@ -1,11 +1,11 @@
 //! Captures of what a renderer draws.
 
 use super::{RenderError, Renderer};
-use crate::capture::{Capture, ShadingSample};
+use crate::capture::{Capture, NormalSpace, ShadingSample, mean};
 use glam::Vec2;
 use straightline_kernels::prelude::FrameLayers;
 
-/// What a filter gets: colour shaded once a pixel, and geometry at each of `samples` (and, with
+/// What a filter gets: colour shaded once a pixel, or at each of several samples, and geometry at each of `samples` (and, with
 /// [`ShadingSample::Centre`], once more at the pixel's centre).
 ///
 /// `samples` are in pixels from the pixel's centre, y down. There is no reference in the capture;
@@ -18,16 +18,25 @@ use straightline_kernels::prelude::FrameLayers;
 pub fn capture(renderer: &dyn Renderer, samples: &[Vec2], shading: ShadingSample) -> Result<Capture, RenderError> {
     super::check_offsets(samples)?;
     let mut places = samples.to_vec();
-    let shaded = match shading {
-        ShadingSample::Sample(sample) => *samples.get(sample).ok_or(RenderError::ShadingSample {
-            sample,
+    let of = |sample: &usize| {
+        samples.get(*sample).copied().ok_or(RenderError::ShadingSample {
+            sample: *sample,
             samples: samples.len(),
-        })?,
+        })
+    };
+    let shaded = match &shading {
+        ShadingSample::Sample(sample) => vec![of(sample)?],
+        ShadingSample::Samples(several) => several.iter().map(of).collect::<Result<_, _>>()?,
         ShadingSample::Centre => {
             places.push(Vec2::ZERO);
-            Vec2::ZERO
+            vec![Vec2::ZERO]
         }
     };
+    let mut colors = Vec::new();
+    for place in shaded {
+        colors.push(renderer.shaded(place)?);
+    }
+    let color = mean(&colors).ok_or(RenderError::NoOffsets)?;
     let (mut depth, mut normal) = (Vec::new(), Vec::new());
     for place in places {
         let (depths, normals) = renderer.geometry(place)?;
@@ -37,9 +46,14 @@ pub fn capture(renderer: &dyn Renderer, samples: &[Vec2], shading: ShadingSample
     Ok(Capture {
         size: renderer.size(),
         samples: samples.to_vec(),
+        color,
+        colors: match &shading {
+            ShadingSample::Samples(_) => colors,
+            ShadingSample::Sample(_) | ShadingSample::Centre => Vec::new(),
+        },
         shading,
+        normal_space: NormalSpace::View,
         camera: Some(renderer.camera()),
-        color: renderer.shaded(shaded)?,
         depth: FrameLayers::new(depth),
         normal: Some(FrameLayers::new(normal)),
         reference: None,

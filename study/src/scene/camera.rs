@@ -44,8 +44,9 @@ impl Camera {
 
     /// A camera that has the whole box from `min` to `max` in a picture at least as wide as it is high, and looks
     /// down on its front (towards +z) from the right.
-    pub fn framing(min: Vec3, max: Vec3) -> Camera {
-        let vertical_fov = 35.0_f32.to_radians();
+    ///
+    /// `vertical_fov` is the angle between the picture's upper and lower edge in radians, above 0 and below π.
+    pub fn framing(min: Vec3, max: Vec3, vertical_fov: f32) -> Camera {
         // How much of the picture the box may fill, so that it does not touch the edges.
         let tangent = 0.95 * (0.5 * vertical_fov).tan();
         let centre = 0.5 * (min + max);
@@ -97,6 +98,42 @@ impl Camera {
     }
 }
 
+/// Where a scene is to be seen from, as far as it matters to whoever asks.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Viewpoint {
+    /// The pinhole; by default where all of the scene is seen.
+    pub eye: Option<Vec3>,
+    /// A point in the middle of the picture; by default the middle of a model, and what a scene's own camera looks at.
+    pub target: Option<Vec3>,
+    /// Angle between the picture's upper and lower edge in radians.
+    pub vertical_fov: Option<f32>,
+}
+
+impl Viewpoint {
+    /// The angle of cameras that frame a model, in radians.
+    pub const FOV: f32 = 35.0 * std::f32::consts::PI / 180.0;
+
+    /// The camera of `by_default`, which is told the angle to use, with what is asked for; `place` says where a point that is asked for
+    /// is in the scene. Up is the world's y, but straight up or down from `eye` it is -z.
+    pub fn camera(&self, by_default: impl Fn(f32) -> Camera, place: impl Fn(Vec3) -> Vec3) -> Camera {
+        let mut camera = by_default(self.vertical_fov.unwrap_or(Self::FOV));
+        if let Some(eye) = self.eye {
+            camera.position = place(eye).into();
+        }
+        if let Some(target) = self.target {
+            camera.target = place(target).into();
+        }
+        if let Some(fov) = self.vertical_fov {
+            camera.vertical_fov = fov;
+        }
+        let along = Vec3::from(camera.target) - Vec3::from(camera.position);
+        if along.cross(camera.up.into()).length() <= 1.0e-4 * along.length() {
+            camera.up = [0.0, 0.0, -1.0];
+        }
+        camera
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -123,7 +160,7 @@ mod tests {
     #[test]
     fn a_framed_box_is_inside_the_picture() {
         let (min, max) = (vec3(-3.0, 0.0, 10.0), vec3(1.0, 9.0, 11.0));
-        let camera = Camera::framing(min, max);
+        let camera = Camera::framing(min, max, Viewpoint::FOV);
         assert_eq!(camera.check(), Ok(()));
         let to_clip = camera.projection(UVec2::new(64, 64), Vec2::ZERO) * camera.view();
         for corner in 0..8 {
@@ -134,6 +171,25 @@ mod tests {
                 "{clip}"
             );
         }
+    }
+
+    #[test]
+    fn a_viewpoint_changes_what_it_names_alone() {
+        let place = |point: Vec3| 2.0 * point;
+        let seen = |viewpoint: Viewpoint| viewpoint.camera(|_| CAMERA, place);
+        assert_eq!(seen(Viewpoint::default()), CAMERA);
+        let moved = seen(Viewpoint {
+            eye: Some(vec3(4.0, 5.0, 6.0)),
+            ..Viewpoint::default()
+        });
+        assert_eq!((moved.position, moved.target), ([8.0, 10.0, 12.0], CAMERA.target));
+        // From straight above there is a picture too.
+        let above = seen(Viewpoint {
+            eye: Some(vec3(0.5, 9.0, -3.5)),
+            vertical_fov: Some(0.5),
+            ..Viewpoint::default()
+        });
+        assert_eq!((above.check(), above.vertical_fov), (Ok(()), 0.5));
     }
 
     #[test]

@@ -14,9 +14,9 @@ use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
 pub use builtin::builtin;
-pub use camera::Camera;
+pub use camera::{Camera, Viewpoint};
 pub use error::SceneError;
-pub use load::{EXTENSIONS, load};
+pub use load::{EXTENSIONS, load, load_seen};
 pub use named::NAMES;
 
 /// Linear depth where no geometry is seen.

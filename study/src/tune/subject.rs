@@ -92,16 +92,16 @@ impl Subject {
     }
 }
 
-/// The capture with `count` of its geometry samples, as far apart as can be; the one that was shaded is among them.
+/// The capture with `count` of its geometry samples, as far apart as can be; those that were shaded are among them.
 fn fewer_samples(capture: &Capture, count: usize) -> Capture {
     if count >= capture.samples.len() {
         return capture.clone();
     }
-    let first = match capture.shading {
-        ShadingSample::Sample(k) => k,
-        ShadingSample::Centre => 0,
+    let mut kept = match &capture.shading {
+        ShadingSample::Sample(k) => vec![*k],
+        ShadingSample::Samples(several) => several.clone(),
+        ShadingSample::Centre => vec![0],
     };
-    let mut kept = vec![first];
     while kept.len() < count {
         let gap = |k: &usize| {
             let gaps = kept
@@ -124,15 +124,19 @@ fn fewer_samples(capture: &Capture, count: usize) -> Capture {
         let kept = layers.iter().map(|k| normal.layers()[*k].clone());
         FrameLayers::new(kept.collect())
     });
+    let place = |old: &usize| kept.iter().position(|k| k == old).unwrap_or(0);
     Capture {
         size: capture.size,
         samples: kept.iter().map(|k| capture.samples[*k]).collect(),
-        shading: match capture.shading {
+        shading: match &capture.shading {
             ShadingSample::Centre => ShadingSample::Centre,
-            ShadingSample::Sample(_) => ShadingSample::Sample(kept.iter().position(|k| *k == first).unwrap_or(0)),
+            ShadingSample::Sample(old) => ShadingSample::Sample(place(old)),
+            ShadingSample::Samples(old) => ShadingSample::Samples(old.iter().map(place).collect()),
         },
+        normal_space: capture.normal_space,
         camera: capture.camera,
         color: capture.color.clone(),
+        colors: capture.colors.clone(),
         depth: FrameLayers::new(depth),
         normal,
         reference: None,
@@ -148,6 +152,7 @@ fn apart(a: Vec2, b: Vec2) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::capture::NormalSpace;
     use glam::{Vec3, uvec2};
 
     fn capture(samples: Vec<Vec2>, shading: ShadingSample) -> Capture {
@@ -158,8 +163,10 @@ mod tests {
         Capture {
             size,
             shading,
+            normal_space: NormalSpace::View,
             camera: None,
             color: Frame::new(size, vec![Vec4::ONE; 2]),
+            colors: Vec::new(),
             depth: FrameLayers::new(depth.collect()),
             normal: Some(FrameLayers::new(normal.collect())),
             reference: None,
@@ -173,7 +180,11 @@ mod tests {
 
     #[test]
     fn a_capture_is_thinned_and_its_layers_follow() {
-        for shading in [ShadingSample::Centre, ShadingSample::Sample(5)] {
+        for shading in [
+            ShadingSample::Centre,
+            ShadingSample::Sample(5),
+            ShadingSample::Samples(vec![14, 3]),
+        ] {
             let whole = capture(pattern("latin16"), shading);
             let subject = Subject::of_capture("frame", whole.clone());
             let counts: Vec<usize> = subject.captures.iter().map(|c| c.samples.len()).collect();
@@ -184,9 +195,10 @@ mod tests {
                     let place = whole.samples.iter().position(|s| s == sample).unwrap();
                     assert_eq!(layer.texels()[0], place as f32);
                 }
-                let shaded = thin.depth.layers()[thin.shaded_layer()].texels()[0];
-                assert_eq!(shaded, whole.shaded_layer() as f32);
-                assert_eq!(thin.shaded_offset(), whole.shaded_offset());
+                let shaded = thin.shaded_layers().into_iter();
+                let shaded: Vec<usize> = shaded.map(|k| thin.depth.layers()[k].texels()[0] as usize).collect();
+                assert_eq!(shaded, whole.shaded_layers());
+                assert_eq!(thin.shaded_offsets(), whole.shaded_offsets());
             }
             let least = |c: &Capture| {
                 let pairs = c.samples.iter().flat_map(|a| c.samples.iter().map(move |b| (a, b)));

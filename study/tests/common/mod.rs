@@ -1,4 +1,5 @@
 //! A place for the files of one test.
+#![allow(dead_code, reason = "no test program calls everything")]
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -1,5 +1,6 @@
 //! Every metric × pattern × falloff × normalisation × layout × stage of SRAA on this machine's adapter: the largest
-//! difference of the emitted shader to the oracle in f64, or why there is none.
+//! difference of the emitted shader to the oracle in f64, or why there is none. Then every metric on every scene of the testbed, with
+//! the most that the error analysis in `oracle::bound` allows there.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -10,7 +11,7 @@ use straightline_kernels::prelude::uvec2;
 use straightline_study::execute::Bench;
 use straightline_study::oracle::{self, SraaParams};
 use straightline_tests::sraa::options::{choices, completed, refusal, samples_needed};
-use straightline_tests::sraa::{Options, compiled, difference, surfaces};
+use straightline_tests::sraa::{Options, compiled, difference, scenes, surfaces};
 
 const USAGE: &str = "usage: sraa-table [--record FILE]";
 
@@ -76,16 +77,19 @@ fn table(record: Option<PathBuf>) -> Result<bool, String> {
             rows.push((options.clone(), stage, outcome));
         }
     }
+    let on_scenes = scenes::rows(&bench)?;
+    let beyond: usize = on_scenes.iter().map(|row| row.beyond).sum();
     let seconds = start.elapsed().as_secs_f64();
     println!("{adapter}: {run} run, {refused} refused or not run, {over} beyond {BOUND:.1e}, {seconds:.0} s");
     for (key, largest) in &worst {
         println!("{key:<32} {largest:.1e}");
     }
+    scenes::print(&on_scenes);
     if let Some(path) = record {
-        let text = json(&adapter, &rows);
+        let text = json(&adapter, &rows, &on_scenes);
         std::fs::write(&path, text).map_err(|e| format!("{}: {e}", path.display()))?;
     }
-    Ok(over == 0)
+    Ok(over == 0 && beyond == 0)
 }
 
 /// Largest difference, and pixels that are not finite and should be.
@@ -135,7 +139,7 @@ fn device() -> Result<(Bench, String, u32), String> {
 
 type Outcome = Result<(f64, usize), String>;
 
-fn json(adapter: &str, rows: &[(Options, Stage, Outcome)]) -> String {
+fn json(adapter: &str, rows: &[(Options, Stage, Outcome)], scenes: &[scenes::Row]) -> String {
     let rows: Vec<serde_json::Value> = rows
         .iter()
         .map(|(options, stage, outcome)| {
@@ -149,10 +153,16 @@ fn json(adapter: &str, rows: &[(Options, Stage, Outcome)]) -> String {
             }
         })
         .collect();
-    let lines: Vec<String> = rows.iter().map(|row| format!("    {row}")).collect();
+    let lines = |rows: Vec<serde_json::Value>| {
+        rows.iter()
+            .map(|row| format!("    {row}"))
+            .collect::<Vec<_>>()
+            .join(",\n")
+    };
     format!(
-        "{{\n  \"command\": \"cargo run --release -p straightline-tests --bin sraa-table\",\n  \"adapter\": {},\n  \"colours\": \"0 to 1\",\n  \"rows\": [\n{}\n  ]\n}}\n",
+        "{{\n  \"command\": \"cargo run --release -p straightline-tests --bin sraa-table\",\n  \"adapter\": {},\n  \"colours\": \"0 to 1, but in the scenes sparkle and emissive\",\n  \"rows\": [\n{}\n  ],\n  \"scenes\": [\n{}\n  ]\n}}\n",
         serde_json::json!(adapter),
-        lines.join(",\n")
+        lines(rows),
+        lines(scenes.iter().map(scenes::Row::json).collect())
     )
 }

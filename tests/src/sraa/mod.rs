@@ -3,6 +3,7 @@
 
 pub mod native;
 pub mod options;
+pub mod scenes;
 pub mod surfaces;
 
 use straightline_codegen::diagnostic::Errors;

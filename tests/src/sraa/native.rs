@@ -38,7 +38,7 @@ fn set(cfg: &mut Sraa, name: &str, value: &str) {
     match name {
         "pattern" => {
             cfg.pattern = one_of!(value, Pattern: "ordered4" => Ordered4, "latin4" => Latin4, "standard8" => Standard8,
-                "ordered16" => Ordered16, "latin16" => Latin16, "listed" => Listed);
+                "ordered16" => Ordered16, "latin16" => Latin16, "standard16" => Standard16, "listed" => Listed);
         }
         "offsets" => cfg.offsets = leaked(value, |text| text.parse().ok()),
         "latin" => cfg.latin = value == "true",

@@ -74,8 +74,8 @@ pub fn random(count: usize, seed: u64) -> Vec<Options> {
 pub fn refusal(options: &Options) -> Option<&'static str> {
     let is = |name, wanted| value(options, name, "") == wanted;
     let pattern = value(options, "pattern", "latin4");
-    if is("layout", "multisampled") && pattern.starts_with("ordered") {
-        return Some("hardware samples no ordered pattern");
+    if is("layout", "multisampled") && (pattern.starts_with("ordered") || pattern == "latin16") {
+        return Some("hardware samples neither grids nor centred patterns of 16");
     }
     if is("normals", "packed") && (is("metric", "normals") || is("metric", "depth")) {
         return Some("a packed texel holds more than this metric reads");
@@ -90,7 +90,7 @@ pub fn samples_needed(options: &Options) -> u32 {
     }
     match value(options, "pattern", "latin4") {
         "standard8" => 8,
-        "latin16" => 16,
+        "standard16" => 16,
         // Of five samples, eight are the next that hardware has; the oracle and the interpreter take five.
         "listed" => 5,
         _ => 4,

@@ -5,7 +5,7 @@ use super::{Random, compiled};
 use glam::{UVec2, Vec2, Vec3, Vec4, uvec2, vec2, vec3, vec4};
 use straightline_codegen::Unroll;
 use straightline_kernels::prelude::{Frame, FrameLayers};
-use straightline_study::capture::{Capture, ShadingSample};
+use straightline_study::capture::{Capture, NormalSpace, ShadingSample};
 use straightline_study::execute::Inputs;
 use straightline_study::gbuffer;
 use straightline_study::oracle::SraaParams;
@@ -42,6 +42,7 @@ pub fn capture(options: &Options, size: UVec2, seed: u64) -> Capture {
         } else {
             ShadingSample::Sample(0)
         },
+        normal_space: NormalSpace::View,
         camera: Some(Camera {
             position: [0.0; 3],
             target: [0.0, 0.0, -1.0],
@@ -50,6 +51,7 @@ pub fn capture(options: &Options, size: UVec2, seed: u64) -> Capture {
             near: 0.1,
         }),
         color: colors(&mut random, size),
+        colors: Vec::new(),
         depth: FrameLayers::new(depth.collect()),
         normal: Some(FrameLayers::new(normal.collect())),
         reference: None,

@@ -107,7 +107,7 @@ fn print(record: &QualityRecord, out: &Path) {
     let size = circumstances.size;
     outln!("{}x{} pixels, on {}.", size[0], size[1], circumstances.adapter);
     outln!(
-        "PSNR in dB over linear colour clamped to 0..1; edges of geometry: pixels whose samples see several surfaces; edges of \
+        "All pictures and references at 8 bits of sRGB; PSNR in dB over linear colour clamped to 0..1; edges of geometry: pixels whose samples see several surfaces; edges of \
          shading: pixels of one surface whose sRGB colour varies by more than {:.0} of 255.",
         quality::STEP * 255.0
     );

@@ -77,6 +77,7 @@ fn samples(wanted: &Wanted<'_>) -> Vec<Vec2> {
         "standard8" => Pattern::Standard8,
         "ordered16" => Pattern::Ordered16,
         "latin16" => Pattern::Latin16,
+        "standard16" => Pattern::Standard16,
         "listed" => {
             let offsets = list(wanted.option("offsets"));
             let listed = offsets.chunks_exact(2).map(|pair| vec2(pair[0], pair[1]));

@@ -3,7 +3,7 @@
 use super::MAX_TRIANGLES;
 use super::surface::{face_normal, flat_normals, smooth_normals};
 use crate::scene::{Material, Vertex};
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 
 /// A stretch of triangles as a file gives them, in the file's world space. Nothing of it is trusted.
 pub(super) struct Part {
@@ -30,6 +30,22 @@ pub(super) enum Normals {
 pub(super) struct Assembled {
     pub vertices: Vec<Vertex>,
     pub triangles: Vec<[u32; 3]>,
+    /// Where things of the file have come to lie.
+    pub place: Place,
+}
+
+/// How a file's world space was moved and scaled.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Place {
+    centre: DVec3,
+    scale: f64,
+}
+
+impl Place {
+    /// Where a point of the file's world space is in the scene.
+    pub fn of(&self, point: Vec3) -> Vec3 {
+        ((point.as_dvec3() - self.centre) * self.scale).as_vec3()
+    }
 }
 
 /// Diagonal of the finished bounding box.
@@ -40,6 +56,10 @@ pub(super) fn assemble(parts: Vec<Part>) -> Result<Assembled, String> {
     let mut mesh = Assembled {
         vertices: Vec::new(),
         triangles: Vec::new(),
+        place: Place {
+            centre: DVec3::ZERO,
+            scale: 1.0,
+        },
     };
     for part in parts {
         check(&part)?;
@@ -151,10 +171,12 @@ impl Assembled {
         if diagonal <= 0.0 || diagonal > f64::from(f32::MAX) {
             return Err(format!("the model's bounding box has a diagonal of {diagonal}"));
         }
-        let scale = f64::from(DIAGONAL) / diagonal;
+        self.place = Place {
+            centre,
+            scale: f64::from(DIAGONAL) / diagonal,
+        };
         for vertex in &mut self.vertices {
-            let position = Vec3::from(vertex.position).as_dvec3();
-            vertex.position = ((position - centre) * scale).as_vec3().into();
+            vertex.position = self.place.of(vertex.position.into()).into();
         }
         Ok(())
     }

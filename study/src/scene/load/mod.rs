@@ -8,7 +8,7 @@ mod parse;
 mod surface;
 mod texture;
 
-use super::{Camera, Scene, SceneError, Sky, Sun};
+use super::{Camera, Scene, SceneError, Sky, Sun, Viewpoint};
 use glam::Vec3;
 use std::path::Path;
 use straightline_codegen::files;
@@ -37,6 +37,15 @@ pub const MAX_TRIANGLES: usize = 1 << 25;
 ///
 /// [`SceneError`] names the file and what is wrong with it. Nothing in a file makes this panic.
 pub fn load(path: &Path) -> Result<Scene, SceneError> {
+    load_seen(path, &Viewpoint::default())
+}
+
+/// [`load()`], seen from elsewhere. The viewpoint is in the file's own world space, before the model is moved and scaled.
+///
+/// # Errors
+///
+/// As [`load()`], and [`SceneError::Unusable`] for a viewpoint from which nothing can be seen.
+pub fn load_seen(path: &Path, viewpoint: &Viewpoint) -> Result<Scene, SceneError> {
     let extension = path.extension().and_then(|e| e.to_str()).unwrap_or_default();
     let parts = match extension.to_ascii_lowercase().as_str() {
         "gltf" | "glb" => gltf::read(path)?,
@@ -65,7 +74,10 @@ pub fn load(path: &Path) -> Result<Scene, SceneError> {
             ground: [0.16, 0.14, 0.12],
             haze: 0.0,
         },
-        camera: Camera::framing(bounds[0], bounds[1]),
+        camera: viewpoint.camera(
+            |fov| Camera::framing(bounds[0], bounds[1], fov),
+            |point| mesh.place.of(point),
+        ),
     };
     scene.check()?;
     Ok(scene)

@@ -6,11 +6,31 @@ use straightline_codegen::shorten;
 
 /// The document, validated, and the binary chunk if there is one.
 pub(super) fn parse(bytes: &[u8]) -> Result<(Document, Option<Vec<u8>>), String> {
-    let Gltf { document, blob } = Gltf::from_slice_without_validation(bytes).map_err(|error| error.to_string())?;
+    let Gltf { document, blob } = Gltf::from_slice_without_validation(bytes).map_err(|error| match is_first(bytes) {
+        true => "this is glTF 1.0, and only glTF 2.0 is read: convert it, for instance with `gltf-pipeline -i old.gltf -o new.glb`"
+            .to_owned(),
+        false => error.to_string(),
+    })?;
     let json = document.into_json();
     check(&json)?;
     let document = Document::from_json(json).map_err(|error| error.to_string())?;
     Ok((document, blob))
+}
+
+/// Whether a file that cannot be read is one of glTF 1.0: by its header or its own word, or by its meshes, which have names there
+/// and numbers from 2.0 on.
+fn is_first(bytes: &[u8]) -> bool {
+    if let Some(version) = bytes.strip_prefix(b"glTF") {
+        return version.starts_with(&1u32.to_le_bytes());
+    }
+    let Ok(json) = serde_json::from_slice::<serde_json::Value>(bytes) else {
+        return false;
+    };
+    match json.pointer("/asset/version") {
+        Some(serde_json::Value::String(version)) => version == "1" || version.starts_with("1."),
+        Some(serde_json::Value::Number(version)) => version.as_f64().is_some_and(|version| version < 2.0),
+        _ => json.get("meshes").is_some_and(serde_json::Value::is_object),
+    }
 }
 
 /// Refuses what the `gltf` crate would panic on, in its validation or later: positions and images that are nowhere,

@@ -69,6 +69,53 @@ fn an_obj_is_triangulated_lit_and_framed() {
 }
 
 #[test]
+fn a_viewpoint_is_in_the_models_own_space() {
+    let scratch = Scratch::new("viewpoint");
+    // A diagonal of 5 around (101.5, 2, 0), which becomes one of 10 around the origin.
+    let path = scratch.file("quad.obj", "v 100 0 0\nv 103 0 0\nv 103 4 0\nv 100 4 0\nf 1 2 3 4\n");
+    let viewpoint = Viewpoint {
+        eye: Some(Vec3::new(101.5, 2.0, 3.0)),
+        target: Some(Vec3::new(103.0, 2.0, 0.0)),
+        vertical_fov: Some(0.5),
+    };
+    let camera = load_seen(&path, &viewpoint).expect("a scene").camera;
+    let near = |a: [f32; 3], b: [f32; 3]| (Vec3::from(a) - Vec3::from(b)).length() < 1.0e-5;
+    assert!(
+        near(camera.position, [0.0, 0.0, 6.0]) && near(camera.target, [3.0, 0.0, 0.0]),
+        "{camera:?}"
+    );
+    assert_eq!(camera.vertical_fov, 0.5);
+    let nowhere = Viewpoint {
+        target: viewpoint.eye,
+        ..viewpoint
+    };
+    let refused = load_seen(&path, &nowhere).expect_err("a refusal").to_string();
+    assert!(refused.contains("view direction"), "{refused}");
+}
+
+#[test]
+fn gltf_of_the_first_version_is_named() {
+    let scratch = Scratch::new("first");
+    let named = r#"{"asset": {"version": "1.0"}, "scene": "s", "scenes": {"s": {"nodes": []}}, "meshes": {}}"#;
+    // The version was optional then.
+    let unnamed = r#"{"scene": "s", "scenes": {"s": {"nodes": []}}, "meshes": {"m": {"primitives": []}}}"#;
+    let binary = [&b"glTF"[..], &1u32.to_le_bytes(), &20u32.to_le_bytes(), &[0; 8]].concat();
+    for (file, bytes) in [
+        ("a.gltf", named.as_bytes()),
+        ("b.gltf", unnamed.as_bytes()),
+        ("c.glb", &binary),
+    ] {
+        let refused = refusal(&scratch.file(file, bytes));
+        assert!(
+            refused.contains("glTF 1.0") && refused.contains("gltf-pipeline"),
+            "{refused}"
+        );
+    }
+    let other = refusal(&scratch.file("d.gltf", "{"));
+    assert!(!other.contains("glTF 1.0"), "{other}");
+}
+
+#[test]
 fn textures_are_read_at_vertices() {
     let scratch = Scratch::new("texture");
     // Red above blue.

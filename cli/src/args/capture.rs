@@ -1,0 +1,110 @@
+//! Arguments of `capture`, `resolve` and `compare`.
+
+use super::{AdapterArgs, Executor, OptionArgs, StageArg, size};
+use clap::Args;
+use glam::{UVec2, Vec3};
+use std::path::PathBuf;
+use straightline_codegen::shorten;
+
+#[derive(Debug, Args)]
+pub struct CaptureArgs {
+    /// Built-in scene to render; `scenes` lists them
+    #[arg(long, value_name = "NAME", default_value = "roof")]
+    pub scene: String,
+    /// Model to render instead of a built-in scene: .gltf, .glb or .obj
+    #[arg(long, value_name = "FILE", conflicts_with = "scene")]
+    pub mesh: Option<PathBuf>,
+    /// Where it is seen from: x, y and z, in the model's own space, y up; by default where all of the model is seen
+    #[arg(long, value_name = "X,Y,Z", value_parser = point, allow_hyphen_values = true)]
+    pub eye: Option<Vec3>,
+    /// A point in the middle of the picture, in the same space; by default the middle of the model
+    #[arg(long, value_name = "X,Y,Z", value_parser = point, allow_hyphen_values = true)]
+    pub target: Option<Vec3>,
+    /// Angle between the picture's upper and lower edge in degrees, 1 to 170
+    #[arg(long, value_name = "DEGREES", value_parser = degrees)]
+    pub fov: Option<f32>,
+    /// Width and height in pixels
+    #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = size)]
+    pub size: UVec2,
+    /// Where in a pixel geometry is sampled: ordered4, latin4, standard8, ordered16, latin16, standard16, or x and y of each
+    /// sample in pixels from the centre: -0.25,0.1,0.25,-0.1
+    #[arg(long, value_name = "PATTERN", default_value = "latin4", allow_hyphen_values = true)]
+    pub pattern: String,
+    /// Where in a pixel shading is sampled: centre, sample0, or listed in --shaded
+    #[arg(long, value_name = "WHERE", default_value = "centre")]
+    pub shading: String,
+    /// With --shading listed: the geometry samples that are shaded, counted from 0: one, two or four
+    #[arg(long, value_name = "SAMPLES", value_delimiter = ',')]
+    pub shaded: Vec<usize>,
+    /// Also render the reference: this many shaded samples a pixel, 16 or 256
+    #[arg(long, value_name = "SAMPLES", value_parser = ["16", "256"])]
+    pub reference: Option<String>,
+    /// Folder to write
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
+    #[command(flatten)]
+    pub adapter: AdapterArgs,
+}
+
+#[derive(Debug, Args)]
+pub struct ResolveArgs {
+    /// Folder of the captured frame (see docs/captures.md)
+    #[arg(long, value_name = "DIR")]
+    pub capture: PathBuf,
+    /// Picture to write: .png (8 bits, sRGB) or .exr (linear floats)
+    #[arg(long, value_name = "FILE")]
+    pub out: PathBuf,
+    #[command(flatten)]
+    pub options: OptionArgs,
+    /// What computes the pixels
+    #[arg(long, value_enum, default_value = "gpu")]
+    pub executor: Executor,
+    /// Pipeline stage, on the GPU
+    #[arg(long, value_enum, default_value = "compute")]
+    pub stage: StageArg,
+    /// Print the error against the capture's reference
+    #[arg(long)]
+    pub reference: bool,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+    #[command(flatten)]
+    pub adapter: AdapterArgs,
+}
+
+#[derive(Debug, Args)]
+pub struct CompareArgs {
+    /// The picture that is judged: .png (sRGB) or .exr (linear floats)
+    #[arg(value_name = "PICTURE")]
+    pub picture: PathBuf,
+    /// What it should be, of the same size: .png or .exr
+    #[arg(value_name = "REFERENCE")]
+    pub reference: PathBuf,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// A place in space.
+fn point(text: &str) -> Result<Vec3, String> {
+    let axes: Option<Vec<f32>> = text.split(',').map(|axis| axis.trim().parse().ok()).collect();
+    let axes = axes.and_then(|axes| <[f32; 3]>::try_from(axes).ok());
+    match axes.map(Vec3::from).filter(|point| point.is_finite()) {
+        Some(point) => Ok(point),
+        None => Err(format!(
+            "`{}` is not a point: give x, y and z, such as 1.5,2,-4",
+            shorten(text)
+        )),
+    }
+}
+
+/// An angle of view, in degrees.
+fn degrees(text: &str) -> Result<f32, String> {
+    match text.parse::<f32>() {
+        Ok(angle) if (1.0..=170.0).contains(&angle) => Ok(angle),
+        _ => Err(format!(
+            "`{}` is no angle of view: give degrees from 1 to 170, such as 50",
+            shorten(text)
+        )),
+    }
+}

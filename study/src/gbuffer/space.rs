@@ -1,0 +1,87 @@
+//! Whether a capture's normals are in the space that it says: they should stand on the planes that depths make.
+
+use super::GBufferError;
+use crate::capture::{Capture, NormalSpace};
+use crate::scene::SKY_DEPTH;
+use glam::{Mat3, UVec2, Vec3};
+
+/// Sine of the angle from which a normal is off a plane: five degrees.
+const OFF: f32 = 0.087;
+
+/// The least share of normals that are off at which a space is doubted.
+const MANY: f64 = 0.05;
+
+/// How many times fewer normals must be off in the other space to be taken for those of that.
+const FEWER: f64 = 2.0;
+
+/// How far depths may be from those of a plane at three pixels in a row: of their inverses, as a share of the middle one's, and of how much
+/// they change.
+const EVEN: [f32; 2] = [1.0e-4, 0.01];
+
+/// Refuses normals that are off the planes of the depths in the space that the capture says, and far less so in the other one. Normals
+/// that are as far off in both, such as those of bumps, tell nothing, and so do those of a camera that is not turned: then it makes no
+/// difference.
+pub(super) fn check(capture: &Capture) -> Result<(), GBufferError> {
+    let stated = capture.normal_space;
+    let Some(off) = off_planes(capture) else {
+        return Ok(());
+    };
+    let (off, other_off) = match stated {
+        NormalSpace::View => (off[0], off[1]),
+        NormalSpace::World => (off[1], off[0]),
+    };
+    match off > MANY && other_off * FEWER < off {
+        true => Err(GBufferError::NormalSpace {
+            stated: stated.name(),
+            off: 100.0 * off,
+            other: stated.other().name(),
+            other_off: 100.0 * other_off,
+        }),
+        false => Ok(()),
+    }
+}
+
+/// Whether planes can be told from depths and normals: both are there, with a camera, and in the space that the capture says.
+pub(crate) fn has_planes(capture: &Capture) -> bool {
+    capture.camera.is_some() && capture.normal.is_some() && check(capture).is_ok()
+}
+
+/// Share of the normals on even ground that are off the planes that depths make, were they in view space, and in the world's; `None`
+/// without normals or camera, or where nothing is even.
+fn off_planes(capture: &Capture) -> Option<[f64; 2]> {
+    let camera = capture.camera?;
+    let [corner, right, down] = NormalSpace::View.rays(&camera, capture.size);
+    let to_world = Mat3::from_mat4(camera.view()).transpose();
+    let layer = *capture.shaded_layers().first()?;
+    let normals = capture.normal.as_ref()?.layers()[layer].texels();
+    let depths = capture.depth.layers()[layer].texels();
+    let UVec2 { x: width, y: height } = capture.size;
+    let place = |x: u32, y: u32| (y * width + x) as usize;
+    let point = |x: u32, y: u32| (corner + (x as f32 + 0.5) * right + (y as f32 + 0.5) * down) * depths[place(x, y)];
+    let even = |before: usize, at: usize, after: usize| {
+        let of = |k: usize| 1.0 / depths[k];
+        let seen = [before, at, after]
+            .into_iter()
+            .all(|k| depths[k] > 0.0 && depths[k] < SKY_DEPTH);
+        let bend = (of(before) + of(after) - 2.0 * of(at)).abs();
+        seen && bend <= EVEN[0] * of(at) + EVEN[1] * (of(after) - of(before)).abs()
+    };
+    let (mut sums, mut count) = ([0u64; 2], 0u64);
+    for y in 1..height.saturating_sub(1) {
+        for x in 1..width.saturating_sub(1) {
+            let at = place(x, y);
+            if !even(at - 1, at, at + 1) || !even(at - width as usize, at, at + width as usize) {
+                continue;
+            }
+            let across = point(x + 1, y) - point(x - 1, y);
+            let Some(plane) = across.cross(point(x, y + 1) - point(x, y - 1)).try_normalize() else {
+                continue;
+            };
+            let off = |plane: Vec3| u64::from(plane.cross(normals[at]).length() > OFF);
+            sums[0] += off(plane);
+            sums[1] += off(to_world * plane);
+            count += 1;
+        }
+    }
+    (count > 0).then(|| sums.map(|sum| sum as f64 / count as f64))
+}
