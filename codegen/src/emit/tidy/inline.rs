@@ -10,16 +10,17 @@ use rustc_hash::{FxHashMap, FxHashSet};
 /// Operators and calls that a line may have, lest it be hard to read; shader compilers also recurse over them.
 const MOST: usize = 16;
 
-/// Inlines values that are used once.
-pub fn inline(module: &mut Module<'_>, graph: &Graph) {
+/// Inlines values that are used once; gives whether there were some.
+pub fn inline(module: &mut Module<'_>, graph: &Graph) -> bool {
     let uses = dead::uses(module);
     let mut body = std::mem::take(&mut module.body);
     let inliner = Inliner {
         uses,
         columns: Columns { module, graph },
     };
-    inliner.block(&mut body, 1);
+    let inlined = inliner.block(&mut body, 1);
     module.body = body;
+    inlined
 }
 
 struct Inliner<'m> {
@@ -39,7 +40,8 @@ struct Candidate {
 }
 
 impl Inliner<'_> {
-    fn block(&self, block: &mut Block<'_>, depth: usize) {
+    fn block(&self, block: &mut Block<'_>, depth: usize) -> bool {
+        let mut inlined = false;
         let mut out: Vec<Option<Stmt<'_>>> = Vec::with_capacity(block.len());
         // The candidates, and when each mutable variable was last assigned.
         let mut defined: FxHashMap<VarId, Candidate> = FxHashMap::default();
@@ -47,7 +49,7 @@ impl Inliner<'_> {
         for mut stmt in block.drain(..) {
             self.absorb(&mut stmt, &mut out, &defined, &assigned, depth);
             for inner in stmt.blocks_mut() {
-                self.block(inner, depth + 1);
+                inlined |= self.block(inner, depth + 1);
             }
             let at = out.len();
             assignments(&stmt, &mut |var| _ = assigned.insert(var, at));
@@ -63,7 +65,9 @@ impl Inliner<'_> {
             }
             out.push(Some(stmt));
         }
+        inlined |= out.iter().any(Option::is_none);
         block.extend(out.into_iter().flatten());
+        inlined
     }
 
     /// Writes values of earlier statements into a statement, short ones first.
