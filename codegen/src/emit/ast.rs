@@ -244,6 +244,12 @@ impl Expr {
         rule(Expr { args, ..self })
     }
 
+    /// As [`Expr::rewrite`], where the expression stands.
+    pub fn rewrite_in_place(&mut self, rule: &mut dyn FnMut(Expr) -> Expr) {
+        let taken = std::mem::replace(self, Expr::new(Op::Construct, Vec::new(), self.ty));
+        *self = taken.rewrite(rule);
+    }
+
     /// Shows every expression in this one, arguments first.
     pub fn visit(&self, see: &mut dyn FnMut(&Expr)) {
         self.args.iter().for_each(|arg| arg.visit(see));
@@ -343,8 +349,7 @@ impl<'g> Stmt<'g> {
     /// Rewrites every expression of the statement, those of its blocks too.
     pub fn rewrite(&mut self, rule: &mut dyn FnMut(Expr) -> Expr) {
         for expr in self.own_mut() {
-            let taken = std::mem::replace(expr, Expr::new(Op::Construct, Vec::new(), Type::BOOL));
-            *expr = taken.rewrite(rule);
+            expr.rewrite_in_place(rule);
         }
         for block in self.blocks_mut() {
             block.iter_mut().for_each(|stmt| stmt.rewrite(rule));

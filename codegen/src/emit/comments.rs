@@ -24,6 +24,9 @@ pub fn comment_groups<'g>(block: Block<'g>, graph: &'g Graph) -> Block<'g> {
     groups.block(block)
 }
 
+/// Counters that a comment of nothing else has.
+const OUTERMOST: usize = 2;
+
 struct Groups<'g> {
     graph: &'g Graph,
     /// By name of a counter, how deep its loop is nested: outer counters come first in comments.
@@ -93,8 +96,8 @@ impl<'g> Groups<'g> {
         }
         let mut counters = group.counters;
         counters.sort_by_key(|c| self.depth.get(&*c.name).copied().unwrap_or(0));
-        // The next value of the innermost counter speaks for itself: names carry it.
-        let outer = counters[..counters.len().saturating_sub(1)].to_vec();
+        // The next value of the innermost counter speaks for itself, and so do those of many: names carry them.
+        let outer = counters[..counters.len().saturating_sub(1).min(OUTERMOST)].to_vec();
         if let Some((file, line)) = group.place
             && self.commented.as_ref() != Some(&(file, outer.clone()))
         {

@@ -173,7 +173,7 @@ fn emit(compiled: &Compiled, options: &EmitOptions) -> Result<Emitted, EmitError
         compiled,
         resources: &resources,
         tree: &tree,
-        for_wgsl: OnceCell::new(),
+        wgsl: OnceCell::new(),
     };
     // The header says how many blocks the shader has, and is a comment: what is counted is the same text.
     let mut counts = compiled.counts.clone();
@@ -228,11 +228,11 @@ struct Shader<'s, 'g> {
     compiled: &'s Compiled,
     resources: &'s resources::Resources,
     tree: &'s ast::Module<'g>,
-    /// The tree as WGSL is written of it, once it has been.
-    for_wgsl: OnceCell<ast::Module<'g>>,
+    /// Its WGSL without header, once it has been written.
+    wgsl: OnceCell<String>,
 }
 
-impl<'g> Shader<'_, 'g> {
+impl Shader<'_, '_> {
     /// The whole shader as naga has read and validated it; of a function, with the entry point that calls nothing else.
     fn validated(&self, counts: &Counts) -> Result<translate::Module, EmitError> {
         let kernel = &self.compiled.kernel;
@@ -246,20 +246,20 @@ impl<'g> Shader<'_, 'g> {
         let whole = resources::Resources::of(self.compiled, &whole)?;
         // Entry points give whole texels, and functions what the kernel gives.
         let tree = tree(self.compiled, &whole);
-        translate::Module::parse_wgsl(kernel, &self.wgsl_of(&whole, &for_wgsl(&tree, &whole), counts))
-    }
-
-    fn wgsl_of(&self, resources: &resources::Resources, tree: &ast::Module<'_>, counts: &Counts) -> String {
-        print::module(
-            &print::Wgsl { resources },
-            tree,
-            &print::header(self.compiled, counts, resources),
-        )
+        let wgsl = print::module(
+            &print::Wgsl { resources: &whole },
+            &for_wgsl(&tree, &whole),
+            &print::header(self.compiled, counts, &whole),
+        );
+        translate::Module::parse_wgsl(kernel, &wgsl)
     }
 
     fn own_wgsl(&self, counts: &Counts) -> String {
-        let tree = self.for_wgsl.get_or_init(|| for_wgsl(self.tree, self.resources));
-        self.wgsl_of(self.resources, tree, counts)
+        let resources = self.resources;
+        let language = print::Wgsl { resources };
+        let module = || print::without_header(&language, &for_wgsl(self.tree, resources));
+        let header = print::header(self.compiled, counts, resources);
+        print::under(&language, &header, self.wgsl.get_or_init(module))
     }
 
     fn wgsl(&self, counts: &Counts) -> Result<String, EmitError> {

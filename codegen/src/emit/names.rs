@@ -233,16 +233,16 @@ pub fn assign(module: &mut Module<'_>, resources: &Resources, words: Words, othe
     }
     taken.extend(resources.names().map(str::to_owned));
     taken.extend(module.functions.iter().map(|f| f.name.clone()));
-    // Tables are seen by all; what a function declares is its own.
-    for (var, _) in &module.tables {
-        let variable = &mut module.variables[var.0 as usize];
-        variable.name = fresh(&mut taken, &variable.name, words);
-    }
     let mut scopes = Scopes {
         variables: &mut module.variables,
         words,
-        taken: &mut taken,
+        taken,
+        numbers: HashMap::new(),
     };
+    // Tables are seen by all; what a function declares is its own.
+    for (var, _) in &module.tables {
+        scopes.declare(*var);
+    }
     for function in &module.functions {
         let declared: Vec<String> = function.params.iter().map(|param| scopes.declare(*param)).collect();
         scopes.block(&function.body);
@@ -255,7 +255,9 @@ pub fn assign(module: &mut Module<'_>, resources: &Resources, words: Words, othe
 struct Scopes<'m> {
     variables: &'m mut [Variable],
     words: Words,
-    taken: &'m mut HashSet<String>,
+    taken: HashSet<String>,
+    /// By name, the number below which all are taken.
+    numbers: HashMap<String, u32>,
 }
 
 impl Scopes<'_> {
@@ -278,35 +280,39 @@ impl Scopes<'_> {
     /// Gives a variable its name. The entry point's own are named as they are.
     fn declare(&mut self, var: VarId) -> String {
         let variable = &mut self.variables[var.0 as usize];
-        if var > VarId::PLACE {
-            variable.name = fresh(self.taken, &variable.name, self.words);
+        if var <= VarId::PLACE {
+            return variable.name.clone();
         }
-        variable.name.clone()
+        // naga keeps a digit at the end of a name for its own suffixes.
+        let base = identifier(&variable.name);
+        let mut name = match self.words.reserve(&base) {
+            true => format!("{base}_value"),
+            false => base.clone(),
+        };
+        if !self.taken.insert(name.clone()) {
+            let k = self.numbers.entry(base.clone()).or_insert(2);
+            loop {
+                name = format!("{base}_{k}");
+                *k += 1;
+                if self.taken.insert(name.clone()) {
+                    break;
+                }
+            }
+        }
+        self.variables[var.0 as usize].name.clone_from(&name);
+        name
     }
 
     fn leave(&mut self, declared: Vec<String>) {
+        if !declared.is_empty() {
+            self.numbers.clear();
+        }
         for name in declared {
             if !is_own(&name) {
                 self.taken.remove(&name);
             }
         }
     }
-}
-
-/// `wanted`, or with a number if that is taken.
-fn fresh(taken: &mut HashSet<String>, wanted: &str, words: Words) -> String {
-    // naga keeps a digit at the end of a name for its own suffixes.
-    let base = identifier(wanted);
-    let mut name = match words.reserve(&base) {
-        true => format!("{base}_value"),
-        false => base.clone(),
-    };
-    let mut k = 2;
-    while !taken.insert(name.clone()) {
-        name = format!("{base}_{k}");
-        k += 1;
-    }
-    name
 }
 
 /// What a value without a variable is called.

@@ -23,7 +23,7 @@ impl Evaluator<'_> {
             return self.ascribe(value, Some(lane), span);
         }
         match (ty, value) {
-            (Some(SourceType::Name(_, args)), Value::Enum(choice)) => self.ascribe_choice(&choice, args, span),
+            (Some(SourceType::Name(_, args)), Value::Enum(choice)) => self.ascribe_choice(choice, args, span),
             (Some(SourceType::Name(name, _)), value) => self.ascribe_name(value, name, span),
             (Some(SourceType::Array(element, Some(len))), Value::Elements(f)) => {
                 let len = self.expr(len)?;
@@ -59,11 +59,12 @@ impl Evaluator<'_> {
     }
 
     /// What an enum holds, by the types of its fields.
-    fn ascribe_choice(&mut self, choice: &Choice, args: &[SourceType], span: Span) -> Eval {
-        let Some(definition) = self.library.enums.get(&choice.ty) else {
-            return Ok(Value::Enum(Rc::new(choice.clone())));
+    fn ascribe_choice(&mut self, choice: Rc<Choice>, args: &[SourceType], span: Span) -> Eval {
+        let holds = choice.all().next().is_some();
+        let Some(definition) = self.library.enums.get(&choice.ty).filter(|_| holds) else {
+            return Ok(Value::Enum(choice));
         };
-        let mut ascribed = choice.clone();
+        let mut ascribed = Choice::clone(&choice);
         for (variant, fields) in definition.variants.iter().zip(&mut ascribed.held) {
             let values = fields.iter_mut().flatten();
             for ((_, ty, _), (_, value)) in variant.fields.iter().zip(values) {

@@ -35,6 +35,9 @@ impl Evaluator<'_> {
 
     /// What stands in `::<>` of a call: the constants; types are found by inference.
     fn generic_constants(&mut self, path: &[String], stated: &[Expr]) -> Eval<Vec<Value>> {
+        if stated.is_empty() {
+            return Ok(Vec::new());
+        }
         let library = self.library;
         let method = path.join("::");
         let function = library.functions.get(&method);
@@ -61,9 +64,11 @@ impl Evaluator<'_> {
     /// Calls a function by its path.
     pub fn apply(&mut self, path: &[String], constants: &[Value], values: Vec<Value>, span: Span) -> Eval {
         let last = path.last().map(String::as_str).unwrap_or_default();
-        let method = path.join("::");
-        if path.len() == 2 && self.library.functions.contains_key(&method) {
-            return self.inline(&method, constants, values, span);
+        if let [ty, name] = path {
+            let method = format!("{ty}::{name}");
+            if self.library.functions.contains_key(&method) {
+                return self.inline(&method, constants, values, span);
+            }
         }
         if self.library.functions.contains_key(last) {
             return self.inline(last, constants, values, span);

@@ -52,6 +52,11 @@ impl Choice {
         self.held.iter().flatten().flatten()
     }
 
+    /// Whether there are numbers or other values in it: it is more than a variant that is known.
+    pub fn names_something(&self) -> bool {
+        matches!(self.tag, Tag::Node(_)) || self.all().next().is_some()
+    }
+
     /// The same with other fields.
     pub fn with_fields(&self, mut change: impl FnMut(&Value) -> Value) -> Choice {
         let one = |(name, value): &(String, Value)| (name.clone(), change(value));

@@ -11,13 +11,14 @@ use crate::diagnostic::{Diagnostic, Span};
 use crate::front::tree::{Arm, Expr, ExprKind, Pattern};
 use crate::ir::{BinaryOp, NodeId};
 use crate::policy::Branches;
+use std::borrow::Cow;
 
 /// Alternatives of one pattern that bind names, after which it is refused.
 const MAX_ALTERNATIVES: usize = 64;
 
 /// A pattern in which no `|` binds names, and the arm that it is of.
 struct Case<'a> {
-    pattern: Pattern,
+    pattern: Cow<'a, Pattern>,
     arm: &'a Arm,
 }
 
@@ -33,6 +34,11 @@ impl Evaluator<'_> {
         let value = self.expr(subject)?;
         let mut cases = Vec::new();
         for arm in arms {
+            if !binds_in_or(&arm.pattern) {
+                let pattern = Cow::Borrowed(&arm.pattern);
+                cases.push(Case { pattern, arm });
+                continue;
+            }
             let alternatives = alternatives(&arm.pattern);
             if alternatives.len() > MAX_ALTERNATIVES {
                 return Err(Diagnostic::at(
@@ -43,7 +49,10 @@ impl Evaluator<'_> {
                 .help("write an arm for each, and what they share as a function")
                 .into());
             }
-            cases.extend(alternatives.into_iter().map(|pattern| Case { pattern, arm }));
+            cases.extend(alternatives.into_iter().map(|pattern| Case {
+                pattern: Cow::Owned(pattern),
+                arm,
+            }));
         }
         let keep = self.policy.keeps(attribute);
         self.cases(&value, &cases, keep, tail, span)

@@ -48,7 +48,7 @@ mod workgroups;
 
 use crate::diagnostic::{Diagnostic, Errors, File, Span};
 use crate::front::Library;
-use crate::ir::{Builder, Counter, Graph, Invocation, Naming, NodeId, Op, Origin, Purpose, Scalar, Type};
+use crate::ir::{Builder, Counter, Graph, Invocation, Naming, NodeId, Op, Origin, Scalar, Type};
 use crate::passes::Exact;
 use crate::policy::Policy;
 use scope::Scope;
@@ -198,7 +198,7 @@ impl<'a> Evaluator<'a> {
     fn new(library: &'a Library, files: &Arc<Vec<File>>, policy: &Policy) -> Self {
         let mut builder = Builder::new(&Exact);
         builder.graph_mut().files = files.iter().map(|f| f.path.clone()).collect();
-        builder.graph_mut().purposes = purposes(library);
+        builder.graph_mut().purposes = Arc::clone(&library.purposes);
         Evaluator {
             library,
             builder,
@@ -276,7 +276,7 @@ impl Evaluator<'_> {
             }
             Value::Tuple(parts) => self.name_each(parts, called, naming, span),
             Value::Array(parts) => self.name_each(parts, called, naming, span),
-            Value::Enum(choice) => {
+            Value::Enum(choice) if choice.names_something() => {
                 let (tag, inside) = self.choice_names(choice, &called.to_string());
                 if let Some((id, name)) = tag {
                     self.name_node(id, &Called::Whole(&name), naming, span);
@@ -396,46 +396,6 @@ impl Evaluator<'_> {
                 .label("too large for a shader")
                 .into()),
         }
-    }
-}
-
-/// What the functions of a library are for, in order of their places.
-fn purposes(library: &Library) -> Vec<Purpose> {
-    let each = library
-        .functions
-        .values()
-        .filter(|f| f.span.file != crate::front::std::FILE);
-    let each = each.map(|function| Purpose {
-        file: function.span.file,
-        line: function.span.line,
-        words: purpose(&function.docs),
-    });
-    let mut all: Vec<Purpose> = each.collect();
-    all.sort();
-    all
-}
-
-/// The first few words of a documentation that say something by themselves.
-fn purpose(docs: &str) -> String {
-    const LONGEST: usize = 60;
-    let sentence = docs.trim().split(". ").next().unwrap_or_default().trim_end_matches('.');
-    let sentence = sentence.split_whitespace().collect::<Vec<_>>().join(" ");
-    let words = sentence.split([':', ';', ',']).next().unwrap_or_default();
-    let words = if sentence.chars().count() <= LONGEST {
-        &sentence
-    } else {
-        words
-    };
-    if words.chars().count() > LONGEST {
-        return String::new();
-    }
-    let mut chars = words.chars();
-    match chars.next() {
-        // A word in capitals stays one.
-        Some(first) if chars.clone().next().is_none_or(|second| !second.is_uppercase()) => {
-            first.to_lowercase().chain(chars).collect()
-        }
-        _ => words.to_owned(),
     }
 }
 

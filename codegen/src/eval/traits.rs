@@ -187,9 +187,12 @@ impl<'a> Evaluator<'a> {
         args: &[Value],
         span: Span,
     ) -> Eval<Option<(String, &'a Function)>> {
+        // What numbers have themselves goes before what a trait gives them.
+        if matches!(value, Value::Node(id) if crate::front::methods::has(self.ty(*id), name)) {
+            return Ok(None);
+        }
         let library = self.library;
         let mut names = self.type_names(value);
-        // What numbers have themselves goes before what a trait gives them.
         names.retain(|ty| !crate::front::methods::is_inherent(ty, name));
         let keys = names
             .iter()

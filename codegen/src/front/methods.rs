@@ -3,12 +3,68 @@
 use crate::ir::{Scalar, Type};
 
 /// Methods of floats, lane by lane.
-const FLOATS: &str = "abs acos asin atan atan2 cbrt ceil clamp cos cosh exp exp2 floor is_finite is_nan ln log2 max min powf powi recip \
-    round_ties_even sin sinh sqrt tan tanh to_bits to_degrees to_radians trunc";
+const FLOATS: &[&str] = &[
+    "abs",
+    "acos",
+    "asin",
+    "atan",
+    "atan2",
+    "cbrt",
+    "ceil",
+    "clamp",
+    "cos",
+    "cosh",
+    "exp",
+    "exp2",
+    "floor",
+    "is_finite",
+    "is_nan",
+    "ln",
+    "log2",
+    "max",
+    "min",
+    "powf",
+    "powi",
+    "recip",
+    "round_ties_even",
+    "sin",
+    "sinh",
+    "sqrt",
+    "tan",
+    "tanh",
+    "to_bits",
+    "to_degrees",
+    "to_radians",
+    "trunc",
+];
 
 /// Further methods of vectors.
-const VECTORS: &str = "cmpeq cmpge cmpgt cmple cmplt cmpne cross distance distance_squared dot element_product element_sum extend length length_recip length_squared lerp \
-    max_element min_element normalize perp reflect to_array truncate";
+const VECTORS: &[&str] = &[
+    "cmpeq",
+    "cmpge",
+    "cmpgt",
+    "cmple",
+    "cmplt",
+    "cmpne",
+    "cross",
+    "distance",
+    "distance_squared",
+    "dot",
+    "element_product",
+    "element_sum",
+    "extend",
+    "length",
+    "length_recip",
+    "length_squared",
+    "lerp",
+    "max_element",
+    "min_element",
+    "normalize",
+    "perp",
+    "reflect",
+    "to_array",
+    "truncate",
+];
 
 /// Methods of floats that Rust and shaders compute differently: why, and what to write.
 pub const UNLIKE: [(&str, &str, &str); 9] = [
@@ -48,17 +104,36 @@ pub const UNLIKE: [(&str, &str, &str); 9] = [
 ];
 
 /// Comparisons of vectors, component by component.
-const COMPARISONS: &str = "cmpeq cmpge cmpgt cmple cmplt cmpne extend truncate";
+const COMPARISONS: &[&str] = &[
+    "cmpeq", "cmpge", "cmpgt", "cmple", "cmplt", "cmpne", "extend", "truncate",
+];
 
 /// Methods of vectors of booleans.
-const MASKS: &str = "all any test";
+const MASKS: &[&str] = &["all", "any", "test"];
 
 /// Methods of integers.
-const INTEGERS: &str = "abs clamp count_ones leading_zeros max min pow rem_euclid reverse_bits signum trailing_zeros wrapping_add \
-    wrapping_mul wrapping_neg wrapping_shl wrapping_shr wrapping_sub";
+const INTEGERS: &[&str] = &[
+    "abs",
+    "clamp",
+    "count_ones",
+    "leading_zeros",
+    "max",
+    "min",
+    "pow",
+    "rem_euclid",
+    "reverse_bits",
+    "signum",
+    "trailing_zeros",
+    "wrapping_add",
+    "wrapping_mul",
+    "wrapping_neg",
+    "wrapping_shl",
+    "wrapping_shr",
+    "wrapping_sub",
+];
 
 /// The methods of a type by their names.
-fn lists(ty: Type) -> &'static [&'static str] {
+fn lists(ty: Type) -> &'static [&'static [&'static str]] {
     match (ty.kind(), ty.lanes()) {
         (Some(Scalar::F32), 1) => &[FLOATS],
         (Some(Scalar::F32), _) => &[FLOATS, VECTORS],
@@ -70,7 +145,7 @@ fn lists(ty: Type) -> &'static [&'static str] {
 
 /// What helps where there is no such method.
 pub fn known_methods(name: &str, ty: Type) -> String {
-    let known: Vec<&str> = lists(ty).iter().flat_map(|list| list.split_whitespace()).collect();
+    let known: Vec<&str> = lists(ty).concat();
     let close = crate::suggest::suggest(name, &known, "");
     if close.starts_with("did you mean") {
         return close;
@@ -80,9 +155,7 @@ pub fn known_methods(name: &str, ty: Type) -> String {
 
 /// Whether numbers or vectors of a type have a method here.
 pub fn has(ty: Type, name: &str) -> bool {
-    lists(ty)
-        .iter()
-        .any(|list| list.split_whitespace().any(|known| known == name))
+    lists(ty).iter().any(|list| list.contains(&name))
 }
 
 /// Whether numbers or vectors have a method themselves, which goes before one of a trait.

@@ -23,6 +23,7 @@ mod names;
 mod options;
 mod parts;
 mod pattern;
+mod purposes;
 mod reach;
 mod scan;
 pub mod std;
@@ -82,7 +83,9 @@ pub fn parse(files: &Arc<Vec<File>>, entry: &str) -> Result<Parsed, Errors> {
         Ok(mut parsed) => items.file(std::FILE, &mut parsed),
         Err(error) => return Err(Errors::of(syntax_error(std::FILE, &error))),
     }
-    items.lower(entry).map_err(|found| Errors::new(found, files))
+    let mut parsed = items.lower(entry).map_err(|found| Errors::new(found, files))?;
+    parsed.library.purposes = purposes::of(&parsed.library);
+    Ok(parsed)
 }
 
 /// The text with blanks for a byte order mark and a first line `#!/...`, so that what follows stays in its place.

@@ -1,7 +1,8 @@
 //! What a piece of the tree may change or leave.
 
 use super::tree::{Block, Expr, ExprKind, Pattern, Statement};
-use std::collections::{BTreeSet, HashSet};
+use rustc_hash::FxHashSet;
+use std::collections::BTreeSet;
 
 /// What a loop's body does to what is around it.
 #[derive(Debug, Default)]
@@ -16,7 +17,7 @@ pub struct Effects {
 
 /// Scans a loop's body. `mutating` names the methods that take `&mut self`: of whichever type the receiver is, it counts
 /// as borrowed by a method of such a name.
-pub fn assigned(body: &Block, mutating: &HashSet<String>) -> Effects {
+pub fn assigned(body: &Block, mutating: &FxHashSet<String>) -> Effects {
     let mut effects = Effects::default();
     let mut around = Around {
         mutating: Some(mutating),
@@ -60,7 +61,7 @@ struct Around<'b> {
     /// Variables of the body's own.
     own: Vec<&'b str>,
     /// Methods that take `&mut self`.
-    mutating: Option<&'b HashSet<String>>,
+    mutating: Option<&'b FxHashSet<String>>,
 }
 
 impl Around<'_> {

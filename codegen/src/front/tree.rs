@@ -1,9 +1,10 @@
 //! The tree that kernels are evaluated from: the supported part of Rust, with places.
 
 use crate::diagnostic::Span;
-use crate::ir::{BinaryOp, Scalar, UnaryOp};
+use crate::ir::{BinaryOp, Purpose, Scalar, UnaryOp};
 use crate::policy::{Branches, Unroll};
-use std::collections::{HashMap, HashSet};
+use rustc_hash::{FxHashMap, FxHashSet};
+use std::collections::HashMap;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -407,23 +408,25 @@ pub struct OptionField {
 #[derive(Clone, Debug, Default)]
 pub struct Library {
     /// Functions and methods (`Type::name`).
-    pub functions: HashMap<String, Function>,
+    pub functions: FxHashMap<String, Function>,
     /// Names of the methods that take `&mut self`.
-    pub mutating: HashSet<String>,
+    pub mutating: FxHashSet<String>,
     /// Constants.
-    pub consts: HashMap<String, Const>,
+    pub consts: FxHashMap<String, Const>,
     /// Structures.
-    pub structs: HashMap<String, Struct>,
+    pub structs: FxHashMap<String, Struct>,
     /// Enums.
-    pub enums: HashMap<String, Enum>,
+    pub enums: FxHashMap<String, Enum>,
     /// Structures declared by `options!`.
-    pub options: HashMap<String, Vec<OptionField>>,
+    pub options: FxHashMap<String, Vec<OptionField>>,
     /// Traits.
-    pub traits: HashMap<String, Trait>,
+    pub traits: FxHashMap<String, Trait>,
     /// Functions that implementations of traits give types, by `Type::name`.
-    pub implemented: HashMap<String, Vec<Implemented>>,
+    pub implemented: FxHashMap<String, Vec<Implemented>>,
     /// Types and traits that they implement.
-    pub implements: HashSet<(String, String)>,
+    pub implements: FxHashSet<(String, String)>,
+    /// What functions of the kernel's files are for, in order of their places.
+    pub purposes: Arc<[Purpose]>,
 }
 
 impl Library {

@@ -2,6 +2,7 @@
 
 use super::{Buffer, Lanes, Memory, Op, Origin, Scalar, Shared, Texture, Type};
 use rustc_hash::FxHashMap;
+use std::sync::Arc;
 
 /// Index of a node. A node's arguments have smaller indices.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -172,7 +173,7 @@ pub struct Graph {
     /// Source files, by the index that origins carry.
     pub files: Vec<String>,
     /// What the functions of the source are for, by file and first line, in order.
-    pub purposes: Vec<Purpose>,
+    pub purposes: Arc<[Purpose]>,
 }
 
 /// What a function of the source is for: for comments.

@@ -1,6 +1,7 @@
 //! Building a graph again, without what is not used: the frame of every pass.
 
 use super::{Builder, Event, Graph, NodeId, Op, Region, RegionId, Rules, Type};
+use std::sync::Arc;
 
 /// What a pass changes while the graph is built again.
 pub struct Rebuild<'a> {
@@ -52,7 +53,7 @@ pub fn copy_tables(old: &Graph, new: &mut Graph) {
     new.uniforms.clone_from(&old.uniforms);
     new.tallies.clone_from(&old.tallies);
     new.files.clone_from(&old.files);
-    new.purposes.clone_from(&old.purposes);
+    new.purposes = Arc::clone(&old.purposes);
     new.varyings.clone_from(&old.varyings);
     new.targets.clone_from(&old.targets);
     new.invocation = old.invocation;

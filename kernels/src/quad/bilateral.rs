@@ -40,7 +40,8 @@ pub fn quad_bilateral(cfg: &QuadBilateral, image: &Frame<Vec4>, pixel: Quad<IVec
         Sharing::Quad => {
             for j in 0..=cfg.radius {
                 for i in 0..=cfg.radius {
-                    let taps = surface(image.load(pixel + outwards * ivec2(i, j))).gather();
+                    let tap = surface(image.load(pixel + outwards * ivec2(i, j)));
+                    let taps = tap.gather();
                     for k in 0..4 {
                         // Seen from the other lane it lies one pixel farther out.
                         let (x, y) = (i + k as i32 % 2, j + k as i32 / 2);
@@ -70,13 +71,17 @@ fn surface(texel: Quad<Vec4>) -> Quad<Vec4> {
     counts.select(counted, of_no_surface())
 }
 
-/// What a pixel adds: its difference from the centre times its weight, and the weight. Of pixels all alike nothing is left
+/// What a pixel adds: its difference from the centre, and 1, times its weight. Of pixels all alike nothing is left
 /// but the centre.
 fn weighed(cfg: &QuadBilateral, tap: Quad<Vec4>, centre: Quad<Vec4>, squared: i32) -> Quad<Vec4> {
+    if squared == 0 {
+        // The centre itself.
+        return Quad::splat(Vec4::W);
+    }
     let z = (tap.w() - centre.w()) / cfg.depth_sigma;
     let near = squared as f32 / (cfg.sigma * cfg.sigma);
     let weight = tally("weight_evaluations", ((z * z + near) * HALF_LOG2_E).exp2());
-    ((tap.truncate() - centre.truncate()) * weight).extend(weight)
+    (tap.truncate() - centre.truncate()).extend(1.0) * weight
 }
 
 /// exp(-x / 2) is exp2(x times this).

@@ -145,35 +145,27 @@ pub trait Language {
 
 /// A module in a language, under a header.
 pub fn module(language: &dyn Language, module: &Module<'_>, header: &[String]) -> String {
+    if !language.leads() {
+        return under(language, header, &without_header(language, module));
+    }
     let printer = Printer { language, module };
-    let mut tables = Vec::new();
-    for (var, value) in &module.tables {
-        let elements = printer.elements(value);
-        let declared = language.table(printer.name(*var), module.ty(*var));
-        tables.push(Printer::line(0, &format!("{declared} = "), &elements, ";"));
-    }
-    let mut parts = Vec::new();
-    if !tables.is_empty() {
-        parts.push(format!("{}\n", tables.join("\n")));
-    }
-    let mut functions: Vec<String> = module.functions.iter().map(|f| printer.function(f)).collect();
-    functions.sort();
-    parts.extend(functions.into_iter().map(|function| format!("{function}\n")));
-    let entry = |header: String| {
-        format!(
-            "{}\n{header}{}}}\n",
-            language.entry_head(),
-            printer.block(&module.body, 1)
-        )
-    };
-    if language.leads() {
-        let header: String = header.iter().map(|line| wrapped_comment(line, 4) + "\n").collect();
-        parts.insert(0, entry(header + "\n"));
-        parts.extend(language.behind());
-    } else {
-        parts.insert(0, language.preamble(header));
-        parts.push(entry(String::new()));
-    }
+    let header: String = header.iter().map(|line| wrapped_comment(line, 4) + "\n").collect();
+    let mut parts = vec![printer.entry(&(header + "\n"))];
+    parts.extend(printer.tables_and_functions());
+    parts.extend(language.behind());
+    parts.join("\n")
+}
+
+/// What [`without_header`] has written, under a header.
+pub fn under(language: &dyn Language, header: &[String], module: &str) -> String {
+    format!("{}\n{module}", language.preamble(header))
+}
+
+/// A module in a language in which the entry point comes last, but for its header, directives and bindings.
+pub fn without_header(language: &dyn Language, module: &Module<'_>) -> String {
+    let printer = Printer { language, module };
+    let mut parts = printer.tables_and_functions();
+    parts.push(printer.entry(""));
     parts.join("\n")
 }
 
@@ -191,6 +183,27 @@ struct Printer<'m> {
 impl Printer<'_> {
     fn name(&self, var: VarId) -> &str {
         &self.module.variables[var.0 as usize].name
+    }
+
+    /// The constant arrays, and each of the functions beside the entry point.
+    fn tables_and_functions(&self) -> Vec<String> {
+        let table = |(var, value): &(VarId, Expr)| {
+            let declared = self.language.table(self.name(*var), self.module.ty(*var));
+            Self::line(0, &format!("{declared} = "), &self.elements(value), ";") + "\n"
+        };
+        let tables: String = self.module.tables.iter().map(table).collect();
+        let mut functions: Vec<String> = self.module.functions.iter().map(|f| self.function(f) + "\n").collect();
+        functions.sort();
+        if !tables.is_empty() {
+            functions.insert(0, tables);
+        }
+        functions
+    }
+
+    /// The entry point, whose header stands in it.
+    fn entry(&self, header: &str) -> String {
+        let (head, body) = (self.language.entry_head(), self.block(&self.module.body, 1));
+        format!("{head}\n{header}{body}}}\n")
     }
 
     fn function(&self, function: &Function<'_>) -> String {

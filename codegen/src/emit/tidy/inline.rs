@@ -10,16 +10,17 @@ use rustc_hash::{FxHashMap, FxHashSet};
 /// Operators and calls that a line may have, lest it be hard to read; shader compilers also recurse over them.
 const MOST: usize = 16;
 
-/// Inlines values that are used once.
-pub fn inline(module: &mut Module<'_>, graph: &Graph) {
+/// Inlines values that are used once; gives whether there were some.
+pub fn inline(module: &mut Module<'_>, graph: &Graph) -> bool {
     let uses = dead::uses(module);
     let mut body = std::mem::take(&mut module.body);
     let inliner = Inliner {
         uses,
         columns: Columns { module, graph },
     };
-    inliner.block(&mut body, 1);
+    let inlined = inliner.block(&mut body, 1);
     module.body = body;
+    inlined
 }
 
 struct Inliner<'m> {
@@ -27,29 +28,46 @@ struct Inliner<'m> {
     columns: Columns<'m>,
 }
 
+/// A value that may be written where it is used.
+#[derive(Clone, Copy)]
+struct Candidate {
+    /// Which statement makes it.
+    at: usize,
+    /// How wide it is.
+    columns: usize,
+    /// Operators and calls in it.
+    operations: usize,
+}
+
 impl Inliner<'_> {
-    fn block(&self, block: &mut Block<'_>, depth: usize) {
+    fn block(&self, block: &mut Block<'_>, depth: usize) -> bool {
+        let mut inlined = false;
         let mut out: Vec<Option<Stmt<'_>>> = Vec::with_capacity(block.len());
-        // Where each candidate stands, and when each mutable variable was last assigned.
-        let mut defined: FxHashMap<VarId, usize> = FxHashMap::default();
+        // The candidates, and when each mutable variable was last assigned.
+        let mut defined: FxHashMap<VarId, Candidate> = FxHashMap::default();
         let mut assigned: FxHashMap<VarId, usize> = FxHashMap::default();
         for mut stmt in block.drain(..) {
             self.absorb(&mut stmt, &mut out, &defined, &assigned, depth);
             for inner in stmt.blocks_mut() {
-                self.block(inner, depth + 1);
+                inlined |= self.block(inner, depth + 1);
             }
             let at = out.len();
-            let mut written = FxHashSet::default();
-            assignments(&stmt, &mut written);
-            assigned.extend(written.into_iter().map(|var| (var, at)));
-            if let StmtKind::Let(var, _) = stmt.kind
+            assignments(&stmt, &mut |var| _ = assigned.insert(var, at));
+            if let StmtKind::Let(var, value) = &stmt.kind
                 && self.uses[var.0 as usize] == 1
             {
-                defined.insert(var, at);
+                let candidate = Candidate {
+                    at,
+                    columns: self.columns.of(value),
+                    operations: operations(value),
+                };
+                defined.insert(*var, candidate);
             }
             out.push(Some(stmt));
         }
+        inlined |= out.iter().any(Option::is_none);
         block.extend(out.into_iter().flatten());
+        inlined
     }
 
     /// Writes values of earlier statements into a statement, short ones first.
@@ -57,49 +75,48 @@ impl Inliner<'_> {
         &self,
         stmt: &mut Stmt<'g>,
         out: &mut [Option<Stmt<'g>>],
-        defined: &FxHashMap<VarId, usize>,
+        defined: &FxHashMap<VarId, Candidate>,
         assigned: &FxHashMap<VarId, usize>,
         depth: usize,
     ) {
         // The end of a loop is computed again for each iteration: what it reads must not change, and be quick to tell.
-        let is_loop = matches!(stmt.kind, StmtKind::For { .. });
         let mut written = FxHashSet::default();
-        assignments(stmt, &mut written);
-        let suits = |value: &Expr| {
-            !is_loop
-                || (operations(value) <= 2 && !reads_memory(value) && !value.mentions(|var| written.contains(&var)))
+        let is_loop = matches!(stmt.kind, StmtKind::For { .. });
+        if is_loop {
+            assignments(stmt, &mut |var| _ = written.insert(var));
+        }
+        let suits = |value: &Expr, operations: usize| {
+            !is_loop || (operations <= 2 && !reads_memory(value) && !value.mentions(|var| written.contains(&var)))
         };
         loop {
             let mut candidates = Vec::new();
             for expr in stmt.own() {
                 expr.visit(&mut |expr| {
                     if let Op::Var(var) = expr.op
-                        && let Some(at) = defined.get(&var)
+                        && let Some(candidate) = defined.get(&var)
                         && let Some(Stmt {
                             kind: StmtKind::Let(_, value),
                             ..
-                        }) = &out[*at]
-                        && !changed_since(value, *at, assigned)
-                        && suits(value)
+                        }) = &out[candidate.at]
+                        && !changed_since(value, candidate.at, assigned)
+                        && suits(value, candidate.operations)
                     {
-                        candidates.push((self.columns.of(value), var, *at));
+                        candidates.push((candidate.columns, var, *candidate));
                     }
                 });
             }
-            candidates.sort_unstable();
+            if candidates.is_empty() {
+                return;
+            }
+            candidates.sort_unstable_by_key(|(columns, var, _)| (*columns, *var));
             let (wide, many) = self.columns.of_stmt(stmt);
-            let fits = candidates.into_iter().find(|(columns, var, at)| {
+            let fits = candidates.into_iter().find(|(columns, var, candidate)| {
                 let name = self.columns.module.variables[var.0 as usize].name.len();
-                let Some(Stmt {
-                    kind: StmtKind::Let(_, value),
-                    ..
-                }) = &out[*at]
-                else {
-                    return false;
-                };
-                4 * depth + wide + columns - name <= WIDEST && many + operations(value) <= MOST
+                4 * depth + wide + columns - name <= WIDEST && many + candidate.operations <= MOST
             });
-            let Some((_, var, at)) = fits else { return };
+            let Some((_, var, Candidate { at, .. })) = fits else {
+                return;
+            };
             let Some(Stmt {
                 kind: StmtKind::Let(_, value),
                 origin,
@@ -112,8 +129,7 @@ impl Inliner<'_> {
             }
             let mut value = Some(value);
             for own in stmt.own_mut() {
-                let taken = own.clone();
-                *own = taken.rewrite(&mut |expr| match expr.op {
+                own.rewrite_in_place(&mut |expr| match expr.op {
                     Op::Var(found) if found == var => value.take().unwrap_or(expr),
                     _ => expr,
                 });
@@ -161,24 +177,26 @@ fn changed_since(value: &Expr, at: usize, assigned: &FxHashMap<VarId, usize>) ->
     value.mentions(changed) || (reads_shared(value) && changed(VarId::MEMORY))
 }
 
-/// Variables that a statement assigns to.
-fn assignments(stmt: &Stmt<'_>, out: &mut FxHashSet<VarId>) {
+/// Shows every variable that a statement assigns to.
+fn assignments(stmt: &Stmt<'_>, see: &mut dyn FnMut(VarId)) {
     if let StmtKind::Assign(place, ..) = &stmt.kind {
         place.visit(&mut |expr| {
             if let Op::Var(var) = expr.op {
-                out.insert(var);
+                see(var);
             }
         });
     }
-    if let StmtKind::Effect(effect) = &stmt.kind {
-        out.extend(effect.before);
+    if let StmtKind::Effect(effect) = &stmt.kind
+        && let Some(before) = effect.before
+    {
+        see(before);
     }
     if matches!(&stmt.kind, StmtKind::Effect(effect) if matches!(effect.memory, Memory::Shared(_)))
         || matches!(stmt.kind, StmtKind::Barrier { .. })
     {
-        out.insert(VarId::MEMORY);
+        see(VarId::MEMORY);
     }
     for block in stmt.blocks() {
-        block.iter().for_each(|stmt| assignments(stmt, out));
+        block.iter().for_each(|stmt| assignments(stmt, see));
     }
 }

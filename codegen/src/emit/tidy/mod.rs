@@ -23,8 +23,12 @@ pub fn tidy(module: &mut Module<'_>, graph: &Graph) {
     // What a loop's early end stood between is one variable now.
     coalesce::coalesce(module);
     // What was inlined has new neighbours, and what is shorter now may be inlined.
-    module.rewrite(&mut |_, expr| simplify(expr));
-    dead::remove(module);
-    inline::inline(module, graph);
+    loop {
+        module.rewrite(&mut |_, expr| simplify(expr));
+        dead::remove(module);
+        if !inline::inline(module, graph) {
+            break;
+        }
+    }
     statements::shorten(&mut module.body);
 }
