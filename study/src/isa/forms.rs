@@ -1,5 +1,6 @@
 //! The SPIR-V of each form of a kernel.
 
+use super::Asking;
 use super::IsaStudyError;
 use crate::loops::Subject;
 use crate::record::{IsaForm, SpirvPath};
@@ -19,7 +20,8 @@ pub struct Spirv {
 }
 
 /// All forms of a kernel, by naga and, where it is there, by glslang.
-pub fn forms(subject: &Subject, glslang: Option<&Path>) -> Result<Vec<Spirv>, IsaStudyError> {
+pub fn forms(asking: &Asking, glslang: Option<&Path>) -> Result<Vec<Spirv>, IsaStudyError> {
+    let subject = &asking.subject;
     let mut all = Vec::new();
     for kind in IsaForm::ALL {
         let Some(compiled) = compiled(subject, kind)? else {
@@ -36,7 +38,22 @@ pub fn forms(subject: &Subject, glslang: Option<&Path>) -> Result<Vec<Spirv>, Is
             }
         }
     }
+    all.extend(asking.slang.map(|wgsl| Spirv {
+        kind: IsaForm::Slang,
+        path: SpirvPath::Naga,
+        entry: subject.kernel.name().to_owned(),
+        module: by_naga(wgsl),
+    }));
     Ok(all)
+}
+
+/// What naga makes of WGSL that is not ours.
+fn by_naga(wgsl: &str) -> Result<Vec<u8>, String> {
+    let module = naga::front::wgsl::parse_str(wgsl).map_err(|e| e.emit_to_string(wgsl))?;
+    let mut validator = naga::valid::Validator::new(Default::default(), Default::default());
+    let info = validator.validate(&module).map_err(|e| e.emit_to_string(wgsl))?;
+    let words = naga::back::spv::write_vec(&module, &info, &Default::default(), None).map_err(|e| e.to_string())?;
+    Ok(words.into_iter().flat_map(u32::to_le_bytes).collect())
 }
 
 fn by(path: SpirvPath, kind: IsaForm, compiled: &Compiled, glslang: Option<&Path>) -> Spirv {
@@ -84,7 +101,7 @@ fn compiled(subject: &Subject, kind: IsaForm) -> Result<Option<Compiled>, IsaStu
             Ok((looped.in_blocks().counts.loops > 0).then_some(looped))
         }
         (IsaForm::ByHand, Ok(hand)) => compile(&hand.kernel, &settings(Unroll::None, &hand.options)).map(Some),
-        (IsaForm::ByHand, Err(_)) => Ok(None),
+        (IsaForm::ByHand, Err(_)) | (IsaForm::Slang, _) => Ok(None),
         (IsaForm::Block, _) => {
             let block = Settings {
                 block: [2, 2],

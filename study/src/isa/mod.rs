@@ -2,8 +2,8 @@
 //! as glslang does.
 
 mod forms;
+mod subjects;
 
-use crate::loops::Subject;
 use crate::record::{Asked, IsaRecord};
 use crate::watch::Watch;
 use forms::forms;
@@ -11,6 +11,8 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 use straightline_codegen::diagnostic::Errors;
 use straightline_isa::{Compiler, Family, IsaError};
+
+pub use subjects::{Asking, further};
 
 /// Why there is no record.
 #[derive(Debug, thiserror::Error)]
@@ -47,7 +49,7 @@ pub struct Question {
 /// [`IsaStudyError`]; a form that a compiler refuses is part of the record, with the reason.
 pub fn ask(
     question: &Question,
-    subjects: &[Subject],
+    askings: &[Asking],
     command: String,
     date: String,
     watch: &mut dyn Watch,
@@ -74,12 +76,13 @@ pub fn ask(
         absent,
         shaders: Vec::new(),
     };
-    watch.begin("kernels", subjects.len());
-    for subject in subjects {
+    watch.begin("kernels", askings.len());
+    for asking in askings {
+        let subject = &asking.subject;
         if watch.stopped() {
             break;
         }
-        for form in forms(subject, question.glslang.as_deref())? {
+        for form in forms(asking, question.glslang.as_deref())? {
             let mut asked = Asked {
                 kernel: subject.name.clone(),
                 options: subject.options.clone(),

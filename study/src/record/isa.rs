@@ -17,11 +17,19 @@ pub enum IsaForm {
     ByHand,
     /// One straight line for 2×2 pixels; the figures are of all four.
     Block,
+    /// One straight line that Slang's compiler made of the same work.
+    Slang,
 }
 
 impl IsaForm {
     /// Every form.
-    pub const ALL: [IsaForm; 4] = [IsaForm::Unrolled, IsaForm::Looped, IsaForm::ByHand, IsaForm::Block];
+    pub const ALL: [IsaForm; 5] = [
+        IsaForm::Unrolled,
+        IsaForm::Looped,
+        IsaForm::ByHand,
+        IsaForm::Block,
+        IsaForm::Slang,
+    ];
 
     /// What people call it.
     pub fn name(self) -> &'static str {
@@ -30,6 +38,7 @@ impl IsaForm {
             IsaForm::Looped => "looped",
             IsaForm::ByHand => "looped, by hand",
             IsaForm::Block => "unrolled, 2x2 pixels",
+            IsaForm::Slang => "unrolled, by Slang",
         }
     }
 }

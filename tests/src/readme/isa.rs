@@ -27,6 +27,30 @@ pub fn cycles(record: &IsaRecord) -> Result<String, String> {
     Ok(markdown(&head, rows.collect()))
 }
 
+/// What Slang's compiler was given too, on one family.
+pub fn rivals(record: &IsaRecord) -> Result<String, String> {
+    let Some(family) = record.devices.keys().next() else {
+        return Err("the record has no family".to_owned());
+    };
+    let head = ["kernel", "instructions", "by Slang", "**cycles**", "by Slang"];
+    let of = |name: &str, form| {
+        let is = |asked: &&Asked| asked.kernel == name && asked.form == form && asked.path == SpirvPath::Naga;
+        record.shaders.iter().find(is)?.figures.get(family)
+    };
+    let by_slang = record.shaders.iter().filter(|asked| asked.form == IsaForm::Slang);
+    let rows = by_slang.filter_map(|asked| {
+        let (ours, theirs) = (of(&asked.kernel, IsaForm::Unrolled)?, asked.figures.get(family)?);
+        Some(vec![
+            asked.kernel.clone(),
+            ours.instructions.to_string(),
+            theirs.instructions.to_string(),
+            format!("**{}**", ours.inverse_throughput),
+            theirs.inverse_throughput.to_string(),
+        ])
+    });
+    Ok(markdown(&head, rows.collect()))
+}
+
 fn row(record: &IsaRecord, family: Family, name: &str) -> Vec<String> {
     let of = |form, path| -> Option<&Figures> {
         let is = |asked: &&Asked| asked.kernel == name && asked.form == form && asked.path == path;

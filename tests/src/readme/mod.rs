@@ -67,6 +67,7 @@ fn table(name: &str, files: &[&Path]) -> Result<String, String> {
         "scenes" => Ok(quality::scenes(&QualityRecord::read(first).map_err(why)?)),
         "gaps" => Ok(quality::gaps(&QualityRecord::read(first).map_err(why)?)),
         "hard" => hard::kernels(files),
+        "rivals" => isa::rivals(&IsaRecord::read(first).map_err(why)?),
         "isa" => isa::cycles(&IsaRecord::read(first).map_err(why)?),
         "tune" => {
             let all: Result<Vec<_>, _> = files.iter().map(|file| TuneRecord::read(file)).collect();

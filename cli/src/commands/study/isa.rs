@@ -6,7 +6,7 @@ use crate::failure::Failure;
 use crate::table;
 use std::path::PathBuf;
 use straightline_isa::Figures;
-use straightline_study::isa::{self, IsaStudyError, Question};
+use straightline_study::isa::{self, Asking, IsaStudyError, Question};
 use straightline_study::record::{IsaRecord, Record};
 
 /// The hidden command that a compiler's process runs.
@@ -15,6 +15,10 @@ pub const SERVE: &str = "serve-isa";
 /// Asks, prints, writes the record.
 pub fn run(common: &CommonArgs, args: &IsaArgs, progress: &mut Progress) -> Result<(), Failure> {
     let subjects = loops::chosen(common, &args.from, &args.by_hand)?;
+    let mut askings: Vec<Asking> = subjects.into_iter().map(Asking::from).collect();
+    if args.from.is_empty() {
+        askings.extend(isa::further().map_err(Failure::Kernel)?);
+    }
     let glslang = glslang();
     if glslang.is_none() {
         errln!("there is no glslangValidator, so GLSL is not asked about; on Debian: apt-get install glslang-tools");
@@ -24,7 +28,7 @@ pub fn run(common: &CommonArgs, args: &IsaArgs, progress: &mut Progress) -> Resu
         program: (std::env::current_exe().map_err(Failure::of)?, vec![SERVE.to_owned()]),
         glslang,
     };
-    let asked = isa::ask(&question, &subjects, command(), now(), progress);
+    let asked = isa::ask(&question, &askings, command(), now(), progress);
     progress.done();
     let record = asked.map_err(|error| match error {
         IsaStudyError::Kernel { errors, .. } => Failure::Kernel(errors),
