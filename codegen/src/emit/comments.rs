@@ -78,7 +78,7 @@ impl<'g> Groups<'g> {
             if !agrees {
                 self.flush(out);
             }
-            for counter in &origin.counters {
+            for counter in &*origin.counters {
                 if !self.group.counters.contains(counter) {
                     self.group.counters.push(counter.clone());
                 }

@@ -229,7 +229,7 @@ struct Shader<'s, 'g> {
     resources: &'s resources::Resources,
     tree: &'s ast::Module<'g>,
     /// Its WGSL without header, once it has been written.
-    wgsl: OnceCell<String>,
+    wgsl: OnceCell<print::Printed>,
 }
 
 impl Shader<'_, '_> {
@@ -257,9 +257,9 @@ impl Shader<'_, '_> {
     fn own_wgsl(&self, counts: &Counts) -> String {
         let resources = self.resources;
         let language = print::Wgsl { resources };
-        let module = || print::without_header(&language, &for_wgsl(self.tree, resources));
+        let printed = || print::Printed::new(&language, &for_wgsl(self.tree, resources));
         let header = print::header(self.compiled, counts, resources);
-        print::under(&language, &header, self.wgsl.get_or_init(module))
+        self.wgsl.get_or_init(printed).under(&language, &header)
     }
 
     fn wgsl(&self, counts: &Counts) -> Result<String, EmitError> {

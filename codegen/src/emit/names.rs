@@ -181,7 +181,7 @@ impl Wanted {
     /// For the values of a graph.
     pub fn new(graph: &Graph) -> Wanted {
         let origins = graph.origins.iter().flatten();
-        let counters: BTreeSet<&str> = origins.flat_map(|o| &o.counters).map(|c| &*c.name).collect();
+        let counters: BTreeSet<&str> = origins.flat_map(|o| &*o.counters).map(|c| &*c.name).collect();
         let initial = |name: &str| name.chars().next().unwrap_or('k');
         let short = |name: &&str| {
             let alone = counters.iter().filter(|other| initial(other) == initial(name)).count() == 1;

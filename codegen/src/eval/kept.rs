@@ -247,7 +247,7 @@ impl Evaluator<'_> {
                     naming: Naming::Let,
                     file: span.file,
                     line: span.line,
-                    counters: self.counters.clone(),
+                    counters: self.counters.as_slice().into(),
                 };
                 self.builder.set_origin(*id, &origin);
             }

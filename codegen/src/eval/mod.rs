@@ -318,7 +318,7 @@ impl Evaluator<'_> {
             naming,
             file: span.file,
             line: span.line,
-            counters: self.counters.clone(),
+            counters: self.counters.as_slice().into(),
         };
         self.builder.set_origin(id, &origin);
     }

@@ -3,67 +3,19 @@
 use crate::ir::{Scalar, Type};
 
 /// Methods of floats, lane by lane.
+#[rustfmt::skip]
 const FLOATS: &[&str] = &[
-    "abs",
-    "acos",
-    "asin",
-    "atan",
-    "atan2",
-    "cbrt",
-    "ceil",
-    "clamp",
-    "cos",
-    "cosh",
-    "exp",
-    "exp2",
-    "floor",
-    "is_finite",
-    "is_nan",
-    "ln",
-    "log2",
-    "max",
-    "min",
-    "powf",
-    "powi",
-    "recip",
-    "round_ties_even",
-    "sin",
-    "sinh",
-    "sqrt",
-    "tan",
-    "tanh",
-    "to_bits",
-    "to_degrees",
-    "to_radians",
-    "trunc",
+    "abs", "acos", "asin", "atan", "atan2", "cbrt", "ceil", "clamp", "cos", "cosh", "exp", "exp2", "floor",
+    "is_finite", "is_nan", "ln", "log2", "max", "min", "powf", "powi", "recip", "round_ties_even", "sin", "sinh",
+    "sqrt", "tan", "tanh", "to_bits", "to_degrees", "to_radians", "trunc",
 ];
 
 /// Further methods of vectors.
+#[rustfmt::skip]
 const VECTORS: &[&str] = &[
-    "cmpeq",
-    "cmpge",
-    "cmpgt",
-    "cmple",
-    "cmplt",
-    "cmpne",
-    "cross",
-    "distance",
-    "distance_squared",
-    "dot",
-    "element_product",
-    "element_sum",
-    "extend",
-    "length",
-    "length_recip",
-    "length_squared",
-    "lerp",
-    "max_element",
-    "min_element",
-    "normalize",
-    "perp",
-    "reflect",
-    "to_array",
-    "truncate",
+    "cmpeq", "cmpge", "cmpgt", "cmple", "cmplt", "cmpne", "cross", "distance", "distance_squared", "dot",
+    "element_product", "element_sum", "extend", "length", "length_recip", "length_squared", "lerp", "max_element",
+    "min_element", "normalize", "perp", "reflect", "to_array", "truncate",
 ];
 
 /// Methods of floats that Rust and shaders compute differently: why, and what to write.
@@ -104,6 +56,7 @@ pub const UNLIKE: [(&str, &str, &str); 9] = [
 ];
 
 /// Comparisons of vectors, component by component.
+#[rustfmt::skip]
 const COMPARISONS: &[&str] = &[
     "cmpeq", "cmpge", "cmpgt", "cmple", "cmplt", "cmpne", "extend", "truncate",
 ];
@@ -112,23 +65,10 @@ const COMPARISONS: &[&str] = &[
 const MASKS: &[&str] = &["all", "any", "test"];
 
 /// Methods of integers.
+#[rustfmt::skip]
 const INTEGERS: &[&str] = &[
-    "abs",
-    "clamp",
-    "count_ones",
-    "leading_zeros",
-    "max",
-    "min",
-    "pow",
-    "rem_euclid",
-    "reverse_bits",
-    "signum",
-    "trailing_zeros",
-    "wrapping_add",
-    "wrapping_mul",
-    "wrapping_neg",
-    "wrapping_shl",
-    "wrapping_shr",
+    "abs", "clamp", "count_ones", "leading_zeros", "max", "min", "pow", "rem_euclid", "reverse_bits", "signum",
+    "trailing_zeros", "wrapping_add", "wrapping_mul", "wrapping_neg", "wrapping_shl", "wrapping_shr",
     "wrapping_sub",
 ];
 

@@ -402,7 +402,11 @@ impl<'a, R: Real> Interpreter<'a, R> {
             name: self.graph.origin(*param).map_or("k", |o| &*o.name).into(),
             value: *value,
         });
-        let unrolled = self.graph.origin(id).into_iter().flat_map(|o| o.counters.clone());
+        let unrolled = self
+            .graph
+            .origin(id)
+            .into_iter()
+            .flat_map(|o| o.counters.iter().cloned());
         s.birth = Some(Birth {
             node: id,
             value: lanes.iter().map(|c| R::from_bits(*c).to_f64()).collect(),

@@ -1,7 +1,8 @@
 //! The graph and its builder.
 
 use super::{Buffer, Lanes, Memory, Op, Origin, Scalar, Shared, Texture, Type};
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHasher};
+use std::hash::{Hash, Hasher};
 use std::sync::Arc;
 
 /// Index of a node. A node's arguments have smaller indices.
@@ -276,7 +277,8 @@ pub trait Rules {
 /// Makes a graph node by node; equal nodes are made once.
 pub struct Builder<'r> {
     graph: Graph,
-    known: FxHashMap<Node, NodeId>,
+    /// Nodes by their hashes; of two with one hash the later has the next that is free.
+    known: FxHashMap<u64, NodeId>,
     rules: &'r dyn Rules,
     open: Vec<RegionId>,
 }
@@ -326,11 +328,12 @@ impl<'r> Builder<'r> {
     /// The node that computes `op` of `args` exactly as stated.
     pub fn intern(&mut self, op: Op, args: Vec<NodeId>, ty: Type) -> NodeId {
         let node = Node { op, args, ty };
-        if let Some(&id) = self.known.get(&node) {
-            return id;
-        }
-        let id = self.push(node.clone());
-        self.known.insert(node, id);
+        let free = match self.known(&node) {
+            Ok(id) => return id,
+            Err(free) => free,
+        };
+        let id = self.push(node);
+        self.known.insert(free, id);
         let regions = self.graph.regions_of(id);
         if regions
             .iter()
@@ -390,7 +393,21 @@ impl<'r> Builder<'r> {
             args: args.to_vec(),
             ty,
         };
-        self.known.get(&node).copied()
+        self.known(&node).ok()
+    }
+
+    /// The node that is equal, or the hash by which it would be known.
+    fn known(&self, node: &Node) -> Result<NodeId, u64> {
+        let mut hasher = FxHasher::default();
+        node.hash(&mut hasher);
+        let mut hash = hasher.finish();
+        while let Some(id) = self.known.get(&hash) {
+            if self.graph.node(*id) == node {
+                return Ok(*id);
+            }
+            hash = hash.wrapping_add(1);
+        }
+        Err(hash)
     }
 
     /// A constant.

@@ -35,7 +35,7 @@ pub struct Origin {
     /// Line, from 1.
     pub line: u32,
     /// Counters of the unrolled loops around, outermost first.
-    pub counters: Vec<Counter>,
+    pub counters: Arc<[Counter]>,
 }
 
 impl Origin {
@@ -43,8 +43,9 @@ impl Origin {
     pub fn merge(&mut self, other: &Origin) {
         if self.name.is_empty() || other.naming < self.naming {
             *self = other.clone();
-        } else if self.name == other.name {
-            self.counters.retain(|c| other.counters.contains(c));
+        } else if self.name == other.name && self.counters != other.counters {
+            let both = self.counters.iter().filter(|c| other.counters.contains(c));
+            self.counters = both.cloned().collect();
         }
     }
 }

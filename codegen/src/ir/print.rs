@@ -141,7 +141,7 @@ fn line(graph: &Graph, id: NodeId) -> String {
     }
     if let Some(origin) = graph.origin(id) {
         let _ = write!(line, "    // {} @{}:{}", origin.name, origin.file, origin.line);
-        for counter in &origin.counters {
+        for counter in &*origin.counters {
             let _ = write!(line, " {}={}", counter.name, counter.value);
         }
     }

@@ -236,10 +236,11 @@ impl Expansion<'_> {
                 }
                 let mut origin = origin.clone();
                 if !alike {
-                    origin.counters.push(Counter {
+                    let own = Counter {
                         name: "lane".into(),
                         value: lane as i64,
-                    });
+                    };
+                    origin.counters = origin.counters.iter().cloned().chain([own]).collect();
                 }
                 self.builder.set_origin(*id, &origin);
             }

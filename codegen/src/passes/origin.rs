@@ -90,7 +90,7 @@ fn named(b: &mut Builder<'_>, id: NodeId, name: &str, like: NodeId) {
     if let Some(origin) = b.graph().origin(like).cloned() {
         let origin = Origin {
             name: name.into(),
-            counters: Vec::new(),
+            counters: [].into(),
             ..origin
         };
         b.set_origin(id, &origin);

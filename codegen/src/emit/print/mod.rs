@@ -145,28 +145,41 @@ pub trait Language {
 
 /// A module in a language, under a header.
 pub fn module(language: &dyn Language, module: &Module<'_>, header: &[String]) -> String {
-    if !language.leads() {
-        return under(language, header, &without_header(language, module));
+    Printed::new(language, module).under(language, header)
+}
+
+/// A module as text, which its header is yet to stand over.
+pub struct Printed {
+    /// The constant arrays, and each of the functions beside the entry point.
+    beside: Vec<String>,
+    /// The entry point's statements.
+    body: String,
+}
+
+impl Printed {
+    /// The text of a module in a language.
+    pub fn new(language: &dyn Language, module: &Module<'_>) -> Printed {
+        let printer = Printer { language, module };
+        Printed {
+            beside: printer.tables_and_functions(),
+            body: printer.block(&module.body, 1),
+        }
     }
-    let printer = Printer { language, module };
-    let header: String = header.iter().map(|line| wrapped_comment(line, 4) + "\n").collect();
-    let mut parts = vec![printer.entry(&(header + "\n"))];
-    parts.extend(printer.tables_and_functions());
-    parts.extend(language.behind());
-    parts.join("\n")
-}
 
-/// What [`without_header`] has written, under a header.
-pub fn under(language: &dyn Language, header: &[String], module: &str) -> String {
-    format!("{}\n{module}", language.preamble(header))
-}
-
-/// A module in a language in which the entry point comes last, but for its header, directives and bindings.
-pub fn without_header(language: &dyn Language, module: &Module<'_>) -> String {
-    let printer = Printer { language, module };
-    let mut parts = printer.tables_and_functions();
-    parts.push(printer.entry(""));
-    parts.join("\n")
+    /// All of it, under a header, in the same language.
+    pub fn under(&self, language: &dyn Language, header: &[String]) -> String {
+        let entry = |header: &str| format!("{}\n{header}{}}}\n", language.entry_head(), self.body);
+        let mut parts = self.beside.clone();
+        if language.leads() {
+            let header: String = header.iter().map(|line| wrapped_comment(line, 4) + "\n").collect();
+            parts.insert(0, entry(&(header + "\n")));
+            parts.extend(language.behind());
+        } else {
+            parts.insert(0, language.preamble(header));
+            parts.push(entry(""));
+        }
+        parts.join("\n")
+    }
 }
 
 /// A header as comments, a line each.
@@ -198,12 +211,6 @@ impl Printer<'_> {
             functions.insert(0, tables);
         }
         functions
-    }
-
-    /// The entry point, whose header stands in it.
-    fn entry(&self, header: &str) -> String {
-        let (head, body) = (self.language.entry_head(), self.block(&self.module.body, 1));
-        format!("{head}\n{header}{body}}}\n")
     }
 
     fn function(&self, function: &Function<'_>) -> String {
