@@ -43,7 +43,7 @@ void main() {
         vec3 n = texelFetch(sampler2DArray(normal, unfiltered), ivec3(pixel, sample_value), 0).xyz;
         bool is_equal = sample_value == 4;
         float distances[9] = float[9](0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
-        float nearest = 3e38;
+        float nearest = 16.0;
         for (int tap = 0; tap < 9; tap++) {
             // tap `tap` of a square of `side` × `side` pixels (kernels/src/sraa/pattern.rs:191)
             ivec2 pixel_2 = ivec2(tap % 3 - 1, tap / 3 - 1);
@@ -65,15 +65,15 @@ void main() {
                         shaded_depth = depth_3;
                     }
                     vec3 n_2 = texelFetch(sampler2DArray(normal, unfiltered), ivec3(at, 4), 0).xyz;
-                    float d_2 = 1.0 - n.x * n_2.x - n.y * n_2.y - n.z * n_2.z;
-                    float number = 3e38;
-                    if (d_2 < 3e38) {
-                        // kernels/src/sraa/metric.rs:76
-                        number = d_2;
+                    float apart = 1.0 - n.x * n_2.x - n.y * n_2.y - n.z * n_2.z;
+                    float number = 16.0;
+                    if (apart < 16.0) {
+                        // kernels/src/sraa/metric.rs:78
+                        number = apart;
                     }
-                    d = max(abs(seen_depth - shaded_depth), number);
+                    // kernels/src/sraa/mod.rs:247
+                    d = min(max(abs(seen_depth - shaded_depth), number), 16.0);
                 }
-                // the mean of the geometry samples (kernels/src/sraa/mod.rs:125)
                 distances[tap] = d;
                 nearest = min(nearest, d);
             }

@@ -91,8 +91,8 @@ kernel void sraa(
         if (metal::all(loop_bound_1 == uint2(0u))) { break; }
         loop_bound_1 -= uint2(loop_bound_1.y == 0u, 1u);
         if (!loop_init_1) {
-            int _e286 = sample_1;
-            sample_1 = as_type<int>(as_type<uint>(_e286) + as_type<uint>(1));
+            int _e288 = sample_1;
+            sample_1 = as_type<int>(as_type<uint>(_e288) + as_type<uint>(1));
         }
         loop_init_1 = false;
         int _e40 = sample_1;
@@ -116,7 +116,7 @@ kernel void sraa(
             int _e68 = sample_1;
             bool is_equal = _e68 == 4;
             distances = type_8 {{0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0}};
-            nearest = 300000000000000000000000000000000000000.0;
+            nearest = 16.0;
             tap = 0;
             uint2 loop_bound_2 = uint2(4294967295u);
             bool loop_init_2 = true;
@@ -124,8 +124,8 @@ kernel void sraa(
                 if (metal::all(loop_bound_2 == uint2(0u))) { break; }
                 loop_bound_2 -= uint2(loop_bound_2.y == 0u, 1u);
                 if (!loop_init_2) {
-                    int _e174 = tap;
-                    tap = as_type<int>(as_type<uint>(_e174) + as_type<uint>(1));
+                    int _e176 = tap;
+                    tap = as_type<int>(as_type<uint>(_e176) + as_type<uint>(1));
                 }
                 loop_init_2 = false;
                 int _e86 = tap;
@@ -152,22 +152,22 @@ kernel void sraa(
                             }
                             metal::float4 _e142 = normal.read(metal::uint2(at), 4, 0);
                             metal::float3 n_2_ = _e142.xyz;
-                            float d_2_ = ((1.0 - (n.x * n_2_.x)) - (n.y * n_2_.y)) - (n.z * n_2_.z);
-                            number = 300000000000000000000000000000000000000.0;
-                            if (d_2_ < 300000000000000000000000000000000000000.0) {
-                                number = d_2_;
+                            float apart = ((1.0 - (n.x * n_2_.x)) - (n.y * n_2_.y)) - (n.z * n_2_.z);
+                            number = 16.0;
+                            if (apart < 16.0) {
+                                number = apart;
                             }
                             float _e161 = seen_depth;
                             float _e162 = shaded_depth;
                             float _e165 = number;
-                            d = metal::max(metal::abs(_e161 - _e162), _e165);
+                            d = metal::min(metal::max(metal::abs(_e161 - _e162), _e165), 16.0);
                         }
-                        int _e167 = tap;
-                        float _e169 = d;
-                        distances.inner[metal::min(unsigned(_e167), 8u)] = _e169;
-                        float _e170 = nearest;
+                        int _e169 = tap;
                         float _e171 = d;
-                        nearest = metal::min(_e170, _e171);
+                        distances.inner[metal::min(unsigned(_e169), 8u)] = _e171;
+                        float _e172 = nearest;
+                        float _e173 = d;
+                        nearest = metal::min(_e172, _e173);
                     }
                 }
             }
@@ -180,34 +180,34 @@ kernel void sraa(
                 if (metal::all(loop_bound_3 == uint2(0u))) { break; }
                 loop_bound_3 -= uint2(loop_bound_3.y == 0u, 1u);
                 if (!loop_init_3) {
-                    int _e237 = tap_1;
-                    tap_1 = as_type<int>(as_type<uint>(_e237) + as_type<uint>(1));
+                    int _e239 = tap_1;
+                    tap_1 = as_type<int>(as_type<uint>(_e239) + as_type<uint>(1));
                 }
                 loop_init_3 = false;
-                int _e191 = tap_1;
-                if (_e191 < 9) {
+                int _e193 = tap_1;
+                if (_e193 < 9) {
                 } else {
                     break;
                 }
                 {
-                    int _e194 = tap_1;
-                    int _e199 = tap_1;
-                    metal::float2 away_1 = static_cast<metal::float2>(metal::int2(as_type<int>(as_type<uint>(naga_mod(_e194, 3)) - as_type<uint>(1)), as_type<int>(as_type<uint>(naga_div(_e199, 3)) - as_type<uint>(1)))) - place_at;
+                    int _e196 = tap_1;
+                    int _e201 = tap_1;
+                    metal::float2 away_1 = static_cast<metal::float2>(metal::int2(as_type<int>(as_type<uint>(naga_mod(_e196, 3)) - as_type<uint>(1)), as_type<int>(as_type<uint>(naga_div(_e201, 3)) - as_type<uint>(1)))) - place_at;
                     float tent = metal::max(1.0 - metal::abs(away_1.x), 0.0) * metal::max(1.0 - metal::abs(away_1.y), 0.0);
                     if (tent > 0.000001) {
-                        float _e222 = nearest;
-                        int _e223 = tap_1;
-                        float _e225 = distances.inner[metal::min(unsigned(_e223), 8u)];
-                        float w_1 = metal::exp2((721.34753 * (_e222 - _e225)) + metal::log2(tent));
-                        int _e232 = tap_1;
-                        tap_weights.inner[metal::min(unsigned(_e232), 8u)] = w_1;
-                        float _e234 = sum;
-                        sum = _e234 + w_1;
+                        float _e224 = nearest;
+                        int _e225 = tap_1;
+                        float _e227 = distances.inner[metal::min(unsigned(_e225), 8u)];
+                        float w_1 = metal::exp2((721.34753 * (_e224 - _e227)) + metal::log2(tent));
+                        int _e234 = tap_1;
+                        tap_weights.inner[metal::min(unsigned(_e234), 8u)] = w_1;
+                        float _e236 = sum;
+                        sum = _e236 + w_1;
                     }
                 }
             }
-            float _e239 = sum;
-            float scale = share / _e239;
+            float _e241 = sum;
+            float scale = share / _e241;
             tap_2 = 0;
             uint2 loop_bound_4 = uint2(4294967295u);
             bool loop_init_4 = true;
@@ -215,25 +215,25 @@ kernel void sraa(
                 if (metal::all(loop_bound_4 == uint2(0u))) { break; }
                 loop_bound_4 -= uint2(loop_bound_4.y == 0u, 1u);
                 if (!loop_init_4) {
-                    int _e283 = tap_2;
-                    tap_2 = as_type<int>(as_type<uint>(_e283) + as_type<uint>(1));
+                    int _e285 = tap_2;
+                    tap_2 = as_type<int>(as_type<uint>(_e285) + as_type<uint>(1));
                 }
                 loop_init_4 = false;
-                int _e243 = tap_2;
-                if (_e243 < 9) {
+                int _e245 = tap_2;
+                if (_e245 < 9) {
                 } else {
                     break;
                 }
                 {
-                    int _e246 = tap_2;
-                    int _e251 = tap_2;
-                    metal::float2 away_2 = static_cast<metal::float2>(metal::int2(as_type<int>(as_type<uint>(naga_mod(_e246, 3)) - as_type<uint>(1)), as_type<int>(as_type<uint>(naga_div(_e251, 3)) - as_type<uint>(1)))) - place_at;
+                    int _e248 = tap_2;
+                    int _e253 = tap_2;
+                    metal::float2 away_2 = static_cast<metal::float2>(metal::int2(as_type<int>(as_type<uint>(naga_mod(_e248, 3)) - as_type<uint>(1)), as_type<int>(as_type<uint>(naga_div(_e253, 3)) - as_type<uint>(1)))) - place_at;
                     if ((metal::max(1.0 - metal::abs(away_2.x), 0.0) * metal::max(1.0 - metal::abs(away_2.y), 0.0)) > 0.000001) {
-                        int _e274 = tap_2;
-                        float _e276 = weights.inner[metal::min(unsigned(_e274), 8u)];
-                        int _e277 = tap_2;
-                        float _e279 = tap_weights.inner[metal::min(unsigned(_e277), 8u)];
-                        weights.inner[metal::min(unsigned(_e274), 8u)] = _e276 + (_e279 * scale);
+                        int _e276 = tap_2;
+                        float _e278 = weights.inner[metal::min(unsigned(_e276), 8u)];
+                        int _e279 = tap_2;
+                        float _e281 = tap_weights.inner[metal::min(unsigned(_e279), 8u)];
+                        weights.inner[metal::min(unsigned(_e276), 8u)] = _e278 + (_e281 * scale);
                     }
                 }
             }
@@ -245,44 +245,44 @@ kernel void sraa(
         if (metal::all(loop_bound_5 == uint2(0u))) { break; }
         loop_bound_5 -= uint2(loop_bound_5.y == 0u, 1u);
         if (!loop_init_5) {
-            int _e337 = tap_3;
-            tap_3 = as_type<int>(as_type<uint>(_e337) + as_type<uint>(1));
+            int _e339 = tap_3;
+            tap_3 = as_type<int>(as_type<uint>(_e339) + as_type<uint>(1));
         }
         loop_init_5 = false;
-        int _e295 = tap_3;
-        if (_e295 < 9) {
+        int _e297 = tap_3;
+        if (_e297 < 9) {
         } else {
             break;
         }
         {
-            int _e298 = tap_3;
-            int _e303 = tap_3;
-            metal::int2 at_1 = metal::clamp(as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(metal::int2(as_type<int>(as_type<uint>(naga_mod(_e298, 3)) - as_type<uint>(1)), as_type<int>(as_type<uint>(naga_div(_e303, 3)) - as_type<uint>(1))))), metal::int2(0), last);
+            int _e300 = tap_3;
+            int _e305 = tap_3;
+            metal::int2 at_1 = metal::clamp(as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(metal::int2(as_type<int>(as_type<uint>(naga_mod(_e300, 3)) - as_type<uint>(1)), as_type<int>(as_type<uint>(naga_div(_e305, 3)) - as_type<uint>(1))))), metal::int2(0), last);
             metal::float4 shaded = color.read(metal::uint2(at_1), 0);
             bool kept = metal::all((as_type<metal::uint4>(shaded) & metal::uint4(2147483647u)) < metal::uint4(2139095040u));
             w = 0.0;
             if (kept) {
-                int _e326 = tap_3;
-                float _e328 = weights.inner[metal::min(unsigned(_e326), 8u)];
-                w = _e328;
+                int _e328 = tap_3;
+                float _e330 = weights.inner[metal::min(unsigned(_e328), 8u)];
+                w = _e330;
             }
             if (kept) {
-                metal::float4 _e329 = result;
-                float _e330 = w;
-                result = _e329 + (_e330 * shaded);
+                metal::float4 _e331 = result;
+                float _e332 = w;
+                result = _e331 + (_e332 * shaded);
             }
-            float _e333 = sum_1;
-            float _e334 = w;
-            sum_1 = _e333 + _e334;
+            float _e335 = sum_1;
+            float _e336 = w;
+            sum_1 = _e335 + _e336;
         }
     }
-    float _e342 = sum_1;
-    if (_e342 > 0.000000000000000000000000000001) {
-        metal::float4 _e345 = result;
-        float _e346 = sum_1;
-        mean_of_kept = _e345 / metal::float4(_e346);
+    float _e344 = sum_1;
+    if (_e344 > 0.000000000000000000000000000001) {
+        metal::float4 _e347 = result;
+        float _e348 = sum_1;
+        mean_of_kept = _e347 / metal::float4(_e348);
     }
-    metal::float4 _e350 = mean_of_kept;
-    destination.write(_e350, metal::uint2(pixel));
+    metal::float4 _e352 = mean_of_kept;
+    destination.write(_e352, metal::uint2(pixel));
     return;
 }

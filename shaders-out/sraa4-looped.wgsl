@@ -37,7 +37,7 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
         let n = textureLoad(normal, pixel, sample, 0).xyz;
         let is_equal = sample == 4;
         var distances = array<f32, 9>(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
-        var nearest = 3e38;
+        var nearest = 16.0;
         for (var tap = 0; tap < 9; tap++) {
             // tap `tap` of a square of `side` × `side` pixels (kernels/src/sraa/pattern.rs:191)
             let pixel_2 = vec2i(tap % 3 - 1, tap / 3 - 1);
@@ -57,15 +57,15 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
                         shaded_depth = depth_3;
                     }
                     let n_2 = textureLoad(normal, at, 4, 0).xyz;
-                    let d_2 = 1.0 - n.x * n_2.x - n.y * n_2.y - n.z * n_2.z;
-                    var number = 3e38;
-                    if d_2 < 3e38 {
-                        // kernels/src/sraa/metric.rs:76
-                        number = d_2;
+                    let apart = 1.0 - n.x * n_2.x - n.y * n_2.y - n.z * n_2.z;
+                    var number = 16.0;
+                    if apart < 16.0 {
+                        // kernels/src/sraa/metric.rs:78
+                        number = apart;
                     }
-                    d = max(abs(seen_depth - shaded_depth), number);
+                    // kernels/src/sraa/mod.rs:247
+                    d = min(max(abs(seen_depth - shaded_depth), number), 16.0);
                 }
-                // the mean of the geometry samples (kernels/src/sraa/mod.rs:125)
                 distances[tap] = d;
                 nearest = min(nearest, d);
             }

@@ -55,7 +55,7 @@ const LATIN16: [IVec2; 16] = [
 ];
 
 const DEEPEST: f32 = 1.0e30;
-const FAR: f32 = 3.0e38;
+const FAR: f32 = 16.0;
 const STEEPNESS: f32 = 500.0 * std::f32::consts::LOG2_E;
 const EPSILON: f32 = 1.0e-30;
 
@@ -121,7 +121,7 @@ fn filtered<const SAMPLES: usize>(
                 Metric::Depth => deeper,
             };
             falloffs[k] = falloff;
-            distances[k] = d;
+            distances[k] = d.min(FAR);
             nearest = nearest.min(d);
         }
         let mut sum = 0.0;

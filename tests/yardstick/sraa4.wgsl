@@ -11,7 +11,7 @@ const CENTRE = 4;
 // As deep as anything counts; the sky is infinitely deep.
 const DEEPEST = 1e30;
 // Differences from here on are alike.
-const FAR = 3e38;
+const FAR = 16.0;
 // tau * log2(e)
 const STEEPNESS = 721.34753;
 const EPSILON = 1e-30;
@@ -40,7 +40,7 @@ fn bounded(difference: f32) -> f32 {
 
 // 0 for the same surface, 1 or more for unrelated ones.
 fn difference(a: Surface, b: Surface) -> f32 {
-    return max(abs(a.depth - b.depth), bounded(1.0 - dot(a.normal, b.normal)));
+    return min(max(abs(a.depth - b.depth), bounded(1.0 - dot(a.normal, b.normal))), FAR);
 }
 
 // What four taps give to a sample, by how near they are and how like; a quarter in all.

@@ -59,8 +59,10 @@ impl Sample {
     }
 }
 
-/// What cannot be told: more than any difference, and finite, so that it can be shifted by the smallest one.
-pub(super) const FAR: f32 = 3.0e38;
+/// Differences from here on are alike: nothing that a weight could tell apart, whatever tau. The bound keeps a
+/// difference exact enough to be shifted by the smallest one: of two that are a million apart, f32 would lose all that
+/// the exponential needs. Without it, samples that no tap saw are off by up to 0.05.
+pub(super) const FAR: f32 = 16.0;
 
 /// The least depth that another is divided by.
 const NEAREST: f32 = 1.0e-30;
@@ -77,17 +79,17 @@ pub(super) fn distance(cfg: &Sraa, sample: &Sample, tap: &Surface, at: Vec2) -> 
         Metric::Normals => number(cfg, turned(cfg, sample, tap)),
         Metric::Depth => deeper(cfg, sample, tap),
     };
-    tally("weight_evaluations", larger)
+    tally("weight_evaluations", larger.min(FAR))
 }
 
 /// A difference, or [`FAR`]: what is not a number, as of a normal that was divided by its length of zero, is of no surface at all.
 /// `min` and `max` would leave to the device what becomes of it.
-fn number(cfg: &Sraa, d: f32) -> f32 {
+fn number(cfg: &Sraa, apart: f32) -> f32 {
     match cfg.guards {
-        Guards::Fallback | Guards::None => d,
+        Guards::Fallback | Guards::None => apart,
         Guards::Inline => {
-            if d < FAR {
-                d
+            if apart < FAR {
+                apart
             } else {
                 FAR
             }

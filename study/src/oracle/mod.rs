@@ -39,8 +39,9 @@ pub struct Resolved {
 /// The smallest normal `f32`, 2⁻¹²⁶: what is below is 0 on hardware that flushes subnormal numbers.
 const SMALLEST_NORMAL: f64 = f32::MIN_POSITIVE as f64;
 
-/// How far is what is not a number, by definition of the filter, and the most that a difference can be.
-const FAR: f64 = 3.0e38_f32 as f64;
+/// Differences from here on are alike, by definition of the filter: surfaces are unrelated from 1 on. So is one that is
+/// not a number.
+const FAR: f64 = 16.0;
 
 /// Weights that sum to no more are none, by definition of the filter.
 const EPSILON: f64 = 1.0e-30;
