@@ -51,7 +51,8 @@ pub fn shading(name: &str, shaded: &[usize]) -> Result<ShadingSample, Failure> {
     match (name, shaded) {
         ("centre", []) => Ok(ShadingSample::Centre),
         ("sample0", []) => Ok(ShadingSample::Sample(0)),
-        ("centre" | "sample0", _) => Err(Failure::Usage(format!(
+        ("placed", []) => Ok(ShadingSample::Placed),
+        ("centre" | "sample0" | "placed", _) => Err(Failure::Usage(format!(
             "--shaded lists the samples of --shading listed, and --shading is {name}"
         ))),
         ("listed", [only]) => Ok(ShadingSample::Sample(*only)),
@@ -61,7 +62,7 @@ pub fn shading(name: &str, shaded: &[usize]) -> Result<ShadingSample, Failure> {
             several.len()
         ))),
         _ => Err(Failure::Usage(format!(
-            "shading cannot be at `{name}`; use centre, sample0 or listed"
+            "shading cannot be at `{name}`; use centre, sample0, placed or listed"
         ))),
     }
 }

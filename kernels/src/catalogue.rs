@@ -43,20 +43,31 @@ macro_rules! source {
     };
 }
 
+/// What both kernels of SRAA are made of.
+const SRAA: &[SourceFile] = &[
+    source!("sraa/mod.rs"),
+    source!("sraa/options.rs"),
+    source!("sraa/pattern.rs"),
+    source!("sraa/gbuffer.rs"),
+    source!("sraa/view.rs"),
+    source!("sraa/metric.rs"),
+    source!("sraa/placed.rs"),
+    source!("sraa/search.rs"),
+];
+
 /// Every built-in kernel.
 pub const CATALOGUE: &[Entry] = &[
     Entry {
         name: "sraa",
         summary: "Subpixel Reconstruction Antialiasing: 1x shading, subpixel geometry (Chajdas et al. 2011)",
-        sources: &[
-            source!("sraa/mod.rs"),
-            source!("sraa/options.rs"),
-            source!("sraa/pattern.rs"),
-            source!("sraa/gbuffer.rs"),
-            source!("sraa/view.rs"),
-            source!("sraa/metric.rs"),
-        ],
+        sources: SRAA,
         paper: sraa_paper,
+    },
+    Entry {
+        name: "sraa_place",
+        summary: "Where each pixel is shaded for sraa with shading=placed: at its centre, or at a sample that no centre shows",
+        sources: SRAA,
+        paper: no_paper,
     },
     Entry {
         name: "stalker",

@@ -35,6 +35,7 @@ fn example(shading: ShadingSample) -> Capture {
         size: SIZE,
         samples,
         colors: Vec::new(),
+        place: None,
         shading,
         normal_space: NormalSpace::View,
         camera: None,

@@ -30,7 +30,8 @@ pub struct CaptureArgs {
     /// sample in pixels from the centre: -0.25,0.1,0.25,-0.1
     #[arg(long, value_name = "PATTERN", default_value = "latin4", allow_hyphen_values = true)]
     pub pattern: String,
-    /// Where in a pixel shading is sampled: centre, sample0, or listed in --shaded
+    /// Where in a pixel shading is sampled: centre, sample0, placed (where `sraa_place` says), or listed
+    /// in --shaded
     #[arg(long, value_name = "WHERE", default_value = "centre")]
     pub shading: String,
     /// With --shading listed: the geometry samples that are shaded, counted from 0: one, two or four

@@ -8,17 +8,22 @@ mod gbuffer;
 mod metric;
 mod options;
 mod pattern;
+mod placed;
+mod search;
 mod view;
 
 use crate::prelude::*;
 use gbuffer::surface;
 use metric::{FAR, Sample, distance};
 use pattern::{Place, tent};
+use placed::shaded_place;
+use search::{Searched, searched};
 
 pub use gbuffer::{Depth, GBuffer, Layout, Normals, Surface};
 pub use metric::{Difference, Metric};
-pub use options::{Falloff, Guards, Mask, NonFinite, Normalisation, Resolve, Sraa, Turn};
+pub use options::{Falloff, Guards, Mask, NonFinite, Normalisation, Resolve, Search, Sraa, Turn};
 pub use pattern::{Pattern, Shading};
+pub use placed::sraa_place;
 pub use view::View;
 
 /// Colours of the shading samples, linear, alpha premultiplied if it is not 1.
@@ -27,6 +32,8 @@ pub struct Colors {
     pub color: Frame<Vec4>,
     /// A layer for each, where there are several a pixel.
     pub colors: FrameLayers<Vec4>,
+    /// Of shading=placed: the geometry sample at which each pixel is shaded, or the number of samples for its centre.
+    pub place: Frame<u32>,
 }
 
 /// What a pixel is filtered from.
@@ -112,6 +119,7 @@ fn reconstructed<const TAPS: usize, const SIDE: usize>(cfg: &Sraa, inputs: &Inpu
     let steepness = (cfg.tau * std::f32::consts::LOG2_E).min(STEEPEST);
     let total = total_share(cfg);
     let mut weights = [0.0; TAPS];
+    let mut unseen = 0;
     for sample in 0..cfg.reconstructed() {
         if cfg.share(sample) > 0.0 {
             let share = cfg.share(sample) / total;
@@ -144,10 +152,14 @@ fn reconstructed<const TAPS: usize, const SIDE: usize>(cfg: &Sraa, inputs: &Inpu
                     sum += w;
                 }
             }
-            let scale = match cfg.normalisation {
+            let mut scale = match cfg.normalisation {
                 Normalisation::Paper | Normalisation::Shifted => share / sum,
                 Normalisation::Epsilon => share / sum.max(EPSILON),
             };
+            if cfg.search != Search::None && nearest > cfg.unseen {
+                unseen |= 1u32 << sample;
+                scale = 0.0;
+            }
             for tap in 0..TAPS {
                 if falloff(cfg, place, cfg.tap(tap, SIDE)) > least(cfg) {
                     weights[tap] += tap_weights[tap] * scale;
@@ -155,25 +167,32 @@ fn reconstructed<const TAPS: usize, const SIDE: usize>(cfg: &Sraa, inputs: &Inpu
             }
         }
     }
+    let apart = searched(cfg, inputs, unseen);
     match cfg.guards {
-        Guards::Inline => mean_of_kept(cfg, inputs, &weights, SIDE),
-        Guards::Fallback | Guards::None => mean(cfg, inputs, &weights, SIDE),
+        Guards::Inline => mean_of_kept(cfg, inputs, &weights, SIDE, apart),
+        Guards::Fallback | Guards::None => mean(cfg, inputs, &weights, SIDE, apart),
     }
 }
 
-/// The taps' colours by their weights.
-fn mean<const TAPS: usize>(cfg: &Sraa, inputs: &Inputs, weights: &[f32; TAPS], side: usize) -> Vec4 {
-    let mut result = Vec4::ZERO;
+/// The taps' colours by their weights, and those of unseen samples.
+fn mean<const TAPS: usize>(cfg: &Sraa, inputs: &Inputs, weights: &[f32; TAPS], side: usize, apart: Searched) -> Vec4 {
+    let mut result = apart.color;
     for tap in 0..TAPS {
         result += weights[tap] * color(cfg, inputs, tap, side);
     }
     result
 }
 
-/// The mean of the taps' colours that may count.
-fn mean_of_kept<const TAPS: usize>(cfg: &Sraa, inputs: &Inputs, weights: &[f32; TAPS], side: usize) -> Vec4 {
-    let mut result = Vec4::ZERO;
-    let mut sum = 0.0;
+/// The mean of the taps' colours that may count, and of those of unseen samples.
+fn mean_of_kept<const TAPS: usize>(
+    cfg: &Sraa,
+    inputs: &Inputs,
+    weights: &[f32; TAPS],
+    side: usize,
+    apart: Searched,
+) -> Vec4 {
+    let mut result = apart.color;
+    let mut sum = apart.share;
     for tap in 0..TAPS {
         let shaded = color(cfg, inputs, tap, side);
         let kept = is_kept(cfg, shaded);
@@ -240,6 +259,7 @@ fn geometry_sample(cfg: &Sraa, inputs: &Inputs, place: Place) -> Sample {
 
 /// How different the surface at a tap is from that at a geometry sample; of the sample itself, 0.
 fn difference(cfg: &Sraa, inputs: &Inputs, place: Place, centre: &Sample, tap: Place) -> f32 {
+    let tap = shaded_place(cfg, inputs, tap);
     if place.sample == tap.sample && place.pixel == tap.pixel {
         0.0
     } else {
@@ -281,11 +301,18 @@ fn least(cfg: &Sraa) -> f32 {
 
 /// Colour of a tap.
 fn color(cfg: &Sraa, inputs: &Inputs, tap: usize, side: usize) -> Vec4 {
-    let pixel = inputs.pixel + cfg.tap(tap, side).pixel;
     match cfg.shading_samples() {
-        1 => inputs.colors.color.load(pixel),
-        several => inputs.colors.colors.load(pixel, tap % several),
+        1 => color_at(inputs, cfg.tap(tap, side)),
+        several => inputs
+            .colors
+            .colors
+            .load(inputs.pixel + cfg.tap(tap, side).pixel, tap % several),
     }
+}
+
+/// Colour of a pixel's only shading sample.
+fn color_at(inputs: &Inputs, tap: Place) -> Vec4 {
+    inputs.colors.color.load(inputs.pixel + tap.pixel)
 }
 
 /// The pixel's own colour: the mean of its shading samples.

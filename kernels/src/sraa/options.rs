@@ -37,6 +37,10 @@ options! {
         pub normalisation: Normalisation = Normalisation::Shifted,
         /// How the reconstructed samples make up the pixel.
         pub resolve: Resolve = Resolve::Box,
+        /// How far the surface of a sample that no tap shows is searched for.
+        pub search: Search = Search::None,
+        /// Of shading=placed and search: a sample is unseen if the surfaces around it all differ from its own by more.
+        pub unseen: f32 [0.0..=16.0] = 0.01,
         /// Whether pixels without geometric variation keep their own colour.
         pub mask: Mask = Mask::None,
         /// Of mask: the largest difference that is no variation.
@@ -87,6 +91,17 @@ pub enum Resolve {
     Box,
     /// A tent over those less than one pixel from its centre on each axis, its neighbours' among them.
     Tent,
+}
+
+/// How far the surface of a sample that no tap shows is searched for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Search {
+    /// Not at all: the sample takes its colour from the most similar surfaces around it.
+    None,
+    /// In the 5×5 pixels around its own.
+    Five,
+    /// In the 7×7 pixels around its own.
+    Seven,
 }
 
 /// Whether pixels without geometric variation keep their own colour, noisy but sharp (paper §3.3).

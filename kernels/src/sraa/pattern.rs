@@ -2,7 +2,7 @@
 
 use super::gbuffer::{Layout, Normals};
 use super::metric::Metric;
-use super::options::{Resolve, Sraa};
+use super::options::{Normalisation, Resolve, Search, Sraa};
 use crate::prelude::*;
 
 /// Where in a pixel geometry is sampled.
@@ -33,6 +33,9 @@ pub enum Shading {
     Centre,
     /// At the geometry samples that the option `shaded` lists.
     Listed,
+    /// Where the image `place` says, pixel by pixel: at a geometry sample, or at the pixel's centre, whose geometry is sampled
+    /// too. The kernel `sraa_place` makes that image.
+    Placed,
 }
 
 /// A sample, from the pixel that is filtered.
@@ -77,16 +80,17 @@ impl Sraa {
     /// Number of shading samples in a pixel.
     pub fn shading_samples(&self) -> usize {
         match self.shading {
-            Shading::Sample0 | Shading::Centre => 1,
+            Shading::Sample0 | Shading::Centre | Shading::Placed => 1,
             Shading::Listed => self.shaded.len(),
         }
     }
 
-    /// The geometry sample at which shading sample `k` lies.
+    /// The geometry sample at which shading sample `k` lies; of a pixel that is shaded where an image says, the one at which it
+    /// would lie otherwise.
     pub fn shaded_sample(&self, k: usize) -> usize {
         match self.shading {
             Shading::Sample0 => 0,
-            Shading::Centre => self.samples(),
+            Shading::Centre | Shading::Placed => self.samples(),
             Shading::Listed => self.shaded[k] as usize,
         }
     }
@@ -150,6 +154,18 @@ impl Sraa {
             );
             assert!(samples >= 2, "layout=multisampled needs two samples at least");
         }
+        if self.search != Search::None {
+            assert!(
+                samples <= 32,
+                "search needs a pattern of 32 samples at most: a bit for each says which are unseen"
+            );
+            assert!(
+                self.resolve == Resolve::Box
+                    && self.shading_samples() == 1
+                    && self.normalisation == Normalisation::Shifted,
+                "search needs resolve=box, one shading sample a pixel and normalisation=shifted"
+            );
+        }
         assert!(
             self.normals != Normals::Packed
                 || self.metric == Metric::PlanesNormals
@@ -187,15 +203,7 @@ impl Sraa {
     pub(super) fn tap(&self, tap: usize, side: usize) -> Place {
         match self.shading {
             Shading::Sample0 => self.geometry_sample(neighbour(tap, side), 0),
-            Shading::Centre => {
-                let pixel = neighbour(tap, side);
-                Place {
-                    pixel,
-                    sample: self.samples(),
-                    centre: true,
-                    at: pixel.as_vec2(),
-                }
-            }
+            Shading::Centre | Shading::Placed => self.centre(neighbour(tap, side)),
             Shading::Listed => {
                 let several = self.shading_samples();
                 self.geometry_sample(neighbour(tap / several, side), self.shaded_sample(tap % several))
@@ -203,7 +211,18 @@ impl Sraa {
         }
     }
 
-    fn geometry_sample(&self, pixel: IVec2, sample: usize) -> Place {
+    /// The centre of a pixel.
+    pub(super) fn centre(&self, pixel: IVec2) -> Place {
+        Place {
+            pixel,
+            sample: self.samples(),
+            centre: true,
+            at: pixel.as_vec2(),
+        }
+    }
+
+    /// A geometry sample of a pixel.
+    pub(super) fn geometry_sample(&self, pixel: IVec2, sample: usize) -> Place {
         Place {
             pixel,
             sample,
@@ -219,7 +238,7 @@ pub(super) fn tent(away: Vec2) -> f32 {
 }
 
 /// Pixel `k` of `side` × `side` ones around the middle one, row by row, relative to it.
-fn neighbour(k: usize, side: usize) -> IVec2 {
+pub(super) fn neighbour(k: usize, side: usize) -> IVec2 {
     let (k, side) = (k as i32, side as i32);
     ivec2(k % side - side / 2, k / side - side / 2)
 }

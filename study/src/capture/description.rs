@@ -23,6 +23,9 @@ pub enum ShadingSample {
     Samples(Vec<usize>),
     /// At the pixel's centre: `"centre"`. The geometry there is one more layer, the last.
     Centre,
+    /// In each pixel where `place.exr` says, at a geometry sample or at the pixel's centre: `"placed"`. The geometry at the centre
+    /// is one more layer, the last.
+    Placed,
 }
 
 /// Numbers of shading samples that can be listed: what SRAA reads.
@@ -179,7 +182,7 @@ impl Description {
             }
         }
         let shaded = match &self.shading {
-            ShadingSample::Centre => &[][..],
+            ShadingSample::Centre | ShadingSample::Placed => &[][..],
             ShadingSample::Sample(index) => std::slice::from_ref(index),
             ShadingSample::Samples(indices) => {
                 if !SEVERAL.contains(&indices.len()) {

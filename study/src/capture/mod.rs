@@ -26,10 +26,14 @@ const DESCRIPTION: &str = "capture.json";
 const COLOR: &str = "color.exr";
 const DEPTH: &str = "depth.exr";
 const NORMAL: &str = "normal.exr";
+const PLACE: &str = "place.exr";
 const REFERENCE: &str = "reference.exr";
 
+/// The channel of `place.exr`.
+const PLACE_CHANNEL: &str = "Y";
+
 /// Every file that a capture may hold.
-const FILES: [&str; 5] = [DESCRIPTION, COLOR, DEPTH, NORMAL, REFERENCE];
+const FILES: [&str; 6] = [DESCRIPTION, COLOR, PLACE, DEPTH, NORMAL, REFERENCE];
 
 /// A rendered picture with subpixel geometry. All images have the same size.
 #[derive(Clone, Debug, PartialEq)]
@@ -48,8 +52,10 @@ pub struct Capture {
     pub color: Frame<Vec4>,
     /// Where there are several shading samples a pixel, linear colour at each, in the order of `shading`; else none.
     pub colors: Vec<Frame<Vec4>>,
+    /// With [`ShadingSample::Placed`], the layer of `depth` and `normal` in whose place each pixel is shaded; else none.
+    pub place: Option<Frame<u32>>,
     /// Linear depth along the view direction in scene units: layer `s` at geometry sample `s`, and with shading
-    /// at the pixel's centre one more layer, the last, there.
+    /// at the pixel's centre, or placed, one more layer, the last, there.
     pub depth: FrameLayers<f32>,
     /// Unit normals, in the layers that `depth` has.
     pub normal: Option<FrameLayers<Vec3>>,
@@ -63,12 +69,13 @@ impl Capture {
         layer_count(self.samples.len(), &self.shading)
     }
 
-    /// Layers of `depth` and `normal` that hold the geometry of the shading samples: one, or several in their order.
+    /// Layers of `depth` and `normal` that hold the geometry of the shading samples: one, or several in their order. Of shading
+    /// that is placed that of the pixels that are shaded at their centre, as most are.
     pub fn shaded_layers(&self) -> Vec<usize> {
         match &self.shading {
             ShadingSample::Sample(sample) => vec![*sample],
             ShadingSample::Samples(samples) => samples.clone(),
-            ShadingSample::Centre => vec![self.samples.len()],
+            ShadingSample::Centre | ShadingSample::Placed => vec![self.samples.len()],
         }
     }
 
@@ -79,7 +86,7 @@ impl Capture {
         match &self.shading {
             ShadingSample::Sample(sample) => offset(sample).map(|offset| vec![offset]),
             ShadingSample::Samples(samples) => samples.iter().map(offset).collect(),
-            ShadingSample::Centre => Some(vec![Vec2::ZERO]),
+            ShadingSample::Centre | ShadingSample::Placed => Some(vec![Vec2::ZERO]),
         }
     }
 
@@ -101,7 +108,7 @@ pub(crate) fn mean(frames: &[Frame<Vec4>]) -> Option<Frame<Vec4>> {
 fn layer_count(samples: usize, shading: &ShadingSample) -> usize {
     match shading {
         ShadingSample::Sample(_) | ShadingSample::Samples(_) => samples,
-        ShadingSample::Centre => samples + 1,
+        ShadingSample::Centre | ShadingSample::Placed => samples + 1,
     }
 }
 

@@ -2,7 +2,8 @@
 
 use super::description::{Description, STATED_BY};
 use super::{
-    COLOR, Capture, CaptureError, DEPTH, DESCRIPTION, NORMAL, REFERENCE, ShadingSample, layer_count, layer_name, mean,
+    COLOR, Capture, CaptureError, DEPTH, DESCRIPTION, NORMAL, PLACE, PLACE_CHANNEL, REFERENCE, ShadingSample,
+    layer_count, layer_name, mean,
 };
 use crate::picture::PictureError;
 use crate::picture::exr::{Source, read_color};
@@ -27,6 +28,7 @@ impl Capture {
             description: &description,
         };
         let (color, colors) = layout.shading()?;
+        let place = layout.place()?;
         let depth = layout.layers(DEPTH, ["Z"], "channel Z", |[z]| z)?;
         let normal = match layout.optional(NORMAL) {
             Some(path) => {
@@ -54,6 +56,7 @@ impl Capture {
             normal_space: description.normals,
             color,
             colors,
+            place,
             depth,
             normal,
             reference,
@@ -80,6 +83,25 @@ fn finite<T: Copy + std::fmt::Debug>(
         at % width,
         at / width,
         frame.texels().len()
+    );
+    Err(PictureError::Unusable {
+        path: path.to_owned(),
+        problem,
+    }
+    .into())
+}
+
+/// Refuses a number that no layer of `samples` and the centre has.
+pub(super) fn check_place(path: &Path, samples: usize, place: &Frame<u32>) -> Result<(), CaptureError> {
+    let Some(at) = place.texels().iter().position(|layer| *layer as usize > samples) else {
+        return Ok(());
+    };
+    let width = place.size().x as usize;
+    let problem = format!(
+        "the pixel at ({}, {}) has no layer's number: 0 to {} are samples, {samples} is the centre",
+        at % width,
+        at / width,
+        samples - 1
     );
     Err(PictureError::Unusable {
         path: path.to_owned(),
@@ -167,6 +189,31 @@ impl Layout<'_> {
             contents: "the shading".to_owned(),
         })?;
         Ok((color, colors))
+    }
+
+    /// The layer in whose place each pixel is shaded, if `capture.json` says that there are such places.
+    fn place(&self) -> Result<Option<Frame<u32>>, CaptureError> {
+        if self.description.shading() != ShadingSample::Placed {
+            return Ok(None);
+        }
+        let wanted = "channel Y";
+        let contents = "the number of the layer in whose place each pixel is shaded, in channel Y";
+        let path = self.required(PLACE, contents)?;
+        let source = Source::open(&path)?;
+        let plane = source.find("", PLACE_CHANNEL, wanted)?;
+        source.check(plane, "its layer", self.size(), STATED_BY)?;
+        let values = source.read(&[plane])?.pop().unwrap_or_default();
+        // What is no such number becomes one that there is not.
+        let number = |value: f32| {
+            if value.fract() == 0.0 && value >= 0.0 {
+                value as u32
+            } else {
+                u32::MAX
+            }
+        };
+        let place = Frame::new(self.size(), values.into_iter().map(number).collect());
+        check_place(&path, self.description.samples().len(), &place)?;
+        Ok(Some(place))
     }
 
     /// Reads `channels` of every layer of `file`, and makes a texel of each set of values.

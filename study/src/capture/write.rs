@@ -2,7 +2,10 @@
 
 use super::description::{Description, STATED_BY};
 use super::read::expected_layers;
-use super::{COLOR, Capture, CaptureError, DEPTH, DESCRIPTION, FILES, NORMAL, REFERENCE, ShadingSample, layer_name};
+use super::{
+    COLOR, Capture, CaptureError, DEPTH, DESCRIPTION, FILES, NORMAL, PLACE, PLACE_CHANNEL, REFERENCE, ShadingSample,
+    layer_name,
+};
 use crate::picture::exr::{self, Layer};
 use crate::picture::{self, PictureError};
 use glam::UVec2;
@@ -43,7 +46,7 @@ impl Capture {
         self.check_size(dir, COLOR, "its colour", self.color.size())?;
         let several = match &self.shading {
             ShadingSample::Samples(shaded) => shaded.len(),
-            ShadingSample::Sample(_) | ShadingSample::Centre => 0,
+            ShadingSample::Sample(_) | ShadingSample::Centre | ShadingSample::Placed => 0,
         };
         if self.colors.len() != several {
             return Err(CaptureError::Value {
@@ -57,6 +60,17 @@ impl Capture {
         }
         for color in &self.colors {
             self.check_size(dir, COLOR, "each layer", color.size())?;
+        }
+        if self.place.is_some() != (self.shading == ShadingSample::Placed) {
+            return Err(CaptureError::Value {
+                path: dir.join(DESCRIPTION),
+                field: "shading",
+                problem: "pixels are given places if shading is \"placed\", and only then".to_owned(),
+            });
+        }
+        if let Some(place) = &self.place {
+            self.check_size(dir, PLACE, "its layer", place.size())?;
+            super::read::check_place(&dir.join(PLACE), self.samples.len(), place)?;
         }
         self.check_layers(dir, DEPTH, &self.depth)?;
         if let Some(normal) = &self.normal {
@@ -114,7 +128,13 @@ impl Capture {
                 let layers = layers.map(|(sample, frame)| Layer::new(name(sample), picture::color_channels(frame)));
                 exr::write(&dir.join(COLOR), self.size, layers.collect())?;
             }
-            ShadingSample::Sample(_) | ShadingSample::Centre => picture::write_exr(&dir.join(COLOR), &self.color)?,
+            ShadingSample::Sample(_) | ShadingSample::Centre | ShadingSample::Placed => {
+                picture::write_exr(&dir.join(COLOR), &self.color)?;
+            }
+        }
+        if let Some(place) = &self.place {
+            let layer = Layer::new("", vec![(PLACE_CHANNEL, plane(place, |layer| layer as f32))]);
+            exr::write(&dir.join(PLACE), self.size, vec![layer])?;
         }
         self.write_layers(&dir.join(DEPTH), &self.depth, |depth| vec![("Z", plane(depth, |z| z))])?;
         if let Some(normal) = &self.normal {

@@ -6,7 +6,7 @@ mod space;
 use crate::capture::Capture;
 use crate::encode::{self, DepthEncoding, DepthStorage, NormalEncoding};
 use crate::execute::Inputs;
-use glam::{UVec2, Vec2, Vec3, Vec4};
+use glam::{UVec2, UVec4, Vec2, Vec3, Vec4};
 use std::collections::BTreeMap;
 use straightline_kernels::prelude::{Frame, FrameLayers};
 
@@ -110,6 +110,10 @@ pub fn inputs(capture: &Capture, options: &BTreeMap<String, String>) -> Result<I
     let mut inputs = Inputs::new(capture.size).image("color", capture.color.clone());
     if !capture.colors.is_empty() {
         inputs = inputs.layers("colors", capture.colors.clone());
+    }
+    if let Some(place) = &capture.place {
+        let texels = place.texels().iter().map(|layer| UVec4::new(*layer, 0, 0, 1));
+        inputs = inputs.integers("place", vec![Frame::new(capture.size, texels.collect())]);
     }
     let apart = capture.layer_count() > capture.samples.len();
     for (name, stack) in images {

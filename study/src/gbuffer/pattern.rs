@@ -47,6 +47,7 @@ pub fn sampled_at(capture: &Capture) -> Vec<(String, String)> {
     };
     match &capture.shading {
         ShadingSample::Centre => options.push(("shading", "centre".to_owned())),
+        ShadingSample::Placed => options.push(("shading", "placed".to_owned())),
         ShadingSample::Sample(0) => options.push(("shading", "sample0".to_owned())),
         ShadingSample::Sample(_) | ShadingSample::Samples(_) => {
             let shaded: Vec<String> = capture.shaded_layers().iter().map(usize::to_string).collect();

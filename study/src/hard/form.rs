@@ -44,6 +44,14 @@ pub const PAPER: &[(&str, &str)] = &[
     ("non-finite", "spread"),
 ];
 
+/// Shading at samples and centres in turn, and a search.
+const PLACED: &[(&str, &str)] = &[
+    ("shading", "placed"),
+    ("difference", "relative"),
+    ("depth-scale", "3"),
+    ("search", "seven"),
+];
+
 impl Form {
     fn new(name: &str, family: Family, options: &[(&str, &str)]) -> Form {
         Form {
@@ -78,6 +86,8 @@ impl Form {
             Form::new("sraa depth", Sraa, &[("metric", "depth")]),
             Form::new("sraa relative", Sraa, &[("difference", "relative")]),
             Form::new("sraa epsilon", Sraa, &[("normalisation", "epsilon")]).taking_options(),
+            Form::new("sraa searched", Sraa, &[("search", "five")]).taking_options(),
+            Form::new("sraa placed", Sraa, PLACED),
             Form::new("sraa mask", Sraa, &[("mask", "select")]),
             Form::new("sraa unshifted", Sraa, &[("normalisation", "paper")]).unpromised(),
             Form::new("sraa paper", Sraa, PAPER).unpromised().taking_options(),

@@ -6,7 +6,7 @@ use super::form::{Family, Form};
 use crate::encode::{self, DepthEncoding, NormalEncoding};
 use crate::execute::Inputs;
 use crate::oracle::{self, Shading, SraaParams};
-use glam::{UVec2, Vec2, Vec3, Vec4, uvec2, vec2};
+use glam::{UVec2, UVec4, Vec2, Vec3, Vec4, uvec2, vec2};
 use straightline_kernels::prelude::{Frame, FrameLayers};
 
 /// What a form reads of a case, and the numbers of its definition.
@@ -75,7 +75,7 @@ type OracleFailure = oracle::OracleError;
 fn sraa(case: &Case, params: &SraaParams) -> Inputs {
     let places = params.samples().into_iter().map(|[x, y]| vec2(x as f32, y as f32));
     let mut places: Vec<(Vec2, Option<usize>)> = places.enumerate().map(|(k, at)| (at, Some(k))).collect();
-    if params.shading == Shading::Centre {
+    if matches!(params.shading, Shading::Centre | Shading::Placed) {
         places.push((Vec2::ZERO, None));
     }
     let layers = |texel: &dyn Fn(&Seen) -> Vec4| -> Vec<Frame<Vec4>> {
@@ -96,6 +96,18 @@ fn sraa(case: &Case, params: &SraaParams) -> Inputs {
         .uniform("origin", &[0.0, 0.0])
         .uniform("tau", &[params.tau])
         .uniform("depth_scale", &[params.depth_scale]);
+    if params.shading == Shading::Placed {
+        // No two neighbours at the same sample.
+        let layer = |pixel: UVec2| ((3 * pixel.x + 7 * pixel.y) % places.len() as u32) as usize;
+        let shaded = image(case.size, |pixel| {
+            let (offset, sample) = places[layer(pixel)];
+            case.at(pixel, offset, sample).color
+        });
+        let pixels = (0..case.size.y).flat_map(|y| (0..case.size.x).map(move |x| uvec2(x, y)));
+        let texels = pixels.map(|pixel| UVec4::new(layer(pixel) as u32, 0, 0, 1));
+        let place = Frame::new(case.size, texels.collect());
+        inputs = inputs.image("color", shaded).integers("place", vec![place]);
+    }
     if params.normals == oracle::Normals::Packed {
         let part = |of: &dyn Fn(&Seen) -> Vec4| FrameLayers::new(layers(of));
         let normals = each(&part(&|seen| vector(seen).extend(0.0)), Vec4::truncate);

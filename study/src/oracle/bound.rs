@@ -13,8 +13,8 @@
 
 use super::gbuffer::{DEEPEST, Point, Reading};
 use super::{
-    Definition, Difference, EPSILON, Mask, Metric, NEAREST, NonFinite, Normalisation, OracleError, SraaParams, bounded,
-    is_finite, turned,
+    Definition, Difference, EPSILON, Mask, Metric, NEAREST, NonFinite, Normalisation, OracleError, Search, SraaParams,
+    Tap, bounded, is_finite, turned,
 };
 use crate::execute::Inputs;
 use rayon::prelude::*;
@@ -164,6 +164,8 @@ pub fn sraa(inputs: &Inputs, params: &SraaParams, rounding: &Rounding) -> Result
 /// A tap with what its difference may be.
 struct Reach {
     falloff: f64,
+    /// Most that the falloff is off, as a share of it.
+    falloff_off: f64,
     difference: f64,
     range: Range,
     color: [f64; 4],
@@ -175,9 +177,12 @@ impl Definition<'_> {
         let total: f64 = reconstructed.iter().map(|(_, share)| share).sum();
         let mut shares = Vec::new();
         let mut largest = Range { low: 0.0, high: 0.0 };
+        let mut undecided = 0.0;
         for (at, share) in reconstructed {
-            let reach = self.reach(pixel, at, rounding);
-            largest = reach.iter().fold(largest, |most, tap| most.max(tap.range));
+            let near = self.reach(pixel, at, self.taps(pixel, at), 0.0, rounding);
+            largest = near.iter().fold(largest, |most, tap| most.max(tap.range));
+            let (reach, most) = self.searched_reach(pixel, at, near, rounding);
+            undecided += most * share / total;
             match self.shares(&reach, share / total, rounding) {
                 Some(own) => shares.extend(own),
                 None => return f64::INFINITY,
@@ -187,7 +192,7 @@ impl Definition<'_> {
         if skip {
             shares.retain(|s| is_finite(&s.color));
         }
-        let filtered = of_mean(&shares, skip, rounding);
+        let filtered = of_mean(&shares, skip, rounding) + undecided;
         let own = self.own_color(pixel);
         if self.params.mask == Mask::None || (skip && !is_finite(&own)) {
             return filtered;
@@ -206,31 +211,82 @@ impl Definition<'_> {
         filtered + kept + apart.fold(0.0, f64::max)
     }
 
-    fn reach(&self, pixel: [i32; 2], at: ([i32; 2], usize), rounding: &Rounding) -> Vec<Reach> {
-        let mut places = Vec::new();
-        for y in at.0[1] - 2..=at.0[1] + 2 {
-            for x in at.0[0] - 2..=at.0[0] + 2 {
-                places.extend(self.shaded.iter().map(|sample| ([x, y], *sample)));
-            }
-        }
-        let near = places.into_iter().filter(|tap| {
-            let away = [0, 1].map(|axis| self.place(*tap)[axis] - self.place(at)[axis]);
-            self.falloff(away) > 0.0
-        });
-        let taps = self.taps(pixel, at);
-        let reached = taps.into_iter().zip(near).map(|(tap, place)| {
-            let range = match place == at {
+    fn reach(
+        &self,
+        pixel: [i32; 2],
+        at: ([i32; 2], usize),
+        taps: Vec<Tap>,
+        falloff_off: f64,
+        rounding: &Rounding,
+    ) -> Vec<Reach> {
+        let reached = taps.into_iter().map(|tap| {
+            let range = match tap.at == at {
                 true => Range { low: 0.0, high: 0.0 },
-                false => self.range(pixel, at, place, rounding),
+                false => self.range(pixel, at, tap.at, rounding),
             };
             Reach {
                 falloff: tap.falloff,
+                falloff_off,
                 difference: tap.difference,
                 range,
                 color: tap.color,
             }
         });
         reached.collect()
+    }
+
+    /// What a sample takes its colour from, `near` or what a search finds, and how far apart colours may be where it is not decided
+    /// which.
+    fn searched_reach(
+        &self,
+        pixel: [i32; 2],
+        at: ([i32; 2], usize),
+        near: Vec<Reach>,
+        rounding: &Rounding,
+    ) -> (Vec<Reach>, f64) {
+        if self.params.search == Search::None {
+            return (near, 0.0);
+        }
+        let unseen = self.params.unseen;
+        let close = unseen * 2.0 * (rounding.read + rounding.unit);
+        let nearest = |taps: &[Reach]| {
+            let least = |of: fn(&Reach) -> f64| taps.iter().map(of).fold(f64::INFINITY, f64::min);
+            (
+                least(|tap| tap.range.low),
+                least(|tap| tap.range.high),
+                least(|tap| tap.difference),
+            )
+        };
+        let is_decided =
+            |(low, high, _): (f64, f64, f64)| high <= unseen - close || low > unseen + close || low == high;
+        // exp of at most the square of four pixels and a half.
+        let falloff_off =
+            2.0 * rounding.unit * (rounding.exponential + 2.0 * 21.0 * std::f64::consts::LOG2_E) + 21.0 * rounding.unit;
+        let around = self.reach(pixel, at, self.taps_around(pixel, at), falloff_off, rounding);
+        let (here, there) = (nearest(&near), nearest(&around));
+        let decided = is_decided(here) && (here.2 <= unseen || is_decided(there));
+        let apart = match decided {
+            true => 0.0,
+            false => {
+                let all = || near.iter().chain(&around).filter(|tap| is_finite(&tap.color));
+                let lane = |k: usize| {
+                    let most = all().map(|tap| tap.color[k]).fold(f64::NEG_INFINITY, f64::max);
+                    let least = all().map(|tap| tap.color[k]).fold(f64::INFINITY, f64::min);
+                    // Where some colours do not count, the rest is divided by less: what there is may be all or none of it.
+                    let kept = near.iter().chain(&around).all(|tap| is_finite(&tap.color));
+                    if kept {
+                        (most - least).max(0.0)
+                    } else {
+                        2.0 * most.abs().max(least.abs())
+                    }
+                };
+                (0..4).map(lane).fold(0.0, f64::max)
+            }
+        };
+        match here.2 > unseen && there.2 <= unseen {
+            true => (around, apart),
+            false => (near, apart),
+        }
     }
 
     /// What the difference of two surfaces may be found to be.
@@ -350,7 +406,7 @@ impl Definition<'_> {
         let tau = self.params.steepness();
         let ends = reach.iter().map(|tap| {
             let steep = tau * std::f64::consts::LOG2_E * (tap.range.high - least);
-            let rounded = rounding.of_exponential(steep) + 4.0 * rounding.unit;
+            let rounded = rounding.of_exponential(steep) + 4.0 * rounding.unit + tap.falloff_off;
             let high = tap.falloff * (rounded - tau * (tap.range.low - least)).min(rounded.min(1.0)).exp();
             let low = tap.falloff * (-rounded - tau * (tap.range.high - least)).exp();
             // What is too small is lost; what is smaller than half of the smallest number of all cannot come back.

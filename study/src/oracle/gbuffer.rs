@@ -3,6 +3,7 @@
 use super::bound::Rounding;
 use super::{Depth, Layout, Metric, Normals, OracleError, Shading, SraaParams};
 use crate::execute::Inputs;
+use glam::UVec4;
 use straightline_kernels::prelude::{Frame, Vec4};
 
 /// A point of a surface.
@@ -46,6 +47,7 @@ pub struct GBuffer<'a> {
     width: i32,
     height: i32,
     colors: &'a [Frame<Vec4>],
+    place: Option<&'a Frame<UVec4>>,
     depth: Option<Stored<'a>>,
     normal: Option<Stored<'a>>,
     rays: Option<[[f64; 3]; 3]>,
@@ -77,6 +79,10 @@ impl<'a> GBuffer<'a> {
             1 => images(inputs, "color", 1)?,
             several => images(inputs, "colors", several)?,
         };
+        let place = match params.shading {
+            Shading::Placed => Some(integers(inputs, "place")?),
+            Shading::Sample0 | Shading::Centre | Shading::Listed => None,
+        };
         let rays = match params.metric {
             Metric::PlanesNormals => Some([
                 vector(inputs, "ray_corner")?,
@@ -97,6 +103,7 @@ impl<'a> GBuffer<'a> {
             width: inputs.size.x as i32,
             height: inputs.size.y as i32,
             colors,
+            place,
             depth,
             normal,
             rays,
@@ -108,6 +115,15 @@ impl<'a> GBuffer<'a> {
     /// The ray through the image's corner, and how it changes to the right and down.
     pub fn rays(&self) -> Option<[[f64; 3]; 3]> {
         self.rays
+    }
+
+    /// The geometry sample at which `pixel` is shaded that would be at `sample` otherwise.
+    pub fn shaded_at(&self, pixel: [i32; 2], sample: usize) -> usize {
+        let [x, y] = self.inside(pixel);
+        self.place.map_or(sample, |place| {
+            let texel = place.texels()[y as usize * self.width as usize + x as usize];
+            (texel.x as usize).min(self.samples)
+        })
     }
 
     /// Colour of shading sample `k` of `pixel`, or of the nearest one inside.
@@ -240,7 +256,7 @@ impl<'a> GBuffer<'a> {
 
 /// The images of `name` in the layout of the options.
 fn stored<'a>(inputs: &'a Inputs, params: &SraaParams, samples: usize, name: &str) -> Result<Stored<'a>, OracleError> {
-    let apart = params.shading == Shading::Centre;
+    let apart = matches!(params.shading, Shading::Centre | Shading::Placed);
     if params.layout == Layout::Layers {
         return Ok(Stored {
             images: images(inputs, name, samples + usize::from(apart))?,
@@ -270,6 +286,15 @@ fn images<'a>(inputs: &'a Inputs, name: &str, count: usize) -> Result<&'a [Frame
             needed: format!("{count} images"),
         }),
     }
+}
+
+fn integers<'a>(inputs: &'a Inputs, name: &str) -> Result<&'a Frame<UVec4>, OracleError> {
+    let found = inputs.integers.iter().rev().find(|(known, _)| known == name);
+    let first = found.and_then(|(_, layers)| layers.first());
+    first.ok_or_else(|| OracleError::Input {
+        name: name.to_owned(),
+        needed: "an image of integers".to_owned(),
+    })
 }
 
 fn vector<const N: usize>(inputs: &Inputs, name: &str) -> Result<[f64; N], OracleError> {

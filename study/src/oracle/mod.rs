@@ -9,12 +9,18 @@
 //! over the shading samples t at most one pixel from the geometry sample s on each axis, and the geometry samples with a
 //! share rₛ in the pixel. mₛₜ is the difference of the two surfaces (paper §3.2). Beyond the border the nearest pixel's
 //! surfaces and colours are repeated.
+//!
+//! Where shading is placed, the surface of a tap is that at the sample which an image names, and its distance on the screen
+//! that of its pixel's centre. Where all taps of a sample differ from it by more than `unseen`, and a search is asked for, the
+//! taps are all shading samples of a larger square, and the falloff is a Gaussian with a standard deviation of a pixel; but
+//! only if one of them differs by no more.
 
 pub mod bound;
 pub mod edge;
 mod gbuffer;
 mod params;
 mod pattern;
+mod place;
 pub mod quads;
 
 use crate::execute::Inputs;
@@ -23,8 +29,9 @@ use rayon::prelude::*;
 
 pub use params::{
     Depth, Difference, Falloff, Layout, Mask, Metric, NonFinite, Normalisation, Normals, OracleError, Pattern, Resolve,
-    Shading, SraaParams, Turn,
+    Search, Shading, SraaParams, Turn,
 };
+pub use place::{Placed, place};
 
 /// What the definition gives for a pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -66,6 +73,8 @@ pub fn sraa(inputs: &Inputs, params: &SraaParams) -> Result<Vec<Resolved>, Oracl
 
 /// A shading sample within reach of a geometry sample.
 struct Tap {
+    /// Its pixel from the one that is filtered, and the geometry sample at which it is shaded.
+    at: ([i32; 2], usize),
     /// Weight by distance on the screen, above 0.
     falloff: f64,
     /// Difference of the two surfaces, 0 or more.
@@ -95,10 +104,11 @@ impl<'a> Definition<'a> {
         for (at, share) in self.reconstructed() {
             let taps = self.taps(pixel, at);
             largest = taps.iter().map(|tap| tap.difference).fold(largest, f64::max);
+            let (taps, is_decided) = self.searched(pixel, at, taps);
             let (reconstructed, is_sure) = self.reconstruct(&taps);
             add(&mut color, reconstructed, share);
             shares += share;
-            sure &= is_sure;
+            sure &= is_sure && is_decided;
         }
         // In one mean over all taps, a bad one's share goes to the taps of all samples: leave it out of the whole.
         let color = match self.params.non_finite {
@@ -121,7 +131,7 @@ impl<'a> Definition<'a> {
     fn without_bad(&self, pixel: [i32; 2]) -> [f64; 4] {
         let (mut color, mut sum) = ([0.0; 4], 0.0);
         for (at, share) in self.reconstructed() {
-            let taps = self.taps(pixel, at);
+            let (taps, _) = self.searched(pixel, at, self.taps(pixel, at));
             let weights = self.weights(&taps);
             let total = self.total(&weights);
             for (tap, weight) in taps.iter().zip(weights) {
@@ -197,30 +207,68 @@ impl<'a> Definition<'a> {
 
     /// The shading samples within reach of a geometry sample.
     fn taps(&self, pixel: [i32; 2], at: ([i32; 2], usize)) -> Vec<Tap> {
+        self.taps_within(pixel, at, 2, |away| self.falloff(away))
+    }
+
+    /// The shading samples that a search looks at.
+    fn taps_around(&self, pixel: [i32; 2], at: ([i32; 2], usize)) -> Vec<Tap> {
+        let spread = |away: [f64; 2]| (-away.iter().map(|axis| axis * axis).sum::<f64>() / 2.0).exp();
+        self.taps_within(pixel, at, self.params.search_radius(), spread)
+    }
+
+    fn taps_within(
+        &self,
+        pixel: [i32; 2],
+        at: ([i32; 2], usize),
+        radius: i32,
+        falloff: impl Fn([f64; 2]) -> f64,
+    ) -> Vec<Tap> {
         let mut taps = Vec::new();
         let centre = self.point(pixel, at);
-        for y in at.0[1] - 2..=at.0[1] + 2 {
-            for x in at.0[0] - 2..=at.0[0] + 2 {
+        for y in at.0[1] - radius..=at.0[1] + radius {
+            for x in at.0[0] - radius..=at.0[0] + radius {
+                let there = [pixel[0] + x, pixel[1] + y];
                 for (k, sample) in self.shaded.iter().enumerate() {
-                    let tap = ([x, y], *sample);
-                    let away = [0, 1].map(|axis| self.place(tap)[axis] - self.place(at)[axis]);
-                    let falloff = self.falloff(away);
+                    let away = [0, 1].map(|axis| self.place(([x, y], *sample))[axis] - self.place(at)[axis]);
+                    let falloff = falloff(away);
                     if falloff > 0.0 {
+                        let tap = ([x, y], self.gbuffer.shaded_at(there, *sample));
                         let difference = match tap == at {
                             true => 0.0,
                             false => self.difference(&centre, &self.point(pixel, tap)),
                         };
-                        let color = self.gbuffer.color([pixel[0] + x, pixel[1] + y], k);
                         taps.push(Tap {
+                            at: tap,
                             falloff,
                             difference,
-                            color,
+                            color: self.gbuffer.color(there, k),
                         });
                     }
                 }
             }
         }
         taps
+    }
+
+    /// Those that a geometry sample takes its colour from: `near`, or what a search finds; and whether 32 bits decide so too.
+    fn searched(&self, pixel: [i32; 2], at: ([i32; 2], usize), near: Vec<Tap>) -> (Vec<Tap>, bool) {
+        if self.params.search == Search::None {
+            return (near, true);
+        }
+        let unseen = self.params.unseen;
+        let nearest = |taps: &[Tap]| taps.iter().map(|tap| tap.difference).fold(f64::INFINITY, f64::min);
+        let decided =
+            |difference: f64| (difference - unseen).abs() > 1.0e-3 * unseen.max(1.0e-3) || difference == unseen;
+        if nearest(&near) <= unseen {
+            let is_decided = decided(nearest(&near));
+            return (near, is_decided);
+        }
+        let around = self.taps_around(pixel, at);
+        let is_decided = decided(nearest(&near)) && decided(nearest(&around));
+        match nearest(&around) <= unseen {
+            true => (around, is_decided),
+            false => (near, is_decided),
+        }
     }
 
     fn point(&self, pixel: [i32; 2], at: ([i32; 2], usize)) -> Point {

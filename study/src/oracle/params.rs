@@ -50,6 +50,8 @@ choices! {
         Centre = "centre",
         /// At the geometry samples listed.
         Listed = "listed",
+        /// Where an image says, at a geometry sample or at the pixel's centre.
+        Placed = "placed",
     }
 }
 
@@ -174,6 +176,18 @@ choices! {
 }
 
 choices! {
+    /// How far the surface of a sample is searched for that no tap shows.
+    Search {
+        /// Not at all.
+        None = "none",
+        /// In 5×5 pixels.
+        Five = "five",
+        /// In 7×7 pixels.
+        Seven = "seven",
+    }
+}
+
+choices! {
     /// What a colour that is not finite does.
     NonFinite {
         /// It counts.
@@ -212,6 +226,10 @@ pub struct SraaParams {
     pub normalisation: Normalisation,
     /// How the reconstructed samples make up the pixel.
     pub resolve: Resolve,
+    /// How far the surface of a sample is searched for that no tap shows.
+    pub search: Search,
+    /// The least difference, and no more, of what shows another surface.
+    pub unseen: f64,
     /// Whether pixels without geometric variation keep their colour.
     pub mask: Mask,
     /// The largest difference that is no variation.
@@ -246,6 +264,8 @@ impl Default for SraaParams {
             sigma: 0.4,
             normalisation: Normalisation::Shifted,
             resolve: Resolve::Box,
+            search: Search::None,
+            unseen: 0.01,
             mask: Mask::None,
             mask_threshold: 0.01,
             non_finite: NonFinite::Skip,
@@ -323,6 +343,8 @@ impl SraaParams {
             "sigma" => self.sigma = number(option, value)?,
             "normalisation" => self.normalisation = choice(option, value, Normalisation::ALL, Normalisation::name)?,
             "resolve" => self.resolve = choice(option, value, Resolve::ALL, Resolve::name)?,
+            "search" => self.search = choice(option, value, Search::ALL, Search::name)?,
+            "unseen" => self.unseen = number(option, value)?,
             "mask" => self.mask = choice(option, value, Mask::ALL, Mask::name)?,
             "mask-threshold" => self.mask_threshold = number(option, value)?,
             "non-finite" => self.non_finite = choice(option, value, NonFinite::ALL, NonFinite::name)?,
@@ -346,6 +368,15 @@ impl SraaParams {
         self.tau.min(1.0e7 / std::f64::consts::LOG2_E)
     }
 
+    /// How many pixels the square on each side of a pixel reaches that is searched.
+    pub(super) fn search_radius(&self) -> i32 {
+        match self.search {
+            Search::None => 0,
+            Search::Five => 2,
+            Search::Seven => 3,
+        }
+    }
+
     /// Whether normals that are stored as 0.5 + 0.5 n are compared as they are.
     pub(super) fn as_stored(&self) -> bool {
         self.normals == Normals::Unorm && !self.renormalise
@@ -361,11 +392,12 @@ impl SraaParams {
         super::pattern::samples(self.pattern, &self.offsets)
     }
 
-    /// The geometry sample of each shading sample; the one after the last is the pixel's centre.
+    /// The geometry sample of each shading sample; the one after the last is the pixel's centre. Of shading that is placed the
+    /// centre, from which a tap's distance on the screen counts.
     pub fn shaded_samples(&self) -> Vec<usize> {
         match self.shading {
             Shading::Sample0 => vec![0],
-            Shading::Centre => vec![self.samples().len()],
+            Shading::Centre | Shading::Placed => vec![self.samples().len()],
             Shading::Listed => self.shaded.iter().map(|k| *k as usize).collect(),
         }
     }

@@ -86,6 +86,10 @@ impl Method {
 
     /// Where its picture is shaded.
     pub fn shading(&self) -> ShadingSample {
+        let is_placed = |(name, value): &(String, String)| name == "shading" && value == "placed";
+        if self.options.iter().any(is_placed) {
+            return ShadingSample::Placed;
+        }
         let asked = self.options.iter().find(|(name, _)| name == "shaded");
         let listed = asked.map(|(_, list)| list.split(',').filter_map(|k| k.parse().ok()).collect::<Vec<usize>>());
         match listed.as_deref() {
@@ -98,9 +102,10 @@ impl Method {
     /// What names the capture that it reads, of all that a scene is drawn in: its pattern, and where it is shaded unless that is
     /// the pixel's centre.
     pub fn reads(&self) -> String {
-        match self.options.iter().find(|(name, _)| name == "shaded") {
-            Some((_, list)) => format!("{} shaded at {list}", self.pattern()),
-            None => self.pattern().to_owned(),
+        match (self.options.iter().find(|(name, _)| name == "shaded"), self.shading()) {
+            (Some((_, list)), _) => format!("{} shaded at {list}", self.pattern()),
+            (None, ShadingSample::Placed) => format!("{} placed", self.pattern()),
+            (None, _) => self.pattern().to_owned(),
         }
     }
 
@@ -125,6 +130,7 @@ pub fn methods(quick: bool) -> Vec<Method> {
         sraa("SRAA 4", &[]).main(),
         sraa("SRAA 16", &[("pattern", "latin16")]).main(),
     ];
+    all.extend(beyond());
     all.extend(metrics());
     all.push(sraa("SRAA 4, two shading samples", &[LISTED, ("shaded", "0,3")]));
     if !quick {
@@ -165,6 +171,30 @@ pub fn methods(quick: bool) -> Vec<Method> {
 
 /// Shading at more than one place of a pixel: samples opposite to each other, and of sixteen four near those of `latin4`.
 const LISTED: (&str, &str) = ("shading", "listed");
+
+/// Beyond the paper: shading where geometry asks for it, and a search for what no tap shows.
+fn beyond() -> Vec<Method> {
+    let mut all = Vec::new();
+    for (samples, pattern) in [("4", "latin4"), ("16", "latin16")] {
+        let sraa = |what: &str, options: &[(&str, &str)]| {
+            let basis = [("pattern", pattern), RELATIVE[0], RELATIVE[1]];
+            Method::new(
+                &format!("SRAA {samples}, {what}"),
+                Kind::Sraa,
+                &[&basis, options].concat(),
+            )
+        };
+        all.extend([
+            sraa("searched", &[SEARCHED]),
+            sraa("placed", &[PLACED]),
+            sraa("placed and searched", &[PLACED, SEARCHED]).main(),
+        ]);
+    }
+    all
+}
+
+const PLACED: (&str, &str) = ("shading", "placed");
+const SEARCHED: (&str, &str) = ("search", "five");
 
 fn metrics() -> Vec<Method> {
     let sraa = |name, metric| Method::new(name, Kind::Sraa, &[("metric", metric)]);
@@ -234,11 +264,11 @@ pub fn methods_of(capture: &Capture) -> (Vec<Method>, Vec<(String, String)>) {
             let reason = "capture.json has no camera".to_owned();
             absent.push((format!("SRAA {samples}, planes and normals"), reason));
         }
-        if capture.colors.is_empty() {
+        if capture.colors.is_empty() && capture.place.is_none() {
             all.push(Method::new("S.T.A.L.K.E.R.", Kind::Edge("stalker"), &[]));
             all.push(Method::new("Tabula Rasa", Kind::Edge("tabula_rasa"), &[]));
         } else {
-            let reason = "the capture is shaded several times a pixel".to_owned();
+            let reason = "the capture is not shaded at one place in all pixels".to_owned();
             absent.push(("S.T.A.L.K.E.R., Tabula Rasa".to_owned(), reason));
         }
     } else {

@@ -63,6 +63,7 @@ fn captured(seen: impl Fn(Vec2) -> Option<Plane>) -> (Capture, Vec<Frame<Vec4>>)
         shading: ShadingSample::Centre,
         normal_space: NormalSpace::View,
         colors: Vec::new(),
+        place: None,
         camera: Some(CAMERA),
         color: colors(&layers[4]),
         depth: FrameLayers::new(

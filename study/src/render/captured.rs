@@ -1,12 +1,14 @@
 //! Captures of what a renderer draws.
 
-use super::{RenderError, Renderer};
+use super::{RenderError, Renderer, placed};
 use crate::capture::{Capture, NormalSpace, ShadingSample, mean};
 use glam::Vec2;
 use straightline_kernels::prelude::FrameLayers;
 
 /// What a filter gets: colour shaded once a pixel, or at each of several samples, and geometry at each of `samples` (and, with
-/// [`ShadingSample::Centre`], once more at the pixel's centre).
+/// [`ShadingSample::Centre`] and [`ShadingSample::Placed`], once more at the pixel's centre).
+///
+/// Shading is placed by the kernel `sraa_place` with `difference=relative` and `depth-scale=3`.
 ///
 /// `samples` are in pixels from the pixel's centre, y down. There is no reference in the capture;
 /// [`reference`](super::reference()) makes one.
@@ -27,7 +29,7 @@ pub fn capture(renderer: &dyn Renderer, samples: &[Vec2], shading: ShadingSample
     let shaded = match &shading {
         ShadingSample::Sample(sample) => vec![of(sample)?],
         ShadingSample::Samples(several) => several.iter().map(of).collect::<Result<_, _>>()?,
-        ShadingSample::Centre => {
+        ShadingSample::Centre | ShadingSample::Placed => {
             places.push(Vec2::ZERO);
             vec![Vec2::ZERO]
         }
@@ -36,12 +38,19 @@ pub fn capture(renderer: &dyn Renderer, samples: &[Vec2], shading: ShadingSample
     for place in shaded {
         colors.push(renderer.shaded(place)?);
     }
-    let color = mean(&colors).ok_or(RenderError::NoOffsets)?;
+    let mut color = mean(&colors).ok_or(RenderError::NoOffsets)?;
     let (mut depth, mut normal) = (Vec::new(), Vec::new());
-    for place in places {
-        let (depths, normals) = renderer.geometry(place)?;
+    for place in &places {
+        let (depths, normals) = renderer.geometry(*place)?;
         depth.push(depths);
         normal.push(normals);
+    }
+    let (depth, normal) = (FrameLayers::new(depth), FrameLayers::new(normal));
+    let mut place = None;
+    if shading == ShadingSample::Placed {
+        let chosen = placed::choose(samples, &depth, &normal);
+        color = placed::shaded(renderer, &places, &chosen, color)?;
+        place = Some(chosen);
     }
     Ok(Capture {
         size: renderer.size(),
@@ -49,13 +58,14 @@ pub fn capture(renderer: &dyn Renderer, samples: &[Vec2], shading: ShadingSample
         color,
         colors: match &shading {
             ShadingSample::Samples(_) => colors,
-            ShadingSample::Sample(_) | ShadingSample::Centre => Vec::new(),
+            ShadingSample::Sample(_) | ShadingSample::Centre | ShadingSample::Placed => Vec::new(),
         },
         shading,
         normal_space: NormalSpace::View,
         camera: Some(renderer.camera()),
-        depth: FrameLayers::new(depth),
-        normal: Some(FrameLayers::new(normal)),
+        place,
+        depth,
+        normal: Some(normal),
         reference: None,
     })
 }

@@ -100,7 +100,7 @@ fn fewer_samples(capture: &Capture, count: usize) -> Capture {
     let mut kept = match &capture.shading {
         ShadingSample::Sample(k) => vec![*k],
         ShadingSample::Samples(several) => several.clone(),
-        ShadingSample::Centre => vec![0],
+        ShadingSample::Centre | ShadingSample::Placed => vec![0],
     };
     while kept.len() < count {
         let gap = |k: &usize| {
@@ -130,6 +130,7 @@ fn fewer_samples(capture: &Capture, count: usize) -> Capture {
         samples: kept.iter().map(|k| capture.samples[*k]).collect(),
         shading: match &capture.shading {
             ShadingSample::Centre => ShadingSample::Centre,
+            ShadingSample::Placed => ShadingSample::Placed,
             ShadingSample::Sample(old) => ShadingSample::Sample(place(old)),
             ShadingSample::Samples(old) => ShadingSample::Samples(old.iter().map(place).collect()),
         },
@@ -137,6 +138,7 @@ fn fewer_samples(capture: &Capture, count: usize) -> Capture {
         camera: capture.camera,
         color: capture.color.clone(),
         colors: capture.colors.clone(),
+        place: capture.place.clone(),
         depth: FrameLayers::new(depth),
         normal,
         reference: None,
@@ -167,6 +169,7 @@ mod tests {
             camera: None,
             color: Frame::new(size, vec![Vec4::ONE; 2]),
             colors: Vec::new(),
+            place: None,
             depth: FrameLayers::new(depth.collect()),
             normal: Some(FrameLayers::new(normal.collect())),
             reference: None,

@@ -1,11 +1,11 @@
 //! The kernel as rustc compiles it.
 
 use super::options::Options;
-use glam::{Vec3, ivec2};
+use glam::{UVec2, Vec3, ivec2};
 use straightline_kernels::prelude::{Frame, FrameLayers, Multisampled, Texture, Vec4};
 use straightline_kernels::sraa::{
     Colors, Depth, Difference, Falloff, GBuffer, Guards, Layout, Mask, Metric, NonFinite, Normalisation, Normals,
-    Pattern, Resolve, Shading, Sraa, Turn, View, sraa,
+    Pattern, Resolve, Search, Shading, Sraa, Turn, View, sraa,
 };
 use straightline_study::execute::Inputs;
 
@@ -43,7 +43,8 @@ fn set(cfg: &mut Sraa, name: &str, value: &str) {
         "offsets" => cfg.offsets = leaked(value, |text| text.parse().ok()),
         "latin" => cfg.latin = value == "true",
         "shading" => {
-            cfg.shading = one_of!(value, Shading: "sample0" => Sample0, "centre" => Centre, "listed" => Listed);
+            cfg.shading = one_of!(value, Shading: "sample0" => Sample0, "centre" => Centre, "listed" => Listed,
+                "placed" => Placed);
         }
         "shaded" => cfg.shaded = leaked(value, |text| text.parse().ok()),
         "metric" => {
@@ -71,6 +72,8 @@ fn set(cfg: &mut Sraa, name: &str, value: &str) {
                 "shifted" => Shifted);
         }
         "resolve" => cfg.resolve = one_of!(value, Resolve: "box" => Box, "tent" => Tent),
+        "search" => cfg.search = one_of!(value, Search: "none" => None, "five" => Five, "seven" => Seven),
+        "unseen" => cfg.unseen = number(value),
         "mask" => cfg.mask = one_of!(value, Mask: "none" => None, "select" => Select, "branch" => Branch),
         "guards" => cfg.guards = one_of!(value, Guards: "inline" => Inline, "fallback" => Fallback, "none" => None),
         "turn" => cfg.turn = one_of!(value, Turn: "cosine" => Cosine, "chord" => Chord),
@@ -125,6 +128,15 @@ fn colors(inputs: &Inputs) -> Colors {
     Colors {
         color: images("color").remove(0),
         colors: FrameLayers::new(images("colors")),
+        place: place(inputs),
+    }
+}
+
+/// Where each pixel is shaded; of what is shaded elsewhere, a texel that is not read.
+fn place(inputs: &Inputs) -> Frame<u32> {
+    match inputs.integers.iter().find(|(known, _)| known == "place") {
+        Some((_, images)) => Frame::new(images[0].size(), images[0].texels().iter().map(|t| t.x).collect()),
+        None => Frame::new(UVec2::ONE, vec![0]),
     }
 }
 

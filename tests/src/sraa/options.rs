@@ -65,10 +65,18 @@ pub fn random(count: usize, seed: u64) -> Vec<Options> {
             let k = (random.number() % values.len() as u64) as usize;
             (name.clone(), values[k].clone())
         });
-        completed(chosen.collect())
+        let mut set = completed(chosen.collect());
+        // What most other options refuse: left out, so that those are tried.
+        if refusal(&set) == Some(SEARCH_REFUSED) {
+            set.retain(|(name, _)| name != "search");
+        }
+        set
     };
     (0..count).map(|_| set()).collect()
 }
+
+/// What a search needs.
+const SEARCH_REFUSED: &str = "a search needs one shading sample a pixel, a box and shifted weights";
 
 /// Why the kernel refuses a set, by what the options' documentation says; `None` if it takes it.
 pub fn refusal(options: &Options) -> Option<&'static str> {
@@ -79,6 +87,10 @@ pub fn refusal(options: &Options) -> Option<&'static str> {
     }
     if is("normals", "packed") && (is("metric", "normals") || is("metric", "depth")) {
         return Some("a packed texel holds more than this metric reads");
+    }
+    let needs = !is("shading", "listed") && !is("resolve", "tent") && !is("normalisation", "paper");
+    if (is("search", "five") || is("search", "seven")) && !(needs && !is("normalisation", "epsilon")) {
+        return Some(SEARCH_REFUSED);
     }
     None
 }

@@ -20,7 +20,12 @@ pub fn capture(options: &Options, size: UVec2, seed: u64) -> Capture {
         .into_iter()
         .map(|[x, y]| vec2(x as f32, y as f32))
         .collect();
-    let centre = value(options, "shading", "centre") == "centre";
+    let shading = match value(options, "shading", "centre") {
+        "centre" => ShadingSample::Centre,
+        "placed" => ShadingSample::Placed,
+        _ => ShadingSample::Sample(0),
+    };
+    let centre = matches!(shading, ShadingSample::Centre | ShadingSample::Placed);
     let mut random = Random(seed);
     let edges = edges(&mut random, size);
     let mut places = samples.clone();
@@ -37,11 +42,8 @@ pub fn capture(options: &Options, size: UVec2, seed: u64) -> Capture {
     Capture {
         size,
         samples,
-        shading: if centre {
-            ShadingSample::Centre
-        } else {
-            ShadingSample::Sample(0)
-        },
+        place: (shading == ShadingSample::Placed).then(|| places_of(&mut Random(seed), size, layers.len())),
+        shading,
         normal_space: NormalSpace::View,
         camera: Some(Camera {
             position: [0.0; 3],
@@ -56,6 +58,12 @@ pub fn capture(options: &Options, size: UVec2, seed: u64) -> Capture {
         normal: Some(FrameLayers::new(normal.collect())),
         reference: None,
     }
+}
+
+/// A layer for each pixel.
+fn places_of(random: &mut Random, size: UVec2, layers: usize) -> Frame<u32> {
+    let layer = |_| (random.number() % layers as u64) as u32;
+    Frame::new(size, (0..size.x * size.y).map(layer).collect())
 }
 
 /// What a shader with these options reads.

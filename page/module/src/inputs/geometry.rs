@@ -94,7 +94,7 @@ fn samples(wanted: &Wanted<'_>) -> Vec<Vec2> {
 
 /// With the pixel's centre as the last one, if that is shaded and the layout is one of layers.
 fn centred(wanted: &Wanted<'_>, mut offsets: Vec<Vec2>) -> Vec<Vec2> {
-    if wanted.option("shading") == "centre" && wanted.layered {
+    if matches!(wanted.option("shading"), "centre" | "placed") && wanted.layered {
         offsets.push(Vec2::ZERO);
     }
     offsets

@@ -1,0 +1,77 @@
+//! Shading once a pixel, where geometry asks for it.
+
+use super::{RenderError, Renderer};
+use crate::capture::MAX_SAMPLES;
+use glam::{IVec2, Vec2, Vec3, Vec4, ivec2};
+use rayon::prelude::*;
+use straightline_kernels::prelude::{Frame, FrameLayers};
+use straightline_kernels::sraa::{Difference, GBuffer, Pattern, Sraa, View, sraa_place};
+
+/// Offsets that differ: with this metric it is only counted how many there are.
+static OFFSETS: [f32; 2 * MAX_SAMPLES] = {
+    let mut offsets = [0.0; 2 * MAX_SAMPLES];
+    let mut k = 0;
+    while k < offsets.len() {
+        offsets[k] = k as f32;
+        k += 1;
+    }
+    offsets
+};
+
+/// The layer in whose place each pixel is to be shaded: the kernel `sraa_place`, as rustc compiles it.
+pub(super) fn choose(samples: &[Vec2], depth: &FrameLayers<f32>, normal: &FrameLayers<Vec3>) -> Frame<u32> {
+    let cfg = Sraa {
+        pattern: Pattern::Listed,
+        offsets: &OFFSETS[..2 * samples.len().min(MAX_SAMPLES)],
+        difference: Difference::Relative,
+        depth_scale: 3.0,
+        ..Sraa::default()
+    };
+    let with_fourth = |layer: &Frame<Vec3>| {
+        let texels = layer.texels().iter().map(|n| n.extend(0.0));
+        Frame::new(layer.size(), texels.collect())
+    };
+    let gbuffer = GBuffer {
+        depth: depth.clone(),
+        normal: FrameLayers::new(normal.layers().iter().map(with_fourth).collect()),
+        ..GBuffer::unread()
+    };
+    let view = View {
+        ray_corner: Vec3::ZERO,
+        ray_right: Vec3::ZERO,
+        ray_down: Vec3::ZERO,
+        origin: IVec2::ZERO,
+        near: 1.0,
+        far: 1.0,
+    };
+    let size = depth.layers()[0].size();
+    let rows = (0..size.y as i32).into_par_iter();
+    let texels = rows.flat_map_iter(|y| {
+        let (cfg, gbuffer, view) = (&cfg, &gbuffer, &view);
+        (0..size.x as i32).map(move |x| sraa_place(cfg, gbuffer, view, ivec2(x, y)))
+    });
+    Frame::new(size, texels.collect())
+}
+
+/// The picture with each pixel shaded in the place of the layer that `chosen` names, of those at `places`; `centred` is shaded in
+/// the last place.
+pub(super) fn shaded(
+    renderer: &dyn Renderer,
+    places: &[Vec2],
+    chosen: &Frame<u32>,
+    centred: Frame<Vec4>,
+) -> Result<Frame<Vec4>, RenderError> {
+    let mut texels = centred.texels().to_vec();
+    for (layer, place) in places.iter().enumerate().take(places.len() - 1) {
+        let here = |chosen: &u32| *chosen as usize == layer;
+        if chosen.texels().iter().any(here) {
+            let shaded = renderer.shaded(*place)?;
+            for ((texel, own), chosen) in texels.iter_mut().zip(shaded.texels()).zip(chosen.texels()) {
+                if here(chosen) {
+                    *texel = *own;
+                }
+            }
+        }
+    }
+    Ok(Frame::new(centred.size(), texels))
+}
