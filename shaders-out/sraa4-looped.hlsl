@@ -24,7 +24,7 @@ void sraa(uint3 id : SV_DispatchThreadID) {
     if (any(pixel >= frame)) {
         return;
     }
-    // sum of the shares of all reconstructed samples (kernels/src/sraa/mod.rs:212)
+    // sum of the shares of all reconstructed samples (kernels/src/sraa/mod.rs:231)
     float total = 0.0;
     for (int sample_value = 0; sample_value < 4; sample_value++) {
         total += 1.0;
@@ -45,21 +45,20 @@ void sraa(uint3 id : SV_DispatchThreadID) {
         float distances[9] = { 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
         float nearest = 16.0;
         for (int tap = 0; tap < 9; tap++) {
-            // tap `tap` of a square of `side` × `side` pixels (kernels/src/sraa/pattern.rs:191)
-            int2 pixel_2 = int2(tap % 3 - 1, tap / 3 - 1);
-            float2 away = float2(pixel_2) - place_at;
+            // kernels/src/sraa/mod.rs:262
+            int2 tap_pixel = int2(tap % 3 - 1, tap / 3 - 1);
+            float2 away = float2(tap_pixel) - place_at;
             if (max(1.0 - abs(away.x), 0.0) * max(1.0 - abs(away.y), 0.0) > 1e-6) {
-                // the mean of the geometry samples (kernels/src/sraa/mod.rs:124)
                 float d;
-                if (all(bool2(is_equal, all(int2(0, 0) == pixel_2)))) {
+                if (all(bool2(is_equal, all(int2(0, 0) == tap_pixel)))) {
                     d = 0.0;
                 } else {
                     // kernels/src/sraa/gbuffer.rs:123
-                    int2 at = clamp(pixel + pixel_2, int2(0, 0), last);
+                    int2 at = clamp(pixel + tap_pixel, int2(0, 0), last);
                     float depth_3 = depth.Load(int4(at, 4, 0)).x;
                     float shaded_depth = 1e30;
                     if (abs(depth_3) < 1e30) {
-                        // kernels/src/sraa/mod.rs:246
+                        // kernels/src/sraa/mod.rs:266
                         shaded_depth = depth_3;
                     }
                     float3 n_2 = normal.Load(int4(at, 4, 0)).xyz;
@@ -69,7 +68,7 @@ void sraa(uint3 id : SV_DispatchThreadID) {
                         // kernels/src/sraa/metric.rs:78
                         number = apart;
                     }
-                    // kernels/src/sraa/mod.rs:247
+                    // kernels/src/sraa/mod.rs:267
                     d = min(max(abs(seen_depth - shaded_depth), number), 16.0);
                 }
                 distances[tap] = d;

@@ -136,14 +136,14 @@ kernel void sraa(
                 {
                     int _e89 = tap;
                     int _e94 = tap;
-                    metal::int2 pixel_2_ = metal::int2(as_type<int>(as_type<uint>(naga_mod(_e89, 3)) - as_type<uint>(1)), as_type<int>(as_type<uint>(naga_div(_e94, 3)) - as_type<uint>(1)));
-                    metal::float2 away = static_cast<metal::float2>(pixel_2_) - place_at;
+                    metal::int2 tap_pixel = metal::int2(as_type<int>(as_type<uint>(naga_mod(_e89, 3)) - as_type<uint>(1)), as_type<int>(as_type<uint>(naga_div(_e94, 3)) - as_type<uint>(1)));
+                    metal::float2 away = static_cast<metal::float2>(tap_pixel) - place_at;
                     if ((metal::max(1.0 - metal::abs(away.x), 0.0) * metal::max(1.0 - metal::abs(away.y), 0.0)) > 0.000001) {
                         d = float {};
-                        if (is_equal & metal::all(metal::int2(0) == pixel_2_)) {
+                        if (is_equal & metal::all(metal::int2(0) == tap_pixel)) {
                             d = 0.0;
                         } else {
-                            metal::int2 at = metal::clamp(as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(pixel_2_)), metal::int2(0), last);
+                            metal::int2 at = metal::clamp(as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(tap_pixel)), metal::int2(0), last);
                             metal::float4 _e132 = depth.read(metal::uint2(at), 4, 0);
                             float depth_3_ = _e132.x;
                             shaded_depth = 1000000000000000000000000000000.0;

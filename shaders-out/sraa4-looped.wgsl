@@ -18,7 +18,7 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     if any(pixel >= frame) {
         return;
     }
-    // sum of the shares of all reconstructed samples (kernels/src/sraa/mod.rs:212)
+    // sum of the shares of all reconstructed samples (kernels/src/sraa/mod.rs:231)
     var total = 0.0;
     for (var sample = 0; sample < 4; sample++) {
         total += 1.0;
@@ -39,21 +39,20 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
         var distances = array<f32, 9>(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
         var nearest = 16.0;
         for (var tap = 0; tap < 9; tap++) {
-            // tap `tap` of a square of `side` × `side` pixels (kernels/src/sraa/pattern.rs:191)
-            let pixel_2 = vec2i(tap % 3 - 1, tap / 3 - 1);
-            let away = vec2f(pixel_2) - place_at;
+            // kernels/src/sraa/mod.rs:262
+            let tap_pixel = vec2i(tap % 3 - 1, tap / 3 - 1);
+            let away = vec2f(tap_pixel) - place_at;
             if max(1.0 - abs(away.x), 0.0) * max(1.0 - abs(away.y), 0.0) > 1e-6 {
-                // the mean of the geometry samples (kernels/src/sraa/mod.rs:124)
                 var d: f32;
-                if is_equal & all(vec2i(0) == pixel_2) {
+                if is_equal & all(vec2i(0) == tap_pixel) {
                     d = 0.0;
                 } else {
                     // kernels/src/sraa/gbuffer.rs:123
-                    let at = clamp(pixel + pixel_2, vec2i(0), last);
+                    let at = clamp(pixel + tap_pixel, vec2i(0), last);
                     let depth_3 = textureLoad(depth, at, 4, 0).x;
                     var shaded_depth = 1e30;
                     if abs(depth_3) < 1e30 {
-                        // kernels/src/sraa/mod.rs:246
+                        // kernels/src/sraa/mod.rs:266
                         shaded_depth = depth_3;
                     }
                     let n_2 = textureLoad(normal, at, 4, 0).xyz;
@@ -63,7 +62,7 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
                         // kernels/src/sraa/metric.rs:78
                         number = apart;
                     }
-                    // kernels/src/sraa/mod.rs:247
+                    // kernels/src/sraa/mod.rs:267
                     d = min(max(abs(seen_depth - shaded_depth), number), 16.0);
                 }
                 distances[tap] = d;

@@ -31,6 +31,18 @@ fn kernels() -> Vec<Kernel> {
     all
 }
 
+/// Those whose loops are all unrolled: of `sraa_place` some stay, and how often they read is not known.
+fn kernels_with_a_floor() -> Vec<Kernel> {
+    let (with, without): (Vec<Kernel>, Vec<Kernel>) = kernels()
+        .into_iter()
+        .partition(|kernel| compile(kernel, &Settings::default()).counts.loops == 0);
+    let names: Vec<&str> = without.iter().map(Kernel::name).collect();
+    assert_eq!(names, ["sraa_place"]);
+    let refused = compile(&without[0], &Settings::default()).floor();
+    assert!(refused.is_err_and(|errors| errors.to_string().contains("has no floor")));
+    with
+}
+
 fn compile(kernel: &Kernel, settings: &Settings) -> Compiled {
     kernel
         .compile(settings)
@@ -39,7 +51,7 @@ fn compile(kernel: &Kernel, settings: &Settings) -> Compiled {
 
 #[test]
 fn the_floor_has_the_reads_of_the_full_form() {
-    for kernel in kernels() {
+    for kernel in kernels_with_a_floor() {
         let full = compile(&kernel, &Settings::default());
         let floor = full.floor().unwrap_or_else(|e| panic!("{}: {e}", kernel.name()));
         for (full, floor) in [(&full, &floor), (&*full.in_blocks(), &*floor.in_blocks())] {
@@ -117,7 +129,7 @@ fn tampered(compiled: &Compiled, inputs: &Inputs, tampered: usize) -> (Vec<[f32;
 /// of weight 0 may do nothing, so that as many reads must count as there are.
 #[test]
 fn no_read_of_the_floor_can_be_dropped() {
-    for kernel in kernels() {
+    for kernel in kernels_with_a_floor() {
         let full = compile(&kernel, &Settings::default());
         let inputs = test_inputs(&full.in_blocks().graph, uvec2(32, 18));
         let floor = full.floor().unwrap_or_else(|e| panic!("{}: {e}", kernel.name()));

@@ -125,7 +125,7 @@ impl GBuffer {
             (Layout::Superresolution, _) => self
                 .depth_grid
                 .load(cfg.cell(self.depth_grid.size(), pixel, place.sample)),
-            (Layout::Multisampled, _) => self.depth_samples.load(pixel, place.sample),
+            (Layout::Multisampled, _) => self.depth_samples.load(pixel, cfg.own(place.sample)),
         }
     }
 
@@ -137,7 +137,7 @@ impl GBuffer {
                 self.normal_grid
                     .load(cfg.cell(self.normal_grid.size(), pixel, place.sample))
             }
-            (Layout::Multisampled, _) => self.normal_samples.load(pixel, place.sample),
+            (Layout::Multisampled, _) => self.normal_samples.load(pixel, cfg.own(place.sample)),
         }
     }
 
@@ -149,7 +149,7 @@ impl GBuffer {
                 self.packed_grid
                     .load(cfg.cell(self.packed_grid.size(), pixel, place.sample))
             }
-            (Layout::Multisampled, _) => self.packed_samples.load(pixel, place.sample),
+            (Layout::Multisampled, _) => self.packed_samples.load(pixel, cfg.own(place.sample)),
         }
     }
 }
@@ -165,11 +165,17 @@ impl Sraa {
         ivec2(columns as i32, rows as i32)
     }
 
+    /// The sample, or the last one: the pixel's centre, which has a texture of its own, comes here too where it is not known which
+    /// it is.
+    fn own(&self, sample: usize) -> usize {
+        sample.min(self.samples() - 1)
+    }
+
     /// The texel of a superresolution texture of `size` that holds `sample` of `pixel`, or of the nearest pixel inside.
     fn cell(&self, size: UVec2, pixel: IVec2, sample: usize) -> IVec2 {
         let grid = self.grid();
         let last = size.as_ivec2() / grid - 1;
-        let sample = sample as i32;
+        let sample = self.own(sample) as i32;
         pixel.clamp(IVec2::ZERO, last) * grid + ivec2(sample % grid.x, sample / grid.x)
     }
 }

@@ -39,7 +39,9 @@ options! {
         pub resolve: Resolve = Resolve::Box,
         /// How far the surface of a sample that no tap shows is searched for.
         pub search: Search = Search::None,
-        /// Of shading=placed and search: a sample is unseen if the surfaces around it all differ from its own by more.
+        /// Of search: the largest difference of what shows a sample's surface.
+        pub search_threshold: f32 [0.0..=16.0] = 0.05,
+        /// Of the kernel `sraa_place`: the largest difference of what shows a sample's surface.
         pub unseen: f32 [0.0..=16.0] = 0.01,
         /// Whether pixels without geometric variation keep their own colour.
         pub mask: Mask = Mask::None,

@@ -1,6 +1,6 @@
 //! Where no tap shows a sample's surface: a search farther away.
 
-use super::metric::FAR;
+use super::metric::{FAR, Sample};
 use super::options::{NonFinite, Search, Sraa};
 use super::pattern::Place;
 use super::{Inputs, STEEPEST, color_at, difference, falloff, geometry_sample, is_kept, least};
@@ -13,6 +13,36 @@ pub(super) struct Searched {
     pub(super) color: Vec4,
     /// Sum of their shares.
     pub(super) share: f32,
+}
+
+/// Colours that are added up.
+#[derive(Clone, Copy, Debug)]
+struct Sum {
+    color: Vec4,
+    /// Of the colours that count.
+    kept: f32,
+    /// Of all.
+    weight: f32,
+}
+
+impl Sum {
+    const NOTHING: Sum = Sum {
+        color: Vec4::ZERO,
+        kept: 0.0,
+        weight: 0.0,
+    };
+
+    fn add(&mut self, cfg: &Sraa, shaded: Vec4, weight: f32) {
+        let counts = match cfg.non_finite {
+            NonFinite::Skip => is_kept(cfg, shaded),
+            NonFinite::Spread => weight != 0.0,
+        };
+        if counts {
+            self.color += weight * shaded;
+            self.kept += weight;
+        }
+        self.weight += weight;
+    }
 }
 
 /// The colours of the samples whose bits are set in `unseen`.
@@ -38,11 +68,6 @@ pub(super) fn searched(cfg: &Sraa, inputs: &Inputs, unseen: u32) -> Searched {
 /// Few pixels come here: its loops stay loops.
 #[cfg_attr(false, unroll(none))]
 fn each(cfg: &Sraa, inputs: &Inputs, unseen: u32) -> Searched {
-    let side = match cfg.search {
-        Search::None => 3,
-        Search::Five => 5,
-        Search::Seven => 7,
-    };
     let mut all = Searched {
         color: Vec4::ZERO,
         share: 0.0,
@@ -51,48 +76,55 @@ fn each(cfg: &Sraa, inputs: &Inputs, unseen: u32) -> Searched {
         if (unseen >> sample) & 1 != 0 {
             let place = cfg.place(sample);
             let centre = geometry_sample(cfg, inputs, place);
-            let mut nearest = FAR;
-            let mut farther = FAR;
-            for tap in 0..side * side {
-                let d = difference(cfg, inputs, place, &centre, cfg.tap(tap, side));
-                farther = farther.min(d);
-                if falloff(cfg, place, cfg.tap(tap, side)) > least(cfg) {
-                    nearest = nearest.min(d);
-                }
+            let mut sum = farther(cfg, inputs, place, &centre);
+            if sum.weight == 0.0 {
+                sum = nearby(cfg, inputs, place, &centre);
             }
-            // Only a surface that is the sample's own is taken from so far; or else what is nearby, as without a search.
-            let found = farther <= cfg.unseen;
-            let least_difference = if found { farther } else { nearest };
-            let steepness = (cfg.tau * std::f32::consts::LOG2_E).min(STEEPEST);
-            let mut color = Vec4::ZERO;
-            let mut kept = 0.0;
-            let mut sum = 0.0;
-            for tap in 0..side * side {
-                let at = cfg.tap(tap, side);
-                let d = difference(cfg, inputs, place, &centre, at);
-                let near = if found {
-                    spread(place, at)
-                } else {
-                    falloff(cfg, place, at)
-                };
-                let w = near * (steepness * (least_difference - d).min(0.0)).exp2();
-                let shaded = color_at(inputs, at);
-                let counts = match cfg.non_finite {
-                    NonFinite::Skip => is_kept(cfg, shaded),
-                    NonFinite::Spread => w != 0.0,
-                };
-                if counts {
-                    color += w * shaded;
-                    kept += w;
-                }
-                sum += w;
-            }
-            let share = 1.0 / (sum * cfg.samples() as f32);
-            all.color += share * color;
-            all.share += share * kept;
+            let share = 1.0 / (sum.weight * cfg.samples() as f32);
+            all.color += share * sum.color;
+            all.share += share * sum.kept;
         }
     }
     all
+}
+
+/// The colours of the taps that show the sample's own surface, if any do.
+fn farther(cfg: &Sraa, inputs: &Inputs, place: Place, centre: &Sample) -> Sum {
+    let side = match cfg.search {
+        Search::None => 3,
+        Search::Five => 5,
+        Search::Seven => 7,
+    };
+    let mut sum = Sum::NOTHING;
+    for tap in 0..side * side {
+        let at = cfg.tap(tap, side);
+        if difference(cfg, inputs, place, centre, at) <= cfg.search_threshold {
+            sum.add(cfg, color_at(inputs, at), spread(place, at));
+        }
+    }
+    sum
+}
+
+/// What the sample would be without a search.
+fn nearby(cfg: &Sraa, inputs: &Inputs, place: Place, centre: &Sample) -> Sum {
+    let mut nearest = FAR;
+    for tap in 0..9 {
+        let at = cfg.tap(tap, 3);
+        if falloff(cfg, place, at) > least(cfg) {
+            nearest = nearest.min(difference(cfg, inputs, place, centre, at));
+        }
+    }
+    let steepness = (cfg.tau * std::f32::consts::LOG2_E).min(STEEPEST);
+    let mut sum = Sum::NOTHING;
+    for tap in 0..9 {
+        let at = cfg.tap(tap, 3);
+        let near = falloff(cfg, place, at);
+        if near > least(cfg) {
+            let d = difference(cfg, inputs, place, centre, at);
+            sum.add(cfg, color_at(inputs, at), near * (steepness * (nearest - d)).exp2());
+        }
+    }
+    sum
 }
 
 /// Weight of a tap that is found, by distance on the screen: a Gaussian with a standard deviation of a pixel.

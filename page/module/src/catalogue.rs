@@ -68,6 +68,7 @@ const fn builtin_entry(group: &'static str, id: &'static str) -> Entry {
 /// Every kernel of the page, in the order of its list.
 pub const ENTRIES: &[Entry] = &[
     builtin_entry("Antialiasing", "sraa"),
+    builtin_entry("Antialiasing", "sraa_place"),
     builtin_entry("Antialiasing", "stalker"),
     builtin_entry("Antialiasing", "tabula_rasa"),
     example!("Antialiasing", "kernels", "fxaa"),

@@ -247,24 +247,21 @@ impl Definition<'_> {
         if self.params.search == Search::None {
             return (near, 0.0);
         }
-        let unseen = self.params.unseen;
-        let close = unseen * 2.0 * (rounding.read + rounding.unit);
-        let nearest = |taps: &[Reach]| {
-            let least = |of: fn(&Reach) -> f64| taps.iter().map(of).fold(f64::INFINITY, f64::min);
-            (
-                least(|tap| tap.range.low),
-                least(|tap| tap.range.high),
-                least(|tap| tap.difference),
-            )
-        };
+        let most = self.params.search_threshold;
+        let close = most * 2.0 * (rounding.read + rounding.unit);
         let is_decided =
-            |(low, high, _): (f64, f64, f64)| high <= unseen - close || low > unseen + close || low == high;
+            |range: Range| range.high <= most - close || range.low > most + close || range.low == range.high;
+        let nearest = |of: fn(&Reach) -> f64| near.iter().map(of).fold(f64::INFINITY, f64::min);
+        let here = Range {
+            low: nearest(|tap| tap.range.low),
+            high: nearest(|tap| tap.range.high),
+        };
         // exp of at most the square of four pixels and a half.
         let falloff_off =
             2.0 * rounding.unit * (rounding.exponential + 2.0 * 21.0 * std::f64::consts::LOG2_E) + 21.0 * rounding.unit;
-        let around = self.reach(pixel, at, self.taps_around(pixel, at), falloff_off, rounding);
-        let (here, there) = (nearest(&near), nearest(&around));
-        let decided = is_decided(here) && (here.2 <= unseen || is_decided(there));
+        let mut around = self.reach(pixel, at, self.taps_around(pixel, at), falloff_off, rounding);
+        let is_seen = nearest(|tap| tap.difference) <= most;
+        let decided = is_decided(here) && (is_seen || around.iter().all(|tap| is_decided(tap.range)));
         let apart = match decided {
             true => 0.0,
             false => {
@@ -283,9 +280,13 @@ impl Definition<'_> {
                 (0..4).map(lane).fold(0.0, f64::max)
             }
         };
-        match here.2 > unseen && there.2 <= unseen {
-            true => (around, apart),
-            false => (near, apart),
+        around.retain(|tap| tap.difference <= most);
+        for tap in &mut around {
+            (tap.difference, tap.range) = (0.0, Range { low: 0.0, high: 0.0 });
+        }
+        match is_seen || around.is_empty() {
+            true => (near, apart),
+            false => (around, apart),
         }
     }
 

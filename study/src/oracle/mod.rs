@@ -11,9 +11,9 @@
 //! surfaces and colours are repeated.
 //!
 //! Where shading is placed, the surface of a tap is that at the sample which an image names, and its distance on the screen
-//! that of its pixel's centre. Where all taps of a sample differ from it by more than `unseen`, and a search is asked for, the
-//! taps are all shading samples of a larger square, and the falloff is a Gaussian with a standard deviation of a pixel; but
-//! only if one of them differs by no more.
+//! that of its pixel's centre. Where all taps of a sample differ from it by more than the search's threshold, its colour is the
+//! mean of those shading samples of a larger square that do not, weighed by a Gaussian with a standard deviation of a pixel; if
+//! there are any.
 
 pub mod bound;
 pub mod edge;
@@ -255,19 +255,20 @@ impl<'a> Definition<'a> {
         if self.params.search == Search::None {
             return (near, true);
         }
-        let unseen = self.params.unseen;
-        let nearest = |taps: &[Tap]| taps.iter().map(|tap| tap.difference).fold(f64::INFINITY, f64::min);
-        let decided =
-            |difference: f64| (difference - unseen).abs() > 1.0e-3 * unseen.max(1.0e-3) || difference == unseen;
-        if nearest(&near) <= unseen {
-            let is_decided = decided(nearest(&near));
-            return (near, is_decided);
+        let most = self.params.search_threshold;
+        let decided = |difference: f64| (difference - most).abs() > 1.0e-3 * most.max(1.0e-3) || difference == most;
+        let nearest = near.iter().map(|tap| tap.difference).fold(f64::INFINITY, f64::min);
+        if nearest <= most {
+            return (near, decided(nearest));
         }
-        let around = self.taps_around(pixel, at);
-        let is_decided = decided(nearest(&near)) && decided(nearest(&around));
-        match nearest(&around) <= unseen {
-            true => (around, is_decided),
-            false => (near, is_decided),
+        let mut around = self.taps_around(pixel, at);
+        let is_decided = decided(nearest) && around.iter().all(|tap| decided(tap.difference));
+        around.retain(|tap| tap.difference <= most);
+        // They count alike.
+        around.iter_mut().for_each(|tap| tap.difference = 0.0);
+        match around.is_empty() {
+            true => (near, is_decided),
+            false => (around, is_decided),
         }
     }
 

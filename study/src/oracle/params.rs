@@ -228,7 +228,9 @@ pub struct SraaParams {
     pub resolve: Resolve,
     /// How far the surface of a sample is searched for that no tap shows.
     pub search: Search,
-    /// The least difference, and no more, of what shows another surface.
+    /// The largest difference of what shows a sample's surface, for a search.
+    pub search_threshold: f64,
+    /// The same for where a pixel is shaded.
     pub unseen: f64,
     /// Whether pixels without geometric variation keep their colour.
     pub mask: Mask,
@@ -265,6 +267,7 @@ impl Default for SraaParams {
             normalisation: Normalisation::Shifted,
             resolve: Resolve::Box,
             search: Search::None,
+            search_threshold: 0.05,
             unseen: 0.01,
             mask: Mask::None,
             mask_threshold: 0.01,
@@ -344,6 +347,7 @@ impl SraaParams {
             "normalisation" => self.normalisation = choice(option, value, Normalisation::ALL, Normalisation::name)?,
             "resolve" => self.resolve = choice(option, value, Resolve::ALL, Resolve::name)?,
             "search" => self.search = choice(option, value, Search::ALL, Search::name)?,
+            "search-threshold" => self.search_threshold = number(option, value)?,
             "unseen" => self.unseen = number(option, value)?,
             "mask" => self.mask = choice(option, value, Mask::ALL, Mask::name)?,
             "mask-threshold" => self.mask_threshold = number(option, value)?,

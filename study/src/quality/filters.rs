@@ -5,7 +5,7 @@ use super::methods::{Kind, Method};
 use super::shot::Shot;
 use super::surfaces::Surfaces;
 use super::{QualityError, check};
-use crate::capture::Capture;
+use crate::capture::{Capture, ShadingSample};
 use crate::execute::{Bench, Bound, ExecuteError, Inputs, Job, Timed, Work, texture_bytes};
 use crate::gbuffer;
 use crate::peers::{Smaa, Transfer, fxaa};
@@ -28,6 +28,8 @@ enum Runner {
     /// Computed from pictures that the renderer gives: no filter.
     None,
     Kernel(Box<Shader>),
+    /// The filter, and before it the kernel that says where pixels are shaded.
+    Placed(Box<Shader>, Box<Shader>),
     Smaa(Box<Smaa>),
 }
 
@@ -70,7 +72,7 @@ impl<'a> Filters<'a> {
         let method = &self.methods[k];
         match (&mut self.runners[k], method.kind) {
             (Runner::Smaa(smaa), _) => Ok(smaa.run(&shown(shot.any()?))?),
-            (Runner::Kernel(shader), kind) => {
+            (Runner::Kernel(shader) | Runner::Placed(shader, _), kind) => {
                 let (inputs, bound) = shader.bound(self.bench, method, shot)?;
                 let target = self.bench.target(inputs.size, shader.pass.target_format());
                 let view = target.create_view(&wgpu::TextureViewDescriptor::default());
@@ -105,10 +107,9 @@ impl<'a> Filters<'a> {
         for (method, runner) in self.methods.iter().zip(&self.runners) {
             all.push(match (runner, method.kind) {
                 (Runner::Smaa(smaa), _) => smaa.bytes(),
-                (Runner::Kernel(shader), _) => {
-                    let (_, bound) = shader.bound(self.bench, method, shot)?;
-                    let target = self.bench.target(size, shader.pass.target_format());
-                    bound.bytes() + texture_bytes(&target)
+                (Runner::Kernel(shader), _) => shader.bytes(self.bench, method, shot)?,
+                (Runner::Placed(shader, place), _) => {
+                    shader.bytes(self.bench, method, shot)? + place.bytes(self.bench, method, shot)?
                 }
                 (Runner::None, Kind::Plain) => PICTURE * pixels,
                 (Runner::None, Kind::Supersampled(n)) => (n as u64 * (GEOMETRY + PICTURE) + PICTURE) * pixels,
@@ -128,7 +129,11 @@ impl<'a> Filters<'a> {
         let mut bounds = Vec::new();
         for (method, runner) in self.methods.iter().zip(&mut self.runners) {
             bounds.push(match runner {
-                Runner::Kernel(shader) => Some(shader.bound(self.bench, method, shot)?),
+                Runner::Kernel(shader) => Some((shader.bound(self.bench, method, shot)?, None)),
+                Runner::Placed(shader, place) => Some((
+                    shader.bound(self.bench, method, shot)?,
+                    Some(place.bound(self.bench, method, shot)?),
+                )),
                 Runner::Smaa(smaa) => {
                     smaa.run(&shown(shot.any()?))?;
                     None
@@ -139,13 +144,11 @@ impl<'a> Filters<'a> {
         let (mut works, mut places): (Vec<Work<'_>>, Vec<Option<usize>>) = (Vec::new(), Vec::new());
         for (runner, bound) in self.runners.iter_mut().zip(&bounds) {
             let work = match (runner, bound) {
-                (Runner::Kernel(shader), Some((inputs, bound))) => {
-                    let job = Job {
-                        pass: &shader.pass,
-                        bound,
-                        size: inputs.size,
-                    };
-                    self.bench.work(job, Duration::ZERO)?
+                (Runner::Kernel(shader), Some((read, _))) => shader.work(self.bench, read)?,
+                (Runner::Placed(shader, place), Some((read, Some(of_place)))) => {
+                    let mut first = place.work(self.bench, of_place)?;
+                    let mut second = shader.work(self.bench, read)?;
+                    Box::new(move || Ok(first()? + second()?))
                 }
                 (Runner::Smaa(smaa), _) => Box::new(|| smaa.time()),
                 _ => {
@@ -173,20 +176,46 @@ fn runner(bench: &Bench, method: &Method, size: UVec2) -> Result<Runner, Quality
         Kind::Smaa(transfer) => return Ok(Runner::Smaa(Box::new(Smaa::new(bench, size, transfer)?))),
         Kind::Plain | Kind::Multisampled | Kind::Supersampled(_) => return Ok(Runner::None),
     };
-    let settings = Settings {
-        options: method.options.clone(),
-        ..Settings::default()
-    };
-    let compiled = kernel.compile(&settings)?;
-    let (pass, manifest) = bench.pass(&compiled, Stage::Compute)?;
-    Ok(Runner::Kernel(Box::new(Shader {
-        compiled,
-        pass,
-        manifest,
-    })))
+    let shader = Box::new(Shader::new(bench, &kernel, &method.options)?);
+    Ok(match method.shading() {
+        ShadingSample::Placed => {
+            let place = Shader::new(bench, &Kernel::builtin("sraa_place")?, &method.options)?;
+            Runner::Placed(shader, Box::new(place))
+        }
+        _ => Runner::Kernel(shader),
+    })
 }
 
 impl Shader {
+    fn new(bench: &Bench, kernel: &Kernel, options: &[(String, String)]) -> Result<Shader, QualityError> {
+        let settings = Settings {
+            options: options.to_vec(),
+            ..Settings::default()
+        };
+        let compiled = kernel.compile(&settings)?;
+        let (pass, manifest) = bench.pass(&compiled, Stage::Compute)?;
+        Ok(Shader {
+            compiled,
+            pass,
+            manifest,
+        })
+    }
+
+    fn work<'a>(&'a self, bench: &Bench, (inputs, bound): &'a (Inputs, Bound)) -> Result<Work<'a>, ExecuteError> {
+        let job = Job {
+            pass: &self.pass,
+            bound,
+            size: inputs.size,
+        };
+        bench.work(job, Duration::ZERO)
+    }
+
+    fn bytes(&self, bench: &Bench, method: &Method, shot: &Shot) -> Result<u64, QualityError> {
+        let (inputs, bound) = self.bound(bench, method, shot)?;
+        let target = bench.target(inputs.size, self.pass.target_format());
+        Ok(bound.bytes() + texture_bytes(&target))
+    }
+
     fn bound(&self, bench: &Bench, method: &Method, shot: &Shot) -> Result<(Inputs, Bound), QualityError> {
         let capture = shot.capture(method)?;
         let inputs = match method.kind {

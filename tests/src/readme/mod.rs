@@ -65,6 +65,7 @@ fn table(name: &str, files: &[&Path]) -> Result<String, String> {
         "quality" => Ok(quality::in_short(&QualityRecord::read(first).map_err(why)?)),
         "methods" => Ok(quality::methods(&QualityRecord::read(first).map_err(why)?)),
         "scenes" => Ok(quality::scenes(&QualityRecord::read(first).map_err(why)?)),
+        "beyond" => Ok(quality::beyond(&QualityRecord::read(first).map_err(why)?)),
         "gaps" => Ok(quality::gaps(&QualityRecord::read(first).map_err(why)?)),
         "hard" => hard::kernels(files),
         "rivals" => isa::rivals(&IsaRecord::read(first).map_err(why)?),
@@ -75,7 +76,7 @@ fn table(name: &str, files: &[&Path]) -> Result<String, String> {
         }
         "budget" => budget::metrics(files),
         _ => Err(format!(
-            "there is no table `{name}`; there are speed, loops, agreement, quality, methods, scenes, gaps, hard, isa, tune and budget"
+            "there is no table `{name}`; there are speed, loops, agreement, quality, methods, scenes, beyond, gaps, hard, isa, tune and budget"
         )),
     }
 }

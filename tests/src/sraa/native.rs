@@ -73,6 +73,7 @@ fn set(cfg: &mut Sraa, name: &str, value: &str) {
         }
         "resolve" => cfg.resolve = one_of!(value, Resolve: "box" => Box, "tent" => Tent),
         "search" => cfg.search = one_of!(value, Search: "none" => None, "five" => Five, "seven" => Seven),
+        "search-threshold" => cfg.search_threshold = number(value),
         "unseen" => cfg.unseen = number(value),
         "mask" => cfg.mask = one_of!(value, Mask: "none" => None, "select" => Select, "branch" => Branch),
         "guards" => cfg.guards = one_of!(value, Guards: "inline" => Inline, "fallback" => Fallback, "none" => None),

@@ -54,7 +54,7 @@ fn every_kernel_emits_in_every_language_but_glsl() {
             spirv.push(path);
         }
     }
-    assert_eq!(spirv.len(), 39);
+    assert_eq!(spirv.len(), 41);
     common::other_compilers(&[], &spirv);
 }
 

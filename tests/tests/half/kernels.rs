@@ -29,8 +29,9 @@ const fn case(name: &'static str, off: f32, unsure: f64, cost: f32) -> Case {
     }
 }
 
-const BUILTINS: [Case; 10] = [
+const BUILTINS: [Case; 11] = [
     case("sraa", 0.0, 0.0, 6.0),
+    case("sraa_place", 0.0, 0.0, 0.0),
     case("stalker", 2.0, 0.0, 36.0),
     case("tabula_rasa", 4.0, 0.0, 32.0),
     case("quad_convolution", 2.0, 0.0, 3.0),
