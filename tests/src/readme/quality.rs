@@ -9,10 +9,12 @@ pub const GEOMETRIC: [&str; 8] = [
 ];
 
 /// Methods that stand for the others where there is room for few.
-const MAIN: [&str; 13] = [
+const MAIN: [&str; 15] = [
     "1x",
     "SRAA 4",
     "SRAA 16",
+    "SRAA 4, placed and searched",
+    "SRAA 16, placed and searched",
     "SRAA 4, depth",
     "S.T.A.L.K.E.R.",
     "Tabula Rasa",
