@@ -11,7 +11,7 @@ use straightline_manifest::Component;
 use wgpu::{Device, TextureFormat};
 
 /// A pipeline of either stage.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) enum Pipeline {
     Compute {
         pipeline: wgpu::ComputePipeline,

@@ -48,8 +48,12 @@ fn moved(options: EmitOptions) -> EmitOptions {
 fn run(bench: &Bench, compiled: &Compiled, options: &EmitOptions) -> Vec<[f32; 4]> {
     let (pass, manifest) = bench.emitted(compiled, options).unwrap_or_else(|e| panic!("{e}"));
     let inputs = inputs(compiled);
-    let bound = bench.bind(&pass, &manifest, &inputs).unwrap_or_else(|e| panic!("{e}"));
-    texels(&bench.picture_of(&pass, &bound, SIZE).unwrap_or_else(|e| panic!("{e}")))
+    let uploaded = bench.upload(&manifest, &inputs).unwrap_or_else(|e| panic!("{e}"));
+    texels(
+        &bench
+            .picture_of(&pass, &uploaded, SIZE)
+            .unwrap_or_else(|e| panic!("{e}")),
+    )
 }
 
 #[test]
@@ -203,11 +207,10 @@ fn a_layout_is_made_of_the_manifests_words_alone() {
     });
 
     // What is bound is the bench's; where, the words say.
-    let pass = Pass::new(device, &emitted.manifest, &wgsl).unwrap_or_else(|e| panic!("{e}"));
-    let bound = bench
-        .bind(&pass, &emitted.manifest, &inputs(&compiled))
+    let uploaded = bench
+        .upload(&emitted.manifest, &inputs(&compiled))
         .unwrap_or_else(|e| panic!("{e}"));
-    let resources = bound.resources();
+    let resources = uploaded.resources();
     let uniforms = device.create_buffer(&wgpu::BufferDescriptor {
         label: None,
         size: 16,

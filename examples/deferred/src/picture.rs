@@ -78,7 +78,7 @@ mod tests {
         let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor::default())).unwrap();
         let mut renderer = Renderer::new(&device, &queue, [320, 180], FORMAT).unwrap();
         for size in [[320, 180], [201, 133], [1, 1], [320, 180]] {
-            renderer.resize(size);
+            renderer.resize(size).unwrap();
             let [with, without] = [true, false].map(|sraa| frame(&device, &queue, &renderer, size, 2.0, sraa).unwrap());
             assert_eq!(with.len(), (size[0] * size[1] * 4) as usize);
             assert!(size == [1, 1] || with != without, "SRAA changes nothing at {size:?}");

@@ -63,13 +63,14 @@ impl Screen {
         Ok(Screen { window, device, queue, surface, config, renderer })
     }
 
-    fn resize(&mut self, size: PhysicalSize<u32>) {
+    fn resize(&mut self, size: PhysicalSize<u32>) -> Result<(), Failure> {
         // A minimised window has no size.
         if size.width > 0 && size.height > 0 {
             (self.config.width, self.config.height) = (size.width, size.height);
             self.surface.configure(&self.device, &self.config);
-            self.renderer.resize([size.width, size.height]);
+            self.renderer.resize([size.width, size.height])?;
         }
+        Ok(())
     }
 
     fn draw(&mut self, time: f32, sraa: bool) -> Result<(), Failure> {
@@ -108,7 +109,11 @@ impl ApplicationHandler for Application {
         let Some(screen) = &mut self.screen else { return };
         match event {
             WindowEvent::CloseRequested => events.exit(),
-            WindowEvent::Resized(size) => screen.resize(size),
+            WindowEvent::Resized(size) => {
+                if let Err(failure) = screen.resize(size) {
+                    self.fail(events, failure);
+                }
+            }
             WindowEvent::KeyboardInput {
                 event: KeyEvent { logical_key: Key::Named(key), state: ElementState::Pressed, repeat: false, .. },
                 ..

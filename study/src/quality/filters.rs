@@ -6,7 +6,7 @@ use super::shot::Shot;
 use super::surfaces::Surfaces;
 use super::{QualityError, check};
 use crate::capture::Capture;
-use crate::execute::{Bench, Bound, ExecuteError, Inputs, Job, Timed, Work, texture_bytes};
+use crate::execute::{Bench, ExecuteError, Inputs, Job, Timed, Uploaded, Work, texture_bytes};
 use crate::gbuffer;
 use crate::peers::{Smaa, Transfer, fxaa};
 use crate::picture;
@@ -71,13 +71,13 @@ impl<'a> Filters<'a> {
         match (&mut self.runners[k], method.kind) {
             (Runner::Smaa(smaa), _) => Ok(smaa.run(&shown(shot.any()?))?),
             (Runner::Kernel(shader), kind) => {
-                let (inputs, bound) = shader.bound(self.bench, method, shot)?;
+                let (inputs, uploaded) = shader.uploaded(self.bench, method, shot)?;
                 let target = self.bench.target(inputs.size, shader.pass.target_format());
                 let view = target.create_view(&wgpu::TextureViewDescriptor::default());
                 let descriptor = wgpu::CommandEncoderDescriptor::default();
                 let mut encoder = self.bench.device().create_command_encoder(&descriptor);
-                let encoded = shader.pass.encode(&mut encoder, &bound.resources(), &view);
-                encoded.map_err(ExecuteError::from)?;
+                let bound = uploaded.bind(&shader.pass, &view).map_err(ExecuteError::from)?;
+                bound.encode(&mut encoder);
                 self.bench.queue().submit([encoder.finish()]);
                 let filtered = self.bench.download(&target)?;
                 Ok(match kind {
@@ -106,9 +106,9 @@ impl<'a> Filters<'a> {
             all.push(match (runner, method.kind) {
                 (Runner::Smaa(smaa), _) => smaa.bytes(),
                 (Runner::Kernel(shader), _) => {
-                    let (_, bound) = shader.bound(self.bench, method, shot)?;
+                    let (_, uploaded) = shader.uploaded(self.bench, method, shot)?;
                     let target = self.bench.target(size, shader.pass.target_format());
-                    bound.bytes() + texture_bytes(&target)
+                    uploaded.bytes() + texture_bytes(&target)
                 }
                 (Runner::None, Kind::Plain) => PICTURE * pixels,
                 (Runner::None, Kind::Supersampled(n)) => (n as u64 * (GEOMETRY + PICTURE) + PICTURE) * pixels,
@@ -128,7 +128,7 @@ impl<'a> Filters<'a> {
         let mut bounds = Vec::new();
         for (method, runner) in self.methods.iter().zip(&mut self.runners) {
             bounds.push(match runner {
-                Runner::Kernel(shader) => Some(shader.bound(self.bench, method, shot)?),
+                Runner::Kernel(shader) => Some(shader.uploaded(self.bench, method, shot)?),
                 Runner::Smaa(smaa) => {
                     smaa.run(&shown(shot.any()?))?;
                     None
@@ -137,12 +137,12 @@ impl<'a> Filters<'a> {
             });
         }
         let (mut works, mut places): (Vec<Work<'_>>, Vec<Option<usize>>) = (Vec::new(), Vec::new());
-        for (runner, bound) in self.runners.iter_mut().zip(&bounds) {
-            let work = match (runner, bound) {
-                (Runner::Kernel(shader), Some((inputs, bound))) => {
+        for (runner, uploaded) in self.runners.iter_mut().zip(&bounds) {
+            let work = match (runner, uploaded) {
+                (Runner::Kernel(shader), Some((inputs, uploaded))) => {
                     let job = Job {
                         pass: &shader.pass,
-                        bound,
+                        uploaded,
                         size: inputs.size,
                     };
                     self.bench.work(job, Duration::ZERO)?
@@ -187,15 +187,15 @@ fn runner(bench: &Bench, method: &Method, size: UVec2) -> Result<Runner, Quality
 }
 
 impl Shader {
-    fn bound(&self, bench: &Bench, method: &Method, shot: &Shot) -> Result<(Inputs, Bound), QualityError> {
+    fn uploaded(&self, bench: &Bench, method: &Method, shot: &Shot) -> Result<(Inputs, Uploaded), QualityError> {
         let capture = shot.capture(method)?;
         let inputs = match method.kind {
             Kind::Edge(_) => one_a_pixel(capture)?,
             Kind::Fxaa(transfer) => of_the_picture(capture, transfer),
             _ => gbuffer::inputs(capture, &self.compiled.options)?,
         };
-        let bound = bench.bind(&self.pass, &self.manifest, &inputs)?;
-        Ok((inputs, bound))
+        let uploaded = bench.upload(&self.manifest, &inputs)?;
+        Ok((inputs, uploaded))
     }
 }
 
