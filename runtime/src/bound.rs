@@ -38,8 +38,8 @@ pub(crate) enum Work {
     },
     Draw {
         pipeline: wgpu::RenderPipeline,
-        /// As many as the plan has outputs; the rest are none.
-        targets: [Option<TextureView>; MAX_TARGETS],
+        /// [`MAX_TARGETS`] at most.
+        targets: Vec<TextureView>,
         rectangle: Region,
         load: wgpu::LoadOp<wgpu::Color>,
     },
@@ -61,7 +61,7 @@ impl Work {
             },
             Pipeline::Render(pipeline) => Work::Draw {
                 pipeline: pipeline.clone(),
-                targets: std::array::from_fn(|k| targets.get(k).map(|target| (*target).clone())),
+                targets: targets.iter().map(|target| (*target).clone()).collect(),
                 rectangle,
                 // Where every pixel is overwritten, clearing spares tiled GPUs from loading the old ones.
                 load: match is_part {
@@ -143,8 +143,9 @@ impl Bound {
                 rectangle,
                 load,
             } => {
-                let attachments = targets.each_ref().map(|target| {
-                    target.as_ref().map(|view| wgpu::RenderPassColorAttachment {
+                // On the stack: nothing is allocated here.
+                let attachments: [_; MAX_TARGETS] = std::array::from_fn(|k| {
+                    targets.get(k).map(|view| wgpu::RenderPassColorAttachment {
                         view,
                         depth_slice: None,
                         resolve_target: None,
@@ -156,7 +157,7 @@ impl Bound {
                 });
                 let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
                     label,
-                    color_attachments: &attachments[..self.plan.outputs.len()],
+                    color_attachments: &attachments[..targets.len()],
                     depth_stencil_attachment: None,
                     timestamp_writes: span.map(Span::render_writes),
                     occlusion_query_set: None,

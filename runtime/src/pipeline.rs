@@ -6,8 +6,9 @@ use crate::layout::{Layout, texture_format};
 use crate::module::Source;
 use crate::plan::{OutputPlan, Plan, StagePlan};
 use crate::{Error, PassOptions};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 use straightline_manifest::Component;
+use web_time::Instant;
 use wgpu::{Device, TextureFormat};
 
 /// A pipeline of either stage.

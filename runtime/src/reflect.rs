@@ -6,8 +6,8 @@
 
 use crate::Error;
 use crate::plan::{BufferPlan, InputKind, InputPlan, OutputPlan, Plan, StagePlan, TexturePlan, UniformPlan};
+use naga::{AddressSpace, GlobalVariable, ImageClass, Module, ScalarKind, ShaderStage, TypeInner};
 use straightline_manifest::{Component, Dimension, Format, SampleType, SamplerType, Scalar, ValueType};
-use wgpu::naga::{self, AddressSpace, GlobalVariable, ImageClass, Module, ScalarKind, ShaderStage, TypeInner};
 
 /// Parses `wgsl` and checks that it is the shader that `plan` describes.
 ///

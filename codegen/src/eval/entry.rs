@@ -146,8 +146,8 @@ impl Evaluator<'_> {
                     if let Some(uniform) = added.filter(|uniform| uniform.name == own) {
                         uniform.part = Some(Part {
                             of: name.to_owned(),
-                            index: k as u32,
-                            count: count as u32,
+                            index: k,
+                            count,
                             columns: false,
                         });
                     }

@@ -85,17 +85,13 @@ impl Renderer {
         })
     }
 
-    /// Goes on in another size. Passes and uniforms stay as they are.
-    #[cfg(any(test, feature = "window"))] // a picture has one size
-    pub fn resize(&mut self, size: Size) -> Result<(), Failure> {
+    /// Records and submits the frame at `time` seconds, with or without antialiasing. Where the target has another size than
+    /// the last one, what lies between the passes is made anew, and SRAA bound to it.
+    pub fn draw(&mut self, time: f32, with_sraa: bool, target: &wgpu::TextureView) -> Result<(), Failure> {
+        let size = [target.texture().width(), target.texture().height()];
         if size != self.targets.size {
             self.targets = Targets::new(&self.device, size, &self.sraa)?;
         }
-        Ok(())
-    }
-
-    /// Records and submits the frame at `time` seconds, with or without antialiasing.
-    pub fn draw(&self, time: f32, with_sraa: bool, target: &wgpu::TextureView) -> Result<(), Failure> {
         let distance = 5.4 + 1.0 * (0.4 * time).sin();
         for (sample, uniforms) in SAMPLES.iter().zip(&self.uniforms) {
             self.queue.write_buffer(uniforms, 0, &self.view(time, distance, *sample));
