@@ -36,9 +36,24 @@ impl<'a> From<&'a wgpu::TextureView> for Resource<'a> { fn from(_: &'a wgpu::Tex
 #[derive(Debug)] pub struct Pass;
 impl Pass {
     pub fn from_json(_: &wgpu::Device, _: &str, _: &str) -> Result<Pass, Error> { Ok(Pass) }
-    pub fn encode(&self, _: &mut wgpu::CommandEncoder, _: &[(&str, Resource<'_>)], _: &wgpu::TextureView) -> Result<(), Error> { Ok(()) }
+    pub fn bind_with(&self, _: &[(&str, Resource<'_>)], _: &wgpu::TextureView, _: &BindOptions<'_>) -> Result<Bound, Error> { Ok(Bound) }
+}
+#[derive(Default)] pub struct BindOptions<'a> { pub uniforms: &'a [u8] }
+impl<'a> BindOptions<'a> {
+    pub fn uniforms(self, uniforms: &'a [u8]) -> Self { BindOptions { uniforms } }
+    pub fn region(self, _: Region) -> Self { self }
+}
+pub struct Region;
+#[derive(Debug)] pub struct Bound;
+impl Bound {
+    pub fn encode(&self, _: &mut wgpu::CommandEncoder) {}
     pub fn write_uniform<T>(&self, _: &wgpu::Queue, _: &str, _: T) -> Result<(), Error> { Ok(()) }
     pub fn write_uniforms(&self, _: &wgpu::Queue, _: &[u8]) -> Result<(), Error> { Ok(()) }
+}
+pub struct UniformValue;
+impl UniformValue {
+    pub fn array(_: &[f32]) -> Option<Self> { None }
+    pub fn vectors<const N: usize>(_: &[[f32; N]]) -> Option<Self> { None }
 }
 "#;
 
@@ -119,6 +134,11 @@ fn bindings_compile_whatever_is_read() {
             let place = pixel.as_vec2().extend(1.0);
             let shadow = d.compare(t, place.xy(), 1, 0.5) + e.compare(t, place, 0.5);
             a.load(pixel.extend(0)) + b.sample(s, place) + c.load(pixel, 1) as f32 + shadow + f.load(pixel).y as f32
+        }",
+        "pub fn k(grade: Mat3, turns: &[Mat2; 2], palette: &[Vec3; 4], weights: &[f32; 3], pixel: IVec2) -> Vec4 {
+            let step = (pixel.x & 3) as usize;
+            let turned = turns[1] * palette[step].xy() * weights[2];
+            (grade * palette[2]).extend(turned.x + turned.y)
         }",
     ];
     for (k, text) in reads.into_iter().enumerate() {

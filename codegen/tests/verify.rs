@@ -45,6 +45,7 @@ fn whole() -> Graph {
         name: "u".to_owned(),
         ty: Type::F32,
         default: None,
+        part: None,
     }];
     graph.tallies = vec!["t".to_owned()];
     let add = |b: &mut Builder<'_>, op: Op, args: &[u32], ty: Type| {

@@ -256,7 +256,7 @@ pub fn uniforms(manifest: &Manifest, options: &[OptionInfo]) -> (Vec<UniformCont
         return (Vec::new(), None);
     };
     let each = fields.iter().map(|field| {
-        let (kind, components) = spelling::parts(&field.ty);
+        let scalar = field.ty.scalar();
         let option = options
             .iter()
             .find(|option| option.name.replace('-', "_") == field.name);
@@ -264,7 +264,7 @@ pub fn uniforms(manifest: &Manifest, options: &[OptionInfo]) -> (Vec<UniformCont
             Some(OptionKind::Number { min, max, .. }) => [*min, *max],
             _ => [None, None],
         };
-        let [min, max] = range.map(|bound| bound.map(|bound| spelling::number(bound, kind)));
+        let [min, max] = range.map(|bound| bound.map(|bound| spelling::number(bound, scalar)));
         let loose = manifest
             .language_bindings
             .iter()
@@ -273,13 +273,13 @@ pub fn uniforms(manifest: &Manifest, options: &[OptionInfo]) -> (Vec<UniformCont
             name: field.name.clone(),
             loose: loose.map_or(&field.name, |b| &b.name).clone(),
             docs: option.map(|option| one_line(&option.docs)).unwrap_or_default(),
-            wgsl: field.ty.clone(),
-            glsl: spelling::glsl(&field.ty),
-            hlsl: spelling::hlsl(&field.ty),
-            kind,
-            components,
+            wgsl: field.ty.to_string(),
+            glsl: spelling::glsl(field.ty),
+            hlsl: spelling::hlsl(field.ty),
+            kind: scalar.letter(),
+            components: field.ty.components().into(),
             offset: field.offset,
-            default: spelling::number(field.default.unwrap_or_default(), kind),
+            default: spelling::number(field.default.unwrap_or_default(), scalar),
             has_default: field.default.is_some(),
             min,
             max,
@@ -292,8 +292,8 @@ pub fn uniforms(manifest: &Manifest, options: &[OptionInfo]) -> (Vec<UniformCont
 pub fn outputs(manifest: &Manifest) -> Vec<OutputContext> {
     let each = manifest.outputs.iter().map(|output| OutputContext {
         name: output.name.clone(),
-        wgsl: output.ty.clone(),
-        glsl: spelling::glsl(&output.ty),
+        wgsl: output.ty.to_string(),
+        glsl: spelling::glsl(output.ty),
         format: output.format.wgsl(),
     });
     each.collect()

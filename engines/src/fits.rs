@@ -59,7 +59,7 @@ pub fn why_not(manifest: &Manifest, limits: &Limits, title: &str) -> Option<Stri
             BindingKind::Uniform { fields, .. } => {
                 uniforms += fields.len() as u32;
                 let types = limits.uniform_types.clone().unwrap_or_else(vectors);
-                if let Some(field) = fields.iter().find(|field| !holds(&types, &field.ty)) {
+                if let Some(field) = fields.iter().find(|field| !holds(&types, &field.ty.to_string())) {
                     let (field, ty) = (&field.name, &field.ty);
                     return Some(format!(
                         "has the uniform `{field}` of type {ty}, and {title} takes {}",

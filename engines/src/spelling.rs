@@ -1,39 +1,28 @@
 //! How languages spell the types that a manifest names in WGSL's words.
 
-use straightline_manifest::{Dimension, SampleType};
+use straightline_manifest::{Dimension, SampleType, Scalar, ValueType};
 
-/// Component kind of a uniform: `f`, `i` or `u`, and how many there are.
-pub fn parts(wgsl: &str) -> (char, u32) {
-    match wgsl.strip_prefix("vec") {
-        Some(rest) => {
-            let lanes = rest.chars().next().and_then(|c| c.to_digit(10)).unwrap_or(1);
-            (rest.chars().last().unwrap_or('f'), lanes)
-        }
-        None => (wgsl.chars().next().unwrap_or('f'), 1),
-    }
-}
-
-/// A scalar or vector in GLSL: `vec2f` is `vec2`.
-pub fn glsl(wgsl: &str) -> String {
-    match parts(wgsl) {
-        ('i', 1) => "int".to_owned(),
-        ('u', 1) => "uint".to_owned(),
-        (_, 1) => "float".to_owned(),
-        ('i', n) => format!("ivec{n}"),
-        ('u', n) => format!("uvec{n}"),
-        (_, n) => format!("vec{n}"),
-    }
-}
-
-/// A scalar or vector in HLSL: `vec2f` is `float2`.
-pub fn hlsl(wgsl: &str) -> String {
-    let (kind, n) = parts(wgsl);
-    let scalar = match kind {
-        'i' => "int",
-        'u' => "uint",
-        _ => "float",
+/// A number or a vector in GLSL: `vec2f` is `vec2`.
+pub fn glsl(ty: ValueType) -> String {
+    let (scalar, vector) = match ty.scalar() {
+        Scalar::F32 => ("float", "vec"),
+        Scalar::I32 => ("int", "ivec"),
+        Scalar::U32 => ("uint", "uvec"),
     };
-    match n {
+    match ty.components() {
+        1 => scalar.to_owned(),
+        n => format!("{vector}{n}"),
+    }
+}
+
+/// A number or a vector in HLSL: `vec2f` is `float2`.
+pub fn hlsl(ty: ValueType) -> String {
+    let scalar = match ty.scalar() {
+        Scalar::F32 => "float",
+        Scalar::I32 => "int",
+        Scalar::U32 => "uint",
+    };
+    match ty.components() {
         1 => scalar.to_owned(),
         n => format!("{scalar}{n}"),
     }
@@ -75,10 +64,10 @@ pub fn hlsl_texture(dimension: Dimension, sample_type: SampleType) -> String {
 }
 
 /// A number as every language with decimal points reads it: of floats the shortest that is the same `f32`.
-pub fn number(value: f64, kind: char) -> String {
-    match kind {
-        'i' | 'u' => format!("{}", value as i64),
-        _ => format!("{:?}", value as f32),
+pub fn number(value: f64, scalar: Scalar) -> String {
+    match scalar {
+        Scalar::I32 | Scalar::U32 => format!("{}", value as i64),
+        Scalar::F32 => format!("{:?}", value as f32),
     }
 }
 
@@ -117,15 +106,16 @@ mod tests {
             ("vec3i", "ivec3", "int3"),
             ("vec4u", "uvec4", "uint4"),
         ] {
-            assert_eq!((glsl(wgsl).as_str(), hlsl(wgsl).as_str()), (in_glsl, in_hlsl));
+            let ty = wgsl.parse().expect("a type");
+            assert_eq!((glsl(ty).as_str(), hlsl(ty).as_str()), (in_glsl, in_hlsl));
         }
     }
 
     #[test]
     fn numbers_have_a_point_where_they_are_floats() {
-        assert_eq!(number(f64::from(0.15_f32), 'f'), "0.15");
-        assert_eq!(number(3.0, 'f'), "3.0");
-        assert_eq!(number(3.0, 'i'), "3");
+        assert_eq!(number(f64::from(0.15_f32), Scalar::F32), "0.15");
+        assert_eq!(number(3.0, Scalar::F32), "3.0");
+        assert_eq!(number(3.0, Scalar::I32), "3");
     }
 
     #[test]

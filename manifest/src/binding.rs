@@ -1,5 +1,6 @@
 //! What a shader binds: in WebGPU's words, and language by language.
 
+use crate::{Element, Scalar, ValueType};
 use serde::{Deserialize, Serialize};
 
 /// One input resource. Of a function ([`Form::Function`](crate::Form::Function)) nothing is bound: group and number are those
@@ -48,8 +49,8 @@ pub enum BindingKind {
     Buffer {
         /// `read-only-storage`, or `storage` of one that the shader writes to.
         buffer_type: BufferType,
-        /// Type of an element as WGSL spells it: `f32`, `vec4f`, ...; of a structure its name.
-        element: String,
+        /// What an element is: in JSON its type, or of a structure its name.
+        element: Element,
         /// Bytes from one element to the next.
         stride: u32,
         /// Fields of a structure in order of offset; none of other elements.
@@ -75,10 +76,11 @@ pub const REGION: &str = "region";
 pub fn region_fields() -> Vec<UniformField> {
     let field = |(k, name): (u32, &str)| UniformField {
         name: name.to_owned(),
-        ty: "vec2i".to_owned(),
+        ty: ValueType::of(Scalar::I32, 2),
         offset: 8 * k,
         size: 8,
         default: None,
+        part: None,
     };
     (0..).zip(["first", "size", "place"]).map(field).collect()
 }
@@ -234,9 +236,9 @@ pub enum Extent {
 pub struct UniformField {
     /// Name in the kernel's source.
     pub name: String,
-    /// Type as WGSL spells it: `f32`, `i32`, `u32`, `vec2f`, ..., and in elements of buffers `array<vec4f, 3>`.
+    /// A number or a vector; in elements of buffers an array of these too.
     #[serde(rename = "type")]
-    pub ty: String,
+    pub ty: ValueType,
     /// Byte offset from the start of the buffer, or of the element.
     pub offset: u32,
     /// Size in bytes.
@@ -244,6 +246,22 @@ pub struct UniformField {
     /// Value to use unless the caller sets one, where the kernel states it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub default: Option<f64>,
+    /// Of a matrix or an array that the kernel takes: which part of it this field is. Parts that are not read have no field.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub part: Option<Part>,
+}
+
+/// A part of a value that has no field of its own: a column of a matrix, or an element of an array.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Part {
+    /// Name of the whole in the kernel's source.
+    pub of: String,
+    /// Type of the whole.
+    #[serde(rename = "type")]
+    pub ty: ValueType,
+    /// Which part, from 0.
+    pub index: u32,
 }
 
 /// What a shader binds, or takes as a parameter, in one language.

@@ -10,13 +10,14 @@ mod hash;
 mod output;
 mod precision;
 mod tuned;
+mod value;
 
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 pub use binding::{
-    Access, Binding, BindingKind, BufferType, Dimension, Extent, LanguageBinding, LanguageKind, REGION, REGION_SIZE,
-    SampleType, SamplerType, UniformField, ViewDimension, region_fields,
+    Access, Binding, BindingKind, BufferType, Dimension, Extent, LanguageBinding, LanguageKind, Part, REGION,
+    REGION_SIZE, SampleType, SamplerType, UniformField, ViewDimension, region_fields,
 };
 pub use form::{Form, Origin};
 pub use format::{Component, Format};
@@ -24,6 +25,7 @@ pub use hash::{hash_of_bytes, hash_of_text};
 pub use output::Output;
 pub use precision::Precision;
 pub use tuned::{LeftOut, Tuned};
+pub use value::{Element, NotAType, Scalar, ValueType};
 
 /// Version of the manifest's layout. A reader refuses a manifest whose schema it does not know.
 pub const SCHEMA: u32 = 3;
@@ -106,9 +108,9 @@ pub struct Manifest {
 pub struct Varying {
     /// Name in the kernel's source.
     pub name: String,
-    /// Type as WGSL spells it: `f32`, `vec3f`, ...
+    /// A number or a vector.
     #[serde(rename = "type")]
-    pub ty: String,
+    pub ty: ValueType,
     /// Location of the fragment's input.
     pub location: u32,
 }

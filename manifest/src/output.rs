@@ -1,6 +1,6 @@
 //! Where results go.
 
-use crate::{Access, Format, ViewDimension};
+use crate::{Access, Format, Scalar, ValueType, ViewDimension};
 use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
 use serde::de::{Deserializer, MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Serialize, Serializer};
@@ -28,18 +28,17 @@ pub struct Output {
     /// Texel format of the storage texture. A fragment shader writes to a colour target of any format with components of the
     /// same kind and no more of them, and this is the one it was generated for.
     pub format: Format,
-    /// Type of the value as WGSL spells it: `f32`, `vec2f`, `vec4u`, ... Components of the texel that it lacks are 0, and the
-    /// fourth is 1.
+    /// Type of the value, a number or a vector. Components of the texel that it lacks are 0, and the fourth is 1.
     #[serde(rename = "type", default = "colour", skip_serializing_if = "is_colour")]
-    pub ty: String,
+    pub ty: ValueType,
 }
 
-fn colour() -> String {
-    "vec4f".to_owned()
+fn colour() -> ValueType {
+    ValueType::of(Scalar::F32, 4)
 }
 
-fn is_colour(ty: &str) -> bool {
-    ty == "vec4f"
+fn is_colour(ty: &ValueType) -> bool {
+    *ty == colour()
 }
 
 /// One output as itself, and any other number of them as a list.

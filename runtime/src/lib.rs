@@ -1,36 +1,41 @@
 //! Runs emitted shaders in the caller's own [`wgpu::Device`] and encoder.
 //!
-//! A [`Pass`] is made once, from a shader's WGSL text and the manifest that the generator wrote beside it. Recording
-//! it takes texture views, samplers and buffers by name, and a target. Nothing here creates a device, submits, or owns a texture,
-//! but for [`Quads::detect`], which asks a device what its pixel quads can do.
+//! A [`Pass`] is made once, from a shader's WGSL text and the manifest that the generator wrote beside it. Binding it takes texture
+//! views, samplers and buffers by name, and a target, and checks them; the [`Bound`] that it gives is recorded every frame, which cannot
+//! fail and costs what a hand-written wgpu pass does. Nothing here creates a device, submits, or owns a texture, but for
+//! [`Quads::detect`], which asks a device what its pixel quads can do.
 //!
 //! ```no_run
-//! use straightline_runtime::{Error, Pass, Timer, wgpu};
+//! use straightline_runtime::{Bound, Error, Pass, wgpu};
 //!
 //! struct Antialiasing {
-//!     sraa: Pass,
+//!     pass: Pass,
+//!     bound: Bound,
 //! }
 //!
 //! impl Antialiasing {
 //!     // Usually `include_str!` of the two files that the generator wrote.
-//!     fn new(device: &wgpu::Device, manifest: &str, shader: &str) -> Result<Self, Error> {
-//!         Ok(Antialiasing { sraa: Pass::from_json(device, manifest, shader)? })
-//!     }
-//!
-//!     fn frame(
-//!         &self,
-//!         queue: &wgpu::Queue,
-//!         encoder: &mut wgpu::CommandEncoder,
+//!     fn new(
+//!         device: &wgpu::Device,
+//!         (manifest, shader): (&str, &str),
 //!         [color, depth, normal]: [&wgpu::TextureView; 3],
 //!         target: &wgpu::TextureView,
-//!     ) -> Result<(), Error> {
-//!         self.sraa.write_uniform(queue, "tau", 300.0)?;
-//!         self.sraa.encode(encoder, &[("color", color), ("depth", depth), ("normal", normal)], target)
+//!     ) -> Result<Self, Error> {
+//!         let pass = Pass::from_json(device, manifest, shader)?;
+//!         // Once more whenever one of these is another one.
+//!         let bound = pass.bind(&[("color", color), ("depth", depth), ("normal", normal)], target)?;
+//!         Ok(Antialiasing { pass, bound })
+//!     }
+//!
+//!     fn frame(&self, queue: &wgpu::Queue, encoder: &mut wgpu::CommandEncoder) -> Result<(), Error> {
+//!         self.bound.write_uniform(queue, "tau", 300.0)?;
+//!         self.bound.encode(encoder);
+//!         Ok(())
 //!     }
 //! }
 //! ```
 //!
-//! Every failure is an [`Error`] that names what is at fault and the way out: a wrong view, a shader that is not
+//! Every failure is an [`Error`] that names what is at fault and what to do: a wrong view, a shader that is not
 //! its manifest's, a lost device. Errors that wgpu raises meanwhile are caught in error scopes and do not reach the
 //! device's own handler; the device's callbacks are left alone.
 //!
@@ -47,12 +52,15 @@
 //! - Values set at run time are members of a uniform struct.
 //! - A shader for regions has one more, which says what rectangle of the inputs goes where in the target.
 
+mod bind;
+mod bound;
 mod error;
 mod guard;
 mod inputs;
 mod layout;
 mod loops;
 mod module;
+mod options;
 mod pass;
 mod pipeline;
 mod plan;
@@ -64,15 +72,17 @@ mod targets;
 mod timer;
 mod uniforms;
 
+pub use bound::Bound;
 pub use error::{BufferProblem, Error, Names, SamplerProblem, ViewProblem};
-pub use pass::{Pass, PassOptions};
+pub use options::{BindOptions, PassOptions};
+pub use pass::Pass;
 pub use quads::{Arrivals, DerivativeControl, DerivativeKind, QuadTransport, Quads};
 pub use region::Region;
 pub use resource::{Resource, ResourceKind};
 pub use straightline_manifest as manifest;
 pub use targets::Targets;
 pub use timer::{Span, Timer};
-pub use uniforms::{UniformType, UniformValue};
+pub use uniforms::{Component, UniformValue};
 
 /// The wgpu that this crate was built with, so that callers and generated code use the same one.
 pub use wgpu;

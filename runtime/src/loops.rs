@@ -3,7 +3,7 @@
 //! wgpu puts a bound on the rounds of every loop, because a compiler may take one that never ends for unreachable code and
 //! draw conclusions. Where it is shown here that all loops end, that bound can go.
 
-use wgpu::naga::{
+use naga::{
     AddressSpace, BinaryOperator, Block, Expression, Function, Handle, Literal, LocalVariable, Module, Scalar,
     Statement, TypeInner, front,
 };

@@ -6,12 +6,13 @@ use crate::layout::{Layout, texture_format};
 use crate::module::Source;
 use crate::plan::{OutputPlan, Plan, StagePlan};
 use crate::{Error, PassOptions};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 use straightline_manifest::Component;
+use web_time::Instant;
 use wgpu::{Device, TextureFormat};
 
 /// A pipeline of either stage.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) enum Pipeline {
     Compute {
         pipeline: wgpu::ComputePipeline,

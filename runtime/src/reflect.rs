@@ -6,9 +6,8 @@
 
 use crate::Error;
 use crate::plan::{BufferPlan, InputKind, InputPlan, OutputPlan, Plan, StagePlan, TexturePlan, UniformPlan};
-use crate::uniforms::{Kind, UniformType};
-use straightline_manifest::{Component, Dimension, Format, SampleType, SamplerType};
-use wgpu::naga::{self, AddressSpace, GlobalVariable, ImageClass, Module, ScalarKind, ShaderStage, TypeInner};
+use naga::{AddressSpace, GlobalVariable, ImageClass, Module, ScalarKind, ShaderStage, TypeInner};
+use straightline_manifest::{Component, Dimension, Format, SampleType, SamplerType, Scalar, ValueType};
 
 /// Parses `wgsl` and checks that it is the shader that `plan` describes.
 ///
@@ -293,16 +292,16 @@ fn check_uniform(module: &Module, plan: &UniformPlan) -> Result<(), String> {
     }
 }
 
-fn is_type(inner: &TypeInner, ty: UniformType) -> bool {
+fn is_type(inner: &TypeInner, ty: ValueType) -> bool {
     let (components, scalar) = match *inner {
         TypeInner::Scalar(scalar) => (1, scalar),
         TypeInner::Vector { size, scalar } => (size as u8, scalar),
         _ => return false,
     };
-    let kind = match ty.kind() {
-        Kind::Float => ScalarKind::Float,
-        Kind::Sint => ScalarKind::Sint,
-        Kind::Uint => ScalarKind::Uint,
+    let kind = match ty.scalar() {
+        Scalar::F32 => ScalarKind::Float,
+        Scalar::I32 => ScalarKind::Sint,
+        Scalar::U32 => ScalarKind::Uint,
     };
     components == ty.components() && scalar.kind == kind && scalar.width == 4
 }

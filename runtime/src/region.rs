@@ -1,7 +1,7 @@
 //! Rectangles of an image: a pass over a part of it, so that a large one is filtered in tiles.
 
 use crate::Error;
-use crate::guard::guarded;
+use crate::uniforms::filled;
 use std::fmt;
 
 /// A rectangle of pixels that a pass filters: where it lies in the inputs, and where it goes in the target.
@@ -57,35 +57,20 @@ impl Region {
         Ok(())
     }
 
-    /// A buffer as the shader reads it. Each recorded region has its own: all encoders of one submission would see the
-    /// last value of a shared one.
+    /// A buffer as the shader reads it. Each bound region has its own: all encoders of one submission would see the last
+    /// value of a shared one.
     pub(crate) fn buffer(self, device: &wgpu::Device, kernel: &str) -> Result<wgpu::Buffer, Error> {
-        let doing = format!("encoding a region of `{kernel}`");
         let refused = |description| Error::Region {
             kernel: kernel.to_owned(),
             region: self,
             problem: description,
         };
-        let buffer = guarded(device, &doing, refused, || {
-            device.create_buffer(&wgpu::BufferDescriptor {
-                label: Some(straightline_manifest::REGION),
-                size: u64::from(straightline_manifest::REGION_SIZE),
-                usage: wgpu::BufferUsages::UNIFORM,
-                mapped_at_creation: true,
-            })
-        })?;
-        let mut mapping = buffer
-            .get_mapped_range_mut(..)
-            .map_err(|_| Error::DeviceLost { doing: doing.clone() })?;
         let mut bytes = [0u8; straightline_manifest::REGION_SIZE as usize];
         let lanes = [self.first, self.size, self.place].concat();
         for (place, lane) in bytes.chunks_exact_mut(4).zip(lanes) {
             place.copy_from_slice(&lane.to_le_bytes());
         }
-        mapping.copy_from_slice(&bytes);
-        drop(mapping);
-        guarded(device, &doing, refused, || buffer.unmap())?;
-        Ok(buffer)
+        filled(device, kernel, straightline_manifest::REGION, &bytes, refused)
     }
 }
 

@@ -10,7 +10,7 @@ use wgpu::{CommandEncoder, Device, Queue};
 /// Bytes of one timestamp.
 const TICK: u64 = wgpu::QUERY_SIZE as u64;
 
-/// Measures spans of GPU time: of passes recorded with [`Pass::encode_timed`](crate::Pass::encode_timed), or of any
+/// Measures spans of GPU time: of passes recorded with [`Bound::encode_timed`](crate::Bound::encode_timed), or of any
 /// pass that is given the writes of a [`Span`].
 ///
 /// Record timed passes, call [`resolve`](Self::resolve) on the same encoder, submit it, then [`read`](Self::read).

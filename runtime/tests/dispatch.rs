@@ -4,7 +4,7 @@ mod common;
 
 use common::{ADD, COPY, Fixture, Gpu, Kernel, LAYERS, STAGES, Stage, array_view, clear_depth, ramp, view};
 use straightline_runtime::manifest::Manifest;
-use straightline_runtime::{Pass, PassOptions, wgpu};
+use straightline_runtime::{BindOptions, Pass, PassOptions, wgpu};
 use wgpu::{TextureFormat, TextureUsages};
 
 const SIZES: [[u32; 2]; 6] = [[1, 1], [1, 7], [7, 1], [8, 8], [9, 16], [33, 17]];
@@ -23,8 +23,9 @@ fn copies_every_pixel_of_any_size() {
             let color = gpu.upload(size, 1, &ramp(size, 1));
             let target = gpu.target(size);
             let mut encoder = gpu.encoder();
-            pass.encode(&mut encoder, &[("color", &view(&color))], &view(&target))
-                .expect("to encode");
+            pass.bind(&[("color", &view(&color))], &view(&target))
+                .expect("to bind")
+                .encode(&mut encoder);
             gpu.submit(encoder);
             assert_eq!(gpu.download(&target), ramp(size, 1), "{stage:?} {size:?}");
         }
@@ -54,7 +55,9 @@ fn reads_layers_and_takes_inputs_in_any_order() {
         let target = gpu.target(size);
         let mut encoder = gpu.encoder();
         let inputs = [("depth", &array_view(&depth)), ("color", &view(&color))];
-        pass.encode(&mut encoder, &inputs, &view(&target)).expect("to encode");
+        pass.bind(&inputs, &view(&target))
+            .expect("to bind")
+            .encode(&mut encoder);
         gpu.submit(encoder);
         assert_eq!(gpu.download(&target), wanted, "{stage:?}");
     }
@@ -64,32 +67,41 @@ fn reads_layers_and_takes_inputs_in_any_order() {
 fn uniforms_start_from_defaults_and_keep_what_is_written() {
     let gpu = Gpu::new();
     let size = [5, 3];
-    let color = gpu.upload(size, 1, &ramp(size, 1));
+    let color = view(&gpu.upload(size, 1, &ramp(size, 1)));
+    let expect = |offset: [f32; 4], scale: f32, steps: f32| -> Vec<[f32; 4]> {
+        ramp(size, 1)
+            .iter()
+            .map(|p| [0, 1, 2, 3].map(|c| p[c] * scale + offset[c] + steps))
+            .collect()
+    };
     for stage in STAGES {
         let pass = pass(&gpu, &ADD, stage);
+        let targets = [gpu.target(size), gpu.target(size)];
+        let bind = |target, offset: [f32; 4]| {
+            let options = BindOptions::default().uniform("offset", offset);
+            pass.bind_with(&[("color", &color)], &view(target), &options)
+                .expect("to bind")
+        };
+        let bounds = [bind(&targets[0], [1.0, 2.0, 3.0, 4.0]), bind(&targets[1], [0.5; 4])];
         let run = || {
-            let target = gpu.target(size);
             let mut encoder = gpu.encoder();
-            pass.encode(&mut encoder, &[("color", &view(&color))], &view(&target))
-                .expect("to encode");
+            bounds.iter().for_each(|bound| bound.encode(&mut encoder));
             gpu.submit(encoder);
-            gpu.download(&target)
+            targets.each_ref().map(|target| gpu.download(target))
         };
-        let expect = |offset: [f32; 4], scale: f32, steps: f32| -> Vec<[f32; 4]> {
-            ramp(size, 1)
-                .iter()
-                .map(|p| [0, 1, 2, 3].map(|c| p[c] * scale + offset[c] + steps))
-                .collect()
-        };
-        pass.write_uniform(&gpu.queue, "offset", [1.0, 2.0, 3.0, 4.0])
-            .expect("a vec4f");
-        assert_eq!(run(), expect([1.0, 2.0, 3.0, 4.0], 2.0, -3.0), "{stage:?}, defaults");
-        pass.write_uniform(&gpu.queue, "scale", 0.5).expect("an f32");
-        pass.write_uniform(&gpu.queue, "steps", 10).expect("an i32");
-        assert_eq!(run(), expect([1.0, 2.0, 3.0, 4.0], 0.5, 10.0), "{stage:?}, written");
-        pass.write_uniforms(&gpu.queue, &params([4.0, 3.0, 2.0, 1.0], 4.0, -1))
+        let other = expect([0.5; 4], 2.0, -3.0);
+        let [bound, _] = &bounds;
+        let wanted = expect([1.0, 2.0, 3.0, 4.0], 2.0, -3.0);
+        assert_eq!(run(), [wanted, other.clone()], "{stage:?}, defaults");
+        bound.write_uniform(&gpu.queue, "scale", 0.5).expect("an f32");
+        bound.write_uniform(&gpu.queue, "steps", 10).expect("an i32");
+        let wanted = expect([1.0, 2.0, 3.0, 4.0], 0.5, 10.0);
+        assert_eq!(run(), [wanted, other.clone()], "{stage:?}, written");
+        bound
+            .write_uniforms(&gpu.queue, &params([4.0, 3.0, 2.0, 1.0], 4.0, -1))
             .expect("a whole struct");
-        assert_eq!(run(), expect([4.0, 3.0, 2.0, 1.0], 4.0, -1.0), "{stage:?}, at once");
+        let wanted = expect([4.0, 3.0, 2.0, 1.0], 4.0, -1.0);
+        assert_eq!(run(), [wanted, other], "{stage:?}, at once");
     }
 }
 
@@ -109,11 +121,13 @@ fn a_whole_struct_sets_what_has_no_default() {
     let color = gpu.upload(size, 1, &ramp(size, 1));
     let target = gpu.target(size);
     let pass = pass(&gpu, &ADD, Stage::Compute);
-    pass.write_uniforms(&gpu.queue, &params([1.0; 4], 1.0, -1))
-        .expect("a whole struct");
+    let bytes = params([1.0; 4], 1.0, -2);
+    // Single values count before those of the whole struct.
+    let options = BindOptions::default().uniform("steps", -1).uniforms(&bytes);
     let mut encoder = gpu.encoder();
-    pass.encode(&mut encoder, &[("color", &view(&color))], &view(&target))
-        .expect("no uniform to be missing");
+    pass.bind_with(&[("color", &view(&color))], &view(&target), &options)
+        .expect("no uniform to be missing")
+        .encode(&mut encoder);
     gpu.submit(encoder);
     assert_eq!(gpu.download(&target), ramp(size, 1));
 }
@@ -125,13 +139,15 @@ fn passes_chain_in_one_encoder() {
     let color = gpu.upload(size, 1, &ramp(size, 1));
     for (first, second) in [(Stage::Compute, Stage::Fragment), (Stage::Fragment, Stage::Compute)] {
         let (copy, add) = (pass(&gpu, &COPY, first), pass(&gpu, &ADD, second));
-        add.write_uniform(&gpu.queue, "offset", [0.0; 4]).expect("a vec4f");
+        let options = BindOptions::default().uniform("offset", [0.0; 4]);
         let (middle, target) = (gpu.target(size), gpu.target(size));
         let mut encoder = gpu.encoder();
-        copy.encode(&mut encoder, &[("color", &view(&color))], &view(&middle))
-            .expect("to encode");
-        add.encode(&mut encoder, &[("color", &view(&middle))], &view(&target))
-            .expect("to encode");
+        copy.bind(&[("color", &view(&color))], &view(&middle))
+            .expect("to bind")
+            .encode(&mut encoder);
+        add.bind_with(&[("color", &view(&middle))], &view(&target), &options)
+            .expect("to bind")
+            .encode(&mut encoder);
         gpu.submit(encoder);
         let wanted: Vec<[f32; 4]> = ramp(size, 1).iter().map(|p| p.map(|v| v * 2.0 - 3.0)).collect();
         assert_eq!(gpu.download(&target), wanted, "{first:?} then {second:?}");
@@ -162,8 +178,9 @@ fn depth_buffers_are_read_in_place() {
             let target = gpu.target(size);
             let mut encoder = gpu.encoder();
             clear_depth(&mut encoder, &view(&depth), format, 0.25);
-            pass.encode(&mut encoder, &[("depth", &only_depth)], &view(&target))
-                .expect("to encode");
+            pass.bind(&[("depth", &only_depth)], &view(&target))
+                .expect("to bind")
+                .encode(&mut encoder);
             gpu.submit(encoder);
             for [red, ..] in gpu.download(&target) {
                 assert!(
@@ -202,8 +219,9 @@ fn fragment_draws_to_the_format_asked_for() {
             ..Default::default()
         });
         let mut encoder = gpu.encoder();
-        pass.encode(&mut encoder, &[("color", &view(&color))], &view_of)
-            .expect("to encode");
+        pass.bind(&[("color", &view(&color))], &view_of)
+            .expect("to bind")
+            .encode(&mut encoder);
         gpu.submit(encoder);
         assert_eq!(
             gpu.download_bytes(&target),
@@ -234,32 +252,38 @@ fn a_layer_of_a_texture_is_a_target_and_another_an_input() {
         let stack = gpu.texture(size, 2, TextureFormat::Rgba32Float, usage);
         let (color, target) = (gpu.upload(size, 1, &ramp(size, 1)), gpu.target(size));
         let mut encoder = gpu.encoder();
-        copy.encode(&mut encoder, &[("color", &view(&color))], &layer(&stack, 1))
-            .expect("to encode");
-        copy.encode(&mut encoder, &[("color", &layer(&stack, 1))], &layer(&stack, 0))
-            .expect("to encode");
-        copy.encode(&mut encoder, &[("color", &layer(&stack, 0))], &view(&target))
-            .expect("to encode");
+        copy.bind(&[("color", &view(&color))], &layer(&stack, 1))
+            .expect("to bind")
+            .encode(&mut encoder);
+        copy.bind(&[("color", &layer(&stack, 1))], &layer(&stack, 0))
+            .expect("to bind")
+            .encode(&mut encoder);
+        copy.bind(&[("color", &layer(&stack, 0))], &view(&target))
+            .expect("to bind")
+            .encode(&mut encoder);
         gpu.submit(encoder);
         assert_eq!(gpu.download(&target), ramp(size, 1), "{stage:?}");
     }
 }
 
 #[test]
-fn a_pass_is_shared_between_threads() {
+fn passes_and_what_is_bound_are_shared_between_threads() {
     let gpu = Gpu::new();
     let size = [8, 8];
     let copy = pass(&gpu, &COPY, Stage::Compute);
     let color = view(&gpu.upload(size, 1, &ramp(size, 1)));
-    // Often enough that every interleaving of encoding with submitting and polling turns up.
+    let common = gpu.target(size);
+    let shared = copy.bind(&[("color", &color)], &view(&common)).expect("to bind");
+    // Often enough that every interleaving of binding with submitting and polling turns up.
     std::thread::scope(|scope| {
         for _ in 0..4 {
             scope.spawn(|| {
                 let target = gpu.target(size);
                 for _ in 0..500 {
                     let mut encoder = gpu.encoder();
-                    copy.encode(&mut encoder, &[("color", &color)], &view(&target))
-                        .expect("to encode");
+                    let bound = copy.bind(&[("color", &color)], &view(&target)).expect("to bind");
+                    bound.encode(&mut encoder);
+                    shared.encode(&mut encoder);
                     gpu.submit(encoder);
                     gpu.device.poll(wgpu::PollType::Poll).expect("to poll");
                 }
@@ -267,4 +291,25 @@ fn a_pass_is_shared_between_threads() {
             });
         }
     });
+    assert_eq!(gpu.download(&common), ramp(size, 1));
+}
+
+#[test]
+fn what_is_bound_outlives_all_that_it_was_made_of() {
+    let gpu = Gpu::new();
+    let size = [9, 4];
+    for stage in STAGES {
+        let target = gpu.target(size);
+        let bound = {
+            let pass = pass(&gpu, &COPY, stage);
+            let color = view(&gpu.upload(size, 1, &ramp(size, 1)));
+            pass.bind(&[("color", &color)], &view(&target)).expect("to bind")
+        };
+        for _ in 0..2 {
+            let mut encoder = gpu.encoder();
+            bound.encode(&mut encoder);
+            gpu.submit(encoder);
+            assert_eq!(gpu.download(&target), ramp(size, 1), "{stage:?}");
+        }
+    }
 }

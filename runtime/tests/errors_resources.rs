@@ -1,4 +1,4 @@
-//! Unfit samplers, buffers and textures, and manifests that ask for such, are errors that name them. Nothing is recorded.
+//! Unfit samplers, buffers and textures, and manifests that ask for such, are errors that name them.
 
 mod common;
 
@@ -15,12 +15,10 @@ fn pass(gpu: &Gpu, kernel: &Kernel, stage: Stage) -> Pass {
     Pass::from_json(&gpu.device, &manifest, &wgsl).expect("a pass")
 }
 
-/// Encodes what must be refused. The encoder must still be good.
+/// Binds what must be refused.
 fn refuse(gpu: &Gpu, pass: &Pass, inputs: &[(&str, Resource)]) -> Error {
     let target = view(&gpu.target(SIZE));
-    let mut encoder = gpu.encoder();
-    let error = pass.encode(&mut encoder, inputs, &target).expect_err("a refusal");
-    gpu.submit(encoder);
+    let error = pass.bind(inputs, &target).expect_err("a refusal");
     assert!(error.to_string().contains(&format!("`{}`", pass.kernel())), "{error}");
     error
 }
@@ -133,9 +131,7 @@ fn a_filtered_input_that_is_the_target() {
         let usage = READ | TextureUsages::STORAGE_BINDING | TextureUsages::RENDER_ATTACHMENT;
         let image = view(&gpu.texture(SIZE, 1, TextureFormat::Rgba16Float, usage));
         let inputs = [("small", Resource::from(&image)), ("linear", (&linear).into())];
-        let mut encoder = gpu.encoder();
-        let error = pass.encode(&mut encoder, &inputs, &image).expect_err("a refusal");
-        gpu.submit(encoder);
+        let error = pass.bind(&inputs, &image).expect_err("a refusal");
         assert_eq!(view_problem(error, "small"), ViewProblem::IsTarget);
     }
 }
@@ -236,7 +232,7 @@ fn textures_of_another_shape_or_of_other_numbers() {
             ("ids", (&ids_view).into()),
             ("linear", (&linear).into()),
         ];
-        pass.encode(&mut encoder, &fitting, &target).expect("all fits");
+        pass.bind(&fitting, &target).expect("all fits").encode(&mut encoder);
         gpu.submit(encoder);
         let one = view(&square(1));
         let found = with(&one, &volume_view, &ids_view, "around");

@@ -15,7 +15,7 @@ fn pass(gpu: &Gpu, kernel: &Kernel, stage: Stage) -> Pass {
 fn run<'r, R: Into<Resource<'r>> + Copy>(gpu: &Gpu, pass: &Pass, width: u32, inputs: &[(&str, R)]) -> Vec<[f32; 4]> {
     let target = gpu.target([width, 1]);
     let mut encoder = gpu.encoder();
-    pass.encode(&mut encoder, inputs, &view(&target)).expect("to encode");
+    pass.bind(inputs, &view(&target)).expect("to bind").encode(&mut encoder);
     gpu.submit(encoder);
     gpu.download(&target)
 }

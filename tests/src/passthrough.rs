@@ -62,8 +62,8 @@ pub fn run_all(bench: &Bench, emitted: &Emitted, target: Target, inputs: &Inputs
     let words = words(bytes, target, &mut manifest)?;
     let inputs = with_language_bindings(&mut manifest, target, inputs)?;
     pass(bench, &manifest, &words).and_then(|pass| {
-        let bound = bench.bind(&pass, &manifest, &inputs).map_err(|e| e.to_string())?;
-        let written = bench.written_by(&pass, &bound, inputs.size);
+        let uploaded = bench.upload(&manifest, &inputs).map_err(|e| e.to_string())?;
+        let written = bench.written_by(&pass, &uploaded, inputs.size);
         written.map_err(|e| e.to_string())
     })
 }
@@ -80,11 +80,11 @@ pub fn run_buffers(bench: &Bench, emitted: &Emitted, target: Target, inputs: &In
     let words = words(bytes, target, &mut manifest)?;
     let inputs = with_language_bindings(&mut manifest, target, inputs)?;
     let pass = pass(bench, &manifest, &words)?;
-    let bound = bench.bind(&pass, &manifest, &inputs).map_err(|e| e.to_string())?;
+    let uploaded = bench.upload(&manifest, &inputs).map_err(|e| e.to_string())?;
     bench
-        .written_by(&pass, &bound, inputs.size)
+        .written_by(&pass, &uploaded, inputs.size)
         .map_err(|e| e.to_string())?;
-    bench.buffers(&manifest, &bound).map_err(|e| e.to_string())
+    bench.buffers(&manifest, &uploaded).map_err(|e| e.to_string())
 }
 
 /// The SPIR-V of a file; the manifest then names its entry point.

@@ -6,9 +6,10 @@ mod common;
 use common::{bench, same_bits};
 use serde_json::Value;
 use straightline_codegen::emit::{Emitted, Target};
-use straightline_codegen::{Compiled, EmitOptions, Kernel, Settings, Stage};
+use straightline_codegen::{Compiled, EmitOptions, Kernel, Settings, Stage, ir};
 use straightline_kernels::prelude::*;
-use straightline_runtime::{Error, Pass, Resource};
+use straightline_manifest::BindingKind;
+use straightline_runtime::{BindOptions, Error, Pass, Resource, UniformValue};
 use straightline_study::execute::{Bench, Inputs, test_inputs};
 use straightline_tests::passthrough;
 
@@ -48,8 +49,12 @@ fn moved(options: EmitOptions) -> EmitOptions {
 fn run(bench: &Bench, compiled: &Compiled, options: &EmitOptions) -> Vec<[f32; 4]> {
     let (pass, manifest) = bench.emitted(compiled, options).unwrap_or_else(|e| panic!("{e}"));
     let inputs = inputs(compiled);
-    let bound = bench.bind(&pass, &manifest, &inputs).unwrap_or_else(|e| panic!("{e}"));
-    texels(&bench.picture_of(&pass, &bound, SIZE).unwrap_or_else(|e| panic!("{e}")))
+    let uploaded = bench.upload(&manifest, &inputs).unwrap_or_else(|e| panic!("{e}"));
+    texels(
+        &bench
+            .picture_of(&pass, &uploaded, SIZE)
+            .unwrap_or_else(|e| panic!("{e}")),
+    )
 }
 
 #[test]
@@ -203,11 +208,10 @@ fn a_layout_is_made_of_the_manifests_words_alone() {
     });
 
     // What is bound is the bench's; where, the words say.
-    let pass = Pass::new(device, &emitted.manifest, &wgsl).unwrap_or_else(|e| panic!("{e}"));
-    let bound = bench
-        .bind(&pass, &emitted.manifest, &inputs(&compiled))
+    let uploaded = bench
+        .upload(&emitted.manifest, &inputs(&compiled))
         .unwrap_or_else(|e| panic!("{e}"));
-    let resources = bound.resources();
+    let resources = uploaded.resources();
     let uniforms = device.create_buffer(&wgpu::BufferDescriptor {
         label: None,
         size: 16,
@@ -294,4 +298,61 @@ fn a_function_is_no_pass() {
         error.contains("`k`") && error.contains("a function") && error.contains("form `entry`"),
         "{error}"
     );
+}
+
+/// A matrix and an array are one value to who sets them, and so many fields in the shader as it reads of them.
+#[test]
+fn matrices_and_arrays_are_set_as_one_value() {
+    let text = "pub fn k(turn: Mat2, palette: &[Vec3; 4], weights: &[f32; 2], pixel: IVec2) -> Vec4 {\n    let turned = turn * vec2(1.0, 2.0);\n    \
+                (palette[3] - palette[1]).extend(weights[1]) + turned.xyxy()\n}\n";
+    let (bench, compiled) = (
+        bench(),
+        Kernel::from_text("k.rs", text, "k").compile(&Settings::default()),
+    );
+    let compiled = compiled.unwrap_or_else(|e| panic!("{e}"));
+    let graph = ir::print(&compiled.graph);
+    assert_eq!(ir::print(&ir::parse(&graph).unwrap_or_else(|e| panic!("{e:?}"))), graph);
+    let target = bench.target(uvec2(1, 1), wgpu::TextureFormat::Rgba32Float);
+    let view = target.create_view(&wgpu::TextureViewDescriptor::default());
+    let (turn, weights) = ([[3.0, 5.0], [7.0, 11.0]], [13.0, 17.0]);
+    let palette = [[0.0; 3], [1.0, 2.0, 4.0], [0.0; 3], [8.0, 16.0, 32.0]];
+    let [palette, weights] = [UniformValue::vectors(&palette), UniformValue::array(&weights)].map(Option::unwrap);
+    let options = BindOptions::default().uniform("turn", turn);
+    let options = options.uniform("palette", palette).uniform("weights", weights);
+    for stage in [Stage::Compute, Stage::Fragment] {
+        let (pass, manifest) = bench.pass(&compiled, stage).unwrap_or_else(|e| panic!("{e}"));
+        let fields: Vec<String> = manifest
+            .bindings
+            .iter()
+            .filter_map(|binding| match &binding.kind {
+                BindingKind::Uniform { fields, .. } => Some(fields),
+                _ => None,
+            })
+            .flatten()
+            .filter_map(|field| {
+                field
+                    .part
+                    .as_ref()
+                    .map(|part| format!("{} {} {} {}", field.name, part.of, part.ty, part.index))
+            })
+            .collect();
+        let wanted = [
+            "turn_x_axis turn mat2x2f 0",
+            "turn_y_axis turn mat2x2f 1",
+            "palette_1 palette array<vec3f, 4> 1",
+            "palette_3 palette array<vec3f, 4> 3",
+            "weights_1 weights array<f32, 2> 1",
+        ];
+        assert_eq!(fields, wanted);
+        let bound = pass.bind_with(&[] as &[(&str, Resource<'_>)], &view, &options);
+        let mut encoder = bench.device().create_command_encoder(&Default::default());
+        bound.unwrap_or_else(|e| panic!("{e}")).encode(&mut encoder);
+        bench.queue().submit([encoder.finish()]);
+        let found = bench.download(&target).unwrap_or_else(|e| panic!("{e}"));
+        assert_eq!(
+            found.texels(),
+            [vec4(7.0 + 17.0, 14.0 + 27.0, 28.0 + 17.0, 17.0 + 27.0)],
+            "{stage:?}"
+        );
+    }
 }

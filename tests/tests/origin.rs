@@ -81,8 +81,8 @@ fn all_turned(inputs: &Inputs) -> Inputs {
 
 fn run(bench: &Bench, compiled: &Compiled, options: &EmitOptions, inputs: &Inputs) -> Frame<Vec4> {
     let made = bench.emitted(compiled, options).and_then(|(pass, manifest)| {
-        let bound = bench.bind(&pass, &manifest, inputs)?;
-        bench.picture_of(&pass, &bound, inputs.size)
+        let uploaded = bench.upload(&manifest, inputs)?;
+        bench.picture_of(&pass, &uploaded, inputs.size)
     });
     made.unwrap_or_else(|e| panic!("{}: {e}", compiled.kernel))
 }
@@ -198,14 +198,14 @@ fn regions_are_stated_from_below() {
             let part = |origin: Origin, inputs: &Inputs, region: Region| {
                 let options = bench.options(stage).region(true).origin(origin);
                 let (pass, manifest) = bench.emitted(&compiled, &options).unwrap_or_else(|e| panic!("{e}"));
-                let bound = bench.bind(&pass, &manifest, inputs).unwrap_or_else(|e| panic!("{e}"));
+                let uploaded = bench.upload(&manifest, inputs).unwrap_or_else(|e| panic!("{e}"));
                 let target = bench.target(size, pass.target_format());
                 let view = target.create_view(&wgpu::TextureViewDescriptor::default());
                 let mut encoder = bench
                     .device()
                     .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-                let encoded = pass.encode_region(&mut encoder, &bound.resources(), &view, region);
-                encoded.unwrap_or_else(|e| panic!("{e}"));
+                let bound = uploaded.bind_region(&pass, &view, region);
+                bound.unwrap_or_else(|e| panic!("{e}")).encode(&mut encoder);
                 bench.queue().submit([encoder.finish()]);
                 bench.download(&target).unwrap_or_else(|e| panic!("{e}"))
             };

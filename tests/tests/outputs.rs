@@ -156,14 +156,14 @@ fn same(what: &str, native: &[Vec<[f64; 4]>], found: &[Written]) {
 
 /// Of floats that a driver rounds in another way; integers are the same.
 #[track_caller]
-fn near(what: &str, native: &[Vec<[f64; 4]>], found: &[Written], bound: f64) {
+fn near(what: &str, native: &[Vec<[f64; 4]>], found: &[Written], uploaded: f64) {
     assert_eq!(native.len(), found.len(), "{what}");
     for (native, found) in native.iter().zip(found) {
         for (k, (a, b)) in native.iter().zip(&found.texels).enumerate() {
             let off = (0..4)
                 .map(|c| (a[c] - b[c]).abs() / a[c].abs().max(1.0))
                 .fold(0.0, f64::max);
-            assert!(off <= bound, "{what}, {}, pixel {k}: {a:?} and {b:?}", found.name);
+            assert!(off <= uploaded, "{what}, {}, pixel {k}: {a:?} and {b:?}", found.name);
         }
     }
 }
@@ -215,11 +215,11 @@ fn every_stage_gives_the_same_on_a_gpu() {
                     .map(|output| (output.name.as_str(), output.format))
                     .collect();
                 assert_eq!(written, targets, "{what}");
-                let bound = bench
-                    .bind(&pass, &manifest, &inputs())
+                let uploaded = bench
+                    .upload(&manifest, &inputs())
                     .unwrap_or_else(|e| panic!("{what}: {e}"));
                 let found = bench
-                    .written_by(&pass, &bound, SIZE)
+                    .written_by(&pass, &uploaded, SIZE)
                     .unwrap_or_else(|e| panic!("{what}: {e}"));
                 near(&what, &expected, &found, 1.0e-5);
             }
@@ -288,10 +288,8 @@ fn regions_and_rows_from_below_hold_for_every_target() {
     for stage in [Stage::Compute, Stage::Fragment] {
         let options = bench.options(stage).region(true);
         let (pass, manifest) = bench.emitted(&compiled, &options).unwrap_or_else(|e| panic!("{e}"));
-        let bound = bench
-            .bind(&pass, &manifest, &inputs())
-            .unwrap_or_else(|e| panic!("{e}"));
-        let found = written(&bench, &pass, &bound, uvec2(8, 7), Some(region));
+        let uploaded = bench.upload(&manifest, &inputs()).unwrap_or_else(|e| panic!("{e}"));
+        let found = written(&bench, &pass, &uploaded, uvec2(8, 7), Some(region));
         for (k, target) in found.iter().enumerate() {
             for y in 0..5 {
                 for x in 0..6 {
@@ -315,8 +313,10 @@ fn regions_and_rows_from_below_hold_for_every_target() {
             .copied()
             .collect();
         let over = inputs().image("color", Frame::new(SIZE, over));
-        let bound = bench.bind(&pass, &manifest, &over).unwrap_or_else(|e| panic!("{e}"));
-        let found = bench.written_by(&pass, &bound, SIZE).unwrap_or_else(|e| panic!("{e}"));
+        let uploaded = bench.upload(&manifest, &over).unwrap_or_else(|e| panic!("{e}"));
+        let found = bench
+            .written_by(&pass, &uploaded, SIZE)
+            .unwrap_or_else(|e| panic!("{e}"));
         let expected: Vec<_> = expected.iter().map(|texels| turned(texels)).collect();
         near("from below", &expected, &found, 1.0e-5);
     }
@@ -326,7 +326,7 @@ fn regions_and_rows_from_below_hold_for_every_target() {
 fn written(
     bench: &Bench,
     pass: &straightline_runtime::Pass,
-    bound: &straightline_study::execute::Bound,
+    uploaded: &straightline_study::execute::Uploaded,
     size: UVec2,
     region: Option<Region>,
 ) -> Vec<Written> {
@@ -344,11 +344,11 @@ fn written(
     let mut encoder = bench
         .device()
         .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-    let recorded = match region {
-        Some(region) => pass.encode_region(&mut encoder, &bound.resources(), targets.as_slice(), region),
-        None => pass.encode(&mut encoder, &bound.resources(), targets.as_slice()),
+    let bound = match region {
+        Some(region) => uploaded.bind_region(pass, targets.as_slice(), region),
+        None => uploaded.bind(pass, targets.as_slice()),
     };
-    recorded.unwrap_or_else(|e| panic!("{e}"));
+    bound.unwrap_or_else(|e| panic!("{e}")).encode(&mut encoder);
     bench.queue().submit([encoder.finish()]);
     let read = textures.iter().map(|(name, texture)| Written {
         name: (*name).to_owned(),
@@ -439,9 +439,7 @@ fn a_pass_says_what_is_wrong_with_targets() {
     let (name, text, ..) = KERNELS[0];
     let compiled = compiled(name, text, &Settings::default());
     let (pass, manifest) = bench.pass(&compiled, Stage::Compute).unwrap_or_else(|e| panic!("{e}"));
-    let bound = bench
-        .bind(&pass, &manifest, &inputs())
-        .unwrap_or_else(|e| panic!("{e}"));
+    let uploaded = bench.upload(&manifest, &inputs()).unwrap_or_else(|e| panic!("{e}"));
     let texture = |size: UVec2, format| {
         let texture = bench.target(size, format);
         texture.create_view(&wgpu::TextureViewDescriptor::default())
@@ -450,10 +448,7 @@ fn a_pass_says_what_is_wrong_with_targets() {
     let good = [Rgba32Float, Rgba32Float, Rg32Float, R32Float].map(|format| texture(SIZE, format));
     let [albedo, normal, motion, depth] = &good;
     let said = |targets: &[(&str, &wgpu::TextureView)]| {
-        let mut encoder = bench
-            .device()
-            .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        let result = pass.encode(&mut encoder, &bound.resources(), targets);
+        let result = uploaded.bind(&pass, targets);
         result.err().map(|e: Error| e.to_string()).unwrap_or_default()
     };
     let all = [
@@ -481,12 +476,7 @@ fn a_pass_says_what_is_wrong_with_targets() {
     other = all;
     other[1].1 = albedo;
     assert!(said(&other).contains("target `normal` of `gbuffer`: is the target `albedo` too"));
-    let mut encoder = bench
-        .device()
-        .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-    let one = pass
-        .encode(&mut encoder, &bound.resources(), albedo)
-        .expect_err("one target for four");
+    let one = uploaded.bind(&pass, albedo).expect_err("one target for four");
     assert!(
         one.to_string()
             .contains("give each its target by name, as in `&[(\"albedo\", &view), ...]`"),

@@ -10,7 +10,7 @@ use straightline_tests::readme::{GEOMETRIC, filled};
 fn tables_are_what_their_records_say() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let mut tables = 0;
-    for name in ["README.md", "docs/study.md", "docs/tune.md"] {
+    for name in ["README.md", "docs/study.md", "docs/tune.md", "docs/runtime.md"] {
         let path = root.join(name);
         let document = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{name}: {error}"));
         let expected = filled(&document, &root.join("study/records")).unwrap_or_else(|error| panic!("{name}: {error}"));

@@ -265,9 +265,9 @@ fn every_read_is_the_same_on_a_gpu() {
                 let found = found.unwrap_or_else(|e| panic!("{name}: {e}"));
                 // A GPU weighs texels and levels in steps of 1/256. Where it takes the nearest, a place between two may go to
                 // either: at most a few pixels' are.
-                let bound = 3.0 / 128.0;
+                let uploaded = 3.0 / 128.0;
                 let pairs = found.texels().iter().zip(&expected.texels);
-                let off = pairs.filter(|(a, b)| (**a - Vec4::from_array(**b)).abs().max_element() > bound);
+                let off = pairs.filter(|(a, b)| (**a - Vec4::from_array(**b)).abs().max_element() > uploaded);
                 let exact = world.sampler.filter == Filter::Linear && world.sampler.mip == Filter::Linear;
                 let allowed = if exact || name == "whole" || name == "texels" {
                     0
@@ -323,8 +323,8 @@ fn rows_from_below_are_turned() {
         let upright = upright.unwrap_or_else(|e| panic!("{name}: {e}"));
         let options = bench.options(Stage::Compute).origin(Origin::LowerLeft);
         let below = bench.emitted(&compiled, &options).and_then(|(pass, manifest)| {
-            let bound = bench.bind(&pass, &manifest, &over)?;
-            bench.picture_of(&pass, &bound, over.size)
+            let uploaded = bench.upload(&manifest, &over)?;
+            bench.picture_of(&pass, &uploaded, over.size)
         });
         let below = turned(&below.unwrap_or_else(|e| panic!("{name}: {e}")));
         for (k, (a, b)) in below.texels().iter().zip(upright.texels()).enumerate() {

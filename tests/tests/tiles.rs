@@ -73,22 +73,21 @@ fn rectangles_of_one_picture_fill_it() {
         let whole = bench.run(&compiled, stage, &inputs).unwrap_or_else(|e| panic!("{e}"));
         let emit = EmitOptions::new().stage(stage).format(Format::Rgba32Float).region(true);
         let (pass, manifest) = bench.emitted(&compiled, &emit).unwrap_or_else(|e| panic!("{e}"));
-        let bound = bench.bind(&pass, &manifest, &inputs).unwrap_or_else(|e| panic!("{e}"));
+        let uploaded = bench.upload(&manifest, &inputs).unwrap_or_else(|e| panic!("{e}"));
         let target = bench.target(size, pass.target_format());
         let view = target.create_view(&wgpu::TextureViewDescriptor::default());
         let device = bench.device();
         let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         for (first, part) in [([0, 0], [17, 30]), ([17, 0], [23, 11]), ([17, 11], [23, 19])] {
-            let encoded = pass.encode_region(&mut encoder, &bound.resources(), &view, Region::at(first, part));
-            encoded.unwrap_or_else(|e| panic!("{stage:?}: {e}"));
+            let bound = uploaded.bind_region(&pass, &view, Region::at(first, part));
+            bound.unwrap_or_else(|e| panic!("{stage:?}: {e}")).encode(&mut encoder);
         }
         bench.queue().submit([encoder.finish()]);
         let parts = bench.download(&target).unwrap_or_else(|e| panic!("{e}"));
         assert_eq!(parts, whole, "{stage:?}");
 
-        // What leaves the picture is refused by name, and nothing is recorded.
-        let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        let mut refused = |region| match pass.encode_region(&mut encoder, &bound.resources(), &view, region) {
+        // What leaves the picture is refused by name.
+        let refused = |region| match uploaded.bind_region(&pass, &view, region) {
             Err(error @ Error::Region { .. }) => error.to_string(),
             other => panic!("{other:?}"),
         };
@@ -109,14 +108,10 @@ fn a_shader_for_whole_images_refuses_regions() {
     let inputs = surfaces::inputs(&set, uvec2(8, 8), 4);
     let compiled = compiled(&set, Unroll::Full).unwrap_or_else(|errors| panic!("{errors}"));
     let (pass, manifest) = bench.pass(&compiled, Stage::Compute).unwrap_or_else(|e| panic!("{e}"));
-    let bound = bench.bind(&pass, &manifest, &inputs).unwrap_or_else(|e| panic!("{e}"));
+    let uploaded = bench.upload(&manifest, &inputs).unwrap_or_else(|e| panic!("{e}"));
     let target = bench.target(uvec2(8, 8), pass.target_format());
     let view = target.create_view(&wgpu::TextureViewDescriptor::default());
-    let mut encoder = bench
-        .device()
-        .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-    let region = Region::at([0, 0], [4, 4]);
-    let refused = pass.encode_region(&mut encoder, &bound.resources(), &view, region);
+    let refused = uploaded.bind_region(&pass, &view, Region::at([0, 0], [4, 4]));
     let error = refused.expect_err("it has no region").to_string();
     assert!(error.contains("generate it with `region`"), "{error}");
 }

@@ -423,18 +423,16 @@ fn regions_are_computed_by_themselves() {
     let compiled = compiled(name, text, &Settings::default());
     let options = bench.options(Stage::Compute).region(true);
     let (pass, manifest) = bench.emitted(&compiled, &options).unwrap_or_else(|e| panic!("{e}"));
-    let bound = bench
-        .bind(&pass, &manifest, &inputs())
-        .unwrap_or_else(|e| panic!("{e}"));
+    let uploaded = bench.upload(&manifest, &inputs()).unwrap_or_else(|e| panic!("{e}"));
     let region = Region::at([2, 1], [5, 4]);
     let none: &[(&str, &wgpu::TextureView)] = &[];
     let mut encoder = bench
         .device()
         .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-    pass.encode_region(&mut encoder, &bound.resources(), none, region)
-        .unwrap_or_else(|e| panic!("{e}"));
+    let bound = uploaded.bind_region(&pass, none, region);
+    bound.unwrap_or_else(|e| panic!("{e}")).encode(&mut encoder);
     bench.queue().submit([encoder.finish()]);
-    let found = bench.buffers(&manifest, &bound).unwrap_or_else(|e| panic!("{e}"));
+    let found = bench.buffers(&manifest, &uploaded).unwrap_or_else(|e| panic!("{e}"));
     let bins = AtomicBuffer::new(vec![2; 40]);
     for x in [2, 6] {
         let group = Workgroup::new(ivec2(x, 1), uvec2(7, 5));

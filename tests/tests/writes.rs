@@ -399,18 +399,16 @@ fn regions_count_their_own_pixels() {
     let options = bench.options(Stage::Compute).region(true);
     let (pass, manifest) = bench.emitted(&compiled, &options).unwrap_or_else(|e| panic!("{e}"));
     assert!(manifest.outputs.is_empty());
-    let bound = bench
-        .bind(&pass, &manifest, &inputs())
-        .unwrap_or_else(|e| panic!("{e}"));
+    let uploaded = bench.upload(&manifest, &inputs()).unwrap_or_else(|e| panic!("{e}"));
     let region = Region::at([2, 1], [5, 4]);
     let none: &[(&str, &wgpu::TextureView)] = &[];
     let mut encoder = bench
         .device()
         .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-    pass.encode_region(&mut encoder, &bound.resources(), none, region)
-        .unwrap_or_else(|e| panic!("{e}"));
+    let bound = uploaded.bind_region(&pass, none, region);
+    bound.unwrap_or_else(|e| panic!("{e}")).encode(&mut encoder);
     bench.queue().submit([encoder.finish()]);
-    let found = bench.buffers(&manifest, &bound).unwrap_or_else(|e| panic!("{e}"));
+    let found = bench.buffers(&manifest, &uploaded).unwrap_or_else(|e| panic!("{e}"));
     let world = World::new();
     for at in (1..5).flat_map(|y| (2..7).map(move |x| ivec2(x, y))) {
         histogram::histogram(&world.color, &world.bins, at);

@@ -158,8 +158,8 @@ fn picture(bench: &Bench, emitted: &Emitted, text: &str, inputs: &Inputs) -> Fra
     let mut manifest = emitted.manifest.clone();
     manifest.hashes.clear();
     let pass = Pass::new(bench.device(), &manifest, text).unwrap_or_else(|e| panic!("{e}"));
-    let bound = bench.bind(&pass, &manifest, inputs).expect("it is bound");
-    bench.picture_of(&pass, &bound, inputs.size).expect("it runs")
+    let uploaded = bench.upload(&manifest, inputs).expect("it is bound");
+    bench.picture_of(&pass, &uploaded, inputs.size).expect("it runs")
 }
 
 #[test]

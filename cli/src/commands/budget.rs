@@ -11,7 +11,7 @@ use straightline_codegen::{Compiled, Kernel, Settings, files};
 use straightline_manifest::Stage;
 use straightline_runtime::Pass;
 use straightline_study::capture::ShadingSample;
-use straightline_study::execute::{Bound, Clock, Job, Times};
+use straightline_study::execute::{Clock, Job, Times, Uploaded};
 use straightline_study::{gbuffer, render};
 
 /// Bytes of a geometry sample: what is stored, how many bytes, and where that is assumed.
@@ -119,7 +119,7 @@ fn measured(args: &BudgetArgs, gpu: &Gpu) -> Result<(Vec<Filter>, Clock), Failur
     let bench = gpu.bench();
     let world = scene::load(None, "roof")?;
     let renderer = scene::renderer(Some(gpu), &world, args.size)?;
-    let mut subjects: Vec<(&str, &str, u64, Compiled, Pass, Bound)> = Vec::new();
+    let mut subjects: Vec<(&str, &str, u64, Compiled, Pass, Uploaded)> = Vec::new();
     for (pattern, samples) in PATTERNS {
         let offsets = scene::pattern(pattern)?;
         let capture = render::capture(renderer.as_ref(), &offsets, ShadingSample::Centre).map_err(Failure::of)?;
@@ -132,15 +132,15 @@ fn measured(args: &BudgetArgs, gpu: &Gpu) -> Result<(Vec<Filter>, Clock), Failur
             let compiled = Kernel::builtin("sraa")?.compile(&settings)?;
             let inputs = gbuffer::inputs(&capture, &compiled.options).map_err(Failure::of)?;
             let (pass, manifest) = bench.pass(&compiled, Stage::Compute).map_err(Failure::of)?;
-            let bound = bench.bind(&pass, &manifest, &inputs).map_err(Failure::of)?;
-            subjects.push((pattern, metric, samples, compiled, pass, bound));
+            let uploaded = bench.upload(&manifest, &inputs).map_err(Failure::of)?;
+            subjects.push((pattern, metric, samples, compiled, pass, uploaded));
         }
     }
     let jobs: Vec<Job<'_>> = subjects
         .iter()
-        .map(|(.., pass, bound)| Job {
+        .map(|(.., pass, uploaded)| Job {
             pass,
-            bound,
+            uploaded,
             size: args.size,
         })
         .collect();

@@ -14,7 +14,7 @@ use straightline_kernels::prelude::Frame;
 use straightline_manifest::Stage;
 use straightline_runtime::Pass;
 use straightline_study::capture::{Capture, ShadingSample};
-use straightline_study::execute::{Bound, Clock, ExecuteError, Inputs, Job, Times, interpret};
+use straightline_study::execute::{Clock, ExecuteError, Inputs, Job, Times, Uploaded, interpret};
 use straightline_study::gbuffer;
 use straightline_study::oracle::{self, SraaParams};
 use straightline_study::render::{self, Renderer};
@@ -154,17 +154,17 @@ type Measured = (Frame<Vec4>, [Times; 2], Clock);
 
 fn on_adapter(gpu: &Gpu, method: &Method, rounds: u32) -> Result<Measured, Failure> {
     let (inputs, bench) = (&method.inputs, gpu.bench());
-    let prepared = |compiled| -> Result<(Pass, Bound), ExecuteError> {
+    let prepared = |compiled| -> Result<(Pass, Uploaded), ExecuteError> {
         let (pass, manifest) = bench.pass(compiled, Stage::Compute)?;
-        let bound = bench.bind(&pass, &manifest, inputs)?;
-        Ok((pass, bound))
+        let uploaded = bench.upload(&manifest, inputs)?;
+        Ok((pass, uploaded))
     };
     let prepared = [&method.looped, &method.unrolled].map(prepared);
     let mut jobs = Vec::new();
     for pair in &prepared {
-        let (pass, bound) = pair.as_ref().map_err(Failure::of)?;
+        let (pass, uploaded) = pair.as_ref().map_err(Failure::of)?;
         let size = inputs.size;
-        jobs.push(Job { pass, bound, size });
+        jobs.push(Job { pass, uploaded, size });
     }
     let bar = scene::bar("timing, in turn");
     bar.set_length(u64::from(rounds));

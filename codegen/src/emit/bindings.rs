@@ -5,8 +5,8 @@ use crate::compiled::Compiled;
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 use straightline_manifest::{
-    Binding, BindingKind, BufferType, Dimension, Extent, Form, Format, Manifest, REGION, SampleType, SamplerType,
-    Stage, ViewDimension,
+    Binding, BindingKind, BufferType, Dimension, Element, Extent, Form, Format, Manifest, REGION, SampleType,
+    SamplerType, Stage, ViewDimension,
 };
 
 /// One shader's part of the bindings file.
@@ -67,22 +67,33 @@ fn module(module: &Module<'_>) -> TokenStream {
     let (target_ty, target, targets_struct) = (&targets.ty, &targets.given, &targets.structure);
     let (structure, setters) = parameters::parameters(manifest);
     let elements = parameters::elements(manifest);
+    // What is needed beside inputs and target: values that are set at run time.
+    let (parameters_ty, options) = match structure.is_empty() {
+        true => (
+            TokenStream::new(),
+            quote! { straightline_runtime::BindOptions::default() },
+        ),
+        false => (
+            quote! { parameters: &Parameters, },
+            quote! { straightline_runtime::BindOptions::default().uniforms(&parameters.to_bytes()) },
+        ),
+    };
     let region = manifest.bindings.iter().any(|b| b.name == REGION).then(|| {
         quote! {
-            /// Records the shader for a rectangle: from `region.first` of `inputs` to `region.place` of `target`.
+            /// Binds the shader for a rectangle: from `region.first` of `inputs` to `region.place` of the target.
             ///
             /// # Errors
             ///
-            /// Those of `encode`, and if the rectangle leaves the inputs or the target.
-            pub fn encode_region(
+            /// Those of `bind`, and if the rectangle leaves the inputs or the target.
+            pub fn bind_region(
                 &self,
-                encoder: &mut wgpu::CommandEncoder,
                 #used,
+                #parameters_ty
                 #target_ty,
                 region: straightline_runtime::Region,
-            ) -> Result<(), Error> {
+            ) -> Result<Bound, Error> {
                 let inputs: [(&str, Resource<'_>); #count] = [#(#pairs),*];
-                self.0.encode_region(encoder, &inputs, #target, region)
+                self.0.bind_with(&inputs, #target, &#options.region(region)).map(Bound)
             }
         }
     });
@@ -107,7 +118,7 @@ fn module(module: &Module<'_>) -> TokenStream {
 
             #elements
 
-            /// The shader on a device: make it once, encode it every frame.
+            /// The shader on a device: make it once, and bind it to what it reads and writes.
             #[derive(Debug)]
             pub struct Pass(straightline_runtime::Pass);
 
@@ -121,28 +132,45 @@ fn module(module: &Module<'_>) -> TokenStream {
                     straightline_runtime::Pass::from_json(device, MANIFEST, WGSL).map(Self)
                 }
 
-                /// Records the shader: from `inputs` to `target`.
+                /// Binds the shader: from `inputs` to the target.
                 ///
                 /// # Errors
                 ///
-                /// If an input or the target does not fit, naming it; nothing has been recorded then.
-                pub fn encode(
+                /// If an input or the target does not fit, naming it.
+                pub fn bind(
                     &self,
-                    encoder: &mut wgpu::CommandEncoder,
                     #used,
+                    #parameters_ty
                     #target_ty,
-                ) -> Result<(), Error> {
+                ) -> Result<Bound, Error> {
                     let inputs: [(&str, Resource<'_>); #count] = [#(#pairs),*];
-                    self.0.encode(encoder, &inputs, #target)
+                    self.0.bind_with(&inputs, #target, &#options).map(Bound)
                 }
 
                 #region
 
-                #setters
-
-                /// The pass itself, for timing it or asking what it binds.
+                /// The pass itself, to ask what it binds.
                 #[must_use]
                 pub fn inner(&self) -> &straightline_runtime::Pass {
+                    &self.0
+                }
+            }
+
+            /// The shader with what it reads and writes: encode it every frame.
+            #[derive(Debug)]
+            pub struct Bound(straightline_runtime::Bound);
+
+            impl Bound {
+                /// Records the shader.
+                pub fn encode(&self, encoder: &mut wgpu::CommandEncoder) {
+                    self.0.encode(encoder);
+                }
+
+                #setters
+
+                /// What is bound itself, for timing it.
+                #[must_use]
+                pub fn inner(&self) -> &straightline_runtime::Bound {
                     &self.0
                 }
             }
@@ -425,17 +453,12 @@ impl Input {
                 SamplerType::Filtering => ("A sampler that may filter.".to_owned(), "Sampler"),
                 SamplerType::Comparison => ("A comparison sampler.".to_owned(), "Sampler"),
             },
-            BindingKind::Buffer {
-                element,
-                stride,
-                fields,
-                ..
-            } => (
-                match fields.is_empty() {
-                    true => format!("A storage buffer of `{element}`, {stride} bytes each, at least one."),
-                    false => format!(
+            BindingKind::Buffer { element, stride, .. } => (
+                match element {
+                    Element::Value(ty) => format!("A storage buffer of `{ty}`, {stride} bytes each, at least one."),
+                    Element::Structure(name) => format!(
                         "A storage buffer of [`{}`], {stride} bytes each, at least one.",
-                        parameters::structure_name(element)
+                        parameters::structure_name(name)
                     ),
                 },
                 "Buffer",

@@ -1,8 +1,7 @@
 //! Offsets of a uniform struct's members: the same in WGSL and in GLSL's std140.
 
-use super::print::wgsl_type;
-use crate::ir::Uniform;
-use straightline_manifest::UniformField;
+use crate::ir::{self, Type, Uniform};
+use straightline_manifest::{Part, Scalar, UniformField, ValueType};
 
 /// Members at their offsets, in order of declaration, and the buffer's size in bytes, a multiple of 16.
 pub fn layout(uniforms: &[&Uniform]) -> (Vec<UniformField>, u32) {
@@ -13,12 +12,50 @@ pub fn layout(uniforms: &[&Uniform]) -> (Vec<UniformField>, u32) {
         at = at.next_multiple_of(align);
         fields.push(UniformField {
             name: uniform.name.clone(),
-            ty: wgsl_type(uniform.ty.into()),
+            ty: value_type(uniform.ty),
             offset: at,
             size,
             default: uniform.default,
+            part: uniform.part.as_ref().map(|part| Part {
+                of: part.of.clone(),
+                ty: whole(uniform.ty, part),
+                index: part.index,
+            }),
         });
         at += size;
     }
     (fields, at.max(1).next_multiple_of(16))
+}
+
+/// The type of what a uniform of type `ty` is a part of.
+fn whole(ty: Type, part: &ir::Part) -> ValueType {
+    let ty = value_type(ty);
+    match part.columns {
+        true => ValueType::Matrix {
+            columns: part.count as u8,
+            rows: ty.components(),
+        },
+        false => ValueType::Array {
+            of: ty.scalar(),
+            components: ty.components(),
+            count: part.count,
+        },
+    }
+}
+
+/// A type as hosts see it. No host sees a boolean: where one is stored it is a `u32`.
+pub fn value_type(ty: Type) -> ValueType {
+    let of = match ty.kind() {
+        Some(ir::Scalar::I32) => Scalar::I32,
+        Some(ir::Scalar::U32 | ir::Scalar::Bool) => Scalar::U32,
+        Some(ir::Scalar::F32) | None => Scalar::F32,
+    };
+    match ty {
+        Type::Array { lanes, len, .. } => ValueType::Array {
+            of,
+            components: lanes,
+            count: len,
+        },
+        Type::Value { .. } | Type::Results => ValueType::of(of, ty.lanes()),
+    }
 }

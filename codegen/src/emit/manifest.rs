@@ -1,6 +1,7 @@
 //! What a host is told of a shader: the manifest.
 
-use super::print::{GENERATOR, wgsl_type};
+use super::layout::value_type;
+use super::print::GENERATOR;
 use super::resources::{BoundTexture, Resources, UNIFORMS};
 use crate::compiled::Compiled;
 use crate::ir::{Element, Field, Scalar, Texture, TextureKind};
@@ -42,8 +43,8 @@ impl Resources {
                     false => BufferType::ReadOnlyStorage,
                 },
                 element: match &buffer.element {
-                    Element::Value(ty) => wgsl_type((*ty).into()),
-                    Element::Struct(structure) => structure.name.clone(),
+                    Element::Value(ty) => straightline_manifest::Element::Value(value_type(*ty)),
+                    Element::Struct(structure) => straightline_manifest::Element::Structure(structure.name.clone()),
                 },
                 stride: buffer.element.stride(),
                 fields: match &buffer.element {
@@ -94,7 +95,7 @@ impl Resources {
             access: Access::WriteOnly,
             view_dimension: ViewDimension::D2,
             format: output.format,
-            ty: output.type_name(),
+            ty: value_type(output.ty),
         });
         Manifest {
             schema: SCHEMA,
@@ -127,10 +128,11 @@ impl Resources {
 fn field(field: &Field) -> UniformField {
     UniformField {
         name: field.name.clone(),
-        ty: wgsl_type(field.ty.into()),
+        ty: value_type(field.ty),
         offset: field.offset,
         size: field.ty.layout().1,
         default: None,
+        part: None,
     }
 }
 

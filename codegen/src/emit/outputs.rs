@@ -1,7 +1,6 @@
 //! What a shader gives: a value for each target of a pixel.
 
 use super::ast::{Expr, Op, Ty};
-use super::print::wgsl_type;
 use crate::ir::{Scalar, Target, Type};
 use straightline_manifest::{Component, Format};
 
@@ -27,11 +26,6 @@ impl BoundOutput {
             format: format(target.ty, colour),
             binding: None,
         }
-    }
-
-    /// Its type as WGSL spells it.
-    pub fn type_name(&self) -> String {
-        wgsl_type(self.ty.into())
     }
 
     /// Its type as an entry point gives it: with all components of the texel.

@@ -1,11 +1,11 @@
 //! The Rust of a shader's uniform struct: laid out as the shader has it, which the caller's compiler checks.
 
-use super::bindings::identifier;
+use super::bindings::{identifier, spaced};
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
-use straightline_manifest::{BindingKind, Manifest, REGION, UniformField};
+use straightline_manifest::{BindingKind, Element, Manifest, REGION, Scalar, UniformField, ValueType};
 
-/// The struct `Parameters` with what belongs to it, and the methods of the pass that set it.
+/// The struct `Parameters` with what belongs to it, and the methods that set it.
 pub fn parameters(manifest: &Manifest) -> (TokenStream, TokenStream) {
     let uniforms = manifest.bindings.iter().find_map(|b| match &b.kind {
         BindingKind::Uniform { fields, size, .. } if b.name != REGION => Some((fields.as_slice(), *size)),
@@ -26,17 +26,16 @@ pub fn elements(manifest: &Manifest) -> TokenStream {
     let mut all = TokenStream::new();
     for binding in &manifest.bindings {
         if let BindingKind::Buffer {
-            element,
+            element: Element::Structure(name),
             stride,
             fields,
             ..
         } = &binding.kind
-            && !fields.is_empty()
-            && !made.contains(&element.as_str())
+            && !made.contains(&name.as_str())
         {
-            made.push(element);
+            made.push(name);
             let docs = " An element of a storage buffer, as it lies there.";
-            all.extend(structure(&structure_name(element), docs, fields, *stride));
+            all.extend(structure(&structure_name(name), docs, fields, *stride));
         }
     }
     all
@@ -45,7 +44,7 @@ pub fn elements(manifest: &Manifest) -> TokenStream {
 /// The name of a structure that a buffer holds: its own, unless the module has another use for it.
 pub fn structure_name(element: &str) -> String {
     match element {
-        "Inputs" | "Parameters" | "Pass" | "Error" | "Resource" => format!("{element}Element"),
+        "Inputs" | "Targets" | "Parameters" | "Pass" | "Bound" | "Error" | "Resource" => format!("{element}Element"),
         other => other.to_owned(),
     }
 }
@@ -58,12 +57,12 @@ fn structure(of: &str, docs: &str, fields: &[UniformField], size: u32) -> TokenS
     let mut at = 0;
     for field in fields {
         pad(&mut members, &mut pads, fields, field.offset - at);
-        let (name, ty) = (identifier(&field.name), rust_type(&field.ty));
+        let (name, ty) = (identifier(&field.name), stored_type(field.ty));
         let docs = match field.default {
             Some(default) => format!("`{}` of the kernel; {default} by default.", field.name),
             None => format!("`{}` of the kernel.", field.name),
         };
-        let docs = super::bindings::spaced(&docs);
+        let docs = spaced(&docs);
         members.push(quote! { #[doc = #docs] pub #name: #ty });
         at = field.offset + field.size;
     }
@@ -71,34 +70,34 @@ fn structure(of: &str, docs: &str, fields: &[UniformField], size: u32) -> TokenS
 
     let names: Vec<_> = fields.iter().map(|f| identifier(&f.name)).collect();
     let arguments: Vec<_> = (0..fields.len()).map(|k| argument(fields, k)).collect();
-    let types: Vec<_> = fields.iter().map(|f| rust_type(&f.ty)).collect();
+    let types: Vec<_> = fields.iter().map(|f| stored_type(f.ty)).collect();
     let offsets: Vec<_> = fields.iter().map(|f| Literal::u32_unsuffixed(f.offset)).collect();
     let total = Literal::u32_unsuffixed(size);
     let copies = fields.iter().map(|field| {
         let name = identifier(&field.name);
         let start = Literal::u32_unsuffixed(field.offset);
         let end = Literal::u32_unsuffixed(field.offset + field.size);
-        if let Some((_, count)) = array_of(&field.ty) {
-            let step = Literal::usize_unsuffixed(field.size as usize / count);
-            let flat = match lanes_of(&field.ty) {
-                1 => quote! { [*part] },
-                _ => quote! { *part },
-            };
-            quote! {
-                for (room, part) in bytes[#start..#end].chunks_exact_mut(#step).zip(&self.#name) {
-                    for (place, lane) in room.chunks_exact_mut(4).zip(#flat) {
-                        place.copy_from_slice(&lane.to_le_bytes());
+        match field.ty {
+            ValueType::Array { components, count, .. } => {
+                let step = Literal::u32_unsuffixed(field.size / count);
+                let flat = match components {
+                    1 => quote! { [*part] },
+                    _ => quote! { *part },
+                };
+                quote! {
+                    for (room, part) in bytes[#start..#end].chunks_exact_mut(#step).zip(&self.#name) {
+                        for (place, lane) in room.chunks_exact_mut(4).zip(#flat) {
+                            place.copy_from_slice(&lane.to_le_bytes());
+                        }
                     }
                 }
             }
-        } else if field.ty.starts_with("vec") {
-            quote! {
+            ValueType::Scalar(_) => quote! { bytes[#start..#end].copy_from_slice(&self.#name.to_le_bytes()); },
+            ValueType::Vector { .. } | ValueType::Matrix { .. } => quote! {
                 for (place, lane) in bytes[#start..#end].chunks_exact_mut(4).zip(self.#name) {
                     place.copy_from_slice(&lane.to_le_bytes());
                 }
-            }
-        } else {
-            quote! { bytes[#start..#end].copy_from_slice(&self.#name.to_le_bytes()); }
+            },
         }
     });
     let given = names
@@ -190,17 +189,41 @@ fn pad(members: &mut Vec<TokenStream>, pads: &mut Vec<TokenStream>, fields: &[Un
     pads.push(quote! { #name: [0; #words] });
 }
 
+/// Methods of what is bound: one that sets all, and one for each value, a matrix or an array being one.
 fn setters(fields: &[UniformField]) -> TokenStream {
-    let each = fields.iter().map(|field| {
-        let (setter, name) = (format_ident!("set_{}", field.name), &field.name);
-        let ty = rust_type(&field.ty);
-        let docs = match field.default {
-            Some(default) => format!("Sets `{name}` from the next submission on; {default} until then."),
-            None => format!("Sets `{name}` from the next submission on; it must be set before the first."),
+    let mut seen: Vec<&str> = Vec::new();
+    let each = fields.iter().filter_map(|field| {
+        let (name, ty) = match &field.part {
+            Some(part) => (&part.of, part.ty),
+            None => (&field.name, field.ty),
         };
-        let docs = super::bindings::spaced(&docs);
-        quote! {
+        if seen.contains(&name.as_str()) {
+            return None;
+        }
+        seen.push(name);
+        let setter = format_ident!("set_{name}");
+        let docs = spaced(&format!("Sets `{name}` from the next submission on."));
+        let columns = match ty {
+            ValueType::Matrix { .. } => quote! { #[doc = " Columns first."] },
+            _ => TokenStream::new(),
+        };
+        let given = match ty {
+            ValueType::Array { components, .. } => {
+                let make = format_ident!("{}", if components == 1 { "array" } else { "vectors" });
+                // An array of the kernel language has an element at least.
+                quote! {
+                    match straightline_runtime::UniformValue::#make(&value) {
+                        Some(value) => self.0.write_uniform(queue, #name, value),
+                        None => Ok(()),
+                    }
+                }
+            }
+            _ => quote! { self.0.write_uniform(queue, #name, value) },
+        };
+        let ty = value_type(ty);
+        Some(quote! {
             #[doc = #docs]
+            #columns
             ///
             /// # Errors
             ///
@@ -210,9 +233,9 @@ fn setters(fields: &[UniformField]) -> TokenStream {
                 queue: &wgpu::Queue,
                 value: #ty,
             ) -> Result<(), Error> {
-                self.0.write_uniform(queue, #name, value)
+                #given
             }
-        }
+        })
     });
     quote! {
         /// Sets all values that are set at run time, from the next submission on.
@@ -235,8 +258,8 @@ fn setters(fields: &[UniformField]) -> TokenStream {
 /// A default of every field, as Rust.
 fn default(field: &UniformField) -> Option<TokenStream> {
     let value = field.default?;
-    Some(match field.ty.as_str() {
-        "f32" => {
+    Some(match field.ty.scalar() {
+        Scalar::F32 => {
             let literal = Literal::f32_suffixed(value.abs() as f32);
             if value.is_sign_negative() {
                 quote! { -#literal }
@@ -244,48 +267,52 @@ fn default(field: &UniformField) -> Option<TokenStream> {
                 quote! { #literal }
             }
         }
-        "i32" => {
+        Scalar::I32 => {
             let literal = Literal::i32_suffixed(value as i32);
             quote! { #literal }
         }
-        _ => {
+        Scalar::U32 => {
             let literal = Literal::u32_suffixed(value as u32);
             quote! { #literal }
         }
     })
 }
 
-/// What an array is of, and of how many.
-fn array_of(wgsl: &str) -> Option<(&str, usize)> {
-    let inner = wgsl.strip_prefix("array<")?.strip_suffix('>')?;
-    let (of, count) = inner.split_once(", ")?;
-    Some((of, count.parse().ok()?))
+/// The type of a field as it lies in the buffer: a number, an array of components, or an array of those; an element of three has the
+/// room of four.
+fn stored_type(ty: ValueType) -> TokenStream {
+    match ty {
+        ValueType::Array {
+            of,
+            components: 3,
+            count,
+        } => {
+            let (of, count) = (single_type(ValueType::of(of, 4)), Literal::u32_unsuffixed(count));
+            quote! { [#of; #count] }
+        }
+        other => value_type(other),
+    }
 }
 
-/// Components of a type, or of an array's elements.
-fn lanes_of(wgsl: &str) -> usize {
-    let of = array_of(wgsl).map_or(wgsl, |(of, _)| of);
-    of.strip_prefix("vec")
-        .and_then(|rest| rest[..1].parse().ok())
-        .unwrap_or(1)
+/// The type of a value as a caller gives it: a number, an array of components, or an array of those.
+fn value_type(ty: ValueType) -> TokenStream {
+    let part = single_type(ty.part());
+    match ty.is_single() {
+        true => part,
+        false => {
+            let count = Literal::u32_unsuffixed(ty.parts());
+            quote! { [#part; #count] }
+        }
+    }
 }
 
-/// `f32`, or an array of lanes, or an array of those; an element of three has the room of four.
-fn rust_type(wgsl: &str) -> TokenStream {
-    if let Some((of, count)) = array_of(wgsl) {
-        let of = rust_type(&of.replace("vec3", "vec4"));
-        let count = Literal::usize_unsuffixed(count);
-        return quote! { [#of; #count] };
+fn single_type(ty: ValueType) -> TokenStream {
+    let scalar = format_ident!("{}", ty.scalar().name());
+    match ty.components() {
+        1 => quote! { #scalar },
+        n => {
+            let n = Literal::u8_unsuffixed(n);
+            quote! { [#scalar; #n] }
+        }
     }
-    if !wgsl.starts_with("vec") {
-        let ident = format_ident!("{wgsl}");
-        return quote! { #ident };
-    }
-    let lanes = Literal::usize_unsuffixed(wgsl[3..4].parse().unwrap_or(1));
-    let ident = match &wgsl[4..] {
-        "f" => format_ident!("f32"),
-        "i" => format_ident!("i32"),
-        _ => format_ident!("u32"),
-    };
-    quote! { [#ident; #lanes] }
 }

@@ -3,10 +3,9 @@
 use super::EmitOptions;
 use super::error::EmitError;
 use super::host::{self, HostFunction};
-use super::layout::layout;
+use super::layout::{layout, value_type};
 use super::outputs::BoundOutput;
 use super::places::{Named, Places};
-use super::print::wgsl_type;
 use super::target::Target;
 use crate::compiled::Compiled;
 use crate::ir::{
@@ -460,7 +459,7 @@ impl Resources {
             .zip(0..)
             .map(|(v, location)| straightline_manifest::Varying {
                 name: v.name.clone(),
-                ty: wgsl_type(v.ty.into()),
+                ty: value_type(v.ty),
                 location,
             })
     }

@@ -6,7 +6,7 @@ use super::value::{Eval, Exit, Value};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::front::tree::{Param, Type as SourceType};
 use crate::ir::vector_named as vector_type;
-use crate::ir::{Invocation, NodeId, Op, Scalar, Type};
+use crate::ir::{Invocation, NodeId, Op, Part, Scalar, Type};
 use std::collections::BTreeMap;
 
 impl Evaluator<'_> {
@@ -134,10 +134,22 @@ impl Evaluator<'_> {
         match ty {
             SourceType::Array(element, Some(len)) => {
                 let mut elements = Vec::new();
-                for k in 0..self.known_length(len)? {
-                    match self.uniform_part(&format!("{name}_{k}"), element, span)? {
+                let count = self.known_length(len)?;
+                for k in 0..count {
+                    let own = format!("{name}_{k}");
+                    match self.uniform_part(&own, element, span)? {
                         Some(element) => elements.push(element),
                         None => return Ok(None),
+                    }
+                    // Of structures and matrices, what was added has longer names.
+                    let added = self.builder.graph_mut().uniforms.last_mut();
+                    if let Some(uniform) = added.filter(|uniform| uniform.name == own) {
+                        uniform.part = Some(Part {
+                            of: name.to_owned(),
+                            index: k,
+                            count,
+                            columns: false,
+                        });
                     }
                 }
                 Ok(Some(Value::array(elements)))
@@ -181,10 +193,18 @@ impl Evaluator<'_> {
                 (None, Some(n)) => {
                     // Columns in a row are a matrix in memory, in WGSL and in GLSL.
                     let mut columns = Vec::new();
-                    for axis in super::matrix::axes(n) {
-                        let name = format!("{name}_{axis}");
-                        self.unused_name(&name, span)?;
-                        let column = self.uniform(&name, Type::value(Scalar::F32, n), None);
+                    for (index, axis) in (0..).zip(super::matrix::axes(n)) {
+                        let own = format!("{name}_{axis}");
+                        self.unused_name(&own, span)?;
+                        let column = self.uniform(&own, Type::value(Scalar::F32, n), None);
+                        if let Some(uniform) = self.builder.graph_mut().uniforms.last_mut() {
+                            uniform.part = Some(Part {
+                                of: name.to_owned(),
+                                index,
+                                count: n.into(),
+                                columns: true,
+                            });
+                        }
                         columns.push(self.node(&column, span)?);
                     }
                     return Ok(Some(super::matrix::matrix(&columns)));

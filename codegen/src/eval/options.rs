@@ -418,6 +418,7 @@ impl Evaluator<'_> {
             name: name.to_owned(),
             ty,
             default,
+            part: None,
         });
         let index = uniforms.len() as u32 - 1;
         Value::Node(self.builder.add(Op::Uniform(index), Vec::new(), ty))

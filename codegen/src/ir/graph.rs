@@ -95,6 +95,21 @@ pub struct Uniform {
     pub ty: Type,
     /// Value to use unless the host sets one.
     pub default: Option<f64>,
+    /// Of what it is a part.
+    pub part: Option<Part>,
+}
+
+/// A column of a matrix, or an element of an array of scalars or vectors, that a kernel takes as one value.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Part {
+    /// Name of the whole in the kernel.
+    pub of: String,
+    /// Which part, from 0.
+    pub index: u32,
+    /// How many there are.
+    pub count: u32,
+    /// Whether they are columns.
+    pub columns: bool,
 }
 
 /// A value of a fragment that the host's rasteriser interpolates.

@@ -59,7 +59,7 @@ pub mod verify;
 
 pub use buffer::{Access, Buffer, Element, Field, Structure};
 pub use graph::{
-    Builder, Event, Graph, Invocation, Node, NodeId, Purpose, Region, RegionId, Rules, Sampler, Target, Uniform,
+    Builder, Event, Graph, Invocation, Node, NodeId, Part, Purpose, Region, RegionId, Rules, Sampler, Target, Uniform,
     Varying,
 };
 pub use memory::{Memory, Shared};

@@ -2,7 +2,7 @@
 
 use super::{
     Access, AtomicOp, Axis, BinaryOp, Buffer, Counter, Direction, Element, Event, Graph, Invocation, Memory, Node,
-    NodeId, Op, Origin, Region, RegionId, Sampler, Scalar, Shared, Structure, Target, Texture, TextureKind, Type,
+    NodeId, Op, Origin, Part, Region, RegionId, Sampler, Scalar, Shared, Structure, Target, Texture, TextureKind, Type,
     UnaryOp, Uniform, Varying,
 };
 
@@ -197,8 +197,17 @@ impl Reader {
             Some((kind, default)) => (kind, Some(number(default)?)),
             None => (rest, None),
         };
+        let (kind, part) = match kind.split_once(" of ") {
+            Some((kind, part)) => (kind, Some(self::part(part)?)),
+            None => (kind, None),
+        };
         let ty = ty(kind)?;
-        self.graph.uniforms.push(Uniform { name, ty, default });
+        self.graph.uniforms.push(Uniform {
+            name,
+            ty,
+            default,
+            part,
+        });
         Ok(())
     }
 
@@ -460,6 +469,22 @@ fn empty(parent: Option<RegionId>) -> Region {
 
 fn position<'a>(mut names: impl Iterator<Item = &'a String>, name: &str) -> Option<u32> {
     names.position(|known| known == name).map(|k| k as u32)
+}
+
+/// What a uniform is a part of: `grade column 0 3`.
+fn part(text: &str) -> Parsed<Part> {
+    let words: Vec<&str> = text.split_whitespace().collect();
+    let (of, columns, index, count) = match words[..] {
+        [of, "column", index, count] => (of, true, index, count),
+        [of, "element", index, count] => (of, false, index, count),
+        _ => return Err("a part is `NAME column INDEX COUNT` or `NAME element INDEX COUNT`".to_owned()),
+    };
+    Ok(Part {
+        of: of.to_owned(),
+        index: number(index)?,
+        count: number(count)?,
+        columns,
+    })
 }
 
 fn named(text: &str) -> Parsed<(String, &str)> {

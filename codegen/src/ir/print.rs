@@ -81,7 +81,11 @@ fn tables(graph: &Graph) -> String {
     }
     for u in &graph.uniforms {
         let default = u.default.map_or(String::new(), |d| format!(" = {d}"));
-        let _ = writeln!(text, "uniform {}: {}{default}", u.name, u.ty);
+        let part = u.part.as_ref().map_or(String::new(), |part| {
+            let what = if part.columns { "column" } else { "element" };
+            format!(" of {} {what} {} {}", part.of, part.index, part.count)
+        });
+        let _ = writeln!(text, "uniform {}: {}{part}{default}", u.name, u.ty);
     }
     for v in &graph.varyings {
         let _ = writeln!(text, "varying {}: {}", v.name, v.ty);

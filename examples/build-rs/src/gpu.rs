@@ -1,4 +1,4 @@
-//! One picture through one pass. Everything here is the caller's own wgpu code but for the two lines of `shaders`.
+//! One picture through one pass. Everything here is the caller's own wgpu code but for the three lines of `shaders`.
 
 use crate::shaders::glow;
 use straightline_kernels::prelude::*;
@@ -22,9 +22,9 @@ pub fn glow(picture: &Frame<Vec4>, strength: f32) -> Result<Frame<Vec4>, Failure
     let (color, target) = (view(&input), view(&output));
 
     let pass = glow::Pass::new(&device)?;
-    pass.set_strength(&queue, strength)?;
+    let bound = pass.bind(&glow::Inputs { color: &color }, &glow::Parameters { strength, ..Default::default() }, &target)?;
     let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-    pass.encode(&mut encoder, &glow::Inputs { color: &color }, &target)?;
+    bound.encode(&mut encoder);
 
     let row = (size.x * 8).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
     let buffer = device.create_buffer(&wgpu::BufferDescriptor {

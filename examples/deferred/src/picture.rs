@@ -14,8 +14,8 @@ pub fn draw(size: Size, time: f32, sraa: bool) -> Result<Vec<u8>, Failure> {
     let adapter = pollster::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions::default()))
         .map_err(|error| format!("{NO_ADAPTER}: {error}"))?;
     let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor::default()))?;
-    let renderer = Renderer::new(&device, &queue, size, FORMAT)?;
-    frame(&device, &queue, &renderer, size, time, sraa)
+    let mut renderer = Renderer::new(&device, &queue, size, FORMAT)?;
+    frame(&device, &queue, &mut renderer, size, time, sraa)
 }
 
 const FORMAT: TextureFormat = TextureFormat::Rgba8UnormSrgb;
@@ -24,7 +24,7 @@ const FORMAT: TextureFormat = TextureFormat::Rgba8UnormSrgb;
 fn frame(
     device: &wgpu::Device,
     queue: &wgpu::Queue,
-    renderer: &Renderer,
+    renderer: &mut Renderer,
     [width, height]: Size,
     time: f32,
     sraa: bool,
@@ -78,8 +78,7 @@ mod tests {
         let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor::default())).unwrap();
         let mut renderer = Renderer::new(&device, &queue, [320, 180], FORMAT).unwrap();
         for size in [[320, 180], [201, 133], [1, 1], [320, 180]] {
-            renderer.resize(size);
-            let [with, without] = [true, false].map(|sraa| frame(&device, &queue, &renderer, size, 2.0, sraa).unwrap());
+            let [with, without] = [true, false].map(|sraa| frame(&device, &queue, &mut renderer, size, 2.0, sraa).unwrap());
             assert_eq!(with.len(), (size[0] * size[1] * 4) as usize);
             assert!(size == [1, 1] || with != without, "SRAA changes nothing at {size:?}");
             let (smooth, hard) = (steps(&with, size[0]), steps(&without, size[0]));
@@ -87,7 +86,7 @@ mod tests {
             assert!(smooth > hard / 2 || size == [1, 1], "SRAA blurs {hard} edges to {smooth} at {size:?}");
         }
         // The scene turns.
-        let [now, later] = [2.0, 2.5].map(|time| frame(&device, &queue, &renderer, [320, 180], time, true).unwrap());
+        let [now, later] = [2.0, 2.5].map(|time| frame(&device, &queue, &mut renderer, [320, 180], time, true).unwrap());
         assert!(now != later);
     }
 }

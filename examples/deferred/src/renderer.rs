@@ -57,6 +57,8 @@ struct Targets {
     shaded: wgpu::TextureView,
     /// The same, antialiased.
     resolved: wgpu::TextureView,
+    /// SRAA from these to `resolved`.
+    sraa: sraa::Bound,
 }
 
 impl Renderer {
@@ -65,6 +67,7 @@ impl Renderer {
         let shader = device.create_shader_module(wgpu::include_wgsl!("scene.wgsl"));
         let corners = scene::corners();
         let numbers = corners.as_flattened().iter().flat_map(Vec3::to_array);
+        let sraa = sraa::Pass::new(device)?;
         Ok(Renderer {
             corners: buffer(device, queue, wgpu::BufferUsages::VERTEX, &bytes(numbers)),
             count: corners.len() as u32,
@@ -75,31 +78,28 @@ impl Renderer {
             geometry: pipeline(device, &shader, ["corner", "surface"], &[DEPTH, NORMAL, ALBEDO], true),
             shading: pipeline(device, &shader, ["cover", "shade"], &[COLOR], false),
             present: pipeline(device, &shader, ["cover", "present"], &[format], false),
-            sraa: sraa::Pass::new(device)?,
-            targets: Targets::new(device, size),
+            targets: Targets::new(device, size, &sraa)?,
+            sraa,
             device: device.clone(),
             queue: queue.clone(),
         })
     }
 
-    /// Goes on in another size. Passes and uniforms stay as they are.
-    #[cfg(any(test, feature = "window"))] // a picture has one size
-    pub fn resize(&mut self, size: Size) {
+    /// Records and submits the frame at `time` seconds, with or without antialiasing. Where the target has another size than
+    /// the last one, what lies between the passes is made anew, and SRAA bound to it.
+    pub fn draw(&mut self, time: f32, with_sraa: bool, target: &wgpu::TextureView) -> Result<(), Failure> {
+        let size = [target.texture().width(), target.texture().height()];
         if size != self.targets.size {
-            self.targets = Targets::new(&self.device, size);
+            self.targets = Targets::new(&self.device, size, &self.sraa)?;
         }
-    }
-
-    /// Records and submits the frame at `time` seconds, with or without antialiasing.
-    pub fn draw(&self, time: f32, with_sraa: bool, target: &wgpu::TextureView) -> Result<(), Failure> {
         let distance = 5.4 + 1.0 * (0.4 * time).sin();
         for (sample, uniforms) in SAMPLES.iter().zip(&self.uniforms) {
             self.queue.write_buffer(uniforms, 0, &self.view(time, distance, *sample));
         }
         // A pixel covers more depth the farther away it is.
-        self.sraa.set_depth_scale(&self.queue, 120.0 / distance)?;
-
         let targets = &self.targets;
+        targets.sraa.set_depth_scale(&self.queue, 120.0 / distance)?;
+
         let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         // The shaded sample comes last, so that what is not kept for each sample is its own.
         for sample in (0..SAMPLES.len()).rev() {
@@ -108,9 +108,7 @@ impl Renderer {
         let (depth, normal) = (layer(&targets.depth, 0), layer(&targets.normal, 0));
         self.cover(&mut encoder, &self.shading, Some(&self.uniforms[0]), &[&depth, &normal, &targets.albedo], &targets.shaded);
         if with_sraa {
-            let (depth, normal) = (all_layers(&targets.depth), all_layers(&targets.normal));
-            let inputs = sraa::Inputs { color: &targets.shaded, depth: &depth, normal: &normal };
-            self.sraa.encode(&mut encoder, &inputs, &targets.resolved)?;
+            targets.sraa.encode(&mut encoder);
         }
         let shown = if with_sraa { &targets.resolved } else { &targets.shaded };
         self.cover(&mut encoder, &self.present, None, &[shown], target);
@@ -203,7 +201,7 @@ impl Renderer {
 }
 
 impl Targets {
-    fn new(device: &wgpu::Device, size: Size) -> Self {
+    fn new(device: &wgpu::Device, size: Size, sraa: &sraa::Pass) -> Result<Self, Failure> {
         let texture = |format, layers, usage| {
             device.create_texture(&wgpu::TextureDescriptor {
                 label: None,
@@ -219,15 +217,19 @@ impl Targets {
         let drawn = TextureUsages::RENDER_ATTACHMENT | TextureUsages::TEXTURE_BINDING;
         let stored = TextureUsages::STORAGE_BINDING | TextureUsages::TEXTURE_BINDING;
         let samples = SAMPLES.len() as u32;
-        Targets {
+        let (depth, normal) = (texture(DEPTH, samples, drawn), texture(NORMAL, samples, drawn));
+        let [shaded, resolved] = [drawn, stored].map(|usage| layer(&texture(COLOR, 1, usage), 0));
+        let inputs = sraa::Inputs { color: &shaded, depth: &all_layers(&depth), normal: &all_layers(&normal) };
+        Ok(Targets {
             size,
-            depth: texture(DEPTH, samples, drawn),
-            normal: texture(NORMAL, samples, drawn),
+            sraa: sraa.bind(&inputs, &sraa::Parameters::default(), &resolved)?,
+            depth,
+            normal,
             albedo: layer(&texture(ALBEDO, 1, drawn), 0),
             z_buffer: layer(&texture(Z_BUFFER, 1, TextureUsages::RENDER_ATTACHMENT), 0),
-            shaded: layer(&texture(COLOR, 1, drawn), 0),
-            resolved: layer(&texture(COLOR, 1, stored), 0),
-        }
+            shaded,
+            resolved,
+        })
     }
 }
 

@@ -17,7 +17,7 @@ use winit::window::{Window, WindowId};
 /// Opens a window of `size` and draws until it is closed.
 pub fn run(size: Size, sraa: bool) -> Result<(), Failure> {
     let events = EventLoop::new().map_err(|error| format!("{error}\nWithout a screen, draw a picture: --out FILE.png"))?;
-    let mut application = Application { size, sraa, started: Instant::now(), screen: None, failure: None };
+    let mut application = Application { size, sraa, started: Instant::now(), screen: None, counted: (Instant::now(), 0), failure: None };
     events.run_app(&mut application)?;
     application.failure.map_or(Ok(()), Err)
 }
@@ -28,6 +28,8 @@ struct Application {
     started: Instant,
     /// From the first moment that there can be one.
     screen: Option<Screen>,
+    /// Since when frames are counted, and how many there were.
+    counted: (Instant, u32),
     failure: Option<Failure>,
 }
 
@@ -68,7 +70,6 @@ impl Screen {
         if size.width > 0 && size.height > 0 {
             (self.config.width, self.config.height) = (size.width, size.height);
             self.surface.configure(&self.device, &self.config);
-            self.renderer.resize([size.width, size.height]);
         }
     }
 
@@ -101,7 +102,7 @@ impl ApplicationHandler for Application {
                 Err(failure) => self.fail(events, failure),
             }
         }
-        self.show_state();
+        self.show_state("");
     }
 
     fn window_event(&mut self, events: &ActiveEventLoop, _: WindowId, event: WindowEvent) {
@@ -115,14 +116,15 @@ impl ApplicationHandler for Application {
             } => match key {
                 NamedKey::Space => {
                     self.sraa = !self.sraa;
-                    self.show_state();
+                    self.show_state("");
                 }
                 NamedKey::Escape => events.exit(),
                 _ => {}
             },
             WindowEvent::RedrawRequested => {
-                if let Err(failure) = screen.draw(self.started.elapsed().as_secs_f32(), self.sraa) {
-                    self.fail(events, failure);
+                match screen.draw(self.started.elapsed().as_secs_f32(), self.sraa) {
+                    Ok(()) => self.count(),
+                    Err(failure) => self.fail(events, failure),
                 }
             }
             _ => {}
@@ -137,10 +139,21 @@ impl ApplicationHandler for Application {
 }
 
 impl Application {
-    fn show_state(&self) {
+    fn show_state(&self, frames: &str) {
         if let Some(screen) = &self.screen {
             let state = if self.sraa { "on" } else { "off" };
-            screen.window.set_title(&format!("SRAA {state} (Space)"));
+            screen.window.set_title(&format!("SRAA {state} (Space){frames}"));
+        }
+    }
+
+    /// Counts a frame, and shows once a second how long one takes.
+    fn count(&mut self) {
+        let (since, frames) = &mut self.counted;
+        *frames += 1;
+        let (elapsed, frames) = (since.elapsed(), *frames);
+        if elapsed.as_secs() >= 1 {
+            self.counted = (Instant::now(), 0);
+            self.show_state(&format!(", {:.1} ms a frame", elapsed.as_secs_f64() * 1e3 / f64::from(frames)));
         }
     }
 

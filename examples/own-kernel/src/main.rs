@@ -41,7 +41,6 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
     // The kernel.
     let lens = shaders::lens::Pass::new(&device)?;
-    lens.set_strength(&queue, strength)?;
     let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
     let linear = device.create_sampler(&wgpu::SamplerDescriptor {
         mag_filter: wgpu::FilterMode::Linear,
@@ -50,7 +49,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     });
     let whole = wgpu::TextureViewDescriptor::default();
     let (image, target) = (input.create_view(&whole), output.create_view(&whole));
-    lens.encode(&mut encoder, &shaders::lens::Inputs { image: &image, linear: &linear }, &target)?;
+    let inputs = shaders::lens::Inputs { image: &image, linear: &linear };
+    lens.bind(&inputs, &shaders::lens::Parameters::new(strength), &target)?.encode(&mut encoder);
 
     // Back from the device, and into a file.
     let row = (8 * width).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);

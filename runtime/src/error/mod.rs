@@ -1,4 +1,4 @@
-//! Everything that can go wrong, as values that name the thing, the place and the way out.
+//! Everything that can go wrong, as values that name the thing, the place and what to do.
 
 mod problem;
 
@@ -274,7 +274,7 @@ pub enum Error {
         kernel: String,
         /// The rectangle.
         region: Region,
-        /// Why not, and the way out.
+        /// Why not, and what to do.
         problem: String,
     },
 
@@ -326,7 +326,7 @@ pub enum Error {
 
     /// A uniform without a default was never set.
     #[error(
-        "uniform `{name}` of `{kernel}` has no default: set it with `write_uniform` or `write_uniforms` before encoding"
+        "uniform `{name}` of `{kernel}` has no default: give it a value when the pass is bound, with `BindOptions::uniform` or `BindOptions::uniforms`"
     )]
     UniformUnset {
         /// The kernel's name.

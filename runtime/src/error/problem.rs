@@ -119,7 +119,7 @@ pub enum ViewProblem {
         needed: TextureFormat,
         /// The texture's format.
         found: TextureFormat,
-        /// The way out, which differs by stage.
+        /// What to do, which differs by stage.
         remedy: &'static str,
     },
     /// The texture was created without a usage.

@@ -1,5 +1,6 @@
 //! Limits of the device that a pass can exceed.
 
+use crate::bound::MAX_TARGETS;
 use crate::plan::{InputKind, Plan, StagePlan};
 use crate::{Error, ResourceKind};
 
@@ -54,7 +55,7 @@ pub(super) fn check_limits(device: &wgpu::Device, plan: &Plan, last_group: u32) 
         wanted.push((
             "max_color_attachments",
             outputs,
-            u64::from(limits.max_color_attachments),
+            u64::from(limits.max_color_attachments.min(MAX_TARGETS as u32)),
         ));
     }
     if let StagePlan::Compute { workgroup: [x, y, _] } = plan.stage {

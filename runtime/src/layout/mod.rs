@@ -5,7 +5,7 @@ mod limits;
 
 use crate::guard::{guarded, scoped};
 use crate::plan::{InputKind, Plan, StagePlan, TexturePlan};
-use crate::uniforms::UniformBlock;
+use crate::uniforms::Uniforms;
 use crate::{Error, Resource};
 use culprit::culprit;
 use limits::check_limits;
@@ -75,7 +75,7 @@ impl Layout {
         &self,
         device: &wgpu::Device,
         plan: &Plan,
-        uniforms: &[UniformBlock],
+        uniforms: &Uniforms,
         resources: &[Resource<'_>],
         (targets, region): (&[&wgpu::TextureView], Option<&wgpu::Buffer>),
     ) -> Result<Vec<BoundGroup>, Error> {
@@ -104,11 +104,11 @@ impl Group {
         &self,
         device: &wgpu::Device,
         plan: &Plan,
-        uniforms: &[UniformBlock],
+        uniforms: &Uniforms,
         resources: &[Resource<'_>],
         (targets, region): (&[&wgpu::TextureView], Option<&wgpu::Buffer>),
     ) -> wgpu::BindGroup {
-        let mut entries = Vec::with_capacity(plan.inputs.len() + uniforms.len() + 1);
+        let mut entries = Vec::with_capacity(plan.inputs.len() + plan.uniforms.len() + plan.outputs.len() + 1);
         let mut add = |group: u32, binding: u32, resource| {
             if group == self.index {
                 entries.push(wgpu::BindGroupEntry { binding, resource });
@@ -117,8 +117,8 @@ impl Group {
         for (input, resource) in plan.inputs.iter().zip(resources) {
             add(input.group, input.binding, resource.binding());
         }
-        for block in uniforms {
-            add(block.group, block.binding, block.buffer.as_entire_binding());
+        for (block, buffer) in plan.uniforms.iter().zip(uniforms.buffers()) {
+            add(block.group, block.binding, buffer.as_entire_binding());
         }
         if let (Some(plan), Some(buffer)) = (&plan.region, region) {
             add(plan.group, plan.binding, buffer.as_entire_binding());

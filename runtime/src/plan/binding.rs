@@ -1,8 +1,8 @@
 //! What is bound, each checked for itself: textures, storage buffers, and the fields of uniform structs.
 
 use super::{BufferPlan, FieldPlan, TexturePlan, require};
-use crate::uniforms::UniformType;
-use straightline_manifest::{Dimension, SampleType, UniformField};
+use crate::uniforms::UniformValue;
+use straightline_manifest::{Dimension, Element, Part, SampleType, UniformField};
 
 /// Checks a texture's numbers against one another and against the types that a shader can declare.
 pub(super) fn check_texture(plan: &TexturePlan) -> Result<(), String> {
@@ -39,8 +39,13 @@ pub(super) fn check_texture(plan: &TexturePlan) -> Result<(), String> {
     }
 }
 
-/// A storage buffer of elements of the type that WGSL spells `element`, or of structures of `fields`, `stride` bytes apart.
-pub(super) fn buffer(element: &str, stride: u32, fields: &[UniformField], written: bool) -> Result<BufferPlan, String> {
+/// A storage buffer of elements of `element`, or of structures of `fields`, `stride` bytes apart.
+pub(super) fn buffer(
+    element: &Element,
+    stride: u32,
+    fields: &[UniformField],
+    written: bool,
+) -> Result<BufferPlan, String> {
     if !fields.is_empty() {
         require(stride > 0 && stride.is_multiple_of(4), || {
             format!("a stride of {stride} bytes, not a positive multiple of 4")
@@ -60,8 +65,10 @@ pub(super) fn buffer(element: &str, stride: u32, fields: &[UniformField], writte
             written,
         });
     }
-    let ty = UniformType::from_wgsl(element)
-        .ok_or_else(|| format!("elements of type `{element}`, not a 32-bit scalar or vector"))?;
+    let ty = match element {
+        Element::Value(ty) if ty.is_single() => *ty,
+        other => return Err(format!("elements of type `{other}`, not a 32-bit scalar or vector")),
+    };
     require(stride > 0 && stride.is_multiple_of(4), || {
         format!("a stride of {stride} bytes, not a positive multiple of 4")
     })?;
@@ -82,13 +89,15 @@ pub(super) fn buffer(element: &str, stride: u32, fields: &[UniformField], writte
 pub(super) fn field(field: &UniformField, block: u32) -> Result<FieldPlan, String> {
     let UniformField {
         name,
-        ty: text,
+        ty,
         offset,
         size,
         default,
+        part,
     } = field;
-    let ty = UniformType::from_wgsl(text)
-        .ok_or_else(|| format!("field `{name}` is of type `{text}`, not a 32-bit scalar or vector"))?;
+    require(ty.is_single(), || {
+        format!("field `{name}` is of type `{ty}`, not a 32-bit scalar or vector")
+    })?;
     require(*size == ty.size(), || {
         format!(
             "field `{name}` of type {ty} takes {size} bytes instead of {}",
@@ -105,14 +114,22 @@ pub(super) fn field(field: &UniformField, block: u32) -> Result<FieldPlan, Strin
     let default = match default {
         None => None,
         Some(value) => Some(
-            ty.scalar(*value)
+            Some(ty.scalar())
+                .filter(|_| ty.components() == 1)
+                .and_then(|scalar| UniformValue::number(scalar, *value))
                 .ok_or_else(|| format!("the default {value} of field `{name}` is no {ty}"))?,
         ),
     };
+    if let Some(Part { of, ty: whole, index }) = part {
+        require(whole.part() == *ty && *index < whole.parts(), || {
+            format!("field `{name}` of type {ty} is no part {index} of `{of}` of type {whole}")
+        })?;
+    }
     Ok(FieldPlan {
         name: name.clone(),
-        ty,
+        ty: *ty,
         offset: *offset,
         default,
+        part: part.clone(),
     })
 }

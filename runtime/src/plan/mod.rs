@@ -2,11 +2,11 @@
 
 mod binding;
 
-use crate::uniforms::{UniformType, UniformValue};
+use crate::uniforms::UniformValue;
 use crate::{Error, ResourceKind};
 use straightline_manifest::{
-    Access, Binding, BindingKind, BufferType, Dimension, Extent, Form, Format, Manifest, Output, REGION, REGION_SIZE,
-    SampleType, SamplerType, Stage, ViewDimension, region_fields,
+    Access, Binding, BindingKind, BufferType, Dimension, Extent, Form, Format, Manifest, Output, Part, REGION,
+    REGION_SIZE, SampleType, SamplerType, Stage, ValueType, ViewDimension, region_fields,
 };
 
 /// What to bind where. Every number in it has been checked, except against the device.
@@ -70,7 +70,7 @@ pub(crate) struct TexturePlan {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct BufferPlan {
     /// Of structures none: they are known by their size.
-    pub(crate) element: Option<UniformType>,
+    pub(crate) element: Option<ValueType>,
     pub(crate) stride: u32,
     /// Whether the shader writes to it.
     pub(crate) written: bool,
@@ -90,9 +90,19 @@ pub(crate) struct UniformPlan {
 #[derive(Debug)]
 pub(crate) struct FieldPlan {
     pub(crate) name: String,
-    pub(crate) ty: UniformType,
+    /// A number or a vector.
+    pub(crate) ty: ValueType,
     pub(crate) offset: u32,
     pub(crate) default: Option<UniformValue>,
+    /// Of what value it is a part.
+    pub(crate) part: Option<Part>,
+}
+
+impl FieldPlan {
+    /// The name that the kernel's source has for the value: that of the whole.
+    pub(crate) fn whole(&self) -> &str {
+        self.part.as_ref().map_or(&self.name, |part| &part.of)
+    }
 }
 
 /// The stage.

@@ -119,7 +119,7 @@ impl Quads {
     ///
     /// # Errors
     ///
-    /// Why there is none, and the way out.
+    /// Why there is none, and what to do.
     pub fn choose(&self) -> Result<QuadTransport, String> {
         let place = match self.origin {
             None => Err("pixels do not agree on where their quads begin".to_owned()),

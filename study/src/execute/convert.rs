@@ -1,9 +1,8 @@
 //! Values and textures in the form that a shader asks for.
 
-use super::ExecuteError;
 use glam::UVec2;
-use straightline_manifest::UniformField;
-use straightline_runtime::Pass;
+use straightline_manifest::{Scalar, UniformField, ValueType};
+use straightline_runtime::UniformValue;
 use wgpu::{TextureFormat, TextureUsages};
 
 /// Makes textures that no copy can fill: depths, and several samples a texel.
@@ -183,54 +182,39 @@ impl<'a> Converters<'a> {
     }
 }
 
-/// Sets a uniform from numbers; a single number is for every lane.
-pub fn write_uniform(
-    pass: &Pass,
-    queue: &wgpu::Queue,
-    field: &UniformField,
-    lanes: &[f64],
-) -> Result<(), ExecuteError> {
-    let lane = |k: usize| lanes.get(k).or(lanes.first()).copied().unwrap_or(0.0);
-    let name = field.name.as_str();
-    let written = match field.ty.as_str() {
-        "f32" => pass.write_uniform(queue, name, lane(0) as f32),
-        "i32" => pass.write_uniform(queue, name, lane(0) as i32),
-        "u32" => pass.write_uniform(queue, name, lane(0) as u32),
-        "vec2f" => pass.write_uniform(queue, name, [0, 1].map(|k| lane(k) as f32)),
-        "vec3f" => pass.write_uniform(queue, name, [0, 1, 2].map(|k| lane(k) as f32)),
-        "vec4f" => pass.write_uniform(queue, name, [0, 1, 2, 3].map(|k| lane(k) as f32)),
-        "vec2i" => pass.write_uniform(queue, name, [0, 1].map(|k| lane(k) as i32)),
-        "vec3i" => pass.write_uniform(queue, name, [0, 1, 2].map(|k| lane(k) as i32)),
-        "vec4i" => pass.write_uniform(queue, name, [0, 1, 2, 3].map(|k| lane(k) as i32)),
-        "vec2u" => pass.write_uniform(queue, name, [0, 1].map(|k| lane(k) as u32)),
-        "vec3u" => pass.write_uniform(queue, name, [0, 1, 2].map(|k| lane(k) as u32)),
-        _ => pass.write_uniform(queue, name, [0, 1, 2, 3].map(|k| lane(k) as u32)),
-    };
-    Ok(written?)
+/// A uniform of numbers; a single number is for every component.
+pub fn uniform_value(ty: ValueType, numbers: &[f64]) -> UniformValue {
+    let number = |k: usize| numbers.get(k).or(numbers.first()).copied().unwrap_or(0.0);
+    let words: Vec<_> = (0..ty.size() as usize / 4)
+        .map(|k| word(ty.scalar(), number(k)))
+        .collect();
+    UniformValue::from_words(ty, &words).expect("as many words as the type has")
+}
+
+/// The bits of a number, as a shader has it.
+pub fn word(scalar: Scalar, number: f64) -> [u8; 4] {
+    match scalar {
+        Scalar::F32 => (number as f32).to_le_bytes(),
+        Scalar::I32 => (number as i32).to_le_bytes(),
+        Scalar::U32 => (number as u32).to_le_bytes(),
+    }
 }
 
 /// Structures as they lie in a buffer: their numbers and vectors are one after the other, those of an array too.
 pub fn structure_bytes(values: &[[f64; 4]], fields: &[UniformField], stride: u32) -> Vec<u8> {
-    let of = |field: &UniformField| -> (String, u32) {
-        let inner = field.ty.strip_prefix("array<").and_then(|ty| ty.strip_suffix('>'));
-        match inner.and_then(|inner| inner.split_once(", ")) {
-            Some((ty, count)) => (ty.to_owned(), count.parse().unwrap_or(1)),
-            None => (field.ty.clone(), 1),
-        }
-    };
-    let each: u32 = fields.iter().map(|field| of(field).1).sum();
+    let each: u32 = fields.iter().map(|field| field.ty.parts()).sum();
     let mut bytes = Vec::new();
     for element in values.chunks_exact(each as usize) {
         let (start, mut rest) = (bytes.len(), element);
         bytes.resize(start + stride as usize, 0);
         for field in fields {
-            let (ty, count) = of(field);
+            let count = field.ty.parts();
             let (own, others) = rest.split_at(count as usize);
             rest = others;
             let room = field.size / count;
             for (k, value) in (0..).zip(own) {
                 let at = start + (field.offset + k * room) as usize;
-                let part = element_bytes(std::slice::from_ref(value), &ty);
+                let part = element_bytes(std::slice::from_ref(value), field.ty.part());
                 bytes[at..at + part.len()].copy_from_slice(&part);
             }
         }
@@ -238,40 +222,28 @@ pub fn structure_bytes(values: &[[f64; 4]], fields: &[UniformField], stride: u32
     bytes
 }
 
-/// Elements of a buffer as they lie in it.
-pub fn element_bytes(elements: &[[f64; 4]], element: &str) -> Vec<u8> {
-    let (lanes, kind) = match element.strip_prefix("vec") {
-        Some(rest) => (rest[..1].parse().unwrap_or(4), &rest[1..]),
-        None => (1, &element[..1]),
-    };
-    let word = |v: &f64| match kind {
-        "f" => (*v as f32).to_le_bytes(),
-        "i" => (*v as i32).to_le_bytes(),
-        _ => (*v as u32).to_le_bytes(),
-    };
-    elements
-        .iter()
-        .flat_map(|e| e[..lanes].iter().flat_map(word).collect::<Vec<u8>>())
-        .collect()
+/// Elements of a buffer, numbers or vectors, as they lie in it.
+pub fn element_bytes(elements: &[[f64; 4]], ty: ValueType) -> Vec<u8> {
+    let numbers = elements.iter().flat_map(|e| &e[..ty.components().into()]);
+    numbers.flat_map(|number| word(ty.scalar(), *number)).collect()
 }
 
-/// The elements that lie in the bytes of a buffer, each in as many lanes as it has.
-pub fn elements(bytes: &[u8], element: &str) -> Vec<[f64; 4]> {
-    let (lanes, kind) = match element.strip_prefix("vec") {
-        Some(rest) => (rest[..1].parse().unwrap_or(4), &rest[1..]),
-        None => (1, &element[..1]),
-    };
+/// The elements, numbers or vectors, that lie in the bytes of a buffer, each in as many lanes as it has.
+pub fn elements(bytes: &[u8], ty: ValueType) -> Vec<[f64; 4]> {
     let number = |word: &[u8]| {
         let word = [word[0], word[1], word[2], word[3]];
-        match kind {
-            "f" => f64::from(f32::from_le_bytes(word)),
-            "i" => f64::from(i32::from_le_bytes(word)),
-            _ => f64::from(u32::from_le_bytes(word)),
+        match ty.scalar() {
+            Scalar::F32 => f64::from(f32::from_le_bytes(word)),
+            Scalar::I32 => f64::from(i32::from_le_bytes(word)),
+            Scalar::U32 => f64::from(u32::from_le_bytes(word)),
         }
     };
     let element = |bytes: &[u8]| {
         let mut lanes = bytes.chunks_exact(4).map(number);
         std::array::from_fn(|_| lanes.next().unwrap_or(0.0))
     };
-    bytes.chunks_exact(4 * lanes).map(element).collect()
+    bytes
+        .chunks_exact(4 * usize::from(ty.components()))
+        .map(element)
+        .collect()
 }

@@ -210,7 +210,7 @@ impl Bench {
                         let default = [field.default.unwrap_or(0.0)];
                         let lanes = Inputs::find(&inputs.uniforms, &field.name).map_or(&default[..], Vec::as_slice);
                         let element = std::array::from_fn(|k| *lanes.get(k).unwrap_or(&lanes[0]));
-                        let field_bytes = super::convert::element_bytes(&[element], &field.ty);
+                        let field_bytes = super::convert::element_bytes(&[element], field.ty);
                         bytes[field.offset as usize..][..field_bytes.len()].copy_from_slice(&field_bytes);
                     }
                     let buffer = self.filled(&bytes, wgpu::BufferUsages::UNIFORM);
@@ -370,12 +370,7 @@ fn vertex_shader(manifest: &Manifest) -> String {
     let (mut inputs, mut outputs, mut copies) = (String::new(), String::new(), String::new());
     for v in &manifest.varyings {
         let (name, ty, k) = (&v.name, &v.ty, v.location);
-        let lanes = match ty.as_str() {
-            "f32" => ".x",
-            "vec2f" => ".xy",
-            "vec3f" => ".xyz",
-            _ => "",
-        };
+        let lanes = [".x", ".xy", ".xyz", ""][usize::from(ty.components()) - 1];
         inputs += &format!(", @location({}) {name}: vec4f", k + 1);
         outputs += &format!("    @location({k}) {name}: {ty},\n");
         copies += &format!("    out.{name} = {name}{lanes};\n");

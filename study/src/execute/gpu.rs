@@ -7,8 +7,10 @@ use glam::{UVec2, Vec4, uvec2};
 use straightline_codegen::emit::{Emitted, Target};
 use straightline_codegen::{Compiled, EmitOptions, Format, Precision, Stage};
 use straightline_kernels::prelude::Frame;
-use straightline_manifest::{BindingKind, BufferType, Manifest, REGION, UniformField};
-use straightline_runtime::{Pass, PassOptions, Resource};
+use straightline_manifest::{BindingKind, BufferType, Element, Manifest, REGION, UniformField};
+use straightline_runtime::{
+    BindOptions, Bound, Error as RuntimeError, Pass, PassOptions, Region, Resource, Targets, UniformValue,
+};
 use wgpu::{TextureFormat, TextureUsages};
 
 /// A device to run shaders on.
@@ -28,10 +30,11 @@ pub type Buffers = Vec<(String, Vec<[f64; 4]>)>;
 /// What a kernel writes: its targets, and its buffers.
 pub type AllWritten = (Vec<Written>, Buffers);
 
-/// A shader's inputs on a device.
+/// A shader's inputs on a device, and its uniforms.
 #[derive(Debug)]
-pub struct Bound {
+pub struct Uploaded {
     resources: Vec<(String, Owned)>,
+    uniforms: Vec<(String, UniformValue)>,
 }
 
 #[derive(Clone, Debug)]
@@ -41,7 +44,37 @@ enum Owned {
     Buffer(wgpu::Buffer),
 }
 
-impl Bound {
+impl Uploaded {
+    /// A pass that reads these inputs, and writes `targets`.
+    ///
+    /// # Errors
+    ///
+    /// If they do not fit.
+    pub fn bind<'t>(&self, pass: &Pass, targets: impl Into<Targets<'t>>) -> Result<Bound, RuntimeError> {
+        pass.bind_with(&self.resources(), targets, &self.options())
+    }
+
+    /// A pass that reads these inputs, for a rectangle of `targets`.
+    ///
+    /// # Errors
+    ///
+    /// If they or the rectangle do not fit.
+    pub fn bind_region<'t>(
+        &self,
+        pass: &Pass,
+        targets: impl Into<Targets<'t>>,
+        region: Region,
+    ) -> Result<Bound, RuntimeError> {
+        pass.bind_with(&self.resources(), targets, &self.options().region(region))
+    }
+
+    fn options(&self) -> BindOptions<'_> {
+        let values = self.uniforms.iter();
+        values.fold(BindOptions::default(), |options, (name, value)| {
+            options.uniform(name, value.clone())
+        })
+    }
+
     /// The inputs as a pass takes them.
     pub fn resources(&self) -> Vec<(&str, Resource<'_>)> {
         let resources = self.resources.iter().map(|(name, owned)| {
@@ -151,12 +184,12 @@ impl Bench {
         )?)
     }
 
-    /// Puts onto the device what a manifest asks for, uniforms into the pass.
+    /// Puts onto the device what a manifest asks for.
     ///
     /// # Errors
     ///
     /// If something is missing, or the device refuses it.
-    pub fn bind(&self, pass: &Pass, manifest: &Manifest, inputs: &Inputs) -> Result<Bound, ExecuteError> {
+    pub fn upload(&self, manifest: &Manifest, inputs: &Inputs) -> Result<Uploaded, ExecuteError> {
         let missing = |what: &str, name: &str| ExecuteError::Input(format!("no {what} is given for `{name}`"));
         let mut resources = Vec::new();
         for binding in &manifest.bindings {
@@ -202,23 +235,19 @@ impl Bench {
             };
             resources.push((binding.name.clone(), owned));
         }
-        self.set_uniforms(pass, manifest, inputs)?;
-        Ok(Bound { resources })
+        Ok(Uploaded {
+            resources,
+            uniforms: uniforms(manifest, inputs),
+        })
     }
 
-    /// As [`bind`](Self::bind), with all but uniforms taken from what was bound for another shader of the same kernel, so
-    /// that many shaders share one copy. That shader must read as many components and layers of each texture, or more.
+    /// As [`upload`](Self::upload), with all but uniforms taken from what another shader of the same kernel reads, so that many
+    /// shaders share one copy. That shader must read as many components and layers of each texture, or more.
     ///
     /// # Errors
     ///
-    /// If the other shader does not read what this one does, or the device fails.
-    pub fn bind_shared(
-        &self,
-        pass: &Pass,
-        manifest: &Manifest,
-        inputs: &Inputs,
-        other: &Bound,
-    ) -> Result<Bound, ExecuteError> {
+    /// If the other shader does not read what this one does.
+    pub fn share(&self, manifest: &Manifest, inputs: &Inputs, other: &Uploaded) -> Result<Uploaded, ExecuteError> {
         let mut resources = Vec::new();
         for binding in &manifest.bindings {
             if matches!(binding.kind, BindingKind::Uniform { .. }) {
@@ -226,32 +255,13 @@ impl Bench {
             }
             let found = other.resources.iter().find(|(name, _)| *name == binding.name);
             let shared =
-                found.ok_or_else(|| ExecuteError::Input(format!("nothing is bound for `{}`", binding.name)))?;
+                found.ok_or_else(|| ExecuteError::Input(format!("nothing is given for `{}`", binding.name)))?;
             resources.push(shared.clone());
         }
-        self.set_uniforms(pass, manifest, inputs)?;
-        Ok(Bound { resources })
-    }
-
-    /// Sets the uniforms of a pass; all that [`bind`](Self::bind) does for a second pass that reads what a first one reads.
-    ///
-    /// # Errors
-    ///
-    /// If a value is of another type.
-    pub fn set_uniforms(&self, pass: &Pass, manifest: &Manifest, inputs: &Inputs) -> Result<(), ExecuteError> {
-        for binding in &manifest.bindings {
-            // The region is stated with each that is recorded.
-            if let BindingKind::Uniform { fields, .. } = &binding.kind
-                && binding.name != REGION
-            {
-                for field in fields {
-                    if let Some(lanes) = Inputs::find(&inputs.uniforms, &field.name) {
-                        convert::write_uniform(pass, &self.queue, field, lanes)?;
-                    }
-                }
-            }
-        }
-        Ok(())
+        Ok(Uploaded {
+            resources,
+            uniforms: uniforms(manifest, inputs),
+        })
     }
 
     /// Every pixel of every target of a kernel, in the order of the kernel's fields.
@@ -261,8 +271,8 @@ impl Bench {
     /// If it cannot be emitted or run on these inputs.
     pub fn targets(&self, compiled: &Compiled, stage: Stage, inputs: &Inputs) -> Result<Vec<Written>, ExecuteError> {
         let (pass, manifest) = self.pass(compiled, stage)?;
-        let bound = self.bind(&pass, &manifest, inputs)?;
-        self.written_by(&pass, &bound, inputs.size)
+        let uploaded = self.upload(&manifest, inputs)?;
+        self.written_by(&pass, &uploaded, inputs.size)
     }
 
     /// What a kernel leaves in the buffers that it writes, by name, and its targets.
@@ -272,9 +282,9 @@ impl Bench {
     /// If it cannot be emitted or run on these inputs.
     pub fn all_written(&self, compiled: &Compiled, stage: Stage, inputs: &Inputs) -> Result<AllWritten, ExecuteError> {
         let (pass, manifest) = self.pass(compiled, stage)?;
-        let bound = self.bind(&pass, &manifest, inputs)?;
-        let targets = self.written_by(&pass, &bound, inputs.size)?;
-        Ok((targets, self.buffers(&manifest, &bound)?))
+        let uploaded = self.upload(&manifest, inputs)?;
+        let targets = self.written_by(&pass, &uploaded, inputs.size)?;
+        Ok((targets, self.buffers(&manifest, &uploaded)?))
     }
 
     /// What the buffers hold now that a shader writes, by name.
@@ -282,19 +292,19 @@ impl Bench {
     /// # Errors
     ///
     /// If the device fails.
-    pub fn buffers(&self, manifest: &Manifest, bound: &Bound) -> Result<Buffers, ExecuteError> {
+    pub fn buffers(&self, manifest: &Manifest, uploaded: &Uploaded) -> Result<Buffers, ExecuteError> {
         let mut buffers = Vec::new();
         for binding in &manifest.bindings {
             if let BindingKind::Buffer {
                 buffer_type: BufferType::Storage,
-                element,
+                element: Element::Value(ty),
                 ..
             } = &binding.kind
                 && let Some((name, Owned::Buffer(buffer))) =
-                    bound.resources.iter().find(|(name, _)| *name == binding.name)
+                    uploaded.resources.iter().find(|(name, _)| *name == binding.name)
             {
                 let bytes = self.bytes_of(buffer)?;
-                buffers.push((name.clone(), convert::elements(&bytes, element)));
+                buffers.push((name.clone(), convert::elements(&bytes, *ty)));
             }
         }
         Ok(buffers)
@@ -326,8 +336,8 @@ impl Bench {
     ///
     /// # Errors
     ///
-    /// If it cannot be encoded, or the device fails.
-    pub fn written_by(&self, pass: &Pass, bound: &Bound, size: UVec2) -> Result<Vec<Written>, ExecuteError> {
+    /// If it cannot be bound, or the device fails.
+    pub fn written_by(&self, pass: &Pass, uploaded: &Uploaded, size: UVec2) -> Result<Vec<Written>, ExecuteError> {
         let textures: Vec<_> = pass
             .targets()
             .map(|(name, format)| (name, self.target(size, format)))
@@ -340,7 +350,7 @@ impl Bench {
         let mut encoder = self
             .device
             .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        pass.encode(&mut encoder, &bound.resources(), targets.as_slice())?;
+        uploaded.bind(pass, targets.as_slice())?.encode(&mut encoder);
         self.queue.submit([encoder.finish()]);
         let written = textures.iter().map(|(name, texture)| {
             Ok(Written {
@@ -369,14 +379,14 @@ impl Bench {
     ///
     /// # Errors
     ///
-    /// If it cannot be encoded, or the device fails.
-    pub fn picture_of(&self, pass: &Pass, bound: &Bound, size: UVec2) -> Result<Frame<Vec4>, ExecuteError> {
+    /// If it cannot be bound, or the device fails.
+    pub fn picture_of(&self, pass: &Pass, uploaded: &Uploaded, size: UVec2) -> Result<Frame<Vec4>, ExecuteError> {
         let target = self.target(size, pass.target_format());
         let view = target.create_view(&wgpu::TextureViewDescriptor::default());
         let mut encoder = self
             .device
             .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        pass.encode(&mut encoder, &bound.resources(), &view)?;
+        uploaded.bind(pass, &view)?.encode(&mut encoder);
         self.queue.submit([encoder.finish()]);
         self.download(&target)
     }
@@ -417,13 +427,13 @@ impl Bench {
     pub(super) fn buffer(
         &self,
         elements: &[[f64; 4]],
-        element: &str,
+        element: &Element,
         fields: &[UniformField],
         stride: u32,
     ) -> wgpu::Buffer {
-        let bytes = match fields.is_empty() {
-            true => convert::element_bytes(elements, element),
-            false => convert::structure_bytes(elements, fields, stride),
+        let bytes = match element {
+            Element::Value(ty) => convert::element_bytes(elements, *ty),
+            Element::Structure(_) => convert::structure_bytes(elements, fields, stride),
         };
         let buffer = self.device.create_buffer(&wgpu::BufferDescriptor {
             label: None,
@@ -539,4 +549,21 @@ impl Bench {
             message: e.to_string(),
         })
     }
+}
+
+/// The uniforms of a shader that `inputs` say; of the region's none, which is stated with each that is bound.
+fn uniforms(manifest: &Manifest, inputs: &Inputs) -> Vec<(String, UniformValue)> {
+    let mut uniforms = Vec::new();
+    for binding in &manifest.bindings {
+        if let BindingKind::Uniform { fields, .. } = &binding.kind
+            && binding.name != REGION
+        {
+            for field in fields {
+                if let Some(numbers) = Inputs::find(&inputs.uniforms, &field.name) {
+                    uniforms.push((field.name.clone(), convert::uniform_value(field.ty, numbers)));
+                }
+            }
+        }
+    }
+    uniforms
 }

@@ -16,7 +16,7 @@ use straightline_kernels::prelude::Frame;
 
 pub use cpu::{Interpreted, interpret};
 pub use forward::{Corner, Forward};
-pub use gpu::{AllWritten, Bench, Bound, Buffers, texture_bytes};
+pub use gpu::{AllWritten, Bench, Buffers, Uploaded, texture_bytes};
 pub use shadowed::Shadowed;
 pub use straightline_codegen::interp::{Address, Comparison, SamplerState};
 pub use synthetic::test_inputs;

@@ -73,7 +73,7 @@ impl Bench {
                 )
             })
             .collect();
-        let plain = self.upload(&levels, dimension, format);
+        let plain = self.texture_of(&levels, dimension, format);
         let view = |dimension| {
             plain.create_view(&wgpu::TextureViewDescriptor {
                 dimension: Some(dimension),
@@ -122,7 +122,7 @@ impl Bench {
         };
         let texels = layers.iter().flat_map(Frame::texels);
         let bytes = texels.flat_map(|t| t.to_array()).flat_map(u32::to_le_bytes).collect();
-        let texture = self.upload(&[(size, layers.len(), bytes)], dimension, format);
+        let texture = self.texture_of(&[(size, layers.len(), bytes)], dimension, format);
         Ok(texture.create_view(&wgpu::TextureViewDescriptor {
             dimension: Some(view_of(dimension)),
             ..Default::default()
@@ -164,7 +164,12 @@ impl Bench {
     }
 
     /// A texture of levels, each with its size, its number of layers and its bytes.
-    fn upload(&self, levels: &[(UVec2, usize, Vec<u8>)], dimension: Dimension, format: TextureFormat) -> wgpu::Texture {
+    fn texture_of(
+        &self,
+        levels: &[(UVec2, usize, Vec<u8>)],
+        dimension: Dimension,
+        format: TextureFormat,
+    ) -> wgpu::Texture {
         let extent = |size: UVec2, layers: usize| wgpu::Extent3d {
             width: size.x,
             height: size.y,

@@ -77,7 +77,7 @@ impl Bench {
         let options = self.options(stage).region(true);
         let (pass, manifest) = self.emitted(compiled, &options)?;
         for tile in tiles(size, side, apron) {
-            let bound = self.bind(&pass, &manifest, &inputs(&tile)?)?;
+            let uploaded = self.upload(&manifest, &inputs(&tile)?)?;
             let target = self.target(tile.size, pass.target_format());
             let view = target.create_view(&wgpu::TextureViewDescriptor::default());
             let region = Region {
@@ -88,7 +88,7 @@ impl Bench {
             let mut encoder = self
                 .device
                 .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-            pass.encode_region(&mut encoder, &bound.resources(), &view, region)?;
+            uploaded.bind_region(&pass, &view, region)?.encode(&mut encoder);
             self.queue.submit([encoder.finish()]);
             output(&tile, self.download(&target)?);
         }

@@ -1,10 +1,10 @@
 //! Times of several shaders, measured in turn (A B C A B C ...) in one run, so that a drifting clock hits all alike.
 
-use super::{Bench, Bound, ExecuteError};
+use super::{Bench, ExecuteError, Uploaded};
 use glam::UVec2;
 use serde::{Deserialize, Serialize};
 use std::time::{Duration, Instant};
-use straightline_runtime::{Pass, Timer};
+use straightline_runtime::{Bound, Pass, Timer};
 
 /// Times of one shader over all rounds, in milliseconds.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -108,7 +108,7 @@ pub struct Job<'a> {
     /// The shader.
     pub pass: &'a Pass,
     /// Its inputs.
-    pub bound: &'a Bound,
+    pub uploaded: &'a Uploaded,
     /// Width and height of its output.
     pub size: UVec2,
 }
@@ -118,7 +118,7 @@ impl Bench {
     ///
     /// # Errors
     ///
-    /// If a pass cannot be encoded, or the device fails.
+    /// If a pass cannot be bound, or the device fails.
     pub fn interleaved(
         &self,
         jobs: &[Job<'_>],
@@ -137,7 +137,7 @@ impl Bench {
     ///
     /// # Errors
     ///
-    /// If a pass cannot be encoded, or the device fails.
+    /// If a pass cannot be bound, or the device fails.
     pub fn timed(&self, jobs: &[Job<'_>], rounds: u32, tick: impl FnMut(u32) -> bool) -> Result<Timed, ExecuteError> {
         self.timed_for(jobs, rounds, Duration::ZERO, tick)
     }
@@ -148,7 +148,7 @@ impl Bench {
     ///
     /// # Errors
     ///
-    /// If a pass cannot be encoded, or the device fails.
+    /// If a pass cannot be bound, or the device fails.
     pub fn timed_for(
         &self,
         jobs: &[Job<'_>],
@@ -163,19 +163,17 @@ impl Bench {
     /// The time of one of `repeats` runs in one submission.
     pub(super) fn once(
         &self,
-        job: &Job<'_>,
-        target: &wgpu::TextureView,
+        bound: &Bound,
         repeats: u32,
         timer: Option<&mut Timer>,
     ) -> Result<Duration, ExecuteError> {
-        let resources = job.bound.resources();
         let mut encoder = self
             .device
             .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         match timer {
             Some(timer) => {
                 for _ in 0..repeats {
-                    job.pass.encode_timed(&mut encoder, &resources, target, timer)?;
+                    bound.encode_timed(&mut encoder, timer)?;
                 }
                 timer.resolve(&mut encoder)?;
                 self.queue.submit([encoder.finish()]);
@@ -183,7 +181,7 @@ impl Bench {
             }
             None => {
                 for _ in 0..repeats {
-                    job.pass.encode(&mut encoder, &resources, target)?;
+                    bound.encode(&mut encoder);
                 }
                 let commands = encoder.finish();
                 let start = Instant::now();

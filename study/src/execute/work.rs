@@ -16,12 +16,13 @@ impl Bench {
     ///
     /// # Errors
     ///
-    /// If the device cannot be asked for the time.
+    /// If the pass cannot be bound, or the device cannot be asked for the time.
     pub fn work<'a>(&self, job: Job<'a>, least: Duration) -> Result<Work<'a>, ExecuteError> {
         let bench = self.clone();
         let view = self
             .target(job.size, job.pass.target_format())
             .create_view(&wgpu::TextureViewDescriptor::default());
+        let bound = job.uploaded.bind(job.pass, &view)?;
         let most = if least.is_zero() { 1 } else { MOST_REPEATS };
         let mut timer = match self.timestamps {
             true => Some(Timer::new(&self.device, &self.queue, most)?),
@@ -30,12 +31,12 @@ impl Bench {
         let mut repeats = None;
         Ok(Box::new(move || {
             if let Some(repeats) = repeats {
-                return bench.once(&job, &view, repeats, timer.as_mut());
+                return bench.once(&bound, repeats, timer.as_mut());
             }
-            let mut took = bench.once(&job, &view, 1, timer.as_mut())?;
+            let mut took = bench.once(&bound, 1, timer.as_mut())?;
             if !least.is_zero() {
                 // The first time has the driver's compiling in it.
-                took = bench.once(&job, &view, 1, timer.as_mut())?;
+                took = bench.once(&bound, 1, timer.as_mut())?;
             }
             let wanted = least.as_secs_f64() / took.as_secs_f64().max(1e-9);
             repeats = Some((wanted.ceil() as u32).clamp(1, most));

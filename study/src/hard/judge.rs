@@ -75,8 +75,8 @@ impl<'a> Trial<'a> {
         manifest: &Manifest,
         precision: Precision,
     ) -> Result<HardResult, HardError> {
-        let frame = bench.bind(pass, manifest, self.inputs());
-        let frame = frame.and_then(|bound| bench.picture_of(pass, &bound, self.case.size));
+        let frame = bench.upload(manifest, self.inputs());
+        let frame = frame.and_then(|uploaded| bench.picture_of(pass, &uploaded, self.case.size));
         let found = frame.map(|frame| Found {
             texels: frame.texels().iter().map(|t| t.to_array().map(f64::from)).collect(),
             births: Vec::new(),

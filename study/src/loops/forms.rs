@@ -1,7 +1,7 @@
 //! The forms of a kernel: compiled, and on a device.
 
 use super::{LoopsError, Subject};
-use crate::execute::{Bench, Bound, Inputs};
+use crate::execute::{Bench, Inputs, Uploaded};
 use crate::record::FormKind;
 use std::rc::Rc;
 use std::sync::atomic::{AtomicU32, Ordering};
@@ -157,7 +157,7 @@ pub struct Ready {
     /// The shader.
     pub pass: Pass,
     /// What it reads.
-    pub bound: Rc<Bound>,
+    pub uploaded: Rc<Uploaded>,
     /// Of each time that the shader was made in a text of its own: what making its pipeline took, and its first frame.
     pub made: Vec<(Duration, Duration)>,
 }
@@ -186,7 +186,7 @@ impl Ready {
 pub struct Stand<'a> {
     bench: &'a Bench,
     inputs: &'a Inputs,
-    bound: Vec<(Vec<Binding>, Rc<Bound>)>,
+    uploaded: Vec<(Vec<Binding>, Rc<Uploaded>)>,
 }
 
 impl<'a> Stand<'a> {
@@ -195,7 +195,7 @@ impl<'a> Stand<'a> {
         Stand {
             bench,
             inputs,
-            bound: Vec::new(),
+            uploaded: Vec::new(),
         }
     }
 
@@ -213,43 +213,42 @@ impl<'a> Stand<'a> {
         for _ in 0..times.max(1) {
             let unseen = unseen(&emitted);
             let pass = self.bench.made(&unseen, &options)?;
-            let bound = self.bind(&pass, &unseen)?;
-            let first = self.frame(&pass, &bound)?;
+            let uploaded = self.upload(&unseen)?;
+            let first = self.frame(&pass, &uploaded)?;
             made.push((pass.creation_time(), first));
         }
         let pass = self.bench.made(&emitted, &options)?;
-        let bound = self.bind(&pass, &emitted)?;
+        let uploaded = self.upload(&emitted)?;
         Ok(Ready {
             kind,
             emitted,
             pass,
-            bound,
+            uploaded,
             made,
         })
     }
 
-    fn bind(&mut self, pass: &Pass, emitted: &Emitted) -> Result<Rc<Bound>, LoopsError> {
+    fn upload(&mut self, emitted: &Emitted) -> Result<Rc<Uploaded>, LoopsError> {
         let is_resource = |b: &&Binding| !matches!(b.kind, BindingKind::Uniform { .. });
         let wanted: Vec<Binding> = emitted.manifest.bindings.iter().filter(is_resource).cloned().collect();
-        if let Some((_, bound)) = self.bound.iter().find(|(known, _)| *known == wanted) {
-            self.bench.set_uniforms(pass, &emitted.manifest, self.inputs)?;
-            return Ok(Rc::clone(bound));
+        if let Some((_, uploaded)) = self.uploaded.iter().find(|(known, _)| *known == wanted) {
+            return Ok(Rc::new(self.bench.share(&emitted.manifest, self.inputs, uploaded)?));
         }
-        let bound = Rc::new(self.bench.bind(pass, &emitted.manifest, self.inputs)?);
-        self.bound.push((wanted, Rc::clone(&bound)));
-        Ok(bound)
+        let uploaded = Rc::new(self.bench.upload(&emitted.manifest, self.inputs)?);
+        self.uploaded.push((wanted, Rc::clone(&uploaded)));
+        Ok(uploaded)
     }
 
     /// How long a frame takes, by the wall clock.
-    fn frame(&self, pass: &Pass, bound: &Bound) -> Result<Duration, LoopsError> {
+    fn frame(&self, pass: &Pass, uploaded: &Uploaded) -> Result<Duration, LoopsError> {
         let bench = self.bench;
         let target = bench.target(self.inputs.size, pass.target_format());
         let view = target.create_view(&wgpu::TextureViewDescriptor::default());
         let mut encoder = bench
             .device()
             .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        pass.encode(&mut encoder, &bound.resources(), &view)
-            .map_err(crate::execute::ExecuteError::from)?;
+        let bound = uploaded.bind(pass, &view).map_err(crate::execute::ExecuteError::from)?;
+        bound.encode(&mut encoder);
         // What was written before is not to be waited for.
         bench.wait()?;
         let start = Instant::now();

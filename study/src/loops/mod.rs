@@ -139,7 +139,7 @@ fn measured(
             source: Box::new(source),
         };
         let form = stand.put(*kind, compiled, method.pipelines).map_err(in_form)?;
-        let frame = bench.picture_of(&form.pass, &form.bound, method.size)?;
+        let frame = bench.picture_of(&form.pass, &form.uploaded, method.size)?;
         let off = (*kind != FormKind::Floor).then(|| truth::differences(frame.texels(), &exact));
         if *kind == FormKind::Full {
             picture = Some(frame);
@@ -152,7 +152,7 @@ fn measured(
         .iter()
         .map(|(form, _)| Job {
             pass: &form.pass,
-            bound: &form.bound,
+            uploaded: &form.uploaded,
             size: method.size,
         })
         .collect();

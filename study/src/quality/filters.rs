@@ -6,7 +6,7 @@ use super::shot::Shot;
 use super::surfaces::Surfaces;
 use super::{QualityError, check};
 use crate::capture::{Capture, ShadingSample};
-use crate::execute::{Bench, Bound, ExecuteError, Inputs, Job, Timed, Work, texture_bytes};
+use crate::execute::{Bench, ExecuteError, Inputs, Job, Timed, Uploaded, Work, texture_bytes};
 use crate::gbuffer;
 use crate::peers::{Smaa, Transfer, fxaa};
 use crate::picture;
@@ -73,13 +73,13 @@ impl<'a> Filters<'a> {
         match (&mut self.runners[k], method.kind) {
             (Runner::Smaa(smaa), _) => Ok(smaa.run(&shown(shot.any()?))?),
             (Runner::Kernel(shader) | Runner::Placed(shader, _), kind) => {
-                let (inputs, bound) = shader.bound(self.bench, method, shot)?;
+                let (inputs, uploaded) = shader.uploaded(self.bench, method, shot)?;
                 let target = self.bench.target(inputs.size, shader.pass.target_format());
                 let view = target.create_view(&wgpu::TextureViewDescriptor::default());
                 let descriptor = wgpu::CommandEncoderDescriptor::default();
                 let mut encoder = self.bench.device().create_command_encoder(&descriptor);
-                let encoded = shader.pass.encode(&mut encoder, &bound.resources(), &view);
-                encoded.map_err(ExecuteError::from)?;
+                let bound = uploaded.bind(&shader.pass, &view).map_err(ExecuteError::from)?;
+                bound.encode(&mut encoder);
                 self.bench.queue().submit([encoder.finish()]);
                 let filtered = self.bench.download(&target)?;
                 Ok(match kind {
@@ -129,10 +129,10 @@ impl<'a> Filters<'a> {
         let mut bounds = Vec::new();
         for (method, runner) in self.methods.iter().zip(&mut self.runners) {
             bounds.push(match runner {
-                Runner::Kernel(shader) => Some((shader.bound(self.bench, method, shot)?, None)),
+                Runner::Kernel(shader) => Some((shader.upload(self.bench, method, shot)?, None)),
                 Runner::Placed(shader, place) => Some((
-                    shader.bound(self.bench, method, shot)?,
-                    Some(place.bound(self.bench, method, shot)?),
+                    shader.upload(self.bench, method, shot)?,
+                    Some(place.upload(self.bench, method, shot)?),
                 )),
                 Runner::Smaa(smaa) => {
                     smaa.run(&shown(shot.any()?))?;
@@ -142,8 +142,8 @@ impl<'a> Filters<'a> {
             });
         }
         let (mut works, mut places): (Vec<Work<'_>>, Vec<Option<usize>>) = (Vec::new(), Vec::new());
-        for (runner, bound) in self.runners.iter_mut().zip(&bounds) {
-            let work = match (runner, bound) {
+        for (runner, uploaded) in self.runners.iter_mut().zip(&bounds) {
+            let work = match (runner, uploaded) {
                 (Runner::Kernel(shader), Some((read, _))) => shader.work(self.bench, read)?,
                 (Runner::Placed(shader, place), Some((read, Some(of_place)))) => {
                     let mut first = place.work(self.bench, of_place)?;
@@ -201,30 +201,36 @@ impl Shader {
         })
     }
 
-    fn work<'a>(&'a self, bench: &Bench, (inputs, bound): &'a (Inputs, Bound)) -> Result<Work<'a>, ExecuteError> {
+    fn work<'a>(&'a self, bench: &Bench, (size, uploaded): &'a (UVec2, Uploaded)) -> Result<Work<'a>, ExecuteError> {
         let job = Job {
             pass: &self.pass,
-            bound,
-            size: inputs.size,
+            uploaded,
+            size: *size,
         };
         bench.work(job, Duration::ZERO)
     }
 
     fn bytes(&self, bench: &Bench, method: &Method, shot: &Shot) -> Result<u64, QualityError> {
-        let (inputs, bound) = self.bound(bench, method, shot)?;
+        let (inputs, uploaded) = self.uploaded(bench, method, shot)?;
         let target = bench.target(inputs.size, self.pass.target_format());
-        Ok(bound.bytes() + texture_bytes(&target))
+        Ok(uploaded.bytes() + texture_bytes(&target))
     }
 
-    fn bound(&self, bench: &Bench, method: &Method, shot: &Shot) -> Result<(Inputs, Bound), QualityError> {
+    /// What it reads, on the device alone: as floats in memory that is several times as much.
+    fn upload(&self, bench: &Bench, method: &Method, shot: &Shot) -> Result<(UVec2, Uploaded), QualityError> {
+        let (inputs, uploaded) = self.uploaded(bench, method, shot)?;
+        Ok((inputs.size, uploaded))
+    }
+
+    fn uploaded(&self, bench: &Bench, method: &Method, shot: &Shot) -> Result<(Inputs, Uploaded), QualityError> {
         let capture = shot.capture(method)?;
         let inputs = match method.kind {
             Kind::Edge(_) => one_a_pixel(capture)?,
             Kind::Fxaa(transfer) => of_the_picture(capture, transfer),
             _ => gbuffer::inputs(capture, &self.compiled.options)?,
         };
-        let bound = bench.bind(&self.pass, &self.manifest, &inputs)?;
-        Ok((inputs, bound))
+        let uploaded = bench.upload(&self.manifest, &inputs)?;
+        Ok((inputs, uploaded))
     }
 }
 

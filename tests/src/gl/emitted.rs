@@ -4,7 +4,7 @@ use super::{Context, Program, Texture, Uniform};
 use straightline_codegen::emit::{Emitted, Target};
 use straightline_codegen::{Format, Stage};
 use straightline_kernels::prelude::{Frame, Vec4};
-use straightline_manifest::{BindingKind, Dimension, Manifest, SampleType, UniformField};
+use straightline_manifest::{BindingKind, Dimension, Element, Manifest, SampleType, Scalar, UniformField, ValueType};
 use straightline_study::execute::{Inputs, SamplerState};
 
 /// The picture that the text of a language of OpenGL computes, row by row from the first; pixel rows count as the kernel's do.
@@ -67,22 +67,22 @@ pub fn run_output(
                     program = program.uniform(&field.name, value(field, inputs)?);
                 }
             }
-            BindingKind::Buffer { fields, .. } if !fields.is_empty() => {
+            BindingKind::Buffer {
+                element: Element::Structure(_),
+                ..
+            } => {
                 return Err(format!(
                     "`{}` holds structures, which are not laid out here",
                     binding.name
                 ));
             }
-            BindingKind::Buffer { element, .. } => {
+            BindingKind::Buffer {
+                element: Element::Value(ty),
+                ..
+            } => {
                 let elements = inputs.buffers.iter().find(|(name, _)| *name == binding.name);
                 let (_, elements) = elements.ok_or_else(|| format!("no buffer `{}`", binding.name))?;
-                let lanes = element
-                    .strip_prefix("vec")
-                    .map_or(1, |rest| usize::from(rest.as_bytes()[0] - b'0'));
-                let bytes = elements
-                    .iter()
-                    .flat_map(|e| e[..lanes].iter().flat_map(|x| word(element, *x)));
-                program = program.buffer(binding.binding, bytes.collect());
+                program = program.buffer(binding.binding, element_bytes(elements, *ty));
             }
             BindingKind::Texture { .. } | BindingKind::Sampler { .. } => {}
         }
@@ -94,14 +94,15 @@ pub fn run_output(
     ))
 }
 
-/// The bytes of a number as an element of a buffer.
-fn word(element: &str, x: f64) -> [u8; 4] {
-    match element.chars().last() {
-        Some('f') => (x as f32).to_le_bytes(),
-        _ if element.starts_with('f') => (x as f32).to_le_bytes(),
-        _ if element.contains('u') => (x as u32).to_le_bytes(),
-        _ => (x as i32).to_le_bytes(),
-    }
+/// Elements of a buffer as they lie in it.
+fn element_bytes(elements: &[[f64; 4]], ty: ValueType) -> Vec<u8> {
+    let word = |x: &f64| match ty.scalar() {
+        Scalar::F32 => (*x as f32).to_le_bytes(),
+        Scalar::I32 => (*x as i32).to_le_bytes(),
+        Scalar::U32 => (*x as u32).to_le_bytes(),
+    };
+    let components = elements.iter().flat_map(|e| &e[..ty.components().into()]);
+    components.flat_map(word).collect()
 }
 
 fn texture(
@@ -143,10 +144,9 @@ fn value(field: &UniformField, inputs: &Inputs) -> Result<Uniform, String> {
         (None, Some(default)) => vec![default],
         (None, None) => return Err(format!("the uniform `{}` is not set", field.name)),
     };
-    let kind = field.ty.chars().last().unwrap_or('f');
-    Ok(match (field.ty.as_str(), kind) {
-        ("f32", _) | (_, 'f') => Uniform::Float(lanes.iter().map(|x| *x as f32).collect()),
-        ("u32", _) | (_, 'u') => Uniform::Uint(lanes.iter().map(|x| *x as u32).collect()),
-        _ => Uniform::Int(lanes.iter().map(|x| *x as i32).collect()),
+    Ok(match field.ty.scalar() {
+        Scalar::F32 => Uniform::Float(lanes.iter().map(|x| *x as f32).collect()),
+        Scalar::U32 => Uniform::Uint(lanes.iter().map(|x| *x as u32).collect()),
+        Scalar::I32 => Uniform::Int(lanes.iter().map(|x| *x as i32).collect()),
     })
 }

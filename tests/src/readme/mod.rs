@@ -4,6 +4,7 @@
 //! must be what [`filled`] makes of the records.
 
 mod budget;
+mod encode;
 mod hard;
 mod isa;
 mod loops;
@@ -75,8 +76,9 @@ fn table(name: &str, files: &[&Path]) -> Result<String, String> {
             Ok(tune::scenes(&all.map_err(why)?))
         }
         "budget" => budget::metrics(files),
+        "encode" => encode::ways(first),
         _ => Err(format!(
-            "there is no table `{name}`; there are speed, loops, agreement, quality, methods, scenes, beyond, gaps, hard, isa, tune and budget"
+            "there is no table `{name}`; there are speed, loops, agreement, quality, methods, scenes, beyond, gaps, hard, isa, tune, budget and encode"
         )),
     }
 }

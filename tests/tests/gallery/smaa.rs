@@ -129,8 +129,9 @@ impl<'a> Chain<'a> {
             })
             .collect();
         let mut encoder = self.bench.device().create_command_encoder(&Default::default());
-        pass.encode(&mut encoder, &resources, &view)
-            .unwrap_or_else(|e| panic!("{name}: {e}"));
+        pass.bind(&resources, &view)
+            .unwrap_or_else(|e| panic!("{name}: {e}"))
+            .encode(&mut encoder);
         self.bench.queue().submit([encoder.finish()]);
         drop(resources);
         self.views.insert(into, view);

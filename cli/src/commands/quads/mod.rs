@@ -16,7 +16,7 @@ use straightline_codegen::{Compiled, EmitOptions, Kernel, Settings, Transport, f
 use straightline_kernels::prelude::Frame;
 use straightline_manifest::Stage;
 use straightline_runtime::{Pass, Quads};
-use straightline_study::execute::{Bench, Bound, Clock, Forward, Inputs, Job, Shadowed, Times};
+use straightline_study::execute::{Bench, Clock, Forward, Inputs, Job, Shadowed, Times, Uploaded};
 use straightline_study::render::{GpuRenderer, Renderer};
 
 /// One way to compute a filter.
@@ -62,7 +62,7 @@ struct Subject {
 }
 
 enum Drawn {
-    Pass(Box<Pass>, Bound),
+    Pass(Box<Pass>, Uploaded),
     Forward(Forward),
 }
 
@@ -211,9 +211,9 @@ fn prepare(
         (Drawn::Forward(forward), image, counts)
     } else {
         let (pass, manifest) = bench.pass(&compiled, stage).map_err(Failure::of)?;
-        let bound = bench.bind(&pass, &manifest, inputs).map_err(Failure::of)?;
+        let uploaded = bench.upload(&manifest, inputs).map_err(Failure::of)?;
         let image = bench.run(&compiled, stage, inputs).map_err(Failure::of)?;
-        (Drawn::Pass(Box::new(pass), bound), image, manifest.counts)
+        (Drawn::Pass(Box::new(pass), uploaded), image, manifest.counts)
     };
     let sends = counts.messages > 0 || transport == Transport::Block;
     Ok(Subject {
@@ -239,9 +239,9 @@ fn measure(
     let (mut jobs, mut forwards) = (Vec::new(), Vec::new());
     for subject in subjects {
         match &subject.drawn {
-            Drawn::Pass(pass, bound) => jobs.push(Job {
+            Drawn::Pass(pass, uploaded) => jobs.push(Job {
                 pass,
-                bound,
+                uploaded,
                 size: args.size,
             }),
             Drawn::Forward(forward) => forwards.push(forward),

@@ -1,6 +1,7 @@
 //! The comment that a shader begins with.
 
 use crate::compiled::Compiled;
+use crate::emit::layout::value_type;
 use crate::emit::resources::Resources;
 use crate::emit::text::comment;
 use crate::ir::{Invocation, Scalar, Type};
@@ -82,7 +83,7 @@ fn outputs(resources: &Resources) -> String {
 fn results(resources: &Resources) -> String {
     match &resources.outputs[..] {
         [one] if one.ty == Type::value(Scalar::F32, 4) => "result a colour".to_owned(),
-        [one] => format!("result of type {}", one.type_name()),
+        [one] => format!("result of type {}", value_type(one.ty)),
         several => {
             let each = several.iter().map(|output| output.name.as_str());
             format!("results {}", each.collect::<Vec<_>>().join(", "))

@@ -8,7 +8,7 @@ use super::features::Static;
 use super::space::{Offer, SampleSet, Space, Variant};
 use super::subject::Subject;
 use super::{EQUAL_DB, ErrorMetric, Question, Term, TuneError};
-use crate::execute::{Bench, Bound, ExecuteError, Inputs, Ratio, Times};
+use crate::execute::{Bench, ExecuteError, Inputs, Ratio, Times, Uploaded};
 use crate::gbuffer;
 use crate::metrics;
 use crate::record::Model;
@@ -28,14 +28,14 @@ const NORMAL_BYTES: u64 = 8;
 /// What a variant of one set of samples reads, on the device.
 #[derive(Debug)]
 struct Ground {
-    bound: Bound,
+    uploaded: Uploaded,
     /// Uniforms; the images are on the device.
     inputs: Inputs,
     layers: u64,
 }
 
 /// A shader with what it reads.
-type Ready = (Pass, Bound);
+type Ready = (Pass, Uploaded);
 
 /// Error by the metric, and pixels that are not finite.
 type Seen = (f64, usize);
@@ -110,10 +110,12 @@ impl Search {
             let richest = space.general().with(Term::Samples, place);
             let compiled = kernel.compile(&space.settings(richest))?;
             let inputs = gbuffer::inputs(capture, &compiled.options)?;
-            let (pass, manifest) = bench.pass(&compiled, Stage::Compute)?;
-            let bound = bench.bind(&pass, &manifest, &inputs)?;
+            let emitted = compiled
+                .emit(&bench.options(Stage::Compute))
+                .map_err(ExecuteError::from)?;
+            let uploaded = bench.upload(&emitted.manifest, &inputs)?;
             grounds.push(Ground {
-                bound,
+                uploaded,
                 inputs: Inputs {
                     images: Vec::new(),
                     ..inputs
@@ -231,8 +233,8 @@ impl Search {
         let compiled = self.compile(variant)?;
         let bench = self.bench.clone().precision(precision);
         let (pass, manifest) = bench.pass(&compiled, Stage::Compute)?;
-        let bound = bench.bind_shared(&pass, &manifest, &ground.inputs, &ground.bound)?;
-        Ok((pass, bound))
+        let uploaded = bench.share(&manifest, &ground.inputs, &ground.uploaded)?;
+        Ok((pass, uploaded))
     }
 }
 

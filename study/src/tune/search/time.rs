@@ -108,7 +108,7 @@ impl Search {
             .iter()
             .map(|k| Job {
                 pass: &self.ready[k].0,
-                bound: &self.ready[k].1,
+                uploaded: &self.ready[k].1,
                 size: self.size,
             })
             .collect();

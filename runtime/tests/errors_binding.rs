@@ -15,11 +15,9 @@ fn pass(gpu: &Gpu, kernel: &Kernel, stage: Stage) -> Pass {
     Pass::from_json(&gpu.device, &manifest, &wgsl).expect("a pass")
 }
 
-/// Encodes what must be refused. The encoder must still be good.
-fn refuse(gpu: &Gpu, pass: &Pass, inputs: &[(&str, &TextureView)], target: &TextureView) -> Error {
-    let mut encoder = gpu.encoder();
-    let error = pass.encode(&mut encoder, inputs, target).expect_err("a refusal");
-    gpu.submit(encoder);
+/// Binds what must be refused.
+fn refuse(pass: &Pass, inputs: &[(&str, &TextureView)], target: &TextureView) -> Error {
+    let error = pass.bind(inputs, target).expect_err("a refusal");
     assert!(error.to_string().contains(&format!("`{}`", pass.kernel())), "{error}");
     error
 }
@@ -50,14 +48,13 @@ fn names_are_checked_both_ways() {
     let target = view(&gpu.target(SIZE));
     for stage in STAGES {
         let pass = pass(&gpu, &LAYERS, stage);
-        let error = refuse(&gpu, &pass, &[("color", &color)], &target);
+        let error = refuse(&pass, &[("color", &color)], &target);
         assert!(
             matches!(&error, Error::MissingInput { name, .. } if name == "depth"),
             "{error}"
         );
         assert!(error.to_string().contains("`color` and `depth`"), "{error}");
         let error = refuse(
-            &gpu,
             &pass,
             &[("color", &color), ("colour", &color), ("depth", &depth)],
             &target,
@@ -68,7 +65,6 @@ fn names_are_checked_both_ways() {
         );
         assert!(error.to_string().contains("`color` and `depth`"), "{error}");
         let error = refuse(
-            &gpu,
             &pass,
             &[("color", &color), ("depth", &depth), ("color", &color)],
             &target,
@@ -88,10 +84,7 @@ fn inputs_of_the_wrong_shape() {
     for stage in STAGES {
         let pass = pass(&gpu, &LAYERS, stage);
         let with_depth = |depth: &TextureView| {
-            input_problem(
-                refuse(&gpu, &pass, &[("color", &color), ("depth", depth)], &target),
-                "depth",
-            )
+            input_problem(refuse(&pass, &[("color", &color), ("depth", depth)], &target), "depth")
         };
         let depth = array_view(&gpu.texture(SIZE, 3, TextureFormat::R32Float, READ));
         // Made of a stack, the default view is an array; this one is not.
@@ -122,10 +115,7 @@ fn inputs_of_the_wrong_shape() {
         );
 
         let with_color = |color: &TextureView| {
-            input_problem(
-                refuse(&gpu, &pass, &[("color", color), ("depth", &depth)], &target),
-                "color",
-            )
+            input_problem(refuse(&pass, &[("color", color), ("depth", &depth)], &target), "color")
         };
         let array = array_view(&gpu.texture(SIZE, 1, TextureFormat::Rgba32Float, READ));
         assert!(matches!(with_color(&array), ViewProblem::Dimension { ref found, .. } if found == "2d-array"));
@@ -162,7 +152,7 @@ fn inputs_of_the_wrong_format_or_usage() {
         let pass = pass(&gpu, &COPY, stage);
         let with = |format, usage| {
             let color = view(&gpu.texture(SIZE, 1, format, usage));
-            input_problem(refuse(&gpu, &pass, &[("color", &color)], &target), "color")
+            input_problem(refuse(&pass, &[("color", &color)], &target), "color")
         };
         for format in [
             TextureFormat::Rgba8Uint,
@@ -215,7 +205,7 @@ fn a_stencil_is_not_a_depth() {
             aspect,
             ..Default::default()
         });
-        let problem = input_problem(refuse(&gpu, &pass, &[("depth", &depth)], &target), "depth");
+        let problem = input_problem(refuse(&pass, &[("depth", &depth)], &target), "depth");
         assert!(matches!(problem, ViewProblem::Refused { .. }), "{problem}");
     }
 }
@@ -229,7 +219,7 @@ fn targets_that_cannot_be_written() {
         (Stage::Fragment, TextureUsages::RENDER_ATTACHMENT, "RENDER_ATTACHMENT"),
     ] {
         let pass = pass(&gpu, &COPY, stage);
-        let with = |target: &TextureView| target_problem(refuse(&gpu, &pass, &[("color", &color)], target));
+        let with = |target: &TextureView| target_problem(refuse(&pass, &[("color", &color)], target));
         let half = view(&gpu.texture(SIZE, 1, TextureFormat::Rgba16Float, usage));
         assert!(matches!(
             with(&half),
@@ -270,7 +260,7 @@ fn a_target_view_of_another_srgb_ness() {
     let manifest = manifest.replace("rgba32float", "rgba8unorm");
     let pass = Pass::from_json(&gpu.device, &manifest, &wgsl).expect("a pass");
     let srgb = gpu.texture(SIZE, 1, TextureFormat::Rgba8UnormSrgb, TextureUsages::RENDER_ATTACHMENT);
-    let problem = target_problem(refuse(&gpu, &pass, &[("color", &color)], &view(&srgb)));
+    let problem = target_problem(refuse(&pass, &[("color", &color)], &view(&srgb)));
     assert!(matches!(problem, ViewProblem::Refused { .. }), "{problem}");
 }
 
@@ -280,7 +270,7 @@ fn an_input_that_is_the_target() {
     for stage in STAGES {
         let pass = pass(&gpu, &COPY, stage);
         let image = gpu.target(SIZE);
-        let error = refuse(&gpu, &pass, &[("color", &view(&image))], &view(&image));
+        let error = refuse(&pass, &[("color", &view(&image))], &view(&image));
         assert_eq!(input_problem(error, "color"), ViewProblem::IsTarget);
         // The same layer of a stack: wgpu tells.
         let usage = READ | TextureUsages::STORAGE_BINDING | TextureUsages::RENDER_ATTACHMENT;
@@ -290,7 +280,7 @@ fn an_input_that_is_the_target() {
             array_layer_count: Some(1),
             ..Default::default()
         });
-        let error = refuse(&gpu, &pass, &[("color", &layer)], &layer);
+        let error = refuse(&pass, &[("color", &layer)], &layer);
         assert!(matches!(error, Error::Combination { .. }), "{error}");
     }
 }
@@ -307,10 +297,11 @@ fn a_target_larger_than_a_dispatch() {
         let color = view(&gpu.upload(size, 1, &ramp(size, 1)));
         let target = view(&gpu.target(size));
         if fits {
-            pass.encode(&mut gpu.encoder(), &[("color", &color)], &target)
-                .expect("to encode");
+            pass.bind(&[("color", &color)], &target)
+                .expect("to bind")
+                .encode(&mut gpu.encoder());
         } else {
-            let problem = target_problem(refuse(&gpu, &pass, &[("color", &color)], &target));
+            let problem = target_problem(refuse(&pass, &[("color", &color)], &target));
             assert_eq!(problem, ViewProblem::TooLarge { size: 17, max: 16 });
         }
     }
@@ -327,9 +318,9 @@ fn views_of_another_device() {
     let (target, foreign_target) = (view(&gpu.target(SIZE)), view(&other.target(SIZE)));
     for stage in STAGES {
         let pass = pass(&gpu, &COPY, stage);
-        let problem = input_problem(refuse(&gpu, &pass, &[("color", &foreign)], &target), "color");
+        let problem = input_problem(refuse(&pass, &[("color", &foreign)], &target), "color");
         assert!(matches!(problem, ViewProblem::Refused { .. }), "{problem}");
-        let problem = target_problem(refuse(&gpu, &pass, &[("color", &color)], &foreign_target));
+        let problem = target_problem(refuse(&pass, &[("color", &color)], &foreign_target));
         assert!(matches!(problem, ViewProblem::Refused { .. }), "{problem}");
     }
 }
@@ -341,11 +332,14 @@ fn a_lost_device() {
         let pass = pass(&gpu, &COPY, stage);
         let color = view(&gpu.upload(SIZE, 1, &ramp(SIZE, 1)));
         let target = view(&gpu.target(SIZE));
-        pass.encode(&mut gpu.encoder(), &[("color", &color)], &target)
-            .expect("to encode while the device lives");
+        let bound = pass
+            .bind(&[("color", &color)], &target)
+            .expect("to bind while the device lives");
         gpu.device.destroy();
+        // Recording cannot fail, on a lost device either.
+        bound.encode(&mut gpu.encoder());
         for _ in 0..2 {
-            let error = refuse(&gpu, &pass, &[("color", &color)], &target);
+            let error = refuse(&pass, &[("color", &color)], &target);
             assert!(matches!(error, Error::DeviceLost { .. }), "{error}");
             gpu.device
                 .poll(wgpu::PollType::wait_indefinitely())

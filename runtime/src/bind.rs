@@ -1,0 +1,187 @@
+//! Binding a pass: everything that can fail is done here, once.
+
+use crate::bound::{Bound, Work};
+use crate::error::ViewProblem;
+use crate::guard::guarded;
+use crate::inputs::{arrange, check_inputs, check_targets, frame_size, is_one_image, shared, size};
+use crate::pipeline::Pipeline;
+use crate::targets::Targets;
+use crate::uniforms::Uniforms;
+use crate::{BindOptions, Error, Pass, Region, Resource};
+use std::sync::Arc;
+use wgpu::TextureView;
+
+impl Pass {
+    /// The pass with what it reads, `inputs`, given by name in any order, and what it writes every pixel of, `targets`: `&view`,
+    /// or `&[("albedo", &albedo), ("depth", &depth)]` for a kernel that gives a structure of these fields. Uniforms start from the
+    /// manifest's defaults.
+    ///
+    /// All checks are made here, bind groups and uniform buffers too; [`Bound::encode`] then only records. Bind again when an
+    /// input or a target is another one.
+    ///
+    /// Where all inputs are textures, `inputs` can be a slice of views, `&[("color", &view)]`; otherwise each is made
+    /// a [`Resource`]: `&[("color", Resource::from(&view)), ("linear", (&sampler).into())]`. A kernel without inputs
+    /// is given `&[] as &[(&str, Resource)]`.
+    ///
+    /// - A texture is a 2-D view, or 2-D array view with at least as many layers as the manifest says, of a texture
+    ///   with [`TEXTURE_BINDING`](wgpu::TextureUsages::TEXTURE_BINDING) usage, the target's size unless the manifest
+    ///   says that any will do, and a format with at least the components that the kernel reads: float, normalised or
+    ///   depth where texels are read one by one, float or normalised where they are filtered, depth where depths are
+    ///   compared. (Of a combined depth-stencil texture, give a view of the depth aspect.) It has one sample a texel,
+    ///   or, where the kernel reads samples, at least as many as the manifest says.
+    /// - A sampler has a comparison function exactly if the kernel compares with it.
+    /// - A buffer has [`STORAGE`](wgpu::BufferUsages::STORAGE) usage and room for one element at least. All of it is
+    ///   bound, so that its size says how many elements there are. One that the kernel writes keeps what is not written, and is
+    ///   none that it reads. A kernel that only writes buffers is given no targets, `&[]`, and runs over its inputs.
+    ///
+    /// Targets have one size. Each has the format that [`targets`](Self::targets) says, and
+    /// [`STORAGE_BINDING`](wgpu::TextureUsages::STORAGE_BINDING) usage for compute or
+    /// [`RENDER_ATTACHMENT`](wgpu::TextureUsages::RENDER_ATTACHMENT) for fragment.
+    ///
+    /// wgpu does not tell which mip level and layers a view shows. Give views of level 0 that begin at the layer that
+    /// the kernel calls 0: sizes and layers are checked on the texture.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::MissingInput`], [`Error::UnknownInput`], [`Error::DuplicateInput`] and [`Error::InputKind`];
+    /// [`Error::TargetNames`], [`Error::MissingTarget`], [`Error::UnknownTarget`] and [`Error::DuplicateTarget`];
+    /// [`Error::Input`], [`Error::InputSampler`], [`Error::InputBuffer`], [`Error::Target`] and
+    /// [`Error::Combination`] for unfit resources; [`Error::UniformUnset`]; [`Error::DeviceLost`] and
+    /// [`Error::OutOfMemory`].
+    pub fn bind<'r, 't, R: Into<Resource<'r>> + Copy>(
+        &self,
+        inputs: &[(&str, R)],
+        targets: impl Into<Targets<'t>>,
+    ) -> Result<Bound, Error> {
+        self.bind_with(inputs, targets, &BindOptions::default())
+    }
+
+    /// [`bind`](Self::bind) with other uniforms than the manifest's, or for a rectangle.
+    ///
+    /// For a rectangle it reads what lies at and around `region.first` of the inputs, and writes the pixels at `region.place` of the
+    /// targets; all others stay as they are. The inputs need not have the target's size, only one size.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`bind`](Self::bind); [`Error::UnknownUniform`], [`Error::UniformType`], [`Error::NoUniforms`] and
+    /// [`Error::UniformSize`]; and [`Error::Region`] if the shader filters whole images only, or the rectangle leaves the inputs or the
+    /// target.
+    pub fn bind_with<'r, 't, R: Into<Resource<'r>> + Copy>(
+        &self,
+        inputs: &[(&str, R)],
+        targets: impl Into<Targets<'t>>,
+        options: &BindOptions<'_>,
+    ) -> Result<Bound, Error> {
+        let inputs: Vec<(&str, Resource<'r>)> = inputs.iter().map(|(name, input)| (*name, (*input).into())).collect();
+        let targets = targets.into().arranged(&self.plan)?;
+        self.pulse
+            .check(&self.device, &format!("binding `{}`", self.plan.kernel))?;
+        let resources = arrange(&self.plan, &inputs)?;
+        check_targets(&self.plan, &self.formats, &self.abilities, &targets)?;
+        let whole = self.whole(&resources, &targets)?;
+        let rectangle = self.rectangle(&resources, whole, options.region)?;
+        let frame = match self.plan.region {
+            Some(_) => frame_size(&self.plan, &resources),
+            None => None,
+        };
+        check_inputs(&self.plan, &self.abilities, &resources, frame.unwrap_or(whole))?;
+        let uniforms = Uniforms::new(&self.device, &self.plan, options)?;
+        let buffer = match self.plan.region {
+            Some(_) => Some(rectangle.buffer(&self.device, &self.plan.kernel)?),
+            None => None,
+        };
+        let groups = self.layout.bind(
+            &self.device,
+            &self.plan,
+            &uniforms,
+            &resources,
+            (&targets, buffer.as_ref()),
+        );
+        let shared = shared(&self.plan, &resources, &targets);
+        let bound = groups.and_then(|groups| {
+            let bound = Bound {
+                plan: Arc::clone(&self.plan),
+                work: Work::new(
+                    &self.plan,
+                    &self.pipeline,
+                    &targets,
+                    rectangle,
+                    options.region.is_some(),
+                ),
+                groups,
+                uniforms,
+            };
+            match (&self.pipeline, shared) {
+                // Binding has judged every resource.
+                (Pipeline::Compute { .. }, None) => Ok(bound),
+                _ => self.try_out(&bound, shared.is_some()).map(|()| bound),
+            }
+        });
+        bound.map_err(|error| match (error, shared) {
+            // A texture of one image has no other part to show.
+            (Error::Combination { kernel, .. }, Some((input, target))) if is_one_image(target.texture()) => {
+                Error::Input {
+                    kernel,
+                    name: input.name.clone(),
+                    problem: ViewProblem::IsTarget,
+                }
+            }
+            (error, _) => error,
+        })
+    }
+
+    /// The size of what is computed: that of the targets, or of a kernel that has none, of its inputs.
+    fn whole(&self, resources: &[Resource<'_>], targets: &[&TextureView]) -> Result<[u32; 2], Error> {
+        let of_inputs = || frame_size(&self.plan, resources);
+        let whole = targets.first().map(|target| size(target.texture())).or_else(of_inputs);
+        whole.ok_or_else(|| Error::BadManifest {
+            kernel: self.plan.kernel.clone(),
+            place: "output".to_owned(),
+            problem: "nothing is given, and no input has a size that tells how many pixels there are".to_owned(),
+        })
+    }
+
+    /// The rectangle to filter: the one asked for, or all of the inputs.
+    fn rectangle(&self, resources: &[Resource<'_>], whole: [u32; 2], region: Option<Region>) -> Result<Region, Error> {
+        match (&self.plan.region, region) {
+            (None, None) => Ok(Region::at([0, 0], whole)),
+            (None, Some(region)) => Err(Error::Region {
+                kernel: self.plan.kernel.clone(),
+                region,
+                problem: "its shader filters whole images: generate it with `region`".to_owned(),
+            }),
+            (Some(_), region) => {
+                let frame = frame_size(&self.plan, resources);
+                let region = region.unwrap_or_else(|| Region::at([0, 0], frame.unwrap_or(whole)));
+                region.check(&self.plan.kernel, frame, whole)?;
+                Ok(region)
+            }
+        }
+    }
+
+    /// Records into an encoder that is thrown away. What wgpu holds against a colour target, or against reading and writing
+    /// the same image, it says only when an encoder is finished; that must not be the caller's.
+    ///
+    /// Inputs have been bound by now, so the fault is the target's, unless that is `shared` with an input.
+    fn try_out(&self, bound: &Bound, shared: bool) -> Result<(), Error> {
+        let kernel = &self.plan.kernel;
+        let refused = |description| match shared {
+            true => Error::Combination {
+                kernel: kernel.clone(),
+                description,
+            },
+            false => Error::Target {
+                kernel: kernel.clone(),
+                name: None,
+                problem: ViewProblem::Refused { description },
+            },
+        };
+        guarded(&self.device, &format!("binding `{kernel}`"), refused, || {
+            let mut encoder = self
+                .device
+                .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+            bound.encode(&mut encoder);
+            drop(encoder.finish());
+        })
+    }
+}

@@ -1,0 +1,176 @@
+//! A pass with all that it reads and writes, ready to be recorded.
+
+use crate::layout::BoundGroup;
+use crate::pipeline::Pipeline;
+use crate::plan::Plan;
+use crate::timer::{Span, Timer};
+use crate::uniforms::{UniformValue, Uniforms};
+use crate::{Error, Region};
+use std::sync::Arc;
+use wgpu::{CommandEncoder, Queue, TextureView};
+
+/// Targets of a fragment shader, at most: as many as wgpu allows on any device.
+pub(crate) const MAX_TARGETS: usize = 8;
+
+/// A [`Pass`](crate::Pass) with its inputs, targets and uniforms: made by [`Pass::bind`](crate::Pass::bind), and recorded as often as
+/// wanted.
+///
+/// It keeps what it binds alive and has no lifetime: keep it until an input or a target is another one, as after the window was
+/// resized. It can be shared between threads, and outlives the pass.
+///
+/// What was seen of the device and its resources was seen when it was bound. A device that is lost later, or a texture
+/// that was destroyed, shows when the commands are submitted, as with any wgpu pass.
+#[derive(Debug)]
+pub struct Bound {
+    pub(crate) plan: Arc<Plan>,
+    pub(crate) work: Work,
+    pub(crate) groups: Vec<BoundGroup>,
+    pub(crate) uniforms: Uniforms,
+}
+
+/// What is recorded.
+#[derive(Debug)]
+pub(crate) enum Work {
+    Compute {
+        pipeline: wgpu::ComputePipeline,
+        /// Across and down.
+        workgroups: [u32; 2],
+    },
+    Draw {
+        pipeline: wgpu::RenderPipeline,
+        /// [`MAX_TARGETS`] at most.
+        targets: Vec<TextureView>,
+        rectangle: Region,
+        load: wgpu::LoadOp<wgpu::Color>,
+    },
+}
+
+impl Work {
+    /// What `pipeline` has to do to fill `rectangle` of `targets`. Outside of a part all stays as it is.
+    pub(crate) fn new(
+        plan: &Plan,
+        pipeline: &Pipeline,
+        targets: &[&TextureView],
+        rectangle: Region,
+        is_part: bool,
+    ) -> Work {
+        match pipeline {
+            Pipeline::Compute { pipeline, workgroup } => Work::Compute {
+                pipeline: pipeline.clone(),
+                workgroups: [0, 1].map(|axis| rectangle.size[axis].div_ceil(workgroup[axis] * plan.block[axis])),
+            },
+            Pipeline::Render(pipeline) => Work::Draw {
+                pipeline: pipeline.clone(),
+                targets: targets.iter().map(|target| (*target).clone()).collect(),
+                rectangle,
+                // Where every pixel is overwritten, clearing spares tiled GPUs from loading the old ones.
+                load: match is_part {
+                    true => wgpu::LoadOp::Load,
+                    false => wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
+                },
+            },
+        }
+    }
+}
+
+impl Bound {
+    /// The kernel's name.
+    pub fn kernel(&self) -> &str {
+        &self.plan.kernel
+    }
+
+    /// Records the pass into `encoder`, which is of the same device: a compute or a render pass of its own. It cannot fail and
+    /// checks nothing; of its own it allocates nothing.
+    pub fn encode(&self, encoder: &mut CommandEncoder) {
+        self.record(encoder, None);
+    }
+
+    /// [`encode`](Self::encode), timed on the GPU as the next span of `timer`.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::TimerFull`]. Nothing has been recorded then.
+    pub fn encode_timed(&self, encoder: &mut CommandEncoder, timer: &mut Timer) -> Result<(), Error> {
+        let span = timer.span()?;
+        self.record(encoder, Some(&span));
+        Ok(())
+    }
+
+    /// Sets the uniform `name` for what `queue`, the device's own, submits next. A matrix or an array that the kernel takes is one
+    /// value: `[[1.0, 0.0], [0.0, 1.0]]`, columns first.
+    ///
+    /// As with any `write_buffer`, all encoders of one submission see the value that was written last before it. Other
+    /// [`Bound`]s of the same pass keep theirs. Of numbers, vectors and matrices nothing is allocated here.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::UnknownUniform`], or [`Error::UniformType`] for a value of another type. Nothing has been written then.
+    pub fn write_uniform(&self, queue: &Queue, name: &str, value: impl Into<UniformValue>) -> Result<(), Error> {
+        self.uniforms.write(&self.plan, queue, name, &value.into())
+    }
+
+    /// Sets all uniforms at once, from `bytes` that are the uniform struct as it lies in the buffer: little-endian,
+    /// each field at the offset that the manifest gives, and as long as the manifest's size, padding included. (Of
+    /// several structs, one after the other in binding order.)
+    ///
+    /// When the values are seen, see [`write_uniform`](Self::write_uniform). Nothing is allocated here.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::NoUniforms`], or [`Error::UniformSize`] for another length. Nothing has been written then.
+    pub fn write_uniforms(&self, queue: &Queue, bytes: &[u8]) -> Result<(), Error> {
+        self.uniforms.write_all(&self.plan, queue, bytes)
+    }
+
+    fn record(&self, encoder: &mut CommandEncoder, span: Option<&Span<'_>>) {
+        let label = Some(self.plan.kernel.as_str());
+        match &self.work {
+            Work::Compute { pipeline, workgroups } => {
+                let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+                    label,
+                    timestamp_writes: span.map(Span::compute_writes),
+                });
+                pass.set_pipeline(pipeline);
+                for (index, group) in &self.groups {
+                    pass.set_bind_group(*index, group, &[]);
+                }
+                let [across, down] = *workgroups;
+                pass.dispatch_workgroups(across, down, 1);
+            }
+            Work::Draw {
+                pipeline,
+                targets,
+                rectangle,
+                load,
+            } => {
+                // On the stack: nothing is allocated here.
+                let attachments: [_; MAX_TARGETS] = std::array::from_fn(|k| {
+                    targets.get(k).map(|view| wgpu::RenderPassColorAttachment {
+                        view,
+                        depth_slice: None,
+                        resolve_target: None,
+                        ops: wgpu::Operations {
+                            load: *load,
+                            store: wgpu::StoreOp::Store,
+                        },
+                    })
+                });
+                let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                    label,
+                    color_attachments: &attachments[..targets.len()],
+                    depth_stencil_attachment: None,
+                    timestamp_writes: span.map(Span::render_writes),
+                    occlusion_query_set: None,
+                    multiview_mask: None,
+                });
+                pass.set_pipeline(pipeline);
+                for (index, group) in &self.groups {
+                    pass.set_bind_group(*index, group, &[]);
+                }
+                let ([x, y], [width, height]) = (rectangle.place, rectangle.size);
+                pass.set_scissor_rect(x, y, width, height);
+                pass.draw(0..3, 0..1);
+            }
+        }
+    }
+}

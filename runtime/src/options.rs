@@ -1,0 +1,79 @@
+//! What a caller may choose when a pass is made, and when it is bound.
+
+use crate::{Region, UniformValue};
+use wgpu::TextureFormat;
+
+/// Choices that the manifest leaves open.
+#[derive(Clone, Debug, Default)]
+#[non_exhaustive]
+pub struct PassOptions {
+    /// Format of the colour target of a fragment pass, where it is not the manifest's; a swap chain's, say.
+    /// For compute, the shader's text fixes the format, and another one here is an error.
+    pub target_format: Option<TextureFormat>,
+    /// The same of a kernel that writes several targets, by their names.
+    pub formats: Vec<(String, TextureFormat)>,
+    /// Whether loops go without the bound that wgpu otherwise puts on the iterations of each, by a counter that costs time. Only
+    /// for shaders whose text shows that every loop ends, as that of emitted shaders does; all others are refused.
+    pub unbounded_loops: bool,
+}
+
+impl PassOptions {
+    /// Draws to targets of `format`.
+    pub fn target_format(mut self, format: TextureFormat) -> Self {
+        self.target_format = Some(format);
+        self
+    }
+
+    /// Draws what the kernel calls `name` to targets of `format`.
+    pub fn format_of(mut self, name: &str, format: TextureFormat) -> Self {
+        self.formats.push((name.to_owned(), format));
+        self
+    }
+
+    /// Whether loops go without wgpu's bound.
+    pub fn unbounded_loops(mut self, unbounded: bool) -> Self {
+        self.unbounded_loops = unbounded;
+        self
+    }
+}
+
+/// What a pass is bound with besides its inputs and targets.
+///
+/// ```
+/// # use straightline_runtime::{BindOptions, Region};
+/// let options = BindOptions::default()
+///     .uniform("tau", 300.0)
+///     .uniform("grade", [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]])
+///     .region(Region::at([0, 0], [256, 256]));
+/// ```
+#[derive(Clone, Debug, Default)]
+#[non_exhaustive]
+pub struct BindOptions<'a> {
+    /// All uniforms as they lie in the buffer, where they do not start from the manifest's defaults.
+    pub uniforms: Option<&'a [u8]>,
+    /// Single uniforms by name; these count before `uniforms`.
+    pub values: Vec<(&'a str, UniformValue)>,
+    /// The rectangle to filter, of a shader for regions; all of the inputs otherwise.
+    pub region: Option<Region>,
+}
+
+impl<'a> BindOptions<'a> {
+    /// Starts with all uniforms as `bytes`, which are as long as the manifest's size: see
+    /// [`Bound::write_uniforms`](crate::Bound::write_uniforms).
+    pub fn uniforms(mut self, bytes: &'a [u8]) -> Self {
+        self.uniforms = Some(bytes);
+        self
+    }
+
+    /// Starts with this value for the uniform `name`.
+    pub fn uniform(mut self, name: &'a str, value: impl Into<UniformValue>) -> Self {
+        self.values.push((name, value.into()));
+        self
+    }
+
+    /// Filters a rectangle. The shader must have been generated for regions.
+    pub fn region(mut self, region: Region) -> Self {
+        self.region = Some(region);
+        self
+    }
+}

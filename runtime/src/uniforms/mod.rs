@@ -1,0 +1,200 @@
+//! Values that are set at run time: where they start, and their buffers.
+
+mod value;
+
+use crate::guard::guarded;
+use crate::plan::{FieldPlan, Plan, UniformPlan};
+use crate::{BindOptions, Error, Names};
+pub use value::{Component, UniformValue};
+
+/// The uniform structs of a bound pass, on the device.
+#[derive(Debug)]
+pub(crate) struct Uniforms {
+    /// One for each struct of the plan, in its order.
+    buffers: Vec<wgpu::Buffer>,
+}
+
+impl Uniforms {
+    /// Buffers that hold the manifest's defaults and what `options` say. Filled while mapped, so that no queue is needed and the
+    /// first submission already sees them.
+    pub(crate) fn new(device: &wgpu::Device, plan: &Plan, options: &BindOptions<'_>) -> Result<Self, Error> {
+        let contents = start(plan, options)?;
+        let buffers = plan.uniforms.iter().zip(contents).map(|(block, bytes)| {
+            let refused = |description| Error::Pipeline {
+                kernel: plan.kernel.clone(),
+                description,
+            };
+            filled(device, &plan.kernel, &block.name, &bytes, refused)
+        });
+        Ok(Uniforms {
+            buffers: buffers.collect::<Result<_, _>>()?,
+        })
+    }
+
+    /// The buffers, in the order of the plan's structs.
+    pub(crate) fn buffers(&self) -> &[wgpu::Buffer] {
+        &self.buffers
+    }
+
+    /// Puts `value` into the uniform `name`, ahead of the queue's next submission.
+    pub(crate) fn write(
+        &self,
+        plan: &Plan,
+        queue: &wgpu::Queue,
+        name: &str,
+        value: &UniformValue,
+    ) -> Result<(), Error> {
+        place(plan, name, value, |block, offset, bytes| {
+            queue.write_buffer(&self.buffers[block], u64::from(offset), bytes);
+        })
+    }
+
+    /// Puts `bytes` into all structs, one after the other, ahead of the queue's next submission.
+    pub(crate) fn write_all(&self, plan: &Plan, queue: &wgpu::Queue, bytes: &[u8]) -> Result<(), Error> {
+        for (buffer, bytes) in self.buffers.iter().zip(divided(plan, bytes)?) {
+            queue.write_buffer(buffer, 0, bytes);
+        }
+        Ok(())
+    }
+}
+
+/// A uniform buffer with these contents.
+pub(crate) fn filled(
+    device: &wgpu::Device,
+    kernel: &str,
+    name: &str,
+    bytes: &[u8],
+    refused: impl Fn(String) -> Error,
+) -> Result<wgpu::Buffer, Error> {
+    let doing = format!("making the uniform buffer `{name}` of `{kernel}`");
+    let buffer = guarded(device, &doing, &refused, || {
+        device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some(name),
+            size: bytes.len() as u64,
+            usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: true,
+        })
+    })?;
+    // A buffer of a lost device was made without complaint and has no mapping.
+    let mut mapping = buffer
+        .get_mapped_range_mut(..)
+        .map_err(|_| Error::DeviceLost { doing: doing.clone() })?;
+    mapping.copy_from_slice(bytes);
+    drop(mapping);
+    guarded(device, &doing, &refused, || buffer.unmap())?;
+    Ok(buffer)
+}
+
+/// What the structs of `plan` hold at first. Every field has a value, or it is an error.
+fn start(plan: &Plan, options: &BindOptions<'_>) -> Result<Vec<Vec<u8>>, Error> {
+    let mut blocks: Vec<Vec<u8>> = plan.uniforms.iter().map(|block| vec![0; block.size as usize]).collect();
+    let mut missing: Vec<(usize, u32)> = Vec::new();
+    for (k, block) in plan.uniforms.iter().enumerate() {
+        for FieldPlan { offset, default, .. } in &block.fields {
+            match default {
+                Some(value) => put(&mut blocks[k], *offset, value.part(0)),
+                None => missing.push((k, *offset)),
+            }
+        }
+    }
+    if let Some(bytes) = options.uniforms {
+        for (block, bytes) in blocks.iter_mut().zip(divided(plan, bytes)?) {
+            block.copy_from_slice(bytes);
+        }
+        missing.clear();
+    }
+    for (name, value) in &options.values {
+        place(plan, name, value, |block, offset, bytes| {
+            put(&mut blocks[block], offset, bytes);
+            missing.retain(|place| *place != (block, offset));
+        })?;
+    }
+    let unset = missing.first().and_then(|(block, offset)| {
+        let mut fields = plan.uniforms[*block].fields.iter();
+        fields.find(|field| field.offset == *offset)
+    });
+    match unset {
+        None => Ok(blocks),
+        Some(field) => Err(Error::UniformUnset {
+            kernel: plan.kernel.clone(),
+            name: field.whole().to_owned(),
+        }),
+    }
+}
+
+fn put(block: &mut [u8], offset: u32, bytes: &[u8]) {
+    let offset = offset as usize;
+    block[offset..offset + bytes.len()].copy_from_slice(bytes);
+}
+
+/// Gives `put` the struct, the offset and the bytes of what `value` is for `name`: a field, or the parts of a matrix or an array that
+/// the shader reads.
+fn place(plan: &Plan, name: &str, value: &UniformValue, mut put: impl FnMut(usize, u32, &[u8])) -> Result<(), Error> {
+    let mismatch = |needed: String| Error::UniformType {
+        kernel: plan.kernel.clone(),
+        name: name.to_owned(),
+        needed,
+        given: value.ty().to_string(),
+    };
+    let mut found = false;
+    for (k, block) in plan.uniforms.iter().enumerate() {
+        for field in &block.fields {
+            let (ty, index) = match &field.part {
+                _ if field.name == name => (field.ty, 0),
+                Some(part) if part.of == name => (part.ty, part.index),
+                _ => continue,
+            };
+            if value.ty() != ty {
+                return Err(mismatch(ty.to_string()));
+            }
+            found = true;
+            put(k, field.offset, value.part(index));
+        }
+    }
+    match found {
+        true => Ok(()),
+        false => Err(Error::UnknownUniform {
+            kernel: plan.kernel.clone(),
+            name: name.to_owned(),
+            known: names(plan),
+        }),
+    }
+}
+
+/// What can be set, matrices and arrays as one.
+fn names(plan: &Plan) -> Names {
+    let mut names: Vec<&str> = plan
+        .uniforms
+        .iter()
+        .flat_map(|block| &block.fields)
+        .map(FieldPlan::whole)
+        .collect();
+    names.dedup();
+    names.into_iter().collect()
+}
+
+/// `bytes` as the structs of `plan`.
+fn divided<'b>(plan: &Plan, bytes: &'b [u8]) -> Result<impl Iterator<Item = &'b [u8]>, Error> {
+    if plan.uniforms.is_empty() {
+        return Err(Error::NoUniforms {
+            kernel: plan.kernel.clone(),
+        });
+    }
+    let needed: u64 = plan.uniforms.iter().map(|block| u64::from(block.size)).sum();
+    let given = bytes.len() as u64;
+    if given != needed {
+        return Err(Error::UniformSize {
+            kernel: plan.kernel.clone(),
+            needed,
+            given,
+        });
+    }
+    let mut rest = bytes;
+    let sizes = plan.uniforms.iter().map(|UniformPlan { size, .. }| *size as usize);
+    // In bounds, as the sizes add up.
+    Ok(sizes.map(move |size| {
+        let (own, after) = rest.split_at(size);
+        rest = after;
+        own
+    }))
+}

@@ -1,0 +1,154 @@
+//! Recording what is bound allocates what wgpu allocates, and nothing besides.
+
+mod common;
+
+use allocation_counter::{AllocationInfo, measure};
+use common::{COPY, Fixture, Gpu, STAGES, Stage, view};
+use straightline_runtime::{Bound, Pass, wgpu};
+use wgpu::{TextureFormat, TextureUsages, TextureView};
+
+const SIZE: [u32; 2] = [16, 8];
+
+/// As much of what a pass does as one would write without it.
+enum Handwritten {
+    Compute(wgpu::ComputePipeline, wgpu::BindGroup),
+    Render(wgpu::RenderPipeline, wgpu::BindGroup, TextureView),
+}
+
+impl Handwritten {
+    fn new(gpu: &Gpu, stage: Stage, color: &TextureView, target: &TextureView) -> Self {
+        let module = |text: &str| {
+            gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
+                label: None,
+                source: wgpu::ShaderSource::Wgsl(text.into()),
+            })
+        };
+        let Fixture { wgsl, .. } = COPY.emit(stage);
+        let color = wgpu::BindGroupEntry {
+            binding: 0,
+            resource: wgpu::BindingResource::TextureView(color),
+        };
+        let group = |layout: wgpu::BindGroupLayout, entries: &[wgpu::BindGroupEntry<'_>]| {
+            gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+                label: None,
+                layout: &layout,
+                entries,
+            })
+        };
+        match stage {
+            Stage::Compute => {
+                let pipeline = gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+                    label: None,
+                    layout: None,
+                    module: &module(&wgsl),
+                    entry_point: None,
+                    compilation_options: Default::default(),
+                    cache: None,
+                });
+                let output = wgpu::BindGroupEntry {
+                    binding: 15,
+                    resource: wgpu::BindingResource::TextureView(target),
+                };
+                let group = group(pipeline.get_bind_group_layout(0), &[color, output]);
+                Handwritten::Compute(pipeline, group)
+            }
+            Stage::Fragment => {
+                let cover = "@vertex fn cover(@builtin(vertex_index) k: u32) -> @builtin(position) vec4f {
+                    return vec4f(f32(k & 1u) * 4.0 - 1.0, f32(k >> 1u) * 4.0 - 1.0, 0.0, 1.0);
+                }";
+                let pipeline = gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+                    label: None,
+                    layout: None,
+                    vertex: wgpu::VertexState {
+                        module: &module(cover),
+                        entry_point: None,
+                        compilation_options: Default::default(),
+                        buffers: &[],
+                    },
+                    primitive: Default::default(),
+                    depth_stencil: None,
+                    multisample: Default::default(),
+                    fragment: Some(wgpu::FragmentState {
+                        module: &module(&wgsl),
+                        entry_point: None,
+                        compilation_options: Default::default(),
+                        targets: &[Some(TextureFormat::Rgba32Float.into())],
+                    }),
+                    multiview_mask: None,
+                    cache: None,
+                });
+                let group = group(pipeline.get_bind_group_layout(0), &[color]);
+                Handwritten::Render(pipeline, group, target.clone())
+            }
+        }
+    }
+
+    fn encode(&self, encoder: &mut wgpu::CommandEncoder) {
+        match self {
+            Handwritten::Compute(pipeline, group) => {
+                let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+                    label: Some("copy"),
+                    timestamp_writes: None,
+                });
+                pass.set_pipeline(pipeline);
+                pass.set_bind_group(0, group, &[]);
+                pass.dispatch_workgroups(SIZE[0] / 8, SIZE[1] / 8, 1);
+            }
+            Handwritten::Render(pipeline, group, target) => {
+                let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                    label: Some("copy"),
+                    color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                        view: target,
+                        depth_slice: None,
+                        resolve_target: None,
+                        ops: wgpu::Operations {
+                            load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
+                            store: wgpu::StoreOp::Store,
+                        },
+                    })],
+                    ..Default::default()
+                });
+                pass.set_pipeline(pipeline);
+                pass.set_bind_group(0, group, &[]);
+                pass.set_scissor_rect(0, 0, SIZE[0], SIZE[1]);
+                pass.draw(0..3, 0..1);
+            }
+        }
+    }
+}
+
+/// What is allocated while one frame is recorded.
+fn frame(gpu: &Gpu, record: impl FnOnce(&mut wgpu::CommandEncoder)) -> AllocationInfo {
+    let mut encoder = gpu.encoder();
+    let info = measure(|| record(&mut encoder));
+    gpu.submit(encoder);
+    info
+}
+
+#[test]
+fn a_frame_allocates_what_wgpu_does() {
+    let gpu = Gpu::new();
+    let color = view(&gpu.texture(SIZE, 1, TextureFormat::Rgba8Unorm, TextureUsages::TEXTURE_BINDING));
+    for stage in STAGES {
+        let Fixture { manifest, wgsl } = COPY.emit(stage);
+        let target = view(&gpu.target(SIZE));
+        let pass = Pass::from_json(&gpu.device, &manifest, &wgsl).expect("a pass");
+        let bound: Bound = pass.bind(&[("color", &color)], &target).expect("to bind");
+        let handwritten = Handwritten::new(&gpu, stage, &color, &target);
+        // What is allocated once only does not count.
+        for _ in 0..3 {
+            frame(&gpu, |encoder| bound.encode(encoder));
+            frame(&gpu, |encoder| handwritten.encode(encoder));
+        }
+        let [ours, theirs] = [
+            frame(&gpu, |encoder| bound.encode(encoder)),
+            frame(&gpu, |encoder| handwritten.encode(encoder)),
+        ];
+        assert!(theirs.count_total > 0, "wgpu allocates, and it is seen");
+        assert_eq!(
+            (ours.count_total, ours.bytes_total),
+            (theirs.count_total, theirs.bytes_total),
+            "{stage:?}"
+        );
+    }
+}
