@@ -36,6 +36,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         Command::Demo(args) => commands::demo::run(&args),
         Command::List(args) => commands::list::run(&args),
         Command::Emit(args) => commands::emit::run(&args),
+        Command::Check(args) => commands::check::run(&args),
         Command::Explain(args) => commands::explain::run(&args),
         Command::Run(args) => commands::run::run(&args),
         Command::Budget(args) => commands::budget::run(&args),

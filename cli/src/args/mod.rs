@@ -1,6 +1,7 @@
 //! The command line.
 
 mod capture;
+mod check;
 mod study;
 mod tune;
 
@@ -14,6 +15,7 @@ use straightline_isa::Family;
 use straightline_manifest::{Form, Format, Origin, Precision, Stage};
 
 pub use capture::{CaptureArgs, CompareArgs, ResolveArgs};
+pub use check::{CheckArgs, MessageFormat};
 pub use study::{CommonArgs, ErrorArgs, HardArgs, IsaArgs, LoopsArgs, Study, StudyArgs};
 pub use tune::TuneArgs;
 
@@ -36,6 +38,8 @@ pub enum Command {
     List(ListArgs),
     /// Emit a kernel as WGSL, GLSL, SPIR-V, HLSL or MSL, with a manifest
     Emit(EmitArgs),
+    /// Print the errors of kernels, for people or for editors, and write nothing
+    Check(CheckArgs),
     /// Count what a kernel does for each pixel, without running it
     Explain(ExplainArgs),
     /// Run a kernel on pictures

@@ -6,8 +6,7 @@ use crate::failure::Failure;
 use crate::table;
 use serde_json::{Map, Value, json};
 use straightline_codegen::emit::{Emitted, Target};
-use straightline_codegen::ir::Invocation;
-use straightline_codegen::{Compiled, EmitOptions, Stage};
+use straightline_codegen::{Compiled, EmitOptions};
 use straightline_isa::{Compiler, Family, Report};
 use straightline_kernels::PaperCounts;
 use straightline_manifest::{BindingKind, Counts, Manifest, Precision};
@@ -20,14 +19,10 @@ pub fn run(args: &ExplainArgs) -> Result<(), Failure> {
             outln!("== {stage}\n{}", straightline_codegen::ir::print(graph));
         }
     })?;
-    // Statements are those of the emitted text.
-    let stage = match compiled.graph.invocation {
-        Invocation::Lane => Stage::Fragment,
-        _ => Stage::Compute,
-    };
     let targets = args.isa.map(|_| Target::Spirv);
+    // Statements are those of the emitted text.
     let options = EmitOptions::new()
-        .stage(stage)
+        .stage(super::natural_stage(&compiled))
         .precision(args.precision)
         .targets(targets);
     let emitted = compiled.emit(&options).map_err(Failure::of)?;
