@@ -39,6 +39,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         Command::Check(args) => commands::check::run(&args),
         Command::Explain(args) => commands::explain::run(&args),
         Command::Run(args) => commands::run::run(&args),
+        Command::Watch(args) => commands::watch::run(&args),
         Command::Budget(args) => commands::budget::run(&args),
         Command::Quads(args) => commands::quads::run(&args),
         Command::Study(args) => commands::study::run(&args),

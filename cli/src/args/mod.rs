@@ -2,6 +2,7 @@
 
 mod capture;
 mod check;
+mod run;
 mod study;
 mod tune;
 
@@ -16,6 +17,7 @@ use straightline_manifest::{Form, Format, Origin, Precision, Stage};
 
 pub use capture::{CaptureArgs, CompareArgs, ResolveArgs};
 pub use check::{CheckArgs, MessageFormat};
+pub use run::{Executor, RunArgs, WatchArgs};
 pub use study::{CommonArgs, ErrorArgs, HardArgs, IsaArgs, LoopsArgs, Study, StudyArgs};
 pub use tune::TuneArgs;
 
@@ -44,6 +46,8 @@ pub enum Command {
     Explain(ExplainArgs),
     /// Run a kernel on pictures
     Run(RunArgs),
+    /// Emit a kernel again whenever its file is saved, and show its picture
+    Watch(WatchArgs),
     /// Count and measure what SRAA costs: memory, reads, time of each metric, and the shading cost from which it pays
     Budget(BudgetArgs),
     /// Compare filters that share work over pixel quads with those that do not: reads, messages, time, difference
@@ -242,54 +246,6 @@ pub struct ExplainArgs {
     /// Also what Mesa's compiler makes of it for an AMD GPU, which need not be there: polaris10, vega10, navi10, navi21 or navi31
     #[arg(long, value_name = "FAMILY")]
     pub isa: Option<Family>,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum Executor {
-    /// The emitted shader, by wgpu
-    Gpu,
-    /// The same graph, interpreted
-    Cpu,
-}
-
-#[derive(Debug, Args)]
-pub struct RunArgs {
-    #[command(flatten)]
-    pub kernel: KernelArgs,
-    /// Picture for a texture of the kernel, NAME=FILE; NAME may be left out where it has one texture. May be given several
-    /// times. PNG or EXR; FILE.exr:LAYER is one layer of a file, such as depth.exr:centre of a capture; files given for a
-    /// texture with layers, in order, are its layers, those of a cube its six faces +X, -X, +Y, -Y, +Z, -Z, those of a volume its
-    /// slices; a volume may be a .cube table or one picture of its slices side by side. Texels of integers are the numbers of a
-    /// PNG as they are stored
-    #[arg(long, value_name = "[NAME=]FILE[,FILE...]")]
-    pub input: Vec<String>,
-    /// Value of a uniform: NAME=NUMBER, or NAME=X,Y,Z for a vector. May be given several times
-    #[arg(long, value_name = "NAME=NUMBERS", value_parser = pair)]
-    pub uniform: Vec<(String, String)>,
-    /// Elements of a buffer: NAME=A,B,C, or NAME=0*256 for so many alike. May be given several times
-    #[arg(long, value_name = "NAME=NUMBERS", value_parser = pair)]
-    pub buffer: Vec<(String, String)>,
-    /// Width and height of the output; by default those of the first input that has the output's size
-    #[arg(long, value_name = "WxH", value_parser = size)]
-    pub size: Option<UVec2>,
-    /// Picture to write, [NAME=]FILE: .png (8 bits, sRGB) or .exr (linear floats); of a kernel that gives several values, the
-    /// first one without a NAME; .csv or .txt for a buffer that the kernel writes, an element a line. May be given several times
-    #[arg(long, value_name = "[NAME=]FILE", required = true)]
-    pub out: Vec<String>,
-    /// What computes the pixels
-    #[arg(long, value_enum, default_value = "gpu")]
-    pub executor: Executor,
-    /// The precision of floats: f16 or f32, on the CPU also f64
-    #[arg(long, value_name = "PRECISION", default_value = "f32", value_parser = ["f16", "f32", "f64"])]
-    pub precision: String,
-    /// On the CPU, say where a NaN or an infinity first came from, and fail if there is one
-    #[arg(long)]
-    pub check_finite: bool,
-    /// Pipeline stage, on the GPU
-    #[arg(long, value_enum, default_value = "compute")]
-    pub stage: StageArg,
-    #[command(flatten)]
-    pub adapter: AdapterArgs,
 }
 
 #[derive(Debug, Args)]

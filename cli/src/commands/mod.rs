@@ -16,6 +16,7 @@ pub mod run;
 pub mod scenes;
 pub mod study;
 pub mod tune;
+pub mod watch;
 
 use straightline_codegen::ir::Invocation;
 use straightline_codegen::{Compiled, Stage};

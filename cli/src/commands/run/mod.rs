@@ -14,16 +14,28 @@ use straightline_study::execute::{AllWritten, Inputs, interpret};
 
 /// Runs a kernel once and writes what it makes.
 pub fn run(args: &RunArgs) -> Result<(), Failure> {
-    check(args)?;
     let compiled = args.kernel.locate()?.compile(&args.kernel.options.settings())?;
-    let outs = outputs::outs(args, &compiled)?;
-    let inputs = inputs::inputs(args, &compiled)?;
+    for written in make(args, &compiled, &mut None)? {
+        outln!("{written}");
+    }
+    Ok(())
+}
+
+/// Runs a compiled kernel and writes what it makes; gives a line for each file: its path, and what computed it. The device is
+/// opened where one is needed, and kept in `gpu`.
+pub fn make(args: &RunArgs, compiled: &Compiled, gpu: &mut Option<Gpu>) -> Result<Vec<String>, Failure> {
+    check(args)?;
+    let outs = outputs::outs(args, compiled)?;
+    let inputs = inputs::inputs(args, compiled)?;
     for out in &outs {
         files::try_file(&out.path, false).map_err(Failure::of)?;
     }
-    let (targets, by) = match args.executor {
+    let (targets, by) = match args.given.executor {
         Executor::Gpu => {
-            let gpu = Gpu::require(&args.adapter)?;
+            let gpu = match gpu {
+                Some(gpu) => gpu,
+                none => none.insert(Gpu::require(&args.given.adapter)?),
+            };
             let precision = args.precision.parse::<Precision>().map_err(Failure::Usage)?;
             if precision == Precision::F16 && !gpu.has_half() {
                 return Err(Failure::Failed(format!(
@@ -33,7 +45,7 @@ pub fn run(args: &RunArgs) -> Result<(), Failure> {
                 )));
             }
             let bench = gpu.bench().precision(precision);
-            let targets = bench.all_written(&compiled, args.stage.into(), &inputs);
+            let targets = bench.all_written(compiled, args.stage.into(), &inputs);
             let by = match precision {
                 Precision::F32 => gpu.describe(),
                 Precision::F16 => format!("{}, f16", gpu.describe()),
@@ -42,9 +54,9 @@ pub fn run(args: &RunArgs) -> Result<(), Failure> {
         }
         Executor::Cpu => {
             let targets = match args.precision.as_str() {
-                "f16" => on_cpu::<F16>(args, &compiled, &inputs)?,
-                "f64" => on_cpu::<f64>(args, &compiled, &inputs)?,
-                _ => on_cpu::<f32>(args, &compiled, &inputs)?,
+                "f16" => on_cpu::<F16>(args, compiled, &inputs)?,
+                "f64" => on_cpu::<f64>(args, compiled, &inputs)?,
+                _ => on_cpu::<f32>(args, compiled, &inputs)?,
             };
             (targets, format!("CPU interpreter, {}", args.precision))
         }
@@ -54,7 +66,7 @@ pub fn run(args: &RunArgs) -> Result<(), Failure> {
 
 /// What would otherwise be found only after all the work.
 fn check(args: &RunArgs) -> Result<(), Failure> {
-    if args.executor == Executor::Gpu && (args.check_finite || args.precision == "f64") {
+    if args.given.executor == Executor::Gpu && (args.check_finite || args.precision == "f64") {
         return Err(Failure::Usage(
             "--check-finite and --precision f64 are for the interpreter: add --executor cpu".to_owned(),
         ));

@@ -103,8 +103,9 @@ fn check_extension(path: &Path, known: &[&str], otherwise: &str) -> Result<(), F
     }
 }
 
-/// Writes the files.
-pub fn write(outs: &[Out], (targets, buffers): &AllWritten, by: &str) -> Result<(), Failure> {
+/// Writes the files; gives a line for each.
+pub fn write(outs: &[Out], (targets, buffers): &AllWritten, by: &str) -> Result<Vec<String>, Failure> {
+    let mut written = Vec::new();
     for Out { what, path } in outs {
         match what {
             What::Target(k) => picture::write(path, &Written::frame(&targets[*k])).map_err(Failure::of)?,
@@ -114,9 +115,9 @@ pub fn write(outs: &[Out], (targets, buffers): &AllWritten, by: &str) -> Result<
                 files::write(path, lines(elements, *lanes).as_bytes()).map_err(Failure::of)?;
             }
         }
-        outln!("{} ({by})", path.display());
+        written.push(format!("{} ({by})", path.display()));
     }
-    Ok(())
+    Ok(written)
 }
 
 /// An element a line, its components separated by commas.
