@@ -50,6 +50,8 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         Command::Compare(args) => commands::compare::run(&args),
         Command::Scenes(args) => commands::scenes::run(&args),
         Command::ServeIsa => straightline_isa::serve().map_err(Failure::of),
+        Command::Completions(args) => commands::shell::completions(&args),
+        Command::Man(args) => commands::shell::man(&args),
         Command::Adapters(args) => commands::adapters::run(&args),
     }
 }

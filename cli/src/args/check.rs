@@ -1,7 +1,7 @@
 //! The arguments of `check`.
 
 use super::{KernelArgs, OptionArgs};
-use clap::{Args, ValueEnum};
+use clap::{Args, ValueEnum, ValueHint};
 use std::path::PathBuf;
 
 /// The form of the errors that `check` prints.
@@ -16,7 +16,7 @@ pub enum MessageFormat {
 #[derive(Debug, Args)]
 pub struct CheckArgs {
     /// What to check: FILE.rs, FILE.rs::FUNCTION, a built-in kernel, or a folder, which stands for the .rs files in it
-    #[arg(required = true, value_name = "KERNEL")]
+    #[arg(required = true, value_name = "KERNEL", value_hint = ValueHint::AnyPath)]
     pub kernels: Vec<String>,
     /// A further file that the kernels call functions of; may be given several times
     #[arg(long, value_name = "FILE")]

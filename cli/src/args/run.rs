@@ -68,9 +68,9 @@ pub struct WatchArgs {
     #[command(flatten)]
     pub emit: EmitArgs,
     /// Also run the kernel and write its picture, .png or .exr: an image viewer that looks again shows it
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", help_heading = "Options of the picture")]
     pub picture: Option<String>,
-    #[command(flatten)]
+    #[command(flatten, next_help_heading = "Options of the picture")]
     pub given: GivenArgs,
 }
 

@@ -14,6 +14,7 @@ pub mod quads;
 pub mod resolve;
 pub mod run;
 pub mod scenes;
+pub mod shell;
 pub mod study;
 pub mod tune;
 pub mod watch;

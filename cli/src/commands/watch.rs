@@ -77,12 +77,12 @@ fn once(args: &WatchArgs, gpu: &mut Option<Gpu>) {
 
 fn made(args: &WatchArgs, gpu: &mut Option<Gpu>) -> Result<(String, Vec<String>), Failure> {
     let ready = emit::compile(&args.emit)?;
-    let shaders = emit::write(&args.emit, &ready)?;
-    let mut written: Vec<String> = shaders.iter().map(|path| path.display().to_string()).collect();
+    let mut files = emit::write(&args.emit, &ready)?;
     if let Some(run) = args.run() {
-        written.append(&mut run::make(&run, &ready.compiled, gpu)?);
+        files.append(&mut run::make(&run, &ready.compiled, gpu)?.files);
     }
-    Ok((ready.compiled.kernel, written))
+    let written = files.iter().map(|path| path.display().to_string());
+    Ok((ready.compiled.kernel, written.collect()))
 }
 
 /// Waits until the files are others than they were seen, and have stayed so for a while: an editor may write in several steps.

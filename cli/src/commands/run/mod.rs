@@ -7,6 +7,7 @@ mod values;
 use crate::args::{Executor, RunArgs};
 use crate::failure::Failure;
 use crate::gpu::Gpu;
+use std::path::PathBuf;
 use straightline_codegen::files;
 use straightline_codegen::ir::{F16, Real};
 use straightline_codegen::{Compiled, Precision};
@@ -15,15 +16,21 @@ use straightline_study::execute::{AllWritten, Inputs, interpret};
 /// Runs a kernel once and writes what it makes.
 pub fn run(args: &RunArgs) -> Result<(), Failure> {
     let compiled = args.kernel.locate()?.compile(&args.kernel.options.settings())?;
-    for written in make(args, &compiled, &mut None)? {
-        outln!("{written}");
+    let made = make(args, &compiled, &mut None)?;
+    for file in made.files {
+        outln!("{} ({})", file.display(), made.by);
     }
     Ok(())
 }
 
-/// Runs a compiled kernel and writes what it makes; gives a line for each file: its path, and what computed it. The device is
-/// opened where one is needed, and kept in `gpu`.
-pub fn make(args: &RunArgs, compiled: &Compiled, gpu: &mut Option<Gpu>) -> Result<Vec<String>, Failure> {
+/// What a run has written, and what computed it.
+pub struct Made {
+    pub files: Vec<PathBuf>,
+    by: String,
+}
+
+/// Runs a compiled kernel and writes what it makes. The device is opened where one is needed, and kept in `gpu`.
+pub fn make(args: &RunArgs, compiled: &Compiled, gpu: &mut Option<Gpu>) -> Result<Made, Failure> {
     check(args)?;
     let outs = outputs::outs(args, compiled)?;
     let inputs = inputs::inputs(args, compiled)?;
@@ -61,7 +68,9 @@ pub fn make(args: &RunArgs, compiled: &Compiled, gpu: &mut Option<Gpu>) -> Resul
             (targets, format!("CPU interpreter, {}", args.precision))
         }
     };
-    outputs::write(&outs, &targets, &by)
+    outputs::write(&outs, &targets)?;
+    let files = outs.into_iter().map(|out| out.path).collect();
+    Ok(Made { files, by })
 }
 
 /// What would otherwise be found only after all the work.

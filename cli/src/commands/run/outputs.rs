@@ -103,9 +103,8 @@ fn check_extension(path: &Path, known: &[&str], otherwise: &str) -> Result<(), F
     }
 }
 
-/// Writes the files; gives a line for each.
-pub fn write(outs: &[Out], (targets, buffers): &AllWritten, by: &str) -> Result<Vec<String>, Failure> {
-    let mut written = Vec::new();
+/// Writes the files.
+pub fn write(outs: &[Out], (targets, buffers): &AllWritten) -> Result<(), Failure> {
     for Out { what, path } in outs {
         match what {
             What::Target(k) => picture::write(path, &Written::frame(&targets[*k])).map_err(Failure::of)?,
@@ -115,9 +114,8 @@ pub fn write(outs: &[Out], (targets, buffers): &AllWritten, by: &str) -> Result<
                 files::write(path, lines(elements, *lanes).as_bytes()).map_err(Failure::of)?;
             }
         }
-        written.push(format!("{} ({by})", path.display()));
     }
-    Ok(written)
+    Ok(())
 }
 
 /// An element a line, its components separated by commas.
