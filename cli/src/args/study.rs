@@ -52,15 +52,15 @@ impl CommonArgs {
 
 #[derive(Clone, Debug, Subcommand)]
 pub enum Study {
-    /// Unroll against loop: every form of each kernel, its time, its counts, its error
+    /// Compare the unrolled and looped forms of each kernel: time, counts, error
     Loops(LoopsArgs),
-    /// Speed against error: methods of antialiasing on all scenes, against 256 samples a pixel
+    /// Compare methods of antialiasing on all scenes: time, and error against 256 samples a pixel
     Error(ErrorArgs),
-    /// Numerical stability: hard cases, in every precision, by shader and interpreter
+    /// Run numerically hard cases in every precision, by shader and interpreter
     Hard(HardArgs),
-    /// What GPU compilers make of the forms of each kernel, asked without a GPU
+    /// Ask GPU compilers what they make of each kernel, without a GPU
     Isa(IsaArgs),
-    /// Make the page anew from the records that are there
+    /// Write the page again from the records in the folder
     Report,
 }
 
