@@ -47,6 +47,11 @@ impl Failure {
     }
 }
 
+/// A number with its noun: `1 error`, `2 errors`.
+pub fn count(number: usize, noun: &str) -> String {
+    format!("{number} {noun}{}", if number == 1 { "" } else { "s" })
+}
+
 impl From<Errors> for Failure {
     fn from(errors: Errors) -> Self {
         Failure::Kernel(errors)

@@ -36,8 +36,10 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         Command::Demo(args) => commands::demo::run(&args),
         Command::List(args) => commands::list::run(&args),
         Command::Emit(args) => commands::emit::run(&args),
+        Command::Check(args) => commands::check::run(&args),
         Command::Explain(args) => commands::explain::run(&args),
         Command::Run(args) => commands::run::run(&args),
+        Command::Watch(args) => commands::watch::run(&args),
         Command::Budget(args) => commands::budget::run(&args),
         Command::Quads(args) => commands::quads::run(&args),
         Command::Study(args) => commands::study::run(&args),
@@ -48,6 +50,8 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         Command::Compare(args) => commands::compare::run(&args),
         Command::Scenes(args) => commands::scenes::run(&args),
         Command::ServeIsa => straightline_isa::serve().map_err(Failure::of),
+        Command::Completions(args) => commands::shell::completions(&args),
+        Command::Man(args) => commands::shell::man(&args),
         Command::Adapters(args) => commands::adapters::run(&args),
     }
 }

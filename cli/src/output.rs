@@ -37,6 +37,11 @@ pub fn finish() -> Result<(), Failure> {
     }
 }
 
+/// Whether standard output takes nothing any more. A program that prints until it is stopped has then nobody to print for.
+pub fn is_refused() -> bool {
+    REFUSED.lock().map_or(true, |refused| refused.is_some())
+}
+
 fn attempt(write: impl FnOnce() -> io::Result<()>) {
     let Ok(mut refused) = REFUSED.lock() else { return };
     if refused.is_none()

@@ -1,4 +1,36 @@
-//! Tables of text, for people.
+//! Tables and paragraphs of text, for people.
+
+/// Text in lines of at most `width` characters, but for words that are longer; the first begins with `first`, the others with
+/// `next`.
+pub fn wrapped(text: &str, width: usize, first: &str, next: &str) -> String {
+    let mut lines = vec![first.to_owned()];
+    let (mut length, mut empty) = (first.chars().count(), true);
+    for word in text.split_whitespace() {
+        let count = word.chars().count();
+        if !empty && length + 1 + count > width {
+            lines.push(next.to_owned());
+            (length, empty) = (next.chars().count(), true);
+        }
+        if let Some(line) = lines.last_mut() {
+            let gap = if empty { "" } else { " " };
+            *line += gap;
+            *line += word;
+            length += gap.len() + count;
+        }
+        empty = false;
+    }
+    lines.join("\n")
+}
+
+/// The first words of a text that `width` characters hold, with an ellipsis for the rest.
+pub fn cut(text: &str, width: usize) -> String {
+    if text.chars().count() <= width {
+        return text.to_owned();
+    }
+    let first = wrapped(text, width.saturating_sub(1), "", "");
+    let first = first.lines().next().unwrap_or_default();
+    format!("{}…", first.trim_end_matches([',', ':', '(', ' ']))
+}
 
 /// Columns under headings, each as wide as its widest cell; the first column left, the others right.
 pub fn render(headings: &[&str], rows: &[Vec<String>]) -> String {
@@ -28,4 +60,21 @@ pub fn render(headings: &[&str], rows: &[Vec<String>]) -> String {
         text.push('\n');
     }
     text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{cut, wrapped};
+
+    #[test]
+    fn lines_hold_whole_words() {
+        assert_eq!(wrapped("größe is a word", 8, "", "  "), "größe is\n  a word");
+        assert_eq!(wrapped("unbreakable a", 4, "- ", "  "), "- unbreakable\n  a");
+    }
+
+    #[test]
+    fn what_is_cut_says_so() {
+        assert_eq!(cut("one, two, three", 10), "one, two…");
+        assert_eq!(cut("one, two", 8), "one, two");
+    }
 }

@@ -244,6 +244,6 @@ fn engines_get_their_folder_or_the_reason() {
         &["--engine"],
     );
     assert!(is_empty(&none));
-    let list = finishes(&["list"]);
-    assert!(list.contains("  godot: Godot: a .gdshader"), "{list}");
+    let list = finishes(&["list", "godot"]);
+    assert!(list.contains("godot: Godot: a .gdshader"), "{list}");
 }

@@ -1,19 +1,25 @@
 //! The command line.
 
 mod capture;
+mod check;
+mod kernel;
+mod run;
 mod study;
 mod tune;
 
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
+use clap_complete::Shell;
 use glam::UVec2;
 use std::path::PathBuf;
-use straightline_codegen::diagnostic::Errors;
 use straightline_codegen::emit::{Register, Target};
-use straightline_codegen::{Branches, Kernel, Settings, Transport, Unroll, shorten};
+use straightline_codegen::shorten;
 use straightline_isa::Family;
 use straightline_manifest::{Form, Format, Origin, Precision, Stage};
 
 pub use capture::{CaptureArgs, CompareArgs, ResolveArgs};
+pub use check::{CheckArgs, MessageFormat};
+pub use kernel::{KernelArgs, OptionArgs};
+pub use run::{Executor, RunArgs, WatchArgs};
 pub use study::{CommonArgs, ErrorArgs, HardArgs, IsaArgs, LoopsArgs, Study, StudyArgs};
 pub use tune::TuneArgs;
 
@@ -30,115 +36,47 @@ pub struct Arguments {
 
 #[derive(Debug, Subcommand)]
 pub enum Command {
-    /// Show what it does: shaders, pictures and a table, in the folder `demo`
+    /// Show what it does: emit shaders, antialias a scene, and print what each method costs
     Demo(DemoArgs),
-    /// List the built-in kernels and their options
+    /// List the built-in kernels and engines, or the options of one kernel
     List(ListArgs),
     /// Emit a kernel as WGSL, GLSL, SPIR-V, HLSL or MSL, with a manifest
     Emit(EmitArgs),
+    /// Print the errors of kernels, for people or for editors, and write nothing
+    Check(CheckArgs),
     /// Count what a kernel does for each pixel, without running it
     Explain(ExplainArgs),
     /// Run a kernel on pictures
     Run(RunArgs),
-    /// Count and measure what SRAA costs: memory, reads, time of each metric, and the shading cost from which it pays
+    /// Emit a kernel again whenever its file is saved, and show its picture
+    Watch(WatchArgs),
+    /// Measure what SRAA costs: memory, reads and time
     Budget(BudgetArgs),
-    /// Compare filters that share work over pixel quads with those that do not: reads, messages, time, difference
+    /// Compare filters that share work over pixel quads with those that do not
     Quads(QuadsArgs),
-    /// Measure: unroll against loop, speed against error, hard cases; writes records and a page
+    /// Measure unrolling, speed, error and hard cases; write records and a page
     Study(StudyArgs),
-    /// Find and emit the cheapest SRAA shader that a scene needs, within a budget of error
+    /// Find and emit the cheapest SRAA shader for a scene
     Tune(TuneArgs),
-    /// Write the web page in which kernels are chosen, edited and seen
+    /// Write the web page that shows and edits kernels
     Page(PageArgs),
     /// Antialias a captured frame
     Resolve(ResolveArgs),
-    /// Render a scene or a model to a capture: the frame that `resolve` reads
+    /// Render a scene or a model to a capture, for `resolve`
     Capture(CaptureArgs),
-    /// Say how far two pictures are apart: PSNR, SSIM and FLIP
+    /// Compare two pictures: PSNR, SSIM and FLIP
     Compare(CompareArgs),
-    /// List the built-in scenes, and what each is for
+    /// List the built-in scenes
     Scenes(ScenesArgs),
+    /// List the GPUs and drivers that wgpu sees
+    Adapters(AdaptersArgs),
+    /// Print what a shell needs to complete commands and options
+    Completions(CompletionsArgs),
+    /// Write manual pages
+    Man(ManArgs),
     /// Compile for a GPU that is not there, as the process that asks says
     #[command(hide = true)]
     ServeIsa,
-    /// List the GPUs and drivers that wgpu sees, and what each can do
-    Adapters(AdaptersArgs),
-}
-
-/// Which kernel, with which options.
-#[derive(Debug, Clone, Args)]
-pub struct KernelArgs {
-    /// A built-in kernel (see `list`), FILE.rs, or FILE.rs::FUNCTION
-    pub kernel: String,
-    /// A further file that the kernel calls functions of; may be given several times
-    #[arg(long, value_name = "FILE")]
-    pub source: Vec<PathBuf>,
-    #[command(flatten)]
-    pub options: OptionArgs,
-}
-
-impl KernelArgs {
-    /// The kernel with all its files.
-    pub fn locate(&self) -> Result<Kernel, Errors> {
-        let kernel = Kernel::locate(&self.kernel);
-        self.source.iter().fold(kernel, |kernel, path| kernel?.with_file(path))
-    }
-}
-
-/// Options of a kernel.
-#[derive(Debug, Clone, Args)]
-pub struct OptionArgs {
-    /// Set an option of the kernel; may be given several times. A number may be `uniform`: set at run time
-    #[arg(long = "set", value_name = "OPTION=VALUE", value_parser = pair)]
-    pub set: Vec<(String, String)>,
-    /// What becomes of loops: `full` runs them all now, `none` keeps them, `4` keeps them with four rounds in a row
-    #[arg(long, value_name = "POLICY", default_value = "full", value_parser = |s: &str| s.parse::<Unroll>())]
-    pub unroll: Unroll,
-    /// What becomes of one loop: LOOP is `function.counter` (see `explain`) or the counter; may be given several times
-    #[arg(long, value_name = "LOOP=POLICY", value_parser = loop_policy)]
-    pub unroll_loop: Vec<(String, Unroll)>,
-    /// What becomes of an `if` on values that are only known at run time: as-loops, keep or select
-    #[arg(long, value_name = "POLICY", default_value = "as-loops", value_parser = |s: &str| s.parse::<Branches>())]
-    pub branches: Branches,
-    /// Statements that the kernel may have
-    #[arg(long, value_name = "STATEMENTS", default_value_t = Settings::BUDGET)]
-    pub budget: u32,
-    /// How the lanes of a pixel quad hear from each other: subgroup, derivatives or block; by default subgroup operations
-    /// in fragment shaders and blocks in compute
-    #[arg(long, value_name = "TRANSPORT", value_parser = |s: &str| s.parse::<Transport>())]
-    pub transport: Option<Transport>,
-    /// Pixels that one compute invocation has, across and down
-    #[arg(long, value_name = "WxH", default_value = "1x1", value_parser = size)]
-    pub block: UVec2,
-}
-
-impl Default for OptionArgs {
-    fn default() -> Self {
-        OptionArgs {
-            set: Vec::new(),
-            unroll: Unroll::default(),
-            unroll_loop: Vec::new(),
-            branches: Branches::default(),
-            budget: Settings::BUDGET,
-            transport: None,
-            block: UVec2::ONE,
-        }
-    }
-}
-
-impl OptionArgs {
-    pub fn settings(&self) -> Settings {
-        Settings {
-            options: self.set.clone(),
-            unroll: self.unroll,
-            loops: self.unroll_loop.clone(),
-            branches: self.branches,
-            budget: self.budget,
-            transport: self.transport,
-            block: self.block.to_array(),
-            ..Settings::default()
-        }
-    }
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -158,6 +96,9 @@ impl From<StageArg> for Stage {
 
 #[derive(Debug, Args)]
 pub struct ListArgs {
+    /// A kernel whose options are listed: built in, FILE.rs or FILE.rs::FUNCTION; or an engine
+    #[arg(value_name = "NAME", value_hint = ValueHint::FilePath)]
+    pub name: Option<String>,
     /// Print JSON
     #[arg(long)]
     pub json: bool,
@@ -179,16 +120,16 @@ pub struct EmitArgs {
     /// What the shader computes in: f32, or f16 where the device has half precision
     #[arg(long, value_name = "PRECISION", default_value = "f32", value_parser = |s: &str| s.parse::<Precision>())]
     pub precision: Precision,
-    /// Write a shader in f16 that hard cases show to be off by more than cannot be seen
+    /// Write a shader in f16 even where hard cases show errors that can be seen
     #[arg(long)]
     pub accept_loss: bool,
-    /// Filter a rectangle that the host states, not all of the image: for tiles
+    /// Filter only a rectangle that the host gives: for tiles
     #[arg(long)]
     pub region: bool,
     /// Invocations of a compute workgroup, across and down
     #[arg(long, value_name = "WxH", value_parser = size)]
     pub workgroup: Option<UVec2>,
-    /// Write a whole shader (entry), or a function that takes all it reads, to be put into a fragment shader (function)
+    /// Write a whole shader (entry), or a function to call from a fragment shader of yours (function)
     #[arg(long, value_name = "FORM", default_value = "entry", value_parser = |s: &str| s.parse::<Form>())]
     pub form: Form,
     /// Where row 0 of textures, target and positions is: upper-left, or lower-left as in engines on OpenGL
@@ -210,8 +151,8 @@ pub struct EmitArgs {
     /// Begin WGSL that has quad operations with `enable subgroups;`, as browsers want it and wgpu does not
     #[arg(long)]
     pub enable_subgroups: bool,
-    /// Write what a user of an engine drops in: NAME (see `list`), or a folder with an `engine.toml`. It says the language,
-    /// the form and the origin itself
+    /// Write what a user of an engine drops in: NAME (see `list`), or a folder with an `engine.toml`, which says the language,
+    /// the form and the origin
     #[arg(long, value_name = "NAME|FOLDER", conflicts_with_all = ["stage", "target", "region", "workgroup", "form", "origin", "entry", "group", "binding", "register", "enable_subgroups"])]
     pub engine: Option<String>,
     /// Folder to write to; made if it is not there
@@ -240,54 +181,6 @@ pub struct ExplainArgs {
     pub isa: Option<Family>,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum Executor {
-    /// The emitted shader, by wgpu
-    Gpu,
-    /// The same graph, interpreted
-    Cpu,
-}
-
-#[derive(Debug, Args)]
-pub struct RunArgs {
-    #[command(flatten)]
-    pub kernel: KernelArgs,
-    /// Picture for a texture of the kernel, NAME=FILE; NAME may be left out where it has one texture. May be given several
-    /// times. PNG or EXR; FILE.exr:LAYER is one layer of a file, such as depth.exr:centre of a capture; files given for a
-    /// texture with layers, in order, are its layers, those of a cube its six faces +X, -X, +Y, -Y, +Z, -Z, those of a volume its
-    /// slices; a volume may be a .cube table or one picture of its slices side by side. Texels of integers are the numbers of a
-    /// PNG as they are stored
-    #[arg(long, value_name = "[NAME=]FILE[,FILE...]")]
-    pub input: Vec<String>,
-    /// Value of a uniform: NAME=NUMBER, or NAME=X,Y,Z for a vector. May be given several times
-    #[arg(long, value_name = "NAME=NUMBERS", value_parser = pair)]
-    pub uniform: Vec<(String, String)>,
-    /// Elements of a buffer: NAME=A,B,C, or NAME=0*256 for so many alike. May be given several times
-    #[arg(long, value_name = "NAME=NUMBERS", value_parser = pair)]
-    pub buffer: Vec<(String, String)>,
-    /// Width and height of the output; by default those of the first input that has the output's size
-    #[arg(long, value_name = "WxH", value_parser = size)]
-    pub size: Option<UVec2>,
-    /// Picture to write, [NAME=]FILE: .png (8 bits, sRGB) or .exr (linear floats); of a kernel that gives several values, the
-    /// first one without a NAME; .csv or .txt for a buffer that the kernel writes, an element a line. May be given several times
-    #[arg(long, value_name = "[NAME=]FILE", required = true)]
-    pub out: Vec<String>,
-    /// What computes the pixels
-    #[arg(long, value_enum, default_value = "gpu")]
-    pub executor: Executor,
-    /// The precision of floats: f16 or f32, on the CPU also f64
-    #[arg(long, value_name = "PRECISION", default_value = "f32", value_parser = ["f16", "f32", "f64"])]
-    pub precision: String,
-    /// On the CPU, say where a NaN or an infinity first came from, and fail if there is one
-    #[arg(long)]
-    pub check_finite: bool,
-    /// Pipeline stage, on the GPU
-    #[arg(long, value_enum, default_value = "compute")]
-    pub stage: StageArg,
-    #[command(flatten)]
-    pub adapter: AdapterArgs,
-}
-
 #[derive(Debug, Args)]
 pub struct PageArgs {
     /// Folder to write to; made if it is not there. A static host serves it as it is
@@ -306,7 +199,7 @@ pub struct BudgetArgs {
     /// Width and height in pixels
     #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = size)]
     pub size: UVec2,
-    /// Rounds of timing; each runs every filter once, in turn
+    /// Repetitions of the timing; each runs every filter once, in turn
     #[arg(long, value_name = "N", default_value_t = 9, value_parser = clap::value_parser!(u32).range(1..=1000))]
     pub rounds: u32,
     /// What drawing the further geometry samples costs in your renderer, in milliseconds
@@ -330,7 +223,7 @@ pub struct QuadsArgs {
     /// Model to render instead of the built-in scene: .gltf, .glb or .obj
     #[arg(long, value_name = "FILE")]
     pub mesh: Option<PathBuf>,
-    /// Rounds of timing; each runs every shader once, in turn
+    /// Repetitions of the timing; each runs every shader once, in turn
     #[arg(long, value_name = "N", default_value_t = 9, value_parser = clap::value_parser!(u32).range(1..=1000))]
     pub rounds: u32,
     /// Also write the table and its circumstances to this file, as JSON
@@ -354,6 +247,19 @@ pub struct AdapterArgs {
     /// Use the first adapter whose name or driver contains this (see `adapters`)
     #[arg(long, value_name = "TEXT", global = true)]
     pub adapter: Option<String>,
+}
+
+#[derive(Debug, Args)]
+pub struct CompletionsArgs {
+    /// The shell
+    pub shell: Shell,
+}
+
+#[derive(Debug, Args)]
+pub struct ManArgs {
+    /// Folder to write to, a page for each command; made if it is not there
+    #[arg(value_name = "DIR")]
+    pub out: PathBuf,
 }
 
 #[derive(Debug, Args)]
@@ -384,10 +290,10 @@ pub struct DemoArgs {
     /// Model to render instead of a built-in scene: .gltf, .glb or .obj
     #[arg(long, value_name = "FILE", conflicts_with = "scene")]
     pub mesh: Option<PathBuf>,
-    /// Rounds of timing; each runs every shader once, in turn
+    /// Repetitions of the timing; each runs every shader once, in turn
     #[arg(long, value_name = "N", default_value_t = 15, value_parser = clap::value_parser!(u32).range(1..=1000))]
     pub rounds: u32,
-    /// Also print the table and the figures' circumstances as JSON, and nothing else
+    /// Print the table, adapter and driver as JSON, and nothing else
     #[arg(long)]
     pub json: bool,
     #[command(flatten)]
@@ -422,11 +328,6 @@ fn register(text: &str) -> Result<(String, Register), String> {
             shorten(text)
         )),
     }
-}
-
-fn loop_policy(text: &str) -> Result<(String, Unroll), String> {
-    let (path, policy) = pair(text)?;
-    Ok((path, policy.parse()?))
 }
 
 fn pair(text: &str) -> Result<(String, String), String> {

@@ -22,13 +22,13 @@ pub struct CommonArgs {
     /// Folder for records (JSON, CSV), pictures and report.html, which shows all records that are in the folder
     #[arg(long, value_name = "DIR", default_value = "study-report", global = true)]
     pub out: PathBuf,
-    /// Small pictures, few rounds: minutes instead of hours, and figures that say less
+    /// Small pictures, few repetitions: minutes instead of hours, and figures that say less
     #[arg(long, global = true)]
     pub quick: bool,
     /// Width and height in pixels; by default 1280x720, with --quick 480x270
     #[arg(long, value_name = "WxH", value_parser = size, global = true)]
     pub size: Option<UVec2>,
-    /// Rounds of timing; each runs every shader once, in turn. By default 31, with --quick 11
+    /// Repetitions of the timing; each runs every shader once, in turn. By default 31, with --quick 11
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1000), global = true)]
     pub rounds: Option<u32>,
     #[command(flatten)]
@@ -52,15 +52,15 @@ impl CommonArgs {
 
 #[derive(Clone, Debug, Subcommand)]
 pub enum Study {
-    /// Unroll against loop: every form of each kernel, its time, its counts, its error
+    /// Compare the unrolled and looped forms of each kernel: time, counts, error
     Loops(LoopsArgs),
-    /// Speed against error: methods of antialiasing on all scenes, against 256 samples a pixel
+    /// Compare methods of antialiasing on all scenes: time, and error against 256 samples a pixel
     Error(ErrorArgs),
-    /// Numerical stability: hard cases, in every precision, by shader and interpreter
+    /// Run numerically hard cases in every precision, by shader and interpreter
     Hard(HardArgs),
-    /// What GPU compilers make of the forms of each kernel, asked without a GPU
+    /// Ask GPU compilers what they make of each kernel, without a GPU
     Isa(IsaArgs),
-    /// Make the page anew from the records that are there
+    /// Write the page again from the records in the folder
     Report,
 }
 
@@ -70,7 +70,7 @@ pub struct LoopsArgs {
     /// several times; each is run on a test card
     #[arg(long, value_name = "KERNEL")]
     pub from: Vec<String>,
-    /// The same kernel written by hand with its loops, reading the same by the same names: one for each --from, in order
+    /// The same kernel hand-written with its loops, reading the same by the same names: one for each --from, in order
     #[arg(long, value_name = "KERNEL", requires = "from")]
     pub by_hand: Vec<String>,
     /// Also write what each kernel makes to this folder, and all of it in one picture, `all.png`
@@ -84,7 +84,7 @@ pub struct IsaArgs {
     /// several times
     #[arg(long, value_name = "KERNEL")]
     pub from: Vec<String>,
-    /// The same kernel written by hand with its loops: one for each --from, in order
+    /// The same kernel hand-written with its loops: one for each --from, in order
     #[arg(long, value_name = "KERNEL", requires = "from")]
     pub by_hand: Vec<String>,
     /// A family of AMD GPUs: polaris10, vega10, navi10, navi21 or navi31; may be given several times. By default all of them

@@ -21,7 +21,7 @@ pub struct TuneArgs {
     /// Width and height of a scene or model in pixels; by default 640x360. A capture has its own
     #[arg(long, value_name = "WxH", value_parser = size, conflicts_with = "capture")]
     pub size: Option<UVec2>,
-    /// Rounds of the timing that decides; each runs every shader once, in turn
+    /// Repetitions of the timing that decides; each runs every shader once, in turn
     #[arg(long, value_name = "N", default_value_t = 15, value_parser = clap::value_parser!(u32).range(1..=1000))]
     pub rounds: u32,
     /// Give all variants an option; may be given several times. One that is searched is then not

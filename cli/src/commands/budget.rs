@@ -144,7 +144,7 @@ fn measured(args: &BudgetArgs, gpu: &Gpu) -> Result<(Vec<Filter>, Clock), Failur
             size: args.size,
         })
         .collect();
-    let bar = scene::bar("timing, in turn");
+    let bar = scene::bar(&format!("timing {} SRAA shaders", jobs.len()));
     bar.set_length(u64::from(args.rounds));
     let timed = bench.interleaved(&jobs, args.rounds, |k| bar.set_position(u64::from(k)));
     let (times, clock) = timed.map_err(Failure::of)?;

@@ -22,7 +22,7 @@ pub fn run(args: &CaptureArgs) -> Result<(), Failure> {
     let mut capture = render::capture(renderer.as_ref(), &samples, shading).map_err(Failure::of)?;
     if let Some(samples) = &args.reference {
         let side = if samples == "256" { 16 } else { 4 };
-        let bar = scene::bar("reference");
+        let bar = scene::bar(&format!("rendering {samples} samples"));
         let frame = render::reference(renderer.as_ref(), side, &mut scene::advance(&bar)).map_err(Failure::of)?;
         bar.finish_and_clear();
         capture.reference = Some(frame);

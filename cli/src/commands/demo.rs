@@ -166,7 +166,7 @@ fn on_adapter(gpu: &Gpu, method: &Method, rounds: u32) -> Result<Measured, Failu
         let size = inputs.size;
         jobs.push(Job { pass, uploaded, size });
     }
-    let bar = scene::bar("timing, in turn");
+    let bar = scene::bar("timing 2 SRAA shaders");
     bar.set_length(u64::from(rounds));
     let timed = bench.interleaved(&jobs, rounds, |k| bar.set_position(u64::from(k)));
     let (times, clock) = timed.map_err(Failure::of)?;
@@ -182,7 +182,7 @@ fn on_interpreter(method: &Method) -> Result<Measured, Failure> {
     let inputs = &method.inputs;
     let mut times = [Vec::new(), Vec::new()];
     let mut resolved = None;
-    let bar = scene::bar("interpreting, in turn");
+    let bar = scene::bar("interpreting 2 shaders");
     bar.set_length(2);
     for (times, compiled) in times.iter_mut().zip([&method.looped, &method.unrolled]) {
         let start = Instant::now();

@@ -3,17 +3,38 @@
 use crate::args::EmitArgs;
 use crate::failure::Failure;
 use std::collections::BTreeMap;
+use std::path::PathBuf;
 use straightline_codegen::{Compiled, EmitOptions, Kernel, Precision, files};
 use straightline_engines::{Engine, EngineError, Request};
 use straightline_study::hard::{self, HardError};
 
-/// Writes the shader in every language asked for and its manifest, or what an engine's user drops in, or nothing.
+/// Writes the shader in every language asked for and its manifest, or what an engine's user drops in, or nothing; prints the
+/// paths.
 pub fn run(args: &EmitArgs) -> Result<(), Failure> {
+    for file in write(args, &compile(args)?)? {
+        outln!("{}", file.display());
+    }
+    Ok(())
+}
+
+/// A kernel that is ready to be emitted.
+pub struct Ready {
+    kernel: Kernel,
+    pub compiled: Compiled,
+}
+
+/// Reads and compiles the kernel.
+pub fn compile(args: &EmitArgs) -> Result<Ready, Failure> {
+    let kernel = args.kernel.locate()?;
+    let compiled = kernel.compile(&args.kernel.options.settings())?;
+    Ok(Ready { kernel, compiled })
+}
+
+/// Writes all files or none; gives their paths.
+pub fn write(args: &EmitArgs, Ready { kernel, compiled }: &Ready) -> Result<Vec<PathBuf>, Failure> {
     if args.accept_loss && args.precision != Precision::F16 {
         return Err(Failure::Usage("--accept-loss goes with --precision f16".to_owned()));
     }
-    let kernel = args.kernel.locate()?;
-    let compiled = kernel.compile(&args.kernel.options.settings())?;
     let name = args.name.as_deref().unwrap_or(&compiled.kernel);
     if name.is_empty() || !name.chars().all(|c| c.is_ascii_alphanumeric() || "_-.".contains(c)) || name.starts_with('.')
     {
@@ -22,8 +43,8 @@ pub fn run(args: &EmitArgs) -> Result<(), Failure> {
         )));
     }
     if let Some(engine) = &args.engine {
-        let files = for_engine(args, &kernel, &compiled, engine, name)?;
-        return write(args, &files);
+        let files = for_engine(args, kernel, compiled, engine, name)?;
+        return write_all(args, &files);
     }
     let mut options = EmitOptions::new()
         .stage(args.stage.into())
@@ -40,7 +61,7 @@ pub fn run(args: &EmitArgs) -> Result<(), Failure> {
     options.enable_subgroups = args.enable_subgroups;
     options.workgroup = args.workgroup.map(|size| size.to_array());
     let emitted = compiled.emit(&options).map_err(Failure::of)?;
-    write(args, &emitted.named(name))
+    write_all(args, &emitted.named(name))
 }
 
 /// The files for an engine.
@@ -65,16 +86,11 @@ fn for_engine(
     engine.files(&request).map_err(Failure::of)
 }
 
-/// Writes the files, or none, and prints their paths.
-fn write(args: &EmitArgs, named: &BTreeMap<String, Vec<u8>>) -> Result<(), Failure> {
+fn write_all(args: &EmitArgs, named: &BTreeMap<String, Vec<u8>>) -> Result<Vec<PathBuf>, Failure> {
     if args.precision == Precision::F16 && !args.accept_loss {
         refuse_visible_loss(args)?;
     }
-    let written = files::write_all(&args.out, named).map_err(Failure::of)?;
-    for file in written {
-        outln!("{}", file.display());
-    }
-    Ok(())
+    files::write_all(&args.out, named).map_err(Failure::of)
 }
 
 /// Half precision is refused where hard cases show more error than cannot be seen, with the reason. A kernel that has no hard

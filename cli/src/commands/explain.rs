@@ -6,8 +6,7 @@ use crate::failure::Failure;
 use crate::table;
 use serde_json::{Map, Value, json};
 use straightline_codegen::emit::{Emitted, Target};
-use straightline_codegen::ir::Invocation;
-use straightline_codegen::{Compiled, EmitOptions, Stage};
+use straightline_codegen::{Compiled, EmitOptions};
 use straightline_isa::{Compiler, Family, Report};
 use straightline_kernels::PaperCounts;
 use straightline_manifest::{BindingKind, Counts, Manifest, Precision};
@@ -20,14 +19,10 @@ pub fn run(args: &ExplainArgs) -> Result<(), Failure> {
             outln!("== {stage}\n{}", straightline_codegen::ir::print(graph));
         }
     })?;
-    // Statements are those of the emitted text.
-    let stage = match compiled.graph.invocation {
-        Invocation::Lane => Stage::Fragment,
-        _ => Stage::Compute,
-    };
     let targets = args.isa.map(|_| Target::Spirv);
+    // Statements are those of the emitted text.
     let options = EmitOptions::new()
-        .stage(stage)
+        .stage(super::natural_stage(&compiled))
         .precision(args.precision)
         .targets(targets);
     let emitted = compiled.emit(&options).map_err(Failure::of)?;
@@ -74,6 +69,20 @@ fn print_isa(device: &str, report: &Report, dump: bool) {
     if dump {
         out!("\n{}", report.assembly);
     }
+}
+
+/// Columns of a screen.
+const WIDTH: usize = 80;
+
+/// What the words of a section stand behind.
+const HEAD: usize = 10;
+
+fn section(head: &str, text: &str) {
+    let text = if text.is_empty() { "none" } else { text };
+    outln!(
+        "{}",
+        table::wrapped(text, WIDTH, &format!("{head:HEAD$}"), &" ".repeat(HEAD))
+    );
 }
 
 /// Names of the inputs and of the uniforms that the shader has: what a scene must give it, and no more.
@@ -130,22 +139,18 @@ fn to_json(compiled: &Compiled, counts: &Counts, bound: &Bound, paper: Option<Pa
 }
 
 fn print(compiled: &Compiled, counts: &Counts, bound: &Bound, paper: Option<PaperCounts>) {
-    outln!("{}: {}", compiled.kernel, compiled.summary);
-    let options: Vec<String> = compiled
-        .options
-        .iter()
-        .map(|(name, value)| format!("{name}={value}"))
-        .collect();
-    outln!("  {} unroll={}\n", options.join(" "), compiled.policy);
-    let names = |names: &[String]| {
-        if names.is_empty() {
-            "none".to_owned()
-        } else {
-            names.join(", ")
-        }
+    let title = match compiled.summary.as_str() {
+        "" => compiled.kernel.clone(),
+        summary => format!("{}: {summary}", compiled.kernel),
     };
-    outln!("inputs: {}", names(&bound.inputs));
-    outln!("set at run time: {}\n", names(&bound.uniforms));
+    outln!("{}\n", table::wrapped(&title, WIDTH, "", "  "));
+    let given = compiled.options.iter().filter(|(_, value)| !value.is_empty());
+    let options = given.map(|(name, value)| format!("{name}={value}"));
+    section("Options", &options.collect::<Vec<_>>().join(" "));
+    section("Unroll", &compiled.policy.to_string());
+    section("Inputs", &bound.inputs.join(", "));
+    section("Uniforms", &bound.uniforms.join(", "));
+    outln!();
     let mut rows = vec![
         row("basic blocks", counts.basic_blocks, None),
         row("loops", counts.loops, None),
@@ -172,10 +177,17 @@ fn print(compiled: &Compiled, counts: &Counts, bound: &Bound, paper: Option<Pape
     rows.push(row("statements", counts.statements, None));
     rows.push(row("scalars alive at most", counts.max_live, None));
     let per = match compiled.graph.invocation.pixels() {
-        [1, 1] => "per pixel".to_owned(),
-        [width, height] => format!("per {width}x{height} pixels"),
+        [1, 1] => "a pixel".to_owned(),
+        [width, height] => format!("{width}x{height} pixels"),
     };
-    out!("{}", table::render(&[&per, "here", "paper"], &rows));
+    let per = format!("Counts for {per}");
+    match paper {
+        Some(_) => out!("{}", table::render(&[&per, "here", "paper"], &rows)),
+        None => {
+            rows.iter_mut().for_each(|row| row.truncate(2));
+            out!("{}", table::render(&[&per, "here"], &rows));
+        }
+    }
     print_loops(compiled);
 }
 
@@ -197,7 +209,7 @@ fn print_loops(compiled: &Compiled) {
     outln!();
     out!(
         "{}",
-        table::render(&["loop", "unroll", "iterations evaluated", "operations"], &loops)
+        table::render(&["Loop", "unroll", "iterations", "operations"], &loops)
     );
     for report in &compiled.loops {
         if let Some(reason) = &report.reason {

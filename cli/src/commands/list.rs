@@ -1,90 +1,156 @@
-//! `list`: the built-in kernels and their options.
+//! `list`: the built-in kernels and engines in a screen, or one of them with all that can be said of it.
 
 use crate::args::ListArgs;
 use crate::failure::Failure;
-use serde_json::json;
-use straightline_codegen::{Kernel, OptionInfo, OptionKind};
+use crate::table::{cut, wrapped};
+use serde_json::{Value, json};
+use straightline_codegen::{Kernel, OptionInfo, OptionKind, shorten};
 use straightline_engines::{Engine, names};
 use straightline_kernels::CATALOGUE;
 
-/// Prints every kernel with its options.
+/// Columns of a screen.
+const WIDTH: usize = 80;
+
+/// Prints all kernels and engines, or the one that is named.
 pub fn run(args: &ListArgs) -> Result<(), Failure> {
-    let mut kernels = Vec::new();
-    for entry in CATALOGUE {
-        kernels.push((entry, Kernel::builtin(entry.name)?.options()?));
-    }
-    if args.json {
-        let list: Vec<_> = kernels
-            .iter()
-            .map(|(entry, options)| {
-                let options: Vec<_> = options.iter().map(option_json).collect();
-                json!({ "name": entry.name, "summary": entry.summary, "options": options })
-            })
-            .collect();
-        let engines: Vec<_> = engines()?
-            .iter()
-            .map(|engine| json!({ "name": engine.name(), "title": engine.description().title, "about": engine.description().about }))
-            .collect();
-        outln!("{:#}", json!({ "kernels": list, "engines": engines }));
-        return Ok(());
-    }
-    for (entry, options) in &kernels {
-        outln!("{}\n  {}\n", entry.name, entry.summary);
-        for option in options {
-            print_option(option);
+    match &args.name {
+        None if args.json => all_as_json(),
+        None => all(),
+        Some(name) if names().any(|known| known == name) => engine(name, args.json),
+        Some(name) if !name.contains(".rs") && straightline_kernels::find(name).is_none() => {
+            Err(Failure::Usage(format!(
+                "there is no kernel or engine `{}`: `list` shows those that there are",
+                shorten(name)
+            )))
         }
+        Some(name) => kernel(name, args.json),
     }
-    outln!("Engines, for `emit --engine NAME`:");
-    for engine in engines()? {
-        let description = engine.description();
-        outln!("  {}: {}: {}", engine.name(), description.title, description.about);
+}
+
+fn all() -> Result<(), Failure> {
+    outln!("Kernels, for `emit`, `explain` and `run`:");
+    let width = CATALOGUE.iter().map(|entry| entry.name.len()).max().unwrap_or(0);
+    for entry in CATALOGUE {
+        outln!("  {:width$}  {}", entry.name, cut(entry.summary, WIDTH - width - 4));
     }
+    let engines: Vec<&str> = names().collect();
+    outln!("\nEngines, for `emit --engine NAME`:");
+    outln!("{}", wrapped(&engines.join(", "), WIDTH, "  ", "  "));
     outln!();
-    outln!("Set an option with --set OPTION=VALUE. A kernel of your own: FILE.rs::FUNCTION in place of the name.");
+    outln!("`list KERNEL` shows what a kernel does and its options, `list ENGINE` what is");
+    outln!("written for an engine. A kernel of your own: FILE.rs, or FILE.rs::FUNCTION.");
     Ok(())
 }
 
-/// The built-in engines.
-fn engines() -> Result<Vec<Engine>, Failure> {
-    names().map(|name| Engine::find(name).map_err(Failure::of)).collect()
+fn all_as_json() -> Result<(), Failure> {
+    let mut kernels = Vec::new();
+    for entry in CATALOGUE {
+        kernels.push(kernel_json(&Kernel::builtin(entry.name)?)?);
+    }
+    let mut engines = Vec::new();
+    for name in names() {
+        engines.push(engine_json(&Engine::find(name).map_err(Failure::of)?));
+    }
+    outln!("{:#}", json!({ "kernels": kernels, "engines": engines }));
+    Ok(())
+}
+
+fn engine(name: &str, as_json: bool) -> Result<(), Failure> {
+    let engine = Engine::find(name).map_err(Failure::of)?;
+    if as_json {
+        outln!("{:#}", engine_json(&engine));
+        return Ok(());
+    }
+    let description = engine.description();
+    let text = format!("{name}: {}: {}", description.title, description.about);
+    outln!("{}", wrapped(&text, WIDTH, "", "  "));
+    outln!("\nstraightline emit KERNEL --engine {name} --out DIR");
+    Ok(())
+}
+
+fn kernel(name: &str, as_json: bool) -> Result<(), Failure> {
+    let kernel = Kernel::locate(name)?;
+    if as_json {
+        outln!("{:#}", kernel_json(&kernel)?);
+        return Ok(());
+    }
+    let options = kernel.options()?;
+    let summary = straightline_kernels::find(name).map_or(String::new(), |entry| format!(": {}", entry.summary));
+    outln!("{}", wrapped(&format!("{}{summary}", kernel.name()), WIDTH, "", "  "));
+    if options.is_empty() {
+        outln!("\nIt has no options.");
+        return Ok(());
+    }
+    outln!("\nOptions, for `--set OPTION=VALUE`:");
+    options.iter().for_each(print_option);
+    Ok(())
 }
 
 fn print_option(option: &OptionInfo) {
-    outln!("  {}: {}", option.name, option.docs);
+    let line = |first: &str, text: &str| outln!("{}", wrapped(text, WIDTH, first, "      "));
+    outln!();
+    line("  ", &format!("{}: {}", option.name, option.docs));
     match &option.kind {
         OptionKind::Choice(values) => {
             for (name, docs) in values {
                 let mark = if *name == option.default { " (default)" } else { "" };
-                outln!("      {name}{mark}: {docs}");
+                line("    ", &format!("{name}{mark}: {docs}"));
             }
         }
         OptionKind::Number { min, max, .. } => {
-            let bound = |b: &Option<f64>| b.map_or("any".to_owned(), |b| b.to_string());
+            let bound = |b: &Option<f64>| b.map_or("any".to_owned(), shortest);
             let (or, default) = match option.uniform {
                 true => ("", "default: uniform, "),
                 false => (", or uniform", "default "),
             };
-            outln!(
-                "      {} to {}{or} ({default}{})",
-                bound(min),
-                bound(max),
-                option.default
-            );
+            let default = format!("({default}{})", option.default);
+            line("    ", &format!("{} to {}{or} {default}", bound(min), bound(max)));
         }
         OptionKind::List { len, .. } => {
             let many = len.map_or("any number of".to_owned(), |len| len.to_string());
-            let default = if option.default.is_empty() {
-                "none"
-            } else {
-                &option.default
-            };
-            outln!("      {many} numbers, separated by commas (default {default})");
+            let default = default_list(&option.default);
+            line(
+                "    ",
+                &format!("{many} numbers, separated by commas (default {default})"),
+            );
         }
-        OptionKind::Flag => outln!("      true or false (default {})", option.default),
+        OptionKind::Flag => line("    ", &format!("true or false (default {})", option.default)),
     }
 }
 
-fn option_json(option: &OptionInfo) -> serde_json::Value {
+/// The default of a list, in few words where all of its numbers are the same.
+fn default_list(default: &str) -> String {
+    let numbers: Vec<&str> = default.split(',').collect();
+    match numbers[..] {
+        [""] => "none".to_owned(),
+        [first, .., last] if numbers.len() > 8 && numbers.iter().all(|number| number == &last) => {
+            format!("{} times {first}", numbers.len())
+        }
+        _ => default.to_owned(),
+    }
+}
+
+/// A bound as its author wrote it: the shortest number that is the same float.
+fn shortest(bound: f64) -> String {
+    let float = bound as f32;
+    match f64::from(float) == bound {
+        true => float.to_string(),
+        false => bound.to_string(),
+    }
+}
+
+fn engine_json(engine: &Engine) -> Value {
+    let description = engine.description();
+    json!({ "name": engine.name(), "title": description.title, "about": description.about })
+}
+
+fn kernel_json(kernel: &Kernel) -> Result<Value, Failure> {
+    let summary = straightline_kernels::find(kernel.name()).map(|entry| entry.summary);
+    let options: Vec<Value> = kernel.options()?.iter().map(option_json).collect();
+    Ok(json!({ "name": kernel.name(), "summary": summary, "options": options }))
+}
+
+fn option_json(option: &OptionInfo) -> Value {
     let values = match &option.kind {
         OptionKind::Choice(values) => json!(
             values

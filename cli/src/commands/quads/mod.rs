@@ -247,7 +247,7 @@ fn measure(
             Drawn::Forward(forward) => forwards.push(forward),
         }
     }
-    let bar = scene::bar("timing, in turn");
+    let bar = scene::bar(&format!("timing {} shaders", jobs.len()));
     bar.set_length(u64::from(args.rounds) + 1);
     let timed = bench.interleaved(&jobs, args.rounds, |k| bar.set_position(u64::from(k)));
     let (times, clock) = timed.map_err(Failure::of)?;

@@ -7,6 +7,7 @@ mod values;
 use crate::args::{Executor, RunArgs};
 use crate::failure::Failure;
 use crate::gpu::Gpu;
+use std::path::PathBuf;
 use straightline_codegen::files;
 use straightline_codegen::ir::{F16, Real};
 use straightline_codegen::{Compiled, Precision};
@@ -14,16 +15,34 @@ use straightline_study::execute::{AllWritten, Inputs, interpret};
 
 /// Runs a kernel once and writes what it makes.
 pub fn run(args: &RunArgs) -> Result<(), Failure> {
-    check(args)?;
     let compiled = args.kernel.locate()?.compile(&args.kernel.options.settings())?;
-    let outs = outputs::outs(args, &compiled)?;
-    let inputs = inputs::inputs(args, &compiled)?;
+    let made = make(args, &compiled, &mut None)?;
+    for file in made.files {
+        outln!("{} ({})", file.display(), made.by);
+    }
+    Ok(())
+}
+
+/// What a run has written, and what computed it.
+pub struct Made {
+    pub files: Vec<PathBuf>,
+    by: String,
+}
+
+/// Runs a compiled kernel and writes what it makes. The device is opened where one is needed, and kept in `gpu`.
+pub fn make(args: &RunArgs, compiled: &Compiled, gpu: &mut Option<Gpu>) -> Result<Made, Failure> {
+    check(args)?;
+    let outs = outputs::outs(args, compiled)?;
+    let inputs = inputs::inputs(args, compiled)?;
     for out in &outs {
         files::try_file(&out.path, false).map_err(Failure::of)?;
     }
-    let (targets, by) = match args.executor {
+    let (targets, by) = match args.given.executor {
         Executor::Gpu => {
-            let gpu = Gpu::require(&args.adapter)?;
+            let gpu = match gpu {
+                Some(gpu) => gpu,
+                none => none.insert(Gpu::require(&args.given.adapter)?),
+            };
             let precision = args.precision.parse::<Precision>().map_err(Failure::Usage)?;
             if precision == Precision::F16 && !gpu.has_half() {
                 return Err(Failure::Failed(format!(
@@ -33,7 +52,7 @@ pub fn run(args: &RunArgs) -> Result<(), Failure> {
                 )));
             }
             let bench = gpu.bench().precision(precision);
-            let targets = bench.all_written(&compiled, args.stage.into(), &inputs);
+            let targets = bench.all_written(compiled, args.stage.into(), &inputs);
             let by = match precision {
                 Precision::F32 => gpu.describe(),
                 Precision::F16 => format!("{}, f16", gpu.describe()),
@@ -42,19 +61,21 @@ pub fn run(args: &RunArgs) -> Result<(), Failure> {
         }
         Executor::Cpu => {
             let targets = match args.precision.as_str() {
-                "f16" => on_cpu::<F16>(args, &compiled, &inputs)?,
-                "f64" => on_cpu::<f64>(args, &compiled, &inputs)?,
-                _ => on_cpu::<f32>(args, &compiled, &inputs)?,
+                "f16" => on_cpu::<F16>(args, compiled, &inputs)?,
+                "f64" => on_cpu::<f64>(args, compiled, &inputs)?,
+                _ => on_cpu::<f32>(args, compiled, &inputs)?,
             };
             (targets, format!("CPU interpreter, {}", args.precision))
         }
     };
-    outputs::write(&outs, &targets, &by)
+    outputs::write(&outs, &targets)?;
+    let files = outs.into_iter().map(|out| out.path).collect();
+    Ok(Made { files, by })
 }
 
 /// What would otherwise be found only after all the work.
 fn check(args: &RunArgs) -> Result<(), Failure> {
-    if args.executor == Executor::Gpu && (args.check_finite || args.precision == "f64") {
+    if args.given.executor == Executor::Gpu && (args.check_finite || args.precision == "f64") {
         return Err(Failure::Usage(
             "--check-finite and --precision f64 are for the interpreter: add --executor cpu".to_owned(),
         ));

@@ -104,7 +104,7 @@ fn check_extension(path: &Path, known: &[&str], otherwise: &str) -> Result<(), F
 }
 
 /// Writes the files.
-pub fn write(outs: &[Out], (targets, buffers): &AllWritten, by: &str) -> Result<(), Failure> {
+pub fn write(outs: &[Out], (targets, buffers): &AllWritten) -> Result<(), Failure> {
     for Out { what, path } in outs {
         match what {
             What::Target(k) => picture::write(path, &Written::frame(&targets[*k])).map_err(Failure::of)?,
@@ -114,7 +114,6 @@ pub fn write(outs: &[Out], (targets, buffers): &AllWritten, by: &str) -> Result<
                 files::write(path, lines(elements, *lanes).as_bytes()).map_err(Failure::of)?;
             }
         }
-        outln!("{} ({by})", path.display());
     }
     Ok(())
 }

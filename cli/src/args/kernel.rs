@@ -1,0 +1,91 @@
+//! The arguments that say which kernel, with which options.
+
+use super::{pair, size};
+use clap::{Args, ValueHint};
+use glam::UVec2;
+use std::path::PathBuf;
+use straightline_codegen::diagnostic::Errors;
+use straightline_codegen::{Branches, Kernel, Settings, Transport, Unroll};
+
+/// Which kernel, with which options.
+#[derive(Debug, Clone, Args)]
+pub struct KernelArgs {
+    /// A built-in kernel (see `list`), FILE.rs, or FILE.rs::FUNCTION
+    #[arg(value_hint = ValueHint::FilePath)]
+    pub kernel: String,
+    /// A further file that the kernel calls functions of; may be given several times
+    #[arg(long, value_name = "FILE")]
+    pub source: Vec<PathBuf>,
+    #[command(flatten)]
+    pub options: OptionArgs,
+}
+
+impl KernelArgs {
+    /// The kernel with all its files.
+    pub fn locate(&self) -> Result<Kernel, Errors> {
+        let kernel = Kernel::locate(&self.kernel);
+        self.source.iter().fold(kernel, |kernel, path| kernel?.with_file(path))
+    }
+}
+
+/// Options of a kernel.
+#[derive(Debug, Clone, Args)]
+pub struct OptionArgs {
+    /// Set an option of the kernel (see `list KERNEL`); may be given several times. A number may be `uniform`: the host gives it
+    #[arg(help_heading = "Kernel options", long = "set", value_name = "OPTION=VALUE", value_parser = pair)]
+    pub set: Vec<(String, String)>,
+    /// How far loops are unrolled: `full`, `none`, or by a factor such as `4`, which leaves loops with four iterations in a row
+    #[arg(help_heading = "Kernel options", long, value_name = "POLICY", default_value = "full", value_parser = |s: &str| s.parse::<Unroll>())]
+    pub unroll: Unroll,
+    /// How far one loop is unrolled: LOOP is `function.counter` (see `explain`) or the counter; may be given several times
+    #[arg(help_heading = "Kernel options", long, value_name = "LOOP=POLICY", value_parser = loop_policy)]
+    pub unroll_loop: Vec<(String, Unroll)>,
+    /// What becomes of an `if` on runtime values: `keep` leaves a branch, `select` computes both sides, `as-loops` keeps it where
+    /// loops are kept
+    #[arg(help_heading = "Kernel options", long, value_name = "POLICY", default_value = "as-loops", value_parser = |s: &str| s.parse::<Branches>())]
+    pub branches: Branches,
+    /// Most statements that the kernel may have
+    #[arg(help_heading = "Kernel options", long, value_name = "STATEMENTS", default_value_t = Settings::BUDGET)]
+    pub budget: u32,
+    /// How the lanes of a pixel quad exchange values: subgroup, derivatives or block; by default subgroup operations in
+    /// fragment shaders and blocks in compute
+    #[arg(help_heading = "Kernel options", long, value_name = "TRANSPORT", value_parser = |s: &str| s.parse::<Transport>())]
+    pub transport: Option<Transport>,
+    /// Pixels that one compute invocation computes, across and down
+    #[arg(help_heading = "Kernel options", long, value_name = "WxH", default_value = "1x1", value_parser = size)]
+    pub block: UVec2,
+}
+
+impl Default for OptionArgs {
+    fn default() -> Self {
+        OptionArgs {
+            set: Vec::new(),
+            unroll: Unroll::default(),
+            unroll_loop: Vec::new(),
+            branches: Branches::default(),
+            budget: Settings::BUDGET,
+            transport: None,
+            block: UVec2::ONE,
+        }
+    }
+}
+
+impl OptionArgs {
+    pub fn settings(&self) -> Settings {
+        Settings {
+            options: self.set.clone(),
+            unroll: self.unroll,
+            loops: self.unroll_loop.clone(),
+            branches: self.branches,
+            budget: self.budget,
+            transport: self.transport,
+            block: self.block.to_array(),
+            ..Settings::default()
+        }
+    }
+}
+
+fn loop_policy(text: &str) -> Result<(String, Unroll), String> {
+    let (path, policy) = pair(text)?;
+    Ok((path, policy.parse()?))
+}

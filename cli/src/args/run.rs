@@ -1,0 +1,90 @@
+//! The arguments of `run` and `watch`.
+
+use super::{AdapterArgs, EmitArgs, KernelArgs, StageArg, pair, size};
+use clap::{Args, ValueEnum};
+use glam::UVec2;
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Executor {
+    /// The emitted shader, by wgpu
+    Gpu,
+    /// The same graph, interpreted
+    Cpu,
+}
+
+/// What a kernel is given to compute a picture.
+#[derive(Debug, Clone, Args)]
+pub struct GivenArgs {
+    /// Picture for a texture of the kernel, NAME=FILE; NAME may be left out where it has one texture. May be given several
+    /// times
+    ///
+    /// PNG or EXR; FILE.exr:LAYER is one layer of a file, such as depth.exr:centre of a capture. Files given for a texture with
+    /// layers, in order, are its layers; those of a cube its six faces +X, -X, +Y, -Y, +Z, -Z; those of a volume its slices. A
+    /// volume may also be a .cube table, or one picture of its slices side by side. Texels of integers are the numbers of a PNG
+    /// as they are stored.
+    #[arg(long, value_name = "[NAME=]FILE[,FILE...]")]
+    pub input: Vec<String>,
+    /// Value of a uniform: NAME=NUMBER, or NAME=X,Y,Z for a vector. May be given several times
+    #[arg(long, value_name = "NAME=NUMBERS", value_parser = pair)]
+    pub uniform: Vec<(String, String)>,
+    /// Elements of a buffer: NAME=A,B,C, or NAME=0*256 for so many alike. May be given several times
+    #[arg(long, value_name = "NAME=NUMBERS", value_parser = pair)]
+    pub buffer: Vec<(String, String)>,
+    /// Width and height of the output; by default those of the first input that has the output's size
+    #[arg(long, value_name = "WxH", value_parser = size)]
+    pub size: Option<UVec2>,
+    /// What computes the pixels
+    #[arg(long, value_enum, default_value = "gpu")]
+    pub executor: Executor,
+    #[command(flatten)]
+    pub adapter: AdapterArgs,
+}
+
+#[derive(Debug, Args)]
+pub struct RunArgs {
+    #[command(flatten)]
+    pub kernel: KernelArgs,
+    #[command(flatten)]
+    pub given: GivenArgs,
+    /// Picture to write, [NAME=]FILE: .png (8 bits, sRGB) or .exr (linear floats). May be given several times
+    ///
+    /// Of a kernel that gives several values, the first one is written without a NAME. A buffer that the kernel writes goes to a
+    /// .csv or .txt, an element a line.
+    #[arg(long, value_name = "[NAME=]FILE", required = true)]
+    pub out: Vec<String>,
+    /// The precision of floats: f16 or f32, on the CPU also f64
+    #[arg(long, value_name = "PRECISION", default_value = "f32", value_parser = ["f16", "f32", "f64"])]
+    pub precision: String,
+    /// On the CPU, say where a NaN or an infinity first came from, and fail if there is one
+    #[arg(long)]
+    pub check_finite: bool,
+    /// Pipeline stage, on the GPU
+    #[arg(long, value_enum, default_value = "compute")]
+    pub stage: StageArg,
+}
+
+#[derive(Debug, Args)]
+pub struct WatchArgs {
+    #[command(flatten)]
+    pub emit: EmitArgs,
+    /// Also run the kernel and write its picture, .png or .exr: an image viewer that looks again shows it
+    #[arg(long, value_name = "FILE", help_heading = "Options of the picture")]
+    pub picture: Option<String>,
+    #[command(flatten, next_help_heading = "Options of the picture")]
+    pub given: GivenArgs,
+}
+
+impl WatchArgs {
+    /// The arguments of `run` that make the picture, if there is to be one.
+    pub fn run(&self) -> Option<RunArgs> {
+        let picture = self.picture.clone()?;
+        Some(RunArgs {
+            kernel: self.emit.kernel.clone(),
+            given: self.given.clone(),
+            out: vec![picture],
+            precision: self.emit.precision.to_string(),
+            check_finite: false,
+            stage: self.emit.stage,
+        })
+    }
+}

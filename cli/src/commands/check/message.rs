@@ -1,0 +1,178 @@
+//! Errors as cargo and rustc write theirs with `--message-format=json`.
+//!
+//! The fields are those of <https://doc.rust-lang.org/cargo/reference/external-tools.html> and
+//! <https://doc.rust-lang.org/rustc/json.html>: lines and columns count from 1, columns in characters, bytes from 0.
+
+use serde_json::{Value, json};
+use std::path::Path;
+use straightline_codegen::Kernel;
+use straightline_codegen::diagnostic::{Diagnostic, Errors, File, Span};
+
+/// The message for the first of `errors`, in one line.
+pub fn of(kernel: &str, errors: &Errors) -> Value {
+    let Some(diagnostic) = errors.diagnostics.first() else {
+        return Value::Null;
+    };
+    let path = errors
+        .files
+        .first()
+        .map_or_else(String::new, |file| absolute(&file.path));
+    json!({
+        "reason": "compiler-message",
+        // No package of cargo's: a name that no package has.
+        "package_id": format!("straightline+file://{path}"),
+        "manifest_path": path,
+        "target": {
+            "kind": ["custom-build"],
+            "crate_types": ["bin"],
+            "name": kernel,
+            "src_path": path,
+            "edition": "2024",
+            "doc": false,
+            "doctest": false,
+            "test": false,
+        },
+        "message": rustc(diagnostic, errors),
+    })
+}
+
+/// The last message of all.
+pub fn finished(success: bool) -> Value {
+    json!({ "reason": "build-finished", "success": success })
+}
+
+/// Where a kernel's function is named, or the first line of its file: the place of errors that concern all of it.
+pub fn function(kernel: &Kernel) -> Option<Span> {
+    let declaration = format!("fn {}", kernel.name());
+    let named = kernel.files().iter().zip(0..).find_map(|(file, index)| {
+        let ends = |at: &usize| {
+            let next = file.text[at + declaration.len()..].chars().next();
+            !next.is_some_and(|c| c.is_alphanumeric() || c == '_')
+        };
+        let at = file.text.match_indices(&declaration).map(|(at, _)| at).find(ends)?;
+        Some((file, index, at + "fn ".len(), at + declaration.len()))
+    });
+    let first = || {
+        let file = kernel.files().first()?;
+        Some((file, 0, 0, file.text.lines().next()?.len()))
+    };
+    let (file, index, start, end) = named.or_else(first)?;
+    let (line, column) = position(&file.text, start);
+    Some(Span {
+        file: index,
+        start: start as u32,
+        end: end as u32,
+        line: line as u32,
+        column: column as u32,
+    })
+}
+
+/// An error in rustc's words.
+fn rustc(diagnostic: &Diagnostic, errors: &Errors) -> Value {
+    let primary = diagnostic.span.map(|at| (at, diagnostic.label.as_str(), true));
+    let others = diagnostic.others.iter().map(|(at, label)| (*at, label.as_str(), false));
+    let places = primary.into_iter().chain(others);
+    let spans: Vec<Value> = places
+        .filter_map(|(at, label, is_primary)| span(errors.files.get(at.file as usize)?, at, label, is_primary))
+        .collect();
+    // Editors show the children of an error instead of its label.
+    let label = Some(&diagnostic.label).filter(|label| !label.is_empty());
+    let notes = label
+        .into_iter()
+        .chain(&diagnostic.notes)
+        .map(|note| child("note", note));
+    let help = diagnostic.help.as_deref().map(|help| child("help", help));
+    json!({
+        "$message_type": "diagnostic",
+        "message": diagnostic.message,
+        // As clippy names its own: the part before the colons says who speaks.
+        "code": { "code": "straightline::kernel", "explanation": null },
+        "level": "error",
+        "spans": spans,
+        "children": notes.chain(help).collect::<Vec<_>>(),
+        "rendered": errors.render(false),
+    })
+}
+
+fn child(level: &str, message: &str) -> Value {
+    json!({ "message": message, "code": null, "level": level, "spans": [], "children": [], "rendered": null })
+}
+
+fn span(file: &File, at: Span, label: &str, is_primary: bool) -> Option<Value> {
+    let (start, end) = (at.start as usize, (at.end as usize).max(at.start as usize));
+    // A place outside of its file would put an editor's mark anywhere.
+    file.text.get(start..end)?;
+    let (line_start, column_start) = position(&file.text, start);
+    let (line_end, column_end) = position(&file.text, end);
+    let lines = file.text.lines().enumerate().skip(line_start - 1);
+    let text: Vec<Value> = lines
+        .take(line_end - line_start + 1)
+        .map(|(index, line)| {
+            let line = line.trim_start_matches('\u{feff}');
+            let first = if index + 1 == line_start { column_start } else { 1 };
+            let last = if index + 1 == line_end {
+                column_end
+            } else {
+                line.chars().count() + 1
+            };
+            json!({ "text": line, "highlight_start": first, "highlight_end": last })
+        })
+        .collect();
+    Some(json!({
+        "file_name": absolute(&file.path),
+        "byte_start": start,
+        "byte_end": end,
+        "line_start": line_start,
+        "line_end": line_end,
+        "column_start": column_start,
+        "column_end": column_end,
+        "is_primary": is_primary,
+        "text": text,
+        "label": if label.is_empty() { Value::Null } else { json!(label) },
+        "suggested_replacement": null,
+        "suggestion_applicability": null,
+        "expansion": null,
+    }))
+}
+
+/// Line and column of a byte, from 1, columns in characters. A byte order mark has no column.
+fn position(text: &str, byte: usize) -> (usize, usize) {
+    let before = &text[..byte];
+    let line = before.rfind('\n').map_or(0, |at| at + 1);
+    let column = before[line..].trim_start_matches('\u{feff}').chars().count() + 1;
+    (before.matches('\n').count() + 1, column)
+}
+
+/// A path that means the same in every folder; that of a text which is no file stays as it is.
+fn absolute(path: &str) -> String {
+    match std::path::absolute(path) {
+        Ok(whole) if Path::new(path).exists() => whole.display().to_string(),
+        _ => path.to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{function, position};
+    use straightline_codegen::Kernel;
+
+    #[test]
+    fn columns_are_characters() {
+        let text = "\u{feff}a\r\n// größer 🦀 x\n";
+        let at = |what: &str| position(text, text.find(what).expect("it is there"));
+        assert_eq!(
+            (at("a"), at("x"), position(text, text.len())),
+            ((1, 1), (2, 13), (3, 1))
+        );
+    }
+
+    #[test]
+    fn functions_are_found_by_their_whole_name() {
+        let place = |text: &str| {
+            function(&Kernel::from_text("k.rs", text, "k")).map(|at| (at.line, at.column, at.end - at.start))
+        };
+        assert_eq!(place("fn kk() {}\npub fn k() {}\n"), Some((2, 8, 1)));
+        assert_eq!(place("// nothing\nfn kk() {}\n"), Some((1, 1, 10)));
+        assert_eq!(place(""), None);
+    }
+}

@@ -1,0 +1,117 @@
+//! `check`: the errors of kernels, for people or for editors, without writing anything.
+
+mod before;
+mod message;
+
+use crate::args::{CheckArgs, MessageFormat};
+use crate::failure::{Failure, count};
+use crate::output;
+use std::collections::HashSet;
+use std::io::IsTerminal;
+use std::path::{Path, PathBuf};
+use straightline_codegen::diagnostic::{Diagnostic, Errors};
+use straightline_codegen::{EmitOptions, Kernel};
+
+/// Checks every kernel and prints all errors; fails if there is one, or if the command that runs first fails.
+pub fn run(args: &CheckArgs) -> Result<(), Failure> {
+    let names = names(&args.kernels, &args.source)?;
+    // What is not there is bad use, and told before anything runs.
+    let located: Result<Vec<Kernel>, Errors> = names.iter().map(|name| args.of(name).locate()).collect();
+    let located = located?;
+    let before = before::run(&args.command, args.message_format)?;
+    let mut shown = HashSet::new();
+    let mut broken = 0;
+    for (name, kernel) in names.iter().zip(&located) {
+        let Err(errors) = checked(args, kernel) else {
+            if args.message_format == MessageFormat::Human {
+                outln!("{name}: no errors");
+            }
+            continue;
+        };
+        broken += 1;
+        for diagnostic in &errors.diagnostics {
+            let one = Errors {
+                diagnostics: vec![diagnostic.clone()],
+                files: errors.files.clone(),
+            };
+            // Kernels that share a file share its errors.
+            if shown.insert(one.render(false)) {
+                print(args.message_format, name, &one);
+            }
+        }
+    }
+    let success = broken == 0 && before.is_ok();
+    if args.message_format == MessageFormat::Json {
+        outln!("{}", message::finished(success));
+    }
+    if broken > 0 {
+        return Err(Failure::Failed(format!(
+            "{} in {broken} of {}",
+            count(shown.len(), "error"),
+            count(names.len(), "kernel")
+        )));
+    }
+    before.map_err(Failure::Failed)
+}
+
+/// The kernels to check, those of folders by the order of their names.
+fn names(given: &[String], sources: &[PathBuf]) -> Result<Vec<String>, Failure> {
+    let mut names = Vec::new();
+    for name in given {
+        let folder = Path::new(name);
+        if !folder.is_dir() {
+            names.push(name.clone());
+            continue;
+        }
+        let refused = |error| Failure::Failed(format!("cannot read the folder `{name}`: {error}"));
+        let mut found = Vec::new();
+        for entry in std::fs::read_dir(folder).map_err(refused)? {
+            let path = entry.map_err(refused)?.path();
+            let rust = path.extension().is_some_and(|extension| extension == "rs");
+            // What only holds modules, and what is given as a source, is no kernel.
+            if rust && !path.ends_with("mod.rs") && !sources.contains(&path) {
+                found.push(path.display().to_string());
+            }
+        }
+        if found.is_empty() {
+            return Err(Failure::Usage(format!(
+                "no .rs file lies in the folder `{name}`: give a folder with kernels in it"
+            )));
+        }
+        found.sort();
+        names.append(&mut found);
+    }
+    Ok(names)
+}
+
+/// What `emit` would find wrong with a kernel. Every error has a place, since editors show no other.
+fn checked(args: &CheckArgs, kernel: &Kernel) -> Result<(), Errors> {
+    let placed = |mut errors: Errors| {
+        let place = message::function(kernel);
+        for diagnostic in errors.diagnostics.iter_mut().filter(|d| d.span.is_none()) {
+            diagnostic.span = place;
+        }
+        errors.files = kernel.files().to_vec().into();
+        errors
+    };
+    emitted(args, kernel).map_err(placed)
+}
+
+fn emitted(args: &CheckArgs, kernel: &Kernel) -> Result<(), Errors> {
+    let compiled = kernel.compile(&args.options.settings())?;
+    let options = EmitOptions::new().stage(super::natural_stage(&compiled));
+    match compiled.emit(&options) {
+        Ok(_) => Ok(()),
+        Err(error) => Err(Errors::of(Diagnostic::new(error.to_string()))),
+    }
+}
+
+fn print(format: MessageFormat, kernel: &str, error: &Errors) {
+    match format {
+        MessageFormat::Json => outln!("{}", message::of(kernel, error)),
+        MessageFormat::Human => {
+            let text = error.render(std::io::stderr().is_terminal());
+            output::note(format_args!("{}\n", output::limited(&text)));
+        }
+    }
+}

@@ -1,0 +1,110 @@
+//! `watch`: emits a kernel again whenever one of its files is saved.
+
+use super::{emit, run};
+use crate::args::WatchArgs;
+use crate::failure::Failure;
+use crate::gpu::Gpu;
+use crate::output;
+use std::path::PathBuf;
+use std::time::{Duration, Instant, SystemTime};
+
+/// Time between two looks at the files. Looking asks for the times of a few files, on any file system.
+const INTERVAL: Duration = Duration::from_millis(100);
+
+/// When a file was written last and how long it is; nothing where it cannot be told.
+type Stamp = Option<(SystemTime, u64)>;
+
+/// Emits, and again after every change, until it is interrupted or nobody reads what it prints.
+pub fn run(args: &WatchArgs) -> Result<(), Failure> {
+    let paths = files(args)?;
+    refuse_inputs_without_picture(args)?;
+    let mut gpu = None;
+    let mut seen = stamps(&paths);
+    loop {
+        // Of a file that was saved while it was compiled, the older stamp has been taken.
+        once(args, &mut gpu);
+        seen = changed(&paths, &seen);
+        if output::is_refused() {
+            return Ok(());
+        }
+    }
+}
+
+/// The kernel's files.
+fn files(args: &WatchArgs) -> Result<Vec<PathBuf>, Failure> {
+    let kernel = &args.emit.kernel.kernel;
+    let file = match kernel.split_once(".rs::") {
+        Some((path, _)) => format!("{path}.rs"),
+        None => kernel.clone(),
+    };
+    if !file.ends_with(".rs") {
+        return Err(Failure::Usage(format!(
+            "`{kernel}` is no file, and only files change: give FILE.rs or FILE.rs::FUNCTION"
+        )));
+    }
+    let paths: Vec<PathBuf> = [PathBuf::from(file)]
+        .into_iter()
+        .chain(args.emit.kernel.source.iter().cloned())
+        .collect();
+    // Later a file may be missing while it is saved; now its name is wrong.
+    args.emit.kernel.locate()?;
+    Ok(paths)
+}
+
+fn refuse_inputs_without_picture(args: &WatchArgs) -> Result<(), Failure> {
+    let given = &args.given;
+    let some = !given.input.is_empty() || !given.uniform.is_empty() || !given.buffer.is_empty() || given.size.is_some();
+    match args.picture.is_none() && some {
+        true => Err(Failure::Usage(
+            "--input, --uniform, --buffer and --size are for the picture: add --picture FILE.png".to_owned(),
+        )),
+        false => Ok(()),
+    }
+}
+
+/// Emits, and prints one line of what was written, or the errors.
+fn once(args: &WatchArgs, gpu: &mut Option<Gpu>) {
+    let start = Instant::now();
+    match made(args, gpu) {
+        Ok((name, written)) => {
+            let time = start.elapsed().as_millis();
+            outln!("{name}: wrote {} in {time} ms", written.join(", "));
+        }
+        // The status that the program would end with is of no use here: it goes on.
+        Err(failure) => drop(failure.report()),
+    }
+}
+
+fn made(args: &WatchArgs, gpu: &mut Option<Gpu>) -> Result<(String, Vec<String>), Failure> {
+    let ready = emit::compile(&args.emit)?;
+    let mut files = emit::write(&args.emit, &ready)?;
+    if let Some(run) = args.run() {
+        files.append(&mut run::make(&run, &ready.compiled, gpu)?.files);
+    }
+    let written = files.iter().map(|path| path.display().to_string());
+    Ok((ready.compiled.kernel, written.collect()))
+}
+
+/// Waits until the files are others than they were seen, and have stayed so for a while: an editor may write in several steps.
+fn changed(paths: &[PathBuf], seen: &[Stamp]) -> Vec<Stamp> {
+    let mut last = seen.to_vec();
+    loop {
+        std::thread::sleep(INTERVAL);
+        let now = stamps(paths);
+        if now == last && now != seen {
+            return now;
+        }
+        last = now;
+        if output::is_refused() {
+            return last;
+        }
+    }
+}
+
+fn stamps(paths: &[PathBuf]) -> Vec<Stamp> {
+    let stamp = |path: &PathBuf| {
+        let metadata = std::fs::metadata(path).ok()?;
+        Some((metadata.modified().ok()?, metadata.len()))
+    };
+    paths.iter().map(stamp).collect()
+}

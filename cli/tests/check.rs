@@ -1,0 +1,244 @@
+//! `check` as an editor runs it: what it prints is read by the crate that rust-analyzer reads cargo's messages with.
+
+mod common;
+
+use cargo_metadata::Message;
+use cargo_metadata::diagnostic::{Diagnostic, DiagnosticLevel, DiagnosticSpan};
+use common::{example, fails, finishes, scratch, straightline, write};
+use std::path::Path;
+
+/// Three errors: behind characters of two, three and four bytes; over two lines; and in a function that the kernel calls.
+const BROKEN: &str = "\
+use straightline_kernels::prelude::*;
+
+fn sharper(color: Vec4) -> Vec4 {
+    let half: f32 = color;
+    color * half
+}
+
+/// Größer – 🦀.
+pub fn lens(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
+    /* größer – 🦀 */ let x: f32 = true;
+    let y: f32 = color
+        .load(pixel);
+    sharper(color.load(pixel) * x + y)
+}
+";
+
+/// The messages of a run, and whether it succeeded.
+fn messages(arguments: &[&str]) -> (Vec<Diagnostic>, bool) {
+    let output = straightline(arguments);
+    let (mut found, mut finished) = (Vec::new(), None);
+    for message in Message::parse_stream(&output.stdout[..]) {
+        assert!(finished.is_none(), "a message comes after the last");
+        match message.expect("a line") {
+            Message::CompilerMessage(message) => {
+                assert!(message.target.src_path.is_absolute() && !message.package_id.repr.is_empty());
+                found.push(message.message);
+            }
+            Message::BuildFinished(last) => finished = Some(last.success),
+            other => panic!("{other:?} is no message of a check"),
+        }
+    }
+    let finished = finished.expect("a last message");
+    assert_eq!(
+        output.status.code(),
+        Some(if finished { 0 } else { 1 }),
+        "{arguments:?}"
+    );
+    (found, finished)
+}
+
+/// What a span marks in its file, read by lines and columns; bytes and the quoted lines must say the same.
+fn marked(span: &DiagnosticSpan) -> String {
+    assert!(Path::new(&span.file_name).is_absolute(), "{}", span.file_name);
+    let text = std::fs::read_to_string(&span.file_name).expect("the file is there");
+    let lines: Vec<&str> = text.lines().collect();
+    let lines = &lines[span.line_start - 1..span.line_end];
+    let quoted: Vec<&str> = span.text.iter().map(|line| line.text.as_str()).collect();
+    assert_eq!(quoted, lines);
+    let mut marked = Vec::new();
+    for (k, line) in lines.iter().enumerate() {
+        let characters: Vec<char> = line.chars().collect();
+        let first = if k == 0 { span.column_start } else { 1 };
+        let last = if k + 1 == lines.len() {
+            span.column_end
+        } else {
+            characters.len() + 1
+        };
+        let quote = &span.text[k];
+        assert_eq!((quote.highlight_start, quote.highlight_end), (first, last));
+        marked.push(characters[first - 1..last - 1].iter().collect::<String>());
+    }
+    let marked = marked.join("\n");
+    assert_eq!(&text[span.byte_start as usize..span.byte_end as usize], marked);
+    marked
+}
+
+#[test]
+fn an_editor_reads_every_error_and_its_place() {
+    let folder = scratch("check-json");
+    let kernel = write(&folder, "lens.rs", BROKEN);
+    let (found, finished) = messages(&["check", &kernel, "--message-format=json"]);
+    assert!(!finished);
+    let told: Vec<(String, String)> = found
+        .iter()
+        .map(|error| {
+            assert_eq!(error.level, DiagnosticLevel::Error);
+            assert!(
+                error
+                    .rendered
+                    .as_ref()
+                    .is_some_and(|text| text.contains(&error.message))
+            );
+            let primary: Vec<_> = error.spans.iter().filter(|span| span.is_primary).collect();
+            assert_eq!(primary.len(), 1, "{error:?}");
+            (error.message.clone(), marked(primary[0]))
+        })
+        .collect();
+    let expected = [
+        ("Vec4", "color"),
+        ("bool", "true"),
+        ("Vec4", "color\n        .load(pixel)"),
+    ];
+    assert_eq!(told.len(), expected.len(), "{told:?}");
+    for ((message, place), (name, marks)) in told.iter().zip(expected) {
+        assert!(
+            message.contains(&format!("found `{name}`")) && place == marks,
+            "{message}: {place}"
+        );
+    }
+    let of_people = straightline(&["check", &kernel]);
+    let said = String::from_utf8_lossy(&of_people.stderr);
+    for error in &found {
+        assert!(said.contains(error.rendered.as_deref().expect("a text")), "{said}");
+    }
+    assert!(said.ends_with("error: 3 errors in 1 of 1 kernel\n"), "{said}");
+}
+
+#[test]
+fn notes_help_and_further_places_are_kept() {
+    let folder = scratch("check-parts");
+    let text = "pub fn k(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {\n    let b = color.load(pixel).x.round();\n    Vec4::splat(b)\n}\n";
+    let kernel = write(&folder, "k.rs", text);
+    let (found, _) = messages(&["check", &kernel, "--message-format", "json"]);
+    let children: Vec<_> = found[0]
+        .children
+        .iter()
+        .map(|child| (child.level, child.message.as_str()))
+        .collect();
+    let label = found[0].spans[0].label.as_deref().expect("a label");
+    assert!(children.contains(&(DiagnosticLevel::Note, label)), "{children:?}");
+    assert!(
+        children.contains(&(DiagnosticLevel::Help, "write `round(x)`")),
+        "{children:?}"
+    );
+    assert_eq!(
+        found[0].code.as_ref().map(|code| code.code.as_str()),
+        Some("straightline::kernel")
+    );
+}
+
+#[test]
+fn an_error_of_all_of_a_kernel_is_at_its_name() {
+    let folder = scratch("check-whole");
+    let text =
+        "// fn lens is below\npub fn lens(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {\n    color.load(pixel)\n}\n";
+    let kernel = write(&folder, "lens.rs", text);
+    let (found, _) = messages(&["check", &kernel, "--message-format=json", "--set", "radius=3"]);
+    assert_eq!(
+        (found.len(), marked(&found[0].spans[0]).as_str()),
+        (1, "lens"),
+        "{found:?}"
+    );
+    // A file without its kernel is shown at its first line.
+    let other = write(&folder, "other.rs", text);
+    let (found, _) = messages(&["check", &other, "--message-format=json"]);
+    assert_eq!(marked(&found[0].spans[0]), "// fn lens is below");
+}
+
+#[test]
+fn a_folder_is_checked_whole_and_shared_errors_once() {
+    let folder = scratch("check-folder");
+    let kernel = |name: &str| {
+        format!("pub fn {name}(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {{\n    shared(color.load(pixel))\n}}\n")
+    };
+    for name in ["a", "b"] {
+        write(&folder, &format!("{name}.rs"), &kernel(name));
+    }
+    let shared = write(
+        &folder,
+        "shared.rs",
+        "pub fn shared(x: Vec4) -> Vec4 {\n    x.missing()\n}\n",
+    );
+    write(&folder, "mod.rs", "mod a;\nmod b;\nmod shared;\n");
+    let all = folder.to_str().expect("a path");
+    let (found, _) = messages(&["check", all, "--source", &shared, "--message-format=json"]);
+    assert_eq!(found.len(), 1, "{found:?}");
+    fails(
+        &["check", all, "--source", &shared],
+        1,
+        &["error: 1 error in 2 of 2 kernels"],
+    );
+    write(
+        &folder,
+        "shared.rs",
+        "pub fn shared(x: Vec4) -> Vec4 {\n    x * 0.5\n}\n",
+    );
+    let said = finishes(&["check", all, "--source", &shared]);
+    assert_eq!(said.matches(": no errors\n").count(), 2, "{said}");
+    let (found, finished) = messages(&["check", all, "--source", &shared, "--message-format=json"]);
+    assert!(found.is_empty() && finished);
+}
+
+#[test]
+fn what_is_not_there_is_bad_use() {
+    let folder = scratch("check-nothing");
+    let empty = folder.to_str().expect("a path");
+    fails(&["check"], 2, &["<KERNEL>"]);
+    fails(&["check", empty], 2, &["no .rs file lies in the folder"]);
+    fails(&["check", "sraaa", "--message-format=json"], 2, &["no kernel `sraaa`"]);
+    fails(
+        &["check", "nowhere.rs"],
+        2,
+        &["cannot read the kernel file `nowhere.rs`"],
+    );
+    fails(&["check", "sraa", "--message-format=xml"], 2, &["human", "json"]);
+}
+
+/// The command that an editor would otherwise run: here the binary itself, on another kernel.
+#[test]
+fn messages_of_a_command_come_first_and_its_failure_counts() {
+    let folder = scratch("check-before");
+    let kernel = write(&folder, "lens.rs", BROKEN);
+    let good = example("sobel");
+    let binary = env!("CARGO_BIN_EXE_straightline");
+    let before = |first: &str, second: &str| {
+        messages(&[
+            "check",
+            second,
+            "--message-format=json",
+            "--",
+            binary,
+            "check",
+            first,
+            "--message-format=json",
+        ])
+    };
+    let (found, finished) = before(&good, &kernel);
+    assert!(found.len() == 3 && !finished);
+    let (found, finished) = before(&kernel, &good);
+    assert!(found.len() == 3 && !finished);
+    let (found, finished) = before(&good, &good);
+    assert!(found.is_empty() && finished);
+    fails(
+        &["check", &good, "--", "no-such-program"],
+        1,
+        &["cannot run `no-such-program`"],
+    );
+    fails(
+        &["check", &good, "--", binary, "check", &kernel],
+        1,
+        &["lens.rs:10", "failed: exit status: 1"],
+    );
+}
