@@ -88,8 +88,13 @@ pub fn refusal(options: &Options) -> Option<&'static str> {
     if is("normals", "packed") && (is("metric", "normals") || is("metric", "depth")) {
         return Some("a packed texel holds more than this metric reads");
     }
-    let needs = !is("shading", "listed") && !is("resolve", "tent") && !is("normalisation", "paper");
-    if (is("search", "five") || is("search", "seven")) && !(needs && !is("normalisation", "epsilon")) {
+    let refuses = [
+        ("shading", "listed"),
+        ("resolve", "tent"),
+        ("normalisation", "paper"),
+        ("normalisation", "epsilon"),
+    ];
+    if value(options, "search", "none") != "none" && refuses.iter().any(|(name, value)| is(name, value)) {
         return Some(SEARCH_REFUSED);
     }
     None
