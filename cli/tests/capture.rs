@@ -100,7 +100,10 @@ fn a_capture_is_shaded_where_it_is_asked() {
         &["one, two or four", "there are 3"],
     );
     refused(&["--shaded", "0,3"], &["--shading listed", "--shading is centre"]);
-    refused(&["--shading", "corner"], &["`corner`", "centre, sample0 or listed"]);
+    refused(
+        &["--shading", "corner"],
+        &["`corner`", "centre, sample0, placed or listed"],
+    );
     let words = capture(&["--shading", "listed", "--shaded", "0,3", "--reference", "16"]);
     finishes(&words.iter().map(String::as_str).collect::<Vec<_>>());
     let resolve = [
@@ -126,6 +129,51 @@ fn a_capture_is_shaded_where_it_is_asked() {
         &[&resolve[..], &["--set", "shaded=0,1"]].concat(),
         2,
         &["shaded=0,1", "shaded=0,3"],
+    );
+}
+
+/// One shading sample a pixel, moved where geometry asks for it: `resolve` reads where from the capture.
+#[test]
+fn a_capture_that_is_placed_is_closer_to_its_reference() {
+    let folder = scratch("capture-placed");
+    let path = |name: &str| folder.join(name).to_string_lossy().into_owned();
+    let db = |shading: &str, more: &[&str]| {
+        let (frame, picture) = (path(shading), path("out.png"));
+        let capture = [
+            "capture",
+            "--scene",
+            "railings",
+            "--size",
+            "192x108",
+            "--shading",
+            shading,
+        ];
+        finishes(&[&capture[..], &["--reference", "16", "--out", &frame]].concat());
+        let resolve = [
+            "resolve",
+            "--capture",
+            &frame,
+            "--out",
+            &picture,
+            "--executor",
+            "cpu",
+            "--reference",
+            "--json",
+        ];
+        let relative = ["--set", "difference=relative", "--set", "depth-scale=3"];
+        let said: serde_json::Value =
+            serde_json::from_str(&finishes(&[&resolve[..], &relative, more].concat())).expect("JSON");
+        assert_eq!(said["options"]["shading"], shading);
+        said["psnr_db"].as_f64().expect("a number")
+    };
+    let (centred, placed) = (db("centre", &[]), db("placed", &["--set", "search=five"]));
+    assert!(placed > centred + 1.0, "{placed} dB placed, {centred} dB centred");
+    std::fs::remove_file(folder.join("placed/place.exr")).expect("it was written");
+    let (frame, picture) = (path("placed"), path("none.png"));
+    fails(
+        &["resolve", "--capture", &frame, "--out", &picture],
+        1,
+        &["place.exr", "channel Y"],
     );
 }
 

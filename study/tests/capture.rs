@@ -26,7 +26,8 @@ fn example(shading: ShadingSample) -> Capture {
         vec2(-0.375, 0.125),
         vec2(0.125, 0.375),
     ];
-    let layers = if shading == ShadingSample::Centre { 5 } else { 4 };
+    let has_centre = matches!(shading, ShadingSample::Centre | ShadingSample::Placed);
+    let layers = if has_centre { 5 } else { 4 };
     let depth = (0..layers)
         .map(|layer| frame(SIZE, |i| 10.0 * layer as f32 + (i * 0.37).sin()))
         .collect();
@@ -35,7 +36,7 @@ fn example(shading: ShadingSample) -> Capture {
         size: SIZE,
         samples,
         colors: Vec::new(),
-        place: None,
+        place: (shading == ShadingSample::Placed).then(|| frame(SIZE, |i| i as u32 % 5)),
         shading,
         normal_space: NormalSpace::View,
         camera: None,
@@ -76,6 +77,30 @@ fn write_exr(path: &Path, layers: &[(&str, UVec2, &[&str])]) {
 }
 
 #[test]
+fn places_are_layers_that_there_are() {
+    let scratch = Scratch::new("capture-places");
+    let beyond = Capture {
+        place: Some(frame(SIZE, |i| 3 + u32::from(i == 20.0) * 2)),
+        ..example(ShadingSample::Placed)
+    };
+    let error = beyond.write(&scratch.join("beyond")).unwrap_err().to_string();
+    assert!(error.contains("(1, 1)") && error.contains("4 is the centre"), "{error}");
+    let none = Capture {
+        place: None,
+        ..example(ShadingSample::Placed)
+    };
+    let error = none.write(&scratch.join("none")).unwrap_err().to_string();
+    assert!(error.contains("\"placed\""), "{error}");
+    let dir = scratch.join("written");
+    example(ShadingSample::Placed).write(&dir).unwrap();
+    write_exr(&dir.join("place.exr"), &[("place", SIZE, &["Y"])]);
+    let error = Capture::read(&dir).unwrap_err().to_string();
+    assert!(error.contains("(0, 0)") && error.contains("place.exr"), "{error}");
+    std::fs::remove_file(dir.join("place.exr")).unwrap();
+    assert!(matches!(Capture::read(&dir), Err(CaptureError::MissingFile { .. })));
+}
+
+#[test]
 fn what_is_written_is_read() {
     let scratch = Scratch::new("capture-round-trip");
     let full = example(ShadingSample::Centre);
@@ -92,7 +117,8 @@ fn what_is_written_is_read() {
         (small.layer_count(), small.shaded_layers(), small.shaded_offsets()),
         (4, vec![2], Some(vec![vec2(-0.375, 0.125)]))
     );
-    for (name, capture) in [("full", full), ("small", small)] {
+    let placed = example(ShadingSample::Placed);
+    for (name, capture) in [("full", full), ("small", small), ("placed", placed)] {
         let dir = scratch.join("deeper").join(name);
         capture.write(&dir).unwrap();
         assert_eq!(Capture::read(&dir).unwrap(), capture);

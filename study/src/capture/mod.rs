@@ -29,7 +29,8 @@ const NORMAL: &str = "normal.exr";
 const PLACE: &str = "place.exr";
 const REFERENCE: &str = "reference.exr";
 
-/// The channel of `place.exr`.
+/// The layer of `place.exr`, and its channel.
+const PLACE_LAYER: &str = "place";
 const PLACE_CHANNEL: &str = "Y";
 
 /// Every file that a capture may hold.

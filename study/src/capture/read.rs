@@ -2,8 +2,8 @@
 
 use super::description::{Description, STATED_BY};
 use super::{
-    COLOR, Capture, CaptureError, DEPTH, DESCRIPTION, NORMAL, PLACE, PLACE_CHANNEL, REFERENCE, ShadingSample,
-    layer_count, layer_name, mean,
+    COLOR, Capture, CaptureError, DEPTH, DESCRIPTION, NORMAL, PLACE, PLACE_CHANNEL, PLACE_LAYER, REFERENCE,
+    ShadingSample, layer_count, layer_name, mean,
 };
 use crate::picture::PictureError;
 use crate::picture::exr::{Source, read_color};
@@ -197,11 +197,12 @@ impl Layout<'_> {
             return Ok(None);
         }
         let wanted = "channel Y";
-        let contents = "the number of the layer in whose place each pixel is shaded, in channel Y";
+        let contents = "the number of the layer in whose place each pixel is shaded, in channel Y of layer `place`";
         let path = self.required(PLACE, contents)?;
         let source = Source::open(&path)?;
-        let plane = source.find("", PLACE_CHANNEL, wanted)?;
-        source.check(plane, "its layer", self.size(), STATED_BY)?;
+        self.refuse_surplus(&path, &source, &[PLACE_LAYER.to_owned()])?;
+        let plane = source.find(PLACE_LAYER, PLACE_CHANNEL, wanted)?;
+        source.check(plane, "layer `place`", self.size(), STATED_BY)?;
         let values = source.read(&[plane])?.pop().unwrap_or_default();
         // What is no such number becomes one that there is not.
         let number = |value: f32| {

@@ -3,8 +3,8 @@
 use super::description::{Description, STATED_BY};
 use super::read::expected_layers;
 use super::{
-    COLOR, Capture, CaptureError, DEPTH, DESCRIPTION, FILES, NORMAL, PLACE, PLACE_CHANNEL, REFERENCE, ShadingSample,
-    layer_name,
+    COLOR, Capture, CaptureError, DEPTH, DESCRIPTION, FILES, NORMAL, PLACE, PLACE_CHANNEL, PLACE_LAYER, REFERENCE,
+    ShadingSample, layer_name,
 };
 use crate::picture::exr::{self, Layer};
 use crate::picture::{self, PictureError};
@@ -133,7 +133,7 @@ impl Capture {
             }
         }
         if let Some(place) = &self.place {
-            let layer = Layer::new("", vec![(PLACE_CHANNEL, plane(place, |layer| layer as f32))]);
+            let layer = Layer::new(PLACE_LAYER, vec![(PLACE_CHANNEL, plane(place, |layer| layer as f32))]);
             exr::write(&dir.join(PLACE), self.size, vec![layer])?;
         }
         self.write_layers(&dir.join(DEPTH), &self.depth, |depth| vec![("Z", plane(depth, |z| z))])?;

@@ -63,7 +63,8 @@ impl Subject {
         }))
     }
 
-    /// A capture with all of its samples, with half of them and with a quarter, as long as four are left.
+    /// A capture with all of its samples, with half of them and with a quarter, as long as four are left. Of one whose shading is
+    /// placed all samples stay: pixels are shaded at any of them.
     pub fn of_capture(name: &str, mut capture: Capture) -> Subject {
         let reference = capture.reference.take();
         let referred_to = match &reference {
@@ -73,7 +74,7 @@ impl Subject {
         let mut counts = vec![capture.samples.len()];
         for share in [2, 4] {
             let fewer = capture.samples.len() / share;
-            if fewer >= 4 {
+            if fewer >= 4 && capture.shading != ShadingSample::Placed {
                 counts.push(fewer);
             }
         }
