@@ -4,7 +4,7 @@ mod common;
 
 use common::{fails, finishes, here, scratch};
 use straightline_kernels::prelude::{Frame, UVec2, Vec4};
-use straightline_study::picture;
+use straightline_testbed::picture;
 
 /// A grey picture with one brighter pixel.
 fn grey(size: u32, light: f32) -> Frame<Vec4> {

@@ -82,7 +82,7 @@ fn what_a_device_must_have_is_explained() {
 #[test]
 fn kernels_run_in_half_precision() {
     let folder = scratch("half-run");
-    let kernel = here("examples/kernels/convolution.rs");
+    let kernel = here("kernels/filters/convolution.rs");
     let picture = here("docs/detail.png");
     let run = |precision: &str, executor: &str| {
         let out = folder.join(format!("{precision}-{executor}.exr"));

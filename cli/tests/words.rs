@@ -18,7 +18,7 @@ fn commands() -> Vec<String> {
 
 #[test]
 fn words_are_as_captured() {
-    let kernel = here("examples/kernels/convolution.rs");
+    let kernel = here("kernels/filters/convolution.rs");
     for (name, arguments) in [
         ("help", &["--help"][..]),
         ("check", &["check", "--help"]),
@@ -67,7 +67,7 @@ fn the_list_fits_a_screen_and_has_everything() {
         }
     }
     // A kernel of one's own.
-    let own = finishes(&["list", &here("examples/kernels/kuwahara.rs")]);
+    let own = finishes(&["list", &here("kernels/filters/kuwahara.rs")]);
     assert!(
         own.contains("  radius: ") && own.contains("1 to 5, or uniform (default 3)"),
         "{own}"

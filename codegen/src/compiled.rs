@@ -7,6 +7,7 @@ use crate::policy::{Policy, Transport};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::sync::Arc;
+use straightline_kernels::{Entry, HalfPrecision, PaperCounts};
 use straightline_manifest::Counts;
 
 /// A kernel with everything decided, ready to be emitted or interpreted.
@@ -14,6 +15,8 @@ use straightline_manifest::Counts;
 pub struct Compiled {
     /// The kernel's name.
     pub kernel: String,
+    /// The entry of a built-in kernel.
+    pub builtin: Option<&'static Entry>,
     /// What it does, in a line.
     pub summary: String,
     /// Every option with its value.
@@ -40,6 +43,21 @@ pub struct Compiled {
 }
 
 impl Compiled {
+    /// What the publication of a built-in kernel counts for a pixel with these options; `None` also where one invocation has several.
+    pub fn paper(&self) -> Option<PaperCounts> {
+        let entry = self.builtin.filter(|_| self.graph.invocation.pixels() == [1, 1])?;
+        (entry.paper)(&|option| self.options.get(option).cloned())
+    }
+
+    /// What half precision does to the picture of a built-in kernel with these options; an option that a host sets is judged at
+    /// its default.
+    pub fn half_precision(&self) -> HalfPrecision {
+        let half = self
+            .builtin
+            .map(|entry| (entry.half)(&|option| self.options.get(option).cloned()));
+        half.unwrap_or(HalfPrecision::Unstudied)
+    }
+
     /// The kernel with whole quads computed by one invocation, as compute shaders and the interpreter need it; any other
     /// kernel as it is.
     pub fn in_blocks(&self) -> Cow<'_, Compiled> {

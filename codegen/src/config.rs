@@ -171,6 +171,12 @@ impl KernelConfig {
         self
     }
 
+    /// Whether a built-in kernel is written in half precision although hard cases show the loss: see [`EmitOptions::accept_loss`].
+    pub fn accept_loss(mut self, accept: bool) -> Self {
+        self.emit.accept_loss = accept;
+        self
+    }
+
     /// Bind group of everything, 0 to 31; by default 0. Devices promise four groups.
     pub fn group(mut self, group: u32) -> Self {
         self.emit.group = group;

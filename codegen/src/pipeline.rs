@@ -21,6 +21,7 @@ const MAX_SOURCE: u64 = 1 << 24;
 #[derive(Clone, Debug)]
 pub struct Kernel {
     name: String,
+    builtin: Option<&'static straightline_kernels::Entry>,
     summary: String,
     files: Arc<Vec<File>>,
     /// What the files define, read once for all variants.
@@ -142,6 +143,7 @@ impl Kernel {
         });
         Ok(Kernel {
             name: name.to_owned(),
+            builtin: Some(entry),
             summary: entry.summary.to_owned(),
             files: Arc::new(files.collect()),
             library: OnceLock::new(),
@@ -156,6 +158,7 @@ impl Kernel {
         };
         Kernel {
             name: function.to_owned(),
+            builtin: None,
             summary: String::new(),
             files: Arc::new(vec![file]),
             library: OnceLock::new(),
@@ -366,6 +369,7 @@ impl Kernel {
         };
         let compiled = Compiled {
             kernel: self.name.clone(),
+            builtin: self.builtin,
             summary,
             changed: self.changed(&library, settings, &evaluated.options)?,
             options: evaluated.options.clone(),

@@ -236,7 +236,7 @@ fn kernels() -> Vec<Kernel> {
     let mut kernels: Vec<Kernel> = built_in
         .map(|entry| Kernel::builtin(entry.name).unwrap_or_else(|e| panic!("{e}")))
         .collect();
-    let examples = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/kernels");
+    let examples = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../kernels/filters");
     for entry in std::fs::read_dir(examples).expect("examples") {
         let path = entry.expect("an entry").path();
         if path.extension().is_some_and(|e| e == "rs") {

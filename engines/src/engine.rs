@@ -24,6 +24,8 @@ pub struct Request<'a> {
     pub name: String,
     /// What the shader computes in.
     pub precision: Precision,
+    /// Whether half precision is taken whatever it loses: see [`EmitOptions::accept_loss`].
+    pub accept_loss: bool,
     /// Texel format of the output, where the language names it.
     pub format: Format,
 }
@@ -36,6 +38,7 @@ impl<'a> Request<'a> {
             options,
             name: compiled.kernel.clone(),
             precision: Precision::default(),
+            accept_loss: false,
             format: Format::default(),
         }
     }
@@ -143,7 +146,10 @@ impl Engine {
         let stage = self.description.shaders.values().next().map(|shader| shader.stage);
         let probe = EmitOptions::new().stage(stage.unwrap_or(Stage::Fragment));
         let limits = &self.description.limits;
-        let manifest = match request.compiled.emit(&probe.precision(request.precision)) {
+        let manifest = match request
+            .compiled
+            .emit(&probe.precision(request.precision).accept_loss(request.accept_loss))
+        {
             Ok(emitted) => emitted.manifest,
             Err(error) => return Err(error.into()),
         };
@@ -243,7 +249,10 @@ impl Shader {
     fn of(description: &ShaderDescription, request: &Request<'_>, bound: &Manifest) -> Result<Shader, Unfit> {
         let unknown = |why: String| Unfit::Limits(why);
         let options = description.options().map_err(unknown)?;
-        let mut options = options.precision(request.precision).format(request.format);
+        let mut options = options
+            .precision(request.precision)
+            .accept_loss(request.accept_loss)
+            .format(request.format);
         options.bindings = description.numbers.map_or_else(Vec::new, |numbers| numbers.of(bound));
         let emitted = request.compiled.emit(&options)?;
         let target = description.target().map_err(unknown)?;

@@ -9,6 +9,8 @@
 mod catalogue;
 #[cfg(feature = "native")]
 pub mod edge;
+pub mod filters;
+mod half;
 mod options;
 #[cfg(feature = "native")]
 pub mod prelude;
@@ -18,3 +20,4 @@ pub mod quad;
 pub mod sraa;
 
 pub use catalogue::{CATALOGUE, Entry, OptionValue, PaperCounts, SourceFile, find};
+pub use half::HalfPrecision;

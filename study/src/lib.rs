@@ -1,23 +1,14 @@
-//! A deferred testbed, captures, references and error metrics for studying antialiasing kernels.
+//! Studies of kernels: unroll against loop, methods of antialiasing against references, hard cases with their bounds, what GPU
+//! compilers say, and the search for the cheapest variant. Each gives a [`record`]; [`report`] makes a page of records.
 //!
-//! Only [`execute`], and the studies that run kernels, know the generator. All else stands apart from it: the oracle and the
-//! metrics judge what it emits.
+//! What runs kernels, and what judges them, is `straightline-testbed`.
 
-pub mod capture;
-pub mod encode;
-pub mod execute;
-pub mod gbuffer;
 pub mod hard;
 pub mod isa;
 pub mod loops;
-pub mod metrics;
-pub mod oracle;
 pub mod peers;
-pub mod picture;
 pub mod quality;
 pub mod record;
-pub mod render;
 pub mod report;
-pub mod scene;
 pub mod tune;
 pub mod watch;

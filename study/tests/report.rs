@@ -2,9 +2,10 @@
 
 use glam::{Vec4, uvec2};
 use straightline_kernels::prelude::Frame;
-use straightline_study::execute::{Clock, Ratio, Times};
 use straightline_study::record::*;
-use straightline_study::{picture, report};
+use straightline_study::report;
+use straightline_testbed::execute::{Clock, Ratio, Times};
+use straightline_testbed::picture;
 
 fn circumstances() -> Circumstances {
     Circumstances {

@@ -8,7 +8,7 @@ use straightline_codegen::emit::{Emitted, Target};
 use straightline_kernels::prelude::Frame;
 use straightline_runtime::manifest::{Binding, BindingKind, LanguageKind, Manifest, SamplerType};
 use straightline_runtime::{Pass, PassOptions};
-use straightline_study::execute::{Bench, Buffers, Inputs, SamplerState, Written};
+use straightline_testbed::execute::{Bench, Buffers, Inputs, SamplerState, Written};
 use wgpu::Features;
 
 /// A bench that runs SPIR-V, of any Vulkan adapter, with what kernels can use of it.

@@ -5,7 +5,7 @@ mod common;
 use common::{bench, same_bits};
 use straightline_codegen::{Stage, Unroll};
 use straightline_kernels::prelude::*;
-use straightline_study::execute::interpret;
+use straightline_testbed::execute::interpret;
 use straightline_tests::sraa::options::options;
 use straightline_tests::sraa::surfaces;
 

@@ -10,7 +10,7 @@ use straightline_codegen::{Compiled, EmitOptions, Kernel, Settings, Stage, ir};
 use straightline_kernels::prelude::*;
 use straightline_manifest::BindingKind;
 use straightline_runtime::{BindOptions, Error, Pass, Resource, UniformValue};
-use straightline_study::execute::{Bench, Inputs, test_inputs};
+use straightline_testbed::execute::{Bench, Inputs, test_inputs};
 use straightline_tests::passthrough;
 
 /// One of each kind of resource that kernels read.

@@ -16,10 +16,10 @@ use straightline_codegen::{Compiled, EmitOptions, Stage, Unroll};
 use straightline_kernels::edge::{Depth, Form, Output, Stalker, TabulaRasa};
 use straightline_kernels::prelude::*;
 use straightline_manifest::BindingKind;
-use straightline_study::execute::{Inputs, interpret};
-use straightline_study::render::{CpuRenderer, Renderer, reference};
-use straightline_study::scene::builtin;
-use straightline_study::{metrics, picture};
+use straightline_testbed::execute::{Inputs, interpret};
+use straightline_testbed::render::{CpuRenderer, Renderer, reference};
+use straightline_testbed::scene::builtin;
+use straightline_testbed::{metrics, picture};
 use world::{World, pixels};
 
 #[test]

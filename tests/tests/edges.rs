@@ -8,7 +8,7 @@ mod common;
 use common::{bench, same_bits};
 use straightline_codegen::{Branches, Kernel, Settings, Stage, Unroll};
 use straightline_kernels::prelude::*;
-use straightline_study::execute::{Inputs, interpret};
+use straightline_testbed::execute::{Inputs, interpret};
 
 /// The halves of a word: a float holds each.
 fn halves(n: u32) -> Vec2 {

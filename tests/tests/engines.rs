@@ -50,9 +50,9 @@ impl Subject {
 fn subjects() -> Vec<Subject> {
     vec![
         Subject::new("sraa", "", &[]),
-        Subject::new("kuwahara", "examples/kernels/kuwahara.rs", &[]),
-        Subject::new("fxaa", "examples/kernels/fxaa.rs", &[]),
-        Subject::new("bilateral", "examples/kernels/bilateral.rs", &[("sigma", "uniform")]),
+        Subject::new("kuwahara", "kernels/filters/kuwahara.rs", &[]),
+        Subject::new("fxaa", "kernels/filters/fxaa.rs", &[]),
+        Subject::new("bilateral", "kernels/filters/bilateral.rs", &[("sigma", "uniform")]),
         Subject::new("pcf", "", &[]),
     ]
 }
@@ -153,7 +153,7 @@ fn folders_are_as_they_were() {
 /// A folder of a user's own is an engine, and what is wrong with one is said.
 #[test]
 fn folders_of_users_are_engines() {
-    let subject = Subject::new("kuwahara", "examples/kernels/kuwahara.rs", &[]);
+    let subject = Subject::new("kuwahara", "kernels/filters/kuwahara.rs", &[]);
     let example = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/engines/shadertoy");
     let files = subject
         .files(&example.to_string_lossy())
@@ -216,7 +216,7 @@ fn folders_of_users_are_engines() {
 
 #[test]
 fn engines_that_are_not_there_are_named() {
-    let subject = Subject::new("kuwahara", "examples/kernels/kuwahara.rs", &[]);
+    let subject = Subject::new("kuwahara", "kernels/filters/kuwahara.rs", &[]);
     let message = subject.files("gdot").expect_err("no such engine").to_string();
     assert!(
         message.starts_with("there is no engine `gdot`: one of babylon, bevy, "),

@@ -5,7 +5,7 @@ mod common;
 use common::same_bits;
 use straightline_codegen::{Compiled, Unroll};
 use straightline_kernels::prelude::*;
-use straightline_study::execute::{Inputs, interpret};
+use straightline_testbed::execute::{Inputs, interpret};
 use straightline_tests::sraa::options::{one_at_a_time, options, random, refusal};
 use straightline_tests::sraa::{Options, compiled, native, surfaces};
 

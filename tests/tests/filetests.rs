@@ -171,9 +171,9 @@ fn passes_and_emission_give_what_the_files_say() {
 /// Every graph of the kernels, after every stage, is the same graph when it is read back.
 #[test]
 fn printed_graphs_read_back() {
-    let examples = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/kernels");
+    let examples = Path::new(env!("CARGO_MANIFEST_DIR")).join("../kernels/filters");
     let mut kernels = vec![Kernel::builtin("sraa").expect("built in")];
-    for entry in std::fs::read_dir(examples).expect("examples/kernels") {
+    for entry in std::fs::read_dir(examples).expect("kernels/filters") {
         let path = entry.expect("an entry").path();
         if path.extension().is_some_and(|e| e == "rs") {
             kernels.push(Kernel::from_file(&path, None).unwrap_or_else(|e| panic!("{e}")));

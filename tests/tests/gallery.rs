@@ -33,8 +33,8 @@ use std::path::{Path, PathBuf};
 use straightline_codegen::emit::{EmitError, Target};
 use straightline_codegen::{Branches, EmitOptions, Form, Kernel, Settings, Stage, Unroll};
 use straightline_kernels::prelude::*;
-use straightline_study::execute::Inputs;
 use straightline_study::peers;
+use straightline_testbed::execute::Inputs;
 use straightline_tests::compilers;
 
 const SIZE: UVec2 = uvec2(96, 64);

@@ -2,7 +2,7 @@
 
 use straightline_codegen::Format;
 use straightline_kernels::prelude::{Frame, Vec4};
-use straightline_study::execute::{Address, Comparison, SamplerState};
+use straightline_testbed::execute::{Address, Comparison, SamplerState};
 use straightline_tests::gl::{Context, Program, Texture, Varying};
 
 /// Neither side a multiple of a workgroup's or of a row's alignment.

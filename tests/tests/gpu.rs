@@ -5,8 +5,8 @@ mod common;
 use common::bench;
 use straightline_codegen::{Stage, Unroll};
 use straightline_kernels::prelude::*;
-use straightline_study::execute::{Bench, Inputs, interpret};
-use straightline_study::oracle::{self, SraaParams};
+use straightline_testbed::execute::{Bench, Inputs, interpret};
+use straightline_testbed::oracle::{self, SraaParams};
 use straightline_tests::sraa::options::{one_at_a_time, options, random, refusal, samples_needed};
 use straightline_tests::sraa::{Difference, Options, compiled, difference, scenes, surfaces};
 

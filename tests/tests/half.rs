@@ -22,7 +22,7 @@ use half::f16;
 use straightline_codegen::ir::F16;
 use straightline_codegen::{Compiled, Kernel, Precision, Settings, Stage, Unroll};
 use straightline_kernels::prelude::*;
-use straightline_study::execute::{Bench, Inputs, interpret};
+use straightline_testbed::execute::{Bench, Inputs, interpret};
 
 /// A kernel of a test's own, `k`.
 fn compile_text(text: &str, settings: &Settings) -> Compiled {

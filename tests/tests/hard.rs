@@ -5,11 +5,12 @@ mod common;
 
 use common::bench;
 use std::collections::BTreeSet;
-use straightline_codegen::Precision;
-use straightline_study::execute::Clock;
+use straightline_codegen::{Kernel, OptionKind, Precision, Settings};
+use straightline_kernels::{CATALOGUE, HalfPrecision};
 use straightline_study::hard::{self, Form, HardError, Selection};
 use straightline_study::record::{Circumstances, Executor, HardRecord, Record};
 use straightline_study::watch::Unwatched;
+use straightline_testbed::execute::Clock;
 use straightline_tests::impatient::StopsAfter;
 
 fn circumstances() -> Circumstances {
@@ -196,6 +197,50 @@ fn half_precision_is_allowed_where_it_cannot_be_seen() {
     }
     let error = hard::half_precision_verdict("kuwahara", &[]).expect_err("not studied");
     assert!(matches!(error, HardError::NotStudied(_)), "{error}");
+}
+
+/// What `emit` and `build.rs` go by is what the cases show, option by option.
+#[test]
+fn the_catalogue_says_of_half_precision_what_the_cases_show() {
+    for entry in CATALOGUE {
+        let kernel = Kernel::builtin(entry.name).expect("built in");
+        let options = kernel.options().expect("options");
+        let choices = options.iter().filter_map(|option| match &option.kind {
+            OptionKind::Choice(values) => Some(
+                values
+                    .iter()
+                    .map(|(value, _)| vec![(option.name.clone(), value.clone())]),
+            ),
+            _ => None,
+        });
+        let mut settings: Vec<Vec<(String, String)>> = choices.flatten().collect();
+        if entry.name == "sraa" {
+            let normals = ("metric".to_owned(), "normals".to_owned());
+            settings.extend(
+                settings
+                    .clone()
+                    .into_iter()
+                    .map(|set| [vec![normals.clone()], set].concat()),
+            );
+        }
+        settings.push(Vec::new());
+        for set in settings {
+            let chosen = Settings {
+                options: set.clone(),
+                ..Settings::default()
+            };
+            let Ok(compiled) = kernel.compile(&chosen) else {
+                continue;
+            };
+            let said = compiled.half_precision();
+            match (hard::half_precision_verdict(entry.name, &set), said) {
+                (Err(HardError::NotStudied(_)), said) => assert_eq!(said, HalfPrecision::Unstudied, "{}", entry.name),
+                (Ok(found), HalfPrecision::Kept) if found.reason.is_none() => {}
+                (Ok(found), HalfPrecision::Lost(_)) if found.reason.is_some() => {}
+                (found, said) => panic!("{} {set:?}: {said:?}, and the cases show {found:?}", entry.name),
+            }
+        }
+    }
 }
 
 #[test]

@@ -14,7 +14,7 @@ use straightline_codegen::diagnostic::Errors;
 use straightline_codegen::emit::Target;
 use straightline_codegen::{Branches, Compiled, EmitOptions, Kernel, Settings, Stage, Unroll};
 use straightline_kernels::prelude::Frame;
-use straightline_study::execute::{Inputs, interpret};
+use straightline_testbed::execute::{Inputs, interpret};
 
 type Native = fn(&Frame<Vec4>, i32, IVec2) -> Vec4;
 

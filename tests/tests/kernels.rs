@@ -1,36 +1,36 @@
-//! The kernels of `examples/kernels/`: as rustc compiles them, in every form by the interpreter, and on a GPU.
+//! The kernels of `kernels/filters/`: as rustc compiles them, in every form by the interpreter, and on a GPU.
 //! `STRAIGHTLINE_PICTURES=DIR` writes what they make.
 
 // As a graphics programmer's crate would hold them.
 #![allow(missing_docs, clippy::needless_range_loop)]
 
-#[path = "../../examples/kernels/bilateral.rs"]
+#[path = "../../kernels/filters/bilateral.rs"]
 mod bilateral;
-#[path = "../../examples/kernels/catmull_rom.rs"]
+#[path = "../../kernels/filters/catmull_rom.rs"]
 mod catmull_rom;
 mod common;
-#[path = "../../examples/kernels/convolution.rs"]
+#[path = "../../kernels/filters/convolution.rs"]
 mod convolution;
-#[path = "../../examples/kernels/fxaa.rs"]
+#[path = "../../kernels/filters/fxaa.rs"]
 mod fxaa;
 #[allow(dead_code)] // one of its two passes is used
-#[path = "../../examples/kernels/gaussian.rs"]
+#[path = "../../kernels/filters/gaussian.rs"]
 mod gaussian;
-#[path = "../../examples/kernels/joint_bilateral_upsampling.rs"]
+#[path = "../../kernels/filters/joint_bilateral_upsampling.rs"]
 mod joint_bilateral_upsampling;
-#[path = "../../examples/kernels/kuwahara.rs"]
+#[path = "../../kernels/filters/kuwahara.rs"]
 mod kuwahara;
-#[path = "../../examples/kernels/median.rs"]
+#[path = "../../kernels/filters/median.rs"]
 mod median;
-#[path = "../../examples/kernels/sobel.rs"]
+#[path = "../../kernels/filters/sobel.rs"]
 mod sobel;
-#[path = "../../examples/kernels/ssao.rs"]
+#[path = "../../kernels/filters/ssao.rs"]
 mod ssao;
 
 use common::forms::{Example, first, image, save, texture};
 use straightline_codegen::Settings;
 use straightline_kernels::prelude::*;
-use straightline_study::execute::{Inputs, test_inputs};
+use straightline_testbed::execute::{Inputs, test_inputs};
 
 const SIZE: UVec2 = uvec2(96, 64);
 
@@ -40,7 +40,7 @@ fn inputs(example: &Example) -> Inputs {
 
 /// Runs one kernel in every form. `native` is given the inputs and a pixel.
 fn check(name: &'static str, tolerance: f32, unsure: f64, native: impl Fn(&Inputs, IVec2) -> Vec4) {
-    let example = Example::new("kernels", name);
+    let example = Example::new("kernels/filters", name);
     let inputs = inputs(&example);
     let shown = example.check(&inputs, tolerance, unsure, |at| native(&inputs, at));
     save(name, &inputs, &shown);
@@ -72,7 +72,7 @@ fn median() {
 /// The network against sorting, on every component.
 #[test]
 fn the_network_finds_the_median() {
-    let inputs = inputs(&Example::new("kernels", "median"));
+    let inputs = inputs(&Example::new("kernels/filters", "median"));
     let color = image(&inputs, "color");
     for at in [ivec2(0, 0), ivec2(40, 30), ivec2(95, 63)] {
         let found = median::median(color, at);
@@ -160,7 +160,7 @@ fn convolution() {
 /// A weight of zero is not in the shader: neither its product nor its read.
 #[test]
 fn zero_weights_cost_nothing() {
-    let example = Example::new("kernels", "convolution");
+    let example = Example::new("kernels/filters", "convolution");
     let reads = |weights: &str| {
         let settings = Settings {
             options: vec![("weights".to_owned(), weights.to_owned())],

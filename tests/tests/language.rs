@@ -9,7 +9,7 @@ use std::path::PathBuf;
 use straightline_codegen::ir::F16;
 use straightline_codegen::{Branches, Compiled, EmitOptions, Kernel, Precision, Settings, Stage, Unroll, emit::Target};
 use straightline_kernels::prelude::*;
-use straightline_study::execute::{self, SamplerState, interpret};
+use straightline_testbed::execute::{self, SamplerState, interpret};
 use straightline_tests::sraa::Random;
 
 /// What the examples read, by name.

@@ -12,18 +12,18 @@ use straightline_codegen::emit::Target;
 use straightline_codegen::interp::{Bindings, Image, Interpreter, Texels};
 use straightline_codegen::{Branches, Compiled, EmitOptions, Kernel, Settings, Unroll};
 use straightline_runtime::{Error, Pass, PassOptions};
-use straightline_study::execute::{Inputs, interpret, test_inputs};
 use straightline_study::loops::{LoopsError, Method, Subject, study, subjects};
 use straightline_study::record::{Circumstances, FormKind, LoopsRecord, Record};
 use straightline_study::watch::Unwatched;
+use straightline_testbed::execute::{Inputs, interpret, test_inputs};
 use straightline_tests::impatient::StopsAfter;
 
-/// Every built-in kernel with its default options, and the ten of `examples/kernels`.
+/// Every built-in kernel with its default options, and the ten of `kernels/filters`.
 fn kernels() -> Vec<Kernel> {
     let builtin = straightline_kernels::CATALOGUE.iter().map(|entry| entry.name);
     let mut all: Vec<Kernel> = builtin.map(|name| Kernel::builtin(name).expect("built in")).collect();
-    let examples = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/kernels");
-    for entry in std::fs::read_dir(examples).expect("examples/kernels") {
+    let examples = Path::new(env!("CARGO_MANIFEST_DIR")).join("../kernels/filters");
+    for entry in std::fs::read_dir(examples).expect("kernels/filters") {
         let path = entry.expect("an entry").path();
         all.push(Kernel::from_file(&path, None).unwrap_or_else(|e| panic!("{e}")));
     }
@@ -361,7 +361,7 @@ fn every_form_is_there_or_says_why_not() {
             date: "2000-01-01T00:00:00Z".to_owned(),
             adapter: "any".to_owned(),
             processor: "any".to_owned(),
-            clock: straightline_study::execute::Clock::WallClock,
+            clock: straightline_testbed::execute::Clock::WallClock,
             size: METHOD.size.to_array(),
             rounds: METHOD.rounds,
             complete: true,

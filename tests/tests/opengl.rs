@@ -3,7 +3,7 @@
 use straightline_codegen::emit::{EmitError, Target};
 use straightline_codegen::{Compiled, EmitOptions, Format, Kernel, Settings, Stage, Transport, Unroll};
 use straightline_kernels::prelude::*;
-use straightline_study::execute::{Inputs, interpret, test_inputs};
+use straightline_testbed::execute::{Inputs, interpret, test_inputs};
 use straightline_tests::gl::{self, Context};
 use straightline_tests::sraa::surfaces;
 

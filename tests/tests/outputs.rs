@@ -11,7 +11,7 @@ use straightline_codegen::ir::F16;
 use straightline_codegen::{Branches, EmitOptions, Form, Format, Origin, Precision, Settings, Stage, Unroll};
 use straightline_kernels::prelude::*;
 use straightline_runtime::{Error, PassOptions, Region, wgpu};
-use straightline_study::execute::{Bench, Inputs, Written, interpret};
+use straightline_testbed::execute::{Bench, Inputs, Written, interpret};
 use straightline_tests::texts::{compiled, texels};
 use straightline_tests::{compilers, kernel, passthrough};
 
@@ -326,7 +326,7 @@ fn regions_and_rows_from_below_hold_for_every_target() {
 fn written(
     bench: &Bench,
     pass: &straightline_runtime::Pass,
-    uploaded: &straightline_study::execute::Uploaded,
+    uploaded: &straightline_testbed::execute::Uploaded,
     size: UVec2,
     region: Option<Region>,
 ) -> Vec<Written> {

@@ -6,13 +6,13 @@ use common::bench;
 use std::path::Path;
 use straightline_codegen::{Settings, Stage};
 use straightline_kernels::prelude::*;
-use straightline_study::capture::Capture;
-use straightline_study::execute::Inputs;
 use straightline_study::peers::{Smaa, Transfer, fxaa};
 use straightline_study::quality::{Outcome, Plan, QualityError, Source, losses, study};
-use straightline_study::scene::Scene;
 use straightline_study::watch::Unwatched;
-use straightline_study::{metrics, picture};
+use straightline_testbed::capture::Capture;
+use straightline_testbed::execute::Inputs;
+use straightline_testbed::scene::Scene;
+use straightline_testbed::{metrics, picture};
 use straightline_tests::impatient::StopsAfter;
 
 /// A line of slope 1/5 between light and dark, each pixel shaded at its centre, and what it should look like.

@@ -8,7 +8,7 @@ mod common;
 use common::{bench, same_bits};
 use straightline_codegen::{Compiled, Kernel, Origin, Settings, Stage};
 use straightline_kernels::prelude::*;
-use straightline_study::execute::{self, Inputs, SamplerState, interpret};
+use straightline_testbed::execute::{self, Inputs, SamplerState, interpret};
 use straightline_tests::sraa::Random;
 
 /// Kernels for rustc, and their text for the generator.

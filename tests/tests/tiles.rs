@@ -9,7 +9,7 @@ use straightline_codegen::emit::Target;
 use straightline_codegen::{EmitOptions, Format, Stage, Unroll};
 use straightline_kernels::prelude::*;
 use straightline_runtime::{Error, Region};
-use straightline_study::execute::cropped;
+use straightline_testbed::execute::cropped;
 use straightline_tests::sraa::options::options;
 use straightline_tests::sraa::{Options, compiled, surfaces};
 

@@ -9,7 +9,7 @@ use straightline_codegen::emit::{EmitError, Target};
 use straightline_codegen::{Branches, EmitOptions, Form, Kernel, Settings, Stage, Unroll};
 use straightline_kernels::prelude::*;
 use straightline_runtime::{Region, wgpu};
-use straightline_study::execute::{Inputs, interpret};
+use straightline_testbed::execute::{Inputs, interpret};
 use straightline_tests::texts::{compiled, texels};
 use straightline_tests::{compilers, kernel, passthrough};
 

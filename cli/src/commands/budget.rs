@@ -10,9 +10,9 @@ use std::time::SystemTime;
 use straightline_codegen::{Compiled, Kernel, Settings, files};
 use straightline_manifest::Stage;
 use straightline_runtime::Pass;
-use straightline_study::capture::ShadingSample;
-use straightline_study::execute::{Clock, Job, Times, Uploaded};
-use straightline_study::{gbuffer, render};
+use straightline_testbed::capture::ShadingSample;
+use straightline_testbed::execute::{Clock, Job, Times, Uploaded};
+use straightline_testbed::{gbuffer, render};
 
 /// Bytes of a geometry sample: what is stored, how many bytes, and where that is assumed.
 const FORMATS: [(&str, u64); 3] = [

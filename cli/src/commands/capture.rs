@@ -4,8 +4,8 @@ use crate::args::CaptureArgs;
 use crate::failure::Failure;
 use crate::gpu::Gpu;
 use crate::scene;
-use straightline_study::render;
-use straightline_study::scene::Viewpoint;
+use straightline_testbed::render;
+use straightline_testbed::scene::Viewpoint;
 
 /// Renders and writes a capture, or nothing.
 pub fn run(args: &CaptureArgs) -> Result<(), Failure> {

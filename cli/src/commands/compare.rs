@@ -7,7 +7,7 @@ use serde_json::json;
 use std::path::Path;
 use straightline_kernels::prelude::Frame;
 use straightline_study::record::MOST_DB;
-use straightline_study::{metrics, picture};
+use straightline_testbed::{metrics, picture};
 
 /// Reads two pictures of one size and prints PSNR, SSIM and FLIP.
 ///

@@ -13,12 +13,12 @@ use straightline_codegen::{Compiled, Kernel, Settings, Unroll, default_set, file
 use straightline_kernels::prelude::Frame;
 use straightline_manifest::Stage;
 use straightline_runtime::Pass;
-use straightline_study::capture::{Capture, ShadingSample};
-use straightline_study::execute::{Clock, ExecuteError, Inputs, Job, Times, Uploaded, interpret};
-use straightline_study::gbuffer;
-use straightline_study::oracle::{self, SraaParams};
-use straightline_study::render::{self, Renderer};
-use straightline_study::{metrics, picture};
+use straightline_testbed::capture::{Capture, ShadingSample};
+use straightline_testbed::execute::{Clock, ExecuteError, Inputs, Job, Times, Uploaded, interpret};
+use straightline_testbed::gbuffer;
+use straightline_testbed::oracle::{self, SraaParams};
+use straightline_testbed::render::{self, Renderer};
+use straightline_testbed::{metrics, picture};
 
 /// One antialiased picture and what it took.
 struct Method {

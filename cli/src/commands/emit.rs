@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 use straightline_codegen::{Compiled, EmitOptions, Kernel, Precision, files};
 use straightline_engines::{Engine, EngineError, Request};
-use straightline_study::hard::{self, HardError};
+use straightline_kernels::HalfPrecision;
 
 /// Writes the shader in every language asked for and its manifest, or what an engine's user drops in, or nothing; prints the
 /// paths.
@@ -44,12 +44,13 @@ pub fn write(args: &EmitArgs, Ready { kernel, compiled }: &Ready) -> Result<Vec<
     }
     if let Some(engine) = &args.engine {
         let files = for_engine(args, kernel, compiled, engine, name)?;
-        return write_all(args, &files);
+        return write_all(args, compiled, &files);
     }
     let mut options = EmitOptions::new()
         .stage(args.stage.into())
         .format(args.format)
         .precision(args.precision)
+        .accept_loss(args.accept_loss)
         .targets(args.target.iter().copied());
     options.form = args.form;
     options.origin = args.origin;
@@ -61,7 +62,7 @@ pub fn write(args: &EmitArgs, Ready { kernel, compiled }: &Ready) -> Result<Vec<
     options.enable_subgroups = args.enable_subgroups;
     options.workgroup = args.workgroup.map(|size| size.to_array());
     let emitted = compiled.emit(&options).map_err(Failure::of)?;
-    write_all(args, &emitted.named(name))
+    write_all(args, compiled, &emitted.named(name))
 }
 
 /// The files for an engine.
@@ -80,38 +81,17 @@ fn for_engine(
     let request = Request {
         name: name.to_owned(),
         precision: args.precision,
+        accept_loss: args.accept_loss,
         format: args.format,
         ..Request::new(compiled, &options)
     };
     engine.files(&request).map_err(Failure::of)
 }
 
-fn write_all(args: &EmitArgs, named: &BTreeMap<String, Vec<u8>>) -> Result<Vec<PathBuf>, Failure> {
-    if args.precision == Precision::F16 && !args.accept_loss {
-        refuse_visible_loss(args)?;
+fn write_all(args: &EmitArgs, compiled: &Compiled, named: &BTreeMap<String, Vec<u8>>) -> Result<Vec<PathBuf>, Failure> {
+    if args.precision == Precision::F16 && compiled.half_precision() == HalfPrecision::Unstudied {
+        let kernel = &args.kernel.kernel;
+        errln!("note: no hard cases tell what f16 costs `{kernel}`; compare `run --precision f16` and f32");
     }
     files::write_all(&args.out, named).map_err(Failure::of)
-}
-
-/// Half precision is refused where hard cases show more error than cannot be seen, with the reason. A kernel that has no hard
-/// cases is its author's to judge.
-fn refuse_visible_loss(args: &EmitArgs) -> Result<(), Failure> {
-    let kernel = &args.kernel.kernel;
-    // What a host sets at run time is judged at its default.
-    let set = args.kernel.options.set.iter();
-    let options: Vec<_> = set.filter(|(_, value)| value != "uniform").cloned().collect();
-    let verdict = match hard::half_precision_verdict(kernel, &options) {
-        Err(HardError::NotStudied(_)) => {
-            errln!("note: no hard cases tell what f16 costs `{kernel}`; compare `run --precision f16` and f32");
-            return Ok(());
-        }
-        verdict => verdict.map_err(Failure::of)?,
-    };
-    match verdict.reason {
-        None => Ok(()),
-        Some(reason) => Err(Failure::Failed(format!(
-            "`{kernel}` in f16 does not keep what can be seen: {reason}. Emit it in f32; with other options (`study hard --precision f16` tells which keep what \
-             can be seen); or, where your scenes do not show it, which `tune` measures, with --accept-loss"
-        ))),
-    }
 }

@@ -24,13 +24,14 @@ pub fn run(args: &ExplainArgs) -> Result<(), Failure> {
     let options = EmitOptions::new()
         .stage(super::natural_stage(&compiled))
         .precision(args.precision)
+        .accept_loss(true)
         .targets(targets);
     let emitted = compiled.emit(&options).map_err(Failure::of)?;
     let isa = args.isa.map(|family| machine_code(&emitted, family)).transpose()?;
     let bound = bound(&emitted.manifest);
     let features = emitted.manifest.features.join(", ");
     let counts = emitted.manifest.counts;
-    let paper = paper(&compiled);
+    let paper = compiled.paper();
     if args.json {
         let mut out = to_json(&compiled, &counts, &bound, paper);
         out.insert("precision".into(), json!(args.precision));
@@ -100,15 +101,6 @@ fn bound(manifest: &Manifest) -> Bound {
         }
     }
     Bound { inputs, uniforms }
-}
-
-fn paper(compiled: &Compiled) -> Option<PaperCounts> {
-    // It counts what one pixel costs.
-    if compiled.graph.invocation.pixels() != [1, 1] {
-        return None;
-    }
-    let entry = straightline_kernels::find(&compiled.kernel)?;
-    (entry.paper)(&|option| compiled.options.get(option).cloned())
 }
 
 fn to_json(compiled: &Compiled, counts: &Counts, bound: &Bound, paper: Option<PaperCounts>) -> Map<String, Value> {

@@ -7,10 +7,10 @@ use glam::Vec4;
 use serde_json::json;
 use straightline_codegen::{Compiled, Kernel, files};
 use straightline_kernels::prelude::Frame;
-use straightline_study::capture::Capture;
-use straightline_study::execute::interpret;
-use straightline_study::gbuffer;
-use straightline_study::{metrics, picture};
+use straightline_testbed::capture::Capture;
+use straightline_testbed::execute::interpret;
+use straightline_testbed::gbuffer;
+use straightline_testbed::{metrics, picture};
 
 /// Reads a capture, resolves it with SRAA, writes the picture, prints errors if asked.
 pub fn run(args: &ResolveArgs) -> Result<(), Failure> {

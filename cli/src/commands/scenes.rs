@@ -3,7 +3,7 @@
 use crate::args::ScenesArgs;
 use crate::failure::Failure;
 use serde_json::json;
-use straightline_study::scene::NAMES;
+use straightline_testbed::scene::NAMES;
 
 /// Prints every scene's name and purpose.
 pub fn run(args: &ScenesArgs) -> Result<(), Failure> {

@@ -57,7 +57,7 @@ pub fn is_empty(folder: &Path) -> bool {
     !folder.exists() || std::fs::read_dir(folder).expect("a folder").next().is_none()
 }
 
-/// A kernel of `examples/kernels`.
+/// A kernel of `kernels/filters`.
 pub fn example(name: &str) -> String {
-    here(&format!("examples/kernels/{name}.rs"))
+    here(&format!("kernels/filters/{name}.rs"))
 }

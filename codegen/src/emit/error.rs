@@ -3,6 +3,17 @@
 /// Why a kernel cannot be emitted.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum EmitError {
+    /// A built-in kernel in half precision, whose loss hard cases show.
+    #[error(
+        "`{kernel}` in f16 does not keep what can be seen: {reason}. Emit it in f32, or with options that keep it (`study hard --precision f16` tells which \
+         do); where your scenes do not show the loss, which `tune` measures, accept it: `--accept-loss`, or `.accept_loss(true)` in build.rs"
+    )]
+    VisibleLoss {
+        /// The kernel.
+        kernel: String,
+        /// What 11 bits cannot hold.
+        reason: &'static str,
+    },
     /// The size of the frame is needed and nothing tells it.
     #[error(
         "`{kernel}` needs the frame's size but reads no texture of that size, so only a compute shader with an output can know it: emit a whole shader for compute, or take a `Frame`"

@@ -44,6 +44,7 @@ use crate::policy::Transport;
 use std::borrow::Cow;
 use std::cell::OnceCell;
 use std::collections::BTreeMap;
+use straightline_kernels::HalfPrecision;
 use straightline_manifest::{Counts, Form, Manifest, Precision, Stage, hash_of_bytes, hash_of_text};
 
 pub use bindings::{Module, bindings};
@@ -156,6 +157,15 @@ fn emit(compiled: &Compiled, options: &EmitOptions) -> Result<Emitted, EmitError
         && (x == 0 || y == 0 || x.saturating_mul(y) > 1024)
     {
         return Err(EmitError::Workgroup(x, y));
+    }
+    if options.precision == Precision::F16
+        && !options.accept_loss
+        && let HalfPrecision::Lost(reason) = compiled.half_precision()
+    {
+        return Err(EmitError::VisibleLoss {
+            kernel: compiled.kernel.clone(),
+            reason,
+        });
     }
     let mut options = options.clone();
     if options.is_function() {

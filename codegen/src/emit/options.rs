@@ -41,6 +41,9 @@ pub struct EmitOptions {
     /// What the shader computes in. In half precision every float of the kernel is an `f16`: what is read is rounded once, as
     /// it comes in, and the result is an `f32` again when it is stored. Not in GLSL.
     pub precision: Precision,
+    /// Whether a built-in kernel is written in half precision although hard cases show the loss
+    /// ([`Compiled::half_precision`](crate::Compiled::half_precision)). Of one's own kernels one is the judge.
+    pub accept_loss: bool,
     /// Languages.
     pub targets: BTreeSet<Target>,
     /// Bind group of everything, 0 to 31; devices promise four of them. HLSL has a register space for it.
@@ -77,6 +80,7 @@ impl EmitOptions {
             workgroup: None,
             region: false,
             precision: Precision::default(),
+            accept_loss: false,
             targets: BTreeSet::from([Target::Wgsl]),
             group: 0,
             bindings: Vec::new(),
@@ -126,6 +130,12 @@ impl EmitOptions {
     /// Computing in a precision.
     pub fn precision(mut self, precision: Precision) -> Self {
         self.precision = precision;
+        self
+    }
+
+    /// Whatever half precision does to the picture: see [`EmitOptions::accept_loss`].
+    pub fn accept_loss(mut self, accept: bool) -> Self {
+        self.accept_loss = accept;
         self
     }
 

@@ -38,14 +38,24 @@ const fn number(name: &'static str, value: &'static [f64], min: f64, max: f64) -
     UniformRange { name, value, min, max }
 }
 
+/// Where the files of a folder of the page are in the repository.
+macro_rules! folder {
+    ("kernels") => {
+        "kernels/filters"
+    };
+    ("gallery") => {
+        "examples/gallery"
+    };
+}
+
 macro_rules! example {
-    ($group:literal, $folder:literal, $name:literal $(; scale $scale:literal)? $(; unroll $unroll:literal)? $(, $($uniform:expr),+)?) => {
+    ($group:literal, $folder:tt, $name:literal $(; scale $scale:literal)? $(; unroll $unroll:literal)? $(, $($uniform:expr),+)?) => {
         Entry {
             id: concat!($folder, "/", $name),
             group: $group,
             example: Some((
-                concat!("examples/", $folder, "/", $name, ".rs"),
-                include_str!(concat!("../../../examples/", $folder, "/", $name, ".rs")),
+                concat!(folder!($folder), "/", $name, ".rs"),
+                include_str!(concat!("../../../", folder!($folder), "/", $name, ".rs")),
             )),
             uniforms: &[$($($uniform),+)?],
             scale: 1 $( * $scale)?,
@@ -231,11 +241,6 @@ impl Entry {
             }
         }
     }
-}
-
-/// The built-in kernel of a name of the page.
-pub fn builtin(id: &str) -> Option<&'static straightline_kernels::Entry> {
-    straightline_kernels::find(id)
 }
 
 /// A kernel by its name.

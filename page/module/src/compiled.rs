@@ -1,6 +1,5 @@
 //! A kernel's shaders, counts and options.
 
-use crate::catalogue;
 use crate::errors::Refusal;
 use crate::options;
 use crate::state::State;
@@ -120,7 +119,7 @@ pub fn compile(state: &mut State, request: &CompileRequest) -> Result<Value, Ref
         "summary": compiled.summary,
         "options": infos,
         "values": compiled.options,
-        "paper": paper(&request.asked, &compiled),
+        "paper": paper(&compiled),
         "loops": loops.collect::<Vec<_>>(),
         "quad": compiled.quad.is_some() || compiled.transport.is_some(),
         "shaders": shaders,
@@ -128,11 +127,8 @@ pub fn compile(state: &mut State, request: &CompileRequest) -> Result<Value, Ref
 }
 
 /// The counts of a built-in kernel's publication, for one pixel.
-fn paper(asked: &Asked, compiled: &Compiled) -> Value {
-    let alone = compiled.graph.invocation.pixels() == [1, 1];
-    let entry = catalogue::builtin(&asked.kernel.id).filter(|_| alone && asked.kernel.files.is_none());
-    let counts = entry.and_then(|entry| (entry.paper)(&|option| compiled.options.get(option).cloned()));
-    counts.map_or(
+fn paper(compiled: &Compiled) -> Value {
+    compiled.paper().map_or(
         Value::Null,
         |counts| json!({ "texture_reads": counts.texture_reads, "weight_evaluations": counts.weight_evaluations }),
     )

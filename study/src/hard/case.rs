@@ -1,7 +1,7 @@
 //! What a hard case is: something seen at every sample, and the settings that it is filtered with.
 
-use crate::encode::DepthStorage;
 use glam::{UVec2, Vec2, Vec3, Vec4, vec2};
+use straightline_testbed::encode::DepthStorage;
 
 /// A small world with one thing in it that is hard to compute.
 #[derive(Clone, Copy, Debug)]

@@ -15,13 +15,13 @@ use super::HardError;
 use super::case::Case;
 use super::form::{Family, Form};
 use super::inputs::Reads;
-use crate::execute::Inputs;
-use crate::oracle;
-use crate::oracle::bound::{self, Rounding, Share};
-use crate::oracle::edge::{Edge, Geometry, Stalker, TabulaRasa};
-use crate::oracle::quads::{self, Picture};
 use glam::{IVec2, Vec4};
 use straightline_kernels::prelude::Frame;
+use straightline_testbed::execute::Inputs;
+use straightline_testbed::oracle;
+use straightline_testbed::oracle::bound::{self, Rounding, Share};
+use straightline_testbed::oracle::edge::{Edge, Geometry, Stalker, TabulaRasa};
+use straightline_testbed::oracle::quads::{self, Picture};
 
 /// What should come out.
 pub struct Expected {

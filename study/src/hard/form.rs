@@ -1,6 +1,7 @@
 //! Which kernels hard cases are run with, in which options.
 
 use super::case::Case;
+use straightline_kernels::HalfPrecision;
 
 /// What a kernel reads, and which definition judges it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -131,6 +132,15 @@ impl Form {
         let own = |name: &str| self.options.iter().any(|(known, _)| known == name);
         let fits = self.family == Family::Sraa && self.takes_options && !case.options.iter().any(|(name, _)| own(name));
         fits.then(|| [self.options.clone(), owned(case.options)].concat())
+    }
+
+    /// What 11 bits cannot hold of what it computes.
+    pub fn why(&self) -> &'static str {
+        let value = |name: &str| Some(Form::value(&self.options, name, "").to_owned());
+        match straightline_kernels::find(&self.kernel).map(|entry| (entry.half)(&value)) {
+            Some(HalfPrecision::Lost(reason)) => reason,
+            _ => "what it reads has 11 bits, and so has all that is computed of it",
+        }
     }
 
     /// The value of an option among `options`, or `default`.

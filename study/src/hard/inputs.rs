@@ -3,11 +3,11 @@
 use super::HardError;
 use super::case::{Case, Normal, Place, Seen};
 use super::form::{Family, Form};
-use crate::encode::{self, DepthEncoding, NormalEncoding};
-use crate::execute::Inputs;
-use crate::oracle::{self, Shading, SraaParams};
 use glam::{UVec2, UVec4, Vec2, Vec3, Vec4, uvec2, vec2};
 use straightline_kernels::prelude::{Frame, FrameLayers};
+use straightline_testbed::encode::{self, DepthEncoding, NormalEncoding};
+use straightline_testbed::execute::Inputs;
+use straightline_testbed::oracle::{self, Shading, SraaParams};
 
 /// What a form reads of a case, and the numbers of its definition.
 pub struct Reads {

@@ -6,12 +6,12 @@ use super::form::Form;
 use super::inputs::{Reads, reads};
 use super::reals::{Flushed, Loose};
 use super::{HardError, form};
-use crate::execute::{Bench, ExecuteError, Inputs, interpret};
 use crate::record::{Executor, HardResult};
 use straightline_codegen::ir::{F16, Real};
 use straightline_codegen::{Compiled, Precision};
 use straightline_manifest::Manifest;
 use straightline_runtime::Pass;
+use straightline_testbed::execute::{Bench, ExecuteError, Inputs, interpret};
 
 /// A form on a case, with what should come out.
 pub struct Trial<'a> {

@@ -5,7 +5,6 @@ use super::form::Form;
 use super::judge::{Trial, compile};
 use super::verdict::verdicts;
 use super::{HardError, cases};
-use crate::execute::{Bench, ExecuteError};
 use crate::record::{Circumstances, Executor, HardCase, HardRecord, HardResult};
 use crate::watch::Watch;
 use rayon::prelude::*;
@@ -13,6 +12,7 @@ use std::collections::BTreeMap;
 use straightline_codegen::{Compiled, Precision, Stage};
 use straightline_manifest::Manifest;
 use straightline_runtime::Pass;
+use straightline_testbed::execute::{Bench, ExecuteError};
 
 /// What to run.
 #[derive(Clone, Debug)]

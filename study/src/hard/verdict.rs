@@ -1,7 +1,7 @@
 //! Which kernels may compute in half precision: those that stay within what can be seen in every case that scenes have.
 
 use super::case::Case;
-use super::form::{Family, Form};
+use super::form::Form;
 use super::judge::compile;
 use super::run::trials;
 use super::{HardError, cases};
@@ -89,7 +89,7 @@ fn verdict(form: &Form, done: &[HardCase]) -> HalfVerdict {
             2 => ", and more than can be seen on another".to_owned(),
             n => format!(", and more than can be seen on {} others", n - 1),
         };
-        format!("{what}{others}: {}", why(form))
+        format!("{what}{others}: {}", form.why())
     });
     HalfVerdict {
         kernel: form.name.clone(),
@@ -107,34 +107,5 @@ fn verdict(form: &Form, done: &[HardCase]) -> HalfVerdict {
             .filter(|case| case.common && own(case, form).next().is_some())
             .count(),
         reason,
-    }
-}
-
-/// What 11 bits cannot hold of what a form computes.
-fn why(form: &Form) -> &'static str {
-    let is = |name, value| Form::value(&form.options, name, "") == value;
-    match form.family {
-        Family::Sraa if is("metric", "normals") => {
-            "components of a normal are off by up to 2^-12, and tau times what that makes of a small turn goes into an exponent"
-        }
-        Family::Sraa if is("metric", "planes-normals") => {
-            "depths are off by 2^-11 of themselves, and depth-scale times tau of that goes into an exponent: a slope of one \
-             plane becomes steps between surfaces"
-        }
-        Family::Sraa => {
-            "depths are off by 2^-11 of themselves, and depth-scale times tau of that goes into an exponent: a slope becomes \
-             steps between surfaces"
-        }
-        Family::Stalker | Family::TabulaRasa => {
-            "places between texels are held in 11 bits, half a pixel off from the 1024th on, and what bends in depth is of the size \
-             that 11 bits round away: flat surfaces become edges"
-        }
-        Family::Upsampling => {
-            "weights of less than 2^-24 are none, so that the nearest depth takes the place of a mean of far ones, and depths are \
-             off by 2^-11 of themselves"
-        }
-        Family::Bilateral => {
-            "depths are off by 2^-11 of themselves, which is no less than depth-sigma once they are far"
-        }
     }
 }

@@ -1,7 +1,6 @@
 //! The forms of a kernel: compiled, and on a device.
 
 use super::{LoopsError, Subject};
-use crate::execute::{Bench, Inputs, Uploaded};
 use crate::record::FormKind;
 use std::rc::Rc;
 use std::sync::atomic::{AtomicU32, Ordering};
@@ -11,6 +10,7 @@ use straightline_codegen::emit::{Emitted, Target};
 use straightline_codegen::{Compiled, EmitOptions, Format, Kernel, Precision, Settings, Stage, Unroll};
 use straightline_manifest::{Binding, BindingKind};
 use straightline_runtime::{Pass, PassOptions};
+use straightline_testbed::execute::{Bench, Inputs, Uploaded};
 
 /// A kernel in every form that it has, looped first, and why it does not have the others.
 pub struct Forms {
@@ -124,6 +124,7 @@ fn emit_options(kind: FormKind) -> EmitOptions {
             FormKind::FullHalf => Precision::F16,
             _ => Precision::F32,
         })
+        .accept_loss(true)
         .targets([Target::Wgsl, Target::Spirv])
 }
 
@@ -207,7 +208,7 @@ impl<'a> Stand<'a> {
     pub fn put(&mut self, kind: FormKind, compiled: &Compiled, times: u32) -> Result<Ready, LoopsError> {
         let emitted = compiled
             .emit(&emit_options(kind))
-            .map_err(crate::execute::ExecuteError::from)?;
+            .map_err(straightline_testbed::execute::ExecuteError::from)?;
         let options = PassOptions::default().unbounded_loops(is_unbounded(kind));
         let mut made = Vec::new();
         for _ in 0..times.max(1) {
@@ -247,7 +248,9 @@ impl<'a> Stand<'a> {
         let mut encoder = bench
             .device()
             .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        let bound = uploaded.bind(pass, &view).map_err(crate::execute::ExecuteError::from)?;
+        let bound = uploaded
+            .bind(pass, &view)
+            .map_err(straightline_testbed::execute::ExecuteError::from)?;
         bound.encode(&mut encoder);
         // What was written before is not to be waited for.
         bench.wait()?;

@@ -7,18 +7,18 @@ mod forms;
 mod subjects;
 mod truth;
 
-use crate::execute::{Bench, ExecuteError, Job};
-use crate::gbuffer::GBufferError;
-use crate::oracle::OracleError;
 use crate::record::{Form, FormKind, KernelForms};
-use crate::render::RenderError;
-use crate::scene::SceneError;
 use crate::watch::Watch;
 use forms::{Forms, Ready, Stand};
 use glam::{UVec2, Vec4};
 use std::time::Duration;
 use straightline_codegen::diagnostic::Errors;
 use straightline_kernels::prelude::Frame;
+use straightline_testbed::execute::{Bench, ExecuteError, Job};
+use straightline_testbed::gbuffer::GBufferError;
+use straightline_testbed::oracle::OracleError;
+use straightline_testbed::render::RenderError;
+use straightline_testbed::scene::SceneError;
 use truth::Truth;
 
 pub use subjects::{ByHand, Input, Subject, subjects};

@@ -2,14 +2,15 @@
 
 use straightline_codegen::Kernel;
 use straightline_codegen::diagnostic::Errors;
+use straightline_kernels::filters::FILTERS;
 
 /// What a kernel is run on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Input {
     /// The built-in scene `roof`, rendered with the geometry samples that the kernel's options name; judged by
-    /// [`oracle`](crate::oracle).
+    /// [`oracle`](straightline_testbed::oracle).
     Roof,
-    /// [`test_inputs`](crate::execute::test_inputs); judged by the same graph in `f64`.
+    /// [`test_inputs`](straightline_testbed::execute::test_inputs); judged by the same graph in `f64`.
     TestCard,
 }
 
@@ -40,50 +41,14 @@ pub struct Subject {
 /// Why nothing was written by hand.
 const NOTHING_TO_GAIN: &str = "it reads nothing twice and computes nothing anew in its loops";
 
-/// The kernels of `examples/kernels`, and what was written by hand for them.
-const EXAMPLES: [(&str, &str, Option<&str>); 10] = [
-    (
-        "gaussian",
-        include_str!("../../../examples/kernels/gaussian.rs"),
-        Some(include_str!("../../kernels/gaussian.rs")),
-    ),
-    (
-        "bilateral",
-        include_str!("../../../examples/kernels/bilateral.rs"),
-        Some(include_str!("../../kernels/bilateral.rs")),
-    ),
-    ("median", include_str!("../../../examples/kernels/median.rs"), None),
-    (
-        "sobel",
-        include_str!("../../../examples/kernels/sobel.rs"),
-        Some(include_str!("../../kernels/sobel.rs")),
-    ),
-    (
-        "catmull_rom",
-        include_str!("../../../examples/kernels/catmull_rom.rs"),
-        None,
-    ),
-    (
-        "kuwahara",
-        include_str!("../../../examples/kernels/kuwahara.rs"),
-        Some(include_str!("../../kernels/kuwahara.rs")),
-    ),
-    (
-        "fxaa",
-        include_str!("../../../examples/kernels/fxaa.rs"),
-        Some(include_str!("../../kernels/fxaa.rs")),
-    ),
-    ("ssao", include_str!("../../../examples/kernels/ssao.rs"), None),
-    (
-        "joint_bilateral_upsampling",
-        include_str!("../../../examples/kernels/joint_bilateral_upsampling.rs"),
-        None,
-    ),
-    (
-        "convolution",
-        include_str!("../../../examples/kernels/convolution.rs"),
-        Some(include_str!("../../kernels/convolution.rs")),
-    ),
+/// What was written by hand for some of the ten filters.
+const BY_HAND: [(&str, &str); 6] = [
+    ("gaussian", include_str!("../../kernels/gaussian.rs")),
+    ("bilateral", include_str!("../../kernels/bilateral.rs")),
+    ("sobel", include_str!("../../kernels/sobel.rs")),
+    ("kuwahara", include_str!("../../kernels/kuwahara.rs")),
+    ("fxaa", include_str!("../../kernels/fxaa.rs")),
+    ("convolution", include_str!("../../kernels/convolution.rs")),
 ];
 
 /// Those that a quick study leaves out: they have no loops, or gain next to nothing.
@@ -98,7 +63,7 @@ const NOT_QUICK: [&str; 8] = [
     "joint bilateral upsampling",
 ];
 
-/// SRAA in three variants, the edge filters, and the ten of `examples/kernels`; of a quick study, half of them.
+/// SRAA in three variants, the edge filters, and the ten of `kernels/filters`; of a quick study, half of them.
 ///
 /// # Errors
 ///
@@ -118,15 +83,16 @@ pub fn subjects(quick: bool) -> Result<Vec<Subject>, Errors> {
             input: Input::TestCard,
         });
     }
-    for (name, text, by_hand) in EXAMPLES {
-        let by_hand = by_hand.map(|text| ByHand {
+    for filter in FILTERS {
+        let by_hand = BY_HAND.iter().find(|(name, _)| *name == filter.name);
+        let by_hand = by_hand.map(|(name, text)| ByHand {
             kernel: Kernel::from_text(&format!("study/kernels/{name}.rs"), text, name),
             options: Vec::new(),
         });
         all.push(Subject {
-            name: name.replace('_', " "),
+            name: filter.name.replace('_', " "),
             options: Vec::new(),
-            kernel: Kernel::from_text(&format!("examples/kernels/{name}.rs"), text, name),
+            kernel: Kernel::from_text(filter.path, filter.text, filter.name),
             by_hand: by_hand.ok_or_else(|| NOTHING_TO_GAIN.to_owned()),
             input: Input::TestCard,
         });

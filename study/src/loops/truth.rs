@@ -1,14 +1,14 @@
 //! What a kernel is run on, and what it should give.
 
 use super::{Input, LoopsError, Subject};
-use crate::capture::{Capture, ShadingSample};
-use crate::execute::{Bench, Inputs, interpret, test_inputs};
-use crate::gbuffer;
-use crate::oracle::{self, SraaParams};
-use crate::render::{self, GpuRenderer};
-use crate::scene::Scene;
 use glam::{UVec2, Vec4};
 use straightline_codegen::Compiled;
+use straightline_testbed::capture::{Capture, ShadingSample};
+use straightline_testbed::execute::{Bench, Inputs, interpret, test_inputs};
+use straightline_testbed::gbuffer;
+use straightline_testbed::oracle::{self, SraaParams};
+use straightline_testbed::render::{self, GpuRenderer};
+use straightline_testbed::scene::Scene;
 
 /// The scene that SRAA is run on.
 const SCENE: &str = "roof";

@@ -1,9 +1,9 @@
-//! FXAA, a kernel among the examples; carried along so that it is there wherever the program runs.
+//! FXAA, one of the ten filters; carried along so that it is there wherever the program runs.
 
 use straightline_codegen::Kernel;
+use straightline_kernels::filters::FXAA;
 
 /// FXAA 3.11 (Lottes 2011), which reads `color` through the sampler `linear`.
 pub fn fxaa() -> Kernel {
-    let text = include_str!("../../../examples/kernels/fxaa.rs");
-    Kernel::from_text("examples/kernels/fxaa.rs", text, "fxaa")
+    Kernel::from_text(FXAA.path, FXAA.text, FXAA.name)
 }

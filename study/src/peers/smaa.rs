@@ -2,14 +2,14 @@
 
 use super::copy::Copy;
 use super::transfer::Transfer;
-use crate::execute::{Bench, Clock, ExecuteError, texture_bytes};
-use crate::render::{RenderError, guarded};
 use glam::{UVec2, Vec4};
 use smaa::{SmaaMode, SmaaTarget};
 use std::sync::mpsc;
 use std::time::{Duration, Instant};
 use straightline_kernels::prelude::Frame;
 use straightline_manifest::{Dimension, SampleType};
+use straightline_testbed::execute::{Bench, Clock, ExecuteError, texture_bytes};
+use straightline_testbed::render::{RenderError, guarded};
 use wgpu::TextureFormat;
 
 /// Of the picture that it reads and the one that it writes: more than 8 bits, so that rounding is no part of its error, and

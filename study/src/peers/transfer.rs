@@ -5,9 +5,9 @@
 //! SMAA asks for sRGB values where it looks for edges and for light where it blends; the crate has one texture for both.
 //! So each is measured with both.
 
-use crate::picture::srgb;
 use glam::{Vec3, Vec4};
 use straightline_kernels::prelude::Frame;
+use straightline_testbed::picture::srgb;
 
 /// What the numbers of a picture mean that a filter is given.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

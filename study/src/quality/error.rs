@@ -1,10 +1,10 @@
 //! Why methods could not be compared.
 
-use crate::execute::ExecuteError;
-use crate::gbuffer::GBufferError;
-use crate::picture::PictureError;
-use crate::render::RenderError;
 use straightline_codegen::diagnostic::Errors;
+use straightline_testbed::execute::ExecuteError;
+use straightline_testbed::gbuffer::GBufferError;
+use straightline_testbed::picture::PictureError;
+use straightline_testbed::render::RenderError;
 
 /// Why methods could not be compared.
 #[derive(Debug, thiserror::Error)]

@@ -5,11 +5,7 @@ use super::methods::{Kind, Method};
 use super::shot::Shot;
 use super::surfaces::Surfaces;
 use super::{QualityError, check};
-use crate::capture::{Capture, ShadingSample};
-use crate::execute::{Bench, ExecuteError, Inputs, Job, Timed, Uploaded, Work, texture_bytes};
-use crate::gbuffer;
 use crate::peers::{Smaa, Transfer, fxaa};
-use crate::picture;
 use crate::watch::Watch;
 use glam::{UVec2, Vec4};
 use std::time::Duration;
@@ -17,6 +13,10 @@ use straightline_codegen::{Compiled, Kernel, Settings, Stage};
 use straightline_kernels::prelude::Frame;
 use straightline_manifest::Manifest;
 use straightline_runtime::Pass;
+use straightline_testbed::capture::{Capture, ShadingSample};
+use straightline_testbed::execute::{Bench, ExecuteError, Inputs, Job, Timed, Uploaded, Work, texture_bytes};
+use straightline_testbed::gbuffer;
+use straightline_testbed::picture;
 
 /// Bytes of a pixel of full floats, which pictures are read and written in.
 const PICTURE: u64 = 16;

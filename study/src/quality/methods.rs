@@ -1,9 +1,9 @@
 //! The methods that are compared.
 
-use crate::capture::{Capture, ShadingSample};
-use crate::gbuffer;
 use crate::peers::Transfer;
 use crate::record::Family;
+use straightline_testbed::capture::{Capture, ShadingSample};
+use straightline_testbed::gbuffer;
 
 /// What a method is, beyond its name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -17,12 +17,7 @@ mod surfaces;
 #[cfg(test)]
 mod tests;
 
-use crate::capture::Capture;
-use crate::execute::{Bench, Times};
-use crate::picture;
 use crate::record::SceneErrors;
-use crate::render::GpuRenderer;
-use crate::scene::Scene;
 use crate::watch::Watch;
 use classes::{Classes, varies_around, varies_within};
 use filters::Filters;
@@ -31,6 +26,11 @@ use scores::{gaps, scores, share_of_gap};
 use shot::{Shot, supersampled};
 use std::collections::BTreeMap;
 use straightline_kernels::prelude::Frame;
+use straightline_testbed::capture::Capture;
+use straightline_testbed::execute::{Bench, Times};
+use straightline_testbed::picture;
+use straightline_testbed::render::GpuRenderer;
+use straightline_testbed::scene::Scene;
 
 pub use classes::STEP;
 pub use error::QualityError;

@@ -4,11 +4,11 @@ use super::QualityError;
 use super::filters::Filters;
 use super::methods::Method;
 use super::shot::{Shifted, Shot, supersampled};
-use crate::picture;
-use crate::render::Renderer;
 use crate::watch::Watch;
 use glam::{Vec2, Vec3, Vec4, vec2};
 use straightline_kernels::prelude::Frame;
+use straightline_testbed::picture;
+use straightline_testbed::render::Renderer;
 
 /// Pixels from frame to frame.
 const STEP: Vec2 = vec2(0.125, 0.0625);

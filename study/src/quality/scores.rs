@@ -6,11 +6,11 @@ use super::classes::Classes;
 use super::methods::Method;
 use super::shot::Shot;
 use super::surfaces::Surfaces;
-use crate::metrics;
-use crate::picture;
 use crate::record::{Gap, MOST_DB, MethodErrors};
 use glam::Vec4;
 use straightline_kernels::prelude::Frame;
+use straightline_testbed::metrics;
+use straightline_testbed::picture;
 
 /// Everything but time, bytes and pictures.
 pub fn scores(method: &Method, made: &Frame<Vec4>, reference: &Frame<Vec4>, classes: &Classes) -> MethodErrors {

@@ -2,14 +2,14 @@
 
 use super::methods::{Kind, Method};
 use super::{QualityError, check};
-use crate::capture::{Capture, ShadingSample, mean};
-use crate::gbuffer;
-use crate::render::{self, Renderer};
 use crate::watch::Watch;
 use glam::{DVec4, UVec2, Vec2, Vec4};
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
 use straightline_kernels::prelude::Frame;
+use straightline_testbed::capture::{Capture, ShadingSample, mean};
+use straightline_testbed::gbuffer;
+use straightline_testbed::render::{self, Renderer};
 
 /// A picture shaded once a pixel, its geometry in several patterns, and the same shaded at every sample.
 pub struct Shot {
@@ -120,7 +120,7 @@ impl Renderer for Shifted<'_> {
         self.renderer.size()
     }
 
-    fn camera(&self) -> crate::scene::Camera {
+    fn camera(&self) -> straightline_testbed::scene::Camera {
         self.renderer.camera()
     }
 

@@ -5,11 +5,11 @@
 //! differently is one surface. Without a camera, or with normals of another space than is said, depths must agree to a hundredth of
 //! themselves instead of planes; without normals depth alone counts. The sky is one surface.
 
-use crate::capture::Capture;
-use crate::gbuffer::has_planes;
-use crate::scene::SKY_DEPTH;
 use glam::{IVec2, UVec2, Vec2, Vec3};
 use straightline_kernels::prelude::Frame;
+use straightline_testbed::capture::Capture;
+use straightline_testbed::gbuffer::has_planes;
+use straightline_testbed::scene::SKY_DEPTH;
 
 /// Cosine of the angle between two normals of one surface: ten degrees.
 const ALIKE: f32 = 0.984_8;

@@ -1,8 +1,8 @@
 //! Unroll against loop.
 
 use super::{Circumstances, Record};
-use crate::execute::{Ratio, Times};
 use serde::{Deserialize, Serialize};
+use straightline_testbed::execute::{Ratio, Times};
 
 /// What became of a kernel's loops.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]

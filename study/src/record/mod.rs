@@ -6,12 +6,12 @@ mod loops;
 mod quality;
 mod tune;
 
-use crate::execute::Clock;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use straightline_codegen::files;
+use straightline_testbed::execute::Clock;
 
 pub use hard::{Executor, HalfVerdict, HardCase, HardRecord, HardResult};
 pub use isa::{Asked, IsaForm, IsaRecord, SpirvPath};

@@ -1,8 +1,8 @@
 //! Methods of antialiasing against references.
 
 use super::{Circumstances, Record};
-use crate::execute::Times;
 use serde::{Deserialize, Serialize};
+use straightline_testbed::execute::Times;
 
 /// PSNR of equal pictures, and the most of any: infinity cannot be written as JSON.
 pub const MOST_DB: f64 = 160.0;

@@ -1,8 +1,8 @@
 //! The cheapest shader that a scene needs.
 
 use super::{Circumstances, Record};
-use crate::execute::{Ratio, Times};
 use serde::{Deserialize, Serialize};
+use straightline_testbed::execute::{Ratio, Times};
 
 /// A variant that was tried.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -29,7 +29,7 @@ pub enum ReportError {
     Record(#[from] RecordError),
     /// A picture that a record names cannot be shown.
     #[error(transparent)]
-    Picture(#[from] crate::picture::PictureError),
+    Picture(#[from] straightline_testbed::picture::PictureError),
     /// There is no record.
     #[error("there is no record in `{}`: run `study loops`, `study error`, `study hard`, `study isa` or `tune` with this --out first", .0.display())]
     Empty(PathBuf),
@@ -158,8 +158,8 @@ fn caption(circumstances: &Circumstances) -> String {
         complete,
     } = circumstances;
     let clock = match clock {
-        crate::execute::Clock::GpuTimestamps => "GPU timestamps",
-        crate::execute::Clock::WallClock => "wall clock",
+        straightline_testbed::execute::Clock::GpuTimestamps => "GPU timestamps",
+        straightline_testbed::execute::Clock::WallClock => "wall clock",
     };
     let interrupted = if *complete {
         ""

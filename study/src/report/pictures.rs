@@ -1,6 +1,5 @@
 //! Pictures within the page: each once, as the background of a class, so that sliders and details can share it.
 
-use crate::picture::{self, PictureError};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use glam::{UVec2, Vec4, uvec2};
@@ -8,6 +7,7 @@ use serde::Serialize;
 use std::fmt::Write;
 use std::path::Path;
 use straightline_kernels::prelude::Frame;
+use straightline_testbed::picture::{self, PictureError};
 
 /// Largest part of a picture that is shown: a page with eleven scenes has to be loaded by a browser.
 const WINDOW: UVec2 = UVec2::new(480, 270);

@@ -3,11 +3,11 @@
 use super::front::front;
 use super::search::{Entry, Search};
 use super::{Chosen, Term, TuneError, Variant};
-use crate::execute::Ratio;
 use crate::record::{Candidate, Circumstances, LeftOut, Refused, TermWorth, TuneRecord};
 use crate::watch::Watch;
 use std::collections::BTreeMap;
 use straightline_manifest::Tuned;
+use straightline_testbed::execute::Ratio;
 
 /// Variants of the predicted front that are measured; a longer one is thinned out evenly.
 const OF_THE_FRONT: usize = 14;

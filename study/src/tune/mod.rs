@@ -12,11 +12,7 @@ mod search;
 mod space;
 mod subject;
 
-use crate::execute::{Bench, ExecuteError};
-use crate::gbuffer::GBufferError;
-use crate::metrics;
 use crate::record::{Circumstances, TuneRecord};
-use crate::render::RenderError;
 use crate::watch::Watch;
 use glam::Vec4;
 use serde::{Deserialize, Serialize};
@@ -26,6 +22,10 @@ use straightline_codegen::diagnostic::Errors;
 use straightline_codegen::{Compiled, Precision};
 use straightline_kernels::prelude::Frame;
 use straightline_manifest::Tuned;
+use straightline_testbed::execute::{Bench, ExecuteError};
+use straightline_testbed::gbuffer::GBufferError;
+use straightline_testbed::metrics;
+use straightline_testbed::render::RenderError;
 
 pub use features::{NAMES as COUNTS, Static};
 pub use search::Search;

@@ -1,12 +1,12 @@
 //! What is tuned for: one view of a scene, sampled in several ways, and what it should look like.
 
 use super::TuneError;
-use crate::capture::{Capture, ShadingSample};
-use crate::gbuffer;
-use crate::render::{self, Renderer};
 use crate::watch::Watch;
 use glam::{UVec2, Vec2, Vec4};
 use straightline_kernels::prelude::{Frame, FrameLayers};
+use straightline_testbed::capture::{Capture, ShadingSample};
+use straightline_testbed::gbuffer;
+use straightline_testbed::render::{self, Renderer};
 
 /// Patterns that a scene is sampled in, the most samples first.
 pub const PATTERNS: [&str; 3] = ["latin16", "standard8", "latin4"];
@@ -155,8 +155,8 @@ fn apart(a: Vec2, b: Vec2) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::capture::NormalSpace;
     use glam::{Vec3, uvec2};
+    use straightline_testbed::capture::NormalSpace;
 
     fn capture(samples: Vec<Vec2>, shading: ShadingSample) -> Capture {
         let size = uvec2(2, 1);

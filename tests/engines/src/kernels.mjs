@@ -2,7 +2,7 @@
 
 import { HEIGHT, WIDTH, depths, normals, picture } from "./pictures.mjs";
 
-const GALLERY = "examples/kernels";
+const GALLERY = "kernels/filters";
 
 /**
  * `bound` is the difference that a value may have from the interpreter's, in floats; `share` how many of the values are within it:

@@ -2,7 +2,7 @@
 
 use straightline_codegen::Format;
 use straightline_kernels::prelude::Frame;
-use straightline_study::execute::SamplerState;
+use straightline_testbed::execute::SamplerState;
 
 /// A shader with all that it reads, to be run by [`Context::run`](super::Context::run).
 #[derive(Clone, Debug)]

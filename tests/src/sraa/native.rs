@@ -7,7 +7,7 @@ use straightline_kernels::sraa::{
     Colors, Depth, Difference, Falloff, GBuffer, Guards, Layout, Mask, Metric, NonFinite, Normalisation, Normals,
     Pattern, Resolve, Search, Shading, Sraa, Turn, View, sraa,
 };
-use straightline_study::execute::Inputs;
+use straightline_testbed::execute::Inputs;
 
 /// Every pixel, by the native kernel.
 pub fn run(options: &Options, inputs: &Inputs) -> Vec<[f32; 4]> {

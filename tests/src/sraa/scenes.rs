@@ -5,13 +5,13 @@ use super::{Options, compiled};
 use glam::{UVec2, uvec2};
 use std::collections::BTreeMap;
 use straightline_codegen::{Stage, Unroll};
-use straightline_study::capture::ShadingSample;
-use straightline_study::execute::Bench;
-use straightline_study::gbuffer;
-use straightline_study::oracle::bound::{self, Rounding};
-use straightline_study::oracle::{self, SraaParams};
-use straightline_study::render::{self, CpuRenderer};
-use straightline_study::scene::{NAMES, Scene};
+use straightline_testbed::capture::ShadingSample;
+use straightline_testbed::execute::Bench;
+use straightline_testbed::gbuffer;
+use straightline_testbed::oracle::bound::{self, Rounding};
+use straightline_testbed::oracle::{self, SraaParams};
+use straightline_testbed::render::{self, CpuRenderer};
+use straightline_testbed::scene::{NAMES, Scene};
 
 /// Width and height of the pictures.
 const SIZE: UVec2 = uvec2(192, 108);

@@ -4,19 +4,19 @@ use super::{bench, same_bits};
 use std::path::{Path, PathBuf};
 use straightline_codegen::{Branches, Compiled, Kernel, Settings, Stage, Unroll};
 use straightline_kernels::prelude::*;
-use straightline_study::execute::{Inputs, interpret};
-use straightline_study::picture;
+use straightline_testbed::execute::{Inputs, interpret};
+use straightline_testbed::picture;
 
-/// A kernel of a folder of `examples/`.
+/// A kernel of a file.
 pub struct Example {
     pub name: &'static str,
     pub kernel: Kernel,
 }
 
 impl Example {
-    /// The kernel of `examples/FOLDER/NAME.rs`.
+    /// The kernel of `FOLDER/NAME.rs` in the repository.
     pub fn new(folder: &str, name: &'static str) -> Example {
-        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../examples/{folder}/{name}.rs"));
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../{folder}/{name}.rs"));
         let kernel = Kernel::from_file(&path, None).unwrap_or_else(|e| panic!("{e}"));
         Example { name, kernel }
     }

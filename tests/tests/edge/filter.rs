@@ -4,8 +4,8 @@ use super::world::{World, pixels};
 use straightline_codegen::{Compiled, Kernel, Settings, Unroll};
 use straightline_kernels::edge::{Depth, Form, NonFinite, Output, Stalker, TabulaRasa, stalker, tabula_rasa};
 use straightline_kernels::prelude::*;
-use straightline_study::execute::Inputs;
-use straightline_study::oracle::edge as oracle;
+use straightline_testbed::execute::Inputs;
+use straightline_testbed::oracle::edge as oracle;
 
 /// Values by the names of options.
 type Named<T> = Vec<(&'static str, T)>;

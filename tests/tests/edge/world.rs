@@ -1,8 +1,8 @@
 //! What the edge filters are run on.
 
 use straightline_kernels::prelude::*;
-use straightline_study::execute::Inputs;
-use straightline_study::oracle::edge as oracle;
+use straightline_testbed::execute::Inputs;
+use straightline_testbed::oracle::edge as oracle;
 
 /// What both filters read.
 pub struct World {

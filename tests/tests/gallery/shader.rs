@@ -5,7 +5,7 @@ use crate::world::World;
 use glam::DVec4;
 use straightline_codegen::Settings;
 use straightline_kernels::prelude::*;
-use straightline_study::execute::{Inputs, test_inputs};
+use straightline_testbed::execute::{Inputs, test_inputs};
 
 /// A shader with what it reads.
 pub struct Shader {
@@ -19,7 +19,7 @@ pub struct Within(pub f64, pub f64);
 
 impl Shader {
     pub fn new(name: &'static str, size: UVec2) -> Shader {
-        let example = Example::new("gallery", name);
+        let example = Example::new("examples/gallery", name);
         let inputs = test_inputs(&example.compile(&Settings::default()).graph, size);
         Shader { example, inputs }
     }

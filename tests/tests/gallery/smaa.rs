@@ -6,8 +6,8 @@ use std::path::Path;
 use straightline_codegen::{Branches, Settings, Stage, Unroll};
 use straightline_kernels::prelude::*;
 use straightline_runtime::{PassOptions, Resource};
-use straightline_study::execute::Bench;
-use straightline_study::picture;
+use straightline_testbed::execute::Bench;
+use straightline_testbed::picture;
 use wgpu::TextureFormat::{R8Unorm, Rg8Unorm, Rgba8Unorm, Rgba16Float, Rgba32Float};
 use wgpu::{TextureFormat, TextureUsages, TextureView};
 
@@ -110,7 +110,7 @@ impl<'a> Chain<'a> {
             branches,
             ..Settings::default()
         };
-        let compiled = Example::new("gallery", name).compile(&settings);
+        let compiled = Example::new("examples/gallery", name).compile(&settings);
         let emitted = compiled
             .emit(&self.bench.options(Stage::Fragment))
             .unwrap_or_else(|e| panic!("{e}"));

@@ -18,7 +18,10 @@ fn folder(name: &str) -> PathBuf {
 }
 
 fn options(stage: Stage) -> EmitOptions {
-    EmitOptions::new().stage(stage).precision(Precision::F16)
+    EmitOptions::new()
+        .stage(stage)
+        .precision(Precision::F16)
+        .accept_loss(true)
 }
 
 /// Naga validates each text on the way, and another validator reads the SPIR-V.
@@ -102,9 +105,9 @@ fn glsl_is_refused_with_a_way_out() {
     for word in ["`sraa`", "glsl450", "wgsl, spirv, hlsl or msl", "f32"] {
         assert!(error.contains(word), "{error}");
     }
-    let config = Config::new()
-        .out_dir(&folder)
-        .kernel("sraa", |k| k.precision(Precision::F16).target(Target::Glsl450));
+    let config = Config::new().out_dir(&folder).kernel("sraa", |k| {
+        k.precision(Precision::F16).accept_loss(true).target(Target::Glsl450)
+    });
     let error = config.compile().expect_err("no f16 in GLSL").to_string();
     assert!(error.contains("glsl450"), "{error}");
     assert_eq!(std::fs::read_dir(&folder).expect("the folder").count(), 0);
@@ -175,6 +178,7 @@ fn bindings_stay_as_they_are() {
                 .set("sigma", "uniform")
                 .set("falloff", "gaussian")
                 .precision(precision)
+                .accept_loss(true)
         });
         config.compile().unwrap_or_else(|e| panic!("{e}"));
         let manifest = std::fs::read_to_string(folder.join("sraa.json")).expect("a manifest");

@@ -1,8 +1,8 @@
-//! Every built-in kernel and every one of `examples/kernels/` in half precision.
+//! Every built-in kernel and every one of `kernels/filters/` in half precision.
 
 use super::*;
 use std::path::Path;
-use straightline_study::execute::test_inputs;
+use straightline_testbed::execute::test_inputs;
 
 const SIZE: UVec2 = uvec2(96, 64);
 
@@ -57,7 +57,7 @@ const EXAMPLES: [Case; 10] = [
 ];
 
 fn kernels() -> Vec<(Case, Kernel)> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/kernels");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../kernels/filters");
     let builtins = BUILTINS.into_iter().map(|case| (Kernel::builtin(case.name), case));
     let examples = EXAMPLES
         .into_iter()
@@ -95,8 +95,8 @@ fn at(sorted: &[f32], share: f64) -> f32 {
 fn all_catalogued_kernels_are_tested() {
     let names: Vec<&str> = straightline_kernels::CATALOGUE.iter().map(|e| e.name).collect();
     assert_eq!(names, BUILTINS.map(|case| case.name));
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/kernels");
-    let files = std::fs::read_dir(folder).expect("examples/kernels is there").count();
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../kernels/filters");
+    let files = std::fs::read_dir(folder).expect("kernels/filters is there").count();
     assert_eq!(files, EXAMPLES.len());
 }
 

@@ -2,7 +2,7 @@
 
 use super::*;
 use straightline_codegen::Transport;
-use straightline_study::execute::test_inputs;
+use straightline_testbed::execute::test_inputs;
 
 const HEARD: &str = "
 pub fn k(value: &Frame<f32>, pixel: Quad<IVec2>) -> Quad<Vec4> {

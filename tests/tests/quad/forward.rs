@@ -1,7 +1,7 @@
 //! Quads at the edges of triangles, at the border, and with lanes that are discarded.
 
 use super::*;
-use straightline_study::execute::Corner;
+use straightline_testbed::execute::Corner;
 
 const PLACES: &str = "
 /// Where the pixel lies on its triangle, and where the three others of its quad do.

@@ -3,7 +3,7 @@
 use super::*;
 use straightline_kernels::quad::pcf::{Gradient, Method, Pcf, ShadowWeights, Tap, Width, join, pcf};
 use straightline_kernels::quad::pcss::{Pcss, SearchSharing, pcss};
-use straightline_study::execute::{Corner, Forward};
+use straightline_testbed::execute::{Corner, Forward};
 use straightline_tests::quads::{self, Shadow};
 
 const WEIGHTS: [(ShadowWeights, &str); 7] = [

@@ -16,8 +16,8 @@ use straightline_codegen::{Compiled, EmitOptions, Kernel, Settings, Transport, f
 use straightline_kernels::prelude::Frame;
 use straightline_manifest::Stage;
 use straightline_runtime::{Pass, Quads};
-use straightline_study::execute::{Bench, Clock, Forward, Inputs, Job, Shadowed, Times, Uploaded};
-use straightline_study::render::{GpuRenderer, Renderer};
+use straightline_testbed::execute::{Bench, Clock, Forward, Inputs, Job, Shadowed, Times, Uploaded};
+use straightline_testbed::render::{GpuRenderer, Renderer};
 
 /// One way to compute a filter.
 #[derive(Clone, Debug, Serialize)]
@@ -136,7 +136,7 @@ pub fn run(args: &QuadsArgs) -> Result<(), Failure> {
 fn screen(
     gpu: &Gpu,
     bench: &Bench,
-    scene: &straightline_study::scene::Scene,
+    scene: &straightline_testbed::scene::Scene,
     args: &QuadsArgs,
 ) -> Result<Inputs, Failure> {
     let renderer = GpuRenderer::new(&gpu.device, &gpu.queue, scene, args.size).map_err(Failure::of)?;

@@ -7,8 +7,8 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use straightline_codegen::files;
 use straightline_kernels::prelude::Frame;
-use straightline_study::execute::{Bench, Inputs, Shadowed};
-use straightline_study::picture;
+use straightline_testbed::execute::{Bench, Inputs, Shadowed};
+use straightline_testbed::picture;
 
 /// The shadow scene by each way of the 8×8 filter, occlusion before and after upsampling, and details of both.
 pub fn write(

@@ -8,8 +8,8 @@ use std::path::Path;
 use straightline_codegen::ir::{Graph, Scalar, Texture, TextureKind};
 use straightline_codegen::{Compiled, shorten};
 use straightline_kernels::prelude::Frame;
-use straightline_study::execute::Inputs;
-use straightline_study::picture;
+use straightline_testbed::execute::Inputs;
+use straightline_testbed::picture;
 
 /// Everything that the command line gives, for the kernel as it will run.
 pub fn inputs(args: &RunArgs, compiled: &Compiled) -> Result<Inputs, Failure> {

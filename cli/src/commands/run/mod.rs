@@ -11,7 +11,7 @@ use std::path::PathBuf;
 use straightline_codegen::files;
 use straightline_codegen::ir::{F16, Real};
 use straightline_codegen::{Compiled, Precision};
-use straightline_study::execute::{AllWritten, Inputs, interpret};
+use straightline_testbed::execute::{AllWritten, Inputs, interpret};
 
 /// Runs a kernel once and writes what it makes.
 pub fn run(args: &RunArgs) -> Result<(), Failure> {

@@ -6,8 +6,8 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use straightline_codegen::ir::Access;
 use straightline_codegen::{Compiled, files, shorten};
-use straightline_study::execute::{AllWritten, Written};
-use straightline_study::picture;
+use straightline_testbed::execute::{AllWritten, Written};
+use straightline_testbed::picture;
 
 /// Endings of files that hold the elements of a buffer, a line each.
 const TEXTS: [&str; 2] = ["csv", "txt"];

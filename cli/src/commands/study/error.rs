@@ -7,10 +7,10 @@ use crate::gpu::Gpu;
 use crate::table;
 use std::path::Path;
 use straightline_codegen::files;
-use straightline_study::capture::Capture;
 use straightline_study::quality::{self, Plan, Source};
 use straightline_study::record::{Gap, MOST_DB, MethodErrors, QualityRecord, Record, SceneErrors};
-use straightline_study::scene::{self, NAMES, Scene};
+use straightline_testbed::capture::Capture;
+use straightline_testbed::scene::{self, NAMES, Scene};
 
 /// Frames of the pan.
 const FRAMES: u32 = 5;

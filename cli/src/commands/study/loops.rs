@@ -10,9 +10,9 @@ use std::path::Path;
 use std::time::Duration;
 use straightline_codegen::{Kernel, files};
 use straightline_study::loops::{LoopsError, Method, Studied, Subject, study, subjects};
-use straightline_study::picture;
 use straightline_study::record::{KernelForms, LoopsRecord, Record};
 use straightline_study::watch::Watch;
+use straightline_testbed::picture;
 
 /// How long a form is run at least for one time. On two busy cores ratios of a form in 40 ms spread by 0.64 of their median,
 /// in 10 ms by 0.81, and of a single frame by 1.06.

@@ -14,10 +14,10 @@ use glam::UVec2;
 use std::path::Path;
 use std::time::SystemTime;
 use straightline_codegen::files;
-use straightline_study::execute::Clock;
 use straightline_study::record::Circumstances;
 use straightline_study::report;
 use straightline_study::watch::Watch;
+use straightline_testbed::execute::Clock;
 
 pub use watch::Progress;
 

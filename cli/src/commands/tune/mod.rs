@@ -10,11 +10,11 @@ use crate::scene;
 use glam::UVec2;
 use straightline_codegen::emit::{Emitted, Target};
 use straightline_codegen::{EmitOptions, Kernel, Settings, files};
-use straightline_study::capture::Capture;
-use straightline_study::gbuffer;
 use straightline_study::record::Record;
 use straightline_study::tune::{self, Chosen, PATTERNS, Question, Subject, TuneError};
 use straightline_study::watch::Watch;
+use straightline_testbed::capture::Capture;
+use straightline_testbed::gbuffer;
 
 /// Size of a scene's picture where none is asked for.
 const SIZE: UVec2 = UVec2::new(640, 360);
@@ -115,6 +115,7 @@ fn emit(args: &TuneArgs, chosen: &Chosen) -> Result<Emitted, Failure> {
     let options = EmitOptions::new()
         .format(args.format)
         .precision(chosen.precision)
+        .accept_loss(true)
         .targets(args.target.iter().copied());
     let mut emitted = chosen.compiled.emit(&options).map_err(Failure::of)?;
     emitted.manifest.tuned = Some(chosen.tuned.clone());

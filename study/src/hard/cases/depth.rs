@@ -1,9 +1,9 @@
 //! Depths that are far, near, equal, encoded in few bits, or no numbers.
 
 use super::{seen, steps_from, walls};
-use crate::encode::DepthStorage;
 use crate::hard::case::{Case, Place, Seen};
 use glam::{Vec3, vec3};
+use straightline_testbed::encode::DepthStorage;
 
 const PERSPECTIVE: &[(&str, &str)] = &[("depth", "perspective")];
 const REVERSED: &[(&str, &str)] = &[("depth", "reversed")];

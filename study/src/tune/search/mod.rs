@@ -8,15 +8,15 @@ use super::features::Static;
 use super::space::{Offer, SampleSet, Space, Variant};
 use super::subject::Subject;
 use super::{EQUAL_DB, ErrorMetric, Question, Term, TuneError};
-use crate::execute::{Bench, ExecuteError, Inputs, Ratio, Times, Uploaded};
-use crate::gbuffer;
-use crate::metrics;
 use crate::record::Model;
 use glam::{UVec2, Vec4};
 use std::collections::BTreeMap;
 use straightline_codegen::{Compiled, Kernel, Precision, Stage};
 use straightline_kernels::prelude::Frame;
 use straightline_runtime::Pass;
+use straightline_testbed::execute::{Bench, ExecuteError, Inputs, Ratio, Times, Uploaded};
+use straightline_testbed::gbuffer;
+use straightline_testbed::metrics;
 
 /// PSNR that counts as no difference at all; equal pictures would have an infinite one.
 const NO_DIFFERENCE_DB: f64 = 100.0;
@@ -249,7 +249,7 @@ fn places(entries: &[Entry]) -> BTreeMap<Variant, usize> {
     places.map(|(k, entry)| (entry.variant, k)).collect()
 }
 
-fn sample_set(capture: &crate::capture::Capture) -> SampleSet {
+fn sample_set(capture: &straightline_testbed::capture::Capture) -> SampleSet {
     SampleSet {
         count: capture.samples.len(),
         options: gbuffer::sampled_at(capture),

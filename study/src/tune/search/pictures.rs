@@ -1,13 +1,13 @@
 //! Pictures of variants, and their errors.
 
 use super::{Ready, Search, Seen, chunk};
-use crate::metrics;
 use crate::tune::space::Variant;
 use crate::tune::{Term, TuneError};
 use crate::watch::Watch;
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 use straightline_codegen::Precision;
+use straightline_testbed::metrics;
 
 /// Rounds in which half precision is compared with whole.
 const PROBED: u32 = 3;

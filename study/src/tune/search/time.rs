@@ -1,13 +1,13 @@
 //! Times of variants: measured of some, predicted of all.
 
 use super::{Search, chunk};
-use crate::execute::Job;
 use crate::record::Model;
 use crate::tune::features::NAMES;
 use crate::tune::{TuneError, model};
 use crate::watch::Watch;
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
+use straightline_testbed::execute::Job;
 
 /// Variants that times are learned from, and on which the model is then tested; less in a small space.
 const LEARNED_FROM: usize = 32;

@@ -4,7 +4,7 @@ use super::{Given, Place, Texel, Text, World, computed};
 use crate::random::forms::{FORMS, Form};
 use std::fmt;
 use straightline_codegen::{Kernel, Stage};
-use straightline_study::execute::Bench;
+use straightline_testbed::execute::Bench;
 
 /// Most that a driver may be off the native value where rounding shows, relative to its size (and to 1 below that): it
 /// may round the sum of a product once instead of twice.

@@ -2,7 +2,7 @@
 
 use straightline_codegen::Compiled;
 use straightline_codegen::ir::Real;
-use straightline_study::execute::{self, Written};
+use straightline_testbed::execute::{self, Written};
 
 use super::World;
 

@@ -8,7 +8,7 @@ use crate::random::Random;
 use resources::Resources;
 use std::fmt::Write;
 use straightline_kernels::prelude::*;
-use straightline_study::execute::{self, Inputs, SamplerState};
+use straightline_testbed::execute::{self, Inputs, SamplerState};
 
 /// Width and height of the picture.
 pub const SIZE: [u32; 2] = [4, 2];

@@ -2,8 +2,8 @@
 
 use glam::{UVec2, Vec3, Vec4, uvec2, vec4};
 use straightline_kernels::prelude::Frame;
-use straightline_study::execute::Inputs;
-use straightline_study::oracle::{
+use straightline_testbed::execute::Inputs;
+use straightline_testbed::oracle::{
     self, Falloff, Metric, NonFinite, Normalisation, Pattern, Resolved, Shading, SraaParams,
 };
 

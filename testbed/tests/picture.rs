@@ -6,7 +6,7 @@ use common::Scratch;
 use glam::{UVec2, Vec4, uvec2, vec4};
 use std::fs;
 use straightline_kernels::prelude::Frame;
-use straightline_study::picture::{self, PictureError};
+use straightline_testbed::picture::{self, PictureError};
 
 fn gradient(size: UVec2) -> Frame<Vec4> {
     let texel = |x: u32, y: u32| vec4(x as f32 / 7.0 - 0.5, y as f32 * 1.0e6, 1.0 / (x + y + 1) as f32, 0.25);

@@ -130,10 +130,10 @@ impl Bench {
         self
     }
 
-    /// How kernels are emitted for this bench: for a stage, writing full floats.
+    /// How kernels are emitted for this bench: for a stage, writing full floats, whatever half precision loses.
     pub fn options(&self, stage: Stage) -> EmitOptions {
         let options = EmitOptions::new().stage(stage).precision(self.precision);
-        options.format(Format::Rgba32Float)
+        options.accept_loss(true).format(Format::Rgba32Float)
     }
 
     /// The device.

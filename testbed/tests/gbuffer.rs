@@ -7,13 +7,13 @@ use glam::{Mat3, Quat, Vec2, Vec3, uvec2};
 use std::collections::BTreeMap;
 use straightline_codegen::{Kernel, Settings};
 use straightline_kernels::prelude::{Frame, FrameLayers};
-use straightline_study::capture::{Capture, NormalSpace, ShadingSample};
-use straightline_study::execute::interpret;
-use straightline_study::gbuffer::{self, GBufferError};
-use straightline_study::oracle::{self, SraaParams};
-use straightline_study::render::{self, CpuRenderer, Renderer};
-use straightline_study::scene::{NAMES, Scene};
-use straightline_study::{metrics, render::reference};
+use straightline_testbed::capture::{Capture, NormalSpace, ShadingSample};
+use straightline_testbed::execute::interpret;
+use straightline_testbed::gbuffer::{self, GBufferError};
+use straightline_testbed::oracle::{self, SraaParams};
+use straightline_testbed::render::{self, CpuRenderer, Renderer};
+use straightline_testbed::scene::{NAMES, Scene};
+use straightline_testbed::{metrics, render::reference};
 
 fn renderer() -> CpuRenderer {
     CpuRenderer::new(&Scene::named("grooves").expect("a scene"), uvec2(96, 54)).expect("a renderer")

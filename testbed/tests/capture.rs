@@ -10,8 +10,8 @@ use glam::{UVec2, Vec2, Vec3, Vec4, uvec2, vec2, vec4};
 use std::fs;
 use std::path::Path;
 use straightline_kernels::prelude::{Frame, FrameLayers};
-use straightline_study::capture::{Capture, CaptureError, NormalSpace, ShadingSample};
-use straightline_study::picture::{self, PictureError};
+use straightline_testbed::capture::{Capture, CaptureError, NormalSpace, ShadingSample};
+use straightline_testbed::picture::{self, PictureError};
 
 const SIZE: UVec2 = uvec2(19, 13);
 

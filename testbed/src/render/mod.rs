@@ -22,7 +22,7 @@ use straightline_kernels::prelude::Frame;
 pub use captured::capture;
 pub use cpu::CpuRenderer;
 pub use error::RenderError;
-pub(crate) use gpu::guard::guarded;
+pub use gpu::guard::guarded;
 pub use gpu::{GpuRenderer, MultisampledGeometry};
 pub use reference::{grid, reference};
 

@@ -89,16 +89,19 @@ impl Range {
     }
 }
 
-/// A colour with its share in a mean: what it is by definition, and the most that it may be off.
-pub(crate) struct Share {
+/// A colour with its share in a mean: what it is by definition, and the most that the share may be off.
+pub struct Share {
+    /// Red, green, blue and alpha, by definition.
     pub color: [f64; 4],
+    /// Its weight, by definition, from 0.
     pub weight: f64,
+    /// Most that the weight may be off.
     pub off: f64,
 }
 
 /// Most that the mean of `shares` may be off in any component. The weights' sum need not be 1; `normalised` says whether the
 /// mean is divided by it. Where so little weight is left that it counts for none, black is possible too.
-pub(crate) fn of_mean(shares: &[Share], normalised: bool, rounding: &Rounding) -> f64 {
+pub fn of_mean(shares: &[Share], normalised: bool, rounding: &Rounding) -> f64 {
     let total: f64 = shares.iter().map(|s| s.weight).sum();
     let least: f64 = shares.iter().map(|s| (s.weight - s.off).max(0.0)).sum();
     let most: f64 = shares.iter().map(|s| s.weight + s.off).sum();

@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 use straightline_kernels::prelude::{Frame, FrameLayers};
 
 pub use pattern::{PATTERNS, sampled_at, samples};
-pub(crate) use space::has_planes;
+pub use space::has_planes;
 
 /// Why a capture cannot feed a shader.
 #[derive(Debug, thiserror::Error)]

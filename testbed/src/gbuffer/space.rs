@@ -42,7 +42,7 @@ pub(super) fn check(capture: &Capture) -> Result<(), GBufferError> {
 }
 
 /// Whether planes can be told from depths and normals: both are there, with a camera, and in the space that the capture says.
-pub(crate) fn has_planes(capture: &Capture) -> bool {
+pub fn has_planes(capture: &Capture) -> bool {
     capture.camera.is_some() && capture.normal.is_some() && check(capture).is_ok()
 }
 

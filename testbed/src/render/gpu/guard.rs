@@ -8,11 +8,11 @@ use std::task::{Context, Poll, Waker};
 /// Runs `work`, and makes an error of what wgpu complained about meanwhile.
 ///
 /// Without a scope wgpu hands errors to the device's own handler, which by default panics.
-pub(crate) fn guarded<T>(
-    device: &wgpu::Device,
-    doing: &'static str,
-    work: impl FnOnce() -> T,
-) -> Result<T, RenderError> {
+///
+/// # Errors
+///
+/// [`RenderError::Device`] with `doing` and what wgpu said.
+pub fn guarded<T>(device: &wgpu::Device, doing: &'static str, work: impl FnOnce() -> T) -> Result<T, RenderError> {
     let memory = device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
     let internal = device.push_error_scope(wgpu::ErrorFilter::Internal);
     let validation = device.push_error_scope(wgpu::ErrorFilter::Validation);

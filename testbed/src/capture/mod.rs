@@ -99,7 +99,7 @@ impl Capture {
 }
 
 /// The mean of pictures of one size; `None` of none.
-pub(crate) fn mean(frames: &[Frame<Vec4>]) -> Option<Frame<Vec4>> {
+pub fn mean(frames: &[Frame<Vec4>]) -> Option<Frame<Vec4>> {
     let size = frames.first()?.size();
     let share = 1.0 / frames.len() as f32;
     let texel = |k: usize| frames.iter().map(|frame| frame.texels()[k]).sum::<Vec4>() * share;

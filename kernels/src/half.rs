@@ -1,0 +1,55 @@
+//! What half precision does to the picture of a built-in kernel: what hard cases showed (`straightline study hard --precision
+//! f16`), said of options by rules that a test compares with the cases (`tests/tests/hard.rs`).
+
+use crate::OptionValue;
+
+/// What computing in half precision does to a kernel's picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum HalfPrecision {
+    /// It changes no case that scenes have by more than can be seen.
+    Kept,
+    /// It changes a case visibly, as 11 bits cannot hold this.
+    Lost(&'static str),
+    /// No case tells.
+    Unstudied,
+}
+
+/// No case tells.
+pub(crate) fn unstudied(_: &OptionValue<'_>) -> HalfPrecision {
+    HalfPrecision::Unstudied
+}
+
+pub(crate) fn sraa(option: &OptionValue<'_>) -> HalfPrecision {
+    HalfPrecision::Lost(match option("metric").as_deref() {
+        Some("normals") if option("normalisation").is_none_or(|how| how == "shifted") => return HalfPrecision::Kept,
+        Some("normals") => {
+            "weights of less than 2^-24 are none: where all are so small, as on a thin wire, no colour is left"
+        }
+        Some("planes-normals") => {
+            "depths are off by 2^-11 of themselves, and depth-scale times tau of that goes into an exponent: a slope of one \
+             plane becomes steps between surfaces"
+        }
+        _ => {
+            "depths are off by 2^-11 of themselves, and depth-scale times tau of that goes into an exponent: a slope becomes \
+             steps between surfaces"
+        }
+    })
+}
+
+pub(crate) fn edge(_: &OptionValue<'_>) -> HalfPrecision {
+    HalfPrecision::Lost(
+        "places between texels are held in 11 bits, half a pixel off from the 1024th on, and what bends in depth is of the size \
+         that 11 bits round away: flat surfaces become edges",
+    )
+}
+
+pub(crate) fn upsampling(_: &OptionValue<'_>) -> HalfPrecision {
+    HalfPrecision::Lost(
+        "weights of less than 2^-24 are none, so that the nearest depth takes the place of a mean of far ones, and depths are \
+         off by 2^-11 of themselves",
+    )
+}
+
+pub(crate) fn bilateral(_: &OptionValue<'_>) -> HalfPrecision {
+    HalfPrecision::Kept
+}
