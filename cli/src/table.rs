@@ -22,16 +22,6 @@ pub fn wrapped(text: &str, width: usize, first: &str, next: &str) -> String {
     lines.join("\n")
 }
 
-/// The first words of a text that `width` characters hold, with an ellipsis for the rest.
-pub fn cut(text: &str, width: usize) -> String {
-    if text.chars().count() <= width {
-        return text.to_owned();
-    }
-    let first = wrapped(text, width.saturating_sub(1), "", "");
-    let first = first.lines().next().unwrap_or_default();
-    format!("{}…", first.trim_end_matches([',', ':', '(', ' ']))
-}
-
 /// Columns under headings, each as wide as its widest cell; the first column left, the others right.
 pub fn render(headings: &[&str], rows: &[Vec<String>]) -> String {
     let width = |k: usize| {
@@ -64,17 +54,11 @@ pub fn render(headings: &[&str], rows: &[Vec<String>]) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{cut, wrapped};
+    use super::wrapped;
 
     #[test]
     fn lines_hold_whole_words() {
         assert_eq!(wrapped("größe is a word", 8, "", "  "), "größe is\n  a word");
         assert_eq!(wrapped("unbreakable a", 4, "- ", "  "), "- unbreakable\n  a");
-    }
-
-    #[test]
-    fn what_is_cut_says_so() {
-        assert_eq!(cut("one, two, three", 10), "one, two…");
-        assert_eq!(cut("one, two", 8), "one, two");
     }
 }

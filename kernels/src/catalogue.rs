@@ -7,7 +7,7 @@ use crate::half::{self, HalfPrecision};
 pub struct Entry {
     /// Name on the command line and in `build.rs`, and of the kernel's function.
     pub name: &'static str,
-    /// One line on what it does.
+    /// One line on what it does, and in brackets at its end whose it is.
     pub summary: &'static str,
     /// Every file that the kernel is made of.
     pub sources: &'static [SourceFile],
@@ -63,77 +63,77 @@ const SRAA: &[SourceFile] = &[
 pub const CATALOGUE: &[Entry] = &[
     Entry {
         name: "sraa",
-        summary: "Subpixel Reconstruction Antialiasing: 1x shading, subpixel geometry (Chajdas et al. 2011)",
+        summary: "Antialiasing from 1x shading and subpixel geometry (SRAA, Chajdas et al. 2011)",
         sources: SRAA,
         paper: sraa_paper,
         half: half::sraa,
     },
     Entry {
         name: "sraa_place",
-        summary: "Where each pixel is shaded for sraa with shading=placed: at its centre, or at a sample that no centre shows",
+        summary: "Where sraa with shading=placed has each pixel shaded",
         sources: SRAA,
         paper: no_paper,
         half: half::unstudied,
     },
     Entry {
         name: "stalker",
-        summary: "Blur where normals turn or depth bends, as S.T.A.L.K.E.R. did (GPU Gems 2, chapter 9)",
+        summary: "Blur where normals turn or depth bends (S.T.A.L.K.E.R., GPU Gems 2, chapter 9)",
         sources: &[source!("edge/mod.rs"), source!("edge/stalker.rs")],
         paper: no_paper,
         half: half::edge,
     },
     Entry {
         name: "tabula_rasa",
-        summary: "Blur where the gradient of depth or the normals change, as Tabula Rasa did (GPU Gems 3, chapter 19)",
+        summary: "Blur where normals or the gradient of depth change (Tabula Rasa, GPU Gems 3, chapter 19)",
         sources: &[source!("edge/mod.rs"), source!("edge/tabula_rasa.rs")],
         paper: no_paper,
         half: half::edge,
     },
     Entry {
         name: "quad_convolution",
-        summary: "Convolution with (2k+1)² weights from (k+1)² reads a pixel, shared over pixel quads (Penner 2011)",
+        summary: "Convolution, (2k+1)² weights from (k+1)² reads by quads (Penner 2011)",
         sources: &[source!("quad/convolution.rs")],
         paper: convolution_paper,
         half: half::unstudied,
     },
     Entry {
         name: "quad_upsampling",
-        summary: "Cross-bilateral upsampling, 2x or 4x, from one or two reads a pixel, shared over pixel quads (Penner 2011)",
+        summary: "Cross-bilateral upsampling, 2x or 4x, shared over quads (Penner 2011)",
         sources: &[source!("quad/surface.rs"), source!("quad/upsampling.rs")],
         paper: upsampling_paper,
         half: half::upsampling,
     },
     Entry {
         name: "downsampling",
-        summary: "The image of low resolution, half a pixel off, that quad_upsampling reads",
+        summary: "The small image that quad_upsampling reads, half a pixel off",
         sources: &[source!("quad/surface.rs"), source!("quad/upsampling.rs")],
         paper: no_paper,
         half: half::unstudied,
     },
     Entry {
         name: "quad_bilateral",
-        summary: "Bilateral blur of (2k+1)² pixels from (k+1)² reads a pixel, shared over pixel quads (Penner 2011)",
+        summary: "Bilateral blur, (2k+1)² pixels from (k+1)² reads by quads (Penner 2011)",
         sources: &[source!("quad/bilateral.rs"), source!("quad/surface.rs")],
         paper: no_paper,
         half: half::bilateral,
     },
     Entry {
         name: "pcf",
-        summary: "Percentage-closer filtering of 4x4 or 8x8 texels, its comparisons shared over pixel quads (Penner 2011)",
+        summary: "Filtered shadows of 4x4 or 8x8 texels, shared over quads (Penner 2011)",
         sources: &[source!("quad/pcf/mod.rs"), source!("quad/pcf/weights.rs")],
         paper: pcf_paper,
         half: half::unstudied,
     },
     Entry {
         name: "pcss",
-        summary: "Contact-hardening shadows, their searches split over pixel quads (after Penner 2011)",
+        summary: "Contact-hardening shadows, searches split over quads (after Penner 2011)",
         sources: &[source!("quad/pcss.rs")],
         paper: no_paper,
         half: half::unstudied,
     },
     Entry {
         name: "quad_ssao",
-        summary: "Screen-space ambient occlusion, its taps split over pixel quads (after Penner 2011)",
+        summary: "Ambient occlusion in screen space, taps split over quads (after Penner 2011)",
         sources: &[source!("quad/ssao.rs")],
         paper: no_paper,
         half: half::unstudied,

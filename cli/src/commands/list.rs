@@ -2,11 +2,11 @@
 
 use crate::args::ListArgs;
 use crate::failure::Failure;
-use crate::table::{cut, wrapped};
+use crate::table::wrapped;
 use serde_json::{Value, json};
 use straightline_codegen::{Kernel, OptionInfo, OptionKind, shorten};
 use straightline_engines::{Engine, names};
-use straightline_kernels::CATALOGUE;
+use straightline_kernels::{CATALOGUE, Entry};
 
 /// Columns of a screen.
 const WIDTH: usize = 80;
@@ -31,7 +31,7 @@ fn all() -> Result<(), Failure> {
     outln!("Kernels, for `emit`, `explain` and `run`:");
     let width = CATALOGUE.iter().map(|entry| entry.name.len()).max().unwrap_or(0);
     for entry in CATALOGUE {
-        outln!("  {:width$}  {}", entry.name, cut(entry.summary, WIDTH - width - 4));
+        outln!("  {:width$}  {}", entry.name, what(entry));
     }
     let engines: Vec<&str> = names().collect();
     outln!("\nEngines, for `emit --engine NAME`:");
@@ -40,6 +40,14 @@ fn all() -> Result<(), Failure> {
     outln!("`list KERNEL` shows what a kernel does and its options, `list ENGINE` what is");
     outln!("written for an engine. A kernel of your own: FILE.rs, or FILE.rs::FUNCTION.");
     Ok(())
+}
+
+/// What a kernel does, without whose it is.
+fn what(entry: &Entry) -> &'static str {
+    match entry.summary.rsplit_once(" (") {
+        Some((what, _)) if entry.summary.ends_with(')') => what,
+        _ => entry.summary,
+    }
 }
 
 fn all_as_json() -> Result<(), Failure> {
