@@ -10,8 +10,11 @@ use straightline_tests::readme::{GEOMETRIC, filled};
 fn tables_are_what_their_records_say() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let mut tables = 0;
-    for name in ["README.md", "docs/study.md", "docs/tune.md", "docs/runtime.md"] {
-        let path = root.join(name);
+    let documents = std::fs::read_dir(root.join("docs")).expect("docs");
+    let documents = documents.map(|entry| entry.expect("an entry").path());
+    let documents = documents.filter(|path| path.extension().is_some_and(|kind| kind == "md"));
+    for path in documents.chain([root.join("README.md")]) {
+        let name = path.display();
         let document = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{name}: {error}"));
         let expected = filled(&document, &root.join("study/records")).unwrap_or_else(|error| panic!("{name}: {error}"));
         tables += document.lines().filter(|line| line.starts_with("<!-- table ")).count();
@@ -24,7 +27,7 @@ fn tables_are_what_their_records_say() {
             );
         }
     }
-    assert!(tables >= 4, "the documents cite {tables} records");
+    assert!(tables >= 15, "the documents cite {tables} records");
 }
 
 /// What `docs/sraa.md` says of roundings.
@@ -81,17 +84,12 @@ fn what_is_said_of_sraa_is_so() {
         };
         for ours in ["SRAA 4", "SRAA 16"] {
             let relative = of(&format!("{ours}, relative depth")).psnr - of(ours).psnr;
-            let said = if name == "emissive" { -0.8..=-0.4 } else { -0.02..=0.71 };
+            let said = if name == "emissive" { -0.84..=-0.4 } else { -0.04..=0.84 };
             assert!(said.contains(&relative), "{name}, {ours}: {relative}");
             for other in ["FXAA", "FXAA on light", "SMAA", "SMAA on light"] {
                 let (ours_is, other_is) = (of(ours), of(other));
-                let even = if name == "terrain" && ours == "SRAA 16" {
-                    2.0e-4
-                } else {
-                    0.0
-                };
                 assert!(
-                    !GEOMETRIC.contains(&name) || (ours_is.psnr > other_is.psnr && ours_is.flip < other_is.flip + even),
+                    !GEOMETRIC.contains(&name) || (ours_is.psnr > other_is.psnr && ours_is.flip < other_is.flip),
                     "{name}: {ours} against {other}"
                 );
             }
