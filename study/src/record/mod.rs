@@ -6,9 +6,11 @@ mod loops;
 mod quality;
 mod tune;
 
+use flate2::read::GzDecoder;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 use straightline_codegen::files;
 use straightline_testbed::execute::Clock;
@@ -85,16 +87,13 @@ pub trait Record: Serialize + DeserializeOwned {
         Ok(BTreeMap::from([(json, text), (csv, self.csv().into_bytes())]))
     }
 
-    /// Reads a record from a JSON file.
+    /// Reads a record from a JSON file, which may be packed ([`read_file`]).
     ///
     /// # Errors
     ///
     /// [`RecordError`] names the file and what is wrong in it.
     fn read(path: &Path) -> Result<Self, RecordError> {
-        let text = files::read(path, MAX_RECORD).map_err(|source| RecordError::Read {
-            path: path.to_owned(),
-            source,
-        })?;
+        let text = read_file(path)?;
         serde_json::from_slice(&text).map_err(|source| RecordError::Json {
             path: path.to_owned(),
             source,
@@ -139,6 +138,31 @@ pub enum RecordError {
         /// What and where.
         source: serde_json::Error,
     },
+}
+
+/// What is in a record's file; what is packed, `.gz`, is unpacked: long records are kept so.
+///
+/// # Errors
+///
+/// [`RecordError::Read`]; what is longer than 256 MiB, packed or not, is refused.
+pub fn read_file(path: &Path) -> Result<Vec<u8>, RecordError> {
+    let refused = |source| RecordError::Read {
+        path: path.to_owned(),
+        source,
+    };
+    let bytes = files::read(path, MAX_RECORD).map_err(refused)?;
+    if path.extension().is_none_or(|extension| extension != "gz") {
+        return Ok(bytes);
+    }
+    let mut text = Vec::new();
+    let mut unpacked = GzDecoder::new(bytes.as_slice()).take(MAX_RECORD + 1);
+    unpacked.read_to_end(&mut text).map_err(refused)?;
+    match text.len() as u64 > MAX_RECORD {
+        true => Err(refused(std::io::Error::other(format!(
+            "it unpacks to more than {MAX_RECORD} bytes"
+        )))),
+        false => Ok(text),
+    }
 }
 
 /// What a value is called in JSON.

@@ -2,6 +2,7 @@
 
 use super::markdown;
 use std::path::Path;
+use straightline_study::record::read_file;
 
 /// Every kernel of the hard cases on all adapters: how often it was not finite, or beyond its bound. From CSV: the JSON of thousands
 /// of results is too long to be kept.
@@ -9,7 +10,8 @@ pub fn kernels(files: &[&Path]) -> Result<String, String> {
     let head = ["kernel", "precision", "results", "not finite", "beyond their bound"];
     let mut rows: Vec<((String, String), [usize; 3])> = Vec::new();
     for file in files {
-        let text = std::fs::read_to_string(file).map_err(|error| format!("`{}`: {error}", file.display()))?;
+        let text = read_file(file).map_err(|error| error.to_string())?;
+        let text = String::from_utf8(text).map_err(|error| format!("`{}`: {error}", file.display()))?;
         let mut lines = text.lines();
         let columns: Vec<&str> = lines.next().unwrap_or_default().split(',').collect();
         let column = |name: &str| {
