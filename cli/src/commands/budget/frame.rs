@@ -11,7 +11,7 @@ use straightline_study::render::{FramePass, Samples};
 enum Method {
     /// Shaded once a pixel.
     None,
-    /// The main G-buffer, and its further samples in a pass for each.
+    /// The main G-buffer, and so many samples in a pass for each.
     Sraa(Samples),
     /// The main G-buffer, and four further samples in one multisampled pass.
     SraaMultisampled,
@@ -22,8 +22,9 @@ enum Method {
 }
 
 /// Columns of the table.
-const METHODS: [Method; 7] = [
+const METHODS: [Method; 8] = [
     Method::None,
+    Method::Sraa(Samples::Three),
     Method::Sraa(Samples::Four),
     Method::SraaMultisampled,
     Method::Sraa(Samples::Sixteen),
@@ -68,6 +69,7 @@ impl Method {
     fn name(self) -> String {
         match self {
             Method::None => "1x".to_owned(),
+            Method::Sraa(Samples::Three) => "SRAA 4, sample0".to_owned(),
             Method::Sraa(samples) => format!("SRAA {}", samples.count()),
             Method::SraaMultisampled => "SRAA 4, MSAA pass".to_owned(),
             Method::Supersampling(samples) => format!("{}x shading", samples.count()),
@@ -83,12 +85,12 @@ impl Method {
             Method::Sraa(samples) => (
                 Some(added(&main()?, &pass(FramePass::Auxiliary(samples))?)),
                 FramePass::Shading(Samples::One),
-                Some(measured.filter(pattern(samples))?.rounds_ms.clone()),
+                Some(measured.filter(samples)?.rounds_ms.clone()),
             ),
             Method::SraaMultisampled => (
                 Some(added(&main()?, &pass(FramePass::AuxiliaryMultisampled)?)),
                 FramePass::Shading(Samples::One),
-                Some(measured.filter(pattern(Samples::Four))?.rounds_ms.clone()),
+                Some(measured.filter(Samples::Four)?.rounds_ms.clone()),
             ),
             Method::Supersampling(samples) => (
                 Some(pass(FramePass::Geometry(samples))?),
@@ -115,13 +117,6 @@ impl Parts {
 
     fn net(&self) -> Vec<f64> {
         added(&self.beside_shading(), &self.shading)
-    }
-}
-
-fn pattern(samples: Samples) -> &'static str {
-    match samples {
-        Samples::Sixteen => "latin16",
-        Samples::One | Samples::Four => "latin4",
     }
 }
 
@@ -178,7 +173,7 @@ pub fn comparisons(measured: &Measured) -> Result<Vec<Comparison>, Failure> {
     Ok(all)
 }
 
-/// The same of a filter of so many samples, drawn in a pass each, over shading them all.
+/// The same of a filter with so many samples beside the main G-buffer, drawn in a pass each, over shading all samples.
 pub fn break_even(measured: &Measured, samples: Samples, filter: &[f64]) -> Result<Quartiles, Failure> {
     let pass = |pass| measured.pass(pass).map(|timed| timed.rounds_ms.as_slice());
     let geometry = added(
@@ -186,6 +181,10 @@ pub fn break_even(measured: &Measured, samples: Samples, filter: &[f64]) -> Resu
         pass(FramePass::Auxiliary(samples))?,
     );
     let own = added(&geometry, filter);
+    let samples = match samples {
+        Samples::Three => Samples::Four,
+        other => other,
+    };
     let other = Method::Supersampling(samples).parts(measured)?.beside_shading();
     quartiles(&evens(&own, &other, samples))
 }

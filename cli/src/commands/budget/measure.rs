@@ -10,7 +10,6 @@ use std::time::Duration;
 use straightline_codegen::{Compiled, Kernel, Settings};
 use straightline_manifest::Stage;
 use straightline_runtime::Pass;
-use straightline_study::capture::ShadingSample;
 use straightline_study::execute::{Bench, Clock, Job, Quartiles, Uploaded, Work};
 use straightline_study::render::{FramePass, FramePasses, GpuRenderer, Samples};
 use straightline_study::scene::Scene;
@@ -27,14 +26,19 @@ const METRICS: [(&str, f64); 4] = [
 /// The metric that SRAA has unless another is asked for.
 pub const DEFAULT_METRIC: &str = "depth-normals";
 
-/// Patterns whose filters are timed.
-const PATTERNS: [(&str, Samples); 2] = [("latin4", Samples::Four), ("latin16", Samples::Sixteen)];
+/// Where geometry and shading of the filters that are timed are sampled. The default metric alone is timed with `sample0`.
+const PLACES: [(&str, &str, Samples); 3] = [
+    ("latin4", "centre", Samples::Four),
+    ("latin4", "sample0", Samples::Three),
+    ("latin16", "centre", Samples::Sixteen),
+];
 
 /// The passes that are timed, and what they are called.
-const PASSES: [(&str, FramePass); 12] = [
+const PASSES: [(&str, FramePass); 13] = [
     ("main G-buffer", FramePass::Geometry(Samples::One)),
     ("main G-buffer", FramePass::Geometry(Samples::Four)),
     ("main G-buffer", FramePass::Geometry(Samples::Sixteen)),
+    ("depth and normals", FramePass::Auxiliary(Samples::Three)),
     ("depth and normals", FramePass::Auxiliary(Samples::Four)),
     ("depth and normals, multisampled", FramePass::AuxiliaryMultisampled),
     ("depth and normals", FramePass::Auxiliary(Samples::Sixteen)),
@@ -65,6 +69,11 @@ pub struct PassTime {
 pub struct Filter {
     pub metric: &'static str,
     pub pattern: &'static str,
+    /// Where the picture is shaded.
+    pub shading: &'static str,
+    /// Samples that are drawn beside the main G-buffer.
+    #[serde(skip)]
+    pub samples: Samples,
     pub reads: u32,
     pub ms: Quartiles,
     /// Times as slow as with the default metric: of the medians.
@@ -91,11 +100,11 @@ impl Measured {
         found.ok_or_else(|| Failure::Failed(format!("{pass:?} was not timed")))
     }
 
-    /// The filter with the default metric, of a pattern.
-    pub fn filter(&self, pattern: &str) -> Result<&Filter, Failure> {
+    /// The filter with the default metric, of the samples that are drawn beside the main G-buffer.
+    pub fn filter(&self, samples: Samples) -> Result<&Filter, Failure> {
         let mut filters = self.filters.iter();
-        let found = filters.find(|filter| filter.pattern == pattern && filter.metric == DEFAULT_METRIC);
-        found.ok_or_else(|| Failure::Failed(format!("the filter of {pattern} was not timed")))
+        let found = filters.find(|filter| filter.samples == samples && filter.metric == DEFAULT_METRIC);
+        found.ok_or_else(|| Failure::Failed(format!("no filter with {samples:?} was timed")))
     }
 }
 
@@ -104,6 +113,7 @@ struct Subject {
     metric: &'static str,
     paper_ms: f64,
     pattern: &'static str,
+    shading: &'static str,
     samples: Samples,
     compiled: Compiled,
     pass: Pass,
@@ -164,10 +174,12 @@ pub fn measured(args: &BudgetArgs, world: &Scene, gpu: &Gpu) -> Result<Measured,
         let filter = filter(&measured, subject, rounds_ms)?;
         measured.filters.push(filter);
     }
-    for (pattern, _) in PATTERNS {
-        let base = measured.filter(pattern)?.ms.median;
-        for filter in measured.filters.iter_mut().filter(|filter| filter.pattern == pattern) {
-            filter.ratio = filter.ms.median / base;
+    for (pattern, _, samples) in PLACES {
+        let base = measured.filter(samples)?.ms.median;
+        // To the default, which is shaded at the centre.
+        let all = measured.filters.iter_mut().filter(|filter| filter.pattern == pattern);
+        if samples != Samples::Three {
+            all.for_each(|filter| filter.ratio = filter.ms.median / base);
         }
     }
     Ok(measured)
@@ -189,6 +201,8 @@ fn filter(measured: &Measured, subject: &Subject, rounds_ms: Vec<f64>) -> Result
     Ok(Filter {
         metric: subject.metric,
         pattern: subject.pattern,
+        shading: subject.shading,
+        samples: subject.samples,
         reads: counts.texture_reads + counts.colour_reads,
         ms: frame::quartiles(&rounds_ms)?,
         ratio: 1.0,
@@ -201,10 +215,14 @@ fn filter(measured: &Measured, subject: &Subject, rounds_ms: Vec<f64>) -> Result
 fn subjects(args: &BudgetArgs, world: &Scene, gpu: &Gpu, bench: &Bench) -> Result<Vec<Subject>, Failure> {
     let renderer = GpuRenderer::new(&gpu.device, &gpu.queue, world, args.size).map_err(Failure::of)?;
     let mut subjects = Vec::new();
-    for (pattern, samples) in PATTERNS {
-        let capture = render::capture(&renderer, &samples.offsets(), ShadingSample::Centre).map_err(Failure::of)?;
+    for (pattern, shading, samples) in PLACES {
+        let offsets = scene::pattern(pattern)?;
+        let capture = render::capture(&renderer, &offsets, scene::shading(shading, &[])?).map_err(Failure::of)?;
         for (metric, paper_ms) in METRICS {
-            let options = [("pattern", pattern), ("metric", metric)];
+            if samples == Samples::Three && metric != DEFAULT_METRIC {
+                continue;
+            }
+            let options = [("pattern", pattern), ("metric", metric), ("shading", shading)];
             let settings = Settings {
                 options: options.map(|(k, v)| (k.to_owned(), v.to_owned())).into(),
                 ..Settings::default()
@@ -217,6 +235,7 @@ fn subjects(args: &BudgetArgs, world: &Scene, gpu: &Gpu, bench: &Bench) -> Resul
                 metric,
                 paper_ms,
                 pattern,
+                shading,
                 samples,
                 compiled,
                 pass,

@@ -91,9 +91,8 @@ pub fn run(args: &BudgetArgs) -> Result<(), Failure> {
 fn costs(args: &BudgetArgs, filters: &[Filter]) -> Vec<Cost> {
     let pixels = u64::from(args.size.x) * u64::from(args.size.y);
     let reads = |pattern: &str| {
-        let default = filters
-            .iter()
-            .find(|f| f.pattern == pattern && f.metric == measure::DEFAULT_METRIC);
+        let is_default = |f: &&Filter| f.metric == measure::DEFAULT_METRIC && f.shading == "centre";
+        let default = filters.iter().filter(is_default).find(|f| f.pattern == pattern);
         default.map(|filter| filter.reads)
     };
     let cost = |method: &str, geometry: u64, shading: u64, reads: Option<u32>| Cost {

@@ -10,7 +10,7 @@ use straightline_study::execute::{Clock, Quartiles};
 /// The paper's table 2: milliseconds at 1280×720 on a GeForce GTX 480, of geometry, shading, filter and net.
 const PAPER: [(&str, [f64; 4]); 3] = [
     ("1x", [1.1, 10.0, 0.0, 11.1]),
-    ("SRAA 4", [2.5, 10.0, 1.9, 14.4]),
+    ("SRAA 4, sample0", [2.5, 10.0, 1.9, 14.4]),
     ("16x shading", [5.0, 160.0, 2.0, 167.0]),
 ];
 
@@ -65,8 +65,9 @@ fn frames(record: &Record) -> Result<(), Failure> {
         .chain(record.frames.iter().map(|frame| frame.method.as_str()))
         .collect();
     outln!("{}", table::render(&headings, &rows));
+    outln!("paper: SRAA's table 2, 1280x720, GeForce GTX 480.");
     outln!(
-        "paper: SRAA's table 2, 1280x720, GeForce GTX 480. Its SRAA 4 draws three further samples, ours four and the centre."
+        "sample0: shaded at one of the four samples, as in the paper, so three more are drawn; else at the centre, and four more."
     );
     outln!("SRAA 16 has no multisampled pass: WebGPU has four samples, not sixteen.");
     outln!("MSAA 4: forward rendering; geometry, shading and resolve are one pass, which stands under shading.\n");
@@ -111,7 +112,11 @@ fn passes(record: &Record) -> Result<(), Failure> {
         "{}",
         table::render(&["timed", "samples", "passes", "ms (quartiles)"], &rows)
     );
-    outln!("{} evaluations of the shading for each sample.\n", record.shading_cost);
+    let evaluations = match record.shading_cost {
+        1 => "1 evaluation".to_owned(),
+        several => format!("{several} evaluations"),
+    };
+    outln!("{evaluations} of the shading for each sample.\n");
     Ok(())
 }
 
@@ -123,6 +128,7 @@ fn filters(record: &Record) -> Result<(), Failure> {
             vec![
                 filter.metric.to_owned(),
                 filter.pattern.to_owned(),
+                filter.shading.to_owned(),
                 filter.reads.to_string(),
                 interval(filter.ms),
                 format!("{:.2}", filter.ratio),
@@ -134,6 +140,7 @@ fn filters(record: &Record) -> Result<(), Failure> {
     let headings = [
         "metric",
         "pattern",
+        "shading",
         "reads",
         "ms (quartiles)",
         "ratio",
@@ -141,7 +148,7 @@ fn filters(record: &Record) -> Result<(), Failure> {
         "pays from, ms",
     ];
     outln!("{}", table::render(&headings, &rows));
-    outln!("ratio: to depth-normals of the same pattern; paper: table 1, GeForce GTX 480.\n");
+    outln!("ratio: to depth-normals of the same pattern, shaded at the centre; paper: table 1, GeForce GTX 480.\n");
     Ok(())
 }
 

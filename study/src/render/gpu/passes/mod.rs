@@ -18,6 +18,8 @@ use wgpu::CommandEncoder;
 pub enum Samples {
     /// One, in the pixel's centre.
     One,
+    /// Three: those of the four but the first. Where shading is at the first, the main G-buffer has it.
+    Three,
     /// Four: the pattern `latin4`.
     Four,
     /// Sixteen: the pattern `latin16`.
@@ -26,12 +28,13 @@ pub enum Samples {
 
 impl Samples {
     /// All, from the fewest.
-    pub const ALL: [Samples; 3] = [Samples::One, Samples::Four, Samples::Sixteen];
+    pub const ALL: [Samples; 4] = [Samples::One, Samples::Three, Samples::Four, Samples::Sixteen];
 
     /// How many there are.
     pub fn count(self) -> u32 {
         match self {
             Samples::One => 1,
+            Samples::Three => 3,
             Samples::Four => 4,
             Samples::Sixteen => 16,
         }
@@ -41,6 +44,7 @@ impl Samples {
     pub fn offsets(self) -> Vec<Vec2> {
         match self {
             Samples::One => vec![Vec2::ZERO],
+            Samples::Three => Samples::Four.offsets().into_iter().skip(1).collect(),
             Samples::Four => crate::gbuffer::samples("latin4").unwrap_or_default(),
             Samples::Sixteen => crate::gbuffer::samples("latin16").unwrap_or_default(),
         }
@@ -82,8 +86,8 @@ impl FramePass {
 pub struct FramePasses {
     renderer: GpuRenderer,
     /// For each of [`Samples::ALL`].
-    places: [Vec<Place>; 3],
-    means: [Mean; 3],
+    places: [Vec<Place>; 4],
+    means: [Mean; 4],
     targets: Targets,
     forward: Forward,
 }

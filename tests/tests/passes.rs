@@ -1,0 +1,94 @@
+//! The passes that `budget` times draw what they should: compared with the renderer on the processor.
+
+mod common;
+
+use straightline_kernels::prelude::*;
+use straightline_study::metrics;
+use straightline_study::render::{CpuRenderer, FramePasses, Renderer, Samples, reference};
+use straightline_study::scene::Scene;
+
+const SIZE: UVec2 = UVec2::new(320, 180);
+
+fn scene(name: &str) -> Scene {
+    Scene::named(name).expect("a scene")
+}
+
+fn passes(scene: &Scene, evaluations: u32) -> FramePasses {
+    let (device, queue) = common::device();
+    FramePasses::new(&device, &queue, scene, SIZE, evaluations).expect("passes")
+}
+
+#[test]
+fn shading_every_sample_gives_their_mean() {
+    for name in ["roof", "railings"] {
+        let scene = scene(name);
+        let (passes, own) = (passes(&scene, 1), CpuRenderer::new(&scene, SIZE).expect("a renderer"));
+        for samples in Samples::ALL {
+            let picture = passes.supersampled(samples).expect("a picture");
+            let mean = own.mean(&samples.offsets()).expect("a mean");
+            let psnr = metrics::psnr(&picture, &mean);
+            println!("{name}, {samples:?}: {psnr:.1} dB");
+            // Halves, and samples within a rounding of an edge.
+            assert!(psnr > 40.0, "{name}, {samples:?}: {psnr} dB");
+        }
+    }
+}
+
+#[test]
+fn forward_rendering_antialiases_edges_of_geometry() {
+    for name in ["roof", "railings"] {
+        let scene = scene(name);
+        let (passes, own) = (passes(&scene, 1), CpuRenderer::new(&scene, SIZE).expect("a renderer"));
+        let reference = reference(&own, 8, &mut |_, _| {}).expect("a reference");
+        let plain = metrics::psnr(&own.shaded(Vec2::ZERO).expect("a picture"), &reference);
+        let forward = metrics::psnr(&passes.forward().expect("a picture"), &reference);
+        println!("{name}: {forward:.1} dB, {plain:.1} dB without");
+        assert!(forward > plain + 2.0, "{name}: {forward} dB, {plain} dB without");
+    }
+}
+
+#[test]
+fn what_sraa_reads_is_the_geometry_of_its_samples() {
+    let scene = scene("roof");
+    let (passes, own) = (passes(&scene, 1), CpuRenderer::new(&scene, SIZE).expect("a renderer"));
+    for samples in [Samples::Four, Samples::Sixteen] {
+        let mut drawn = vec![passes.auxiliary(samples).expect("geometry")];
+        if samples == Samples::Four {
+            let multisampled = passes.auxiliary_multisampled().and_then(|drawn| drawn.read());
+            drawn.push(multisampled.expect("geometry"));
+        }
+        for (depths, normals) in drawn {
+            for (sample, offset) in samples.offsets().into_iter().enumerate() {
+                let (depth, normal) = own.geometry(offset).expect("geometry");
+                let texels = depth.texels().iter().zip(normal.texels());
+                let found = depths.layers()[sample]
+                    .texels()
+                    .iter()
+                    .zip(normals.layers()[sample].texels());
+                let off = texels
+                    .zip(found)
+                    .filter(|((z, n), (depth, normal))| {
+                        (*z / *depth - 1.0).abs() > 1.0e-2 || n.distance(**normal) > 1.0e-2
+                    })
+                    .count();
+                let share = off as f64 / f64::from(SIZE.x * SIZE.y);
+                println!("{samples:?}, {sample}: {share:.4}");
+                assert!(
+                    share < 0.01,
+                    "{samples:?}, sample {sample}: {share} of the pixels differ"
+                );
+            }
+        }
+    }
+}
+
+/// Dearer shading is a mean of several evaluations: near to one, and another picture.
+#[test]
+fn evaluations_of_the_shading_differ() {
+    let scene = scene("roof");
+    let [once, again, often] = [1, 1, 16].map(|n| passes(&scene, n).supersampled(Samples::One).expect("a picture"));
+    assert_eq!(metrics::max_abs_difference(&once, &again), 0.0);
+    let psnr = metrics::psnr(&often, &once);
+    println!("{psnr:.1} dB");
+    assert!((25.0..80.0).contains(&psnr), "{psnr} dB");
+}
