@@ -2,9 +2,11 @@
 
 mod common;
 
+use std::time::Duration;
 use straightline_kernels::prelude::*;
+use straightline_study::execute::{Bench, Clock};
 use straightline_study::metrics;
-use straightline_study::render::{CpuRenderer, FramePasses, Renderer, Samples, reference};
+use straightline_study::render::{CpuRenderer, FramePass, FramePasses, Renderer, Samples, reference};
 use straightline_study::scene::Scene;
 
 const SIZE: UVec2 = UVec2::new(320, 180);
@@ -91,4 +93,36 @@ fn evaluations_of_the_shading_differ() {
     let psnr = metrics::psnr(&often, &once);
     println!("{psnr:.1} dB");
     assert!((25.0..80.0).contains(&psnr), "{psnr} dB");
+}
+
+/// A device's timestamps stand around every pass: one that is never written is an error to read.
+#[test]
+fn every_pass_is_timed_by_the_device() {
+    let (device, queue) = common::device();
+    let passes = FramePasses::new(&device, &queue, &scene("roof"), UVec2::new(64, 36), 1).expect("passes");
+    let bench = Bench::new(&device, &queue, true);
+    let mut all = vec![FramePass::AuxiliaryMultisampled, FramePass::Forward];
+    for samples in Samples::ALL {
+        all.extend([
+            FramePass::Geometry(samples),
+            FramePass::Auxiliary(samples),
+            FramePass::Shading(samples),
+            FramePass::Resolve(samples),
+        ]);
+    }
+    let passes = &passes;
+    let works = all.iter().map(|pass| {
+        let record = move |encoder: &mut wgpu::CommandEncoder, timer: Option<&mut straightline_runtime::Timer>| {
+            // The timer has room for so many spans and no more.
+            Ok(passes.encode(*pass, encoder, timer)?)
+        };
+        bench.recorded(pass.passes(), Duration::ZERO, record).expect("a timer")
+    });
+    let timed = bench
+        .in_turn(&mut works.collect::<Vec<_>>(), 2, |_| true)
+        .expect("times");
+    assert_eq!(timed.clock, Clock::GpuTimestamps);
+    assert_eq!(timed.rounds.len(), all.len());
+    let drawn = timed.rounds[0].iter().sum::<Duration>();
+    assert!(drawn > Duration::ZERO, "{:?}", timed.rounds);
 }
