@@ -20,8 +20,9 @@ fn auxiliary(surface: Corner, @builtin(front_facing) front: bool) -> Auxiliary {
     return Auxiliary(surface.depth, vec4f(select(-normal, normal, front), 0.0));
 }
 
-// The mean of several evaluations at places of their own within the pixel, the first of them where the sample is. Everything
-// in them follows from the place and their number is a uniform: no compiler can leave out or share one.
+// The mean of several evaluations at places of their own within the pixel, the first of them where the sample is. Their
+// number is a uniform, and the view direction, texture, highlight and haze follow from the place: no compiler can leave one
+// out. It may share what follows from the normal alone, the ambient and diffuse terms.
 fn evaluated(surface: Surface, pixel: vec2f) -> vec3f {
     let place = (pixel + frame.offset) / vec2f(frame.size) * 2.0 - 1.0;
     var sum = vec3f(0.0);
