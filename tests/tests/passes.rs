@@ -79,9 +79,9 @@ fn what_sraa_reads_is_the_geometry_of_its_samples() {
                     .count();
                 let share = off as f64 / f64::from(SIZE.x * SIZE.y);
                 println!("{samples:?}, {sample}: {share:.4}");
-                // As above.
+                // As above: on lavapipe 0.01 %, on SwiftShader 1 % shifted and 5 % multisampled.
                 assert!(
-                    share < 0.03,
+                    share < 0.06,
                     "{samples:?}, sample {sample}: {share} of the pixels differ"
                 );
             }
