@@ -1,5 +1,6 @@
 //! Scenes and who draws them.
 
+use crate::args::ViewArgs;
 use crate::failure::Failure;
 use crate::gpu::Gpu;
 use glam::{UVec2, Vec2};
@@ -15,8 +16,17 @@ pub fn load(mesh: Option<&Path>, name: &str) -> Result<Scene, Failure> {
     load_seen(mesh, name, &Viewpoint::default())
 }
 
-/// The same from a place of one's own choice.
-pub fn load_seen(mesh: Option<&Path>, name: &str, viewpoint: &Viewpoint) -> Result<Scene, Failure> {
+/// What is asked for, from where it is asked for.
+pub fn viewed(args: &ViewArgs) -> Result<Scene, Failure> {
+    let viewpoint = Viewpoint {
+        eye: args.eye,
+        target: args.target,
+        vertical_fov: args.fov.map(f32::to_radians),
+    };
+    load_seen(args.mesh.as_deref(), &args.scene, &viewpoint)
+}
+
+fn load_seen(mesh: Option<&Path>, name: &str, viewpoint: &Viewpoint) -> Result<Scene, Failure> {
     match mesh {
         Some(path) => scene::load_seen(path, viewpoint).map_err(Failure::of),
         None => {

@@ -1,13 +1,14 @@
-//! Arguments of `capture`, `resolve` and `compare`.
+//! Arguments of `capture`, `resolve` and `compare`, and what is rendered by any command that has a choice.
 
 use super::{AdapterArgs, Executor, OptionArgs, StageArg, size};
 use clap::Args;
 use glam::{UVec2, Vec3};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use straightline_codegen::shorten;
 
+/// What is rendered, and from where.
 #[derive(Debug, Args)]
-pub struct CaptureArgs {
+pub struct ViewArgs {
     /// Built-in scene to render; `scenes` lists them
     #[arg(long, value_name = "NAME", default_value = "roof")]
     pub scene: String,
@@ -23,6 +24,20 @@ pub struct CaptureArgs {
     /// Angle between the picture's upper and lower edge in degrees, 1 to 170
     #[arg(long, value_name = "DEGREES", value_parser = degrees)]
     pub fov: Option<f32>,
+}
+
+impl ViewArgs {
+    /// The scene's name, or that of the model's file.
+    pub fn name(&self) -> String {
+        let model = self.mesh.as_deref().and_then(Path::file_name);
+        model.map_or_else(|| self.scene.clone(), |name| name.to_string_lossy().into_owned())
+    }
+}
+
+#[derive(Debug, Args)]
+pub struct CaptureArgs {
+    #[command(flatten)]
+    pub view: ViewArgs,
     /// Width and height in pixels
     #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = size)]
     pub size: UVec2,

@@ -16,7 +16,7 @@ use straightline_codegen::shorten;
 use straightline_isa::Family;
 use straightline_manifest::{Form, Format, Origin, Precision, Stage};
 
-pub use capture::{CaptureArgs, CompareArgs, ResolveArgs};
+pub use capture::{CaptureArgs, CompareArgs, ResolveArgs, ViewArgs};
 pub use check::{CheckArgs, MessageFormat};
 pub use kernel::{KernelArgs, OptionArgs};
 pub use run::{Executor, RunArgs, WatchArgs};
@@ -50,7 +50,7 @@ pub enum Command {
     Run(RunArgs),
     /// Emit a kernel again whenever its file is saved, and show its picture
     Watch(WatchArgs),
-    /// Measure what SRAA costs: memory, reads and time
+    /// Measure what a frame costs with SRAA and without: time, memory and reads
     Budget(BudgetArgs),
     /// Compare filters that share work over pixel quads with those that do not
     Quads(QuadsArgs),
@@ -196,15 +196,17 @@ pub struct PageArgs {
 
 #[derive(Debug, Args)]
 pub struct BudgetArgs {
+    #[command(flatten)]
+    pub view: ViewArgs,
     /// Width and height in pixels
     #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = size)]
     pub size: UVec2,
-    /// Repetitions of the timing; each runs every filter once, in turn
-    #[arg(long, value_name = "N", default_value_t = 9, value_parser = clap::value_parser!(u32).range(1..=1000))]
+    /// Repetitions of the timing; each runs every pass and filter once, in turn
+    #[arg(long, value_name = "N", default_value_t = 9, value_parser = clap::value_parser!(u32).range(3..=1000))]
     pub rounds: u32,
-    /// What drawing the further geometry samples costs in your renderer, in milliseconds
-    #[arg(long, value_name = "MS", default_value_t = 0.0, allow_negative_numbers = true, value_parser = milliseconds)]
-    pub geometry_ms: f64,
+    /// Evaluations of the shading for each sample, each at a place of its own in the pixel: how dear shading is
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=1000))]
+    pub shading_cost: u32,
     /// Also write the figures and their circumstances to this JSON file
     #[arg(long, value_name = "FILE")]
     pub record: Option<PathBuf>,
@@ -335,17 +337,6 @@ fn pair(text: &str) -> Result<(String, String), String> {
         Some((name, value)) if !name.is_empty() && !value.is_empty() => Ok((name.to_owned(), value.to_owned())),
         _ => Err(format!(
             "`{}` is not of the form OPTION=VALUE, such as pattern=ordered16",
-            shorten(text)
-        )),
-    }
-}
-
-/// A time that something can take.
-fn milliseconds(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(number) if (0.0..=1e9).contains(&number) => Ok(number),
-        _ => Err(format!(
-            "`{}` is no time in milliseconds: give a number from 0 to 1e9, such as 1.5",
             shorten(text)
         )),
     }

@@ -5,18 +5,12 @@ use crate::failure::Failure;
 use crate::gpu::Gpu;
 use crate::scene;
 use straightline_testbed::render;
-use straightline_testbed::scene::Viewpoint;
 
 /// Renders and writes a capture, or nothing.
 pub fn run(args: &CaptureArgs) -> Result<(), Failure> {
     let samples = scene::pattern(&args.pattern)?;
     let shading = scene::shading(&args.shading, &args.shaded)?;
-    let viewpoint = Viewpoint {
-        eye: args.eye,
-        target: args.target,
-        vertical_fov: args.fov.map(f32::to_radians),
-    };
-    let world = scene::load_seen(args.mesh.as_deref(), &args.scene, &viewpoint)?;
+    let world = scene::viewed(&args.view)?;
     let gpu = Gpu::open(&args.adapter)?;
     let renderer = scene::renderer(gpu.as_ref(), &world, args.size)?;
     let mut capture = render::capture(renderer.as_ref(), &samples, shading).map_err(Failure::of)?;

@@ -21,7 +21,7 @@ pub use shadowed::Shadowed;
 pub use straightline_codegen::interp::{Address, Comparison, SamplerState};
 pub use synthetic::test_inputs;
 pub use tiles::{Tile, cropped, tiles};
-pub use timing::{Clock, Job, Ratio, Timed, Times};
+pub use timing::{Clock, Job, Quartiles, Ratio, Timed, Times};
 pub use work::Work;
 
 /// What a kernel gives for each pixel in one of its targets.

@@ -1,10 +1,11 @@
 //! Times of several shaders, measured in turn (A B C A B C ...) in one run, so that a drifting clock hits all alike.
 
+use super::work::Record;
 use super::{Bench, ExecuteError, Uploaded};
 use glam::UVec2;
 use serde::{Deserialize, Serialize};
 use std::time::{Duration, Instant};
-use straightline_runtime::{Bound, Pass, Timer};
+use straightline_runtime::{Pass, Timer};
 
 /// Times of one shader over all rounds, in milliseconds.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -55,20 +56,55 @@ impl Ratio {
     /// How many times as fast as `base` something is that took `times`, round by round; `None` of no rounds.
     pub fn of(base: &[Duration], times: &[Duration]) -> Option<Ratio> {
         let ratio = |(base, time): (&Duration, &Duration)| base.as_secs_f64() / time.as_secs_f64().max(1e-9);
-        let mut sorted: Vec<f64> = base.iter().zip(times).map(ratio).collect();
-        sorted.sort_by(f64::total_cmp);
-        let last = sorted.len().checked_sub(1)?;
-        let at = |share: f64| {
-            let place = share * last as f64;
-            let below = sorted[place as usize];
-            below + (sorted[(place as usize + 1).min(last)] - below) * place.fract()
+        let ratios: Vec<f64> = base.iter().zip(times).map(ratio).collect();
+        let [low, median, high] = quantiles(&ratios, [0.1, 0.5, 0.9])?;
+        Some(Ratio { median, low, high })
+    }
+}
+
+/// Median and quartiles of what several rounds gave, in their unit.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Quartiles {
+    /// A quarter of the rounds were below this.
+    pub lower: f64,
+    /// The middle of all rounds.
+    pub median: f64,
+    /// A quarter of the rounds were above this.
+    pub upper: f64,
+}
+
+impl Quartiles {
+    /// Of the values of all rounds; `None` of none.
+    pub fn of(values: &[f64]) -> Option<Quartiles> {
+        let [lower, median, upper] = quantiles(values, [0.25, 0.5, 0.75])?;
+        Some(Quartiles { lower, median, upper })
+    }
+
+    /// Of a sum whose parts were measured apart: each quartile is the sum of the parts', as if a slow round slowed all of them.
+    pub fn sum(parts: impl IntoIterator<Item = Quartiles>) -> Quartiles {
+        let zero = Quartiles {
+            lower: 0.0,
+            median: 0.0,
+            upper: 0.0,
         };
-        Some(Ratio {
-            median: at(0.5),
-            low: at(0.1),
-            high: at(0.9),
+        parts.into_iter().fold(zero, |sum, part| Quartiles {
+            lower: sum.lower + part.lower,
+            median: sum.median + part.median,
+            upper: sum.upper + part.upper,
         })
     }
+}
+
+/// The values below which these shares of all lie, interpolated; `None` of no values.
+fn quantiles<const N: usize>(values: &[f64], shares: [f64; N]) -> Option<[f64; N]> {
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let last = sorted.len().checked_sub(1)?;
+    Some(shares.map(|share| {
+        let place = share * last as f64;
+        let below = sorted[place as usize];
+        below + (sorted[(place as usize + 1).min(last)] - below) * place.fract()
+    }))
 }
 
 /// Times of several shaders that ran in turn, round by round.
@@ -160,10 +196,10 @@ impl Bench {
         self.in_turn(&mut works?, rounds, tick)
     }
 
-    /// The time of one of `repeats` runs in one submission.
+    /// The time of one of `repeats` recordings in one submission.
     pub(super) fn once(
         &self,
-        bound: &Bound,
+        record: &Record<'_>,
         repeats: u32,
         timer: Option<&mut Timer>,
     ) -> Result<Duration, ExecuteError> {
@@ -173,7 +209,7 @@ impl Bench {
         match timer {
             Some(timer) => {
                 for _ in 0..repeats {
-                    bound.encode_timed(&mut encoder, timer)?;
+                    record(&mut encoder, Some(&mut *timer))?;
                 }
                 timer.resolve(&mut encoder)?;
                 self.queue.submit([encoder.finish()]);
@@ -181,7 +217,7 @@ impl Bench {
             }
             None => {
                 for _ in 0..repeats {
-                    bound.encode(&mut encoder);
+                    record(&mut encoder, None)?;
                 }
                 let commands = encoder.finish();
                 let start = Instant::now();
@@ -208,5 +244,20 @@ mod tests {
             "{ratio:?}"
         );
         assert_eq!(Ratio::of(&[], &[]), None);
+    }
+
+    #[test]
+    fn quartiles_are_interpolated_and_add_up() {
+        let quartiles = Quartiles::of(&[5.0, 1.0, 2.0, 3.0]).unwrap();
+        assert_eq!(
+            quartiles,
+            Quartiles {
+                lower: 1.75,
+                median: 2.5,
+                upper: 3.5
+            }
+        );
+        assert_eq!(Quartiles::sum([quartiles, quartiles]).upper, 7.0);
+        assert_eq!(Quartiles::of(&[]), None);
     }
 }

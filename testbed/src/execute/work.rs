@@ -3,6 +3,7 @@
 use super::{Bench, Clock, ExecuteError, Job, Timed};
 use std::time::Duration;
 use straightline_runtime::Timer;
+use wgpu::CommandEncoder;
 
 /// Runs of a pass in one submission, at most.
 const MOST_REPEATS: u32 = 64;
@@ -11,6 +12,9 @@ const MOST_REPEATS: u32 = 64;
 /// repeat.
 pub type Work<'a> = Box<dyn FnMut() -> Result<Duration, ExecuteError> + 'a>;
 
+/// Records passes, with spans of the timer if there is one.
+pub(super) type Record<'a> = dyn Fn(&mut CommandEncoder, Option<&mut Timer>) -> Result<(), ExecuteError> + 'a;
+
 impl Bench {
     /// A pass to be timed with others, repeated as [`timed_for`](Self::timed_for) says.
     ///
@@ -18,25 +22,46 @@ impl Bench {
     ///
     /// If the pass cannot be bound, or the device cannot be asked for the time.
     pub fn work<'a>(&self, job: Job<'a>, least: Duration) -> Result<Work<'a>, ExecuteError> {
-        let bench = self.clone();
         let view = self
             .target(job.size, job.pass.target_format())
             .create_view(&wgpu::TextureViewDescriptor::default());
         let bound = job.uploaded.bind(job.pass, &view)?;
+        self.recorded(1, least, move |encoder, timer| {
+            match timer {
+                Some(timer) => bound.encode_timed(encoder, timer)?,
+                None => bound.encode(encoder),
+            }
+            Ok(())
+        })
+    }
+
+    /// What `record` records, to be timed with others: up to `passes` passes, each with a span of the timer around it where
+    /// there is one. Their times are added up. Repeated as [`timed_for`](Self::timed_for) says.
+    ///
+    /// # Errors
+    ///
+    /// If the device cannot be asked for the time.
+    pub fn recorded<'a>(
+        &self,
+        passes: u32,
+        least: Duration,
+        record: impl Fn(&mut CommandEncoder, Option<&mut Timer>) -> Result<(), ExecuteError> + 'a,
+    ) -> Result<Work<'a>, ExecuteError> {
+        let bench = self.clone();
         let most = if least.is_zero() { 1 } else { MOST_REPEATS };
         let mut timer = match self.timestamps {
-            true => Some(Timer::new(&self.device, &self.queue, most)?),
+            true => Some(Timer::new(&self.device, &self.queue, most * passes)?),
             false => None,
         };
         let mut repeats = None;
         Ok(Box::new(move || {
             if let Some(repeats) = repeats {
-                return bench.once(&bound, repeats, timer.as_mut());
+                return bench.once(&record, repeats, timer.as_mut());
             }
-            let mut took = bench.once(&bound, 1, timer.as_mut())?;
+            let mut took = bench.once(&record, 1, timer.as_mut())?;
             if !least.is_zero() {
                 // The first time has the driver's compiling in it.
-                took = bench.once(&bound, 1, timer.as_mut())?;
+                took = bench.once(&record, 1, timer.as_mut())?;
             }
             let wanted = least.as_secs_f64() / took.as_secs_f64().max(1e-9);
             repeats = Some((wanted.ceil() as u32).clamp(1, most));

@@ -55,7 +55,9 @@ pub(super) struct Pass {
     pub offset: Vec2,
     /// 1 to add to what is there, 0 to replace it.
     pub keep: f32,
-    pub padding: [f32; 3],
+    /// How often each sample is shaded, where [`FramePasses`](super::FramePasses) shades it.
+    pub evaluations: u32,
+    pub padding: [f32; 2],
 }
 
 impl Pass {
@@ -67,7 +69,8 @@ impl Pass {
             size,
             offset,
             keep: 0.0,
-            padding: [0.0; 3],
+            evaluations: 1,
+            padding: [0.0; 2],
         }
     }
 

@@ -23,7 +23,7 @@ pub use captured::capture;
 pub use cpu::CpuRenderer;
 pub use error::RenderError;
 pub use gpu::guard::guarded;
-pub use gpu::{GpuRenderer, MultisampledGeometry};
+pub use gpu::{FramePass, FramePasses, GpuRenderer, MultisampledGeometry, Samples};
 pub use reference::{grid, reference};
 
 /// Draws one scene at one size, sampled anywhere in a pixel.

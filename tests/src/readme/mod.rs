@@ -76,9 +76,11 @@ fn table(name: &str, files: &[&Path]) -> Result<String, String> {
             Ok(tune::scenes(&all.map_err(why)?))
         }
         "budget" => budget::metrics(files),
+        "table2" => budget::frames(files),
+        "speedups" => budget::speedups(files),
         "encode" => encode::ways(first),
         _ => Err(format!(
-            "there is no table `{name}`; there are speed, loops, agreement, quality, methods, scenes, beyond, gaps, hard, isa, tune, budget and encode"
+            "there is no table `{name}`; there are speed, loops, agreement, quality, methods, scenes, beyond, gaps, hard, isa, tune, budget, table2, speedups and encode"
         )),
     }
 }

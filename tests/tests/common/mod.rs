@@ -26,7 +26,10 @@ pub fn device() -> (wgpu::Device, wgpu::Queue) {
         });
     let descriptor = wgpu::DeviceDescriptor {
         required_features: adapter.features()
-            & (wgpu::Features::FLOAT32_FILTERABLE | wgpu::Features::SUBGROUP | wgpu::Features::SHADER_F16),
+            & (wgpu::Features::FLOAT32_FILTERABLE
+                | wgpu::Features::SUBGROUP
+                | wgpu::Features::SHADER_F16
+                | wgpu::Features::TIMESTAMP_QUERY),
         // Several targets of full floats are more than WebGPU promises.
         required_limits: wgpu::Limits {
             max_color_attachment_bytes_per_sample: adapter.limits().max_color_attachment_bytes_per_sample,

@@ -1,7 +1,9 @@
 //! Rasterising and shading on a device of wgpu.
 
+mod drawing;
 pub(crate) mod guard;
 mod multisampled;
+mod passes;
 mod pipelines;
 mod read;
 mod resources;
@@ -12,6 +14,7 @@ use crate::scene::{Camera, Scene};
 use glam::{UVec2, Vec2, Vec3, Vec4};
 use guard::guarded;
 pub use multisampled::MultisampledGeometry;
+pub use passes::{FramePass, FramePasses, Samples};
 use pipelines::Pipelines;
 use resources::{Resources, check_limits};
 use straightline_kernels::prelude::Frame;
@@ -59,7 +62,9 @@ impl GpuRenderer {
             let mut encoder = self
                 .device
                 .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-            self.pipelines.draw(&mut encoder, &self.resources);
+            let resources = &self.resources;
+            self.pipelines
+                .draw(&mut encoder, resources, &resources.geometry_group, None);
             more(&mut encoder);
             self.queue.submit([encoder.finish()]);
         })

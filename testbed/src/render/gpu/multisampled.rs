@@ -1,24 +1,41 @@
 //! One 4× multisampled pass instead of four shifted ones (paper §3.4).
 
+use super::drawing::{Drawing, Drawn, Target, view};
 use super::guard::guarded;
-use super::pipelines::{group_layout, pipeline_layout, storage, uniform, vertex_layout};
-use super::resources::{DEPTH_FORMAT, group};
+use super::pipelines::{group_layout, pipeline_layout, storage, uniform};
+use super::resources::{DEPTH_FORMAT, Resources, group};
 use super::{GpuRenderer, read};
 use crate::render::RenderError;
 use crate::render::frame::Pass;
-use crate::scene::{SKY_DEPTH, Vertex};
-use glam::{Vec2, Vec3, Vec4};
+use crate::scene::SKY_DEPTH;
+use glam::{UVec2, Vec2, Vec3, Vec4};
 use straightline_kernels::prelude::{Frame, FrameLayers};
 use wgpu::{BindingType, BufferUsages, ShaderStages, TextureFormat, TextureUsages};
 
 /// Samples of each pixel, at the standard places of graphics APIs: the pattern `latin4`, in its order.
-const SAMPLES: u32 = 4;
+pub(super) const SAMPLES: u32 = 4;
 
 /// Linear depth, whole. Of the formats of 32 bits a channel only this one can be multisampled on every device.
-const DEPTH: TextureFormat = TextureFormat::R32Float;
+pub(super) const DEPTH: TextureFormat = TextureFormat::R32Float;
 
 /// Unit normals in view space, to eleven bits: no wider format can be multisampled on every device.
-const NORMAL: TextureFormat = TextureFormat::Rgba16Float;
+pub(super) const NORMAL: TextureFormat = TextureFormat::Rgba16Float;
+
+/// What depths are where nothing is drawn.
+pub(super) const SKY_AT: wgpu::Color = wgpu::Color {
+    r: SKY_DEPTH as f64,
+    g: 0.0,
+    b: 0.0,
+    a: 0.0,
+};
+
+/// What normals are there.
+pub(super) const SKY_FACING: wgpu::Color = wgpu::Color {
+    r: 0.0,
+    g: 0.0,
+    b: 1.0,
+    a: 0.0,
+};
 
 /// Geometry at four samples of each pixel, in multisampled textures.
 #[derive(Debug)]
@@ -137,79 +154,92 @@ impl GpuRenderer {
     pub fn multisampled(&self) -> Result<MultisampledGeometry, RenderError> {
         let device = &self.device;
         guarded(device, "drawing multisampled geometry", || {
-            let target = |format, usage| {
-                device.create_texture(&wgpu::TextureDescriptor {
-                    label: Some("straightline multisampled geometry"),
-                    size: wgpu::Extent3d {
-                        width: self.size.x,
-                        height: self.size.y,
-                        depth_or_array_layers: 1,
-                    },
-                    mip_level_count: 1,
-                    sample_count: SAMPLES,
-                    dimension: wgpu::TextureDimension::D2,
-                    format,
-                    usage: usage | TextureUsages::RENDER_ATTACHMENT,
-                    view_formats: &[],
-                })
-            };
-            let depth = target(DEPTH, TextureUsages::TEXTURE_BINDING);
-            let normal = target(NORMAL, TextureUsages::TEXTURE_BINDING);
-            let tested = target(DEPTH_FORMAT, TextureUsages::empty());
+            let targets = Multisampled::new(device, self.size, &self.pipelines.geometry_layout);
             let pass = Pass::new(&self.camera, self.size, Vec2::ZERO);
             self.queue
                 .write_buffer(&self.resources.pass, 0, bytemuck::bytes_of(&pass));
             let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-            self.draw_samples(&mut encoder, [&depth, &normal, &tested]);
+            targets.draw(&mut encoder, &self.resources, &self.resources.geometry_group, None);
             self.queue.submit([encoder.finish()]);
-            MultisampledGeometry {
-                device: device.clone(),
-                queue: self.queue.clone(),
-                depth,
-                normal,
-            }
+            targets.geometry(device, &self.queue)
         })
     }
+}
 
-    fn draw_samples(&self, encoder: &mut wgpu::CommandEncoder, targets: [&wgpu::Texture; 3]) {
-        let [depth, normal, tested] = targets.map(|t| t.create_view(&wgpu::TextureViewDescriptor::default()));
-        let cleared = |view, [r, g, b]: [f64; 3]| {
-            Some(wgpu::RenderPassColorAttachment {
-                view,
-                depth_slice: None,
-                resolve_target: None,
-                ops: wgpu::Operations {
-                    load: wgpu::LoadOp::Clear(wgpu::Color { r, g, b, a: 0.0 }),
-                    store: wgpu::StoreOp::Store,
-                },
-            })
-        };
-        let pipeline = pipeline(&self.device, &self.pipelines.geometry_layout);
-        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            label: Some("straightline multisampled geometry"),
-            color_attachments: &[
-                cleared(&depth, [f64::from(SKY_DEPTH), 0.0, 0.0]),
-                cleared(&normal, [0.0, 0.0, 1.0]),
-            ],
-            depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
-                view: &tested,
-                depth_ops: Some(wgpu::Operations {
-                    load: wgpu::LoadOp::Clear(0.0),
-                    store: wgpu::StoreOp::Discard,
-                }),
-                stencil_ops: None,
-            }),
-            timestamp_writes: None,
-            occlusion_query_set: None,
-            multiview_mask: None,
-        });
-        let resources = &self.resources;
-        pass.set_pipeline(&pipeline);
-        pass.set_bind_group(0, &resources.geometry_group, &[]);
-        pass.set_vertex_buffer(0, resources.vertices.slice(..));
-        pass.set_index_buffer(resources.indices.slice(..), wgpu::IndexFormat::Uint32);
-        pass.draw_indexed(0..resources.index_count, 0, 0..1);
+/// The pipeline of the multisampled pass, and what it draws into.
+#[derive(Debug)]
+pub(super) struct Multisampled {
+    pipeline: wgpu::RenderPipeline,
+    depth: wgpu::Texture,
+    normal: wgpu::Texture,
+    tested: wgpu::Texture,
+}
+
+impl Multisampled {
+    /// For pictures of `size`, and groups of `layout`.
+    pub fn new(device: &wgpu::Device, size: UVec2, layout: &wgpu::BindGroupLayout) -> Self {
+        let target = |format, usage| multisampled_target(device, size, format, usage);
+        Multisampled {
+            pipeline: pipeline(device, layout),
+            depth: target(DEPTH, TextureUsages::TEXTURE_BINDING),
+            normal: target(NORMAL, TextureUsages::TEXTURE_BINDING),
+            tested: target(DEPTH_FORMAT, TextureUsages::empty()),
+        }
     }
+
+    /// Records the pass, as seen by the [`Pass`] of `group`.
+    pub fn draw(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        resources: &Resources,
+        group: &wgpu::BindGroup,
+        timestamps: Option<wgpu::RenderPassTimestampWrites<'_>>,
+    ) {
+        let [depth, normal, tested] = [&self.depth, &self.normal, &self.tested].map(view);
+        let drawing = Drawing {
+            label: "straightline multisampled geometry",
+            pipeline: &self.pipeline,
+            group,
+            targets: &[Target::cleared(&depth, SKY_AT), Target::cleared(&normal, SKY_FACING)],
+            tested: &tested,
+            behind: None,
+            timestamps,
+        };
+        drawing.record(encoder, resources);
+    }
+
+    /// What was drawn.
+    pub fn geometry(&self, device: &wgpu::Device, queue: &wgpu::Queue) -> MultisampledGeometry {
+        MultisampledGeometry {
+            device: device.clone(),
+            queue: queue.clone(),
+            depth: self.depth.clone(),
+            normal: self.normal.clone(),
+        }
+    }
+}
+
+/// Of four samples a pixel.
+pub(super) fn multisampled_target(
+    device: &wgpu::Device,
+    size: UVec2,
+    format: TextureFormat,
+    usage: TextureUsages,
+) -> wgpu::Texture {
+    device.create_texture(&wgpu::TextureDescriptor {
+        label: Some("straightline multisampled target"),
+        size: wgpu::Extent3d {
+            width: size.x,
+            height: size.y,
+            depth_or_array_layers: 1,
+        },
+        mip_level_count: 1,
+        sample_count: SAMPLES,
+        dimension: wgpu::TextureDimension::D2,
+        format,
+        usage: usage | TextureUsages::RENDER_ATTACHMENT,
+        view_formats: &[],
+    })
 }
 
 fn pipeline(device: &wgpu::Device, layout: &wgpu::BindGroupLayout) -> wgpu::RenderPipeline {
@@ -218,32 +248,14 @@ fn pipeline(device: &wgpu::Device, layout: &wgpu::BindGroupLayout) -> wgpu::Rend
         label: Some("straightline multisampled geometry"),
         source: wgpu::ShaderSource::Wgsl(text.into()),
     });
-    device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: Some("straightline multisampled geometry"),
-        layout: Some(&pipeline_layout(device, layout)),
-        vertex: wgpu::VertexState {
-            module: &module,
-            entry_point: Some("sampled_corner"),
-            compilation_options: wgpu::PipelineCompilationOptions::default(),
-            buffers: &[Some(wgpu::VertexBufferLayout {
-                array_stride: size_of::<Vertex>() as u64,
-                step_mode: wgpu::VertexStepMode::Vertex,
-                attributes: &vertex_layout(),
-            })],
-        },
-        primitive: wgpu::PrimitiveState::default(),
-        depth_stencil: Some(super::pipelines::depth_test()),
-        multisample: wgpu::MultisampleState {
-            count: SAMPLES,
-            ..Default::default()
-        },
-        fragment: Some(wgpu::FragmentState {
-            module: &module,
-            entry_point: Some("sampled_texels"),
-            compilation_options: wgpu::PipelineCompilationOptions::default(),
-            targets: &[Some(DEPTH.into()), Some(NORMAL.into())],
-        }),
-        multiview_mask: None,
-        cache: None,
-    })
+    let drawn = Drawn {
+        label: "straightline multisampled geometry",
+        layout,
+        module: &module,
+        entries: ["sampled_corner", "sampled_texels"],
+        targets: &[DEPTH, NORMAL],
+        samples: SAMPLES,
+        behind: false,
+    };
+    drawn.pipeline(device)
 }

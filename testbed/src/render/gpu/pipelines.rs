@@ -1,12 +1,12 @@
 //! The two pipelines: triangles to G-buffer, G-buffer to colours.
 
-use super::resources::{DEPTH_FORMAT, Resources, TEXEL_FORMAT};
-use crate::scene::Vertex;
+use super::drawing::{Drawing, Drawn, Target, view};
+use super::resources::{Resources, TEXEL_FORMAT};
 use glam::UVec2;
 use wgpu::{BindingType, BufferBindingType, ShaderStages};
 
 /// Invocations of a workgroup on each axis, as `shading.wgsl` has it.
-const WORKGROUP: u32 = 8;
+pub(super) const WORKGROUP: u32 = 8;
 
 #[derive(Debug)]
 pub(super) struct Pipelines {
@@ -38,22 +38,16 @@ impl Pipelines {
         }
     }
 
-    /// Records drawing the scene into the G-buffer.
-    pub fn draw(&self, encoder: &mut wgpu::CommandEncoder, resources: &Resources) {
-        let target = |texture: &wgpu::Texture| texture.create_view(&wgpu::TextureViewDescriptor::default());
-        let views = [&resources.normal_depth, &resources.color_material].map(target);
-        let depth = target(&resources.depth);
-        let cleared = |view, clear| {
-            Some(wgpu::RenderPassColorAttachment {
-                view,
-                depth_slice: None,
-                resolve_target: None,
-                ops: wgpu::Operations {
-                    load: wgpu::LoadOp::Clear(clear),
-                    store: wgpu::StoreOp::Store,
-                },
-            })
-        };
+    /// Records drawing the scene into the G-buffer, as seen by the [`Pass`](crate::render::frame::Pass) of `group`.
+    pub fn draw(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        resources: &Resources,
+        group: &wgpu::BindGroup,
+        timestamps: Option<wgpu::RenderPassTimestampWrites<'_>>,
+    ) {
+        let [normal_depth, color_material, tested] =
+            [&resources.normal_depth, &resources.color_material, &resources.depth].map(view);
         // `Surface::SKY`.
         let sky = wgpu::Color {
             r: 0.0,
@@ -61,26 +55,19 @@ impl Pipelines {
             b: 1.0,
             a: f64::from(crate::scene::SKY_DEPTH),
         };
-        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            label: Some("straightline geometry"),
-            color_attachments: &[cleared(&views[0], sky), cleared(&views[1], wgpu::Color::TRANSPARENT)],
-            depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
-                view: &depth,
-                depth_ops: Some(wgpu::Operations {
-                    load: wgpu::LoadOp::Clear(0.0),
-                    store: wgpu::StoreOp::Discard,
-                }),
-                stencil_ops: None,
-            }),
-            timestamp_writes: None,
-            occlusion_query_set: None,
-            multiview_mask: None,
-        });
-        pass.set_pipeline(&self.geometry);
-        pass.set_bind_group(0, &resources.geometry_group, &[]);
-        pass.set_vertex_buffer(0, resources.vertices.slice(..));
-        pass.set_index_buffer(resources.indices.slice(..), wgpu::IndexFormat::Uint32);
-        pass.draw_indexed(0..resources.index_count, 0, 0..1);
+        let drawing = Drawing {
+            label: "straightline geometry",
+            pipeline: &self.geometry,
+            group,
+            targets: &[
+                Target::cleared(&normal_depth, sky),
+                Target::cleared(&color_material, wgpu::Color::TRANSPARENT),
+            ],
+            tested: &tested,
+            behind: None,
+            timestamps,
+        };
+        drawing.record(encoder, resources);
     }
 
     /// Records shading the G-buffer of `size` pixels.
@@ -95,50 +82,18 @@ impl Pipelines {
     }
 }
 
-/// The fields of a [`Vertex`].
-pub(super) fn vertex_layout() -> [wgpu::VertexAttribute; 4] {
-    wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Float32x3, 3 => Uint32]
-}
-
-/// The nearest surface, by the reciprocal of depth.
-pub(super) fn depth_test() -> wgpu::DepthStencilState {
-    wgpu::DepthStencilState {
-        format: DEPTH_FORMAT,
-        depth_write_enabled: Some(true),
-        depth_compare: Some(wgpu::CompareFunction::Greater),
-        stencil: wgpu::StencilState::default(),
-        bias: wgpu::DepthBiasState::default(),
-    }
-}
-
 fn geometry_pipeline(device: &wgpu::Device, layout: &wgpu::BindGroupLayout) -> wgpu::RenderPipeline {
     let module = device.create_shader_module(wgpu::include_wgsl!("geometry.wgsl"));
-    device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: Some("straightline geometry"),
-        layout: Some(&pipeline_layout(device, layout)),
-        vertex: wgpu::VertexState {
-            module: &module,
-            entry_point: Some("corner"),
-            compilation_options: wgpu::PipelineCompilationOptions::default(),
-            buffers: &[Some(wgpu::VertexBufferLayout {
-                array_stride: size_of::<Vertex>() as u64,
-                step_mode: wgpu::VertexStepMode::Vertex,
-                attributes: &vertex_layout(),
-            })],
-        },
-        // Both sides are drawn; counter-clockwise is the front.
-        primitive: wgpu::PrimitiveState::default(),
-        depth_stencil: Some(depth_test()),
-        multisample: wgpu::MultisampleState::default(),
-        fragment: Some(wgpu::FragmentState {
-            module: &module,
-            entry_point: Some("texels"),
-            compilation_options: wgpu::PipelineCompilationOptions::default(),
-            targets: &[Some(TEXEL_FORMAT.into()), Some(TEXEL_FORMAT.into())],
-        }),
-        multiview_mask: None,
-        cache: None,
-    })
+    let drawn = Drawn {
+        label: "straightline geometry",
+        layout,
+        module: &module,
+        entries: ["corner", "texels"],
+        targets: &[TEXEL_FORMAT, TEXEL_FORMAT],
+        samples: 1,
+        behind: false,
+    };
+    drawn.pipeline(device)
 }
 
 fn shading_pipeline(device: &wgpu::Device, layout: &wgpu::BindGroupLayout) -> wgpu::ComputePipeline {
@@ -196,7 +151,7 @@ fn buffer(ty: BufferBindingType) -> BindingType {
     }
 }
 
-fn texture() -> BindingType {
+pub(super) fn texture() -> BindingType {
     BindingType::Texture {
         // Floats of 32 bits cannot be filtered everywhere, and need not be.
         sample_type: wgpu::TextureSampleType::Float { filterable: false },

@@ -4,8 +4,9 @@ use super::guard::{failed, guarded};
 use super::resources::TEXEL_FORMAT;
 use crate::render::RenderError;
 use glam::Vec4;
+use half::f16;
 use std::sync::mpsc;
-use wgpu::{Buffer, CommandEncoder, Device, Queue, Texture};
+use wgpu::{Buffer, CommandEncoder, Device, Queue, Texture, TextureFormat};
 
 const DOING: &str = "reading a picture back";
 
@@ -20,7 +21,13 @@ pub(super) fn buffer(device: &Device, queue: &Queue, source: &Buffer) -> Result<
 /// All texels of a G-buffer texture, row by row from the top.
 pub(super) fn texture(device: &Device, queue: &Queue, source: &Texture) -> Result<Vec<Vec4>, RenderError> {
     debug_assert_eq!(source.format(), TEXEL_FORMAT);
-    let row = source.width() * size_of::<Vec4>() as u32;
+    layer(device, queue, source, 0)
+}
+
+/// All texels of a texture's layer, row by row from the top, of one or four components of 32 bits or of four halves.
+pub(super) fn layer(device: &Device, queue: &Queue, source: &Texture, layer: u32) -> Result<Vec<Vec4>, RenderError> {
+    let format = source.format();
+    let row = source.width() * format.block_copy_size(None).unwrap_or(size_of::<Vec4>() as u32);
     let padded = row.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
     let size = u64::from(padded) * u64::from(source.height());
     let bytes = read(device, queue, size, |encoder, staging| {
@@ -33,12 +40,30 @@ pub(super) fn texture(device: &Device, queue: &Queue, source: &Texture) -> Resul
             buffer: staging,
             layout,
         };
-        encoder.copy_texture_to_buffer(source.as_image_copy(), target, source.size());
+        let mut from = source.as_image_copy();
+        from.origin.z = layer;
+        let extent = wgpu::Extent3d {
+            depth_or_array_layers: 1,
+            ..source.size()
+        };
+        encoder.copy_texture_to_buffer(from, target, extent);
     })?;
-    let rows = bytes.chunks_exact(padded as usize);
-    Ok(rows
-        .flat_map(|bytes| bytemuck::pod_collect_to_vec::<u8, Vec4>(&bytes[..row as usize]))
-        .collect())
+    let rows = bytes.chunks_exact(padded as usize).map(|bytes| &bytes[..row as usize]);
+    let texels = |bytes: &[u8]| -> Vec<Vec4> {
+        match format {
+            TextureFormat::Rgba16Float => {
+                let halves = bytemuck::pod_collect_to_vec::<u8, [u16; 4]>(bytes);
+                let texel = |texel: [u16; 4]| Vec4::from_array(texel.map(|bits| f16::from_bits(bits).to_f32()));
+                halves.into_iter().map(texel).collect()
+            }
+            TextureFormat::R32Float => {
+                let floats = bytemuck::pod_collect_to_vec::<u8, f32>(bytes);
+                floats.into_iter().map(|x| Vec4::new(x, 0.0, 0.0, 1.0)).collect()
+            }
+            _ => bytemuck::pod_collect_to_vec(bytes),
+        }
+    };
+    Ok(rows.flat_map(texels).collect())
 }
 
 /// The `size` bytes that `copy` puts into a buffer.

@@ -115,7 +115,7 @@ impl Resources {
     }
 }
 
-fn empty(device: &wgpu::Device, usage: BufferUsages, size: u64) -> wgpu::Buffer {
+pub(super) fn empty(device: &wgpu::Device, usage: BufferUsages, size: u64) -> wgpu::Buffer {
     device.create_buffer(&wgpu::BufferDescriptor {
         label: None,
         size,

@@ -1,0 +1,245 @@
+//! Timing a frame's passes and SRAA's filters, all in turn in one run.
+
+use super::frame;
+use crate::args::BudgetArgs;
+use crate::failure::Failure;
+use crate::gpu::Gpu;
+use crate::scene;
+use serde::Serialize;
+use std::time::Duration;
+use straightline_codegen::{Compiled, Kernel, Settings};
+use straightline_manifest::Stage;
+use straightline_runtime::Pass;
+use straightline_testbed::execute::{Bench, Clock, Job, Quartiles, Uploaded, Work};
+use straightline_testbed::render::{FramePass, FramePasses, GpuRenderer, Samples};
+use straightline_testbed::scene::Scene;
+use straightline_testbed::{gbuffer, render};
+
+/// The paper's table 1: milliseconds at 1280×720 with 4 samples on a GeForce GTX 480.
+const METRICS: [(&str, f64); 4] = [
+    ("planes-normals", 1.86),
+    ("depth-normals", 1.14),
+    ("normals", 0.95),
+    ("depth", 0.55),
+];
+
+/// The metric that SRAA has unless another is asked for.
+pub const DEFAULT_METRIC: &str = "depth-normals";
+
+/// Where geometry and shading of the filters that are timed are sampled. The default metric alone is timed with `sample0`.
+const PLACES: [(&str, &str, Samples); 3] = [
+    ("latin4", "centre", Samples::Four),
+    ("latin4", "sample0", Samples::Three),
+    ("latin16", "centre", Samples::Sixteen),
+];
+
+/// The passes that are timed, and what they are called.
+const PASSES: [(&str, FramePass); 13] = [
+    ("main G-buffer", FramePass::Geometry(Samples::One)),
+    ("main G-buffer", FramePass::Geometry(Samples::Four)),
+    ("main G-buffer", FramePass::Geometry(Samples::Sixteen)),
+    ("depth and normals", FramePass::Auxiliary(Samples::Three)),
+    ("depth and normals", FramePass::Auxiliary(Samples::Four)),
+    ("depth and normals, multisampled", FramePass::AuxiliaryMultisampled),
+    ("depth and normals", FramePass::Auxiliary(Samples::Sixteen)),
+    ("deferred shading", FramePass::Shading(Samples::One)),
+    ("deferred shading", FramePass::Shading(Samples::Four)),
+    ("deferred shading", FramePass::Shading(Samples::Sixteen)),
+    ("box filter", FramePass::Resolve(Samples::Four)),
+    ("box filter", FramePass::Resolve(Samples::Sixteen)),
+    ("forward, multisampled, shaded and resolved", FramePass::Forward),
+];
+
+/// Time of a part of a frame.
+#[derive(Clone, Debug, Serialize)]
+pub struct PassTime {
+    #[serde(skip)]
+    pub pass: FramePass,
+    pub name: &'static str,
+    /// Samples of each pixel.
+    pub samples: u32,
+    /// Render or compute passes that it takes.
+    pub passes: u32,
+    pub ms: Quartiles,
+    pub rounds_ms: Vec<f64>,
+}
+
+/// Time of a filter.
+#[derive(Clone, Debug, Serialize)]
+pub struct Filter {
+    pub metric: &'static str,
+    pub pattern: &'static str,
+    /// Where the picture is shaded.
+    pub shading: &'static str,
+    /// Samples that are drawn beside the main G-buffer.
+    #[serde(skip)]
+    pub samples: Samples,
+    pub reads: u32,
+    pub ms: Quartiles,
+    /// Times as slow as with the default metric and shading at the centre: of the medians.
+    pub ratio: f64,
+    /// The same in the paper.
+    pub paper_ratio: Option<f64>,
+    /// Milliseconds of shading once a pixel from which SRAA, its geometry included, is cheaper than shading as many samples.
+    pub break_even_ms: Quartiles,
+    pub rounds_ms: Vec<f64>,
+}
+
+/// All that was timed.
+#[derive(Clone, Debug)]
+pub struct Measured {
+    pub clock: Clock,
+    pub passes: Vec<PassTime>,
+    pub filters: Vec<Filter>,
+}
+
+impl Measured {
+    /// The rounds of a pass, in milliseconds.
+    pub fn pass(&self, pass: FramePass) -> Result<&PassTime, Failure> {
+        let found = self.passes.iter().find(|timed| timed.pass == pass);
+        found.ok_or_else(|| Failure::Failed(format!("{pass:?} was not timed")))
+    }
+
+    /// The filter with the default metric, of the samples that are drawn beside the main G-buffer.
+    pub fn filter(&self, samples: Samples) -> Result<&Filter, Failure> {
+        let mut filters = self.filters.iter();
+        let found = filters.find(|filter| filter.samples == samples && filter.metric == DEFAULT_METRIC);
+        found.ok_or_else(|| Failure::Failed(format!("no filter with {samples:?} was timed")))
+    }
+}
+
+/// A filter and what it reads.
+struct Subject {
+    metric: &'static str,
+    paper_ms: f64,
+    pattern: &'static str,
+    shading: &'static str,
+    samples: Samples,
+    compiled: Compiled,
+    pass: Pass,
+    uploaded: Uploaded,
+}
+
+/// Times everything in turn, after one round that is not counted.
+pub fn measured(args: &BudgetArgs, world: &Scene, gpu: &Gpu) -> Result<Measured, Failure> {
+    let bench = gpu.bench();
+    let frame = FramePasses::new(&gpu.device, &gpu.queue, world, args.size, args.shading_cost).map_err(Failure::of)?;
+    let subjects = subjects(args, world, gpu, &bench)?;
+    let mut works: Vec<Work<'_>> = Vec::new();
+    for (_, pass) in PASSES {
+        let frame = &frame;
+        let work = bench.recorded(pass.passes(), Duration::ZERO, move |encoder, timer| {
+            Ok(frame.encode(pass, encoder, timer)?)
+        });
+        works.push(work.map_err(Failure::of)?);
+    }
+    for subject in &subjects {
+        let job = Job {
+            pass: &subject.pass,
+            uploaded: &subject.uploaded,
+            size: args.size,
+        };
+        works.push(bench.work(job, Duration::ZERO).map_err(Failure::of)?);
+    }
+    let bar = scene::bar(&format!("timing {} passes", works.len()));
+    bar.set_length(u64::from(args.rounds));
+    let timed = bench.in_turn(&mut works, args.rounds, |round| {
+        bar.set_position(u64::from(round));
+        true
+    });
+    drop(works);
+    let timed = timed.map_err(Failure::of)?;
+    bar.finish_and_clear();
+    let mut rounds = timed
+        .rounds
+        .into_iter()
+        .map(|rounds| rounds.iter().map(|time| time.as_secs_f64() * 1e3).collect::<Vec<f64>>());
+    let mut passes = Vec::new();
+    for ((name, pass), rounds_ms) in PASSES.into_iter().zip(rounds.by_ref()) {
+        passes.push(PassTime {
+            pass,
+            name,
+            samples: samples(pass),
+            passes: pass.passes(),
+            ms: frame::quartiles(&rounds_ms)?,
+            rounds_ms,
+        });
+    }
+    let mut measured = Measured {
+        clock: timed.clock,
+        passes,
+        filters: Vec::new(),
+    };
+    for (subject, rounds_ms) in subjects.iter().zip(rounds) {
+        let filter = filter(&measured, subject, rounds_ms)?;
+        measured.filters.push(filter);
+    }
+    for (pattern, _, samples) in PLACES.into_iter().filter(|(_, shading, _)| *shading == "centre") {
+        let base = measured.filter(samples)?.ms.median;
+        for filter in measured.filters.iter_mut().filter(|filter| filter.pattern == pattern) {
+            filter.ratio = filter.ms.median / base;
+        }
+    }
+    Ok(measured)
+}
+
+fn samples(pass: FramePass) -> u32 {
+    match pass {
+        FramePass::Geometry(samples)
+        | FramePass::Auxiliary(samples)
+        | FramePass::Shading(samples)
+        | FramePass::Resolve(samples) => samples.count(),
+        FramePass::AuxiliaryMultisampled | FramePass::Forward => 4,
+    }
+}
+
+fn filter(measured: &Measured, subject: &Subject, rounds_ms: Vec<f64>) -> Result<Filter, Failure> {
+    let counts = &subject.compiled.counts;
+    let four = matches!(subject.samples, Samples::Four);
+    Ok(Filter {
+        metric: subject.metric,
+        pattern: subject.pattern,
+        shading: subject.shading,
+        samples: subject.samples,
+        reads: counts.texture_reads + counts.colour_reads,
+        ms: frame::quartiles(&rounds_ms)?,
+        ratio: 1.0,
+        paper_ratio: four.then_some(subject.paper_ms / METRICS[1].1),
+        break_even_ms: frame::break_even(measured, subject.samples, &rounds_ms)?,
+        rounds_ms,
+    })
+}
+
+fn subjects(args: &BudgetArgs, world: &Scene, gpu: &Gpu, bench: &Bench) -> Result<Vec<Subject>, Failure> {
+    let renderer = GpuRenderer::new(&gpu.device, &gpu.queue, world, args.size).map_err(Failure::of)?;
+    let mut subjects = Vec::new();
+    for (pattern, shading, samples) in PLACES {
+        let offsets = scene::pattern(pattern)?;
+        let capture = render::capture(&renderer, &offsets, scene::shading(shading, &[])?).map_err(Failure::of)?;
+        for (metric, paper_ms) in METRICS {
+            if samples == Samples::Three && metric != DEFAULT_METRIC {
+                continue;
+            }
+            let options = [("pattern", pattern), ("metric", metric), ("shading", shading)];
+            let settings = Settings {
+                options: options.map(|(k, v)| (k.to_owned(), v.to_owned())).into(),
+                ..Settings::default()
+            };
+            let compiled = Kernel::builtin("sraa")?.compile(&settings)?;
+            let inputs = gbuffer::inputs(&capture, &compiled.options).map_err(Failure::of)?;
+            let (pass, manifest) = bench.pass(&compiled, Stage::Compute).map_err(Failure::of)?;
+            let uploaded = bench.upload(&manifest, &inputs).map_err(Failure::of)?;
+            subjects.push(Subject {
+                metric,
+                paper_ms,
+                pattern,
+                shading,
+                samples,
+                compiled,
+                pass,
+                uploaded,
+            });
+        }
+    }
+    Ok(subjects)
+}

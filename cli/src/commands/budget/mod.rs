@@ -1,0 +1,112 @@
+//! `budget`: what a frame costs with SRAA and without, in time, memory and reads (the paper's tables 1 and 2), and from which
+//! shading cost SRAA pays.
+
+mod frame;
+mod measure;
+mod print;
+
+use super::study::command;
+use crate::args::BudgetArgs;
+use crate::failure::Failure;
+use crate::gpu::Gpu;
+use crate::scene;
+use frame::{Comparison, FrameCost};
+use measure::{Filter, PassTime};
+use serde::Serialize;
+use std::time::SystemTime;
+use straightline_codegen::files;
+use straightline_testbed::execute::Clock;
+
+/// Bytes of a geometry sample: what is stored, how many bytes, and where that is assumed.
+const FORMATS: [(&str, u64); 3] = [
+    ("24-bit depth, RGB8 normal (the paper's MB)", 6),
+    ("rgba16float, normals=packed", 8),
+    ("r32float depth, rgba16float normal", 12),
+];
+
+/// Memory and work of a method.
+#[derive(Clone, Debug, Serialize)]
+struct Cost {
+    method: String,
+    geometry_samples: u64,
+    shading_samples: u64,
+    /// For each of [`FORMATS`].
+    gbuffer_bytes: Vec<u64>,
+    reads: Option<u32>,
+}
+
+#[derive(Clone, Debug, Serialize)]
+struct Record {
+    command: String,
+    date: String,
+    /// The built-in scene, or the model's file.
+    scene: String,
+    triangles: usize,
+    size: [u32; 2],
+    rounds: u32,
+    /// Evaluations of the shading for each sample.
+    shading_cost: u32,
+    adapter: String,
+    clock: Clock,
+    /// The paper's table 2, of this scene on this device.
+    frames: Vec<FrameCost>,
+    comparisons: Vec<Comparison>,
+    /// What the frames are made of.
+    passes: Vec<PassTime>,
+    filters: Vec<Filter>,
+    costs: Vec<Cost>,
+}
+
+/// Counts, measures, prints.
+pub fn run(args: &BudgetArgs) -> Result<(), Failure> {
+    if let Some(path) = &args.record {
+        files::try_file(path, true).map_err(Failure::of)?;
+    }
+    let world = scene::viewed(&args.view)?;
+    let gpu = Gpu::require(&args.adapter)?;
+    let measured = measure::measured(args, &world, &gpu)?;
+    let record = Record {
+        command: command(),
+        date: humantime::format_rfc3339_seconds(SystemTime::now()).to_string(),
+        scene: args.view.name(),
+        triangles: world.triangles.len(),
+        size: args.size.to_array(),
+        rounds: args.rounds,
+        shading_cost: args.shading_cost,
+        adapter: gpu.describe(),
+        clock: measured.clock,
+        frames: frame::frames(&measured)?,
+        comparisons: frame::comparisons(&measured)?,
+        costs: costs(args, &measured.filters),
+        passes: measured.passes,
+        filters: measured.filters,
+    };
+    if let Some(path) = &args.record {
+        let text = serde_json::to_string_pretty(&record).map_err(Failure::of)? + "\n";
+        files::write(path, text.as_bytes()).map_err(Failure::of)?;
+    }
+    print::record(args, &record)
+}
+
+fn costs(args: &BudgetArgs, filters: &[Filter]) -> Vec<Cost> {
+    let pixels = u64::from(args.size.x) * u64::from(args.size.y);
+    let reads = |pattern: &str| {
+        let is_default = |f: &&Filter| f.metric == measure::DEFAULT_METRIC && f.shading == "centre";
+        let default = filters.iter().filter(is_default).find(|f| f.pattern == pattern);
+        default.map(|filter| filter.reads)
+    };
+    let cost = |method: &str, geometry: u64, shading: u64, reads: Option<u32>| Cost {
+        method: method.to_owned(),
+        geometry_samples: geometry,
+        shading_samples: shading,
+        gbuffer_bytes: FORMATS.iter().map(|(_, bytes)| pixels * geometry * bytes).collect(),
+        reads,
+    };
+    vec![
+        cost("1x, no antialiasing", 1, 1, None),
+        cost("SRAA 4", 4, 1, reads("latin4")),
+        cost("SRAA 16", 16, 1, reads("latin16")),
+        cost("4x shading", 4, 4, None),
+        cost("16x shading", 16, 16, None),
+    ]
+}
