@@ -1,5 +1,5 @@
 //! Studies of kernels: unroll against loop, methods of antialiasing against references, hard cases with their bounds, what GPU
-//! compilers say, and the search for the cheapest variant. Each gives a [`record`]; [`report`] makes a page of records.
+//! compilers say, the search for the cheapest variant, and any kernel in every combination of options and forms. Each gives a [`record`]; [`report`] makes a page of records.
 //!
 //! What runs kernels, and what judges them, is `straightline-testbed`.
 
@@ -10,5 +10,6 @@ pub mod peers;
 pub mod quality;
 pub mod record;
 pub mod report;
+pub mod sweep;
 pub mod tune;
 pub mod watch;

@@ -5,6 +5,7 @@ mod check;
 mod kernel;
 mod run;
 mod study;
+mod sweep;
 mod tune;
 
 use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
@@ -19,8 +20,9 @@ use straightline_manifest::{Form, Format, Origin, Precision, Stage};
 pub use capture::{CaptureArgs, CompareArgs, ResolveArgs, ViewArgs};
 pub use check::{CheckArgs, MessageFormat};
 pub use kernel::{KernelArgs, OptionArgs};
-pub use run::{Executor, RunArgs, WatchArgs};
+pub use run::{Executor, GivenArgs, RunArgs, WatchArgs};
 pub use study::{CommonArgs, ErrorArgs, HardArgs, IsaArgs, LoopsArgs, Study, StudyArgs};
+pub use sweep::{MergeArgs, RecordsArgs, SweepArgs};
 pub use tune::TuneArgs;
 
 /// Image filters written once, as ordinary Rust with ordinary loops, emitted as straight-line shaders.

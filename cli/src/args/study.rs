@@ -1,6 +1,6 @@
 //! Arguments of `study` and `tune`.
 
-use super::{AdapterArgs, size};
+use super::{AdapterArgs, MergeArgs, RecordsArgs, SweepArgs, size};
 use clap::{Args, Subcommand};
 use glam::UVec2;
 use std::path::PathBuf;
@@ -60,6 +60,12 @@ pub enum Study {
     Hard(HardArgs),
     /// Ask GPU compilers what they make of each kernel, without a GPU
     Isa(IsaArgs),
+    /// Measure one kernel in every combination of options, unroll factors, stages, workgroups and blocks
+    Sweep(Box<SweepArgs>),
+    /// Join the records of all shards of a sweep
+    Merge(MergeArgs),
+    /// Tell whether two records of a sweep differ: exit status 1 if they do
+    Compare(RecordsArgs),
     /// Write the page again from the records in the folder
     Report,
 }

@@ -8,9 +8,8 @@ use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 use straightline_codegen::diagnostic::Errors;
 use straightline_codegen::emit::{Emitted, Target};
 use straightline_codegen::{Compiled, EmitOptions, Format, Kernel, Precision, Settings, Stage, Unroll};
-use straightline_manifest::{Binding, BindingKind};
 use straightline_runtime::{Pass, PassOptions};
-use straightline_testbed::execute::{Bench, Inputs, Uploaded};
+use straightline_testbed::execute::{Bench, Inputs, Uploaded, Uploads};
 
 /// A kernel in every form that it has, looped first, and why it does not have the others.
 pub struct Forms {
@@ -187,7 +186,7 @@ impl Ready {
 pub struct Stand<'a> {
     bench: &'a Bench,
     inputs: &'a Inputs,
-    uploaded: Vec<(Vec<Binding>, Rc<Uploaded>)>,
+    uploads: Uploads<'a>,
 }
 
 impl<'a> Stand<'a> {
@@ -196,7 +195,7 @@ impl<'a> Stand<'a> {
         Stand {
             bench,
             inputs,
-            uploaded: Vec::new(),
+            uploads: Uploads::new(bench, inputs),
         }
     }
 
@@ -214,12 +213,12 @@ impl<'a> Stand<'a> {
         for _ in 0..times.max(1) {
             let unseen = unseen(&emitted);
             let pass = self.bench.made(&unseen, &options)?;
-            let uploaded = self.upload(&unseen)?;
+            let uploaded = self.uploads.of(&unseen.manifest)?;
             let first = self.frame(&pass, &uploaded)?;
             made.push((pass.creation_time(), first));
         }
         let pass = self.bench.made(&emitted, &options)?;
-        let uploaded = self.upload(&emitted)?;
+        let uploaded = self.uploads.of(&emitted.manifest)?;
         Ok(Ready {
             kind,
             emitted,
@@ -227,17 +226,6 @@ impl<'a> Stand<'a> {
             uploaded,
             made,
         })
-    }
-
-    fn upload(&mut self, emitted: &Emitted) -> Result<Rc<Uploaded>, LoopsError> {
-        let is_resource = |b: &&Binding| !matches!(b.kind, BindingKind::Uniform { .. });
-        let wanted: Vec<Binding> = emitted.manifest.bindings.iter().filter(is_resource).cloned().collect();
-        if let Some((_, uploaded)) = self.uploaded.iter().find(|(known, _)| *known == wanted) {
-            return Ok(Rc::new(self.bench.share(&emitted.manifest, self.inputs, uploaded)?));
-        }
-        let uploaded = Rc::new(self.bench.upload(&emitted.manifest, self.inputs)?);
-        self.uploaded.push((wanted, Rc::clone(&uploaded)));
-        Ok(uploaded)
     }
 
     /// How long a frame takes, by the wall clock.

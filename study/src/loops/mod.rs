@@ -5,7 +5,7 @@
 
 mod forms;
 mod subjects;
-mod truth;
+pub(crate) mod truth;
 
 use crate::record::{Form, FormKind, KernelForms};
 use crate::watch::Watch;

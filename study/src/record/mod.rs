@@ -4,6 +4,7 @@ mod hard;
 mod isa;
 mod loops;
 mod quality;
+mod sweep;
 mod tune;
 
 use flate2::read::GzDecoder;
@@ -19,10 +20,11 @@ pub use hard::{Executor, HalfVerdict, HardCase, HardRecord, HardResult};
 pub use isa::{Asked, IsaForm, IsaRecord, SpirvPath};
 pub use loops::{Form, FormKind, KernelForms, LoopsRecord};
 pub use quality::{Family, Gap, MOST_DB, MethodErrors, QualityRecord, SceneErrors, Shares};
+pub use sweep::{Environment, Measured, Shard, SweepRecord, Swept};
 pub use tune::{Candidate, LeftOut, Model, Refused, TermWorth, TuneRecord};
 
 /// Under which circumstances figures were taken: without these a figure says nothing.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
 pub struct Circumstances {
     /// The command that takes them again.
     pub command: String,
@@ -32,7 +34,8 @@ pub struct Circumstances {
     pub adapter: String,
     /// What the processor is called, and how many threads it runs: on software drivers it is the GPU.
     pub processor: String,
-    /// What times were taken with.
+    /// What times were taken with: `gpu-timestamps` around each pass, or the `wall-clock`.
+    #[schemars(with = "String")]
     pub clock: Clock,
     /// Width and height in pixels.
     pub size: [u32; 2],
@@ -51,7 +54,7 @@ pub trait Record: Serialize + DeserializeOwned {
     const STEM: &'static str;
 
     /// Headings of the table, and its rows.
-    fn table(&self) -> (Vec<&'static str>, Vec<Vec<String>>);
+    fn table(&self) -> (Vec<&str>, Vec<Vec<String>>);
 
     /// Writes `STEM.json` and `STEM.csv` into `folder`, which is made if it is not there. Each is whole or as it was before.
     ///

@@ -9,6 +9,7 @@ mod synthetic;
 mod textures;
 mod tiles;
 mod timing;
+mod uploads;
 mod work;
 
 use glam::{UVec2, UVec4, Vec4};
@@ -22,6 +23,7 @@ pub use straightline_codegen::interp::{Address, Comparison, SamplerState};
 pub use synthetic::test_inputs;
 pub use tiles::{Tile, cropped, tiles};
 pub use timing::{Clock, Job, Quartiles, Ratio, Timed, Times};
+pub use uploads::Uploads;
 pub use work::Work;
 
 /// What a kernel gives for each pixel in one of its targets.

@@ -1,7 +1,7 @@
 //! What a kernel is given to read: pictures, layers of captures, numbers.
 
 use super::values;
-use crate::args::{Executor, RunArgs, StageArg};
+use crate::args::{Executor, GivenArgs, StageArg};
 use crate::failure::Failure;
 use glam::{UVec2, Vec4};
 use std::path::Path;
@@ -12,9 +12,9 @@ use straightline_testbed::execute::Inputs;
 use straightline_testbed::picture;
 
 /// Everything that the command line gives, for the kernel as it will run.
-pub fn inputs(args: &RunArgs, compiled: &Compiled) -> Result<Inputs, Failure> {
+pub fn inputs(given: &GivenArgs, stage: StageArg, compiled: &Compiled) -> Result<Inputs, Failure> {
     // One compute invocation has all of a quad, and reads as a texture what a fragment shader interpolates.
-    let compiled = match (args.given.executor, args.stage) {
+    let compiled = match (given.executor, stage) {
         (Executor::Gpu, StageArg::Fragment) => {
             refuse_varyings(compiled)?;
             std::borrow::Cow::Borrowed(compiled)
@@ -23,7 +23,7 @@ pub fn inputs(args: &RunArgs, compiled: &Compiled) -> Result<Inputs, Failure> {
     };
     let graph = &compiled.graph;
     let mut inputs = Inputs::default();
-    for text in &args.given.input {
+    for text in &given.input {
         let (texture, path) = texture_and_path(&compiled, text)?;
         for path in paths(path) {
             match texture.scalar {
@@ -42,7 +42,7 @@ pub fn inputs(args: &RunArgs, compiled: &Compiled) -> Result<Inputs, Failure> {
     for texture in &graph.textures {
         complete(&mut inputs, texture)?;
     }
-    for (name, text) in &args.given.uniform {
+    for (name, text) in &given.uniform {
         let Some(uniform) = graph.uniforms.iter().find(|u| u.name == *name) else {
             return Err(unknown(
                 &compiled,
@@ -56,7 +56,7 @@ pub fn inputs(args: &RunArgs, compiled: &Compiled) -> Result<Inputs, Failure> {
         }
         inputs = inputs.uniform(name, &values::uniform(name, uniform.ty, text)?);
     }
-    for (name, text) in &args.given.buffer {
+    for (name, text) in &given.buffer {
         let Some(buffer) = graph.buffers.iter().find(|b| b.name == *name) else {
             return Err(unknown(
                 &compiled,
@@ -70,7 +70,7 @@ pub fn inputs(args: &RunArgs, compiled: &Compiled) -> Result<Inputs, Failure> {
         }
         inputs = inputs.buffer(name, values::buffer(name, &buffer.element, text)?);
     }
-    inputs.size = args.given.size.or_else(|| size(graph, &inputs)).ok_or_else(|| {
+    inputs.size = given.size.or_else(|| size(graph, &inputs)).ok_or_else(|| {
         Failure::Usage(
             "the output's size is that of a picture, and none is given: say --size, such as 640x360".to_owned(),
         )

@@ -1,6 +1,6 @@
 //! `run`: any kernel on pictures.
 
-mod inputs;
+pub mod inputs;
 mod outputs;
 mod values;
 
@@ -33,7 +33,7 @@ pub struct Made {
 pub fn make(args: &RunArgs, compiled: &Compiled, gpu: &mut Option<Gpu>) -> Result<Made, Failure> {
     check(args)?;
     let outs = outputs::outs(args, compiled)?;
-    let inputs = inputs::inputs(args, compiled)?;
+    let inputs = inputs::inputs(&args.given, args.stage, compiled)?;
     for out in &outs {
         files::try_file(&out.path, false).map_err(Failure::of)?;
     }

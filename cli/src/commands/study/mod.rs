@@ -1,9 +1,10 @@
-//! `study`: unroll against loop, speed against error, hard cases; records, and one page of them all.
+//! `study`: unroll against loop, speed against error, hard cases, sweeps; records, and one page of them all.
 
 mod error;
 mod hard;
 pub mod isa;
 mod loops;
+mod sweep;
 mod watch;
 
 use super::tune;
@@ -24,7 +25,12 @@ pub use watch::Progress;
 /// Measures, and writes records and the page.
 pub fn run(args: &StudyArgs) -> Result<(), Failure> {
     let common = &args.common;
-    if !matches!(&args.study, Some(Study::Hard(args)) if args.list) {
+    let writes_nothing = match &args.study {
+        Some(Study::Hard(args)) => args.list,
+        Some(Study::Compare(_)) => true,
+        _ => false,
+    };
+    if !writes_nothing {
         files::try_folder(&common.out).map_err(Failure::of)?;
     }
     let mut progress = Progress::new();
@@ -34,6 +40,9 @@ pub fn run(args: &StudyArgs) -> Result<(), Failure> {
         Some(Study::Hard(args)) if args.list => return hard::list(args),
         Some(Study::Hard(args)) => hard::run(common, args, &mut progress)?,
         Some(Study::Isa(args)) => isa::run(common, args, &mut progress)?,
+        Some(Study::Sweep(args)) => return sweep::run(common, args, &mut progress),
+        Some(Study::Merge(args)) => return sweep::merge(common, args),
+        Some(Study::Compare(args)) => return sweep::compare(args),
         Some(Study::Report) => {}
         None => all(common, &mut progress)?,
     }

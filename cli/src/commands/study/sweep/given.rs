@@ -1,0 +1,99 @@
+//! What the variants of a sweep read: files of the command line, and the test card for all else.
+
+use crate::args::{CommonArgs, Executor, GivenArgs, StageArg, SweepArgs};
+use crate::commands::run::inputs;
+use crate::failure::Failure;
+use glam::UVec2;
+use std::collections::BTreeSet;
+use std::fmt;
+use straightline_codegen::Compiled;
+use straightline_testbed::execute::{Inputs, test_inputs};
+
+/// What the command line gives.
+pub struct Given {
+    args: GivenArgs,
+    /// What any variant reads, by name.
+    names: BTreeSet<String>,
+    /// Size where no picture has one.
+    size: UVec2,
+}
+
+/// Names of all that a kernel reads.
+fn names(compiled: &Compiled) -> impl Iterator<Item = &String> {
+    let graph = &compiled.graph;
+    let textures = graph.textures.iter().map(|texture| &texture.name);
+    let uniforms = graph.uniforms.iter().map(|uniform| &uniform.name);
+    textures
+        .chain(uniforms)
+        .chain(graph.buffers.iter().map(|buffer| &buffer.name))
+}
+
+impl Given {
+    /// For a sweep whose variants read what some of `compiled` read.
+    pub fn new(common: &CommonArgs, args: &SweepArgs, compiled: &[Compiled]) -> Given {
+        let args = GivenArgs {
+            input: args.input.clone(),
+            uniform: args.uniform.clone(),
+            buffer: args.buffer.clone(),
+            size: match args.input.is_empty() {
+                true => Some(common.size()),
+                false => common.size,
+            },
+            executor: Executor::Gpu,
+            adapter: common.adapter.clone(),
+        };
+        Given {
+            args,
+            names: compiled.iter().flat_map(names).cloned().collect(),
+            size: common.size(),
+        }
+    }
+
+    /// Width and height of the pictures.
+    pub fn size(&self, compiled: &Compiled) -> Result<UVec2, Failure> {
+        Ok(self.inputs(compiled)?.size)
+    }
+
+    /// What a variant reads. What it does not read, but another variant does, is left out.
+    pub fn inputs(&self, compiled: &Compiled) -> Result<Inputs, Failure> {
+        let own: BTreeSet<&String> = names(compiled).collect();
+        let wanted = |name: &str| own.iter().any(|own| *own == name) || !self.names.contains(name);
+        let mut args = self.args.clone();
+        args.input
+            .retain(|text| text.split_once('=').is_none_or(|(name, _)| wanted(name)));
+        args.uniform.retain(|(name, _)| wanted(name));
+        args.buffer.retain(|(name, _)| wanted(name));
+        if args.input.is_empty() {
+            args.size = args.size.or(Some(self.size));
+        }
+        let mut inputs = inputs::inputs(&args, StageArg::Compute, compiled)?;
+        let card = test_inputs(&compiled.in_blocks().graph, inputs.size);
+        fill(&mut inputs.images, card.images);
+        fill(&mut inputs.integers, card.integers);
+        fill(&mut inputs.buffers, card.buffers);
+        fill(&mut inputs.uniforms, card.uniforms);
+        Ok(inputs)
+    }
+}
+
+/// Adds what is not there yet.
+fn fill<T>(own: &mut Vec<(String, T)>, card: Vec<(String, T)>) {
+    for (name, value) in card {
+        if !own.iter().any(|(known, _)| *known == name) {
+            own.push((name, value));
+        }
+    }
+}
+
+impl fmt::Display for Given {
+    /// For a record.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let pairs = self.args.uniform.iter().chain(&self.args.buffer);
+        let pairs = pairs.map(|(name, value)| format!("{name}={value}"));
+        let all: Vec<String> = self.args.input.iter().cloned().chain(pairs).collect();
+        match all.is_empty() {
+            true => f.write_str("the test card"),
+            false => write!(f, "{}; all else the test card", all.join(" ")),
+        }
+    }
+}

@@ -1,0 +1,191 @@
+//! `study sweep`: one kernel in every combination of options and forms; and what reads such records.
+
+mod environment;
+mod given;
+mod print;
+
+use super::{Progress, circumstances_of};
+use crate::args::{CommonArgs, MergeArgs, RecordsArgs, SweepArgs};
+use crate::failure::{Failure, count};
+use crate::gpu::Gpu;
+use given::Given;
+use std::collections::{BTreeMap, BTreeSet};
+use std::time::Duration;
+use straightline_codegen::{Compiled, Kernel};
+use straightline_manifest::hash_of_text;
+use straightline_study::record::{Record, SweepRecord};
+use straightline_study::sweep::{self, RESERVED, Rival, Space, Sweep, SweepError};
+use straightline_study::watch::Watch;
+
+/// How long a shader is run at least for one time.
+const LEAST: Duration = Duration::from_millis(40);
+
+/// Measures, writes the record, prints it.
+pub fn run(common: &CommonArgs, args: &SweepArgs, progress: &mut Progress) -> Result<(), Failure> {
+    let kernel = args
+        .source
+        .iter()
+        .fold(Kernel::locate(&args.kernel), |kernel, path| kernel?.with_file(path))?;
+    let space = space(args)?;
+    let sweep = Sweep {
+        baseline: baseline(args)?,
+        kernel,
+        space,
+        rivals: args
+            .against
+            .iter()
+            .map(|file| Rival { pattern: file.clone() })
+            .collect(),
+        rounds: common.rounds(),
+        until: args.until,
+        least: LEAST,
+        shard: args.shard,
+    };
+    let compiled = first_of_groups(&sweep)?;
+    let given = Given::new(common, args, &compiled);
+    let size = given.size(&compiled[0])?;
+    let gpu = Gpu::require(&common.adapter)?;
+    let give = |compiled: &Compiled| given.inputs(compiled).map_err(told);
+    let variants = sweep.measure(&gpu.bench(), &give, progress).map_err(failure)?;
+    let mut circumstances = circumstances_of(&gpu, size, common.rounds());
+    circumstances.complete = !progress.stopped();
+    let record = SweepRecord {
+        circumstances,
+        environment: environment::here(),
+        kernel: sweep.kernel.name().to_owned(),
+        source: hash_of_text(
+            &sweep
+                .kernel
+                .files()
+                .iter()
+                .map(|file| file.text.as_str())
+                .collect::<String>(),
+        ),
+        input: given.to_string(),
+        axes: sweep.space.axes(),
+        baseline: sweep.baseline,
+        until: args.until,
+        shard: args.shard,
+        variants,
+    };
+    progress.done();
+    record.write(&common.out).map_err(Failure::of)?;
+    print::record(&record);
+    written(common);
+    Ok(())
+}
+
+/// Writes all shards as one record.
+pub fn merge(common: &CommonArgs, args: &MergeArgs) -> Result<(), Failure> {
+    let records: Result<Vec<_>, _> = args.records.iter().map(|path| SweepRecord::read(path)).collect();
+    let record = sweep::joined(&records.map_err(Failure::of)?).map_err(Failure::of)?;
+    record.write(&common.out).map_err(Failure::of)?;
+    print::record(&record);
+    written(common);
+    Ok(())
+}
+
+/// Prints in what two records differ, and fails if they do.
+pub fn compare(args: &RecordsArgs) -> Result<(), Failure> {
+    let read = |path| SweepRecord::read(path).map_err(Failure::of);
+    let (first, second) = (read(&args.first)?, read(&args.second)?);
+    let compared = sweep::compared(&first, &second, args.tolerance).map_err(Failure::of)?;
+    if compared.is_empty() {
+        return Err(Failure::Failed(
+            "the records have no variant in common that was measured in both, beside its baseline".to_owned(),
+        ));
+    }
+    print::compared(&first, &compared);
+    match compared.iter().filter(|of| of.differs).count() {
+        0 => Ok(()),
+        differ => Err(Failure::Failed(format!(
+            "{differ} of {} differ by more than {:.0} %",
+            count(compared.len(), "variant"),
+            100.0 * args.tolerance
+        ))),
+    }
+}
+
+fn written(common: &CommonArgs) {
+    for extension in ["json", "csv"] {
+        outln!(
+            "{}",
+            common.out.join(SweepRecord::STEM).with_extension(extension).display()
+        );
+    }
+}
+
+/// Everything that is varied, each value once.
+fn space(args: &SweepArgs) -> Result<Space, Failure> {
+    let space = Space {
+        options: args.set.clone(),
+        unroll: args.unroll.clone(),
+        loops: args.loops.clone(),
+        stages: args.stage.iter().map(|stage| (*stage).into()).collect(),
+        workgroups: args.workgroup.iter().map(|size| size.to_array()).collect(),
+        blocks: args.block.iter().map(|size| size.to_array()).collect(),
+    };
+    let mut names = BTreeSet::new();
+    for (name, _) in &space.options {
+        if RESERVED.contains(&name.as_str()) {
+            return Err(Failure::Usage(format!(
+                "an option called `{name}` cannot be swept: --{name} is another axis; call it differently in the kernel"
+            )));
+        }
+        if !names.insert(name) {
+            return Err(Failure::Usage(format!(
+                "the option `{name}` is given twice: give all its values at once"
+            )));
+        }
+    }
+    for axis in space.axes() {
+        let mut values = BTreeSet::new();
+        if let Some(twice) = axis.values.iter().find(|value| !values.insert(*value)) {
+            return Err(Failure::Usage(format!("`{}` has the value `{twice}` twice", axis.name)));
+        }
+    }
+    Ok(space)
+}
+
+fn baseline(args: &SweepArgs) -> Result<BTreeMap<String, String>, Failure> {
+    let mut baseline = BTreeMap::new();
+    for (name, value) in &args.baseline {
+        if baseline.insert(name.clone(), value.clone()).is_some() {
+            return Err(Failure::Usage(format!("--baseline has `{name}` twice")));
+        }
+    }
+    if let (true, Some(first)) = (baseline.is_empty(), args.unroll.first()) {
+        baseline.insert("unroll".to_owned(), first.to_string());
+    }
+    Ok(baseline)
+}
+
+/// A variant of each group, compiled. If none can be, the kernel is wrong, or an option's name.
+fn first_of_groups(sweep: &Sweep) -> Result<Vec<Compiled>, Failure> {
+    let mut wrong = None;
+    let mut compiled = Vec::new();
+    for variant in sweep.groups().map_err(failure)?.iter().flatten() {
+        match sweep.kernel.compile(&variant.compile_settings()) {
+            Ok(one) => compiled.push(one),
+            Err(errors) => wrong = wrong.or(Some(errors)),
+        }
+    }
+    match wrong {
+        Some(errors) if compiled.is_empty() => Err(Failure::Kernel(errors)),
+        _ => Ok(compiled),
+    }
+}
+
+fn failure(error: SweepError) -> Failure {
+    match error {
+        SweepError::Bad(message) | SweepError::Given(message) => Failure::Usage(message),
+        other => Failure::of(other),
+    }
+}
+
+fn told(failure: Failure) -> SweepError {
+    SweepError::Given(match failure {
+        Failure::Usage(message) | Failure::Failed(message) => message,
+        Failure::Kernel(errors) => errors.render(false),
+    })
+}

@@ -1,0 +1,273 @@
+//! Variants that are compared with each other: made, checked and timed in turn.
+
+use super::{Give, Loops, Sweep, SweepError, Variant, bootstrap};
+use crate::loops::truth;
+use crate::record::{Measured, Swept};
+use crate::watch::Watch;
+use glam::{UVec2, Vec4};
+use std::collections::BTreeMap;
+use std::rc::Rc;
+use straightline_codegen::diagnostic::Errors;
+use straightline_codegen::emit::{Emitted, Target};
+use straightline_codegen::{Compiled, EmitOptions, Format, Settings, Stage, Unroll};
+use straightline_kernels::prelude::Frame;
+use straightline_manifest::hash_of_text;
+use straightline_runtime::{Pass, PassOptions};
+use straightline_testbed::execute::{Bench, ExecuteError, Inputs, Job, Uploaded, Uploads, Work, interpret};
+
+/// Rounds between two looks at how sure the ratios are.
+const ROUNDS_AT_ONCE: u32 = 10;
+
+/// Of how many samples an interval is to hold the median.
+const CONFIDENCE: f64 = 0.95;
+
+/// A variant on the device.
+struct Ready {
+    /// Which of the group's.
+    at: usize,
+    emitted: Emitted,
+    is_rival: bool,
+    pass: Pass,
+    uploaded: Rc<Uploaded>,
+    difference: f64,
+    difference_999: f64,
+}
+
+/// All variants of a group and their rivals; `None` if it was stopped before all were measured.
+pub fn measured(
+    sweep: &Sweep,
+    bench: &Bench,
+    group: &[Variant],
+    give: &Give<'_>,
+    watch: &mut dyn Watch,
+) -> Result<Option<Vec<Swept>>, SweepError> {
+    let mut swept: Vec<Swept> = group
+        .iter()
+        .map(|variant| unmeasured(variant.settings(), None))
+        .collect();
+    let compiled: Vec<Result<Compiled, String>> = group
+        .iter()
+        .map(|variant| sweep.kernel.compile(&variant.compile_settings()).map_err(reason))
+        .collect();
+    for (swept, compiled) in swept.iter_mut().zip(&compiled) {
+        swept.refused = compiled.as_ref().err().cloned();
+    }
+    let Some(judge) = judge(sweep, group, &compiled) else {
+        return Ok(Some(swept));
+    };
+    let inputs = give(&judge)?;
+    let exact = interpret::<f64>(&judge, &inputs, false)?.texels;
+    let exact: Vec<_> = exact.into_iter().map(Some).collect();
+    watch.step();
+
+    let mut stand = Stand {
+        bench,
+        inputs: &inputs,
+        exact: &exact,
+        uploads: Uploads::new(bench, &inputs),
+    };
+    let mut ready: Vec<Ready> = Vec::new();
+    for (at, (variant, compiled)) in group.iter().zip(&compiled).enumerate() {
+        if watch.stopped() {
+            return Ok(None);
+        }
+        if let Ok(compiled) = compiled {
+            let emitted = compiled.emit(&emit_options(variant)).map_err(|error| error.to_string());
+            match emitted.and_then(|emitted| stand.put(at, emitted, variant.loops, false)) {
+                Ok(variant) => ready.push(variant),
+                Err(why) => swept[at].refused = Some(why),
+            }
+        }
+        watch.step();
+    }
+    for rival in &sweep.rivals {
+        let like = ready
+            .iter()
+            .filter(|ready| !ready.is_rival)
+            .map(|ready| &ready.emitted)
+            .collect::<Vec<_>>();
+        let mut settings = group.first().map(Variant::settings).unwrap_or_default();
+        settings.retain(|name, _| !sweep.baseline.contains_key(name));
+        let file = rival.file(&settings);
+        let put = rival
+            .emitted(&file, &like)
+            .and_then(|emitted| stand.put(swept.len(), emitted, Loops::Bounded, true));
+        let mut of = unmeasured(settings, Some(file));
+        match put {
+            Ok(rival) => ready.push(rival),
+            Err(why) => of.refused = Some(why),
+        }
+        swept.push(of);
+        watch.step();
+    }
+
+    let baseline = group.iter().position(|variant| sweep.is_baseline(variant));
+    let Some(rounds) = timed(sweep, bench, inputs.size, &mut ready, &mut swept, baseline, watch)? else {
+        return Ok(None);
+    };
+    let base = ready.iter().position(|ready| Some(ready.at) == baseline);
+    for (k, ready) in ready.iter().enumerate() {
+        swept[ready.at].measured = Some(figures(ready, &rounds[k], base.map(|base| rounds[base].as_slice())));
+    }
+    Ok(Some(swept))
+}
+
+fn unmeasured(settings: BTreeMap<String, String>, rival: Option<String>) -> Swept {
+    Swept {
+        settings,
+        rival,
+        measured: None,
+        refused: None,
+    }
+}
+
+/// The kernel by which all of a group are judged: without loops where that is allowed.
+fn judge(sweep: &Sweep, group: &[Variant], compiled: &[Result<Compiled, String>]) -> Option<Compiled> {
+    let first = compiled.iter().position(Result::is_ok)?;
+    let settings = Settings {
+        options: group[first].options.clone(),
+        unroll: Unroll::Full,
+        ..Settings::default()
+    };
+    let full = sweep.kernel.compile(&settings).ok();
+    full.or_else(|| compiled[first].as_ref().ok().cloned())
+}
+
+/// What the first error says, in a line.
+fn reason(errors: Errors) -> String {
+    let first = errors.diagnostics.first();
+    first.map_or_else(|| "refused".to_owned(), |error| error.message.clone())
+}
+
+fn emit_options(variant: &Variant) -> EmitOptions {
+    let mut options = EmitOptions::new()
+        .stage(variant.stage)
+        .format(Format::Rgba32Float)
+        .unbounded_loops(variant.loops == Loops::Unbounded)
+        .targets([Target::Wgsl, Target::Spirv]);
+    options.workgroup = (variant.stage == Stage::Compute).then_some(variant.workgroup);
+    options
+}
+
+/// Where variants are put onto the device.
+struct Stand<'a> {
+    bench: &'a Bench,
+    inputs: &'a Inputs,
+    exact: &'a [Option<[f64; 4]>],
+    uploads: Uploads<'a>,
+}
+
+impl Stand<'_> {
+    /// Makes a shader and runs it once.
+    fn put(&mut self, at: usize, emitted: Emitted, loops: Loops, is_rival: bool) -> Result<Ready, String> {
+        let (pass, uploaded, picture) = self.run(&emitted, loops).map_err(|error| error.to_string())?;
+        let (difference, difference_999) = truth::differences(picture.texels(), self.exact);
+        Ok(Ready {
+            at,
+            emitted,
+            is_rival,
+            pass,
+            uploaded,
+            difference,
+            difference_999,
+        })
+    }
+
+    fn run(&mut self, emitted: &Emitted, loops: Loops) -> Result<(Pass, Rc<Uploaded>, Frame<Vec4>), ExecuteError> {
+        let options = PassOptions::default().unbounded_loops(loops == Loops::Unbounded);
+        let pass = self.bench.made(emitted, &options)?;
+        let uploaded = self.uploads.of(&emitted.manifest)?;
+        let picture = self.bench.picture_of(&pass, &uploaded, self.inputs.size)?;
+        Ok((pass, uploaded, picture))
+    }
+}
+
+/// Milliseconds of all that are ready, round by round. What cannot be timed is refused, and ready no more. `None` if it was
+/// stopped before two rounds.
+fn timed(
+    sweep: &Sweep,
+    bench: &Bench,
+    size: UVec2,
+    ready: &mut Vec<Ready>,
+    swept: &mut [Swept],
+    baseline: Option<usize>,
+    watch: &mut dyn Watch,
+) -> Result<Option<Vec<Vec<f64>>>, SweepError> {
+    let work = |ready: &Ready| {
+        let job = Job {
+            pass: &ready.pass,
+            uploaded: &ready.uploaded,
+            size,
+        };
+        bench.work(job, sweep.least).map(drop)
+    };
+    ready.retain(|ready| match work(ready) {
+        Ok(()) => true,
+        Err(error) => {
+            swept[ready.at].refused = Some(error.to_string());
+            false
+        }
+    });
+    let jobs = ready.iter().map(|ready| Job {
+        pass: &ready.pass,
+        uploaded: &ready.uploaded,
+        size,
+    });
+    let works: Result<Vec<Work<'_>>, _> = jobs.map(|job| bench.work(job, sweep.least)).collect();
+    let mut works = works?;
+    let base = ready.iter().position(|ready| Some(ready.at) == baseline);
+    let mut rounds: Vec<Vec<f64>> = vec![Vec::new(); works.len()];
+    let mut done = 0;
+    while done < sweep.rounds && !watch.stopped() && !works.is_empty() {
+        let at_once = sweep
+            .until
+            .map_or(sweep.rounds, |_| ROUNDS_AT_ONCE)
+            .min(sweep.rounds - done);
+        let times = bench.in_turn(&mut works, at_once, |round| {
+            if round > 0 {
+                watch.step();
+            }
+            !watch.stopped()
+        })?;
+        for (rounds, times) in rounds.iter_mut().zip(times.rounds) {
+            rounds.extend(times.iter().map(|time| time.as_secs_f64() * 1e3));
+        }
+        done += at_once;
+        if let (Some(until), Some(base)) = (sweep.until, base)
+            && rounds.iter().all(|own| is_sure(own, &rounds[base], until))
+        {
+            break;
+        }
+    }
+    let enough = rounds.iter().all(|own| own.len() >= 2.min(sweep.rounds as usize));
+    Ok(enough.then_some(rounds))
+}
+
+/// How many times as fast as `base`, round by round.
+fn ratios(own: &[f64], base: &[f64]) -> Vec<f64> {
+    base.iter().zip(own).map(|(base, own)| base / own.max(1e-9)).collect()
+}
+
+fn is_sure(own: &[f64], base: &[f64], until: f64) -> bool {
+    let interval = bootstrap::median_of(&ratios(own, base), CONFIDENCE);
+    interval.is_some_and(|interval| interval.spread() <= until)
+}
+
+fn figures(ready: &Ready, rounds: &[f64], base: Option<&[f64]>) -> Measured {
+    let counts = &ready.emitted.manifest.counts;
+    let emitted = !ready.is_rival;
+    let wgsl = ready.emitted.files.get(&Target::Wgsl);
+    let spirv = ready.emitted.files.get(&Target::Spirv);
+    Measured {
+        hash: hash_of_text(&wgsl.map(|text| String::from_utf8_lossy(text)).unwrap_or_default()),
+        loops: emitted.then_some(counts.loops),
+        statements: emitted.then_some(counts.statements),
+        reads: emitted.then(|| counts.reads.values().sum()),
+        spirv_bytes: spirv.filter(|_| emitted).map(Vec::len),
+        rounds_ms: rounds.to_vec(),
+        median_ms: bootstrap::median_of(rounds, CONFIDENCE).map_or(0.0, |of| of.median),
+        times_as_fast: base.and_then(|base| bootstrap::median_of(&ratios(rounds, base), CONFIDENCE)),
+        difference: ready.difference,
+        difference_999: ready.difference_999,
+    }
+}

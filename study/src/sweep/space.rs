@@ -1,0 +1,273 @@
+//! What is varied, and every variant of it.
+
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use straightline_codegen::emit::EmitOptions;
+use straightline_codegen::{Settings, Stage, Unroll};
+
+/// What becomes of a loop that stays one.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Loops {
+    /// wgpu counts its iterations, as it does for every shader that it does not trust.
+    #[default]
+    Bounded,
+    /// It is compiled as it stands, which lets a driver unroll it.
+    Unbounded,
+}
+
+impl Loops {
+    /// The word for it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Loops::Bounded => "bounded",
+            Loops::Unbounded => "unbounded",
+        }
+    }
+}
+
+/// What is varied, by its name, and its values in their order.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
+pub struct Axis {
+    /// An option of the kernel, or one of [`RESERVED`].
+    pub name: String,
+    /// At least one.
+    pub values: Vec<String>,
+}
+
+/// Names of axes that every sweep has, after those of the options.
+pub const RESERVED: [&str; 5] = ["unroll", "loops", "stage", "workgroup", "block"];
+
+/// One way to write a kernel.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Variant {
+    /// Options that are not left at their default.
+    pub options: Vec<(String, String)>,
+    /// What becomes of loops.
+    pub unroll: Unroll,
+    /// What becomes of those that stay.
+    pub loops: Loops,
+    /// Pipeline stage.
+    pub stage: Stage,
+    /// Invocations of a compute workgroup, across and down.
+    pub workgroup: [u32; 2],
+    /// Pixels of a compute invocation, across and down.
+    pub block: [u32; 2],
+}
+
+/// All values of everything that is varied. Each list has at least one.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Space {
+    /// Options of the kernel, each with its values.
+    pub options: Vec<(String, Vec<String>)>,
+    /// What becomes of loops.
+    pub unroll: Vec<Unroll>,
+    /// What becomes of those that stay.
+    pub loops: Vec<Loops>,
+    /// Pipeline stages.
+    pub stages: Vec<Stage>,
+    /// Invocations of a compute workgroup, across and down.
+    pub workgroups: Vec<[u32; 2]>,
+    /// Pixels of a compute invocation, across and down.
+    pub blocks: Vec<[u32; 2]>,
+}
+
+impl Default for Space {
+    /// Nothing is varied.
+    fn default() -> Self {
+        Space {
+            options: Vec::new(),
+            unroll: vec![Unroll::Full],
+            loops: vec![Loops::Bounded],
+            stages: vec![Stage::Compute],
+            workgroups: vec![EmitOptions::WORKGROUP],
+            blocks: vec![[1, 1]],
+        }
+    }
+}
+
+impl Space {
+    /// Everything that is varied, with the names of the values: options first, then those of [`RESERVED`].
+    pub fn axes(&self) -> Vec<Axis> {
+        let options = self.options.iter().cloned();
+        let fixed: [Vec<String>; 5] = [
+            self.unroll.iter().map(Unroll::to_string).collect(),
+            self.loops.iter().map(|loops| loops.name().to_owned()).collect(),
+            self.stages.iter().map(|stage| stage.name().to_owned()).collect(),
+            self.workgroups.iter().map(by).collect(),
+            self.blocks.iter().map(by).collect(),
+        ];
+        let fixed = RESERVED.map(str::to_owned).into_iter().zip(fixed);
+        options
+            .chain(fixed)
+            .map(|(name, values)| Axis { name, values })
+            .collect()
+    }
+
+    /// Every combination, the last axis fastest. A fragment has neither workgroup nor block: in that stage their first values
+    /// stand for all.
+    pub fn variants(&self) -> Vec<Variant> {
+        let mut options: Vec<Vec<(String, String)>> = vec![Vec::new()];
+        for (name, values) in &self.options {
+            let with = |known: &Vec<(String, String)>| {
+                let known = known.clone();
+                let each = values.iter().map(|value| (name.clone(), value.clone()));
+                each.map(move |option| [known.as_slice(), &[option]].concat())
+                    .collect::<Vec<_>>()
+            };
+            options = options.iter().flat_map(with).collect();
+        }
+        let mut all = Vec::new();
+        for options in options {
+            for &unroll in &self.unroll {
+                for &loops in &self.loops {
+                    for &stage in &self.stages {
+                        let of_compute = |length: usize| if stage == Stage::Compute { length } else { 1 };
+                        for &workgroup in &self.workgroups[..of_compute(self.workgroups.len())] {
+                            for &block in &self.blocks[..of_compute(self.blocks.len())] {
+                                all.push(Variant {
+                                    options: options.clone(),
+                                    unroll,
+                                    loops,
+                                    stage,
+                                    workgroup,
+                                    block,
+                                });
+                            }
+                        }
+                    }
+                }
+            }
+        }
+        all
+    }
+}
+
+impl Variant {
+    /// The value of every axis.
+    pub fn settings(&self) -> BTreeMap<String, String> {
+        let fixed = [
+            self.unroll.to_string(),
+            self.loops.name().to_owned(),
+            self.stage.name().to_owned(),
+            by(&self.workgroup),
+            by(&self.block),
+        ];
+        let fixed = RESERVED.map(str::to_owned).into_iter().zip(fixed);
+        self.options.iter().cloned().chain(fixed).collect()
+    }
+
+    /// How the generator is asked for it.
+    pub fn compile_settings(&self) -> Settings {
+        Settings {
+            options: self.options.clone(),
+            unroll: self.unroll,
+            block: self.block,
+            ..Settings::default()
+        }
+    }
+}
+
+fn by(size: &[u32; 2]) -> String {
+    format!("{}x{}", size[0], size[1])
+}
+
+/// The values that a text names: numbers from one to another as Rust has them, `1..9` or `1..=8`; or values separated by
+/// commas, or by semicolons where a value has commas of its own.
+///
+/// # Errors
+///
+/// What is wrong with the text.
+pub fn values(text: &str) -> Result<Vec<String>, String> {
+    if let Some(range) = range(text) {
+        return match range {
+            Ok(range) if range.clone().count() == 0 => Err(format!("`{text}` is an empty range")),
+            Ok(range) if range.clone().count() > MOST_VALUES => {
+                Err(format!("`{text}` has more than {MOST_VALUES} values"))
+            }
+            Ok(range) => Ok(range.map(|number| number.to_string()).collect()),
+            Err(why) => Err(why),
+        };
+    }
+    let separator = if text.contains(';') { ';' } else { ',' };
+    let mut values: Vec<String> = text.split(separator).map(|value| value.trim().to_owned()).collect();
+    if separator == ';' && values.last().is_some_and(String::is_empty) {
+        values.pop();
+    }
+    if values.iter().any(String::is_empty) {
+        return Err(format!("`{text}` has an empty value"));
+    }
+    for (k, value) in values.iter().enumerate() {
+        if values[..k].contains(value) {
+            return Err(format!("`{text}` has the value `{value}` twice"));
+        }
+    }
+    Ok(values)
+}
+
+/// Values of one axis, at most.
+const MOST_VALUES: usize = 4096;
+
+/// The numbers of a range; `None` of what is none.
+fn range(text: &str) -> Option<Result<std::ops::Range<i64>, String>> {
+    let (from, to) = text.split_once("..")?;
+    let (to, inclusive) = match to.strip_prefix('=') {
+        Some(to) => (to, true),
+        None => (to, false),
+    };
+    let bounds = (from.trim().parse::<i32>(), to.trim().parse::<i32>());
+    let (Ok(from), Ok(to)) = bounds else {
+        return Some(Err(format!(
+            "`{text}` is no range of integers such as 1..9 or 1..=8, which are the same"
+        )));
+    };
+    Some(Ok(i64::from(from)..i64::from(to) + i64::from(inclusive)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ranges_are_those_of_rust() {
+        let of = |text: &str| values(text).map(|values| values.join(" "));
+        assert_eq!(of("1..=4").unwrap(), "1 2 3 4");
+        assert_eq!(of("1..4").unwrap(), "1 2 3");
+        assert_eq!(of("-1..=1").unwrap(), "-1 0 1");
+        assert_eq!(of("a, b").unwrap(), "a b");
+        assert_eq!(of("1,2,1;1,4,1").unwrap(), "1,2,1 1,4,1");
+        assert_eq!(of("1,2,1;").unwrap(), "1,2,1");
+        for (text, says) in [
+            ("8..1", "empty"),
+            ("1..1", "empty"),
+            ("1..x", "no range"),
+            ("1..", "no range"),
+            ("0..=2000000000", "more than"),
+            ("a,,b", "empty value"),
+            ("a,a", "twice"),
+        ] {
+            let error = of(text).expect_err(text);
+            assert!(error.contains(says), "{text}: {error}");
+        }
+    }
+
+    #[test]
+    fn every_combination_is_a_variant_once() {
+        let space = Space {
+            options: vec![("radius".to_owned(), values("1..=3").unwrap())],
+            unroll: vec![Unroll::None, Unroll::Full],
+            stages: vec![Stage::Compute, Stage::Fragment],
+            workgroups: vec![[8, 8], [16, 4]],
+            ..Space::default()
+        };
+        let variants = space.variants();
+        // Three radii, two policies; two workgroups of compute, and a fragment.
+        assert_eq!(variants.len(), 3 * 2 * (2 + 1));
+        for (k, variant) in variants.iter().enumerate() {
+            assert!(!variants[..k].contains(variant));
+            let settings = variant.settings();
+            for axis in space.axes() {
+                assert!(axis.values.contains(&settings[&axis.name]), "{settings:?}");
+            }
+        }
+    }
+}
