@@ -122,6 +122,21 @@ impl Record for SweepRecord {
 }
 
 impl SweepRecord {
+    /// The JSON Schema of its file, as JSON.
+    ///
+    /// # Errors
+    ///
+    /// If it cannot be written as JSON.
+    pub fn schema() -> Result<String, serde_json::Error> {
+        Ok(serde_json::to_string_pretty(&schemars::schema_for!(SweepRecord))? + "\n")
+    }
+
+    /// Whether others are compared with this variant.
+    pub fn is_baseline(&self, variant: &Swept) -> bool {
+        let mut baseline = self.baseline.iter();
+        variant.rival.is_none() && baseline.all(|(name, value)| variant.settings.get(name) == Some(value))
+    }
+
     fn rows(&self, variant: &Swept) -> Vec<Vec<String>> {
         let setting = |axis: &Axis| variant.settings.get(&axis.name).cloned().unwrap_or_default();
         let mut begin: Vec<String> = self.axes.iter().map(setting).collect();

@@ -9,10 +9,11 @@ mod hard;
 mod isa;
 mod loops;
 mod quality;
+mod sweep;
 mod tune;
 
 use std::path::Path;
-use straightline_study::record::{IsaRecord, LoopsRecord, QualityRecord, Record, RecordError, TuneRecord};
+use straightline_study::record::{IsaRecord, LoopsRecord, QualityRecord, Record, RecordError, SweepRecord, TuneRecord};
 
 pub use quality::GEOMETRIC;
 
@@ -79,8 +80,9 @@ fn table(name: &str, files: &[&Path]) -> Result<String, String> {
         "table2" => budget::frames(files),
         "speedups" => budget::speedups(files),
         "encode" => encode::ways(first),
+        "sweep" => sweep::factors(&SweepRecord::read(first).map_err(why)?),
         _ => Err(format!(
-            "there is no table `{name}`; there are speed, loops, agreement, quality, methods, scenes, beyond, gaps, hard, isa, tune, budget, table2, speedups and encode"
+            "there is no table `{name}`; there are speed, loops, agreement, quality, methods, scenes, beyond, gaps, hard, isa, tune, budget, table2, speedups, encode and sweep"
         )),
     }
 }

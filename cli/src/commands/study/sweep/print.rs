@@ -52,7 +52,10 @@ pub fn record(record: &SweepRecord) {
         row.extend([
             measured.rounds_ms.len().to_string(),
             format!("{:.3}", measured.median_ms),
-            measured.times_as_fast.as_ref().map_or(String::new(), interval),
+            match record.is_baseline(variant) {
+                true => "baseline".to_owned(),
+                false => measured.times_as_fast.as_ref().map_or(String::new(), interval),
+            },
             number(measured.loops),
             number(measured.statements),
             number(measured.reads),
