@@ -1,5 +1,6 @@
 //! Studies of kernels: unroll against loop, methods of antialiasing against references, hard cases with their bounds, what GPU
-//! compilers say, the search for the cheapest variant, and any kernel in every combination of options and forms. Each gives a [`record`]; [`report`] makes a page of records.
+//! compilers say, the search for the cheapest variant, filters of pixel quads by every transport, and any kernel in every combination
+//! of options and forms. Each gives a [`record`]; [`report`] makes a page of records.
 //!
 //! What runs kernels, and what judges them, is `straightline-testbed`.
 
@@ -7,6 +8,7 @@ pub mod hard;
 pub mod isa;
 pub mod loops;
 pub mod peers;
+pub mod quads;
 pub mod quality;
 pub mod record;
 pub mod report;

@@ -3,6 +3,7 @@
 mod hard;
 mod isa;
 mod loops;
+mod quads;
 mod quality;
 mod sweep;
 mod tune;
@@ -19,6 +20,7 @@ use straightline_testbed::execute::Clock;
 pub use hard::{Executor, HalfVerdict, HardCase, HardRecord, HardResult};
 pub use isa::{Asked, IsaForm, IsaRecord, SpirvPath};
 pub use loops::{Form, FormKind, KernelForms, LoopsRecord};
+pub use quads::{QuadWay, QuadsRecord};
 pub use quality::{Family, Gap, MOST_DB, MethodErrors, QualityRecord, SceneErrors, Shares};
 pub use sweep::{Environment, Measured, Shard, SweepRecord, Swept};
 pub use tune::{Candidate, LeftOut, Model, Refused, TermWorth, TuneRecord};

@@ -1,12 +1,14 @@
 //! Drawing triangles with an emitted fragment shader: what its quads do at the edges of triangles, and forward passes.
 
-use super::{Bench, ExecuteError, Inputs};
+use super::{Bench, ExecuteError, Inputs, Work};
 use glam::{UVec2, Vec4};
+use std::time::Duration;
 use straightline_codegen::emit::Target;
 use straightline_codegen::{Compiled, Stage};
 use straightline_kernels::prelude::Frame;
 use straightline_manifest::{BindingKind, Dimension, Manifest, SampleType, SamplerType};
-use wgpu::TextureFormat;
+use straightline_runtime::Timer;
+use wgpu::{CommandEncoder, TextureFormat};
 
 /// A corner of a triangle: its position in clip space, and the shader's varyings in the order of their locations.
 #[derive(Clone, Debug)]
@@ -259,15 +261,41 @@ impl Bench {
         buffer
     }
 
-    /// Draws once.
-    pub fn draw(&self, forward: &Forward) {
+    /// Draws and reads the picture back.
+    ///
+    /// # Errors
+    ///
+    /// If the device fails.
+    pub fn picture(&self, forward: &Forward) -> Result<Frame<Vec4>, ExecuteError> {
         let mut encoder = self
             .device
             .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        let [view, depth] =
-            [&forward.target, &forward.depth].map(|t| t.create_view(&wgpu::TextureViewDescriptor::default()));
+        forward.encode(&mut encoder, None)?;
+        self.queue.submit([encoder.finish()]);
+        self.download(&forward.target)
+    }
+
+    /// The draw, to be timed with others, repeated as [`timed_for`](Self::timed_for) says.
+    ///
+    /// # Errors
+    ///
+    /// If the device cannot be asked for the time.
+    pub fn draw_work<'a>(&self, forward: &'a Forward, least: Duration) -> Result<Work<'a>, ExecuteError> {
+        self.recorded(1, least, |encoder, timer| forward.encode(encoder, timer))
+    }
+}
+
+impl Forward {
+    /// Width and height of the picture.
+    pub fn size(&self) -> UVec2 {
+        self.size
+    }
+
+    fn encode(&self, encoder: &mut CommandEncoder, timer: Option<&mut Timer>) -> Result<(), ExecuteError> {
+        let span = timer.map(Timer::span).transpose()?;
+        let [view, depth] = [&self.target, &self.depth].map(|t| t.create_view(&wgpu::TextureViewDescriptor::default()));
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            label: None,
+            label: Some("straightline forward"),
             color_attachments: &[Some(wgpu::RenderPassColorAttachment {
                 view: &view,
                 depth_slice: None,
@@ -282,53 +310,15 @@ impl Bench {
                 }),
                 stencil_ops: None,
             }),
-            timestamp_writes: None,
+            timestamp_writes: span.as_ref().map(|span| span.render_writes()),
             occlusion_query_set: None,
             multiview_mask: None,
         });
-        pass.set_pipeline(&forward.pipeline);
-        pass.set_bind_group(0, &forward.group, &[]);
-        pass.set_vertex_buffer(0, forward.vertices.slice(..));
-        pass.draw(0..forward.corners, 0..1);
-        drop(pass);
-        self.queue.submit([encoder.finish()]);
-    }
-
-    /// Draws and reads the picture back.
-    ///
-    /// # Errors
-    ///
-    /// If the device fails.
-    pub fn picture(&self, forward: &Forward) -> Result<Frame<Vec4>, ExecuteError> {
-        self.draw(forward);
-        self.download(&forward.target)
-    }
-
-    /// Wall-clock times of several passes, drawn in turn, after one round that is not counted.
-    ///
-    /// # Errors
-    ///
-    /// If the device fails.
-    pub fn draw_in_turn(&self, passes: &[&Forward], rounds: u32) -> Result<Vec<super::Times>, ExecuteError> {
-        let mut times = vec![Vec::new(); passes.len()];
-        for round in 0..=rounds {
-            for (pass, times) in passes.iter().zip(&mut times) {
-                let start = std::time::Instant::now();
-                self.draw(pass);
-                self.wait()?;
-                if round > 0 {
-                    times.push(start.elapsed());
-                }
-            }
-        }
-        Ok(times.iter().filter_map(|t| super::Times::of(t)).collect())
-    }
-}
-
-impl Forward {
-    /// Width and height of the picture.
-    pub fn size(&self) -> UVec2 {
-        self.size
+        pass.set_pipeline(&self.pipeline);
+        pass.set_bind_group(0, &self.group, &[]);
+        pass.set_vertex_buffer(0, self.vertices.slice(..));
+        pass.draw(0..self.corners, 0..1);
+        Ok(())
     }
 }
 

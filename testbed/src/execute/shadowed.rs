@@ -1,6 +1,6 @@
 //! A scene as a forward pass with a shadow map draws it.
 
-use super::{Bench, Corner, ExecuteError, Inputs};
+use super::{Bench, Corner, ExecuteError, Forward, Inputs};
 use crate::scene::Scene;
 use glam::{Mat4, UVec2, Vec3, Vec4, vec2, vec4};
 use straightline_codegen::{Kernel, Settings};
@@ -88,13 +88,22 @@ impl Shadowed {
         })
     }
 
+    /// The pass that draws the image `coord`, for shadow kernels that are dispatched.
+    ///
+    /// # Errors
+    ///
+    /// If the device fails.
+    pub fn coordinates(&self, gpu: &Bench) -> Result<Forward, ExecuteError> {
+        pass_on(gpu, self.size, &self.corners)
+    }
+
     /// What a shadow kernel reads; `coord` for those that read it from an image.
     ///
     /// # Errors
     ///
     /// If the device fails.
     pub fn inputs(&self, gpu: &Bench) -> Result<Inputs, ExecuteError> {
-        let coord = draw(gpu, self.size, &self.corners)?;
+        let coord = gpu.picture(&self.coordinates(gpu)?)?;
         Ok(Inputs::new(self.size)
             .image("shadow", self.map.clone())
             .image("coord", coord))
@@ -135,11 +144,14 @@ fn sun_space(sun: Vec3, target: Vec3, radius: f32) -> Mat4 {
     .transpose()
 }
 
-/// The first varying of the nearest triangle at each pixel.
-fn draw(gpu: &Bench, size: UVec2, corners: &[Corner]) -> Result<Frame<Vec4>, ExecuteError> {
+/// Draws the first varying of the nearest triangle at each pixel.
+fn pass_on(gpu: &Bench, size: UVec2, corners: &[Corner]) -> Result<Forward, ExecuteError> {
     let compiled = Kernel::from_text("pass_on.rs", PASS_ON, "pass_on")
         .compile(&Settings::default())
         .map_err(|e| ExecuteError::Input(e.to_string()))?;
-    let forward = gpu.forward(&compiled, &Inputs::new(size), corners, None, |text| text)?;
-    gpu.picture(&forward)
+    gpu.forward(&compiled, &Inputs::new(size), corners, None, |text| text)
+}
+
+fn draw(gpu: &Bench, size: UVec2, corners: &[Corner]) -> Result<Frame<Vec4>, ExecuteError> {
+    gpu.picture(&pass_on(gpu, size, corners)?)
 }

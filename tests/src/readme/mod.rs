@@ -8,12 +8,15 @@ mod encode;
 mod hard;
 mod isa;
 mod loops;
+mod quads;
 mod quality;
 mod sweep;
 mod tune;
 
 use std::path::Path;
-use straightline_study::record::{IsaRecord, LoopsRecord, QualityRecord, Record, RecordError, SweepRecord, TuneRecord};
+use straightline_study::record::{
+    IsaRecord, LoopsRecord, QuadsRecord, QualityRecord, Record, RecordError, SweepRecord, TuneRecord,
+};
 
 pub use quality::GEOMETRIC;
 
@@ -79,10 +82,11 @@ fn table(name: &str, files: &[&Path]) -> Result<String, String> {
         "budget" => budget::metrics(files),
         "table2" => budget::frames(files),
         "speedups" => budget::speedups(files),
+        "quads" => Ok(quads::ways(&QuadsRecord::read(first).map_err(why)?)),
         "encode" => encode::ways(first),
         "sweep" => sweep::factors(&SweepRecord::read(first).map_err(why)?),
         _ => Err(format!(
-            "there is no table `{name}`; there are speed, loops, agreement, quality, methods, scenes, beyond, gaps, hard, isa, tune, budget, table2, speedups, encode and sweep"
+            "there is no table `{name}`; there are speed, loops, agreement, quality, methods, scenes, beyond, gaps, hard, isa, tune, budget, table2, speedups, quads, encode and sweep"
         )),
     }
 }

@@ -10,7 +10,7 @@ use std::time::Duration;
 use straightline_codegen::{Compiled, Kernel, Settings};
 use straightline_manifest::Stage;
 use straightline_runtime::Pass;
-use straightline_testbed::execute::{Bench, Clock, Job, Quartiles, Uploaded, Work};
+use straightline_testbed::execute::{Bench, Job, Quartiles, Uploaded, Work};
 use straightline_testbed::render::{FramePass, FramePasses, GpuRenderer, Samples};
 use straightline_testbed::scene::Scene;
 use straightline_testbed::{gbuffer, render};
@@ -88,7 +88,6 @@ pub struct Filter {
 /// All that was timed.
 #[derive(Clone, Debug)]
 pub struct Measured {
-    pub clock: Clock,
     pub passes: Vec<PassTime>,
     pub filters: Vec<Filter>,
 }
@@ -166,7 +165,6 @@ pub fn measured(args: &BudgetArgs, world: &Scene, gpu: &Gpu) -> Result<Measured,
         });
     }
     let mut measured = Measured {
-        clock: timed.clock,
         passes,
         filters: Vec::new(),
     };

@@ -5,7 +5,7 @@ mod frame;
 mod measure;
 mod print;
 
-use super::study::command;
+use super::study::circumstances_of;
 use crate::args::BudgetArgs;
 use crate::failure::Failure;
 use crate::gpu::Gpu;
@@ -13,9 +13,8 @@ use crate::scene;
 use frame::{Comparison, FrameCost};
 use measure::{Filter, PassTime};
 use serde::Serialize;
-use std::time::SystemTime;
 use straightline_codegen::files;
-use straightline_testbed::execute::Clock;
+use straightline_study::record::Circumstances;
 
 /// Bytes of a geometry sample: what is stored, how many bytes, and where that is assumed.
 const FORMATS: [(&str, u64); 3] = [
@@ -37,17 +36,13 @@ struct Cost {
 
 #[derive(Clone, Debug, Serialize)]
 struct Record {
-    command: String,
-    date: String,
+    #[serde(flatten)]
+    circumstances: Circumstances,
     /// The built-in scene, or the model's file.
     scene: String,
     triangles: usize,
-    size: [u32; 2],
-    rounds: u32,
     /// Evaluations of the shading for each sample.
     shading_cost: u32,
-    adapter: String,
-    clock: Clock,
     /// The paper's table 2, of this scene on this device.
     frames: Vec<FrameCost>,
     comparisons: Vec<Comparison>,
@@ -66,15 +61,10 @@ pub fn run(args: &BudgetArgs) -> Result<(), Failure> {
     let gpu = Gpu::require(&args.adapter)?;
     let measured = measure::measured(args, &world, &gpu)?;
     let record = Record {
-        command: command(),
-        date: humantime::format_rfc3339_seconds(SystemTime::now()).to_string(),
+        circumstances: circumstances_of(&gpu, args.size, args.rounds),
         scene: args.view.name(),
         triangles: world.triangles.len(),
-        size: args.size.to_array(),
-        rounds: args.rounds,
         shading_cost: args.shading_cost,
-        adapter: gpu.describe(),
-        clock: measured.clock,
         frames: frame::frames(&measured)?,
         comparisons: frame::comparisons(&measured)?,
         costs: costs(args, &measured.filters),

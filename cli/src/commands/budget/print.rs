@@ -25,11 +25,11 @@ pub fn record(args: &BudgetArgs, record: &Record) -> Result<(), Failure> {
     outln!(
         "{}, {}x{} on {}; medians of {} rounds in turn, {}, in ms\n",
         record.scene,
-        record.size[0],
-        record.size[1],
-        record.adapter,
-        record.rounds,
-        match record.clock {
+        record.circumstances.size[0],
+        record.circumstances.size[1],
+        record.circumstances.adapter,
+        record.circumstances.rounds,
+        match record.circumstances.clock {
             Clock::GpuTimestamps => "GPU timestamps",
             Clock::WallClock => "wall clock",
         }

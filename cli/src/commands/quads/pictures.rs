@@ -1,37 +1,31 @@
 //! What the filters make, to be looked at.
 
-use super::Subject;
 use crate::failure::Failure;
 use glam::Vec4;
 use std::collections::BTreeMap;
 use std::path::Path;
 use straightline_codegen::files;
 use straightline_kernels::prelude::Frame;
-use straightline_testbed::execute::{Bench, Inputs, Shadowed};
+use straightline_study::quads::Studied;
+use straightline_testbed::execute::{Bench, Inputs};
 use straightline_testbed::picture;
 
 /// The shadow scene by each way of the 8×8 filter, occlusion before and after upsampling, and details of both.
-pub fn write(
-    bench: &Bench,
-    folder: &Path,
-    subjects: &[Subject],
-    shadowed: &Shadowed,
-    screen: &Inputs,
-) -> Result<(), Failure> {
+pub fn write(bench: &Bench, folder: &Path, studied: &Studied) -> Result<(), Failure> {
     let mut set = BTreeMap::new();
     let mut columns = Vec::new();
     for way in ["naive", "quad", "quad, gradient", "gather"] {
-        let found = subjects
-            .iter()
-            .find(|s| s.family == "PCF 8x8 quadratic" && s.way == way);
-        let Some(subject) = found else { continue };
-        let shown = shadowed.picture(bench, &subject.image).map_err(Failure::of)?;
+        let Some(lit) = studied.picture("PCF 8x8 quadratic", way) else {
+            continue;
+        };
+        let shown = studied.shadowed.picture(bench, lit).map_err(Failure::of)?;
         let name = format!("pcf {way}.png").replace([',', ' '], "-").replace("--", "-");
         save(&mut set, &name, &shown)?;
         columns.push((way, shown));
     }
     // Under the awning over the built-in scene's door.
     save_details(&mut set, "pcf-details.png", &columns, [0.55, 0.53, 0.1, 0.2])?;
+    let screen = &studied.screen;
     let low = screen.images.iter().rev().find(|(name, _)| name == "low");
     let naive = low.map(|(_, layers)| stretched(&layers[0], screen));
     let mut columns = Vec::new();
@@ -41,9 +35,9 @@ pub fn write(
         ("occlusion, 16 taps", "naive", "full resolution"),
         ("occlusion, 16 taps", "quad", "split over the quad"),
     ] {
-        if let Some(subject) = subjects.iter().find(|s| s.family == family && s.way == way) {
-            let opaque = subject.image.texels().iter().map(|t| t.truncate().extend(1.0));
-            let shown = Frame::new(subject.image.size(), opaque.collect());
+        if let Some(image) = studied.picture(family, way) {
+            let opaque = image.texels().iter().map(|t| t.truncate().extend(1.0));
+            let shown = Frame::new(image.size(), opaque.collect());
             save(&mut set, &format!("occlusion-{}.png", title.replace(' ', "-")), &shown)?;
             columns.push((title, shown));
         }

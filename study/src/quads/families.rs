@@ -5,8 +5,19 @@ pub struct Family {
     pub name: &'static str,
     pub kernel: &'static str,
     pub ways: &'static [(&'static str, &'static [(&'static str, &'static str)])],
-    /// Whether it is drawn with the scene's triangles.
-    pub forward: bool,
+    /// What it reads.
+    pub from: Source,
+}
+
+/// What a filter reads.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Source {
+    /// A frame: it is full-screen.
+    Frame,
+    /// A frame, and an image of a quarter of its size across and down.
+    Quarter,
+    /// Places in a shadow map, interpolated over the scene's triangles.
+    Triangles,
 }
 
 /// Every filter.
@@ -15,7 +26,7 @@ pub const FAMILIES: &[Family] = &[
         name: "blur 3x3",
         kernel: "quad_convolution",
         ways: &[("naive", &[("sharing", "alone")]), ("quad", &[])],
-        forward: false,
+        from: Source::Frame,
     },
     Family {
         name: "blur 7x7",
@@ -27,13 +38,13 @@ pub const FAMILIES: &[Family] = &[
             ),
             ("quad", &[("radius", "3"), ("weights", "binomial")]),
         ],
-        forward: false,
+        from: Source::Frame,
     },
     Family {
         name: "bilateral 5x5",
         kernel: "quad_bilateral",
         ways: &[("naive", &[("sharing", "alone")]), ("quad", &[])],
-        forward: false,
+        from: Source::Frame,
     },
     Family {
         name: "upsampling 2x",
@@ -43,13 +54,23 @@ pub const FAMILIES: &[Family] = &[
             ("quad, 2 reads", &[("reads", "apart")]),
             ("quad, 1 read", &[("reads", "packed")]),
         ],
-        forward: false,
+        from: Source::Frame,
+    },
+    Family {
+        name: "upsampling 4x",
+        kernel: "quad_upsampling",
+        ways: &[
+            ("naive", &[("reads", "naive"), ("factor", "four-times")]),
+            ("quad, 2 reads", &[("reads", "apart"), ("factor", "four-times")]),
+            ("quad, 1 read", &[("reads", "packed"), ("factor", "four-times")]),
+        ],
+        from: Source::Quarter,
     },
     Family {
         name: "occlusion, 16 taps",
         kernel: "quad_ssao",
         ways: &[("naive", &[("sharing", "alone")]), ("quad", &[])],
-        forward: false,
+        from: Source::Frame,
     },
     Family {
         name: "PCF 4x4 box",
@@ -60,7 +81,7 @@ pub const FAMILIES: &[Family] = &[
             ("quad", &[("width", "four")]),
             ("quad, gradient", &[("width", "four"), ("gradient", "prewitt")]),
         ],
-        forward: true,
+        from: Source::Triangles,
     },
     Family {
         name: "PCF 8x8 quadratic",
@@ -72,12 +93,12 @@ pub const FAMILIES: &[Family] = &[
             ("quad, gradient", &[("weights", "quadratic"), ("gradient", "prewitt")]),
             ("gather", &[("method", "gather"), ("weights", "quadratic")]),
         ],
-        forward: true,
+        from: Source::Triangles,
     },
     Family {
         name: "PCSS",
         kernel: "pcss",
         ways: &[("naive", &[("sharing", "alone")]), ("quad", &[])],
-        forward: true,
+        from: Source::Triangles,
     },
 ];

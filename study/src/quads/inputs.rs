@@ -1,0 +1,49 @@
+//! What full-screen filters read: a rendered frame, and its occlusion at a lower resolution.
+
+use super::QuadsError;
+use super::subject::{OCCLUSION, compile};
+use glam::{UVec2, Vec2, Vec4, vec3};
+use straightline_kernels::prelude::Frame;
+use straightline_manifest::Stage;
+use straightline_testbed::execute::{Bench, Inputs};
+use straightline_testbed::render::{GpuRenderer, Renderer};
+use straightline_testbed::scene::Scene;
+
+/// A rendered frame: its colours with depth, its depths, normals, and the angle of a pixel.
+pub fn screen(bench: &Bench, scene: &Scene, size: UVec2) -> Result<Inputs, QuadsError> {
+    let renderer = GpuRenderer::new(bench.device(), bench.queue(), scene, size)?;
+    let color = renderer.shaded(Vec2::ZERO)?;
+    let (depth, normal) = renderer.geometry(Vec2::ZERO)?;
+    let with_depth = color
+        .texels()
+        .iter()
+        .zip(depth.texels())
+        .map(|(c, z)| c.truncate().extend(*z));
+    let image = Frame::new(size, with_depth.collect());
+    let depth = Frame::new(size, depth.texels().iter().map(|z| Vec4::splat(*z)).collect());
+    // The testbed looks along -z with y up, the kernel along z with y down.
+    let turned = normal.texels().iter().map(|n| vec3(n.x, -n.y, -n.z).extend(0.0));
+    let normal = Frame::new(size, turned.collect());
+    let angle = 2.0 * scene.camera.half_extent(size).y / size.y as f32;
+    Ok(Inputs::new(size)
+        .image("image", image)
+        .image("depth", depth)
+        .image("normal", normal)
+        .uniform("pixel_angle", &[f64::from(angle)]))
+}
+
+/// The same with what upsampling brings up: occlusion and surfaces at a resolution `factor` times lower, 2 or 4. The occlusion
+/// is taken from that of the full resolution, so that what upsampling loses is seen alone.
+pub fn low_resolution(bench: &Bench, full: &Inputs, factor: u32) -> Result<Inputs, QuadsError> {
+    let occlusion = compile("quad_ssao", &[&[("sharing", "alone")], &OCCLUSION[..]].concat(), None)?;
+    let occlusion = bench.run(&occlusion, Stage::Compute, full)?;
+    let mut low = full.clone().image("image", occlusion);
+    low.size = full.size.map(|n| n.div_ceil(factor) + 1);
+    let factor = if factor == 2 { "twice" } else { "four-times" };
+    let down = |gives: &str| -> Result<Frame<Vec4>, QuadsError> {
+        let compiled = compile("downsampling", &[("gives", gives), ("factor", factor)], None)?;
+        Ok(bench.run(&compiled, Stage::Compute, &low)?)
+    };
+    let (packed, surface) = (down("packed")?, down("surface")?);
+    Ok(full.clone().image("low", packed).image("low_surface", surface))
+}

@@ -1,0 +1,263 @@
+//! Filters of pixel quads on a rendered frame: every way and transport of each, timed in turn, beside the way that shares
+//! nothing (Penner 2011; `docs/quads.md`).
+
+mod families;
+mod inputs;
+mod subject;
+
+use crate::record::{QuadWay, QuadsRecord};
+use crate::sweep::median_of;
+use crate::watch::Watch;
+use families::{FAMILIES, Source};
+use glam::{UVec2, Vec4};
+use inputs::{low_resolution, screen};
+use std::time::Duration;
+use straightline_codegen::Transport;
+use straightline_codegen::diagnostic::Errors;
+use straightline_kernels::prelude::Frame;
+use straightline_manifest::Stage;
+use straightline_runtime::Quads;
+use straightline_testbed::execute::{Bench, ExecuteError, Forward, Inputs, Shadowed, Work};
+use straightline_testbed::render::RenderError;
+use straightline_testbed::scene::Scene;
+use subject::Subject;
+
+/// Of the intervals of ratios.
+const CONFIDENCE: f64 = 0.95;
+
+/// How a study is made.
+#[derive(Clone, Copy, Debug)]
+pub struct Method {
+    /// Width and height of the frame.
+    pub size: UVec2,
+    /// Texels of the shadow map, across and down.
+    pub texels: u32,
+    /// Rounds of timing.
+    pub rounds: u32,
+    /// How long a shader is run at least for one time.
+    pub least: Duration,
+}
+
+/// Why quads could not be studied.
+#[derive(Debug, thiserror::Error)]
+pub enum QuadsError {
+    /// The frame could not be rendered.
+    #[error(transparent)]
+    Render(#[from] RenderError),
+    /// A shader could not be run.
+    #[error(transparent)]
+    Execute(#[from] ExecuteError),
+    /// A filter could not be compiled.
+    #[error(transparent)]
+    Kernel(#[from] Errors),
+    /// The device's quads could not be looked at.
+    #[error(transparent)]
+    Detect(#[from] straightline_runtime::Error),
+}
+
+/// What was measured, and what it looks like.
+#[derive(Debug)]
+pub struct Studied {
+    /// Every way with its figures.
+    pub ways: Vec<QuadWay>,
+    /// What each way makes, in their order.
+    pub pictures: Vec<Frame<Vec4>>,
+    /// The median time of the pass that draws coordinates.
+    pub coordinates_ms: f64,
+    /// What the device's quads are.
+    pub quads: String,
+    /// The scene as the shadow filters see it.
+    pub shadowed: Shadowed,
+    /// The frame and its occlusion at half the resolution, as the full-screen filters read them.
+    pub screen: Inputs,
+}
+
+impl Studied {
+    /// The picture that a way of a filter makes; `None` if there is no such way.
+    pub fn picture(&self, filter: &str, way: &str) -> Option<&Frame<Vec4>> {
+        let mut ways = self.ways.iter().zip(&self.pictures);
+        ways.find(|(of, _)| of.filter == filter && of.way == way)
+            .map(|(_, picture)| picture)
+    }
+
+    /// The figures under their circumstances.
+    pub fn record(&self, circumstances: crate::record::Circumstances) -> QuadsRecord {
+        QuadsRecord {
+            circumstances,
+            quads: self.quads.clone(),
+            triangles: self.shadowed.corners.len() / 3,
+            coordinates_ms: self.coordinates_ms,
+            ways: self.ways.clone(),
+        }
+    }
+}
+
+/// Measures every way of every filter, in one run.
+///
+/// # Errors
+///
+/// [`QuadsError`], if the device fails or lacks something.
+pub fn study(bench: &Bench, scene: &Scene, method: &Method, watch: &mut dyn Watch) -> Result<Studied, QuadsError> {
+    let quads = Quads::detect(bench.device(), bench.queue())?;
+    let chosen = match quads.choose() {
+        Ok(transport) => format!("{transport:?}").to_lowercase(),
+        Err(why) => why,
+    };
+    let described = format!(
+        "derivatives {:?}, origin {:?}; chosen: {chosen}",
+        quads.kind, quads.origin
+    );
+    let shadowed = Shadowed::new(bench, scene, method.size, method.texels, 9.0)?;
+    let of_triangles = shadowed.inputs(bench)?;
+    let screen = screen(bench, scene, method.size)?;
+    let half = low_resolution(bench, &screen, 2)?;
+    let quarter = low_resolution(bench, &screen, 4)?;
+    let mut subjects = Vec::new();
+    for family in FAMILIES {
+        let inputs = match family.from {
+            Source::Frame => &half,
+            Source::Quarter => &quarter,
+            Source::Triangles => &of_triangles,
+        };
+        for (way, options) in family.ways {
+            for transport in transports(way, quads.subgroup.is_some()) {
+                subjects.push(Subject::new(bench, family, way, options, transport, inputs, &shadowed)?);
+            }
+        }
+    }
+    let coordinates = shadowed.coordinates(bench)?;
+    let rounds = timed(bench, method, &subjects, &coordinates, watch)?;
+    // A forward pass draws the pixels that the scene's triangles cover, and says nothing of the others.
+    let drawn = of_triangles.images.iter().find(|(name, _)| name == "coord");
+    let covered: Option<Vec<bool>> =
+        drawn.map(|(_, layers)| layers[0].texels().iter().map(|place| *place != Vec4::ZERO).collect());
+    let covered = covered.as_deref();
+    let (coordinates, rounds) = rounds
+        .split_last()
+        .map_or((&[][..], &[][..]), |(c, all)| (c.as_slice(), all));
+    Ok(Studied {
+        ways: ways(&subjects, rounds, coordinates, covered),
+        pictures: subjects.into_iter().map(|subject| subject.image).collect(),
+        coordinates_ms: median(coordinates),
+        quads: described,
+        shadowed,
+        screen: half,
+    })
+}
+
+/// What shares nothing sends nothing: one fragment shader, and one compute shader, stand for it.
+fn transports(way: &str, subgroup: bool) -> Vec<Transport> {
+    let alone = way == "naive" || way == "bilinear";
+    let fragment = match subgroup {
+        true => Transport::Subgroup,
+        false => Transport::Derivatives,
+    };
+    match alone {
+        true => vec![fragment, Transport::Block],
+        false => Transport::ALL
+            .into_iter()
+            .filter(|t| subgroup || *t != Transport::Subgroup)
+            .collect(),
+    }
+}
+
+/// Milliseconds of every round of each subject, and last of the pass that draws coordinates.
+fn timed(
+    bench: &Bench,
+    method: &Method,
+    subjects: &[Subject],
+    coordinates: &Forward,
+    watch: &mut dyn Watch,
+) -> Result<Vec<Vec<f64>>, ExecuteError> {
+    watch.begin(
+        &format!("timing {} shaders", subjects.len()),
+        method.rounds as usize + 1,
+    );
+    let works: Result<Vec<Work<'_>>, _> = subjects
+        .iter()
+        .map(|subject| subject.work(bench, method))
+        .chain([bench.draw_work(coordinates, method.least)])
+        .collect();
+    let timed = bench.in_turn(&mut works?, method.rounds, |_| {
+        watch.step();
+        !watch.stopped()
+    })?;
+    let milliseconds = |rounds: &Vec<Duration>| rounds.iter().map(|t| t.as_secs_f64() * 1.0e3).collect();
+    Ok(timed.rounds.iter().map(milliseconds).collect())
+}
+
+fn ways(subjects: &[Subject], rounds: &[Vec<f64>], coordinates: &[f64], covered: Option<&[bool]>) -> Vec<QuadWay> {
+    // From triangles to picture in every way of a filter: what is dispatched needs the pass that draws coordinates.
+    let whole = |k: usize| -> Vec<f64> {
+        let needs = subjects[k].family.from == Source::Triangles && subjects[k].stage == Stage::Compute;
+        let drawn = coordinates.iter().map(|ms| if needs { *ms } else { 0.0 });
+        rounds[k].iter().zip(drawn).map(|(own, drawn)| own + drawn).collect()
+    };
+    let mut ways = Vec::new();
+    for (k, subject) in subjects.iter().enumerate() {
+        let same = |other: &Subject| other.family.name == subject.family.name;
+        let first = subjects.iter().position(same).unwrap_or(k);
+        let rounds_ms = whole(k);
+        let ratios: Vec<f64> = whole(first)
+            .iter()
+            .zip(&rounds_ms)
+            .map(|(base, own)| base / own)
+            .collect();
+        let Some(times_as_fast) = median_of(&ratios, CONFIDENCE) else {
+            continue;
+        };
+        let forward = subject.family.from == Source::Triangles;
+        let covered = covered.filter(|_| forward);
+        let (mean_difference, largest_difference) = differences(&subject.image, &subjects[first].image, covered);
+        ways.push(QuadWay {
+            filter: subject.family.name.to_owned(),
+            way: subject.way.to_owned(),
+            transport: subject.transport.clone(),
+            stage: subject.stage,
+            forward,
+            reads: subject.counts.texture_reads,
+            messages: subject.counts.messages,
+            statements: subject.counts.statements,
+            median_ms: median(&rounds_ms),
+            rounds_ms,
+            times_as_fast,
+            mean_difference,
+            largest_difference,
+        });
+    }
+    ways
+}
+
+fn median(values: &[f64]) -> f64 {
+    median_of(values, CONFIDENCE).map_or(0.0, |of| of.median)
+}
+
+/// Mean and largest difference over all colours, of the pixels that are covered; of all pixels, if nothing says which are. A
+/// pixel in full shadow is covered, and its colour is 0.
+fn differences(a: &Frame<Vec4>, b: &Frame<Vec4>, covered: Option<&[bool]>) -> (f64, f64) {
+    let pairs = a.texels().iter().zip(b.texels()).enumerate();
+    let counted = pairs.filter(|(k, _)| covered.is_none_or(|covered| covered[*k]));
+    let (mut sum, mut largest, mut count) = (0.0, 0.0f64, 0.0);
+    for (_, (a, b)) in counted {
+        let off = f64::from((a.truncate() - b.truncate()).abs().max_element());
+        sum += off;
+        count += 1.0;
+        largest = largest.max(off);
+    }
+    (sum / f64::max(count, 1.0), largest)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shadows_count_and_what_is_not_drawn_does_not() {
+        let frame = |values: [f32; 4]| Frame::new(glam::uvec2(4, 1), values.map(Vec4::splat).to_vec());
+        // In the umbra one is 0 and the other is not; the last pixel is sky.
+        let (a, b) = (frame([0.0, 0.5, 1.0, 0.0]), frame([0.25, 0.5, 1.0, 1.0]));
+        let covered = [true, true, true, false];
+        assert_eq!(differences(&a, &b, Some(&covered)), (0.25 / 3.0, 0.25));
+        assert_eq!(differences(&a, &b, None), (1.25 / 4.0, 1.0));
+    }
+}

@@ -1,0 +1,105 @@
+//! A filter in one way with one transport, ready to run.
+
+use super::families::{Family, Source};
+use super::{Method, QuadsError};
+use glam::Vec4;
+use straightline_codegen::diagnostic::Errors;
+use straightline_codegen::{Compiled, EmitOptions, Kernel, Settings, Transport};
+use straightline_kernels::prelude::Frame;
+use straightline_manifest::{Counts, Stage};
+use straightline_runtime::Pass;
+use straightline_testbed::execute::{Bench, ExecuteError, Forward, Inputs, Job, Shadowed, Uploaded, Work};
+
+/// Occlusion as far as the scene's walls and steps, dark enough to be judged.
+pub const OCCLUSION: [(&str, &str); 3] = [("pixel-angle", "uniform"), ("radius", "1.2"), ("strength", "4")];
+
+/// A way with a transport.
+pub struct Subject {
+    pub family: &'static Family,
+    pub way: &'static str,
+    pub transport: String,
+    pub stage: Stage,
+    pub counts: Counts,
+    pub image: Frame<Vec4>,
+    drawn: Drawn,
+}
+
+enum Drawn {
+    Pass(Box<Pass>, Uploaded),
+    Forward(Box<Forward>),
+}
+
+impl Subject {
+    /// Compiles the filter, runs it once and keeps its picture.
+    pub fn new(
+        bench: &Bench,
+        family: &'static Family,
+        way: &'static str,
+        options: &[(&str, &str)],
+        transport: Transport,
+        inputs: &Inputs,
+        shadowed: &Shadowed,
+    ) -> Result<Subject, QuadsError> {
+        let mut options = options.to_vec();
+        if family.kernel == "quad_ssao" {
+            options.extend(OCCLUSION);
+        }
+        let compiled = compile(family.kernel, &options, Some(transport))?;
+        let stage = match transport {
+            Transport::Block => Stage::Compute,
+            _ => Stage::Fragment,
+        };
+        let (drawn, image, counts) = if family.from == Source::Triangles && stage == Stage::Fragment {
+            let forward = bench.forward(&compiled, inputs, &shadowed.corners, None, |text| text)?;
+            let image = bench.picture(&forward)?;
+            let emitted = compiled.emit(&EmitOptions::new().stage(stage).targets([]));
+            let counts = emitted.map_err(ExecuteError::from)?.manifest.counts;
+            (Drawn::Forward(Box::new(forward)), image, counts)
+        } else {
+            let (pass, manifest) = bench.pass(&compiled, stage)?;
+            let uploaded = bench.upload(&manifest, inputs)?;
+            let image = bench.run(&compiled, stage, inputs)?;
+            (Drawn::Pass(Box::new(pass), uploaded), image, manifest.counts)
+        };
+        let sends = counts.messages > 0 || transport == Transport::Block;
+        Ok(Subject {
+            family,
+            way,
+            transport: if sends {
+                transport.to_string()
+            } else {
+                "none".to_owned()
+            },
+            stage,
+            counts,
+            image,
+            drawn,
+        })
+    }
+
+    /// What is timed.
+    pub fn work<'a>(&'a self, bench: &Bench, method: &Method) -> Result<Work<'a>, ExecuteError> {
+        match &self.drawn {
+            Drawn::Pass(pass, uploaded) => {
+                let job = Job {
+                    pass,
+                    uploaded,
+                    size: method.size,
+                };
+                bench.work(job, method.least)
+            }
+            Drawn::Forward(forward) => bench.draw_work(forward, method.least),
+        }
+    }
+}
+
+/// A filter of the catalogue.
+pub fn compile(kernel: &str, options: &[(&str, &str)], transport: Option<Transport>) -> Result<Compiled, Errors> {
+    let options = options.iter().map(|(k, v)| ((*k).to_owned(), (*v).to_owned()));
+    let settings = Settings {
+        options: options.collect(),
+        transport,
+        ..Settings::default()
+    };
+    Kernel::builtin(kernel)?.compile(&settings)
+}
