@@ -13,7 +13,7 @@ fn tables_are_what_their_records_say() {
     let documents = std::fs::read_dir(root.join("docs")).expect("docs");
     let documents = documents.map(|entry| entry.expect("an entry").path());
     let documents = documents.filter(|path| path.extension().is_some_and(|kind| kind == "md"));
-    for path in documents.chain([root.join("README.md")]) {
+    for path in documents.chain(["README.md", "ARCHITECTURE.md"].map(|name| root.join(name))) {
         let name = path.display();
         let document = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{name}: {error}"));
         let expected = filled(&document, &root.join("study/records")).unwrap_or_else(|error| panic!("{name}: {error}"));

@@ -1,9 +1,10 @@
 //! Tables of documents, made of the records that they cite.
 //!
-//! A table stands between `<!-- table NAME of FILE ... -->`, files from `study/records/`, and `<!-- end -->`. What stands there
+//! A table stands between `<!-- table NAME of FILE ... -->`, paths from `study/records/`, and `<!-- end -->`. What stands there
 //! must be what [`filled`] makes of the records.
 
 mod budget;
+mod crates;
 mod encode;
 mod hard;
 mod isa;
@@ -84,9 +85,10 @@ fn table(name: &str, files: &[&Path]) -> Result<String, String> {
         "speedups" => budget::speedups(files),
         "quads" => Ok(quads::ways(&QuadsRecord::read(first).map_err(why)?)),
         "encode" => encode::ways(first),
+        "crates" => crates::needs(first),
         "sweep" => sweep::factors(&SweepRecord::read(first).map_err(why)?),
         _ => Err(format!(
-            "there is no table `{name}`; there are speed, loops, agreement, quality, methods, scenes, beyond, gaps, hard, isa, tune, budget, table2, speedups, quads, encode and sweep"
+            "there is no table `{name}`; there are speed, loops, agreement, quality, methods, scenes, beyond, gaps, hard, isa, tune, budget, table2, speedups, quads, encode, crates and sweep"
         )),
     }
 }

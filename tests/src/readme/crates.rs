@@ -1,0 +1,53 @@
+//! Which crate needs which.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// A row for each member of the workspace: the other members that it is built with, and those of its tests alone.
+pub fn needs(workspace: &Path) -> Result<String, String> {
+    let root = workspace.parent().unwrap_or(Path::new("."));
+    let members = read(workspace)?;
+    let members = members.get("workspace").and_then(|w| w.get("members")?.as_array());
+    let mut names = BTreeMap::new();
+    for member in members
+        .ok_or("the workspace has no members")?
+        .iter()
+        .filter_map(toml::Value::as_str)
+    {
+        let manifest = read(&root.join(member).join("Cargo.toml"))?;
+        let name = manifest.get("package").and_then(|p| p.get("name")?.as_str());
+        let name = name.ok_or_else(|| format!("`{member}` has no name"))?;
+        names.insert(name.to_owned(), (member.to_owned(), manifest.clone()));
+    }
+    let needed = |manifest: &toml::Table, tables: &[&str]| -> String {
+        let all = tables.iter().filter_map(|table| manifest.get(*table)?.as_table());
+        let mut folders: Vec<&str> = all
+            .flat_map(|table| table.keys())
+            .filter_map(|name| Some(names.get(name)?.0.as_str()))
+            .collect();
+        folders.sort_unstable();
+        folders.dedup();
+        folders.join(", ")
+    };
+    let mut rows: Vec<(usize, &str, String, String)> = names
+        .values()
+        .map(|(folder, manifest)| {
+            let built = needed(manifest, &["dependencies", "build-dependencies"]);
+            let tested = needed(manifest, &["dev-dependencies"]);
+            let count = built.split(", ").filter(|name| !name.is_empty()).count();
+            (count, folder.as_str(), built, tested)
+        })
+        .collect();
+    rows.sort();
+    let mut text = "| crate | is built with | and tested with |\n| --- | --- | --- |\n".to_owned();
+    for (_, folder, built, tested) in rows {
+        let shown = |names: String| if names.is_empty() { "–".to_owned() } else { names };
+        text += &format!("| `{folder}` | {} | {} |\n", shown(built), shown(tested));
+    }
+    Ok(text)
+}
+
+fn read(path: &Path) -> Result<toml::Table, String> {
+    let text = std::fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))?;
+    text.parse().map_err(|error| format!("{}: {error}", path.display()))
+}
