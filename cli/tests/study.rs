@@ -163,6 +163,13 @@ fn what_errors_cannot_be_measured_of_is_refused_before_any_work() {
     };
     fails_with(&["--scene", "rooof"], 2, &["no scene `rooof`", "terrain"]);
     fails_with(&["--mesh", "nowhere.glb"], 1, &["nowhere.glb", "cannot be read"]);
+    let method = |text: &str, status, says: &[&str]| fails_with(&["--scene", "roof", "--method", text], status, says);
+    method("sharp", 2, &["`sharp` is no method", "NAME=KERNEL"]);
+    method("sharp=sraa,wide", 2, &["`sharp=sraa,wide` is no method"]);
+    method("SRAA 4=sraa", 2, &["there is a method `SRAA 4` already"]);
+    method("own=sraa,pattern=listed", 2, &["pattern `listed`", "latin4"]);
+    method("own=sraa,raduis=2", 2, &["raduis"]);
+    method("own=nowhere.rs", 1, &["nowhere.rs"]);
     fails_with(
         &["--capture", "nowhere"],
         1,

@@ -7,7 +7,8 @@ use std::path::Path;
 use straightline_codegen::{Settings, Stage};
 use straightline_kernels::prelude::*;
 use straightline_study::peers::{Smaa, Transfer, fxaa};
-use straightline_study::quality::{Outcome, Plan, QualityError, Source, losses, study};
+use straightline_study::quality::{Method, Outcome, Plan, QualityError, Source, losses, study};
+use straightline_study::record::Family;
 use straightline_study::watch::Unwatched;
 use straightline_testbed::capture::Capture;
 use straightline_testbed::execute::Inputs;
@@ -83,6 +84,7 @@ fn plan(pictures: bool) -> Plan {
         pan_frames: 2,
         pan_scenes: 1,
         pictures,
+        own: Vec::new(),
     }
 }
 
@@ -92,6 +94,57 @@ fn source(name: &str) -> Source {
         purpose: "a test".to_owned(),
         scene: Box::new(Scene::named(name).expect("a scene")),
     }
+}
+
+/// What a kernel of the user's reads and gives is what the others do: one that gives the picture is 1x, and options of SRAA that
+/// are the default are SRAA 4.
+#[test]
+fn methods_of_the_users_own() {
+    let folder = std::env::temp_dir().join(format!("straightline-own-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).expect("a folder");
+    let file = folder.join("own.rs");
+    let text = "pub fn same(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 { color.load(pixel) }\n\
+        pub fn nearest(depth: &FrameLayers<f32>, pixel: IVec2) -> Vec4 { Vec4::ONE * depth.load(pixel, 3) }\n\
+        pub fn lights(light: &Frame<Vec4>, pixel: IVec2) -> Vec4 { light.load(pixel) }\n";
+    std::fs::write(&file, text).expect("a file");
+    let own = |text: String| Method::own(&text).unwrap_or_else(|error| panic!("{text}: {error}"));
+    let with = |methods: Vec<Method>| Plan {
+        own: methods,
+        pan_frames: 0,
+        ..plan(false)
+    };
+    let plan = with(vec![
+        own(format!("the same={}::same", file.display())),
+        own("my sraa=sraa,tau=500,metric=depth-normals".to_owned()),
+        own("listed=sraa,shading=listed,shaded=0,3".to_owned()),
+        own(format!("depths={}::nearest", file.display())),
+        own("blur=../examples/methods/edge_blur.rs,weight=0.2".to_owned()),
+    ]);
+    let outcome = study(&bench(), vec![source("railings")], &plan, &mut Unwatched).expect("figures");
+    let [scene] = &outcome.scenes[..] else {
+        panic!("one scene, not {}", outcome.scenes.len());
+    };
+    let of = |name: &str| {
+        let found = scene.methods.iter().find(|method| method.method == name);
+        found.unwrap_or_else(|| panic!("no {name}"))
+    };
+    let figures = |name: &str| (of(name).psnr, of(name).ssim, of(name).flip, of(name).psnr_geometry);
+    assert_eq!(figures("the same"), figures("1x"));
+    assert_eq!(figures("my sraa"), figures("SRAA 4"));
+    assert_eq!(figures("listed"), figures("SRAA 4, two shading samples"));
+    assert_eq!(of("the same").family, Family::Own);
+    assert!(of("the same").time.is_some() && of("depths").psnr < of("1x").psnr);
+    assert!(
+        of("blur").psnr > of("1x").psnr + 0.5,
+        "{} {}",
+        of("blur").psnr,
+        of("1x").psnr
+    );
+    // What a scene has not is named.
+    let plan = with(vec![own(format!("lights={}::lights", file.display()))]);
+    let error = study(&bench(), vec![source("railings")], &plan, &mut Unwatched).expect_err("no such picture");
+    assert!(error.to_string().contains("`lights` reads `light`"), "{error}");
+    std::fs::remove_dir_all(&folder).expect("removed");
 }
 
 #[test]

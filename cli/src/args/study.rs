@@ -100,6 +100,9 @@ pub struct IsaArgs {
 
 #[derive(Clone, Debug, Default, Args)]
 pub struct ErrorArgs {
+    /// A method of your own to compare: options of `sraa`, `stalker` or `tabula_rasa`, or a kernel that reads what it likes of color, depth and normal; may be given several times
+    #[arg(long = "method", value_name = "NAME=KERNEL[,OPTION=VALUE]...")]
+    pub methods: Vec<String>,
     /// A built-in scene (see `scenes`); may be given several times. By default all of them
     #[arg(long, value_name = "NAME")]
     pub scene: Vec<String>,

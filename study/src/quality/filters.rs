@@ -11,7 +11,7 @@ use glam::{UVec2, Vec4};
 use std::time::Duration;
 use straightline_codegen::{Compiled, Kernel, Settings, Stage};
 use straightline_kernels::prelude::Frame;
-use straightline_manifest::Manifest;
+use straightline_manifest::{BindingKind, Dimension, Manifest};
 use straightline_runtime::Pass;
 use straightline_testbed::capture::{Capture, ShadingSample};
 use straightline_testbed::execute::{Bench, ExecuteError, Inputs, Job, Timed, Uploaded, Work, texture_bytes};
@@ -172,6 +172,10 @@ fn runner(bench: &Bench, method: &Method, size: UVec2) -> Result<Runner, Quality
     let kernel = match method.kind {
         Kind::Sraa => Kernel::builtin("sraa")?,
         Kind::Edge(name) => Kernel::builtin(name)?,
+        Kind::Own => method
+            .kernel
+            .clone()
+            .ok_or_else(|| QualityError::NotDrawn(method.name.clone()))?,
         Kind::Fxaa(_) => fxaa(),
         Kind::Smaa(transfer) => return Ok(Runner::Smaa(Box::new(Smaa::new(bench, size, transfer)?))),
         Kind::Plain | Kind::Multisampled | Kind::Supersampled(_) => return Ok(Runner::None),
@@ -227,6 +231,7 @@ impl Shader {
         let inputs = match method.kind {
             Kind::Edge(_) => one_a_pixel(capture)?,
             Kind::Fxaa(transfer) => of_the_picture(capture, transfer),
+            Kind::Own => gbuffer_of(capture, &self.manifest)?,
             _ => gbuffer::inputs(capture, &self.compiled.options)?,
         };
         let uploaded = bench.upload(&self.manifest, &inputs)?;
@@ -264,6 +269,45 @@ fn one_a_pixel(capture: &Capture) -> Result<Inputs, QualityError> {
         .image("depth", Frame::new(capture.size, depth))
         .image("normal", Frame::new(capture.size, normal))
         .image("color", capture.color.clone()))
+}
+
+/// What a kernel of the user's reads: the linear picture; depths along the view in the scene's units, and normals, where the
+/// picture was shaded, or of all samples if it reads layers.
+fn gbuffer_of(capture: &Capture, manifest: &Manifest) -> Result<Inputs, QualityError> {
+    let mut inputs = Inputs::new(capture.size);
+    for binding in &manifest.bindings {
+        let BindingKind::Texture { dimension, .. } = &binding.kind else {
+            continue;
+        };
+        let layers = match dimension {
+            Dimension::D2Array => (0..capture.samples.len()).collect(),
+            _ => capture.shaded_layers().into_iter().take(1).collect::<Vec<usize>>(),
+        };
+        let frames: Option<Vec<Frame<Vec4>>> = match (binding.name.as_str(), &capture.normal) {
+            ("color", _) => Some(vec![capture.color.clone()]),
+            ("depth", _) => Some(of_layers(capture.depth.layers(), &layers, |z| Vec4::splat(*z))),
+            ("normal", Some(normal)) => Some(of_layers(normal.layers(), &layers, |n| n.extend(0.0))),
+            _ => None,
+        };
+        let frames = frames.ok_or_else(|| {
+            let there = if capture.normal.is_some() {
+                "`color`, `depth` and `normal`"
+            } else {
+                "`color` and `depth`"
+            };
+            QualityError::Capture(format!(
+                "the kernel `{}` reads `{}`; what there is to read is {there}",
+                manifest.kernel, binding.name
+            ))
+        })?;
+        inputs.images.push((binding.name.clone(), frames));
+    }
+    Ok(inputs)
+}
+
+fn of_layers<T: Copy>(all: &[Frame<T>], chosen: &[usize], texel: impl Fn(&T) -> Vec4) -> Vec<Frame<Vec4>> {
+    let frame = |k: &usize| Frame::new(all[*k].size(), all[*k].texels().iter().map(&texel).collect());
+    chosen.iter().map(frame).collect()
 }
 
 /// Near plane of a capture that does not tell.

@@ -2,6 +2,8 @@
 
 use crate::peers::Transfer;
 use crate::record::Family;
+use straightline_codegen::Kernel;
+use straightline_codegen::diagnostic::Errors;
 use straightline_testbed::capture::{Capture, ShadingSample};
 use straightline_testbed::gbuffer;
 
@@ -22,6 +24,8 @@ pub enum Kind {
     Multisampled,
     /// Shading at every sample of `latin4` or `latin16`.
     Supersampled(usize),
+    /// A kernel of the user's, which reads what it likes of `color`, `depth` and `normal`.
+    Own,
 }
 
 /// A method of antialiasing.
@@ -31,12 +35,16 @@ pub struct Method {
     pub name: String,
     /// What it is.
     pub kind: Kind,
+    /// The kernel, if it is the user's.
+    pub kernel: Option<Kernel>,
     /// Options of its kernel that are not the default.
     pub options: Vec<(String, String)>,
     /// Whether its pictures are written.
     pub pictured: bool,
     /// Whether it is watched over the pan.
     pub panned: bool,
+    /// Whether what it lacks of supersampling at its samples is accounted for.
+    pub explained: bool,
 }
 
 impl Method {
@@ -45,9 +53,69 @@ impl Method {
         Method {
             name: name.to_owned(),
             kind,
+            kernel: None,
             options: options.iter().map(own).collect(),
             pictured: false,
             panned: false,
+            explained: false,
+        }
+    }
+
+    /// A method of the user's, `NAME=KERNEL[,OPTION=VALUE...]`: a set of options of `sraa` or of an edge filter, or a kernel of a
+    /// file. What has no `=` belongs to the value before it, which is a list then.
+    ///
+    /// # Errors
+    ///
+    /// [`OwnError`] says what cannot be read, or what is wrong with the kernel.
+    pub fn own(text: &str) -> Result<Method, OwnError> {
+        let usage = || OwnError::Usage(text.to_owned());
+        let (name, rest) = text.split_once('=').ok_or_else(usage)?;
+        let mut parts = rest.split(',');
+        let kernel = parts.next().unwrap_or_default();
+        if stem(name).is_empty() || kernel.is_empty() {
+            return Err(usage());
+        }
+        let mut options: Vec<(String, String)> = Vec::new();
+        for part in parts {
+            match (part.split_once('='), options.last_mut()) {
+                (Some((option, value)), _) => options.push((option.to_owned(), value.to_owned())),
+                (None, Some((_, list))) => *list += &format!(",{part}"),
+                (None, None) => return Err(usage()),
+            }
+        }
+        let (kind, own) = match kernel {
+            "sraa" => (Kind::Sraa, None),
+            "stalker" => (Kind::Edge("stalker"), None),
+            "tabula_rasa" => (Kind::Edge("tabula_rasa"), None),
+            file => (Kind::Own, Some(Kernel::locate(file)?)),
+        };
+        let method = Method {
+            kernel: own,
+            options,
+            ..Method::new(name, kind, &[]).main()
+        };
+        match gbuffer::samples(method.pattern()) {
+            Some(_) => Ok(method),
+            None => Err(OwnError::Pattern(name.to_owned(), method.pattern().to_owned())),
+        }
+    }
+
+    /// The same where only the capture's own samples are.
+    pub fn on(&self, capture: &Capture) -> Method {
+        let given = |name: &str| self.options.iter().any(|(own, _)| own == name);
+        let mut method = self.clone();
+        if self.kind == Kind::Sraa {
+            let sampled = gbuffer::sampled_at(capture).into_iter();
+            method.options = sampled.filter(|(name, _)| !given(name)).collect();
+            method.options.extend(self.options.iter().cloned());
+        }
+        method
+    }
+
+    fn explained(self) -> Method {
+        Method {
+            explained: true,
+            ..self
         }
     }
 
@@ -72,6 +140,7 @@ impl Method {
             Kind::Edge(_) => Family::Edge,
             Kind::Fxaa(_) | Kind::Smaa(_) => Family::Picture,
             Kind::Multisampled | Kind::Supersampled(_) => Family::Supersampling,
+            Kind::Own => Family::Own,
         }
     }
 
@@ -115,6 +184,24 @@ impl Method {
     }
 }
 
+/// Why a method of the user's cannot be compared.
+#[derive(Debug, thiserror::Error)]
+pub enum OwnError {
+    /// It is not what it should be.
+    #[error(
+        "`{0}` is no method: write NAME=KERNEL, then options: \"eight=sraa,pattern=standard8\" or \"mine=filter.rs::sharp\""
+    )]
+    Usage(String),
+    /// The scene is not drawn at such samples.
+    #[error(
+        "the method `{0}` has the pattern `{1}`, and scenes are drawn at named ones: latin4, latin16, standard8 and the like"
+    )]
+    Pattern(String, String),
+    /// The kernel cannot be read.
+    #[error("{0}")]
+    Kernel(#[from] Errors),
+}
+
 /// A name made of lower-case letters, digits and hyphens.
 pub fn stem(name: &str) -> String {
     let words = name.to_lowercase();
@@ -127,8 +214,8 @@ pub fn methods(quick: bool) -> Vec<Method> {
     let sraa = |name, options: &[(&str, &str)]| Method::new(name, Kind::Sraa, options);
     let mut all = vec![
         Method::new("1x", Kind::Plain, &[]).main(),
-        sraa("SRAA 4", &[]).main(),
-        sraa("SRAA 16", &[("pattern", "latin16")]).main(),
+        sraa("SRAA 4", &[]).main().explained(),
+        sraa("SRAA 16", &[("pattern", "latin16")]).main().explained(),
     ];
     all.extend(beyond());
     all.extend(metrics());

@@ -35,7 +35,7 @@ use straightline_testbed::scene::Scene;
 pub use classes::STEP;
 pub use error::QualityError;
 pub use losses::losses;
-pub use methods::{Kind, Method, methods, methods_of};
+pub use methods::{Kind, Method, OwnError, methods, methods_of};
 pub use surfaces::{Point, Surfaces};
 
 /// Side of the grid of shading samples of a reference: 256x.
@@ -80,6 +80,8 @@ pub struct Plan {
     pub rounds: u32,
     /// Fewer methods.
     pub quick: bool,
+    /// Methods of the user's, compared beside the others.
+    pub own: Vec<Method>,
     /// Frames of the pan; 0 for none.
     pub pan_frames: u32,
     /// How many scenes are panned over, the first ones.
@@ -123,7 +125,7 @@ fn all(
     watch: &mut dyn Watch,
     outcome: &mut Outcome,
 ) -> Result<(), QualityError> {
-    let listed = methods(plan.quick);
+    let listed = [methods(plan.quick), plan.own.clone()].concat();
     watch.begin("speed against error", steps(&sources, &listed, plan));
     let mut filters = match sources.iter().any(|source| matches!(source, Source::Scene { .. })) {
         true => Some(Filters::new(bench, &listed, plan.size, watch)?),
@@ -175,7 +177,8 @@ fn of_capture(
     made: &mut BTreeMap<String, Vec<u8>>,
     watch: &mut dyn Watch,
 ) -> Result<SceneErrors, QualityError> {
-    let (listed, absent) = methods_of(&capture);
+    let (mut listed, absent) = methods_of(&capture);
+    listed.extend(plan.own.iter().map(|method| method.on(&capture)));
     let Some(reference) = capture.reference.clone() else {
         return Err(QualityError::Capture(format!(
             "`{name}` has no reference.exr, so nothing can be said of errors: write one, shaded at many places of each pixel \
@@ -211,7 +214,7 @@ fn steps(sources: &[Source], listed: &[Method], plan: &Plan) -> usize {
     }
     for source in sources {
         if let Source::Capture { capture, .. } = source {
-            steps += 2 * methods_of(capture).0.len() + timing;
+            steps += 2 * (methods_of(capture).0.len() + plan.own.len()) + timing;
         }
     }
     steps
@@ -258,7 +261,7 @@ impl Wanted<'_> {
             let mut scores = scores(method, &made, reference, &classes);
             (scores.bytes, scores.picture) = (bytes[k], picture);
             errors.methods.push(scores);
-            if matches!(method.name.as_str(), "SRAA 4" | "SRAA 16") {
+            if method.explained {
                 reconstructed.push(made);
             }
             watch.step();

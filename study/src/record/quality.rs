@@ -21,6 +21,8 @@ pub enum Family {
     Picture,
     /// More shading samples, or as many coverage samples.
     Supersampling,
+    /// A kernel of the user's.
+    Own,
 }
 
 /// Errors of a method on a scene, against 256 samples a pixel, both as a display shows them: at 8 bits of sRGB. PSNR over linear RGB clamped to 0..=1, in dB, at most

@@ -5,9 +5,10 @@ use crate::args::{CommonArgs, ErrorArgs};
 use crate::failure::Failure;
 use crate::gpu::Gpu;
 use crate::table;
+use std::collections::BTreeSet;
 use std::path::Path;
 use straightline_codegen::files;
-use straightline_study::quality::{self, Plan, Source};
+use straightline_study::quality::{self, Method, OwnError, Plan, QualityError, Source};
 use straightline_study::record::{Gap, MOST_DB, MethodErrors, QualityRecord, Record, SceneErrors};
 use straightline_testbed::capture::Capture;
 use straightline_testbed::scene::{self, NAMES, Scene};
@@ -18,6 +19,7 @@ const QUICK_FRAMES: u32 = 4;
 
 /// Compares, writes the record and prints it.
 pub fn run(common: &CommonArgs, args: &ErrorArgs, progress: &mut Progress) -> Result<(), Failure> {
+    let own = own(args)?;
     let sources = sources(args)?;
     let gpu = Gpu::require(&common.adapter)?;
     let plan = Plan {
@@ -27,6 +29,7 @@ pub fn run(common: &CommonArgs, args: &ErrorArgs, progress: &mut Progress) -> Re
         pan_frames: if common.quick { QUICK_FRAMES } else { FRAMES },
         pan_scenes: if common.quick { 1 } else { usize::MAX },
         pictures: true,
+        own,
     };
     let mut circumstances = circumstances(common, &gpu);
     // A capture has its own size; a record of nothing else says so.
@@ -34,7 +37,7 @@ pub fn run(common: &CommonArgs, args: &ErrorArgs, progress: &mut Progress) -> Re
     if let Some(first) = sizes.first().filter(|first| sizes.iter().all(|size| size == *first)) {
         circumstances.size = first.to_array();
     }
-    let mut outcome = quality::study(&gpu.bench(), sources, &plan, progress).map_err(Failure::of)?;
+    let mut outcome = quality::study(&gpu.bench(), sources, &plan, progress).map_err(failure)?;
     circumstances.complete = outcome.complete;
     let record = QualityRecord {
         circumstances,
@@ -48,6 +51,34 @@ pub fn run(common: &CommonArgs, args: &ErrorArgs, progress: &mut Progress) -> Re
     files::write_all(&common.out, &set).map_err(Failure::of)?;
     print(&record, &common.out);
     Ok(())
+}
+
+/// Methods of the user's, each with a name that no other has.
+fn own(args: &ErrorArgs) -> Result<Vec<Method>, Failure> {
+    let mut stems: BTreeSet<String> = quality::methods(false).iter().map(Method::stem).collect();
+    let mut own = Vec::new();
+    for text in &args.methods {
+        let method = Method::own(text).map_err(|error| match error {
+            OwnError::Kernel(errors) => Failure::Kernel(errors),
+            other => Failure::Usage(other.to_string()),
+        })?;
+        if !stems.insert(method.stem()) {
+            return Err(Failure::Usage(format!(
+                "there is a method `{}` already: give yours another name",
+                method.name
+            )));
+        }
+        own.push(method);
+    }
+    Ok(own)
+}
+
+/// What a kernel gets wrong is shown with its place.
+fn failure(error: QualityError) -> Failure {
+    match error {
+        QualityError::Kernel(errors) => Failure::Kernel(errors),
+        other => Failure::of(other),
+    }
 }
 
 /// What was asked for; by default all scenes.
