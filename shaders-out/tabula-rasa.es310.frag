@@ -21,11 +21,11 @@ uniform float weight;
 void main() {
     ivec2 pixel = ivec2(floor(gl_FragCoord.xy));
     ivec2 frame = textureSize(depth, 0);
-    // `DL_GetEdgeWeight` (kernels/src/edge/tabula_rasa.rs:65)
+    // `DL_GetEdgeWeight` (kernels/src/edge/tabula_rasa.rs:67)
     ivec2 last = frame - 1;
     float depth_2 = texelFetch(depth, pixel, 0).x;
     float here = (abs(depth_2) < 1e30 ? depth_2 : 1e30);
-    vec3 facing = texelFetch(normal, pixel, 0).xyz;
+    vec3 stored = texelFetch(normal, pixel, 0).xyz;
     ivec2 at = max(pixel - 1, ivec2(0));
     float depth_3 = texelFetch(depth, at, 0).x;
     float before = abs((abs(depth_3) < 1e30 ? depth_3 : 1e30) - here);
@@ -33,9 +33,9 @@ void main() {
     float depth_4 = texelFetch(depth, at_2, 0).x;
     float after = abs((abs(depth_4) < 1e30 ? depth_4 : 1e30) - here);
     float product = max(min(before, after), 1e-5) * depth_sensibility;
-    float difference = 1.0 - dot(texelFetch(normal, at, 0).xyz, facing);
+    float difference = 1.0 - dot(texelFetch(normal, at, 0).xyz, stored);
     float turned = (difference * normal_sensibility < 0.4 ? 0.0 : 1.0);
-    float difference_2 = 1.0 - dot(texelFetch(normal, at_2, 0).xyz, facing);
+    float difference_2 = 1.0 - dot(texelFetch(normal, at_2, 0).xyz, stored);
     float turned_2 = (difference_2 * normal_sensibility < 0.4 ? 0.0 : 1.0);
     ivec2 at_3 = max(pixel + ivec2(0, -1), ivec2(0));
     float depth_5 = texelFetch(depth, at_3, 0).x;
@@ -44,9 +44,9 @@ void main() {
     float depth_6 = texelFetch(depth, at_4, 0).x;
     float after_2 = abs((abs(depth_6) < 1e30 ? depth_6 : 1e30) - here);
     float product_2 = max(min(before_2, after_2), 1e-5) * depth_sensibility;
-    float difference_3 = 1.0 - dot(texelFetch(normal, at_3, 0).xyz, facing);
+    float difference_3 = 1.0 - dot(texelFetch(normal, at_3, 0).xyz, stored);
     float turned_3 = (difference_3 * normal_sensibility < 0.4 ? 0.0 : 1.0);
-    float difference_4 = 1.0 - dot(texelFetch(normal, at_4, 0).xyz, facing);
+    float difference_4 = 1.0 - dot(texelFetch(normal, at_4, 0).xyz, stored);
     float turned_4 = (difference_4 * normal_sensibility < 0.4 ? 0.0 : 1.0);
     float larger = max((max(before_2, after_2) < product_2 ? 0.0 : 1.0), max(turned_3, turned_4));
     float edges = max((max(before, after) < product ? 0.0 : 1.0), max(turned, turned_2)) + larger;
@@ -57,9 +57,9 @@ void main() {
     float depth_8 = texelFetch(depth, at_6, 0).x;
     float after_3 = abs((abs(depth_8) < 1e30 ? depth_8 : 1e30) - here);
     float product_3 = max(min(before_3, after_3), 1e-5) * depth_sensibility;
-    float difference_5 = 1.0 - dot(texelFetch(normal, at_5, 0).xyz, facing);
+    float difference_5 = 1.0 - dot(texelFetch(normal, at_5, 0).xyz, stored);
     float turned_5 = (difference_5 * normal_sensibility < 0.4 ? 0.0 : 1.0);
-    float difference_6 = 1.0 - dot(texelFetch(normal, at_6, 0).xyz, facing);
+    float difference_6 = 1.0 - dot(texelFetch(normal, at_6, 0).xyz, stored);
     float turned_6 = (difference_6 * normal_sensibility < 0.4 ? 0.0 : 1.0);
     float edges_2 = edges
         + max((max(before_3, after_3) < product_3 ? 0.0 : 1.0), max(turned_5, turned_6));
@@ -70,9 +70,9 @@ void main() {
     float depth_10 = texelFetch(depth, at_8, 0).x;
     float after_4 = abs((abs(depth_10) < 1e30 ? depth_10 : 1e30) - here);
     float product_4 = max(min(before_4, after_4), 1e-5) * depth_sensibility;
-    float difference_7 = 1.0 - dot(texelFetch(normal, at_7, 0).xyz, facing);
+    float difference_7 = 1.0 - dot(texelFetch(normal, at_7, 0).xyz, stored);
     float turned_7 = (difference_7 * normal_sensibility < 0.4 ? 0.0 : 1.0);
-    float difference_8 = 1.0 - dot(texelFetch(normal, at_8, 0).xyz, facing);
+    float difference_8 = 1.0 - dot(texelFetch(normal, at_8, 0).xyz, stored);
     float turned_8 = (difference_8 * normal_sensibility < 0.4 ? 0.0 : 1.0);
     float edges_3 = edges_2
         + max((max(before_4, after_4) < product_4 ? 0.0 : 1.0), max(turned_7, turned_8));

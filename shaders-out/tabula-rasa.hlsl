@@ -28,11 +28,11 @@ int2 size_of_depth() {
 float4 tabula_rasa(float4 position : SV_Position) : SV_Target0 {
     int2 pixel = int2(floor(position.xy));
     int2 frame = size_of_depth();
-    // `DL_GetEdgeWeight` (kernels/src/edge/tabula_rasa.rs:65)
+    // `DL_GetEdgeWeight` (kernels/src/edge/tabula_rasa.rs:67)
     int2 last = frame - 1;
     float depth_2 = depth.Load(int3(pixel, 0)).x;
     float here = (abs(depth_2) < 1e30 ? depth_2 : 1e30);
-    float3 facing = normal.Load(int3(pixel, 0)).xyz;
+    float3 stored = normal.Load(int3(pixel, 0)).xyz;
     int2 at = max(pixel - 1, int2(0, 0));
     float depth_3 = depth.Load(int3(at, 0)).x;
     float before = abs((abs(depth_3) < 1e30 ? depth_3 : 1e30) - here);
@@ -40,9 +40,9 @@ float4 tabula_rasa(float4 position : SV_Position) : SV_Target0 {
     float depth_4 = depth.Load(int3(at_2, 0)).x;
     float after = abs((abs(depth_4) < 1e30 ? depth_4 : 1e30) - here);
     float product = max(min(before, after), 1e-5) * parameters.depth_sensibility;
-    float difference = 1.0 - dot(normal.Load(int3(at, 0)).xyz, facing);
+    float difference = 1.0 - dot(normal.Load(int3(at, 0)).xyz, stored);
     float turned = (difference * parameters.normal_sensibility < 0.4 ? 0.0 : 1.0);
-    float difference_2 = 1.0 - dot(normal.Load(int3(at_2, 0)).xyz, facing);
+    float difference_2 = 1.0 - dot(normal.Load(int3(at_2, 0)).xyz, stored);
     float turned_2 = (difference_2 * parameters.normal_sensibility < 0.4 ? 0.0 : 1.0);
     int2 at_3 = max(pixel + int2(0, -1), int2(0, 0));
     float depth_5 = depth.Load(int3(at_3, 0)).x;
@@ -51,9 +51,9 @@ float4 tabula_rasa(float4 position : SV_Position) : SV_Target0 {
     float depth_6 = depth.Load(int3(at_4, 0)).x;
     float after_2 = abs((abs(depth_6) < 1e30 ? depth_6 : 1e30) - here);
     float product_2 = max(min(before_2, after_2), 1e-5) * parameters.depth_sensibility;
-    float difference_3 = 1.0 - dot(normal.Load(int3(at_3, 0)).xyz, facing);
+    float difference_3 = 1.0 - dot(normal.Load(int3(at_3, 0)).xyz, stored);
     float turned_3 = (difference_3 * parameters.normal_sensibility < 0.4 ? 0.0 : 1.0);
-    float difference_4 = 1.0 - dot(normal.Load(int3(at_4, 0)).xyz, facing);
+    float difference_4 = 1.0 - dot(normal.Load(int3(at_4, 0)).xyz, stored);
     float turned_4 = (difference_4 * parameters.normal_sensibility < 0.4 ? 0.0 : 1.0);
     float larger = max((max(before_2, after_2) < product_2 ? 0.0 : 1.0), max(turned_3, turned_4));
     float edges = max((max(before, after) < product ? 0.0 : 1.0), max(turned, turned_2)) + larger;
@@ -64,9 +64,9 @@ float4 tabula_rasa(float4 position : SV_Position) : SV_Target0 {
     float depth_8 = depth.Load(int3(at_6, 0)).x;
     float after_3 = abs((abs(depth_8) < 1e30 ? depth_8 : 1e30) - here);
     float product_3 = max(min(before_3, after_3), 1e-5) * parameters.depth_sensibility;
-    float difference_5 = 1.0 - dot(normal.Load(int3(at_5, 0)).xyz, facing);
+    float difference_5 = 1.0 - dot(normal.Load(int3(at_5, 0)).xyz, stored);
     float turned_5 = (difference_5 * parameters.normal_sensibility < 0.4 ? 0.0 : 1.0);
-    float difference_6 = 1.0 - dot(normal.Load(int3(at_6, 0)).xyz, facing);
+    float difference_6 = 1.0 - dot(normal.Load(int3(at_6, 0)).xyz, stored);
     float turned_6 = (difference_6 * parameters.normal_sensibility < 0.4 ? 0.0 : 1.0);
     float edges_2 = edges
         + max((max(before_3, after_3) < product_3 ? 0.0 : 1.0), max(turned_5, turned_6));
@@ -77,9 +77,9 @@ float4 tabula_rasa(float4 position : SV_Position) : SV_Target0 {
     float depth_10 = depth.Load(int3(at_8, 0)).x;
     float after_4 = abs((abs(depth_10) < 1e30 ? depth_10 : 1e30) - here);
     float product_4 = max(min(before_4, after_4), 1e-5) * parameters.depth_sensibility;
-    float difference_7 = 1.0 - dot(normal.Load(int3(at_7, 0)).xyz, facing);
+    float difference_7 = 1.0 - dot(normal.Load(int3(at_7, 0)).xyz, stored);
     float turned_7 = (difference_7 * parameters.normal_sensibility < 0.4 ? 0.0 : 1.0);
-    float difference_8 = 1.0 - dot(normal.Load(int3(at_8, 0)).xyz, facing);
+    float difference_8 = 1.0 - dot(normal.Load(int3(at_8, 0)).xyz, stored);
     float turned_8 = (difference_8 * parameters.normal_sensibility < 0.4 ? 0.0 : 1.0);
     float edges_3 = edges_2
         + max((max(before_4, after_4) < product_4 ? 0.0 : 1.0), max(turned_7, turned_8));

@@ -21,11 +21,11 @@ struct Parameters {
 fn tabula_rasa(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let pixel = vec2i(floor(position.xy));
     let frame = vec2i(textureDimensions(depth));
-    // `DL_GetEdgeWeight` (kernels/src/edge/tabula_rasa.rs:65)
+    // `DL_GetEdgeWeight` (kernels/src/edge/tabula_rasa.rs:67)
     let last = frame - 1;
     let depth_2 = textureLoad(depth, pixel, 0).x;
     let here = select(1e30, depth_2, abs(depth_2) < 1e30);
-    let facing = textureLoad(normal, pixel, 0).xyz;
+    let stored = textureLoad(normal, pixel, 0).xyz;
     let at = max(pixel - 1, vec2i(0));
     let depth_3 = textureLoad(depth, at, 0).x;
     let before = abs(select(1e30, depth_3, abs(depth_3) < 1e30) - here);
@@ -33,9 +33,9 @@ fn tabula_rasa(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let depth_4 = textureLoad(depth, at_2, 0).x;
     let after = abs(select(1e30, depth_4, abs(depth_4) < 1e30) - here);
     let product = max(min(before, after), 1e-5) * parameters.depth_sensibility;
-    let difference = 1.0 - dot(textureLoad(normal, at, 0).xyz, facing);
+    let difference = 1.0 - dot(textureLoad(normal, at, 0).xyz, stored);
     let turned = select(1.0, 0.0, difference * parameters.normal_sensibility < 0.4);
-    let difference_2 = 1.0 - dot(textureLoad(normal, at_2, 0).xyz, facing);
+    let difference_2 = 1.0 - dot(textureLoad(normal, at_2, 0).xyz, stored);
     let turned_2 = select(1.0, 0.0, difference_2 * parameters.normal_sensibility < 0.4);
     let at_3 = max(pixel + vec2i(0, -1), vec2i(0));
     let depth_5 = textureLoad(depth, at_3, 0).x;
@@ -44,9 +44,9 @@ fn tabula_rasa(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let depth_6 = textureLoad(depth, at_4, 0).x;
     let after_2 = abs(select(1e30, depth_6, abs(depth_6) < 1e30) - here);
     let product_2 = max(min(before_2, after_2), 1e-5) * parameters.depth_sensibility;
-    let difference_3 = 1.0 - dot(textureLoad(normal, at_3, 0).xyz, facing);
+    let difference_3 = 1.0 - dot(textureLoad(normal, at_3, 0).xyz, stored);
     let turned_3 = select(1.0, 0.0, difference_3 * parameters.normal_sensibility < 0.4);
-    let difference_4 = 1.0 - dot(textureLoad(normal, at_4, 0).xyz, facing);
+    let difference_4 = 1.0 - dot(textureLoad(normal, at_4, 0).xyz, stored);
     let turned_4 = select(1.0, 0.0, difference_4 * parameters.normal_sensibility < 0.4);
     let larger = max(select(1.0, 0.0, max(before_2, after_2) < product_2), max(turned_3, turned_4));
     let edges = max(select(1.0, 0.0, max(before, after) < product), max(turned, turned_2)) + larger;
@@ -57,9 +57,9 @@ fn tabula_rasa(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let depth_8 = textureLoad(depth, at_6, 0).x;
     let after_3 = abs(select(1e30, depth_8, abs(depth_8) < 1e30) - here);
     let product_3 = max(min(before_3, after_3), 1e-5) * parameters.depth_sensibility;
-    let difference_5 = 1.0 - dot(textureLoad(normal, at_5, 0).xyz, facing);
+    let difference_5 = 1.0 - dot(textureLoad(normal, at_5, 0).xyz, stored);
     let turned_5 = select(1.0, 0.0, difference_5 * parameters.normal_sensibility < 0.4);
-    let difference_6 = 1.0 - dot(textureLoad(normal, at_6, 0).xyz, facing);
+    let difference_6 = 1.0 - dot(textureLoad(normal, at_6, 0).xyz, stored);
     let turned_6 = select(1.0, 0.0, difference_6 * parameters.normal_sensibility < 0.4);
     let edges_2 = edges
         + max(select(1.0, 0.0, max(before_3, after_3) < product_3), max(turned_5, turned_6));
@@ -70,9 +70,9 @@ fn tabula_rasa(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let depth_10 = textureLoad(depth, at_8, 0).x;
     let after_4 = abs(select(1e30, depth_10, abs(depth_10) < 1e30) - here);
     let product_4 = max(min(before_4, after_4), 1e-5) * parameters.depth_sensibility;
-    let difference_7 = 1.0 - dot(textureLoad(normal, at_7, 0).xyz, facing);
+    let difference_7 = 1.0 - dot(textureLoad(normal, at_7, 0).xyz, stored);
     let turned_7 = select(1.0, 0.0, difference_7 * parameters.normal_sensibility < 0.4);
-    let difference_8 = 1.0 - dot(textureLoad(normal, at_8, 0).xyz, facing);
+    let difference_8 = 1.0 - dot(textureLoad(normal, at_8, 0).xyz, stored);
     let turned_8 = select(1.0, 0.0, difference_8 * parameters.normal_sensibility < 0.4);
     let edges_3 = edges_2
         + max(select(1.0, 0.0, max(before_4, after_4) < product_4), max(turned_7, turned_8));

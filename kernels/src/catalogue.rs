@@ -57,6 +57,7 @@ const SRAA: &[SourceFile] = &[
     source!("sraa/metric.rs"),
     source!("sraa/placed.rs"),
     source!("sraa/search.rs"),
+    source!("normals.rs"),
 ];
 
 /// Every built-in kernel.
@@ -78,14 +79,22 @@ pub const CATALOGUE: &[Entry] = &[
     Entry {
         name: "stalker",
         summary: "Blur where normals turn or depth bends (S.T.A.L.K.E.R., GPU Gems 2, chapter 9)",
-        sources: &[source!("edge/mod.rs"), source!("edge/stalker.rs")],
+        sources: &[
+            source!("edge/mod.rs"),
+            source!("edge/stalker.rs"),
+            source!("normals.rs"),
+        ],
         paper: no_paper,
         half: half::edge,
     },
     Entry {
         name: "tabula_rasa",
         summary: "Blur where normals or the gradient of depth change (Tabula Rasa, GPU Gems 3, chapter 19)",
-        sources: &[source!("edge/mod.rs"), source!("edge/tabula_rasa.rs")],
+        sources: &[
+            source!("edge/mod.rs"),
+            source!("edge/tabula_rasa.rs"),
+            source!("normals.rs"),
+        ],
         paper: no_paper,
         half: half::edge,
     },

@@ -11,6 +11,8 @@ mod catalogue;
 pub mod edge;
 pub mod filters;
 mod half;
+#[cfg(feature = "native")]
+pub mod normals;
 mod options;
 #[cfg(feature = "native")]
 pub mod prelude;

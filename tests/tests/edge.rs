@@ -4,6 +4,8 @@
 mod common;
 #[path = "edge/filter.rs"]
 mod filter;
+#[path = "../../examples/toon/toon.rs"]
+mod toon;
 #[path = "edge/world.rs"]
 mod world;
 
@@ -12,7 +14,7 @@ use filter::{Filter, compile};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use straightline_codegen::emit::Target;
-use straightline_codegen::{Compiled, EmitOptions, Stage, Unroll};
+use straightline_codegen::{Compiled, EmitOptions, Kernel, Settings, Stage, Unroll};
 use straightline_kernels::edge::{Depth, Form, Output, Stalker, TabulaRasa};
 use straightline_kernels::prelude::*;
 use straightline_manifest::BindingKind;
@@ -27,6 +29,7 @@ fn native_looped_and_unrolled_agree() {
     for size in [uvec2(47, 31), uvec2(1, 1), uvec2(1, 6), uvec2(5, 2)] {
         let world = World::surfaces(size);
         for filter in Filter::all() {
+            let world = world.storing(filter.normals());
             let expected = filter.native(&world);
             for unroll in [Unroll::Full, Unroll::None, Unroll::Partial(2)] {
                 let found = interpret::<f32>(&filter.compile(unroll), &filter.inputs(&world), false);
@@ -43,6 +46,7 @@ fn shaders_match_the_formulas() {
     let world = World::surfaces(uvec2(83, 59));
     let mut worst = 0.0f64;
     for filter in Filter::all() {
+        let world = world.storing(filter.normals());
         let (edges, exact) = filter.exact(&world);
         let sure: Vec<bool> = edges.iter().map(|e| e.margin > 1.0e-6).collect();
         let unsure = sure.iter().filter(|s| !**s).count();
@@ -84,6 +88,7 @@ fn shaders_match_the_formulas() {
 fn filtered_picture_of_the_kernel_is_that_of_the_formulas() {
     let world = World::surfaces(uvec2(64, 40));
     for filter in Filter::all() {
+        let world = world.storing(filter.normals());
         let (edges, exact) = filter.exact(&world);
         for (k, (found, exact)) in filter.native(&world).iter().zip(&exact).enumerate() {
             let off = (0..4).map(|lane| (f64::from(found[lane]) - exact[lane]).abs());
@@ -214,8 +219,7 @@ fn thresholds_known_and_at_run_time() {
     let run = |compiled: &Compiled, inputs: &Inputs| interpret::<f32>(compiled, inputs, false).expect("all is bound");
     for filter in Filter::all() {
         let (choices, numbers) = filter.options();
-        let own = |(k, v): &(&str, &str)| ((*k).to_owned(), (*v).to_owned());
-        let mut set: Vec<(String, String)> = choices.iter().map(own).collect();
+        let mut set: Vec<(String, String)> = choices.into_iter().map(|(k, v)| (k.to_owned(), v)).collect();
         set.extend(numbers.iter().map(|(k, v)| (k.replace('_', "-"), v.to_string())));
         let known = compile(filter.name(), set, Unroll::Full);
         assert!(known.graph.uniforms.is_empty(), "{filter:?}");
@@ -255,8 +259,39 @@ fn all_options_emit_in_all_languages() {
             }
         }
     }
-    assert_eq!((glsl.len(), spirv.len()), (24, 24));
+    let each = 2 * Filter::all().len();
+    assert_eq!((glsl.len(), spirv.len()), (each, each));
     other_compilers(&glsl, &spirv);
+}
+
+/// The example that draws outlines where the detector alone finds edges.
+#[test]
+fn outlines_in_every_form() {
+    let world = World::surfaces(uvec2(47, 31));
+    let found = stalker_edges(Form::Corrected).native(&world);
+    let edges = Frame::new(uvec2(47, 31), found.into_iter().map(Vec4::from_array).collect());
+    let inputs = world.inputs().image("edges", edges.clone());
+    let kernel = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/toon/toon.rs");
+    for ink in [0.0, 1.0] {
+        let cfg = toon::Toon {
+            ink,
+            ..toon::Toon::default()
+        };
+        let native = pixels(uvec2(47, 31)).map(|at| toon::toon(&cfg, &world.color, &edges, at).to_array());
+        let native: Vec<_> = native.collect();
+        assert_eq!(ink == 1.0, native.iter().any(|texel| texel[..3] == [0.0; 3]));
+        for unroll in [Unroll::Full, Unroll::None] {
+            let settings = Settings {
+                options: vec![("ink".to_owned(), ink.to_string())],
+                unroll,
+                ..Settings::default()
+            };
+            let compiled = Kernel::from_file(&kernel, None).and_then(|k| k.compile(&settings));
+            let compiled = compiled.unwrap_or_else(|e| panic!("{e}"));
+            let found = interpret::<f32>(&compiled, &inputs, false).expect("all is bound");
+            same_bits(&native, &found.texels).unwrap_or_else(|e| panic!("{unroll}: {e}"));
+        }
+    }
 }
 
 /// On the built-in scene each finds edges, and comes closer to the reference than no filter does.
@@ -266,10 +301,16 @@ fn on_the_scene() {
     let renderer = CpuRenderer::new(&builtin(), size).expect("the scene is drawn");
     let (depth, normal) = renderer.geometry(Vec2::ZERO).expect("geometry");
     let color = renderer.shaded(Vec2::ZERO).expect("a picture");
-    let world = World { depth, normal, color };
+    let world = World {
+        depth,
+        stored: normal.clone(),
+        normal,
+        color,
+    };
     let exact = reference(&renderer, 4, &mut |_, _| {}).expect("supersampled");
     let plain = metrics::psnr(&world.color, &exact);
     save("scene", &world.color);
+    let mut columns = vec![("1x", world.color.clone())];
     let stalker = Stalker {
         depth: Depth::Linear,
         depth_barrier: 2.0e-3,
@@ -292,6 +333,14 @@ fn on_the_scene() {
             ] {
                 let found = filter.native(&world);
                 let shown = Frame::new(size, found.into_iter().map(Vec4::from_array).collect());
+                if form == Form::Corrected {
+                    let title = if output == Output::Edges {
+                        "edges"
+                    } else {
+                        filter.title()
+                    };
+                    columns.push((title, shown.clone()));
+                }
                 let name = format!("{}-{form:?}-{output:?}", filter.name()).to_lowercase();
                 save(&name, &shown);
                 if output == Output::Edges {
@@ -311,6 +360,15 @@ fn on_the_scene() {
             }
         }
     }
+    columns.push(("reference", exact));
+    let [plain, edges_s, edges_t, s, t, exact] = columns.try_into().expect("six pictures");
+    let columns = [plain, edges_s, s, edges_t, t, exact];
+    let details: Vec<_> = columns
+        .iter()
+        .map(|(title, frame)| (*title, picture::detail(frame, 176, 74, 44, 44, 6)))
+        .collect();
+    let details: Vec<_> = details.iter().map(|(title, frame)| (*title, frame)).collect();
+    save("details", &picture::montage(&details));
 }
 
 fn save(name: &str, shown: &Frame<Vec4>) {

@@ -9,6 +9,7 @@
 mod stalker;
 mod tabula_rasa;
 
+use crate::normals::{folded, unit};
 use crate::prelude::*;
 
 pub use stalker::{Depth, Stalker, stalker};
@@ -21,6 +22,17 @@ pub enum Form {
     Paper,
     /// With the mistakes mended.
     Corrected,
+}
+
+/// How the G-buffer holds normals.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Normals {
+    /// As unit vectors, in a float format.
+    Float,
+    /// As 0.5 + 0.5 n, in a normalised format such as the snippets' RGBA8; made as long as 1.
+    Unorm,
+    /// Unfolded to a square, each axis as 0.5 + 0.5 n, in a normalised format of two components such as RG8 or RG16.
+    Octahedral,
 }
 
 /// What a colour that is infinite or not a number does.
@@ -39,6 +51,16 @@ pub enum Output {
     Antialias,
     /// How much of an edge each pixel is, 0 to 1, in red, green and blue: no colour is read.
     Edges,
+}
+
+/// The unit normal at `pixel`.
+fn facing(normals: Normals, normal: &Frame<Vec3>, pixel: IVec2) -> Vec3 {
+    let stored = normal.load(pixel);
+    match normals {
+        Normals::Float => stored,
+        Normals::Unorm => unit(2.0 * stored - 1.0),
+        Normals::Octahedral => folded(2.0 * stored.xy() - 1.0),
+    }
 }
 
 /// The colour of `pixel`; black if it is not finite and that is not to spread.

@@ -1,6 +1,6 @@
 //! The edge filter of Tabula Rasa.
 
-use super::{Form, NonFinite, Output, bounded, nearby, own};
+use super::{Form, NonFinite, Normals, Output, bounded, facing, nearby, own};
 use crate::prelude::*;
 
 options! {
@@ -10,6 +10,8 @@ options! {
         pub form: Form = Form::Corrected,
         /// What comes out.
         pub output: Output = Output::Antialias,
+        /// How normals are stored.
+        pub normals: Normals = Normals::Float,
         /// What a colour that is infinite or not a number does.
         pub non_finite: NonFinite = NonFinite::Skip,
         /// How many times steeper depth must become from one side of a pixel to the other (`depthSensibility`).
@@ -32,7 +34,7 @@ const HALF: [IVec2; 4] = [ivec2(-1, -1), ivec2(0, -1), ivec2(1, -1), ivec2(1, 0)
 
 /// `color` blurred where the gradient of depth or the normals change, or how much they do.
 ///
-/// Depth may be stored in any way that is continuous on a surface; normals are unit vectors in any one space. The
+/// Depth may be stored in any way that is continuous on a surface; normals are in any one space. The
 /// snippet's two helpers read each other's texture; here depth is depth in either form.
 pub fn tabula_rasa(
     cfg: &TabulaRasa,
@@ -63,7 +65,7 @@ pub fn tabula_rasa(
 /// `DL_GetEdgeWeight`: the share of the four directions in which there is an edge.
 fn edge_weight(cfg: &TabulaRasa, depth: &Frame<f32>, normal: &Frame<Vec3>, pixel: IVec2) -> f32 {
     let here = bounded(depth.load(pixel));
-    let facing = normal.load(pixel);
+    let own = facing(cfg.normals, normal, pixel);
     let mut edges = 0.0;
     for offset in HALF {
         // Gradients to both sides; an edge where the greater is many times the smaller.
@@ -72,8 +74,8 @@ fn edge_weight(cfg: &TabulaRasa, depth: &Frame<f32>, normal: &Frame<Vec3>, pixel
         let least = before.min(after).max(LEAST_GRADIENT);
         let by_depth = step(least * cfg.depth_sensibility, before.max(after));
 
-        let before = normal.load(pixel + offset).dot(facing);
-        let after = normal.load(pixel - offset).dot(facing);
+        let before = facing(cfg.normals, normal, pixel + offset).dot(own);
+        let after = facing(cfg.normals, normal, pixel - offset).dot(own);
         let by_normal = match cfg.form {
             // On a ridge of one pixel both cosines are equal, and their difference finds nothing.
             Form::Paper => step(CHANGE, (before - after).abs() * cfg.normal_sensibility),

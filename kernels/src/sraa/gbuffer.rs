@@ -4,6 +4,7 @@ use super::metric::Metric;
 use super::options::{Guards, Sraa};
 use super::pattern::Place;
 use super::view::View;
+use crate::normals::{folded, unit};
 use crate::prelude::*;
 
 /// How the G-buffer holds depth.
@@ -89,9 +90,6 @@ const DEEPEST: f32 = 1.0e30;
 
 /// Less than any stored depth but 0.
 const SHORTEST: f32 = 1.0e-30;
-
-/// Less than the square of any normal's length, and still a number in 16 bits.
-const NO_NORMAL: f32 = 1.0e-4;
 
 /// The surface seen at `place`, from `pixel`: as much of it as the metric compares.
 pub(super) fn surface(cfg: &Sraa, gbuffer: &GBuffer, view: &View, pixel: IVec2, place: Place) -> Surface {
@@ -214,29 +212,6 @@ fn decoded(cfg: &Sraa, n: Vec4) -> Vec3 {
         Normals::Octahedral => folded(2.0 * n.xy() - 1.0),
         Normals::Packed => folded(n.xy()),
     }
-}
-
-/// The unit vector that was unfolded to a square from -1 to 1 (Cigolle et al. 2014, "A Survey of Efficient
-/// Representations for Independent Unit Vectors").
-fn folded(square: Vec2) -> Vec3 {
-    let z = 1.0 - square.x.abs() - square.y.abs();
-    let beyond = (-z).max(0.0);
-    let x = if square.x >= 0.0 {
-        square.x - beyond
-    } else {
-        square.x + beyond
-    };
-    let y = if square.y >= 0.0 {
-        square.y - beyond
-    } else {
-        square.y + beyond
-    };
-    unit(vec3(x, y, z))
-}
-
-/// The vector at length 1. One that is shorter than 1/100, which no surface has, becomes 100 times as long: zero stays zero.
-fn unit(v: Vec3) -> Vec3 {
-    v * inverse_sqrt(v.dot(v).max(NO_NORMAL))
 }
 
 impl GBuffer {

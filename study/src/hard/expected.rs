@@ -105,7 +105,9 @@ fn edges(family: Family, options: &[(String, String)], inputs: &Inputs) -> Expec
                 linear_depth: Form::value(options, "depth", "projected") == "linear",
                 normal_barrier: number(options, "normal-barrier", 0.8),
                 depth_barrier: number(options, "depth-barrier", 1.0e-5),
-                kernel: number(options, "kernel", 0.5),
+                normal_weight: number(options, "normal-weight", 1.0),
+                depth_weight: number(options, "depth-weight", 1.0),
+                kernel: number(options, "kernel", 1.0),
             };
             (filter.edges(&geometry), filter.antialiased(&geometry, &color))
         }

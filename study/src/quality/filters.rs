@@ -7,13 +7,14 @@ use super::surfaces::Surfaces;
 use super::{QualityError, check};
 use crate::peers::{Smaa, Transfer, fxaa};
 use crate::watch::Watch;
-use glam::{UVec2, Vec4};
+use glam::{UVec2, Vec3, Vec4, vec4};
 use std::time::Duration;
 use straightline_codegen::{Compiled, Kernel, Settings, Stage};
 use straightline_kernels::prelude::Frame;
 use straightline_manifest::{BindingKind, Dimension, Manifest};
 use straightline_runtime::Pass;
 use straightline_testbed::capture::{Capture, ShadingSample};
+use straightline_testbed::encode::NormalEncoding;
 use straightline_testbed::execute::{Bench, ExecuteError, Inputs, Job, Timed, Uploaded, Work, texture_bytes};
 use straightline_testbed::gbuffer;
 use straightline_testbed::picture;
@@ -229,7 +230,7 @@ impl Shader {
     fn uploaded(&self, bench: &Bench, method: &Method, shot: &Shot) -> Result<(Inputs, Uploaded), QualityError> {
         let capture = shot.capture(method)?;
         let inputs = match method.kind {
-            Kind::Edge(_) => one_a_pixel(capture)?,
+            Kind::Edge(_) => one_a_pixel(capture, &self.compiled)?,
             Kind::Fxaa(transfer) => of_the_picture(capture, transfer),
             Kind::Own => gbuffer_of(capture, &self.manifest)?,
             _ => gbuffer::inputs(capture, &self.compiled.options)?,
@@ -249,9 +250,9 @@ fn shown(capture: &Capture) -> Frame<Vec4> {
     picture::at_eight_bits(&capture.color)
 }
 
-/// Depth and normals where the picture was shaded. Depth as a projection without a far plane stores it, reversed: what both
+/// Depth and normals where the picture was shaded. Normals as the filter's option says, with 8 bits if they are not floats; depth as a projection without a far plane stores it, reversed: what both
 /// edge filters are set for.
-fn one_a_pixel(capture: &Capture) -> Result<Inputs, QualityError> {
+fn one_a_pixel(capture: &Capture, compiled: &Compiled) -> Result<Inputs, QualityError> {
     let layers = capture.shaded_layers();
     let [layer] = layers[..] else {
         return Err(QualityError::Capture(
@@ -264,7 +265,16 @@ fn one_a_pixel(capture: &Capture) -> Result<Inputs, QualityError> {
     let near = capture.camera.map_or(NEAR, |camera| camera.near);
     let depth = capture.depth.layers()[layer].texels().iter();
     let depth = depth.map(|z| Vec4::splat(near / z.max(near))).collect();
-    let normal = normals.layers()[layer].texels().iter().map(|n| n.extend(0.0)).collect();
+    let encoding = match compiled.options.get("normals").map(String::as_str) {
+        Some("unorm") => NormalEncoding::Rgb8,
+        Some("octahedral") => NormalEncoding::Octahedral8,
+        _ => NormalEncoding::Float,
+    };
+    let stored = |n: &Vec3| {
+        let [x, y, z] = encoding.encode(n.to_array().map(f64::from)).map(|c| c as f32);
+        vec4(x, y, z, 0.0)
+    };
+    let normal = normals.layers()[layer].texels().iter().map(stored).collect();
     Ok(Inputs::new(capture.size)
         .image("depth", Frame::new(capture.size, depth))
         .image("normal", Frame::new(capture.size, normal))

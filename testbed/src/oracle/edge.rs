@@ -5,9 +5,9 @@
 //!
 //! S.T.A.L.K.E.R.: with [·] for 1 where it holds and 0 elsewhere, over the diagonals k and the four axes (a, −a),
 //!
-//! > w = 1 − (¼ Σₖ [n·nₖ ≥ b]) · (¼ Σₐ [|2d − d₊ₐ − d₋ₐ| ≤ e]),  colour = ¼ Σₖ C(p + w·kernel·k);
+//! > w = 1 − min(1, ¼ u Σₖ [n·nₖ ≥ b]) · min(1, ¼ v Σₐ [|2d − d₊ₐ − d₋ₐ| ≤ e]),  colour = ¼ Σₖ C(p + ½ w·kernel·k);
 //!
-//! printed, both sums are without ¼ and capped at 1, and |n·nₖ| stands for n·nₖ.
+//! printed, both ¼ and the ½ are 1, and |n·nₖ| stands for n·nₖ.
 //!
 //! Tabula Rasa: over the four axes, with g± = |d± − d| and c± = n·n±,
 //!
@@ -48,7 +48,11 @@ pub struct Stalker {
     pub normal_barrier: f64,
     /// e: second difference of depth up to which a surface is flat.
     pub depth_barrier: f64,
-    /// Reach of the blur in pixels.
+    /// u: weight of like normals.
+    pub normal_weight: f64,
+    /// v: weight of flat directions.
+    pub depth_weight: f64,
+    /// Reach of the blur: in pixels as printed, else in half pixels.
     pub kernel: f64,
 }
 
@@ -98,11 +102,11 @@ impl Stalker {
                     }
                 }
             }
-            let share = |count: i32| match self.printed {
-                true => f64::from(count.min(1)),
-                false => f64::from(count) / 4.0,
+            let share = |count: i32, weight: f64| match self.printed {
+                true => (f64::from(count) * weight).min(1.0),
+                false => (f64::from(count) * weight / 4.0).min(1.0),
             };
-            let weight = 1.0 - share(alike) * share(flat);
+            let weight = 1.0 - share(alike, self.normal_weight) * share(flat, self.depth_weight);
             Edge { weight, margin }
         })
     }
@@ -112,7 +116,8 @@ impl Stalker {
         let edges = self.edges(geometry);
         let width = color.size().x as i32;
         each(color.size(), |p| {
-            let reach = edges[(p.y * width + p.x) as usize].weight * self.kernel;
+            let kernel = if self.printed { self.kernel } else { self.kernel / 2.0 };
+            let reach = edges[(p.y * width + p.x) as usize].weight * kernel;
             let corners = [(-1.0, -1.0), (1.0, 1.0), (1.0, -1.0), (-1.0, 1.0)];
             let taps = corners.map(|(x, y)| between(color, p, [x * reach, y * reach]));
             [0, 1, 2, 3].map(|lane| taps.iter().map(|tap| tap[lane]).sum::<f64>() / 4.0)

@@ -2,7 +2,7 @@
 
 use super::world::{World, pixels};
 use straightline_codegen::{Compiled, Kernel, Settings, Unroll};
-use straightline_kernels::edge::{Depth, Form, NonFinite, Output, Stalker, TabulaRasa, stalker, tabula_rasa};
+use straightline_kernels::edge::{Depth, Form, NonFinite, Normals, Output, Stalker, TabulaRasa, stalker, tabula_rasa};
 use straightline_kernels::prelude::*;
 use straightline_testbed::execute::Inputs;
 use straightline_testbed::oracle::edge as oracle;
@@ -38,25 +38,35 @@ impl Filter {
         let mut all = Vec::new();
         for form in [Form::Paper, Form::Corrected] {
             for output in [Output::Antialias, Output::Edges] {
-                for depth in [Depth::Projected, Depth::Linear] {
+                for (depth, normals, normal_weight, depth_weight) in [
+                    (Depth::Projected, Normals::Float, 1.0, 1.0),
+                    (Depth::Linear, Normals::Unorm, 0.75, 2.0),
+                    (Depth::Linear, Normals::Octahedral, 0.375, 0.5),
+                ] {
                     all.push(Filter::Stalker(Stalker {
                         form,
                         output,
                         depth,
+                        normals,
+                        normal_weight,
+                        depth_weight,
                         non_finite: non_finite(form),
                         normal_barrier: 0.9,
                         depth_barrier: 0.004,
                         kernel: 0.75,
                     }));
                 }
-                all.push(Filter::TabulaRasa(TabulaRasa {
-                    form,
-                    output,
-                    non_finite: non_finite(form),
-                    depth_sensibility: 9.0,
-                    normal_sensibility: 3.0,
-                    weight: 0.8,
-                }));
+                for normals in [Normals::Float, Normals::Unorm, Normals::Octahedral] {
+                    all.push(Filter::TabulaRasa(TabulaRasa {
+                        form,
+                        output,
+                        normals,
+                        non_finite: non_finite(form),
+                        depth_sensibility: 9.0,
+                        normal_sensibility: 3.0,
+                        weight: 0.8,
+                    }));
+                }
             }
         }
         all
@@ -69,6 +79,13 @@ impl Filter {
         }
     }
 
+    pub fn title(&self) -> &'static str {
+        match self {
+            Filter::Stalker(_) => "S.T.A.L.K.E.R.",
+            Filter::TabulaRasa(_) => "Tabula Rasa",
+        }
+    }
+
     pub fn output(&self) -> Output {
         match self {
             Filter::Stalker(cfg) => cfg.output,
@@ -76,8 +93,15 @@ impl Filter {
         }
     }
 
+    pub fn normals(&self) -> Normals {
+        match self {
+            Filter::Stalker(cfg) => cfg.normals,
+            Filter::TabulaRasa(cfg) => cfg.normals,
+        }
+    }
+
     /// Choices, and numbers.
-    pub fn options(&self) -> (Named<&'static str>, Named<f32>) {
+    pub fn options(&self) -> (Named<String>, Named<f32>) {
         let form = |form| match form {
             Form::Paper => "paper",
             Form::Corrected => "corrected",
@@ -85,6 +109,11 @@ impl Filter {
         let output = match self.output() {
             Output::Antialias => "antialias",
             Output::Edges => "edges",
+        };
+        let normals = match self.normals() {
+            Normals::Float => "float",
+            Normals::Unorm => "unorm",
+            Normals::Octahedral => "octahedral",
         };
         match self {
             Filter::Stalker(cfg) => {
@@ -94,10 +123,13 @@ impl Filter {
                 };
                 (
                     vec![
-                        ("form", form(cfg.form)),
-                        ("output", output),
-                        ("depth", depth),
-                        ("non-finite", word(cfg.non_finite)),
+                        ("form", form(cfg.form).to_owned()),
+                        ("output", output.to_owned()),
+                        ("depth", depth.to_owned()),
+                        ("normals", normals.to_owned()),
+                        ("non-finite", word(cfg.non_finite).to_owned()),
+                        ("normal-weight", cfg.normal_weight.to_string()),
+                        ("depth-weight", cfg.depth_weight.to_string()),
                     ],
                     vec![
                         ("normal_barrier", cfg.normal_barrier),
@@ -108,9 +140,10 @@ impl Filter {
             }
             Filter::TabulaRasa(cfg) => (
                 vec![
-                    ("form", form(cfg.form)),
-                    ("output", output),
-                    ("non-finite", word(cfg.non_finite)),
+                    ("form", form(cfg.form).to_owned()),
+                    ("output", output.to_owned()),
+                    ("normals", normals.to_owned()),
+                    ("non-finite", word(cfg.non_finite).to_owned()),
                 ],
                 vec![
                     ("depth_sensibility", cfg.depth_sensibility),
@@ -124,7 +157,7 @@ impl Filter {
     /// The kernel as the generator has it, its numbers set at run time.
     pub fn compile(&self, unroll: Unroll) -> Compiled {
         let (choices, _) = self.options();
-        let choices = choices.iter().map(|(k, v)| ((*k).to_owned(), (*v).to_owned()));
+        let choices = choices.into_iter().map(|(k, v)| (k.to_owned(), v));
         compile(self.name(), choices.collect(), unroll)
     }
 
@@ -137,7 +170,12 @@ impl Filter {
     }
 
     pub fn native(&self, world: &World) -> Vec<[f32; 4]> {
-        let World { depth, normal, color } = world;
+        let World {
+            depth,
+            stored: normal,
+            color,
+            ..
+        } = world;
         let linear = Sampler::default();
         let pixel = |at| match self {
             Filter::Stalker(cfg) => stalker(cfg, depth, normal, color, &linear, at),
@@ -155,6 +193,8 @@ impl Filter {
                     linear_depth: cfg.depth == Depth::Linear,
                     normal_barrier: cfg.normal_barrier.into(),
                     depth_barrier: cfg.depth_barrier.into(),
+                    normal_weight: cfg.normal_weight.into(),
+                    depth_weight: cfg.depth_weight.into(),
                     kernel: cfg.kernel.into(),
                 };
                 (

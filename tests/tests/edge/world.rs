@@ -1,22 +1,29 @@
 //! What the edge filters are run on.
 
+use straightline_kernels::edge::Normals;
 use straightline_kernels::prelude::*;
+use straightline_testbed::encode::NormalEncoding;
 use straightline_testbed::execute::Inputs;
 use straightline_testbed::oracle::edge as oracle;
 
 /// What both filters read.
 pub struct World {
     pub depth: Frame<f32>,
+    /// Unit vectors.
     pub normal: Frame<Vec3>,
+    /// The same as the texture has them.
+    pub stored: Frame<Vec3>,
     pub color: Frame<Vec4>,
 }
 
 impl World {
     pub fn new(size: UVec2, texel: impl Fn(IVec2) -> (f32, Vec3, Vec4)) -> World {
         let texels: Vec<_> = pixels(size).map(texel).collect();
+        let normal = Frame::new(size, texels.iter().map(|t| t.1).collect());
         World {
             depth: Frame::new(size, texels.iter().map(|t| t.0).collect()),
-            normal: Frame::new(size, texels.iter().map(|t| t.1).collect()),
+            stored: normal.clone(),
+            normal,
             color: Frame::new(size, texels.iter().map(|t| t.2).collect()),
         }
     }
@@ -37,10 +44,29 @@ impl World {
         })
     }
 
+    /// The same with normals of 8 bits, if they are not floats.
+    pub fn storing(&self, normals: Normals) -> World {
+        let encoding = match normals {
+            Normals::Float => NormalEncoding::Float,
+            Normals::Unorm => NormalEncoding::Rgb8,
+            Normals::Octahedral => NormalEncoding::Octahedral8,
+        };
+        let single = |v: [f64; 3]| Vec3::from_array(v.map(|c| c as f32));
+        let texels = self.normal.texels().iter();
+        let texels: Vec<_> = texels.map(|n| encoding.encode(n.to_array().map(f64::from))).collect();
+        let frame = |vectors| Frame::new(self.depth.size(), vectors);
+        World {
+            depth: self.depth.clone(),
+            normal: frame(texels.iter().map(|t| single(encoding.decode(*t))).collect()),
+            stored: frame(texels.iter().map(|t| single(*t)).collect()),
+            color: self.color.clone(),
+        }
+    }
+
     pub fn inputs(&self) -> Inputs {
         let size = self.depth.size();
         let depth = self.depth.texels().iter().map(|d| Vec4::splat(*d)).collect();
-        let normal = self.normal.texels().iter().map(|n| n.extend(0.0)).collect();
+        let normal = self.stored.texels().iter().map(|n| n.extend(0.0)).collect();
         Inputs::new(size)
             .image("depth", Frame::new(size, depth))
             .image("normal", Frame::new(size, normal))
