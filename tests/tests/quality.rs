@@ -6,7 +6,7 @@ use common::bench;
 use std::path::Path;
 use straightline_codegen::{Settings, Stage};
 use straightline_kernels::prelude::*;
-use straightline_study::peers::{Smaa, Transfer, fxaa};
+use straightline_study::peers::{Smaa, Transfer, fxaa, mlaa};
 use straightline_study::quality::{Method, Outcome, Plan, QualityError, Source, losses, study};
 use straightline_study::record::Family;
 use straightline_study::watch::Unwatched;
@@ -50,6 +50,10 @@ fn by_smaa(picture: &Frame<Vec4>, transfer: Transfer) -> Frame<Vec4> {
     first
 }
 
+fn by_mlaa(picture: &Frame<Vec4>, transfer: Transfer) -> Frame<Vec4> {
+    transfer.taken(&mlaa(&transfer.given(picture)))
+}
+
 #[test]
 fn filters_of_the_picture_smooth_a_line_and_leave_evenness_alone() {
     let (plain, perfect) = slope();
@@ -59,6 +63,7 @@ fn filters_of_the_picture_smooth_a_line_and_leave_evenness_alone() {
         for (name, filter) in [
             ("FXAA", by_fxaa as fn(&Frame<Vec4>, Transfer) -> Frame<Vec4>),
             ("SMAA", by_smaa),
+            ("MLAA", by_mlaa),
         ] {
             let after = metrics::psnr(&filter(&plain, transfer), &perfect);
             println!("{name} on {transfer:?}: {before:.2} dB before, {after:.2} dB after");
@@ -317,7 +322,15 @@ fn a_capture_that_lacks_something_says_so() {
     let names: Vec<&str> = scene.methods.iter().map(|m| m.method.as_str()).collect();
     assert_eq!(
         names,
-        ["1x", "SRAA 4, depth", "FXAA", "FXAA on light", "SMAA", "SMAA on light"]
+        [
+            "1x",
+            "SRAA 4, depth",
+            "FXAA",
+            "FXAA on light",
+            "SMAA",
+            "SMAA on light",
+            "MLAA"
+        ]
     );
     assert!(
         scene

@@ -102,11 +102,7 @@ impl Evaluator<'_> {
             }
             ("gather", []) => {
                 let x = self.node(receiver, span)?;
-                let mut all = vec![Value::Node(x)];
-                for direction in Direction::ALL {
-                    all.push(self.message(direction, x, name, span)?);
-                }
-                Value::array(all)
+                self.gather(x, name, span)?
             }
             ("sum" | "average", []) => {
                 let x = self.node(receiver, span)?;
@@ -164,6 +160,46 @@ impl Evaluator<'_> {
                 .into());
         }
         Ok(Value::Node(self.builder.add(Op::Message(direction), vec![x], ty)))
+    }
+
+    /// The lane's own value, and what it hears from beside, from above or below, and from across. What fits goes in two messages:
+    /// own and below together are sent to beside.
+    fn gather(&mut self, x: NodeId, name: &str, span: Span) -> Eval {
+        let own = Value::Node(x);
+        let (Some(scalar), lanes @ (1 | 2)) = (self.ty(x).kind(), self.ty(x).lanes()) else {
+            let mut all = vec![own];
+            for direction in Direction::ALL {
+                all.push(self.message(direction, x, name, span)?);
+            }
+            return Ok(Value::array(all));
+        };
+        let below = self.message(Direction::Vertical, x, name, span)?;
+        let below_node = self.node(&below, span)?;
+        let both = [x, below_node].map(|value| self.parts(value, 0..lanes)).concat();
+        let both = self.builder.add(Op::Compose, both, Type::value(scalar, 2 * lanes));
+        let heard = self.message(Direction::Horizontal, both, name, span)?;
+        self.name(&heard, "heard", span);
+        let heard = self.node(&heard, span)?;
+        let [beside, across] = [0..lanes, lanes..2 * lanes].map(|parts| {
+            let parts = self.parts(heard, parts);
+            Value::Node(match parts[..] {
+                [one] => one,
+                _ => self.builder.add(Op::Compose, parts, Type::value(scalar, lanes)),
+            })
+        });
+        Ok(Value::array(vec![own, beside, below, across]))
+    }
+
+    /// Some lanes of a vector; the whole of a number.
+    fn parts(&mut self, value: NodeId, lanes: std::ops::Range<u8>) -> Vec<NodeId> {
+        let ty = self.ty(value);
+        match (ty.is_scalar(), ty.kind()) {
+            (false, Some(scalar)) => {
+                let part = |lane| self.builder.add(Op::Extract(lane), vec![value], Type::scalar(scalar));
+                lanes.map(part).collect()
+            }
+            _ => vec![value],
+        }
     }
 
     fn lane(&mut self, span: Span) -> Eval<NodeId> {

@@ -2,9 +2,11 @@
 
 mod copy;
 mod fxaa;
+mod mlaa;
 mod smaa;
 mod transfer;
 
 pub use fxaa::fxaa;
+pub use mlaa::mlaa;
 pub use smaa::Smaa;
 pub use transfer::Transfer;

@@ -5,10 +5,10 @@ use super::methods::{Kind, Method};
 use super::shot::Shot;
 use super::surfaces::Surfaces;
 use super::{QualityError, check};
-use crate::peers::{Smaa, Transfer, fxaa};
+use crate::peers::{Smaa, Transfer, fxaa, mlaa};
 use crate::watch::Watch;
 use glam::{UVec2, Vec3, Vec4, vec4};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 use straightline_codegen::{Compiled, Kernel, Settings, Stage};
 use straightline_kernels::prelude::Frame;
 use straightline_manifest::{BindingKind, Dimension, Manifest};
@@ -32,6 +32,8 @@ enum Runner {
     /// The filter, and before it the kernel that says where pixels are shaded.
     Placed(Box<Shader>, Box<Shader>),
     Smaa(Box<Smaa>),
+    /// On the processor.
+    Mlaa,
 }
 
 struct Shader {
@@ -73,6 +75,10 @@ impl<'a> Filters<'a> {
         let method = &self.methods[k];
         match (&mut self.runners[k], method.kind) {
             (Runner::Smaa(smaa), _) => Ok(smaa.run(&shown(shot.any()?))?),
+            (Runner::Mlaa, _) => {
+                let given = Transfer::Srgb.given(&shown(shot.any()?));
+                Ok(Transfer::Srgb.taken(&mlaa(&given)))
+            }
             (Runner::Kernel(shader) | Runner::Placed(shader, _), kind) => {
                 let (inputs, uploaded) = shader.uploaded(self.bench, method, shot)?;
                 let target = self.bench.target(inputs.size, shader.pass.target_format());
@@ -112,6 +118,7 @@ impl<'a> Filters<'a> {
                 (Runner::Placed(shader, place), _) => {
                     shader.bytes(self.bench, method, shot)? + place.bytes(self.bench, method, shot)?
                 }
+                (Runner::Mlaa, _) => 2 * PICTURE * pixels,
                 (Runner::None, Kind::Plain) => PICTURE * pixels,
                 (Runner::None, Kind::Supersampled(n)) => (n as u64 * (GEOMETRY + PICTURE) + PICTURE) * pixels,
                 (Runner::None, _) => (4 * (GEOMETRY + PICTURE) + PICTURE) * pixels,
@@ -139,9 +146,10 @@ impl<'a> Filters<'a> {
                     smaa.run(&shown(shot.any()?))?;
                     None
                 }
-                Runner::None => None,
+                Runner::Mlaa | Runner::None => None,
             });
         }
+        let given = Transfer::Srgb.given(&shown(shot.any()?));
         let (mut works, mut places): (Vec<Work<'_>>, Vec<Option<usize>>) = (Vec::new(), Vec::new());
         for (runner, uploaded) in self.runners.iter_mut().zip(&bounds) {
             let work = match (runner, uploaded) {
@@ -152,6 +160,11 @@ impl<'a> Filters<'a> {
                     Box::new(move || Ok(first()? + second()?))
                 }
                 (Runner::Smaa(smaa), _) => Box::new(|| smaa.time()),
+                (Runner::Mlaa, _) => Box::new(|| {
+                    let start = Instant::now();
+                    mlaa(&given);
+                    Ok(start.elapsed())
+                }),
                 _ => {
                     places.push(None);
                     continue;
@@ -178,6 +191,7 @@ fn runner(bench: &Bench, method: &Method, size: UVec2) -> Result<Runner, Quality
             .clone()
             .ok_or_else(|| QualityError::NotDrawn(method.name.clone()))?,
         Kind::Fxaa(_) => fxaa(),
+        Kind::Mlaa => return Ok(Runner::Mlaa),
         Kind::Smaa(transfer) => return Ok(Runner::Smaa(Box::new(Smaa::new(bench, size, transfer)?))),
         Kind::Plain | Kind::Multisampled | Kind::Supersampled(_) => return Ok(Runner::None),
     };

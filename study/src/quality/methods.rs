@@ -20,6 +20,8 @@ pub enum Kind {
     Fxaa(Transfer),
     /// SMAA.
     Smaa(Transfer),
+    /// MLAA, on the processor.
+    Mlaa,
     /// Coverage of the samples of `latin4`, and shading once a surface in each pixel.
     Multisampled,
     /// Shading at every sample of `latin4` or `latin16`.
@@ -138,7 +140,7 @@ impl Method {
             Kind::Plain => Family::None,
             Kind::Sraa => Family::Sraa,
             Kind::Edge(_) => Family::Edge,
-            Kind::Fxaa(_) | Kind::Smaa(_) => Family::Picture,
+            Kind::Fxaa(_) | Kind::Smaa(_) | Kind::Mlaa => Family::Picture,
             Kind::Multisampled | Kind::Supersampled(_) => Family::Supersampling,
             Kind::Own => Family::Own,
         }
@@ -315,6 +317,7 @@ fn of_the_picture() -> Vec<Method> {
         Method::new("FXAA on light", Kind::Fxaa(Transfer::Linear), &[]),
         Method::new("SMAA", Kind::Smaa(Transfer::Srgb), &[]).main(),
         Method::new("SMAA on light", Kind::Smaa(Transfer::Linear), &[]),
+        Method::new("MLAA", Kind::Mlaa, &[]).main(),
     ]
 }
 

@@ -17,7 +17,7 @@ pub enum Family {
     Sraa,
     /// The filters of S.T.A.L.K.E.R. and Tabula Rasa, which look for edges in the G-buffer.
     Edge,
-    /// FXAA and SMAA, which look for edges in the picture.
+    /// FXAA, SMAA and MLAA, which look for edges in the picture.
     Picture,
     /// More shading samples, or as many coverage samples.
     Supersampling,

@@ -65,6 +65,36 @@ pub fn in_short(record: &QualityRecord) -> String {
     markdown(&head, MAIN.iter().map(row).collect())
 }
 
+/// Filters of the picture beside SRAA, scene by scene: PSNR, and the times of MLAA and SRAA 4.
+pub fn pictures(record: &QualityRecord) -> String {
+    const METHODS: [&str; 5] = ["1x", "FXAA", "SMAA", "MLAA", "SRAA 4"];
+    let head = [
+        "scene",
+        "1x",
+        "FXAA",
+        "SMAA",
+        "MLAA",
+        "SRAA 4",
+        "ms, MLAA",
+        "ms, SRAA 4",
+    ];
+    let row = |scene: &SceneErrors| {
+        let of = |name: &str| scene.methods.iter().find(|method| method.method == name);
+        let psnr = |name: &str| of(name).map_or("–".to_owned(), |m| format!("{:.2}", m.psnr));
+        let time = |name: &str| {
+            of(name)
+                .and_then(|m| m.time)
+                .map_or("–".to_owned(), |t| format!("{:.1}", t.median_ms))
+        };
+        let psnrs = METHODS.map(psnr).into_iter();
+        std::iter::once(scene.scene.clone())
+            .chain(psnrs)
+            .chain(["MLAA", "SRAA 4"].map(time))
+            .collect()
+    };
+    markdown(&head, record.scenes.iter().map(row).collect())
+}
+
 /// Every method: the same means, over kinds of pixels too, and over the pan.
 pub fn methods(record: &QualityRecord) -> String {
     let timed = timed(record);

@@ -77,8 +77,8 @@ impl<T: Copy> Quad<T> {
         Quad::new([d, c, b, a])
     }
 
-    /// Three messages: this lane's value, and those of the lanes beside, above or below, and across (the chapter's
-    /// `QuadGather2x2`). Of scalars and of vectors.
+    /// This lane's value, and those of the lanes beside, above or below, and across (the chapter's `QuadGather2x2`). Two messages of
+    /// a number or a vector of two, whose second has the first in it; three of longer vectors.
     pub fn gather(self) -> [Self; 4] {
         [self, self.swap_horizontal(), self.swap_vertical(), self.swap_diagonal()]
     }
