@@ -169,7 +169,7 @@ fn what_errors_cannot_be_measured_of_is_refused_before_any_work() {
     method("SRAA 4=sraa", 2, &["there is a method `SRAA 4` already"]);
     method("own=sraa,pattern=listed", 2, &["pattern `listed`", "latin4"]);
     method("own=sraa,raduis=2", 2, &["raduis"]);
-    method("own=nowhere.rs", 1, &["nowhere.rs"]);
+    method("own=nowhere.rs", 2, &["nowhere.rs"]);
     fails_with(
         &["--capture", "nowhere"],
         1,

@@ -6,6 +6,8 @@
 // Kernels and oracles are written with counters.
 #![allow(clippy::needless_range_loop)]
 
+#[path = "quad/bounce.rs"]
+mod bounce;
 mod common;
 #[path = "quad/counts.rs"]
 mod counts;
@@ -45,7 +47,7 @@ fn compile(name: &str, options: Options<'_>, unroll: Unroll, transport: Option<T
         transport,
         ..Settings::default()
     };
-    Kernel::builtin(name)
+    Kernel::locate(name)
         .and_then(|k| k.compile(&settings))
         .unwrap_or_else(|e| panic!("{e}"))
 }

@@ -1,0 +1,107 @@
+//! One bounce of light, gathered on the screen by pixel quads: global illumination is among what the chapter's §2.10 would
+//! share (Penner 2011).
+
+use straightline_kernels::prelude::*;
+
+options! {
+    /// How light is gathered.
+    pub struct Bounce {
+        /// What comes out.
+        pub gives: Gives = Gives::Picture,
+        /// Taps that each lane takes; a pixel hears of four times as many.
+        pub taps: i32 [1..=16] = 4,
+        /// How far light comes from, in the unit of depth.
+        pub radius: f32 [1.0e-3..=1.0e4] = 1.0,
+        /// How much brighter than measured.
+        pub strength: f32 [0.0..=100.0] = 4.0,
+        /// Width of a pixel at depth 1.
+        pub pixel_angle: f32 [1.0e-6..=1.0] = 0.005,
+        /// Difference of depths, over the radius, at which another lane's light counts for exp(-1/2).
+        pub depth_sigma: f32 [1.0e-3..=1.0e3] = 0.2,
+    }
+}
+
+/// What comes out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Gives {
+    /// The light alone, to be multiplied by what the surface reflects.
+    Light,
+    /// The picture, its own colours standing for what it reflects.
+    Picture,
+}
+
+/// The longest way of a tap on the screen, in pixels: keeps reads near each other.
+const LONGEST: f32 = 64.0;
+
+/// Angle from tap to tap: the golden one, which spreads any number of them.
+const TURN: f32 = 2.399_963_2;
+
+/// The light that comes to each pixel from surfaces around it that are seen, once reflected.
+///
+/// Tap `k` of all lies on a spiral; lane `l` takes those with `k % 4 == l`, and tells the others what it found. They take it at
+/// the weight of a Gaussian of their distance in depth.
+///
+/// `depth` is along the view; `normal` is of unit length as captures have it: x right, y up, z towards the eye; `color` is the light that
+/// surfaces send to the eye, and so everywhere.
+pub fn bounce(
+    cfg: &Bounce,
+    depth: &Frame<f32>,
+    normal: &Frame<Vec3>,
+    color: &Frame<Vec4>,
+    resolution: UVec2,
+    pixel: Quad<IVec2>,
+) -> Quad<Vec4> {
+    let middle = resolution.as_vec2() * 0.5;
+    let z = depth.load(pixel);
+    let here = position(cfg, pixel, middle, z);
+    let facing = normal.load(pixel);
+    let reach = (cfg.radius / (cfg.pixel_angle * z)).min(LONGEST);
+    let mut found = Quad::splat(Vec3::ZERO);
+    for k in 0..cfg.taps {
+        let way = Quad::new([
+            spiral(cfg, 4 * k),
+            spiral(cfg, 4 * k + 1),
+            spiral(cfg, 4 * k + 2),
+            spiral(cfg, 4 * k + 3),
+        ]);
+        let tap = pixel + (way * reach + 0.5).floor().as_ivec2();
+        let to = position(cfg, tap, middle, depth.load(tap)) - here;
+        let squared = to.length_squared();
+        let along = to * inverse_sqrt(squared.max(1.0e-12));
+        // By the cosines of leaving there and of arriving here; nothing from beyond the radius.
+        let arrives = along.dot(facing).max(0.0);
+        let leaves = (along.dot(normal.load(tap)) * -1.0).max(0.0);
+        let near = (1.0 - squared / (cfg.radius * cfg.radius)).max(0.0);
+        found += color.load(tap).truncate() * (arrives * leaves * near);
+    }
+    let messages = (found / cfg.taps as f32).extend(z).gather();
+    let mut sum = messages[0].truncate();
+    let mut total = Quad::splat(1.0);
+    for k in 1..4 {
+        let away = (messages[k].w() - z) / (cfg.depth_sigma * cfg.radius);
+        let weight = (away * away * (-0.5 * std::f32::consts::LOG2_E)).exp2();
+        sum += messages[k].truncate() * weight;
+        total += weight;
+    }
+    let light = sum * (cfg.strength / total);
+    match cfg.gives {
+        Gives::Light => light.extend(Quad::splat(1.0)),
+        Gives::Picture => {
+            let own = color.load(pixel);
+            (own.truncate() * (light + Vec3::ONE)).extend(own.w())
+        }
+    }
+}
+
+/// Where in the view a pixel lies at a depth.
+fn position(cfg: &Bounce, pixel: Quad<IVec2>, middle: Vec2, z: Quad<f32>) -> Quad<Vec3> {
+    let across = (pixel.as_vec2() + 0.5 - middle) * vec2(cfg.pixel_angle, -cfg.pixel_angle);
+    (across * z).extend(z * -1.0)
+}
+
+/// Tap `k` of all on a disc of radius 1.
+fn spiral(cfg: &Bounce, k: i32) -> Vec2 {
+    let distance = (k as f32 + 0.5) / (4 * cfg.taps) as f32;
+    let angle = k as f32 * TURN;
+    vec2(distance * angle.cos(), distance * angle.sin())
+}
