@@ -1,4 +1,4 @@
-//! MLAA (Reshetov 2009, "Morphological Antialiasing"), on the CPU as it was published.
+//! MLAA (Reshetov 2009, "Morphological Antialiasing"), on the CPU, after its publication.
 //!
 //! Two pixels that differ in a colour by sixteen steps of 255 have an edge between them. A run of edges between two rows is a separation
 //! line; the edges that meet its ends at right angles make it a Z (one up, one down), a U (both to the same side) or an L (at one end only).

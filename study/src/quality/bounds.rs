@@ -20,6 +20,33 @@ pub fn once_a_surface(surfaces: &Surfaces<'_>, shaded: &[Frame<Vec4>]) -> Frame<
     })
 }
 
+/// As deferred multisampling does it that looks for edges: a pixel whose samples all see one surface is shaded at the first of
+/// them, any other at every one.
+pub fn where_edges_are(surfaces: &Surfaces<'_>, shaded: &[Frame<Vec4>]) -> Frame<Vec4> {
+    each_pixel(surfaces.size(), |pixel, k| {
+        let first = surfaces.point(pixel, 0);
+        let even = (1..shaded.len()).all(|sample| surfaces.same(&first, &surfaces.point(pixel, sample)));
+        let shaded = if even { &shaded[..1] } else { shaded };
+        shaded.iter().map(|frame| frame.texels()[k]).sum::<Vec4>() / shaded.len() as f32
+    })
+}
+
+/// As coverage sampling does it: the colours of `stored` samples are kept, each surface shaded once, and of all others only which of
+/// those surfaces they see. Those that see another surface say nothing.
+pub fn by_coverage(surfaces: &Surfaces<'_>, shaded: &[Frame<Vec4>], stored: &[usize]) -> Frame<Vec4> {
+    each_pixel(surfaces.size(), |pixel, k| {
+        let colored = |sample: usize| {
+            let point = surfaces.point(pixel, sample);
+            let of = stored
+                .iter()
+                .find(|kept| surfaces.same(&point, &surfaces.point(pixel, **kept)));
+            of.map(|kept| shaded[*kept].texels()[k])
+        };
+        let colors: Vec<Vec4> = (0..shaded.len()).filter_map(colored).collect();
+        colors.iter().sum::<Vec4>() / colors.len().max(1) as f32
+    })
+}
+
 /// What reconstruction would give that knew the right colour of every surface that it can know of: each geometry sample has
 /// its own true colour if one of the 3 x 3 shading samples around saw its surface, else the colour of the shading sample
 /// that is nearest to it in depth and normal. What it is short of supersampling at the same places is the price of surfaces

@@ -1,7 +1,7 @@
 //! Methods made ready on a device, to be run and timed.
 
-use super::bounds::once_a_surface;
-use super::methods::{Kind, Method};
+use super::bounds::{by_coverage, once_a_surface, where_edges_are};
+use super::methods::{Kind, Method, NEAR_LATIN4};
 use super::shot::Shot;
 use super::surfaces::Surfaces;
 use super::{QualityError, check};
@@ -95,10 +95,14 @@ impl<'a> Filters<'a> {
                 })
             }
             (Runner::None, Kind::Supersampled(samples)) => shot.supersampled(samples),
-            (Runner::None, Kind::Multisampled) => {
+            (Runner::None, kind @ (Kind::Multisampled | Kind::Classified | Kind::Covered)) => {
                 let surfaces = Surfaces::of(&[shot.capture(method)?]);
                 let surfaces = surfaces.ok_or_else(|| QualityError::NotDrawn(method.name.clone()))?;
-                Ok(once_a_surface(&surfaces, shot.shaded(4)?))
+                Ok(match kind {
+                    Kind::Covered => by_coverage(&surfaces, shot.shaded(16)?, &NEAR_LATIN4),
+                    Kind::Classified => where_edges_are(&surfaces, shot.shaded(4)?),
+                    _ => once_a_surface(&surfaces, shot.shaded(4)?),
+                })
             }
             (Runner::None, _) => Ok(shot.any()?.color.clone()),
         }
@@ -121,6 +125,8 @@ impl<'a> Filters<'a> {
                 (Runner::Mlaa, _) => 2 * PICTURE * pixels,
                 (Runner::None, Kind::Plain) => PICTURE * pixels,
                 (Runner::None, Kind::Supersampled(n)) => (n as u64 * (GEOMETRY + PICTURE) + PICTURE) * pixels,
+                // Four bits a sample say whose colour it has.
+                (Runner::None, Kind::Covered) => (4 * (GEOMETRY + PICTURE) + PICTURE + 8) * pixels,
                 (Runner::None, _) => (4 * (GEOMETRY + PICTURE) + PICTURE) * pixels,
             });
         }
@@ -193,7 +199,9 @@ fn runner(bench: &Bench, method: &Method, size: UVec2) -> Result<Runner, Quality
         Kind::Fxaa(_) => fxaa(),
         Kind::Mlaa => return Ok(Runner::Mlaa),
         Kind::Smaa(transfer) => return Ok(Runner::Smaa(Box::new(Smaa::new(bench, size, transfer)?))),
-        Kind::Plain | Kind::Multisampled | Kind::Supersampled(_) => return Ok(Runner::None),
+        Kind::Plain | Kind::Multisampled | Kind::Classified | Kind::Covered | Kind::Supersampled(_) => {
+            return Ok(Runner::None);
+        }
     };
     let shader = Box::new(Shader::new(bench, &kernel, &method.options)?);
     Ok(match method.shading() {
@@ -264,8 +272,8 @@ fn shown(capture: &Capture) -> Frame<Vec4> {
     picture::at_eight_bits(&capture.color)
 }
 
-/// Depth and normals where the picture was shaded. Normals as the filter's option says, with 8 bits if they are not floats; depth as a projection without a far plane stores it, reversed: what both
-/// edge filters are set for.
+/// Depth and normals where the picture was shaded. Normals as the filter's option says, with 8 bits if they are not floats.
+/// Depth as a projection without a far plane stores it, reversed: what both edge filters are set for.
 fn one_a_pixel(capture: &Capture, compiled: &Compiled) -> Result<Inputs, QualityError> {
     let layers = capture.shaded_layers();
     let [layer] = layers[..] else {

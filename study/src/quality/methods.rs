@@ -24,6 +24,10 @@ pub enum Kind {
     Mlaa,
     /// Coverage of the samples of `latin4`, and shading once a surface in each pixel.
     Multisampled,
+    /// Shading at every sample of `latin4` in pixels with several surfaces, and at one in all others.
+    Classified,
+    /// Coverage of the samples of `latin16`, and the colours of four of them.
+    Covered,
     /// Shading at every sample of `latin4` or `latin16`.
     Supersampled(usize),
     /// A kernel of the user's, which reads what it likes of `color`, `depth` and `normal`.
@@ -141,7 +145,7 @@ impl Method {
             Kind::Sraa => Family::Sraa,
             Kind::Edge(_) => Family::Edge,
             Kind::Fxaa(_) | Kind::Smaa(_) | Kind::Mlaa => Family::Picture,
-            Kind::Multisampled | Kind::Supersampled(_) => Family::Supersampling,
+            Kind::Multisampled | Kind::Classified | Kind::Covered | Kind::Supersampled(_) => Family::Supersampling,
             Kind::Own => Family::Own,
         }
     }
@@ -150,7 +154,7 @@ impl Method {
     pub fn pattern(&self) -> &str {
         let asked = self.options.iter().find(|(name, _)| name == "pattern");
         match self.kind {
-            Kind::Supersampled(16) => "latin16",
+            Kind::Supersampled(16) | Kind::Covered => "latin16",
             _ => asked.map_or("latin4", |(_, pattern)| pattern.as_str()),
         }
     }
@@ -252,11 +256,16 @@ pub fn methods(quick: bool) -> Vec<Method> {
     all.extend(of_the_picture());
     all.extend([
         Method::new("MSAA 4", Kind::Multisampled, &[]).pictured(),
+        Method::new("MSAA 4, deferred", Kind::Classified, &[]).pictured(),
+        Method::new("CSAA 16", Kind::Covered, &[]).pictured(),
         Method::new("4x", Kind::Supersampled(4), &[]).main(),
         Method::new("16x", Kind::Supersampled(16), &[]).main(),
     ]);
     all
 }
+
+/// Samples of `latin16` near those of `latin4`.
+pub const NEAR_LATIN4: [usize; 4] = [10, 3, 11, 5];
 
 /// Shading at more than one place of a pixel: samples opposite to each other, and of sixteen four near those of `latin4`.
 const LISTED: (&str, &str) = ("shading", "listed");
@@ -372,7 +381,7 @@ pub fn methods_of(capture: &Capture) -> (Vec<Method>, Vec<(String, String)>) {
     all.extend(of_the_picture());
     let once = "a capture is not shaded at every sample";
     absent.push((
-        "MSAA 4, 4x, 16x, and the share of the gap to 16x".to_owned(),
+        "MSAA, CSAA, 4x, 16x, and the share of the gap to 16x".to_owned(),
         once.to_owned(),
     ));
     absent.push(("the pan".to_owned(), "a capture is one frame".to_owned()));

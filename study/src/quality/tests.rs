@@ -1,6 +1,6 @@
 //! Kinds of pixels and bounds, on pictures whose surfaces are known.
 
-use super::bounds::{ideal, once_a_surface};
+use super::bounds::{by_coverage, ideal, once_a_surface, where_edges_are};
 use super::classes::{Classes, varies_within};
 use super::surfaces::Surfaces;
 use glam::{UVec2, Vec2, Vec3, Vec4, uvec2, vec3};
@@ -165,6 +165,44 @@ fn what_was_seen_has_its_true_colour() {
     );
     // Each surface has one colour, so shading it once loses nothing.
     assert_eq!(once_a_surface(&surfaces, &shaded).texels(), bound.texels());
+}
+
+#[test]
+fn deferred_multisampling_shades_every_sample_at_edges_alone() {
+    let wall = |color| plane(Vec3::Z, vec3(0.0, 0.0, -5.0), color);
+    // Column 3 has a step in it, column 6 is painted.
+    let (capture, shaded) = captured(|place| match place.x {
+        x if x < 3.6 => Some(plane(Vec3::Z, vec3(0.0, 0.0, -4.0), 1.0)),
+        x if x < 6.6 => Some(wall(0.2)),
+        _ => Some(wall(0.8)),
+    });
+    let surfaces = Surfaces::of(&[&capture]).expect("a capture");
+    let (found, all) = (where_edges_are(&surfaces, &shaded), mean(&shaded).expect("pictures"));
+    for k in 0..found.texels().len() {
+        let expected = if k % SIZE.x as usize == 3 { &all } else { &shaded[0] };
+        assert_eq!(found.texels()[k], expected.texels()[k], "{k}");
+    }
+    assert_ne!(found.texels(), all.texels());
+}
+
+#[test]
+fn coverage_counts_all_samples_and_colours_few() {
+    let left = plane(Vec3::Z, vec3(0.0, 0.0, -5.0), 0.25);
+    let right = plane(Vec3::Z, vec3(0.0, 0.0, -7.0), 1.0);
+    let (capture, shaded) = captured(|place| Some(if place.x < 3.7 { left } else { right }));
+    let surfaces = Surfaces::of(&[&capture]).expect("a capture");
+    let all = mean(&shaded).expect("pictures");
+    // Both surfaces are among the stored colours, wherever they are stored.
+    let sides: Vec<usize> = (0..4).filter(|k| capture.samples[*k].x > 0.2).take(1).collect();
+    let others: Vec<usize> = (0..4).filter(|k| capture.samples[*k].x < 0.0).take(1).collect();
+    let stored = [sides[0], others[0]];
+    assert_eq!(by_coverage(&surfaces, &shaded, &stored).texels(), all.texels());
+    // A surface that is not stored says nothing.
+    let found = by_coverage(&surfaces, &shaded, &others);
+    for (k, texel) in found.texels().iter().enumerate() {
+        let expected = if k % SIZE.x as usize <= 3 { 0.25 } else { 1.0 };
+        assert_eq!(texel.x, expected, "{k}");
+    }
 }
 
 #[test]

@@ -95,6 +95,27 @@ pub fn pictures(record: &QualityRecord) -> String {
     markdown(&head, record.scenes.iter().map(row).collect())
 }
 
+/// What shades or covers more samples beside SRAA, scene by scene: PSNR.
+pub fn samplings(record: &QualityRecord) -> String {
+    const METHODS: [&str; 8] = [
+        "1x",
+        "SRAA 4",
+        "MSAA 4",
+        "MSAA 4, deferred",
+        "4x",
+        "SRAA 16",
+        "CSAA 16",
+        "16x",
+    ];
+    let row = |scene: &SceneErrors| {
+        let of = |name: &str| scene.methods.iter().find(|method| method.method == name);
+        let psnr = |name: &str| of(name).map_or("–".to_owned(), |m| format!("{:.2}", m.psnr));
+        std::iter::once(scene.scene.clone()).chain(METHODS.map(psnr)).collect()
+    };
+    let head: Vec<&str> = std::iter::once("scene").chain(METHODS).collect();
+    markdown(&head, record.scenes.iter().map(row).collect())
+}
+
 /// Every method: the same means, over kinds of pixels too, and over the pan.
 pub fn methods(record: &QualityRecord) -> String {
     let timed = timed(record);
