@@ -67,12 +67,13 @@ struct Row {
 }
 
 /// Families with their words and colours.
-const FAMILIES: [(Family, &str, usize); 5] = [
+const FAMILIES: [(Family, &str, usize); 6] = [
     (Family::None, "no antialiasing", 6),
     (Family::Sraa, "SRAA", 0),
     (Family::Edge, "edge filters of the G-buffer", 2),
     (Family::Picture, "filters of the picture", 1),
     (Family::Supersampling, "more samples", 7),
+    (Family::Own, "kernels of your own", 3),
 ];
 
 fn color(family: Family) -> usize {
@@ -100,6 +101,10 @@ pub(super) fn section(record: &QualityRecord, folder: &Path, pictures: &mut Pict
         names: record.scenes.iter().map(|scene| scene.scene.clone()).collect(),
         legend: FAMILIES
             .iter()
+            .filter(|(family, ..)| {
+                let mut methods = record.scenes.iter().flat_map(|scene| &scene.methods);
+                methods.any(|method| method.family == *family)
+            })
             .map(|(_, words, color)| (*words, super::plot::COLORS[*color]))
             .collect(),
         scenes: scenes?,
