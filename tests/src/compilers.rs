@@ -5,6 +5,7 @@
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::LazyLock;
 use straightline_codegen::Stage;
 use straightline_codegen::emit::{Emitted, Target};
 
@@ -61,7 +62,8 @@ pub fn tint(path: &Path) -> Result<(), String> {
 
 /// Whether Tint is on the path.
 pub fn has_tint() -> bool {
-    Command::new("tint").arg("--help").output().is_ok()
+    static HAS: LazyLock<bool> = LazyLock::new(|| Command::new("tint").arg("--help").output().is_ok());
+    *HAS
 }
 
 /// glslang on GLSL, by the file's ending.
@@ -72,6 +74,44 @@ pub fn has_tint() -> bool {
 pub fn glsl(path: &Path) -> Result<(), String> {
     let arguments = ["-V", "--target-env", "vulkan1.1", "--quiet", "-o", "/dev/null"];
     run("glslangValidator", "glslang-tools", &arguments, path)
+}
+
+/// glslang on GLSL and HLSL of compute shaders, each with its entry point, many at once: by glslc, which reads what is built in
+/// once for all of them, where it is on the path. Beside each file lies the SPIR-V that it makes of it.
+///
+/// # Errors
+///
+/// What it says of the first text that it refuses.
+pub fn all(folder: &Path, shaders: &[(PathBuf, String)]) -> Result<(), String> {
+    static HAS: LazyLock<bool> = LazyLock::new(|| Command::new("glslc").arg("--version").output().is_ok());
+    if !*HAS {
+        return shaders.iter().try_for_each(|(path, entry)| match is_hlsl(path) {
+            true => hlsl(path, Stage::Compute, entry),
+            false => glsl(path),
+        });
+    }
+    let mut glslc = Command::new("glslc");
+    glslc.current_dir(folder);
+    glslc.args(["--target-env=vulkan1.1", "-fshader-stage=comp", "-c"]);
+    for (path, entry) in shaders {
+        if is_hlsl(path) {
+            let text = std::fs::read_to_string(path).map_err(|e| e.to_string())?;
+            std::fs::write(path, zeros_one_by_one(&text)).map_err(|e| e.to_string())?;
+            glslc.args(["-x", "hlsl", &format!("-fentry-point={entry}")]);
+        } else {
+            glslc.args(["-x", "glsl", "-fentry-point=main"]);
+        }
+        glslc.arg(path);
+    }
+    let run = glslc.output().map_err(|e| format!("cannot run glslc ({e})"))?;
+    match run.status.success() {
+        true => Ok(()),
+        false => Err(format!("glslc: {}", String::from_utf8_lossy(&run.stderr))),
+    }
+}
+
+fn is_hlsl(path: &Path) -> bool {
+    path.extension().is_some_and(|extension| extension == "hlsl")
 }
 
 /// glslang on GLSL of OpenGL, as the version that the text states.

@@ -4,10 +4,11 @@ use super::options::Options;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use std::rc::Rc;
 use std::sync::Mutex;
 use std::time::Instant;
-use straightline_codegen::emit::{EmitError, Target};
-use straightline_codegen::{EmitOptions, Form, Kernel, Stage};
+use straightline_codegen::emit::{EmitError, Emitted, Target};
+use straightline_codegen::{Compiled, EmitOptions, Form, Kernel, Stage};
 use straightline_tests::compilers;
 use straightline_tests::random::forms::FORMS;
 use straightline_tests::random::make::make;
@@ -60,6 +61,7 @@ fn batch(options: &Options, seeds: std::ops::Range<u64>, folder: &Path, total: &
     std::fs::create_dir_all(folder).map_err(|e| format!("{}: {e}", folder.display()))?;
     let mut counts = Counts::default();
     let mut opengl: Vec<PathBuf> = Vec::new();
+    let (mut glsl, mut hlsl) = (Vec::new(), Vec::new());
     for seed in seeds {
         let text = make(seed, options.features);
         let form = FORMS[(seed % FORMS.len() as u64) as usize];
@@ -68,28 +70,25 @@ fn batch(options: &Options, seeds: std::ops::Range<u64>, folder: &Path, total: &
             continue;
         };
         counts.kernels += 1;
-        for target in Target::ALL {
-            let stage = match target {
-                Target::Glsl330 | Target::Essl300 => Stage::Fragment,
-                _ => Stage::Compute,
-            };
-            let emitted = match compiled.emit(&EmitOptions::new().stage(stage).targets([target])) {
-                Ok(emitted) => emitted,
-                Err(error) if has_no_such_text(&error) => continue,
-                Err(error) => {
-                    println!("seed {seed}: {target} with {form}: {error}");
-                    counts.failures += 1;
-                    continue;
-                }
-            };
+        for (target, emitted) in texts(&compiled, &mut |target, error| {
+            println!("seed {seed}: {target} with {form}: {error}");
+            counts.failures += 1;
+        }) {
+            let stage = emitted.manifest.stage;
             *counts.texts.entry(target).or_default() += 1;
             let path = folder.join(format!("{seed}.{}", target.extension(stage, Form::Entry)));
             std::fs::write(&path, &emitted.files[&target]).map_err(|e| format!("{}: {e}", path.display()))?;
             let read = match target {
                 Target::Wgsl => compilers::tint(&path),
-                Target::Glsl450 => compilers::glsl(&path),
                 Target::Spirv => compilers::spirv(&path),
-                Target::Hlsl => compilers::hlsl(&path, stage, &emitted.manifest.entry_point),
+                Target::Glsl450 => {
+                    glsl.push((path, "main".to_owned()));
+                    Ok(())
+                }
+                Target::Hlsl => {
+                    hlsl.push((path, emitted.manifest.entry_point.clone()));
+                    Ok(())
+                }
                 Target::Msl => Ok(()),
                 _ => {
                     opengl.push(path);
@@ -103,6 +102,15 @@ fn batch(options: &Options, seeds: std::ops::Range<u64>, folder: &Path, total: &
         }
     }
     // glslang reads many of these at once.
+    glsl.append(&mut hlsl);
+    if compilers::all(folder, &glsl).is_err() {
+        for shader in glsl {
+            if let Err(why) = compilers::all(folder, std::slice::from_ref(&shader)) {
+                println!("{}: {}", shader.0.display(), first_lines(&why));
+                counts.failures += 1;
+            }
+        }
+    }
     if compilers::opengl_all(&opengl).is_err() {
         for path in &opengl {
             if let Err(why) = compilers::opengl(path) {
@@ -124,6 +132,31 @@ fn batch(options: &Options, seeds: std::ops::Range<u64>, folder: &Path, total: &
     }
     eprintln!("{} kernels", total.kernels);
     Ok(())
+}
+
+/// A kernel in every language that it can be written in. All of a stage are written at once where they can be.
+fn texts(compiled: &Compiled, failed: &mut impl FnMut(Target, EmitError)) -> Vec<(Target, Rc<Emitted>)> {
+    let (fragment, compute): (Vec<Target>, Vec<Target>) = Target::ALL
+        .into_iter()
+        .partition(|target| matches!(target, Target::Glsl330 | Target::Essl300));
+    let mut texts = Vec::new();
+    for (stage, targets) in [(Stage::Compute, compute), (Stage::Fragment, fragment)] {
+        let emit =
+            |targets: &[Target]| compiled.emit(&EmitOptions::new().stage(stage).targets(targets.iter().copied()));
+        if let Ok(emitted) = emit(&targets) {
+            let emitted = Rc::new(emitted);
+            texts.extend(targets.into_iter().map(|target| (target, Rc::clone(&emitted))));
+            continue;
+        }
+        for target in targets {
+            match emit(&[target]) {
+                Ok(emitted) => texts.push((target, Rc::new(emitted))),
+                Err(error) if has_no_such_text(&error) => {}
+                Err(error) => failed(target, error),
+            }
+        }
+    }
+    texts
 }
 
 /// Whether a kernel is nothing that a language or a stage has, whatever is in it.
