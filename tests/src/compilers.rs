@@ -110,7 +110,8 @@ pub fn all(folder: &Path, shaders: &[(PathBuf, String)]) -> Result<(), String> {
     }
 }
 
-fn is_hlsl(path: &Path) -> bool {
+/// Whether a file's ending says that it holds HLSL.
+pub fn is_hlsl(path: &Path) -> bool {
     path.extension().is_some_and(|extension| extension == "hlsl")
 }
 

@@ -104,9 +104,15 @@ fn batch(options: &Options, seeds: std::ops::Range<u64>, folder: &Path, total: &
     // glslang reads many of these at once.
     glsl.append(&mut hlsl);
     if compilers::all(folder, &glsl).is_err() {
-        for shader in glsl {
-            if let Err(why) = compilers::all(folder, std::slice::from_ref(&shader)) {
-                println!("{}: {}", shader.0.display(), first_lines(&why));
+        for (path, entry) in glsl {
+            // glslc also asks spirv-val of what glslang makes of HLSL, which makes no valid gather that compares.
+            let read =
+                compilers::all(folder, &[(path.clone(), entry.clone())]).or_else(|_| match compilers::is_hlsl(&path) {
+                    true => compilers::hlsl(&path, Stage::Compute, &entry),
+                    false => compilers::glsl(&path),
+                });
+            if let Err(why) = read {
+                println!("{}: {}", path.display(), first_lines(&why));
                 counts.failures += 1;
             }
         }
