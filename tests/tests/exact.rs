@@ -93,6 +93,15 @@ fn one_block_and_no_more_reads_than_distinct_texels() {
     assert_eq!(with("ordered4", "none"), (24, 24));
     assert_eq!(with("ordered16", "none"), (80, 48));
     assert_eq!(with("ordered4", "tent"), (8, 14));
+    // Two pixels on each axis instead of one.
+    let wide = counts(&[
+        listing[0],
+        listing[1],
+        ("pattern", "ordered4"),
+        ("falloff", "none"),
+        ("radius", "2"),
+    ]);
+    assert_eq!(wide, (80, 56));
     // Half the reads.
     let packed = counts(&[
         listing[0],

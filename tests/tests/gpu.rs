@@ -165,6 +165,13 @@ fn planes_on_grazing_ground_are_within_the_bounds_of_the_error_analysis() {
                 ("difference", "relative"),
                 ("depth-scale", "3"),
             ]),
+            options(&[("metric", "planes-normals"), ("plane", "tap")]),
+            options(&[
+                ("metric", "planes-normals"),
+                ("plane", "tap"),
+                ("difference", "relative"),
+                ("depth-scale", "3"),
+            ]),
             options(&[
                 ("metric", "depth-normals"),
                 ("difference", "relative"),

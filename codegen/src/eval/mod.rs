@@ -300,9 +300,15 @@ impl Evaluator<'_> {
     }
 
     fn name_node(&mut self, id: NodeId, called: &Called<'_>, naming: Naming, span: Span) {
+        let op = &self.builder.graph().node(id).op;
+        // Other variables may be the same constant; what a function gives is that.
+        let is_constant = matches!(op, Op::Const(_));
+        if is_constant && naming < Naming::Function {
+            return;
+        }
         if matches!(
-            self.builder.graph().node(id).op,
-            Op::Const(_) | Op::Pixel | Op::FrameSize | Op::Uniform(_) | Op::Varying(_) | Op::Param(..) | Op::MakeArray
+            op,
+            Op::Pixel | Op::FrameSize | Op::Uniform(_) | Op::Varying(_) | Op::Param(..) | Op::MakeArray
         ) {
             return;
         }
@@ -318,7 +324,10 @@ impl Evaluator<'_> {
             naming,
             file: span.file,
             line: span.line,
-            counters: self.counters.as_slice().into(),
+            counters: match is_constant {
+                true => [].into(),
+                false => self.counters.as_slice().into(),
+            },
         };
         self.builder.set_origin(id, &origin);
     }

@@ -160,7 +160,7 @@ fn algebra(b: &mut Builder<'_>, op: &Op, args: &[NodeId]) -> Option<NodeId> {
         Op::Binary(op) => {
             let (x, y) = (args[0], args[1]);
             match g.ty(x).kind()? {
-                Scalar::F32 => float(g, *op, x, y),
+                Scalar::F32 => float(g, *op, x, y).or_else(|| square(b, *op, x, y)),
                 Scalar::I32 | Scalar::U32 => integer(b, *op, x, y),
                 Scalar::Bool => boolean(b, *op, x, y),
             }
@@ -206,6 +206,27 @@ fn float(g: &Graph, op: BinaryOp, x: NodeId, y: NodeId) -> Option<NodeId> {
         BinaryOp::Min | BinaryOp::Max if x == y => Some(x),
         _ => None,
     }
+}
+
+/// The square of what has been computed with the other sign: rounding is the same on both sides of zero.
+fn square(b: &mut Builder<'_>, op: BinaryOp, x: NodeId, y: NodeId) -> Option<NodeId> {
+    if op != BinaryOp::Mul || x != y {
+        return None;
+    }
+    let opposite = opposite(b, x).filter(|opposite| *opposite < x)?;
+    let ty = b.graph().ty(x);
+    Some(b.add(Op::Binary(op), vec![opposite, opposite], ty))
+}
+
+/// The node that computes `-id`, if there is one already: `b - a` of `a - b`, and what is divided by the same.
+fn opposite(b: &Builder<'_>, id: NodeId) -> Option<NodeId> {
+    let node = b.graph().node(id);
+    let args = match node.op {
+        Op::Binary(BinaryOp::Sub) => vec![node.args[1], node.args[0]],
+        Op::Binary(BinaryOp::Div) => vec![opposite(b, node.args[0])?, node.args[1]],
+        _ => return None,
+    };
+    b.find(&node.op, &args, node.ty)
 }
 
 /// Whether `id` is never more than the non-zero constant `bound`, and never a NaN.

@@ -227,11 +227,9 @@ impl Expansion<'_> {
         let alike = new.iter().all(|id| *id == new[0]);
         if let Some(origin) = self.old.origin(old) {
             for (lane, id) in new.iter().enumerate() {
-                let fixed = matches!(
-                    self.builder.graph().node(*id).op,
-                    Op::Const(_) | Op::Pixel | Op::FrameSize | Op::Uniform(_)
-                );
-                if fixed {
+                let op = &self.builder.graph().node(*id).op;
+                let fixed = matches!(op, Op::Const(_) | Op::Pixel | Op::FrameSize | Op::Uniform(_));
+                if fixed && *op != self.old.node(old).op {
                     continue;
                 }
                 let mut origin = origin.clone();

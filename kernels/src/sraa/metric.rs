@@ -27,18 +27,29 @@ pub enum Difference {
     Relative,
 }
 
+/// From whose plane a distance is measured (paper §3.2, where it is that of the source: either reading).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Plane {
+    /// That of the geometry sample.
+    Sample,
+    /// That of the tap.
+    Tap,
+}
+
 /// A geometry sample that taps are compared with.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Sample {
     surface: Surface,
-    plane: Plane,
+    plane: Tilt,
+    /// Ray through the centre of the pixel that is filtered, and what is added for each pixel to the right and down.
+    rays: [Vec3; 3],
     /// From the centre of the pixel that is filtered, in pixels, y down.
     at: Vec2,
 }
 
-/// The plane of a surface, as rays see it: how much of the way along a ray to depth 1 is along the normal.
+/// How a plane is tilted, as rays see it: how much of the way along a ray to depth 1 is along the normal.
 #[derive(Clone, Copy, Debug)]
-struct Plane {
+struct Tilt {
     /// Along the ray through the pixel's centre.
     along: f32,
     /// More for each pixel to the right.
@@ -50,12 +61,24 @@ struct Plane {
 impl Sample {
     /// The sample at which `surface` is seen, `at` from the centre of `pixel`.
     pub(super) fn new(view: &View, surface: Surface, pixel: IVec2, at: Vec2) -> Sample {
-        let plane = Plane {
-            along: view.ray(pixel).dot(surface.normal),
-            right: view.ray_right.dot(surface.normal),
-            down: view.ray_down.dot(surface.normal),
-        };
-        Sample { surface, plane, at }
+        let rays = [view.ray(pixel), view.ray_right, view.ray_down];
+        Sample {
+            surface,
+            plane: Tilt::new(&rays, surface.normal),
+            rays,
+            at,
+        }
+    }
+}
+
+impl Tilt {
+    /// Of the plane with a normal.
+    fn new(rays: &[Vec3; 3], normal: Vec3) -> Tilt {
+        Tilt {
+            along: rays[0].dot(normal),
+            right: rays[1].dot(normal),
+            down: rays[2].dot(normal),
+        }
     }
 }
 
@@ -97,16 +120,33 @@ fn number(cfg: &Sraa, apart: f32) -> f32 {
     }
 }
 
-/// σp |(pₜ - pₛ)·nₛ|. The points are their depths along their rays, so (pₜ - pₛ)·nₛ is
-/// (zₜ - zₛ) rₜ·nₛ + zₛ (rₜ - rₛ)·nₛ, where rₜ - rₛ is exact: the points' own coordinates would cancel.
+/// σp |(pₜ - pₛ)·nₛ|, or of nₜ. The points are their depths along their rays, so (pₜ - pₛ)·nₛ is
+/// (zₜ - zₛ) rₜ·nₛ + zₛ (rₜ - rₛ)·nₛ, where rₜ - rₛ is exact: the points' own coordinates would cancel. From the tap's plane
+/// it is the same with the two exchanged.
 fn off_plane(cfg: &Sraa, sample: &Sample, tap: &Surface, at: Vec2) -> f32 {
-    let (plane, away) = (&sample.plane, at - sample.at);
-    let along = plane.along + at.x * plane.right + at.y * plane.down;
-    let aside = away.x * plane.right + away.y * plane.down;
+    let away = at - sample.at;
     let deeper = tap.depth - sample.surface.depth;
-    let off = match cfg.difference {
-        Difference::Absolute => deeper * along + sample.surface.depth * aside,
-        Difference::Relative => deeper / sample.surface.depth.max(NEAREST) * along + aside,
+    let nearest = sample.surface.depth.max(NEAREST);
+    let off = match cfg.plane {
+        Plane::Sample => {
+            let plane = &sample.plane;
+            let along = plane.along + at.x * plane.right + at.y * plane.down;
+            let aside = away.x * plane.right + away.y * plane.down;
+            match cfg.difference {
+                Difference::Absolute => deeper * along + sample.surface.depth * aside,
+                Difference::Relative => deeper / nearest * along + aside,
+            }
+        }
+        Plane::Tap => {
+            let plane = Tilt::new(&sample.rays, tap.normal);
+            let along = plane.along + sample.at.x * plane.right + sample.at.y * plane.down;
+            let aside = away.x * plane.right + away.y * plane.down;
+            let off = deeper * along + tap.depth * aside;
+            match cfg.difference {
+                Difference::Absolute => off,
+                Difference::Relative => off / nearest,
+            }
+        }
     };
     cfg.depth_scale * off.abs()
 }

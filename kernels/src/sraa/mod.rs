@@ -20,7 +20,7 @@ use placed::shaded_place;
 use search::{Searched, searched};
 
 pub use gbuffer::{Depth, GBuffer, Layout, Normals, Surface};
-pub use metric::{Difference, Metric};
+pub use metric::{Difference, Metric, Plane};
 pub use options::{Falloff, Guards, Mask, NonFinite, Normalisation, Resolve, Search, Sraa, Turn};
 pub use pattern::{Pattern, Shading};
 pub use placed::sraa_place;
@@ -54,13 +54,16 @@ pub fn sraa(cfg: &Sraa, gbuffer: &GBuffer, view: &View, colors: &Colors, pixel: 
         colors,
         pixel,
     };
-    match (cfg.resolve, cfg.shading_samples()) {
-        (Resolve::Box, 1) => masked::<9, 3>(cfg, &inputs),
-        (Resolve::Box, 2) => masked::<18, 3>(cfg, &inputs),
-        (Resolve::Box, _) => masked::<36, 3>(cfg, &inputs),
-        (Resolve::Tent, 1) => masked::<25, 5>(cfg, &inputs),
-        (Resolve::Tent, 2) => masked::<50, 5>(cfg, &inputs),
-        (Resolve::Tent, _) => masked::<100, 5>(cfg, &inputs),
+    match (cfg.side(), cfg.shading_samples()) {
+        (3, 1) => masked::<9, 3>(cfg, &inputs),
+        (3, 2) => masked::<18, 3>(cfg, &inputs),
+        (3, _) => masked::<36, 3>(cfg, &inputs),
+        (5, 1) => masked::<25, 5>(cfg, &inputs),
+        (5, 2) => masked::<50, 5>(cfg, &inputs),
+        (5, _) => masked::<100, 5>(cfg, &inputs),
+        (_, 1) => masked::<49, 7>(cfg, &inputs),
+        (_, 2) => masked::<98, 7>(cfg, &inputs),
+        (_, _) => masked::<196, 7>(cfg, &inputs),
     }
 }
 
@@ -268,10 +271,10 @@ fn difference(cfg: &Sraa, inputs: &Inputs, place: Place, centre: &Sample, tap: P
     }
 }
 
-/// Weight of a tap for a geometry sample by distance on the screen alone; 0 beyond one pixel.
+/// Weight of a tap for a geometry sample by distance on the screen alone; 0 beyond the radius.
 fn falloff(cfg: &Sraa, sample: Place, tap: Place) -> f32 {
     let away = tap.at - sample.at;
-    let near = away.x.abs() <= 1.0 && away.y.abs() <= 1.0;
+    let near = away.x.abs() <= cfg.radius && away.y.abs() <= cfg.radius;
     match cfg.falloff {
         Falloff::None => {
             if near {
@@ -280,7 +283,7 @@ fn falloff(cfg: &Sraa, sample: Place, tap: Place) -> f32 {
                 0.0
             }
         }
-        Falloff::Tent => tent(away),
+        Falloff::Tent => tent(away / cfg.radius),
         Falloff::Gaussian => {
             if near {
                 (-away.dot(away) / (2.0 * cfg.sigma * cfg.sigma)).exp()

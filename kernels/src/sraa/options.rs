@@ -3,7 +3,7 @@
 use crate::prelude::*;
 
 use super::gbuffer::{Depth, Layout, Normals};
-use super::metric::{Difference, Metric};
+use super::metric::{Difference, Metric, Plane};
 use super::pattern::{Pattern, Shading};
 
 options! {
@@ -23,6 +23,8 @@ options! {
         pub metric: Metric = Metric::DepthNormals,
         /// Whether differences in depth count as they are, or as shares of the depth.
         pub difference: Difference = Difference::Absolute,
+        /// Of metric=planes-normals: from whose plane a distance is measured.
+        pub plane: Plane = Plane::Sample,
         /// How the G-buffer holds depth.
         pub depth: Depth = Depth::Linear,
         /// How the G-buffer holds normals.
@@ -33,6 +35,9 @@ options! {
         pub falloff: Falloff = Falloff::Tent,
         /// Of falloff=gaussian: the standard deviation, in pixels. With less, the farthest taps would weigh too little for a float.
         pub sigma: f32 [0.125..=4.0] = 0.4,
+        /// How far a tap may lie from its sample on each axis, in pixels: there the falloff ends. Farther, fewer samples are without
+        /// a tap on their surface; more is read, and what is borrowed comes from farther away.
+        pub radius: f32 [1.0..=2.0] = 1.0,
         /// How the weights of a sample are made to sum to one.
         pub normalisation: Normalisation = Normalisation::Shifted,
         /// How the reconstructed samples make up the pixel.
@@ -66,11 +71,11 @@ options! {
 /// How a tap's weight falls with its distance on the screen (paper §3.3).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Falloff {
-    /// Not at all within one pixel on each axis, as the listing has it.
+    /// Not at all within the radius on each axis, as the listing has it.
     None,
-    /// Linearly to zero at one pixel on each axis: sharper, and with fewer taps.
+    /// Linearly to zero at the radius on each axis: sharper, and with fewer taps.
     Tent,
-    /// As a Gaussian, cut off beyond one pixel on each axis.
+    /// As a Gaussian, cut off beyond the radius on each axis.
     Gaussian,
 }
 

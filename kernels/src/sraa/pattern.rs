@@ -199,6 +199,19 @@ impl Sraa {
         }
     }
 
+    /// Width and height of the square of pixels around the filtered one that taps may lie in. The farthest sample lies half a pixel
+    /// from its centre, or one with a tent.
+    pub(super) fn side(&self) -> usize {
+        let mut beyond = 1;
+        if self.radius > 1.0 {
+            beyond += 1;
+        }
+        if self.resolve == Resolve::Tent {
+            beyond += 1;
+        }
+        2 * beyond + 1
+    }
+
     /// Tap `tap` of a square of `side` × `side` pixels: the shading samples of each, pixel by pixel.
     pub(super) fn tap(&self, tap: usize, side: usize) -> Place {
         match self.shading {

@@ -85,6 +85,12 @@ impl Form {
             Form::new("sraa planes-normals", Sraa, &[("metric", "planes-normals")]).taking_options(),
             Form::new("sraa normals", Sraa, &[("metric", "normals")]),
             Form::new("sraa depth", Sraa, &[("metric", "depth")]),
+            Form::new(
+                "sraa planes of taps",
+                Sraa,
+                &[("metric", "planes-normals"), ("plane", "tap")],
+            ),
+            Form::new("sraa radius 2", Sraa, &[("radius", "2")]),
             Form::new("sraa relative", Sraa, &[("difference", "relative")]),
             Form::new("sraa epsilon", Sraa, &[("normalisation", "epsilon")]).taking_options(),
             Form::new("sraa searched", Sraa, &[("search", "five")]).taking_options(),

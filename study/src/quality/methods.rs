@@ -298,6 +298,11 @@ fn metrics() -> Vec<Method> {
     let sraa = |name, metric| Method::new(name, Kind::Sraa, &[("metric", metric)]);
     vec![
         sraa("SRAA 4, planes and normals", "planes-normals"),
+        Method::new(
+            "SRAA 4, planes of taps and normals",
+            Kind::Sraa,
+            &[("metric", "planes-normals"), ("plane", "tap")],
+        ),
         sraa("SRAA 4, normals", "normals"),
         sraa("SRAA 4, depth", "depth"),
     ]
@@ -311,6 +316,9 @@ fn falloffs() -> Vec<Method> {
     vec![
         sraa("SRAA 4, no falloff", &[("falloff", "none")]),
         sraa("SRAA 4, Gaussian falloff", &[("falloff", "gaussian")]),
+        sraa("SRAA 4, radius 1.5", &[("radius", "1.5")]),
+        sraa("SRAA 4, radius 2", &[("radius", "2")]),
+        sraa("SRAA 16, radius 2", &[("pattern", "latin16"), ("radius", "2")]),
         sraa("SRAA 4, relative depth", &RELATIVE),
         sraa(
             "SRAA 16, relative depth",

@@ -13,8 +13,8 @@
 
 use super::gbuffer::{DEEPEST, Point, Reading};
 use super::{
-    Definition, Difference, EPSILON, Mask, Metric, NEAREST, NonFinite, Normalisation, OracleError, Search, SraaParams,
-    Tap, bounded, is_finite, turned,
+    Definition, Difference, EPSILON, Mask, Metric, NEAREST, NonFinite, Normalisation, OracleError, Plane, Search,
+    SraaParams, Tap, bounded, is_finite, turned,
 };
 use crate::execute::Inputs;
 use rayon::prelude::*;
@@ -367,6 +367,10 @@ impl Definition<'_> {
             Range::around(value, off)
         };
         let by_plane = || {
+            let (s, t, rs, step) = match self.params.plane {
+                Plane::Sample => (&s, &t, &rs, step),
+                Plane::Tap => (&t, &s, &rt, -step),
+            };
             let ray = |axis: usize| t.ray[axis].abs() + s.ray[axis].abs();
             let along: f64 = (0..3).map(|axis| t.ray[axis] * s.normal[axis]).sum();
             let aside: f64 = (0..3).map(|axis| (t.ray[axis] - s.ray[axis]) * s.normal[axis]).sum();

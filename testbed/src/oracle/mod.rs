@@ -6,7 +6,7 @@
 //!
 //! > C(p) = Σₛ rₛ C(s) / Σₛ rₛ,  C(s) = Σₜ wₛₜ · colour(t) / Σₜ wₛₜ,  wₛₜ = falloff(t − s) · exp(−τ · mₛₜ)
 //!
-//! over the shading samples t at most one pixel from the geometry sample s on each axis, and the geometry samples with a
+//! over the shading samples t at most a radius from the geometry sample s on each axis, and the geometry samples with a
 //! share rₛ in the pixel. mₛₜ is the difference of the two surfaces (paper §3.2). Beyond the border the nearest pixel's
 //! surfaces and colours are repeated.
 //!
@@ -28,8 +28,8 @@ use gbuffer::{DEEPEST, GBuffer, Point};
 use rayon::prelude::*;
 
 pub use params::{
-    Depth, Difference, Falloff, Layout, Mask, Metric, NonFinite, Normalisation, Normals, OracleError, Pattern, Resolve,
-    Search, Shading, SraaParams, Turn,
+    Depth, Difference, Falloff, Layout, Mask, Metric, NonFinite, Normalisation, Normals, OracleError, Pattern, Plane,
+    Resolve, Search, Shading, SraaParams, Turn,
 };
 pub use place::{Placed, place};
 
@@ -207,7 +207,7 @@ impl<'a> Definition<'a> {
 
     /// The shading samples within reach of a geometry sample.
     fn taps(&self, pixel: [i32; 2], at: ([i32; 2], usize)) -> Vec<Tap> {
-        self.taps_within(pixel, at, 2, |away| self.falloff(away))
+        self.taps_within(pixel, at, 3, |away| self.falloff(away))
     }
 
     /// The shading samples that a search looks at.
@@ -289,12 +289,13 @@ impl<'a> Definition<'a> {
 
     /// Weight of a tap that is `away` pixels from a sample.
     fn falloff(&self, away: [f64; 2]) -> f64 {
-        if away.iter().any(|axis| axis.abs() > 1.0) {
+        let radius = self.params.radius;
+        if away.iter().any(|axis| axis.abs() > radius) {
             return 0.0;
         }
         match self.params.falloff {
             Falloff::None => 1.0,
-            Falloff::Tent => Some(tent(away[0]) * tent(away[1]))
+            Falloff::Tent => Some(tent(away[0] / radius) * tent(away[1] / radius))
                 .filter(|weight| *weight > LEAST)
                 .unwrap_or(0.0),
             Falloff::Gaussian => {
@@ -317,9 +318,13 @@ impl<'a> Definition<'a> {
             _ => sample.depth - tap.depth,
         };
         let depths = || scale * step.abs();
+        let normal = match self.params.plane {
+            Plane::Sample => sample.normal,
+            Plane::Tap => tap.normal,
+        };
         let plane = || {
             let apart: f64 = (0..3)
-                .map(|axis| (tap.depth * tap.ray[axis] - sample.depth * sample.ray[axis]) * sample.normal[axis])
+                .map(|axis| (tap.depth * tap.ray[axis] - sample.depth * sample.ray[axis]) * normal[axis])
                 .sum();
             scale * apart.abs()
         };

@@ -80,6 +80,16 @@ choices! {
 }
 
 choices! {
+    /// From whose plane a distance is measured.
+    Plane {
+        /// That of the geometry sample.
+        Sample = "sample",
+        /// That of the tap.
+        Tap = "tap",
+    }
+}
+
+choices! {
     /// How depth is held.
     Depth {
         /// Along the view direction, in scene units.
@@ -122,11 +132,11 @@ choices! {
 choices! {
     /// How a tap's weight falls with its distance on the screen.
     Falloff {
-        /// Not at all up to one pixel on each axis.
+        /// Not at all up to the radius on each axis.
         None = "none",
-        /// Linearly to zero at one pixel on each axis.
+        /// Linearly to zero at the radius on each axis.
         Tent = "tent",
-        /// As a Gaussian, up to one pixel on each axis.
+        /// As a Gaussian, up to the radius on each axis.
         Gaussian = "gaussian",
     }
 }
@@ -222,6 +232,10 @@ pub struct SraaParams {
     pub falloff: Falloff,
     /// Standard deviation of [`Falloff::Gaussian`], in pixels.
     pub sigma: f64,
+    /// How far a tap may lie from its sample on each axis, in pixels, from 1 to 2.
+    pub radius: f64,
+    /// Of the planes: from whose a distance is measured.
+    pub plane: Plane,
     /// How the weights of a sample are made to sum to one.
     pub normalisation: Normalisation,
     /// How the reconstructed samples make up the pixel.
@@ -264,6 +278,8 @@ impl Default for SraaParams {
             layout: Layout::Layers,
             falloff: Falloff::Tent,
             sigma: 0.4,
+            radius: 1.0,
+            plane: Plane::Sample,
             normalisation: Normalisation::Shifted,
             resolve: Resolve::Box,
             search: Search::None,
@@ -344,6 +360,8 @@ impl SraaParams {
             "layout" => self.layout = choice(option, value, Layout::ALL, Layout::name)?,
             "falloff" => self.falloff = choice(option, value, Falloff::ALL, Falloff::name)?,
             "sigma" => self.sigma = number(option, value)?,
+            "radius" => self.radius = number(option, value)?,
+            "plane" => self.plane = choice(option, value, Plane::ALL, Plane::name)?,
             "normalisation" => self.normalisation = choice(option, value, Normalisation::ALL, Normalisation::name)?,
             "resolve" => self.resolve = choice(option, value, Resolve::ALL, Resolve::name)?,
             "search" => self.search = choice(option, value, Search::ALL, Search::name)?,

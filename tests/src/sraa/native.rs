@@ -5,7 +5,7 @@ use glam::{UVec2, Vec3, ivec2};
 use straightline_kernels::prelude::{Frame, FrameLayers, Multisampled, Texture, Vec4};
 use straightline_kernels::sraa::{
     Colors, Depth, Difference, Falloff, GBuffer, Guards, Layout, Mask, Metric, NonFinite, Normalisation, Normals,
-    Pattern, Resolve, Search, Shading, Sraa, Turn, View, sraa,
+    Pattern, Plane, Resolve, Search, Shading, Sraa, Turn, View, sraa,
 };
 use straightline_testbed::execute::Inputs;
 
@@ -82,6 +82,8 @@ fn set(cfg: &mut Sraa, name: &str, value: &str) {
         "non-finite" => cfg.non_finite = one_of!(value, NonFinite: "spread" => Spread, "skip" => Skip),
         "tau" => cfg.tau = number(value),
         "depth-scale" => cfg.depth_scale = number(value),
+        "radius" => cfg.radius = number(value),
+        "plane" => cfg.plane = one_of!(value, Plane: "sample" => Sample, "tap" => Tap),
         "sigma" => cfg.sigma = number(value),
         "mask-threshold" => cfg.mask_threshold = number(value),
         other => panic!("no option `{other}`"),

@@ -22,6 +22,9 @@ pub use entry::entry;
 /// Cuts after which every version of an array is given a variable of its own.
 const MAX_CUTS: usize = 16;
 
+/// Uses from which a constant vector is written once.
+const OFTEN: u32 = 6;
+
 /// The statements of a kernel: one for each value, and at the end an output for each pixel of the invocation.
 pub fn lower<'g>(compiled: &'g Compiled, half: bool) -> Module<'g> {
     let graph = &compiled.graph;
@@ -59,6 +62,7 @@ fn attempt<'g>(compiled: &'g Compiled, half: bool, webs: Webs) -> (Module<'g>, O
         block: Vec::new(),
         stale: None,
     };
+    lowering.constants();
     lowering.steps(&compiled.schedule.body);
     for pixel in graph.outputs().chunks(graph.targets.len().max(1)) {
         let values = pixel.iter().map(|output| lowering.expr(*output)).collect();
@@ -99,6 +103,23 @@ struct Lowering<'g> {
 }
 
 impl<'g> Lowering<'g> {
+    /// Vectors that the kernel has a name for, and that many lines would repeat, are written once.
+    fn constants(&mut self) {
+        let graph = &self.compiled.graph;
+        for id in graph.ids() {
+            if let ir::Op::Const(bits) = graph.node(id).op
+                && self.compiled.schedule.uses[id.0 as usize] >= OFTEN
+                && is_long(graph.ty(id), &bits)
+                && self.origins[id.0 as usize].is_some_and(|origin| !origin.name.is_empty())
+            {
+                let var = self.variable(id);
+                let value = Expr::constant(graph.ty(id), bits);
+                self.module.tables.push((var, value));
+                self.exprs[id.0 as usize] = Some(self.module.read(var));
+            }
+        }
+    }
+
     fn steps(&mut self, block: &'g Block) {
         for step in &block.steps {
             match step {
@@ -269,4 +290,11 @@ fn is_atom(expr: &Expr) -> bool {
         Op::Construct => expr.args.len() == 1 && is_atom(&expr.args[0]),
         _ => false,
     }
+}
+
+/// Whether a constant is a vector of three or four finite floats that are not all the same.
+fn is_long(ty: Type, bits: &ir::Lanes) -> bool {
+    let lanes = &bits[..usize::from(ty.lanes())];
+    let finite = |lane: &u32| f32::from_bits(*lane).is_finite();
+    ty.is_float() && lanes.len() >= 3 && lanes.iter().all(finite) && lanes.iter().any(|lane| *lane != lanes[0])
 }

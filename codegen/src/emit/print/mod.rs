@@ -150,7 +150,7 @@ pub fn module(language: &dyn Language, module: &Module<'_>, header: &[String]) -
 
 /// A module as text, which its header is yet to stand over.
 pub struct Printed {
-    /// The constant arrays, and each of the functions beside the entry point.
+    /// The constants, and each of the functions beside the entry point.
     beside: Vec<String>,
     /// The entry point's statements.
     body: String,
@@ -198,11 +198,15 @@ impl Printer<'_> {
         &self.module.variables[var.0 as usize].name
     }
 
-    /// The constant arrays, and each of the functions beside the entry point.
+    /// The constants, and each of the functions beside the entry point.
     fn tables_and_functions(&self) -> Vec<String> {
         let table = |(var, value): &(VarId, Expr)| {
             let declared = self.language.table(self.name(*var), self.module.ty(*var));
-            Self::line(0, &format!("{declared} = "), &self.elements(value), ";") + "\n"
+            let value = match value.ty.shape {
+                crate::ir::Type::Array { .. } => self.elements(value),
+                _ => self.expr(value),
+            };
+            Self::line(0, &format!("{declared} = "), &value, ";") + "\n"
         };
         let tables: String = self.module.tables.iter().map(table).collect();
         let mut functions: Vec<String> = self.module.functions.iter().map(|f| self.function(f) + "\n").collect();

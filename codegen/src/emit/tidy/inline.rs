@@ -1,7 +1,7 @@
 //! A value that is used once is written where it is used, while the line stays short.
 
 use super::columns::Columns;
-use super::dead;
+use super::{dead, simplify};
 use crate::emit::ast::{Block, Expr, Module, Op, Stmt, StmtKind, VarId};
 use crate::emit::text::WIDEST;
 use crate::ir::{Graph, Memory};
@@ -14,7 +14,7 @@ const MOST: usize = 16;
 pub fn inline(module: &mut Module<'_>, graph: &Graph) -> bool {
     let uses = dead::uses(module);
     let mut body = std::mem::take(&mut module.body);
-    let inliner = Inliner {
+    let mut inliner = Inliner {
         uses,
         columns: Columns { module, graph },
     };
@@ -40,7 +40,7 @@ struct Candidate {
 }
 
 impl Inliner<'_> {
-    fn block(&self, block: &mut Block<'_>, depth: usize) -> bool {
+    fn block(&mut self, block: &mut Block<'_>, depth: usize) -> bool {
         let mut inlined = false;
         let mut out: Vec<Option<Stmt<'_>>> = Vec::with_capacity(block.len());
         // The candidates, and when each mutable variable was last assigned.
@@ -53,9 +53,7 @@ impl Inliner<'_> {
             }
             let at = out.len();
             assignments(&stmt, &mut |var| _ = assigned.insert(var, at));
-            if let StmtKind::Let(var, value) = &stmt.kind
-                && self.uses[var.0 as usize] == 1
-            {
+            if let StmtKind::Let(var, value) = &stmt.kind {
                 let candidate = Candidate {
                     at,
                     columns: self.columns.of(value),
@@ -72,7 +70,7 @@ impl Inliner<'_> {
 
     /// Writes values of earlier statements into a statement, short ones first.
     fn absorb<'g>(
-        &self,
+        &mut self,
         stmt: &mut Stmt<'g>,
         out: &mut [Option<Stmt<'g>>],
         defined: &FxHashMap<VarId, Candidate>,
@@ -93,6 +91,7 @@ impl Inliner<'_> {
             for expr in stmt.own() {
                 expr.visit(&mut |expr| {
                     if let Op::Var(var) = expr.op
+                        && self.uses[var.0 as usize] == 1
                         && let Some(candidate) = defined.get(&var)
                         && let Some(Stmt {
                             kind: StmtKind::Let(_, value),
@@ -127,14 +126,32 @@ impl Inliner<'_> {
             if stmt.origin.is_none() && !matches!(stmt.kind, StmtKind::For { .. } | StmtKind::If { .. }) {
                 stmt.origin = origin;
             }
+            let mut reads = FxHashMap::default();
+            read(stmt.own().into_iter().chain([&value]), 1, &mut reads);
             let mut value = Some(value);
             for own in stmt.own_mut() {
+                // What has become shorter has room for more.
                 own.rewrite_in_place(&mut |expr| match expr.op {
                     Op::Var(found) if found == var => value.take().unwrap_or(expr),
-                    _ => expr,
+                    _ => simplify(expr),
                 });
             }
+            read(stmt.own().into_iter(), -1, &mut reads);
+            for (read, lost) in reads {
+                self.uses[read.0 as usize] -= lost as u32;
+            }
         }
+    }
+}
+
+/// Adds `weight` for each time that expressions read a variable.
+fn read<'e>(exprs: impl Iterator<Item = &'e Expr>, weight: i32, reads: &mut FxHashMap<VarId, i32>) {
+    for expr in exprs {
+        expr.visit(&mut |expr| {
+            if let Op::Var(var) = expr.op {
+                *reads.entry(var).or_default() += weight;
+            }
+        });
     }
 }
 
