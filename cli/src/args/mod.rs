@@ -21,7 +21,7 @@ pub use capture::{CaptureArgs, CompareArgs, ResolveArgs, ViewArgs};
 pub use check::{CheckArgs, MessageFormat};
 pub use kernel::{KernelArgs, OptionArgs};
 pub use run::{Executor, GivenArgs, RunArgs, WatchArgs};
-pub use study::{CommonArgs, ErrorArgs, HardArgs, IsaArgs, LoopsArgs, Study, StudyArgs};
+pub use study::{CommonArgs, ErrorArgs, FilmArgs, HardArgs, IsaArgs, LoopsArgs, Study, StudyArgs};
 pub use sweep::{MergeArgs, RecordsArgs, SweepArgs};
 pub use tune::TuneArgs;
 

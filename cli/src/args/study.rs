@@ -2,7 +2,7 @@
 
 use super::{AdapterArgs, MergeArgs, RecordsArgs, SweepArgs, size};
 use clap::{Args, Subcommand};
-use glam::UVec2;
+use glam::{UVec2, Vec2};
 use std::path::PathBuf;
 use straightline_codegen::Precision;
 use straightline_isa::Family;
@@ -56,6 +56,8 @@ pub enum Study {
     Loops(LoopsArgs),
     /// Compare methods of antialiasing on all scenes: time, and error against 256 samples a pixel
     Error(ErrorArgs),
+    /// Film a slow pan by several methods side by side, and tell how wrong what changes from frame to frame is
+    Film(FilmArgs),
     /// Run numerically hard cases in every precision, by shader and interpreter
     Hard(HardArgs),
     /// Ask GPU compilers what they make of each kernel, without a GPU
@@ -112,6 +114,37 @@ pub struct ErrorArgs {
     /// A capture with reference.exr (docs/captures.md); may be given several times. Its size is its own
     #[arg(long, value_name = "DIR")]
     pub capture: Vec<PathBuf>,
+}
+
+#[derive(Clone, Debug, Args)]
+pub struct FilmArgs {
+    /// A method to film, by its name in `study error` or as its --method has one of your own; may be given several times, from
+    /// left to right. By default 1x, MLAA and SRAA 4. A reference of 64 samples a pixel is beside them
+    #[arg(long = "method", value_name = "NAME[=KERNEL[,OPTION=VALUE]...]")]
+    pub methods: Vec<String>,
+    /// A built-in scene (see `scenes`)
+    #[arg(long, value_name = "NAME", default_value = "roof", conflicts_with = "mesh")]
+    pub scene: String,
+    /// A model instead: .gltf, .glb or .obj
+    #[arg(long, value_name = "FILE")]
+    pub mesh: Option<PathBuf>,
+    /// How many frames
+    #[arg(long, value_name = "N", default_value_t = 32, value_parser = clap::value_parser!(u32).range(2..=1000))]
+    pub frames: u32,
+    /// Pixels that the picture moves from a frame to the next, to the right and down
+    #[arg(long, value_name = "X,Y", default_value = "0.125,0.0625", value_parser = step, allow_hyphen_values = true)]
+    pub step: Vec2,
+}
+
+/// Two finite numbers of pixels, each at most 64.
+fn step(text: &str) -> Result<Vec2, String> {
+    let parsed = text
+        .split_once(',')
+        .and_then(|(x, y)| Some(Vec2::new(x.trim().parse().ok()?, y.trim().parse().ok()?)));
+    match parsed {
+        Some(step) if step.abs().max_element() <= 64.0 => Ok(step),
+        _ => Err("two numbers from -64 to 64 are needed, as in 0.125,0.0625".to_owned()),
+    }
 }
 
 #[derive(Clone, Debug, Default, Args)]

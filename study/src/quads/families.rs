@@ -91,6 +91,10 @@ pub const FAMILIES: &[Family] = &[
             ("bilinear", &[("method", "bilinear"), ("weights", "quadratic")]),
             ("quad", &[("weights", "quadratic")]),
             ("quad, gradient", &[("weights", "quadratic"), ("gradient", "prewitt")]),
+            (
+                "quad, mirrored simply",
+                &[("weights", "quadratic"), ("mirroring", "simple")],
+            ),
             ("gather", &[("method", "gather"), ("weights", "quadratic")]),
         ],
         from: Source::Triangles,

@@ -7,6 +7,7 @@
 mod bounds;
 mod classes;
 mod error;
+mod film;
 mod filters;
 mod losses;
 mod methods;
@@ -34,6 +35,7 @@ use straightline_testbed::scene::Scene;
 
 pub use classes::STEP;
 pub use error::QualityError;
+pub use film::{Film, REFERENCE, Shooting, film};
 pub use losses::losses;
 pub use methods::{Kind, Method, OwnError, methods, methods_of};
 pub use surfaces::{Point, Surfaces};

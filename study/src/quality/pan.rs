@@ -11,7 +11,7 @@ use straightline_testbed::picture;
 use straightline_testbed::render::Renderer;
 
 /// Pixels from frame to frame.
-const STEP: Vec2 = vec2(0.125, 0.0625);
+pub const STEP: Vec2 = vec2(0.125, 0.0625);
 
 /// Side of the grid of shading samples of each frame's reference: 64x.
 pub const SIDE: u32 = 8;
@@ -29,11 +29,8 @@ pub fn pan(
     let mut sums = vec![0.0; methods.len()];
     let mut before: Option<Vec<Option<Frame<Vec4>>>> = None;
     for frame in 0..frames {
-        let by = STEP * frame as f32;
-        let moved = Shifted { renderer, by };
-        let shot = Shot::draw(&moved, &panned, watch)?;
+        let (shot, reference) = moved(renderer, &panned, STEP * frame as f32, watch)?;
         // What is wrong in this frame: what changes in that is what changes wrongly.
-        let reference = picture::at_eight_bits(&supersampled(renderer, SIDE, by, watch)?);
         let mut wrong = Vec::new();
         for (k, method) in methods.iter().enumerate() {
             wrong.push(match method.panned {
@@ -54,7 +51,20 @@ pub fn pan(
     Ok(methods.iter().zip(sums).map(error).collect())
 }
 
-fn apart(picture: &Frame<Vec4>, reference: &Frame<Vec4>) -> Frame<Vec4> {
+/// What methods need of a frame that is moved by some pixels, and the reference of it, at 8 bits.
+pub(super) fn moved(
+    renderer: &dyn Renderer,
+    methods: &[&Method],
+    by: Vec2,
+    watch: &mut dyn Watch,
+) -> Result<(Shot, Frame<Vec4>), QualityError> {
+    let shot = Shot::draw(&Shifted { renderer, by }, methods, watch)?;
+    let reference = supersampled(renderer, SIDE, by, watch)?;
+    Ok((shot, picture::at_eight_bits(&reference)))
+}
+
+/// What is wrong in a picture.
+pub(super) fn apart(picture: &Frame<Vec4>, reference: &Frame<Vec4>) -> Frame<Vec4> {
     let shown = |color: &Vec4| color.truncate().clamp(Vec3::ZERO, Vec3::ONE);
     let pairs = picture.texels().iter().zip(reference.texels());
     let texels = pairs.map(|(a, b)| match a.truncate().is_finite() {
@@ -66,7 +76,7 @@ fn apart(picture: &Frame<Vec4>, reference: &Frame<Vec4>) -> Frame<Vec4> {
 }
 
 /// Over red, green and blue.
-fn mean_square(a: &Frame<Vec4>, b: &Frame<Vec4>) -> f64 {
+pub(super) fn mean_square(a: &Frame<Vec4>, b: &Frame<Vec4>) -> f64 {
     let pairs = a.texels().iter().zip(b.texels());
     let sum: f64 = pairs.map(|(a, b)| (*a - *b).as_dvec4().length_squared()).sum();
     sum / (3 * a.texels().len()) as f64

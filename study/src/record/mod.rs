@@ -1,5 +1,6 @@
 //! What a study found, as files: JSON with its circumstances, CSV beside it. `README.md` and the report cite these.
 
+mod film;
 mod hard;
 mod isa;
 mod loops;
@@ -17,6 +18,7 @@ use std::path::{Path, PathBuf};
 use straightline_codegen::files;
 use straightline_testbed::execute::Clock;
 
+pub use film::{FilmRecord, FilmedMethod};
 pub use hard::{Executor, HalfVerdict, HardCase, HardRecord, HardResult};
 pub use isa::{Asked, IsaForm, IsaRecord, SpirvPath};
 pub use loops::{Form, FormKind, KernelForms, LoopsRecord};

@@ -3,6 +3,7 @@
 //! A picture is a `Frame<Vec4>` of linear RGB and alpha. [`write()`] chooses the format by the file's extension:
 //! PNG for looking at (8 bits, sRGB) or EXR for measuring (32-bit floats, linear).
 
+mod animation;
 mod error;
 pub(crate) mod exr;
 pub(crate) mod layout;
@@ -15,6 +16,7 @@ use std::path::Path;
 use straightline_codegen::files;
 use straightline_kernels::prelude::Frame;
 
+pub use animation::animation;
 pub use error::PictureError;
 pub use layout::{detail, montage};
 pub use lut::{read_cube, strip};

@@ -64,7 +64,7 @@ fn image(path: &Path) -> Result<(UVec2, DynamicImage), PictureError> {
 }
 
 /// Clamped, with 0 for what is not a number. Alpha is linear.
-fn to_srgb8(texel: Vec4) -> [u8; 4] {
+pub(super) fn to_srgb8(texel: Vec4) -> [u8; 4] {
     // A cast from float to integer saturates, and takes NaN to 0.
     let byte = |value: f32| (value * 255.0).round() as u8;
     let color = |light: f32| byte(srgb::encode(light.clamp(0.0, 1.0)));

@@ -1,7 +1,7 @@
 //! Shadow maps, filtered in a forward pass.
 
 use super::*;
-use straightline_kernels::quad::pcf::{Gradient, Method, Pcf, ShadowWeights, Tap, Width, join, pcf};
+use straightline_kernels::quad::pcf::{Gradient, Method, Mirroring, Pcf, ShadowWeights, Tap, Width, join, pcf};
 use straightline_kernels::quad::pcss::{Pcss, SearchSharing, pcss};
 use straightline_testbed::execute::{Corner, Forward};
 use straightline_tests::quads::{self, Shadow};
@@ -69,6 +69,7 @@ struct Case {
     weights: ShadowWeights,
     gradient: Gradient,
     spread: f32,
+    mirroring: Mirroring,
     options: Vec<(String, String)>,
 }
 
@@ -104,6 +105,7 @@ fn cases() -> Vec<Case> {
             weights: weights.0,
             gradient,
             spread,
+            mirroring: Mirroring::Local,
             options,
         });
     };
@@ -123,6 +125,14 @@ fn cases() -> Vec<Case> {
     for weights in WEIGHTS {
         add(Method::Gather, Width::Eight, weights, Gradient::None, 1.0);
     }
+    let of_eight = |case: &&Case| case.method == Method::Quad && case.width == Width::Eight;
+    let simple = |case: &Case| Case {
+        mirroring: Mirroring::Simple,
+        options: [&case.options[..], &[("mirroring".to_owned(), "simple".to_owned())]].concat(),
+        ..*case
+    };
+    let mirrored: Vec<Case> = cases.iter().filter(of_eight).map(simple).collect();
+    cases.extend(mirrored);
     cases
 }
 
@@ -230,6 +240,7 @@ fn every_filter_is_its_definition() {
                 weights: case.weights,
                 gradient: case.gradient,
                 spread: case.spread,
+                mirroring: case.mirroring,
             };
             let sampler = ComparisonSampler::default();
             let found = native(size, |pixel| pcf(&cfg, &texture, &sampler, coords.load(pixel)));

@@ -58,10 +58,7 @@ fn own(args: &ErrorArgs) -> Result<Vec<Method>, Failure> {
     let mut stems: BTreeSet<String> = quality::methods(false).iter().map(Method::stem).collect();
     let mut own = Vec::new();
     for text in &args.methods {
-        let method = Method::own(text).map_err(|error| match error {
-            OwnError::Kernel(errors) => Failure::Kernel(errors),
-            other => Failure::Usage(other.to_string()),
-        })?;
+        let method = method(text)?;
         if !stems.insert(method.stem()) {
             return Err(Failure::Usage(format!(
                 "there is a method `{}` already: give yours another name",
@@ -73,8 +70,16 @@ fn own(args: &ErrorArgs) -> Result<Vec<Method>, Failure> {
     Ok(own)
 }
 
+/// A method of the user's.
+pub fn method(text: &str) -> Result<Method, Failure> {
+    Method::own(text).map_err(|error| match error {
+        OwnError::Kernel(errors) => Failure::Kernel(errors),
+        other => Failure::Usage(other.to_string()),
+    })
+}
+
 /// What a kernel gets wrong is shown with its place.
-fn failure(error: QualityError) -> Failure {
+pub fn failure(error: QualityError) -> Failure {
     match error {
         QualityError::Kernel(errors) => Failure::Kernel(errors),
         other => Failure::of(other),

@@ -1,6 +1,7 @@
 //! `study`: unroll against loop, speed against error, hard cases, sweeps; records, and one page of them all.
 
 mod error;
+mod film;
 mod hard;
 pub mod isa;
 mod loops;
@@ -37,6 +38,7 @@ pub fn run(args: &StudyArgs) -> Result<(), Failure> {
     match &args.study {
         Some(Study::Loops(loops)) => loops::run(common, loops, &mut progress)?,
         Some(Study::Error(error)) => error::run(common, error, &mut progress)?,
+        Some(Study::Film(film)) => return film::run(common, film, &mut progress),
         Some(Study::Hard(args)) if args.list => return hard::list(args),
         Some(Study::Hard(args)) => hard::run(common, args, &mut progress)?,
         Some(Study::Isa(args)) => isa::run(common, args, &mut progress)?,

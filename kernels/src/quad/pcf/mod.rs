@@ -21,7 +21,18 @@ options! {
         /// Distance between comparisons over that of a dense filter: more than 1 covers a wider footprint sparsely, for
         /// shadow maps that are seen from afar. Of `quad` alone.
         pub spread: f32 [1.0..=64.0] = 1.0,
+        /// Where the comparisons of a lane lie; of `quad` and eight texels alone.
+        pub mirroring: Mirroring = Mirroring::Local,
     }
+}
+
+/// Where the four comparisons of a lane lie in the shadow map (figure 2.6).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mirroring {
+    /// Beside those of the other lanes: what the quad reads at once lies in 4×4 texels, which is kind to caches.
+    Local,
+    /// All in the lane's own quarter: simpler, and what the quad reads at once lies up to 8 texels apart.
+    Simple,
 }
 
 /// Who takes which comparisons.
@@ -75,6 +86,12 @@ pub fn pcf(cfg: &Pcf, shadow: &DepthTexture, shadow_sampler: &ComparisonSampler,
         assert!(
             cfg.spread == 1.0,
             "spread is of method=quad alone: the other methods compare every texel of the width"
+        );
+    }
+    if cfg.method != Method::Quad || cfg.width != Width::Eight {
+        assert!(
+            cfg.mirroring == Mirroring::Local,
+            "mirroring=simple is of method=quad and width=eight alone: elsewhere no lane takes several comparisons of a quad's"
         );
     }
     if cfg.method == Method::Gather {
@@ -183,8 +200,7 @@ pub struct Tap {
     pub weight: Quad<f32>,
 }
 
-/// Each lane takes its quarter of the comparisons around `centre`. Lanes lie side by side in the shadow map too (local
-/// mirroring), which is kind to caches.
+/// Each lane takes its quarter of the comparisons around `centre`.
 fn compare(cfg: &Pcf, shadow: &DepthTexture, shadow_sampler: &ComparisonSampler, centre: Quad<Vec3>) -> [Tap; 4] {
     let size = shadow.size().as_vec2();
     let a = fraction(shadow, centre);
@@ -195,18 +211,26 @@ fn compare(cfg: &Pcf, shadow: &DepthTexture, shadow_sampler: &ComparisonSampler,
         weight: Quad::splat(0.0),
     }; 4];
     for k in 0..cfg.width.taps() {
-        let (i, j) = (cfg.width.away(k % 2), cfg.width.away(k / 2));
         // The same two columns and two rows for all four.
-        let (column, row) = (pair(cfg, quad_vector() + i - a), pair(cfg, quad_vector() + j - a));
+        let (i, j) = (first_texel(cfg, k % 2), first_texel(cfg, k / 2));
+        let (column, row) = (pair(cfg, i - a), pair(cfg, j - a));
         let place = Quad::from_xy(column.place.x(), row.place.y()) * cfg.spread;
         taps[k] = Tap {
             lit: shadow.compare(shadow_sampler, centre.truncate() + place / size, centre.z()),
             place,
-            middle: (quad_vector() + vec2(i, j)) * cfg.spread,
+            middle: Quad::from_xy(i.x(), j.y()) * cfg.spread,
             weight: column.weight.x() * row.weight.y(),
         };
     }
     taps
+}
+
+/// Column, or row, `k` of a lane's comparisons: where its first texel lies from the middle of all.
+fn first_texel(cfg: &Pcf, k: usize) -> Quad<Vec2> {
+    match cfg.mirroring {
+        Mirroring::Local => quad_vector() + cfg.width.away(k),
+        Mirroring::Simple => quad_vector() * (2 * k + 1) as f32,
+    }
 }
 
 /// One value from all lanes' comparisons, and for each pixel what the slope adds. `fraction` is that of the quad's mean

@@ -1,0 +1,148 @@
+//! `study film`: frames of a pan, methods side by side.
+
+use super::error::{failure, method};
+use super::{Progress, circumstances_of};
+use crate::args::{CommonArgs, FilmArgs};
+use crate::failure::Failure;
+use crate::gpu::Gpu;
+use crate::table;
+use glam::UVec2;
+use std::collections::BTreeSet;
+use std::path::Path;
+use straightline_codegen::files;
+use straightline_study::quality::{self, Film, Method, REFERENCE, Shooting};
+use straightline_study::record::{FilmRecord, FilmedMethod, Record};
+use straightline_testbed::picture;
+use straightline_testbed::scene::{self, Scene};
+
+/// What is filmed unless something else is asked for.
+const USUAL: [&str; 3] = ["1x", "MLAA", "SRAA 4"];
+
+/// Width and height of each method's picture unless another is asked for.
+const SIZE: UVec2 = UVec2::new(480, 270);
+
+/// Most pixels of a film, whose frames are all kept until it is written.
+const MOST_PIXELS: u64 = 1 << 27;
+
+/// Milliseconds that a frame is shown.
+const SHOWN: u16 = 50;
+
+/// Films, and writes frames, animation and record.
+pub fn run(common: &CommonArgs, args: &FilmArgs, progress: &mut Progress) -> Result<(), Failure> {
+    let methods = methods(args)?;
+    let (name, scene) = match &args.mesh {
+        Some(path) => (path.display().to_string(), scene::load(path).map_err(Failure::of)?),
+        None => {
+            let scene = Scene::named(&args.scene).map_err(|error| Failure::Usage(error.to_string()))?;
+            (args.scene.clone(), scene)
+        }
+    };
+    let shooting = Shooting {
+        size: common.size.unwrap_or(SIZE),
+        frames: args.frames,
+        step: args.step,
+    };
+    let each = u64::from(shooting.size.x) * u64::from(shooting.size.y) * (methods.len() as u64 + 1);
+    if each * u64::from(shooting.frames) > MOST_PIXELS {
+        return Err(Failure::Usage(format!(
+            "{} frames of {} pictures of {}x{} pixels are too many to keep: ask for fewer frames, fewer methods or a smaller --size",
+            shooting.frames,
+            methods.len() + 1,
+            shooting.size.x,
+            shooting.size.y
+        )));
+    }
+    let gpu = Gpu::require(&common.adapter)?;
+    let film = quality::film(&gpu.bench(), &scene, &methods, &shooting, progress).map_err(failure)?;
+    let record = FilmRecord {
+        circumstances: circumstances_of(&gpu, shooting.size, 0),
+        scene: name,
+        step: shooting.step.to_array(),
+        methods: filmed(methods, &film),
+    };
+    let mut set = record.files(FilmRecord::STEM).map_err(Failure::of)?;
+    set.insert(
+        "film.png".to_owned(),
+        picture::animation(&film.frames, SHOWN).map_err(Failure::of)?,
+    );
+    for (k, frame) in film.frames.iter().enumerate() {
+        set.insert(
+            format!("frames/{k:04}.png"),
+            picture::png_bytes(frame).map_err(Failure::of)?,
+        );
+    }
+    files::write_all(&common.out, &set).map_err(Failure::of)?;
+    print(&record, &common.out);
+    Ok(())
+}
+
+/// Those asked for, by the names of `study error` or of the user's own.
+fn methods(args: &FilmArgs) -> Result<Vec<Method>, Failure> {
+    let known = quality::methods(false);
+    let texts: Vec<&str> = match args.methods.is_empty() {
+        true => USUAL.to_vec(),
+        false => args.methods.iter().map(String::as_str).collect(),
+    };
+    let mut stems = BTreeSet::new();
+    let mut methods = Vec::new();
+    for text in texts {
+        let found = known.iter().find(|method| method.name == text);
+        let method = match (found, text.contains('=')) {
+            (Some(known), _) => known.clone(),
+            (None, true) => method(text)?,
+            (None, false) => {
+                let names: Vec<&str> = known.iter().map(|method| method.name.as_str()).collect();
+                return Err(Failure::Usage(format!(
+                    "there is no method `{text}`; there are: {}; one of your own is NAME=KERNEL[,OPTION=VALUE]...",
+                    names.join("; ")
+                )));
+            }
+        };
+        if !stems.insert(method.stem()) {
+            return Err(Failure::Usage(format!("the method `{}` is given twice", method.name)));
+        }
+        methods.push(method);
+    }
+    Ok(methods)
+}
+
+fn filmed(methods: Vec<Method>, film: &Film) -> Vec<FilmedMethod> {
+    let filmed = methods.into_iter().zip(&film.errors);
+    filmed
+        .map(|(method, errors)| FilmedMethod {
+            method: method.name,
+            options: method.options,
+            errors: errors.clone(),
+        })
+        .collect()
+}
+
+fn print(record: &FilmRecord, out: &Path) {
+    let rows: Vec<Vec<String>> = record.methods.iter().map(row).collect();
+    outln!(
+        "{}",
+        table::render(&["method", "error of what changes", "least", "most"], &rows)
+    );
+    let names: Vec<&str> = record.methods.iter().map(|method| method.method.as_str()).collect();
+    outln!(
+        "{} frames of {}, {} by {} pixels apart; from left to right {} and {REFERENCE}, the reference. The root of the mean \
+         squared error of what changes from a frame to the next, in colours of 0 to 1 at 8 bits.",
+        record.methods.first().map_or(0, |method| method.errors.len() + 1),
+        record.scene,
+        record.step[0],
+        record.step[1],
+        names.join(", ")
+    );
+    outln!(
+        "film.png (animated), frames, film.json and film.csv are in {}.",
+        out.display()
+    );
+}
+
+fn row(method: &FilmedMethod) -> Vec<String> {
+    let least = method.errors.iter().copied().fold(f64::INFINITY, f64::min);
+    let most = method.errors.iter().copied().fold(0.0, f64::max);
+    let mut row = vec![method.method.clone()];
+    row.extend([method.error(), least, most].map(|error| format!("{error:.4}")));
+    row
+}

@@ -1,0 +1,77 @@
+//! Frames of a slow pan, methods side by side, and how wrong what changes from each to the next is: the comparison of the SRAA
+//! paper's web page.
+
+use super::filters::Filters;
+use super::pan::{self, apart, mean_square, moved};
+use super::{Method, QualityError};
+use crate::watch::Watch;
+use glam::{UVec2, Vec2, Vec4};
+use straightline_kernels::prelude::Frame;
+use straightline_testbed::execute::Bench;
+use straightline_testbed::picture;
+use straightline_testbed::render::GpuRenderer;
+use straightline_testbed::scene::Scene;
+
+/// How it is filmed.
+#[derive(Clone, Debug)]
+pub struct Shooting {
+    /// Width and height of each method's picture, in pixels.
+    pub size: UVec2,
+    /// How many frames, 2 or more.
+    pub frames: u32,
+    /// Pixels that the picture moves from a frame to the next, y down.
+    pub step: Vec2,
+}
+
+/// What was filmed.
+#[derive(Clone, Debug)]
+pub struct Film {
+    /// Each frame: the methods' pictures side by side, then the reference of 64 samples a pixel, at 8 bits of sRGB.
+    pub frames: Vec<Frame<Vec4>>,
+    /// For each method, and each frame after the first: the root of the mean squared error of what changed since the last, as
+    /// [`Plan::pan_frames`](super::Plan::pan_frames) averages it.
+    pub errors: Vec<Vec<f64>>,
+}
+
+/// Films a scene.
+///
+/// # Errors
+///
+/// [`QualityError`], if something cannot be drawn or run, or the watch says stop.
+pub fn film(
+    bench: &Bench,
+    scene: &Scene,
+    methods: &[Method],
+    shooting: &Shooting,
+    watch: &mut dyn Watch,
+) -> Result<Film, QualityError> {
+    let steps = methods.len() + shooting.frames as usize * (pan::SIDE as usize + 1);
+    watch.begin("film", steps);
+    let renderer = GpuRenderer::new(bench.device(), bench.queue(), scene, shooting.size)?;
+    let mut filters = Filters::new(bench, methods, shooting.size, watch)?;
+    let listed: Vec<&Method> = methods.iter().collect();
+    let mut film = Film {
+        frames: Vec::new(),
+        errors: vec![Vec::new(); methods.len()],
+    };
+    let mut before: Vec<Frame<Vec4>> = Vec::new();
+    for frame in 0..shooting.frames {
+        let (shot, reference) = moved(&renderer, &listed, shooting.step * frame as f32, watch)?;
+        let shown = (0..methods.len()).map(|k| Ok(picture::at_eight_bits(&filters.run(k, &shot)?)));
+        let shown: Vec<Frame<Vec4>> = shown.collect::<Result<_, QualityError>>()?;
+        let wrong: Vec<Frame<Vec4>> = shown.iter().map(|picture| apart(picture, &reference)).collect();
+        for (errors, (now, before)) in film.errors.iter_mut().zip(wrong.iter().zip(&before)) {
+            errors.push(mean_square(now, before).sqrt());
+        }
+        before = wrong;
+        let mut columns: Vec<(&str, &Frame<Vec4>)> = Vec::new();
+        columns.extend(methods.iter().map(|method| method.name.as_str()).zip(&shown));
+        columns.push((REFERENCE, &reference));
+        film.frames.push(picture::montage(&columns));
+        watch.step();
+    }
+    Ok(film)
+}
+
+/// What the reference is called.
+pub const REFERENCE: &str = "64x";
