@@ -4,7 +4,7 @@
 // weights = quadratic
 // gradient = prewitt
 // Stage fragment, unroll full, messages by fine derivatives, output rgba16float.
-// Per pixel: 1 basic block, 57 statements, 4 reads, 0 transcendental calls, 6 messages.
+// Per pixel: 1 basic block, 55 statements, 4 reads, 0 transcendental calls, 6 messages.
 // GLSL names a texture together with a sampler even where it filters nothing: any sampler will do.
 
 layout(set = 0, binding = 0) uniform texture2D shadow;
@@ -15,7 +15,7 @@ layout(set = 0, binding = 2) uniform sampler unfiltered;
 
 void main() {
     ivec2 pixel = ivec2(floor(gl_FragCoord.xy));
-    // k 0: kernels/src/quad/pcf/mod.rs:200
+    // k 0: column (kernels/src/quad/pcf/mod.rs:231)
     vec2 product = vec2(pixel & ivec2(1)) * 2.0;
     vec2 towards = 1.0 - product;
     vec3 row = coord + (coord + towards.x * dFdxFine(coord));
@@ -23,8 +23,8 @@ void main() {
     vec2 size = vec2(textureSize(sampler2D(shadow, unfiltered), 0));
     vec2 a = fract(centre.xy * size - 0.5);
     vec2 quad_vector = product - 1.0;
-    vec2 taps_middle_k0 = quad_vector - 2.0;
-    vec2 first_k0 = taps_middle_k0 - a;
+    vec2 i = quad_vector - 2.0;
+    vec2 first_k0 = i - a;
     vec2 x = abs(first_k0) * 0.375;
     vec2 outer = max(1.5 - x, vec2(0.0));
     vec2 inner = max(0.5 - x, vec2(0.0));
@@ -39,8 +39,8 @@ void main() {
         sampler2DShadow(shadow, shadow_sampler), vec3(sum, centre.z), 0.0
     );
     float taps_weight_k0 = weight.x * weight.y;
-    vec2 taps_middle_k3 = quad_vector + 2.0;
-    vec2 first_k1 = taps_middle_k3 - a;
+    vec2 i_2 = quad_vector + 2.0;
+    vec2 first_k1 = i_2 - a;
     vec2 x_3 = abs(first_k1) * 0.375;
     vec2 outer_3 = max(1.5 - x_3, vec2(0.0));
     vec2 inner_3 = max(0.5 - x_3, vec2(0.0));
@@ -76,10 +76,8 @@ void main() {
     vec4 sums_k3 = 0.0 + vector + vector_2 + vector_3 + vector_4;
     vec4 row_2 = sums_k3 + (sums_k3 + towards.x * dFdxFine(sums_k3));
     vec4 sums = row_2 + (row_2 + towards.y * dFdyFine(row_2));
-    vec2 product_2 = (quad_vector + vec2(2.0, -2.0)) * taps_lit_k1;
-    vec2 product_3 = (quad_vector + vec2(-2.0, 2.0)) * taps_lit_k2;
-    vec2 moment_k2 = 0.0 + taps_middle_k0 * taps_lit_k0 + product_2 + product_3;
-    vec2 moment_k3 = moment_k2 + taps_middle_k3 * taps_lit_k3;
+    vec2 moment_k1 = 0.0 + i * taps_lit_k0 + vec2(i_2.x, i.y) * taps_lit_k1;
+    vec2 moment_k3 = moment_k1 + vec2(i.x, i_2.y) * taps_lit_k2 + i_2 * taps_lit_k3;
     vec2 row_3 = moment_k3 + (moment_k3 + towards.x * dFdxFine(moment_k3));
     vec2 difference = (coord.xy - centre.xy) * size - sums.xy / sums.z;
     float dotted = dot((row_3 + (row_3 + towards.y * dFdyFine(row_3))) / 80.0, difference);

@@ -3,7 +3,7 @@
 // weights = quadratic
 // gradient = prewitt
 // Stage fragment, unroll full, messages by fine derivatives, output rgba16float.
-// Per pixel: 1 basic block, 57 statements, 4 reads, 0 transcendental calls, 6 messages.
+// Per pixel: 1 basic block, 55 statements, 4 reads, 0 transcendental calls, 6 messages.
 
 Texture2D<float> shadow : register(t0);
 SamplerComparisonState shadow_sampler : register(s1);
@@ -16,7 +16,7 @@ int2 size_of_shadow() {
 
 float4 pcf(float4 position : SV_Position, float3 coord : TEXCOORD0) : SV_Target0 {
     int2 pixel = int2(floor(position.xy));
-    // k 0: kernels/src/quad/pcf/mod.rs:200
+    // k 0: column (kernels/src/quad/pcf/mod.rs:231)
     float2 product = float2(pixel & int2(1, 1)) * 2.0;
     float2 towards = 1.0 - product;
     float3 row = coord + (coord + towards.x * ddx_fine(coord));
@@ -24,8 +24,8 @@ float4 pcf(float4 position : SV_Position, float3 coord : TEXCOORD0) : SV_Target0
     float2 size = float2(size_of_shadow());
     float2 a = frac(centre.xy * size - 0.5);
     float2 quad_vector = product - 1.0;
-    float2 taps_middle_k0 = quad_vector - 2.0;
-    float2 first_k0 = taps_middle_k0 - a;
+    float2 i = quad_vector - 2.0;
+    float2 first_k0 = i - a;
     float2 x = abs(first_k0) * 0.375;
     float2 outer = max(1.5 - x, float2(0.0, 0.0));
     float2 inner = max(0.5 - x, float2(0.0, 0.0));
@@ -38,8 +38,8 @@ float4 pcf(float4 position : SV_Position, float3 coord : TEXCOORD0) : SV_Target0
     float2 sum = centre.xy + column_place / size;
     float taps_lit_k0 = shadow.SampleCmpLevelZero(shadow_sampler, sum, centre.z);
     float taps_weight_k0 = weight.x * weight.y;
-    float2 taps_middle_k3 = quad_vector + 2.0;
-    float2 first_k1 = taps_middle_k3 - a;
+    float2 i_2 = quad_vector + 2.0;
+    float2 first_k1 = i_2 - a;
     float2 x_3 = abs(first_k1) * 0.375;
     float2 outer_3 = max(1.5 - x_3, float2(0.0, 0.0));
     float2 inner_3 = max(0.5 - x_3, float2(0.0, 0.0));
@@ -75,10 +75,8 @@ float4 pcf(float4 position : SV_Position, float3 coord : TEXCOORD0) : SV_Target0
     float4 sums_k3 = 0.0 + vector_value + vector_2 + vector_3 + vector_4;
     float4 row_2 = sums_k3 + (sums_k3 + towards.x * ddx_fine(sums_k3));
     float4 sums = row_2 + (row_2 + towards.y * ddy_fine(row_2));
-    float2 product_2 = (quad_vector + float2(2.0, -2.0)) * taps_lit_k1;
-    float2 product_3 = (quad_vector + float2(-2.0, 2.0)) * taps_lit_k2;
-    float2 moment_k2 = 0.0 + taps_middle_k0 * taps_lit_k0 + product_2 + product_3;
-    float2 moment_k3 = moment_k2 + taps_middle_k3 * taps_lit_k3;
+    float2 moment_k1 = 0.0 + i * taps_lit_k0 + float2(i_2.x, i.y) * taps_lit_k1;
+    float2 moment_k3 = moment_k1 + float2(i.x, i_2.y) * taps_lit_k2 + i_2 * taps_lit_k3;
     float2 row_3 = moment_k3 + (moment_k3 + towards.x * ddx_fine(moment_k3));
     float2 difference = (coord.xy - centre.xy) * size - sums.xy / sums.z;
     float dotted = dot((row_3 + (row_3 + towards.y * ddy_fine(row_3))) / 80.0, difference);

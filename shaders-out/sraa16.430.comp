@@ -52,7 +52,7 @@ void main() {
     float number_s0_t8 = (apart_s0_t8 < 16.0 ? apart_s0_t8 : 16.0);
     float d_s0_t8 = min(max(abs(seen_depth_s0 - shaded_depth_t8), number_s0_t8), 16.0);
     float nearest_s0_t8 = min(min(min(d_s0_t4, d_s0_t5), d_s0_t7), d_s0_t8);
-    // sample 0, tap 4: the mean of the geometry samples (kernels/src/sraa/mod.rs:146)
+    // sample 0, tap 4: the mean of the geometry samples (kernels/src/sraa/mod.rs:149)
     float w_s0_t4 = exp2(721.34753 * (nearest_s0_t8 - d_s0_t4) - 0.284038);
     float w_s0_t5 = exp2(721.34753 * (nearest_s0_t8 - d_s0_t5) - 3.5570564);
     float w_s0_t7 = exp2(721.34753 * (nearest_s0_t8 - d_s0_t7) - 3.5570564);
@@ -84,7 +84,7 @@ void main() {
     float apart_s1_t3 = 1.0 - n_s1.x * n_t3.x - n_s1.y * n_t3.y - n_s1.z * n_t3.z;
     float number_s1_t3 = (apart_s1_t3 < 16.0 ? apart_s1_t3 : 16.0);
     float d_s1_t3 = min(max(abs(seen_depth_s1 - shaded_depth_t3), number_s1_t3), 16.0);
-    // sample 1, tap 4: kernels/src/sraa/metric.rs:78
+    // sample 1, tap 4: kernels/src/sraa/metric.rs:101
     float apart_s1_t4 = 1.0 - n_s1.x * n_t4.x - n_s1.y * n_t4.y - n_s1.z * n_t4.z;
     float number_s1_t4 = (apart_s1_t4 < 16.0 ? apart_s1_t4 : 16.0);
     float d_s1_t4 = min(max(abs(seen_depth_s1 - shaded_depth_t4), number_s1_t4), 16.0);
@@ -433,7 +433,7 @@ void main() {
     float w_s15_t3 = exp2(721.34753 * (nearest_s15_t4 - d_s15_t3) - 2.2120974);
     float w_s15_t4 = exp2(721.34753 * (nearest_s15_t4 - d_s15_t4) - 1.6646097);
     float scale_s15 = 0.0625 / (w_s15_t0 + w_s15_t1 + w_s15_t3 + w_s15_t4);
-    // tap 0: the mean of the taps' colours that may count (kernels/src/sraa/mod.rs:197)
+    // tap 0: the mean of the taps' colours that may count (kernels/src/sraa/mod.rs:200)
     vec4 shaded_t0 = texelFetch(color, at_t0, 0);
     bool kept_t0 = all(
         lessThan(floatBitsToUint(shaded_t0) & uvec4(0x7fffffffu), uvec4(0x7f800000u))

@@ -287,7 +287,9 @@ fn componentwise(module: &mut Module<'_>, function: Op, ty: Ty) -> Op {
     if module.functions.iter().filter(same).any(|f| f.result == ty) {
         return function;
     }
-    let Some(scalar) = module.functions.iter().find(same).cloned() else {
+    // Of signed and unsigned numbers there are functions of one name.
+    let of_scalars = |f: &&Function<'_>| f.result.shape == ty.element_of();
+    let Some(scalar) = module.functions.iter().filter(same).find(of_scalars).cloned() else {
         return function;
     };
     module.function(name, ty, |module| {
