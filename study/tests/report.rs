@@ -78,6 +78,7 @@ fn quality(pictures: bool) -> QualityRecord {
         psnr_geometry: Some(psnr - 6.0),
         psnr_shading: None,
         psnr_flat: Some(MOST_DB),
+        worst: None,
         gap_closed: Some(0.5),
         temporal: Some(0.01),
         time: ms.map(times),

@@ -19,6 +19,8 @@ mod forward;
 mod messages;
 #[path = "quad/refused.rs"]
 mod refused;
+#[path = "quad/scatter.rs"]
+mod scatter;
 #[path = "quad/shadows.rs"]
 mod shadows;
 

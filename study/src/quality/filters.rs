@@ -34,6 +34,8 @@ enum Runner {
     Smaa(Box<Smaa>),
     /// On the processor.
     Mlaa,
+    /// The filter with a mask, and MLAA.
+    Merged(Box<Shader>),
 }
 
 struct Shader {
@@ -79,7 +81,7 @@ impl<'a> Filters<'a> {
                 let given = Transfer::Srgb.given(&shown(shot.any()?));
                 Ok(Transfer::Srgb.taken(&mlaa(&given)))
             }
-            (Runner::Kernel(shader) | Runner::Placed(shader, _), kind) => {
+            (Runner::Kernel(shader) | Runner::Placed(shader, _) | Runner::Merged(shader), kind) => {
                 let (inputs, uploaded) = shader.uploaded(self.bench, method, shot)?;
                 let target = self.bench.target(inputs.size, shader.pass.target_format());
                 let view = target.create_view(&wgpu::TextureViewDescriptor::default());
@@ -91,6 +93,7 @@ impl<'a> Filters<'a> {
                 let filtered = self.bench.download(&target)?;
                 Ok(match kind {
                     Kind::Fxaa(transfer) => transfer.taken(&filtered),
+                    Kind::Merged => merged(&filtered, &shot.capture(method)?.color),
                     _ => filtered,
                 })
             }
@@ -123,6 +126,7 @@ impl<'a> Filters<'a> {
                     shader.bytes(self.bench, method, shot)? + place.bytes(self.bench, method, shot)?
                 }
                 (Runner::Mlaa, _) => 2 * PICTURE * pixels,
+                (Runner::Merged(shader), _) => shader.bytes(self.bench, method, shot)? + 2 * PICTURE * pixels,
                 (Runner::None, Kind::Plain) => PICTURE * pixels,
                 (Runner::None, Kind::Supersampled(n)) => (n as u64 * (GEOMETRY + PICTURE) + PICTURE) * pixels,
                 // Four bits a sample say whose colour it has.
@@ -143,7 +147,9 @@ impl<'a> Filters<'a> {
         let mut bounds = Vec::new();
         for (method, runner) in self.methods.iter().zip(&mut self.runners) {
             bounds.push(match runner {
-                Runner::Kernel(shader) => Some((shader.upload(self.bench, method, shot)?, None)),
+                Runner::Kernel(shader) | Runner::Merged(shader) => {
+                    Some((shader.upload(self.bench, method, shot)?, None))
+                }
                 Runner::Placed(shader, place) => Some((
                     shader.upload(self.bench, method, shot)?,
                     Some(place.upload(self.bench, method, shot)?),
@@ -166,6 +172,16 @@ impl<'a> Filters<'a> {
                     Box::new(move || Ok(first()? + second()?))
                 }
                 (Runner::Smaa(smaa), _) => Box::new(|| smaa.time()),
+                (Runner::Merged(shader), Some((read, _))) => {
+                    let mut filter = shader.work(self.bench, read)?;
+                    let given = &given;
+                    Box::new(move || {
+                        let filtered = filter()?;
+                        let start = Instant::now();
+                        mlaa(given);
+                        Ok(filtered + start.elapsed())
+                    })
+                }
                 (Runner::Mlaa, _) => Box::new(|| {
                     let start = Instant::now();
                     mlaa(&given);
@@ -190,7 +206,7 @@ impl<'a> Filters<'a> {
 
 fn runner(bench: &Bench, method: &Method, size: UVec2) -> Result<Runner, QualityError> {
     let kernel = match method.kind {
-        Kind::Sraa => Kernel::builtin("sraa")?,
+        Kind::Sraa | Kind::Merged => Kernel::builtin("sraa")?,
         Kind::Edge(name) => Kernel::builtin(name)?,
         Kind::Own => method
             .kernel
@@ -205,12 +221,24 @@ fn runner(bench: &Bench, method: &Method, size: UVec2) -> Result<Runner, Quality
     };
     let shader = Box::new(Shader::new(bench, &kernel, &method.options)?);
     Ok(match method.shading() {
+        _ if method.kind == Kind::Merged => Runner::Merged(shader),
         ShadingSample::Placed => {
             let place = Shader::new(bench, &Kernel::builtin("sraa_place")?, &method.options)?;
             Runner::Placed(shader, Box::new(place))
         }
         _ => Runner::Kernel(shader),
     })
+}
+
+/// A filtered picture, and MLAA's where a mask kept the pixel as it was shaded.
+fn merged(filtered: &Frame<Vec4>, own: &Frame<Vec4>) -> Frame<Vec4> {
+    let by_picture = Transfer::Srgb.taken(&mlaa(&Transfer::Srgb.given(&picture::at_eight_bits(own))));
+    let pixels = filtered.texels().iter().zip(own.texels()).zip(by_picture.texels());
+    let texels = pixels.map(|((filtered, own), by_picture)| match filtered == own {
+        true => *by_picture,
+        false => *filtered,
+    });
+    Frame::new(filtered.size(), texels.collect())
 }
 
 impl Shader {

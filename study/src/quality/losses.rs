@@ -61,6 +61,7 @@ mod tests {
             psnr_geometry: Some(psnr),
             psnr_shading: shading,
             psnr_flat: None,
+            worst: None,
             gap_closed: None,
             temporal: None,
             time: None,

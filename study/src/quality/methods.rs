@@ -22,6 +22,8 @@ pub enum Kind {
     Smaa(Transfer),
     /// MLAA, on the processor.
     Mlaa,
+    /// The kernel `sraa` with a mask, and MLAA in the pixels that the mask keeps.
+    Merged,
     /// Coverage of the samples of `latin4`, and shading once a surface in each pixel.
     Multisampled,
     /// Shading at every sample of `latin4` in pixels with several surfaces, and at one in all others.
@@ -142,7 +144,7 @@ impl Method {
     pub fn family(&self) -> Family {
         match self.kind {
             Kind::Plain => Family::None,
-            Kind::Sraa => Family::Sraa,
+            Kind::Sraa | Kind::Merged => Family::Sraa,
             Kind::Edge(_) => Family::Edge,
             Kind::Fxaa(_) | Kind::Smaa(_) | Kind::Mlaa => Family::Picture,
             Kind::Multisampled | Kind::Classified | Kind::Covered | Kind::Supersampled(_) => Family::Supersampling,
@@ -225,6 +227,7 @@ pub fn methods(quick: bool) -> Vec<Method> {
     ];
     all.extend(beyond());
     all.extend(metrics());
+    all.extend(radii());
     all.push(sraa("SRAA 4, two shading samples", &[LISTED, ("shaded", "0,3")]));
     if !quick {
         all.extend([
@@ -255,6 +258,7 @@ pub fn methods(quick: bool) -> Vec<Method> {
     ]);
     all.extend(of_the_picture());
     all.extend([
+        Method::new("SRAA 4 and MLAA", Kind::Merged, &[("mask", "select")]).pictured(),
         Method::new("MSAA 4", Kind::Multisampled, &[]).pictured(),
         Method::new("MSAA 4, deferred", Kind::Classified, &[]).pictured(),
         Method::new("CSAA 16", Kind::Covered, &[]).pictured(),
@@ -311,14 +315,20 @@ fn metrics() -> Vec<Method> {
 /// A step of a third of the depth, and more, is between unrelated surfaces.
 const RELATIVE: [(&str, &str); 2] = [("difference", "relative"), ("depth-scale", "3")];
 
+fn radii() -> Vec<Method> {
+    let sraa = |name, options: &[(&str, &str)]| Method::new(name, Kind::Sraa, options);
+    vec![
+        sraa("SRAA 4, radius 1.5", &[("radius", "1.5")]),
+        sraa("SRAA 4, radius 2", &[("radius", "2")]),
+        sraa("SRAA 16, radius 2", &[("pattern", "latin16"), ("radius", "2")]),
+    ]
+}
+
 fn falloffs() -> Vec<Method> {
     let sraa = |name, options: &[(&str, &str)]| Method::new(name, Kind::Sraa, options);
     vec![
         sraa("SRAA 4, no falloff", &[("falloff", "none")]),
         sraa("SRAA 4, Gaussian falloff", &[("falloff", "gaussian")]),
-        sraa("SRAA 4, radius 1.5", &[("radius", "1.5")]),
-        sraa("SRAA 4, radius 2", &[("radius", "2")]),
-        sraa("SRAA 16, radius 2", &[("pattern", "latin16"), ("radius", "2")]),
         sraa("SRAA 4, relative depth", &RELATIVE),
         sraa(
             "SRAA 16, relative depth",

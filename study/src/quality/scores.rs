@@ -25,6 +25,7 @@ pub fn scores(method: &Method, made: &Frame<Vec4>, reference: &Frame<Vec4>, clas
         psnr_geometry: of(&|k| classes.geometry[k]),
         psnr_shading: of(&|k| classes.shading[k]),
         psnr_flat: of(&|k| classes.flat(k)),
+        worst: Some(metrics::worst(made, reference)),
         gap_closed: None,
         temporal: None,
         time: None,

@@ -47,6 +47,10 @@ pub struct MethodErrors {
     pub psnr_shading: Option<f64>,
     /// All others.
     pub psnr_flat: Option<f64>,
+    /// The error that one pixel in a thousand exceeds: the root of the mean square of what red, green and blue are off, 0 to 1. Records of before
+    /// it was taken have `None`.
+    #[serde(default)]
+    pub worst: Option<f64>,
     /// Share of the gap between no antialiasing and 16x supersampling, in dB, that it closes: 0 to 1, more if it is better;
     /// `None` of a capture, which has no 16x.
     pub gap_closed: Option<f64>,
@@ -147,6 +151,7 @@ impl Record for QualityRecord {
             "psnr_geometry_db",
             "psnr_shading_db",
             "psnr_flat_db",
+            "worst",
             "gap_closed",
             "temporal",
             "median_ms",
@@ -166,6 +171,7 @@ impl Record for QualityRecord {
                     optional(m.psnr_geometry),
                     optional(m.psnr_shading),
                     optional(m.psnr_flat),
+                    optional(m.worst),
                     optional(m.gap_closed),
                     m.temporal.map_or(String::new(), |v| format!("{v:.4e}")),
                     optional(m.time.map(|t| t.median_ms)),

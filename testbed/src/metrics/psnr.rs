@@ -34,6 +34,18 @@ pub fn mse_where(test: &Frame<Vec4>, reference: &Frame<Vec4>, mask: impl Fn(usiz
     sum / count as f64
 }
 
+/// The error that one pixel in a thousand exceeds, 0 to 1: the root of the mean square of what red, green and blue are off.
+pub fn worst(test: &Frame<Vec4>, reference: &Frame<Vec4>) -> f64 {
+    let squared = pairs(test, reference).map(|(test, reference)| squared_error(test, reference) / 3.0);
+    let mut squared: Vec<f64> = squared.collect();
+    let beyond = squared.len() / 1000;
+    if squared.is_empty() {
+        return 0.0;
+    }
+    let (_, worst, _) = squared.select_nth_unstable_by(beyond, |a, b| b.total_cmp(a));
+    worst.sqrt()
+}
+
 /// Largest absolute difference of any component, alpha too, of any pixel: not clamped, so that it bounds the
 /// error of a computation. Two components that are both NaN, or the same infinity, do not differ; anything
 /// else that is not finite differs infinitely.

@@ -1,9 +1,9 @@
 //! FLIP and SSIM against NVIDIA's `flip-evaluator` 1.7 and scikit-image 0.26, which computed the numbers here from the same
 //! bytes; and against formulas.
 
-use super::{flip, flip_map, ssim};
+use super::{flip, flip_map, ssim, worst};
 use crate::picture::srgb;
-use glam::{Vec4, uvec2, vec4};
+use glam::{Vec3, Vec4, uvec2, vec4};
 use straightline_kernels::prelude::Frame;
 
 /// Steps and slopes; `moved`, one pixel to the left and with a little noise.
@@ -89,4 +89,18 @@ fn colour_is_clamped_to_what_a_display_shows() {
     let scaled = |by: f32| Frame::new(uvec2(20, 20), vec![vec4(by, by, -by, 1.0); 400]);
     assert_eq!(flip(&scaled(1.0), &scaled(50.0)), 0.0);
     assert!((ssim(&scaled(1.0), &scaled(50.0)) - 1.0).abs() < 1e-12);
+}
+
+#[test]
+fn one_pixel_in_a_thousand_is_worse() {
+    let black = Frame::new(uvec2(100, 40), vec![Vec4::W; 4000]);
+    // Four pixels of 4000 are worse than the fifth.
+    let errors = [0.9, 0.8, 0.7, 0.6, 0.25];
+    let mut texels = vec![Vec4::W; 4000];
+    for (k, error) in errors.into_iter().enumerate() {
+        texels[700 * k] = Vec3::splat(error).extend(1.0);
+    }
+    let found = worst(&Frame::new(uvec2(100, 40), texels), &black);
+    assert!((found - 0.25).abs() < 1.0e-6, "{found}");
+    assert_eq!(worst(&black, &black), 0.0);
 }

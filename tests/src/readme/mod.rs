@@ -69,6 +69,7 @@ fn table(name: &str, files: &[&Path]) -> Result<String, String> {
             )
         }
         "pictures" => Ok(quality::pictures(&QualityRecord::read(first).map_err(why)?)),
+        "radii" => Ok(quality::radii(&QualityRecord::read(first).map_err(why)?)),
         "samplings" => Ok(quality::samplings(&QualityRecord::read(first).map_err(why)?)),
         "quality" => Ok(quality::in_short(&QualityRecord::read(first).map_err(why)?)),
         "methods" => Ok(quality::methods(&QualityRecord::read(first).map_err(why)?)),
@@ -90,7 +91,7 @@ fn table(name: &str, files: &[&Path]) -> Result<String, String> {
         "crates" => crates::needs(first),
         "sweep" => sweep::factors(&SweepRecord::read(first).map_err(why)?),
         _ => Err(format!(
-            "there is no table `{name}`; there are speed, loops, agreement, quality, methods, scenes, beyond, gaps, hard, isa, tune, pictures, samplings, budget, table2, speedups, quads, encode, crates and sweep"
+            "there is no table `{name}`; there are speed, loops, agreement, quality, methods, scenes, beyond, gaps, hard, isa, tune, pictures, samplings, radii, budget, table2, speedups, quads, encode, crates and sweep"
         )),
     }
 }

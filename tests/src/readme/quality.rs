@@ -95,6 +95,43 @@ pub fn pictures(record: &QualityRecord) -> String {
     markdown(&head, record.scenes.iter().map(row).collect())
 }
 
+/// SRAA with taps up to one pixel away, and up to more, scene by scene: PSNR, and the error that one pixel in a thousand exceeds.
+pub fn radii(record: &QualityRecord) -> String {
+    const METHODS: [&str; 5] = [
+        "SRAA 4",
+        "SRAA 4, radius 1.5",
+        "SRAA 4, radius 2",
+        "SRAA 16",
+        "SRAA 16, radius 2",
+    ];
+    let row = |scene: &SceneErrors| {
+        let of = |name: &str| scene.methods.iter().find(|method| method.method == name);
+        let cell = |name: &str| {
+            let worst = of(name).and_then(|m| m.worst);
+            of(name)
+                .zip(worst)
+                .map_or("–".to_owned(), |(m, worst)| format!("{:.2}, {worst:.3}", m.psnr))
+        };
+        std::iter::once(scene.scene.clone()).chain(METHODS.map(cell)).collect()
+    };
+    let median = |name: &str| {
+        let times = record.scenes.iter().flat_map(|scene| &scene.methods);
+        let times: Vec<f64> = times
+            .filter(|m| m.method == name)
+            .filter_map(|m| Some(m.time?.median_ms))
+            .collect();
+        format!("{:.1}", times.iter().sum::<f64>() / times.len().max(1) as f64)
+    };
+    let mut rows: Vec<Vec<String>> = record.scenes.iter().map(row).collect();
+    rows.push(
+        std::iter::once("ms, mean".to_owned())
+            .chain(METHODS.map(median))
+            .collect(),
+    );
+    let head: Vec<&str> = std::iter::once("scene").chain(METHODS).collect();
+    markdown(&head, rows)
+}
+
 /// What shades or covers more samples beside SRAA, scene by scene: PSNR.
 pub fn samplings(record: &QualityRecord) -> String {
     const METHODS: [&str; 8] = [
