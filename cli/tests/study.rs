@@ -140,6 +140,52 @@ fn quads_measures_every_filter_on_a_small_frame() {
     assert!(pictures.join("pcf-details.png").is_file() && pictures.join("occlusion-details.png").is_file());
 }
 
+#[test]
+fn a_pan_is_filmed_by_methods_side_by_side() {
+    let folder = scratch("film");
+    let out = folder.join("film");
+    let film = |more: &[&str]| {
+        let own = ["study", "film", "--out", out.to_str().unwrap(), "--size", "64x36"];
+        [&own[..], more]
+            .concat()
+            .iter()
+            .map(|word| (*word).to_owned())
+            .collect::<Vec<_>>()
+    };
+    let refused = |more: &[&str], says: &[&str]| {
+        let arguments = film(more);
+        fails(&arguments.iter().map(String::as_str).collect::<Vec<_>>(), 2, says);
+        assert!(is_empty(&out));
+    };
+    refused(
+        &["--method", "sharp"],
+        &["no method `sharp`", "SRAA 4, radius 2", "NAME=KERNEL"],
+    );
+    refused(&["--method", "1x", "--method", "1x"], &["`1x` is given twice"]);
+    refused(&["--step", "1"], &["two numbers from -64 to 64"]);
+    refused(&["--step", "nan,0"], &["two numbers from -64 to 64"]);
+    refused(&["--frames", "1"], &["--frames"]);
+    refused(&["--size", "8000x8000"], &["--size"]);
+
+    let arguments = film(&["--frames", "3", "--method", "1x", "--method", "mask=sraa,mask=select"]);
+    let printed = finishes(&arguments.iter().map(String::as_str).collect::<Vec<_>>());
+    assert!(printed.contains("mask") && printed.contains("64x"), "{printed}");
+    let table = std::fs::read_to_string(out.join("film.csv")).expect("a table");
+    let errors: Vec<f64> = table
+        .lines()
+        .skip(1)
+        .map(|line| line.rsplit(',').next().unwrap().parse().unwrap())
+        .collect();
+    // Two changes by each of two methods, of which antialiasing changes less wrongly.
+    assert_eq!(errors.len(), 4, "{table}");
+    assert!(errors[2] < errors[0] && errors[3] < errors[1], "{table}");
+    assert!(
+        out.join("film.png").is_file()
+            && out.join("frames/0002.png").is_file()
+            && !out.join("frames/0003.png").exists()
+    );
+}
+
 /// The capture of `examples/captures/spheres`, to be broken.
 fn spheres(folder: &Path) -> PathBuf {
     let from = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/captures/spheres");

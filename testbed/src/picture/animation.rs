@@ -43,3 +43,33 @@ pub fn animation(frames: &[Frame<Vec4>], milliseconds: u16) -> Result<Vec<u8>, P
     writer.finish().map_err(failure)?;
     Ok(bytes)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ::png::Decoder;
+    use glam::uvec2;
+    use std::io::Cursor;
+
+    #[test]
+    fn every_frame_is_in_the_animation() {
+        let frames =
+            [Vec4::W, Vec4::ONE, Vec4::new(1.0, 0.0, 0.0, 1.0)].map(|color| Frame::new(uvec2(3, 2), vec![color; 6]));
+        let bytes = animation(&frames, 40).expect("an animation");
+        let mut reader = Decoder::new(Cursor::new(&bytes)).read_info().expect("a picture");
+        let control = reader.info().animation_control.expect("it is animated");
+        assert_eq!((control.num_frames, control.num_plays), (3, 0));
+        for color in [[0, 0, 0, 255], [255; 4], [255, 0, 0, 255]] {
+            let mut texels = vec![7; 24];
+            reader.next_frame(&mut texels).expect("a frame");
+            assert_eq!(texels, color.repeat(6));
+        }
+    }
+
+    #[test]
+    fn what_is_no_animation_is_refused() {
+        let [small, large] = [1, 2].map(|side| Frame::new(uvec2(side, side), vec![Vec4::ONE; (side * side) as usize]));
+        assert!(animation(&[], 40).is_err());
+        assert!(animation(&[small, large], 40).is_err());
+    }
+}

@@ -67,7 +67,7 @@ pub fn in_short(record: &QualityRecord) -> String {
 
 /// Filters of the picture beside SRAA, scene by scene: PSNR, and the times of MLAA and SRAA 4.
 pub fn pictures(record: &QualityRecord) -> String {
-    const METHODS: [&str; 5] = ["1x", "FXAA", "SMAA", "MLAA", "SRAA 4"];
+    const METHODS: [&str; 6] = ["1x", "FXAA", "SMAA", "MLAA", "SRAA 4", "SRAA 4 and MLAA"];
     let head = [
         "scene",
         "1x",
@@ -75,6 +75,7 @@ pub fn pictures(record: &QualityRecord) -> String {
         "SMAA",
         "MLAA",
         "SRAA 4",
+        "SRAA 4 and MLAA",
         "ms, MLAA",
         "ms, SRAA 4",
     ];
