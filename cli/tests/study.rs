@@ -145,7 +145,7 @@ fn a_pan_is_filmed_by_methods_side_by_side() {
     let folder = scratch("film");
     let out = folder.join("film");
     let film = |more: &[&str]| {
-        let own = ["study", "film", "--out", out.to_str().unwrap(), "--size", "64x36"];
+        let own = ["study", "film", "--out", out.to_str().unwrap()];
         [&own[..], more]
             .concat()
             .iter()
@@ -165,9 +165,21 @@ fn a_pan_is_filmed_by_methods_side_by_side() {
     refused(&["--step", "1"], &["two numbers from -64 to 64"]);
     refused(&["--step", "nan,0"], &["two numbers from -64 to 64"]);
     refused(&["--frames", "1"], &["--frames"]);
-    refused(&["--size", "8000x8000"], &["--size"]);
+    refused(
+        &["--size", "8000x8000"],
+        &["8000x8000 pixels are too many to keep", "--size"],
+    );
 
-    let arguments = film(&["--frames", "3", "--method", "1x", "--method", "mask=sraa,mask=select"]);
+    let arguments = film(&[
+        "--size",
+        "64x36",
+        "--frames",
+        "3",
+        "--method",
+        "1x",
+        "--method",
+        "mask=sraa,mask=select",
+    ]);
     let printed = finishes(&arguments.iter().map(String::as_str).collect::<Vec<_>>());
     assert!(printed.contains("mask") && printed.contains("64x"), "{printed}");
     let table = std::fs::read_to_string(out.join("film.csv")).expect("a table");

@@ -118,8 +118,8 @@ pub struct ErrorArgs {
 
 #[derive(Clone, Debug, Args)]
 pub struct FilmArgs {
-    /// A method to film, by its name in `study error` or as its --method has one of your own; may be given several times, from
-    /// left to right. By default 1x, MLAA and SRAA 4. A reference of 64 samples a pixel is beside them
+    /// A method to film, by its name in `study error` or as its --method has one of your own; may be given several times, row
+    /// by row. By default 1x, MLAA and SRAA 4. A reference of 64 samples a pixel is beside them
     #[arg(long = "method", value_name = "NAME[=KERNEL[,OPTION=VALUE]...]")]
     pub methods: Vec<String>,
     /// A built-in scene (see `scenes`)
@@ -142,7 +142,7 @@ fn step(text: &str) -> Result<Vec2, String> {
         .split_once(',')
         .and_then(|(x, y)| Some(Vec2::new(x.trim().parse().ok()?, y.trim().parse().ok()?)));
     match parsed {
-        Some(step) if step.abs().max_element() <= 64.0 => Ok(step),
+        Some(step) if step.is_finite() && step.abs().max_element() <= 64.0 => Ok(step),
         _ => Err("two numbers from -64 to 64 are needed, as in 0.125,0.0625".to_owned()),
     }
 }

@@ -26,7 +26,7 @@ pub struct Shooting {
 /// What was filmed.
 #[derive(Clone, Debug)]
 pub struct Film {
-    /// Each frame: the methods' pictures side by side, then the reference of 64 samples a pixel, at 8 bits of sRGB.
+    /// Each frame: the methods' pictures row by row, then the reference of 64 samples a pixel, at 8 bits of sRGB.
     pub frames: Vec<Frame<Vec4>>,
     /// For each method, and each frame after the first: the root of the mean squared error of what changed since the last, as
     /// [`Plan::pan_frames`](super::Plan::pan_frames) averages it.
@@ -67,11 +67,45 @@ pub fn film(
         let mut columns: Vec<(&str, &Frame<Vec4>)> = Vec::new();
         columns.extend(methods.iter().map(|method| method.name.as_str()).zip(&shown));
         columns.push((REFERENCE, &reference));
-        film.frames.push(picture::montage(&columns));
+        film.frames.push(tiled(&columns));
         watch.step();
     }
     Ok(film)
 }
 
+/// Pictures with their names: up to three in a row, more in about as many rows as columns.
+fn tiled(pictures: &[(&str, &Frame<Vec4>)]) -> Frame<Vec4> {
+    let columns = match pictures.len() {
+        few @ 0..=3 => few.max(1),
+        many => (many as f64).sqrt().ceil() as usize,
+    };
+    let rows: Vec<Frame<Vec4>> = pictures.chunks(columns).map(picture::montage).collect();
+    let width = rows.iter().map(|row| row.size().x).max().unwrap_or(1);
+    let mut texels = Vec::new();
+    for row in &rows {
+        for line in row.texels().chunks(row.size().x as usize) {
+            texels.extend_from_slice(line);
+            texels.resize(texels.len() + width as usize - line.len(), Vec4::W);
+        }
+    }
+    let height = texels.len() as u32 / width;
+    Frame::new(UVec2::new(width, height), texels)
+}
+
 /// What the reference is called.
 pub const REFERENCE: &str = "64x";
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn panes_stand_in_rows() {
+        let picture = Frame::new(UVec2::new(40, 20), vec![Vec4::ONE; 800]);
+        let panes = vec![("a", &picture); 5];
+        let [one, three, four, five] = [1, 3, 4, 5].map(|count| tiled(&panes[..count]).size());
+        assert_eq!(one.y, three.y);
+        assert_eq!((four.y, five.y), (2 * one.y, 2 * one.y));
+        assert!(one.x < four.x && four.x < three.x && five.x == three.x);
+    }
+}

@@ -13,7 +13,7 @@ pub struct FilmRecord {
     pub scene: String,
     /// Pixels that the picture moves from a frame to the next, y down.
     pub step: [f32; 2],
-    /// The methods, from left to right; behind them in each frame is the reference of 64 samples a pixel.
+    /// The methods, row by row; behind them in each frame is the reference of 64 samples a pixel.
     pub methods: Vec<FilmedMethod>,
 }
 

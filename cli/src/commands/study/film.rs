@@ -125,7 +125,7 @@ fn print(record: &FilmRecord, out: &Path) {
     );
     let names: Vec<&str> = record.methods.iter().map(|method| method.method.as_str()).collect();
     outln!(
-        "{} frames of {}, {} by {} pixels apart; from left to right {} and {REFERENCE}, the reference. The root of the mean \
+        "{} frames of {}, {} by {} pixels apart; row by row {} and {REFERENCE}, the reference. The root of the mean \
          squared error of what changes from a frame to the next, in colours of 0 to 1 at 8 bits.",
         record.methods.first().map_or(0, |method| method.errors.len() + 1),
         record.scene,
