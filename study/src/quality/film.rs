@@ -102,7 +102,7 @@ mod tests {
     #[test]
     fn panes_stand_in_rows() {
         let picture = Frame::new(UVec2::new(40, 20), vec![Vec4::ONE; 800]);
-        let panes = vec![("a", &picture); 5];
+        let panes = [("a", &picture); 5];
         let [one, three, four, five] = [1, 3, 4, 5].map(|count| tiled(&panes[..count]).size());
         assert_eq!(one.y, three.y);
         assert_eq!((four.y, five.y), (2 * one.y, 2 * one.y));

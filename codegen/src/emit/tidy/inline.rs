@@ -138,7 +138,8 @@ impl Inliner<'_> {
             }
             read(stmt.own().into_iter(), -1, &mut reads);
             for (read, lost) in reads {
-                self.uses[read.0 as usize] -= lost as u32;
+                let uses = &mut self.uses[read.0 as usize];
+                *uses = uses.saturating_add_signed(-lost);
             }
         }
     }
