@@ -83,12 +83,8 @@ pub fn glsl(path: &Path) -> Result<(), String> {
 ///
 /// What it says of the first text that it refuses.
 pub fn all(folder: &Path, shaders: &[(PathBuf, String)]) -> Result<(), String> {
-    static HAS: LazyLock<bool> = LazyLock::new(|| Command::new("glslc").arg("--version").output().is_ok());
-    if !*HAS {
-        return shaders.iter().try_for_each(|(path, entry)| match is_hlsl(path) {
-            true => hlsl(path, Stage::Compute, entry),
-            false => glsl(path),
-        });
+    if !has_glslc() {
+        return shaders.iter().try_for_each(|(path, entry)| vulkan(path, entry));
     }
     let mut glslc = Command::new("glslc");
     glslc.current_dir(folder);
@@ -110,8 +106,52 @@ pub fn all(folder: &Path, shaders: &[(PathBuf, String)]) -> Result<(), String> {
     }
 }
 
-/// Whether a file's ending says that it holds HLSL.
-pub fn is_hlsl(path: &Path) -> bool {
+/// Whether glslc is on the path.
+fn has_glslc() -> bool {
+    static HAS: LazyLock<bool> = LazyLock::new(|| Command::new("glslc").arg("--version").output().is_ok());
+    *HAS
+}
+
+/// The SPIR-V that glslang makes of GLSL for compute shaders, as words, of each text or why it is refused. The entry points are
+/// `main`.
+///
+/// # Errors
+///
+/// It cannot be run.
+pub fn compiled_glsl_all(texts: &[&str]) -> Result<Vec<Result<Vec<u32>, String>>, String> {
+    let one_by_one = || texts.iter().map(|text| compiled_glsl(text, "comp")).collect();
+    if !has_glslc() || texts.is_empty() {
+        return Ok(one_by_one());
+    }
+    let folder = Folder::new()?;
+    let mut shaders = Vec::new();
+    for (k, text) in texts.iter().enumerate() {
+        let path = folder.0.join(format!("{k}.comp"));
+        std::fs::write(&path, text).map_err(|e| e.to_string())?;
+        shaders.push((path, "main".to_owned()));
+    }
+    if all(&folder.0, &shaders).is_err() {
+        return Ok(one_by_one());
+    }
+    let made = (0..texts.len()).map(|k| std::fs::read(folder.0.join(format!("{k}.comp.spv"))));
+    Ok(made
+        .map(|bytes| Ok(words(&bytes.map_err(|e| e.to_string())?)))
+        .collect())
+}
+
+/// glslang on the GLSL or HLSL of a compute shader with this entry point, by the file's ending.
+///
+/// # Errors
+///
+/// What it says of a text that it refuses.
+pub fn vulkan(path: &Path, entry: &str) -> Result<(), String> {
+    match is_hlsl(path) {
+        true => hlsl(path, Stage::Compute, entry),
+        false => glsl(path),
+    }
+}
+
+fn is_hlsl(path: &Path) -> bool {
     path.extension().is_some_and(|extension| extension == "hlsl")
 }
 

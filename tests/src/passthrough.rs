@@ -8,7 +8,7 @@ use straightline_codegen::emit::{Emitted, Target};
 use straightline_kernels::prelude::Frame;
 use straightline_runtime::manifest::{Binding, BindingKind, LanguageKind, Manifest, SamplerType};
 use straightline_runtime::{Pass, PassOptions};
-use straightline_testbed::execute::{Bench, Buffers, Inputs, SamplerState, Written};
+use straightline_testbed::execute::{AllWritten, Bench, Buffers, Inputs, SamplerState, Written};
 use wgpu::Features;
 
 /// A bench that runs SPIR-V, of any Vulkan adapter, with what kernels can use of it.
@@ -56,16 +56,7 @@ pub fn run(bench: &Bench, emitted: &Emitted, target: Target, inputs: &Inputs) ->
 ///
 /// Those of [`run`].
 pub fn run_all(bench: &Bench, emitted: &Emitted, target: Target, inputs: &Inputs) -> Result<Vec<Written>, String> {
-    let bytes = emitted.files.get(&target);
-    let bytes = bytes.ok_or_else(|| format!("it was not emitted in {target}"))?;
-    let mut manifest = emitted.manifest.clone();
-    let words = words(bytes, target, &mut manifest)?;
-    let inputs = with_language_bindings(&mut manifest, target, inputs)?;
-    pass(bench, &manifest, &words).and_then(|pass| {
-        let uploaded = bench.upload(&manifest, &inputs).map_err(|e| e.to_string())?;
-        let written = bench.written_by(&pass, &uploaded, inputs.size);
-        written.map_err(|e| e.to_string())
-    })
+    all_written(bench, emitted, target, inputs).map(|(written, _)| written)
 }
 
 /// As [`run`], of the buffers that the kernel writes.
@@ -74,25 +65,45 @@ pub fn run_all(bench: &Bench, emitted: &Emitted, target: Target, inputs: &Inputs
 ///
 /// Those of [`run`].
 pub fn run_buffers(bench: &Bench, emitted: &Emitted, target: Target, inputs: &Inputs) -> Result<Buffers, String> {
-    let bytes = emitted.files.get(&target);
-    let bytes = bytes.ok_or_else(|| format!("it was not emitted in {target}"))?;
-    let mut manifest = emitted.manifest.clone();
-    let words = words(bytes, target, &mut manifest)?;
-    let inputs = with_language_bindings(&mut manifest, target, inputs)?;
-    let pass = pass(bench, &manifest, &words)?;
-    let uploaded = bench.upload(&manifest, &inputs).map_err(|e| e.to_string())?;
-    bench
-        .written_by(&pass, &uploaded, inputs.size)
-        .map_err(|e| e.to_string())?;
-    bench.buffers(&manifest, &uploaded).map_err(|e| e.to_string())
+    all_written(bench, emitted, target, inputs).map(|(_, buffers)| buffers)
 }
 
-/// The SPIR-V of a file; the manifest then names its entry point.
-fn words(bytes: &[u8], target: Target, manifest: &mut Manifest) -> Result<Vec<u32>, String> {
+fn all_written(bench: &Bench, emitted: &Emitted, target: Target, inputs: &Inputs) -> Result<AllWritten, String> {
+    let bytes = emitted.files.get(&target);
+    let bytes = bytes.ok_or_else(|| format!("it was not emitted in {target}"))?;
+    let words = words(bytes, target, &emitted.manifest)?;
+    written(bench, emitted.manifest.clone(), target, &words, inputs)
+}
+
+/// Everything that a kernel gives and writes, run as the SPIR-V of the text that its manifest describes.
+///
+/// # Errors
+///
+/// If it cannot be run on these inputs.
+pub fn written(
+    bench: &Bench,
+    mut manifest: Manifest,
+    target: Target,
+    words: &[u32],
+    inputs: &Inputs,
+) -> Result<AllWritten, String> {
+    if target == Target::Glsl450 {
+        manifest.entry_point = "main".to_owned();
+    }
+    let inputs = with_language_bindings(&mut manifest, target, inputs)?;
+    let pass = pass(bench, &manifest, words)?;
+    let uploaded = bench.upload(&manifest, &inputs).map_err(|e| e.to_string())?;
+    let written = bench.written_by(&pass, &uploaded, inputs.size);
+    let written = written.map_err(|e| e.to_string())?;
+    let buffers = bench.buffers(&manifest, &uploaded).map_err(|e| e.to_string())?;
+    Ok((written, buffers))
+}
+
+/// The SPIR-V of a file.
+fn words(bytes: &[u8], target: Target, manifest: &Manifest) -> Result<Vec<u32>, String> {
     let text = String::from_utf8_lossy(bytes);
     match target {
         Target::Glsl450 => {
-            manifest.entry_point = "main".to_owned();
             let stage = match manifest.stage {
                 Stage::Compute => "comp",
                 Stage::Fragment => "frag",

@@ -9,7 +9,7 @@ use straightline_tests::random::forms::FORMS;
 use straightline_tests::random::make::{Features, make};
 use straightline_tests::random::oracle::coverage::{Missing, missing};
 use straightline_tests::random::oracle::same::{CHANGES, apply, same_bits};
-use straightline_tests::random::oracle::{self, Compared, Driver, Rustc, Tally, Text, World, computed};
+use straightline_tests::random::oracle::{self, Compared, Driver, Rustc, Tally, Text, Ways, World, computed};
 use straightline_tests::random::{Random, Texts, survives};
 
 /// First seed; each test takes those that follow.
@@ -111,10 +111,12 @@ fn shaders_agree_with_rustc() {
         .collect();
     let world = World::new(SEED);
     let natives = oracle::run(&rustc, &texts, &world).unwrap_or_else(|why| panic!("{why}"));
+    let shaders = driver.shaders(&texts, Ways::Forms);
+    let shaders = shaders.unwrap_or_else(|why| panic!("{why}"));
     let mut total = Compared::default();
-    for (text, native) in texts.iter().zip(natives) {
+    for ((text, shaders), native) in texts.iter().zip(shaders).zip(natives) {
         if let Ok(native) = native
-            && let Err(off) = driver.compare(text, &world, &native, &mut total)
+            && let Err(off) = driver.compare(&shaders, &world, &native, &mut total)
         {
             panic!("{text}\nworld {SEED}: {off}");
         }

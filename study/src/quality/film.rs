@@ -2,7 +2,7 @@
 //! paper's web page.
 
 use super::filters::Filters;
-use super::pan::{self, apart, mean_square, moved};
+use super::pan::{self, changes};
 use super::{Method, QualityError};
 use crate::watch::Watch;
 use glam::{UVec2, Vec2, Vec4};
@@ -49,28 +49,18 @@ pub fn film(
     watch.begin("film", steps);
     let renderer = GpuRenderer::new(bench.device(), bench.queue(), scene, shooting.size)?;
     let mut filters = Filters::new(bench, methods, shooting.size, watch)?;
-    let listed: Vec<&Method> = methods.iter().collect();
-    let mut film = Film {
-        frames: Vec::new(),
-        errors: vec![Vec::new(); methods.len()],
+    let all: Vec<usize> = (0..methods.len()).collect();
+    let mut frames = Vec::new();
+    let mut see = |shown: &[Frame<Vec4>], reference: &Frame<Vec4>| {
+        let mut panes: Vec<(&str, &Frame<Vec4>)> = Vec::new();
+        panes.extend(methods.iter().map(|method| method.name.as_str()).zip(shown));
+        panes.push((REFERENCE, reference));
+        frames.push(tiled(&panes));
     };
-    let mut before: Vec<Frame<Vec4>> = Vec::new();
-    for frame in 0..shooting.frames {
-        let (shot, reference) = moved(&renderer, &listed, shooting.step * frame as f32, watch)?;
-        let shown = (0..methods.len()).map(|k| Ok(picture::at_eight_bits(&filters.run(k, &shot)?)));
-        let shown: Vec<Frame<Vec4>> = shown.collect::<Result<_, QualityError>>()?;
-        let wrong: Vec<Frame<Vec4>> = shown.iter().map(|picture| apart(picture, &reference)).collect();
-        for (errors, (now, before)) in film.errors.iter_mut().zip(wrong.iter().zip(&before)) {
-            errors.push(mean_square(now, before).sqrt());
-        }
-        before = wrong;
-        let mut columns: Vec<(&str, &Frame<Vec4>)> = Vec::new();
-        columns.extend(methods.iter().map(|method| method.name.as_str()).zip(&shown));
-        columns.push((REFERENCE, &reference));
-        film.frames.push(tiled(&columns));
-        watch.step();
-    }
-    Ok(film)
+    let pan = (shooting.frames, shooting.step);
+    let mut errors = changes(&renderer, methods, &all, &mut filters, pan, watch, &mut see)?;
+    errors.iter_mut().flatten().for_each(|error| *error = error.sqrt());
+    Ok(Film { frames, errors })
 }
 
 /// Pictures with their names: up to three in a row, more in about as many rows as columns.

@@ -77,10 +77,7 @@ impl<'a> Filters<'a> {
         let method = &self.methods[k];
         match (&mut self.runners[k], method.kind) {
             (Runner::Smaa(smaa), _) => Ok(smaa.run(&shown(shot.any()?))?),
-            (Runner::Mlaa, _) => {
-                let given = Transfer::Srgb.given(&shown(shot.any()?));
-                Ok(Transfer::Srgb.taken(&mlaa(&given)))
-            }
+            (Runner::Mlaa, _) => Ok(by_mlaa(&shown(shot.any()?))),
             (Runner::Kernel(shader) | Runner::Placed(shader, _) | Runner::Merged(shader), kind) => {
                 let (inputs, uploaded) = shader.uploaded(self.bench, method, shot)?;
                 let target = self.bench.target(inputs.size, shader.pass.target_format());
@@ -93,7 +90,7 @@ impl<'a> Filters<'a> {
                 let filtered = self.bench.download(&target)?;
                 Ok(match kind {
                     Kind::Fxaa(transfer) => transfer.taken(&filtered),
-                    Kind::Merged => merged(&filtered, &shot.capture(method)?.color),
+                    Kind::Merged => merged(&filtered, shot.capture(method)?),
                     _ => filtered,
                 })
             }
@@ -230,10 +227,19 @@ fn runner(bench: &Bench, method: &Method, size: UVec2) -> Result<Runner, Quality
     })
 }
 
+/// What MLAA makes of a picture, linear as it is.
+fn by_mlaa(shown: &Frame<Vec4>) -> Frame<Vec4> {
+    Transfer::Srgb.taken(&mlaa(&Transfer::Srgb.given(shown)))
+}
+
 /// A filtered picture, and MLAA's where a mask kept the pixel as it was shaded.
-fn merged(filtered: &Frame<Vec4>, own: &Frame<Vec4>) -> Frame<Vec4> {
-    let by_picture = Transfer::Srgb.taken(&mlaa(&Transfer::Srgb.given(&picture::at_eight_bits(own))));
-    let pixels = filtered.texels().iter().zip(own.texels()).zip(by_picture.texels());
+fn merged(filtered: &Frame<Vec4>, capture: &Capture) -> Frame<Vec4> {
+    let by_picture = by_mlaa(&shown(capture));
+    let pixels = filtered
+        .texels()
+        .iter()
+        .zip(capture.color.texels())
+        .zip(by_picture.texels());
     let texels = pixels.map(|((filtered, own), by_picture)| match filtered == own {
         true => *by_picture,
         false => *filtered,

@@ -11,7 +11,7 @@ use straightline_testbed::picture;
 use straightline_testbed::render::Renderer;
 
 /// Pixels from frame to frame.
-pub const STEP: Vec2 = vec2(0.125, 0.0625);
+const STEP: Vec2 = vec2(0.125, 0.0625);
 
 /// Side of the grid of shading samples of each frame's reference: 64x.
 pub const SIDE: u32 = 8;
@@ -25,46 +25,62 @@ pub fn pan(
     frames: u32,
     watch: &mut dyn Watch,
 ) -> Result<Vec<Option<f64>>, QualityError> {
-    let panned: Vec<&Method> = methods.iter().filter(|method| method.panned).collect();
-    let mut sums = vec![0.0; methods.len()];
-    let mut before: Option<Vec<Option<Frame<Vec4>>>> = None;
-    for frame in 0..frames {
-        let (shot, reference) = moved(renderer, &panned, STEP * frame as f32, watch)?;
-        // What is wrong in this frame: what changes in that is what changes wrongly.
-        let mut wrong = Vec::new();
-        for (k, method) in methods.iter().enumerate() {
-            wrong.push(match method.panned {
-                true => Some(apart(&picture::at_eight_bits(&filters.run(k, &shot)?), &reference)),
-                false => None,
-            });
-        }
-        for (sum, (now, before)) in sums.iter_mut().zip(wrong.iter().zip(before.iter().flatten())) {
-            if let (Some(now), Some(before)) = (now, before) {
-                *sum += mean_square(now, before);
-            }
-        }
-        before = Some(wrong);
-        watch.step();
+    let panned: Vec<usize> = (0..methods.len()).filter(|k| methods[*k].panned).collect();
+    let changes = changes(
+        renderer,
+        methods,
+        &panned,
+        filters,
+        (frames, STEP),
+        watch,
+        &mut |_, _| {},
+    )?;
+    let mut errors = vec![None; methods.len()];
+    for (k, squares) in panned.into_iter().zip(changes) {
+        errors[k] = Some((squares.iter().sum::<f64>() / squares.len().max(1) as f64).sqrt());
     }
-    let pairs = f64::from(frames.saturating_sub(1).max(1));
-    let error = |(method, sum): (&Method, f64)| method.panned.then(|| (sum / pairs).sqrt());
-    Ok(methods.iter().zip(sums).map(error).collect())
+    Ok(errors)
 }
 
-/// What methods need of a frame that is moved by some pixels, and the reference of it, at 8 bits.
-pub(super) fn moved(
+/// Who is shown a frame's pictures, and its reference.
+pub(super) type See<'a> = dyn FnMut(&[Frame<Vec4>], &Frame<Vec4>) + 'a;
+
+/// For each of the methods `listed`, and each frame after the first, the mean squared error of what changes since the last. The picture
+/// moves by a step from a frame to the next; `see` is shown each frame's pictures and its reference, at 8 bits.
+pub(super) fn changes(
     renderer: &dyn Renderer,
-    methods: &[&Method],
-    by: Vec2,
+    methods: &[Method],
+    listed: &[usize],
+    filters: &mut Filters<'_>,
+    (frames, step): (u32, Vec2),
     watch: &mut dyn Watch,
-) -> Result<(Shot, Frame<Vec4>), QualityError> {
-    let shot = Shot::draw(&Shifted { renderer, by }, methods, watch)?;
-    let reference = supersampled(renderer, SIDE, by, watch)?;
-    Ok((shot, picture::at_eight_bits(&reference)))
+    see: &mut See<'_>,
+) -> Result<Vec<Vec<f64>>, QualityError> {
+    let needed: Vec<&Method> = listed.iter().map(|k| &methods[*k]).collect();
+    let mut changes = vec![Vec::new(); listed.len()];
+    let mut before: Vec<Frame<Vec4>> = Vec::new();
+    for frame in 0..frames {
+        let by = step * frame as f32;
+        let shot = Shot::draw(&Shifted { renderer, by }, &needed, watch)?;
+        let reference = picture::at_eight_bits(&supersampled(renderer, SIDE, by, watch)?);
+        let shown = listed
+            .iter()
+            .map(|k| Ok(picture::at_eight_bits(&filters.run(*k, &shot)?)));
+        let shown: Vec<Frame<Vec4>> = shown.collect::<Result<_, QualityError>>()?;
+        // What is wrong in this frame: what changes in that is what changes wrongly.
+        let wrong: Vec<Frame<Vec4>> = shown.iter().map(|picture| apart(picture, &reference)).collect();
+        for (changes, (now, before)) in changes.iter_mut().zip(wrong.iter().zip(&before)) {
+            changes.push(mean_square(now, before));
+        }
+        before = wrong;
+        see(&shown, &reference);
+        watch.step();
+    }
+    Ok(changes)
 }
 
 /// What is wrong in a picture.
-pub(super) fn apart(picture: &Frame<Vec4>, reference: &Frame<Vec4>) -> Frame<Vec4> {
+fn apart(picture: &Frame<Vec4>, reference: &Frame<Vec4>) -> Frame<Vec4> {
     let shown = |color: &Vec4| color.truncate().clamp(Vec3::ZERO, Vec3::ONE);
     let pairs = picture.texels().iter().zip(reference.texels());
     let texels = pairs.map(|(a, b)| match a.truncate().is_finite() {
@@ -76,7 +92,7 @@ pub(super) fn apart(picture: &Frame<Vec4>, reference: &Frame<Vec4>) -> Frame<Vec
 }
 
 /// Over red, green and blue.
-pub(super) fn mean_square(a: &Frame<Vec4>, b: &Frame<Vec4>) -> f64 {
+fn mean_square(a: &Frame<Vec4>, b: &Frame<Vec4>) -> f64 {
     let pairs = a.texels().iter().zip(b.texels());
     let sum: f64 = pairs.map(|(a, b)| (*a - *b).as_dvec4().length_squared()).sum();
     sum / (3 * a.texels().len()) as f64

@@ -65,6 +65,11 @@ pub fn in_short(record: &QualityRecord) -> String {
     markdown(&head, MAIN.iter().map(row).collect())
 }
 
+/// What a method gave on a scene.
+fn found<'a>(scene: &'a SceneErrors, name: &str) -> Option<&'a MethodErrors> {
+    scene.methods.iter().find(|method| method.method == name)
+}
+
 /// Filters of the picture beside SRAA, scene by scene: PSNR, and the times of MLAA and SRAA 4.
 pub fn pictures(record: &QualityRecord) -> String {
     const METHODS: [&str; 6] = ["1x", "FXAA", "SMAA", "MLAA", "SRAA 4", "SRAA 4 and MLAA"];
@@ -80,10 +85,9 @@ pub fn pictures(record: &QualityRecord) -> String {
         "ms, SRAA 4",
     ];
     let row = |scene: &SceneErrors| {
-        let of = |name: &str| scene.methods.iter().find(|method| method.method == name);
-        let psnr = |name: &str| of(name).map_or("–".to_owned(), |m| format!("{:.2}", m.psnr));
+        let psnr = |name: &str| found(scene, name).map_or("–".to_owned(), |m| format!("{:.2}", m.psnr));
         let time = |name: &str| {
-            of(name)
+            found(scene, name)
                 .and_then(|m| m.time)
                 .map_or("–".to_owned(), |t| format!("{:.1}", t.median_ms))
         };
@@ -106,26 +110,26 @@ pub fn radii(record: &QualityRecord) -> String {
         "SRAA 16, radius 2",
     ];
     let row = |scene: &SceneErrors| {
-        let of = |name: &str| scene.methods.iter().find(|method| method.method == name);
         let cell = |name: &str| {
-            let worst = of(name).and_then(|m| m.worst);
-            of(name)
-                .zip(worst)
-                .map_or("–".to_owned(), |(m, worst)| format!("{:.2}, {worst:.3}", m.psnr))
+            let errors = found(scene, name).and_then(|m| Some((m.psnr, m.worst?)));
+            errors.map_or("–".to_owned(), |(psnr, worst)| format!("{psnr:.2}, {worst:.3}"))
         };
         std::iter::once(scene.scene.clone()).chain(METHODS.map(cell)).collect()
     };
     let median = |name: &str| {
-        let times = record.scenes.iter().flat_map(|scene| &scene.methods);
-        let times: Vec<f64> = times
-            .filter(|m| m.method == name)
-            .filter_map(|m| Some(m.time?.median_ms))
-            .collect();
-        format!("{:.1}", times.iter().sum::<f64>() / times.len().max(1) as f64)
+        let times = record
+            .scenes
+            .iter()
+            .filter_map(|scene| Some(found(scene, name)?.time?.median_ms));
+        let mut times: Vec<f64> = times.collect();
+        times.sort_by(f64::total_cmp);
+        times
+            .get(times.len() / 2)
+            .map_or("–".to_owned(), |time| format!("{time:.1}"))
     };
     let mut rows: Vec<Vec<String>> = record.scenes.iter().map(row).collect();
     rows.push(
-        std::iter::once("ms, mean".to_owned())
+        std::iter::once("ms, median".to_owned())
             .chain(METHODS.map(median))
             .collect(),
     );
@@ -146,8 +150,7 @@ pub fn samplings(record: &QualityRecord) -> String {
         "16x",
     ];
     let row = |scene: &SceneErrors| {
-        let of = |name: &str| scene.methods.iter().find(|method| method.method == name);
-        let psnr = |name: &str| of(name).map_or("–".to_owned(), |m| format!("{:.2}", m.psnr));
+        let psnr = |name: &str| found(scene, name).map_or("–".to_owned(), |m| format!("{:.2}", m.psnr));
         std::iter::once(scene.scene.clone()).chain(METHODS.map(psnr)).collect()
     };
     let head: Vec<&str> = std::iter::once("scene").chain(METHODS).collect();
@@ -228,7 +231,7 @@ fn of_scenes(record: &QualityRecord, methods: &[&str]) -> String {
     let mut head = vec!["scene"];
     head.extend(methods);
     let row = |scene: &SceneErrors| {
-        let cell = |name: &&str| match scene.methods.iter().find(|m| m.method == **name) {
+        let cell = |name: &&str| match found(scene, name) {
             Some(method) => format!("{:.2}, {:.4}", method.psnr, method.flip),
             None => "–".to_owned(),
         };
@@ -246,10 +249,7 @@ impl<'a> Scenes<'a> {
     fn of(record: &'a QualityRecord, name: &str, geometric: bool) -> Scenes<'a> {
         let scenes = record.scenes.iter();
         let own = scenes.filter(|s| GEOMETRIC.contains(&s.scene.as_str()) == geometric);
-        Scenes(
-            own.filter_map(|s| s.methods.iter().find(|m| m.method == name))
-                .collect(),
-        )
+        Scenes(own.filter_map(|s| found(s, name)).collect())
     }
 
     fn and(&self, others: &Scenes<'a>) -> Scenes<'a> {

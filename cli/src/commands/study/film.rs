@@ -5,6 +5,7 @@ use super::{Progress, circumstances_of};
 use crate::args::{CommonArgs, FilmArgs};
 use crate::failure::Failure;
 use crate::gpu::Gpu;
+use crate::scene;
 use crate::table;
 use glam::UVec2;
 use std::collections::BTreeSet;
@@ -13,7 +14,6 @@ use straightline_codegen::files;
 use straightline_study::quality::{self, Film, Method, REFERENCE, Shooting};
 use straightline_study::record::{FilmRecord, FilmedMethod, Record};
 use straightline_testbed::picture;
-use straightline_testbed::scene::{self, Scene};
 
 /// What is filmed unless something else is asked for.
 const USUAL: [&str; 3] = ["1x", "MLAA", "SRAA 4"];
@@ -30,13 +30,11 @@ const SHOWN: u16 = 50;
 /// Films, and writes frames, animation and record.
 pub fn run(common: &CommonArgs, args: &FilmArgs, progress: &mut Progress) -> Result<(), Failure> {
     let methods = methods(args)?;
-    let (name, scene) = match &args.mesh {
-        Some(path) => (path.display().to_string(), scene::load(path).map_err(Failure::of)?),
-        None => {
-            let scene = Scene::named(&args.scene).map_err(|error| Failure::Usage(error.to_string()))?;
-            (args.scene.clone(), scene)
-        }
-    };
+    let world = scene::load(args.mesh.as_deref(), &args.scene)?;
+    let name = args
+        .mesh
+        .as_ref()
+        .map_or(args.scene.clone(), |path| path.display().to_string());
     let shooting = Shooting {
         size: common.size.unwrap_or(SIZE),
         frames: args.frames,
@@ -53,7 +51,7 @@ pub fn run(common: &CommonArgs, args: &FilmArgs, progress: &mut Progress) -> Res
         )));
     }
     let gpu = Gpu::require(&common.adapter)?;
-    let film = quality::film(&gpu.bench(), &scene, &methods, &shooting, progress).map_err(failure)?;
+    let film = quality::film(&gpu.bench(), &world, &methods, &shooting, progress).map_err(failure)?;
     let record = FilmRecord {
         circumstances: circumstances_of(&gpu, shooting.size, 0),
         scene: name,

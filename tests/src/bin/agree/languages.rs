@@ -104,13 +104,10 @@ fn batch(options: &Options, seeds: std::ops::Range<u64>, folder: &Path, total: &
     // glslang reads many of these at once.
     glsl.append(&mut hlsl);
     if compilers::all(folder, &glsl).is_err() {
-        for (path, entry) in glsl {
+        for shader in &glsl {
+            let (path, entry) = shader;
             // glslc also asks spirv-val of what glslang makes of HLSL, which makes no valid gather that compares.
-            let read =
-                compilers::all(folder, &[(path.clone(), entry.clone())]).or_else(|_| match compilers::is_hlsl(&path) {
-                    true => compilers::hlsl(&path, Stage::Compute, &entry),
-                    false => compilers::glsl(&path),
-                });
+            let read = compilers::all(folder, std::slice::from_ref(shader)).or_else(|_| compilers::vulkan(path, entry));
             if let Err(why) = read {
                 println!("{}: {}", path.display(), first_lines(&why));
                 counts.failures += 1;

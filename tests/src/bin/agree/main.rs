@@ -26,8 +26,10 @@ fn main() -> ExitCode {
         }
         return ExitCode::SUCCESS;
     }
-    // What panicked and where is part of the report.
-    std::panic::set_hook(Box::new(|_| {}));
+    // What the generator panics with, and where, is part of the report.
+    if options.gpu == 0 {
+        std::panic::set_hook(Box::new(|_| {}));
+    }
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(options.threads)
         .build_global();

@@ -1,11 +1,12 @@
 //! What the program is asked to do.
 
 use straightline_tests::random::make::Features;
+use straightline_tests::random::oracle::Ways;
 
 /// The options, and what they are without being given.
 pub const USAGE: &str = "\
 usage: agree [--kernels N] [--seed S] [--threads T] [--batch N] [--without FEATURE]... [--accepts N] [--gpu N]
-             [--languages N] [--world W] [--front-minutes M] [--keep-going] [--print]
+             [--gpu-languages] [--languages N] [--world W] [--front-minutes M] [--keep-going] [--print]
   --kernels N        random kernels to compare with what rustc makes of them (1000)
   --seed S           number of the first (1)
   --threads T        threads (one for each core)
@@ -13,7 +14,8 @@ usage: agree [--kernels N] [--seed S] [--threads T] [--batch N] [--without FEATU
   --batch N          kernels that rustc compiles at once (400)
   --without FEATURE  leave out a group of constructs
   --accepts N        kernels with a mistake in them, which rustc and the generator must both refuse (0)
-  --gpu N            random kernels to run on the default adapter, against rustc (0)
+  --gpu N            random kernels to run on a Vulkan adapter, against rustc (0)
+  --gpu-languages    run each in one of the forms, as WGSL and as GLSL, instead of in all of them as WGSL
   --languages N      random kernels to emit in every language, each in one form, for the languages' compilers to read (0)
   --front-minutes M  time for mutated texts (0)
   --keep-going       list every disagreement by its seed, instead of making the first smaller
@@ -35,8 +37,10 @@ pub struct Options {
     pub features: Features,
     /// Kernels with a mistake in them.
     pub accepts: u64,
-    /// Random kernels to run on the default adapter.
+    /// Random kernels to run on a Vulkan adapter.
     pub gpu: u64,
+    /// What is made of each of them.
+    pub ways: Ways,
     /// Random kernels to emit in every language.
     pub languages: u64,
     /// Minutes for mutated texts.
@@ -58,6 +62,7 @@ pub fn options() -> Option<Options> {
         features: Features::all(),
         accepts: 0,
         gpu: 0,
+        ways: Ways::Forms,
         languages: 0,
         front_minutes: 0.0,
         keep_going: false,
@@ -74,6 +79,7 @@ pub fn options() -> Option<Options> {
             "--without" => options.features = options.features.without(Features::named(&words.next()?)?),
             "--accepts" => options.accepts = words.next()?.parse().ok()?,
             "--gpu" => options.gpu = words.next()?.parse().ok()?,
+            "--gpu-languages" => options.ways = Ways::Languages,
             "--languages" => options.languages = words.next()?.parse().ok()?,
             "--front-minutes" => options.front_minutes = words.next()?.parse().ok()?,
             "--keep-going" => options.keep_going = true,

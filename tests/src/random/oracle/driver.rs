@@ -2,9 +2,12 @@
 
 use super::{Given, Place, Texel, Text, World, computed};
 use crate::random::forms::{FORMS, Form};
+use crate::{compilers, passthrough};
 use std::fmt;
-use straightline_codegen::{Kernel, Stage};
-use straightline_testbed::execute::Bench;
+use straightline_codegen::emit::Target;
+use straightline_codegen::{Compiled, Kernel, Stage};
+use straightline_runtime::manifest::Manifest;
+use straightline_testbed::execute::{AllWritten, Bench, Inputs};
 
 /// Most that a driver may be off the native value where rounding shows, relative to its size (and to 1 below that): it
 /// may round the sum of a product once instead of twice.
@@ -13,12 +16,60 @@ const TOLERANCE: f64 = 1.0e-3;
 /// Most that all rounding may change a value that is compared, relative to its size: beyond, a decision hangs on it.
 const SURE: f64 = 1.0e-4;
 
+impl Ways {
+    /// The forms of the kernel of a seed.
+    fn forms(self, seed: u64) -> &'static [Form] {
+        let one = (seed % FORMS.len() as u64) as usize;
+        match self {
+            Ways::Forms => FORMS,
+            Ways::Languages => &FORMS[one..=one],
+        }
+    }
+}
+
+/// What a driver is given of a kernel.
+#[derive(Debug)]
+pub struct Shaders {
+    made: Vec<Shader>,
+    /// Forms that are refused, or do nothing.
+    refused: u64,
+}
+
+#[derive(Debug)]
+struct Shader {
+    form: Form,
+    compiled: Compiled,
+    /// As GLSL, if that is asked for and can be written.
+    glsl: Option<Result<Glsl, String>>,
+}
+
+#[derive(Debug)]
+struct Glsl {
+    text: String,
+    manifest: Manifest,
+    /// What glslang makes of it.
+    words: Result<Vec<u32>, String>,
+}
+
 /// A device to run kernels on.
 #[derive(Debug)]
 pub struct Driver {
     bench: Bench,
     /// The adapter's name.
     pub name: String,
+}
+
+/// A form, and the language that the driver is given it in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Way(Form, Target);
+
+/// What is made of each kernel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ways {
+    /// Every form, as WGSL.
+    Forms,
+    /// One form, another for the next seed, as WGSL and as GLSL.
+    Languages,
 }
 
 /// What was compared.
@@ -37,13 +88,24 @@ pub struct Compared {
     pub refused: u64,
 }
 
+impl Compared {
+    /// Adds another.
+    pub fn add(&mut self, other: &Compared) {
+        self.kernels += other.kernels;
+        self.pixels += other.pixels;
+        self.rounded += other.rounded;
+        self.unsure += other.unsure;
+        self.refused += other.refused;
+    }
+}
+
 /// How a driver's picture is not the native one.
 #[derive(Clone, Debug)]
 pub enum Off {
     /// A value.
     Value {
-        /// The form.
-        form: Form,
+        /// The form and the language.
+        way: Way,
         /// Where it lies.
         place: Place,
         /// The native value.
@@ -52,17 +114,23 @@ pub enum Off {
         found: Texel,
     },
     /// The shader cannot be made or run.
-    Broken(Form, String),
+    Broken(Way, String),
 }
 
 impl Off {
     /// Whether two are of one sort, so that the smaller text shows the same defect.
     pub fn like(&self, other: &Off) -> bool {
         match (self, other) {
-            (Off::Value { form: a, .. }, Off::Value { form: b, .. }) => a == b,
+            (Off::Value { way: a, .. }, Off::Value { way: b, .. }) => a == b,
             (Off::Broken(a, _), Off::Broken(b, _)) => a == b,
             _ => false,
         }
+    }
+}
+
+impl fmt::Display for Way {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}, in {}", self.0, self.1)
     }
 }
 
@@ -70,98 +138,166 @@ impl fmt::Display for Off {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Off::Value {
-                form,
+                way,
                 place,
                 expected,
                 found,
-            } => write!(f, "{place}: rustc gives {expected:?}, the driver with {form} {found:?}"),
-            Off::Broken(form, why) => write!(f, "with {form}: {why}"),
+            } => write!(f, "{place}: rustc gives {expected:?}, the driver with {way}, {found:?}"),
+            Off::Broken(way, why) => write!(f, "with {way}: {why}"),
         }
     }
 }
 
 impl Driver {
-    /// The default adapter's device.
+    /// The device of a Vulkan adapter.
     ///
     /// # Errors
     ///
     /// There is no adapter: what to install.
     pub fn new() -> Result<Driver, String> {
-        let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
-        let adapter = pollster::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions::default()));
-        let adapter =
-            adapter.map_err(|e| format!("no GPU adapter; without a GPU install Debian's mesa-vulkan-drivers: {e}"))?;
-        let name = adapter.get_info().name;
-        let device = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor::default()));
-        let (device, queue) = device.map_err(|e| format!("the adapter {name} gives no device: {e}"))?;
-        Ok(Driver {
-            bench: Bench::new(&device, &queue, false),
-            name,
+        let bench = passthrough::bench()?;
+        let name = bench.device().adapter_info().name;
+        Ok(Driver { bench, name })
+    }
+
+    /// The shaders of kernels, those of each together.
+    ///
+    /// # Errors
+    ///
+    /// glslang cannot be run.
+    pub fn shaders(&self, texts: &[Text], ways: Ways) -> Result<Vec<Shaders>, String> {
+        let mut all: Vec<Shaders> = texts.iter().map(|text| self.emitted(text, ways)).collect();
+        let glsl = || {
+            all.iter()
+                .flat_map(|shaders| &shaders.made)
+                .filter_map(|shader| shader.glsl.as_ref())
+        };
+        let sources: Vec<&str> = glsl().flatten().map(|glsl| glsl.text.as_str()).collect();
+        let mut words = compilers::compiled_glsl_all(&sources)?.into_iter();
+        let shaders = all.iter_mut().flat_map(|shaders| &mut shaders.made);
+        for glsl in shaders.filter_map(|shader| shader.glsl.as_mut()?.as_mut().ok()) {
+            glsl.words = words.next().ok_or("glslang gives nothing")?;
+        }
+        Ok(all)
+    }
+
+    /// A kernel in every way that compiles and does something; GLSL is not compiled yet.
+    fn emitted(&self, text: &Text, ways: Ways) -> Shaders {
+        let kernel = Kernel::from_text("random.rs", &text.file(), "k");
+        let forms = ways.forms(text.seed);
+        let compiled = forms
+            .iter()
+            .filter_map(|form| Some((*form, kernel.compile(&form.settings()).ok()?)));
+        // What is written under a condition that never holds is not in the shader, and one that does nothing is not run.
+        let compiled = compiled.filter(|(_, made)| !made.graph.targets.is_empty() || made.graph.has_lasting_effects());
+        let made: Vec<Shader> = compiled
+            .map(|(form, compiled)| Shader {
+                glsl: (ways == Ways::Languages).then(|| self.glsl(&compiled)),
+                compiled,
+                form,
+            })
+            .collect();
+        Shaders {
+            refused: (forms.len() - made.len()) as u64,
+            made,
+        }
+    }
+
+    fn glsl(&self, compiled: &Compiled) -> Result<Glsl, String> {
+        let options = self.bench.options(Stage::Compute).targets([Target::Glsl450]);
+        let emitted = compiled.emit(&options).map_err(|error| error.to_string())?;
+        Ok(Glsl {
+            text: String::from_utf8_lossy(&emitted.files[&Target::Glsl450]).into_owned(),
+            manifest: emitted.manifest,
+            words: Ok(Vec::new()),
         })
     }
 
-    /// Compares what a kernel gives in every form with what the native program does.
+    /// Compares what a kernel's shaders give with what the native program does.
     ///
     /// # Errors
     ///
     /// The first difference.
-    pub fn compare(&self, text: &Text, world: &World, native: &Given, total: &mut Compared) -> Result<(), Off> {
-        let kernel = Kernel::from_text("random.rs", &text.file(), "k");
+    pub fn compare(&self, shaders: &Shaders, world: &World, native: &Given, total: &mut Compared) -> Result<(), Off> {
         let inputs = world.inputs();
-        total.unsure += native.pixels.iter().filter(|pixel| pixel.is_none()).count() as u64;
-        for form in FORMS {
-            let broken = |why: String| Off::Broken(*form, why);
-            let Ok(compiled) = kernel.compile(&form.settings()) else {
-                total.refused += 1;
-                continue;
+        for shader in &shaders.made {
+            let judged = |language: Target, run: Result<AllWritten, String>, total: &mut Compared| {
+                let way = Way(shader.form, language);
+                let (targets, buffers) = run.map_err(|why| Off::Broken(way, why))?;
+                judge(
+                    way,
+                    &shader.compiled,
+                    world,
+                    native,
+                    &Given::of_run(&targets, buffers),
+                    total,
+                )
             };
-            // What is written under a condition that never holds is not in the shader, and one that does nothing is not run.
-            if compiled.graph.targets.is_empty() && !compiled.graph.has_lasting_effects() {
-                total.refused += 1;
-                continue;
-            }
-            let run = self.bench.all_written(&compiled, Stage::Compute, &inputs);
-            let (targets, buffers) = run.map_err(|why| broken(why.to_string()))?;
-            let found = Given::of_run(&targets, buffers);
-            let pairs = native.pairs(&found, world).map_err(broken)?;
-            let mut exact: Option<Vec<Texel>> = None;
-            for (k, (place, expected, found)) in pairs.into_iter().enumerate() {
-                let number = |x: &f64| x.is_finite() && !(*x as f32).is_subnormal();
-                if !expected.iter().all(number) {
-                    total.unsure += 1;
-                    continue;
-                }
-                // Shaders may lose the sign of a zero.
-                if expected == found {
-                    total.pixels += 1;
-                    continue;
-                }
-                if exact.is_none() {
-                    let run = computed::<f64>(&compiled, world).map_err(broken)?;
-                    let pairs = native.pairs(&run, world).map_err(broken)?;
-                    exact = Some(pairs.into_iter().map(|(_, _, exact)| exact).collect());
-                }
-                let exact = exact.as_ref().map_or([f64::NAN; 4], |exact| exact[k]);
-                match Rounding::of(expected, exact, found) {
-                    Rounding::Decides => total.unsure += 1,
-                    Rounding::Shows => {
-                        total.pixels += 1;
-                        total.rounded += 1;
-                    }
-                    Rounding::No => {
-                        return Err(Off::Value {
-                            form: *form,
-                            place,
-                            expected,
-                            found,
-                        });
-                    }
-                }
+            let run = self.bench.all_written(&shader.compiled, Stage::Compute, &inputs);
+            judged(Target::Wgsl, run.map_err(|why| why.to_string()), total)?;
+            if let Some(glsl) = &shader.glsl {
+                judged(Target::Glsl450, self.run(glsl, &inputs), total)?;
             }
         }
-        total.kernels += 1;
+        total.refused += shaders.refused;
+        total.unsure += native.pixels.iter().filter(|pixel| pixel.is_none()).count() as u64;
+        total.kernels += u64::from(!shaders.made.is_empty());
         Ok(())
     }
+
+    fn run(&self, glsl: &Result<Glsl, String>, inputs: &Inputs) -> Result<AllWritten, String> {
+        let glsl = glsl.as_ref().map_err(Clone::clone)?;
+        let words = glsl.words.as_ref().map_err(Clone::clone)?;
+        passthrough::written(&self.bench, glsl.manifest.clone(), Target::Glsl450, words, inputs)
+    }
+}
+
+/// Compares what a driver gives with what the native program does.
+fn judge(
+    way: Way,
+    compiled: &Compiled,
+    world: &World,
+    native: &Given,
+    found: &Given,
+    total: &mut Compared,
+) -> Result<(), Off> {
+    let broken = |why: String| Off::Broken(way, why);
+    let pairs = native.pairs(found, world).map_err(broken)?;
+    let mut exact: Option<Vec<Texel>> = None;
+    for (k, (place, expected, found)) in pairs.into_iter().enumerate() {
+        let number = |x: &f64| x.is_finite() && !(*x as f32).is_subnormal();
+        if !expected.iter().all(number) {
+            total.unsure += 1;
+            continue;
+        }
+        // Shaders may lose the sign of a zero.
+        if expected == found {
+            total.pixels += 1;
+            continue;
+        }
+        if exact.is_none() {
+            let run = computed::<f64>(compiled, world).map_err(broken)?;
+            let pairs = native.pairs(&run, world).map_err(broken)?;
+            exact = Some(pairs.into_iter().map(|(_, _, exact)| exact).collect());
+        }
+        let exact = exact.as_ref().map_or([f64::NAN; 4], |exact| exact[k]);
+        match Rounding::of(expected, exact, found) {
+            Rounding::Decides => total.unsure += 1,
+            Rounding::Shows => {
+                total.pixels += 1;
+                total.rounded += 1;
+            }
+            Rounding::No => {
+                return Err(Off::Value {
+                    way,
+                    place,
+                    expected,
+                    found,
+                });
+            }
+        }
+    }
+    Ok(())
 }
 
 /// Whether rounding explains that a driver's pixel is not the native one.

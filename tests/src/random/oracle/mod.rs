@@ -15,7 +15,7 @@ mod world;
 pub use batch::run;
 pub use change::{Lenient, Verdicts, judge_changed};
 pub use compare::{Difference, Reason, Tally, compare, interpret};
-pub use driver::{Compared, Driver, Off};
+pub use driver::{Compared, Driver, Off, Ways};
 pub use given::{Given, Place, Texel, computed};
 pub use reduce::{reduce, reduce_on_driver};
 pub use rustc::{Rustc, Verdict};

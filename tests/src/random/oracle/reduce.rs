@@ -1,6 +1,6 @@
 //! Making a failing kernel smaller: on its text, since rustc says what is still a kernel.
 
-use super::{Driver, Failure, Given, Rustc, Text, World, check, run};
+use super::{Driver, Failure, Given, Rustc, Text, Ways, World, check, run};
 use rayon::prelude::*;
 use straightline_codegen::{Kernel, Settings};
 
@@ -28,9 +28,14 @@ pub fn reduce(rustc: &Rustc, failure: &Failure) -> Failure {
 }
 
 /// The smallest text found with which a driver does not do what rustc's program does, in the same form and manner.
-pub fn reduce_on_driver(rustc: &Rustc, driver: &Driver, text: &Text, world: u64) -> Text {
+pub fn reduce_on_driver(rustc: &Rustc, driver: &Driver, ways: Ways, text: &Text, world: u64) -> Text {
     let inputs = World::new(world);
-    let off = |text: &Text, native: &Given| driver.compare(text, &inputs, native, &mut Default::default()).err();
+    let off = |text: &Text, native: &Given| {
+        let shaders = driver.shaders(std::slice::from_ref(text), ways).ok()?;
+        driver
+            .compare(shaders.first()?, &inputs, native, &mut Default::default())
+            .err()
+    };
     let natives = run(rustc, std::slice::from_ref(text), &inputs).unwrap_or_default();
     let Some(first) = natives.iter().flatten().find_map(|native| off(text, native)) else {
         return text.clone();
