@@ -1,6 +1,6 @@
 //! A bilateral blur at full resolution, its reads shared over the quad (§2.7).
 
-use super::surface::{bounded, is_bright, of_no_surface};
+use super::surface::{bounded, is_bright, no_surface};
 use crate::prelude::*;
 
 options! {
@@ -65,10 +65,10 @@ pub fn quad_bilateral(cfg: &QuadBilateral, image: &Frame<Vec4>, pixel: Quad<IVec
 }
 
 /// A pixel as it counts: one whose colour is not finite is black, and of no surface that any other lies on.
-fn surface(texel: Quad<Vec4>) -> Quad<Vec4> {
-    let counts = is_bright(texel.x()) & is_bright(texel.y()) & is_bright(texel.z());
-    let counted = texel.truncate().extend(bounded(texel.w()));
-    counts.select(counted, of_no_surface())
+fn surface(seen: Quad<Vec4>) -> Quad<Vec4> {
+    let counts = is_bright(seen.x()) & is_bright(seen.y()) & is_bright(seen.z());
+    let depth = bounded(seen.w());
+    counts.select(seen.truncate().extend(depth), no_surface())
 }
 
 /// What a pixel adds: its difference from the centre, and 1, times its weight. Of pixels all alike nothing is left

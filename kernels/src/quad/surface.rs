@@ -19,6 +19,6 @@ pub(super) fn is_bright(component: Quad<f32>) -> Quad<bool> {
 }
 
 /// What stands for a texel that must not count: black, and so far from every depth, the sky's too, that it has no weight.
-pub(super) fn of_no_surface() -> Quad<Vec4> {
+pub(super) fn no_surface() -> Quad<Vec4> {
     Quad::splat(vec4(0.0, 0.0, 0.0, -DEEPEST))
 }

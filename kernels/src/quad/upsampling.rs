@@ -1,6 +1,6 @@
 //! Cross-bilateral upsampling with one or two reads a pixel (§2.7), and the pass that makes what it reads.
 
-use super::surface::{bounded, is_bright, of_no_surface};
+use super::surface::{bounded, is_bright, no_surface};
 use crate::prelude::*;
 
 options! {
@@ -143,7 +143,7 @@ fn heard(
     let own = low.load(corner + lane_position());
     let counts = cfg.counts(own);
     let counted = match cfg.reads {
-        Reads::Packed => counts.select(own.truncate().extend(bounded(own.w())), of_no_surface()),
+        Reads::Packed => counts.select(own.truncate().extend(bounded(own.w())), no_surface()),
         _ => counts.select(own, Quad::splat(Vec4::ZERO)),
     };
     // The lane's own texel lies in its own direction; for the others the tent is flipped.
@@ -186,7 +186,7 @@ fn heard(
         },
         _ => {
             let surface = low_surface.load(corner + lane_position());
-            let depth = counts.select(bounded(surface.w()), of_no_surface().w());
+            let depth = counts.select(bounded(surface.w()), no_surface().w());
             match cfg.payload {
                 Payload::Scalar => {
                     let messages = counted.x().gather();
@@ -249,7 +249,7 @@ fn around(
             Payload::Scalar => Vec4::ONE * color.x(),
             Payload::Color => color,
         };
-        taps[k].depth = counts.select(bounded(surface.w()), of_no_surface().w());
+        taps[k].depth = counts.select(bounded(surface.w()), no_surface().w());
         taps[k].normal = surface.truncate();
         taps[k].tent = x * y;
     }
