@@ -2,7 +2,7 @@
 
 use super::*;
 use straightline_kernels::quad::bilateral::{self, QuadBilateral, quad_bilateral};
-use straightline_kernels::quad::convolution::{self, QuadConvolution, Weights, quad_convolution};
+use straightline_kernels::quad::convolution::{self, QuadConvolution, Taps, Weights, quad_convolution};
 use straightline_kernels::quad::ssao::{QuadSsao, Sharing, quad_ssao};
 use straightline_kernels::quad::upsampling::{
     Downsampling, Factor, Gives, Payload, Reads, Upsampling, downsampling, quad_upsampling,
@@ -38,6 +38,7 @@ fn convolutions_are_sums_of_weighted_pixels() {
                 sharing,
                 weights,
                 given,
+                ..QuadConvolution::default()
             };
             let weight = |i: i64, j: i64| match weights {
                 Weights::Box => 1.0 / f64::from((2 * radius + 1) * (2 * radius + 1)),
@@ -61,9 +62,46 @@ fn convolutions_are_sums_of_weighted_pixels() {
                 ],
                 &options,
                 &inputs,
-                &native(size, |pixel| quad_convolution(&cfg, &image, pixel)),
+                &native(size, |pixel| quad_convolution(&cfg, &image, &Sampler::default(), pixel)),
                 &defined(size, |at| quads::convolution(&whole, radius.into(), weight, at)),
                 [4.0e-6, 2.0e-6],
+            );
+        }
+    }
+}
+
+/// Samplers weigh in steps of a 256th on some devices, and in single floats on the software drivers.
+#[test]
+fn bilinear_taps_give_the_plane_that_fits_them() {
+    let gpu = bench();
+    for size in SIZES {
+        let image = noise(size, 9);
+        let inputs = Inputs::new(size).image("image", image.clone());
+        let whole = picture(&image);
+        for (radius, weights, word) in [
+            (1, Weights::Box, "box"),
+            (1, Weights::Binomial, "binomial"),
+            (3, Weights::Binomial, "binomial"),
+            (5, Weights::Box, "box"),
+        ] {
+            let cfg = QuadConvolution {
+                radius,
+                weights,
+                taps: Taps::Bilinear,
+                ..QuadConvolution::default()
+            };
+            let weight = |k: i64| match weights {
+                Weights::Box => 1.0 / f64::from(2 * radius + 2),
+                _ => quads::pascal(2 * i64::from(radius) + 1, i64::from(radius) + 1 + k),
+            };
+            check(
+                &gpu,
+                [&format!("fitted {radius} {word}"), "quad_convolution"],
+                &[("radius", &radius.to_string()), ("weights", word), ("taps", "bilinear")],
+                &inputs,
+                &native(size, |pixel| quad_convolution(&cfg, &image, &Sampler::default(), pixel)),
+                &defined(size, |at| quads::fitted(&whole, radius.into(), weight, at)),
+                [2.0e-3, 2.0e-6],
             );
         }
     }

@@ -1,7 +1,7 @@
 //! Shadow maps, filtered in a forward pass.
 
 use super::*;
-use straightline_kernels::quad::pcf::{Gradient, Method, Mirroring, Pcf, ShadowWeights, Tap, Width, join, pcf};
+use straightline_kernels::quad::pcf::{Gradient, Method, Mirroring, Pcf, ShadowWeights, Tap, Width, join, pcf, table};
 use straightline_kernels::quad::pcss::{Pcss, SearchSharing, pcss};
 use straightline_testbed::execute::{Corner, Forward};
 use straightline_tests::quads::{self, Shadow};
@@ -15,6 +15,15 @@ const WEIGHTS: [(ShadowWeights, &str); 7] = [
     (ShadowWeights::Quadratic, "quadratic"),
     (ShadowWeights::Cubic, "cubic"),
 ];
+
+/// A table of the cubic spline.
+const LOOKUP: (ShadowWeights, &str) = (ShadowWeights::Lookup, "lookup");
+
+/// That table for a filter that ends at `half`.
+fn cubic_table(half: f32) -> Texture<Vec4> {
+    let cubic = shadow("cubic", half.into());
+    table(half, 513, |away| cubic.weight(away.into()) as f32)
+}
 
 pub(super) const MAP: UVec2 = uvec2(48, 40);
 
@@ -121,6 +130,9 @@ fn cases() -> Vec<Case> {
         add(Method::Quad, width, WEIGHTS[6], Gradient::Prewitt, 1.0);
         add(Method::Quad, width, WEIGHTS[5], Gradient::Fitted, 1.0);
         add(Method::Quad, width, WEIGHTS[0], Gradient::None, 2.5);
+        add(Method::Bilinear, width, LOOKUP, Gradient::None, 1.0);
+        add(Method::Quad, width, LOOKUP, Gradient::None, 1.0);
+        add(Method::Quad, width, LOOKUP, Gradient::Prewitt, 1.0);
     }
     for weights in WEIGHTS {
         add(Method::Gather, Width::Eight, weights, Gradient::None, 1.0);
@@ -151,7 +163,10 @@ fn definition(case: &Case, coord: impl Fn([i64; 2]) -> [f64; 3], [x, y]: [i64; 2
         Width::Four => (4, 2.0),
         Width::Eight => (8, 4.0),
     };
-    let word = case.options[2].1.as_str();
+    let word = match case.options[2].1.as_str() {
+        "lookup" => "cubic",
+        word => word,
+    };
     let of = |c: [f64; 3]| [c[0] * f64::from(MAP.x), c[1] * f64::from(MAP.y)];
     let own = coord([x, y]);
     let quad = [0, 1, 2, 3].map(|k| coord([x / 2 * 2 + k % 2, y / 2 * 2 + k / 2]));
@@ -242,8 +257,12 @@ fn every_filter_is_its_definition() {
                 spread: case.spread,
                 mirroring: case.mirroring,
             };
+            let lookup = cubic_table(if case.width == Width::Four { 2.0 } else { 4.0 });
+            let inputs = inputs.clone().image("lookup", Frame::new(lookup.size(), lookup.texels().to_vec()));
             let sampler = ComparisonSampler::default();
-            let found = native(size, |pixel| pcf(&cfg, &texture, &sampler, coords.load(pixel)));
+            let found = native(size, |pixel| {
+                pcf(&cfg, &texture, &sampler, &lookup, &Sampler::default(), coords.load(pixel))
+            });
             let forms = if size.x % 2 == 1 { &FORMS[..] } else { &FORMS[..1] };
             for unroll in forms.iter().copied() {
                 let compiled = compile("pcf", &options, unroll, None);

@@ -1,10 +1,12 @@
 //! Percentage-closer filtering of shadow maps, its comparisons shared over the quad (§2.9).
 
+mod table;
 mod weights;
 
 use crate::prelude::*;
 use weights::weigh;
 
+pub use table::table;
 pub use weights::ShadowWeights;
 
 options! {
@@ -77,7 +79,16 @@ pub enum Gradient {
 /// The chapter's `g01 = g0 = g1` is a sum, its `a.xxyy` is `a.xyxy`, and its gradient is corrected: for taps at -3, -1, 1
 /// and 3 texels the slope is their moment over 80, and a pixel's value lies towards it, from the middle of what was
 /// weighed.
-pub fn pcf(cfg: &Pcf, shadow: &DepthTexture, shadow_sampler: &ComparisonSampler, coord: Quad<Vec3>) -> Quad<Vec4> {
+///
+/// `lookup` is read by `weights=lookup` alone, through a sampler that filters linearly and clamps: [`table`] makes it.
+pub fn pcf(
+    cfg: &Pcf,
+    shadow: &DepthTexture,
+    shadow_sampler: &ComparisonSampler,
+    lookup: &Texture<Vec4>,
+    lookup_sampler: &Sampler,
+    coord: Quad<Vec3>,
+) -> Quad<Vec4> {
     if cfg.method != Method::Quad {
         assert!(
             cfg.gradient == Gradient::None,
@@ -100,12 +111,18 @@ pub fn pcf(cfg: &Pcf, shadow: &DepthTexture, shadow_sampler: &ComparisonSampler,
             "method=gather takes 8 by 8 texels: leave width at eight"
         );
     }
+    if cfg.weights == ShadowWeights::Lookup {
+        assert!(
+            cfg.method == Method::Quad || cfg.method == Method::Bilinear,
+            "weights=lookup has weights of two texels at a time: set method to quad or bilinear"
+        );
+    }
     let lit = match cfg.method {
         Method::Naive => naive(cfg, shadow, shadow_sampler, coord),
-        Method::Bilinear => bilinear(cfg, shadow, shadow_sampler, coord),
+        Method::Bilinear => bilinear(cfg, shadow, shadow_sampler, lookup, lookup_sampler, coord),
         Method::Quad => {
             let centre = coord.average();
-            let taps = compare(cfg, shadow, shadow_sampler, centre);
+            let taps = compare(cfg, shadow, shadow_sampler, lookup, lookup_sampler, centre);
             let away = (coord.truncate() - centre.truncate()) * shadow.size().as_vec2();
             join(cfg, taps, fraction(shadow, centre), away)
         }
@@ -148,12 +165,20 @@ struct Pair {
     weight: Quad<Vec2>,
 }
 
-fn pair(cfg: &Pcf, first: Quad<Vec2>) -> Pair {
+fn pair(cfg: &Pcf, lookup: &Texture<Vec4>, lookup_sampler: &Sampler, first: Quad<Vec2>) -> Pair {
     match cfg.weights {
         ShadowWeights::Box => Pair {
             place: first + 0.5,
             weight: Quad::splat(Vec2::ONE),
         },
+        ShadowWeights::Lookup => {
+            let columns = looked_up(cfg, lookup, lookup_sampler, first.x());
+            let rows = looked_up(cfg, lookup, lookup_sampler, first.y());
+            Pair {
+                place: first + Quad::from_xy(columns.y(), rows.y()),
+                weight: Quad::from_xy(columns.x(), rows.x()),
+            }
+        }
         _ => {
             let w0 = weigh(cfg.weights, cfg.width.half(), first);
             let w1 = weigh(cfg.weights, cfg.width.half(), first + 1.0);
@@ -166,8 +191,25 @@ fn pair(cfg: &Pcf, first: Quad<Vec2>) -> Pair {
     }
 }
 
+/// What the table says of the texels at `first` and one farther.
+fn looked_up(cfg: &Pcf, lookup: &Texture<Vec4>, lookup_sampler: &Sampler, first: Quad<f32>) -> Quad<Vec4> {
+    let half = cfg.width.half();
+    let texels = lookup.size().x as f32;
+    // Between the middles of the first and of the last texel of the table.
+    let at = (first + half) / (2.0 * half - 1.0) * (texels - 1.0) + 0.5;
+    let at = Quad::from_xy(at / texels, Quad::splat(0.5));
+    lookup.sample_level(lookup_sampler, at, Quad::splat(0.0))
+}
+
 /// Each pixel compares between every 2×2 texels.
-fn bilinear(cfg: &Pcf, shadow: &DepthTexture, shadow_sampler: &ComparisonSampler, coord: Quad<Vec3>) -> Quad<f32> {
+fn bilinear(
+    cfg: &Pcf,
+    shadow: &DepthTexture,
+    shadow_sampler: &ComparisonSampler,
+    lookup: &Texture<Vec4>,
+    lookup_sampler: &Sampler,
+    coord: Quad<Vec3>,
+) -> Quad<f32> {
     let size = shadow.size().as_vec2();
     let a = fraction(shadow, coord);
     let n = cfg.width.texels();
@@ -175,8 +217,8 @@ fn bilinear(cfg: &Pcf, shadow: &DepthTexture, shadow_sampler: &ComparisonSampler
     let mut total = Quad::splat(0.0);
     for j in 0..n / 2 {
         for i in 0..n / 2 {
-            let column = pair(cfg, (2 * i - n / 2 + 1) as f32 - a);
-            let row = pair(cfg, (2 * j - n / 2 + 1) as f32 - a);
+            let column = pair(cfg, lookup, lookup_sampler, (2 * i - n / 2 + 1) as f32 - a);
+            let row = pair(cfg, lookup, lookup_sampler, (2 * j - n / 2 + 1) as f32 - a);
             let place = Quad::from_xy(column.place.x(), row.place.y());
             let weight = column.weight.x() * row.weight.y();
             sum += weight * shadow.compare(shadow_sampler, coord.truncate() + place / size, coord.z());
@@ -201,7 +243,14 @@ pub struct Tap {
 }
 
 /// Each lane takes its quarter of the comparisons around `centre`.
-fn compare(cfg: &Pcf, shadow: &DepthTexture, shadow_sampler: &ComparisonSampler, centre: Quad<Vec3>) -> [Tap; 4] {
+fn compare(
+    cfg: &Pcf,
+    shadow: &DepthTexture,
+    shadow_sampler: &ComparisonSampler,
+    lookup: &Texture<Vec4>,
+    lookup_sampler: &Sampler,
+    centre: Quad<Vec3>,
+) -> [Tap; 4] {
     let size = shadow.size().as_vec2();
     let a = fraction(shadow, centre);
     let mut taps = [Tap {
@@ -213,7 +262,8 @@ fn compare(cfg: &Pcf, shadow: &DepthTexture, shadow_sampler: &ComparisonSampler,
     for k in 0..cfg.width.taps() {
         // The same two columns and two rows for all four.
         let (i, j) = (first_texel(cfg, k % 2), first_texel(cfg, k / 2));
-        let (column, row) = (pair(cfg, i - a), pair(cfg, j - a));
+        let column = pair(cfg, lookup, lookup_sampler, i - a);
+        let row = pair(cfg, lookup, lookup_sampler, j - a);
         let place = Quad::from_xy(column.place.x(), row.place.y()) * cfg.spread;
         taps[k] = Tap {
             lit: shadow.compare(shadow_sampler, centre.truncate() + place / size, centre.z()),

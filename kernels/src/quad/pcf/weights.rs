@@ -19,6 +19,8 @@ pub enum ShadowWeights {
     Quadratic,
     /// A cubic B-spline.
     Cubic,
+    /// As a table says ([`table`](super::table)), of any filter: of `quad` and `bilinear` alone.
+    Lookup,
 }
 
 /// exp(-2): a Gaussian at two sigma.
@@ -28,7 +30,8 @@ const AT_TWO_SIGMA: f32 = 0.135_335_28;
 pub fn weigh(weights: ShadowWeights, half: f32, offset: Quad<Vec2>) -> Quad<Vec2> {
     let away = offset.abs();
     match weights {
-        ShadowWeights::Box => {
+        // Of a table pairs of texels alone have weights: no method that comes here takes it.
+        ShadowWeights::Box | ShadowWeights::Lookup => {
             // Of a texel at the very end half counts.
             saturate(half + 0.5 - away)
         }

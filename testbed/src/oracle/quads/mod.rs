@@ -36,11 +36,58 @@ pub fn convolution(image: &Picture, radius: i64, weight: impl Fn(i64, i64) -> f6
     sum
 }
 
+/// The plane that fits the bilinear taps of a quad's (2k+2)² pixels best, where the pixel lies. `weight` is that of a column,
+/// or row, by its number outwards from the middle.
+pub fn fitted(image: &Picture, radius: i64, weight: impl Fn(i64) -> f64, [x, y]: [i64; 2]) -> [f64; 4] {
+    let corner = [x - x.rem_euclid(2), y - y.rem_euclid(2)];
+    // Of a column, or row: the two pixels, from the quad's first, the share of the farther, the place and the weight.
+    let mut axis = Vec::new();
+    for k in (0..=radius).step_by(2) {
+        let (near, far) = (weight(k), weight(k + 1));
+        let (both, place) = (near + far, k as f64 + 0.5 + far / (near + far));
+        axis.push((1 + k, 2 + k, far / both, place, both));
+        axis.push((-k, -k - 1, far / both, -place, both));
+    }
+    // The normal equations of a + b·x + c·y, by colour.
+    let mut normal = [[0.0; 7]; 3];
+    for &(x0, x1, s, px, wx) in &axis {
+        for &(y0, y1, t, py, wy) in &axis {
+            let texel = |i: i64, j: i64| image.at(corner[0] + i, corner[1] + j);
+            let [a, b, c, d] = [texel(x0, y0), texel(x1, y0), texel(x0, y1), texel(x1, y1)];
+            let basis = [1.0, px, py];
+            for row in 0..3 {
+                for column in 0..3 {
+                    normal[row][column] += wx * wy * basis[row] * basis[column];
+                }
+                for k in 0..4 {
+                    let tap = (1.0 - t) * ((1.0 - s) * a[k] + s * b[k]) + t * ((1.0 - s) * c[k] + s * d[k]);
+                    normal[row][3 + k] += wx * wy * basis[row] * tap;
+                }
+            }
+        }
+    }
+    for pivot in 0..3 {
+        for row in (0..3).filter(|row| *row != pivot) {
+            let factor = normal[row][pivot] / normal[pivot][pivot];
+            for column in 0..7 {
+                normal[row][column] -= factor * normal[pivot][column];
+            }
+        }
+    }
+    let (u, v) = ((x - corner[0]) as f64 - 0.5, (y - corner[1]) as f64 - 0.5);
+    let solved = |row: usize, k: usize| normal[row][3 + k] / normal[row][row];
+    std::array::from_fn(|k| solved(0, k) + u * solved(1, k) + v * solved(2, k))
+}
+
 /// Entry `x` from the middle of row 2k of Pascal's triangle, over the row's sum.
 pub fn binomial(radius: i64, x: i64) -> f64 {
+    pascal(2 * radius, radius + x)
+}
+
+/// Entry `k` of row `n` of Pascal's triangle, over the row's sum.
+pub fn pascal(n: i64, k: i64) -> f64 {
     let factorial = |n: i64| (1..=n).map(|k| k as f64).product::<f64>();
-    let n = 2 * radius;
-    factorial(n) / factorial(radius + x) / factorial(radius - x) / 2.0f64.powi(n as i32)
+    factorial(n) / factorial(k) / factorial(n - k) / 2.0f64.powi(n as i32)
 }
 
 /// Depths are at most this, by definition of the filters; what is infinite or not a number is as deep.

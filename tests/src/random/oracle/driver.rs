@@ -16,6 +16,10 @@ const TOLERANCE: f64 = 1.0e-3;
 /// Most that all rounding may change a value that is compared, relative to its size: beyond, a decision hangs on it.
 const SURE: f64 = 1.0e-4;
 
+/// Most that a driver may be off where the native value is exact, in units of its last place: Vulkan has divisions and
+/// square roots off by 2.5 of them.
+const LAST_PLACES: f64 = 4.0;
+
 impl Ways {
     /// The forms of the kernel of a seed.
     fn forms(self, seed: u64) -> &'static [Form] {
@@ -321,11 +325,20 @@ impl Rounding {
             if !sure {
                 return Rounding::Decides;
             }
-            let off = expected != found;
-            if off && (expected == exact || (expected - found).abs() > TOLERANCE * size || found.is_nan()) {
+            let most = match expected == exact {
+                true => LAST_PLACES * last_place(expected),
+                false => TOLERANCE * size,
+            };
+            if (expected - found).abs() > most || found.is_nan() {
                 all = Rounding::No;
             }
         }
         all
     }
+}
+
+/// The distance from a value to the next one in `f32`.
+fn last_place(x: f64) -> f64 {
+    let x = (x.abs() as f32).max(f32::MIN_POSITIVE);
+    f64::from(x.next_up()) - f64::from(x)
 }
