@@ -49,7 +49,7 @@ fn options_together_are_the_same_in_every_form() {
 #[test]
 fn smallest_frames_agree() {
     for size in [uvec2(1, 1), uvec2(1, 5), uvec2(5, 1), uvec2(2, 3)] {
-        for layout in ["layers", "superresolution", "multisampled"] {
+        for layout in ["layers", "superresolution", "multisampled", "split"] {
             all_forms_agree(&options(&[("layout", layout), ("metric", "planes-normals")]), size);
         }
     }

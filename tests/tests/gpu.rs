@@ -67,7 +67,7 @@ fn options_together_match_the_brute_force() {
 
 #[test]
 fn any_size_from_one_pixel() {
-    let sets: Vec<Options> = ["layers", "superresolution", "multisampled"]
+    let sets: Vec<Options> = ["layers", "superresolution", "multisampled", "split"]
         .map(|layout| options(&[("layout", layout), ("metric", "planes-normals")]))
         .into();
     for size in [uvec2(1, 1), uvec2(1, 7), uvec2(9, 1), uvec2(8, 8), uvec2(17, 33)] {

@@ -87,6 +87,7 @@ fn plan(pictures: bool) -> Plan {
         rounds: 2,
         quick: true,
         pan_frames: 2,
+        post_processed: false,
         pan_scenes: 1,
         pictures,
         own: Vec::new(),
@@ -116,6 +117,7 @@ fn methods_of_the_users_own() {
     let with = |methods: Vec<Method>| Plan {
         own: methods,
         pan_frames: 0,
+        post_processed: false,
         ..plan(false)
     };
     let plan = with(vec![
@@ -242,6 +244,7 @@ fn methods_on_a_scene() {
 fn what_is_finished_is_kept_when_it_is_stopped() {
     let plan = Plan {
         pan_frames: 0,
+        post_processed: false,
         size: uvec2(32, 18),
         ..plan(false)
     };

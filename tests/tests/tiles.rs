@@ -14,7 +14,7 @@ use straightline_tests::sraa::options::options;
 use straightline_tests::sraa::{Options, compiled, surfaces};
 
 fn sets() -> Vec<Options> {
-    ["layers", "superresolution", "multisampled"]
+    ["layers", "superresolution", "multisampled", "split"]
         .map(|layout| options(&[("layout", layout), ("metric", "planes-normals")]))
         .into_iter()
         .chain([options(&[("metric", "depth"), ("falloff", "none"), ("mask", "select")])])

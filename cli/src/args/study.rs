@@ -105,6 +105,10 @@ pub struct ErrorArgs {
     /// A method of your own to compare: options of `sraa`, `stalker` or `tabula_rasa`, or a kernel that reads what it likes of color, depth and normal; may be given several times
     #[arg(long = "method", value_name = "NAME=KERNEL[,OPTION=VALUE]...")]
     pub methods: Vec<String>,
+    /// Bloom and tone mapping follow, as in a game: methods before them, filters of the displayed picture after. SRAA and
+    /// supersampling are tried after them too
+    #[arg(long)]
+    pub post: bool,
     /// A built-in scene (see `scenes`); may be given several times. By default all of them
     #[arg(long, value_name = "NAME")]
     pub scene: Vec<String>,

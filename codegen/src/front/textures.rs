@@ -115,7 +115,7 @@ pub const TEXTURES: [TextureType; 10] = [
         kind: TextureKind::Layers,
         framed: true,
         integers: true,
-        methods: &[LOAD_LAYER],
+        methods: &[LOAD_LAYER, SIZE],
     },
     TextureType {
         name: "Texture",

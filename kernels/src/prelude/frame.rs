@@ -81,6 +81,11 @@ impl<T: Copy> FrameLayers<T> {
         FrameLayers { layers }
     }
 
+    /// Width and height in texels.
+    pub fn size(&self) -> UVec2 {
+        self.layers[0].size
+    }
+
     /// The layers, first to last.
     pub fn layers(&self) -> &[Frame<T>] {
         &self.layers

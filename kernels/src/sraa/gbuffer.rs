@@ -44,6 +44,8 @@ pub enum Layout {
     Superresolution,
     /// The samples of a multisampled texture (paper §3.4: one pass for all).
     Multisampled,
+    /// As layers, but depth in a storage buffer: the two come by different caches (paper §3.5). Of metrics that compare both.
+    Split,
 }
 
 /// The G-buffer. A shader binds only what its layout, its metric and its encodings need.
@@ -52,8 +54,10 @@ pub enum Layout {
 pub struct GBuffer {
     /// Of layout=layers.
     pub depth: FrameLayers<f32>,
-    /// Of layout=layers.
+    /// Of layout=layers and layout=split.
     pub normal: FrameLayers<Vec4>,
+    /// Of layout=split: what `depth` is of layout=layers, row by row, layer after layer.
+    pub depth_buffer: Buffer<f32>,
     /// Of layout=layers with normals=packed.
     pub packed: FrameLayers<Vec4>,
     /// Of layout=superresolution.
@@ -119,6 +123,12 @@ impl GBuffer {
     fn depth(&self, cfg: &Sraa, pixel: IVec2, place: Place) -> f32 {
         match (cfg.layout, place.centre) {
             (Layout::Layers, _) => self.depth.load(pixel, place.sample),
+            (Layout::Split, _) => {
+                let size = self.normal.size().as_ivec2();
+                let at = pixel.clamp(IVec2::ZERO, size - 1);
+                self.depth_buffer
+                    .load(((place.sample as i32 * size.y + at.y) * size.x + at.x) as usize)
+            }
             (_, true) => self.centre_depth.load(pixel),
             (Layout::Superresolution, _) => self
                 .depth_grid
@@ -129,7 +139,7 @@ impl GBuffer {
 
     fn normal(&self, cfg: &Sraa, pixel: IVec2, place: Place) -> Vec4 {
         match (cfg.layout, place.centre) {
-            (Layout::Layers, _) => self.normal.load(pixel, place.sample),
+            (Layout::Layers | Layout::Split, _) => self.normal.load(pixel, place.sample),
             (_, true) => self.centre_normal.load(pixel),
             (Layout::Superresolution, _) => {
                 self.normal_grid
@@ -141,7 +151,8 @@ impl GBuffer {
 
     fn packed(&self, cfg: &Sraa, pixel: IVec2, place: Place) -> Vec4 {
         match (cfg.layout, place.centre) {
-            (Layout::Layers, _) => self.packed.load(pixel, place.sample),
+            // Nothing is split of a texel that holds both.
+            (Layout::Layers | Layout::Split, _) => self.packed.load(pixel, place.sample),
             (_, true) => self.centre_packed.load(pixel),
             (Layout::Superresolution, _) => {
                 self.packed_grid
@@ -222,6 +233,7 @@ impl GBuffer {
         GBuffer {
             depth: FrameLayers::new(vec![scalar()]),
             normal: FrameLayers::new(vec![vector()]),
+            depth_buffer: Buffer::new(vec![0.0]),
             packed: FrameLayers::new(vec![vector()]),
             depth_grid: Texture::new(UVec2::ONE, vec![0.0]),
             normal_grid: Texture::new(UVec2::ONE, vec![Vec4::ZERO]),

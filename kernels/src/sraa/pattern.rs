@@ -154,6 +154,13 @@ impl Sraa {
             );
             assert!(samples >= 2, "layout=multisampled needs two samples at least");
         }
+        if self.layout == Layout::Split {
+            assert!(
+                self.normals != Normals::Packed
+                    && (self.metric == Metric::DepthNormals || self.metric == Metric::PlanesNormals),
+                "layout=split parts depth from normals: set a metric that compares both, and normals that are not packed"
+            );
+        }
         if self.search != Search::None {
             assert!(
                 samples <= 32,

@@ -1,11 +1,13 @@
-//! What SRAA is compared with and is not ours: filters that look at the picture alone.
+//! What SRAA is compared with and is not ours: filters that look at the picture alone, or at its samples.
 
 mod copy;
+mod directional;
 mod fxaa;
 mod mlaa;
 mod smaa;
 mod transfer;
 
+pub use directional::directional;
 pub use fxaa::fxaa;
 pub use mlaa::mlaa;
 pub use smaa::Smaa;

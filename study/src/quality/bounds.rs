@@ -2,7 +2,8 @@
 
 use super::classes::seen_around;
 use super::surfaces::{Point, Surfaces};
-use glam::{UVec2, Vec4, ivec2};
+use crate::peers::directional;
+use glam::{UVec2, Vec2, Vec4, ivec2};
 use rayon::prelude::*;
 use straightline_kernels::prelude::Frame;
 
@@ -10,14 +11,31 @@ use straightline_kernels::prelude::Frame;
 /// surface is shaded once. `shaded` holds the picture at each sample.
 pub fn once_a_surface(surfaces: &Surfaces<'_>, shaded: &[Frame<Vec4>]) -> Frame<Vec4> {
     each_pixel(surfaces.size(), |pixel, k| {
-        let points: Vec<Point> = (0..shaded.len()).map(|sample| surfaces.point(pixel, sample)).collect();
-        let first = |point: &Point| points.iter().position(|other| surfaces.same(point, other));
-        let colors = points.iter().enumerate();
-        let sum: Vec4 = colors
-            .map(|(sample, point)| shaded[first(point).unwrap_or(sample)].texels()[k])
-            .sum();
-        sum / shaded.len() as f32
+        let colors = (0..shaded.len()).map(|sample| multisampled(surfaces, shaded, pixel, sample).texels()[k]);
+        colors.sum::<Vec4>() / shaded.len() as f32
     })
+}
+
+/// The same, but resolved by the directionally adaptive filter.
+pub fn along_edges(surfaces: &Surfaces<'_>, shaded: &[Frame<Vec4>], offsets: &[Vec2]) -> Frame<Vec4> {
+    let stored = (0..shaded.len()).map(|sample| {
+        each_pixel(surfaces.size(), |pixel, k| {
+            multisampled(surfaces, shaded, pixel, sample).texels()[k]
+        })
+    });
+    directional(&stored.collect::<Vec<_>>(), offsets)
+}
+
+/// Which of the pictures has the colour of a sample: that of the first that sees its surface.
+fn multisampled<'a>(
+    surfaces: &Surfaces<'_>,
+    shaded: &'a [Frame<Vec4>],
+    pixel: UVec2,
+    sample: usize,
+) -> &'a Frame<Vec4> {
+    let own = surfaces.point(pixel, sample);
+    let first = (0..sample).find(|other| surfaces.same(&own, &surfaces.point(pixel, *other)));
+    &shaded[first.unwrap_or(sample)]
 }
 
 /// As deferred multisampling does it that looks for edges: a pixel whose samples all see one surface is shaded at the first of

@@ -1,6 +1,6 @@
 //! Methods made ready on a device, to be run and timed.
 
-use super::bounds::{by_coverage, once_a_surface, where_edges_are};
+use super::bounds::{along_edges, by_coverage, once_a_surface, where_edges_are};
 use super::methods::{Kind, Method, NEAR_LATIN4};
 use super::shot::Shot;
 use super::surfaces::Surfaces;
@@ -95,11 +95,15 @@ impl<'a> Filters<'a> {
                 })
             }
             (Runner::None, Kind::Supersampled(samples)) => shot.supersampled(samples),
-            (Runner::None, kind @ (Kind::Multisampled | Kind::Classified | Kind::Covered)) => {
+            (Runner::None, kind @ (Kind::Multisampled | Kind::Directional | Kind::Classified | Kind::Covered)) => {
                 let surfaces = Surfaces::of(&[shot.capture(method)?]);
                 let surfaces = surfaces.ok_or_else(|| QualityError::NotDrawn(method.name.clone()))?;
                 Ok(match kind {
                     Kind::Covered => by_coverage(&surfaces, shot.shaded(16)?, &NEAR_LATIN4),
+                    Kind::Directional => {
+                        let offsets = gbuffer::samples(method.pattern()).unwrap_or_default();
+                        along_edges(&surfaces, shot.shaded(4)?, &offsets)
+                    }
                     Kind::Classified => where_edges_are(&surfaces, shot.shaded(4)?),
                     _ => once_a_surface(&surfaces, shot.shaded(4)?),
                 })
@@ -212,7 +216,12 @@ fn runner(bench: &Bench, method: &Method, size: UVec2) -> Result<Runner, Quality
         Kind::Fxaa(_) => fxaa(),
         Kind::Mlaa => return Ok(Runner::Mlaa),
         Kind::Smaa(transfer) => return Ok(Runner::Smaa(Box::new(Smaa::new(bench, size, transfer)?))),
-        Kind::Plain | Kind::Multisampled | Kind::Classified | Kind::Covered | Kind::Supersampled(_) => {
+        Kind::Plain
+        | Kind::Multisampled
+        | Kind::Directional
+        | Kind::Classified
+        | Kind::Covered
+        | Kind::Supersampled(_) => {
             return Ok(Runner::None);
         }
     };

@@ -26,6 +26,8 @@ pub enum Kind {
     Merged,
     /// Coverage of the samples of `latin4`, and shading once a surface in each pixel.
     Multisampled,
+    /// The same, resolved by the directionally adaptive filter.
+    Directional,
     /// Shading at every sample of `latin4` in pixels with several surfaces, and at one in all others.
     Classified,
     /// Coverage of the samples of `latin16`, and the colours of four of them.
@@ -51,6 +53,8 @@ pub struct Method {
     pub pictured: bool,
     /// Whether it is watched over the pan.
     pub panned: bool,
+    /// Whether it comes after bloom and tone mapping where those are, though it could come before.
+    pub last: bool,
     /// Whether what it lacks of supersampling at its samples is accounted for.
     pub explained: bool,
 }
@@ -65,6 +69,7 @@ impl Method {
             options: options.iter().map(own).collect(),
             pictured: false,
             panned: false,
+            last: false,
             explained: false,
         }
     }
@@ -147,9 +152,16 @@ impl Method {
             Kind::Sraa | Kind::Merged => Family::Sraa,
             Kind::Edge(_) => Family::Edge,
             Kind::Fxaa(_) | Kind::Smaa(_) | Kind::Mlaa => Family::Picture,
-            Kind::Multisampled | Kind::Classified | Kind::Covered | Kind::Supersampled(_) => Family::Supersampling,
+            Kind::Multisampled | Kind::Directional | Kind::Classified | Kind::Covered | Kind::Supersampled(_) => {
+                Family::Supersampling
+            }
             Kind::Own => Family::Own,
         }
+    }
+
+    /// Whether it comes after bloom and tone mapping where those are: filters of the displayed picture do.
+    pub fn is_last(&self) -> bool {
+        self.last || matches!(self.kind, Kind::Fxaa(_) | Kind::Smaa(_) | Kind::Mlaa)
     }
 
     /// The pattern of its geometry samples.
@@ -260,6 +272,7 @@ pub fn methods(quick: bool) -> Vec<Method> {
     all.extend([
         Method::new("SRAA 4 and MLAA", Kind::Merged, &[("mask", "select")]).pictured(),
         Method::new("MSAA 4", Kind::Multisampled, &[]).pictured(),
+        Method::new("MSAA 4, directional", Kind::Directional, &[]).pictured(),
         Method::new("MSAA 4, deferred", Kind::Classified, &[]).pictured(),
         Method::new("CSAA 16", Kind::Covered, &[]).pictured(),
         Method::new("4x", Kind::Supersampled(4), &[]).main(),

@@ -12,6 +12,7 @@ mod filters;
 mod losses;
 mod methods;
 mod pan;
+mod post;
 mod scores;
 mod shot;
 mod surfaces;
@@ -88,6 +89,9 @@ pub struct Plan {
     pub pan_frames: u32,
     /// How many scenes are panned over, the first ones.
     pub pan_scenes: usize,
+    /// Whether bloom and tone mapping follow: methods that read geometry or samples come before them, filters of the displayed
+    /// picture after, and some of the former once more after.
+    pub post_processed: bool,
     /// Whether pictures are made.
     pub pictures: bool,
 }
@@ -127,7 +131,10 @@ fn all(
     watch: &mut dyn Watch,
     outcome: &mut Outcome,
 ) -> Result<(), QualityError> {
-    let listed = [methods(plan.quick), plan.own.clone()].concat();
+    let mut listed = [methods(plan.quick), plan.own.clone()].concat();
+    if plan.post_processed {
+        listed.extend(post::the_other_order());
+    }
     watch.begin("speed against error", steps(&sources, &listed, plan));
     let mut filters = match sources.iter().any(|source| matches!(source, Source::Scene { .. })) {
         true => Some(Filters::new(bench, &listed, plan.size, watch)?),
@@ -241,7 +248,12 @@ impl Wanted<'_> {
         watch: &mut dyn Watch,
     ) -> Result<SceneErrors, QualityError> {
         let classes = classes(shot)?;
-        let reference = &picture::at_eight_bits(reference);
+        let post_processed = self.plan.post_processed;
+        let reference = &picture::at_eight_bits(&match post_processed {
+            true => post::processed(reference),
+            false => reference.clone(),
+        });
+        let late = post_processed.then(|| shot.processed());
         let bytes = filters.bytes(shot)?;
         let mut errors = SceneErrors {
             reference: self.picture("reference", reference)?,
@@ -255,7 +267,12 @@ impl Wanted<'_> {
         let mut reconstructed = Vec::new();
         for (k, method) in listed.iter().enumerate() {
             check(watch)?;
-            let made = picture::at_eight_bits(&filters.run(k, shot)?);
+            let made = match &late {
+                None => filters.run(k, shot)?,
+                Some(late) if method.is_last() => filters.run(k, late)?,
+                Some(_) => post::processed(&filters.run(k, shot)?),
+            };
+            let made = picture::at_eight_bits(&made);
             let picture = match method.pictured {
                 true => self.picture(&method.stem(), &made)?,
                 false => None,
@@ -271,6 +288,7 @@ impl Wanted<'_> {
         share_of_gap(&mut errors.methods);
         if let [four, sixteen] = &reconstructed[..]
             && !shot.shaded.is_empty()
+            && !post_processed
         {
             errors.gaps = gaps(shot, [four, sixteen], reference, &classes)?;
         }

@@ -33,7 +33,7 @@ impl Shot {
                 vacant.insert(render::capture(renderer, &samples, method.shading())?);
             }
             let several = match method.kind {
-                Kind::Multisampled | Kind::Classified => 4,
+                Kind::Multisampled | Kind::Directional | Kind::Classified => 4,
                 Kind::Covered => 16,
                 Kind::Supersampled(several) => several,
                 _ => continue,

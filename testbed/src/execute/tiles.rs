@@ -37,7 +37,7 @@ pub fn tiles(size: UVec2, side: u32, apron: u32) -> impl Iterator<Item = Tile> {
 }
 
 /// What a tile's shader reads of the whole image's inputs. An image that is a multiple of the frame's size, as a
-/// superresolution buffer, is cut likewise; one of another size is taken whole. `origin` tells kernels where the tile lies.
+/// superresolution buffer, is cut likewise, and a buffer of whole frames; those of another size are taken whole. `origin` tells kernels where the tile lies.
 pub fn cropped(inputs: &Inputs, tile: &Tile) -> Inputs {
     let cut = |image: &Frame<Vec4>| {
         let scale = image.size() / inputs.size;
@@ -50,10 +50,27 @@ pub fn cropped(inputs: &Inputs, tile: &Tile) -> Inputs {
     };
     let images = inputs.images.iter();
     let images = images.map(|(name, layers)| (name.clone(), layers.iter().map(cut).collect()));
+    let cut = |elements: &Vec<[f64; 4]>| {
+        let frame = inputs.size.element_product() as usize;
+        if elements.len() % frame != 0 {
+            return elements.clone();
+        }
+        let (first, size) = (tile.inputs_first.as_usizevec2(), tile.inputs_size.as_usizevec2());
+        let rows = elements.chunks(inputs.size.x as usize).enumerate();
+        let rows = rows.filter(|(k, _)| (first.y..first.y + size.y).contains(&(k % inputs.size.y as usize)));
+        rows.flat_map(|(_, row)| &row[first.x..first.x + size.x])
+            .copied()
+            .collect()
+    };
+    let buffers = inputs
+        .buffers
+        .iter()
+        .map(|(name, elements)| (name.clone(), cut(elements)));
     let origin = tile.inputs_first.as_dvec2();
     Inputs {
         size: tile.inputs_size,
         images: images.collect(),
+        buffers: buffers.collect(),
         ..inputs.clone()
     }
     .uniform("origin", &[origin.x, origin.y])

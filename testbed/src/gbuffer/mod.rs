@@ -206,6 +206,10 @@ fn texels(depths: &FrameLayers<f32>) -> FrameLayers<Vec4> {
     FrameLayers::new(depths.layers().iter().map(layer).collect())
 }
 
+fn numbers(texel: Vec4) -> [f64; 4] {
+    texel.to_array().map(f64::from)
+}
+
 /// The layers of one quantity, the pixel's centre `apart` as the last, as the images that a layout has.
 fn laid_out(
     inputs: Inputs,
@@ -215,8 +219,13 @@ fn laid_out(
     samples: usize,
     apart: bool,
 ) -> Inputs {
-    if layout == "layers" {
-        return inputs.layers(name, layers);
+    match (layout, name) {
+        ("split", "depth") => {
+            let texels = layers.iter().flat_map(|layer| layer.texels());
+            return inputs.buffer("depth_buffer", texels.map(|texel| numbers(*texel)).collect());
+        }
+        ("layers" | "split", _) => return inputs.layers(name, layers),
+        _ => {}
     }
     let inputs = match (apart, layers.len() > samples) {
         (true, true) => inputs.image(&format!("centre_{name}"), layers.remove(samples)),

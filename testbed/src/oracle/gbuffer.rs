@@ -4,6 +4,7 @@ use super::bound::Rounding;
 use super::{Depth, Layout, Metric, Normals, OracleError, Shading, SraaParams};
 use crate::execute::Inputs;
 use glam::UVec4;
+use std::borrow::Cow;
 use straightline_kernels::prelude::{Frame, Vec4};
 
 /// A point of a surface.
@@ -57,7 +58,7 @@ pub struct GBuffer<'a> {
 
 /// One quantity at all samples.
 struct Stored<'a> {
-    images: &'a [Frame<Vec4>],
+    images: Cow<'a, [Frame<Vec4>]>,
     centre: Option<&'a Frame<Vec4>>,
 }
 
@@ -257,11 +258,14 @@ impl<'a> GBuffer<'a> {
 /// The images of `name` in the layout of the options.
 fn stored<'a>(inputs: &'a Inputs, params: &SraaParams, samples: usize, name: &str) -> Result<Stored<'a>, OracleError> {
     let apart = matches!(params.shading, Shading::Centre | Shading::Placed);
-    if params.layout == Layout::Layers {
-        return Ok(Stored {
-            images: images(inputs, name, samples + usize::from(apart))?,
-            centre: None,
-        });
+    let count = samples + usize::from(apart);
+    let layers = match (params.layout, name) {
+        (Layout::Split, "depth") => Some(Cow::Owned(frames_of(inputs, "depth_buffer", count)?)),
+        (Layout::Layers | Layout::Split, _) => Some(Cow::Borrowed(images(inputs, name, count)?)),
+        _ => None,
+    };
+    if let Some(images) = layers {
+        return Ok(Stored { images, centre: None });
     }
     let (suffix, count) = match params.layout {
         Layout::Superresolution => ("grid", 1),
@@ -272,9 +276,26 @@ fn stored<'a>(inputs: &'a Inputs, params: &SraaParams, samples: usize, name: &st
         false => None,
     };
     Ok(Stored {
-        images: images(inputs, &format!("{name}_{suffix}"), count)?,
+        images: Cow::Borrowed(images(inputs, &format!("{name}_{suffix}"), count)?),
         centre,
     })
+}
+
+/// The frames that lie in a buffer, one after the other.
+fn frames_of(inputs: &Inputs, name: &str, count: usize) -> Result<Vec<Frame<Vec4>>, OracleError> {
+    let found = inputs.buffers.iter().rev().find(|(known, _)| known == name);
+    let pixels = inputs.size.element_product() as usize;
+    match found {
+        Some((_, elements)) if elements.len() >= count * pixels => {
+            let texel = |element: &[f64; 4]| Vec4::from_array(element.map(|lane| lane as f32));
+            let frame = |k: usize| elements[k * pixels..][..pixels].iter().map(texel).collect();
+            Ok((0..count).map(|k| Frame::new(inputs.size, frame(k))).collect())
+        }
+        _ => Err(OracleError::Input {
+            name: name.to_owned(),
+            needed: format!("{count} times {pixels} elements"),
+        }),
+    }
 }
 
 fn images<'a>(inputs: &'a Inputs, name: &str, count: usize) -> Result<&'a [Frame<Vec4>], OracleError> {

@@ -126,6 +126,8 @@ choices! {
         Superresolution = "superresolution",
         /// As samples of a texel.
         Multisampled = "multisampled",
+        /// A layer each, depth in a buffer.
+        Split = "split",
     }
 }
 

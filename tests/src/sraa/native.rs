@@ -2,7 +2,7 @@
 
 use super::options::Options;
 use glam::{UVec2, Vec3, ivec2};
-use straightline_kernels::prelude::{Frame, FrameLayers, Multisampled, Texture, Vec4};
+use straightline_kernels::prelude::{Buffer, Frame, FrameLayers, Multisampled, Texture, Vec4};
 use straightline_kernels::sraa::{
     Colors, Depth, Difference, Falloff, GBuffer, Guards, Layout, Mask, Metric, NonFinite, Normalisation, Normals,
     Pattern, Plane, Resolve, Search, Shading, Sraa, Turn, View, sraa,
@@ -64,7 +64,7 @@ fn set(cfg: &mut Sraa, name: &str, value: &str) {
         }
         "layout" => {
             cfg.layout = one_of!(value, Layout: "layers" => Layers, "superresolution" => Superresolution,
-                "multisampled" => Multisampled);
+                "multisampled" => Multisampled, "split" => Split);
         }
         "falloff" => cfg.falloff = one_of!(value, Falloff: "none" => None, "tent" => Tent, "gaussian" => Gaussian),
         "normalisation" => {
@@ -119,6 +119,9 @@ fn gbuffer(inputs: &Inputs) -> GBuffer {
             "centre_packed" => gbuffer.centre_packed = first.clone(),
             _ => {}
         }
+    }
+    if let Some((_, elements)) = inputs.buffers.iter().find(|(known, _)| known == "depth_buffer") {
+        gbuffer.depth_buffer = Buffer::new(elements.iter().map(|element| element[0] as f32).collect());
     }
     gbuffer
 }

@@ -88,6 +88,10 @@ pub fn refusal(options: &Options) -> Option<&'static str> {
     if is("normals", "packed") && (is("metric", "normals") || is("metric", "depth")) {
         return Some("a packed texel holds more than this metric reads");
     }
+    let alone = ["normals", "depth"].iter().any(|metric| is("metric", metric));
+    if is("layout", "split") && (is("normals", "packed") || alone) {
+        return Some("there is nothing to split");
+    }
     let refuses = [
         ("shading", "listed"),
         ("resolve", "tent"),

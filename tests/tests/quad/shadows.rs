@@ -258,10 +258,19 @@ fn every_filter_is_its_definition() {
                 mirroring: case.mirroring,
             };
             let lookup = cubic_table(if case.width == Width::Four { 2.0 } else { 4.0 });
-            let inputs = inputs.clone().image("lookup", Frame::new(lookup.size(), lookup.texels().to_vec()));
+            let inputs = inputs
+                .clone()
+                .image("lookup", Frame::new(lookup.size(), lookup.texels().to_vec()));
             let sampler = ComparisonSampler::default();
             let found = native(size, |pixel| {
-                pcf(&cfg, &texture, &sampler, &lookup, &Sampler::default(), coords.load(pixel))
+                pcf(
+                    &cfg,
+                    &texture,
+                    &sampler,
+                    &lookup,
+                    &Sampler::default(),
+                    coords.load(pixel),
+                )
             });
             let forms = if size.x % 2 == 1 { &FORMS[..] } else { &FORMS[..1] };
             for unroll in forms.iter().copied() {

@@ -26,7 +26,13 @@ pub fn run(common: &CommonArgs, args: &ErrorArgs, progress: &mut Progress) -> Re
         size: common.size(),
         rounds: common.rounds(),
         quick: common.quick,
-        pan_frames: if common.quick { QUICK_FRAMES } else { FRAMES },
+        // What changes from frame to frame is another question.
+        pan_frames: match (args.post, common.quick) {
+            (true, _) => 0,
+            (_, true) => QUICK_FRAMES,
+            _ => FRAMES,
+        },
+        post_processed: args.post,
         pan_scenes: if common.quick { 1 } else { usize::MAX },
         pictures: true,
         own,
