@@ -15,21 +15,21 @@ void main() {
     if (any(greaterThanEqual(pixel, frame))) {
         return;
     }
-    // j 0, i 0, lane 0: kernels/src/quad/convolution.rs:85
+    // j 0, i 0, lane 0: kernels/src/quad/convolution.rs:139
     ivec2 last = frame - 1;
-    vec4 own_j0i0l0 = 0.0 + texelFetch(image, pixel, 0) * 0.11111111;
-    vec4 own_j0i0l1 = 0.0 + texelFetch(image, min(pixel + ivec2(1, 0), last), 0) * 0.11111111;
-    vec4 own_j0i0l2 = 0.0 + texelFetch(image, min(pixel + ivec2(0, 1), last), 0) * 0.11111111;
-    vec4 own_j0i0l3 = 0.0 + texelFetch(image, min(pixel + 1, last), 0) * 0.11111111;
+    vec4 sums_j0i0l0 = 0.0 + texelFetch(image, pixel, 0) * 0.11111111;
+    vec4 sums_j0i0l1 = 0.0 + texelFetch(image, min(pixel + ivec2(1, 0), last), 0) * 0.11111111;
+    vec4 sums_j0i0l2 = 0.0 + texelFetch(image, min(pixel + ivec2(0, 1), last), 0) * 0.11111111;
+    vec4 sums_j0i0l3 = 0.0 + texelFetch(image, min(pixel + 1, last), 0) * 0.11111111;
     // j 0, i 1
     vec4 product = texelFetch(image, max(pixel + ivec2(-1, 0), ivec2(0)), 0) * 0.11111111;
     vec4 product_2 = texelFetch(image, min(pixel + ivec2(2, 0), last), 0) * 0.11111111;
     vec4 product_3 = texelFetch(image, clamp(pixel + ivec2(-1, 1), ivec2(0), last), 0) * 0.11111111;
     vec4 product_4 = texelFetch(image, min(pixel + ivec2(2, 1), last), 0) * 0.11111111;
-    vec4 own_j0i1l0 = own_j0i0l0 + product;
-    vec4 own_j0i1l1 = own_j0i0l1 + product_2;
-    vec4 own_j0i1l2 = own_j0i0l2 + product_3;
-    vec4 own_j0i1l3 = own_j0i0l3 + product_4;
+    vec4 sums_j0i1l0 = sums_j0i0l0 + product;
+    vec4 sums_j0i1l1 = sums_j0i0l1 + product_2;
+    vec4 sums_j0i1l2 = sums_j0i0l2 + product_3;
+    vec4 sums_j0i1l3 = sums_j0i0l3 + product_4;
     // j 1, i 0
     vec4 product_5 = texelFetch(image, max(pixel + ivec2(0, -1), ivec2(0)), 0) * 0.11111111;
     vec4 product_6 = texelFetch(image, clamp(pixel + ivec2(1, -1), ivec2(0), last), 0) * 0.11111111;
@@ -42,23 +42,20 @@ void main() {
     vec4 product_11 = texelFetch(image, clamp(pixel + ivec2(-1, 2), ivec2(0), last), 0)
         * 0.11111111;
     vec4 product_12 = texelFetch(image, min(pixel + 2, last), 0) * 0.11111111;
-    // lane 0: colours of a quad (kernels/src/quad/convolution.rs:54)
-    vec4 shared_l0 = own_j0i1l0 + product_5 + product_9 + (own_j0i0l1 + product_6) + own_j0i1l2
-        + own_j0i0l3;
-    vec4 shared_l1 = own_j0i1l1 + product_6 + product_10 + (own_j0i0l0 + product_5) + own_j0i1l3
-        + own_j0i0l2;
-    vec4 shared_l2 = own_j0i1l2 + product_7 + product_11 + (own_j0i0l3 + product_8) + own_j0i1l0
-        + own_j0i0l1;
-    vec4 shared_l3 = own_j0i1l3 + product_8 + product_12 + (own_j0i0l2 + product_7) + own_j0i1l1
-        + own_j0i0l0;
-    imageStore(destination, pixel, shared_l0);
+    // j 1, i 0, lane 1: kernels/src/quad/convolution.rs:143
+    vec4 sum = sums_j0i1l0 + product_5 + product_9 + (sums_j0i0l1 + product_6);
+    vec4 sum_2 = sums_j0i1l1 + product_6 + product_10 + (sums_j0i0l0 + product_5);
+    vec4 sum_3 = sums_j0i1l2 + product_7 + product_11 + (sums_j0i0l3 + product_8);
+    vec4 sum_4 = sums_j0i1l3 + product_8 + product_12 + (sums_j0i0l2 + product_7);
+    // lane 0: kernels/src/quad/convolution.rs:153
+    imageStore(destination, pixel, sum + (sums_j0i1l2 + sums_j0i0l3));
     if (all(lessThan(pixel + ivec2(1, 0), frame))) {
-        imageStore(destination, pixel + ivec2(1, 0), shared_l1);
+        imageStore(destination, pixel + ivec2(1, 0), sum_2 + (sums_j0i1l3 + sums_j0i0l2));
     }
     if (all(lessThan(pixel + ivec2(0, 1), frame))) {
-        imageStore(destination, pixel + ivec2(0, 1), shared_l2);
+        imageStore(destination, pixel + ivec2(0, 1), sum_3 + (sums_j0i1l0 + sums_j0i0l1));
     }
     if (all(lessThan(pixel + ivec2(1), frame))) {
-        imageStore(destination, pixel + ivec2(1), shared_l3);
+        imageStore(destination, pixel + ivec2(1), sum_4 + (sums_j0i1l1 + sums_j0i0l0));
     }
 }

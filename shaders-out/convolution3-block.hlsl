@@ -19,22 +19,22 @@ void quad_convolution(uint3 id : SV_DispatchThreadID) {
     if (any(pixel >= frame)) {
         return;
     }
-    // j 0, i 0, lane 0: kernels/src/quad/convolution.rs:85
+    // j 0, i 0, lane 0: kernels/src/quad/convolution.rs:139
     int2 last = frame - 1;
-    float4 own_j0i0l0 = 0.0 + image.Load(int3(pixel, 0)) * 0.11111111;
-    float4 own_j0i0l1 = 0.0 + image.Load(int3(min(pixel + int2(1, 0), last), 0)) * 0.11111111;
-    float4 own_j0i0l2 = 0.0 + image.Load(int3(min(pixel + int2(0, 1), last), 0)) * 0.11111111;
-    float4 own_j0i0l3 = 0.0 + image.Load(int3(min(pixel + 1, last), 0)) * 0.11111111;
+    float4 sums_j0i0l0 = 0.0 + image.Load(int3(pixel, 0)) * 0.11111111;
+    float4 sums_j0i0l1 = 0.0 + image.Load(int3(min(pixel + int2(1, 0), last), 0)) * 0.11111111;
+    float4 sums_j0i0l2 = 0.0 + image.Load(int3(min(pixel + int2(0, 1), last), 0)) * 0.11111111;
+    float4 sums_j0i0l3 = 0.0 + image.Load(int3(min(pixel + 1, last), 0)) * 0.11111111;
     // j 0, i 1
     float4 product = image.Load(int3(max(pixel + int2(-1, 0), int2(0, 0)), 0)) * 0.11111111;
     float4 product_2 = image.Load(int3(min(pixel + int2(2, 0), last), 0)) * 0.11111111;
     float4 product_3 = image.Load(int3(clamp(pixel + int2(-1, 1), int2(0, 0), last), 0))
         * 0.11111111;
     float4 product_4 = image.Load(int3(min(pixel + int2(2, 1), last), 0)) * 0.11111111;
-    float4 own_j0i1l0 = own_j0i0l0 + product;
-    float4 own_j0i1l1 = own_j0i0l1 + product_2;
-    float4 own_j0i1l2 = own_j0i0l2 + product_3;
-    float4 own_j0i1l3 = own_j0i0l3 + product_4;
+    float4 sums_j0i1l0 = sums_j0i0l0 + product;
+    float4 sums_j0i1l1 = sums_j0i0l1 + product_2;
+    float4 sums_j0i1l2 = sums_j0i0l2 + product_3;
+    float4 sums_j0i1l3 = sums_j0i0l3 + product_4;
     // j 1, i 0
     float4 product_5 = image.Load(int3(max(pixel + int2(0, -1), int2(0, 0)), 0)) * 0.11111111;
     float4 product_6 = image.Load(int3(clamp(pixel + int2(1, -1), int2(0, 0), last), 0))
@@ -48,23 +48,20 @@ void quad_convolution(uint3 id : SV_DispatchThreadID) {
     float4 product_11 = image.Load(int3(clamp(pixel + int2(-1, 2), int2(0, 0), last), 0))
         * 0.11111111;
     float4 product_12 = image.Load(int3(min(pixel + 2, last), 0)) * 0.11111111;
-    // lane 0: colours of a quad (kernels/src/quad/convolution.rs:54)
-    float4 shared_l0 = own_j0i1l0 + product_5 + product_9 + (own_j0i0l1 + product_6) + own_j0i1l2
-        + own_j0i0l3;
-    float4 shared_l1 = own_j0i1l1 + product_6 + product_10 + (own_j0i0l0 + product_5) + own_j0i1l3
-        + own_j0i0l2;
-    float4 shared_l2 = own_j0i1l2 + product_7 + product_11 + (own_j0i0l3 + product_8) + own_j0i1l0
-        + own_j0i0l1;
-    float4 shared_l3 = own_j0i1l3 + product_8 + product_12 + (own_j0i0l2 + product_7) + own_j0i1l1
-        + own_j0i0l0;
-    destination[pixel] = shared_l0;
+    // j 1, i 0, lane 1: kernels/src/quad/convolution.rs:143
+    float4 sum = sums_j0i1l0 + product_5 + product_9 + (sums_j0i0l1 + product_6);
+    float4 sum_2 = sums_j0i1l1 + product_6 + product_10 + (sums_j0i0l0 + product_5);
+    float4 sum_3 = sums_j0i1l2 + product_7 + product_11 + (sums_j0i0l3 + product_8);
+    float4 sum_4 = sums_j0i1l3 + product_8 + product_12 + (sums_j0i0l2 + product_7);
+    // lane 0: kernels/src/quad/convolution.rs:153
+    destination[pixel] = sum + (sums_j0i1l2 + sums_j0i0l3);
     if (all(pixel + int2(1, 0) < frame)) {
-        destination[pixel + int2(1, 0)] = shared_l1;
+        destination[pixel + int2(1, 0)] = sum_2 + (sums_j0i1l3 + sums_j0i0l2);
     }
     if (all(pixel + int2(0, 1) < frame)) {
-        destination[pixel + int2(0, 1)] = shared_l2;
+        destination[pixel + int2(0, 1)] = sum_3 + (sums_j0i1l0 + sums_j0i0l1);
     }
     if (all(pixel + int2(1, 1) < frame)) {
-        destination[pixel + int2(1, 1)] = shared_l3;
+        destination[pixel + int2(1, 1)] = sum_4 + (sums_j0i1l1 + sums_j0i0l0);
     }
 }

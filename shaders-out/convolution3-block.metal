@@ -25,13 +25,13 @@ kernel void quad_convolution(
     }
     metal::int2 last = as_type<metal::int2>(as_type<metal::uint2>(frame) - as_type<metal::uint2>(metal::int2(1)));
     metal::float4 _e16 = image.read(metal::uint2(pixel), 0);
-    metal::float4 own_j0i0l0_ = metal::float4(0.0) + (_e16 * 0.11111111);
+    metal::float4 sums_j0i0l0_ = metal::float4(0.0) + (_e16 * 0.11111111);
     metal::float4 _e29 = image.read(metal::uint2(metal::min(as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(metal::int2(1, 0))), last)), 0);
-    metal::float4 own_j0i0l1_ = metal::float4(0.0) + (_e29 * 0.11111111);
+    metal::float4 sums_j0i0l1_ = metal::float4(0.0) + (_e29 * 0.11111111);
     metal::float4 _e42 = image.read(metal::uint2(metal::min(as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(metal::int2(0, 1))), last)), 0);
-    metal::float4 own_j0i0l2_ = metal::float4(0.0) + (_e42 * 0.11111111);
+    metal::float4 sums_j0i0l2_ = metal::float4(0.0) + (_e42 * 0.11111111);
     metal::float4 _e54 = image.read(metal::uint2(metal::min(as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(metal::int2(1))), last)), 0);
-    metal::float4 own_j0i0l3_ = metal::float4(0.0) + (_e54 * 0.11111111);
+    metal::float4 sums_j0i0l3_ = metal::float4(0.0) + (_e54 * 0.11111111);
     metal::float4 _e69 = image.read(metal::uint2(metal::max(as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(metal::int2(-1, 0))), metal::int2(0))), 0);
     metal::float4 product = _e69 * 0.11111111;
     metal::float4 _e79 = image.read(metal::uint2(metal::min(as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(metal::int2(2, 0))), last)), 0);
@@ -40,10 +40,10 @@ kernel void quad_convolution(
     metal::float4 product_3_ = _e91 * 0.11111111;
     metal::float4 _e101 = image.read(metal::uint2(metal::min(as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(metal::int2(2, 1))), last)), 0);
     metal::float4 product_4_ = _e101 * 0.11111111;
-    metal::float4 own_j0i1l0_ = own_j0i0l0_ + product;
-    metal::float4 own_j0i1l1_ = own_j0i0l1_ + product_2_;
-    metal::float4 own_j0i1l2_ = own_j0i0l2_ + product_3_;
-    metal::float4 own_j0i1l3_ = own_j0i0l3_ + product_4_;
+    metal::float4 sums_j0i1l0_ = sums_j0i0l0_ + product;
+    metal::float4 sums_j0i1l1_ = sums_j0i0l1_ + product_2_;
+    metal::float4 sums_j0i1l2_ = sums_j0i0l2_ + product_3_;
+    metal::float4 sums_j0i1l3_ = sums_j0i0l3_ + product_4_;
     metal::float4 _e117 = image.read(metal::uint2(metal::max(as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(metal::int2(0, -1))), metal::int2(0))), 0);
     metal::float4 product_5_ = _e117 * 0.11111111;
     metal::float4 _e129 = image.read(metal::uint2(metal::clamp(as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(metal::int2(1, -1))), metal::int2(0), last)), 0);
@@ -60,19 +60,19 @@ kernel void quad_convolution(
     metal::float4 product_11_ = _e184 * 0.11111111;
     metal::float4 _e193 = image.read(metal::uint2(metal::min(as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(metal::int2(2))), last)), 0);
     metal::float4 product_12_ = _e193 * 0.11111111;
-    metal::float4 shared_l0_ = ((((own_j0i1l0_ + product_5_) + product_9_) + (own_j0i0l1_ + product_6_)) + own_j0i1l2_) + own_j0i0l3_;
-    metal::float4 shared_l1_ = ((((own_j0i1l1_ + product_6_) + product_10_) + (own_j0i0l0_ + product_5_)) + own_j0i1l3_) + own_j0i0l2_;
-    metal::float4 shared_l2_ = ((((own_j0i1l2_ + product_7_) + product_11_) + (own_j0i0l3_ + product_8_)) + own_j0i1l0_) + own_j0i0l1_;
-    metal::float4 shared_l3_ = ((((own_j0i1l3_ + product_8_) + product_12_) + (own_j0i0l2_ + product_7_)) + own_j0i1l1_) + own_j0i0l0_;
-    destination.write(shared_l0_, metal::uint2(pixel));
+    metal::float4 sum = ((sums_j0i1l0_ + product_5_) + product_9_) + (sums_j0i0l1_ + product_6_);
+    metal::float4 sum_2_ = ((sums_j0i1l1_ + product_6_) + product_10_) + (sums_j0i0l0_ + product_5_);
+    metal::float4 sum_3_ = ((sums_j0i1l2_ + product_7_) + product_11_) + (sums_j0i0l3_ + product_8_);
+    metal::float4 sum_4_ = ((sums_j0i1l3_ + product_8_) + product_12_) + (sums_j0i0l2_ + product_7_);
+    destination.write(sum + (sums_j0i1l2_ + sums_j0i0l3_), metal::uint2(pixel));
     if (metal::all(as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(metal::int2(1, 0))) < frame)) {
-        destination.write(shared_l1_, metal::uint2(as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(metal::int2(1, 0)))));
+        destination.write(sum_2_ + (sums_j0i1l3_ + sums_j0i0l2_), metal::uint2(as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(metal::int2(1, 0)))));
     }
     if (metal::all(as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(metal::int2(0, 1))) < frame)) {
-        destination.write(shared_l2_, metal::uint2(as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(metal::int2(0, 1)))));
+        destination.write(sum_3_ + (sums_j0i1l0_ + sums_j0i0l1_), metal::uint2(as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(metal::int2(0, 1)))));
     }
     if (metal::all(as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(metal::int2(1))) < frame)) {
-        destination.write(shared_l3_, metal::uint2(as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(metal::int2(1)))));
+        destination.write(sum_4_ + (sums_j0i1l1_ + sums_j0i0l0_), metal::uint2(as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(metal::int2(1)))));
         return;
     } else {
         return;

@@ -13,21 +13,21 @@ fn quad_convolution(@builtin(global_invocation_id) id: vec3u) {
     if any(pixel >= frame) {
         return;
     }
-    // j 0, i 0, lane 0: kernels/src/quad/convolution.rs:85
+    // j 0, i 0, lane 0: kernels/src/quad/convolution.rs:139
     let last = frame - 1;
-    let own_j0i0l0 = 0.0 + textureLoad(image, pixel, 0) * 0.11111111;
-    let own_j0i0l1 = 0.0 + textureLoad(image, min(pixel + vec2i(1, 0), last), 0) * 0.11111111;
-    let own_j0i0l2 = 0.0 + textureLoad(image, min(pixel + vec2i(0, 1), last), 0) * 0.11111111;
-    let own_j0i0l3 = 0.0 + textureLoad(image, min(pixel + 1, last), 0) * 0.11111111;
+    let sums_j0i0l0 = 0.0 + textureLoad(image, pixel, 0) * 0.11111111;
+    let sums_j0i0l1 = 0.0 + textureLoad(image, min(pixel + vec2i(1, 0), last), 0) * 0.11111111;
+    let sums_j0i0l2 = 0.0 + textureLoad(image, min(pixel + vec2i(0, 1), last), 0) * 0.11111111;
+    let sums_j0i0l3 = 0.0 + textureLoad(image, min(pixel + 1, last), 0) * 0.11111111;
     // j 0, i 1
     let product = textureLoad(image, max(pixel + vec2i(-1, 0), vec2i(0)), 0) * 0.11111111;
     let product_2 = textureLoad(image, min(pixel + vec2i(2, 0), last), 0) * 0.11111111;
     let product_3 = textureLoad(image, clamp(pixel + vec2i(-1, 1), vec2i(0), last), 0) * 0.11111111;
     let product_4 = textureLoad(image, min(pixel + vec2i(2, 1), last), 0) * 0.11111111;
-    let own_j0i1l0 = own_j0i0l0 + product;
-    let own_j0i1l1 = own_j0i0l1 + product_2;
-    let own_j0i1l2 = own_j0i0l2 + product_3;
-    let own_j0i1l3 = own_j0i0l3 + product_4;
+    let sums_j0i1l0 = sums_j0i0l0 + product;
+    let sums_j0i1l1 = sums_j0i0l1 + product_2;
+    let sums_j0i1l2 = sums_j0i0l2 + product_3;
+    let sums_j0i1l3 = sums_j0i0l3 + product_4;
     // j 1, i 0
     let product_5 = textureLoad(image, max(pixel + vec2i(0, -1), vec2i(0)), 0) * 0.11111111;
     let product_6 = textureLoad(image, clamp(pixel + vec2i(1, -1), vec2i(0), last), 0) * 0.11111111;
@@ -40,23 +40,20 @@ fn quad_convolution(@builtin(global_invocation_id) id: vec3u) {
     let product_11 = textureLoad(image, clamp(pixel + vec2i(-1, 2), vec2i(0), last), 0)
         * 0.11111111;
     let product_12 = textureLoad(image, min(pixel + 2, last), 0) * 0.11111111;
-    // lane 0: colours of a quad (kernels/src/quad/convolution.rs:54)
-    let shared_l0 = own_j0i1l0 + product_5 + product_9 + (own_j0i0l1 + product_6) + own_j0i1l2
-        + own_j0i0l3;
-    let shared_l1 = own_j0i1l1 + product_6 + product_10 + (own_j0i0l0 + product_5) + own_j0i1l3
-        + own_j0i0l2;
-    let shared_l2 = own_j0i1l2 + product_7 + product_11 + (own_j0i0l3 + product_8) + own_j0i1l0
-        + own_j0i0l1;
-    let shared_l3 = own_j0i1l3 + product_8 + product_12 + (own_j0i0l2 + product_7) + own_j0i1l1
-        + own_j0i0l0;
-    textureStore(destination, pixel, shared_l0);
+    // j 1, i 0, lane 1: kernels/src/quad/convolution.rs:143
+    let sum = sums_j0i1l0 + product_5 + product_9 + (sums_j0i0l1 + product_6);
+    let sum_2 = sums_j0i1l1 + product_6 + product_10 + (sums_j0i0l0 + product_5);
+    let sum_3 = sums_j0i1l2 + product_7 + product_11 + (sums_j0i0l3 + product_8);
+    let sum_4 = sums_j0i1l3 + product_8 + product_12 + (sums_j0i0l2 + product_7);
+    // lane 0: kernels/src/quad/convolution.rs:153
+    textureStore(destination, pixel, sum + (sums_j0i1l2 + sums_j0i0l3));
     if all(pixel + vec2i(1, 0) < frame) {
-        textureStore(destination, pixel + vec2i(1, 0), shared_l1);
+        textureStore(destination, pixel + vec2i(1, 0), sum_2 + (sums_j0i1l3 + sums_j0i0l2));
     }
     if all(pixel + vec2i(0, 1) < frame) {
-        textureStore(destination, pixel + vec2i(0, 1), shared_l2);
+        textureStore(destination, pixel + vec2i(0, 1), sum_3 + (sums_j0i1l0 + sums_j0i0l1));
     }
     if all(pixel + vec2i(1) < frame) {
-        textureStore(destination, pixel + vec2i(1), shared_l3);
+        textureStore(destination, pixel + vec2i(1), sum_4 + (sums_j0i1l1 + sums_j0i0l0));
     }
 }

@@ -13,16 +13,16 @@ layout(set = 0, binding = 1) uniform sampler unfiltered;
 void main() {
     ivec2 pixel = ivec2(floor(gl_FragCoord.xy));
     ivec2 frame = textureSize(sampler2D(image, unfiltered), 0);
-    // j 0, i 0: kernels/src/quad/convolution.rs:78
+    // j 0, i 0: kernels/src/quad/convolution.rs:135
     ivec2 outwards = ivec2(vec2(pixel & ivec2(1)) * 2.0 - 1.0);
     ivec2 last = frame - 1;
-    vec4 own_j0_i0 = 0.0
+    vec4 sums_j0_i0 = 0.0
         + texelFetch(sampler2D(image, unfiltered), clamp(pixel, ivec2(0), last), 0) * 0.11111111;
     vec4 tap_j0_i1 = texelFetch(
         sampler2D(image, unfiltered), clamp(pixel + outwards * ivec2(1, 0), ivec2(0), last), 0
     );
-    vec4 own_j0_i1 = own_j0_i0 + tap_j0_i1 * 0.11111111;
-    // j 1, i 0: kernels/src/quad/convolution.rs:85
+    vec4 sums_j0_i1 = sums_j0_i0 + tap_j0_i1 * 0.11111111;
+    // j 1, i 0: kernels/src/quad/convolution.rs:139
     vec4 tap_j1_i0 = texelFetch(
         sampler2D(image, unfiltered), clamp(pixel + outwards * ivec2(0, 1), ivec2(0), last), 0
     );
@@ -31,6 +31,7 @@ void main() {
         sampler2D(image, unfiltered), clamp(pixel + outwards, ivec2(0), last), 0
     )
         * 0.11111111;
-    vec4 sum = own_j0_i1 + product + product_2 + subgroupQuadSwapHorizontal(own_j0_i0 + product);
-    destination = sum + subgroupQuadSwapVertical(own_j0_i1) + subgroupQuadSwapDiagonal(own_j0_i0);
+    vec4 sum = sums_j0_i1 + product + product_2 + subgroupQuadSwapHorizontal(sums_j0_i0 + product);
+    destination = sum
+        + subgroupQuadSwapVertical(sums_j0_i1 + subgroupQuadSwapHorizontal(sums_j0_i0));
 }

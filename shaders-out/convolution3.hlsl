@@ -14,16 +14,16 @@ int2 size_of_image() {
 float4 quad_convolution(float4 position : SV_Position) : SV_Target0 {
     int2 pixel = int2(floor(position.xy));
     int2 frame = size_of_image();
-    // j 0, i 0: kernels/src/quad/convolution.rs:78
+    // j 0, i 0: kernels/src/quad/convolution.rs:135
     int2 outwards = int2(float2(pixel & int2(1, 1)) * 2.0 - 1.0);
     int2 last = frame - 1;
-    float4 own_j0_i0 = 0.0 + image.Load(int3(clamp(pixel, int2(0, 0), last), 0)) * 0.11111111;
+    float4 sums_j0_i0 = 0.0 + image.Load(int3(clamp(pixel, int2(0, 0), last), 0)) * 0.11111111;
     float4 tap_j0_i1 = image.Load(int3(clamp(pixel + outwards * int2(1, 0), int2(0, 0), last), 0));
-    float4 own_j0_i1 = own_j0_i0 + tap_j0_i1 * 0.11111111;
-    // j 1, i 0: kernels/src/quad/convolution.rs:85
+    float4 sums_j0_i1 = sums_j0_i0 + tap_j0_i1 * 0.11111111;
+    // j 1, i 0: kernels/src/quad/convolution.rs:139
     float4 tap_j1_i0 = image.Load(int3(clamp(pixel + outwards * int2(0, 1), int2(0, 0), last), 0));
     float4 product = tap_j1_i0 * 0.11111111;
     float4 product_2 = image.Load(int3(clamp(pixel + outwards, int2(0, 0), last), 0)) * 0.11111111;
-    float4 sum = own_j0_i1 + product + product_2 + QuadReadAcrossX(own_j0_i0 + product);
-    return sum + QuadReadAcrossY(own_j0_i1) + QuadReadAcrossDiagonal(own_j0_i0);
+    float4 sum = sums_j0_i1 + product + product_2 + QuadReadAcrossX(sums_j0_i0 + product);
+    return sum + QuadReadAcrossY(sums_j0_i1 + QuadReadAcrossX(sums_j0_i0));
 }

@@ -29,16 +29,16 @@ fragment quad_convolutionOutput quad_convolution(
     metal::int2 outwards = naga_f2i32((static_cast<metal::float2>(pixel & metal::int2(1)) * 2.0) - metal::float2(1.0));
     metal::int2 last = as_type<metal::int2>(as_type<metal::uint2>(frame) - as_type<metal::uint2>(metal::int2(1)));
     metal::float4 _e25 = image.read(metal::uint2(metal::clamp(pixel, metal::int2(0), last)), 0);
-    metal::float4 own_j0_i0_ = metal::float4(0.0) + (_e25 * 0.11111111);
+    metal::float4 sums_j0_i0_ = metal::float4(0.0) + (_e25 * 0.11111111);
     metal::float4 tap_j0_i1_ = image.read(metal::uint2(metal::clamp(as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(as_type<metal::int2>(as_type<metal::uint2>(outwards) * as_type<metal::uint2>(metal::int2(1, 0))))), metal::int2(0), last)), 0);
-    metal::float4 own_j0_i1_ = own_j0_i0_ + (tap_j0_i1_ * 0.11111111);
+    metal::float4 sums_j0_i1_ = sums_j0_i0_ + (tap_j0_i1_ * 0.11111111);
     metal::float4 tap_j1_i0_ = image.read(metal::uint2(metal::clamp(as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(as_type<metal::int2>(as_type<metal::uint2>(outwards) * as_type<metal::uint2>(metal::int2(0, 1))))), metal::int2(0), last)), 0);
     metal::float4 product = tap_j1_i0_ * 0.11111111;
     metal::float4 _e64 = image.read(metal::uint2(metal::clamp(as_type<metal::int2>(as_type<metal::uint2>(pixel) + as_type<metal::uint2>(outwards)), metal::int2(0), last)), 0);
     metal::float4 product_2_ = _e64 * 0.11111111;
-    metal::float4 unnamed = metal::quad_shuffle_xor(own_j0_i0_ + product, 1u);
-    metal::float4 sum = ((own_j0_i1_ + product) + product_2_) + unnamed;
-    metal::float4 unnamed_1 = metal::quad_shuffle_xor(own_j0_i1_, 2u);
-    metal::float4 unnamed_2 = metal::quad_shuffle_xor(own_j0_i0_, 3u);
-    return quad_convolutionOutput { (sum + unnamed_1) + unnamed_2 };
+    metal::float4 unnamed = metal::quad_shuffle_xor(sums_j0_i0_ + product, 1u);
+    metal::float4 sum = ((sums_j0_i1_ + product) + product_2_) + unnamed;
+    metal::float4 unnamed_1 = metal::quad_shuffle_xor(sums_j0_i0_, 1u);
+    metal::float4 unnamed_2 = metal::quad_shuffle_xor(sums_j0_i1_ + unnamed_1, 2u);
+    return quad_convolutionOutput { sum + unnamed_2 };
 }

@@ -9,16 +9,16 @@
 fn quad_convolution(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let pixel = vec2i(floor(position.xy));
     let frame = vec2i(textureDimensions(image));
-    // j 0, i 0: kernels/src/quad/convolution.rs:78
+    // j 0, i 0: kernels/src/quad/convolution.rs:135
     let outwards = vec2i(vec2f(pixel & vec2i(1)) * 2.0 - 1.0);
     let last = frame - 1;
-    let own_j0_i0 = 0.0 + textureLoad(image, clamp(pixel, vec2i(0), last), 0) * 0.11111111;
+    let sums_j0_i0 = 0.0 + textureLoad(image, clamp(pixel, vec2i(0), last), 0) * 0.11111111;
     let tap_j0_i1 = textureLoad(image, clamp(pixel + outwards * vec2i(1, 0), vec2i(0), last), 0);
-    let own_j0_i1 = own_j0_i0 + tap_j0_i1 * 0.11111111;
-    // j 1, i 0: kernels/src/quad/convolution.rs:85
+    let sums_j0_i1 = sums_j0_i0 + tap_j0_i1 * 0.11111111;
+    // j 1, i 0: kernels/src/quad/convolution.rs:139
     let tap_j1_i0 = textureLoad(image, clamp(pixel + outwards * vec2i(0, 1), vec2i(0), last), 0);
     let product = tap_j1_i0 * 0.11111111;
     let product_2 = textureLoad(image, clamp(pixel + outwards, vec2i(0), last), 0) * 0.11111111;
-    let sum = own_j0_i1 + product + product_2 + quadSwapX(own_j0_i0 + product);
-    return sum + quadSwapY(own_j0_i1) + quadSwapDiagonal(own_j0_i0);
+    let sum = sums_j0_i1 + product + product_2 + quadSwapX(sums_j0_i0 + product);
+    return sum + quadSwapY(sums_j0_i1 + quadSwapX(sums_j0_i0));
 }

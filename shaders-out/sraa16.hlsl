@@ -23,7 +23,7 @@ void sraa(uint3 id : SV_DispatchThreadID) {
     if (any(pixel >= frame)) {
         return;
     }
-    // sample 0, tap 4: kernels/src/sraa/gbuffer.rs:121
+    // sample 0, tap 4: kernels/src/sraa/gbuffer.rs:125
     int2 last = frame - 1;
     float depth_s0 = depth.Load(int4(pixel, 0, 0)).x;
     float seen_depth_s0 = (abs(depth_s0) < 1e30 ? depth_s0 : 1e30);
@@ -63,7 +63,7 @@ void sraa(uint3 id : SV_DispatchThreadID) {
     float w_s0_t8 = exp2(721.34753 * (nearest_s0_t8 - d_s0_t8) - 6.830075);
     float scale_s0 = 0.0625 / (w_s0_t4 + w_s0_t5 + w_s0_t7 + w_s0_t8);
     // sample 1, tap 0: depth along the view direction, in scene units
-    //   (kernels/src/sraa/gbuffer.rs:184)
+    //   (kernels/src/sraa/gbuffer.rs:195)
     float depth_s1 = depth.Load(int4(pixel, 1, 0)).x;
     float seen_depth_s1 = (abs(depth_s1) < 1e30 ? depth_s1 : 1e30);
     float3 n_s1 = normal.Load(int4(pixel, 1, 0)).xyz;

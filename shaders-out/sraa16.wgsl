@@ -17,7 +17,7 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     if any(pixel >= frame) {
         return;
     }
-    // sample 0, tap 4: kernels/src/sraa/gbuffer.rs:121
+    // sample 0, tap 4: kernels/src/sraa/gbuffer.rs:125
     let last = frame - 1;
     let depth_s0 = textureLoad(depth, pixel, 0, 0).x;
     let seen_depth_s0 = select(1e30, depth_s0, abs(depth_s0) < 1e30);
@@ -57,7 +57,7 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let w_s0_t8 = exp2(721.34753 * (nearest_s0_t8 - d_s0_t8) - 6.830075);
     let scale_s0 = 0.0625 / (w_s0_t4 + w_s0_t5 + w_s0_t7 + w_s0_t8);
     // sample 1, tap 0: depth along the view direction, in scene units
-    //   (kernels/src/sraa/gbuffer.rs:184)
+    //   (kernels/src/sraa/gbuffer.rs:195)
     let depth_s1 = textureLoad(depth, pixel, 1, 0).x;
     let seen_depth_s1 = select(1e30, depth_s1, abs(depth_s1) < 1e30);
     let n_s1 = textureLoad(normal, pixel, 1, 0).xyz;

@@ -13,7 +13,7 @@ layout(location = 0) out vec4 destination;
 void main() {
     ivec2 pixel = ivec2(floor(gl_FragCoord.xy));
     ivec2 frame = textureSize(depth, 0).xy;
-    // sample 0, tap 0: kernels/src/sraa/gbuffer.rs:121
+    // sample 0, tap 0: kernels/src/sraa/gbuffer.rs:125
     ivec2 last = frame - 1;
     float depth_s0 = texelFetch(depth, ivec3(pixel, 0), 0).x;
     float seen_depth_s0 = (abs(depth_s0) < 1e30 ? depth_s0 : 1e30);
@@ -52,7 +52,7 @@ void main() {
     float w_s0_t4 = exp2(721.34753 * (nearest_s0_t4 - d_s0_t4) - 0.870717);
     float scale_s0 = 0.25 / (w_s0_t0 + w_s0_t1 + w_s0_t3 + w_s0_t4);
     // sample 1, tap 1: depth along the view direction, in scene units
-    //   (kernels/src/sraa/gbuffer.rs:184)
+    //   (kernels/src/sraa/gbuffer.rs:195)
     float depth_s1 = texelFetch(depth, ivec3(pixel, 1), 0).x;
     float seen_depth_s1 = (abs(depth_s1) < 1e30 ? depth_s1 : 1e30);
     vec3 n_s1 = texelFetch(normal, ivec3(pixel, 1), 0).xyz;

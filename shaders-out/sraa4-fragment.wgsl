@@ -12,7 +12,7 @@
 fn sraa(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let pixel = vec2i(floor(position.xy));
     let frame = vec2i(textureDimensions(depth));
-    // sample 0, tap 0: kernels/src/sraa/gbuffer.rs:121
+    // sample 0, tap 0: kernels/src/sraa/gbuffer.rs:125
     let last = frame - 1;
     let depth_s0 = textureLoad(depth, pixel, 0, 0).x;
     let seen_depth_s0 = select(1e30, depth_s0, abs(depth_s0) < 1e30);
@@ -51,7 +51,7 @@ fn sraa(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let w_s0_t4 = exp2(721.34753 * (nearest_s0_t4 - d_s0_t4) - 0.870717);
     let scale_s0 = 0.25 / (w_s0_t0 + w_s0_t1 + w_s0_t3 + w_s0_t4);
     // sample 1, tap 1: depth along the view direction, in scene units
-    //   (kernels/src/sraa/gbuffer.rs:184)
+    //   (kernels/src/sraa/gbuffer.rs:195)
     let depth_s1 = textureLoad(depth, pixel, 1, 0).x;
     let seen_depth_s1 = select(1e30, depth_s1, abs(depth_s1) < 1e30);
     let n_s1 = textureLoad(normal, pixel, 1, 0).xyz;

@@ -35,7 +35,7 @@ void main() {
         if (abs(depth_2) < 1e30) {
             seen_depth = depth_2;
         }
-        // the surface seen at `place` (kernels/src/sraa/gbuffer.rs:112)
+        // the surface seen at `place` (kernels/src/sraa/gbuffer.rs:116)
         vec3 n = texelFetch(normal, ivec3(pixel, sample_value), 0).xyz;
         bool is_equal = sample_value == 4;
         float distances[9] = float[9](0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
@@ -49,7 +49,7 @@ void main() {
                 if (all(bvec2(is_equal, all(equal(ivec2(0), tap_pixel))))) {
                     d = 0.0;
                 } else {
-                    // kernels/src/sraa/gbuffer.rs:121
+                    // kernels/src/sraa/gbuffer.rs:125
                     ivec2 at = clamp(pixel + tap_pixel, ivec2(0), last);
                     float depth_3 = texelFetch(depth, ivec3(at, 4), 0).x;
                     float shaded_depth = 1e30;

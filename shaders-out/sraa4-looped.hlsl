@@ -39,7 +39,7 @@ void sraa(uint3 id : SV_DispatchThreadID) {
         if (abs(depth_2) < 1e30) {
             seen_depth = depth_2;
         }
-        // the surface seen at `place` (kernels/src/sraa/gbuffer.rs:112)
+        // the surface seen at `place` (kernels/src/sraa/gbuffer.rs:116)
         float3 n = normal.Load(int4(pixel, sample_value, 0)).xyz;
         bool is_equal = sample_value == 4;
         float distances[9] = { 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
@@ -53,7 +53,7 @@ void sraa(uint3 id : SV_DispatchThreadID) {
                 if (all(bool2(is_equal, all(int2(0, 0) == tap_pixel)))) {
                     d = 0.0;
                 } else {
-                    // kernels/src/sraa/gbuffer.rs:121
+                    // kernels/src/sraa/gbuffer.rs:125
                     int2 at = clamp(pixel + tap_pixel, int2(0, 0), last);
                     float depth_3 = depth.Load(int4(at, 4, 0)).x;
                     float shaded_depth = 1e30;

@@ -33,7 +33,7 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
         if abs(depth_2) < 1e30 {
             seen_depth = depth_2;
         }
-        // the surface seen at `place` (kernels/src/sraa/gbuffer.rs:112)
+        // the surface seen at `place` (kernels/src/sraa/gbuffer.rs:116)
         let n = textureLoad(normal, pixel, sample, 0).xyz;
         let is_equal = sample == 4;
         var distances = array<f32, 9>(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
@@ -47,7 +47,7 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
                 if is_equal & all(vec2i(0) == tap_pixel) {
                     d = 0.0;
                 } else {
-                    // kernels/src/sraa/gbuffer.rs:121
+                    // kernels/src/sraa/gbuffer.rs:125
                     let at = clamp(pixel + tap_pixel, vec2i(0), last);
                     let depth_3 = textureLoad(depth, at, 4, 0).x;
                     var shaded_depth = 1e30;

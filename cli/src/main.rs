@@ -42,6 +42,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         Command::Watch(args) => commands::watch::run(&args),
         Command::Budget(args) => commands::budget::run(&args),
         Command::Quads(args) => commands::quads::run(&args),
+        Command::Figures(args) => commands::figures::run(&args),
         Command::Study(args) => commands::study::run(&args),
         Command::Tune(args) => commands::tune::run(&args),
         Command::Page(args) => commands::page::run(&args),

@@ -65,7 +65,7 @@ impl Compiled {
             return Cow::Borrowed(self);
         };
         let graph = Graph::clone(graph);
-        let schedule = passes::schedule(&graph);
+        let schedule = passes::schedule(&graph, self.policy.reads);
         let mut counts = passes::count(&graph, &schedule);
         counts.statements = self.quad_statements;
         let whole = Compiled {

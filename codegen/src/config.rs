@@ -19,7 +19,7 @@ use crate::diagnostic::Errors;
 use crate::emit::{self, EmitError, EmitOptions, Register, Target};
 use crate::files::{self, WriteError};
 use crate::pipeline::{Kernel, Settings};
-use crate::policy::{Branches, Transport, Unroll};
+use crate::policy::{Branches, ReadOrder, Transport, Unroll};
 use std::collections::BTreeMap;
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -112,6 +112,12 @@ impl KernelConfig {
     /// What becomes of an `if` on values that are only known at run time; by default both sides are computed.
     pub fn branches(mut self, branches: Branches) -> Self {
         self.settings.branches = branches;
+        self
+    }
+
+    /// In which order the kernel reads texels; by default as its source does. The picture is the same, bit for bit.
+    pub fn reads(mut self, reads: ReadOrder) -> Self {
+        self.settings.reads = reads;
         self
     }
 

@@ -33,6 +33,6 @@ pub use config::{Config, compile};
 pub use emit::EmitOptions;
 pub use eval::{LoopReport, OptionInfo, OptionKind};
 pub use pipeline::{Kernel, Observer, Settings};
-pub use policy::{Branches, Transport, Unroll};
+pub use policy::{Branches, ReadOrder, Transport, Unroll};
 pub use shorten::shorten;
 pub use straightline_manifest::{Form, Format, Manifest, Origin, Precision, Stage};

@@ -9,7 +9,7 @@ use crate::front::{self, Library, Parsed};
 use crate::infer;
 use crate::ir::{Graph, Invocation, verify};
 use crate::passes;
-use crate::policy::{Branches, LoopPolicy, Policy, Transport, Unroll};
+use crate::policy::{Branches, LoopPolicy, Policy, ReadOrder, Transport, Unroll};
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::{Arc, OnceLock};
@@ -39,6 +39,8 @@ pub struct Settings {
     pub loops: Vec<LoopPolicy>,
     /// What becomes of branches on values that are only known at run time.
     pub branches: Branches,
+    /// In which order blocks read.
+    pub reads: ReadOrder,
     /// Statements that the kernel may have.
     pub budget: u32,
     /// How lanes of quads swap values; `None` leaves it to the stage: subgroup operations in fragment shaders,
@@ -60,6 +62,7 @@ impl Settings {
             unroll: self.unroll,
             loops: self.loops.clone(),
             branches: self.branches,
+            reads: self.reads,
         }
     }
 }
@@ -71,6 +74,7 @@ impl Default for Settings {
             unroll: Unroll::default(),
             loops: Vec::new(),
             branches: Branches::default(),
+            reads: ReadOrder::default(),
             budget: Settings::BUDGET,
             transport: None,
             block: [1, 1],
@@ -107,7 +111,7 @@ impl Compiled {
         };
         let graph = made(&self.graph)?;
         let quad = self.quad.as_deref().map(made).transpose()?;
-        let schedule = passes::schedule(&graph);
+        let schedule = passes::schedule(&graph, self.policy.reads);
         let floor = Compiled {
             counts: passes::count(&graph, &schedule),
             graph,
@@ -345,7 +349,7 @@ impl Kernel {
             })?;
             graph = stage("block", passes::clean(&expanded))?;
         }
-        let schedule = passes::schedule(&graph);
+        let schedule = passes::schedule(&graph, settings.reads);
         let within_budget = |statements: u32| {
             if statements <= settings.budget {
                 return Ok(());

@@ -84,6 +84,40 @@ impl FromStr for Branches {
     }
 }
 
+/// In which order a block reads texels and elements of buffers. The picture is the same, bit for bit; caches, and compilers that keep
+/// the order of the text, may like one more than the other.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum ReadOrder {
+    /// Where the source reads them first.
+    #[default]
+    Source,
+    /// All whose places depend on nothing that is read come first, row by row of each layer of each texture.
+    Rows,
+}
+
+impl ReadOrder {
+    /// Every order.
+    pub const ALL: [ReadOrder; 2] = [ReadOrder::Source, ReadOrder::Rows];
+}
+
+impl fmt::Display for ReadOrder {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            ReadOrder::Source => "source",
+            ReadOrder::Rows => "rows",
+        })
+    }
+}
+
+impl FromStr for ReadOrder {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let known = ReadOrder::ALL.into_iter().find(|order| order.to_string() == text);
+        known.ok_or_else(|| format!("unknown order of reads `{text}`: source or rows"))
+    }
+}
+
 /// How the lanes of a quad hear from each other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Transport {
@@ -131,7 +165,7 @@ pub struct Asked {
     pub by_name: bool,
 }
 
-/// What a kernel's loops and branches become.
+/// What a kernel's loops and branches become, and how it reads.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Policy {
     /// Of loops of which nothing else is said.
@@ -140,6 +174,8 @@ pub struct Policy {
     pub loops: Vec<LoopPolicy>,
     /// Of branches of which the source says nothing.
     pub branches: Branches,
+    /// In which order blocks read.
+    pub reads: ReadOrder,
 }
 
 impl Policy {
@@ -214,6 +250,9 @@ impl fmt::Display for Policy {
         }
         if self.branches != Branches::AsLoops {
             write!(f, "; branches {}", self.branches)?;
+        }
+        if self.reads != ReadOrder::Source {
+            write!(f, "; reads {}", self.reads)?;
         }
         Ok(())
     }

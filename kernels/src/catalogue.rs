@@ -156,6 +156,9 @@ pub fn find(name: &str) -> Option<&'static Entry> {
 
 /// Section 2.8: "a 3×3 blur with four samples, while Figure 2.4 illustrates this process for a 5×5 blur using nine".
 fn convolution_paper(option: &OptionValue<'_>) -> Option<PaperCounts> {
+    if option("taps")? == "bilinear" {
+        return None;
+    }
     let texture_reads = match (option("sharing")?.as_str(), option("radius")?.as_str()) {
         ("quad", "1") => 4,
         ("quad", "2") => 9,

@@ -14,7 +14,8 @@ use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 use straightline_codegen::emit::Target;
 use straightline_codegen::ir::{Graph, parse, print, verify};
-use straightline_codegen::{Compiled, EmitOptions, Kernel, Precision, Settings, Stage, Unroll, passes};
+use straightline_codegen::policy::Policy;
+use straightline_codegen::{Compiled, EmitOptions, Kernel, Precision, ReadOrder, Settings, Stage, Unroll, passes};
 use straightline_tests::compilers;
 
 const GIVES: &str = "// gives\n";
@@ -86,11 +87,19 @@ fn template() -> Compiled {
 
 /// The statements that are emitted for a graph.
 fn emitted(graph: Graph, how: &str, template: &Compiled) -> Result<String, String> {
-    let schedule = passes::schedule(&graph);
+    let reads = match how.split(' ').any(|word| word == "rows") {
+        true => ReadOrder::Rows,
+        false => ReadOrder::Source,
+    };
+    let schedule = passes::schedule(&graph, reads);
     let compiled = Compiled {
         counts: passes::count(&graph, &schedule),
         graph,
         schedule,
+        policy: Policy {
+            reads,
+            ..template.policy.clone()
+        },
         ..template.clone()
     };
     let mut words = how.split(' ');
@@ -100,7 +109,8 @@ fn emitted(graph: Graph, how: &str, template: &Compiled) -> Result<String, Strin
         options = match word {
             "fragment" => options.stage(Stage::Fragment),
             "half" => options.precision(Precision::F16),
-            _ => return Err(format!("`{word}` is neither `fragment` nor `half`")),
+            "rows" => options,
+            _ => return Err(format!("`{word}` is neither `fragment`, `half` nor `rows`")),
         };
     }
     let emitted = compiled.emit(&options).map_err(|e| e.to_string())?;

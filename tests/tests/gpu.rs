@@ -3,9 +3,10 @@
 mod common;
 
 use common::bench;
-use straightline_codegen::{Stage, Unroll};
+use straightline_codegen::emit::Target;
+use straightline_codegen::{EmitOptions, Kernel, ReadOrder, Settings, Stage, Unroll};
 use straightline_kernels::prelude::*;
-use straightline_testbed::execute::{Bench, Inputs, interpret};
+use straightline_testbed::execute::{Bench, Inputs, interpret, test_inputs};
 use straightline_testbed::oracle::{self, SraaParams};
 use straightline_tests::sraa::options::{one_at_a_time, options, random, refusal, samples_needed};
 use straightline_tests::sraa::{Difference, Options, compiled, difference, scenes, surfaces};
@@ -76,6 +77,56 @@ fn any_size_from_one_pixel() {
             size,
             &[(Stage::Compute, Unroll::Full), (Stage::Fragment, Unroll::Full)],
         );
+    }
+}
+
+/// Caches may tell in which order texels are read; pictures do not.
+#[test]
+fn the_order_of_reads_changes_no_bit() {
+    let bench = bench();
+    for (name, options, unroll) in [
+        ("sraa", &[("mask", "select")][..], Unroll::Full),
+        ("sraa", &[("pattern", "latin16"), ("layout", "split")], Unroll::Full),
+        ("sraa", &[], Unroll::None),
+        ("sraa", &[("mask", "branch")], Unroll::Partial(2)),
+        ("stalker", &[], Unroll::Full),
+        ("quad_convolution", &[("radius", "2")], Unroll::Full),
+    ] {
+        let compiled = |reads| {
+            let settings = Settings {
+                options: straightline_tests::sraa::options::options(options),
+                unroll,
+                reads,
+                ..Settings::default()
+            };
+            let kernel = Kernel::builtin(name).and_then(|kernel| kernel.compile(&settings));
+            kernel.unwrap_or_else(|errors| panic!("{name} {options:?}:\n{errors}"))
+        };
+        let both = ReadOrder::ALL.map(compiled);
+        let inputs = test_inputs(&both[0].in_blocks().graph, uvec2(37, 21));
+        let [source, rows] = both.each_ref().map(|compiled| {
+            let picture = bench.run(compiled, Stage::Compute, &inputs);
+            let picture = picture.unwrap_or_else(|error| panic!("{name} {options:?}: {error}"));
+            let interpreted = interpret::<f32>(compiled, &inputs, false);
+            (
+                picture,
+                interpreted.unwrap_or_else(|error| panic!("{name}: {error}")).texels,
+            )
+        });
+        let bits = |frame: &Frame<Vec4>| {
+            frame
+                .texels()
+                .iter()
+                .map(|t| t.to_array().map(f32::to_bits))
+                .collect::<Vec<_>>()
+        };
+        assert!(bits(&source.0) == bits(&rows.0), "{name} {options:?} {unroll}");
+        assert_eq!(source.1, rows.1, "{name} {options:?} {unroll}");
+        let texts = both.each_ref().map(|compiled| {
+            let emitted = compiled.emit(&EmitOptions::new().targets([Target::Wgsl]));
+            emitted.unwrap_or_else(|error| panic!("{error}")).files[&Target::Wgsl].clone()
+        });
+        assert!(texts[0] != texts[1], "{name} {options:?} {unroll}: the same text");
     }
 }
 

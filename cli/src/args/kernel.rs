@@ -5,7 +5,7 @@ use clap::{Args, ValueHint};
 use glam::UVec2;
 use std::path::PathBuf;
 use straightline_codegen::diagnostic::Errors;
-use straightline_codegen::{Branches, Kernel, Settings, Transport, Unroll};
+use straightline_codegen::{Branches, Kernel, ReadOrder, Settings, Transport, Unroll};
 
 /// Which kernel, with which options.
 #[derive(Debug, Clone, Args)]
@@ -44,6 +44,9 @@ pub struct OptionArgs {
     /// loops are kept
     #[arg(help_heading = "Kernel options", long, value_name = "POLICY", default_value = "as-loops", value_parser = |s: &str| s.parse::<Branches>())]
     pub branches: Branches,
+    /// In which order texels are read: `source` as the kernel's text does, `rows` all at first, row by row. The picture is the same
+    #[arg(help_heading = "Kernel options", long, value_name = "ORDER", default_value = "source", value_parser = |s: &str| s.parse::<ReadOrder>())]
+    pub reads: ReadOrder,
     /// Most statements that the kernel may have
     #[arg(help_heading = "Kernel options", long, value_name = "STATEMENTS", default_value_t = Settings::BUDGET)]
     pub budget: u32,
@@ -63,6 +66,7 @@ impl Default for OptionArgs {
             unroll: Unroll::default(),
             unroll_loop: Vec::new(),
             branches: Branches::default(),
+            reads: ReadOrder::default(),
             budget: Settings::BUDGET,
             transport: None,
             block: UVec2::ONE,
@@ -77,6 +81,7 @@ impl OptionArgs {
             unroll: self.unroll,
             loops: self.unroll_loop.clone(),
             branches: self.branches,
+            reads: self.reads,
             budget: self.budget,
             transport: self.transport,
             block: self.block.to_array(),

@@ -56,6 +56,8 @@ pub enum Command {
     Budget(BudgetArgs),
     /// Compare filters that share work over pixel quads with those that do not
     Quads(QuadsArgs),
+    /// Make the pictures of the publications again
+    Figures(FiguresArgs),
     /// Measure unrolling, speed, error and hard cases; write records and a page
     Study(StudyArgs),
     /// Find and emit the cheapest SRAA shader for a scene
@@ -242,6 +244,21 @@ pub struct QuadsArgs {
     /// Print JSON
     #[arg(long)]
     pub json: bool,
+    #[command(flatten)]
+    pub adapter: AdapterArgs,
+}
+
+#[derive(Debug, Args)]
+pub struct FiguresArgs {
+    /// One of the figures, by its file's name without extension; may be given several times. By default all of them
+    #[arg(long = "figure", value_name = "NAME")]
+    pub figures: Vec<String>,
+    /// Width and height of what is drawn, of which a detail is shown
+    #[arg(long, value_name = "WxH", default_value = "640x360", value_parser = size)]
+    pub size: UVec2,
+    /// Folder to write to; made if it is not there
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
     #[command(flatten)]
     pub adapter: AdapterArgs,
 }

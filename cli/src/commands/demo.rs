@@ -29,6 +29,10 @@ struct Method {
     inputs: Inputs,
 }
 
+/// Side of the detail, and how much it is enlarged.
+const SIDE: u32 = 80;
+const ZOOM: u32 = 5;
+
 /// A line of the table.
 #[derive(Clone, Debug, Serialize)]
 struct Row {
@@ -246,34 +250,9 @@ fn add_pictures(
         save(&format!("{}.png", name.to_lowercase().replace(' ', "-")), frame)?;
     }
     save("256x-reference.png", reference)?;
-    let (corner, side, zoom) = busiest(&pictures[0].1, reference);
-    let details: Vec<(&str, Frame<Vec4>)> = pictures
-        .iter()
-        .map(|(name, frame)| (*name, picture::detail(frame, corner.x, corner.y, side.x, side.y, zoom)))
-        .collect();
-    let columns: Vec<(&str, &Frame<Vec4>)> = details.iter().map(|(name, frame)| (*name, frame)).collect();
-    save("detail.png", &picture::montage(&columns))
-}
-
-/// Where antialiasing has most to do: the window with the largest error of the plain picture, and how much to enlarge it.
-fn busiest(plain: &Frame<Vec4>, reference: &Frame<Vec4>) -> (UVec2, UVec2, u32) {
-    let size = plain.size();
-    let side = UVec2::splat(80).min(size);
-    let error = |p: UVec2| {
-        let k = (p.y * size.x + p.x) as usize;
-        let apart = plain.texels()[k] - reference.texels()[k];
-        apart.truncate().length_squared()
-    };
-    let sum = |corner: UVec2| -> f32 {
-        (0..side.y)
-            .flat_map(|y| (0..side.x).map(move |x| UVec2::new(x, y)))
-            .map(|p| error(corner + p))
-            .sum()
-    };
-    let steps = |length: u32, window: u32| (0..=(length - window)).step_by(16);
-    let corners = steps(size.y, side.y).flat_map(|y| steps(size.x, side.x).map(move |x| UVec2::new(x, y)));
-    let best = corners.map(|c| (sum(c), c)).max_by(|a, b| a.0.total_cmp(&b.0));
-    (best.map_or(UVec2::ZERO, |(_, corner)| corner), side, 5)
+    let corner = picture::busiest(&pictures[0].1, reference, SIDE);
+    let all: Vec<(&str, &Frame<Vec4>)> = pictures.iter().map(|(name, frame)| (*name, frame)).collect();
+    save("detail.png", &picture::details(&all, corner, SIDE, ZOOM))
 }
 
 fn print(args: &DemoArgs, record: &Record) -> Result<(), Failure> {

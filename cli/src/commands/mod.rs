@@ -8,6 +8,7 @@ pub mod compare;
 pub mod demo;
 pub mod emit;
 pub mod explain;
+pub mod figures;
 pub mod list;
 pub mod page;
 pub mod quads;

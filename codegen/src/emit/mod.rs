@@ -127,7 +127,7 @@ fn kernel(compiled: &Compiled, precision: Precision) -> ast::Module<'_> {
     if half {
         legalise::half(&mut module);
     }
-    tidy::tidy(&mut module, &compiled.graph);
+    tidy::tidy(&mut module, &compiled.graph, compiled.policy.reads);
     module
 }
 

@@ -40,7 +40,7 @@ pub fn turned<'c>(compiled: &'c Compiled, options: &EmitOptions) -> Result<Cow<'
         target: "graph",
         message,
     })?;
-    let schedule = passes::schedule(&graph);
+    let schedule = passes::schedule(&graph, compiled.policy.reads);
     let mut turned = Compiled {
         counts: passes::count(&graph, &schedule),
         graph,

@@ -8,6 +8,7 @@ mod fold;
 mod lanes;
 mod origin;
 mod ranges;
+mod reads;
 mod schedule;
 
 pub use count::{count, layers_read};

@@ -2,10 +2,12 @@
 //!
 //! A node goes as far out of loops as its arguments allow, and as far into branches as its uses allow (Click's
 //! global code motion). Within a block nodes keep the order in which they were made, which is the order of the
-//! source. Reads and writes of arrays stay where they were made, so that an array can be one variable that is
+//! source, unless reads are to come first. Reads and writes of arrays stay where they were made, so that an array can be one variable that is
 //! changed in place. Effects stay in their regions, and so in their order.
 
+use super::reads::rows_first;
 use crate::ir::{Graph, NodeId, Op, RegionId};
+use crate::policy::ReadOrder;
 
 /// An order of evaluation: every used node once, after its arguments.
 #[derive(Clone, Debug)]
@@ -56,7 +58,7 @@ pub enum Step {
 }
 
 /// Places and orders the nodes that the output depends on.
-pub fn schedule(graph: &Graph) -> Schedule {
+pub fn schedule(graph: &Graph, reads: ReadOrder) -> Schedule {
     let mut places = Places::new(graph);
     places.run();
     let mut steps: Vec<Vec<NodeId>> = vec![Vec::new(); graph.regions.len()];
@@ -66,6 +68,9 @@ pub fn schedule(graph: &Graph) -> Schedule {
         {
             steps[region.0 as usize].push(id);
         }
+    }
+    if reads == ReadOrder::Rows {
+        rows_first(graph, &places.place, &mut steps);
     }
     let body = block(graph, &steps, Graph::BODY);
     Schedule {

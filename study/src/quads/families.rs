@@ -37,6 +37,10 @@ pub const FAMILIES: &[Family] = &[
                 &[("radius", "3"), ("weights", "binomial"), ("sharing", "alone")],
             ),
             ("quad", &[("radius", "3"), ("weights", "binomial")]),
+            (
+                "quad, bilinear",
+                &[("radius", "3"), ("weights", "binomial"), ("taps", "bilinear")],
+            ),
         ],
         from: Source::Frame,
     },

@@ -7,6 +7,7 @@
 mod bounds;
 mod classes;
 mod error;
+mod figures;
 mod film;
 mod filters;
 mod losses;
@@ -36,6 +37,7 @@ use straightline_testbed::scene::Scene;
 
 pub use classes::STEP;
 pub use error::QualityError;
+pub use figures::{FIGURES, Figure, Made, Pane};
 pub use film::{Film, REFERENCE, Shooting, film};
 pub use losses::losses;
 pub use methods::{Kind, Method, OwnError, methods, methods_of};

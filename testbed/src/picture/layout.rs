@@ -49,6 +49,36 @@ pub fn detail(frame: &Frame<Vec4>, x: u32, y: u32, width: u32, height: u32, zoom
     Frame::new(enlarged, texels)
 }
 
+/// The same square of several pictures of one size, enlarged, side by side under their names.
+pub fn details(pictures: &[(&str, &Frame<Vec4>)], corner: UVec2, side: u32, zoom: u32) -> Frame<Vec4> {
+    let of = |frame: &Frame<Vec4>| detail(frame, corner.x, corner.y, side, side, zoom);
+    let details: Vec<(&str, Frame<Vec4>)> = pictures.iter().map(|(name, frame)| (*name, of(frame))).collect();
+    let columns: Vec<(&str, &Frame<Vec4>)> = details.iter().map(|(name, frame)| (*name, frame)).collect();
+    montage(&columns)
+}
+
+/// Where antialiasing has most to do: the corner of the square in which a plain picture is farthest from the reference. Squares begin
+/// every 16 texels.
+pub fn busiest(plain: &Frame<Vec4>, reference: &Frame<Vec4>, side: u32) -> UVec2 {
+    let size = plain.size();
+    let side = UVec2::splat(side).min(size);
+    let error = |p: UVec2| {
+        let k = (p.y * size.x + p.x) as usize;
+        let apart = plain.texels()[k] - reference.texels()[k];
+        apart.truncate().length_squared()
+    };
+    let sum = |corner: UVec2| -> f32 {
+        (0..side.y)
+            .flat_map(|y| (0..side.x).map(move |x| uvec2(x, y)))
+            .map(|p| error(corner + p))
+            .sum()
+    };
+    let steps = |length: u32, window: u32| (0..=(length - window)).step_by(16);
+    let corners = steps(size.y, side.y).flat_map(|y| steps(size.x, side.x).map(move |x| uvec2(x, y)));
+    let best = corners.map(|c| (sum(c), c)).max_by(|a, b| a.0.total_cmp(&b.0));
+    best.map_or(UVec2::ZERO, |(_, corner)| corner)
+}
+
 /// Texels a dot of the font is wide: as many as let every label fit its picture, up to what suits its height.
 fn text_scale(columns: &[(&str, &Frame<Vec4>)]) -> u32 {
     columns

@@ -18,7 +18,7 @@ use straightline_kernels::prelude::Frame;
 
 pub use animation::animation;
 pub use error::PictureError;
-pub use layout::{detail, montage};
+pub use layout::{busiest, detail, details, montage};
 pub use lut::{read_cube, strip};
 
 /// Widest and tallest picture that is read or written, in pixels.

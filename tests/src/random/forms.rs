@@ -1,7 +1,7 @@
 //! The forms that every kernel is compiled to.
 
 use std::fmt;
-use straightline_codegen::{Branches, Settings, Unroll};
+use straightline_codegen::{Branches, ReadOrder, Settings, Unroll};
 
 /// What may become of loops and branches; the first is what kernels are made for, and what it takes all must take.
 pub const FORMS: &[Form] = &[
@@ -12,7 +12,7 @@ pub const FORMS: &[Form] = &[
     Form(Unroll::Full, Branches::Keep),
 ];
 
-/// What becomes of loops, and of branches on runtime values.
+/// What becomes of loops, and of branches on runtime values. Where branches do not go as loops do, reads come row by row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Form(pub Unroll, pub Branches);
 
@@ -22,6 +22,10 @@ impl Form {
         Settings {
             unroll: self.0,
             branches: self.1,
+            reads: match self.1 {
+                Branches::AsLoops => ReadOrder::Source,
+                Branches::Keep | Branches::Select => ReadOrder::Rows,
+            },
             ..Settings::default()
         }
     }

@@ -139,10 +139,11 @@ pub fn radii(record: &QualityRecord) -> String {
 
 /// What shades or covers more samples beside SRAA, scene by scene: PSNR.
 pub fn samplings(record: &QualityRecord) -> String {
-    const METHODS: [&str; 8] = [
+    const METHODS: [&str; 9] = [
         "1x",
         "SRAA 4",
         "MSAA 4",
+        "MSAA 4, directional",
         "MSAA 4, deferred",
         "4x",
         "SRAA 16",

@@ -1,6 +1,6 @@
 //! `quads`: what sharing work over pixel quads is worth, filter by filter and transport by transport.
 
-mod pictures;
+pub mod pictures;
 
 use super::study::{Progress, circumstances_of};
 use crate::args::QuadsArgs;

@@ -13,23 +13,54 @@ use straightline_testbed::picture;
 /// The shadow scene by each way of the 8×8 filter, occlusion before and after upsampling, and details of both.
 pub fn write(bench: &Bench, folder: &Path, studied: &Studied) -> Result<(), Failure> {
     let mut set = BTreeMap::new();
-    let mut columns = Vec::new();
-    for way in ["naive", "quad", "quad, gradient", "gather"] {
-        let Some(lit) = studied.picture("PCF 8x8 quadratic", way) else {
-            continue;
-        };
-        let shown = studied.shadowed.picture(bench, lit).map_err(Failure::of)?;
-        let name = format!("pcf {way}.png").replace([',', ' '], "-").replace("--", "-");
-        save(&mut set, &name, &shown)?;
-        columns.push((way, shown));
+    let mut save = |name: &str, frame: &Frame<Vec4>| -> Result<(), Failure> {
+        set.insert(name.to_owned(), picture::png_bytes(frame).map_err(Failure::of)?);
+        Ok(())
+    };
+    for (way, shown) in shadowed(bench, studied)? {
+        save(
+            &format!("pcf {way}.png").replace([',', ' '], "-").replace("--", "-"),
+            &shown,
+        )?;
     }
-    // Under the awning over the built-in scene's door.
-    save_details(&mut set, "pcf-details.png", &columns, [0.55, 0.53, 0.1, 0.2])?;
+    save("pcf-details.png", &shadows(bench, studied)?)?;
+    for (title, shown) in occluded(studied) {
+        if title != "bilinear" {
+            save(&format!("occlusion-{}.png", title.replace(' ', "-")), &shown)?;
+        }
+    }
+    save("occlusion-details.png", &occlusion(studied))?;
+    files::write_all(folder, &set).map_err(Failure::of)?;
+    Ok(())
+}
+
+/// Details of the shadows under the awning over the built-in scene's door (figure 2.7).
+pub fn shadows(bench: &Bench, studied: &Studied) -> Result<Frame<Vec4>, Failure> {
+    Ok(details(&shadowed(bench, studied)?, [0.55, 0.53, 0.1, 0.2]))
+}
+
+/// Details of the occlusion (figure 2.3).
+pub fn occlusion(studied: &Studied) -> Frame<Vec4> {
+    details(&occluded(studied), [0.53, 0.42, 0.12, 0.22])
+}
+
+/// The shadow scene by each way of the 8×8 filter.
+fn shadowed(bench: &Bench, studied: &Studied) -> Result<Vec<(&'static str, Frame<Vec4>)>, Failure> {
+    let mut all = Vec::new();
+    for way in ["naive", "quad", "quad, gradient", "gather"] {
+        if let Some(lit) = studied.picture("PCF 8x8 quadratic", way) {
+            all.push((way, studied.shadowed.picture(bench, lit).map_err(Failure::of)?));
+        }
+    }
+    Ok(all)
+}
+
+/// Occlusion at half the resolution as a sampler stretches it, upsampled, and at full resolution.
+fn occluded(studied: &Studied) -> Vec<(&'static str, Frame<Vec4>)> {
     let screen = &studied.screen;
     let low = screen.images.iter().rev().find(|(name, _)| name == "low");
-    let naive = low.map(|(_, layers)| stretched(&layers[0], screen));
-    let mut columns = Vec::new();
-    columns.extend(naive.map(|frame| ("bilinear", frame)));
+    let mut all: Vec<(&str, Frame<Vec4>)> = Vec::new();
+    all.extend(low.map(|(_, layers)| ("bilinear", stretched(&layers[0], screen))));
     for (family, way, title) in [
         ("upsampling 2x", "quad, 1 read", "bilateral"),
         ("occlusion, 16 taps", "naive", "full resolution"),
@@ -37,26 +68,14 @@ pub fn write(bench: &Bench, folder: &Path, studied: &Studied) -> Result<(), Fail
     ] {
         if let Some(image) = studied.picture(family, way) {
             let opaque = image.texels().iter().map(|t| t.truncate().extend(1.0));
-            let shown = Frame::new(image.size(), opaque.collect());
-            save(&mut set, &format!("occlusion-{}.png", title.replace(' ', "-")), &shown)?;
-            columns.push((title, shown));
+            all.push((title, Frame::new(image.size(), opaque.collect())));
         }
     }
-    save_details(&mut set, "occlusion-details.png", &columns, [0.53, 0.42, 0.12, 0.22])?;
-    files::write_all(folder, &set).map_err(Failure::of)?;
-    Ok(())
-}
-
-/// Pictures as PNG files by name.
-type Set = BTreeMap<String, Vec<u8>>;
-
-fn save(set: &mut Set, name: &str, frame: &Frame<Vec4>) -> Result<(), Failure> {
-    set.insert(name.to_owned(), picture::png_bytes(frame).map_err(Failure::of)?);
-    Ok(())
+    all
 }
 
 /// The same part of several pictures, left, top, width and height as shares of the whole, enlarged beside one another.
-fn save_details(set: &mut Set, name: &str, columns: &[(&str, Frame<Vec4>)], part: [f32; 4]) -> Result<(), Failure> {
+fn details(columns: &[(&str, Frame<Vec4>)], part: [f32; 4]) -> Frame<Vec4> {
     let detail = |frame: &Frame<Vec4>| {
         let size = frame.size().as_vec2();
         let [left, top, width, height] = part;
@@ -66,7 +85,7 @@ fn save_details(set: &mut Set, name: &str, columns: &[(&str, Frame<Vec4>)], part
     };
     let details: Vec<(&str, Frame<Vec4>)> = columns.iter().map(|(title, frame)| (*title, detail(frame))).collect();
     let columns: Vec<(&str, &Frame<Vec4>)> = details.iter().map(|(title, frame)| (*title, frame)).collect();
-    save(set, name, &picture::montage(&columns))
+    picture::montage(&columns)
 }
 
 /// An image of low resolution as a sampler would stretch it: what bilateral upsampling is better than.

@@ -1,6 +1,6 @@
 //! `study`: unroll against loop, speed against error, hard cases, sweeps; records, and one page of them all.
 
-mod error;
+pub mod error;
 mod film;
 mod hard;
 pub mod isa;

@@ -5,17 +5,19 @@ use super::{dead, simplify};
 use crate::emit::ast::{Block, Expr, Module, Op, Stmt, StmtKind, VarId};
 use crate::emit::text::WIDEST;
 use crate::ir::{Graph, Memory};
+use crate::policy::ReadOrder;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 /// Operators and calls that a line may have, lest it be hard to read; shader compilers also recurse over them.
 const MOST: usize = 16;
 
-/// Inlines values that are used once; gives whether there were some.
-pub fn inline(module: &mut Module<'_>, graph: &Graph) -> bool {
+/// Inlines values that are used once, but for reads whose order is not the source's; gives whether there were some.
+pub fn inline(module: &mut Module<'_>, graph: &Graph, reads: ReadOrder) -> bool {
     let uses = dead::uses(module);
     let mut body = std::mem::take(&mut module.body);
     let mut inliner = Inliner {
         uses,
+        keeps_reads: reads != ReadOrder::Source,
         columns: Columns { module, graph },
     };
     let inlined = inliner.block(&mut body, 1);
@@ -25,6 +27,7 @@ pub fn inline(module: &mut Module<'_>, graph: &Graph) -> bool {
 
 struct Inliner<'m> {
     uses: Vec<u32>,
+    keeps_reads: bool,
     columns: Columns<'m>,
 }
 
@@ -53,7 +56,9 @@ impl Inliner<'_> {
             }
             let at = out.len();
             assignments(&stmt, &mut |var| _ = assigned.insert(var, at));
-            if let StmtKind::Let(var, value) = &stmt.kind {
+            if let StmtKind::Let(var, value) = &stmt.kind
+                && !(self.keeps_reads && reads_memory(value))
+            {
                 let candidate = Candidate {
                     at,
                     columns: self.columns.of(value),

@@ -10,15 +10,16 @@ mod statements;
 
 use super::ast::Module;
 use crate::ir::Graph;
+use crate::policy::ReadOrder;
 
 pub use simplify::simplify;
 
-/// Tidies a kernel's statements.
-pub fn tidy(module: &mut Module<'_>, graph: &Graph) {
+/// Tidies a kernel's statements. Reads that stand in an order of their own stay where they are.
+pub fn tidy(module: &mut Module<'_>, graph: &Graph, reads: ReadOrder) {
     module.rewrite(&mut |_, expr| simplify(expr));
     dead::remove(module);
     coalesce::coalesce(module);
-    inline::inline(module, graph);
+    inline::inline(module, graph, reads);
     breaks::early(&mut module.body);
     // What a loop's early end stood between is one variable now.
     coalesce::coalesce(module);
@@ -26,7 +27,7 @@ pub fn tidy(module: &mut Module<'_>, graph: &Graph) {
     loop {
         module.rewrite(&mut |_, expr| simplify(expr));
         dead::remove(module);
-        if !inline::inline(module, graph) {
+        if !inline::inline(module, graph, reads) {
             break;
         }
     }

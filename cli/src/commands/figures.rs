@@ -1,0 +1,83 @@
+//! `figures`: the pictures of the publications, made again.
+
+use super::quads::pictures;
+use super::study::Progress;
+use super::study::error::failure;
+use crate::args::FiguresArgs;
+use crate::failure::Failure;
+use crate::gpu::Gpu;
+use crate::{scene, table};
+use std::collections::BTreeMap;
+use std::time::Duration;
+use straightline_codegen::files;
+use straightline_study::quads;
+use straightline_study::quality::{FIGURES, Figure};
+use straightline_testbed::picture;
+
+/// What is made of the chapter: its pictures, and what they show.
+const OF_THE_CHAPTER: [(&str, &str); 2] = [
+    ("pqa-03", "half resolution brought up by one read a pixel"),
+    (
+        "pqa-07",
+        "8x8 shadows by four comparisons a pixel, and a gradient that hides the quads",
+    ),
+];
+
+/// Makes all that are asked for, and writes them together.
+pub fn run(args: &FiguresArgs) -> Result<(), Failure> {
+    let known: Vec<&str> = FIGURES
+        .iter()
+        .map(|figure| figure.name)
+        .chain(OF_THE_CHAPTER.map(|(name, _)| name))
+        .collect();
+    if let Some(unknown) = args.figures.iter().find(|name| !known.contains(&name.as_str())) {
+        return Err(Failure::Usage(format!(
+            "there is no figure `{unknown}`; there are {}",
+            known.join(", ")
+        )));
+    }
+    files::try_folder(&args.out).map_err(Failure::of)?;
+    let wanted = |name: &str| args.figures.is_empty() || args.figures.iter().any(|asked| asked == name);
+    let gpu = Gpu::require(&args.adapter)?;
+    let bench = gpu.bench();
+    let mut progress = Progress::new();
+    let (mut set, mut rows) = (BTreeMap::new(), Vec::new());
+    let chosen: Vec<&Figure> = FIGURES.iter().filter(|figure| wanted(figure.name)).collect();
+    for figure in chosen {
+        let made = figure.make(&bench, args.size, &mut progress).map_err(failure)?;
+        let bytes = picture::png_bytes(&made.picture).map_err(Failure::of)?;
+        set.insert(format!("{}.png", figure.name), bytes);
+        let psnr: Vec<String> = made
+            .psnr
+            .iter()
+            .map(|(name, db)| format!("{name} {db:.1} dB"))
+            .collect();
+        rows.push(vec![figure.name.to_owned(), figure.shows.to_owned(), psnr.join("; ")]);
+    }
+    if OF_THE_CHAPTER.iter().any(|(name, _)| wanted(name)) {
+        // For its pictures: nothing is timed for long.
+        let method = quads::Method {
+            size: args.size,
+            texels: 512,
+            rounds: 1,
+            least: Duration::ZERO,
+        };
+        let studied = quads::study(&bench, &scene::load(None, "roof")?, &method, &mut progress).map_err(Failure::of)?;
+        let of_quads = [pictures::occlusion(&studied), pictures::shadows(&bench, &studied)?];
+        for ((name, shows), made) in OF_THE_CHAPTER.iter().zip(of_quads) {
+            if wanted(name) {
+                let bytes = picture::png_bytes(&made).map_err(Failure::of)?;
+                set.insert(format!("{name}.png"), bytes);
+                rows.push([*name, *shows, ""].map(str::to_owned).to_vec());
+            }
+        }
+    }
+    drop(progress);
+    files::write_all(&args.out, &set).map_err(Failure::of)?;
+    outln!(
+        "{}",
+        table::render(&["figure", "what it shows", "of the whole picture"], &rows)
+    );
+    outln!("The pictures are in {}.", args.out.display());
+    Ok(())
+}

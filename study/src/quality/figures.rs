@@ -1,0 +1,225 @@
+//! The pictures of the SRAA paper, made again of the built-in scenes.
+
+use super::filters::Filters;
+use super::methods::{Method, methods};
+use super::shot::{Shot, supersampled};
+use super::{QualityError, SIDE, check};
+use crate::watch::Watch;
+use glam::{UVec2, Vec2, Vec4};
+use std::collections::BTreeMap;
+use straightline_kernels::prelude::Frame;
+use straightline_testbed::capture::Capture;
+use straightline_testbed::execute::Bench;
+use straightline_testbed::gbuffer;
+use straightline_testbed::metrics::psnr;
+use straightline_testbed::picture;
+use straightline_testbed::render::GpuRenderer;
+use straightline_testbed::scene::{SKY_DEPTH, Scene};
+
+/// A picture of the paper.
+#[derive(Clone, Copy, Debug)]
+pub struct Figure {
+    /// Name of its file, without extension: the number of the original.
+    pub name: &'static str,
+    /// What the paper shows.
+    pub shows: &'static str,
+    /// The built-in scene that is drawn.
+    pub scene: &'static str,
+    /// What is beside one another; a reference of 256 samples a pixel is the last, but of [`Pane::Interleaved`].
+    pub panes: &'static [Pane],
+}
+
+/// One of its parts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Pane {
+    /// The picture of a method, by its name in `study error`.
+    Method(&'static str),
+    /// What SRAA reads, in one large texture: distances, near ones bright, and normals.
+    Interleaved,
+}
+
+use Pane::{Interleaved, Method as Of};
+
+/// All of them: the others of the paper are drawings and charts.
+pub const FIGURES: &[Figure] = &[
+    Figure {
+        name: "sraa-01",
+        shows: "1x, SRAA and 16x",
+        scene: "roof",
+        panes: &[Of("1x"), Of("SRAA 16"), Of("16x")],
+    },
+    Figure {
+        name: "sraa-02",
+        shows: "MLAA blurs edges too far; SRAA cannot reconstruct what no sample sees",
+        scene: "roof",
+        panes: &[Of("1x"), Of("MLAA"), Of("SRAA 4"), Of("SRAA 4 and MLAA")],
+    },
+    Figure {
+        name: "sraa-04",
+        shows: "distance by normals, by depth and by both",
+        scene: "creases",
+        panes: &[Of("1x"), Of("SRAA 4, normals"), Of("SRAA 4, depth"), Of("SRAA 4")],
+    },
+    Figure {
+        name: "sraa-05",
+        shows: "distance by depth, and by planes",
+        scene: "grooves",
+        panes: &[
+            Of("1x"),
+            Of("SRAA 4, depth"),
+            Of("SRAA 4"),
+            Of("SRAA 4, planes and normals"),
+        ],
+    },
+    Figure {
+        name: "sraa-06",
+        shows: "four G-buffers interleaved to one",
+        scene: "roof",
+        panes: &[Interleaved],
+    },
+    Figure {
+        name: "sraa-07",
+        shows: "much geometry, little shading",
+        scene: "tubes",
+        panes: &[Of("1x"), Of("SRAA 4"), Of("SRAA 16"), Of("16x")],
+    },
+    Figure {
+        name: "sraa-08",
+        shows: "where shading changes within a surface, the picture is that of 1x",
+        scene: "sparkle",
+        panes: &[Of("1x"), Of("SRAA 4"), Of("SRAA 16"), Of("16x")],
+    },
+    Figure {
+        name: "sraa-09",
+        shows: "fences by alpha test, and no blur in textures",
+        scene: "railings",
+        panes: &[Of("1x"), Of("SRAA 4"), Of("SRAA 16"), Of("16x")],
+    },
+    Figure {
+        name: "sraa-10",
+        shows: "what is thinner than a pixel: MLAA loses it",
+        scene: "wires",
+        panes: &[Of("1x"), Of("MLAA"), Of("SRAA 4"), Of("SRAA 16")],
+    },
+    Figure {
+        name: "sraa-11",
+        shows: "more geometry samples come nearer to supersampling",
+        scene: "roof",
+        panes: &[Of("SRAA 4"), Of("SRAA 8, standard"), Of("SRAA 16"), Of("16x")],
+    },
+];
+
+/// Texels of the detail, across and down.
+const DETAIL: u32 = 64;
+
+/// How much it is enlarged.
+const ZOOM: u32 = 5;
+
+/// What was made.
+#[derive(Clone, Debug)]
+pub struct Made {
+    /// The panes side by side under their names.
+    pub picture: Frame<Vec4>,
+    /// Of each method: its name, and the ratio of its whole picture to the reference, in dB.
+    pub psnr: Vec<(String, f64)>,
+}
+
+impl Figure {
+    /// Draws its scene at `size`, and shows where 1x is farthest from the reference.
+    ///
+    /// # Errors
+    ///
+    /// [`QualityError`], if something cannot be drawn or run, or the watch says stop.
+    pub fn make(&self, bench: &Bench, size: UVec2, watch: &mut dyn Watch) -> Result<Made, QualityError> {
+        let listed = self.methods();
+        watch.begin(self.name, listed.len() + SIDE as usize);
+        let scene = Scene::named(self.scene).map_err(|error| QualityError::Capture(error.to_string()))?;
+        let renderer = GpuRenderer::new(bench.device(), bench.queue(), &scene, size)?;
+        let shot = Shot::draw(&renderer, &listed.iter().collect::<Vec<_>>(), watch)?;
+        let reference = supersampled(&renderer, SIDE, Vec2::ZERO, watch)?;
+        let reference = picture::at_eight_bits(&reference);
+        let plain = picture::at_eight_bits(&shot.any()?.color);
+        let corner = picture::busiest(&plain, &reference, DETAIL);
+        if self.panes.contains(&Interleaved) {
+            let picture = interleaved(shot.any()?, corner)?;
+            return Ok(Made {
+                picture,
+                psnr: Vec::new(),
+            });
+        }
+        let mut filters = Filters::new(bench, &listed, size, watch)?;
+        let mut pictures = Vec::new();
+        for (k, method) in listed.iter().enumerate() {
+            check(watch)?;
+            pictures.push((method.name.as_str(), picture::at_eight_bits(&filters.run(k, &shot)?)));
+        }
+        let psnr = pictures
+            .iter()
+            .map(|(name, frame)| ((*name).to_owned(), psnr(frame, &reference)));
+        let psnr = psnr.collect();
+        pictures.push(("256x", reference));
+        let panes: Vec<(&str, &Frame<Vec4>)> = pictures.iter().map(|(name, frame)| (*name, frame)).collect();
+        Ok(Made {
+            picture: picture::details(&panes, corner, DETAIL, ZOOM),
+            psnr,
+        })
+    }
+
+    /// The methods of its panes, in their order; those of geometry alone need a capture too.
+    fn methods(&self) -> Vec<Method> {
+        let all = methods(false);
+        let named = |pane: &Pane| {
+            let name = match pane {
+                Of(name) => *name,
+                Interleaved => "SRAA 4",
+            };
+            all.iter().find(|method| method.name == name).cloned()
+        };
+        self.panes.iter().filter_map(named).collect()
+    }
+}
+
+/// The detail, of which each pixel is 2x2 texels.
+fn interleaved(capture: &Capture, corner: UVec2) -> Result<Frame<Vec4>, QualityError> {
+    let options = BTreeMap::from([("layout".to_owned(), "superresolution".to_owned())]);
+    let inputs = gbuffer::inputs(capture, &options)?;
+    let grid = |name: &str, shown: &dyn Fn(Vec4) -> Vec4| {
+        let found = inputs.images.iter().find(|(known, _)| known == name);
+        let layers = found.map(|(_, layers)| layers);
+        let grid = layers.and_then(|layers| layers.first());
+        let grid = grid.ok_or_else(|| QualityError::NotDrawn(name.to_owned()))?;
+        let shown: Vec<Vec4> = grid.texels().iter().map(|texel| shown(*texel)).collect();
+        Ok::<_, QualityError>(Frame::new(grid.size(), shown))
+    };
+    let depths = capture.depth.layers().iter().flat_map(|layer| layer.texels());
+    let (nearest, farthest) = depths
+        .filter(|depth| **depth < SKY_DEPTH)
+        .fold((f32::MAX, f32::MIN), |(low, high), depth| {
+            (low.min(*depth), high.max(*depth))
+        });
+    // By the logarithm, or what is near would have all the shades.
+    let near = |texel: Vec4| {
+        let share = (farthest / texel.x.clamp(nearest, farthest)).ln() / (farthest / nearest).ln();
+        Vec4::splat(share.powf(2.2)).with_w(1.0)
+    };
+    let facing = |texel: Vec4| (0.5 + 0.5 * texel).powf(2.2).with_w(1.0);
+    let (depth, normal) = (grid("depth_grid", &near)?, grid("normal_grid", &facing)?);
+    let panes = [("depth", &depth), ("normal", &normal)];
+    Ok(picture::details(&panes, corner * 2, 2 * DETAIL, ZOOM))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeSet;
+
+    #[test]
+    fn every_pane_is_there() {
+        let names: BTreeSet<&str> = FIGURES.iter().map(|figure| figure.name).collect();
+        assert_eq!(names.len(), FIGURES.len());
+        for figure in FIGURES {
+            assert_eq!(figure.methods().len(), figure.panes.len(), "{}", figure.name);
+            assert!(Scene::named(figure.scene).is_ok(), "{}", figure.name);
+        }
+    }
+}
