@@ -6,7 +6,7 @@ use crate::ir::{BinaryOp, Graph, Node, NodeId, Op, RegionId, Scalar, UnaryOp};
 const PIXEL: f64 = 4096.0;
 
 /// Brings the reads of each region that depend on nothing there but arithmetic before all else, with that arithmetic: texture by
-/// texture, layer by layer, row by row, so that neighbours in memory are read one after the other (SRAA paper, §3.3).
+/// texture, layer by layer, row by row, so that neighbours in memory are read one after the other (SRAA paper, §3.1).
 ///
 /// `steps` has the nodes of each region in an order of evaluation, and `place` the region of each node.
 pub fn rows_first(graph: &Graph, place: &[Option<RegionId>], steps: &mut [Vec<NodeId>]) {
