@@ -21,7 +21,7 @@ use straightline_tests::compilers;
 const GIVES: &str = "// gives\n";
 
 /// Lines that a case of emission may have.
-const LONGEST: usize = 40;
+const LONGEST: usize = 30;
 
 fn cases() -> Vec<PathBuf> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("filetests");

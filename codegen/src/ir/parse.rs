@@ -101,14 +101,11 @@ impl Reader {
                 Ok(())
             }
             "invocation" => self.invocation(rest),
-            "region" => self.open(rest),
-            "}" => match self.open.pop() {
-                Some(region) if region != Graph::BODY => {
-                    self.event(Event::Close(region));
-                    Ok(())
-                }
-                _ => Err("there is no region to close".to_owned()),
+            "region" => match rest.strip_suffix('}') {
+                Some(empty) => self.open(empty).and_then(|()| self.close()),
+                None => self.open(rest),
             },
+            "}" => self.close(),
             "output" => {
                 let outputs = rest.split_whitespace().map(|word| self.node_id(word));
                 self.graph.regions[0].results = outputs.collect::<Parsed<_>>()?;
@@ -240,6 +237,16 @@ impl Reader {
         self.open.push(RegionId(id));
         self.event(Event::Open(RegionId(id)));
         Ok(())
+    }
+
+    fn close(&mut self) -> Parsed {
+        match self.open.pop() {
+            Some(region) if region != Graph::BODY => {
+                self.event(Event::Close(region));
+                Ok(())
+            }
+            _ => Err("there is no region to close".to_owned()),
+        }
     }
 
     fn node_id(&self, text: &str) -> Parsed<NodeId> {

@@ -93,9 +93,12 @@ fn value(node: &Node, values: &[Value]) -> Value {
         .iter()
         .map(|arg| values[arg.0 as usize].as_ref())
         .collect::<Option<_>>()?;
-    let each = |of: &dyn Fn(&dyn Fn(usize) -> f64) -> f64| {
-        let lane = |k: usize| of(&|arg: usize| args[arg].get(k).or(args[arg].first()).copied().unwrap_or(f64::NAN));
-        Some((0..lanes).map(lane).collect())
+    let each = |of: fn(&[f64]) -> f64| {
+        let lane = |k: usize| {
+            let known = |arg: &&Vec<f64>| arg.get(k).or(arg.first()).copied();
+            Some(of(&args.iter().map(known).collect::<Option<Vec<f64>>>()?))
+        };
+        (0..lanes).map(lane).collect()
     };
     match &node.op {
         Op::Const(bits) => {
@@ -109,17 +112,17 @@ fn value(node: &Node, values: &[Value]) -> Value {
         Op::Pixel => Some(vec![PIXEL; lanes]),
         Op::FrameSize | Op::TextureSize(_) => Some(vec![2.0 * PIXEL; lanes]),
         Op::Lane => Some(vec![0.0; lanes]),
-        Op::Splat | Op::Convert => each(&|arg| arg(0)),
+        Op::Splat | Op::Convert => each(|arg| arg[0]),
         Op::Compose => args.iter().map(|arg| arg.first().copied()).collect(),
         Op::Extract(lane) => Some(vec![*args[0].get(usize::from(*lane))?]),
-        Op::Clamp => each(&|arg| arg(0).max(arg(1)).min(arg(2))),
-        Op::Unary(UnaryOp::Neg) => each(&|arg| -arg(0)),
-        Op::Binary(BinaryOp::Add) => each(&|arg| arg(0) + arg(1)),
-        Op::Binary(BinaryOp::Sub) => each(&|arg| arg(0) - arg(1)),
-        Op::Binary(BinaryOp::Mul) => each(&|arg| arg(0) * arg(1)),
-        Op::Binary(BinaryOp::Div) if scalar == Scalar::F32 => each(&|arg| arg(0) / arg(1)),
-        Op::Binary(BinaryOp::Min) => each(&|arg| arg(0).min(arg(1))),
-        Op::Binary(BinaryOp::Max) => each(&|arg| arg(0).max(arg(1))),
+        Op::Clamp => each(|arg| arg[0].max(arg[1]).min(arg[2])),
+        Op::Unary(UnaryOp::Neg) => each(|arg| -arg[0]),
+        Op::Binary(BinaryOp::Add) => each(|arg| arg[0] + arg[1]),
+        Op::Binary(BinaryOp::Sub) => each(|arg| arg[0] - arg[1]),
+        Op::Binary(BinaryOp::Mul) => each(|arg| arg[0] * arg[1]),
+        Op::Binary(BinaryOp::Div) if scalar == Scalar::F32 => each(|arg| arg[0] / arg[1]),
+        Op::Binary(BinaryOp::Min) => each(|arg| arg[0].min(arg[1])),
+        Op::Binary(BinaryOp::Max) => each(|arg| arg[0].max(arg[1])),
         _ => None,
     }
 }

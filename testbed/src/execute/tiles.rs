@@ -52,7 +52,7 @@ pub fn cropped(inputs: &Inputs, tile: &Tile) -> Inputs {
     let images = images.map(|(name, layers)| (name.clone(), layers.iter().map(cut).collect()));
     let cut = |elements: &Vec<[f64; 4]>| {
         let frame = inputs.size.element_product() as usize;
-        if elements.len() % frame != 0 {
+        if !elements.len().is_multiple_of(frame) {
             return elements.clone();
         }
         let (first, size) = (tile.inputs_first.as_usizevec2(), tile.inputs_size.as_usizevec2());

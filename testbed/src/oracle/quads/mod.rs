@@ -67,11 +67,10 @@ pub fn fitted(image: &Picture, radius: i64, weight: impl Fn(i64) -> f64, [x, y]:
         }
     }
     for pivot in 0..3 {
-        for row in (0..3).filter(|row| *row != pivot) {
-            let factor = normal[row][pivot] / normal[pivot][pivot];
-            for column in 0..7 {
-                normal[row][column] -= factor * normal[pivot][column];
-            }
+        let by = normal[pivot];
+        for (_, row) in normal.iter_mut().enumerate().filter(|(row, _)| *row != pivot) {
+            let factor = row[pivot] / by[pivot];
+            row.iter_mut().zip(by).for_each(|(entry, by)| *entry -= factor * by);
         }
     }
     let (u, v) = ((x - corner[0]) as f64 - 0.5, (y - corner[1]) as f64 - 0.5);
