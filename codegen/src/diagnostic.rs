@@ -22,6 +22,11 @@ pub struct Span {
     pub column: u32,
 }
 
+impl Span {
+    /// The file of places in the library's own texts: no file of a kernel.
+    pub const LIBRARY: u32 = u32::MAX;
+}
+
 /// A source file, for showing where an error is.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct File {
@@ -63,7 +68,7 @@ impl Diagnostic {
 
     /// The error at the place where a function of the library was called, whose text nobody sees.
     pub fn called_at(self, span: Span, function: &str) -> Self {
-        if self.span.is_some_and(|at| at.file != crate::front::std::FILE) {
+        if self.span.is_some_and(|at| at.file != Span::LIBRARY) {
             return self;
         }
         let inside = format!("inside of `{function}`");

@@ -4,13 +4,13 @@
 //! The texts are read after a kernel's files. Of what they define, only what the files mention is parsed, and only what the
 //! kernel reaches is kept.
 
-use crate::diagnostic::File;
+use crate::diagnostic::{File, Span};
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 use std::fmt::Write;
 use std::sync::OnceLock;
 
 /// The file that places in these texts name: no file of a kernel.
-pub const FILE: u32 = u32::MAX;
+pub const FILE: u32 = Span::LIBRARY;
 
 /// Component names.
 const LANES: [&str; 4] = ["x", "y", "z", "w"];

@@ -1,0 +1,61 @@
+//! No module of the crate is part of a circle of imports.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+
+/// The crate's modules that each of them names as `crate::module`, tests left out.
+fn imports() -> BTreeMap<String, BTreeSet<String>> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let mut files = Vec::new();
+    collect(&root, &mut files);
+    let module = |path: &Path| {
+        let first = path.strip_prefix(&root).expect("inside").components().next();
+        let name = first.expect("a file").as_os_str().to_string_lossy().into_owned();
+        name.trim_end_matches(".rs").to_owned()
+    };
+    let modules: BTreeSet<String> = files.iter().map(|path| module(path)).collect();
+    let mut imports: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
+    for path in &files {
+        let (text, own) = (std::fs::read_to_string(path).expect("a text"), module(path));
+        let text = text.split("#[cfg(test)]").next().unwrap_or_default();
+        for after in text.split("crate::").skip(1) {
+            // One, or several in braces, each of which may have more in its own.
+            let end = if after.starts_with('{') { ';' } else { ':' };
+            let names = after.split(end).next().unwrap_or_default();
+            let names = names.split(|c: char| !c.is_alphanumeric() && c != '_');
+            let known = names.filter(|name| modules.contains(*name) && *name != own);
+            imports.entry(own.clone()).or_default().extend(known.map(str::to_owned));
+        }
+    }
+    imports
+}
+
+fn collect(folder: &Path, files: &mut Vec<PathBuf>) {
+    for entry in std::fs::read_dir(folder).expect("a folder") {
+        let path = entry.expect("an entry").path();
+        match path.extension() {
+            _ if path.is_dir() => collect(&path, files),
+            Some(extension) if extension == "rs" => files.push(path),
+            _ => {}
+        }
+    }
+}
+
+#[test]
+fn imports_go_one_way() {
+    let mut left = imports();
+    assert!(
+        left["pipeline"].contains("front") && left["emit"].contains("ir"),
+        "{left:?}"
+    );
+    // What imports nothing that is left is in no circle.
+    loop {
+        let there: BTreeSet<String> = left.keys().cloned().collect();
+        let before = left.len();
+        left.retain(|_, of| of.iter().any(|name| there.contains(name)));
+        if left.len() == before {
+            break;
+        }
+    }
+    assert!(left.is_empty(), "these import each other, or what does: {left:?}");
+}
