@@ -1,12 +1,12 @@
 //! A kernel with everything decided: what the interpreter computes and emission writes.
 
-use crate::eval::LoopReport;
-use crate::ir::Graph;
-use crate::passes::{self, Schedule};
-use crate::policy::{Policy, Transport};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::sync::Arc;
+use straightline_evaluator::eval::LoopReport;
+use straightline_evaluator::ir::Graph;
+use straightline_evaluator::passes::{self, Schedule};
+use straightline_evaluator::policy::{Policy, Transport};
 use straightline_kernels::{Entry, HalfPrecision, PaperCounts};
 use straightline_manifest::Counts;
 

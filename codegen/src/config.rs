@@ -15,14 +15,14 @@
 //! The crate then says `straightline_runtime::include_shaders!();` where it wants the modules.
 
 use crate::compiled::Compiled;
-use crate::diagnostic::Errors;
 use crate::emit::{self, EmitError, EmitOptions, Register, Target};
 use crate::files::{self, WriteError};
 use crate::pipeline::{Kernel, Settings};
-use crate::policy::{Branches, ReadOrder, Transport, Unroll};
 use std::collections::BTreeMap;
 use std::fmt;
 use std::path::{Path, PathBuf};
+use straightline_evaluator::diagnostic::Errors;
+use straightline_evaluator::policy::{Branches, ReadOrder, Transport, Unroll};
 use straightline_manifest::{Form, Format, Manifest, Origin, Precision, Stage};
 
 /// Name of the file with the bindings.

@@ -2,11 +2,11 @@
 //! samples, and with its loops left in the shader; an edge filter; and filters of quads.
 
 use crate::compiled::Compiled;
-use crate::diagnostic::Errors;
 use crate::emit::{EmitError, EmitOptions, Target};
 use crate::pipeline::{Kernel, Settings};
-use crate::policy::{Transport, Unroll};
 use std::collections::{BTreeMap, BTreeSet};
+use straightline_evaluator::diagnostic::Errors;
+use straightline_evaluator::policy::{Transport, Unroll};
 use straightline_manifest::Stage;
 
 /// One shader of the set.

@@ -14,25 +14,15 @@
 mod compiled;
 pub mod config;
 pub mod default_set;
-pub mod diagnostic;
 pub mod emit;
-mod eval;
 pub mod files;
-mod front;
-mod infer;
-pub mod interp;
-pub mod ir;
-pub mod passes;
 mod pipeline;
-pub mod policy;
-mod shorten;
-mod suggest;
 
 pub use compiled::Compiled;
 pub use config::{Config, compile};
 pub use emit::EmitOptions;
-pub use eval::{LoopReport, OptionInfo, OptionKind};
 pub use pipeline::{Kernel, Observer, Settings};
-pub use policy::{Branches, ReadOrder, Transport, Unroll};
-pub use shorten::shorten;
+pub use straightline_evaluator::eval::{LoopReport, OptionInfo, OptionKind};
+pub use straightline_evaluator::policy::{Branches, ReadOrder, Transport, Unroll};
+pub use straightline_evaluator::{diagnostic, interp, ir, passes, policy, shorten};
 pub use straightline_manifest::{Form, Format, Manifest, Origin, Precision, Stage};

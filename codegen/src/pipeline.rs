@@ -1,18 +1,18 @@
 //! The stages from text to graph, in order.
 
 use crate::compiled::Compiled;
-use crate::diagnostic::{Diagnostic, Errors, File};
 use crate::emit;
-use crate::eval::{self, OptionInfo};
 use crate::files;
-use crate::front::{self, Library, Parsed};
-use crate::infer;
-use crate::ir::{Graph, Invocation, verify};
-use crate::passes;
-use crate::policy::{Branches, LoopPolicy, Policy, ReadOrder, Transport, Unroll};
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::{Arc, OnceLock};
+use straightline_evaluator::diagnostic::{Diagnostic, Errors, File};
+use straightline_evaluator::eval::{self, OptionInfo};
+use straightline_evaluator::front::{self, Library, Parsed};
+use straightline_evaluator::infer;
+use straightline_evaluator::ir::{Graph, Invocation, verify};
+use straightline_evaluator::passes;
+use straightline_evaluator::policy::{Branches, LoopPolicy, Policy, ReadOrder, Transport, Unroll};
 
 /// Longest file of a kernel that is read, in bytes.
 const MAX_SOURCE: u64 = 1 << 24;

@@ -3,8 +3,8 @@
 //! [`super::lower`] makes it, [`super::legalise`] rewrites what a language says in another way, [`super::names`] gives its
 //! variables names, and [`super::print`] writes it. No stage asks a text what it means.
 
-use crate::ir::{self, AtomicOp, BinaryOp, Lanes, Memory, Origin, Scalar, Type};
 use std::ops::Deref;
+use straightline_evaluator::ir::{self, AtomicOp, BinaryOp, Lanes, Memory, Origin, Scalar, Type};
 
 /// Type of an expression.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]

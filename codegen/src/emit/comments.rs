@@ -2,8 +2,8 @@
 
 use super::ast::{Block, Stmt, StmtKind};
 use super::text::comment;
-use crate::ir::{Counter, Graph};
 use std::collections::{HashMap, HashSet};
+use straightline_evaluator::ir::{Counter, Graph};
 
 /// The statements with a comment before each group.
 pub fn comment_groups<'g>(block: Block<'g>, graph: &'g Graph) -> Block<'g> {

@@ -4,7 +4,7 @@ use super::error::EmitError;
 use super::names::{self, LONGEST, Words};
 use super::options::EmitOptions;
 use super::target::Target;
-use crate::shorten;
+use straightline_evaluator::shorten;
 
 /// The name of a kernel's entry point or function: the one that is asked for, or else the kernel's, changed where shading
 /// languages would not take it.

@@ -7,7 +7,7 @@ use super::resources::Resources;
 use super::target::Target;
 use super::text::Text;
 use crate::compiled::Compiled;
-use crate::ir::{Op, Scalar, TextureKind};
+use straightline_evaluator::ir::{Op, Scalar, TextureKind};
 
 /// What a host's function does with a texture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

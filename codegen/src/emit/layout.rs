@@ -1,6 +1,6 @@
 //! Offsets of a uniform struct's members: the same in WGSL and in GLSL's std140.
 
-use crate::ir::{self, Type, Uniform};
+use straightline_evaluator::ir::{self, Type, Uniform};
 use straightline_manifest::{Part, Scalar, UniformField, ValueType};
 
 /// Members at their offsets, in order of declaration, and the buffer's size in bytes, a multiple of 16.

@@ -4,7 +4,7 @@ use super::layout::value_type;
 use super::print::GENERATOR;
 use super::resources::{BoundTexture, Resources, UNIFORMS};
 use crate::compiled::Compiled;
-use crate::ir::{Element, Field, Scalar, Texture, TextureKind};
+use straightline_evaluator::ir::{Element, Field, Scalar, Texture, TextureKind};
 use straightline_manifest::{
     Access, Binding, BindingKind, BufferType, Counts, Dimension, Extent, Manifest, Output, Precision, REGION,
     REGION_SIZE, SCHEMA, SampleType, SamplerType, Stage, UniformField, ViewDimension, region_fields,

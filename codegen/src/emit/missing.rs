@@ -4,7 +4,7 @@ use super::error::EmitError;
 use super::resources::Resources;
 use super::target::Target;
 use crate::compiled::Compiled;
-use crate::ir::{Op, TextureKind, UnaryOp};
+use straightline_evaluator::ir::{Op, TextureKind, UnaryOp};
 use straightline_manifest::{Precision, Stage};
 
 /// Whether a language has all that a shader needs.

@@ -38,12 +38,12 @@ mod variables;
 mod words;
 
 use crate::compiled::Compiled;
-use crate::ir::{Graph, Invocation, Op};
-use crate::passes::Schedule;
-use crate::policy::Transport;
 use std::borrow::Cow;
 use std::cell::OnceCell;
 use std::collections::BTreeMap;
+use straightline_evaluator::ir::{Graph, Invocation, Op};
+use straightline_evaluator::passes::Schedule;
+use straightline_evaluator::policy::Transport;
 use straightline_kernels::HalfPrecision;
 use straightline_manifest::{Counts, Form, Manifest, Precision, Stage, hash_of_bytes, hash_of_text};
 

@@ -2,8 +2,8 @@
 
 use super::ast::{Module, Stmt, StmtKind, VarId, Variable};
 use super::resources::{OUTPUT, Resources, SAMPLER, UNIFORMS};
-use crate::ir::{BinaryOp, Counter, Element, Graph, NodeId, Op, Origin, Scalar, Type, UnaryOp};
 use std::collections::{BTreeSet, HashMap, HashSet};
+use straightline_evaluator::ir::{BinaryOp, Counter, Element, Graph, NodeId, Op, Origin, Scalar, Type, UnaryOp};
 use straightline_manifest::REGION;
 
 /// Names that the text around a kernel's body has uses for.

@@ -3,9 +3,9 @@
 use super::error::EmitError;
 use super::options::EmitOptions;
 use crate::compiled::Compiled;
-use crate::ir::{Invocation, Op, verify};
-use crate::passes;
 use std::borrow::Cow;
+use straightline_evaluator::ir::{Invocation, Op, verify};
+use straightline_evaluator::passes;
 use straightline_manifest::Precision;
 
 /// The kernel as it is to be written for the origin that is asked for.

@@ -1,7 +1,7 @@
 //! What a shader gives: a value for each target of a pixel.
 
 use super::ast::{Expr, Op, Ty};
-use crate::ir::{Scalar, Target, Type};
+use straightline_evaluator::ir::{Scalar, Target, Type};
 use straightline_manifest::{Component, Format};
 
 /// A value that a shader gives for each pixel.

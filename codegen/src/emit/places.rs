@@ -5,9 +5,9 @@ use super::options::EmitOptions;
 use super::register::{LAST_BINDING, LAST_GROUP, Register};
 use super::resources::SAMPLER;
 use super::target::Target;
-use crate::shorten;
-use crate::suggest::suggest;
 use std::collections::BTreeMap;
+use straightline_evaluator::shorten;
+use straightline_evaluator::suggest;
 use straightline_manifest::Stage;
 
 /// Something that a shader binds.

@@ -36,7 +36,7 @@ impl FromStr for Register {
             format!(
                 "`{}` is no register: give t, s, b or u with a number to {LAST_BINDING}, and where you want one a space to \
                  {LAST_GROUP}, such as t3 or t3,space1",
-                crate::shorten(text)
+                straightline_evaluator::shorten(text)
             )
         })
     }

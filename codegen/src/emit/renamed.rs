@@ -2,8 +2,8 @@
 
 use super::names::Words;
 use super::resources::Resources;
-use crate::ir::Element;
 use std::collections::{BTreeMap, BTreeSet};
+use straightline_evaluator::ir::Element;
 
 impl Resources {
     /// The bindings by names that are no words of HLSL, and no two of which are one: hosts bind by register there.

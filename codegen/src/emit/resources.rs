@@ -8,12 +8,12 @@ use super::outputs::BoundOutput;
 use super::places::{Named, Places};
 use super::target::Target;
 use crate::compiled::Compiled;
-use crate::ir::{
+use std::collections::BTreeSet;
+use straightline_evaluator::ir::{
     Access, Buffer, Element, Invocation, Memory, NodeId, Op, Sampler, Shared, Structure, Texture, Type, Uniform,
     Varying,
 };
-use crate::passes::layers_read;
-use std::collections::BTreeSet;
+use straightline_evaluator::passes::layers_read;
 use straightline_manifest::{REGION, Stage, UniformField};
 
 /// Name of the uniform buffer.
@@ -21,7 +21,7 @@ pub const UNIFORMS: &str = "parameters";
 /// Name of the sampler that GLSL needs to name a texture; no filtering is ever asked of it.
 pub const SAMPLER: &str = "unfiltered";
 /// Name of what is written by a kernel that gives one value.
-pub const OUTPUT: &str = crate::ir::Target::ALONE;
+pub const OUTPUT: &str = straightline_evaluator::ir::Target::ALONE;
 /// Name of the structure of several outputs.
 pub const OUTPUTS: &str = "Outputs";
 

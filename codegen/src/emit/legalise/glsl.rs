@@ -6,7 +6,7 @@ use super::{
 };
 use crate::emit::ast::{Expr, Module, Op, Ty};
 use crate::emit::print::glsl_type;
-use crate::ir::{self, BinaryOp, Scalar, Type, UnaryOp};
+use straightline_evaluator::ir::{self, BinaryOp, Scalar, Type, UnaryOp};
 
 /// The rule of GLSL for Vulkan.
 pub fn vulkan(module: &mut Module<'_>, expr: Expr) -> Expr {

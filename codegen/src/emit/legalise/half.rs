@@ -1,7 +1,7 @@
 //! Half precision: every float of the kernel is an `f16`; what other hardware reads and writes stays in full precision.
 
 use crate::emit::ast::{Expr, Module, Op, Stmt, StmtKind, Ty};
-use crate::ir;
+use straightline_evaluator::ir;
 
 /// The largest finite number of half precision.
 const LARGEST: f32 = 65504.0;

@@ -6,7 +6,7 @@ use super::{
 };
 use crate::emit::ast::{Block, Expr, Module, Op, Stmt, StmtKind, Ty};
 use crate::emit::print::hlsl_type;
-use crate::ir::{self, BinaryOp, Scalar, Type, UnaryOp};
+use straightline_evaluator::ir::{self, BinaryOp, Scalar, Type, UnaryOp};
 
 /// Rewrites a module for HLSL.
 pub fn legalise(module: &mut Module<'_>) {

@@ -10,7 +10,7 @@ mod zeroed;
 
 use super::ast::{Division, Expr, Function, Module, Op, StmtKind, Ty};
 use super::resources::Resources;
-use crate::ir::{self, BinaryOp, Scalar, Type, UnaryOp};
+use straightline_evaluator::ir::{self, BinaryOp, Scalar, Type, UnaryOp};
 
 pub use half::half;
 

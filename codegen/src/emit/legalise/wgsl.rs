@@ -3,8 +3,8 @@
 use super::{below_32, by_component, is_non_finite, to_integer};
 use crate::emit::ast::{Block, Expr, Module, Op, StmtKind, Ty, VarId};
 use crate::emit::print::wgsl_type;
-use crate::ir::{self, BinaryOp, Scalar, Type, UnaryOp};
 use std::collections::BTreeMap;
+use straightline_evaluator::ir::{self, BinaryOp, Scalar, Type, UnaryOp};
 
 /// Floats without a literal, by their bits: variables that hold them.
 type Specials = BTreeMap<u32, [VarId; 2]>;

@@ -2,7 +2,7 @@
 
 use crate::emit::ast::{Block, Builtin, Effect, Expr, Module, Op, Stmt, StmtKind};
 use crate::emit::resources::Resources;
-use crate::ir::{BinaryOp, Memory, Shared, Type};
+use straightline_evaluator::ir::{BinaryOp, Memory, Shared, Type};
 
 /// Writes zeros before the first statement that is the kernel's.
 pub fn begin(module: &mut Module<'_>, resources: &Resources) {

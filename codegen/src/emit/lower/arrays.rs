@@ -2,7 +2,7 @@
 
 use super::{Lowering, Stale, facts};
 use crate::emit::ast::{Expr, Op, StmtKind, VarId};
-use crate::ir::{self, NodeId, Type};
+use straightline_evaluator::ir::{self, NodeId, Type};
 
 impl Lowering<'_> {
     pub(super) fn array_get(&mut self, id: NodeId) {

@@ -2,8 +2,8 @@
 
 use super::{Lowering, Stale};
 use crate::emit::ast::{Expr, StmtKind, VarId};
-use crate::ir::{self, Graph, Lanes, NodeId, Region};
-use crate::passes::Block;
+use straightline_evaluator::ir::{self, Graph, Lanes, NodeId, Region};
+use straightline_evaluator::passes::Block;
 
 /// Bits of the end of a loop that only its stop ends.
 const ENDLESS: Lanes = [Graph::ENDLESS as u32, 0, 0, 0];

@@ -3,7 +3,7 @@
 use crate::emit::ast::{Block, Builtin, Expr, Module, Op, Stmt, StmtKind, VarId, Variable};
 use crate::emit::outputs::whole_texel;
 use crate::emit::resources::Resources;
-use crate::ir::{self, BinaryOp, Scalar, Type, UnaryOp};
+use straightline_evaluator::ir::{self, BinaryOp, Scalar, Type, UnaryOp};
 use straightline_manifest::Stage;
 
 const IVEC2: Type = Type::value(Scalar::I32, 2);

@@ -1,8 +1,8 @@
 //! What is known of operands, so that the text need not guard what cannot happen.
 
 use crate::emit::ast::Division;
-use crate::ir::{Graph, NodeId, Op, Scalar, Type};
-use crate::passes::{bounds, component_bounds, float_bounds};
+use straightline_evaluator::ir::{Graph, NodeId, Op, Scalar, Type};
+use straightline_evaluator::passes::{bounds, component_bounds, float_bounds};
 
 /// What is known of the operands of an integer division.
 pub fn division(graph: &Graph, x: NodeId, y: NodeId) -> Division {

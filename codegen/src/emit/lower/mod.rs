@@ -12,9 +12,9 @@ use super::ast::{Block as Statements, Effect, Expr, Module, Op, Stmt, StmtKind, 
 use super::names::Wanted;
 use super::tidy::simplify;
 use crate::compiled::Compiled;
-use crate::ir::{self, BinaryOp, NodeId, Origin, Type};
-use crate::passes::{Block, Step};
 use std::collections::HashSet;
+use straightline_evaluator::ir::{self, BinaryOp, NodeId, Origin, Type};
+use straightline_evaluator::passes::{Block, Step};
 use webs::Webs;
 
 pub use entry::entry;

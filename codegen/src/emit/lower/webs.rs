@@ -6,8 +6,8 @@
 //! Where cuts do not help, every version is a variable of its own, which is always right: see [`Webs::apart`].
 
 use crate::emit::ast::VarId;
-use crate::ir::{Graph, NodeId, Op};
 use std::collections::{HashMap, HashSet};
+use straightline_evaluator::ir::{Graph, NodeId, Op};
 
 /// Webs of array versions.
 pub struct Webs {

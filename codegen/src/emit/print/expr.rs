@@ -3,7 +3,7 @@
 use super::Language;
 use crate::emit::ast::{Expr, Op, Ty};
 use crate::emit::text::{Binds, Text};
-use crate::ir::{self, BinaryOp, Lanes, Scalar, Type, UnaryOp};
+use straightline_evaluator::ir::{self, BinaryOp, Lanes, Scalar, Type, UnaryOp};
 
 /// An expression whose arguments have been printed.
 pub fn print(l: &dyn Language, expr: &Expr, args: &[Text]) -> Text {

@@ -9,7 +9,7 @@ use crate::emit::Target;
 use crate::emit::ast::{Builtin, Effect, Ty};
 use crate::emit::host;
 use crate::emit::resources::{OUTPUTS, Resources, SAMPLER, UNIFORMS};
-use crate::ir::{
+use straightline_evaluator::ir::{
     self, Access, AtomicOp, Axis, BinaryOp, Direction, Element, Memory, Scalar, TextureKind, Type, UnaryOp,
 };
 use straightline_manifest::{REGION, Stage};

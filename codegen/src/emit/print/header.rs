@@ -4,8 +4,8 @@ use crate::compiled::Compiled;
 use crate::emit::layout::value_type;
 use crate::emit::resources::Resources;
 use crate::emit::text::comment;
-use crate::ir::{Invocation, Scalar, Type};
-use crate::policy::Transport;
+use straightline_evaluator::ir::{Invocation, Scalar, Type};
+use straightline_evaluator::policy::Transport;
 use straightline_manifest::{Counts, Form, Origin, Precision};
 
 /// Name and version, for headers and manifests.

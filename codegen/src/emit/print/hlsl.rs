@@ -7,8 +7,8 @@ use super::{Language, Text, commented, loose};
 use crate::emit::ast::{Builtin, Effect, Expr, Module, Op, Ty};
 use crate::emit::host;
 use crate::emit::resources::{OUTPUTS, Resources, UNIFORMS};
-use crate::ir::{self, AtomicOp, Axis, BinaryOp, Direction, Scalar, TextureKind, UnaryOp};
 use declarations::{fields, structures};
+use straightline_evaluator::ir::{self, AtomicOp, Axis, BinaryOp, Direction, Scalar, TextureKind, UnaryOp};
 use straightline_manifest::{Format, REGION, Stage};
 
 pub use declarations::{buffer_declared, declared, sampler_declared, texture_declared, type_name};

@@ -11,7 +11,7 @@ mod wgsl;
 
 use super::ast::{Builtin, Effect, Expr, Function, Module, Op, Stmt, StmtKind, Ty, VarId};
 use super::text::{Binds, Text, wrapped_comment};
-use crate::ir::{self, Scalar, UnaryOp};
+use straightline_evaluator::ir::{self, Scalar, UnaryOp};
 
 pub use glsl::{GATHER, Glsl, LENGTH, LOOSE_REGION, MESSAGES, loose};
 pub use header::{GENERATOR, header};
@@ -203,7 +203,7 @@ impl Printer<'_> {
         let table = |(var, value): &(VarId, Expr)| {
             let declared = self.language.table(self.name(*var), self.module.ty(*var));
             let value = match value.ty.shape {
-                crate::ir::Type::Array { .. } => self.elements(value),
+                straightline_evaluator::ir::Type::Array { .. } => self.elements(value),
                 _ => self.expr(value),
             };
             Self::line(0, &format!("{declared} = "), &value, ";") + "\n"

@@ -6,8 +6,10 @@ use crate::emit::ast::{Builtin, Effect, Ty};
 use crate::emit::host;
 use crate::emit::outputs::{BoundOutput, one};
 use crate::emit::resources::{OUTPUTS, Resources, UNIFORMS};
-use crate::ir::{self, Access, Axis, BinaryOp, Direction, Element, Scalar, Texture, TextureKind, Type};
 use std::fmt::Write;
+use straightline_evaluator::ir::{
+    self, Access, Axis, BinaryOp, Direction, Element, Scalar, Texture, TextureKind, Type,
+};
 use straightline_manifest::{Precision, REGION, Stage};
 
 /// WGSL.

@@ -2,7 +2,7 @@
 
 use super::simplify::not;
 use crate::emit::ast::{Block, Expr, Op, Stmt, StmtKind, VarId};
-use crate::ir::{self, BinaryOp, Type, UnaryOp};
+use straightline_evaluator::ir::{self, BinaryOp, Type, UnaryOp};
 
 /// Moves every `break` that ends a loop's body into the branch before it that decides on it.
 pub fn early(block: &mut Block<'_>) {

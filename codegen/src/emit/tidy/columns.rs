@@ -3,7 +3,7 @@
 use super::inline::operations;
 use crate::emit::ast::{Expr, Module, Op, Stmt, StmtKind, Ty};
 use crate::emit::print::{columns_of_number, wgsl_type};
-use crate::ir::{self, BinaryOp, Graph};
+use straightline_evaluator::ir::{self, BinaryOp, Graph};
 
 /// What widths depend on: names.
 pub struct Columns<'m> {

@@ -4,9 +4,9 @@ use super::columns::Columns;
 use super::{dead, simplify};
 use crate::emit::ast::{Block, Expr, Module, Op, Stmt, StmtKind, VarId};
 use crate::emit::text::WIDEST;
-use crate::ir::{Graph, Memory};
-use crate::policy::ReadOrder;
 use rustc_hash::{FxHashMap, FxHashSet};
+use straightline_evaluator::ir::{Graph, Memory};
+use straightline_evaluator::policy::ReadOrder;
 
 /// Operators and calls that a line may have, lest it be hard to read; shader compilers also recurse over them.
 const MOST: usize = 16;
@@ -167,7 +167,9 @@ pub fn operations(expr: &Expr) -> usize {
     expr.visit(&mut |expr| {
         let free = matches!(
             expr.op,
-            Op::Var(_) | Op::Ir(crate::ir::Op::Const(_) | crate::ir::Op::Uniform(_)) | Op::Swizzle(_)
+            Op::Var(_)
+                | Op::Ir(straightline_evaluator::ir::Op::Const(_) | straightline_evaluator::ir::Op::Uniform(_))
+                | Op::Swizzle(_)
         );
         count += usize::from(!free);
     });
@@ -177,7 +179,7 @@ pub fn operations(expr: &Expr) -> usize {
 /// Whether an expression reads what a workgroup shares.
 fn reads_shared(expr: &Expr) -> bool {
     let mut reads = false;
-    expr.visit(&mut |expr| reads |= matches!(expr.op, Op::Ir(crate::ir::Op::SharedLoad(_))));
+    expr.visit(&mut |expr| reads |= matches!(expr.op, Op::Ir(straightline_evaluator::ir::Op::SharedLoad(_))));
     reads
 }
 

@@ -9,8 +9,8 @@ mod simplify;
 mod statements;
 
 use super::ast::Module;
-use crate::ir::Graph;
-use crate::policy::ReadOrder;
+use straightline_evaluator::ir::Graph;
+use straightline_evaluator::policy::ReadOrder;
 
 pub use simplify::simplify;
 

@@ -1,7 +1,7 @@
 //! Shorter ways to write an expression.
 
 use crate::emit::ast::{Expr, Op};
-use crate::ir::{self, BinaryOp, Scalar, Type, UnaryOp};
+use straightline_evaluator::ir::{self, BinaryOp, Scalar, Type, UnaryOp};
 
 /// Rewrites an expression, whose arguments have been rewritten.
 pub fn simplify(expr: Expr) -> Expr {

@@ -2,7 +2,7 @@
 
 use super::simplify::not;
 use crate::emit::ast::{Block, Expr, Op, StmtKind};
-use crate::ir::{self, BinaryOp, Scalar};
+use straightline_evaluator::ir::{self, BinaryOp, Scalar};
 
 /// Rewrites every statement, those of inner blocks too.
 pub fn shorten(block: &mut Block<'_>) {

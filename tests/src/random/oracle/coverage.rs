@@ -65,7 +65,7 @@ pub struct Missing {
 pub fn missing(seeds: std::ops::Range<u64>) -> Result<Missing, String> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let read = |path: &str| std::fs::read_to_string(root.join(path)).map_err(|e| format!("{path}: {e}"));
-    let variants = variants(&read("codegen/src/front/tree.rs")?);
+    let variants = variants(&read("evaluator/src/front/tree.rs")?);
     let names = names(&read("docs/kernel-language.md")?);
     let mut missing = Missing {
         variants: variants.iter().map(|(of, name)| format!("{of}::{name}")).collect(),

@@ -2,7 +2,7 @@
 
 use crate::emit::ast::Ty;
 use crate::emit::outputs::BoundOutput;
-use crate::ir::{Scalar, Texture, TextureKind, Type};
+use straightline_evaluator::ir::{Scalar, Texture, TextureKind, Type};
 
 /// The type of an image that is written.
 pub fn image_type(output: &BoundOutput) -> &'static str {

@@ -2,7 +2,7 @@
 
 use crate::emit::ast::Ty;
 use crate::emit::resources::Resources;
-use crate::ir::{Access, Element, Scalar, Texture, TextureKind, Type};
+use straightline_evaluator::ir::{Access, Element, Scalar, Texture, TextureKind, Type};
 
 /// A texture as it is declared.
 pub fn texture_declared(resources: &Resources, index: u32) -> String {

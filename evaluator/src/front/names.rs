@@ -7,6 +7,7 @@ use super::expr::Lower;
 use super::inner::imports;
 use super::tree::Type;
 use crate::diagnostic::Diagnostic;
+use quote::ToTokens;
 use std::collections::HashMap;
 use std::rc::Rc;
 use syn::spanned::Spanned;
@@ -18,7 +19,6 @@ const MAX_ALIASES: u32 = 32;
 pub type Wrong = Vec<(String, Diagnostic)>;
 
 /// What names stand for.
-#[derive(Debug)]
 pub struct Names {
     paths: HashMap<String, Vec<String>>,
     /// Types by other names, with the files that they are written in.
@@ -64,7 +64,7 @@ impl Names {
                 syn::Item::Type(t) if t.generics.params.is_empty() => {
                     let name = t.ident.to_string();
                     let alias = (file, (*t.ty).clone());
-                    if self.types.get(&name).is_some_and(|known| known.1 != alias.1) {
+                    if self.types.get(&name).is_some_and(|known| text_of(&known.1) != text_of(&alias.1)) {
                         errors.push((name.clone(), twice(file, &t.ident)));
                     }
                     self.types.insert(name, alias);
@@ -177,6 +177,11 @@ fn definitions(items: &[syn::Item], enums: &mut HashMap<String, Vec<String>>) {
             _ => {}
         }
     }
+}
+
+/// A type's tokens as text, wherever they stand.
+fn text_of(ty: &syn::Type) -> String {
+    ty.to_token_stream().to_string()
 }
 
 /// Whether `cfg` leaves an item there.

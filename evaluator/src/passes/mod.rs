@@ -16,7 +16,7 @@ pub use floor::floor;
 pub use fold::Exact;
 pub use lanes::{by_derivatives, expand};
 pub use origin::from_below;
-pub(crate) use ranges::{bounds, component_bounds, float_bounds};
+pub use ranges::{bounds, component_bounds, float_bounds};
 pub use schedule::{Block, Schedule, Step, schedule};
 
 use crate::ir::{Graph, Rebuild, rebuild};

@@ -124,7 +124,7 @@ impl F16 {
     }
 
     /// The nearest number; of a finite one a finite one, and of one that is not zero one that is not.
-    pub(crate) fn nearest(x: f64) -> half::f16 {
+    pub fn nearest(x: f64) -> half::f16 {
         use half::f16;
         let near = f16::from_f64(x);
         let instead = if near.is_infinite() && x.is_finite() {
