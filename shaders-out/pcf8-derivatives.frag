@@ -15,7 +15,7 @@ layout(set = 0, binding = 2) uniform sampler unfiltered;
 
 void main() {
     ivec2 pixel = ivec2(floor(gl_FragCoord.xy));
-    // k 0: column (kernels/src/quad/pcf/mod.rs:281)
+    // k 0: column (kernels/src/quad/pcf/mod.rs:300)
     vec2 product = vec2(pixel & ivec2(1)) * 2.0;
     vec2 towards = 1.0 - product;
     vec3 row = coord + (coord + towards.x * dFdxFine(coord));

@@ -16,7 +16,7 @@ int2 size_of_shadow() {
 
 float4 pcf(float4 position : SV_Position, float3 coord : TEXCOORD0) : SV_Target0 {
     int2 pixel = int2(floor(position.xy));
-    // k 0: column (kernels/src/quad/pcf/mod.rs:281)
+    // k 0: column (kernels/src/quad/pcf/mod.rs:300)
     float2 product = float2(pixel & int2(1, 1)) * 2.0;
     float2 towards = 1.0 - product;
     float3 row = coord + (coord + towards.x * ddx_fine(coord));

@@ -11,7 +11,7 @@
 @fragment
 fn pcf(@builtin(position) position: vec4f, @location(0) coord: vec3f) -> @location(0) vec4f {
     let pixel = vec2i(floor(position.xy));
-    // k 0: column (kernels/src/quad/pcf/mod.rs:281)
+    // k 0: column (kernels/src/quad/pcf/mod.rs:300)
     let product = vec2f(pixel & vec2i(1)) * 2.0;
     let towards = 1.0 - product;
     let row = coord + (coord + towards.x * dpdxFine(coord));

@@ -15,7 +15,7 @@ layout(set = 0, binding = 2) uniform sampler unfiltered;
 void main() {
     ivec2 pixel = ivec2(floor(gl_FragCoord.xy));
     ivec2 frame = textureSize(sampler2D(depth, unfiltered), 0);
-    // k 0: colours of a quad (kernels/src/quad/upsampling.rs:89)
+    // k 0: colours of a quad (kernels/src/quad/upsampling.rs:102)
     float depth_2 = texelFetch(
         sampler2D(depth, unfiltered), clamp(pixel, ivec2(0), frame - 1), 0
     ).x;

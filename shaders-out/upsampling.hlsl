@@ -22,7 +22,7 @@ int2 size_of_low() {
 float4 quad_upsampling(float4 position : SV_Position) : SV_Target0 {
     int2 pixel = int2(floor(position.xy));
     int2 frame = size_of_depth();
-    // k 0: colours of a quad (kernels/src/quad/upsampling.rs:89)
+    // k 0: colours of a quad (kernels/src/quad/upsampling.rs:102)
     float depth_2 = depth.Load(int3(clamp(pixel, int2(0, 0), frame - 1), 0)).x;
     float own_depth = (abs(depth_2) < 1e30 ? depth_2 : 1e30);
     int2 sum = pixel / int2(2, 2) + (pixel & int2(1, 1));

@@ -11,7 +11,7 @@
 fn quad_upsampling(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let pixel = vec2i(floor(position.xy));
     let frame = vec2i(textureDimensions(depth));
-    // k 0: colours of a quad (kernels/src/quad/upsampling.rs:89)
+    // k 0: colours of a quad (kernels/src/quad/upsampling.rs:102)
     let depth_2 = textureLoad(depth, clamp(pixel, vec2i(0), frame - 1), 0).x;
     let own_depth = select(1e30, depth_2, abs(depth_2) < 1e30);
     let sum = pixel / vec2i(2) + (pixel & vec2i(1));

@@ -138,9 +138,9 @@ fn transports_that_a_stage_does_not_have_are_refused() {
         &["subgroup, derivatives or block"],
     );
     fails(
-        &["emit", "pcf", "--block", "2x2", "--out", out],
+        &["emit", "pcf", "--block", "2x3", "--out", out],
         1,
-        &["no other blocks"],
+        &["a block of 2x3 pixels has other", "whole quads"],
     );
     assert!(is_empty(&folder.join("out")));
 }

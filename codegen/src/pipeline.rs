@@ -46,7 +46,7 @@ pub struct Settings {
     /// How lanes of quads swap values; `None` leaves it to the stage: subgroup operations in fragment shaders,
     /// blocks in compute.
     pub transport: Option<Transport>,
-    /// Pixels that one invocation computes, across and down. A kernel of quads takes them by its transport alone.
+    /// Pixels that one invocation computes, across and down; of a kernel of quads, whole quads.
     pub block: [u32; 2],
     /// Whether each distinct read happens once, wherever the source asks for it. Without, it happens as often as the source
     /// asks: for studies of what sharing is worth. The result is the same, bit for bit.
@@ -125,6 +125,10 @@ impl Compiled {
 
 /// Pixels that one invocation may compute.
 const MAX_BLOCK: u32 = 64;
+
+fn is_block([width, height]: [u32; 2]) -> bool {
+    (1..=MAX_BLOCK).contains(&width.saturating_mul(height))
+}
 
 /// A graph after a stage, for whoever looks on.
 pub type Observer<'a> = dyn FnMut(&str, &Graph) + Send + 'a;
@@ -304,38 +308,56 @@ impl Kernel {
             Errors::new(vec![error], &self.files)
         };
         let mut quad = None;
+        let (mut transport, mut quads) = (settings.transport, [2, 2]);
         if graph.invocation == Invocation::Lane {
             if settings.block != [1, 1] {
-                return Err(refused(
-                    format!("`{}` computes quads, and no other blocks", self.name),
-                    "leave the block out: the transport `block` has one invocation compute each quad",
-                ));
+                let [width, height] = settings.block;
+                if width % 2 != 0 || height % 2 != 0 || !is_block(settings.block) {
+                    return Err(refused(
+                        format!(
+                            "`{}` computes quads, and a block of {width}x{height} pixels has other",
+                            self.name
+                        ),
+                        "use whole quads, such as 4x2 or 8x2, and 64 pixels at most",
+                    ));
+                }
+                if transport.is_some_and(|transport| transport != Transport::Block) {
+                    return Err(refused(
+                        format!(
+                            "the lanes of `{}` lie in one invocation, and send no messages",
+                            self.name
+                        ),
+                        "leave the transport out, or the block",
+                    ));
+                }
+                transport = Some(Transport::Block);
+                quads = settings.block;
             }
-            if settings.transport == Some(Transport::Derivatives) {
+            if transport == Some(Transport::Derivatives) {
                 let lowered = passes::by_derivatives(&graph)
                     .map_err(|why| refused(why, "send floats, or use the transport `subgroup`"))?;
                 graph = stage("derivatives", passes::clean(&lowered))?;
             }
-            let expanded = passes::expand(&graph, [2, 2]).map_err(|why| {
+            let expanded = passes::expand(&graph, quads).map_err(|why| {
                 refused(
                     format!("the lanes of `{}` do not run in step: {why}", self.name),
                     "decide loops and branches by what the whole quad has in common; choose lane by lane with `select`",
                 )
             })?;
             let expanded = stage("quad", passes::clean(&expanded))?;
-            if settings.transport == Some(Transport::Block) {
+            if transport == Some(Transport::Block) {
                 graph = expanded;
             } else {
                 quad = Some(Arc::new(expanded));
             }
-        } else if settings.transport.is_some() {
+        } else if transport.is_some() {
             return Err(refused(
                 format!("`{}` computes one pixel, and sends no messages", self.name),
                 "leave the transport out, or take `pixel: Quad<IVec2>` and give a `Quad<Vec4>`",
             ));
         } else if settings.block != [1, 1] {
             let [width, height] = settings.block;
-            if width == 0 || height == 0 || width.saturating_mul(height) > MAX_BLOCK {
+            if !is_block(settings.block) {
                 return Err(refused(
                     format!("a block of {width}x{height} pixels"),
                     "use blocks of 1 to 64 pixels, such as 2x1 or 2x2",
@@ -382,7 +404,7 @@ impl Kernel {
             graph,
             schedule,
             counts,
-            transport: settings.transport,
+            transport,
             quad,
             quad_statements: 0,
         };

@@ -187,13 +187,15 @@ fn upsampling_paper(option: &OptionValue<'_>) -> Option<PaperCounts> {
 
 /// Section 2.9: N² comparisons each by itself, one for 4×4 texels and four for 8×8 shared.
 fn pcf_paper(option: &OptionValue<'_>) -> Option<PaperCounts> {
-    let texture_reads = match (option("method")?.as_str(), option("width")?.as_str()) {
-        ("naive", "four") => 16,
-        ("naive", _) => 64,
-        ("bilinear", "four") => 4,
-        ("bilinear", _) => 16,
-        ("quad", "four") => 1,
-        ("quad", _) => 4,
+    let on_axis = match option("width")?.as_str() {
+        "four" => 1,
+        "eight" => 2,
+        _ => return None,
+    };
+    let texture_reads = match option("method")?.as_str() {
+        "naive" => 16 * on_axis * on_axis,
+        "bilinear" => 4 * on_axis * on_axis,
+        "quad" => on_axis * on_axis,
         _ => return None,
     };
     Some(PaperCounts {

@@ -17,6 +17,8 @@ mod filters;
 mod forward;
 #[path = "quad/messages.rs"]
 mod messages;
+#[path = "quad/minified.rs"]
+mod minified;
 #[path = "quad/refused.rs"]
 mod refused;
 #[path = "quad/scatter.rs"]
@@ -167,6 +169,29 @@ fn check(
             inputs.size
         );
         shown += &format!(" | {off:.1e}");
+    }
+    for block in [[4, 2], [8, 2], [2, 4]] {
+        let settings = Settings {
+            options: options
+                .iter()
+                .map(|(k, v)| ((*k).to_owned(), (*v).to_owned()))
+                .collect(),
+            block,
+            ..Settings::default()
+        };
+        let rows = Kernel::locate(name)
+            .and_then(|k| k.compile(&settings))
+            .unwrap_or_else(|e| panic!("{e}"));
+        let found = interpret::<f32>(&rows, inputs, false).unwrap_or_else(|e| panic!("{row}: {e}"));
+        same_bits(native, &found.texels).unwrap_or_else(|e| panic!("{row} in {block:?}: {e}"));
+        if block == [8, 2] {
+            let frame = gpu
+                .run(&rows, Stage::Compute, inputs)
+                .unwrap_or_else(|e| panic!("{row}: {e}"));
+            let off = largest(&texels(&frame), defined);
+            assert!(off <= tolerance, "{row} in rows of quads: off by {off:.3e}");
+            shown += &format!(" | {off:.1e}");
+        }
     }
     println!("{shown}");
 }

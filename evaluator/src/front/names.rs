@@ -64,7 +64,11 @@ impl Names {
                 syn::Item::Type(t) if t.generics.params.is_empty() => {
                     let name = t.ident.to_string();
                     let alias = (file, (*t.ty).clone());
-                    if self.types.get(&name).is_some_and(|known| text_of(&known.1) != text_of(&alias.1)) {
+                    if self
+                        .types
+                        .get(&name)
+                        .is_some_and(|known| text_of(&known.1) != text_of(&alias.1))
+                    {
                         errors.push((name.clone(), twice(file, &t.ident)));
                     }
                     self.types.insert(name, alias);

@@ -201,12 +201,12 @@ impl Direction {
     /// Every direction.
     pub const ALL: [Direction; 3] = [Direction::Horizontal, Direction::Vertical, Direction::Diagonal];
 
-    /// The number of the lane that `lane` hears from; lanes count row by row.
-    pub fn from(self, lane: usize) -> usize {
+    /// The axes along which it comes from the other side of the quad: 1 or 0.
+    pub fn bits(self) -> [u32; 2] {
         match self {
-            Direction::Horizontal => lane ^ 1,
-            Direction::Vertical => lane ^ 2,
-            Direction::Diagonal => lane ^ 3,
+            Direction::Horizontal => [1, 0],
+            Direction::Vertical => [0, 1],
+            Direction::Diagonal => [1, 1],
         }
     }
 }

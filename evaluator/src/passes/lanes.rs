@@ -8,8 +8,8 @@ use crate::ir::{
 
 const PAIR: Type = Type::value(Scalar::I32, 2);
 
-/// Has one invocation compute a block of pixels. Of a kernel of quads the block is the quad: its lanes run in step, and
-/// a message is the other lane's value itself. What lanes have in common, reads above all, is computed once.
+/// Has one invocation compute a block of pixels, of a kernel of quads one or more of them: its lanes run in step, and a
+/// message is the other lane's value itself. What lanes have in common, reads above all, is computed once.
 ///
 /// # Errors
 ///
@@ -170,12 +170,18 @@ impl Expansion<'_> {
             Op::Pixel => self.pixel(lane),
             Op::Lane => {
                 let [x, y] = self.position(lane);
-                self.builder.constant(PAIR, [x, y, 0, 0])
+                self.builder.constant(PAIR, [x % 2, y % 2, 0, 0])
             }
-            Op::Message(direction) => arg(0, direction.from(lane)),
+            Op::Message(direction) => {
+                let [x, y] = self.position(lane);
+                let [right, below] = direction.bits();
+                arg(0, self.lane([x ^ right, y ^ below]))
+            }
             Op::Derivative(axis) => {
-                let bit = if *axis == Axis::X { 1 } else { 2 };
-                let (from, to) = (arg(0, lane & !bit), arg(0, lane | bit));
+                let [x, y] = self.position(lane);
+                let [right, below] = if *axis == Axis::X { [1, 0] } else { [0, 1] };
+                let (from, to) = ([x & !right, y & !below], [x | right, y | below]);
+                let (from, to) = (arg(0, self.lane(from)), arg(0, self.lane(to)));
                 self.builder.add(Op::Binary(BinaryOp::Sub), vec![to, from], node.ty)
             }
             Op::Varying(k) => {
@@ -203,6 +209,10 @@ impl Expansion<'_> {
 
     fn position(&self, lane: usize) -> [u32; 2] {
         [lane as u32 % self.size[0], lane as u32 / self.size[0]]
+    }
+
+    fn lane(&self, [x, y]: [u32; 2]) -> usize {
+        (y * self.size[0] + x) as usize
     }
 
     fn pixel(&mut self, lane: usize) -> NodeId {

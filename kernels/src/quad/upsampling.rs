@@ -12,6 +12,10 @@ options! {
         pub reads: Reads = Reads::Packed,
         /// What is brought up.
         pub payload: Payload = Payload::Color,
+        /// How texels are weighed by their distance on the screen.
+        pub screen: Screen = Screen::Tent,
+        /// Distance on the screen, in texels of low resolution, at which a weight has fallen to exp(-1/2); of `gaussian` alone.
+        pub screen_sigma: f32 [0.1..=10.0] = 0.5,
         /// Whether normals tell surfaces apart too; not of `packed`, which has no room for them.
         pub normals: bool = false,
         /// Difference of depths, in their unit, at which a weight has fallen to exp(-1/2).
@@ -50,6 +54,15 @@ pub enum Payload {
     Color,
 }
 
+/// How texels are weighed by their distance on the screen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Screen {
+    /// A tent on each axis, as bilinear filtering has it: what lies a texel away has no weight.
+    Tent,
+    /// A Gaussian, as in the depth.
+    Gaussian,
+}
+
 /// Below this sum of weights none of the four texels is of the pixel's surface.
 const SMALLEST: f32 = 1.0e-20;
 
@@ -59,11 +72,11 @@ struct Tap {
     color: Quad<Vec4>,
     depth: Quad<f32>,
     normal: Quad<Vec3>,
-    /// How near it lies on the screen.
-    tent: Quad<f32>,
+    /// Its weight by its distance on the screen.
+    screen: Quad<f32>,
 }
 
-/// Colours of a quad, each from the four texels of `low` around it: those near on the screen (a tent) and of a like
+/// Colours of a quad, each from the four texels of `low` around it: those near on the screen (`screen`) and of a like
 /// surface (a Gaussian of the difference in depth, and of normals). Where none is of a like surface, the texel with the
 /// nearest depth.
 ///
@@ -109,7 +122,7 @@ pub fn quad_upsampling(
             // A normal that is not a number tells nothing.
             exponent += (n * n).ge(0.0).select(n * n, Quad::splat(0.0));
         }
-        let weight = tally("weight_evaluations", taps[k].tent * (exponent * HALF_LOG2_E).exp2());
+        let weight = tally("weight_evaluations", taps[k].screen * (exponent * HALF_LOG2_E).exp2());
         weights[k] = weight;
         total += weight;
         if k == 0 {
@@ -146,7 +159,7 @@ fn heard(
         Reads::Packed => counts.select(own.truncate().extend(bounded(own.w())), no_surface()),
         _ => counts.select(own, Quad::splat(Vec4::ZERO)),
     };
-    // The lane's own texel lies in its own direction; for the others the tent is flipped.
+    // The lane's own texel lies in its own direction; for the others the weights are flipped.
     let near = match cfg.factor {
         Factor::Twice => Quad::splat(vec2(0.75, 0.75)),
         Factor::FourTimes => {
@@ -154,8 +167,8 @@ fn heard(
             share * side + (1.0 - share) * (1.0 - side)
         }
     };
-    let far = 1.0 - near;
-    let tents = [
+    let (near, far) = (cfg.on_screen(near), cfg.on_screen(1.0 - near));
+    let screen = [
         near.x() * near.y(),
         far.x() * near.y(),
         near.x() * far.y(),
@@ -165,7 +178,7 @@ fn heard(
         color: counted,
         depth: counted.w(),
         normal: Quad::splat(Vec3::ZERO),
-        tent: tents[0],
+        screen: screen[0],
     }; 4];
     match cfg.reads {
         Reads::Packed => match cfg.payload {
@@ -216,7 +229,7 @@ fn heard(
         }
     }
     for k in 0..4 {
-        taps[k].tent = tents[k];
+        taps[k].screen = screen[k];
     }
     taps
 }
@@ -233,9 +246,9 @@ fn around(
         color: Quad::splat(Vec4::ZERO),
         depth: Quad::splat(0.0),
         normal: Quad::splat(Vec3::ZERO),
-        tent: Quad::splat(0.0),
+        screen: Quad::splat(0.0),
     }; 4];
-    let rest = 1.0 - share;
+    let (share, rest) = (cfg.on_screen(share), cfg.on_screen(1.0 - share));
     for k in 0..4 {
         let (right, below) = (k % 2 == 1, k / 2 == 1);
         let at = corner + ivec2(k as i32 % 2, k as i32 / 2);
@@ -251,7 +264,7 @@ fn around(
         };
         taps[k].depth = counts.select(bounded(surface.w()), no_surface().w());
         taps[k].normal = surface.truncate();
-        taps[k].tent = x * y;
+        taps[k].screen = x * y;
     }
     taps
 }
@@ -267,6 +280,17 @@ impl Upsampling {
                     Reads::Packed => color,
                     _ => color & is_bright(texel.w()),
                 }
+            }
+        }
+    }
+
+    /// The weights on each axis of a texel that lies 1 - `near` away.
+    fn on_screen(&self, near: Quad<Vec2>) -> Quad<Vec2> {
+        match self.screen {
+            Screen::Tent => near,
+            Screen::Gaussian => {
+                let z = (1.0 - near) / self.screen_sigma;
+                (z * z * HALF_LOG2_E).exp2()
             }
         }
     }

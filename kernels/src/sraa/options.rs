@@ -42,6 +42,8 @@ options! {
         pub normalisation: Normalisation = Normalisation::Shifted,
         /// How the reconstructed samples make up the pixel.
         pub resolve: Resolve = Resolve::Box,
+        /// How far from the pixel's centre on each axis a filter of its samples ends, in pixels; not of resolve=box.
+        pub resolve_radius: f32 [0.5..=1.5] = 1.0,
         /// How far the surface of a sample that no tap shows is searched for.
         pub search: Search = Search::None,
         /// Of search: the largest difference of what shows a sample's surface.
@@ -96,8 +98,10 @@ pub enum Normalisation {
 pub enum Resolve {
     /// The mean of the pixel's own.
     Box,
-    /// A tent over those less than one pixel from its centre on each axis, its neighbours' among them.
+    /// A tent over those less than `resolve_radius` from its centre on each axis, its neighbours' among them.
     Tent,
+    /// A Gaussian over the same, its standard deviation half of that.
+    Gaussian,
 }
 
 /// How far the surface of a sample that no tap shows is searched for.

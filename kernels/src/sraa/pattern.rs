@@ -186,7 +186,7 @@ impl Sraa {
     pub(super) fn reconstructed(&self) -> usize {
         match self.resolve {
             Resolve::Box => self.samples(),
-            Resolve::Tent => 9 * self.samples(),
+            Resolve::Tent | Resolve::Gaussian => 9 * self.samples(),
         }
     }
 
@@ -194,7 +194,9 @@ impl Sraa {
     pub(super) fn place(&self, k: usize) -> Place {
         match self.resolve {
             Resolve::Box => self.geometry_sample(IVec2::ZERO, k),
-            Resolve::Tent => self.geometry_sample(neighbour(k / self.samples(), 3), k % self.samples()),
+            Resolve::Tent | Resolve::Gaussian => {
+                self.geometry_sample(neighbour(k / self.samples(), 3), k % self.samples())
+            }
         }
     }
 
@@ -202,18 +204,26 @@ impl Sraa {
     pub(super) fn share(&self, k: usize) -> f32 {
         match self.resolve {
             Resolve::Box => 1.0,
-            Resolve::Tent => tent(self.place(k).at),
+            Resolve::Tent => tent(self.place(k).at / self.resolve_radius),
+            Resolve::Gaussian => {
+                let away = self.place(k).at / self.resolve_radius;
+                if tent(away) > 0.0 {
+                    (-2.0 * away.dot(away)).exp()
+                } else {
+                    0.0
+                }
+            }
         }
     }
 
     /// Width and height of the square of pixels around the filtered one that taps may lie in. The farthest sample lies half a pixel
-    /// from its centre, or one with a tent.
+    /// from its centre, or up to one and a half with a wider filter of samples.
     pub(super) fn side(&self) -> usize {
         let mut beyond = 1;
         if self.radius > 1.0 {
             beyond += 1;
         }
-        if self.resolve == Resolve::Tent {
+        if self.resolve != Resolve::Box {
             beyond += 1;
         }
         2 * beyond + 1

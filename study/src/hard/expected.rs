@@ -269,6 +269,8 @@ fn upsampled(options: &[(String, String)], inputs: &Inputs) -> Expected {
         normal: &normal,
         depth_sigma: number(options, "depth-sigma", 0.1),
         normal_sigma: normals.then(|| number(options, "normal-sigma", 0.1)),
+        screen_sigma: (Form::value(options, "screen", "tent") == "gaussian")
+            .then(|| number(options, "screen-sigma", 0.5)),
     };
     let colors = places(inputs).map(|at| quads::upsampling(&given, at)).collect();
     let bounds: Vec<f64> = places(inputs).map(|at| upsampling_off(&given, at)).collect();
@@ -292,7 +294,7 @@ fn upsampling_off(given: &quads::Upsampled<'_>, at: [i64; 2]) -> f64 {
         // A cosine is off by four roundings of its products; its square by twice that times itself.
         let n_off = 8.0 * unit * tap.products / given.normal_sigma.unwrap_or(1.0);
         let off = n_off * tap.turned.abs() + n_off * n_off;
-        let (weight, most) = gaussian(tap.tent, 0.5 * tap.exponent, off);
+        let (weight, most) = gaussian(tap.screen, 0.5 * tap.exponent, off);
         shares.push(Share {
             color: tap.color,
             weight,

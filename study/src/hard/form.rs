@@ -91,6 +91,11 @@ impl Form {
                 &[("metric", "planes-normals"), ("plane", "tap")],
             ),
             Form::new("sraa radius 2", Sraa, &[("radius", "2")]),
+            Form::new(
+                "sraa gaussian",
+                Sraa,
+                &[("resolve", "gaussian"), ("resolve-radius", "1.25")],
+            ),
             Form::new("sraa relative", Sraa, &[("difference", "relative")]),
             Form::new("sraa epsilon", Sraa, &[("normalisation", "epsilon")]).taking_options(),
             Form::new("sraa searched", Sraa, &[("search", "five")]).taking_options(),
@@ -114,6 +119,7 @@ impl Form {
                 Upsampling,
                 &[("reads", "apart"), ("normals", "true")],
             ),
+            Form::new("upsampling gaussian", Upsampling, &[("screen", "gaussian")]),
             Form::new("bilateral", Bilateral, &[]),
         ]
     }

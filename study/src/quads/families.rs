@@ -104,6 +104,25 @@ pub const FAMILIES: &[Family] = &[
         from: Source::Triangles,
     },
     Family {
+        name: "PCF 16x16 quadratic",
+        kernel: "pcf",
+        ways: &[
+            (
+                "naive",
+                &[("method", "naive"), ("weights", "quadratic"), ("width", "sixteen")],
+            ),
+            (
+                "bilinear",
+                &[("method", "bilinear"), ("weights", "quadratic"), ("width", "sixteen")],
+            ),
+            (
+                "quad, gradient",
+                &[("weights", "quadratic"), ("width", "sixteen"), ("gradient", "prewitt")],
+            ),
+        ],
+        from: Source::Triangles,
+    },
+    Family {
         name: "PCSS",
         kernel: "pcss",
         ways: &[("naive", &[("sharing", "alone")]), ("quad", &[])],

@@ -1,7 +1,7 @@
 //! What full-screen filters read: a rendered frame, and its occlusion at a lower resolution.
 
-use super::QuadsError;
 use super::subject::{OCCLUSION, compile};
+use super::{QUAD, QuadsError};
 use glam::{UVec2, Vec2, Vec4, vec3};
 use straightline_kernels::prelude::Frame;
 use straightline_manifest::Stage;
@@ -35,13 +35,18 @@ pub fn screen(bench: &Bench, scene: &Scene, size: UVec2) -> Result<Inputs, Quads
 /// The same with what upsampling brings up: occlusion and surfaces at a resolution `factor` times lower, 2 or 4. The occlusion
 /// is taken from that of the full resolution, so that what upsampling loses is seen alone.
 pub fn low_resolution(bench: &Bench, full: &Inputs, factor: u32) -> Result<Inputs, QuadsError> {
-    let occlusion = compile("quad_ssao", &[&[("sharing", "alone")], &OCCLUSION[..]].concat(), None)?;
+    let occlusion = compile(
+        "quad_ssao",
+        &[&[("sharing", "alone")], &OCCLUSION[..]].concat(),
+        None,
+        QUAD,
+    )?;
     let occlusion = bench.run(&occlusion, Stage::Compute, full)?;
     let mut low = full.clone().image("image", occlusion);
     low.size = full.size.map(|n| n.div_ceil(factor) + 1);
     let factor = if factor == 2 { "twice" } else { "four-times" };
     let down = |gives: &str| -> Result<Frame<Vec4>, QuadsError> {
-        let compiled = compile("downsampling", &[("gives", gives), ("factor", factor)], None)?;
+        let compiled = compile("downsampling", &[("gives", gives), ("factor", factor)], None, QUAD)?;
         Ok(bench.run(&compiled, Stage::Compute, &low)?)
     };
     let (packed, surface) = (down("packed")?, down("surface")?);

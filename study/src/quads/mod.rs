@@ -22,6 +22,12 @@ use straightline_testbed::render::RenderError;
 use straightline_testbed::scene::Scene;
 use subject::Subject;
 
+/// Pixels of a quad.
+const QUAD: [u32; 2] = [2, 2];
+
+/// Pixels of a row of quads that one invocation computes (§2.8).
+const ROW: [u32; 2] = [8, 2];
+
 /// Of the intervals of ratios.
 const CONFIDENCE: f64 = 0.95;
 
@@ -121,7 +127,19 @@ pub fn study(bench: &Bench, scene: &Scene, method: &Method, watch: &mut dyn Watc
         };
         for (way, options) in family.ways {
             for transport in transports(way, quads.subgroup.is_some()) {
-                subjects.push(Subject::new(bench, family, way, options, transport, inputs, &shadowed)?);
+                subjects.push(Subject::new(
+                    bench,
+                    family,
+                    way,
+                    options,
+                    (transport, QUAD),
+                    inputs,
+                    &shadowed,
+                )?);
+            }
+            if family.from != Source::Triangles {
+                let row = (Transport::Block, ROW);
+                subjects.push(Subject::new(bench, family, way, options, row, inputs, &shadowed)?);
             }
         }
     }

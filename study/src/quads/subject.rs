@@ -1,7 +1,7 @@
 //! A filter in one way with one transport, ready to run.
 
 use super::families::{Family, Source};
-use super::{Method, QuadsError};
+use super::{Method, QUAD, QuadsError};
 use glam::Vec4;
 use straightline_codegen::diagnostic::Errors;
 use straightline_codegen::{Compiled, EmitOptions, Kernel, Settings, Transport};
@@ -30,13 +30,13 @@ enum Drawn {
 }
 
 impl Subject {
-    /// Compiles the filter, runs it once and keeps its picture.
+    /// Compiles the filter, for blocks of so many pixels where an invocation computes whole blocks, runs it once and keeps its picture.
     pub fn new(
         bench: &Bench,
         family: &'static Family,
         way: &'static str,
         options: &[(&str, &str)],
-        transport: Transport,
+        (transport, block): (Transport, [u32; 2]),
         inputs: &Inputs,
         shadowed: &Shadowed,
     ) -> Result<Subject, QuadsError> {
@@ -44,7 +44,7 @@ impl Subject {
         if family.kernel == "quad_ssao" {
             options.extend(OCCLUSION);
         }
-        let compiled = compile(family.kernel, &options, Some(transport))?;
+        let compiled = compile(family.kernel, &options, Some(transport), block)?;
         let stage = match transport {
             Transport::Block => Stage::Compute,
             _ => Stage::Fragment,
@@ -61,14 +61,14 @@ impl Subject {
             let image = bench.run(&compiled, stage, inputs)?;
             (Drawn::Pass(Box::new(pass), uploaded), image, manifest.counts)
         };
-        let sends = counts.messages > 0 || transport == Transport::Block;
         Ok(Subject {
             family,
             way,
-            transport: if sends {
-                transport.to_string()
-            } else {
-                "none".to_owned()
+            transport: match transport {
+                Transport::Block if block != QUAD => format!("block {}x{}", block[0], block[1]),
+                Transport::Block => transport.to_string(),
+                _ if counts.messages > 0 => transport.to_string(),
+                _ => "none".to_owned(),
             },
             stage,
             counts,
@@ -94,11 +94,18 @@ impl Subject {
 }
 
 /// A filter of the catalogue.
-pub fn compile(kernel: &str, options: &[(&str, &str)], transport: Option<Transport>) -> Result<Compiled, Errors> {
+pub fn compile(
+    kernel: &str,
+    options: &[(&str, &str)],
+    transport: Option<Transport>,
+    block: [u32; 2],
+) -> Result<Compiled, Errors> {
     let options = options.iter().map(|(k, v)| ((*k).to_owned(), (*v).to_owned()));
     let settings = Settings {
         options: options.collect(),
         transport,
+        // The quad itself is what the transport `block` computes, or a kernel of pixels one of.
+        block: if block == QUAD { [1, 1] } else { block },
         ..Settings::default()
     };
     Kernel::builtin(kernel)?.compile(&settings)

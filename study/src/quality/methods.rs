@@ -240,6 +240,7 @@ pub fn methods(quick: bool) -> Vec<Method> {
     all.extend(beyond());
     all.extend(metrics());
     all.extend(radii());
+    all.extend(resolves());
     all.push(sraa("SRAA 4, two shading samples", &[LISTED, ("shaded", "0,3")]));
     if !quick {
         all.extend([
@@ -327,6 +328,17 @@ fn metrics() -> Vec<Method> {
 
 /// A step of a third of the depth, and more, is between unrelated surfaces.
 const RELATIVE: [(&str, &str); 2] = [("difference", "relative"), ("depth-scale", "3")];
+
+/// Filters of the reconstructed samples.
+fn resolves() -> Vec<Method> {
+    let sraa = |name, options: &[(&str, &str)]| Method::new(name, Kind::Sraa, options);
+    vec![
+        sraa("SRAA 4, tent 0.75", &[("resolve", "tent"), ("resolve-radius", "0.75")]),
+        sraa("SRAA 4, tent", &[("resolve", "tent")]),
+        sraa("SRAA 4, tent 1.5", &[("resolve", "tent"), ("resolve-radius", "1.5")]),
+        sraa("SRAA 4, gaussian", &[("resolve", "gaussian")]),
+    ]
+}
 
 fn radii() -> Vec<Method> {
     let sraa = |name, options: &[(&str, &str)]| Method::new(name, Kind::Sraa, options);

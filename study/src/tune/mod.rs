@@ -10,6 +10,7 @@ pub mod front;
 pub mod model;
 mod search;
 mod space;
+mod steps;
 mod subject;
 
 use crate::record::{Circumstances, TuneRecord};

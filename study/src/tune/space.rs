@@ -65,8 +65,8 @@ impl Value {
     }
 }
 
-/// Ways to compare depths. One of them has a scale of its own, unless one was set: with it a tenth of the depth is a step, and
-/// a floor that recedes to the horizon is one surface.
+/// Ways to compare depths. Two of them have a scale of their own, unless one was set: with one a tenth of the depth is a step, and
+/// a floor that recedes to the horizon is one surface; the other is what the steps of the view call for.
 fn differences(offer: &Offer) -> Vec<Value> {
     let coarse = [("difference", "relative"), ("depth-scale", "0.1")];
     let mut values = vec![
@@ -74,8 +74,14 @@ fn differences(offer: &Offer) -> Vec<Value> {
         Value::of("coarse relative depth", "coarse relative depth", &coarse),
         Value::of("absolute depth", "absolute depth", &[("difference", "absolute")]),
     ];
-    if offer.fixed.iter().any(|(name, _)| name == "depth-scale") {
+    let is_set = offer.fixed.iter().any(|(name, _)| name == "depth-scale");
+    if is_set {
         values.remove(1);
+    }
+    if let Some(scale) = offer.depth_scale.filter(|_| !is_set) {
+        let name = "absolute depth, scaled";
+        let options = [("difference", "absolute"), ("depth-scale", &*scale.to_string())];
+        values.insert(2, Value::of(name, name, &options));
     }
     values
 }
@@ -105,6 +111,8 @@ pub struct Offer {
     pub normals: bool,
     /// Whether there is a camera, without which there are no planes.
     pub camera: bool,
+    /// With which scale of depth most steps from surface to surface are 1 or more, where there are any.
+    pub depth_scale: Option<f64>,
     /// Why half precision is not searched, if it is not.
     pub no_half: Option<String>,
     /// Options that all variants have. One that the search varies is thereby taken out of it.
@@ -393,6 +401,7 @@ mod tests {
             samples: vec![set(16, "latin16"), set(8, "standard8"), set(4, "latin4")],
             normals: true,
             camera: true,
+            depth_scale: Some(0.5),
             ..Offer::default()
         }
     }
@@ -401,8 +410,8 @@ mod tests {
     fn every_variant_is_searched_once() {
         let space = Space::new(&offer()).unwrap();
         let all = space.variants();
-        // Ten ways to tell surfaces apart, normals alone having no depth to compare.
-        assert_eq!(all.len(), 3 * 10 * 3 * 2 * 2 * 2 * 2);
+        // Thirteen ways to tell surfaces apart, normals alone having no depth to compare.
+        assert_eq!(all.len(), 3 * 13 * 3 * 2 * 2 * 2 * 2);
         let settings: BTreeSet<String> = all
             .iter()
             .map(|v| format!("{:?} {}", space.settings(*v), space.precision(*v)))

@@ -180,7 +180,8 @@ impl Bench {
                     ..
                 } => {
                     let layers = Inputs::find(&inputs.images, name).ok_or_else(|| missing(name))?;
-                    let view = self.texture(layers, *dimension, *sample_type, *components)?;
+                    let smaller = Inputs::find(&inputs.smaller, name).map_or(&[][..], Vec::as_slice);
+                    let view = self.levels(layers, smaller, *dimension, *sample_type, *components)?;
                     (texture_type(*dimension, *sample_type), Owned::Texture(view))
                 }
                 BindingKind::Sampler { sampler } => {

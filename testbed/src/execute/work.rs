@@ -2,7 +2,7 @@
 
 use super::{Bench, Clock, ExecuteError, Job, Timed};
 use std::time::Duration;
-use straightline_runtime::Timer;
+use straightline_runtime::{Bound, Timer};
 use wgpu::CommandEncoder;
 
 /// Runs of a pass in one submission, at most.
@@ -22,10 +22,7 @@ impl Bench {
     ///
     /// If the pass cannot be bound, or the device cannot be asked for the time.
     pub fn work<'a>(&self, job: Job<'a>, least: Duration) -> Result<Work<'a>, ExecuteError> {
-        let view = self
-            .target(job.size, job.pass.target_format())
-            .create_view(&wgpu::TextureViewDescriptor::default());
-        let bound = job.uploaded.bind(job.pass, &view)?;
+        let bound = self.bound(job)?;
         self.recorded(1, least, move |encoder, timer| {
             match timer {
                 Some(timer) => bound.encode_timed(encoder, timer)?,
@@ -33,6 +30,22 @@ impl Bench {
             }
             Ok(())
         })
+    }
+
+    /// What records a pass among others.
+    ///
+    /// # Errors
+    ///
+    /// If the pass cannot be bound.
+    pub fn recorder(&self, job: Job<'_>) -> Result<impl Fn(&mut CommandEncoder) + use<>, ExecuteError> {
+        let bound = self.bound(job)?;
+        Ok(move |encoder: &mut CommandEncoder| bound.encode(encoder))
+    }
+
+    fn bound(&self, job: Job<'_>) -> Result<Bound, ExecuteError> {
+        let target = self.target(job.size, job.pass.target_format());
+        let view = target.create_view(&wgpu::TextureViewDescriptor::default());
+        Ok(job.uploaded.bind(job.pass, &view)?)
     }
 
     /// What `record` records, to be timed with others: up to `passes` passes, each with a span of the timer around it where

@@ -153,10 +153,17 @@ impl<'a> Definition<'a> {
         let own = (0..self.samples.len()).map(|sample| (([0, 0], sample), 1.0));
         match self.params.resolve {
             Resolve::Box => own.collect(),
-            Resolve::Tent => {
+            Resolve::Tent | Resolve::Gaussian => {
+                let share = |away: [f64; 2]| match self.params.resolve {
+                    Resolve::Gaussian if away.iter().all(|away| away.abs() < 1.0) => {
+                        (-2.0 * (away[0] * away[0] + away[1] * away[1])).exp()
+                    }
+                    Resolve::Gaussian => 0.0,
+                    _ => tent(away[0]) * tent(away[1]),
+                };
                 let pixels = (-1..=1).flat_map(|y| (-1..=1).map(move |x| [x, y]));
                 let all = pixels.flat_map(|pixel| (0..self.samples.len()).map(move |sample| (pixel, sample)));
-                all.map(|at| (at, [0, 1].map(|axis| tent(self.place(at)[axis])).iter().product()))
+                all.map(|at| (at, share(self.place(at).map(|away| away / self.params.resolve_radius))))
                     .filter(|(_, share)| *share > 0.0)
                     .collect()
             }

@@ -170,8 +170,10 @@ choices! {
     Resolve {
         /// The mean of the pixel's own.
         Box = "box",
-        /// A tent over those less than one pixel away on each axis.
+        /// A tent over those less than `resolve-radius` away on each axis.
         Tent = "tent",
+        /// A Gaussian over the same, of half of that.
+        Gaussian = "gaussian",
     }
 }
 
@@ -242,6 +244,8 @@ pub struct SraaParams {
     pub normalisation: Normalisation,
     /// How the reconstructed samples make up the pixel.
     pub resolve: Resolve,
+    /// How far from the centre that ends on each axis, in pixels, except for a box.
+    pub resolve_radius: f64,
     /// How far the surface of a sample is searched for that no tap shows.
     pub search: Search,
     /// The largest difference of what shows a sample's surface, for a search.
@@ -284,6 +288,7 @@ impl Default for SraaParams {
             plane: Plane::Sample,
             normalisation: Normalisation::Shifted,
             resolve: Resolve::Box,
+            resolve_radius: 1.0,
             search: Search::None,
             search_threshold: 0.05,
             unseen: 0.01,
@@ -363,6 +368,7 @@ impl SraaParams {
             "falloff" => self.falloff = choice(option, value, Falloff::ALL, Falloff::name)?,
             "sigma" => self.sigma = number(option, value)?,
             "radius" => self.radius = number(option, value)?,
+            "resolve-radius" => self.resolve_radius = number(option, value)?,
             "plane" => self.plane = choice(option, value, Plane::ALL, Plane::name)?,
             "normalisation" => self.normalisation = choice(option, value, Normalisation::ALL, Normalisation::name)?,
             "resolve" => self.resolve = choice(option, value, Resolve::ALL, Resolve::name)?,

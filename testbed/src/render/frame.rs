@@ -57,7 +57,9 @@ pub(super) struct Pass {
     pub keep: f32,
     /// How often each sample is shaded, where [`FramePasses`](super::FramePasses) shades it.
     pub evaluations: u32,
-    pub padding: [f32; 2],
+    /// Size of a pixel at depth 1.
+    pub pixel_angle: f32,
+    pub padding: f32,
 }
 
 impl Pass {
@@ -70,7 +72,8 @@ impl Pass {
             offset,
             keep: 0.0,
             evaluations: 1,
-            padding: [0.0; 2],
+            pixel_angle: 2.0 * camera.half_extent(size).y / size.y as f32,
+            padding: 0.0,
         }
     }
 

@@ -9,6 +9,7 @@ mod cpu;
 mod error;
 mod frame;
 mod gpu;
+mod paint;
 mod placed;
 mod reference;
 mod shade;

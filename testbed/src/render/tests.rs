@@ -29,6 +29,7 @@ fn plane(corners: [[f32; 3]; 4], normal: [f32; 3]) -> Scene {
         normal,
         color: [0.5, 0.4, 0.3],
         material: Material::Plain as u32,
+        ..Vertex::default()
     };
     Scene {
         vertices: corners.map(corner).to_vec(),
@@ -214,6 +215,7 @@ fn a_fence_has_holes() {
         normal: [0.0, 0.0, 1.0],
         color: [0.5; 3],
         material: Material::ChainLink as u32,
+        ..Vertex::default()
     };
     let corners = [link(-9.0, 0.0), link(9.0, 0.0), link(9.0, 9.0), link(-9.0, 9.0)];
     scene.vertices.extend(corners);
@@ -232,6 +234,97 @@ fn a_fence_has_holes() {
         assert!((share - 0.2604).abs() < 0.02, "{share}");
         assert_eq!(wires + sky, 300 * 100);
     }
+}
+
+/// A wall three away, with an image of 4x4 texels on each unit of it.
+fn painted(texels: [[u8; 4]; 16], cutoff: f32) -> Scene {
+    let corners = [
+        [-9.0, -8.0, -3.0],
+        [9.0, -8.0, -3.0],
+        [9.0, 10.0, -3.0],
+        [-9.0, 10.0, -3.0],
+    ];
+    let mut scene = plane(corners, [0.0, 0.0, 1.0]);
+    let image = image::RgbaImage::from_raw(4, 4, texels.concat()).expect("sixteen texels");
+    let (first, levels) = scene.textures.add(&image).expect("room for it");
+    let size = [4, 4];
+    scene.textures.images.push(crate::scene::Image {
+        first,
+        size,
+        levels,
+        cutoff,
+    });
+    for vertex in &mut scene.vertices {
+        vertex.uv = [vertex.position[0], -vertex.position[1]];
+        (vertex.texture, vertex.density, vertex.color) = (1, 4.0, [1.0; 3]);
+    }
+    scene
+}
+
+/// Textures are read at pixels: where a texel is wide its colour stands in its middle, and from afar all is their mean.
+#[test]
+fn textures_are_seen_at_pixels_and_averaged_from_afar() {
+    let board = std::array::from_fn(|k| {
+        if (k % 4 + k / 4) % 2 == 0 {
+            [255; 4]
+        } else {
+            [0, 0, 0, 255]
+        }
+    });
+    let size = uvec2(300, 200);
+    for renderer in both(&painted(board, 0.0), size) {
+        let near = renderer.shaded(Vec2::ZERO).expect("a picture");
+        // Above the horizon of (0, 1): a texel is a quarter of a unit, and a unit at a distance of 3 is 61 pixels.
+        let unit = 200.0 / (2.0 * 0.5f32.tan() * 3.0);
+        let at = |x: f32, y: f32| {
+            let place = vec2(150.0 + x * unit, 100.0 - (y - 1.0) * unit);
+            near.load(place.floor().as_ivec2()).truncate().element_sum()
+        };
+        let (white, black) = (at(0.125, 1.125), at(0.375, 1.125));
+        assert!(
+            white < black && black > 0.5 || white > black && white > 0.5,
+            "{white} {black}"
+        );
+        assert!((at(0.375, 1.375) - white).abs() < 0.1 && (at(0.625, 1.125) - white).abs() < 0.1);
+        assert!((white - black).abs() > 0.5, "{white} {black}");
+    }
+    let mut far = painted(board, 0.0);
+    for vertex in &mut far.vertices {
+        // Forty times as many texels.
+        (vertex.uv, vertex.density) = (vertex.uv.map(|c| c * 40.0), 160.0);
+    }
+    for renderer in both(&far, size) {
+        let picture = renderer.shaded(Vec2::ZERO).expect("a picture");
+        let [least, most] = pixels(size)
+            .map(|pixel| picture.load(pixel).x)
+            .fold([f32::INFINITY, 0.0], |[l, m], x| [l.min(x), m.max(x)]);
+        assert!(most - least < 0.1, "{least} to {most}");
+    }
+}
+
+/// Where a texture's alpha is low there is a hole, in every pass alike.
+#[test]
+fn alpha_makes_holes() {
+    let half = std::array::from_fn(|k| [200, 150, 100, if k % 4 < 2 { 255 } else { 0 }]);
+    let size = uvec2(300, 200);
+    let scene = painted(half, 0.5);
+    let mut seen = Vec::new();
+    for renderer in both(&scene, size) {
+        let (depth, _) = renderer.geometry(Vec2::ZERO).expect("geometry");
+        let there = pixels(size).filter(|pixel| depth.load(*pixel) < 4.0).count();
+        let share = there as f64 / f64::from(size.element_product());
+        assert!((share - 0.5).abs() < 0.03, "{share}");
+        seen.push(depth);
+    }
+    let differ = pixels(size).filter(|pixel| (seen[0].load(*pixel) - seen[1].load(*pixel)).abs() > 1.0e-3);
+    assert!(differ.count() < 300, "both renderers have the same holes");
+    let renderer = gpu(&scene, size).expect("a renderer");
+    let (depth, _) = renderer.multisampled().and_then(|g| g.read()).expect("geometry");
+    let there = pixels(size).filter(|pixel| depth.load(*pixel, 2) < 4.0).count() as f64;
+    assert!(
+        (there / f64::from(size.element_product()) - 0.5).abs() < 0.03,
+        "{there}"
+    );
 }
 
 /// One multisampled pass gives what four shifted passes give.

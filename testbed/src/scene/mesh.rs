@@ -61,6 +61,7 @@ impl Mesh {
                 normal: self.place.transform_vector3(*normal).normalize_or_zero().into(),
                 color: color.into(),
                 material: material as u32,
+                ..Vertex::default()
             });
         }
         for i in 2..corners.len() as u32 {

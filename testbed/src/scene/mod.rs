@@ -9,6 +9,7 @@ mod error;
 mod load;
 mod mesh;
 mod named;
+mod textures;
 
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
@@ -18,6 +19,8 @@ pub use camera::{Camera, Viewpoint};
 pub use error::SceneError;
 pub use load::{EXTENSIONS, load, load_seen};
 pub use named::NAMES;
+pub(crate) use textures::decoded;
+pub use textures::{Image, Textures};
 
 /// Linear depth where no geometry is seen.
 ///
@@ -32,6 +35,8 @@ pub struct Scene {
     pub vertices: Vec<Vertex>,
     /// Three indices into `vertices` for each triangle, counter-clockwise seen from the side its normals point to.
     pub triangles: Vec<[u32; 3]>,
+    /// What vertices name by number.
+    pub textures: Textures,
     /// The one light with a direction.
     pub sun: Sun,
     /// Background, and light from all around.
@@ -40,9 +45,9 @@ pub struct Scene {
     pub camera: Camera,
 }
 
-/// One corner of a triangle. Renderers interpolate position, normal and colour across it.
+/// One corner of a triangle. Renderers interpolate position, normal, colour and place in a texture across it.
 #[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub struct Vertex {
     /// In world space.
     pub position: [f32; 3],
@@ -52,6 +57,13 @@ pub struct Vertex {
     pub color: [f32; 3],
     /// A [`Material`] as a number. All corners of a triangle have the same.
     pub material: u32,
+    /// In its texture: (0, 0) is the upper left corner, (1, 1) the lower right one, and beyond it repeats.
+    pub uv: [f32; 2],
+    /// 0 for none, else 1 and the number of one of the scene's images, whose colours are multiplied with. All corners of a
+    /// triangle have the same.
+    pub texture: u32,
+    /// Texels of the image to a scene unit of the surface.
+    pub density: f32,
 }
 
 /// What a surface is made of, beyond its vertices' colour.
@@ -121,13 +133,26 @@ impl Scene {
         }
         for (at, vertex) in self.vertices.iter().enumerate() {
             let numbers = [vertex.position, vertex.normal, vertex.color];
-            if numbers.as_flattened().iter().any(|number| !number.is_finite()) {
+            let of_texture = [vertex.uv[0], vertex.uv[1], vertex.density];
+            if numbers
+                .iter()
+                .chain([&of_texture])
+                .flatten()
+                .any(|number| !number.is_finite())
+            {
                 return refuse(format!("vertex {at} has a number that is not finite: {vertex:?}"));
             }
             if (Vec3::from(vertex.normal).length() - 1.0).abs() > 1.0e-3 {
                 return refuse(format!(
                     "vertex {at} has the normal {:?}, not a unit vector",
                     vertex.normal
+                ));
+            }
+            if vertex.texture as usize > self.textures.images.len() {
+                let count = self.textures.images.len();
+                return refuse(format!(
+                    "vertex {at} has texture {}, and there are {count}",
+                    vertex.texture
                 ));
             }
             if Vec3::from(vertex.position).length() >= 0.5 * SKY_DEPTH {

@@ -69,6 +69,7 @@ fn table(name: &str, files: &[&Path]) -> Result<String, String> {
             )
         }
         "pictures" => Ok(quality::pictures(&QualityRecord::read(first).map_err(why)?)),
+        "resolves" => Ok(quality::resolves(&QualityRecord::read(first).map_err(why)?)),
         "radii" => Ok(quality::radii(&QualityRecord::read(first).map_err(why)?)),
         "samplings" => Ok(quality::samplings(&QualityRecord::read(first).map_err(why)?)),
         "quality" => Ok(quality::in_short(&QualityRecord::read(first).map_err(why)?)),

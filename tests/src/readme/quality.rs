@@ -102,19 +102,39 @@ pub fn pictures(record: &QualityRecord) -> String {
 
 /// SRAA with taps up to one pixel away, and up to more, scene by scene: PSNR, and the error that one pixel in a thousand exceeds.
 pub fn radii(record: &QualityRecord) -> String {
-    const METHODS: [&str; 5] = [
-        "SRAA 4",
-        "SRAA 4, radius 1.5",
-        "SRAA 4, radius 2",
-        "SRAA 16",
-        "SRAA 16, radius 2",
-    ];
+    errors(
+        record,
+        [
+            "SRAA 4",
+            "SRAA 4, radius 1.5",
+            "SRAA 4, radius 2",
+            "SRAA 16",
+            "SRAA 16, radius 2",
+        ],
+    )
+}
+
+/// Filters of SRAA's samples, scene by scene: PSNR, and the error that one pixel in a thousand exceeds.
+pub fn resolves(record: &QualityRecord) -> String {
+    errors(
+        record,
+        [
+            "SRAA 4",
+            "SRAA 4, tent 0.75",
+            "SRAA 4, tent",
+            "SRAA 4, tent 1.5",
+            "SRAA 4, gaussian",
+        ],
+    )
+}
+
+fn errors<const N: usize>(record: &QualityRecord, methods: [&str; N]) -> String {
     let row = |scene: &SceneErrors| {
         let cell = |name: &str| {
             let errors = found(scene, name).and_then(|m| Some((m.psnr, m.worst?)));
             errors.map_or("–".to_owned(), |(psnr, worst)| format!("{psnr:.2}, {worst:.3}"))
         };
-        std::iter::once(scene.scene.clone()).chain(METHODS.map(cell)).collect()
+        std::iter::once(scene.scene.clone()).chain(methods.map(cell)).collect()
     };
     let median = |name: &str| {
         let times = record
@@ -130,10 +150,10 @@ pub fn radii(record: &QualityRecord) -> String {
     let mut rows: Vec<Vec<String>> = record.scenes.iter().map(row).collect();
     rows.push(
         std::iter::once("ms, median".to_owned())
-            .chain(METHODS.map(median))
+            .chain(methods.map(median))
             .collect(),
     );
-    let head: Vec<&str> = std::iter::once("scene").chain(METHODS).collect();
+    let head: Vec<&str> = std::iter::once("scene").chain(methods).collect();
     markdown(&head, rows)
 }
 

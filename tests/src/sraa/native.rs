@@ -71,7 +71,7 @@ fn set(cfg: &mut Sraa, name: &str, value: &str) {
             cfg.normalisation = one_of!(value, Normalisation: "paper" => Paper, "epsilon" => Epsilon,
                 "shifted" => Shifted);
         }
-        "resolve" => cfg.resolve = one_of!(value, Resolve: "box" => Box, "tent" => Tent),
+        "resolve" => cfg.resolve = one_of!(value, Resolve: "box" => Box, "tent" => Tent, "gaussian" => Gaussian),
         "search" => cfg.search = one_of!(value, Search: "none" => None, "five" => Five, "seven" => Seven),
         "search-threshold" => cfg.search_threshold = number(value),
         "unseen" => cfg.unseen = number(value),
@@ -83,6 +83,7 @@ fn set(cfg: &mut Sraa, name: &str, value: &str) {
         "tau" => cfg.tau = number(value),
         "depth-scale" => cfg.depth_scale = number(value),
         "radius" => cfg.radius = number(value),
+        "resolve-radius" => cfg.resolve_radius = number(value),
         "plane" => cfg.plane = one_of!(value, Plane: "sample" => Sample, "tap" => Tap),
         "sigma" => cfg.sigma = number(value),
         "mask-threshold" => cfg.mask_threshold = number(value),

@@ -95,6 +95,7 @@ pub fn refusal(options: &Options) -> Option<&'static str> {
     let refuses = [
         ("shading", "listed"),
         ("resolve", "tent"),
+        ("resolve", "gaussian"),
         ("normalisation", "paper"),
         ("normalisation", "epsilon"),
     ];

@@ -58,7 +58,18 @@ fn reads_are_the_chapters() {
         );
         assert_eq!(compiled.counts.texture_reads, expected);
     }
+    // Rows of quads share across quads too (§2.8): 10×4 texels for 16 pixels.
+    let settings = Settings {
+        block: [8, 2],
+        ..Settings::default()
+    };
+    let row = Kernel::builtin("quad_convolution").and_then(|kernel| kernel.compile(&settings));
+    assert_eq!(row.expect("whole quads").counts.texture_reads, 40);
     // What the chapter names and does not count.
+    let shadow = &["shadow"][..];
+    assert_eq!(reads("pcf", &[("width", "twelve")], shadow), 9);
+    assert_eq!(reads("pcf", &[("width", "sixteen")], shadow), 16);
+    assert_eq!(reads("pcf", &[("width", "sixteen"), ("method", "naive")], shadow), 256);
     assert_eq!(reads("quad_ssao", &[], &["depth"]), 1 + 4);
     assert_eq!(reads("quad_ssao", &[("sharing", "alone")], &["depth"]), 1 + 16);
     assert_eq!(reads("pcss", &[], &["shadow"]), 4 + 4);

@@ -5,7 +5,7 @@ use straightline_kernels::quad::bilateral::{self, QuadBilateral, quad_bilateral}
 use straightline_kernels::quad::convolution::{self, QuadConvolution, Taps, Weights, quad_convolution};
 use straightline_kernels::quad::ssao::{QuadSsao, Sharing, quad_ssao};
 use straightline_kernels::quad::upsampling::{
-    Downsampling, Factor, Gives, Payload, Reads, Upsampling, downsampling, quad_upsampling,
+    Downsampling, Factor, Gives, Payload, Reads, Screen, Upsampling, downsampling, quad_upsampling,
 };
 use straightline_tests::quads;
 
@@ -178,7 +178,7 @@ fn low(size: UVec2, factor: u32) -> Low {
 }
 
 #[test]
-fn upsampling_is_a_tent_times_gaussians() {
+fn upsampling_is_near_on_the_screen_times_gaussians() {
     let gpu = bench();
     for size in SIZES {
         for (factor, word, pixels) in [(Factor::Twice, "twice", 2u32), (Factor::FourTimes, "four-times", 4)] {
@@ -188,75 +188,82 @@ fn upsampling_is_a_tent_times_gaussians() {
                 (Reads::Apart, "apart"),
                 (Reads::Naive, "naive"),
             ] {
-                for (payload, payload_word) in [(Payload::Scalar, "scalar"), (Payload::Color, "color")] {
-                    for normals in [false, true] {
-                        if normals && (reads == Reads::Packed || payload == Payload::Scalar) {
-                            continue;
-                        }
-                        let cfg = Upsampling {
-                            factor,
-                            reads,
-                            payload,
-                            normals,
-                            ..Upsampling::default()
-                        };
-                        let image = if reads == Reads::Packed {
-                            &low.packed
-                        } else {
-                            &low.color
-                        };
-                        let (depth, normal) =
-                            (components(&low.depth, |t| t.x), components(&low.normal, Vec4::truncate));
-                        let texture = |f: &Frame<Vec4>| Texture::new(f.size(), f.texels().to_vec());
-                        let (low_texture, surface) = (texture(image), texture(&low.surface));
-                        let mut payload_image = picture(image);
-                        for texel in &mut payload_image.texels {
-                            match (payload, reads) {
-                                (Payload::Scalar, _) => *texel = [texel[0]; 4],
-                                (_, Reads::Packed) => texel[3] = 1.0,
-                                _ => {}
-                            }
-                        }
-                        let (surface_picture, depth_picture) = (picture(&low.surface), picture(&low.depth));
-                        let normal_picture = picture(&low.normal);
-                        let inputs = Inputs::new(size)
-                            .image("low", image.clone())
-                            .image("low_surface", low.surface.clone())
-                            .image("depth", low.depth.clone())
-                            .image("normal", low.normal.clone());
-                        let by_definition = defined(size, |at| {
-                            let inputs = quads::Upsampled {
-                                factor: pixels.into(),
-                                low: &payload_image,
-                                surface: &surface_picture,
-                                depth: &depth_picture,
-                                normal: &normal_picture,
-                                depth_sigma: cfg.depth_sigma.into(),
-                                normal_sigma: normals.then_some(cfg.normal_sigma.into()),
-                            };
-                            quads::upsampling(&inputs, at)
-                        });
-                        check(
-                            &gpu,
-                            [
-                                &format!("upsampling {word} {reads_word} {payload_word} normals {normals}"),
-                                "quad_upsampling",
-                            ],
-                            &[
-                                ("factor", word),
-                                ("reads", reads_word),
-                                ("payload", payload_word),
-                                ("normals", if normals { "true" } else { "false" }),
-                            ],
-                            &inputs,
-                            &native(size, |pixel| {
-                                quad_upsampling(&cfg, &low_texture, &surface, &depth, &normal, pixel)
-                            }),
-                            &by_definition,
-                            // Weights far down a Gaussian hang on the last bits of depths.
-                            [2.0e-4, 2.0e-3],
-                        );
+                for (payload, payload_word, normals, screen) in [
+                    (Payload::Scalar, "scalar", false, Screen::Tent),
+                    (Payload::Color, "color", false, Screen::Tent),
+                    (Payload::Color, "color", false, Screen::Gaussian),
+                    (Payload::Color, "color", true, Screen::Tent),
+                ] {
+                    if normals && reads == Reads::Packed {
+                        continue;
                     }
+                    let gaussian = screen == Screen::Gaussian;
+                    let screen_word = if gaussian { "gaussian" } else { "tent" };
+                    let cfg = Upsampling {
+                        factor,
+                        reads,
+                        payload,
+                        normals,
+                        screen,
+                        ..Upsampling::default()
+                    };
+                    let image = if reads == Reads::Packed {
+                        &low.packed
+                    } else {
+                        &low.color
+                    };
+                    let (depth, normal) = (components(&low.depth, |t| t.x), components(&low.normal, Vec4::truncate));
+                    let texture = |f: &Frame<Vec4>| Texture::new(f.size(), f.texels().to_vec());
+                    let (low_texture, surface) = (texture(image), texture(&low.surface));
+                    let mut payload_image = picture(image);
+                    for texel in &mut payload_image.texels {
+                        match (payload, reads) {
+                            (Payload::Scalar, _) => *texel = [texel[0]; 4],
+                            (_, Reads::Packed) => texel[3] = 1.0,
+                            _ => {}
+                        }
+                    }
+                    let (surface_picture, depth_picture) = (picture(&low.surface), picture(&low.depth));
+                    let normal_picture = picture(&low.normal);
+                    let inputs = Inputs::new(size)
+                        .image("low", image.clone())
+                        .image("low_surface", low.surface.clone())
+                        .image("depth", low.depth.clone())
+                        .image("normal", low.normal.clone());
+                    let by_definition = defined(size, |at| {
+                        let inputs = quads::Upsampled {
+                            factor: pixels.into(),
+                            low: &payload_image,
+                            surface: &surface_picture,
+                            depth: &depth_picture,
+                            normal: &normal_picture,
+                            depth_sigma: cfg.depth_sigma.into(),
+                            normal_sigma: normals.then_some(cfg.normal_sigma.into()),
+                            screen_sigma: gaussian.then_some(cfg.screen_sigma.into()),
+                        };
+                        quads::upsampling(&inputs, at)
+                    });
+                    check(
+                        &gpu,
+                        [
+                            &format!("upsampling {word} {reads_word} {payload_word} normals {normals} {screen_word}"),
+                            "quad_upsampling",
+                        ],
+                        &[
+                            ("factor", word),
+                            ("reads", reads_word),
+                            ("payload", payload_word),
+                            ("normals", if normals { "true" } else { "false" }),
+                            ("screen", screen_word),
+                        ],
+                        &inputs,
+                        &native(size, |pixel| {
+                            quad_upsampling(&cfg, &low_texture, &surface, &depth, &normal, pixel)
+                        }),
+                        &by_definition,
+                        // Weights far down a Gaussian hang on the last bits of depths.
+                        [2.0e-4, 2.0e-3],
+                    );
                 }
             }
         }

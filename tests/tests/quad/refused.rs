@@ -161,7 +161,17 @@ fn transports_fit_their_stage() {
         .and_then(|k| k.compile(&settings))
         .expect_err("quads")
         .to_string();
-    says(&error, &["no other blocks"]);
+    says(&error, &["a block of 2x1 pixels has other"]);
+    let settings = Settings {
+        block: [4, 2],
+        transport: Some(Transport::Subgroup),
+        ..Settings::default()
+    };
+    let error = Kernel::builtin("pcf")
+        .and_then(|k| k.compile(&settings))
+        .expect_err("one invocation")
+        .to_string();
+    says(&error, &["send no messages"]);
     let settings = Settings {
         block: [64, 64],
         ..Settings::default()

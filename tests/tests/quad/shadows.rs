@@ -30,9 +30,9 @@ pub(super) const MAP: UVec2 = uvec2(48, 40);
 /// A plane in the shadow map's space: coordinates at any pixel, inside the frame or not.
 #[derive(Clone, Copy)]
 pub(super) struct Plane {
-    origin: [f64; 3],
-    right: [f64; 3],
-    down: [f64; 3],
+    pub(super) origin: [f64; 3],
+    pub(super) right: [f64; 3],
+    pub(super) down: [f64; 3],
 }
 
 impl Plane {
@@ -72,6 +72,16 @@ pub(super) fn map() -> Frame<Vec4> {
     Frame::new(MAP, (0..MAP.x * MAP.y).map(texel).collect())
 }
 
+/// Its word, and texels on an axis.
+fn texels_of(width: Width) -> (&'static str, i64) {
+    match width {
+        Width::Four => ("four", 4),
+        Width::Eight => ("eight", 8),
+        Width::Twelve => ("twelve", 12),
+        Width::Sixteen => ("sixteen", 16),
+    }
+}
+
 struct Case {
     method: Method,
     width: Width,
@@ -95,7 +105,7 @@ fn cases() -> Vec<Case> {
                     Method::Gather => "gather",
                 },
             ),
-            ("width", if width == Width::Four { "four" } else { "eight" }),
+            ("width", texels_of(width).0),
             ("weights", weights.1),
             (
                 "gradient",
@@ -118,6 +128,14 @@ fn cases() -> Vec<Case> {
             options,
         });
     };
+    for width in [Width::Twelve, Width::Sixteen] {
+        add(Method::Naive, width, WEIGHTS[6], Gradient::None, 1.0);
+        add(Method::Bilinear, width, WEIGHTS[5], Gradient::None, 1.0);
+        add(Method::Quad, width, WEIGHTS[0], Gradient::Prewitt, 1.0);
+        add(Method::Quad, width, WEIGHTS[6], Gradient::None, 1.0);
+        add(Method::Quad, width, WEIGHTS[5], Gradient::Fitted, 1.0);
+        add(Method::Quad, width, LOOKUP, Gradient::None, 1.0);
+    }
     for width in [Width::Four, Width::Eight] {
         add(Method::Naive, width, WEIGHTS[0], Gradient::None, 1.0);
         add(Method::Naive, width, WEIGHTS[6], Gradient::None, 1.0);
@@ -137,13 +155,13 @@ fn cases() -> Vec<Case> {
     for weights in WEIGHTS {
         add(Method::Gather, Width::Eight, weights, Gradient::None, 1.0);
     }
-    let of_eight = |case: &&Case| case.method == Method::Quad && case.width == Width::Eight;
+    let of_several = |case: &&Case| case.method == Method::Quad && case.width != Width::Four;
     let simple = |case: &Case| Case {
         mirroring: Mirroring::Simple,
         options: [&case.options[..], &[("mirroring".to_owned(), "simple".to_owned())]].concat(),
         ..*case
     };
-    let mirrored: Vec<Case> = cases.iter().filter(of_eight).map(simple).collect();
+    let mirrored: Vec<Case> = cases.iter().filter(of_several).map(simple).collect();
     cases.extend(mirrored);
     cases
 }
@@ -159,10 +177,8 @@ pub(super) fn shadow(weights: &str, half: f64) -> Shadow {
 
 /// A pixel's value, of coordinates at any pixel.
 fn definition(case: &Case, coord: impl Fn([i64; 2]) -> [f64; 3], [x, y]: [i64; 2]) -> f64 {
-    let (texels, half) = match case.width {
-        Width::Four => (4, 2.0),
-        Width::Eight => (8, 4.0),
-    };
+    let texels = texels_of(case.width).1;
+    let half = texels as f64 / 2.0;
     let word = match case.options[2].1.as_str() {
         "lookup" => "cubic",
         word => word,
@@ -257,7 +273,7 @@ fn every_filter_is_its_definition() {
                 spread: case.spread,
                 mirroring: case.mirroring,
             };
-            let lookup = cubic_table(if case.width == Width::Four { 2.0 } else { 4.0 });
+            let lookup = cubic_table(texels_of(case.width).1 as f32 / 2.0);
             let inputs = inputs
                 .clone()
                 .image("lookup", Frame::new(lookup.size(), lookup.texels().to_vec()));
@@ -386,54 +402,57 @@ fn penumbras_widen_with_distance() {
 /// their texels (a box), by the fitted plane wherever they lie.
 #[test]
 fn a_ramp_of_light_comes_back_straight() {
+    use ShadowWeights::{Box, Cubic, Gaussian};
+    ramps::<1>(Width::Four, Box, Gradient::Prewitt);
+    ramps::<4>(Width::Eight, Box, Gradient::Prewitt);
+    ramps::<9>(Width::Twelve, Box, Gradient::Prewitt);
+    ramps::<16>(Width::Sixteen, Box, Gradient::Prewitt);
+    ramps::<1>(Width::Four, Box, Gradient::Fitted);
+    ramps::<4>(Width::Eight, Cubic, Gradient::Fitted);
+    ramps::<4>(Width::Eight, Gaussian, Gradient::Fitted);
+    ramps::<16>(Width::Sixteen, Gaussian, Gradient::Fitted);
+}
+
+fn ramps<const N: usize>(width: Width, weights: ShadowWeights, gradient: Gradient) {
     let mut random = Random(77);
-    for (width, weights, gradient) in [
-        (Width::Four, ShadowWeights::Box, Gradient::Prewitt),
-        (Width::Eight, ShadowWeights::Box, Gradient::Prewitt),
-        (Width::Four, ShadowWeights::Box, Gradient::Fitted),
-        (Width::Eight, ShadowWeights::Cubic, Gradient::Fitted),
-        (Width::Eight, ShadowWeights::Gaussian, Gradient::Fitted),
-    ] {
-        for _ in 0..200 {
-            let slope = vec2(random.unit() - 0.5, random.unit() - 0.5) * 0.1;
-            let a = vec2(random.unit(), random.unit());
-            let ramp = |place: Vec2| 0.5 + slope.dot(place);
-            let n = if width == Width::Four { 1 } else { 4 };
-            // A weighed tap lies somewhere between its texels, as each row and each column of taps has it.
-            let mut between = || match weights {
-                ShadowWeights::Box => 0.0,
-                _ => random.unit() * 0.8 - 0.4,
-            };
-            let (columns, rows): ([f32; 4], [f32; 4]) =
-                (std::array::from_fn(|_| between()), std::array::from_fn(|_| between()));
-            let number = |middle: f32| ((middle + 3.0) / 2.0) as usize;
-            let taps: [Tap; 4] = std::array::from_fn(|k| {
-                let away = match n {
-                    1 => Vec2::ZERO,
-                    _ => vec2(4.0 * (k % 2) as f32 - 2.0, 4.0 * (k / 2) as f32 - 2.0),
-                };
-                let middle = quad_vector() + away;
-                let place = middle.map(|m| m + vec2(columns[number(m.x)], rows[number(m.y)])) + (0.5 - a);
-                let weight = middle.map(|m| (1.0 - columns[number(m.x)]) * (1.0 - rows[number(m.y)]));
-                Tap {
-                    lit: place.map(ramp),
-                    place,
-                    middle,
-                    weight,
-                }
-            });
-            let away = Quad::new([0, 1, 2, 3].map(|k| vec2((k % 2) as f32 - 0.5, (k / 2) as f32 - 0.5) * 0.6));
-            let cfg = Pcf {
-                width,
-                weights,
-                gradient,
-                ..Pcf::default()
-            };
-            let found = join(&cfg, taps, Quad::splat(a), away).lanes();
-            for (found, away) in found.iter().zip(away.lanes()) {
-                let off = (found - ramp(away)).abs();
-                assert!(off < 2.0e-6, "{width:?} {weights:?} {gradient:?}: off by {off:.2e}");
+    let on_axis = N.isqrt();
+    // The outermost tap of 2, 4, 6 or 8 on an axis.
+    let outermost = 2.0 * on_axis as f32 - 1.0;
+    for _ in 0..200 {
+        let slope = vec2(random.unit() - 0.5, random.unit() - 0.5) * 0.05;
+        let a = vec2(random.unit(), random.unit());
+        let ramp = |place: Vec2| 0.5 + slope.dot(place);
+        // A weighed tap lies somewhere between its texels, as each row and each column of taps has it.
+        let mut between = || match weights {
+            ShadowWeights::Box => 0.0,
+            _ => random.unit() * 0.8 - 0.4,
+        };
+        let (columns, rows): ([f32; 8], [f32; 8]) =
+            (std::array::from_fn(|_| between()), std::array::from_fn(|_| between()));
+        let number = |middle: f32| ((middle + outermost) / 2.0) as usize;
+        let taps: [Tap; N] = std::array::from_fn(|k| {
+            let of = |k: usize| 4.0 * k as f32 - 2.0 * (on_axis - 1) as f32;
+            let middle = quad_vector() + vec2(of(k % on_axis), of(k / on_axis));
+            let place = middle.map(|m| m + vec2(columns[number(m.x)], rows[number(m.y)])) + (0.5 - a);
+            let weight = middle.map(|m| (1.0 - columns[number(m.x)]) * (1.0 - rows[number(m.y)]));
+            Tap {
+                lit: place.map(ramp),
+                place,
+                middle,
+                weight,
             }
+        });
+        let away = Quad::new([0, 1, 2, 3].map(|k| vec2((k % 2) as f32 - 0.5, (k / 2) as f32 - 0.5) * 0.6));
+        let cfg = Pcf {
+            width,
+            weights,
+            gradient,
+            ..Pcf::default()
+        };
+        let found = join(&cfg, taps, Quad::splat(a), away).lanes();
+        for (found, away) in found.iter().zip(away.lanes()) {
+            let off = (found - ramp(away)).abs();
+            assert!(off < 2.0e-6, "{width:?} {weights:?} {gradient:?}: off by {off:.2e}");
         }
     }
 }

@@ -10,7 +10,7 @@ use std::time::Duration;
 use straightline_codegen::{Compiled, Kernel, Settings};
 use straightline_manifest::Stage;
 use straightline_runtime::Pass;
-use straightline_testbed::execute::{Bench, Job, Quartiles, Uploaded, Work};
+use straightline_testbed::execute::{Bench, Clock, Job, Quartiles, Uploaded, Work};
 use straightline_testbed::render::{FramePass, FramePasses, GpuRenderer, Samples};
 use straightline_testbed::scene::Scene;
 use straightline_testbed::{gbuffer, render};
@@ -90,7 +90,26 @@ pub struct Filter {
 pub struct Measured {
     pub passes: Vec<PassTime>,
     pub filters: Vec<Filter>,
+    pub together: Option<Together>,
 }
+
+/// A whole frame in one submission, which goes from graphics to compute and back as its passes need it.
+#[derive(Clone, Debug, Serialize)]
+pub struct Together {
+    /// What it is a frame of.
+    pub method: &'static str,
+    pub ms: Quartiles,
+    /// Times as long as its parts, each submitted by itself, take together: round by round.
+    pub over_parts: Quartiles,
+    pub rounds_ms: Vec<f64>,
+}
+
+/// What that is.
+const TOGETHER: [FramePass; 3] = [
+    FramePass::Geometry(Samples::One),
+    FramePass::Auxiliary(Samples::Four),
+    FramePass::Shading(Samples::One),
+];
 
 impl Measured {
     /// The rounds of a pass, in milliseconds.
@@ -119,6 +138,16 @@ struct Subject {
     uploaded: Uploaded,
 }
 
+impl Subject {
+    fn job(&self, args: &BudgetArgs) -> Job<'_> {
+        Job {
+            pass: &self.pass,
+            uploaded: &self.uploaded,
+            size: args.size,
+        }
+    }
+}
+
 /// Times everything in turn, after one round that is not counted.
 pub fn measured(args: &BudgetArgs, world: &Scene, gpu: &Gpu) -> Result<Measured, Failure> {
     let bench = gpu.bench();
@@ -133,12 +162,22 @@ pub fn measured(args: &BudgetArgs, world: &Scene, gpu: &Gpu) -> Result<Measured,
         works.push(work.map_err(Failure::of)?);
     }
     for subject in &subjects {
-        let job = Job {
-            pass: &subject.pass,
-            uploaded: &subject.uploaded,
-            size: args.size,
-        };
-        works.push(bench.work(job, Duration::ZERO).map_err(Failure::of)?);
+        works.push(bench.work(subject.job(args), Duration::ZERO).map_err(Failure::of)?);
+    }
+    let is_first = |subject: &&Subject| subject.metric == DEFAULT_METRIC && subject.shading == "centre";
+    let first = subjects.iter().find(is_first).map(|subject| subject.job(args));
+    // Timestamps lie around passes, and say nothing of what lies between.
+    if let Some(job) = first.filter(|_| bench.clock() == Clock::WallClock) {
+        let filter = bench.recorder(job).map_err(Failure::of)?;
+        let frame = &frame;
+        let work = bench.recorded(1, Duration::ZERO, move |encoder, _| {
+            for pass in TOGETHER {
+                frame.encode(pass, encoder, None)?;
+            }
+            filter(encoder);
+            Ok(())
+        });
+        works.push(work.map_err(Failure::of)?);
     }
     let bar = scene::bar(&format!("timing {} passes", works.len()));
     bar.set_length(u64::from(args.rounds));
@@ -167,10 +206,14 @@ pub fn measured(args: &BudgetArgs, world: &Scene, gpu: &Gpu) -> Result<Measured,
     let mut measured = Measured {
         passes,
         filters: Vec::new(),
+        together: None,
     };
-    for (subject, rounds_ms) in subjects.iter().zip(rounds) {
+    for (subject, rounds_ms) in subjects.iter().zip(rounds.by_ref()) {
         let filter = filter(&measured, subject, rounds_ms)?;
         measured.filters.push(filter);
+    }
+    if let Some(rounds_ms) = rounds.next() {
+        measured.together = Some(together(&measured, rounds_ms)?);
     }
     for (pattern, _, samples) in PLACES.into_iter().filter(|(_, shading, _)| *shading == "centre") {
         let base = measured.filter(samples)?.ms.median;
@@ -179,6 +222,23 @@ pub fn measured(args: &BudgetArgs, world: &Scene, gpu: &Gpu) -> Result<Measured,
         }
     }
     Ok(measured)
+}
+
+fn together(measured: &Measured, rounds_ms: Vec<f64>) -> Result<Together, Failure> {
+    let mut parts = vec![0.0; rounds_ms.len()];
+    let filter = &measured.filter(Samples::Four)?.rounds_ms;
+    for pass in TOGETHER {
+        let rounds = &measured.pass(pass)?.rounds_ms;
+        parts.iter_mut().zip(rounds).for_each(|(sum, part)| *sum += part);
+    }
+    let sums = parts.iter().zip(filter).map(|(sum, part)| sum + part);
+    let ratios: Vec<f64> = rounds_ms.iter().zip(sums).map(|(whole, parts)| whole / parts).collect();
+    Ok(Together {
+        method: "SRAA 4",
+        ms: frame::quartiles(&rounds_ms)?,
+        over_parts: frame::quartiles(&ratios)?,
+        rounds_ms,
+    })
 }
 
 fn samples(pass: FramePass) -> u32 {

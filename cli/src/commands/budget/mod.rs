@@ -11,7 +11,7 @@ use crate::failure::Failure;
 use crate::gpu::Gpu;
 use crate::scene;
 use frame::{Comparison, FrameCost};
-use measure::{Filter, PassTime};
+use measure::{Filter, PassTime, Together};
 use serde::Serialize;
 use straightline_codegen::files;
 use straightline_study::record::Circumstances;
@@ -49,6 +49,8 @@ struct Record {
     /// What the frames are made of.
     passes: Vec<PassTime>,
     filters: Vec<Filter>,
+    /// `null` where timestamps are taken, which lie around passes alone.
+    together: Option<Together>,
     costs: Vec<Cost>,
 }
 
@@ -69,6 +71,7 @@ pub fn run(args: &BudgetArgs) -> Result<(), Failure> {
         comparisons: frame::comparisons(&measured)?,
         costs: costs(args, &measured.filters),
         passes: measured.passes,
+        together: measured.together,
         filters: measured.filters,
     };
     if let Some(path) = &args.record {

@@ -38,6 +38,14 @@ pub fn record(args: &BudgetArgs, record: &Record) -> Result<(), Failure> {
     comparisons(record)?;
     passes(record)?;
     filters(record)?;
+    if let Some(together) = &record.together {
+        outln!(
+            "{} in one submission, from graphics to compute and back: {} ms, {} times its parts' sum.\n",
+            together.method,
+            interval(together.ms),
+            interval(together.over_parts)
+        );
+    }
     memory(record)
 }
 

@@ -23,17 +23,17 @@ options! {
         /// Distance between comparisons over that of a dense filter: more than 1 covers a wider footprint sparsely, for
         /// shadow maps that are seen from afar. Of `quad` alone.
         pub spread: f32 [1.0..=64.0] = 1.0,
-        /// Where the comparisons of a lane lie; of `quad` and eight texels alone.
+        /// Where the comparisons of a lane lie; of `quad`, and not of four texels.
         pub mirroring: Mirroring = Mirroring::Local,
     }
 }
 
-/// Where the four comparisons of a lane lie in the shadow map (figure 2.6).
+/// Where the comparisons of a lane lie in the shadow map (figure 2.6).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mirroring {
     /// Beside those of the other lanes: what the quad reads at once lies in 4×4 texels, which is kind to caches.
     Local,
-    /// All in the lane's own quarter: simpler, and what the quad reads at once lies up to 8 texels apart.
+    /// All in the lane's own quarter: simpler, and what the quad reads at once lies as far apart as the filter is wide.
     Simple,
 }
 
@@ -58,6 +58,10 @@ pub enum Width {
     Four,
     /// 8 by 8.
     Eight,
+    /// 12 by 12.
+    Twelve,
+    /// 16 by 16.
+    Sixteen,
 }
 
 /// How the pixels of a quad are told apart.
@@ -99,10 +103,10 @@ pub fn pcf(
             "spread is of method=quad alone: the other methods compare every texel of the width"
         );
     }
-    if cfg.method != Method::Quad || cfg.width != Width::Eight {
+    if cfg.method != Method::Quad || cfg.width == Width::Four {
         assert!(
             cfg.mirroring == Mirroring::Local,
-            "mirroring=simple is of method=quad and width=eight alone: elsewhere no lane takes several comparisons of a quad's"
+            "mirroring=simple is of method=quad and widths of eight and more: elsewhere no lane takes several comparisons of a quad's"
         );
     }
     if cfg.method == Method::Gather {
@@ -120,12 +124,12 @@ pub fn pcf(
     let lit = match cfg.method {
         Method::Naive => naive(cfg, shadow, shadow_sampler, coord),
         Method::Bilinear => bilinear(cfg, shadow, shadow_sampler, lookup, lookup_sampler, coord),
-        Method::Quad => {
-            let centre = coord.average();
-            let taps = compare(cfg, shadow, shadow_sampler, lookup, lookup_sampler, centre);
-            let away = (coord.truncate() - centre.truncate()) * shadow.size().as_vec2();
-            join(cfg, taps, fraction(shadow, centre), away)
-        }
+        Method::Quad => match cfg.width {
+            Width::Four => shared::<1>(cfg, shadow, shadow_sampler, lookup, lookup_sampler, coord),
+            Width::Eight => shared::<4>(cfg, shadow, shadow_sampler, lookup, lookup_sampler, coord),
+            Width::Twelve => shared::<9>(cfg, shadow, shadow_sampler, lookup, lookup_sampler, coord),
+            Width::Sixteen => shared::<16>(cfg, shadow, shadow_sampler, lookup, lookup_sampler, coord),
+        },
         Method::Gather => gathered(cfg, shadow, shadow_sampler, coord),
     };
     Vec4::ONE * lit
@@ -228,8 +232,22 @@ fn bilinear(
     sum / total
 }
 
-/// What a lane's comparisons say: how much is lit, where, in texels from the quad's mean place, and with which weight.
-/// Of 4×4 texels the first alone.
+/// The quad compares between every 2×2 texels around its mean place, `N` of those each lane.
+fn shared<const N: usize>(
+    cfg: &Pcf,
+    shadow: &DepthTexture,
+    shadow_sampler: &ComparisonSampler,
+    lookup: &Texture<Vec4>,
+    lookup_sampler: &Sampler,
+    coord: Quad<Vec3>,
+) -> Quad<f32> {
+    let centre = coord.average();
+    let taps = compare::<N>(cfg, shadow, shadow_sampler, lookup, lookup_sampler, centre);
+    let away = (coord.truncate() - centre.truncate()) * shadow.size().as_vec2();
+    join(cfg, taps, fraction(shadow, centre), away)
+}
+
+/// What a lane's comparison says: how much is lit, where, in texels from the quad's mean place, and with which weight.
 #[derive(Clone, Copy)]
 pub struct Tap {
     /// The comparison's result.
@@ -243,14 +261,14 @@ pub struct Tap {
 }
 
 /// Each lane takes its quarter of the comparisons around `centre`.
-fn compare(
+fn compare<const N: usize>(
     cfg: &Pcf,
     shadow: &DepthTexture,
     shadow_sampler: &ComparisonSampler,
     lookup: &Texture<Vec4>,
     lookup_sampler: &Sampler,
     centre: Quad<Vec3>,
-) -> [Tap; 4] {
+) -> [Tap; N] {
     let size = shadow.size().as_vec2();
     let a = fraction(shadow, centre);
     let mut taps = [Tap {
@@ -258,10 +276,11 @@ fn compare(
         place: Quad::splat(Vec2::ZERO),
         middle: Quad::splat(Vec2::ZERO),
         weight: Quad::splat(0.0),
-    }; 4];
-    for k in 0..cfg.width.taps() {
-        // The same two columns and two rows for all four.
-        let (i, j) = (first_texel(cfg, k % 2), first_texel(cfg, k / 2));
+    }; N];
+    let n = cfg.width.lane_taps() as usize;
+    for k in 0..N {
+        // The same few columns and rows for all.
+        let (i, j) = (first_texel(cfg, k % n), first_texel(cfg, k / n));
         let column = pair(cfg, lookup, lookup_sampler, i - a);
         let row = pair(cfg, lookup, lookup_sampler, j - a);
         let place = Quad::from_xy(column.place.x(), row.place.y()) * cfg.spread;
@@ -285,17 +304,16 @@ fn first_texel(cfg: &Pcf, k: usize) -> Quad<Vec2> {
 
 /// One value from all lanes' comparisons, and for each pixel what the slope adds. `fraction` is that of the quad's mean
 /// place, `away` how far each pixel lies from it, in texels.
-pub fn join(cfg: &Pcf, taps: [Tap; 4], fraction: Quad<Vec2>, away: Quad<Vec2>) -> Quad<f32> {
-    let n = cfg.width.taps();
+pub fn join<const N: usize>(cfg: &Pcf, taps: [Tap; N], fraction: Quad<Vec2>, away: Quad<Vec2>) -> Quad<f32> {
     let mut sums = Quad::splat(Vec4::ZERO);
-    for k in 0..n {
+    for k in 0..N {
         let weighed = (taps[k].place * taps[k].weight).extend(taps[k].weight);
         sums += weighed.extend(taps[k].lit * taps[k].weight);
     }
     let (lit, middle) = match (cfg.weights, cfg.gradient) {
         // Weights of 1: their sum is known, and their middle lies between two texels.
         (ShadowWeights::Box, _) => {
-            let share = 1.0 / n as f32;
+            let share = 1.0 / N as f32;
             (sums.w().average() * share, (0.5 - fraction) * cfg.spread)
         }
         (_, Gradient::None) => {
@@ -310,37 +328,38 @@ pub fn join(cfg: &Pcf, taps: [Tap; 4], fraction: Quad<Vec2>, away: Quad<Vec2>) -
     match cfg.gradient {
         Gradient::None => lit,
         Gradient::Prewitt => saturate(lit + prewitt(cfg, taps).dot(away - middle)),
-        Gradient::Fitted => saturate(lit + fitted(cfg, taps).dot(away - middle)),
+        Gradient::Fitted => saturate(lit + fitted(taps).dot(away - middle)),
     }
 }
 
-/// Change of light for each texel, of taps at -1 and 1, or -3, -1, 1 and 3: the moment over the sum of the squares.
-fn prewitt(cfg: &Pcf, taps: [Tap; 4]) -> Quad<Vec2> {
+/// Change of light for each texel, of taps at -1 and 1, or -3, -1, 1 and 3, and so on: the moment over the sum of the squares.
+fn prewitt<const N: usize>(cfg: &Pcf, taps: [Tap; N]) -> Quad<Vec2> {
     let mut moment = Quad::splat(Vec2::ZERO);
-    for k in 0..cfg.width.taps() {
+    for k in 0..N {
         moment += taps[k].middle * taps[k].lit;
     }
     let squares = match cfg.width {
         Width::Four => 4.0,
         Width::Eight => 80.0,
+        Width::Twelve => 420.0,
+        Width::Sixteen => 1344.0,
     };
     moment.sum() / (squares * cfg.spread * cfg.spread)
 }
 
 /// Change of light for each texel, of the plane that fits the taps best.
-fn fitted(cfg: &Pcf, taps: [Tap; 4]) -> Quad<Vec2> {
-    let n = cfg.width.taps();
+fn fitted<const N: usize>(taps: [Tap; N]) -> Quad<Vec2> {
     let mut lit = Quad::splat(0.0);
     let mut place = Quad::splat(Vec2::ZERO);
-    for k in 0..n {
+    for k in 0..N {
         lit += taps[k].lit;
         place += taps[k].place;
     }
-    let share = 1.0 / n as f32;
+    let share = 1.0 / N as f32;
     let mean_lit = lit.average() * share;
     let mean_place = place.average() * share;
     let mut moments = Quad::splat(Vec4::ZERO);
-    for k in 0..n {
+    for k in 0..N {
         let from = taps[k].place - mean_place;
         let moment = from * (taps[k].lit - mean_lit);
         let square = from * from;
@@ -392,34 +411,27 @@ fn columns(cfg: &Pcf, shift: Quad<Vec2>, mirrored: bool) -> [Quad<Vec2>; 2] {
 }
 
 impl Width {
-    fn texels(self) -> i32 {
+    /// Comparisons of a lane on an axis: 4×4 texels are one for each lane.
+    fn lane_taps(self) -> i32 {
         match self {
-            Width::Four => 4,
-            Width::Eight => 8,
+            Width::Four => 1,
+            Width::Eight => 2,
+            Width::Twelve => 3,
+            Width::Sixteen => 4,
         }
+    }
+
+    fn texels(self) -> i32 {
+        4 * self.lane_taps()
     }
 
     /// Distance from the middle at which weights end, in texels.
     fn half(self) -> f32 {
-        match self {
-            Width::Four => 2.0,
-            Width::Eight => 4.0,
-        }
-    }
-
-    /// Comparisons that a lane of a quad takes.
-    fn taps(self) -> usize {
-        match self {
-            Width::Four => 1,
-            Width::Eight => 4,
-        }
+        (2 * self.lane_taps()) as f32
     }
 
     /// How far column, or row, `k` of a lane's comparisons lies from where one alone would.
     fn away(self, k: usize) -> f32 {
-        match self {
-            Width::Four => 0.0,
-            Width::Eight => 4.0 * k as f32 - 2.0,
-        }
+        (4 * k as i32 - 2 * (self.lane_taps() - 1)) as f32
     }
 }

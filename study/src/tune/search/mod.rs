@@ -6,6 +6,7 @@ mod time;
 
 use super::features::Static;
 use super::space::{Offer, SampleSet, Space, Variant};
+use super::steps::depth_scale;
 use super::subject::Subject;
 use super::{EQUAL_DB, ErrorMetric, Question, Term, TuneError};
 use crate::record::Model;
@@ -94,6 +95,7 @@ impl Search {
             samples: subject.captures.iter().map(sample_set).collect(),
             normals: first.is_some_and(|capture| capture.normal.is_some()),
             camera: first.is_some_and(|capture| capture.camera.is_some()),
+            depth_scale: first.and_then(depth_scale),
             no_half: question.no_half.clone(),
             fixed: question.fixed.clone(),
         };

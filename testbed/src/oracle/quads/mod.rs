@@ -149,6 +149,8 @@ pub struct Upsampled<'a> {
     pub depth_sigma: f64,
     /// The same of 1 less the cosine of normals, if they count.
     pub normal_sigma: Option<f64>,
+    /// Distance on the screen, in texels of low resolution, at a weight of exp(-1/2), of a Gaussian; `None` of a tent.
+    pub screen_sigma: Option<f64>,
 }
 
 /// A texel of low resolution as a pixel sees it.
@@ -157,7 +159,7 @@ pub struct Tap {
     /// Its colour; black if that does not count.
     pub color: [f64; 4],
     /// Its weight by distance on the screen.
-    pub tent: f64,
+    pub screen: f64,
     /// How far its depth is from the pixel's.
     pub away: f64,
     /// One less the cosine between normals, in units of its sigma; 0 if normals do not count.
@@ -177,7 +179,11 @@ pub fn upsampling_taps(inputs: &Upsampled<'_>, [x, y]: [i64; 2]) -> [Tap; 4] {
     let normal = inputs.normal.at(x, y);
     [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]].map(|[i, j]| {
         let at = [first[0] + i, first[1] + j];
-        let tent = (1.0 - (place[0] - at[0]).abs()) * (1.0 - (place[1] - at[1]).abs());
+        let apart = [(place[0] - at[0]).abs(), (place[1] - at[1]).abs()];
+        let screen = match inputs.screen_sigma {
+            None => (1.0 - apart[0]) * (1.0 - apart[1]),
+            Some(sigma) => (-0.5 * (apart[0] * apart[0] + apart[1] * apart[1]) / (sigma * sigma)).exp(),
+        };
         let texel = inputs.low.at(at[0] as i64, at[1] as i64);
         let surface = inputs.surface.at(at[0] as i64, at[1] as i64);
         let (color, depth) = match texel.iter().all(|c| c.abs() < BRIGHTEST) {
@@ -196,7 +202,7 @@ pub fn upsampling_taps(inputs: &Upsampled<'_>, [x, y]: [i64; 2]) -> [Tap; 4] {
         }
         Tap {
             color,
-            tent,
+            screen,
             away,
             turned,
             products,
@@ -205,14 +211,14 @@ pub fn upsampling_taps(inputs: &Upsampled<'_>, [x, y]: [i64; 2]) -> [Tap; 4] {
     })
 }
 
-/// The four texels of low resolution around the pixel's centre, weighed: tent times Gaussians. Where none is of a like
+/// The four texels of low resolution around the pixel's centre, weighed: by their distance on the screen, times Gaussians. Where none is of a like
 /// surface, the one with the nearest depth.
 pub fn upsampling(inputs: &Upsampled<'_>, at: [i64; 2]) -> [f64; 4] {
     let taps = upsampling_taps(inputs, at);
     let (mut sum, mut total) = ([0.0; 4], 0.0);
     let mut nearest = (f64::INFINITY, [0.0; 4]);
     for tap in taps {
-        let weight = tap.tent * (-0.5 * tap.exponent).exp();
+        let weight = tap.screen * (-0.5 * tap.exponent).exp();
         total += weight;
         for (sum, lane) in sum.iter_mut().zip(tap.color) {
             *sum += weight * lane;

@@ -4,11 +4,12 @@ mod clip;
 mod raster;
 
 use super::frame::{Lighting, Pass};
+use super::paint::painted;
 use super::shade::{self, Surface, shade};
 use super::{RenderError, Renderer};
-use crate::scene::{Camera, Material, Scene};
+use crate::scene::{Camera, Image, Material, Scene, Vertex};
 use clip::ScreenTriangle;
-use glam::{Mat3, UVec2, Vec2, Vec3, Vec4, uvec2};
+use glam::{Mat3, UVec2, Vec2, Vec3, Vec4, uvec2, vec2};
 use raster::Visible;
 use rayon::prelude::*;
 use straightline_kernels::prelude::Frame;
@@ -60,7 +61,7 @@ impl CpuRenderer {
         rows.for_each(|(band, (pixels, inside))| {
             let top = band as u32 * BAND;
             let band = uvec2(self.size.x, (pixels.len() / width) as u32);
-            let holes = |triangle| self.holes(triangle);
+            let holes = |triangle| self.holes(&pass, triangle);
             let visible = Visible::draw(&triangles, &inside, top, band, self.size, holes);
             for (at, pixel) in pixels.iter_mut().enumerate() {
                 let place = uvec2((at % width) as u32, top + (at / width) as u32);
@@ -75,14 +76,50 @@ impl CpuRenderer {
     }
 
     /// Of an alpha-tested triangle, where it is there; `None` for all others.
-    fn holes<'a>(&'a self, triangle: &'a ScreenTriangle) -> Option<impl Fn(UVec2) -> bool + 'a> {
-        let corners = self.scene.triangles[triangle.source as usize].map(|i| &self.scene.vertices[i as usize]);
+    fn holes<'a>(&'a self, pass: &'a Pass, triangle: &'a ScreenTriangle) -> Option<impl Fn(UVec2) -> bool + 'a> {
+        let corners = self.corners(triangle);
+        let cutoff = self.image(corners).map_or(0.0, |image| image.cutoff);
+        let is_fence = corners[0].material == Material::ChainLink as u32;
         let there = move |pixel| {
             let shares = triangle.shares(pixel, self.size).as_vec3();
-            let [a, b, c] = corners.map(|corner| Vec3::from(corner.position));
-            shade::is_wire(a * shares.x + b * shares.y + c * shares.z)
+            if is_fence {
+                let [a, b, c] = corners.map(|corner| Vec3::from(corner.position));
+                if !shade::is_wire(a * shares.x + b * shares.y + c * shares.z) {
+                    return false;
+                }
+            }
+            self.paint(pass, triangle, pixel, self.normal(pass, corners, shares)).w >= cutoff
         };
-        (corners[0].material == Material::ChainLink as u32).then_some(there)
+        (is_fence || cutoff > 0.0).then_some(there)
+    }
+
+    fn corners(&self, triangle: &ScreenTriangle) -> [&Vertex; 3] {
+        self.scene.triangles[triangle.source as usize].map(|i| &self.scene.vertices[i as usize])
+    }
+
+    fn image(&self, corners: [&Vertex; 3]) -> Option<&Image> {
+        let number = corners[0].texture.checked_sub(1)?;
+        self.scene.textures.images.get(number as usize)
+    }
+
+    /// Of the side that normals point to, in view space.
+    fn normal(&self, pass: &Pass, corners: [&Vertex; 3], shares: Vec3) -> Vec3 {
+        let normal = Mat3::from_mat4(pass.to_view) * mix(corners.map(|vertex| vertex.normal), shares);
+        normal.normalize_or(Vec3::Z)
+    }
+
+    /// Colour and alpha of a triangle's texture at `pixel`: white without one.
+    fn paint(&self, pass: &Pass, triangle: &ScreenTriangle, pixel: UVec2, normal: Vec3) -> Vec4 {
+        let corners = self.corners(triangle);
+        let Some(number) = corners[0].texture.checked_sub(1) else {
+            return Vec4::ONE;
+        };
+        let shares = triangle.shares(pixel, self.size).as_vec3();
+        let [u, v, density] = mix(corners.map(|c| [c.uv[0], c.uv[1], c.density]), shares).to_array();
+        let view = pass.ray(&self.lighting, pixel).normalize();
+        let away = shares.dot(triangle.depths) * pass.pixel_angle;
+        let footprint = away * density / normal.dot(view).abs().max(0.05);
+        painted(&self.scene.textures, number, vec2(u, v), footprint)
     }
 
     /// Every triangle that may be seen, in order.
@@ -102,18 +139,21 @@ impl CpuRenderer {
     /// What is seen of `triangle` at `pixel`.
     fn surface(&self, pass: &Pass, triangle: &ScreenTriangle, pixel: UVec2) -> Surface {
         let shares = triangle.shares(pixel, self.size).as_vec3();
-        let corners = self.scene.triangles[triangle.source as usize].map(|i| &self.scene.vertices[i as usize]);
-        let mix =
-            |[a, b, c]: [[f32; 3]; 3]| Vec3::from(a) * shares.x + Vec3::from(b) * shares.y + Vec3::from(c) * shares.z;
-        let normal = Mat3::from_mat4(pass.to_view) * mix(corners.map(|vertex| vertex.normal));
-        let normal = normal.normalize_or(Vec3::Z);
+        let corners = self.corners(triangle);
+        let normal = self.normal(pass, corners, shares);
+        let paint = self.paint(pass, triangle, pixel, normal).truncate();
         Surface {
             normal: if triangle.front { normal } else { -normal },
             depth: shares.dot(triangle.depths),
-            color: mix(corners.map(|vertex| vertex.color)),
+            color: mix(corners.map(|vertex| vertex.color), shares) * paint,
             material: corners[0].material as f32,
         }
     }
+}
+
+/// What corners have, by how much of each there is.
+fn mix([a, b, c]: [[f32; 3]; 3], shares: Vec3) -> Vec3 {
+    Vec3::from(a) * shares.x + Vec3::from(b) * shares.y + Vec3::from(c) * shares.z
 }
 
 impl Renderer for CpuRenderer {

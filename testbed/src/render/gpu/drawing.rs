@@ -8,7 +8,8 @@ use wgpu::{CompareFunction, TextureFormat, TextureView};
 /// A pipeline that draws the scene's triangles, or what is behind them.
 pub(super) struct Drawn<'a> {
     pub label: &'static str,
-    pub layout: &'a wgpu::BindGroupLayout,
+    /// Of a view, and of textures.
+    pub layouts: [&'a wgpu::BindGroupLayout; 2],
     pub module: &'a wgpu::ShaderModule,
     /// Entry points of vertices and fragments.
     pub entries: [&'static str; 2],
@@ -22,7 +23,9 @@ pub(super) struct Drawn<'a> {
 impl Drawn<'_> {
     pub fn pipeline(&self, device: &wgpu::Device) -> wgpu::RenderPipeline {
         let [vertex, fragment] = self.entries;
-        let attributes = wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Float32x3, 3 => Uint32];
+        let attributes = wgpu::vertex_attr_array![
+            0 => Float32x3, 1 => Float32x3, 2 => Float32x3, 3 => Uint32, 4 => Float32x2, 5 => Uint32, 6 => Float32
+        ];
         let corners = [Some(wgpu::VertexBufferLayout {
             array_stride: size_of::<Vertex>() as u64,
             step_mode: wgpu::VertexStepMode::Vertex,
@@ -31,7 +34,7 @@ impl Drawn<'_> {
         let targets: Vec<_> = self.targets.iter().map(|format| Some((*format).into())).collect();
         device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some(self.label),
-            layout: Some(&pipeline_layout(device, self.layout)),
+            layout: Some(&pipeline_layout(device, &self.layouts)),
             vertex: wgpu::VertexState {
                 module: self.module,
                 entry_point: Some(vertex),
@@ -142,6 +145,7 @@ impl Drawing<'_> {
         });
         pass.set_pipeline(self.pipeline);
         pass.set_bind_group(0, self.group, &[]);
+        pass.set_bind_group(1, &resources.texture_group, &[]);
         pass.set_vertex_buffer(0, resources.vertices.slice(..));
         pass.set_index_buffer(resources.indices.slice(..), wgpu::IndexFormat::Uint32);
         pass.draw_indexed(0..resources.index_count, 0, 0..1);

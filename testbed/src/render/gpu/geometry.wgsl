@@ -1,4 +1,4 @@
-// The geometry and colour of the nearest surface at one place in each pixel.
+// The geometry and colour of the nearest surface at one place in each pixel. Follows `paint.wgsl` in one module.
 
 struct Pass {
     to_clip: mat4x4f,
@@ -7,6 +7,7 @@ struct Pass {
     offset: vec2f,
     keep: f32,
     evaluations: u32,
+    pixel_angle: f32,
 }
 
 @group(0) @binding(0) var<uniform> frame: Pass;
@@ -18,6 +19,9 @@ struct Corner {
     @location(2) depth: f32,
     @location(3) @interpolate(flat) material: u32,
     @location(4) place: vec3f,
+    @location(5) uv: vec2f,
+    @location(6) @interpolate(flat) image: u32,
+    @location(7) density: f32,
 }
 
 const CHAIN_LINK: u32 = 2;
@@ -33,9 +37,42 @@ fn corner(
     @location(1) normal: vec3f,
     @location(2) color: vec3f,
     @location(3) material: u32,
+    @location(4) uv: vec2f,
+    @location(5) image: u32,
+    @location(6) density: f32,
 ) -> Corner {
     let clip = frame.to_clip * vec4f(position, 1.0);
-    return Corner(clip, (frame.to_view * vec4f(normal, 0.0)).xyz, color, clip.w, material, position);
+    let turned = (frame.to_view * vec4f(normal, 0.0)).xyz;
+    return Corner(clip, turned, color, clip.w, material, position, uv, image, density);
+}
+
+// Colour and alpha of a surface's texture, and from which alpha on the surface is there. `normal` is in view space.
+struct Painted {
+    color: vec4f,
+    cutoff: f32,
+}
+
+fn paint_of(number: u32, uv: vec2f, density: f32, place: vec3f, depth: f32, normal: vec3f) -> Painted {
+    if number == 0u {
+        return Painted(vec4f(1.0), 0.0);
+    }
+    let image = images[number - 1u];
+    let view = normalize((frame.to_view * vec4f(place, 1.0)).xyz);
+    let footprint = depth * frame.pixel_angle * density / max(abs(dot(normal, view)), 0.05);
+    return Painted(painted(image, uv, footprint), image.cutoff);
+}
+
+// Whether there is no surface, and its colour.
+struct Seen {
+    color: vec3f,
+    hole: bool,
+}
+
+fn seen(surface: Corner) -> Seen {
+    let normal = normalize(surface.normal);
+    let paint = paint_of(surface.image, surface.uv, surface.density, surface.place, surface.depth, normal);
+    let hole = surface.material == CHAIN_LINK && !is_wire(surface.place);
+    return Seen(surface.color * paint.color.xyz, hole || paint.color.w < paint.cutoff);
 }
 
 // As in `shade.rs`.
@@ -51,12 +88,13 @@ fn wire(across: f32) -> bool {
 
 @fragment
 fn texels(surface: Corner, @builtin(front_facing) front: bool) -> Texels {
-    if surface.material == CHAIN_LINK && !is_wire(surface.place) {
+    let paint = seen(surface);
+    if paint.hole {
         discard;
     }
     let normal = normalize(surface.normal);
     return Texels(
         vec4f(select(-normal, normal, front), surface.depth),
-        vec4f(surface.color, f32(surface.material)),
+        vec4f(paint.color, f32(surface.material)),
     );
 }

@@ -2,7 +2,7 @@
 
 use super::drawing::{Drawing, Drawn, Target, view};
 use super::guard::guarded;
-use super::pipelines::{group_layout, pipeline_layout, storage, uniform};
+use super::pipelines::{GEOMETRY, group_layout, pipeline_layout, storage, uniform};
 use super::resources::{DEPTH_FORMAT, Resources, group};
 use super::{GpuRenderer, read};
 use crate::render::RenderError;
@@ -112,7 +112,7 @@ impl MultisampledGeometry {
             let module = device.create_shader_module(wgpu::include_wgsl!("samples.wgsl"));
             let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
                 label: Some("straightline samples"),
-                layout: Some(&pipeline_layout(device, &layout)),
+                layout: Some(&pipeline_layout(device, &[&layout])),
                 module: &module,
                 entry_point: Some("read_sample"),
                 compilation_options: wgpu::PipelineCompilationOptions::default(),
@@ -154,7 +154,7 @@ impl GpuRenderer {
     pub fn multisampled(&self) -> Result<MultisampledGeometry, RenderError> {
         let device = &self.device;
         guarded(device, "drawing multisampled geometry", || {
-            let targets = Multisampled::new(device, self.size, &self.pipelines.geometry_layout);
+            let targets = Multisampled::new(device, self.size, self.pipelines.drawing());
             let pass = Pass::new(&self.camera, self.size, Vec2::ZERO);
             self.queue
                 .write_buffer(&self.resources.pass, 0, bytemuck::bytes_of(&pass));
@@ -177,10 +177,10 @@ pub(super) struct Multisampled {
 
 impl Multisampled {
     /// For pictures of `size`, and groups of `layout`.
-    pub fn new(device: &wgpu::Device, size: UVec2, layout: &wgpu::BindGroupLayout) -> Self {
+    pub fn new(device: &wgpu::Device, size: UVec2, layouts: [&wgpu::BindGroupLayout; 2]) -> Self {
         let target = |format, usage| multisampled_target(device, size, format, usage);
         Multisampled {
-            pipeline: pipeline(device, layout),
+            pipeline: pipeline(device, layouts),
             depth: target(DEPTH, TextureUsages::TEXTURE_BINDING),
             normal: target(NORMAL, TextureUsages::TEXTURE_BINDING),
             tested: target(DEPTH_FORMAT, TextureUsages::empty()),
@@ -242,15 +242,15 @@ pub(super) fn multisampled_target(
     })
 }
 
-fn pipeline(device: &wgpu::Device, layout: &wgpu::BindGroupLayout) -> wgpu::RenderPipeline {
-    let text = concat!(include_str!("geometry.wgsl"), "\n", include_str!("multisampled.wgsl"));
+fn pipeline(device: &wgpu::Device, layouts: [&wgpu::BindGroupLayout; 2]) -> wgpu::RenderPipeline {
+    let text = [GEOMETRY, include_str!("multisampled.wgsl")].join("\n");
     let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
         label: Some("straightline multisampled geometry"),
         source: wgpu::ShaderSource::Wgsl(text.into()),
     });
     let drawn = Drawn {
         label: "straightline multisampled geometry",
-        layout,
+        layouts,
         module: &module,
         entries: ["sampled_corner", "sampled_texels"],
         targets: &[DEPTH, NORMAL],

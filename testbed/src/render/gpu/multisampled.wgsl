@@ -8,6 +8,8 @@ struct SampledCorner {
     @location(1) @interpolate(flat) material: u32,
     @location(2) @interpolate(perspective, sample) place: vec3f,
     @location(3) @interpolate(perspective, sample) depth_one: vec2f,
+    @location(4) @interpolate(perspective, sample) uv_density: vec3f,
+    @location(5) @interpolate(flat) image: u32,
 }
 
 struct SampledTexels {
@@ -21,19 +23,27 @@ fn sampled_corner(
     @location(1) normal: vec3f,
     @location(2) color: vec3f,
     @location(3) material: u32,
+    @location(4) uv: vec2f,
+    @location(5) image: u32,
+    @location(6) density: f32,
 ) -> SampledCorner {
     let clip = frame.to_clip * vec4f(position, 1.0);
     // Not the literal, which a driver may carry over to the fragments as it is.
     let one = f32(min(frame.size.x, 1u));
-    return SampledCorner(clip, (frame.to_view * vec4f(normal, 0.0)).xyz, material, position, vec2f(clip.w, one));
+    let turned = (frame.to_view * vec4f(normal, 0.0)).xyz;
+    return SampledCorner(clip, turned, material, position, vec2f(clip.w, one), vec3f(uv, density), image);
 }
 
 @fragment
 fn sampled_texels(surface: SampledCorner, @builtin(front_facing) front: bool) -> SampledTexels {
     let one = surface.depth_one.y;
-    if surface.material == CHAIN_LINK && !is_wire(surface.place / one) {
+    let place = surface.place / one;
+    let depth = surface.depth_one.x / one;
+    let normal = normalize(surface.normal);
+    let uv_density = surface.uv_density / one;
+    let paint = paint_of(surface.image, uv_density.xy, uv_density.z, place, depth, normal);
+    if (surface.material == CHAIN_LINK && !is_wire(place)) || paint.color.w < paint.cutoff {
         discard;
     }
-    let normal = normalize(surface.normal);
-    return SampledTexels(surface.depth_one.x / one, vec4f(select(-normal, normal, front), 0.0));
+    return SampledTexels(depth, vec4f(select(-normal, normal, front), 0.0));
 }

@@ -13,12 +13,18 @@ pub(super) struct Pipelines {
     geometry: wgpu::RenderPipeline,
     shading: wgpu::ComputePipeline,
     pub geometry_layout: wgpu::BindGroupLayout,
+    pub texture_layout: wgpu::BindGroupLayout,
     pub shading_layout: wgpu::BindGroupLayout,
 }
 
 impl Pipelines {
     pub fn new(device: &wgpu::Device) -> Self {
         let geometry_layout = group_layout(device, &[(ShaderStages::VERTEX_FRAGMENT, uniform())]);
+        let read = (
+            ShaderStages::FRAGMENT,
+            buffer(BufferBindingType::Storage { read_only: true }),
+        );
+        let texture_layout = group_layout(device, &[read, read]);
         let compute = ShaderStages::COMPUTE;
         let shading_layout = group_layout(
             device,
@@ -31,11 +37,17 @@ impl Pipelines {
             ],
         );
         Pipelines {
-            geometry: geometry_pipeline(device, &geometry_layout),
+            geometry: geometry_pipeline(device, [&geometry_layout, &texture_layout]),
             shading: shading_pipeline(device, &shading_layout),
             geometry_layout,
+            texture_layout,
             shading_layout,
         }
+    }
+
+    /// Groups of what draws the scene: a view, and textures.
+    pub fn drawing(&self) -> [&wgpu::BindGroupLayout; 2] {
+        [&self.geometry_layout, &self.texture_layout]
     }
 
     /// Records drawing the scene into the G-buffer, as seen by the [`Pass`](crate::render::frame::Pass) of `group`.
@@ -82,11 +94,17 @@ impl Pipelines {
     }
 }
 
-fn geometry_pipeline(device: &wgpu::Device, layout: &wgpu::BindGroupLayout) -> wgpu::RenderPipeline {
-    let module = device.create_shader_module(wgpu::include_wgsl!("geometry.wgsl"));
+/// What draws the scene begins with.
+pub(super) const GEOMETRY: &str = concat!(include_str!("../paint.wgsl"), "\n", include_str!("geometry.wgsl"));
+
+fn geometry_pipeline(device: &wgpu::Device, layouts: [&wgpu::BindGroupLayout; 2]) -> wgpu::RenderPipeline {
+    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+        label: Some("straightline geometry"),
+        source: wgpu::ShaderSource::Wgsl(GEOMETRY.into()),
+    });
     let drawn = Drawn {
         label: "straightline geometry",
-        layout,
+        layouts,
         module: &module,
         entries: ["corner", "texels"],
         targets: &[TEXEL_FORMAT, TEXEL_FORMAT],
@@ -104,7 +122,7 @@ fn shading_pipeline(device: &wgpu::Device, layout: &wgpu::BindGroupLayout) -> wg
     });
     device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
         label: Some("straightline shading"),
-        layout: Some(&pipeline_layout(device, layout)),
+        layout: Some(&pipeline_layout(device, &[layout])),
         module: &module,
         entry_point: Some("light"),
         compilation_options: wgpu::PipelineCompilationOptions::default(),
@@ -112,10 +130,12 @@ fn shading_pipeline(device: &wgpu::Device, layout: &wgpu::BindGroupLayout) -> wg
     })
 }
 
-pub(super) fn pipeline_layout(device: &wgpu::Device, group: &wgpu::BindGroupLayout) -> wgpu::PipelineLayout {
+/// Groups 0, 1, ...
+pub(super) fn pipeline_layout(device: &wgpu::Device, groups: &[&wgpu::BindGroupLayout]) -> wgpu::PipelineLayout {
+    let groups: Vec<_> = groups.iter().map(|group| Some(*group)).collect();
     device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
         label: None,
-        bind_group_layouts: &[Some(group)],
+        bind_group_layouts: &groups,
         immediate_size: 0,
     })
 }

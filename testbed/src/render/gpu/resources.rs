@@ -28,6 +28,8 @@ pub(super) struct Resources {
     /// A sum of colours for each pixel, row by row from the top.
     pub colors: wgpu::Buffer,
     pub geometry_group: wgpu::BindGroup,
+    /// Images and texels of the scene's textures.
+    pub texture_group: wgpu::BindGroup,
     pub shading_group: wgpu::BindGroup,
 }
 
@@ -43,7 +45,9 @@ pub(super) fn check_limits(device: &wgpu::Device, scene: &Scene, size: UVec2) ->
     let vertices = scene.vertices.len() as u64 * size_of::<Vertex>() as u64;
     let indices = scene.triangles.len() as u64 * size_of::<[u32; 3]>() as u64;
     let storage = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size);
+    let texels = 4 * scene.textures.texels.len() as u64;
     let checks = [
+        ("storage buffers", storage, texels, "scene"),
         ("storage buffers", storage, sums, "picture"),
         ("buffers", limits.max_buffer_size, vertices, "scene"),
         // Its number of indices is 32 bits, too.
@@ -71,6 +75,14 @@ impl Resources {
         };
         let vertices = filled(BufferUsages::VERTEX, bytemuck::cast_slice(&scene.vertices));
         let indices = filled(BufferUsages::INDEX, bytemuck::cast_slice(&scene.triangles));
+        let images = filled(
+            BufferUsages::STORAGE,
+            some(bytemuck::cast_slice(&scene.textures.images)),
+        );
+        let texels = filled(
+            BufferUsages::STORAGE,
+            some(bytemuck::cast_slice(&scene.textures.texels)),
+        );
         let lighting = filled(BufferUsages::UNIFORM, bytemuck::bytes_of(&Lighting::new(scene, size)));
         let pass = empty(
             device,
@@ -89,6 +101,8 @@ impl Resources {
         let view = |texture: &wgpu::Texture| texture.create_view(&wgpu::TextureViewDescriptor::default());
         let (normal_depth_view, color_material_view) = (view(&normal_depth), view(&color_material));
         let geometry_group = group(device, &pipelines.geometry_layout, &[pass.as_entire_binding()]);
+        let textures = [images.as_entire_binding(), texels.as_entire_binding()];
+        let texture_group = group(device, &pipelines.texture_layout, &textures);
         let shading_group = group(
             device,
             &pipelines.shading_layout,
@@ -110,8 +124,17 @@ impl Resources {
             depth: target(device, size, DEPTH_FORMAT, TextureUsages::empty()),
             colors,
             geometry_group,
+            texture_group,
             shading_group,
         }
+    }
+}
+
+/// What a scene has, or of a scene without textures what nobody reads: no buffer is empty.
+fn some(bytes: &[u8]) -> &[u8] {
+    match bytes {
+        [] => &[0; 32],
+        bytes => bytes,
     }
 }
 

@@ -6,6 +6,8 @@ struct Pass {
     size: vec2u,
     offset: vec2f,
     keep: f32,
+    evaluations: u32,
+    pixel_angle: f32,
 }
 
 @group(0) @binding(0) var<uniform> frame: Pass;

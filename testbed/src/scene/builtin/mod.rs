@@ -8,7 +8,7 @@ pub(super) mod square;
 pub(super) mod stair;
 
 use super::mesh::Mesh;
-use super::{Camera, Scene, Sky, Sun};
+use super::{Camera, Scene, Sky, Sun, Textures};
 use glam::vec3;
 
 /// Linear reflectances.
@@ -35,6 +35,7 @@ pub fn builtin() -> Scene {
     Scene {
         vertices: mesh.vertices,
         triangles: mesh.triangles,
+        textures: Textures::default(),
         sun: Sun {
             direction: vec3(0.58, 0.56, 0.60).normalize().into(),
             color: [1.02, 0.86, 0.63],

@@ -3,7 +3,7 @@
 use super::MAX_TRIANGLES;
 use super::surface::{face_normal, flat_normals, smooth_normals};
 use crate::scene::{Material, Vertex};
-use glam::{DVec3, Vec3};
+use glam::{DVec2, DVec3, UVec2, Vec2, Vec3};
 
 /// A stretch of triangles as a file gives them, in the file's world space. Nothing of it is trusted.
 pub(super) struct Part {
@@ -13,7 +13,17 @@ pub(super) struct Part {
     pub normals: Normals,
     /// Linear; one for each position.
     pub colors: Vec<Vec3>,
+    pub paint: Option<Paint>,
     pub triangles: Vec<[u32; 3]>,
+}
+
+/// A texture on a part.
+pub(super) struct Paint {
+    /// One for each position.
+    pub uvs: Vec<Vec2>,
+    /// Number of the image, and its size.
+    pub image: u32,
+    pub size: UVec2,
 }
 
 /// Where a part's normals come from.
@@ -84,6 +94,17 @@ fn check(part: &Part) -> Result<(), String> {
     if let Some(at) = part.colors.iter().position(|color| !color.is_finite()) {
         return Err(format!("{name}: vertex {at} has the colour {}", part.colors[at]));
     }
+    if let Some(paint) = &part.paint {
+        if paint.uvs.len() != count {
+            let found = paint.uvs.len();
+            return Err(format!(
+                "{name}: there are {found} texture coordinates for {count} vertices"
+            ));
+        }
+        if let Some(at) = paint.uvs.iter().position(|uv| !uv.is_finite()) {
+            return Err(format!("{name}: vertex {at} lies at {} of its texture", paint.uvs[at]));
+        }
+    }
     let beyond = |triangle: &&[u32; 3]| triangle.iter().any(|index| *index as usize >= count);
     if let Some(triangle) = part.triangles.iter().find(beyond) {
         return Err(format!(
@@ -101,6 +122,23 @@ fn check(part: &Part) -> Result<(), String> {
         },
         Normals::Flat | Normals::Smooth => Ok(()),
     }
+}
+
+/// Texels to a unit of length around each position: by the areas in the image and in space of the triangles that it is a corner of.
+fn densities(part: &Part, paint: &Paint) -> Vec<f32> {
+    let mut areas = vec![DVec2::ZERO; part.positions.len()];
+    let texels = paint.size.as_dvec2();
+    for triangle in &part.triangles {
+        let [a, b, c] = triangle.map(|index| part.positions[index as usize].as_dvec3());
+        let [p, q, r] = triangle.map(|index| paint.uvs[index as usize].as_dvec2() * texels);
+        let both = DVec2::new((q - p).perp_dot(r - p).abs(), (b - a).cross(c - a).length());
+        triangle.iter().for_each(|index| areas[*index as usize] += both);
+    }
+    let density = |area: DVec2| (area.x / area.y).sqrt() as f32;
+    areas
+        .into_iter()
+        .map(|area| if area.y > 0.0 { density(area) } else { 0.0 })
+        .collect()
 }
 
 impl Assembled {
@@ -124,6 +162,7 @@ impl Assembled {
             Normals::Flat => flat_normals(&part.positions, &triangles),
             Normals::Smooth => smooth_normals(&part.positions, &triangles),
         };
+        let density = part.paint.as_ref().map(|paint| densities(&part, paint));
         let mut last: Vec<Option<(u32, Vec3)>> = vec![None; part.positions.len()];
         for (triangle, normals) in triangles.into_iter().zip(normals) {
             let mut indices = [0, 1, 2].map(|i: usize| {
@@ -139,6 +178,12 @@ impl Assembled {
                             normal: normals[i].into(),
                             color: part.colors[triangle[i] as usize].clamp(Vec3::ZERO, Vec3::ONE).into(),
                             material: Material::Plain as u32,
+                            uv: part
+                                .paint
+                                .as_ref()
+                                .map_or([0.0; 2], |p| p.uvs[triangle[i] as usize].into()),
+                            texture: part.paint.as_ref().map_or(0, |paint| paint.image + 1),
+                            density: density.as_ref().map_or(0.0, |density| density[triangle[i] as usize]),
                         });
                         index
                     }
@@ -177,6 +222,7 @@ impl Assembled {
         };
         for vertex in &mut self.vertices {
             vertex.position = self.place.of(vertex.position.into()).into();
+            vertex.density = (f64::from(vertex.density) / self.place.scale) as f32;
         }
         Ok(())
     }

@@ -1,22 +1,22 @@
 //! glTF 2.0, as text or binary.
 
 use super::accessor::{floats, indices};
-use super::assemble::{Normals, Part};
+use super::assemble::{Normals, Paint, Part};
 use super::parse::{parse, unescaped};
-use super::texture::Texture;
+use super::texture::{HALF, Library, decode};
 use super::{MAX_BYTES, MAX_TRIANGLES, read_file};
-use crate::scene::SceneError;
+use crate::scene::{Image, SceneError, Textures};
 use glam::{Mat3, Mat4, Vec2, Vec3};
 use gltf::buffer::Data;
+use gltf::material::AlphaMode;
 use gltf::mesh::{Mode, Primitive};
 use gltf::{Document, Semantic};
-use std::collections::hash_map::Entry;
-use std::collections::{HashMap, HashSet};
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 use straightline_codegen::{files, shorten};
 
-/// Every mesh of the default scene, in world space.
-pub(super) fn read(path: &Path) -> Result<Vec<Part>, SceneError> {
+/// Every mesh of the default scene, in world space, and its textures.
+pub(super) fn read(path: &Path) -> Result<(Vec<Part>, Textures), SceneError> {
     let bytes = read_file(path)?;
     let parts = || {
         let (document, blob) = parse(&bytes)?;
@@ -87,11 +87,11 @@ struct Model<'a> {
 }
 
 impl Model<'_> {
-    fn parts(&self) -> Result<Vec<Part>, String> {
+    fn parts(&self) -> Result<(Vec<Part>, Textures), String> {
         let scene = self.document.default_scene().or_else(|| self.document.scenes().next());
         let scene = scene.ok_or("it has no scene")?;
         let mut parts = Vec::new();
-        let mut textures = HashMap::new();
+        let mut library = Library::new();
         let mut triangles = 0;
         // A list rather than recursion: a file may nest its nodes as deeply, or in as vicious circles, as it likes.
         let mut seen = HashSet::new();
@@ -104,7 +104,7 @@ impl Model<'_> {
             for primitive in node.mesh().iter().flat_map(|mesh| mesh.primitives()) {
                 let mesh = node.mesh().map_or(0, |mesh| mesh.index());
                 let name = format!("mesh {mesh}, primitive {}", primitive.index());
-                let part = self.part(&name, &primitive, place, &mut textures);
+                let part = self.part(&name, &primitive, place, &mut library);
                 let part = part.map_err(|problem| format!("{name}: {problem}"))?;
                 triangles += part.triangles.len();
                 if triangles > MAX_TRIANGLES {
@@ -114,7 +114,7 @@ impl Model<'_> {
             }
             ahead.extend(node.children().map(|child| (child, place)));
         }
-        Ok(parts)
+        Ok((parts, library.finish()))
     }
 
     fn part(
@@ -122,7 +122,7 @@ impl Model<'_> {
         name: &str,
         primitive: &Primitive,
         place: Mat4,
-        textures: &mut HashMap<usize, Texture>,
+        library: &mut Library<usize>,
     ) -> Result<Part, String> {
         let positions = primitive.get(&Semantic::Positions).ok_or("it has no positions")?;
         let positions = vectors(&floats::<3>(&positions, self.buffers)?);
@@ -141,7 +141,8 @@ impl Model<'_> {
         };
         Ok(Part {
             name: name.to_owned(),
-            colors: self.colors(primitive, positions.len(), textures)?,
+            colors: self.colors(primitive, positions.len())?,
+            paint: self.paint(primitive, library)?,
             positions: positions
                 .into_iter()
                 .map(|position| place.transform_point3(position))
@@ -152,12 +153,7 @@ impl Model<'_> {
     }
 
     /// Linear colour of each of `count` vertices.
-    fn colors(
-        &self,
-        primitive: &Primitive,
-        count: usize,
-        textures: &mut HashMap<usize, Texture>,
-    ) -> Result<Vec<Vec3>, String> {
+    fn colors(&self, primitive: &Primitive, count: usize) -> Result<Vec<Vec3>, String> {
         let material = primitive.material().pbr_metallic_roughness();
         let [r, g, b, _] = material.base_color_factor();
         let mut colors = vec![Vec3::new(r, g, b); count];
@@ -166,10 +162,7 @@ impl Model<'_> {
                 colors.iter_mut().zip(tints).for_each(|(color, tint)| *color *= tint);
                 Ok(())
             }
-            false => Err(format!(
-                "{} colours or texture coordinates for {count} vertices",
-                tints.len()
-            )),
+            false => Err(format!("{} colours for {count} vertices", tints.len())),
         };
         if let Some(accessor) = primitive.get(&Semantic::Colors(0)) {
             tint(match accessor.dimensions() {
@@ -180,36 +173,50 @@ impl Model<'_> {
                 _ => vectors(&floats::<3>(&accessor, self.buffers)?),
             })?;
         }
-        if let Some(info) = material.base_color_texture()
-            && let Some(accessor) = primitive.get(&Semantic::TexCoords(info.tex_coord()))
-        {
-            let image = info.texture().source();
-            let texture = match textures.entry(image.index()) {
-                Entry::Occupied(texture) => texture.into_mut(),
-                Entry::Vacant(place) => place.insert(self.texture(&image)?),
-            };
-            let coordinates = floats::<2>(&accessor, self.buffers)?;
-            tint(coordinates.into_iter().map(|uv| texture.at(Vec2::from(uv))).collect())?;
-        }
         Ok(colors)
     }
 
-    fn texture(&self, image: &gltf::Image) -> Result<Texture, String> {
-        let bytes = || match image.source() {
+    /// The base colour texture, if there is one, and holes where the material has them.
+    fn paint(&self, primitive: &Primitive, library: &mut Library<usize>) -> Result<Option<Paint>, String> {
+        let material = primitive.material();
+        let base = material.pbr_metallic_roughness();
+        let Some(info) = base.base_color_texture() else {
+            return Ok(None);
+        };
+        let Some(accessor) = primitive.get(&Semantic::TexCoords(info.tex_coord())) else {
+            return Ok(None);
+        };
+        let source = info.texture().source();
+        let image = match library.get(&source.index()) {
+            Some(image) => image,
+            None => self
+                .picture(&source)
+                .and_then(|picture| library.add(source.index(), &picture, 0.0))
+                .map_err(|problem| format!("image {}: {problem}", source.index()))?,
+        };
+        // What is blended is there or not: nothing is drawn through anything.
+        let of_texture = |cutoff: f32| cutoff / base.base_color_factor()[3].max(1.0e-6);
+        let cutoff = match material.alpha_mode() {
+            AlphaMode::Opaque => 0.0,
+            AlphaMode::Mask => of_texture(material.alpha_cutoff().unwrap_or(HALF)),
+            AlphaMode::Blend => of_texture(HALF),
+        };
+        let uvs = floats::<2>(&accessor, self.buffers)?.into_iter().map(Vec2::from);
+        Ok(Some(library.paint(Image { cutoff, ..image }, uvs.collect())))
+    }
+
+    fn picture(&self, image: &gltf::Image) -> Result<image::RgbaImage, String> {
+        let bytes = match image.source() {
             gltf::image::Source::View { view, .. } => {
                 let bytes = self.buffers.get(view.buffer().index()).and_then(|buffer| {
                     let end = view.offset().checked_add(view.length())?;
                     buffer.get(view.offset()..end)
                 });
-                bytes
-                    .map(<[u8]>::to_vec)
-                    .ok_or_else(|| "reaches beyond its buffer".to_owned())
+                bytes.ok_or("reaches beyond its buffer")?.to_vec()
             }
-            gltf::image::Source::Uri { uri, .. } => resource(uri, self.base),
+            gltf::image::Source::Uri { uri, .. } => resource(uri, self.base)?,
         };
-        bytes()
-            .and_then(|bytes| Texture::decode(&bytes))
-            .map_err(|problem| format!("image {}: {problem}", image.index()))
+        decode(&bytes)
     }
 }
 

@@ -24,9 +24,9 @@ pub const MAX_TRIANGLES: usize = 1 << 25;
 ///
 /// - Every triangle of the default scene is read, at its node's place; skins, morph targets and animations are not
 ///   applied, points and lines not drawn.
-/// - A vertex's colour is the base colour (`Kd` in OBJ, taken as linear) times the vertex's own, times the base
-///   colour texture (PNG or JPEG) read at the nearest texel. A texture's detail between vertices is thus lost, as
-///   is transparency.
+/// - A surface's colour is the base colour (`Kd` in OBJ, taken as linear) times the vertices' own, times the base colour texture
+///   (PNG or JPEG), filtered, which repeats. Where the texture's alpha is below glTF's cutoff, or one half of what is blended there
+///   and of OBJ (the alpha of `map_Kd`, or the brightness of `map_d`), there is a hole: nothing is drawn half transparent.
 /// - Missing normals are made: the faces' own for glTF, as it asks, and for OBJ smoothed across edges of less than
 ///   55°.
 /// - The model is moved and scaled so that its bounding box is centred on the origin and has a diagonal of 10
@@ -47,7 +47,7 @@ pub fn load(path: &Path) -> Result<Scene, SceneError> {
 /// As [`load()`], and [`SceneError::Unusable`] for a viewpoint from which nothing can be seen.
 pub fn load_seen(path: &Path, viewpoint: &Viewpoint) -> Result<Scene, SceneError> {
     let extension = path.extension().and_then(|e| e.to_str()).unwrap_or_default();
-    let parts = match extension.to_ascii_lowercase().as_str() {
+    let (parts, textures) = match extension.to_ascii_lowercase().as_str() {
         "gltf" | "glb" => gltf::read(path)?,
         "obj" => obj::read(path)?,
         _ => return Err(SceneError::UnknownExtension { path: path.to_owned() }),
@@ -64,6 +64,7 @@ pub fn load_seen(path: &Path, viewpoint: &Viewpoint) -> Result<Scene, SceneError
     let scene = Scene {
         vertices: mesh.vertices,
         triangles: mesh.triangles,
+        textures,
         sun: Sun {
             direction: Vec3::new(0.35, 0.75, 0.55).normalize().into(),
             color: [0.75, 0.71, 0.64],

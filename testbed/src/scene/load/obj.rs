@@ -1,13 +1,11 @@
 //! Wavefront OBJ with its material libraries.
 
-use super::assemble::{Normals, Part};
+use super::assemble::{Normals, Paint, Part};
 use super::read_file;
-use super::texture::Texture;
-use crate::scene::SceneError;
+use super::texture::{Library, cutoff, decode};
+use crate::scene::{Image, SceneError, Textures};
 use glam::{Vec3, vec2, vec3};
 use std::cell::RefCell;
-use std::collections::HashMap;
-use std::collections::hash_map::Entry;
 use std::path::{Path, PathBuf};
 use tobj::{LoadError, Material, Mesh};
 
@@ -21,8 +19,8 @@ const OPTIONS: tobj::LoadOptions = tobj::LoadOptions {
     ignore_lines: true,
 };
 
-/// Every object of the file.
-pub(super) fn read(path: &Path) -> Result<Vec<Part>, SceneError> {
+/// Every object of the file, and its textures.
+pub(super) fn read(path: &Path) -> Result<(Vec<Part>, Textures), SceneError> {
     let bytes = read_file(path)?;
     check_faces(path, &bytes)?;
     let base = path.parent().unwrap_or(Path::new(""));
@@ -49,13 +47,14 @@ pub(super) fn read(path: &Path) -> Result<Vec<Part>, SceneError> {
     }
     // Any error here is the one just returned.
     let materials = materials.unwrap_or_default();
-    let mut textures = HashMap::new();
+    let mut library = Library::new();
     let part = |model: tobj::Model| {
         let material = model.mesh.material_id.and_then(|id| materials.get(id));
-        let colors = colors(&model.mesh, material, base, &mut textures)?;
-        Ok(part(model, colors))
+        let paint = paint(&model.mesh, material, base, &mut library)?;
+        Ok(part(model, material, paint))
     };
-    models.into_iter().map(part).collect()
+    let parts: Result<Vec<Part>, SceneError> = models.into_iter().map(part).collect();
+    Ok((parts?, library.finish()))
 }
 
 /// Reads a material library. Of an error, the second form is worth showing.
@@ -132,7 +131,7 @@ fn in_line(path: &Path, at: usize, problem: &str) -> SceneError {
     }
 }
 
-fn part(model: tobj::Model, colors: Vec<Vec3>) -> Part {
+fn part(model: tobj::Model, material: Option<&Material>, paint: Option<Paint>) -> Part {
     let vectors = |numbers: &[f32]| -> Vec<Vec3> { numbers.chunks_exact(3).map(Vec3::from_slice).collect() };
     let mesh = &model.mesh;
     Part {
@@ -142,18 +141,14 @@ fn part(model: tobj::Model, colors: Vec<Vec3>) -> Part {
             [] => Normals::Smooth,
             normals => Normals::Given(vectors(normals)),
         },
-        colors,
+        colors: colors(mesh, material),
+        paint,
         triangles: mesh.indices.chunks_exact(3).map(|c| [c[0], c[1], c[2]]).collect(),
     }
 }
 
 /// Linear colour of each vertex.
-fn colors(
-    mesh: &Mesh,
-    material: Option<&Material>,
-    base: &Path,
-    textures: &mut HashMap<PathBuf, Texture>,
-) -> Result<Vec<Vec3>, SceneError> {
+fn colors(mesh: &Mesh, material: Option<&Material>) -> Vec<Vec3> {
     let count = mesh.positions.len() / 3;
     let mut colors = vec![material.and_then(|m| m.diffuse).map_or(PLAIN, Vec3::from); count];
     for (color, own) in colors.iter_mut().zip(mesh.vertex_color.chunks_exact(3)) {
@@ -161,27 +156,60 @@ fn colors(
         let ground = if material.is_some() { *color } else { Vec3::ONE };
         *color = ground * vec3(own[0], own[1], own[2]);
     }
-    if let Some(name) = material.and_then(|m| m.diffuse_texture.as_ref())
-        && !mesh.texcoords.is_empty()
-    {
-        // Some exporters write the paths of the system that they run on.
-        let path = base.join(name.replace('\\', "/"));
-        let texture = match textures.entry(path) {
-            Entry::Occupied(texture) => texture.into_mut(),
-            Entry::Vacant(place) => {
-                let decoded = Texture::decode(&read_file(place.key())?);
-                let malformed = |problem| SceneError::Malformed {
-                    path: place.key().clone(),
-                    problem,
-                };
-                let texture = decoded.map_err(malformed)?;
-                place.insert(texture)
+    colors
+}
+
+/// The texture of a material's colour, its holes by its own alpha or by another texture's brightness.
+fn paint(
+    mesh: &Mesh,
+    material: Option<&Material>,
+    base: &Path,
+    library: &mut Library<[Option<PathBuf>; 2]>,
+) -> Result<Option<Paint>, SceneError> {
+    // Some exporters write the paths of the system that they run on.
+    let path = |name: &String| base.join(name.replace('\\', "/"));
+    let names = material.map(|m| [&m.diffuse_texture, &m.dissolve_texture]);
+    let key = names.map(|names| names.map(|name| name.as_ref().map(path)));
+    let Some(key) = key.filter(|key| key.iter().any(Option::is_some) && !mesh.texcoords.is_empty()) else {
+        return Ok(None);
+    };
+    let image = match library.get(&key) {
+        Some(image) => image,
+        None => add(library, key)?,
+    };
+    // Here v points up.
+    let uvs = mesh.texcoords.chunks_exact(2).map(|uv| vec2(uv[0], 1.0 - uv[1]));
+    Ok(Some(library.paint(image, uvs.collect())))
+}
+
+fn add(library: &mut Library<[Option<PathBuf>; 2]>, key: [Option<PathBuf>; 2]) -> Result<Image, SceneError> {
+    let malformed = |path: &PathBuf, problem| SceneError::Malformed {
+        path: path.clone(),
+        problem,
+    };
+    let picture = |path: &PathBuf| decode(&read_file(path)?).map_err(|problem| malformed(path, problem));
+    let [color, holes] = [
+        key[0].as_ref().map(picture).transpose()?,
+        key[1].as_ref().map(picture).transpose()?,
+    ];
+    let both = match (color, holes) {
+        (Some(color), None) => color,
+        (color, Some(holes)) => {
+            let mut color = color.unwrap_or_else(|| image::RgbaImage::from_pixel(1, 1, image::Rgba([255; 4])));
+            if color.dimensions() != holes.dimensions() {
+                let (width, height) = holes.dimensions();
+                color = image::imageops::resize(&color, width, height, image::imageops::FilterType::Triangle);
             }
-        };
-        // Here v points up.
-        for (color, uv) in colors.iter_mut().zip(mesh.texcoords.chunks_exact(2)) {
-            *color *= texture.at(vec2(uv[0], 1.0 - uv[1]));
+            for (texel, hole) in color.pixels_mut().zip(holes.pixels()) {
+                texel.0[3] = hole.0[0];
+            }
+            color
         }
-    }
-    Ok(colors)
+        (None, None) => unreachable!("a key names a texture"),
+    };
+    let cutoff = cutoff(&both);
+    let named = key.iter().flatten().next().cloned().unwrap_or_default();
+    library
+        .add(key, &both, cutoff)
+        .map_err(|problem| malformed(&named, problem))
 }

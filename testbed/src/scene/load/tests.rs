@@ -116,20 +116,50 @@ fn gltf_of_the_first_version_is_named() {
 }
 
 #[test]
-fn textures_are_read_at_vertices() {
+fn textures_lie_on_surfaces() {
     let scratch = Scratch::new("texture");
     // Red above blue.
     let image = image::RgbImage::from_raw(1, 2, vec![255, 0, 0, 0, 0, 255]).expect("two pixels");
     image.save(scratch.0.join("flag.png")).expect("a file for the test");
-    scratch.file("paint.mtl", "newmtl flag\nKd 1 1 1\nmap_Kd flag.png\n");
-    let text = "mtllib paint.mtl\nusemtl flag\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0.2\nvt 0 0.9\nf 1/1 2/1 3/2\n";
+    scratch.file("paint.mtl", "newmtl flag\nKd 1 0.5 1\nmap_Kd flag.png\n");
+    let text = "mtllib paint.mtl\nusemtl flag\nv 0 0 0\nv 4 0 0\nv 0 4 0\nvt 0 0\nvt 4 0\nvt 0 4\nf 1/1 2/2 3/3\n";
     let path = scratch.file("flag.obj", text);
-    let colors: Vec<[f32; 3]> = load(&path).expect("a scene").vertices.iter().map(|v| v.color).collect();
-    let (red, blue) = ([1.0, 0.0, 0.0], [0.0, 0.0, 1.0]);
-    assert_eq!(colors, [blue, blue, red]);
+    let scene = load(&path).expect("a scene");
+    let places: Vec<[f32; 2]> = scene.vertices.iter().map(|vertex| vertex.uv).collect();
+    // v points down in scenes.
+    assert_eq!(places, [[0.0, 1.0], [4.0, 1.0], [0.0, -3.0]]);
+    assert_eq!(scene.textures.images.len(), 1);
+    assert_eq!(
+        (scene.textures.images[0].levels, scene.textures.images[0].cutoff),
+        (2, 0.0)
+    );
+    for vertex in &scene.vertices {
+        assert_eq!((vertex.texture, vertex.color), (1, [1.0, 0.5, 1.0]));
+        // One repetition of 1×2 texels a unit of the file, whose diagonal of 4√2 is 10 here.
+        let unit = 10.0 / (4.0 * 2.0f32.sqrt());
+        assert!(
+            (vertex.density * unit - 2.0f32.sqrt()).abs() < 1.0e-5,
+            "{}",
+            vertex.density
+        );
+    }
 
+    // Holes by the brightness of another texture.
+    let holes = image::GrayImage::from_raw(1, 2, vec![255, 0]).expect("two pixels");
+    holes.save(scratch.0.join("holes.png")).expect("a file for the test");
+    scratch.file("paint.mtl", "newmtl flag\nKd 1 1 1\nmap_Kd flag.png\nmap_d holes.png\n");
+    let textures = load(&path).expect("a scene").textures;
+    assert_eq!(textures.images[0].cutoff, 0.5);
+    assert_eq!(textures.texels[..2], [0xff00_00ff, 0x00ff_0000]);
+
+    scratch.file("paint.mtl", "newmtl flag\nKd 1 1 1\nmap_Kd flag.png\n");
     scratch.file("flag.png", "no picture");
     assert!(refusal(&path).contains("flag.png"), "{}", refusal(&path));
+    let nowhere = text.replace("vt 0 4", "vt 0 inf");
+    let image = image::RgbImage::from_pixel(2, 2, image::Rgb([9; 3]));
+    image.save(scratch.0.join("flag.png")).expect("a file for the test");
+    let refused = refusal(&scratch.file("flag.obj", nowhere));
+    assert!(refused.contains("of its texture"), "{refused}");
 }
 
 #[test]

@@ -1,30 +1,73 @@
-//! Base colour textures, read at vertices only.
+//! Base colour textures of files.
 
-use crate::picture::srgb;
-use glam::{Vec2, Vec3, vec3};
+use super::assemble::Paint;
+use crate::scene::{Image, Textures};
+use glam::{Vec2, uvec2};
+use std::collections::HashMap;
+use std::hash::Hash;
 
-/// An image of sRGB colours that repeats in both directions.
-pub(super) struct Texture(image::RgbImage);
+/// Alpha from which on there is a surface, where a file does not say it.
+pub(super) const HALF: f32 = 0.5;
 
-impl Texture {
-    /// Decodes a PNG or JPEG file.
-    pub fn decode(bytes: &[u8]) -> Result<Self, String> {
-        let image = image::load_from_memory(bytes).map_err(|error| error.to_string())?;
-        // A file may declare an empty image.
-        match image.to_rgb8() {
-            image if image.width() > 0 && image.height() > 0 => Ok(Texture(image)),
-            _ => Err("it has no pixels".to_owned()),
+/// Textures of a file, each read once, by what the file calls them.
+pub(super) struct Library<K> {
+    textures: Textures,
+    read: HashMap<K, Image>,
+}
+
+impl<K: Hash + Eq> Library<K> {
+    pub fn new() -> Self {
+        Library {
+            textures: Textures::default(),
+            read: HashMap::new(),
         }
     }
 
-    /// Linear colour of the texel at `uv`: (0, 0) is the upper left corner, (1, 1) the lower right one.
-    pub fn at(&self, uv: Vec2) -> Vec3 {
-        let texel = |axis: f32, side: u32| ((axis.rem_euclid(1.0) * side as f32) as u32).min(side - 1);
-        let [r, g, b] = self
-            .0
-            .get_pixel(texel(uv.x, self.0.width()), texel(uv.y, self.0.height()))
-            .0
-            .map(|byte| srgb::decode(f32::from(byte) / 255.0));
-        vec3(r, g, b)
+    /// An image that has been read.
+    pub fn get(&self, key: &K) -> Option<Image> {
+        self.read.get(key).copied()
     }
+
+    /// Adds a picture, of surfaces that are there from an alpha of `cutoff` on.
+    pub fn add(&mut self, key: K, picture: &image::RgbaImage, cutoff: f32) -> Result<Image, String> {
+        let (first, levels) = self.textures.add(picture)?;
+        let image = Image {
+            first,
+            size: [picture.width(), picture.height()],
+            levels,
+            cutoff,
+        };
+        self.read.insert(key, image);
+        Ok(image)
+    }
+
+    /// An image on a part.
+    pub fn paint(&mut self, image: Image, uvs: Vec<Vec2>) -> Paint {
+        let images = &mut self.textures.images;
+        let number = images.iter().position(|known| *known == image).unwrap_or_else(|| {
+            images.push(image);
+            images.len() - 1
+        });
+        Paint {
+            uvs,
+            image: number as u32,
+            size: uvec2(image.size[0], image.size[1]),
+        }
+    }
+
+    pub fn finish(self) -> Textures {
+        self.textures
+    }
+}
+
+/// Decodes a PNG or JPEG file.
+pub(super) fn decode(bytes: &[u8]) -> Result<image::RgbaImage, String> {
+    let image = image::load_from_memory(bytes).map_err(|error| error.to_string())?;
+    Ok(image.to_rgba8())
+}
+
+/// From which alpha on a picture's surface is there, where the file does not say it: 0 of one without holes.
+pub(super) fn cutoff(image: &image::RgbaImage) -> f32 {
+    let has_holes = image.pixels().any(|pixel| pixel.0[3] < 128);
+    if has_holes { HALF } else { 0.0 }
 }

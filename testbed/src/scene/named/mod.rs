@@ -13,7 +13,7 @@ mod wires;
 
 use super::builtin::builtin;
 use super::mesh::Mesh;
-use super::{Camera, Scene, SceneError, Sky, Sun};
+use super::{Camera, Scene, SceneError, Sky, Sun, Textures};
 use glam::{Vec3, vec3};
 
 /// Every built-in scene: its name, and what it is for.
@@ -82,6 +82,7 @@ fn outdoors(mesh: Mesh, position: Vec3, target: Vec3, fov: f32) -> Scene {
     Scene {
         vertices: mesh.vertices,
         triangles: mesh.triangles,
+        textures: Textures::default(),
         sun: Sun {
             direction: vec3(0.45, 0.62, 0.64).normalize().into(),
             color: [1.02, 0.9, 0.72],

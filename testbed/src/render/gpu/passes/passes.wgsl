@@ -13,7 +13,7 @@ struct Auxiliary {
 
 @fragment
 fn auxiliary(surface: Corner, @builtin(front_facing) front: bool) -> Auxiliary {
-    if surface.material == CHAIN_LINK && !is_wire(surface.place) {
+    if seen(surface).hole {
         discard;
     }
     let normal = normalize(surface.normal);
@@ -48,12 +48,13 @@ fn deferred(@builtin(global_invocation_id) id: vec3u) {
 
 @fragment
 fn forward(surface: Corner, @builtin(front_facing) front: bool) -> @location(0) vec4f {
-    if surface.material == CHAIN_LINK && !is_wire(surface.place) {
+    let paint = seen(surface);
+    if paint.hole {
         discard;
     }
     let normal = normalize(surface.normal);
-    let seen = Surface(select(-normal, normal, front), surface.depth, surface.color, f32(surface.material));
-    return vec4f(evaluated(seen, surface.clip.xy), 1.0);
+    let nearest = Surface(select(-normal, normal, front), surface.depth, paint.color, f32(surface.material));
+    return vec4f(evaluated(nearest, surface.clip.xy), 1.0);
 }
 
 // A triangle around the picture, behind everything.

@@ -5,7 +5,7 @@ use crate::render::frame::{Lighting, Pass};
 use crate::render::gpu::GpuRenderer;
 use crate::render::gpu::drawing::{Drawn, view};
 use crate::render::gpu::multisampled::{self, DEPTH, Multisampled, NORMAL, multisampled_target};
-use crate::render::gpu::pipelines::{group_layout, pipeline_layout, texture, uniform};
+use crate::render::gpu::pipelines::{GEOMETRY, group_layout, pipeline_layout, texture, uniform};
 use crate::render::gpu::resources::{DEPTH_FORMAT, empty, group};
 use crate::scene::Scene;
 use glam::UVec2;
@@ -52,11 +52,7 @@ pub(super) struct Forward {
 /// Makes everything. Errors are the caller's to catch.
 pub(super) fn passes(renderer: GpuRenderer, scene: &Scene, evaluations: u32) -> FramePasses {
     let (device, size) = (&renderer.device, renderer.size);
-    let text = [
-        include_str!("../geometry.wgsl"),
-        include_str!("../../shade.wgsl"),
-        include_str!("passes.wgsl"),
-    ];
+    let text = [GEOMETRY, include_str!("../../shade.wgsl"), include_str!("passes.wgsl")];
     let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
         label: Some("straightline frame"),
         source: wgpu::ShaderSource::Wgsl(text.join("\n").into()),
@@ -114,7 +110,7 @@ pub(super) fn passes(renderer: GpuRenderer, scene: &Scene, evaluations: u32) -> 
     let auxiliary_normal = layered(device, size, layers, NORMAL, TextureUsages::RENDER_ATTACHMENT);
     let auxiliary = Drawn {
         label: "straightline auxiliary geometry",
-        layout: &renderer.pipelines.geometry_layout,
+        layouts: renderer.pipelines.drawing(),
         module: &module,
         entries: ["corner", "auxiliary"],
         targets: &[DEPTH, NORMAL],
@@ -130,7 +126,7 @@ pub(super) fn passes(renderer: GpuRenderer, scene: &Scene, evaluations: u32) -> 
             .collect(),
         auxiliary_depth,
         auxiliary_normal,
-        multisampled: Multisampled::new(device, size, &renderer.pipelines.geometry_layout),
+        multisampled: Multisampled::new(device, size, renderer.pipelines.drawing()),
         picture: layered(device, size, 1, COLOR, usage),
     };
     let means = Samples::ALL.map(|samples| mean(device, samples.count(), &colors, &targets.picture));
@@ -139,6 +135,7 @@ pub(super) fn passes(renderer: GpuRenderer, scene: &Scene, evaluations: u32) -> 
         device,
         size,
         &module,
+        &renderer.pipelines.texture_layout,
         &[pass.as_entire_binding(), lighting.as_entire_binding()],
     );
     FramePasses {
@@ -154,13 +151,14 @@ fn forward(
     device: &wgpu::Device,
     size: UVec2,
     module: &wgpu::ShaderModule,
+    texture_layout: &wgpu::BindGroupLayout,
     bindings: &[wgpu::BindingResource<'_>],
 ) -> Forward {
     let seen = ShaderStages::VERTEX_FRAGMENT;
     let layout = group_layout(device, &[(seen, uniform()), (seen, uniform())]);
     let surfaces = Drawn {
         label: "straightline forward",
-        layout: &layout,
+        layouts: [&layout, texture_layout],
         module,
         entries: ["corner", "forward"],
         targets: &[COLOR],
@@ -233,7 +231,7 @@ fn compute_pipeline(
 ) -> wgpu::ComputePipeline {
     device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
         label: Some("straightline frame"),
-        layout: Some(&pipeline_layout(device, layout)),
+        layout: Some(&pipeline_layout(device, &[layout])),
         module,
         entry_point: Some(entry),
         compilation_options: wgpu::PipelineCompilationOptions::default(),
