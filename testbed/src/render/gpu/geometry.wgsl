@@ -1,4 +1,5 @@
-// The geometry and colour of the nearest surface at one place in each pixel. Follows `paint.wgsl` in one module.
+// The geometry and colour of the nearest surface at one place in each pixel. Follows `paint.wgsl` in one module, which begins with
+// whether the scene has textures: what has none computes nothing of them.
 
 struct Pass {
     to_clip: mat4x4f,
@@ -53,7 +54,7 @@ struct Painted {
 }
 
 fn paint_of(number: u32, uv: vec2f, density: f32, place: vec3f, depth: f32, normal: vec3f) -> Painted {
-    if number == 0u {
+    if !HAS_TEXTURES || number == 0u {
         return Painted(vec4f(1.0), 0.0);
     }
     let image = images[number - 1u];

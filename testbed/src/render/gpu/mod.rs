@@ -40,7 +40,9 @@ impl GpuRenderer {
     pub fn new(device: &wgpu::Device, queue: &wgpu::Queue, scene: &Scene, size: UVec2) -> Result<Self, RenderError> {
         scene.check()?;
         check_limits(device, scene, size)?;
-        let pipelines = guarded(device, "compiling the renderer's shaders", || Pipelines::new(device))?;
+        let pipelines = guarded(device, "compiling the renderer's shaders", || {
+            Pipelines::new(device, scene)
+        })?;
         let resources = guarded(device, "uploading the scene", || {
             Resources::new(device, queue, &pipelines, scene, size)
         })?;

@@ -2,7 +2,7 @@
 
 use super::drawing::{Drawing, Drawn, Target, view};
 use super::guard::guarded;
-use super::pipelines::{GEOMETRY, group_layout, pipeline_layout, storage, uniform};
+use super::pipelines::{Pipelines, group_layout, pipeline_layout, storage, uniform};
 use super::resources::{DEPTH_FORMAT, Resources, group};
 use super::{GpuRenderer, read};
 use crate::render::RenderError;
@@ -154,7 +154,7 @@ impl GpuRenderer {
     pub fn multisampled(&self) -> Result<MultisampledGeometry, RenderError> {
         let device = &self.device;
         guarded(device, "drawing multisampled geometry", || {
-            let targets = Multisampled::new(device, self.size, self.pipelines.drawing());
+            let targets = Multisampled::new(device, self.size, &self.pipelines);
             let pass = Pass::new(&self.camera, self.size, Vec2::ZERO);
             self.queue
                 .write_buffer(&self.resources.pass, 0, bytemuck::bytes_of(&pass));
@@ -177,10 +177,10 @@ pub(super) struct Multisampled {
 
 impl Multisampled {
     /// For pictures of `size`, and groups of `layout`.
-    pub fn new(device: &wgpu::Device, size: UVec2, layouts: [&wgpu::BindGroupLayout; 2]) -> Self {
+    pub fn new(device: &wgpu::Device, size: UVec2, pipelines: &Pipelines) -> Self {
         let target = |format, usage| multisampled_target(device, size, format, usage);
         Multisampled {
-            pipeline: pipeline(device, layouts),
+            pipeline: pipeline(device, pipelines),
             depth: target(DEPTH, TextureUsages::TEXTURE_BINDING),
             normal: target(NORMAL, TextureUsages::TEXTURE_BINDING),
             tested: target(DEPTH_FORMAT, TextureUsages::empty()),
@@ -242,15 +242,15 @@ pub(super) fn multisampled_target(
     })
 }
 
-fn pipeline(device: &wgpu::Device, layouts: [&wgpu::BindGroupLayout; 2]) -> wgpu::RenderPipeline {
-    let text = [GEOMETRY, include_str!("multisampled.wgsl")].join("\n");
+fn pipeline(device: &wgpu::Device, pipelines: &Pipelines) -> wgpu::RenderPipeline {
+    let text = [&pipelines.geometry_text, include_str!("multisampled.wgsl")].join("\n");
     let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
         label: Some("straightline multisampled geometry"),
         source: wgpu::ShaderSource::Wgsl(text.into()),
     });
     let drawn = Drawn {
         label: "straightline multisampled geometry",
-        layouts,
+        layouts: pipelines.drawing(),
         module: &module,
         entries: ["sampled_corner", "sampled_texels"],
         targets: &[DEPTH, NORMAL],

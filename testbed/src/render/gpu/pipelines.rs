@@ -2,6 +2,7 @@
 
 use super::drawing::{Drawing, Drawn, Target, view};
 use super::resources::{Resources, TEXEL_FORMAT};
+use crate::scene::Scene;
 use glam::UVec2;
 use wgpu::{BindingType, BufferBindingType, ShaderStages};
 
@@ -10,6 +11,8 @@ pub(super) const WORKGROUP: u32 = 8;
 
 #[derive(Debug)]
 pub(super) struct Pipelines {
+    /// What the text of every shader that draws the scene begins with.
+    pub geometry_text: String,
     geometry: wgpu::RenderPipeline,
     shading: wgpu::ComputePipeline,
     pub geometry_layout: wgpu::BindGroupLayout,
@@ -18,7 +21,8 @@ pub(super) struct Pipelines {
 }
 
 impl Pipelines {
-    pub fn new(device: &wgpu::Device) -> Self {
+    pub fn new(device: &wgpu::Device, scene: &Scene) -> Self {
+        let geometry_text = geometry_text(scene);
         let geometry_layout = group_layout(device, &[(ShaderStages::VERTEX_FRAGMENT, uniform())]);
         let read = (
             ShaderStages::FRAGMENT,
@@ -37,8 +41,9 @@ impl Pipelines {
             ],
         );
         Pipelines {
-            geometry: geometry_pipeline(device, [&geometry_layout, &texture_layout]),
+            geometry: geometry_pipeline(device, [&geometry_layout, &texture_layout], &geometry_text),
             shading: shading_pipeline(device, &shading_layout),
+            geometry_text,
             geometry_layout,
             texture_layout,
             shading_layout,
@@ -94,13 +99,16 @@ impl Pipelines {
     }
 }
 
-/// What draws the scene begins with.
-pub(super) const GEOMETRY: &str = concat!(include_str!("../paint.wgsl"), "\n", include_str!("geometry.wgsl"));
+fn geometry_text(scene: &Scene) -> String {
+    let has_textures = !scene.textures.images.is_empty();
+    let chosen = format!("const HAS_TEXTURES: bool = {has_textures};");
+    [&chosen, include_str!("../paint.wgsl"), include_str!("geometry.wgsl")].join("\n")
+}
 
-fn geometry_pipeline(device: &wgpu::Device, layouts: [&wgpu::BindGroupLayout; 2]) -> wgpu::RenderPipeline {
+fn geometry_pipeline(device: &wgpu::Device, layouts: [&wgpu::BindGroupLayout; 2], text: &str) -> wgpu::RenderPipeline {
     let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
         label: Some("straightline geometry"),
-        source: wgpu::ShaderSource::Wgsl(GEOMETRY.into()),
+        source: wgpu::ShaderSource::Wgsl(text.into()),
     });
     let drawn = Drawn {
         label: "straightline geometry",

@@ -5,7 +5,7 @@ use crate::render::frame::{Lighting, Pass};
 use crate::render::gpu::GpuRenderer;
 use crate::render::gpu::drawing::{Drawn, view};
 use crate::render::gpu::multisampled::{self, DEPTH, Multisampled, NORMAL, multisampled_target};
-use crate::render::gpu::pipelines::{GEOMETRY, group_layout, pipeline_layout, texture, uniform};
+use crate::render::gpu::pipelines::{group_layout, pipeline_layout, texture, uniform};
 use crate::render::gpu::resources::{DEPTH_FORMAT, empty, group};
 use crate::scene::Scene;
 use glam::UVec2;
@@ -52,7 +52,11 @@ pub(super) struct Forward {
 /// Makes everything. Errors are the caller's to catch.
 pub(super) fn passes(renderer: GpuRenderer, scene: &Scene, evaluations: u32) -> FramePasses {
     let (device, size) = (&renderer.device, renderer.size);
-    let text = [GEOMETRY, include_str!("../../shade.wgsl"), include_str!("passes.wgsl")];
+    let text = [
+        &renderer.pipelines.geometry_text,
+        include_str!("../../shade.wgsl"),
+        include_str!("passes.wgsl"),
+    ];
     let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
         label: Some("straightline frame"),
         source: wgpu::ShaderSource::Wgsl(text.join("\n").into()),
@@ -126,7 +130,7 @@ pub(super) fn passes(renderer: GpuRenderer, scene: &Scene, evaluations: u32) -> 
             .collect(),
         auxiliary_depth,
         auxiliary_normal,
-        multisampled: Multisampled::new(device, size, renderer.pipelines.drawing()),
+        multisampled: Multisampled::new(device, size, &renderer.pipelines),
         picture: layered(device, size, 1, COLOR, usage),
     };
     let means = Samples::ALL.map(|samples| mean(device, samples.count(), &colors, &targets.picture));
