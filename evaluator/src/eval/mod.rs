@@ -1,7 +1,7 @@
 //! The partial evaluator: runs a kernel on values of which some are known now and others at run time.
 //!
 //! What is known is computed, as rustc's own code would compute it. What is not becomes a node of the graph.
-//! Loops are run, or kept as loops, as the [`Unroll`] policy says; calls are always inlined.
+//! Loops are run, or kept as loops, as the [`Unroll`](crate::policy::Unroll) policy says; calls are always inlined.
 
 mod ascribe;
 mod assign;

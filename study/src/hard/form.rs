@@ -96,6 +96,7 @@ impl Form {
                 Sraa,
                 &[("resolve", "gaussian"), ("resolve-radius", "1.25")],
             ),
+            Form::new("sraa split", Sraa, &[("layout", "split")]),
             Form::new("sraa relative", Sraa, &[("difference", "relative")]),
             Form::new("sraa epsilon", Sraa, &[("normalisation", "epsilon")]).taking_options(),
             Form::new("sraa searched", Sraa, &[("search", "five")]).taking_options(),

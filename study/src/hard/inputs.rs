@@ -115,10 +115,14 @@ fn sraa(case: &Case, params: &SraaParams) -> Inputs {
         let packed = encode::packed(&normals, &depths, DepthEncoding::Linear);
         return inputs.layers("packed", packed.layers().to_vec());
     }
-    inputs = inputs.layers(
-        "depth",
-        layers(&|seen| Vec4::splat(stored(case, params.depth, seen.depth))),
-    );
+    let depths = layers(&|seen| Vec4::splat(stored(case, params.depth, seen.depth)));
+    inputs = match params.layout {
+        oracle::Layout::Split => {
+            let texels = depths.iter().flat_map(Frame::texels);
+            inputs.buffer("depth_buffer", texels.map(|depth| [f64::from(depth.x); 4]).collect())
+        }
+        _ => inputs.layers("depth", depths),
+    };
     inputs.layers("normal", layers(&|seen| normal(params.normals, seen)))
 }
 
