@@ -124,7 +124,7 @@ fn reconstructed<const TAPS: usize, const SIDE: usize>(cfg: &Sraa, inputs: &Inpu
     let mut weights = [0.0; TAPS];
     let mut unseen = 0;
     for sample in 0..cfg.reconstructed() {
-        if cfg.share(sample) > 0.0 {
+        if cfg.share(sample) != 0.0 {
             let share = cfg.share(sample) / total;
             let place = cfg.place(sample);
             let centre = geometry_sample(cfg, inputs, place);
@@ -241,7 +241,7 @@ fn total_share(cfg: &Sraa) -> f32 {
 fn is_even<const TAPS: usize, const SIDE: usize>(cfg: &Sraa, inputs: &Inputs) -> bool {
     let mut largest = 0.0f32;
     for sample in 0..cfg.reconstructed() {
-        if cfg.share(sample) > 0.0 {
+        if cfg.share(sample) != 0.0 {
             let place = cfg.place(sample);
             let centre = geometry_sample(cfg, inputs, place);
             for tap in 0..TAPS {

@@ -102,6 +102,10 @@ pub enum Resolve {
     Tent,
     /// A Gaussian over the same, its standard deviation half of that.
     Gaussian,
+    /// Mitchell and Netravali's cubic (1988), which goes below zero, over the same.
+    Mitchell,
+    /// A sinc windowed by another, two lobes each way, over the same.
+    Lanczos,
 }
 
 /// How far the surface of a sample that no tap shows is searched for.

@@ -186,7 +186,7 @@ impl Sraa {
     pub(super) fn reconstructed(&self) -> usize {
         match self.resolve {
             Resolve::Box => self.samples(),
-            Resolve::Tent | Resolve::Gaussian => 9 * self.samples(),
+            _ => 9 * self.samples(),
         }
     }
 
@@ -194,9 +194,7 @@ impl Sraa {
     pub(super) fn place(&self, k: usize) -> Place {
         match self.resolve {
             Resolve::Box => self.geometry_sample(IVec2::ZERO, k),
-            Resolve::Tent | Resolve::Gaussian => {
-                self.geometry_sample(neighbour(k / self.samples(), 3), k % self.samples())
-            }
+            _ => self.geometry_sample(neighbour(k / self.samples(), 3), k % self.samples()),
         }
     }
 
@@ -212,6 +210,14 @@ impl Sraa {
                 } else {
                     0.0
                 }
+            }
+            Resolve::Mitchell => {
+                let away = self.place(k).at.abs() * (2.0 / self.resolve_radius);
+                mitchell(away.x) * mitchell(away.y)
+            }
+            Resolve::Lanczos => {
+                let away = self.place(k).at.abs() * (2.0 / self.resolve_radius);
+                lanczos(away.x) * lanczos(away.y)
             }
         }
     }
@@ -259,6 +265,30 @@ impl Sraa {
             centre: false,
             at: pixel.as_vec2() + self.offset(sample),
         }
+    }
+}
+
+/// The cubic of B = C = 1/3, 0 from 2 on.
+fn mitchell(x: f32) -> f32 {
+    let (x2, x3) = (x * x, x * x * x);
+    if x < 1.0 {
+        (7.0 * x3 - 12.0 * x2 + 16.0 / 3.0) / 6.0
+    } else if x < 2.0 {
+        (-7.0 / 3.0 * x3 + 12.0 * x2 - 20.0 * x + 32.0 / 3.0) / 6.0
+    } else {
+        0.0
+    }
+}
+
+/// sinc(x) sinc(x / 2), 0 from 2 on.
+fn lanczos(x: f32) -> f32 {
+    let angle = std::f32::consts::PI * x;
+    if x < 1.0e-3 {
+        1.0
+    } else if x < 2.0 {
+        2.0 * angle.sin() * (0.5 * angle).sin() / (angle * angle)
+    } else {
+        0.0
     }
 }
 

@@ -96,6 +96,11 @@ impl Form {
                 Sraa,
                 &[("resolve", "gaussian"), ("resolve-radius", "1.25")],
             ),
+            Form::new(
+                "sraa lanczos",
+                Sraa,
+                &[("resolve", "lanczos"), ("resolve-radius", "1.5")],
+            ),
             Form::new("sraa split", Sraa, &[("layout", "split")]),
             Form::new("sraa relative", Sraa, &[("difference", "relative")]),
             Form::new("sraa epsilon", Sraa, &[("normalisation", "epsilon")]).taking_options(),

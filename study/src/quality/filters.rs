@@ -95,6 +95,12 @@ impl<'a> Filters<'a> {
                 })
             }
             (Runner::None, Kind::Supersampled(samples)) => shot.supersampled(samples),
+            (Runner::None, Kind::Aggregated) => {
+                let drawn = shot.aggregated.get(method.pattern());
+                drawn
+                    .cloned()
+                    .ok_or_else(|| QualityError::NotDrawn(method.name.clone()))
+            }
             (Runner::None, kind @ (Kind::Multisampled | Kind::Directional | Kind::Classified | Kind::Covered)) => {
                 let surfaces = Surfaces::of(&[shot.capture(method)?]);
                 let surfaces = surfaces.ok_or_else(|| QualityError::NotDrawn(method.name.clone()))?;
@@ -130,6 +136,11 @@ impl<'a> Filters<'a> {
                 (Runner::Merged(shader), _) => shader.bytes(self.bench, method, shot)? + 2 * PICTURE * pixels,
                 (Runner::None, Kind::Plain) => PICTURE * pixels,
                 (Runner::None, Kind::Supersampled(n)) => (n as u64 * (GEOMETRY + PICTURE) + PICTURE) * pixels,
+                // Depth and normal of every sample, which of two aggregates it is of, and what is known of those.
+                (Runner::None, Kind::Aggregated) => {
+                    let samples = gbuffer::samples(method.pattern()).map_or(0, |samples| samples.len() as u64);
+                    (samples * GEOMETRY + 2 * (GEOMETRY + PICTURE) + PICTURE) * pixels
+                }
                 // Four bits a sample say whose colour it has.
                 (Runner::None, Kind::Covered) => (4 * (GEOMETRY + PICTURE) + PICTURE + 8) * pixels,
                 (Runner::None, _) => (4 * (GEOMETRY + PICTURE) + PICTURE) * pixels,
@@ -221,6 +232,7 @@ fn runner(bench: &Bench, method: &Method, size: UVec2) -> Result<Runner, Quality
         | Kind::Directional
         | Kind::Classified
         | Kind::Covered
+        | Kind::Aggregated
         | Kind::Supersampled(_) => {
             return Ok(Runner::None);
         }

@@ -34,6 +34,8 @@ pub enum Kind {
     Covered,
     /// Shading at every sample of `latin4` or `latin16`.
     Supersampled(usize),
+    /// Shading of at most two aggregates of a pixel's samples.
+    Aggregated,
     /// A kernel of the user's, which reads what it likes of `color`, `depth` and `normal`.
     Own,
 }
@@ -152,9 +154,12 @@ impl Method {
             Kind::Sraa | Kind::Merged => Family::Sraa,
             Kind::Edge(_) => Family::Edge,
             Kind::Fxaa(_) | Kind::Smaa(_) | Kind::Mlaa => Family::Picture,
-            Kind::Multisampled | Kind::Directional | Kind::Classified | Kind::Covered | Kind::Supersampled(_) => {
-                Family::Supersampling
-            }
+            Kind::Multisampled
+            | Kind::Directional
+            | Kind::Classified
+            | Kind::Covered
+            | Kind::Aggregated
+            | Kind::Supersampled(_) => Family::Supersampling,
             Kind::Own => Family::Own,
         }
     }
@@ -276,6 +281,8 @@ pub fn methods(quick: bool) -> Vec<Method> {
         Method::new("MSAA 4, directional", Kind::Directional, &[]).pictured(),
         Method::new("MSAA 4, deferred", Kind::Classified, &[]).pictured(),
         Method::new("CSAA 16", Kind::Covered, &[]).pictured(),
+        Method::new("AGAA 4", Kind::Aggregated, &[]).pictured(),
+        Method::new("AGAA 16", Kind::Aggregated, &[("pattern", "latin16")]).pictured(),
         Method::new("4x", Kind::Supersampled(4), &[]).main(),
         Method::new("16x", Kind::Supersampled(16), &[]).main(),
     ]);
@@ -337,6 +344,14 @@ fn resolves() -> Vec<Method> {
         sraa("SRAA 4, tent", &[("resolve", "tent")]),
         sraa("SRAA 4, tent 1.5", &[("resolve", "tent"), ("resolve-radius", "1.5")]),
         sraa("SRAA 4, gaussian", &[("resolve", "gaussian")]),
+        sraa(
+            "SRAA 4, mitchell 1.5",
+            &[("resolve", "mitchell"), ("resolve-radius", "1.5")],
+        ),
+        sraa(
+            "SRAA 4, lanczos 1.5",
+            &[("resolve", "lanczos"), ("resolve-radius", "1.5")],
+        ),
     ]
 }
 

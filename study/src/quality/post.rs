@@ -69,6 +69,11 @@ impl Shot {
             shaded: shaded
                 .map(|(n, frames)| (*n, frames.iter().map(processed).collect()))
                 .collect(),
+            aggregated: self
+                .aggregated
+                .iter()
+                .map(|(n, frame)| (n.clone(), processed(frame)))
+                .collect(),
         }
     }
 }

@@ -3,13 +3,13 @@
 use super::methods::{Kind, Method};
 use super::{QualityError, check};
 use crate::watch::Watch;
-use glam::{DVec4, UVec2, Vec2, Vec4};
+use glam::{DVec4, UVec2, Vec2, Vec3, Vec4};
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
 use straightline_kernels::prelude::Frame;
 use straightline_testbed::capture::{Capture, ShadingSample, mean};
 use straightline_testbed::gbuffer;
-use straightline_testbed::render::{self, Renderer};
+use straightline_testbed::render::{self, Renderer, Surface};
 
 /// A picture shaded once a pixel, its geometry in several patterns, and the same shaded at every sample.
 pub struct Shot {
@@ -17,6 +17,8 @@ pub struct Shot {
     pub captures: BTreeMap<String, Capture>,
     /// Shaded at each sample of `latin4`, and of `latin16`; none of a capture.
     pub shaded: BTreeMap<usize, Vec<Frame<Vec4>>>,
+    /// Shaded by aggregates of the samples of a pattern.
+    pub aggregated: BTreeMap<String, Frame<Vec4>>,
 }
 
 impl Shot {
@@ -25,12 +27,19 @@ impl Shot {
         let mut shot = Shot {
             captures: BTreeMap::new(),
             shaded: BTreeMap::new(),
+            aggregated: BTreeMap::new(),
         };
         for method in methods {
             if let Entry::Vacant(vacant) = shot.captures.entry(method.reads()) {
                 check(watch)?;
                 let samples = gbuffer::samples(method.pattern()).unwrap_or_default();
                 vacant.insert(render::capture(renderer, &samples, method.shading())?);
+            }
+            if method.kind == Kind::Aggregated {
+                check(watch)?;
+                let samples = gbuffer::samples(method.pattern()).unwrap_or_default();
+                let shaded = render::aggregated(renderer, &samples)?;
+                shot.aggregated.insert(method.pattern().to_owned(), shaded);
             }
             let several = match method.kind {
                 Kind::Multisampled | Kind::Directional | Kind::Classified => 4,
@@ -53,6 +62,7 @@ impl Shot {
         Shot {
             captures: BTreeMap::from([(String::new(), capture)]),
             shaded: BTreeMap::new(),
+            aggregated: BTreeMap::new(),
         }
     }
 
@@ -131,5 +141,13 @@ impl Renderer for Shifted<'_> {
 
     fn shaded(&self, offset: Vec2) -> Result<Frame<Vec4>, render::RenderError> {
         self.renderer.shaded(offset + self.by)
+    }
+
+    fn surfaces(&self, offset: Vec2) -> Result<Vec<Surface>, render::RenderError> {
+        self.renderer.surfaces(offset + self.by)
+    }
+
+    fn shade(&self, surface: &Surface, place: Vec2) -> Vec3 {
+        self.renderer.shade(surface, place + self.by)
     }
 }

@@ -93,7 +93,7 @@ impl Range {
 pub struct Share {
     /// Red, green, blue and alpha, by definition.
     pub color: [f64; 4],
-    /// Its weight, by definition, from 0.
+    /// Its weight, by definition: below 0 in a lobe of a filter.
     pub weight: f64,
     /// Most that the weight may be off.
     pub off: f64,
@@ -103,7 +103,15 @@ pub struct Share {
 /// mean is divided by it. Where so little weight is left that it counts for none, black is possible too.
 pub fn of_mean(shares: &[Share], normalised: bool, rounding: &Rounding) -> f64 {
     let total: f64 = shares.iter().map(|s| s.weight).sum();
-    let least: f64 = shares.iter().map(|s| (s.weight - s.off).max(0.0)).sum();
+    // What is weighed positively is so however it is rounded.
+    let low = |s: &Share| {
+        if s.weight < 0.0 {
+            s.weight - s.off
+        } else {
+            (s.weight - s.off).max(0.0)
+        }
+    };
+    let least: f64 = shares.iter().map(low).sum();
     let most: f64 = shares.iter().map(|s| s.weight + s.off).sum();
     let rest = if normalised { total } else { 1.0 };
     let mean = match normalised && total <= EPSILON {
@@ -116,7 +124,7 @@ pub fn of_mean(shares: &[Share], normalised: bool, rounding: &Rounding) -> f64 {
     let apart = |a: &[f64; 4], b: &[f64; 4]| (0..4).map(|k| (a[k] - b[k]).abs()).fold(0.0, f64::max);
     let size = |a: &[f64; 4]| apart(a, &[0.0; 4]);
     let count = shares.len() as f64;
-    let possible = shares.iter().filter(|s| s.weight + s.off > 0.0);
+    let possible = shares.iter().filter(|s| s.weight.abs() + s.off > 0.0);
     let brightest = possible.clone().map(|s| size(&s.color)).fold(0.0, f64::max);
     let mut range = possible.map(|s| apart(&s.color, &mean)).fold(0.0, f64::max);
     // In few bits the sum that counts for none is the smallest number that there is.
@@ -132,13 +140,17 @@ pub fn of_mean(shares: &[Share], normalised: bool, rounding: &Rounding) -> f64 {
     } else if least <= none {
         range = range.max(size(&mean));
     }
+    if shares.iter().any(|s| s.weight < 0.0) {
+        // Such a mean may lie beyond all colours.
+        range = f64::INFINITY;
+    }
     // Products, their sum in any order, the sum of weights, a quotient; and colours as they are read.
     let arithmetic = (2.0 * count + 12.0) * rounding.unit + rounding.read;
     // A sum that grows beyond the largest number is infinite; what cannot even be read is left out of a mean.
     if brightest * (1.0 + arithmetic) > rounding.largest && (rounding.read == 0.0 || !normalised) {
         return f64::INFINITY;
     }
-    let added: f64 = shares.iter().map(|s| (s.weight + s.off) * size(&s.color)).sum();
+    let added: f64 = shares.iter().map(|s| (s.weight.abs() + s.off) * size(&s.color)).sum();
     let lost = (2.0 * count + 2.0) * rounding.smallest;
     let rounded = match divisor > none {
         true => (arithmetic * added + lost) / divisor.min(1.0),
@@ -185,7 +197,7 @@ impl Definition<'_> {
             let near = self.reach(pixel, at, self.taps(pixel, at), 0.0, rounding);
             largest = near.iter().fold(largest, |most, tap| most.max(tap.range));
             let (reach, most) = self.searched_reach(pixel, at, near, rounding);
-            undecided += most * share / total;
+            undecided += most * (share / total).abs();
             match self.shares(&reach, share / total, rounding) {
                 Some(own) => shares.extend(own),
                 None => return f64::INFINITY,
@@ -440,7 +452,7 @@ impl Definition<'_> {
         };
         // Divided by too little, a share is infinite.
         let step = 2.0 * rounding.unit * rounding.smallest;
-        if share / lows.max(nearest_weighs).max(epsilon.max(step)) > rounding.largest {
+        if share.abs() / lows.max(nearest_weighs).max(epsilon.max(step)) > rounding.largest {
             return None;
         }
         let summed = (reach.len() as f64 + 8.0) * rounding.unit;
@@ -464,7 +476,7 @@ impl Definition<'_> {
             Share {
                 color: tap.color,
                 weight: share * exact,
-                off: share * (off + summed * (exact + off)) + 2.0 * rounding.smallest,
+                off: share.abs() * (off + summed * (exact + off)) + 2.0 * rounding.smallest,
             }
         });
         Some(own.collect())

@@ -153,8 +153,13 @@ impl<'a> Definition<'a> {
         let own = (0..self.samples.len()).map(|sample| (([0, 0], sample), 1.0));
         match self.params.resolve {
             Resolve::Box => own.collect(),
-            Resolve::Tent | Resolve::Gaussian => {
+            _ => {
                 let share = |away: [f64; 2]| match self.params.resolve {
+                    Resolve::Mitchell => away.iter().map(|away| mitchell(2.0 * away.abs())).product(),
+                    Resolve::Lanczos => {
+                        away.iter().map(|away| sinc(2.0 * away) * sinc(*away)).product::<f64>()
+                            * f64::from(u8::from(away.iter().all(|away| away.abs() < 1.0)))
+                    }
                     Resolve::Gaussian if away.iter().all(|away| away.abs() < 1.0) => {
                         (-2.0 * (away[0] * away[0] + away[1] * away[1])).exp()
                     }
@@ -164,7 +169,7 @@ impl<'a> Definition<'a> {
                 let pixels = (-1..=1).flat_map(|y| (-1..=1).map(move |x| [x, y]));
                 let all = pixels.flat_map(|pixel| (0..self.samples.len()).map(move |sample| (pixel, sample)));
                 all.map(|at| (at, share(self.place(at).map(|away| away / self.params.resolve_radius))))
-                    .filter(|(_, share)| *share > 0.0)
+                    .filter(|(_, share)| *share != 0.0)
                     .collect()
             }
         }
@@ -361,6 +366,20 @@ fn bounded(difference: f64) -> f64 {
 
 /// What a tent gives no more than counts as nothing.
 const LEAST: f64 = 1.0e-6;
+
+fn mitchell(x: f64) -> f64 {
+    let cubic = match x {
+        x if x < 1.0 => 7.0 * x.powi(3) - 12.0 * x.powi(2) + 16.0 / 3.0,
+        x if x < 2.0 => -7.0 / 3.0 * x.powi(3) + 12.0 * x.powi(2) - 20.0 * x + 32.0 / 3.0,
+        _ => 0.0,
+    };
+    cubic / 6.0
+}
+
+fn sinc(x: f64) -> f64 {
+    let angle = std::f64::consts::PI * x;
+    if angle == 0.0 { 1.0 } else { angle.sin() / angle }
+}
 
 fn tent(away: f64) -> f64 {
     (1.0 - away.abs()).max(0.0)

@@ -174,6 +174,10 @@ choices! {
         Tent = "tent",
         /// A Gaussian over the same, of half of that.
         Gaussian = "gaussian",
+        /// Mitchell and Netravali's cubic over the same.
+        Mitchell = "mitchell",
+        /// A windowed sinc of two lobes over the same.
+        Lanczos = "lanczos",
     }
 }
 

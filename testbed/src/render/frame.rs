@@ -42,6 +42,14 @@ impl Lighting {
     }
 }
 
+impl Lighting {
+    /// Through a place in pixels from the upper left corner of a picture of `size`, in view space, at linear depth 1.
+    pub fn ray(&self, place: Vec2, size: UVec2) -> Vec3 {
+        let place = place / size.as_vec2() * 2.0 - 1.0;
+        vec3(place.x * self.extent.x, -place.y * self.extent.y, -1.0)
+    }
+}
+
 /// One pass. Laid out as `Pass` in the shaders.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
@@ -79,7 +87,6 @@ impl Pass {
 
     /// Through the sample of `pixel`, in view space, at linear depth 1.
     pub fn ray(&self, lighting: &Lighting, pixel: UVec2) -> Vec3 {
-        let place = (pixel.as_vec2() + 0.5 + self.offset) / self.size.as_vec2() * 2.0 - 1.0;
-        vec3(place.x * lighting.extent.x, -place.y * lighting.extent.y, -1.0)
+        lighting.ray(pixel.as_vec2() + 0.5 + self.offset, self.size)
     }
 }

@@ -4,6 +4,7 @@
 //! by the sample's offset), then shade from that alone. What they draw agrees but for pixels whose sample lies
 //! within a rounding of a triangle's edge.
 
+mod aggregate;
 mod captured;
 mod cpu;
 mod error;
@@ -20,12 +21,14 @@ use crate::scene::Camera;
 use glam::{UVec2, Vec2, Vec3, Vec4};
 use straightline_kernels::prelude::Frame;
 
+pub use aggregate::aggregated;
 pub use captured::capture;
 pub use cpu::CpuRenderer;
 pub use error::RenderError;
 pub use gpu::guard::guarded;
 pub use gpu::{FramePass, FramePasses, GpuRenderer, MultisampledGeometry, Samples};
 pub use reference::{grid, reference};
+pub use shade::Surface;
 
 /// Draws one scene at one size, sampled anywhere in a pixel.
 ///
@@ -55,6 +58,17 @@ pub trait Renderer {
     ///
     /// As [`geometry`](Self::geometry).
     fn shaded(&self, offset: Vec2) -> Result<Frame<Vec4>, RenderError>;
+
+    /// All that a G-buffer holds of what is seen `offset` from each pixel's centre, row by row from the top.
+    ///
+    /// # Errors
+    ///
+    /// As [`geometry`](Self::geometry).
+    fn surfaces(&self, offset: Vec2) -> Result<Vec<Surface>, RenderError>;
+
+    /// Linear colour of a surface that is seen `place` pixels from the picture's upper left corner, as [`shaded`](Self::shaded) has
+    /// it.
+    fn shade(&self, surface: &Surface, place: Vec2) -> Vec3;
 
     /// Mean of the pictures shaded at each of `offsets`.
     ///

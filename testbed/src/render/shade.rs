@@ -4,12 +4,14 @@ use super::frame::Lighting;
 use crate::scene::{EMISSION, Material, SKY_DEPTH};
 use glam::{Vec2, Vec3, Vec4Swizzles, vec2};
 
-/// What one sample of the G-buffer holds.
+/// What one sample of a G-buffer holds.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Surface {
+pub struct Surface {
     /// Unit normal in view space.
     pub normal: Vec3,
+    /// Linear, along the view.
     pub depth: f32,
+    /// Linear RGB that is reflected, 0 to 1.
     pub color: Vec3,
     /// A material's number.
     pub material: f32,

@@ -124,6 +124,8 @@ pub fn resolves(record: &QualityRecord) -> String {
             "SRAA 4, tent",
             "SRAA 4, tent 1.5",
             "SRAA 4, gaussian",
+            "SRAA 4, mitchell 1.5",
+            "SRAA 4, lanczos 1.5",
         ],
     )
 }
@@ -159,7 +161,7 @@ fn errors<const N: usize>(record: &QualityRecord, methods: [&str; N]) -> String 
 
 /// What shades or covers more samples beside SRAA, scene by scene: PSNR.
 pub fn samplings(record: &QualityRecord) -> String {
-    const METHODS: [&str; 9] = [
+    const METHODS: [&str; 11] = [
         "1x",
         "SRAA 4",
         "MSAA 4",
@@ -168,6 +170,8 @@ pub fn samplings(record: &QualityRecord) -> String {
         "4x",
         "SRAA 16",
         "CSAA 16",
+        "AGAA 4",
+        "AGAA 16",
         "16x",
     ];
     let row = |scene: &SceneErrors| {

@@ -71,7 +71,10 @@ fn set(cfg: &mut Sraa, name: &str, value: &str) {
             cfg.normalisation = one_of!(value, Normalisation: "paper" => Paper, "epsilon" => Epsilon,
                 "shifted" => Shifted);
         }
-        "resolve" => cfg.resolve = one_of!(value, Resolve: "box" => Box, "tent" => Tent, "gaussian" => Gaussian),
+        "resolve" => {
+            cfg.resolve = one_of!(value, Resolve: "box" => Box, "tent" => Tent, "gaussian" => Gaussian,
+                "mitchell" => Mitchell, "lanczos" => Lanczos)
+        }
         "search" => cfg.search = one_of!(value, Search: "none" => None, "five" => Five, "seven" => Seven),
         "search-threshold" => cfg.search_threshold = number(value),
         "unseen" => cfg.unseen = number(value),

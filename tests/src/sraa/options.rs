@@ -96,6 +96,8 @@ pub fn refusal(options: &Options) -> Option<&'static str> {
         ("shading", "listed"),
         ("resolve", "tent"),
         ("resolve", "gaussian"),
+        ("resolve", "mitchell"),
+        ("resolve", "lanczos"),
         ("normalisation", "paper"),
         ("normalisation", "epsilon"),
     ];

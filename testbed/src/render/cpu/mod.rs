@@ -179,4 +179,17 @@ impl Renderer for CpuRenderer {
         });
         Ok(Frame::new(self.size, pixels))
     }
+
+    fn surfaces(&self, offset: Vec2) -> Result<Vec<Surface>, RenderError> {
+        super::check_offsets(&[offset])?;
+        let seen = self.draw(offset, |_, _, surface| Some(*surface));
+        Ok(seen
+            .into_iter()
+            .map(|surface| surface.unwrap_or(Surface::SKY))
+            .collect())
+    }
+
+    fn shade(&self, surface: &Surface, place: Vec2) -> Vec3 {
+        shade(&self.lighting, surface, self.lighting.ray(place, self.size))
+    }
 }

@@ -8,7 +8,8 @@ mod pipelines;
 mod read;
 mod resources;
 
-use super::frame::Pass;
+use super::frame::{Lighting, Pass};
+use super::shade::{Surface, shade};
 use super::{RenderError, Renderer, check_offsets};
 use crate::scene::{Camera, Scene};
 use glam::{UVec2, Vec2, Vec3, Vec4};
@@ -26,6 +27,7 @@ pub struct GpuRenderer {
     queue: wgpu::Queue,
     camera: Camera,
     size: UVec2,
+    lighting: Lighting,
     pipelines: Pipelines,
     resources: Resources,
 }
@@ -50,6 +52,7 @@ impl GpuRenderer {
             device: device.clone(),
             queue: queue.clone(),
             camera: scene.camera,
+            lighting: Lighting::new(scene, size),
             size,
             pipelines,
             resources,
@@ -92,6 +95,27 @@ impl Renderer for GpuRenderer {
 
     fn shaded(&self, offset: Vec2) -> Result<Frame<Vec4>, RenderError> {
         self.mean(&[offset])
+    }
+
+    fn surfaces(&self, offset: Vec2) -> Result<Vec<Surface>, RenderError> {
+        check_offsets(&[offset])?;
+        self.pass(Pass::new(&self.camera, self.size, offset), |_| {})?;
+        let read = |texture| read::texture(&self.device, &self.queue, texture);
+        let (geometry, paint) = (
+            read(&self.resources.normal_depth)?,
+            read(&self.resources.color_material)?,
+        );
+        let surface = |(geometry, paint): (&Vec4, &Vec4)| Surface {
+            normal: geometry.truncate(),
+            depth: geometry.w,
+            color: paint.truncate(),
+            material: paint.w,
+        };
+        Ok(geometry.iter().zip(&paint).map(surface).collect())
+    }
+
+    fn shade(&self, surface: &Surface, place: Vec2) -> Vec3 {
+        shade(&self.lighting, surface, self.lighting.ray(place, self.size))
     }
 
     /// Adds up on the device, in 32 bits, and reads back once.
