@@ -21,6 +21,9 @@ pub(crate) fn unstudied(_: &OptionValue<'_>) -> HalfPrecision {
 
 pub(crate) fn sraa(option: &OptionValue<'_>) -> HalfPrecision {
     HalfPrecision::Lost(match option("metric").as_deref() {
+        Some("normals") if option("resolve").is_some_and(|filter| filter == "lanczos") => {
+            "lobes below zero make small rounding errors of the samples' weights larger than can be seen"
+        }
         Some("normals") if option("normalisation").is_none_or(|how| how == "shifted") => return HalfPrecision::Kept,
         Some("normals") => {
             "weights of less than 2^-24 are none: where all are so small, as on a thin wire, no colour is left"
