@@ -18,12 +18,17 @@ pub fn once_a_surface(surfaces: &Surfaces<'_>, shaded: &[Frame<Vec4>]) -> Frame<
 
 /// The same, but resolved by the directionally adaptive filter.
 pub fn along_edges(surfaces: &Surfaces<'_>, shaded: &[Frame<Vec4>], offsets: &[Vec2]) -> Frame<Vec4> {
+    directional(&stored(surfaces, shaded), offsets)
+}
+
+/// The colours that a multisampled target has of its samples.
+pub fn stored(surfaces: &Surfaces<'_>, shaded: &[Frame<Vec4>]) -> Vec<Frame<Vec4>> {
     let stored = (0..shaded.len()).map(|sample| {
         each_pixel(surfaces.size(), |pixel, k| {
             multisampled(surfaces, shaded, pixel, sample).texels()[k]
         })
     });
-    directional(&stored.collect::<Vec<_>>(), offsets)
+    stored.collect()
 }
 
 /// Which of the pictures has the colour of a sample: that of the first that sees its surface.
@@ -53,16 +58,17 @@ pub fn where_edges_are(surfaces: &Surfaces<'_>, shaded: &[Frame<Vec4>]) -> Frame
 /// those surfaces they see. Those that see another surface say nothing.
 pub fn by_coverage(surfaces: &Surfaces<'_>, shaded: &[Frame<Vec4>], stored: &[usize]) -> Frame<Vec4> {
     each_pixel(surfaces.size(), |pixel, k| {
-        let colored = |sample: usize| {
-            let point = surfaces.point(pixel, sample);
-            let of = stored
-                .iter()
-                .find(|kept| surfaces.same(&point, &surfaces.point(pixel, **kept)));
-            of.map(|kept| shaded[*kept].texels()[k])
-        };
-        let colors: Vec<Vec4> = (0..shaded.len()).filter_map(colored).collect();
+        let seen = (0..shaded.len()).filter_map(|sample| whose(surfaces, stored, pixel, sample));
+        let colors: Vec<Vec4> = seen.map(|kept| shaded[stored[kept]].texels()[k]).collect();
         colors.iter().sum::<Vec4>() / colors.len().max(1) as f32
     })
+}
+
+/// Which of the stored samples sees the surface that a sample sees, if one does.
+pub fn whose(surfaces: &Surfaces<'_>, stored: &[usize], pixel: UVec2, sample: usize) -> Option<usize> {
+    let point = surfaces.point(pixel, sample);
+    let is_same = |kept: &usize| surfaces.same(&point, &surfaces.point(pixel, *kept));
+    stored.iter().position(is_same)
 }
 
 /// What reconstruction would give that knew the right colour of every surface that it can know of: each geometry sample has

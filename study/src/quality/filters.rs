@@ -1,9 +1,8 @@
 //! Methods made ready on a device, to be run and timed.
 
-use super::bounds::{along_edges, by_coverage, once_a_surface, where_edges_are};
-use super::methods::{Kind, Method, NEAR_LATIN4};
+use super::methods::{Kind, Method};
+use super::resolves;
 use super::shot::Shot;
-use super::surfaces::Surfaces;
 use super::{QualityError, check};
 use crate::peers::{Smaa, Transfer, fxaa, mlaa};
 use crate::watch::Watch;
@@ -26,11 +25,11 @@ const PICTURE: u64 = 16;
 const GEOMETRY: u64 = 4 + 16;
 
 enum Runner {
-    /// Computed from pictures that the renderer gives: no filter.
-    None,
-    Kernel(Box<Shader>),
-    /// The filter, and before it the kernel that says where pixels are shaded.
-    Placed(Box<Shader>, Box<Shader>),
+    /// Made of the samples that the renderer gives, after its definition; and what resolves the same samples on the device, to be
+    /// timed, if anything does.
+    Resolved(Vec<Shader>),
+    /// The filter, which comes last, and before it the kernel that says where pixels are shaded, if it is placed.
+    Kernel(Vec<Shader>),
     Smaa(Box<Smaa>),
     /// On the processor.
     Mlaa,
@@ -78,43 +77,20 @@ impl<'a> Filters<'a> {
         match (&mut self.runners[k], method.kind) {
             (Runner::Smaa(smaa), _) => Ok(smaa.run(&shown(shot.any()?))?),
             (Runner::Mlaa, _) => Ok(by_mlaa(&shown(shot.any()?))),
-            (Runner::Kernel(shader) | Runner::Placed(shader, _) | Runner::Merged(shader), kind) => {
-                let (inputs, uploaded) = shader.uploaded(self.bench, method, shot)?;
-                let target = self.bench.target(inputs.size, shader.pass.target_format());
-                let view = target.create_view(&wgpu::TextureViewDescriptor::default());
-                let descriptor = wgpu::CommandEncoderDescriptor::default();
-                let mut encoder = self.bench.device().create_command_encoder(&descriptor);
-                let bound = uploaded.bind(&shader.pass, &view).map_err(ExecuteError::from)?;
-                bound.encode(&mut encoder);
-                self.bench.queue().submit([encoder.finish()]);
-                let filtered = self.bench.download(&target)?;
+            (Runner::Kernel(shaders), kind) => {
+                let filter = shaders.last();
+                let filter = filter.ok_or_else(|| QualityError::NotDrawn(method.name.clone()))?;
+                let filtered = filter.picture(self.bench, method, shot)?;
                 Ok(match kind {
                     Kind::Fxaa(transfer) => transfer.taken(&filtered),
-                    Kind::Merged => merged(&filtered, shot.capture(method)?),
                     _ => filtered,
                 })
             }
-            (Runner::None, Kind::Supersampled(samples)) => shot.supersampled(samples),
-            (Runner::None, Kind::Aggregated) => {
-                let drawn = shot.aggregated.get(method.pattern());
-                drawn
-                    .cloned()
-                    .ok_or_else(|| QualityError::NotDrawn(method.name.clone()))
+            (Runner::Merged(shader), _) => {
+                let filtered = shader.picture(self.bench, method, shot)?;
+                Ok(merged(&filtered, shot.capture(method)?))
             }
-            (Runner::None, kind @ (Kind::Multisampled | Kind::Directional | Kind::Classified | Kind::Covered)) => {
-                let surfaces = Surfaces::of(&[shot.capture(method)?]);
-                let surfaces = surfaces.ok_or_else(|| QualityError::NotDrawn(method.name.clone()))?;
-                Ok(match kind {
-                    Kind::Covered => by_coverage(&surfaces, shot.shaded(16)?, &NEAR_LATIN4),
-                    Kind::Directional => {
-                        let offsets = gbuffer::samples(method.pattern()).unwrap_or_default();
-                        along_edges(&surfaces, shot.shaded(4)?, &offsets)
-                    }
-                    Kind::Classified => where_edges_are(&surfaces, shot.shaded(4)?),
-                    _ => once_a_surface(&surfaces, shot.shaded(4)?),
-                })
-            }
-            (Runner::None, _) => Ok(shot.any()?.color.clone()),
+            (Runner::Resolved(_), _) => resolves::picture(method, shot),
         }
     }
 
@@ -128,22 +104,22 @@ impl<'a> Filters<'a> {
         for (method, runner) in self.methods.iter().zip(&self.runners) {
             all.push(match (runner, method.kind) {
                 (Runner::Smaa(smaa), _) => smaa.bytes(),
-                (Runner::Kernel(shader), _) => shader.bytes(self.bench, method, shot)?,
-                (Runner::Placed(shader, place), _) => {
-                    shader.bytes(self.bench, method, shot)? + place.bytes(self.bench, method, shot)?
+                (Runner::Kernel(shaders), _) => {
+                    let each = shaders.iter().map(|shader| shader.bytes(self.bench, method, shot));
+                    each.sum::<Result<u64, _>>()?
                 }
                 (Runner::Mlaa, _) => 2 * PICTURE * pixels,
                 (Runner::Merged(shader), _) => shader.bytes(self.bench, method, shot)? + 2 * PICTURE * pixels,
-                (Runner::None, Kind::Plain) => PICTURE * pixels,
-                (Runner::None, Kind::Supersampled(n)) => (n as u64 * (GEOMETRY + PICTURE) + PICTURE) * pixels,
+                (Runner::Resolved(_), Kind::Plain) => PICTURE * pixels,
+                (Runner::Resolved(_), Kind::Supersampled(n)) => (n as u64 * (GEOMETRY + PICTURE) + PICTURE) * pixels,
                 // Depth and normal of every sample, which of two aggregates it is of, and what is known of those.
-                (Runner::None, Kind::Aggregated) => {
+                (Runner::Resolved(_), Kind::Aggregated) => {
                     let samples = gbuffer::samples(method.pattern()).map_or(0, |samples| samples.len() as u64);
                     (samples * GEOMETRY + 2 * (GEOMETRY + PICTURE) + PICTURE) * pixels
                 }
                 // Four bits a sample say whose colour it has.
-                (Runner::None, Kind::Covered) => (4 * (GEOMETRY + PICTURE) + PICTURE + 8) * pixels,
-                (Runner::None, _) => (4 * (GEOMETRY + PICTURE) + PICTURE) * pixels,
+                (Runner::Resolved(_), Kind::Covered) => (4 * (GEOMETRY + PICTURE) + PICTURE + 8) * pixels,
+                (Runner::Resolved(_), _) => (4 * (GEOMETRY + PICTURE) + PICTURE) * pixels,
             });
         }
         Ok(all)
@@ -156,36 +132,44 @@ impl<'a> Filters<'a> {
         rounds: u32,
         watch: &mut dyn Watch,
     ) -> Result<(Timed, Vec<Option<usize>>), QualityError> {
-        let mut bounds = Vec::new();
+        let mut uploads = Vec::new();
         for (method, runner) in self.methods.iter().zip(&mut self.runners) {
-            bounds.push(match runner {
-                Runner::Kernel(shader) | Runner::Merged(shader) => {
-                    Some((shader.upload(self.bench, method, shot)?, None))
+            let each = |shaders: &[Shader]| -> Result<Vec<_>, QualityError> {
+                let shaders = shaders.iter();
+                shaders.map(|shader| shader.upload(self.bench, method, shot)).collect()
+            };
+            uploads.push(match runner {
+                Runner::Kernel(shaders) => each(shaders)?,
+                Runner::Merged(shader) => each(std::slice::from_ref(&**shader))?,
+                Runner::Resolved(shaders) if shaders.is_empty() => Vec::new(),
+                Runner::Resolved(shaders) => {
+                    let inputs = resolves::inputs(method, shot)?;
+                    let given = shaders.iter().zip(&inputs);
+                    given
+                        .map(|(shader, inputs)| Ok((inputs.size, self.bench.upload(&shader.manifest, inputs)?)))
+                        .collect::<Result<_, QualityError>>()?
                 }
-                Runner::Placed(shader, place) => Some((
-                    shader.upload(self.bench, method, shot)?,
-                    Some(place.upload(self.bench, method, shot)?),
-                )),
                 Runner::Smaa(smaa) => {
                     smaa.run(&shown(shot.any()?))?;
-                    None
+                    Vec::new()
                 }
-                Runner::Mlaa | Runner::None => None,
+                Runner::Mlaa => Vec::new(),
             });
         }
         let given = Transfer::Srgb.given(&shown(shot.any()?));
         let (mut works, mut places): (Vec<Work<'_>>, Vec<Option<usize>>) = (Vec::new(), Vec::new());
-        for (runner, uploaded) in self.runners.iter_mut().zip(&bounds) {
-            let work = match (runner, uploaded) {
-                (Runner::Kernel(shader), Some((read, _))) => shader.work(self.bench, read)?,
-                (Runner::Placed(shader, place), Some((read, Some(of_place)))) => {
-                    let mut first = place.work(self.bench, of_place)?;
-                    let mut second = shader.work(self.bench, read)?;
-                    Box::new(move || Ok(first()? + second()?))
+        for (runner, uploads) in self.runners.iter_mut().zip(&uploads) {
+            let work = match runner {
+                Runner::Resolved(shaders) if shaders.is_empty() => {
+                    places.push(None);
+                    continue;
                 }
-                (Runner::Smaa(smaa), _) => Box::new(|| smaa.time()),
-                (Runner::Merged(shader), Some((read, _))) => {
-                    let mut filter = shader.work(self.bench, read)?;
+                Runner::Kernel(shaders) | Runner::Resolved(shaders) => {
+                    one_after_the_other(self.bench, shaders, uploads)?
+                }
+                Runner::Smaa(smaa) => Box::new(|| smaa.time()),
+                Runner::Merged(shader) => {
+                    let mut filter = one_after_the_other(self.bench, std::slice::from_ref(&**shader), uploads)?;
                     let given = &given;
                     Box::new(move || {
                         let filtered = filter()?;
@@ -194,15 +178,11 @@ impl<'a> Filters<'a> {
                         Ok(filtered + start.elapsed())
                     })
                 }
-                (Runner::Mlaa, _) => Box::new(|| {
+                Runner::Mlaa => Box::new(|| {
                     let start = Instant::now();
                     mlaa(&given);
                     Ok(start.elapsed())
                 }),
-                _ => {
-                    places.push(None);
-                    continue;
-                }
             };
             places.push(Some(works.len()));
             works.push(work);
@@ -234,18 +214,32 @@ fn runner(bench: &Bench, method: &Method, size: UVec2) -> Result<Runner, Quality
         | Kind::Covered
         | Kind::Aggregated
         | Kind::Supersampled(_) => {
-            return Ok(Runner::None);
+            let passes = resolves::kernels(method);
+            let shaders = passes.iter().map(|kernel| Shader::new(bench, kernel, &[]));
+            return Ok(Runner::Resolved(shaders.collect::<Result<_, _>>()?));
         }
     };
-    let shader = Box::new(Shader::new(bench, &kernel, &method.options)?);
+    let shader = Shader::new(bench, &kernel, &method.options)?;
     Ok(match method.shading() {
-        _ if method.kind == Kind::Merged => Runner::Merged(shader),
+        _ if method.kind == Kind::Merged => Runner::Merged(Box::new(shader)),
         ShadingSample::Placed => {
             let place = Shader::new(bench, &Kernel::builtin("sraa_place")?, &method.options)?;
-            Runner::Placed(shader, Box::new(place))
+            Runner::Kernel(vec![place, shader])
         }
-        _ => Runner::Kernel(shader),
+        _ => Runner::Kernel(vec![shader]),
     })
+}
+
+/// Times passes that follow on each other, together.
+fn one_after_the_other<'a>(
+    bench: &Bench,
+    shaders: &'a [Shader],
+    uploads: &'a [(UVec2, Uploaded)],
+) -> Result<Work<'a>, ExecuteError> {
+    let passes = shaders.iter().zip(uploads);
+    let works: Result<Vec<Work<'a>>, _> = passes.map(|(shader, upload)| shader.work(bench, upload)).collect();
+    let mut works = works?;
+    Ok(Box::new(move || works.iter_mut().map(|work| work()).sum()))
 }
 
 /// What MLAA makes of a picture, linear as it is.
@@ -296,6 +290,12 @@ impl Shader {
         let (inputs, uploaded) = self.uploaded(bench, method, shot)?;
         let target = bench.target(inputs.size, self.pass.target_format());
         Ok(uploaded.bytes() + texture_bytes(&target))
+    }
+
+    /// What it makes of a shot.
+    fn picture(&self, bench: &Bench, method: &Method, shot: &Shot) -> Result<Frame<Vec4>, QualityError> {
+        let (size, uploaded) = self.upload(bench, method, shot)?;
+        Ok(bench.picture_of(&self.pass, &uploaded, size)?)
     }
 
     /// What it reads, on the device alone: as floats in memory that is several times as much.

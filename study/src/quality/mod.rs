@@ -14,6 +14,7 @@ mod losses;
 mod methods;
 mod pan;
 mod post;
+pub mod resolves;
 mod scores;
 mod shot;
 mod surfaces;
@@ -26,7 +27,7 @@ use classes::{Classes, varies_around, varies_within};
 use filters::Filters;
 use glam::{UVec2, Vec2, Vec4};
 use scores::{gaps, scores, share_of_gap};
-use shot::{Shot, supersampled};
+use shot::supersampled;
 use std::collections::BTreeMap;
 use straightline_kernels::prelude::Frame;
 use straightline_testbed::capture::Capture;
@@ -41,6 +42,7 @@ pub use figures::{FIGURES, Figure, Made, Pane};
 pub use film::{Film, REFERENCE, Shooting, film};
 pub use losses::losses;
 pub use methods::{Kind, Method, OwnError, methods, methods_of};
+pub use shot::Shot;
 pub use surfaces::{Point, Surfaces};
 
 /// Side of the grid of shading samples of a reference: 256x.

@@ -7,6 +7,7 @@ use super::methods::Method;
 use super::shot::Shot;
 use glam::{UVec2, Vec3, Vec4, ivec2};
 use rayon::prelude::*;
+use std::collections::BTreeMap;
 use straightline_kernels::prelude::Frame;
 
 /// Standard deviation of the spill, in pixels.
@@ -69,11 +70,8 @@ impl Shot {
             shaded: shaded
                 .map(|(n, frames)| (*n, frames.iter().map(processed).collect()))
                 .collect(),
-            aggregated: self
-                .aggregated
-                .iter()
-                .map(|(n, frame)| (n.clone(), processed(frame)))
-                .collect(),
+            // No filter of the displayed picture reads those.
+            aggregated: BTreeMap::new(),
         }
     }
 }

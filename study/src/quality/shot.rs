@@ -9,7 +9,7 @@ use std::collections::btree_map::Entry;
 use straightline_kernels::prelude::Frame;
 use straightline_testbed::capture::{Capture, ShadingSample, mean};
 use straightline_testbed::gbuffer;
-use straightline_testbed::render::{self, Renderer, Surface};
+use straightline_testbed::render::{self, Aggregated, Renderer, Surface};
 
 /// A picture shaded once a pixel, its geometry in several patterns, and the same shaded at every sample.
 pub struct Shot {
@@ -18,7 +18,7 @@ pub struct Shot {
     /// Shaded at each sample of `latin4`, and of `latin16`; none of a capture.
     pub shaded: BTreeMap<usize, Vec<Frame<Vec4>>>,
     /// Shaded by aggregates of the samples of a pattern.
-    pub aggregated: BTreeMap<String, Frame<Vec4>>,
+    pub aggregated: BTreeMap<String, Aggregated>,
 }
 
 impl Shot {
@@ -80,6 +80,12 @@ impl Shot {
             .find(|capture| capture.shading == ShadingSample::Centre);
         let first = centred.or_else(|| captures.next());
         first.ok_or_else(|| QualityError::NotDrawn("1x".to_owned()))
+    }
+
+    /// The picture shaded by aggregates, for a method.
+    pub fn aggregated(&self, method: &Method) -> Result<&Aggregated, QualityError> {
+        let found = self.aggregated.get(method.pattern());
+        found.ok_or_else(|| QualityError::NotDrawn(method.name.clone()))
     }
 
     /// The picture shaded at each of `samples` samples.

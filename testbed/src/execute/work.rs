@@ -43,9 +43,13 @@ impl Bench {
     }
 
     fn bound(&self, job: Job<'_>) -> Result<Bound, ExecuteError> {
-        let target = self.target(job.size, job.pass.target_format());
-        let view = target.create_view(&wgpu::TextureViewDescriptor::default());
-        Ok(job.uploaded.bind(job.pass, &view)?)
+        let view = |format| {
+            let target = self.target(job.size, format);
+            target.create_view(&wgpu::TextureViewDescriptor::default())
+        };
+        let views: Vec<_> = job.pass.targets().map(|(name, format)| (name, view(format))).collect();
+        let named: Vec<_> = views.iter().map(|(name, view)| (*name, view)).collect();
+        Ok(job.uploaded.bind(job.pass, &named[..])?)
     }
 
     /// What `record` records, to be timed with others: up to `passes` passes, each with a span of the timer around it where

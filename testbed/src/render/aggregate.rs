@@ -7,34 +7,83 @@
 use super::shade::Surface;
 use super::{RenderError, Renderer, check_offsets};
 use crate::scene::SKY_DEPTH;
-use glam::{Vec2, Vec3, Vec4, uvec2};
+use glam::{UVec2, Vec2, Vec3, Vec4, uvec2};
 use straightline_kernels::prelude::Frame;
 
 /// Samples that differ by less are of one aggregate: the sum of one less the cosine of their normals and their step in depth over
 /// the nearer depth.
 const ALIKE: f32 = 0.1;
 
+/// Samples of a pixel that are shaded once.
+#[derive(Clone, Copy, Debug)]
+pub struct Aggregate {
+    /// How many there are.
+    pub members: usize,
+    /// Where it is shaded, in pixels from the pixel's centre.
+    pub place: Vec2,
+    /// What is shaded.
+    pub surface: Surface,
+    /// Its linear colour.
+    pub color: Vec3,
+}
+
+/// A picture that is shaded once or twice a pixel.
+#[derive(Clone, Debug)]
+pub struct Aggregated {
+    /// Width and height in pixels.
+    pub size: UVec2,
+    /// What its samples see: a layer for each, row by row from the top.
+    pub samples: Vec<Vec<Surface>>,
+    /// The aggregates of each pixel, row by row from the top; the second has no members where all samples are alike.
+    pub pixels: Vec<[Aggregate; 2]>,
+}
+
+impl Aggregated {
+    /// The picture: each pixel has its aggregates' colours, by how many samples they have.
+    pub fn picture(&self) -> Frame<Vec4> {
+        let colors = self.pixels.iter().map(|aggregates| {
+            let members = aggregates.iter().map(|aggregate| aggregate.members).sum::<usize>();
+            let colors = aggregates
+                .iter()
+                .map(|aggregate| aggregate.color * aggregate.members as f32);
+            (colors.sum::<Vec3>() / members as f32).extend(1.0)
+        });
+        Frame::new(self.size, colors.collect())
+    }
+}
+
 /// The picture whose pixels are sampled at each of `offsets`, shaded once or twice a pixel.
 ///
 /// # Errors
 ///
 /// As [`Renderer::mean`].
-pub fn aggregated(renderer: &dyn Renderer, offsets: &[Vec2]) -> Result<Frame<Vec4>, RenderError> {
+pub fn aggregated(renderer: &dyn Renderer, offsets: &[Vec2]) -> Result<Aggregated, RenderError> {
     check_offsets(offsets)?;
     let layers: Result<Vec<Vec<Surface>>, RenderError> = offsets.iter().map(|o| renderer.surfaces(*o)).collect();
     let (layers, size) = (layers?, renderer.size());
     let pixel = |k: u32| {
         let centre = uvec2(k % size.x, k / size.x).as_vec2() + 0.5;
         let samples: Vec<(Vec2, Surface)> = offsets.iter().zip(&layers).map(|(o, l)| (*o, l[k as usize])).collect();
-        let shaded = |group: &[(Vec2, Surface)]| {
-            let (offset, surface) = mean(group);
-            renderer.shade(&surface, centre + offset) * group.len() as f32
-        };
-        let [first, second] = split(&samples);
-        let sum = shaded(&first) + if second.is_empty() { Vec3::ZERO } else { shaded(&second) };
-        (sum / samples.len() as f32).extend(1.0)
+        split(&samples).map(|group| {
+            let (place, surface) = mean(&group);
+            let color = match group.is_empty() {
+                true => Vec3::ZERO,
+                false => renderer.shade(&surface, centre + place),
+            };
+            Aggregate {
+                members: group.len(),
+                place,
+                surface,
+                color,
+            }
+        })
     };
-    Ok(Frame::new(size, (0..size.x * size.y).map(pixel).collect()))
+    let pixels = (0..size.x * size.y).map(pixel).collect();
+    Ok(Aggregated {
+        size,
+        samples: layers,
+        pixels,
+    })
 }
 
 /// How much two surfaces differ; what cannot be averaged differs by all that there is.
@@ -135,7 +184,7 @@ mod tests {
         };
         let (one, two) = (
             off(&renderer.shaded(Vec2::ZERO).expect("a picture")),
-            off(&aggregated(&renderer, &OFFSETS).expect("a picture")),
+            off(&aggregated(&renderer, &OFFSETS).expect("a picture").picture()),
         );
         assert!(two < 0.1 * one, "{two} against {one}");
     }

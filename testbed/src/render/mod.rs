@@ -21,7 +21,7 @@ use crate::scene::Camera;
 use glam::{UVec2, Vec2, Vec3, Vec4};
 use straightline_kernels::prelude::Frame;
 
-pub use aggregate::aggregated;
+pub use aggregate::{Aggregate, Aggregated, aggregated};
 pub use captured::capture;
 pub use cpu::CpuRenderer;
 pub use error::RenderError;

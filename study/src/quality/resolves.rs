@@ -1,0 +1,145 @@
+//! Antialiasing by samples that a renderer shades more than once a pixel: its pictures after their definitions, on the processor
+//! (`bounds`, [`straightline_testbed::render::aggregated`]), and kernels that resolve the same samples on a device, to be timed.
+
+use super::QualityError;
+use super::bounds::{along_edges, by_coverage, once_a_surface, stored, where_edges_are, whose};
+use super::methods::{Kind, Method, NEAR_LATIN4};
+use super::shot::Shot;
+use super::surfaces::Surfaces;
+use glam::{UVec2, UVec4, Vec3, Vec4};
+use straightline_codegen::Kernel;
+use straightline_kernels::prelude::Frame;
+use straightline_testbed::execute::Inputs;
+use straightline_testbed::gbuffer;
+use straightline_testbed::render::{Aggregated, Surface};
+
+macro_rules! kernel {
+    ($file:literal, $name:expr) => {
+        Kernel::from_text(
+            concat!("study/kernels/resolves/", $file, ".rs"),
+            include_str!(concat!("../../kernels/resolves/", $file, ".rs")),
+            $name,
+        )
+    };
+}
+
+/// The picture of a method that is no filter, linear.
+///
+/// # Errors
+///
+/// [`QualityError::NotDrawn`], if the shot was not drawn for it.
+pub fn picture(method: &Method, shot: &Shot) -> Result<Frame<Vec4>, QualityError> {
+    let surfaces = || {
+        let surfaces = Surfaces::of(&[shot.capture(method)?]);
+        surfaces.ok_or_else(|| QualityError::NotDrawn(method.name.clone()))
+    };
+    Ok(match method.kind {
+        Kind::Supersampled(samples) => shot.supersampled(samples)?,
+        Kind::Aggregated => shot.aggregated(method)?.picture(),
+        Kind::Covered => by_coverage(&surfaces()?, shot.shaded(16)?, &NEAR_LATIN4),
+        Kind::Directional => {
+            let offsets = gbuffer::samples(method.pattern()).unwrap_or_default();
+            along_edges(&surfaces()?, shot.shaded(4)?, &offsets)
+        }
+        Kind::Classified => where_edges_are(&surfaces()?, shot.shaded(4)?),
+        Kind::Multisampled => once_a_surface(&surfaces()?, shot.shaded(4)?),
+        _ => shot.any()?.color.clone(),
+    })
+}
+
+/// The passes that resolve a method's samples, one after the other; none where hardware does, or a mean.
+pub fn kernels(method: &Method) -> Vec<Kernel> {
+    match method.kind {
+        Kind::Directional => vec![kernel!("directional", "directional")],
+        Kind::Classified => vec![kernel!("classified", "classified")],
+        Kind::Covered => vec![kernel!("coverage", "coverage")],
+        Kind::Aggregated => {
+            let first = if method.pattern() == "latin16" {
+                "aggregate16"
+            } else {
+                "aggregate4"
+            };
+            vec![kernel!("aggregate", first), kernel!("aggregate", "aggregated")]
+        }
+        _ => Vec::new(),
+    }
+}
+
+/// What each of them reads of a shot.
+///
+/// # Errors
+///
+/// As [`picture`].
+pub fn inputs(method: &Method, shot: &Shot) -> Result<Vec<Inputs>, QualityError> {
+    let missing = || QualityError::NotDrawn(method.name.clone());
+    if method.kind == Kind::Aggregated {
+        return Ok(of_aggregates(shot.aggregated(method)?));
+    }
+    let capture = shot.capture(method)?;
+    let surfaces = Surfaces::of(&[capture]).ok_or_else(missing)?;
+    let inputs = Inputs::new(capture.size);
+    Ok(match method.kind {
+        Kind::Directional => vec![inputs.layers("colors", stored(&surfaces, shot.shaded(4)?))],
+        Kind::Covered => {
+            let colors = shot.shaded(16)?;
+            let kept = NEAR_LATIN4.iter().filter_map(|sample| colors.get(*sample).cloned());
+            vec![
+                inputs
+                    .layers("colors", kept.collect())
+                    .integers("codes", vec![codes(&surfaces)]),
+            ]
+        }
+        Kind::Classified => {
+            let normal = capture.normal.as_ref().ok_or_else(missing)?;
+            let rays = capture.rays().ok_or_else(missing)?;
+            let samples = capture.samples.len();
+            let inputs = inputs
+                .layers("depth", frames(&capture.depth.layers()[..samples], |z| Vec4::splat(*z)))
+                .layers("normal", frames(&normal.layers()[..samples], |n| n.extend(0.0)))
+                .layers("colors", shot.shaded(4)?.to_vec());
+            let rays = ["ray_corner", "ray_right", "ray_down"].into_iter().zip(rays);
+            let numbers = |ray: Vec3| ray.to_array().map(f64::from);
+            vec![rays.fold(inputs, |inputs, (name, ray)| inputs.uniform(name, &numbers(ray)))]
+        }
+        _ => Vec::new(),
+    })
+}
+
+/// Whose of the stored colours each sample has, in four bits: 15 for none.
+fn codes(surfaces: &Surfaces<'_>) -> Frame<UVec4> {
+    let size = surfaces.size();
+    let code =
+        |pixel: UVec2, sample: usize| whose(surfaces, &NEAR_LATIN4, pixel, sample).map_or(15, |kept| kept as u64);
+    let texel = |k: u32| {
+        let pixel = UVec2::new(k % size.x, k / size.x);
+        let bits = (0..16).map(|sample| code(pixel, sample) << (4 * sample)).sum::<u64>();
+        UVec4::new(bits as u32, (bits >> 32) as u32, 0, 1)
+    };
+    Frame::new(size, (0..size.x * size.y).map(texel).collect())
+}
+
+/// What is gathered into aggregates, and what is made of those once they are shaded.
+fn of_aggregates(aggregated: &Aggregated) -> Vec<Inputs> {
+    let layers = |texel: fn(&Surface) -> Vec4| {
+        let frame = |layer: &Vec<Surface>| Frame::new(aggregated.size, layer.iter().map(texel).collect());
+        aggregated.samples.iter().map(frame).collect::<Vec<_>>()
+    };
+    let of =
+        |texel: &dyn Fn(usize) -> Vec4| Frame::new(aggregated.size, (0..aggregated.pixels.len()).map(texel).collect());
+    let members = |which: usize| of(&|k| Vec4::splat(aggregated.pixels[k][which].members as f32));
+    let color = |which: usize| of(&|k| aggregated.pixels[k][which].color.extend(1.0));
+    vec![
+        Inputs::new(aggregated.size)
+            .layers("geometry", layers(|surface| surface.normal.extend(surface.depth)))
+            .layers("paint", layers(|surface| surface.color.extend(surface.material))),
+        Inputs::new(aggregated.size)
+            .image("geometry_0", members(0))
+            .image("geometry_1", members(1))
+            .layers("colors", vec![color(0), color(1)]),
+    ]
+}
+
+fn frames<T: Copy>(layers: &[Frame<T>], texel: impl Fn(&T) -> Vec4) -> Vec<Frame<Vec4>> {
+    let frame = |layer: &Frame<T>| Frame::new(layer.size(), layer.texels().iter().map(&texel).collect());
+    layers.iter().map(frame).collect()
+}
