@@ -101,8 +101,10 @@ impl Evaluator<'_> {
             }
             ("map", [f]) => {
                 self.only_reads(f, name, span)?;
-                let mapped = items.into_iter().map(|item| self.called(f, vec![item], span));
-                Ok(Value::array(mapped.collect::<Eval<_>>()?))
+                self.at_once(name, span, |this| {
+                    let mapped = items.into_iter().map(|item| this.called(f, vec![item], span));
+                    Ok(Value::array(mapped.collect::<Eval<_>>()?))
+                })
             }
             ("for_each", [f]) => {
                 for item in items {
@@ -120,13 +122,25 @@ impl Evaluator<'_> {
             ("all" | "any", [f]) => {
                 self.only_reads(f, name, span)?;
                 let op = if name == "all" { BinaryOp::And } else { BinaryOp::Or };
+                let before = self.checkpoint();
+                let effects = self.builder.effects();
                 let mut all = Value::Node(self.builder.bool(name == "all"));
-                for item in items {
-                    let holds = self.called(f, vec![item], span)?;
+                for item in &items {
+                    let holds = self.called(f, vec![item.clone()], span)?;
                     let holds = self.loaded(holds, span)?;
                     all = self.binary(op, &all, &holds, span)?;
                 }
-                Ok(all)
+                if self.builder.effects() == effects {
+                    return Ok(all);
+                }
+                // What is behind the first that decides is not to happen.
+                self.return_to(before);
+                self.inline(
+                    &format!("Iterator::{name}"),
+                    &[],
+                    vec![Value::array(items), f.clone()],
+                    span,
+                )
             }
             ("sum" | "product", []) => self.reduced(name, items, span),
             ("windows" | "chunks" | "chunks_exact", [count]) => {
@@ -152,13 +166,37 @@ impl Evaluator<'_> {
                 ))
             }
             _ if self.library.functions.contains_key(&format!("Iterator::{name}")) => {
-                let all = std::iter::once(Value::array(items)).chain(args.iter().cloned());
-                self.inline(&format!("Iterator::{name}"), &[], all.collect(), span)
+                let all: Vec<Value> = std::iter::once(Value::array(items))
+                    .chain(args.iter().cloned())
+                    .collect();
+                let inlined = |this: &mut Self| this.inline(&format!("Iterator::{name}"), &[], all, span);
+                match name {
+                    "take_while" | "skip_while" => self.at_once(name, span, inlined),
+                    _ => inlined(self),
+                }
             }
             _ => Err(Diagnostic::at(span, format!("an iterator has no method `{name}` here"))
                 .label("not supported")
                 .help(crate::suggest::suggest(name, &METHODS, "iterators have"))
                 .into()),
+        }
+    }
+
+    /// What a method gives whose closure Rust calls for one value at a time, between what takes the values. Here it is called for
+    /// all values first, which is the same but where memory is changed.
+    fn at_once(&mut self, method: &str, span: Span, evaluate: impl FnOnce(&mut Self) -> Eval) -> Eval {
+        let before = self.builder.effects();
+        let value = evaluate(self)?;
+        match self.builder.effects() == before {
+            true => Ok(value),
+            false => Err(Diagnostic::at(
+                span,
+                format!("a closure that uses memory which the kernel changes, in `{method}`"),
+            )
+            .label("not supported")
+            .note("when it is called would depend on what takes the values")
+            .help("write a `for` loop, or use `fold` or `for_each`")
+            .into()),
         }
     }
 

@@ -47,12 +47,14 @@ pub fn picture(method: &Method, shot: &Shot) -> Result<Frame<Vec4>, QualityError
     })
 }
 
-/// The passes that resolve a method's samples, one after the other; none where hardware does, or a mean.
+/// The passes that resolve a method's samples, one after the other; none where there is one sample.
 pub fn kernels(method: &Method) -> Vec<Kernel> {
     match method.kind {
         Kind::Directional => vec![kernel!("directional", "directional")],
         Kind::Classified => vec![kernel!("classified", "classified")],
         Kind::Covered => vec![kernel!("coverage", "coverage")],
+        Kind::Multisampled | Kind::Supersampled(4) => vec![kernel!("mean", "mean4")],
+        Kind::Supersampled(16) => vec![kernel!("mean", "mean16")],
         Kind::Aggregated => {
             let first = if method.pattern() == "latin16" {
                 "aggregate16"
@@ -75,11 +77,16 @@ pub fn inputs(method: &Method, shot: &Shot) -> Result<Vec<Inputs>, QualityError>
     if method.kind == Kind::Aggregated {
         return Ok(of_aggregates(shot.aggregated(method)?));
     }
+    if let Kind::Supersampled(samples) = method.kind {
+        let shaded = shot.shaded(samples)?;
+        let size = shaded.first().ok_or_else(missing)?.size();
+        return Ok(vec![Inputs::new(size).layers("colors", shaded.to_vec())]);
+    }
     let capture = shot.capture(method)?;
     let surfaces = Surfaces::of(&[capture]).ok_or_else(missing)?;
     let inputs = Inputs::new(capture.size);
     Ok(match method.kind {
-        Kind::Directional => vec![inputs.layers("colors", stored(&surfaces, shot.shaded(4)?))],
+        Kind::Multisampled | Kind::Directional => vec![inputs.layers("colors", stored(&surfaces, shot.shaded(4)?))],
         Kind::Covered => {
             let colors = shot.shaded(16)?;
             let kept = NEAR_LATIN4.iter().filter_map(|sample| colors.get(*sample).cloned());

@@ -180,10 +180,16 @@ fn scene_section(scene: &SceneErrors, folder: &Path, pictures: &mut Pictures) ->
     })
 }
 
+/// Whether all that a method costs beside one shading sample a pixel is its time. Where samples are shaded, most is not.
+fn is_filter(method: &MethodErrors) -> bool {
+    method.family != Family::Supersampling
+}
+
 fn plot(scene: &SceneErrors) -> Result<String, ReportError> {
     let timed: Vec<(&MethodErrors, f64)> = scene
         .methods
         .iter()
+        .filter(|m| is_filter(m))
         .filter_map(|m| Some((m, m.time?.median_ms)))
         .filter(|(m, ms)| m.psnr.is_finite() && *ms > 0.0)
         .collect();
@@ -217,7 +223,8 @@ fn plot(scene: &SceneErrors) -> Result<String, ReportError> {
         true => (fastest, slowest.max(fastest * 1.01)),
         false => (1.0, 2.0),
     };
-    let untimed = scene.methods.iter().filter(|m| m.time.is_none() && m.psnr.is_finite());
+    let untimed = scene.methods.iter();
+    let untimed = untimed.filter(|m| (m.time.is_none() || !is_filter(m)) && m.psnr.is_finite());
     let mut lines: Vec<Line> = untimed
         .map(|m| Line {
             points: vec![(ends.0, m.psnr), (ends.1, m.psnr)],

@@ -159,7 +159,7 @@ fn errors<const N: usize>(record: &QualityRecord, methods: [&str; N]) -> String 
     markdown(&head, rows)
 }
 
-/// What shades or covers more samples beside SRAA, scene by scene: PSNR.
+/// What shades or covers more samples beside SRAA, scene by scene: PSNR, and what the filter or the resolve takes.
 pub fn samplings(record: &QualityRecord) -> String {
     const METHODS: [&str; 11] = [
         "1x",
@@ -175,8 +175,14 @@ pub fn samplings(record: &QualityRecord) -> String {
         "16x",
     ];
     let row = |scene: &SceneErrors| {
-        let psnr = |name: &str| found(scene, name).map_or("–".to_owned(), |m| format!("{:.2}", m.psnr));
-        std::iter::once(scene.scene.clone()).chain(METHODS.map(psnr)).collect()
+        let cell = |name: &str| {
+            let Some(errors) = found(scene, name) else {
+                return "–".to_owned();
+            };
+            let time = errors.time.map(|time| format!(", {:.1} ms", time.median_ms));
+            format!("{:.2}{}", errors.psnr, time.unwrap_or_default())
+        };
+        std::iter::once(scene.scene.clone()).chain(METHODS.map(cell)).collect()
     };
     let head: Vec<&str> = std::iter::once("scene").chain(METHODS).collect();
     markdown(&head, record.scenes.iter().map(row).collect())

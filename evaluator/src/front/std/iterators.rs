@@ -153,6 +153,24 @@ impl Iterator {
         all
     }
 
+    fn any<T>(items: [T], f: impl Fn(T) -> bool) -> bool {
+        for x in items {
+            if f(x) {
+                return true;
+            }
+        }
+        false
+    }
+
+    fn all<T>(items: [T], f: impl Fn(T) -> bool) -> bool {
+        for x in items {
+            if !f(x) {
+                return false;
+            }
+        }
+        true
+    }
+
     fn position<T>(items: [T], f: impl Fn(T) -> bool) -> Option<usize> {
         for (k, x) in items.into_iter().enumerate() {
             if f(x) {
