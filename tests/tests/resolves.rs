@@ -3,7 +3,7 @@
 
 mod common;
 
-use straightline_codegen::{Branches, Compiled, Settings, Stage};
+use straightline_codegen::{Compiled, Settings, Stage};
 use straightline_kernels::prelude::*;
 use straightline_study::quality::resolves;
 use straightline_study::quality::{Kind, Method, Shot, methods};
@@ -24,14 +24,6 @@ fn shots(scene: &str) -> (Vec<Method>, Shot) {
     let listed: Vec<&Method> = resolved.iter().collect();
     let shot = Shot::draw(&renderer, &listed, &mut Unwatched).expect("drawn");
     (resolved, shot)
-}
-
-/// How the kernels are compiled where they are timed.
-fn timed() -> Settings {
-    Settings {
-        branches: Branches::Keep,
-        ..Settings::default()
-    }
 }
 
 /// What a kernel gives on the device, and by the interpreter in `f32` and `f64`.
@@ -57,7 +49,7 @@ fn pictures_are_those_of_the_definitions() {
             let inputs = resolves::inputs(method, &shot).expect("inputs");
             assert_eq!(kernels.len(), inputs.len(), "{}", method.name);
             let (kernel, inputs) = (&kernels[kernels.len() - 1], &inputs[inputs.len() - 1]);
-            let compiled = kernel.compile(&timed()).expect("it compiles");
+            let compiled = kernel.compile(&Settings::default()).expect("it compiles");
             for (by, targets) in ["device", "f32", "f64"].iter().zip(made(&bench, &compiled, inputs)) {
                 let texels = defined.texels().iter().zip(&targets[0].texels);
                 let off =
@@ -85,7 +77,9 @@ fn aggregates_are_those_of_the_definition() {
         let (methods, shot) = shots(scene);
         for method in methods.iter().filter(|method| method.kind == Kind::Aggregated) {
             let aggregated = shot.aggregated(method).expect("drawn");
-            let compiled = resolves::kernels(method)[0].compile(&timed()).expect("it compiles");
+            let compiled = resolves::kernels(method)[0]
+                .compile(&Settings::default())
+                .expect("it compiles");
             let inputs = resolves::inputs(method, &shot).expect("inputs");
             for (by, targets) in ["device", "f32", "f64"].iter().zip(made(&bench, &compiled, &inputs[0])) {
                 let mut beyond = 0;

@@ -29,9 +29,18 @@ pub fn directional(colors: &FrameLayers<Vec4>, pixel: IVec2) -> Vec4 {
         dark = dark.min(luma);
         bright = bright.max(luma);
     }
-    if bright - dark < EDGE {
-        return even;
-    }
+    // Most pixels are even.
+    #[cfg_attr(false, branch)]
+    let resolved = if bright - dark < EDGE {
+        even
+    } else {
+        along_the_edge(colors, pixel, even)
+    };
+    resolved
+}
+
+/// The colour of a pixel whose samples differ; `even` where no plane explains the picture around.
+fn along_the_edge(colors: &FrameLayers<Vec4>, pixel: IVec2, even: Vec4) -> Vec4 {
     let mut around = [Vec4::ZERO; 36];
     let mut lumas = [0.0; 36];
     let mut mean = 0.0;

@@ -8,7 +8,7 @@ use crate::peers::{Smaa, Transfer, fxaa, mlaa};
 use crate::watch::Watch;
 use glam::{UVec2, Vec3, Vec4, vec4};
 use std::time::{Duration, Instant};
-use straightline_codegen::{Branches, Compiled, Kernel, Settings, Stage};
+use straightline_codegen::{Compiled, Kernel, Settings, Stage};
 use straightline_kernels::prelude::Frame;
 use straightline_manifest::{BindingKind, Dimension, Manifest};
 use straightline_runtime::Pass;
@@ -215,20 +215,15 @@ fn runner(bench: &Bench, method: &Method, size: UVec2) -> Result<Runner, Quality
         | Kind::Aggregated
         | Kind::Supersampled(_) => {
             let passes = resolves::kernels(method);
-            // Most pixels are even, and ended early where there are branches.
-            let settings = Settings {
-                branches: Branches::Keep,
-                ..Settings::default()
-            };
-            let shaders = passes.iter().map(|kernel| Shader::new(bench, kernel, &settings));
+            let shaders = passes.iter().map(|kernel| Shader::new(bench, kernel, &[]));
             return Ok(Runner::Resolved(shaders.collect::<Result<_, _>>()?));
         }
     };
-    let shader = Shader::with(bench, &kernel, &method.options)?;
+    let shader = Shader::new(bench, &kernel, &method.options)?;
     Ok(match method.shading() {
         _ if method.kind == Kind::Merged => Runner::Merged(Box::new(shader)),
         ShadingSample::Placed => {
-            let place = Shader::with(bench, &Kernel::builtin("sraa_place")?, &method.options)?;
+            let place = Shader::new(bench, &Kernel::builtin("sraa_place")?, &method.options)?;
             Runner::Kernel(vec![place, shader])
         }
         _ => Runner::Kernel(vec![shader]),
@@ -268,16 +263,12 @@ fn merged(filtered: &Frame<Vec4>, capture: &Capture) -> Frame<Vec4> {
 }
 
 impl Shader {
-    fn with(bench: &Bench, kernel: &Kernel, options: &[(String, String)]) -> Result<Shader, QualityError> {
+    fn new(bench: &Bench, kernel: &Kernel, options: &[(String, String)]) -> Result<Shader, QualityError> {
         let settings = Settings {
             options: options.to_vec(),
             ..Settings::default()
         };
-        Shader::new(bench, kernel, &settings)
-    }
-
-    fn new(bench: &Bench, kernel: &Kernel, settings: &Settings) -> Result<Shader, QualityError> {
-        let compiled = kernel.compile(settings)?;
+        let compiled = kernel.compile(&settings)?;
         let (pass, manifest) = bench.pass(&compiled, Stage::Compute)?;
         Ok(Shader {
             compiled,
