@@ -49,7 +49,7 @@ fn whole() -> Graph {
     }];
     graph.tallies = vec!["t".to_owned()];
     let add = |b: &mut Builder<'_>, op: Op, args: &[u32], ty: Type| {
-        b.intern(op, args.iter().map(|k| NodeId(*k)).collect(), ty).0
+        b.intern(op, args.iter().map(|k| NodeId(*k)).collect::<Vec<_>>(), ty).0
     };
     let pixel = add(&mut b, Op::Pixel, &[], PAIR); // 0
     let texel = add(&mut b, Op::Load { texture: 0, site: 0 }, &[pixel], VEC2); // 1
@@ -294,7 +294,7 @@ fn writing() -> Graph {
     b.close_region(Vec::new());
     let second = b.open_region(&[]);
     b.close_region(Vec::new());
-    b.intern(Op::If(first, second), vec![holds], Type::Results);
+    b.intern(Op::If(first, second), [holds], Type::Results);
     b.finish(Vec::new())
 }
 

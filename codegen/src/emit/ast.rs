@@ -357,39 +357,45 @@ impl<'g> Stmt<'g> {
     }
 
     /// Expressions of the statement itself, without those of its blocks.
-    pub fn own(&self) -> Vec<&Expr> {
-        match &self.kind {
-            StmtKind::Let(_, value) => vec![value],
-            StmtKind::Output(values) => values.iter().collect(),
-            StmtKind::Effect(effect) => effect.args.iter().collect(),
-            StmtKind::Var(_, value) | StmtKind::Return(value) => value.iter().collect(),
-            StmtKind::Assign(place, _, value) | StmtKind::Store(_, place, value) => vec![place, value],
-            StmtKind::For { start, end, .. } => vec![start, end],
-            StmtKind::If { condition, .. } => vec![condition],
-            StmtKind::Loop(_) | StmtKind::Break | StmtKind::Comment(_) | StmtKind::Barrier { .. } => Vec::new(),
-        }
+    pub fn own(&self) -> impl Iterator<Item = &Expr> {
+        let (few, many): (_, &[Expr]) = match &self.kind {
+            StmtKind::Let(_, value) => ([Some(value), None], &[]),
+            StmtKind::Output(values) => ([None; 2], values),
+            StmtKind::Effect(effect) => ([None; 2], &effect.args),
+            StmtKind::Var(_, value) | StmtKind::Return(value) => ([value.as_ref(), None], &[]),
+            StmtKind::Assign(place, _, value) | StmtKind::Store(_, place, value) => ([Some(place), Some(value)], &[]),
+            StmtKind::For { start, end, .. } => ([Some(start), Some(end)], &[]),
+            StmtKind::If { condition, .. } => ([Some(condition), None], &[]),
+            StmtKind::Loop(_) | StmtKind::Break | StmtKind::Comment(_) | StmtKind::Barrier { .. } => ([None; 2], &[]),
+        };
+        few.into_iter().flatten().chain(many)
     }
 
     /// Shows every expression of the statement, those of its blocks too.
     pub fn visit(&self, see: &mut dyn FnMut(&Expr)) {
-        self.own().into_iter().for_each(|expr| expr.visit(see));
+        self.own().for_each(|expr| expr.visit(see));
         for block in self.blocks() {
             block.iter().for_each(|stmt| stmt.visit(see));
         }
     }
 
     /// As [`Stmt::own`], to change them.
-    pub fn own_mut(&mut self) -> Vec<&mut Expr> {
-        match &mut self.kind {
-            StmtKind::Let(_, value) => vec![value],
-            StmtKind::Output(values) => values.iter_mut().collect(),
-            StmtKind::Effect(effect) => effect.args.iter_mut().collect(),
-            StmtKind::Var(_, value) | StmtKind::Return(value) => value.iter_mut().collect(),
-            StmtKind::Assign(place, _, value) | StmtKind::Store(_, place, value) => vec![place, value],
-            StmtKind::For { start, end, .. } => vec![start, end],
-            StmtKind::If { condition, .. } => vec![condition],
-            StmtKind::Loop(_) | StmtKind::Break | StmtKind::Comment(_) | StmtKind::Barrier { .. } => Vec::new(),
-        }
+    pub fn own_mut(&mut self) -> impl Iterator<Item = &mut Expr> {
+        let (few, many): (_, &mut [Expr]) = match &mut self.kind {
+            StmtKind::Let(_, value) => ([Some(value), None], &mut []),
+            StmtKind::Output(values) => ([None, None], values),
+            StmtKind::Effect(effect) => ([None, None], &mut effect.args),
+            StmtKind::Var(_, value) | StmtKind::Return(value) => ([value.as_mut(), None], &mut []),
+            StmtKind::Assign(place, _, value) | StmtKind::Store(_, place, value) => {
+                ([Some(place), Some(value)], &mut [])
+            }
+            StmtKind::For { start, end, .. } => ([Some(start), Some(end)], &mut []),
+            StmtKind::If { condition, .. } => ([Some(condition), None], &mut []),
+            StmtKind::Loop(_) | StmtKind::Break | StmtKind::Comment(_) | StmtKind::Barrier { .. } => {
+                ([None, None], &mut [])
+            }
+        };
+        few.into_iter().flatten().chain(many)
     }
 
     /// As [`Stmt::blocks`], to change them.

@@ -199,23 +199,27 @@ impl Wanted {
     pub fn of(&self, graph: &Graph, id: NodeId, origin: Option<&Origin>) -> String {
         match origin {
             Some(origin) if !origin.name.is_empty() => {
-                let counters: Vec<String> = origin.counters.iter().map(|c| self.counter(c)).collect();
-                // Many counters stand close together.
-                let between = if counters.len() > 2 { "" } else { "_" };
-                match counters.is_empty() {
-                    true => origin.name.to_string(),
-                    false => format!("{}_{}", origin.name, counters.join(between)),
+                let mut name = origin.name.to_string();
+                for (k, counter) in origin.counters.iter().enumerate() {
+                    // Many counters stand close together.
+                    if k == 0 || origin.counters.len() <= 2 {
+                        name.push('_');
+                    }
+                    self.counter(counter, &mut name);
                 }
+                name
             }
             _ => plain(graph, id),
         }
     }
 
-    /// `s2`, or `jn1` for -1.
-    fn counter(&self, counter: &Counter) -> String {
-        let short = self.short.get(&*counter.name).map_or(&*counter.name, String::as_str);
-        let sign = if counter.value < 0 { "n" } else { "" };
-        format!("{short}{sign}{}", counter.value.unsigned_abs())
+    /// Adds `s2`, or `jn1` for -1.
+    fn counter(&self, counter: &Counter, name: &mut String) {
+        name.push_str(self.short.get(&*counter.name).map_or(&*counter.name, String::as_str));
+        if counter.value < 0 {
+            name.push('n');
+        }
+        name.push_str(&counter.value.unsigned_abs().to_string());
     }
 }
 

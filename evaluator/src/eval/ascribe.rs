@@ -61,7 +61,7 @@ impl Evaluator<'_> {
     /// What an enum holds, by the types of its fields.
     fn ascribe_choice(&mut self, choice: Rc<Choice>, args: &[SourceType], span: Span) -> Eval {
         let holds = choice.all().next().is_some();
-        let Some(definition) = self.library.enums.get(&choice.ty).filter(|_| holds) else {
+        let Some(definition) = self.library.enums.get(&*choice.ty).filter(|_| holds) else {
             return Ok(Value::Enum(choice));
         };
         let mut ascribed = Choice::clone(&choice);

@@ -96,11 +96,7 @@ impl Evaluator<'_> {
         let index = self.index_node(index, span)?;
         let (element, _) = self.same_type(&element, &current, span)?;
         let ty = self.ty(array);
-        Ok(Value::Node(self.builder.add(
-            Op::ArraySet,
-            vec![array, index, element],
-            ty,
-        )))
+        Ok(Value::Node(self.builder.add(Op::ArraySet, [array, index, element], ty)))
     }
 
     fn set_lane(&mut self, vector: NodeId, name: &str, new: &Value, span: Span) -> Eval {
@@ -116,7 +112,7 @@ impl Evaluator<'_> {
         };
         let mut lanes = Vec::new();
         for k in 0..ty.lanes() {
-            let old = self.builder.add(Op::Extract(k), vec![vector], part);
+            let old = self.builder.add(Op::Extract(k), [vector], part);
             lanes.push(if k == changed {
                 self.same_type(new, &Value::Node(old), span)?.0
             } else {

@@ -171,7 +171,7 @@ impl Evaluator<'_> {
         };
         let place = self.followed((**place).clone(), span)?;
         let step = |tuple: bool, k: usize| match tuple {
-            true => Step::Field(k.to_string()),
+            true => Step::Field(k.to_string().into()),
             false => Step::Index(Value::Int(k as i64)),
         };
         let whole = self.read(&place, span)?;

@@ -168,9 +168,9 @@ impl Evaluator<'_> {
                 let at = self.index_node(at, span)?;
                 let len = self.builder.add(Op::BufferLen(index), Vec::new(), Type::I32);
                 let (zero, one) = (self.builder.i32(0), self.builder.i32(1));
-                let last = self.builder.add(Op::Binary(BinaryOp::Sub), vec![len, one], Type::I32);
+                let last = self.builder.add(Op::Binary(BinaryOp::Sub), [len, one], Type::I32);
                 self.name(&Value::Node(last), "last", span);
-                let inside = self.builder.add(Op::Clamp, vec![at, zero, last], Type::I32);
+                let inside = self.builder.add(Op::Clamp, [at, zero, last], Type::I32);
                 let mut next = 0;
                 match self.elements[index as usize].clone() {
                     SourceType::Name(of, _) => {
@@ -230,7 +230,8 @@ impl Evaluator<'_> {
             site: self.site(),
         };
         let ty = ty.map_or(Type::F32, Type::element);
-        self.builder.add(op, std::iter::once(element).chain(part).collect(), ty)
+        self.builder
+            .add(op, std::iter::once(element).chain(part).collect::<Vec<_>>(), ty)
     }
 }
 

@@ -6,6 +6,7 @@ use super::{Evaluator, MAX_CALLS};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::front::tree::{Expr, ExprKind, Function, Generic, Type as SourceType};
 use crate::ir::{Naming, NodeId, Op, Scalar, Type};
+use std::borrow::Cow;
 use std::rc::Rc;
 
 pub use crate::front::tree::vector_named as vector_type;
@@ -131,7 +132,7 @@ impl Evaluator<'_> {
             ([.., name], [Value::Str(tally), value]) if name == "tally" => self.tally(tally, value, span),
             ([.., ty, from], [value]) if ty == "f32" && from == "from_bits" => {
                 let bits = self.int_or_node(value, Scalar::U32, span)?;
-                Ok(Value::Node(self.builder.add(Op::Bitcast, vec![bits], Type::F32)))
+                Ok(Value::Node(self.builder.add(Op::Bitcast, [bits], Type::F32)))
             }
             ([.., ty, name], [receiver, rest @ ..])
                 if matches!(ty.as_str(), "f32" | "i32" | "u32") || vector_type(ty).is_some() =>
@@ -260,7 +261,7 @@ impl Evaluator<'_> {
         if let Ok(value) = &result {
             // The kernel's own name says nothing of its result.
             let result = if self.calls.is_empty() {
-                "result".to_owned()
+                Cow::Borrowed("result")
             } else {
                 called(name)
             };
@@ -408,7 +409,7 @@ impl Evaluator<'_> {
             tallies.len() - 1
         });
         let ty = self.ty(id);
-        Ok(Value::Node(self.builder.add(Op::Tally(index as u32), vec![id], ty)))
+        Ok(Value::Node(self.builder.add(Op::Tally(index as u32), [id], ty)))
     }
 }
 
@@ -432,7 +433,7 @@ fn constructor(path: &[String]) -> Option<(Scalar, u8)> {
 }
 
 /// What a function's result may be called: by the function, of a constructor by its type.
-fn called(function: &str) -> String {
+fn called(function: &str) -> Cow<'_, str> {
     match function.rsplit_once("::") {
         Some((ty, "new" | "default" | "from" | "make")) => {
             let mut name = String::new();
@@ -442,9 +443,9 @@ fn called(function: &str) -> String {
                 }
                 name.push(c.to_ascii_lowercase());
             }
-            name
+            name.into()
         }
-        Some((_, method)) => method.to_owned(),
-        None => function.to_owned(),
+        Some((_, method)) => method.into(),
+        None => function.into(),
     }
 }

@@ -143,7 +143,7 @@ impl Evaluator<'_> {
                 let ty = self.ty(found);
                 for (k, place) in own.iter().enumerate().rev().skip(1) {
                     let is = self.is_number(*number, own.len(), k);
-                    found = self.builder.add(Op::Select, vec![is, *place, found], ty);
+                    found = self.builder.add(Op::Select, [is, *place, found], ty);
                 }
             }
             Value::OneOf(found, Rc::clone(&all))
@@ -167,7 +167,7 @@ impl Evaluator<'_> {
             _ => {
                 let wanted = self.function_number(k, count);
                 let is = Op::Binary(BinaryOp::Eq);
-                self.builder.add(is, vec![number, wanted], Type::BOOL)
+                self.builder.add(is, [number, wanted], Type::BOOL)
             }
         }
     }

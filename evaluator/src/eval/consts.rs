@@ -27,7 +27,7 @@ impl Evaluator<'_> {
             };
             let columns: Vec<_> = (0..n)
                 .map(|c| {
-                    let parts = (0..n).map(|r| if r == c { diagonal } else { zero }).collect();
+                    let parts: Vec<_> = (0..n).map(|r| if r == c { diagonal } else { zero }).collect();
                     self.builder.add(Op::Compose, parts, Type::value(Scalar::F32, n))
                 })
                 .collect();

@@ -272,7 +272,7 @@ impl Evaluator<'_> {
         }
         graph.regions[first.0 as usize].results = differing.iter().map(|(a, _)| *a).collect();
         graph.regions[second.0 as usize].results = differing.iter().map(|(_, b)| *b).collect();
-        let node = self.builder.add(Op::If(first, second), vec![condition], Type::Results);
+        let node = self.builder.add(Op::If(first, second), [condition], Type::Results);
         let mut k = 0;
         let mut merged = Vec::new();
         for (a, b) in lefts.iter().zip(rights) {
@@ -280,7 +280,7 @@ impl Evaluator<'_> {
                 merged.push(*a);
             } else {
                 let ty = self.ty(*a);
-                merged.push(self.builder.add(Op::Result(k), vec![node], ty));
+                merged.push(self.builder.add(Op::Result(k), [node], ty));
                 k += 1;
             }
         }
@@ -291,7 +291,7 @@ impl Evaluator<'_> {
     fn select(&mut self, condition: NodeId, a: NodeId, b: NodeId) -> NodeId {
         let ty = self.ty(a);
         let Type::Array { len, .. } = ty else {
-            return self.builder.add(Op::Select, vec![condition, a, b], ty);
+            return self.builder.add(Op::Select, [condition, a, b], ty);
         };
         if a == b {
             return a;
@@ -299,10 +299,10 @@ impl Evaluator<'_> {
         let element = ty.element();
         let elements = (0..len as i32).map(|k| {
             let k = self.builder.i32(k);
-            let [a, b] = [a, b].map(|array| self.builder.add(Op::ArrayGet, vec![array, k], element));
-            self.builder.add(Op::Select, vec![condition, a, b], element)
+            let [a, b] = [a, b].map(|array| self.builder.add(Op::ArrayGet, [array, k], element));
+            self.builder.add(Op::Select, [condition, a, b], element)
         });
-        let elements = elements.collect();
+        let elements: Vec<_> = elements.collect();
         self.builder.add(Op::MakeArray, elements, ty)
     }
 }

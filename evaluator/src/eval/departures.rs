@@ -388,7 +388,7 @@ impl Evaluator<'_> {
 
     /// `!a`.
     pub fn not(&mut self, a: NodeId) -> NodeId {
-        self.builder.add(Op::Unary(UnaryOp::Not), vec![a], Type::BOOL)
+        self.builder.add(Op::Unary(UnaryOp::Not), [a], Type::BOOL)
     }
 
     /// `a && b`.
@@ -397,7 +397,7 @@ impl Evaluator<'_> {
             (Some(true), _) => b,
             (Some(false), _) | (_, Some(true)) => a,
             (_, Some(false)) => b,
-            _ => self.builder.add(Op::Binary(BinaryOp::And), vec![a, b], Type::BOOL),
+            _ => self.builder.add(Op::Binary(BinaryOp::And), [a, b], Type::BOOL),
         }
     }
 
@@ -407,7 +407,7 @@ impl Evaluator<'_> {
             (Some(false), _) => b,
             (Some(true), _) | (_, Some(false)) => a,
             (_, Some(true)) => b,
-            _ => self.builder.add(Op::Binary(BinaryOp::Or), vec![a, b], Type::BOOL),
+            _ => self.builder.add(Op::Binary(BinaryOp::Or), [a, b], Type::BOOL),
         }
     }
 }

@@ -142,7 +142,7 @@ impl Evaluator<'_> {
             let name = self.builder.graph().memory(memory).1.to_owned();
             self.name(&Value::Node(len), &format!("{name}_len"), span);
         }
-        self.builder.add(Op::Binary(BinaryOp::Lt), vec![at, len], Type::BOOL)
+        self.builder.add(Op::Binary(BinaryOp::Lt), [at, len], Type::BOOL)
     }
 
     /// Effects are of invocations that compute one pixel, inside the frame.

@@ -5,6 +5,7 @@ use super::Evaluator;
 use super::departures::Tail;
 use super::value::{Eval, Exit, Value, Way};
 use crate::diagnostic::{Diagnostic, Span};
+use crate::front::name::Name;
 use crate::front::tree::{Enum, Expr};
 use crate::ir::{BinaryOp, NodeId, Op, Type};
 use crate::policy::Branches;
@@ -14,11 +15,11 @@ use std::rc::Rc;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Choice {
     /// The enum.
-    pub ty: String,
+    pub ty: Name,
     /// Which variant it is.
     pub tag: Tag,
     /// What each variant holds, by the names of its fields; `None` of those that it is known not to be.
-    pub held: Vec<Option<Vec<(String, Value)>>>,
+    pub held: Vec<Option<Vec<(Name, Value)>>>,
 }
 
 /// Which variant a value is.
@@ -32,23 +33,23 @@ pub enum Tag {
 
 impl Choice {
     /// A variant that is known.
-    pub fn known(ty: &str, definition: &Enum, variant: usize, fields: Vec<(String, Value)>) -> Value {
+    pub fn known(ty: impl Into<Name>, definition: &Enum, variant: usize, fields: Vec<(Name, Value)>) -> Value {
         let mut held = vec![None; definition.variants.len()];
         held[variant] = Some(fields);
         Value::Enum(Rc::new(Choice {
-            ty: ty.to_owned(),
+            ty: ty.into(),
             tag: Tag::Known(variant),
             held,
         }))
     }
 
     /// What it holds if it is the variant at a position.
-    pub fn fields(&self, variant: usize) -> Option<&[(String, Value)]> {
+    pub fn fields(&self, variant: usize) -> Option<&[(Name, Value)]> {
         self.held.get(variant)?.as_deref()
     }
 
     /// All fields of all variants that it may be.
-    pub fn all(&self) -> impl Iterator<Item = &(String, Value)> {
+    pub fn all(&self) -> impl Iterator<Item = &(Name, Value)> {
         self.held.iter().flatten().flatten()
     }
 
@@ -59,7 +60,7 @@ impl Choice {
 
     /// The same with other fields.
     pub fn with_fields(&self, mut change: impl FnMut(&Value) -> Value) -> Choice {
-        let one = |(name, value): &(String, Value)| (name.clone(), change(value));
+        let one = |(name, value): &(Name, Value)| (name.clone(), change(value));
         let mut one = one;
         let held = self
             .held
@@ -108,8 +109,7 @@ impl Evaluator<'_> {
             return if variant == 1 { tag } else { self.not(tag) };
         }
         let wanted = self.builder.i32(variant as i32);
-        self.builder
-            .add(Op::Binary(BinaryOp::Eq), vec![tag, wanted], Type::BOOL)
+        self.builder.add(Op::Binary(BinaryOp::Eq), [tag, wanted], Type::BOOL)
     }
 
     /// The variant that a path names, with what it holds; `None` of a path that is none. Errors are of the number of values.
@@ -157,7 +157,7 @@ impl Evaluator<'_> {
         Ok((Value::Enum(Rc::new(left)), Value::Enum(Rc::new(right))))
     }
 
-    fn blank_fields(&mut self, fields: &[(String, Value)]) -> Vec<(String, Value)> {
+    fn blank_fields(&mut self, fields: &[(Name, Value)]) -> Vec<(Name, Value)> {
         let each = fields.iter().map(|(name, value)| (name.clone(), self.blank(value)));
         each.collect()
     }
@@ -267,7 +267,7 @@ impl Evaluator<'_> {
         let library = self.library;
         let other = Choice::known(
             &choice.ty,
-            &library.enums[&choice.ty],
+            &library.enums[&*choice.ty],
             1 - good,
             choice.fields(1 - good).unwrap_or_default().to_vec(),
         );
@@ -308,7 +308,7 @@ impl Evaluator<'_> {
     /// The names of the numbers in a value of an enum, by the name of the whole: its tag, and what each variant holds.
     pub fn choice_names(&self, choice: &Choice, name: &str) -> ChoiceNames {
         let library = self.library;
-        let variants = library.enums.get(&choice.ty).map_or(&[][..], |e| &e.variants);
+        let variants = library.enums.get(&*choice.ty).map_or(&[][..], |e| &e.variants);
         let tag = match choice.tag {
             Tag::Known(_) => None,
             Tag::Node(id) => Some((

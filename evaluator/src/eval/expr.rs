@@ -5,6 +5,7 @@ use super::enums::Choice;
 use super::value::{Eval, Exit, Step, Value, Way};
 use super::{Evaluator, MAX_EXPRESSIONS, MAX_PARTS};
 use crate::diagnostic::{Diagnostic, Span};
+use crate::front::name::Name;
 use crate::front::tree::{Expr, ExprKind, IntType};
 use crate::ir::{BinaryOp, NodeId, Op, Scalar, Type};
 
@@ -156,7 +157,7 @@ impl Evaluator<'_> {
         Ok(value)
     }
 
-    fn structure(&mut self, path: &[String], fields: &[(String, Expr)], rest: Option<&Expr>, span: Span) -> Eval {
+    fn structure(&mut self, path: &[String], fields: &[(Name, Expr)], rest: Option<&Expr>, span: Span) -> Eval {
         let library = self.library;
         let name = path.last().map(String::as_str).unwrap_or_default();
         let variant = library.variant(path);
@@ -256,7 +257,7 @@ impl Evaluator<'_> {
                 match lane(name) {
                     Some(k) if ty.lanes() > 1 && k < ty.lanes() && !ty.is_array() => {
                         let part = Type::value(ty.kind().unwrap_or(Scalar::F32), 1);
-                        Ok(Value::Node(self.builder.add(Op::Extract(k), vec![*id], part)))
+                        Ok(Value::Node(self.builder.add(Op::Extract(k), [*id], part)))
                     }
                     _ => Err(
                         Diagnostic::at(span, format!("a {} has no field `{name}`", ty.in_rust()))
@@ -324,7 +325,7 @@ impl Evaluator<'_> {
         }
         Ok(Value::Node(self.builder.add(
             Op::ArrayGet,
-            vec![array, index],
+            [array, index],
             ty.element(),
         )))
     }

@@ -20,7 +20,7 @@ impl Evaluator<'_> {
                 let x = self.float(x, name, span)?;
                 let ty = self.ty(x);
                 let op = unary.unwrap_or(UnaryOp::Fract);
-                Ok(Some(Value::Node(self.builder.add(Op::Unary(op), vec![x], ty))))
+                Ok(Some(Value::Node(self.builder.add(Op::Unary(op), [x], ty))))
             }
             ("saturate", [x]) => {
                 let x = self.float(x, name, span)?;
@@ -32,9 +32,9 @@ impl Evaluator<'_> {
             }
             ("step", [edge, x]) => {
                 let (edge, x) = (self.float(edge, name, span)?, self.float(x, name, span)?);
-                let below = self.builder.add(Op::Binary(BinaryOp::Lt), vec![x, edge], Type::BOOL);
+                let below = self.builder.add(Op::Binary(BinaryOp::Lt), [x, edge], Type::BOOL);
                 let (zero, one) = (self.builder.f32(0.0), self.builder.f32(1.0));
-                let chosen = self.builder.add(Op::Select, vec![below, zero, one], Type::F32);
+                let chosen = self.builder.add(Op::Select, [below, zero, one], Type::F32);
                 Ok(Some(Value::Node(chosen)))
             }
             ("smoothstep", [low, high, x]) => {
@@ -77,7 +77,7 @@ impl Evaluator<'_> {
 
     fn saturated(&mut self, x: NodeId) -> NodeId {
         let ty = self.ty(x);
-        self.builder.add(Op::Unary(UnaryOp::Saturate), vec![x], ty)
+        self.builder.add(Op::Unary(UnaryOp::Saturate), [x], ty)
     }
 
     fn float(&mut self, value: &Value, name: &str, span: Span) -> Eval<NodeId> {

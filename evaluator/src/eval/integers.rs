@@ -40,8 +40,7 @@ impl Evaluator<'_> {
                             .builder
                             .constant(Type::scalar(ty.kind().unwrap_or(Scalar::I32)), [1, 0, 0, 0]);
                         let one = self.splat(one, ty.lanes());
-                        let times =
-                            |e: &mut Self, power, _| e.builder.add(Op::Binary(BinaryOp::Mul), vec![power, x], ty);
+                        let times = |e: &mut Self, power, _| e.builder.add(Op::Binary(BinaryOp::Mul), [power, x], ty);
                         Ok(Some((0..n).fold(one, |power, k| times(self, power, k))))
                     }
                     _ => Err(
@@ -59,9 +58,9 @@ impl Evaluator<'_> {
                 };
                 let n = self.int_node(n, ty.kind().unwrap_or(Scalar::I32), span)?;
                 let n = self.splat(n, ty.lanes());
-                let rest = self.builder.add(Op::Binary(BinaryOp::Rem), vec![x, n], ty);
-                let up = self.builder.add(Op::Binary(BinaryOp::Add), vec![rest, n], ty);
-                return Ok(Some(self.builder.add(Op::Binary(BinaryOp::Rem), vec![up, n], ty)));
+                let rest = self.builder.add(Op::Binary(BinaryOp::Rem), [x, n], ty);
+                let up = self.builder.add(Op::Binary(BinaryOp::Add), [rest, n], ty);
+                return Ok(Some(self.builder.add(Op::Binary(BinaryOp::Rem), [up, n], ty)));
             }
         };
         // A known receiver is a node by now: known integers do not wrap.

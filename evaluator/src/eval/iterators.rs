@@ -232,11 +232,7 @@ impl Evaluator<'_> {
                 ty,
                 std::array::from_fn(|k| if k < ty.lanes() as usize { unit } else { 0 }),
             );
-            terms.push(Value::Node(self.builder.add(
-                Op::Select,
-                vec![is_some, value, unit],
-                ty,
-            )));
+            terms.push(Value::Node(self.builder.add(Op::Select, [is_some, value, unit], ty)));
         }
         self.reduced(name, terms, span)
     }
@@ -265,7 +261,7 @@ impl Evaluator<'_> {
             && self.ty(*id).lanes() > 1
         {
             let zero = self.builder.f32(0.0);
-            let zero = self.builder.add(Op::Splat, vec![zero], self.ty(*id));
+            let zero = self.builder.add(Op::Splat, [zero], self.ty(*id));
             all = self.binary(op, &Value::Node(zero), &all, span)?;
         }
         for item in items {

@@ -141,7 +141,7 @@ impl Evaluator<'_> {
         let node = self.builder.add(Op::Loop(region), args, Type::Results);
         let result = |e: &mut Self, (k, value): (usize, &NodeId)| {
             let ty = e.ty(*value);
-            e.builder.add(Op::Result(k as u32), vec![node], ty)
+            e.builder.add(Op::Result(k as u32), [node], ty)
         };
         let outs: Vec<NodeId> = results.iter().enumerate().map(|each| result(self, each)).collect();
         let (outs, mut left) = (outs[..count].to_vec(), outs[count..].iter().copied());

@@ -63,7 +63,7 @@ impl Evaluator<'_> {
             .help(format!("convert it with `as {ty}`"))
             .into());
         }
-        let whole = self.builder.add(Op::Convert, vec![id], Type::U32);
+        let whole = self.builder.add(Op::Convert, [id], Type::U32);
         let converted = match ty {
             "usize" => self.convert(whole, Scalar::I32),
             _ => self.convert(whole, to),

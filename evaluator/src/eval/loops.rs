@@ -274,7 +274,7 @@ impl Evaluator<'_> {
 /// What a loop goes by in policies: its counter, or the first of the names that it binds.
 fn counter_of(pattern: &Pattern) -> String {
     match pattern {
-        Pattern::Name(name, ..) => name.clone(),
+        Pattern::Name(name, ..) => name.to_string(),
         _ => "_".to_owned(),
     }
 }

@@ -30,7 +30,7 @@ impl Evaluator<'_> {
                 );
                 let ty = self.ty(x);
                 self.in_order(low, high, span)?;
-                Some(self.builder.add(Op::Clamp, vec![x, low, high], ty))
+                Some(self.builder.add(Op::Clamp, [x, low, high], ty))
             }
             [to, amount] if name == "lerp" => {
                 // As glam computes it: self * (1 - s) + to * s.
@@ -63,7 +63,7 @@ impl Evaluator<'_> {
         let ty = self.ty(x);
         if let Some(op) = super::integers::bits(name) {
             return Ok(ty.is_integer().then(|| {
-                let counted = self.builder.add(Op::Unary(op), vec![x], ty);
+                let counted = self.builder.add(Op::Unary(op), [x], ty);
                 // Rust counts in u32.
                 if name == "reverse_bits" {
                     counted
@@ -74,7 +74,7 @@ impl Evaluator<'_> {
         }
         if let Some(op) = unary(name) {
             let fits = ty.is_float() || (name == "abs" && ty.kind() != Some(Scalar::Bool));
-            return Ok(fits.then(|| self.builder.add(Op::Unary(op), vec![x], ty)));
+            return Ok(fits.then(|| self.builder.add(Op::Unary(op), [x], ty)));
         }
         if let Some((kind, lanes)) = conversion(name) {
             return Ok((ty.lanes() == lanes).then(|| self.convert(x, kind)));
@@ -87,19 +87,19 @@ impl Evaluator<'_> {
             "recip" if ty.is_float() => {
                 let one = self.builder.f32(1.0);
                 let one = self.splat(one, ty.lanes());
-                Some(self.builder.add(Op::Binary(BinaryOp::Div), vec![one, x], ty))
+                Some(self.builder.add(Op::Binary(BinaryOp::Div), [one, x], ty))
             }
             "wrapping_neg" if ty.kind() == Some(Scalar::I32) => {
-                Some(self.builder.add(Op::Unary(UnaryOp::Neg), vec![x], ty))
+                Some(self.builder.add(Op::Unary(UnaryOp::Neg), [x], ty))
             }
-            "to_bits" if ty == Type::F32 => Some(self.builder.add(Op::Bitcast, vec![x], Type::U32)),
+            "to_bits" if ty == Type::F32 => Some(self.builder.add(Op::Bitcast, [x], Type::U32)),
             // A shader may assume that there are no NaNs: the test is one of bits.
             // A NaN is larger than infinity, by its bits without the sign.
             "is_nan" | "is_finite" if ty.is_float() => {
                 let largest = self.largest_magnitude(x);
                 let infinity = self.builder.constant(Type::U32, [0x7f80_0000, 0, 0, 0]);
                 let op = if name == "is_nan" { BinaryOp::Gt } else { BinaryOp::Lt };
-                Some(self.builder.add(Op::Binary(op), vec![largest, infinity], Type::BOOL))
+                Some(self.builder.add(Op::Binary(op), [largest, infinity], Type::BOOL))
             }
             "to_radians" | "to_degrees" if ty == Type::F32 => {
                 let factor = if name == "to_radians" {
@@ -108,20 +108,17 @@ impl Evaluator<'_> {
                     57.295_78
                 };
                 let factor = self.builder.f32(factor);
-                Some(self.builder.add(Op::Binary(BinaryOp::Mul), vec![x, factor], ty))
+                Some(self.builder.add(Op::Binary(BinaryOp::Mul), [x, factor], ty))
             }
             "perp" if ty == Type::value(Scalar::F32, 2) => {
                 let lanes = self.lanes(x);
-                let negative = self.builder.add(Op::Unary(UnaryOp::Neg), vec![lanes[1]], Type::F32);
-                Some(self.builder.add(Op::Compose, vec![negative, lanes[0]], ty))
+                let negative = self.builder.add(Op::Unary(UnaryOp::Neg), [lanes[1]], Type::F32);
+                Some(self.builder.add(Op::Compose, [negative, lanes[0]], ty))
             }
             "length_recip" if vector => {
                 let length = self.length(x);
                 let one = self.builder.f32(1.0);
-                Some(
-                    self.builder
-                        .add(Op::Binary(BinaryOp::Div), vec![one, length], Type::F32),
-                )
+                Some(self.builder.add(Op::Binary(BinaryOp::Div), [one, length], Type::F32))
             }
             "length_squared" if vector => Some(self.dot(x, x)),
             "length" if vector => Some(self.length(x)),
@@ -129,11 +126,9 @@ impl Evaluator<'_> {
                 // As glam computes it: the vector times the reciprocal of its length.
                 let length = self.length(x);
                 let one = self.builder.f32(1.0);
-                let scale = self
-                    .builder
-                    .add(Op::Binary(BinaryOp::Div), vec![one, length], Type::F32);
+                let scale = self.builder.add(Op::Binary(BinaryOp::Div), [one, length], Type::F32);
                 let scale = self.splat(scale, ty.lanes());
-                Some(self.builder.add(Op::Binary(BinaryOp::Mul), vec![x, scale], ty))
+                Some(self.builder.add(Op::Binary(BinaryOp::Mul), [x, scale], ty))
             }
             "min_element" | "max_element" | "element_sum" | "element_product" if ty.lanes() > 1 => {
                 let op = match name {
@@ -144,13 +139,13 @@ impl Evaluator<'_> {
                 };
                 let lanes = self.lanes(x);
                 let part = self.ty(lanes[0]);
-                let fold = |a: NodeId, b: &NodeId| self.builder.add(Op::Binary(op), vec![a, *b], part);
+                let fold = |a: NodeId, b: &NodeId| self.builder.add(Op::Binary(op), [a, *b], part);
                 Some(lanes[1..].iter().fold(lanes[0], fold))
             }
             "any" | "all" if ty.kind() == Some(Scalar::Bool) && ty.lanes() > 1 => {
                 let op = if name == "any" { BinaryOp::Or } else { BinaryOp::And };
                 let lanes = self.lanes(x);
-                let join = |a: NodeId, b: &NodeId| self.builder.add(Op::Binary(op), vec![a, *b], Type::BOOL);
+                let join = |a: NodeId, b: &NodeId| self.builder.add(Op::Binary(op), [a, *b], Type::BOOL);
                 Some(lanes[1..].iter().fold(lanes[0], join))
             }
             "truncate" if ty.lanes() > 2 => {
@@ -161,7 +156,7 @@ impl Evaluator<'_> {
                         .add(Op::Compose, lanes[..lanes.len() - 1].to_vec(), shorter),
                 )
             }
-            "signum" if ty.kind() == Some(Scalar::I32) => Some(self.builder.add(Op::Unary(UnaryOp::Sign), vec![x], ty)),
+            "signum" if ty.kind() == Some(Scalar::I32) => Some(self.builder.add(Op::Unary(UnaryOp::Sign), [x], ty)),
             _ => None,
         })
     }
@@ -181,7 +176,7 @@ impl Evaluator<'_> {
                 };
                 let (x, y) = self.same_type(receiver, a, span)?;
                 let mask = Type::value(Scalar::Bool, ty.lanes());
-                Some(self.builder.add(Op::Binary(op), vec![x, y], mask))
+                Some(self.builder.add(Op::Binary(op), [x, y], mask))
             }
             "test" if ty.kind() == Some(Scalar::Bool) && ty.lanes() > 1 => {
                 let component = self.element(&Value::Node(x), a, span)?;
@@ -205,15 +200,15 @@ impl Evaluator<'_> {
                 let (v, n) = self.same_type(receiver, a, span)?;
                 let dot = self.dot(v, n);
                 let two = self.builder.f32(2.0);
-                let twice = self.builder.add(Op::Binary(BinaryOp::Mul), vec![two, dot], Type::F32);
+                let twice = self.builder.add(Op::Binary(BinaryOp::Mul), [two, dot], Type::F32);
                 let twice = self.splat(twice, ty.lanes());
-                let away = self.builder.add(Op::Binary(BinaryOp::Mul), vec![twice, n], ty);
-                Some(self.builder.add(Op::Binary(BinaryOp::Sub), vec![v, away], ty))
+                let away = self.builder.add(Op::Binary(BinaryOp::Mul), [twice, n], ty);
+                Some(self.builder.add(Op::Binary(BinaryOp::Sub), [v, away], ty))
             }
             "powf" | "atan2" if ty.is_float() => {
                 let op = if name == "powf" { BinaryOp::Pow } else { BinaryOp::Atan2 };
                 let (x, y) = self.same_type(receiver, a, span)?;
-                Some(self.builder.add(Op::Binary(op), vec![x, y], ty))
+                Some(self.builder.add(Op::Binary(op), [x, y], ty))
             }
             "powi" if ty.is_float() => match self.known_int(a) {
                 Some(n @ 1..=64) => Some(self.power(x, n)),
@@ -233,7 +228,7 @@ impl Evaluator<'_> {
             }
             "cross" if ty == Type::value(Scalar::F32, 3) => {
                 let (x, y) = self.same_type(receiver, a, span)?;
-                Some(self.builder.add(Op::Cross, vec![x, y], ty))
+                Some(self.builder.add(Op::Cross, [x, y], ty))
             }
             "distance" | "distance_squared" if float_vector => {
                 let between = self.binary(BinaryOp::Sub, receiver, a, span)?;
@@ -263,39 +258,38 @@ impl Evaluator<'_> {
             if n % 2 == 1 {
                 power = Some(match power {
                     None => square,
-                    Some(power) => self.builder.add(Op::Binary(BinaryOp::Mul), vec![power, square], ty),
+                    Some(power) => self.builder.add(Op::Binary(BinaryOp::Mul), [power, square], ty),
                 });
             }
             n /= 2;
             match power {
                 Some(power) if n == 0 => return power,
-                _ => square = self.builder.add(Op::Binary(BinaryOp::Mul), vec![square, square], ty),
+                _ => square = self.builder.add(Op::Binary(BinaryOp::Mul), [square, square], ty),
             }
         }
     }
 
     fn dot(&mut self, a: NodeId, b: NodeId) -> NodeId {
-        self.builder.add(Op::Dot, vec![a, b], Type::F32)
+        self.builder.add(Op::Dot, [a, b], Type::F32)
     }
 
     /// Bits of the largest lane, its sign left out.
     fn largest_magnitude(&mut self, x: NodeId) -> NodeId {
         let bits_type = Type::value(Scalar::U32, self.ty(x).lanes());
-        let bits = self.builder.add(Op::Bitcast, vec![x], bits_type);
+        let bits = self.builder.add(Op::Bitcast, [x], bits_type);
         let without_sign = self.builder.constant(Type::U32, [0x7fff_ffff, 0, 0, 0]);
         let mask = self.splat(without_sign, bits_type.lanes());
-        let sizes = self.builder.add(Op::Binary(BinaryOp::And), vec![bits, mask], bits_type);
+        let sizes = self.builder.add(Op::Binary(BinaryOp::And), [bits, mask], bits_type);
         let lanes = self.lanes(sizes);
         let (first, rest) = (lanes[0], &lanes[1..]);
         rest.iter().fold(first, |largest, lane| {
-            self.builder
-                .add(Op::Binary(BinaryOp::Max), vec![largest, *lane], Type::U32)
+            self.builder.add(Op::Binary(BinaryOp::Max), [largest, *lane], Type::U32)
         })
     }
 
     fn length(&mut self, x: NodeId) -> NodeId {
         let squared = self.dot(x, x);
-        self.builder.add(Op::Unary(UnaryOp::Sqrt), vec![squared], Type::F32)
+        self.builder.add(Op::Unary(UnaryOp::Sqrt), [squared], Type::F32)
     }
 
     /// The lanes of a vector as scalars.
@@ -306,7 +300,7 @@ impl Evaluator<'_> {
         }
         let part = Type::value(ty.kind().unwrap_or(Scalar::F32), 1);
         (0..ty.lanes())
-            .map(|k| self.builder.add(Op::Extract(k), vec![x], part))
+            .map(|k| self.builder.add(Op::Extract(k), [x], part))
             .collect()
     }
 
@@ -321,9 +315,9 @@ impl Evaluator<'_> {
         let lanes =
             lanes.filter(|l| (2..=4).contains(&l.len()) && ty.lanes() > 1 && l.iter().all(|k| *k < ty.lanes()))?;
         let part = Type::value(ty.kind()?, 1);
-        let parts = lanes
+        let parts: Vec<_> = lanes
             .iter()
-            .map(|k| self.builder.add(Op::Extract(*k), vec![x], part))
+            .map(|k| self.builder.add(Op::Extract(*k), [x], part))
             .collect();
         Some(
             self.builder

@@ -3,6 +3,7 @@
 use super::Evaluator;
 use super::value::{Eval, Value};
 use crate::diagnostic::{Diagnostic, Span};
+use crate::front::name::Name;
 use crate::ir::{BinaryOp, NodeId, Op, Scalar, Type};
 
 const AXES: [&str; 4] = ["x_axis", "y_axis", "z_axis", "w_axis"];
@@ -63,7 +64,7 @@ impl Evaluator<'_> {
                 let zero = self.builder.f32(0.0);
                 let columns: Vec<NodeId> = (0..n as usize)
                     .map(|c| {
-                        let parts = (0..n as usize).map(|r| if r == c { lanes[c] } else { zero }).collect();
+                        let parts: Vec<_> = (0..n as usize).map(|r| if r == c { lanes[c] } else { zero }).collect();
                         self.builder.add(Op::Compose, parts, column)
                     })
                     .collect();
@@ -84,9 +85,9 @@ impl Evaluator<'_> {
             ("transpose", []) => {
                 let rows: Vec<NodeId> = (0..columns.len())
                     .map(|r| {
-                        let parts = columns
+                        let parts: Vec<_> = columns
                             .iter()
-                            .map(|c| self.builder.add(Op::Extract(r as u8), vec![*c], Type::F32))
+                            .map(|c| self.builder.add(Op::Extract(r as u8), [*c], Type::F32))
                             .collect();
                         self.builder.add(Op::Compose, parts, self.ty(columns[0]))
                     })
@@ -119,13 +120,11 @@ impl Evaluator<'_> {
                     let term = self.scaled(columns[k as usize], vector, k);
                     sum = self
                         .builder
-                        .add(Op::Binary(BinaryOp::Add), vec![sum, term], Type::value(Scalar::F32, 4));
+                        .add(Op::Binary(BinaryOp::Add), [sum, term], Type::value(Scalar::F32, 4));
                 }
                 if name == "transform_point3" {
                     let whole = Type::value(Scalar::F32, 4);
-                    sum = self
-                        .builder
-                        .add(Op::Binary(BinaryOp::Add), vec![sum, columns[3]], whole);
+                    sum = self.builder.add(Op::Binary(BinaryOp::Add), [sum, columns[3]], whole);
                 }
                 let lanes = self.lanes(sum);
                 let short = Type::value(Scalar::F32, 3);
@@ -187,19 +186,19 @@ impl Evaluator<'_> {
         let mut sum = self.scaled(columns[0], vector, 0);
         for (k, column) in columns.iter().enumerate().skip(1) {
             let term = self.scaled(*column, vector, k as u8);
-            sum = self.builder.add(Op::Binary(BinaryOp::Add), vec![sum, term], ty);
+            sum = self.builder.add(Op::Binary(BinaryOp::Add), [sum, term], ty);
         }
         sum
     }
 
     fn scaled(&mut self, column: NodeId, vector: NodeId, lane: u8) -> NodeId {
         let ty = self.ty(column);
-        let lane = self.builder.add(Op::Extract(lane), vec![vector], Type::F32);
+        let lane = self.builder.add(Op::Extract(lane), [vector], Type::F32);
         let lane = self.splat(lane, ty.lanes());
-        self.builder.add(Op::Binary(BinaryOp::Mul), vec![column, lane], ty)
+        self.builder.add(Op::Binary(BinaryOp::Mul), [column, lane], ty)
     }
 
-    fn columns(&mut self, value: &Value, span: Span) -> Eval<(String, Vec<NodeId>)> {
+    fn columns(&mut self, value: &Value, span: Span) -> Eval<(Name, Vec<NodeId>)> {
         match value {
             Value::Struct { ty, fields } if size(ty).is_some() => {
                 let nodes: Eval<Vec<NodeId>> = fields.iter().map(|(_, column)| self.node(column, span)).collect();
@@ -213,7 +212,7 @@ impl Evaluator<'_> {
 /// A matrix of its columns.
 pub fn matrix(columns: &[NodeId]) -> Value {
     let named = AXES.iter().zip(columns);
-    let fields = named.map(|(name, id)| ((*name).to_owned(), Value::Node(*id)));
+    let fields = named.map(|(name, id)| ((*name).into(), Value::Node(*id)));
     Value::structure(format!("Mat{}", columns.len()), fields.collect())
 }
 

@@ -337,7 +337,7 @@ impl Evaluator<'_> {
         match (self.known_int(value), value) {
             (Some(n), _) => n.to_string(),
             (None, Value::Enum(choice)) => match self.known_variant(choice) {
-                Some(k) => format!("`{}::{}`", choice.ty, self.library.enums[&choice.ty].variants[k].name),
+                Some(k) => format!("`{}::{}`", choice.ty, self.library.enums[&*choice.ty].variants[k].name),
                 None => value.describe(),
             },
             (None, Value::Tuple(parts)) if !parts.is_empty() => {

@@ -21,7 +21,7 @@ impl Evaluator<'_> {
             (UnaryOp::Not, Some(Scalar::Bool)) | (UnaryOp::Neg, Some(Scalar::F32 | Scalar::I32)) => op,
             _ => return Err(not_taken(ty, span)),
         };
-        Ok(Value::Node(self.builder.add(Op::Unary(op), vec![id], ty)))
+        Ok(Value::Node(self.builder.add(Op::Unary(op), [id], ty)))
     }
 
     pub fn binary(&mut self, op: BinaryOp, left: &Value, right: &Value, span: Span) -> Eval {
@@ -71,7 +71,7 @@ impl Evaluator<'_> {
         if op.is_comparison() {
             return self.comparison(op, a, b);
         }
-        Ok(Value::Node(self.builder.add(Op::Binary(op), vec![a, b], ty)))
+        Ok(Value::Node(self.builder.add(Op::Binary(op), [a, b], ty)))
     }
 
     /// Two matrices, column by column.
@@ -103,7 +103,7 @@ impl Evaluator<'_> {
         let lanes = self.ty(a).lanes();
         let each = self
             .builder
-            .add(Op::Binary(op), vec![a, b], Type::value(Scalar::Bool, lanes));
+            .add(Op::Binary(op), [a, b], Type::value(Scalar::Bool, lanes));
         if lanes == 1 {
             return Ok(Value::Node(each));
         }
@@ -112,10 +112,10 @@ impl Evaluator<'_> {
         } else {
             BinaryOp::And
         };
-        let mut all = self.builder.add(Op::Extract(0), vec![each], Type::BOOL);
+        let mut all = self.builder.add(Op::Extract(0), [each], Type::BOOL);
         for k in 1..lanes {
-            let next = self.builder.add(Op::Extract(k), vec![each], Type::BOOL);
-            all = self.builder.add(Op::Binary(join), vec![all, next], Type::BOOL);
+            let next = self.builder.add(Op::Extract(k), [each], Type::BOOL);
+            all = self.builder.add(Op::Binary(join), [all, next], Type::BOOL);
         }
         Ok(Value::Node(all))
     }
@@ -212,13 +212,13 @@ impl Evaluator<'_> {
             return id;
         }
         let ty = Type::value(self.ty(id).kind().unwrap_or(Scalar::F32), lanes);
-        self.builder.add(Op::Splat, vec![id], ty)
+        self.builder.add(Op::Splat, [id], ty)
     }
 
     /// A node's lanes converted to another kind.
     pub fn convert(&mut self, id: NodeId, kind: Scalar) -> NodeId {
         let ty = self.ty(id).with_scalar(kind);
-        self.builder.add(Op::Convert, vec![id], ty)
+        self.builder.add(Op::Convert, [id], ty)
     }
 
     /// `value as type`.

@@ -129,7 +129,7 @@ impl Evaluator<'_> {
                 Ok(info) => info,
                 Err(exit) => {
                     self.note(exit);
-                    values.push((field.name.clone(), Value::Poison));
+                    values.push(((&field.name).into(), Value::Poison));
                     continue;
                 }
             };
@@ -159,7 +159,7 @@ impl Evaluator<'_> {
                 }
             };
             chosen.insert(info.name.clone(), text.unwrap_or(&info.default).to_owned());
-            values.push((field.name.clone(), value));
+            values.push(((&field.name).into(), value));
         }
         Ok(Value::structure(ty, values))
     }
@@ -187,7 +187,7 @@ impl Evaluator<'_> {
                 (OptionKind::Number { integer, min, max }, shortest(number))
             }
             (_, Value::Enum(choice)) => {
-                let definition = self.library.enums.get(&choice.ty);
+                let definition = self.library.enums.get(&*choice.ty);
                 let variants = definition.map_or(&[][..], |e| &e.variants);
                 let holds = variants.iter().any(|variant| !variant.fields.is_empty());
                 let variant = self.known_variant(choice).filter(|_| !holds);

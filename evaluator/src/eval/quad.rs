@@ -137,7 +137,7 @@ impl Evaluator<'_> {
                 }
                 let (yes, no) = self.same_type(yes, no, span)?;
                 let ty = self.ty(yes);
-                Value::Node(self.builder.add(Op::Select, vec![condition, yes, no], ty))
+                Value::Node(self.builder.add(Op::Select, [condition, yes, no], ty))
             }
             ("x" | "y" | "z" | "w", []) => self.field(receiver, name, span)?,
             ("as_f32" | "as_i32", []) => {
@@ -159,7 +159,7 @@ impl Evaluator<'_> {
                 .help("send its elements one by one")
                 .into());
         }
-        Ok(Value::Node(self.builder.add(Op::Message(direction), vec![x], ty)))
+        Ok(Value::Node(self.builder.add(Op::Message(direction), [x], ty)))
     }
 
     /// The lane's own value, and what it hears from beside, from above or below, and from across. What fits goes in two messages:
@@ -195,7 +195,7 @@ impl Evaluator<'_> {
         let ty = self.ty(value);
         match (ty.is_scalar(), ty.kind()) {
             (false, Some(scalar)) => {
-                let part = |lane| self.builder.add(Op::Extract(lane), vec![value], Type::scalar(scalar));
+                let part = |lane| self.builder.add(Op::Extract(lane), [value], Type::scalar(scalar));
                 lanes.map(part).collect()
             }
             _ => vec![value],
@@ -227,18 +227,18 @@ impl Evaluator<'_> {
         let lane = self.lane(span)?;
         let zero = self.builder.i32(0);
         let [right, below] = [0, 1].map(|axis| {
-            let part = self.builder.add(Op::Extract(axis), vec![lane], Type::I32);
-            self.builder.add(Op::Binary(BinaryOp::Ne), vec![part, zero], Type::BOOL)
+            let part = self.builder.add(Op::Extract(axis), [lane], Type::I32);
+            self.builder.add(Op::Binary(BinaryOp::Ne), [part, zero], Type::BOOL)
         });
         let mut rows = Vec::new();
         for row in lanes.chunks(2) {
             let (left, other) = self.same_type(&row[0], &row[1], span)?;
             let ty = self.ty(left);
-            let row = self.builder.add(Op::Select, vec![right, other, left], ty);
+            let row = self.builder.add(Op::Select, [right, other, left], ty);
             rows.push(Value::Node(row));
         }
         let (upper, lower) = self.same_type(&rows[0], &rows[1], span)?;
         let ty = self.ty(upper);
-        Ok(Value::Node(self.builder.add(Op::Select, vec![below, lower, upper], ty)))
+        Ok(Value::Node(self.builder.add(Op::Select, [below, lower, upper], ty)))
     }
 }

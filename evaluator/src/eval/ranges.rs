@@ -224,15 +224,15 @@ impl Evaluator<'_> {
             // Nothing is less than 0 of type u32; of type i32 such an end leaves the range empty.
             return match own {
                 Type::U32 => end,
-                _ => self.builder.add(Op::Binary(BinaryOp::Max), vec![end, start], own),
+                _ => self.builder.add(Op::Binary(BinaryOp::Max), [end, start], own),
             };
         }
         let holds = if range.inclusive { BinaryOp::Le } else { BinaryOp::Lt };
-        let any = self.builder.add(Op::Binary(holds), vec![start, end], Type::BOOL);
+        let any = self.builder.add(Op::Binary(holds), [start, end], Type::BOOL);
         let (zero, one) = (self.whole(0, own), self.whole(1, own));
         // The distance of two i32 fits into a u32, and wraps to it.
         let [low, high] = [start, end].map(|id| self.convert(id, own.kind().unwrap_or(Scalar::U32)));
-        let distance = self.builder.add(Op::Binary(BinaryOp::Sub), vec![high, low], own);
+        let distance = self.builder.add(Op::Binary(BinaryOp::Sub), [high, low], own);
         let trips = match (range.step, range.inclusive) {
             (1, false) => distance,
             (1, true) => {
@@ -240,28 +240,28 @@ impl Evaluator<'_> {
                 let all = self.may_be_all(range, start, end);
                 let distance = if all {
                     let most = self.whole(u32::MAX - 1, own);
-                    self.builder.add(Op::Binary(BinaryOp::Min), vec![distance, most], own)
+                    self.builder.add(Op::Binary(BinaryOp::Min), [distance, most], own)
                 } else {
                     distance
                 };
-                self.builder.add(Op::Binary(BinaryOp::Add), vec![distance, one], own)
+                self.builder.add(Op::Binary(BinaryOp::Add), [distance, one], own)
             }
             (step, inclusive) => {
                 let last = match inclusive {
                     true => distance,
-                    false => self.builder.add(Op::Binary(BinaryOp::Sub), vec![distance, one], own),
+                    false => self.builder.add(Op::Binary(BinaryOp::Sub), [distance, one], own),
                 };
                 let steps = match u32::try_from(step) {
                     Ok(step) => {
                         let step = self.whole(step, own);
-                        self.builder.add(Op::Binary(BinaryOp::Div), vec![last, step], own)
+                        self.builder.add(Op::Binary(BinaryOp::Div), [last, step], own)
                     }
                     Err(_) => zero,
                 };
-                self.builder.add(Op::Binary(BinaryOp::Add), vec![steps, one], own)
+                self.builder.add(Op::Binary(BinaryOp::Add), [steps, one], own)
             }
         };
-        self.builder.add(Op::Select, vec![any, trips, zero], own)
+        self.builder.add(Op::Select, [any, trips, zero], own)
     }
 
     /// Whether an inclusive range may have all values of its type, as far as its ends are known.
@@ -282,16 +282,16 @@ impl Evaluator<'_> {
             let one = self.whole(1, course.own);
             let last = self
                 .builder
-                .add(Op::Binary(BinaryOp::Sub), vec![course.trips, one], course.own);
-            at = self.builder.add(Op::Binary(BinaryOp::Sub), vec![last, own], course.own);
+                .add(Op::Binary(BinaryOp::Sub), [course.trips, one], course.own);
+            at = self.builder.add(Op::Binary(BinaryOp::Sub), [last, own], course.own);
         }
         if course.own != ty {
             at = self.convert(at, ty.kind().unwrap_or(Scalar::I32));
         }
         let step = self.whole(course.step, ty);
-        let far = self.builder.add(Op::Binary(BinaryOp::Mul), vec![at, step], ty);
+        let far = self.builder.add(Op::Binary(BinaryOp::Mul), [at, step], ty);
         let towards = if course.down { BinaryOp::Sub } else { BinaryOp::Add };
-        let counter = self.builder.add(Op::Binary(towards), vec![course.from, far], ty);
+        let counter = self.builder.add(Op::Binary(towards), [course.from, far], ty);
         self.as_counter(counter, course.index)
     }
 
@@ -312,7 +312,7 @@ impl Evaluator<'_> {
     pub fn integer(&mut self, op: BinaryOp, x: NodeId, n: u32) -> NodeId {
         let ty = self.ty(x);
         let n = self.whole(n, ty);
-        self.builder.add(Op::Binary(op), vec![x, n], ty)
+        self.builder.add(Op::Binary(op), [x, n], ty)
     }
 }
 

@@ -70,7 +70,7 @@ impl Evaluator<'_> {
                 Ok(parts.map(|(k, part)| (numbered(k), part.clone(), span)).collect())
             }
             Value::Struct { ty, fields } => {
-                let Some(structure) = self.library.structs.get(ty) else {
+                let Some(structure) = self.library.structs.get(&**ty) else {
                     return Err(self.no_target(Target::ALONE, value, span));
                 };
                 let mut parts = Vec::new();
@@ -78,7 +78,7 @@ impl Evaluator<'_> {
                     let at = structure.fields.iter().find(|(field, ..)| field == name);
                     let at = at.map_or(span, |(.., at)| *at);
                     let is_numbered = name.starts_with(|c: char| c.is_ascii_digit());
-                    let name = if is_numbered { numbered(k) } else { name.clone() };
+                    let name = if is_numbered { numbered(k) } else { name.to_string() };
                     parts.push((name, part.clone(), at));
                 }
                 match parts.is_empty() {

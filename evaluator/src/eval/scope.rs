@@ -1,6 +1,7 @@
 //! Variables by name, and by the place that a mutable reference holds.
 
 use super::value::{Place, Value};
+use crate::front::name::Name;
 use std::cell::Cell;
 use std::rc::Rc;
 
@@ -18,7 +19,7 @@ pub struct Scope {
 
 #[derive(Clone, Debug, PartialEq)]
 struct Variable {
-    name: Rc<str>,
+    name: Name,
     id: u32,
     value: Value,
 }
@@ -48,7 +49,7 @@ impl Scope {
     }
 
     /// A new variable; gives its position.
-    pub fn bind(&mut self, name: &str, value: Value) -> usize {
+    pub fn bind(&mut self, name: impl Into<Name>, value: Value) -> usize {
         let id = self.next.get();
         self.next.set(id + 1);
         self.variables.push(Variable {

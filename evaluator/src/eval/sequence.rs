@@ -226,7 +226,7 @@ impl Evaluator<'_> {
                 Column::Of(array, even) => {
                     let index = self.evenly(*even, position);
                     let element = self.ty(*array).element();
-                    self.builder.add(Op::ArrayGet, vec![*array, index], element)
+                    self.builder.add(Op::ArrayGet, [*array, index], element)
                 }
             });
         }
@@ -244,7 +244,7 @@ impl Evaluator<'_> {
                     let element = self.ty(flat).element();
                     let row = (0..row.len() as u32).map(|k| {
                         let at = self.integer(BinaryOp::Add, from, k);
-                        Value::Node(self.builder.add(Op::ArrayGet, vec![flat, at], element))
+                        Value::Node(self.builder.add(Op::ArrayGet, [flat, at], element))
                     });
                     let row = row.collect();
                     return Ok(Some(Value::array(row)));
@@ -306,21 +306,19 @@ impl Evaluator<'_> {
                 return None;
             }
         }
-        let at = self
-            .builder
-            .add(Op::Binary(BinaryOp::Add), vec![from, index], Type::I32);
+        let at = self.builder.add(Op::Binary(BinaryOp::Add), [from, index], Type::I32);
         let element = self.ty(flat).element();
-        Some(Value::Node(self.builder.add(Op::ArrayGet, vec![flat, at], element)))
+        Some(Value::Node(self.builder.add(Op::ArrayGet, [flat, at], element)))
     }
 
     fn evenly(&mut self, even: Even, position: NodeId) -> NodeId {
         let ty = self.ty(position);
         let first = self.whole(even.first, ty);
         if even.step == u32::MAX {
-            return self.builder.add(Op::Binary(BinaryOp::Sub), vec![first, position], ty);
+            return self.builder.add(Op::Binary(BinaryOp::Sub), [first, position], ty);
         }
         let far = self.integer(BinaryOp::Mul, position, even.step);
-        self.builder.add(Op::Binary(BinaryOp::Add), vec![first, far], ty)
+        self.builder.add(Op::Binary(BinaryOp::Add), [first, far], ty)
     }
 
     /// Names the count of a loop where the pattern takes it as it is: the first of `enumerate`.

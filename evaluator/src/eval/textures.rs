@@ -207,9 +207,9 @@ impl Evaluator<'_> {
     /// An index that is not beyond the last of so many; `names` are those of the last one and of the index.
     fn below(&mut self, index: NodeId, count: NodeId, names: [&str; 2], span: Span) -> NodeId {
         let (zero, one) = (self.builder.i32(0), self.builder.i32(1));
-        let last = self.builder.add(Op::Binary(BinaryOp::Sub), vec![count, one], Type::I32);
+        let last = self.builder.add(Op::Binary(BinaryOp::Sub), [count, one], Type::I32);
         self.name(&Value::Node(last), names[0], span);
-        let inside = self.builder.add(Op::Clamp, vec![index, zero, last], Type::I32);
+        let inside = self.builder.add(Op::Clamp, [index, zero, last], Type::I32);
         self.name(&Value::Node(inside), names[1], span);
         inside
     }
@@ -259,10 +259,10 @@ impl Evaluator<'_> {
         let size = self.builder.add(op, Vec::new(), ty);
         let Some(level) = level else { return size };
         // Not asked of the device: some take the level of one pixel for that of its neighbours.
-        let level = self.builder.add(Op::Splat, vec![level], ty);
-        let halved = self.builder.add(Op::Binary(BinaryOp::Shr), vec![size, level], ty);
+        let level = self.builder.add(Op::Splat, [level], ty);
+        let halved = self.builder.add(Op::Binary(BinaryOp::Shr), [size, level], ty);
         let one = self.builder.constant(ty, ones(ty));
-        self.builder.add(Op::Binary(BinaryOp::Max), vec![halved, one], ty)
+        self.builder.add(Op::Binary(BinaryOp::Max), [halved, one], ty)
     }
 
     /// A texel's coordinate, clamped to the texture.
@@ -290,9 +290,9 @@ impl Evaluator<'_> {
         let size = self.size_of(index, level);
         let one = self.builder.constant(ty, ones(ty));
         let zero = self.builder.constant(ty, [0; 4]);
-        let last = self.builder.add(Op::Binary(BinaryOp::Sub), vec![size, one], ty);
+        let last = self.builder.add(Op::Binary(BinaryOp::Sub), [size, one], ty);
         self.name(&Value::Node(last), "last", span);
-        let inside = self.builder.add(Op::Clamp, vec![coord, zero, last], ty);
+        let inside = self.builder.add(Op::Clamp, [coord, zero, last], ty);
         self.name(&Value::Node(inside), "at", span);
         Ok(inside)
     }

@@ -20,8 +20,8 @@ impl<'a> Evaluator<'a> {
     /// What functions of a value's type go by. A `usize` at run time is an `i32` here, and a known integer is of any type.
     fn type_names(&self, value: &Value) -> Vec<String> {
         match value {
-            Value::Struct { ty, .. } => vec![ty.clone()],
-            Value::Enum(choice) => vec![choice.ty.clone()],
+            Value::Struct { ty, .. } => vec![ty.to_string()],
+            Value::Enum(choice) => vec![choice.ty.to_string()],
             Value::Int(_) => vec!["usize".to_owned(), "i32".to_owned(), "u32".to_owned()],
             Value::Node(id) if self.ty(*id).is_array() => Vec::new(),
             Value::Node(id) if self.ty(*id) == Type::I32 => vec!["i32".to_owned(), "usize".to_owned()],

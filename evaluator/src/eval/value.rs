@@ -2,6 +2,7 @@
 
 use super::enums::Choice;
 use crate::diagnostic::Diagnostic;
+use crate::front::name::Name;
 use crate::front::tree::Closure;
 use crate::ir::NodeId;
 use std::rc::Rc;
@@ -19,9 +20,9 @@ pub enum Value {
     /// A structure.
     Struct {
         /// Its type.
-        ty: String,
+        ty: Name,
         /// Its fields in order; shared until one is changed.
-        fields: Rc<Vec<(String, Value)>>,
+        fields: Rc<Vec<(Name, Value)>>,
     },
     /// A tuple; `()` is empty.
     Tuple(Vec<Value>),
@@ -104,11 +105,11 @@ pub struct Place {
 #[derive(Clone, Debug, PartialEq)]
 pub enum Step {
     /// A field of a structure, a part of a tuple, a component of a vector.
-    Field(String),
+    Field(Name),
     /// An element of an array, a component of a vector; the index may be a runtime value.
     Index(Value),
     /// A field of the variant of an enum at a position.
-    Held(usize, String),
+    Held(usize, Name),
 }
 
 impl Place {
@@ -149,7 +150,7 @@ impl Value {
     }
 
     /// A structure.
-    pub fn structure(ty: impl Into<String>, fields: Vec<(String, Value)>) -> Value {
+    pub fn structure(ty: impl Into<Name>, fields: Vec<(Name, Value)>) -> Value {
         Value::Struct {
             ty: ty.into(),
             fields: Rc::new(fields),

@@ -50,10 +50,10 @@ impl Evaluator<'_> {
         let mut add = |op: Op, ty: Type| self.builder.add(op, Vec::new(), ty);
         let [pixel, local, origin] = [Op::Pixel, Op::Thread, Op::GroupOrigin].map(|op| add(op, PAIR));
         let inside = add(Op::Inside, Type::BOOL);
-        let [x, y] = [0, 1].map(|k| self.builder.add(Op::Extract(k), vec![local], Type::I32));
+        let [x, y] = [0, 1].map(|k| self.builder.add(Op::Extract(k), [local], Type::I32));
         let width = self.builder.i32(size[0] as i32);
-        let row = self.builder.add(Op::Binary(BinaryOp::Mul), vec![y, width], Type::I32);
-        let index = self.builder.add(Op::Binary(BinaryOp::Add), vec![row, x], Type::I32);
+        let row = self.builder.add(Op::Binary(BinaryOp::Mul), [y, width], Type::I32);
+        let index = self.builder.add(Op::Binary(BinaryOp::Add), [row, x], Type::I32);
         for (id, called) in [
             (local, "local"),
             (origin, "origin"),
@@ -63,12 +63,9 @@ impl Evaluator<'_> {
             self.name(&Value::Node(id), called, span);
         }
         let fields = [("local", local), ("index", index), ("pixel", pixel), ("inside", inside)];
-        let fields = fields.map(|(name, id)| (name.to_owned(), Value::Node(id)));
+        let fields = fields.map(|(name, id)| (name.into(), Value::Node(id)));
         let thread = Value::structure("Thread", fields.to_vec());
-        let fields = vec![
-            ("origin".to_owned(), Value::Node(origin)),
-            ("thread".to_owned(), thread),
-        ];
+        let fields = vec![("origin".into(), Value::Node(origin)), ("thread".into(), thread)];
         Ok(Some(Value::structure(of.clone(), fields)))
     }
 
@@ -250,7 +247,7 @@ impl Evaluator<'_> {
     /// An index, or that of the last element beyond the end.
     fn held_inside(&mut self, at: NodeId, len: u32) -> NodeId {
         let (zero, last) = (self.builder.i32(0), self.builder.i32(len as i32 - 1));
-        self.builder.add(Op::Clamp, vec![at, zero, last], Type::I32)
+        self.builder.add(Op::Clamp, [at, zero, last], Type::I32)
     }
 }
 

@@ -1,6 +1,7 @@
 //! `match`, and what is written in other ways and means one: `if let`, `while let`, `let ... else`, `matches!`.
 
 use super::expr::{Lower, label};
+use super::name::Name;
 use super::targets::Kind;
 use super::tree::{Arm, Block, Expr, ExprKind, Pattern, Statement, Type};
 use crate::diagnostic::Span;
@@ -128,8 +129,8 @@ impl Lower {
         const VALUE: &str = "value";
         let mut names = Vec::new();
         bound(&pattern, &mut names);
-        let part = |name: &String| Expr {
-            kind: ExprKind::Path(vec![name.clone()]),
+        let part = |name: &Name| Expr {
+            kind: ExprKind::Path(vec![name.to_string()]),
             span,
         };
         let parts = ExprKind::Tuple(names.iter().map(|(name, ..)| part(name)).collect());
@@ -137,11 +138,11 @@ impl Lower {
             None => value,
             // The type is that of the value, not of what is taken out of it.
             Some(_) => {
-                let name = Pattern::Name(VALUE.to_owned(), false, span);
+                let name = Pattern::Name(VALUE.into(), false, span);
                 let at = value.span;
                 let block = Block {
                     statements: vec![Statement::Let(name, ty, Some(value), span)],
-                    value: Some(Box::new(part(&VALUE.to_owned()))),
+                    value: Some(Box::new(part(&VALUE.into()))),
                 };
                 Expr {
                     kind: ExprKind::Block(block),
@@ -197,8 +198,8 @@ fn taken(pattern: Pattern, guard: Option<Expr>, body: Expr) -> Arm {
 }
 
 /// The names that a pattern binds, each once.
-fn bound(pattern: &Pattern, out: &mut Vec<(String, bool, Span)>) {
-    let mut name = |name: &String, mutable: bool, at: Span| {
+fn bound(pattern: &Pattern, out: &mut Vec<(Name, bool, Span)>) {
+    let mut name = |name: &Name, mutable: bool, at: Span| {
         if out.iter().all(|(known, ..)| known != name) {
             out.push((name.clone(), mutable, at));
         }

@@ -1,6 +1,7 @@
 //! Expressions and statements.
 
 use super::choice::has_let;
+use super::name::Name;
 use super::names::Names;
 use super::parts::takes_apart;
 use super::place;
@@ -452,10 +453,10 @@ impl Lower {
 }
 
 /// The name of a field, or its number.
-pub fn member(member: &syn::Member) -> String {
+pub fn member(member: &syn::Member) -> Name {
     match member {
-        syn::Member::Named(name) => name.to_string(),
-        syn::Member::Unnamed(index) => index.index.to_string(),
+        syn::Member::Named(name) => name.to_string().into(),
+        syn::Member::Unnamed(index) => index.index.to_string().into(),
     }
 }
 

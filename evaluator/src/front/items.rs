@@ -271,7 +271,7 @@ impl Items {
             match input {
                 syn::FnArg::Receiver(receiver) => {
                     params.push(Param {
-                        name: "self".to_owned(),
+                        name: "self".into(),
                         ty: receiver_type(&mut lower, receiver),
                         mutable: receiver.mutability.is_some(),
                         span: lower.span(receiver.span()),
@@ -283,7 +283,7 @@ impl Items {
                     lower.in_parameters = false;
                     match &*typed.pat {
                         syn::Pat::Ident(p) => params.push(Param {
-                            name: p.ident.to_string(),
+                            name: p.ident.to_string().into(),
                             ty,
                             mutable: p.mutability.is_some(),
                             span: lower.span(p.span()),
@@ -514,7 +514,7 @@ fn receiver_type(lower: &mut Lower, receiver: &syn::Receiver) -> Type {
 fn fields(lower: &mut Lower, fields: &syn::Fields) -> Fields {
     let each = fields.iter().enumerate().map(|(k, field)| {
         let name = field.ident.as_ref().map_or(k.to_string(), syn::Ident::to_string);
-        (name, lower.ty(&field.ty), lower.span(field.span()))
+        (name.into(), lower.ty(&field.ty), lower.span(field.span()))
     });
     each.collect()
 }

@@ -19,6 +19,7 @@ mod inner;
 mod items;
 mod literal;
 pub mod methods;
+pub mod name;
 mod names;
 mod options;
 mod parts;

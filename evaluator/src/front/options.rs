@@ -115,7 +115,10 @@ impl Items {
                     }
                 });
                 let fields: Vec<OptionField> = fields.collect();
-                let plain = fields.iter().map(|f| (f.name.clone(), f.ty.clone(), f.span)).collect();
+                let plain = fields
+                    .iter()
+                    .map(|f| ((&f.name).into(), f.ty.clone(), f.span))
+                    .collect();
                 let plain = Struct {
                     generics: Vec::new(),
                     fields: plain,

@@ -56,7 +56,7 @@ impl Lower {
             place => {
                 let place = self.expr(place);
                 out.push(place);
-                Pattern::Name(hidden(out.len() - 1), false, span)
+                Pattern::Name(hidden(out.len() - 1).into(), false, span)
             }
         }
     }
@@ -71,7 +71,7 @@ impl Lower {
         };
         let pattern = self.pattern(pattern);
         let param = Param {
-            name,
+            name: name.into(),
             ty,
             mutable: false,
             span,

@@ -17,7 +17,7 @@ impl Lower {
                     let path = self.segments(&syn::Path::from(p.ident.clone()));
                     Pattern::Value(Box::new(self.path_expr(path, p.span())))
                 } else {
-                    Pattern::Name(name, p.mutability.is_some(), self.span(p.ident.span()))
+                    Pattern::Name(name.into(), p.mutability.is_some(), self.span(p.ident.span()))
                 }
             }
             syn::Pat::Ident(p) if p.by_ref.is_none() => {
@@ -26,7 +26,7 @@ impl Lower {
                     None => Pattern::Wild,
                 };
                 let (name, span) = (p.ident.to_string(), self.span(p.ident.span()));
-                Pattern::At(name, p.mutability.is_some(), Box::new(inner), span)
+                Pattern::At(name.into(), p.mutability.is_some(), Box::new(inner), span)
             }
             syn::Pat::Wild(_) => Pattern::Wild,
             syn::Pat::Tuple(p) => {
@@ -43,7 +43,7 @@ impl Lower {
                     syn::Pat::Rest(_) => Pattern::Rest,
                     syn::Pat::Ident(named) if is_rest(e) && named.by_ref.is_none() => {
                         let (name, span) = (named.ident.to_string(), self.span(named.ident.span()));
-                        Pattern::At(name, named.mutability.is_some(), Box::new(Pattern::Rest), span)
+                        Pattern::At(name.into(), named.mutability.is_some(), Box::new(Pattern::Rest), span)
                     }
                     other => self.pattern(other),
                 });
@@ -78,7 +78,7 @@ impl Lower {
                     .iter()
                     .take(p.elems.len() - usize::from(rest))
                     .enumerate()
-                    .map(|(k, e)| (k.to_string(), self.pattern(e)));
+                    .map(|(k, e)| (k.to_string().into(), self.pattern(e)));
                 let fields = fields.collect();
                 Pattern::Struct(self.segments(&p.path), fields, self.span(p.span()))
             }

@@ -85,7 +85,7 @@ impl Lower {
         };
         ExprKind::Block(Block {
             statements: vec![
-                Statement::Let(Pattern::Name(name, true, span), None, None, span),
+                Statement::Let(Pattern::Name(name.into(), true, span), None, None, span),
                 Statement::Expr(left),
             ],
             value: Some(Box::new(value)),

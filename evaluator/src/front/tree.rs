@@ -1,5 +1,6 @@
 //! The tree that kernels are evaluated from: the supported part of Rust, with places.
 
+use super::name::Name;
 use crate::diagnostic::Span;
 use crate::ir::{BinaryOp, Purpose, Scalar, UnaryOp};
 use crate::policy::{Branches, Unroll};
@@ -49,7 +50,7 @@ pub enum ExprKind {
     /// `receiver.method(arguments)`.
     Method(Box<Expr>, String, Vec<Expr>),
     /// `base.field`, `base.0`.
-    Field(Box<Expr>, String),
+    Field(Box<Expr>, Name),
     /// `base[index]`.
     Index(Box<Expr>, Box<Expr>),
     /// `if`, with what its attribute says.
@@ -67,7 +68,7 @@ pub enum ExprKind {
     /// `[value; len]`.
     Repeat(Box<Expr>, Box<Expr>),
     /// `Name { field: value }`, of a structure or a variant, by the last two segments of its path.
-    Struct(Vec<String>, Vec<(String, Expr)>, Option<Box<Expr>>),
+    Struct(Vec<String>, Vec<(Name, Expr)>, Option<Box<Expr>>),
     /// `value as type`.
     Cast(Box<Expr>, Type),
     /// `a..b`, `a..=b` (true).
@@ -164,7 +165,7 @@ pub struct Arm {
 #[derive(Clone, Debug)]
 pub enum Pattern {
     /// `name`, `mut name` (true).
-    Name(String, bool, Span),
+    Name(Name, bool, Span),
     /// `(a, b)`.
     Tuple(Vec<Pattern>, Span),
     /// `_`.
@@ -178,11 +179,11 @@ pub enum Pattern {
     /// `a | b`.
     Or(Vec<Pattern>),
     /// `Name { field: pattern, .. }`, `Name(pattern)`, by the last two segments of its path.
-    Struct(Vec<String>, Vec<(String, Pattern)>, Span),
+    Struct(Vec<String>, Vec<(Name, Pattern)>, Span),
     /// `low..high`, `low..=high` (true), of which an end may be missing.
     Range(Option<Box<Expr>>, Option<Box<Expr>>, bool),
     /// `name @ pattern`, `mut name @ pattern` (true).
-    At(String, bool, Box<Pattern>, Span),
+    At(Name, bool, Box<Pattern>, Span),
     /// `..` among the parts of a tuple or an array: those that the others leave.
     Rest,
 }
@@ -279,7 +280,7 @@ impl Generic {
 #[derive(Clone, Debug)]
 pub struct Param {
     /// Its name; a method's first is `self`.
-    pub name: String,
+    pub name: Name,
     /// Its type, with `Self` resolved.
     pub ty: Type,
     /// Whether the function may assign to it: `mut name`.
@@ -321,7 +322,7 @@ pub struct Const {
 }
 
 /// Name and type of each field; fields without names go by their numbers.
-pub type Fields = Vec<(String, Type, Span)>;
+pub type Fields = Vec<(Name, Type, Span)>;
 
 /// A structure.
 #[derive(Clone, Debug)]

@@ -4,6 +4,7 @@ use super::Checker;
 use super::operators::literal;
 use super::types::{Kind, Ty};
 use crate::diagnostic::{Diagnostic, Span};
+use crate::front::name::Name;
 use crate::front::tree::{Arm, Expr, ExprKind, IntType, Pattern};
 
 /// A pattern, or one that takes everything.
@@ -66,7 +67,7 @@ impl<'l> Checker<'l> {
                         let cells: Vec<Cell<'_>> = match row[0].map(bare) {
                             Some(Pattern::Value(e)) if is_path_to(e, &variant.name) => vec![None; fields.len()],
                             Some(Pattern::Struct(path, patterns, _)) if path.last() == Some(&variant.name) => {
-                                let of = |field: &String| patterns.iter().find(|(name, _)| name == field);
+                                let of = |field: &Name| patterns.iter().find(|(name, _)| name == field);
                                 fields.iter().map(|(field, ..)| of(field).map(|(_, p)| p)).collect()
                             }
                             other if takes_all(other) => vec![None; fields.len()],
@@ -136,7 +137,7 @@ impl<'l> Checker<'l> {
                 let rows = rows.iter().filter_map(|row| {
                     let cells: Vec<Cell<'_>> = match row[0].map(bare) {
                         Some(Pattern::Struct(_, patterns, _)) => {
-                            let of = |field: &String| patterns.iter().find(|(name, _)| name == field);
+                            let of = |field: &Name| patterns.iter().find(|(name, _)| name == field);
                             fields.iter().map(|(field, ..)| of(field).map(|(_, p)| p)).collect()
                         }
                         other if takes_all(other) => vec![None; fields.len()],

@@ -3,6 +3,7 @@
 use super::Checker;
 use super::types::Ty;
 use crate::diagnostic::{Diagnostic, Span};
+use crate::front::name::Name;
 use crate::front::tree::{Expr, ExprKind, Pattern, Variant};
 use crate::ir::UnaryOp;
 
@@ -133,12 +134,12 @@ impl<'l> Checker<'l> {
     fn parts_of_pattern(
         &mut self,
         path: &'l [String],
-        fields: &'l [(String, Pattern)],
+        fields: &'l [(Name, Pattern)],
         bare: &Ty,
         span: Span,
     ) -> Vec<Ty> {
         let Some((ty, known, types)) = self.made_by(path) else {
-            let of = |field: &(String, Pattern)| match bare {
+            let of = |field: &(Name, Pattern)| match bare {
                 Ty::Vector(kind, lanes) if lane_of(&field.0) < usize::from(*lanes) => Ty::scalar(*kind),
                 _ => Ty::Unknown,
             };

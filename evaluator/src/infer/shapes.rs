@@ -3,6 +3,7 @@
 use super::Checker;
 use super::types::{Kind, Ty};
 use crate::diagnostic::{Diagnostic, Span};
+use crate::front::name::Name;
 use crate::front::tree::{Expr, Fields, Generic, Type};
 use std::collections::HashMap;
 
@@ -93,7 +94,7 @@ impl<'l> Checker<'l> {
     }
 
     /// `Name { field: value }`, of a structure or a variant.
-    pub fn structure(&mut self, path: &'l [String], fields: &'l [(String, Expr)], rest: Option<&'l Expr>) -> Ty {
+    pub fn structure(&mut self, path: &'l [String], fields: &'l [(Name, Expr)], rest: Option<&'l Expr>) -> Ty {
         let Some((ty, known, types)) = self.made_by(path) else {
             fields.iter().for_each(|(_, value)| {
                 self.expr(value, None);

@@ -21,10 +21,17 @@ pub fn constant<R: Real>(ty: Type, bits: &Lanes) -> Cells {
     })
 }
 
+/// Operands that a value operation has at most: the components of a vector.
+pub const MOST_OPERANDS: usize = 4;
+
 /// The result of a value operation on constants in `f32`, as the graph holds it.
 pub fn fold(op: &Op, operand: Type, args: &[Lanes], ty: Type) -> Option<Lanes> {
-    let args: Vec<Cells> = args.iter().map(|lanes| lanes.map(u64::from)).collect();
-    Some(apply::<f32>(op, operand, &args, ty)?.map(|cell| cell as u32))
+    let mut cells = [[0; 4]; MOST_OPERANDS];
+    let cells = cells.get_mut(..args.len())?;
+    for (cells, lanes) in cells.iter_mut().zip(args) {
+        *cells = lanes.map(u64::from);
+    }
+    Some(apply::<f32>(op, operand, cells, ty)?.map(|cell| cell as u32))
 }
 
 /// The result of a value operation (not a read, nor anything of arrays and regions) on arguments of type `operand`;

@@ -332,22 +332,23 @@ impl<'r> Builder<'r> {
     }
 
     /// The node that computes `op` of `args`, simplified.
-    pub fn add(&mut self, op: Op, args: Vec<NodeId>, ty: Type) -> NodeId {
-        let rules = self.rules;
-        match rules.simplify(self, &op, &args, ty) {
+    pub fn add(&mut self, op: Op, args: impl AsRef<[NodeId]>, ty: Type) -> NodeId {
+        let (rules, args) = (self.rules, args.as_ref());
+        match rules.simplify(self, &op, args, ty) {
             Some(id) => id,
             None => self.intern(op, args, ty),
         }
     }
 
     /// The node that computes `op` of `args` exactly as stated.
-    pub fn intern(&mut self, op: Op, args: Vec<NodeId>, ty: Type) -> NodeId {
-        let node = Node { op, args, ty };
-        let free = match self.known(&node) {
+    pub fn intern(&mut self, op: Op, args: impl AsRef<[NodeId]>, ty: Type) -> NodeId {
+        let args = args.as_ref();
+        let free = match self.known(&op, args, ty) {
             Ok(id) => return id,
             Err(free) => free,
         };
-        let id = self.push(node);
+        let args = args.to_vec();
+        let id = self.push(Node { op, args, ty });
         self.known.insert(free, id);
         let regions = self.graph.regions_of(id);
         if regions
@@ -403,21 +404,17 @@ impl<'r> Builder<'r> {
 
     /// The node that computes `op` of `args`, if there is one already.
     pub fn find(&self, op: &Op, args: &[NodeId], ty: Type) -> Option<NodeId> {
-        let node = Node {
-            op: op.clone(),
-            args: args.to_vec(),
-            ty,
-        };
-        self.known(&node).ok()
+        self.known(op, args, ty).ok()
     }
 
     /// The node that is equal, or the hash by which it would be known.
-    fn known(&self, node: &Node) -> Result<NodeId, u64> {
+    fn known(&self, op: &Op, args: &[NodeId], ty: Type) -> Result<NodeId, u64> {
         let mut hasher = FxHasher::default();
-        node.hash(&mut hasher);
+        (op, args, ty).hash(&mut hasher);
         let mut hash = hasher.finish();
         while let Some(id) = self.known.get(&hash) {
-            if self.graph.node(*id) == node {
+            let node = self.graph.node(*id);
+            if node.args == args && node.ty == ty && node.op == *op {
                 return Ok(*id);
             }
             hash = hash.wrapping_add(1);

@@ -26,6 +26,7 @@ pub fn rebuild(old: &Graph, pass: &Rebuild<'_>) -> Graph {
         builder,
         new_ids: vec![None; old.nodes.len()],
         new_regions: vec![None; old.regions.len()],
+        args: Vec::new(),
     };
     walk.new_regions[0] = Some(Graph::BODY);
     let mut events = old.events.iter().peekable();
@@ -65,6 +66,8 @@ struct Walk<'g, 'r> {
     builder: Builder<'r>,
     new_ids: Vec<Option<NodeId>>,
     new_regions: Vec<Option<RegionId>>,
+    /// Room for a node's arguments.
+    args: Vec<NodeId>,
 }
 
 impl Walk<'_, '_> {
@@ -113,12 +116,14 @@ impl Walk<'_, '_> {
         let node = self.old.node(id);
         let region =
             |r: &RegionId| self.new_regions[r.0 as usize].expect("regions are opened before their owner is built");
-        let (op, args): (Op, Vec<NodeId>) = match &node.op {
+        let mut carried = Vec::new();
+        let (op, args): (Op, &[NodeId]) = match &node.op {
             Op::Loop(body) => {
-                let carried = self.live.kept(*body, &node.args[1..], true);
-                (Op::Loop(region(body)), [&node.args[..1], &carried].concat())
+                carried.push(node.args[0]);
+                carried.extend(self.live.kept(*body, &node.args[1..], true));
+                (Op::Loop(region(body)), &carried)
             }
-            Op::If(then, otherwise) => (Op::If(region(then), region(otherwise)), node.args.clone()),
+            Op::If(then, otherwise) => (Op::If(region(then), region(otherwise)), &node.args),
             Op::Result(k) => {
                 let owner = self.old.node(node.args[0]);
                 let (Op::Loop(owner) | Op::If(owner, _)) = owner.op else {
@@ -128,12 +133,15 @@ impl Walk<'_, '_> {
                     .iter()
                     .filter(|live| !**live)
                     .count();
-                (Op::Result(k - gone as u32), node.args.clone())
+                (Op::Result(k - gone as u32), &node.args)
             }
-            read if share_loads && read.is_read() => (read.clone().shared(), node.args.clone()),
-            other => (other.clone(), node.args.clone()),
+            read if share_loads && read.is_read() => (read.clone().shared(), &node.args),
+            other => (other.clone(), &node.args),
         };
-        let args: Vec<NodeId> = args.iter().map(|a| self.new_id(*a)).collect();
+        let mut new_args = std::mem::take(&mut self.args);
+        new_args.clear();
+        new_args.extend(args.iter().map(|a| self.new_id(*a)));
+        let args = new_args.as_slice();
         let ty = match (&op, op.texture()) {
             (Op::Load { .. } | Op::Sample { .. }, Some(texture)) => {
                 self.builder.graph().textures[texture as usize].texel()
@@ -148,7 +156,7 @@ impl Walk<'_, '_> {
                     .and_then(|id| self.builder.graph().constant(*id))
                     .is_some_and(|bits| bits[0] == 0);
                 match (never, ty) {
-                    (false, _) => self.builder.effect(effect, args, ty),
+                    (false, _) => self.builder.effect(effect, args.to_vec(), ty),
                     (true, Type::Results) => return,
                     (true, _) => self.builder.constant(ty, [0; 4]),
                 }
@@ -158,6 +166,7 @@ impl Walk<'_, '_> {
             Op::Extract(0) if self.builder.graph().ty(args[0]) == ty => args[0],
             _ => self.builder.add(op, args, ty),
         };
+        self.args = new_args;
         self.take_over(id, new);
     }
 

@@ -27,12 +27,13 @@ pub fn verify(graph: &Graph) -> Result<(), String> {
     regions(graph)?;
     shared(graph)?;
     effects(graph)?;
+    let mut types = Vec::new();
     for id in graph.ids() {
         let node = graph.node(id);
         if node.args.iter().any(|arg| *arg >= id) {
             return Err(format!("%{}: an argument is made after its user", id.0));
         }
-        check(graph, id).map_err(|why| format!("%{} ({:?} -> {}): {why}", id.0, node.op, node.ty))?;
+        check(graph, id, &mut types).map_err(|why| format!("%{} ({:?} -> {}): {why}", id.0, node.op, node.ty))?;
     }
     scopes(graph)
 }
@@ -184,10 +185,13 @@ fn expect(holds: bool, what: &str, types: &[Type]) -> Result<(), String> {
     }
 }
 
-fn check(graph: &Graph, id: NodeId) -> Result<(), String> {
+/// `types` is room for the types of the arguments.
+fn check(graph: &Graph, id: NodeId, types: &mut Vec<Type>) -> Result<(), String> {
     let node = graph.node(id);
-    let types: Vec<Type> = node.args.iter().map(|a| graph.ty(*a)).collect();
-    let expect = |holds: bool, what: &str| expect(holds, what, &types);
+    types.clear();
+    types.extend(node.args.iter().map(|a| graph.ty(*a)));
+    let types = types.as_slice();
+    let expect = |holds: bool, what: &str| expect(holds, what, types);
     let count = |n: usize| expect(types.len() == n, "wrong number of arguments");
     let shaped = match node.ty {
         Type::Value { lanes, .. } => (1..=4).contains(&lanes),

@@ -124,7 +124,7 @@ impl Floor<'_> {
         let node = self.old.node(id).clone();
         let op = node.op.clone().shared();
         let new = if self.is_placed(id) {
-            let args = node.args.iter().filter_map(|a| self.ids[a.0 as usize]).collect();
+            let args: Vec<_> = node.args.iter().filter_map(|a| self.ids[a.0 as usize]).collect();
             self.builder.add(op, args, node.ty)
         } else {
             let awaited = self.awaited(&node.args);
@@ -150,7 +150,7 @@ impl Floor<'_> {
         let float = self.as_floats(last);
         Some(match self.builder.graph().ty(float).is_scalar() {
             true => float,
-            false => self.builder.add(Op::Extract(0), vec![float], Type::F32),
+            false => self.builder.add(Op::Extract(0), [float], Type::F32),
         })
     }
 
@@ -190,10 +190,8 @@ impl Floor<'_> {
         let Some(awaited) = awaited else { return near };
         let far = self.builder.constant(PAIR, [x as u32, (y + 1) as u32, 0, 0]);
         let large = self.builder.f32(LARGE);
-        let is_large = self
-            .builder
-            .add(Op::Binary(BinaryOp::Gt), vec![awaited, large], Type::BOOL);
-        self.builder.add(Op::Select, vec![is_large, far, near], PAIR)
+        let is_large = self.builder.add(Op::Binary(BinaryOp::Gt), [awaited, large], Type::BOOL);
+        self.builder.add(Op::Select, [is_large, far, near], PAIR)
     }
 
     /// Width and height.
@@ -205,8 +203,8 @@ impl Floor<'_> {
                 match ty {
                     PAIR => size,
                     _ => {
-                        let [x, y] = [0, 1].map(|k| self.builder.add(Op::Extract(k), vec![size], Type::I32));
-                        self.builder.add(Op::Compose, vec![x, y], PAIR)
+                        let [x, y] = [0, 1].map(|k| self.builder.add(Op::Extract(k), [size], Type::I32));
+                        self.builder.add(Op::Compose, [x, y], PAIR)
                     }
                 }
             }
@@ -220,13 +218,13 @@ impl Floor<'_> {
             return pair;
         }
         let part = Type::scalar(ty.kind().unwrap_or(Scalar::F32));
-        let [x, y] = [0, 1].map(|k| self.builder.add(Op::Extract(k), vec![pair], part));
-        self.builder.add(Op::Compose, vec![x, y, last], ty)
+        let [x, y] = [0, 1].map(|k| self.builder.add(Op::Extract(k), [pair], part));
+        self.builder.add(Op::Compose, [x, y, last], ty)
     }
 
     fn binary(&mut self, op: BinaryOp, x: NodeId, y: NodeId) -> NodeId {
         let ty = self.builder.graph().ty(x);
-        self.builder.add(Op::Binary(op), vec![x, y], ty)
+        self.builder.add(Op::Binary(op), [x, y], ty)
     }
 
     /// A texel near the pixel, inside the texture; of one that has another size, at the pixel's place in it.
@@ -242,7 +240,7 @@ impl Floor<'_> {
         let zero = self.builder.constant(PAIR, [0; 4]);
         let last = self.binary(BinaryOp::Sub, size, one);
         let at = self.binary(BinaryOp::Add, pixel, step);
-        let inside = self.builder.add(Op::Clamp, vec![at, zero, last], PAIR);
+        let inside = self.builder.add(Op::Clamp, [at, zero, last], PAIR);
         let slice = self.builder.i32(0);
         self.extended(inside, slice, self.old.textures[texture as usize].kind.coordinate())
     }
@@ -252,7 +250,7 @@ impl Floor<'_> {
         let (size, frame) = (self.size(texture), self.size(None));
         let pixel = self.builder.add(Op::Pixel, Vec::new(), PAIR);
         let half = self.builder.constant(PLACE, [0.5f32.to_bits(), 0.5f32.to_bits(), 0, 0]);
-        let floats = |floor: &mut Self, id| floor.builder.add(Op::Convert, vec![id], PLACE);
+        let floats = |floor: &mut Self, id| floor.builder.add(Op::Convert, [id], PLACE);
         let (size, frame) = (floats(self, size), floats(self, frame));
         let (pixel, step) = (floats(self, pixel), floats(self, step));
         let centre = self.binary(BinaryOp::Add, pixel, half);
@@ -267,7 +265,7 @@ impl Floor<'_> {
     /// An index inside a buffer.
     fn element(&mut self, buffer: u32, step: NodeId) -> NodeId {
         let length = self.builder.add(Op::BufferLen(buffer), Vec::new(), Type::I32);
-        let [x, y] = [0, 1].map(|lane| self.builder.add(Op::Extract(lane), vec![step], Type::I32));
+        let [x, y] = [0, 1].map(|lane| self.builder.add(Op::Extract(lane), [step], Type::I32));
         let five = self.builder.i32(5);
         let rows = self.binary(BinaryOp::Mul, y, five);
         let index = self.binary(BinaryOp::Add, rows, x);
@@ -276,14 +274,14 @@ impl Floor<'_> {
         let index = self.binary(BinaryOp::Add, index, first);
         let (zero, one) = (self.builder.i32(0), self.builder.i32(1));
         let last = self.binary(BinaryOp::Sub, length, one);
-        self.builder.add(Op::Clamp, vec![index, zero, last], Type::I32)
+        self.builder.add(Op::Clamp, [index, zero, last], Type::I32)
     }
 
     fn as_floats(&mut self, id: NodeId) -> NodeId {
         let ty = self.builder.graph().ty(id);
         match ty.is_float() {
             true => id,
-            false => self.builder.add(Op::Convert, vec![id], ty.with_scalar(Scalar::F32)),
+            false => self.builder.add(Op::Convert, [id], ty.with_scalar(Scalar::F32)),
         }
     }
 
@@ -319,7 +317,7 @@ impl Floor<'_> {
         if lanes < 4 {
             let mut parts = Vec::new();
             for lane in 0..lanes {
-                parts.push(self.builder.add(Op::Extract(lane), vec![colour], Type::F32));
+                parts.push(self.builder.add(Op::Extract(lane), [colour], Type::F32));
             }
             value = match parts[..] {
                 [one] => one,
@@ -328,20 +326,20 @@ impl Floor<'_> {
         }
         match ty.is_float() {
             true => value,
-            false => self.builder.add(Op::Convert, vec![value], ty),
+            false => self.builder.add(Op::Convert, [value], ty),
         }
     }
 
     /// A value of so many lanes in the lanes of a colour.
     fn colour(&mut self, value: NodeId, lanes: usize) -> NodeId {
         match lanes {
-            1 => self.builder.add(Op::Splat, vec![value], COLOUR),
+            1 => self.builder.add(Op::Splat, [value], COLOUR),
             4 => value,
             _ => {
                 let mut parts = Vec::new();
                 for k in 0..4 {
                     let lane = (k % lanes) as u8;
-                    parts.push(self.builder.add(Op::Extract(lane), vec![value], Type::F32));
+                    parts.push(self.builder.add(Op::Extract(lane), [value], Type::F32));
                 }
                 self.builder.add(Op::Compose, parts, COLOUR)
             }

@@ -4,7 +4,7 @@
 //! change a rounding, a NaN or the sign of a zero has no place here.
 
 use super::ranges;
-use crate::ir::{BinaryOp, Builder, Graph, Lanes, NodeId, Op, Rules, Scalar, Type, UnaryOp, arith};
+use crate::ir::{BinaryOp, Builder, Graph, NodeId, Op, Rules, Scalar, Type, UnaryOp, arith};
 
 /// The exact rules.
 pub struct Exact;
@@ -22,17 +22,17 @@ impl Rules for Exact {
 
 /// Known arguments: the result is known.
 fn constant(b: &mut Builder<'_>, op: &Op, args: &[NodeId], ty: Type) -> Option<NodeId> {
-    let operands: Option<Vec<Lanes>> = args.iter().map(|a| b.graph().constant(*a)).collect();
-    let first = args.last()?;
-    let operand = if matches!(op, Op::Select) {
-        b.graph().ty(*first)
-    } else {
-        b.graph().ty(args[0])
-    };
+    let (first, last) = (args.first()?, args.last()?);
     if ty.is_array() {
         return None;
     }
-    let bits = arith::fold(op, operand, &operands?, ty)?;
+    let mut operands = [[0; 4]; arith::MOST_OPERANDS];
+    let operands = operands.get_mut(..args.len())?;
+    for (operand, arg) in operands.iter_mut().zip(args) {
+        *operand = b.graph().constant(*arg)?;
+    }
+    let operand = b.graph().ty(if matches!(op, Op::Select) { *last } else { *first });
+    let bits = arith::fold(op, operand, operands, ty)?;
     Some(b.constant(ty, bits))
 }
 
@@ -100,7 +100,7 @@ fn array(b: &mut Builder<'_>, op: &Op, args: &[NodeId], ty: Type) -> Option<Node
             } else if written == index {
                 Some(node.args[2])
             } else {
-                Some(b.add(Op::ArrayGet, vec![node.args[0], args[1]], ty))
+                Some(b.add(Op::ArrayGet, [node.args[0], args[1]], ty))
             }
         }
         _ => None,
@@ -137,17 +137,17 @@ fn read_in_order(b: &mut Builder<'_>, array: NodeId, index: NodeId, ty: Type) ->
     let index = match inside {
         true => index,
         false => {
-            let unsigned = b.add(Op::Bitcast, vec![index], Type::U32);
+            let unsigned = b.add(Op::Bitcast, [index], Type::U32);
             let last = b.constant(Type::U32, [last, 0, 0, 0]);
-            let least = b.add(Op::Binary(BinaryOp::Min), vec![unsigned, last], Type::U32);
-            b.add(Op::Bitcast, vec![least], Type::I32)
+            let least = b.add(Op::Binary(BinaryOp::Min), [unsigned, last], Type::U32);
+            b.add(Op::Bitcast, [least], Type::I32)
         }
     };
     let step = b.i32(step as i32);
-    let steps = b.add(Op::Binary(BinaryOp::Mul), vec![index, step], Type::I32);
+    let steps = b.add(Op::Binary(BinaryOp::Mul), [index, step], Type::I32);
     let from = b.i32(from as i32);
-    let at = b.add(Op::Binary(BinaryOp::Add), vec![steps, from], Type::I32);
-    Some(b.add(first.op, vec![element, at], ty))
+    let at = b.add(Op::Binary(BinaryOp::Add), [steps, from], Type::I32);
+    Some(b.add(first.op, [element, at], ty))
 }
 
 fn algebra(b: &mut Builder<'_>, op: &Op, args: &[NodeId]) -> Option<NodeId> {
@@ -174,7 +174,7 @@ fn chosen(b: &mut Builder<'_>, condition: NodeId, yes: NodeId, no: NodeId) -> Op
     let known = |b: &Builder<'_>, id| b.graph().constant(id).map(|bits| bits[0] != 0);
     let (op, negated, other) = match (known(b, yes), known(b, no)) {
         (Some(true), Some(false)) => return Some(condition),
-        (Some(false), Some(true)) => return Some(b.add(Op::Unary(UnaryOp::Not), vec![condition], Type::BOOL)),
+        (Some(false), Some(true)) => return Some(b.add(Op::Unary(UnaryOp::Not), [condition], Type::BOOL)),
         (Some(true), None) => (BinaryOp::Or, false, no),
         (Some(false), None) => (BinaryOp::And, true, no),
         (None, Some(true)) => (BinaryOp::Or, true, yes),
@@ -182,10 +182,10 @@ fn chosen(b: &mut Builder<'_>, condition: NodeId, yes: NodeId, no: NodeId) -> Op
         _ => return None,
     };
     let condition = match negated {
-        true => b.add(Op::Unary(UnaryOp::Not), vec![condition], Type::BOOL),
+        true => b.add(Op::Unary(UnaryOp::Not), [condition], Type::BOOL),
         false => condition,
     };
-    Some(b.add(Op::Binary(op), vec![condition, other], Type::BOOL))
+    Some(b.add(Op::Binary(op), [condition, other], Type::BOOL))
 }
 
 fn float(g: &Graph, op: BinaryOp, x: NodeId, y: NodeId) -> Option<NodeId> {
@@ -215,7 +215,7 @@ fn square(b: &mut Builder<'_>, op: BinaryOp, x: NodeId, y: NodeId) -> Option<Nod
     }
     let opposite = opposite(b, x).filter(|opposite| *opposite < x)?;
     let ty = b.graph().ty(x);
-    Some(b.add(Op::Binary(op), vec![opposite, opposite], ty))
+    Some(b.add(Op::Binary(op), [opposite, opposite], ty))
 }
 
 /// The node that computes `-id`, if there is one already: `b - a` of `a - b`, and what is divided by the same.
@@ -261,7 +261,7 @@ fn integer(b: &mut Builder<'_>, op: BinaryOp, x: NodeId, y: NodeId) -> Option<No
         && let Some(divisor) = without_zeros(b, y)
     {
         let ty = b.graph().ty(y);
-        return Some(b.add(Op::Binary(op), vec![x, divisor], ty));
+        return Some(b.add(Op::Binary(op), [x, divisor], ty));
     }
     if op == BinaryOp::Add
         && let Some(sum) = steps(b, x, y)
@@ -274,7 +274,7 @@ fn integer(b: &mut Builder<'_>, op: BinaryOp, x: NodeId, y: NodeId) -> Option<No
         // One way to say where a neighbour lies.
         let ty = b.graph().ty(y);
         let back = b.constant(ty, step.map(u32::wrapping_neg));
-        return Some(b.add(Op::Binary(BinaryOp::Add), vec![x, back], ty));
+        return Some(b.add(Op::Binary(BinaryOp::Add), [x, back], ty));
     }
     let g = b.graph();
     let is = |id: NodeId, value: u32| all_lanes(g, id, value);
@@ -325,7 +325,7 @@ fn steps(b: &mut Builder<'_>, x: NodeId, y: NodeId) -> Option<NodeId> {
         *slot = first[k].wrapping_add(second[k]);
     }
     let sum = b.constant(ty, sum);
-    Some(b.add(Op::Binary(BinaryOp::Add), vec![pixel, sum], ty))
+    Some(b.add(Op::Binary(BinaryOp::Add), [pixel, sum], ty))
 }
 
 /// A divisor with 1 for every lane that is known to be 0. Dividing by 0 is as dividing by 1: it gives the dividend, and no
@@ -349,7 +349,7 @@ fn without_zeros(b: &mut Builder<'_>, y: NodeId) -> Option<NodeId> {
             }
             let one = b.constant(Type::scalar(ty.kind()?), [1, 0, 0, 0]);
             let lanes = node.args.iter().map(|lane| if zero(b, *lane) { one } else { *lane });
-            let lanes = lanes.collect();
+            let lanes: Vec<_> = lanes.collect();
             Some(b.add(Op::Compose, lanes, ty))
         }
         _ => None,
@@ -385,7 +385,7 @@ fn boolean(b: &mut Builder<'_>, op: BinaryOp, x: NodeId, y: NodeId) -> Option<No
 
 fn not(b: &mut Builder<'_>, x: NodeId) -> NodeId {
     let ty = b.graph().ty(x);
-    b.add(Op::Unary(UnaryOp::Not), vec![x], ty)
+    b.add(Op::Unary(UnaryOp::Not), [x], ty)
 }
 
 /// Whether `id` is a constant with `bits` in every lane.

@@ -130,7 +130,7 @@ impl Expansion<'_> {
                 self.set_results(*otherwise);
                 let op = Op::If(self.region(*then), self.region(*otherwise));
                 let condition = self.ids[node.args[0].0 as usize][0];
-                vec![self.builder.add(op, vec![condition], node.ty); self.lanes]
+                vec![self.builder.add(op, [condition], node.ty); self.lanes]
             }
             _ => (0..self.lanes).map(|lane| self.in_lane(id, lane)).collect(),
         };
@@ -182,17 +182,17 @@ impl Expansion<'_> {
                 let [right, below] = if *axis == Axis::X { [1, 0] } else { [0, 1] };
                 let (from, to) = ([x & !right, y & !below], [x | right, y | below]);
                 let (from, to) = (arg(0, self.lane(from)), arg(0, self.lane(to)));
-                self.builder.add(Op::Binary(BinaryOp::Sub), vec![to, from], node.ty)
+                self.builder.add(Op::Binary(BinaryOp::Sub), [to, from], node.ty)
             }
             Op::Varying(k) => {
                 let inside = self.inside(lane);
                 let texture = self.first_varying + k;
-                self.builder.add(Op::Load { texture, site: 0 }, vec![inside], node.ty)
+                self.builder.add(Op::Load { texture, site: 0 }, [inside], node.ty)
             }
             Op::Result(k) => {
                 let owner = arg(0, 0);
                 let k = k * self.lanes as u32 + lane as u32;
-                self.builder.add(Op::Result(k), vec![owner], node.ty)
+                self.builder.add(Op::Result(k), [owner], node.ty)
             }
             op => {
                 let mut args: Vec<NodeId> = (0..node.args.len()).map(|k| arg(k, lane)).collect();
@@ -219,7 +219,7 @@ impl Expansion<'_> {
         let [x, y] = self.position(lane);
         let corner = self.builder.add(Op::Pixel, Vec::new(), PAIR);
         let offset = self.builder.constant(PAIR, [x, y, 0, 0]);
-        self.builder.add(Op::Binary(BinaryOp::Add), vec![corner, offset], PAIR)
+        self.builder.add(Op::Binary(BinaryOp::Add), [corner, offset], PAIR)
     }
 
     /// The lane's pixel, or the nearest one in the frame.
@@ -228,8 +228,8 @@ impl Expansion<'_> {
         let frame = self.builder.add(Op::FrameSize, Vec::new(), PAIR);
         let one = self.builder.constant(PAIR, [1, 1, 0, 0]);
         let zero = self.builder.constant(PAIR, [0; 4]);
-        let last = self.builder.add(Op::Binary(BinaryOp::Sub), vec![frame, one], PAIR);
-        self.builder.add(Op::Clamp, vec![pixel, zero, last], PAIR)
+        let last = self.builder.add(Op::Binary(BinaryOp::Sub), [frame, one], PAIR);
+        self.builder.add(Op::Clamp, [pixel, zero, last], PAIR)
     }
 
     /// Notes what a node became, and gives the new ones its name, with the lane where they differ.
@@ -301,10 +301,10 @@ impl Rules for Derivatives {
 fn across(b: &mut Builder<'_>, axis: Axis, value: NodeId, ty: Type) -> NodeId {
     let pair = Type::value(Scalar::F32, 2);
     let lane = b.add(Op::Lane, Vec::new(), PAIR);
-    let lane = b.add(Op::Convert, vec![lane], pair);
+    let lane = b.add(Op::Convert, [lane], pair);
     let [one, two] = [1.0f32, 2.0].map(|x| b.constant(pair, [x.to_bits(), x.to_bits(), 0, 0]));
-    let twice = b.add(Op::Binary(BinaryOp::Mul), vec![lane, two], pair);
-    let towards = b.add(Op::Binary(BinaryOp::Sub), vec![one, twice], pair);
+    let twice = b.add(Op::Binary(BinaryOp::Mul), [lane, two], pair);
+    let towards = b.add(Op::Binary(BinaryOp::Sub), [one, twice], pair);
     let origin = b.graph().origin(value).cloned();
     let named = |name: String| {
         origin.clone().map(|origin| Origin {
@@ -315,13 +315,13 @@ fn across(b: &mut Builder<'_>, axis: Axis, value: NodeId, ty: Type) -> NodeId {
     if let Some(origin) = named("towards".to_owned()) {
         b.set_origin(towards, &origin);
     }
-    let mut sign = b.add(Op::Extract(axis as u8), vec![towards], Type::F32);
+    let mut sign = b.add(Op::Extract(axis as u8), [towards], Type::F32);
     if ty.lanes() > 1 {
-        sign = b.add(Op::Splat, vec![sign], ty);
+        sign = b.add(Op::Splat, [sign], ty);
     }
-    let slope = b.add(Op::Derivative(axis), vec![value], ty);
-    let step = b.add(Op::Binary(BinaryOp::Mul), vec![sign, slope], ty);
-    let message = b.add(Op::Binary(BinaryOp::Add), vec![value, step], ty);
+    let slope = b.add(Op::Derivative(axis), [value], ty);
+    let step = b.add(Op::Binary(BinaryOp::Mul), [sign, slope], ty);
+    let message = b.add(Op::Binary(BinaryOp::Add), [value, step], ty);
     let from = if axis == Axis::X { "beside" } else { "below" };
     let whose = origin.as_ref().map_or("", |o| &*o.name);
     if let Some(origin) = named(format!("{whose}_{from}")) {

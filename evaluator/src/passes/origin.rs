@@ -45,7 +45,7 @@ impl Rules for FromBelow<'_> {
                 let args = [&[place(b, args[0])], &args[1..]].concat();
                 let texels = b.intern(op.clone(), args, ty);
                 // Lower left, lower right, upper right, upper left.
-                let turned = [3, 2, 1, 0].map(|k| b.add(Op::Extract(k), vec![texels], Type::F32));
+                let turned = [3, 2, 1, 0].map(|k| b.add(Op::Extract(k), [texels], Type::F32));
                 Some(b.add(Op::Compose, turned.to_vec(), ty))
             }
             _ => Exact.simplify(b, op, args, ty),
@@ -61,26 +61,26 @@ impl FromBelow<'_> {
             false => Op::TextureSize(texture),
         };
         let size = b.add(size, Vec::new(), PAIR);
-        let mut height = b.add(Op::Extract(1), vec![size], Type::I32);
+        let mut height = b.add(Op::Extract(1), [size], Type::I32);
         let one = b.constant(Type::I32, [1, 0, 0, 0]);
         if let Some(level) = level {
-            let halved = b.add(Op::Binary(BinaryOp::Shr), vec![height, *level], Type::I32);
-            height = b.add(Op::Binary(BinaryOp::Max), vec![halved, one], Type::I32);
+            let halved = b.add(Op::Binary(BinaryOp::Shr), [height, *level], Type::I32);
+            height = b.add(Op::Binary(BinaryOp::Max), [halved, one], Type::I32);
         }
-        let last = b.add(Op::Binary(BinaryOp::Sub), vec![height, one], Type::I32);
+        let last = b.add(Op::Binary(BinaryOp::Sub), [height, one], Type::I32);
         named(b, last, "last_row", coordinate);
-        let [x, y] = [0, 1].map(|k| b.add(Op::Extract(k), vec![coordinate], Type::I32));
-        let row = b.add(Op::Binary(BinaryOp::Sub), vec![last, y], Type::I32);
-        b.add(Op::Compose, vec![x, row], PAIR)
+        let [x, y] = [0, 1].map(|k| b.add(Op::Extract(k), [coordinate], Type::I32));
+        let row = b.add(Op::Binary(BinaryOp::Sub), [last, y], Type::I32);
+        b.add(Op::Compose, [x, row], PAIR)
     }
 }
 
 /// A place between 0 and 1 by its height from below.
 fn place(b: &mut Builder<'_>, place: NodeId) -> NodeId {
-    let [u, v] = [0, 1].map(|k| b.add(Op::Extract(k), vec![place], Type::F32));
+    let [u, v] = [0, 1].map(|k| b.add(Op::Extract(k), [place], Type::F32));
     let one = b.constant(Type::F32, [1.0f32.to_bits(), 0, 0, 0]);
-    let turned = b.add(Op::Binary(BinaryOp::Sub), vec![one, v], Type::F32);
-    let at = b.add(Op::Compose, vec![u, turned], PLACE);
+    let turned = b.add(Op::Binary(BinaryOp::Sub), [one, v], Type::F32);
+    let at = b.add(Op::Compose, [u, turned], PLACE);
     named(b, at, "from_below", place);
     at
 }

@@ -287,9 +287,9 @@ pub fn clamp(b: &mut Builder<'_>, op: &Op, args: &[NodeId], ty: Type) -> Option<
             if !step.iter().all(bounds) {
                 None
             } else if step.iter().all(|s| *s >= 0) {
-                Some(b.add(Op::Binary(BinaryOp::Min), vec![args[0], args[2]], ty))
+                Some(b.add(Op::Binary(BinaryOp::Min), [args[0], args[2]], ty))
             } else if step.iter().all(|s| *s <= 0) {
-                Some(b.add(Op::Binary(BinaryOp::Max), vec![args[0], args[1]], ty))
+                Some(b.add(Op::Binary(BinaryOp::Max), [args[0], args[1]], ty))
             } else {
                 None
             }

@@ -104,6 +104,16 @@ pub fn float(bits: u32) -> Text {
     Text::literal(digits(x), x.is_sign_negative())
 }
 
+/// Columns of [`float`].
+pub fn columns_of_float(bits: u32) -> usize {
+    let x = f32::from_bits(bits);
+    if x.fract() == 0.0 && x.abs() < 1e6 {
+        let digits = (x.abs() as u32).checked_ilog10().unwrap_or(0) as usize + 1;
+        return usize::from(x.is_sign_negative()) + digits + ".0".len();
+    }
+    digits(x).len()
+}
+
 /// The shortest decimal that gives a float back, whether it is read as an `f32` at once or as an `f64` that is then rounded.
 /// Tint and glslang read literals as `f64`, and Tint refuses what is larger than the largest `f32` by less than a rounding:
 /// such numbers, and those that would be rounded twice, have the digits of the `f64` that equals them.

@@ -51,7 +51,7 @@ fn part(element: &Text, of: &ir::Element, field: u32, within: Option<&Text>) -> 
 /// Columns of a scalar constant.
 pub fn columns_of_number(ty: Ty, bits: u32) -> usize {
     match ty.kind() {
-        Some(Scalar::F32) => expr::float(bits).code.len() + usize::from(ty.half),
+        Some(Scalar::F32) => expr::columns_of_float(bits) + usize::from(ty.half),
         Some(Scalar::I32) => (bits as i32).to_string().len(),
         Some(Scalar::U32) => bits.to_string().len() + 1,
         _ => 5,

@@ -209,7 +209,7 @@ fn keeps(stmt: &Stmt<'_>, copy: VarId, original: VarId, changed: &mut bool) -> b
             *changed |= copied;
             !read || !(copied || first || stmt.assigns(original))
         }
-        _ => !(*changed && stmt.own().into_iter().any(reads)),
+        _ => !(*changed && stmt.own().any(reads)),
     }
 }
 

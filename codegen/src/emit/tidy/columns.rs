@@ -24,10 +24,9 @@ impl Columns<'_> {
             StmtKind::If { .. } | StmtKind::Loop(_) | StmtKind::Break => 5,
             StmtKind::Comment(_) | StmtKind::Barrier { .. } => 0,
         };
-        let own = stmt.own();
         (
-            around + own.iter().map(|expr| self.of(expr)).sum::<usize>(),
-            own.iter().map(|expr| operations(expr)).sum(),
+            around + stmt.own().map(|expr| self.of(expr)).sum::<usize>(),
+            stmt.own().map(operations).sum(),
         )
     }
 

@@ -19,12 +19,9 @@ pub fn uses(module: &Module<'_>) -> Vec<u32> {
 }
 
 fn count(stmt: &Stmt<'_>, uses: &mut [u32]) {
-    let own = match &stmt.kind {
-        // Writing is no use.
-        StmtKind::Assign(place, None, value) if matches!(place.op, Op::Var(_)) => vec![value],
-        _ => stmt.own(),
-    };
-    for expr in own {
+    // Writing is no use.
+    let written = matches!(&stmt.kind, StmtKind::Assign(place, None, _) if matches!(place.op, Op::Var(_)));
+    for expr in stmt.own().skip(usize::from(written)) {
         expr.visit(&mut |expr| {
             if let Op::Var(var) = expr.op {
                 uses[var.0 as usize] += 1;

@@ -132,7 +132,7 @@ impl Inliner<'_> {
                 stmt.origin = origin;
             }
             let mut reads = FxHashMap::default();
-            read(stmt.own().into_iter().chain([&value]), 1, &mut reads);
+            read(stmt.own().chain([&value]), 1, &mut reads);
             let mut value = Some(value);
             for own in stmt.own_mut() {
                 // What has become shorter has room for more.
@@ -141,7 +141,7 @@ impl Inliner<'_> {
                     _ => simplify(expr),
                 });
             }
-            read(stmt.own().into_iter(), -1, &mut reads);
+            read(stmt.own(), -1, &mut reads);
             for (read, lost) in reads {
                 let uses = &mut self.uses[read.0 as usize];
                 *uses = uses.saturating_add_signed(-lost);
