@@ -16,7 +16,9 @@ impl Rules for Exact {
             .or_else(|| array(b, op, args, ty))
             .or_else(|| ranges::within(b.graph(), op, args, ty))
             .or_else(|| ranges::clamp(b, op, args, ty))
+            .or_else(|| ranges::compared(b, op, args))
             .or_else(|| algebra(b, op, args))
+            .or_else(|| exchanged(b, op, args, ty))
     }
 }
 
@@ -34,6 +36,20 @@ fn constant(b: &mut Builder<'_>, op: &Op, args: &[NodeId], ty: Type) -> Option<N
     let operand = b.graph().ty(if matches!(op, Op::Select) { *last } else { *first });
     let bits = arith::fold(op, operand, operands, ty)?;
     Some(b.constant(ty, bits))
+}
+
+/// What is known with its arguments exchanged: a + b where b + a is, a < b where b > a is.
+fn exchanged(b: &Builder<'_>, op: &Op, args: &[NodeId], ty: Type) -> Option<NodeId> {
+    let Op::Binary(op) = op else { return None };
+    let other = match op {
+        BinaryOp::Lt => BinaryOp::Gt,
+        BinaryOp::Gt => BinaryOp::Lt,
+        BinaryOp::Le => BinaryOp::Ge,
+        BinaryOp::Ge => BinaryOp::Le,
+        op if op.commutes() => *op,
+        _ => return None,
+    };
+    b.find(&Op::Binary(other), &[args[1], args[0]], ty)
 }
 
 /// Vectors taken apart as they were put together; selections that are decided.
@@ -360,6 +376,12 @@ fn boolean(b: &mut Builder<'_>, op: BinaryOp, x: NodeId, y: NodeId) -> Option<No
     let g = b.graph();
     let is = |id: NodeId, value: u32| all_lanes(g, id, value);
     match op {
+        BinaryOp::Eq | BinaryOp::Ne | BinaryOp::Xor if x == y => {
+            let ty = g.ty(x);
+            let same = u32::from(op == BinaryOp::Eq);
+            let lane = |k| if k < ty.lanes() as usize { same } else { 0 };
+            Some(b.constant(ty, std::array::from_fn(lane)))
+        }
         BinaryOp::Eq | BinaryOp::Ne => {
             let known = |id| [0, 1].into_iter().find(|value| is(id, *value));
             let (value, other) = match (known(x), known(y)) {

@@ -195,13 +195,7 @@ impl Expansion<'_> {
                 self.builder.add(Op::Result(k), [owner], node.ty)
             }
             op => {
-                let mut args: Vec<NodeId> = (0..node.args.len()).map(|k| arg(k, lane)).collect();
-                // a + b in one lane is b + a in the other.
-                if matches!(op, Op::Binary(op) if op.commutes())
-                    && self.builder.find(op, &[args[1], args[0]], node.ty).is_some()
-                {
-                    args.reverse();
-                }
+                let args: Vec<NodeId> = (0..node.args.len()).map(|k| arg(k, lane)).collect();
                 self.builder.add(op.clone(), args, node.ty)
             }
         }

@@ -259,6 +259,40 @@ pub fn within(g: &Graph, op: &Op, args: &[NodeId], ty: Type) -> Option<NodeId> {
     all.then_some(args[0])
 }
 
+/// Integers that are compared, or of which the smaller or the larger is taken, where their ranges decide it.
+pub fn compared(b: &mut Builder<'_>, op: &Op, args: &[NodeId]) -> Option<NodeId> {
+    let (Op::Binary(op), g) = (op, b.graph()) else {
+        return None;
+    };
+    let (x, y) = (args[0], args[1]);
+    let ty = g.ty(x);
+    if !ty.is_integer() || ty.is_array() {
+        return None;
+    }
+    let range = |id, component| component_bounds(g, id, component).unwrap_or(whole(ty));
+    // Whether the first is smaller than the second in every component, or the other way.
+    let all = |less: fn(i64, i64) -> bool, first, second| {
+        (0..ty.lanes()).all(|component| less(range(first, component).1, range(second, component).0))
+    };
+    let below = |first, second| all(|a, b| a < b, first, second);
+    let not_above = |first, second| all(|a, b| a <= b, first, second);
+    let (yes, no) = match op {
+        BinaryOp::Min if not_above(x, y) => return Some(x),
+        BinaryOp::Min if not_above(y, x) => return Some(y),
+        BinaryOp::Max if not_above(x, y) => return Some(y),
+        BinaryOp::Max if not_above(y, x) => return Some(x),
+        _ if !ty.is_scalar() => return None,
+        BinaryOp::Lt => (below(x, y), not_above(y, x)),
+        BinaryOp::Le => (not_above(x, y), below(y, x)),
+        BinaryOp::Gt => (below(y, x), not_above(x, y)),
+        BinaryOp::Ge => (not_above(y, x), below(x, y)),
+        BinaryOp::Eq => (false, below(x, y) || below(y, x)),
+        BinaryOp::Ne => (below(x, y) || below(y, x), false),
+        _ => return None,
+    };
+    (yes || no).then(|| b.bool(yes))
+}
+
 /// Clamping of a neighbour's coordinate to the frame: the pixel itself is inside, so a step to the right can only
 /// leave on the right.
 pub fn clamp(b: &mut Builder<'_>, op: &Op, args: &[NodeId], ty: Type) -> Option<NodeId> {
