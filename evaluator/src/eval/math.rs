@@ -151,10 +151,7 @@ impl Evaluator<'_> {
             "truncate" if ty.lanes() > 2 => {
                 let lanes = self.lanes(x);
                 let shorter = Type::value(ty.kind().unwrap_or(Scalar::F32), ty.lanes() - 1);
-                Some(
-                    self.builder
-                        .add(Op::Compose, lanes[..lanes.len() - 1].to_vec(), shorter),
-                )
+                Some(self.builder.add(Op::Compose, &lanes[..lanes.len() - 1], shorter))
             }
             "signum" if ty.kind() == Some(Scalar::I32) => Some(self.builder.add(Op::Unary(UnaryOp::Sign), [x], ty)),
             _ => None,

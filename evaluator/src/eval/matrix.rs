@@ -128,7 +128,7 @@ impl Evaluator<'_> {
                 }
                 let lanes = self.lanes(sum);
                 let short = Type::value(Scalar::F32, 3);
-                Ok(Value::Node(self.builder.add(Op::Compose, lanes[..3].to_vec(), short)))
+                Ok(Value::Node(self.builder.add(Op::Compose, &lanes[..3], short)))
             }
             _ => Err(unknown(&ty, name, span).into()),
         }

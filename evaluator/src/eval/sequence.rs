@@ -199,7 +199,7 @@ impl Evaluator<'_> {
         }
         let len = nodes.len() as u32;
         let table = Type::Array { scalar, lanes, len };
-        let array = self.builder.add(Op::MakeArray, nodes.to_vec(), table);
+        let array = self.builder.add(Op::MakeArray, nodes, table);
         Ok(Column::Of(array, Even { first: 0, step: 1 }))
     }
 

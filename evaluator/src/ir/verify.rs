@@ -447,7 +447,7 @@ fn check(graph: &Graph, id: NodeId, types: &mut Vec<Type>) -> Result<(), String>
         | Op::Atomic { .. }
         | Op::Store(_)
         | Op::SharedLoad(_)
-        | Op::Barrier { .. } => resources::check(graph, node, &types),
+        | Op::Barrier { .. } => resources::check(graph, node, types),
     }
 }
 

@@ -46,7 +46,7 @@ impl Rules for FromBelow<'_> {
                 let texels = b.intern(op.clone(), args, ty);
                 // Lower left, lower right, upper right, upper left.
                 let turned = [3, 2, 1, 0].map(|k| b.add(Op::Extract(k), [texels], Type::F32));
-                Some(b.add(Op::Compose, turned.to_vec(), ty))
+                Some(b.add(Op::Compose, turned, ty))
             }
             _ => Exact.simplify(b, op, args, ty),
         }
