@@ -30,6 +30,7 @@ const KERNELS: &[(&str, Native, &[&str])] = &[
     ("structures", kernels::structures, &["none"; 3]),
     ("grid", kernels::grid, &["none"; 4]),
     ("whiles", kernels::whiles, &["none"; 2]),
+    ("bounded", kernels::bounded, &["none"; 3]),
     ("unsigned", kernels::unsigned, &["none"; 2]),
     ("left", kernels::left, &["none", "none", "what follows it needs"]),
     ("bounds", kernels::bounds, &["none"; 2]),
@@ -88,6 +89,18 @@ fn loops_become_what_they_can() {
         for (found, expected) in found.iter().zip(*expected) {
             assert!(found.contains(expected), "{name}: {found}, not {expected}");
         }
+    }
+}
+
+#[test]
+fn a_while_with_a_bound_is_unrolled() {
+    let select = compiled("bounded", (Unroll::Full, Branches::Select));
+    let rounds: Vec<u32> = select.loops.iter().map(|report| report.rounds).collect();
+    assert_eq!(rounds, [9, 12, 6]);
+    let emitted = select.emit(&EmitOptions::new().targets(Target::WGSL));
+    let text = emitted.expect("WGSL").wgsl.expect("WGSL");
+    for word in ["for (", "loop {", "while", "if "] {
+        assert!(!text.contains(word), "`{word}` in\n{text}");
     }
 }
 

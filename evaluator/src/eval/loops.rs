@@ -49,7 +49,7 @@ impl Evaluator<'_> {
     pub fn for_(&mut self, f: &ForLoop, span: Span) -> Eval {
         let items = self.expr(&f.over)?;
         let function = self.calls.last().cloned().unwrap_or_default();
-        let counter = counter_of(&f.pattern);
+        let counter = counter_of(f);
         let asked = self.policy.asked(&function, &counter, f.unroll);
         let made = self.builder.graph().nodes.len();
         self.loops.enter(&function, &counter, span, made);
@@ -272,8 +272,9 @@ impl Evaluator<'_> {
 }
 
 /// What a loop goes by in policies: its counter, or the first of the names that it binds.
-fn counter_of(pattern: &Pattern) -> String {
-    match pattern {
+fn counter_of(f: &ForLoop) -> String {
+    match &f.pattern {
+        _ if f.bounded => "while".to_owned(),
         Pattern::Name(name, ..) => name.to_string(),
         _ => "_".to_owned(),
     }

@@ -7,8 +7,7 @@ use super::partial::Count;
 use super::value::{Eval, Exit, Value};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::front::tree::{Block, Expr, ExprKind, Statement};
-use crate::front::{assigned, breaks, children};
-use crate::ir::UnaryOp;
+use crate::front::{assigned, breaks, children, guarded};
 use crate::policy::{Asked, Unroll};
 
 impl Evaluator<'_> {
@@ -100,7 +99,7 @@ impl Evaluator<'_> {
             return Err(
                 Diagnostic::at(condition.span, format!("this loop cannot be unrolled: {reason}"))
                     .label("its trip count is a runtime value")
-                    .help("leave out that it is to be unrolled, or give it fixed bounds with `for`, which may `break`")
+                    .help("leave out that it is to be unrolled, or bound it: `#[cfg_attr(false, bound(64))]`")
                     .into(),
             );
         }
@@ -199,24 +198,6 @@ impl Evaluator<'_> {
 
 /// Iterations after which a `while` that some have left is taken to end at run time only.
 const MAX_GUESSED: u64 = 256;
-
-/// `if !condition { break; }`, and the body: what an iteration does that looks first whether it is one.
-fn guarded(condition: &Expr, block: &Block) -> Block {
-    let at = |kind| Expr {
-        kind,
-        span: condition.span,
-    };
-    let leave = Block {
-        statements: vec![Statement::Expr(at(ExprKind::Break(None)))],
-        value: None,
-    };
-    let ends = at(ExprKind::Unary(UnaryOp::Not, Box::new(condition.clone())));
-    let test = Statement::Expr(at(ExprKind::If(Box::new(ends), leave, None, None)));
-    Block {
-        statements: std::iter::once(test).chain(block.statements.iter().cloned()).collect(),
-        value: block.value.clone(),
-    }
-}
 
 /// Whether an expression may call what writes through a reference that it is given.
 fn has_calls(e: &Expr) -> bool {

@@ -11,21 +11,65 @@ use syn::spanned::Spanned;
 /// What may stand before loops.
 const UNROLL: &str = "write `unroll(full)`, `unroll(none)` or `unroll(4)`";
 
+/// Iterations that a bound may state.
+const LARGEST_BOUND: u32 = 1 << 16;
+
+/// What the attributes of a loop say.
+#[derive(Default)]
+pub struct OfLoop {
+    /// Whether it is to be unrolled.
+    pub unroll: Option<Unroll>,
+    /// Iterations after which it has ended, with the place.
+    pub bound: Option<(u32, proc_macro2::Span)>,
+}
+
 impl Lower {
-    /// `unroll(full)`, `unroll(none)` or `unroll(4)` before a loop.
+    /// `unroll(full)`, `unroll(none)` or `unroll(4)` before a `for`.
     pub fn unroll_attribute(&mut self, attrs: &[syn::Attribute]) -> Option<Unroll> {
-        let mut found = None;
+        let said = self.loop_attributes(attrs);
+        if let Some((_, at)) = said.bound {
+            self.bad_attribute(
+                at,
+                "a `for` takes no `bound`: what it runs over bounds it".to_owned(),
+                UNROLL,
+            );
+        }
+        said.unroll
+    }
+
+    /// The same, and `bound(64)`, before a `while` or a `loop`.
+    pub fn loop_attributes(&mut self, attrs: &[syn::Attribute]) -> OfLoop {
+        let mut said = OfLoop::default();
         for meta in self.attributes(attrs) {
-            if let syn::Meta::List(list) = &meta
-                && list.path.is_ident("unroll")
-            {
-                found = self.unroll(list).or(found);
-            } else {
-                let text = as_written(&meta);
-                self.bad_attribute(meta.span(), format!("a loop takes no attribute `{text}`"), UNROLL);
+            match &meta {
+                syn::Meta::List(list) if list.path.is_ident("unroll") => {
+                    said.unroll = self.unroll(list).or(said.unroll);
+                }
+                syn::Meta::List(list) if list.path.is_ident("bound") => {
+                    said.bound = self.bound(list).or(said.bound);
+                }
+                _ => {
+                    let text = as_written(&meta);
+                    self.bad_attribute(meta.span(), format!("a loop takes no attribute `{text}`"), UNROLL);
+                }
             }
         }
-        found
+        said
+    }
+
+    fn bound(&mut self, list: &syn::MetaList) -> Option<(u32, proc_macro2::Span)> {
+        let bound = list
+            .parse_args::<syn::LitInt>()
+            .and_then(|n| n.base10_parse().map(|n: u32| n));
+        match bound {
+            Ok(n) if (1..=LARGEST_BOUND).contains(&n) => Some((n, list.span())),
+            _ => {
+                let text = as_written(&syn::Meta::List(list.clone()));
+                let help = format!("write a number of iterations from 1 to {LARGEST_BOUND}: `bound(64)`");
+                self.bad_attribute(list.span(), format!("`{text}` bounds no loop"), &help);
+                None
+            }
+        }
     }
 
     /// The same before a function, where other attributes are not looked at here.

@@ -93,7 +93,7 @@ impl Lower {
             statements: vec![Statement::Expr(choice)],
             value: None,
         };
-        ExprKind::While(Box::new(always), block, name, self.unroll_attribute(&e.attrs))
+        self.while_(always, block, name, &e.attrs)
     }
 
     /// The value, the pattern and the guard of a condition that begins with `let`.
@@ -185,7 +185,7 @@ impl Lower {
         ExprKind::Match(subject, arms, None)
     }
 
-    fn at(&self, kind: ExprKind, span: proc_macro2::Span) -> Expr {
+    pub fn at(&self, kind: ExprKind, span: proc_macro2::Span) -> Expr {
         Expr {
             kind,
             span: self.span(span),

@@ -237,14 +237,15 @@ impl Lower {
                     pattern,
                     over,
                     body,
+                    bounded: false,
                 }))
             }
             syn::Expr::While(e) if has_let(&e.cond) => self.while_let(e),
             syn::Expr::While(e) => {
                 let label = label(e.label.as_ref().map(|l| &l.name));
-                let condition = self.boxed(&e.cond);
+                let condition = self.expr(&e.cond);
                 let (body, _) = self.inside(label.clone(), Kind::Other("while"), |lower| lower.block(&e.body));
-                ExprKind::While(condition, body, label, self.unroll_attribute(&e.attrs))
+                self.while_(condition, body, label, &e.attrs)
             }
             syn::Expr::Loop(e) => self.loop_(e),
             syn::Expr::Try(e) => ExprKind::Try(self.boxed(&e.expr)),

@@ -32,6 +32,7 @@ mod targets;
 pub mod textures;
 mod traits;
 pub mod tree;
+mod whiles;
 
 use crate::diagnostic::{Diagnostic, Errors, File, Span};
 use ::std::borrow::Cow;
@@ -42,6 +43,7 @@ pub use foreign::is_prelude_type;
 pub use scan::{assigned, breaks, children, mentioned_in};
 pub use traits::is_of_rust;
 pub use tree::Library;
+pub use whiles::guarded;
 
 /// Functions of the prelude that take a float or a vector and give one of its type, and do for a closure by their names.
 pub const UNARY: [&str; 5] = ["fract", "inverse_sqrt", "round", "saturate", "sign"];

@@ -1,6 +1,7 @@
 //! `break` with a value, of a `loop` or a block with a label: what it gives is a variable that the `break` assigns.
 
 use super::expr::{Lower, label};
+use super::scan::breaks;
 use super::tree::{Block, Expr, ExprKind, Pattern, Statement};
 use crate::diagnostic::{Diagnostic, Span};
 use syn::spanned::Spanned;
@@ -50,9 +51,15 @@ impl Lower {
             kind: ExprKind::Bool(true),
             span: self.span(e.loop_token.span()),
         };
-        let unroll = self.unroll_attribute(&e.attrs);
         let (body, valued) = self.inside(name.clone(), Kind::Loop, |lower| lower.block(&e.body));
-        let kind = ExprKind::While(Box::new(always), body, name, unroll);
+        let ends = !valued && breaks(&body, name.as_deref());
+        let kind = self.while_(always, body, name, &e.attrs);
+        if matches!(kind, ExprKind::For(_)) && !ends {
+            let error = Diagnostic::at(span, "a bound ends a loop that has to end with a value")
+                .label("only a `return` or a `break` with a value ends it")
+                .help("end it by `break`, and give the value behind it");
+            self.errors.push(error);
+        }
         match valued {
             true => self.given(Expr { kind, span }),
             false => kind,

@@ -117,6 +117,8 @@ pub struct ForLoop {
     pub over: Expr,
     /// What it does.
     pub body: Block,
+    /// Whether it is a `while` that its attribute bounds.
+    pub bounded: bool,
 }
 
 /// Integer types by name.

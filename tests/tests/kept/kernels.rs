@@ -108,6 +108,37 @@ pub fn whiles(color: &Frame<Vec4>, n: i32, pixel: IVec2) -> Vec4 {
     vec4(s, i as f32, q as f32, 1.0)
 }
 
+pub fn bounded(color: &Frame<Vec4>, n: i32, pixel: IVec2) -> Vec4 {
+    let c = color.load(pixel);
+    let mut left = n + pixel.x;
+    let mut s = c.x;
+    #[cfg_attr(false, bound(9))]
+    while left > 0 {
+        left -= 1;
+        if left == 2 {
+            continue;
+        }
+        s = s * 0.75 + left as f32;
+    }
+    let mut steps = 0;
+    #[cfg_attr(false, bound(12))]
+    loop {
+        if s < 0.5 || steps > 10 {
+            break;
+        }
+        s *= 0.5;
+        steps += 1;
+    }
+    let mut next = Some(n);
+    let mut sum = 0;
+    #[cfg_attr(false, bound(6))]
+    while let Some(k) = next {
+        sum += k;
+        next = if k > pixel.y { Some(k - 1) } else { None };
+    }
+    vec4(s, steps as f32, sum as f32, left as f32)
+}
+
 pub fn unsigned(color: &Frame<Vec4>, n: i32, pixel: IVec2) -> Vec4 {
     let m = n as u32;
     let mut h = color.load(pixel).x as u32;

@@ -315,6 +315,11 @@ impl Maker {
         } else {
             format!("while {name} < {end}")
         };
+        if self.chance(Feature::Attributes, 6) {
+            // It has at most three iterations.
+            let bound = self.random.between(3, 6);
+            self.line(format!("#[cfg_attr(false, bound({bound}))]"));
+        }
         let prefix = label.as_ref().map_or(String::new(), |l| format!("{l}: "));
         self.open(format!("{prefix}{head} {{"));
         if endless {
