@@ -28,6 +28,18 @@ pub enum EmitError {
         /// The kernel.
         kernel: String,
     },
+    /// Pictures that are written at any place, where a shader gives only its own pixel or knows only a part of the frame.
+    #[error(
+        "`{kernel}` writes to `{image}` at any place, which {what} cannot: emit it as a compute shader of the whole frame"
+    )]
+    Image {
+        /// The kernel.
+        kernel: String,
+        /// The picture.
+        image: String,
+        /// What cannot.
+        what: &'static str,
+    },
     /// Lanes in a stage that has none.
     #[error(
         "`{kernel}` sends messages by {transport}, and compute shaders have no pixel quads: emit it for fragment, or use the transport `block`"

@@ -10,8 +10,8 @@ use super::target::Target;
 use crate::compiled::Compiled;
 use std::collections::BTreeSet;
 use straightline_evaluator::ir::{
-    Access, Buffer, Element, Invocation, Memory, NodeId, Op, Sampler, Shared, Structure, Texture, Type, Uniform,
-    Varying,
+    Access, Buffer, Element, Invocation, Memory, NodeId, Op, Sampler, Shared, Structure, Target as Picture, Texture,
+    Type, Uniform, Varying,
 };
 use straightline_evaluator::passes::layers_read;
 use straightline_manifest::{REGION, Stage, UniformField};
@@ -99,6 +99,8 @@ pub struct Resources {
     pub asks_group: bool,
     /// What workgroups share, used or not, by index.
     pub(super) shared: Vec<Shared>,
+    /// Pictures that are written at any place, by index: the last of `outputs`.
+    pub(super) images: Vec<Picture>,
     /// Index of each that is used.
     pub used_shared: Vec<u32>,
 }
@@ -126,12 +128,24 @@ impl Resources {
                 asked,
             });
         }
+        let narrow = match options.stage {
+            _ if options.is_function() => Some("a function"),
+            Stage::Fragment => Some("a fragment shader"),
+            Stage::Compute => options.region.then_some("a shader of a region"),
+        };
+        if let (Some(what), Some(image)) = (narrow, graph.images.first()) {
+            return Err(EmitError::Image {
+                kernel: kernel(),
+                image: image.name.clone(),
+                what,
+            });
+        }
         let mut read = Vec::new();
         let reads = |index: u32| ops.iter().any(|op| op.texture() == Some(index));
         // A fragment shader that needs the output's size has it from a texture of that size: one that is read, or else any.
         let framed = |index: &u32| graph.textures[*index as usize].framed;
         let all = || 0..graph.textures.len() as u32;
-        let sized_by_output = options.stage == Stage::Compute && !graph.targets.is_empty();
+        let sized_by_output = options.stage == Stage::Compute && graph.pictures().next().is_some();
         // A shader without outputs that could tell needs it anyway: pixels outside of the frame do nothing.
         let needs_size =
             !sized_by_output && (ops.contains(&&Op::FrameSize) || (options.stage == Stage::Compute && !options.region));
@@ -204,11 +218,7 @@ impl Resources {
                 Element::Value(_) => None,
             });
         let fields = structures.clone().flat_map(|structure| &structure.fields);
-        let mut outputs: Vec<BoundOutput> = graph
-            .targets
-            .iter()
-            .map(|t| BoundOutput::new(t, options.format))
-            .collect();
+        let mut outputs: Vec<BoundOutput> = graph.pictures().map(|t| BoundOutput::new(t, options.format)).collect();
         let mut names = names
             .chain(structures.map(|structure| &structure.name))
             .map(|name| (name, false))
@@ -326,6 +336,7 @@ impl Resources {
             asks_local: ops.contains(&&Op::Thread),
             asks_group: ops.contains(&&Op::GroupOrigin),
             shared: graph.shared.clone(),
+            images: graph.images.clone(),
             used_shared,
         };
         if options.stage == Stage::Fragment && resources.outputs.is_empty() {
@@ -387,6 +398,7 @@ impl Resources {
         match memory {
             Memory::Buffer(k) => (self.buffer(k).value(), &self.buffer(k).name),
             Memory::Shared(k) => (self.shared[k as usize].element, &self.shared[k as usize].name),
+            Memory::Image(k) => (self.images[k as usize].ty, &self.images[k as usize].name),
         }
     }
 

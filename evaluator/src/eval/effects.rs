@@ -1,13 +1,15 @@
-//! What a kernel does besides giving values: it writes to buffers.
+//! What a kernel does besides giving values: it writes to buffers and pictures.
 //!
 //! Both sides of a condition that is selected are evaluated, and those who have left a loop or function are evaluated along; so
 //! an effect has a condition of its own, which says for whom it happens: those on whose side it stands who have not left. Of
 //! branches and loops that are left in the shader, the region that it is in says the rest.
 
 use super::Evaluator;
+use super::buffers::value_named;
 use super::value::{Eval, Exit, Value};
 use crate::diagnostic::{Diagnostic, Span};
-use crate::ir::{Access, AtomicOp, BinaryOp, Invocation, Memory, NodeId, Op, Scalar, Type};
+use crate::front::tree::Type as SourceType;
+use crate::ir::{Access, AtomicOp, BinaryOp, Invocation, Memory, NodeId, Op, Scalar, Target, Type};
 
 /// Method and operation of what a buffer of atomics has.
 const ATOMICS: [(&str, AtomicOp); 8] = [
@@ -71,6 +73,52 @@ impl Evaluator<'_> {
         all
     }
 
+    /// A parameter that is a picture of the frame's size, which the kernel writes.
+    pub(super) fn image_parameter(&mut self, name: &str, args: &[SourceType], span: Span) -> Eval {
+        let ty = match args {
+            [SourceType::Name(of, _)] => value_named(of),
+            _ => None,
+        };
+        let Some(ty) = ty.filter(|ty| ty.kind() != Some(Scalar::Bool)) else {
+            return Err(Diagnostic::at(
+                span,
+                format!("the picture `{name}` has no texels that a shader can write"),
+            )
+            .label("of this type")
+            .help("texels are f32, i32, u32, or vectors of them")
+            .into());
+        };
+        self.unused_name(name, span)?;
+        let images = &mut self.builder.graph_mut().images;
+        images.push(Target {
+            name: name.to_owned(),
+            ty,
+        });
+        Ok(Value::Image(images.len() as u32 - 1))
+    }
+
+    /// A method of a picture that the kernel writes.
+    pub fn image(&mut self, index: u32, name: &str, args: &[Value], span: Span) -> Eval {
+        let image = self.builder.graph().images[index as usize].name.clone();
+        match (name, args) {
+            ("size", []) => {
+                let size = self.builder.add(Op::FrameSize, Vec::new(), Type::value(Scalar::I32, 2));
+                Ok(Value::Node(self.convert(size, Scalar::U32)))
+            }
+            ("store", [_, _]) => {
+                self.alone(&image, span)?;
+                self.effect_on(Memory::Image(index), Effects::Store, args, span)
+            }
+            _ => Err(Diagnostic::at(
+                span,
+                format!("`{image}` is a `StorageTexture`, which has no method `{name}` with such arguments"),
+            )
+            .label("not supported")
+            .help("it has `store` of a place and a texel, and `size`; take a `&Frame` or a `&Texture` to read")
+            .into()),
+        }
+    }
+
     /// A method of a buffer that the kernel writes.
     pub fn written_buffer(&mut self, index: u32, name: &str, args: &[Value], span: Span) -> Eval {
         let buffer = self.builder.graph().buffers[index as usize].clone();
@@ -94,7 +142,10 @@ impl Evaluator<'_> {
     pub fn effect_on(&mut self, memory: Memory, effect: Effects, args: &[Value], span: Span) -> Eval {
         let (element, name) = self.builder.graph().memory(memory);
         let name = name.to_owned();
-        let at = self.index_node(&args[0], span)?;
+        let at = match memory {
+            Memory::Image(_) => self.node(&args[0], span)?,
+            Memory::Buffer(_) | Memory::Shared(_) => self.index_node(&args[0], span)?,
+        };
         let mut given = vec![at];
         if let Some(value) = args.get(1) {
             let value = match element {
@@ -126,6 +177,7 @@ impl Evaluator<'_> {
     /// Whether an index is inside of memory.
     fn inside(&mut self, memory: Memory, index: NodeId, span: Span) -> NodeId {
         let len = match memory {
+            Memory::Image(_) => return self.inside_frame(index),
             Memory::Buffer(buffer) => self.builder.add(Op::BufferLen(buffer), Vec::new(), Type::I32),
             Memory::Shared(shared) => {
                 let len = self.builder.graph().shared[shared as usize].len;
@@ -143,6 +195,24 @@ impl Evaluator<'_> {
             self.name(&Value::Node(len), &format!("{name}_len"), span);
         }
         self.builder.add(Op::Binary(BinaryOp::Lt), [at, len], Type::BOOL)
+    }
+
+    /// Whether a place is inside of the frame.
+    fn inside_frame(&mut self, at: NodeId) -> NodeId {
+        if matches!(self.builder.graph().node(at).op, Op::Pixel) && self.builder.graph().invocation == Invocation::Pixel
+        {
+            return self.builder.bool(true);
+        }
+        let frame = self.builder.add(Op::FrameSize, Vec::new(), Type::value(Scalar::I32, 2));
+        let [at, frame] = [at, frame].map(|id| self.lanes(id));
+        let mut inside = self.builder.bool(true);
+        for (at, side) in at.into_iter().zip(frame) {
+            // A negative coordinate is a large one.
+            let [at, side] = [at, side].map(|id| self.convert(id, Scalar::U32));
+            let within = self.builder.add(Op::Binary(BinaryOp::Lt), [at, side], Type::BOOL);
+            inside = self.and(inside, within);
+        }
+        inside
     }
 
     /// Effects are of invocations that compute one pixel, inside the frame.

@@ -50,7 +50,10 @@ impl<'a> Evaluator<'a> {
         }
         if name == "clone"
             && args.is_empty()
-            && !matches!(value, Value::Texture(_) | Value::Buffer(_) | Value::Shared(_))
+            && !matches!(
+                value,
+                Value::Texture(_) | Value::Buffer(_) | Value::Shared(_) | Value::Image(_)
+            )
         {
             return Ok(value);
         }
@@ -84,6 +87,7 @@ impl<'a> Evaluator<'a> {
             }
             Value::Texture(index) => self.texture(*index, name, &args, span),
             Value::Buffer(index) => self.buffer(*index, name, &args, span),
+            Value::Image(index) => self.image(*index, name, &args, span),
             Value::Shared(index) => self.shared_memory(*index, name, &args, span),
             Value::Range(range) if matches!(name, "rev" | "step_by" | "contains") => {
                 self.range_method(range, name, &args, span)

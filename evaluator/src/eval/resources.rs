@@ -23,6 +23,7 @@ impl Evaluator<'_> {
                 Ok(Some(Value::Sampler(samplers.len() as u32 - 1)))
             }
             "Buffer" | "StorageBuffer" | "AtomicBuffer" => self.buffer_parameter(name, type_name, args, span).map(Some),
+            "StorageTexture" => self.image_parameter(name, args, span).map(Some),
             "Shared" | "AtomicShared" => self.shared_parameter(name, type_name, args, span).map(Some),
             _ => self.texture_parameter(name, type_name, args, span),
         }
@@ -34,6 +35,7 @@ impl Evaluator<'_> {
         let mut names = graph.textures.iter().map(|t| &t.name);
         let taken = names.any(|n| n == name)
             || graph.buffers.iter().any(|b| b.name == name)
+            || graph.images.iter().any(|image| image.name == name)
             || graph.shared.iter().any(|s| s.name == name)
             || graph.samplers.iter().any(|s| s.name == name)
             || graph.uniforms.iter().any(|u| u.name == name)

@@ -32,8 +32,12 @@ impl Evaluator<'_> {
             targets.push(Target { name, ty });
             results.push(id);
         }
-        if targets.len() > MOST {
-            let what = format!("a kernel that gives {} values for each pixel", targets.len());
+        let written = targets.len() + self.builder.graph().images.len();
+        if written > MOST {
+            let what = match written - targets.len() {
+                0 => format!("a kernel that gives {written} values for each pixel"),
+                _ => format!("a kernel that writes {written} pictures"),
+            };
             return Err(Diagnostic::at(span, what)
                 .label("the kernel")
                 .help(format!(
@@ -117,7 +121,7 @@ impl Evaluator<'_> {
             }
             Value::Int(_) => "convert it with `as i32` or `as u32`",
             Value::Tuple(parts) if parts.is_empty() => {
-                "give a value for each pixel, or write to an `&AtomicBuffer` or a `&StorageBuffer`"
+                "give a value for each pixel, or write to an `&AtomicBuffer`, a `&StorageBuffer` or a `&StorageTexture`"
             }
             _ => {
                 "give f32, i32, u32, a vector of 2 to 4 of them, or a structure or tuple of such values, each of which has a target \

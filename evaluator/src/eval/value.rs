@@ -40,6 +40,8 @@ pub enum Value {
     Buffer(u32),
     /// What a workgroup shares, by its index in the graph.
     Shared(u32),
+    /// A picture that is written, by its index in the graph.
+    Image(u32),
     /// A mutable reference to a variable or a part of one. A shared reference is the value that it refers to: nothing can
     /// change that meanwhile.
     Ref(Rc<Place>),
@@ -205,6 +207,7 @@ impl Value {
             Value::Texture(_) => "a texture".to_owned(),
             Value::Sampler(_) => "a sampler".to_owned(),
             Value::Buffer(_) => "a buffer".to_owned(),
+            Value::Image(_) => "a picture that is written".to_owned(),
             Value::Shared(_) => "memory of a workgroup".to_owned(),
             Value::Ref(_) => "a mutable reference".to_owned(),
             Value::Closure(_) => "a closure".to_owned(),

@@ -63,6 +63,7 @@ pub fn is_prelude_type(name: &str) -> bool {
                 | "Buffer"
                 | "AtomicBuffer"
                 | "StorageBuffer"
+                | "StorageTexture"
                 | "Quad"
                 | "Shared"
                 | "AtomicShared"

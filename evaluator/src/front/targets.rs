@@ -55,7 +55,7 @@ impl Lower {
         let ends = !valued && breaks(&body, name.as_deref());
         let kind = self.while_(always, body, name, &e.attrs);
         if matches!(kind, ExprKind::For(_)) && !ends {
-            let error = Diagnostic::at(span, "a bound ends a loop that has to end with a value")
+            let error = Diagnostic::at(span, "a `loop` that ends with a value takes no `bound`")
                 .label("only a `return` or a `break` with a value ends it")
                 .help("end it by `break`, and give the value behind it");
             self.errors.push(error);

@@ -217,6 +217,11 @@ impl<'l> Checker<'l> {
                 "len" => self.takes(args, &[], Ty::USIZE),
                 _ => self.unknown_method(args),
             },
+            Ty::Storage("StorageTexture", texel) => match name {
+                "store" => self.takes(args, &[Ty::Vector(Scalar::I32, 2), (**texel).clone()], Ty::UNIT),
+                "size" => self.takes(args, &[], Ty::Vector(Scalar::U32, 2)),
+                _ => self.unknown_method(args),
+            },
             Ty::Storage(kind, element) => match (*kind, name) {
                 (_, "len") => self.takes(args, &[], Ty::USIZE),
                 ("StorageBuffer" | "Shared", "store") => self.takes(args, &[Ty::USIZE, (**element).clone()], Ty::UNIT),

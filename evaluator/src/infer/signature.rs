@@ -94,6 +94,7 @@ impl<'l> Checker<'l> {
             }
             "AtomicBuffer" => Ty::Storage("AtomicBuffer", Box::new(texel())),
             "StorageBuffer" => Ty::Storage("StorageBuffer", Box::new(texel())),
+            "StorageTexture" => Ty::Storage("StorageTexture", Box::new(texel())),
             "Sampler" => Ty::Sampler,
             "ComparisonSampler" => Ty::ComparisonSampler,
             "_" => self.table.fresh(Kind::Any),

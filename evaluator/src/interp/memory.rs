@@ -51,6 +51,8 @@ pub struct Memories {
     /// By index of the buffer; of those that are only read nothing.
     buffers: Vec<Vec<Cells>>,
     shared: Vec<Vec<Element>>,
+    /// Row by row; nothing where no invocation has stored.
+    images: Vec<Vec<Option<Cells>>>,
     names: Vec<String>,
     /// Barriers that have been passed, in all workgroups.
     phase: u32,
@@ -62,7 +64,7 @@ pub struct Memories {
 
 impl Memories {
     /// As they are before the first invocation.
-    pub fn new(graph: &Graph, buffers: &[Vec<Cells>]) -> Memories {
+    pub fn new(graph: &Graph, buffers: &[Vec<Cells>], frame: [u32; 2]) -> Memories {
         let written = graph.buffers.iter().zip(buffers);
         let written = written.map(|(buffer, elements)| match buffer.access {
             Access::Read => Vec::new(),
@@ -75,6 +77,7 @@ impl Memories {
                 .iter()
                 .map(|s| vec![Element::default(); s.len as usize])
                 .collect(),
+            images: vec![vec![None; (frame[0] * frame[1]) as usize]; graph.images.len()],
             names: graph.shared.iter().map(|s| s.name.clone()).collect(),
             ..Memories::default()
         }
@@ -83,6 +86,11 @@ impl Memories {
     /// A buffer that is written, as it is now.
     pub fn buffer(&self, index: usize) -> &[Cells] {
         &self.buffers[index]
+    }
+
+    /// A picture that is written, as it is now.
+    pub fn image(&self, index: usize) -> &[Option<Cells>] {
+        &self.images[index]
     }
 
     pub fn disorder(&self) -> Option<&Disorder> {
@@ -130,6 +138,12 @@ impl Memories {
         let (phase, thread) = (self.phase, self.thread);
         let k = match memory {
             Memory::Buffer(_) => return self.change(memory, index, |_| value),
+            Memory::Image(k) => {
+                if let Some(texel) = self.images[k as usize].get_mut(index) {
+                    *texel = Some(value);
+                }
+                return [0; 4];
+            }
             Memory::Shared(k) => k,
         };
         let Some(element) = self.shared[k as usize].get_mut(index) else {
@@ -153,6 +167,7 @@ impl Memories {
     pub fn change(&mut self, memory: Memory, index: usize, change: impl FnOnce(Cells) -> Cells) -> Cells {
         let place = match memory {
             Memory::Buffer(k) => self.buffers[k as usize].get_mut(index),
+            Memory::Image(_) => None,
             Memory::Shared(k) => self.shared[k as usize].get_mut(index).map(|element| &mut element.cells),
         };
         let Some(place) = place else { return [0; 4] };

@@ -9,7 +9,7 @@ mod memory;
 mod sampling;
 
 use crate::ir::arith::{self, Cells};
-use crate::ir::{Counter, Graph, Invocation, NodeId, Op, Real, Scalar, TextureKind, Type};
+use crate::ir::{Counter, Graph, Invocation, Memory, NodeId, Op, Real, Scalar, TextureKind, Type};
 use crate::passes::Schedule;
 use memory::Memories;
 use sampling::{Detail, Sampled};
@@ -162,7 +162,7 @@ impl<'a, R: Real> Interpreter<'a, R> {
             _ => Vec::new(),
         };
         Scratch {
-            memory: Memories::new(self.graph, &self.buffers),
+            memory: Memories::new(self.graph, &self.buffers, self.frame),
             threads,
             ..one
         }
@@ -230,12 +230,27 @@ impl<'a, R: Real> Interpreter<'a, R> {
         elements.collect()
     }
 
+    /// What a picture that is written at any place holds now, by its index in [`Graph::images`], row by row: 0 where nothing was
+    /// stored.
+    pub fn image(&self, index: usize, scratch: &Scratch) -> Vec<[f64; 4]> {
+        let ty = self.graph.images[index].ty;
+        let texels = scratch.memory.image(index).iter();
+        texels
+            .map(|cells| cells.map_or([0.0; 4], |cells| texel::<R>(ty, cells)))
+            .collect()
+    }
+
     /// Does what an effect does, and gives what was there before.
     fn effect(&self, id: NodeId, s: &mut Scratch) -> Cells {
         let node = self.graph.node(id);
         let arg = |k: usize| s.values[node.args[k].0 as usize];
         let Some(memory) = node.op.memory() else { return [0; 4] };
-        let (holds, index) = (arg(0)[0] != 0, arg(1)[0] as u32 as usize);
+        let at = arg(1).map(|cell| cell as u32 as usize);
+        let index = match memory {
+            Memory::Image(_) => at[1] * self.frame[0] as usize + at[0],
+            Memory::Buffer(_) | Memory::Shared(_) => at[0],
+        };
+        let holds = arg(0)[0] != 0;
         let value = node.args.get(2).map_or([0; 4], |id| s.values[id.0 as usize]);
         if !holds {
             return [0; 4];

@@ -172,6 +172,8 @@ pub struct Graph {
     pub textures: Vec<Texture>,
     /// Buffers, by the index that `Op::BufferLoad` carries.
     pub buffers: Vec<Buffer>,
+    /// Pictures of the frame's size that are written at any place, by the index that `Memory::Image` carries.
+    pub images: Vec<Target>,
     /// What workgroups share, by the index that `Memory::Shared` carries.
     pub shared: Vec<Shared>,
     /// Samplers, by the index that `Op::Sample` carries.
@@ -240,10 +242,15 @@ impl Graph {
         !self.regions[0].effects.is_empty()
     }
 
-    /// Whether something is done to a buffer: what a workgroup shares nobody sees afterwards.
+    /// Whether something is done to a buffer or a picture: what a workgroup shares nobody sees afterwards.
     pub fn has_lasting_effects(&self) -> bool {
         let mut effects = self.regions.iter().flat_map(|region| &region.effects);
-        effects.any(|id| matches!(self.node(*id).op.memory(), Some(Memory::Buffer(_))))
+        effects.any(|id| matches!(self.node(*id).op.memory(), Some(Memory::Buffer(_) | Memory::Image(_))))
+    }
+
+    /// All pictures that it writes: what it gives for each pixel, and those that it writes at any place.
+    pub fn pictures(&self) -> impl Iterator<Item = &Target> + Clone {
+        self.targets.iter().chain(&self.images)
     }
 
     /// The type of the elements of memory, and its name.
@@ -256,6 +263,10 @@ impl Graph {
             Memory::Shared(k) => {
                 let shared = &self.shared[k as usize];
                 (shared.element, &shared.name)
+            }
+            Memory::Image(k) => {
+                let image = &self.images[k as usize];
+                (image.ty, &image.name)
             }
         }
     }

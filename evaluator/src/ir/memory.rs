@@ -1,4 +1,4 @@
-//! Memory that a kernel writes: buffers of the host's, and what the invocations of a workgroup share.
+//! Memory that a kernel writes: buffers and pictures of the host's, and what the invocations of a workgroup share.
 
 use super::Type;
 
@@ -9,6 +9,8 @@ pub enum Memory {
     Buffer(u32),
     /// What a workgroup shares, by index into `Graph::shared`.
     Shared(u32),
+    /// A picture of the frame's size, by index into `Graph::images`.
+    Image(u32),
 }
 
 /// An array that the invocations of a workgroup share; all 0 when they begin. It is bound by no host.

@@ -81,6 +81,12 @@ impl Reader {
             }
             "texture" => self.texture(rest),
             "buffer" => self.buffer(rest),
+            "image" => {
+                let (name, kind) = named(rest)?;
+                let ty = ty(kind)?;
+                self.graph.images.push(Target { name, ty });
+                Ok(())
+            }
             "shared" => self.shared(rest),
             "sampler" => self.sampler(rest),
             "uniform" => self.uniform(rest),
@@ -340,9 +346,11 @@ impl Reader {
             found.ok_or_else(|| missing("memory"))
         };
         let memory = |k: usize| -> Parsed<Memory> {
-            match buffer_at(k) {
-                Ok(buffer) => Ok(Memory::Buffer(buffer)),
-                Err(_) => shared(k).map(Memory::Shared),
+            let image = position(g.images.iter().map(|image| &image.name), word(k)?);
+            match (image, buffer_at(k)) {
+                (Some(image), _) => Ok(Memory::Image(image)),
+                (None, Ok(buffer)) => Ok(Memory::Buffer(buffer)),
+                (None, Err(_)) => shared(k).map(Memory::Shared),
             }
         };
         let site = match words.iter().find_map(|w| w.strip_prefix("site=")) {

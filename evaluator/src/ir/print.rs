@@ -71,6 +71,9 @@ fn tables(graph: &Graph) -> String {
         };
         let _ = writeln!(text, "buffer {}: {}{access}", b.name, element);
     }
+    for image in &graph.images {
+        let _ = writeln!(text, "image {}: {}", image.name, image.ty);
+    }
     for s in &graph.shared {
         let atomic = if s.atomic { " atomic" } else { "" };
         let _ = writeln!(text, "shared {}: {} {}{atomic}", s.name, s.element, s.len);

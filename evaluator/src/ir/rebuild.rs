@@ -49,6 +49,7 @@ pub fn rebuild(old: &Graph, pass: &Rebuild<'_>) -> Graph {
 pub fn copy_tables(old: &Graph, new: &mut Graph) {
     new.textures.clone_from(&old.textures);
     new.buffers.clone_from(&old.buffers);
+    new.images.clone_from(&old.images);
     new.shared.clone_from(&old.shared);
     new.samplers.clone_from(&old.samplers);
     new.uniforms.clone_from(&old.uniforms);

@@ -42,10 +42,10 @@ pub fn verify(graph: &Graph) -> Result<(), String> {
 fn results(graph: &Graph) -> Result<(), String> {
     let outputs = &graph.regions.first().ok_or("no body")?.results;
     let [width, height] = graph.invocation.pixels();
-    for (k, target) in graph.targets.iter().enumerate() {
+    for (k, target) in graph.pictures().enumerate() {
         let numbers =
             matches!(target.ty, Type::Value { scalar, lanes } if scalar != Scalar::Bool && (1..=4).contains(&lanes));
-        if !numbers || graph.targets[..k].iter().any(|other| other.name == target.name) {
+        if !numbers || graph.pictures().take(k).any(|other| other.name == target.name) {
             return Err(format!(
                 "the target {} is of no numbers, or there are two of it",
                 target.name

@@ -28,7 +28,7 @@ pub use buffer::Buffer;
 pub use frame::{Frame, FrameLayers};
 pub use maths::{fract, inverse_sqrt, mix, round, saturate, sign, smoothstep, step};
 pub use quad::{PerLane, Quad, lane_position, quad_select, quad_vector};
-pub use storage::{AtomicBuffer, AtomicElement, StorageBuffer};
+pub use storage::{AtomicBuffer, AtomicElement, StorageBuffer, StorageTexture};
 pub use texture::{
     Address, Comparison, ComparisonSampler, DepthCube, DepthTexture, DepthTextureArray, Filter, Filterable,
     Multisampled, Sampler, Texel, Texture, Texture3D, TextureArray, TextureCube,

@@ -1,5 +1,6 @@
-//! Arrays that a kernel writes.
+//! Arrays and pictures that a kernel writes.
 
+use glam::{IVec2, UVec2};
 use std::fmt;
 use std::sync::atomic::{AtomicI32, AtomicU32, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -182,6 +183,46 @@ impl<T: Copy> StorageBuffer<T> {
     pub fn store(&self, index: usize, value: T) {
         if let Some(place) = self.locked().get_mut(index) {
             *place = value;
+        }
+    }
+}
+
+/// A picture of the frame's size that a kernel writes at any place and does not read. Bound as a `texture_storage_2d`, beside those
+/// of what the kernel gives for its own pixel.
+///
+/// `T` is `f32`, `i32`, `u32`, or a vector of them. What is stored outside of the frame is dropped. Of two pixels that store at one
+/// place either may come last; where none does, the picture stays what it was.
+#[derive(Debug)]
+pub struct StorageTexture<T> {
+    size: UVec2,
+    texels: Mutex<Vec<T>>,
+}
+
+impl<T: Copy + Default> StorageTexture<T> {
+    /// A picture of zeros.
+    pub fn new(size: UVec2) -> Self {
+        StorageTexture {
+            size,
+            texels: Mutex::new(vec![T::default(); size.element_product() as usize]),
+        }
+    }
+
+    /// Width and height.
+    pub fn size(&self) -> UVec2 {
+        self.size
+    }
+
+    /// All texels as they are now, row by row.
+    pub fn texels(&self) -> Vec<T> {
+        self.texels.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    }
+
+    /// Puts `texel` at a place.
+    pub fn store(&self, at: IVec2, texel: T) {
+        if at.cmpge(IVec2::ZERO).all() && at.as_uvec2().cmplt(self.size).all() {
+            let [x, y] = at.as_uvec2().to_array();
+            let mut texels = self.texels.lock().unwrap_or_else(PoisonError::into_inner);
+            texels[(y * self.size.x + x) as usize] = texel;
         }
     }
 }

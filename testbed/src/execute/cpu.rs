@@ -148,10 +148,13 @@ pub fn interpret<R: Real>(compiled: &Compiled, inputs: &Inputs, watch: bool) -> 
     let written = written.filter(|(_, buffer)| buffer.access != Access::Read);
     let buffers = written.map(|(k, buffer)| (buffer.name.clone(), interpreter.buffer(k, &last)));
     let buffers = buffers.collect();
-    let targets = names.iter().enumerate().map(|(k, target)| Written {
-        name: target.name.clone(),
+    let given = (0..names.len()).map(|k| rows.iter().flat_map(|row| &row.targets[k]).copied().collect());
+    let images = (0..compiled.graph.images.len()).map(|k| interpreter.image(k, &last));
+    let pictures = compiled.graph.pictures().zip(given.chain(images));
+    let targets = pictures.map(|(picture, texels)| Written {
+        name: picture.name.clone(),
         size: inputs.size,
-        texels: rows.iter().flat_map(|row| &row.targets[k]).copied().collect(),
+        texels,
     });
     let targets = targets.collect();
     let births: Vec<_> = rows.iter().flat_map(|row| row.births.clone()).collect();

@@ -36,7 +36,7 @@ pub fn outs(args: &RunArgs, compiled: &Compiled) -> Result<Vec<Out>, Failure> {
         let out = out(text, compiled)?;
         if outs.iter().any(|other| other.what == out.what) {
             let name = match &out.what {
-                What::Target(k) => &compiled.graph.targets[*k].name,
+                What::Target(k) => compiled.graph.pictures().nth(*k).map_or("", |target| &target.name),
                 What::Buffer(name, _) => name,
             };
             return Err(Failure::Usage(format!("`{name}` is to be written twice")));
@@ -58,13 +58,13 @@ fn out(text: &str, compiled: &Compiled) -> Result<Out, Failure> {
     let written = || graph.buffers.iter().filter(|buffer| buffer.access != Access::Read);
     let (what, path) = match text.split_once('=') {
         Some((name, path)) if is_name(name) => {
-            let target = graph.targets.iter().position(|target| target.name == name);
+            let target = graph.pictures().position(|target| target.name == name);
             let buffer = written().find(|buffer| buffer.name == name);
             let what = match (target, buffer) {
                 (Some(target), _) => What::Target(target),
                 (None, Some(buffer)) => What::Buffer(name.to_owned(), buffer.value().lanes() as usize),
                 (None, None) => {
-                    let names = graph.targets.iter().map(|target| target.name.as_str());
+                    let names = graph.pictures().map(|target| target.name.as_str());
                     let names: Vec<&str> = names.chain(written().map(|buffer| buffer.name.as_str())).collect();
                     return Err(Failure::Usage(format!(
                         "`{}` gives no `{}`; it gives {}",
@@ -76,7 +76,7 @@ fn out(text: &str, compiled: &Compiled) -> Result<Out, Failure> {
             };
             (what, path)
         }
-        _ if graph.targets.is_empty() => {
+        _ if graph.pictures().next().is_none() => {
             let names: Vec<&str> = written().map(|buffer| buffer.name.as_str()).collect();
             return Err(Failure::Usage(format!(
                 "`{}` gives no picture, and writes {}: say NAME=FILE.csv",

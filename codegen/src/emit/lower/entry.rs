@@ -33,6 +33,9 @@ pub fn entry(module: &mut Module<'_>, resources: &Resources) {
         .into_iter()
         .partition(|stmt| matches!(stmt.kind, StmtKind::Output(_)));
     let begun = body.len();
+    if resources.options.counts_from_below() {
+        stored_from_below(&mut kernel);
+    }
     body.append(&mut kernel);
     if !resources.options.is_function() {
         for value in outputs.iter_mut().flat_map(Stmt::own_mut) {
@@ -211,6 +214,17 @@ fn begin_fragment(resources: &Resources) -> Block<'static> {
         body.push(is(VarId::FRAME, frame(resources)));
     }
     body
+}
+
+/// What a kernel stores at any place, in rows that count from below.
+fn stored_from_below(block: &mut Block<'_>) {
+    for stmt in block {
+        if let StmtKind::Store(_, place, _) = &mut stmt.kind {
+            let row = turned(part(local(VarId::FRAME), 1), part(place.clone(), 1));
+            *place = pair(part(place.clone(), 0), row);
+        }
+        stmt.blocks_mut().into_iter().for_each(stored_from_below);
+    }
 }
 
 /// Stores what is given for a block's pixels; all but the first may lie outside.

@@ -10,6 +10,7 @@ mod webs;
 
 use super::ast::{Block as Statements, Effect, Expr, Module, Op, Stmt, StmtKind, VarId};
 use super::names::Wanted;
+use super::outputs::whole_texel;
 use super::tidy::simplify;
 use crate::compiled::Compiled;
 use std::collections::HashSet;
@@ -173,14 +174,18 @@ impl<'g> Lowering<'g> {
             _ => return,
         };
         let condition = simplify(self.expr(node.args[0]));
-        let args = node.args[1..].iter().map(|arg| simplify(self.expr(*arg))).collect();
+        let args: Vec<Expr> = node.args[1..].iter().map(|arg| simplify(self.expr(*arg))).collect();
+        if let (ir::Memory::Image(k), [place, value]) = (memory, &args[..]) {
+            let output = graph.targets.len() + k as usize;
+            let store = StmtKind::Store(output, place.clone(), whole_texel(value.clone()));
+            return self.under(id, condition, store);
+        }
         let mut effect = Effect {
             memory,
             op,
             args,
             before: None,
         };
-        let never = condition.as_constant().is_some_and(|bits| bits[0] == 0);
         let always = condition.as_constant().is_some_and(|bits| bits[0] != 0);
         if op.is_some() && (self.compiled.schedule.uses[id.0 as usize] > 0 || effect.needs_variable()) {
             let var = self.variable(id);
@@ -189,11 +194,16 @@ impl<'g> Lowering<'g> {
             self.exprs[id.0 as usize] = Some(self.module.read(var));
             effect.before = Some(var);
         }
-        match (never, always) {
-            (true, _) => {}
-            (_, true) => self.statement(id, StmtKind::Effect(effect)),
-            _ => {
-                let then = self.nested(|lowering| lowering.statement(id, StmtKind::Effect(effect)));
+        self.under(id, condition, StmtKind::Effect(effect));
+    }
+
+    /// A statement for those for whom a condition holds.
+    fn under(&mut self, id: NodeId, condition: Expr, stmt: StmtKind<'g>) {
+        match condition.as_constant() {
+            Some([0, ..]) => {}
+            Some(_) => self.statement(id, stmt),
+            None => {
+                let then = self.nested(|lowering| lowering.statement(id, stmt));
                 let kind = StmtKind::If {
                     condition,
                     then,

@@ -431,7 +431,7 @@ impl Language for Glsl<'_> {
         let (element, name) = self.resources.memory(effect.memory);
         let elements = match effect.memory {
             Memory::Buffer(_) => Text::name(format!("{name}.elements")),
-            Memory::Shared(_) => Text::name(name),
+            Memory::Shared(_) | Memory::Image(_) => Text::name(name),
         };
         let place = Text::index(&elements, &args[0]);
         let Some(op) = effect.op else {

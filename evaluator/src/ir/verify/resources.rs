@@ -142,8 +142,12 @@ pub fn check(graph: &Graph, node: &Node, types: &[Type]) -> Result<(), String> {
         Op::Store(memory) => {
             let (element, access) = memory_of(graph, *memory)?;
             count(3)?;
+            let index = match memory {
+                Memory::Image(_) => Type::value(Scalar::I32, 2),
+                Memory::Buffer(_) | Memory::Shared(_) => Type::I32,
+            };
             expect(
-                types == [Type::BOOL, Type::I32, element],
+                types == [Type::BOOL, index, element],
                 "a condition, an index and an element",
             )?;
             expect(
@@ -187,6 +191,7 @@ fn memory_of(graph: &Graph, memory: Memory) -> Result<(Type, Access), String> {
             let access = if shared.atomic { Access::Atomic } else { Access::Write };
             (shared.element, access)
         }),
+        Memory::Image(k) => graph.images.get(k as usize).map(|image| (image.ty, Access::Write)),
     };
     found.ok_or_else(|| "no such memory".to_owned())
 }

@@ -63,6 +63,7 @@ const WRITTEN: &[Parameter] = &[
     ("wf", "&StorageBuffer<f32>"),
     ("wv", "&StorageBuffer<Vec4>"),
     ("wi", "&StorageBuffer<IVec2>"),
+    ("wt", "&StorageTexture<Vec4>"),
     ("xu", "&AtomicBuffer<u32>"),
     ("xi", "&AtomicBuffer<i32>"),
 ];

@@ -1,4 +1,4 @@
-//! What kernels write to buffers. Each pixel has a slot of its own in every buffer; what all pixels share is changed in ways
+//! What kernels write to buffers and pictures. Each pixel has a slot of its own in every buffer; what all pixels share is changed in ways
 //! whose order shows in nothing, but where kernels need not be compared with a driver.
 
 use super::types::{Lane, Ty};
@@ -23,7 +23,7 @@ const OPERATIONS: &[&str] = &["add", "min", "max", "and", "or", "xor", "exchange
 fn element(name: &str) -> Ty {
     match name {
         "wf" => Ty::F32,
-        "wv" => Ty::Vec(Lane::F, 4),
+        "wv" | "wt" => Ty::Vec(Lane::F, 4),
         "wi" => Ty::Vec(Lane::I, 2),
         "xu" => Ty::U32,
         _ => Ty::I32,
@@ -53,6 +53,15 @@ impl Maker {
         let ty = element(name);
         let want = self.wish(2).inferred(true);
         let value = self.with_effects(|m| m.expr(&ty, want));
+        if name == "wt" {
+            let at = match self.random.below(6) {
+                // Outside: nothing happens.
+                0 => "ivec2(-1 - pixel.x, pixel.y)",
+                1 => "pixel + wt.size().as_ivec2()",
+                _ => "pixel",
+            };
+            return self.line(format!("wt.store({at}, {value});"));
+        }
         if name.starts_with('w') {
             let index = match self.random.below(8) {
                 // Outside: nothing happens.

@@ -233,7 +233,7 @@ impl Driver {
                     &shader.compiled,
                     world,
                     native,
-                    &Given::of_run(&targets, buffers),
+                    &Given::of_run(&shader.compiled, &targets, buffers),
                     total,
                 )
             };

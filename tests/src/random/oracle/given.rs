@@ -14,7 +14,7 @@ pub type Texel = [f64; 4];
 pub struct Given {
     /// Of each pixel, row by row, the texel of each target; `None` where rustc's program panics, so that Rust says nothing.
     pub pixels: Vec<Option<Vec<Texel>>>,
-    /// Each buffer by its name.
+    /// Each buffer, and each picture that is written at any place, by its name.
     pub buffers: Vec<(String, Vec<Texel>)>,
 }
 
@@ -41,10 +41,12 @@ impl std::fmt::Display for Place {
 pub type Pair = (Place, Texel, Texel);
 
 impl Given {
-    /// Of what was run for every pixel: what targets hold, and what was written.
-    pub fn of_run(targets: &[Written], buffers: Vec<(String, Vec<Texel>)>) -> Given {
+    /// Of what was run for every pixel: what its targets and other pictures hold, and what was written.
+    pub fn of_run(compiled: &Compiled, pictures: &[Written], mut buffers: Vec<(String, Vec<Texel>)>) -> Given {
+        let (targets, images) = pictures.split_at(compiled.graph.targets.len());
         let pixels =
             (0..World::pixels().count()).map(|k| Some(targets.iter().map(|target| target.texels[k]).collect()));
+        buffers.extend(images.iter().map(|image| (image.name.clone(), image.texels.clone())));
         Given {
             pixels: pixels.collect(),
             buffers,
@@ -99,5 +101,5 @@ impl Given {
 /// What the kernel reads is not bound, or threads of a workgroup race.
 pub fn computed<R: Real>(compiled: &Compiled, world: &World) -> Result<Given, String> {
     let found = execute::interpret::<R>(compiled, &world.inputs(), false).map_err(|e| e.to_string())?;
-    Ok(Given::of_run(&found.targets, found.buffers))
+    Ok(Given::of_run(compiled, &found.targets, found.buffers))
 }

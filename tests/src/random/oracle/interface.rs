@@ -47,7 +47,7 @@ impl Interface {
         })
     }
 
-    /// Buffers that the kernel writes: the name and the type of each.
+    /// Buffers and pictures that the kernel writes: the name and the type of each.
     pub fn written(&self) -> impl Iterator<Item = (&str, &str)> {
         let written = self.params.iter().filter(|(_, ty)| is_written(ty));
         written.map(|(name, ty)| (name.as_str(), ty.as_str()))
@@ -88,8 +88,13 @@ impl Interface {
             ),
             None => writeln!(text, "super::pixels(out, &|pixel| super::texels(&k({args})));"),
         };
-        for (name, _) in self.written() {
-            let _ = writeln!(text, "super::buffer(out, \"{name}\", &{name}.elements());");
+        for (name, ty) in self.written() {
+            let all = if ty.starts_with("&StorageTexture<") {
+                "texels"
+            } else {
+                "elements"
+            };
+            let _ = writeln!(text, "super::buffer(out, \"{name}\", &{name}.{all}());");
         }
         Ok(text + "}")
     }
@@ -113,7 +118,8 @@ fn unknown(name: &str) -> String {
 }
 
 fn is_written(ty: &str) -> bool {
-    ty.starts_with("&StorageBuffer<") || ty.starts_with("&AtomicBuffer<")
+    let written = ["&StorageBuffer<", "&AtomicBuffer<", "&StorageTexture<"];
+    written.iter().any(|prefix| ty.starts_with(prefix))
 }
 
 /// What a buffer that is written holds before the first pixel. `World::inputs` has the same.
@@ -122,6 +128,7 @@ fn initial(name: &str) -> Option<&'static str> {
         "wf" => "StorageBuffer::new((0..32).map(|k| w.c.float(k)).collect())",
         "wv" => "StorageBuffer::new((0..32).map(|k| Vec4::splat(w.c.float(k + 5))).collect())",
         "wi" => "StorageBuffer::new((0..32).map(|k| IVec2::splat(w.c.bit(k) as i32)).collect())",
+        "wt" => "StorageTexture::new(uvec2(super::SIZE[0], super::SIZE[1]))",
         "xu" => "AtomicBuffer::new((0..42).map(|k| w.c.bit(k)).collect())",
         "xi" => "AtomicBuffer::new((0..42).map(|k| w.c.bit(k + 3) as i32).collect())",
         _ => return None,

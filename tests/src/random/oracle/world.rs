@@ -188,18 +188,23 @@ impl World {
         (0..3).flat_map(record).collect()
     }
 
-    /// What a buffer that kernels write holds before the first pixel.
+    /// What a buffer or a picture that kernels write holds before the first pixel.
     pub fn initial(&self, name: &str) -> Vec<Texel> {
         let w = &self.resources;
         let whole = |k: usize| f64::from(w.bit(k) as i32);
         let element = |k: usize| match name {
             "wf" => one(f64::from(w.float(k))),
             "wv" => [f64::from(w.float(k + 5)); 4],
+            "wt" => [0.0; 4],
             "wi" => [whole(k), whole(k), 0.0, 0.0],
             "xu" => one(f64::from(w.bit(k))),
             _ => one(whole(k + 3)),
         };
-        let len = if name.starts_with('w') { 32 } else { 42 };
+        let len = match name {
+            "wt" => World::pixels().count(),
+            _ if name.starts_with('w') => 32,
+            _ => 42,
+        };
         (0..len).map(element).collect()
     }
 
