@@ -40,7 +40,7 @@ fn unrolling_is_compared_and_recorded() {
     for word in [
         "looped",
         "unbounded",
-        "by hand",
+        "hand-optimised",
         "partial(2)",
         "partial(4)",
         "unrolled",

@@ -28,8 +28,8 @@ use straightline_manifest::{Form, Format, Manifest, Origin, Precision, Stage};
 /// Name of the file with the bindings.
 const BINDINGS: &str = "straightline.rs";
 
-/// Compiles kernels of one's own: of each file the function that has the file's name, with its options at their
-/// defaults. For anything else see [`Config`].
+/// Compiles kernels of one's own: of each file the function that has the file's name, or else the only public one, with its
+/// options at their defaults. For anything else see [`Config`].
 ///
 /// # Errors
 ///
@@ -109,7 +109,7 @@ impl KernelConfig {
         self
     }
 
-    /// What becomes of an `if` on values that are only known at run time; by default both sides are computed.
+    /// What becomes of an `if` on runtime values; by default both sides are computed.
     pub fn branches(mut self, branches: Branches) -> Self {
         self.settings.branches = branches;
         self
@@ -227,7 +227,7 @@ impl KernelConfig {
         self
     }
 
-    /// Of a file, the function that is the kernel; by default the one with the file's name.
+    /// Of a file, the function that is the kernel; by default the one with the file's name, or else the only public one.
     pub fn function(mut self, function: &str) -> Self {
         if let Source::File(_, chosen) = &mut self.source {
             *chosen = Some(function.to_owned());
@@ -279,7 +279,8 @@ impl Config {
         self
     }
 
-    /// A kernel of one's own: the function that has the file's name, with its options at their defaults.
+    /// A kernel of one's own: the function that has the file's name, or else the only public one, with its options at their
+    /// defaults.
     pub fn file(self, path: impl AsRef<Path>) -> Self {
         self.file_with(path, |k| k)
     }

@@ -37,7 +37,7 @@ pub struct Settings {
     pub unroll: Unroll,
     /// What becomes of single loops, by `function.counter` or `counter`; before all else that is said of them.
     pub loops: Vec<LoopPolicy>,
-    /// What becomes of branches on values that are only known at run time.
+    /// What becomes of branches on runtime values.
     pub branches: Branches,
     /// In which order blocks read.
     pub reads: ReadOrder,
@@ -173,12 +173,13 @@ impl Kernel {
         }
     }
 
-    /// A kernel of one's own, from a file. Without `function` it is the one that has the file's name.
+    /// A kernel of one's own, from a file. Without `function` it is the one that has the file's name, or else the only public one.
     pub fn from_file(path: &Path, function: Option<&str>) -> Result<Kernel, Errors> {
         let shown = path.display().to_string();
         let text = read(path)?;
         let stem = path.file_stem().and_then(|s| s.to_str()).unwrap_or("kernel");
-        Ok(Kernel::from_text(&shown, &text, function.unwrap_or(stem)))
+        let function = function.map_or_else(|| front::kernel_of(&text, stem), str::to_owned);
+        Ok(Kernel::from_text(&shown, &text, &function))
     }
 
     /// The same kernel with a further file that it calls functions of.
@@ -281,7 +282,7 @@ impl Kernel {
         })?;
         let invocation = match settings.block {
             [1, 1] => Invocation::Pixel,
-            _ => Invocation::Outlying,
+            _ => Invocation::MayBeOutside,
         };
         let evaluated = eval::evaluate(
             &library,

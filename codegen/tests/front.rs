@@ -1,5 +1,6 @@
 //! What the front end makes of text that is legal Rust and easily misread: the value that a kernel computes, or its refusal.
 
+use std::path::Path;
 use straightline_codegen::ir::Graph;
 use straightline_codegen::{Kernel, Settings};
 
@@ -263,5 +264,25 @@ fn places_stay_right() {
             assert!(shown.contains("é\\u{202e}\\u{1b}[31m"), "{shown}");
             assert!(!shown.contains(['\u{1b}', '\u{202e}', '\r']), "{shown}");
         }
+    }
+}
+
+/// Of a file, where nobody says which function is meant.
+#[test]
+fn a_file_has_one_kernel() {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("one-kernel");
+    std::fs::create_dir_all(&folder).expect("a folder");
+    let path = folder.join("blur.rs");
+    for (text, kernel) in [
+        ("pub fn soft() {} fn tap() {}", "soft"),
+        ("pub fn soft() {} pub fn blur() {}", "blur"),
+        ("pub fn soft() {} fn blur() {}", "blur"),
+        ("pub fn soft() {} pub fn hard() {}", "blur"),
+        ("fn soft() {}", "blur"),
+        ("not Rust", "blur"),
+    ] {
+        std::fs::write(&path, text).expect("a file");
+        let found = Kernel::from_file(&path, None).unwrap_or_else(|e| panic!("{e}"));
+        assert_eq!(found.name(), kernel, "{text}");
     }
 }

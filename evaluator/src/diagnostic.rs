@@ -49,7 +49,7 @@ pub struct Diagnostic {
     pub others: Vec<(Span, String)>,
     /// Why it is so, where that is not plain.
     pub notes: Vec<String>,
-    /// The way out.
+    /// The help.
     pub help: Option<String>,
 }
 
@@ -111,7 +111,7 @@ impl Diagnostic {
         self
     }
 
-    /// With the way out.
+    /// With help.
     pub fn help(mut self, help: impl Into<String>) -> Self {
         self.help = Some(help.into());
         self

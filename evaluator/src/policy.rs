@@ -49,7 +49,7 @@ impl FromStr for Unroll {
     }
 }
 
-/// What becomes of an `if` whose condition is only known at run time.
+/// What becomes of an `if` whose condition is a runtime value.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Branches {
     /// As loops do: kept where the unroll policy is not `full`, else both sides are computed and selected from.

@@ -22,7 +22,7 @@ pub struct Tuned {
     pub general: f64,
     /// What it was timed on.
     pub adapter: String,
-    /// How many times as fast as the most general variant: the middle of all rounds.
+    /// Speedup over the most general variant: the middle of all rounds.
     pub times_as_fast: f64,
     /// What the most general variant has and this one has not.
     pub left_out: Vec<LeftOut>,

@@ -74,7 +74,7 @@ impl Pass {
     ) -> Result<Bound, Error> {
         let inputs: Vec<(&str, Resource<'r>)> = inputs.iter().map(|(name, input)| (*name, (*input).into())).collect();
         let targets = targets.into().arranged(&self.plan)?;
-        self.pulse
+        self.loss_probe
             .check(&self.device, &format!("binding `{}`", self.plan.kernel))?;
         let resources = arrange(&self.plan, &inputs)?;
         check_targets(&self.plan, &self.formats, &self.abilities, &targets)?;

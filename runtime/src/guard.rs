@@ -59,7 +59,7 @@ fn at_once(future: impl Future<Output = Option<wgpu::Error>>) -> Option<wgpu::Er
 /// dead object. The exception is a request to map a buffer, whose own callback is refused at once. So this keeps
 /// four bytes to ask with; no command ever touches them, and the mapping is withdrawn again.
 #[derive(Debug)]
-pub(crate) struct Pulse {
+pub(crate) struct LossProbe {
     buffer: Mutex<wgpu::Buffer>,
 }
 
@@ -73,8 +73,8 @@ enum Answer {
     Explained,
 }
 
-impl Pulse {
-    /// A pulse of `device`, or [`Error::DeviceLost`] if it has none already.
+impl LossProbe {
+    /// A loss_probe of `device`, or [`Error::DeviceLost`] if it has none already.
     pub(crate) fn new(device: &wgpu::Device, doing: &str) -> Result<Self, Error> {
         let lost = || Error::DeviceLost {
             doing: doing.to_owned(),
@@ -85,7 +85,7 @@ impl Pulse {
             |_| lost(),
             || {
                 device.create_buffer(&wgpu::BufferDescriptor {
-                    label: Some("straightline pulse"),
+                    label: Some("straightline loss_probe"),
                     size: wgpu::COPY_BUFFER_ALIGNMENT,
                     usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
                     mapped_at_creation: false,
@@ -93,7 +93,7 @@ impl Pulse {
             },
         )?;
         match ask(device, &buffer) {
-            Answer::Accepted => Ok(Pulse {
+            Answer::Accepted => Ok(LossProbe {
                 buffer: Mutex::new(buffer),
             }),
             // Nobody else knows the buffer, so that anything against it means that it was born dead.

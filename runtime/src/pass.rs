@@ -1,6 +1,6 @@
 //! The pass: one emitted shader on a device, ready to be bound.
 
-use crate::guard::Pulse;
+use crate::guard::LossProbe;
 use crate::inputs::Abilities;
 use crate::layout::Layout;
 use crate::module::Source;
@@ -25,7 +25,7 @@ pub struct Pass {
     creation_time: Duration,
     pub(crate) formats: Vec<TextureFormat>,
     pub(crate) abilities: Abilities,
-    pub(crate) pulse: Pulse,
+    pub(crate) loss_probe: LossProbe,
 }
 
 impl Pass {
@@ -82,11 +82,11 @@ impl Pass {
         check_features(device, manifest)?;
         let formats = check_formats(device, &plan, options)?;
         let doing = format!("making a pass of `{}`", plan.kernel);
-        let pulse = Pulse::new(device, &doing)?;
+        let loss_probe = LossProbe::new(device, &doing)?;
         let layout = Layout::new(device, &plan)?;
         let (pipeline, creation_time) = Pipeline::new(device, &plan, &layout, source, &formats)?;
         // Lost meanwhile, everything above was made without complaint and is dead.
-        pulse.check(device, &doing)?;
+        loss_probe.check(device, &doing)?;
         Ok(Pass {
             device: device.clone(),
             plan: Arc::new(plan),
@@ -95,7 +95,7 @@ impl Pass {
             creation_time,
             formats,
             abilities: Abilities::new(device),
-            pulse,
+            loss_probe,
         })
     }
 

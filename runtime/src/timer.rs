@@ -1,7 +1,7 @@
 //! Time on the GPU, from timestamp queries at the borders of passes.
 
 use crate::Error;
-use crate::guard::{Pulse, guarded};
+use crate::guard::{LossProbe, guarded};
 use std::collections::VecDeque;
 use std::sync::mpsc;
 use std::time::Duration;
@@ -25,7 +25,7 @@ pub struct Timer {
     period: f32,
     used: u32,
     batches: VecDeque<Batch>,
-    pulse: Pulse,
+    loss_probe: LossProbe,
 }
 
 /// Timestamps on their way back.
@@ -92,7 +92,7 @@ impl Timer {
             return Err(Error::TimerPeriod { period });
         }
         let doing = "making a timer";
-        let pulse = Pulse::new(device, doing)?;
+        let loss_probe = LossProbe::new(device, doing)?;
         let (queries, resolved) = guarded(device, doing, failed, || {
             let queries = device.create_query_set(&wgpu::QuerySetDescriptor {
                 label: Some("straightline timer"),
@@ -107,7 +107,7 @@ impl Timer {
             });
             (queries, resolved)
         })?;
-        pulse.check(device, doing)?;
+        loss_probe.check(device, doing)?;
         let batches = VecDeque::new();
         Ok(Timer {
             device: device.clone(),
@@ -117,7 +117,7 @@ impl Timer {
             period,
             used: 0,
             batches,
-            pulse,
+            loss_probe,
         })
     }
 
@@ -147,7 +147,7 @@ impl Timer {
     /// [`Error::DeviceLost`] and [`Error::OutOfMemory`]. Nothing has been recorded then, and the spans are kept.
     pub fn resolve(&mut self, encoder: &mut CommandEncoder) -> Result<(), Error> {
         let doing = "resolving a timer";
-        self.pulse.check(&self.device, doing)?;
+        self.loss_probe.check(&self.device, doing)?;
         let spans = self.used;
         let readback = match spans {
             0 => None,
@@ -183,7 +183,7 @@ impl Timer {
     /// If the driver loses the device during the very wait, wgpu 30 panics in `Device::poll`.
     pub fn read(&mut self) -> Result<Vec<Duration>, Error> {
         let doing = "reading a timer";
-        self.pulse.check(&self.device, doing)?;
+        self.loss_probe.check(&self.device, doing)?;
         let Some(batch) = self.batches.front() else {
             return Err(Error::TimerNotResolved);
         };
@@ -220,7 +220,7 @@ impl Timer {
         match receiver.try_recv() {
             Ok(Ok(())) => {}
             Ok(Err(error)) => {
-                self.pulse.check(&self.device, doing)?;
+                self.loss_probe.check(&self.device, doing)?;
                 return Err(failed(error.to_string()));
             }
             Err(_) => return Err(failed("the buffer was not mapped".to_owned())),

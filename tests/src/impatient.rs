@@ -1,12 +1,12 @@
 //! A user who presses Ctrl-C.
 
-use straightline_study::watch::Watch;
+use straightline_study::progress::Progress;
 
 /// Asks to stop after so many steps.
 #[derive(Clone, Copy, Debug)]
 pub struct StopsAfter(pub usize);
 
-impl Watch for StopsAfter {
+impl Progress for StopsAfter {
     fn begin(&mut self, _: &str, _: usize) {}
 
     fn step(&mut self) {

@@ -9,7 +9,7 @@ use straightline_testbed::execute::interpret;
 use straightline_tests::sraa::options::options;
 use straightline_tests::sraa::surfaces;
 
-/// Arrays of kept loops are variables that are changed in place: begun anew, chosen, and read before they change.
+/// Arrays of structured loops are variables that are changed in place: begun anew, chosen, and read before they change.
 #[test]
 fn arrays_of_kept_loops_hold_what_the_graph_says() {
     let bench = bench();

@@ -102,7 +102,7 @@ fn messages_have_a_place_and_a_way_out() {
         let found = message(&path).unwrap_or_default();
         let about_the_command = ["emit_", "option_", "entry_", "no_such_loop"];
         let placed = found.contains("┌─") || about_the_command.iter().any(|p| name.starts_with(p));
-        // rustc tells the way out of a syntax error, of a wrong number of arguments and the like.
+        // rustc gives the help for a syntax error, of a wrong number of arguments and the like.
         let plain = name.starts_with("syntax_") || found.contains("┌─");
         if !placed || !(plain || found.contains("help:") || found.contains(": ")) {
             without.push(name);

@@ -8,8 +8,8 @@ use std::collections::BTreeSet;
 use straightline_codegen::{Kernel, OptionKind, Precision, Settings};
 use straightline_kernels::{CATALOGUE, HalfPrecision};
 use straightline_study::hard::{self, Form, HardError, Selection};
+use straightline_study::progress::Silent;
 use straightline_study::record::{Circumstances, Executor, HardRecord, Record};
-use straightline_study::watch::Unwatched;
 use straightline_testbed::execute::Clock;
 use straightline_tests::impatient::StopsAfter;
 
@@ -27,7 +27,7 @@ fn circumstances() -> Circumstances {
 }
 
 fn run(selection: &Selection) -> HardRecord {
-    let found = hard::run(selection, Some(&bench()), circumstances(), &mut Unwatched);
+    let found = hard::run(selection, Some(&bench()), circumstances(), &mut Silent);
     found.unwrap_or_else(|error| panic!("{error}"))
 }
 
@@ -99,7 +99,7 @@ fn bounds_are_as_tight_as_rounding() {
             .collect(),
         precisions: vec![Precision::F32],
     };
-    let found = hard::run(&selection, None, circumstances(), &mut Unwatched).expect("it runs");
+    let found = hard::run(&selection, None, circumstances(), &mut Silent).expect("it runs");
     for case in &found.cases {
         for r in case
             .results
@@ -131,7 +131,7 @@ fn half_precision_keeps_to_its_analysis() {
             .collect(),
         precisions: vec![Precision::F16],
     };
-    let record = hard::run(&selection, None, circumstances(), &mut Unwatched).expect("it runs");
+    let record = hard::run(&selection, None, circumstances(), &mut Silent).expect("it runs");
     let mut compared = 0;
     for case in &record.cases {
         for r in case.results.iter().filter(|r| r.refused.is_none()) {

@@ -13,8 +13,8 @@ use straightline_codegen::interp::{Bindings, Image, Interpreter, Texels};
 use straightline_codegen::{Branches, Compiled, EmitOptions, Kernel, Settings, Unroll};
 use straightline_runtime::{Error, Pass, PassOptions};
 use straightline_study::loops::{LoopsError, Method, Subject, study, subjects};
+use straightline_study::progress::Silent;
 use straightline_study::record::{Circumstances, FormKind, LoopsRecord, Record};
-use straightline_study::watch::Unwatched;
 use straightline_testbed::execute::{Inputs, interpret, test_inputs};
 use straightline_tests::impatient::StopsAfter;
 
@@ -299,7 +299,7 @@ fn every_form_is_there_or_says_why_not() {
     subjects
         .retain(|subject| ["SRAA 4", "stalker", "fxaa", "kuwahara", "convolution"].contains(&subject.name.as_str()));
     assert_eq!(subjects.len(), 5);
-    let studied = study(&bench(), &subjects, &METHOD, &mut Unwatched).unwrap_or_else(|e| panic!("{e}"));
+    let studied = study(&bench(), &subjects, &METHOD, &mut Silent).unwrap_or_else(|e| panic!("{e}"));
     assert_eq!(studied.len(), subjects.len());
     for studied in &studied {
         let kernel = &studied.forms;
@@ -411,7 +411,7 @@ fn what_was_measured_is_kept() {
 
 #[test]
 fn what_is_refused_is_named() {
-    let refused = |subject: Subject| study(&bench(), &[subject], &METHOD, &mut Unwatched).expect_err("a refusal");
+    let refused = |subject: Subject| study(&bench(), &[subject], &METHOD, &mut Silent).expect_err("a refusal");
     let broken = Kernel::from_text("k.rs", "pub fn k(pixel: IVec2) -> Vec4 { 1.0 }", "k");
     let error = refused(Subject::own(broken.clone(), None));
     assert!(matches!(error, LoopsError::Kernel { .. }), "{error}");

@@ -7,9 +7,9 @@ use std::path::Path;
 use straightline_codegen::{Settings, Stage};
 use straightline_kernels::prelude::*;
 use straightline_study::peers::{Smaa, Transfer, fxaa, mlaa};
+use straightline_study::progress::Silent;
 use straightline_study::quality::{Method, Outcome, Plan, QualityError, Source, losses, study};
 use straightline_study::record::Family;
-use straightline_study::watch::Unwatched;
 use straightline_testbed::capture::Capture;
 use straightline_testbed::execute::Inputs;
 use straightline_testbed::scene::Scene;
@@ -127,7 +127,7 @@ fn methods_of_the_users_own() {
         own(format!("depths={}::nearest", file.display())),
         own("blur=../examples/methods/edge_blur.rs,weight=0.2".to_owned()),
     ]);
-    let outcome = study(&bench(), vec![source("railings")], &plan, &mut Unwatched).expect("figures");
+    let outcome = study(&bench(), vec![source("railings")], &plan, &mut Silent).expect("figures");
     let [scene] = &outcome.scenes[..] else {
         panic!("one scene, not {}", outcome.scenes.len());
     };
@@ -149,7 +149,7 @@ fn methods_of_the_users_own() {
     );
     // What a scene has not is named.
     let plan = with(vec![own(format!("lights={}::lights", file.display()))]);
-    let error = study(&bench(), vec![source("railings")], &plan, &mut Unwatched).expect_err("no such picture");
+    let error = study(&bench(), vec![source("railings")], &plan, &mut Silent).expect_err("no such picture");
     assert!(error.to_string().contains("`lights` reads `light`"), "{error}");
     std::fs::remove_dir_all(&folder).expect("removed");
 }
@@ -162,7 +162,7 @@ fn methods_on_a_scene() {
         complete,
         timed_on,
         pictures,
-    } = study(&bench(), sources, &plan(true), &mut Unwatched).unwrap_or_else(|e| panic!("{e}"));
+    } = study(&bench(), sources, &plan(true), &mut Silent).unwrap_or_else(|e| panic!("{e}"));
     assert!(complete && timed_on == ["railings"]);
     let scene = &scenes[0];
     let method = |name: &str| {
@@ -271,7 +271,7 @@ fn of_capture(capture: Capture) -> Result<Outcome, QualityError> {
         name: "spheres".to_owned(),
         capture: Box::new(capture),
     };
-    study(&bench(), vec![source], &plan(false), &mut Unwatched)
+    study(&bench(), vec![source], &plan(false), &mut Silent)
 }
 
 #[test]

@@ -5,9 +5,9 @@ mod common;
 
 use straightline_codegen::{Compiled, Settings, Stage};
 use straightline_kernels::prelude::*;
+use straightline_study::progress::Silent;
 use straightline_study::quality::resolves;
 use straightline_study::quality::{Kind, Method, Shot, methods};
-use straightline_study::watch::Unwatched;
 use straightline_testbed::execute::{Bench, Inputs, Written, interpret};
 use straightline_testbed::render::{Aggregate, CpuRenderer, Surface};
 use straightline_testbed::scene::{SKY_DEPTH, Scene};
@@ -22,7 +22,7 @@ fn shots(scene: &str) -> (Vec<Method>, Shot) {
         .collect();
     let renderer = CpuRenderer::new(&Scene::named(scene).expect("a scene"), SIZE).expect("a renderer");
     let listed: Vec<&Method> = resolved.iter().collect();
-    let shot = Shot::draw(&renderer, &listed, &mut Unwatched).expect("drawn");
+    let shot = Shot::draw(&renderer, &listed, &mut Silent).expect("drawn");
     (resolved, shot)
 }
 

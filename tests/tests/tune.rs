@@ -9,9 +9,9 @@ use straightline_codegen::emit::Target;
 use straightline_codegen::{EmitOptions, Kernel, Manifest, Settings};
 use straightline_kernels::prelude::Frame;
 use straightline_runtime::Pass;
+use straightline_study::progress::{Progress, Silent};
 use straightline_study::record::{Circumstances, TuneRecord};
 use straightline_study::tune::{ErrorMetric, Outcome, PATTERNS, Question, Subject, TuneError, tune};
-use straightline_study::watch::{Unwatched, Watch};
 use straightline_testbed::capture::{Capture, ShadingSample};
 use straightline_testbed::execute::{Clock, interpret};
 use straightline_testbed::render::{CpuRenderer, capture, reference};
@@ -51,12 +51,12 @@ fn renderer(scene: &str) -> CpuRenderer {
 }
 
 fn tuned(subject: Subject, question: &Question) -> Outcome {
-    let found = tune(&bench(), subject, question, circumstances(), &mut Unwatched);
+    let found = tune(&bench(), subject, question, circumstances(), &mut Silent);
     found.unwrap_or_else(|e| panic!("{e}")).expect("nobody stopped it")
 }
 
 fn subject(scene: &str) -> Subject {
-    let subject = Subject::of_scene(scene, &renderer(scene), &PATTERNS, &mut Unwatched);
+    let subject = Subject::of_scene(scene, &renderer(scene), &PATTERNS, &mut Silent);
     subject.unwrap_or_else(|e| panic!("{e}")).expect("nobody stopped it")
 }
 
@@ -127,7 +127,7 @@ fn check(scene: &str, record: &TuneRecord, manifest: &Manifest, wgsl: &str) {
     let general = &record.candidates[record.general];
     let ratio = chosen.ratio.expect("it was timed").median;
     println!(
-        "{scene}: {} with {error:.2} dB, {ratio:.2} times as fast as {} with {:.2} dB",
+        "{scene}: {} with {error:.2} dB, speedup {ratio:.2} over {} with {:.2} dB",
         chosen.name, general.name, general.error
     );
 }
@@ -223,7 +223,7 @@ fn what_was_measured_before_an_interruption_is_kept() {
 /// Steps of a search before its first picture.
 fn tuned_steps(subject: &Subject, question: &Question) -> usize {
     struct Steps(Vec<(String, usize)>);
-    impl Watch for Steps {
+    impl Progress for Steps {
         fn begin(&mut self, what: &str, steps: usize) {
             self.0.push((what.to_owned(), steps));
         }
@@ -281,7 +281,7 @@ fn a_budget_that_nothing_keeps_says_what_comes_closest() {
         Subject::of_capture("frame", broken),
         &budget,
         circumstances(),
-        &mut Unwatched,
+        &mut Silent,
     );
     match found {
         Err(error @ TuneError::NothingWithin { .. }) => {
@@ -302,7 +302,7 @@ fn half_precision_is_searched_where_the_device_has_it() {
     budget.fixed.push(("pattern".to_owned(), "latin4".to_owned()));
     budget.fixed.push(("mask".to_owned(), "none".to_owned()));
     let renderer = renderer("creases");
-    let subject = Subject::of_scene("creases", &renderer, &["latin4"], &mut Unwatched);
+    let subject = Subject::of_scene("creases", &renderer, &["latin4"], &mut Silent);
     let outcome = tuned(
         subject.unwrap_or_else(|e| panic!("{e}")).expect("nobody stopped it"),
         &budget,

@@ -1,7 +1,7 @@
 //! `figures`: the pictures of the publications, made again.
 
 use super::quads::pictures;
-use super::study::Progress;
+use super::study::ProgressBars;
 use super::study::error::failure;
 use crate::args::FiguresArgs;
 use crate::failure::Failure;
@@ -40,7 +40,7 @@ pub fn run(args: &FiguresArgs) -> Result<(), Failure> {
     let wanted = |name: &str| args.figures.is_empty() || args.figures.iter().any(|asked| asked == name);
     let gpu = Gpu::require(&args.adapter)?;
     let bench = gpu.bench();
-    let mut progress = Progress::new();
+    let mut progress = ProgressBars::new();
     let (mut set, mut rows) = (BTreeMap::new(), Vec::new());
     let chosen: Vec<&Figure> = FIGURES.iter().filter(|figure| wanted(figure.name)).collect();
     for figure in chosen {

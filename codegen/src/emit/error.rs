@@ -96,7 +96,7 @@ pub enum EmitError {
     },
     /// A layer or sample whose index nothing bounds.
     #[error(
-        "`{kernel}` reads a layer or sample of `{texture}` whose index is only known at run time, so nothing tells how many it needs: bound it with `.min(...)`"
+        "`{kernel}` reads a layer or sample of `{texture}` whose index is a runtime value, so nothing tells how many it needs: bound it with `.min(...)`"
     )]
     Layers {
         /// The kernel.

@@ -88,7 +88,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// An element whose index is known at run time only.
+    /// An element whose index is a runtime value.
     fn set_element(&mut self, old: &Value, index: &Value, rest: &[Step], new: Value, span: Span) -> Eval {
         let current = self.element(old, index, span)?;
         let element = self.replace(current.clone(), rest, new, span)?;

@@ -46,20 +46,18 @@ impl Evaluator<'_> {
         Ok(id)
     }
 
-    /// `assert!`: a condition that is known now and must hold.
+    /// `assert!`: a compile-time constant that must hold.
     pub fn assert(&mut self, condition: &Expr, message: &str) -> Eval {
         let value = self.expr(condition)?;
         let id = self.node(&value, condition.span)?;
         match self.known_bool(id) {
             Some(true) => Ok(Value::unit()),
             Some(false) => Err(Diagnostic::at(condition.span, message).label("does not hold").into()),
-            None => Err(
-                Diagnostic::at(condition.span, "an assertion about what is only known at run time")
-                    .label("not a compile-time constant")
-                    .note("a shader has no way to fail")
-                    .help("assert what follows from options and counters, and let run-time values choose with `if`")
-                    .into(),
-            ),
+            None => Err(Diagnostic::at(condition.span, "an assertion about a runtime value")
+                .label("not a compile-time constant")
+                .note("a shader has no way to fail")
+                .help("assert what follows from options and counters, and let run-time values choose with `if`")
+                .into()),
         }
     }
 

@@ -1,4 +1,4 @@
-//! `break`, `continue` and `return` under conditions that are only known at run time.
+//! `break`, `continue` and `return` under runtime conditions.
 //!
 //! Who leaves does so in the state that it has then; all others go on. Evaluation goes on for the others alone, and keeps
 //! in mind who has left: with which condition, by which way, in which state. Where that way leads, the states meet again:

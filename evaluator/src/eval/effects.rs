@@ -228,7 +228,7 @@ impl Evaluator<'_> {
                 "a kernel of quads",
                 "lanes that lie outside of the frame compute too: take `pixel: IVec2`",
             ),
-            Invocation::Outlying | Invocation::Block(_) => (
+            Invocation::MayBeOutside | Invocation::Block(_) => (
                 "an invocation of several pixels",
                 "pixels that lie outside of the frame compute too: leave the block out",
             ),

@@ -27,7 +27,7 @@ impl Evaluator<'_> {
             names.sort_unstable();
             return Err(
                 Diagnostic::new(format!("there is no function `{entry}` in the kernel's files"))
-                    .help(format!("there are {}", names.join(", ")))
+                    .help(format!("there are {}: say which, FILE.rs::FUNCTION", names.join(", ")))
                     .into(),
             );
         };

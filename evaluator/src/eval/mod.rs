@@ -1,4 +1,4 @@
-//! The partial evaluator: runs a kernel on values of which some are known now and others at run time.
+//! The partial evaluator: runs a kernel on values some of which are compile-time constants and others runtime values.
 //!
 //! What is known is computed, as rustc's own code would compute it. What is not becomes a node of the graph.
 //! Loops are run, or kept as loops, as the [`Unroll`](crate::policy::Unroll) policy says; calls are always inlined.
@@ -77,7 +77,7 @@ pub struct Evaluated {
 ///
 /// `invocation` is what each computes, unless the kernel's parameters say that it is a lane of a quad.
 ///
-/// A loop that is kept makes what it assigns known at run time only. Where what follows needs that known, the loop is
+/// A loop that is kept makes what it assigns runtime values. Where what follows needs that known, the loop is
 /// unrolled after all: the last one that was kept before the error, until none is left.
 pub fn evaluate(
     library: &Library,

@@ -155,7 +155,7 @@ impl Evaluator<'_> {
         let ty = self.ty(x);
         if ty.is_array() {
             return Err(Diagnostic::at(span, "a message carries a number or a vector, no array")
-                .label("an array of a kept loop")
+                .label("an array of a structured loop")
                 .help("send its elements one by one")
                 .into());
         }

@@ -1,4 +1,4 @@
-//! Values as lists of nodes, for crossing the border of a kept loop or branch.
+//! Values as lists of nodes, for crossing the border of a structured loop or branch.
 
 use super::Evaluator;
 use super::enums::Tag;
@@ -8,7 +8,7 @@ use crate::ir::{NodeId, Op, Scalar, Type};
 use std::rc::Rc;
 
 impl Evaluator<'_> {
-    /// The value with every integer a node and every array of numbers one node, as a kept loop needs it.
+    /// The value with every integer a node and every array of numbers one node, as a structured loop needs it.
     pub fn settle(&mut self, value: &Value, span: Span) -> Eval {
         Ok(match value {
             Value::Int(n) => Value::Node(self.int_node(*n, Scalar::I32, span)?),
@@ -178,7 +178,7 @@ impl Evaluator<'_> {
             (Value::Ref(_), Value::Ref(_)) => {
                 return Err(Diagnostic::at(
                     span,
-                    "a mutable reference to one variable or another, by a condition that is only known at run time",
+                    "a mutable reference to one variable or another, by a runtime condition",
                 )
                 .label("which of them is not known")
                 .help("write to each of the variables under the condition")
@@ -189,7 +189,7 @@ impl Evaluator<'_> {
                 return Err(Diagnostic::at(
                     span,
                     format!(
-                        "{} on one side and {} on the other of a condition that is only known at run time",
+                        "{} on one side and {} on the other of a runtime condition",
                         a.describe(),
                         b.describe()
                     ),

@@ -8,12 +8,12 @@ use crate::ir::NodeId;
 use std::rc::Rc;
 use std::sync::Arc;
 
-/// A value of the kernel language. What is known now is known exactly: numbers as constant nodes, all else by itself.
+/// A value of the kernel language. A compile-time constant is known exactly: numbers as constant nodes, all else by itself.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
     /// A `usize` that is known, never negative.
     Int(i64),
-    /// A scalar or vector, or in a kept loop an array; known if the node is a constant.
+    /// A scalar or vector, or in a structured loop an array; known if the node is a constant.
     Node(NodeId),
     /// A value of an enum; shared until it is changed.
     Enum(Rc<Choice>),
@@ -49,7 +49,7 @@ pub enum Value {
     Closure(Rc<Closed>),
     /// A function, by the last two segments of its path.
     Function(Vec<String>),
-    /// One of several functions and closures, by a number that is only known at run time: of two a boolean, `true` for the
+    /// One of several functions and closures, by a number that is a runtime value: of two a boolean, `true` for the
     /// second, of more an `i32`.
     OneOf(NodeId, Rc<Vec<Value>>),
     /// `array::from_fn(f)`, of which only the type that is stated for it tells the length.
@@ -234,7 +234,7 @@ pub enum Exit {
     Left(Way),
 }
 
-/// A way out of the blocks around.
+/// How the blocks around are left.
 #[derive(Clone, Debug)]
 pub enum Way {
     /// `break`, of the loop with a label.
@@ -280,5 +280,5 @@ impl From<Diagnostic> for Exit {
     }
 }
 
-/// A value, or another way out.
+/// A value, or how the blocks around are left instead.
 pub type Eval<T = Value> = Result<T, Exit>;

@@ -91,6 +91,27 @@ pub fn parse(files: &Arc<Vec<File>>, entry: &str) -> Result<Parsed, Errors> {
     Ok(parsed)
 }
 
+/// The function of a text that is its kernel where nobody says which: the one called `wanted`, or else the only public one.
+pub fn kernel_of(text: &str, wanted: &str) -> String {
+    only_public_function(text, wanted).unwrap_or_else(|| wanted.to_owned())
+}
+
+fn only_public_function(text: &str, wanted: &str) -> Option<String> {
+    let text = without_head(text);
+    depth::check(0, &text).ok()?;
+    let file = syn::parse_file(&text).ok()?;
+    let functions = file.items.iter().filter_map(|item| match item {
+        syn::Item::Fn(function) => Some((function.sig.ident.to_string(), &function.vis)),
+        _ => None,
+    });
+    if functions.clone().any(|(name, _)| name == wanted) {
+        return None;
+    }
+    let mut public = functions.filter(|(_, vis)| matches!(vis, syn::Visibility::Public(_)));
+    let (name, _) = public.next()?;
+    public.next().is_none().then_some(name)
+}
+
 /// The text with blanks for a byte order mark and a first line `#!/...`, so that what follows stays in its place.
 fn without_head(text: &str) -> Cow<'_, str> {
     let mark = if text.starts_with('\u{feff}') {

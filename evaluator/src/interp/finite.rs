@@ -4,7 +4,7 @@ use crate::ir::{Counter, Graph, NodeId, Op};
 
 /// The first operation of a pixel that made a NaN or an infinity of finite numbers, or read one.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Birth {
+pub struct NonFiniteOrigin {
     /// The operation.
     pub node: NodeId,
     /// What it gave, lane by lane.
@@ -13,7 +13,7 @@ pub struct Birth {
     pub counters: Vec<Counter>,
 }
 
-impl Birth {
+impl NonFiniteOrigin {
     /// What happened, in a sentence: which variable, in which round of which loops, at which line.
     pub fn describe(&self, graph: &Graph) -> String {
         let lanes: Vec<String> = self.value.iter().map(f64::to_string).collect();

@@ -9,10 +9,10 @@ impl<R: Real> Interpreter<'_, R> {
     pub(super) fn workgroup(&self, origin: [u32; 2], s: &mut Scratch) {
         s.memory.begin(origin);
         for thread in &mut s.threads {
-            thread.birth = None;
+            thread.non_finite_origin = None;
         }
         self.together(&self.schedule.body, origin, s);
-        s.birth = s.threads.iter_mut().find_map(|thread| thread.birth.take());
+        s.non_finite_origin = s.threads.iter_mut().find_map(|thread| thread.non_finite_origin.take());
     }
 
     /// Runs a block that all invocations come to.

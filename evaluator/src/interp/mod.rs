@@ -16,7 +16,7 @@ use sampling::{Detail, Sampled};
 use std::marker::PhantomData;
 
 pub use bindings::{Address, Bindings, Comparison, Image, InputError, SamplerState, Texels};
-pub use finite::Birth;
+pub use finite::NonFiniteOrigin;
 pub use memory::Disorder;
 
 /// A graph with its inputs, ready to compute any pixel. `R` is the precision of its floats.
@@ -37,9 +37,9 @@ pub struct Interpreter<'a, R: Real = f32> {
 pub struct Scratch {
     values: Vec<Cells>,
     arrays: Vec<Vec<Cells>>,
-    /// Counters of the kept loops around, outer ones first.
+    /// Counters of the structured loops around, outer ones first.
     loops: Vec<(NodeId, i64)>,
-    birth: Option<Birth>,
+    non_finite_origin: Option<NonFiniteOrigin>,
     /// What is written.
     memory: Memories,
     /// Where the invocation lies in its workgroup.
@@ -50,8 +50,8 @@ pub struct Scratch {
 
 impl Scratch {
     /// Where the last pixel first had a NaN or an infinity, if the interpreter watches for them.
-    pub fn birth(&self) -> Option<&Birth> {
-        self.birth.as_ref()
+    pub fn non_finite_origin(&self) -> Option<&NonFiniteOrigin> {
+        self.non_finite_origin.as_ref()
     }
 
     /// What the invocations of a workgroup did that has no defined result, the first time.
@@ -131,7 +131,7 @@ impl<'a, R: Real> Interpreter<'a, R> {
         })
     }
 
-    /// Notes for each pixel where it first had a NaN or an infinity, see [`Scratch::birth`].
+    /// Notes for each pixel where it first had a NaN or an infinity, see [`Scratch::non_finite_origin`].
     pub fn watch(mut self) -> Self {
         self.watches = true;
         self
@@ -149,7 +149,7 @@ impl<'a, R: Real> Interpreter<'a, R> {
             values,
             arrays: vec![Vec::new(); self.graph.nodes.len()],
             loops: Vec::new(),
-            birth: None,
+            non_finite_origin: None,
             memory: Memories::default(),
             local: [0, 0],
             threads: Vec::new(),
@@ -179,7 +179,7 @@ impl<'a, R: Real> Interpreter<'a, R> {
     /// by row; those outside of the frame are of no account. Components that a value lacks are 0, and the fourth is 1. Of the other targets
     /// [`Interpreter::target`] tells.
     pub fn invocation(&self, x: u32, y: u32, scratch: &mut Scratch) -> Vec<[R; 4]> {
-        scratch.birth = None;
+        scratch.non_finite_origin = None;
         match scratch.threads.is_empty() {
             true => self.block(&self.schedule.body, [x, y], scratch),
             false => self.workgroup([x, y], scratch),
@@ -322,7 +322,7 @@ impl<'a, R: Real> Interpreter<'a, R> {
                 s.values[slot] = arith::apply::<R>(op, operand, &args, node.ty).expect("a verified graph");
             }
         }
-        if self.watches && s.birth.is_none() && node.ty.is_float() && !node.ty.is_array() {
+        if self.watches && s.non_finite_origin.is_none() && node.ty.is_float() && !node.ty.is_array() {
             self.look(id, s);
         }
     }
@@ -422,7 +422,7 @@ impl<'a, R: Real> Interpreter<'a, R> {
             .origin(id)
             .into_iter()
             .flat_map(|o| o.counters.iter().cloned());
-        s.birth = Some(Birth {
+        s.non_finite_origin = Some(NonFiniteOrigin {
             node: id,
             value: lanes.iter().map(|c| R::from_bits(*c).to_f64()).collect(),
             counters: kept.chain(unrolled).collect(),

@@ -24,7 +24,7 @@ pub struct Node {
     pub ty: Type,
 }
 
-/// The body of a kept loop or one side of a kept branch.
+/// The body of a structured loop or one side of a kept branch.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Region {
     /// The region that it was written in; `None` for the body of the kernel, region 0.
@@ -128,7 +128,7 @@ pub enum Invocation {
     #[default]
     Pixel,
     /// One pixel that may lie outside the frame: of a block that is yet to be expanded.
-    Outlying,
+    MayBeOutside,
     /// One pixel, in step with the three others of its quad; it may lie outside the frame.
     Lane,
     /// One pixel, together with the others of its workgroup, so many across and down; it may lie outside the frame.
@@ -141,7 +141,7 @@ impl Invocation {
     /// Pixels across and down.
     pub fn pixels(self) -> [u32; 2] {
         match self {
-            Invocation::Pixel | Invocation::Outlying | Invocation::Lane | Invocation::Group(_) => [1, 1],
+            Invocation::Pixel | Invocation::MayBeOutside | Invocation::Lane | Invocation::Group(_) => [1, 1],
             Invocation::Block(size) => size,
         }
     }

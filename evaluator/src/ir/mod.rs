@@ -8,7 +8,7 @@
 //!   inside the frame and a multiple of the block's size; others may lie outside, and are not stored.
 //! - The invocations of a kernel of quads are [`Invocation::Lane`]s: four of them, at even coordinates, compute in step.
 //!   Each stores its own pixel; one that lies outside of the frame computes as the others do, and its [`Op::Pixel`] is
-//!   outside. [`Op::Message`] gives the other lane's bits as they are. A condition, or a bound of a kept loop, is the
+//!   outside. [`Op::Message`] gives the other lane's bits as they are. A condition, or a bound of a structured loop, is the
 //!   same in all lanes of a quad, so that all of them come to every message.
 //! - The invocations of a kernel of workgroups ([`Invocation::Group`]) are those of a workgroup, each with its pixel, which may
 //!   lie outside of the frame: all of them compute, and what is given for a pixel outside is not stored. Conditions and bounds
@@ -24,7 +24,7 @@
 //!   vector is [`Op::Splat`] first.
 //! - Arrays are values: [`Op::ArraySet`] gives a new array and leaves the old one as it was. An index out of
 //!   range, a negative one too, is that of the last element, for reads and for writes, as in WGSL.
-//! - A kept loop is one [`Op::Loop`] node with a [`Region`]. Its arguments are the first counter, the end (not
+//! - A structured loop is one [`Op::Loop`] node with a [`Region`]. Its arguments are the first counter, the end (not
 //!   included) and the initial carried values; the region's parameters are the counter and the carried values,
 //!   and its results the carried values of the next iteration. Counter and bounds have one type, `i32` or `u32`, in
 //!   which they are compared; from an end that is not above the start there are no iterations. If the region has a

@@ -217,7 +217,7 @@ impl Reader {
     fn invocation(&mut self, text: &str) -> Parsed {
         let words: Vec<&str> = text.split_whitespace().collect();
         self.graph.invocation = match words[..] {
-            ["outlying"] => Invocation::Outlying,
+            ["may-be-outside"] => Invocation::MayBeOutside,
             ["lane"] => Invocation::Lane,
             ["block", width, height] => Invocation::Block([number(width)?, number(height)?]),
             ["group", width, height] => Invocation::Group([number(width)?, number(height)?]),

@@ -102,7 +102,7 @@ fn tables(graph: &Graph) -> String {
     }
     match graph.invocation {
         Invocation::Pixel => {}
-        Invocation::Outlying => text += "invocation outlying\n",
+        Invocation::MayBeOutside => text += "invocation may-be-outside\n",
         Invocation::Lane => text += "invocation lane\n",
         Invocation::Group([width, height]) => {
             let _ = writeln!(text, "invocation group {width} {height}");

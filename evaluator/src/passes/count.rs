@@ -9,7 +9,7 @@ use straightline_manifest::Counts;
 /// The texture that a filter filters; its reads are counted apart.
 const FILTERED: &str = "color";
 
-/// Counts what one invocation executes; a loop whose number of rounds is only known at run time counts as one round.
+/// Counts what one invocation executes; a loop whose trip count is a runtime value counts as one iteration.
 /// `statements` is known only once text is emitted and is left 0.
 pub fn count(graph: &Graph, schedule: &Schedule) -> Counts {
     let run = Counter { graph }.block(&schedule.body);
@@ -134,7 +134,7 @@ const MAX_LAYERS: i64 = 2048;
 
 /// Layers, or samples, of a texture that reads can reach: one more than the largest index; 1 of a texture that is asked how
 /// many it has. `None` if an index is not
-/// bounded by what is known now.
+/// bounded by a compile-time constant.
 pub fn layers_read(graph: &Graph, texture: u32) -> Option<u32> {
     let mut layers = 1;
     if !graph.textures[texture as usize].is_counted() {

@@ -13,7 +13,7 @@ const PAIR: Type = Type::value(Scalar::I32, 2);
 ///
 /// # Errors
 ///
-/// Why the kernel's pixels cannot run in step: a kept loop or branch that they may take differently.
+/// Why the kernel's pixels cannot run in step: a structured loop or branch that they may take differently.
 pub fn expand(graph: &Graph, size: [u32; 2]) -> Result<Graph, String> {
     if graph.has_effects() {
         return Err("it writes to buffers, and pixels that lie outside of the frame would too".to_owned());

@@ -305,7 +305,7 @@ pub fn clamp(b: &mut Builder<'_>, op: &Op, args: &[NodeId], ty: Type) -> Option<
         // What is one of several pixels may lie outside.
         _ if matches!(
             g.invocation,
-            Invocation::Outlying | Invocation::Lane | Invocation::Group(_)
+            Invocation::MayBeOutside | Invocation::Lane | Invocation::Group(_)
         ) =>
         {
             None

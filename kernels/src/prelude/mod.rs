@@ -8,7 +8,7 @@
 //! Two attributes speak to the generator alone; to rustc they are nothing:
 //!
 //! - `#[cfg_attr(false, unroll(full))]`, `unroll(none)` or `unroll(4)` before a `for` decides what becomes of that loop;
-//! - `#[cfg_attr(false, branch)]` or `select` before an `if` decides whether a condition that is known at run time only
+//! - `#[cfg_attr(false, branch)]` or `select` before an `if` decides whether a condition that is a runtime value
 //!   becomes a branch, or computes both sides and selects.
 
 mod buffer;

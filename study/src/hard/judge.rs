@@ -25,7 +25,7 @@ pub struct Trial<'a> {
 /// What was computed.
 struct Found {
     texels: Vec<[f64; 4]>,
-    births: Vec<([u32; 2], String)>,
+    non_finite_origins: Vec<([u32; 2], String)>,
 }
 
 impl<'a> Trial<'a> {
@@ -79,7 +79,7 @@ impl<'a> Trial<'a> {
         let frame = frame.and_then(|uploaded| bench.picture_of(pass, &uploaded, self.case.size));
         let found = frame.map(|frame| Found {
             texels: frame.texels().iter().map(|t| t.to_array().map(f64::from)).collect(),
-            births: Vec::new(),
+            non_finite_origins: Vec::new(),
         });
         Ok(self.judged(&self.executed(found)?, precision, Executor::Gpu))
     }
@@ -120,7 +120,7 @@ impl<'a> Trial<'a> {
         let result = interpret::<R>(compiled, self.inputs(), watch)?;
         Ok(Found {
             texels: result.texels.iter().map(|t| t.map(Real::to_f64)).collect(),
-            births: result.births,
+            non_finite_origins: result.non_finite_origins,
         })
     }
 
@@ -162,8 +162,11 @@ impl<'a> Trial<'a> {
             // Quads note what happened at their upper left pixel.
             let at = [k as u32 % width, k as u32 / width];
             let quad = at.map(|axis| axis - axis % 2);
-            let birth = found.births.iter().find(|(place, _)| *place == at || *place == quad);
-            birth.map(|([x, y], text)| format!("at ({x}, {y}): {text}"))
+            let non_finite_origin = found
+                .non_finite_origins
+                .iter()
+                .find(|(place, _)| *place == at || *place == quad);
+            non_finite_origin.map(|([x, y], text)| format!("at ({x}, {y}): {text}"))
         });
         HardResult {
             kernel: self.form.name.clone(),

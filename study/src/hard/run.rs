@@ -5,8 +5,8 @@ use super::form::Form;
 use super::judge::{Trial, compile};
 use super::verdict::verdicts;
 use super::{HardError, cases};
+use crate::progress::Progress;
 use crate::record::{Circumstances, Executor, HardCase, HardRecord, HardResult};
-use crate::watch::Watch;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use straightline_codegen::{Compiled, Precision, Stage};
@@ -52,14 +52,14 @@ pub fn run(
     selection: &Selection,
     bench: Option<&Bench>,
     mut circumstances: Circumstances,
-    watch: &mut dyn Watch,
+    progress: &mut dyn Progress,
 ) -> Result<HardRecord, HardError> {
-    let compiled = compiled(selection, watch)?;
+    let compiled = compiled(selection, progress)?;
     let mut shaders: BTreeMap<(Key, Precision), Shader> = BTreeMap::new();
     let mut done = Vec::new();
-    watch.begin("hard cases", selection.cases.len());
+    progress.begin("hard cases", selection.cases.len());
     for case in &selection.cases {
-        if watch.stopped() {
+        if progress.stopped() {
             break;
         }
         let trials = trials(case, &selection.forms)?;
@@ -95,7 +95,7 @@ pub fn run(
             common: case.common,
             results: results.concat(),
         });
-        watch.step();
+        progress.step();
     }
     circumstances.complete = done.len() == selection.cases.len();
     Ok(HardRecord {
@@ -127,7 +127,7 @@ pub fn trials<'a>(case: &'a Case, forms: &'a [Form]) -> Result<Vec<(Key, Trial<'
 }
 
 /// Every form with the options of every case that it is for, compiled once.
-fn compiled(selection: &Selection, watch: &mut dyn Watch) -> Result<BTreeMap<Key, Compiled>, HardError> {
+fn compiled(selection: &Selection, progress: &mut dyn Progress) -> Result<BTreeMap<Key, Compiled>, HardError> {
     let mut needed: BTreeMap<Key, &Form> = BTreeMap::new();
     for case in &selection.cases {
         for form in &selection.forms {
@@ -137,17 +137,17 @@ fn compiled(selection: &Selection, watch: &mut dyn Watch) -> Result<BTreeMap<Key
         }
     }
     let needed: Vec<(Key, &Form)> = needed.into_iter().collect();
-    watch.begin("compiling kernels", needed.len());
+    progress.begin("compiling kernels", needed.len());
     let mut all = BTreeMap::new();
     for some in needed.chunks(8) {
-        if watch.stopped() {
+        if progress.stopped() {
             break;
         }
         let compiled = some
             .par_iter()
             .map(|(key, form)| Ok((key.clone(), compile(form, &key.1)?)));
         all.extend(compiled.collect::<Result<Vec<_>, HardError>>()?);
-        some.iter().for_each(|_| watch.step());
+        some.iter().for_each(|_| progress.step());
     }
     Ok(all)
 }

@@ -4,8 +4,8 @@
 mod forms;
 mod subjects;
 
+use crate::progress::Progress;
 use crate::record::{Asked, IsaRecord};
-use crate::watch::Watch;
 use forms::forms;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -52,7 +52,7 @@ pub fn ask(
     askings: &[Asking],
     command: String,
     date: String,
-    watch: &mut dyn Watch,
+    progress: &mut dyn Progress,
 ) -> Result<IsaRecord, IsaStudyError> {
     let (program, arguments) = &question.program;
     let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
@@ -76,10 +76,10 @@ pub fn ask(
         absent,
         shaders: Vec::new(),
     };
-    watch.begin("kernels", askings.len());
+    progress.begin("kernels", askings.len());
     for asking in askings {
         let subject = &asking.subject;
-        if watch.stopped() {
+        if progress.stopped() {
             break;
         }
         for form in forms(asking, question.glslang.as_deref())? {
@@ -105,7 +105,7 @@ pub fn ask(
             }
             record.shaders.push(asked);
         }
-        watch.step();
+        progress.step();
     }
     Ok(record)
 }

@@ -1,14 +1,14 @@
 //! Unroll against loop: every form of a kernel, what it costs and how wrong it is.
 //!
-//! All forms of a kernel are timed in turn, round by round. How many times as fast one is as the looped form is taken of each
+//! All forms of a kernel are timed in turn, round by round. The speedup of one over the looped form is taken of each
 //! round by itself, so that whatever slows a whole round down cancels.
 
 mod forms;
 mod subjects;
 pub(crate) mod truth;
 
+use crate::progress::Progress;
 use crate::record::{Form, FormKind, KernelForms};
-use crate::watch::Watch;
 use forms::{Forms, Ready, Stand};
 use glam::{UVec2, Vec4};
 use std::time::Duration;
@@ -95,12 +95,12 @@ pub fn study(
     bench: &Bench,
     subjects: &[Subject],
     method: &Method,
-    watch: &mut dyn Watch,
+    progress: &mut dyn Progress,
 ) -> Result<Vec<Studied>, LoopsError> {
     let mut truth = Truth::new(bench, method.size);
     let mut all = Vec::new();
     for subject in subjects {
-        match measured(bench, subject, method, &mut truth, watch)? {
+        match measured(bench, subject, method, &mut truth, progress)? {
             Some(studied) => all.push(studied),
             None => break,
         }
@@ -114,23 +114,23 @@ fn measured(
     subject: &Subject,
     method: &Method,
     truth: &mut Truth<'_>,
-    watch: &mut dyn Watch,
+    progress: &mut dyn Progress,
 ) -> Result<Option<Studied>, LoopsError> {
     let half = bench.device().features().contains(wgpu::Features::SHADER_F16);
     let forms = Forms::of(subject, half)?;
-    watch.begin(&subject.name, forms.made.len() + 1 + method.rounds as usize);
+    progress.begin(&subject.name, forms.made.len() + 1 + method.rounds as usize);
     let inputs = truth.inputs(subject, &forms.full)?;
-    if watch.stopped() {
+    if progress.stopped() {
         return Ok(None);
     }
     let exact = truth::exact(subject, &forms.full, &inputs)?;
-    watch.step();
+    progress.step();
 
     let mut stand = Stand::new(bench, &inputs);
     let mut ready: Vec<(Ready, Option<(f64, f64)>)> = Vec::new();
     let mut picture = None;
     for (kind, compiled) in &forms.made {
-        if watch.stopped() {
+        if progress.stopped() {
             return Ok(None);
         }
         let in_form = |source: LoopsError| LoopsError::Form {
@@ -145,7 +145,7 @@ fn measured(
             picture = Some(frame);
         }
         ready.push((form, off));
-        watch.step();
+        progress.step();
     }
 
     let jobs: Vec<Job<'_>> = ready
@@ -158,9 +158,9 @@ fn measured(
         .collect();
     let timed = bench.timed_for(&jobs, method.rounds, method.least, |round| {
         if round > 0 {
-            watch.step();
+            progress.step();
         }
-        !watch.stopped()
+        !progress.stopped()
     })?;
     let mut measured = Vec::new();
     for (k, (form, off)) in ready.iter().enumerate() {

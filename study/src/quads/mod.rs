@@ -5,9 +5,9 @@ mod families;
 mod inputs;
 mod subject;
 
+use crate::progress::Progress;
 use crate::record::{QuadWay, QuadsRecord};
 use crate::sweep::median_of;
-use crate::watch::Watch;
 use families::{FAMILIES, Source};
 use glam::{UVec2, Vec4};
 use inputs::{low_resolution, screen};
@@ -103,7 +103,12 @@ impl Studied {
 /// # Errors
 ///
 /// [`QuadsError`], if the device fails or lacks something.
-pub fn study(bench: &Bench, scene: &Scene, method: &Method, watch: &mut dyn Watch) -> Result<Studied, QuadsError> {
+pub fn study(
+    bench: &Bench,
+    scene: &Scene,
+    method: &Method,
+    progress: &mut dyn Progress,
+) -> Result<Studied, QuadsError> {
     let quads = Quads::detect(bench.device(), bench.queue())?;
     let chosen = match quads.choose() {
         Ok(transport) => format!("{transport:?}").to_lowercase(),
@@ -144,7 +149,7 @@ pub fn study(bench: &Bench, scene: &Scene, method: &Method, watch: &mut dyn Watc
         }
     }
     let coordinates = shadowed.coordinates(bench)?;
-    let rounds = timed(bench, method, &subjects, &coordinates, watch)?;
+    let rounds = timed(bench, method, &subjects, &coordinates, progress)?;
     // A forward pass draws the pixels that the scene's triangles cover, and says nothing of the others.
     let drawn = of_triangles.images.iter().find(|(name, _)| name == "coord");
     let covered: Option<Vec<bool>> =
@@ -185,9 +190,9 @@ fn timed(
     method: &Method,
     subjects: &[Subject],
     coordinates: &Forward,
-    watch: &mut dyn Watch,
+    progress: &mut dyn Progress,
 ) -> Result<Vec<Vec<f64>>, ExecuteError> {
-    watch.begin(
+    progress.begin(
         &format!("timing {} shaders", subjects.len()),
         method.rounds as usize + 1,
     );
@@ -197,8 +202,8 @@ fn timed(
         .chain([bench.draw_work(coordinates, method.least)])
         .collect();
     let timed = bench.in_turn(&mut works?, method.rounds, |_| {
-        watch.step();
-        !watch.stopped()
+        progress.step();
+        !progress.stopped()
     })?;
     let milliseconds = |rounds: &Vec<Duration>| rounds.iter().map(|t| t.as_secs_f64() * 1.0e3).collect();
     Ok(timed.rounds.iter().map(milliseconds).collect())

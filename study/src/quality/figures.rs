@@ -4,7 +4,7 @@ use super::filters::Filters;
 use super::methods::{Method, methods};
 use super::shot::{Shot, supersampled};
 use super::{QualityError, SIDE, check};
-use crate::watch::Watch;
+use crate::progress::Progress;
 use glam::{UVec2, Vec2, Vec4};
 use std::collections::BTreeMap;
 use straightline_kernels::prelude::Frame;
@@ -129,14 +129,14 @@ impl Figure {
     ///
     /// # Errors
     ///
-    /// [`QualityError`], if something cannot be drawn or run, or the watch says stop.
-    pub fn make(&self, bench: &Bench, size: UVec2, watch: &mut dyn Watch) -> Result<Made, QualityError> {
+    /// [`QualityError`], if something cannot be drawn or run, or `progress` says stop.
+    pub fn make(&self, bench: &Bench, size: UVec2, progress: &mut dyn Progress) -> Result<Made, QualityError> {
         let listed = self.methods();
-        watch.begin(self.name, listed.len() + SIDE as usize);
+        progress.begin(self.name, listed.len() + SIDE as usize);
         let scene = Scene::named(self.scene).map_err(|error| QualityError::Capture(error.to_string()))?;
         let renderer = GpuRenderer::new(bench.device(), bench.queue(), &scene, size)?;
-        let shot = Shot::draw(&renderer, &listed.iter().collect::<Vec<_>>(), watch)?;
-        let reference = supersampled(&renderer, SIDE, Vec2::ZERO, watch)?;
+        let shot = Shot::draw(&renderer, &listed.iter().collect::<Vec<_>>(), progress)?;
+        let reference = supersampled(&renderer, SIDE, Vec2::ZERO, progress)?;
         let reference = picture::at_eight_bits(&reference);
         let plain = picture::at_eight_bits(&shot.any()?.color);
         let corner = picture::busiest(&plain, &reference, DETAIL);
@@ -147,10 +147,10 @@ impl Figure {
                 psnr: Vec::new(),
             });
         }
-        let mut filters = Filters::new(bench, &listed, size, watch)?;
+        let mut filters = Filters::new(bench, &listed, size, progress)?;
         let mut pictures = Vec::new();
         for (k, method) in listed.iter().enumerate() {
-            check(watch)?;
+            check(progress)?;
             pictures.push((method.name.as_str(), picture::at_eight_bits(&filters.run(k, &shot)?)));
         }
         let psnr = pictures

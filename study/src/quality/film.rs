@@ -4,7 +4,7 @@
 use super::filters::Filters;
 use super::pan::{self, changes};
 use super::{Method, QualityError};
-use crate::watch::Watch;
+use crate::progress::Progress;
 use glam::{UVec2, Vec2, Vec4};
 use straightline_kernels::prelude::Frame;
 use straightline_testbed::execute::Bench;
@@ -37,18 +37,18 @@ pub struct Film {
 ///
 /// # Errors
 ///
-/// [`QualityError`], if something cannot be drawn or run, or the watch says stop.
+/// [`QualityError`], if something cannot be drawn or run, or `progress` says stop.
 pub fn film(
     bench: &Bench,
     scene: &Scene,
     methods: &[Method],
     shooting: &Shooting,
-    watch: &mut dyn Watch,
+    progress: &mut dyn Progress,
 ) -> Result<Film, QualityError> {
     let steps = methods.len() + shooting.frames as usize * (pan::SIDE as usize + 1);
-    watch.begin("film", steps);
+    progress.begin("film", steps);
     let renderer = GpuRenderer::new(bench.device(), bench.queue(), scene, shooting.size)?;
-    let mut filters = Filters::new(bench, methods, shooting.size, watch)?;
+    let mut filters = Filters::new(bench, methods, shooting.size, progress)?;
     let all: Vec<usize> = (0..methods.len()).collect();
     let mut frames = Vec::new();
     let mut see = |shown: &[Frame<Vec4>], reference: &Frame<Vec4>| {
@@ -58,7 +58,7 @@ pub fn film(
         frames.push(tiled(&panes));
     };
     let pan = (shooting.frames, shooting.step);
-    let mut errors = changes(&renderer, methods, &all, &mut filters, pan, watch, &mut see)?;
+    let mut errors = changes(&renderer, methods, &all, &mut filters, pan, progress, &mut see)?;
     errors.iter_mut().flatten().for_each(|error| *error = error.sqrt());
     Ok(Film { frames, errors })
 }

@@ -5,7 +5,7 @@ use super::resolves;
 use super::shot::Shot;
 use super::{QualityError, check};
 use crate::peers::{Smaa, Transfer, fxaa, mlaa};
-use crate::watch::Watch;
+use crate::progress::Progress;
 use glam::{UVec2, Vec3, Vec4, vec4};
 use std::time::{Duration, Instant};
 use straightline_codegen::{Compiled, Kernel, Settings, Stage};
@@ -56,13 +56,13 @@ impl<'a> Filters<'a> {
         bench: &'a Bench,
         methods: &'a [Method],
         size: UVec2,
-        watch: &mut dyn Watch,
+        progress: &mut dyn Progress,
     ) -> Result<Filters<'a>, QualityError> {
         let mut runners = Vec::new();
         for method in methods {
-            check(watch)?;
+            check(progress)?;
             runners.push(runner(bench, method, size)?);
-            watch.step();
+            progress.step();
         }
         Ok(Filters {
             bench,
@@ -130,7 +130,7 @@ impl<'a> Filters<'a> {
         &mut self,
         shot: &Shot,
         rounds: u32,
-        watch: &mut dyn Watch,
+        progress: &mut dyn Progress,
     ) -> Result<(Timed, Vec<Option<usize>>), QualityError> {
         let mut uploads = Vec::new();
         for (method, runner) in self.methods.iter().zip(&mut self.runners) {
@@ -188,8 +188,8 @@ impl<'a> Filters<'a> {
             works.push(work);
         }
         let timed = self.bench.in_turn(&mut works, rounds, |_| {
-            watch.step();
-            !watch.stopped()
+            progress.step();
+            !progress.stopped()
         })?;
         drop(works);
         Ok((timed, places))

@@ -21,8 +21,8 @@ mod surfaces;
 #[cfg(test)]
 mod tests;
 
+use crate::progress::Progress;
 use crate::record::SceneErrors;
-use crate::watch::Watch;
 use classes::{Classes, varies_around, varies_within};
 use filters::Filters;
 use glam::{UVec2, Vec2, Vec4};
@@ -113,14 +113,19 @@ pub struct Outcome {
     pub complete: bool,
 }
 
-/// Compares all methods on all sources. What is finished is kept when the watch says stop.
+/// Compares all methods on all sources. What is finished is kept when `progress` says stop.
 ///
 /// # Errors
 ///
 /// [`QualityError`], if something cannot be drawn, run or written.
-pub fn study(bench: &Bench, sources: Vec<Source>, plan: &Plan, watch: &mut dyn Watch) -> Result<Outcome, QualityError> {
+pub fn study(
+    bench: &Bench,
+    sources: Vec<Source>,
+    plan: &Plan,
+    progress: &mut dyn Progress,
+) -> Result<Outcome, QualityError> {
     let mut outcome = Outcome::default();
-    match all(bench, sources, plan, watch, &mut outcome) {
+    match all(bench, sources, plan, progress, &mut outcome) {
         Ok(()) => outcome.complete = true,
         Err(QualityError::Stopped) => {}
         Err(error) => return Err(error),
@@ -132,16 +137,16 @@ fn all(
     bench: &Bench,
     sources: Vec<Source>,
     plan: &Plan,
-    watch: &mut dyn Watch,
+    progress: &mut dyn Progress,
     outcome: &mut Outcome,
 ) -> Result<(), QualityError> {
     let mut listed = [methods(plan.quick), plan.own.clone()].concat();
     if plan.post_processed {
         listed.extend(post::the_other_order());
     }
-    watch.begin("speed against error", steps(&sources, &listed, plan));
+    progress.begin("speed against error", steps(&sources, &listed, plan));
     let mut filters = match sources.iter().any(|source| matches!(source, Source::Scene { .. })) {
-        true => Some(Filters::new(bench, &listed, plan.size, watch)?),
+        true => Some(Filters::new(bench, &listed, plan.size, progress)?),
         false => None,
     };
     let mut panned = 0;
@@ -149,8 +154,8 @@ fn all(
         match (source, &mut filters) {
             (Source::Scene { name, purpose, scene }, Some(filters)) => {
                 let renderer = GpuRenderer::new(bench.device(), bench.queue(), &scene, plan.size)?;
-                let shot = Shot::draw(&renderer, &listed.iter().collect::<Vec<_>>(), watch)?;
-                let reference = supersampled(&renderer, SIDE, Vec2::ZERO, watch)?;
+                let shot = Shot::draw(&renderer, &listed.iter().collect::<Vec<_>>(), progress)?;
+                let reference = supersampled(&renderer, SIDE, Vec2::ZERO, progress)?;
                 let made = &mut outcome.pictures;
                 let wanted = Wanted {
                     name,
@@ -158,21 +163,21 @@ fn all(
                     plan,
                     made,
                 };
-                let mut errors = wanted.errors(&listed, filters, &shot, &reference, watch)?;
+                let mut errors = wanted.errors(&listed, filters, &shot, &reference, progress)?;
                 if plan.pan_frames > 1 && panned < plan.pan_scenes {
                     panned += 1;
-                    let found = pan::pan(&renderer, &listed, filters, plan.pan_frames, watch)?;
+                    let found = pan::pan(&renderer, &listed, filters, plan.pan_frames, progress)?;
                     for (method, temporal) in errors.methods.iter_mut().zip(found) {
                         method.temporal = temporal;
                     }
                 }
-                let times = timed(filters, &shot, plan, watch)?;
+                let times = timed(filters, &shot, plan, progress)?;
                 outcome.timed_on.push(errors.scene.clone());
                 put_times(&mut errors, &times);
                 outcome.scenes.push(errors);
             }
             (Source::Capture { name, capture }, _) => {
-                let errors = of_capture(bench, name, *capture, plan, &mut outcome.pictures, watch)?;
+                let errors = of_capture(bench, name, *capture, plan, &mut outcome.pictures, progress)?;
                 outcome.timed_on.push(errors.scene.clone());
                 outcome.scenes.push(errors);
             }
@@ -188,7 +193,7 @@ fn of_capture(
     capture: Capture,
     plan: &Plan,
     made: &mut BTreeMap<String, Vec<u8>>,
-    watch: &mut dyn Watch,
+    progress: &mut dyn Progress,
 ) -> Result<SceneErrors, QualityError> {
     let (mut listed, absent) = methods_of(&capture);
     listed.extend(plan.own.iter().map(|method| method.on(&capture)));
@@ -198,7 +203,7 @@ fn of_capture(
              (docs/captures.md); `straightline capture --reference 256` does"
         )));
     };
-    let mut filters = Filters::new(bench, &listed, capture.size, watch)?;
+    let mut filters = Filters::new(bench, &listed, capture.size, progress)?;
     let wanted = Wanted {
         name,
         purpose: "a capture".to_owned(),
@@ -206,14 +211,14 @@ fn of_capture(
         made,
     };
     let shot = Shot::of(capture);
-    let mut errors = wanted.errors(&listed, &mut filters, &shot, &reference, watch)?;
+    let mut errors = wanted.errors(&listed, &mut filters, &shot, &reference, progress)?;
     errors.absent = absent;
-    let times = timed(&mut filters, &shot, plan, watch)?;
+    let times = timed(&mut filters, &shot, plan, progress)?;
     put_times(&mut errors, &times);
     Ok(errors)
 }
 
-/// Steps of the watch.
+/// Steps of `progress`.
 fn steps(sources: &[Source], listed: &[Method], plan: &Plan) -> usize {
     let drawn = sources.iter().filter(|s| matches!(s, Source::Scene { .. })).count();
     let timing = plan.rounds as usize + 1;
@@ -249,7 +254,7 @@ impl Wanted<'_> {
         filters: &mut Filters<'_>,
         shot: &Shot,
         reference: &Frame<Vec4>,
-        watch: &mut dyn Watch,
+        progress: &mut dyn Progress,
     ) -> Result<SceneErrors, QualityError> {
         let classes = classes(shot)?;
         let post_processed = self.plan.post_processed;
@@ -270,7 +275,7 @@ impl Wanted<'_> {
         };
         let mut reconstructed = Vec::new();
         for (k, method) in listed.iter().enumerate() {
-            check(watch)?;
+            check(progress)?;
             let made = match &late {
                 None => filters.run(k, shot)?,
                 Some(late) if method.is_last() => filters.run(k, late)?,
@@ -287,7 +292,7 @@ impl Wanted<'_> {
             if method.explained {
                 reconstructed.push(made);
             }
-            watch.step();
+            progress.step();
         }
         share_of_gap(&mut errors.methods);
         if let [four, sixteen] = &reconstructed[..]
@@ -328,10 +333,10 @@ fn timed(
     filters: &mut Filters<'_>,
     shot: &Shot,
     plan: &Plan,
-    watch: &mut dyn Watch,
+    progress: &mut dyn Progress,
 ) -> Result<Vec<Option<Times>>, QualityError> {
-    let (timed, places) = filters.time(shot, plan.rounds, watch)?;
-    check(watch)?;
+    let (timed, places) = filters.time(shot, plan.rounds, progress)?;
+    check(progress)?;
     let times = places.into_iter().map(|place| place.and_then(|k| timed.times(k)));
     Ok(times.collect())
 }
@@ -342,9 +347,9 @@ fn put_times(errors: &mut SceneErrors, times: &[Option<Times>]) {
     }
 }
 
-/// Ends the study if the watch says so.
-fn check(watch: &dyn Watch) -> Result<(), QualityError> {
-    match watch.stopped() {
+/// Ends the study if the progress says so.
+fn check(progress: &dyn Progress) -> Result<(), QualityError> {
+    match progress.stopped() {
         true => Err(QualityError::Stopped),
         false => Ok(()),
     }

@@ -4,7 +4,7 @@ use super::QualityError;
 use super::filters::Filters;
 use super::methods::Method;
 use super::shot::{Shifted, Shot, supersampled};
-use crate::watch::Watch;
+use crate::progress::Progress;
 use glam::{Vec2, Vec3, Vec4, vec2};
 use straightline_kernels::prelude::Frame;
 use straightline_testbed::picture;
@@ -23,7 +23,7 @@ pub fn pan(
     methods: &[Method],
     filters: &mut Filters<'_>,
     frames: u32,
-    watch: &mut dyn Watch,
+    progress: &mut dyn Progress,
 ) -> Result<Vec<Option<f64>>, QualityError> {
     let panned: Vec<usize> = (0..methods.len()).filter(|k| methods[*k].panned).collect();
     let changes = changes(
@@ -32,7 +32,7 @@ pub fn pan(
         &panned,
         filters,
         (frames, STEP),
-        watch,
+        progress,
         &mut |_, _| {},
     )?;
     let mut errors = vec![None; methods.len()];
@@ -53,7 +53,7 @@ pub(super) fn changes(
     listed: &[usize],
     filters: &mut Filters<'_>,
     (frames, step): (u32, Vec2),
-    watch: &mut dyn Watch,
+    progress: &mut dyn Progress,
     see: &mut See<'_>,
 ) -> Result<Vec<Vec<f64>>, QualityError> {
     let needed: Vec<&Method> = listed.iter().map(|k| &methods[*k]).collect();
@@ -61,8 +61,8 @@ pub(super) fn changes(
     let mut before: Vec<Frame<Vec4>> = Vec::new();
     for frame in 0..frames {
         let by = step * frame as f32;
-        let shot = Shot::draw(&Shifted { renderer, by }, &needed, watch)?;
-        let reference = picture::at_eight_bits(&supersampled(renderer, SIDE, by, watch)?);
+        let shot = Shot::draw(&Shifted { renderer, by }, &needed, progress)?;
+        let reference = picture::at_eight_bits(&supersampled(renderer, SIDE, by, progress)?);
         let shown = listed
             .iter()
             .map(|k| Ok(picture::at_eight_bits(&filters.run(*k, &shot)?)));
@@ -74,7 +74,7 @@ pub(super) fn changes(
         }
         before = wrong;
         see(&shown, &reference);
-        watch.step();
+        progress.step();
     }
     Ok(changes)
 }

@@ -2,7 +2,7 @@
 
 use super::methods::{Kind, Method};
 use super::{QualityError, check};
-use crate::watch::Watch;
+use crate::progress::Progress;
 use glam::{DVec4, UVec2, Vec2, Vec3, Vec4};
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
@@ -23,7 +23,11 @@ pub struct Shot {
 
 impl Shot {
     /// What `methods` need, drawn.
-    pub fn draw(renderer: &dyn Renderer, methods: &[&Method], watch: &mut dyn Watch) -> Result<Shot, QualityError> {
+    pub fn draw(
+        renderer: &dyn Renderer,
+        methods: &[&Method],
+        progress: &mut dyn Progress,
+    ) -> Result<Shot, QualityError> {
         let mut shot = Shot {
             captures: BTreeMap::new(),
             shaded: BTreeMap::new(),
@@ -31,12 +35,12 @@ impl Shot {
         };
         for method in methods {
             if let Entry::Vacant(vacant) = shot.captures.entry(method.reads()) {
-                check(watch)?;
+                check(progress)?;
                 let samples = gbuffer::samples(method.pattern()).unwrap_or_default();
                 vacant.insert(render::capture(renderer, &samples, method.shading())?);
             }
             if method.kind == Kind::Aggregated {
-                check(watch)?;
+                check(progress)?;
                 let samples = gbuffer::samples(method.pattern()).unwrap_or_default();
                 let shaded = render::aggregated(renderer, &samples)?;
                 shot.aggregated.insert(method.pattern().to_owned(), shaded);
@@ -48,7 +52,7 @@ impl Shot {
                 _ => continue,
             };
             if let Entry::Vacant(vacant) = shot.shaded.entry(several) {
-                check(watch)?;
+                check(progress)?;
                 let samples = gbuffer::samples(method.pattern()).unwrap_or_default();
                 let shaded = samples.iter().map(|offset| renderer.shaded(*offset));
                 vacant.insert(shaded.collect::<Result<_, _>>()?);
@@ -100,24 +104,24 @@ impl Shot {
     }
 }
 
-/// The mean of pictures shaded at `side` x `side` places around `shift`, as [`render::reference`], a step of the watch for
+/// The mean of pictures shaded at `side` x `side` places around `shift`, as [`render::reference`], a step of the progress for
 /// each row; ends when it is told to.
 pub fn supersampled(
     renderer: &dyn Renderer,
     side: u32,
     shift: Vec2,
-    watch: &mut dyn Watch,
+    progress: &mut dyn Progress,
 ) -> Result<Frame<Vec4>, QualityError> {
     let size: UVec2 = renderer.size();
     let mut sums = vec![DVec4::ZERO; (size.x * size.y) as usize];
     for row in render::grid(side).chunks(side.max(1) as usize) {
-        check(watch)?;
+        check(progress)?;
         let places: Vec<Vec2> = row.iter().map(|offset| *offset + shift).collect();
         let mean = renderer.mean(&places)?;
         for (sum, texel) in sums.iter_mut().zip(mean.texels()) {
             *sum += texel.as_dvec4();
         }
-        watch.step();
+        progress.step();
     }
     let share = 1.0 / f64::from(side.max(1));
     let texels = sums.into_iter().map(|sum| (sum * share).as_vec4()).collect();

@@ -36,7 +36,7 @@ impl IsaForm {
         match self {
             IsaForm::Unrolled => "unrolled",
             IsaForm::Looped => "looped",
-            IsaForm::ByHand => "looped, by hand",
+            IsaForm::ByHand => "looped, hand-optimised",
             IsaForm::Block => "unrolled, 2x2 pixels",
             IsaForm::Slang => "unrolled, by Slang",
         }

@@ -53,8 +53,8 @@ impl FormKind {
         match self {
             FormKind::Looped => "looped",
             FormKind::LoopedUnchecked => "looped, unbounded",
-            FormKind::LoopedByHand => "looped by hand",
-            FormKind::LoopedByHandUnchecked => "by hand, unbounded",
+            FormKind::LoopedByHand => "looped, hand-optimised",
+            FormKind::LoopedByHandUnchecked => "hand-optimised, unbounded",
             FormKind::Partial2 => "partial(2)",
             FormKind::Partial4 => "partial(4)",
             FormKind::FullUnshared => "unrolled, loads not shared",
@@ -85,7 +85,7 @@ pub struct Form {
     pub pipeline_ms: f64,
     /// Time of a frame.
     pub time: Times,
-    /// How many times as fast as `Looped`.
+    /// Speedup over `Looped`.
     pub ratio: Ratio,
     /// Largest difference to the same kernel in `f64` over all but the thousandth of the pixels that differ most; `None`
     /// for the floor, which computes nothing.

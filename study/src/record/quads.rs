@@ -45,7 +45,7 @@ pub struct QuadWay {
     pub median_ms: f64,
     /// The time of each round.
     pub rounds_ms: Vec<f64>,
-    /// How many times as fast it is as the filter's first way, round by round: the median, and the interval in which it lies
+    /// Speedup over the filter's first way, round by round: the median, and the interval in which it lies
     /// with a probability of 95 %.
     pub times_as_fast: Interval,
     /// The mean over all pixels of the largest difference of a colour's components to the filter's first way. In shadow filters,

@@ -36,7 +36,7 @@ pub struct Measured {
     pub rounds_ms: Vec<f64>,
     /// Their median.
     pub median_ms: f64,
-    /// How many times as fast as the baseline it was in the same round: median of the rounds, and in which interval it lies
+    /// Speedup over the baseline in the same round: median of the rounds, and in which interval it lies
     /// with 95 %. `None` where there is no baseline.
     pub times_as_fast: Option<Interval>,
     /// Largest difference of a component to the same kernel in `f64`.

@@ -29,7 +29,7 @@ pub struct Candidate {
     pub predicted_ms: f64,
     /// What it takes, if it was run.
     pub time: Option<Times>,
-    /// How many times as fast as the most general variant, if it was run.
+    /// Speedup over the most general variant, if it was run.
     pub ratio: Option<Ratio>,
     /// Whether no other is both faster and better.
     pub front: bool,
@@ -53,7 +53,7 @@ pub struct TermWorth {
     pub instead: String,
     /// What that costs in error, by the record's metric, a loss being positive.
     pub cost: f64,
-    /// How many times as fast it is then, if it was run.
+    /// Its speedup then, if it was run.
     pub ratio: Option<Ratio>,
     /// Index of the variant.
     pub candidate: usize,

@@ -100,10 +100,7 @@ fn overview(record: &LoopsRecord) -> Result<String, ReportError> {
     };
     let plot = Plot {
         size: (980, 70 + 34 * count as u32),
-        axes: (
-            "times as fast as the loop, as wgpu compiles it".to_owned(),
-            String::new(),
-        ),
+        axes: ("speedup over the loop, as wgpu compiles it".to_owned(), String::new()),
         scales: (
             Scale::Log,
             Scale::Names(record.kernels.iter().rev().map(|k| k.kernel.clone()).collect()),
@@ -159,7 +156,7 @@ fn curves(record: &LoopsRecord) -> Result<String, ReportError> {
     }
     let plot = Plot {
         size: (980, 460),
-        axes: (String::new(), "times as fast as the loop".to_owned()),
+        axes: (String::new(), "speedup over the loop".to_owned()),
         scales: (
             Scale::Names(STEPS.iter().map(|kind| kind.words().to_owned()).collect()),
             Scale::Log,

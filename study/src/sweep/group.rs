@@ -2,8 +2,8 @@
 
 use super::{Give, Loops, Sweep, SweepError, Variant, bootstrap};
 use crate::loops::truth;
+use crate::progress::Progress;
 use crate::record::{Measured, Swept};
-use crate::watch::Watch;
 use glam::{UVec2, Vec4};
 use std::collections::BTreeMap;
 use std::rc::Rc;
@@ -39,7 +39,7 @@ pub fn measured(
     bench: &Bench,
     group: &[Variant],
     give: &Give<'_>,
-    watch: &mut dyn Watch,
+    progress: &mut dyn Progress,
 ) -> Result<Option<Vec<Swept>>, SweepError> {
     let mut swept: Vec<Swept> = group
         .iter()
@@ -58,7 +58,7 @@ pub fn measured(
     let inputs = give(&judge)?;
     let exact = interpret::<f64>(&judge, &inputs, false)?.texels;
     let exact: Vec<_> = exact.into_iter().map(Some).collect();
-    watch.step();
+    progress.step();
 
     let mut stand = Stand {
         bench,
@@ -68,7 +68,7 @@ pub fn measured(
     };
     let mut ready: Vec<Ready> = Vec::new();
     for (at, (variant, compiled)) in group.iter().zip(&compiled).enumerate() {
-        if watch.stopped() {
+        if progress.stopped() {
             return Ok(None);
         }
         if let Ok(compiled) = compiled {
@@ -78,7 +78,7 @@ pub fn measured(
                 Err(why) => swept[at].refused = Some(why),
             }
         }
-        watch.step();
+        progress.step();
     }
     for rival in &sweep.rivals {
         let like = ready
@@ -98,11 +98,11 @@ pub fn measured(
             Err(why) => of.refused = Some(why),
         }
         swept.push(of);
-        watch.step();
+        progress.step();
     }
 
     let baseline = group.iter().position(|variant| sweep.is_baseline(variant));
-    let Some(rounds) = timed(sweep, bench, inputs.size, &mut ready, &mut swept, baseline, watch)? else {
+    let Some(rounds) = timed(sweep, bench, inputs.size, &mut ready, &mut swept, baseline, progress)? else {
         return Ok(None);
     };
     let base = ready.iter().position(|ready| Some(ready.at) == baseline);
@@ -191,7 +191,7 @@ fn timed(
     ready: &mut Vec<Ready>,
     swept: &mut [Swept],
     baseline: Option<usize>,
-    watch: &mut dyn Watch,
+    progress: &mut dyn Progress,
 ) -> Result<Option<Vec<Vec<f64>>>, SweepError> {
     let work = |ready: &Ready| {
         let job = Job {
@@ -218,16 +218,16 @@ fn timed(
     let base = ready.iter().position(|ready| Some(ready.at) == baseline);
     let mut rounds: Vec<Vec<f64>> = vec![Vec::new(); works.len()];
     let mut done = 0;
-    while done < sweep.rounds && !watch.stopped() && !works.is_empty() {
+    while done < sweep.rounds && !progress.stopped() && !works.is_empty() {
         let at_once = sweep
             .until
             .map_or(sweep.rounds, |_| ROUNDS_AT_ONCE)
             .min(sweep.rounds - done);
         let times = bench.in_turn(&mut works, at_once, |round| {
             if round > 0 {
-                watch.step();
+                progress.step();
             }
-            !watch.stopped()
+            !progress.stopped()
         })?;
         for (rounds, times) in rounds.iter_mut().zip(times.rounds) {
             rounds.extend(times.iter().map(|time| time.as_secs_f64() * 1e3));
@@ -243,7 +243,7 @@ fn timed(
     Ok(enough.then_some(rounds))
 }
 
-/// How many times as fast as `base`, round by round.
+/// Speedup over `base`, round by round.
 fn ratios(own: &[f64], base: &[f64]) -> Vec<f64> {
     base.iter().zip(own).map(|(base, own)| base / own.max(1e-9)).collect()
 }

@@ -127,7 +127,7 @@ pub struct Compared {
     pub settings: BTreeMap<String, String>,
     /// The file, if it is a rival.
     pub rival: Option<String>,
-    /// How many times as fast as their baselines the two are.
+    /// Speedups of the two over their baselines.
     pub times_as_fast: [f64; 2],
     /// The second's by the first's, and in which interval that lies.
     pub quotient: Interval,
@@ -176,7 +176,7 @@ pub fn compared(first: &SweepRecord, second: &SweepRecord, tolerance: f64) -> Re
     Ok(compared.collect())
 }
 
-/// How many times as fast as its baseline a variant is, round by round; `None` of a baseline.
+/// Speedup of a variant over its baseline, round by round; `None` of a baseline.
 fn ratios(record: &SweepRecord, variant: &Swept) -> Option<Vec<f64>> {
     let is_base = |of: &&Swept| {
         let mut settings = of.settings.iter();

@@ -1,7 +1,7 @@
 //! One kernel in every combination of its options and of forms: what each costs beside a baseline, and how wrong it is.
 //!
 //! Variants that differ in nothing but what the baseline names are a group. All of a group are timed in turn, round by round,
-//! and how many times as fast one is as the group's baseline is taken of each round by itself, so that whatever slows a whole
+//! and the speedup of one over the group's baseline is taken of each round by itself, so that whatever slows a whole
 //! round down cancels.
 
 mod bootstrap;
@@ -10,8 +10,8 @@ mod joined;
 mod rival;
 mod space;
 
+use crate::progress::Progress;
 use crate::record::{Shard, Swept};
-use crate::watch::Watch;
 use std::collections::BTreeMap;
 use std::time::Duration;
 use straightline_codegen::{Compiled, Kernel};
@@ -129,7 +129,12 @@ impl Sweep {
     ///
     /// Those of [`groups`](Self::groups) and of `give`; [`SweepError::Nothing`]. A variant that is refused is in the result,
     /// with the reason.
-    pub fn measure(&self, bench: &Bench, give: &Give<'_>, watch: &mut dyn Watch) -> Result<Vec<Swept>, SweepError> {
+    pub fn measure(
+        &self,
+        bench: &Bench,
+        give: &Give<'_>,
+        progress: &mut dyn Progress,
+    ) -> Result<Vec<Swept>, SweepError> {
         let groups = self.groups()?;
         for rival in &self.rivals {
             rival.check(&self.space, &self.baseline, &groups)?;
@@ -137,12 +142,12 @@ impl Sweep {
         let count = groups.len();
         let mut all = Vec::new();
         for (k, group) in groups.iter().enumerate() {
-            if watch.stopped() {
+            if progress.stopped() {
                 break;
             }
             let label = format!("{} {} of {count}", self.kernel.name(), k + 1);
-            watch.begin(&label, group.len() + self.rivals.len() + 1 + self.rounds as usize);
-            match group::measured(self, bench, group, give, watch)? {
+            progress.begin(&label, group.len() + self.rivals.len() + 1 + self.rounds as usize);
+            match group::measured(self, bench, group, give, progress)? {
                 Some(swept) => all.extend(swept),
                 None => break,
             }

@@ -3,8 +3,8 @@
 use super::front::front;
 use super::search::{Entry, Search};
 use super::{Chosen, Term, TuneError, Variant};
+use crate::progress::Progress;
 use crate::record::{Candidate, Circumstances, LeftOut, Refused, TermWorth, TuneRecord};
-use crate::watch::Watch;
 use std::collections::BTreeMap;
 use straightline_manifest::Tuned;
 use straightline_testbed::execute::Ratio;
@@ -28,7 +28,7 @@ impl Search {
     /// # Errors
     ///
     /// If the device fails.
-    pub fn measure_front(&mut self, watch: &mut dyn Watch) -> Result<bool, TuneError> {
+    pub fn measure_front(&mut self, progress: &mut dyn Progress) -> Result<bool, TuneError> {
         let usable = self.usable();
         let points: Vec<(f64, f64)> = usable
             .iter()
@@ -60,7 +60,7 @@ impl Search {
         which.retain(|k| usable.contains(k));
         self.finalists = which.clone();
         self.finalists.push(0);
-        self.measure(&which, self.question.rounds, "timing, to decide", watch)
+        self.measure(&which, self.question.rounds, "timing, to decide", progress)
     }
 
     /// The fastest of those that were measured last and are within the budget; of those that cannot be told from it, the one

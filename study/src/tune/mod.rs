@@ -13,8 +13,8 @@ mod space;
 mod steps;
 mod subject;
 
+use crate::progress::Progress;
 use crate::record::{Circumstances, TuneRecord};
-use crate::watch::Watch;
 use glam::Vec4;
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -174,7 +174,7 @@ pub enum TuneError {
     },
 }
 
-/// Searches the cheapest variant within the budget. `None` if the watch stops it before anything is measured.
+/// Searches the cheapest variant within the budget. `None` if the progress stops it before anything is measured.
 ///
 /// # Errors
 ///
@@ -184,14 +184,14 @@ pub fn tune(
     subject: Subject,
     question: &Question,
     circumstances: Circumstances,
-    watch: &mut dyn Watch,
+    progress: &mut dyn Progress,
 ) -> Result<Option<Outcome>, TuneError> {
     let mut search = Search::new(bench, subject, question)?;
-    let finished = search.pictures(watch)?;
+    let finished = search.pictures(progress)?;
     if !search.has_general() {
         return Ok(None);
     }
-    let chosen = match finished && search.learn(watch)? && search.measure_front(watch)? {
+    let chosen = match finished && search.learn(progress)? && search.measure_front(progress)? {
         true => Some(search.choose()?),
         false => None,
     };

@@ -1,7 +1,7 @@
 //! What is tuned for: one view of a scene, sampled in several ways, and what it should look like.
 
 use super::TuneError;
-use crate::watch::Watch;
+use crate::progress::Progress;
 use glam::{UVec2, Vec2, Vec4};
 use straightline_kernels::prelude::{Frame, FrameLayers};
 use straightline_testbed::capture::{Capture, ShadingSample};
@@ -28,7 +28,7 @@ pub struct Subject {
 }
 
 impl Subject {
-    /// A scene, sampled in `patterns` and shaded at the pixels' centres, with its 256× reference. `None` if the watch stops
+    /// A scene, sampled in `patterns` and shaded at the pixels' centres, with its 256× reference. `None` if the progress stops
     /// it before all is drawn.
     ///
     /// # Errors
@@ -38,21 +38,21 @@ impl Subject {
         name: &str,
         renderer: &dyn Renderer,
         patterns: &[&str],
-        watch: &mut dyn Watch,
+        progress: &mut dyn Progress,
     ) -> Result<Option<Subject>, TuneError> {
         let mut captures = Vec::new();
-        watch.begin("geometry", patterns.len());
+        progress.begin("geometry", patterns.len());
         for pattern in patterns {
             let samples = gbuffer::samples(pattern).unwrap_or_default();
             captures.push(render::capture(renderer, &samples, ShadingSample::Centre)?);
-            watch.step();
-            if watch.stopped() {
+            progress.step();
+            if progress.stopped() {
                 return Ok(None);
             }
         }
-        watch.begin("reference", REFERENCE_SIDE as usize);
-        let reference = render::reference(renderer, REFERENCE_SIDE, &mut |_, _| watch.step())?;
-        if watch.stopped() {
+        progress.begin("reference", REFERENCE_SIDE as usize);
+        let reference = render::reference(renderer, REFERENCE_SIDE, &mut |_, _| progress.step())?;
+        if progress.stopped() {
             return Ok(None);
         }
         Ok(Some(Subject {

@@ -23,7 +23,7 @@ pub struct Interpreted<R> {
     /// Pixels that had one.
     pub not_finite_pixels: usize,
     /// The same as `not_finite` for all of them, in order.
-    pub births: Vec<([u32; 2], String)>,
+    pub non_finite_origins: Vec<([u32; 2], String)>,
 }
 
 impl<R: Real> Interpreted<R> {
@@ -42,7 +42,7 @@ struct Row<R> {
     /// Of every target.
     targets: Vec<Vec<[f64; 4]>>,
     /// Of each pixel that had a NaN or an infinity where that came from.
-    births: Vec<([u32; 2], String)>,
+    non_finite_origins: Vec<([u32; 2], String)>,
 }
 
 /// Puts the texels of an invocation, row by row, behind those to their left; none beyond `width`.
@@ -108,12 +108,16 @@ pub fn interpret<R: Real>(compiled: &Compiled, inputs: &Inputs, watch: bool) -> 
     let [across, down] = compiled.graph.invocation.tile();
     let names = &compiled.graph.targets;
     let row = |scratch: &mut Scratch, row: u32| {
-        let (y, mut births) = (row * down, Vec::new());
+        let (y, mut non_finite_origins) = (row * down, Vec::new());
         let mut lines = vec![Vec::with_capacity(width as usize); down as usize];
         let mut targets = vec![vec![Vec::with_capacity(width as usize); down as usize]; names.len()];
         for x in (0..width).step_by(across as usize) {
             let texels = interpreter.invocation(x, y, scratch);
-            births.extend(scratch.birth().map(|b| ([x, y], b.describe(&compiled.graph))));
+            non_finite_origins.extend(
+                scratch
+                    .non_finite_origin()
+                    .map(|b| ([x, y], b.describe(&compiled.graph))),
+            );
             put(&mut lines, &texels, across as usize, width);
             for (k, lines) in targets.iter_mut().enumerate() {
                 put(lines, &interpreter.target(k, scratch), across as usize, width);
@@ -128,7 +132,7 @@ pub fn interpret<R: Real>(compiled: &Compiled, inputs: &Inputs, watch: bool) -> 
         Row {
             texels: lines.concat(),
             targets: targets.collect(),
-            births,
+            non_finite_origins,
         }
     };
     let numbers = 0..height.div_ceil(down);
@@ -157,14 +161,14 @@ pub fn interpret<R: Real>(compiled: &Compiled, inputs: &Inputs, watch: bool) -> 
         texels,
     });
     let targets = targets.collect();
-    let births: Vec<_> = rows.iter().flat_map(|row| row.births.clone()).collect();
+    let non_finite_origins: Vec<_> = rows.iter().flat_map(|row| row.non_finite_origins.clone()).collect();
     Ok(Interpreted {
         texels: rows.into_iter().flat_map(|row| row.texels).collect(),
         targets,
         buffers,
-        not_finite_pixels: births.len(),
-        not_finite: births.first().cloned(),
-        births,
+        not_finite_pixels: non_finite_origins.len(),
+        not_finite: non_finite_origins.first().cloned(),
+        non_finite_origins,
     })
 }
 

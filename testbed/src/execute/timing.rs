@@ -41,7 +41,7 @@ impl Times {
     }
 }
 
-/// How many times as fast one shader is as another, from rounds in which both ran.
+/// The speedup of one shader over another, from rounds in which both ran.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Ratio {
     /// The middle of the ratios of all rounds.
@@ -53,7 +53,7 @@ pub struct Ratio {
 }
 
 impl Ratio {
-    /// How many times as fast as `base` something is that took `times`, round by round; `None` of no rounds.
+    /// Speedup over `base` of what took `times`, round by round; `None` of no rounds.
     pub fn of(base: &[Duration], times: &[Duration]) -> Option<Ratio> {
         let ratio = |(base, time): (&Duration, &Duration)| base.as_secs_f64() / time.as_secs_f64().max(1e-9);
         let ratios: Vec<f64> = base.iter().zip(times).map(ratio).collect();
@@ -122,7 +122,7 @@ impl Timed {
         Times::of(self.rounds.get(shader)?)
     }
 
-    /// How many times as fast as `base` a shader is; `None` if one of them is not there.
+    /// Speedup of a shader over `base`; `None` if one of them is not there.
     pub fn ratio(&self, base: usize, shader: usize) -> Option<Ratio> {
         Ratio::of(self.rounds.get(base)?, self.rounds.get(shader)?)
     }

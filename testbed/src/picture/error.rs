@@ -103,7 +103,7 @@ pub enum PictureError {
     },
 }
 
-/// The way out of the commonest refusals.
+/// Help for the commonest refusals.
 fn advice(kind: io::ErrorKind) -> &'static str {
     match kind {
         io::ErrorKind::NotFound => "; check the spelling, and that the folder exists",

@@ -18,7 +18,7 @@ pub fn cycles(record: &IsaRecord) -> Result<String, String> {
         "looped",
         "bounded",
         "by glslang",
-        "by hand",
+        "hand-optimised",
         "bounded",
     ];
     let mut names: Vec<&str> = record.shaders.iter().map(|asked| asked.kernel.as_str()).collect();

@@ -10,7 +10,7 @@ pub fn in_short(record: &LoopsRecord) -> String {
         "kernel",
         "looped",
         "without its bound",
-        "by hand",
+        "hand-optimised",
         "both",
         "**unrolled**",
         "2×2 pixels",
@@ -36,7 +36,7 @@ pub fn in_short(record: &LoopsRecord) -> String {
     markdown(&head, record.kernels.iter().map(row).collect())
 }
 
-/// Every kernel: how many times as fast as its loop each form is.
+/// Every kernel: the speedup of each form over its loop.
 pub fn in_full(record: &LoopsRecord) -> String {
     let head = [
         "kernel",
@@ -44,7 +44,7 @@ pub fn in_full(record: &LoopsRecord) -> String {
         "reads",
         "looped",
         "unbounded",
-        "by hand",
+        "hand-optimised",
         "both",
         "partial(2), (4)",
         "not shared",

@@ -3,7 +3,7 @@
 use straightline_manifest::Stage;
 use straightline_study::record::{QuadWay, QuadsRecord};
 
-/// A row for each way, a column for each stage and transport: milliseconds, and how many times as fast as the filter's first way.
+/// A row for each way, a column for each stage and transport: milliseconds, and the speedup over the filter's first way.
 pub fn ways(record: &QuadsRecord) -> String {
     let mut text = "| filter | way | alone, fragment | alone, compute | `subgroup` | `derivatives` | `block` | 8x2 | mean difference |\n".to_owned();
     text += "| --- | --- | --: | --: | --: | --: | --: | --: | --: |\n";

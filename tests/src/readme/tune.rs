@@ -11,7 +11,7 @@ pub fn scenes(records: &[TuneRecord]) -> String {
         "chosen",
         "lost",
         "ms",
-        "times as fast as the most general",
+        "speedup over the most general",
         "model off by",
     ];
     let row = |record: &TuneRecord| {

@@ -1,4 +1,4 @@
-// `iter` of an array that was written at an index known at run time only was refused.
+// `iter` of an array that was written at a runtime index was refused.
 // expect 0 0: 8 8 8 8
 
 pub fn k(a: &Frame<Vec4>, pixel: IVec2) -> Vec4 {

@@ -1,4 +1,4 @@
-// Of a kept loop's variables one takes the old value of another, which then changes: the text changes the other first.
+// Of a structured loop's variables one takes the old value of another, which then changes: the text changes the other first.
 // expect 0 0: 0 0 0 0
 
 pub fn k(a: &Frame<Vec4>, pixel: IVec2) -> Vec4 {

@@ -1,4 +1,4 @@
-// A known zero beside lanes that are known at run time only was written as such, which WGSL refuses.
+// A known zero beside lanes that are runtime values was written as such, which WGSL refuses.
 // expect 1 1: 1 2 3 4
 
 pub fn k(a: &Frame<Vec4>, pixel: IVec2) -> Vec4 {

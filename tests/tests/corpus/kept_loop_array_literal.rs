@@ -1,4 +1,4 @@
-// An array that a kept loop assigns a literal: only its first element was the loop's result.
+// An array that a structured loop assigns a literal: only its first element was the loop's result.
 // expect 0 0: 0 0 0 0
 
 pub fn k(a: &Frame<Vec4>, pixel: IVec2) -> Vec4 {

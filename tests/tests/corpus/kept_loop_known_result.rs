@@ -1,4 +1,4 @@
-// An integer that a kept loop assigns a known value kept that value even if the loop had no round.
+// An integer that a structured loop assigns a known value kept that value even if the loop had no round.
 // expect 0 0: 0 0 0 0
 
 pub fn k(a: &Frame<Vec4>, pixel: IVec2) -> Vec4 {

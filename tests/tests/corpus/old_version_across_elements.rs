@@ -1,5 +1,5 @@
-// An element that is changed by another element of the same array, one of them at an index known at run time only:
-// cannot be emitted with a kept loop, "uses an old version of the array".
+// An element that is changed by another element of the same array, one of them at a runtime index:
+// cannot be emitted with a structured loop, "uses an old version of the array".
 // expect 0 0: 1 2 0 0
 
 pub fn k(a: &Frame<Vec4>, pixel: IVec2) -> Vec4 {

@@ -1,4 +1,4 @@
-// An array that a kept loop changed and the kernel changes again: cannot be emitted where it is then read at an index
+// An array that a structured loop changed and the kernel changes again: cannot be emitted where it is then read at an index
 // that is known and at one that is not, "uses an old version of the array".
 // expect 0 0: 2 2 2 2
 

@@ -1,4 +1,4 @@
-// A choice between arrays at run time, one of which was written at an index known at run time only: the interpreter
+// A choice between arrays at run time, one of which was written at a runtime index: the interpreter
 // had no `Select` of arrays, and WGSL has none.
 // expect 0 0: -3 -3 -3 -3
 

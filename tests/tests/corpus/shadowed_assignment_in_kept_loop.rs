@@ -1,4 +1,4 @@
-// A kept loop that assigns a variable of its own made an outer variable of the same name unknown.
+// A structured loop that assigns a variable of its own made an outer variable of the same name unknown.
 // expect 1 0: 2 2 2 2
 
 pub fn k(a: &Frame<Vec4>, pixel: IVec2) -> Vec4 {

@@ -1,4 +1,4 @@
-//! What cannot be done with quads is said, with the way out.
+//! What cannot be done with quads is said, with help.
 
 use super::*;
 use straightline_codegen::EmitOptions;

@@ -2,16 +2,16 @@
 
 pub mod pictures;
 
-use super::study::{Progress, circumstances_of};
+use super::study::{ProgressBars, circumstances_of};
 use crate::args::QuadsArgs;
 use crate::failure::Failure;
 use crate::gpu::Gpu;
 use crate::{scene, table};
 use std::time::Duration;
 use straightline_codegen::files;
+use straightline_study::progress::Progress;
 use straightline_study::quads::{Method, QuadsError, study};
 use straightline_study::record::{QuadWay, QuadsRecord};
-use straightline_study::watch::Watch;
 
 /// How long a shader is run at least for one time, as in `study loops`.
 const LEAST: Duration = Duration::from_millis(40);
@@ -34,7 +34,7 @@ pub fn run(args: &QuadsArgs) -> Result<(), Failure> {
     };
     let bench = gpu.bench();
     let mut circumstances = circumstances_of(&gpu, args.size, args.rounds);
-    let mut progress = Progress::new();
+    let mut progress = ProgressBars::new();
     let studied = study(&bench, &scene, &method, &mut progress).map_err(|error| match error {
         QuadsError::Kernel(errors) => Failure::Kernel(errors),
         other => Failure::of(other),
@@ -87,13 +87,13 @@ fn print(args: &QuadsArgs, record: &QuadsRecord) -> Result<(), Failure> {
         "reads",
         "messages",
         "ms",
-        "times as fast",
+        "speedup",
         "mean off",
         "largest",
     ];
     out!("{}", table::render(&head, &rows));
     outln!(
-        "\nTimes as fast: as the filter's first way, round by round, with the interval of 95 %. Shadow filters draw {} triangles; \
+        "\nSpeedup: over the filter's first way, round by round, with the interval of 95 %. Shadow filters draw {} triangles; \
          those in compute read coordinates, and the pass that draws them, {:.2} ms, is in their times.",
         record.triangles,
         record.coordinates_ms

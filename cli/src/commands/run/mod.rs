@@ -85,9 +85,9 @@ fn check(args: &RunArgs) -> Result<(), Failure> {
 
 fn on_cpu<R: Real>(args: &RunArgs, compiled: &Compiled, inputs: &Inputs) -> Result<AllWritten, Failure> {
     let result = interpret::<R>(compiled, inputs, args.check_finite).map_err(Failure::of)?;
-    if let Some(([x, y], birth)) = &result.not_finite {
+    if let Some(([x, y], non_finite_origin)) = &result.not_finite {
         return Err(Failure::Failed(format!(
-            "{} pixels had a NaN or an infinity, the first at ({x}, {y}): {birth}",
+            "{} pixels had a NaN or an infinity, the first at ({x}, {y}): {non_finite_origin}",
             result.not_finite_pixels
         )));
     }

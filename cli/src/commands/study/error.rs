@@ -1,6 +1,6 @@
 //! `study error`: methods of antialiasing against references.
 
-use super::{Progress, circumstances};
+use super::{ProgressBars, circumstances};
 use crate::args::{CommonArgs, ErrorArgs};
 use crate::failure::Failure;
 use crate::gpu::Gpu;
@@ -18,7 +18,7 @@ const FRAMES: u32 = 5;
 const QUICK_FRAMES: u32 = 4;
 
 /// Compares, writes the record and prints it.
-pub fn run(common: &CommonArgs, args: &ErrorArgs, progress: &mut Progress) -> Result<(), Failure> {
+pub fn run(common: &CommonArgs, args: &ErrorArgs, progress: &mut ProgressBars) -> Result<(), Failure> {
     let own = own(args)?;
     let sources = sources(args)?;
     let gpu = Gpu::require(&common.adapter)?;

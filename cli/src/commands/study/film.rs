@@ -1,7 +1,7 @@
 //! `study film`: frames of a pan, methods side by side.
 
 use super::error::{failure, method};
-use super::{Progress, circumstances_of};
+use super::{ProgressBars, circumstances_of};
 use crate::args::{CommonArgs, FilmArgs};
 use crate::failure::Failure;
 use crate::gpu::Gpu;
@@ -28,7 +28,7 @@ const MOST_PIXELS: u64 = 1 << 27;
 const SHOWN: u16 = 50;
 
 /// Films, and writes frames, animation and record.
-pub fn run(common: &CommonArgs, args: &FilmArgs, progress: &mut Progress) -> Result<(), Failure> {
+pub fn run(common: &CommonArgs, args: &FilmArgs, progress: &mut ProgressBars) -> Result<(), Failure> {
     let methods = methods(args)?;
     let world = scene::load(args.mesh.as_deref(), &args.scene)?;
     let name = args

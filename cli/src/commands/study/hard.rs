@@ -1,6 +1,6 @@
 //! `study hard`: numerical stability on hard cases.
 
-use super::{Progress, circumstances, on_processor};
+use super::{ProgressBars, circumstances, on_processor};
 use crate::args::{CommonArgs, HardArgs};
 use crate::failure::Failure;
 use crate::gpu::{Gpu, INSTALL};
@@ -11,7 +11,7 @@ use straightline_study::hard::{self, Selection};
 use straightline_study::record::{HardRecord, HardResult, Record};
 
 /// Runs hard cases, prints what became of them, and writes the record.
-pub fn run(common: &CommonArgs, args: &HardArgs, progress: &mut Progress) -> Result<(), Failure> {
+pub fn run(common: &CommonArgs, args: &HardArgs, progress: &mut ProgressBars) -> Result<(), Failure> {
     let selection = selection(args)?;
     let gpu = Gpu::open(&common.adapter)?;
     let circumstances = match &gpu {

@@ -1,6 +1,6 @@
 //! `study isa`: what GPU compilers make of shaders, without the GPUs.
 
-use super::{Progress, command, loops, now};
+use super::{ProgressBars, command, loops, now};
 use crate::args::{CommonArgs, IsaArgs};
 use crate::failure::Failure;
 use crate::table;
@@ -13,7 +13,7 @@ use straightline_study::record::{IsaRecord, Record};
 pub const SERVE: &str = "serve-isa";
 
 /// Asks, prints, writes the record.
-pub fn run(common: &CommonArgs, args: &IsaArgs, progress: &mut Progress) -> Result<(), Failure> {
+pub fn run(common: &CommonArgs, args: &IsaArgs, progress: &mut ProgressBars) -> Result<(), Failure> {
     let subjects = loops::chosen(common, &args.from, &args.by_hand)?;
     let mut askings: Vec<Asking> = subjects.into_iter().map(Asking::from).collect();
     if args.from.is_empty() {

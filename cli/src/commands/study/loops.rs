@@ -1,6 +1,6 @@
 //! `study loops`: unroll against loop.
 
-use super::{Progress, circumstances};
+use super::{ProgressBars, circumstances};
 use crate::args::{CommonArgs, LoopsArgs};
 use crate::failure::Failure;
 use crate::gpu::Gpu;
@@ -10,8 +10,8 @@ use std::path::Path;
 use std::time::Duration;
 use straightline_codegen::{Kernel, files};
 use straightline_study::loops::{LoopsError, Method, Studied, Subject, study, subjects};
+use straightline_study::progress::Progress;
 use straightline_study::record::{KernelForms, LoopsRecord, Record};
-use straightline_study::watch::Watch;
 use straightline_testbed::picture;
 
 /// How long a form is run at least for one time. On two busy cores ratios of a form in 40 ms spread by 0.64 of their median,
@@ -19,7 +19,7 @@ use straightline_testbed::picture;
 const LEAST: Duration = Duration::from_millis(40);
 
 /// Measures, writes the record, prints it.
-pub fn run(common: &CommonArgs, args: &LoopsArgs, progress: &mut Progress) -> Result<(), Failure> {
+pub fn run(common: &CommonArgs, args: &LoopsArgs, progress: &mut ProgressBars) -> Result<(), Failure> {
     let subjects = chosen(common, &args.from, &args.by_hand)?;
     if let Some(folder) = &args.pictures {
         files::try_folder(folder).map_err(Failure::of)?;
@@ -112,12 +112,12 @@ fn print(record: &LoopsRecord) {
         "SPIR-V",
         "ready in",
         "ms",
-        "times as fast",
+        "speedup",
         "off f64, 99.9 %",
         "largest",
     ];
     out!("{}", table::render(&head, &rows));
-    outln!("\ntimes as fast: as the looped form, median of the rounds (a tenth were below, a tenth above)");
+    outln!("\nspeedup: over the looped form, median of the rounds (a tenth were below, a tenth above)");
     for kernel in &record.kernels {
         for (kind, why) in &kernel.absent {
             outln!("{}, {}: {why}", kernel.kernel, kind.words());

@@ -5,8 +5,8 @@ mod film;
 mod hard;
 pub mod isa;
 mod loops;
+mod progress;
 mod sweep;
-mod watch;
 
 use super::tune;
 use crate::args::{CommonArgs, Study, StudyArgs, TuneArgs};
@@ -16,12 +16,12 @@ use glam::UVec2;
 use std::path::Path;
 use std::time::SystemTime;
 use straightline_codegen::files;
+use straightline_study::progress::Progress;
 use straightline_study::record::Circumstances;
 use straightline_study::report;
-use straightline_study::watch::Watch;
 use straightline_testbed::execute::Clock;
 
-pub use watch::Progress;
+pub use progress::ProgressBars;
 
 /// Measures, and writes records and the page.
 pub fn run(args: &StudyArgs) -> Result<(), Failure> {
@@ -34,7 +34,7 @@ pub fn run(args: &StudyArgs) -> Result<(), Failure> {
     if !writes_nothing {
         files::try_folder(&common.out).map_err(Failure::of)?;
     }
-    let mut progress = Progress::new();
+    let mut progress = ProgressBars::new();
     match &args.study {
         Some(Study::Loops(loops)) => loops::run(common, loops, &mut progress)?,
         Some(Study::Error(error)) => error::run(common, error, &mut progress)?,
@@ -55,7 +55,7 @@ pub fn run(args: &StudyArgs) -> Result<(), Failure> {
 const TUNED: [&str; 3] = ["floor", "tubes", "creases"];
 
 /// Every study, until Ctrl-C.
-fn all(common: &CommonArgs, progress: &mut Progress) -> Result<(), Failure> {
+fn all(common: &CommonArgs, progress: &mut ProgressBars) -> Result<(), Failure> {
     hard::run(common, &Default::default(), progress)?;
     if !progress.stopped() {
         loops::run(common, &Default::default(), progress)?;

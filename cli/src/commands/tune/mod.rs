@@ -2,7 +2,7 @@
 
 mod print;
 
-use super::study::{Progress, circumstances_of};
+use super::study::{ProgressBars, circumstances_of};
 use crate::args::TuneArgs;
 use crate::failure::Failure;
 use crate::gpu::Gpu;
@@ -10,9 +10,9 @@ use crate::scene;
 use glam::UVec2;
 use straightline_codegen::emit::{Emitted, Target};
 use straightline_codegen::{EmitOptions, Kernel, Settings, files};
+use straightline_study::progress::Progress;
 use straightline_study::record::Record;
 use straightline_study::tune::{self, Chosen, PATTERNS, Question, Subject, TuneError};
-use straightline_study::watch::Watch;
 use straightline_testbed::capture::Capture;
 use straightline_testbed::gbuffer;
 
@@ -24,7 +24,7 @@ pub fn run(args: &TuneArgs) -> Result<(), Failure> {
     check_options(args)?;
     files::try_folder(&args.out).map_err(Failure::of)?;
     let gpu = Gpu::require(&args.adapter)?;
-    let mut progress = Progress::new();
+    let mut progress = ProgressBars::new();
     let Some(subject) = subject(args, &gpu, &mut progress)? else {
         return Err(nothing_measured());
     };
@@ -65,7 +65,7 @@ pub fn run(args: &TuneArgs) -> Result<(), Failure> {
 }
 
 /// What is to be tuned for; `None` if it was stopped before all was drawn.
-fn subject(args: &TuneArgs, gpu: &Gpu, watch: &mut dyn Watch) -> Result<Option<Subject>, Failure> {
+fn subject(args: &TuneArgs, gpu: &Gpu, progress: &mut dyn Progress) -> Result<Option<Subject>, Failure> {
     if let Some(folder) = &args.subject.capture {
         let capture = Capture::read(folder).map_err(Failure::of)?;
         return Ok(Some(Subject::of_capture(&folder.display().to_string(), capture)));
@@ -93,7 +93,7 @@ fn subject(args: &TuneArgs, gpu: &Gpu, watch: &mut dyn Watch) -> Result<Option<S
         }
         None => PATTERNS.to_vec(),
     };
-    Subject::of_scene(&name, renderer.as_ref(), &patterns, watch).map_err(failure)
+    Subject::of_scene(&name, renderer.as_ref(), &patterns, progress).map_err(failure)
 }
 
 /// Refuses options that the kernel does not have before anything is drawn, and those left to a host.

@@ -71,7 +71,7 @@ pub fn report(args: &TuneArgs, record: &TuneRecord, written: &[PathBuf]) -> Resu
 fn choice(record: &TuneRecord, chosen: &Candidate, metric: ErrorMetric) {
     outln!("\nchosen: {}", chosen.name);
     outln!(
-        "  {}, budget {}; {} times as fast as the most general variant",
+        "  {}, budget {}; speedup {} over the most general variant",
         metric.show(chosen.error),
         budget(record, metric),
         ratio(chosen.ratio)
@@ -98,10 +98,7 @@ fn terms(record: &TuneRecord, metric: ErrorMetric) -> String {
             ratio(term.ratio),
         ]
     });
-    table::render(
-        &["instead of", "with", "error", "times as fast"],
-        &rows.collect::<Vec<_>>(),
-    )
+    table::render(&["instead of", "with", "error", "speedup"], &rows.collect::<Vec<_>>())
 }
 
 fn front(record: &TuneRecord, metric: ErrorMetric) -> String {
@@ -128,7 +125,7 @@ fn front(record: &TuneRecord, metric: ErrorMetric) -> String {
             format!("{:.1}", c.gbuffer_bytes as f64 / 1.0e6),
         ]
     });
-    let headings = ["variant", "error", "ms", "times as fast", "predicted ms", "G-buffer MB"];
+    let headings = ["variant", "error", "ms", "speedup", "predicted ms", "G-buffer MB"];
     table::render(&headings, &rows.collect::<Vec<_>>())
 }
 

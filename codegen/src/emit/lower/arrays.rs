@@ -47,11 +47,11 @@ impl Lowering<'_> {
     /// Makes the web's variable hold `begin`, and takes it to be `version`.
     pub(super) fn enter_web(&mut self, version: NodeId, begin: NodeId) -> VarId {
         let value = self.expr(begin);
-        let var = match self.webs.variable(version) {
+        let var = match self.coalescing.variable(version) {
             None => {
                 let var = self.variable(version);
                 self.statement(version, StmtKind::Var(var, Some(value)));
-                self.webs.declare(version, var, begin);
+                self.coalescing.declare(version, var, begin);
                 var
             }
             Some(var) => {
@@ -62,16 +62,16 @@ impl Lowering<'_> {
                 var
             }
         };
-        self.webs.advance(version);
+        self.coalescing.advance(version);
         var
     }
 
     /// The variable that holds just this version of an array.
     pub(super) fn version(&mut self, id: NodeId) -> Expr {
-        let var = self.webs.holder(id).or_else(|| {
-            let since = self.webs.replacement(id).map_or(Stale::Unknown, Stale::Since);
+        let var = self.coalescing.holder(id).or_else(|| {
+            let since = self.coalescing.replacement(id).map_or(Stale::Unknown, Stale::Since);
             self.stale.get_or_insert(since);
-            self.webs.variable(id)
+            self.coalescing.variable(id)
         });
         self.module.read(var.unwrap_or(VarId::PIXEL))
     }

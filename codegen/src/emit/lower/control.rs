@@ -26,13 +26,16 @@ impl<'g> Lowering<'g> {
         let counter = self.variable(region.params[0]);
         let (start, end) = (self.expr(args[0]), self.expr(args[1]));
         self.exprs[region.params[0].0 as usize] = Some(self.module.read(counter));
-        let scope = self.webs.snapshot();
+        let scope = self.coalescing.snapshot();
         let body = self.nested(|lowering| {
             lowering.steps(body);
             lowering.next_iteration(&region.params[1..], region);
         });
-        if let Some(version) = self.webs.lost(&scope) {
-            let since = self.webs.replacement(version).map_or(Stale::Unknown, Stale::Since);
+        if let Some(version) = self.coalescing.lost(&scope) {
+            let since = self
+                .coalescing
+                .replacement(version)
+                .map_or(Stale::Unknown, Stale::Since);
             self.stale.get_or_insert(since);
         }
         let counted = self.compiled.schedule.uses[region.params[0].0 as usize] > 0
@@ -48,7 +51,7 @@ impl<'g> Lowering<'g> {
             false => StmtKind::Loop(body),
         };
         self.block.push(stmt.into());
-        self.webs.leave(&scope);
+        self.coalescing.leave(&scope);
         self.results(node, &region.params[1..]);
     }
 
@@ -65,7 +68,7 @@ impl<'g> Lowering<'g> {
         for (param, result) in params.iter().zip(&region.results) {
             let value = self.expr(*result);
             let var = match graph.ty(*param).is_array() {
-                true => self.webs.variable(*param),
+                true => self.coalescing.variable(*param),
                 false => self.exprs[param.0 as usize].as_ref().and_then(Expr::as_var),
             };
             let var = var.unwrap_or(VarId::PIXEL);
@@ -98,7 +101,7 @@ impl<'g> Lowering<'g> {
             self.statement(param, StmtKind::Assign(place, None, value));
         }
         for param in params.iter().filter(|param| graph.ty(**param).is_array()) {
-            self.webs.advance(*param);
+            self.coalescing.advance(*param);
         }
         if let Some((id, condition)) = stop {
             let leave = StmtKind::If {
@@ -114,7 +117,7 @@ impl<'g> Lowering<'g> {
     fn results(&mut self, owner: NodeId, variables: &[NodeId]) {
         for (id, k) in self.results_of(owner) {
             if self.compiled.graph.ty(id).is_array() {
-                self.webs.advance(id);
+                self.coalescing.advance(id);
             } else {
                 self.exprs[id.0 as usize] = self.exprs[variables[k].0 as usize].clone();
             }
@@ -137,7 +140,7 @@ impl<'g> Lowering<'g> {
         let regions: Vec<_> = graph.regions_of(node).into_iter().map(|r| graph.region(r)).collect();
         let results = self.results_of(node);
         // A side that does nothing leaves values that are known before: the variable begins with them. Not so where the other
-        // side leaves what a loop carries, as it does on the way out: that may be one variable then.
+        // side leaves what a loop carries, as it does where it leaves: that may be one variable then.
         let idle = otherwise.steps.is_empty();
         let carried = |id: NodeId| matches!(graph.node(id).op, ir::Op::Param(..));
         let begins = |k: usize| idle && !carried(regions[0].results[k]);
@@ -156,10 +159,10 @@ impl<'g> Lowering<'g> {
             self.exprs[id.0 as usize] = Some(self.module.read(var));
         }
         let condition = self.expr(graph.node(node).args[0]);
-        let before = self.webs.snapshot();
+        let before = self.coalescing.snapshot();
         let then = self.nested(|lowering| lowering.side(then, &results, &regions[0].results, &|_| false));
-        let first = self.webs.snapshot();
-        self.webs.restore(&before);
+        let first = self.coalescing.snapshot();
+        self.coalescing.restore(&before);
         let otherwise = self.nested(|lowering| {
             if assigns || changes_array {
                 lowering.side(otherwise, &results, &regions[1].results, &begins);
@@ -177,20 +180,20 @@ impl<'g> Lowering<'g> {
             }
             .into(),
         );
-        self.webs.leave(&before);
-        self.webs.join_sides(&first);
+        self.coalescing.leave(&before);
+        self.coalescing.join_sides(&first);
     }
 
     /// Sees to it that an array that a branch chooses has its variable before the branch. Gives whether the side that
     /// leaves `kept` must write it, because the variable holds something else.
     fn prepare_array(&mut self, id: NodeId, kept: NodeId) -> bool {
-        if self.webs.variable(id).is_none() {
+        if self.coalescing.variable(id).is_none() {
             let var = self.variable(id);
             self.statement(id, StmtKind::Var(var, None));
             // Both sides write it before it is read.
-            self.webs.declare(id, var, id);
+            self.coalescing.declare(id, var, id);
         }
-        self.webs.holder(kept) != self.webs.variable(id)
+        self.coalescing.holder(kept) != self.coalescing.variable(id)
     }
 
     /// One side of a branch: its steps, and what it leaves in the branch's variables, but in those that hold it already.

@@ -3,20 +3,20 @@
 //! Every step of the schedule becomes a statement or part of one. This cannot fail: whatever the graph, there is a tree.
 
 mod arrays;
+mod coalescing;
 mod control;
 mod entry;
 mod facts;
-mod webs;
 
 use super::ast::{Block as Statements, Effect, Expr, Module, Op, Stmt, StmtKind, VarId};
 use super::names::Wanted;
 use super::outputs::whole_texel;
 use super::tidy::simplify;
 use crate::compiled::Compiled;
+use coalescing::ArrayCoalescing;
 use std::collections::HashSet;
 use straightline_evaluator::ir::{self, BinaryOp, NodeId, Origin, Type};
 use straightline_evaluator::passes::{Block, Step};
-use webs::Webs;
 
 pub use entry::entry;
 
@@ -31,14 +31,14 @@ pub fn lower<'g>(compiled: &'g Compiled, half: bool) -> Module<'g> {
     let graph = &compiled.graph;
     let mut cut = HashSet::new();
     while cut.len() < MAX_CUTS {
-        match attempt(compiled, half, Webs::new(graph, &cut)) {
+        match attempt(compiled, half, ArrayCoalescing::new(graph, &cut)) {
             (module, None) => return module,
             (_, Some(Stale::Since(version))) if cut.insert(version) => {}
             _ => break,
         }
     }
     // No version takes another's place where each has a variable of its own.
-    attempt(compiled, half, Webs::apart(graph)).0
+    attempt(compiled, half, ArrayCoalescing::apart(graph)).0
 }
 
 /// An array's version is needed that its variable no longer holds.
@@ -50,13 +50,13 @@ enum Stale {
     Unknown,
 }
 
-fn attempt<'g>(compiled: &'g Compiled, half: bool, webs: Webs) -> (Module<'g>, Option<Stale>) {
+fn attempt<'g>(compiled: &'g Compiled, half: bool, coalescing: ArrayCoalescing) -> (Module<'g>, Option<Stale>) {
     let graph = &compiled.graph;
     let mut lowering = Lowering {
         compiled,
         origins: origins(compiled),
         wanted: Wanted::new(graph),
-        webs,
+        coalescing,
         exprs: vec![None; graph.nodes.len()],
         half,
         module: entry::module(),
@@ -91,7 +91,7 @@ struct Lowering<'g> {
     /// By node: where it comes from.
     origins: Vec<Option<&'g Origin>>,
     wanted: Wanted,
-    webs: Webs,
+    coalescing: ArrayCoalescing,
     /// By node: how its value is written, once it has been evaluated.
     exprs: Vec<Option<Expr>>,
     /// Whether floats are those of half precision.

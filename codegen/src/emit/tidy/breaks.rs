@@ -223,7 +223,7 @@ fn reduced(expr: Expr) -> Expr {
 }
 
 /// Whether a variable that begins as `value` still is that wherever a loop's body assigns it again: each other assignment
-/// is on the way out of the loop.
+/// leads out of the loop.
 fn stays(body: &Block<'_>, var: VarId, value: &Expr) -> bool {
     let leaves = matches!(body.last().map(|stmt| &stmt.kind), Some(StmtKind::Break));
     body.iter().all(|stmt| match &stmt.kind {
@@ -238,7 +238,7 @@ fn stays(body: &Block<'_>, var: VarId, value: &Expr) -> bool {
 /// Removes the assignments of what a variable is already.
 fn drop_assignments(block: &mut Block<'_>, var: VarId, value: &Expr) {
     if matches!(block.last().map(|stmt| &stmt.kind), Some(StmtKind::Break)) {
-        // What is assigned on the way out is read behind the loop.
+        // What is assigned where it leaves is read behind the loop.
         let others = |stmt: &Stmt<'_>| matches!(&stmt.kind, StmtKind::Assign(place, _, to) if place.root() == Some(var) && to != value);
         if block.iter().any(others) {
             return;

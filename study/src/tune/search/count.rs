@@ -1,10 +1,10 @@
 //! Static counts of variants.
 
 use super::{Search, chunk};
+use crate::progress::Progress;
 use crate::tune::features::Static;
 use crate::tune::space::Variant;
 use crate::tune::{Term, TuneError};
-use crate::watch::Watch;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use straightline_codegen::Precision;
@@ -14,7 +14,7 @@ const LONGEST: f64 = 2500.0;
 
 impl Search {
     /// Static counts of every variant but blocks that would be too long.
-    pub(super) fn count(&mut self, watch: &mut dyn Watch) -> Result<bool, TuneError> {
+    pub(super) fn count(&mut self, progress: &mut dyn Progress) -> Result<bool, TuneError> {
         // One graph for both precisions; single pixels before blocks, which are judged by them.
         let mut alike: BTreeMap<Variant, Vec<usize>> = BTreeMap::new();
         for (k, entry) in self.entries.iter().enumerate() {
@@ -22,10 +22,10 @@ impl Search {
         }
         let mut graphs: Vec<Variant> = alike.keys().copied().collect();
         graphs.sort_by_key(|variant| variant.at(Term::Block));
-        watch.begin("counts", graphs.len());
+        progress.begin("counts", graphs.len());
         let mut too_long = 0;
         for some in graphs.chunks(4 * chunk()) {
-            if watch.stopped() {
+            if progress.stopped() {
                 return Ok(false);
             }
             let counted: Vec<_> = some.par_iter().map(|graph| (*graph, self.counted(*graph))).collect();
@@ -36,7 +36,7 @@ impl Search {
                     let half = self.space.precision(self.entries[*k].variant) == Precision::F16;
                     self.entries[*k].known = counted.clone().map(|known| if half { known.in_half() } else { known });
                 }
-                watch.step();
+                progress.step();
             }
         }
         if too_long > 0 {

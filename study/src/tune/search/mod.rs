@@ -240,7 +240,7 @@ impl Search {
     }
 }
 
-/// Variants that are worked on at once, between looks at the watch.
+/// Variants that are worked on at once, between looks at the progress.
 fn chunk() -> usize {
     2 * rayon::current_num_threads().max(1)
 }

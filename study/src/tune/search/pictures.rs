@@ -1,9 +1,9 @@
 //! Pictures of variants, and their errors.
 
 use super::{Ready, Search, Seen, chunk};
+use crate::progress::Progress;
 use crate::tune::space::Variant;
 use crate::tune::{Term, TuneError};
-use crate::watch::Watch;
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 use straightline_codegen::Precision;
@@ -13,13 +13,13 @@ use straightline_testbed::metrics;
 const PROBED: u32 = 3;
 
 impl Search {
-    /// Counts every variant and measures its error. Whether all was done, or the watch stopped it.
+    /// Counts every variant and measures its error. Whether all was done, or the progress stopped it.
     ///
     /// # Errors
     ///
     /// If the most general variant cannot be run.
-    pub fn pictures(&mut self, watch: &mut dyn Watch) -> Result<bool, TuneError> {
-        if !self.count(watch)? {
+    pub fn pictures(&mut self, progress: &mut dyn Progress) -> Result<bool, TuneError> {
+        if !self.count(progress)? {
             return Ok(false);
         }
         let general = self.prepare(self.space.general())?;
@@ -27,23 +27,23 @@ impl Search {
         if self.reference.is_none() {
             self.reference = Some(picture);
         }
-        if !self.probe_half(watch)? {
+        if !self.probe_half(progress)? {
             return Ok(false);
         }
         let apart: BTreeSet<Variant> = self.entries.iter().map(|e| self.seen_as(e.variant)).collect();
         let apart: Vec<Variant> = apart.into_iter().collect();
         let mut found: BTreeMap<Variant, Result<(f64, usize), String>> = BTreeMap::new();
-        watch.begin("pictures", apart.len());
+        progress.begin("pictures", apart.len());
         let mut finished = true;
         for some in apart.chunks(chunk()) {
-            if watch.stopped() {
+            if progress.stopped() {
                 finished = false;
                 break;
             }
             let judged: Vec<_> = some.par_iter().map(|v| (*v, self.judged(*v))).collect();
             for (variant, result) in judged {
                 found.insert(variant, result);
-                watch.step();
+                progress.step();
             }
         }
         for k in 0..self.entries.len() {
@@ -58,7 +58,7 @@ impl Search {
 
     /// Whether half precision is worth a search here: the most general variant is run in it. Where that is slower, the others
     /// are not run in it. Whether all was done.
-    fn probe_half(&mut self, watch: &mut dyn Watch) -> Result<bool, TuneError> {
+    fn probe_half(&mut self, progress: &mut dyn Progress) -> Result<bool, TuneError> {
         let general = self.space.general();
         let mut precisions = 0..self.space.values(Term::Precision).len();
         let half = precisions.find(|k| self.space.values(Term::Precision)[*k].precision == Precision::F16);
@@ -71,7 +71,7 @@ impl Search {
         let Some(index) = self.index.get(&half).copied() else {
             return Ok(true);
         };
-        if !self.measure(&[index], PROBED, "half precision", watch)? {
+        if !self.measure(&[index], PROBED, "half precision", progress)? {
             return Ok(false);
         }
         match self.entries[index].ratio {

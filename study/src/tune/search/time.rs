@@ -1,10 +1,10 @@
 //! Times of variants: measured of some, predicted of all.
 
 use super::{Search, chunk};
+use crate::progress::Progress;
 use crate::record::Model;
 use crate::tune::features::NAMES;
 use crate::tune::{TuneError, model};
-use crate::watch::Watch;
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 use straightline_testbed::execute::Job;
@@ -19,7 +19,7 @@ impl Search {
     /// # Errors
     ///
     /// If the device fails.
-    pub fn learn(&mut self, watch: &mut dyn Watch) -> Result<bool, TuneError> {
+    pub fn learn(&mut self, progress: &mut dyn Progress) -> Result<bool, TuneError> {
         let usable = self.usable();
         let rows: Vec<Vec<f64>> = usable.iter().filter_map(|k| self.row(*k)).collect();
         let place: BTreeMap<usize, usize> = usable.iter().enumerate().map(|(place, k)| (*k, place)).collect();
@@ -40,7 +40,7 @@ impl Search {
             .map(|k| others[(k * 2 + 1) * others.len() / (2 * others.len().min(TESTED_ON))])
             .collect();
         let both: Vec<usize> = learned.iter().chain(&tested).copied().collect();
-        if !self.measure(&both, (self.question.rounds / 2).max(3), "timing, to learn", watch)? {
+        if !self.measure(&both, (self.question.rounds / 2).max(3), "timing, to learn", progress)? {
             return Ok(false);
         }
         let megapixels = self.megapixels();
@@ -77,15 +77,15 @@ impl Search {
         which: &[usize],
         rounds: u32,
         what: &str,
-        watch: &mut dyn Watch,
+        progress: &mut dyn Progress,
     ) -> Result<bool, TuneError> {
         let mut all: Vec<usize> = std::iter::once(0).chain(which.iter().copied()).collect();
         let mut seen = BTreeSet::new();
         all.retain(|k| seen.insert(*k));
         let fresh: Vec<usize> = all.iter().copied().filter(|k| !self.ready.contains_key(k)).collect();
-        watch.begin("compiling", fresh.len());
+        progress.begin("compiling", fresh.len());
         for some in fresh.chunks(chunk()) {
-            if watch.stopped() {
+            if progress.stopped() {
                 return Ok(false);
             }
             let prepared: Vec<_> = some
@@ -100,7 +100,7 @@ impl Search {
                     }
                     Err(reason) => self.entries[k].refused = Some(reason),
                 }
-                watch.step();
+                progress.step();
             }
         }
         all.retain(|k| self.ready.contains_key(k));
@@ -112,14 +112,14 @@ impl Search {
                 size: self.size,
             })
             .collect();
-        watch.begin(what, rounds as usize);
+        progress.begin(what, rounds as usize);
         let mut complete = false;
         let timed = self.bench.timed(&jobs, rounds, |round| {
             if round > 0 {
-                watch.step();
+                progress.step();
             }
             complete = round == rounds;
-            !watch.stopped()
+            !progress.stopped()
         })?;
         for (job, k) in all.iter().enumerate() {
             self.entries[*k].time = timed.times(job);

@@ -192,7 +192,7 @@ fn parts(text: &str, at: usize) -> Option<(String, String, String, usize)> {
     ))
 }
 
-/// `for x in 0..4 { ... }` without a way out of it: its first iteration, and `for x in 1..4 { ... }`.
+/// `for x in 0..4 { ... }` that nothing leaves: its first iteration, and `for x in 1..4 { ... }`.
 fn peeled(source: &str) -> Option<String> {
     let lines: Vec<&str> = source.lines().collect();
     for (k, line) in lines.iter().enumerate() {

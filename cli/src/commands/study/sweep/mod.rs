@@ -4,7 +4,7 @@ mod environment;
 mod given;
 mod print;
 
-use super::{Progress, circumstances_of};
+use super::{ProgressBars, circumstances_of};
 use crate::args::{CommonArgs, MergeArgs, RecordsArgs, SweepArgs};
 use crate::failure::{Failure, count};
 use crate::gpu::Gpu;
@@ -13,15 +13,15 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::time::Duration;
 use straightline_codegen::{Compiled, Kernel};
 use straightline_manifest::hash_of_text;
+use straightline_study::progress::Progress;
 use straightline_study::record::{Record, SweepRecord};
 use straightline_study::sweep::{self, RESERVED, Rival, Space, Sweep, SweepError};
-use straightline_study::watch::Watch;
 
 /// How long a shader is run at least for one time.
 const LEAST: Duration = Duration::from_millis(40);
 
 /// Measures, writes the record, prints it.
-pub fn run(common: &CommonArgs, args: &SweepArgs, progress: &mut Progress) -> Result<(), Failure> {
+pub fn run(common: &CommonArgs, args: &SweepArgs, progress: &mut ProgressBars) -> Result<(), Failure> {
     let kernel = args
         .source
         .iter()

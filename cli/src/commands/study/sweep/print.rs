@@ -35,7 +35,7 @@ pub fn record(record: &SweepRecord) {
     head.extend([
         "rounds",
         "ms",
-        "times as fast (95 %)",
+        "speedup (95 %)",
         "loops",
         "statements",
         "reads",
@@ -72,7 +72,7 @@ pub fn record(record: &SweepRecord) {
         .map(|(name, value)| format!("{name}={value}"))
         .collect();
     outln!(
-        "\ntimes as fast: as {}, all else equal; median of the rounds, and in which interval it lies with 95 %",
+        "\nspeedup: over {}, all else equal; median of the rounds, and in which interval it lies with 95 %",
         base.join(" ")
     );
     for variant in &record.variants {
@@ -105,7 +105,7 @@ pub fn compared(record: &SweepRecord, compared: &[Compared]) {
         table::render(&head, &compared.iter().map(row).collect::<Vec<_>>())
     );
     outln!(
-        "\nfirst, second: times as fast as the baseline. Of all intervals together 95 % hold what they should, for these two runs: \
+        "\nfirst, second: speedup over the baseline. Of all intervals together 95 % hold what they should, for these two runs: \
          how other runs would differ they do not say."
     );
 }

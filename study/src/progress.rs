@@ -1,7 +1,7 @@
-//! Who looks on while a study runs.
+//! How far a study is, and whether to stop it.
 
-/// Who is told how far a study is, and says whether to stop.
-pub trait Watch {
+/// Is told how far a study is, and says whether to stop.
+pub trait Progress {
     /// `steps` steps of `what` come next.
     fn begin(&mut self, what: &str, steps: usize);
     /// One of them is done.
@@ -10,11 +10,11 @@ pub trait Watch {
     fn stopped(&self) -> bool;
 }
 
-/// Nobody watches.
+/// Shows nothing and never stops a study.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Unwatched;
+pub struct Silent;
 
-impl Watch for Unwatched {
+impl Progress for Silent {
     fn begin(&mut self, _: &str, _: usize) {}
     fn step(&mut self) {}
     fn stopped(&self) -> bool {

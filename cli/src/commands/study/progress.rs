@@ -3,31 +3,31 @@
 use crate::interrupt;
 use crate::scene;
 use indicatif::ProgressBar;
-use straightline_study::watch::Watch;
+use straightline_study::progress::Progress;
 
 /// A bar on stderr, and whether Ctrl-C was pressed.
-pub struct Progress {
+pub struct ProgressBars {
     bar: ProgressBar,
 }
 
-impl Progress {
+impl ProgressBars {
     /// From now on the first Ctrl-C asks the study to stop, and a second one ends the program.
-    pub fn new() -> Progress {
+    pub fn new() -> ProgressBars {
         interrupt::ask();
-        Progress {
+        ProgressBars {
             bar: ProgressBar::hidden(),
         }
     }
 }
 
-impl Progress {
+impl ProgressBars {
     /// Takes the bar away, before something is printed.
     pub fn done(&mut self) {
         self.bar.finish_and_clear();
     }
 }
 
-impl Watch for Progress {
+impl Progress for ProgressBars {
     fn begin(&mut self, what: &str, steps: usize) {
         self.bar.finish_and_clear();
         self.bar = scene::bar(what);
@@ -43,7 +43,7 @@ impl Watch for Progress {
     }
 }
 
-impl Drop for Progress {
+impl Drop for ProgressBars {
     fn drop(&mut self) {
         self.bar.finish_and_clear();
     }

@@ -1,16 +1,16 @@
-//! Arrays of kept loops: values in the graph, variables changed in place in the text.
+//! Arrays of structured loops: values in the graph, variables changed in place in the text.
 //!
 //! All versions of an array that follow from one another by writes, rounds and branches share one variable (a web).
 //! That is right as long as no version is read once the next has been written. Where one is, lowering begins again with
 //! the web cut before the version that came too early: that version then begins a variable of its own with a copy. Literals (`MakeArray`) belong to no web and are copied where one begins.
-//! Where cuts do not help, every version is a variable of its own, which is always right: see [`Webs::apart`].
+//! Where cuts do not help, every version is a variable of its own, which is always right: see [`ArrayCoalescing::apart`].
 
 use crate::emit::ast::VarId;
 use std::collections::{HashMap, HashSet};
 use straightline_evaluator::ir::{Graph, NodeId, Op};
 
-/// Webs of array versions.
-pub struct Webs {
+/// ArrayCoalescing of array versions.
+pub struct ArrayCoalescing {
     parent: Vec<u32>,
     /// Per web in scope: its variable.
     vars: HashMap<u32, VarId>,
@@ -23,14 +23,14 @@ pub struct Webs {
 /// What was in scope and what variables held.
 pub type Snapshot = (HashMap<u32, VarId>, HashMap<u32, NodeId>);
 
-impl Webs {
-    /// Finds the webs of a graph. Versions in `cut` do not share the variable of what they were made from.
-    pub fn new(graph: &Graph, cut: &HashSet<NodeId>) -> Webs {
-        let mut webs = Webs::single(graph);
+impl ArrayCoalescing {
+    /// Finds the coalescing of a graph. Versions in `cut` do not share the variable of what they were made from.
+    pub fn new(graph: &Graph, cut: &HashSet<NodeId>) -> ArrayCoalescing {
+        let mut coalescing = ArrayCoalescing::single(graph);
         for id in graph.ids() {
             let node = graph.node(id);
             if node.op == Op::ArraySet && !cut.contains(&id) {
-                webs.union(graph, id, node.args[0]);
+                coalescing.union(graph, id, node.args[0]);
             }
         }
         for id in graph.ids() {
@@ -41,44 +41,44 @@ impl Webs {
                     for (k, init) in node.args[2..].iter().enumerate() {
                         let param = region.params[k + 1];
                         if !cut.contains(&param) {
-                            webs.union(graph, param, *init);
+                            coalescing.union(graph, param, *init);
                         }
-                        webs.join(graph, param, region.results[k], cut);
+                        coalescing.join(graph, param, region.results[k], cut);
                     }
                 }
                 Op::Result(k) if node.ty.is_array() => match graph.node(node.args[0]).op {
                     // The variable that was carried.
-                    Op::Loop(body) => webs.union(graph, id, graph.region(body).params[*k as usize + 1]),
+                    Op::Loop(body) => coalescing.union(graph, id, graph.region(body).params[*k as usize + 1]),
                     _ if cut.contains(&id) => {}
                     _ => {
                         for region in graph.regions_of(node.args[0]) {
-                            webs.join(graph, id, graph.region(region).results[*k as usize], cut);
+                            coalescing.join(graph, id, graph.region(region).results[*k as usize], cut);
                         }
                     }
                 },
                 _ => {}
             }
         }
-        webs
+        coalescing
     }
 
-    /// Webs of one version each; only what a loop carries is, after the loop, where it was carried. No version is ever
+    /// ArrayCoalescing of one version each; only what a loop carries is, after the loop, where it was carried. No version is ever
     /// read once another has taken its place, so that text can be written for every graph.
-    pub fn apart(graph: &Graph) -> Webs {
-        let mut webs = Webs::single(graph);
+    pub fn apart(graph: &Graph) -> ArrayCoalescing {
+        let mut coalescing = ArrayCoalescing::single(graph);
         for id in graph.ids() {
             let node = graph.node(id);
             if let Op::Result(k) = node.op
                 && let Op::Loop(body) = graph.node(node.args[0]).op
             {
-                webs.union(graph, id, graph.region(body).params[k as usize + 1]);
+                coalescing.union(graph, id, graph.region(body).params[k as usize + 1]);
             }
         }
-        webs
+        coalescing
     }
 
-    fn single(graph: &Graph) -> Webs {
-        Webs {
+    fn single(graph: &Graph) -> ArrayCoalescing {
+        ArrayCoalescing {
             parent: (0..graph.nodes.len() as u32).collect(),
             vars: HashMap::new(),
             current: HashMap::new(),
@@ -146,7 +146,7 @@ impl Webs {
         self.replaced.get(&id).copied()
     }
 
-    /// What every variable holds and which are in scope, to return to with [`Webs::restore`].
+    /// What every variable holds and which are in scope, to return to with [`ArrayCoalescing::restore`].
     pub fn snapshot(&self) -> Snapshot {
         (self.vars.clone(), self.current.clone())
     }
