@@ -128,7 +128,8 @@ fn argument(input: &syn::FnArg) -> String {
         ("cfg", _) => "&Default::default()".to_owned(),
         ("scene", _) => "&Scene { color: &w.color, layers: &w.layers, tint: w.tint, strength: w.strength }".to_owned(),
         ("lights", _) => "&Buffer::new(w.lights.iter().map(|l| Light { position: l.xyz(), kind: l.w as u32, falloff: Falloff { radius: \
-             8.0 + l.x, powers: [l.y, l.z, 0.5] }, turned: w.grade, tints: [l.yxz(), l.zzy()] }).collect())"
+             8.0 + l.x, powers: [l.y, l.z, 0.5] }, turned: w.grade, tints: [l.yxz(), l.zzy()], spots: [Spot { place: l.xy(), strength: l.z }, Spot { place: l.zy(), strength: l.x }] \
+             }).collect())"
             .to_owned(),
         (_, syn::Type::Reference(_)) => format!("&w.{name}"),
         _ => format!("w.{name}"),

@@ -78,6 +78,18 @@ pub fn while_at_run_time(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
     Vec4::splat(count as f32)
 }
 
+//// `while` with a bound on its iterations
+pub fn while_with_a_bound(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
+    let mut x = color.load(pixel).x + 0.1;
+    let mut count = 0;
+    #[cfg_attr(false, bound(12))]
+    while x < 4.0 {
+        x *= 1.5;
+        count += 1;
+    }
+    Vec4::splat(count as f32)
+}
+
 //// `loop` that ends at run time
 pub fn loop_at_run_time(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
     let mut at = pixel;

@@ -146,7 +146,9 @@ impl World {
         let columns = [self.grade.x_axis, self.grade.y_axis, self.grade.z_axis].map(three);
         let tints = [three(l.yxz()), three(l.zzy())];
         let first = [three(l.xyz()), one(l.w.floor())];
-        [&first[..], &falloff[..], &columns[..], &tints[..]].concat()
+        let two = |v: Vec2| v.extend(0.0).extend(0.0).to_array().map(f64::from);
+        let spots = [two(l.xy()), one(l.z), two(l.zy()), one(l.x)];
+        [&first[..], &falloff[..], &columns[..], &tints[..], &spots[..]].concat()
     }
 
     fn inputs(&self) -> execute::Inputs {

@@ -106,7 +106,7 @@ impl Evaluator<'_> {
         let refused = || -> Exit {
             Diagnostic::at(span, format!("`{name}` is nothing that a buffer of `{of}` can hold"))
                 .label("of this type")
-                .help("fields are f32, i32, u32, vectors, matrices, arrays of numbers or vectors, and structures of these")
+                .help("fields are f32, i32, u32, vectors, matrices, structures of these, and arrays of numbers, vectors or structures")
                 .into()
         };
         match ty {
@@ -127,6 +127,19 @@ impl Evaluator<'_> {
                 let SourceType::Name(type_name, _) = &**element else {
                     return Err(refused());
                 };
+                if library.structs.contains_key(type_name) {
+                    for k in 0..self.known_length(len)? {
+                        self.fields_of(of, &format!("{name}_{k}"), element, span, fields)?;
+                    }
+                    if fields.len() > LONGEST as usize {
+                        let message = format!("an element of a buffer has more than {LONGEST} fields");
+                        return Err(Diagnostic::at(span, message)
+                            .label("with those of this array")
+                            .help("keep the array in a buffer of its own")
+                            .into());
+                    }
+                    return Ok(());
+                }
                 let Some(Type::Value { scalar, lanes }) = value_named(type_name) else {
                     return Err(refused());
                 };
@@ -187,29 +200,37 @@ impl Evaluator<'_> {
     }
 
     /// What a type takes of an element, from the field `next` on.
-    fn read_part(&mut self, buffer: u32, element: NodeId, ty: &SourceType, next: &mut u32) -> Eval {
+    fn read_part(&mut self, buffer: u32, index: NodeId, ty: &SourceType, next: &mut u32) -> Eval {
         let library = self.library;
         match ty {
             SourceType::Name(of, _) if library.structs.contains_key(of) => {
                 let mut fields = Vec::new();
                 for (field, ty, _) in &library.structs[of].fields {
-                    fields.push((field.clone(), self.read_part(buffer, element, ty, next)?));
+                    fields.push((field.clone(), self.read_part(buffer, index, ty, next)?));
                 }
                 Ok(Value::structure(of.clone(), fields))
             }
             SourceType::Name(of, _) => match super::matrix::size(of) {
                 Some(n) => {
-                    let columns: Vec<NodeId> = (0..n).map(|_| self.read_field(buffer, element, next, None)).collect();
+                    let columns: Vec<NodeId> = (0..n).map(|_| self.read_field(buffer, index, next, None)).collect();
                     Ok(super::matrix::matrix(&columns))
                 }
-                None => Ok(Value::Node(self.read_field(buffer, element, next, None))),
+                None => Ok(Value::Node(self.read_field(buffer, index, next, None))),
             },
+            SourceType::Array(element, Some(len)) if matches!(&**element, SourceType::Name(of, _) if library.structs.contains_key(of)) =>
+            {
+                let mut parts = Vec::new();
+                for _ in 0..self.known_length(len)? {
+                    parts.push(self.read_part(buffer, index, element, next)?);
+                }
+                Ok(Value::array(parts))
+            }
             SourceType::Array(..) => {
                 let field = *next;
                 let of = self.builder.graph().buffers[buffer as usize].element.field(field);
                 let parts = (0..of.map_or(1, Type::parts)).map(|k| {
                     *next = field;
-                    Value::Node(self.read_field(buffer, element, next, Some(k)))
+                    Value::Node(self.read_field(buffer, index, next, Some(k)))
                 });
                 let parts = parts.collect();
                 Ok(Value::array(parts))

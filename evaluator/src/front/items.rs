@@ -483,6 +483,7 @@ impl Items {
         for name in &reached {
             errors.extend(self.errors.get(name).into_iter().flatten().cloned());
         }
+        errors.extend(super::recursive::check(&self.library));
         if !errors.is_empty() {
             return Err(errors);
         }

@@ -26,6 +26,7 @@ mod parts;
 mod pattern;
 mod purposes;
 mod reach;
+mod recursive;
 mod scan;
 pub mod std;
 mod targets;
