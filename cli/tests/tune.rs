@@ -2,9 +2,10 @@
 
 mod common;
 
-use common::{fails, scratch, straightline};
+use common::{fails, finishes, scratch, straightline};
 use std::path::Path;
 use straightline_manifest::Manifest;
+use straightline_study::record::{Candidate, TuneRecord};
 
 /// Options that leave little to search, so that a test is short.
 const SMALL: [&str; 10] = [
@@ -72,6 +73,62 @@ fn bad_use_is_refused_before_anything_is_drawn() {
     );
     tune(&["--capture", "nowhere", "--max-error", "1"], 1, &["nowhere"]);
     tune(&["--mesh", "nowhere.obj", "--max-error", "1"], 1, &["nowhere.obj"]);
+}
+
+/// Where no such GPU is at hand its compiler is asked: the same cycles every time, of which the least within the budget is chosen.
+#[test]
+fn variants_are_compared_by_the_cycles_of_a_compiler() {
+    let run = |name: &str| {
+        let out = scratch(name);
+        let words = ["--cost", "isa:navi21", "--out", out.to_str().unwrap(), "--json"];
+        let scene = ["tune", "--scene", "floor", "--size", "64x36", "--max-error", "1"];
+        let text = finishes(&[&scene[..], &SMALL, &words].concat());
+        let manifest = std::fs::read_to_string(out.join("sraa-floor.json")).expect("a manifest");
+        let manifest = Manifest::from_json(&manifest).expect("it is one");
+        (serde_json::from_str::<TuneRecord>(&text).expect("a record"), manifest)
+    };
+    let (record, manifest) = run("tune-isa");
+    let gpu = record.compiled_for.clone().expect("a GPU");
+    assert!(gpu.to_lowercase().contains("navi21"), "{gpu}");
+    assert_eq!(record.cost, "isa:navi21");
+    assert!(manifest.tuned.is_some_and(|tuned| tuned.adapter.starts_with(&gpu)));
+    let chosen = &record.candidates[record.chosen.expect("a choice")];
+    let cycles = |c: &Candidate| {
+        c.cycles
+            .filter(|_| c.non_finite == 0 && record.best - c.error <= record.max_error)
+    };
+    let least = record
+        .candidates
+        .iter()
+        .filter_map(cycles)
+        .fold(f64::INFINITY, f64::min);
+    assert_eq!(chosen.cycles, Some(least));
+    assert!(record.candidates.iter().all(|c| c.time.is_none()), "nothing is timed");
+    let general = record.candidates[record.general].cycles.expect("cycles");
+    assert_eq!(chosen.ratio.map(|ratio| ratio.median), Some(general / least));
+    assert!(general > least, "{general} {least}");
+    let (again, _) = run("tune-isa-again");
+    assert_eq!(again.candidates, record.candidates);
+}
+
+#[test]
+fn a_cost_that_there_is_not_is_refused() {
+    let words = [
+        "tune",
+        "--scene",
+        "floor",
+        "--max-error",
+        "1",
+        "--out",
+        "nowhere",
+        "--cost",
+    ];
+    fails(
+        &[&words[..], &["isa:navi99"]].concat(),
+        2,
+        &["no such family", "navi21"],
+    );
+    fails(&[&words[..], &["cycles"]].concat(), 2, &["use `time`, or `isa:FAMILY`"]);
 }
 
 #[test]

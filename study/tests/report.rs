@@ -171,13 +171,16 @@ fn tune() -> TuneRecord {
         reads: 22.0,
         statements: 100.0,
         gbuffer_bytes: 4_000_000,
-        predicted_ms: 10.0,
+        predicted: 10.0,
         time: ms.map(times),
+        cycles: None,
         ratio: ms.map(|ms| ratio(20.0 / ms)),
         front,
     };
     TuneRecord {
         circumstances: circumstances(),
+        cost: "time".to_owned(),
+        compiled_for: None,
         scene: "floor".to_owned(),
         metric: "psnr".to_owned(),
         max_error: 0.5,

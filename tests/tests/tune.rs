@@ -11,7 +11,7 @@ use straightline_kernels::prelude::Frame;
 use straightline_runtime::Pass;
 use straightline_study::progress::{Progress, Silent};
 use straightline_study::record::{Circumstances, TuneRecord};
-use straightline_study::tune::{ErrorMetric, Outcome, PATTERNS, Question, Subject, TuneError, tune};
+use straightline_study::tune::{ErrorMetric, Gauge, Outcome, PATTERNS, Question, Subject, TuneError, tune};
 use straightline_testbed::capture::{Capture, ShadingSample};
 use straightline_testbed::execute::{Clock, interpret};
 use straightline_testbed::render::{CpuRenderer, capture, reference};
@@ -51,7 +51,7 @@ fn renderer(scene: &str) -> CpuRenderer {
 }
 
 fn tuned(subject: Subject, question: &Question) -> Outcome {
-    let found = tune(&bench(), subject, question, circumstances(), &mut Silent);
+    let found = tune(&bench(), subject, question, Gauge::Device, circumstances(), &mut Silent);
     found.unwrap_or_else(|e| panic!("{e}")).expect("nobody stopped it")
 }
 
@@ -200,6 +200,7 @@ fn what_was_measured_before_an_interruption_is_kept() {
             &bench(),
             subject.clone(),
             &budget,
+            Gauge::Device,
             circumstances(),
             &mut StopsAfter(steps),
         )
@@ -233,7 +234,14 @@ fn tuned_steps(subject: &Subject, question: &Question) -> usize {
         }
     }
     let mut steps = Steps(Vec::new());
-    let stopped = tune(&bench(), subject.clone(), question, circumstances(), &mut steps);
+    let stopped = tune(
+        &bench(),
+        subject.clone(),
+        question,
+        Gauge::Device,
+        circumstances(),
+        &mut steps,
+    );
     assert!(stopped.unwrap_or_else(|e| panic!("{e}")).is_none());
     steps.0[0].1
 }
@@ -280,6 +288,7 @@ fn a_budget_that_nothing_keeps_says_what_comes_closest() {
         &bench(),
         Subject::of_capture("frame", broken),
         &budget,
+        Gauge::Device,
         circumstances(),
         &mut Silent,
     );

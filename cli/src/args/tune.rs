@@ -6,7 +6,7 @@ use glam::UVec2;
 use std::path::PathBuf;
 use straightline_codegen::emit::Target;
 use straightline_manifest::Format;
-use straightline_study::tune::ErrorMetric;
+use straightline_study::tune::{Cost, ErrorMetric};
 
 #[derive(Debug, Args)]
 pub struct TuneArgs {
@@ -18,6 +18,10 @@ pub struct TuneArgs {
     /// What errors are measured by: psnr or flip
     #[arg(long, value_name = "METRIC", default_value = "psnr", value_parser = |s: &str| s.parse::<ErrorMetric>())]
     pub metric: ErrorMetric,
+    /// What variants cost: time on the adapter, or isa:navi21, the cycles that Mesa's compiler gives for a GPU that need not be
+    /// there (polaris10, vega10, navi10, navi21, navi31)
+    #[arg(long, value_name = "COST", default_value_t = Cost::Time, value_parser = |s: &str| s.parse::<Cost>())]
+    pub cost: Cost,
     /// Width and height of a scene or model in pixels; by default 640x360. A capture has its own
     #[arg(long, value_name = "WxH", value_parser = size, conflicts_with = "capture")]
     pub size: Option<UVec2>,
@@ -54,6 +58,7 @@ impl TuneArgs {
             },
             max_error: 1.0,
             metric: ErrorMetric::Psnr,
+            cost: Cost::Time,
             size: common.size.or(common.quick.then_some(UVec2::new(320, 180))),
             rounds: common.rounds(),
             set: Vec::new(),

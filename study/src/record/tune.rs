@@ -25,11 +25,15 @@ pub struct Candidate {
     pub statements: f64,
     /// Bytes of G-buffer that it reads.
     pub gbuffer_bytes: u64,
-    /// What the model says that it takes; 0 if there is no model yet.
-    pub predicted_ms: f64,
-    /// What it takes, if it was run.
+    /// What the model says that it takes, in milliseconds, or in cycles where a compiler is asked; 0 if there is no model yet.
+    #[serde(alias = "predicted_ms")]
+    pub predicted: f64,
+    /// What it takes, if it was timed.
     pub time: Option<Times>,
-    /// Speedup over the most general variant, if it was run.
+    /// Cycles of a wave and pixel of its invocations, if a compiler was asked.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cycles: Option<f64>,
+    /// Speedup over the most general variant, if it was measured.
     pub ratio: Option<Ratio>,
     /// Whether no other is both faster and better.
     pub front: bool,
@@ -71,7 +75,7 @@ pub struct Refused {
 /// A model of time, linear in static counts.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Model {
-    /// Counts, and milliseconds for each of them and million pixels.
+    /// Counts, and milliseconds for each of them and million pixels, or cycles for each of them and pixel.
     pub terms: Vec<(String, f64)>,
     /// Variants that it was learned from.
     pub learned_from: usize,
@@ -89,6 +93,12 @@ pub struct TuneRecord {
     /// Circumstances.
     #[serde(flatten)]
     pub circumstances: Circumstances,
+    /// By what variants are compared: `time`, or `isa:` and a family of GPUs whose compiler gives cycles.
+    #[serde(default = "time")]
+    pub cost: String,
+    /// The GPU that is compiled for, and the compiler's version. Pictures, and so errors, are of the adapter all the same.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub compiled_for: Option<String>,
     /// The scene's name, or the capture's path.
     pub scene: String,
     /// `psnr` or `flip`.
@@ -122,6 +132,28 @@ pub struct TuneRecord {
     pub model: Model,
 }
 
+/// What records before there was a choice were measured by.
+fn time() -> String {
+    "time".to_owned()
+}
+
+impl TuneRecord {
+    /// The unit of what variants are compared by.
+    pub fn unit(&self) -> &'static str {
+        match self.compiled_for {
+            Some(_) => "cycles",
+            None => "ms",
+        }
+    }
+}
+
+impl Candidate {
+    /// What it takes, in the record's unit, if it was measured.
+    pub fn measured(&self) -> Option<f64> {
+        self.cycles.or(self.time.map(|time| time.median_ms))
+    }
+}
+
 impl Record for TuneRecord {
     const STEM: &'static str = "tune";
 
@@ -134,8 +166,9 @@ impl Record for TuneRecord {
             "reads",
             "statements",
             "gbuffer_bytes",
-            "predicted_ms",
+            "predicted",
             "median_ms",
+            "cycles",
             "times_as_fast",
             "front",
             "chosen",
@@ -154,8 +187,9 @@ impl Record for TuneRecord {
                 format!("{:.2}", c.reads),
                 format!("{:.2}", c.statements),
                 c.gbuffer_bytes.to_string(),
-                format!("{:.4}", c.predicted_ms),
+                format!("{:.4}", c.predicted),
                 c.time.map_or(String::new(), |t| format!("{:.4}", t.median_ms)),
+                c.cycles.map_or(String::new(), |cycles| format!("{cycles:.2}")),
                 c.ratio.map_or(String::new(), |r| format!("{:.3}", r.median)),
                 c.front.to_string(),
                 (self.chosen == Some(index)).to_string(),

@@ -11,6 +11,9 @@ pub(super) struct Tune {
     scene: String,
     metric: String,
     max_error: f64,
+    unit: &'static str,
+    /// The GPU that cycles are of, and its compiler.
+    compiled_for: Option<String>,
     plot: String,
     front: Vec<Row>,
     chosen: Option<Row>,
@@ -36,7 +39,7 @@ pub(super) struct Tune {
 struct Row {
     name: String,
     error: String,
-    time: String,
+    cost: String,
     ratio: String,
     reads: String,
     bytes: String,
@@ -53,8 +56,8 @@ pub(super) fn section(record: &TuneRecord) -> Result<Tune, ReportError> {
     let mut front: Vec<usize> = (0..record.candidates.len())
         .filter(|k| record.candidates[*k].front)
         .collect();
-    let time = |k: &usize| milliseconds(&record.candidates[*k]);
-    front.sort_by(|a, b| time(a).total_cmp(&time(b)));
+    let cost = |k: &usize| cost(&record.candidates[*k]);
+    front.sort_by(|a, b| cost(a).total_cmp(&cost(b)));
     let percent = |value: f64| format!("{:.1} %", value * 100.0);
     let model = &record.model;
     Ok(Tune {
@@ -62,6 +65,8 @@ pub(super) fn section(record: &TuneRecord) -> Result<Tune, ReportError> {
         scene: record.scene.clone(),
         metric: record.metric.clone(),
         max_error: record.max_error,
+        unit: record.unit(),
+        compiled_for: record.compiled_for.clone(),
         plot: plot(record, &front)?,
         front: front.iter().filter_map(|k| row(*k)).collect(),
         chosen: record.chosen.and_then(row),
@@ -94,7 +99,7 @@ pub(super) fn section(record: &TuneRecord) -> Result<Tune, ReportError> {
         unfiltered: format!("{:.4}", record.unfiltered),
         fixed: options(&record.fixed),
         tried: record.candidates.len(),
-        measured: record.candidates.iter().filter(|c| c.time.is_some()).count(),
+        measured: record.candidates.iter().filter(|c| c.measured().is_some()).count(),
         learned_from: model.learned_from,
         tested_on: model.tested_on,
         mean_error: percent(model.mean_error),
@@ -108,17 +113,17 @@ pub(super) fn section(record: &TuneRecord) -> Result<Tune, ReportError> {
     })
 }
 
-fn milliseconds(candidate: &Candidate) -> f64 {
-    candidate.time.map_or(candidate.predicted_ms, |time| time.median_ms)
+fn cost(candidate: &Candidate) -> f64 {
+    candidate.measured().unwrap_or(candidate.predicted)
 }
 
 fn row(candidate: &Candidate, chosen: bool) -> Row {
     Row {
         name: candidate.name.clone(),
         error: format!("{:.4}", candidate.error),
-        time: match candidate.time {
-            Some(time) => format!("{:.2}", time.median_ms),
-            None => format!("{:.2} (predicted)", candidate.predicted_ms),
+        cost: match candidate.measured() {
+            Some(measured) => format!("{measured:.2}"),
+            None => format!("{:.2} (predicted)", candidate.predicted),
         },
         ratio: candidate.ratio.map_or(String::new(), |r| {
             format!("{:.2} ({:.2} to {:.2})", r.median, r.low, r.high)
@@ -131,9 +136,9 @@ fn row(candidate: &Candidate, chosen: bool) -> Row {
 
 fn plot(record: &TuneRecord, front: &[usize]) -> Result<String, ReportError> {
     let dots = record.candidates.iter().enumerate().map(|(k, candidate)| {
-        let measured = candidate.time.is_some();
+        let measured = candidate.measured().is_some();
         Dot {
-            at: (milliseconds(candidate), candidate.error),
+            at: (cost(candidate), candidate.error),
             spread: None,
             color: match (record.chosen == Some(k), record.general == k, measured) {
                 (true, ..) => 1,
@@ -147,10 +152,11 @@ fn plot(record: &TuneRecord, front: &[usize]) -> Result<String, ReportError> {
                 _ => None,
             },
             title: format!(
-                "{}: {:.4}, {} ms{}",
+                "{}: {:.4}, {} {}{}",
                 candidate.name,
                 candidate.error,
-                number(milliseconds(candidate)),
+                number(cost(candidate)),
+                record.unit(),
                 if measured { "" } else { " (predicted)" }
             ),
         }
@@ -158,11 +164,11 @@ fn plot(record: &TuneRecord, front: &[usize]) -> Result<String, ReportError> {
     let points = front
         .iter()
         .filter_map(|k| record.candidates.get(*k))
-        .map(|c| (milliseconds(c), c.error));
+        .map(|c| (cost(c), c.error));
     let plot = Plot {
         size: (980, 440),
         axes: (
-            "ms".to_owned(),
+            record.unit().to_owned(),
             match record.metric.as_str() {
                 "flip" => "mean FLIP (less is better)".to_owned(),
                 _ => "PSNR in dB (more is better)".to_owned(),

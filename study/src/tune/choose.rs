@@ -60,7 +60,7 @@ impl Search {
         which.retain(|k| usable.contains(k));
         self.finalists = which.clone();
         self.finalists.push(0);
-        self.measure(&which, self.question.rounds, "timing, to decide", progress)
+        self.measure(&which, self.question.rounds, "measuring, to decide", progress)
     }
 
     /// The fastest of those that were measured last and are within the budget; of those that cannot be told from it, the one
@@ -188,6 +188,8 @@ impl Search {
         });
         TuneRecord {
             circumstances,
+            cost: self.gauge.cost().to_string(),
+            compiled_for: self.gauge.compiled_for().map(str::to_owned),
             scene: self.name.clone(),
             metric: self.question.metric.name().to_owned(),
             max_error: self.question.max_error,
@@ -221,8 +223,9 @@ impl Search {
             reads: entry.known.as_ref().map_or(0.0, |known| known.reads),
             statements: entry.known.as_ref().map_or(0.0, |known| known.statements),
             gbuffer_bytes: self.gbuffer_bytes(entry.variant),
-            predicted_ms: entry.predicted,
+            predicted: entry.predicted,
             time: entry.time,
+            cycles: entry.cycles,
             ratio: entry.ratio,
             front: false,
         }
@@ -280,7 +283,10 @@ impl Search {
                 best: record.best,
                 error: error(entry),
                 general: error(&self.entries[0]),
-                adapter: record.circumstances.adapter.clone(),
+                adapter: match &record.compiled_for {
+                    Some(gpu) => format!("{gpu}, by its compiler's cycles, not run"),
+                    None => record.circumstances.adapter.clone(),
+                },
                 times_as_fast: entry.ratio.map_or(1.0, |ratio| ratio.median),
                 left_out: left_out.collect(),
             },

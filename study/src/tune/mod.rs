@@ -1,10 +1,11 @@
 //! The cheapest filter that a scene needs: which terms of SRAA can be left out, what each is worth, and the variant that is
 //! fastest within a budget of error.
 //!
-//! Every variant's error is measured by its picture; time is measured for some, and predicted for all by a model that is
-//! learned from those ([`model`]). What the model finds best is then measured, and chosen by that alone.
+//! Every variant's error is measured by its picture; its cost, which is time or a compiler's cycles ([`Cost`]), is measured for
+//! some, and predicted for all by a model that is learned from those ([`model`]). What the model finds best is then measured, and chosen by that alone.
 
 mod choose;
+mod cost;
 mod features;
 pub mod front;
 pub mod model;
@@ -21,6 +22,7 @@ use std::fmt;
 use std::str::FromStr;
 use straightline_codegen::diagnostic::Errors;
 use straightline_codegen::{Compiled, Precision};
+use straightline_isa::IsaError;
 use straightline_kernels::prelude::Frame;
 use straightline_manifest::Tuned;
 use straightline_testbed::execute::{Bench, ExecuteError};
@@ -28,6 +30,7 @@ use straightline_testbed::gbuffer::GBufferError;
 use straightline_testbed::metrics;
 use straightline_testbed::render::RenderError;
 
+pub use cost::{Cost, Gauge};
 pub use features::{NAMES as COUNTS, Static};
 pub use search::Search;
 pub use space::{Offer, SampleSet, Space, Term, Value, Variant};
@@ -149,6 +152,9 @@ pub enum TuneError {
     /// The most general variant cannot be run, or the device failed.
     #[error(transparent)]
     Execute(#[from] ExecuteError),
+    /// The compiler that is asked for cycles ended.
+    #[error(transparent)]
+    Compiler(#[from] IsaError),
     /// An option is wrong.
     #[error("{0}")]
     Kernel(#[from] Errors),
@@ -174,7 +180,8 @@ pub enum TuneError {
     },
 }
 
-/// Searches the cheapest variant within the budget. `None` if the progress stops it before anything is measured.
+/// Searches the variant within the budget that is the cheapest by `gauge`; errors are those of pictures on the bench's device
+/// all the same. `None` if the progress stops it before anything is measured.
 ///
 /// # Errors
 ///
@@ -183,10 +190,11 @@ pub fn tune(
     bench: &Bench,
     subject: Subject,
     question: &Question,
+    gauge: Gauge,
     circumstances: Circumstances,
     progress: &mut dyn Progress,
 ) -> Result<Option<Outcome>, TuneError> {
-    let mut search = Search::new(bench, subject, question)?;
+    let mut search = Search::new(bench, subject, question, gauge)?;
     let finished = search.pictures(progress)?;
     if !search.has_general() {
         return Ok(None);

@@ -2,6 +2,7 @@
 
 mod print;
 
+use super::study::isa::SERVE;
 use super::study::{ProgressBars, circumstances_of};
 use crate::args::TuneArgs;
 use crate::failure::Failure;
@@ -10,9 +11,10 @@ use crate::scene;
 use glam::UVec2;
 use straightline_codegen::emit::{Emitted, Target};
 use straightline_codegen::{EmitOptions, Kernel, Settings, files};
+use straightline_isa::Compiler;
 use straightline_study::progress::Progress;
 use straightline_study::record::Record;
-use straightline_study::tune::{self, Chosen, PATTERNS, Question, Subject, TuneError};
+use straightline_study::tune::{self, Chosen, Cost, Gauge, PATTERNS, Question, Subject, TuneError};
 use straightline_testbed::capture::Capture;
 use straightline_testbed::gbuffer;
 
@@ -24,6 +26,8 @@ pub fn run(args: &TuneArgs) -> Result<(), Failure> {
     check_options(args)?;
     files::try_folder(&args.out).map_err(Failure::of)?;
     let gpu = Gpu::require(&args.adapter)?;
+    // A compiler that is not there is told of before anything is drawn.
+    let gauge = gauge(args.cost)?;
     let mut progress = ProgressBars::new();
     let Some(subject) = subject(args, &gpu, &mut progress)? else {
         return Err(nothing_measured());
@@ -42,7 +46,7 @@ pub fn run(args: &TuneArgs) -> Result<(), Failure> {
     };
     let stem = stem(&subject.name);
     let circumstances = circumstances_of(&gpu, subject.size(), args.rounds);
-    let found = tune::tune(&gpu.bench(), subject, &question, circumstances, &mut progress).map_err(failure)?;
+    let found = tune::tune(&gpu.bench(), subject, &question, gauge, circumstances, &mut progress).map_err(failure)?;
     drop(progress);
     let Some(outcome) = found else {
         return Err(nothing_measured());
@@ -62,6 +66,15 @@ pub fn run(args: &TuneArgs) -> Result<(), Failure> {
             args.out.display()
         ))),
     }
+}
+
+fn gauge(cost: Cost) -> Result<Gauge, Failure> {
+    let Cost::Isa(family) = cost else {
+        return Ok(Gauge::Device);
+    };
+    let program = std::env::current_exe().map_err(Failure::of)?;
+    let compiler = Compiler::start(&program, &[SERVE], family).map_err(Failure::of)?;
+    Ok(Gauge::Compiler(Box::new(compiler)))
 }
 
 /// What is to be tuned for; `None` if it was stopped before all was drawn.

@@ -16,12 +16,14 @@ pub fn report(args: &TuneArgs, record: &TuneRecord, written: &[PathBuf]) -> Resu
     }
     let metric = args.metric;
     let [width, height] = record.circumstances.size;
-    outln!(
-        "{}, {width}x{height}, {}; {} rounds in turn",
-        record.scene,
-        record.circumstances.adapter,
-        record.circumstances.rounds
-    );
+    let (scene, adapter) = (&record.scene, &record.circumstances.adapter);
+    match &record.compiled_for {
+        Some(gpu) => outln!("{scene}, {width}x{height}, pictures by {adapter}; cycles by the compiler for {gpu}"),
+        None => outln!(
+            "{scene}, {width}x{height}, {adapter}; {} rounds in turn",
+            record.circumstances.rounds
+        ),
+    }
     outln!(
         "{} variants against {}; the best has {}, the unfiltered picture {}\n",
         record.candidates.len(),
@@ -45,13 +47,13 @@ pub fn report(args: &TuneArgs, record: &TuneRecord, written: &[PathBuf]) -> Resu
         outln!("{}", terms(record, metric));
     }
     if record.candidates.iter().any(|c| c.front) {
-        outln!("Of those measured, the front of time against error:\n");
+        outln!("Of those measured, the front of cost against error:\n");
         outln!("{}", front(record, metric));
     }
     let model = &record.model;
     if model.learned_from > 0 {
         outln!(
-            "times were predicted from counts learned on {} variants; on {} others they are off by {:.0} % on average, {:.0} % at most",
+            "costs were predicted from counts learned on {} variants; on {} others they are off by {:.0} % on average, {:.0} % at most",
             model.learned_from,
             model.tested_on,
             100.0 * model.mean_error,
@@ -119,13 +121,14 @@ fn front(record: &TuneRecord, metric: ErrorMetric) -> String {
         vec![
             format!("{}{mark}", c.name),
             metric.show(c.error),
-            c.time.map_or(String::new(), |time| format!("{:.2}", time.median_ms)),
+            c.measured().map_or(String::new(), |cost| format!("{cost:.2}")),
             ratio(c.ratio),
-            format!("{:.2}", c.predicted_ms),
+            format!("{:.2}", c.predicted),
             format!("{:.1}", c.gbuffer_bytes as f64 / 1.0e6),
         ]
     });
-    let headings = ["variant", "error", "ms", "speedup", "predicted ms", "G-buffer MB"];
+    let predicted = format!("predicted {}", record.unit());
+    let headings = ["variant", "error", record.unit(), "speedup", &predicted, "G-buffer MB"];
     table::render(&headings, &rows.collect::<Vec<_>>())
 }
 
@@ -139,7 +142,8 @@ fn lost(cost: f64, metric: ErrorMetric) -> String {
 }
 
 fn ratio(ratio: Option<Ratio>) -> String {
-    ratio.map_or(String::new(), |r| {
-        format!("{:.2} ({:.2} to {:.2})", r.median, r.low, r.high)
+    ratio.map_or(String::new(), |r| match r.low == r.high {
+        true => format!("{:.2}", r.median),
+        false => format!("{:.2} ({:.2} to {:.2})", r.median, r.low, r.high),
     })
 }

@@ -1,6 +1,7 @@
 //! A search under way: every variant, what is known of it, and how it is run.
 
 mod count;
+mod cycles;
 mod pictures;
 mod time;
 
@@ -8,7 +9,7 @@ use super::features::Static;
 use super::space::{Offer, SampleSet, Space, Variant};
 use super::steps::depth_scale;
 use super::subject::Subject;
-use super::{EQUAL_DB, ErrorMetric, Question, Term, TuneError};
+use super::{EQUAL_DB, ErrorMetric, Gauge, Question, Term, TuneError};
 use crate::record::Model;
 use glam::{UVec2, Vec4};
 use std::collections::BTreeMap;
@@ -49,9 +50,11 @@ pub(in crate::tune) struct Entry {
     pub error: Option<Seen>,
     /// Why it cannot be emitted or run.
     pub refused: Option<String>,
-    /// Milliseconds, by the model.
+    /// Milliseconds, or cycles, by the model.
     pub predicted: f64,
     pub time: Option<Times>,
+    /// Where a compiler is asked: cycles of a wave and pixel of its invocations.
+    pub cycles: Option<f64>,
     pub ratio: Option<Ratio>,
 }
 
@@ -63,6 +66,7 @@ pub struct Search {
     pub(in crate::tune) defaults: BTreeMap<String, String>,
     pub(in crate::tune) space: Space,
     pub(in crate::tune) question: Question,
+    pub(in crate::tune) gauge: Gauge,
     pub(in crate::tune) name: String,
     pub(in crate::tune) referred_to: String,
     pub(in crate::tune) size: UVec2,
@@ -88,7 +92,7 @@ impl Search {
     /// # Errors
     ///
     /// If an option is wrong, or the capture lacks what the options need.
-    pub fn new(bench: &Bench, subject: Subject, question: &Question) -> Result<Search, TuneError> {
+    pub fn new(bench: &Bench, subject: Subject, question: &Question, gauge: Gauge) -> Result<Search, TuneError> {
         let kernel = Kernel::builtin("sraa")?;
         let first = subject.captures.first();
         let offer = Offer {
@@ -132,6 +136,7 @@ impl Search {
             refused: None,
             predicted: 0.0,
             time: None,
+            cycles: None,
             ratio: None,
         };
         let entries: Vec<Entry> = space.variants().into_iter().map(entry).collect();
@@ -141,6 +146,7 @@ impl Search {
             defaults: defaults.collect(),
             kernel,
             question: question.clone(),
+            gauge,
             name: subject.name,
             referred_to: subject.referred_to,
             size,

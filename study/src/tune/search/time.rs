@@ -1,10 +1,10 @@
-//! Times of variants: measured of some, predicted of all.
+//! Costs of variants: measured of some, predicted of all.
 
 use super::{Search, chunk};
 use crate::progress::Progress;
 use crate::record::Model;
 use crate::tune::features::NAMES;
-use crate::tune::{TuneError, model};
+use crate::tune::{Gauge, TuneError, model};
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 use straightline_testbed::execute::Job;
@@ -14,7 +14,7 @@ const LEARNED_FROM: usize = 32;
 const TESTED_ON: usize = 12;
 
 impl Search {
-    /// Times some variants, learns from them what a count costs, and tests that on others. Whether all was done.
+    /// Measures some variants, learns from them what a count costs, and tests that on others. Whether all was done.
     ///
     /// # Errors
     ///
@@ -40,12 +40,23 @@ impl Search {
             .map(|k| others[(k * 2 + 1) * others.len() / (2 * others.len().min(TESTED_ON))])
             .collect();
         let both: Vec<usize> = learned.iter().chain(&tested).copied().collect();
-        if !self.measure(&both, (self.question.rounds / 2).max(3), "timing, to learn", progress)? {
+        if !self.measure(
+            &both,
+            (self.question.rounds / 2).max(3),
+            "measuring, to learn",
+            progress,
+        )? {
             return Ok(false);
         }
-        let megapixels = self.megapixels();
+        // Milliseconds grow with the picture, cycles are those of a pixel.
+        let size = self.entries[0].cycles.map_or(self.megapixels(), |_| 1.0);
         // By ratios, round by round, to a shader that ran in every round: a drifting clock is not learned.
-        let general = self.entries[0].time.map_or(0.0, |time| time.median_ms) / megapixels;
+        let general = &self.entries[0];
+        let general = general
+            .cycles
+            .or(general.time.map(|time| time.median_ms))
+            .unwrap_or(0.0)
+            / size;
         let measured = |k: &usize| Some((self.row(*k)?, general / self.entries[*k].ratio?.median));
         let (rows, times): (Vec<_>, Vec<_>) = learned.iter().filter_map(measured).unzip();
         let coefficients = model::learn(&rows, &times);
@@ -58,20 +69,21 @@ impl Search {
                 .map(|n| (*n).to_owned())
                 .zip(coefficients.iter().copied())
                 .collect(),
-            learned_from: learned.iter().filter(|k| self.entries[**k].time.is_some()).count(),
+            learned_from: learned.iter().filter(|k| self.entries[**k].ratio.is_some()).count(),
             tested_on: times.len(),
             mean_error,
             largest_error,
         };
         for k in 0..self.entries.len() {
             if let Some(row) = self.row(k) {
-                self.entries[k].predicted = megapixels * model::predict(&coefficients, &row);
+                self.entries[k].predicted = size * model::predict(&coefficients, &row);
             }
         }
         Ok(true)
     }
 
-    /// Times variants in turn with the most general one, each of which also shows its own picture. Whether all was done.
+    /// Measures variants, and the most general one with them: their times in turn, or cycles. Each also shows its own picture.
+    /// Whether all was done.
     pub(in crate::tune) fn measure(
         &mut self,
         which: &[usize],
@@ -104,6 +116,9 @@ impl Search {
             }
         }
         all.retain(|k| self.ready.contains_key(k));
+        if matches!(self.gauge, Gauge::Compiler(_)) {
+            return self.ask(&all, what, progress);
+        }
         let jobs: Vec<Job<'_>> = all
             .iter()
             .map(|k| Job {

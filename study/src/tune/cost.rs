@@ -1,0 +1,64 @@
+//! What a variant costs: time on the device, or cycles by the compiler of a GPU that need not be there.
+
+use std::fmt;
+use std::str::FromStr;
+use straightline_isa::{Compiler, Family};
+
+/// By what variants are compared.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Cost {
+    /// Time on the device that draws the pictures.
+    #[default]
+    Time,
+    /// Cycles of a wave and pixel of its invocations, as Mesa's compiler gives them for a family of AMD GPUs. Those of loops and
+    /// of what stands behind branches are guesses.
+    Isa(Family),
+}
+
+/// What tells the cost of variants.
+#[derive(Debug)]
+pub enum Gauge {
+    /// The device's clock.
+    Device,
+    /// A compiler, which is asked.
+    Compiler(Box<Compiler>),
+}
+
+impl Gauge {
+    /// As records and the command line call it.
+    pub fn cost(&self) -> Cost {
+        match self {
+            Gauge::Device => Cost::Time,
+            Gauge::Compiler(compiler) => Cost::Isa(compiler.family()),
+        }
+    }
+
+    /// The GPU that is compiled for, and the compiler's version.
+    pub fn compiled_for(&self) -> Option<&str> {
+        match self {
+            Gauge::Device => None,
+            Gauge::Compiler(compiler) => Some(compiler.device()),
+        }
+    }
+}
+
+impl fmt::Display for Cost {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Cost::Time => f.write_str("time"),
+            Cost::Isa(family) => write!(f, "isa:{family}"),
+        }
+    }
+}
+
+impl FromStr for Cost {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Cost, String> {
+        match text.split_once(':') {
+            None if text == "time" => Ok(Cost::Time),
+            Some(("isa", family)) => Ok(Cost::Isa(family.parse()?)),
+            _ => Err("use `time`, or `isa:FAMILY` such as isa:navi21".to_owned()),
+        }
+    }
+}
