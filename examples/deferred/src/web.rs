@@ -6,11 +6,16 @@ use crate::renderer::Renderer;
 use crate::{Failure, picture};
 use std::cell::RefCell;
 use std::rc::Rc;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU32, Ordering};
 use straightline_runtime::wgpu;
 use wasm_bindgen::prelude::*;
 use web_sys::{Element, HtmlCanvasElement, KeyboardEvent, Window};
 use web_time::Instant;
 use wgpu::CurrentSurfaceTexture;
+
+/// Frames that the device may be behind. A browser asks for more than it can draw.
+const AHEAD: u32 = 2;
 
 /// Draws on the page's `<canvas>` until the page is closed, and says in `#state` what frames cost, or what went wrong.
 pub fn start() {
@@ -40,6 +45,8 @@ struct Screen {
     config: wgpu::SurfaceConfiguration,
     renderer: Renderer,
     options: Options,
+    /// Frames that are submitted and not done.
+    under_way: Arc<AtomicU32>,
     started: Instant,
     /// Since when frames are counted, and how many there were.
     counted: (Instant, u32),
@@ -61,10 +68,14 @@ impl Screen {
         surface.configure(&gpu.device, &config);
         let renderer = Renderer::new(&gpu.device, &gpu.queue, options.size, format)?;
         let now = Instant::now();
-        Ok(Screen { gpu, surface, config, renderer, options, started: now, counted: (now, 0) })
+        let under_way = Arc::default();
+        Ok(Screen { gpu, surface, config, renderer, options, under_way, started: now, counted: (now, 0) })
     }
 
     fn draw(&mut self) -> Result<(), Failure> {
+        if self.under_way.load(Ordering::Relaxed) >= AHEAD {
+            return Ok(());
+        }
         let frame = match self.surface.get_current_texture() {
             CurrentSurfaceTexture::Success(frame) | CurrentSurfaceTexture::Suboptimal(frame) => frame,
             // Nothing to draw to now; the next frame may have more luck.
@@ -76,6 +87,11 @@ impl Screen {
         });
         let time = self.options.time.unwrap_or(self.started.elapsed().as_secs_f32());
         self.renderer.draw(time, self.options.sraa, &view)?;
+        self.under_way.fetch_add(1, Ordering::Relaxed);
+        let under_way = Arc::clone(&self.under_way);
+        self.gpu.queue.on_submitted_work_done(move || {
+            under_way.fetch_sub(1, Ordering::Relaxed);
+        });
         self.gpu.queue.present(frame);
         self.count()
     }

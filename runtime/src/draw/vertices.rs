@@ -56,7 +56,10 @@ fn check(plan: &Plan, text: &str, entry_point: &str) -> Result<(), Error> {
             ty: varying.ty.to_string(),
             problem,
         };
-        let Some((binding, ty)) = given.iter().find(|(binding, _)| location(binding) == Some(varying.location)) else {
+        let Some((binding, ty)) = given
+            .iter()
+            .find(|(binding, _)| location(binding) == Some(varying.location))
+        else {
             return Err(wrong(format!(
                 "and `{entry_point}` gives nothing there: have it return `@location({}) {}: {}`",
                 varying.location, varying.name, varying.ty

@@ -59,7 +59,9 @@ impl Layout {
                 )));
             }
             if others[..k].iter().any(|(earlier, _)| earlier == index) {
-                return Err(refused(format!("the vertex shader's bind group {index} is given twice")));
+                return Err(refused(format!(
+                    "the vertex shader's bind group {index} is given twice"
+                )));
             }
         }
         guarded(device, &format!("making the layouts of `{kernel}`"), refused, || {

@@ -350,7 +350,10 @@ fn varyings(manifest: &Manifest) -> Result<Vec<Varying>, String> {
         return Err(format!("location {location} is listed twice"));
     }
     match all.iter().find(|varying| varying.ty.scalar() != Scalar::F32) {
-        Some(varying) => Err(format!("`{}` is of type {}, and floats are interpolated", varying.name, varying.ty)),
+        Some(varying) => Err(format!(
+            "`{}` is of type {}, and floats are interpolated",
+            varying.name, varying.ty
+        )),
         None => Ok(all.clone()),
     }
 }
