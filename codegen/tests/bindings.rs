@@ -116,7 +116,9 @@ fn compiles(folder: &Path, file: &str, text: &str) -> Result<(), String> {
         true => Stage::Compute,
         false => Stage::Fragment,
     };
-    let emitted = compiled.emit(&EmitOptions::new().stage(stage)).map_err(|e| e.to_string())?;
+    let emitted = compiled
+        .emit(&EmitOptions::new().stage(stage))
+        .map_err(|e| e.to_string())?;
     let module = Module {
         name: "shader",
         compiled: &compiled,

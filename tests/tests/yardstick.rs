@@ -246,7 +246,9 @@ fn pcss_draws_the_same_picture() {
     manifest.hashes.clear();
     let draw = |text: &str| {
         let forward = bench.forward_by(&manifest, text, &inputs, &cover(size));
-        bench.picture(&forward.unwrap_or_else(|e| panic!("{e}"))).expect("it is drawn")
+        bench
+            .picture(&forward.unwrap_or_else(|e| panic!("{e}")))
+            .expect("it is drawn")
     };
     let text = String::from_utf8_lossy(&emitted.files[&Target::Wgsl]);
     let (hand, emitted) = (draw(&handwritten("pcss")), draw(&text));

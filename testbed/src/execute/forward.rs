@@ -69,15 +69,16 @@ impl Bench {
             attributes: &attributes,
         })];
         let passing_on = vertex_shader(manifest);
-        let options = DrawOptions::new(&passing_on, "corner")
-            .buffers(&buffers)
-            .depth_stencil(wgpu::DepthStencilState {
-                format: TextureFormat::Depth32Float,
-                depth_write_enabled: Some(true),
-                depth_compare: Some(wgpu::CompareFunction::LessEqual),
-                stencil: Default::default(),
-                bias: Default::default(),
-            });
+        let options =
+            DrawOptions::new(&passing_on, "corner")
+                .buffers(&buffers)
+                .depth_stencil(wgpu::DepthStencilState {
+                    format: TextureFormat::Depth32Float,
+                    depth_write_enabled: Some(true),
+                    depth_compare: Some(wgpu::CompareFunction::LessEqual),
+                    stencil: Default::default(),
+                    bias: Default::default(),
+                });
         let draw = Draw::new(&self.device, manifest, wgsl, &options)?;
         let bound = self.upload(manifest, inputs)?.bind_draw(&draw)?;
         let lanes = corners.iter().flat_map(|corner| {

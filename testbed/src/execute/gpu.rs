@@ -9,7 +9,8 @@ use straightline_codegen::{Compiled, EmitOptions, Format, Precision, Stage};
 use straightline_kernels::prelude::Frame;
 use straightline_manifest::{BindingKind, BufferType, Element, Manifest, REGION, UniformField};
 use straightline_runtime::{
-    BindOptions, Bound, BoundDraw, Draw, Error as RuntimeError, Pass, PassOptions, Region, Resource, Targets, UniformValue,
+    BindOptions, Bound, BoundDraw, Draw, Error as RuntimeError, Pass, PassOptions, Region, Resource, Targets,
+    UniformValue,
 };
 use wgpu::{TextureFormat, TextureUsages};
 
@@ -433,13 +434,7 @@ impl Bench {
     }
 
     /// A storage buffer of elements, or of structures of fields.
-    fn buffer(
-        &self,
-        elements: &[[f64; 4]],
-        element: &Element,
-        fields: &[UniformField],
-        stride: u32,
-    ) -> wgpu::Buffer {
+    fn buffer(&self, elements: &[[f64; 4]], element: &Element, fields: &[UniformField], stride: u32) -> wgpu::Buffer {
         let bytes = match element {
             Element::Value(ty) => convert::element_bytes(elements, *ty),
             Element::Structure(_) => convert::structure_bytes(elements, fields, stride),

@@ -41,7 +41,10 @@ fn triangles(size: UVec2) -> Vec<Corner> {
 fn text_of(emitted: &Emitted) -> (Manifest, String) {
     let mut manifest = emitted.manifest.clone();
     manifest.hashes.clear();
-    (manifest, String::from_utf8_lossy(&emitted.files[&Target::Wgsl]).into_owned())
+    (
+        manifest,
+        String::from_utf8_lossy(&emitted.files[&Target::Wgsl]).into_owned(),
+    )
 }
 
 /// The kernel as a function, and a shader that calls it and then discards fragments where `condition` holds of `pixel`: after the
@@ -49,7 +52,9 @@ fn text_of(emitted: &Emitted) -> (Manifest, String) {
 fn discarding(gpu: &Bench, compiled: &Compiled, condition: &str) -> (Manifest, String) {
     let options = gpu.options(Stage::Fragment);
     let whole = compiled.emit(&options).expect("it is emitted");
-    let function = compiled.emit(&options.form(Form::Function)).expect("it is emitted as a function");
+    let function = compiled
+        .emit(&options.form(Form::Function))
+        .expect("it is emitted as a function");
     let (_, function) = text_of(&function);
     let (mut manifest, _) = text_of(&whole);
     manifest.entry_point = "discarding".to_owned();
@@ -155,7 +160,9 @@ fn coarse_derivatives_spoil_the_picture_and_are_refused() {
         if coarse {
             text = text.replace("dpdxFine", "dpdxCoarse").replace("dpdyFine", "dpdyCoarse");
         }
-        let forward = gpu.forward_by(&manifest, &text, &inputs, &cover()).expect("it can be drawn");
+        let forward = gpu
+            .forward_by(&manifest, &text, &inputs, &cover())
+            .expect("it can be drawn");
         largest(&texels(&gpu.picture(&forward).expect("it is drawn")), &expected)
     };
     assert!(off(false) < 1.0e-6);
