@@ -15,11 +15,15 @@ pub struct Gpu {
 }
 
 impl Gpu {
-    /// A device that can draw to `surface`, with timestamps where they are to be believed.
-    pub async fn new(instance: &wgpu::Instance, surface: Option<&wgpu::Surface<'_>>) -> Result<Gpu, Failure> {
+    /// A device that can draw to `surface`, with timestamps where they are to be believed, or wherever there are any if `always`.
+    pub async fn new(
+        instance: &wgpu::Instance,
+        surface: Option<&wgpu::Surface<'_>>,
+        always: bool,
+    ) -> Result<Gpu, Failure> {
         let options = wgpu::RequestAdapterOptions { compatible_surface: surface, ..Default::default() };
         let adapter = instance.request_adapter(&options).await.map_err(|error| format!("{NO_ADAPTER}: {error}"))?;
-        let timestamps = match is_processor(&adapter) {
+        let timestamps = match is_processor(&adapter) && !always {
             // Software drivers can leave a pass out of the span around it.
             true => wgpu::Features::empty(),
             false => adapter.features() & wgpu::Features::TIMESTAMP_QUERY,
@@ -30,8 +34,9 @@ impl Gpu {
     }
 
     /// Without a surface to draw to.
-    pub async fn headless() -> Result<Gpu, Failure> {
-        Gpu::new(&wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle()), None).await
+    pub async fn headless(always: bool) -> Result<Gpu, Failure> {
+        let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
+        Gpu::new(&instance, None, always).await
     }
 
     /// What a time by the wall clock has in it on this device.

@@ -1,7 +1,8 @@
 //! A small deferred renderer with Subpixel Reconstruction Antialiasing in it.
 //!
 //! `cargo run` opens a window: Space turns SRAA on and off, Escape closes it. `cargo run -- --out picture.png` needs no
-//! window: `--size 1280x720`, `--time 2.5` and `--without-sraa` say what to draw. `web/build` makes a page of it.
+//! window: `--size 1280x720`, `--time 2.5` and `--without-sraa` say what to draw, `--timestamps` to use those of software
+//! drivers too. `web/build` makes a page of it.
 //!
 //! To read: `renderer.rs` has the four passes of a frame in order, `scene.rs` what is drawn, `window.rs`, `web.rs` and
 //! `picture.rs` where it goes, `clock.rs` what it costs.
@@ -48,7 +49,7 @@ fn main() -> Result<(), Failure> {
 /// Saves a picture, and says what such frames cost.
 #[cfg(not(target_arch = "wasm32"))]
 fn save(path: &str, options: &options::Options) -> Result<(), Failure> {
-    let gpu = pollster::block_on(gpu::Gpu::headless())?;
+    let gpu = pollster::block_on(gpu::Gpu::headless(options.timestamps))?;
     let time = options.time.unwrap_or(2.0);
     let mut renderer = renderer::Renderer::new(&gpu.device, &gpu.queue, options.size, picture::FORMAT)?;
     let pixels = pollster::block_on(picture::draw(&gpu, &mut renderer, options.size, time, options.sraa))?;

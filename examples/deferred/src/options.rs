@@ -9,12 +9,14 @@ pub struct Options {
     /// The moment in seconds; otherwise time goes on, and a picture is of second 2.
     pub time: Option<f32>,
     pub sraa: bool,
+    /// Whether the timestamps of software drivers are used too.
+    pub timestamps: bool,
 }
 
 impl Options {
     /// Reads `--name value`.
     pub fn parse(mut arguments: impl Iterator<Item = String>) -> Result<Options, Failure> {
-        let mut options = Options { out: None, size: [960, 540], time: None, sraa: true };
+        let mut options = Options { out: None, size: [960, 540], time: None, sraa: true, timestamps: false };
         while let Some(argument) = arguments.next() {
             let mut value = || arguments.next().ok_or(format!("{argument} needs a value"));
             match argument.as_str() {
@@ -22,8 +24,10 @@ impl Options {
                 "--size" => options.size = parse_size(&value()?)?,
                 "--time" => options.time = Some(value()?.parse()?),
                 "--without-sraa" => options.sraa = false,
+                "--timestamps" => options.timestamps = true,
                 _ => {
-                    return Err(format!("no option {argument}: there are --out, --size, --time and --without-sraa").into());
+                    let there = "--out, --size, --time, --without-sraa and --timestamps";
+                    return Err(format!("no option {argument}: there are {there}").into());
                 }
             }
         }

@@ -32,7 +32,7 @@ pub fn start() {
 #[wasm_bindgen]
 pub async fn picture(width: u32, height: u32, time: f32, sraa: bool) -> Result<Vec<u8>, JsError> {
     let drawn = async {
-        let gpu = Gpu::headless().await?;
+        let gpu = Gpu::headless(false).await?;
         let mut renderer = Renderer::new(&gpu.device, &gpu.queue, [width, height], picture::FORMAT)?;
         picture::draw(&gpu, &mut renderer, [width, height], time, sraa).await
     };
@@ -59,7 +59,7 @@ impl Screen {
         canvas.set_height(height);
         let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
         let surface = instance.create_surface(wgpu::SurfaceTarget::Canvas(canvas))?;
-        let gpu = Gpu::new(&instance, Some(&surface)).await?;
+        let gpu = Gpu::new(&instance, Some(&surface), options.timestamps).await?;
         let config = surface.get_default_config(&gpu.adapter, width, height);
         let mut config = config.ok_or("the adapter cannot draw to this canvas")?;
         // The renderer gives linear colours; the format converts them.

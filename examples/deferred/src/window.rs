@@ -21,6 +21,7 @@ pub fn run(options: &Options) -> Result<(), Failure> {
     let mut application = Application {
         size: options.size,
         time: options.time,
+        timestamps: options.timestamps,
         sraa: options.sraa,
         started: Instant::now(),
         screen: None,
@@ -35,6 +36,7 @@ struct Application {
     size: Size,
     /// Where it stands still.
     time: Option<f32>,
+    timestamps: bool,
     sraa: bool,
     started: Instant,
     /// From the first moment that there can be one.
@@ -53,12 +55,12 @@ struct Screen {
 }
 
 impl Screen {
-    fn new(events: &ActiveEventLoop, [width, height]: Size) -> Result<Self, Failure> {
+    fn new(events: &ActiveEventLoop, [width, height]: Size, timestamps: bool) -> Result<Self, Failure> {
         let attributes = Window::default_attributes().with_inner_size(PhysicalSize::new(width, height));
         let window = Arc::new(events.create_window(attributes)?);
         let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
         let surface = instance.create_surface(window.clone())?;
-        let gpu = pollster::block_on(Gpu::new(&instance, Some(&surface)))?;
+        let gpu = pollster::block_on(Gpu::new(&instance, Some(&surface), timestamps))?;
         let size = window.inner_size();
         let mut config = surface
             .get_default_config(&gpu.adapter, size.width.max(1), size.height.max(1))
@@ -105,7 +107,7 @@ impl Screen {
 impl ApplicationHandler for Application {
     fn resumed(&mut self, events: &ActiveEventLoop) {
         if self.screen.is_none() {
-            match Screen::new(events, self.size) {
+            match Screen::new(events, self.size, self.timestamps) {
                 Ok(screen) => self.screen = Some(screen),
                 Err(failure) => self.fail(events, failure),
             }

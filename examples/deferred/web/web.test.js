@@ -68,6 +68,17 @@ test("the canvas is drawn, and the page says what a frame costs", async () => {
   await page.close();
 });
 
+test("timestamps come without waiting", async () => {
+  // The runtime's Timer on a driver whose timestamps are not worth much: what is tried is that they arrive.
+  const page = await open(`size=${SIZE.join("x")}&time=2&timestamps`);
+  const said = await says(page, /SRAA on .* ms on the GPU, .* ms of them SRAA/);
+  console.log(`  ${said}`);
+  const [all, sraa] = [...said.matchAll(MS)].slice(-2).map((found) => Number(found[1]));
+  assert.ok(sraa > 0 && sraa <= all && all < 10_000, said);
+  assert.deepEqual(page.problems, []);
+  await page.close();
+});
+
 /** Mean and maximum of the differences of colours, in 8 bits, and the share of pixels that differ by more than 2. */
 async function compared(page, sraa, file) {
   const png = (await readFile(file)).toString("base64");
