@@ -5,16 +5,16 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use straightline_codegen::emit::{self, Module};
-use straightline_codegen::{EmitOptions, Kernel, Settings};
+use straightline_codegen::{EmitOptions, Kernel, Settings, Stage};
 
 /// As much of the runtime as bindings name.
 const RUNTIME: &str = r#"
 pub mod wgpu {
-    pub struct Device; pub struct Queue; pub struct CommandEncoder;
+    pub struct Device; pub struct Queue; pub struct CommandEncoder; pub struct RenderPass<'a>(&'a ());
     #[derive(Debug)] pub struct TextureView; #[derive(Debug)] pub struct Sampler; #[derive(Debug)] pub struct Buffer;
     pub struct BindGroupLayoutDescriptor<'a> { pub label: Option<&'a str>, pub entries: &'a [BindGroupLayoutEntry] }
     pub struct BindGroupLayoutEntry { pub binding: u32, pub visibility: ShaderStages, pub ty: BindingType, pub count: Option<u32> }
-    pub struct ShaderStages; impl ShaderStages { pub const COMPUTE: ShaderStages = ShaderStages; }
+    pub struct ShaderStages; impl ShaderStages { pub const COMPUTE: ShaderStages = ShaderStages; pub const FRAGMENT: ShaderStages = ShaderStages; }
     pub struct BufferSize; impl BufferSize { pub const fn new(_: u64) -> Option<BufferSize> { None } }
     pub enum BindingType {
         Buffer { ty: BufferBindingType, has_dynamic_offset: bool, min_binding_size: Option<BufferSize> },
@@ -47,6 +47,18 @@ pub struct Region;
 #[derive(Debug)] pub struct Bound;
 impl Bound {
     pub fn encode(&self, _: &mut wgpu::CommandEncoder) {}
+    pub fn write_uniform<T>(&self, _: &wgpu::Queue, _: &str, _: T) -> Result<(), Error> { Ok(()) }
+    pub fn write_uniforms(&self, _: &wgpu::Queue, _: &[u8]) -> Result<(), Error> { Ok(()) }
+}
+pub struct DrawOptions<'a>(&'a ());
+#[derive(Debug)] pub struct Draw;
+impl Draw {
+    pub fn from_json(_: &wgpu::Device, _: &str, _: &str, _: &DrawOptions<'_>) -> Result<Draw, Error> { Ok(Draw) }
+    pub fn bind_with(&self, _: &[(&str, Resource<'_>)], _: &BindOptions<'_>) -> Result<BoundDraw, Error> { Ok(BoundDraw) }
+}
+#[derive(Debug)] pub struct BoundDraw;
+impl BoundDraw {
+    pub fn set(&self, _: &mut wgpu::RenderPass<'_>) {}
     pub fn write_uniform<T>(&self, _: &wgpu::Queue, _: &str, _: T) -> Result<(), Error> { Ok(()) }
     pub fn write_uniforms(&self, _: &wgpu::Queue, _: &[u8]) -> Result<(), Error> { Ok(()) }
 }
@@ -99,7 +111,14 @@ fn runtime(folder: &Path) {
 fn compiles(folder: &Path, file: &str, text: &str) -> Result<(), String> {
     let compiled = Kernel::from_text("kernel.rs", text, "k").compile(&Settings::default());
     let compiled = compiled.map_err(|e| e.to_string())?;
-    let emitted = compiled.emit(&EmitOptions::new()).map_err(|e| e.to_string())?;
+    // What is interpolated is so in a fragment shader.
+    let stage = match compiled.graph.varyings.is_empty() {
+        true => Stage::Compute,
+        false => Stage::Fragment,
+    };
+    let emitted = compiled
+        .emit(&EmitOptions::new().stage(stage))
+        .map_err(|e| e.to_string())?;
     let module = Module {
         name: "shader",
         compiled: &compiled,
@@ -139,6 +158,14 @@ fn bindings_compile_whatever_is_read() {
             let step = (pixel.x & 3) as usize;
             let turned = turns[1] * palette[step].xy() * weights[2];
             (grade * palette[2]).extend(turned.x + turned.y)
+        }",
+        // Drawn behind a vertex shader: with all, and with nothing to read but what is interpolated.
+        "pub fn k(shadow: &DepthTexture, compare: &ComparisonSampler, bias: f32, coord: Quad<Vec3>, shade: Quad<f32>) -> Quad<Vec4> {
+            let lit = shadow.compare(compare, coord.truncate(), coord.z() - bias);
+            Vec4::ONE * (lit * shade).average()
+        }",
+        "pub fn k(place: Quad<Vec2>) -> Quad<Vec4> {
+            Vec4::ONE * place.average().x()
         }",
     ];
     for (k, text) in reads.into_iter().enumerate() {

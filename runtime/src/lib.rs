@@ -2,7 +2,7 @@
 //!
 //! A [`Pass`] is made once, from a shader's WGSL text and the manifest that the generator wrote beside it. Binding it takes texture
 //! views, samplers and buffers by name, and a target, and checks them; the [`Bound`] that it gives is recorded every frame, which cannot
-//! fail and costs what a hand-written wgpu pass does. Nothing here creates a device, submits, or owns a texture, but for
+//! fail and costs what a hand-written wgpu pass does. A [`Draw`] is the same for triangles of the caller's. Nothing here creates a device, submits, or owns a texture, but for
 //! [`Quads::detect`], which asks a device what its pixel quads can do.
 //!
 //! ```no_run
@@ -44,7 +44,7 @@
 //! - Compute: one invocation a pixel, in workgroups that tile the target; an invocation outside of it returns. The
 //!   result goes to a write-only storage texture.
 //! - Fragment: the module holds the fragment entry point only, with the result at location 0. This crate brings the
-//!   vertex shader of a triangle that covers the target.
+//!   vertex shader of a triangle that covers the target; a [`Draw`] has the caller's, which gives what the kernel has interpolated.
 //! - Textures are `texture_2d<f32>`, `texture_2d_array<f32>`, `texture_multisampled_2d<f32>` or `texture_depth_2d`, of
 //!   the target's size unless the manifest says that any will do. They are read texel by texel, or through a
 //!   `sampler` or `sampler_comparison`.
@@ -54,6 +54,7 @@
 
 mod bind;
 mod bound;
+mod draw;
 mod error;
 mod guard;
 mod inputs;
@@ -73,6 +74,7 @@ mod timer;
 mod uniforms;
 
 pub use bound::Bound;
+pub use draw::{BoundDraw, Draw, DrawOptions, VertexShader};
 pub use error::{BufferProblem, Error, Names, SamplerProblem, ViewProblem};
 pub use options::{BindOptions, PassOptions};
 pub use pass::Pass;

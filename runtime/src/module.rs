@@ -1,6 +1,7 @@
 //! Shader modules: of WGSL, which wgpu checks, and of SPIR-V, which it hands to the driver as it is.
 
 use crate::guard::guarded;
+use crate::pass::check_varyings;
 use crate::plan::Plan;
 use crate::{Error, Pass, PassOptions, loops};
 use straightline_manifest::Manifest;
@@ -107,6 +108,7 @@ impl Pass {
         options: &PassOptions,
     ) -> Result<Self, Error> {
         let plan = Plan::new(manifest)?;
+        check_varyings(&plan)?;
         if let Some((group, binding, free)) = plan.hole() {
             return Err(Error::Pipeline {
                 kernel: plan.kernel,

@@ -62,6 +62,7 @@ impl Pass {
         options: &PassOptions,
     ) -> Result<Self, Error> {
         let plan = Plan::new(manifest)?;
+        check_varyings(&plan)?;
         check_hash(manifest, wgsl)?;
         reflect::check(&plan, wgsl)?;
         let source = Source::Wgsl {
@@ -130,7 +131,7 @@ impl Pass {
 
 /// Refuses a text that is not the one that the manifest was written for, though it may bind the same. A manifest without a
 /// hash of it claims nothing.
-fn check_hash(manifest: &Manifest, wgsl: &str) -> Result<(), Error> {
+pub(crate) fn check_hash(manifest: &Manifest, wgsl: &str) -> Result<(), Error> {
     let found = straightline_manifest::hash_of_text(wgsl);
     match manifest.hashes.get("wgsl") {
         Some(wanted) if *wanted != found => Err(Error::Hash {
@@ -142,19 +143,27 @@ fn check_hash(manifest: &Manifest, wgsl: &str) -> Result<(), Error> {
     }
 }
 
+/// Refuses a shader that needs triangles.
+pub(crate) fn check_varyings(plan: &Plan) -> Result<(), Error> {
+    match plan.varyings.first() {
+        None => Ok(()),
+        Some(first) => Err(Error::Pipeline {
+            kernel: plan.kernel.clone(),
+            description: format!(
+                "its `{}` is interpolated, and a pass has no vertices to interpolate between: draw your triangles with it by \
+                 `Draw`, or generate it for compute, where it is read from a texture",
+                first.name
+            ),
+        }),
+    }
+}
+
 /// Refuses what a shader needs and the device, or this crate, does not have.
-fn check_features(device: &Device, manifest: &Manifest) -> Result<(), Error> {
+pub(crate) fn check_features(device: &Device, manifest: &Manifest) -> Result<(), Error> {
     let refused = |description: String| Error::Pipeline {
         kernel: manifest.kernel.clone(),
         description,
     };
-    if let Some(first) = manifest.varyings.first() {
-        return Err(refused(format!(
-            "its `{}` is interpolated, and a pass has no vertices to interpolate between: draw it in a render pipeline of \
-             your own, or generate it for compute, where it is read from a texture",
-            first.name
-        )));
-    }
     for feature in &manifest.features {
         let (needed, why) = match feature.as_str() {
             "subgroup" => (

@@ -54,36 +54,83 @@ impl Pipeline {
                 Pipeline::Compute { pipeline, workgroup }
             }
             StagePlan::Fragment => {
-                let targets: Vec<_> = formats.iter().map(|format| Some((*format).into())).collect();
-                let pipeline = guarded(device, &doing, refused, || {
-                    let fullscreen = device.create_shader_module(wgpu::include_wgsl!("fullscreen.wgsl"));
-                    device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-                        label,
-                        layout: Some(&layout.pipeline),
-                        vertex: wgpu::VertexState {
-                            module: &fullscreen,
-                            entry_point: Some("fullscreen"),
-                            compilation_options: wgpu::PipelineCompilationOptions::default(),
-                            buffers: &[],
-                        },
-                        primitive: wgpu::PrimitiveState::default(),
-                        depth_stencil: None,
-                        multisample: wgpu::MultisampleState::default(),
-                        fragment: Some(wgpu::FragmentState {
-                            module: &module,
-                            entry_point: Some(&plan.entry_point),
-                            compilation_options: wgpu::PipelineCompilationOptions::default(),
-                            targets: &targets,
-                        }),
-                        multiview_mask: None,
-                        cache: None,
-                    })
+                let cover = guarded(device, &doing, refused, || {
+                    device.create_shader_module(wgpu::include_wgsl!("fullscreen.wgsl"))
                 })?;
+                let side = VertexSide {
+                    module: &cover,
+                    entry_point: "fullscreen",
+                    buffers: &[],
+                    primitive: wgpu::PrimitiveState::default(),
+                    depth_stencil: None,
+                    multisample: wgpu::MultisampleState::default(),
+                    blend: None,
+                };
+                let pipeline = render_pipeline(device, plan, layout, (side, &module), formats)?;
                 Pipeline::Render(pipeline)
             }
         };
         Ok((pipeline, start.elapsed()))
     }
+}
+
+/// All of a render pipeline but its fragment shader.
+pub(crate) struct VertexSide<'a> {
+    pub(crate) module: &'a wgpu::ShaderModule,
+    pub(crate) entry_point: &'a str,
+    pub(crate) buffers: &'a [Option<wgpu::VertexBufferLayout<'a>>],
+    pub(crate) primitive: wgpu::PrimitiveState,
+    pub(crate) depth_stencil: Option<wgpu::DepthStencilState>,
+    pub(crate) multisample: wgpu::MultisampleState,
+    /// Of every target.
+    pub(crate) blend: Option<wgpu::BlendState>,
+}
+
+/// A pipeline that draws with the plan's fragment shader to targets of `formats`.
+pub(crate) fn render_pipeline(
+    device: &Device,
+    plan: &Plan,
+    layout: &Layout,
+    (side, fragment): (VertexSide<'_>, &wgpu::ShaderModule),
+    formats: &[TextureFormat],
+) -> Result<wgpu::RenderPipeline, Error> {
+    let kernel = &plan.kernel;
+    let targets: Vec<_> = formats
+        .iter()
+        .map(|format| {
+            Some(wgpu::ColorTargetState {
+                blend: side.blend,
+                ..(*format).into()
+            })
+        })
+        .collect();
+    let refused = |description| Error::Pipeline {
+        kernel: kernel.clone(),
+        description,
+    };
+    guarded(device, &format!("compiling `{kernel}`"), refused, || {
+        device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            label: Some(kernel),
+            layout: Some(&layout.pipeline),
+            vertex: wgpu::VertexState {
+                module: side.module,
+                entry_point: Some(side.entry_point),
+                compilation_options: wgpu::PipelineCompilationOptions::default(),
+                buffers: side.buffers,
+            },
+            primitive: side.primitive,
+            depth_stencil: side.depth_stencil,
+            multisample: side.multisample,
+            fragment: Some(wgpu::FragmentState {
+                module: fragment,
+                entry_point: Some(&plan.entry_point),
+                compilation_options: wgpu::PipelineCompilationOptions::default(),
+                targets: &targets,
+            }),
+            multiview_mask: None,
+            cache: None,
+        })
+    })
 }
 
 /// The formats that the pipeline is to write: those asked for, if the shader and the device can.

@@ -63,24 +63,65 @@ fn entry_point(plan: &Plan, module: &Module) -> Result<(), String> {
             entry.workgroup_size
         )),
         StagePlan::Compute { .. } => Ok(()),
-        StagePlan::Fragment => colours(plan, module, entry),
+        StagePlan::Fragment => varyings(plan, module, entry).and_then(|()| colours(plan, module, entry)),
+    }
+}
+
+/// What has a location in a value that an entry point takes or gives, itself or as members of a structure.
+pub(crate) fn located(
+    module: &Module,
+    binding: &Option<naga::Binding>,
+    ty: naga::Handle<naga::Type>,
+) -> Vec<(naga::Binding, naga::Handle<naga::Type>)> {
+    let members = match &module.types[ty].inner {
+        TypeInner::Struct { members, .. } => members.as_slice(),
+        _ => &[],
+    };
+    let members = members.iter().map(|member| (&member.binding, member.ty));
+    std::iter::once((binding, ty))
+        .chain(members)
+        .filter_map(|(binding, ty)| match binding {
+            Some(found @ naga::Binding::Location { .. }) => Some((found.clone(), ty)),
+            _ => None,
+        })
+        .collect()
+}
+
+/// What a fragment shader has interpolated is what the manifest lists.
+fn varyings(plan: &Plan, module: &Module, entry: &naga::EntryPoint) -> Result<(), String> {
+    let arguments = entry.function.arguments.iter();
+    let found: Vec<_> = arguments.flat_map(|a| located(module, &a.binding, a.ty)).collect();
+    for varying in &plan.varyings {
+        let at = |binding: &naga::Binding| matches!(binding, naga::Binding::Location { location, .. } if *location == varying.location);
+        let fits = found
+            .iter()
+            .any(|(binding, ty)| at(binding) && is_type(&module.types[*ty].inner, varying.ty));
+        if !fits {
+            return Err(format!(
+                "it takes no `{}` of type {} at location {}",
+                varying.name, varying.ty, varying.location
+            ));
+        }
+    }
+    match found.len() > plan.varyings.len() {
+        true => Err(format!(
+            "it takes {} interpolated values, and the manifest lists {}",
+            found.len(),
+            plan.varyings.len()
+        )),
+        false => Ok(()),
     }
 }
 
 /// The locations of a fragment shader's colours are those of the manifest, and of the same kind and number of components.
 fn colours(plan: &Plan, module: &Module, entry: &naga::EntryPoint) -> Result<(), String> {
-    let mut found: Vec<(u32, naga::Handle<naga::Type>)> = Vec::new();
-    let mut see = |binding: &Option<naga::Binding>, ty| {
-        if let Some(naga::Binding::Location { location, .. }) = binding {
-            found.push((*location, ty));
-        }
-    };
-    if let Some(result) = &entry.function.result {
-        see(&result.binding, result.ty);
-        if let TypeInner::Struct { members, .. } = &module.types[result.ty].inner {
-            members.iter().for_each(|member| see(&member.binding, member.ty));
-        }
-    }
+    let result = entry.function.result.as_ref();
+    let given = result.map_or_else(Vec::new, |result| located(module, &result.binding, result.ty));
+    let given = given.into_iter().filter_map(|(binding, ty)| match binding {
+        naga::Binding::Location { location, .. } => Some((location, ty)),
+        naga::Binding::BuiltIn(_) => None,
+    });
+    let mut found: Vec<(u32, naga::Handle<naga::Type>)> = given.collect();
     found.sort_unstable_by_key(|(location, _)| *location);
     let fits = |(k, output): (usize, &OutputPlan)| {
         let Some((location, ty)) = found.get(k) else {
@@ -292,7 +333,7 @@ fn check_uniform(module: &Module, plan: &UniformPlan) -> Result<(), String> {
     }
 }
 
-fn is_type(inner: &TypeInner, ty: ValueType) -> bool {
+pub(crate) fn is_type(inner: &TypeInner, ty: ValueType) -> bool {
     let (components, scalar) = match *inner {
         TypeInner::Scalar(scalar) => (1, scalar),
         TypeInner::Vector { size, scalar } => (size as u8, scalar),

@@ -3,7 +3,7 @@
 use crate::Error;
 use crate::guard::{LossProbe, guarded};
 use std::collections::VecDeque;
-use std::sync::mpsc;
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 use wgpu::{CommandEncoder, Device, Queue};
 
@@ -31,10 +31,14 @@ pub struct Timer {
 /// Timestamps on their way back.
 #[derive(Debug)]
 struct Batch {
-    spans: u32,
     /// A buffer of its own, so that what was never submitted still reads as zeros. None if there are no spans.
     readback: Option<wgpu::Buffer>,
+    /// What the device said to the request to map it; nothing yet while it works. None before it is asked.
+    mapping: Option<Answer>,
 }
+
+/// Filled by the callback of a mapping.
+type Answer = Arc<Mutex<Option<Result<(), wgpu::BufferAsyncError>>>>;
 
 /// Two timestamps that will be written where a pass begins and ends.
 #[derive(Debug)]
@@ -166,13 +170,16 @@ impl Timer {
                 Some(buffer)
             }
         };
-        self.batches.push_back(Batch { spans, readback });
+        self.batches.push_back(Batch {
+            readback,
+            mapping: None,
+        });
         self.used = 0;
         Ok(())
     }
 
     /// How long each span of the oldest unread [`resolve`](Self::resolve) took, in the order they were recorded.
-    /// Waits until the device has run them.
+    /// Waits until the device has run them. In a browser nothing waits: see [`try_read`](Self::try_read).
     ///
     /// A timestamp is as fine as the device makes it; a span too short for it is zero.
     ///
@@ -182,55 +189,83 @@ impl Timer {
     /// submitted yet, after which reading can be tried again; [`Error::DeviceLost`]; [`Error::TimerRead`].
     /// If the driver loses the device during the very wait, wgpu 30 panics in `Device::poll`.
     pub fn read(&mut self) -> Result<Vec<Duration>, Error> {
-        let doing = "reading a timer";
-        self.loss_probe.check(&self.device, doing)?;
-        let Some(batch) = self.batches.front() else {
-            return Err(Error::TimerNotResolved);
-        };
-        let durations = match &batch.readback {
-            None => Vec::new(),
-            Some(buffer) => {
-                let ticks = self.fetch(buffer, batch.spans).inspect_err(|_| buffer.unmap())?;
-                buffer.unmap();
-                if ticks.contains(&[0, 0]) {
-                    return Err(Error::TimerNotSubmitted);
-                }
-                ticks
-                    .into_iter()
-                    .map(|[begin, end]| self.duration(end.saturating_sub(begin)))
-                    .collect()
+        match self.after(wgpu::PollType::wait_indefinitely())? {
+            Some(durations) => Ok(durations),
+            None => {
+                self.forget_mapping();
+                Err(failed("the buffer was not mapped".to_owned()))
             }
-        };
-        self.batches.pop_front();
-        Ok(durations)
+        }
     }
 
-    /// Begin and end of each span, in ticks. Leaves `buffer` mapped.
-    fn fetch(&self, buffer: &wgpu::Buffer, spans: u32) -> Result<Vec<[u64; 2]>, Error> {
+    /// [`read`](Self::read) without waiting: `None` as long as the device has not run the spans. Call it once a frame, say, after the
+    /// encoder that was given to [`resolve`](Self::resolve) is submitted, not before: from the first call on, wgpu refuses to submit it.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`read`](Self::read).
+    pub fn try_read(&mut self) -> Result<Option<Vec<Duration>>, Error> {
+        self.after(wgpu::PollType::Poll)
+    }
+
+    /// Asks for the oldest batch, lets the device work, and takes the batch if it has come.
+    fn after(&mut self, poll: wgpu::PollType) -> Result<Option<Vec<Duration>>, Error> {
         let doing = "reading a timer";
-        let (sender, receiver) = mpsc::channel();
-        guarded(&self.device, doing, failed, || {
-            buffer.map_async(wgpu::MapMode::Read, .., move |result| {
-                // The receiver is gone only if waiting failed, and then nobody wants to know.
-                let _ = sender.send(result);
-            });
-        })?;
-        let polled = self.device.poll(wgpu::PollType::wait_indefinitely());
-        polled.map_err(|error| failed(error.to_string()))?;
-        match receiver.try_recv() {
-            Ok(Ok(())) => {}
-            Ok(Err(error)) => {
+        self.loss_probe.check(&self.device, doing)?;
+        let batch = self.batches.front_mut().ok_or(Error::TimerNotResolved)?;
+        let Some(buffer) = batch.readback.clone() else {
+            self.batches.pop_front();
+            return Ok(Some(Vec::new()));
+        };
+        let answer = match &batch.mapping {
+            Some(answer) => Arc::clone(answer),
+            None => {
+                let answer = Answer::default();
+                let told = Arc::clone(&answer);
+                guarded(&self.device, doing, failed, || {
+                    buffer.map_async(wgpu::MapMode::Read, .., move |result| {
+                        *told.lock().unwrap_or_else(PoisonError::into_inner) = Some(result);
+                    });
+                })?;
+                batch.mapping = Some(Arc::clone(&answer));
+                answer
+            }
+        };
+        if let Err(error) = self.device.poll(poll) {
+            self.forget_mapping();
+            return Err(failed(error.to_string()));
+        }
+        let answered = answer.lock().unwrap_or_else(PoisonError::into_inner).take();
+        match answered {
+            None => return Ok(None),
+            Some(Ok(())) => {}
+            Some(Err(error)) => {
+                self.forget_mapping();
                 self.loss_probe.check(&self.device, doing)?;
                 return Err(failed(error.to_string()));
             }
-            Err(_) => return Err(failed("the buffer was not mapped".to_owned())),
         }
-        let bytes = buffer.get_mapped_range(..).map_err(|error| failed(error.to_string()))?;
-        let (words, _) = bytes.as_chunks::<8>();
-        let ticks: Vec<u64> = words.iter().map(|word| u64::from_le_bytes(*word)).collect();
-        let (pairs, _) = ticks.as_chunks::<2>();
-        debug_assert_eq!(pairs.len(), spans as usize);
-        Ok(pairs.to_vec())
+        let ticks = ticks(&buffer);
+        self.forget_mapping();
+        let ticks = ticks?;
+        if ticks.contains(&[0, 0]) {
+            return Err(Error::TimerNotSubmitted);
+        }
+        self.batches.pop_front();
+        let durations = ticks
+            .into_iter()
+            .map(|[begin, end]| self.duration(end.saturating_sub(begin)));
+        Ok(Some(durations.collect()))
+    }
+
+    /// Unmaps the oldest batch, so that it can be submitted, or asked for again.
+    fn forget_mapping(&mut self) {
+        if let Some(batch) = self.batches.front_mut()
+            && let Some(buffer) = &batch.readback
+            && batch.mapping.take().is_some()
+        {
+            buffer.unmap();
+        }
     }
 
     fn duration(&self, ticks: u64) -> Duration {
@@ -238,6 +273,15 @@ impl Timer {
         // Out of range only for a nonsensical difference of centuries.
         Duration::try_from_secs_f64(seconds).unwrap_or(Duration::MAX)
     }
+}
+
+/// Begin and end of each span in a mapped buffer, in ticks.
+fn ticks(buffer: &wgpu::Buffer) -> Result<Vec<[u64; 2]>, Error> {
+    let bytes = buffer.get_mapped_range(..).map_err(|error| failed(error.to_string()))?;
+    let (words, _) = bytes.as_chunks::<8>();
+    let ticks: Vec<u64> = words.iter().map(|word| u64::from_le_bytes(*word)).collect();
+    let (pairs, _) = ticks.as_chunks::<2>();
+    Ok(pairs.to_vec())
 }
 
 fn failed(description: String) -> Error {

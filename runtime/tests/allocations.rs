@@ -4,10 +4,14 @@ mod common;
 
 use allocation_counter::{AllocationInfo, measure};
 use common::{COPY, Fixture, Gpu, STAGES, Stage, view};
-use straightline_runtime::{Bound, Pass, wgpu};
+use straightline_runtime::{Bound, Draw, DrawOptions, Pass, wgpu};
 use wgpu::{TextureFormat, TextureUsages, TextureView};
 
 const SIZE: [u32; 2] = [16, 8];
+
+const COVER: &str = "@vertex fn cover(@builtin(vertex_index) k: u32) -> @builtin(position) vec4f {
+    return vec4f(f32(k & 1u) * 4.0 - 1.0, f32(k >> 1u) * 4.0 - 1.0, 0.0, 1.0);
+}";
 
 /// As much of what a pass does as one would write without it.
 enum Handwritten {
@@ -53,14 +57,11 @@ impl Handwritten {
                 Handwritten::Compute(pipeline, group)
             }
             Stage::Fragment => {
-                let cover = "@vertex fn cover(@builtin(vertex_index) k: u32) -> @builtin(position) vec4f {
-                    return vec4f(f32(k & 1u) * 4.0 - 1.0, f32(k >> 1u) * 4.0 - 1.0, 0.0, 1.0);
-                }";
                 let pipeline = gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
                     label: None,
                     layout: None,
                     vertex: wgpu::VertexState {
-                        module: &module(cover),
+                        module: &module(COVER),
                         entry_point: None,
                         compilation_options: Default::default(),
                         buffers: &[],
@@ -95,26 +96,33 @@ impl Handwritten {
                 pass.dispatch_workgroups(SIZE[0] / 8, SIZE[1] / 8, 1);
             }
             Handwritten::Render(pipeline, group, target) => {
-                let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-                    label: Some("copy"),
-                    color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                        view: target,
-                        depth_slice: None,
-                        resolve_target: None,
-                        ops: wgpu::Operations {
-                            load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
-                            store: wgpu::StoreOp::Store,
-                        },
-                    })],
-                    ..Default::default()
+                render(encoder, target, |pass| {
+                    pass.set_pipeline(pipeline);
+                    pass.set_bind_group(0, group, &[]);
                 });
-                pass.set_pipeline(pipeline);
-                pass.set_bind_group(0, group, &[]);
-                pass.set_scissor_rect(0, 0, SIZE[0], SIZE[1]);
-                pass.draw(0..3, 0..1);
             }
         }
     }
+}
+
+/// One triangle over all of `target`, with what `set` sets.
+fn render(encoder: &mut wgpu::CommandEncoder, target: &TextureView, set: impl FnOnce(&mut wgpu::RenderPass<'_>)) {
+    let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+        label: Some("copy"),
+        color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+            view: target,
+            depth_slice: None,
+            resolve_target: None,
+            ops: wgpu::Operations {
+                load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
+                store: wgpu::StoreOp::Store,
+            },
+        })],
+        ..Default::default()
+    });
+    set(&mut pass);
+    pass.set_scissor_rect(0, 0, SIZE[0], SIZE[1]);
+    pass.draw(0..3, 0..1);
 }
 
 /// What is allocated while one frame is recorded.
@@ -123,6 +131,26 @@ fn frame(gpu: &Gpu, record: impl FnOnce(&mut wgpu::CommandEncoder)) -> Allocatio
     let info = measure(|| record(&mut encoder));
     gpu.submit(encoder);
     info
+}
+
+/// Records both often enough that what is allocated once only does not count, and compares.
+fn same(
+    gpu: &Gpu,
+    ours: impl Fn(&mut wgpu::CommandEncoder),
+    handwritten: impl Fn(&mut wgpu::CommandEncoder),
+    what: &str,
+) {
+    for _ in 0..3 {
+        frame(gpu, &ours);
+        frame(gpu, &handwritten);
+    }
+    let [ours, theirs] = [frame(gpu, ours), frame(gpu, handwritten)];
+    assert!(theirs.count_total > 0, "wgpu allocates, and it is seen");
+    assert_eq!(
+        (ours.count_total, ours.bytes_total),
+        (theirs.count_total, theirs.bytes_total),
+        "{what}"
+    );
 }
 
 #[test]
@@ -135,20 +163,23 @@ fn a_frame_allocates_what_wgpu_does() {
         let pass = Pass::from_json(&gpu.device, &manifest, &wgsl).expect("a pass");
         let bound: Bound = pass.bind(&[("color", &color)], &target).expect("to bind");
         let handwritten = Handwritten::new(&gpu, stage, &color, &target);
-        // What is allocated once only does not count.
-        for _ in 0..3 {
-            frame(&gpu, |encoder| bound.encode(encoder));
-            frame(&gpu, |encoder| handwritten.encode(encoder));
-        }
-        let [ours, theirs] = [
-            frame(&gpu, |encoder| bound.encode(encoder)),
-            frame(&gpu, |encoder| handwritten.encode(encoder)),
-        ];
-        assert!(theirs.count_total > 0, "wgpu allocates, and it is seen");
-        assert_eq!(
-            (ours.count_total, ours.bytes_total),
-            (theirs.count_total, theirs.bytes_total),
-            "{stage:?}"
+        same(
+            &gpu,
+            |encoder| bound.encode(encoder),
+            |encoder| handwritten.encode(encoder),
+            stage.name(),
         );
     }
+    let Fixture { manifest, wgsl } = COPY.emit(Stage::Fragment);
+    let target = view(&gpu.target(SIZE));
+    let options = DrawOptions::new(COVER, "cover");
+    let draw = Draw::from_json(&gpu.device, &manifest, &wgsl, &options).expect("it fits");
+    let bound = draw.bind(&[("color", &color)]).expect("to bind");
+    let handwritten = Handwritten::new(&gpu, Stage::Fragment, &color, &target);
+    same(
+        &gpu,
+        |encoder| render(encoder, &target, |pass| bound.set(pass)),
+        |encoder| handwritten.encode(encoder),
+        "drawn",
+    );
 }

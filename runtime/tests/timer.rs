@@ -79,6 +79,43 @@ fn batches_are_kept_apart() {
 }
 
 #[test]
+fn spans_come_without_waiting() {
+    let gpu = timing_gpu();
+    let mut timer = Timer::new(&gpu.device, &gpu.queue, 2).expect("a timer");
+    assert!(matches!(timer.try_read(), Err(Error::TimerNotResolved)));
+    let pass = pass(&gpu, Stage::Compute);
+    let size = [1024, 1024];
+    let (color, target) = (view(&gpu.upload(size, 1, &ramp(size, 1))), view(&gpu.target(size)));
+    let bound = pass.bind(&[("color", &color)], &target).expect("to bind");
+    for count in [2, 0, 1] {
+        let mut encoder = gpu.encoder();
+        for _ in 0..count {
+            bound.encode_timed(&mut encoder, &mut timer).expect("to encode");
+        }
+        timer.resolve(&mut encoder).expect("to resolve");
+        gpu.submit(encoder);
+    }
+    for count in [2, 0, 1] {
+        let start = Instant::now();
+        let spans = loop {
+            match timer.try_read().expect("timestamps") {
+                Some(spans) => break spans,
+                None => assert!(start.elapsed() < Duration::from_secs(60), "they never come"),
+            }
+        };
+        assert_eq!(spans.len(), count);
+        assert!(spans.iter().all(|span| *span > Duration::ZERO), "{spans:?}");
+    }
+    // What was not submitted is not there, and can be read later.
+    let mut encoder = gpu.encoder();
+    bound.encode_timed(&mut encoder, &mut timer).expect("to encode");
+    timer.resolve(&mut encoder).expect("to resolve");
+    assert!(matches!(timer.read(), Err(Error::TimerNotSubmitted)));
+    gpu.submit(encoder);
+    assert_eq!(timer.read().expect("timestamps").len(), 1);
+}
+
+#[test]
 fn a_timer_needs_its_feature_and_a_sensible_capacity() {
     let plain = Gpu::new();
     let error = Timer::new(&plain.device, &plain.queue, 1).expect_err("no feature");

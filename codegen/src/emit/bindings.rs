@@ -97,6 +97,68 @@ fn module(module: &Module<'_>) -> TokenStream {
             }
         }
     });
+    let pairs_given = quote! { let inputs: [(&str, Resource<'_>); #count] = [#(#pairs),*]; };
+    let runs = match manifest.varyings.is_empty() {
+        false => drawing(manifest, &(used, parameters_ty, pairs_given, options), &setters),
+        true => quote! {
+                /// The shader on a device: make it once, and bind it to what it reads and writes.
+                #[derive(Debug)]
+                pub struct Pass(straightline_runtime::Pass);
+
+                impl Pass {
+                    /// Compiles the shader.
+                    ///
+                    /// # Errors
+                    ///
+                    /// If the device cannot run it or is lost.
+                    pub fn new(device: &wgpu::Device) -> Result<Self, Error> {
+                        straightline_runtime::Pass::from_json(device, MANIFEST, WGSL).map(Self)
+                    }
+
+                    /// Binds the shader: from `inputs` to the target.
+                    ///
+                    /// # Errors
+                    ///
+                    /// If an input or the target does not fit, naming it.
+                    pub fn bind(
+                        &self,
+                        #used,
+                        #parameters_ty
+                        #target_ty,
+                    ) -> Result<Bound, Error> {
+                        #pairs_given
+                        self.0.bind_with(&inputs, #target, &#options).map(Bound)
+                    }
+
+                    #region
+
+                    /// The pass itself, to ask what it binds.
+                    #[must_use]
+                    pub fn inner(&self) -> &straightline_runtime::Pass {
+                        &self.0
+                    }
+                }
+
+                /// The shader with what it reads and writes: encode it every frame.
+                #[derive(Debug)]
+                pub struct Bound(straightline_runtime::Bound);
+
+                impl Bound {
+                    /// Records the shader.
+                    pub fn encode(&self, encoder: &mut wgpu::CommandEncoder) {
+                        self.0.encode(encoder);
+                    }
+
+                    #setters
+
+                    /// What is bound itself, for timing it.
+                    #[must_use]
+                    pub fn inner(&self) -> &straightline_runtime::Bound {
+                        &self.0
+                    }
+                }
+        },
+    };
     quote! {
         #(#[doc = #docs])*
         // A caller uses the part that it needs, and a struct of one reference is passed as one of many is.
@@ -118,61 +180,73 @@ fn module(module: &Module<'_>) -> TokenStream {
 
             #elements
 
-            /// The shader on a device: make it once, and bind it to what it reads and writes.
-            #[derive(Debug)]
-            pub struct Pass(straightline_runtime::Pass);
+            #runs
+        }
+    }
+}
 
-            impl Pass {
-                /// Compiles the shader.
-                ///
-                /// # Errors
-                ///
-                /// If the device cannot run it or is lost.
-                pub fn new(device: &wgpu::Device) -> Result<Self, Error> {
-                    straightline_runtime::Pass::from_json(device, MANIFEST, WGSL).map(Self)
-                }
+/// A kernel that has values interpolated, as its bindings draw it: behind a vertex shader of the caller's. `given` is how inputs
+/// and uniforms are taken and passed on.
+fn drawing(
+    manifest: &Manifest,
+    (used, parameters, pairs, options): &(TokenStream, TokenStream, TokenStream, TokenStream),
+    setters: &TokenStream,
+) -> TokenStream {
+    let members = manifest.varyings.iter();
+    let members: String = members
+        .map(|v| format!("@location({}) {}: {},\n", v.location, v.name, v.ty))
+        .collect();
+    quote! {
+        /// What the vertex shader must give, as members of a structure in WGSL.
+        pub const VARYINGS: &str = #members;
 
-                /// Binds the shader: from `inputs` to the target.
-                ///
-                /// # Errors
-                ///
-                /// If an input or the target does not fit, naming it.
-                pub fn bind(
-                    &self,
-                    #used,
-                    #parameters_ty
-                    #target_ty,
-                ) -> Result<Bound, Error> {
-                    let inputs: [(&str, Resource<'_>); #count] = [#(#pairs),*];
-                    self.0.bind_with(&inputs, #target, &#options).map(Bound)
-                }
+        /// The shader on a device, behind a vertex shader: make it once, and bind it to what it reads.
+        #[derive(Debug)]
+        pub struct Draw(straightline_runtime::Draw);
 
-                #region
-
-                /// The pass itself, to ask what it binds.
-                #[must_use]
-                pub fn inner(&self) -> &straightline_runtime::Pass {
-                    &self.0
-                }
+        impl Draw {
+            /// Compiles the shader, and the vertex shader of `options`, which gives [`VARYINGS`].
+            ///
+            /// # Errors
+            ///
+            /// If they do not fit together, the device cannot run them or is lost.
+            pub fn new(device: &wgpu::Device, options: &straightline_runtime::DrawOptions<'_>) -> Result<Self, Error> {
+                straightline_runtime::Draw::from_json(device, MANIFEST, WGSL, options).map(Self)
             }
 
-            /// The shader with what it reads and writes: encode it every frame.
-            #[derive(Debug)]
-            pub struct Bound(straightline_runtime::Bound);
+            /// Binds the shader to what it reads.
+            ///
+            /// # Errors
+            ///
+            /// If an input does not fit, naming it.
+            pub fn bind(&self, #used, #parameters) -> Result<BoundDraw, Error> {
+                #pairs
+                self.0.bind_with(&inputs, &#options).map(BoundDraw)
+            }
 
-            impl Bound {
-                /// Records the shader.
-                pub fn encode(&self, encoder: &mut wgpu::CommandEncoder) {
-                    self.0.encode(encoder);
-                }
+            /// What is drawn itself, to ask what it binds.
+            #[must_use]
+            pub fn inner(&self) -> &straightline_runtime::Draw {
+                &self.0
+            }
+        }
 
-                #setters
+        /// The shader with what it reads: set it in a render pass, and draw triangles.
+        #[derive(Debug)]
+        pub struct BoundDraw(straightline_runtime::BoundDraw);
 
-                /// What is bound itself, for timing it.
-                #[must_use]
-                pub fn inner(&self) -> &straightline_runtime::Bound {
-                    &self.0
-                }
+        impl BoundDraw {
+            /// Sets the pipeline and the shader's bind group; vertices and draw calls are the caller's.
+            pub fn set(&self, pass: &mut wgpu::RenderPass<'_>) {
+                self.0.set(pass);
+            }
+
+            #setters
+
+            /// What is bound itself.
+            #[must_use]
+            pub fn inner(&self) -> &straightline_runtime::BoundDraw {
+                &self.0
             }
         }
     }

@@ -1,15 +1,21 @@
 //! A small deferred renderer with Subpixel Reconstruction Antialiasing in it.
 //!
 //! `cargo run` opens a window: Space turns SRAA on and off, Escape closes it. `cargo run -- --out picture.png` needs no
-//! window: `--size 1280x720`, `--time 2.5` and `--without-sraa` say what to draw.
+//! window: `--size 1280x720`, `--time 2.5` and `--without-sraa` say what to draw, `--timestamps` to use those of software
+//! drivers too. `web/build` makes a page of it.
 //!
-//! To read: `renderer.rs` has the four passes of a frame in order, `scene.rs` what is drawn, `window.rs` and
-//! `picture.rs` where it goes.
+//! To read: `renderer.rs` has the four passes of a frame in order, `scene.rs` what is drawn, `window.rs`, `web.rs` and
+//! `picture.rs` where it goes, `clock.rs` what it costs.
 
+mod clock;
+mod gpu;
+mod options;
 mod picture;
 mod renderer;
 mod scene;
-#[cfg(feature = "window")]
+#[cfg(target_arch = "wasm32")]
+mod web;
+#[cfg(all(feature = "window", not(target_arch = "wasm32")))]
 mod window;
 
 /// What `build.rs` made: a module for each kernel.
@@ -23,39 +29,50 @@ type Failure = Box<dyn std::error::Error>;
 /// Width and height in pixels.
 type Size = [u32; 2];
 
+#[cfg(target_arch = "wasm32")]
+fn main() {
+    web::start();
+}
+
+#[cfg(not(target_arch = "wasm32"))]
 fn main() -> Result<(), Failure> {
-    let mut arguments = std::env::args().skip(1);
-    let (mut out, mut size, mut time, mut sraa) = (None, [960, 540], 2.0, true);
-    while let Some(argument) = arguments.next() {
-        let mut value = || arguments.next().ok_or(format!("{argument} needs a value"));
-        match argument.as_str() {
-            "--out" => out = Some(value()?),
-            "--size" => size = parse_size(&value()?)?,
-            "--time" => time = value()?.parse()?,
-            "--without-sraa" => sraa = false,
-            _ => {
-                return Err(format!("no option {argument}: there are --out, --size, --time and --without-sraa").into());
-            }
-        }
-    }
-    match out {
-        Some(path) => {
-            let pixels = picture::draw(size, time, sraa)?;
-            image::save_buffer(&path, &pixels, size[0], size[1], image::ColorType::Rgba8)?;
-            println!("{path}");
-            Ok(())
-        }
+    let options = options::Options::parse(std::env::args().skip(1))?;
+    match &options.out {
+        Some(path) => save(path, &options),
         #[cfg(feature = "window")]
-        None => window::run(size, sraa),
+        None => window::run(&options),
         #[cfg(not(feature = "window"))]
         None => Err("built without the feature `window`: name a picture with --out FILE.png".into()),
     }
 }
 
-fn parse_size(text: &str) -> Result<Size, Failure> {
-    let sides = text.split_once('x').and_then(|(w, h)| Some([w.parse().ok()?, h.parse().ok()?]));
-    match sides {
-        Some(size) if size.iter().all(|side| (1..=8192).contains(side)) => Ok(size),
-        _ => Err(format!("{text} is not a size such as 1280x720, up to 8192x8192").into()),
+/// Saves a picture, and says what such frames cost.
+#[cfg(not(target_arch = "wasm32"))]
+fn save(path: &str, options: &options::Options) -> Result<(), Failure> {
+    let gpu = pollster::block_on(gpu::Gpu::headless(options.timestamps))?;
+    let time = options.time.unwrap_or(2.0);
+    let mut renderer = renderer::Renderer::new(&gpu.device, &gpu.queue, options.size, picture::FORMAT)?;
+    let pixels = pollster::block_on(picture::draw(&gpu, &mut renderer, options.size, time, options.sraa))?;
+    image::save_buffer(path, &pixels, options.size[0], options.size[1], image::ColorType::Rgba8)?;
+    // The frame before has the drivers' compiling in it.
+    renderer.clock.take()?;
+    let target = picture::target(&gpu, options.size).create_view(&Default::default());
+    let mut until_done = Vec::new();
+    for _ in 0..FRAMES {
+        let begun = web_time::Instant::now();
+        renderer.draw(time, options.sraa, &target)?;
+        gpu.device.poll(straightline_runtime::wgpu::PollType::wait_indefinitely())?;
+        until_done.push(begun.elapsed());
     }
+    until_done.sort();
+    println!("{path}");
+    if let Some(costs) = renderer.clock.take()? {
+        let median = until_done[FRAMES / 2].as_secs_f64() * 1e3;
+        println!("a frame, of {FRAMES}: {costs}; {median:.2} ms until it is done, {}", gpu.clock());
+    }
+    Ok(())
 }
+
+/// Frames that are timed one by one.
+#[cfg(not(target_arch = "wasm32"))]
+const FRAMES: usize = 15;

@@ -1,35 +1,48 @@
 //! A frame without a window, as bytes.
 
+use crate::gpu::Gpu;
 use crate::renderer::Renderer;
 use crate::{Failure, Size};
+use std::future::poll_fn;
+use std::sync::{Arc, Mutex, PoisonError};
+use std::task::{Poll, Waker};
 use straightline_runtime::wgpu;
 use wgpu::TextureFormat;
 
-/// What one can say about a machine on which there is no adapter.
-pub const NO_ADAPTER: &str = "no GPU adapter: install a Vulkan driver (a software one is in Debian's mesa-vulkan-drivers)";
+pub const FORMAT: TextureFormat = TextureFormat::Rgba8UnormSrgb;
 
-/// The frame at `time` seconds: four bytes a pixel, sRGB, rows from the top.
-pub fn draw(size: Size, time: f32, sraa: bool) -> Result<Vec<u8>, Failure> {
-    let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
-    let adapter = pollster::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions::default()))
-        .map_err(|error| format!("{NO_ADAPTER}: {error}"))?;
-    let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor::default()))?;
-    let mut renderer = Renderer::new(&device, &queue, size, FORMAT)?;
-    frame(&device, &queue, &mut renderer, size, time, sraa)
-}
-
-const FORMAT: TextureFormat = TextureFormat::Rgba8UnormSrgb;
-
-/// Draws a frame and reads it back.
-fn frame(
-    device: &wgpu::Device,
-    queue: &wgpu::Queue,
+/// Draws the frame at `time` seconds and reads it back: four bytes a pixel, sRGB, rows from the top.
+pub async fn draw(
+    gpu: &Gpu,
     renderer: &mut Renderer,
-    [width, height]: Size,
+    size: Size,
     time: f32,
     sraa: bool,
 ) -> Result<Vec<u8>, Failure> {
-    let target = device.create_texture(&wgpu::TextureDescriptor {
+    let target = target(gpu, size);
+    renderer.draw(time, sraa, &target.create_view(&wgpu::TextureViewDescriptor::default()))?;
+
+    let [width, height] = size;
+    let row = (width * 4).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
+    let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
+        label: None,
+        size: u64::from(row) * u64::from(height),
+        usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
+        mapped_at_creation: false,
+    });
+    let layout = wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(row), rows_per_image: None };
+    let copy = wgpu::TexelCopyBufferInfo { buffer: &buffer, layout };
+    let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+    encoder.copy_texture_to_buffer(target.as_image_copy(), copy, target.size());
+    gpu.queue.submit([encoder.finish()]);
+    map(gpu, &buffer).await?;
+    let mapped = buffer.get_mapped_range(..)?;
+    Ok(mapped.chunks_exact(row as usize).flat_map(|line| line[..width as usize * 4].to_vec()).collect())
+}
+
+/// Something to draw to that can be read back.
+pub fn target(gpu: &Gpu, [width, height]: Size) -> wgpu::Texture {
+    gpu.device.create_texture(&wgpu::TextureDescriptor {
         label: None,
         size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
         mip_level_count: 1,
@@ -38,25 +51,35 @@ fn frame(
         format: FORMAT,
         usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
         view_formats: &[],
-    });
-    renderer.draw(time, sraa, &target.create_view(&wgpu::TextureViewDescriptor::default()))?;
+    })
+}
 
-    let row = (width * 4).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
-    let buffer = device.create_buffer(&wgpu::BufferDescriptor {
-        label: None,
-        size: u64::from(row) * u64::from(height),
-        usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
-        mapped_at_creation: false,
+/// What the device said, and who waits for it.
+type Answer = Arc<Mutex<(Option<Result<(), wgpu::BufferAsyncError>>, Option<Waker>)>>;
+
+/// Maps a buffer for reading. Where there are threads this one waits in `poll`; a browser goes on meanwhile.
+async fn map(gpu: &Gpu, buffer: &wgpu::Buffer) -> Result<(), Failure> {
+    let answer = Answer::default();
+    let told = Arc::clone(&answer);
+    buffer.map_async(wgpu::MapMode::Read, .., move |result| {
+        let mut told = told.lock().unwrap_or_else(PoisonError::into_inner);
+        told.0 = Some(result);
+        if let Some(waker) = told.1.take() {
+            waker.wake();
+        }
     });
-    let layout = wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(row), rows_per_image: None };
-    let copy = wgpu::TexelCopyBufferInfo { buffer: &buffer, layout };
-    let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-    encoder.copy_texture_to_buffer(target.as_image_copy(), copy, target.size());
-    queue.submit([encoder.finish()]);
-    buffer.map_async(wgpu::MapMode::Read, .., |_| {});
-    device.poll(wgpu::PollType::wait_indefinitely())?;
-    let mapped = buffer.get_mapped_range(..)?;
-    Ok(mapped.chunks_exact(row as usize).flat_map(|line| line[..width as usize * 4].to_vec()).collect())
+    gpu.device.poll(wgpu::PollType::wait_indefinitely())?;
+    let mapped = poll_fn(|context| {
+        let mut answer = answer.lock().unwrap_or_else(PoisonError::into_inner);
+        match answer.0.take() {
+            Some(result) => Poll::Ready(result),
+            None => {
+                answer.1 = Some(context.waker().clone());
+                Poll::Pending
+            }
+        }
+    });
+    Ok(mapped.await?)
 }
 
 #[cfg(test)]
@@ -72,13 +95,11 @@ mod tests {
 
     #[test]
     fn one_renderer_draws_frames_of_changing_size_with_and_without() {
-        let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
-        let adapter = pollster::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions::default()));
-        let adapter = adapter.unwrap_or_else(|error| panic!("{NO_ADAPTER}: {error}"));
-        let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor::default())).unwrap();
-        let mut renderer = Renderer::new(&device, &queue, [320, 180], FORMAT).unwrap();
+        let gpu = pollster::block_on(Gpu::headless(false)).unwrap();
+        let mut renderer = Renderer::new(&gpu.device, &gpu.queue, [320, 180], FORMAT).unwrap();
+        let mut frame = |size, time, sraa| pollster::block_on(draw(&gpu, &mut renderer, size, time, sraa)).unwrap();
         for size in [[320, 180], [201, 133], [1, 1], [320, 180]] {
-            let [with, without] = [true, false].map(|sraa| frame(&device, &queue, &mut renderer, size, 2.0, sraa).unwrap());
+            let [with, without] = [true, false].map(|sraa| frame(size, 2.0, sraa));
             assert_eq!(with.len(), (size[0] * size[1] * 4) as usize);
             assert!(size == [1, 1] || with != without, "SRAA changes nothing at {size:?}");
             let (smooth, hard) = (steps(&with, size[0]), steps(&without, size[0]));
@@ -86,7 +107,32 @@ mod tests {
             assert!(smooth > hard / 2 || size == [1, 1], "SRAA blurs {hard} edges to {smooth} at {size:?}");
         }
         // The scene turns.
-        let [now, later] = [2.0, 2.5].map(|time| frame(&device, &queue, &mut renderer, [320, 180], time, true).unwrap());
+        let [now, later] = [2.0, 2.5].map(|time| frame([320, 180], time, true));
         assert!(now != later);
+    }
+
+    /// On a device with timestamps, whatever they are worth there, and on one that is the processor without.
+    #[test]
+    fn frames_are_timed() {
+        let devices = [false, true].map(|always| pollster::block_on(Gpu::headless(always)).unwrap());
+        assert!(devices[1].device.features().contains(wgpu::Features::TIMESTAMP_QUERY), "every Vulkan driver has them");
+        for gpu in devices {
+            let timestamps = gpu.device.features().contains(wgpu::Features::TIMESTAMP_QUERY);
+            let mut renderer = Renderer::new(&gpu.device, &gpu.queue, [320, 180], FORMAT).unwrap();
+            assert!(renderer.clock.take().unwrap().is_none(), "nothing was drawn");
+            for sraa in [true, false] {
+                // More than are waited for.
+                for _ in 0..12 {
+                    pollster::block_on(draw(&gpu, &mut renderer, [320, 180], 2.0, sraa)).unwrap();
+                }
+                let costs = renderer.clock.take().unwrap().unwrap();
+                assert!(!costs.recorded.is_zero());
+                assert_eq!(costs.device.is_some(), timestamps);
+                if let Some((all, of_sraa)) = costs.device {
+                    assert_eq!(of_sraa.is_some(), sraa);
+                    assert!(of_sraa.is_none_or(|part| part <= all), "{costs}");
+                }
+            }
+        }
     }
 }

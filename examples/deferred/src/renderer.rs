@@ -1,11 +1,13 @@
 //! A frame in four passes: geometry, once for each of its four samples; shading, once a pixel; SRAA; and to the screen.
 
+use crate::clock::Clock;
 use crate::shaders::sraa;
 use crate::{Failure, Size, scene};
 use glam::camera::rh::proj::directx::perspective_infinite_reverse;
 use glam::camera::rh::view::look_at_mat4;
 use glam::{Mat4, Vec2, Vec3, vec2, vec3};
-use straightline_runtime::wgpu;
+use straightline_runtime::{Span, wgpu};
+use web_time::Instant;
 use wgpu::{TextureFormat, TextureUsages, TextureViewDimension};
 
 /// Where in a pixel geometry is sampled, from its centre in pixels, y down: the kernel's pattern `latin4`. The first is
@@ -30,19 +32,26 @@ const SKY: f64 = 1.0e6;
 /// Bytes of the uniforms of `scene.wgsl`.
 const UNIFORMS: usize = 160;
 
-/// Pipelines and what does not change with the size.
+/// Passes, and what lies between them.
 pub struct Renderer {
-    device: wgpu::Device,
     queue: wgpu::Queue,
+    passes: Passes,
+    sraa: sraa::Pass,
+    targets: Targets,
+    /// What the frames cost.
+    pub clock: Clock,
+}
+
+/// Pipelines and what does not change with the size.
+struct Passes {
+    device: wgpu::Device,
     corners: wgpu::Buffer,
     count: u32,
     /// One for each sample.
     uniforms: Vec<wgpu::Buffer>,
     geometry: wgpu::RenderPipeline,
     shading: wgpu::RenderPipeline,
-    sraa: sraa::Pass,
     present: wgpu::RenderPipeline,
-    targets: Targets,
 }
 
 /// What does change with the size.
@@ -68,7 +77,7 @@ impl Renderer {
         let corners = scene::corners();
         let numbers = corners.as_flattened().iter().flat_map(Vec3::to_array);
         let sraa = sraa::Pass::new(device)?;
-        Ok(Renderer {
+        let passes = Passes {
             corners: buffer(device, queue, wgpu::BufferUsages::VERTEX, &bytes(numbers)),
             count: corners.len() as u32,
             uniforms: SAMPLES
@@ -78,65 +87,66 @@ impl Renderer {
             geometry: pipeline(device, &shader, ["corner", "surface"], &[DEPTH, NORMAL, ALBEDO], true),
             shading: pipeline(device, &shader, ["cover", "shade"], &[COLOR], false),
             present: pipeline(device, &shader, ["cover", "present"], &[format], false),
+            device: device.clone(),
+        };
+        Ok(Renderer {
+            queue: queue.clone(),
+            passes,
             targets: Targets::new(device, size, &sraa)?,
             sraa,
-            device: device.clone(),
-            queue: queue.clone(),
+            clock: Clock::new(device, queue)?,
         })
     }
 
     /// Records and submits the frame at `time` seconds, with or without antialiasing. Where the target has another size than
     /// the last one, what lies between the passes is made anew, and SRAA bound to it.
     pub fn draw(&mut self, time: f32, with_sraa: bool, target: &wgpu::TextureView) -> Result<(), Failure> {
+        let begun = Instant::now();
         let size = [target.texture().width(), target.texture().height()];
         if size != self.targets.size {
-            self.targets = Targets::new(&self.device, size, &self.sraa)?;
+            self.targets = Targets::new(&self.passes.device, size, &self.sraa)?;
         }
         let distance = 5.4 + 1.0 * (0.4 * time).sin();
-        for (sample, uniforms) in SAMPLES.iter().zip(&self.uniforms) {
-            self.queue.write_buffer(uniforms, 0, &self.view(time, distance, *sample));
+        let Renderer { queue, passes, targets, clock, .. } = self;
+        for (sample, uniforms) in SAMPLES.iter().zip(&passes.uniforms) {
+            queue.write_buffer(uniforms, 0, &view(size, time, distance, *sample));
         }
         // A pixel covers more depth the farther away it is.
-        let targets = &self.targets;
-        targets.sraa.set_depth_scale(&self.queue, 120.0 / distance)?;
+        targets.sraa.set_depth_scale(queue, 120.0 / distance)?;
 
-        let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        let mut encoder = passes.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         // The shaded sample comes last, so that what is not kept for each sample is its own.
         for sample in (0..SAMPLES.len()).rev() {
-            self.draw_geometry(&mut encoder, sample as u32);
+            passes.draw_geometry(&mut encoder, targets, sample as u32, clock.span()?);
         }
         let (depth, normal) = (layer(&targets.depth, 0), layer(&targets.normal, 0));
-        self.cover(&mut encoder, &self.shading, Some(&self.uniforms[0]), &[&depth, &normal, &targets.albedo], &targets.shaded);
+        let surfaces = [&depth, &normal, &targets.albedo];
+        let uniforms = Some(&passes.uniforms[0]);
+        passes.cover(&mut encoder, &passes.shading, (uniforms, &surfaces), &targets.shaded, clock.span()?);
         if with_sraa {
-            targets.sraa.encode(&mut encoder);
+            match clock.timer() {
+                Some(timer) => targets.sraa.inner().encode_timed(&mut encoder, timer)?,
+                None => targets.sraa.encode(&mut encoder),
+            }
         }
         let shown = if with_sraa { &targets.resolved } else { &targets.shaded };
-        self.cover(&mut encoder, &self.present, None, &[shown], target);
-        self.queue.submit([encoder.finish()]);
+        passes.cover(&mut encoder, &passes.present, (None, &[shown]), target, clock.span()?);
+        clock.resolve(&mut encoder, with_sraa.then_some(SAMPLES.len() + 1))?;
+        queue.submit([encoder.finish()]);
+        clock.add(begun.elapsed())?;
         Ok(())
     }
+}
 
-    /// The uniforms of `scene.wgsl`.
-    fn view(&self, time: f32, distance: f32, sample: Vec2) -> Vec<u8> {
-        let size = Vec2::from(self.targets.size.map(|side| side as f32));
-        let to_world = Mat4::from_rotation_y(0.5 * time);
-        let eye = vec3(0.0, 0.45, 1.0).normalize() * distance;
-        let to_view = look_at_mat4(eye, vec3(0.0, -0.4, 0.0), Vec3::Y);
-        // To sample right of the centre, everything moves left.
-        let shift = Mat4::from_translation((vec2(-sample.x, sample.y) * 2.0 / size).extend(0.0));
-        let fov: f32 = 0.75;
-        let to_clip = shift * perspective_infinite_reverse(fov, size.x / size.y, 0.1) * to_view * to_world;
-        let half = (0.5 * fov).tan() * vec2(size.x / size.y, 1.0);
-        // Rays of the shading pass: the camera's axes in the world, as far as its picture reaches.
-        let axes = to_view.transpose();
-        let matrices = [to_clip, to_world].into_iter().flat_map(|m| m.to_cols_array());
-        let camera = [axes.x_axis * half.x, axes.y_axis * half.y].into_iter().flat_map(|axis| axis.truncate().extend(0.0).to_array());
-        bytes(matrices.chain(camera))
-    }
-
+impl Passes {
     /// Draws the scene into one layer of the G-buffer.
-    fn draw_geometry(&self, encoder: &mut wgpu::CommandEncoder, sample: u32) {
-        let targets = &self.targets;
+    fn draw_geometry(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        targets: &Targets,
+        sample: u32,
+        span: Option<Span<'_>>,
+    ) {
         let (depth, normal) = (layer(&targets.depth, sample), layer(&targets.normal, sample));
         let cleared = |view, r, b| attachment(view, wgpu::LoadOp::Clear(wgpu::Color { r, g: 0.0, b, a: 0.0 }));
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
@@ -152,6 +162,7 @@ impl Renderer {
                 depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Discard }),
                 stencil_ops: None,
             }),
+            timestamp_writes: span.as_ref().map(Span::render_writes),
             ..Default::default()
         });
         pass.set_pipeline(&self.geometry);
@@ -165,13 +176,14 @@ impl Renderer {
         &self,
         encoder: &mut wgpu::CommandEncoder,
         pipeline: &wgpu::RenderPipeline,
-        uniforms: Option<&wgpu::Buffer>,
-        inputs: &[&wgpu::TextureView],
+        (uniforms, inputs): (Option<&wgpu::Buffer>, &[&wgpu::TextureView]),
         target: &wgpu::TextureView,
+        span: Option<Span<'_>>,
     ) {
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("cover"),
             color_attachments: &[attachment(target, wgpu::LoadOp::Clear(wgpu::Color::BLACK))],
+            timestamp_writes: span.as_ref().map(Span::render_writes),
             ..Default::default()
         });
         pass.set_pipeline(pipeline);
@@ -198,6 +210,24 @@ impl Renderer {
             entries: &uniforms.into_iter().chain(textures).collect::<Vec<_>>(),
         })
     }
+}
+
+/// The uniforms of `scene.wgsl` for one sample of a picture of `size`.
+fn view(size: Size, time: f32, distance: f32, sample: Vec2) -> Vec<u8> {
+    let size = Vec2::from(size.map(|side| side as f32));
+    let to_world = Mat4::from_rotation_y(0.5 * time);
+    let eye = vec3(0.0, 0.45, 1.0).normalize() * distance;
+    let to_view = look_at_mat4(eye, vec3(0.0, -0.4, 0.0), Vec3::Y);
+    // To sample right of the centre, everything moves left.
+    let shift = Mat4::from_translation((vec2(-sample.x, sample.y) * 2.0 / size).extend(0.0));
+    let fov: f32 = 0.75;
+    let to_clip = shift * perspective_infinite_reverse(fov, size.x / size.y, 0.1) * to_view * to_world;
+    let half = (0.5 * fov).tan() * vec2(size.x / size.y, 1.0);
+    // Rays of the shading pass: the camera's axes in the world, as far as its picture reaches.
+    let axes = to_view.transpose();
+    let matrices = [to_clip, to_world].into_iter().flat_map(|m| m.to_cols_array());
+    let camera = [axes.x_axis * half.x, axes.y_axis * half.y].into_iter().flat_map(|axis| axis.truncate().extend(0.0).to_array());
+    bytes(matrices.chain(camera))
 }
 
 impl Targets {

@@ -1,6 +1,7 @@
 //! Frames in a window.
 
-use crate::picture::NO_ADAPTER;
+use crate::gpu::Gpu;
+use crate::options::Options;
 use crate::renderer::Renderer;
 use crate::{Failure, Size};
 use std::sync::Arc;
@@ -15,15 +16,27 @@ use winit::keyboard::{Key, NamedKey};
 use winit::window::{Window, WindowId};
 
 /// Opens a window of `size` and draws until it is closed.
-pub fn run(size: Size, sraa: bool) -> Result<(), Failure> {
+pub fn run(options: &Options) -> Result<(), Failure> {
     let events = EventLoop::new().map_err(|error| format!("{error}\nWithout a screen, draw a picture: --out FILE.png"))?;
-    let mut application = Application { size, sraa, started: Instant::now(), screen: None, counted: (Instant::now(), 0), failure: None };
+    let mut application = Application {
+        size: options.size,
+        time: options.time,
+        timestamps: options.timestamps,
+        sraa: options.sraa,
+        started: Instant::now(),
+        screen: None,
+        counted: (Instant::now(), 0),
+        failure: None,
+    };
     events.run_app(&mut application)?;
     application.failure.map_or(Ok(()), Err)
 }
 
 struct Application {
     size: Size,
+    /// Where it stands still.
+    time: Option<f32>,
+    timestamps: bool,
     sraa: bool,
     started: Instant,
     /// From the first moment that there can be one.
@@ -35,41 +48,38 @@ struct Application {
 
 struct Screen {
     window: Arc<Window>,
-    device: wgpu::Device,
-    queue: wgpu::Queue,
+    gpu: Gpu,
     surface: wgpu::Surface<'static>,
     config: wgpu::SurfaceConfiguration,
     renderer: Renderer,
 }
 
 impl Screen {
-    fn new(events: &ActiveEventLoop, [width, height]: Size) -> Result<Self, Failure> {
+    fn new(events: &ActiveEventLoop, [width, height]: Size, timestamps: bool) -> Result<Self, Failure> {
         let attributes = Window::default_attributes().with_inner_size(PhysicalSize::new(width, height));
         let window = Arc::new(events.create_window(attributes)?);
         let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
         let surface = instance.create_surface(window.clone())?;
-        let options = wgpu::RequestAdapterOptions { compatible_surface: Some(&surface), ..Default::default() };
-        let adapter = pollster::block_on(instance.request_adapter(&options)).map_err(|e| format!("{NO_ADAPTER}: {e}"))?;
-        let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor::default()))?;
+        let gpu = pollster::block_on(Gpu::new(&instance, Some(&surface), timestamps))?;
         let size = window.inner_size();
         let mut config = surface
-            .get_default_config(&adapter, size.width.max(1), size.height.max(1))
+            .get_default_config(&gpu.adapter, size.width.max(1), size.height.max(1))
             .ok_or("the adapter cannot draw to this window")?;
         // The renderer gives linear colours; the format converts them.
         let format = config.format.add_srgb_suffix();
         if format != config.format {
             config.view_formats.push(format);
         }
-        surface.configure(&device, &config);
-        let renderer = Renderer::new(&device, &queue, [config.width, config.height], format)?;
-        Ok(Screen { window, device, queue, surface, config, renderer })
+        surface.configure(&gpu.device, &config);
+        let renderer = Renderer::new(&gpu.device, &gpu.queue, [config.width, config.height], format)?;
+        Ok(Screen { window, gpu, surface, config, renderer })
     }
 
     fn resize(&mut self, size: PhysicalSize<u32>) {
         // A minimised window has no size.
         if size.width > 0 && size.height > 0 {
             (self.config.width, self.config.height) = (size.width, size.height);
-            self.surface.configure(&self.device, &self.config);
+            self.surface.configure(&self.gpu.device, &self.config);
         }
     }
 
@@ -77,7 +87,7 @@ impl Screen {
         let frame = match self.surface.get_current_texture() {
             CurrentSurfaceTexture::Success(frame) | CurrentSurfaceTexture::Suboptimal(frame) => frame,
             CurrentSurfaceTexture::Outdated | CurrentSurfaceTexture::Lost => {
-                self.surface.configure(&self.device, &self.config);
+                self.surface.configure(&self.gpu.device, &self.config);
                 return Ok(());
             }
             // Nothing to draw to now; the next frame may have more luck.
@@ -89,7 +99,7 @@ impl Screen {
         });
         self.renderer.draw(time, sraa, &view)?;
         self.window.pre_present_notify();
-        self.queue.present(frame);
+        self.gpu.queue.present(frame);
         Ok(())
     }
 }
@@ -97,7 +107,7 @@ impl Screen {
 impl ApplicationHandler for Application {
     fn resumed(&mut self, events: &ActiveEventLoop) {
         if self.screen.is_none() {
-            match Screen::new(events, self.size) {
+            match Screen::new(events, self.size, self.timestamps) {
                 Ok(screen) => self.screen = Some(screen),
                 Err(failure) => self.fail(events, failure),
             }
@@ -122,9 +132,9 @@ impl ApplicationHandler for Application {
                 _ => {}
             },
             WindowEvent::RedrawRequested => {
-                match screen.draw(self.started.elapsed().as_secs_f32(), self.sraa) {
-                    Ok(()) => self.count(),
-                    Err(failure) => self.fail(events, failure),
+                let time = self.time.unwrap_or(self.started.elapsed().as_secs_f32());
+                if let Err(failure) = screen.draw(time, self.sraa).and_then(|()| self.count()) {
+                    self.fail(events, failure);
                 }
             }
             _ => {}
@@ -146,15 +156,20 @@ impl Application {
         }
     }
 
-    /// Counts a frame, and shows once a second how long one takes.
-    fn count(&mut self) {
+    /// Counts a frame, and shows once a second what one costs.
+    fn count(&mut self) -> Result<(), Failure> {
         let (since, frames) = &mut self.counted;
         *frames += 1;
         let (elapsed, frames) = (since.elapsed(), *frames);
-        if elapsed.as_secs() >= 1 {
+        if elapsed.as_secs() >= 1
+            && let Some(screen) = &mut self.screen
+            && let Some(costs) = screen.renderer.clock.take()?
+        {
+            let (each, how) = (elapsed.as_secs_f64() * 1e3 / f64::from(frames), screen.gpu.clock());
             self.counted = (Instant::now(), 0);
-            self.show_state(&format!(", {:.1} ms a frame", elapsed.as_secs_f64() * 1e3 / f64::from(frames)));
+            self.show_state(&format!(": {each:.1} ms a frame, {how}; {costs}"));
         }
+        Ok(())
     }
 
     fn fail(&mut self, events: &ActiveEventLoop, failure: Failure) {

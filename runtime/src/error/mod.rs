@@ -79,6 +79,30 @@ pub enum Error {
         description: String,
     },
 
+    /// The caller's vertex shader, behind which a kernel was to be drawn, does not compile or has no such entry point.
+    #[error("the vertex shader that `{kernel}` is to be drawn behind was refused: {description}")]
+    VertexShader {
+        /// The kernel's name.
+        kernel: String,
+        /// What naga or wgpu said, with the place in the text where it is known.
+        description: String,
+    },
+
+    /// The caller's vertex shader does not give what a kernel has interpolated.
+    #[error("`{kernel}` takes `{name}`, {ty} at location {location}, {problem}")]
+    Varying {
+        /// The kernel's name.
+        kernel: String,
+        /// The varying.
+        name: String,
+        /// Its location.
+        location: u32,
+        /// Its type, as WGSL spells it.
+        ty: String,
+        /// What the vertex shader gives there, and what it should.
+        problem: String,
+    },
+
     /// The colour target format asked for cannot be drawn to by this shader on this device.
     #[error("`{kernel}` cannot draw to {format:?}: {reason}")]
     TargetFormat {

@@ -31,15 +31,39 @@ pub(crate) type BoundGroup = (u32, wgpu::BindGroup);
 impl Layout {
     /// Makes the layouts that `plan` asks for.
     pub(crate) fn new(device: &wgpu::Device, plan: &Plan) -> Result<Self, Error> {
+        Self::with_groups(device, plan, &[])
+    }
+
+    /// The same in a pipeline that has groups of the caller's too.
+    pub(crate) fn with_groups(
+        device: &wgpu::Device,
+        plan: &Plan,
+        others: &[(u32, &wgpu::BindGroupLayout)],
+    ) -> Result<Self, Error> {
         let mut entries = entries(plan);
         entries.sort_by_key(|(group, entry)| (*group, entry.binding));
-        check_limits(device, plan, entries.last().map_or(0, |(group, _)| *group))?;
+        let used = entries.iter().map(|(group, _)| *group);
+        let last = used.chain(others.iter().map(|(index, _)| *index)).max();
+        check_limits(device, plan, last.unwrap_or(0))?;
 
         let kernel = &plan.kernel;
         let refused = |description| Error::Pipeline {
             kernel: kernel.clone(),
             description,
         };
+        for (k, (index, _)) in others.iter().enumerate() {
+            if entries.iter().any(|(group, _)| group == index) {
+                return Err(refused(format!(
+                    "the vertex shader's bind group {index} is the kernel's own: give the vertex shader's another number, or generate \
+                     the kernel with another `group`"
+                )));
+            }
+            if others[..k].iter().any(|(earlier, _)| earlier == index) {
+                return Err(refused(format!(
+                    "the vertex shader's bind group {index} is given twice"
+                )));
+            }
+        }
         guarded(device, &format!("making the layouts of `{kernel}`"), refused, || {
             let groups: Vec<Group> = entries
                 .chunk_by(|a, b| a.0 == b.0)
@@ -56,9 +80,12 @@ impl Layout {
                 })
                 .collect();
             // Group numbers may have holes: a kernel can leave low groups to the renderer.
-            let mut slots = vec![None; groups.last().map_or(0, |group| group.index as usize + 1)];
+            let mut slots = vec![None; last.map_or(0, |last| last as usize + 1)];
             for group in &groups {
                 slots[group.index as usize] = Some(&group.layout);
+            }
+            for (index, layout) in others {
+                slots[*index as usize] = Some(*layout);
             }
             let pipeline = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
                 label: Some(kernel),

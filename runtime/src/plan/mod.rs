@@ -6,7 +6,7 @@ use crate::uniforms::UniformValue;
 use crate::{Error, ResourceKind};
 use straightline_manifest::{
     Access, Binding, BindingKind, BufferType, Dimension, Extent, Form, Format, Manifest, Output, Part, REGION,
-    REGION_SIZE, SampleType, SamplerType, Stage, ValueType, ViewDimension, region_fields,
+    REGION_SIZE, SampleType, SamplerType, Scalar, Stage, ValueType, Varying, ViewDimension, region_fields,
 };
 
 /// What to bind where. Every number in it has been checked, except against the device.
@@ -23,6 +23,8 @@ pub(crate) struct Plan {
     /// Of a shader that filters a rectangle.
     pub(crate) region: Option<UniformPlan>,
     pub(crate) stage: StagePlan,
+    /// What is interpolated; of a fragment shader only.
+    pub(crate) varyings: Vec<Varying>,
     /// In the order of their locations.
     pub(crate) outputs: Vec<OutputPlan>,
 }
@@ -145,6 +147,7 @@ impl Plan {
             uniforms: Vec::new(),
             region: None,
             stage: stage(manifest).map_err(|problem| bad("output".to_owned(), problem))?,
+            varyings: varyings(manifest).map_err(|problem| bad("varyings".to_owned(), problem))?,
             outputs: Vec::new(),
         };
         for (location, source) in (0..).zip(&manifest.outputs) {
@@ -329,6 +332,29 @@ fn stage(manifest: &Manifest) -> Result<StagePlan, String> {
             })?;
             Ok(StagePlan::Fragment)
         }
+    }
+}
+
+/// The varyings of `manifest`.
+fn varyings(manifest: &Manifest) -> Result<Vec<Varying>, String> {
+    let all = &manifest.varyings;
+    require(all.is_empty() || manifest.stage == Stage::Fragment, || {
+        "the stage is compute, which interpolates nothing".to_owned()
+    })?;
+    let mut names: Vec<&str> = all.iter().map(|varying| varying.name.as_str()).collect();
+    let mut locations: Vec<u32> = all.iter().map(|varying| varying.location).collect();
+    if let Some(name) = repeated(&mut names) {
+        return Err(format!("`{name}` is listed twice"));
+    }
+    if let Some(location) = repeated(&mut locations) {
+        return Err(format!("location {location} is listed twice"));
+    }
+    match all.iter().find(|varying| varying.ty.scalar() != Scalar::F32) {
+        Some(varying) => Err(format!(
+            "`{}` is of type {}, and floats are interpolated",
+            varying.name, varying.ty
+        )),
+        None => Ok(all.clone()),
     }
 }
 

@@ -50,7 +50,7 @@ impl Subject {
             _ => Stage::Fragment,
         };
         let (drawn, image, counts) = if family.from == Source::Triangles && stage == Stage::Fragment {
-            let forward = bench.forward(&compiled, inputs, &shadowed.corners, None, |text| text)?;
+            let forward = bench.forward(&compiled, inputs, &shadowed.corners)?;
             let image = bench.picture(&forward)?;
             let emitted = compiled.emit(&EmitOptions::new().stage(stage).targets([]));
             let counts = emitted.map_err(ExecuteError::from)?.manifest.counts;

@@ -6,8 +6,8 @@ use std::time::Duration;
 use straightline_codegen::emit::Target;
 use straightline_codegen::{Compiled, Stage};
 use straightline_kernels::prelude::Frame;
-use straightline_manifest::{BindingKind, Dimension, Manifest, SampleType, SamplerType};
-use straightline_runtime::Timer;
+use straightline_manifest::Manifest;
+use straightline_runtime::{BoundDraw, Draw, DrawOptions, Timer};
 use wgpu::{CommandEncoder, TextureFormat};
 
 /// A corner of a triangle: its position in clip space, and the shader's varyings in the order of their locations.
@@ -22,8 +22,7 @@ pub struct Corner {
 /// A shader that draws triangles, with what it reads.
 #[derive(Debug)]
 pub struct Forward {
-    pipeline: wgpu::RenderPipeline,
-    group: wgpu::BindGroup,
+    bound: BoundDraw,
     vertices: wgpu::Buffer,
     corners: u32,
     size: UVec2,
@@ -32,60 +31,30 @@ pub struct Forward {
 }
 
 impl Bench {
-    /// Prepares to draw `corners`, three to a triangle, nearer ones before farther ones, with a kernel's fragment shader.
-    /// `discard`, a condition in WGSL on `pixel`, has fragments discarded once their colour is computed; what is not
-    /// drawn stays 0. `rewrite` may change the text: to ask what another shader would do.
+    /// Prepares to draw `corners`, three to a triangle, nearer ones before farther ones, with a kernel's fragment shader. What is
+    /// not drawn stays 0.
     ///
     /// # Errors
     ///
     /// If the kernel cannot be emitted, an input is missing, or the device refuses something.
-    pub fn forward(
-        &self,
-        compiled: &Compiled,
-        inputs: &Inputs,
-        corners: &[Corner],
-        discard: Option<&str>,
-        rewrite: impl Fn(String) -> String,
-    ) -> Result<Forward, ExecuteError> {
+    pub fn forward(&self, compiled: &Compiled, inputs: &Inputs, corners: &[Corner]) -> Result<Forward, ExecuteError> {
         let emitted = compiled.emit(&self.options(Stage::Fragment))?;
         let text = emitted.files.get(&Target::Wgsl).map(|b| String::from_utf8_lossy(b));
-        let mut text = rewrite(text.unwrap_or_default().into_owned());
-        if let Some(condition) = discard {
-            // After the last message, where a lane that goes takes nothing from the others.
-            text = text.replacen("    return ", "    let colour = ", 1);
-            let end = text.rfind('}').unwrap_or(text.len());
-            text.insert_str(
-                end,
-                &format!("    if {condition} {{\n        discard;\n    }}\n    return colour;\n"),
-            );
-        }
-        let scope = self.device.push_error_scope(wgpu::ErrorFilter::Validation);
-        let forward = self.prepare(&emitted.manifest, &text, inputs, corners);
-        match pollster::block_on(scope.pop()) {
-            None => forward,
-            Some(error) => Err(ExecuteError::Device {
-                doing: "preparing a forward pass",
-                message: error.to_string(),
-            }),
-        }
+        self.forward_by(&emitted.manifest, &text.unwrap_or_default(), inputs, corners)
     }
 
-    fn prepare(
+    /// [`forward`](Self::forward) with any fragment shader that `manifest` describes: to ask what another one would do.
+    ///
+    /// # Errors
+    ///
+    /// If an input is missing, or the device refuses something.
+    pub fn forward_by(
         &self,
         manifest: &Manifest,
-        text: &str,
+        wgsl: &str,
         inputs: &Inputs,
         corners: &[Corner],
     ) -> Result<Forward, ExecuteError> {
-        let (layout, group) = self.group(manifest, inputs)?;
-        let vertex = self.device.create_shader_module(wgpu::ShaderModuleDescriptor {
-            label: Some("vertices"),
-            source: wgpu::ShaderSource::Wgsl(vertex_shader(manifest).into()),
-        });
-        let fragment = self.device.create_shader_module(wgpu::ShaderModuleDescriptor {
-            label: Some(&manifest.kernel),
-            source: wgpu::ShaderSource::Wgsl(text.into()),
-        });
         let count = 1 + manifest.varyings.len();
         let attributes: Vec<wgpu::VertexAttribute> = (0..count as u32)
             .map(|k| wgpu::VertexAttribute {
@@ -94,42 +63,24 @@ impl Bench {
                 shader_location: k,
             })
             .collect();
-        let pipeline_layout = self.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            label: None,
-            bind_group_layouts: &[Some(&layout)],
-            immediate_size: 0,
-        });
-        let pipeline = self.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-            label: Some(&manifest.kernel),
-            layout: Some(&pipeline_layout),
-            vertex: wgpu::VertexState {
-                module: &vertex,
-                entry_point: Some("corner"),
-                compilation_options: Default::default(),
-                buffers: &[Some(wgpu::VertexBufferLayout {
-                    array_stride: count as u64 * 16,
-                    step_mode: wgpu::VertexStepMode::Vertex,
-                    attributes: &attributes,
-                })],
-            },
-            primitive: wgpu::PrimitiveState::default(),
-            depth_stencil: Some(wgpu::DepthStencilState {
-                format: TextureFormat::Depth32Float,
-                depth_write_enabled: Some(true),
-                depth_compare: Some(wgpu::CompareFunction::LessEqual),
-                stencil: Default::default(),
-                bias: Default::default(),
-            }),
-            multisample: wgpu::MultisampleState::default(),
-            fragment: Some(wgpu::FragmentState {
-                module: &fragment,
-                entry_point: Some(&manifest.entry_point),
-                compilation_options: Default::default(),
-                targets: &[Some(TextureFormat::Rgba32Float.into())],
-            }),
-            multiview_mask: None,
-            cache: None,
-        });
+        let buffers = [Some(wgpu::VertexBufferLayout {
+            array_stride: count as u64 * 16,
+            step_mode: wgpu::VertexStepMode::Vertex,
+            attributes: &attributes,
+        })];
+        let passing_on = vertex_shader(manifest);
+        let options =
+            DrawOptions::new(&passing_on, "corner")
+                .buffers(&buffers)
+                .depth_stencil(wgpu::DepthStencilState {
+                    format: TextureFormat::Depth32Float,
+                    depth_write_enabled: Some(true),
+                    depth_compare: Some(wgpu::CompareFunction::LessEqual),
+                    stencil: Default::default(),
+                    bias: Default::default(),
+                });
+        let draw = Draw::new(&self.device, manifest, wgsl, &options)?;
+        let bound = self.upload(manifest, inputs)?.bind_draw(&draw)?;
         let lanes = corners.iter().flat_map(|corner| {
             let varyings = (0..count - 1).map(|k| corner.varyings.get(k).copied().unwrap_or(Vec4::ZERO));
             std::iter::once(corner.position)
@@ -153,102 +104,13 @@ impl Bench {
             view_formats: &[],
         });
         Ok(Forward {
-            pipeline,
-            group,
+            bound,
             vertices,
             corners: corners.len() as u32,
             size: inputs.size,
             target: self.target(inputs.size, TextureFormat::Rgba32Float),
             depth,
         })
-    }
-
-    fn group(
-        &self,
-        manifest: &Manifest,
-        inputs: &Inputs,
-    ) -> Result<(wgpu::BindGroupLayout, wgpu::BindGroup), ExecuteError> {
-        let missing = |name: &str| ExecuteError::Input(format!("nothing is given for `{name}`"));
-        let (mut entries, mut owned) = (Vec::new(), Vec::new());
-        for binding in &manifest.bindings {
-            let name = binding.name.as_str();
-            let (ty, resource) = match &binding.kind {
-                BindingKind::Texture {
-                    dimension,
-                    sample_type,
-                    components,
-                    ..
-                } => {
-                    let layers = Inputs::find(&inputs.images, name).ok_or_else(|| missing(name))?;
-                    let smaller = Inputs::find(&inputs.smaller, name).map_or(&[][..], Vec::as_slice);
-                    let view = self.levels(layers, smaller, *dimension, *sample_type, *components)?;
-                    (texture_type(*dimension, *sample_type), Owned::Texture(view))
-                }
-                BindingKind::Sampler { sampler } => {
-                    let state = Inputs::find(&inputs.samplers, name).copied().unwrap_or_default();
-                    let compares = *sampler == SamplerType::Comparison;
-                    let ty = match compares {
-                        true => wgpu::SamplerBindingType::Comparison,
-                        false => wgpu::SamplerBindingType::Filtering,
-                    };
-                    (
-                        wgpu::BindingType::Sampler(ty),
-                        Owned::Sampler(self.sampler(state, compares)),
-                    )
-                }
-                BindingKind::Buffer {
-                    element,
-                    stride,
-                    fields,
-                    ..
-                } => {
-                    let elements = Inputs::find(&inputs.buffers, name).ok_or_else(|| missing(name))?;
-                    let ty = wgpu::BufferBindingType::Storage { read_only: true };
-                    let buffer = self.buffer(elements, element, fields, *stride);
-                    (buffer_type(ty), Owned::Buffer(buffer))
-                }
-                BindingKind::Uniform { size, fields, .. } => {
-                    let mut bytes = vec![0; *size as usize];
-                    for field in fields {
-                        let default = [field.default.unwrap_or(0.0)];
-                        let lanes = Inputs::find(&inputs.uniforms, &field.name).map_or(&default[..], Vec::as_slice);
-                        let element = std::array::from_fn(|k| *lanes.get(k).unwrap_or(&lanes[0]));
-                        let field_bytes = super::convert::element_bytes(&[element], field.ty);
-                        bytes[field.offset as usize..][..field_bytes.len()].copy_from_slice(&field_bytes);
-                    }
-                    let buffer = self.filled(&bytes, wgpu::BufferUsages::UNIFORM);
-                    (buffer_type(wgpu::BufferBindingType::Uniform), Owned::Buffer(buffer))
-                }
-            };
-            entries.push(wgpu::BindGroupLayoutEntry {
-                binding: binding.binding,
-                visibility: wgpu::ShaderStages::FRAGMENT,
-                ty,
-                count: None,
-            });
-            owned.push((binding.binding, resource));
-        }
-        let layout = self.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-            label: None,
-            entries: &entries,
-        });
-        let bound: Vec<wgpu::BindGroupEntry<'_>> = owned
-            .iter()
-            .map(|(binding, resource)| wgpu::BindGroupEntry {
-                binding: *binding,
-                resource: match resource {
-                    Owned::Texture(view) => wgpu::BindingResource::TextureView(view),
-                    Owned::Sampler(sampler) => wgpu::BindingResource::Sampler(sampler),
-                    Owned::Buffer(buffer) => buffer.as_entire_binding(),
-                },
-            })
-            .collect();
-        let group = self.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: None,
-            layout: &layout,
-            entries: &bound,
-        });
-        Ok((layout, group))
     }
 
     fn filled(&self, bytes: &[u8], usage: wgpu::BufferUsages) -> wgpu::Buffer {
@@ -315,44 +177,10 @@ impl Forward {
             occlusion_query_set: None,
             multiview_mask: None,
         });
-        pass.set_pipeline(&self.pipeline);
-        pass.set_bind_group(0, &self.group, &[]);
+        self.bound.set(&mut pass);
         pass.set_vertex_buffer(0, self.vertices.slice(..));
         pass.draw(0..self.corners, 0..1);
         Ok(())
-    }
-}
-
-enum Owned {
-    Texture(wgpu::TextureView),
-    Sampler(wgpu::Sampler),
-    Buffer(wgpu::Buffer),
-}
-
-fn texture_type(dimension: Dimension, sample_type: SampleType) -> wgpu::BindingType {
-    wgpu::BindingType::Texture {
-        sample_type: match sample_type {
-            SampleType::Depth => wgpu::TextureSampleType::Depth,
-            SampleType::Filterable => wgpu::TextureSampleType::Float { filterable: true },
-            SampleType::Unfilterable => wgpu::TextureSampleType::Float { filterable: false },
-            SampleType::Sint => wgpu::TextureSampleType::Sint,
-            SampleType::Uint => wgpu::TextureSampleType::Uint,
-        },
-        view_dimension: match dimension {
-            Dimension::D2Array => wgpu::TextureViewDimension::D2Array,
-            Dimension::D3 => wgpu::TextureViewDimension::D3,
-            Dimension::Cube => wgpu::TextureViewDimension::Cube,
-            Dimension::D2 | Dimension::D2Multisampled => wgpu::TextureViewDimension::D2,
-        },
-        multisampled: dimension == Dimension::D2Multisampled,
-    }
-}
-
-fn buffer_type(ty: wgpu::BufferBindingType) -> wgpu::BindingType {
-    wgpu::BindingType::Buffer {
-        ty,
-        has_dynamic_offset: false,
-        min_binding_size: None,
     }
 }
 

@@ -9,7 +9,8 @@ use straightline_codegen::{Compiled, EmitOptions, Format, Precision, Stage};
 use straightline_kernels::prelude::Frame;
 use straightline_manifest::{BindingKind, BufferType, Element, Manifest, REGION, UniformField};
 use straightline_runtime::{
-    BindOptions, Bound, Error as RuntimeError, Pass, PassOptions, Region, Resource, Targets, UniformValue,
+    BindOptions, Bound, BoundDraw, Draw, Error as RuntimeError, Pass, PassOptions, Region, Resource, Targets,
+    UniformValue,
 };
 use wgpu::{TextureFormat, TextureUsages};
 
@@ -66,6 +67,15 @@ impl Uploaded {
         region: Region,
     ) -> Result<Bound, RuntimeError> {
         pass.bind_with(&self.resources(), targets, &self.options().region(region))
+    }
+
+    /// A fragment shader for triangles that reads these inputs.
+    ///
+    /// # Errors
+    ///
+    /// If they do not fit.
+    pub fn bind_draw(&self, draw: &Draw) -> Result<BoundDraw, RuntimeError> {
+        draw.bind_with(&self.resources(), &self.options())
     }
 
     fn options(&self) -> BindOptions<'_> {
@@ -391,7 +401,7 @@ impl Bench {
         self.download(&target)
     }
 
-    pub(super) fn sampler(&self, state: SamplerState, compares: bool) -> wgpu::Sampler {
+    fn sampler(&self, state: SamplerState, compares: bool) -> wgpu::Sampler {
         let filter = if state.linear {
             wgpu::FilterMode::Linear
         } else {
@@ -424,13 +434,7 @@ impl Bench {
     }
 
     /// A storage buffer of elements, or of structures of fields.
-    pub(super) fn buffer(
-        &self,
-        elements: &[[f64; 4]],
-        element: &Element,
-        fields: &[UniformField],
-        stride: u32,
-    ) -> wgpu::Buffer {
+    fn buffer(&self, elements: &[[f64; 4]], element: &Element, fields: &[UniformField], stride: u32) -> wgpu::Buffer {
         let bytes = match element {
             Element::Value(ty) => convert::element_bytes(elements, *ty),
             Element::Structure(_) => convert::structure_bytes(elements, fields, stride),

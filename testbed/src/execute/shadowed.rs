@@ -149,7 +149,7 @@ fn pass_on(gpu: &Bench, size: UVec2, corners: &[Corner]) -> Result<Forward, Exec
     let compiled = Kernel::from_text("pass_on.rs", PASS_ON, "pass_on")
         .compile(&Settings::default())
         .map_err(|e| ExecuteError::Input(e.to_string()))?;
-    gpu.forward(&compiled, &Inputs::new(size), corners, None, |text| text)
+    gpu.forward(&compiled, &Inputs::new(size), corners)
 }
 
 fn draw(gpu: &Bench, size: UVec2, corners: &[Corner]) -> Result<Frame<Vec4>, ExecuteError> {

@@ -1,6 +1,9 @@
 //! Quads at the edges of triangles, at the border, and with lanes that are discarded.
 
 use super::*;
+use straightline_codegen::Form;
+use straightline_codegen::emit::{Emitted, Target};
+use straightline_manifest::Manifest;
 use straightline_testbed::execute::Corner;
 
 const PLACES: &str = "
@@ -34,6 +37,43 @@ fn triangles(size: UVec2) -> Vec<Corner> {
         .collect()
 }
 
+/// What was emitted as text, and its manifest without the hash, so that another text can be drawn by it.
+fn text_of(emitted: &Emitted) -> (Manifest, String) {
+    let mut manifest = emitted.manifest.clone();
+    manifest.hashes.clear();
+    (
+        manifest,
+        String::from_utf8_lossy(&emitted.files[&Target::Wgsl]).into_owned(),
+    )
+}
+
+/// The kernel as a function, and a shader that calls it and then discards fragments where `condition` holds of `pixel`: after the
+/// last message, where a lane that goes takes nothing from the others.
+fn discarding(gpu: &Bench, compiled: &Compiled, condition: &str) -> (Manifest, String) {
+    let options = gpu.options(Stage::Fragment);
+    let whole = compiled.emit(&options).expect("it is emitted");
+    let function = compiled
+        .emit(&options.form(Form::Function))
+        .expect("it is emitted as a function");
+    let (_, function) = text_of(&function);
+    let (mut manifest, _) = text_of(&whole);
+    manifest.entry_point = "discarding".to_owned();
+    let text = format!(
+        "{function}
+@fragment
+fn discarding(@builtin(position) position: vec4f, @location(0) place: vec2f) -> @location(0) vec4f {{
+    let pixel = vec2i(position.xy);
+    let colour = places(position.xy, place);
+    if {condition} {{
+        discard;
+    }}
+    return colour;
+}}
+"
+    );
+    (manifest, text)
+}
+
 #[test]
 fn helper_lanes_answer_at_the_edges_of_triangles() {
     let gpu = bench();
@@ -45,9 +85,15 @@ fn helper_lanes_answer_at_the_edges_of_triangles() {
                     ..Settings::default()
                 };
                 let compiled = compile_text(PLACES, "places", &settings);
-                let forward = gpu
-                    .forward(&compiled, &Inputs::new(size), &triangles(size), discard, |t| t)
-                    .expect("it can be drawn");
+                let inputs = Inputs::new(size);
+                let forward = match discard {
+                    None => gpu.forward(&compiled, &inputs, &triangles(size)),
+                    Some(condition) => {
+                        let (manifest, text) = discarding(&gpu, &compiled, condition);
+                        gpu.forward_by(&manifest, &text, &inputs, &triangles(size))
+                    }
+                };
+                let forward = forward.unwrap_or_else(|e| panic!("{e}"));
                 let found = gpu.picture(&forward).expect("it is drawn");
                 let (mut drawn, mut edges) = (0, 0);
                 for y in 0..size.y as i32 {
@@ -109,12 +155,13 @@ fn coarse_derivatives_spoil_the_picture_and_are_refused() {
     let expected = interpret::<f32>(&compiled, &inputs, false).expect("it runs").texels;
     let expected: Vec<[f64; 4]> = expected.iter().map(|t| t.map(f64::from)).collect();
     let off = |coarse: bool| {
-        let rewrite = |text: String| match coarse {
-            true => text.replace("dpdxFine", "dpdxCoarse").replace("dpdyFine", "dpdyCoarse"),
-            false => text,
-        };
+        let emitted = compiled.emit(&gpu.options(Stage::Fragment)).expect("it is emitted");
+        let (manifest, mut text) = text_of(&emitted);
+        if coarse {
+            text = text.replace("dpdxFine", "dpdxCoarse").replace("dpdyFine", "dpdyCoarse");
+        }
         let forward = gpu
-            .forward(&compiled, &inputs, &cover(), None, rewrite)
+            .forward_by(&manifest, &text, &inputs, &cover())
             .expect("it can be drawn");
         largest(&texels(&gpu.picture(&forward).expect("it is drawn")), &expected)
     };

@@ -226,7 +226,7 @@ fn middle(map: &Shadow, texels: i64, centre: f64) -> f64 {
 
 pub(super) fn draw(gpu: &Bench, compiled: &Compiled, inputs: &Inputs, plane: Plane) -> Frame<Vec4> {
     let forward: Forward = gpu
-        .forward(compiled, inputs, &plane.cover(inputs.size), None, |text| text)
+        .forward(compiled, inputs, &plane.cover(inputs.size))
         .expect("it can be drawn");
     gpu.picture(&forward).expect("it is drawn")
 }

@@ -1,0 +1,175 @@
+//! Frames on the canvas of a page, and as bytes for whoever asks.
+
+use crate::gpu::Gpu;
+use crate::options::Options;
+use crate::renderer::Renderer;
+use crate::{Failure, picture};
+use std::cell::RefCell;
+use std::rc::Rc;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU32, Ordering};
+use straightline_runtime::wgpu;
+use wasm_bindgen::prelude::*;
+use web_sys::{Element, HtmlCanvasElement, KeyboardEvent, Window};
+use web_time::Instant;
+use wgpu::CurrentSurfaceTexture;
+
+/// Frames that the device may be behind. A browser asks for more than it can draw.
+const AHEAD: u32 = 2;
+
+/// Draws on the page's `<canvas>` until the page is closed, and says in `#state` what frames cost, or what went wrong.
+pub fn start() {
+    std::panic::set_hook(Box::new(|panic| web_sys::console::error_1(&panic.to_string().into())));
+    wasm_bindgen_futures::spawn_local(async {
+        if let Err(failure) = run().await {
+            say(&failure.to_string());
+        }
+    });
+}
+
+/// The frame at `time` seconds: four bytes a pixel, sRGB, rows from the top. Not what a canvas shows, which no script can read
+/// reliably, but what the same renderer draws to a texture.
+#[wasm_bindgen]
+pub async fn picture(width: u32, height: u32, time: f32, sraa: bool) -> Result<Vec<u8>, JsError> {
+    let drawn = async {
+        let gpu = Gpu::headless(false).await?;
+        let mut renderer = Renderer::new(&gpu.device, &gpu.queue, [width, height], picture::FORMAT)?;
+        picture::draw(&gpu, &mut renderer, [width, height], time, sraa).await
+    };
+    drawn.await.map_err(|failure: Failure| JsError::new(&failure.to_string()))
+}
+
+struct Screen {
+    gpu: Gpu,
+    surface: wgpu::Surface<'static>,
+    config: wgpu::SurfaceConfiguration,
+    renderer: Renderer,
+    options: Options,
+    /// Frames that are submitted and not done.
+    under_way: Arc<AtomicU32>,
+    started: Instant,
+    /// Since when frames are counted, and how many there were.
+    counted: (Instant, u32),
+}
+
+impl Screen {
+    async fn new(canvas: HtmlCanvasElement, options: Options) -> Result<Self, Failure> {
+        let [width, height] = options.size;
+        canvas.set_width(width);
+        canvas.set_height(height);
+        let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
+        let surface = instance.create_surface(wgpu::SurfaceTarget::Canvas(canvas))?;
+        let gpu = Gpu::new(&instance, Some(&surface), options.timestamps).await?;
+        let config = surface.get_default_config(&gpu.adapter, width, height);
+        let mut config = config.ok_or("the adapter cannot draw to this canvas")?;
+        // The renderer gives linear colours; the format converts them.
+        let format = config.format.add_srgb_suffix();
+        config.view_formats.push(format);
+        surface.configure(&gpu.device, &config);
+        let renderer = Renderer::new(&gpu.device, &gpu.queue, options.size, format)?;
+        let now = Instant::now();
+        let under_way = Arc::default();
+        Ok(Screen { gpu, surface, config, renderer, options, under_way, started: now, counted: (now, 0) })
+    }
+
+    fn draw(&mut self) -> Result<(), Failure> {
+        if self.under_way.load(Ordering::Relaxed) >= AHEAD {
+            return Ok(());
+        }
+        let frame = match self.surface.get_current_texture() {
+            CurrentSurfaceTexture::Success(frame) | CurrentSurfaceTexture::Suboptimal(frame) => frame,
+            // Nothing to draw to now; the next frame may have more luck.
+            _ => return Ok(()),
+        };
+        let view = frame.texture.create_view(&wgpu::TextureViewDescriptor {
+            format: Some(self.config.format.add_srgb_suffix()),
+            ..Default::default()
+        });
+        let time = self.options.time.unwrap_or(self.started.elapsed().as_secs_f32());
+        self.renderer.draw(time, self.options.sraa, &view)?;
+        self.under_way.fetch_add(1, Ordering::Relaxed);
+        let under_way = Arc::clone(&self.under_way);
+        self.gpu.queue.on_submitted_work_done(move || {
+            under_way.fetch_sub(1, Ordering::Relaxed);
+        });
+        self.gpu.queue.present(frame);
+        self.count()
+    }
+
+    /// Counts a frame, and shows once a second what one costs.
+    fn count(&mut self) -> Result<(), Failure> {
+        let (since, frames) = &mut self.counted;
+        *frames += 1;
+        let (elapsed, frames) = (since.elapsed(), *frames);
+        if elapsed.as_secs() >= 1
+            && let Some(costs) = self.renderer.clock.take()?
+        {
+            self.counted = (Instant::now(), 0);
+            let each = elapsed.as_secs_f64() * 1e3 / f64::from(frames);
+            say(&format!("{}: {each:.1} ms a frame, {}; {costs}", self.state(), self.gpu.clock()));
+        }
+        Ok(())
+    }
+
+    fn state(&self) -> String {
+        format!("SRAA {} (Space)", if self.options.sraa { "on" } else { "off" })
+    }
+}
+
+async fn run() -> Result<(), Failure> {
+    let options = Options::of_address(&window().location().search().unwrap_or_default())?;
+    let canvas = element("canvas").and_then(|element| element.dyn_into().ok());
+    let screen = Screen::new(canvas.ok_or("the page has no <canvas>")?, options).await?;
+    say(&screen.state());
+    let screen = Rc::new(RefCell::new(screen));
+    toggle_by_space(Rc::clone(&screen));
+    draw_every_frame(screen);
+    Ok(())
+}
+
+fn toggle_by_space(screen: Rc<RefCell<Screen>>) {
+    let pressed = Closure::<dyn FnMut(_)>::new(move |event: KeyboardEvent| {
+        if event.code() == "Space" && !event.repeat() {
+            event.prevent_default();
+            let mut screen = screen.borrow_mut();
+            screen.options.sraa = !screen.options.sraa;
+            say(&screen.state());
+        }
+    });
+    window().set_onkeydown(Some(pressed.as_ref().unchecked_ref()));
+    // It is there as long as the page.
+    pressed.forget();
+}
+
+/// Asks the browser for the next frame from each, until one fails.
+fn draw_every_frame(screen: Rc<RefCell<Screen>>) {
+    let next = Rc::new(RefCell::new(None::<Closure<dyn FnMut()>>));
+    let again = Rc::clone(&next);
+    *next.borrow_mut() = Some(Closure::new(move || match screen.borrow_mut().draw() {
+        Ok(()) => request(&again),
+        Err(failure) => say(&failure.to_string()),
+    }));
+    request(&next);
+}
+
+fn request(frame: &RefCell<Option<Closure<dyn FnMut()>>>) {
+    if let Some(frame) = &*frame.borrow()
+        && window().request_animation_frame(frame.as_ref().unchecked_ref()).is_err()
+    {
+        say("the browser gives no more frames");
+    }
+}
+
+fn window() -> Window {
+    web_sys::window().expect("only a page calls this, and a page has a window")
+}
+
+fn element(selector: &str) -> Option<Element> {
+    window().document()?.query_selector(selector).ok()?
+}
+
+fn say(text: &str) {
+    if let Some(element) = element("#state") {
+        element.set_text_content(Some(text));
+    }
+}

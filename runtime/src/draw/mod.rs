@@ -1,0 +1,272 @@
+//! Drawing triangles of the caller's with an emitted fragment shader.
+
+mod options;
+mod vertices;
+
+use crate::error::Error;
+use crate::guard::LossProbe;
+use crate::inputs::{Abilities, arrange, check_inputs, frame_size};
+use crate::layout::{BoundGroup, Layout};
+use crate::module::Source;
+use crate::pass::{check_features, check_hash};
+use crate::pipeline::{VertexSide, check_formats, render_pipeline};
+use crate::plan::{Plan, StagePlan};
+use crate::uniforms::{UniformValue, Uniforms};
+use crate::{BindOptions, Resource, reflect};
+use std::sync::Arc;
+use straightline_manifest::Manifest;
+use wgpu::{Device, Queue, RenderPass, RenderPipeline, TextureFormat};
+
+pub use options::{DrawOptions, VertexShader};
+
+/// One emitted fragment shader behind a vertex shader of the caller's: a pipeline for triangles, which a [`Pass`](crate::Pass)
+/// has none of. Kernels that take interpolated values, such as shadow filters, are drawn so.
+///
+/// The caller records the render pass, with its own targets, depth buffer and vertices; [`BoundDraw::set`] sets the pipeline and
+/// the kernel's bind groups in it.
+///
+/// ```no_run
+/// use straightline_runtime::{BoundDraw, Draw, DrawOptions, Error, PassOptions, Resource, wgpu};
+///
+/// const SCENE: &str = "
+///     struct Corner { @builtin(position) clip: vec4f, @location(0) coord: vec3f }
+///     @group(1) @binding(0) var<uniform> matrices: array<mat4x4f, 2>;
+///     @vertex fn corner(@location(0) place: vec3f) -> Corner {
+///         return Corner(matrices[0] * vec4f(place, 1.0), (matrices[1] * vec4f(place, 1.0)).xyz);
+///     }";
+///
+/// fn shadowed(
+///     device: &wgpu::Device,
+///     // Of `straightline emit pcf --stage fragment`: its varying is `coord: vec3f` at location 0.
+///     (manifest, shader): (&str, &str),
+///     matrices: &wgpu::BindGroupLayout,
+///     (shadow, compare): (&wgpu::TextureView, &wgpu::Sampler),
+/// ) -> Result<BoundDraw, Error> {
+///     let place = wgpu::vertex_attr_array![0 => Float32x3];
+///     let vertices = [Some(wgpu::VertexBufferLayout {
+///         array_stride: 12,
+///         step_mode: wgpu::VertexStepMode::Vertex,
+///         attributes: &place,
+///     })];
+///     let options = DrawOptions::new(SCENE, "corner")
+///         .buffers(&vertices)
+///         .group(1, matrices)
+///         .pass(PassOptions::default().target_format(wgpu::TextureFormat::Rgba8UnormSrgb));
+///     let draw = Draw::from_json(device, manifest, shader, &options)?;
+///     draw.bind(&[("shadow", Resource::from(shadow)), ("shadow_sampler", compare.into())])
+/// }
+///
+/// fn record(shadowed: &BoundDraw, pass: &mut wgpu::RenderPass<'_>, matrices: &wgpu::BindGroup, corners: &wgpu::Buffer) {
+///     shadowed.set(pass);
+///     pass.set_bind_group(1, matrices, &[]);
+///     pass.set_vertex_buffer(0, corners.slice(..));
+///     pass.draw(0..(corners.size() / 12) as u32, 0..1);
+/// }
+/// ```
+#[derive(Debug)]
+pub struct Draw {
+    device: Device,
+    plan: Arc<Plan>,
+    layout: Layout,
+    pipeline: RenderPipeline,
+    formats: Vec<TextureFormat>,
+    abilities: Abilities,
+    loss_probe: LossProbe,
+}
+
+impl Draw {
+    /// The fragment shader `wgsl` that `manifest` describes, behind the vertex shader of `options`. All that does not depend on
+    /// what is read is checked here: that the vertex shader gives each varying at its location and of its type, the formats of
+    /// vertices, the states of the pipeline.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Pass::with_options`](crate::Pass::with_options); [`Error::Varying`] for a varying that the vertex shader does not
+    /// give or gives otherwise; [`Error::VertexShader`] for one that does not compile or has no such entry point;
+    /// [`Error::Pipeline`] for a shader of another stage or for regions, a bind group that the kernel has itself, and whatever wgpu
+    /// holds against the pipeline.
+    pub fn new(device: &Device, manifest: &Manifest, wgsl: &str, options: &DrawOptions<'_>) -> Result<Self, Error> {
+        let plan = Plan::new(manifest)?;
+        check_hash(manifest, wgsl)?;
+        reflect::check(&plan, wgsl)?;
+        drawable(&plan)?;
+        check_features(device, manifest)?;
+        let formats = check_formats(device, &plan, &options.pass)?;
+        let doing = format!("making a pipeline of `{}`", plan.kernel);
+        let loss_probe = LossProbe::new(device, &doing)?;
+        let layout = Layout::with_groups(device, &plan, &options.groups)?;
+        let vertices = vertices::module(device, &plan, &options.vertex)?;
+        let source = Source::Wgsl {
+            text: wgsl,
+            unbounded_loops: options.pass.unbounded_loops,
+        };
+        let fragment = source.module(device, &plan)?;
+        let side = VertexSide {
+            module: &vertices,
+            entry_point: options.vertex.entry_point(),
+            buffers: &options.buffers,
+            primitive: options.primitive,
+            depth_stencil: options.depth_stencil.clone(),
+            multisample: options.multisample,
+            blend: options.blend,
+        };
+        let pipeline = render_pipeline(device, &plan, &layout, (side, &fragment), &formats);
+        let pipeline = pipeline.map_err(|error| vertices::explained(error, &plan, &options.vertex))?;
+        loss_probe.check(device, &doing)?;
+        Ok(Draw {
+            device: device.clone(),
+            plan: Arc::new(plan),
+            layout,
+            pipeline,
+            formats,
+            abilities: Abilities::new(device),
+            loss_probe,
+        })
+    }
+
+    /// [`new`](Self::new) for a manifest as it lies on disk.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`new`](Self::new), and [`Error::Manifest`] if `manifest_json` is not a manifest or of another schema.
+    pub fn from_json(
+        device: &Device,
+        manifest_json: &str,
+        wgsl: &str,
+        options: &DrawOptions<'_>,
+    ) -> Result<Self, Error> {
+        Self::new(device, &Manifest::from_json(manifest_json)?, wgsl, options)
+    }
+
+    /// The kernel's name.
+    pub fn kernel(&self) -> &str {
+        &self.plan.kernel
+    }
+
+    /// Names of the inputs that [`bind`](Self::bind) wants, textures, samplers and buffers, in binding order.
+    pub fn inputs(&self) -> impl ExactSizeIterator<Item = &str> {
+        self.plan.inputs.iter().map(|input| input.name.as_str())
+    }
+
+    /// Names of what the kernel gives, with the format that the render pass must have for each, in the order of its colour
+    /// attachments.
+    pub fn targets(&self) -> impl ExactSizeIterator<Item = (&str, TextureFormat)> {
+        let names = self.plan.outputs.iter().map(|output| output.name.as_str());
+        names.zip(self.formats.iter().copied())
+    }
+
+    /// The pipeline with what the kernel reads, `inputs`, given by name as to [`Pass::bind`](crate::Pass::bind). Uniforms start from
+    /// the manifest's defaults.
+    ///
+    /// Textures that are read at the pixel have one size: that of the render pass, which is not known here. Nor is what else the
+    /// render pass writes: that an input is one of its attachments, wgpu says when the caller's encoder is finished.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Pass::bind`](crate::Pass::bind) that are not about targets.
+    pub fn bind<'r, R: Into<Resource<'r>> + Copy>(&self, inputs: &[(&str, R)]) -> Result<BoundDraw, Error> {
+        self.bind_with(inputs, &BindOptions::default())
+    }
+
+    /// [`bind`](Self::bind) with other uniforms than the manifest's.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`bind`](Self::bind); [`Error::UnknownUniform`], [`Error::UniformType`], [`Error::NoUniforms`] and
+    /// [`Error::UniformSize`]; and [`Error::Region`] for a rectangle, which the caller's scissor and triangles say.
+    pub fn bind_with<'r, R: Into<Resource<'r>> + Copy>(
+        &self,
+        inputs: &[(&str, R)],
+        options: &BindOptions<'_>,
+    ) -> Result<BoundDraw, Error> {
+        let plan = &self.plan;
+        if let Some(region) = options.region {
+            return Err(Error::Region {
+                kernel: plan.kernel.clone(),
+                region,
+                problem: "triangles say what is drawn; cut it by the render pass's scissor".to_owned(),
+            });
+        }
+        let inputs: Vec<(&str, Resource<'r>)> = inputs.iter().map(|(name, input)| (*name, (*input).into())).collect();
+        self.loss_probe
+            .check(&self.device, &format!("binding `{}`", plan.kernel))?;
+        let resources = arrange(plan, &inputs)?;
+        // Without a texture of the frame's size none is compared with it.
+        let frame = frame_size(plan, &resources).unwrap_or_default();
+        check_inputs(plan, &self.abilities, &resources, frame)?;
+        let uniforms = Uniforms::new(&self.device, plan, options)?;
+        let groups = self
+            .layout
+            .bind(&self.device, plan, &uniforms, &resources, (&[], None))?;
+        Ok(BoundDraw {
+            plan: Arc::clone(plan),
+            pipeline: self.pipeline.clone(),
+            groups,
+            uniforms,
+        })
+    }
+}
+
+/// Refuses what no triangles are drawn with.
+fn drawable(plan: &Plan) -> Result<(), Error> {
+    let refused = |description: &str| {
+        Err(Error::Pipeline {
+            kernel: plan.kernel.clone(),
+            description: description.to_owned(),
+        })
+    };
+    match (plan.stage, &plan.region) {
+        (StagePlan::Compute { .. }, _) => refused(
+            "it is a compute shader, and triangles are drawn with a fragment shader: generate it for the stage \
+             `fragment`, or dispatch it with a `Pass`",
+        ),
+        (_, Some(_)) => refused(
+            "it is a shader for regions, which fills a rectangle: generate it without `region`, or run it with a `Pass`",
+        ),
+        (StagePlan::Fragment, None) => Ok(()),
+    }
+}
+
+/// A [`Draw`] with what it reads, to be set in a render pass of the caller's as often as wanted. It keeps what it binds alive, has
+/// no lifetime, and can be shared between threads.
+#[derive(Debug)]
+pub struct BoundDraw {
+    plan: Arc<Plan>,
+    pipeline: RenderPipeline,
+    groups: Vec<BoundGroup>,
+    uniforms: Uniforms,
+}
+
+impl BoundDraw {
+    /// The kernel's name.
+    pub fn kernel(&self) -> &str {
+        &self.plan.kernel
+    }
+
+    /// Sets the pipeline and the kernel's bind groups in `pass`. What the vertex shader reads, its own bind groups and vertex buffers,
+    /// and the draw calls are the caller's. It cannot fail, and allocates nothing of its own.
+    pub fn set(&self, pass: &mut RenderPass<'_>) {
+        pass.set_pipeline(&self.pipeline);
+        for (index, group) in &self.groups {
+            pass.set_bind_group(*index, group, &[]);
+        }
+    }
+
+    /// Sets the uniform `name`: see [`Bound::write_uniform`](crate::Bound::write_uniform).
+    ///
+    /// # Errors
+    ///
+    /// [`Error::UnknownUniform`], or [`Error::UniformType`] for a value of another type. Nothing has been written then.
+    pub fn write_uniform(&self, queue: &Queue, name: &str, value: impl Into<UniformValue>) -> Result<(), Error> {
+        self.uniforms.write(&self.plan, queue, name, &value.into())
+    }
+
+    /// Sets all uniforms at once: see [`Bound::write_uniforms`](crate::Bound::write_uniforms).
+    ///
+    /// # Errors
+    ///
+    /// [`Error::NoUniforms`], or [`Error::UniformSize`] for another length. Nothing has been written then.
+    pub fn write_uniforms(&self, queue: &Queue, bytes: &[u8]) -> Result<(), Error> {
+        self.uniforms.write_all(&self.plan, queue, bytes)
+    }
+}
