@@ -265,9 +265,7 @@ impl KernelConfig {
         if let Some(size) = self.emit.workgroup {
             settings.share = settings.share.of_size(size);
         }
-        let compiled = kernel
-            .compile(&settings)
-            .map_err(|e| Error::of(Problem::Kernel(e)))?;
+        let compiled = kernel.compile(&settings).map_err(|e| Error::of(Problem::Kernel(e)))?;
         let emitted = compiled.emit(&self.emit).map_err(|e| Error::of(Problem::Emit(e)))?;
         let files = emitted.named(&name);
         Ok(Built {

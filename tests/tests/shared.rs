@@ -11,6 +11,9 @@ use straightline_kernels::filters::FILTERS;
 use straightline_kernels::prelude::*;
 use straightline_runtime::{Region, wgpu};
 use straightline_testbed::execute::{Inputs, interpret, test_inputs};
+use straightline_tests::random::forms::same as same_texel;
+use straightline_tests::random::make::{Features, make};
+use straightline_tests::random::oracle::{World, computed};
 use straightline_tests::sraa::surfaces;
 use straightline_tests::{compilers, passthrough};
 
@@ -62,6 +65,9 @@ struct Case {
 
 const SIZE: UVec2 = uvec2(41, 23);
 
+/// First seed of random kernels.
+const SEED: u64 = 77_000;
+
 fn owned(options: &[(&str, &str)]) -> Vec<(String, String)> {
     let owned = |(name, value): &(&str, &str)| ((*name).to_owned(), (*value).to_owned());
     options.iter().map(owned).collect()
@@ -105,8 +111,16 @@ fn cases() -> Vec<Case> {
         filter("median", &[]),
         sraa(&[]),
         sraa(&[("pattern", "latin16")]),
-        sraa(&[("layout", "multisampled"), ("pattern", "standard4"), ("shading", "sample0")]),
-        of_card("mixed".to_owned(), Kernel::from_text("mixed.rs", MIXED, "mixed"), Vec::new()),
+        sraa(&[
+            ("layout", "multisampled"),
+            ("pattern", "standard4"),
+            ("shading", "sample0"),
+        ]),
+        of_card(
+            "mixed".to_owned(),
+            Kernel::from_text("mixed.rs", MIXED, "mixed"),
+            Vec::new(),
+        ),
     ]
 }
 
@@ -114,7 +128,11 @@ fn cases() -> Vec<Case> {
 fn looped() -> Vec<Case> {
     vec![
         sraa(&[("guards", "fallback")]),
-        of_card("mixed".to_owned(), Kernel::from_text("mixed.rs", MIXED, "mixed"), Vec::new()),
+        of_card(
+            "mixed".to_owned(),
+            Kernel::from_text("mixed.rs", MIXED, "mixed"),
+            Vec::new(),
+        ),
     ]
 }
 
@@ -179,9 +197,44 @@ fn loops_and_branches_stay_what_they_are() {
             let expected = case.interpreted(&case.compile(Share::Invocation, unroll));
             let compiled = case.compile(Share::WORKGROUP, unroll);
             assert!(compiled.counts.loops > 0, "{}", case.name);
-            same(&format!("{} {unroll}", case.name), &expected, &case.interpreted(&compiled));
+            same(
+                &format!("{} {unroll}", case.name),
+                &expected,
+                &case.interpreted(&compiled),
+            );
         }
     }
+}
+
+/// Random kernels, whatever they do with what they read.
+#[test]
+fn random_kernels_find_the_same_bits() {
+    let world = World::new(SEED);
+    let mut shared = 0;
+    for seed in SEED..SEED + 1500 {
+        let text = make(seed, Features::all());
+        let kernel = Kernel::from_text("random.rs", &text.file(), "k");
+        let compile = |share: Share| {
+            let settings = Settings {
+                share,
+                ..Settings::default()
+            };
+            kernel.compile(&settings)
+        };
+        let (Ok(alone), Ok(together)) = (compile(Share::Invocation), compile(Share::Workgroup([4, 3]))) else {
+            continue;
+        };
+        let [expected, found] = [&alone, &together].map(|compiled| computed::<f32>(compiled, &world));
+        let (Ok(expected), found) = (expected, found) else {
+            continue;
+        };
+        let found = found.unwrap_or_else(|e| panic!("{text}\n{e}"));
+        for (place, x, y) in expected.pairs(&found, &world).unwrap_or_else(|e| panic!("{text}\n{e}")) {
+            assert!(same_texel(x, y), "{text}\n{place}: {x:?} became {y:?}");
+        }
+        shared += 1;
+    }
+    assert!(shared >= 20, "{shared} kernels share texels");
 }
 
 #[test]
@@ -220,7 +273,10 @@ fn compilers_read_every_language() {
         let compiled = case.compile(Share::WORKGROUP, Unroll::Full);
         let targets = Target::MODERN.into_iter().chain([Target::Glsl430]);
         for origin in [Origin::UpperLeft, Origin::LowerLeft] {
-            let options = EmitOptions::new().targets(targets.clone()).origin(origin).accept_loss(true);
+            let options = EmitOptions::new()
+                .targets(targets.clone())
+                .origin(origin)
+                .accept_loss(true);
             let emitted = compiled.emit(&options).unwrap_or_else(|e| panic!("{}: {e}", case.name));
             compilers::read(&emitted).unwrap_or_else(|e| panic!("{}: {e}", case.name));
             let wgsl = String::from_utf8_lossy(&emitted.files[&Target::Wgsl]);
@@ -242,7 +298,9 @@ fn other_languages_find_the_same() {
         let found = passthrough::run(&bench, &emitted, language, &case.inputs);
         let found = found.unwrap_or_else(|e| panic!("{language}: {e}"));
         for (expected, found) in expected[0].iter().zip(found.texels()) {
-            let off = (0..4).map(|k| (expected[k] - f64::from(found[k])).abs()).fold(0.0, f64::max);
+            let off = (0..4)
+                .map(|k| (expected[k] - f64::from(found[k])).abs())
+                .fold(0.0, f64::max);
             assert!(off < 1e-5, "{language}: {expected:?} and {found:?}");
         }
     }
@@ -295,8 +353,13 @@ fn reads_are_counted() {
     assert_eq!((counts.shared_reads, counts.barriers), (49, 1));
     assert_eq!(counts.shared_memory, 22 * 22 * 16);
     let sharing = compiled.sharing.expect("what is shared");
-    let [tile] = &sharing.tiles[..] else { panic!("{sharing:?}") };
-    assert_eq!((tile.first, tile.size, tile.reads, tile.fills), ([-3, -3], [22, 22], 49, 2));
+    let [tile] = &sharing.tiles[..] else {
+        panic!("{sharing:?}")
+    };
+    assert_eq!(
+        (tile.first, tile.size, tile.reads, tile.fills),
+        ([-3, -3], [22, 22], 49, 2)
+    );
     assert!(sharing.apart.is_empty());
 }
 
@@ -304,7 +367,10 @@ fn reads_are_counted() {
 #[test]
 fn what_is_not_shared_is_told() {
     let case = &looped()[1];
-    let sharing = case.compile(Share::WORKGROUP, Unroll::Full).sharing.expect("what is shared");
+    let sharing = case
+        .compile(Share::WORKGROUP, Unroll::Full)
+        .sharing
+        .expect("what is shared");
     let tiles: Vec<_> = sharing.tiles.iter().map(|t| (t.of(), t.size, t.bytes)).collect();
     let expected = [
         ("color".to_owned(), [20, 19], 20 * 19 * 8),
@@ -342,7 +408,10 @@ fn tiles_fit_into_the_memory_that_devices_have() {
     assert_eq!(names, ["a_tile"], "{sharing:?}");
     assert!(sharing.bytes() <= 16_384);
     let told = "its tile does not fit into 16384 bytes beside those of others";
-    assert!(sharing.apart.iter().all(|a| a.reads == 9 && a.why == told), "{sharing:?}");
+    assert!(
+        sharing.apart.iter().all(|a| a.reads == 9 && a.why == told),
+        "{sharing:?}"
+    );
     let expected = case.interpreted(&case.compile(Share::Invocation, Unroll::Full));
     same("k", &expected, &case.interpreted(&compiled));
 }
@@ -359,7 +428,11 @@ fn what_cannot_share_is_refused() {
     };
     let point = "pub fn k(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 { color.load(pixel) }";
     let cases = [
-        (point, by(Share::WORKGROUP), "it reads nothing that pixels can share: of `color` a pixel reads one texel"),
+        (
+            point,
+            by(Share::WORKGROUP),
+            "it reads nothing that pixels can share: of `color` a pixel reads one texel",
+        ),
         (point, by(Share::Workgroup([0, 8])), "a workgroup of 0x8 threads"),
         (point, by(Share::Workgroup([64, 64])), "a workgroup of 64x64 threads"),
         (
@@ -398,7 +471,10 @@ fn what_cannot_share_is_refused() {
     ];
     for (text, settings, why) in cases {
         let error = refused(text, settings);
-        assert!(error.contains(&format!("cannot share texels by workgroup: {why}")), "{error}");
+        assert!(
+            error.contains(&format!("cannot share texels by workgroup: {why}")),
+            "{error}"
+        );
         assert!(error.contains("help"), "{error}");
     }
     let compiled = filter("median", &[]).compile(Share::WORKGROUP, Unroll::Full);

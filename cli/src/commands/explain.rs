@@ -63,10 +63,18 @@ fn machine_code(emitted: &Emitted, family: Family) -> Result<(String, Report), F
 }
 
 fn print_isa(device: &str, report: &Report, dump: bool) {
-    let rows = report
-        .figures
-        .named()
-        .map(|(name, figure)| vec![name.to_owned(), figure.to_string()]);
+    let rows = report.figures.named().into_iter();
+    let rows = rows.map(|(name, figure)| vec![name.to_owned(), figure.to_string()]);
+    let mut rows: Vec<Vec<String>> = rows.collect();
+    let shared = report
+        .assembly
+        .lines()
+        .filter(|line| line.trim_start().starts_with("ds_"))
+        .count();
+    if let Some(memory) = rows.iter().position(|row| row[0] == "memory").filter(|_| shared > 0) {
+        let cells = ["  of them in shared memory".to_owned(), shared.to_string()];
+        rows.insert(memory + 1, cells.to_vec());
+    }
     out!("\n{}", table::render(&[device, "a wave"], &rows));
     if dump {
         out!("\n{}", report.assembly);
@@ -122,6 +130,9 @@ fn to_json(compiled: &Compiled, counts: &Counts, bound: &Bound, paper: Option<Pa
             }
         }
     }
+    if let Some(sharing) = &compiled.sharing {
+        out.insert("sharing".into(), sharing_json(sharing));
+    }
     if let Some(paper) = paper {
         if paper.weight_evaluations > 0 {
             out.insert("paper_weight_evaluations".into(), json!(paper.weight_evaluations));
@@ -129,6 +140,28 @@ fn to_json(compiled: &Compiled, counts: &Counts, bound: &Bound, paper: Option<Pa
         out.insert("paper_texture_reads".into(), json!(paper.texture_reads));
     }
     out
+}
+
+/// What a workgroup shares, and which reads stay as they are and why.
+fn sharing_json(sharing: &Sharing) -> Value {
+    let tiles = sharing.tiles.iter().map(|tile| {
+        json!({
+            "texture": tile.texture,
+            "layer": tile.layer,
+            "first": tile.first,
+            "size": tile.size,
+            "bytes": tile.bytes,
+            "reads": tile.reads,
+            "reads_of_a_thread": tile.fills,
+        })
+    });
+    let apart = sharing.apart.iter();
+    let apart = apart.map(|apart| json!({ "texture": apart.texture, "reads": apart.reads, "why": apart.why }));
+    json!({
+        "workgroup": sharing.threads,
+        "tiles": tiles.collect::<Vec<_>>(),
+        "not_shared": apart.collect::<Vec<_>>(),
+    })
 }
 
 fn print(compiled: &Compiled, counts: &Counts, bound: &Bound, paper: Option<PaperCounts>) {

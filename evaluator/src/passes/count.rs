@@ -64,7 +64,9 @@ impl Run {
             .saturating_add(other.transcendentals.saturating_mul(times));
         self.messages = self.messages.saturating_add(other.messages.saturating_mul(times));
         self.writes = self.writes.saturating_add(other.writes.saturating_mul(times));
-        self.shared_reads = self.shared_reads.saturating_add(other.shared_reads.saturating_mul(times));
+        self.shared_reads = self
+            .shared_reads
+            .saturating_add(other.shared_reads.saturating_mul(times));
         self.barriers = self.barriers.saturating_add(other.barriers.saturating_mul(times));
         self.alu = self.alu.saturating_add(other.alu.saturating_mul(times));
     }
@@ -129,7 +131,11 @@ impl Counter<'_> {
             }
             Op::SharedLoad(_) => run.shared_reads = run.shared_reads.saturating_add(1),
             Op::Barrier { .. } => run.barriers = run.barriers.saturating_add(1),
-            Op::Store(Memory::Shared(_)) | Op::Atomic { memory: Memory::Shared(_), .. } => {}
+            Op::Store(Memory::Shared(_))
+            | Op::Atomic {
+                memory: Memory::Shared(_),
+                ..
+            } => {}
             effect if effect.is_effect() => run.writes = run.writes.saturating_add(1),
             Op::Message(_) | Op::Derivative(_) => run.messages = run.messages.saturating_add(1),
             Op::Unary(_) | Op::Binary(_) | Op::Dot | Op::Cross | Op::Clamp | Op::Select | Op::Convert | Op::Bitcast => {

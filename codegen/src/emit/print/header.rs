@@ -69,11 +69,11 @@ pub fn header(compiled: &Compiled, counts: &Counts, resources: &Resources) -> Ve
         let [width, height] = sharing.threads;
         let tiles = sharing.tiles.iter().map(|tile| {
             let ([across, down], many) = (tile.size, many(tile.fills, "read"));
-            format!("{across}x{down} of {} by {many} of a thread for {}", tile.of(), tile.reads)
+            format!("{across}x{down} of {} ({many} instead of {})", tile.of(), tile.reads)
         });
         let tiles: Vec<String> = tiles.collect();
         lines.push(format!(
-            "A workgroup of {width}x{height} pixels shares texels, in {} bytes: {}.",
+            "Workgroups of {width}x{height} pixels share texels in {} bytes: {}.",
             sharing.bytes(),
             tiles.join(", ")
         ));

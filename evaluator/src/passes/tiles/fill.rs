@@ -18,6 +18,13 @@ struct Place {
     shared: Shared,
 }
 
+impl Place {
+    /// Whether an element is a texel as reads give it.
+    fn is_whole(&self, texel: Type) -> bool {
+        self.shared.element == texel && self.components.len() == usize::from(texel.lanes())
+    }
+}
+
 /// Fills the tiles, and reads them.
 pub struct Tiling<'g> {
     old: &'g Graph,
@@ -110,12 +117,17 @@ impl<'g> Tiling<'g> {
                 site: 0,
             };
             let read = b.add(read, args, ty);
-            let value = match tile.components.len() == usize::from(ty.lanes()) {
+            let value = match tile.is_whole(ty) {
                 true => read,
                 false => {
                     let scalar = ty.element();
                     let used = tile.components.iter();
-                    let used: Vec<NodeId> = used.map(|c| b.add(Op::Extract(*c), [read], scalar)).collect();
+                    let used = used.map(|component| match ty.is_scalar() {
+                        true => read,
+                        false => b.add(Op::Extract(*component), [read], scalar),
+                    });
+                    let mut used: Vec<NodeId> = used.collect();
+                    used.resize_with(usize::from(tile.shared.element.lanes()), || b.constant(scalar, [0; 4]));
                     match used[..] {
                         [one] => one,
                         _ => b.add(Op::Compose, used, tile.shared.element),
@@ -140,14 +152,14 @@ impl<'g> Tiling<'g> {
             b.set_origin(found, origin);
         }
         let ty = b.graph().textures[tile.texture as usize].texel();
-        if tile.components.len() == usize::from(ty.lanes()) {
+        if tile.is_whole(ty) {
             return Some(found);
         }
         let scalar = ty.element();
         let part = |b: &mut Builder<'_>, component: u8| {
             let at = tile.components.iter().position(|c| *c == component);
             match at {
-                Some(_) if tile.components.len() == 1 => found,
+                Some(_) if tile.shared.element.is_scalar() => found,
                 Some(at) => b.add(Op::Extract(at as u8), [found], scalar),
                 None => b.constant(scalar, [0; 4]),
             }

@@ -10,9 +10,7 @@ mod fill;
 use super::fold::Exact;
 use super::offsets::offsets;
 use super::schedule::schedule;
-use crate::ir::{
-    Graph, Invocation, Lanes, MOST_SHARED_BYTES, NodeId, Op, Rebuild, Shared, Type, rebuild_replacing,
-};
+use crate::ir::{Graph, Invocation, Lanes, MOST_SHARED_BYTES, NodeId, Op, Rebuild, Shared, Type, rebuild_replacing};
 use crate::policy::ReadOrder;
 use fill::Tiling;
 use std::collections::BTreeSet;
@@ -208,10 +206,14 @@ impl Candidate {
         }
     }
 
-    /// What lies in the tile of each texel.
+    /// What lies in the tile of each texel. Three components take the room of four, and are read at once where they lie as four.
     fn element(&self, graph: &Graph) -> Type {
         let scalar = graph.textures[self.texture as usize].scalar;
-        Type::value(scalar, self.components.len() as u8)
+        let lanes = match self.components.len() as u8 {
+            3 => 4,
+            lanes => lanes,
+        };
+        Type::value(scalar, lanes)
     }
 
     /// How large it is, and what it saves.
@@ -251,12 +253,7 @@ impl Candidate {
 }
 
 /// Those that pay and fit.
-fn chosen(
-    graph: &Graph,
-    candidates: Vec<Candidate>,
-    threads: [u32; 2],
-    apart: &mut Vec<Apart>,
-) -> Vec<Candidate> {
+fn chosen(graph: &Graph, candidates: Vec<Candidate>, threads: [u32; 2], apart: &mut Vec<Apart>) -> Vec<Candidate> {
     let mut kept = Vec::new();
     let mut leave = |candidate: &Candidate, why: String| {
         apart.push(Apart {
