@@ -54,8 +54,8 @@ pub struct OptionArgs {
     /// fragment shaders and blocks in compute
     #[arg(help_heading = "Kernel options", long, value_name = "TRANSPORT", value_parser = |s: &str| s.parse::<Transport>())]
     pub transport: Option<Transport>,
-    /// What pixels share of the texels they read: `invocation` for nothing; with `workgroup`, 16x16 threads, or `workgroup(WxH)`, each
-    /// texel around them is read once, into memory that they share. The picture is the same
+    /// Whether pixels share the texels they read: `invocation` for no; `workgroup` has 16x16 threads read each once into memory of
+    /// theirs, `workgroup(WxH)` so many. The picture is the same
     #[arg(help_heading = "Kernel options", long, value_name = "HOW", default_value = "invocation", value_parser = |s: &str| s.parse::<Share>())]
     pub share: Share,
     /// Pixels that one compute invocation computes, across and down

@@ -63,18 +63,10 @@ fn machine_code(emitted: &Emitted, family: Family) -> Result<(String, Report), F
 }
 
 fn print_isa(device: &str, report: &Report, dump: bool) {
-    let rows = report.figures.named().into_iter();
-    let rows = rows.map(|(name, figure)| vec![name.to_owned(), figure.to_string()]);
-    let mut rows: Vec<Vec<String>> = rows.collect();
-    let shared = report
-        .assembly
-        .lines()
-        .filter(|line| line.trim_start().starts_with("ds_"))
-        .count();
-    if let Some(memory) = rows.iter().position(|row| row[0] == "memory").filter(|_| shared > 0) {
-        let cells = ["  of them in shared memory".to_owned(), shared.to_string()];
-        rows.insert(memory + 1, cells.to_vec());
-    }
+    let rows = report
+        .figures
+        .named()
+        .map(|(name, figure)| vec![name.to_owned(), figure.to_string()]);
     out!("\n{}", table::render(&[device, "a wave"], &rows));
     if dump {
         out!("\n{}", report.assembly);
