@@ -113,7 +113,7 @@ fn cases() -> Vec<Case> {
         sraa(&[("pattern", "latin16")]),
         sraa(&[
             ("layout", "multisampled"),
-            ("pattern", "standard4"),
+            ("pattern", "ordered4"),
             ("shading", "sample0"),
         ]),
         of_card(
@@ -193,20 +193,21 @@ fn the_interpreter_finds_the_same_bits() {
 #[test]
 fn loops_and_branches_stay_what_they_are() {
     for case in looped() {
-        for unroll in [Unroll::Full, Unroll::Partial(2)] {
-            let expected = case.interpreted(&case.compile(Share::Invocation, unroll));
-            let compiled = case.compile(Share::WORKGROUP, unroll);
-            assert!(compiled.counts.loops > 0, "{}", case.name);
-            same(
-                &format!("{} {unroll}", case.name),
-                &expected,
-                &case.interpreted(&compiled),
-            );
-        }
+        let expected = case.interpreted(&case.compile(Share::Invocation, Unroll::Full));
+        let compiled = case.compile(Share::WORKGROUP, Unroll::Full);
+        assert!(compiled.counts.loops > 0, "{}", case.name);
+        same(&case.name, &expected, &case.interpreted(&compiled));
     }
+    // With their loops left they have nothing at a constant offset.
+    let error = looped()[0].kernel.compile(&Settings {
+        share: Share::WORKGROUP,
+        unroll: Unroll::None,
+        ..Settings::default()
+    });
+    let error = error.expect_err("nothing is shared").to_string();
+    assert!(error.contains("of `color` the offset is no constant"), "{error}");
 }
 
-/// Random kernels, whatever they do with what they read.
 #[test]
 fn random_kernels_find_the_same_bits() {
     let world = World::new(SEED);
@@ -405,13 +406,13 @@ fn tiles_fit_into_the_memory_that_devices_have() {
     let compiled = case.compile(Share::WORKGROUP, Unroll::Full);
     let sharing = compiled.sharing.clone().expect("what is shared");
     let names: Vec<_> = sharing.tiles.iter().map(|t| &*t.name).collect();
-    assert_eq!(names, ["a_tile"], "{sharing:?}");
+    assert_eq!(names, ["a_tile", "b_tile"], "{sharing:?}");
     assert!(sharing.bytes() <= 16_384);
     let told = "its tile does not fit into 16384 bytes beside those of others";
-    assert!(
-        sharing.apart.iter().all(|a| a.reads == 9 && a.why == told),
-        "{sharing:?}"
-    );
+    let [apart] = &sharing.apart[..] else {
+        panic!("{sharing:?}")
+    };
+    assert_eq!((&*apart.texture, apart.reads, &*apart.why), ("c", 9, told));
     let expected = case.interpreted(&case.compile(Share::Invocation, Unroll::Full));
     same("k", &expected, &case.interpreted(&compiled));
 }

@@ -5,17 +5,18 @@ use crate::ir::{BinaryOp, Graph, Node, NodeId, Op, Scalar, UnaryOp};
 /// Numbers beyond which nothing is followed: pixels are fewer, so that no sum wraps.
 const FARTHEST: i64 = 1 << 24;
 
-/// A component of a coordinate, as far as it follows from the pixel, which lies inside the frame.
+/// A component of a coordinate, as far as it follows from the pixel, which lies inside the frame. Each but the constant is of an
+/// axis, 0 or 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Place {
     /// A constant.
     Known(i64),
     /// The frame's width or height and so much.
-    Size(i64),
+    Size(usize, i64),
     /// The pixel's and so much.
-    Away(i64),
+    Away(usize, i64),
     /// The same brought into the frame, from outside at most on the side to which it lies.
-    Inside(i64),
+    Inside(usize, i64),
 }
 
 use Place::{Away, Inside, Known, Size};
@@ -36,12 +37,12 @@ pub fn offsets(graph: &Graph) -> Vec<Option<[i32; 2]>> {
         });
     }
     let offset = |places: &Places| -> Option<[i32; 2]> {
-        let [x, y] = places.map(|place| match place {
-            Some(Inside(by)) => Some(by as i32),
-            Some(Away(0)) => Some(0),
+        let along = |axis: usize| match places[axis] {
+            Some(Inside(of, by)) if of == axis => Some(by as i32),
+            Some(Away(of, 0)) if of == axis => Some(0),
             _ => None,
-        });
-        Some([x?, y?])
+        };
+        Some([along(0)?, along(1)?])
     };
     places.iter().map(offset).collect()
 }
@@ -55,9 +56,9 @@ fn place(graph: &Graph, node: &Node, component: usize, places: &[Places]) -> Opt
     let arg = |k: usize| whole(node.args[k], component);
     let found = match &node.op {
         Op::Const(bits) => Known(i64::from(bits[component] as i32)),
-        Op::Pixel => Away(0),
-        Op::FrameSize => Size(0),
-        Op::TextureSize(texture) if graph.textures[*texture as usize].framed => Size(0),
+        Op::Pixel => Away(component, 0),
+        Op::FrameSize => Size(component, 0),
+        Op::TextureSize(texture) if graph.textures[*texture as usize].framed => Size(component, 0),
         Op::Splat => whole(node.args[0], 0)?,
         Op::Compose => whole(node.args[component], 0)?,
         Op::Extract(of) => whole(node.args[0], usize::from(*of))?,
@@ -79,43 +80,44 @@ fn place(graph: &Graph, node: &Node, component: usize, places: &[Places]) -> Opt
             _ => return None,
         },
         Op::Binary(BinaryOp::Min) => match (arg(0)?, arg(1)?) {
-            (Size(-1), other) | (other, Size(-1)) => not_behind(other)?,
+            (Size(axis, -1), other) | (other, Size(axis, -1)) => not_behind(other, axis)?,
             _ => return None,
         },
         Op::Clamp => match (arg(1)?, arg(2)?) {
-            (Known(0), Size(-1)) => not_behind(not_before(arg(0)?)?)?,
+            (Known(0), Size(axis, -1)) => not_behind(not_before(arg(0)?)?, axis)?,
             _ => return None,
         },
         _ => return None,
     };
-    let (Known(n) | Size(n) | Away(n) | Inside(n)) = found;
+    let (Known(n) | Size(_, n) | Away(_, n) | Inside(_, n)) = found;
     (-FARTHEST..=FARTHEST).contains(&n).then_some(found)
 }
 
 fn moved(place: Place, by: i64) -> Option<Place> {
     Some(match place {
         Known(n) => Known(n + by),
-        Size(n) => Size(n + by),
-        Away(n) => Away(n + by),
+        Size(axis, n) => Size(axis, n + by),
+        Away(axis, n) => Away(axis, n + by),
         // What has been brought to the border lies at another offset there.
-        Inside(n) => return (by == 0).then_some(Inside(n)),
+        Inside(..) => return (by == 0).then_some(place),
     })
 }
 
 /// At least 0. What lies before the pixel is never behind the last one.
 fn not_before(place: Place) -> Option<Place> {
     match place {
-        Away(n) if n < 0 => Some(Inside(n)),
-        Away(_) | Inside(_) => Some(place),
-        Known(_) | Size(_) => None,
+        Away(axis, n) if n < 0 => Some(Inside(axis, n)),
+        Away(..) | Inside(..) => Some(place),
+        Known(_) | Size(..) => None,
     }
 }
 
-/// At most the last pixel's. What lies behind the pixel is never before the first one.
-fn not_behind(place: Place) -> Option<Place> {
+/// At most the last pixel's along an axis. What lies behind the pixel is never before the first one.
+fn not_behind(place: Place, last: usize) -> Option<Place> {
     match place {
-        Away(n) if n > 0 => Some(Inside(n)),
-        Away(_) | Inside(_) => Some(place),
-        Known(_) | Size(_) => None,
+        Away(axis, _) | Inside(axis, _) if axis != last => None,
+        Away(axis, n) if n > 0 => Some(Inside(axis, n)),
+        Away(..) | Inside(..) => Some(place),
+        Known(_) | Size(..) => None,
     }
 }

@@ -120,7 +120,7 @@ impl<'g> Tiling<'g> {
             let value = match tile.is_whole(ty) {
                 true => read,
                 false => {
-                    let scalar = ty.element();
+                    let scalar = Type::scalar(b.graph().textures[tile.texture as usize].scalar);
                     let used = tile.components.iter();
                     let used = used.map(|component| match ty.is_scalar() {
                         true => read,
@@ -155,7 +155,7 @@ impl<'g> Tiling<'g> {
         if tile.is_whole(ty) {
             return Some(found);
         }
-        let scalar = ty.element();
+        let scalar = Type::scalar(b.graph().textures[tile.texture as usize].scalar);
         let part = |b: &mut Builder<'_>, component: u8| {
             let at = tile.components.iter().position(|c| *c == component);
             match at {
