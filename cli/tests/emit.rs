@@ -146,6 +146,65 @@ fn transports_that_a_stage_does_not_have_are_refused() {
 }
 
 #[test]
+fn workgroups_share_texels_where_they_are_asked_to() {
+    let folder = scratch("shared");
+    let out = folder.to_str().unwrap();
+    let kernel = common::here("kernels/filters/bilateral.rs");
+    let emit = |given: &[&str]| {
+        finishes(&[&["emit", &kernel, "--out", out], given].concat());
+        std::fs::read_to_string(folder.join("bilateral.wgsl")).expect("a shader")
+    };
+    let wgsl = emit(&["--share", "workgroup"]);
+    assert!(wgsl.contains("var<workgroup> color_tile: array<vec4f, 484>;"), "{wgsl}");
+    assert!(wgsl.contains("22x22 of color (2 reads instead of 49)"), "{wgsl}");
+    for wgsl in [
+        emit(&["--share", "workgroup", "--workgroup", "32x4"]),
+        emit(&["--share", "workgroup(32x4)", "--workgroup", "32x4"]),
+        emit(&["--share", "workgroup(32x4)"]),
+    ] {
+        assert!(wgsl.contains("@workgroup_size(32, 4, 1)"), "{wgsl}");
+        assert!(wgsl.contains("color_tile: array<vec4f, 380>;"), "{wgsl}");
+    }
+    let explained = finishes(&["explain", "sraa", "--share", "workgroup"]);
+    for told in [
+        "reads of shared memory",
+        "18x18 from (-1, -1)",
+        "4 reads of `depth` not shared: a pixel reads one texel",
+    ] {
+        assert!(explained.contains(told), "{told}: {explained}");
+    }
+    let json = finishes(&["explain", "sraa", "--share", "workgroup", "--json"]);
+    let json: serde_json::Value = serde_json::from_str(&json).expect("JSON");
+    assert_eq!(json["sharing"]["workgroup"], serde_json::json!([16, 16]));
+    assert_eq!(json["sharing"]["tiles"][0]["reads_of_a_thread"], 2);
+    assert_eq!(json["barriers"], 1);
+    fails(
+        &["explain", "sraa", "--share", "quad"],
+        2,
+        &["unknown sharing `quad`", "workgroup(WxH)"],
+    );
+    fails(
+        &["explain", "sraa", "--share", "workgroup(64x64)"],
+        1,
+        &["a workgroup of 64x64 threads", "use 1 to 256 threads"],
+    );
+    fails(
+        &[
+            "emit",
+            &kernel,
+            "--share",
+            "workgroup",
+            "--stage",
+            "fragment",
+            "--out",
+            out,
+        ],
+        1,
+        &["share texels by workgroup", "emit it for compute"],
+    );
+}
+
+#[test]
 fn places_names_forms_and_origins_are_the_users() {
     let folder = scratch("places");
     let out = folder.join("out");

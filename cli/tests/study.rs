@@ -287,6 +287,7 @@ fn compilers_are_compared_and_recorded() {
         "sobel, unrolled, naga",
         "sobel, looped, naga",
         "sobel, unrolled, 2x2 pixels, naga",
+        "sobel, unrolled, shared by workgroups, naga",
     ] {
         assert!(table.contains(row), "{row} is not in {table}");
     }

@@ -22,7 +22,7 @@ use std::collections::BTreeMap;
 use std::fmt;
 use std::path::{Path, PathBuf};
 use straightline_evaluator::diagnostic::Errors;
-use straightline_evaluator::policy::{Branches, ReadOrder, Transport, Unroll};
+use straightline_evaluator::policy::{Branches, ReadOrder, Share, Transport, Unroll};
 use straightline_manifest::{Form, Format, Manifest, Origin, Precision, Stage};
 
 /// Name of the file with the bindings.
@@ -121,6 +121,14 @@ impl KernelConfig {
         self
     }
 
+    /// What pixels share of the texels that they read: with [`Share::WORKGROUP`] a workgroup reads each once, into its memory. By
+    /// default nothing. The picture is the same, bit for bit. The size of the workgroup is that of [`KernelConfig::workgroup`]
+    /// if that is given.
+    pub fn share(mut self, share: Share) -> Self {
+        self.settings.share = share;
+        self
+    }
+
     /// Statements that the kernel may have; by default [`Settings::BUDGET`].
     pub fn budget(mut self, statements: u32) -> Self {
         self.settings.budget = statements;
@@ -158,7 +166,8 @@ impl KernelConfig {
         self
     }
 
-    /// Invocations of a compute workgroup, across and down; by default [`EmitOptions::WORKGROUP`].
+    /// Invocations of a compute workgroup, across and down; by default [`EmitOptions::WORKGROUP`], and where they share texels
+    /// 16 by 16.
     pub fn workgroup(mut self, x: u32, y: u32) -> Self {
         self.emit.workgroup = Some([x, y]);
         self
@@ -252,9 +261,11 @@ impl KernelConfig {
         if syn::parse_str::<syn::Ident>(&name).is_err() {
             return Err(Error::of(Problem::Name(name)));
         }
-        let compiled = kernel
-            .compile(&self.settings)
-            .map_err(|e| Error::of(Problem::Kernel(e)))?;
+        let mut settings = self.settings.clone();
+        if let Some(size) = self.emit.workgroup {
+            settings.share = settings.share.of_size(size);
+        }
+        let compiled = kernel.compile(&settings).map_err(|e| Error::of(Problem::Kernel(e)))?;
         let emitted = compiled.emit(&self.emit).map_err(|e| Error::of(Problem::Emit(e)))?;
         let files = emitted.named(&name);
         Ok(Built {

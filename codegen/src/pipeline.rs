@@ -12,7 +12,7 @@ use straightline_evaluator::front::{self, Library, Parsed};
 use straightline_evaluator::infer;
 use straightline_evaluator::ir::{Graph, Invocation, verify};
 use straightline_evaluator::passes;
-use straightline_evaluator::policy::{Branches, LoopPolicy, Policy, ReadOrder, Transport, Unroll};
+use straightline_evaluator::policy::{Branches, LoopPolicy, Policy, ReadOrder, Share, Transport, Unroll};
 
 /// Longest file of a kernel that is read, in bytes.
 const MAX_SOURCE: u64 = 1 << 24;
@@ -51,6 +51,8 @@ pub struct Settings {
     /// Whether each distinct read happens once, wherever the source asks for it. Without, it happens as often as the source
     /// asks: for studies of what sharing is worth. The result is the same, bit for bit.
     pub share_loads: bool,
+    /// What pixels share of the texels that they read. The result is the same, bit for bit.
+    pub share: Share,
 }
 
 impl Settings {
@@ -63,6 +65,7 @@ impl Settings {
             loops: self.loops.clone(),
             branches: self.branches,
             reads: self.reads,
+            share: self.share,
         }
     }
 }
@@ -79,6 +82,7 @@ impl Default for Settings {
             transport: None,
             block: [1, 1],
             share_loads: true,
+            share: Share::default(),
         }
     }
 }
@@ -122,6 +126,9 @@ impl Compiled {
         Ok(floor.with_statements())
     }
 }
+
+/// Threads that every device has in a workgroup.
+const MOST_THREADS: u32 = 256;
 
 /// Pixels that one invocation may compute.
 const MAX_BLOCK: u32 = 64;
@@ -372,6 +379,17 @@ impl Kernel {
             })?;
             graph = stage("block", passes::clean(&expanded))?;
         }
+        let mut sharing = None;
+        if let Share::Workgroup(threads) = settings.share {
+            let (tiled, found) = shared(&graph, threads, settings.block).map_err(|(why, help)| {
+                refused(
+                    format!("the pixels of `{}` cannot share texels by workgroup: {why}", self.name),
+                    help,
+                )
+            })?;
+            graph = stage("share-by-workgroup", passes::clean(&tiled))?;
+            sharing = Some(Arc::new(found));
+        }
         let schedule = passes::schedule(&graph, settings.reads);
         let within_budget = |statements: u32| {
             if statements <= settings.budget {
@@ -406,6 +424,7 @@ impl Kernel {
             schedule,
             counts,
             transport,
+            sharing,
             quad,
             quad_statements: 0,
         };
@@ -413,6 +432,26 @@ impl Kernel {
         within_budget(compiled.counts.statements)?;
         Ok(compiled)
     }
+}
+
+/// The kernel with texels in the memory of workgroups, and what has become of its reads; else why not, and what to do.
+fn shared(
+    graph: &Graph,
+    threads: [u32; 2],
+    block: [u32; 2],
+) -> Result<(Graph, passes::Sharing), (String, &'static str)> {
+    let apart = "let invocations share by themselves: leave `share` out";
+    let [width, height] = threads;
+    if !(1..=MOST_THREADS).contains(&width.saturating_mul(height)) {
+        let what = format!("a workgroup of {width}x{height} threads");
+        return Err((what, "use 1 to 256 threads, such as 16x16 or 32x8"));
+    }
+    if block != [1, 1] {
+        let [width, height] = block;
+        let what = format!("an invocation computes {width}x{height} of them");
+        return Err((what, "share by blocks or by workgroups: leave one of the two out"));
+    }
+    passes::by_workgroup(graph, threads).map_err(|why| (why, apart))
 }
 
 fn read(path: &Path) -> Result<String, Errors> {

@@ -366,6 +366,7 @@ fn sharing() -> Graph {
         element: Type::F32,
         len: 2,
         atomic: false,
+        filled: false,
     }];
     let (holds, index, value) = (b.bool(true), b.i32(1), b.f32(0.5));
     let memory = Memory::Shared(0);

@@ -118,6 +118,60 @@ impl FromStr for ReadOrder {
     }
 }
 
+/// What pixels share of the texels that they read, besides those that one invocation reads several times. The picture is the
+/// same, bit for bit.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Share {
+    /// Nothing: each invocation reads for itself.
+    #[default]
+    Invocation,
+    /// Those of frame-sized textures at constant offsets from the pixel: a workgroup of so many threads across and down reads
+    /// them once, with those around it, into its memory. Compute shaders of single pixels.
+    Workgroup([u32; 2]),
+}
+
+impl Share {
+    /// By workgroups of 16 by 16 threads: few texels lie around so many pixels, and every device has as many threads.
+    pub const WORKGROUP: Share = Share::Workgroup([16, 16]);
+
+    /// The same, with workgroups of another size; of pixels that share nothing, the same.
+    pub fn of_size(self, size: [u32; 2]) -> Share {
+        match self {
+            Share::Invocation => Share::Invocation,
+            Share::Workgroup(_) => Share::Workgroup(size),
+        }
+    }
+}
+
+impl fmt::Display for Share {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Share::Invocation => f.write_str("invocation"),
+            Share::Workgroup([width, height]) => write!(f, "workgroup({width}x{height})"),
+        }
+    }
+}
+
+impl FromStr for Share {
+    type Err = String;
+
+    /// `invocation`, `workgroup` or `workgroup(8x8)`.
+    fn from_str(text: &str) -> Result<Self, String> {
+        let unknown = || format!("unknown sharing `{text}`: invocation, workgroup, or workgroup(WxH)");
+        match text {
+            "invocation" => return Ok(Share::Invocation),
+            "workgroup" => return Ok(Share::WORKGROUP),
+            _ => {}
+        }
+        let size = text.strip_prefix("workgroup(").and_then(|t| t.strip_suffix(')'));
+        let (width, height) = size.and_then(|size| size.split_once('x')).ok_or_else(unknown)?;
+        match (width.trim().parse(), height.trim().parse()) {
+            (Ok(width), Ok(height)) => Ok(Share::Workgroup([width, height])),
+            _ => Err(unknown()),
+        }
+    }
+}
+
 /// How the lanes of a quad hear from each other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Transport {
@@ -176,6 +230,8 @@ pub struct Policy {
     pub branches: Branches,
     /// In which order blocks read.
     pub reads: ReadOrder,
+    /// What pixels share of what they read.
+    pub share: Share,
 }
 
 impl Policy {
@@ -253,6 +309,9 @@ impl fmt::Display for Policy {
         }
         if self.reads != ReadOrder::Source {
             write!(f, "; reads {}", self.reads)?;
+        }
+        if self.share != Share::Invocation {
+            write!(f, "; share {}", self.share)?;
         }
         Ok(())
     }

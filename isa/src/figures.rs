@@ -22,6 +22,9 @@ pub struct Figures {
     pub scalar: u64,
     /// Those that read or write images, buffers or shared memory a lane each.
     pub memory: u64,
+    /// Those of them that are on shared memory.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub shared: u64,
     /// Jumps, taken or not.
     pub branches: u64,
     /// Vector registers.
@@ -42,9 +45,13 @@ pub struct Figures {
     pub inverse_throughput: u64,
 }
 
+fn is_zero(n: &u64) -> bool {
+    *n == 0
+}
+
 impl Figures {
     /// Each with its name for people, in the order of the fields.
-    pub fn named(&self) -> [(&'static str, u64); 13] {
+    pub fn named(&self) -> [(&'static str, u64); 14] {
         [
             ("instructions", self.instructions),
             ("vector", self.vector),
@@ -59,6 +66,7 @@ impl Figures {
             ("shared memory", self.shared_memory),
             ("latency", self.latency),
             ("cycles", self.inverse_throughput),
+            ("memory, shared", self.shared),
         ]
     }
 
@@ -96,7 +104,11 @@ impl Figures {
                 _ if word.starts_with("s_wait") || matches!(word, "s_nop" | "s_endpgm" | "s_code_end") => {}
                 Some("v") => self.vector += 1,
                 Some("s") => self.scalar += 1,
-                Some("image" | "buffer" | "global" | "flat" | "scratch" | "ds" | "tbuffer") => self.memory += 1,
+                Some("image" | "buffer" | "global" | "flat" | "scratch" | "tbuffer") => self.memory += 1,
+                Some("ds") => {
+                    self.memory += 1;
+                    self.shared += 1;
+                }
                 _ => {}
             }
         }
@@ -114,8 +126,14 @@ mod tests {
             "BB0:\n\ts_mov_b32 s0, s1 ; be800301\n\tv_add_f32_e32 v0, v1, v2\n\timage_load v[0:3], v[0:1], s[0:7]\n\
              \ts_waitcnt vmcnt(0)\n\ts_cbranch_execz BB2\n\tds_read_b32 v0, v1\n\ts_endpgm\n",
         );
-        let found = [figures.scalar, figures.vector, figures.memory, figures.branches];
-        assert_eq!(found, [1, 1, 2, 1]);
+        let found = [
+            figures.scalar,
+            figures.vector,
+            figures.memory,
+            figures.shared,
+            figures.branches,
+        ];
+        assert_eq!(found, [1, 1, 2, 1, 1]);
     }
 
     #[test]

@@ -161,6 +161,15 @@ pub struct Counts {
     /// Atomic operations on buffers, and stores into them.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub writes: u32,
+    /// Reads of what a workgroup shares.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub shared_reads: u32,
+    /// Barriers at which the invocations of a workgroup wait for each other.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub barriers: u32,
+    /// Bytes of memory that a workgroup shares; devices of WebGPU promise 16384.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub shared_memory: u32,
     /// All other arithmetic, comparison and selection operations, a vector operation counting once.
     pub alu: u32,
     /// Statements of the emitted body.

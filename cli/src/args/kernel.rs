@@ -5,7 +5,7 @@ use clap::{Args, ValueHint};
 use glam::UVec2;
 use std::path::PathBuf;
 use straightline_codegen::diagnostic::Errors;
-use straightline_codegen::{Branches, Kernel, ReadOrder, Settings, Transport, Unroll};
+use straightline_codegen::{Branches, Kernel, ReadOrder, Settings, Share, Transport, Unroll};
 
 /// Which kernel, with which options.
 #[derive(Debug, Clone, Args)]
@@ -54,6 +54,10 @@ pub struct OptionArgs {
     /// fragment shaders and blocks in compute
     #[arg(help_heading = "Kernel options", long, value_name = "TRANSPORT", value_parser = |s: &str| s.parse::<Transport>())]
     pub transport: Option<Transport>,
+    /// Whether pixels share the texels they read: `invocation` for no; `workgroup` has 16x16 threads read each once into memory of
+    /// theirs, `workgroup(WxH)` so many. The picture is the same
+    #[arg(help_heading = "Kernel options", long, value_name = "HOW", default_value = "invocation", value_parser = |s: &str| s.parse::<Share>())]
+    pub share: Share,
     /// Pixels that one compute invocation computes, across and down
     #[arg(help_heading = "Kernel options", long, value_name = "WxH", default_value = "1x1", value_parser = size)]
     pub block: UVec2,
@@ -69,6 +73,7 @@ impl Default for OptionArgs {
             reads: ReadOrder::default(),
             budget: Settings::BUDGET,
             transport: None,
+            share: Share::default(),
             block: UVec2::ONE,
         }
     }
@@ -84,6 +89,7 @@ impl OptionArgs {
             reads: self.reads,
             budget: self.budget,
             transport: self.transport,
+            share: self.share,
             block: self.block.to_array(),
             ..Settings::default()
         }

@@ -130,7 +130,7 @@ pub struct EmitArgs {
     /// Filter only a rectangle that the host gives: for tiles
     #[arg(long)]
     pub region: bool,
-    /// Invocations of a compute workgroup, across and down
+    /// Invocations of a compute workgroup, across and down; with `--share workgroup` those that share
     #[arg(long, value_name = "WxH", value_parser = size)]
     pub workgroup: Option<UVec2>,
     /// Write a whole shader (entry), or a function to call from a fragment shader of yours (function)

@@ -26,7 +26,11 @@ pub struct Ready {
 /// Reads and compiles the kernel.
 pub fn compile(args: &EmitArgs) -> Result<Ready, Failure> {
     let kernel = args.kernel.locate()?;
-    let compiled = kernel.compile(&args.kernel.options.settings())?;
+    let mut settings = args.kernel.options.settings();
+    if let Some(size) = args.workgroup {
+        settings.share = settings.share.of_size(size.to_array());
+    }
+    let compiled = kernel.compile(&settings)?;
     Ok(Ready { kernel, compiled })
 }
 

@@ -6,6 +6,7 @@ use crate::failure::Failure;
 use crate::table;
 use serde_json::{Map, Value, json};
 use straightline_codegen::emit::{Emitted, Target};
+use straightline_codegen::passes::Sharing;
 use straightline_codegen::{Compiled, EmitOptions};
 use straightline_isa::{Compiler, Family, Report};
 use straightline_kernels::PaperCounts;
@@ -121,6 +122,9 @@ fn to_json(compiled: &Compiled, counts: &Counts, bound: &Bound, paper: Option<Pa
             }
         }
     }
+    if let Some(sharing) = &compiled.sharing {
+        out.insert("sharing".into(), sharing_json(sharing));
+    }
     if let Some(paper) = paper {
         if paper.weight_evaluations > 0 {
             out.insert("paper_weight_evaluations".into(), json!(paper.weight_evaluations));
@@ -128,6 +132,28 @@ fn to_json(compiled: &Compiled, counts: &Counts, bound: &Bound, paper: Option<Pa
         out.insert("paper_texture_reads".into(), json!(paper.texture_reads));
     }
     out
+}
+
+/// What a workgroup shares, and which reads stay as they are and why.
+fn sharing_json(sharing: &Sharing) -> Value {
+    let tiles = sharing.tiles.iter().map(|tile| {
+        json!({
+            "texture": tile.texture,
+            "layer": tile.layer,
+            "first": tile.first,
+            "size": tile.size,
+            "bytes": tile.bytes,
+            "reads": tile.reads,
+            "reads_of_a_thread": tile.fills,
+        })
+    });
+    let apart = sharing.apart.iter();
+    let apart = apart.map(|apart| json!({ "texture": apart.texture, "reads": apart.reads, "why": apart.why }));
+    json!({
+        "workgroup": sharing.threads,
+        "tiles": tiles.collect::<Vec<_>>(),
+        "not_shared": apart.collect::<Vec<_>>(),
+    })
 }
 
 fn print(compiled: &Compiled, counts: &Counts, bound: &Bound, paper: Option<PaperCounts>) {
@@ -164,6 +190,15 @@ fn print(compiled: &Compiled, counts: &Counts, bound: &Bound, paper: Option<Pape
     if counts.messages > 0 {
         rows.push(row("messages", counts.messages, None));
     }
+    for (name, n) in [
+        ("reads of shared memory", counts.shared_reads),
+        ("barriers", counts.barriers),
+        ("bytes a workgroup shares", counts.shared_memory),
+    ] {
+        if n > 0 {
+            rows.push(row(name, n, None));
+        }
+    }
     rows.push(row("transcendentals", counts.transcendentals, None));
     rows.push(row("other arithmetic", counts.alu, None));
     rows.push(row("statements", counts.statements, None));
@@ -180,7 +215,35 @@ fn print(compiled: &Compiled, counts: &Counts, bound: &Bound, paper: Option<Pape
             out!("{}", table::render(&[&per, "here"], &rows));
         }
     }
+    if let Some(sharing) = &compiled.sharing {
+        print_sharing(sharing);
+    }
     print_loops(compiled);
+}
+
+/// What a workgroup shares, and which reads stay as they are and why.
+fn print_sharing(sharing: &Sharing) {
+    let rows = sharing.tiles.iter().map(|tile| {
+        let ([left, upper], [width, height]) = (tile.first, tile.size);
+        let cells = [
+            tile.of(),
+            format!("{width}x{height} from ({left}, {upper})"),
+            tile.bytes.to_string(),
+            tile.reads.to_string(),
+            tile.fills.to_string(),
+        ];
+        cells.to_vec()
+    });
+    let [width, height] = sharing.threads;
+    let head = format!("Shared by {width}x{height} pixels");
+    let rows: Vec<Vec<String>> = rows.collect();
+    outln!();
+    out!("{}", table::render(&[&head, "texels", "bytes", "reads", "now"], &rows));
+    for apart in &sharing.apart {
+        let (reads, of) = (apart.reads, &apart.texture);
+        let noun = if reads == 1 { "read" } else { "reads" };
+        outln!("{reads} {noun} of `{of}` not shared: {}", apart.why);
+    }
 }
 
 /// What became of each loop, and why it was unrolled where it was asked to be left in the shader.

@@ -3,7 +3,7 @@
 use super::ast::{Block, Stmt, StmtKind};
 use super::text::comment;
 use std::collections::{HashMap, HashSet};
-use straightline_evaluator::ir::{Counter, Graph};
+use straightline_evaluator::ir::{Counter, Graph, Origin};
 
 /// The statements with a comment before each group.
 pub fn comment_groups<'g>(block: Block<'g>, graph: &'g Graph) -> Block<'g> {
@@ -62,6 +62,10 @@ impl<'g> Groups<'g> {
                     *otherwise = self.block(std::mem::take(otherwise));
                     out.push(stmt);
                 }
+                StmtKind::Barrier { .. } => {
+                    self.flush(&mut out);
+                    out.push(stmt);
+                }
                 _ => self.add(stmt, &mut out),
             }
         }
@@ -83,7 +87,9 @@ impl<'g> Groups<'g> {
                     self.group.counters.push(counter.clone());
                 }
             }
-            self.group.place.get_or_insert((origin.file, origin.line));
+            if origin.line != Origin::NOWHERE {
+                self.group.place.get_or_insert((origin.file, origin.line));
+            }
         }
         self.group.statements.push(stmt);
     }

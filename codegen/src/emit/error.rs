@@ -123,6 +123,28 @@ pub enum EmitError {
         /// The kernel.
         kernel: String,
     },
+    /// A workgroup of another size than the one that shares texels.
+    #[error(
+        "the pixels of `{kernel}` share texels by workgroups of {}x{}, and {}x{} are asked for: say `workgroup({}x{})` where sharing is asked for, or leave \
+         `workgroup` out",
+        own[0], own[1], asked[0], asked[1], asked[0], asked[1]
+    )]
+    Sharing {
+        /// The kernel.
+        kernel: String,
+        /// The workgroup that shares.
+        own: [u32; 2],
+        /// What is asked for.
+        asked: [u32; 2],
+    },
+    /// Texels shared by workgroups in a stage that has none.
+    #[error(
+        "the pixels of `{kernel}` share texels by workgroup, and fragments and functions are in none: emit it for compute, or leave `share` out"
+    )]
+    SharingStage {
+        /// The kernel.
+        kernel: String,
+    },
     /// A workgroup that no device runs.
     #[error(
         "a workgroup of {0}x{1} is not possible: each side is at least 1, and both together at most 1024 invocations"

@@ -114,6 +114,9 @@ fn for_stage(compiled: &Compiled, stage: Stage) -> Result<Cow<'_, Compiled>, Emi
                 transport: transport.to_string(),
             }),
         },
+        (Invocation::Group(_), Stage::Fragment) if compiled.sharing.is_some() => {
+            Err(EmitError::SharingStage { kernel: kernel() })
+        }
         (Invocation::Group(_), Stage::Fragment) => Err(EmitError::GroupStage { kernel: kernel() }),
         (Invocation::Block(size), Stage::Fragment) if size != [1, 1] => Err(EmitError::OnePixel { kernel: kernel() }),
         _ => Ok(Cow::Borrowed(compiled)),

@@ -335,6 +335,10 @@ fn plain(graph: &Graph, id: NodeId) -> String {
                 .get(*field as usize)
                 .map_or_else(String::new, |f| f.name.clone()),
         },
+        // A texel is called as if it had been read from the texture.
+        Op::SharedLoad(shared) if graph.shared[*shared as usize].filled => {
+            graph.shared[*shared as usize].name.trim_end_matches("_tile").to_owned()
+        }
         Op::SharedLoad(shared) => graph.shared[*shared as usize].name.clone() + "_element",
         Op::TextureSize(texture) => graph.textures[*texture as usize].name.clone() + "_size",
         Op::TextureLevels(texture) => graph.textures[*texture as usize].name.clone() + "_levels",

@@ -103,6 +103,8 @@ pub struct Resources {
     pub(super) images: Vec<Picture>,
     /// Index of each that is used.
     pub used_shared: Vec<u32>,
+    /// Whether all that is indexed by runtime values are tiles of texels, of which no pixel reads what is not there.
+    pub indexes_tiles_alone: bool,
 }
 
 impl Resources {
@@ -122,10 +124,10 @@ impl Resources {
         if let (Some(own), Some(asked)) = (group, options.workgroup)
             && own != asked
         {
-            return Err(EmitError::Group {
-                kernel: kernel(),
-                own,
-                asked,
+            let kernel = kernel();
+            return Err(match compiled.sharing {
+                Some(_) => EmitError::Sharing { kernel, own, asked },
+                None => EmitError::Group { kernel, own, asked },
             });
         }
         let narrow = match options.stage {
@@ -337,6 +339,8 @@ impl Resources {
             asks_group: ops.contains(&&Op::GroupOrigin),
             shared: graph.shared.clone(),
             images: graph.images.clone(),
+            indexes_tiles_alone: compiled.sharing.is_some()
+                && !ops.iter().any(|op| matches!(op, Op::ArrayGet | Op::ArraySet)),
             used_shared,
         };
         if options.stage == Stage::Fragment && resources.outputs.is_empty() {
@@ -405,6 +409,11 @@ impl Resources {
     /// What workgroups share that is used.
     pub fn shared(&self) -> impl Iterator<Item = &Shared> {
         self.used_shared.iter().map(|k| &self.shared[*k as usize])
+    }
+
+    /// Whether something that workgroups share has to be 0 at first: not all of it is written before it is read.
+    pub fn is_zeroed(&self) -> bool {
+        self.shared().any(|shared| !shared.filled)
     }
 
     /// Invocations of a compute workgroup.

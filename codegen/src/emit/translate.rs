@@ -49,7 +49,11 @@ impl Module {
             lang_version: (1, 3),
             flags: spv::WriterFlags::DEBUG,
             force_loop_bounding: !resources.options.unbounded_loops,
-            bounds_check_policies: restricted(),
+            bounds_check_policies: checks(resources),
+            zero_initialize_workgroup_memory: match resources.is_zeroed() {
+                true => spv::ZeroInitializeWorkgroupMemoryMode::Polyfill,
+                false => spv::ZeroInitializeWorkgroupMemoryMode::None,
+            },
             ..Default::default()
         };
         let pipeline = spv::PipelineOptions {
@@ -119,7 +123,8 @@ impl Module {
             lang_version: (2, 0),
             per_entry_point_map: [(entry, slots)].into_iter().collect(),
             fake_missing_bindings: false,
-            bounds_check_policies: restricted(),
+            bounds_check_policies: checks(resources),
+            zero_initialize_workgroup_memory: resources.is_zeroed(),
             force_loop_bounding: !resources.options.unbounded_loops,
             ..Default::default()
         };
@@ -161,11 +166,14 @@ const LAST_TEXTURE: u32 = 127;
 const LAST_SAMPLER: u32 = 15;
 const LAST_BUFFER: u32 = 30;
 
-/// An index outside of an array is that of its last element, as it is to who reads the WGSL. Coordinates of texels and indices
-/// of buffers are clamped in the text.
-fn restricted() -> BoundsCheckPolicies {
+/// An index outside of an array is that of its last element, as it is to who reads the WGSL; none is where a shader has only tiles of
+/// texels. Coordinates of texels and indices of buffers are clamped in the text.
+fn checks(resources: &Resources) -> BoundsCheckPolicies {
     BoundsCheckPolicies {
-        index: BoundsCheckPolicy::Restrict,
+        index: match resources.indexes_tiles_alone {
+            true => BoundsCheckPolicy::Unchecked,
+            false => BoundsCheckPolicy::Restrict,
+        },
         ..BoundsCheckPolicies::default()
     }
 }

@@ -10,12 +10,9 @@ use super::effects::{Effects, atomic_named};
 use super::value::{Eval, Exit, Value};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::front::tree::{Function, Type as SourceType};
-use crate::ir::{Access, BinaryOp, Invocation, Memory, NodeId, Op, Scalar, Shared, Type};
+use crate::ir::{Access, BinaryOp, Invocation, MOST_SHARED_BYTES, Memory, NodeId, Op, Scalar, Shared, Type};
 
 const PAIR: Type = Type::value(Scalar::I32, 2);
-
-/// Bytes that every device has for what a workgroup shares.
-const MOST_BYTES: u64 = 16_384;
 
 /// Threads that every device has in a workgroup.
 const MOST_THREADS: i64 = 256;
@@ -130,12 +127,10 @@ impl Evaluator<'_> {
             return Err(refused(format!("`{name}` is an array without elements")));
         }
         let others = self.builder.graph().shared.iter();
-        let others: u64 = others
-            .map(|s| u64::from(s.len) * 4 * u64::from(s.element.lanes()))
-            .sum();
-        if bytes(count).saturating_add(others) > MOST_BYTES {
+        let others: u64 = others.map(Shared::bytes).sum();
+        if bytes(count).saturating_add(others) > MOST_SHARED_BYTES {
             let total = bytes(count).saturating_add(others);
-            let what = format!("the workgroup shares {total} bytes, and devices promise {MOST_BYTES}");
+            let what = format!("the workgroup shares {total} bytes, and devices promise {MOST_SHARED_BYTES}");
             return Err(Diagnostic::at(span, what)
                 .label("with these")
                 .help("share fewer elements, or vectors of fewer components")
@@ -148,6 +143,7 @@ impl Evaluator<'_> {
             element,
             len: count as u32,
             atomic,
+            filled: false,
         });
         Ok(Value::Shared(shared.len() as u32 - 1))
     }

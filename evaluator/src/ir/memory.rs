@@ -13,6 +13,9 @@ pub enum Memory {
     Image(u32),
 }
 
+/// Bytes that every device has for what a workgroup shares.
+pub const MOST_SHARED_BYTES: u64 = 16_384;
+
 /// An array that the invocations of a workgroup share; all 0 when they begin. It is bound by no host.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Shared {
@@ -24,4 +27,17 @@ pub struct Shared {
     pub len: u32,
     /// Whether its elements are changed by atomic operations alone.
     pub atomic: bool,
+    /// Whether the invocations write every element before any of them reads one, so that nothing need make it 0 first.
+    pub filled: bool,
+}
+
+impl Shared {
+    /// Bytes that it takes in a workgroup's memory: as WGSL lays it out, a vector of three lies as one of four does.
+    pub fn bytes(&self) -> u64 {
+        let lanes = match self.element.lanes() {
+            3 => 4,
+            lanes => u64::from(lanes),
+        };
+        u64::from(self.len) * 4 * lanes
+    }
 }

@@ -62,12 +62,12 @@ pub use graph::{
     Builder, Event, Graph, Invocation, Node, NodeId, Part, Purpose, Region, RegionId, Rules, Sampler, Target, Uniform,
     Varying,
 };
-pub use memory::{Memory, Shared};
+pub use memory::{MOST_SHARED_BYTES, Memory, Shared};
 pub use op::{AtomicOp, Axis, BinaryOp, Direction, Op, UnaryOp};
 pub use origin::{Counter, Naming, Origin};
 pub use parse::{ParseError, parse};
 pub use print::print;
 pub use real::{F16, Real};
-pub use rebuild::{Rebuild, copy_tables, rebuild};
+pub use rebuild::{Rebuild, Replace, copy_tables, rebuild, rebuild_replacing};
 pub use texture::{Texture, TextureKind};
 pub use types::{Lanes, Scalar, Type, vector_named};

@@ -39,6 +39,9 @@ pub struct Origin {
 }
 
 impl Origin {
+    /// The line of what is nowhere in the source.
+    pub const NOWHERE: u32 = 0;
+
     /// The origin of a node that two places share: the better name, and of one name what both agree on.
     pub fn merge(&mut self, other: &Origin) {
         if self.name.is_empty() || other.naming < self.naming {

@@ -168,17 +168,18 @@ impl Reader {
 
     fn shared(&mut self, text: &str) -> Parsed {
         let (name, rest) = named(text)?;
-        let (element, len, atomic) = match rest.split_whitespace().collect::<Vec<_>>()[..] {
-            [element, len] => (element, len, false),
-            [element, len, "atomic"] => (element, len, true),
-            _ => return Err("what is shared is `shared NAME: TYPE LENGTH`, and `atomic`".to_owned()),
+        let (element, len, how) = match rest.split_whitespace().collect::<Vec<_>>()[..] {
+            [element, len] => (element, len, ""),
+            [element, len, how @ ("atomic" | "filled")] => (element, len, how),
+            _ => return Err("what is shared is `shared NAME: TYPE LENGTH`, and `atomic` or `filled`".to_owned()),
         };
         let (element, len) = (ty(element)?, number(len)?);
         self.graph.shared.push(Shared {
             name,
             element,
             len,
-            atomic,
+            atomic: how == "atomic",
+            filled: how == "filled",
         });
         Ok(())
     }

@@ -75,8 +75,12 @@ fn tables(graph: &Graph) -> String {
         let _ = writeln!(text, "image {}: {}", image.name, image.ty);
     }
     for s in &graph.shared {
-        let atomic = if s.atomic { " atomic" } else { "" };
-        let _ = writeln!(text, "shared {}: {} {}{atomic}", s.name, s.element, s.len);
+        let how = match (s.atomic, s.filled) {
+            (true, _) => " atomic",
+            (_, true) => " filled",
+            _ => "",
+        };
+        let _ = writeln!(text, "shared {}: {} {}{how}", s.name, s.element, s.len);
     }
     for s in &graph.samplers {
         let kind = if s.comparison { "comparison" } else { "filtering" };

@@ -11,15 +11,41 @@ pub struct Rebuild<'a> {
     pub share_loads: bool,
 }
 
+/// What stands for nodes while a graph is built again, and what comes before all of them.
+pub trait Replace {
+    /// Makes what comes first.
+    fn begin(&mut self, builder: &mut Builder<'_>);
+
+    /// What stands for a node of the old graph; `None` for the same again.
+    fn node(&mut self, builder: &mut Builder<'_>, old: NodeId) -> Option<NodeId>;
+}
+
+/// Leaves every node what it is.
+struct Nothing;
+
+impl Replace for Nothing {
+    fn begin(&mut self, _: &mut Builder<'_>) {}
+
+    fn node(&mut self, _: &mut Builder<'_>, _: NodeId) -> Option<NodeId> {
+        None
+    }
+}
+
 /// The same kernel built again, with the effects that it has: unused nodes, unused carried values and unused components of texels vanish, the pass's
 /// rules apply.
 pub fn rebuild(old: &Graph, pass: &Rebuild<'_>) -> Graph {
+    rebuild_replacing(old, pass, &mut Nothing)
+}
+
+/// As [`rebuild`], with other nodes in the place of some.
+pub fn rebuild_replacing(old: &Graph, pass: &Rebuild<'_>, replace: &mut dyn Replace) -> Graph {
     let live = Liveness::of(old);
     let mut builder = Builder::new(pass.rules);
     copy_tables(old, builder.graph_mut());
     for (texture, components) in builder.graph_mut().textures.iter_mut().zip(components_read(old, &live)) {
         texture.components = components.min(texture.components);
     }
+    replace.begin(&mut builder);
     let mut walk = Walk {
         old,
         live,
@@ -34,7 +60,7 @@ pub fn rebuild(old: &Graph, pass: &Rebuild<'_>) -> Graph {
         while let Some((_, event)) = events.next_if(|(at, _)| *at <= id.0) {
             walk.event(*event);
         }
-        walk.node(id, pass.share_loads);
+        walk.node(id, pass.share_loads, replace);
     }
     for (_, event) in events {
         if *event != Event::Close(Graph::BODY) {
@@ -109,9 +135,12 @@ impl Walk<'_, '_> {
         }
     }
 
-    fn node(&mut self, id: NodeId, share_loads: bool) {
+    fn node(&mut self, id: NodeId, share_loads: bool, replace: &mut dyn Replace) {
         if !self.live.nodes[id.0 as usize] || self.new_ids[id.0 as usize].is_some() {
             return;
+        }
+        if let Some(new) = replace.node(&mut self.builder, id) {
+            return self.take_over(id, new);
         }
         self.set_results(id);
         let node = self.old.node(id);

@@ -2,7 +2,7 @@
 
 use super::ranges;
 use super::schedule::{Block, Schedule, Step};
-use crate::ir::{Graph, NodeId, Op, Scalar, Type};
+use crate::ir::{Graph, Memory, NodeId, Op, Scalar, Shared, Type};
 use std::collections::BTreeMap;
 use straightline_manifest::Counts;
 
@@ -28,6 +28,9 @@ pub fn count(graph: &Graph, schedule: &Schedule) -> Counts {
         transcendentals: run.transcendentals,
         messages: run.messages,
         writes: run.writes,
+        shared_reads: run.shared_reads,
+        barriers: run.barriers,
+        shared_memory: shared_memory(graph, schedule),
         alu: run.alu,
         statements: 0,
         max_live: max_live(graph, schedule),
@@ -41,6 +44,8 @@ struct Run {
     transcendentals: u32,
     messages: u32,
     writes: u32,
+    shared_reads: u32,
+    barriers: u32,
     alu: u32,
 }
 
@@ -59,6 +64,10 @@ impl Run {
             .saturating_add(other.transcendentals.saturating_mul(times));
         self.messages = self.messages.saturating_add(other.messages.saturating_mul(times));
         self.writes = self.writes.saturating_add(other.writes.saturating_mul(times));
+        self.shared_reads = self
+            .shared_reads
+            .saturating_add(other.shared_reads.saturating_mul(times));
+        self.barriers = self.barriers.saturating_add(other.barriers.saturating_mul(times));
         self.alu = self.alu.saturating_add(other.alu.saturating_mul(times));
     }
 
@@ -75,6 +84,8 @@ impl Run {
         self.transcendentals = self.transcendentals.max(other.transcendentals);
         self.messages = self.messages.max(other.messages);
         self.writes = self.writes.max(other.writes);
+        self.shared_reads = self.shared_reads.max(other.shared_reads);
+        self.barriers = self.barriers.max(other.barriers);
         self.alu = self.alu.max(other.alu);
         self
     }
@@ -118,7 +129,13 @@ impl Counter<'_> {
             Op::Binary(crate::ir::BinaryOp::Pow | crate::ir::BinaryOp::Atan2) => {
                 run.transcendentals = run.transcendentals.saturating_add(1)
             }
-            Op::SharedLoad(_) | Op::Barrier { .. } => {}
+            Op::SharedLoad(_) => run.shared_reads = run.shared_reads.saturating_add(1),
+            Op::Barrier { .. } => run.barriers = run.barriers.saturating_add(1),
+            Op::Store(Memory::Shared(_))
+            | Op::Atomic {
+                memory: Memory::Shared(_),
+                ..
+            } => {}
             effect if effect.is_effect() => run.writes = run.writes.saturating_add(1),
             Op::Message(_) | Op::Derivative(_) => run.messages = run.messages.saturating_add(1),
             Op::Unary(_) | Op::Binary(_) | Op::Dot | Op::Cross | Op::Clamp | Op::Select | Op::Convert | Op::Bitcast => {
@@ -127,6 +144,18 @@ impl Counter<'_> {
             _ => {}
         }
     }
+}
+
+/// Bytes of what a workgroup shares and uses.
+fn shared_memory(graph: &Graph, schedule: &Schedule) -> u32 {
+    let live = |id: &NodeId| schedule.has(*id);
+    let used = |k: usize| {
+        let memory = Some(Memory::Shared(k as u32));
+        graph.ids().filter(live).any(|id| graph.node(id).op.memory() == memory)
+    };
+    let shared = graph.shared.iter().enumerate();
+    let bytes: u64 = shared.filter(|(k, _)| used(*k)).map(|(_, s)| Shared::bytes(s)).sum();
+    u32::try_from(bytes).unwrap_or(u32::MAX)
 }
 
 /// Layers that the textures of the largest GPUs have; an index that is only known to be smaller than more is not bounded.

@@ -6,10 +6,12 @@ mod count;
 mod floor;
 mod fold;
 mod lanes;
+mod offsets;
 mod origin;
 mod ranges;
 mod reads;
 mod schedule;
+mod tiles;
 
 pub use count::{count, layers_read};
 pub use floor::floor;
@@ -18,6 +20,7 @@ pub use lanes::{by_derivatives, expand};
 pub use origin::from_below;
 pub use ranges::{bounds, component_bounds, float_bounds};
 pub use schedule::{Block, Schedule, Step, schedule};
+pub use tiles::{Apart, Sharing, Tile, by_workgroup};
 
 use crate::ir::{Graph, Rebuild, rebuild};
 

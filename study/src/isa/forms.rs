@@ -8,7 +8,7 @@ use std::path::Path;
 use std::process::Command;
 use straightline_codegen::emit::{Emitted, Target};
 use straightline_codegen::ir::Invocation;
-use straightline_codegen::{Compiled, EmitOptions, Kernel, Settings, Stage, Unroll};
+use straightline_codegen::{Compiled, EmitOptions, Kernel, Settings, Share, Stage, Unroll};
 
 /// A form by one way to SPIR-V.
 pub struct Spirv {
@@ -109,6 +109,13 @@ fn compiled(subject: &Subject, kind: IsaForm) -> Result<Option<Compiled>, IsaStu
             };
             // Some kernels have no such form, and say so where it is asked for.
             Ok(subject.kernel.compile(&block).ok())
+        }
+        (IsaForm::Tile, _) => {
+            let tile = Settings {
+                share: Share::WORKGROUP,
+                ..settings(Unroll::Full, &subject.options)
+            };
+            Ok(subject.kernel.compile(&tile).ok())
         }
     }
 }

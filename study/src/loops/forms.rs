@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 use straightline_codegen::diagnostic::Errors;
 use straightline_codegen::emit::{Emitted, Target};
-use straightline_codegen::{Compiled, EmitOptions, Format, Kernel, Precision, Settings, Stage, Unroll};
+use straightline_codegen::{Compiled, EmitOptions, Format, Kernel, Precision, Settings, Share, Stage, Unroll};
 use straightline_runtime::{Pass, PassOptions};
 use straightline_testbed::execute::{Bench, Inputs, Uploaded, Uploads};
 
@@ -82,6 +82,13 @@ impl Forms {
                     };
                     subject.kernel.compile(&settings).map_err(reason)
                 }
+                FormKind::FullTile => {
+                    let settings = Settings {
+                        share: Share::WORKGROUP,
+                        ..settings(Unroll::Full)
+                    };
+                    subject.kernel.compile(&settings).map_err(reason)
+                }
                 FormKind::FullHalf if !half => Err("the device has no half precision (SHADER_F16)".to_owned()),
                 FormKind::FullHalf => match full.emit(&emit_options(kind)) {
                     Ok(_) => Ok(full.clone()),
@@ -130,8 +137,11 @@ fn emit_options(kind: FormKind) -> EmitOptions {
 /// How every compute shader begins: invocations beyond the border leave.
 const BORDER: &str = "if any(pixel >= frame) {";
 
+/// How those begin whose workgroups share something: all go on, and those beyond the border store nothing.
+const INSIDE: &str = "let inside = all(pixel < frame);";
+
 /// The same shader in a text that no driver has compiled before, so that none finds it in a cache: invocations in a column
-/// that no picture has leave, too.
+/// that no picture has are beyond the border, too.
 fn unseen(emitted: &Emitted) -> Emitted {
     static MADE: AtomicU32 = AtomicU32::new(0);
     let now = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();
@@ -141,7 +151,9 @@ fn unseen(emitted: &Emitted) -> Emitted {
     if let Some(wgsl) = unseen.files.get_mut(&Target::Wgsl) {
         let text = String::from_utf8_lossy(wgsl);
         let other = format!("if any(pixel >= frame) || pixel.x == {column} {{");
-        *wgsl = text.replacen(BORDER, &other, 1).into_bytes();
+        let inside = format!("let inside = all(pixel < frame) && pixel.x != {column};");
+        let text = text.replacen(BORDER, &other, 1).replacen(INSIDE, &inside, 1);
+        *wgsl = text.into_bytes();
         // That of the text as it was.
         unseen.manifest.hashes.clear();
     }
@@ -255,10 +267,17 @@ mod tests {
 
     #[test]
     fn a_text_is_unseen_each_time() {
-        let text = "pub fn k(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {\n    color.load(pixel) * 0.5\n}\n";
-        for block in [[1, 1], [2, 2]] {
+        let text = "pub fn k(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {\n    \
+                    let next = color.load(pixel + ivec2(0, 1)) + color.load(pixel + ivec2(1, 0));\n    \
+                    color.load(pixel) * 0.5 + next\n}\n";
+        for (block, share) in [
+            ([1, 1], Share::Invocation),
+            ([2, 2], Share::Invocation),
+            ([1, 1], Share::WORKGROUP),
+        ] {
             let settings = Settings {
                 block,
+                share,
                 ..Settings::default()
             };
             let compiled = Kernel::from_text("k.rs", text, "k")
@@ -269,7 +288,7 @@ mod tests {
             let (first, second) = (unseen(&emitted), unseen(&emitted));
             assert!(
                 wgsl(&first) != wgsl(&emitted) && wgsl(&first) != wgsl(&second),
-                "{block:?}"
+                "{block:?}, {share}"
             );
         }
     }

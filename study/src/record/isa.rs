@@ -17,17 +17,20 @@ pub enum IsaForm {
     ByHand,
     /// One straight line for 2×2 pixels; the figures are of all four.
     Block,
+    /// One straight line, the pixels of a workgroup sharing what they read through its memory.
+    Tile,
     /// One straight line that Slang's compiler made of the same work.
     Slang,
 }
 
 impl IsaForm {
     /// Every form.
-    pub const ALL: [IsaForm; 5] = [
+    pub const ALL: [IsaForm; 6] = [
         IsaForm::Unrolled,
         IsaForm::Looped,
         IsaForm::ByHand,
         IsaForm::Block,
+        IsaForm::Tile,
         IsaForm::Slang,
     ];
 
@@ -38,6 +41,7 @@ impl IsaForm {
             IsaForm::Looped => "looped",
             IsaForm::ByHand => "looped, hand-optimised",
             IsaForm::Block => "unrolled, 2x2 pixels",
+            IsaForm::Tile => "unrolled, shared by workgroups",
             IsaForm::Slang => "unrolled, by Slang",
         }
     }

@@ -26,6 +26,8 @@ pub enum FormKind {
     Full,
     /// As `Full`, each invocation computing 2x2 pixels.
     FullBlock,
+    /// As `Full`, the pixels of a workgroup sharing what they read through its memory.
+    FullTile,
     /// As `Full`, computed in half precision.
     FullHalf,
     /// The reads and the store of `Full`, and next to no arithmetic between: what no form can beat.
@@ -34,7 +36,7 @@ pub enum FormKind {
 
 impl FormKind {
     /// Every form, in the order of tables.
-    pub const ALL: [FormKind; 11] = [
+    pub const ALL: [FormKind; 12] = [
         FormKind::Looped,
         FormKind::LoopedUnchecked,
         FormKind::LoopedByHand,
@@ -44,6 +46,7 @@ impl FormKind {
         FormKind::FullUnshared,
         FormKind::Full,
         FormKind::FullBlock,
+        FormKind::FullTile,
         FormKind::FullHalf,
         FormKind::Floor,
     ];
@@ -60,6 +63,7 @@ impl FormKind {
             FormKind::FullUnshared => "unrolled, loads not shared",
             FormKind::Full => "unrolled",
             FormKind::FullBlock => "unrolled, 2×2 pixels",
+            FormKind::FullTile => "unrolled, shared by workgroups",
             FormKind::FullHalf => "unrolled, f16",
             FormKind::Floor => "floor",
         }

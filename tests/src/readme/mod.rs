@@ -12,6 +12,7 @@ mod loops;
 mod quads;
 mod quality;
 mod sweep;
+mod tiles;
 mod tune;
 
 use std::path::Path;
@@ -79,6 +80,8 @@ fn table(name: &str, files: &[&Path]) -> Result<String, String> {
         "gaps" => Ok(quality::gaps(&QualityRecord::read(first).map_err(why)?)),
         "hard" => hard::kernels(files),
         "rivals" => isa::rivals(&IsaRecord::read(first).map_err(why)?),
+        "tiles" => tiles::cycles(&IsaRecord::read(first).map_err(why)?),
+        "tiles-times" => Ok(tiles::times(&LoopsRecord::read(first).map_err(why)?)),
         "isa" => isa::cycles(&IsaRecord::read(first).map_err(why)?),
         "tune" => {
             let all: Result<Vec<_>, _> = files.iter().map(|file| TuneRecord::read(file)).collect();
@@ -92,7 +95,7 @@ fn table(name: &str, files: &[&Path]) -> Result<String, String> {
         "crates" => crates::needs(first),
         "sweep" => sweep::factors(&SweepRecord::read(first).map_err(why)?),
         _ => Err(format!(
-            "there is no table `{name}`; there are speed, loops, agreement, quality, methods, scenes, beyond, gaps, hard, isa, tune, pictures, samplings, radii, budget, table2, speedups, quads, encode, crates and sweep"
+            "there is no table `{name}`; there are speed, loops, agreement, quality, methods, scenes, beyond, gaps, hard, isa, tiles, tiles-times, tune, pictures, samplings, radii, budget, table2, speedups, quads, encode, crates and sweep"
         )),
     }
 }

@@ -7,7 +7,7 @@ use straightline_evaluator::ir::{BinaryOp, Memory, Shared, Type};
 /// Writes zeros before the first statement that is the kernel's.
 pub fn begin(module: &mut Module<'_>, resources: &Resources) {
     let Some([width, height]) = resources.group else { return };
-    if resources.used_shared.is_empty() {
+    if !resources.is_zeroed() {
         return;
     }
     let threads = width * height;
@@ -16,6 +16,9 @@ pub fn begin(module: &mut Module<'_>, resources: &Resources) {
     let comment = "What the workgroup shares is 0 at first.".to_owned();
     let mut stmts: Block<'_> = vec![StmtKind::Comment(comment).into(), StmtKind::Let(index, position).into()];
     for (k, shared) in resources.used_shared.iter().zip(resources.shared()) {
+        if shared.filled {
+            continue;
+        }
         // Threads take turns: each has every element that is as many behind its last one as there are threads.
         let turns = shared.len.div_ceil(threads);
         let at = Expr::var(index, Type::I32);

@@ -8,6 +8,9 @@ use straightline_manifest::Stage;
 
 const IVEC2: Type = Type::value(Scalar::I32, 2);
 
+/// What the first statements of a shader are for whose workgroups share texels.
+const TILES: &str = "Texels of the workgroup's pixels and of those around: each thread reads some of them.";
+
 /// A module with the variables that entry points declare.
 pub fn module<'g>() -> Module<'g> {
     let pairs = ["pixel", "frame", "within", "place", "origin"].map(|name| (name, IVEC2));
@@ -33,6 +36,9 @@ pub fn entry(module: &mut Module<'_>, resources: &Resources) {
         .into_iter()
         .partition(|stmt| matches!(stmt.kind, StmtKind::Output(_)));
     let begun = body.len();
+    if resources.shared().any(|shared| shared.filled) {
+        body.push(StmtKind::Comment(TILES.to_owned()).into());
+    }
     if resources.options.counts_from_below() {
         stored_from_below(&mut kernel);
     }

@@ -57,11 +57,27 @@ pub fn header(compiled: &Compiled, counts: &Counts, resources: &Resources) -> Ve
     if counts.messages > 0 {
         figures.push(many(counts.messages, "message"));
     }
+    if counts.shared_reads > 0 {
+        figures.push(many(counts.shared_reads, "read of shared memory"));
+    }
     let per = match resources.block {
         [1, 1] => "pixel".to_owned(),
         [width, height] => format!("block of {width}x{height} pixels"),
     };
     lines.push(format!("Per {per}: {}.", figures.join(", ")));
+    if let Some(sharing) = &compiled.sharing {
+        let [width, height] = sharing.threads;
+        let tiles = sharing.tiles.iter().map(|tile| {
+            let ([across, down], many) = (tile.size, many(tile.fills, "read"));
+            format!("{across}x{down} of {} ({many} instead of {})", tile.of(), tile.reads)
+        });
+        let tiles: Vec<String> = tiles.collect();
+        lines.push(format!(
+            "Workgroups of {width}x{height} pixels share texels in {} bytes: {}.",
+            sharing.bytes(),
+            tiles.join(", ")
+        ));
+    }
     lines.iter().map(|line| comment(line)).collect()
 }
 
@@ -127,7 +143,8 @@ fn origin(origin: Origin) -> &'static str {
     }
 }
 
-/// `1 read`, `2 reads`.
+/// `1 read`, `2 reads`, `2 reads of shared memory`.
 fn many(n: u32, what: &str) -> String {
-    format!("{n} {what}{}", if n == 1 { "" } else { "s" })
+    let (noun, of) = what.split_at(what.find(" of ").unwrap_or(what.len()));
+    format!("{n} {noun}{}{of}", if n == 1 { "" } else { "s" })
 }

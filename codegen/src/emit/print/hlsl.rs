@@ -479,7 +479,7 @@ impl Language for Hlsl<'_> {
             Stage::Compute => {
                 let [x, y, z] = r.workgroup();
                 let mut told = vec!["uint3 id : SV_DispatchThreadID"];
-                let zeroes = !r.used_shared.is_empty();
+                let zeroes = r.is_zeroed();
                 told.extend(r.asks_local.then_some("uint3 local_id : SV_GroupThreadID"));
                 told.extend(zeroes.then_some("uint local_index : SV_GroupIndex"));
                 told.extend(r.asks_group.then_some("uint3 group_id : SV_GroupID"));

@@ -1,0 +1,252 @@
+//! Filling tiles, and reading them.
+
+use super::{Candidate, Tile};
+use crate::ir::{
+    BinaryOp, Builder, Graph, Invocation, Lanes, Memory, Naming, NodeId, Op, Origin, Replace, Scalar, Shared, Type,
+};
+use std::collections::{BTreeMap, HashMap};
+
+const PAIR: Type = Type::value(Scalar::I32, 2);
+
+/// A tile while the graph is built.
+struct Place {
+    first: [i32; 2],
+    size: [u32; 2],
+    texture: u32,
+    layer: Option<(Type, Lanes)>,
+    components: Vec<u8>,
+    shared: Shared,
+}
+
+impl Place {
+    /// Whether an element is a texel as reads give it.
+    fn is_whole(&self, texel: Type) -> bool {
+        self.shared.element == texel && self.components.len() == usize::from(texel.lanes())
+    }
+}
+
+/// Fills the tiles, and reads them.
+pub struct Tiling<'g> {
+    old: &'g Graph,
+    threads: [u32; 2],
+    tiles: Vec<Place>,
+    /// By read, its tile and offset.
+    loads: HashMap<NodeId, (usize, [i32; 2])>,
+    /// Reads whose values leave a loop or branch that they were made in: done before all others.
+    early: HashMap<NodeId, NodeId>,
+    /// By tile, the index of the element at the smallest offset.
+    here: Vec<NodeId>,
+}
+
+impl<'g> Tiling<'g> {
+    pub fn new(old: &'g Graph, threads: [u32; 2], kept: &[Candidate], tiles: &[Tile]) -> Tiling<'g> {
+        let named = kept.iter().zip(tiles);
+        let places = named.map(|(candidate, tile)| Place {
+            first: tile.first,
+            size: tile.size,
+            texture: candidate.texture,
+            layer: candidate.layer,
+            components: candidate.components.clone(),
+            shared: Shared {
+                name: tile.name.clone(),
+                ..candidate.shared(old)
+            },
+        });
+        let loads = kept.iter().enumerate().flat_map(|(k, candidate)| {
+            let loads = candidate.loads.iter();
+            loads.map(move |(id, offset)| (*id, (k, *offset)))
+        });
+        Tiling {
+            old,
+            threads,
+            tiles: places.collect(),
+            loads: loads.collect(),
+            early: HashMap::new(),
+            here: Vec::new(),
+        }
+    }
+
+    /// Fills all tiles of one rectangle.
+    fn fill(&self, b: &mut Builder<'_>, tiles: &[usize], index: NodeId) {
+        let Place { first, size, .. } = self.tiles[tiles[0]];
+        let origin = b.add(Op::GroupOrigin, Vec::new(), PAIR);
+        let offset = b.constant(PAIR, [first[0] as u32, first[1] as u32, 0, 0]);
+        let corner = add(b, BinaryOp::Add, origin, offset);
+        named(b, corner, "corner");
+        let threads = self.threads[0] * self.threads[1];
+        let texels = size[0] * size[1];
+        for turn in 0..texels.div_ceil(threads) {
+            let mut texel = index;
+            if turn > 0 {
+                let behind = b.i32((turn * threads) as i32);
+                texel = add(b, BinaryOp::Add, index, behind);
+                named(b, texel, "index");
+            }
+            if (turn + 1) * threads <= texels {
+                self.fill_texel(b, tiles, corner, texel);
+                continue;
+            }
+            let end = b.i32(texels as i32);
+            let is_one = b.add(Op::Binary(BinaryOp::Lt), [texel, end], Type::BOOL);
+            let then = b.open_region(&[]);
+            self.fill_texel(b, tiles, corner, texel);
+            b.close_region(Vec::new());
+            let otherwise = b.open_region(&[]);
+            b.close_region(Vec::new());
+            b.intern(Op::If(then, otherwise), [is_one], Type::Results);
+        }
+    }
+
+    /// One texel of each.
+    fn fill_texel(&self, b: &mut Builder<'_>, tiles: &[usize], corner: NodeId, texel: NodeId) {
+        let width = b.i32(self.tiles[tiles[0]].size[0] as i32);
+        let [x, y] = [BinaryOp::Rem, BinaryOp::Div].map(|op| add(b, op, texel, width));
+        let place = b.add(Op::Compose, [x, y], PAIR);
+        let place = add(b, BinaryOp::Add, corner, place);
+        let (zero, last) = (b.constant(PAIR, [0; 4]), last(b));
+        let at = b.add(Op::Clamp, [place, zero, last], PAIR);
+        named(b, at, "at");
+        let always = b.bool(true);
+        for k in tiles {
+            let tile = &self.tiles[*k];
+            let mut args = vec![at];
+            args.extend(tile.layer.map(|(ty, bits)| b.constant(ty, bits)));
+            let ty = b.graph().textures[tile.texture as usize].texel();
+            let read = Op::Load {
+                texture: tile.texture,
+                site: 0,
+            };
+            let read = b.add(read, args, ty);
+            let value = match tile.is_whole(ty) {
+                true => read,
+                false => {
+                    let scalar = Type::scalar(b.graph().textures[tile.texture as usize].scalar);
+                    let used = tile.components.iter();
+                    let used = used.map(|component| match ty.is_scalar() {
+                        true => read,
+                        false => b.add(Op::Extract(*component), [read], scalar),
+                    });
+                    let mut used: Vec<NodeId> = used.collect();
+                    used.resize_with(usize::from(tile.shared.element.lanes()), || b.constant(scalar, [0; 4]));
+                    match used[..] {
+                        [one] => one,
+                        _ => b.add(Op::Compose, used, tile.shared.element),
+                    }
+                }
+            };
+            let memory = Memory::Shared(*k as u32);
+            b.effect(Op::Store(memory), vec![always, texel, value], Type::Results);
+        }
+    }
+
+    /// A texel of a tile, as the read that it stands for gives it; nobody looks at components that are not there.
+    fn texel(&self, b: &mut Builder<'_>, load: NodeId) -> Option<NodeId> {
+        let (k, offset) = *self.loads.get(&load)?;
+        let tile = &self.tiles[k];
+        let [across, down] = [0, 1].map(|axis| offset[axis] - tile.first[axis]);
+        let behind = b.i32(down * tile.size[0] as i32 + across);
+        let element = add(b, BinaryOp::Add, self.here[k], behind);
+        let always = b.bool(true);
+        let found = b.effect(Op::SharedLoad(k as u32), vec![always, element], tile.shared.element);
+        if let Some(origin) = self.old.origin(load) {
+            b.set_origin(found, origin);
+        }
+        let ty = b.graph().textures[tile.texture as usize].texel();
+        if tile.is_whole(ty) {
+            return Some(found);
+        }
+        let scalar = Type::scalar(b.graph().textures[tile.texture as usize].scalar);
+        let part = |b: &mut Builder<'_>, component: u8| {
+            let at = tile.components.iter().position(|c| *c == component);
+            match at {
+                Some(_) if tile.shared.element.is_scalar() => found,
+                Some(at) => b.add(Op::Extract(at as u8), [found], scalar),
+                None => b.constant(scalar, [0; 4]),
+            }
+        };
+        let parts: Vec<NodeId> = (0..ty.lanes()).map(|component| part(b, component)).collect();
+        Some(b.add(Op::Compose, parts, ty))
+    }
+}
+
+impl Replace for Tiling<'_> {
+    fn begin(&mut self, b: &mut Builder<'_>) {
+        b.graph_mut().invocation = Invocation::Group(self.threads);
+        b.graph_mut().shared = self.tiles.iter().map(|tile| tile.shared.clone()).collect();
+        let local = b.add(Op::Thread, Vec::new(), PAIR);
+        let [x, y] = [0, 1].map(|k| b.add(Op::Extract(k), [local], Type::I32));
+        let row_of = |b: &mut Builder<'_>, width: u32| {
+            let width = b.i32(width as i32);
+            let row = add(b, BinaryOp::Mul, y, width);
+            add(b, BinaryOp::Add, row, x)
+        };
+        let index = row_of(b, self.threads[0]);
+        named(b, index, "index");
+        let mut rectangles: BTreeMap<([i32; 2], [u32; 2]), Vec<usize>> = BTreeMap::new();
+        for (k, tile) in self.tiles.iter().enumerate() {
+            rectangles.entry((tile.first, tile.size)).or_default().push(k);
+        }
+        let mut rectangles: Vec<Vec<usize>> = rectangles.into_values().collect();
+        rectangles.sort();
+        for tiles in rectangles {
+            self.fill(b, &tiles, index);
+        }
+        b.effect(Op::Barrier { buffers: false }, Vec::new(), Type::Results);
+        for tile in &self.tiles {
+            let here = row_of(b, tile.size[0]);
+            named(b, here, "here");
+            self.here.push(here);
+        }
+        let mut inner: Vec<NodeId> = self.loads.keys().copied().collect();
+        inner.retain(|load| self.old.homes[load.0 as usize] != Graph::BODY);
+        inner.sort_unstable();
+        for load in inner {
+            if let Some(texel) = self.texel(b, load) {
+                self.early.insert(load, texel);
+            }
+        }
+    }
+
+    fn node(&mut self, b: &mut Builder<'_>, old: NodeId) -> Option<NodeId> {
+        if let Some(texel) = self.early.get(&old) {
+            return Some(*texel);
+        }
+        if self.old.node(old).op != Op::Pixel {
+            return self.texel(b, old);
+        }
+        // A thread outside of the frame computes what the nearest pixel does, so that all that is known of pixels holds.
+        let (pixel, last) = (b.add(Op::Pixel, Vec::new(), PAIR), last(b));
+        let inside = add(b, BinaryOp::Min, pixel, last);
+        named(b, inside, "nearest");
+        Some(inside)
+    }
+}
+
+fn add(b: &mut Builder<'_>, op: BinaryOp, x: NodeId, y: NodeId) -> NodeId {
+    let ty = b.graph().ty(x);
+    b.add(Op::Binary(op), [x, y], ty)
+}
+
+/// The frame's last pixel.
+fn last(b: &mut Builder<'_>) -> NodeId {
+    let (frame, one) = (b.add(Op::FrameSize, Vec::new(), PAIR), b.constant(PAIR, [1, 1, 0, 0]));
+    let last = add(b, BinaryOp::Sub, frame, one);
+    named(b, last, "last");
+    last
+}
+
+/// Names a value that is nowhere in the source.
+fn named(b: &mut Builder<'_>, id: NodeId, name: &str) {
+    let fixed = matches!(b.graph().node(id).op, Op::Const(_) | Op::GroupOrigin | Op::Pixel);
+    if fixed || b.graph().origin(id).is_some() {
+        return;
+    }
+    let origin = Origin {
+        name: name.into(),
+        naming: Naming::Let,
+        file: 0,
+        line: Origin::NOWHERE,
+        counters: [].into(),
+    };
+    b.set_origin(id, &origin);
+}
