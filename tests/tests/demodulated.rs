@@ -61,8 +61,8 @@ fn defined(set: &Options, inputs: &Inputs) -> Vec<Resolved> {
     oracle::sraa(inputs, &params).unwrap_or_else(|error| panic!("{set:?}: {error}"))
 }
 
-/// The largest difference to the definition, as a share of what is larger than 1; all of it is finite.
-fn off(found: impl IntoIterator<Item = [f64; 4]>, expected: &[Resolved], what: &str) -> f64 {
+/// The largest difference to the definition, as a share of what is larger than `scale`; all of it is finite.
+fn off(found: impl IntoIterator<Item = [f64; 4]>, expected: &[Resolved], what: &str, scale: f64) -> f64 {
     let (mut largest, mut compared) = (0.0f64, 0);
     for (k, (found, expected)) in found.into_iter().zip(expected).enumerate() {
         let at = (k as u32 % SIZE.x, k as u32 / SIZE.x);
@@ -74,7 +74,7 @@ fn off(found: impl IntoIterator<Item = [f64; 4]>, expected: &[Resolved], what: &
         if expected.sure {
             compared += 1;
             for (a, b) in found.into_iter().zip(expected.color) {
-                largest = largest.max((a - b).abs() / b.abs().max(1.0));
+                largest = largest.max((a - b).abs() / b.abs().max(scale));
             }
         }
     }
@@ -92,46 +92,41 @@ fn every_form_gives_what_the_definition_says() {
         for unroll in [Unroll::Full, Unroll::None] {
             let (compiled, what) = (made(&set, unroll), format!("{set:?} {unroll}"));
             let exact = interpret::<f64>(&compiled, &inputs, false).unwrap_or_else(|e| panic!("{what}: {e}"));
-            in_f64 = in_f64.max(off(exact.targets[0].texels.iter().copied(), &expected, &what));
+            in_f64 = in_f64.max(off(exact.targets[0].texels.iter().copied(), &expected, &what, 1.0));
             let single = interpret::<f32>(&compiled, &inputs, false).unwrap_or_else(|e| panic!("{what}: {e}"));
-            in_f32 = in_f32.max(off(single.targets[0].texels.iter().copied(), &expected, &what));
+            in_f32 = in_f32.max(off(single.targets[0].texels.iter().copied(), &expected, &what, 1.0));
             if samples_needed(&set) <= 4 {
                 for stage in [Stage::Compute, Stage::Fragment] {
                     let picture = bench
                         .run(&compiled, stage, &inputs)
                         .unwrap_or_else(|e| panic!("{what}: {e}"));
                     let texels = picture.texels().iter().map(|texel| texel.to_array().map(f64::from));
-                    on_device = on_device.max(off(texels, &expected, &format!("{what} {stage:?}")));
+                    on_device = on_device.max(off(texels, &expected, &format!("{what} {stage:?}"), 1.0));
                 }
             }
         }
         let texels = native::run(&set, &inputs).into_iter().map(|texel| texel.map(f64::from));
-        in_f32 = in_f32.max(off(texels, &expected, &format!("{set:?} natively")));
+        in_f32 = in_f32.max(off(texels, &expected, &format!("{set:?} natively"), 1.0));
     }
     println!("off the definition: {in_f64:.1e} in f64, {in_f32:.1e} in f32, {on_device:.1e} on the device");
     assert!(in_f64 < 1.0e-5 && in_f32 < 1.0e-4 && on_device < 1.0e-4);
 }
 
-/// With numbers here and there that albedo, shadow and light cannot be.
-fn hard(inputs: Inputs) -> Inputs {
-    const BAD: [f32; 9] = [
-        f32::NAN,
-        f32::INFINITY,
-        f32::NEG_INFINITY,
-        0.0,
-        -1.0,
-        1.0e-30,
-        7.0,
-        1.0e30,
-        f32::MIN_POSITIVE,
-    ];
+/// What albedo and visibility cannot be, and counts as little or nothing.
+const SMALL: [f32; 6] = [f32::NAN, f32::NEG_INFINITY, 0.0, -1.0, 1.0e-30, f32::MIN_POSITIVE];
+
+/// What is brighter than any paint.
+const LARGE: [f32; 4] = [f32::INFINITY, 7.0, 1.0e30, f32::MAX];
+
+/// With `bad` numbers here and there in albedo and visibility, and light that is not finite.
+fn hard(inputs: Inputs, bad: &[f32]) -> Inputs {
     let mut random = Random(99);
     let mut spoiled = |frame: &Frame<Vec4>| {
         let texels = frame.texels().iter().map(|texel| {
             let mut texel = *texel;
             if random.unit() < 0.25 {
                 let component = random.choose(&[0, 1, 2, 3]);
-                texel[component] = random.choose(&BAD);
+                texel[component] = random.choose(bad);
             }
             texel
         });
@@ -139,16 +134,14 @@ fn hard(inputs: Inputs) -> Inputs {
     };
     let mut inputs = inputs;
     for (name, layers) in &mut inputs.images {
-        let is_hard = ["albedo", "albedo_grid", "centre_albedo", "albedo_samples"].contains(&name.as_str());
-        if is_hard {
+        if name.contains("albedo") {
             *layers = layers.iter().map(&mut spoiled).collect();
         }
-        // Light that is not finite has no weight; what is finite is no more than a picture has.
         if ["direct", "color"].contains(&name.as_str()) {
             let texels = layers[0].texels().iter().enumerate().map(|(k, texel)| match k % 11 {
                 0 => vec4(f32::NAN, texel.y, texel.z, texel.w),
                 5 => vec4(texel.x, f32::INFINITY, texel.z, texel.w),
-                _ => *texel * 65504.0,
+                _ => *texel,
             });
             *layers = vec![Frame::new(layers[0].size(), texels.collect())];
         }
@@ -168,19 +161,24 @@ fn what_albedo_and_light_cannot_be_spoils_nothing() {
     let sets: Vec<Options> = sets().into_iter().filter(kept).collect();
     assert!(sets.len() > 15, "{} sets", sets.len());
     for set in sets {
-        let inputs = hard(surfaces::inputs(&set, SIZE, 12));
-        let expected = defined(&set, &inputs);
-        let (compiled, what) = (made(&set, Unroll::Full), format!("hard, {set:?}"));
-        let single = interpret::<f32>(&compiled, &inputs, false).unwrap_or_else(|e| panic!("{what}: {e}"));
-        largest = largest.max(off(single.targets[0].texels.iter().copied(), &expected, &what));
-        let picture = bench
-            .run(&compiled, Stage::Compute, &inputs)
-            .unwrap_or_else(|e| panic!("{what}: {e}"));
-        let texels = picture.texels().iter().map(|texel| texel.to_array().map(f64::from));
-        largest = largest.max(off(texels, &expected, &what));
+        let compiled = made(&set, Unroll::Full);
+        for bad in [&SMALL[..], &LARGE] {
+            let inputs = hard(surfaces::inputs(&set, SIZE, 12), bad);
+            let (expected, what) = (defined(&set, &inputs), format!("hard, {set:?}, {bad:?}"));
+            let single = interpret::<f32>(&compiled, &inputs, false).unwrap_or_else(|e| panic!("{what}: {e}"));
+            let single = single.targets[0].texels.iter().copied();
+            let picture = bench.run(&compiled, Stage::Compute, &inputs);
+            let picture = picture.unwrap_or_else(|e| panic!("{what}: {e}"));
+            let on_device = picture.texels().iter().map(|texel| texel.to_array().map(f64::from));
+            // A lamp's albedo against paint's: terms of millions that leave ones, so that only the picture's scale says anything.
+            let brightest = expected.iter().flat_map(|pixel| pixel.color).fold(1.0, f64::max);
+            let scale = if bad.len() == LARGE.len() { brightest } else { 1.0 };
+            largest = largest.max(off(single, &expected, &what, scale));
+            largest = largest.max(off(on_device, &expected, &what, scale));
+        }
     }
     println!("off the definition: {largest:.1e}");
-    assert!(largest < 1.0e-3);
+    assert!(largest < 1.0e-4);
 }
 
 /// As it is found out afterwards: a pixel that is not finite is filtered again.
@@ -189,7 +187,7 @@ fn a_fallback_is_what_tests_give() {
     for way in ["albedo", "albedo-shadow"] {
         let [tested, fallback] =
             ["inline", "fallback"].map(|guards| options(&[("demodulate", way), ("guards", guards)]));
-        let inputs = hard(surfaces::inputs(&tested, SIZE, 13));
+        let inputs = hard(surfaces::inputs(&tested, SIZE, 13), &SMALL);
         let [tested, fallback] = [tested, fallback].map(|set| {
             let result = interpret::<f32>(&made(&set, Unroll::Full), &inputs, false).expect("a picture");
             result.targets[0].texels.clone()

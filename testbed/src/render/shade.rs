@@ -132,7 +132,7 @@ fn slats(place: Vec3, towards_sun: Vec3) -> f32 {
 
 /// What is painted on a surface: dark blue balls in a grid of them, cut by it. Not averaged over a pixel: an edge of shading alone.
 fn dots(place: Vec3) -> Vec3 {
-    let cell = place * 3.0;
+    let cell = place * 3.0 + 0.4;
     let away = cell - cell.floor() - 0.5;
     if away.dot(away) < 0.18 {
         vec3(0.10, 0.16, 0.45)

@@ -81,7 +81,7 @@ fn slats(place: vec3f, towards_sun: vec3f) -> f32 {
 }
 
 fn dots(place: vec3f) -> vec3f {
-    let cell = place * 3.0;
+    let cell = place * 3.0 + 0.4;
     let away = cell - floor(cell) - 0.5;
     return select(vec3f(1.0), vec3f(0.10, 0.16, 0.45), dot(away, away) < 0.18);
 }
