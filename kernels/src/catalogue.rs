@@ -51,6 +51,8 @@ macro_rules! source {
 const SRAA: &[SourceFile] = &[
     source!("sraa/mod.rs"),
     source!("sraa/options.rs"),
+    source!("sraa/colors.rs"),
+    source!("sraa/demodulate.rs"),
     source!("sraa/pattern.rs"),
     source!("sraa/gbuffer.rs"),
     source!("sraa/view.rs"),

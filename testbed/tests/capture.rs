@@ -31,6 +31,9 @@ fn example(shading: ShadingSample) -> Capture {
     let depth = (0..layers)
         .map(|layer| frame(SIZE, |i| 10.0 * layer as f32 + (i * 0.37).sin()))
         .collect();
+    let albedo = (0..layers).map(|layer| frame(SIZE, |i| vec4(0.1 * layer as f32, i.cos().abs(), 0.5, i % 2.0)));
+    let albedo = FrameLayers::new(albedo.collect());
+    let is_one = !matches!(shading, ShadingSample::Samples(_));
     let normal = (0..layers).map(|layer| frame(SIZE, |i| Vec3::new(layer as f32, i.cos(), i.sin()).normalize()));
     Capture {
         size: SIZE,
@@ -43,6 +46,8 @@ fn example(shading: ShadingSample) -> Capture {
         color: frame(SIZE, |i| vec4(i.sin(), i * 100.0, 1.0 / (i + 1.0), 1.0)),
         depth: FrameLayers::new(depth),
         normal: Some(FrameLayers::new(normal.collect())),
+        albedo: Some(albedo),
+        direct: is_one.then(|| frame(SIZE, |i| vec4(i.sin(), 2.0, i, 0.0))),
         reference: Some(frame(SIZE, Vec4::splat)),
     }
 }
@@ -110,6 +115,8 @@ fn what_is_written_is_read() {
     );
     let small = Capture {
         normal: None,
+        albedo: None,
+        direct: None,
         reference: None,
         ..example(ShadingSample::Sample(2))
     };
@@ -145,6 +152,8 @@ fn a_capture_is_replaced_and_leaves_no_file_of_the_old_one() {
     example(ShadingSample::Centre).write(&dir).unwrap();
     let second = Capture {
         normal: None,
+        albedo: None,
+        direct: None,
         reference: None,
         ..example(ShadingSample::Sample(0))
     };
@@ -233,6 +242,31 @@ fn a_capture_that_contradicts_itself_is_not_written() {
                 ..good.clone()
             },
             &["reference.exr", "3×3"],
+        ),
+        (
+            Capture {
+                albedo: Some(FrameLayers::new(vec![frame(SIZE, Vec4::splat); 4])),
+                ..good.clone()
+            },
+            &["albedo.exr", "4 layers"],
+        ),
+        (
+            Capture {
+                direct: Some(frame(other, Vec4::splat)),
+                ..good.clone()
+            },
+            &["direct.exr", "3×3"],
+        ),
+        (
+            Capture {
+                shading: ShadingSample::Samples(vec![0, 1]),
+                colors: vec![good.color.clone(); 2],
+                depth: layers(4),
+                normal: None,
+                albedo: None,
+                ..good.clone()
+            },
+            &["direct.exr", "several times a pixel", "leave the file out"],
         ),
         (
             Capture {
@@ -497,6 +531,8 @@ fn surplus_and_double_layers_are_refused() {
     let scratch = Scratch::new("capture-surplus");
     let dir = scratch.join("capture");
     let capture = Capture {
+        albedo: None,
+        direct: None,
         reference: None,
         ..example(ShadingSample::Sample(0))
     };

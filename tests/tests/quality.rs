@@ -341,6 +341,8 @@ fn a_capture_that_lacks_something_says_so() {
             .any(|(what, why)| what.contains("S.T.A.L.K.E.R.") && why.contains("normal.exr"))
     );
     let blind = Capture {
+        albedo: None,
+        direct: None,
         reference: None,
         ..spheres()
     };

@@ -14,6 +14,9 @@ pub fn run(args: &CaptureArgs) -> Result<(), Failure> {
     let gpu = Gpu::open(&args.adapter)?;
     let renderer = scene::renderer(gpu.as_ref(), &world, args.size)?;
     let mut capture = render::capture(renderer.as_ref(), &samples, shading).map_err(Failure::of)?;
+    if args.albedo {
+        render::add_albedo(&mut capture, renderer.as_ref()).map_err(Failure::of)?;
+    }
     if let Some(samples) = &args.reference {
         let side = if samples == "256" { 16 } else { 4 };
         let bar = scene::bar(&format!("rendering {samples} samples"));

@@ -3,16 +3,19 @@
 use crate::args::ScenesArgs;
 use crate::failure::Failure;
 use serde_json::json;
-use straightline_testbed::scene::NAMES;
+use straightline_testbed::scene::{NAMES, OF_SHADING};
 
 /// Prints every scene's name and purpose.
 pub fn run(args: &ScenesArgs) -> Result<(), Failure> {
+    let all = NAMES.into_iter().chain(OF_SHADING);
     if args.json {
-        let scenes = NAMES.map(|(name, purpose)| json!({ "name": name, "purpose": purpose }));
+        let scenes: Vec<_> = all
+            .map(|(name, purpose)| json!({ "name": name, "purpose": purpose }))
+            .collect();
         outln!("{:#}", json!({ "scenes": scenes }));
         return Ok(());
     }
-    for (name, purpose) in NAMES {
+    for (name, purpose) in all {
         outln!("{name:<10} {purpose}");
     }
     Ok(())

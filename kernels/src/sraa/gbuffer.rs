@@ -176,12 +176,12 @@ impl Sraa {
 
     /// The sample, or the last one: the pixel's centre, which has a texture of its own, comes here too where it is not known which
     /// it is.
-    fn own(&self, sample: usize) -> usize {
+    pub(super) fn own(&self, sample: usize) -> usize {
         sample.min(self.samples() - 1)
     }
 
     /// The texel of a superresolution texture of `size` that holds `sample` of `pixel`, or of the nearest pixel inside.
-    fn cell(&self, size: UVec2, pixel: IVec2, sample: usize) -> IVec2 {
+    pub(super) fn cell(&self, size: UVec2, pixel: IVec2, sample: usize) -> IVec2 {
         let grid = self.grid();
         let last = size.as_ivec2() / grid - 1;
         let sample = self.own(sample) as i32;

@@ -4,6 +4,8 @@
 //! its colour from the shading samples around it, most from those on the same surface; the pixel is the mean of its
 //! geometry samples. The paper's listing, with its slips mended and its suggestions built.
 
+mod colors;
+mod demodulate;
 mod gbuffer;
 mod metric;
 mod options;
@@ -13,28 +15,22 @@ mod search;
 mod view;
 
 use crate::prelude::*;
+use colors::{color, is_kept, own_color};
+use demodulate::{may_count, paint, weighed};
 use gbuffer::surface;
 use metric::{FAR, Sample, distance};
 use pattern::{Place, tent};
 use placed::shaded_place;
 use search::{Searched, searched};
 
+pub use colors::Colors;
+pub use demodulate::Demodulate;
 pub use gbuffer::{Depth, GBuffer, Layout, Normals, Surface};
 pub use metric::{Difference, Metric, Plane};
 pub use options::{Falloff, Guards, Mask, NonFinite, Normalisation, Resolve, Search, Sraa, Turn};
 pub use pattern::{Pattern, Shading};
 pub use placed::sraa_place;
 pub use view::View;
-
-/// Colours of the shading samples, linear, alpha premultiplied if it is not 1.
-pub struct Colors {
-    /// One a pixel.
-    pub color: Frame<Vec4>,
-    /// A layer for each, where there are several a pixel.
-    pub colors: FrameLayers<Vec4>,
-    /// Of shading=placed: the geometry sample at which each pixel is shaded, or the number of samples for its centre.
-    pub place: Frame<u32>,
-}
 
 /// What a pixel is filtered from.
 struct Inputs<'a> {
@@ -122,12 +118,16 @@ fn reconstructed<const TAPS: usize, const SIDE: usize>(cfg: &Sraa, inputs: &Inpu
     let steepness = (cfg.tau * std::f32::consts::LOG2_E).min(STEEPEST);
     let total = total_share(cfg);
     let mut weights = [0.0; TAPS];
+    // The same times what reflects light at the samples that a tap counts for, and times what reflects direct light.
+    let mut reflected = [Vec3::ZERO; TAPS];
+    let mut lit = [Vec3::ZERO; TAPS];
     let mut unseen = 0;
     for sample in 0..cfg.reconstructed() {
         if cfg.share(sample) != 0.0 {
             let share = cfg.share(sample) / total;
             let place = cfg.place(sample);
             let centre = geometry_sample(cfg, inputs, place);
+            let own = paint(cfg, inputs, place);
             let mut distances = [0.0; TAPS];
             let mut nearest = FAR;
             for tap in 0..TAPS {
@@ -166,24 +166,23 @@ fn reconstructed<const TAPS: usize, const SIDE: usize>(cfg: &Sraa, inputs: &Inpu
             for tap in 0..TAPS {
                 if falloff(cfg, place, cfg.tap(tap, SIDE)) > least(cfg) {
                     weights[tap] += tap_weights[tap] * scale;
+                    if cfg.demodulate != Demodulate::None {
+                        reflected[tap] += tap_weights[tap] * scale * own.albedo;
+                    }
+                    if cfg.demodulate == Demodulate::AlbedoShadow {
+                        lit[tap] += tap_weights[tap] * scale * own.lit * own.albedo;
+                    }
                 }
             }
         }
     }
     let apart = searched(cfg, inputs, unseen);
+    // Read by what demodulates alone.
+    let paints = (&reflected, &lit);
     match cfg.guards {
-        Guards::Inline => mean_of_kept(cfg, inputs, &weights, SIDE, apart),
-        Guards::Fallback | Guards::None => mean(cfg, inputs, &weights, SIDE, apart),
+        Guards::Inline => mean_of_kept(cfg, inputs, &weights, paints, SIDE, apart),
+        Guards::Fallback | Guards::None => mean(cfg, inputs, &weights, paints, SIDE, apart),
     }
-}
-
-/// The taps' colours by their weights, and those of unseen samples.
-fn mean<const TAPS: usize>(cfg: &Sraa, inputs: &Inputs, weights: &[f32; TAPS], side: usize, apart: Searched) -> Vec4 {
-    let mut result = apart.color;
-    for tap in 0..TAPS {
-        result += weights[tap] * color(cfg, inputs, tap, side);
-    }
-    result
 }
 
 /// The mean of the taps' colours that may count, and of those of unseen samples.
@@ -191,6 +190,7 @@ fn mean_of_kept<const TAPS: usize>(
     cfg: &Sraa,
     inputs: &Inputs,
     weights: &[f32; TAPS],
+    (reflected, lit): (&[Vec3; TAPS], &[Vec3; TAPS]),
     side: usize,
     apart: Searched,
 ) -> Vec4 {
@@ -198,7 +198,7 @@ fn mean_of_kept<const TAPS: usize>(
     let mut sum = apart.share;
     for tap in 0..TAPS {
         let shaded = color(cfg, inputs, tap, side);
-        let kept = is_kept(cfg, shaded);
+        let kept = may_count(cfg, inputs, cfg.tap(tap, side), shaded);
         let w = if kept { weights[tap] } else { 0.0 };
         // 0 times an infinite colour is not 0.
         let counts = match cfg.non_finite {
@@ -206,7 +206,7 @@ fn mean_of_kept<const TAPS: usize>(
             NonFinite::Spread => w != 0.0,
         };
         if counts {
-            result += w * shaded;
+            result += weighed(cfg, inputs, cfg.tap(tap, side), shaded, w, (reflected[tap], lit[tap]));
         }
         sum += w;
     }
@@ -302,40 +302,26 @@ fn least(cfg: &Sraa) -> f32 {
     }
 }
 
-/// Colour of a tap.
-fn color(cfg: &Sraa, inputs: &Inputs, tap: usize, side: usize) -> Vec4 {
-    match cfg.shading_samples() {
-        1 => color_at(inputs, cfg.tap(tap, side)),
-        several => inputs
-            .colors
-            .colors
-            .load(inputs.pixel + cfg.tap(tap, side).pixel, tap % several),
+/// The taps' colours by their weights, and those of unseen samples.
+fn mean<const TAPS: usize>(
+    cfg: &Sraa,
+    inputs: &Inputs,
+    weights: &[f32; TAPS],
+    (reflected, lit): (&[Vec3; TAPS], &[Vec3; TAPS]),
+    side: usize,
+    apart: Searched,
+) -> Vec4 {
+    let mut result = apart.color;
+    for tap in 0..TAPS {
+        let shaded = color(cfg, inputs, tap, side);
+        result += weighed(
+            cfg,
+            inputs,
+            cfg.tap(tap, side),
+            shaded,
+            weights[tap],
+            (reflected[tap], lit[tap]),
+        );
     }
-}
-
-/// Colour of a pixel's only shading sample.
-fn color_at(inputs: &Inputs, tap: Place) -> Vec4 {
-    inputs.colors.color.load(inputs.pixel + tap.pixel)
-}
-
-/// The pixel's own colour: the mean of its shading samples.
-fn own_color(cfg: &Sraa, inputs: &Inputs) -> Vec4 {
-    match cfg.shading_samples() {
-        1 => inputs.colors.color.load(inputs.pixel),
-        several => {
-            let mut sum = Vec4::ZERO;
-            for k in 0..several {
-                sum += inputs.colors.colors.load(inputs.pixel, k);
-            }
-            sum / several as f32
-        }
-    }
-}
-
-/// Whether a colour may count.
-fn is_kept(cfg: &Sraa, color: Vec4) -> bool {
-    match cfg.non_finite {
-        NonFinite::Spread => true,
-        NonFinite::Skip => color.is_finite(),
-    }
+    result
 }

@@ -2,6 +2,7 @@
 
 use crate::prelude::*;
 
+use super::demodulate::Demodulate;
 use super::gbuffer::{Depth, Layout, Normals};
 use super::metric::{Difference, Metric, Plane};
 use super::pattern::{Pattern, Shading};
@@ -50,6 +51,11 @@ options! {
         pub search_threshold: f32 [0.0..=16.0] = 0.05,
         /// Of the kernel `sraa_place`: the largest difference of what shows a sample's surface.
         pub unseen: f32 [0.0..=16.0] = 0.01,
+        /// What is known at every geometry sample and so not borrowed: edges of paint and of shadow are then mended too.
+        pub demodulate: Demodulate = Demodulate::None,
+        /// Of demodulate: the least albedo that colours are divided by, a channel. What is darker shows mostly what it mirrors, of
+        /// which the albedo says nothing.
+        pub albedo_floor: f32 [0.001..=1.0] = 0.04,
         /// Whether pixels without geometric variation keep their own colour.
         pub mask: Mask = Mask::None,
         /// Of mask: the largest difference that is no variation.

@@ -173,6 +173,7 @@ impl Sraa {
                 "search needs resolve=box, one shading sample a pixel and normalisation=shifted"
             );
         }
+        self.check_demodulate();
         assert!(
             self.normals != Normals::Packed
                 || self.metric == Metric::PlanesNormals

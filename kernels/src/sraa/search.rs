@@ -1,9 +1,11 @@
 //! Where no tap shows a sample's surface: a search farther away.
 
+use super::colors::is_kept;
+use super::demodulate::{Paint, paint, repainted};
 use super::metric::{FAR, Sample};
 use super::options::{NonFinite, Search, Sraa};
 use super::pattern::Place;
-use super::{Inputs, STEEPEST, color_at, difference, falloff, geometry_sample, is_kept, least};
+use super::{Inputs, STEEPEST, difference, falloff, geometry_sample, least};
 use crate::prelude::*;
 
 /// What unseen samples add to the pixel.
@@ -76,9 +78,10 @@ fn each(cfg: &Sraa, inputs: &Inputs, unseen: u32) -> Searched {
         if (unseen >> sample) & 1 != 0 {
             let place = cfg.place(sample);
             let centre = geometry_sample(cfg, inputs, place);
-            let mut sum = farther(cfg, inputs, place, &centre);
+            let own = paint(cfg, inputs, place);
+            let mut sum = farther(cfg, inputs, place, &centre, &own);
             if sum.weight == 0.0 {
-                sum = nearby(cfg, inputs, place, &centre);
+                sum = nearby(cfg, inputs, place, &centre, &own);
             }
             let share = 1.0 / (sum.weight * cfg.samples() as f32);
             all.color += share * sum.color;
@@ -89,7 +92,7 @@ fn each(cfg: &Sraa, inputs: &Inputs, unseen: u32) -> Searched {
 }
 
 /// The colours of the taps that show the sample's own surface, if any do.
-fn farther(cfg: &Sraa, inputs: &Inputs, place: Place, centre: &Sample) -> Sum {
+fn farther(cfg: &Sraa, inputs: &Inputs, place: Place, centre: &Sample, own: &Paint) -> Sum {
     let side = match cfg.search {
         Search::None => 3,
         Search::Five => 5,
@@ -99,14 +102,14 @@ fn farther(cfg: &Sraa, inputs: &Inputs, place: Place, centre: &Sample) -> Sum {
     for tap in 0..side * side {
         let at = cfg.tap(tap, side);
         if difference(cfg, inputs, place, centre, at) <= cfg.search_threshold {
-            sum.add(cfg, color_at(inputs, at), spread(place, at));
+            sum.add(cfg, repainted(cfg, inputs, at, own), spread(place, at));
         }
     }
     sum
 }
 
 /// What the sample would be without a search.
-fn nearby(cfg: &Sraa, inputs: &Inputs, place: Place, centre: &Sample) -> Sum {
+fn nearby(cfg: &Sraa, inputs: &Inputs, place: Place, centre: &Sample, own: &Paint) -> Sum {
     let mut nearest = FAR;
     for tap in 0..9 {
         let at = cfg.tap(tap, 3);
@@ -121,7 +124,11 @@ fn nearby(cfg: &Sraa, inputs: &Inputs, place: Place, centre: &Sample) -> Sum {
         let near = falloff(cfg, place, at);
         if near > least(cfg) {
             let d = difference(cfg, inputs, place, centre, at);
-            sum.add(cfg, color_at(inputs, at), near * (steepness * (nearest - d)).exp2());
+            sum.add(
+                cfg,
+                repainted(cfg, inputs, at, own),
+                near * (steepness * (nearest - d)).exp2(),
+            );
         }
     }
     sum

@@ -193,6 +193,12 @@ impl Method {
         }
     }
 
+    /// Whether it reads albedo at every geometry sample.
+    pub fn reads_albedo(&self) -> bool {
+        let of_albedo = |(name, value): &(String, String)| name == "demodulate" && value != "none";
+        self.options.iter().any(of_albedo)
+    }
+
     /// What names the capture that it reads, of all that a scene is drawn in: its pattern, and where it is shaded unless that is
     /// the pixel's centre.
     pub fn reads(&self) -> String {
@@ -295,7 +301,7 @@ pub const NEAR_LATIN4: [usize; 4] = [10, 3, 11, 5];
 /// Shading at more than one place of a pixel: samples opposite to each other, and of sixteen four near those of `latin4`.
 const LISTED: (&str, &str) = ("shading", "listed");
 
-/// Beyond the paper: shading where geometry asks for it, and a search for what no tap shows.
+/// Beyond the paper: shading where geometry asks for it, a search for what no tap shows, and light apart from paint and shadow.
 fn beyond() -> Vec<Method> {
     let mut all = Vec::new();
     for (samples, pattern) in [("4", "latin4"), ("16", "latin16")] {
@@ -311,6 +317,8 @@ fn beyond() -> Vec<Method> {
             sraa("searched", &[SEARCHED]),
             sraa("placed", &[PLACED]),
             sraa("placed and searched", &[PLACED, SEARCHED]).main(),
+            sraa("demodulated", &[DEMODULATED]).pictured(),
+            sraa("placed, searched and demodulated", &[PLACED, SEARCHED, DEMODULATED]).pictured(),
         ]);
     }
     all
@@ -318,6 +326,7 @@ fn beyond() -> Vec<Method> {
 
 const PLACED: (&str, &str) = ("shading", "placed");
 const SEARCHED: (&str, &str) = ("search", "five");
+const DEMODULATED: (&str, &str) = ("demodulate", "albedo-shadow");
 
 fn metrics() -> Vec<Method> {
     let sraa = |name, metric| Method::new(name, Kind::Sraa, &[("metric", metric)]);
@@ -415,6 +424,17 @@ pub fn methods_of(capture: &Capture) -> (Vec<Method>, Vec<(String, String)>) {
         all.push(sraa(", Gaussian falloff", &[("falloff", "gaussian")]));
         all.push(sraa(", relative depth", &RELATIVE));
         all.push(sraa(", mask", &[("mask", "select")]));
+        match (&capture.albedo, &capture.direct) {
+            (Some(_), Some(_)) => all.push(sraa(", demodulated", &[RELATIVE[0], RELATIVE[1], DEMODULATED]).pictured()),
+            (Some(_), None) => {
+                let of_albedo = [RELATIVE[0], RELATIVE[1], ("demodulate", "albedo")];
+                all.push(sraa(", demodulated", &of_albedo).pictured());
+            }
+            (None, _) => {
+                let reason = "the capture has no albedo.exr".to_owned();
+                absent.push((format!("SRAA {samples}, demodulated"), reason));
+            }
+        }
         if capture.camera.is_some() {
             all.push(sraa(", planes and normals", &[("metric", "planes-normals")]));
         } else {

@@ -39,6 +39,13 @@ impl Shot {
                 let samples = gbuffer::samples(method.pattern()).unwrap_or_default();
                 vacant.insert(render::capture(renderer, &samples, method.shading())?);
             }
+            if let Some(capture) = shot.captures.get_mut(&method.reads())
+                && method.reads_albedo()
+                && capture.albedo.is_none()
+            {
+                check(progress)?;
+                render::add_albedo(capture, renderer)?;
+            }
             if method.kind == Kind::Aggregated {
                 check(progress)?;
                 let samples = gbuffer::samples(method.pattern()).unwrap_or_default();
@@ -159,5 +166,13 @@ impl Renderer for Shifted<'_> {
 
     fn shade(&self, surface: &Surface, place: Vec2) -> Vec3 {
         self.renderer.shade(surface, place + self.by)
+    }
+
+    fn paint(&self, surface: &Surface, place: Vec2) -> Vec4 {
+        self.renderer.paint(surface, place + self.by)
+    }
+
+    fn direct(&self, surface: &Surface, place: Vec2) -> Vec3 {
+        self.renderer.direct(surface, place + self.by)
     }
 }

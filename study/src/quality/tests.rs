@@ -78,6 +78,8 @@ fn captured(seen: impl Fn(Vec2) -> Option<Plane>) -> (Capture, Vec<Frame<Vec4>>)
                 .map(|l| Frame::new(SIZE, l.iter().map(|t| t.1).collect()))
                 .collect(),
         )),
+        albedo: None,
+        direct: None,
         reference: None,
     };
     let shaded = layers[..4].iter().map(colors).collect();

@@ -74,6 +74,8 @@ mod tests {
             place: None,
             depth: FrameLayers::new(vec![Frame::new(SIZE, texels)]),
             normal: None,
+            albedo: None,
+            direct: None,
             reference: None,
         }
     }

@@ -142,6 +142,8 @@ fn fewer_samples(capture: &Capture, count: usize) -> Capture {
         place: capture.place.clone(),
         depth: FrameLayers::new(depth),
         normal,
+        albedo: None,
+        direct: None,
         reference: None,
     }
 }
@@ -173,6 +175,8 @@ mod tests {
             place: None,
             depth: FrameLayers::new(depth.collect()),
             normal: Some(FrameLayers::new(normal.collect())),
+            albedo: None,
+            direct: None,
             reference: None,
             samples,
         }

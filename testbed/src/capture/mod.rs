@@ -27,6 +27,8 @@ const COLOR: &str = "color.exr";
 const DEPTH: &str = "depth.exr";
 const NORMAL: &str = "normal.exr";
 const PLACE: &str = "place.exr";
+const ALBEDO: &str = "albedo.exr";
+const DIRECT: &str = "direct.exr";
 const REFERENCE: &str = "reference.exr";
 
 /// The layer of `place.exr`, and its channel.
@@ -34,7 +36,7 @@ const PLACE_LAYER: &str = "place";
 const PLACE_CHANNEL: &str = "Y";
 
 /// Every file that a capture may hold.
-const FILES: [&str; 6] = [DESCRIPTION, COLOR, PLACE, DEPTH, NORMAL, REFERENCE];
+const FILES: [&str; 8] = [DESCRIPTION, COLOR, PLACE, DEPTH, NORMAL, ALBEDO, DIRECT, REFERENCE];
 
 /// A rendered picture with subpixel geometry. All images have the same size.
 #[derive(Clone, Debug, PartialEq)]
@@ -60,6 +62,11 @@ pub struct Capture {
     pub depth: FrameLayers<f32>,
     /// Unit normals, in the layers that `depth` has.
     pub normal: Option<FrameLayers<Vec3>>,
+    /// Linear RGB that surfaces reflect diffusely, in the layers that `depth` has, and in alpha the share of the direct light that
+    /// no shadow keeps away: filters that take light apart from paint and shadow need it.
+    pub albedo: Option<FrameLayers<Vec4>>,
+    /// Linear RGB that the direct light adds to `color` where no shadow falls. Only of one shading sample a pixel.
+    pub direct: Option<Frame<Vec4>>,
     /// Linear colour that a perfect filter would give.
     pub reference: Option<Frame<Vec4>>,
 }

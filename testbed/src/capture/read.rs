@@ -2,8 +2,8 @@
 
 use super::description::{Description, STATED_BY};
 use super::{
-    COLOR, Capture, CaptureError, DEPTH, DESCRIPTION, NORMAL, PLACE, PLACE_CHANNEL, PLACE_LAYER, REFERENCE,
-    ShadingSample, layer_count, layer_name, mean,
+    ALBEDO, COLOR, Capture, CaptureError, DEPTH, DESCRIPTION, DIRECT, NORMAL, PLACE, PLACE_CHANNEL, PLACE_LAYER,
+    REFERENCE, ShadingSample, layer_count, layer_name, mean,
 };
 use crate::picture::PictureError;
 use crate::picture::exr::{Source, read_color};
@@ -13,6 +13,9 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use straightline_codegen::{files, shorten};
 use straightline_kernels::prelude::{Frame, FrameLayers};
+
+/// What a layer of colours has.
+const RGB: &str = "channels R, G and B";
 
 /// Longest `capture.json` that is read, in bytes.
 const MAX_DESCRIPTION: u64 = 1 << 20;
@@ -41,6 +44,8 @@ impl Capture {
             }
             None => None,
         };
+        let albedo = layout.optional(ALBEDO).map(|_| layout.albedo()).transpose()?;
+        let direct = layout.optional(DIRECT).map(|path| layout.direct(&path)).transpose()?;
         let reference = match layout.optional(REFERENCE) {
             Some(path) => {
                 let reference = layout.color(REFERENCE, "the reference")?;
@@ -59,6 +64,8 @@ impl Capture {
             place,
             depth,
             normal,
+            albedo,
+            direct,
             reference,
             camera: description.camera,
         })
@@ -106,6 +113,20 @@ pub(super) fn check_place(path: &Path, samples: usize, place: &Frame<u32>) -> Re
     Err(PictureError::Unusable {
         path: path.to_owned(),
         problem,
+    }
+    .into())
+}
+
+/// Refuses direct light of several shading samples a pixel.
+pub(super) fn check_direct(path: &Path, shading: &ShadingSample) -> Result<(), CaptureError> {
+    let ShadingSample::Samples(_) = shading else {
+        return Ok(());
+    };
+    let problem = "the capture is shaded several times a pixel, and direct light is kept apart of one shading sample alone: leave \
+                   the file out";
+    Err(PictureError::Unusable {
+        path: path.to_owned(),
+        problem: problem.to_owned(),
     }
     .into())
 }
@@ -159,20 +180,42 @@ impl Layout<'_> {
         };
         let samples = self.description.samples().len();
         let names: Vec<String> = shaded.iter().map(|sample| layer_name(*sample, samples)).collect();
-        let wanted = "channels R, G and B";
-        let path = self.required(
-            COLOR,
-            &format!("the shading of {} with {wanted} each", in_words(&names)),
-        )?;
+        let contents = format!("the shading of {} with {RGB} each", in_words(&names));
+        let colors = self.color_layers(COLOR, &names, &contents)?;
+        let color = mean(&colors).ok_or_else(|| CaptureError::MissingFile {
+            path: self.dir.join(COLOR),
+            contents: "the shading".to_owned(),
+        })?;
+        Ok((color, colors))
+    }
+
+    /// The albedo of every layer of the geometry.
+    fn albedo(&self) -> Result<FrameLayers<Vec4>, CaptureError> {
+        let samples = self.description.samples().len();
+        let count = layer_count(samples, &self.description.shading());
+        let names: Vec<String> = (0..count).map(|layer| layer_name(layer, samples)).collect();
+        let layers = self.color_layers(ALBEDO, &names, &format!("a layer a sample with {RGB}"))?;
+        Ok(FrameLayers::new(layers))
+    }
+
+    /// What the direct light adds to the colour of each pixel's only shading sample.
+    fn direct(&self, path: &Path) -> Result<Frame<Vec4>, CaptureError> {
+        check_direct(path, &self.description.shading())?;
+        self.color(DIRECT, "the direct light")
+    }
+
+    /// The layers of a file by their names, each a colour; alpha is 1 where there is none.
+    fn color_layers(&self, file: &str, names: &[String], contents: &str) -> Result<Vec<Frame<Vec4>>, CaptureError> {
+        let path = self.required(file, contents)?;
         let source = Source::open(&path)?;
-        self.refuse_surplus(&path, &source, &names)?;
+        self.refuse_surplus(&path, &source, names)?;
         let found = source.layer_channels();
         let (mut planes, mut alphas) = (Vec::new(), Vec::new());
-        for name in &names {
+        for name in names {
             let alpha = found.iter().any(|(layer, channel)| layer == name && channel == "A");
             alphas.push(alpha);
             for channel in ["R", "G", "B"].into_iter().chain(alpha.then_some("A")) {
-                let plane = source.find(name, channel, wanted)?;
+                let plane = source.find(name, channel, RGB)?;
                 source.check(plane, &format!("layer `{name}`"), self.size(), STATED_BY)?;
                 planes.push(plane);
             }
@@ -184,11 +227,7 @@ impl Layout<'_> {
             let texel = |i: usize| Vec4::new(own[0][i], own[1][i], own[2][i], own.get(3).map_or(1.0, |a| a[i]));
             colors.push(Frame::new(self.size(), (0..own[0].len()).map(texel).collect()));
         }
-        let color = mean(&colors).ok_or_else(|| CaptureError::MissingFile {
-            path,
-            contents: "the shading".to_owned(),
-        })?;
-        Ok((color, colors))
+        Ok(colors)
     }
 
     /// The layer in whose place each pixel is shaded, if `capture.json` says that there are such places.

@@ -3,8 +3,8 @@
 use super::description::{Description, STATED_BY};
 use super::read::expected_layers;
 use super::{
-    COLOR, Capture, CaptureError, DEPTH, DESCRIPTION, FILES, NORMAL, PLACE, PLACE_CHANNEL, PLACE_LAYER, REFERENCE,
-    ShadingSample, layer_name,
+    ALBEDO, COLOR, Capture, CaptureError, DEPTH, DESCRIPTION, DIRECT, FILES, NORMAL, PLACE, PLACE_CHANNEL, PLACE_LAYER,
+    REFERENCE, ShadingSample, layer_name,
 };
 use crate::picture::exr::{self, Layer};
 use crate::picture::{self, PictureError};
@@ -76,6 +76,13 @@ impl Capture {
         if let Some(normal) = &self.normal {
             self.check_layers(dir, NORMAL, normal)?;
         }
+        if let Some(albedo) = &self.albedo {
+            self.check_layers(dir, ALBEDO, albedo)?;
+        }
+        if let Some(direct) = &self.direct {
+            self.check_size(dir, DIRECT, "its colour", direct.size())?;
+            super::read::check_direct(&dir.join(DIRECT), &self.shading)?;
+        }
         if let Some(reference) = &self.reference {
             self.check_size(dir, REFERENCE, "its colour", reference.size())?;
         }
@@ -145,6 +152,12 @@ impl Capture {
                     ("Z", plane(normal, |n| n.z)),
                 ]
             })?;
+        }
+        if let Some(albedo) = &self.albedo {
+            self.write_layers(&dir.join(ALBEDO), albedo, picture::color_channels)?;
+        }
+        if let Some(direct) = &self.direct {
+            picture::write_exr(&dir.join(DIRECT), direct)?;
         }
         if let Some(reference) = &self.reference {
             picture::write_exr(&dir.join(REFERENCE), reference)?;

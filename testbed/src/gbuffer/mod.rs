@@ -107,7 +107,17 @@ pub fn inputs(capture: &Capture, options: &BTreeMap<String, String>) -> Result<I
             }
         }
     }
+    let demodulate = option(options, "demodulate", "none");
+    if demodulate != "none" {
+        images.push(("albedo", needed_of(&capture.albedo, "albedo (albedo.exr)", demodulate)?));
+    }
     let mut inputs = Inputs::new(capture.size).image("color", capture.color.clone());
+    if demodulate == "albedo-shadow" {
+        inputs = inputs.image(
+            "direct",
+            needed_of(&capture.direct, "direct light (direct.exr)", demodulate)?,
+        );
+    }
     if !capture.colors.is_empty() {
         inputs = inputs.layers("colors", capture.colors.clone());
     }
@@ -149,6 +159,15 @@ pub fn inputs(capture: &Capture, options: &BTreeMap<String, String>) -> Result<I
         }),
         (None, _) => Ok(inputs),
     }
+}
+
+/// What taking light apart needs of a capture.
+fn needed_of<T: Clone>(found: &Option<T>, what: &'static str, demodulate: &str) -> Result<T, GBufferError> {
+    found.clone().ok_or_else(|| GBufferError::Missing {
+        what,
+        option: format!("demodulate={demodulate}"),
+        way_out: "write it, as `straightline capture --albedo` does, or use demodulate=none",
+    })
 }
 
 /// With the rays through the pixels of the whole picture.

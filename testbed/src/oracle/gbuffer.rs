@@ -1,7 +1,7 @@
 //! What the images of a shader's inputs say, decoded in double precision.
 
 use super::bound::Rounding;
-use super::{Depth, Layout, Metric, Normals, OracleError, Shading, SraaParams};
+use super::{Demodulate, Depth, Layout, Metric, Normals, OracleError, Shading, SraaParams};
 use crate::execute::Inputs;
 use glam::UVec4;
 use std::borrow::Cow;
@@ -22,6 +22,9 @@ pub(super) const DEEPEST: f64 = 1.0e30_f32 as f64;
 
 /// Stored depths of a reversed projection are no less, by definition of the filter.
 const SHORTEST: f64 = 1.0e-30_f32 as f64;
+
+/// Albedo is no more, by definition of the filter.
+const BRIGHTEST: f64 = 65504.0;
 
 /// Normals that are shorter are divided by this, by definition of the filter: a cleared texel is no normal.
 const NO_NORMAL: f64 = 0.01;
@@ -49,6 +52,8 @@ pub struct GBuffer<'a> {
     height: i32,
     colors: &'a [Frame<Vec4>],
     place: Option<&'a Frame<UVec4>>,
+    albedo: Option<Stored<'a>>,
+    direct: Option<&'a Frame<Vec4>>,
     depth: Option<Stored<'a>>,
     normal: Option<Stored<'a>>,
     rays: Option<[[f64; 3]; 3]>,
@@ -80,6 +85,14 @@ impl<'a> GBuffer<'a> {
             1 => images(inputs, "color", 1)?,
             several => images(inputs, "colors", several)?,
         };
+        let albedo = match params.demodulate {
+            Demodulate::None => None,
+            Demodulate::Albedo | Demodulate::AlbedoShadow => Some(stored("albedo")?),
+        };
+        let direct = match params.demodulate {
+            Demodulate::AlbedoShadow => Some(&images(inputs, "direct", 1)?[0]),
+            Demodulate::None | Demodulate::Albedo => None,
+        };
         let place = match params.shading {
             Shading::Placed => Some(integers(inputs, "place")?),
             Shading::Sample0 | Shading::Centre | Shading::Listed => None,
@@ -105,6 +118,8 @@ impl<'a> GBuffer<'a> {
             height: inputs.size.y as i32,
             colors,
             place,
+            albedo,
+            direct,
             depth,
             normal,
             rays,
@@ -130,6 +145,22 @@ impl<'a> GBuffer<'a> {
     /// Colour of shading sample `k` of `pixel`, or of the nearest one inside.
     pub fn color(&self, pixel: [i32; 2], k: usize) -> [f64; 4] {
         numbers(texel(&self.colors[k], self.inside(pixel)))
+    }
+
+    /// What the direct light adds to a pixel's colour out of shadow, or to that of the nearest pixel inside; 0 if that is not known.
+    pub fn direct(&self, pixel: [i32; 2]) -> [f64; 3] {
+        let light = self.direct.map(|direct| numbers(texel(direct, self.inside(pixel))));
+        light.map_or([0.0; 3], |[red, green, blue, _]| [red, green, blue])
+    }
+
+    /// Albedo at `sample` of `pixel`, or of the nearest one inside, by which colours may be divided, and the share of the direct
+    /// light there. `None` if that is not asked for.
+    pub fn paint(&self, pixel: [i32; 2], sample: usize) -> Option<([f64; 3], f64)> {
+        let [red, green, blue, lit] = self.texel(self.albedo.as_ref()?, self.inside(pixel), sample);
+        let least = self.params.albedo_floor;
+        let within = |value: f64, least: f64, most: f64| if value > least { value.min(most) } else { least };
+        let albedo = [red, green, blue].map(|channel| within(channel, least, BRIGHTEST));
+        Some((albedo, within(lit, 0.0, 1.0)))
     }
 
     /// The surface at `sample` of `pixel`, or of the nearest one inside, seen along the ray through `ray_at`.

@@ -11,7 +11,8 @@
 //! surfaces and colours are repeated.
 //!
 //! Where shading is placed, the surface of a tap is that at the sample which an image names, and its distance on the screen
-//! that of its pixel's centre. Where all taps of a sample differ from it by more than the search's threshold, its colour is the
+//! that of its pixel's centre. Where albedo is known at samples, colour(t) is light times the albedo at t, and what s takes of it the
+//! same light times the albedo at s; where shadow is too, of the direct light the share at s instead of that at t. Where all taps of a sample differ from it by more than the search's threshold, its colour is the
 //! mean of those shading samples of a larger square that do not, weighed by a Gaussian with a standard deviation of a pixel; if
 //! there are any.
 
@@ -28,8 +29,8 @@ use gbuffer::{DEEPEST, GBuffer, Point};
 use rayon::prelude::*;
 
 pub use params::{
-    Depth, Difference, Falloff, Layout, Mask, Metric, NonFinite, Normalisation, Normals, OracleError, Pattern, Plane,
-    Resolve, Search, Shading, SraaParams, Turn,
+    Demodulate, Depth, Difference, Falloff, Layout, Mask, Metric, NonFinite, Normalisation, Normals, OracleError,
+    Pattern, Plane, Resolve, Search, Shading, SraaParams, Turn,
 };
 pub use place::{Placed, place};
 
@@ -253,13 +254,30 @@ impl<'a> Definition<'a> {
                             at: tap,
                             falloff,
                             difference,
-                            color: self.gbuffer.color(there, k),
+                            color: self.repainted(pixel, at, tap, self.gbuffer.color(there, k)),
                         });
                     }
                 }
             }
         }
         taps
+    }
+
+    /// The colour of a tap with the light that falls on it, on the surface at a geometry sample: of its direct light the share that
+    /// arrives there, and of both what that surface reflects.
+    fn repainted(&self, pixel: [i32; 2], at: ([i32; 2], usize), tap: ([i32; 2], usize), color: [f64; 4]) -> [f64; 4] {
+        let there = |(away, sample): ([i32; 2], usize)| ([pixel[0] + away[0], pixel[1] + away[1]], sample);
+        let paint = |at| {
+            let (pixel, sample) = there(at);
+            self.gbuffer.paint(pixel, sample)
+        };
+        let (Some((onto, arrives)), Some((from, arrived))) = (paint(at), paint(tap)) else {
+            return color;
+        };
+        let direct = self.gbuffer.direct(there(tap).0);
+        let light =
+            |axis: usize| (color[axis] - arrived * direct[axis]) / from[axis] + arrives * direct[axis] / from[axis];
+        [onto[0] * light(0), onto[1] * light(1), onto[2] * light(2), color[3]]
     }
 
     /// Those that a geometry sample takes its colour from: `near`, or what a search finds; and whether 32 bits decide so too.

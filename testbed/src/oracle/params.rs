@@ -206,6 +206,18 @@ choices! {
 }
 
 choices! {
+    /// What is known at every geometry sample and not borrowed.
+    Demodulate {
+        /// Nothing.
+        None = "none",
+        /// Albedo.
+        Albedo = "albedo",
+        /// Albedo, and the shadow of the direct light.
+        AlbedoShadow = "albedo-shadow",
+    }
+}
+
+choices! {
     /// What a colour that is not finite does.
     NonFinite {
         /// It counts.
@@ -256,6 +268,10 @@ pub struct SraaParams {
     pub search_threshold: f64,
     /// The same for where a pixel is shaded.
     pub unseen: f64,
+    /// What is known at every geometry sample and not borrowed.
+    pub demodulate: Demodulate,
+    /// The least albedo, a channel.
+    pub albedo_floor: f64,
     /// Whether pixels without geometric variation keep their colour.
     pub mask: Mask,
     /// The largest difference that is no variation.
@@ -296,6 +312,8 @@ impl Default for SraaParams {
             search: Search::None,
             search_threshold: 0.05,
             unseen: 0.01,
+            demodulate: Demodulate::None,
+            albedo_floor: 0.04,
             mask: Mask::None,
             mask_threshold: 0.01,
             non_finite: NonFinite::Skip,
@@ -379,6 +397,8 @@ impl SraaParams {
             "search" => self.search = choice(option, value, Search::ALL, Search::name)?,
             "search-threshold" => self.search_threshold = number(option, value)?,
             "unseen" => self.unseen = number(option, value)?,
+            "demodulate" => self.demodulate = choice(option, value, Demodulate::ALL, Demodulate::name)?,
+            "albedo-floor" => self.albedo_floor = number(option, value)?,
             "mask" => self.mask = choice(option, value, Mask::ALL, Mask::name)?,
             "mask-threshold" => self.mask_threshold = number(option, value)?,
             "non-finite" => self.non_finite = choice(option, value, NonFinite::ALL, NonFinite::name)?,

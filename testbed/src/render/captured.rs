@@ -49,7 +49,7 @@ pub fn capture(renderer: &dyn Renderer, samples: &[Vec2], shading: ShadingSample
     let mut place = None;
     if shading == ShadingSample::Placed {
         let chosen = placed::choose(samples, &depth, &normal);
-        color = placed::shaded(renderer, &places, &chosen, color)?;
+        color = placed::gathered(&places, &chosen, color, |place| renderer.shaded(place))?;
         place = Some(chosen);
     }
     Ok(Capture {
@@ -66,6 +66,8 @@ pub fn capture(renderer: &dyn Renderer, samples: &[Vec2], shading: ShadingSample
         place,
         depth,
         normal: Some(normal),
+        albedo: None,
+        direct: None,
         reference: None,
     })
 }

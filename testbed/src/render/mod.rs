@@ -7,6 +7,7 @@
 mod aggregate;
 mod captured;
 mod cpu;
+mod demodulated;
 mod error;
 mod frame;
 mod gpu;
@@ -24,6 +25,7 @@ use straightline_kernels::prelude::Frame;
 pub use aggregate::{Aggregate, Aggregated, aggregated};
 pub use captured::capture;
 pub use cpu::CpuRenderer;
+pub use demodulated::add_albedo;
 pub use error::RenderError;
 pub use gpu::guard::guarded;
 pub use gpu::{FramePass, FramePasses, GpuRenderer, MultisampledGeometry, Samples};
@@ -69,6 +71,32 @@ pub trait Renderer {
     /// Linear colour of a surface that is seen `place` pixels from the picture's upper left corner, as [`shaded`](Self::shaded) has
     /// it.
     fn shade(&self, surface: &Surface, place: Vec2) -> Vec3;
+
+    /// What a filter that takes light apart from paint and shadow is given of a surface that is seen `place` pixels from the
+    /// picture's upper left corner: see [`albedo`](Self::albedo).
+    fn paint(&self, surface: &Surface, place: Vec2) -> Vec4;
+
+    /// Linear RGB that the sun adds to [`shade`](Self::shade) of a surface where no shadow falls.
+    fn direct(&self, surface: &Surface, place: Vec2) -> Vec3;
+
+    /// Albedo of what is seen `offset` from each pixel's centre, linear RGB, and in alpha the share of the sun's light that no
+    /// shadow keeps away. Of what shines by itself the albedo is what it shines with; of the sky 1.
+    ///
+    /// # Errors
+    ///
+    /// As [`geometry`](Self::geometry).
+    fn albedo(&self, offset: Vec2) -> Result<Frame<Vec4>, RenderError> {
+        demodulated::frame(self, offset, |surface, place| self.paint(surface, place))
+    }
+
+    /// What the sun adds to [`shaded`](Self::shaded) at `offset` where no shadow falls: linear RGB, alpha 0.
+    ///
+    /// # Errors
+    ///
+    /// As [`geometry`](Self::geometry).
+    fn sunlight(&self, offset: Vec2) -> Result<Frame<Vec4>, RenderError> {
+        demodulated::frame(self, offset, |surface, place| self.direct(surface, place).extend(0.0))
+    }
 
     /// Mean of the pictures shaded at each of `offsets`.
     ///

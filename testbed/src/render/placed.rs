@@ -1,6 +1,6 @@
 //! Shading once a pixel, where geometry asks for it.
 
-use super::{RenderError, Renderer};
+use super::RenderError;
 use crate::capture::MAX_SAMPLES;
 use glam::{IVec2, Vec2, Vec3, Vec4, ivec2};
 use rayon::prelude::*;
@@ -53,19 +53,19 @@ pub(super) fn choose(samples: &[Vec2], depth: &FrameLayers<f32>, normal: &FrameL
     Frame::new(size, texels.collect())
 }
 
-/// The picture with each pixel shaded in the place of the layer that `chosen` names, of those at `places`; `centred` is shaded in
-/// the last place.
-pub(super) fn shaded(
-    renderer: &dyn Renderer,
+/// The picture with each pixel drawn in the place of the layer that `chosen` names, of those at `places`; `centred` is drawn in the
+/// last place.
+pub(super) fn gathered(
     places: &[Vec2],
     chosen: &Frame<u32>,
     centred: Frame<Vec4>,
+    drawn: impl Fn(Vec2) -> Result<Frame<Vec4>, RenderError>,
 ) -> Result<Frame<Vec4>, RenderError> {
     let mut texels = centred.texels().to_vec();
     for (layer, place) in places.iter().enumerate().take(places.len() - 1) {
         let here = |chosen: &u32| *chosen as usize == layer;
         if chosen.texels().iter().any(here) {
-            let shaded = renderer.shaded(*place)?;
+            let shaded = drawn(*place)?;
             for ((texel, own), chosen) in texels.iter_mut().zip(shaded.texels()).zip(chosen.texels()) {
                 if here(chosen) {
                     *texel = *own;

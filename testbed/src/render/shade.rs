@@ -2,7 +2,7 @@
 
 use super::frame::Lighting;
 use crate::scene::{EMISSION, Material, SKY_DEPTH};
-use glam::{Vec2, Vec3, Vec4Swizzles, vec2};
+use glam::{Vec2, Vec3, Vec3Swizzles, Vec4, vec2, vec3};
 
 /// What one sample of a G-buffer holds.
 #[derive(Clone, Copy, Debug)]
@@ -29,24 +29,67 @@ impl Surface {
 
 /// Linear colour of a surface seen along `ray`, which has depth 1.
 pub(super) fn shade(lighting: &Lighting, surface: &Surface, ray: Vec3) -> Vec3 {
+    shaded(lighting, surface, ray, visibility(lighting, surface, ray))
+}
+
+/// What the sun adds to that where no shadow falls.
+pub(super) fn direct(lighting: &Lighting, surface: &Surface, ray: Vec3) -> Vec3 {
+    shaded(lighting, surface, ray, 1.0) - shaded(lighting, surface, ray, 0.0)
+}
+
+/// What a filter that takes light apart from paint and shadow is given of a surface: its albedo, as a sample of a G-buffer has it, and
+/// in the fourth component whether the sun reaches it, 1 or 0. Of what shines by itself the albedo is what it shines with; of
+/// the sky 1.
+pub(super) fn paint(lighting: &Lighting, surface: &Surface, ray: Vec3) -> Vec4 {
+    if surface.depth >= SKY_DEPTH {
+        return Vec4::ONE;
+    }
+    let reflected = match surface.material as u32 == Material::Emissive as u32 {
+        true => surface.color * EMISSION,
+        false => albedo(lighting, surface, ray),
+    };
+    reflected.extend(visibility(lighting, surface, ray))
+}
+
+/// Where a surface lies in the world.
+fn place(lighting: &Lighting, surface: &Surface, ray: Vec3) -> Vec3 {
+    (lighting.to_world * (ray * surface.depth).extend(1.0)).truncate()
+}
+
+/// Linear RGB that a surface reflects, with what its material paints on it.
+fn albedo(lighting: &Lighting, surface: &Surface, ray: Vec3) -> Vec3 {
+    let is = |material: Material| surface.material as u32 == material as u32;
+    let place = place(lighting, surface, ray);
+    if is(Material::Tiles) {
+        let footprint = surface.depth * lighting.extent.z / surface.normal.dot(-ray.normalize()).max(0.05);
+        return surface.color * tiles(place.xz(), footprint);
+    }
+    if is(Material::Dots) {
+        return surface.color * dots(place);
+    }
+    surface.color
+}
+
+/// The share of the sun's light that reaches a surface: 0 in the shadow of slats, else 1.
+fn visibility(lighting: &Lighting, surface: &Surface, ray: Vec3) -> f32 {
+    if surface.material as u32 != Material::Slats as u32 {
+        return 1.0;
+    }
+    let towards_sun = lighting.to_world * lighting.sun_direction.truncate().extend(0.0);
+    slats(place(lighting, surface, ray), towards_sun.truncate())
+}
+
+/// Linear colour of a surface that a share `visible` of the sun's light reaches.
+fn shaded(lighting: &Lighting, surface: &Surface, ray: Vec3, visible: f32) -> Vec3 {
     let view = -ray.normalize();
     if surface.depth >= SKY_DEPTH {
         return sky(lighting, -view).clamp(Vec3::ZERO, Vec3::ONE);
     }
     let is = |material: Material| surface.material as u32 == material as u32;
     let normal = surface.normal;
-    let mut albedo = surface.color;
-    let place = lighting.to_world * (ray * surface.depth).extend(1.0);
-    if is(Material::Tiles) {
-        let footprint = surface.depth * lighting.extent.z / normal.dot(view).max(0.05);
-        albedo *= tiles(place.xz(), footprint);
-    }
+    let albedo = albedo(lighting, surface, ray);
     let sun = lighting.sun_color.truncate();
-    let mut facing = normal.dot(lighting.sun_direction.truncate()).max(0.0);
-    if is(Material::Slats) {
-        let towards_sun = lighting.to_world * lighting.sun_direction.truncate().extend(0.0);
-        facing *= slats(place.truncate(), towards_sun.truncate());
-    }
+    let facing = normal.dot(lighting.sun_direction.truncate()).max(0.0) * visible;
     let upwards = 0.5 + 0.5 * normal.dot(lighting.up.truncate());
     let ambient = lighting.ground.truncate().lerp(lighting.zenith.truncate(), upwards);
     let halfway = (view + lighting.sun_direction.truncate()).normalize();
@@ -85,6 +128,17 @@ fn slats(place: Vec3, towards_sun: Vec3) -> f32 {
     let shadow = place.x - towards_sun.x / towards_sun.y.max(0.05) * place.y;
     let share = 2.0 * shadow;
     if share - share.floor() < 0.45 { 0.0 } else { 1.0 }
+}
+
+/// What is painted on a surface: dark blue balls in a grid of them, cut by it. Not averaged over a pixel: an edge of shading alone.
+fn dots(place: Vec3) -> Vec3 {
+    let cell = place * 3.0 + 0.4;
+    let away = cell - cell.floor() - 0.5;
+    if away.dot(away) < 0.18 {
+        vec3(0.10, 0.16, 0.45)
+    } else {
+        Vec3::ONE
+    }
 }
 
 /// Whether a place on a [`Material::ChainLink`] is one of its wires, which cross at right angles. `geometry.wgsl` says the

@@ -5,6 +5,7 @@ const TILES: u32 = 1;
 const SLATS: u32 = 3;
 const GLOSSY: u32 = 4;
 const EMISSIVE: u32 = 5;
+const DOTS: u32 = 6;
 const EMISSION: f32 = 50.0;
 const MOST: f32 = 65504.0;
 
@@ -38,6 +39,9 @@ fn shade(lighting: Lighting, surface: Surface, ray: vec3f) -> vec3f {
     if material == TILES {
         let footprint = surface.depth * lighting.extent.z / max(dot(normal, view), 0.05);
         albedo *= tiles(place.xz, footprint);
+    }
+    if material == DOTS {
+        albedo *= dots(place.xyz);
     }
     var facing = max(dot(normal, lighting.sun_direction.xyz), 0.0);
     if material == SLATS {
@@ -74,6 +78,12 @@ fn slats(place: vec3f, towards_sun: vec3f) -> f32 {
     let shadow = place.x - towards_sun.x / max(towards_sun.y, 0.05) * place.y;
     let share = 2.0 * shadow;
     return select(1.0, 0.0, share - floor(share) < 0.45);
+}
+
+fn dots(place: vec3f) -> vec3f {
+    let cell = place * 3.0 + 0.4;
+    let away = cell - floor(cell) - 0.5;
+    return select(vec3f(1.0), vec3f(0.10, 0.16, 0.45), dot(away, away) < 0.18);
 }
 
 fn sky(lighting: Lighting, towards: vec3f) -> vec3f {

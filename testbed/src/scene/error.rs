@@ -13,7 +13,7 @@ pub enum SceneError {
         path: PathBuf,
     },
     /// There is no built-in scene of this name.
-    #[error("there is no scene `{name}`; there are {}", super::NAMES.map(|(name, _)| name).join(", "))]
+    #[error("there is no scene `{name}`; there are {}", super::NAMES.iter().chain(&super::OF_SHADING).map(|(name, _)| *name).collect::<Vec<_>>().join(", "))]
     UnknownName {
         /// The name.
         name: String,

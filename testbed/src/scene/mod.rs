@@ -18,7 +18,7 @@ pub use builtin::builtin;
 pub use camera::{Camera, Viewpoint};
 pub use error::SceneError;
 pub use load::{EXTENSIONS, load, load_seen};
-pub use named::NAMES;
+pub use named::{NAMES, OF_SHADING};
 pub(crate) use textures::decoded;
 pub use textures::{Image, Textures};
 
@@ -84,6 +84,8 @@ pub enum Material {
     Glossy = 4,
     /// A light: its colour times [`EMISSION`], whatever falls on it.
     Emissive = 5,
+    /// Painted with dark dots that have hard edges, three to a unit of the world.
+    Dots = 6,
 }
 
 /// Radiance of a white [`Material::Emissive`], where a white surface in the sun is about 1.

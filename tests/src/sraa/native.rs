@@ -4,8 +4,8 @@ use super::options::Options;
 use glam::{UVec2, Vec3, ivec2};
 use straightline_kernels::prelude::{Buffer, Frame, FrameLayers, Multisampled, Texture, Vec4};
 use straightline_kernels::sraa::{
-    Colors, Depth, Difference, Falloff, GBuffer, Guards, Layout, Mask, Metric, NonFinite, Normalisation, Normals,
-    Pattern, Plane, Resolve, Search, Shading, Sraa, Turn, View, sraa,
+    Colors, Demodulate, Depth, Difference, Falloff, GBuffer, Guards, Layout, Mask, Metric, NonFinite, Normalisation,
+    Normals, Pattern, Plane, Resolve, Search, Shading, Sraa, Turn, View, sraa,
 };
 use straightline_testbed::execute::Inputs;
 
@@ -78,6 +78,11 @@ fn set(cfg: &mut Sraa, name: &str, value: &str) {
         "search" => cfg.search = one_of!(value, Search: "none" => None, "five" => Five, "seven" => Seven),
         "search-threshold" => cfg.search_threshold = number(value),
         "unseen" => cfg.unseen = number(value),
+        "demodulate" => {
+            cfg.demodulate =
+                one_of!(value, Demodulate: "none" => None, "albedo" => Albedo, "albedo-shadow" => AlbedoShadow);
+        }
+        "albedo-floor" => cfg.albedo_floor = number(value),
         "mask" => cfg.mask = one_of!(value, Mask: "none" => None, "select" => Select, "branch" => Branch),
         "guards" => cfg.guards = one_of!(value, Guards: "inline" => Inline, "fallback" => Fallback, "none" => None),
         "turn" => cfg.turn = one_of!(value, Turn: "cosine" => Cosine, "chord" => Chord),
@@ -135,11 +140,24 @@ fn colors(inputs: &Inputs) -> Colors {
         let found = inputs.images.iter().find(|(known, _)| known == name);
         found.map(|(_, images)| images.clone()).expect("colours are there")
     };
-    Colors {
+    let mut colors = Colors {
         color: images("color").remove(0),
         colors: FrameLayers::new(images("colors")),
         place: place(inputs),
+        ..Colors::unread()
+    };
+    for (name, images) in &inputs.images {
+        let first = &images[0];
+        match name.as_str() {
+            "albedo" => colors.albedo = FrameLayers::new(images.clone()),
+            "albedo_grid" => colors.albedo_grid = texture(first),
+            "albedo_samples" => colors.albedo_samples = Multisampled::new(images.iter().map(texture).collect()),
+            "centre_albedo" => colors.centre_albedo = first.clone(),
+            "direct" => colors.direct = first.clone(),
+            _ => {}
+        }
     }
+    colors
 }
 
 /// Where each pixel is shaded; of what is shaded elsewhere, a texel that is not read.

@@ -70,6 +70,9 @@ pub fn random(count: usize, seed: u64) -> Vec<Options> {
         if refusal(&set) == Some(SEARCH_REFUSED) {
             set.retain(|(name, _)| name != "search");
         }
+        if refusal(&set) == Some(MASK_REFUSED) {
+            set.retain(|(name, _)| name != "mask");
+        }
         set
     };
     (0..count).map(|_| set()).collect()
@@ -77,6 +80,9 @@ pub fn random(count: usize, seed: u64) -> Vec<Options> {
 
 /// What a search needs.
 const SEARCH_REFUSED: &str = "a search needs one shading sample a pixel, a box and shifted weights";
+
+/// What taking light apart from paint refuses.
+const MASK_REFUSED: &str = "a mask leaves paint as it is";
 
 /// Why the kernel refuses a set, by what the options' documentation says; `None` if it takes it.
 pub fn refusal(options: &Options) -> Option<&'static str> {
@@ -101,6 +107,12 @@ pub fn refusal(options: &Options) -> Option<&'static str> {
         ("normalisation", "paper"),
         ("normalisation", "epsilon"),
     ];
+    if value(options, "demodulate", "none") != "none" && value(options, "mask", "none") != "none" {
+        return Some(MASK_REFUSED);
+    }
+    if is("demodulate", "albedo-shadow") && is("shading", "listed") {
+        return Some("direct light is that of one shading sample");
+    }
     if value(options, "search", "none") != "none" && refuses.iter().any(|(name, value)| is(name, value)) {
         return Some(SEARCH_REFUSED);
     }

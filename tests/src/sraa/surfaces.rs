@@ -54,10 +54,23 @@ pub fn capture(options: &Options, size: UVec2, seed: u64) -> Capture {
         }),
         color: colors(&mut random, size),
         colors: Vec::new(),
+        albedo: Some(albedo(&mut Random(seed ^ 0xa1bed0), size, layers.len())),
+        direct: Some(colors(&mut Random(seed ^ 0xd1ec7), size)),
         depth: FrameLayers::new(depth.collect()),
         normal: Some(FrameLayers::new(normal.collect())),
         reference: None,
     }
+}
+
+/// Paint, some of it darker than is divided by, and shadow: hard, but for a penumbra here and there.
+fn albedo(random: &mut Random, size: UVec2, layers: usize) -> FrameLayers<Vec4> {
+    let texel = |random: &mut Random| {
+        let lit = random.choose(&[0.0, 0.0, 1.0, 1.0, 0.3]);
+        let mut channel = || (1.1 * random.unit() - 0.1).max(0.0);
+        vec4(channel(), channel(), channel(), lit)
+    };
+    let mut layer = || Frame::new(size, (0..size.x * size.y).map(|_| texel(random)).collect());
+    FrameLayers::new((0..layers).map(|_| layer()).collect())
 }
 
 /// A layer for each pixel.

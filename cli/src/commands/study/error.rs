@@ -11,7 +11,7 @@ use straightline_codegen::files;
 use straightline_study::quality::{self, Method, OwnError, Plan, QualityError, Source};
 use straightline_study::record::{Gap, MOST_DB, MethodErrors, QualityRecord, Record, SceneErrors};
 use straightline_testbed::capture::Capture;
-use straightline_testbed::scene::{self, NAMES, Scene};
+use straightline_testbed::scene::{self, NAMES, OF_SHADING, Scene};
 
 /// Frames of the pan.
 const FRAMES: u32 = 5;
@@ -130,7 +130,7 @@ fn sources(args: &ErrorArgs) -> Result<Vec<Source>, Failure> {
 }
 
 fn named(name: &str, scene: Scene) -> Source {
-    let purpose = NAMES.iter().find(|(known, _)| *known == name);
+    let purpose = NAMES.iter().chain(&OF_SHADING).find(|(known, _)| *known == name);
     Source::Scene {
         name: name.to_owned(),
         purpose: purpose.map_or(String::new(), |(_, purpose)| (*purpose).to_owned()),

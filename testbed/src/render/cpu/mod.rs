@@ -5,7 +5,7 @@ mod raster;
 
 use super::frame::{Lighting, Pass};
 use super::paint::painted;
-use super::shade::{self, Surface, shade};
+use super::shade::{self, Surface, direct, paint, shade};
 use super::{RenderError, Renderer};
 use crate::scene::{Camera, Image, Material, Scene, Vertex};
 use clip::ScreenTriangle;
@@ -191,5 +191,13 @@ impl Renderer for CpuRenderer {
 
     fn shade(&self, surface: &Surface, place: Vec2) -> Vec3 {
         shade(&self.lighting, surface, self.lighting.ray(place, self.size))
+    }
+
+    fn paint(&self, surface: &Surface, place: Vec2) -> Vec4 {
+        paint(&self.lighting, surface, self.lighting.ray(place, self.size))
+    }
+
+    fn direct(&self, surface: &Surface, place: Vec2) -> Vec3 {
+        direct(&self.lighting, surface, self.lighting.ray(place, self.size))
     }
 }

@@ -9,7 +9,7 @@ mod read;
 mod resources;
 
 use super::frame::{Lighting, Pass};
-use super::shade::{Surface, shade};
+use super::shade::{Surface, direct, paint, shade};
 use super::{RenderError, Renderer, check_offsets};
 use crate::scene::{Camera, Scene};
 use glam::{UVec2, Vec2, Vec3, Vec4};
@@ -116,6 +116,14 @@ impl Renderer for GpuRenderer {
 
     fn shade(&self, surface: &Surface, place: Vec2) -> Vec3 {
         shade(&self.lighting, surface, self.lighting.ray(place, self.size))
+    }
+
+    fn paint(&self, surface: &Surface, place: Vec2) -> Vec4 {
+        paint(&self.lighting, surface, self.lighting.ray(place, self.size))
+    }
+
+    fn direct(&self, surface: &Surface, place: Vec2) -> Vec3 {
+        direct(&self.lighting, surface, self.lighting.ray(place, self.size))
     }
 
     /// Adds up on the device, in 32 bits, and reads back once.

@@ -1,9 +1,11 @@
 //! Scenes by name, each for one thing that a filter of edges does well or badly.
 
+mod awning;
 mod creases;
 mod emissive;
 mod floor;
 mod grooves;
+mod posters;
 mod railings;
 mod sky;
 mod sparkle;
@@ -52,8 +54,21 @@ pub const NAMES: [(&str, &str); 11] = [
     ),
 ];
 
+/// Scenes whose edges are those of paint and of shadow, which filters of geometry leave as they are unless they are told of these.
+/// Studies draw them where they are asked for.
+pub const OF_SHADING: [(&str, &str); 2] = [
+    (
+        "posters",
+        "dots with hard edges on walls, blocks and ground: paint, which no geometry tells of",
+    ),
+    (
+        "awning",
+        "hard shadows of slats on even ground, walls and posts, which no geometry tells of",
+    ),
+];
+
 impl Scene {
-    /// The scene of [`NAMES`] that is called `name`. The same each time; one unit is a metre.
+    /// The scene of [`NAMES`] or [`OF_SHADING`] that is called `name`. The same each time; one unit is a metre.
     ///
     /// # Errors
     ///
@@ -71,6 +86,8 @@ impl Scene {
             "emissive" => Ok(emissive::scene()),
             "sky" => Ok(sky::scene()),
             "terrain" => Ok(terrain::scene()),
+            "posters" => Ok(posters::scene()),
+            "awning" => Ok(awning::scene()),
             _ => Err(SceneError::UnknownName { name: name.to_owned() }),
         }
     }
@@ -154,7 +171,7 @@ mod tests {
 
     #[test]
     fn every_name_is_a_scene_that_can_be_drawn_and_is_the_same_each_time() {
-        for (name, purpose) in NAMES {
+        for (name, purpose) in NAMES.into_iter().chain(OF_SHADING) {
             let scene = Scene::named(name).expect(name);
             scene.check().unwrap_or_else(|error| panic!("{name}: {error}"));
             assert!(scene == Scene::named(name).expect(name), "{name}");

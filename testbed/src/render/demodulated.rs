@@ -1,0 +1,47 @@
+//! What a filter reads that borrows light apart from paint and from shadow.
+
+use super::{RenderError, Renderer, Surface, placed};
+use crate::capture::{Capture, ShadingSample};
+use glam::{UVec2, Vec2, Vec4, uvec2};
+use straightline_kernels::prelude::{Frame, FrameLayers};
+
+/// Gives a capture of what `renderer` draws the albedo of every layer of its geometry, with the sun's share in alpha, and, if it is shaded
+/// once a pixel, the direct light there.
+///
+/// # Errors
+///
+/// What the renderer refuses.
+pub fn add_albedo(capture: &mut Capture, renderer: &dyn Renderer) -> Result<(), RenderError> {
+    let mut places = capture.samples.clone();
+    if places.len() < capture.layer_count() {
+        places.push(Vec2::ZERO);
+    }
+    let layers: Result<Vec<_>, _> = places.iter().map(|place| renderer.albedo(*place)).collect();
+    capture.albedo = Some(FrameLayers::new(layers?));
+    capture.direct = match (&capture.shading, &capture.place) {
+        (ShadingSample::Samples(_), _) => None,
+        (ShadingSample::Sample(sample), _) => Some(renderer.sunlight(places[*sample])?),
+        (ShadingSample::Placed, Some(chosen)) => {
+            let centred = renderer.sunlight(Vec2::ZERO)?;
+            Some(placed::gathered(&places, chosen, centred, |place| {
+                renderer.sunlight(place)
+            })?)
+        }
+        (ShadingSample::Centre | ShadingSample::Placed, _) => Some(renderer.sunlight(Vec2::ZERO)?),
+    };
+    Ok(())
+}
+
+/// What `of` makes of each pixel's surface, seen `offset` from its centre.
+pub(super) fn frame<R: Renderer + ?Sized>(
+    renderer: &R,
+    offset: Vec2,
+    of: impl Fn(&Surface, Vec2) -> Vec4,
+) -> Result<Frame<Vec4>, RenderError> {
+    let (size, surfaces): (UVec2, _) = (renderer.size(), renderer.surfaces(offset)?);
+    let texel = |(k, surface): (usize, &Surface)| {
+        let pixel = uvec2(k as u32 % size.x, k as u32 / size.x);
+        of(surface, pixel.as_vec2() + 0.5 + offset)
+    };
+    Ok(Frame::new(size, surfaces.iter().enumerate().map(texel).collect()))
+}
