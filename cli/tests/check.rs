@@ -152,7 +152,14 @@ fn an_error_of_all_of_a_kernel_is_at_its_name() {
         "{found:?}"
     );
     // A file of several public functions, none of its name, is shown at its first line.
-    let several = format!("{text}{}", text.lines().skip(1).collect::<Vec<_>>().join("\n").replace("lens", "glow"));
+    let several = format!(
+        "{text}{}",
+        text.lines()
+            .skip(1)
+            .collect::<Vec<_>>()
+            .join("\n")
+            .replace("lens", "glow")
+    );
     let other = write(&folder, "other.rs", &several);
     let (found, _) = messages(&["check", &other, "--message-format=json"]);
     assert_eq!(marked(&found[0].spans[0]), "// fn lens is below");

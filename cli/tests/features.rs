@@ -28,10 +28,26 @@ const LEFT_OUT: [&str; 16] = [
 
 /// The packages of the command with `features`, on Linux: name and version.
 fn packages(features: &str) -> BTreeSet<String> {
-    let arguments = ["tree", "--locked", "--package", "straightline", "--edges", "normal,build", "--prefix", "none"];
+    let arguments = [
+        "tree",
+        "--locked",
+        "--package",
+        "straightline",
+        "--edges",
+        "normal,build",
+        "--prefix",
+        "none",
+    ];
     let output = Command::new(env!("CARGO"))
         .args(arguments)
-        .args(["--format", "{p}", "--target", "x86_64-unknown-linux-gnu", "--features", features])
+        .args([
+            "--format",
+            "{p}",
+            "--target",
+            "x86_64-unknown-linux-gnu",
+            "--features",
+            features,
+        ])
         .current_dir(here(""))
         .output()
         .expect("cargo runs");
@@ -56,7 +72,10 @@ fn the_default_build_is_small() {
     let names: BTreeSet<String> = small.iter().map(name).collect();
     let all: BTreeSet<String> = full.iter().map(name).collect();
     for left_out in LEFT_OUT {
-        assert!(!names.contains(left_out), "the default build has {left_out} again: cargo tree -i {left_out}");
+        assert!(
+            !names.contains(left_out),
+            "the default build has {left_out} again: cargo tree -i {left_out}"
+        );
     }
     assert!(all.contains("straightline-study") && all.contains("exr") && all.contains("gltf"));
     assert!(small.len() <= 130, "the default build has {} packages", small.len());

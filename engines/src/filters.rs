@@ -4,7 +4,9 @@ use tera::{Kwargs, State, Tera, TeraResult};
 
 /// Adds the filters.
 pub fn register(tera: &mut Tera) {
-    tera.register_filter("template_literal", |text: &str, _: Kwargs, _: &State| template_literal(text));
+    tera.register_filter("template_literal", |text: &str, _: Kwargs, _: &State| {
+        template_literal(text)
+    });
     tera.register_filter("c_string", |text: &str, _: Kwargs, _: &State| c_string(text));
     tera.register_filter("python_string", |text: &str, _: Kwargs, _: &State| python_string(text));
     tera.register_filter("comment", comment);

@@ -55,11 +55,24 @@ mod tests {
 
     #[test]
     fn whatever_it_is_given_it_says_what_helps() {
-        for given in [&[][..], &["loops", "--quick", "--size", "8x8"], &["--help"], &["-h"], &["--", "-x"]] {
+        for given in [
+            &[][..],
+            &["loops", "--quick", "--size", "8x8"],
+            &["--help"],
+            &["-h"],
+            &["--", "-x"],
+        ] {
             let arguments = ["straightline", "study"].iter().chain(given);
             let Command::Study(absent) = Whole::try_parse_from(arguments).expect("all is taken").command;
-            assert!(absent.given.len() >= given.len().saturating_sub(1), "{given:?}: {absent:?}");
+            assert!(
+                absent.given.len() >= given.len().saturating_sub(1),
+                "{given:?}: {absent:?}"
+            );
         }
-        assert!("navi21".parse::<Family>().is_err_and(|text| text.contains("--features study")));
+        assert!(
+            "navi21"
+                .parse::<Family>()
+                .is_err_and(|text| text.contains("--features study"))
+        );
     }
 }

@@ -22,7 +22,7 @@ use straightline_codegen::shorten;
 use straightline_manifest::{Form, Format, Origin, Precision, Stage};
 
 #[cfg(not(feature = "study"))]
-pub use absent::{AbsentArgs, Family};
+pub use absent::Family;
 #[cfg(not(feature = "study"))]
 use absent::{
     AbsentArgs as BudgetArgs, AbsentArgs as FiguresArgs, AbsentArgs as QuadsArgs, AbsentArgs as StudyArgs,

@@ -68,7 +68,13 @@ mod tests {
     #[test]
     fn what_a_build_lacks_is_said_with_the_command_that_has_it() {
         let text = refusal("straightline study loops --quick", "study");
-        assert!(text.starts_with("`straightline study loops --quick` needs the feature `study`"), "{text}");
-        assert!(text.contains("`cargo run --release --features study -- study loops --quick`"), "{text}");
+        assert!(
+            text.starts_with("`straightline study loops --quick` needs the feature `study`"),
+            "{text}"
+        );
+        assert!(
+            text.contains("`cargo run --release --features study -- study loops --quick`"),
+            "{text}"
+        );
     }
 }

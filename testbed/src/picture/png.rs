@@ -99,7 +99,9 @@ impl Stored {
         let numbers: Vec<u32> = match self.depth {
             BitDepth::Sixteen => {
                 let pairs = self.bytes.chunks_exact(2);
-                pairs.map(|pair| u32::from(u16::from_be_bytes([pair[0], pair[1]]))).collect()
+                pairs
+                    .map(|pair| u32::from(u16::from_be_bytes([pair[0], pair[1]])))
+                    .collect()
             }
             _ => self.bytes.iter().copied().map(u32::from).collect(),
         };

@@ -33,7 +33,9 @@ mod tests {
     #[test]
     fn the_error_names_the_feature() {
         let text = |name: &str| load(Path::new(name)).err().map(|error| error.to_string());
-        assert!(text("a/model.GLB").is_some_and(|text| text.contains("model.GLB") && text.contains("--features models")));
+        assert!(
+            text("a/model.GLB").is_some_and(|text| text.contains("model.GLB") && text.contains("--features models"))
+        );
         assert!(text("a/model.txt").is_some_and(|text| text.contains("ends with .gltf")));
     }
 }
