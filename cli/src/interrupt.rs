@@ -28,11 +28,13 @@ pub fn listen() -> Result<(), Failure> {
 }
 
 /// From now on a first interrupt only asks to stop.
+#[cfg(feature = "study")]
 pub fn ask() {
     ASKS.store(true, Ordering::SeqCst);
 }
 
 /// Whether it was asked to stop.
+#[cfg(feature = "study")]
 pub fn asked() -> bool {
     PRESSED.load(Ordering::SeqCst)
 }

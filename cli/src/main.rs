@@ -40,16 +40,28 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         Command::Explain(args) => commands::explain::run(&args),
         Command::Run(args) => commands::run::run(&args),
         Command::Watch(args) => commands::watch::run(&args),
+        #[cfg(feature = "study")]
         Command::Budget(args) => commands::budget::run(&args),
+        #[cfg(feature = "study")]
         Command::Quads(args) => commands::quads::run(&args),
+        #[cfg(feature = "study")]
         Command::Figures(args) => commands::figures::run(&args),
+        #[cfg(feature = "study")]
         Command::Study(args) => commands::study::run(&args),
+        #[cfg(feature = "study")]
         Command::Tune(args) => commands::tune::run(&args),
         Command::Page(args) => commands::page::run(&args),
         Command::Resolve(args) => commands::resolve::run(&args),
         Command::Capture(args) => commands::capture::run(&args),
         Command::Compare(args) => commands::compare::run(&args),
         Command::Scenes(args) => commands::scenes::run(&args),
+        #[cfg(not(feature = "study"))]
+        Command::Budget(args)
+        | Command::Quads(args)
+        | Command::Figures(args)
+        | Command::Study(args)
+        | Command::Tune(args) => Err(args.refusal()),
+        #[cfg(feature = "study")]
         Command::ServeIsa => straightline_isa::serve().map_err(Failure::of),
         Command::Completions(args) => commands::shell::completions(&args),
         Command::Man(args) => commands::shell::man(&args),

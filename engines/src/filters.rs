@@ -1,23 +1,15 @@
 //! Filters that templates have beside those of tera: how a text becomes part of another language.
 
-use std::collections::HashMap;
-use tera::{Error, Result, Tera, Value};
+use tera::{Kwargs, State, Tera, TeraResult};
 
 /// Adds the filters.
 pub fn register(tera: &mut Tera) {
-    tera.register_filter("template_literal", text(template_literal));
-    tera.register_filter("c_string", text(c_string));
-    tera.register_filter("python_string", text(python_string));
+    tera.register_filter("template_literal", |text: &str, _: Kwargs, _: &State| {
+        template_literal(text)
+    });
+    tera.register_filter("c_string", |text: &str, _: Kwargs, _: &State| c_string(text));
+    tera.register_filter("python_string", |text: &str, _: Kwargs, _: &State| python_string(text));
     tera.register_filter("comment", comment);
-}
-
-/// A filter of texts.
-fn text(of: fn(&str) -> String) -> impl Fn(&Value, &HashMap<String, Value>) -> Result<Value> {
-    move |value, _| Ok(of(as_text(value)?).into())
-}
-
-fn as_text(value: &Value) -> Result<&str> {
-    value.as_str().ok_or_else(|| Error::msg("the filter is for texts"))
 }
 
 /// Between the backquotes of JavaScript.
@@ -42,12 +34,10 @@ fn python_string(text: &str) -> String {
 }
 
 /// Every line behind a mark: `{{ text | comment(mark="//") }}`.
-fn comment(value: &Value, args: &HashMap<String, Value>) -> Result<Value> {
-    let mark = args.get("mark").and_then(Value::as_str).unwrap_or("//");
-    let lines = as_text(value)?
-        .lines()
-        .map(|line| format!("{mark} {line}").trim_end().to_owned());
-    Ok(lines.collect::<Vec<_>>().join("\n").into())
+fn comment(text: &str, arguments: Kwargs, _: &State) -> TeraResult<String> {
+    let mark = arguments.get::<&str>("mark")?.unwrap_or("//");
+    let lines = text.lines().map(|line| format!("{mark} {line}").trim_end().to_owned());
+    Ok(lines.collect::<Vec<_>>().join("\n"))
 }
 
 #[cfg(test)]

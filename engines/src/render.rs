@@ -15,10 +15,10 @@ impl Engine {
     ///
     /// A template fails.
     pub fn render(&self, context: Value) -> Result<BTreeMap<String, Vec<u8>>, EngineError> {
-        let context = tera::Context::from_value(context).map_err(|e| self.wrong(e.to_string()))?;
+        let context = tera::Context::from_serialize(&context).map_err(|e| self.wrong(e.to_string()))?;
         let mut tera = Tera::default();
         filters::register(&mut tera);
-        tera.autoescape_on(Vec::new());
+        tera.autoescape_on(Vec::<&str>::new());
         let mut made = BTreeMap::new();
         for (template, file) in &self.description.files {
             let failed = |error: tera::Error| EngineError::Template {
@@ -30,7 +30,7 @@ impl Engine {
             let source = source.ok_or_else(|| self.wrong(format!("there is no template `{template}`")))?;
             tera.add_raw_template(template, source).map_err(failed)?;
             let text = tera.render(template, &context).map_err(failed)?;
-            let file = tera.render_str(file, &context).map_err(failed)?;
+            let file = tera.render_str(file, &context, false).map_err(failed)?;
             if !is_plain(&file) {
                 return Err(self.wrong(format!("`{file}` is no name of a file in the folder that is written")));
             }

@@ -3,7 +3,7 @@
 use super::{AdapterArgs, Executor, OptionArgs, StageArg, size};
 use clap::Args;
 use glam::{UVec2, Vec3};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use straightline_codegen::shorten;
 
 /// What is rendered, and from where.
@@ -26,10 +26,11 @@ pub struct ViewArgs {
     pub fov: Option<f32>,
 }
 
+#[cfg(feature = "study")]
 impl ViewArgs {
     /// The scene's name, or that of the model's file.
     pub fn name(&self) -> String {
-        let model = self.mesh.as_deref().and_then(Path::file_name);
+        let model = self.mesh.as_deref().and_then(std::path::Path::file_name);
         model.map_or_else(|| self.scene.clone(), |name| name.to_string_lossy().into_owned())
     }
 }

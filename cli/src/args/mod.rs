@@ -1,11 +1,16 @@
 //! The command line.
 
+#[cfg(any(test, not(feature = "study")))]
+mod absent;
 mod capture;
 mod check;
 mod kernel;
 mod run;
+#[cfg(feature = "study")]
 mod study;
+#[cfg(feature = "study")]
 mod sweep;
+#[cfg(feature = "study")]
 mod tune;
 
 use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
@@ -14,15 +19,26 @@ use glam::UVec2;
 use std::path::PathBuf;
 use straightline_codegen::emit::{Register, Target};
 use straightline_codegen::shorten;
-use straightline_isa::Family;
 use straightline_manifest::{Form, Format, Origin, Precision, Stage};
 
+#[cfg(not(feature = "study"))]
+pub use absent::Family;
+#[cfg(not(feature = "study"))]
+use absent::{
+    AbsentArgs as BudgetArgs, AbsentArgs as FiguresArgs, AbsentArgs as QuadsArgs, AbsentArgs as StudyArgs,
+    AbsentArgs as TuneArgs,
+};
 pub use capture::{CaptureArgs, CompareArgs, ResolveArgs, ViewArgs};
 pub use check::{CheckArgs, MessageFormat};
 pub use kernel::{KernelArgs, OptionArgs};
 pub use run::{Executor, GivenArgs, RunArgs, WatchArgs};
+#[cfg(feature = "study")]
+pub use straightline_isa::Family;
+#[cfg(feature = "study")]
 pub use study::{CommonArgs, ErrorArgs, FilmArgs, HardArgs, IsaArgs, LoopsArgs, Study, StudyArgs};
+#[cfg(feature = "study")]
 pub use sweep::{MergeArgs, RecordsArgs, SweepArgs};
+#[cfg(feature = "study")]
 pub use tune::TuneArgs;
 
 /// Image filters written once, as ordinary Rust with ordinary loops, emitted as straight-line shaders.
@@ -31,6 +47,7 @@ pub use tune::TuneArgs;
 /// prints what each method costs and how close it comes.
 #[derive(Debug, Parser)]
 #[command(name = "straightline", version, max_term_width = 110)]
+#[cfg_attr(not(feature = "study"), command(after_help = absent::ABOUT))]
 pub struct Arguments {
     #[command(subcommand)]
     pub command: Option<Command>,
@@ -79,6 +96,7 @@ pub enum Command {
     /// Write manual pages
     Man(ManArgs),
     /// Compile for a GPU that is not there, as the process that asks says
+    #[cfg(feature = "study")]
     #[command(hide = true)]
     ServeIsa,
 }
@@ -198,6 +216,7 @@ pub struct PageArgs {
     pub templates: Option<PathBuf>,
 }
 
+#[cfg(feature = "study")]
 #[derive(Debug, Args)]
 pub struct BudgetArgs {
     #[command(flatten)]
@@ -221,6 +240,7 @@ pub struct BudgetArgs {
     pub adapter: AdapterArgs,
 }
 
+#[cfg(feature = "study")]
 #[derive(Debug, Args)]
 pub struct QuadsArgs {
     /// Width and height in pixels
@@ -248,6 +268,7 @@ pub struct QuadsArgs {
     pub adapter: AdapterArgs,
 }
 
+#[cfg(feature = "study")]
 #[derive(Debug, Args)]
 pub struct FiguresArgs {
     /// One of the figures, by its file's name without extension; may be given several times. By default all of them

@@ -8,6 +8,9 @@ use straightline_testbed::render;
 
 /// Renders and writes a capture, or nothing.
 pub fn run(args: &CaptureArgs) -> Result<(), Failure> {
+    if !cfg!(feature = "exr") {
+        return Err(super::lacking("exr"));
+    }
     let samples = scene::pattern(&args.pattern)?;
     let shading = scene::shading(&args.shading, &args.shaded)?;
     let world = scene::viewed(&args.view)?;

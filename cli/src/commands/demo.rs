@@ -1,6 +1,6 @@
 //! `demo`: what Straightline does, in one run.
 
-use super::study::command;
+use super::command;
 use crate::args::DemoArgs;
 use crate::failure::Failure;
 use crate::gpu::{self, Gpu};

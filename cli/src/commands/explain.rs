@@ -1,14 +1,13 @@
 //! `explain`: what a kernel does for each pixel.
 
-use super::study::isa;
+use super::machine;
 use crate::args::ExplainArgs;
 use crate::failure::Failure;
 use crate::table;
 use serde_json::{Map, Value, json};
-use straightline_codegen::emit::{Emitted, Target};
+use straightline_codegen::emit::Target;
 use straightline_codegen::passes::Sharing;
 use straightline_codegen::{Compiled, EmitOptions};
-use straightline_isa::{Compiler, Family, Report};
 use straightline_kernels::PaperCounts;
 use straightline_manifest::{BindingKind, Counts, Manifest, Precision};
 
@@ -28,7 +27,7 @@ pub fn run(args: &ExplainArgs) -> Result<(), Failure> {
         .accept_loss(true)
         .targets(targets);
     let emitted = compiled.emit(&options).map_err(Failure::of)?;
-    let isa = args.isa.map(|family| machine_code(&emitted, family)).transpose()?;
+    let machine = args.isa.map(|family| machine::ask(&emitted, family)).transpose()?;
     let bound = bound(&emitted.manifest);
     let features = emitted.manifest.features.join(", ");
     let counts = emitted.manifest.counts;
@@ -36,8 +35,8 @@ pub fn run(args: &ExplainArgs) -> Result<(), Failure> {
     if args.json {
         let mut out = to_json(&compiled, &counts, &bound, paper);
         out.insert("precision".into(), json!(args.precision));
-        if let Some((device, report)) = &isa {
-            out.insert("isa".into(), json!({ "device": device, "figures": report.figures }));
+        if let Some(machine) = &machine {
+            out.insert("isa".into(), machine.to_json());
         }
         outln!("{:#}", Value::Object(out));
     } else {
@@ -45,32 +44,11 @@ pub fn run(args: &ExplainArgs) -> Result<(), Failure> {
         if args.precision != Precision::default() {
             outln!("\nin {}: the device needs {features}", args.precision);
         }
-        if let Some((device, report)) = &isa {
-            print_isa(device, report, args.dump);
+        if let Some(machine) = &machine {
+            machine.print(args.dump);
         }
     }
     Ok(())
-}
-
-/// What the compiler for a family makes of the shader, and what it calls its GPU.
-fn machine_code(emitted: &Emitted, family: Family) -> Result<(String, Report), Failure> {
-    let program = std::env::current_exe().map_err(Failure::of)?;
-    let mut compiler = Compiler::start(&program, &[isa::SERVE], family).map_err(Failure::of)?;
-    let report = compiler
-        .compile(&emitted.files[&Target::Spirv], &emitted.manifest.entry_point)
-        .map_err(Failure::of)?;
-    Ok((compiler.device().to_owned(), report))
-}
-
-fn print_isa(device: &str, report: &Report, dump: bool) {
-    let rows = report
-        .figures
-        .named()
-        .map(|(name, figure)| vec![name.to_owned(), figure.to_string()]);
-    out!("\n{}", table::render(&[device, "a wave"], &rows));
-    if dump {
-        out!("\n{}", report.assembly);
-    }
 }
 
 /// Columns of a screen.

@@ -1,6 +1,7 @@
-//! One room a command.
+//! One module a command. What measures kernels and scenes needs the feature `study`.
 
 pub mod adapters;
+#[cfg(feature = "study")]
 pub mod budget;
 pub mod capture;
 pub mod check;
@@ -8,18 +9,25 @@ pub mod compare;
 pub mod demo;
 pub mod emit;
 pub mod explain;
+#[cfg(feature = "study")]
 pub mod figures;
 pub mod list;
+#[cfg_attr(not(feature = "study"), path = "without_machine.rs")]
+mod machine;
 pub mod page;
+#[cfg(feature = "study")]
 pub mod quads;
 pub mod resolve;
 pub mod run;
 pub mod scenes;
 pub mod shell;
+#[cfg(feature = "study")]
 pub mod study;
+#[cfg(feature = "study")]
 pub mod tune;
 pub mod watch;
 
+use crate::failure::Failure;
 use straightline_codegen::ir::Invocation;
 use straightline_codegen::{Compiled, Stage};
 
@@ -28,5 +36,45 @@ fn natural_stage(compiled: &Compiled) -> Stage {
     match compiled.graph.invocation {
         Invocation::Lane => Stage::Fragment,
         _ => Stage::Compute,
+    }
+}
+
+/// The command as it was given, with the program's name for its path.
+pub fn command() -> String {
+    let arguments = std::env::args_os().skip(1);
+    std::iter::once("straightline".to_owned())
+        .chain(arguments.map(|argument| argument.to_string_lossy().into_owned()))
+        .collect::<Vec<_>>()
+        .join(" ")
+}
+
+/// Why a command does nothing in a build that lacks a feature, and what helps.
+pub fn lacking(feature: &str) -> Failure {
+    Failure::Usage(refusal(&command(), feature))
+}
+
+fn refusal(command: &str, feature: &str) -> String {
+    let arguments = command.strip_prefix("straightline").unwrap_or_default();
+    format!(
+        "`{command}` needs the feature `{feature}`, which this build lacks\n  \
+         help: `cargo run --release --features {feature} --{arguments}`, or `cargo install --path cli --features {feature}`"
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_a_build_lacks_is_said_with_the_command_that_has_it() {
+        let text = refusal("straightline study loops --quick", "study");
+        assert!(
+            text.starts_with("`straightline study loops --quick` needs the feature `study`"),
+            "{text}"
+        );
+        assert!(
+            text.contains("`cargo run --release --features study -- study loops --quick`"),
+            "{text}"
+        );
     }
 }

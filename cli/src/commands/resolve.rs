@@ -14,6 +14,9 @@ use straightline_testbed::{metrics, picture};
 
 /// Reads a capture, resolves it with SRAA, writes the picture, prints errors if asked.
 pub fn run(args: &ResolveArgs) -> Result<(), Failure> {
+    if !cfg!(feature = "exr") {
+        return Err(super::lacking("exr"));
+    }
     check_extension(args)?;
     files::try_file(&args.out, false).map_err(Failure::of)?;
     let capture = Capture::read(&args.capture).map_err(Failure::of)?;

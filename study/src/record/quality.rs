@@ -4,8 +4,7 @@ use super::{Circumstances, Record};
 use serde::{Deserialize, Serialize};
 use straightline_testbed::execute::Times;
 
-/// PSNR of equal pictures, and the most of any: infinity cannot be written as JSON.
-pub const MOST_DB: f64 = 160.0;
+pub use straightline_testbed::metrics::MOST_DB;
 
 /// What kind of method it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]

@@ -14,5 +14,7 @@ mod ssim;
 mod tests;
 
 pub use flip::{flip, flip_map};
-pub use psnr::{max_abs_difference, max_abs_difference_to, mse, mse_where, non_finite, psnr, psnr_where, worst};
+pub use psnr::{
+    MOST_DB, max_abs_difference, max_abs_difference_to, mse, mse_where, non_finite, psnr, psnr_where, worst,
+};
 pub use ssim::ssim;

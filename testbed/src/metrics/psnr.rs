@@ -6,6 +6,9 @@
 use glam::Vec4;
 use straightline_kernels::prelude::Frame;
 
+/// PSNR of equal pictures, and the most of any: infinity cannot be written as JSON.
+pub const MOST_DB: f64 = 160.0;
+
 /// Peak signal-to-noise ratio of `test` in dB, with a peak of 1: `10·log10(1 / mse)`. Infinite for equal pictures.
 pub fn psnr(test: &Frame<Vec4>, reference: &Frame<Vec4>) -> f64 {
     psnr_where(test, reference, |_| true)

@@ -23,6 +23,16 @@ pub enum PictureError {
         /// The file.
         path: PathBuf,
     },
+    /// A format that this build does not know.
+    #[error("{}: this build has no {format} files: build it with `--features {feature}`", .path.display())]
+    NotBuilt {
+        /// The file.
+        path: PathBuf,
+        /// What the file is.
+        format: &'static str,
+        /// The feature of the crate that has them.
+        feature: &'static str,
+    },
     /// The contents are not, or no longer, those of a complete picture.
     #[error("{} is damaged, cut short or not {format} ({problem}): write or copy it again", .path.display())]
     Damaged {

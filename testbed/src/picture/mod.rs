@@ -1,10 +1,11 @@
 //! Single pictures: files, and what is shown beside one another.
 //!
 //! A picture is a `Frame<Vec4>` of linear RGB and alpha. [`write()`] chooses the format by the file's extension:
-//! PNG for looking at (8 bits, sRGB) or EXR for measuring (32-bit floats, linear).
+//! PNG for looking at (8 bits, sRGB) or EXR for measuring (32-bit floats, linear). The latter needs the feature `exr`.
 
 mod animation;
 mod error;
+#[cfg_attr(not(feature = "exr"), path = "without_exr.rs")]
 pub(crate) mod exr;
 pub(crate) mod layout;
 mod lut;

@@ -245,8 +245,7 @@ fn painted(texels: [[u8; 4]; 16], cutoff: f32) -> Scene {
         [-9.0, 10.0, -3.0],
     ];
     let mut scene = plane(corners, [0.0, 0.0, 1.0]);
-    let image = image::RgbaImage::from_raw(4, 4, texels.concat()).expect("sixteen texels");
-    let (first, levels) = scene.textures.add(&image).expect("room for it");
+    let (first, levels) = scene.textures.add(uvec2(4, 4), &texels).expect("room for it");
     let size = [4, 4];
     scene.textures.images.push(crate::scene::Image {
         first,

@@ -12,6 +12,12 @@ pub enum SceneError {
         /// The file.
         path: PathBuf,
     },
+    /// This build reads no models.
+    #[error("{}: this build reads no models: build it with `--features models`", path.display())]
+    NotBuilt {
+        /// The file.
+        path: PathBuf,
+    },
     /// There is no built-in scene of this name.
     #[error("there is no scene `{name}`; there are {}", super::NAMES.iter().chain(&super::OF_SHADING).map(|(name, _)| *name).collect::<Vec<_>>().join(", "))]
     UnknownName {

@@ -1,11 +1,12 @@
 //! What the testbed draws: triangles with materials, a sun, a sky and a camera.
 //!
 //! A [`Scene`] is plain data that every renderer reads alike. [`Scene::named`] makes one of [`NAMES`] without any file;
-//! [`load()`] reads a model. World space is right-handed with y up; lengths are in scene units.
+//! [`load()`] reads a model, with the feature `models`. World space is right-handed with y up; lengths are in scene units.
 
 mod builtin;
 mod camera;
 mod error;
+#[cfg_attr(not(feature = "models"), path = "without_models.rs")]
 mod load;
 mod mesh;
 mod named;
@@ -17,10 +18,13 @@ use glam::Vec3;
 pub use builtin::builtin;
 pub use camera::{Camera, Viewpoint};
 pub use error::SceneError;
-pub use load::{EXTENSIONS, load, load_seen};
+pub use load::{load, load_seen};
 pub use named::{NAMES, OF_SHADING};
 pub(crate) use textures::decoded;
 pub use textures::{Image, Textures};
+
+/// File name extensions that [`load()`] knows, in lower case.
+pub const EXTENSIONS: [&str; 3] = ["gltf", "glb", "obj"];
 
 /// Linear depth where no geometry is seen.
 ///

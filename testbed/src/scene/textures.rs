@@ -31,13 +31,14 @@ pub struct Image {
 const MOST: usize = 1 << 26;
 
 impl Textures {
-    /// Adds an image with its smaller levels. The number of its first texel and of its levels.
+    /// Adds an image of `size` texels of sRGB and alpha, row by row, with its smaller levels. The number of its first texel and of
+    /// its levels.
     ///
     /// # Errors
     ///
-    /// It is empty, or too much for a scene.
-    pub fn add(&mut self, image: &image::RgbaImage) -> Result<(u32, u32), String> {
-        let mut size = uvec2(image.width(), image.height());
+    /// It is empty, too much for a scene, or there are fewer or more texels.
+    pub fn add(&mut self, size: UVec2, image: &[[u8; 4]]) -> Result<(u32, u32), String> {
+        let mut size = size;
         if size.min_element() == 0 {
             return Err("it has no pixels".to_owned());
         }
@@ -48,9 +49,11 @@ impl Textures {
                 MOST >> 20
             ));
         }
+        if image.len() as u64 != texels {
+            return Err(format!("it has {} texels, not {texels}", image.len()));
+        }
         let first = self.texels.len();
-        self.texels
-            .extend(image.pixels().map(|pixel| u32::from_le_bytes(pixel.0)));
+        self.texels.extend(image.iter().copied().map(u32::from_le_bytes));
         let (mut finer, mut levels) = (first, 1);
         while size.max_element() > 1 {
             let next = self.texels.len();
@@ -103,15 +106,14 @@ mod tests {
         let mut textures = Textures::default();
         // White beside black, and below them green where there is a surface, and red where there is none.
         let bytes = [[255, 255, 255, 255], [0, 0, 0, 255], [0, 255, 0, 255], [255, 0, 0, 0]];
-        let image = image::RgbaImage::from_raw(2, 2, bytes.concat()).expect("four pixels");
-        assert_eq!(textures.add(&image), Ok((0, 2)));
+        assert_eq!(textures.add(uvec2(2, 2), &bytes), Ok((0, 2)));
         assert_eq!(textures.texels.len(), 5);
         let mean = decoded(textures.texels[4]);
         let expected = Vec4::new(1.0 / 3.0, 2.0 / 3.0, 1.0 / 3.0, 0.75);
         assert!((mean - expected).abs().max_element() < 0.01, "{mean}");
-        let wide = image::RgbaImage::new(5, 1);
-        assert_eq!(textures.add(&wide), Ok((5, 3)));
+        assert_eq!(textures.add(uvec2(5, 1), &[[0; 4]; 5]), Ok((5, 3)));
         assert_eq!(textures.texels.len(), 5 + 5 + 2 + 1);
-        assert!(textures.add(&image::RgbaImage::new(0, 1)).is_err());
+        assert!(textures.add(uvec2(0, 1), &[]).is_err());
+        assert!(textures.add(uvec2(2, 1), &[[0; 4]]).is_err());
     }
 }

@@ -8,7 +8,7 @@ mod loops;
 mod progress;
 mod sweep;
 
-use super::tune;
+use super::{command, tune};
 use crate::args::{CommonArgs, Study, StudyArgs, TuneArgs};
 use crate::failure::Failure;
 use crate::gpu::Gpu;
@@ -112,15 +112,6 @@ pub fn on_processor(size: UVec2, rounds: u32) -> Circumstances {
 /// The time, as records have it: RFC 3339, UTC.
 fn now() -> String {
     humantime::format_rfc3339_seconds(SystemTime::now()).to_string()
-}
-
-/// The command as it was given, with the program's name for its path.
-pub fn command() -> String {
-    let arguments = std::env::args_os().skip(1);
-    std::iter::once("straightline".to_owned())
-        .chain(arguments.map(|argument| argument.to_string_lossy().into_owned()))
-        .collect::<Vec<_>>()
-        .join(" ")
 }
 
 /// What the processor calls itself, and its threads.

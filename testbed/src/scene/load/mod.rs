@@ -13,9 +13,6 @@ use glam::Vec3;
 use std::path::Path;
 use straightline_codegen::files;
 
-/// File name extensions that [`load()`] knows, in lower case.
-pub const EXTENSIONS: [&str; 3] = ["gltf", "glb", "obj"];
-
 /// Most triangles that are read from a file.
 pub const MAX_TRIANGLES: usize = 1 << 25;
 

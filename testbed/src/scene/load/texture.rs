@@ -30,7 +30,8 @@ impl<K: Hash + Eq> Library<K> {
 
     /// Adds a picture, of surfaces that are there from an alpha of `cutoff` on.
     pub fn add(&mut self, key: K, picture: &image::RgbaImage, cutoff: f32) -> Result<Image, String> {
-        let (first, levels) = self.textures.add(picture)?;
+        let (texels, _) = picture.as_raw().as_chunks::<4>();
+        let (first, levels) = self.textures.add(uvec2(picture.width(), picture.height()), texels)?;
         let image = Image {
             first,
             size: [picture.width(), picture.height()],

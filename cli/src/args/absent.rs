@@ -1,0 +1,78 @@
+//! What stands for commands that are not built in: they are known, and say how to get them.
+#![cfg_attr(feature = "study", allow(dead_code, reason = "its tests run where all is built in"))]
+
+use crate::commands::lacking;
+use crate::failure::Failure;
+use clap::Args;
+use std::ffi::OsString;
+use std::str::FromStr;
+
+/// What the help says below the commands.
+pub const ABOUT: &str = "This build lacks budget, quads, figures, study and tune: they need `--features study`.";
+
+// Whatever the command is given, `--help` too: all of it is answered alike.
+#[derive(Debug, Args)]
+#[command(disable_help_flag = true)]
+pub struct AbsentArgs {
+    #[arg(hide = true, trailing_var_arg = true, allow_hyphen_values = true)]
+    pub given: Vec<OsString>,
+}
+
+impl AbsentArgs {
+    /// Why the command does nothing, and what helps.
+    pub fn refusal(&self) -> Failure {
+        lacking("study")
+    }
+}
+
+/// A GPU whose compiler is asked: none, for that too needs the feature.
+#[derive(Clone, Copy, Debug)]
+pub enum Family {}
+
+impl FromStr for Family {
+    type Err = &'static str;
+
+    fn from_str(_: &str) -> Result<Self, Self::Err> {
+        Err("compilers of GPUs are asked by builds with `--features study`")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::{Parser, Subcommand};
+
+    #[derive(Debug, Parser)]
+    struct Whole {
+        #[command(subcommand)]
+        command: Command,
+    }
+
+    #[derive(Debug, Subcommand)]
+    enum Command {
+        Study(AbsentArgs),
+    }
+
+    #[test]
+    fn whatever_it_is_given_it_says_what_helps() {
+        for given in [
+            &[][..],
+            &["loops", "--quick", "--size", "8x8"],
+            &["--help"],
+            &["-h"],
+            &["--", "-x"],
+        ] {
+            let arguments = ["straightline", "study"].iter().chain(given);
+            let Command::Study(absent) = Whole::try_parse_from(arguments).expect("all is taken").command;
+            assert!(
+                absent.given.len() >= given.len().saturating_sub(1),
+                "{given:?}: {absent:?}"
+            );
+        }
+        assert!(
+            "navi21"
+                .parse::<Family>()
+                .is_err_and(|text| text.contains("--features study"))
+        );
+    }
+}

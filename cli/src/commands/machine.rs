@@ -1,0 +1,45 @@
+//! What a GPU's compiler makes of a shader, for `explain --isa`.
+
+use super::study::isa::SERVE;
+use crate::args::Family;
+use crate::failure::Failure;
+use crate::table;
+use serde_json::{Value, json};
+use straightline_codegen::emit::{Emitted, Target};
+use straightline_isa::{Compiler, Report};
+
+/// The machine code, and what the compiler calls its GPU.
+pub struct Machine {
+    device: String,
+    report: Report,
+}
+
+/// Asks the compiler for a family.
+pub fn ask(emitted: &Emitted, family: Family) -> Result<Machine, Failure> {
+    let program = std::env::current_exe().map_err(Failure::of)?;
+    let mut compiler = Compiler::start(&program, &[SERVE], family).map_err(Failure::of)?;
+    let report = compiler
+        .compile(&emitted.files[&Target::Spirv], &emitted.manifest.entry_point)
+        .map_err(Failure::of)?;
+    let device = compiler.device().to_owned();
+    Ok(Machine { device, report })
+}
+
+impl Machine {
+    pub fn to_json(&self) -> Value {
+        json!({ "device": self.device, "figures": self.report.figures })
+    }
+
+    /// Prints the figures, and the code itself if it is asked for.
+    pub fn print(&self, code: bool) {
+        let rows = self
+            .report
+            .figures
+            .named()
+            .map(|(name, figure)| vec![name.to_owned(), figure.to_string()]);
+        out!("\n{}", table::render(&[&self.device, "a wave"], &rows));
+        if code {
+            out!("\n{}", self.report.assembly);
+        }
+    }
+}
