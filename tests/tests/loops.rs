@@ -12,7 +12,7 @@ use straightline_codegen::emit::Target;
 use straightline_codegen::interp::{Bindings, Image, Interpreter, Texels};
 use straightline_codegen::{Branches, Compiled, EmitOptions, Kernel, Settings, Unroll};
 use straightline_runtime::{Error, Pass, PassOptions};
-use straightline_study::loops::{LoopsError, Method, Subject, study, subjects};
+use straightline_study::loops::{LoopsError, Setup, Subject, study, subjects};
 use straightline_study::progress::Silent;
 use straightline_study::record::{Circumstances, FormKind, LoopsRecord, Record};
 use straightline_testbed::execute::{Inputs, interpret, test_inputs};
@@ -284,7 +284,7 @@ fn a_loop_that_may_not_end_keeps_its_bound() {
     Pass::new(gpu.device(), &manifest, &endless).expect("wgpu bounds it");
 }
 
-const METHOD: Method = Method {
+const SETUP: Setup = Setup {
     size: uvec2(64, 36),
     rounds: 2,
     least: Duration::ZERO,
@@ -299,7 +299,7 @@ fn every_form_is_there_or_says_why_not() {
     subjects
         .retain(|subject| ["SRAA 4", "stalker", "fxaa", "kuwahara", "convolution"].contains(&subject.name.as_str()));
     assert_eq!(subjects.len(), 5);
-    let studied = study(&bench(), &subjects, &METHOD, &mut Silent).unwrap_or_else(|e| panic!("{e}"));
+    let studied = study(&bench(), &subjects, &SETUP, &mut Silent).unwrap_or_else(|e| panic!("{e}"));
     assert_eq!(studied.len(), subjects.len());
     for studied in &studied {
         let kernel = &studied.forms;
@@ -362,8 +362,8 @@ fn every_form_is_there_or_says_why_not() {
             adapter: "any".to_owned(),
             processor: "any".to_owned(),
             clock: straightline_testbed::execute::Clock::WallClock,
-            size: METHOD.size.to_array(),
-            rounds: METHOD.rounds,
+            size: SETUP.size.to_array(),
+            rounds: SETUP.rounds,
             complete: true,
         },
         kernels: studied.iter().map(|studied| studied.forms.clone()).collect(),
@@ -387,11 +387,11 @@ fn what_was_measured_is_kept() {
         )
     };
     let subjects = [Subject::own(kernel(), None), Subject::own(kernel(), None)];
-    let method = Method { rounds: 5, ..METHOD };
+    let setup = Setup { rounds: 5, ..SETUP };
     let gpu = bench();
     let study = |steps| {
         let mut stops = StopsAfter(steps);
-        study(&gpu, &subjects, &method, &mut stops).unwrap_or_else(|e| panic!("{e}"))
+        study(&gpu, &subjects, &setup, &mut stops).unwrap_or_else(|e| panic!("{e}"))
     };
     // The picture in f64 is a step, and so are forms and rounds.
     let all = study(usize::MAX);
@@ -411,7 +411,7 @@ fn what_was_measured_is_kept() {
 
 #[test]
 fn what_is_refused_is_named() {
-    let refused = |subject: Subject| study(&bench(), &[subject], &METHOD, &mut Silent).expect_err("a refusal");
+    let refused = |subject: Subject| study(&bench(), &[subject], &SETUP, &mut Silent).expect_err("a refusal");
     let broken = Kernel::from_text("k.rs", "pub fn k(pixel: IVec2) -> Vec4 { 1.0 }", "k");
     let error = refused(Subject::own(broken.clone(), None));
     assert!(matches!(error, LoopsError::Kernel { .. }), "{error}");

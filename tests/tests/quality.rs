@@ -8,7 +8,7 @@ use straightline_codegen::{Settings, Stage};
 use straightline_kernels::prelude::*;
 use straightline_study::peers::{Smaa, Transfer, fxaa, mlaa};
 use straightline_study::progress::Silent;
-use straightline_study::quality::{Method, Outcome, Plan, QualityError, Source, losses, study};
+use straightline_study::quality::{Method, Outcome, QualityError, Setup, Source, losses, study};
 use straightline_study::record::Family;
 use straightline_testbed::capture::Capture;
 use straightline_testbed::execute::Inputs;
@@ -81,8 +81,8 @@ fn filters_of_the_picture_smooth_a_line_and_leave_evenness_alone() {
     }
 }
 
-fn plan(pictures: bool) -> Plan {
-    Plan {
+fn setup(pictures: bool) -> Setup {
+    Setup {
         size: uvec2(96, 54),
         rounds: 2,
         quick: true,
@@ -114,20 +114,20 @@ fn methods_of_the_users_own() {
         pub fn lights(light: &Frame<Vec4>, pixel: IVec2) -> Vec4 { light.load(pixel) }\n";
     std::fs::write(&file, text).expect("a file");
     let own = |text: String| Method::own(&text).unwrap_or_else(|error| panic!("{text}: {error}"));
-    let with = |methods: Vec<Method>| Plan {
+    let with = |methods: Vec<Method>| Setup {
         own: methods,
         pan_frames: 0,
         post_processed: false,
-        ..plan(false)
+        ..setup(false)
     };
-    let plan = with(vec![
+    let setup = with(vec![
         own(format!("the same={}::same", file.display())),
         own("my sraa=sraa,tau=500,metric=depth-normals".to_owned()),
         own("listed=sraa,shading=listed,shaded=0,3".to_owned()),
         own(format!("depths={}::nearest", file.display())),
         own("blur=../examples/methods/edge_blur.rs,weight=0.2".to_owned()),
     ]);
-    let outcome = study(&bench(), vec![source("railings")], &plan, &mut Silent).expect("figures");
+    let outcome = study(&bench(), vec![source("railings")], &setup, &mut Silent).expect("figures");
     let [scene] = &outcome.scenes[..] else {
         panic!("one scene, not {}", outcome.scenes.len());
     };
@@ -148,8 +148,8 @@ fn methods_of_the_users_own() {
         of("1x").psnr
     );
     // What a scene has not is named.
-    let plan = with(vec![own(format!("lights={}::lights", file.display()))]);
-    let error = study(&bench(), vec![source("railings")], &plan, &mut Silent).expect_err("no such picture");
+    let setup = with(vec![own(format!("lights={}::lights", file.display()))]);
+    let error = study(&bench(), vec![source("railings")], &setup, &mut Silent).expect_err("no such picture");
     assert!(error.to_string().contains("`lights` reads `light`"), "{error}");
     std::fs::remove_dir_all(&folder).expect("removed");
 }
@@ -162,7 +162,7 @@ fn methods_on_a_scene() {
         complete,
         timed_on,
         pictures,
-    } = study(&bench(), sources, &plan(true), &mut Silent).unwrap_or_else(|e| panic!("{e}"));
+    } = study(&bench(), sources, &setup(true), &mut Silent).unwrap_or_else(|e| panic!("{e}"));
     assert!(complete && timed_on == ["railings"]);
     let scene = &scenes[0];
     let method = |name: &str| {
@@ -241,15 +241,15 @@ fn methods_on_a_scene() {
 
 #[test]
 fn what_is_finished_is_kept_when_it_is_stopped() {
-    let plan = Plan {
+    let setup = Setup {
         pan_frames: 0,
         post_processed: false,
         size: uvec2(32, 18),
-        ..plan(false)
+        ..setup(false)
     };
     let run = |patience| {
         let mut watch = StopsAfter(patience);
-        let outcome = study(&bench(), vec![source("sky"), source("wires")], &plan, &mut watch);
+        let outcome = study(&bench(), vec![source("sky"), source("wires")], &setup, &mut watch);
         (outcome.unwrap_or_else(|e| panic!("{e}")), patience - watch.0)
     };
     let (all, steps) = run(usize::MAX);
@@ -271,7 +271,7 @@ fn of_capture(capture: Capture) -> Result<Outcome, QualityError> {
         name: "spheres".to_owned(),
         capture: Box::new(capture),
     };
-    study(&bench(), vec![source], &plan(false), &mut Silent)
+    study(&bench(), vec![source], &setup(false), &mut Silent)
 }
 
 #[test]

@@ -56,13 +56,13 @@ pub fn run(args: &FiguresArgs) -> Result<(), Failure> {
     }
     if OF_THE_CHAPTER.iter().any(|(name, _)| wanted(name)) {
         // For its pictures: nothing is timed for long.
-        let method = quads::Method {
+        let setup = quads::Setup {
             size: args.size,
             texels: 512,
             rounds: 1,
             least: Duration::ZERO,
         };
-        let studied = quads::study(&bench, &scene::load(None, "roof")?, &method, &mut progress).map_err(Failure::of)?;
+        let studied = quads::study(&bench, &scene::load(None, "roof")?, &setup, &mut progress).map_err(Failure::of)?;
         let of_quads = [pictures::occlusion(&studied), pictures::shadows(&bench, &studied)?];
         for ((name, shows), made) in OF_THE_CHAPTER.iter().zip(of_quads) {
             if wanted(name) {

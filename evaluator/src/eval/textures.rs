@@ -3,7 +3,7 @@
 use super::Evaluator;
 use super::value::{Eval, Exit, Value};
 use crate::diagnostic::{Diagnostic, Span};
-use crate::front::textures::{Gives, Method, Param, TEXTURES, TextureType};
+use crate::front::textures::{Gives, Param, TEXTURES, TextureMethod, TextureType};
 use crate::front::tree::Type as SourceType;
 use crate::ir::vector_named as vector_type;
 use crate::ir::{BinaryOp, NodeId, Op, Scalar, Texture, Type};
@@ -121,7 +121,7 @@ impl Evaluator<'_> {
         &mut self,
         index: u32,
         texture: &Texture,
-        method: &Method,
+        method: &TextureMethod,
         args: &[Value],
         span: Span,
     ) -> Eval<Arguments> {
@@ -180,7 +180,14 @@ impl Evaluator<'_> {
     }
 
     /// A layer by its number, the last one beyond the end where nothing else sees to that.
-    fn layer(&mut self, index: u32, texture: &Texture, method: &Method, layer: &Value, span: Span) -> Eval<NodeId> {
+    fn layer(
+        &mut self,
+        index: u32,
+        texture: &Texture,
+        method: &TextureMethod,
+        layer: &Value,
+        span: Span,
+    ) -> Eval<NodeId> {
         let layer = self.index_node(layer, span)?;
         // Samplers take a layer outside for the nearest one.
         let sampled = method

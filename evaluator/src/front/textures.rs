@@ -13,12 +13,12 @@ pub struct TextureType {
     pub framed: bool,
     /// Whether its texels may be integers.
     pub integers: bool,
-    methods: &'static [Method],
+    methods: &'static [TextureMethod],
 }
 
 /// A method of a texture.
 #[derive(Debug, PartialEq, Eq)]
-pub struct Method {
+pub struct TextureMethod {
     /// Its name.
     pub name: &'static str,
     /// What it takes.
@@ -85,21 +85,21 @@ pub enum Gives {
     Count,
 }
 
-const fn method(name: &'static str, params: &'static [Param], gives: Gives) -> Method {
-    Method { name, params, gives }
+const fn method(name: &'static str, params: &'static [Param], gives: Gives) -> TextureMethod {
+    TextureMethod { name, params, gives }
 }
 
 use Param::{Comparing, Component, Coordinate, Detail, Filtering, Layer, Level, Place, Reference, Sample, Step};
 
-const SIZE: Method = method("size", &[], Gives::Size);
-const LEVELS: Method = method("levels", &[], Gives::Count);
-const LAYERS: Method = method("layers", &[], Gives::Count);
-const LOAD: Method = method("load", &[Coordinate], Gives::Texel);
-const LOAD_LAYER: Method = method("load", &[Coordinate, Layer], Gives::Texel);
-const SAMPLE: Method = method("sample", &[Filtering, Place], Gives::Texel);
-const SAMPLE_LEVEL: Method = method("sample_level", &[Filtering, Place, Detail], Gives::Texel);
-const GATHER: Method = method("gather", &[Component, Filtering, Place], Gives::Four);
-const COMPARE: Method = method("compare", &[Comparing, Place, Reference], Gives::Share);
+const SIZE: TextureMethod = method("size", &[], Gives::Size);
+const LEVELS: TextureMethod = method("levels", &[], Gives::Count);
+const LAYERS: TextureMethod = method("layers", &[], Gives::Count);
+const LOAD: TextureMethod = method("load", &[Coordinate], Gives::Texel);
+const LOAD_LAYER: TextureMethod = method("load", &[Coordinate, Layer], Gives::Texel);
+const SAMPLE: TextureMethod = method("sample", &[Filtering, Place], Gives::Texel);
+const SAMPLE_LEVEL: TextureMethod = method("sample_level", &[Filtering, Place, Detail], Gives::Texel);
+const GATHER: TextureMethod = method("gather", &[Component, Filtering, Place], Gives::Four);
+const COMPARE: TextureMethod = method("compare", &[Comparing, Place, Reference], Gives::Share);
 
 /// Every texture of the prelude.
 pub const TEXTURES: [TextureType; 10] = [
@@ -222,19 +222,19 @@ impl TextureType {
     }
 
     /// A method by its name and the number of its arguments.
-    pub fn method(&self, name: &str, arguments: usize) -> Option<&'static Method> {
+    pub fn method(&self, name: &str, arguments: usize) -> Option<&'static TextureMethod> {
         let mut methods = self.methods.iter();
         methods.find(|method| method.name == name && method.params.len() == arguments)
     }
 
     /// A method by its name.
-    pub fn method_named(&self, name: &str) -> Option<&'static Method> {
+    pub fn method_named(&self, name: &str) -> Option<&'static TextureMethod> {
         self.methods.iter().find(|method| method.name == name)
     }
 
     /// The methods that it has for texels of a kind, as a list for people.
     pub fn described(&self, texel: Scalar) -> String {
-        let of_kind = |method: &&Method| texel == Scalar::F32 || !method.filters();
+        let of_kind = |method: &&TextureMethod| texel == Scalar::F32 || !method.filters();
         let methods: Vec<String> = self.methods.iter().filter(of_kind).map(|m| self.shown(m)).collect();
         match methods.split_last() {
             Some((last, [])) => last.clone(),
@@ -244,7 +244,7 @@ impl TextureType {
     }
 
     /// A method as it is called.
-    pub fn shown(&self, method: &Method) -> String {
+    pub fn shown(&self, method: &TextureMethod) -> String {
         let names = method.params.iter().map(|param| match param {
             Param::Place if self.kind.is_cube() => "direction",
             Param::Place if self.kind == TextureKind::Volume => "place",
@@ -254,7 +254,7 @@ impl TextureType {
     }
 }
 
-impl Method {
+impl TextureMethod {
     /// Whether a sampler weighs texels.
     pub fn filters(&self) -> bool {
         self.params.contains(&Param::Filtering)

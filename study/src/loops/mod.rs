@@ -25,7 +25,7 @@ pub use subjects::{ByHand, Input, Subject, subjects};
 
 /// How it is measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Method {
+pub struct Setup {
     /// Width and height of the pictures.
     pub size: UVec2,
     /// Rounds of timing.
@@ -94,13 +94,13 @@ pub enum LoopsError {
 pub fn study(
     bench: &Bench,
     subjects: &[Subject],
-    method: &Method,
+    setup: &Setup,
     progress: &mut dyn Progress,
 ) -> Result<Vec<Studied>, LoopsError> {
-    let mut truth = Truth::new(bench, method.size);
+    let mut truth = Truth::new(bench, setup.size);
     let mut all = Vec::new();
     for subject in subjects {
-        match measured(bench, subject, method, &mut truth, progress)? {
+        match measured(bench, subject, setup, &mut truth, progress)? {
             Some(studied) => all.push(studied),
             None => break,
         }
@@ -112,13 +112,13 @@ pub fn study(
 fn measured(
     bench: &Bench,
     subject: &Subject,
-    method: &Method,
+    setup: &Setup,
     truth: &mut Truth<'_>,
     progress: &mut dyn Progress,
 ) -> Result<Option<Studied>, LoopsError> {
     let half = bench.device().features().contains(wgpu::Features::SHADER_F16);
     let forms = Forms::of(subject, half)?;
-    progress.begin(&subject.name, forms.made.len() + 1 + method.rounds as usize);
+    progress.begin(&subject.name, forms.made.len() + 1 + setup.rounds as usize);
     let inputs = truth.inputs(subject, &forms.full)?;
     if progress.stopped() {
         return Ok(None);
@@ -138,8 +138,8 @@ fn measured(
             form: crate::record::name(kind),
             source: Box::new(source),
         };
-        let form = stand.put(*kind, compiled, method.pipelines).map_err(in_form)?;
-        let frame = bench.picture_of(&form.pass, &form.uploaded, method.size)?;
+        let form = stand.put(*kind, compiled, setup.pipelines).map_err(in_form)?;
+        let frame = bench.picture_of(&form.pass, &form.uploaded, setup.size)?;
         let off = (*kind != FormKind::Floor).then(|| truth::differences(frame.texels(), &exact));
         if *kind == FormKind::Full {
             picture = Some(frame);
@@ -153,10 +153,10 @@ fn measured(
         .map(|(form, _)| Job {
             pass: &form.pass,
             uploaded: &form.uploaded,
-            size: method.size,
+            size: setup.size,
         })
         .collect();
-    let timed = bench.timed_for(&jobs, method.rounds, method.least, |round| {
+    let timed = bench.timed_for(&jobs, setup.rounds, setup.least, |round| {
         if round > 0 {
             progress.step();
         }

@@ -33,7 +33,7 @@ const CONFIDENCE: f64 = 0.95;
 
 /// How a study is made.
 #[derive(Clone, Copy, Debug)]
-pub struct Method {
+pub struct Setup {
     /// Width and height of the frame.
     pub size: UVec2,
     /// Texels of the shadow map, across and down.
@@ -103,12 +103,7 @@ impl Studied {
 /// # Errors
 ///
 /// [`QuadsError`], if the device fails or lacks something.
-pub fn study(
-    bench: &Bench,
-    scene: &Scene,
-    method: &Method,
-    progress: &mut dyn Progress,
-) -> Result<Studied, QuadsError> {
+pub fn study(bench: &Bench, scene: &Scene, setup: &Setup, progress: &mut dyn Progress) -> Result<Studied, QuadsError> {
     let quads = Quads::detect(bench.device(), bench.queue())?;
     let chosen = match quads.choose() {
         Ok(transport) => format!("{transport:?}").to_lowercase(),
@@ -118,9 +113,9 @@ pub fn study(
         "derivatives {:?}, origin {:?}; chosen: {chosen}",
         quads.kind, quads.origin
     );
-    let shadowed = Shadowed::new(bench, scene, method.size, method.texels, 9.0)?;
+    let shadowed = Shadowed::new(bench, scene, setup.size, setup.texels, 9.0)?;
     let of_triangles = shadowed.inputs(bench)?;
-    let screen = screen(bench, scene, method.size)?;
+    let screen = screen(bench, scene, setup.size)?;
     let half = low_resolution(bench, &screen, 2)?;
     let quarter = low_resolution(bench, &screen, 4)?;
     let mut subjects = Vec::new();
@@ -149,7 +144,7 @@ pub fn study(
         }
     }
     let coordinates = shadowed.coordinates(bench)?;
-    let rounds = timed(bench, method, &subjects, &coordinates, progress)?;
+    let rounds = timed(bench, setup, &subjects, &coordinates, progress)?;
     // A forward pass draws the pixels that the scene's triangles cover, and says nothing of the others.
     let drawn = of_triangles.images.iter().find(|(name, _)| name == "coord");
     let covered: Option<Vec<bool>> =
@@ -187,21 +182,18 @@ fn transports(way: &str, subgroup: bool) -> Vec<Transport> {
 /// Milliseconds of every round of each subject, and last of the pass that draws coordinates.
 fn timed(
     bench: &Bench,
-    method: &Method,
+    setup: &Setup,
     subjects: &[Subject],
     coordinates: &Forward,
     progress: &mut dyn Progress,
 ) -> Result<Vec<Vec<f64>>, ExecuteError> {
-    progress.begin(
-        &format!("timing {} shaders", subjects.len()),
-        method.rounds as usize + 1,
-    );
+    progress.begin(&format!("timing {} shaders", subjects.len()), setup.rounds as usize + 1);
     let works: Result<Vec<Work<'_>>, _> = subjects
         .iter()
-        .map(|subject| subject.work(bench, method))
-        .chain([bench.draw_work(coordinates, method.least)])
+        .map(|subject| subject.work(bench, setup))
+        .chain([bench.draw_work(coordinates, setup.least)])
         .collect();
-    let timed = bench.in_turn(&mut works?, method.rounds, |_| {
+    let timed = bench.in_turn(&mut works?, setup.rounds, |_| {
         progress.step();
         !progress.stopped()
     })?;

@@ -1,7 +1,7 @@
 //! A filter in one way with one transport, ready to run.
 
 use super::families::{Family, Source};
-use super::{Method, QUAD, QuadsError};
+use super::{QUAD, QuadsError, Setup};
 use glam::Vec4;
 use straightline_codegen::diagnostic::Errors;
 use straightline_codegen::{Compiled, EmitOptions, Kernel, Settings, Transport};
@@ -78,17 +78,17 @@ impl Subject {
     }
 
     /// What is timed.
-    pub fn work<'a>(&'a self, bench: &Bench, method: &Method) -> Result<Work<'a>, ExecuteError> {
+    pub fn work<'a>(&'a self, bench: &Bench, setup: &Setup) -> Result<Work<'a>, ExecuteError> {
         match &self.drawn {
             Drawn::Pass(pass, uploaded) => {
                 let job = Job {
                     pass,
                     uploaded,
-                    size: method.size,
+                    size: setup.size,
                 };
-                bench.work(job, method.least)
+                bench.work(job, setup.least)
             }
-            Drawn::Forward(forward) => bench.draw_work(forward, method.least),
+            Drawn::Forward(forward) => bench.draw_work(forward, setup.least),
         }
     }
 }

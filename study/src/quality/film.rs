@@ -29,7 +29,7 @@ pub struct Film {
     /// Each frame: the methods' pictures row by row, then the reference of 64 samples a pixel, at 8 bits of sRGB.
     pub frames: Vec<Frame<Vec4>>,
     /// For each method, and each frame after the first: the root of the mean squared error of what changed since the last, as
-    /// [`Plan::pan_frames`](super::Plan::pan_frames) averages it.
+    /// [`Setup::pan_frames`](super::Setup::pan_frames) averages it.
     pub errors: Vec<Vec<f64>>,
 }
 

@@ -80,7 +80,7 @@ impl Source {
 
 /// How much to do.
 #[derive(Clone, Debug)]
-pub struct Plan {
+pub struct Setup {
     /// Width and height of scenes that are drawn, in pixels.
     pub size: UVec2,
     /// Rounds of timing.
@@ -121,11 +121,11 @@ pub struct Outcome {
 pub fn study(
     bench: &Bench,
     sources: Vec<Source>,
-    plan: &Plan,
+    setup: &Setup,
     progress: &mut dyn Progress,
 ) -> Result<Outcome, QualityError> {
     let mut outcome = Outcome::default();
-    match all(bench, sources, plan, progress, &mut outcome) {
+    match all(bench, sources, setup, progress, &mut outcome) {
         Ok(()) => outcome.complete = true,
         Err(QualityError::Stopped) => {}
         Err(error) => return Err(error),
@@ -136,48 +136,48 @@ pub fn study(
 fn all(
     bench: &Bench,
     sources: Vec<Source>,
-    plan: &Plan,
+    setup: &Setup,
     progress: &mut dyn Progress,
     outcome: &mut Outcome,
 ) -> Result<(), QualityError> {
-    let mut listed = [methods(plan.quick), plan.own.clone()].concat();
-    if plan.post_processed {
+    let mut listed = [methods(setup.quick), setup.own.clone()].concat();
+    if setup.post_processed {
         listed.extend(post::the_other_order());
     }
-    progress.begin("speed against error", steps(&sources, &listed, plan));
+    progress.begin("speed against error", steps(&sources, &listed, setup));
     let mut filters = match sources.iter().any(|source| matches!(source, Source::Scene { .. })) {
-        true => Some(Filters::new(bench, &listed, plan.size, progress)?),
+        true => Some(Filters::new(bench, &listed, setup.size, progress)?),
         false => None,
     };
     let mut panned = 0;
     for source in sources {
         match (source, &mut filters) {
             (Source::Scene { name, purpose, scene }, Some(filters)) => {
-                let renderer = GpuRenderer::new(bench.device(), bench.queue(), &scene, plan.size)?;
+                let renderer = GpuRenderer::new(bench.device(), bench.queue(), &scene, setup.size)?;
                 let shot = Shot::draw(&renderer, &listed.iter().collect::<Vec<_>>(), progress)?;
                 let reference = supersampled(&renderer, SIDE, Vec2::ZERO, progress)?;
                 let made = &mut outcome.pictures;
                 let wanted = Wanted {
                     name,
                     purpose,
-                    plan,
+                    setup,
                     made,
                 };
                 let mut errors = wanted.errors(&listed, filters, &shot, &reference, progress)?;
-                if plan.pan_frames > 1 && panned < plan.pan_scenes {
+                if setup.pan_frames > 1 && panned < setup.pan_scenes {
                     panned += 1;
-                    let found = pan::pan(&renderer, &listed, filters, plan.pan_frames, progress)?;
+                    let found = pan::pan(&renderer, &listed, filters, setup.pan_frames, progress)?;
                     for (method, temporal) in errors.methods.iter_mut().zip(found) {
                         method.temporal = temporal;
                     }
                 }
-                let times = timed(filters, &shot, plan, progress)?;
+                let times = timed(filters, &shot, setup, progress)?;
                 outcome.timed_on.push(errors.scene.clone());
                 put_times(&mut errors, &times);
                 outcome.scenes.push(errors);
             }
             (Source::Capture { name, capture }, _) => {
-                let errors = of_capture(bench, name, *capture, plan, &mut outcome.pictures, progress)?;
+                let errors = of_capture(bench, name, *capture, setup, &mut outcome.pictures, progress)?;
                 outcome.timed_on.push(errors.scene.clone());
                 outcome.scenes.push(errors);
             }
@@ -191,12 +191,12 @@ fn of_capture(
     bench: &Bench,
     name: String,
     capture: Capture,
-    plan: &Plan,
+    setup: &Setup,
     made: &mut BTreeMap<String, Vec<u8>>,
     progress: &mut dyn Progress,
 ) -> Result<SceneErrors, QualityError> {
     let (mut listed, absent) = methods_of(&capture);
-    listed.extend(plan.own.iter().map(|method| method.on(&capture)));
+    listed.extend(setup.own.iter().map(|method| method.on(&capture)));
     let Some(reference) = capture.reference.clone() else {
         return Err(QualityError::Capture(format!(
             "`{name}` has no reference.exr, so nothing can be said of errors: write one, shaded at many places of each pixel \
@@ -207,32 +207,32 @@ fn of_capture(
     let wanted = Wanted {
         name,
         purpose: "a capture".to_owned(),
-        plan,
+        setup,
         made,
     };
     let shot = Shot::of(capture);
     let mut errors = wanted.errors(&listed, &mut filters, &shot, &reference, progress)?;
     errors.absent = absent;
-    let times = timed(&mut filters, &shot, plan, progress)?;
+    let times = timed(&mut filters, &shot, setup, progress)?;
     put_times(&mut errors, &times);
     Ok(errors)
 }
 
 /// Steps of `progress`.
-fn steps(sources: &[Source], listed: &[Method], plan: &Plan) -> usize {
+fn steps(sources: &[Source], listed: &[Method], setup: &Setup) -> usize {
     let drawn = sources.iter().filter(|s| matches!(s, Source::Scene { .. })).count();
-    let timing = plan.rounds as usize + 1;
+    let timing = setup.rounds as usize + 1;
     let mut steps = 0;
     if drawn > 0 {
         steps += listed.len();
         steps += drawn * (SIDE as usize + listed.len() + timing);
-        if plan.pan_frames > 1 {
-            steps += drawn.min(plan.pan_scenes) * plan.pan_frames as usize * (pan::SIDE as usize + 1);
+        if setup.pan_frames > 1 {
+            steps += drawn.min(setup.pan_scenes) * setup.pan_frames as usize * (pan::SIDE as usize + 1);
         }
     }
     for source in sources {
         if let Source::Capture { capture, .. } = source {
-            steps += 2 * (methods_of(capture).0.len() + plan.own.len()) + timing;
+            steps += 2 * (methods_of(capture).0.len() + setup.own.len()) + timing;
         }
     }
     steps
@@ -242,7 +242,7 @@ fn steps(sources: &[Source], listed: &[Method], plan: &Plan) -> usize {
 struct Wanted<'a> {
     name: String,
     purpose: String,
-    plan: &'a Plan,
+    setup: &'a Setup,
     /// Where its pictures go.
     made: &'a mut BTreeMap<String, Vec<u8>>,
 }
@@ -257,7 +257,7 @@ impl Wanted<'_> {
         progress: &mut dyn Progress,
     ) -> Result<SceneErrors, QualityError> {
         let classes = classes(shot)?;
-        let post_processed = self.plan.post_processed;
+        let post_processed = self.setup.post_processed;
         let reference = &picture::at_eight_bits(&match post_processed {
             true => post::processed(reference),
             false => reference.clone(),
@@ -306,7 +306,7 @@ impl Wanted<'_> {
 
     /// Keeps a picture, and gives its path beside the record.
     fn picture(&mut self, stem: &str, frame: &Frame<Vec4>) -> Result<Option<String>, QualityError> {
-        if !self.plan.pictures {
+        if !self.setup.pictures {
             return Ok(None);
         }
         let path = format!("pictures/{}/{stem}.png", methods::stem(&self.name));
@@ -332,10 +332,10 @@ fn classes(shot: &Shot) -> Result<Classes, QualityError> {
 fn timed(
     filters: &mut Filters<'_>,
     shot: &Shot,
-    plan: &Plan,
+    setup: &Setup,
     progress: &mut dyn Progress,
 ) -> Result<Vec<Option<Times>>, QualityError> {
-    let (timed, places) = filters.time(shot, plan.rounds, progress)?;
+    let (timed, places) = filters.time(shot, setup.rounds, progress)?;
     check(progress)?;
     let times = places.into_iter().map(|place| place.and_then(|k| timed.times(k)));
     Ok(times.collect())

@@ -10,7 +10,7 @@ use crate::{scene, table};
 use std::time::Duration;
 use straightline_codegen::files;
 use straightline_study::progress::Progress;
-use straightline_study::quads::{Method, QuadsError, study};
+use straightline_study::quads::{QuadsError, Setup, study};
 use straightline_study::record::{QuadWay, QuadsRecord};
 
 /// How long a shader is run at least for one time, as in `study loops`.
@@ -26,7 +26,7 @@ pub fn run(args: &QuadsArgs) -> Result<(), Failure> {
     }
     let gpu = Gpu::require(&args.adapter)?;
     let scene = scene::load(args.mesh.as_deref(), "roof")?;
-    let method = Method {
+    let setup = Setup {
         size: args.size,
         texels: args.texels,
         rounds: args.rounds,
@@ -35,7 +35,7 @@ pub fn run(args: &QuadsArgs) -> Result<(), Failure> {
     let bench = gpu.bench();
     let mut circumstances = circumstances_of(&gpu, args.size, args.rounds);
     let mut progress = ProgressBars::new();
-    let studied = study(&bench, &scene, &method, &mut progress).map_err(|error| match error {
+    let studied = study(&bench, &scene, &setup, &mut progress).map_err(|error| match error {
         QuadsError::Kernel(errors) => Failure::Kernel(errors),
         other => Failure::of(other),
     })?;

@@ -8,7 +8,7 @@ use crate::table;
 use std::collections::BTreeSet;
 use std::path::Path;
 use straightline_codegen::files;
-use straightline_study::quality::{self, Method, OwnError, Plan, QualityError, Source};
+use straightline_study::quality::{self, Method, OwnError, QualityError, Setup, Source};
 use straightline_study::record::{Gap, MOST_DB, MethodErrors, QualityRecord, Record, SceneErrors};
 use straightline_testbed::capture::Capture;
 use straightline_testbed::scene::{self, NAMES, OF_SHADING, Scene};
@@ -22,7 +22,7 @@ pub fn run(common: &CommonArgs, args: &ErrorArgs, progress: &mut ProgressBars) -
     let own = own(args)?;
     let sources = sources(args)?;
     let gpu = Gpu::require(&common.adapter)?;
-    let plan = Plan {
+    let setup = Setup {
         size: common.size(),
         rounds: common.rounds(),
         quick: common.quick,
@@ -39,16 +39,16 @@ pub fn run(common: &CommonArgs, args: &ErrorArgs, progress: &mut ProgressBars) -
     };
     let mut circumstances = circumstances(common, &gpu);
     // A capture has its own size; a record of nothing else says so.
-    let sizes: Vec<_> = sources.iter().map(|source| source.size(plan.size)).collect();
+    let sizes: Vec<_> = sources.iter().map(|source| source.size(setup.size)).collect();
     if let Some(first) = sizes.first().filter(|first| sizes.iter().all(|size| size == *first)) {
         circumstances.size = first.to_array();
     }
-    let mut outcome = quality::study(&gpu.bench(), sources, &plan, progress).map_err(failure)?;
+    let mut outcome = quality::study(&gpu.bench(), sources, &setup, progress).map_err(failure)?;
     circumstances.complete = outcome.complete;
     let record = QualityRecord {
         circumstances,
         timed_on: std::mem::take(&mut outcome.timed_on),
-        pan_frames: plan.pan_frames,
+        pan_frames: setup.pan_frames,
         scenes: std::mem::take(&mut outcome.scenes),
     };
     // Record and pictures are one set.

@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::time::Duration;
 use straightline_codegen::{Kernel, files};
-use straightline_study::loops::{LoopsError, Method, Studied, Subject, study, subjects};
+use straightline_study::loops::{LoopsError, Setup, Studied, Subject, study, subjects};
 use straightline_study::progress::Progress;
 use straightline_study::record::{KernelForms, LoopsRecord, Record};
 use straightline_testbed::picture;
@@ -25,14 +25,14 @@ pub fn run(common: &CommonArgs, args: &LoopsArgs, progress: &mut ProgressBars) -
         files::try_folder(folder).map_err(Failure::of)?;
     }
     let gpu = Gpu::require(&common.adapter)?;
-    let method = Method {
+    let setup = Setup {
         size: common.size(),
         rounds: common.rounds(),
         least: LEAST,
         pipelines: if common.quick { 1 } else { 3 },
     };
     let mut circumstances = circumstances(common, &gpu);
-    let studied = study(&gpu.bench(), &subjects, &method, progress).map_err(failure)?;
+    let studied = study(&gpu.bench(), &subjects, &setup, progress).map_err(failure)?;
     circumstances.complete = !progress.stopped();
     let record = LoopsRecord {
         circumstances,
