@@ -10,7 +10,7 @@ use straightline_codegen::{EmitOptions, Kernel, Settings, Stage};
 /// As much of the runtime as bindings name.
 const RUNTIME: &str = r#"
 pub mod wgpu {
-    pub struct Device; pub struct Queue; pub struct CommandEncoder; pub struct RenderPass<'a>(&'a ());
+    pub struct Device; pub struct Queue; pub struct CommandEncoder; pub struct RenderPass<'a>(pub &'a ());
     #[derive(Debug)] pub struct TextureView; #[derive(Debug)] pub struct Sampler; #[derive(Debug)] pub struct Buffer;
     pub struct BindGroupLayoutDescriptor<'a> { pub label: Option<&'a str>, pub entries: &'a [BindGroupLayoutEntry] }
     pub struct BindGroupLayoutEntry { pub binding: u32, pub visibility: ShaderStages, pub ty: BindingType, pub count: Option<u32> }
@@ -50,7 +50,7 @@ impl Bound {
     pub fn write_uniform<T>(&self, _: &wgpu::Queue, _: &str, _: T) -> Result<(), Error> { Ok(()) }
     pub fn write_uniforms(&self, _: &wgpu::Queue, _: &[u8]) -> Result<(), Error> { Ok(()) }
 }
-pub struct DrawOptions<'a>(&'a ());
+pub struct DrawOptions<'a>(pub &'a ());
 #[derive(Debug)] pub struct Draw;
 impl Draw {
     pub fn from_json(_: &wgpu::Device, _: &str, _: &str, _: &DrawOptions<'_>) -> Result<Draw, Error> { Ok(Draw) }

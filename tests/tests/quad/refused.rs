@@ -192,7 +192,10 @@ fn passes_refuse_what_they_cannot_draw() {
         .pass(&compiled, Stage::Fragment)
         .expect_err("interpolated")
         .to_string();
-    says(&error, &["`coord` is interpolated", "render pipeline of your own"]);
+    says(
+        &error,
+        &["`coord` is interpolated", "draw your triangles with it by `Draw`"],
+    );
     let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
     let adapter = pollster::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions::default()));
     let adapter = adapter.expect("an adapter, as `bench` found one");
