@@ -113,7 +113,7 @@ fn cases() -> Vec<Case> {
         sraa(&[("pattern", "latin16")]),
         sraa(&[
             ("layout", "multisampled"),
-            ("pattern", "ordered4"),
+            ("pattern", "latin4"),
             ("shading", "sample0"),
         ]),
         of_card(
@@ -212,7 +212,7 @@ fn loops_and_branches_stay_what_they_are() {
 fn random_kernels_find_the_same_bits() {
     let world = World::new(SEED);
     let mut shared = 0;
-    for seed in SEED..SEED + 1500 {
+    for seed in SEED..SEED + 800 {
         let text = make(seed, Features::all());
         let kernel = Kernel::from_text("random.rs", &text.file(), "k");
         let compile = |share: Share| {
@@ -235,7 +235,7 @@ fn random_kernels_find_the_same_bits() {
         }
         shared += 1;
     }
-    assert!(shared >= 20, "{shared} kernels share texels");
+    assert!(shared >= 10, "{shared} kernels share texels");
 }
 
 #[test]
