@@ -1,4 +1,4 @@
-//! One room a command.
+//! One module for each command.
 
 pub mod adapters;
 pub mod budget;
