@@ -22,7 +22,7 @@ fn a_syntax_error_is_shown_with_its_place() {
 }
 
 #[test]
-fn every_unsupported_construct_is_named_with_the_way_out() {
+fn every_unsupported_construct_is_named_with_help() {
     let folder = scratch("unsupported");
     let text = "pub fn k(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {\n    let f = unsafe { 1.0 };\n    let n = async { 1.0 };\n    color.load(pixel)\n}\n";
     let kernel = write(&folder, "k.rs", text);

@@ -127,8 +127,8 @@ fn a_kernel_without_textures_runs_at_a_size() {
         refused(&["--size", "8x8", "--input", "x.png"], 2, &["no texture"]);
         let size = ["--size", "8x8"];
         let with = |more: &[&'static str]| [&size[..], more].concat();
-        // Both executors refuse a uniform that was not set.
-        refused(&with(&["--uniform", "scale=1"]), 1, &["uniform `count`", "no default"]);
+        let unset = ["uniform `count`", "no default", "add --uniform count=VALUE"];
+        refused(&with(&["--uniform", "scale=1"]), 2, &unset);
         let rest = ["--uniform", "shift=1", "--uniform", "scale=2"];
         let count = |value: &'static str| [&size[..], &rest[..], &["--uniform", value]].concat();
         refused(&count("count=1.5"), 2, &["`1.5` for `count`", "no whole number", "u32"]);

@@ -83,7 +83,10 @@ fn what_cannot_be_studied_is_named() {
     study(
         &["--from", &good, "--from", &good, "--by-hand", &good],
         2,
-        &["1 kernels by hand for 2 kernels", "one --by-hand for each --from"],
+        &[
+            "1 hand-optimised kernels for 2 kernels",
+            "one --by-hand for each --from",
+        ],
     );
     study(&["--rounds", "0"], 2, &["--rounds"]);
     study(&["--adapter", "no such adapter"], 2, &["no such adapter"]);

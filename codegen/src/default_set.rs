@@ -20,7 +20,7 @@ pub struct Entry {
     pub options: &'static [(&'static str, &'static str)],
     /// What becomes of loops.
     pub unroll: Unroll,
-    /// How lanes of quads hear from each other.
+    /// How lanes of quads communicate.
     pub transport: Option<Transport>,
     /// Pipeline stage.
     pub stage: Stage,

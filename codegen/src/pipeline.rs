@@ -97,7 +97,7 @@ impl Compiled {
         self
     }
 
-    /// The kernel's reads and stores with next to no arithmetic between: what no form of it can beat
+    /// The kernel's reads and stores with next to no arithmetic between: a lower bound of every form
     /// ([`passes::floor`]). It computes nothing of use, and is there to be timed.
     ///
     /// # Errors
@@ -401,7 +401,7 @@ impl Kernel {
             );
             let error = Diagnostic::at(evaluated.span, what)
                 .label("this kernel")
-                .help(eval::WAY_OUT);
+                .help(eval::BUDGET_HELP);
             Err(Errors::new(vec![eval::blame(&evaluated.loops, error)], &self.files))
         };
         // Most of what is too long is known to be before it is written.

@@ -1,6 +1,6 @@
 //! The partial evaluator: from a kernel's text to the graph of what is left to compute, and an interpreter of that graph.
 //!
-//! `straightline-codegen` strings these rooms together ([`Kernel::compile`]), emits what they make, and is the interface for
+//! `straightline-codegen` calls these modules in order ([`Kernel::compile`]), emits what they make, and is the interface for
 //! users; it gives [`ir`], [`passes`], [`interp`], [`policy`] and [`diagnostic`] out as its own.
 //!
 //! [`Kernel::compile`]: https://docs.rs/straightline-codegen/latest/straightline_codegen/struct.Kernel.html#method.compile

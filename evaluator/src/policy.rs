@@ -9,9 +9,9 @@ pub enum Unroll {
     /// It is run now: nothing of it is left.
     #[default]
     Full,
-    /// It is kept where it can be a loop at run time: the baseline of unroll studies.
+    /// It is left in the shader where it can be a loop there: the baseline of unroll studies.
     None,
-    /// It is kept with its body written so many times in a row, at least 2; rounds that are left over follow it.
+    /// It is left in the shader with its body written so many times in a row, at least 2; iterations that are left over follow it.
     Partial(u32),
 }
 
@@ -52,7 +52,7 @@ impl FromStr for Unroll {
 /// What becomes of an `if` whose condition is a runtime value.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Branches {
-    /// As loops do: kept where the unroll policy is not `full`, else both sides are computed and selected from.
+    /// As loops do: left as a branch where the unroll policy is not `full`, else both sides are computed and selected from.
     #[default]
     AsLoops,
     /// Kept as a branch.
@@ -172,7 +172,7 @@ impl FromStr for Share {
     }
 }
 
-/// How the lanes of a quad hear from each other.
+/// How the lanes of a quad communicate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Transport {
     /// By quad operations, which move bits as they are. Fragment shaders, on devices with subgroups.

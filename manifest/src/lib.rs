@@ -143,7 +143,7 @@ pub struct Counts {
     /// Basic blocks: labels of the SPIR-V that naga makes of the shader, those of functions that it calls among them. 1 means
     /// straight-line code; a compute shader has two more, for pixels outside of the target.
     pub basic_blocks: u32,
-    /// Loops that were kept.
+    /// Loops that are left in the shader.
     pub loops: u32,
     /// Reads of geometry: every texture but the image being filtered.
     pub texture_reads: u32,

@@ -135,7 +135,7 @@ const UNROLL = [
   { value: "8", label: "by 8", docs: "Loops stay, 8 iterations in a row" },
 ];
 const BRANCHES = [
-  { value: "as-loops", label: "as loops", docs: "Kept where loops are kept" },
+  { value: "as-loops", label: "as loops", docs: "Left as branches where loops are left in the shader" },
   { value: "keep", docs: "An if on runtime values stays an if" },
   { value: "select", docs: "Both sides are computed, and one is chosen" },
 ];

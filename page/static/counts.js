@@ -52,13 +52,13 @@ export function showLoops(details, loops) {
   details.querySelector("summary").textContent = loops.length === 1 ? "What became of 1 loop" : `What became of ${loops.length} loops`;
   const head = document.createElement("thead");
   const title = head.insertRow();
-  for (const name of ["loop", "unroll", "iterations evaluated", "operations"]) cell(title, name, "th");
+  for (const name of ["loop", "unroll", "copies", "operations"]) cell(title, name, "th");
   const body = document.createElement("tbody");
-  for (const { loop, unroll, iterations, operations, reason } of loops) {
+  for (const { loop, unroll, copies, operations, reason } of loops) {
     const row = body.insertRow();
     cell(row, loop, "th");
     cell(row, reason ? `${unroll}: ${reason}` : unroll);
-    cell(row, iterations);
+    cell(row, copies);
     cell(row, operations);
   }
   details.querySelector("table").replaceChildren(head, body);

@@ -1,4 +1,4 @@
-//! The bilateral filter with its default options, its loops kept: what stays the same in a row is computed once, and divisions
+//! The bilateral filter with its default options, its loops left in the shader: what stays the same in a row is computed once, and divisions
 //! by what is constant are products.
 
 use straightline_kernels::prelude::*;

@@ -1,4 +1,4 @@
-//! The 5×5 convolution with its default weights, its loops kept: over a list of the neighbours that have a weight.
+//! The 5×5 convolution with its default weights, its loops left in the shader: over a list of the neighbours that have a weight.
 
 use straightline_kernels::prelude::*;
 

@@ -1,4 +1,4 @@
-//! FXAA with its default options, its loops kept: a pixel without contrast is left at once, a search that has ended reads
+//! FXAA with its default options, its loops left in the shader: a pixel without contrast is left at once, a search that has ended reads
 //! no more, and strides come from a table.
 
 use straightline_kernels::prelude::*;

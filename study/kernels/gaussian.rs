@@ -1,4 +1,4 @@
-//! The Gaussian blur with its default options, its loop kept: weights come from a table.
+//! The Gaussian blur with its default options, its loops left in the shader: weights come from a table.
 
 use straightline_kernels::prelude::*;
 

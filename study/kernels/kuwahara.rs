@@ -1,4 +1,4 @@
-//! The Kuwahara filter with its default options, its loops kept: each of the 7×7 pixels is read once, and half a row is added
+//! The Kuwahara filter with its default options, its loops left in the shader: each of the 7×7 pixels is read once, and half a row is added
 //! up once for the two quarters that share it. An array of all pixels was slower than reading them anew.
 
 use straightline_kernels::prelude::*;

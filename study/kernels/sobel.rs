@@ -1,4 +1,4 @@
-//! The Sobel operator, its loop kept: over a list of the eight neighbours that count.
+//! The Sobel operator, its loops left in the shader: over a list of the eight neighbours that count.
 
 use straightline_kernels::prelude::*;
 

@@ -1,4 +1,4 @@
-//! SRAA with its default options, its loops kept and written by hand for speed: the surfaces at the taps are read once, into
+//! SRAA with its default options, its loops left in the shader, hand-optimised: the surfaces at the taps are read once, into
 //! arrays, and of nine taps only the four that a sample's tent reaches are visited.
 
 use straightline_kernels::prelude::*;

@@ -95,7 +95,7 @@ fn messages_are_as_they_were() {
 
 /// Each says where it is, unless it is about the command, and how to go on.
 #[test]
-fn messages_have_a_place_and_a_way_out() {
+fn messages_have_a_place_and_help() {
     let mut without = Vec::new();
     for path in cases() {
         let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();

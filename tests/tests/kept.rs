@@ -95,8 +95,8 @@ fn loops_become_what_they_can() {
 #[test]
 fn a_while_with_a_bound_is_unrolled() {
     let select = compiled("bounded", (Unroll::Full, Branches::Select));
-    let rounds: Vec<u64> = select.loops.iter().map(|report| report.rounds).collect();
-    assert_eq!(rounds, [9, 12, 6]);
+    let copies: Vec<u64> = select.loops.iter().map(|report| report.copies).collect();
+    assert_eq!(copies, [9, 12, 6]);
     let emitted = select.emit(&EmitOptions::new()).unwrap_or_else(|e| panic!("{e}"));
     let text = String::from_utf8_lossy(&emitted.files[&Target::Wgsl]);
     for (word, count) in [("for (", 0), ("loop {", 0), ("while", 0), ("if ", 1)] {

@@ -41,7 +41,7 @@ pub struct OptionArgs {
     #[arg(help_heading = "Kernel options", long, value_name = "LOOP=POLICY", value_parser = loop_policy)]
     pub unroll_loop: Vec<(String, Unroll)>,
     /// What becomes of an `if` on runtime values: `keep` leaves a branch, `select` computes both sides, `as-loops` keeps it where
-    /// loops are kept
+    /// loops are left in the shader
     #[arg(help_heading = "Kernel options", long, value_name = "POLICY", default_value = "as-loops", value_parser = |s: &str| s.parse::<Branches>())]
     pub branches: Branches,
     /// In which order texels are read: `source` as the kernel's text does, `rows` all at first, row by row. The picture is the same

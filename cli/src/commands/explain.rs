@@ -230,7 +230,7 @@ fn print_loops(compiled: &Compiled) {
         let cells = [
             report.path(),
             report.unroll.to_string(),
-            report.rounds.to_string(),
+            report.copies.to_string(),
             report.operations.to_string(),
         ];
         cells.to_vec()
@@ -240,10 +240,7 @@ fn print_loops(compiled: &Compiled) {
         return;
     }
     outln!();
-    out!(
-        "{}",
-        table::render(&["Loop", "unroll", "iterations", "operations"], &loops)
-    );
+    out!("{}", table::render(&["Loop", "unroll", "copies", "operations"], &loops));
     for report in &compiled.loops {
         if let Some(reason) = &report.reason {
             outln!("`{}` was unrolled: {reason}", report.path());

@@ -1,4 +1,4 @@
-//! One module a command. What measures kernels and scenes needs the feature `study`.
+//! One module for each command. What measures kernels and scenes needs the feature `study`.
 
 pub mod adapters;
 #[cfg(feature = "study")]

@@ -47,7 +47,7 @@ pub enum EmitError {
     NoQuads {
         /// The kernel.
         kernel: String,
-        /// How lanes were to hear from each other.
+        /// How lanes were to communicate.
         transport: String,
     },
     /// Quads over a rectangle that may begin anywhere.

@@ -1,7 +1,7 @@
 //! From a scheduled graph to text that reads as if written by a careful person.
 //!
 //! No decision about the computation is taken here: every step of the schedule becomes a statement or part of one.
-//! WGSL, GLSL and HLSL come from the printers of this room; SPIR-V and MSL are translated from the WGSL by naga, which
+//! WGSL, GLSL and HLSL come from the printers of this module; SPIR-V and MSL are translated from the WGSL by naga, which
 //! validates that before anything is given out.
 
 mod ast;

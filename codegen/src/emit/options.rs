@@ -58,7 +58,7 @@ pub struct EmitOptions {
     pub entry: Option<String>,
     /// Whether WGSL with quad operations begins with `enable subgroups;`: browsers ask for it, naga and wgpu refuse it.
     pub enable_subgroups: bool,
-    /// Whether naga leaves out the bound that it otherwise puts on the rounds of every loop of SPIR-V, HLSL and MSL. The
+    /// Whether naga leaves out the bound that it otherwise puts on the iterations of every loop of SPIR-V, HLSL and MSL. The
     /// loops that count end without one; a `while` whose trip count is a runtime value ends as the kernel sees to it.
     pub unbounded_loops: bool,
 }

@@ -1,4 +1,4 @@
-//! The one room that opens files to read and makes files to be written: a set of files is whole or not there, only what has
+//! The one module that opens files to read and makes files to be written: a set of files is whole or not there, only what has
 //! changed is written, and only regular files are read.
 
 mod read;

@@ -7,8 +7,7 @@ use crate::policy::{self, Unroll};
 use std::collections::HashMap;
 
 /// What helps a kernel that is too large.
-pub const WAY_OUT: &str =
-    "run loops over fewer values, keep the largest one with `#[cfg_attr(false, unroll(none))]`, or raise the budget";
+pub const BUDGET_HELP: &str = "run loops over fewer values, leave the largest one in the shader with `#[cfg_attr(false, unroll(none))]`, or raise the budget";
 
 /// A loop of the source, and what became of it.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -23,8 +22,9 @@ pub struct LoopReport {
     pub unroll: Unroll,
     /// Why it was unrolled although it was asked to be left in the shader, if it was.
     pub reason: Option<String>,
-    /// How often its body was evaluated, over all times that it was reached.
-    pub rounds: u64,
+    /// Copies of its body that were evaluated, over all times that it was reached: one for each iteration if it is unrolled, one
+    /// if it is left in the shader.
+    pub copies: u64,
     /// Operations that its body left, those of loops inside it left out.
     pub operations: u64,
 }
@@ -65,7 +65,7 @@ impl Loops {
                 span,
                 unroll: Unroll::Full,
                 reason: None,
-                rounds: 0,
+                copies: 0,
                 operations: 0,
             });
             self.reports.len() - 1
@@ -76,7 +76,7 @@ impl Loops {
     /// Its body is evaluated once more.
     pub fn round(&mut self) {
         if let Some((index, ..)) = self.open.last() {
-            self.reports[*index].rounds += 1;
+            self.reports[*index].copies += 1;
         }
     }
 
@@ -154,12 +154,12 @@ impl Loops {
 
 /// An error about size with what each loop contributed, the largest five.
 pub fn blame(reports: &[LoopReport], mut error: Diagnostic) -> Diagnostic {
-    let mut largest: Vec<&LoopReport> = reports.iter().filter(|r| r.rounds > 0).collect();
+    let mut largest: Vec<&LoopReport> = reports.iter().filter(|r| r.copies > 0).collect();
     largest.sort_by_key(|r| std::cmp::Reverse(r.operations));
     for report in largest.into_iter().take(5) {
-        let LoopReport { rounds, operations, .. } = report;
+        let LoopReport { copies, operations, .. } = report;
         let text = format!(
-            "`{}`: {rounds} iterations, {operations} operations of its own",
+            "`{}`: {copies} iterations, {operations} operations of its own",
             report.path()
         );
         error = error.other(report.span, text);

@@ -358,7 +358,7 @@ impl Evaluator<'_> {
         Ok(Some(Value::structure(name, fields)))
     }
 
-    /// A vector from its lanes, or from shorter vectors and lanes.
+    /// A vector from its components, or from shorter vectors and components.
     pub fn compose(&mut self, kind: Scalar, lanes: u8, values: &[Value], span: Span) -> Eval {
         let mut parts: Vec<NodeId> = Vec::new();
         for value in values {
@@ -367,8 +367,8 @@ impl Evaluator<'_> {
         }
         if parts.len() != lanes as usize {
             return Err(
-                Diagnostic::at(span, format!("a vector of {lanes} lanes from {}", parts.len()))
-                    .label("lanes and vectors in it count together")
+                Diagnostic::at(span, format!("a vector of {lanes} components from {}", parts.len()))
+                    .label("numbers and components of vectors count together")
                     .help(format!("give {lanes}, or `splat` one"))
                     .into(),
             );

@@ -235,7 +235,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// A field of a structure, a part of a tuple, or lanes of a vector.
+    /// A field of a structure, a part of a tuple, or components of a vector.
     pub fn field(&mut self, base: &Value, name: &str, span: Span) -> Eval {
         match base {
             Value::Struct { ty, fields } => match fields.iter().find(|(field, _)| field == name) {
@@ -345,7 +345,7 @@ pub fn out_of_range(index: i64, len: usize, span: Span) -> Diagnostic {
         .help(format!("indices go from 0 to {}", len - 1))
 }
 
-/// Number of a lane by its name.
+/// Number of a component by its name.
 pub fn lane(name: &str) -> Option<u8> {
     match name {
         "x" => Some(0),

@@ -292,7 +292,7 @@ const MAX_WIDENED: usize = 16;
 fn changes(name: &str, span: Span) -> Exit {
     Diagnostic::at(
         span,
-        format!("`{name}` changes its type in a loop that is left in the shader"),
+        format!("`{name}` changes its type, or what it stands for, in a loop that is left in the shader"),
     )
     .label("in this loop")
     .help("give it one type, or unroll the loop")

@@ -270,7 +270,7 @@ impl Evaluator<'_> {
         self.builder.add(Op::Dot, [a, b], Type::F32)
     }
 
-    /// Bits of the largest lane, its sign left out.
+    /// Bits of the largest component, its sign left out.
     fn largest_magnitude(&mut self, x: NodeId) -> NodeId {
         let bits_type = Type::value(Scalar::U32, self.ty(x).lanes());
         let bits = self.builder.add(Op::Bitcast, [x], bits_type);
@@ -289,7 +289,7 @@ impl Evaluator<'_> {
         self.builder.add(Op::Unary(UnaryOp::Sqrt), [squared], Type::F32)
     }
 
-    /// The lanes of a vector as scalars.
+    /// The components of a vector as scalars.
     pub fn lanes(&mut self, x: NodeId) -> Vec<NodeId> {
         let ty = self.ty(x);
         if ty.is_scalar() {

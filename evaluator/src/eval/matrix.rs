@@ -180,7 +180,7 @@ impl Evaluator<'_> {
         Ok(matrix(&products))
     }
 
-    /// The sum of the columns times the vector's lanes, first to last.
+    /// The sum of the columns times the vector's components, first to last.
     fn times_vector(&mut self, columns: &[NodeId], vector: NodeId) -> NodeId {
         let ty = self.ty(columns[0]);
         let mut sum = self.scaled(columns[0], vector, 0);

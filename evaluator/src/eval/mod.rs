@@ -1,7 +1,7 @@
 //! The partial evaluator: runs a kernel on values some of which are compile-time constants and others runtime values.
 //!
 //! What is known is computed, as rustc's own code would compute it. What is not becomes a node of the graph.
-//! Loops are run, or kept as loops, as the [`Unroll`](crate::policy::Unroll) policy says; calls are always inlined.
+//! Loops are unrolled or left in the shader, as the [`Unroll`](crate::policy::Unroll) policy says; calls are always inlined.
 
 mod ascribe;
 mod assign;
@@ -56,7 +56,7 @@ use std::collections::{BTreeMap, HashMap};
 use std::sync::Arc;
 use value::{Eval, Exit, Value};
 
-pub use budget::{LoopReport, WAY_OUT, blame};
+pub use budget::{BUDGET_HELP, LoopReport, blame};
 pub use options::{OptionInfo, OptionKind, describe};
 
 /// A kernel with its options decided.
@@ -77,8 +77,8 @@ pub struct Evaluated {
 ///
 /// `invocation` is what each computes, unless the kernel's parameters say that it is a lane of a quad.
 ///
-/// A loop that is kept makes what it assigns runtime values. Where what follows needs that known, the loop is
-/// unrolled after all: the last one that was kept before the error, until none is left.
+/// A loop that is left in the shader makes what it assigns runtime values. Where what follows needs that known, the loop is
+/// unrolled after all: the last one that was left before the error, until none is left.
 pub fn evaluate(
     library: &Library,
     files: &Arc<Vec<File>>,
@@ -234,7 +234,9 @@ impl Evaluator<'_> {
             } else {
                 format!("the kernel unrolls to more than {MAX_NODES} operations")
             };
-            let error = Diagnostic::at(span, what).label("reached here").help(budget::WAY_OUT);
+            let error = Diagnostic::at(span, what)
+                .label("reached here")
+                .help(budget::BUDGET_HELP);
             return Err(self.loops.blame(error).into());
         }
         Ok(())

@@ -174,7 +174,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Both values as nodes of one type: integers take the other's type, scalars fill the other's lanes.
+    /// Both values as nodes of one type: integers take the other's type, scalars fill the other's components.
     pub fn same_type(&mut self, left: &Value, right: &Value, span: Span) -> Eval<(NodeId, NodeId)> {
         let (a, b) = match (left, right) {
             (Value::Int(n), Value::Node(id)) => {
@@ -206,7 +206,7 @@ impl Evaluator<'_> {
         .into())
     }
 
-    /// A scalar in each of `lanes` lanes.
+    /// A scalar in each of `lanes` components.
     pub fn splat(&mut self, id: NodeId, lanes: u8) -> NodeId {
         if lanes == 1 || self.ty(id).lanes() > 1 {
             return id;
@@ -215,7 +215,7 @@ impl Evaluator<'_> {
         self.builder.add(Op::Splat, [id], ty)
     }
 
-    /// A node's lanes converted to another kind.
+    /// A node's components converted to another kind.
     pub fn convert(&mut self, id: NodeId, kind: Scalar) -> NodeId {
         let ty = self.ty(id).with_scalar(kind);
         self.builder.add(Op::Convert, [id], ty)

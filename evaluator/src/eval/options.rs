@@ -351,7 +351,7 @@ impl Evaluator<'_> {
                 }
                 if parts.contains(&UNIFORM) {
                     return Err(refuse(format!(
-                        "give {many} numbers; a list is known when the shader is made"
+                        "give {many} numbers; a list is a compile-time constant"
                     )));
                 }
                 let values: Eval<Vec<Value>> = parts.iter().map(|part| self.parse(field, &one, part)).collect();

@@ -162,7 +162,7 @@ impl Evaluator<'_> {
         Ok(Value::Node(self.builder.add(Op::Message(direction), [x], ty)))
     }
 
-    /// The lane's own value, and what it hears from beside, from above or below, and from across. What fits goes in two messages:
+    /// The lane's own value, and what it receives from beside, from above or below, and from across. What fits goes in two messages:
     /// own and below together are sent to beside.
     fn gather(&mut self, x: NodeId, name: &str, span: Span) -> Eval {
         let own = Value::Node(x);
@@ -217,7 +217,7 @@ impl Evaluator<'_> {
             span,
             format!("`{name}` is of quads, and this kernel computes one pixel"),
         )
-        .label("no other lane to hear from")
+        .label("no other lane to receive from")
         .help("take `pixel: Quad<IVec2>` and give a `Quad<Vec4>`")
         .into())
     }

@@ -1,4 +1,4 @@
-//! Parameters that are bound: samplers here, textures and buffers in rooms of their own.
+//! Parameters that are bound: samplers here, textures and buffers in modules of their own.
 
 use super::Evaluator;
 use super::value::{Eval, Value};

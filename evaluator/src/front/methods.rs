@@ -2,7 +2,7 @@
 
 use crate::ir::{Scalar, Type};
 
-/// Methods of floats, lane by lane.
+/// Methods of floats, component by component.
 #[rustfmt::skip]
 const FLOATS: &[&str] = &[
     "abs", "acos", "asin", "atan", "atan2", "cbrt", "ceil", "clamp", "cos", "cosh", "exp", "exp2", "floor",

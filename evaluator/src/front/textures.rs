@@ -48,7 +48,7 @@ pub enum Param {
     Filtering,
     /// A sampler that compares.
     Comparing,
-    /// The number of a component, known when the shader is made.
+    /// The number of a component, a compile-time constant.
     Component,
     /// What is compared.
     Reference,

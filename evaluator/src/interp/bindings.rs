@@ -163,14 +163,14 @@ impl<'a> Bindings<'a> {
         self
     }
 
-    /// The elements of a buffer, each in as many lanes as it has; of structures all their numbers and vectors, one after the
+    /// The elements of a buffer, each in as many components as it has; of structures all their numbers and vectors, one after the
     /// other.
     pub fn buffer(mut self, name: &str, elements: &'a [[f64; 4]]) -> Self {
         self.buffers.push((name.to_owned(), elements));
         self
     }
 
-    /// The lanes of a uniform; a single number is for every lane. One that is not named keeps its default, or 0.
+    /// The components of a uniform; a single number is for every component. One that is not named keeps its default, or 0.
     pub fn uniform(mut self, name: &str, lanes: &[f64]) -> Self {
         self.uniforms.push((name.to_owned(), lanes.to_vec()));
         self

@@ -7,9 +7,9 @@ use crate::ir::{Counter, Graph, NodeId, Op};
 pub struct NonFiniteOrigin {
     /// The operation.
     pub node: NodeId,
-    /// What it gave, lane by lane.
+    /// What it gave, component by component.
     pub value: Vec<f64>,
-    /// Counters of the loops around it, kept and unrolled, outer ones first.
+    /// Counters of the loops around it, looped and unrolled, outer ones first.
     pub counters: Vec<Counter>,
 }
 

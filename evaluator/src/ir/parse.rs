@@ -224,7 +224,8 @@ impl Reader {
             ["group", width, height] => Invocation::Group([number(width)?, number(height)?]),
             _ => {
                 return Err(
-                    "an invocation is `outlying`, `lane`, `block WIDTH HEIGHT` or `group WIDTH HEIGHT`".to_owned(),
+                    "an invocation is `may-be-outside`, `lane`, `block WIDTH HEIGHT` or `group WIDTH HEIGHT`"
+                        .to_owned(),
                 );
             }
         };

@@ -344,7 +344,7 @@ fn steps(b: &mut Builder<'_>, x: NodeId, y: NodeId) -> Option<NodeId> {
     Some(b.add(Op::Binary(BinaryOp::Add), [pixel, sum], ty))
 }
 
-/// A divisor with 1 for every lane that is known to be 0. Dividing by 0 is as dividing by 1: it gives the dividend, and no
+/// A divisor with 1 for every component that is known to be 0. Dividing by 0 is as dividing by 1: it gives the dividend, and no
 /// remainder; but shading languages refuse to divide by a known 0.
 fn without_zeros(b: &mut Builder<'_>, y: NodeId) -> Option<NodeId> {
     let ty = b.graph().ty(y);

@@ -110,7 +110,7 @@ impl Expansion<'_> {
         let new: Vec<NodeId> = match &node.op {
             Op::Loop(body) => {
                 for bound in &node.args[..2] {
-                    self.alike(*bound, "a loop of which each pixel may run another number of rounds")?;
+                    self.alike(*bound, "a loop whose trip count may differ from pixel to pixel")?;
                 }
                 if let Some(stop) = self.old.region(*body).stop {
                     self.alike(stop, "a loop that each pixel may leave in another round")?;

@@ -110,7 +110,7 @@ pub fn compile(state: &mut State, request: &CompileRequest) -> Result<Value, Ref
     let shaders = shaders.collect::<Result<Vec<Value>, Refusal>>()?;
     let loops = compiled.loops.iter().map(|report| {
         json!({
-            "loop": report.path(), "unroll": report.unroll.to_string(), "iterations": report.rounds,
+            "loop": report.path(), "unroll": report.unroll.to_string(), "copies": report.copies,
             "operations": report.operations, "reason": report.reason,
         })
     });

@@ -48,7 +48,7 @@ impl Forms {
                 FormKind::Looped => Ok(looped.clone()),
                 FormKind::Full => Ok(full.clone()),
                 FormKind::LoopedUnchecked | FormKind::Partial2 | FormKind::Partial4 if !has_loops => {
-                    Err("no loop of it can be kept".to_owned())
+                    Err("no loop of it can be left in the shader".to_owned())
                 }
                 FormKind::LoopedUnchecked => Ok(looped.clone()),
                 FormKind::LoopedByHand | FormKind::LoopedByHandUnchecked => match &subject.by_hand {

@@ -13,7 +13,7 @@ pub enum IsaForm {
     Unrolled,
     /// The kernel with its loops.
     Looped,
-    /// Loops as somebody wrote them by hand.
+    /// Loops, hand-optimised.
     ByHand,
     /// One straight line for 2×2 pixels; the figures are of all four.
     Block,

@@ -8,11 +8,11 @@ use straightline_testbed::execute::{Ratio, Times};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum FormKind {
-    /// Loops kept, as wgpu compiles them: with a bound on the rounds of each. All others are compared with this.
+    /// Loops left in the shader, as wgpu compiles them: with a bound on the iterations of each. All others are compared with this.
     Looped,
-    /// Loops kept, without that bound.
+    /// Loops left in the shader, without that bound.
     LoopedUnchecked,
-    /// Loops kept, and written by hand for speed: what is read several times is read once, into arrays.
+    /// Loops left in the shader, hand-optimised: what is read several times is read once, into arrays.
     LoopedByHand,
     /// The same without the bound: compilers that unroll loops by themselves can do it then.
     LoopedByHandUnchecked,
@@ -30,7 +30,7 @@ pub enum FormKind {
     FullTile,
     /// As `Full`, computed in half precision.
     FullHalf,
-    /// The reads and the store of `Full`, and next to no arithmetic between: what no form can beat.
+    /// The reads and the store of `Full`, and next to no arithmetic between: a lower bound of every form.
     Floor,
 }
 

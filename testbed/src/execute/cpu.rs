@@ -189,8 +189,8 @@ fn plain<T: Copy, U>(layers: &[Frame<T>], of: impl Fn(&T) -> [U; 4]) -> ([u32; 2
     (size, texels.collect())
 }
 
-/// A uniform that is read, has no default and was not given: on a GPU its pass is refused too.
-fn unset<'a>(compiled: &'a Compiled, inputs: &Inputs) -> Option<&'a str> {
+/// The first uniform that is read, has no default and was not given; `None` if there is none. No executor runs without it.
+pub fn unset<'a>(compiled: &'a Compiled, inputs: &Inputs) -> Option<&'a str> {
     let graph = &compiled.graph;
     let scheduled = graph.ids().filter(|id| compiled.schedule.has(*id));
     let mut read = scheduled.filter_map(|id| match graph.node(id).op {

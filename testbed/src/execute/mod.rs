@@ -15,7 +15,7 @@ mod work;
 use glam::{UVec2, UVec4, Vec4};
 use straightline_kernels::prelude::Frame;
 
-pub use cpu::{Interpreted, interpret};
+pub use cpu::{Interpreted, interpret, unset};
 pub use forward::{Corner, Forward};
 pub use gpu::{AllWritten, Bench, Buffers, Uploaded, texture_bytes};
 pub use shadowed::Shadowed;

@@ -18,14 +18,14 @@ pub use space::has_planes;
 #[non_exhaustive]
 pub enum GBufferError {
     /// The capture lacks what the options need.
-    #[error("the capture has no {what}, which {option} needs: {way_out}")]
+    #[error("the capture has no {what}, which {option} needs: {help}")]
     Missing {
         /// What it lacks.
         what: &'static str,
         /// The option that needs it.
         option: String,
         /// What to do instead.
-        way_out: &'static str,
+        help: &'static str,
     },
     /// Normals are in another space than the capture says.
     #[error(
@@ -87,7 +87,7 @@ pub fn inputs(capture: &Capture, options: &BTreeMap<String, String>) -> Result<I
             return Err(GBufferError::Missing {
                 what: "normals (normal.exr)",
                 option: format!("metric={metric}"),
-                way_out: "use metric=depth",
+                help: "use metric=depth",
             });
         }
     };
@@ -155,7 +155,7 @@ pub fn inputs(capture: &Capture, options: &BTreeMap<String, String>) -> Result<I
         (None, "planes-normals") => Err(GBufferError::Missing {
             what: "camera",
             option: "metric=planes-normals".to_owned(),
-            way_out: "write `camera` into capture.json, or use metric=depth-normals",
+            help: "write `camera` into capture.json, or use metric=depth-normals",
         }),
         (None, _) => Ok(inputs),
     }
@@ -189,7 +189,7 @@ fn planes(capture: &Capture, options: &BTreeMap<String, String>) -> Result<Vec2,
             return Err(GBufferError::Missing {
                 what: "camera",
                 option: format!("depth={encoding}"),
-                way_out: "write `camera` into capture.json, or use depth=linear",
+                help: "write `camera` into capture.json, or use depth=linear",
             });
         }
     };

@@ -1,4 +1,4 @@
-// With loops kept, the inner loop's bounds are runtime values, and it is left early.
+// With its loops left in the shader, the inner loop's bounds are runtime values, and it is left early.
 
 pub fn k(a: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
     let mut sum = 0.0;

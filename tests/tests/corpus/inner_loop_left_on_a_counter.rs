@@ -1,4 +1,4 @@
-// With loops kept, the outer counter is not known where the inner loop is left.
+// With its loops left in the shader, the outer counter is not known where the inner loop is left.
 
 pub fn k(a: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
     let mut sum = 0.0;

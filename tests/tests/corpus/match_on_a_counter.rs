@@ -1,4 +1,4 @@
-// With loops kept, the counter is not known to the `match`.
+// With its loops left in the shader, the counter is not known to the `match`.
 
 pub fn k(a: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
     let mut sum = 0.0;

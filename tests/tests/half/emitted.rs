@@ -93,7 +93,7 @@ fn no_arithmetic_is_left_in_full_precision() {
 }
 
 #[test]
-fn glsl_is_refused_with_a_way_out() {
+fn glsl_is_refused_with_help() {
     let folder = folder("half-refused");
     let compiled = Kernel::builtin("sraa").and_then(|k| k.compile(&Settings::default()));
     let both = options(Stage::Compute).targets([Target::Wgsl, Target::Glsl450]);

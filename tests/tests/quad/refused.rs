@@ -23,7 +23,7 @@ fn messages_need_lanes() {
     let text = "pub fn one(image: &Frame<Vec4>, pixel: IVec2) -> Vec4 { image.load(pixel).swap_horizontal() }";
     says(
         &error(text, "one", &Settings::default()),
-        &["swap_horizontal", "no other lane to hear from", "pixel: Quad<IVec2>"],
+        &["swap_horizontal", "no other lane to receive from", "pixel: Quad<IVec2>"],
     );
     let text = "pub fn one(image: &Frame<Vec4>, pixel: IVec2) -> Vec4 { image.load(pixel) * quad_vector().x() }";
     says(&error(text, "one", &Settings::default()), &["pixel: Quad<IVec2>"]);

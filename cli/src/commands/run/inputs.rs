@@ -8,7 +8,7 @@ use std::path::Path;
 use straightline_codegen::ir::{Graph, Scalar, Texture, TextureKind};
 use straightline_codegen::{Compiled, shorten};
 use straightline_kernels::prelude::Frame;
-use straightline_testbed::execute::Inputs;
+use straightline_testbed::execute::{self, Inputs};
 use straightline_testbed::picture;
 
 /// Everything that the command line gives, for the kernel as it will run.
@@ -75,6 +75,12 @@ pub fn inputs(given: &GivenArgs, stage: StageArg, compiled: &Compiled) -> Result
             "the output's size is that of a picture, and none is given: say --size, such as 640x360".to_owned(),
         )
     })?;
+    if let Some(name) = execute::unset(&compiled, &inputs) {
+        return Err(Failure::Usage(format!(
+            "the uniform `{name}` of `{}` has no default: add --uniform {name}=VALUE",
+            compiled.kernel
+        )));
+    }
     Ok(inputs)
 }
 

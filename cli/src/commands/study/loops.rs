@@ -50,7 +50,7 @@ pub fn run(common: &CommonArgs, args: &LoopsArgs, progress: &mut ProgressBars) -
 pub fn chosen(common: &CommonArgs, from: &[String], by_hand: &[String]) -> Result<Vec<Subject>, Failure> {
     if !by_hand.is_empty() && by_hand.len() != from.len() {
         return Err(Failure::Usage(format!(
-            "{} kernels by hand for {} kernels: give one --by-hand for each --from, in the same order, or none",
+            "{} hand-optimised kernels for {} kernels: give one --by-hand for each --from, in the same order, or none",
             by_hand.len(),
             from.len()
         )));

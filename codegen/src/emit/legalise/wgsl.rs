@@ -59,7 +59,7 @@ fn rule(module: &mut Module<'_>, mut expr: Expr) -> Expr {
     }
 }
 
-/// An infinity or a NaN. WGSL has no expression for one that is known when the shader is made, and takes the bits of a variable.
+/// An infinity or a NaN. WGSL has no expression for one that is a compile-time constant, and takes the bits of a variable.
 fn non_finite(module: &mut Module<'_>, specials: &mut Specials, bits: u32, half: bool) -> Expr {
     let ty = Ty { shape: Type::F32, half };
     if bits == f32::NEG_INFINITY.to_bits() {

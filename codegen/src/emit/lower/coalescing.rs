@@ -1,6 +1,6 @@
 //! Arrays of structured loops: values in the graph, variables changed in place in the text.
 //!
-//! All versions of an array that follow from one another by writes, rounds and branches share one variable (a web).
+//! All versions of an array that follow from one another by writes, iterations and branches share one variable (a web).
 //! That is right as long as no version is read once the next has been written. Where one is, lowering begins again with
 //! the web cut before the version that came too early: that version then begins a variable of its own with a copy. Literals (`MakeArray`) belong to no web and are copied where one begins.
 //! Where cuts do not help, every version is a variable of its own, which is always right: see [`ArrayCoalescing::apart`].

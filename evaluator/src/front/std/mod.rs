@@ -171,7 +171,27 @@ fn by_lane(text: &mut String, lanes: usize) {
             text,
             "    fn map(self, f: impl Fn({number}) -> {number}) -> {own} {{ {own}::new({mapped}) }}"
         );
+        positions(text, lanes);
         text.push_str("}\n");
+    }
+}
+
+/// `min_position` and `max_position`, the first component that none is below or above, with glam's answers for NaN.
+fn positions(text: &mut String, lanes: usize) {
+    for (name, better, no_worse) in [("min_position", "<", "<="), ("max_position", ">", ">=")] {
+        let _ = writeln!(text, "    fn {name}(self) -> usize {{");
+        if lanes == 2 {
+            let _ = writeln!(text, "        if self.x {no_worse} self.y {{ 0 }} else {{ 1 }}\n    }}");
+            continue;
+        }
+        text.push_str("        let (mut best, mut index) = (self.x, 0);\n");
+        for (k, lane) in LANES[..lanes].iter().enumerate().skip(1) {
+            let _ = writeln!(
+                text,
+                "        if self.{lane} {better} best {{ best = self.{lane}; index = {k}; }}"
+            );
+        }
+        text.push_str("        index\n    }\n");
     }
 }
 

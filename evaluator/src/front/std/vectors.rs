@@ -8,6 +8,12 @@ impl Vec3 {
         self.normalize_or(Vec3::ZERO)
     }
 
+    fn normalize_and_length(self) -> (Vec3, f32) {
+        let length = self.length();
+        let scale = 1.0 / length;
+        if scale.is_finite() && scale > 0.0 { (self * scale, length) } else { (Vec3::X, 0.0) }
+    }
+
     fn is_normalized(self) -> bool {
         (self.length_squared() - 1.0).abs() <= 2e-4
     }

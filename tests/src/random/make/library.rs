@@ -100,9 +100,10 @@ impl Maker {
                 let name = self.random.pick(&["project_onto", "reject_from"]);
                 format!("{own}.{name}({other} + 0.5)")
             }
-            7 if coarse => match self.random.once_in(2) {
-                true => format!("{own}.normalize_or_zero()"),
-                false => format!("{own}.normalize_or({other})"),
+            7 if coarse => match self.random.below(4) {
+                0 => format!("{own}.normalize_or_zero()"),
+                1 => format!("{own}.normalize_and_length().0"),
+                _ => format!("{own}.normalize_or({other})"),
             },
             8 if coarse => {
                 let (name, args) = self.random.pick(&[
@@ -224,6 +225,14 @@ impl Maker {
                 format!("({x}.abs_diff({y}) ^ {}.unsigned_abs())", self.receiver(&Ty::I32, own))
             }
             _ if !signed => format!("{a}.abs_diff({})", self.expr(ty, given)),
+            6 => {
+                let (lane, n) = (self.random.pick(&[Lane::I, Lane::U]), self.random.between(2, 4) as u8);
+                let name = self.random.pick(&["min_position", "max_position"]);
+                format!(
+                    "{a}.wrapping_add({}.{name}() as i32)",
+                    self.vector_receiver(lane, n, own)
+                )
+            }
             _ => a,
         }
     }
