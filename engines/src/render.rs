@@ -54,9 +54,10 @@ fn is_plain(file: &str) -> bool {
     !file.is_empty() && parts.all(|part| matches!(part, Component::Normal(_)))
 }
 
-/// An error of tera with what caused it, in a line.
+/// An error of tera, with its place in the template, and what caused it.
 fn causes(error: &tera::Error) -> String {
-    let mut text = error.to_string();
+    let said = error.to_string();
+    let mut text = said.strip_prefix("error: ").unwrap_or(&said).trim_end().to_owned();
     let mut next = std::error::Error::source(error);
     while let Some(cause) = next {
         text += &format!(": {cause}");

@@ -186,7 +186,7 @@ fn folders_of_users_are_engines() {
         ),
         (
             &format!("{head}language = \"wgsl\"\n[files]\n\"t.tera\" = \"../a\"\n"),
-            "Variable `nothing` not found",
+            "fails: Variable `nothing` is not defined",
         ),
         (
             &format!("{head}language = \"wgsl\"\nwhat = 1\n[files]\n\"t.tera\" = \"a\"\n"),

@@ -55,12 +55,11 @@ pub fn cropped(inputs: &Inputs, tile: &Tile) -> Inputs {
         if !elements.len().is_multiple_of(frame) {
             return elements.clone();
         }
-        let (first, size) = (tile.inputs_first.as_usizevec2(), tile.inputs_size.as_usizevec2());
+        let [x, y] = tile.inputs_first.to_array().map(|n| n as usize);
+        let [width, height] = tile.inputs_size.to_array().map(|n| n as usize);
         let rows = elements.chunks(inputs.size.x as usize).enumerate();
-        let rows = rows.filter(|(k, _)| (first.y..first.y + size.y).contains(&(k % inputs.size.y as usize)));
-        rows.flat_map(|(_, row)| &row[first.x..first.x + size.x])
-            .copied()
-            .collect()
+        let rows = rows.filter(|(k, _)| (y..y + height).contains(&(k % inputs.size.y as usize)));
+        rows.flat_map(|(_, row)| &row[x..x + width]).copied().collect()
     };
     let buffers = inputs
         .buffers
