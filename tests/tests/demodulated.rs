@@ -294,7 +294,7 @@ fn judged(name: &str, pattern: &str) -> [f64; 5] {
     all
 }
 
-/// Paint and shadow are what plain SRAA lacks of supersampling; demodulated, what is left is mostly surfaces that no shading sample saw.
+/// Demodulated, most of what plain SRAA lacks of supersampling at edges of paint and shadow is there.
 #[test]
 fn paint_and_shadow_come_close_to_supersampling() {
     for (pattern, apart, at_best) in [("latin4", 1.5, 1.5), ("latin16", 3.5, 2.75)] {
