@@ -97,6 +97,7 @@ void sraa(uint3 id : SV_DispatchThreadID) {
     float4 result = float4(0.0, 0.0, 0.0, 0.0);
     float sum = 0.0;
     for (int tap = 0; tap < 9; tap++) {
+        // colour of a pixel's only shading sample (kernels/src/sraa/colors.rs:62)
         int2 at = clamp(pixel + int2(tap % 3 - 1, tap / 3 - 1), int2(0, 0), last);
         float4 shaded = color.Load(int3(at, 0));
         bool kept = all(
@@ -108,6 +109,7 @@ void sraa(uint3 id : SV_DispatchThreadID) {
             w = weights[tap];
         }
         if (kept) {
+            // the mean of the taps' colours that may count (kernels/src/sraa/mod.rs:209)
             result += w * shaded;
         }
         sum += w;

@@ -248,25 +248,6 @@ const BEYOND: [&str; 10] = [
     "16x",
 ];
 
-/// Light apart from paint and shadow, between SRAA and the supersampling that it stands for.
-const DEMODULATED: [&str; 10] = [
-    "1x",
-    "SRAA 4",
-    "SRAA 4, demodulated",
-    "SRAA 4, placed, searched and demodulated",
-    "4x",
-    "SRAA 16",
-    "SRAA 16, demodulated",
-    "SRAA 16, placed and searched",
-    "SRAA 16, placed, searched and demodulated",
-    "16x",
-];
-
-/// Every scene: PSNR and FLIP of what is demodulated.
-pub fn demodulated(record: &QualityRecord) -> String {
-    of_scenes(record, &DEMODULATED)
-}
-
 /// Every scene: PSNR and FLIP of the main methods.
 pub fn scenes(record: &QualityRecord) -> String {
     of_scenes(record, &MAIN)
