@@ -111,11 +111,7 @@ fn cases() -> Vec<Case> {
         filter("median", &[]),
         sraa(&[]),
         sraa(&[("pattern", "latin16")]),
-        sraa(&[
-            ("layout", "multisampled"),
-            ("pattern", "latin4"),
-            ("shading", "sample0"),
-        ]),
+        sraa(&[("layout", "multisampled"), ("metric", "planes-normals")]),
         of_card(
             "mixed".to_owned(),
             Kernel::from_text("mixed.rs", MIXED, "mixed"),
