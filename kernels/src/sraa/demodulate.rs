@@ -80,6 +80,7 @@ fn bounded(cfg: &Sraa, albedo: f32) -> f32 {
 }
 
 /// A share of the direct light; what is not a number is none.
+#[allow(clippy::manual_clamp)] // which would keep it
 fn share(cfg: &Sraa, lit: f32) -> f32 {
     match cfg.guards {
         Guards::Fallback | Guards::None => lit.max(0.0).min(1.0),

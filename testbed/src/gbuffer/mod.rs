@@ -166,7 +166,7 @@ fn needed_of<T: Clone>(found: &Option<T>, what: &'static str, demodulate: &str) 
     found.clone().ok_or_else(|| GBufferError::Missing {
         what,
         option: format!("demodulate={demodulate}"),
-        way_out: "write it, as `straightline capture --albedo` does, or use demodulate=none",
+        help: "write it, as `straightline capture --albedo` does, or use demodulate=none",
     })
 }
 
