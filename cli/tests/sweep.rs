@@ -57,7 +57,7 @@ fn every_combination_is_measured_beside_its_baseline() {
     }
     assert_eq!(record["baseline"]["unroll"], "none");
     assert_eq!(record["input"], "the test card");
-    for word in ["radius", "partial(2)", "fragment", "16x4", "as unroll=none"] {
+    for word in ["radius", "partial(2)", "fragment", "16x4", "over unroll=none"] {
         assert!(table.contains(word), "no {word} in:\n{table}");
     }
     let csv = std::fs::read_to_string(out.join("sweep.csv")).expect("a table");

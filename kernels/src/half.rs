@@ -24,7 +24,13 @@ pub(crate) fn sraa(option: &OptionValue<'_>) -> HalfPrecision {
         Some("normals") if option("resolve").is_some_and(|filter| filter == "lanczos") => {
             "lobes below zero make small rounding errors of the samples' weights larger than can be seen"
         }
-        Some("normals") if option("normalisation").is_none_or(|how| how == "shifted") => return HalfPrecision::Kept,
+        Some("normals") if option("normalisation").is_none_or(|how| how == "shifted") => {
+            // What is kept of weights says nothing of light that is divided by an albedo.
+            return match option("demodulate").is_none_or(|how| how == "none") {
+                true => HalfPrecision::Kept,
+                false => HalfPrecision::Unstudied,
+            };
+        }
         Some("normals") => {
             "weights of less than 2^-24 are none: where all are so small, as on a thin wire, no colour is left"
         }

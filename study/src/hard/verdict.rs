@@ -17,9 +17,15 @@ use straightline_codegen::Precision;
 ///
 /// # Errors
 ///
-/// [`HardError::NotStudied`] for a kernel that has no hard cases; others if it does not compile.
+/// [`HardError::NotStudied`] for a kernel that has no hard cases, and for demodulated colours, which none has; others if it does not compile.
 pub fn half_precision_verdict(kernel: &str, options: &[(String, String)]) -> Result<HalfVerdict, HardError> {
     let options: Vec<_> = options.iter().filter(|(name, _)| name != "layout").cloned().collect();
+    if let Some((name, value)) = options
+        .iter()
+        .find(|(name, value)| name == "demodulate" && value != "none")
+    {
+        return Err(HardError::NotStudied(format!("{kernel} {name}={value}")));
+    }
     let form = Form::of(kernel, &options).ok_or_else(|| HardError::NotStudied(kernel.to_owned()))?;
     let forms = [form];
     let common: Vec<Case> = cases::all().into_iter().filter(|case| case.common).collect();
