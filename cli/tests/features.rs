@@ -64,7 +64,7 @@ fn all_features_are_there_where_tests_run() {
     }
 }
 
-/// So that the first build takes two minutes: CONTRIBUTING.md has the times, and these numbers.
+/// So that the first build takes some two minutes: CONTRIBUTING.md has the times, and these numbers.
 #[test]
 fn the_default_build_is_small() {
     let (small, full) = (packages(""), packages("full"));
