@@ -51,6 +51,8 @@ pub struct Diagnostic {
     pub notes: Vec<String>,
     /// The help.
     pub help: Option<String>,
+    /// Loops that are left in the shader, without which there would be no error.
+    pub(crate) loops: Vec<Span>,
 }
 
 impl Diagnostic {
@@ -63,6 +65,7 @@ impl Diagnostic {
             others: Vec::new(),
             notes: Vec::new(),
             help: None,
+            loops: Vec::new(),
         }
     }
 
@@ -90,6 +93,7 @@ impl Diagnostic {
             others: Vec::new(),
             notes: Vec::new(),
             help: None,
+            loops: Vec::new(),
         }
     }
 

@@ -32,12 +32,17 @@ const KERNELS: &[(&str, Native, &[&str])] = &[
     ("whiles", kernels::whiles, &["none"; 2]),
     ("bounded", kernels::bounded, &["none"; 3]),
     ("unsigned", kernels::unsigned, &["none"; 2]),
-    ("left", kernels::left, &["none", "none", "what follows it needs"]),
+    ("left", kernels::left, &["none", "none", CULPRIT]),
+    ("culprit", kernels::culprit, &[CULPRIT, "none", "none", "none"]),
+    ("outer_culprit", kernels::outer_culprit, &["the power of `powi`", "none"]),
     ("bounds", kernels::bounds, &["none"; 2]),
     ("swapped", kernels::swapped, &["none"]),
     ("rotated", kernels::rotated, &["none"]),
     ("old_versions", kernels::old_versions, &["none"]),
 ];
+
+/// Part of the reason why a loop is unrolled for the sake of what follows it.
+const CULPRIT: &str = "what follows it needs";
 
 const FORMS: [(Unroll, Branches); 6] = [
     (Unroll::Full, Branches::Select),

@@ -42,8 +42,6 @@ pub struct Loops {
     reports: Vec<LoopReport>,
     /// Loops being evaluated: index, operations when it began, and operations of loops inside it.
     open: Vec<(usize, usize, usize)>,
-    /// Loops of known bounds that were left in the shader, in order.
-    kept: Vec<Span>,
     /// How often each loop was tried to be left in the shader in vain, and why not the last time.
     refused: HashMap<Span, (u32, Diagnostic)>,
     /// Errors to give if there are no others: what follows a loop needs it unrolled, but it was asked for by name.
@@ -115,16 +113,6 @@ impl Loops {
     pub fn return_to(&mut self, before: Loops) {
         let refused = std::mem::take(&mut self.refused);
         *self = Loops { refused, ..before };
-    }
-
-    /// A loop that could have been unrolled is left in the shader.
-    pub fn keep(&mut self, span: Span) {
-        self.kept.push(span);
-    }
-
-    /// The loop that was left in the shader last, of those that could have been unrolled.
-    pub fn last_kept(&self) -> Option<Span> {
-        self.kept.last().copied()
     }
 
     /// It ends.

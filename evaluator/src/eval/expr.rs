@@ -24,8 +24,11 @@ impl Evaluator<'_> {
             return Err(error.help("the command line goes deeper than a browser can").into());
         }
         self.depth += 1;
-        let value = self.evaluated(expr);
+        let mut value = self.evaluated(expr);
         self.depth -= 1;
+        if let Err(Exit::Error(error)) = &mut value {
+            self.blame(error, expr);
+        }
         value
     }
 

@@ -182,6 +182,7 @@ impl Evaluator<'_> {
             why
         } else {
             let before = self.checkpoint();
+            self.kept.avoidable(span);
             match count(self).and_then(|count| self.keep(body, &count, asked.unroll, span)) {
                 // What cannot be a loop in the shader is unrolled; if that fails too, it says why.
                 Err(exit @ (Exit::Error(_) | Exit::Noted)) => {
@@ -191,18 +192,16 @@ impl Evaluator<'_> {
                         _ => noted,
                     };
                     let why = why.unwrap_or_else(|| Diagnostic::at(wish.head, "its body has an error"));
+                    if !why.loops.is_empty() && !why.loops.contains(&span) {
+                        // It comes from loops around or before this one.
+                        return Err(why.into());
+                    }
                     self.loops.refuse(span, &why);
                     why
                 }
                 // All have left, for good.
-                Err(other) => {
-                    self.loops.keep(span);
-                    return Err(other);
-                }
-                Ok(unroll) => {
-                    self.loops.keep(span);
-                    return Ok(Granted::Kept(unroll));
-                }
+                Err(other) => return Err(other),
+                Ok(unroll) => return Ok(Granted::Kept(unroll)),
             }
         };
         self.loops.because(span, told(&why));

@@ -6,6 +6,7 @@
 mod ascribe;
 mod assign;
 mod binding;
+mod blame;
 mod blocks;
 mod budget;
 mod buffers;
@@ -77,8 +78,8 @@ pub struct Evaluated {
 ///
 /// `invocation` is what each computes, unless the kernel's parameters say that it is a lane of a quad.
 ///
-/// A loop that is left in the shader makes what it assigns runtime values. Where what follows needs that known, the loop is
-/// unrolled after all: the last one that was left before the error, until none is left.
+/// A loop that is left in the shader makes what it assigns runtime values. Where what follows needs that known, the loops that it
+/// comes from are unrolled after all.
 pub fn evaluate(
     library: &Library,
     files: &Arc<Vec<File>>,
@@ -96,16 +97,17 @@ pub fn evaluate(
         evaluator.builder.graph_mut().invocation = invocation;
         let result = evaluator.kernel(entry, settings);
         let failed = result.is_err() || !evaluator.errors.is_empty();
-        if failed
-            && let Some(span) = evaluator.loops.last_kept()
-            && !unrolled.contains_key(&span)
-        {
-            let first = match (evaluator.errors.first(), &result) {
-                (Some(noted), _) => noted.clone(),
-                (None, Err(Exit::Error(error))) => (**error).clone(),
-                _ => Diagnostic::new("what follows needs to know what it assigns"),
-            };
-            unrolled.insert(span, first);
+        let last = match &result {
+            Err(Exit::Error(last)) => Some(&**last),
+            _ => None,
+        };
+        let before = unrolled.len();
+        for error in evaluator.errors.iter().chain(last) {
+            for span in &error.loops {
+                unrolled.entry(*span).or_insert_with(|| error.clone());
+            }
+        }
+        if unrolled.len() > before {
             continue;
         }
         if !failed {
@@ -133,7 +135,7 @@ pub fn evaluate(
     }
 }
 
-/// Loops that are unrolled one by one for the sake of what follows them.
+/// Loops that are unrolled for the sake of what follows them before all are.
 const MAX_ATTEMPTS: usize = 24;
 
 /// Operations after which a kernel is taken not to end.
@@ -166,6 +168,7 @@ struct Evaluator<'a> {
     /// Whether all loops that can be unrolled are.
     unrolls_all: bool,
     loops: budget::Loops,
+    kept: blame::Kept,
     scope: Scope,
     /// Counters of the unrolled loops around.
     counters: Vec<Counter>,
@@ -206,6 +209,7 @@ impl<'a> Evaluator<'a> {
             unrolled: HashMap::new(),
             unrolls_all: false,
             loops: budget::Loops::default(),
+            kept: blame::Kept::default(),
             scope: Scope::default(),
             counters: Vec::new(),
             calls: Vec::new(),

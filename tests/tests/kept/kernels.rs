@@ -179,6 +179,42 @@ pub fn left(color: &Frame<Vec4>, n: i32, pixel: IVec2) -> Vec4 {
     vec4(s, 0.0, 0.0, 1.0)
 }
 
+/// The first loop decides what the power is, the second and the third do not; a power is a compile-time constant.
+pub fn culprit(color: &Frame<Vec4>, n: i32, pixel: IVec2) -> Vec4 {
+    let mut power = 0;
+    for i in 0..3 {
+        power += i;
+    }
+    let mut s = n as f32;
+    for j in 0..4 {
+        s = s * 0.5 + color.load(pixel + ivec2(j, 0)).x;
+    }
+    for k in 0..3 {
+        s += (s * 0.25).powi(power) * k as f32;
+    }
+    vec4(s, raised(s, power), 0.0, 1.0)
+}
+
+fn raised(x: f32, power: i32) -> f32 {
+    let mut sum = 0.0;
+    for j in 0..3 {
+        sum += x.powi(power + 1) * j as f32;
+    }
+    sum
+}
+
+/// The loop inside looks at the counter of the loop outside, through a closure and a condition.
+pub fn outer_culprit(color: &Frame<Vec4>, n: i32, pixel: IVec2) -> Vec4 {
+    let mut s = color.load(pixel).y + n as f32;
+    for i in 1..3 {
+        let power = |x: f32| x.powi(if i == 2 { 3 } else { 2 });
+        for j in 0..3 {
+            s += power(s * 0.25) * j as f32;
+        }
+    }
+    vec4(s, 0.0, 0.0, 1.0)
+}
+
 pub fn bounds(color: &Frame<Vec4>, n: i32, pixel: IVec2) -> Vec4 {
     let mut s = color.load(pixel).x;
     for i in 0..n & 5 {

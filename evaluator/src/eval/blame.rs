@@ -1,0 +1,126 @@
+//! Which loops an error comes from: of those that are left in the shader, the ones without which what is looked at would be a
+//! compile-time constant.
+
+use super::value::{Captured, Value};
+use super::{Evaluator, MAX_NODES, MAX_STEPS};
+use crate::diagnostic::{Diagnostic, Span};
+use crate::front::tree::{Expr, ExprKind};
+use crate::front::{children, mentioned_in};
+use crate::ir::{NodeId, Op, RegionId};
+use std::collections::{BTreeSet, HashMap, HashSet};
+
+/// Loops that are left in the shader although they could be unrolled.
+#[derive(Default)]
+pub struct Kept {
+    /// By what they have become.
+    loops: HashMap<RegionId, Span>,
+    /// Those of which the trip count is known, or may be.
+    avoidable: HashSet<Span>,
+}
+
+impl Kept {
+    /// A loop has become a region.
+    pub fn region(&mut self, region: RegionId, span: Span) {
+        self.loops.insert(region, span);
+    }
+
+    /// A loop is left in the shader only because that is asked for.
+    pub fn avoidable(&mut self, span: Span) {
+        self.avoidable.insert(span);
+    }
+}
+
+impl Evaluator<'_> {
+    /// Notes with an error of an expression the loops that what it looks at depends on: what it points at, else what decides,
+    /// else the integers and booleans that the expression mentions, which are what has to be known, else all.
+    pub fn blame(&self, error: &mut Diagnostic, expr: &Expr) {
+        let too_large = self.steps > MAX_STEPS || self.builder.graph().nodes.len() > MAX_NODES;
+        if !error.loops.is_empty() || self.kept.avoidable.is_empty() || too_large {
+            return;
+        }
+        let parts = children(expr);
+        let pointed = parts.iter().find(|part| Some(part.span) == error.span);
+        let decides = match expr.kind {
+            ExprKind::If(..) | ExprKind::Match(..) => parts.first(),
+            _ => None,
+        };
+        for part in [pointed.copied(), decides.copied(), Some(expr)].into_iter().flatten() {
+            for floats in [false, true] {
+                error.loops = self.loops_behind(part, floats);
+                if !error.loops.is_empty() {
+                    return;
+                }
+            }
+        }
+    }
+
+    fn loops_behind(&self, expr: &Expr, floats: bool) -> Vec<Span> {
+        let mut names = BTreeSet::new();
+        mentioned_in(expr, &mut names);
+        let mut slots: Vec<usize> = names.iter().filter_map(|name| self.scope.slot(name)).collect();
+        for slot in slots.clone() {
+            self.targets(self.scope.at(slot).1, &mut slots);
+        }
+        let mut walk = Walk::default();
+        for slot in slots {
+            read(self.scope.at(slot).1, &mut walk.pending);
+        }
+        walk.pending.retain(|id| floats || !self.ty(*id).is_float());
+        walk.run(self)
+    }
+}
+
+/// All numbers that a value is made of, those that a closure takes along counted.
+fn read(value: &Value, out: &mut Vec<NodeId>) {
+    match value {
+        Value::Closure(closed) => {
+            for (_, captured) in &closed.captured {
+                if let Captured::Value(value) = captured {
+                    read(value, out);
+                }
+            }
+        }
+        other => Evaluator::leaves(other, out),
+    }
+}
+
+/// Goes from numbers to what they are computed from.
+#[derive(Default)]
+struct Walk {
+    seen: HashSet<NodeId>,
+    pending: Vec<NodeId>,
+    found: BTreeSet<Span>,
+}
+
+impl Walk {
+    fn run(mut self, e: &Evaluator<'_>) -> Vec<Span> {
+        let graph = e.builder.graph();
+        while let Some(id) = self.pending.pop() {
+            if !self.seen.insert(id) {
+                continue;
+            }
+            let node = graph.node(id);
+            self.pending.extend(&node.args);
+            match (&node.op, node.args.first().map(|owner| &graph.node(*owner).op)) {
+                (Op::Result(k), Some(Op::Loop(region))) => self.enter(e, *region, *k as usize),
+                (Op::Result(k), Some(Op::If(then, otherwise))) => {
+                    for side in [then, otherwise] {
+                        self.pending.extend(graph.region(*side).results.get(*k as usize));
+                    }
+                }
+                // The first is the counter.
+                (Op::Param(region, k), _) => self.enter(e, *region, (*k as usize).wrapping_sub(1)),
+                _ => {}
+            }
+        }
+        self.found.into_iter().collect()
+    }
+
+    /// What a loop carries at a position.
+    fn enter(&mut self, e: &Evaluator<'_>, region: RegionId, k: usize) {
+        let span = e.kept.loops.get(&region);
+        self.found.extend(span.filter(|span| e.kept.avoidable.contains(span)));
+        let region = e.builder.graph().region(region);
+        self.pending.extend(region.results.get(k).copied().into_iter().chain(region.stop));
+    }
+}
