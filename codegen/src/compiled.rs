@@ -1,5 +1,6 @@
 //! A kernel with everything decided: what the interpreter computes and emission writes.
 
+use crate::emit;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -32,7 +33,7 @@ pub struct Compiled {
     /// In which order.
     pub schedule: Schedule,
     /// What one invocation executes. `basic_blocks` is what the kernel's own loops and branches make; emission counts them in
-    /// the shader.
+    /// the shader. `statements` is 0: they are counted in the text, by emission or by [`Compiled::statements`].
     pub counts: Counts,
     /// How lanes of quads were asked to swap values.
     pub transport: Option<Transport>,
@@ -40,11 +41,14 @@ pub struct Compiled {
     pub sharing: Option<Arc<Sharing>>,
     /// Of a kernel whose invocations are lanes, the graph in which one invocation computes the whole quad.
     pub quad: Option<Arc<Graph>>,
-    /// Statements of that.
-    pub quad_statements: u32,
 }
 
 impl Compiled {
+    /// Statements of the kernel's body, the same in every language and stage.
+    pub fn statements(&self) -> u32 {
+        emit::statements(self)
+    }
+
     /// What the publication of a built-in kernel counts for a pixel with these options; `None` also where one invocation has several.
     pub fn paper(&self) -> Option<PaperCounts> {
         let entry = self.builtin.filter(|_| self.graph.invocation.pixels() == [1, 1])?;
@@ -68,10 +72,8 @@ impl Compiled {
         };
         let graph = Graph::clone(graph);
         let schedule = passes::schedule(&graph, self.policy.reads);
-        let mut counts = passes::count(&graph, &schedule);
-        counts.statements = self.quad_statements;
         let whole = Compiled {
-            counts,
+            counts: passes::count(&graph, &schedule),
             graph,
             schedule,
             quad: None,

@@ -88,15 +88,6 @@ impl Default for Settings {
 }
 
 impl Compiled {
-    /// With its statements counted.
-    fn with_statements(mut self) -> Compiled {
-        self.counts.statements = emit::statements(&self);
-        if self.quad.is_some() {
-            self.quad_statements = emit::statements(&self.in_blocks());
-        }
-        self
-    }
-
     /// The kernel's reads and stores with next to no arithmetic between: a lower bound of every form
     /// ([`passes::floor`]). It computes nothing of use, and is there to be timed.
     ///
@@ -123,7 +114,7 @@ impl Compiled {
             quad: quad.map(Arc::new),
             ..self.clone()
         };
-        Ok(floor.with_statements())
+        Ok(floor)
     }
 }
 
@@ -426,10 +417,10 @@ impl Kernel {
             transport,
             sharing,
             quad,
-            quad_statements: 0,
         };
-        let compiled = compiled.with_statements();
-        within_budget(compiled.counts.statements)?;
+        if emit::statements_at_most(&compiled.graph) > settings.budget {
+            within_budget(compiled.statements())?;
+        }
         Ok(compiled)
     }
 }

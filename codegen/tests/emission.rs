@@ -448,7 +448,7 @@ fn statements_are_counted_once() {
     }";
     for (unroll, branches) in [(Unroll::Full, Branches::Select), (Unroll::None, Branches::Keep)] {
         let compiled = compile(kernel, unroll, branches);
-        let statements = compiled.counts.statements;
+        let statements = compiled.statements();
         let emitted = emit(&compiled, Stage::Compute);
         assert_eq!(emitted.manifest.counts.statements, statements);
         for target in [Target::Wgsl, Target::Glsl450] {
@@ -466,6 +466,20 @@ fn statements_are_counted_once() {
         tight.budget = statements - 1;
         let error = kernel.compile(&tight).expect_err("too long").render(false);
         assert!(error.contains(&format!("has {statements} statements")), "{error}");
+    }
+}
+
+/// Statements are counted only where there may be too many, which is told by the graph's size: it must not say too few.
+#[test]
+fn no_kernel_goes_over_its_budget_unseen() {
+    for entry in straightline_kernels::CATALOGUE {
+        for (unroll, branches) in [(Unroll::Full, Branches::Select), (Unroll::None, Branches::Keep)] {
+            let kernel = Kernel::builtin(entry.name).unwrap_or_else(|e| panic!("{e}"));
+            let mut tight = settings(unroll, branches);
+            let compiled = kernel.compile(&tight).unwrap_or_else(|e| panic!("{}: {e}", entry.name));
+            tight.budget = compiled.statements() - 1;
+            assert!(kernel.compile(&tight).is_err(), "{}: {unroll}", entry.name);
+        }
     }
 }
 

@@ -34,7 +34,11 @@ const KERNELS: &[(&str, Native, &[&str])] = &[
     ("unsigned", kernels::unsigned, &["none"; 2]),
     ("left", kernels::left, &["none", "none", CULPRIT]),
     ("culprit", kernels::culprit, &[CULPRIT, "none", "none", "none"]),
-    ("outer_culprit", kernels::outer_culprit, &["the power of `powi`", "none"]),
+    (
+        "outer_culprit",
+        kernels::outer_culprit,
+        &["the power of `powi`", "none"],
+    ),
     ("bounds", kernels::bounds, &["none"; 2]),
     ("swapped", kernels::swapped, &["none"]),
     ("rotated", kernels::rotated, &["none"]),

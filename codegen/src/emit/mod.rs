@@ -79,7 +79,10 @@ impl Emitted {
 
 /// Statements of a kernel's body, the same in every language and stage.
 pub fn statements(compiled: &Compiled) -> u32 {
-    let kernel = kernel(compiled, Precision::F32);
+    count(&kernel(compiled, Precision::F32))
+}
+
+fn count(kernel: &ast::Module<'_>) -> u32 {
     // Results are no statements: how they are written is the entry point's affair.
     let results = kernel
         .body
@@ -100,8 +103,16 @@ pub fn statements_at_least(graph: &Graph, schedule: &Schedule) -> u32 {
     costs.count() as u32 / OPERATIONS
 }
 
+/// A number that a kernel's statements do not exceed: quicker to tell yet.
+pub fn statements_at_most(graph: &Graph) -> u32 {
+    (graph.nodes.len() as u32).saturating_mul(STATEMENTS)
+}
+
 /// Nodes of the graph that a line of text may stand for.
 const OPERATIONS: u32 = 32;
+
+/// Statements that a node may become: a parameter of a loop is declared, set before it, in it, and read behind it.
+const STATEMENTS: u32 = 4;
 
 /// The kernel as invocations of the stage compute it.
 fn for_stage(compiled: &Compiled, stage: Stage) -> Result<Cow<'_, Compiled>, EmitError> {
@@ -134,13 +145,17 @@ fn kernel(compiled: &Compiled, precision: Precision) -> ast::Module<'_> {
     module
 }
 
-/// The tree of a shader, with comments, before a language's own rules.
-fn tree<'g>(compiled: &'g Compiled, resources: &resources::Resources) -> ast::Module<'g> {
+/// The tree of a shader, with comments, before a language's own rules, and how many statements the kernel has.
+fn tree<'g>(compiled: &'g Compiled, resources: &resources::Resources) -> (ast::Module<'g>, u32) {
     let mut module = kernel(compiled, resources.options.precision);
+    let statements = match resources.options.precision {
+        Precision::F32 => count(&module),
+        Precision::F16 => statements(compiled),
+    };
     let body = std::mem::take(&mut module.body);
     module.body = comments::comment_groups(body, &compiled.graph);
     lower::entry(&mut module, resources);
-    module
+    (module, statements)
 }
 
 impl Compiled {
@@ -181,7 +196,7 @@ fn emit(compiled: &Compiled, options: &EmitOptions) -> Result<Emitted, EmitError
         function::check(compiled, &resources)?;
         host::check(compiled, &resources)?;
     }
-    let tree = tree(compiled, &resources);
+    let (tree, statements) = tree(compiled, &resources);
     let shader = Shader {
         compiled,
         resources: &resources,
@@ -190,6 +205,7 @@ fn emit(compiled: &Compiled, options: &EmitOptions) -> Result<Emitted, EmitError
     };
     // The header says how many blocks the shader has, and is a comment: what is counted is the same text.
     let mut counts = compiled.counts.clone();
+    counts.statements = statements;
     let module = shader.validated(&counts)?;
     let words = module.spirv(&resources)?;
     counts.basic_blocks = spirv::basic_blocks(&words);
@@ -258,7 +274,7 @@ impl Shader<'_, '_> {
         };
         let whole = resources::Resources::of(self.compiled, &whole)?;
         // Entry points give whole texels, and functions what the kernel gives.
-        let tree = tree(self.compiled, &whole);
+        let (tree, _) = tree(self.compiled, &whole);
         let wgsl = print::module(
             &print::Wgsl { resources: &whole },
             &for_wgsl(&tree, &whole),

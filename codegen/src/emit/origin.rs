@@ -41,13 +41,12 @@ pub fn turned<'c>(compiled: &'c Compiled, options: &EmitOptions) -> Result<Cow<'
         message,
     })?;
     let schedule = passes::schedule(&graph, compiled.policy.reads);
-    let mut turned = Compiled {
+    let turned = Compiled {
         counts: passes::count(&graph, &schedule),
         graph,
         schedule,
         quad: None,
         ..compiled.clone()
     };
-    turned.counts.statements = super::statements(&turned);
     Ok(Cow::Owned(turned))
 }

@@ -121,6 +121,7 @@ impl Walk {
         let span = e.kept.loops.get(&region);
         self.found.extend(span.filter(|span| e.kept.avoidable.contains(span)));
         let region = e.builder.graph().region(region);
-        self.pending.extend(region.results.get(k).copied().into_iter().chain(region.stop));
+        self.pending
+            .extend(region.results.get(k).copied().into_iter().chain(region.stop));
     }
 }

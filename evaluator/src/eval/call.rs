@@ -417,18 +417,19 @@ impl Evaluator<'_> {
 fn constructor(path: &[String]) -> Option<(Scalar, u8)> {
     match path {
         [.., ty, new] if new == "new" => vector_type(ty),
-        [.., name] if name.chars().next().is_some_and(char::is_lowercase) => {
-            let mut upper = name.replacen("vec", "Vec", 1);
-            if let Some(rest) = upper.strip_prefix('i') {
-                upper = format!("I{rest}");
-            } else if let Some(rest) = upper.strip_prefix('u') {
-                upper = format!("U{rest}");
-            } else if let Some(rest) = upper.strip_prefix('b') {
-                upper = format!("B{rest}");
-            }
-            vector_type(&upper)
+        [.., name] => {
+            let (kind, lanes) = name.split_once("vec")?;
+            let kind = match kind {
+                "" => Scalar::F32,
+                "i" => Scalar::I32,
+                "u" => Scalar::U32,
+                "b" => Scalar::Bool,
+                _ => return None,
+            };
+            let lanes = lanes.parse().ok().filter(|lanes| (2..=4).contains(lanes))?;
+            Some((kind, lanes))
         }
-        _ => None,
+        [] => None,
     }
 }
 

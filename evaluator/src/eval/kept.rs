@@ -8,6 +8,7 @@ use super::value::{Eval, Exit, Value, Way};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::front::assigned;
 use crate::ir::{Naming, NodeId, Op, Origin, RegionId, Type};
+use std::sync::Arc;
 
 impl Evaluator<'_> {
     /// A loop of the graph that goes from `start` to `end` by one, both of type `i32` or `u32`: variables that its body
@@ -248,7 +249,7 @@ impl Evaluator<'_> {
                     naming: Naming::Let,
                     file: span.file,
                     line: span.line,
-                    counters: self.counters.as_slice().into(),
+                    counters: Arc::clone(&self.counters),
                 };
                 self.builder.set_origin(*id, &origin);
             }

@@ -8,6 +8,7 @@ use crate::diagnostic::{Diagnostic, Span};
 use crate::front::tree::{Block, ForLoop, Pattern};
 use crate::ir::{Counter, Type};
 use crate::policy::{Asked, Unroll};
+use std::sync::Arc;
 
 /// What a loop does in each iteration.
 pub struct Body<'a> {
@@ -257,14 +258,14 @@ impl Evaluator<'_> {
             }),
             _ => None,
         };
-        let counted = counter.is_some();
-        self.counters.extend(counter);
+        let around = Arc::clone(&self.counters);
+        if counter.is_some() {
+            self.counters = around.iter().cloned().chain(counter).collect();
+        }
         let outcome = self
             .bind(pattern, item, span)
             .and_then(|()| self.block_in(body.block, Tail::Iteration(body.label)));
-        if counted {
-            self.counters.pop();
-        }
+        self.counters = around;
         self.scope.leave(mark);
         outcome
     }

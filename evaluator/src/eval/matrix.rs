@@ -18,6 +18,16 @@ pub fn size(ty: &str) -> Option<u8> {
     }
 }
 
+/// The type that `mat2`, `mat3` or `mat4` makes; of any other name none.
+fn made_by(name: &str) -> &'static str {
+    match name {
+        "mat2" => "Mat2",
+        "mat3" => "Mat3",
+        "mat4" => "Mat4",
+        _ => "",
+    }
+}
+
 /// Fields of a matrix: its columns.
 pub fn axes(n: u8) -> &'static [&'static str] {
     &AXES[..n as usize]
@@ -27,11 +37,11 @@ impl Evaluator<'_> {
     /// `Mat3::from_cols(a, b, c)`, `mat3(a, b, c)`, `Mat3::from_diagonal(d)`.
     pub fn matrix_function(&mut self, path: &[String], values: &[Value], span: Span) -> Eval<Option<Value>> {
         let (ty, name) = match path {
-            [name] => (name.replacen('m', "M", 1), "from_cols"),
-            [.., ty, name] => (ty.clone(), name.as_str()),
+            [name] => (made_by(name), "from_cols"),
+            [.., ty, name] => (ty.as_str(), name.as_str()),
             [] => return Ok(None),
         };
-        let Some(n) = size(&ty) else { return Ok(None) };
+        let Some(n) = size(ty) else { return Ok(None) };
         let column = Type::value(Scalar::F32, n);
         match (name, values) {
             ("from_cols", columns) if columns.len() == n as usize => {
@@ -74,7 +84,7 @@ impl Evaluator<'_> {
             (_, [receiver @ Value::Struct { ty: of, .. }, rest @ ..]) if *of == ty => {
                 self.matrix_method(receiver, name, rest, span).map(Some)
             }
-            _ => Err(unknown(&ty, name, span).into()),
+            _ => Err(unknown(ty, name, span).into()),
         }
     }
 

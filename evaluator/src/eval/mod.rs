@@ -170,8 +170,8 @@ struct Evaluator<'a> {
     loops: budget::Loops,
     kept: blame::Kept,
     scope: Scope,
-    /// Counters of the unrolled loops around.
-    counters: Vec<Counter>,
+    /// Counters of the unrolled loops around, outermost first.
+    counters: Arc<[Counter]>,
     /// Functions being evaluated, innermost last.
     calls: Vec<String>,
     errors: Vec<Diagnostic>,
@@ -211,7 +211,7 @@ impl<'a> Evaluator<'a> {
             loops: budget::Loops::default(),
             kept: blame::Kept::default(),
             scope: Scope::default(),
-            counters: Vec::new(),
+            counters: Arc::default(),
             calls: Vec::new(),
             errors: Vec::new(),
             consts: HashMap::new(),
@@ -331,8 +331,8 @@ impl Evaluator<'_> {
             file: span.file,
             line: span.line,
             counters: match is_constant {
-                true => [].into(),
-                false => self.counters.as_slice().into(),
+                true => Arc::default(),
+                false => Arc::clone(&self.counters),
             },
         };
         self.builder.set_origin(id, &origin);

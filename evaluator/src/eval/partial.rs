@@ -8,15 +8,16 @@ use super::scope::Scope;
 use super::sequence::Columns;
 use super::value::{Eval, Place, Step, Value};
 use crate::diagnostic::Span;
-use crate::ir::{BinaryOp, Graph, NodeId, Type};
+use crate::ir::{BinaryOp, Counter, Graph, NodeId, Type};
 use crate::policy::Unroll;
 use std::rc::Rc;
+use std::sync::Arc;
 
 /// What an attempt may change, to go back to.
 #[derive(Clone)]
 pub struct Checkpoint {
     scope: Scope,
-    counters: usize,
+    counters: Arc<[Counter]>,
     errors: usize,
     loops: super::budget::Loops,
     departed: Vec<Departure>,
@@ -51,7 +52,7 @@ impl Evaluator<'_> {
     pub fn checkpoint(&self) -> Checkpoint {
         Checkpoint {
             scope: self.scope.clone(),
-            counters: self.counters.len(),
+            counters: Arc::clone(&self.counters),
             errors: self.errors.len(),
             loops: self.loops.clone(),
             departed: self.departed.clone(),
@@ -63,7 +64,7 @@ impl Evaluator<'_> {
     /// Goes back. Gives the first error that was noted meanwhile.
     pub fn return_to(&mut self, before: Checkpoint) -> Option<crate::diagnostic::Diagnostic> {
         self.scope = before.scope;
-        self.counters.truncate(before.counters);
+        self.counters = before.counters;
         self.departed = before.departed;
         self.kept_loops = before.kept_loops;
         self.builder.take_back(&before.effects);

@@ -55,14 +55,18 @@ impl Evaluator<'_> {
 
     /// The prelude's functions of lanes; `None` if it has none of this name.
     pub fn quad_function(&mut self, path: &[String], values: &[Value], span: Span) -> Eval<Option<Value>> {
-        let names: Vec<&str> = path.iter().map(String::as_str).collect();
-        match (names.as_slice(), values) {
-            ([.., "lane_position"], []) => Ok(Some(Value::Node(self.lane(span)?))),
-            ([.., "quad_select"], []) => {
+        let (of, name) = match path {
+            [.., of, name] => (of.as_str(), name.as_str()),
+            [name] => ("", name.as_str()),
+            [] => return Ok(None),
+        };
+        match (of, name, values) {
+            (_, "lane_position", []) => Ok(Some(Value::Node(self.lane(span)?))),
+            (_, "quad_select", []) => {
                 let lane = self.lane(span)?;
                 Ok(Some(Value::Node(self.convert(lane, Scalar::F32))))
             }
-            ([.., "quad_vector"], []) => {
+            (_, "quad_vector", []) => {
                 let lane = self.lane(span)?;
                 let lane = Value::Node(self.convert(lane, Scalar::F32));
                 let (one, two) = (Value::Node(self.builder.f32(1.0)), Value::Node(self.builder.f32(2.0)));
@@ -71,12 +75,12 @@ impl Evaluator<'_> {
                 self.name(&vector, "quad_vector", span);
                 Ok(Some(vector))
             }
-            ([.., "Quad", "splat" | "from"], [value]) => Ok(Some(value.clone())),
-            ([.., "Quad", "new"], [lanes]) => {
+            ("Quad", "splat" | "from", [value]) => Ok(Some(value.clone())),
+            ("Quad", "new", [lanes]) => {
                 let lanes = self.elements(lanes, 4, span)?;
                 self.of_lanes(&lanes, span).map(Some)
             }
-            ([.., "Quad", "from_xy"], [x, y]) => {
+            ("Quad", "from_xy", [x, y]) => {
                 let lanes = [x, y].map(|v| self.int_or_node(v, Scalar::F32, span));
                 let [x, y] = lanes;
                 let pair = Type::value(Scalar::F32, 2);

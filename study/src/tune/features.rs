@@ -44,7 +44,7 @@ impl Static {
         let always = passes::count(&compiled.graph, &without_branches(&compiled.schedule));
         let [width, height] = compiled.graph.invocation.pixels();
         let pixels = f64::from(width * height);
-        let statements = f64::from(compiled.counts.statements) / pixels;
+        let statements = f64::from(compiled.statements()) / pixels;
         let (depth, normal, colour) = reads(&always);
         let (alu, calls) = (f64::from(always.alu), f64::from(always.transcendentals));
         let behind = f64::from(all.alu + 4 * all.transcendentals) - f64::from(always.alu + 4 * always.transcendentals);
